@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/contour/contour_set.h"
+
+namespace batten {
+
+/// A place where the user said: here the line has a sharp corner. By position, so that it survives a changed threshold.
+struct CornerMark {
+  Vec2 positionPx = Vec2::Zero();
+  bool operator==(const CornerMark& other) const { return positionPx == other.positionPx; }
+};
+
+struct CornerParams {
+  double snapDistancePx = 16.0;  ///< [px] > 0. A mark farther than this from every line holds no corner (004 section 3.2: distance d).
+  bool exact = true;             ///< Extend both neighbouring lines and put the corner where they meet; off: the contour point itself.
+  bool operator==(const CornerParams&) const = default;
+};
+std::optional<Error> validate(const CornerParams&);
+
+/// A mark that found its line.
+struct Corner {
+  int mark = 0;                         ///< Index into the marks given.
+  int contour = 0;                      ///< Index into the contour set.
+  int pointIndex = 0;                   ///< Nearest point of the contour.
+  Vec2 positionPx = Vec2::Zero();       ///< [px] Where the corner is.
+  double turningAngleRad = 0.0;         ///< [rad] -pi..pi, change of direction, positive to the left in the model frame.
+  double snapPx = 0.0;                  ///< [px] Distance from the mark.
+};
+
+/// A stretch of one contour from corner to corner (or end), or a whole closed contour without corner. Image frame.
+struct Piece {
+  int contour = 0;
+  int index = 0;                ///< Position within the contour.
+  bool closed = false;          ///< Smooth closed: periodic, no start and no end.
+  std::vector<Vec2> points;     ///< [px] ordered; where an end is a corner, the first or last point is exactly the corner.
+  std::vector<std::uint8_t> refined;  ///< As in Contour, same size.
+  bool startIsCorner = false;
+  bool endIsCorner = false;
+  double lengthPx = 0.0;
+};
+
+struct PieceSet {
+  std::vector<Piece> pieces;    ///< Contour by contour, in order of travel.
+  std::vector<Corner> corners;  ///< Sorted by contour, then along it.
+  std::vector<int> lostMarks;   ///< Indices of marks with no line within the snap distance; kept, shown in red.
+};
+
+/// Cuts the contours at the marks (004 section 3.2). Two marks that snap to the same point count once.
+Result<PieceSet> splitAtCorners(const ContourSet&, std::span<const CornerMark>, const CornerParams&);
+
+/// Where a click would put a corner: nearest contour point within the snap distance, without the exact intersection.
+std::optional<Corner> nearestContourPoint(const ContourSet&, const Vec2& positionPx, double snapDistancePx);
+
+/// A place that looks like a corner. Shown hollow, never applied silently.
+struct CornerSuggestion {
+  int contour = 0;
+  int pointIndex = 0;
+  Vec2 positionPx = Vec2::Zero();
+  double turningAngleRad = 0.0;
+};
+/// Places where two one-sided local parabolas, extrapolated to the point, differ in direction by at least `minAngleRad`;
+/// one suggestion per turn. `scalePx` is the length looked at on either side.
+std::vector<CornerSuggestion> suggestCorners(const ContourSet&, double minAngleRad, double scalePx);
+
+}  // namespace batten

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/contour/contour_set.h"
+#include "core/image/bit_image.h"
+
+namespace batten {
+
+/// Follows the cracks between ink and paper: every border of every 8-connected ink component once, as a closed chain of
+/// crack midpoints ((x, y) with one coordinate whole and the other at .5), outer borders and, if asked, holes.
+/// `chain` and `points` are equal, `refined` is 0. Not sorted by length yet: order of the topmost-leftmost start.
+Result<ContourSet> crackContours(const BitImage& ink, bool internal, double minLengthPx, const RunContext&);
+
+}  // namespace batten

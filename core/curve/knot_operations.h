@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/curve/nurbs_curve.h"
+
+namespace batten {
+
+/// Clamped knot vector: first and last knot degree+1 times, the inner breaks once each.
+/// Inserts u `times` times without changing the shape (Boehm). Multiplicity may not exceed the degree (degree + 1 at ends).
+Result<NurbsCurve> insertKnot(const NurbsCurve&, double u, int times);
+/// The same shape with clamped ends over the same domain (a uniform, unclamped curve becomes one that CAD takes).
+Result<NurbsCurve> clamped(const NurbsCurve&);
+/// Cuts at u into two clamped curves. @pre u strictly inside the domain.
+struct SplitCurve {
+  NurbsCurve left, right;
+};
+Result<SplitCurve> split(const NurbsCurve&, double u);
+/// Joins clamped curves of one degree end to start into one B-spline; at every joint a knot of multiplicity = degree (C0,
+/// exact), the joint's control point once. Ends may differ by at most `tolerance` (the mean is taken).
+Result<NurbsCurve> joinAtCorners(std::span<const NurbsCurve> pieces, double tolerance);
+/// Raises the degree by one or more without changing the shape.
+Result<NurbsCurve> elevated(const NurbsCurve&, int degree);
+/// The curve run through backwards over the same domain.
+NurbsCurve reversed(const NurbsCurve&);
+/// Linear change of the parameter to the domain [start, end].
+Result<NurbsCurve> reparametrized(const NurbsCurve&, double start, double end);
+/// The Bezier pieces of a curve (degree + 1 control points each) with their domains.
+struct BezierPiece {
+  double start, end;
+  std::vector<Vec2> controlPoints;
+};
+Result<std::vector<BezierPiece>> bezierPieces(const NurbsCurve&);
+
+}  // namespace batten

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/page_frame.h"
+#include "core/curve/nurbs_curve.h"
+
+namespace batten {
+
+/// What an export holds, independent of the format. Model frame, mm.
+struct ExportPiece {
+  NurbsCurve curve;
+};
+/// All pieces of one line of the drawing, in order of travel; neighbouring pieces meet at corners.
+struct ExportCurve {
+  std::string id;       ///< "curve-1" …, unique.
+  bool closed = false;  ///< The last piece ends where the first starts.
+  std::vector<ExportPiece> pieces;
+};
+struct ExportDocument {
+  PageFrame frame;
+  std::optional<double> dpi;   ///< Absent: the scale is assumed.
+  std::string imageSha256;
+  std::string title;           ///< File name of the scan.
+  std::vector<ExportCurve> curves;
+};
+
+}  // namespace batten

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/base/termination.h"
+#include "core/curve/nurbs_curve.h"
+#include "core/fairing/radius_target.h"
+
+namespace batten {
+
+enum class FairingMode {
+  None,       ///< The sketched curve as constructed.
+  Target,     ///< Towards one of the six profiles.
+  Tolerance,  ///< Smallest integral of (dkappa/ds)^2 within the deviation budget.
+};
+
+/// What is held at an end of an open curve beside its position, which always is.
+struct EndHold {
+  bool tangent = false;
+  bool curvature = false;
+  bool operator==(const EndHold&) const = default;
+};
+
+struct FairingParams {
+  FairingMode mode = FairingMode::None;
+  int target = 0;               ///< 0..6. Degree of the profile; 0 = the recommended one.
+  double toleranceMm = 0.2;     ///< [mm] 0.001..20. Largest move of the curve from the sketched one; never exceeded.
+  EndHold startHold, endHold;
+  TargetParams targets;
+  bool operator==(const FairingParams&) const = default;
+};
+std::optional<Error> validate(const FairingParams&);
+
+struct FairingReport {
+  Termination why = Termination::NotRun;
+  std::string note;                    ///< For the user; empty when all went as asked.
+  int iterations = 0;
+  double objectiveBefore = 0.0, objectiveAfter = 0.0;  ///< Relative curvature misfit, or integral of (dkappa/ds)^2.
+  double maxDeviationMm = 0.0;         ///< From the sketched curve.
+  double neededMm = 0.0;               ///< Target mode: deviation that meeting the target fully would take.
+  bool withinBudget = true;            ///< Target mode: the target was met within the tolerance.
+  int extremaBefore = 0, extremaAfter = 0;
+};
+struct FairedCurve {
+  NurbsCurve curve;
+  FairingReport report;
+};
+
+/// Moves the control points until the curvature follows the profile as far as the tolerance allows (000 VII, 003 section 4):
+/// Levenberg-Marquardt with the end points pinned in a null-space basis, fidelity weight by bisection. Periodic curves stay
+/// periodic (`closed`). Knots stay as they are. Never returns a curve that leaves the tolerance.
+Result<FairedCurve> modifyShape(const NurbsCurve&, bool closed, const TargetProfile&, const FairingParams&, const RunContext&);
+
+/// As fair as the budget allows: smallest integral of (dkappa/ds)^2 with the deviation bounded by the tolerance.
+Result<FairedCurve> fairWithinTolerance(const NurbsCurve&, bool closed, const FairingParams&, const RunContext&);
+
+/// All six targets with their faired curves: what the target strip shows. Entries without value failed; the profile's
+/// `problem` or the error says why.
+struct TargetOutcomes {
+  TargetSet targets;
+  std::array<std::optional<FairedCurve>, 6> faired;
+  std::array<std::string, 6> problems;
+  int recommendedDegree = 0;
+};
+Result<TargetOutcomes> fairAllTargets(const NurbsCurve&, bool closed, const FairingParams&, const RunContext&);
+
+/// One call for every mode.
+Result<FairedCurve> fair(const NurbsCurve&, bool closed, const FairingParams&, const RunContext&);
+
+}  // namespace batten

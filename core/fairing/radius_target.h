@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/curve/curve_analysis.h"
+
+namespace batten {
+
+/// What the target polynomial describes over the perimeter 0..1.
+enum class TargetQuantity {
+  Curvature,  ///< Signed kappa (default): also through inflections.
+  Radius,     ///< rho = 1/kappa as the papers fit it (000 VI); undefined on straight parts.
+};
+
+struct TargetParams {
+  TargetQuantity quantity = TargetQuantity::Curvature;
+  bool monotone = true;   ///< Never turns back; off: "as in the paper", and the tile says when it is not monotone.
+  int samples = 121;      ///< 101..2001. Samples at equal arc length (at least 4 a knot span are taken).
+  bool operator==(const TargetParams&) const = default;
+};
+std::optional<Error> validate(const TargetParams&);
+
+/// One of the six target profiles.
+struct TargetProfile {
+  int degree = 1;                    ///< 1..6.
+  TargetQuantity quantity = TargetQuantity::Curvature;
+  std::vector<double> coefficients;  ///< Ascending powers of the perimeter f in 0..1, [1/mm] or [mm].
+  bool valid = false;                ///< False: could not be fitted; `problem` says why.
+  std::string problem;
+  bool isMonotone = false;
+  double similarity = 0.0;           ///< S (003 Eq 14) of the target's radius against the curve's, 0..1.
+  double pearson = 0.0;              ///< Pearson r of the same, -1..1.
+  double rmsPercent = 0.0;           ///< rms difference in % of the range of the data.
+  double aicc = 0.0;                 ///< Smaller is better; n_eff = number of control points.
+  /// Target value at perimeter f; curvature() converts a radius target.
+  double value(double f) const;
+  double curvatureAt(double f) const;
+};
+
+struct TargetSet {
+  std::array<TargetProfile, 6> profiles;  ///< Degree 1..6.
+  std::vector<double> perimeter;          ///< 0..1, the sample positions.
+  std::vector<double> kappa;              ///< [1/mm] of the curve there.
+  int recommendedDegree = 0;              ///< By AICc; 0 = none valid.
+};
+
+/// Least-squares polynomials of degree 1..6 over the perimeter (000 VI, 003 section 4), monotone by non-negative least
+/// squares on a grid of 200 (Bernstein coefficients as fallback), with their similarity to the curve.
+TargetSet fitTargets(const NurbsCurve&, const TargetParams&);
+
+/// The polynomial fit alone, for tests and for other data. `f` in 0..1.
+std::vector<double> fitPolynomial(std::span<const double> f, std::span<const double> values, int degree);
+std::vector<double> fitMonotonePolynomial(std::span<const double> f, std::span<const double> values, int degree, bool increasing);
+
+}  // namespace batten

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/image/bit_image.h"
+#include "core/image/grey_image.h"
+#include "core/image/region_thresholds.h"
+
+namespace batten {
+
+/// Ink = darker than the threshold at that place (000 II.B): 1 where grey < level, level being the region's (blocks) or
+/// the bilinear surface through the region centres, relative to the local paper where it was flattened. Specks and small
+/// holes are removed as the parameters say.
+Result<BitImage> binarize(const GreyImage&, const RegionThresholds&, const ThresholdParams&, const RunContext&);
+
+}  // namespace batten

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/conventions.h"
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/image/grey_image.h"
+
+namespace batten {
+
+/// Whether the slow changes of the paper's grey (shading, gradation, shadow) are taken out before the thresholds.
+struct PaperParams {
+  bool flatten = true;  ///< Thresholds are measured against the local paper instead of against black.
+  bool operator==(const PaperParams&) const = default;
+};
+
+enum class ThresholdMode {
+  Automatic,  ///< Every region the user has not set finds its own threshold.
+  Manual,     ///< Every region the user has not set takes `manualLevel`.
+};
+
+/// The 64 region thresholds (000 II.B). Region r = row * 8 + column, row 0 at the top.
+struct ThresholdParams {
+  ThresholdMode mode = ThresholdMode::Automatic;
+  double manualLevel = 128.0;  ///< [grey 0..255] Threshold of every region in Manual mode.
+  double strength = 1.0;       ///< [-] 0.2..3. Scales the automatic contrast asked of ink: larger keeps only darker lines.
+  bool interpolate = true;     ///< Bilinear between region centres (no seams); off: blocks, as in the paper.
+  double reach = 1.0;          ///< [-] 0.2..1. Below 1, faint parts joined to ink are kept (pencil); 1 = ink as it is.
+  int speckArea = 20;          ///< [px] >= 0. Smaller pieces of ink are specks and are dropped; 0 keeps all.
+  int holeArea = 10;           ///< [px] >= 0. Smaller holes inside ink are filled; 0 keeps all.
+  /// [grey 0..255] The user's own thresholds on the scan's scale, at the region's centre; absent = automatic.
+  std::array<std::optional<double>, kRegions> grid{};
+  bool operator==(const ThresholdParams&) const = default;
+};
+std::optional<Error> validate(const ThresholdParams&);
+
+/// The paper's grey on a coarse grid: cell (i, j) is centred at px ((i + .5) * cellPx, (j + .5) * cellPx); between centres
+/// bilinear, beyond them constant. Empty when flattening is off.
+struct PaperBackground {
+  int cellPx = 8;
+  int columns = 0;
+  int rows = 0;
+  std::vector<float> grey;  ///< [grey 0..255] columns * rows.
+  bool isEmpty() const { return grey.empty(); }
+  /// Paper level at an image position; 255 when empty.
+  double at(double xPx, double yPx) const;
+};
+
+/// What the automatic start found, and what acts.
+struct RegionThresholds {
+  PaperBackground paper;                    ///< Empty without flattening.
+  std::array<double, kRegions> automatic{}; ///< [grey 0..255] at the region's centre, scan's scale.
+  std::array<double, kRegions> level{};     ///< [grey 0..255] what acts: the user's where set, else automatic.
+  std::array<bool, kRegions> measured{};    ///< The region holds edges of its own; else filled from its neighbours.
+  double paperNoise = 0.0;                  ///< [grey] robust standard deviation of the paper.
+  double smoothingPx = 0.0;                 ///< [px] Gaussian applied before thresholding.
+  bool foundLine = true;                    ///< False: no edge stands out of the paper anywhere.
+  std::string note;                         ///< One line for the user when something is unusual; else empty.
+};
+
+/// Chooses the 64 thresholds. Automatic regions follow the half level at their own edges; regions without edges of their
+/// own are filled from those that have some, so that empty paper is not split into its own noise.
+Result<RegionThresholds> findThresholds(const GreyImage&, const PaperParams&, const ThresholdParams&, const RunContext&);
+
+/// Histogram of the grey levels of one region, 256 bins, for the inspector. @pre 0 <= region < 64.
+std::array<std::uint32_t, 256> regionHistogram(const GreyImage&, int region);
+
+/// Bounds [x0, x1) x [y0, y1) of a region in px: floor(i * size / 8).
+struct RegionBounds {
+  int x0, y0, x1, y1;
+};
+RegionBounds regionBounds(int width, int height, int region);
+
+}  // namespace batten

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/base/content_hash.h"
+#include "core/base/page_frame.h"
+#include "core/image/grey_image.h"
+
+namespace batten {
+
+/// What is known of an image file from its header alone, before any large allocation.
+struct ScanInfo {
+  std::string format;         ///< "PNG", "JPEG", "TIFF", "BMP", "WebP", "PNM".
+  int width = 0;              ///< [px] as stored, before the EXIF rotation.
+  int height = 0;             ///< [px]
+  int channels = 1;           ///< As stored, alpha included.
+  int bitsPerChannel = 8;     ///< 1, 2, 4, 8 or 16.
+  int exifOrientation = 1;    ///< 1..8; 1 = upright.
+  std::optional<double> dpi;  ///< Resolution stated by the file, if any and plausible.
+};
+
+/// A scan as the program works on it: upright, grey, alpha laid over white.
+struct Scan {
+  GreyImage grey;
+  ScanInfo info;
+  std::optional<double> dpi;  ///< From the file; absent means unknown.
+  ContentHash fileHash;       ///< SHA-256 of the file's bytes, as sha256sum prints it.
+  std::string path;           ///< As given by the user; for messages only.
+};
+
+/// The frame of a scan at a resolution; an absent one means the assumed resolution (conventions.h).
+PageFrame pageFrame(const Scan& scan, std::optional<double> dpi);
+
+}  // namespace batten

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/base/page_frame.h"
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/contour/contour_set.h"
+#include "core/contour/corner_marks.h"
+#include "core/contour/regression_segments.h"
+#include "core/curve/curve_analysis.h"
+#include "core/image/binarize.h"
+#include "core/image/scan.h"
+#include "core/pipeline/recipe.h"
+#include "core/pipeline/stage_cache.h"
+#include "core/pipeline/stage_id.h"
+
+namespace batten {
+
+/// Numbers that say how good a curve is. Model frame.
+struct CurveFigures {
+  double lengthMm = 0.0;
+  int controlPoints = 0;
+  Deviation fromPoints;      ///< [mm] edge points from the curve.
+  int extrema = 0;           ///< Curvature extrema of prominence >= 5e-3 / extent.
+  int inflections = 0;
+};
+
+/// One curve from corner to corner (or a smooth closed one), sketched and faired. Model frame, mm.
+struct TracedCurve {
+  int contour = 0;              ///< Index into the contour set.
+  int piece = 0;                ///< Index into the piece set.
+  bool closed = false;
+  bool included = true;         ///< The user's choice.
+  NurbsCurve sketched;
+  ConstructReport construct;
+  CurveFigures sketchedFigures;
+  NurbsCurve faired;            ///< Equal to `sketched` while the mode is None.
+  FairingReport fairing;
+  FairingParams fairingUsed;    ///< The recipe's parameters with the piece's own choices applied.
+  CurveFigures fairedFigures;
+};
+
+struct ConstructedSet {
+  std::vector<TracedCurve> curves;  ///< `faired` not filled yet.
+  std::vector<Error> failures;      ///< Pieces that gave no curve, with the reason.
+};
+struct FairedSet {
+  std::vector<TracedCurve> curves;
+};
+
+/// Milliseconds and whether the output came from the cache, per stage.
+struct StageTiming {
+  double milliseconds = 0.0;
+  bool fromCache = false;
+  bool run = false;
+};
+
+/// All outputs of one run; a null pointer means that the stage was not asked for or failed.
+struct PipelineOutput {
+  std::shared_ptr<const RegionThresholds> thresholds;
+  std::shared_ptr<const BitImage> binary;
+  std::shared_ptr<const FilteredImage> filtered;
+  std::shared_ptr<const BitImage> edges;
+  std::shared_ptr<const ContourSet> contours;
+  std::shared_ptr<const PieceSet> pieces;
+  std::shared_ptr<const SegmentSet> segments;
+  std::shared_ptr<const ConstructedSet> constructed;
+  std::shared_ptr<const FairedSet> faired;
+  PageFrame frame;
+  std::array<StageTiming, kStages.size()> timing;
+  std::optional<Error> error;            ///< Why the run ended early; outputs before it are valid.
+  std::optional<StageId> failedStage;
+};
+
+struct PipelineRequest {
+  StageId upTo = StageId::Faired;
+  /// Called after each stage, on the calling thread, with the outputs so far (what the live window shows first).
+  std::function<void(StageId, const PipelineOutput&)> stageReady;
+  bool needEdges = true;  ///< The edges layer is only made when someone looks at it.
+};
+
+/// Runs the stages in order, taking from `cache` what has not changed. Deterministic: the same scan and recipe give the same
+/// output with any number of threads and any state of the cache. Never throws for bad input; see PipelineOutput::error.
+PipelineOutput runPipeline(const Scan&, const Recipe&, StageCache&, const PipelineRequest&, const RunContext&);
+
+/// The six targets of one curve, as the strip and the report show them.
+Result<TargetOutcomes> targetsFor(const TracedCurve&, const RunContext&);
+
+/// Frame of the scan at the recipe's, the file's or the assumed resolution.
+PageFrame frameFor(const Scan&, const Recipe&);
+/// True when neither the recipe nor the file states a resolution.
+bool isScaleAssumed(const Scan&, const Recipe&);
+
+/// The choice that belongs to a piece (nearest anchor within 24 px), or nullopt. `index` into recipe.choices.
+std::optional<std::size_t> choiceFor(const Piece&, const Recipe&);
+/// A good anchor for a new choice: the point of the piece at half its points.
+Vec2 anchorOf(const Piece&);
+
+}  // namespace batten

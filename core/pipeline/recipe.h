@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/construct/construct.h"
+#include "core/contour/corner_marks.h"
+#include "core/contour/regression_segments.h"
+#include "core/contour/trace_contours.h"
+#include "core/fairing/fairing.h"
+#include "core/image/log_transform.h"
+#include "core/image/neighbourhood_filter.h"
+#include "core/image/region_thresholds.h"
+
+namespace batten {
+
+/// A choice of the user about one curve, attached by position so that it survives changes upstream: it belongs to the piece
+/// whose points come nearest to the anchor (within 24 px).
+struct PieceChoice {
+  Vec2 anchorPx = Vec2::Zero();
+  bool included = true;                ///< False: left out of fairing results and export.
+  std::optional<FairingMode> mode;     ///< Own fairing mode; absent = the recipe's.
+  std::optional<int> target;           ///< Own target degree 0..6.
+  std::optional<double> toleranceMm;   ///< Own budget.
+  bool operator==(const PieceChoice& o) const {
+    return anchorPx == o.anchorPx && included == o.included && mode == o.mode && target == o.target &&
+           toleranceMm == o.toleranceMm;
+  }
+};
+
+/// Everything the user decided: all parameters and all edits, one comparable value. Result = f(scan, recipe).
+struct Recipe {
+  std::optional<double> dpi;  ///< The user's own resolution; absent = the file's, else the assumed one.
+  LogParams log;
+  PaperParams paper;
+  ThresholdParams threshold;
+  FilterParams filter;
+  EdgeParams edges;
+  ContourParams contours;
+  CornerParams corners;
+  std::vector<CornerMark> cornerMarks;
+  SegmentParams segments;
+  ConstructParams construct;
+  FairingParams fairing;
+  std::vector<PieceChoice> choices;
+  bool operator==(const Recipe&) const = default;
+};
+
+/// First invalid field, with its range, if any.
+std::optional<Error> validate(const Recipe&);
+
+}  // namespace batten

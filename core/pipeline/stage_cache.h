@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "core/base/content_hash.h"
+
+namespace batten {
+
+/// Outputs of stages by key, with a byte budget, least recently used out first. Thread-safe; the only object that runs
+/// share. Errors and cancelled runs are never stored.
+class StageCache {
+ public:
+  explicit StageCache(std::size_t budgetBytes = std::size_t{512} << 20) : budget_(budgetBytes) {}
+
+  /// The stored output or null. The caller knows the type from the key (the key contains the stage).
+  template <class T>
+  std::shared_ptr<const T> find(const ContentHash& key) {
+    return std::static_pointer_cast<const T>(findAny(key));
+  }
+  /// Stores an output that takes about `bytes`; one larger than the budget is not kept.
+  void store(const ContentHash& key, std::shared_ptr<const void> value, std::size_t bytes);
+  void clear();
+  std::size_t bytesUsed() const;
+
+ private:
+  struct Entry {
+    std::shared_ptr<const void> value;
+    std::size_t bytes;
+    std::list<ContentHash>::iterator age;
+  };
+  std::shared_ptr<const void> findAny(const ContentHash& key);
+
+  mutable std::mutex mutex_;
+  std::map<ContentHash, Entry> entries_;
+  std::list<ContentHash> ages_;  ///< Most recently used first.
+  std::size_t budget_;
+  std::size_t used_ = 0;
+};
+
+}  // namespace batten

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <QUndoStack>
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "core/pipeline/pipeline.h"
+#include "core/pipeline/recipe.h"
+
+namespace batten {
+
+/// The open drawing: scan, recipe, undo stack, and the newest outputs of the pipeline. Paints nothing. All functions and
+/// signals belong to the GUI thread; work runs in the background, the newest request wins, and nothing here ever waits.
+class EditorSession : public QObject {
+  Q_OBJECT
+ public:
+  explicit EditorSession(QObject* parent = nullptr);
+  ~EditorSession() override;
+
+  /// Reads a scan in the background; scanOpened or failed follows. An open drawing stays until the new one is there.
+  void openScan(const QString& path);
+  bool hasScan() const { return scan_ != nullptr; }
+  std::shared_ptr<const Scan> scan() const { return scan_; }
+  QString scanPath() const;
+
+  const Recipe& recipe() const { return recipe_; }
+  /// Changes the recipe by an undoable command. Changes with one `gesture` (>= 0) merge into one undo step; -1 never merges.
+  void change(const QString& what, Recipe after, int gesture = -1);
+  /// A fresh gesture number for a drag.
+  int newGesture() { return ++lastGesture_; }
+  QUndoStack* undoStack() { return &undo_; }
+  /// Only for the undo command: sets the recipe and starts a run.
+  void setRecipe(const Recipe&);
+
+  /// Outputs of the newest run that has got that far; parts may still be from the run before (see isStale).
+  const PipelineOutput& output() const { return output_; }
+  /// True while a stage's shown output does not belong to the present recipe yet.
+  bool isStale(StageId) const;
+  bool isBusy() const;
+  /// Esc: stops running work; the outputs so far stay.
+  void cancel();
+  /// Milliseconds of the last finished run.
+  double lastRunMilliseconds() const { return lastRunMs_; }
+
+  /// The curve that panels and plots show; -1 = none. Kept by position when the curves change.
+  int selectedCurve() const { return selectedCurve_; }
+  void selectCurve(int index);
+  /// The six targets of the selected curve, null while they are computed.
+  std::shared_ptr<const TargetOutcomes> targets() const { return targets_; }
+  /// Target shown as a ghost while hovered, 0 = none.
+  int hoveredTarget() const { return hoveredTarget_; }
+  void hoverTarget(int degree);
+  /// The cursor common to canvas and plots: arc length [mm] on the selected curve, or none.
+  std::optional<double> cursor() const { return cursorMm_; }
+  void setCursor(std::optional<double> sMm);
+
+ signals:
+  void scanOpened();
+  void recipeChanged();
+  void stageReady(batten::StageId stage);
+  void runFinished();              ///< The newest run ended (done, failed or cancelled).
+  void busyChanged(bool busy);
+  void progress(double fraction);
+  void selectionChanged();
+  void targetsChanged();
+  void hoverChanged();
+  void cursorChanged();
+  void failed(const QString& message);  ///< One line that says what to do.
+  void failureCleared();
+
+ private:
+  struct Runner;
+  std::unique_ptr<Runner> runner_;
+  std::shared_ptr<const Scan> scan_;
+  Recipe recipe_;
+  PipelineOutput output_;
+  QUndoStack undo_;
+  int lastGesture_ = 0;
+  int selectedCurve_ = -1;
+  std::shared_ptr<const TargetOutcomes> targets_;
+  int hoveredTarget_ = 0;
+  std::optional<double> cursorMm_;
+  double lastRunMs_ = 0.0;
+};
+
+}  // namespace batten
