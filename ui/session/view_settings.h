@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <array>
+
+namespace batten {
+
+/// What the canvas can show, in painting order.
+enum class Layer { Scan, LogImage, Mask, Edges, Segments, Curve, Faired, Comb, Corners, Regions, Deviation };
+inline constexpr std::array kLayers = {Layer::Scan,   Layer::LogImage, Layer::Mask,    Layer::Edges,   Layer::Segments, Layer::Curve,
+                                       Layer::Faired, Layer::Comb,     Layer::Corners, Layer::Regions, Layer::Deviation};
+QString label(Layer);  ///< "Scan", "Log image", …
+
+/// What a press on the canvas does. Pan and zoom work in every tool.
+enum class Tool {
+  Select,      ///< Click selects a curve.
+  Thresholds,  ///< Click selects a region; wheel or vertical drag changes its threshold.
+  Corners,     ///< Click on a line marks a corner, click on a corner removes it.
+};
+
+/// How the drawing is shown: never part of the recipe, never undone, kept between sessions.
+class ViewSettings : public QObject {
+  Q_OBJECT
+ public:
+  explicit ViewSettings(QObject* parent = nullptr);
+  bool isVisible(Layer layer) const { return visible_[static_cast<std::size_t>(layer)]; }
+  void setVisible(Layer, bool);
+  Tool tool() const { return tool_; }
+  void setTool(Tool);
+  double combScale() const { return combScale_; }  ///< [-] 0.05..20, factor on the automatic comb height.
+  void setCombScale(double);
+  int combDensity() const { return combDensity_; }  ///< 20..1000 quills a curve.
+  void setCombDensity(int);
+  int selectedRegion() const { return selectedRegion_; }  ///< 0..63, -1 = none.
+  void setSelectedRegion(int);
+  bool isScanOnly() const { return scanOnly_; }  ///< While the compare key is held.
+  void setScanOnly(bool);
+
+ signals:
+  void changed();
+  void toolChanged(batten::Tool tool);
+  void selectedRegionChanged(int region);
+
+ private:
+  std::array<bool, kLayers.size()> visible_{};
+  Tool tool_ = Tool::Select;
+  double combScale_ = 1.0;
+  int combDensity_ = 120;
+  int selectedRegion_ = -1;
+  bool scanOnly_ = false;
+};
+
+}  // namespace batten
