@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/curve/nurbs_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace batten {
+
+namespace {
+
+constexpr int kMaxDegree = 7;
+constexpr int kMaxOrder = 4;
+
+/// Index s with knots[s] <= u < knots[s + 1], within the domain; the last non-empty span for u at the end.
+int findSpan(int degree, std::span<const double> knots, int controlPointCount, double u) {
+  const auto first = knots.begin() + degree;
+  const auto last = knots.begin() + controlPointCount;
+  if (u >= *last) {
+    // The end belongs to the span before it: the first knot that equals the end, minus one.
+    return static_cast<int>(std::lower_bound(first, last, *last) - knots.begin()) - 1;
+  }
+  return static_cast<int>(std::upper_bound(first, last, u) - knots.begin()) - 1;
+}
+
+/// Values of the degree + 1 basis functions of a span, Piegl & Tiller A2.2. `values` holds 8 numbers.
+void basisValues(int degree, const double* knots, int span, double u, double* values) {
+  std::array<double, kMaxDegree + 1> left, right;
+  values[0] = 1.0;
+  for (int j = 1; j <= degree; ++j) {
+    left[static_cast<std::size_t>(j)] = u - knots[span + 1 - j];
+    right[static_cast<std::size_t>(j)] = knots[span + j] - u;
+    double saved = 0.0;
+    for (int r = 0; r < j; ++r) {
+      const double rightR = right[static_cast<std::size_t>(r + 1)];
+      const double leftR = left[static_cast<std::size_t>(j - r)];
+      const double part = values[r] / (rightR + leftR);
+      values[r] = saved + rightR * part;
+      saved = leftR * part;
+    }
+    values[j] = saved;
+  }
+}
+
+/// Derivatives of the basis functions from the triangle of knot differences and values, Piegl & Tiller A2.3.
+void basisDerivatives(int degree, const double (&ndu)[kMaxDegree + 1][kMaxDegree + 1], int order, BasisRow& row) {
+  for (int r = 0; r <= degree; ++r) {
+    double a[2][kMaxDegree + 1] = {};
+    int now = 0, next = 1;
+    a[0][0] = 1.0;
+    for (int k = 1; k <= order; ++k) {
+      double d = 0.0;
+      const int rk = r - k, pk = degree - k;
+      if (r >= k) {
+        a[next][0] = a[now][0] / ndu[pk + 1][rk];
+        d = a[next][0] * ndu[rk][pk];
+      }
+      const int from = rk >= -1 ? 1 : -rk;
+      const int to = r - 1 <= pk ? k - 1 : degree - r;
+      for (int j = from; j <= to; ++j) {
+        a[next][j] = (a[now][j] - a[now][j - 1]) / ndu[pk + 1][rk + j];
+        d += a[next][j] * ndu[rk + j][pk];
+      }
+      if (r <= pk) {
+        a[next][k] = -a[now][k - 1] / ndu[pk + 1][r];
+        d += a[next][k] * ndu[r][pk];
+      }
+      row.values[static_cast<std::size_t>(k)][static_cast<std::size_t>(r)] = d;
+      std::swap(now, next);
+    }
+  }
+  double factor = degree;
+  for (int k = 1; k <= order; ++k) {
+    for (int j = 0; j <= degree; ++j) row.values[static_cast<std::size_t>(k)][static_cast<std::size_t>(j)] *= factor;
+    factor *= degree - k;
+  }
+}
+
+}  // namespace
+
+BasisRow basis(int degree, std::span<const double> knots, int controlPointCount, double u, int order) {
+  BasisRow row;
+  const int span = findSpan(degree, knots, controlPointCount, u);
+  row.first = span - degree;
+  if (order <= 0) {
+    basisValues(degree, knots.data(), span, u, row.values[0].data());
+    return row;
+  }
+  double ndu[kMaxDegree + 1][kMaxDegree + 1];
+  std::array<double, kMaxDegree + 1> left, right;
+  ndu[0][0] = 1.0;
+  for (int j = 1; j <= degree; ++j) {
+    left[static_cast<std::size_t>(j)] = u - knots[static_cast<std::size_t>(span + 1 - j)];
+    right[static_cast<std::size_t>(j)] = knots[static_cast<std::size_t>(span + j)] - u;
+    double saved = 0.0;
+    for (int r = 0; r < j; ++r) {
+      const double rightR = right[static_cast<std::size_t>(r + 1)], leftR = left[static_cast<std::size_t>(j - r)];
+      ndu[j][r] = rightR + leftR;
+      const double part = ndu[r][j - 1] / ndu[j][r];
+      ndu[r][j] = saved + rightR * part;
+      saved = leftR * part;
+    }
+    ndu[j][j] = saved;
+  }
+  for (int j = 0; j <= degree; ++j) row.values[0][static_cast<std::size_t>(j)] = ndu[j][degree];
+  // Derivatives above the degree are zero, as the row already is.
+  basisDerivatives(degree, ndu, std::min({order, degree, kMaxOrder}), row);
+  return row;
+}
+
+struct NurbsCurve::Data {
+  int degree = 1;
+  std::vector<double> knots;
+  std::vector<Vec2> controlPoints;
+  std::vector<double> weights;
+};
+
+namespace {
+
+std::optional<std::string> knotError(int degree, const std::vector<double>& knots, std::size_t count) {
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    if (!std::isfinite(knots[i])) return "A knot is not a finite number.";
+    if (i > 0 && knots[i] < knots[i - 1]) return "The knots decrease.";
+    const auto apart = static_cast<std::size_t>(degree) + 1;
+    if (i >= apart && knots[i] == knots[i - apart]) return "A knot is repeated more than degree + 1 times.";
+  }
+  const double length = knots[count] - knots[static_cast<std::size_t>(degree)];
+  if (!(length > 0.0) || !std::isfinite(length)) return "The curve has an empty domain.";
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<NurbsCurve> NurbsCurve::make(int degree, std::vector<double> knots, std::vector<Vec2> controlPoints,
+                                    std::vector<double> weights) {
+  const auto bad = [](std::string why) { return fail(ErrorCode::Numerical, "Not a valid curve: " + std::move(why)); };
+  if (degree < 1 || degree > kMaxDegree) return bad("The degree is not within 1 to 7.");
+  const std::size_t count = controlPoints.size();
+  if (count < static_cast<std::size_t>(degree) + 1) return bad("There are fewer control points than degree + 1.");
+  if (knots.size() != count + static_cast<std::size_t>(degree) + 1) {
+    return bad("The number of knots is not the number of control points + degree + 1.");
+  }
+  if (auto error = knotError(degree, knots, count)) return bad(*error);
+  for (const Vec2& p : controlPoints) {
+    if (!p.allFinite()) return bad("A control point is not finite.");
+  }
+  if (!weights.empty()) {
+    if (weights.size() != count) return bad("The number of weights is not the number of control points.");
+    for (const double w : weights) {
+      if (!(w > 0.0) || !std::isfinite(w)) return bad("A weight is not a positive number.");
+    }
+    if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 1.0; })) weights.clear();
+  }
+  NurbsCurve curve;
+  curve.data_ =
+      std::make_shared<const Data>(Data{degree, std::move(knots), std::move(controlPoints), std::move(weights)});
+  return curve;
+}
+
+int NurbsCurve::degree() const { return data_->degree; }
+int NurbsCurve::controlPointCount() const { return static_cast<int>(data_->controlPoints.size()); }
+std::span<const double> NurbsCurve::knots() const { return data_->knots; }
+std::span<const Vec2> NurbsCurve::controlPoints() const { return data_->controlPoints; }
+std::span<const double> NurbsCurve::weights() const { return data_->weights; }
+bool NurbsCurve::isRational() const { return !data_->weights.empty(); }
+double NurbsCurve::start() const { return data_->knots[static_cast<std::size_t>(data_->degree)]; }
+double NurbsCurve::end() const { return data_->knots[data_->controlPoints.size()]; }
+
+Vec2 NurbsCurve::point(double u) const {
+  const Data& d = *data_;
+  const double clampedU = std::clamp(u, start(), end());
+  const int span = findSpan(d.degree, d.knots, controlPointCount(), clampedU);
+  std::array<double, kMaxDegree + 1> n;
+  basisValues(d.degree, d.knots.data(), span, clampedU, n.data());
+  const auto first = static_cast<std::size_t>(span - d.degree);
+  const auto order = static_cast<std::size_t>(d.degree) + 1;
+  Vec2 sum = Vec2::Zero();
+  if (d.weights.empty()) {
+    for (std::size_t j = 0; j < order; ++j) sum += n[j] * d.controlPoints[first + j];
+    return sum;
+  }
+  double weight = 0.0;
+  for (std::size_t j = 0; j < order; ++j) {
+    const double nw = n[j] * d.weights[first + j];
+    sum += nw * d.controlPoints[first + j];
+    weight += nw;
+  }
+  return sum / weight;
+}
+
+std::array<Vec2, 5> NurbsCurve::derivatives(double u, int order) const {
+  const Data& d = *data_;
+  const int top = std::clamp(order, 0, kMaxOrder);
+  const BasisRow row = basis(d.degree, d.knots, controlPointCount(), std::clamp(u, start(), end()), top);
+  const auto first = static_cast<std::size_t>(row.first);
+  const auto terms = static_cast<std::size_t>(d.degree) + 1;
+  std::array<Vec2, 5> result;
+  result.fill(Vec2::Zero());
+  std::array<double, 5> weight{};
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k) {
+    for (std::size_t j = 0; j < terms; ++j) {
+      const double n = row.values[k][j] * (d.weights.empty() ? 1.0 : d.weights[first + j]);
+      result[k] += n * d.controlPoints[first + j];
+      weight[k] += n;
+    }
+  }
+  if (d.weights.empty()) return result;
+  // Quotient rule, A4.2: each order from the numerator's and the lower ones.
+  constexpr double binomial[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k) {
+    for (std::size_t i = 1; i <= k; ++i) result[k] -= binomial[k][i] * weight[i] * result[k - i];
+    result[k] /= weight[0];
+  }
+  return result;
+}
+
+std::vector<double> NurbsCurve::breaks() const {
+  const auto first = data_->knots.begin() + data_->degree;
+  const auto last = data_->knots.begin() + controlPointCount() + 1;
+  std::vector<double> result(first, last);
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+NurbsCurve NurbsCurve::mapped(const Eigen::Matrix2d& linear, const Vec2& offset) const {
+  Data d = *data_;
+  for (Vec2& p : d.controlPoints) p = linear * p + offset;
+  NurbsCurve curve;
+  curve.data_ = std::make_shared<const Data>(std::move(d));
+  return curve;
+}
+
+bool NurbsCurve::operator==(const NurbsCurve& other) const {
+  if (data_ == other.data_) return true;
+  if (data_ == nullptr || other.data_ == nullptr) return false;
+  return data_->degree == other.data_->degree && data_->knots == other.data_->knots &&
+         data_->controlPoints == other.data_->controlPoints && data_->weights == other.data_->weights;
+}
+
+}  // namespace batten
