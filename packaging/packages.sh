@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Sourced by run and test: every Debian 12 package that building, running or testing needs, and how they get installed.
+
+build_packages=(
+  build-essential cmake ninja-build ccache git
+  qt6-base-dev qt6-base-dev-tools libqt6svg6-dev libgl1-mesa-dev libqcustomplot-dev
+  libopencv-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libexpected-dev libssl-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
+)
+run_packages=(qt6-qpa-plugins libqt6svg6 fonts-inter)
+test_packages=(xvfb xauth openbox)
+
+# install_missing PACKAGE...: installs what is not there yet, asks nothing, and does nothing when all is there.
+install_missing() {
+  local missing=() package
+  for package in "$@"; do
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$' || missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return 0
+  echo "Installing: ${missing[*]}"
+  local root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || { echo "Needs root or sudo to install: ${missing[*]}" >&2; exit 1; }
+    root=(sudo)
+  fi
+  local log
+  log=$(mktemp)
+  if ! { "${root[@]}" apt-get update -qq &&
+         "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"; } \
+       >"$log" 2>&1; then
+    tail -20 "$log" >&2
+    echo "The packages could not be installed; the lines above say why." >&2
+    exit 1
+  fi
+  rm -f "$log"
+}
+
+# build TARGET...: configures once and builds the release preset below build/release.
+build() {
+  cmake --preset release >build/configure.log 2>&1 || { tail -30 build/configure.log >&2; exit 1; }
+  cmake --build --preset release --target "$@"
+}
