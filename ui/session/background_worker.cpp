@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/session/background_worker.h"
+
+#include <exception>
+#include <utility>
+
+namespace batten {
+
+BackgroundWorker::BackgroundWorker() : thread_([this] { loop(); }) {}
+
+BackgroundWorker::~BackgroundWorker() {
+  {
+    const std::scoped_lock lock(mutex_);
+    quit_ = true;
+    next_.reset();
+    if (running_) running_->cancel();
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+void BackgroundWorker::start(Job job, Running running) {
+  {
+    const std::scoped_lock lock(mutex_);
+    next_ = std::move(job);
+    if (running == Running::Cancel && running_) running_->cancel();
+  }
+  wake_.notify_one();
+}
+
+void BackgroundWorker::cancelRunning() {
+  const std::scoped_lock lock(mutex_);
+  if (running_) running_->cancel();
+}
+
+void BackgroundWorker::cancelAll() {
+  const std::scoped_lock lock(mutex_);
+  next_.reset();
+  if (running_) running_->cancel();
+}
+
+void BackgroundWorker::loop() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wake_.wait(lock, [this] { return quit_ || next_.has_value(); });
+    if (quit_) return;
+    Job job = std::move(*next_);
+    next_.reset();
+    const CancelToken token;
+    running_ = token;
+    lock.unlock();
+    try {
+      job(token);
+    } catch (const std::exception&) {
+      // The job's own business; the thread has to survive.
+    }
+    job = nullptr;  // What it captured may be large and is freed outside the lock.
+    lock.lock();
+    running_.reset();
+  }
+}
+
+}  // namespace batten

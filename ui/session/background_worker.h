@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "core/base/cancel_token.h"
+
+namespace batten {
+
+/// One thread that does the newest job asked for. A job waiting behind a running one is replaced by the next, so that a
+/// drag leaves no queue. Starting and cancelling never wait; only the destructor does, after cancelling.
+class BackgroundWorker {
+ public:
+  using Job = std::function<void(const CancelToken&)>;
+
+  BackgroundWorker();
+  ~BackgroundWorker();
+  BackgroundWorker(const BackgroundWorker&) = delete;
+  BackgroundWorker& operator=(const BackgroundWorker&) = delete;
+
+  enum class Running { Cancel, Finish };
+  /// Runs `job` as soon as the thread is free. `running` says whether a job in progress is told to stop. Exceptions that
+  /// leave a job are dropped: a job reports its own failures.
+  void start(Job job, Running running = Running::Cancel);
+  /// Tells the running job to stop; one that waits is kept.
+  void cancelRunning();
+  /// Tells the running job to stop and drops the one that waits.
+  void cancelAll();
+
+ private:
+  void loop();
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::optional<Job> next_;
+  std::optional<CancelToken> running_;
+  bool quit_ = false;
+  std::thread thread_;
+};
+
+}  // namespace batten

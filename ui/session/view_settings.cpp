@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/session/view_settings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/conventions.h"
+
+namespace batten {
+
+QString label(Layer layer) {
+  switch (layer) {
+    case Layer::Scan: return QObject::tr("Scan");
+    case Layer::LogImage: return QObject::tr("Log image");
+    case Layer::Mask: return QObject::tr("Mask");
+    case Layer::Edges: return QObject::tr("Edges");
+    case Layer::Segments: return QObject::tr("Segments");
+    case Layer::Curve: return QObject::tr("Curve");
+    case Layer::Faired: return QObject::tr("Faired");
+    case Layer::Comb: return QObject::tr("Comb");
+    case Layer::Corners: return QObject::tr("Corners");
+    case Layer::Regions: return QObject::tr("Regions");
+    case Layer::Deviation: return QObject::tr("Deviation");
+  }
+  return {};
+}
+
+ViewSettings::ViewSettings(QObject* parent) : QObject(parent) {
+  for (const Layer layer : {Layer::Scan, Layer::Curve, Layer::Faired, Layer::Comb, Layer::Corners})
+    visible_[static_cast<std::size_t>(layer)] = true;
+}
+
+void ViewSettings::setVisible(Layer layer, bool visible) {
+  bool& now = visible_[static_cast<std::size_t>(layer)];
+  if (now == visible) return;
+  now = visible;
+  emit changed();
+}
+
+void ViewSettings::setTool(Tool tool) {
+  if (tool_ == tool) return;
+  tool_ = tool;
+  emit toolChanged(tool);
+}
+
+void ViewSettings::setCombScale(double scale) {
+  if (!std::isfinite(scale)) return;
+  const double bounded = std::clamp(scale, 0.05, 20.0);
+  if (combScale_ == bounded) return;
+  combScale_ = bounded;
+  emit changed();
+}
+
+void ViewSettings::setCombDensity(int density) {
+  const int bounded = std::clamp(density, 20, 1000);
+  if (combDensity_ == bounded) return;
+  combDensity_ = bounded;
+  emit changed();
+}
+
+void ViewSettings::setSelectedRegion(int region) {
+  const int bounded = region < 0 || region >= kRegions ? -1 : region;
+  if (selectedRegion_ == bounded) return;
+  selectedRegion_ = bounded;
+  emit selectedRegionChanged(bounded);
+}
+
+void ViewSettings::setScanOnly(bool scanOnly) {
+  if (scanOnly_ == scanOnly) return;
+  scanOnly_ = scanOnly;
+  emit changed();
+}
+
+}  // namespace batten
