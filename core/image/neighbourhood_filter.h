@@ -32,6 +32,7 @@ struct FilterReport {
   std::int64_t inkBefore = 0;     ///< [px]
   std::int64_t inkAfter = 0;      ///< [px]
   bool thinStrokesLost = false;   ///< A large part of the ink vanished: strokes of one pixel do not survive.
+  bool alternates = false;        ///< Two states take turns (why = NoProgress); the result is that of the asked number of pairs.
 };
 struct FilteredImage {
   BitImage ink;

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/neighbourhood_filter.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/image/hot_loop.h"
+#include "core/image/padded_bits.h"
+
+namespace batten {
+namespace {
+
+constexpr int kRowsPerBlock = 128;
+/// Below this share of the ink left, the strokes were too thin for the filter.
+constexpr double kLostShare = 0.5;
+
+enum class Step { Erosion, Dilation };
+
+/// Pixels of a word with more than Coefficient ones among their 8 neighbours, from the four bits of the count.
+template <int Coefficient>
+inline std::uint64_t moreThan(std::uint64_t s, std::uint64_t t, std::uint64_t f, std::uint64_t e) {
+  if constexpr (Coefficient < 0) return ~std::uint64_t{0};
+  if constexpr (Coefficient == 0) return s | t | f | e;
+  if constexpr (Coefficient == 1) return t | f | e;
+  if constexpr (Coefficient == 2) return (t & s) | f | e;
+  if constexpr (Coefficient == 3) return f | e;
+  if constexpr (Coefficient == 4) return (f & (t | s)) | e;
+  if constexpr (Coefficient == 5) return (f & t) | e;
+  if constexpr (Coefficient == 6) return (f & t & s) | e;
+  if constexpr (Coefficient == 7) return e;
+  return 0;
+}
+
+/// One row of one step: 64 pixels at once, the 8 neighbours added by carry-save adders. `flip` is all ones for erosion,
+/// which is dilation of the paper: paper neighbours are counted and ink is taken away.
+template <int Coefficient>
+inline void stepRowBody(const std::uint64_t* above, const std::uint64_t* here, const std::uint64_t* below,
+                        std::uint64_t* out, int words, std::uint64_t flip) {
+  for (int i = 0; i < words; ++i) {
+    const std::uint64_t a = above[i] ^ flip, c = here[i] ^ flip, b = below[i] ^ flip;
+    const std::uint64_t aL = (a << 1) | ((above[i - 1] ^ flip) >> 63), aR = (a >> 1) | ((above[i + 1] ^ flip) << 63);
+    const std::uint64_t cL = (c << 1) | ((here[i - 1] ^ flip) >> 63), cR = (c >> 1) | ((here[i + 1] ^ flip) << 63);
+    const std::uint64_t bL = (b << 1) | ((below[i - 1] ^ flip) >> 63), bR = (b >> 1) | ((below[i + 1] ^ flip) << 63);
+    const std::uint64_t s1 = aL ^ a ^ aR, c1 = (aL & a) | (aR & (aL ^ a));
+    const std::uint64_t s2 = bL ^ b ^ bR, c2 = (bL & b) | (bR & (bL ^ b));
+    const std::uint64_t s3 = cL ^ cR, c3 = cL & cR;
+    const std::uint64_t ones = s1 ^ s2 ^ s3, c4 = (s1 & s2) | (s3 & (s1 ^ s2));
+    const std::uint64_t t = c1 ^ c2 ^ c3, u1 = (c1 & c2) | (c3 & (c1 ^ c2));
+    const std::uint64_t twos = t ^ c4, u2 = t & c4;
+    out[i] = (c | moreThan<Coefficient>(ones, twos, u1 ^ u2, u1 & u2)) ^ flip;
+  }
+}
+
+BATTEN_HOT_LOOP void stepRow(const std::uint64_t* above, const std::uint64_t* here, const std::uint64_t* below,
+                             std::uint64_t* out, int words, std::uint64_t flip, int coefficient) {
+  switch (coefficient) {
+    case 0: return stepRowBody<0>(above, here, below, out, words, flip);
+    case 1: return stepRowBody<1>(above, here, below, out, words, flip);
+    case 2: return stepRowBody<2>(above, here, below, out, words, flip);
+    case 3: return stepRowBody<3>(above, here, below, out, words, flip);
+    case 4: return stepRowBody<4>(above, here, below, out, words, flip);
+    case 5: return stepRowBody<5>(above, here, below, out, words, flip);
+    case 6: return stepRowBody<6>(above, here, below, out, words, flip);
+    case 7: return stepRowBody<7>(above, here, below, out, words, flip);
+    default: break;
+  }
+  if (coefficient < 0) return stepRowBody<-1>(above, here, below, out, words, flip);
+  std::copy_n(here, words, out);
+}
+
+using RowFlags = std::vector<std::uint8_t>;  // one byte a row: neighbouring rows are written by different threads
+
+/// Runs one step from `in` into `out`, which holds the result of the same step one iteration ago: a row whose three rows
+/// of origin have not changed since then is already right. `changed` tells which rows of `out` differ from before.
+void runStep(const PaddedBits& in, const RowFlags& inChanged, PaddedBits& out, RowFlags& outChanged, Step step,
+             const FilterParams& params, const RunContext& context) {
+  const bool replicate = params.border == FilterBorder::Replicate;
+  const std::uint64_t flip = step == Step::Erosion ? ~std::uint64_t{0} : 0;
+  const int height = in.height();
+  const int words = in.wordsPerRow();
+  parallelFor(context, height, kRowsPerBlock, [&](int begin, int end) {
+    std::vector<std::uint64_t> before(static_cast<std::size_t>(words));
+    for (int y = begin; y < end; ++y) {
+      const auto flag = [&](int row) { return inChanged[static_cast<std::size_t>(std::clamp(row, 0, height - 1))]; };
+      std::uint8_t& mark = outChanged[static_cast<std::size_t>(y)];
+      mark = 0;
+      if ((flag(y - 1) | flag(y) | flag(y + 1)) == 0) continue;
+      std::uint64_t* row = out.row(y);
+      std::copy_n(row, words, before.data());
+      stepRow(in.row(y - 1), in.row(y), in.row(y + 1), row, words, flip, params.coefficient);
+      out.finishRow(y, replicate);
+      mark = std::equal(before.begin(), before.end(), row) ? 0 : 1;
+    }
+  });
+  out.finishBorderRows(replicate);
+}
+
+bool sameRows(const PaddedBits& a, const PaddedBits& b) {
+  for (int y = 0; y < a.height(); ++y) {
+    if (!std::equal(a.row(y), a.row(y) + a.wordsPerRow(), b.row(y))) return false;
+  }
+  return true;
+}
+
+bool any(const RowFlags& flags) {
+  return std::find(flags.begin(), flags.end(), std::uint8_t{1}) != flags.end();
+}
+
+/// The pairs of one erosion and one dilation, until nothing changes.
+PaddedBits runPairs(const BitImage& image, const FilterParams& params, FilterReport& report, const RunContext& context) {
+  const bool replicate = params.border == FilterBorder::Replicate;
+  const auto rows = static_cast<std::size_t>(image.height);
+  const Step first = params.order == FilterOrder::ErosionFirst ? Step::Erosion : Step::Dilation;
+  const Step second = params.order == FilterOrder::ErosionFirst ? Step::Dilation : Step::Erosion;
+  PaddedBits state(image, replicate);
+  PaddedBits middle(image.width, image.height);
+  PaddedBits previous = state, beforePrevious = state;
+  RowFlags stateChanged(rows, 1), middleChanged(rows, 1);
+  report.why = Termination::IterationLimit;
+  int limit = params.iterations;
+  while (report.iterations < limit && !context.isCancelled()) {
+    std::swap(previous, beforePrevious);
+    previous = state;
+    runStep(state, stateChanged, middle, middleChanged, first, params, context);
+    if (report.iterations == 0) std::fill(middleChanged.begin(), middleChanged.end(), std::uint8_t{1});
+    runStep(middle, middleChanged, state, stateChanged, second, params, context);
+    ++report.iterations;
+    context.report(static_cast<double>(report.iterations) / limit);
+    if (!any(stateChanged)) {
+      report.why = Termination::FixedPoint;
+      break;
+    }
+    if (!report.alternates && report.iterations >= 2 && sameRows(state, beforePrevious)) {
+      // Two states take turns for ever: what the asked number of pairs gives is decided by its being odd or even.
+      report.alternates = true;
+      report.why = Termination::NoProgress;
+      limit = report.iterations + (params.iterations - report.iterations) % 2;
+    }
+  }
+  return state;
+}
+
+BitImage singleStep(const BitImage& image, Step step, int coefficient, FilterBorder border, const RunContext& context) {
+  const bool replicate = border == FilterBorder::Replicate;
+  const PaddedBits in(image, replicate);
+  PaddedBits out(image.width, image.height);
+  RowFlags all(static_cast<std::size_t>(image.height), 1), changed = all;
+  FilterParams params;
+  params.coefficient = coefficient;
+  params.border = border;
+  runStep(in, all, out, changed, step, params, context);
+  return out.toImage();
+}
+
+}  // namespace
+
+std::optional<Error> validate(const FilterParams& params) {
+  if (params.coefficient < 0 || params.coefficient > 4) {
+    return Error{ErrorCode::BadParameter, "The filter coefficient must lie between 0 and 4.", {}};
+  }
+  if (params.iterations < 0 || params.iterations > 100) {
+    return Error{ErrorCode::BadParameter, "The filter iterations must lie between 0 and 100.", {}};
+  }
+  return std::nullopt;
+}
+
+Result<FilteredImage> neighbourhoodFilter(const BitImage& image, const FilterParams& params, const RunContext& context) {
+  if (const auto error = validate(params)) return fail(*error);
+  try {
+    FilteredImage result;
+    result.report.inkBefore = image.count();
+    if (params.iterations == 0) {
+      result.ink = image;
+    } else {
+      result.ink = runPairs(image, params, result.report, context).toImage();
+    }
+    if (context.isCancelled()) return cancelled();
+    result.report.inkAfter = result.ink.count();
+    result.report.thinStrokesLost =
+        static_cast<double>(result.report.inkAfter) < kLostShare * static_cast<double>(result.report.inkBefore);
+    return result;
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory for the filter; scan at a lower resolution or crop.");
+  }
+}
+
+BitImage erode(const BitImage& image, int coefficient, FilterBorder border, const RunContext& context) {
+  return singleStep(image, Step::Erosion, coefficient, border, context);
+}
+
+BitImage dilate(const BitImage& image, int coefficient, FilterBorder border, const RunContext& context) {
+  return singleStep(image, Step::Dilation, coefficient, border, context);
+}
+
+}  // namespace batten
