@@ -23,7 +23,7 @@ enum class FairingMode {
 /// What is held at an end of an open curve beside its position, which always is.
 struct EndHold {
   bool tangent = false;
-  bool curvature = false;
+  bool curvature = false;  ///< Includes the tangent: a held curvature on a turned end would join nothing.
   bool operator==(const EndHold&) const = default;
 };
 

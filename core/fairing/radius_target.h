@@ -51,8 +51,13 @@ struct TargetSet {
 };
 
 /// Least-squares polynomials of degree 1..6 over the perimeter (000 VI, 003 section 4), monotone by non-negative least
-/// squares on a grid of 200 (Bernstein coefficients as fallback), with their similarity to the curve.
-TargetSet fitTargets(const NurbsCurve&, const TargetParams&);
+/// squares on a grid of 200 (Bernstein coefficients as fallback), with their similarity to the curve. A monotone profile of
+/// data that turn back stays monotone and lies far off: S, Pearson and rms tell.
+/// S and Pearson compare radii, which have no end where the curve is straight: |rho| counts as at most ten times the extent
+/// of the curve (sagitta 1/80 of it), with the sign of kappa. rms and AICc refer to the fitted quantity; for AICc a residual
+/// below 1e-6 of the data's rms counts as this, so that exact data choose the lowest degree and not the rounding.
+/// @param closed value and slope of the profile at f = 1 equal those at 0 (degrees 1 and 2: a circle); `monotone` is off.
+TargetSet fitTargets(const NurbsCurve&, const TargetParams&, bool closed = false);
 
 /// The polynomial fit alone, for tests and for other data. `f` in 0..1.
 std::vector<double> fitPolynomial(std::span<const double> f, std::span<const double> values, int degree);

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "core/curve/curve_analysis.h"
+#include "core/fairing/fairing_problem.h"
+
+namespace batten {
+namespace {
+
+constexpr int kSamplesPerSpan = 4;
+constexpr int kChecksPerSpan = 12;
+/// A derivative below this share of the mean speed counts as a cusp.
+constexpr double kCuspShare = 1e-6;
+
+}  // namespace
+
+Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, bool closed, const FairingParams& params) {
+  if (curve.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to make fair.");
+  if (curve.isRational()) {
+    return fail(ErrorCode::BadParameter, "Curves with weights cannot be made fair: set all weights to 1.");
+  }
+  if (curve.degree() < 3 || curve.degree() > kMaxFairingDegree) {
+    return fail(ErrorCode::BadParameter, "Only curves of degree 3 to 7 can be made fair.");
+  }
+  auto setup = std::make_shared<FairingSetup>();
+  setup->original = curve;
+  setup->closed = closed;
+  setup->extent = extent(curve);
+  if (closed) {
+    auto periodic = toPeriodic(curve);
+    if (!periodic) return fail(periodic.error());
+    setup->periodic = std::move(*periodic);
+    setup->points = setup->periodic.points;
+    const int m = static_cast<int>(setup->points.size());
+    setup->basis = SpanBasis(curve.degree(), setup->periodic.knots, m + curve.degree(), m);
+  } else {
+    setup->points.assign(curve.controlPoints().begin(), curve.controlPoints().end());
+    setup->basis = SpanBasis(curve.degree(), curve.knots(), curve.controlPointCount(), 0);
+  }
+  setup->reference = SpanCurve(setup->basis, setup->points);
+  const int samples = std::max(params.targets.samples, kSamplesPerSpan * setup->basis.spanCount() + 1);
+  auto start = equalArcPlaces(setup->reference, samples, closed);
+  if (!start || !(start->length > 1e-9 * setup->extent)) {
+    return fail(ErrorCode::Numerical, "The curve has no length.");
+  }
+  setup->start = std::move(*start);
+  setup->unknowns = Unknowns(setup->basis, setup->reference, params.startHold, params.endHold);
+  return std::shared_ptr<const FairingSetup>(std::move(setup));
+}
+
+Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& points) {
+  if (!setup.closed) {
+    return NurbsCurve::make(setup.original.degree(), {setup.original.knots().begin(), setup.original.knots().end()}, points);
+  }
+  PeriodicForm form = setup.periodic;
+  form.points = points;
+  return fromPeriodic(form, setup.original);
+}
+
+double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points) {
+  const SpanCurve curve(setup.basis, points);
+  const int count = setup.basis.spanCount() * kChecksPerSpan + 1;
+  std::vector<double> distance(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const int span = std::min(i / kChecksPerSpan, setup.basis.spanCount() - 1);
+    const SpanPlace place{span, static_cast<double>(i - span * kChecksPerSpan) / kChecksPerSpan};
+    const Vec2 point = curve.at(place, 0)[0];
+    const SpanPlace foot = footPoint(setup.reference, point, place);
+    distance[static_cast<std::size_t>(i)] = (setup.reference.at(foot, 0)[0] - point).norm();
+  }
+  double largest = 0.0;
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    if (!std::isfinite(distance[i])) return std::numeric_limits<double>::max();
+    largest = std::max(largest, distance[i]);
+    if (i == 0 || i + 1 == distance.size()) continue;
+    const double a = distance[i - 1], b = distance[i], c = distance[i + 1], bend = a - 2.0 * b + c;
+    if (b >= a && b >= c && bend < 0.0) largest = std::max(largest, b - (a - c) * (a - c) / (8.0 * bend));
+  }
+  return largest;
+}
+
+std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObjective& objective,
+                                     const FairingCorridor& corridor, std::vector<Vec2> points,
+                                     const std::vector<SpanPlace>& feet) {
+  FairingState state;
+  state.points = std::move(points);
+  state.curve = SpanCurve(setup.basis, state.points);
+  const int count = setup.sampleCount();
+  auto arc = equalArcPlaces(state.curve, count, setup.closed);
+  if (!arc) return std::nullopt;
+  state.arc = std::move(*arc);
+  const auto size = static_cast<std::size_t>(count);
+  state.jets.resize(size);
+  state.curvature.resize(size);
+  state.feet.resize(size);
+  state.distance.resize(size);
+  state.normal.resize(size);
+  state.residual.resize(count);
+  const double length = state.arc.length, domain = setup.original.end() - setup.original.start();
+  const bool profile = !objective.wanted.empty();
+  for (int i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    state.jets[at] = state.curve.at(state.arc.places[at], 4);
+    const Jet& jet = state.jets[at];
+    if (!(jet[1].norm() > kCuspShare * length / domain)) return std::nullopt;
+    state.curvature[at] = curvatureJet(jet);
+    state.feet[at] = footPoint(setup.reference, jet[0], feet[at]);
+    const Jet foot = setup.reference.at(state.feet[at], 1);
+    state.normal[at] = foot[1].norm() > 0.0 ? leftNormal(foot[1].normalized()) : Vec2(Vec2::Zero());
+    const double e = state.distance[at] = (jet[0] - foot[0]).dot(state.normal[at]);
+    state.residual[i] = profile ? (state.curvature[at].kappa - setup.start.length / length * objective.wanted[at]) /
+                                      objective.reference / std::sqrt(count)
+                                : state.curvature[at].slope * std::sqrt(length / count) / objective.reference;
+    state.total += corridor.weight * corridor.weight * e * e / count;
+    if (corridor.barrier > 0.0) {
+      const double share = e / corridor.bound;
+      if (!(std::abs(share) < 1.0)) return std::nullopt;
+      state.total -= corridor.barrier / count * std::log1p(-share * share);
+    }
+  }
+  state.misfit = state.residual.squaredNorm();
+  state.total += state.misfit;
+  if (!std::isfinite(state.total)) return std::nullopt;
+  return state;
+}
+
+}  // namespace batten
