@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/recipe_file.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/pipeline/number_text.h"
+#include "core/pipeline/parameter_table.h"
+
+namespace batten {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kFormat = "batten-recipe";
+constexpr int kVersion = 1;
+
+tl::unexpected<Error> refuse(std::string message, std::string detail = {}) {
+  return fail(ErrorCode::BadParameter, std::move(message), std::move(detail));
+}
+
+Json parameterToJson(const Parameter& p, const Recipe& recipe) {
+  const std::string text = p.get(recipe);
+  switch (p.type) {
+    case ParameterType::Boolean: return text == "true";
+    case ParameterType::Integer: return *integerFromText(text);
+    case ParameterType::Real: return *numberFromText(text);
+    case ParameterType::Choice:
+    case ParameterType::Text: break;
+  }
+  return text;
+}
+
+Json choiceToJson(const PieceChoice& choice) {
+  Json json{{"anchor", {choice.anchorPx.x(), choice.anchorPx.y()}}, {"included", choice.included}};
+  if (choice.mode) {
+    Recipe named;  // the table knows the word of a mode
+    named.fairing.mode = *choice.mode;
+    json["mode"] = findParameter("fairing.mode")->get(named);
+  }
+  if (choice.target) json["target"] = *choice.target;
+  if (choice.toleranceMm) json["tolerance"] = *choice.toleranceMm;
+  return json;
+}
+
+/// A JSON value as the text that the table's setters take.
+std::optional<std::string> valueText(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+  if (value.is_number_integer()) return value.dump();
+  if (value.is_number()) return numberToText(value.get<double>());
+  return std::nullopt;
+}
+
+std::optional<Vec2> pointFromJson(const Json& json) {
+  if (!json.is_array() || json.size() != 2 || !json[0].is_number() || !json[1].is_number()) return std::nullopt;
+  const Vec2 p(json[0].get<double>(), json[1].get<double>());
+  return std::isfinite(p.x()) && std::isfinite(p.y()) ? std::optional(p) : std::nullopt;
+}
+
+Result<void> readParameters(const Json& json, Recipe& recipe) {
+  if (!json.is_object()) return refuse("The recipe is damaged: \"parameters\" is not a list of names and values.");
+  for (const auto& [name, value] : json.items()) {
+    const auto text = valueText(value);
+    if (!text) return refuse("The recipe is damaged: the value of " + name + " is neither a number nor a text.");
+    if (auto set = setParameter(recipe, name, *text); !set) {
+      return refuse("The recipe cannot be used. " + set.error().message);
+    }
+  }
+  return {};
+}
+
+Result<void> readCorners(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"corners\" is not a list of positions.");
+  for (const Json& entry : json) {
+    const auto point = pointFromJson(entry);
+    if (!point) return refuse("The recipe is damaged: a corner is not a pair of numbers [x, y].");
+    recipe.cornerMarks.push_back({*point});
+  }
+  return {};
+}
+
+Result<PieceChoice> readChoice(const Json& json) {
+  PieceChoice choice;
+  if (!json.is_object()) return refuse("The recipe is damaged: an entry of \"choices\" is not an object.");
+  for (const auto& [name, value] : json.items()) {
+    if (name == "anchor") {
+      const auto point = pointFromJson(value);
+      if (!point) return refuse("The recipe is damaged: the anchor of a choice is not a pair of numbers [x, y].");
+      choice.anchorPx = *point;
+    } else if (name == "included" && value.is_boolean()) {
+      choice.included = value.get<bool>();
+    } else if (name == "mode" && value.is_string()) {
+      Recipe named;
+      if (auto set = setParameter(named, "fairing.mode", value.get<std::string>()); !set) return fail(set.error());
+      choice.mode = named.fairing.mode;
+    } else if (name == "target" && value.is_number_integer()) {
+      choice.target = value.get<int>();
+    } else if (name == "tolerance" && value.is_number()) {
+      choice.toleranceMm = value.get<double>();
+    } else {
+      return refuse("The recipe holds \"" + name + "\" in a choice, which this version of Batten does not know or cannot read.");
+    }
+  }
+  if (!json.contains("anchor")) return refuse("The recipe is damaged: a choice has no anchor.");
+  return choice;
+}
+
+Result<void> readChoices(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"choices\" is not a list.");
+  for (const Json& entry : json) {
+    auto choice = readChoice(entry);
+    if (!choice) return fail(choice.error());
+    recipe.choices.push_back(*choice);
+  }
+  return {};
+}
+
+Result<void> checkHead(const Json& json) {
+  if (!json.is_object() || !json.contains("format") || json["format"] != kFormat) {
+    return refuse("This is not a Batten recipe. Choose a file that Batten saved as a recipe.");
+  }
+  if (!json.contains("version") || !json["version"].is_number_integer()) {
+    return refuse("The recipe is damaged: it does not state its version.");
+  }
+  const auto version = json["version"].get<std::int64_t>();
+  if (version > kVersion) {
+    return refuse("The recipe is of version " + std::to_string(version) + "; this Batten reads up to version " +
+                  std::to_string(kVersion) + ". Use a newer Batten.");
+  }
+  if (version < 1) return refuse("The recipe is damaged: it states the version " + std::to_string(version) + ".");
+  return {};
+}
+
+Result<void> readEntry(const std::string& name, const Json& value, Recipe& recipe) {
+  if (name == "format" || name == "version") return {};
+  if (name == "parameters") return readParameters(value, recipe);
+  if (name == "corners") return readCorners(value, recipe);
+  if (name == "choices") return readChoices(value, recipe);
+  if (name != "dpi") {
+    return refuse("The recipe holds \"" + name + "\", which this version of Batten does not know.");
+  }
+  if (value.is_null()) return {};
+  if (!value.is_number()) return refuse("The recipe is damaged: its resolution is not a number.");
+  recipe.dpi = value.get<double>();
+  return {};
+}
+
+}  // namespace
+
+std::string recipeToJson(const Recipe& recipe) {
+  Json json{{"format", kFormat}, {"version", kVersion}};
+  json["dpi"] = recipe.dpi ? Json(*recipe.dpi) : Json(nullptr);
+  Json& parameters = json["parameters"] = Json::object();
+  for (const Parameter& p : parameterTable()) parameters[p.name] = parameterToJson(p, recipe);
+  Json& corners = json["corners"] = Json::array();
+  for (const CornerMark& mark : recipe.cornerMarks) corners.push_back({mark.positionPx.x(), mark.positionPx.y()});
+  Json& choices = json["choices"] = Json::array();
+  for (const PieceChoice& choice : recipe.choices) choices.push_back(choiceToJson(choice));
+  return json.dump(1) + "\n";
+}
+
+Result<Recipe> recipeFromJson(std::string_view text) {
+  try {
+    const Json json = Json::parse(text);
+    if (auto head = checkHead(json); !head) return fail(head.error());
+    Recipe recipe;
+    for (const auto& [name, value] : json.items()) {
+      if (auto read = readEntry(name, value, recipe); !read) return fail(read.error());
+    }
+    if (auto wrong = validate(recipe)) return refuse("The recipe cannot be used. " + wrong->message, wrong->detail);
+    return recipe;
+  } catch (const Json::exception& e) {
+    return refuse("The recipe is damaged and cannot be read. Save it again, or start from the defaults.", e.what());
+  }
+}
+
+}  // namespace batten
