@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/corner_marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/contour/corner_geometry.h"
+#include "core/contour/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr double kLooksLikeCornerRad = 25.0 * std::numbers::pi / 180.0;
+constexpr double kTurnInnerPx = 3.0;   // the part next to a corner that blur has rounded
+constexpr double kTurnOuterPx = 16.0;  // about as far as a corner of a drawing stands free
+constexpr double kFitOuterPx = 52.0;
+constexpr double kSamePlacePx = 2.0;
+
+struct Nearest {
+  int contour = -1;
+  int index = -1;
+  double squared = 0.0;
+};
+
+Nearest nearestOf(const ContourSet& set, const Vec2& at, double limit) {
+  Nearest best;
+  best.squared = limit * limit;
+  for (std::size_t c = 0; c < set.contours.size(); ++c) {
+    const auto& points = set.contours[c].points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double d = (points[i] - at).squaredNorm();
+      if (d < best.squared || (best.contour < 0 && d == best.squared)) {
+        best = {static_cast<int>(c), static_cast<int>(i), d};
+      }
+    }
+  }
+  return best;
+}
+
+// A click need not be exact: the sharpest turn within the snap distance wins over the nearest point. On a smooth part no
+// point turns, and the nearest one is taken.
+int sharpestNear(const Contour& contour, int nearest, const Vec2& at, double snap) {
+  const int n = static_cast<int>(contour.points.size());
+  const int reach = std::min(n / 2, static_cast<int>(2.0 * snap) + 2);
+  const double inner = contour.kind == ContourKind::Outline ? kTurnInnerPx : roundedZonePx(contour, nearest);
+  const double outer = kTurnOuterPx + 2.0 * (inner - kTurnInnerPx);
+  int best = nearest;
+  double bestScore = 0.0;
+  for (int k = -reach; k <= reach; ++k) {
+    const int i = contour.closed ? wrapIndex(nearest + k, n) : nearest + k;
+    if (i < 0 || i >= n) continue;
+    const double distance = (contour.points[static_cast<std::size_t>(i)] - at).norm();
+    if (distance > snap) continue;
+    const auto turning = turningAt(contour, i, inner, outer);
+    if (!turning || std::abs(turning->angleRad) < kLooksLikeCornerRad) continue;
+    const double score = turning->score * (1.0 - 0.5 * distance / snap);
+    if (score > bestScore) bestScore = score, best = i;
+  }
+  return best;
+}
+
+// A corner while the pieces are cut.
+struct Cut {
+  Corner corner;
+  double s = 0.0;      // [px] arc length of its contour point
+  bool exact = false;
+};
+
+// Arc length between neighbouring cuts on either side, so that no fit looks beyond the next corner.
+void locateCuts(const Contour& contour, double length, std::vector<Cut>& cuts) {
+  const auto count = cuts.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    double before = cuts[i].s, after = length - cuts[i].s;
+    if (contour.closed) {
+      before = i > 0 ? cuts[i].s - cuts[i - 1].s : cuts[i].s + length - cuts[count - 1].s;
+      after = i + 1 < count ? cuts[i + 1].s - cuts[i].s : cuts[0].s + length - cuts[i].s;
+      if (count == 1) before = after = 0.5 * length;
+    } else {
+      if (i > 0) before = cuts[i].s - cuts[i - 1].s;
+      if (i + 1 < count) after = cuts[i + 1].s - cuts[i].s;
+    }
+    const double zone = roundedZonePx(contour, cuts[i].corner.pointIndex);
+    const auto outer = [&](double free, bool toCorner) {
+      return std::clamp(free - (toCorner ? zone : 0.0), 0.0, kFitOuterPx + 2.0 * (zone - 4.0));
+    };
+    const bool cornerBefore = contour.closed ? count > 1 : i > 0;
+    const bool cornerAfter = contour.closed ? count > 1 : i + 1 < count;
+    const CornerFix fix = locateCorner(contour, cuts[i].corner.pointIndex, zone, outer(before, cornerBefore),
+                                       outer(after, cornerAfter));
+    cuts[i].corner.positionPx = fix.position;
+    cuts[i].corner.turningAngleRad = fix.angleRad;
+    cuts[i].exact = fix.exact;
+  }
+}
+
+// How many points to leave out at one end of a piece: those inside the rounded zone, and those that lie behind the corner.
+std::size_t pointsToDrop(const std::vector<Vec2>& points, bool fromEnd, const Vec2& corner, double zone) {
+  const std::size_t n = points.size();
+  std::size_t drop = 0;
+  double arc = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2& p = points[fromEnd ? n - 1 - k : k];
+    if (k > 0) arc += (p - points[fromEnd ? n - k : k - 1]).norm();
+    if (arc > 3.0 * zone + 12.0) break;
+    if ((p - corner).norm() < zone) drop = k + 1;
+    else if (arc < zone) drop = k + 1;
+  }
+  return drop;
+}
+
+// One piece from point index `from` to `to` (unwrapped, to >= from) with its ends put on the corners.
+Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const Cut* start, const Cut* end) {
+  const Contour& contour = set.contours[static_cast<std::size_t>(contourIndex)];
+  const int n = static_cast<int>(contour.points.size());
+  Piece piece;
+  piece.contour = contourIndex;
+  for (int i = from; i <= to; ++i) {
+    const auto at = static_cast<std::size_t>(wrapIndex(i, n));
+    piece.points.push_back(contour.points[at]);
+    piece.refined.push_back(at < contour.refined.size() ? contour.refined[at] : std::uint8_t{0});
+  }
+  const auto zoneOf = [&](const Cut* cut) { return cut->exact ? roundedZonePx(contour, cut->corner.pointIndex) : 0.5; };
+  std::size_t head = 0, tail = 0;
+  if (start != nullptr) head = pointsToDrop(piece.points, false, start->corner.positionPx, zoneOf(start));
+  if (end != nullptr) tail = pointsToDrop(piece.points, true, end->corner.positionPx, zoneOf(end));
+  if (head + tail >= piece.points.size()) head = piece.points.size(), tail = 0;
+  const auto cutEnds = [&](auto& values) {
+    values.erase(values.end() - static_cast<std::ptrdiff_t>(tail), values.end());
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(head));
+  };
+  cutEnds(piece.points);
+  cutEnds(piece.refined);
+  if (start != nullptr) {
+    piece.points.insert(piece.points.begin(), start->corner.positionPx);
+    piece.refined.insert(piece.refined.begin(), start->exact ? 1 : 0);
+    piece.startIsCorner = true;
+  }
+  if (end != nullptr) {
+    piece.points.push_back(end->corner.positionPx);
+    piece.refined.push_back(end->exact ? 1 : 0);
+    piece.endIsCorner = true;
+  }
+  piece.lengthPx = polylineLength(piece.points, false);
+  return piece;
+}
+
+void cutContour(const ContourSet& set, int c, const std::vector<Cut>& cuts, PieceSet& out) {
+  const Contour& contour = set.contours[static_cast<std::size_t>(c)];
+  const int n = static_cast<int>(contour.points.size());
+  if (n == 0) return;
+  std::vector<Piece> pieces;
+  if (cuts.empty()) {
+    pieces.push_back(makePiece(set, c, 0, n - 1, nullptr, nullptr));
+    pieces.back().closed = contour.closed;
+    pieces.back().lengthPx = polylineLength(contour.points, contour.closed);
+  } else if (contour.closed) {
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+      const Cut& next = cuts[(i + 1) % cuts.size()];
+      const int from = cuts[i].corner.pointIndex;
+      const int to = next.corner.pointIndex + (i + 1 == cuts.size() ? n : 0);
+      pieces.push_back(makePiece(set, c, from, to, &cuts[i], &next));
+    }
+  } else {
+    const Cut* previous = nullptr;
+    int from = 0;
+    for (const Cut& cut : cuts) {
+      pieces.push_back(makePiece(set, c, from, cut.corner.pointIndex, previous, &cut));
+      previous = &cut;
+      from = cut.corner.pointIndex;
+    }
+    pieces.push_back(makePiece(set, c, from, n - 1, previous, nullptr));
+  }
+  // A mark at the very end of a line leaves nothing on its far side.
+  std::erase_if(pieces, [](const Piece& p) { return p.points.size() < 2 || !(p.lengthPx > 0.0); });
+  int index = 0;
+  for (Piece& piece : pieces) {
+    piece.index = index++;
+    out.pieces.push_back(std::move(piece));
+  }
+}
+
+}  // namespace
+
+std::optional<Error> validate(const CornerParams& p) {
+  if (p.snapDistancePx > 0.0 && std::isfinite(p.snapDistancePx)) return std::nullopt;
+  return Error{ErrorCode::BadParameter, "corners.snap_distance must be more than 0 px.", {}};
+}
+
+std::optional<Corner> nearestContourPoint(const ContourSet& set, const Vec2& positionPx, double snapDistancePx) {
+  if (!positionPx.allFinite() || !(snapDistancePx >= 0.0)) return std::nullopt;
+  const Nearest nearest = nearestOf(set, positionPx, snapDistancePx);
+  if (nearest.contour < 0) return std::nullopt;
+  const Contour& contour = set.contours[static_cast<std::size_t>(nearest.contour)];
+  Corner corner;
+  corner.contour = nearest.contour;
+  corner.pointIndex = sharpestNear(contour, nearest.index, positionPx, snapDistancePx);
+  corner.positionPx = contour.points[static_cast<std::size_t>(corner.pointIndex)];
+  corner.snapPx = (corner.positionPx - positionPx).norm();
+  if (const auto turning = turningAt(contour, corner.pointIndex, kTurnInnerPx, kTurnOuterPx)) {
+    corner.turningAngleRad = turning->angleRad;
+  }
+  return corner;
+}
+
+Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMark> marks, const CornerParams& params) {
+  if (auto error = validate(params)) return fail(*error);
+  PieceSet out;
+  std::vector<std::vector<Cut>> cuts(set.contours.size());
+  std::vector<std::vector<double>> arc(set.contours.size());
+  for (std::size_t m = 0; m < marks.size(); ++m) {
+    auto corner = nearestContourPoint(set, marks[m].positionPx, params.snapDistancePx);
+    if (!corner) {
+      out.lostMarks.push_back(static_cast<int>(m));
+      continue;
+    }
+    corner->mark = static_cast<int>(m);
+    const auto c = static_cast<std::size_t>(corner->contour);
+    if (arc[c].empty()) arc[c] = cumulativeLength(set.contours[c].points);
+    const bool known = std::any_of(cuts[c].begin(), cuts[c].end(), [&](const Cut& other) {
+      return (other.corner.positionPx - corner->positionPx).norm() <= kSamePlacePx;
+    });
+    if (!known) cuts[c].push_back({*corner, arc[c][static_cast<std::size_t>(corner->pointIndex)], false});
+  }
+  for (std::size_t c = 0; c < set.contours.size(); ++c) {
+    std::sort(cuts[c].begin(), cuts[c].end(),
+              [](const Cut& a, const Cut& b) { return a.corner.pointIndex < b.corner.pointIndex; });
+    const Contour& contour = set.contours[c];
+    if (params.exact && !cuts[c].empty()) {
+      locateCuts(contour, polylineLength(contour.points, contour.closed), cuts[c]);
+    }
+    cutContour(set, static_cast<int>(c), cuts[c], out);
+    for (const Cut& cut : cuts[c]) out.corners.push_back(cut.corner);
+  }
+  return out;
+}
+
+}  // namespace batten

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "core/contour/corner_geometry.h"
+#include "core/contour/corner_marks.h"
+#include "core/contour/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+struct Candidate {
+  int index;
+  double angle, score, s;
+};
+
+// The angle between the chords on either side: cheap, and never much smaller than the angle of a corner.
+double chordAngle(const Contour& contour, int i, int reach) {
+  const int n = static_cast<int>(contour.points.size());
+  const int a = contour.closed ? wrapIndex(i - reach, n) : i - reach;
+  const int b = contour.closed ? wrapIndex(i + reach, n) : i + reach;
+  if (a < 0 || b >= n) return 0.0;
+  const Vec2 in = contour.points[static_cast<std::size_t>(i)] - contour.points[static_cast<std::size_t>(a)];
+  const Vec2 out = contour.points[static_cast<std::size_t>(b)] - contour.points[static_cast<std::size_t>(i)];
+  return std::abs(std::atan2(cross(in, out), in.dot(out)));
+}
+
+std::vector<Candidate> candidatesOf(const Contour& contour, double minAngle, double scale) {
+  std::vector<Candidate> found;
+  const int n = static_cast<int>(contour.points.size());
+  if (n < 8) return found;
+  const std::vector<double> s = cumulativeLength(contour.points);
+  const double step = std::max(0.1, s.back() / (n - 1));
+  const int reach = std::clamp(static_cast<int>(0.6 * scale / step), 2, std::max(2, n / 3));
+  for (int i = 0; i < n; ++i) {
+    if (chordAngle(contour, i, reach) < 0.6 * minAngle) continue;
+    const double inner = contour.kind == ContourKind::Outline ? std::min(3.0, 0.25 * scale) : roundedZonePx(contour, i);
+    const auto turning = turningAt(contour, i, inner, inner + scale);
+    if (!turning || std::abs(turning->angleRad) < minAngle) continue;
+    // The score is the angle discounted by misfit; half of it lost means that the legs are no legs.
+    if (turning->score < 0.5 * std::abs(turning->angleRad)) continue;
+    found.push_back({i, turning->angleRad, turning->score, s[static_cast<std::size_t>(i)]});
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<CornerSuggestion> suggestCorners(const ContourSet& set, double minAngleRad, double scalePx) {
+  std::vector<CornerSuggestion> suggestions;
+  if (!(minAngleRad > 0.0) || !(scalePx > 0.0)) return suggestions;
+  for (std::size_t c = 0; c < set.contours.size(); ++c) {
+    const Contour& contour = set.contours[c];
+    std::vector<Candidate> candidates = candidatesOf(contour, minAngleRad, scalePx);
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+    const double length = polylineLength(contour.points, contour.closed);
+    std::vector<Candidate> kept;
+    for (const Candidate& candidate : candidates) {
+      const bool near = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
+        const double d = std::abs(candidate.s - other.s);
+        return std::min(d, contour.closed ? length - d : d) < scalePx;
+      });
+      if (!near) kept.push_back(candidate);
+    }
+    std::sort(kept.begin(), kept.end(), [](const Candidate& a, const Candidate& b) { return a.index < b.index; });
+    for (const Candidate& k : kept) {
+      const double zone = roundedZonePx(contour, k.index);
+      const CornerFix fix = locateCorner(contour, k.index, zone, zone + scalePx, zone + scalePx);
+      suggestions.push_back({static_cast<int>(c), k.index, fix.position, k.angle});
+    }
+  }
+  return suggestions;
+}
+
+}  // namespace batten

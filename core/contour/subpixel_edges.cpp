@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/subpixel_edges.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contour/edge_profile.h"
+#include "core/contour/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr int kSmallestRing = 12;          // points; below that no direction can be trusted
+constexpr double kChainSigma = 3.0;        // points: takes the staircase out of the crack chain
+constexpr double kBaseSigma = 2.0;         // points: the base of the second pass keeps more of the corners
+constexpr double kLevelSigma = 6.0;        // points: ink and paper change slowly along an edge
+constexpr double kSpanSigma = 2.0;         // points
+constexpr double kGatePx = 1.5;            // farthest that an edge may lie from its crack
+constexpr double kLargestMovePx = 2.0;     // from the base of the second pass
+constexpr double kSideFromPx = 1.9;        // side levels are taken beyond this distance
+constexpr double kSmallestContrast = 2.0;  // [grey]
+constexpr int kNewtonSteps = 4;
+constexpr int kBlurRounds = 4;
+constexpr int kBlurSamples = 1500;  // points that vote for the blur
+constexpr int kBendHalf = 6;        // points: half window of the curvature filter
+
+// The state of the matched pass, one entry per point.
+struct Matched {
+  std::vector<EdgeSpan> span;
+  std::vector<double> position;     // [px] along the normal from the base
+  std::vector<float> ink, paper;    // [grey] side levels, smoothed along the line
+  double blur = 1.1;                // [px] standard deviation of the edge's own blur
+  double noise = 0.0;               // [grey] robust standard deviation of the residuals
+};
+
+// Model of the profile of an edge at 0 and of its twins: 0 = paper, 1 = ink.
+struct EdgeModel {
+  double value, slope;  // slope = -d value / d position * blur
+};
+EdgeModel edgeModel(const NormalTable& table, double x, double inkTwin, double paperTwin) {
+  double cdf, pdf;
+  table.eval(x, cdf, pdf);
+  EdgeModel m{cdf, pdf};
+  if (inkTwin > 0.0) {
+    table.eval(x - inkTwin, cdf, pdf);
+    m.value -= cdf;
+  }
+  if (paperTwin > 0.0) {
+    table.eval(-x - paperTwin, cdf, pdf);
+    m.value += cdf;
+  }
+  return m;
+}
+
+bool onPageBorder(const Vec2& crack, const GreyImage& grey) {
+  return crack.x() <= 0.0 || crack.y() <= 0.0 || crack.x() >= grey.width || crack.y() >= grey.height;
+}
+
+std::vector<Vec2> normalsOf(const std::vector<Vec2>& points, bool closed) {
+  std::vector<Vec2> normal = directions(points, closed, 2);
+  // Ink lies on the right of travel on the screen, which with y down is the "left" normal of conventions with y up.
+  for (Vec2& d : normal) d = leftNormal(d);
+  return normal;
+}
+
+// First pass: half level on lightly averaged profiles, good to about 0.1 px.
+std::vector<Vec2> halfLevelPass(const Contour& contour, const GreyImage& grey, const RunContext& context) {
+  const std::vector<Vec2> base = smoothPolyline(contour.chain, contour.closed, kChainSigma);
+  const std::vector<Vec2> normal = normalsOf(base, contour.closed);
+  const ProfileBand band = averageAlong(sampleProfiles(grey, base, normal, false, context), contour.closed, 1.0);
+  std::vector<Vec2> points = base;
+  for (std::size_t i = 0; i < base.size(); ++i) {
+    const float* profile = band.row(static_cast<int>(i));
+    const EdgeSpan span = findEdgeSpan(profile);
+    if (span.contrast < kSmallestContrast || onPageBorder(contour.chain[i], grey)) continue;
+    const Vec2 found = base[i] + halfLevelCrossing(profile, span) * normal[i];
+    if ((found - contour.chain[i]).norm() <= kGatePx + 0.5) points[i] = found;
+  }
+  return points;
+}
+
+// Sums of one side of a profile: its grey and what the model says there.
+struct SideSums {
+  double grey = 0.0, model = 0.0;
+  int count = 0;
+};
+
+void sideSums(const float* profile, const EdgeSpan& span, double position, double blur, SideSums& ink, SideSums& paper) {
+  const NormalTable& table = NormalTable::instance();
+  const double inkFrom = position + std::min(kSideFromPx, 0.6 * (span.hi - position));
+  const double paperTo = position - std::min(kSideFromPx, 0.6 * (position - span.lo));
+  for (int k = 0; k < kProfileSamples; ++k) {
+    const double u = profileU(k);
+    SideSums* side = nullptr;
+    if (u >= inkFrom && u <= span.hi + 0.25) side = &ink;
+    else if (u <= paperTo && u >= span.lo - 0.25) side = &paper;
+    if (side == nullptr) continue;
+    side->grey += profile[k];
+    side->model += edgeModel(table, (u - position) / blur, span.inkTwin / blur, span.paperTwin / blur).value;
+    ++side->count;
+  }
+}
+
+// Ink and paper of every point: the two side means freed of what the blur carries over from the other side, everything
+// smoothed along the line first because a single profile is noisy.
+void measureLevels(const ProfileBand& band, bool closed, Matched& m) {
+  const auto n = m.span.size();
+  std::vector<float> inkGrey(n), inkModel(n), paperGrey(n), paperModel(n);
+  float lastInk = 0.0f, lastPaper = 255.0f, lastInkModel = 1.0f, lastPaperModel = 0.0f;
+  for (std::size_t i = 0; i < n; ++i) {
+    SideSums ink, paper;
+    sideSums(band.row(static_cast<int>(i)), m.span[i], m.position[i], m.blur, ink, paper);
+    if (ink.count > 0 && paper.count > 0) {
+      lastInk = static_cast<float>(ink.grey / ink.count);
+      lastInkModel = static_cast<float>(ink.model / ink.count);
+      lastPaper = static_cast<float>(paper.grey / paper.count);
+      lastPaperModel = static_cast<float>(paper.model / paper.count);
+    }
+    inkGrey[i] = lastInk;
+    inkModel[i] = lastInkModel;
+    paperGrey[i] = lastPaper;
+    paperModel[i] = lastPaperModel;
+  }
+  inkGrey = smoothValues(inkGrey, closed, kLevelSigma);
+  inkModel = smoothValues(inkModel, closed, kLevelSigma);
+  paperGrey = smoothValues(paperGrey, closed, kLevelSigma);
+  paperModel = smoothValues(paperModel, closed, kLevelSigma);
+  m.ink.resize(n);
+  m.paper.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const float spread = std::max(0.2f, inkModel[i] - paperModel[i]);
+    const float contrast = (paperGrey[i] - inkGrey[i]) / spread;
+    m.paper[i] = paperGrey[i] + contrast * paperModel[i];
+    m.ink[i] = m.paper[i] - contrast;
+  }
+}
+
+// Newton steps for the position of one edge (maximum likelihood under white noise).
+double fitPosition(const float* profile, const EdgeSpan& span, double start, double paper, double contrast, double blur) {
+  const NormalTable& table = NormalTable::instance();
+  double position = start;
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    double top = 0.0, bottom = 0.0;
+    for (int k = 0; k < kProfileSamples; ++k) {
+      const double u = profileU(k);
+      if (u < span.lo - 0.25 || u > span.hi + 0.25) continue;
+      const EdgeModel m =
+          edgeModel(table, (u - position) / blur, span.inkTwin / blur, span.paperTwin / blur);
+      const double gradient = contrast * m.slope / blur;  // of the grey with respect to the position
+      top += gradient * (profile[k] - (paper - contrast * m.value));
+      bottom += gradient * gradient;
+    }
+    if (!(bottom > 0.0)) return start;
+    const double move = std::clamp(top / bottom, -0.5, 0.5);
+    position = std::clamp(position + move, start - kGatePx, start + kGatePx);
+    if (std::abs(move) < 1e-4) break;
+  }
+  return position;
+}
+
+// One step for the blur common to the contour from a spread sample of its points; also measures the noise.
+void updateBlur(const ProfileBand& band, Matched& m) {
+  const NormalTable& table = NormalTable::instance();
+  const std::size_t stride = std::max<std::size_t>(1, m.span.size() / kBlurSamples);
+  double top = 0.0, bottom = 0.0;
+  std::vector<float> residuals;
+  for (std::size_t i = 0; i < m.span.size(); i += stride) {
+    const EdgeSpan& span = m.span[i];
+    const double contrast = m.paper[i] - m.ink[i];
+    if (contrast < kSmallestContrast || span.inkTwin > 0.0 || span.paperTwin > 0.0) continue;
+    const float* profile = band.row(static_cast<int>(i));
+    for (int k = 0; k < kProfileSamples; ++k) {
+      const double x = (profileU(k) - m.position[i]) / m.blur;
+      const EdgeModel model = edgeModel(table, x, 0.0, 0.0);
+      const double residual = profile[k] - (m.paper[i] - contrast * model.value);
+      const double gradient = contrast * model.slope * x / m.blur;
+      top += gradient * residual;
+      bottom += gradient * gradient;
+      residuals.push_back(static_cast<float>(std::abs(residual)));
+    }
+  }
+  if (residuals.empty()) return;
+  if (bottom > 0.0) m.blur = std::clamp(m.blur + std::clamp(top / bottom, -0.4, 0.4), 0.45, 2.5);
+  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
+  std::nth_element(residuals.begin(), middle, residuals.end());
+  m.noise = 1.4826 * *middle;
+}
+
+void fitAll(const ProfileBand& band, const std::vector<double>& start, Matched& m, std::size_t stride) {
+  for (std::size_t i = 0; i < m.span.size(); i += stride) {
+    const double contrast = m.paper[i] - m.ink[i];
+    if (m.span[i].contrast <= 0.0 || contrast < kSmallestContrast) continue;
+    m.position[i] = fitPosition(band.row(static_cast<int>(i)), m.span[i], start[i], m.paper[i], contrast, m.blur);
+  }
+}
+
+// The matched pass (blurred-edge model, common blur): the position that the raw grey values make most likely.
+Matched matchedPass(const ProfileBand& band, bool closed, const RunContext& context) {
+  Matched m;
+  const auto n = static_cast<std::size_t>(band.count());
+  m.span.resize(n);
+  m.position.resize(n);
+  {
+    const ProfileBand average = averageAlong(band, closed, kSpanSigma);
+    for (std::size_t i = 0; i < n; ++i) {
+      m.span[i] = findEdgeSpan(average.row(static_cast<int>(i)));
+      m.position[i] = halfLevelCrossing(average.row(static_cast<int>(i)), m.span[i]);
+    }
+  }
+  const std::vector<double> start = m.position;
+  const std::size_t stride = std::max<std::size_t>(1, n / kBlurSamples);
+  for (int round = 0; round < kBlurRounds && !context.isCancelled(); ++round) {
+    measureLevels(band, closed, m);
+    fitAll(band, start, m, stride);
+    updateBlur(band, m);
+  }
+  measureLevels(band, closed, m);
+  fitAll(band, start, m, 1);
+  return m;
+}
+
+double smallestMagnitude(double a, double b, double c) {
+  if ((a > 0.0) != (b > 0.0) || (b > 0.0) != (c > 0.0)) return 0.0;
+  const double m = std::min({std::abs(a), std::abs(b), std::abs(c)});
+  return a > 0.0 ? m : -m;
+}
+
+// Blur draws the half level of a curved edge towards its centre of curvature by blur^2 kappa / 2 (the mean of a parabola
+// under a Gaussian). The curvature is the smallest of three windows, so that a corner is not taken for a tight arc.
+void undoCurvatureShift(std::vector<Vec2>& points, const std::vector<Vec2>& normal, bool closed, double blur) {
+  const int n = static_cast<int>(points.size());
+  if (n < 6 * kBendHalf) return;
+  double meanSquare = 0.0, norm = 0.0;
+  for (int j = -kBendHalf; j <= kBendHalf; ++j) meanSquare += j * j;
+  meanSquare /= 2 * kBendHalf + 1;
+  for (int j = -kBendHalf; j <= kBendHalf; ++j) norm += (j * j - meanSquare) * (j * j - meanSquare);
+  const auto at = [&](int i) { return static_cast<std::size_t>(closed ? wrapIndex(i, n) : std::clamp(i, 0, n - 1)); };
+  std::vector<Vec2> bend(points.size());
+  for (int i = 0; i < n; ++i) {
+    Vec2 sum = Vec2::Zero();
+    for (int j = -kBendHalf; j <= kBendHalf; ++j) sum += (j * j - meanSquare) * points[at(i + j)];
+    const double chord = (points[at(i + kBendHalf)] - points[at(i - kBendHalf)]).norm() / (2 * kBendHalf);
+    bend[at(i)] = chord > 0.0 ? Vec2(2.0 * sum / (norm * chord * chord)) : Vec2(Vec2::Zero());
+  }
+  std::vector<double> shift(points.size());
+  for (int i = 0; i < n; ++i) {
+    const Vec2& unit = normal[at(i)];
+    const double kappa = smallestMagnitude(bend[at(i)].dot(unit), bend[at(i - kBendHalf)].dot(normal[at(i - kBendHalf)]),
+                                           bend[at(i + kBendHalf)].dot(normal[at(i + kBendHalf)]));
+    shift[at(i)] = -0.5 * blur * blur * std::clamp(kappa, -0.2, 0.2);
+  }
+  for (int i = 0; i < n; ++i) points[at(i)] += shift[at(i)] * normal[at(i)];
+}
+
+// Points must advance along the line: a step backwards is replaced by the way between its neighbours.
+void removeReversals(Contour& contour, const std::vector<Vec2>& normal) {
+  const int n = static_cast<int>(contour.points.size());
+  const auto at = [&](int i) { return static_cast<std::size_t>(contour.closed ? wrapIndex(i, n) : std::clamp(i, 0, n - 1)); };
+  for (int round = 0; round < 3; ++round) {
+    bool clean = true;
+    for (int i = 0; i < n; ++i) {
+      const Vec2 tangent = -leftNormal(normal[at(i)]);  // turned back by 90 degrees
+      if ((contour.points[at(i + 1)] - contour.points[at(i)]).dot(tangent) > 0.0) continue;
+      const Vec2 from = contour.points[at(i - 1)], to = contour.points[at(i + 2)];
+      contour.points[at(i)] = from + (to - from) / 3.0;
+      contour.points[at(i + 1)] = from + (to - from) * (2.0 / 3.0);
+      contour.refined[at(i)] = contour.refined[at(i + 1)] = 0;
+      clean = false;
+    }
+    if (clean) return;
+  }
+}
+
+}  // namespace
+
+void refineOutline(Contour& contour, const GreyImage& grey, const RunContext& context) {
+  const auto n = contour.chain.size();
+  contour.points = contour.chain;
+  contour.refined.assign(n, 0);
+  if (n < kSmallestRing || grey.width < 4 || grey.height < 4) return;
+  const std::vector<Vec2> base = smoothPolyline(halfLevelPass(contour, grey, context), contour.closed, kBaseSigma);
+  const std::vector<Vec2> normal = normalsOf(base, contour.closed);
+  if (context.isCancelled()) return;
+  const ProfileBand band = sampleProfiles(grey, base, normal, true, context);
+  if (context.isCancelled()) return;
+  const Matched m = matchedPass(band, contour.closed, context);
+  std::vector<Vec2> found(n);
+  for (std::size_t i = 0; i < n; ++i) found[i] = base[i] + m.position[i] * normal[i];
+  undoCurvatureShift(found, normal, contour.closed, m.blur);
+  const std::vector<Vec2> fallback = smoothPolyline(contour.chain, contour.closed, 1.5);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (onPageBorder(contour.chain[i], grey)) continue;
+    const double contrast = m.paper[i] - m.ink[i];
+    const bool edge = m.span[i].contrast > 0.0 && contrast >= std::max(kSmallestContrast, m.noise) &&
+                      std::abs(m.position[i]) <= kLargestMovePx &&
+                      (found[i] - contour.chain[i]).norm() <= kGatePx;
+    contour.points[i] = edge ? found[i] : fallback[i];
+    contour.refined[i] = edge ? 1 : 0;
+  }
+  removeReversals(contour, normal);
+  contour.lengthPx = polylineLength(contour.points, contour.closed);
+  contour.areaPx = contour.closed ? polygonArea(contour.points) : 0.0;
+}
+
+}  // namespace batten

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/trace_contours.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <string>
+
+#include "core/base/parallel.h"
+#include "core/contour/centreline.h"
+#include "core/contour/crack_contours.h"
+#include "core/contour/polyline_tools.h"
+#include "core/contour/subpixel_edges.h"
+
+namespace batten {
+namespace {
+
+constexpr std::size_t kLongContour = 4000;  // points: from here on one contour is worth all threads
+
+// Longest first; ties by the topmost, then leftmost start, so that the numbering of curves never depends on chance.
+bool before(const Contour& a, const Contour& b) {
+  if (a.lengthPx != b.lengthPx) return a.lengthPx > b.lengthPx;
+  const Vec2 p = a.chain.empty() ? Vec2::Zero().eval() : a.chain.front();
+  const Vec2 q = b.chain.empty() ? Vec2::Zero().eval() : b.chain.front();
+  return p.y() != q.y() ? p.y() < q.y() : p.x() < q.x();
+}
+
+void sortAndCut(ContourSet& set, const ContourParams& params) {
+  std::sort(set.contours.begin(), set.contours.end(), before);
+  const auto most = static_cast<std::size_t>(params.maxCount);
+  if (set.contours.size() <= most) return;
+  set.report.note = "Only the " + std::to_string(most) + " longest of " + std::to_string(set.contours.size()) +
+                    " lines are kept: raise the largest number of lines to see the rest.";
+  set.contours.resize(most);
+}
+
+void refineOutlines(ContourSet& set, const GreyImage& grey, const RunContext& context) {
+  std::vector<Contour*> small;
+  for (Contour& contour : set.contours) {
+    if (contour.kind != ContourKind::Outline) continue;
+    if (contour.chain.size() >= kLongContour) {
+      refineOutline(contour, grey, context);
+    } else {
+      small.push_back(&contour);
+    }
+  }
+  RunContext alone = context;
+  alone.threads = 1;
+  parallelFor(context, static_cast<int>(small.size()), 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) refineOutline(*small[static_cast<std::size_t>(i)], grey, alone);
+  });
+}
+
+void countRefined(ContourSet& set) {
+  std::size_t points = 0, refined = 0;
+  for (const Contour& contour : set.contours) {
+    points += contour.refined.size();
+    refined += static_cast<std::size_t>(std::count(contour.refined.begin(), contour.refined.end(), std::uint8_t{1}));
+  }
+  set.report.refinedShare = points > 0 ? static_cast<double>(refined) / static_cast<double>(points) : 0.0;
+}
+
+void append(ContourSet& to, ContourSet&& from) {
+  to.report.found += from.report.found;
+  to.report.droppedShort += from.report.droppedShort;
+  to.report.droppedHoles += from.report.droppedHoles;
+  if (to.report.note.empty()) to.report.note = std::move(from.report.note);
+  std::move(from.contours.begin(), from.contours.end(), std::back_inserter(to.contours));
+}
+
+// The lines of the page before sub-pixel placement of the outlines; centre lines come placed.
+Result<ContourSet> findLines(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
+                             const ContourParams& params, const RunContext& context) {
+  if (edges.mode == EdgeMode::Outline) return crackContours(ink, edges.internal, params.minLengthPx, context);
+  StrokeSplit split;
+  if (edges.mode == EdgeMode::Centreline) {
+    split.strokes = ink;
+  } else {
+    Result<StrokeSplit> found = splitStrokes(ink, edges, context);
+    if (!found) return fail(found.error());
+    split = std::move(*found);
+  }
+  context.report(0.2);
+  ContourSet set;
+  if (!split.shapes.words.empty()) {
+    Result<ContourSet> outlines = crackContours(split.shapes, edges.internal, params.minLengthPx, context);
+    if (!outlines) return outlines;
+    append(set, std::move(*outlines));
+  }
+  context.report(0.3);
+  Result<ContourSet> lines = centrelines(split.strokes, grey, edges, context);
+  if (!lines) return lines;
+  const std::size_t all = lines->contours.size();
+  std::erase_if(lines->contours, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
+  lines->report.droppedShort += static_cast<int>(all - lines->contours.size());
+  append(set, std::move(*lines));
+  return set;
+}
+
+std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
+  const std::string length = std::to_string(static_cast<long>(std::lround(std::min(params.minLengthPx, 1e9))));
+  if (set.report.found == 0) {
+    return "No line was found: raise the thresholds, or check that the drawing is darker than the paper.";
+  }
+  return "No line of " + length + " px or longer was found: lower the smallest length or raise the thresholds.";
+}
+
+Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
+                            const ContourParams& params, const RunContext& context) {
+  Result<ContourSet> set = findLines(ink, grey, edges, params, context);
+  if (!set) return set;
+  if (context.isCancelled()) return cancelled();
+  if (set->contours.empty()) {
+    return fail(ErrorCode::NoCurve, noLineMessage(*set, params),
+                std::to_string(set->report.found) + " found, " + std::to_string(set->report.droppedShort) + " too short");
+  }
+  sortAndCut(*set, params);
+  context.report(0.6);
+  if (edges.subpixel) {
+    refineOutlines(*set, grey, context);
+    if (context.isCancelled()) return cancelled();
+    std::sort(set->contours.begin(), set->contours.end(), before);
+  }
+  countRefined(*set);
+  context.report(1.0);
+  return set;
+}
+
+}  // namespace
+
+std::optional<Error> validate(const EdgeParams& p) {
+  const auto bad = [](const char* message) { return Error{ErrorCode::BadParameter, message, {}}; };
+  if (!(p.strokeWidth >= 0.005 && p.strokeWidth <= 0.1)) return bad("edges.stroke_width must be 0.005 to 0.1.");
+  if (!(p.gapFactor >= 0.0 && p.gapFactor <= 20.0)) return bad("edges.gap must be 0 to 20 stroke widths.");
+  if (!(p.mergeWidths >= 0.0 && p.mergeWidths <= 20.0)) return bad("edges.merge must be 0 to 20 stroke widths.");
+  if (!(p.spurFactor >= 0.0 && p.spurFactor <= 5.0)) return bad("edges.spur must be 0 to 5 stroke widths.");
+  if (!(p.maxBendDeg >= 0.0 && p.maxBendDeg <= 90.0)) return bad("edges.max_bend must be 0 to 90 degrees.");
+  return std::nullopt;
+}
+
+std::optional<Error> validate(const ContourParams& p) {
+  const auto bad = [](const char* message) { return Error{ErrorCode::BadParameter, message, {}}; };
+  if (!(p.minLengthPx >= 0.0)) return bad("contours.min_length must be 0 px or more.");
+  if (p.maxCount < 1 || p.maxCount > 100000) return bad("contours.max_count must be 1 to 100000.");
+  return std::nullopt;
+}
+
+Result<ContourSet> traceContours(const BitImage& ink, const GreyImage& grey, const RegionThresholds&,
+                                 const EdgeParams& edges, const ContourParams& params, const RunContext& context) {
+  if (auto error = validate(edges)) return fail(*error);
+  if (auto error = validate(params)) return fail(*error);
+  if (ink.width != grey.width || ink.height != grey.height) {
+    return fail(ErrorCode::BadParameter, "The mask and the scan differ in size.");
+  }
+  try {
+    return traceAll(ink, grey, edges, params, context);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to trace the lines: raise the smallest length.");
+  }
+}
+
+}  // namespace batten
