@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Traces every drawing of a folder with the default recipe and prints, per drawing, how much of the curves lies on ink,
+// how much of the ink has a curve, and how many curves and control points there are; writes the curves over the scan.
+//
+//   bench_sketches FOLDER [OVERLAY_FOLDER] [stage.parameter=value …]
+
+#include <QColor>
+#include <QImage>
+#include <QPainter>
+#include <QPainterPath>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "core/image/scan_reader.h"
+#include "core/pipeline/parameter_table.h"
+#include "core/pipeline/pipeline.h"
+
+using namespace batten;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kOnInkPx = 2.0;
+
+/// Distance of every pixel's centre to the nearest ink pixel's centre.
+cv::Mat distanceToInk(const BitImage& ink) {
+  cv::Mat paper(ink.height, ink.width, CV_8U);
+  for (int y = 0; y < ink.height; ++y)
+    for (int x = 0; x < ink.width; ++x) paper.at<unsigned char>(y, x) = ink.at(x, y) ? 0 : 255;
+  cv::Mat distance;
+  cv::distanceTransform(paper, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  return distance;
+}
+
+struct Figures {
+  int curves = 0, controlPoints = 0, failures = 0, extrema = 0;
+  double lengthPx = 0.0, onInk = 0.0, worstRmsPx = 0.0;
+};
+
+Figures drawAndMeasure(const PipelineOutput& output, QImage& overlay, double scale) {
+  Figures figures;
+  QPainter painter(&overlay);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const cv::Mat distance = distanceToInk(*output.binary);
+  double on = 0.0, all = 0.0;
+  int hue = 0;
+  for (const TracedCurve& curve : output.faired->curves) {
+    const int count = std::max(8, static_cast<int>(output.frame.lengthToImage(curve.sketchedFigures.lengthMm)));
+    QPainterPath path;
+    for (const CurveSample& sample : sampleByArcLength(curve.faired, count)) {
+      const Vec2 p = output.frame.pointToImage(sample.point);
+      const int x = std::clamp(static_cast<int>(p.x()), 0, distance.cols - 1),
+                y = std::clamp(static_cast<int>(p.y()), 0, distance.rows - 1);
+      on += distance.at<float>(y, x) <= kOnInkPx ? 1.0 : 0.0;
+      all += 1.0;
+      const QPointF q(p.x() * scale, p.y() * scale);
+      path.elementCount() == 0 ? path.moveTo(q) : path.lineTo(q);
+    }
+    painter.setPen(QPen(QColor::fromHsv(hue, 255, 210), 1.3));
+    painter.drawPath(path);
+    hue = (hue + 83) % 360;
+    ++figures.curves;
+    figures.controlPoints += curve.faired.controlPointCount();
+    figures.extrema += curve.fairedFigures.extrema;
+    figures.lengthPx += count;
+    figures.worstRmsPx = std::max(figures.worstRmsPx, output.frame.lengthToImage(curve.fairedFigures.fromPoints.rms));
+  }
+  painter.setPen(QPen(QColor(220, 60, 20), 2));
+  for (const Corner& corner : output.pieces->corners)
+    painter.drawRect(QRectF(corner.positionPx.x() * scale - 4, corner.positionPx.y() * scale - 4, 8, 8));
+  figures.onInk = all > 0 ? on / all : 0.0;
+  return figures;
+}
+
+QImage faded(const GreyImage& grey, double scale) {
+  QImage image(grey.width, grey.height, QImage::Format_RGB32);
+  for (int y = 0; y < grey.height; ++y)
+    for (int x = 0; x < grey.width; ++x) {
+      const int v = 90 + static_cast<int>(grey.level(x, y) * 165 / 255);
+      image.setPixel(x, y, qRgb(v, v, v));
+    }
+  return image.scaled(static_cast<int>(grey.width * scale), static_cast<int>(grey.height * scale),
+                      Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+}
+
+void trace(const fs::path& file, const Recipe& recipe, const fs::path& overlays) {
+  const auto scan = readScan(file, {}, {});
+  if (!scan) {
+    std::printf("%-30s %s\n", file.filename().c_str(), scan.error().message.c_str());
+    return;
+  }
+  StageCache cache;
+  const auto begin = std::chrono::steady_clock::now();
+  const PipelineOutput output = runPipeline(*scan, recipe, cache, {}, {});
+  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  if (!output.faired) {
+    std::printf("%-30s %s\n", file.filename().c_str(), output.error ? output.error->message.c_str() : "no result");
+    return;
+  }
+  const double scale = std::clamp(1500.0 / scan->grey.width, 0.4, 3.0);
+  QImage overlay = faded(scan->grey, scale);
+  Figures f = drawAndMeasure(output, overlay, scale);
+  f.failures = static_cast<int>(output.constructed->failures.size());
+  std::printf(
+      "%-30s %5d curves %6d points %5d extrema %8.0f px  on ink %5.1f %%  worst rms %.2f px  %d failed  %7.0f ms\n",
+      file.filename().c_str(), f.curves, f.controlPoints, f.extrema, f.lengthPx, 100.0 * f.onInk, f.worstRmsPx,
+      f.failures, ms);
+  if (!overlays.empty())
+    overlay.save(QString::fromStdString((overlays / (file.stem().string() + "-overlay.png")).string()));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::fputs("usage: bench_sketches FOLDER [OVERLAY_FOLDER] [stage.parameter=value …]\n", stderr);
+    return 2;
+  }
+  Recipe recipe;
+  fs::path overlays;
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = argv[i];
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos) {
+      overlays = word;
+      fs::create_directories(overlays);
+    } else if (const auto done = setParameter(recipe, word.substr(0, equals), word.substr(equals + 1)); !done) {
+      std::fprintf(stderr, "%s\n", done.error().message.c_str());
+      return 2;
+    }
+  }
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(argv[1])) {
+    const std::string ending = entry.path().extension().string();
+    if (ending == ".png" || ending == ".jpg" || ending == ".tif" || ending == ".pgm") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) trace(file, recipe, overlays);
+  return 0;
+}

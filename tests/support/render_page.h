@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image/scan.h"
+#include "tests/support/truth_shapes.h"
+
+namespace batten::test {
+
+/// How a page is scanned.
+struct PageStyle {
+  double paperLeft = 255.0, paperRight = 255.0;  ///< [grey] linear gradation across.
+  double inkLevel = 20.0;                        ///< [grey] of full ink, or, where `contrast` > 0, ignored.
+  double contrast = 0.0;                         ///< [grey] > 0: ink is this much darker than the paper at the place.
+  double blurPx = 0.0;                           ///< Standard deviation of the Gaussian.
+  double noise = 0.0;                            ///< [grey] standard deviation, white.
+  double texture = 0.0;                          ///< [grey] amplitude of slow paper texture.
+  std::uint32_t seed = 1;
+};
+PageStyle cleanPage();
+PageStyle scannedPage(std::uint32_t seed);   ///< Blur .8, noise 6, paper 255 to 140, texture.
+PageStyle darkPage(std::uint32_t seed);      ///< Background falling to 40, line 20 darker.
+PageStyle gradatedPage(std::uint32_t seed);  ///< Blur 1.2, noise 5, gradation: the accuracy cases of the foundation.
+
+/// Exact area coverage (0..1) of the filled outline, pixel by pixel.
+std::vector<float> fillCoverage(const std::vector<Vec2>& outline, int width, int height);
+/// Coverage of a stroke of this width along the outline (round caps and joins).
+std::vector<float> strokeCoverage(const std::vector<Vec2>& outline, bool closed, double widthPx, int width, int height);
+/// The page: coverage inked on paper, blurred, textured, with noise, as an 8-bit scan of 300 dpi.
+Scan renderPage(std::vector<float> coverage, int width, int height, const PageStyle&);
+
+}  // namespace batten::test
