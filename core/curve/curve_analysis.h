@@ -27,7 +27,7 @@ class ArcLength {
 
  private:
   NurbsCurve curve_;
-  std::vector<double> breaks_, cumulative_;
+  std::vector<double> breaks_, cumulative_, speeds_;  ///< At the borders of the subdivision.
   double total_ = 0.0;
 };
 

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "core/curve/curve_analysis.h"
+
+namespace batten {
+
+namespace {
+
+/// Local minimum of the distance within [low, high], from `start`: Newton on (R - p).R', never uphill.
+ClosestPoint descend(const NurbsCurve& curve, const Vec2& p, double start, double low, double high) {
+  double u = std::clamp(start, low, high);
+  auto d = curve.derivatives(u, 2);
+  double squared = (d[0] - p).squaredNorm();
+  const double smallest = 1e-13 * (curve.end() - curve.start());
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    const Vec2 offset = d[0] - p;
+    const double speed2 = d[1].squaredNorm();
+    const double gradient = offset.dot(d[1]);
+    double hessian = speed2 + offset.dot(d[2]);
+    if (hessian < 0.1 * speed2) hessian = speed2;
+    if (!(hessian > 0.0)) break;
+    double step = std::clamp(u - gradient / hessian, low, high) - u;
+    bool moved = false;
+    while (std::abs(step) > smallest) {
+      const auto trial = curve.derivatives(u + step, 2);
+      const double trialSquared = (trial[0] - p).squaredNorm();
+      if (trialSquared <= squared) {
+        moved = trialSquared < squared;
+        u += step;
+        d = trial;
+        squared = trialSquared;
+        break;
+      }
+      step *= 0.25;
+    }
+    if (!moved) break;
+  }
+  return {u, std::sqrt(squared), d[0]};
+}
+
+/// Sample points of a curve, fine enough that each local minimum of a distance has a start value.
+struct StartTable {
+  std::vector<double> u;
+  std::vector<Vec2> points;
+
+  explicit StartTable(const NurbsCurve& curve) {
+    const std::vector<double> breaks = curve.breaks();
+    const int perSpan = 2 * curve.degree() + 2;
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+      for (int k = 0; k < perSpan; ++k) add(curve, breaks[i] + (breaks[i + 1] - breaks[i]) * k / perSpan);
+    }
+    add(curve, curve.end());
+  }
+  void add(const NurbsCurve& curve, double at) {
+    u.push_back(at);
+    points.push_back(curve.point(at));
+  }
+};
+
+ClosestPoint closestWith(const NurbsCurve& curve, const StartTable& table, const Vec2& p) {
+  const std::size_t n = table.u.size();
+  std::vector<double> distances(n);
+  for (std::size_t i = 0; i < n; ++i) distances[i] = (table.points[i] - p).norm();
+  const std::size_t nearest =
+      static_cast<std::size_t>(std::min_element(distances.begin(), distances.end()) - distances.begin());
+  const auto refine = [&](std::size_t i) {
+    return descend(curve, p, table.u[i], table.u[i == 0 ? 0 : i - 1], table.u[std::min(i + 1, n - 1)]);
+  };
+  ClosestPoint best = refine(nearest);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i == nearest) continue;
+    const double before = i == 0 ? 0.0 : (table.points[i] - table.points[i - 1]).norm();
+    const double after = i + 1 == n ? 0.0 : (table.points[i + 1] - table.points[i]).norm();
+    const bool lowest =
+        (i == 0 || distances[i] <= distances[i - 1]) && (i + 1 == n || distances[i] <= distances[i + 1]);
+    // Within one sample step the distance changes by no more than the arc to the neighbour.
+    if (!lowest || distances[i] - 1.5 * std::max(before, after) > best.distance) continue;
+    const ClosestPoint other = refine(i);
+    if (other.distance < best.distance) best = other;
+  }
+  return best;
+}
+
+/// Follows points along a curve: the closest point of one is the start value of the next.
+class Follower {
+ public:
+  explicit Follower(const NurbsCurve& curve)
+      : curve_(curve), table_(curve), closed_(meets(curve)), window_((curve.end() - curve.start()) / 4.0) {}
+
+  ClosestPoint next(const Vec2& p) {
+    ClosestPoint found;
+    if (count_ == 0) {
+      found = closestWith(curve_, table_, p);
+    } else {
+      found = descend(curve_, p, last_.u, std::max(curve_.start(), last_.u - window_),
+                      std::min(curve_.end(), last_.u + window_));
+      if (closed_) found = acrossSeam(p, found);
+      const double possible = last_.distance + (p - lastPoint_).norm();
+      const double usual = std::sqrt(sumSquares_ / count_);
+      if (found.distance > possible * (1.0 + 1e-9) || found.distance > 3.0 * usual) {
+        const ClosestPoint anywhere = closestWith(curve_, table_, p);
+        if (anywhere.distance < found.distance) found = anywhere;
+      }
+    }
+    ++count_;
+    sumSquares_ += found.distance * found.distance;
+    last_ = found;
+    lastPoint_ = p;
+    return found;
+  }
+
+ private:
+  static bool meets(const NurbsCurve& curve) {
+    return (curve.point(curve.start()) - curve.point(curve.end())).norm() <= 1e-9 * extent(curve);
+  }
+  ClosestPoint acrossSeam(const Vec2& p, const ClosestPoint& found) const {
+    ClosestPoint other = found;
+    if (found.u >= curve_.end()) other = descend(curve_, p, curve_.start(), curve_.start(), curve_.start() + window_);
+    if (found.u <= curve_.start()) other = descend(curve_, p, curve_.end(), curve_.end() - window_, curve_.end());
+    return other.distance < found.distance ? other : found;
+  }
+
+  const NurbsCurve& curve_;
+  StartTable table_;
+  bool closed_;
+  double window_;
+  ClosestPoint last_;
+  Vec2 lastPoint_ = Vec2::Zero();
+  int count_ = 0;
+  double sumSquares_ = 0.0;
+};
+
+Deviation summary(std::span<const Vec2> points, std::vector<double> distances) {
+  Deviation result;
+  result.count = static_cast<int>(distances.size());
+  if (distances.empty()) return result;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    sum += distances[i] * distances[i];
+    if (i == 0 || distances[i] > result.max) {
+      result.max = distances[i];
+      result.worstPoint = points[i];
+    }
+  }
+  const double count = static_cast<double>(distances.size());
+  result.rms = std::sqrt(sum / count);
+  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.95 * count)) - 1;
+  std::nth_element(distances.begin(), distances.begin() + rank, distances.end());
+  result.percentile95 = distances[static_cast<std::size_t>(rank)];
+  return result;
+}
+
+}  // namespace
+
+ClosestPoint closestPoint(const NurbsCurve& curve, const Vec2& p) { return closestWith(curve, StartTable(curve), p); }
+
+Deviation deviation(const NurbsCurve& curve, std::span<const Vec2> points, bool ordered) {
+  std::vector<double> distances;
+  distances.reserve(points.size());
+  if (ordered) {
+    Follower follower(curve);
+    for (const Vec2& p : points) distances.push_back(follower.next(p).distance);
+  } else {
+    const StartTable table(curve);
+    for (const Vec2& p : points) distances.push_back(closestWith(curve, table, p).distance);
+  }
+  return summary(points, std::move(distances));
+}
+
+Deviation deviation(const NurbsCurve& a, const NurbsCurve& b) {
+  const int spans = static_cast<int>(std::max(a.breaks().size(), b.breaks().size())) - 1;
+  std::vector<Vec2> points;
+  for (const CurveSample& sample : sampleByArcLength(a, std::max(201, 10 * spans + 1))) points.push_back(sample.point);
+  return deviation(b, points, true);
+}
+
+}  // namespace batten
