@@ -81,7 +81,8 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
 Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& points);
 
 /// Largest distance of the curve from the sketched one: foot points at 12 places a span, peaks refined by a parabola.
-double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points);
+/// `bothWays` also measures the sketched curve's distance from the curve.
+double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays = false);
 
 /// What is minimised beside the fidelity: sum over the samples of squared residuals.
 struct FairingObjective {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/curve/curve_analysis.h"
 #include "core/fairing/fairing_problem.h"
@@ -12,6 +13,28 @@ constexpr int kSamplesPerSpan = 4;
 constexpr int kChecksPerSpan = 12;
 /// A derivative below this share of the mean speed counts as a cusp.
 constexpr double kCuspShare = 1e-6;
+
+/// Largest distance of points of `from` from their feet on `to`, a curve of similar course and the same basis.
+double largestDistance(const SpanCurve& from, const SpanCurve& to) {
+  const int spans = from.basis().spanCount(), count = spans * kChecksPerSpan + 1;
+  std::vector<double> distance(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const int span = std::min(i / kChecksPerSpan, spans - 1);
+    const SpanPlace place{span, static_cast<double>(i - span * kChecksPerSpan) / kChecksPerSpan};
+    const Vec2 point = from.at(place, 0)[0];
+    const SpanPlace foot = footPoint(to, point, place);
+    distance[static_cast<std::size_t>(i)] = (to.at(foot, 0)[0] - point).norm();
+  }
+  double largest = 0.0;
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    if (!std::isfinite(distance[i])) return std::numeric_limits<double>::max();
+    largest = std::max(largest, distance[i]);
+    if (i == 0 || i + 1 == distance.size()) continue;
+    const double a = distance[i - 1], b = distance[i], c = distance[i + 1], bend = a - 2.0 * b + c;
+    if (b >= a && b >= c && bend < 0.0) largest = std::max(largest, b - (a - c) * (a - c) / (8.0 * bend));
+  }
+  return largest;
+}
 
 }  // namespace
 
@@ -58,26 +81,10 @@ Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& p
   return fromPeriodic(form, setup.original);
 }
 
-double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points) {
+double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays) {
   const SpanCurve curve(setup.basis, points);
-  const int count = setup.basis.spanCount() * kChecksPerSpan + 1;
-  std::vector<double> distance(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    const int span = std::min(i / kChecksPerSpan, setup.basis.spanCount() - 1);
-    const SpanPlace place{span, static_cast<double>(i - span * kChecksPerSpan) / kChecksPerSpan};
-    const Vec2 point = curve.at(place, 0)[0];
-    const SpanPlace foot = footPoint(setup.reference, point, place);
-    distance[static_cast<std::size_t>(i)] = (setup.reference.at(foot, 0)[0] - point).norm();
-  }
-  double largest = 0.0;
-  for (std::size_t i = 0; i < distance.size(); ++i) {
-    if (!std::isfinite(distance[i])) return std::numeric_limits<double>::max();
-    largest = std::max(largest, distance[i]);
-    if (i == 0 || i + 1 == distance.size()) continue;
-    const double a = distance[i - 1], b = distance[i], c = distance[i + 1], bend = a - 2.0 * b + c;
-    if (b >= a && b >= c && bend < 0.0) largest = std::max(largest, b - (a - c) * (a - c) / (8.0 * bend));
-  }
-  return largest;
+  const double there = largestDistance(curve, setup.reference);
+  return bothWays ? std::max(there, largestDistance(setup.reference, curve)) : there;
 }
 
 std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObjective& objective,

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/fairing/fairing_problem.h"
+
+namespace batten {
+
+/// modifyShape and fairWithinTolerance on a setup that several fairings share.
+Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& profile, double toleranceMm,
+                                const RunContext& context);
+Result<FairedCurve> fairWithinTolerance(const FairingSetup& setup, double toleranceMm, const RunContext& context);
+
+/// The curve as sketched, with the reason why nothing was done.
+FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std::string note);
+
+/// The share of the way from the sketched curve to `points` that stays within the tolerance, measured both ways on the whole
+/// curve; `points` are moved there. @return the largest deviation.
+double keepWithin(const FairingSetup& setup, double toleranceMm, std::vector<Vec2>& points);
+
+/// Fills in what the report says of the curves: deviation, extrema.
+Result<FairedCurve> finished(const FairingSetup& setup, std::vector<Vec2> points, double toleranceMm, FairingReport report);
+
+}  // namespace batten

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "core/fairing/fairing_solvers.h"
+
+namespace batten {
+namespace {
+
+constexpr double kSmallestWeight = 1e-3, kLargestWeight = 1e5;
+constexpr int kSearchSteps = 9;
+/// The search for the weight ends when the deviation uses this share of the tolerance.
+constexpr double kUsedShare = 0.95;
+/// A reference curvature below this (times extent) would weigh a straight line's rounding as shape.
+constexpr double kSmallestReference = 1e-3;
+constexpr FairingLimits kFull{40, 1e-4}, kWarm{8, 1e-3}, kPolish{12, 1e-5};
+
+/// One weight of the search: solution and its deviation.
+struct Trial {
+  double weight = 0.0, deviation = 0.0;
+  FairingRun run;
+};
+
+class WeightSearch {
+ public:
+  WeightSearch(const FairingSetup& setup, const FairingObjective& objective, double toleranceMm, const RunContext& context)
+      : setup_(setup), objective_(objective), toleranceMm_(toleranceMm), context_(context) {}
+
+  /// Solves at a weight from the given control points. Absent when even the start cannot be evaluated.
+  std::optional<Trial> solve(double weight, const std::vector<Vec2>& points, const std::vector<SpanPlace>& feet,
+                             double damping, const FairingLimits& limits) {
+    const FairingCorridor corridor{weight / toleranceMm_, 0.0, 0.0};
+    auto state = evaluate(setup_, objective_, corridor, points, feet);
+    if (!state) return std::nullopt;
+    Trial trial;
+    trial.weight = weight;
+    trial.run = minimise(setup_, objective_, corridor, std::move(*state), damping, limits, context_);
+    trial.deviation = largestDeviation(setup_, trial.run.state.points);
+    iterations_ += trial.run.iterations;
+    return trial;
+  }
+  std::optional<Trial> solveFromStart(double weight, const FairingLimits& limits) {
+    return solve(weight, setup_.points, setup_.start.places, 1e-3, limits);
+  }
+  std::optional<Trial> solveFrom(const Trial& near, double weight, const FairingLimits& limits) {
+    return solve(weight, near.run.state.points, near.run.state.feet, std::min(1e-3, near.run.damping), limits);
+  }
+
+  /// The smallest weight that keeps within the tolerance, between `wide` (which does not) and infinity.
+  std::optional<Trial> search(Trial wide) {
+    double guess = std::clamp(kSmallestWeight * wide.deviation / toleranceMm_ * 10.0, 1e-2, 1.0);
+    std::optional<Trial> inside;
+    while (!inside && guess <= kLargestWeight && !context_.isCancelled()) {
+      const bool near = wide.deviation < 5.0 * toleranceMm_;
+      auto trial = near ? solveFrom(wide, guess, kWarm) : solveFromStart(guess, kWarm);
+      if (!trial) return std::nullopt;
+      if (trial->deviation <= toleranceMm_) {
+        inside = std::move(trial);
+      } else {
+        const double factor = std::clamp(2.0 * std::pow(trial->deviation / toleranceMm_, 1.5), 3.0, 100.0);
+        guess *= factor;
+        wide = std::move(*trial);
+      }
+    }
+    for (int step = 0; inside && step < kSearchSteps && !context_.isCancelled(); ++step) {
+      if (inside->deviation >= kUsedShare * toleranceMm_ || inside->weight < 1.02 * wide.weight) break;
+      const double a = std::log(wide.weight), b = std::log(inside->weight);
+      const double da = std::log(wide.deviation / toleranceMm_);
+      const double db = std::log(std::max(inside->deviation / toleranceMm_, 1e-9)) - std::log(0.5 * (1.0 + kUsedShare));
+      const double share = std::clamp(da / std::max(da - db, 1e-12), 0.1, 0.9);
+      auto trial = solveFrom(*inside, std::exp(a + share * (b - a)), kWarm);
+      if (!trial) break;
+      (trial->deviation <= toleranceMm_ ? *inside : wide) = std::move(*trial);
+    }
+    return inside;
+  }
+  int iterations() const { return iterations_; }
+
+ private:
+  const FairingSetup& setup_;
+  const FairingObjective& objective_;
+  double toleranceMm_;
+  const RunContext& context_;
+  int iterations_ = 0;
+};
+
+Result<FairingObjective> objectiveOf(const FairingSetup& setup, const TargetProfile& profile) {
+  if (!profile.valid) return fail(ErrorCode::BadParameter, profile.problem.empty() ? "No target." : profile.problem);
+  FairingObjective objective;
+  double sum = 0.0;
+  bool positive = false, negative = false;
+  for (int i = 0; i < setup.sampleCount(); ++i) {
+    const double value = profile.value(setup.fraction(i)), kappa = profile.curvatureAt(setup.fraction(i));
+    positive = positive || value > 0.0;
+    negative = negative || !(value > 0.0);
+    if (!std::isfinite(kappa)) return fail(ErrorCode::Numerical, "The target is not finite.");
+    objective.wanted.push_back(kappa);
+    sum += kappa * kappa;
+  }
+  if (profile.quantity == TargetQuantity::Radius && positive && negative) {
+    return fail(ErrorCode::Numerical, "The radius profile passes through zero: no curve can follow it.");
+  }
+  objective.reference = std::max(std::sqrt(sum / setup.sampleCount()), kSmallestReference / setup.extent);
+  return objective;
+}
+
+}  // namespace
+
+double keepWithin(const FairingSetup& setup, double toleranceMm, std::vector<Vec2>& points) {
+  const std::vector<Vec2> goal = points;
+  double share = 1.0;
+  // The deviation is all but proportional to the share, so that this ends after one or two rounds.
+  for (int round = 0; round < 60; ++round) {
+    const double deviation = largestDeviation(setup, points, true);
+    if (deviation <= toleranceMm) return deviation;
+    share *= std::clamp(0.9995 * toleranceMm / deviation, 0.01, 0.9995);
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = setup.points[i] + share * (goal[i] - setup.points[i]);
+  }
+  points = setup.points;
+  return 0.0;
+}
+
+Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& profile, double toleranceMm,
+                                const RunContext& context) {
+  const auto objective = objectiveOf(setup, profile);
+  if (!objective) return fail(objective.error());
+  FairingReport report;
+  WeightSearch search(setup, *objective, toleranceMm, context);
+  auto full = search.solveFromStart(kSmallestWeight, kFull);
+  if (context.isCancelled()) return cancelled();
+  if (!full) return unchanged(setup.original, setup.closed, Termination::Degenerate, "The curve has a cusp and was left alone.");
+  const auto before = evaluate(setup, *objective, {}, setup.points, setup.start.places);
+  report.objectiveBefore = before ? std::sqrt(before->misfit) : 0.0;
+  report.neededMm = full->deviation;
+  report.withinBudget = full->deviation <= toleranceMm;
+  std::vector<Vec2> points = setup.points;
+  if (report.withinBudget) {
+    points = full->run.state.points;
+    report.why = full->run.why;
+  } else {
+    report.why = Termination::ToleranceLimited;
+    report.note = "The profile was followed as far as the tolerance allows.";
+    if (auto inside = search.search(std::move(*full))) {
+      points = inside->run.state.points;
+      if (auto polished = search.solveFrom(*inside, inside->weight, kPolish)) points = polished->run.state.points;
+    }
+  }
+  if (context.isCancelled()) return cancelled();
+  report.iterations = search.iterations();
+  keepWithin(setup, toleranceMm, points);
+  const auto after = evaluate(setup, *objective, {}, points, setup.start.places);
+  report.objectiveAfter = after ? std::sqrt(after->misfit) : report.objectiveBefore;
+  return finished(setup, std::move(points), toleranceMm, std::move(report));
+}
+
+}  // namespace batten

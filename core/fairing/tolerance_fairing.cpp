@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "core/fairing/fairing_solvers.h"
+
+namespace batten {
+namespace {
+
+/// The barrier ends at this share of the objective: the result is at most so much from the best one.
+constexpr double kFinalGap = 1e-3;
+constexpr double kBarrierStart = 0.3, kBarrierFactor = 0.2;
+constexpr int kMaxIterations = 120;
+/// Room between the barrier's bound at the samples and the tolerance, which holds between them too.
+constexpr double kRoom = 0.998;
+/// L^3 times the integral of (dkappa/ds)^2 below which nothing is left to improve.
+constexpr double kPerfect = 1e-12;
+
+}  // namespace
+
+Result<FairedCurve> fairWithinTolerance(const FairingSetup& setup, double toleranceMm, const RunContext& context) {
+  FairingObjective objective;
+  auto state = evaluate(setup, objective, {}, setup.points, setup.start.places);
+  if (!state) {
+    return unchanged(setup.original, setup.closed, Termination::Degenerate, "The curve has a cusp and was left alone.");
+  }
+  FairingReport report;
+  report.objectiveBefore = report.objectiveAfter = state->misfit;
+  const double length = setup.start.length;
+  if (!(state->misfit * length * length * length > kPerfect)) {
+    return finished(setup, setup.points, toleranceMm, [&] {
+      report.why = Termination::FixedPoint;
+      return report;
+    }());
+  }
+  objective.reference = std::sqrt(state->misfit);
+  FairingCorridor corridor{0.0, kBarrierStart, kRoom * toleranceMm};
+  double damping = 1e-3;
+  report.why = Termination::IterationLimit;
+  while (report.iterations < kMaxIterations) {
+    auto next = evaluate(setup, objective, corridor, state->points, state->feet);
+    if (!next) break;
+    const bool last = corridor.barrier <= kFinalGap * next->misfit;
+    const FairingLimits limits = last ? FairingLimits{20, 1e-5} : FairingLimits{4, 1e-2};
+    FairingRun run = minimise(setup, objective, corridor, std::move(*next), damping, limits, context);
+    if (context.isCancelled()) return cancelled();
+    report.iterations += std::max(run.iterations, 1);
+    damping = std::min(run.damping, 1e-3);
+    state = std::move(run.state);
+    if (last) {
+      report.why = run.why;
+      break;
+    }
+    corridor.barrier *= kBarrierFactor;
+  }
+  std::vector<Vec2> points = state->points;
+  const double deviation = keepWithin(setup, toleranceMm, points);
+  const auto after = evaluate(setup, objective, {}, points, setup.start.places);
+  if (after) report.objectiveAfter = after->misfit * report.objectiveBefore;
+  if (report.objectiveAfter > report.objectiveBefore) points = setup.points;
+  report.objectiveAfter = std::min(report.objectiveAfter, report.objectiveBefore);
+  if (deviation > 0.9 * toleranceMm && report.why != Termination::IterationLimit) {
+    report.why = Termination::ToleranceLimited;
+  }
+  return finished(setup, std::move(points), toleranceMm, std::move(report));
+}
+
+}  // namespace batten
