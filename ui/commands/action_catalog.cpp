@@ -27,7 +27,8 @@ std::vector<ActionInfo> fileActions() {
        tr("Use the saved settings, corners and choices of another session on this drawing.")},
       {SaveRecipe, "save-recipe", menu, tr("Save recipe…"), keys({"Ctrl+S"}),
        tr("Save all settings, corners and choices, for this program or batten-cli.")},
-      {Export, "export", menu, tr("Export…"), keys({"Ctrl+E"}), tr("Write the curves as SVG or curve JSON, with their size in mm.")},
+      {Export, "export", menu, tr("Export…"), keys({"Ctrl+E"}),
+       tr("Write the curves as SVG or curve JSON, with their size in mm.")},
       {Quit, "quit", menu, tr("Quit"), keys({"Ctrl+Q"}), tr("Close the program.")},
   };
 }
@@ -37,7 +38,8 @@ std::vector<ActionInfo> editActions() {
   const auto menu = ActionMenu::Edit;
   return {
       {Undo, "undo", menu, tr("Undo"), keys({"Ctrl+Z"}), tr("Take the last change back.")},
-      {Redo, "redo", menu, tr("Redo"), keys({"Ctrl+Shift+Z", "Ctrl+Y"}), tr("Make the change that was taken back again.")},
+      {Redo, "redo", menu, tr("Redo"), keys({"Ctrl+Shift+Z", "Ctrl+Y"}),
+       tr("Make the change that was taken back again.")},
       {CancelWork, "cancel", menu, tr("Stop working"), keys({"Esc"}),
        tr("Stop the running computation; what is ready stays.")},
       {FindAction, "find-action", menu, tr("Find an action…"), keys({"Ctrl+Shift+P"}),
@@ -50,18 +52,24 @@ std::vector<ActionInfo> viewActions() {
   const auto menu = ActionMenu::View;
   return {
       {ZoomFit, "zoom-fit", menu, tr("Fit"), keys({"0"}), tr("Show the whole drawing.")},
-      {ZoomActual, "zoom-actual", menu, tr("Actual pixels"), keys({"Ctrl+1"}), tr("One scan pixel is one screen pixel.")},
-      {ZoomIn, "zoom-in", menu, tr("Zoom in"), keys({"+", "=", "Ctrl++", "Ctrl+="}), tr("Come closer; the wheel zooms at the cursor.")},
-      {ZoomOut, "zoom-out", menu, tr("Zoom out"), keys({"-", "Ctrl+-"}), tr("Step back; the wheel zooms at the cursor.")},
+      {ZoomActual, "zoom-actual", menu, tr("Actual pixels"), keys({"Ctrl+1"}),
+       tr("One scan pixel is one screen pixel.")},
+      {ZoomIn, "zoom-in", menu, tr("Zoom in"), keys({"+", "=", "Ctrl++", "Ctrl+="}),
+       tr("Come closer; the wheel zooms at the cursor.")},
+      {ZoomOut, "zoom-out", menu, tr("Zoom out"), keys({"-", "Ctrl+-"}),
+       tr("Step back; the wheel zooms at the cursor.")},
       {Compare, "compare", menu, tr("Compare"), keys({"\\"}), tr("Hold to see the scan alone."), true, true},
       {ShowScan, "show-scan", menu, tr("Scan"), keys({"Alt+1"}), tr("Show the scan."), true},
-      {ShowLogImage, "show-log-image", menu, tr("Log image"), keys({"Alt+2"}), tr("Show the scan after the log transform."), true},
+      {ShowLogImage, "show-log-image", menu, tr("Log image"), keys({"Alt+2"}),
+       tr("Show the scan after the log transform."), true},
       {ShowMask, "show-mask", menu, tr("Mask"), keys({"Alt+3"}), tr("Show what counts as ink."), true},
       {ShowEdges, "show-edges", menu, tr("Edges"), keys({"Alt+4"}), tr("Show the pixels where ink meets paper."), true},
       {ShowSegments, "show-segments", menu, tr("Segments"), keys({"Alt+5"}), tr("Show the regression segments."), true},
-      {ShowCurve, "show-curve", menu, tr("Sketched curve"), keys({"Alt+6"}), tr("Show the curve as it was drawn."), true},
+      {ShowCurve, "show-curve", menu, tr("Sketched curve"), keys({"Alt+6"}), tr("Show the curve as it was drawn."),
+       true},
       {ShowFaired, "show-faired", menu, tr("Faired curve"), keys({"Alt+7"}), tr("Show the faired curve."), true},
-      {ShowComb, "show-comb", menu, tr("Curvature comb"), keys({"Alt+8", "C"}), tr("Show the curvature as quills along the curve."), true},
+      {ShowComb, "show-comb", menu, tr("Curvature comb"), keys({"Alt+8", "C"}),
+       tr("Show the curvature as quills along the curve."), true},
       {ShowCorners, "show-corners", menu, tr("Corners"), keys({"Alt+9"}), tr("Show marked corners."), true},
       {ShowRegions, "show-regions", menu, tr("Regions"), keys({"Alt+0"}), tr("Show the 64 threshold regions."), true},
       {ShowDeviation, "show-deviation", menu, tr("Deviation"), keys({"Alt+D"}),
@@ -73,7 +81,8 @@ std::vector<ActionInfo> toolActions() {
   using enum ActionId;
   const auto menu = ActionMenu::Tools;
   return {
-      {ToolSelect, "tool-select", menu, tr("Select curves"), keys({"V"}), tr("Click a curve to see its figures and targets."), true},
+      {ToolSelect, "tool-select", menu, tr("Select curves"), keys({"V"}),
+       tr("Click a curve to see its figures and targets."), true},
       {ToolThresholds, "tool-thresholds", menu, tr("Edit thresholds"), keys({"T"}),
        tr("Click a region, then turn the wheel or drag up and down to change its threshold."), true},
       {ToolCorners, "tool-corners", menu, tr("Mark corners"), keys({"K"}),
@@ -85,12 +94,18 @@ std::vector<ActionInfo> fairingActions() {
   using enum ActionId;
   const auto menu = ActionMenu::Fairing;
   return {
-      {Target1, "target-1", menu, tr("Target 1, linear"), keys({"1"}), tr("Fair the selected curve towards a linear profile.")},
-      {Target2, "target-2", menu, tr("Target 2, quadratic"), keys({"2"}), tr("Fair the selected curve towards a quadratic profile.")},
-      {Target3, "target-3", menu, tr("Target 3, cubic"), keys({"3"}), tr("Fair the selected curve towards a cubic profile.")},
-      {Target4, "target-4", menu, tr("Target 4, quartic"), keys({"4"}), tr("Fair the selected curve towards a quartic profile.")},
-      {Target5, "target-5", menu, tr("Target 5, quintic"), keys({"5"}), tr("Fair the selected curve towards a quintic profile.")},
-      {Target6, "target-6", menu, tr("Target 6, sextic"), keys({"6"}), tr("Fair the selected curve towards a sextic profile.")},
+      {Target1, "target-1", menu, tr("Target 1, linear"), keys({"1"}),
+       tr("Fair the selected curve towards a linear profile.")},
+      {Target2, "target-2", menu, tr("Target 2, quadratic"), keys({"2"}),
+       tr("Fair the selected curve towards a quadratic profile.")},
+      {Target3, "target-3", menu, tr("Target 3, cubic"), keys({"3"}),
+       tr("Fair the selected curve towards a cubic profile.")},
+      {Target4, "target-4", menu, tr("Target 4, quartic"), keys({"4"}),
+       tr("Fair the selected curve towards a quartic profile.")},
+      {Target5, "target-5", menu, tr("Target 5, quintic"), keys({"5"}),
+       tr("Fair the selected curve towards a quintic profile.")},
+      {Target6, "target-6", menu, tr("Target 6, sextic"), keys({"6"}),
+       tr("Fair the selected curve towards a sextic profile.")},
   };
 }
 
@@ -111,11 +126,16 @@ std::optional<int> offset(ActionId id, ActionId first, ActionId last) {
 
 QString label(ActionMenu menu) {
   switch (menu) {
-    case ActionMenu::File: return tr("File");
-    case ActionMenu::Edit: return tr("Edit");
-    case ActionMenu::View: return tr("View");
-    case ActionMenu::Tools: return tr("Tools");
-    case ActionMenu::Fairing: return tr("Fairing");
+    case ActionMenu::File:
+      return tr("File");
+    case ActionMenu::Edit:
+      return tr("Edit");
+    case ActionMenu::View:
+      return tr("View");
+    case ActionMenu::Tools:
+      return tr("Tools");
+    case ActionMenu::Fairing:
+      return tr("Fairing");
   }
   return {};
 }
@@ -127,7 +147,8 @@ std::span<const ActionInfo> actionCatalog() {
 
 const ActionInfo& actionInfo(ActionId id) {
   const auto catalog = actionCatalog();
-  const auto found = std::find_if(catalog.begin(), catalog.end(), [id](const ActionInfo& info) { return info.id == id; });
+  const auto found =
+      std::find_if(catalog.begin(), catalog.end(), [id](const ActionInfo& info) { return info.id == id; });
   assert(found != catalog.end());
   return *found;
 }
@@ -139,8 +160,10 @@ QAction* makeAction(ActionId id, QObject* parent) {
   if (!info.isHeld) action->setShortcuts(info.shortcuts);
   action->setCheckable(info.isCheckable);
   action->setStatusTip(info.help);
-  const QString shortcut = info.shortcuts.isEmpty() ? QString() : info.shortcuts.first().toString(QKeySequence::NativeText);
-  action->setToolTip(shortcut.isEmpty() ? info.help : info.help + QStringLiteral("  (") + shortcut + QStringLiteral(")"));
+  const QString shortcut =
+      info.shortcuts.isEmpty() ? QString() : info.shortcuts.first().toString(QKeySequence::NativeText);
+  action->setToolTip(shortcut.isEmpty() ? info.help
+                                        : info.help + QStringLiteral("  (") + shortcut + QStringLiteral(")"));
   return action;
 }
 
@@ -152,10 +175,14 @@ std::optional<Layer> layerOf(ActionId id) {
 
 std::optional<Tool> toolOf(ActionId id) {
   switch (id) {
-    case ActionId::ToolSelect: return Tool::Select;
-    case ActionId::ToolThresholds: return Tool::Thresholds;
-    case ActionId::ToolCorners: return Tool::Corners;
-    default: return std::nullopt;
+    case ActionId::ToolSelect:
+      return Tool::Select;
+    case ActionId::ToolThresholds:
+      return Tool::Thresholds;
+    case ActionId::ToolCorners:
+      return Tool::Corners;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -172,9 +199,12 @@ ActionId showAction(Layer layer) {
 
 ActionId toolAction(Tool tool) {
   switch (tool) {
-    case Tool::Select: return ActionId::ToolSelect;
-    case Tool::Thresholds: return ActionId::ToolThresholds;
-    case Tool::Corners: return ActionId::ToolCorners;
+    case Tool::Select:
+      return ActionId::ToolSelect;
+    case Tool::Thresholds:
+      return ActionId::ToolThresholds;
+    case Tool::Corners:
+      return ActionId::ToolCorners;
   }
   return ActionId::ToolSelect;
 }

@@ -17,13 +17,40 @@ namespace batten {
 /// Everything the window can do. Menus, the action finder and the shortcut list are built from the catalog, so that no
 /// two of them can disagree.
 enum class ActionId {
-  OpenScan, OpenRecipe, SaveRecipe, Export, Quit,
-  Undo, Redo, CancelWork, FindAction,
-  ZoomFit, ZoomActual, ZoomIn, ZoomOut, Compare,
-  ShowScan, ShowLogImage, ShowMask, ShowEdges, ShowSegments, ShowCurve, ShowFaired, ShowComb, ShowCorners, ShowRegions,
+  OpenScan,
+  OpenRecipe,
+  SaveRecipe,
+  Export,
+  Quit,
+  Undo,
+  Redo,
+  CancelWork,
+  FindAction,
+  ZoomFit,
+  ZoomActual,
+  ZoomIn,
+  ZoomOut,
+  Compare,
+  ShowScan,
+  ShowLogImage,
+  ShowMask,
+  ShowEdges,
+  ShowSegments,
+  ShowCurve,
+  ShowFaired,
+  ShowComb,
+  ShowCorners,
+  ShowRegions,
   ShowDeviation,
-  ToolSelect, ToolThresholds, ToolCorners,
-  Target1, Target2, Target3, Target4, Target5, Target6,
+  ToolSelect,
+  ToolThresholds,
+  ToolCorners,
+  Target1,
+  Target2,
+  Target3,
+  Target4,
+  Target5,
+  Target6,
 };
 
 enum class ActionMenu { File, Edit, View, Tools, Fairing };
@@ -31,13 +58,13 @@ QString label(ActionMenu);
 
 struct ActionInfo {
   ActionId id;
-  const char* name;                ///< "open-scan": stable, for tests and object names.
+  const char* name;  ///< "open-scan": stable, for tests and object names.
   ActionMenu menu;
   QString text;
-  QList<QKeySequence> shortcuts;   ///< The first is the one shown.
-  QString help;                    ///< One line: tooltip, status tip and what the finder searches.
+  QList<QKeySequence> shortcuts;  ///< The first is the one shown.
+  QString help;                   ///< One line: tooltip, status tip and what the finder searches.
   bool isCheckable = false;
-  bool isHeld = false;             ///< Acts while its key is down: no QAction shortcut, the canvas sees the key itself.
+  bool isHeld = false;  ///< Acts while its key is down: no QAction shortcut, the canvas sees the key itself.
 };
 
 /// All actions in the order of the menus. Built once.
@@ -46,7 +73,8 @@ const ActionInfo& actionInfo(ActionId);
 /// An action with text, shortcuts, help and object name from the catalog. Held actions get no live shortcut.
 QAction* makeAction(ActionId, QObject* parent);
 
-/// The layer that a Show… action switches, the tool that a Tool… action chooses, the degree 1..6 that a Target… chooses.
+/// The layer that a Show… action switches, the tool that a Tool… action chooses, the degree 1..6 that a Target…
+/// chooses.
 std::optional<Layer> layerOf(ActionId);
 std::optional<Tool> toolOf(ActionId);
 std::optional<int> targetOf(ActionId);

@@ -19,18 +19,15 @@ BackgroundWorker::~BackgroundWorker() {
   thread_.join();
 }
 
-void BackgroundWorker::start(Job job, Running running) {
+CancelToken BackgroundWorker::start(Job job, Running running) {
+  const CancelToken token;
   {
     const std::scoped_lock lock(mutex_);
-    next_ = std::move(job);
+    next_ = Waiting{std::move(job), token};
     if (running == Running::Cancel && running_) running_->cancel();
   }
   wake_.notify_one();
-}
-
-void BackgroundWorker::cancelRunning() {
-  const std::scoped_lock lock(mutex_);
-  if (running_) running_->cancel();
+  return token;
 }
 
 void BackgroundWorker::cancelAll() {
@@ -44,17 +41,16 @@ void BackgroundWorker::loop() {
   while (true) {
     wake_.wait(lock, [this] { return quit_ || next_.has_value(); });
     if (quit_) return;
-    Job job = std::move(*next_);
+    Waiting current = std::move(*next_);
     next_.reset();
-    const CancelToken token;
-    running_ = token;
+    running_ = current.token;
     lock.unlock();
     try {
-      job(token);
+      current.job(current.token);
     } catch (const std::exception&) {
       // The job's own business; the thread has to survive.
     }
-    job = nullptr;  // What it captured may be large and is freed outside the lock.
+    current.job = nullptr;  // What it captured may be large and is freed outside the lock.
     lock.lock();
     running_.reset();
   }

@@ -23,11 +23,9 @@ class BackgroundWorker {
   BackgroundWorker& operator=(const BackgroundWorker&) = delete;
 
   enum class Running { Cancel, Finish };
-  /// Runs `job` as soon as the thread is free. `running` says whether a job in progress is told to stop. Exceptions that
-  /// leave a job are dropped: a job reports its own failures.
-  void start(Job job, Running running = Running::Cancel);
-  /// Tells the running job to stop; one that waits is kept.
-  void cancelRunning();
+  /// Runs `job` as soon as the thread is free, with the token returned here. `running` says whether a job in progress
+  /// is told to stop. Exceptions that leave a job are dropped: a job reports its own failures.
+  CancelToken start(Job job, Running running = Running::Cancel);
   /// Tells the running job to stop and drops the one that waits.
   void cancelAll();
 
@@ -36,7 +34,11 @@ class BackgroundWorker {
 
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::optional<Job> next_;
+  struct Waiting {
+    Job job;
+    CancelToken token;
+  };
+  std::optional<Waiting> next_;
   std::optional<CancelToken> running_;
   bool quit_ = false;
   std::thread thread_;

@@ -7,6 +7,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "core/pipeline/pipeline.h"
 #include "core/pipeline/recipe.h"
@@ -38,6 +39,12 @@ class EditorSession : public QObject {
 
   /// Outputs of the newest run that has got that far; parts may still be from the run before (see isStale).
   const PipelineOutput& output() const { return output_; }
+  /// The curves to show, which selectedCurve() counts: the faired set, or the constructed one while there is none.
+  std::span<const TracedCurve> curves() const;
+  /// The selected one of curves(), or null.
+  const TracedCurve* selected() const;
+  /// The edges layer is only computed while someone looks at it (off at the start).
+  void setEdgesWanted(bool);
   /// True while a stage's shown output does not belong to the present recipe yet.
   bool isStale(StageId) const;
   bool isBusy() const;

@@ -10,17 +10,28 @@ namespace batten {
 
 QString label(Layer layer) {
   switch (layer) {
-    case Layer::Scan: return QObject::tr("Scan");
-    case Layer::LogImage: return QObject::tr("Log image");
-    case Layer::Mask: return QObject::tr("Mask");
-    case Layer::Edges: return QObject::tr("Edges");
-    case Layer::Segments: return QObject::tr("Segments");
-    case Layer::Curve: return QObject::tr("Curve");
-    case Layer::Faired: return QObject::tr("Faired");
-    case Layer::Comb: return QObject::tr("Comb");
-    case Layer::Corners: return QObject::tr("Corners");
-    case Layer::Regions: return QObject::tr("Regions");
-    case Layer::Deviation: return QObject::tr("Deviation");
+    case Layer::Scan:
+      return QObject::tr("Scan");
+    case Layer::LogImage:
+      return QObject::tr("Log image");
+    case Layer::Mask:
+      return QObject::tr("Mask");
+    case Layer::Edges:
+      return QObject::tr("Edges");
+    case Layer::Segments:
+      return QObject::tr("Segments");
+    case Layer::Curve:
+      return QObject::tr("Curve");
+    case Layer::Faired:
+      return QObject::tr("Faired");
+    case Layer::Comb:
+      return QObject::tr("Comb");
+    case Layer::Corners:
+      return QObject::tr("Corners");
+    case Layer::Regions:
+      return QObject::tr("Regions");
+    case Layer::Deviation:
+      return QObject::tr("Deviation");
   }
   return {};
 }

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/session/editor_session.h"
+
+#include <cmath>
+#include <utility>
+
+#include "ui/session/change_recipe.h"
+#include "ui/session/session_runner.h"
+
+namespace batten {
+
+EditorSession::EditorSession(QObject* parent) : QObject(parent), runner_(std::make_unique<Runner>(*this)) {}
+
+EditorSession::~EditorSession() {
+  // Told to stop together, then joined one by one: quitting takes as long as the slowest, not as the sum.
+  runner_->pipeline.cancelAll();
+  runner_->reader.cancelAll();
+  runner_->targeting.cancelAll();
+}
+
+void EditorSession::openScan(const QString& path) { runner_->read(path); }
+
+QString EditorSession::scanPath() const { return runner_->path; }
+
+void EditorSession::change(const QString& what, Recipe after, int gesture) {
+  if (after == recipe_) return;
+  undo_.push(new ChangeRecipe(*this, what, recipe_, std::move(after), gesture));
+}
+
+void EditorSession::setRecipe(const Recipe& recipe) {
+  if (recipe == recipe_) return;
+  recipe_ = recipe;
+  ++runner_->recipeGeneration;
+  emit recipeChanged();
+  runner_->run();
+}
+
+std::span<const TracedCurve> EditorSession::curves() const {
+  if (output_.faired) return output_.faired->curves;
+  if (output_.constructed) return output_.constructed->curves;
+  return {};
+}
+
+const TracedCurve* EditorSession::selected() const {
+  const auto all = curves();
+  if (selectedCurve_ < 0 || static_cast<std::size_t>(selectedCurve_) >= all.size()) return nullptr;
+  return &all[static_cast<std::size_t>(selectedCurve_)];
+}
+
+void EditorSession::setEdgesWanted(bool wanted) {
+  if (runner_->edgesWanted == wanted) return;
+  runner_->edgesWanted = wanted;
+  if (wanted && !(output_.edges && !isStale(StageId::Edges))) runner_->run();
+}
+
+bool EditorSession::isStale(StageId stage) const {
+  return runner_->shownGeneration[static_cast<std::size_t>(stage)] != runner_->recipeGeneration;
+}
+
+bool EditorSession::isBusy() const { return runner_->isRunning || runner_->isReading; }
+
+void EditorSession::cancel() { runner_->stopAll(); }
+
+void EditorSession::selectCurve(int index) {
+  if (index < 0 || static_cast<std::size_t>(index) >= curves().size()) index = -1;
+  runner_->selectsItself = false;
+  runner_->anchorPx.reset();
+  if (index >= 0 && output_.pieces) {
+    const auto piece = static_cast<std::size_t>(curves()[static_cast<std::size_t>(index)].piece);
+    if (piece < output_.pieces->pieces.size()) runner_->anchorPx = anchorOf(output_.pieces->pieces[piece]);
+  }
+  if (index == selectedCurve_) return;
+  selectedCurve_ = index;
+  setCursor(std::nullopt);
+  targets_.reset();
+  emit selectionChanged();
+  emit targetsChanged();
+  runner_->computeTargets();
+}
+
+void EditorSession::hoverTarget(int degree) {
+  const int bounded = degree < 1 || degree > 6 ? 0 : degree;
+  if (bounded == hoveredTarget_) return;
+  hoveredTarget_ = bounded;
+  emit hoverChanged();
+}
+
+void EditorSession::setCursor(std::optional<double> sMm) {
+  if (sMm && !std::isfinite(*sMm)) sMm.reset();
+  if (sMm == cursorMm_) return;
+  cursorMm_ = sMm;
+  emit cursorChanged();
+}
+
+}  // namespace batten

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/session/session_runner.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <new>
+#include <utility>
+
+#include "core/image/scan_reader.h"
+
+namespace batten {
+namespace {
+
+std::size_t indexOf(StageId stage) { return static_cast<std::size_t>(stage); }
+
+/// Runs `body` and turns what it throws into an error, so that no worker dies of a missing allocation.
+template <class T, class F>
+Result<T> guarded(F&& body) {
+  try {
+    return body();
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "There is not enough memory for this drawing; scan it at a lower resolution.");
+  } catch (const std::exception& e) {
+    return fail(ErrorCode::Numerical, "The computation failed; take the last change back.", e.what());
+  }
+}
+
+/// Puts the outputs up to `last` of a run over the shown ones; later stages keep what they have.
+void mergeOutputs(PipelineOutput& shown, const PipelineOutput& run, StageId last) {
+  const auto take = [last](StageId stage, auto& to, const auto& from) {
+    if (stage <= last) to = from;
+  };
+  take(StageId::Thresholds, shown.thresholds, run.thresholds);
+  take(StageId::Binary, shown.binary, run.binary);
+  take(StageId::Filtered, shown.filtered, run.filtered);
+  take(StageId::Edges, shown.edges, run.edges);
+  take(StageId::Contours, shown.contours, run.contours);
+  take(StageId::Pieces, shown.pieces, run.pieces);
+  take(StageId::Segments, shown.segments, run.segments);
+  take(StageId::Curves, shown.constructed, run.constructed);
+  take(StageId::Faired, shown.faired, run.faired);
+  if (shown.frame != run.frame) {
+    // Curves in millimetres of another frame would be drawn at the wrong place.
+    if (last < StageId::Curves) shown.constructed.reset();
+    if (last < StageId::Faired) shown.faired.reset();
+    shown.frame = run.frame;
+  }
+  shown.timing = run.timing;
+  shown.error = run.error;
+  shown.failedStage = run.failedStage;
+}
+
+double squaredDistance(const Piece& piece, const Vec2& place) {
+  double best = std::numeric_limits<double>::infinity();
+  for (const Vec2& point : piece.points) best = std::min(best, (point - place).squaredNorm());
+  return best;
+}
+
+}  // namespace
+
+EditorSession::Runner::Runner(EditorSession& owner) : session(owner) {
+  clock.start();
+  grace.setSingleShot(true);
+  QObject::connect(&grace, &QTimer::timeout, &inbox, [this] { stopOvertaken(); });
+}
+
+void EditorSession::Runner::read(const QString& scanPath) {
+  const auto id = ++newestRead;
+  isReading = true;
+  reader.start([this, id, scanPath](const CancelToken& token) {
+    RunContext context;
+    context.cancel = token;
+    auto result = std::make_shared<Result<Scan>>(guarded<Scan>(
+        [&] { return readScan(std::filesystem::path(scanPath.toStdU16String()), ScanLimits{}, context); }));
+    QMetaObject::invokeMethod(
+        &inbox, [this, id, scanPath, result] { applyScan(id, scanPath, result); }, Qt::QueuedConnection);
+  });
+  updateBusy();
+}
+
+void EditorSession::Runner::applyScan(std::uint64_t id, const QString& scanPath, std::shared_ptr<Result<Scan>> result) {
+  if (id != newestRead) return;
+  isReading = false;
+  if (!result->has_value()) {
+    if (result->error().code != ErrorCode::Cancelled) fail(QString::fromStdString(result->error().message));
+    updateBusy();
+    return;
+  }
+  pipeline.cancelAll();
+  targeting.cancelAll();
+  ++newestTargets;
+  session.scan_ = std::make_shared<const Scan>(std::move(**result));
+  path = scanPath;
+  cache.clear();
+  session.output_ = PipelineOutput{};
+  session.output_.frame = frameFor(*session.scan_, Recipe{});
+  session.recipe_ = Recipe{};
+  session.selectedCurve_ = -1;
+  session.targets_.reset();
+  session.cursorMm_.reset();
+  session.hoveredTarget_ = 0;
+  targetsCurve.reset();
+  anchorPx.reset();
+  selectsItself = true;
+  shownGeneration.fill(0);
+  ++recipeGeneration;
+  session.undo_.clear();
+  clearFailure();
+  emit session.scanOpened();
+  emit session.recipeChanged();
+  emit session.selectionChanged();
+  emit session.targetsChanged();
+  emit session.cursorChanged();
+  run();
+}
+
+void EditorSession::Runner::run() {
+  if (!session.scan_) return;
+  const auto runId = ++newestRun;
+  isRunning = true;
+  const qint64 started = startedMs.load();
+  const bool spare = started >= 0 && clock.elapsed() - started < kGraceMs;
+  overtaken.push_back(newestToken);
+  auto job = [this, runId, generation = recipeGeneration, scan = session.scan_, recipe = session.recipe_,
+              edges = edgesWanted](const CancelToken& token) {
+    const qint64 begin = clock.elapsed();
+    startedMs = begin;
+    RunContext context;
+    context.cancel = token;
+    std::atomic<int> stagesDone{0}, lastPercent{-1};
+    context.progress = [&, this](double fraction) {
+      const int percent = static_cast<int>(100.0 * (stagesDone + std::clamp(fraction, 0.0, 1.0)) / kStages.size());
+      if (lastPercent.exchange(percent) == percent) return;
+      QMetaObject::invokeMethod(
+          &inbox,
+          [this, runId, percent] {
+            if (runId == newestRun && isRunning) emit session.progress(percent / 100.0);
+          },
+          Qt::QueuedConnection);
+    };
+    PipelineRequest request;
+    request.needEdges = edges;
+    request.stageReady = [&, this](StageId stage, const PipelineOutput& soFar) {
+      stagesDone = static_cast<int>(stage) + 1;
+      if (token.isCancelled()) return;
+      QMetaObject::invokeMethod(
+          &inbox, [this, scan, generation, stage, soFar] { applyStage(scan, generation, stage, soFar); },
+          Qt::QueuedConnection);
+    };
+    PipelineOutput output;
+    if (auto done = guarded<PipelineOutput>(
+            [&] { return Result<PipelineOutput>(runPipeline(*scan, recipe, cache, request, context)); }))
+      output = std::move(*done);
+    else
+      output.error = done.error();
+    const double milliseconds = static_cast<double>(clock.elapsed() - begin);
+    startedMs = -1;
+    QMetaObject::invokeMethod(
+        &inbox,
+        [this, scan, generation, runId, output, milliseconds] {
+          applyEnd(scan, generation, runId, output, milliseconds);
+        },
+        Qt::QueuedConnection);
+  };
+  newestToken = pipeline.start(std::move(job), BackgroundWorker::Running::Finish);
+  if (!spare)
+    stopOvertaken();
+  else if (!grace.isActive())
+    grace.start(static_cast<int>(kGraceMs - (clock.elapsed() - started)));
+  updateBusy();
+}
+
+void EditorSession::Runner::stopOvertaken() {
+  const qint64 started = startedMs.load();
+  const qint64 elapsed = clock.elapsed() - started;
+  if (started >= 0 && elapsed < kGraceMs) {
+    grace.start(static_cast<int>(kGraceMs - elapsed));
+    return;
+  }
+  for (const CancelToken& token : overtaken) token.cancel();
+  overtaken.clear();
+}
+
+void EditorSession::Runner::applyStage(const std::shared_ptr<const Scan>& scan, std::uint64_t generation, StageId stage,
+                                       const PipelineOutput& soFar) {
+  if (scan != session.scan_) return;
+  mergeOutputs(session.output_, soFar, stage);
+  for (const StageId done : kStages)
+    if (done <= stage) shownGeneration[indexOf(done)] = generation;
+  if (stage == StageId::Faired || (stage == StageId::Curves && !session.output_.faired)) curvesChanged();
+  emit session.stageReady(stage);
+}
+
+void EditorSession::Runner::applyEnd(const std::shared_ptr<const Scan>& scan, std::uint64_t generation,
+                                     std::uint64_t runId, const PipelineOutput& output, double milliseconds) {
+  if (scan != session.scan_) return;
+  const bool wasCancelled = output.error && output.error->code == ErrorCode::Cancelled;
+  if (!wasCancelled) {
+    session.lastRunMs_ = milliseconds;
+    mergeOutputs(session.output_, output, StageId::Faired);
+    shownGeneration.fill(generation);
+    if (output.error) {
+      // What lies beyond the failure does not belong to this recipe: show none rather than the old.
+      curvesChanged();
+      for (const StageId stage : kStages)
+        if (!output.failedStage || stage >= *output.failedStage) emit session.stageReady(stage);
+    }
+  }
+  if (runId != newestRun) return;
+  isRunning = false;
+  overtaken.clear();
+  if (!wasCancelled) {
+    if (output.error)
+      fail(QString::fromStdString(output.error->message));
+    else
+      clearFailure();
+  }
+  updateBusy();
+  emit session.runFinished();
+}
+
+void EditorSession::Runner::curvesChanged() {
+  const auto curves = session.curves();
+  const int before = session.selectedCurve_;
+  int index = -1;
+  if (selectsItself) {
+    double longest = -1.0;
+    for (std::size_t i = 0; i < curves.size(); ++i)
+      if (curves[i].included && curves[i].sketchedFigures.lengthMm > longest) {
+        longest = curves[i].sketchedFigures.lengthMm;
+        index = static_cast<int>(i);
+      }
+  } else if (anchorPx && session.output_.pieces) {
+    const auto& pieces = session.output_.pieces->pieces;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      const auto piece = static_cast<std::size_t>(curves[i].piece);
+      if (piece >= pieces.size()) continue;
+      const double distance = squaredDistance(pieces[piece], *anchorPx);
+      if (distance < nearest) nearest = distance, index = static_cast<int>(i);
+    }
+  }
+  session.selectedCurve_ = index;
+  if (index != before) emit session.selectionChanged();
+  computeTargets();
+}
+
+void EditorSession::Runner::computeTargets() {
+  const TracedCurve* curve = session.selected();
+  if (curve == nullptr || curve->sketched.isEmpty()) {
+    targeting.cancelAll();
+    ++newestTargets;
+    targetsCurve.reset();
+    if (session.targets_) {
+      session.targets_.reset();
+      emit session.targetsChanged();
+    }
+    return;
+  }
+  // The chosen mode and target do not change the six outcomes.
+  FairingParams params = curve->fairingUsed;
+  params.mode = FairingMode::None;
+  params.target = 0;
+  if (targetsCurve && *targetsCurve == curve->sketched && targetsParams == params) return;
+  targetsCurve = curve->sketched;
+  targetsParams = params;
+  const auto id = ++newestTargets;
+  targeting.start([this, id, job = *curve](const CancelToken& token) {
+    RunContext context;
+    context.cancel = token;
+    auto result = guarded<TargetOutcomes>([&] { return targetsFor(job, context); });
+    if (!result && result.error().code == ErrorCode::Cancelled) return;
+    std::shared_ptr<const TargetOutcomes> outcomes;
+    if (result) outcomes = std::make_shared<const TargetOutcomes>(std::move(*result));
+    QMetaObject::invokeMethod(
+        &inbox, [this, id, outcomes] { applyTargets(id, outcomes); }, Qt::QueuedConnection);
+  });
+}
+
+void EditorSession::Runner::applyTargets(std::uint64_t id, std::shared_ptr<const TargetOutcomes> outcomes) {
+  if (id != newestTargets) return;
+  session.targets_ = std::move(outcomes);
+  emit session.targetsChanged();
+}
+
+void EditorSession::Runner::stopAll() {
+  pipeline.cancelAll();
+  reader.cancelAll();
+  overtaken.clear();
+  ++newestRead;
+  const bool ran = isRunning;
+  if (ran) ++newestRun;  // What a stopped run still reports is no longer the newest.
+  isRunning = isReading = false;
+  updateBusy();
+  if (ran) emit session.runFinished();
+}
+
+void EditorSession::Runner::updateBusy() {
+  const bool busy = isRunning || isReading;
+  if (busy == wasBusy) return;
+  wasBusy = busy;
+  emit session.busyChanged(busy);
+}
+
+void EditorSession::Runner::fail(const QString& message) {
+  hasFailure = true;
+  emit session.failed(message.simplified());
+}
+
+void EditorSession::Runner::clearFailure() {
+  if (!hasFailure) return;
+  hasFailure = false;
+  emit session.failureCleared();
+}
+
+}  // namespace batten

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QElapsedTimer>
+#include <QTimer>
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "ui/session/background_worker.h"
+#include "ui/session/editor_session.h"
+
+namespace batten {
+
+/// The background side of a session. Jobs hold values only (scan, recipe, the shared cache) and post their results to
+/// `inbox`, which lives in the GUI thread; everything else here belongs to the GUI thread.
+struct EditorSession::Runner {
+  explicit Runner(EditorSession&);
+
+  void read(const QString& path);
+  void run();
+  void computeTargets();
+  void stopAll();
+  void updateBusy();
+  void fail(const QString& message);
+  void clearFailure();
+
+  EditorSession& session;
+  QObject inbox;
+  StageCache cache;
+  QString path;
+
+  std::uint64_t recipeGeneration = 1;                           ///< Counts changes of recipe or scan.
+  std::array<std::uint64_t, kStages.size()> shownGeneration{};  ///< Which of them each shown output belongs to.
+  std::uint64_t newestRun = 0, newestRead = 0, newestTargets = 0;
+  bool isRunning = false, isReading = false, wasBusy = false, hasFailure = false, edgesWanted = false;
+  bool selectsItself = true;  ///< Until the user selects: the longest curve.
+  std::optional<Vec2> anchorPx;
+  std::optional<NurbsCurve> targetsCurve;
+  FairingParams targetsParams;
+
+  /// A run that a newer request overtakes still gets this long since its start, so that a drag that never pauses shows
+  /// results all the same.
+  static constexpr int kGraceMs = 150;
+  std::atomic<qint64> startedMs{-1};  ///< When the running job began, on `clock`; -1 = none runs.
+  QElapsedTimer clock;
+  QTimer grace;
+  CancelToken newestToken;
+  std::vector<CancelToken> overtaken;
+
+  /// Last, so that they are stopped and joined before anything they use goes away.
+  BackgroundWorker reader, pipeline, targeting;
+
+ private:
+  struct Job;
+  void applyScan(std::uint64_t id, const QString& scanPath, std::shared_ptr<Result<Scan>> result);
+  void applyStage(const std::shared_ptr<const Scan>&, std::uint64_t generation, StageId, const PipelineOutput&);
+  void applyEnd(const std::shared_ptr<const Scan>&, std::uint64_t generation, std::uint64_t runId,
+                const PipelineOutput&, double milliseconds);
+  void applyTargets(std::uint64_t id, std::shared_ptr<const TargetOutcomes> outcomes);
+  void stopOvertaken();
+  void curvesChanged();
+};
+
+}  // namespace batten
