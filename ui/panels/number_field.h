@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QFrame>
+#include <QString>
+
+class QLabel;
+class QLineEdit;
+
+namespace batten {
+
+/// A number with its unit that can be typed; arrow keys step it. Takes a point or a comma; shows what cannot be read.
+class NumberField : public QFrame {
+  Q_OBJECT
+ public:
+  explicit NumberField(QWidget* parent = nullptr);
+  void setRange(double minimum, double maximum);
+  void setStep(double step) { step_ = step; }
+  void setDecimals(int decimals) { decimals_ = decimals; }
+  void setUnit(const QString& unit);
+  /// Shows a value; emits nothing.
+  void setValue(double value);
+  /// Shows that there is no value.
+  void setEmpty(const QString& placeholder);
+  double value() const { return value_; }
+  QLineEdit* edit() { return edit_; }
+
+ signals:
+  /// The user gave another value (bounded to the range).
+  void committed(double value);
+
+ protected:
+  bool eventFilter(QObject*, QEvent*) override;
+
+ private:
+  void commit();
+  void stepBy(int steps);
+  void show(const char* property, bool on);
+  QString format(double value) const;
+
+  QLineEdit* edit_;
+  QLabel* unit_;
+  double minimum_ = 0.0, maximum_ = 1.0, step_ = 0.0, value_ = 0.0;
+  int decimals_ = 0;
+  bool empty_ = true;
+};
+
+}  // namespace batten

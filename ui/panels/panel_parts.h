@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QString>
+#include <QStringList>
+#include <QWidget>
+#include <utility>
+#include <vector>
+
+class QLabel;
+class QPushButton;
+class QToolButton;
+class QVBoxLayout;
+
+namespace batten {
+
+/// Small pieces that all panels are put together from.
+
+QLabel* heading(const QString& text, QWidget* parent);        ///< "Fairing": bold, 13 px.
+QLabel* caption(const QString& text, QWidget* parent);        ///< "BEFORE AND AFTER": small, grey, spaced.
+QLabel* note(const QString& text, QWidget* parent);           ///< Grey 12 px, wraps.
+QPushButton* plainButton(const QString& text, const QString& name, QWidget* parent);
+QPushButton* linkButton(const QString& text, const QString& name, QWidget* parent);  ///< Accent text without frame.
+
+/// Numbers in rows with hairlines: a name at the left, one or two columns at the right. Amber marks what is over budget.
+class FigureTable : public QWidget {
+  Q_OBJECT
+ public:
+  struct Cell {
+    QString text;
+    bool warns = false;
+  };
+  struct Row {
+    QString name;
+    std::vector<Cell> cells;
+    QString help;
+  };
+  explicit FigureTable(QWidget* parent = nullptr);
+  void setHeader(const QString& first, const QStringList& columns);
+  void setRows(std::vector<Row> rows);
+  const std::vector<Row>& rows() const { return rows_; }
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override { return {120, sizeHint().height()}; }
+
+ protected:
+  void paintEvent(QPaintEvent*) override;
+  bool event(QEvent*) override;
+
+ private:
+  QString first_;
+  QStringList columns_;
+  std::vector<Row> rows_;
+};
+
+/// Lengths and places as the window writes them.
+QString millimetres(double mm);            ///< "286.4 mm", "0.14 mm"
+QString grouped(qint64 count);             ///< "12 345" with thin spaces
+QString similarityText(double s);          ///< ".9987"
+QString degreeName(int degree);            ///< "linear" … "sextic"
+
+}  // namespace batten
