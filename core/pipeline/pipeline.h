@@ -99,6 +99,9 @@ bool isScaleAssumed(const Scan&, const Recipe&);
 
 /// The choice that belongs to a piece (nearest anchor within 24 px), or nullopt. `index` into recipe.choices.
 std::optional<std::size_t> choiceFor(const Piece&, const Recipe&);
+/// Owner of every choice when all pieces compete: each choice goes to the nearest piece alone, as runPipeline applies them.
+/// One entry per piece, an index into recipe.choices or nullopt.
+std::vector<std::optional<std::size_t>> assignChoices(const PieceSet&, const Recipe&);
 /// A good anchor for a new choice: the point of the piece at half its points.
 Vec2 anchorOf(const Piece&);
 

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/curve_stages.h"
+
+#include <algorithm>
+#include <atomic>
+#include <iterator>
+#include <new>
+
+#include "core/base/parallel.h"
+
+namespace batten {
+namespace {
+
+/// Prominence of a counted curvature extremum, in units of 1 / extent of the curve.
+constexpr double kExtremumProminence = 5e-3;
+
+std::vector<Vec2> pointsToModel(const std::vector<Vec2>& points, const PageFrame& frame) {
+  std::vector<Vec2> result;
+  result.reserve(points.size());
+  for (const Vec2& p : points) result.push_back(frame.pointToModel(p));
+  return result;
+}
+
+Station stationToModel(const Station& s, const PageFrame& frame) {
+  return {frame.pointToModel(s.point), frame.vectorToModel(s.direction).normalized(), frame.pointToModel(s.from),
+          frame.pointToModel(s.to)};
+}
+
+CurveFigures figuresOf(const NurbsCurve& curve, bool closed, const std::vector<Vec2>& points) {
+  CurveFigures figures;
+  figures.lengthMm = ArcLength(curve).total();
+  figures.controlPoints = curve.controlPointCount();
+  figures.fromPoints = deviation(curve, points, true);
+  const double size = extent(curve);
+  if (size > 0.0) {
+    figures.extrema = static_cast<int>(curvatureExtrema(curve, kExtremumProminence / size, closed).size());
+    figures.inflections = static_cast<int>(inflections(curve, kExtremumProminence / size, closed).size());
+  }
+  return figures;
+}
+
+/// The pieces [first, last) of one contour.
+struct PieceRange {
+  std::size_t first, last;
+};
+
+std::vector<PieceRange> rangesByContour(const PieceSet& set) {
+  std::vector<PieceRange> ranges;
+  for (std::size_t i = 0; i < set.pieces.size(); ++i) {
+    if (ranges.empty() || set.pieces[ranges.back().first].contour != set.pieces[i].contour) ranges.push_back({i, i});
+    ranges.back().last = i + 1;
+  }
+  return ranges;
+}
+
+struct ContourOutcome {
+  std::vector<TracedCurve> curves;
+  std::vector<Error> failures;
+};
+
+class ContourBuilder {
+ public:
+  ContourBuilder(const ContourSet& contours, const PieceSet& pieces, const SegmentSet& segments, const Recipe& recipe,
+                 const PageFrame& frame, const RunContext& context)
+      : contours_(contours), pieces_(pieces), segments_(segments), recipe_(recipe), frame_(frame), context_(context) {}
+
+  ContourOutcome build(PieceRange range) const {
+    ContourOutcome outcome;
+    if (auto all = constructRange(range)) {
+      for (std::size_t i = range.first; i < range.last; ++i) add(outcome, i, std::move((*all)[i - range.first]));
+      return outcome;
+    } else if (range.last - range.first == 1) {
+      outcome.failures.push_back(named(all.error(), range.first));
+      return outcome;
+    }
+    // One piece that cannot be constructed must not cost its neighbours.
+    for (std::size_t i = range.first; i < range.last && !context_.isCancelled(); ++i) {
+      if (auto one = constructRange({i, i + 1})) {
+        add(outcome, i, std::move(one->front()));
+      } else {
+        outcome.failures.push_back(named(one.error(), i));
+      }
+    }
+    return outcome;
+  }
+
+ private:
+  Result<std::vector<ConstructedPiece>> constructRange(PieceRange range) const {
+    const auto contour = static_cast<std::size_t>(pieces_.pieces[range.first].contour);
+    ConstructContour input;
+    input.isStroke = contour < contours_.contours.size() && contours_.contours[contour].kind == ContourKind::Centreline;
+    input.pixelMm = frame_.mmPerPx;
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      const Piece& piece = pieces_.pieces[i];
+      ConstructPiece& made = input.pieces.emplace_back();
+      made.points = pointsToModel(piece.points, frame_);
+      for (const Station& s : segments_.pieces[i].stations) made.stations.push_back(stationToModel(s, frame_));
+      made.closed = piece.closed;
+      made.startIsCorner = piece.startIsCorner;
+      made.endIsCorner = piece.endIsCorner;
+    }
+    auto result = construct(input, recipe_.construct, context_);
+    if (result && result->size() != input.pieces.size()) {
+      return fail(ErrorCode::Numerical, "The construction gave another number of curves than pieces.");
+    }
+    return result;
+  }
+
+  Error named(Error error, std::size_t piece) const {
+    const Vec2 at = anchorOf(pieces_.pieces[piece]);
+    error.message = "Line " + std::to_string(pieces_.pieces[piece].contour + 1) + " near (" +
+                    std::to_string(static_cast<int>(at.x())) + ", " + std::to_string(static_cast<int>(at.y())) +
+                    ") gave no curve: " + error.message;
+    return error;
+  }
+
+  void add(ContourOutcome& outcome, std::size_t index, ConstructedPiece made) const {
+    const Piece& piece = pieces_.pieces[index];
+    TracedCurve& curve = outcome.curves.emplace_back();
+    curve.contour = piece.contour;
+    curve.piece = static_cast<int>(index);
+    curve.closed = piece.closed;
+    curve.sketched = made.curve;
+    curve.construct = std::move(made.report);
+    curve.sketchedFigures = figuresOf(made.curve, piece.closed, pointsToModel(piece.points, frame_));
+  }
+
+  const ContourSet& contours_;
+  const PieceSet& pieces_;
+  const SegmentSet& segments_;
+  const Recipe& recipe_;
+  const PageFrame& frame_;
+  const RunContext& context_;
+};
+
+/// Work on the items of a stage in parallel already; each item alone stays on its thread.
+RunContext itemContext(const RunContext& context, std::size_t items) {
+  RunContext inner = context;
+  inner.progress = nullptr;
+  if (items >= static_cast<std::size_t>(threadCount(context))) inner.threads = 1;
+  return inner;
+}
+
+/// Runs `work(i)` for all items, with the stage's progress.
+template <class Work>
+void forEachItem(const RunContext& context, std::size_t items, const Work& work) {
+  std::atomic<std::size_t> done{0};
+  parallelFor(context, static_cast<int>(items), 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      work(static_cast<std::size_t>(i));
+      context.report(static_cast<double>(++done) / static_cast<double>(items));
+    }
+  });
+}
+
+FairingParams paramsFor(const std::optional<std::size_t>& choice, const Recipe& recipe) {
+  FairingParams params = recipe.fairing;
+  if (!choice) return params;
+  const PieceChoice& own = recipe.choices[*choice];
+  if (own.mode) params.mode = *own.mode;
+  if (own.target) params.target = *own.target;
+  if (own.toleranceMm) params.toleranceMm = *own.toleranceMm;
+  return params;
+}
+
+void fairOne(TracedCurve& curve, const Piece& piece, const PageFrame& frame, const RunContext& context) {
+  curve.faired = curve.sketched;
+  curve.fairedFigures = curve.sketchedFigures;
+  if (!curve.included || curve.fairingUsed.mode == FairingMode::None) return;
+  auto result = fair(curve.sketched, curve.closed, curve.fairingUsed, context);
+  if (!result) {
+    curve.fairing.why = Termination::Degenerate;
+    curve.fairing.note = "Left as sketched: " + result.error().message;
+    return;
+  }
+  curve.faired = result->curve;
+  curve.fairing = std::move(result->report);
+  curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(piece.points, frame));
+}
+
+}  // namespace
+
+Result<ConstructedSet> constructAll(const ContourSet& contours, const PieceSet& pieces, const SegmentSet& segments,
+                                    const Recipe& recipe, const PageFrame& frame, const RunContext& context) {
+  if (segments.pieces.size() != pieces.pieces.size()) {
+    return fail(ErrorCode::Numerical, "The segments do not belong to these pieces.");
+  }
+  const std::vector<PieceRange> ranges = rangesByContour(pieces);
+  const RunContext inner = itemContext(context, ranges.size());
+  const ContourBuilder builder(contours, pieces, segments, recipe, frame, inner);
+  std::vector<ContourOutcome> outcomes(ranges.size());
+  forEachItem(context, ranges.size(), [&](std::size_t i) { outcomes[i] = builder.build(ranges[i]); });
+  if (context.isCancelled()) return cancelled();
+
+  ConstructedSet set;
+  for (ContourOutcome& outcome : outcomes) {
+    std::move(outcome.curves.begin(), outcome.curves.end(), std::back_inserter(set.curves));
+    std::move(outcome.failures.begin(), outcome.failures.end(), std::back_inserter(set.failures));
+  }
+  if (!set.curves.empty()) return set;
+  return fail(ErrorCode::NoCurve, set.failures.empty()
+                                      ? "No line was left to make a curve of. Lower contours.min_length or the thresholds."
+                                      : "No curve could be made. " + set.failures.front().message);
+}
+
+Result<FairedSet> fairAll(const ConstructedSet& constructed, const PieceSet& pieces, const Recipe& recipe,
+                          const PageFrame& frame, const RunContext& context) {
+  const auto choices = assignChoices(pieces, recipe);
+  FairedSet set{constructed.curves};
+  const RunContext inner = itemContext(context, set.curves.size());
+  forEachItem(context, set.curves.size(), [&](std::size_t i) {
+    TracedCurve& curve = set.curves[i];
+    const auto piece = static_cast<std::size_t>(curve.piece);
+    curve.included = !choices[piece] || recipe.choices[*choices[piece]].included;
+    curve.fairingUsed = paramsFor(choices[piece], recipe);
+    fairOne(curve, pieces.pieces[piece], frame, inner);
+  });
+  if (context.isCancelled()) return cancelled();
+  return set;
+}
+
+Result<TargetOutcomes> targetsFor(const TracedCurve& curve, const RunContext& context) {
+  if (curve.sketched.isEmpty()) return fail(ErrorCode::NoCurve, "There is no curve to compare with the targets.");
+  try {
+    return fairAllTargets(curve.sketched, curve.closed, curve.fairingUsed, context);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "There is not enough memory for the six targets. Close other programs and try again.");
+  }
+}
+
+}  // namespace batten
