@@ -59,6 +59,9 @@ struct RegionThresholds {
   std::array<bool, kRegions> measured{};    ///< The region holds edges of its own; else filled from its neighbours.
   double paperNoise = 0.0;                  ///< [grey] robust standard deviation of the paper.
   double smoothingPx = 0.0;                 ///< [px] Gaussian applied before thresholding.
+  std::array<double, kRegions> contrast{};  ///< [grey] level minus the paper at the region's centre: what acts, at every pixel added to its paper.
+  std::array<double, kRegions> certain{};   ///< [grey] as contrast, deeper: a piece that nowhere gets there is a speck.
+  double faintLimit = -1.5;                 ///< [grey] contrast that faint parts joined to ink must have at least.
   bool foundLine = true;                    ///< False: no edge stands out of the paper anywhere.
   std::string note;                         ///< One line for the user when something is unusual; else empty.
 };

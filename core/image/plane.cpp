@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/plane.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/image/hot_loop.h"
+
+namespace batten {
+namespace {
+
+constexpr int kRowsPerBlock = 64;
+
+BATTEN_HOT_LOOP void scaleRow(const std::uint16_t* in, float* __restrict out, int count) {
+  constexpr float kScale = static_cast<float>(1.0 / GreyImage::kGreyUnit);
+  for (int i = 0; i < count; ++i) out[i] = static_cast<float>(in[i]) * kScale;
+}
+
+BATTEN_HOT_LOOP void addPairs(const std::uint16_t* a, const std::uint16_t* b, float* __restrict out, int count) {
+  constexpr float kScale = static_cast<float>(0.25 / GreyImage::kGreyUnit);
+  for (int i = 0; i < count; ++i) {
+    const int sum = a[2 * i] + a[2 * i + 1] + b[2 * i] + b[2 * i + 1];
+    out[i] = static_cast<float>(sum) * kScale;
+  }
+}
+
+BATTEN_HOT_LOOP void alongLoop(const float* in, float* __restrict out, int count, const float* kernel, int radius) {
+  if (radius == 1) {
+    for (int i = 0; i < count; ++i) out[i] = kernel[0] * in[i] + kernel[1] * (in[i - 1] + in[i + 1]);
+    return;
+  }
+  for (int i = 0; i < count; ++i) {
+    out[i] = kernel[0] * in[i] + kernel[1] * (in[i - 1] + in[i + 1]) + kernel[2] * (in[i - 2] + in[i + 2]);
+  }
+  for (int k = 3; k <= radius; ++k) {
+    const float weight = kernel[k];
+    for (int i = 0; i < count; ++i) out[i] += weight * (in[i - k] + in[i + k]);
+  }
+}
+
+BATTEN_HOT_LOOP void acrossPair(const float* a, const float* b, float* __restrict out, int count, float weight) {
+  for (int i = 0; i < count; ++i) out[i] += weight * (a[i] + b[i]);
+}
+
+BATTEN_HOT_LOOP void acrossFirst(const float* a, const float* m, const float* b, float* __restrict out, int count,
+                                 float middle, float side) {
+  for (int i = 0; i < count; ++i) out[i] = middle * m[i] + side * (a[i] + b[i]);
+}
+
+float meanOfBlock(const GreyImage& image, int x0, int y0, int shrink) {
+  double sum = 0.0;
+  const int x1 = std::min(x0 + shrink, image.width), y1 = std::min(y0 + shrink, image.height);
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) sum += image.row(y)[x];
+  }
+  return static_cast<float>(sum / ((x1 - x0) * (y1 - y0)) / GreyImage::kGreyUnit);
+}
+
+}  // namespace
+
+std::vector<float> gaussianKernel(double variance) {
+  if (variance <= 0.5) return {static_cast<float>(1.0 - variance), static_cast<float>(variance / 2.0)};
+  const int radius = std::max(2, static_cast<int>(std::ceil(3.0 * std::sqrt(variance))));
+  std::vector<double> taps;
+  double sum = 0.0;
+  for (int k = 0; k <= radius; ++k) {
+    taps.push_back(std::exp(-0.5 * k * k / variance));
+    sum += (k == 0 ? 1.0 : 2.0) * taps.back();
+  }
+  std::vector<float> kernel;
+  for (const double tap : taps) kernel.push_back(static_cast<float>(tap / sum));
+  return kernel;
+}
+
+void smoothAlong(const float* in, float* out, int count, const std::vector<float>& kernel) {
+  alongLoop(in, out, count, kernel.data(), static_cast<int>(kernel.size()) - 1);
+}
+
+void smoothAcross(const float* const* rows, float* out, int count, const std::vector<float>& kernel) {
+  const auto radius = static_cast<int>(kernel.size()) - 1;
+  const float* const* middle = rows + radius;
+  acrossFirst(middle[-1], middle[0], middle[1], out, count, kernel[0], kernel[1]);
+  for (int k = 2; k <= radius; ++k) {
+    acrossPair(middle[-k], middle[k], out, count, kernel[static_cast<std::size_t>(k)]);
+  }
+}
+
+void loadGreyRow(const std::uint16_t* in, float* out, int count, int radius) {
+  scaleRow(in, out + radius, count);
+  std::fill_n(out, radius, out[radius]);
+  std::fill_n(out + radius + count, radius, out[radius + count - 1]);
+}
+
+Plane smooth(const Plane& in, const std::vector<float>& kernel, const RunContext& context) {
+  Plane out(in.width, in.height);
+  const auto radius = static_cast<int>(kernel.size()) - 1;
+  const auto width = static_cast<std::size_t>(in.width);
+  parallelFor(context, in.height, kRowsPerBlock, [&](int begin, int end) {
+    const int first = begin - radius, count = end - begin + 2 * radius;
+    std::vector<float> padded(width + 2 * static_cast<std::size_t>(radius));
+    std::vector<float> strip(width * static_cast<std::size_t>(count));
+    std::vector<const float*> rows;
+    for (int i = 0; i < count; ++i) {
+      const float* source = in.row(std::clamp(first + i, 0, in.height - 1));
+      std::copy_n(source, width, padded.data() + radius);
+      std::fill_n(padded.data(), radius, source[0]);
+      std::fill_n(padded.data() + radius + in.width, radius, source[in.width - 1]);
+      rows.push_back(strip.data() + width * static_cast<std::size_t>(i));
+      smoothAlong(padded.data() + radius, strip.data() + width * static_cast<std::size_t>(i), in.width, kernel);
+    }
+    for (int y = begin; y < end; ++y) smoothAcross(rows.data() + (y - begin), out.row(y), in.width, kernel);
+  });
+  return out;
+}
+
+Plane shrinkGrey(const GreyImage& image, int shrink, const RunContext& context) {
+  Plane out((image.width + shrink - 1) / shrink, (image.height + shrink - 1) / shrink);
+  parallelFor(context, out.height, kRowsPerBlock, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      int done = 0;
+      if (shrink == 1) {
+        scaleRow(image.row(y), out.row(y), out.width);
+        continue;
+      }
+      if (shrink == 2 && 2 * y + 1 < image.height) {
+        done = image.width / 2;
+        addPairs(image.row(2 * y), image.row(2 * y + 1), out.row(y), done);
+      }
+      for (int x = done; x < out.width; ++x) out.row(y)[x] = meanOfBlock(image, x * shrink, y * shrink, shrink);
+    }
+  });
+  return out;
+}
+
+}  // namespace batten

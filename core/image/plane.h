@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/image/grey_image.h"
+
+namespace batten {
+
+/// Real numbers over a grid, row by row. The memory is not cleared: whoever makes one fills it.
+struct Plane {
+  int width = 0;
+  int height = 0;
+  std::unique_ptr<float[]> data;
+
+  Plane() = default;
+  Plane(int w, int h)
+      : width(w), height(h),
+        data(std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(w) * static_cast<std::size_t>(h))) {}
+  float* row(int y) { return data.get() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width); }
+  const float* row(int y) const { return data.get() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width); }
+};
+
+/// Half of a symmetric kernel: tap 0 is the middle. The whole sums to 1.
+std::vector<float> gaussianKernel(double variance);
+
+/// Smooths along a row: `in` holds `radius` values before and after the `count` that are asked for.
+void smoothAlong(const float* in, float* out, int count, const std::vector<float>& kernel);
+/// Smooths across rows: `rows` are 2 radius + 1 pointers, the middle one is the row asked for.
+void smoothAcross(const float* const* rows, float* out, int count, const std::vector<float>& kernel);
+/// Copies a row of 16-bit grey as grey levels 0..255, the ends repeated `radius` times at either side.
+void loadGreyRow(const std::uint16_t* in, float* out, int count, int radius);
+
+/// Separable smoothing; the border is repeated outside.
+Plane smooth(const Plane& in, const std::vector<float>& kernel, const RunContext& context);
+
+/// Means over shrink x shrink pixels as grey levels 0..255; the last row and column may cover fewer.
+Plane shrinkGrey(const GreyImage& image, int shrink, const RunContext& context);
+
+}  // namespace batten

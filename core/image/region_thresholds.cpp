@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/region_thresholds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <opencv2/core.hpp>
+
+#include "core/image/otsu_thresholds.h"
+#include "core/image/page_edges.h"
+#include "core/image/paper_cells.h"
+#include "core/image/plane.h"
+#include "core/image/push_pull.h"
+#include "core/image/region_surface.h"
+
+namespace batten {
+namespace {
+
+constexpr std::int64_t kLargestStatisticsPx = 2'500'000;
+constexpr int kLargestShrink = 4;
+constexpr int kCellPx = 8;
+constexpr double kEdgeVariance = 1.5 * 1.5;  // [px^2] of the Gaussian under the gradients
+constexpr std::array<double, 3> kSmoothings = {1.0, 1.4, 2.0};  // [px]
+constexpr double kContrastPerNoise = 5.5;
+constexpr double kLeastContrastPerNoise = 4.0;
+constexpr double kLeastContrast = 1.5;       // [grey]
+constexpr double kDustShare = 0.25;          // of the page's contrast: regions of dust alone do not get below
+constexpr double kCertainShare = 1.25;
+constexpr double kNever = -1000.0;           // [grey] darker than anything
+constexpr int kMinVotes = 15;
+constexpr float kVotesOfConfidence = 60.0f;
+constexpr std::size_t kNoiseSamples = 20000;
+
+int shrinkFor(const GreyImage& image) {
+  int shrink = 1;
+  while (shrink < kLargestShrink &&
+         static_cast<std::int64_t>(image.width) * image.height / (shrink * shrink) > kLargestStatisticsPx) {
+    shrink *= 2;
+  }
+  return shrink;
+}
+
+/// Variance on the shrunk grid that makes a smoothing of `variancePx` together with the means over the blocks.
+double remainingVariance(double variancePx, int shrink) {
+  const double block = (shrink * shrink - 1.0) / 12.0;
+  return std::max(0.1, (variancePx - block) / (shrink * shrink));
+}
+
+/// The plane smoothed at one place only.
+float smoothedAt(const Plane& plane, int x, int y, const std::vector<float>& kernel) {
+  const auto radius = static_cast<int>(kernel.size()) - 1;
+  float sum = 0.0f;
+  for (int j = -radius; j <= radius; ++j) {
+    const float* row = plane.row(std::clamp(y + j, 0, plane.height - 1));
+    float line = 0.0f;
+    for (int i = -radius; i <= radius; ++i) {
+      line += kernel[static_cast<std::size_t>(std::abs(i))] * row[std::clamp(x + i, 0, plane.width - 1)];
+    }
+    sum += kernel[static_cast<std::size_t>(std::abs(j))] * line;
+  }
+  return sum;
+}
+
+struct Depths {
+  std::vector<float> atCrests;  ///< Smoothed grey less paper at every crest.
+  double noise = 0.0;           ///< Of the smoothed paper.
+  double mean = 0.0;            ///< Over the crests, weighted by their strength.
+};
+
+Depths measureDepths(const Plane& grey, const PageEdges& edges, const PaperEstimate& estimate, int shrink,
+                     const std::vector<float>& kernel) {
+  Depths depths;
+  const PaperBackground& paper = estimate.paper;
+  const auto depth = [&](int x, int y) {
+    return smoothedAt(grey, x, y, kernel) - static_cast<float>(paper.at((x + 0.5) * shrink, (y + 0.5) * shrink));
+  };
+  double sum = 0.0, weight = 0.0;
+  depths.atCrests.reserve(edges.crests.size());
+  for (const EdgePoint& p : edges.crests) {
+    depths.atCrests.push_back(depth(p.x, p.y));
+    sum += static_cast<double>(p.strength * depths.atCrests.back());
+    weight += static_cast<double>(p.strength);
+  }
+  depths.mean = weight > 0.0 ? sum / weight : 0.0;
+  const int cell = paper.cellPx / shrink;
+  const std::size_t stride = estimate.isPaper.size() / kNoiseSamples + 1;
+  std::vector<float> samples;
+  for (std::size_t i = 0; i < estimate.isPaper.size(); i += stride) {
+    if (estimate.isPaper[i] == 0) continue;
+    const auto column = static_cast<int>(i % static_cast<std::size_t>(paper.columns));
+    const auto row = static_cast<int>(i / static_cast<std::size_t>(paper.columns));
+    // A pixel of the cell that changes from cell to cell, so that no grid of the scanner is met in step.
+    const int x = column * cell + static_cast<int>((i * 5) % static_cast<std::size_t>(cell));
+    const int y = row * cell + static_cast<int>((i * 3) % static_cast<std::size_t>(cell));
+    if (x < grey.width && y < grey.height) samples.push_back(std::fabs(depth(x, y)));
+  }
+  if (!samples.empty()) {
+    const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
+    std::nth_element(samples.begin(), middle, samples.end());
+    depths.noise = 1.4826 * static_cast<double>(*middle);
+  }
+  return depths;
+}
+
+/// Half level of every region from its own crests; regions without are filled from those that have some.
+void fillContrast(const Plane& grey, const PageEdges& edges, const Depths& depths, double strength,
+                  RegionThresholds& out) {
+  std::array<double, kRegions> sum{}, weight{};
+  std::array<int, kRegions> votes{};
+  for (std::size_t i = 0; i < edges.crests.size(); ++i) {
+    const EdgePoint& p = edges.crests[i];
+    const auto r = static_cast<std::size_t>(regionOf(p.x, p.y, grey.width, grey.height));
+    sum[r] += static_cast<double>(p.strength * depths.atCrests[i]);
+    weight[r] += static_cast<double>(p.strength);
+    ++votes[r];
+  }
+  std::vector<float> value(kRegions, 0.0f), confidence(kRegions, 0.0f);
+  for (std::size_t r = 0; r < kRegions; ++r) {
+    out.measured[r] = votes[r] >= kMinVotes && weight[r] > 0.0;
+    if (!out.measured[r]) continue;
+    value[r] = static_cast<float>(sum[r] / weight[r]);
+    confidence[r] = static_cast<float>(votes[r]) / (static_cast<float>(votes[r]) + kVotesOfConfidence);
+  }
+  const std::vector<float> filled = pushPull(value, confidence, kRegionsPerSide, kRegionsPerSide);
+  const double least = std::min(-kLeastContrastPerNoise * depths.noise, -kLeastContrast);
+  for (std::size_t r = 0; r < kRegions; ++r) {
+    const double level = std::min(static_cast<double>(filled[r]), kDustShare * depths.mean) * strength;
+    out.contrast[r] = std::min(level, least);
+  }
+}
+
+void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, double strength, RegionThresholds& out,
+                         const RunContext& context) {
+  const int cellPx = kCellPx * std::max(1, shrink / 2);
+  PaperEstimate estimate = estimatePaper(grey, edges, shrink, cellPx, context);
+  Depths depths;
+  for (const double q : kSmoothings) {
+    depths = measureDepths(grey, edges, estimate, shrink, gaussianKernel(remainingVariance(q * q, shrink)));
+    out.smoothingPx = q;
+    if (std::fabs(depths.mean) >= kContrastPerNoise * depths.noise) break;
+  }
+  out.paperNoise = depths.noise;
+  out.faintLimit = std::min(-kLeastContrastPerNoise * depths.noise, -kLeastContrast);
+  out.paper = std::move(estimate.paper);
+  const bool enough = edges.crests.size() >= kMinVotes;
+  out.foundLine = enough && depths.mean <= -std::max(kLeastContrast, 2.5 * depths.noise);
+  if (out.foundLine) {
+    fillContrast(grey, edges, depths, strength, out);
+  } else {
+    out.note = enough && depths.mean > kLeastContrast ? "The lines are brighter than the paper; invert the scan."
+                                                      : "Nothing stands out of the paper.";
+    out.contrast.fill(kNever);
+  }
+}
+
+/// Puts the user's own values where set, and the acting contrast everywhere.
+void applyUser(const GreyImage& image, const ThresholdParams& params, RegionThresholds& out) {
+  for (int region = 0; region < kRegions; ++region) {
+    const auto r = static_cast<std::size_t>(region);
+    const double x = (region % kRegionsPerSide + 0.5) * image.width / kRegionsPerSide;
+    const double y = (region / kRegionsPerSide + 0.5) * image.height / kRegionsPerSide;
+    const double paper = out.paper.at(x, y);
+    if (!out.paper.isEmpty()) out.automatic[r] = std::clamp(paper + out.contrast[r], 0.0, 255.0);
+    out.level[r] = out.automatic[r];
+    std::optional<double> own = params.grid[r];
+    if (!own && params.mode == ThresholdMode::Manual) own = params.manualLevel;
+    if (own) {
+      out.level[r] = *own;
+      out.contrast[r] = *own - paper;
+      out.certain[r] = out.contrast[r];
+    } else if (out.paper.isEmpty()) {
+      out.contrast[r] = out.foundLine ? out.automatic[r] - paper : kNever;
+      out.certain[r] = out.contrast[r];
+    } else {
+      out.certain[r] = kCertainShare * out.contrast[r];
+    }
+  }
+}
+
+}  // namespace
+
+Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParams& paper, const ThresholdParams& params,
+                                        const RunContext& context) {
+  if (const auto error = validate(params)) return fail(*error);
+  if (image.width <= 0 || image.height <= 0) return fail(ErrorCode::BadParameter, "The picture is empty.");
+  try {
+    RegionThresholds out;
+    const int shrink = shrinkFor(image);
+    const Plane grey = shrinkGrey(image, shrink, context);
+    if (context.isCancelled()) return cancelled();
+    const Plane smoothed = smooth(grey, gaussianKernel(std::max(0.25, remainingVariance(kEdgeVariance, shrink))), context);
+    if (context.isCancelled()) return cancelled();
+    if (paper.flatten) {
+      const PageEdges edges = findPageEdges(smoothed, context);
+      if (context.isCancelled()) return cancelled();
+      flattenedThresholds(grey, edges, shrink, params.strength, out, context);
+    } else {
+      out.smoothingPx = kSmoothings.front();
+      otsuThresholds(smoothed, params.strength, out, context);
+      if (!out.foundLine) out.note = "No region holds two clearly different greys.";
+    }
+    if (context.isCancelled()) return cancelled();
+    applyUser(image, params, out);
+    return out;
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory for the thresholds; scan at a lower resolution or crop.");
+  } catch (const cv::Exception& exception) {
+    return fail(ErrorCode::Numerical, "The paper could not be measured; switch the flattening off.", exception.what());
+  }
+}
+
+}  // namespace batten
