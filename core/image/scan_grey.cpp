@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/scan_grey.h"
+
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+#include <utility>
+
+#include "core/base/parallel.h"
+
+namespace batten {
+namespace {
+
+constexpr int kRowsPerBlock = 64;
+
+/// One row to 16-bit grey. `Unit` is what one step of the sample is worth on the 16-bit scale: 257 for 8 bit, 1 for 16.
+template <class Sample, std::uint32_t Unit>
+void greyRow(const Sample* in, std::uint16_t* out, int count, int channels) {
+  constexpr std::uint64_t kWhite = std::numeric_limits<Sample>::max();
+  if (channels == 1) {
+    for (int i = 0; i < count; ++i) out[i] = static_cast<std::uint16_t>(in[i] * Unit);
+    return;
+  }
+  for (int i = 0; i < count; ++i, in += channels) {
+    const std::uint64_t luma =
+        channels == 2 ? in[0] * 1000ull : 114ull * in[0] + 587ull * in[1] + 299ull * in[2];  // stored blue first
+    if (channels == 3) {
+      out[i] = static_cast<std::uint16_t>((luma * Unit + 500) / 1000);
+      continue;
+    }
+    const std::uint64_t alpha = in[channels - 1];
+    const std::uint64_t mixed = luma * alpha + 1000 * kWhite * (kWhite - alpha);
+    out[i] = static_cast<std::uint16_t>((mixed * Unit + 500 * kWhite) / (1000 * kWhite));
+  }
+}
+
+}  // namespace
+
+std::optional<GreyImage> decodeGrey(std::span<std::byte> file, const RunContext& context) {
+  const cv::Mat raw(1, static_cast<int>(file.size()), CV_8UC1, file.data());
+  const cv::Mat picture = cv::imdecode(raw, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
+  if (picture.empty() || picture.channels() > 4) return std::nullopt;
+  if (picture.depth() != CV_8U && picture.depth() != CV_16U) return std::nullopt;
+  GreyImage grey(picture.cols, picture.rows);
+  parallelFor(context, picture.rows, kRowsPerBlock, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      if (picture.depth() == CV_8U) {
+        greyRow<std::uint8_t, 257>(picture.ptr<std::uint8_t>(y), grey.row(y), picture.cols, picture.channels());
+      } else {
+        greyRow<std::uint16_t, 1>(picture.ptr<std::uint16_t>(y), grey.row(y), picture.cols, picture.channels());
+      }
+    }
+  });
+  return grey;
+}
+
+GreyImage turnUpright(GreyImage image, int orientation, const RunContext& context) {
+  if (orientation <= 1 || orientation > 8) return image;
+  const bool swapped = orientation >= 5;
+  GreyImage upright(swapped ? image.height : image.width, swapped ? image.width : image.height);
+  const int lastX = image.width - 1, lastY = image.height - 1;
+  parallelFor(context, upright.height, kRowsPerBlock, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      std::uint16_t* out = upright.row(y);
+      for (int x = 0; x < upright.width; ++x) {
+        switch (orientation) {
+          case 2: out[x] = image.row(y)[lastX - x]; break;
+          case 3: out[x] = image.row(lastY - y)[lastX - x]; break;
+          case 4: out[x] = image.row(lastY - y)[x]; break;
+          case 5: out[x] = image.row(x)[y]; break;
+          case 6: out[x] = image.row(lastY - x)[y]; break;
+          case 7: out[x] = image.row(lastY - x)[lastX - y]; break;
+          default: out[x] = image.row(x)[lastX - y]; break;
+        }
+      }
+    }
+  });
+  return upright;
+}
+
+}  // namespace batten

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/image/byte_reader.h"
+#include "core/image/scan.h"
+
+namespace batten {
+
+struct ScanHeader {
+  ScanInfo info;
+  bool complete = true;        ///< False: the file ends before its picture does.
+  bool progressive = false;    ///< Its decoder keeps the whole page's coefficients.
+  bool supported = true;       ///< False: a kind of picture that cannot be read (floating point, 32 bit).
+  std::uint64_t orientationAt = 0;  ///< TIFF: where the orientation is written; 0 = nowhere.
+  bool bigEndian = true;
+};
+
+/// Reads the header of whichever format the bytes are; empty when they are none of those that can be read.
+std::optional<ScanHeader> readScanHeader(const ByteReader& file);
+
+/// The parts of readScanHeader; each expects that the first bytes are those of its format.
+ScanHeader readPngHeader(const ByteReader& file);
+ScanHeader readJpegHeader(const ByteReader& file);
+ScanHeader readTiffHeader(const ByteReader& file);
+ScanHeader readBmpHeader(const ByteReader& file);
+ScanHeader readWebpHeader(const ByteReader& file);
+ScanHeader readPnmHeader(const ByteReader& file);
+
+/// Resolution and orientation of a TIFF structure (also that inside EXIF).
+void readTiffTags(const ByteReader& tiff, ScanHeader& header);
+/// Dots per inch if both axes agree and the number is one that scanners and cameras write.
+std::optional<double> plausibleDpi(double xDpi, double yDpi);
+
+}  // namespace batten
