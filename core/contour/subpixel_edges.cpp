@@ -21,6 +21,7 @@ constexpr double kSideFromPx = 1.9;        // side levels are taken beyond this 
 constexpr double kSmallestContrast = 2.0;  // [grey]
 constexpr int kNewtonSteps = 4;
 constexpr int kBlurRounds = 4;
+constexpr int kTwinRounds = 4;
 constexpr int kBlurSamples = 1500;  // points that vote for the blur
 constexpr int kBendHalf = 6;        // points: half window of the curvature filter
 
@@ -194,6 +195,21 @@ void fitAll(const ProfileBand& band, const std::vector<double>& start, Matched& 
   }
 }
 
+// A border seen twice lies as far beyond the turn of the grey as this edge lies before it. The turn is found to a fraction
+// of a sample; the edge moves while it is fitted, so the widths follow it (smoothed along the line).
+bool updateTwins(bool closed, Matched& m) {
+  bool any = false;
+  std::vector<float> position(m.position.begin(), m.position.end());
+  position = smoothValues(position, closed, kSpanSigma);
+  for (std::size_t i = 0; i < m.span.size(); ++i) {
+    EdgeSpan& span = m.span[i];
+    if (span.inkTwin > 0.0) span.inkTwin = std::max(0.5, 2.0 * (span.hi - position[i]));
+    if (span.paperTwin > 0.0) span.paperTwin = std::max(0.5, 2.0 * (position[i] - span.lo));
+    any = any || span.inkTwin > 0.0 || span.paperTwin > 0.0;
+  }
+  return any;
+}
+
 // The matched pass (blurred-edge model, common blur): the position that the raw grey values make most likely.
 Matched matchedPass(const ProfileBand& band, bool closed, const RunContext& context) {
   Matched m;
@@ -208,14 +224,18 @@ Matched matchedPass(const ProfileBand& band, bool closed, const RunContext& cont
     }
   }
   const std::vector<double> start = m.position;
+  updateTwins(closed, m);
   const std::size_t stride = std::max<std::size_t>(1, n / kBlurSamples);
   for (int round = 0; round < kBlurRounds && !context.isCancelled(); ++round) {
     measureLevels(band, closed, m);
     fitAll(band, start, m, stride);
     updateBlur(band, m);
   }
-  measureLevels(band, closed, m);
-  fitAll(band, start, m, 1);
+  for (int round = 0; round < kTwinRounds && !context.isCancelled(); ++round) {
+    measureLevels(band, closed, m);
+    fitAll(band, start, m, 1);
+    if (!updateTwins(closed, m)) break;
+  }
   return m;
 }
 

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/corner_marks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "core/contour/trace_contours.h"
+#include "tests/support/contour_shapes.h"
+
+namespace batten {
+namespace {
+
+using test::CurvedPolygon;
+using test::RenderSettings;
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+
+// A letter-K like outline with gently curved sides; corners of 50 to 300 degrees.
+CurvedPolygon letterK() {
+  return {{{60, 40}, {110, 42}, {112, 130}, {190, 38}, {250, 44}, {160, 150}, {255, 262}, {190, 266}, {113, 168}, {110, 262}, {58, 258}},
+          {3, -4, 5, 3, -6, 6, 3, -5, 4, 3, -6}};
+}
+
+ContourSet traceShape(const std::vector<Vec2>& outline, double noise, unsigned seed) {
+  RenderSettings s;
+  s.width = 310;
+  s.height = 300;
+  s.noise = noise;
+  s.seed = seed;
+  const GreyImage grey = renderShape([&](double x, double y) { return test::insidePolygon(outline, x, y); }, s);
+  EdgeParams edges;
+  edges.mode = EdgeMode::Outline;
+  const auto set = traceContours(test::thresholdMask(grey, 135.0), grey, {}, edges, {}, {});
+  EXPECT_TRUE(set.has_value());
+  return set.value_or(ContourSet{});
+}
+
+// A contour made of exact points, closed or open.
+ContourSet fromPoints(std::vector<Vec2> points, bool closed, double noise = 0.0, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> gauss(0.0, 1.0);
+  Contour c;
+  c.closed = closed;
+  for (Vec2& p : points) p += noise * Vec2(gauss(random), gauss(random));
+  c.chain = c.points = std::move(points);
+  c.refined.assign(c.points.size(), 1);
+  ContourSet set;
+  set.contours.push_back(c);
+  return set;
+}
+
+TEST(CornerMarks, CornersOfACurvedLetterAreFoundToATenthOfAPixel) {
+  const CurvedPolygon shape = letterK();
+  double square = 0.0, worst = 0.0;
+  int count = 0;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const ContourSet set = traceShape(shape.sampled(), 5.0, seed);
+    std::mt19937 random(seed);
+    std::vector<CornerMark> marks;
+    for (const Vec2& c : shape.corners) {
+      const double angle = static_cast<double>(random() % 360) * kDeg;
+      marks.push_back({c + 8.0 * Vec2(std::cos(angle), std::sin(angle))});  // a click 8 px away
+    }
+    const auto pieces = splitAtCorners(set, marks, {});
+    ASSERT_TRUE(pieces.has_value());
+    ASSERT_EQ(pieces->corners.size(), shape.corners.size());
+    EXPECT_TRUE(pieces->lostMarks.empty());
+    for (const Corner& corner : pieces->corners) {
+      const double e = (corner.positionPx - shape.corners[static_cast<std::size_t>(corner.mark)]).norm();
+      if (e > 0.3) printf("seed %u corner %d error %.3f angle %.1f\n", seed, corner.mark, e, corner.turningAngleRad / kDeg);
+      square += e * e;
+      worst = std::max(worst, e);
+      ++count;
+    }
+    ASSERT_EQ(pieces->pieces.size(), shape.corners.size());
+    for (std::size_t i = 0; i < pieces->pieces.size(); ++i) {
+      const Piece& piece = pieces->pieces[i];
+      EXPECT_TRUE(piece.startIsCorner && piece.endIsCorner && !piece.closed);
+      EXPECT_EQ(piece.points.front(), pieces->corners[i].positionPx);
+      EXPECT_EQ(piece.points.back(), pieces->corners[(i + 1) % pieces->corners.size()].positionPx);
+      EXPECT_EQ(piece.points.size(), piece.refined.size());
+      for (const Vec2& p : piece.points) EXPECT_LE(test::distanceToPolyline(shape.sampled(), p), 0.5);
+    }
+  }
+  printf("corner error rms %.4f worst %.4f (%d corners)\n", std::sqrt(square / count), worst, count);
+  EXPECT_LE(std::sqrt(square / count), 0.12);
+  EXPECT_LE(worst, 0.5);
+}
+
+TEST(CornerMarks, AcuteTipsAreExtended) {
+  for (const double halfAngle : {12.0, 20.0, 30.0}) {
+    const Vec2 tip(280, 150);
+    const double w = 220.0 * std::tan(halfAngle * kDeg);
+    const std::vector<Vec2> wedge{tip, {60, 150 + w}, {60, 150 - w}};
+    const ContourSet set = traceShape(wedge, 3.0, 2);
+    const std::vector<CornerMark> marks{{tip - Vec2(6, 3)}};
+    const auto pieces = splitAtCorners(set, marks, {});
+    ASSERT_TRUE(pieces.has_value());
+    ASSERT_EQ(pieces->corners.size(), 1u) << halfAngle;
+    const double e = (pieces->corners[0].positionPx - tip).norm();
+    printf("tip half angle %.0f: error %.3f\n", halfAngle, e);
+    EXPECT_LE(e, 0.7) << halfAngle;
+  }
+}
+
+TEST(CornerMarks, TurningAngleIsPositiveToTheLeftInTheModelFrame) {
+  std::vector<Vec2> points;
+  for (int i = 0; i <= 60; ++i) points.emplace_back(i, 100.0);
+  for (int i = 1; i <= 60; ++i) points.emplace_back(60.0, 100.0 - i);  // up on the screen: a left turn
+  const std::vector<CornerMark> marks{{Vec2(58, 98)}};
+  const auto pieces = splitAtCorners(fromPoints(points, false), marks, {});
+  ASSERT_TRUE(pieces.has_value());
+  ASSERT_EQ(pieces->corners.size(), 1u);
+  EXPECT_NEAR(pieces->corners[0].turningAngleRad, 90.0 * kDeg, 1e-6);
+  EXPECT_NEAR((pieces->corners[0].positionPx - Vec2(60, 100)).norm(), 0.0, 1e-6);
+  ASSERT_EQ(pieces->pieces.size(), 2u);
+  EXPECT_FALSE(pieces->pieces[0].startIsCorner);
+  EXPECT_EQ(pieces->pieces[0].points.front(), Vec2(0, 100));
+  EXPECT_EQ(pieces->pieces[1].points.back(), Vec2(60, 40));
+}
+
+std::vector<Vec2> circle(double radius) {
+  std::vector<Vec2> points;
+  const int n = static_cast<int>(2 * std::numbers::pi * radius / 0.8);
+  for (int i = 0; i < n; ++i) {
+    const double a = 2 * std::numbers::pi * i / n;
+    points.emplace_back(150 + radius * std::cos(a), 150 + radius * std::sin(a));
+  }
+  return points;
+}
+
+TEST(CornerMarks, OnASmoothLineTheNearestPointIsTaken) {
+  const ContourSet set = fromPoints(circle(60.0), true, 0.07);
+  const auto corner = nearestContourPoint(set, {150 + 66, 150}, 16.0);
+  ASSERT_TRUE(corner.has_value());
+  EXPECT_LE((corner->positionPx - Vec2(210, 150)).norm(), 1.0);
+  EXPECT_FALSE(nearestContourPoint(set, {150 + 80, 150}, 16.0).has_value());
+  EXPECT_FALSE(nearestContourPoint(ContourSet{}, {0, 0}, 16.0).has_value());
+}
+
+TEST(CornerMarks, ClosedContours) {
+  const ContourSet set = fromPoints(circle(60.0), true);
+  const auto smooth = splitAtCorners(set, {}, {});
+  ASSERT_TRUE(smooth.has_value());
+  ASSERT_EQ(smooth->pieces.size(), 1u);
+  EXPECT_TRUE(smooth->pieces[0].closed);
+  EXPECT_EQ(smooth->pieces[0].points, set.contours[0].points);
+  EXPECT_NEAR(smooth->pieces[0].lengthPx, 2 * std::numbers::pi * 60, 0.05);
+  const std::vector<CornerMark> marks{{Vec2(212, 150)}, {Vec2(211, 150)}, {Vec2(400, 400)}};
+  const auto one = splitAtCorners(set, marks, {});
+  ASSERT_TRUE(one.has_value());
+  EXPECT_EQ(one->lostMarks, std::vector<int>{2});
+  ASSERT_EQ(one->corners.size(), 1u);  // the second mark found the same place
+  ASSERT_EQ(one->pieces.size(), 1u);
+  EXPECT_FALSE(one->pieces[0].closed);
+  EXPECT_EQ(one->pieces[0].points.front(), one->pieces[0].points.back());
+  EXPECT_NEAR(one->pieces[0].lengthPx, 2 * std::numbers::pi * 60, 1.0);
+}
+
+TEST(CornerMarks, TinyAndDegenerateContours) {
+  std::vector<std::vector<Vec2>> cases{{}, {{1, 1}}, {{1, 1}, {2, 2}}, {{1, 1}, {2, 1}, {2, 2}}, std::vector<Vec2>(20, Vec2(3, 3))};
+  for (const auto& points : cases) {
+    for (const bool closed : {false, true}) {
+      const std::vector<CornerMark> marks{{Vec2(1, 1)}, {Vec2(3, 3)}};
+      const auto pieces = splitAtCorners(fromPoints(points, closed), marks, {});
+      ASSERT_TRUE(pieces.has_value());
+      for (const Piece& piece : pieces->pieces) {
+        for (const Vec2& p : piece.points) EXPECT_TRUE(p.allFinite());
+      }
+      EXPECT_TRUE(suggestCorners(fromPoints(points, closed), 0.5, 16.0).empty());
+    }
+  }
+}
+
+TEST(CornerMarks, BadSnapDistanceIsRefused) {
+  CornerParams params;
+  params.snapDistancePx = 0.0;
+  EXPECT_FALSE(splitAtCorners({}, {}, params).has_value());
+}
+
+TEST(SuggestCorners, NoneOnSmoothLines) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    for (const double radius : {15.0, 25.0, 60.0}) {
+      EXPECT_TRUE(suggestCorners(fromPoints(circle(radius), true, 0.08, seed), 28 * kDeg, 16.0).empty()) << radius;
+    }
+    std::vector<Vec2> ellipse, clothoid;
+    for (int i = 0; i < 1200; ++i) {
+      const double a = 2 * std::numbers::pi * i / 1200;
+      ellipse.emplace_back(200 + 180 * std::cos(a), 150 + 60 * std::sin(a));
+    }
+    Vec2 p(0, 0);
+    for (int i = 0; i < 800; ++i) {
+      const double angle = 0.5 * i * i * 0.00006;  // ends at radius 21 px
+      p += Vec2(std::cos(angle), std::sin(angle));
+      clothoid.push_back(p);
+    }
+    EXPECT_TRUE(suggestCorners(fromPoints(ellipse, true, 0.08, seed), 28 * kDeg, 16.0).empty());
+    EXPECT_TRUE(suggestCorners(fromPoints(clothoid, false, 0.08, seed), 28 * kDeg, 16.0).empty());
+  }
+}
+
+TEST(SuggestCorners, EveryCornerOfALetterOnce) {
+  const CurvedPolygon shape = letterK();
+  const ContourSet set = traceShape(shape.sampled(), 5.0, 3);
+  const auto suggestions = suggestCorners(set, 28 * kDeg, 16.0);
+  EXPECT_EQ(suggestions.size(), shape.corners.size());
+  for (const Vec2& corner : shape.corners) {
+    const auto found = std::count_if(suggestions.begin(), suggestions.end(),
+                                     [&](const CornerSuggestion& s) { return (s.positionPx - corner).norm() < 1.0; });
+    EXPECT_EQ(found, 1) << corner.transpose();
+  }
+}
+
+}  // namespace
+}  // namespace batten

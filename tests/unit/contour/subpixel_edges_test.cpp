@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/subpixel_edges.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/contour/crack_contours.h"
+#include "tests/support/contour_shapes.h"
+
+namespace batten {
+namespace {
+
+using test::renderShape;
+using test::RenderSettings;
+
+struct Accuracy {
+  double bias = 0.0, rms = 0.0, worst = 0.0, share = 0.0;
+};
+
+Contour longestRefined(const GreyImage& grey, double threshold) {
+  auto set = crackContours(test::thresholdMask(grey, threshold), false, 40.0, {});
+  Contour longest;
+  for (Contour& c : set->contours) {
+    if (c.lengthPx > longest.lengthPx) longest = std::move(c);
+  }
+  refineOutline(longest, grey, {});
+  return longest;
+}
+
+// Signed distance outwards from a circle.
+Accuracy circleAccuracy(const Vec2& centre, double radius, const RenderSettings& s) {
+  const GreyImage grey = renderShape(
+      [&](double x, double y) { return std::hypot(x - centre.x(), y - centre.y()) < radius; }, s);
+  const Contour c = longestRefined(grey, 0.5 * (s.paper + s.ink) + s.slope * centre.x());
+  Accuracy a;
+  int n = 0;
+  for (std::size_t i = 0; i < c.points.size(); ++i) {
+    if (!c.refined[i]) continue;
+    const double e = (c.points[i] - centre).norm() - radius;
+    a.bias += e;
+    a.rms += e * e;
+    a.worst = std::max(a.worst, std::abs(e));
+    ++n;
+  }
+  a.bias /= n;
+  a.rms = std::sqrt(a.rms / n);
+  a.share = static_cast<double>(n) / static_cast<double>(c.points.size());
+  return a;
+}
+
+TEST(RefineOutline, DiscsAreUnbiasedWhateverTheirRadius) {
+  for (const double radius : {20.0, 35.0, 80.0}) {
+    for (const double blur : {0.8, 1.2, 1.8}) {
+      RenderSettings s;
+      s.blurPx = blur;
+      const Accuracy a = circleAccuracy({100.3, 99.6}, radius, s);
+      RecordProperty("bias", std::to_string(a.bias));
+      EXPECT_LE(std::abs(a.bias), 0.01) << "radius " << radius << " blur " << blur;
+      EXPECT_LE(a.rms, 0.03) << "radius " << radius << " blur " << blur;
+      EXPECT_GE(a.share, 0.99);
+    }
+  }
+}
+
+TEST(RefineOutline, NoiseLeavesSmallUnbiasedErrors) {
+  double bias = 0.0, square = 0.0;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    RenderSettings s;
+    s.noise = 5.0;
+    s.seed = seed;
+    s.ink = 100.0;
+    const Accuracy a = circleAccuracy({100.3, 99.6}, 70.0, s);
+    bias += a.bias / 4;
+    square += a.rms * a.rms / 4;
+    EXPECT_GE(a.share, 0.98);
+  }
+  printf("noise 5, contrast 130: bias %.4f rms %.4f\n", bias, std::sqrt(square));
+  EXPECT_LE(std::abs(bias), 0.01);
+  EXPECT_LE(std::sqrt(square), 0.08);
+}
+
+TEST(RefineOutline, GradationDoesNotMoveTheEdge) {
+  RenderSettings s;
+  s.paper = 180.0;
+  s.slope = 0.2;
+  const Accuracy a = circleAccuracy({100.3, 99.6}, 60.0, s);
+  EXPECT_LE(std::abs(a.bias), 0.01);
+  EXPECT_LE(a.rms, 0.03);
+}
+
+TEST(RefineOutline, NeighbouringInkDoesNotDragTheEdge) {
+  RenderSettings s;
+  const Vec2 centre(100.3, 99.6);
+  // A disc inside a ring of ink whose gap is 4 px wide: well inside the profile.
+  const GreyImage grey = renderShape(
+      [&](double x, double y) {
+        const double r = std::hypot(x - centre.x(), y - centre.y());
+        return r < 50.0 || (r > 54.0 && r < 70.0);
+      },
+      s);
+  auto set = crackContours(test::thresholdMask(grey, 150.0), false, 40.0, {});
+  ASSERT_EQ(set->contours.size(), 2u);
+  for (Contour& c : set->contours) {
+    refineOutline(c, grey, {});
+    const double radius = (c.chain[0] - centre).norm() < 60.0 ? 50.0 : 70.0;
+    double bias = 0.0;
+    for (const Vec2& p : c.points) bias += ((p - centre).norm() - radius) / static_cast<double>(c.points.size());
+    printf("gap 4 px, radius %.0f: bias %.4f\n", radius, bias);
+    EXPECT_LE(std::abs(bias), 0.05) << radius;
+  }
+}
+
+TEST(RefineOutline, PointsKeepTheirNumberAndAdvance) {
+  RenderSettings s;
+  s.noise = 8.0;
+  const std::vector<Vec2> star{{100, 20}, {115, 85}, {180, 100}, {115, 115}, {100, 180}, {85, 115}, {20, 100}, {85, 85}};
+  const GreyImage grey = renderShape([&](double x, double y) { return test::insidePolygon(star, x, y); }, s);
+  auto set = crackContours(test::thresholdMask(grey, 135.0), false, 40.0, {});
+  ASSERT_FALSE(set->contours.empty());
+  Contour& c = set->contours[0];
+  const auto chain = c.chain;
+  refineOutline(c, grey, {});
+  ASSERT_EQ(c.points.size(), chain.size());
+  EXPECT_EQ(c.refined.size(), chain.size());
+  EXPECT_EQ(c.chain, chain);
+  for (std::size_t i = 0; i < c.points.size(); ++i) {
+    EXPECT_LE((c.points[i] - chain[i]).norm(), 2.0);
+    const Vec2 step = c.points[(i + 1) % c.points.size()] - c.points[i];
+    const Vec2 next = c.points[(i + 2) % c.points.size()] - c.points[(i + 1) % c.points.size()];
+    EXPECT_GT(step.norm(), 0.0);
+    EXPECT_GT(step.dot(next), -0.5 * step.norm() * next.norm());
+    if (c.refined[i]) {
+      const double tip = (c.points[i] - star[i % 8]).norm();
+      EXPECT_LE(test::distanceToPolyline(star, c.points[i]), 1.2) << tip;
+    }
+  }
+}
+
+TEST(RefineOutline, PageBorderIsNoEdge) {
+  RenderSettings s;
+  s.width = 80;
+  s.height = 60;
+  const GreyImage grey = renderShape([](double x, double) { return x < 30.5; }, s);
+  const Contour c = longestRefined(grey, 135.0);
+  int onBorder = 0;
+  for (std::size_t i = 0; i < c.points.size(); ++i) {
+    if (c.chain[i].x() <= 0.0 || c.chain[i].y() <= 0.0 || c.chain[i].y() >= 60.0) {
+      ++onBorder;
+      EXPECT_EQ(c.refined[i], 0);
+    } else if (std::abs(c.chain[i].y() - 30.0) < 20.0) {
+      EXPECT_EQ(c.refined[i], 1);
+      EXPECT_NEAR(c.points[i].x(), 30.5, 0.04);
+    }
+  }
+  EXPECT_EQ(onBorder, 60 + 30 + 30);
+}
+
+TEST(RefineOutline, FlatGreyFallsBackToTheCrack) {
+  const GreyImage grey(60, 60, 40000);
+  BitImage ink(60, 60);
+  for (int y = 20; y < 40; ++y) {
+    for (int x = 20; x < 40; ++x) ink.set(x, y, true);
+  }
+  auto set = crackContours(ink, false, 0.0, {});
+  Contour& c = set->contours[0];
+  refineOutline(c, grey, {});
+  for (std::size_t i = 0; i < c.points.size(); ++i) {
+    EXPECT_EQ(c.refined[i], 0);
+    EXPECT_LE((c.points[i] - c.chain[i]).norm(), 1.0);
+  }
+}
+
+TEST(RefineOutline, TinyContoursAreLeftAlone) {
+  const GreyImage grey(10, 10, 40000);
+  Contour c;
+  refineOutline(c, grey, {});
+  EXPECT_TRUE(c.points.empty());
+  c.closed = true;
+  c.chain = {{1, 1.5}, {1.5, 1}, {2, 1.5}};
+  refineOutline(c, grey, {});
+  EXPECT_EQ(c.points, c.chain);
+}
+
+}  // namespace
+}  // namespace batten
