@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/cubic_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/curve/knot_operations.h"
+
+namespace batten {
+namespace {
+
+constexpr int kSamples = 32;        ///< Places per cubic at which the error is measured and handles are fitted.
+constexpr int kRounds = 4;          ///< Fits of the handles, each with better parameters.
+constexpr int kMaxDepth = 24;       ///< Halvings; 1/2^24 of a piece is far below any tolerance.
+constexpr double kMaxTurn = 1.75;   ///< [rad] A cubic that turns more than 100 degrees fits badly and looks wrong in editors.
+
+using Cubic = std::array<Vec2, 4>;
+
+Vec2 at(const Cubic& c, double t) {
+  const double s = 1.0 - t;
+  return s * s * s * c[0] + 3 * s * s * t * c[1] + 3 * s * t * t * c[2] + t * t * t * c[3];
+}
+Vec2 slope(const Cubic& c, double t) {
+  const double s = 1.0 - t;
+  return 3 * s * s * (c[1] - c[0]) + 6 * s * t * (c[2] - c[1]) + 3 * t * t * (c[3] - c[2]);
+}
+
+/// Distance of p from the cubic near t; improves t. Gauss-Newton on the foot point, which is enough near the curve.
+double footDistance(const Cubic& c, const Vec2& p, double& t) {
+  for (int i = 0; i < 8; ++i) {
+    const Vec2 d = slope(c, t);
+    const double square = d.squaredNorm();
+    if (square == 0.0) break;
+    const double next = std::clamp(t + (p - at(c, t)).dot(d) / square, 0.0, 1.0);
+    const bool settled = std::abs(next - t) < 1e-12;
+    t = next;
+    if (settled) break;
+  }
+  return (p - at(c, t)).norm();
+}
+
+class Approximation {
+ public:
+  Approximation(const NurbsCurve& curve, double tolerance, double grid, CubicPath& path)
+      : curve_(curve), tolerance_(tolerance), grid_(grid), path_(path) {}
+
+  void add(double from, double to) { recurse(from, to, 0); }
+  Vec2 rounded(const Vec2& p) const {
+    return {std::round(p.x() / grid_) * grid_, std::round(p.y() / grid_) * grid_};
+  }
+
+ private:
+  /// Unit direction at u, from the side of the interval [from, to] that u bounds.
+  Vec2 direction(double u, double from, double to) const {
+    const auto d = curve_.derivatives(u, 1);
+    const double speed = d[1].norm();
+    const Vec2 chord = curve_.point(to) - curve_.point(from);
+    if (speed * (to - from) > 1e-9 * chord.norm() && speed > 0.0) return d[1] / speed;
+    // A vanishing derivative: the direction towards (or from) a near point of the interval.
+    const double near = u == from ? from + (to - from) * 1e-3 : to - (to - from) * 1e-3;
+    const Vec2 step = u == from ? Vec2(curve_.point(near) - curve_.point(u)) : Vec2(curve_.point(u) - curve_.point(near));
+    return step.norm() > 0.0 ? Vec2(step.normalized()) : Vec2(Vec2::Zero());
+  }
+
+  double turning() const {
+    double sum = 0.0;
+    for (std::size_t i = 2; i < points_.size(); ++i) {
+      const Vec2 a = points_[i - 1] - points_[i - 2], b = points_[i] - points_[i - 1];
+      if (a.squaredNorm() > 0.0 && b.squaredNorm() > 0.0) sum += std::abs(std::atan2(cross(a, b), a.dot(b)));
+    }
+    return sum;
+  }
+
+  void sample(double from, double to) {
+    points_.clear();
+    for (int i = 0; i <= kSamples; ++i) points_.push_back(curve_.point(from + (to - from) * i / kSamples));
+    parameters_.assign(points_.size(), 0.0);
+    for (std::size_t i = 1; i < points_.size(); ++i) parameters_[i] = parameters_[i - 1] + (points_[i] - points_[i - 1]).norm();
+    const double length = parameters_.back();
+    for (double& t : parameters_) t = length > 0.0 ? t / length : 0.0;
+  }
+
+  /// Least squares for the two handle lengths at the present parameters; false where they make no sense.
+  bool fitHandles(Cubic& c, const Vec2& d0, const Vec2& d1) const {
+    double a00 = 0, a01 = 0, a11 = 0, b0 = 0, b1 = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const double t = parameters_[i], s = 1.0 - t;
+      const Vec2 e0 = 3 * s * s * t * d0, e1 = -3 * s * t * t * d1;
+      const Vec2 rest = points_[i] - s * s * (s + 3 * t) * c[0] - t * t * (t + 3 * s) * c[3];
+      a00 += e0.squaredNorm(), a01 += e0.dot(e1), a11 += e1.squaredNorm();
+      b0 += e0.dot(rest), b1 += e1.dot(rest);
+    }
+    const double det = a00 * a11 - a01 * a01;
+    if (!(det > 1e-12 * a00 * a11)) return false;
+    const double h0 = (b0 * a11 - b1 * a01) / det, h1 = (b1 * a00 - b0 * a01) / det;
+    const double chord = (c[3] - c[0]).norm();
+    if (!(h0 > 0.01 * chord && h1 > 0.01 * chord && h0 < 3.0 * chord && h1 < 3.0 * chord)) return false;
+    c[1] = c[0] + h0 * d0;
+    c[2] = c[3] - h1 * d1;
+    return true;
+  }
+
+  Cubic fitted(double from, double to, const Vec2& start, const Vec2& end) {
+    const Vec2 d0 = direction(from, from, to), d1 = direction(to, from, to);
+    Cubic c = {start, start, end, end};
+    double length = 0.0;
+    for (std::size_t i = 1; i < points_.size(); ++i) length += (points_[i] - points_[i - 1]).norm();
+    c[1] = start + length / 3.0 * d0;
+    c[2] = end - length / 3.0 * d1;
+    for (int round = 0; round < kRounds && fitHandles(c, d0, d1); ++round) {
+      for (std::size_t i = 0; i < points_.size(); ++i) footDistance(c, points_[i], parameters_[i]);
+    }
+    return c;
+  }
+
+  /// Largest distance between cubic and curve over [from, to]: from the curve's samples to the cubic, and back.
+  double error(const Cubic& c, double from, double to) {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      double t = parameters_[i];
+      worst = std::max(worst, footDistance(c, points_[i], t));
+    }
+    for (int i = 1; i < 2 * kSamples; ++i) {
+      const Vec2 p = at(c, i / (2.0 * kSamples));
+      worst = std::max(worst, distanceFromCurve(p, from, to));
+    }
+    return worst;
+  }
+
+  double distanceFromCurve(const Vec2& p, double from, double to) const {
+    const auto nearest = std::min_element(points_.begin(), points_.end(), [&](const Vec2& a, const Vec2& b) {
+      return (a - p).squaredNorm() < (b - p).squaredNorm();
+    });
+    double u = from + (to - from) * static_cast<double>(nearest - points_.begin()) / kSamples;
+    double best = (*nearest - p).norm();
+    for (int i = 0; i < 8; ++i) {
+      const auto d = curve_.derivatives(u, 1);
+      const double square = d[1].squaredNorm();
+      if (square == 0.0) break;
+      u = std::clamp(u + (p - d[0]).dot(d[1]) / square, from, to);
+      best = std::min(best, (curve_.point(u) - p).norm());
+    }
+    return best;
+  }
+
+  void recurse(double from, double to, int depth) {
+    const Vec2 start = path_.cubics.empty() ? path_.start : path_.cubics.back()[2];
+    const Vec2 end = rounded(curve_.point(to));
+    const double middle = 0.5 * (from + to);
+    sample(from, to);
+    const bool mayHalve = depth < kMaxDepth && middle > from && middle < to;
+    if (!(mayHalve && turning() > kMaxTurn)) {
+      Cubic c = fitted(from, to, start, end);
+      c[1] = rounded(c[1]);
+      c[2] = rounded(c[2]);
+      const double measured = error(c, from, to);
+      if (measured <= tolerance_ || !mayHalve) {
+        path_.cubics.push_back({c[1], c[2], c[3]});
+        path_.largestError = std::max(path_.largestError, measured);
+        return;
+      }
+    }
+    recurse(from, middle, depth + 1);
+    recurse(middle, to, depth + 1);
+  }
+
+  const NurbsCurve& curve_;
+  double tolerance_, grid_;
+  CubicPath& path_;
+  std::vector<Vec2> points_;
+  std::vector<double> parameters_;
+};
+
+/// The curve cut where it may have a corner, so that within a part both one-sided tangents agree.
+Result<std::vector<NurbsCurve>> smoothParts(const NurbsCurve& curve) {
+  std::vector<NurbsCurve> parts;
+  NurbsCurve rest = curve;
+  const std::vector<double> breaks = curve.breaks();
+  for (std::size_t i = 1; i + 1 < breaks.size(); ++i) {
+    const auto knots = curve.knots();
+    if (std::count(knots.begin(), knots.end(), breaks[i]) < curve.degree()) continue;
+    auto cut = split(rest, breaks[i]);
+    if (!cut) return fail(cut.error());
+    parts.push_back(cut->left);
+    rest = cut->right;
+  }
+  parts.push_back(rest);
+  return parts;
+}
+
+}  // namespace
+
+Result<CubicPath> cubicPath(const NurbsCurve& curve, double tolerance, double grid) {
+  auto parts = smoothParts(curve);
+  if (!parts) return fail(parts.error());
+  CubicPath path;
+  path.start = Approximation(curve, tolerance, grid, path).rounded(curve.point(curve.start()));
+  for (const NurbsCurve& part : *parts) Approximation(part, tolerance, grid, path).add(part.start(), part.end());
+  return path;
+}
+
+}  // namespace batten

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/curve/nurbs_curve.h"
+
+namespace batten {
+
+/// Cubic Bezier pieces of a path: the start, then two handles and an end per cubic.
+struct CubicPath {
+  Vec2 start = Vec2::Zero();
+  std::vector<std::array<Vec2, 3>> cubics;
+  double largestError = 0.0;  ///< Measured distance between the path and the curve, both ways, in the curve's unit.
+};
+
+/// Cubics within `tolerance` of a curve, with its tangents at every joint, split by halves where one cubic is not enough.
+/// Coordinates are rounded to multiples of `grid` (what the file will hold) before the distance is measured; ends stay
+/// ends. @pre tolerance > 4 grid > 0.
+Result<CubicPath> cubicPath(const NurbsCurve&, double tolerance, double grid);
+
+}  // namespace batten

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/curve/knot_operations.h"
+#include "core/exchange/export_check.h"
+#include "core/exchange/writers.h"
+
+namespace batten {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kFormat = "batten-curves";
+constexpr int kVersion = 1;
+
+Json pointsToJson(std::span<const Vec2> points) {
+  Json list = Json::array();
+  for (const Vec2& p : points) list.push_back({p.x(), p.y()});
+  return list;
+}
+
+Result<Json> pieceToJson(const ExportPiece& piece, const PageFrame& frame) {
+  const auto made = clamped(piece.curve);
+  if (!made) return fail(made.error());
+  const NurbsCurve& curve = *made;
+  std::vector<Vec2> px;
+  for (const Vec2& p : curve.controlPoints()) px.push_back(frame.pointToImage(p));
+  Json json{{"degree", curve.degree()}, {"knots", Json::array()}};
+  for (const double knot : curve.knots()) json["knots"].push_back(knot);
+  json["control_points_px"] = pointsToJson(px);
+  json["control_points_mm"] = pointsToJson(curve.controlPoints());
+  if (curve.isRational()) {
+    json["weights"] = Json::array();
+    for (const double weight : curve.weights()) json["weights"].push_back(weight);
+  }
+  return json;
+}
+
+tl::unexpected<Error> damaged(const std::string& what) {
+  return fail(ErrorCode::BadParameter, "The curve file cannot be read: " + what + ".");
+}
+
+Result<NurbsCurve> pieceFromJson(const Json& json) {
+  std::vector<Vec2> points;
+  for (const Json& p : json.at("control_points_mm")) {
+    if (p.size() != 2) return damaged("a control point is not a pair of numbers");
+    points.emplace_back(p.at(0).get<double>(), p.at(1).get<double>());
+  }
+  std::vector<double> weights;
+  if (json.contains("weights")) weights = json.at("weights").get<std::vector<double>>();
+  return NurbsCurve::make(json.at("degree").get<int>(), json.at("knots").get<std::vector<double>>(), std::move(points),
+                          std::move(weights));
+}
+
+Result<ExportDocument> documentFromJson(const Json& json) {
+  if (!json.is_object() || json.value("format", "") != kFormat) return damaged("it is not a \"batten-curves\" file");
+  if (const int version = json.at("version").get<int>(); version < 1 || version > kVersion) {
+    return damaged("it is of version " + std::to_string(version) + ", and this Batten reads version 1");
+  }
+  ExportDocument document;
+  const Json& image = json.at("image");
+  document.frame = {image.at("width").get<int>(), image.at("height").get<int>(), json.at("mm_per_px").get<double>()};
+  if (const Json& dpi = image.at("dpi"); !dpi.is_null()) document.dpi = dpi.get<double>();
+  document.imageSha256 = image.at("sha256").get<std::string>();
+  for (const Json& entry : json.at("curves")) {
+    ExportCurve& curve = document.curves.emplace_back();
+    curve.id = entry.at("id").get<std::string>();
+    curve.closed = entry.at("closed").get<bool>();
+    for (const Json& piece : entry.at("pieces")) {
+      auto made = pieceFromJson(piece);
+      if (!made) return damaged("curve " + curve.id + " is invalid (" + made.error().message + ")");
+      curve.pieces.push_back({std::move(*made)});
+    }
+  }
+  if (auto problem = exportProblem(document)) return damaged(problem->message);
+  return document;
+}
+
+}  // namespace
+
+Result<std::string> writeCurveJson(const ExportDocument& document) {
+  if (auto problem = exportProblem(document)) return fail(std::move(*problem));
+  Json json{{"format", kFormat}, {"version", kVersion}};
+  json["image"] = {{"width", document.frame.widthPx},
+                   {"height", document.frame.heightPx},
+                   {"dpi", document.dpi ? Json(*document.dpi) : Json(nullptr)},
+                   {"sha256", document.imageSha256}};
+  json["mm_per_px"] = document.frame.mmPerPx;
+  Json& curves = json["curves"] = Json::array();
+  for (const ExportCurve& curve : document.curves) {
+    Json pieces = Json::array();
+    for (const ExportPiece& piece : curve.pieces) {
+      auto made = pieceToJson(piece, document.frame);
+      if (!made) return fail(made.error());
+      pieces.push_back(std::move(*made));
+    }
+    curves.push_back({{"id", curve.id}, {"closed", curve.closed}, {"pieces", std::move(pieces)}});
+  }
+  return json.dump(1) + "\n";
+}
+
+Result<ExportDocument> readCurveJson(std::string_view text) {
+  try {
+    return documentFromJson(Json::parse(text));
+  } catch (const Json::exception& e) {
+    auto error = damaged("it is not complete, or not what Batten writes");
+    error.value().detail = e.what();
+    return error;
+  }
+}
+
+}  // namespace batten
