@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <set>
+#include <stdexcept>
+
+#include "core/base/content_hash.h"
+#include "core/base/page_frame.h"
+#include "core/base/parallel.h"
+
+namespace batten {
+namespace {
+
+TEST(ContentHash, MatchesThePublishedDigests) {
+  EXPECT_EQ(sha256({}).hex(), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  const std::string abc = "abc";  // FIPS 180-4, example of one block
+  EXPECT_EQ(sha256(std::as_bytes(std::span(abc))).hex(),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST(ContentHash, NeighboursDoNotRunIntoEachOther) {
+  const auto digest = [](std::string_view a, std::string_view b) {
+    HashBuilder builder;
+    return builder.text(a).text(b).finish();
+  };
+  EXPECT_NE(digest("ab", "c"), digest("a", "bc"));
+  HashBuilder plus, minus;
+  EXPECT_EQ(plus.number(0.0).finish(), minus.number(-0.0).finish());
+}
+
+TEST(PageFrame, GoesToTheModelAndBack) {
+  const PageFrame frame{1000, 800, 25.4 / 300.0};
+  const Vec2 corner = frame.pointToModel({0.0, 800.0});
+  EXPECT_DOUBLE_EQ(corner.norm(), 0.0);
+  EXPECT_GT(frame.pointToModel({0.0, 0.0}).y(), 0.0);
+  const Vec2 p{123.4, 567.8};
+  EXPECT_LT((frame.pointToImage(frame.pointToModel(p)) - p).norm(), 1e-12 * p.norm());
+  const Vec2 moved = frame.pointToModel(p + Vec2{3.0, -5.0}) - frame.pointToModel(p);
+  EXPECT_LT((moved - frame.vectorToModel({3.0, -5.0})).norm(), 1e-12);
+  EXPECT_DOUBLE_EQ(frame.lengthToImage(frame.lengthToModel(42.0)), 42.0);
+}
+
+TEST(ParallelFor, CoversEveryIndexOnceWhateverTheThreads) {
+  for (const int threads : {1, 2, 7}) {
+    RunContext context;
+    context.threads = threads;
+    std::vector<int> visits(1003, 0);
+    parallelFor(context, 1003, 10, [&](int begin, int end) {
+      EXPECT_EQ(begin % 10, 0);
+      EXPECT_LE(end - begin, 10);
+      for (int i = begin; i < end; ++i) ++visits[static_cast<std::size_t>(i)];
+    });
+    EXPECT_EQ(std::set<int>(visits.begin(), visits.end()), std::set<int>{1});
+  }
+}
+
+TEST(ParallelFor, RethrowsAndHandlesNothingToDo) {
+  RunContext context;
+  context.threads = 3;
+  EXPECT_THROW(parallelFor(context, 100, 1, [](int begin, int) { if (begin == 50) throw std::runtime_error("x"); }),
+               std::runtime_error);
+  bool called = false;
+  parallelFor(context, 0, 1, [&](int, int) { called = true; });
+  EXPECT_FALSE(called);
+}
+
+TEST(CancelToken, CopiesShareTheFlagAndStopTheBlocksNotYetStarted) {
+  RunContext context;
+  context.threads = 1;
+  const CancelToken copy = context.cancel;
+  int blocks = 0;
+  parallelFor(context, 100, 1, [&](int, int) {
+    if (++blocks == 3) copy.cancel();
+  });
+  EXPECT_TRUE(context.isCancelled());
+  EXPECT_EQ(blocks, 3);
+}
+
+}  // namespace
+}  // namespace batten

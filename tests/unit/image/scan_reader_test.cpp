@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/scan_reader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/image/scan_grey.h"
+
+namespace batten {
+namespace {
+
+using testing::HasSubstr;
+
+class ScanReader : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              ("scan_reader_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    return folder_ / name;
+  }
+  std::string refusal(const std::filesystem::path& path, const ScanLimits& limits = {}) const {
+    const auto scan = readScan(path, limits, {});
+    if (scan) return "read";
+    EXPECT_EQ(scan.error().code, ErrorCode::UnreadableScan);
+    EXPECT_EQ(scan.error().message.find('\n'), std::string::npos);
+    return scan.error().message;
+  }
+  std::filesystem::path folder_;
+};
+
+std::string little(std::uint32_t value, int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text.push_back(static_cast<char>(value >> (8 * i) & 0xffu));
+  return text;
+}
+std::string big(std::uint32_t value) {
+  const std::string text = little(value, 4);
+  return {text.rbegin(), text.rend()};
+}
+
+std::uint32_t crc(const std::string& bytes) {
+  std::uint32_t value = 0xffffffffu;
+  for (const char c : bytes) {
+    value ^= static_cast<unsigned char>(c);
+    for (int k = 0; k < 8; ++k) value = (value & 1u) != 0 ? 0xedb88320u ^ (value >> 1) : value >> 1;
+  }
+  return ~value;
+}
+std::string chunk(const std::string& name, const std::string& data) {
+  return big(static_cast<std::uint32_t>(data.size())) + name + data + big(crc(name + data));
+}
+/// Zlib stream of stored blocks.
+std::string stored(const std::string& data) {
+  std::uint32_t a = 1, b = 0;
+  for (const char c : data) {
+    a = (a + static_cast<unsigned char>(c)) % 65521;
+    b = (b + a) % 65521;
+  }
+  const auto size = static_cast<std::uint32_t>(data.size());
+  return std::string("\x78\x01\x01", 3) + little(size, 2) + little(~size & 0xffffu, 2) + data + big(b << 16 | a);
+}
+/// @param rows every row with its filter byte in front.
+std::string png(std::uint32_t width, std::uint32_t height, int bits, int colour, const std::string& rows,
+                const std::string& extra = {}) {
+  const std::string header =
+      big(width) + big(height) + static_cast<char>(bits) + static_cast<char>(colour) + std::string(3, '\0');
+  return "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + extra + chunk("IDAT", stored(rows)) + chunk("IEND", "");
+}
+
+/// 3 x 2 grey TIFF with the values 10 20 30 / 40 50 60.
+std::string tiff(std::uint32_t orientation) {
+  const auto entry = [](std::uint32_t tag, std::uint32_t type, std::uint32_t count, std::uint32_t value) {
+    return little(tag, 2) + little(type, 2) + little(count, 4) + little(value, 4);
+  };
+  const std::uint32_t data = 8 + 2 + 13 * 12 + 4;
+  return "II" + little(42, 2) + little(8, 4) + little(13, 2) + entry(256, 3, 1, 3) + entry(257, 3, 1, 2) +
+         entry(258, 3, 1, 8) + entry(259, 3, 1, 1) + entry(262, 3, 1, 1) + entry(273, 4, 1, data + 16) +
+         entry(274, 3, 1, orientation) + entry(277, 3, 1, 1) + entry(278, 3, 1, 2) + entry(279, 4, 1, 6) +
+         entry(282, 5, 1, data) + entry(283, 5, 1, data + 8) + entry(296, 3, 1, 2) + little(0, 4) + little(300, 4) +
+         little(1, 4) + little(300, 4) + little(1, 4) + "\x0a\x14\x1e\x28\x32\x3c";
+}
+
+std::vector<int> levels(const GreyImage& grey) {
+  std::vector<int> values;
+  for (const auto pixel : grey.pixels) values.push_back(static_cast<int>(pixel / 257.0 + 0.5));
+  return values;
+}
+
+TEST_F(ScanReader, SaysWhatIsWrongWithWhatIsNoPicture) {
+  EXPECT_THAT(refusal(folder_ / "none.png"), HasSubstr("does not exist"));
+  EXPECT_THAT(refusal(folder_), HasSubstr("directory"));
+  EXPECT_THAT(refusal(write("empty.png", "")), HasSubstr("empty"));
+  EXPECT_THAT(refusal(write("text.png", "this is no picture at all")), HasSubstr("is not a PNG"));
+  EXPECT_THAT(refusal(write("short.png", "\x89PNG\r\n\x1a\n")), HasSubstr("truncated"));
+  EXPECT_EQ(probeScan(folder_).error().code, ErrorCode::UnreadableScan);
+}
+
+TEST_F(ScanReader, ReadsGreyPngOfEveryDepth) {
+  const struct { int bits; std::string row; std::vector<int> expected; } cases[] = {
+      {1, std::string("\0\xa0", 2), {255, 0, 255}},
+      {2, std::string("\0\x6c", 2), {85, 170, 255}},
+      {4, std::string("\0\x5a\xf0", 3), {85, 170, 255}},
+      {8, std::string("\0\x01\x80\xff", 4), {1, 128, 255}},
+      {16, std::string("\0\x01\x01\x80\x80\xff\xff", 7), {1, 128, 255}},
+  };
+  for (const auto& c : cases) {
+    const auto scan = readScan(write("grey.png", png(3, 1, c.bits, 0, c.row)), {}, {});
+    ASSERT_TRUE(scan.has_value()) << c.bits << ": " << scan.error().message;
+    EXPECT_EQ(levels(scan->grey), c.expected) << c.bits;
+    EXPECT_EQ(scan->info.bitsPerChannel, c.bits);
+    EXPECT_FALSE(scan->dpi.has_value());
+  }
+}
+
+TEST_F(ScanReader, LaysAlphaOverWhiteAndTakesTheLumaOfColour) {
+  const std::string row = std::string("\0", 1) + std::string("\xff\0\0\xff", 4) + std::string("\0\0\0\x80", 4) +
+                          std::string("\x12\x34\x56\0", 4);
+  const auto scan = readScan(write("alpha.png", png(3, 1, 8, 6, row)), {}, {});
+  ASSERT_TRUE(scan.has_value());
+  EXPECT_EQ(levels(scan->grey), (std::vector<int>{76, 127, 255}));
+  const std::string palette = chunk("PLTE", std::string("\0\0\0\xff\xff\xff\0\xff\0", 9));
+  const auto indexed = readScan(write("p.png", png(3, 1, 8, 3, std::string("\0\0\1\2", 4), palette)), {}, {});
+  ASSERT_TRUE(indexed.has_value());
+  EXPECT_EQ(levels(indexed->grey), (std::vector<int>{0, 255, 150}));
+}
+
+TEST_F(ScanReader, ReadsResolutionAndHash) {
+  const std::string phys = chunk("pHYs", big(11811) + big(11811) + '\1');
+  const auto scan = readScan(write("dpi.png", png(1, 1, 8, 0, std::string("\0\7", 2), phys)), {}, {});
+  ASSERT_TRUE(scan.has_value());
+  EXPECT_EQ(scan->dpi, 300.0);
+  const auto bytes = png(1, 1, 8, 0, std::string("\0\7", 2), phys);
+  EXPECT_EQ(scan->fileHash, sha256(std::as_bytes(std::span(bytes))));
+  EXPECT_NEAR(pageFrame(*scan, scan->dpi).mmPerPx, 25.4 / 300.0, 1e-12);
+  EXPECT_NEAR(pageFrame(*scan, {}).mmPerPx, 25.4 / 96.0, 1e-12);
+}
+
+TEST_F(ScanReader, RefusesTruncatedAndDamagedPng) {
+  std::string bytes = png(3, 1, 8, 0, std::string("\0\1\2\3", 4));
+  EXPECT_THAT(refusal(write("cut.png", bytes.substr(0, bytes.size() - 12))), HasSubstr("truncated"));
+  EXPECT_THAT(refusal(write("cut2.png", bytes.substr(0, bytes.size() - 20))), HasSubstr("truncated"));
+  bytes[bytes.size() - 20] = static_cast<char>(bytes[bytes.size() - 20] ^ 1);
+  EXPECT_THAT(refusal(write("bad.png", bytes)), HasSubstr("damaged"));
+}
+
+TEST_F(ScanReader, RefusesWhatDoesNotFitIntoMemory) {
+  const auto path = write("huge.png", png(30000, 30000, 8, 0, std::string(1, '\0')));
+  const std::string message = refusal(path, {.memoryBytes = 1'000'000'000});
+  EXPECT_THAT(message, HasSubstr("30000 x 30000 px need 2.70 GB"));
+  EXPECT_THAT(message, HasSubstr("1.00 GB are free. Scan at a lower resolution or crop."));
+  EXPECT_EQ(probeScan(path)->width, 30000);
+  EXPECT_THAT(refusal(write("more.png", png(60000, 60000, 1, 0, "x"))), HasSubstr("too large"));
+}
+
+TEST_F(ScanReader, TurnsTiffUprightByItsOrientation) {
+  const std::vector<std::vector<int>> expected = {
+      {10, 20, 30, 40, 50, 60}, {30, 20, 10, 60, 50, 40}, {60, 50, 40, 30, 20, 10}, {40, 50, 60, 10, 20, 30},
+      {10, 40, 20, 50, 30, 60}, {40, 10, 50, 20, 60, 30}, {60, 30, 50, 20, 40, 10}, {30, 60, 20, 50, 10, 40}};
+  for (std::uint32_t orientation = 1; orientation <= 8; ++orientation) {
+    const auto scan = readScan(write("turn.tif", tiff(orientation)), {}, {});
+    ASSERT_TRUE(scan.has_value()) << scan.error().message;
+    EXPECT_EQ(levels(scan->grey), expected[orientation - 1]) << orientation;
+    EXPECT_EQ(scan->grey.width, orientation >= 5 ? 2 : 3);
+    EXPECT_EQ(scan->dpi, 300.0);
+  }
+  EXPECT_THAT(refusal(write("cut.tif", tiff(1).substr(0, tiff(1).size() - 2))), HasSubstr("truncated"));
+}
+
+TEST_F(ScanReader, ReadsPnmAndRefusesItTruncated) {
+  const auto grey = readScan(write("a.pgm", "P5\n# made by hand\n3 1\n255\n\x0a\x14\x1e"), {}, {});
+  ASSERT_TRUE(grey.has_value()) << grey.error().message;
+  EXPECT_EQ(levels(grey->grey), (std::vector<int>{10, 20, 30}));
+  const auto bits = readScan(write("a.pbm", "P4\n3 1\n\xa0"), {}, {});
+  ASSERT_TRUE(bits.has_value()) << bits.error().message;
+  EXPECT_EQ(levels(bits->grey), (std::vector<int>{0, 255, 0}));
+  EXPECT_THAT(refusal(write("b.pgm", "P5\n3 2\n255\nabc")), HasSubstr("truncated"));
+}
+
+TEST_F(ScanReader, StopsWhenCancelled) {
+  RunContext context;
+  context.cancel.cancel();
+  const auto scan = readScan(write("a.png", png(1, 1, 8, 0, std::string("\0\7", 2))), {}, context);
+  EXPECT_EQ(scan.error().code, ErrorCode::Cancelled);
+}
+
+}  // namespace
+}  // namespace batten

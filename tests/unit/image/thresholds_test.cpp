@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "core/image/binarize.h"
+#include "core/image/push_pull.h"
+
+namespace batten {
+namespace {
+
+struct Page {
+  GreyImage grey;
+  BitImage truth;
+  BitImage nearEdge;  ///< Pixels within 1.5 px of the ideal border: either answer is right there.
+};
+
+/// A ring of 8 px pen width and a filled disc on paper that falls off across the page, blurred as a scanner does.
+Page drawPage(int width, int height, double dark, double fall, double contrast, double noise, unsigned seed = 4) {
+  Page page{GreyImage(width, height), BitImage(width, height), BitImage(width, height)};
+  std::mt19937 random(seed);
+  std::normal_distribution<double> grain(0.0, noise > 0.0 ? noise : 1.0);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double u = (x + 0.5) / width, v = (y + 0.5) / height;
+      const double paper = dark + fall * (1.0 - u * u) * (0.4 + 0.6 * v);
+      const double ring = std::fabs(std::hypot(x + 0.5 - 0.35 * width, y + 0.5 - 0.5 * height) - 0.3 * height) - 4.0;
+      const double disc = std::hypot(x + 0.5 - 0.82 * width, y + 0.5 - 0.4 * height) - 0.12 * height;
+      const double distance = std::min(ring, disc);
+      const double cover = 0.5 * std::erfc(distance / (std::sqrt(2.0) * 1.0));
+      const double level = paper - contrast * cover + (noise > 0.0 ? grain(random) : 0.0);
+      page.grey.row(y)[x] = static_cast<std::uint16_t>(std::lround(std::clamp(level, 0.0, 255.0) * 257.0));
+      page.truth.set(x, y, distance < 0.0);
+      page.nearEdge.set(x, y, std::fabs(distance) < 1.5);
+    }
+  }
+  return page;
+}
+
+std::int64_t wrongPixels(const Page& page, const BitImage& ink) {
+  std::int64_t wrong = 0;
+  for (int y = 0; y < ink.height; ++y) {
+    for (int x = 0; x < ink.width; ++x) {
+      wrong += !page.nearEdge.at(x, y) && ink.at(x, y) != page.truth.at(x, y) ? 1 : 0;
+    }
+  }
+  return wrong;
+}
+
+BitImage mask(const GreyImage& grey, const PaperParams& paper, const ThresholdParams& params, int threads = 0) {
+  RunContext context;
+  context.threads = threads;
+  return *binarize(grey, *findThresholds(grey, paper, params, context), params, context);
+}
+
+TEST(Thresholds, FindTheDrawingOnCleanGradatedAndDarkNoisyPages) {
+  const Page clean = drawPage(640, 480, 255.0, 0.0, 235.0, 0.0);
+  EXPECT_EQ(wrongPixels(clean, mask(clean.grey, {}, {})), 0);
+  const Page scan = drawPage(640, 480, 150.0, 80.0, 110.0, 4.0);
+  EXPECT_EQ(wrongPixels(scan, mask(scan.grey, {}, {})), 0);
+  const Page dark = drawPage(640, 480, 50.0, 130.0, 40.0, 4.0);
+  EXPECT_LE(wrongPixels(dark, mask(dark.grey, {}, {})), 20);
+}
+
+TEST(Thresholds, FindTheDrawingOnLargePagesToo) {
+  const Page page = drawPage(2101, 1507, 120.0, 90.0, 80.0, 4.0);
+  EXPECT_LE(wrongPixels(page, mask(page.grey, {}, {})), 20);
+}
+
+TEST(Thresholds, PaperFollowsTheGradation) {
+  const Page page = drawPage(640, 480, 80.0, 120.0, 60.0, 0.0);
+  const auto found = findThresholds(page.grey, {}, {}, {});
+  for (const int y : {40, 240, 440}) {
+    for (const int x : {20, 200, 480, 620}) {
+      const double u = (x + 0.5) / 640, v = (y + 0.5) / 480;
+      EXPECT_NEAR(found->paper.at(x + 0.5, y + 0.5), 80.0 + 120.0 * (1.0 - u * u) * (0.4 + 0.6 * v), 4.0);
+    }
+  }
+}
+
+TEST(Thresholds, FlatPagesHoldNothing) {
+  for (const bool flatten : {true, false}) {
+    for (const std::uint16_t fill : {std::uint16_t{0}, std::uint16_t{30000}, std::uint16_t{0xffff}}) {
+      const GreyImage page(300, 200, fill);
+      const auto found = findThresholds(page, {flatten}, {}, {});
+      EXPECT_FALSE(found->foundLine);
+      EXPECT_FALSE(found->note.empty());
+      EXPECT_EQ(binarize(page, *found, {}, {})->count(), 0);
+    }
+    const Page noise = drawPage(400, 300, 180.0, 40.0, 0.0, 6.0);
+    EXPECT_FALSE(findThresholds(noise.grey, {flatten}, {}, {})->foundLine);
+    EXPECT_EQ(mask(noise.grey, {flatten}, {}).count(), 0);
+  }
+}
+
+TEST(Thresholds, TinyPicturesDoNotFail) {
+  for (const int width : {1, 2, 3, 7, 9}) {
+    for (const int height : {1, 2, 5, 8}) {
+      GreyImage page(width, height);
+      page.row(height / 2)[width / 2] = 0;
+      for (const bool flatten : {true, false}) {
+        const auto found = findThresholds(page, {flatten}, {}, {});
+        ASSERT_TRUE(found.has_value());
+        EXPECT_TRUE(binarize(page, *found, {}, {}).has_value());
+      }
+    }
+  }
+}
+
+TEST(Thresholds, DoNotDependOnThreads) {
+  const Page page = drawPage(900, 700, 100.0, 100.0, 50.0, 4.0);
+  ThresholdParams params;
+  params.reach = 0.5;
+  EXPECT_EQ(mask(page.grey, {}, params, 1), mask(page.grey, {}, params, 4));
+}
+
+TEST(Thresholds, OtsuParEachRegionAndFillsEmptyOnes) {
+  const Page page = drawPage(640, 480, 210.0, 20.0, 150.0, 3.0);
+  const auto found = findThresholds(page.grey, {false}, {}, {});
+  EXPECT_TRUE(found->paper.isEmpty());
+  EXPECT_TRUE(found->foundLine);
+  EXPECT_FALSE(found->measured[7]);
+  EXPECT_EQ(wrongPixels(page, mask(page.grey, {false}, {})), 0);
+}
+
+TEST(Thresholds, TheUsersLevelsAct) {
+  GreyImage page(160, 160, static_cast<std::uint16_t>(200 * 257));
+  for (int y = 0; y < 160; ++y) {
+    for (int x = 80; x < 160; ++x) page.row(y)[x] = static_cast<std::uint16_t>(100 * 257);
+  }
+  ThresholdParams params;
+  params.mode = ThresholdMode::Manual;
+  params.manualLevel = 50.0;
+  params.interpolate = false;
+  params.grid[7] = 150.0;  // upper right corner
+  params.grid[0] = 150.0;  // upper left: the paper is brighter than that
+  const BitImage ink = mask(page, {false}, params);
+  EXPECT_EQ(ink.count(), 20 * 20);
+  EXPECT_TRUE(ink.at(150, 10));
+  const auto found = findThresholds(page, {false}, params, {});
+  EXPECT_EQ(found->level[7], 150.0);
+  EXPECT_EQ(found->level[6], 50.0);
+  params.manualLevel = 256.0;
+  EXPECT_EQ(findThresholds(page, {}, params, {}).error().code, ErrorCode::BadParameter);
+}
+
+TEST(Thresholds, StrengthAsksForDarkerInk) {
+  const Page page = drawPage(640, 480, 200.0, 20.0, 100.0, 2.0);
+  ThresholdParams weak, strong;
+  weak.strength = 0.6;
+  strong.strength = 1.6;
+  EXPECT_GT(mask(page.grey, {}, weak).count(), mask(page.grey, {}, {}).count());
+  EXPECT_LT(mask(page.grey, {}, strong).count(), mask(page.grey, {}, {}).count());
+}
+
+TEST(Thresholds, HistogramsCountEveryPixelOnce) {
+  const Page page = drawPage(643, 481, 100.0, 100.0, 50.0, 4.0);
+  std::uint64_t total = 0;
+  for (int region = 0; region < kRegions; ++region) {
+    for (const auto n : regionHistogram(page.grey, region)) total += n;
+  }
+  EXPECT_EQ(total, 643u * 481u);
+}
+
+TEST(PushPull, KeepsSureCellsAndFillsTheRestWithinTheirRange) {
+  std::vector<float> values(21 * 13, 0.0f), weights(values.size(), 0.0f);
+  values[5] = 3.0f;
+  weights[5] = 1.0f;
+  values[200] = 9.0f;
+  weights[200] = 1.0f;
+  const auto filled = pushPull(values, weights, 21, 13);
+  EXPECT_EQ(filled[5], 3.0f);
+  EXPECT_EQ(filled[200], 9.0f);
+  for (const float v : filled) {
+    EXPECT_GE(v, 3.0f - 1e-4f);
+    EXPECT_LE(v, 9.0f + 1e-4f);
+  }
+}
+
+}  // namespace
+}  // namespace batten
