@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/document/export_builder.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+namespace batten {
+namespace {
+
+/// All pieces of one contour in order of travel; null where there is no curve to export.
+using ContourPieces = std::vector<const TracedCurve*>;
+
+/// Runs of pieces that follow each other. A closed contour may be entered anywhere: it starts after a gap, so that no run
+/// is cut at the contour's own start.
+std::vector<std::vector<const TracedCurve*>> runs(const ContourPieces& pieces, bool closed) {
+  std::vector<std::vector<const TracedCurve*>> result;
+  const std::size_t n = pieces.size();
+  const auto gap = std::find(pieces.begin(), pieces.end(), nullptr);
+  const std::size_t start = closed && gap != pieces.end() ? static_cast<std::size_t>(gap - pieces.begin()) : 0;
+  bool open = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    const TracedCurve* piece = pieces[(start + i) % n];
+    if (piece != nullptr) {
+      if (!open) result.emplace_back();
+      result.back().push_back(piece);
+    }
+    open = piece != nullptr;
+  }
+  return result;
+}
+
+bool isWholeClosed(const std::vector<const TracedCurve*>& run, const ContourPieces& all, bool contourClosed) {
+  return run.front()->closed || (contourClosed && run.size() == all.size());
+}
+
+}  // namespace
+
+ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe, const Scan& scan) {
+  ExportDocument document;
+  document.frame = output.frame;
+  document.dpi = recipe.dpi ? recipe.dpi : scan.dpi;
+  document.imageSha256 = scan.fileHash.hex();
+  document.title = std::filesystem::path(scan.path).filename().string();
+  if (!output.faired || !output.pieces || !output.contours) return document;
+
+  std::map<int, ContourPieces> byContour;
+  std::map<std::size_t, const TracedCurve*> byPiece;
+  for (const TracedCurve& curve : output.faired->curves) {
+    if (curve.included && !curve.faired.isEmpty()) byPiece[static_cast<std::size_t>(curve.piece)] = &curve;
+  }
+  for (std::size_t i = 0; i < output.pieces->pieces.size(); ++i) {
+    const auto found = byPiece.find(i);
+    byContour[output.pieces->pieces[i].contour].push_back(found == byPiece.end() ? nullptr : found->second);
+  }
+  for (const auto& [contour, pieces] : byContour) {
+    const bool closed = output.contours->contours[static_cast<std::size_t>(contour)].closed;
+    for (const auto& run : runs(pieces, closed)) {
+      ExportCurve& curve = document.curves.emplace_back();
+      curve.id = "curve-" + std::to_string(document.curves.size());
+      curve.closed = isWholeClosed(run, pieces, closed);
+      for (const TracedCurve* piece : run) curve.pieces.push_back({piece->faired});
+    }
+  }
+  return document;
+}
+
+}  // namespace batten

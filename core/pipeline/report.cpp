@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/pipeline/parameter_table.h"
+
+namespace batten {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A number, or null where there is none: JSON knows no NaN.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json pointToJson(const Vec2& p) { return {number(p.x()), number(p.y())}; }
+
+Json deviationToJson(const Deviation& d, const PageFrame& frame) {
+  const auto entry = [&](double mm) { return Json{{"px", number(frame.lengthToImage(mm))}, {"mm", number(mm)}}; };
+  return {{"max", entry(d.max)},
+          {"rms", entry(d.rms)},
+          {"percentile_95", entry(d.percentile95)},
+          {"points", d.count},
+          {"worst_point_px", pointToJson(frame.pointToImage(d.worstPoint))}};
+}
+
+Json figuresToJson(const CurveFigures& f, const PageFrame& frame) {
+  return {{"length_mm", number(f.lengthMm)},     {"control_points", f.controlPoints},
+          {"deviation_from_points", deviationToJson(f.fromPoints, frame)},
+          {"curvature_extrema", f.extrema},      {"inflections", f.inflections}};
+}
+
+Json constructToJson(const ConstructReport& r) {
+  Json json{{"stopped", name(r.why)}, {"note", r.note},           {"noise_px", number(r.noisePx)},
+            {"is_circle", r.isCircle}, {"is_line", r.isLine},      {"extrema", Json::array()}};
+  for (const ExtremumNote& e : r.extrema) {
+    json["extrema"].push_back({{"s_mm", number(e.s)},
+                               {"curvature_per_mm", number(e.kappa)},
+                               {"maximum", e.maximum},
+                               {"kept", e.kept},
+                               {"removal_cost", number(e.removalCost)}});
+  }
+  return json;
+}
+
+Json fairingToJson(const FairingReport& r) {
+  return {{"stopped", name(r.why)},
+          {"note", r.note},
+          {"iterations", r.iterations},
+          {"objective_before", number(r.objectiveBefore)},
+          {"objective_after", number(r.objectiveAfter)},
+          {"max_deviation_mm", number(r.maxDeviationMm)},
+          {"needed_mm", number(r.neededMm)},
+          {"within_budget", r.withinBudget},
+          {"curvature_extrema_before", r.extremaBefore},
+          {"curvature_extrema_after", r.extremaAfter}};
+}
+
+Json targetsToJson(const TargetOutcomes& outcomes) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < outcomes.faired.size(); ++i) {
+    const TargetProfile& p = outcomes.targets.profiles[i];
+    Json json{{"degree", static_cast<int>(i) + 1},
+              {"valid", p.valid},
+              {"similarity", number(p.similarity)},
+              {"pearson", number(p.pearson)},
+              {"rms_percent", number(p.rmsPercent)},
+              {"monotone", p.isMonotone},
+              {"aicc", number(p.aicc)},
+              {"recommended", outcomes.recommendedDegree == static_cast<int>(i) + 1}};
+    if (!p.valid) json["problem"] = p.problem;
+    if (outcomes.faired[i]) {
+      json["fairing"] = fairingToJson(outcomes.faired[i]->report);
+    } else if (p.valid) {
+      json["problem"] = outcomes.problems[i];
+    }
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+std::string wordOf(const FairingParams& params, const char* parameter) {
+  Recipe named;
+  named.fairing = params;
+  return findParameter(parameter)->get(named);
+}
+
+Json choiceToJson(const TracedCurve& c) {
+  return {{"included", c.included},
+          {"mode", wordOf(c.fairingUsed, "fairing.mode")},
+          {"target", wordOf(c.fairingUsed, "fairing.target")},
+          {"tolerance_mm", c.fairingUsed.toleranceMm}};
+}
+
+Json cornersToJson(const PipelineOutput& out, const TracedCurve& c) {
+  Json list = Json::array();
+  const Piece& piece = out.pieces->pieces[static_cast<std::size_t>(c.piece)];
+  if (piece.startIsCorner && !piece.points.empty()) list.push_back(pointToJson(piece.points.front()));
+  if (piece.endIsCorner && !piece.points.empty()) list.push_back(pointToJson(piece.points.back()));
+  return list;
+}
+
+Json curveToJson(const PipelineOutput& out, const ReportExtras& extras, std::size_t index) {
+  const TracedCurve& c = out.faired->curves[index];
+  Json json{{"index", static_cast<int>(index)}, {"contour", c.contour + 1}, {"piece", c.piece}, {"closed", c.closed}};
+  json["kind"] = out.contours->contours[static_cast<std::size_t>(c.contour)].kind == ContourKind::Centreline ? "centreline"
+                                                                                                              : "outline";
+  json["corners_px"] = cornersToJson(out, c);
+  json["sketched"] = figuresToJson(c.sketchedFigures, out.frame);
+  json["construct"] = constructToJson(c.construct);
+  json["choice"] = choiceToJson(c);
+  json["faired"] = figuresToJson(c.fairedFigures, out.frame);
+  json["fairing"] = fairingToJson(c.fairing);
+  if (index < extras.targets.size() && extras.targets[index]) {
+    json["recommended_degree"] = extras.targets[index]->recommendedDegree;
+    json["targets"] = targetsToJson(*extras.targets[index]);
+  } else if (index < extras.targetProblems.size() && !extras.targetProblems[index].empty()) {
+    json["targets_problem"] = extras.targetProblems[index];
+  }
+  return json;
+}
+
+std::size_t stationCount(const SegmentSet& set) {
+  std::size_t count = 0;
+  for (const PieceSegments& p : set.pieces) count += p.stations.size();
+  return count;
+}
+
+/// What a stage counted, for the stages that ran.
+Json countsOf(StageId stage, const PipelineOutput& out) {
+  switch (stage) {
+    case StageId::Thresholds:
+      if (!out.thresholds) break;
+      return {{"regions_measured", std::count(out.thresholds->measured.begin(), out.thresholds->measured.end(), true)},
+              {"paper_noise_grey", number(out.thresholds->paperNoise)},
+              {"smoothing_px", number(out.thresholds->smoothingPx)},
+              {"note", out.thresholds->note}};
+    case StageId::Binary:
+      if (out.binary) return {{"ink_px", out.binary->count()}};
+      break;
+    case StageId::Filtered:
+      if (!out.filtered) break;
+      return {{"ink_px", out.filtered->report.inkAfter},
+              {"iterations", out.filtered->report.iterations},
+              {"stopped", name(out.filtered->report.why)},
+              {"thin_strokes_lost", out.filtered->report.thinStrokesLost}};
+    case StageId::Edges:
+      if (out.edges) return {{"edge_px", out.edges->count()}};
+      break;
+    case StageId::Contours:
+      if (!out.contours) break;
+      return {{"contours", out.contours->contours.size()},
+              {"found", out.contours->report.found},
+              {"dropped_short", out.contours->report.droppedShort},
+              {"dropped_holes", out.contours->report.droppedHoles},
+              {"refined_share", number(out.contours->report.refinedShare)},
+              {"note", out.contours->report.note}};
+    case StageId::Pieces:
+      if (!out.pieces) break;
+      return {{"pieces", out.pieces->pieces.size()},
+              {"corners", out.pieces->corners.size()},
+              {"lost_marks", out.pieces->lostMarks.size()}};
+    case StageId::Segments:
+      if (out.segments) return {{"segments", stationCount(*out.segments)}};
+      break;
+    case StageId::Curves:
+      if (!out.constructed) break;
+      return {{"curves", out.constructed->curves.size()}, {"failures", out.constructed->failures.size()}};
+    case StageId::Faired:
+      if (out.faired) return {{"curves", out.faired->curves.size()}};
+      break;
+  }
+  return Json::object();
+}
+
+Json stagesToJson(const PipelineOutput& out) {
+  Json list = Json::array();
+  for (const StageId stage : kStages) {
+    const StageTiming& timing = out.timing[static_cast<std::size_t>(stage)];
+    if (!timing.run) continue;
+    list.push_back({{"stage", name(stage)},
+                    {"milliseconds", number(timing.milliseconds)},
+                    {"from_cache", timing.fromCache},
+                    {"counts", countsOf(stage, out)}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string reportToJson(const Scan& scan, const Recipe& recipe, const PipelineOutput& out, const ReportExtras& extras) {
+  Json json{{"format", "batten-report"}, {"version", 1}};
+  const std::optional<double> dpi = recipe.dpi ? recipe.dpi : scan.dpi;
+  json["image"] = {{"path", scan.path},
+                   {"format", scan.info.format},
+                   {"width", scan.grey.width},
+                   {"height", scan.grey.height},
+                   {"dpi", dpi ? Json(*dpi) : Json(nullptr)},
+                   {"scale_assumed", isScaleAssumed(scan, recipe)},
+                   {"sha256", scan.fileHash.hex()}};
+  json["mm_per_px"] = number(out.frame.mmPerPx);
+  json["read_milliseconds"] = number(extras.readMilliseconds);
+  json["stages"] = stagesToJson(out);
+  Json& curves = json["curves"] = Json::array();
+  for (std::size_t i = 0; out.faired && i < out.faired->curves.size(); ++i) curves.push_back(curveToJson(out, extras, i));
+  Json& failures = json["failures"] = Json::array();
+  if (out.constructed) {
+    for (const Error& e : out.constructed->failures) failures.push_back(e.message);
+  }
+  if (out.error) {
+    json["error"] = {{"stage", out.failedStage ? Json(name(*out.failedStage)) : Json(nullptr)}, {"message", out.error->message}};
+  }
+  json["peak_memory_bytes"] = extras.peakMemoryBytes > 0 ? Json(extras.peakMemoryBytes) : Json(nullptr);
+  // Paths come from the system in any encoding: what is not UTF-8 is replaced, never thrown over.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace batten
