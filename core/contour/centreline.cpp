@@ -58,8 +58,8 @@ StrokeSplit split(const BitImage& ink, double limitPx) {
   return result;
 }
 
-// Side branches no longer than the stroke is wide come from bumps of its border; the shortest go first, since their going
-// may turn a junction into a plain point of a longer line.
+// Side branches no longer than the stroke is wide come from bumps of its border; the shortest go first, since their
+// going may turn a junction into a plain point of a longer line.
 bool pruneSpurs(BitImage& skeleton, const cv::Mat& distance, double factor, const RunContext& context) {
   constexpr int kRounds = 8;
   for (int round = 0; round < kRounds; ++round) {
@@ -127,7 +127,8 @@ void refineCentre(Contour& contour, const GreyImage& grey, double radius) {
       profile[static_cast<std::size_t>(k + half)] = sampleLinear(grey, base[i] + k * kStep * normal);
     }
     const StrokeCentre centre = centreOfProfile(profile, kStep);
-    const bool good = centre.ok && std::abs(centre.centre) <= 1.5 && std::abs(centre.width - 2.0 * radius) <= 0.8 * radius + 1.0;
+    const bool good =
+        centre.ok && std::abs(centre.centre) <= 1.5 && std::abs(centre.width - 2.0 * radius) <= 0.8 * radius + 1.0;
     contour.points[i] = base[i] + (good ? centre.centre : 0.0) * normal;
     contour.refined[i] = good ? 1 : 0;
     if (good) contour.widthPx[i] = static_cast<float>(centre.width);

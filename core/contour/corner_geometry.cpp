@@ -4,16 +4,22 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace batten {
 namespace {
 
 constexpr double kUnrefinedWeight = 0.1;  // points known to the pixel only
 constexpr double kOutlineZonePx = 4.0;
-constexpr double kFarthestMeetPx = 6.0;    // of the meeting point from the contour
-constexpr double kFarthestTipPx = 16.0;    // acute tips are eaten away by blur and threshold
-constexpr double kSmallestSine = 0.08;     // of the angle between the sides; below, the meeting point is ill-conditioned
+constexpr double kFarthestMeetPx = 6.0;  // of the meeting point from the contour
+constexpr double kFarthestTipPx = 16.0;  // acute tips are eaten away by blur and threshold
+constexpr double kSmallestSine = 0.08;   // of the angle between the sides; below, the meeting point is ill-conditioned
 constexpr int kNewtonSteps = 12;
+constexpr int kLocateRounds = 4;
+constexpr double kShortestWindowPx = 20.0;
+constexpr double kTrendLimit = 4.0;  // neighbouring points share noise: three of these are about two true ones
+constexpr double kFreeLegsPx = 6.0;  // legs nearer to each other than this share their blur
+constexpr double kWidestZonePx = 16.0;
 
 struct Meeting {
   Vec2 position = Vec2::Zero();
@@ -46,20 +52,73 @@ Meeting meet(const LocalQuadratic& a, const LocalQuadratic& b, double scale) {
   return m;
 }
 
-// The longest stretch that one parabola still describes as well as the short one: more points, less noise.
+// The longest stretch that one parabola describes: extrapolated to the corner, the noise of a short one grows tenfold.
+// A longer one is refused as soon as its residuals show a third-order trend beyond their noise.
 OneSidedFit longestGoodFit(const Contour& contour, int index, int side, double inner, double outer) {
   const double span = outer - inner;
-  OneSidedFit best = fitOneSide(contour, index, side, inner, inner + std::min(span, 20.0));
-  for (const double length : {32.0, 48.0}) {
+  OneSidedFit best = fitOneSide(contour, index, side, inner, inner + std::min(span, kShortestWindowPx));
+  for (const double length : {32.0, 48.0, 64.0}) {
     if (span < length) break;
     const OneSidedFit longer = fitOneSide(contour, index, side, inner, inner + length);
-    if (longer.fit.order < 2 || longer.fit.residualRms > 1.08 * best.fit.residualRms) break;
+    if (longer.fit.order < 2 || longer.cubicTrend > kTrendLimit || longer.fit.residualRms > 1.5 * best.fit.residualRms)
+      break;
     best = longer;
   }
   return best;
 }
 
 double turn(const Vec2& in, const Vec2& out) { return -std::atan2(cross(in, out), in.dot(out)); }
+
+// Extends both sides until they meet: parabolas, or short lines where parabolas miss each other.
+Meeting meetSides(const Contour& contour, int at, double inner, double outerBefore, double outerAfter, double& angle) {
+  const OneSidedFit before = longestGoodFit(contour, at, -1, inner, outerBefore);
+  const OneSidedFit after = longestGoodFit(contour, at, 1, inner, outerAfter);
+  if (before.reach <= 0.0 || after.reach <= 0.0) return {};
+  angle = turn(-before.fit.r1, after.fit.r1);
+  const Meeting m = meet(before.fit, after.fit, inner + 20.0);
+  if (m.ok) return m;
+  const OneSidedFit lineBefore = fitOneSide(contour, at, -1, inner, inner + std::min(10.0, outerBefore), 1);
+  const OneSidedFit lineAfter = fitOneSide(contour, at, 1, inner, inner + std::min(10.0, outerAfter), 1);
+  if (lineBefore.reach <= 0.0 || lineAfter.reach <= 0.0) return {};
+  return meet(lineBefore.fit, lineAfter.fit, inner + 20.0);
+}
+
+struct NearestPoint {
+  int index = 0;
+  double distance = 0.0;
+};
+
+NearestPoint nearestAlong(const Contour& contour, int at, const Vec2& position, int reach) {
+  const int n = static_cast<int>(contour.points.size());
+  NearestPoint best{at, (contour.points[static_cast<std::size_t>(at)] - position).norm()};
+  for (int k = -reach; k <= reach; ++k) {
+    const int i = contour.closed ? wrapIndex(at + k, n) : at + k;
+    if (i < 0 || i >= n) continue;
+    const double d = (contour.points[static_cast<std::size_t>(i)] - position).norm();
+    if (d < best.distance) best = {i, d};
+  }
+  return best;
+}
+
+// Third Legendre polynomial in the normal residuals, in units of its standard deviation for independent noise.
+double cubicTrendOf(const std::vector<double>& s, const std::vector<Vec2>& points, const std::vector<double>& weights,
+                    const LocalQuadratic& fit) {
+  const double middle = 0.5 * (s.front() + s.back()), half = 0.5 * (s.back() - s.front());
+  double product = 0.0, square = 0.0, noise = 0.0, weightSum = 0.0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const double x = (s[i] - middle) / half;
+    const double p3 = 0.5 * x * (5.0 * x * x - 3.0);
+    const Vec2 tangent = fit.derivative(s[i]);
+    const double speed = tangent.norm();
+    const double e = speed > 0.0 ? cross(tangent, points[i] - fit.at(s[i])) / speed : 0.0;
+    product += weights[i] * e * p3;
+    square += weights[i] * p3 * p3;
+    noise += weights[i] * e * e;
+    weightSum += weights[i];
+  }
+  const double variance = noise / weightSum * square;
+  return variance > 0.0 ? std::abs(product) / std::sqrt(variance) : 0.0;
+}
 
 }  // namespace
 
@@ -87,6 +146,7 @@ OneSidedFit fitOneSide(const Contour& contour, int index, int side, double inner
   if (s.size() < 3) return result;
   result.fit = fitLocalQuadratic(s, points, weights, maxOrder);
   if (result.fit.order >= 1) result.reach = s.back() - s.front();
+  if (result.fit.order == 2) result.cubicTrend = cubicTrendOf(s, points, weights, result.fit);
   return result;
 }
 
@@ -112,38 +172,28 @@ double roundedZonePx(const Contour& contour, int index) {
 CornerFix locateCorner(const Contour& contour, int index, double inner, double outerBefore, double outerAfter) {
   CornerFix result;
   result.position = contour.points[static_cast<std::size_t>(index)];
-  // Twice: the first meeting point says which contour point is really nearest and so where the rounded zone lies.
+  result.zonePx = inner;
+  // Several times: the meeting point says which contour point is really nearest and so where the rounded zone lies, and
+  // the angle says how far the legs are near enough to blur into each other.
   int at = index;
-  const int n = static_cast<int>(contour.points.size());
-  for (int round = 0; round < 2; ++round) {
-    const OneSidedFit before = longestGoodFit(contour, at, -1, inner, outerBefore);
-    const OneSidedFit after = longestGoodFit(contour, at, 1, inner, outerAfter);
-    if (before.reach <= 0.0 || after.reach <= 0.0) return result;
-    result.angleRad = turn(-before.fit.r1, after.fit.r1);
-    Meeting m = meet(before.fit, after.fit, inner + 20.0);
-    if (!m.ok) {
-      const OneSidedFit lineBefore = fitOneSide(contour, at, -1, inner, inner + std::min(10.0, outerBefore), 1);
-      const OneSidedFit lineAfter = fitOneSide(contour, at, 1, inner, inner + std::min(10.0, outerAfter), 1);
-      if (lineBefore.reach > 0.0 && lineAfter.reach > 0.0) m = meet(lineBefore.fit, lineAfter.fit, inner + 20.0);
-    }
+  double zone = inner;
+  for (int round = 0; round < kLocateRounds; ++round) {
+    const double legs = std::min(outerBefore, outerAfter);
+    const double from = std::clamp(zone, inner, std::max(inner, 0.5 * legs));
+    const Meeting m = meetSides(contour, at, from, outerBefore, outerAfter, result.angleRad);
     if (!m.ok) return result;
-    const double halfTip = 0.5 * (3.14159265358979 - std::abs(m.angle));
-    const double farthest = std::clamp(1.5 / std::max(0.05, std::sin(std::abs(halfTip))), kFarthestMeetPx, kFarthestTipPx);
-    double nearest = 1e300;
-    const int reach = static_cast<int>(farthest * 2.0) + 4;
-    int nearestIndex = at;
-    for (int k = -reach; k <= reach; ++k) {
-      const int i = contour.closed ? wrapIndex(at + k, n) : at + k;
-      if (i < 0 || i >= n) continue;
-      const double d = (contour.points[static_cast<std::size_t>(i)] - m.position).squaredNorm();
-      if (d < nearest) nearest = d, nearestIndex = i;
-    }
-    if (std::sqrt(nearest) > farthest) return result;
+    const double halfTip = std::max(0.03, 0.5 * (std::numbers::pi - std::abs(m.angle)));
+    const double farthest = std::clamp(1.5 / std::sin(halfTip), kFarthestMeetPx, kFarthestTipPx);
+    const NearestPoint nearest = nearestAlong(contour, at, m.position, static_cast<int>(farthest * 2.0) + 4);
+    if (nearest.distance > farthest) return result;
     result.position = m.position;
     result.angleRad = -m.angle;
     result.exact = true;
-    if (nearestIndex == at) break;
-    at = nearestIndex;
+    result.zonePx = from;
+    const double wanted = std::clamp(kFreeLegsPx / (2.0 * std::tan(std::min(halfTip, 1.5))), inner, kWidestZonePx);
+    if (nearest.index == at && std::abs(wanted - zone) < 0.5) break;
+    at = nearest.index;
+    zone = wanted;
   }
   return result;
 }

@@ -12,7 +12,8 @@ namespace batten {
 /// Leaving out the nearest pixels and extrapolating back is what tells a corner from a tight arc.
 struct OneSidedFit {
   LocalQuadratic fit;
-  double reach = 0.0;  ///< [px] arc actually covered; 0: no fit.
+  double reach = 0.0;       ///< [px] arc actually covered; 0: no fit.
+  double cubicTrend = 0.0;  ///< [standard deviations] of the third-order part that the parabola leaves over.
 };
 /// `side` is +1 along the contour, -1 against it. Stops at open ends and after half of a closed contour.
 OneSidedFit fitOneSide(const Contour& contour, int index, int side, double inner, double outer, int maxOrder = 2);
@@ -28,7 +29,8 @@ std::optional<Turning> turningAt(const Contour& contour, int index, double inner
 struct CornerFix {
   Vec2 position = Vec2::Zero();
   double angleRad = 0.0;
-  bool exact = false;  ///< False: the sides do not meet well; position is the contour point.
+  double zonePx = 4.0;  ///< [px] points nearer than this are not to be trusted: rounded, or squeezed by the other leg.
+  bool exact = false;   ///< False: the sides do not meet well; position is the contour point.
 };
 CornerFix locateCorner(const Contour& contour, int index, double inner, double outerBefore, double outerAfter);
 

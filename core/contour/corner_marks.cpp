@@ -14,7 +14,7 @@ namespace {
 constexpr double kLooksLikeCornerRad = 25.0 * std::numbers::pi / 180.0;
 constexpr double kTurnInnerPx = 3.0;   // the part next to a corner that blur has rounded
 constexpr double kTurnOuterPx = 16.0;  // about as far as a corner of a drawing stands free
-constexpr double kFitOuterPx = 52.0;
+constexpr double kFitOuterPx = 84.0;
 constexpr double kSamePlacePx = 2.0;
 
 struct Nearest {
@@ -38,8 +38,8 @@ Nearest nearestOf(const ContourSet& set, const Vec2& at, double limit) {
   return best;
 }
 
-// A click need not be exact: the sharpest turn within the snap distance wins over the nearest point. On a smooth part no
-// point turns, and the nearest one is taken.
+// A click need not be exact: the sharpest turn within the snap distance wins over the nearest point. On a smooth part
+// no point turns, and the nearest one is taken.
 int sharpestNear(const Contour& contour, int nearest, const Vec2& at, double snap) {
   const int n = static_cast<int>(contour.points.size());
   const int reach = std::min(n / 2, static_cast<int>(2.0 * snap) + 2);
@@ -63,7 +63,8 @@ int sharpestNear(const Contour& contour, int nearest, const Vec2& at, double sna
 // A corner while the pieces are cut.
 struct Cut {
   Corner corner;
-  double s = 0.0;      // [px] arc length of its contour point
+  double s = 0.0;     // [px] arc length of its contour point
+  double zone = 4.0;  // [px] points nearer than this are left out
   bool exact = false;
 };
 
@@ -86,15 +87,17 @@ void locateCuts(const Contour& contour, double length, std::vector<Cut>& cuts) {
     };
     const bool cornerBefore = contour.closed ? count > 1 : i > 0;
     const bool cornerAfter = contour.closed ? count > 1 : i + 1 < count;
-    const CornerFix fix = locateCorner(contour, cuts[i].corner.pointIndex, zone, outer(before, cornerBefore),
-                                       outer(after, cornerAfter));
+    const CornerFix fix =
+        locateCorner(contour, cuts[i].corner.pointIndex, zone, outer(before, cornerBefore), outer(after, cornerAfter));
     cuts[i].corner.positionPx = fix.position;
     cuts[i].corner.turningAngleRad = fix.angleRad;
     cuts[i].exact = fix.exact;
+    cuts[i].zone = fix.zonePx;
   }
 }
 
-// How many points to leave out at one end of a piece: those inside the rounded zone, and those that lie behind the corner.
+// How many points to leave out at one end of a piece: those inside the rounded zone, and those that lie behind the
+// corner.
 std::size_t pointsToDrop(const std::vector<Vec2>& points, bool fromEnd, const Vec2& corner, double zone) {
   const std::size_t n = points.size();
   std::size_t drop = 0;
@@ -103,8 +106,10 @@ std::size_t pointsToDrop(const std::vector<Vec2>& points, bool fromEnd, const Ve
     const Vec2& p = points[fromEnd ? n - 1 - k : k];
     if (k > 0) arc += (p - points[fromEnd ? n - k : k - 1]).norm();
     if (arc > 3.0 * zone + 12.0) break;
-    if ((p - corner).norm() < zone) drop = k + 1;
-    else if (arc < zone) drop = k + 1;
+    if ((p - corner).norm() < zone)
+      drop = k + 1;
+    else if (arc < zone)
+      drop = k + 1;
   }
   return drop;
 }
@@ -120,7 +125,7 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
     piece.points.push_back(contour.points[at]);
     piece.refined.push_back(at < contour.refined.size() ? contour.refined[at] : std::uint8_t{0});
   }
-  const auto zoneOf = [&](const Cut* cut) { return cut->exact ? roundedZonePx(contour, cut->corner.pointIndex) : 0.5; };
+  const auto zoneOf = [&](const Cut* cut) { return cut->exact ? cut->zone : 0.5; };
   std::size_t head = 0, tail = 0;
   if (start != nullptr) head = pointsToDrop(piece.points, false, start->corner.positionPx, zoneOf(start));
   if (end != nullptr) tail = pointsToDrop(piece.points, true, end->corner.positionPx, zoneOf(end));

@@ -64,9 +64,17 @@ std::vector<CornerSuggestion> suggestCorners(const ContourSet& set, double minAn
       if (!near) kept.push_back(candidate);
     }
     std::sort(kept.begin(), kept.end(), [](const Candidate& a, const Candidate& b) { return a.index < b.index; });
-    for (const Candidate& k : kept) {
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const Candidate& k = kept[i];
       const double zone = roundedZonePx(contour, k.index);
-      const CornerFix fix = locateCorner(contour, k.index, zone, zone + scalePx, zone + scalePx);
+      // The legs end at the neighbouring corners.
+      const double behind = i > 0 ? k.s - kept[i - 1].s : k.s + (contour.closed ? length - kept.back().s : 0.0);
+      const double ahead =
+          i + 1 < kept.size() ? kept[i + 1].s - k.s : length - k.s + (contour.closed ? kept.front().s : 0.0);
+      const auto outer = [&](double free) {
+        return std::clamp((kept.size() > 1 ? free : 0.5 * length) - zone, 0.0, zone + 80.0);
+      };
+      const CornerFix fix = locateCorner(contour, k.index, zone, outer(behind), outer(ahead));
       suggestions.push_back({static_cast<int>(c), k.index, fix.position, k.angle});
     }
   }

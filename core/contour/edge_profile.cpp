@@ -30,8 +30,8 @@ double parabolicOffset(double left, double mid, double right) {
   return std::clamp(0.5 * (left - right) / bend, -0.5, 0.5);
 }
 
-// Walks from sample `from` in direction `step` while the grey keeps its trend (`sign` = -1 falling, +1 rising). Returns the
-// sample where it is most extreme before it turns back, or the last one; `turned` says which.
+// Walks from sample `from` in direction `step` while the grey keeps its trend (`sign` = -1 falling, +1 rising). Returns
+// the sample where it is most extreme before it turns back, or the last one; `turned` says which.
 int followTrend(const float* p, int from, int step, double sign, double turnBack, bool& turned) {
   int best = from;
   turned = false;

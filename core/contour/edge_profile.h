@@ -17,8 +17,8 @@ inline constexpr int kProfileSamples = 2 * kProfileHalf + 1;
 inline constexpr double kProfileStepPx = 0.5;
 inline constexpr double profileU(int k) { return (k - kProfileHalf) * kProfileStepPx; }
 
-/// Grey level 0..255 at an image position, by cubic convolution (Catmull-Rom; reproduces parabolas, so it adds no blur of
-/// second order), page border replicated.
+/// Grey level 0..255 at an image position, by cubic convolution (Catmull-Rom; reproduces parabolas, so it adds no blur
+/// of second order), page border replicated.
 double sampleCubic(const GreyImage& grey, const Vec2& at);
 /// The same by bilinear interpolation: cheaper, adds about 1/6 px^2 of blur.
 double sampleLinear(const GreyImage& grey, const Vec2& at);
@@ -39,11 +39,11 @@ ProfileBand averageAlong(const ProfileBand& band, bool closed, double sigma);
 
 /// What a profile says about its surroundings.
 struct EdgeSpan {
-  double centre = 0.0;     ///< [px] where the grey falls steepest towards the ink, to half a sample.
+  double centre = 0.0;        ///< [px] where the grey falls steepest towards the ink, to half a sample.
   double lo = 0.0, hi = 0.0;  ///< [px] the profile belongs to this edge within lo..hi.
-  double inkTwin = 0.0;    ///< [px] width of the ink if its far border is in sight, else 0.
-  double paperTwin = 0.0;  ///< [px] width of the paper gap if another piece of ink is in sight, else 0.
-  double contrast = 0.0;   ///< [grey] paper minus ink within lo..hi; <= 0: no edge.
+  double inkTwin = 0.0;       ///< [px] width of the ink if its far border is in sight, else 0.
+  double paperTwin = 0.0;     ///< [px] width of the paper gap if another piece of ink is in sight, else 0.
+  double contrast = 0.0;      ///< [grey] paper minus ink within lo..hi; <= 0: no edge.
 };
 /// Finds the edge nearest to u = 0 and how far it reaches until another edge turns the grey back.
 EdgeSpan findEdgeSpan(const float* profile);

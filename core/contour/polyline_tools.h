@@ -33,8 +33,8 @@ std::vector<float> smoothValues(std::span<const float> values, bool closed, doub
 /// direction of the neighbour is kept.
 std::vector<Vec2> directions(std::span<const Vec2> points, bool closed, int reach);
 
-/// A parabola r(s) = r0 + r1 s + r2 s^2 / 2 through points at positions s by weighted least squares: r1 is the first and
-/// r2 the second derivative at s = 0.
+/// A parabola r(s) = r0 + r1 s + r2 s^2 / 2 through points at positions s by weighted least squares: r1 is the first
+/// and r2 the second derivative at s = 0.
 struct LocalQuadratic {
   Vec2 r0 = Vec2::Zero(), r1 = Vec2::Zero(), r2 = Vec2::Zero();
   double residualRms = 0.0;

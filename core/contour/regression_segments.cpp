@@ -13,10 +13,10 @@ namespace {
 constexpr int kFewestOpen = 4;
 constexpr int kFewestClosed = 6;
 constexpr int kMostStations = 2000;
-constexpr double kWindowSpacings = 1.5;   // width of the stretch that a station is fitted to
+constexpr double kWindowSpacings = 1.5;  // width of the stretch that a station is fitted to
 constexpr double kSmallestSpacingPx = 8.0;
 constexpr double kAdaptiveGrowth = 1.2;
-constexpr double kAveragedPx = 5.0;       // the tolerance speaks of the line, not of its noise
+constexpr double kAveragedPx = 5.0;        // the tolerance speaks of the line, not of its noise
 constexpr double kUnrefinedWeight = 0.25;  // points that are only known to the pixel
 
 // A piece with its arc length; a closed one can be read beyond its ends.
@@ -221,14 +221,17 @@ PieceSegments segmentsOf(const Piece& piece, const SegmentParams& params) {
     return {{{piece.points.front(), Vec2::UnitX(), piece.points.front(), piece.points.front()}}, 0.0};
   }
   switch (params.mode) {
-    case SegmentMode::Stations: return toSegments(measured, stationsOf(measured, stationCount(measured, params)));
-    case SegmentMode::Sturges: return groupSegments(piece, sturgesGroups(static_cast<int>(piece.points.size())));
+    case SegmentMode::Stations:
+      return toSegments(measured, stationsOf(measured, stationCount(measured, params)));
+    case SegmentMode::Sturges:
+      return groupSegments(piece, sturgesGroups(static_cast<int>(piece.points.size())));
     case SegmentMode::Count: {
       const double wanted = std::min(measured.length() / params.spacingPx, static_cast<double>(kMostStations));
-      return groupSegments(piece, params.count > 0 ? params.count
-                                                   : std::max(kFewestOpen, static_cast<int>(std::lround(wanted))));
+      return groupSegments(
+          piece, params.count > 0 ? params.count : std::max(kFewestOpen, static_cast<int>(std::lround(wanted))));
     }
-    case SegmentMode::Adaptive: return adaptiveSegments(measured, params);
+    case SegmentMode::Adaptive:
+      return adaptiveSegments(measured, params);
   }
   return {};
 }

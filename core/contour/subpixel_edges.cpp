@@ -28,10 +28,10 @@ constexpr int kBendHalf = 6;        // points: half window of the curvature filt
 // The state of the matched pass, one entry per point.
 struct Matched {
   std::vector<EdgeSpan> span;
-  std::vector<double> position;     // [px] along the normal from the base
-  std::vector<float> ink, paper;    // [grey] side levels, smoothed along the line
-  double blur = 1.1;                // [px] standard deviation of the edge's own blur
-  double noise = 0.0;               // [grey] robust standard deviation of the residuals
+  std::vector<double> position;   // [px] along the normal from the base
+  std::vector<float> ink, paper;  // [grey] side levels, smoothed along the line
+  double blur = 1.1;              // [px] standard deviation of the edge's own blur
+  double noise = 0.0;             // [grey] robust standard deviation of the residuals
 };
 
 // Model of the profile of an edge at 0 and of its twins: 0 = paper, 1 = ink.
@@ -86,15 +86,18 @@ struct SideSums {
   int count = 0;
 };
 
-void sideSums(const float* profile, const EdgeSpan& span, double position, double blur, SideSums& ink, SideSums& paper) {
+void sideSums(const float* profile, const EdgeSpan& span, double position, double blur, SideSums& ink,
+              SideSums& paper) {
   const NormalTable& table = NormalTable::instance();
   const double inkFrom = position + std::min(kSideFromPx, 0.6 * (span.hi - position));
   const double paperTo = position - std::min(kSideFromPx, 0.6 * (position - span.lo));
   for (int k = 0; k < kProfileSamples; ++k) {
     const double u = profileU(k);
     SideSums* side = nullptr;
-    if (u >= inkFrom && u <= span.hi + 0.25) side = &ink;
-    else if (u <= paperTo && u >= span.lo - 0.25) side = &paper;
+    if (u >= inkFrom && u <= span.hi + 0.25)
+      side = &ink;
+    else if (u <= paperTo && u >= span.lo - 0.25)
+      side = &paper;
     if (side == nullptr) continue;
     side->grey += profile[k];
     side->model += edgeModel(table, (u - position) / blur, span.inkTwin / blur, span.paperTwin / blur).value;
@@ -102,30 +105,39 @@ void sideSums(const float* profile, const EdgeSpan& span, double position, doubl
   }
 }
 
+// Smoothing in which points that know little count little.
+std::vector<float> weightedSmooth(const std::vector<float>& values, const std::vector<float>& weight,
+                                  const std::vector<float>& smoothWeight, bool closed) {
+  std::vector<float> product(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) product[i] = values[i] * weight[i];
+  product = smoothValues(product, closed, kLevelSigma);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    product[i] = smoothWeight[i] > 0.0f ? product[i] / smoothWeight[i] : values[i];
+  }
+  return product;
+}
+
 // Ink and paper of every point: the two side means freed of what the blur carries over from the other side, everything
-// smoothed along the line first because a single profile is noisy.
+// smoothed along the line first because a single profile is noisy. Weight: contrast squared, so that places without an
+// edge (the page border, tips) say nothing about the levels of their neighbours.
 void measureLevels(const ProfileBand& band, bool closed, Matched& m) {
   const auto n = m.span.size();
-  std::vector<float> inkGrey(n), inkModel(n), paperGrey(n), paperModel(n);
-  float lastInk = 0.0f, lastPaper = 255.0f, lastInkModel = 1.0f, lastPaperModel = 0.0f;
+  std::vector<float> inkGrey(n), inkModel(n, 1.0f), paperGrey(n), paperModel(n), weight(n);
   for (std::size_t i = 0; i < n; ++i) {
     SideSums ink, paper;
     sideSums(band.row(static_cast<int>(i)), m.span[i], m.position[i], m.blur, ink, paper);
-    if (ink.count > 0 && paper.count > 0) {
-      lastInk = static_cast<float>(ink.grey / ink.count);
-      lastInkModel = static_cast<float>(ink.model / ink.count);
-      lastPaper = static_cast<float>(paper.grey / paper.count);
-      lastPaperModel = static_cast<float>(paper.model / paper.count);
-    }
-    inkGrey[i] = lastInk;
-    inkModel[i] = lastInkModel;
-    paperGrey[i] = lastPaper;
-    paperModel[i] = lastPaperModel;
+    if (m.span[i].contrast <= 0.0 || ink.count == 0 || paper.count == 0) continue;
+    weight[i] = static_cast<float>(m.span[i].contrast * m.span[i].contrast);
+    inkGrey[i] = static_cast<float>(ink.grey / ink.count);
+    inkModel[i] = static_cast<float>(ink.model / ink.count);
+    paperGrey[i] = static_cast<float>(paper.grey / paper.count);
+    paperModel[i] = static_cast<float>(paper.model / paper.count);
   }
-  inkGrey = smoothValues(inkGrey, closed, kLevelSigma);
-  inkModel = smoothValues(inkModel, closed, kLevelSigma);
-  paperGrey = smoothValues(paperGrey, closed, kLevelSigma);
-  paperModel = smoothValues(paperModel, closed, kLevelSigma);
+  const std::vector<float> smoothWeight = smoothValues(weight, closed, kLevelSigma);
+  inkGrey = weightedSmooth(inkGrey, weight, smoothWeight, closed);
+  inkModel = weightedSmooth(inkModel, weight, smoothWeight, closed);
+  paperGrey = weightedSmooth(paperGrey, weight, smoothWeight, closed);
+  paperModel = weightedSmooth(paperModel, weight, smoothWeight, closed);
   m.ink.resize(n);
   m.paper.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -137,7 +149,8 @@ void measureLevels(const ProfileBand& band, bool closed, Matched& m) {
 }
 
 // Newton steps for the position of one edge (maximum likelihood under white noise).
-double fitPosition(const float* profile, const EdgeSpan& span, double start, double paper, double contrast, double blur) {
+double fitPosition(const float* profile, const EdgeSpan& span, double start, double paper, double contrast,
+                   double blur) {
   const NormalTable& table = NormalTable::instance();
   double position = start;
   for (int step = 0; step < kNewtonSteps; ++step) {
@@ -145,8 +158,7 @@ double fitPosition(const float* profile, const EdgeSpan& span, double start, dou
     for (int k = 0; k < kProfileSamples; ++k) {
       const double u = profileU(k);
       if (u < span.lo - 0.25 || u > span.hi + 0.25) continue;
-      const EdgeModel m =
-          edgeModel(table, (u - position) / blur, span.inkTwin / blur, span.paperTwin / blur);
+      const EdgeModel m = edgeModel(table, (u - position) / blur, span.inkTwin / blur, span.paperTwin / blur);
       const double gradient = contrast * m.slope / blur;  // of the grey with respect to the position
       top += gradient * (profile[k] - (paper - contrast * m.value));
       bottom += gradient * gradient;
@@ -168,13 +180,18 @@ void updateBlur(const ProfileBand& band, Matched& m) {
   for (std::size_t i = 0; i < m.span.size(); i += stride) {
     const EdgeSpan& span = m.span[i];
     const double contrast = m.paper[i] - m.ink[i];
-    if (contrast < kSmallestContrast || span.inkTwin > 0.0 || span.paperTwin > 0.0) continue;
+    if (contrast < kSmallestContrast || span.contrast <= 0.0) continue;
     const float* profile = band.row(static_cast<int>(i));
     for (int k = 0; k < kProfileSamples; ++k) {
-      const double x = (profileU(k) - m.position[i]) / m.blur;
-      const EdgeModel model = edgeModel(table, x, 0.0, 0.0);
-      const double residual = profile[k] - (m.paper[i] - contrast * model.value);
-      const double gradient = contrast * model.slope * x / m.blur;
+      const double u = profileU(k);
+      if (u < span.lo - 0.25 || u > span.hi + 0.25) continue;
+      const auto modelAt = [&](double blur) {
+        return edgeModel(table, (u - m.position[i]) / blur, span.inkTwin / blur, span.paperTwin / blur).value;
+      };
+      constexpr double kStep = 0.02;  // relative, for the derivative with respect to the blur
+      const double residual = profile[k] - (m.paper[i] - contrast * modelAt(m.blur));
+      const double gradient =
+          -contrast * (modelAt(m.blur * (1 + kStep)) - modelAt(m.blur * (1 - kStep))) / (2 * kStep * m.blur);
       top += gradient * residual;
       bottom += gradient * gradient;
       residuals.push_back(static_cast<float>(std::abs(residual)));
@@ -195,8 +212,8 @@ void fitAll(const ProfileBand& band, const std::vector<double>& start, Matched& 
   }
 }
 
-// A border seen twice lies as far beyond the turn of the grey as this edge lies before it. The turn is found to a fraction
-// of a sample; the edge moves while it is fitted, so the widths follow it (smoothed along the line).
+// A border seen twice lies as far beyond the turn of the grey as this edge lies before it. The turn is found to a
+// fraction of a sample; the edge moves while it is fitted, so the widths follow it (smoothed along the line).
 bool updateTwins(bool closed, Matched& m) {
   bool any = false;
   std::vector<float> position(m.position.begin(), m.position.end());
@@ -229,6 +246,7 @@ Matched matchedPass(const ProfileBand& band, bool closed, const RunContext& cont
   for (int round = 0; round < kBlurRounds && !context.isCancelled(); ++round) {
     measureLevels(band, closed, m);
     fitAll(band, start, m, stride);
+    if (stride == 1) updateTwins(closed, m);
     updateBlur(band, m);
   }
   for (int round = 0; round < kTwinRounds && !context.isCancelled(); ++round) {
@@ -245,8 +263,9 @@ double smallestMagnitude(double a, double b, double c) {
   return a > 0.0 ? m : -m;
 }
 
-// Blur draws the half level of a curved edge towards its centre of curvature by blur^2 kappa / 2 (the mean of a parabola
-// under a Gaussian). The curvature is the smallest of three windows, so that a corner is not taken for a tight arc.
+// Blur draws the half level of a curved edge towards its centre of curvature by blur^2 kappa / 2 (the mean of a
+// parabola under a Gaussian). The curvature is the smallest of three windows, so that a corner is not taken for a tight
+// arc.
 void undoCurvatureShift(std::vector<Vec2>& points, const std::vector<Vec2>& normal, bool closed, double blur) {
   const int n = static_cast<int>(points.size());
   if (n < 6 * kBendHalf) return;
@@ -265,8 +284,9 @@ void undoCurvatureShift(std::vector<Vec2>& points, const std::vector<Vec2>& norm
   std::vector<double> shift(points.size());
   for (int i = 0; i < n; ++i) {
     const Vec2& unit = normal[at(i)];
-    const double kappa = smallestMagnitude(bend[at(i)].dot(unit), bend[at(i - kBendHalf)].dot(normal[at(i - kBendHalf)]),
-                                           bend[at(i + kBendHalf)].dot(normal[at(i + kBendHalf)]));
+    const double kappa =
+        smallestMagnitude(bend[at(i)].dot(unit), bend[at(i - kBendHalf)].dot(normal[at(i - kBendHalf)]),
+                          bend[at(i + kBendHalf)].dot(normal[at(i + kBendHalf)]));
     shift[at(i)] = -0.5 * blur * blur * std::clamp(kappa, -0.2, 0.2);
   }
   for (int i = 0; i < n; ++i) points[at(i)] += shift[at(i)] * normal[at(i)];
@@ -275,7 +295,9 @@ void undoCurvatureShift(std::vector<Vec2>& points, const std::vector<Vec2>& norm
 // Points must advance along the line: a step backwards is replaced by the way between its neighbours.
 void removeReversals(Contour& contour, const std::vector<Vec2>& normal) {
   const int n = static_cast<int>(contour.points.size());
-  const auto at = [&](int i) { return static_cast<std::size_t>(contour.closed ? wrapIndex(i, n) : std::clamp(i, 0, n - 1)); };
+  const auto at = [&](int i) {
+    return static_cast<std::size_t>(contour.closed ? wrapIndex(i, n) : std::clamp(i, 0, n - 1));
+  };
   for (int round = 0; round < 3; ++round) {
     bool clean = true;
     for (int i = 0; i < n; ++i) {
@@ -312,8 +334,7 @@ void refineOutline(Contour& contour, const GreyImage& grey, const RunContext& co
     if (onPageBorder(contour.chain[i], grey)) continue;
     const double contrast = m.paper[i] - m.ink[i];
     const bool edge = m.span[i].contrast > 0.0 && contrast >= std::max(kSmallestContrast, m.noise) &&
-                      std::abs(m.position[i]) <= kLargestMovePx &&
-                      (found[i] - contour.chain[i]).norm() <= kGatePx;
+                      std::abs(m.position[i]) <= kLargestMovePx && (found[i] - contour.chain[i]).norm() <= kGatePx;
     contour.points[i] = edge ? found[i] : fallback[i];
     contour.refined[i] = edge ? 1 : 0;
   }

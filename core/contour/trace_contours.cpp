@@ -111,8 +111,9 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
   if (!set) return set;
   if (context.isCancelled()) return cancelled();
   if (set->contours.empty()) {
-    return fail(ErrorCode::NoCurve, noLineMessage(*set, params),
-                std::to_string(set->report.found) + " found, " + std::to_string(set->report.droppedShort) + " too short");
+    return fail(
+        ErrorCode::NoCurve, noLineMessage(*set, params),
+        std::to_string(set->report.found) + " found, " + std::to_string(set->report.droppedShort) + " too short");
   }
   sortAndCut(*set, params);
   context.report(0.6);

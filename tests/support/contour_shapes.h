@@ -20,7 +20,7 @@ struct RenderSettings {
   double blurPx = 1.2;               ///< [px] Gaussian after exact area sampling (6 x 6).
   double noise = 0.0;                ///< [grey] white, standard deviation.
   unsigned seed = 1;
-  double slope = 0.0;                ///< [grey/px] gradation of paper and ink along x.
+  double slope = 0.0;  ///< [grey/px] gradation of paper and ink along x.
 };
 
 /// Renders `inside` (image frame, px): area sampling, separable Gaussian, noise, 16-bit quantisation.
@@ -29,12 +29,11 @@ inline GreyImage renderShape(const std::function<bool(double, double)>& inside, 
   const auto w = static_cast<std::size_t>(s.width), h = static_cast<std::size_t>(s.height);
   std::vector<double> cover(w * h), across(w * h);
   for (int y = 0; y < s.height; ++y) {
-    for (int x = 0; x < s.width; ++x) {
-      int hits = 0;
-      for (int j = 0; j < kSub; ++j) {
-        for (int i = 0; i < kSub; ++i) hits += inside(x + (i + 0.5) / kSub, y + (j + 0.5) / kSub);
+    for (int j = 0; j < kSub; ++j) {
+      for (int i = 0; i < kSub * s.width; ++i) {
+        if (!inside((i + 0.5) / kSub, y + (j + 0.5) / kSub)) continue;
+        cover[static_cast<std::size_t>(y) * w + static_cast<std::size_t>(i / kSub)] += 1.0 / (kSub * kSub);
       }
-      cover[static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x)] = hits / double(kSub * kSub);
     }
   }
   const int half = static_cast<int>(std::ceil(4.0 * s.blurPx));
@@ -51,7 +50,8 @@ inline GreyImage renderShape(const std::function<bool(double, double)>& inside, 
     for (int k = -reach; k <= reach; ++k) {
       const int xx = std::clamp(horizontal ? x + k : x, 0, s.width - 1);
       const int yy = std::clamp(horizontal ? y : y + k, 0, s.height - 1);
-      sum += kernel[static_cast<std::size_t>(k + reach)] * from[static_cast<std::size_t>(yy) * w + static_cast<std::size_t>(xx)];
+      sum += kernel[static_cast<std::size_t>(k + reach)] *
+             from[static_cast<std::size_t>(yy) * w + static_cast<std::size_t>(xx)];
     }
     return sum;
   };
@@ -66,7 +66,8 @@ inline GreyImage renderShape(const std::function<bool(double, double)>& inside, 
   for (int y = 0; y < s.height; ++y) {
     for (int x = 0; x < s.width; ++x) {
       const double c = blurred(across, x, y, false);
-      const double level = s.paper + c * (s.ink - s.paper) + s.slope * x + (s.noise > 0.0 ? s.noise * gauss(random) : 0.0);
+      const double level =
+          s.paper + c * (s.ink - s.paper) + s.slope * x + (s.noise > 0.0 ? s.noise * gauss(random) : 0.0);
       grey.row(y)[x] = static_cast<std::uint16_t>(std::lround(std::clamp(level, 0.0, 255.0) * GreyImage::kGreyUnit));
     }
   }
@@ -90,15 +91,28 @@ inline BitImage thresholdMask(const GreyImage& grey, double level) {
   return ink;
 }
 
-/// Even-odd rule on a closed polygon.
-inline bool insidePolygon(const std::vector<Vec2>& polygon, double x, double y) {
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Vec2 &a = polygon[i], &b = polygon[j];
-    if ((a.y() > y) != (b.y() > y) && x < a.x() + (y - a.y()) * (b.x() - a.x()) / (b.y() - a.y())) inside = !inside;
+/// Inside test of a closed polygon (even-odd rule). Remembers the crossings of the last row, since pages are rendered
+/// row by row.
+class PolygonInside {
+ public:
+  explicit PolygonInside(std::vector<Vec2> polygon) : polygon_(std::move(polygon)) {}
+  bool operator()(double x, double y) {
+    if (y != y_) {
+      y_ = y;
+      crossings_.clear();
+      for (std::size_t i = 0, j = polygon_.size() - 1; i < polygon_.size(); j = i++) {
+        const Vec2 &a = polygon_[i], &b = polygon_[j];
+        if ((a.y() > y) != (b.y() > y)) crossings_.push_back(a.x() + (y - a.y()) * (b.x() - a.x()) / (b.y() - a.y()));
+      }
+    }
+    return std::count_if(crossings_.begin(), crossings_.end(), [x](double c) { return c < x; }) % 2 == 1;
   }
-  return inside;
-}
+
+ private:
+  std::vector<Vec2> polygon_;
+  std::vector<double> crossings_;
+  double y_ = -1e300;
+};
 
 /// A closed outline of quadratic Bezier sides from corner to corner; `bulge` is the control point's distance from the
 /// chord, to the left of travel.

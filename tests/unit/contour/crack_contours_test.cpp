@@ -13,7 +13,8 @@ namespace {
 BitImage fromText(const std::vector<std::string>& rows) {
   BitImage ink(static_cast<int>(rows.front().size()), static_cast<int>(rows.size()));
   for (int y = 0; y < ink.height; ++y) {
-    for (int x = 0; x < ink.width; ++x) ink.set(x, y, rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] == '#');
+    for (int x = 0; x < ink.width; ++x)
+      ink.set(x, y, rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] == '#');
   }
   return ink;
 }
@@ -42,8 +43,8 @@ int crackCount(const BitImage& ink) {
   return count;
 }
 
-// Joining crack midpoints cuts 1/8 px^2 off every outer corner of a pixel polygon and fills as much at an inner one, and a
-// closed crack path has four more of one kind than of the other. So the enclosed areas add up to the ink exactly.
+// Joining crack midpoints cuts 1/8 px^2 off every outer corner of a pixel polygon and fills as much at an inner one,
+// and a closed crack path has four more of one kind than of the other. So the enclosed areas add up to the ink exactly.
 void expectAreaIsInk(const BitImage& ink, const ContourSet& set) {
   double sum = 0.0;
   std::size_t cracks = 0;
@@ -115,7 +116,7 @@ TEST(CrackContours, Checkerboard) {
   const ContourSet set = trace(ink);
   const auto holes = std::count_if(set.contours.begin(), set.contours.end(), [](const Contour& c) { return c.hole; });
   EXPECT_EQ(set.contours.size() - static_cast<std::size_t>(holes), 1u);  // all ink is joined over corners
-  EXPECT_EQ(holes, 65 * 31 / 2);                                         // every paper pixel inside is a hole of its own
+  EXPECT_EQ(holes, 65 * 31 / 2);  // every paper pixel inside is a hole of its own
   expectAreaIsInk(ink, set);
 }
 

@@ -115,7 +115,10 @@ TEST(Stations, DegeneratePiecesStayFinite) {
   for (const auto mode : {SegmentMode::Stations, SegmentMode::Sturges, SegmentMode::Count, SegmentMode::Adaptive}) {
     SegmentParams params;
     params.mode = mode;
-    for (const auto& points : {std::vector<Vec2>{}, {{1, 1}}, {{1, 1}, {4, 5}}, {{1, 1}, {2, 1}, {2, 2}},
+    for (const auto& points : {std::vector<Vec2>{},
+                               {{1, 1}},
+                               {{1, 1}, {4, 5}},
+                               {{1, 1}, {2, 1}, {2, 2}},
                                std::vector<Vec2>(9, Vec2(2, 2))}) {
       for (const bool closed : {false, true}) {
         Piece piece;
