@@ -31,7 +31,8 @@ double gauss(const NurbsCurve& curve, double from, double to) {
 /// Subdivides [from, to] until halving changes nothing; appends the borders and the length up to them.
 struct Subdivision {
   const NurbsCurve& curve;
-  double negligible;  ///< Change of length that does not matter, whatever the piece.
+  double negligible;   ///< Change of length that does not matter, whatever the piece.
+  std::size_t budget;  ///< Borders after which no interval is halved any more: rounding noise must not be chased.
   std::vector<double>& breaks;
   std::vector<double>& cumulative;
 
@@ -40,7 +41,7 @@ struct Subdivision {
     const double left = gauss(curve, from, mid), right = gauss(curve, mid, to);
     const double change = std::abs(whole - left - right);
     const bool fine = change <= kRelativeChange * (left + right) || change <= negligible;
-    if (fine || depth >= kMaxDepth || !(mid > from && mid < to)) {
+    if (fine || depth >= kMaxDepth || breaks.size() > budget || !(mid > from && mid < to)) {
       breaks.insert(breaks.end(), {mid, to});
       cumulative.push_back(cumulative.back() + left);
       cumulative.push_back(cumulative.back() + right);
@@ -62,7 +63,9 @@ ArcLength::ArcLength(const NurbsCurve& curve) : curve_(curve) {
   cumulative_ = {0.0};
   breaks_.reserve(2 * spans.size());
   cumulative_.reserve(2 * spans.size());
-  Subdivision subdivision{curve, 1e-14 * roughTotal, breaks_, cumulative_};
+  double largest = roughTotal;
+  for (const Vec2& p : curve.controlPoints()) largest = std::max(largest, p.lpNorm<Eigen::Infinity>());
+  Subdivision subdivision{curve, 1e-14 * largest, 4096 + 64 * spans.size(), breaks_, cumulative_};
   for (std::size_t i = 0; i + 1 < spans.size(); ++i) subdivision.add(spans[i], spans[i + 1], rough[i], 0);
   speeds_.reserve(breaks_.size());
   for (const double u : breaks_) speeds_.push_back(speed(curve, u));

@@ -45,11 +45,13 @@ struct StartTable {
   std::vector<double> u;
   std::vector<Vec2> points;
 
-  explicit StartTable(const NurbsCurve& curve) {
+  std::size_t perSpan;
+
+  explicit StartTable(const NurbsCurve& curve) : perSpan(2 * static_cast<std::size_t>(curve.degree()) + 2) {
     const std::vector<double> breaks = curve.breaks();
-    const int perSpan = 2 * curve.degree() + 2;
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-      for (int k = 0; k < perSpan; ++k) add(curve, breaks[i] + (breaks[i + 1] - breaks[i]) * k / perSpan);
+      const double step = (breaks[i + 1] - breaks[i]) / static_cast<double>(perSpan);
+      for (std::size_t k = 0; k < perSpan; ++k) add(curve, breaks[i] + step * static_cast<double>(k));
     }
     add(curve, curve.end());
   }
@@ -66,7 +68,15 @@ ClosestPoint closestWith(const NurbsCurve& curve, const StartTable& table, const
   const std::size_t nearest =
       static_cast<std::size_t>(std::min_element(distances.begin(), distances.end()) - distances.begin());
   const auto refine = [&](std::size_t i) {
-    return descend(curve, p, table.u[i], table.u[i == 0 ? 0 : i - 1], table.u[std::min(i + 1, n - 1)]);
+    const double low = table.u[i == 0 ? 0 : i - 1], here = table.u[i], high = table.u[std::min(i + 1, n - 1)];
+    ClosestPoint found = descend(curve, p, here, low, high);
+    if (i % table.perSpan != 0) return found;
+    // A knot may be a corner, where the derivatives tell of one side only.
+    for (const ClosestPoint& side : {descend(curve, p, here - 0.25 * (here - low), low, here),
+                                     descend(curve, p, here + 0.25 * (high - here), here, high)}) {
+      if (side.distance < found.distance) found = side;
+    }
+    return found;
   };
   ClosestPoint best = refine(nearest);
   for (std::size_t i = 0; i < n; ++i) {

@@ -9,7 +9,8 @@
 
 namespace batten {
 
-/// Clamped knot vector: first and last knot degree+1 times, the inner breaks once each.
+/// A clamped knot vector repeats its first and last knot degree + 1 times.
+
 /// Inserts u `times` times without changing the shape (Boehm). Multiplicity may not exceed the degree (degree + 1 at ends).
 Result<NurbsCurve> insertKnot(const NurbsCurve&, double u, int times);
 /// The same shape with clamped ends over the same domain (a uniform, unclamped curve becomes one that CAD takes).
