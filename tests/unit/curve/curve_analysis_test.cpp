@@ -84,7 +84,7 @@ TEST(Curvature, AbsentWhereTheCurveStandsStill) {
   EXPECT_FALSE(curvature(point, 0.3).has_value());
   EXPECT_TRUE(curvatureExtrema(point, 1e-6, false).empty());
   EXPECT_NEAR(ArcLength(point).total(), 0.0, 1e-13);
-  EXPECT_EQ(closestPoint(point, {9, 10}).distance, 1.0);
+  EXPECT_NEAR(closestPoint(point, {9, 10}).distance, 1.0, 1e-13);
   for (const auto& sample : sampleByArcLength(point, 5)) EXPECT_LT((sample.point - Vec2(9, 9)).norm(), 1e-13);
 }
 
