@@ -13,17 +13,17 @@ namespace batten {
 struct FairFitOptions {
   double knotSpacingPx = 16.0;
   double blockPx = 8.0;
-  double effectiveDofWeight = 3.0;       ///< gamma in RSS/sigma^2 + gamma tr.
-  double noiseDensityFloor = 0.0064;     ///< [px^2 px]
+  double effectiveDofWeight = 3.0;    ///< gamma in RSS/sigma^2 + gamma tr.
+  double noiseDensityFloor = 0.0064;  ///< [px^2 px]
   int emRounds = 5;
   double emWidthPx = 40.0;
-  double keepExtremaCost = 20.0;         ///< T: an extremum whose removal costs less is dropped.
+  double keepExtremaCost = 20.0;  ///< T: an extremum whose removal costs less is dropped.
   double gateOutlinePx = 1.5, gateStrokePx = 2.5;
 };
 
-/// Fits the edge points of all pieces of a contour: quintic B-splines that lie on the line and have no curvature extremum
-/// that was not drawn (pilot, in-frame fit with local penalty, structure test, monotone quadratic program). The noise is
-/// pooled over the pieces.
+/// Fits the edge points of all pieces of a contour: quintic B-splines that lie on the line and have no curvature
+/// extremum that was not drawn (pilot, in-frame fit with local penalty, structure test, monotone quadratic program).
+/// The noise is pooled over the pieces.
 Result<std::vector<ConstructedPiece>> fairFit(const ConstructContour&, const FairFitOptions&, const RunContext&);
 
 }  // namespace batten

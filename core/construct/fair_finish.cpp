@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "core/construct/fair_piece.h"
+#include "core/construct/fair_structure.h"
+
+namespace batten {
+namespace {
+
+constexpr double kPinPrecisionPx = 1e-3;  // the rest of the way a linear shift does
+constexpr double kCornerReachPx = 16.0;   // an end may lie this far beyond the curve of the moment
+constexpr const char* kShortNote =
+    "Too short for the fair fit; a smooth curve of low degree through the points instead.";
+constexpr const char* kPlainNote = "The fair fit could not be solved here; a smoothed curve instead.";
+
+/// Values of a piecewise linear table at ascending arguments; runs on linearly beyond the ends.
+double lookUp(const std::vector<double>& from, const std::vector<double>& to, double x) {
+  auto i = static_cast<std::size_t>(std::upper_bound(from.begin(), from.end(), x) - from.begin());
+  i = std::clamp<std::size_t>(i, 1, from.size() - 1);
+  const double width = from[i] - from[i - 1];
+  const double part = width > 0.0 ? (x - from[i - 1]) / width : 0.0;
+  return to[i - 1] + part * (to[i] - to[i - 1]);
+}
+
+/// Back from px about the origin to mm, with the corner points to the last digit.
+Result<NurbsCurve> placed(const Result<NurbsCurve>& curve, const FairPiece& piece, const ConstructPiece& in,
+                          double pixelMm) {
+  if (!curve) return curve;
+  std::vector<Vec2> points(curve->controlPoints().begin(), curve->controlPoints().end());
+  for (Vec2& p : points) p += piece.origin * pixelMm;
+  if (piece.pins.start) points.front() = in.points.front();
+  if (piece.pins.end) points.back() = in.points.back();
+  return NurbsCurve::make(5, {curve->knots().begin(), curve->knots().end()}, std::move(points));
+}
+
+class Finish {
+ public:
+  Finish(FairPiece& piece, const ConstructPiece& in, double pixelMm, double s0, double cutoffPx,
+         const FairFitOptions& options, const RunContext& context)
+      : piece_(piece), in_(in), pixelMm_(pixelMm), s0_(s0), cutoffPx_(cutoffPx), options_(options), context_(context) {}
+
+  void run() {
+    if (!piece_.frame) return simple(kShortNote);
+    if (fair() || context_.isCancelled()) return;
+    const auto& base = piece_.frame->base;
+    Vec2 start = Vec2::Zero(), end = Vec2::Zero();
+    pinShifts(base, start, end);
+    auto curve = placed(base.toNurbs(pixelMm_, pixelMm_, start, end), piece_, in_, pixelMm_);
+    if (!curve) return simple(kPlainNote);
+    report_ = {};
+    report_.why = Termination::Degenerate;
+    report_.note = kPlainNote;
+    piece_.result = ConstructedPiece{*curve, report_};
+  }
+
+ private:
+  void simple(const char* note) {
+    auto curve = placed(simpleCurve(piece_.data, piece_.pins, pixelMm_), piece_, in_, pixelMm_);
+    if (!curve) {
+      piece_.result = fail(curve.error());
+      return;
+    }
+    report_ = {};
+    report_.why = Termination::Degenerate;
+    report_.note = note;
+    piece_.result = ConstructedPiece{*curve, report_};
+  }
+
+  /// True when a result was set.
+  bool fair() {
+    const auto rough =
+        localPosterior(*piece_.frame, s0_, uniformPrior(*piece_.frame, s0_, cutoffPx_), 0, options_.emWidthPx);
+    if (!rough || !moveFrame(rough->mean)) return false;
+    auto local =
+        localPosterior(frame_, s0_, uniformPrior(frame_, s0_, cutoffPx_), options_.emRounds, options_.emWidthPx);
+    if (!local || context_.isCancelled()) return false;
+    double circleCost = std::numeric_limits<double>::quiet_NaN();
+    if (piece_.data.closed && circle(local->objective(local->mean), circleCost)) return true;
+    auto found = findStructure(frame_, *local, options_.keepExtremaCost, context_);
+    if (!found) return false;
+    if (!piece_.data.closed && found->structure.extrema.empty() && line(found->objective)) return true;
+
+    if (!moveFrame(found->c)) return false;
+    const auto final = localPosterior(frame_, s0_, std::move(local->tau2), 1, options_.emWidthPx);
+    if (!final) return false;
+    for (FairExtremum& e : found->structure.extrema) e.u = lookUp(oldParameters_, arcLengths_, e.u);
+    for (FairExtremum& e : found->dropped) e.u = lookUp(oldParameters_, arcLengths_, e.u);
+    return finishCurve(*final, *found, circleCost);
+  }
+
+  /// New frame along base + d N, cut to where the piece begins and ends.
+  bool moveFrame(const Eigen::VectorXd& d) {
+    const UniformQuintic base = frame_.blocks.empty() ? piece_.frame->base : frame_.base;
+    FairData& data = piece_.data;
+    double from = 0.0, to = base.knots().length;
+    if (!data.closed) {
+      from = base.footPoint(data.points.front(), 0.0, kCornerReachPx);
+      to = base.footPoint(data.points.back(), to, kCornerReachPx);
+    }
+    if (!(to - from > 0.5 * base.knots().length)) return false;
+    auto moved = reframe(base, d, from, to);
+    if (!moved) return false;
+    for (double& t : data.t) t = lookUp(moved->oldParameters, moved->arcLengths, t);
+    oldParameters_ = std::move(moved->oldParameters);
+    arcLengths_ = std::move(moved->arcLengths);
+    frame_ = assembleFrame(moved->curve, data, options_, true);
+    return !frame_.blocks.empty();
+  }
+
+  bool circle(double objective, double& cost) {
+    const auto fit = fitCircle(blockMeans(frame_));
+    if (!fit) return false;
+    cost = fit->squares / s0_ - objective;
+    if (!(cost < 2.0 * options_.keepExtremaCost)) return false;
+    const PlaneDerivatives start = frame_.base.at(0.0, 1);
+    const bool left = cross(start[0] - fit->centre, start[1]) > 0.0;
+    const UniformQuintic curve = circleCurve(*fit, start[0], left, options_.knotSpacingPx);
+    auto nurbs = placed(curve.toNurbs(pixelMm_, pixelMm_, Vec2::Zero(), Vec2::Zero()), piece_, in_, pixelMm_);
+    if (!nurbs) return false;
+    report_.why = Termination::Exact;
+    report_.isCircle = true;
+    // Three parameters: the curvature -1/r varies as the radius does, r +- sqrt(S0 / length).
+    const double sigma = std::sqrt(s0_ / frame_.base.knots().length) / (fit->radius * fit->radius);
+    for (const double s : {0.0, curve.knots().length}) {
+      report_.bandS.push_back(s * pixelMm_);
+      report_.bandSigma.push_back(sigma / pixelMm_);
+    }
+    for (std::size_t i = 0; i < piece_.data.points.size(); ++i) {
+      if (!piece_.data.use[i]) continue;
+      const double e = (piece_.data.points[i] - fit->centre).norm() - fit->radius;
+      addResidual(e);
+    }
+    piece_.result = ConstructedPiece{*nurbs, report_};
+    return true;
+  }
+
+  void addResidual(double e) {
+    if (std::abs(e) > 6.0 * std::sqrt(s0_)) return;
+    piece_.squares += e * e;
+    ++piece_.pointCount;
+  }
+
+  bool line(double objective) {
+    const auto fit = fitLine(blockMeans(frame_));
+    if (!fit || !(fit->squares / s0_ - objective < options_.keepExtremaCost)) return false;
+    const auto& points = piece_.data.points;
+    auto curve = placed(lineCurve(*fit, points.front(), points.back(), piece_.pins, pixelMm_), piece_, in_, pixelMm_);
+    if (!curve) return false;
+    report_.why = Termination::Exact;
+    report_.isLine = true;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (piece_.data.use[i]) addResidual(cross(fit->direction, points[i] - fit->point));
+    }
+    // A parabola's curvature from data of density S0 over the length L: variance 720 S0 / L^5.
+    const double length = (points.back() - points.front()).norm();
+    const double sigma = std::sqrt(720.0 * s0_ / std::pow(length, 5));
+    for (const double s : {0.0, length}) {
+      report_.bandS.push_back(s * pixelMm_);
+      report_.bandSigma.push_back(sigma / pixelMm_);
+    }
+    piece_.result = ConstructedPiece{*curve, report_};
+    return true;
+  }
+
+  /// What is left between the ends of a curve and the pins.
+  void pinShifts(const UniformQuintic& curve, Vec2& start, Vec2& end) const {
+    const FairPins& pins = piece_.pins;
+    if (pins.start) start = *pins.start - curve.at(0.0, 0)[0];
+    if (pins.end) end = *pins.end - curve.at(curve.knots().length, 0)[0];
+    if (pins.start && !pins.end) end = start;
+    if (pins.end && !pins.start) start = end;
+  }
+
+  bool finishCurve(const FairPosterior& posterior, StructureResult& found, double circleCost) {
+    FairPosterior pinned = posterior;
+    const UniformKnots& knots = frame_.base.knots();
+    const auto pin = [&](const Vec2& target, double u) {
+      const PlaneDerivatives d = frame_.base.at(u, 1);
+      const double offset = (target - d[0]).dot(leftNormal(d[1]).normalized());
+      const double weight = 1.0 / (kPinPrecisionPx * kPinPrecisionPx);
+      pinned.a.addOuter(knots.row(u, 0), weight);
+      addTo(pinned.b, knots.row(u, 0), weight * offset);
+    };
+    if (piece_.pins.start) pin(*piece_.pins.start, 0.0);
+    if (piece_.pins.end) pin(*piece_.pins.end, knots.length);
+    const double never = std::numeric_limits<double>::infinity();
+    const auto fit = fitStructure(frame_, pinned, found.structure, posterior.mean, 1.0, 0.0, never);
+    if (!fit) return false;
+    const auto curve = offsetCurve(frame_.base, fit->c);
+    if (!curve) return false;
+    Vec2 start = Vec2::Zero(), end = Vec2::Zero();
+    pinShifts(*curve, start, end);
+    auto nurbs = placed(curve->toNurbs(pixelMm_, pixelMm_, start, end), piece_, in_, pixelMm_);
+    if (!nurbs) return false;
+    report_.why = fit->converged && !found.limited ? Termination::Converged : Termination::IterationLimit;
+    noteExtrema(found, circleCost);
+    noteBand(posterior, *curve);
+    piece_.squares = frame_.squares;
+    piece_.pointCount = frame_.pointCount;
+    piece_.result = ConstructedPiece{*nurbs, report_};
+    return true;
+  }
+
+  void noteExtrema(const StructureResult& found, double circleCost) {
+    const auto note = [&](const FairExtremum& e, bool kept) {
+      const double cost = e.costKnown || !kept || !std::isfinite(circleCost) ? e.removalCost : circleCost;
+      report_.extrema.push_back({e.u * pixelMm_, e.kappa / pixelMm_, e.maximum, kept, cost});
+    };
+    for (const FairExtremum& e : found.structure.extrema) note(e, true);
+    for (const FairExtremum& e : found.dropped) note(e, false);
+    std::sort(report_.extrema.begin(), report_.extrema.end(),
+              [](const ExtremumNote& a, const ExtremumNote& b) { return a.s < b.s; });
+  }
+
+  void noteBand(const FairPosterior& posterior, const UniformQuintic& curve) {
+    for (const FrameStation& s : frame_.checks) {
+      const double variance = BandCholesky::quadratic(posterior.covariance, s.kappaRow);
+      report_.bandS.push_back(curve.arcLength(s.u) * pixelMm_);
+      report_.bandSigma.push_back(std::sqrt(std::max(0.0, variance)) / pixelMm_);
+    }
+  }
+
+  FairPiece& piece_;
+  const ConstructPiece& in_;
+  double pixelMm_, s0_, cutoffPx_;
+  const FairFitOptions& options_;
+  const RunContext& context_;
+  FairFrame frame_;
+  std::vector<double> oldParameters_, arcLengths_;  ///< Of the last change of frame.
+  ConstructReport report_;
+};
+
+}  // namespace
+
+void finishFairPiece(FairPiece& piece, const ConstructPiece& in, double pixelMm, double s0, double cutoffPx,
+                     const FairFitOptions& options, const RunContext& context) {
+  Finish(piece, in, pixelMm, s0, cutoffPx, options, context).run();
+}
+
+}  // namespace batten

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/base/run_context.h"
+#include "core/construct/construct.h"
+#include "core/construct/fair_posterior.h"
+#include "core/construct/fair_simple.h"
+
+namespace batten {
+
+/// One piece of a contour between the steps of the fair fit.
+struct FairPiece {
+  FairData data;                   ///< px, relative to `origin`.
+  Vec2 origin = Vec2::Zero();      ///< px.
+  FairPins pins;                   ///< As data.
+  std::optional<FairFrame> frame;  ///< About the pilot; absent: too short for the fair fit.
+  CutoffTable table;
+  double squares = 0.0;  ///< Of the residuals of single points about the result.
+  int pointCount = 0;
+  std::optional<Result<ConstructedPiece>> result;
+};
+
+/// Points in px, cleaned and gated; pilot, first frame and the table of cut-offs.
+FairPiece prepareFairPiece(const ConstructPiece&, bool isStroke, double pixelMm, const FairFitOptions&);
+
+/// The rest, once noise and cut-off are known: sets `result`, `squares` and `pointCount`. Leaves `result` absent when
+/// cancelled.
+void finishFairPiece(FairPiece&, const ConstructPiece&, double pixelMm, double s0, double cutoffPx,
+                     const FairFitOptions&, const RunContext&);
+
+}  // namespace batten

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/fair_posterior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+namespace batten {
+namespace {
+
+constexpr double kLongestCutoffPx = 1400.0;
+
+double cutoffWeight(double cutoffPx) { return std::pow(cutoffPx / (2.0 * std::numbers::pi), 8); }
+
+/// Gaussian average along the piece; open ends: over what there is.
+std::vector<double> averagedAlong(const std::vector<double>& v, double sigma, bool closed) {
+  const int n = static_cast<int>(v.size());
+  const int radius = std::min(static_cast<int>(std::ceil(3.0 * sigma)), closed ? (n - 1) / 2 : n - 1);
+  std::vector<double> kernel(static_cast<std::size_t>(radius) + 1);
+  for (int k = 0; k <= radius; ++k) kernel[static_cast<std::size_t>(k)] = std::exp(-0.5 * k * k / (sigma * sigma));
+  std::vector<double> out(v.size());
+  for (int i = 0; i < n; ++i) {
+    double sum = 0.0, weight = 0.0;
+    for (int k = -radius; k <= radius; ++k) {
+      int j = i + k;
+      if (closed) j = (j + n) % n;
+      if (j < 0 || j >= n) continue;
+      const double w = kernel[static_cast<std::size_t>(std::abs(k))];
+      sum += w * v[static_cast<std::size_t>(j)];
+      weight += w;
+    }
+    out[static_cast<std::size_t>(i)] = sum / weight;
+  }
+  return out;
+}
+
+bool assemble(FairPosterior& p, BandCholesky& cholesky, const FairFrame& frame, double s0) {
+  p.a = BandMatrix(frame.h.size(), frame.h.isCyclic());
+  p.a.add(frame.h, 1.0 / s0);
+  p.b = frame.g / s0;
+  p.constant = 0.0;
+  for (const FairBlock& block : frame.blocks) {
+    p.constant += frame.blockLength * block.weight * block.offset * block.offset / s0;
+  }
+  for (std::size_t j = 0; j < frame.penalty.size(); ++j) {
+    const FrameStation& station = frame.penalty[j];
+    const double w = frame.cell / p.tau2[j];
+    p.a.addOuter(station.bendRow, w);
+    addTo(p.b, station.bendRow, -w * station.bend);
+    p.constant += w * station.bend * station.bend;
+  }
+  if (!cholesky.factor(p.a)) {
+    for (int i = 0; i < p.a.size(); ++i) p.a.entry(i, 0) *= 1.0 + 1e-13;
+    if (!cholesky.factor(p.a)) return false;
+  }
+  p.mean = cholesky.solve(p.b);
+  p.covariance = cholesky.inverseBand();
+  return p.mean.allFinite();
+}
+
+}  // namespace
+
+double CutoffTable::cutoffPx(int k) { return 24.0 * std::pow(1.15, k); }
+
+CutoffTable cutoffTable(const FairFrame& frame) {
+  CutoffTable table;
+  table.blocks = static_cast<int>(frame.blocks.size());
+  BandMatrix q(frame.h.size(), frame.h.isCyclic());
+  Eigen::VectorXd toward = Eigen::VectorXd::Zero(frame.g.size());
+  for (const FrameStation& station : frame.penalty) {
+    q.addOuter(station.bendRow, frame.cell);
+    addTo(toward, station.bendRow, -frame.cell * station.bend);
+  }
+  BandCholesky cholesky;
+  for (int k = 0; k < CutoffTable::kCount; ++k) {
+    const double lambda = cutoffWeight(CutoffTable::cutoffPx(k));
+    BandMatrix m = frame.h;
+    m.add(q, lambda);
+    if (!cholesky.factor(m)) continue;
+    const Eigen::VectorXd c = cholesky.solve(frame.g + lambda * toward);
+    const BandMatrix inverse = cholesky.inverseBand();
+    const auto at = static_cast<std::size_t>(k);
+    for (const FairBlock& block : frame.blocks) {
+      const double e = block.offset - dot(block.row, c);
+      table.rss[at] += block.weight * e * e;
+      table.dof[at] += frame.blockLength * block.weight * BandCholesky::quadratic(inverse, block.row);
+    }
+    table.valid[at] = std::isfinite(table.rss[at]) && table.dof[at] > 0.0 && table.dof[at] < table.blocks;
+  }
+  return table;
+}
+
+CutoffChoice chooseCutoffs(const std::vector<CutoffTable>& tables, double gamma) {
+  CutoffChoice choice;
+  choice.k.assign(tables.size(), -1);
+  for (int round = 0; round < 3; ++round) {
+    double rss = 0.0, freedom = 0.0;
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      const CutoffTable& t = tables[i];
+      double best = 0.0;
+      choice.k[i] = -1;
+      for (int k = 0; k < CutoffTable::kCount; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        if (t.blocks == 0 || !t.valid[at]) continue;
+        const double left = t.blocks - t.dof[at];
+        const double score = round == 0                   ? t.rss[at] / (left * left)
+                             : choice.blockVariance > 0.0 ? t.rss[at] / choice.blockVariance + gamma * t.dof[at]
+                                                          : t.rss[at];
+        if (choice.k[i] < 0 || score < best) {
+          best = score;
+          choice.k[i] = k;
+        }
+      }
+      if (choice.k[i] < 0) continue;
+      rss += t.rss[static_cast<std::size_t>(choice.k[i])];
+      freedom += t.blocks - t.dof[static_cast<std::size_t>(choice.k[i])];
+    }
+    choice.blockVariance = freedom > 0.0 ? rss / freedom : 0.0;
+  }
+  return choice;
+}
+
+std::vector<double> uniformPrior(const FairFrame& frame, double s0, double cutoffPx) {
+  return std::vector<double>(frame.penalty.size(), s0 / cutoffWeight(cutoffPx));
+}
+
+std::optional<FairPosterior> localPosterior(const FairFrame& frame, double s0, std::vector<double> tau2, int rounds,
+                                            double widthPx) {
+  FairPosterior p;
+  p.tau2 = std::move(tau2);
+  BandCholesky cholesky;
+  const double least = s0 / cutoffWeight(kLongestCutoffPx);
+  for (int round = 0; round <= rounds; ++round) {
+    if (!assemble(p, cholesky, frame, s0)) return std::nullopt;
+    if (round == rounds) break;
+    std::vector<double> v;
+    for (const FrameStation& station : frame.penalty) {
+      const double bend = station.bend + dot(station.bendRow, p.mean);
+      const double variance = std::max(0.0, BandCholesky::quadratic(p.covariance, station.bendRow));
+      v.push_back(frame.cell * (bend * bend + variance));
+    }
+    p.tau2 = averagedAlong(v, widthPx / frame.cell, frame.h.isCyclic());
+    for (double& t : p.tau2) t = std::max(t, least);
+  }
+  return p;
+}
+
+}  // namespace batten

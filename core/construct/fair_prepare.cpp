@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/construct/fair_piece.h"
+
+namespace batten {
+namespace {
+
+constexpr double kGuardOutlinePx = 4.0, kGuardStrokePx = 8.0;
+constexpr double kGuardShare = 0.1;   // of the length: short pieces keep most of their points
+constexpr double kShortestPx = 40.0;  // below, a low degree says all there is to say
+constexpr std::size_t kFewestBlocks = 5;
+constexpr int kGateReach = 5;
+
+/// Points that differ from their predecessor, in px about their mean.
+void readPoints(FairPiece& piece, const ConstructPiece& in, double pixelMm) {
+  std::vector<Vec2> px;
+  for (const Vec2& p : in.points) {
+    if (p.allFinite()) px.push_back(p / pixelMm);
+  }
+  if (px.empty()) return;
+  Vec2 low = px.front(), high = px.front(), sum = Vec2::Zero();
+  for (const Vec2& p : px) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+    sum += p;
+  }
+  piece.origin = sum / static_cast<double>(px.size());
+  const double same = 1e-9 * (high - low).norm();
+  auto& points = piece.data.points;
+  for (const Vec2& p : px) {
+    const Vec2 centred = p - piece.origin;
+    if (points.empty() || (centred - points.back()).norm() > same) points.push_back(centred);
+  }
+  while (in.closed && points.size() > 1 && (points.front() - points.back()).norm() <= same) points.pop_back();
+  piece.data.closed = in.closed;
+  piece.data.use.assign(points.size(), 1);
+  if (in.startIsCorner && !in.closed) piece.pins.start = points.front();
+  if (in.endIsCorner && !in.closed) piece.pins.end = points.back();
+}
+
+Vec2 median(std::vector<Vec2> p) {
+  const auto middle = static_cast<std::ptrdiff_t>(p.size() / 2);
+  std::nth_element(p.begin(), p.begin() + middle, p.end(), [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
+  const double x = p[static_cast<std::size_t>(middle)].x();
+  std::nth_element(p.begin(), p.begin() + middle, p.end(), [](const Vec2& a, const Vec2& b) { return a.y() < b.y(); });
+  return {x, p[static_cast<std::size_t>(middle)].y()};
+}
+
+double distanceToSegment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 along = b - a;
+  const double square = along.squaredNorm();
+  const double x = square > 0.0 ? std::clamp((p - a).dot(along) / square, 0.0, 1.0) : 0.0;
+  return (p - a - x * along).norm();
+}
+
+/// Drops points that lie far from where their neighbours on both sides are (medians, so that strays cannot vote).
+void gate(FairData& data, double gatePx, double spacing) {
+  const int n = static_cast<int>(data.points.size());
+  if (n < 2 * kGateReach + 1) return;
+  // Half a window of points may lie round a bend that is as sharp as a line can be.
+  const double limit = gatePx + 0.5 * kGateReach * spacing;
+  const std::vector<Vec2> p = data.points;
+  const auto around = [&](int from, int to) {
+    std::vector<Vec2> some;
+    for (int j = from; j <= to; ++j) {
+      if (data.closed || (j >= 0 && j < n)) some.push_back(p[static_cast<std::size_t>(((j % n) + n) % n)]);
+    }
+    return some;
+  };
+  for (int i = 0; i < n; ++i) {
+    const auto before = around(i - kGateReach, i - 1), after = around(i + 1, i + kGateReach);
+    if (before.size() < 3 || after.size() < 3) continue;
+    if (distanceToSegment(p[static_cast<std::size_t>(i)], median(before), median(after)) > limit) {
+      data.use[static_cast<std::size_t>(i)] = 0;
+    }
+  }
+}
+
+/// Leaves out the points next to corners, where blur has rounded the line.
+void guardCorners(FairPiece& piece, double guardPx) {
+  auto& data = piece.data;
+  const auto n = data.points.size();
+  if (piece.pins.start) {
+    data.use.front() = 0;
+    for (std::size_t i = 1; i < n && (data.points[i] - data.points.front()).norm() < guardPx; ++i) data.use[i] = 0;
+  }
+  if (piece.pins.end) {
+    data.use.back() = 0;
+    for (std::size_t i = n - 1; i-- > 0 && (data.points[i] - data.points.back()).norm() < guardPx;) data.use[i] = 0;
+  }
+}
+
+/// Free ends begin with good points: the curve ends where they do.
+void trimFreeEnds(FairPiece& piece) {
+  auto& data = piece.data;
+  if (data.closed) return;
+  std::size_t first = 0, last = data.points.size();
+  while (!piece.pins.start && first + 2 < last && !data.use[first]) ++first;
+  while (!piece.pins.end && first + 2 < last && !data.use[last - 1]) --last;
+  const auto cut = [&](auto& v) {
+    v.erase(v.begin() + static_cast<std::ptrdiff_t>(last), v.end());
+    v.erase(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  cut(data.points);
+  cut(data.use);
+}
+
+}  // namespace
+
+FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, double pixelMm, const FairFitOptions& options) {
+  FairPiece piece;
+  readPoints(piece, in, pixelMm);
+  FairData& data = piece.data;
+  if (data.points.size() < 2) return piece;
+  std::vector<double> gaps;
+  double length = 0.0;
+  for (std::size_t i = 1; i < data.points.size(); ++i) {
+    gaps.push_back((data.points[i] - data.points[i - 1]).norm());
+  }
+  std::nth_element(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2), gaps.end());
+  const double spacing = gaps[gaps.size() / 2];
+  data.density = std::min(1.0, 1.0 / std::max(spacing, 1e-9));
+  gate(data, isStroke ? options.gateStrokePx : options.gateOutlinePx, spacing);
+  trimFreeEnds(piece);
+  const Vec2* last = nullptr;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    if (!data.use[i]) continue;
+    if (last) length += (data.points[i] - *last).norm();
+    last = &data.points[i];
+  }
+  guardCorners(piece, std::min(isStroke ? kGuardStrokePx : kGuardOutlinePx, kGuardShare * length));
+  if (length < kShortestPx) return piece;
+  const auto pilot = fitPilot(data, options);
+  if (!pilot) return piece;
+  FairFrame frame = assembleFrame(*pilot, data, options, false);
+  if (frame.blocks.size() < kFewestBlocks) return piece;
+  piece.table = cutoffTable(frame);
+  piece.frame = std::move(frame);
+  return piece;
+}
+
+}  // namespace batten
