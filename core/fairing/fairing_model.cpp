@@ -8,8 +8,9 @@
 namespace batten {
 namespace {
 
-/// Share of the longest wave's stiffness against sliding along the curve, which changes no shape and is otherwise free.
-constexpr double kTangentFloor = 1e-2;
+/// Stiffness against sliding along the curve, in that of the longest wave. Sliding changes no shape, but far slides make the
+/// linear model wrong: it is damped more than moves across the curve, and never quite free.
+constexpr double kTangentDamping = 1e5, kTangentFloor = 1.0;
 constexpr int kConjugateSteps = 25;
 constexpr double kConjugateTolerance = 1e-3;
 
@@ -119,7 +120,7 @@ void FairingModel::assemble() {
         const auto row = static_cast<Eigen::Index>(a);
         const int below = index[a] - index[b];
         stiff[below] += l * local_(row, i) + f * fidelity_(row, i) + kTangentFloor * t * tangent_(row, i);
-        mass[below] += n * normal_(row, i) + t * tangent_(row, i);
+        mass[below] += n * normal_(row, i) + kTangentDamping * t * tangent_(row, i);
       }
     }
   }
@@ -191,7 +192,7 @@ Eigen::VectorXd FairingModel::distances(const Eigen::VectorXd& v) const {
 
 Eigen::VectorXd FairingModel::applyNormal(const Eigen::VectorXd& v, double damping) const {
   Eigen::VectorXd out = applyTransposed(apply(v));
-  const double along = damping * dampingUnit_ + tangentFloor_, across = damping * dampingUnit_;
+  const double along = damping * kTangentDamping * dampingUnit_ + tangentFloor_, across = damping * dampingUnit_;
   for (int i = 0; i < setup_->sampleCount(); ++i) {
     accumulate(fidelity_, i, corridorCurvature_[i] * dot(fidelity_, i, v), out);
     accumulate(normal_, i, across * dot(normal_, i, v), out);

@@ -10,6 +10,16 @@ Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& 
                                 const RunContext& context);
 Result<FairedCurve> fairWithinTolerance(const FairingSetup& setup, double toleranceMm, const RunContext& context);
 
+/// The smallest misfit with every sample's distance from the sketch bounded, by a logarithmic barrier (interior point) from
+/// control points inside the bound. Slower than one weight, but sure to use the whole corridor.
+struct BoundedRun {
+  std::vector<Vec2> points;
+  Termination why = Termination::IterationLimit;
+  int iterations = 0;
+};
+BoundedRun minimiseWithin(const FairingSetup& setup, const FairingObjective& objective, double toleranceMm,
+                          const std::vector<Vec2>& points, const RunContext& context);
+
 /// The curve as sketched, with the reason why nothing was done.
 FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std::string note);
 

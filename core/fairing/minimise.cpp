@@ -53,7 +53,7 @@ FairingRun minimise(const FairingSetup& setup, const FairingObjective& objective
     run.state = std::move(*better);
     run.damping = std::max(kSmallestDamping, run.damping / 8.0);
     // A heavily damped step is short by itself and proves nothing.
-    if (small >= 1 && (run.damping < 1.0 || small >= 4)) {
+    if (small >= 1 && (run.damping < 1e-2 || small >= 4)) {
       run.why = Termination::Converged;
       ++run.iterations;
       return run;

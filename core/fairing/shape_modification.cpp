@@ -11,6 +11,10 @@ constexpr double kSmallestWeight = 1e-3, kLargestWeight = 1e5;
 constexpr int kSearchSteps = 9;
 /// The search for the weight ends when the deviation uses this share of the tolerance.
 constexpr double kUsedShare = 0.95;
+/// A search that leaves more of it unused got stuck in the noise of a rough start; the barrier then takes over.
+constexpr double kStuckShare = 0.8;
+/// Part of the tolerance that is kept for what lies between the places where the deviation is measured.
+constexpr double kMeasured = 0.999;
 /// A reference curvature below this (times extent) would weigh a straight line's rounding as shape.
 constexpr double kSmallestReference = 1e-3;
 constexpr FairingLimits kFull{40, 1e-4}, kWarm{8, 1e-3}, kPolish{12, 1e-5};
@@ -112,8 +116,8 @@ double keepWithin(const FairingSetup& setup, double toleranceMm, std::vector<Vec
   // The deviation is all but proportional to the share, so that this ends after one or two rounds.
   for (int round = 0; round < 60; ++round) {
     const double deviation = largestDeviation(setup, points, true);
-    if (deviation <= toleranceMm) return deviation;
-    share *= std::clamp(0.9995 * toleranceMm / deviation, 0.01, 0.9995);
+    if (deviation <= kMeasured * toleranceMm) return deviation;
+    share *= std::clamp(0.9995 * kMeasured * toleranceMm / deviation, 0.01, 0.9995);
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = setup.points[i] + share * (goal[i] - setup.points[i]);
   }
   points = setup.points;
@@ -147,7 +151,16 @@ Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& 
   }
   if (context.isCancelled()) return cancelled();
   report.iterations = search.iterations();
-  keepWithin(setup, toleranceMm, points);
+  const double deviation = keepWithin(setup, toleranceMm, points);
+  if (!report.withinBudget && deviation < kStuckShare * toleranceMm) {
+    BoundedRun bounded = minimiseWithin(setup, *objective, toleranceMm, points, context);
+    if (context.isCancelled()) return cancelled();
+    report.iterations += bounded.iterations;
+    keepWithin(setup, toleranceMm, bounded.points);
+    const auto old = evaluate(setup, *objective, {}, points, setup.start.places);
+    const auto now = evaluate(setup, *objective, {}, bounded.points, setup.start.places);
+    if (now && (!old || now->misfit < old->misfit)) points = std::move(bounded.points);
+  }
   const auto after = evaluate(setup, *objective, {}, points, setup.start.places);
   report.objectiveAfter = after ? std::sqrt(after->misfit) : report.objectiveBefore;
   return finished(setup, std::move(points), toleranceMm, std::move(report));

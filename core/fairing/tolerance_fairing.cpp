@@ -18,6 +18,33 @@ constexpr double kPerfect = 1e-12;
 
 }  // namespace
 
+BoundedRun minimiseWithin(const FairingSetup& setup, const FairingObjective& objective, double toleranceMm,
+                          const std::vector<Vec2>& points, const RunContext& context) {
+  BoundedRun result;
+  result.points = points;
+  std::vector<SpanPlace> feet = setup.start.places;
+  FairingCorridor corridor{0.0, kBarrierStart, kRoom * toleranceMm};
+  if (const auto start = evaluate(setup, objective, {}, points, feet)) corridor.barrier *= start->misfit;
+  double damping = 1e-3;
+  while (result.iterations < kMaxIterations && !context.isCancelled()) {
+    auto next = evaluate(setup, objective, corridor, result.points, feet);
+    if (!next) break;
+    const bool last = corridor.barrier <= kFinalGap * next->misfit;
+    const FairingLimits limits = last ? FairingLimits{20, 1e-5} : FairingLimits{4, 1e-2};
+    FairingRun run = minimise(setup, objective, corridor, std::move(*next), damping, limits, context);
+    result.iterations += std::max(run.iterations, 1);
+    damping = std::min(run.damping, 1e-3);
+    result.points = std::move(run.state.points);
+    feet = std::move(run.state.feet);
+    if (last) {
+      result.why = run.why;
+      break;
+    }
+    corridor.barrier *= kBarrierFactor;
+  }
+  return result;
+}
+
 Result<FairedCurve> fairWithinTolerance(const FairingSetup& setup, double toleranceMm, const RunContext& context) {
   FairingObjective objective;
   auto state = evaluate(setup, objective, {}, setup.points, setup.start.places);
@@ -34,26 +61,11 @@ Result<FairedCurve> fairWithinTolerance(const FairingSetup& setup, double tolera
     }());
   }
   objective.reference = std::sqrt(state->misfit);
-  FairingCorridor corridor{0.0, kBarrierStart, kRoom * toleranceMm};
-  double damping = 1e-3;
-  report.why = Termination::IterationLimit;
-  while (report.iterations < kMaxIterations) {
-    auto next = evaluate(setup, objective, corridor, state->points, state->feet);
-    if (!next) break;
-    const bool last = corridor.barrier <= kFinalGap * next->misfit;
-    const FairingLimits limits = last ? FairingLimits{20, 1e-5} : FairingLimits{4, 1e-2};
-    FairingRun run = minimise(setup, objective, corridor, std::move(*next), damping, limits, context);
-    if (context.isCancelled()) return cancelled();
-    report.iterations += std::max(run.iterations, 1);
-    damping = std::min(run.damping, 1e-3);
-    state = std::move(run.state);
-    if (last) {
-      report.why = run.why;
-      break;
-    }
-    corridor.barrier *= kBarrierFactor;
-  }
-  std::vector<Vec2> points = state->points;
+  const BoundedRun run = minimiseWithin(setup, objective, toleranceMm, setup.points, context);
+  if (context.isCancelled()) return cancelled();
+  report.iterations = run.iterations;
+  report.why = run.why;
+  std::vector<Vec2> points = run.points;
   const double deviation = keepWithin(setup, toleranceMm, points);
   const auto after = evaluate(setup, objective, {}, points, setup.start.places);
   if (after) report.objectiveAfter = after->misfit * report.objectiveBefore;
