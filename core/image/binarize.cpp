@@ -94,7 +94,8 @@ Masks compareAll(const GreyImage& image, const RegionThresholds& t, const Thresh
   const int words = masks.ink.wordsPerRow;
   parallelFor(context, image.height, kRowsPerBlock, [&](int begin, int end) {
     const int count = end - begin + 2 * radius;
-    std::vector<float> padded(width + 2 * static_cast<std::size_t>(radius)), strip(width * static_cast<std::size_t>(count));
+    std::vector<float> padded(width + 2 * static_cast<std::size_t>(radius)),
+        strip(width * static_cast<std::size_t>(count));
     std::vector<float> paper(width), step(width), level(width), grey(width), columns;
     std::vector<std::uint8_t> flags(static_cast<std::size_t>(words) * 64, 0);
     std::vector<const float*> rows;
@@ -115,7 +116,8 @@ Masks compareAll(const GreyImage& image, const RegionThresholds& t, const Thresh
       contrast.fillRow(y, step.data());
       compare(step.data(), masks.ink.row(y));
       if (wantFaint) {
-        weaken(step.data(), static_cast<float>(params.reach), static_cast<float>(t.faintLimit), level.data(), image.width);
+        weaken(step.data(), static_cast<float>(params.reach), static_cast<float>(t.faintLimit), level.data(),
+               image.width);
         std::swap(step, level);
         compare(step.data(), masks.faint.row(y));
       }

@@ -10,8 +10,8 @@
 namespace batten {
 
 /// Ink = darker than the threshold at that place (000 II.B): 1 where grey < level, level being the region's (blocks) or
-/// the bilinear surface through the region centres, relative to the local paper where it was flattened. Specks and small
-/// holes are removed as the parameters say.
+/// the bilinear surface through the region centres, relative to the local paper where it was flattened. Specks and
+/// small holes are removed as the parameters say.
 Result<BitImage> binarize(const GreyImage&, const RegionThresholds&, const ThresholdParams&, const RunContext&);
 
 }  // namespace batten

@@ -7,8 +7,8 @@
 
 namespace batten {
 
-/// A picture of one bit a pixel, 64 pixels a word: bit x % 64 of word x / 64 of a row; 1 = ink. Rows are whole words; the
-/// bits beyond the width are always 0 (every writer keeps that).
+/// A picture of one bit a pixel, 64 pixels a word: bit x % 64 of word x / 64 of a row; 1 = ink. Rows are whole words;
+/// the bits beyond the width are always 0 (every writer keeps that).
 struct BitImage {
   int width = 0;
   int height = 0;
@@ -17,10 +17,14 @@ struct BitImage {
 
   BitImage() = default;
   BitImage(int w, int h)
-      : width(w), height(h), wordsPerRow((w + 63) / 64),
+      : width(w),
+        height(h),
+        wordsPerRow((w + 63) / 64),
         words(static_cast<std::size_t>(wordsPerRow) * static_cast<std::size_t>(h), 0) {}
 
-  std::uint64_t* row(int y) { return words.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(wordsPerRow); }
+  std::uint64_t* row(int y) {
+    return words.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(wordsPerRow);
+  }
   const std::uint64_t* row(int y) const {
     return words.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(wordsPerRow);
   }

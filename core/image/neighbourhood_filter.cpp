@@ -57,15 +57,24 @@ inline void stepRowBody(const std::uint64_t* above, const std::uint64_t* here, c
 BATTEN_HOT_LOOP void stepRow(const std::uint64_t* above, const std::uint64_t* here, const std::uint64_t* below,
                              std::uint64_t* out, int words, std::uint64_t flip, int coefficient) {
   switch (coefficient) {
-    case 0: return stepRowBody<0>(above, here, below, out, words, flip);
-    case 1: return stepRowBody<1>(above, here, below, out, words, flip);
-    case 2: return stepRowBody<2>(above, here, below, out, words, flip);
-    case 3: return stepRowBody<3>(above, here, below, out, words, flip);
-    case 4: return stepRowBody<4>(above, here, below, out, words, flip);
-    case 5: return stepRowBody<5>(above, here, below, out, words, flip);
-    case 6: return stepRowBody<6>(above, here, below, out, words, flip);
-    case 7: return stepRowBody<7>(above, here, below, out, words, flip);
-    default: break;
+    case 0:
+      return stepRowBody<0>(above, here, below, out, words, flip);
+    case 1:
+      return stepRowBody<1>(above, here, below, out, words, flip);
+    case 2:
+      return stepRowBody<2>(above, here, below, out, words, flip);
+    case 3:
+      return stepRowBody<3>(above, here, below, out, words, flip);
+    case 4:
+      return stepRowBody<4>(above, here, below, out, words, flip);
+    case 5:
+      return stepRowBody<5>(above, here, below, out, words, flip);
+    case 6:
+      return stepRowBody<6>(above, here, below, out, words, flip);
+    case 7:
+      return stepRowBody<7>(above, here, below, out, words, flip);
+    default:
+      break;
   }
   if (coefficient < 0) return stepRowBody<-1>(above, here, below, out, words, flip);
   std::copy_n(here, words, out);
@@ -73,8 +82,8 @@ BATTEN_HOT_LOOP void stepRow(const std::uint64_t* above, const std::uint64_t* he
 
 using RowFlags = std::vector<std::uint8_t>;  // one byte a row: neighbouring rows are written by different threads
 
-/// Runs one step from `in` into `out`, which holds the result of the same step one iteration ago: a row whose three rows
-/// of origin have not changed since then is already right. `changed` tells which rows of `out` differ from before.
+/// Runs one step from `in` into `out`, which holds the result of the same step one iteration ago: a row whose three
+/// rows of origin have not changed since then is already right. `changed` tells which rows of `out` differ from before.
 void runStep(const PaddedBits& in, const RowFlags& inChanged, PaddedBits& out, RowFlags& outChanged, Step step,
              const FilterParams& params, const RunContext& context) {
   const bool replicate = params.border == FilterBorder::Replicate;
@@ -105,12 +114,11 @@ bool sameRows(const PaddedBits& a, const PaddedBits& b) {
   return true;
 }
 
-bool any(const RowFlags& flags) {
-  return std::find(flags.begin(), flags.end(), std::uint8_t{1}) != flags.end();
-}
+bool any(const RowFlags& flags) { return std::find(flags.begin(), flags.end(), std::uint8_t{1}) != flags.end(); }
 
 /// The pairs of one erosion and one dilation, until nothing changes.
-PaddedBits runPairs(const BitImage& image, const FilterParams& params, FilterReport& report, const RunContext& context) {
+PaddedBits runPairs(const BitImage& image, const FilterParams& params, FilterReport& report,
+                    const RunContext& context) {
   const bool replicate = params.border == FilterBorder::Replicate;
   const auto rows = static_cast<std::size_t>(image.height);
   const Step first = params.order == FilterOrder::ErosionFirst ? Step::Erosion : Step::Dilation;
@@ -167,7 +175,8 @@ std::optional<Error> validate(const FilterParams& params) {
   return std::nullopt;
 }
 
-Result<FilteredImage> neighbourhoodFilter(const BitImage& image, const FilterParams& params, const RunContext& context) {
+Result<FilteredImage> neighbourhoodFilter(const BitImage& image, const FilterParams& params,
+                                          const RunContext& context) {
   if (const auto error = validate(params)) return fail(*error);
   try {
     FilteredImage result;

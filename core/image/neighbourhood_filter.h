@@ -18,7 +18,8 @@ enum class FilterBorder {
 };
 
 struct FilterParams {
-  int coefficient = 2;  ///< [-] 0..4. Neighbours that must disagree before a pixel changes: more than this many of 8. 0 = ordinary erosion and dilation.
+  int coefficient = 2;  ///< [-] 0..4. Neighbours that must disagree before a pixel changes: more than this many of 8. 0
+                        ///< = ordinary erosion and dilation.
   int iterations = 15;  ///< 0..100. Pairs of one erosion and one dilation; stops earlier at the fixed point.
   FilterOrder order = FilterOrder::ErosionFirst;
   FilterBorder border = FilterBorder::Paper;
@@ -28,20 +29,22 @@ std::optional<Error> validate(const FilterParams&);
 
 struct FilterReport {
   Termination why = Termination::NotRun;
-  int iterations = 0;             ///< Pairs really run.
-  std::int64_t inkBefore = 0;     ///< [px]
-  std::int64_t inkAfter = 0;      ///< [px]
-  bool thinStrokesLost = false;   ///< A large part of the ink vanished: strokes of one pixel do not survive.
-  bool alternates = false;        ///< Two states take turns (why = NoProgress); the result is that of the asked number of pairs.
+  int iterations = 0;            ///< Pairs really run.
+  std::int64_t inkBefore = 0;    ///< [px]
+  std::int64_t inkAfter = 0;     ///< [px]
+  bool thinStrokesLost = false;  ///< A large part of the ink vanished: strokes of one pixel do not survive.
+  bool alternates =
+      false;  ///< Two states take turns (why = NoProgress); the result is that of the asked number of pairs.
 };
 struct FilteredImage {
   BitImage ink;
   FilterReport report;
 };
 
-/// "Feature based" erosion and dilation (000 II.C; the printed rule counts the wrong colour, this is the cited source's):
-/// all pixels at once; erosion: an ink pixel with more than `coefficient` paper pixels among its 8 neighbours becomes
-/// paper; dilation: a paper pixel with more than `coefficient` ink neighbours becomes ink; equality changes nothing.
+/// "Feature based" erosion and dilation (000 II.C; the printed rule counts the wrong colour, this is the cited
+/// source's): all pixels at once; erosion: an ink pixel with more than `coefficient` paper pixels among its 8
+/// neighbours becomes paper; dilation: a paper pixel with more than `coefficient` ink neighbours becomes ink; equality
+/// changes nothing.
 Result<FilteredImage> neighbourhoodFilter(const BitImage&, const FilterParams&, const RunContext&);
 
 /// One step of each, for tests and for stepping through.

@@ -9,8 +9,8 @@
 namespace batten {
 namespace {
 
-constexpr double kMinClassGap = 35.0;    // [grey]
-constexpr double kMinSeparation = 0.7;   // share of the variance that lies between the classes
+constexpr double kMinClassGap = 35.0;   // [grey]
+constexpr double kMinSeparation = 0.7;  // share of the variance that lies between the classes
 
 struct Split {
   double level = 0.0, bright = 0.0, gap = 0.0, separation = 0.0;

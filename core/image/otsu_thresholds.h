@@ -7,8 +7,8 @@
 
 namespace batten {
 
-/// The thresholds without paper flattening: Otsu in each region, believed only where it parts two clearly different greys;
-/// the other regions are filled from these. Fills automatic, measured and foundLine.
+/// The thresholds without paper flattening: Otsu in each region, believed only where it parts two clearly different
+/// greys; the other regions are filled from these. Fills automatic, measured and foundLine.
 void otsuThresholds(const Plane& smoothed, double strength, RegionThresholds& out, const RunContext& context);
 
 }  // namespace batten

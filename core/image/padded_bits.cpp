@@ -6,7 +6,9 @@
 namespace batten {
 
 PaddedBits::PaddedBits(int width, int height)
-    : width_(width), height_(height), wordsPerRow_((width + 63) / 64),
+    : width_(width),
+      height_(height),
+      wordsPerRow_((width + 63) / 64),
       stride_(static_cast<std::size_t>(wordsPerRow_) + 2),
       lastMask_((width & 63) == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (width & 63)) - 1),
       words_(stride_ * (static_cast<std::size_t>(height) + 2), 0) {}

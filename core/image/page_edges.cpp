@@ -69,8 +69,8 @@ RegionNoise measureNoise(const Plane& u, const RunContext& context) {
   return noise;
 }
 
-BATTEN_HOT_LOOP void gradientRow(const float* up, const float* here, const float* down, const float* mx, const float* my,
-                                 float* __restrict out, int begin, int end) {
+BATTEN_HOT_LOOP void gradientRow(const float* up, const float* here, const float* down, const float* mx,
+                                 const float* my, float* __restrict out, int begin, int end) {
   for (int i = begin; i < end; ++i) {
     const float gx = 0.5f * (here[i + 1] - here[i - 1]) - mx[i];
     const float gy = 0.5f * (down[i] - up[i]) - my[i];
@@ -156,7 +156,8 @@ bool isCrest(const Plane& u, const Plane& squares, int x, int y) {
   return here >= squares.row(y + dy)[x + dx] && here > squares.row(y - dy)[x - dx];
 }
 
-std::vector<EdgePoint> findCrests(const Plane& u, const Plane& squares, const BitImage& area, const RunContext& context) {
+std::vector<EdgePoint> findCrests(const Plane& u, const Plane& squares, const BitImage& area,
+                                  const RunContext& context) {
   const int blocks = (u.height + kRowsPerBlock - 1) / kRowsPerBlock;
   std::vector<std::vector<EdgePoint>> parts(static_cast<std::size_t>(blocks));
   parallelFor(context, u.height, kRowsPerBlock, [&](int begin, int end) {

@@ -91,7 +91,8 @@ std::vector<float> integrateSteps(const Cells& cells, const std::vector<float>& 
   }
   cv::dct(divergence, divergence);
   std::vector<double> cosX(static_cast<std::size_t>(width));
-  for (int x = 0; x < width; ++x) cosX[static_cast<std::size_t>(x)] = 2.0 - 2.0 * std::cos(std::numbers::pi * x / width);
+  for (int x = 0; x < width; ++x)
+    cosX[static_cast<std::size_t>(x)] = 2.0 - 2.0 * std::cos(std::numbers::pi * x / width);
   for (int y = 0; y < height; ++y) {
     const double cosY = 2.0 - 2.0 * std::cos(std::numbers::pi * y / height);
     for (int x = 0; x < width; ++x) {
@@ -129,7 +130,8 @@ std::vector<float> halfLevels(const Plane& grey, const PageEdges& edges, const P
 
 }  // namespace
 
-PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrink, int cellPx, const RunContext& context) {
+PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrink, int cellPx,
+                            const RunContext& context) {
   const BitImage touched = dilate(edges.area, 0, FilterBorder::Paper, context);
   const Cells cells = measureCells(grey, touched, cellPx / shrink, context);
   PaperEstimate estimate;
@@ -139,7 +141,8 @@ PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrin
   paper.rows = cells.rows;
   estimate.isPaper = cells.isFree;
   paper.grey = integrateSteps(cells, cellSteps(cells, false), cellSteps(cells, true));
-  // The integration leaves the height open: a high quantile of the free cells (large silhouettes are free too), later the paper cells, settle it.
+  // The integration leaves the height open: a high quantile of the free cells (large silhouettes are free too), later
+  // the paper cells, settle it.
   std::vector<float> gaps;
   for (std::size_t i = 0; i < cells.mean.size(); ++i) {
     if (cells.isFree[i] != 0) gaps.push_back(cells.mean[i] - paper.grey[i]);

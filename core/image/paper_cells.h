@@ -16,8 +16,9 @@ struct PaperEstimate {
   std::vector<std::uint8_t> isPaper;  ///< Per cell: no edge, and as bright as the paper around.
 };
 
-/// The paper's own grey below the drawing: slopes are measured where there is no edge, filled where there is, and summed
-/// up; a step at an edge of the ink does not enter. Twice corrected by the cells that turned out to be paper.
-PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrink, int cellPx, const RunContext& context);
+/// The paper's own grey below the drawing: slopes are measured where there is no edge, filled where there is, and
+/// summed up; a step at an edge of the ink does not enter. Twice corrected by the cells that turned out to be paper.
+PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrink, int cellPx,
+                            const RunContext& context);
 
 }  // namespace batten

@@ -18,7 +18,8 @@ struct Plane {
 
   Plane() = default;
   Plane(int w, int h)
-      : width(w), height(h),
+      : width(w),
+        height(h),
         data(std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(w) * static_cast<std::size_t>(h))) {}
   float* row(int y) { return data.get() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width); }
   const float* row(int y) const { return data.get() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width); }

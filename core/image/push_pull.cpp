@@ -61,7 +61,8 @@ void pull(Level& fine, const Level& coarse) {
 
 }  // namespace
 
-std::vector<float> pushPull(const std::vector<float>& values, const std::vector<float>& weights, int columns, int rows) {
+std::vector<float> pushPull(const std::vector<float>& values, const std::vector<float>& weights, int columns,
+                            int rows) {
   if (columns <= 0 || rows <= 0) return {};
   std::vector<Level> levels;
   levels.push_back({columns, rows, values, weights});

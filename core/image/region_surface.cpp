@@ -25,9 +25,7 @@ int slotOf(int position, int size) {
 
 }  // namespace
 
-int regionOf(int x, int y, int width, int height) {
-  return slotOf(y, height) * kRegionsPerSide + slotOf(x, width);
-}
+int regionOf(int x, int y, int width, int height) { return slotOf(y, height) * kRegionsPerSide + slotOf(x, width); }
 
 RegionSurface::RegionSurface(const RegionValues& values, int width, int height, bool interpolate)
     : values_(values), width_(width), height_(height), interpolate_(interpolate) {}

@@ -9,8 +9,8 @@ namespace batten {
 
 using RegionValues = std::array<double, kRegions>;
 
-/// 64 values at the region centres as a surface over a picture: bilinear between the centres and constant beyond them, or
-/// constant in every region.
+/// 64 values at the region centres as a surface over a picture: bilinear between the centres and constant beyond them,
+/// or constant in every region.
 class RegionSurface {
  public:
   RegionSurface(const RegionValues& values, int width, int height, bool interpolate);

@@ -19,22 +19,22 @@ namespace {
 constexpr std::int64_t kLargestStatisticsPx = 2'500'000;
 constexpr int kLargestShrink = 4;
 constexpr int kCellPx = 8;
-constexpr double kEdgeVariance = 1.5 * 1.5;  // [px^2] of the Gaussian under the gradients
+constexpr double kEdgeVariance = 1.5 * 1.5;                     // [px^2] of the Gaussian under the gradients
 constexpr std::array<double, 3> kSmoothings = {1.0, 1.4, 2.0};  // [px]
 constexpr double kContrastPerNoise = 5.5;
 constexpr double kLeastContrastPerNoise = 4.0;
-constexpr double kLeastContrast = 1.5;       // [grey]
-constexpr double kDustShare = 0.25;          // of the page's contrast: regions of dust alone do not get below
+constexpr double kLeastContrast = 1.5;  // [grey]
+constexpr double kDustShare = 0.25;     // of the page's contrast: regions of dust alone do not get below
 constexpr double kCertainShare = 1.25;
-constexpr double kNever = -1000.0;           // [grey] darker than anything
+constexpr double kNever = -1000.0;  // [grey] darker than anything
 constexpr int kMinVotes = 15;
 constexpr float kVotesOfConfidence = 60.0f;
 constexpr std::size_t kNoiseSamples = 20000;
 
 int shrinkFor(const GreyImage& image) {
   int shrink = 1;
-  while (shrink < kLargestShrink &&
-         static_cast<std::int64_t>(image.width) * image.height / (shrink * shrink) > kLargestStatisticsPx) {
+  while (shrink<kLargestShrink&& static_cast<std::int64_t>(image.width) * image.height / (shrink * shrink)>
+             kLargestStatisticsPx) {
     shrink *= 2;
   }
   return shrink;
@@ -188,7 +188,8 @@ Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParam
     const int shrink = shrinkFor(image);
     const Plane grey = shrinkGrey(image, shrink, context);
     if (context.isCancelled()) return cancelled();
-    const Plane smoothed = smooth(grey, gaussianKernel(std::max(0.25, remainingVariance(kEdgeVariance, shrink))), context);
+    const Plane smoothed =
+        smooth(grey, gaussianKernel(std::max(0.25, remainingVariance(kEdgeVariance, shrink))), context);
     if (context.isCancelled()) return cancelled();
     if (paper.flatten) {
       const PageEdges edges = findPageEdges(smoothed, context);

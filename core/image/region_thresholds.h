@@ -28,19 +28,19 @@ enum class ThresholdMode {
 struct ThresholdParams {
   ThresholdMode mode = ThresholdMode::Automatic;
   double manualLevel = 128.0;  ///< [grey 0..255] Threshold of every region in Manual mode.
-  double strength = 1.0;       ///< [-] 0.2..3. Scales the automatic contrast asked of ink: larger keeps only darker lines.
-  bool interpolate = true;     ///< Bilinear between region centres (no seams); off: blocks, as in the paper.
-  double reach = 1.0;          ///< [-] 0.2..1. Below 1, faint parts joined to ink are kept (pencil); 1 = ink as it is.
-  int speckArea = 20;          ///< [px] >= 0. Smaller pieces of ink are specks and are dropped; 0 keeps all.
-  int holeArea = 10;           ///< [px] >= 0. Smaller holes inside ink are filled; 0 keeps all.
+  double strength = 1.0;    ///< [-] 0.2..3. Scales the automatic contrast asked of ink: larger keeps only darker lines.
+  bool interpolate = true;  ///< Bilinear between region centres (no seams); off: blocks, as in the paper.
+  double reach = 1.0;       ///< [-] 0.2..1. Below 1, faint parts joined to ink are kept (pencil); 1 = ink as it is.
+  int speckArea = 20;       ///< [px] >= 0. Smaller pieces of ink are specks and are dropped; 0 keeps all.
+  int holeArea = 10;        ///< [px] >= 0. Smaller holes inside ink are filled; 0 keeps all.
   /// [grey 0..255] The user's own thresholds on the scan's scale, at the region's centre; absent = automatic.
   std::array<std::optional<double>, kRegions> grid{};
   bool operator==(const ThresholdParams&) const = default;
 };
 std::optional<Error> validate(const ThresholdParams&);
 
-/// The paper's grey on a coarse grid: cell (i, j) is centred at px ((i + .5) * cellPx, (j + .5) * cellPx); between centres
-/// bilinear, beyond them constant. Empty when flattening is off.
+/// The paper's grey on a coarse grid: cell (i, j) is centred at px ((i + .5) * cellPx, (j + .5) * cellPx); between
+/// centres bilinear, beyond them constant. Empty when flattening is off.
 struct PaperBackground {
   int cellPx = 8;
   int columns = 0;
@@ -53,22 +53,24 @@ struct PaperBackground {
 
 /// What the automatic start found, and what acts.
 struct RegionThresholds {
-  PaperBackground paper;                    ///< Empty without flattening.
-  std::array<double, kRegions> automatic{}; ///< [grey 0..255] at the region's centre, scan's scale.
-  std::array<double, kRegions> level{};     ///< [grey 0..255] what acts: the user's where set, else automatic.
-  std::array<bool, kRegions> measured{};    ///< The region holds edges of its own; else filled from its neighbours.
-  double paperNoise = 0.0;                  ///< [grey] robust standard deviation of the paper.
-  double smoothingPx = 0.0;                 ///< [px] Gaussian applied before thresholding.
-  std::array<double, kRegions> contrast{};  ///< [grey] level minus the paper at the region's centre: what acts, at every pixel added to its paper.
-  std::array<double, kRegions> certain{};   ///< [grey] as contrast, deeper: a piece that nowhere gets there is a speck.
-  double faintLimit = -1.5;                 ///< [grey] contrast that faint parts joined to ink must have at least.
-  bool foundLine = true;                    ///< False: no edge stands out of the paper anywhere.
-  std::string note;                         ///< One line for the user when something is unusual; else empty.
+  PaperBackground paper;                     ///< Empty without flattening.
+  std::array<double, kRegions> automatic{};  ///< [grey 0..255] at the region's centre, scan's scale.
+  std::array<double, kRegions> level{};      ///< [grey 0..255] what acts: the user's where set, else automatic.
+  std::array<bool, kRegions> measured{};     ///< The region holds edges of its own; else filled from its neighbours.
+  double paperNoise = 0.0;                   ///< [grey] robust standard deviation of the paper.
+  double smoothingPx = 0.0;                  ///< [px] Gaussian applied before thresholding.
+  std::array<double, kRegions> contrast{};   ///< [grey] level minus the paper at the region's centre: what acts, at
+                                             ///< every pixel added to its paper.
+  std::array<double, kRegions> certain{};  ///< [grey] as contrast, deeper: a piece that nowhere gets there is a speck.
+  double faintLimit = -1.5;                ///< [grey] contrast that faint parts joined to ink must have at least.
+  bool foundLine = true;                   ///< False: no edge stands out of the paper anywhere.
+  std::string note;                        ///< One line for the user when something is unusual; else empty.
 };
 
-/// Chooses the 64 thresholds. Automatic regions follow the half level at their own edges; regions without edges of their
-/// own are filled from those that have some, so that empty paper is not split into its own noise.
-Result<RegionThresholds> findThresholds(const GreyImage&, const PaperParams&, const ThresholdParams&, const RunContext&);
+/// Chooses the 64 thresholds. Automatic regions follow the half level at their own edges; regions without edges of
+/// their own are filled from those that have some, so that empty paper is not split into its own noise.
+Result<RegionThresholds> findThresholds(const GreyImage&, const PaperParams&, const ThresholdParams&,
+                                        const RunContext&);
 
 /// Histogram of the grey levels of one region, 256 bins, for the inspector. @pre 0 <= region < 64.
 std::array<std::uint32_t, 256> regionHistogram(const GreyImage&, int region);

@@ -47,8 +47,8 @@ double PaperBackground::at(double xPx, double yPx) const {
   const int x0 = static_cast<int>(u), y0 = static_cast<int>(v);
   const int x1 = std::min(x0 + 1, columns - 1), y1 = std::min(y0 + 1, rows - 1);
   const auto cell = [&](int x, int y) {
-    return static_cast<double>(grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
-                                    static_cast<std::size_t>(x)]);
+    return static_cast<double>(
+        grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)]);
   };
   const double above = cell(x0, y0) + (u - x0) * (cell(x1, y0) - cell(x0, y0));
   const double below = cell(x0, y1) + (u - x0) * (cell(x1, y1) - cell(x0, y1));

@@ -115,7 +115,8 @@ RunPieces findPieces(const BitImage& image, Connectivity connectivity, const Run
   for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = static_cast<int>(i);
   const auto join = [&](int y) {
     const auto row = static_cast<std::size_t>(y);
-    joinRows(all.runs, all.rowStart[row - 1], all.rowStart[row], all.rowStart[row], all.rowStart[row + 1], slack, parent);
+    joinRows(all.runs, all.rowStart[row - 1], all.rowStart[row], all.rowStart[row], all.rowStart[row + 1], slack,
+             parent);
   };
   // Within a strip only its own runs are joined, so strips do not disturb each other; the seams come afterwards.
   parallelFor(context, image.height, kRowsPerStrip, [&](int begin, int end) {

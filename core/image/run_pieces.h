@@ -16,8 +16,8 @@ struct Run {
 
 /// The connected pieces of a bit image, found on runs and not on pixels.
 struct RunPieces {
-  std::vector<Run> runs;      ///< In reading order.
-  std::vector<int> piece;     ///< For every run, the index of the first run of its piece.
+  std::vector<Run> runs;   ///< In reading order.
+  std::vector<int> piece;  ///< For every run, the index of the first run of its piece.
 };
 
 enum class Connectivity { Four, Eight };

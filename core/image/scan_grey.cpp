@@ -63,13 +63,27 @@ GreyImage turnUpright(GreyImage image, int orientation, const RunContext& contex
       std::uint16_t* out = upright.row(y);
       for (int x = 0; x < upright.width; ++x) {
         switch (orientation) {
-          case 2: out[x] = image.row(y)[lastX - x]; break;
-          case 3: out[x] = image.row(lastY - y)[lastX - x]; break;
-          case 4: out[x] = image.row(lastY - y)[x]; break;
-          case 5: out[x] = image.row(x)[y]; break;
-          case 6: out[x] = image.row(lastY - x)[y]; break;
-          case 7: out[x] = image.row(lastY - x)[lastX - y]; break;
-          default: out[x] = image.row(x)[lastX - y]; break;
+          case 2:
+            out[x] = image.row(y)[lastX - x];
+            break;
+          case 3:
+            out[x] = image.row(lastY - y)[lastX - x];
+            break;
+          case 4:
+            out[x] = image.row(lastY - y)[x];
+            break;
+          case 5:
+            out[x] = image.row(x)[y];
+            break;
+          case 6:
+            out[x] = image.row(lastY - x)[y];
+            break;
+          case 7:
+            out[x] = image.row(lastY - x)[lastX - y];
+            break;
+          default:
+            out[x] = image.row(x)[lastX - y];
+            break;
         }
       }
     }

@@ -10,8 +10,8 @@
 
 namespace batten {
 
-/// Decodes a file held in memory to grey: colour by the luma of Rec. 601 (.299 red, .587 green, .114 blue), which is also
-/// JPEG's own grey; alpha laid over white. The orientation is left as stored. Empty if the file cannot be decoded.
+/// Decodes a file held in memory to grey: colour by the luma of Rec. 601 (.299 red, .587 green, .114 blue), which is
+/// also JPEG's own grey; alpha laid over white. The orientation is left as stored. Empty if the file cannot be decoded.
 std::optional<GreyImage> decodeGrey(std::span<std::byte> file, const RunContext& context);
 
 /// The picture turned upright. @param orientation EXIF 1..8.

@@ -11,9 +11,9 @@ namespace batten {
 
 struct ScanHeader {
   ScanInfo info;
-  bool complete = true;        ///< False: the file ends before its picture does.
-  bool progressive = false;    ///< Its decoder keeps the whole page's coefficients.
-  bool supported = true;       ///< False: a kind of picture that cannot be read (floating point, 32 bit).
+  bool complete = true;             ///< False: the file ends before its picture does.
+  bool progressive = false;         ///< Its decoder keeps the whole page's coefficients.
+  bool supported = true;            ///< False: a kind of picture that cannot be read (floating point, 32 bit).
   std::uint64_t orientationAt = 0;  ///< TIFF: where the orientation is written; 0 = nowhere.
   bool bigEndian = true;
 };

@@ -17,10 +17,19 @@ struct Tag {
 
 std::uint64_t sizeOfType(std::uint32_t type) {
   switch (type) {
-    case 3: case 8: return 2;
-    case 4: case 9: case 11: return 4;
-    case 5: case 10: case 12: return 8;
-    default: return 1;
+    case 3:
+    case 8:
+      return 2;
+    case 4:
+    case 9:
+    case 11:
+      return 4;
+    case 5:
+    case 10:
+    case 12:
+      return 8;
+    default:
+      return 1;
   }
 }
 
@@ -97,10 +106,17 @@ void readTiffTags(const ByteReader& tiff, ScanHeader& header) {
         }
         break;
       }
-      case 282: xResolution = ratioOf(tiff, tag); break;
-      case 283: yResolution = ratioOf(tiff, tag); break;
-      case 296: perInch = valueOf(tiff, tag) == 3 ? kMillimetresPerInch / 10.0 : valueOf(tiff, tag) == 2 ? 1.0 : 0.0; break;
-      default: break;
+      case 282:
+        xResolution = ratioOf(tiff, tag);
+        break;
+      case 283:
+        yResolution = ratioOf(tiff, tag);
+        break;
+      case 296:
+        perInch = valueOf(tiff, tag) == 3 ? kMillimetresPerInch / 10.0 : valueOf(tiff, tag) == 2 ? 1.0 : 0.0;
+        break;
+      default:
+        break;
     }
   }
   if (const auto dpi = plausibleDpi(xResolution * perInch, yResolution * perInch)) header.info.dpi = dpi;
@@ -121,15 +137,34 @@ ScanHeader readTiffHeader(const ByteReader& file) {
     const Tag tag = readTag(tiff, entry);
     const auto value = static_cast<int>(std::min<std::uint64_t>(valueOf(tiff, tag), INT32_MAX));
     switch (tiff.u16(entry)) {
-      case 256: header.info.width = value; break;
-      case 257: header.info.height = value; break;
-      case 258: header.info.bitsPerChannel = value; break;
-      case 262: if (value == 3) header.info.channels = 3; break;
-      case 277: header.info.channels = std::max(header.info.channels, value); break;
-      case 273: case 324: offsets = tag; break;
-      case 279: case 325: sizes = tag; break;
-      case 339: header.supported = value == 1; break;
-      default: break;
+      case 256:
+        header.info.width = value;
+        break;
+      case 257:
+        header.info.height = value;
+        break;
+      case 258:
+        header.info.bitsPerChannel = value;
+        break;
+      case 262:
+        if (value == 3) header.info.channels = 3;
+        break;
+      case 277:
+        header.info.channels = std::max(header.info.channels, value);
+        break;
+      case 273:
+      case 324:
+        offsets = tag;
+        break;
+      case 279:
+      case 325:
+        sizes = tag;
+        break;
+      case 339:
+        header.supported = value == 1;
+        break;
+      default:
+        break;
     }
   }
   readTiffTags(tiff, header);

@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint64_t kLargestFile = std::numeric_limits<int>::max();  // the decoder counts bytes by int
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 30;            // the decoder's own limit
 constexpr double kShareOfFreeMemory = 0.8;                               // the later stages need some too
-constexpr std::uint64_t kProbeBytes = 1 << 20;                           // headers lie within; EXIF blocks take up to 64 kB
+constexpr std::uint64_t kProbeBytes = 1 << 20;  // headers lie within; EXIF blocks take up to 64 kB
 
 tl::unexpected<Error> unreadable(const std::filesystem::path& path, const std::string& what, std::string detail = {}) {
   std::string message(1, '"');
@@ -48,14 +48,16 @@ Result<std::vector<std::byte>> readBytes(const std::filesystem::path& path, std:
   std::ifstream in(path, std::ios::binary);
   if (!in) return unreadable(path, "cannot be opened; check its permissions.");
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
-  if (static_cast<std::uint64_t>(in.gcount()) != count) return unreadable(path, "could not be read to its end; copy it again.");
+  if (static_cast<std::uint64_t>(in.gcount()) != count)
+    return unreadable(path, "could not be read to its end; copy it again.");
   return bytes;
 }
 
 Result<ScanHeader> headerOf(const std::filesystem::path& path, const std::vector<std::byte>& bytes) {
   const auto header = readScanHeader(ByteReader(bytes));
   if (!header) {
-    return unreadable(path, "is not a PNG, JPEG, TIFF, BMP, WebP or PNM image, whatever its name says; export it as PNG.");
+    return unreadable(path,
+                      "is not a PNG, JPEG, TIFF, BMP, WebP or PNM image, whatever its name says; export it as PNG.");
   }
   return *header;
 }
@@ -89,7 +91,8 @@ std::optional<std::uint64_t> freeMemory() {
 
 /// What reading takes at its peak: the file, the decoded picture, its grey, and a turned copy.
 std::uint64_t memoryNeeded(const ScanHeader& header, std::uint64_t fileBytes) {
-  const std::uint64_t pixels = static_cast<std::uint64_t>(header.info.width) * static_cast<std::uint64_t>(header.info.height);
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(header.info.width) * static_cast<std::uint64_t>(header.info.height);
   std::uint64_t channels = static_cast<std::uint64_t>(std::max(1, header.info.channels));
   if (channels == 2) channels = 4;  // grey with alpha is decoded as colour with alpha
   const std::uint64_t sample = header.info.bitsPerChannel > 8 ? 2 : 1;
@@ -115,13 +118,16 @@ std::optional<Error> checkSize(const std::filesystem::path& path, const ScanHead
     }
   }
   if (available && needed > *available) {
-    return unreadable(path, "is too large: " + size + " need " + gigabytes(needed) + " of memory, " + gigabytes(*available) +
-                                " are free. Scan at a lower resolution or crop.").value();
+    return unreadable(path, "is too large: " + size + " need " + gigabytes(needed) + " of memory, " +
+                                gigabytes(*available) + " are free. Scan at a lower resolution or crop.")
+        .value();
   }
-  const std::uint64_t pixels = static_cast<std::uint64_t>(header.info.width) * static_cast<std::uint64_t>(header.info.height);
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(header.info.width) * static_cast<std::uint64_t>(header.info.height);
   if (pixels > kMostPixels || fileBytes > kLargestFile) {
     return unreadable(path, "is too large: " + size + " (" + gigabytes(fileBytes) +
-                                " file) is more than can be read. Scan at a lower resolution or crop.").value();
+                                " file) is more than can be read. Scan at a lower resolution or crop.")
+        .value();
   }
   return std::nullopt;
 }
@@ -139,7 +145,8 @@ Result<Scan> readChecked(const std::filesystem::path& path, std::uint64_t size, 
   if (!bytes) return fail(bytes.error());
   const auto header = headerOf(path, *bytes);
   if (!header) return fail(header.error());
-  if (!header->complete) return unreadable(path, "is truncated or damaged: part of the picture is missing. Scan or copy it again.");
+  if (!header->complete)
+    return unreadable(path, "is truncated or damaged: part of the picture is missing. Scan or copy it again.");
   if (!header->supported) {
     return unreadable(path, "holds a kind of pixels that cannot be read; export it with 8 or 16 bit per channel.");
   }
@@ -188,7 +195,8 @@ Result<Scan> readScan(const std::filesystem::path& path, const ScanLimits& limit
   } catch (const std::bad_alloc&) {
     return unreadable(path, "needs more memory than there is. Scan at a lower resolution or crop.");
   } catch (const cv::Exception& exception) {
-    return unreadable(path, "cannot be decoded; it is damaged or too large. Export it as PNG or scan it again.", exception.what());
+    return unreadable(path, "cannot be decoded; it is damaged or too large. Export it as PNG or scan it again.",
+                      exception.what());
   } catch (const std::filesystem::filesystem_error& error) {
     return unreadable(path, "cannot be read; check the path and its permissions.", error.what());
   }

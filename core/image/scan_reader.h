@@ -12,7 +12,8 @@
 namespace batten {
 
 /// Reads only the header of a PNG, JPEG, TIFF, BMP, WebP or PGM/PBM/PPM file, recognised by content, not by name.
-/// @return UnreadableScan with a message that says what to do if the file is missing, a directory, empty or none of these.
+/// @return UnreadableScan with a message that says what to do if the file is missing, a directory, empty or none of
+/// these.
 Result<ScanInfo> probeScan(const std::filesystem::path& path);
 
 struct ScanLimits {
@@ -20,9 +21,9 @@ struct ScanLimits {
   std::optional<std::uint64_t> memoryBytes;
 };
 
-/// Reads a scan: 1 to 16 bit, grey, palette or colour, alpha over white, EXIF rotation applied, resolution from the file.
-/// The memory needed is known from the header and checked before anything of page size is allocated; a file that is too
-/// large is refused with its size, the memory it needs, the memory there is, and what to do.
+/// Reads a scan: 1 to 16 bit, grey, palette or colour, alpha over white, EXIF rotation applied, resolution from the
+/// file. The memory needed is known from the header and checked before anything of page size is allocated; a file that
+/// is too large is refused with its size, the memory it needs, the memory there is, and what to do.
 Result<Scan> readScan(const std::filesystem::path& path, const ScanLimits& limits, const RunContext& context);
 
 }  // namespace batten

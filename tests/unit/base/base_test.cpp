@@ -58,7 +58,10 @@ TEST(ParallelFor, CoversEveryIndexOnceWhateverTheThreads) {
 TEST(ParallelFor, RethrowsAndHandlesNothingToDo) {
   RunContext context;
   context.threads = 3;
-  EXPECT_THROW(parallelFor(context, 100, 1, [](int begin, int) { if (begin == 50) throw std::runtime_error("x"); }),
+  EXPECT_THROW(parallelFor(context, 100, 1,
+                           [](int begin, int) {
+                             if (begin == 50) throw std::runtime_error("x");
+                           }),
                std::runtime_error);
   bool called = false;
   parallelFor(context, 0, 1, [&](int, int) { called = true; });

@@ -105,7 +105,11 @@ TEST_F(ScanReader, SaysWhatIsWrongWithWhatIsNoPicture) {
 }
 
 TEST_F(ScanReader, ReadsGreyPngOfEveryDepth) {
-  const struct { int bits; std::string row; std::vector<int> expected; } cases[] = {
+  const struct {
+    int bits;
+    std::string row;
+    std::vector<int> expected;
+  } cases[] = {
       {1, std::string("\0\xa0", 2), {255, 0, 255}},
       {2, std::string("\0\x6c", 2), {85, 170, 255}},
       {4, std::string("\0\x5a\xf0", 3), {85, 170, 255}},
