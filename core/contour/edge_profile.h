@@ -56,7 +56,18 @@ class NormalTable {
  public:
   static const NormalTable& instance();
   /// Phi(x) and phi(x).
-  void eval(double x, double& cdf, double& pdf) const;
+  void eval(double x, double& cdf, double& pdf) const {
+    if (x <= -kRange || x >= kRange) {
+      cdf = x > 0.0 ? 1.0 : 0.0;
+      pdf = 0.0;
+      return;
+    }
+    const double position = (x + kRange) * kPerUnit;
+    const auto i = static_cast<std::size_t>(position);
+    const double f = position - static_cast<double>(i);
+    cdf = cdf_[i] + f * (cdf_[i + 1] - cdf_[i]);
+    pdf = pdf_[i] + f * (pdf_[i + 1] - pdf_[i]);
+  }
 
  private:
   NormalTable();

@@ -76,8 +76,11 @@ std::vector<Vec2> smoothPolyline(std::span<const Vec2> points, bool closed, doub
     return points[static_cast<std::size_t>(i)];
   };
   for (int i = 0; i < n; ++i) {
+    const bool inside = i >= half && i + half < n;
     Vec2 sum = kernel[0] * points[static_cast<std::size_t>(i)];
-    for (int k = 1; k <= half; ++k) sum += kernel[static_cast<std::size_t>(k)] * (at(i - k) + at(i + k));
+    const Vec2* here = points.data() + i;
+    for (int k = 1; inside && k <= half; ++k) sum += kernel[static_cast<std::size_t>(k)] * (here[-k] + here[k]);
+    for (int k = 1; !inside && k <= half; ++k) sum += kernel[static_cast<std::size_t>(k)] * (at(i - k) + at(i + k));
     out[static_cast<std::size_t>(i)] = sum;
   }
   return out;
@@ -95,8 +98,11 @@ std::vector<float> smoothValues(std::span<const float> values, bool closed, doub
     return values[static_cast<std::size_t>(std::clamp(reflected, 0, n - 1))];
   };
   for (int i = 0; i < n; ++i) {
+    const bool inside = i >= half && i + half < n;
     double sum = kernel[0] * at(i);
-    for (int k = 1; k <= half; ++k) sum += kernel[static_cast<std::size_t>(k)] * (at(i - k) + at(i + k));
+    const float* here = values.data() + i;
+    for (int k = 1; inside && k <= half; ++k) sum += kernel[static_cast<std::size_t>(k)] * (here[-k] + here[k]);
+    for (int k = 1; !inside && k <= half; ++k) sum += kernel[static_cast<std::size_t>(k)] * (at(i - k) + at(i + k));
     out[static_cast<std::size_t>(i)] = static_cast<float>(sum);
   }
   return out;

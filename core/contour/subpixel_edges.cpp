@@ -152,12 +152,13 @@ void measureLevels(const ProfileBand& band, bool closed, Matched& m) {
 double fitPosition(const float* profile, const EdgeSpan& span, double start, double paper, double contrast,
                    double blur) {
   const NormalTable& table = NormalTable::instance();
+  const double reach = 3.0 * blur;  // beyond, the slope is below 1 % of its peak
   double position = start;
   for (int step = 0; step < kNewtonSteps; ++step) {
     double top = 0.0, bottom = 0.0;
     for (int k = 0; k < kProfileSamples; ++k) {
       const double u = profileU(k);
-      if (u < span.lo - 0.25 || u > span.hi + 0.25) continue;
+      if (u < span.lo - 0.25 || u > span.hi + 0.25 || std::abs(u - position) > reach) continue;
       const EdgeModel m = edgeModel(table, (u - position) / blur, span.inkTwin / blur, span.paperTwin / blur);
       const double gradient = contrast * m.slope / blur;  // of the grey with respect to the position
       top += gradient * (profile[k] - (paper - contrast * m.value));
@@ -166,7 +167,7 @@ double fitPosition(const float* profile, const EdgeSpan& span, double start, dou
     if (!(bottom > 0.0)) return start;
     const double move = std::clamp(top / bottom, -0.5, 0.5);
     position = std::clamp(position + move, start - kGatePx, start + kGatePx);
-    if (std::abs(move) < 1e-4) break;
+    if (std::abs(move) < 1e-3) break;
   }
   return position;
 }
@@ -204,8 +205,9 @@ void updateBlur(const ProfileBand& band, Matched& m) {
   m.noise = 1.4826 * *middle;
 }
 
-void fitAll(const ProfileBand& band, const std::vector<double>& start, Matched& m, std::size_t stride) {
+void fitAll(const ProfileBand& band, const std::vector<double>& start, Matched& m, std::size_t stride, bool twinsOnly) {
   for (std::size_t i = 0; i < m.span.size(); i += stride) {
+    if (twinsOnly && m.span[i].inkTwin <= 0.0 && m.span[i].paperTwin <= 0.0) continue;
     const double contrast = m.paper[i] - m.ink[i];
     if (m.span[i].contrast <= 0.0 || contrast < kSmallestContrast) continue;
     m.position[i] = fitPosition(band.row(static_cast<int>(i)), m.span[i], start[i], m.paper[i], contrast, m.blur);
@@ -245,13 +247,15 @@ Matched matchedPass(const ProfileBand& band, bool closed, const RunContext& cont
   const std::size_t stride = std::max<std::size_t>(1, n / kBlurSamples);
   for (int round = 0; round < kBlurRounds && !context.isCancelled(); ++round) {
     measureLevels(band, closed, m);
-    fitAll(band, start, m, stride);
+    fitAll(band, start, m, stride, false);
     if (stride == 1) updateTwins(closed, m);
+    const double before = m.blur;
     updateBlur(band, m);
+    if (std::abs(m.blur - before) < 0.005) break;
   }
   for (int round = 0; round < kTwinRounds && !context.isCancelled(); ++round) {
     measureLevels(band, closed, m);
-    fitAll(band, start, m, 1);
+    fitAll(band, start, m, 1, round > 0);
     if (!updateTwins(closed, m)) break;
   }
   return m;
