@@ -163,6 +163,11 @@ Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& 
   }
   const auto after = evaluate(setup, *objective, {}, points, setup.start.places);
   report.objectiveAfter = after ? std::sqrt(after->misfit) : report.objectiveBefore;
+  if (!report.withinBudget && largestDeviation(setup, points) < kStuckShare * toleranceMm) {
+    // The corridor had room left: it was not what stopped the curve.
+    report.why = Termination::NoProgress;
+    report.note = "The curve is too rough to follow the profile further. Fair it by tolerance first.";
+  }
   return finished(setup, std::move(points), toleranceMm, std::move(report));
 }
 
