@@ -11,8 +11,8 @@
 
 namespace batten {
 
-/// The drawing with everything traced from it. Paints from a tile pyramid at screen resolution; zooms at the cursor (wheel,
-/// Ctrl+wheel, pinch), pans (Space or middle drag, Shift+wheel), never waits for the pipeline.
+/// The drawing with everything traced from it. Paints from a tile pyramid at screen resolution; zooms at the cursor
+/// (wheel, Ctrl+wheel, pinch), pans (Space or middle drag, Shift+wheel), never waits for the pipeline.
 class CurveCanvas : public QWidget {
   Q_OBJECT
  public:
@@ -20,9 +20,9 @@ class CurveCanvas : public QWidget {
   ~CurveCanvas() override;
 
   void zoomFit();
-  void zoomActual();                      ///< One scan pixel is one device pixel.
-  void zoomBy(double factor);             ///< About the centre of the view.
-  double zoom() const;                    ///< Device pixels per scan pixel.
+  void zoomActual();           ///< One scan pixel is one device pixel.
+  void zoomBy(double factor);  ///< About the centre of the view.
+  double zoom() const;         ///< Device pixels per scan pixel.
   QPointF toWidget(const Vec2& imagePx) const;
   Vec2 toImage(const QPointF& widget) const;
 

@@ -26,7 +26,8 @@ TileLevel emptyLevel(int shift, int scanWidth, int scanHeight) {
 std::uint8_t* pixel(TileLevel& level, int x, int y) {
   const std::size_t tile =
       static_cast<std::size_t>(y >> 8) * static_cast<std::size_t>(level.tilesAcross) + static_cast<std::size_t>(x >> 8);
-  return level.tiles.data() + (tile << 16) + (static_cast<std::size_t>(y & 255) << 8) + static_cast<std::size_t>(x & 255);
+  return level.tiles.data() + (tile << 16) + (static_cast<std::size_t>(y & 255) << 8) +
+         static_cast<std::size_t>(x & 255);
 }
 
 /// Number of levels after which the shorter side is small enough to paint from at any smaller zoom.
@@ -36,7 +37,9 @@ int levelCount(const GreyImage& grey) {
   return count;
 }
 
-std::uint8_t average(std::uint32_t sum, std::uint32_t unit) { return static_cast<std::uint8_t>((sum + unit / 2) / unit); }
+std::uint8_t average(std::uint32_t sum, std::uint32_t unit) {
+  return static_cast<std::uint8_t>((sum + unit / 2) / unit);
+}
 
 void halveScan(const GreyImage& grey, TileLevel& to, int y) {
   const std::uint16_t* upper = grey.row(std::min(2 * y, grey.height - 1));
@@ -152,7 +155,8 @@ std::shared_ptr<const TilePyramid> buildPyramid(std::shared_ptr<const Scan> scan
   for (int shift = 1; shift <= levelCount(grey); ++shift) {
     TileLevel level = emptyLevel(shift, grey.width, grey.height);
     parallelFor(context, level.height, 64, [&](int begin, int end) {
-      for (int y = begin; y < end; ++y) shift == 1 ? halveScan(grey, level, y) : halveLevel(pyramid->levels.back(), level, y);
+      for (int y = begin; y < end; ++y)
+        shift == 1 ? halveScan(grey, level, y) : halveLevel(pyramid->levels.back(), level, y);
     });
     if (context.isCancelled()) return nullptr;
     pyramid->levels.push_back(std::move(level));

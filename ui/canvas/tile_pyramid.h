@@ -19,19 +19,20 @@ struct TileLevel {
   int width = 0, height = 0, tilesAcross = 0;
   std::vector<std::uint8_t> tiles;  ///< Tile by tile, row by row within a tile.
   std::uint8_t at(int x, int y) const {
-    const std::size_t tile = static_cast<std::size_t>(y >> 8) * static_cast<std::size_t>(tilesAcross) + static_cast<std::size_t>(x >> 8);
+    const std::size_t tile =
+        static_cast<std::size_t>(y >> 8) * static_cast<std::size_t>(tilesAcross) + static_cast<std::size_t>(x >> 8);
     return tiles[(tile << 16) + (static_cast<std::size_t>(y & 255) << 8) + static_cast<std::size_t>(x & 255)];
   }
 };
 
-/// The scan at halved sizes, for painting at any zoom without touching the whole page. The scan itself is level 0 and is
-/// read in place, never copied.
+/// The scan at halved sizes, for painting at any zoom without touching the whole page. The scan itself is level 0 and
+/// is read in place, never copied.
 struct TilePyramid {
   std::shared_ptr<const Scan> scan;
   std::vector<TileLevel> levels;  ///< shift 1, 2, …; empty entries are not built yet.
   bool isComplete = false;
-  /// The level to paint from: its pixels are about as large as screen pixels at `zoom`; the nearest coarser one while that
-  /// is missing; null = the scan itself.
+  /// The level to paint from: its pixels are about as large as screen pixels at `zoom`; the nearest coarser one while
+  /// that is missing; null = the scan itself.
   const TileLevel* levelFor(double zoom) const;
 };
 

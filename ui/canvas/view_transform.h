@@ -11,8 +11,8 @@
 
 namespace batten {
 
-/// Where the image lies in the view: a zoom [device px per image px] and the place of the image's origin, always a whole
-/// device pixel, so that rendered tiles can be reused while panning. Widget coordinates are device px / ratio.
+/// Where the image lies in the view: a zoom [device px per image px] and the place of the image's origin, always a
+/// whole device pixel, so that rendered tiles can be reused while panning. Widget coordinates are device px / ratio.
 class ViewTransform {
  public:
   static constexpr double kMaxZoom = 64.0;

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QColor>
+#include <QRgb>
+
+/// The canvas has its own colours, the same in the light and the dark theme: what was drawn must not change its look.
+namespace batten::colors {
+
+inline constexpr QRgb kDesk = qRgb(218, 216, 211);   ///< Around the page.
+inline constexpr QRgb kPaper = qRgb(252, 251, 248);  ///< The page where no picture of it is shown.
+inline constexpr QRgb kMask = qRgb(0, 110, 116);
+inline constexpr QRgb kEdges = qRgb(176, 36, 142);
+
+inline QColor sketched() { return {88, 88, 88, 210}; }
+inline QColor sketchedFaint() { return {96, 96, 96, 150}; }
+inline QColor target() { return {200, 112, 0}; }
+inline QColor accent() { return {11, 107, 203}; }
+inline QColor halo() { return {11, 107, 203, 56}; }
+inline QColor corner() { return {201, 60, 16}; }
+inline QColor lost() { return {196, 0, 0}; }
+inline QColor segment() { return {20, 130, 80}; }
+inline QColor grid() { return {40, 40, 40, 70}; }
+
+}  // namespace batten::colors

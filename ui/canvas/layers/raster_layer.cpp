@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/layers/raster_layer.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "ui/canvas/canvas_colors.h"
+
+namespace batten {
+namespace {
+
+QRgb mix(QRgb below, QRgb above, int share256) {
+  const auto part = [share256](int b, int a) { return b + (((a - b) * share256) >> 8); };
+  return qRgb(part(qRed(below), qRed(above)), part(qGreen(below), qGreen(above)), part(qBlue(below), qBlue(above)));
+}
+
+/// Half-open range of image pixels that a screen pixel covers, at least one, within 0..size; empty outside.
+struct Cover {
+  int first = 0, last = 0;
+};
+Cover coverOf(int device, double zoom, int size) {
+  const double from = device / zoom, to = (device + 1) / zoom;
+  if (to <= 0.0 || from >= size) return {};
+  if (zoom >= 1.0) {
+    const int at = std::clamp(static_cast<int>(std::floor((device + 0.5) / zoom)), 0, size - 1);
+    return {at, at + 1};
+  }
+  const int first = std::clamp(static_cast<int>(std::floor(from)), 0, size - 1);
+  return {first, std::clamp(static_cast<int>(std::floor(to)), first + 1, size)};
+}
+
+void renderBits(const BitImage& bits, double zoom, const QRect& device, QRgb color, double opacity, double thinGain,
+                QImage& out) {
+  std::vector<Cover> columns(static_cast<std::size_t>(device.width()));
+  for (int i = 0; i < device.width(); ++i)
+    columns[static_cast<std::size_t>(i)] = coverOf(device.x() + i, zoom, bits.width);
+  std::vector<int> ink(columns.size());
+  for (int j = 0; j < device.height(); ++j) {
+    const Cover rows = coverOf(device.y() + j, zoom, bits.height);
+    if (rows.first == rows.last) continue;
+    std::fill(ink.begin(), ink.end(), 0);
+    for (int y = rows.first; y < rows.last; ++y)
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        if (columns[i].first != columns[i].last) ink[i] += inkInRow(bits, y, columns[i].first, columns[i].last);
+    auto* line = reinterpret_cast<QRgb*>(out.scanLine(j));
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (ink[i] == 0) continue;
+      const int area = (columns[i].last - columns[i].first) * (rows.last - rows.first);
+      const double share = std::min(1.0, thinGain * ink[i] / area) * opacity;
+      line[i] = mix(line[i], color, static_cast<int>(256.0 * share));
+    }
+  }
+}
+
+void renderPage(const RasterContent& content, double zoom, const QRect& device, QImage& out) {
+  const Cover none;
+  std::vector<std::uint8_t> grey;
+  if (content.showsPicture && content.pyramid) {
+    grey.resize(static_cast<std::size_t>(device.width()) * static_cast<std::size_t>(device.height()));
+    sampleGrey(*content.pyramid, zoom, device, grey.data());
+  }
+  std::array<QRgb, 256> palette{};
+  for (std::size_t v = 0; v < palette.size(); ++v) {
+    const int tone = content.tones ? (*content.tones)[v] : static_cast<int>(v);
+    palette[v] = qRgb(tone, tone, tone);
+  }
+  for (int j = 0; j < device.height(); ++j) {
+    auto* line = reinterpret_cast<QRgb*>(out.scanLine(j));
+    const double y = (device.y() + j + 0.5) / zoom;
+    const bool onRow = y >= 0.0 && y < content.pageHeight;
+    for (int i = 0; i < device.width(); ++i) {
+      const double x = (device.x() + i + 0.5) / zoom;
+      const bool onPage = onRow && x >= 0.0 && x < content.pageWidth;
+      const std::size_t at =
+          static_cast<std::size_t>(j) * static_cast<std::size_t>(device.width()) + static_cast<std::size_t>(i);
+      line[i] = !onPage ? colors::kDesk : grey.empty() ? colors::kPaper : palette[grey[at]];
+    }
+  }
+}
+
+}  // namespace
+
+int inkInRow(const BitImage& bits, int y, int x0, int x1) {
+  const std::uint64_t* row = bits.row(y);
+  int count = 0;
+  while (x0 < x1) {
+    const int bit = x0 & 63, length = std::min(64 - bit, x1 - x0);
+    const std::uint64_t mask = length == 64 ? ~std::uint64_t{0} : ((std::uint64_t{1} << length) - 1) << bit;
+    count += std::popcount(row[x0 >> 6] & mask);
+    x0 += length;
+  }
+  return count;
+}
+
+void renderRaster(const RasterContent& content, double zoom, const QRect& device, QImage& out) {
+  renderPage(content, zoom, device, out);
+  const bool overPicture = content.showsPicture && content.pyramid;
+  if (content.mask)
+    renderBits(*content.mask, zoom, device, overPicture ? colors::kMask : qRgb(24, 24, 24), overPicture ? 0.72 : 1.0,
+               1.0, out);
+  if (content.edges) renderBits(*content.edges, zoom, device, colors::kEdges, 0.9, std::max(1.0, 0.7 / zoom), out);
+}
+
+}  // namespace batten

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QImage>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/image/bit_image.h"
+#include "ui/canvas/tile_pyramid.h"
+
+namespace batten {
+
+/// The pixel layers: what one screen tile is rendered from. Shared and constant, so tiles render on any thread.
+struct RasterContent {
+  std::shared_ptr<const TilePyramid> pyramid;          ///< Null: no picture of the page.
+  std::optional<std::array<std::uint8_t, 256>> tones;  ///< The log image instead of the scan.
+  std::shared_ptr<const BitImage> mask, edges;         ///< Null: not shown.
+  bool showsPicture = false;
+  int pageWidth = 0, pageHeight = 0;
+  bool operator==(const RasterContent&) const = default;
+};
+
+/// Renders the screen pixels `device` (relative to the image's origin at this zoom) into `out`, which has their size
+/// and the format RGB32. Mask and edges are painted by their share of each screen pixel, so thin lines do not drop out.
+void renderRaster(const RasterContent&, double zoom, const QRect& device, QImage& out);
+
+/// Ink pixels in columns [x0, x1) of a row. @pre 0 <= x0 <= x1 <= width
+int inkInRow(const BitImage&, int y, int x0, int x1);
+
+}  // namespace batten
