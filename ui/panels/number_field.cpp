@@ -100,6 +100,10 @@ void NumberField::show(const char* property, bool on) {
 
 bool NumberField::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::FocusIn) show("live", true);
+  // Escape belongs to a number that cannot be read before it stops any work.
+  if (event->type() == QEvent::ShortcutOverride && property("wrong").toBool() &&
+      static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape)
+    event->accept();
   if (event->type() == QEvent::FocusOut) show("live", false);
   if (event->type() == QEvent::KeyPress) {
     const auto* key = static_cast<QKeyEvent*>(event);

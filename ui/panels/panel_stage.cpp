@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "ui/session/editor_session.h"
-#include "ui/session/shown_curve.h"
 
 namespace batten {
 namespace {
@@ -85,8 +84,7 @@ QString tally(PanelStage panel, const EditorSession& session) {
     return count > 0 ? QString::number(count) : QStringLiteral("–");
   }
   if (panel == PanelStage::Curves) {
-    const auto* curves = shownCurves(session);
-    return curves ? QString::number(curves->size()) : QString();
+    return QString::number(session.curves().size());
   }
   return panel == PanelStage::Fairing ? QString() : QStringLiteral("✓");
 }

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+class QLabel;
+class QPushButton;
+
+namespace batten {
+
+/// A message inside the window: what is wrong, what to do, and a button that does it. Never a box in the way.
+class ErrorStrip : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ErrorStrip(QWidget* parent = nullptr);
+  /// @param action text of the button that helps; empty = only Dismiss.
+  void show(const QString& message, const QString& action);
+  QString message() const;
+
+ signals:
+  void actionPressed();
+  void dismissed();
+
+ protected:
+  void paintEvent(QPaintEvent*) override;
+
+ private:
+  QLabel* text_;
+  QPushButton *action_, *dismiss_;
+};
+
+}  // namespace batten

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/clean_up_panel.h"
+
+#include <QLabel>
+#include <QVBoxLayout>
+#include <functional>
+
+#include "ui/panels/panel_parts.h"
+#include "ui/panels/parameter_editor.h"
+#include "ui/theme/theme.h"
+
+namespace batten {
+namespace {
+
+QVBoxLayout* panelLayout(QWidget* panel, const QString& title) {
+  auto* layout = new QVBoxLayout(panel);
+  layout->setContentsMargins(14, 12, 14, 12);
+  layout->setSpacing(8);
+  layout->addWidget(heading(title, panel));
+  return layout;
+}
+
+void follow(EditorSession& session, QWidget* panel, StageId stage, const std::function<void()>& refresh) {
+  QObject::connect(&session, &EditorSession::stageReady, panel, [stage, refresh](StageId ready) {
+    if (ready == stage) refresh();
+  });
+  QObject::connect(&session, &EditorSession::scanOpened, panel, refresh);
+  QObject::connect(&session, &EditorSession::runFinished, panel, refresh);
+}
+
+}  // namespace
+
+CleanUpPanel::CleanUpPanel(EditorSession& session, QWidget* parent)
+    : QWidget(parent), session_(session), figures_(new FigureTable(this)), warning_(note({}, this)) {
+  auto* layout = panelLayout(this, tr("Clean-up"));
+  layout->addWidget(new ParameterEditor(session, {"filter.coefficient", "filter.iterations", "filter.order", "filter.border"}, this));
+  layout->addWidget(caption(tr("What it did"), this));
+  layout->addWidget(figures_);
+  layout->addWidget(warning_);
+  layout->addStretch();
+  follow(session, this, StageId::Filtered, [this] { refresh(); });
+  refresh();
+}
+
+void CleanUpPanel::refresh() {
+  const auto& filtered = session_.output().filtered;
+  if (!filtered) {
+    figures_->setRows({{tr("Ink"), {{QStringLiteral("–")}}, {}}});
+    warning_->hide();
+    return;
+  }
+  const FilterReport& report = filtered->report;
+  const double change = report.inkBefore > 0 ? 100.0 * double(report.inkAfter - report.inkBefore) / double(report.inkBefore) : 0.0;
+  QString rounds = QString::number(report.iterations);
+  if (report.why == Termination::FixedPoint) rounds = tr("%1, then no change").arg(report.iterations);
+  if (report.why == Termination::IterationLimit) rounds = tr("%1, still changing").arg(report.iterations);
+  if (report.why == Termination::NotRun) rounds = tr("none");
+  figures_->setRows({{tr("Ink before, px"), {{grouped(report.inkBefore)}}, tr("Pixels that count as ink after the threshold.")},
+                     {tr("Ink after, px"), {{grouped(report.inkAfter)}}, tr("Pixels that count as ink after the clean-up.")},
+                     {tr("Change"), {{QStringLiteral("%1 %").arg(change, 0, 'f', 1), report.thinStrokesLost}}, {}},
+                     {tr("Rounds"), {{rounds}}, tr("A round is one erosion and one dilation; the filter stops when nothing changes.")}});
+  warning_->setVisible(report.thinStrokesLost);
+  warning_->setText(tr("Much of the ink vanished: strokes of one pixel do not survive this. Use a larger coefficient or fewer iterations."));
+}
+
+EdgesPanel::EdgesPanel(EditorSession& session, QWidget* parent)
+    : QWidget(parent), session_(session), figures_(new FigureTable(this)), note_(note({}, this)) {
+  auto* layout = panelLayout(this, tr("Edges"));
+  layout->addWidget(new ParameterEditor(session,
+                                        {"edges.mode", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
+                                         "edges.merge", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
+                                        this));
+  layout->addWidget(caption(tr("Lines found"), this));
+  layout->addWidget(figures_);
+  layout->addWidget(note_);
+  layout->addStretch();
+  follow(session, this, StageId::Contours, [this] { refresh(); });
+  refresh();
+}
+
+void EdgesPanel::refresh() {
+  const auto& set = session_.output().contours;
+  if (!set) {
+    figures_->setRows({{tr("Kept"), {{QStringLiteral("–")}}, {}}});
+    note_->hide();
+    return;
+  }
+  qint64 strokes = 0, closed = 0;
+  for (const Contour& contour : set->contours) {
+    strokes += contour.kind == ContourKind::Centreline ? 1 : 0;
+    closed += contour.closed ? 1 : 0;
+  }
+  const ContourReport& report = set->report;
+  const qint64 kept = static_cast<qint64>(set->contours.size());
+  std::vector<FigureTable::Row> rows = {
+      {tr("Kept"), {{grouped(kept)}}, tr("Lines that go on to become curves.")},
+      {tr("of these strokes"), {{grouped(strokes)}}, tr("Followed along the middle of the pen stroke.")},
+      {tr("of these closed"), {{grouped(closed)}}, tr("Lines that return to their start.")},
+      {tr("Too short"), {{grouped(report.droppedShort)}}, tr("Left out because they are shorter than the shortest line.")}};
+  if (report.droppedHoles > 0) rows.push_back({tr("Inner outlines left out"), {{grouped(report.droppedHoles)}}, {}});
+  rows.push_back({tr("Placed on grey values"), {{QStringLiteral("%1 %").arg(100 * report.refinedShare, 0, 'f', 0)}},
+                  tr("Part of the points that lie on the scan's grey values, finer than a pixel.")});
+  figures_->setRows(std::move(rows));
+  note_->setText(QString::fromStdString(report.note));
+  note_->setVisible(!note_->text().isEmpty());
+}
+
+}  // namespace batten

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/corners_panel.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPointer>
+#include <QPushButton>
+#include <QShortcut>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "ui/panels/number_field.h"
+#include "ui/panels/panel_parts.h"
+#include "ui/panels/parameter_editor.h"
+#include "ui/panels/slider_track.h"
+#include "ui/session/background_worker.h"
+#include "ui/theme/theme.h"
+
+namespace batten {
+namespace {
+
+constexpr double kLowestAngleDeg = 10.0, kHighestAngleDeg = 150.0;
+constexpr double kSuggestionScalePx = 12.0;
+
+QString place(const Vec2& px) { return QStringLiteral("%1, %2").arg(px.x(), 0, 'f', 1).arg(px.y(), 0, 'f', 1); }
+
+QString degrees(double rad) { return QStringLiteral("%1°").arg(rad * 180.0 / std::numbers::pi, 0, 'f', 1); }
+
+void fitHeight(QListWidget* list, int most) {
+  const int row = list->count() > 0 ? std::max(22, list->sizeHintForRow(0)) : 22;
+  list->setFixedHeight(row * std::clamp(list->count(), 1, most) + 2);
+}
+
+}  // namespace
+
+CornersPanel::CornersPanel(EditorSession& session, QWidget* parent)
+    : QWidget(parent), session_(session), marks_(new QListWidget(this)),
+      remove_(plainButton(tr("Remove"), QStringLiteral("corners.remove"), this)),
+      removeAll_(plainButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)), angle_(new NumberField(this)),
+      angleTrack_(new SliderTrack(this)), suggested_(new QListWidget(this)), suggestedNote_(note({}, this)),
+      take_(plainButton(tr("Mark"), QStringLiteral("corners.take"), this)),
+      takeAll_(plainButton(tr("Mark all"), QStringLiteral("corners.takeAll"), this)),
+      worker_(std::make_unique<BackgroundWorker>()) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(14, 12, 14, 12);
+  layout->setSpacing(8);
+  layout->addWidget(heading(tr("Corners"), this));
+  layout->addWidget(note(tr("Click a line where it turns sharply; click the corner again to remove it."), this));
+  layout->addWidget(new ParameterEditor(session, {"corners.exact", "corners.snap"}, this));
+  layout->addWidget(caption(tr("Marked"), this));
+  marks_->setObjectName(QStringLiteral("corners.list"));
+  marks_->setAccessibleName(tr("Marked corners"));
+  layout->addWidget(marks_);
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(remove_);
+  buttons->addWidget(removeAll_);
+  buttons->addStretch();
+  layout->addLayout(buttons);
+  buildSuggestions();
+  layout->addStretch();
+  auto* del = new QShortcut(QKeySequence(Qt::Key_Delete), marks_, nullptr, nullptr, Qt::WidgetShortcut);
+  connect(del, &QShortcut::activated, this, &CornersPanel::removeSelected);
+  connect(remove_, &QPushButton::clicked, this, &CornersPanel::removeSelected);
+  connect(removeAll_, &QPushButton::clicked, this, &CornersPanel::removeAll);
+  connect(marks_, &QListWidget::currentRowChanged, this, [this](int row) { remove_->setEnabled(row >= 0); });
+  connect(&session_, &EditorSession::scanOpened, this, &CornersPanel::refresh);
+  connect(&session_, &EditorSession::recipeChanged, this, &CornersPanel::refreshMarks);
+  connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
+    if (stage == StageId::Pieces) refreshMarks();
+    if (stage == StageId::Contours) suggest();
+  });
+  refresh();
+}
+
+CornersPanel::~CornersPanel() = default;
+
+void CornersPanel::buildSuggestions() {
+  auto* layout = static_cast<QVBoxLayout*>(this->layout());
+  layout->addWidget(caption(tr("Suggestions"), this));
+  auto* row = new QHBoxLayout;
+  auto* name = new QLabel(tr("Sharper than"), this);
+  const QString help = tr("Suggests places where a line turns by more than this. Larger: fewer, sharper places.");
+  name->setToolTip(help);
+  angleTrack_->setToolTip(help);
+  angleTrack_->setObjectName(QStringLiteral("corners.suggestAngle"));
+  angleTrack_->setAccessibleName(tr("Smallest angle of a suggested corner"));
+  angleTrack_->setRange(static_cast<int>(kLowestAngleDeg), static_cast<int>(kHighestAngleDeg));
+  angleTrack_->setSingleStep(1);
+  angle_->setRange(kLowestAngleDeg, kHighestAngleDeg);
+  angle_->setUnit(QStringLiteral("°"));
+  angle_->setStep(1);
+  angle_->setFixedWidth(76);
+  angle_->edit()->setAccessibleName(angleTrack_->accessibleName());
+  row->addWidget(name);
+  row->addStretch();
+  row->addWidget(angle_);
+  layout->addLayout(row);
+  layout->addWidget(angleTrack_);
+  layout->addWidget(suggestedNote_);
+  suggested_->setObjectName(QStringLiteral("corners.suggestions"));
+  suggested_->setAccessibleName(tr("Suggested corners"));
+  layout->addWidget(suggested_);
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(take_);
+  buttons->addWidget(takeAll_);
+  buttons->addStretch();
+  layout->addLayout(buttons);
+  const auto set = [this](double degrees) {
+    minAngleDeg_ = degrees;
+    angle_->setValue(degrees);
+    const QSignalBlocker quiet(angleTrack_);
+    angleTrack_->setValue(static_cast<int>(std::lround(degrees)));
+    angleTrack_->update();
+    suggest();
+  };
+  connect(angle_, &NumberField::committed, this, set);
+  connect(angleTrack_, &QSlider::valueChanged, this, set);
+  connect(take_, &QPushButton::clicked, this, [this] {
+    const int at = suggested_->currentRow();
+    if (at >= 0 && at < static_cast<int>(suggestions_.size())) mark({suggestions_[static_cast<std::size_t>(at)].positionPx});
+  });
+  connect(suggested_, &QListWidget::itemActivated, take_, &QPushButton::click);
+  connect(takeAll_, &QPushButton::clicked, this, [this] {
+    std::vector<Vec2> all;
+    for (const auto& suggestion : suggestions_) all.push_back(suggestion.positionPx);
+    mark(all);
+  });
+  connect(suggested_, &QListWidget::currentRowChanged, this, [this](int current) { take_->setEnabled(current >= 0); });
+  set(minAngleDeg_);
+}
+
+void CornersPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  suggest();
+}
+
+void CornersPanel::refresh() {
+  refreshMarks();
+  suggest();
+}
+
+void CornersPanel::refreshMarks() {
+  const Theme& theme = themeOf(palette());
+  const auto& marks = session_.recipe().cornerMarks;
+  const auto& pieces = session_.output().pieces;
+  const int current = marks_->currentRow();
+  marks_->clear();
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    QString angle, what = place(marks[i].positionPx);
+    bool lost = false;
+    if (pieces) {
+      const auto corner = std::find_if(pieces->corners.begin(), pieces->corners.end(),
+                                       [&](const Corner& c) { return static_cast<std::size_t>(c.mark) == i; });
+      if (corner != pieces->corners.end()) angle = QStringLiteral("   ") + degrees(corner->turningAngleRad);
+      lost = std::find(pieces->lostMarks.begin(), pieces->lostMarks.end(), static_cast<int>(i)) != pieces->lostMarks.end();
+    }
+    auto* item = new QListWidgetItem(tr("%1   px %2%3").arg(i + 1).arg(what, lost ? tr("   no line here") : angle), marks_);
+    item->setFont(uiFont(12));
+    if (lost) item->setForeground(theme.bad);
+    item->setToolTip(lost ? tr("No line within reach of this mark. It comes back when a line does; remove it if it is not wanted.")
+                          : tr("Place of the mark, and how much the line turns there."));
+  }
+  marks_->setVisible(!marks.empty());
+  fitHeight(marks_, 8);
+  marks_->setCurrentRow(std::min(current, marks_->count() - 1));
+  remove_->setEnabled(marks_->currentRow() >= 0);
+  removeAll_->setEnabled(!marks.empty());
+  showSuggestions(suggestions_);
+}
+
+void CornersPanel::suggest() {
+  const auto contours = session_.output().contours;
+  if (!contours) return showSuggestions({});
+  if (!isVisible()) return;
+  const double angleRad = minAngleDeg_ * std::numbers::pi / 180.0;
+  worker_->start([contours, angleRad, panel = QPointer<CornersPanel>(this)](const CancelToken& token) {
+    auto found = suggestCorners(*contours, angleRad, kSuggestionScalePx);
+    if (token.isCancelled() || !panel) return;
+    QMetaObject::invokeMethod(panel.data(), [panel, found = std::move(found)] {
+      if (panel) panel->showSuggestions(found);
+    }, Qt::QueuedConnection);
+  });
+}
+
+bool CornersPanel::isMarked(const Vec2& positionPx) const {
+  const double reach = session_.recipe().corners.snapDistancePx;
+  const auto& marks = session_.recipe().cornerMarks;
+  return std::any_of(marks.begin(), marks.end(),
+                     [&](const CornerMark& mark) { return (mark.positionPx - positionPx).norm() <= reach; });
+}
+
+void CornersPanel::showSuggestions(std::vector<CornerSuggestion> found) {
+  std::erase_if(found, [this](const CornerSuggestion& s) { return isMarked(s.positionPx); });
+  suggestions_ = std::move(found);
+  suggested_->clear();
+  for (const auto& suggestion : suggestions_) {
+    auto* item = new QListWidgetItem(QStringLiteral("px %1   %2").arg(place(suggestion.positionPx), degrees(suggestion.turningAngleRad)),
+                                     suggested_);
+    item->setFont(uiFont(12));
+  }
+  suggested_->setVisible(!suggestions_.empty());
+  fitHeight(suggested_, 6);
+  suggestedNote_->setText(suggestions_.empty() ? tr("No further place turns that sharply.")
+                                               : tr("%n place(s) could be corners. None is used until you mark it.", nullptr,
+                                                    static_cast<int>(suggestions_.size())));
+  take_->setEnabled(suggested_->currentRow() >= 0);
+  takeAll_->setEnabled(!suggestions_.empty());
+}
+
+void CornersPanel::mark(const std::vector<Vec2>& positions) {
+  Recipe after = session_.recipe();
+  for (const Vec2& position : positions) after.cornerMarks.push_back({position});
+  session_.change(positions.size() == 1 ? tr("Mark corner") : tr("Mark suggested corners"), std::move(after));
+}
+
+void CornersPanel::removeSelected() {
+  const int row = marks_->currentRow();
+  Recipe after = session_.recipe();
+  if (row < 0 || row >= static_cast<int>(after.cornerMarks.size())) return;
+  after.cornerMarks.erase(after.cornerMarks.begin() + row);
+  session_.change(tr("Remove corner"), std::move(after));
+}
+
+void CornersPanel::removeAll() {
+  Recipe after = session_.recipe();
+  after.cornerMarks.clear();
+  session_.change(tr("Remove all corners"), std::move(after));
+}
+
+}  // namespace batten

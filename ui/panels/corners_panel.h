@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <memory>
+#include <vector>
+
+#include "ui/session/editor_session.h"
+
+class QLabel;
+class QListWidget;
+class QPushButton;
+
+namespace batten {
+
+class BackgroundWorker;
+class NumberField;
+class SliderTrack;
+
+/// The marked corners as a list, and places that look like corners.
+class CornersPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit CornersPanel(EditorSession& session, QWidget* parent = nullptr);
+  ~CornersPanel() override;
+
+ protected:
+  void showEvent(QShowEvent*) override;
+
+ private:
+  void buildSuggestions();
+  void refresh();
+  void refreshMarks();
+  void suggest();
+  void showSuggestions(std::vector<CornerSuggestion> found);
+  void removeSelected();
+  void removeAll();
+  void mark(const std::vector<Vec2>& positions);
+  bool isMarked(const Vec2& positionPx) const;
+
+  EditorSession& session_;
+  QListWidget* marks_;
+  QPushButton* remove_;
+  QPushButton* removeAll_;
+  NumberField* angle_;
+  SliderTrack* angleTrack_;
+  QListWidget* suggested_;
+  QLabel* suggestedNote_;
+  QPushButton* take_;
+  QPushButton* takeAll_;
+  double minAngleDeg_ = 35.0;
+  std::vector<CornerSuggestion> suggestions_;
+  std::unique_ptr<BackgroundWorker> worker_;
+};
+
+}  // namespace batten

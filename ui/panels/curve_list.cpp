@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/curve_list.h"
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QStyledItemDelegate>
+#include <algorithm>
+
+#include "ui/panels/panel_parts.h"
+#include "ui/panels/piece_choice.h"
+#include "ui/theme/theme.h"
+
+namespace batten {
+namespace {
+
+constexpr int kRow = 26;
+constexpr int kEyeWidth = 26;
+enum Role { IncludedRole = Qt::UserRole, FiguresRole };
+
+class CurveDelegate : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+  QSize sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const override { return {120, kRow}; }
+  void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    const Theme& theme = themeOf(option.palette);
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing);
+    const QRectF box = QRectF(option.rect).adjusted(0, 1, 0, -1);
+    if (option.state & (QStyle::State_Selected | QStyle::State_MouseOver)) {
+      painter->setPen(Qt::NoPen);
+      painter->setBrush(option.state & QStyle::State_Selected ? theme.selection : theme.hover);
+      painter->drawRoundedRect(box, 5, 5);
+    }
+    if (option.state & QStyle::State_HasFocus) drawFocusRing(*painter, box, 5, theme);
+    const bool included = index.data(IncludedRole).toBool();
+    const QIcon eye = themedIcon(included ? QStringLiteral("eye") : QStringLiteral("eye-off"), option.palette);
+    eye.paint(painter, QRect(option.rect.left() + 6, option.rect.top() + (kRow - 14) / 2, 14, 14));
+    painter->setFont(uiFont(12));
+    painter->setPen(included ? theme.text : theme.mute);
+    painter->drawText(box.adjusted(kEyeWidth, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, index.data().toString());
+    painter->setPen(theme.mute);
+    painter->drawText(box.adjusted(0, 0, -6, 0), Qt::AlignVCenter | Qt::AlignRight, index.data(FiguresRole).toString());
+    painter->restore();
+  }
+};
+
+}  // namespace
+
+CurveList::CurveList(EditorSession& session, QWidget* parent) : QListWidget(parent), session_(session) {
+  setObjectName(QStringLiteral("curves.list"));
+  setAccessibleName(tr("Curves"));
+  setItemDelegate(new CurveDelegate(this));
+  setMouseTracking(true);
+  setUniformItemSizes(true);
+  setFrameShape(QFrame::NoFrame);
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  setToolTip(tr("Click a curve to select it; click its eye, or press Space, to leave it out of the export."));
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::runFinished, &EditorSession::selectionChanged})
+    connect(&session_, signal, this, &CurveList::refresh);
+  connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
+    if (stage == StageId::Curves || stage == StageId::Faired) refresh();
+  });
+  connect(this, &QListWidget::currentRowChanged, this, [this](int row) {
+    if (!filling_ && row >= 0) session_.selectCurve(row);
+  });
+  refresh();
+}
+
+QSize CurveList::sizeHint() const { return {240, kRow * std::clamp(count(), 1, 10) + 2}; }
+
+void CurveList::refresh() {
+  filling_ = true;
+  const auto curves = session_.curves();
+  while (count() > static_cast<int>(curves.size())) delete takeItem(count() - 1);
+  while (count() < static_cast<int>(curves.size())) addItem(QString());
+  for (int i = 0; i < count(); ++i) {
+    const TracedCurve& curve = curves[static_cast<std::size_t>(i)];
+    const bool faired = curve.included && !curve.faired.isEmpty() && curve.fairingUsed.mode != FairingMode::None;
+    const CurveFigures& figures = faired ? curve.fairedFigures : curve.sketchedFigures;
+    const QString name = tr("Curve %1").arg(i + 1) + (curve.closed ? tr(", closed") : QString());
+    const QString right = curve.included ? tr("%1 pts · %2").arg(figures.controlPoints).arg(millimetres(figures.lengthMm)) : tr("left out");
+    item(i)->setText(name);
+    item(i)->setData(IncludedRole, curve.included);
+    item(i)->setData(FiguresRole, right);
+    item(i)->setData(Qt::AccessibleTextRole, name + QStringLiteral(", ") + right);
+  }
+  setCurrentRow(session_.selectedCurve());
+  filling_ = false;
+  setFixedHeight(sizeHint().height());
+}
+
+void CurveList::keyPressEvent(QKeyEvent* event) {
+  const auto curves = session_.curves();
+  if (event->key() == Qt::Key_Space && currentRow() >= 0 && currentRow() < static_cast<int>(curves.size()))
+    return setIncluded(session_, currentRow(), !curves[static_cast<std::size_t>(currentRow())].included);
+  QListWidget::keyPressEvent(event);
+}
+
+void CurveList::mousePressEvent(QMouseEvent* event) {
+  const int row = indexAt(event->pos()).row();
+  const auto curves = session_.curves();
+  if (row >= 0 && row < static_cast<int>(curves.size()) && event->pos().x() < kEyeWidth)
+    return setIncluded(session_, row, !curves[static_cast<std::size_t>(row)].included);
+  QListWidget::mousePressEvent(event);
+}
+
+}  // namespace batten

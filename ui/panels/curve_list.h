@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QListWidget>
+
+#include "ui/session/editor_session.h"
+
+namespace batten {
+
+/// All curves of the drawing: an eye that takes a curve in or leaves it out (Space does the same), its name, its figures.
+class CurveList : public QListWidget {
+  Q_OBJECT
+ public:
+  explicit CurveList(EditorSession& session, QWidget* parent = nullptr);
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override { return {120, 30}; }
+
+ protected:
+  void keyPressEvent(QKeyEvent*) override;
+  void mousePressEvent(QMouseEvent*) override;
+
+ private:
+  void refresh();
+  EditorSession& session_;
+  bool filling_ = false;
+};
+
+}  // namespace batten

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/curves_panel.h"
+
+#include <QGridLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <cmath>
+#include <functional>
+
+#include "ui/panels/curve_list.h"
+#include "ui/panels/number_field.h"
+#include "ui/panels/panel_parts.h"
+#include "ui/panels/parameter_editor.h"
+#include "ui/panels/slider_track.h"
+
+namespace batten {
+namespace {
+
+/// A slider with a field for something of the view; both follow `get`.
+void addViewRow(QGridLayout* grid, ViewSettings& view, QWidget* parent, const QString& label, const QString& name, const QString& help,
+                double low, double high, int decimals, const std::function<double()>& get, const std::function<void(double)>& set) {
+  const int row = grid->rowCount();
+  auto* text = new QLabel(label, parent);
+  auto* field = new NumberField(parent);
+  auto* track = new SliderTrack(parent);
+  for (QWidget* widget : {static_cast<QWidget*>(text), static_cast<QWidget*>(field), static_cast<QWidget*>(track)}) widget->setToolTip(help);
+  field->setRange(low, high);
+  field->setDecimals(decimals);
+  field->setFixedWidth(76);
+  field->edit()->setObjectName(name + QStringLiteral(".field"));
+  field->edit()->setAccessibleName(label);
+  track->setObjectName(name);
+  track->setAccessibleName(label);
+  grid->addWidget(text, row, 0);
+  grid->addWidget(field, row, 1);
+  grid->addWidget(track, row + 1, 0, 1, 2);
+  const auto show = [=] {
+    field->setValue(get());
+    const QSignalBlocker quiet(track);
+    if (!track->isSliderDown())
+      track->setValue(static_cast<int>(std::lround(std::log(get() / low) / std::log(high / low) * SliderTrack::kSteps)));
+    track->update();
+  };
+  QObject::connect(field, &NumberField::committed, parent, [set](double value) { set(value); });
+  QObject::connect(track, &QSlider::valueChanged, parent, [=](int position) {
+    set(low * std::pow(high / low, double(position) / SliderTrack::kSteps));
+  });
+  QObject::connect(&view, &ViewSettings::changed, parent, show);
+  show();
+}
+
+}  // namespace
+
+CombControls::CombControls(ViewSettings& view, QWidget* parent) : QWidget(parent) {
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(8);
+  grid->setVerticalSpacing(4);
+  grid->setColumnStretch(0, 1);
+  addViewRow(grid, view, this, tr("Comb height"), QStringLiteral("view.combScale"), tr("Length of the quills of the curvature comb; 1 is automatic."),
+             0.05, 20.0, 2, [&view] { return view.combScale(); }, [&view](double value) { view.setCombScale(value); });
+  addViewRow(grid, view, this, tr("Comb density"), QStringLiteral("view.combDensity"), tr("Number of quills on a curve."), 20, 1000, 0,
+             [&view] { return double(view.combDensity()); },
+             [&view](double value) { view.setCombDensity(static_cast<int>(std::lround(value))); });
+}
+
+CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
+    : QWidget(parent), session_(session),
+      editor_(new ParameterEditor(session,
+                                  {"construct.method", "construct.derivative_magnitude", "construct.keep_extrema", "construct.degree",
+                                   "segments.mode", "segments.count", "segments.spacing", "segments.tolerance",
+                                   "construct.gradients", "construct.magnitude_as_in_paper"},
+                                  this)),
+      figures_(new FigureTable(this)), note_(note({}, this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(14, 12, 14, 12);
+  layout->setSpacing(8);
+  layout->addWidget(heading(tr("Curves"), this));
+  layout->addWidget(editor_);
+  layout->addWidget(caption(tr("Curves"), this));
+  layout->addWidget(new CurveList(session, this));
+  layout->addWidget(caption(tr("Selected curve"), this));
+  layout->addWidget(figures_);
+  layout->addWidget(note_);
+  layout->addWidget(caption(tr("Comb"), this));
+  layout->addWidget(new CombControls(view, this));
+  layout->addStretch();
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
+                            &EditorSession::runFinished})
+    connect(&session_, signal, this, &CurvesPanel::refresh);
+  connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
+    if (stage == StageId::Curves) refresh();
+  });
+  refresh();
+}
+
+void CurvesPanel::refresh() {
+  const ConstructMethod method = session_.recipe().construct.method;
+  const SegmentParams& segments = session_.recipe().segments;
+  const bool nurbs = method == ConstructMethod::Nurbs;
+  editor_->setRowVisible("construct.derivative_magnitude", nurbs);
+  editor_->setRowVisible("construct.magnitude_as_in_paper", nurbs);
+  editor_->setRowVisible("construct.gradients", nurbs);
+  editor_->setRowVisible("construct.keep_extrema", method == ConstructMethod::Fair);
+  editor_->setRowVisible("construct.degree", method == ConstructMethod::ControlPolygon);
+  const bool segmented = method != ConstructMethod::Fair;
+  const bool counted = segments.mode == SegmentMode::Stations || segments.mode == SegmentMode::Count;
+  editor_->setRowVisible("segments.mode", segmented);
+  editor_->setRowVisible("segments.count", segmented && counted);
+  editor_->setRowVisible("segments.spacing", segmented && counted && segments.count == 0);
+  editor_->setRowVisible("segments.tolerance", segmented && segments.mode == SegmentMode::Adaptive);
+  const TracedCurve* curve = session_.selected();
+  note_->hide();
+  if (!curve) {
+    figures_->setRows({{tr("No curve selected"), {{QStringLiteral("–")}}, {}}});
+    return;
+  }
+  const CurveFigures& f = curve->sketchedFigures;
+  figures_->setRows({{tr("Length"), {{millimetres(f.lengthMm)}}, tr("Arc length of the sketched curve.")},
+                     {tr("Control points"), {{QString::number(f.controlPoints)}}, {}},
+                     {tr("Largest deviation"), {{millimetres(f.fromPoints.max)}}, tr("Farthest edge point from the curve.")},
+                     {tr("Mean deviation (rms)"), {{millimetres(f.fromPoints.rms)}}, {}},
+                     {tr("95 % of points within"), {{millimetres(f.fromPoints.percentile95)}}, {}},
+                     {tr("Curvature extrema"), {{QString::number(f.extrema)}}, tr("Places where the curvature turns back: fewer is fairer.")},
+                     {tr("Inflections"), {{QString::number(f.inflections)}}, tr("Places where the curve bends the other way.")}});
+  note_->setText(QString::fromStdString(curve->construct.note));
+  note_->setVisible(!note_->text().isEmpty());
+}
+
+}  // namespace batten

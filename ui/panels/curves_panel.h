@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+#include "ui/session/editor_session.h"
+#include "ui/session/view_settings.h"
+
+class QLabel;
+
+namespace batten {
+
+class FigureTable;
+class ParameterEditor;
+
+/// How lines become curves, the curves themselves, and the figures of the selected one.
+class CurvesPanel : public QWidget {
+  Q_OBJECT
+ public:
+  CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
+
+ private:
+  void refresh();
+  EditorSession& session_;
+  ParameterEditor* editor_;
+  FigureTable* figures_;
+  QLabel* note_;
+};
+
+/// Height and density of the curvature comb; a matter of view, not of the drawing.
+class CombControls : public QWidget {
+  Q_OBJECT
+ public:
+  explicit CombControls(ViewSettings& view, QWidget* parent = nullptr);
+};
+
+}  // namespace batten

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/fairing_panel.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "core/pipeline/parameter_table.h"
+#include "ui/panels/curve_list.h"
+#include "ui/panels/panel_parts.h"
+#include "ui/panels/parameter_editor.h"
+#include "ui/panels/parameter_row.h"
+#include "ui/panels/piece_choice.h"
+#include "ui/panels/segmented_control.h"
+
+namespace batten {
+namespace {
+
+/// Slider range of the budget: what a hand-drawn line can need. The field takes any allowed value.
+constexpr double kLeastBudgetMm = 0.01, kMostBudgetMm = 5.0;
+
+}  // namespace
+
+FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
+    : QWidget(parent), session_(session), scope_(new SegmentedControl({tr("All curves"), tr("Selected curve")}, this)),
+      mode_(new SegmentedControl({tr("None"), tr("Target"), tr("Tolerance")}, this)),
+      budget_(new ParameterRow(session, *findParameter("fairing.tolerance"), this)),
+      editor_(new ParameterEditor(session, {"fairing.hold_start", "fairing.hold_end", "fairing.samples", "fairing.quantity", "fairing.monotone"},
+                                  this)),
+      note_(note({}, this)), raise_(linkButton({}, QStringLiteral("fairing.raise"), this)),
+      useForAll_(linkButton(tr("Use this for all curves"), QStringLiteral("fairing.useForAll"), this)),
+      followAll_(linkButton(tr("Follow the common setting"), QStringLiteral("fairing.followAll"), this)),
+      figures_(new FigureTable(this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(14, 12, 14, 12);
+  layout->setSpacing(8);
+  layout->addWidget(heading(tr("Fairing"), this));
+  scope_->setNames(QStringLiteral("fairing.scope"), {QStringLiteral("all"), QStringLiteral("one")});
+  scope_->setToolTip(tr("Whether the settings below act on the whole drawing or on the selected curve alone."));
+  layout->addWidget(scope_);
+  mode_->setNames(QStringLiteral("fairing.mode"), {QStringLiteral("none"), QStringLiteral("target"), QStringLiteral("tolerance")});
+  mode_->setToolTip(tr("None: as sketched. Target: follow one of the six profiles below the drawing. Tolerance: as fair as the budget allows."));
+  layout->addWidget(mode_);
+  buildBudget();
+  layout->addWidget(note_);
+  layout->addWidget(raise_, 0, Qt::AlignLeft);
+  layout->addWidget(useForAll_, 0, Qt::AlignLeft);
+  layout->addWidget(followAll_, 0, Qt::AlignLeft);
+  layout->addWidget(caption(tr("Before and after"), this));
+  figures_->setHeader({}, {tr("sketched"), tr("faired")});
+  layout->addWidget(figures_);
+  layout->addWidget(caption(tr("Ends"), this));
+  layout->addWidget(editor_);
+  layout->addWidget(caption(tr("Curves"), this));
+  layout->addWidget(new CurveList(session, this));
+  layout->addStretch();
+  connect(scope_, &SegmentedControl::chosen, this, [this](int index) {
+    oneCurve_ = index == 1;
+    budget_->sync();
+    refresh();
+  });
+  connect(mode_, &SegmentedControl::chosen, this, [this](int index) { setMode(static_cast<FairingMode>(index)); });
+  connect(useForAll_, &QPushButton::clicked, this, &FairingPanel::useForAll);
+  connect(followAll_, &QPushButton::clicked, this, &FairingPanel::followAll);
+  connect(raise_, &QPushButton::clicked, this, [this] {
+    if (const TracedCurve* curve = session_.selected()) {
+      Recipe after = session_.recipe();
+      // Rounded up to what the field shows, so that the target really fits.
+      const double needed = std::min(20.0, std::ceil(curve->fairing.neededMm * 1000.0) / 1000.0);
+      if (hasOwnFairing(session_, session_.selectedCurve()))
+        after = withChoice(session_, session_.selectedCurve(), [needed](PieceChoice& choice) { choice.toleranceMm = needed; });
+      else
+        after.fairing.toleranceMm = needed;
+      session_.change(tr("Deviation budget"), std::move(after));
+    }
+  });
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
+                            &EditorSession::runFinished, &EditorSession::targetsChanged})
+    connect(&session_, signal, this, &FairingPanel::refresh);
+  connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
+    if (stage == StageId::Pieces || stage == StageId::Curves || stage == StageId::Faired) refresh();
+  });
+  refresh();
+}
+
+void FairingPanel::buildBudget() {
+  budget_->setLabel(tr("Deviation budget"));
+  budget_->setSliderRange(kLeastBudgetMm, kMostBudgetMm);
+  const Parameter* parameter = findParameter("fairing.tolerance");
+  budget_->setBinding({[this, parameter](const Recipe& recipe) {
+                         Recipe probe;
+                         probe.fairing = shown(recipe);
+                         return parameter->get(probe);
+                       },
+                       [this, parameter](Recipe& recipe, std::string_view text) -> Result<void> {
+                         if (!actsOnOne()) return parameter->set(recipe, text);
+                         Recipe probe;
+                         auto done = parameter->set(probe, text);
+                         if (!done) return done;
+                         recipe = withChoice(session_, session_.selectedCurve(),
+                                             [&](PieceChoice& choice) { choice.toleranceMm = probe.fairing.toleranceMm; });
+                         return {};
+                       }});
+  static_cast<QVBoxLayout*>(layout())->addWidget(budget_);
+}
+
+FairingParams FairingPanel::shown(const Recipe& recipe) const {
+  FairingParams params = recipe.fairing;
+  const PieceChoice* choice = actsOnOne() ? choiceOf(session_, session_.selectedCurve()) : nullptr;
+  if (choice && choice->mode) params.mode = *choice->mode;
+  if (choice && choice->target) params.target = *choice->target;
+  if (choice && choice->toleranceMm) params.toleranceMm = *choice->toleranceMm;
+  return params;
+}
+
+void FairingPanel::setMode(FairingMode mode) {
+  Recipe after = session_.recipe();
+  if (actsOnOne())
+    after = withChoice(session_, session_.selectedCurve(), [mode](PieceChoice& choice) { choice.mode = mode; });
+  else
+    after.fairing.mode = mode;
+  session_.change(tr("Fairing"), std::move(after));
+}
+
+void FairingPanel::useForAll() {
+  Recipe after = session_.recipe();
+  const FairingParams own = shown(after);
+  after.fairing.mode = own.mode;
+  after.fairing.target = own.target;
+  after.fairing.toleranceMm = own.toleranceMm;
+  for (PieceChoice& choice : after.choices) {
+    choice.mode.reset();
+    choice.target.reset();
+    choice.toleranceMm.reset();
+  }
+  std::erase_if(after.choices, [](const PieceChoice& choice) { return choice.included; });
+  oneCurve_ = false;
+  session_.change(tr("Fairing of all curves"), std::move(after));
+}
+
+void FairingPanel::followAll() {
+  Recipe after = withChoice(session_, session_.selectedCurve(), [](PieceChoice& choice) {
+    choice.mode.reset();
+    choice.target.reset();
+    choice.toleranceMm.reset();
+  });
+  std::erase_if(after.choices, [](const PieceChoice& c) { return c.included && !c.mode && !c.target && !c.toleranceMm; });
+  oneCurve_ = false;
+  session_.change(tr("Follow the common fairing"), std::move(after));
+}
+
+void FairingPanel::refresh() {
+  const int selected = session_.selectedCurve();
+  const bool own = selected >= 0 && hasOwnFairing(session_, selected);
+  const bool several = session_.curves().size() > 1;
+  // A curve that has its own choice shows it; otherwise the choice of scope stays as the user left it.
+  if (own) oneCurve_ = true;
+  else if (selected != lastSelected_ || selected < 0) oneCurve_ = false;
+  lastSelected_ = selected;
+  scope_->setVisible(several);
+  scope_->setSegmentEnabled(1, selected >= 0);
+  scope_->setCurrent(oneCurve_ ? 1 : 0);
+  const FairingParams params = shown(session_.recipe());
+  mode_->setCurrent(static_cast<int>(params.mode));
+  budget_->sync();
+  budget_->setEnabled(params.mode != FairingMode::None);
+  useForAll_->setVisible(several && own);
+  followAll_->setVisible(several && own);
+  refreshFigures();
+}
+
+void FairingPanel::refreshFigures() {
+  const TracedCurve* curve = session_.selected();
+  note_->hide();
+  raise_->hide();
+  const FigureTable::Cell none{QStringLiteral("–")};
+  if (!curve) {
+    figures_->setRows({{tr("No curve selected"), {none, none}, {}}});
+    return;
+  }
+  const bool faired = !curve->faired.isEmpty() && curve->fairingUsed.mode != FairingMode::None;
+  const CurveFigures &before = curve->sketchedFigures, &after = curve->fairedFigures;
+  const FairingReport& report = curve->fairing;
+  const bool over = faired && report.maxDeviationMm > curve->fairingUsed.toleranceMm * (1 + 1e-9);
+  const auto mm = [](double value) { return QString::number(value, 'f', value < 0.1 ? 3 : 2); };
+  std::vector<FigureTable::Row> rows = {
+      {tr("Curvature extrema"), {{QString::number(before.extrema)}, faired ? FigureTable::Cell{QString::number(after.extrema)} : none},
+       tr("Places where the curvature turns back: fewer is fairer.")},
+      {tr("Moved at most, mm"), {none, faired ? FigureTable::Cell{mm(report.maxDeviationMm), over} : none},
+       tr("Largest distance of the faired curve from the sketched one; never above the budget.")},
+      {tr("Off the line, mm"), {{mm(before.fromPoints.max)}, faired ? FigureTable::Cell{mm(after.fromPoints.max)} : none},
+       tr("Largest distance of an edge point of the scan from the curve.")}};
+  const auto targets = session_.targets();
+  int degree = curve->fairingUsed.target;
+  if (targets && degree == 0) degree = targets->recommendedDegree;
+  if (targets && faired && curve->fairingUsed.mode == FairingMode::Target && degree >= 1 && degree <= 6) {
+    const TargetProfile& profile = targets->targets.profiles[static_cast<std::size_t>(degree - 1)];
+    rows.push_back({tr("Similarity S"), {{similarityText(profile.similarity)}, none},
+                    tr("How much the radius of the sketched curve resembles the target; 1 is the same.")});
+    rows.push_back({tr("Monotone target"), {none, {profile.isMonotone ? tr("yes") : tr("no")}},
+                    tr("A monotone profile never turns back, so it brings no bump.")});
+  }
+  figures_->setRows(std::move(rows));
+  QString text = QString::fromStdString(report.note);
+  if (faired && curve->fairingUsed.mode == FairingMode::Target && !report.withinBudget) {
+    if (text.isEmpty()) text = tr("The budget stops the curve before it meets the target.");
+    raise_->setText(tr("Needs %1: raise the budget").arg(millimetres(report.neededMm)));
+    raise_->setVisible(report.neededMm > curve->fairingUsed.toleranceMm && report.neededMm <= 20.0);
+  }
+  note_->setText(text);
+  note_->setVisible(!text.isEmpty());
+}
+
+}  // namespace batten

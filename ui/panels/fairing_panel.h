@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+#include "ui/session/editor_session.h"
+
+class QLabel;
+class QPushButton;
+
+namespace batten {
+
+class FigureTable;
+class ParameterEditor;
+class ParameterRow;
+class SegmentedControl;
+
+/// How curves are faired: for all of them or for the selected one alone; the deviation budget; before and after.
+class FairingPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit FairingPanel(EditorSession& session, QWidget* parent = nullptr);
+
+ private:
+  void buildBudget();
+  void refresh();
+  void refreshFigures();
+  /// Settings that the controls show: the selected curve's own where they act on it alone.
+  FairingParams shown(const Recipe& recipe) const;
+  bool actsOnOne() const { return oneCurve_; }
+  void setMode(FairingMode mode);
+  void useForAll();
+  void followAll();
+
+  EditorSession& session_;
+  SegmentedControl* scope_;
+  SegmentedControl* mode_;
+  ParameterRow* budget_;
+  ParameterEditor* editor_;
+  QLabel* note_;
+  QPushButton* raise_;
+  QPushButton* useForAll_;
+  QPushButton* followAll_;
+  FigureTable* figures_;
+  bool oneCurve_ = false;
+  int lastSelected_ = -2;
+};
+
+}  // namespace batten

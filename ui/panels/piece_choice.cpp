@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/piece_choice.h"
+
+#include <QCoreApplication>
+
+namespace batten {
+namespace {
+
+const Piece* pieceOf(const EditorSession& session, int curve) {
+  const auto curves = session.curves();
+  const auto& pieces = session.output().pieces;
+  if (!pieces || curve < 0 || static_cast<std::size_t>(curve) >= curves.size()) return nullptr;
+  const int piece = curves[static_cast<std::size_t>(curve)].piece;
+  if (piece < 0 || static_cast<std::size_t>(piece) >= pieces->pieces.size()) return nullptr;
+  return &pieces->pieces[static_cast<std::size_t>(piece)];
+}
+
+QString tr(const char* text) { return QCoreApplication::translate("PieceChoice", text); }
+
+}  // namespace
+
+const PieceChoice* choiceOf(const EditorSession& session, int curve) {
+  const Piece* piece = pieceOf(session, curve);
+  if (!piece) return nullptr;
+  const auto index = choiceFor(*piece, session.recipe());
+  return index ? &session.recipe().choices[*index] : nullptr;
+}
+
+bool hasOwnFairing(const EditorSession& session, int curve) {
+  const PieceChoice* choice = choiceOf(session, curve);
+  return choice && (choice->mode || choice->target || choice->toleranceMm);
+}
+
+Recipe withChoice(const EditorSession& session, int curve, const std::function<void(PieceChoice&)>& edit) {
+  Recipe after = session.recipe();
+  const Piece* piece = pieceOf(session, curve);
+  if (!piece) return after;
+  if (const auto index = choiceFor(*piece, after)) {
+    edit(after.choices[*index]);
+    return after;
+  }
+  PieceChoice choice;
+  choice.anchorPx = anchorOf(*piece);
+  edit(choice);
+  after.choices.push_back(choice);
+  return after;
+}
+
+bool choosesForOneCurve(const EditorSession& session) {
+  return session.selectedCurve() >= 0 && session.curves().size() > 1 && pieceOf(session, session.selectedCurve());
+}
+
+void chooseTarget(EditorSession& session, int degree) {
+  Recipe after = session.recipe();
+  if (choosesForOneCurve(session)) {
+    after = withChoice(session, session.selectedCurve(), [degree](PieceChoice& choice) {
+      choice.mode = FairingMode::Target;
+      choice.target = degree;
+    });
+  } else {
+    after.fairing.mode = FairingMode::Target;
+    after.fairing.target = degree;
+    // An only curve must not keep an older choice of its own that would win over this one.
+    if (session.curves().size() == 1 && hasOwnFairing(session, 0))
+      for (PieceChoice& choice : after.choices) choice.mode.reset(), choice.target.reset();
+  }
+  session.change(tr("Target %1").arg(degree), std::move(after));
+}
+
+void setIncluded(EditorSession& session, int curve, bool included) {
+  session.change(included ? tr("Take curve in") : tr("Leave curve out"),
+                 withChoice(session, curve, [included](PieceChoice& choice) { choice.included = included; }));
+}
+
+}  // namespace batten

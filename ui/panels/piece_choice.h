@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include "ui/session/editor_session.h"
+
+namespace batten {
+
+/// Edits of the choices that belong to single curves (Recipe::choices).
+
+/// The own choice of a curve, or null when it follows the recipe.
+const PieceChoice* choiceOf(const EditorSession& session, int curve);
+/// True when the curve has a fairing choice of its own.
+bool hasOwnFairing(const EditorSession& session, int curve);
+/// The recipe with the curve's own choice edited; one is added where there was none.
+Recipe withChoice(const EditorSession& session, int curve, const std::function<void(PieceChoice&)>& edit);
+
+/// Chooses a target: for the selected curve alone when the drawing has several, else for all.
+void chooseTarget(EditorSession& session, int degree);
+/// Whether chooseTarget would act on the selected curve alone.
+bool choosesForOneCurve(const EditorSession& session);
+/// Leaves a curve out of fairing and export, or takes it in again.
+void setIncluded(EditorSession& session, int curve, bool included);
+
+}  // namespace batten

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+#include "core/image/log_transform.h"
+#include "ui/session/editor_session.h"
+
+class QLabel;
+class QPushButton;
+
+namespace batten {
+
+class FigureTable;
+class NumberField;
+class ParameterEditor;
+
+/// The grey ramp before and after the log transform, over one another.
+class ToneSwatch : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ToneSwatch(QWidget* parent = nullptr);
+  void show(const LogParams& params);
+  QSize sizeHint() const override { return {240, 52}; }
+
+ protected:
+  void paintEvent(QPaintEvent*) override;
+
+ private:
+  LogParams params_;
+};
+
+/// The file as it was read, its scale, and how its tones are shown.
+class ScanPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ScanPanel(EditorSession& session, QWidget* parent = nullptr);
+  /// Puts the keyboard into the resolution field ("no scale: set it").
+  void focusResolution();
+
+ private:
+  void refresh();
+  void setDpi(std::optional<double> dpi);
+  EditorSession& session_;
+  FigureTable* facts_;
+  NumberField* dpi_;
+  QLabel* scaleNote_;
+  QPushButton* fromFile_;
+  ToneSwatch* swatch_;
+};
+
+}  // namespace batten

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QAbstractButton>
+#include <QWidget>
+#include <array>
+#include <memory>
+
+#include "ui/session/editor_session.h"
+
+namespace batten {
+
+/// One target: its profile over the sketched curve's, how similar, how far it moves the curve, how many extrema.
+class TargetTile : public QAbstractButton {
+  Q_OBJECT
+ public:
+  TargetTile(int degree, QWidget* parent);
+  /// @param budgetMm deviations above it are amber.
+  void show(std::shared_ptr<const TargetOutcomes> outcomes, double budgetMm, bool chosen, bool oneCurve);
+  QSize sizeHint() const override { return {156, 97}; }
+  QSize minimumSizeHint() const override { return {96, 97}; }
+
+ signals:
+  void entered(int degree);
+  void left();
+
+ protected:
+  void paintEvent(QPaintEvent*) override;
+  void enterEvent(QEnterEvent*) override;
+  void leaveEvent(QEvent*) override;
+  void focusInEvent(QFocusEvent*) override;
+  void focusOutEvent(QFocusEvent*) override;
+  void keyPressEvent(QKeyEvent*) override;
+
+ private:
+  QString problem() const;
+  void paintProfiles(class QPainter&, const QRectF&) const;
+  void paintFigures(class QPainter&, const QRectF&) const;
+  int degree_;
+  std::shared_ptr<const TargetOutcomes> outcomes_;
+  double budgetMm_ = 0.0;
+  bool chosen_ = false;
+};
+
+/// The six targets of the selected curve side by side, on the same axes.
+class TargetStrip : public QWidget {
+  Q_OBJECT
+ public:
+  explicit TargetStrip(EditorSession& session, QWidget* parent = nullptr);
+
+ signals:
+  void hint(const QString& text);
+
+ protected:
+  void paintEvent(QPaintEvent*) override;
+
+ private:
+  void refresh();
+  EditorSession& session_;
+  std::array<TargetTile*, 6> tiles_{};
+};
+
+}  // namespace batten

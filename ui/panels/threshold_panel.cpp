@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/threshold_panel.h"
+
+#include <QCheckBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QTableWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "core/image/region_thresholds.h"
+#include "ui/panels/number_field.h"
+#include "ui/panels/panel_parts.h"
+#include "ui/panels/parameter_editor.h"
+#include "ui/panels/region_histogram.h"
+#include "ui/theme/theme.h"
+
+namespace batten {
+
+ThresholdPanel::ThresholdPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
+    : QWidget(parent), session_(session), view_(view),
+      editor_(new ParameterEditor(session, {"threshold.mode", "threshold.level", "threshold.strength", "threshold.reach",
+                                            "threshold.speck_area", "threshold.hole_area", "threshold.interpolate"},
+                                  this)),
+      regionName_(caption(tr("Region"), this)), histogram_(new RegionHistogram(this)), level_(new NumberField(this)),
+      regionAuto_(plainButton(tr("Automatic here"), QStringLiteral("threshold.autoRegion"), this)),
+      allAuto_(plainButton(tr("All automatic"), QStringLiteral("threshold.autoAll"), this)),
+      table_(new QTableWidget(kRegionsPerSide, kRegionsPerSide, this)),
+      showRegions_(new QCheckBox(tr("Show the regions on the picture"), this)), note_(note({}, this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(14, 12, 14, 12);
+  layout->setSpacing(8);
+  layout->addWidget(heading(tr("Threshold"), this));
+  layout->addWidget(editor_);
+  layout->addWidget(note_);
+  buildRegion();
+  layout->addStretch();
+  connect(&session_, &EditorSession::scanOpened, this, &ThresholdPanel::refresh);
+  connect(&session_, &EditorSession::recipeChanged, this, &ThresholdPanel::refresh);
+  connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
+    if (stage == StageId::Thresholds) refresh();
+  });
+  connect(&view_, &ViewSettings::selectedRegionChanged, this, [this] {
+    refreshRegion();
+    refreshTable();
+  });
+  connect(&view_, &ViewSettings::changed, this, [this] { showRegions_->setChecked(view_.isVisible(Layer::Regions)); });
+  refresh();
+}
+
+void ThresholdPanel::buildRegion() {
+  auto* layout = static_cast<QVBoxLayout*>(this->layout());
+  level_->setRange(0, 255);
+  level_->setDecimals(0);
+  level_->setStep(1);
+  level_->setFixedWidth(76);
+  level_->edit()->setObjectName(QStringLiteral("threshold.regionLevel"));
+  level_->edit()->setAccessibleName(tr("Threshold of the selected region"));
+  auto* head = new QHBoxLayout;
+  head->addWidget(regionName_);
+  head->addStretch();
+  head->addWidget(level_);
+  layout->addLayout(head);
+  layout->addWidget(histogram_);
+  auto* buttons = new QHBoxLayout;
+  buttons->setSpacing(8);
+  buttons->addWidget(regionAuto_);
+  buttons->addWidget(allAuto_);
+  layout->addLayout(buttons);
+  table_->setObjectName(QStringLiteral("threshold.table"));
+  table_->setAccessibleName(tr("Thresholds of the 64 regions"));
+  table_->setToolTip(tr("The 64 thresholds as they lie on the page. Type a grey level 0 to 255; Delete makes a region automatic again."));
+  table_->horizontalHeader()->hide();
+  table_->verticalHeader()->hide();
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  table_->verticalHeader()->setMinimumSectionSize(18);
+  table_->verticalHeader()->setDefaultSectionSize(21);
+  table_->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
+  table_->horizontalHeader()->setMinimumSectionSize(20);
+  table_->setFixedHeight(8 * 21 + 2);
+  table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  table_->setSelectionMode(QAbstractItemView::SingleSelection);
+  table_->installEventFilter(this);
+  layout->addWidget(table_);
+  showRegions_->setObjectName(QStringLiteral("threshold.showRegions"));
+  layout->addWidget(showRegions_);
+
+  connect(histogram_, &RegionHistogram::dragStarted, this, [this] { gesture_ = session_.newGesture(); });
+  connect(histogram_, &RegionHistogram::thresholdMoved, this,
+          [this](double grey) { setRegion(view_.selectedRegion(), grey, gesture_); });
+  connect(level_, &NumberField::committed, this, [this](double grey) { setRegion(view_.selectedRegion(), grey, -1); });
+  connect(regionAuto_, &QPushButton::clicked, this, [this] { setRegion(view_.selectedRegion(), std::nullopt, -1); });
+  connect(allAuto_, &QPushButton::clicked, this, &ThresholdPanel::setAllAutomatic);
+  connect(table_, &QTableWidget::itemChanged, this, &ThresholdPanel::readCell);
+  connect(table_, &QTableWidget::currentCellChanged, this, [this](int row, int column) {
+    if (!filling_ && row >= 0 && table_->hasFocus()) view_.setSelectedRegion(row * kRegionsPerSide + column);
+  });
+  connect(table_, &QTableWidget::cellClicked, this,
+          [this](int row, int column) { view_.setSelectedRegion(row * kRegionsPerSide + column); });
+  connect(showRegions_, &QCheckBox::toggled, this, [this](bool on) { view_.setVisible(Layer::Regions, on); });
+}
+
+double ThresholdPanel::levelOf(int region) const {
+  const auto at = static_cast<std::size_t>(region);
+  const auto& own = session_.recipe().threshold.grid[at];
+  if (own) return *own;
+  if (session_.recipe().threshold.mode == ThresholdMode::Manual) return session_.recipe().threshold.manualLevel;
+  return session_.output().thresholds ? session_.output().thresholds->automatic[at] : 128.0;
+}
+
+void ThresholdPanel::setRegion(int region, std::optional<double> grey, int gesture) {
+  if (region < 0 || region >= kRegions) return;
+  Recipe after = session_.recipe();
+  after.threshold.grid[static_cast<std::size_t>(region)] = grey;
+  const QString place = tr("Threshold of region %1, %2").arg(region / kRegionsPerSide + 1).arg(region % kRegionsPerSide + 1);
+  session_.change(place, std::move(after), gesture);
+}
+
+void ThresholdPanel::setAllAutomatic() {
+  Recipe after = session_.recipe();
+  after.threshold.grid.fill(std::nullopt);
+  after.threshold.mode = ThresholdMode::Automatic;
+  session_.change(tr("All thresholds automatic"), std::move(after));
+}
+
+void ThresholdPanel::readCell(QTableWidgetItem* item) {
+  if (filling_) return;
+  const int region = item->row() * kRegionsPerSide + item->column();
+  bool ok = false;
+  const double grey = item->text().trimmed().replace(QLatin1Char(','), QLatin1Char('.')).toDouble(&ok);
+  const bool cleared = item->text().trimmed().isEmpty() || item->text().trimmed().startsWith(QLatin1Char('a'));
+  if (ok) setRegion(region, std::clamp(grey, 0.0, 255.0), -1);
+  else if (cleared) setRegion(region, std::nullopt, -1);
+  refreshTable();
+}
+
+bool ThresholdPanel::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == table_ && event->type() == QEvent::ShortcutOverride) {
+    // Digits typed here are thresholds, not the keys of the six targets.
+    const QString typed = static_cast<QKeyEvent*>(event)->text();
+    if (!typed.isEmpty() && typed.at(0).isDigit()) event->accept();
+  }
+  if (watched == table_ && event->type() == QEvent::KeyPress) {
+    const int pressed = static_cast<QKeyEvent*>(event)->key();
+    if ((pressed == Qt::Key_Delete || pressed == Qt::Key_Backspace) && table_->currentItem()) {
+      setRegion(table_->currentRow() * kRegionsPerSide + table_->currentColumn(), std::nullopt, -1);
+      return true;
+    }
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+void ThresholdPanel::refresh() {
+  const ThresholdParams& params = session_.recipe().threshold;
+  editor_->setRowVisible("threshold.level", params.mode == ThresholdMode::Manual);
+  editor_->setRowVisible("threshold.strength", params.mode == ThresholdMode::Automatic);
+  const auto own = std::count_if(params.grid.begin(), params.grid.end(), [](const auto& cell) { return cell.has_value(); });
+  allAuto_->setEnabled(own > 0);
+  const auto& found = session_.output().thresholds;
+  note_->setText(found ? QString::fromStdString(found->note) : QString());
+  note_->setVisible(!note_->text().isEmpty());
+  refreshRegion();
+  refreshTable();
+}
+
+void ThresholdPanel::refreshRegion() {
+  const int region = view_.selectedRegion();
+  const bool has = region >= 0 && session_.hasScan();
+  level_->setEnabled(has);
+  regionAuto_->setEnabled(has && session_.recipe().threshold.grid[static_cast<std::size_t>(std::max(region, 0))].has_value());
+  if (!has) {
+    regionName_->setText(tr("Click a region").toUpper());
+    level_->setEmpty(QStringLiteral("–"));
+    histogram_->clear();
+    return;
+  }
+  regionName_->setText(tr("Region %1, %2").arg(region / kRegionsPerSide + 1).arg(region % kRegionsPerSide + 1).toUpper());
+  level_->setValue(levelOf(region));
+  histogram_->show(regionHistogram(session_.scan()->grey, region), levelOf(region));
+}
+
+void ThresholdPanel::refreshTable() {
+  const Theme& theme = themeOf(palette());
+  filling_ = true;
+  for (int region = 0; region < kRegions; ++region) {
+    const int row = region / kRegionsPerSide, column = region % kRegionsPerSide;
+    QTableWidgetItem* item = table_->item(row, column);
+    if (!item) {
+      item = new QTableWidgetItem;
+      item->setTextAlignment(Qt::AlignCenter);
+      table_->setItem(row, column, item);
+    }
+    const bool own = session_.recipe().threshold.grid[static_cast<std::size_t>(region)].has_value();
+    item->setText(session_.hasScan() || own ? QString::number(levelOf(region), 'f', 0) : QStringLiteral("–"));
+    item->setForeground(own ? theme.accent : theme.text);
+    item->setToolTip(own ? tr("Set by you") : tr("Automatic"));
+    QFont font = table_->font();
+    font.setBold(own);
+    item->setFont(font);
+  }
+  if (const int region = view_.selectedRegion(); region >= 0)
+    table_->setCurrentCell(region / kRegionsPerSide, region % kRegionsPerSide);
+  filling_ = false;
+}
+
+}  // namespace batten

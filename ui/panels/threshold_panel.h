@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <optional>
+
+#include "ui/session/editor_session.h"
+#include "ui/session/view_settings.h"
+
+class QCheckBox;
+class QLabel;
+class QPushButton;
+class QTableWidget;
+class QTableWidgetItem;
+
+namespace batten {
+
+class NumberField;
+class ParameterEditor;
+class RegionHistogram;
+
+/// What counts as ink: common settings, the selected region's histogram, and all 64 thresholds as a table.
+class ThresholdPanel : public QWidget {
+  Q_OBJECT
+ public:
+  ThresholdPanel(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
+
+ private:
+  void buildRegion();
+  void refresh();
+  void refreshRegion();
+  void refreshTable();
+  void setRegion(int region, std::optional<double> grey, int gesture);
+  void setAllAutomatic();
+  void readCell(QTableWidgetItem* item);
+  double levelOf(int region) const;
+  bool eventFilter(QObject*, QEvent*) override;
+
+  EditorSession& session_;
+  ViewSettings& view_;
+  ParameterEditor* editor_;
+  QLabel* regionName_;
+  RegionHistogram* histogram_;
+  NumberField* level_;
+  QPushButton* regionAuto_;
+  QPushButton* allAuto_;
+  QTableWidget* table_;
+  QCheckBox* showRegions_;
+  QLabel* note_;
+  int gesture_ = -1;
+  bool filling_ = false;
+};
+
+}  // namespace batten

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/plots/curve_plots.h"
+
+#include <qcustomplot.h>
+
+#include <QButtonGroup>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QTimer>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "ui/theme/theme.h"
+
+namespace batten {
+
+struct CurvePlots::State {
+  explicit State(EditorSession& s) : session(s) {}
+  EditorSession& session;
+  PlotTab tab = PlotTab::Radius;
+  PlotData data;
+  QButtonGroup* tabs = nullptr;
+  QLabel* value = nullptr;
+  QLabel* empty = nullptr;
+  QCustomPlot* plot = nullptr;
+  QCPItemStraightLine* cursor = nullptr;
+  QSharedPointer<QCPAxisTicker> linearTicker;
+  QSharedPointer<QCPAxisTickerLog> logTicker;
+  bool isPending = false;
+  double shownLength = -1.0;
+  PlotTab shownTab = PlotTab::Radius;
+  int shownCurve = -2;
+};
+
+CurvePlots::CurvePlots(EditorSession& session, QWidget* parent) : QWidget(parent), state_(std::make_unique<State>(session)) {
+  setObjectName(QStringLiteral("plots"));
+  build();
+  applyTheme();
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::selectionChanged, &EditorSession::targetsChanged,
+                            &EditorSession::hoverChanged, &EditorSession::runFinished})
+    connect(&session, signal, this, &CurvePlots::refreshSoon);
+  connect(&session, &EditorSession::stageReady, this, [this](StageId stage) {
+    if (stage == StageId::Curves || stage == StageId::Faired) refreshSoon();
+  });
+  connect(&session, &EditorSession::cursorChanged, this, &CurvePlots::showCursor);
+  refresh();
+}
+
+CurvePlots::~CurvePlots() = default;
+
+void CurvePlots::build() {
+  State& d = *state_;
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 1, 0, 0);
+  layout->setSpacing(0);
+  auto* head = new QHBoxLayout;
+  head->setContentsMargins(4, 2, 14, 0);
+  head->setSpacing(2);
+  d.tabs = new QButtonGroup(this);
+  const struct { QString text, name, help; } tabs[] = {
+      {tr("Radius over arc length"), QStringLiteral("plot.radius"), tr("Radius of curvature in mm, logarithmic; straight stretches are cut off at the top.")},
+      {tr("Curvature"), QStringLiteral("plot.curvature"), tr("Signed curvature, 1/mm: positive where the curve turns left. The band is what the scan leaves open.")},
+      {tr("Derivative"), QStringLiteral("plot.derivative"), tr("Magnitude of the first derivative: even is good parametrisation.")},
+      {tr("Deviation"), QStringLiteral("plot.deviation"), tr("Distance of the scan's edge points and of the faired curve from the sketched curve, in mm.")}};
+  for (int i = 0; i < 4; ++i) {
+    auto* button = new QToolButton(this);
+    button->setText(tabs[i].text);
+    button->setObjectName(tabs[i].name);
+    button->setToolTip(tabs[i].help);
+    button->setAccessibleName(tabs[i].text);
+    button->setCheckable(true);
+    button->setProperty("tab", true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    // Wide enough for the bold state, so that the row does not jump.
+    button->setMinimumWidth(QFontMetrics(uiFont(12, QFont::DemiBold)).horizontalAdvance(tabs[i].text) + 16);
+    d.tabs->addButton(button, i);
+    head->addWidget(button);
+  }
+  d.tabs->button(0)->setChecked(true);
+  connect(d.tabs, &QButtonGroup::idClicked, this, [this](int id) { setTab(static_cast<PlotTab>(id)); });
+  head->addStretch();
+  d.value = new QLabel(this);
+  d.value->setFont(uiFont(12));
+  d.value->setForegroundRole(QPalette::PlaceholderText);
+  head->addWidget(d.value);
+  layout->addLayout(head);
+  d.plot = new QCustomPlot(this);
+  d.plot->setObjectName(QStringLiteral("plot"));
+  d.plot->setAccessibleName(tr("Plot over arc length of the selected curve"));
+  d.plot->setMinimumHeight(60);
+  d.plot->setAntialiasedElements(QCP::aeAll);
+  d.plot->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
+  d.plot->axisRect()->setRangeDrag(Qt::Horizontal);
+  d.plot->axisRect()->setRangeZoom(Qt::Horizontal);
+  d.plot->axisRect()->setAutoMargins(QCP::msNone);
+  d.plot->axisRect()->setMargins(QMargins(54, 6, 16, 22));
+  d.plot->setMouseTracking(true);
+  d.plot->installEventFilter(this);
+  d.linearTicker = QSharedPointer<QCPAxisTicker>::create();
+  d.linearTicker->setTickCount(4);
+  d.logTicker = QSharedPointer<QCPAxisTickerLog>::create();
+  d.logTicker->setSubTickCount(0);
+  d.cursor = new QCPItemStraightLine(d.plot);
+  d.cursor->setVisible(false);
+  d.cursor->setLayer(QStringLiteral("overlay"));
+  layout->addWidget(d.plot, 1);
+  d.empty = new QLabel(tr("Select a curve to see its curvature."), d.plot);
+  d.empty->setFont(uiFont(12));
+  d.empty->setForegroundRole(QPalette::PlaceholderText);
+  d.empty->setAttribute(Qt::WA_TransparentForMouseEvents);
+  d.empty->move(54, 8);
+  connect(d.plot->xAxis, QOverload<const QCPRange&>::of(&QCPAxis::rangeChanged), this, [this](const QCPRange& range) {
+    const double length = state_->data.lengthMm;
+    if (!(length > 0)) return;
+    QCPRange kept = range.sanitizedForLinScale();
+    const double size = std::clamp(kept.size(), length * 1e-3, length);
+    kept.lower = std::clamp(kept.lower, 0.0, length - size);
+    kept.upper = kept.lower + size;
+    if (kept != range) state_->plot->xAxis->setRange(kept);
+  });
+}
+
+PlotTab CurvePlots::tab() const { return state_->tab; }
+
+void CurvePlots::setTab(PlotTab tab) {
+  state_->tab = tab;
+  state_->tabs->button(static_cast<int>(tab))->setChecked(true);
+  refresh();
+}
+
+void CurvePlots::applyTheme() {
+  State& d = *state_;
+  const Theme& theme = themeOf(palette());
+  d.plot->setBackground(theme.panel);
+  for (QCPAxis* axis : {d.plot->xAxis, d.plot->yAxis}) {
+    axis->setBasePen(Qt::NoPen);
+    axis->setTickPen(Qt::NoPen);
+    axis->setSubTickPen(Qt::NoPen);
+    axis->setTickLabelFont(uiFont(11));
+    axis->setTickLabelColor(theme.mute);
+    axis->setTickLabelPadding(6);
+    axis->grid()->setPen(QPen(theme.line, 1));
+    axis->grid()->setZeroLinePen(QPen(theme.mute, 1));
+    axis->grid()->setSubGridVisible(false);
+    axis->grid()->setAntialiased(false);
+  }
+  d.plot->xAxis->grid()->setVisible(false);
+  QColor line = theme.accent;
+  line.setAlphaF(0.6F);
+  d.cursor->setPen(QPen(line, 1));
+}
+
+void CurvePlots::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() != QEvent::PaletteChange && event->type() != QEvent::StyleChange) return;
+  if (!state_->plot) return;
+  applyTheme();
+  refreshSoon();
+}
+
+void CurvePlots::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  refreshSoon();
+}
+
+void CurvePlots::refreshSoon() {
+  if (state_->isPending) return;
+  state_->isPending = true;
+  QTimer::singleShot(0, this, [this] {
+    state_->isPending = false;
+    if (isVisible()) refresh();
+  });
+}
+
+void CurvePlots::refresh() {
+  State& d = *state_;
+  const Theme& theme = themeOf(palette());
+  d.data = plotData(d.session, d.tab);
+  d.plot->clearGraphs();
+  d.empty->setVisible(d.data.isEmpty());
+  d.empty->setText(d.session.curves().empty() ? tr("No curve yet.") : tr("Select a curve to see its curvature."));
+  d.empty->adjustSize();
+  d.plot->xAxis->setVisible(!d.data.isEmpty());
+  d.plot->yAxis->setVisible(!d.data.isEmpty());
+  d.plot->yAxis->setScaleType(d.data.logarithmic ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
+  d.plot->yAxis->setTicker(d.data.logarithmic ? QSharedPointer<QCPAxisTicker>(d.logTicker) : d.linearTicker);
+  d.plot->yAxis->setNumberFormat(d.data.logarithmic ? QStringLiteral("gb") : QStringLiteral("g"));
+  d.plot->yAxis->setNumberPrecision(d.data.logarithmic ? 6 : 3);
+  if (d.data.bandS.size() > 1) {
+    QCPGraph* low = d.plot->addGraph();
+    QCPGraph* high = d.plot->addGraph();
+    const auto vector = [](const std::vector<double>& v) { return QVector<double>(v.begin(), v.end()); };
+    low->setData(vector(d.data.bandS), vector(d.data.bandLow), true);
+    high->setData(vector(d.data.bandS), vector(d.data.bandHigh), true);
+    low->setPen(Qt::NoPen);
+    high->setPen(Qt::NoPen);
+    QColor fill = theme.mute;
+    fill.setAlphaF(0.18F);
+    high->setBrush(fill);
+    high->setChannelFillGraph(low);
+  }
+  const auto penOf = [&](const PlotSeries& series) {
+    QColor faint = theme.text;
+    faint.setAlphaF(0.22F);
+    QColor grey = theme.mute;
+    grey.setAlphaF(0.9F);
+    QPen dashed(theme.amber, 1.6);
+    dashed.setDashPattern({5, 3.5});
+    switch (series.role) {
+      case PlotRole::Target: return QPen(faint, 1);
+      case PlotRole::HoveredTarget: return QPen(theme.text, 1.6);
+      case PlotRole::ChosenTarget: return dashed;
+      case PlotRole::Budget: return QPen(theme.amber, 1, Qt::DashLine);
+      case PlotRole::Sketched: return QPen(grey, 1.2);
+      case PlotRole::Faired: return QPen(theme.accent, 2);
+    }
+    return QPen(grey, 1);
+  };
+  for (const PlotSeries& series : d.data.series) {
+    QCPGraph* graph = d.plot->addGraph();
+    graph->setData(QVector<double>(series.s.begin(), series.s.end()), QVector<double>(series.value.begin(), series.value.end()), true);
+    graph->setPen(penOf(series));
+    graph->setAntialiased(true);
+  }
+  const bool sameView = d.shownTab == d.tab && d.shownCurve == d.session.selectedCurve() &&
+                        std::abs(d.shownLength - d.data.lengthMm) < 0.2 * std::abs(d.shownLength);
+  d.shownTab = d.tab;
+  d.shownCurve = d.session.selectedCurve();
+  d.shownLength = d.data.lengthMm;
+  if (sameView) d.plot->yAxis->setRange(d.data.low, d.data.high);
+  else resetView();
+  showCursor();
+}
+
+void CurvePlots::resetView() {
+  State& d = *state_;
+  if (d.data.isEmpty()) return;
+  d.plot->xAxis->setRange(0, d.data.lengthMm);
+  d.plot->yAxis->setRange(d.data.low, d.data.high);
+  d.plot->replot(QCustomPlot::rpQueuedReplot);
+}
+
+void CurvePlots::showCursor() {
+  State& d = *state_;
+  const auto s = d.session.cursor();
+  d.cursor->setVisible(s.has_value() && !d.data.isEmpty());
+  d.value->clear();
+  if (s && !d.data.isEmpty()) {
+    d.cursor->point1->setCoords(*s, d.data.low);
+    d.cursor->point2->setCoords(*s, d.data.high);
+    QString text = tr("s %1 mm").arg(*s, 0, 'f', 1);
+    for (const PlotRole role : {PlotRole::Faired, PlotRole::Sketched}) {
+      const auto series = std::find_if(d.data.series.begin(), d.data.series.end(), [role](const PlotSeries& one) { return one.role == role; });
+      if (series == d.data.series.end()) continue;
+      const auto at = std::lower_bound(series->s.begin(), series->s.end(), *s);
+      const auto i = std::min<std::size_t>(static_cast<std::size_t>(at - series->s.begin()), series->s.size() - 1);
+      const QString number = QString::number(series->value[i], 'g', 4);
+      switch (d.tab) {
+        case PlotTab::Radius: text += tr(" · R %1 mm").arg(number); break;
+        case PlotTab::Curvature: text += tr(" · κ %1 /mm").arg(number); break;
+        case PlotTab::Derivative: text += tr(" · |R'| %1").arg(number); break;
+        case PlotTab::Deviation: text += tr(" · %1 mm").arg(number); break;
+      }
+      break;
+    }
+    d.value->setText(text);
+  }
+  d.plot->replot(QCustomPlot::rpQueuedReplot);
+}
+
+bool CurvePlots::eventFilter(QObject* watched, QEvent* event) {
+  State& d = *state_;
+  if (watched == d.plot && !d.data.isEmpty()) {
+    if (event->type() == QEvent::MouseMove) {
+      const auto* mouse = static_cast<QMouseEvent*>(event);
+      const double s = d.plot->xAxis->pixelToCoord(mouse->position().x());
+      d.session.setCursor(s >= 0 && s <= d.data.lengthMm ? std::optional(s) : std::nullopt);
+      emit hint(tr("The cursor is the same place on the drawing. Wheel zooms, drag pans, double click shows all."));
+    }
+    if (event->type() == QEvent::Leave) {
+      d.session.setCursor(std::nullopt);
+      emit hint({});
+    }
+    if (event->type() == QEvent::MouseButtonDblClick) resetView();
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+void CurvePlots::paintEvent(QPaintEvent*) {
+  const Theme& theme = themeOf(palette());
+  QPainter painter(this);
+  painter.fillRect(rect(), theme.panel);
+  painter.fillRect(0, 0, width(), 1, theme.line);
+}
+
+}  // namespace batten

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "ui/plots/plot_series.h"
+
+namespace batten {
+
+/// The plots under the canvas: radius, curvature, first derivative and deviation over arc length of the selected curve. The
+/// cursor is linked with the canvas both ways; the wheel zooms, a drag pans, a double click shows all.
+class CurvePlots : public QWidget {
+  Q_OBJECT
+ public:
+  explicit CurvePlots(EditorSession& session, QWidget* parent = nullptr);
+  ~CurvePlots() override;
+  PlotTab tab() const;
+  void setTab(PlotTab tab);
+
+ signals:
+  void hint(const QString& text);
+
+ protected:
+  void changeEvent(QEvent*) override;
+  void showEvent(QShowEvent*) override;
+  bool eventFilter(QObject*, QEvent*) override;
+  void paintEvent(QPaintEvent*) override;
+
+ private:
+  void build();
+  void refreshSoon();
+  void refresh();
+  void applyTheme();
+  void showCursor();
+  void resetView();
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace batten

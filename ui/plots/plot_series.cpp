@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/plots/plot_series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "core/curve/curve_analysis.h"
+
+namespace batten {
+namespace {
+
+constexpr int kSamples = 400;
+constexpr int kDeviationSamples = 160;
+
+bool isFaired(const TracedCurve& curve) { return !curve.faired.isEmpty() && curve.fairingUsed.mode != FairingMode::None; }
+
+void add(PlotData& data, PlotRole role, const std::vector<CurveSample>& samples, double scale, const auto& valueOf) {
+  PlotSeries series{role, 0, {}, {}};
+  for (const CurveSample& sample : samples) {
+    const double value = valueOf(sample);
+    if (!std::isfinite(value)) continue;
+    series.s.push_back(sample.s * scale);
+    series.value.push_back(value);
+  }
+  if (series.s.size() > 1) data.series.push_back(std::move(series));
+}
+
+int chosenDegree(const TracedCurve& curve, const TargetOutcomes& targets) {
+  if (curve.fairingUsed.mode != FairingMode::Target) return 0;
+  return curve.fairingUsed.target > 0 ? curve.fairingUsed.target : targets.recommendedDegree;
+}
+
+void addTargets(PlotData& data, const EditorSession& session, const TracedCurve& curve, const auto& valueOf) {
+  const auto targets = session.targets();
+  if (!targets) return;
+  const int chosen = chosenDegree(curve, *targets);
+  for (const TargetProfile& profile : targets->targets.profiles) {
+    if (!profile.valid) continue;
+    PlotSeries series{PlotRole::Target, profile.degree, {}, {}};
+    if (profile.degree == chosen) series.role = PlotRole::ChosenTarget;
+    if (profile.degree == session.hoveredTarget()) series.role = PlotRole::HoveredTarget;
+    for (int i = 0; i < kSamples / 2; ++i) {
+      const double f = i / (kSamples / 2 - 1.0);
+      const double value = valueOf(profile.curvatureAt(f));
+      if (!std::isfinite(value)) continue;
+      series.s.push_back(f * data.lengthMm);
+      series.value.push_back(value);
+    }
+    if (series.s.size() > 1) data.series.push_back(std::move(series));
+  }
+}
+
+/// Range from the two curves alone: a target that shoots off must not flatten them.
+void fitRange(PlotData& data, double padding) {
+  bool any = false;
+  for (const PlotSeries& series : data.series) {
+    if (series.role != PlotRole::Sketched && series.role != PlotRole::Faired) continue;
+    std::vector<double> sorted = series.value;
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t cut = sorted.size() / 100;
+    const double low = sorted[cut], high = sorted[sorted.size() - 1 - cut];
+    data.low = any ? std::min(data.low, low) : low;
+    data.high = any ? std::max(data.high, high) : high;
+    any = true;
+  }
+  if (!any) return;
+  if (data.logarithmic) {
+    const double grow = std::max(1.15, std::pow(data.high / data.low, padding));
+    data.low /= grow;
+    data.high *= grow;
+  } else {
+    const double size = std::max(data.high - data.low, 1e-6 * std::max(std::abs(data.low), std::abs(data.high)));
+    const double pad = size > 0 ? padding * size : 1.0;
+    data.low -= pad;
+    data.high += pad;
+  }
+}
+
+void addBand(PlotData& data, const TracedCurve& curve, const std::vector<CurveSample>& sketched, double scale) {
+  const auto &s = curve.construct.bandS, &sigma = curve.construct.bandSigma;
+  if (s.size() < 2 || s.size() != sigma.size() || sketched.size() < 2) return;
+  const double step = sketched.back().s / (static_cast<double>(sketched.size()) - 1.0);
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const double at = step > 0 ? s[i] / step : 0.0;
+    const auto k = static_cast<std::size_t>(std::clamp(std::lround(at), 0L, static_cast<long>(sketched.size()) - 1));
+    if (!std::isfinite(sigma[i]) || !std::isfinite(s[i])) continue;
+    data.bandS.push_back(s[i] * scale);
+    data.bandLow.push_back(sketched[k].kappa - 2 * sigma[i]);
+    data.bandHigh.push_back(sketched[k].kappa + 2 * sigma[i]);
+  }
+}
+
+void addDeviation(PlotData& data, const EditorSession& session, const TracedCurve& curve, double scale) {
+  // Signed distance of the scan's edge points and of the faired curve from the sketched one, positive to the left.
+  const ArcLength arc(curve.sketched);
+  const auto measure = [&](const Vec2& p, PlotSeries& series) {
+    const ClosestPoint hit = closestPoint(curve.sketched, p);
+    const auto d = curve.sketched.derivatives(hit.u, 1);
+    const double side = cross(d[1], p - hit.point) < 0 ? -1.0 : 1.0;
+    series.s.push_back(arc.at(hit.u) * scale);
+    series.value.push_back(side * hit.distance);
+  };
+  const auto sorted = [](PlotSeries& series) {
+    std::vector<std::pair<double, double>> pairs;
+    for (std::size_t i = 0; i < series.s.size(); ++i) pairs.emplace_back(series.s[i], series.value[i]);
+    std::sort(pairs.begin(), pairs.end());
+    for (std::size_t i = 0; i < pairs.size(); ++i) std::tie(series.s[i], series.value[i]) = pairs[i];
+  };
+  PlotSeries points{PlotRole::Sketched, 0, {}, {}};
+  const auto& pieces = session.output().pieces;
+  if (pieces && curve.piece >= 0 && static_cast<std::size_t>(curve.piece) < pieces->pieces.size()) {
+    const auto& px = pieces->pieces[static_cast<std::size_t>(curve.piece)].points;
+    const std::size_t step = std::max<std::size_t>(1, px.size() / kDeviationSamples);
+    for (std::size_t i = 0; i < px.size(); i += step) measure(session.output().frame.pointToModel(px[i]), points);
+    sorted(points);
+  }
+  if (points.s.size() > 1) data.series.push_back(std::move(points));
+  if (!isFaired(curve)) return;
+  PlotSeries faired{PlotRole::Faired, 0, {}, {}};
+  for (const CurveSample& sample : sampleByArcLength(curve.faired, kDeviationSamples)) measure(sample.point, faired);
+  sorted(faired);
+  data.series.push_back(std::move(faired));
+  const double budget = curve.fairingUsed.toleranceMm;
+  for (const double sign : {-1.0, 1.0})
+    data.series.push_back({PlotRole::Budget, 0, {0.0, data.lengthMm}, {sign * budget, sign * budget}});
+}
+
+}  // namespace
+
+double clampedRadius(double kappa, double smallest, double largest) {
+  const double size = std::abs(kappa);
+  if (!std::isfinite(size)) return smallest;
+  if (size * largest <= 1.0) return largest;
+  return std::max(smallest, 1.0 / size);
+}
+
+PlotData plotData(const EditorSession& session, PlotTab tab) {
+  PlotData data;
+  const TracedCurve* curve = session.selected();
+  if (!curve || curve->sketched.isEmpty()) return data;
+  const std::vector<CurveSample> sketched = sampleByArcLength(curve->sketched, kSamples);
+  std::vector<CurveSample> faired;
+  if (isFaired(*curve)) faired = sampleByArcLength(curve->faired, kSamples);
+  // One axis for both: arc length of the curve that counts; the other is stretched by less than a hair.
+  const double sketchedLength = sketched.back().s;
+  data.lengthMm = faired.empty() ? sketchedLength : faired.back().s;
+  if (!(data.lengthMm > 0) || !(sketchedLength > 0)) return {};
+  const double scale = data.lengthMm / sketchedLength;
+  const double size = extent(curve->sketched);
+  const auto addBoth = [&](const auto& valueOf) {
+    addTargets(data, session, *curve, [&](double kappa) {
+      CurveSample sample;
+      sample.kappa = kappa;
+      return valueOf(sample);
+    });
+    add(data, PlotRole::Sketched, sketched, scale, valueOf);
+    add(data, PlotRole::Faired, faired, 1.0, valueOf);
+  };
+  switch (tab) {
+    case PlotTab::Radius:
+      data.logarithmic = true;
+      addBoth([size](const CurveSample& sample) { return clampedRadius(sample.kappa, size * 1e-4, size * 20); });
+      break;
+    case PlotTab::Curvature:
+      addBand(data, *curve, sketched, scale);
+      addBoth([](const CurveSample& sample) { return sample.kappa; });
+      break;
+    case PlotTab::Derivative:
+      add(data, PlotRole::Sketched, sketched, scale, [](const CurveSample& sample) { return sample.speed; });
+      add(data, PlotRole::Faired, faired, 1.0, [](const CurveSample& sample) { return sample.speed; });
+      break;
+    case PlotTab::Deviation: addDeviation(data, session, *curve, scale); break;
+  }
+  fitRange(data, tab == PlotTab::Radius ? 0.06 : 0.12);
+  return data;
+}
+
+}  // namespace batten

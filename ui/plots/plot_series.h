@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "ui/session/editor_session.h"
+
+namespace batten {
+
+enum class PlotTab { Radius, Curvature, Derivative, Deviation };
+
+/// What a line of a plot stands for; the plot chooses pen and colour.
+enum class PlotRole { Sketched, Faired, Target, ChosenTarget, HoveredTarget, Budget };
+
+struct PlotSeries {
+  PlotRole role = PlotRole::Sketched;
+  int degree = 0;                  ///< Targets: 1..6.
+  std::vector<double> s, value;    ///< Same size, s ascending [mm]; only finite values.
+};
+
+/// Everything one plot draws of the selected curve.
+struct PlotData {
+  double lengthMm = 0.0;
+  std::vector<PlotSeries> series;
+  std::vector<double> bandS, bandLow, bandHigh;  ///< Curvature: +-2 sigma of the sketched curve.
+  bool logarithmic = false;
+  double low = 0.0, high = 1.0;                  ///< Range of the values that is shown at first.
+  bool isEmpty() const { return series.empty(); }
+};
+
+/// The plot of the session's selected curve. Model frame, mm.
+PlotData plotData(const EditorSession& session, PlotTab tab);
+
+/// Radius limited to what a plot can show: straight stretches end as a flat line at `largest`, never as infinity.
+double clampedRadius(double kappa, double smallest, double largest);
+
+}  // namespace batten

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/status_line.h"
+
+#include <QFontMetrics>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QProgressBar>
+#include <QPushButton>
+#include <cmath>
+
+#include "core/pipeline/pipeline.h"
+#include "ui/panels/panel_parts.h"
+#include "ui/theme/theme.h"
+
+namespace batten {
+namespace {
+
+QString decimal(double value, int decimals) {
+  const double whole = std::trunc(value);
+  QString fraction = QString::number(std::abs(value - whole), 'f', decimals).mid(1);
+  if (fraction.isEmpty() || std::abs(value - whole) >= 1.0 - 0.5 * std::pow(10.0, -decimals)) return QString::number(value, 'f', decimals);
+  return (value < 0 && whole == 0 ? QStringLiteral("-") : QString()) + grouped(static_cast<qint64>(whole)) + fraction;
+}
+
+}  // namespace
+
+StatusLine::StatusLine(EditorSession& session, QWidget* parent)
+    : QWidget(parent), session_(session), setScale_(linkButton(tr("no scale: set it"), QStringLiteral("status.setScale"), this)),
+      progress_(new QProgressBar(this)), cancel_(linkButton(tr("Cancel"), QStringLiteral("status.cancel"), this)) {
+  setFixedHeight(30);
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(14, 1, 14, 0);
+  layout->setSpacing(20);
+  const auto add = [&](const char* name, const QString& widest, int stretch = 0) {
+    auto* label = new QLabel(this);
+    label->setObjectName(QString::fromLatin1(name));
+    label->setFont(uiFont(12));
+    label->setForegroundRole(QPalette::PlaceholderText);
+    // A fixed width for what changes with every move, so that the line stands still.
+    if (!widest.isEmpty()) label->setMinimumWidth(QFontMetrics(uiFont(12)).horizontalAdvance(widest));
+    layout->addWidget(label, stretch);
+    return label;
+  };
+  millimetres_ = add("status.mm", QStringLiteral("x 2888.88 mm  y 2888.88 mm"));
+  pixels_ = add("status.px", QStringLiteral("px 28 888.8, 28 888.8"));
+  scale_ = add("status.scale", {});
+  layout->addWidget(setScale_);
+  zoom_ = add("status.zoom", QStringLiteral("888 %"));
+  hint_ = add("status.hint", {}, 1);
+  hint_->setAlignment(Qt::AlignCenter);
+  hint_->setMinimumWidth(40);
+  progress_->setFixedWidth(96);
+  progress_->setRange(0, 100);
+  progress_->setTextVisible(false);
+  progress_->setAccessibleName(tr("Progress"));
+  layout->addWidget(progress_);
+  layout->addWidget(cancel_);
+  work_ = add("status.work", QStringLiteral("exact · 888 ms"));
+  work_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  setScale_->setFont(uiFont(12));
+  cancel_->setFont(uiFont(12));
+  connect(setScale_, &QPushButton::clicked, this, &StatusLine::scaleAsked);
+  connect(cancel_, &QPushButton::clicked, &session_, &EditorSession::cancel);
+  connect(&session_, &EditorSession::scanOpened, this, &StatusLine::refreshScale);
+  connect(&session_, &EditorSession::recipeChanged, this, &StatusLine::refreshScale);
+  connect(&session_, &EditorSession::busyChanged, this, &StatusLine::refreshWork);
+  connect(&session_, &EditorSession::runFinished, this, &StatusLine::refreshWork);
+  connect(&session_, &EditorSession::progress, this, [this](double fraction) { progress_->setValue(static_cast<int>(fraction * 100)); });
+  refreshScale();
+  refreshWork();
+  setPlace(std::nullopt);
+}
+
+void StatusLine::setPlace(std::optional<Vec2> imagePx) {
+  if (!imagePx || !session_.hasScan()) {
+    millimetres_->clear();
+    pixels_->clear();
+    return;
+  }
+  const PageFrame frame = frameFor(*session_.scan(), session_.recipe());
+  const Vec2 mm = frame.pointToModel(*imagePx);
+  millimetres_->setText(tr("x %1 mm  y %2 mm").arg(mm.x(), 0, 'f', 2).arg(mm.y(), 0, 'f', 2));
+  pixels_->setText(tr("px %1, %2").arg(decimal(imagePx->x(), 1), decimal(imagePx->y(), 1)));
+}
+
+void StatusLine::setZoom(double zoom) { zoom_->setText(QStringLiteral("%1 %").arg(zoom * 100, 0, 'f', zoom < 0.0995 ? 1 : 0)); }
+
+void StatusLine::setHint(const QString& text) { hint_->setText(text); }
+
+void StatusLine::refreshScale() {
+  if (!session_.hasScan()) {
+    scale_->hide();
+    setScale_->hide();
+    return;
+  }
+  const bool assumed = isScaleAssumed(*session_.scan(), session_.recipe());
+  const auto own = session_.recipe().dpi;
+  scale_->setVisible(!assumed);
+  setScale_->setVisible(assumed);
+  if (assumed) return;
+  scale_->setText(tr("%1 dpi").arg(own ? *own : session_.scan()->dpi.value_or(0.0), 0, 'f', 0));
+  scale_->setToolTip(own ? tr("Resolution set by you") : tr("Resolution from the file"));
+}
+
+void StatusLine::refreshWork() {
+  const bool busy = session_.isBusy();
+  progress_->setVisible(busy);
+  cancel_->setVisible(busy);
+  if (busy) {
+    work_->setText(tr("working"));
+    return;
+  }
+  progress_->setValue(0);
+  if (!session_.hasScan()) return work_->clear();
+  const bool whole = !session_.isStale(StageId::Faired) && session_.output().faired;
+  work_->setText(whole ? tr("exact · %1 ms").arg(session_.lastRunMilliseconds(), 0, 'f', 0) : tr("stopped"));
+  work_->setToolTip(whole ? tr("All that is shown belongs to the present settings.") : tr("Some of what is shown is from earlier settings."));
+}
+
+void StatusLine::paintEvent(QPaintEvent*) {
+  const Theme& theme = themeOf(palette());
+  QPainter painter(this);
+  painter.fillRect(rect(), theme.panel);
+  painter.fillRect(0, 0, width(), 1, theme.line);
+}
+
+}  // namespace batten

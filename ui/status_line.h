@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <optional>
+
+#include "core/base/vec2.h"
+#include "ui/session/editor_session.h"
+
+class QLabel;
+class QProgressBar;
+class QPushButton;
+
+namespace batten {
+
+/// The line at the bottom: where the mouse is, the scale, the zoom, what can be done here, and how the work goes.
+class StatusLine : public QWidget {
+  Q_OBJECT
+ public:
+  explicit StatusLine(EditorSession& session, QWidget* parent = nullptr);
+  void setPlace(std::optional<Vec2> imagePx);
+  void setZoom(double zoom);
+  void setHint(const QString& text);
+
+ signals:
+  void scaleAsked();  ///< "no scale: set it" was pressed.
+
+ protected:
+  void paintEvent(QPaintEvent*) override;
+
+ private:
+  void refreshScale();
+  void refreshWork();
+  EditorSession& session_;
+  QLabel *millimetres_, *pixels_, *scale_, *zoom_, *hint_, *work_;
+  QPushButton* setScale_;
+  QProgressBar* progress_;
+  QPushButton* cancel_;
+};
+
+}  // namespace batten

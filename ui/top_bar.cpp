@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/top_bar.h"
+
+#include <QAction>
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QPainter>
+#include <QPushButton>
+#include <QToolButton>
+
+#include "ui/session/view_settings.h"
+#include "ui/theme/theme.h"
+
+namespace batten {
+
+TopBar::TopBar(ViewSettings& view, const Actions& actions, QMenu* mainMenu, QMenu* layersMenu, QWidget* parent) : QWidget(parent) {
+  setFixedHeight(44);
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(10, 0, 12, 1);
+  layout->setSpacing(4);
+  menu_ = new QToolButton(this);
+  menu_->setObjectName(QStringLiteral("menuButton"));
+  menu_->setAccessibleName(tr("Menu"));
+  menu_->setToolTip(tr("Menu  (F10)"));
+  menu_->setMenu(mainMenu);
+  menu_->setPopupMode(QToolButton::InstantPopup);
+  menu_->setFocusPolicy(Qt::TabFocus);
+  title_ = new QLabel(this);
+  title_->setObjectName(QStringLiteral("documentTitle"));
+  title_->setFont(uiFont(13, QFont::DemiBold));
+  title_->setMaximumWidth(320);
+  layout->addWidget(menu_);
+  layout->addWidget(title_);
+  layout->addSpacing(4);
+  undo_ = addButton(actions.undo, {});
+  redo_ = addButton(actions.redo, {});
+  for (auto* button : {undo_, redo_}) button->setToolButtonStyle(Qt::ToolButtonIconOnly);
+  layout->addStretch(1);
+  addButton(actions.scan, tr("Scan"))->setProperty("toggle", true);
+  addButton(actions.comb, tr("Comb"))->setProperty("toggle", true);
+  auto* layers = new QToolButton(this);
+  layers->setObjectName(QStringLiteral("layersButton"));
+  layers->setText(tr("Layers"));
+  layers->setToolTip(tr("What is shown on the canvas."));
+  layers->setMenu(layersMenu);
+  layers->setPopupMode(QToolButton::InstantPopup);
+  layers->setFocusPolicy(Qt::TabFocus);
+  layout->addWidget(layers);
+  auto* compare = new QToolButton(this);
+  compare->setObjectName(QStringLiteral("compareButton"));
+  compare->setText(tr("Compare \\"));
+  compare->setAccessibleName(tr("Compare"));
+  compare->setToolTip(tr("Hold to see the scan alone."));
+  compare->setFocusPolicy(Qt::TabFocus);
+  connect(compare, &QToolButton::pressed, &view, [&view] { view.setScanOnly(true); });
+  connect(compare, &QToolButton::released, &view, [&view] { view.setScanOnly(false); });
+  layout->addWidget(compare);
+  addButton(actions.fit, tr("Fit"));
+  zoom_ = addButton(actions.actual, QStringLiteral("100 %"));
+  zoom_->setMinimumWidth(64);
+  layout->addStretch(1);
+  find_ = addButton(actions.find, tr("Find an action"));
+  find_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  layout->addSpacing(4);
+  auto* send = new QPushButton(tr("Export…"), this);
+  send->setObjectName(QStringLiteral("exportButton"));
+  send->setAccessibleName(tr("Export"));
+  send->setProperty("primary", true);
+  send->setToolTip(actions.exportCurves->toolTip());
+  send->setEnabled(actions.exportCurves->isEnabled());
+  connect(actions.exportCurves, &QAction::changed, send, [send, action = actions.exportCurves] { send->setEnabled(action->isEnabled()); });
+  connect(send, &QPushButton::clicked, actions.exportCurves, &QAction::trigger);
+  layout->addWidget(send);
+  setIcons();
+}
+
+QToolButton* TopBar::addButton(QAction* action, const QString& text) {
+  auto* button = new QToolButton(this);
+  // The action's own text is for menus; here it must stay as short as the bar is wide.
+  button->setText(text);
+  button->setObjectName(action->objectName() + QStringLiteral("Button"));
+  button->setFocusPolicy(Qt::TabFocus);
+  button->setCheckable(action->isCheckable());
+  const auto follow = [button, action] {
+    button->setEnabled(action->isEnabled());
+    button->setChecked(action->isChecked());
+    button->setToolTip(action->toolTip());
+    button->setAccessibleName(action->text());
+  };
+  connect(action, &QAction::changed, button, follow);
+  connect(button, &QToolButton::clicked, action, &QAction::trigger);
+  follow();
+  static_cast<QHBoxLayout*>(layout())->addWidget(button);
+  return button;
+}
+
+void TopBar::setIcons() {
+  menu_->setIcon(themedIcon(QStringLiteral("menu"), palette()));
+  undo_->setIcon(themedIcon(QStringLiteral("undo"), palette()));
+  redo_->setIcon(themedIcon(QStringLiteral("redo"), palette()));
+  find_->setIcon(themedIcon(QStringLiteral("find"), palette()));
+}
+
+void TopBar::setTitle(const QString& title, const QString& toolTip) {
+  title_->setText(title_->fontMetrics().elidedText(title, Qt::ElideMiddle, 300));
+  title_->setToolTip(toolTip);
+}
+
+void TopBar::setZoom(double zoom) { zoom_->setText(QStringLiteral("%1 %").arg(zoom * 100, 0, 'f', zoom < 0.0995 ? 1 : 0)); }
+
+void TopBar::openMenu() { menu_->showMenu(); }
+
+void TopBar::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) setIcons();
+}
+
+void TopBar::paintEvent(QPaintEvent*) {
+  const Theme& theme = themeOf(palette());
+  QPainter painter(this);
+  painter.fillRect(rect(), theme.panel);
+  painter.fillRect(0, height() - 1, width(), 1, theme.line);
+}
+
+}  // namespace batten

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+class QAction;
+class QLabel;
+class QMenu;
+class QToolButton;
+
+namespace batten {
+
+class EditorSession;
+class ViewSettings;
+
+/// The bar at the top: menu, title, undo, what is shown, the action finder, and Export.
+class TopBar : public QWidget {
+  Q_OBJECT
+ public:
+  struct Actions {
+    QAction *undo, *redo, *scan, *comb, *fit, *actual, *find, *exportCurves;
+  };
+  TopBar(ViewSettings& view, const Actions& actions, QMenu* mainMenu, QMenu* layersMenu, QWidget* parent = nullptr);
+  void setTitle(const QString& title, const QString& toolTip);
+  void setZoom(double zoom);
+  void openMenu();
+
+ protected:
+  void paintEvent(QPaintEvent*) override;
+  void changeEvent(QEvent*) override;
+
+ private:
+  QToolButton* addButton(QAction* action, const QString& text);
+  void setIcons();
+  QToolButton* menu_;
+  QLabel* title_;
+  QToolButton *undo_, *redo_, *zoom_, *find_;
+};
+
+}  // namespace batten
