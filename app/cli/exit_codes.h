@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/result.h"
+
+namespace batten::cli {
+
+/// What the program returns to the shell. A contract: scripts rely on these numbers.
+enum ExitCode : int {
+  kDone = 0,
+  kWrongUsage = 2,
+  kUnreadableScan = 3,
+  kNoCurve = 4,
+  kCannotWrite = 5,
+};
+
+/// Prints the error as one line on stderr and gives the exit code that belongs to it.
+int reportError(const Error&);
+
+}  // namespace batten::cli

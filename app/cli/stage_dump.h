@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "core/exchange/picture.h"
+#include "core/pipeline/pipeline.h"
+
+namespace batten::cli {
+
+/// Names that --dump takes: "log" and "paper" (the flattened paper), then the stages.
+std::vector<std::string> dumpNames();
+
+/// A stage's output as a picture of the scan's size: masks as they are, lines and curves over the lightened scan.
+/// @return NoCurve if the run ended before that stage.
+Result<Picture> dumpStage(std::string_view dumpName, const Scan&, const Recipe&, const PipelineOutput&);
+
+}  // namespace batten::cli

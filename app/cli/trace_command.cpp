@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/trace_command.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/exit_codes.h"
+#include "app/cli/stage_dump.h"
+#include "app/cli/trace_plan.h"
+#include "core/base/parallel.h"
+#include "core/document/export_builder.h"
+#include "core/exchange/writers.h"
+#include "core/image/scan_reader.h"
+#include "core/pipeline/recipe_file.h"
+#include "core/pipeline/report.h"
+
+namespace batten::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+std::uint64_t peakMemoryBytes() {
+  rusage usage{};
+  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+/// One trace from the plan to the files. Each step returns an error or nothing; the first error ends the command.
+class Trace {
+ public:
+  Trace(const TraceArguments& arguments, TracePlan plan) : arguments_(arguments), plan_(std::move(plan)) {
+    context_.threads = arguments.threads;
+  }
+
+  Result<void> run() {
+    auto scan = readScan(arguments_.scan, {}, context_);
+    if (!scan) return fail(scan.error());
+    scan_ = std::move(*scan);
+    readMilliseconds_ = millisecondsSince(begin_);
+
+    PipelineRequest request;
+    request.needEdges = std::any_of(plan_.dumps.begin(), plan_.dumps.end(), [](const auto& d) { return d.stage == "edges"; });
+    StageCache nothingKept(0);
+    out_ = runPipeline(scan_, plan_.recipe, nothingKept, request, context_);
+
+    // Without a curve the pictures and the report are still wanted: they show why.
+    if (auto written = writeDumps(); !written) return written;
+    if (auto written = writeReport(); !written) return written;
+    if (!arguments_.saveRecipe.empty()) {
+      if (auto saved = save(arguments_.saveRecipe, recipeToJson(plan_.recipe)); !saved) return saved;
+    }
+    if (out_.error) return fail(*out_.error);
+    return writeCurves();
+  }
+
+  std::string summary() const {
+    nlohmann::ordered_json json{{"scan", arguments_.scan}, {"curves", curves_}, {"pieces", out_.faired->curves.size()}};
+    json["milliseconds"] = millisecondsSince(begin_);
+    json["files"] = files_;
+    json["notes"] = notes();
+    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  }
+
+ private:
+  Result<void> save(const std::filesystem::path& path, std::string_view bytes) {
+    auto saved = saveAtomically(path, bytes);
+    if (saved) files_.push_back(path.string());
+    return saved;
+  }
+
+  Result<void> writeDumps() {
+    for (const auto& dump : plan_.dumps) {
+      auto picture = dumpStage(dump.stage, scan_, plan_.recipe, out_);
+      if (!picture && out_.error) continue;  // the run's own error says more, and follows
+      if (!picture) return fail(picture.error());
+      auto png = encodePng(*picture);
+      if (!png) return fail(png.error());
+      if (auto saved = save(dump.path, *png); !saved) return saved;
+    }
+    return {};
+  }
+
+  Result<void> writeReport() {
+    if (arguments_.report.empty()) return {};
+    ReportExtras extras;
+    extras.readMilliseconds = readMilliseconds_;
+    if (out_.faired) {
+      const auto& curves = out_.faired->curves;
+      extras.targets.resize(curves.size());
+      extras.targetProblems.resize(curves.size());
+      RunContext one = context_;
+      one.threads = 1;
+      parallelFor(context_, static_cast<int>(curves.size()), 1, [&](int first, int last) {
+        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
+          if (!curves[i].included) continue;
+          auto targets = targetsFor(curves[i], one);
+          if (!targets) extras.targetProblems[i] = targets.error().message;
+          if (targets) extras.targets[i] = std::move(*targets);
+        }
+      });
+    }
+    extras.peakMemoryBytes = peakMemoryBytes();
+    return save(arguments_.report, reportToJson(scan_, plan_.recipe, out_, extras));
+  }
+
+  Result<void> writeCurves() {
+    const ExportDocument document = exportDocument(out_, plan_.recipe, scan_);
+    curves_ = document.curves.size();
+    for (const auto& output : plan_.outputs) {
+      auto text = output.format == TracePlan::Format::Svg ? svgText(document) : writeCurveJson(document);
+      if (!text) return fail(text.error());
+      if (auto saved = save(output.path, *text); !saved) return saved;
+    }
+    return {};
+  }
+
+  static Result<std::string> svgText(const ExportDocument& document) {
+    auto svg = writeSvg(document, {});
+    if (!svg) return fail(svg.error());
+    return std::move(svg->text);
+  }
+
+  /// What the user should know although the trace was made.
+  std::vector<std::string> notes() const {
+    std::vector<std::string> list;
+    if (isScaleAssumed(scan_, plan_.recipe)) list.emplace_back("The scan states no resolution; 96 dpi was assumed. Set --dpi.");
+    if (!out_.thresholds->note.empty()) list.push_back(out_.thresholds->note);
+    if (!out_.contours->report.note.empty()) list.push_back(out_.contours->report.note);
+    for (const int mark : out_.pieces->lostMarks) {
+      const Vec2& at = plan_.recipe.cornerMarks[static_cast<std::size_t>(mark)].positionPx;
+      list.push_back("No line lies near the corner " + std::to_string(std::lround(at.x())) + "," +
+                     std::to_string(std::lround(at.y())) + ".");
+    }
+    for (const Error& failure : out_.constructed->failures) list.push_back(failure.message);
+    return list;
+  }
+
+  const TraceArguments& arguments_;
+  TracePlan plan_;
+  RunContext context_;
+  Clock::time_point begin_ = Clock::now();
+  Scan scan_;
+  double readMilliseconds_ = 0.0;
+  PipelineOutput out_;
+  std::size_t curves_ = 0;
+  std::vector<std::string> files_;
+};
+
+}  // namespace
+
+int runTrace(const TraceArguments& arguments) {
+  auto plan = planTrace(arguments);
+  if (!plan) return reportError(plan.error());
+  Trace trace(arguments, std::move(*plan));
+  if (auto done = trace.run(); !done) return reportError(done.error());
+  std::cout << trace.summary() << std::endl;
+  return kDone;
+}
+
+}  // namespace batten::cli

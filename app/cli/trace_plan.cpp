@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/trace_plan.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "app/cli/stage_dump.h"
+#include "core/pipeline/number_text.h"
+#include "core/pipeline/parameter_table.h"
+#include "core/pipeline/recipe_file.h"
+
+namespace batten::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+tl::unexpected<Error> wrong(std::string message) { return fail(ErrorCode::BadParameter, std::move(message)); }
+
+std::string extensionOf(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+Result<Recipe> readRecipe(const std::string& path) {
+  if (path.empty()) return Recipe{};
+  std::error_code code;
+  std::ifstream file(path, std::ios::binary);
+  if (!file || !fs::is_regular_file(path, code)) return wrong("The recipe " + path + " cannot be read. Check its name.");
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  return recipeFromJson(text);
+}
+
+Result<void> applySetting(const std::string& setting, Recipe& recipe) {
+  const auto equals = setting.find('=');
+  if (equals == std::string::npos) return wrong("--set takes stage.parameter=value, not \"" + setting + "\".");
+  return setParameter(recipe, trimmed(std::string_view(setting).substr(0, equals)), std::string_view(setting).substr(equals + 1));
+}
+
+Result<void> applyCorner(const std::string& corner, Recipe& recipe) {
+  const auto comma = corner.find(',');
+  const auto x = numberFromText(std::string_view(corner).substr(0, comma));
+  const auto y = comma == std::string::npos ? std::nullopt : numberFromText(std::string_view(corner).substr(comma + 1));
+  if (!x || !y) return wrong("--corner takes X,Y in px from the upper left corner, not \"" + corner + "\".");
+  recipe.cornerMarks.push_back({Vec2(*x, *y)});
+  return {};
+}
+
+Result<TracePlan::Output> outputOf(const std::string& path) {
+  const std::string extension = extensionOf(path);
+  if (extension == ".svg") return TracePlan::Output{path, TracePlan::Format::Svg};
+  if (extension == ".json") return TracePlan::Output{path, TracePlan::Format::CurveJson};
+  return wrong("The output " + path + " must end in .svg or .json.");
+}
+
+Result<TracePlan::Dump> dumpOf(const std::string& dump) {
+  const auto equals = dump.find('=');
+  const std::string stage = dump.substr(0, equals);
+  const std::vector<std::string> names = dumpNames();
+  std::string known;
+  for (const std::string& one : names) known.append(known.empty() ? "" : ", ").append(one);
+  if (equals == std::string::npos || std::find(names.begin(), names.end(), stage) == names.end()) {
+    return wrong("--dump takes STAGE=FILE.png, not \"" + dump + "\". Stages: " + known + ".");
+  }
+  const std::string path = dump.substr(equals + 1);
+  if (extensionOf(path) != ".png") return wrong("The dump " + path + " must end in .png.");
+  return TracePlan::Dump{stage, path};
+}
+
+Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan) {
+  std::vector<fs::path> targets;
+  for (const auto& output : plan.outputs) targets.push_back(output.path);
+  for (const auto& dump : plan.dumps) targets.push_back(dump.path);
+  if (!arguments.report.empty()) targets.emplace_back(arguments.report);
+  if (!arguments.saveRecipe.empty()) targets.emplace_back(arguments.saveRecipe);
+  if (targets.empty()) return wrong("Nothing would be written. Add -o OUT.svg or -o OUT.json.");
+  std::set<fs::path> seen{fs::path(arguments.scan).lexically_normal()};
+  for (const fs::path& target : targets) {
+    if (!seen.insert(target.lexically_normal()).second) {
+      return wrong("The file " + target.string() + " is named twice. Give every output its own name.");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<TracePlan> planTrace(const TraceArguments& arguments) {
+  TracePlan plan;
+  for (const std::string& path : arguments.outputs) {
+    auto output = outputOf(path);
+    if (!output) return fail(output.error());
+    plan.outputs.push_back(std::move(*output));
+  }
+  for (const std::string& dump : arguments.dumps) {
+    auto parsed = dumpOf(dump);
+    if (!parsed) return fail(parsed.error());
+    plan.dumps.push_back(std::move(*parsed));
+  }
+  if (auto checked = checkTargets(arguments, plan); !checked) return fail(checked.error());
+
+  auto recipe = readRecipe(arguments.recipe);
+  if (!recipe) return fail(recipe.error());
+  plan.recipe = std::move(*recipe);
+  for (const std::string& setting : arguments.settings) {
+    if (auto set = applySetting(setting, plan.recipe); !set) return fail(set.error());
+  }
+  for (const std::string& corner : arguments.corners) {
+    if (auto set = applyCorner(corner, plan.recipe); !set) return fail(set.error());
+  }
+  if (arguments.dpi) plan.recipe.dpi = arguments.dpi;
+  if (auto problem = validate(plan.recipe)) return fail(std::move(*problem));
+  return plan;
+}
+
+}  // namespace batten::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/cli/trace_command.h"
+#include "core/base/result.h"
+#include "core/pipeline/recipe.h"
+
+namespace batten::cli {
+
+/// A checked request: everything that can be wrong in the words alone has been refused before any work is done.
+struct TracePlan {
+  enum class Format { Svg, CurveJson };
+  struct Output {
+    std::filesystem::path path;
+    Format format = Format::Svg;
+  };
+  struct Dump {
+    std::string stage;
+    std::filesystem::path path;
+  };
+  Recipe recipe;
+  std::vector<Output> outputs;
+  std::vector<Dump> dumps;
+};
+
+/// Recipe file first, then --set in the order given, then corners and resolution. @return BadParameter with what to do.
+Result<TracePlan> planTrace(const TraceArguments&);
+
+}  // namespace batten::cli
