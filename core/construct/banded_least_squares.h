@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/vec2.h"
+
+namespace batten {
+
+/// Linear least squares with a banded matrix and two right-hand sides (x and y), by Givens rotations, row by row: the
+/// normal equations are never formed. Cost: rows * width^2.
+class BandedLeastSquares {
+ public:
+  /// @param unknowns number of columns; @param width largest distance between first and last column of a row, plus one.
+  /// @param cyclic column numbers are taken modulo `unknowns` (periodic splines). The columns are then folded
+  /// (0, n-1, 1, n-2, ...), which keeps a band of twice the width.
+  BandedLeastSquares(int unknowns, int width, bool cyclic);
+
+  /// Adds the equation sum values[j] * x[first + j] = right.
+  void add(int first, std::span<const double> values, const Vec2& right);
+  /// The solution; absent if the columns are linearly dependent to machine precision.
+  std::optional<std::vector<Vec2>> solve() const;
+
+ private:
+  int place(int column) const;
+  double& factor(int row, int offset) {
+    return factor_[static_cast<std::size_t>(row) * static_cast<std::size_t>(band_) + static_cast<std::size_t>(offset)];
+  }
+  double factor(int row, int offset) const {
+    return factor_[static_cast<std::size_t>(row) * static_cast<std::size_t>(band_) + static_cast<std::size_t>(offset)];
+  }
+
+  int unknowns_, band_;
+  bool cyclic_;
+  std::vector<double> factor_;  ///< Upper triangle: row r holds columns r .. r + band - 1.
+  std::vector<Vec2> right_;
+  std::vector<double> work_;
+};
+
+}  // namespace batten

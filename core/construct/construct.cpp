@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/construct.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "core/base/parallel.h"
+#include "core/construct/fair_fit.h"
+#include "core/construct/quintic_nurbs.h"
+
+namespace batten {
+
+namespace {
+
+std::optional<Error> outside(const char* field, double value, double low, double high) {
+  if (value >= low && value <= high) return std::nullopt;
+  return Error{ErrorCode::BadParameter,
+               std::string(field) + " is " + std::to_string(value) + "; it must lie between " + std::to_string(low) +
+                   " and " + std::to_string(high) + ".",
+               {}};
+}
+
+Result<ConstructedPiece> constructPiece(const ConstructPiece& piece, const ConstructParams& params,
+                                        const RunContext& context) {
+  switch (params.method) {
+    case ConstructMethod::Fair:
+    case ConstructMethod::Nurbs:
+    case ConstructMethod::Bezier:
+    case ConstructMethod::Typical:
+    case ConstructMethod::ControlPolygon:
+      break;
+  }
+  return constructQuinticNurbs(piece, params, context);
+}
+
+}  // namespace
+
+std::optional<Error> validate(const ConstructParams& params) {
+  if (auto error = outside("construct.derivative_magnitude", params.derivativeMagnitude, 0.1, 3.0)) return error;
+  if (auto error = outside("construct.degree", params.degree, 2, 5)) return error;
+  return outside("construct.keep_extrema_cost", params.keepExtremaCost, 1.0, 1000.0);
+}
+
+Result<std::vector<ConstructedPiece>> construct(const ConstructContour& contour, const ConstructParams& params,
+                                                const RunContext& context) {
+  if (auto error = validate(params)) return fail(std::move(*error));
+  if (params.method == ConstructMethod::Fair) {
+    FairFitOptions options;
+    options.keepExtremaCost = params.keepExtremaCost;
+    return fairFit(contour, options, context);
+  }
+  try {
+    const int count = static_cast<int>(contour.pieces.size());
+    std::vector<Result<ConstructedPiece>> made(contour.pieces.size(), cancelled());
+    parallelFor(context, count, 1, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        made[at] = constructPiece(contour.pieces[at], params, context);
+      }
+    });
+    if (context.isCancelled()) return cancelled();
+    std::vector<ConstructedPiece> pieces;
+    for (auto& piece : made) {
+      if (!piece) return fail(std::move(piece.error()));
+      pieces.push_back(std::move(*piece));
+    }
+    return pieces;
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "There is not enough memory to construct the curves.");
+  }
+}
+
+}  // namespace batten

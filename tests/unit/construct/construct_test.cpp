@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/construct.h"
+
+#include <gtest/gtest.h>
+
+#include "core/curve/curve_analysis.h"
+#include "tests/unit/construct/stations_of.h"
+
+namespace batten {
+namespace {
+
+TEST(Construct, SaysWhichParameterIsWrong) {
+  ConstructParams params;
+  EXPECT_FALSE(validate(params));
+  params.derivativeMagnitude = 5.0;
+  ASSERT_TRUE(validate(params));
+  EXPECT_NE(validate(params)->message.find("derivative_magnitude"), std::string::npos);
+  params = {};
+  params.degree = 6;
+  EXPECT_TRUE(validate(params));
+  params = {};
+  params.keepExtremaCost = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(validate(params));
+  EXPECT_FALSE(construct({}, params, {}));
+}
+
+class EachMethod : public testing::TestWithParam<ConstructMethod> {};
+
+TEST_P(EachMethod, FollowsAnEllipseInPiecesOrClosed) {
+  ConstructContour contour;
+  contour.pieces.push_back(test::pieceOf(test::ellipsePoint, 0.1, 1.45, 10, false));
+  contour.pieces.push_back(test::pieceOf(test::ellipsePoint, 0.0, 2 * std::numbers::pi, 30, true));
+  contour.pieces[0].startIsCorner = contour.pieces[0].endIsCorner = true;
+  ConstructParams params;
+  params.method = GetParam();
+  const auto one = construct(contour, params, {});
+  RunContext threads;
+  threads.threads = 3;
+  const auto many = construct(contour, params, threads);
+  ASSERT_TRUE(one && many) << (one ? "" : one.error().message);
+  ASSERT_EQ(one->size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ((*one)[i].curve, (*many)[i].curve);
+    EXPECT_LT(deviation((*one)[i].curve, contour.pieces[i].points, true).max, 3.0);
+  }
+  const auto& open = (*one)[0].curve;
+  EXPECT_LT((open.point(open.start()) - contour.pieces[0].points.front()).norm(), 1e-9);
+  EXPECT_LT((open.point(open.end()) - contour.pieces[0].points.back()).norm(), 1e-9);
+}
+
+TEST_P(EachMethod, CancelsAndRefusesNothingness) {
+  ConstructContour contour;
+  contour.pieces.push_back(test::pieceOf(test::ellipsePoint, 0.1, 1.45, 10, false));
+  ConstructParams params;
+  params.method = GetParam();
+  RunContext context;
+  context.cancel.cancel();
+  const auto result = construct(contour, params, context);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::Cancelled);
+  contour.pieces.push_back({});
+  const auto nothing = construct(contour, params, {});
+  EXPECT_TRUE(nothing || nothing.error().code == ErrorCode::Numerical);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EachMethod,
+                         testing::Values(ConstructMethod::Nurbs, ConstructMethod::Bezier, ConstructMethod::Typical,
+                                         ConstructMethod::ControlPolygon));
+
+}  // namespace
+}  // namespace batten
