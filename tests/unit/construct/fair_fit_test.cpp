@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "fair_shapes.h"
 #include "tests/support/known_answers.h"
+#include "tests/unit/construct/fair_shapes.h"
 
 namespace batten {
 namespace {
@@ -32,3 +32,13 @@ TEST_P(FairKnownAnswer, FindsTheDrawnExtremaAndLiesOnThePoints) {
     }
     EXPECT_LE(nearest, tolerance) << "extremum at " << e.at(0);
   }
+  EXPECT_NEAR(piece.report.noisePx, 0.127, 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, FairKnownAnswer,
+                         testing::Values("13_fair_clothoid-monotone.json", "14_fair_nose-next-to-flat-hood.json",
+                                         "15_fair_roof-two-bumps.json", "16_fair_ellipse-closed.json",
+                                         "17_fair_circle-closed.json", "18_fair_straight-line.json"));
+
+}  // namespace
+}  // namespace batten
