@@ -6,6 +6,7 @@
 #include <new>
 
 #include "core/base/parallel.h"
+#include "core/construct/control_polygon.h"
 #include "core/construct/fair_fit.h"
 #include "core/construct/quintic_nurbs.h"
 
@@ -21,14 +22,15 @@ std::optional<Error> outside(const char* field, double value, double low, double
                {}};
 }
 
-Result<ConstructedPiece> constructPiece(const ConstructPiece& piece, const ConstructParams& params,
+Result<ConstructedPiece> constructPiece(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
                                         const RunContext& context) {
   switch (params.method) {
+    case ConstructMethod::ControlPolygon:
+      return constructControlPolygon(piece, pixelMm, params, context);
     case ConstructMethod::Fair:
     case ConstructMethod::Nurbs:
     case ConstructMethod::Bezier:
     case ConstructMethod::Typical:
-    case ConstructMethod::ControlPolygon:
       break;
   }
   return constructQuinticNurbs(piece, params, context);
@@ -56,7 +58,7 @@ Result<std::vector<ConstructedPiece>> construct(const ConstructContour& contour,
     parallelFor(context, count, 1, [&](int begin, int end) {
       for (int i = begin; i < end; ++i) {
         const auto at = static_cast<std::size_t>(i);
-        made[at] = constructPiece(contour.pieces[at], params, context);
+        made[at] = constructPiece(contour.pieces[at], contour.pixelMm, params, context);
       }
     });
     if (context.isCancelled()) return cancelled();

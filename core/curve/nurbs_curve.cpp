@@ -36,9 +36,11 @@ void basisValues(int degree, const double* knots, int span, double u, double* va
     for (int r = 0; r < j; ++r) {
       const double rightR = right[static_cast<std::size_t>(r + 1)];
       const double leftR = left[static_cast<std::size_t>(j - r)];
-      const double part = values[r] / (rightR + leftR);
-      values[r] = saved + rightR * part;
-      saved = leftR * part;
+      // Written so that the shares at both borders of a span are exactly 0 and 1: clamped curves start on their first
+      // point.
+      const double part = values[r] * (leftR / (rightR + leftR));
+      values[r] = saved + (values[r] - part);
+      saved = part;
     }
     values[j] = saved;
   }
@@ -98,9 +100,9 @@ BasisRow basis(int degree, std::span<const double> knots, int controlPointCount,
     for (int r = 0; r < j; ++r) {
       const double rightR = right[static_cast<std::size_t>(r + 1)], leftR = left[static_cast<std::size_t>(j - r)];
       ndu[j][r] = rightR + leftR;
-      const double part = ndu[r][j - 1] / ndu[j][r];
-      ndu[r][j] = saved + rightR * part;
-      saved = leftR * part;
+      const double part = ndu[r][j - 1] * (leftR / ndu[j][r]);
+      ndu[r][j] = saved + (ndu[r][j - 1] - part);
+      saved = part;
     }
     ndu[j][j] = saved;
   }

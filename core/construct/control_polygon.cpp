@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/control_polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/construct/piece_stations.h"
+#include "core/curve/knot_operations.h"
+
+namespace batten {
+
+namespace {
+
+constexpr double kThinningPx = 8.0;
+
+double polygonLength(std::span<const Vec2> points) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  return length;
+}
+
+/// Bezier points of one degree more.
+std::vector<Vec2> raised(const std::vector<Vec2>& b) {
+  const std::size_t n = b.size();
+  std::vector<Vec2> result = {b.front()};
+  for (std::size_t i = 1; i < n; ++i) {
+    const double f = static_cast<double>(i) / static_cast<double>(n);
+    result.emplace_back(f * b[i - 1] + (1.0 - f) * b[i]);
+  }
+  result.push_back(b.back());
+  return result;
+}
+
+/// Indices of the points that must stay: ends and sharp ones.
+std::vector<int> anchors(std::span<const Vec2> points, std::span<const int> sharp) {
+  const int last = static_cast<int>(points.size()) - 1;
+  std::vector<int> all = {0};
+  for (const int s : sharp) {
+    if (s > all.back() && s < last) all.push_back(s);
+  }
+  if (last > 0) all.push_back(last);
+  return all;
+}
+
+double distanceToChord(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 chord = b - a;
+  const double squared = chord.squaredNorm();
+  const double f = squared > 0.0 ? std::clamp((p - a).dot(chord) / squared, 0.0, 1.0) : 0.0;
+  return (p - a - f * chord).norm();
+}
+
+Result<NurbsCurve> scaledToLength(int degree, std::vector<double> knots, std::vector<Vec2> points, double length) {
+  auto curve = NurbsCurve::make(degree, std::move(knots), std::move(points));
+  if (!curve) return curve;
+  return reparametrized(*curve, 0.0, length);
+}
+
+Result<NurbsCurve> periodicPolygon(const std::vector<Vec2>& points, int degree) {
+  std::vector<Vec2> around = points;
+  for (int i = 0; i < degree; ++i) around.push_back(points[static_cast<std::size_t>(i) % points.size()]);
+  std::vector<double> knots;
+  for (int i = 0; i < static_cast<int>(around.size()) + degree + 1; ++i) knots.push_back(i - degree);
+  const double length = polygonLength(points) + (points.front() - points.back()).norm();
+  auto curve = scaledToLength(degree, std::move(knots), std::move(around), length);
+  if (!curve) return curve;
+  const Vec2 seam = curve->point(curve->start());
+  return clampedWithEnds(*curve, seam, seam);
+}
+
+}  // namespace
+
+std::vector<double> sharpKnotVector(int order, int controlPointCount, std::span<const int> sharp, SharpKnots kind) {
+  std::vector<double> knots;
+  const int total = controlPointCount + order;
+  if (kind == SharpKnots::Uniform) {
+    for (int i = 0; i < total; ++i) knots.push_back(i);
+    return knots;
+  }
+  knots.assign(static_cast<std::size_t>(order), 0.0);
+  double value = 1.0;
+  // The knot of 1-based index i belongs to the sharp point i (as printed) or i - 1 (a corner without a gap).
+  const int shift = kind == SharpKnots::Order ? 1 : 2;
+  const int times = kind == SharpKnots::Order ? order : order - 1;
+  while (static_cast<int>(knots.size()) < controlPointCount) {
+    const int index = static_cast<int>(knots.size()) + 1;
+    const bool isSharp = std::find(sharp.begin(), sharp.end(), index - shift) != sharp.end();
+    const int room = controlPointCount - static_cast<int>(knots.size());
+    knots.insert(knots.end(), static_cast<std::size_t>(isSharp ? std::min(times, room) : 1), value);
+    value += 1.0;
+  }
+  knots.insert(knots.end(), static_cast<std::size_t>(order), value);
+  return knots;
+}
+
+SharpPolygon withEnoughPoints(std::span<const Vec2> points, std::span<const int> sharp, int degree) {
+  SharpPolygon result;
+  if (points.empty()) return result;
+  const std::vector<int> keep = anchors(points, sharp);
+  result.points = {points.front()};
+  for (std::size_t k = 0; k + 1 < keep.size(); ++k) {
+    std::vector<Vec2> stretch(points.begin() + keep[k], points.begin() + keep[k + 1] + 1);
+    while (static_cast<int>(stretch.size()) < degree + 1) {
+      stretch = raised(stretch);
+      ++result.added;
+    }
+    result.points.insert(result.points.end(), stretch.begin() + 1, stretch.end());
+    if (k + 2 < keep.size()) result.sharp.push_back(static_cast<int>(result.points.size()) - 1);
+  }
+  return result;
+}
+
+Result<PolygonCurve> controlPolygonCurve(std::span<const Vec2> points, std::span<const int> sharp, int degree,
+                                         SharpKnots kind) {
+  const double length = polygonLength(points);
+  if (!(length > 0.0) || !std::isfinite(length) || degree < 1 || degree > 5) {
+    return fail(ErrorCode::Numerical, "A control polygon needs at least two distinct points.");
+  }
+  // As printed and uniform: no points are added between corners, only as many as any curve of the degree needs.
+  const bool spread = kind == SharpKnots::Degree;
+  SharpPolygon polygon = withEnoughPoints(points, spread ? sharp : std::span<const int>{}, degree);
+  if (!spread) polygon.sharp.assign(sharp.begin(), sharp.end());
+  PolygonCurve result;
+  auto knots = sharpKnotVector(degree + 1, static_cast<int>(polygon.points.size()), polygon.sharp, kind);
+  auto curve = scaledToLength(degree, std::move(knots), std::move(polygon.points), length);
+  if (!curve) return fail(curve.error());
+  result.curve = std::move(*curve);
+  if (kind == SharpKnots::Order && !sharp.empty()) {
+    result.warning = "Knots of multiplicity = order break the curve just before each sharp point.";
+  } else if (polygon.added > 0) {
+    result.warning = "Between close sharp points " + std::to_string(polygon.added) + " control points were added.";
+  }
+  return result;
+}
+
+std::vector<int> thinnedByStep(std::span<const Vec2> points, std::span<const int> sharp, double step) {
+  if (points.empty()) return {};
+  if (!(step > 0.0)) {
+    std::vector<int> all(points.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  std::vector<double> length = {0.0};
+  for (std::size_t i = 1; i < points.size(); ++i) length.push_back(length.back() + (points[i] - points[i - 1]).norm());
+  const std::vector<int> keep = anchors(points, sharp);
+  std::vector<int> result = {0};
+  for (std::size_t k = 0; k + 1 < keep.size(); ++k) {
+    const double from = length[static_cast<std::size_t>(keep[k])], to = length[static_cast<std::size_t>(keep[k + 1])];
+    const double possible = std::floor((to - from) / step);
+    const int parts = static_cast<int>(std::clamp(possible, 1.0, static_cast<double>(points.size())));
+    for (int i = 1; i < parts; ++i) {
+      const double wanted = from + (to - from) * i / parts;
+      auto near = std::lower_bound(length.begin(), length.end(), wanted);
+      if (near != length.begin() && wanted - *(near - 1) < *near - wanted) --near;
+      const int index = static_cast<int>(near - length.begin());
+      if (index > result.back() && index < keep[k + 1]) result.push_back(index);
+    }
+    result.push_back(keep[k + 1]);
+  }
+  return result;
+}
+
+std::vector<int> thinnedByTolerance(std::span<const Vec2> points, std::span<const int> sharp, double tolerance) {
+  if (points.empty()) return {};
+  std::vector<bool> stays(points.size(), false);
+  const std::vector<int> keep = anchors(points, sharp);
+  for (const int k : keep) stays[static_cast<std::size_t>(k)] = true;
+  std::vector<std::pair<int, int>> open;
+  for (std::size_t k = 0; k + 1 < keep.size(); ++k) open.emplace_back(keep[k], keep[k + 1]);
+  // Douglas and Peucker with a list of its own: long lines must not exhaust the call stack.
+  while (!open.empty()) {
+    const auto [from, to] = open.back();
+    open.pop_back();
+    int worst = -1;
+    double largest = tolerance;
+    for (int i = from + 1; i < to; ++i) {
+      const double d = distanceToChord(points[static_cast<std::size_t>(i)], points[static_cast<std::size_t>(from)],
+                                       points[static_cast<std::size_t>(to)]);
+      if (d > largest) {
+        largest = d;
+        worst = i;
+      }
+    }
+    if (worst < 0) continue;
+    stays[static_cast<std::size_t>(worst)] = true;
+    open.emplace_back(from, worst);
+    open.emplace_back(worst, to);
+  }
+  std::vector<int> result;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (stays[i]) result.push_back(static_cast<int>(i));
+  }
+  return result;
+}
+
+Result<ConstructedPiece> constructControlPolygon(const ConstructPiece& piece, double pixelMm,
+                                                 const ConstructParams& params, const RunContext& context) {
+  if (context.isCancelled()) return cancelled();
+  std::vector<Vec2> points;
+  for (const int i : thinnedByStep(piece.points, {}, kThinningPx * pixelMm)) {
+    const Vec2& p = piece.points[static_cast<std::size_t>(i)];
+    if (p.allFinite() && (points.empty() || p != points.back())) points.push_back(p);
+  }
+  if (piece.closed && points.size() > 1 && points.front() == points.back()) points.pop_back();
+  ConstructedPiece result;
+  if (piece.closed && points.size() >= 3) {
+    auto curve = periodicPolygon(points, params.degree);
+    if (!curve) return fail(curve.error());
+    result.curve = std::move(*curve);
+  } else {
+    auto made = controlPolygonCurve(points, {}, params.degree, SharpKnots::Degree);
+    if (!made || piece.closed) return straightPiece(piece, "Too few points for a control polygon.");
+    result.curve = std::move(made->curve);
+  }
+  result.report.why = Termination::Exact;
+  return result;
+}
+
+}  // namespace batten

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/control_polygon.h"
+
+#include <gtest/gtest.h>
+
+#include "core/curve/curve_analysis.h"
+#include "tests/support/known_answers.h"
+#include "tests/unit/construct/stations_of.h"
+
+namespace batten {
+namespace {
+
+std::vector<int> zeroBased(const nlohmann::json& list) {
+  std::vector<int> result;
+  for (const auto& i : list) result.push_back(i.get<int>() - 1);
+  return result;
+}
+
+TEST(SharpKnotVector, MatchesThePaperAndTheKnownAnswer) {
+  const auto answer = test::knownAnswer(BATTEN_TEST_DATA, "04_knots.json");
+  const auto sharp = zeroBased(answer.at("sharp_1based"));
+  const int count = answer.at("n_control");
+  for (const int order : {3, 4, 5}) {
+    const auto name = "order" + std::to_string(order);
+    EXPECT_EQ(sharpKnotVector(order, count, sharp, SharpKnots::Order), answer.at(name).get<std::vector<double>>());
+    if (order < 5) {
+      EXPECT_EQ(sharpKnotVector(order, count, sharp, SharpKnots::Degree),
+                answer.at(name + "_C0_recommended").get<std::vector<double>>());
+    }
+  }
+  // The printed listing of order 4 is too long by one: misprinted.
+  EXPECT_EQ(answer.at("order4_paper_listing_as_printed").size(), 90u);
+}
+
+TEST(ControlPolygonCurve, SmallCaseOfTheKnownAnswer) {
+  const auto small = test::knownAnswer(BATTEN_TEST_DATA, "04_knots.json").at("small_case");
+  const auto points = test::toPoints(small.at("control"));
+  const std::vector<int> sharp = {small.at("sharp_1based").get<int>() - 1};
+  for (const bool paper : {true, false}) {
+    const auto kind = paper ? SharpKnots::Order : SharpKnots::Degree;
+    EXPECT_EQ(sharpKnotVector(4, 9, sharp, kind),
+              small.at(paper ? "order4_paper" : "order4_C0").get<std::vector<double>>());
+    const auto made = controlPolygonCurve(points, sharp, 3, kind);
+    ASSERT_TRUE(made);
+    EXPECT_EQ(made->warning.empty(), !paper);
+    const auto limits = test::toPoints(small.at(paper ? "left_right_limits_paper" : "left_right_limits_C0"));
+    const auto breaks = made->curve.breaks();
+    // The corner knot is the one where the direction turns by a right angle.
+    const double knot = made->curve.knots()[paper ? 4 : 5];
+    EXPECT_LT((made->curve.point(knot - 1e-9 * breaks.back()) - limits[0]).norm(), 1e-6);
+    EXPECT_LT((made->curve.point(knot) - limits[1]).norm(), 1e-9);
+  }
+}
+
+TEST(ControlPolygonCurve, PassesThroughSharpPointsHoweverCloseTheyAre) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> where(0.0, 100.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    const int degree = 2 + trial % 4;
+    std::vector<Vec2> points;
+    std::vector<int> sharp;
+    const int count = 2 + static_cast<int>(random() % 25);
+    for (int i = 0; i < count; ++i) {
+      points.emplace_back(where(random), where(random));
+      if (i > 0 && i + 1 < count && random() % 3 == 0) sharp.push_back(i);
+    }
+    const auto made = controlPolygonCurve(points, sharp, degree, SharpKnots::Degree);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_EQ(made->curve.degree(), degree);
+    EXPECT_EQ(made->curve.point(made->curve.start()), points.front());
+    EXPECT_LT((made->curve.point(made->curve.end()) - points.back()).norm(), 1e-12);
+    for (const int s : sharp) {
+      EXPECT_LT(closestPoint(made->curve, points[static_cast<std::size_t>(s)]).distance, 1e-9);
+    }
+    // No break: the curve is nowhere two points at once.
+    const auto& c = made->curve;
+    for (const double u : c.breaks()) {
+      EXPECT_LT((c.point(u) - c.point(u - 1e-10 * c.end())).norm(), 1e-4);
+    }
+  }
+}
+
+TEST(ControlPolygonCurve, UniformStaysAwayFromTheCorner) {
+  std::vector<Vec2> points;
+  for (int i = 0; i <= 10; ++i) points.emplace_back(i < 6 ? i : 5, i < 6 ? 0 : i - 5);
+  const std::vector<int> sharp = {5};
+  const auto uniform = controlPolygonCurve(points, sharp, 3, SharpKnots::Uniform).value();
+  const auto cornered = controlPolygonCurve(points, sharp, 3, SharpKnots::Degree).value();
+  EXPECT_NEAR(closestPoint(uniform.curve, {5, 0}).distance, std::sqrt(2.0) / 6.0, 1e-6);
+  EXPECT_LT(closestPoint(cornered.curve, {5, 0}).distance, 1e-9);
+  EXPECT_GT((uniform.curve.point(uniform.curve.start()) - points.front()).norm(), 0.5);
+  EXPECT_FALSE(controlPolygonCurve(std::span(points).first(1), {}, 3, SharpKnots::Degree));
+}
+
+TEST(ControlPolygonCurve, AddedPointsLeaveTheShapeOfALowerDegree) {
+  // Three points between two corners: a parabola, whatever the degree asked for.
+  const std::vector<Vec2> points = {{0, 0}, {4, 5}, {11, 3}};
+  for (int degree = 2; degree <= 5; ++degree) {
+    const auto made = controlPolygonCurve(points, {}, degree, SharpKnots::Degree).value();
+    for (const double f : {0.0, 0.2, 0.5, 0.8, 1.0}) {
+      const Vec2 parabola = (1 - f) * (1 - f) * points[0] + 2 * f * (1 - f) * points[1] + f * f * points[2];
+      EXPECT_LT((made.curve.point(f * made.curve.end()) - parabola).norm(), 1e-12);
+    }
+  }
+}
+
+TEST(Thinned, KeepsEndsAndSharpPointsAndTheTolerance) {
+  std::vector<Vec2> points;
+  for (int i = 0; i <= 500; ++i) points.push_back(test::ellipsePoint(0.003 * i));
+  const std::vector<int> sharp = {100, 103, 333};
+  const auto byStep = thinnedByStep(points, sharp, 20.0);
+  const auto byTolerance = thinnedByTolerance(points, sharp, 0.5);
+  for (const auto& kept : {byStep, byTolerance}) {
+    EXPECT_EQ(kept.front(), 0);
+    EXPECT_EQ(kept.back(), 500);
+    EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
+    EXPECT_LT(kept.size(), 60u);
+    for (const int s : sharp) EXPECT_NE(std::find(kept.begin(), kept.end(), s), kept.end());
+  }
+  for (std::size_t k = 0; k + 1 < byTolerance.size(); ++k) {
+    const Vec2 a = points[static_cast<std::size_t>(byTolerance[k])];
+    const Vec2 chord = (points[static_cast<std::size_t>(byTolerance[k + 1])] - a).normalized();
+    for (int i = byTolerance[k]; i <= byTolerance[k + 1]; ++i) {
+      EXPECT_LE(std::abs(cross(chord, points[static_cast<std::size_t>(i)] - a)), 0.5 + 1e-12);
+    }
+  }
+  EXPECT_TRUE(thinnedByStep({}, {}, 1.0).empty());
+  EXPECT_EQ(thinnedByStep(points, {}, 0.0).size(), points.size());
+}
+
+TEST(ConstructControlPolygon, AllDegreesOpenAndClosed) {
+  for (int degree = 2; degree <= 5; ++degree) {
+    ConstructParams params;
+    params.degree = degree;
+    const auto open = test::pieceOf(test::ellipsePoint, 0.1, 2.0, 10, false);
+    const auto made = constructControlPolygon(open, 1.0, params, {}).value();
+    EXPECT_EQ(made.curve.degree(), degree);
+    EXPECT_LT(deviation(made.curve, open.points, true).max, 0.5);
+    EXPECT_EQ(made.curve.point(made.curve.start()), open.points.front());
+    const auto closed = test::pieceOf(test::ellipsePoint, 0.0, 2 * std::numbers::pi, 10, true);
+    const auto around = constructControlPolygon(closed, 1.0, params, {}).value();
+    EXPECT_LT(deviation(around.curve, closed.points, true).max, 0.5);
+    const auto a = around.curve.derivatives(around.curve.start(), degree - 1);
+    const auto b = around.curve.derivatives(around.curve.end(), degree - 1);
+    for (std::size_t d = 0; d < static_cast<std::size_t>(degree); ++d) EXPECT_LT((a[d] - b[d]).norm(), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace batten
