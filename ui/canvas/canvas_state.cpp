@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/canvas_state.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/image/log_transform.h"
+#include "ui/canvas/layers/vector_layers.h"
+
+namespace batten {
+namespace {
+
+constexpr int kLateMs = 200;
+constexpr int kFlashMs = 350;
+constexpr double kSuggestionAngleRad = 35.0 * std::numbers::pi / 180.0;
+constexpr double kSuggestionScalePx = 14.0;
+
+}  // namespace
+
+CurveCanvas::State::State(CurveCanvas& owner, EditorSession& s, ViewSettings& v)
+    : CanvasScene(s, v), canvas(owner), tools{makeSelectTool(*this), makeThresholdTool(*this), makeCornerTool(*this)} {
+  repaint = [this] { canvas.update(); };
+  hint = [this](const QString& text) {
+    if (text == lastHint) return;
+    lastHint = text;
+    emit canvas.hint(text);
+  };
+  flash = [this](const Vec2& px) {
+    flashPx = px;
+    flashAge.start();
+    flashTimer.start();
+    canvas.update();
+  };
+  flashTimer.setInterval(25);
+  QObject::connect(&flashTimer, &QTimer::timeout, &inbox, [this] {
+    if (flashAge.elapsed() > kFlashMs) {
+      flashPx.reset();
+      flashTimer.stop();
+    }
+    canvas.update();
+  });
+  lateTimer.setSingleShot(true);
+  lateTimer.setInterval(kLateMs);
+  QObject::connect(&lateTimer, &QTimer::timeout, &inbox, [this] {
+    isLate = session.isBusy();
+    canvas.update();
+  });
+}
+
+void CurveCanvas::State::scanOpened() {
+  const auto scan = session.scan();
+  pyramid = coarsePyramid(scan);
+  shapes.reset();
+  combs.reset();
+  suggestions.clear();
+  suggestionsFor.reset();
+  ghost = {};
+  for (const auto& each : tools) each->reset();
+  transform.setImageSize({scan->grey.width, scan->grey.height});
+  transform.fit();
+  isFitted = true;
+  imaging.start([this, scan](const CancelToken& token) {
+    RunContext context;
+    context.cancel = token;
+    auto built = buildPyramid(scan, context);
+    if (!built) return;
+    QMetaObject::invokeMethod(
+        &inbox,
+        [this, scan, built] {
+          if (scan != session.scan()) return;
+          pyramid = built;
+          canvas.update();
+        },
+        Qt::QueuedConnection);
+  });
+  emit canvas.zoomChanged(transform.zoom());
+  canvas.update();
+}
+
+void CurveCanvas::State::stageReady(StageId stage) {
+  if (stage == StageId::Contours) requestSuggestions();
+  if (stage == StageId::Curves || stage == StageId::Faired) {
+    requestShapes();
+    requestCombs();
+  }
+  canvas.update();
+}
+
+void CurveCanvas::State::recipeChanged() { canvas.update(); }
+
+void CurveCanvas::State::viewChanged() {
+  session.setEdgesWanted(view.isVisible(Layer::Edges));
+  requestSuggestions();
+  canvas.update();
+}
+
+void CurveCanvas::State::transformChanged() {
+  requestShapes();
+  canvas.update();
+}
+
+void CurveCanvas::State::selectionChanged() {
+  requestCombs();
+  hoverChanged();
+  canvas.update();
+}
+
+void CurveCanvas::State::hoverChanged() {
+  ghost = {};
+  ghostDegree = session.hoveredTarget();
+  const auto targets = session.targets();
+  if (ghostDegree >= 1 && ghostDegree <= 6 && targets) {
+    const auto& outcome = targets->faired[static_cast<std::size_t>(ghostDegree - 1)];
+    if (outcome) ghost = sampledPath(outcome->curve, session.output().frame, 0.15 / zoomBracket(transform.zoom()));
+  }
+  canvas.update();
+}
+
+void CurveCanvas::State::busyChanged(bool busy) {
+  isLate = false;
+  if (busy)
+    lateTimer.start();
+  else
+    lateTimer.stop();
+  canvas.update();
+}
+
+CurveSource CurveCanvas::State::source() const {
+  const PipelineOutput& output = session.output();
+  CurveSource from;
+  from.faired = output.faired;
+  if (!from.faired) from.constructed = output.constructed;
+  from.frame = output.frame;
+  return from;
+}
+
+void CurveCanvas::State::requestShapes() {
+  const CurveSource from = source();
+  const double bracket = zoomBracket(transform.zoom());
+  if (from == shapesFor && bracket == shapesZoom) return;
+  shapesFor = from;
+  shapesZoom = bracket;
+  shaping.start([this, from, bracket](const CancelToken& token) {
+    RunContext context;
+    context.cancel = token;
+    auto built = buildShapes(from, bracket, context);
+    if (!built) return;
+    QMetaObject::invokeMethod(
+        &inbox,
+        [this, built] {
+          if (!(built->source == source())) return;
+          shapes = built;
+          canvas.update();
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void CurveCanvas::State::requestCombs() {
+  const CurveSource from = source();
+  const int selected = session.selectedCurve();
+  if (from == combsFor && selected == combsSelected) return;
+  combsFor = from;
+  combsSelected = selected;
+  combing.start([this, from, selected](const CancelToken& token) {
+    RunContext context;
+    context.cancel = token;
+    auto built = buildCombs(from, selected, context);
+    if (!built) return;
+    QMetaObject::invokeMethod(
+        &inbox,
+        [this, built] {
+          if (!(built->source == source())) return;
+          combs = built;
+          canvas.update();
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void CurveCanvas::State::requestSuggestions() {
+  const auto contours = session.output().contours;
+  if (view.tool() != Tool::Corners || contours == suggestionsFor) return;
+  suggestionsFor = contours;
+  if (!contours) {
+    suggestions.clear();
+    return;
+  }
+  suggesting.start([this, contours](const CancelToken&) {
+    auto found = suggestCorners(*contours, kSuggestionAngleRad, kSuggestionScalePx);
+    QMetaObject::invokeMethod(
+        &inbox,
+        [this, contours, found = std::move(found)] {
+          if (contours != suggestionsFor) return;
+          suggestions = found;
+          canvas.update();
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+RasterContent CurveCanvas::State::rasterContent() const {
+  RasterContent content;
+  const auto scan = session.scan();
+  if (!scan) return content;
+  content.pyramid = pyramid;
+  content.pageWidth = scan->grey.width;
+  content.pageHeight = scan->grey.height;
+  const bool isLog = view.isVisible(Layer::LogImage) && !view.isScanOnly();
+  content.showsPicture = view.isVisible(Layer::Scan) || isLog || view.isScanOnly();
+  if (isLog) content.tones = toneTable(session.recipe().log);
+  if (view.isScanOnly()) return content;
+  const PipelineOutput& output = session.output();
+  if (view.isVisible(Layer::Mask)) {
+    if (output.filtered)
+      content.mask = std::shared_ptr<const BitImage>(output.filtered, &output.filtered->ink);
+    else
+      content.mask = output.binary;
+  }
+  if (view.isVisible(Layer::Edges)) content.edges = output.edges;
+  return content;
+}
+
+CurveCanvas::State::StillKey CurveCanvas::State::keyNow() const {
+  StillKey key;
+  key.raster = rasterContent();
+  key.origin = transform.origin();
+  key.size = transform.viewSize();
+  key.zoom = transform.zoom();
+  key.ratio = transform.ratio();
+  key.combScale = view.combScale();
+  key.combDensity = view.combDensity();
+  key.selected = session.selectedCurve();
+  for (std::size_t i = 0; i < kLayers.size(); ++i) key.layers |= view.isVisible(kLayers[i]) ? 1 << i : 0;
+  if (view.isScanOnly()) key.layers = -1;
+  key.shapes = shapes.get();
+  key.combs = combs.get();
+  key.segments = session.output().segments.get();
+  key.pieces = session.output().pieces.get();
+  key.marks = session.recipe().cornerMarks;
+  key.piecesStale = session.isStale(StageId::Pieces);
+  return key;
+}
+
+void CurveCanvas::State::paintLayers(QPainter& painter) {
+  if (view.isScanOnly()) return;
+  if (view.isVisible(Layer::Segments)) paintSegments(painter, *this);
+  if (view.isVisible(Layer::Curve)) paintSketched(painter, *this);
+  if (view.isVisible(Layer::Faired)) paintFaired(painter, *this);
+  if (view.isVisible(Layer::Comb)) paintCombs(painter, *this);
+  if (view.isVisible(Layer::Corners)) paintCorners(painter, *this);
+  if (view.isVisible(Layer::Regions) && view.tool() != Tool::Thresholds) paintRegionGrid(painter, *this);
+  if (view.isVisible(Layer::Deviation)) paintDeviation(painter, *this);
+}
+
+void CurveCanvas::State::paintStill() {
+  const StillKey key = keyNow();
+  if (!still.isNull() && key == stillKey) return;
+  if (still.size() != key.size) still = QImage(key.size, QImage::Format_RGB32);
+  if (still.isNull()) return;
+  still.setDevicePixelRatio(1.0);
+  {
+    QPainter painter(&still);
+    tiles.paint(painter, transform, key.raster);
+  }
+  still.setDevicePixelRatio(key.ratio);
+  QPainter painter(&still);
+  paintLayers(painter);
+  stillKey = key;
+}
+
+void CurveCanvas::State::paintFlash(QPainter& painter) {
+  if (!flashPx) return;
+  const double t = std::min(1.0, static_cast<double>(flashAge.elapsed()) / kFlashMs);
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(QColor(90, 90, 90, static_cast<int>(190 * (1.0 - t))), 1.6));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawEllipse(transform.toWidget(*flashPx), 5.0 + 12.0 * t, 5.0 + 12.0 * t);
+  painter.restore();
+}
+
+void CurveCanvas::State::paint(QPainter& painter) {
+  palette = canvas.palette();
+  font = canvas.font();
+  if (font.pixelSize() <= 0 || font.pixelSize() > 12) font.setPixelSize(12);
+  paintStill();
+  if (!still.isNull()) painter.drawImage(QPointF(0, 0), still);
+  if (!session.hasScan()) {
+    paintDropHint(painter, *this);
+    return;
+  }
+  if (!view.isScanOnly()) {
+    if (!ghost.isEmpty()) paintGhost(painter, *this, ghost);
+    tool().paint(painter);
+    paintCursor(painter, *this);
+    paintFlash(painter);
+  }
+  paintChips(painter, *this);
+}
+
+void CurveCanvas::State::linkCursor(const std::optional<Vec2>& px) {
+  const CurveComb* comb = selectedComb();
+  if (px && comb != nullptr) {
+    if (const auto near = nearestOn(comb->points, *px); near && near->distance <= reachImagePx()) {
+      const auto i = static_cast<std::size_t>(near->position);
+      const auto next = std::min(i + 1, comb->points.size() - 1);
+      const double t = near->position - static_cast<double>(i);
+      ownsCursor = true;
+      session.setCursor(comb->points[i].s + t * (comb->points[next].s - comb->points[i].s));
+      return;
+    }
+  }
+  if (ownsCursor) session.setCursor(std::nullopt);
+  ownsCursor = false;
+}
+
+void CurveCanvas::State::updateMouseCursor() {
+  const Qt::CursorShape shape = isPanning   ? Qt::ClosedHandCursor
+                                : spaceHeld ? Qt::OpenHandCursor
+                                            : tool().cursorShape();
+  if (canvas.cursor().shape() != shape) canvas.setCursor(shape);
+}
+
+ToolEvent CurveCanvas::State::toolEvent(QPointF widget, Qt::KeyboardModifiers modifiers) const {
+  return {widget, transform.toImage(widget), modifiers};
+}
+
+}  // namespace batten

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QElapsedTimer>
+#include <QImage>
+#include <QTimer>
+#include <array>
+#include <tuple>
+
+#include "ui/canvas/canvas_scene.h"
+#include "ui/canvas/curve_canvas.h"
+#include "ui/canvas/screen_tiles.h"
+#include "ui/canvas/tools/canvas_tool.h"
+#include "ui/session/background_worker.h"
+
+namespace batten {
+
+/// The canvas' own state: the scene, what is computed for it in the background, and the gesture in progress.
+struct CurveCanvas::State : CanvasScene {
+  State(CurveCanvas&, EditorSession&, ViewSettings&);
+
+  void scanOpened();
+  void stageReady(StageId);
+  void recipeChanged();
+  void viewChanged();
+  void transformChanged();
+  void selectionChanged();
+  void hoverChanged();
+  void busyChanged(bool busy);
+  CanvasTool& tool() { return *tools[static_cast<std::size_t>(view.tool())]; }
+
+  void paint(QPainter&);
+  RasterContent rasterContent() const;
+  /// Sets the common cursor when the mouse is near the selected curve, clears it when it has left.
+  void linkCursor(const std::optional<Vec2>& px);
+  void updateMouseCursor();
+  ToolEvent toolEvent(QPointF widget, Qt::KeyboardModifiers) const;
+
+  CurveCanvas& canvas;
+  ScreenTiles tiles;
+  std::array<std::unique_ptr<CanvasTool>, 3> tools;
+  QPainterPath ghost;
+  int ghostDegree = 0;
+  bool isFitted = true;  ///< Follows the size of the view until the user zooms or pans.
+  bool isPanning = false, isPressed = false, spaceHeld = false, ownsCursor = false;
+  QPointF lastMouse;
+  QString lastHint;
+  std::optional<Vec2> flashPx;
+  QElapsedTimer flashAge;
+  QTimer flashTimer, lateTimer;
+
+  /// What is under the overlay, kept as long as nothing of it changes, so that moving the mouse costs one blit.
+  QImage still;
+  struct StillKey {
+    RasterContent raster;
+    QPoint origin;
+    QSize size;
+    double zoom = 0.0, ratio = 0.0, combScale = 0.0;
+    int combDensity = 0, selected = -1, layers = 0;
+    const void *shapes = nullptr, *combs = nullptr, *segments = nullptr, *pieces = nullptr;
+    std::vector<CornerMark> marks;
+    bool piecesStale = false;
+    bool operator==(const StillKey&) const = default;
+  };
+  StillKey stillKey;
+
+  QObject inbox;
+  BackgroundWorker imaging, shaping, combing, suggesting;
+
+ private:
+  void paintStill();
+  void paintLayers(QPainter&);
+  void requestShapes();
+  void requestCombs();
+  void requestSuggestions();
+  CurveSource source() const;
+  StillKey keyNow() const;
+  void paintFlash(QPainter&);
+
+  CurveSource shapesFor, combsFor;
+  double shapesZoom = 0.0;
+  int combsSelected = -2;
+  std::shared_ptr<const ContourSet> suggestionsFor;
+};
+
+}  // namespace batten

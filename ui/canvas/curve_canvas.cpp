@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/curve_canvas.h"
+
+#include <QGestureEvent>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QNativeGestureEvent>
+#include <QPaintEvent>
+#include <QPainter>
+#include <QPinchGesture>
+#include <QWheelEvent>
+#include <cmath>
+
+#include "ui/canvas/canvas_state.h"
+
+namespace batten {
+namespace {
+
+constexpr double kZoomPerNotch = 1.2;
+constexpr double kArrowStepPx = 60.0;
+
+double notches(const QWheelEvent& event) {
+  const QPoint angle = event.angleDelta();
+  return (angle.y() != 0 ? angle.y() : angle.x()) / 120.0;
+}
+
+}  // namespace
+
+CurveCanvas::CurveCanvas(EditorSession& session, ViewSettings& view, QWidget* parent)
+    : QWidget(parent), state_(std::make_unique<State>(*this, session, view)) {
+  setMouseTracking(true);
+  setFocusPolicy(Qt::StrongFocus);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  setMinimumSize(240, 180);
+  grabGesture(Qt::PinchGesture);
+  setAccessibleName(tr("Drawing"));
+  State* state = state_.get();
+  connect(&session, &EditorSession::scanOpened, this, [state] { state->scanOpened(); });
+  connect(&session, &EditorSession::stageReady, this, [state](StageId stage) { state->stageReady(stage); });
+  connect(&session, &EditorSession::recipeChanged, this, [state] { state->recipeChanged(); });
+  connect(&session, &EditorSession::selectionChanged, this, [state] { state->selectionChanged(); });
+  connect(&session, &EditorSession::targetsChanged, this, [state] { state->hoverChanged(); });
+  connect(&session, &EditorSession::hoverChanged, this, [state] { state->hoverChanged(); });
+  connect(&session, &EditorSession::cursorChanged, this, qOverload<>(&QWidget::update));
+  connect(&session, &EditorSession::runFinished, this, qOverload<>(&QWidget::update));
+  connect(&session, &EditorSession::busyChanged, this, [state](bool busy) { state->busyChanged(busy); });
+  connect(&view, &ViewSettings::changed, this, [state] { state->viewChanged(); });
+  connect(&view, &ViewSettings::selectedRegionChanged, this, qOverload<>(&QWidget::update));
+  connect(&view, &ViewSettings::toolChanged, this, [state] {
+    for (const auto& tool : state->tools) tool->reset();
+    state->hint({});
+    state->viewChanged();
+    state->updateMouseCursor();
+  });
+  if (session.hasScan()) {
+    state_->scanOpened();
+    state_->stageReady(StageId::Contours);
+    state_->stageReady(StageId::Faired);
+  }
+  state_->viewChanged();
+}
+
+CurveCanvas::~CurveCanvas() = default;
+
+void CurveCanvas::zoomFit() {
+  state_->transform.fit();
+  state_->isFitted = true;
+  state_->transformChanged();
+  emit zoomChanged(zoom());
+}
+
+void CurveCanvas::zoomActual() { zoomBy(1.0 / zoom()); }
+
+void CurveCanvas::zoomBy(double factor) {
+  state_->transform.zoomAt(zoom() * factor, state_->transform.centre());
+  state_->isFitted = false;
+  state_->transformChanged();
+  emit zoomChanged(zoom());
+}
+
+double CurveCanvas::zoom() const { return state_->transform.zoom(); }
+
+QPointF CurveCanvas::toWidget(const Vec2& imagePx) const { return state_->transform.toWidget(imagePx); }
+
+Vec2 CurveCanvas::toImage(const QPointF& widget) const { return state_->transform.toImage(widget); }
+
+void CurveCanvas::paintEvent(QPaintEvent*) {
+  const double ratio = devicePixelRatioF();
+  const QSize device(static_cast<int>(std::lround(width() * ratio)), static_cast<int>(std::lround(height() * ratio)));
+  if (device != state_->transform.viewSize() || ratio != state_->transform.ratio()) {
+    state_->transform.setViewSize(device, ratio);
+    if (state_->isFitted) state_->transform.fit();
+  }
+  QPainter painter(this);
+  state_->paint(painter);
+}
+
+void CurveCanvas::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  const double ratio = devicePixelRatioF();
+  state_->transform.setViewSize(
+      QSize(static_cast<int>(std::lround(width() * ratio)), static_cast<int>(std::lround(height() * ratio))), ratio);
+  if (!state_->isFitted) return;
+  state_->transform.fit();
+  state_->transformChanged();
+  emit zoomChanged(zoom());
+}
+
+void CurveCanvas::wheelEvent(QWheelEvent* event) {
+  const double steps = notches(*event);
+  if (steps == 0.0) return;
+  State& s = *state_;
+  event->accept();
+  if (event->modifiers().testFlag(Qt::ShiftModifier)) {
+    const bool isSideways = event->angleDelta().y() != 0;
+    s.transform.pan(isSideways ? QPointF(steps * kArrowStepPx, 0) : QPointF(0, steps * kArrowStepPx));
+    s.isFitted = false;
+    s.transformChanged();
+    return;
+  }
+  const bool isForTool = !s.spaceHeld && s.session.hasScan() && !s.view.isScanOnly();
+  if (isForTool && s.tool().wheel(s.toolEvent(event->position(), event->modifiers()), steps)) return;
+  s.transform.zoomAt(zoom() * std::pow(kZoomPerNotch, steps), event->position());
+  s.isFitted = false;
+  s.transformChanged();
+  emit zoomChanged(zoom());
+}
+
+void CurveCanvas::mousePressEvent(QMouseEvent* event) {
+  State& s = *state_;
+  s.lastMouse = event->position();
+  if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && s.spaceHeld)) {
+    s.isPanning = true;
+  } else if (event->button() == Qt::LeftButton && s.session.hasScan() && !s.view.isScanOnly()) {
+    s.isPressed = true;
+    s.tool().press(s.toolEvent(event->position(), event->modifiers()));
+  } else {
+    event->ignore();
+    return;
+  }
+  s.updateMouseCursor();
+}
+
+void CurveCanvas::mouseMoveEvent(QMouseEvent* event) {
+  State& s = *state_;
+  const QPointF way = event->position() - s.lastMouse;
+  s.lastMouse = event->position();
+  if (s.isPanning) {
+    s.transform.pan(way);
+    s.isFitted = false;
+    s.transformChanged();
+    return;
+  }
+  if (!s.session.hasScan()) return;
+  const ToolEvent at = s.toolEvent(event->position(), event->modifiers());
+  emit hovered(at.px);
+  if (!s.view.isScanOnly()) {
+    s.tool().move(at, s.isPressed);
+    if (!s.isPressed) s.linkCursor(at.px);
+  }
+  s.updateMouseCursor();
+}
+
+void CurveCanvas::mouseReleaseEvent(QMouseEvent* event) {
+  State& s = *state_;
+  if (s.isPanning && (event->button() == Qt::MiddleButton || event->button() == Qt::LeftButton)) {
+    s.isPanning = false;
+  } else if (event->button() == Qt::LeftButton && s.isPressed) {
+    s.isPressed = false;
+    s.tool().release(s.toolEvent(event->position(), event->modifiers()));
+  }
+  s.updateMouseCursor();
+}
+
+void CurveCanvas::mouseDoubleClickEvent(QMouseEvent* event) {
+  State& s = *state_;
+  if (event->button() != Qt::LeftButton || s.spaceHeld || !s.session.hasScan()) return;
+  const ToolEvent at = s.toolEvent(event->position(), event->modifiers());
+  // The second press of a double click is a press like any other for tools that do not know double clicks.
+  if (s.view.tool() == Tool::Thresholds) {
+    s.tool().doubleClick(at);
+  } else {
+    s.isPressed = true;
+    s.tool().press(at);
+  }
+}
+
+void CurveCanvas::leaveEvent(QEvent* event) {
+  QWidget::leaveEvent(event);
+  emit hovered(std::nullopt);
+  state_->tool().leave();
+  state_->hint({});
+  state_->linkCursor(std::nullopt);
+}
+
+void CurveCanvas::keyPressEvent(QKeyEvent* event) {
+  State& s = *state_;
+  QPointF step;
+  switch (event->key()) {
+    case Qt::Key_Space:
+      if (!event->isAutoRepeat()) s.spaceHeld = true;
+      s.updateMouseCursor();
+      return;
+    case Qt::Key_Backslash:
+      s.view.setScanOnly(true);
+      return;
+    case Qt::Key_Left:
+      step = {kArrowStepPx, 0};
+      break;
+    case Qt::Key_Right:
+      step = {-kArrowStepPx, 0};
+      break;
+    case Qt::Key_Up:
+      step = {0, kArrowStepPx};
+      break;
+    case Qt::Key_Down:
+      step = {0, -kArrowStepPx};
+      break;
+    default:
+      if (!s.tool().key(event)) QWidget::keyPressEvent(event);
+      return;
+  }
+  s.transform.pan(step);
+  s.isFitted = false;
+  s.transformChanged();
+}
+
+void CurveCanvas::keyReleaseEvent(QKeyEvent* event) {
+  if (event->isAutoRepeat()) return;
+  if (event->key() == Qt::Key_Space) {
+    state_->spaceHeld = false;
+    state_->updateMouseCursor();
+  } else if (event->key() == Qt::Key_Backslash) {
+    state_->view.setScanOnly(false);
+  } else {
+    QWidget::keyReleaseEvent(event);
+  }
+}
+
+bool CurveCanvas::event(QEvent* event) {
+  double factor = 1.0;
+  QPointF anchor;
+  if (event->type() == QEvent::NativeGesture) {
+    const auto* gesture = static_cast<QNativeGestureEvent*>(event);
+    if (gesture->gestureType() == Qt::ZoomNativeGesture) {
+      factor = std::exp(gesture->value());
+      anchor = gesture->position();
+    }
+  } else if (event->type() == QEvent::Gesture) {
+    const auto* all = static_cast<QGestureEvent*>(event);
+    if (const auto* pinch = static_cast<QPinchGesture*>(all->gesture(Qt::PinchGesture))) {
+      factor = pinch->scaleFactor();
+      anchor = mapFromGlobal(pinch->centerPoint().toPoint());
+    }
+  } else if (event->type() == QEvent::FocusOut) {
+    // A key released in another window is never seen here.
+    state_->spaceHeld = false;
+    state_->view.setScanOnly(false);
+  }
+  if (factor > 0.0 && factor != 1.0) {
+    state_->transform.zoomAt(zoom() * factor, anchor);
+    state_->isFitted = false;
+    state_->transformChanged();
+    emit zoomChanged(zoom());
+    event->accept();
+    return true;
+  }
+  return QWidget::event(event);
+}
+
+}  // namespace batten

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QCoreApplication>
+#include <QFontMetricsF>
+#include <QPen>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/conventions.h"
+#include "ui/canvas/layers/vector_layers.h"
+
+namespace batten {
+namespace {
+
+constexpr double kMargin = 12.0;
+constexpr double kPadX = 10.0, kPadY = 6.0;
+
+QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
+
+QString methodText(const CanvasScene& scene, int degree) {
+  switch (scene.session.recipe().construct.method) {
+    case ConstructMethod::Fair:
+      return degree == 5 ? tr("fair quintic") : tr("fair fit");
+    case ConstructMethod::Nurbs:
+      return tr("quintic NURBS");
+    case ConstructMethod::Bezier:
+      return tr("quintic Bézier path");
+    case ConstructMethod::Typical:
+      return tr("typical curves");
+    case ConstructMethod::ControlPolygon:
+      return tr("control polygon");
+  }
+  return {};
+}
+
+void paintBox(QPainter& painter, const CanvasScene& scene, const QString& text, const QRectF& box, double opacity) {
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setFont(scene.font);
+  QColor fill = scene.palette.color(QPalette::Base);
+  fill.setAlphaF(static_cast<float>(opacity));
+  painter.setBrush(fill);
+  QColor line = scene.palette.color(QPalette::Text);
+  line.setAlpha(40);
+  painter.setPen(QPen(line, 1.0));
+  painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 5.0, 5.0);
+  painter.setPen(scene.palette.color(QPalette::Text));
+  painter.drawText(box, Qt::AlignCenter, text);
+  painter.restore();
+}
+
+QSizeF boxSize(const CanvasScene& scene, const QString& text, double padX, double padY) {
+  const QFontMetricsF metrics(scene.font);
+  return {std::ceil(metrics.horizontalAdvance(text) + 2.0 * padX), std::ceil(metrics.height() + 2.0 * padY)};
+}
+
+QString number(double value, int digits) { return QString::number(value, 'f', digits); }
+
+}  // namespace
+
+void paintChip(QPainter& painter, const CanvasScene& scene, const QString& text, ChipPlace place) {
+  if (text.isEmpty()) return;
+  const QSizeF size = boxSize(scene, text, kPadX, kPadY);
+  const QSizeF view = QSizeF(scene.transform.viewSize()) / scene.transform.ratio();
+  const bool right = place == ChipPlace::TopRight || place == ChipPlace::BottomRight;
+  const bool bottom = place == ChipPlace::BottomLeft || place == ChipPlace::BottomRight;
+  const QPointF corner(right ? view.width() - kMargin - size.width() : kMargin,
+                       bottom ? view.height() - kMargin - size.height() : kMargin);
+  paintBox(painter, scene, text, QRectF(corner, size), 0.93);
+}
+
+void paintLabel(QPainter& painter, const CanvasScene& scene, const QString& text, QPointF beside) {
+  if (text.isEmpty()) return;
+  const QSizeF size = boxSize(scene, text, 6.0, 2.0);
+  const QSizeF view = QSizeF(scene.transform.viewSize()) / scene.transform.ratio();
+  QRectF box(beside + QPointF(14.0, -size.height() - 8.0), size);
+  if (box.right() > view.width()) box.moveRight(beside.x() - 14.0);
+  if (box.top() < 0.0) box.moveTop(beside.y() + 10.0);
+  paintBox(painter, scene, text, box, 0.95);
+}
+
+QString curveText(const CanvasScene& scene) {
+  const TracedCurve* curve = scene.session.selected();
+  if (curve == nullptr || curve->sketched.isEmpty()) return {};
+  const bool faired = !curve->faired.isEmpty();
+  const NurbsCurve& shown = faired ? curve->faired : curve->sketched;
+  const CurveFigures& figures =
+      faired && curve->fairedFigures.lengthMm > 0.0 ? curve->fairedFigures : curve->sketchedFigures;
+  return tr("Curve %1 · %2 · %3 control points · %4 mm")
+      .arg(scene.session.selectedCurve() + 1)
+      .arg(methodText(scene, shown.degree()))
+      .arg(shown.controlPointCount())
+      .arg(number(figures.lengthMm, 1));
+}
+
+QString pageText(const CanvasScene& scene) {
+  const auto scan = scene.session.scan();
+  if (!scan) return {};
+  const Recipe& recipe = scene.session.recipe();
+  if (isScaleAssumed(*scan, recipe)) return tr("no scale: assumed %1 dpi").arg(number(kAssumedDpi, 0));
+  const PageFrame frame = frameFor(*scan, recipe);
+  const QString size = QStringLiteral("%1 × %2 mm")
+                           .arg(number(frame.widthPx * frame.mmPerPx, 0), number(frame.heightPx * frame.mmPerPx, 0));
+  const double dpi = kMillimetresPerInch / frame.mmPerPx;
+  const QString value = number(dpi, std::abs(dpi - std::round(dpi)) < 0.05 ? 0 : 1);
+  return (recipe.dpi ? tr("%1 dpi set by hand · %2") : tr("%1 dpi from file · %2")).arg(value, size);
+}
+
+QString cursorText(const CanvasScene& scene) {
+  const auto s = scene.session.cursor();
+  const CurveComb* comb = scene.selectedComb();
+  if (!s || comb == nullptr) return {};
+  const CombPoint place = comb->at(*s);
+  const double extentMm = scene.combs->source.frame.lengthToModel(comb->extentPx);
+  QString text = tr("s %1 mm").arg(number(std::clamp(*s, 0.0, comb->lengthMm), 1)) + QStringLiteral(" · ");
+  if (std::abs(place.kappa) * extentMm < kStraightCurvature) {
+    text += tr("straight");
+  } else {
+    const double radius = std::abs(1.0 / place.kappa);
+    text += tr("R %1 mm").arg(number(radius, radius < 10.0 ? 2 : radius < 100.0 ? 1 : 0));
+  }
+  if (!comb->whiskers.empty()) {
+    const auto nearest =
+        std::min_element(comb->whiskers.begin(), comb->whiskers.end(),
+                         [s](const Whisker& a, const Whisker& b) { return std::abs(a.s - *s) < std::abs(b.s - *s); });
+    text += QStringLiteral(" · ") + tr("off sketch %1 mm").arg(number(nearest->mm, nearest->mm < 0.01 ? 4 : 2));
+  }
+  return text;
+}
+
+QString workText(const CanvasScene& scene) {
+  if (scene.session.isBusy()) return scene.isLate ? tr("working…") : QString();
+  if (scene.session.hasScan() && scene.session.isStale(StageId::Faired)) return tr("stopped · shows the result before");
+  return {};
+}
+
+void paintChips(QPainter& painter, const CanvasScene& scene) {
+  paintChip(painter, scene, curveText(scene), ChipPlace::TopLeft);
+  paintChip(painter, scene, workText(scene), ChipPlace::TopRight);
+  paintChip(painter, scene, pageText(scene), ChipPlace::BottomLeft);
+  paintChip(painter, scene, cursorText(scene), ChipPlace::BottomRight);
+}
+
+void paintDropHint(QPainter& painter, const CanvasScene& scene) {
+  const QSizeF view = QSizeF(scene.transform.viewSize()) / scene.transform.ratio();
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QRectF area(view.width() / 2.0 - 190.0, view.height() / 2.0 - 70.0, 380.0, 140.0);
+  painter.setPen(QPen(QColor(0, 0, 0, 70), 1.5, Qt::DashLine));
+  painter.setBrush(QColor(255, 255, 255, 90));
+  painter.drawRoundedRect(area, 10.0, 10.0);
+  QFont font = scene.font;
+  font.setPixelSize(15);
+  painter.setFont(font);
+  painter.setPen(QColor(60, 60, 60));
+  const QString text =
+      scene.session.isBusy() ? tr("Opening the scan…") : tr("Drop a scan here, or open one with Ctrl+O");
+  painter.drawText(area, Qt::AlignCenter | Qt::TextWordWrap, text);
+  painter.restore();
+}
+
+}  // namespace batten

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QPen>
+#include <cmath>
+
+#include "core/base/conventions.h"
+#include "ui/canvas/canvas_colors.h"
+#include "ui/canvas/layers/vector_layers.h"
+
+namespace batten {
+
+void paintCornerSquare(QPainter& painter, QPointF centre, double half, const QColor& color, bool filled) {
+  painter.setPen(QPen(QColor(255, 255, 255, 200), 4.0, Qt::SolidLine, Qt::SquareCap, Qt::MiterJoin));
+  painter.setBrush(Qt::NoBrush);
+  const QRectF square(centre.x() - half, centre.y() - half, 2.0 * half, 2.0 * half);
+  painter.drawRect(square);
+  painter.setPen(QPen(color, 1.8, Qt::SolidLine, Qt::SquareCap, Qt::MiterJoin));
+  painter.setBrush(filled ? QBrush(color) : QBrush(QColor(255, 255, 255, 170)));
+  painter.drawRect(square);
+}
+
+void paintCorners(QPainter& painter, const CanvasScene& scene) {
+  const auto& pieces = scene.session.output().pieces;
+  const auto& marks = scene.session.recipe().cornerMarks;
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  if (pieces && !scene.session.isStale(StageId::Pieces)) {
+    for (const Corner& corner : pieces->corners)
+      paintCornerSquare(painter, scene.transform.toWidget(corner.positionPx), 5.0, colors::corner(), false);
+    for (const int lost : pieces->lostMarks) {
+      if (lost < 0 || static_cast<std::size_t>(lost) >= marks.size()) continue;
+      const QPointF at = scene.transform.toWidget(marks[static_cast<std::size_t>(lost)].positionPx);
+      paintCornerSquare(painter, at, 5.0, colors::lost(), false);
+      painter.drawLine(at + QPointF(-5, -5), at + QPointF(5, 5));
+      painter.drawLine(at + QPointF(-5, 5), at + QPointF(5, -5));
+    }
+  } else {
+    for (const CornerMark& mark : marks)
+      paintCornerSquare(painter, scene.transform.toWidget(mark.positionPx), 5.0, colors::corner(), false);
+  }
+  painter.restore();
+}
+
+void paintRegionGrid(QPainter& painter, const CanvasScene& scene) {
+  const QSize size = scene.transform.imageSize();
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  painter.setPen(QPen(colors::grid(), 0));
+  for (int k = 0; k <= kRegionsPerSide; ++k) {
+    const double x = std::floor(static_cast<double>(size.width()) * k / kRegionsPerSide);
+    const double y = std::floor(static_cast<double>(size.height()) * k / kRegionsPerSide);
+    painter.drawLine(scene.transform.toWidget({x, 0.0}),
+                     scene.transform.toWidget({x, static_cast<double>(size.height())}));
+    painter.drawLine(scene.transform.toWidget({0.0, y}),
+                     scene.transform.toWidget({static_cast<double>(size.width()), y}));
+  }
+  painter.restore();
+}
+
+}  // namespace batten

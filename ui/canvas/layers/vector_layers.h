@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QPainter>
+#include <QString>
+
+#include "ui/canvas/canvas_scene.h"
+
+/// Painters of what lies over the pixels. All take a painter in widget coordinates and leave its state as it was.
+namespace batten {
+
+void paintSegments(QPainter&, const CanvasScene&);
+void paintSketched(QPainter&, const CanvasScene&);
+void paintFaired(QPainter&, const CanvasScene&);
+void paintCombs(QPainter&, const CanvasScene&);
+void paintDeviation(QPainter&, const CanvasScene&);
+void paintCorners(QPainter&, const CanvasScene&);
+void paintRegionGrid(QPainter&, const CanvasScene&);
+/// The hovered target, dashed.
+void paintGhost(QPainter&, const CanvasScene&, const QPainterPath& ghost);
+/// The place that canvas and plots have in common.
+void paintCursor(QPainter&, const CanvasScene&);
+
+void paintCornerSquare(QPainter&, QPointF centre, double half, const QColor& color, bool filled);
+
+enum class ChipPlace { TopLeft, TopRight, BottomLeft, BottomRight };
+void paintChip(QPainter&, const CanvasScene&, const QString& text, ChipPlace);
+/// A small label beside a place.
+void paintLabel(QPainter&, const CanvasScene&, const QString& text, QPointF beside);
+/// The facts in the corners of the view.
+void paintChips(QPainter&, const CanvasScene&);
+void paintDropHint(QPainter&, const CanvasScene&);
+
+/// The texts of the chips; empty = nothing to say.
+QString curveText(const CanvasScene&);
+QString pageText(const CanvasScene&);
+QString cursorText(const CanvasScene&);
+QString workText(const CanvasScene&);
+
+}  // namespace batten

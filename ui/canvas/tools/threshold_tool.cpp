@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QCoreApplication>
+#include <QElapsedTimer>
+#include <QKeyEvent>
+#include <QPen>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "ui/canvas/canvas_colors.h"
+#include "ui/canvas/layers/vector_layers.h"
+#include "ui/canvas/tools/canvas_tool.h"
+
+namespace batten {
+namespace {
+
+constexpr double kLevelsPerPx = 0.5;  ///< Of a vertical drag.
+constexpr double kLevelsPerNotch = 2.0;
+constexpr qint64 kWheelPauseMs = 800;  ///< Wheel notches closer than this are one undo step.
+constexpr double kDragStartPx = 3.0;
+constexpr double kNumbersFromPx = 54.0;  ///< Width of a region from which its number is shown.
+
+QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
+
+class ThresholdTool final : public CanvasTool {
+ public:
+  using CanvasTool::CanvasTool;
+
+  void press(const ToolEvent& event) override {
+    const int region = regionAt(event.px);
+    if (region < 0) {
+      scene_.flash(event.px);
+      return;
+    }
+    select(region, event.modifiers.testFlag(Qt::ShiftModifier));
+    pressed_ = event.widget;
+    isDragging_ = false;
+    gesture_ = scene_.session.newGesture();
+    base_ = levels();
+  }
+
+  void move(const ToolEvent& event, bool isPressed) override {
+    const int region = regionAt(event.px);
+    if (region != hovered_) {
+      hovered_ = region;
+      scene_.repaint();
+    }
+    scene_.hint(region < 0
+                    ? QString()
+                    : tr("Drag up or down, or turn the wheel, to change this threshold; double click for automatic."));
+    if (!isPressed || base_.empty()) return;
+    const double way = pressed_.y() - event.widget.y();
+    if (!isDragging_ && std::abs(way) < kDragStartPx) return;
+    isDragging_ = true;
+    apply(way * kLevelsPerPx);
+  }
+
+  void release(const ToolEvent&) override {
+    base_.clear();
+    isDragging_ = false;
+  }
+
+  void doubleClick(const ToolEvent& event) override {
+    const int region = regionAt(event.px);
+    if (region < 0) return;
+    Recipe recipe = scene_.session.recipe();
+    for (const int r : chosen()) recipe.threshold.grid[static_cast<std::size_t>(r)].reset();
+    scene_.session.change(tr("Automatic threshold"), recipe);
+    base_.clear();
+  }
+
+  bool wheel(const ToolEvent& event, double steps) override {
+    const int region = regionAt(event.px);
+    if (region < 0 || event.modifiers.testFlag(Qt::ControlModifier)) return false;
+    const auto set = chosen();
+    const bool inSet = std::find(set.begin(), set.end(), region) != set.end();
+    const bool continues =
+        inSet && wheelGesture_ >= 0 && sinceWheel_.isValid() && sinceWheel_.elapsed() < kWheelPauseMs;
+    if (!inSet) select(region, false);
+    if (!continues) wheelGesture_ = scene_.session.newGesture();
+    sinceWheel_.start();
+    gesture_ = wheelGesture_;
+    base_ = levels();
+    apply(steps * kLevelsPerNotch);
+    base_.clear();
+    return true;
+  }
+
+  bool key(QKeyEvent* event) override {
+    if (event->key() != Qt::Key_Delete && event->key() != Qt::Key_Backspace) return false;
+    Recipe recipe = scene_.session.recipe();
+    for (const int r : chosen()) recipe.threshold.grid[static_cast<std::size_t>(r)].reset();
+    scene_.session.change(tr("Automatic threshold"), recipe);
+    return true;
+  }
+
+  void leave() override {
+    hovered_ = -1;
+    scene_.repaint();
+  }
+  void reset() override {
+    hovered_ = -1;
+    lastCorner_ = -1;
+    base_.clear();
+  }
+  Qt::CursorShape cursorShape() const override { return hovered_ >= 0 ? Qt::SizeVerCursor : Qt::ArrowCursor; }
+
+  void paint(QPainter& painter) override {
+    const QSize size = scene_.transform.imageSize();
+    if (size.isEmpty()) return;
+    paintRegionGrid(painter, scene_);
+    painter.save();
+    painter.setRenderHint(QPainter::Antialiasing);
+    if (hovered_ >= 0) painter.fillRect(rectOf(hovered_), QColor(11, 107, 203, 22));
+    for (const int r : chosen()) {
+      painter.setPen(QPen(colors::accent(), 1.6));
+      painter.setBrush(Qt::NoBrush);
+      painter.drawRect(rectOf(r).adjusted(0.5, 0.5, -0.5, -0.5));
+    }
+    paintNumbers(painter);
+    painter.restore();
+  }
+
+ private:
+  int regionAt(const Vec2& px) const {
+    const QSize size = scene_.transform.imageSize();
+    if (size.isEmpty() || px.x() < 0 || px.y() < 0 || px.x() >= size.width() || px.y() >= size.height()) return -1;
+    // Bounds are floor(i * size / 8): the inverse is exact up to one, which the loop settles.
+    const auto index = [](double at, int extent) {
+      int i = std::clamp(static_cast<int>(at * kRegionsPerSide / extent), 0, kRegionsPerSide - 1);
+      while (i + 1 < kRegionsPerSide && at >= (i + 1) * extent / kRegionsPerSide) ++i;
+      return i;
+    };
+    return index(px.y(), size.height()) * kRegionsPerSide + index(px.x(), size.width());
+  }
+
+  QRectF rectOf(int region) const {
+    const RegionBounds b =
+        regionBounds(scene_.transform.imageSize().width(), scene_.transform.imageSize().height(), region);
+    return {scene_.transform.toWidget({static_cast<double>(b.x0), static_cast<double>(b.y0)}),
+            scene_.transform.toWidget({static_cast<double>(b.x1), static_cast<double>(b.y1)})};
+  }
+
+  /// The threshold that acts in a region now.
+  double level(int region) const {
+    const auto r = static_cast<std::size_t>(region);
+    const ThresholdParams& params = scene_.session.recipe().threshold;
+    if (params.grid[r]) return *params.grid[r];
+    if (params.mode == ThresholdMode::Manual) return params.manualLevel;
+    const auto& found = scene_.session.output().thresholds;
+    return found ? found->automatic[r] : params.manualLevel;
+  }
+
+  /// The selected region, or the rectangle from it to where Shift was clicked.
+  std::vector<int> chosen() const {
+    const int anchor = scene_.view.selectedRegion();
+    if (anchor < 0) return {};
+    const int other = lastCorner_ < 0 || anchor != rectangleAnchor_ ? anchor : lastCorner_;
+    const int c0 = anchor % kRegionsPerSide, c1 = other % kRegionsPerSide;
+    const int r0 = anchor / kRegionsPerSide, r1 = other / kRegionsPerSide;
+    std::vector<int> regions;
+    for (int r = std::min(r0, r1); r <= std::max(r0, r1); ++r)
+      for (int c = std::min(c0, c1); c <= std::max(c0, c1); ++c) regions.push_back(r * kRegionsPerSide + c);
+    return regions;
+  }
+
+  void select(int region, bool extend) {
+    if (extend && scene_.view.selectedRegion() >= 0) {
+      rectangleAnchor_ = scene_.view.selectedRegion();
+      lastCorner_ = region;
+    } else {
+      lastCorner_ = -1;
+      scene_.view.setSelectedRegion(region);
+    }
+    scene_.repaint();
+  }
+
+  std::vector<std::pair<int, double>> levels() const {
+    std::vector<std::pair<int, double>> all;
+    for (const int r : chosen()) all.emplace_back(r, level(r));
+    return all;
+  }
+
+  void apply(double change) {
+    Recipe recipe = scene_.session.recipe();
+    for (const auto& [region, from] : base_)
+      recipe.threshold.grid[static_cast<std::size_t>(region)] =
+          std::clamp(std::round(2.0 * (from + change)) / 2.0, 0.0, 255.0);
+    scene_.session.change(tr("Region threshold"), recipe, gesture_);
+    scene_.repaint();
+  }
+
+  void paintNumbers(QPainter& painter) const {
+    const auto& found = scene_.session.output().thresholds;
+    const auto& grid = scene_.session.recipe().threshold.grid;
+    QFont font = scene_.font;
+    font.setPixelSize(11);
+    const bool roomy = rectOf(0).width() >= kNumbersFromPx;
+    for (int r = 0; r < kRegions; ++r) {
+      const auto k = static_cast<std::size_t>(r);
+      const bool isOwn = grid[k].has_value();
+      if (!roomy && !isOwn && r != hovered_) continue;
+      if (!isOwn && !found) continue;
+      font.setBold(isOwn);
+      painter.setFont(font);
+      const bool isCertain = isOwn || (found && found->measured[k]);
+      painter.setPen(isOwn ? colors::accent() : QColor(30, 30, 30, isCertain ? 190 : 90));
+      painter.drawText(rectOf(r).adjusted(5, 3, -5, -3), Qt::AlignLeft | Qt::AlignTop,
+                       QString::number(level(r), 'f', 0));
+    }
+    if (hovered_ < 0) return;
+    const auto h = static_cast<std::size_t>(hovered_);
+    const QString kind = grid[h]                        ? tr("set by hand")
+                         : found && !found->measured[h] ? tr("automatic, from its neighbours")
+                                                        : tr("automatic");
+    paintLabel(painter, scene_, QString::number(level(hovered_), 'f', 1) + QStringLiteral(" · ") + kind,
+               rectOf(hovered_).center());
+  }
+
+  int hovered_ = -1, lastCorner_ = -1, rectangleAnchor_ = -1;
+  QPointF pressed_;
+  bool isDragging_ = false;
+  int gesture_ = -1, wheelGesture_ = -1;
+  QElapsedTimer sinceWheel_;
+  std::vector<std::pair<int, double>> base_;  ///< Regions and their thresholds when the gesture began.
+};
+
+}  // namespace
+
+std::unique_ptr<CanvasTool> makeThresholdTool(CanvasScene& scene) { return std::make_unique<ThresholdTool>(scene); }
+
+}  // namespace batten
