@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QApplication>
+#include <QDir>
+#include <QFileInfo>
+
+#include "ui/main_window.h"
+
+namespace {
+
+/// The sketch that ships with the program, beside it in the build and installed trees.
+QString samplePath() {
+  const QString path = QCoreApplication::applicationDirPath() + QStringLiteral("/../share/batten/samples/coupe-side.png");
+  return QFileInfo::exists(path) ? QDir::cleanPath(path) : QString();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  QApplication application(argc, argv);
+  QCoreApplication::setOrganizationName(QStringLiteral("Batten"));
+  QCoreApplication::setApplicationName(QStringLiteral("batten"));
+  QCoreApplication::setApplicationVersion(QStringLiteral("0.1.0"));
+  QGuiApplication::setApplicationDisplayName(QStringLiteral("Batten"));
+
+  batten::MainWindow window;
+  window.show();
+  const QStringList arguments = QCoreApplication::arguments().mid(1);
+  const QString sample = samplePath();
+  if (!arguments.isEmpty()) {
+    // The sample opens finished, whether asked for by name or as the first drawing ever.
+    const QString path = QFileInfo(arguments.first()).absoluteFilePath();
+    if (!sample.isEmpty() && QFileInfo(path) == QFileInfo(sample)) window.openSample(path);
+    else window.openPath(path);
+  } else if (const QStringList recent = batten::MainWindow::recentFiles(); !recent.isEmpty()) {
+    window.openPath(recent.first());
+  } else if (!sample.isEmpty()) {
+    window.openSample(sample);
+  }
+  return QApplication::exec();
+}

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/main_window.h"
+
+#include <QAction>
+#include <QCloseEvent>
+#include <QDragEnterEvent>
+#include <QFileInfo>
+#include <QMimeData>
+#include <QScrollArea>
+#include <QSplitter>
+#include <QStackedWidget>
+#include <QUrl>
+#include <QVBoxLayout>
+
+#include "ui/canvas/curve_canvas.h"
+#include "ui/main_window_parts.h"
+#include "ui/panels/clean_up_panel.h"
+#include "ui/panels/corners_panel.h"
+#include "ui/panels/curves_panel.h"
+#include "ui/panels/export_panel.h"
+#include "ui/panels/fairing_panel.h"
+#include "ui/panels/scan_panel.h"
+#include "ui/panels/stage_rail.h"
+#include "ui/panels/target_strip.h"
+#include "ui/panels/threshold_panel.h"
+#include "ui/plots/curve_plots.h"
+#include "ui/status_line.h"
+#include "ui/top_bar.h"
+
+namespace batten {
+
+MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
+  setObjectName(QStringLiteral("mainWindow"));
+  setWindowTitle(QStringLiteral("Batten"));
+  setWindowIcon(QIcon(QStringLiteral(":/icons/batten.svg")));
+  setAcceptDrops(true);
+  setMinimumSize(960, 600);
+  resize(1440, 900);
+  makeActions();
+  makeMenus();
+  auto* whole = new QWidget(this);
+  auto* column = new QVBoxLayout(whole);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  const TopBar::Actions bar{action(ActionId::Undo),    action(ActionId::Redo),       action(ActionId::ShowScan),   action(ActionId::ShowComb),
+                            action(ActionId::ZoomFit), action(ActionId::ZoomActual), action(ActionId::FindAction), action(ActionId::Export)};
+  parts_->topBar = new TopBar(view_, bar, parts_->mainMenu, parts_->layersMenu, whole);
+  parts_->errors = new ErrorStrip(whole);
+  parts_->rail = new StageRail(session_, whole);
+  parts_->status = new StatusLine(session_, whole);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(0);
+  row->addWidget(parts_->rail);
+  row->addWidget(makeCentre(), 1);
+  row->addWidget(makeInspector());
+  column->addWidget(parts_->topBar);
+  column->addWidget(parts_->errors);
+  column->addLayout(row, 1);
+  column->addWidget(parts_->status);
+  setCentralWidget(whole);
+  parts_->finder = new CommandPalette(whole);
+  connectSession();
+  connectActions();
+  connectLayers();
+  loadSettings();
+  refreshActions();
+  refreshTitle();
+  setStage(PanelStage::Scan);
+  parts_->canvas->setFocus();
+}
+
+MainWindow::~MainWindow() = default;
+
+QWidget* MainWindow::makeCentre() {
+  Parts& p = *parts_;
+  p.splitter = new QSplitter(Qt::Vertical, this);
+  p.splitter->setHandleWidth(1);
+  p.splitter->setObjectName(QStringLiteral("centreSplitter"));
+  p.canvas = new CurveCanvas(session_, view_, p.splitter);
+  p.canvas->setObjectName(QStringLiteral("canvas"));
+  p.canvas->setAccessibleName(tr("Drawing"));
+  auto* lower = new QWidget(p.splitter);
+  auto* layout = new QVBoxLayout(lower);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  p.strip = new TargetStrip(session_, lower);
+  p.plots = new CurvePlots(session_, lower);
+  layout->addWidget(p.strip);
+  layout->addWidget(p.plots, 1);
+  p.lower = lower;
+  p.splitter->addWidget(p.canvas);
+  p.splitter->addWidget(lower);
+  p.splitter->setStretchFactor(0, 1);
+  p.splitter->setStretchFactor(1, 0);
+  p.splitter->setCollapsible(0, false);
+  p.splitter->setSizes({540, 288});
+  return p.splitter;
+}
+
+QWidget* MainWindow::makeInspector() {
+  Parts& p = *parts_;
+  p.inspector = new QStackedWidget(this);
+  p.inspector->setObjectName(QStringLiteral("inspector"));
+  p.scanPanel = new ScanPanel(session_);
+  p.exportPanel = new ExportPanel(session_);
+  const std::pair<PanelStage, QWidget*> panels[] = {
+      {PanelStage::Scan, p.scanPanel},
+      {PanelStage::Threshold, new ThresholdPanel(session_, view_)},
+      {PanelStage::CleanUp, new CleanUpPanel(session_)},
+      {PanelStage::Edges, new EdgesPanel(session_)},
+      {PanelStage::Corners, new CornersPanel(session_)},
+      {PanelStage::Curves, new CurvesPanel(session_, view_)},
+      {PanelStage::Fairing, new FairingPanel(session_)},
+      {PanelStage::Export, p.exportPanel}};
+  for (const auto& [stage, panel] : panels) {
+    panel->setObjectName(QStringLiteral("panel.") + key(stage));
+    auto* scroll = new QScrollArea;
+    scroll->setWidget(panel);
+    scroll->setWidgetResizable(true);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setFocusPolicy(Qt::NoFocus);
+    p.inspector->addWidget(scroll);
+  }
+  auto* frame = new HairlineFrame(this);
+  auto* layout = new QVBoxLayout(frame);
+  layout->setContentsMargins(1, 0, 0, 0);
+  layout->addWidget(p.inspector);
+  frame->setFixedWidth(301);
+  return frame;
+}
+
+void MainWindow::connectSession() {
+  Parts& p = *parts_;
+  connect(p.rail, &StageRail::chosen, this, &MainWindow::enterStage);
+  connect(p.canvas, &CurveCanvas::zoomChanged, p.topBar, &TopBar::setZoom);
+  connect(p.canvas, &CurveCanvas::zoomChanged, p.status, &StatusLine::setZoom);
+  connect(p.canvas, &CurveCanvas::hovered, p.status, &StatusLine::setPlace);
+  connect(p.canvas, &CurveCanvas::hint, p.status, &StatusLine::setHint);
+  connect(p.strip, &TargetStrip::hint, p.status, &StatusLine::setHint);
+  connect(p.plots, &CurvePlots::hint, p.status, &StatusLine::setHint);
+  connect(p.status, &StatusLine::scaleAsked, this, [this] {
+    setStage(PanelStage::Scan);
+    parts_->scanPanel->focusResolution();
+  });
+  connect(p.exportPanel, &ExportPanel::failed, this, &MainWindow::showProblem);
+  connect(p.exportPanel, &ExportPanel::exported, p.rail, &StageRail::setExported);
+  connect(p.errors, &ErrorStrip::actionPressed, this, &MainWindow::actOnProblem);
+  connect(&session_, &EditorSession::failed, this, &MainWindow::showProblem);
+  connect(&session_, &EditorSession::failureCleared, p.errors, &QWidget::hide);
+  connect(&session_, &EditorSession::scanOpened, this, [this] {
+    rememberFile(session_.scanPath());
+    refreshTitle();
+    parts_->errors->hide();
+    if (parts_->fairSample) {
+      parts_->fairSample = false;
+      Recipe recipe = session_.recipe();
+      recipe.fairing.mode = FairingMode::Target;
+      session_.change(tr("Fair the sample"), std::move(recipe));
+      session_.undoStack()->clear();
+      setStage(PanelStage::Fairing);
+    }
+    parts_->canvas->zoomFit();
+  });
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::runFinished,
+                            &EditorSession::selectionChanged, &EditorSession::targetsChanged})
+    connect(&session_, signal, this, &MainWindow::refreshActions);
+  connect(&session_, &EditorSession::busyChanged, this, &MainWindow::refreshActions);
+  connect(session_.undoStack(), &QUndoStack::indexChanged, this, &MainWindow::refreshActions);
+}
+
+void MainWindow::openPath(const QString& path) {
+  if (path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive)) return applyRecipeFile(path);
+  parts_->fairSample = false;
+  session_.openScan(path);
+}
+
+void MainWindow::openSample(const QString& path) {
+  parts_->fairSample = true;
+  session_.openScan(path);
+}
+
+PanelStage MainWindow::stage() const { return parts_->rail->current(); }
+
+void MainWindow::setStage(PanelStage stage) {
+  parts_->rail->setCurrent(stage);
+  enterStage(stage);
+}
+
+void MainWindow::enterStage(PanelStage stage) {
+  parts_->inspector->setCurrentIndex(static_cast<int>(stage));
+  // What this stage works on is shown while it is open; what the user switched himself stays as he left it.
+  for (const Layer layer : parts_->stageLayers) view_.setVisible(layer, false);
+  parts_->stageLayers.clear();
+  const auto bring = [this](Layer layer) {
+    if (view_.isVisible(layer)) return;
+    parts_->stageLayers.push_back(layer);
+    view_.setVisible(layer, true);
+  };
+  switch (stage) {
+    case PanelStage::Scan: bring(Layer::LogImage); break;
+    case PanelStage::Threshold:
+      bring(Layer::Mask);
+      bring(Layer::Regions);
+      break;
+    case PanelStage::CleanUp: bring(Layer::Mask); break;
+    case PanelStage::Edges: bring(Layer::Edges); break;
+    case PanelStage::Corners: bring(Layer::Corners); break;
+    case PanelStage::Curves: bring(Layer::Curve); break;
+    case PanelStage::Fairing:
+    case PanelStage::Export: bring(Layer::Faired); break;
+  }
+  view_.setTool(stage == PanelStage::Threshold ? Tool::Thresholds : stage == PanelStage::Corners ? Tool::Corners : Tool::Select);
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  const auto urls = event->mimeData()->urls();
+  if (!urls.isEmpty() && urls.first().isLocalFile()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  const auto urls = event->mimeData()->urls();
+  if (urls.isEmpty() || !urls.first().isLocalFile()) return;
+  event->acceptProposedAction();
+  openPath(urls.first().toLocalFile());
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  saveSettings();
+  session_.cancel();
+  QMainWindow::closeEvent(event);
+}
+
+void MainWindow::changeEvent(QEvent* event) {
+  QMainWindow::changeEvent(event);
+  if (event->type() == QEvent::ActivationChange && !isActiveWindow()) view_.setScanOnly(false);
+}
+
+}  // namespace batten

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QAction>
+#include <QActionGroup>
+#include <QApplication>
+#include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMenu>
+#include <QSplitter>
+#include <QUndoStack>
+
+#include "core/exchange/writers.h"
+#include "core/pipeline/recipe_file.h"
+#include "ui/canvas/curve_canvas.h"
+#include "ui/main_window_parts.h"
+#include "ui/panels/piece_choice.h"
+#include "ui/plots/curve_plots.h"
+#include "ui/top_bar.h"
+
+namespace batten {
+
+QAction* MainWindow::action(ActionId id) const { return parts_->actions.value(static_cast<int>(id)); }
+
+void MainWindow::makeActions() {
+  for (const ActionInfo& info : actionCatalog()) {
+    QAction* made = makeAction(info.id, this);
+    parts_->actions.insert(static_cast<int>(info.id), made);
+    addAction(made);
+  }
+  auto* tools = new QActionGroup(this);
+  for (const Tool tool : {Tool::Select, Tool::Thresholds, Tool::Corners}) tools->addAction(action(toolAction(tool)));
+  const auto own = [this](const QString& text, const QString& name, const QString& help, const QKeySequence& keys) {
+    auto* made = new QAction(text, this);
+    made->setObjectName(name);
+    made->setStatusTip(help);
+    made->setToolTip(help);
+    made->setShortcut(keys);
+    addAction(made);
+    parts_->ownActions.append(made);
+    return made;
+  };
+  for (const PanelStage stage : kPanelStages) {
+    auto* made = own(tr("Stage: %1").arg(label(stage)), QStringLiteral("go-") + key(stage), tr("Show the settings of this stage."),
+                     QKeySequence(QStringLiteral("F%1").arg(static_cast<int>(stage) + 2)));
+    // F2 to F9; F10 opens the menu.
+    connect(made, &QAction::triggered, this, [this, stage] { setStage(stage); });
+  }
+  const struct { PlotTab tab; QString text; } plots[] = {{PlotTab::Radius, tr("Plot: radius")}, {PlotTab::Curvature, tr("Plot: curvature")},
+                                                         {PlotTab::Derivative, tr("Plot: derivative")}, {PlotTab::Deviation, tr("Plot: deviation")}};
+  for (const auto& plot : plots)
+    connect(own(plot.text, {}, tr("Show this plot of the selected curve."), {}), &QAction::triggered, this,
+            [this, tab = plot.tab] { parts_->plots->setTab(tab); });
+  parts_->foldAction = own(tr("Targets and plots"), QStringLiteral("fold-plots"), tr("Show or fold away what lies below the drawing."),
+                           QKeySequence(QStringLiteral("P")));
+  parts_->foldAction->setCheckable(true);
+  parts_->foldAction->setChecked(true);
+  connect(parts_->foldAction, &QAction::toggled, this, [this](bool shown) { parts_->lower->setVisible(shown); });
+  connect(own(tr("Help on this stage"), QStringLiteral("help-stage"), tr("What this stage does, in plain words."), QKeySequence(Qt::Key_F1)),
+          &QAction::triggered, this, [this] { showHelp(key(stage())); });
+  connect(own(tr("All help pages"), QStringLiteral("help-contents"), tr("Start page of the help."), {}), &QAction::triggered, this,
+          [this] { showHelp(QStringLiteral("index")); });
+  connect(own(tr("Keys and mouse"), QStringLiteral("help-keys"), tr("Every shortcut, and what the mouse does."), {}), &QAction::triggered, this,
+          [this] { showHelp(QStringLiteral("keys")); });
+  connect(own(tr("About Batten"), QStringLiteral("about"), tr("What this program is, and its licence."), {}), &QAction::triggered, this,
+          [this] { showHelp(QStringLiteral("about")); });
+  auto* menuKey = own(tr("Open the menu"), QStringLiteral("open-menu"), tr("Open the menu at the top left."), QKeySequence(Qt::Key_F10));
+  connect(menuKey, &QAction::triggered, this, [this] { parts_->topBar->openMenu(); });
+}
+
+void MainWindow::makeMenus() {
+  Parts& p = *parts_;
+  p.mainMenu = new QMenu(this);
+  p.mainMenu->setObjectName(QStringLiteral("mainMenu"));
+  p.layersMenu = new QMenu(this);
+  p.recentMenu = new QMenu(tr("Open recent"), this);
+  connect(p.recentMenu, &QMenu::aboutToShow, this, &MainWindow::refreshRecent);
+  const auto ownNamed = [&p](const QString& name) {
+    for (QAction* one : p.ownActions)
+      if (one->objectName() == name) return one;
+    return static_cast<QAction*>(nullptr);
+  };
+  for (const ActionMenu menu : {ActionMenu::File, ActionMenu::Edit, ActionMenu::View, ActionMenu::Tools, ActionMenu::Fairing}) {
+    QMenu* sub = p.mainMenu->addMenu(label(menu));
+    for (const ActionInfo& info : actionCatalog()) {
+      if (info.menu != menu || info.isHeld) continue;
+      if (info.id == ActionId::ShowScan || info.id == ActionId::Quit || info.id == ActionId::CancelWork) sub->addSeparator();
+      sub->addAction(action(info.id));
+      if (info.id == ActionId::OpenScan) sub->addMenu(p.recentMenu);
+      if (info.id == ActionId::SaveRecipe) sub->addSeparator();
+      if (layerOf(info.id)) p.layersMenu->addAction(action(info.id));
+    }
+    if (menu != ActionMenu::View) continue;
+    sub->addSeparator();
+    sub->addAction(p.foldAction);
+    QMenu* theme = sub->addMenu(tr("Theme"));
+    auto* group = new QActionGroup(theme);
+    const std::pair<ThemeChoice, QString> themes[] = {
+        {ThemeChoice::System, tr("As the desktop")}, {ThemeChoice::Light, tr("Light")}, {ThemeChoice::Dark, tr("Dark")}};
+    for (const auto& [choice, text] : themes) {
+      auto* entry = group->addAction(text);
+      entry->setCheckable(true);
+      entry->setObjectName(QStringLiteral("theme-%1").arg(static_cast<int>(choice)));
+      entry->setStatusTip(tr("Colours of the window."));
+      theme->addAction(entry);
+      connect(entry, &QAction::triggered, this, [this, choice = choice] { setThemeChoice(choice); });
+      auto* found = new QAction(tr("Theme: %1").arg(text), this);
+      found->setStatusTip(tr("Colours of the window."));
+      connect(found, &QAction::triggered, entry, &QAction::trigger);
+      p.ownActions.append(found);
+    }
+  }
+  QMenu* help = p.mainMenu->addMenu(tr("Help"));
+  for (const char* name : {"help-stage", "help-contents", "help-keys", "about"}) help->addAction(ownNamed(QString::fromLatin1(name)));
+  help->insertAction(help->actions().last(), action(ActionId::FindAction));
+}
+
+void MainWindow::connectActions() {
+  for (const ActionInfo& info : actionCatalog()) {
+    if (layerOf(info.id) || toolOf(info.id) || info.isHeld) continue;
+    connect(action(info.id), &QAction::triggered, this, [this, id = info.id] { trigger(id); });
+  }
+}
+
+void MainWindow::trigger(ActionId id) {
+  if (const auto degree = targetOf(id)) return chooseTarget(session_, *degree);
+  switch (id) {
+    case ActionId::OpenScan: return chooseScan();
+    case ActionId::OpenRecipe: return chooseRecipe();
+    case ActionId::SaveRecipe: return saveRecipe();
+    case ActionId::Export: return setStage(PanelStage::Export);
+    case ActionId::Quit: return void(close());
+    case ActionId::Undo: return session_.undoStack()->undo();
+    case ActionId::Redo: return session_.undoStack()->redo();
+    case ActionId::CancelWork:
+      parts_->errors->hide();
+      return session_.cancel();
+    case ActionId::FindAction: return findAction();
+    case ActionId::ZoomFit: return parts_->canvas->zoomFit();
+    case ActionId::ZoomActual: return parts_->canvas->zoomActual();
+    case ActionId::ZoomIn: return parts_->canvas->zoomBy(1.25);
+    case ActionId::ZoomOut: return parts_->canvas->zoomBy(0.8);
+    default: return;
+  }
+}
+
+void MainWindow::connectLayers() {
+  const auto follow = [this] {
+    for (const Layer layer : kLayers) action(showAction(layer))->setChecked(view_.isVisible(layer));
+    session_.setEdgesWanted(view_.isVisible(Layer::Edges));
+  };
+  for (const Layer layer : kLayers) {
+    connect(action(showAction(layer)), &QAction::triggered, this, [this, layer](bool on) {
+      // Switched by hand: from now on the stage leaves it alone.
+      std::erase(parts_->stageLayers, layer);
+      view_.setVisible(layer, on);
+    });
+  }
+  for (const Tool tool : {Tool::Select, Tool::Thresholds, Tool::Corners})
+    connect(action(toolAction(tool)), &QAction::triggered, this, [this, tool] { view_.setTool(tool); });
+  connect(&view_, &ViewSettings::changed, this, follow);
+  connect(&view_, &ViewSettings::toolChanged, this, [this](Tool tool) { action(toolAction(tool))->setChecked(true); });
+  action(toolAction(view_.tool()))->setChecked(true);
+  follow();
+}
+
+void MainWindow::refreshActions() {
+  QUndoStack& undo = *session_.undoStack();
+  const auto describe = [](QAction* one, const QString& verb, const QString& what, bool possible) {
+    one->setEnabled(possible);
+    one->setText(what.isEmpty() ? verb : verb + QStringLiteral(": ") + what);
+  };
+  describe(action(ActionId::Undo), tr("Undo"), undo.undoText(), undo.canUndo());
+  describe(action(ActionId::Redo), tr("Redo"), undo.redoText(), undo.canRedo());
+  const bool has = session_.hasScan();
+  for (const ActionId id : {ActionId::OpenRecipe, ActionId::SaveRecipe, ActionId::Export, ActionId::ZoomFit, ActionId::ZoomActual,
+                            ActionId::ZoomIn, ActionId::ZoomOut})
+    action(id)->setEnabled(has);
+  const bool curves = !session_.curves().empty();
+  for (int degree = 1; degree <= 6; ++degree)
+    action(static_cast<ActionId>(static_cast<int>(ActionId::Target1) + degree - 1))->setEnabled(curves);
+  action(ActionId::CancelWork)->setEnabled(session_.isBusy() || !parts_->errors->isHidden());
+}
+
+void MainWindow::chooseScan() {
+  const QString folder = session_.hasScan() ? QFileInfo(session_.scanPath()).absolutePath() : QString();
+  const QString path = QFileDialog::getOpenFileName(this, tr("Open scan"), folder,
+                                                    tr("Scans (*.png *.jpg *.jpeg *.tif *.tiff *.bmp *.webp *.pgm *.pbm *.ppm *.pnm);;All files (*)"));
+  if (!path.isEmpty()) openPath(path);
+}
+
+void MainWindow::chooseRecipe() {
+  const QString path = QFileDialog::getOpenFileName(this, tr("Open recipe"), QFileInfo(session_.scanPath()).absolutePath(), tr("Recipes (*.json)"));
+  if (!path.isEmpty()) applyRecipeFile(path);
+}
+
+void MainWindow::applyRecipeFile(const QString& path) {
+  if (!session_.hasScan()) return showProblem(tr("A recipe needs a drawing: open a scan first, then this recipe."));
+  QFile file(path);
+  if (!file.open(QIODevice::ReadOnly))
+    return showProblem(tr("%1 cannot be read: %2. Choose another file.").arg(QFileInfo(path).fileName(), file.errorString()));
+  const QByteArray text = file.readAll();
+  auto recipe = recipeFromJson(std::string_view(text.constData(), static_cast<std::size_t>(text.size())));
+  if (!recipe) return showProblem(tr("%1: %2").arg(QFileInfo(path).fileName(), QString::fromStdString(recipe.error().message)));
+  session_.change(tr("Open recipe"), std::move(*recipe));
+}
+
+void MainWindow::saveRecipe() {
+  const QFileInfo scan(session_.scanPath());
+  const QString start = scan.absolutePath() + QLatin1Char('/') + scan.completeBaseName() + QStringLiteral(".recipe.json");
+  QString path = QFileDialog::getSaveFileName(this, tr("Save recipe"), start, tr("Recipes (*.json)"));
+  if (path.isEmpty()) return;
+  if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".json");
+  const auto saved = saveAtomically(std::filesystem::path(path.toStdU16String()), recipeToJson(session_.recipe()));
+  if (!saved) showProblem(QString::fromStdString(saved.error().message));
+}
+
+void MainWindow::findAction() {
+  QList<QAction*> all;
+  for (const ActionInfo& info : actionCatalog())
+    if (!info.isHeld && info.id != ActionId::FindAction) all.append(action(info.id));
+  parts_->finder->open(all + parts_->ownActions);
+}
+
+void MainWindow::showHelp(const QString& page) {
+  if (!parts_->help) parts_->help = new HelpWindow(this);
+  parts_->help->open(page);
+}
+
+}  // namespace batten

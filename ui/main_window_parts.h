@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QHash>
+#include <QPainter>
+#include <QPointer>
+#include <vector>
+
+#include "ui/command_palette.h"
+#include "ui/error_strip.h"
+#include "ui/help_window.h"
+#include "ui/main_window.h"
+
+class QSplitter;
+class QStackedWidget;
+
+namespace batten {
+
+class CurveCanvas;
+class CurvePlots;
+class ExportPanel;
+class ScanPanel;
+class StageRail;
+class StatusLine;
+class TargetStrip;
+class TopBar;
+
+/// What the main window is made of; shared by its source files only.
+struct MainWindow::Parts {
+  TopBar* topBar = nullptr;
+  ErrorStrip* errors = nullptr;
+  StageRail* rail = nullptr;
+  QSplitter* splitter = nullptr;
+  CurveCanvas* canvas = nullptr;
+  QWidget* lower = nullptr;
+  TargetStrip* strip = nullptr;
+  CurvePlots* plots = nullptr;
+  QStackedWidget* inspector = nullptr;
+  ScanPanel* scanPanel = nullptr;
+  ExportPanel* exportPanel = nullptr;
+  StatusLine* status = nullptr;
+  CommandPalette* finder = nullptr;
+  QPointer<HelpWindow> help;
+  QMenu* mainMenu = nullptr;
+  QMenu* layersMenu = nullptr;
+  QMenu* recentMenu = nullptr;
+  QHash<int, QAction*> actions;
+  QList<QAction*> ownActions;      ///< Beside the catalog: stages, plots, help, theme.
+  QAction* foldAction = nullptr;
+  std::vector<Layer> stageLayers;  ///< Switched on by the present stage, off again when it is left.
+  bool fairSample = false;
+  enum class Remedy { None, OpenScan, Thresholds, Export } remedy = Remedy::None;
+};
+
+/// A panel with a hairline at its left edge.
+class HairlineFrame : public QWidget {
+  Q_OBJECT
+ public:
+  using QWidget::QWidget;
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    const Theme& theme = themeOf(palette());
+    QPainter painter(this);
+    painter.fillRect(rect(), theme.panel);
+    painter.fillRect(0, 0, 1, height(), theme.line);
+  }
+};
+
+}  // namespace batten
