@@ -18,6 +18,7 @@ Both randomSystem(int n, bool cyclic, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, 1.0);
   Both m{BandMatrix(n, cyclic), Eigen::MatrixXd::Zero(n, n)};
+  for (int i = 0; i < n; ++i) m.dense(i, i) = m.band.entry(i, 0) = 0.5;
   for (int first = 0; first < (cyclic ? n : n - 5); ++first) {
     for (int repeat = 0; repeat < 3; ++repeat) {
       BandRow row;
