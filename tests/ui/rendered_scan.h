@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QCoreApplication>
+#include <QElapsedTimer>
+#include <QEventLoop>
+#include <QImage>
+#include <QPainter>
+#include <QPainterPath>
+#include <QString>
+#include <QTemporaryDir>
+#include <functional>
+
+#include "ui/session/editor_session.h"
+
+namespace batten::test {
+
+/// Turns the event loop until `done` or the (generous) limit; says whether it was done.
+inline bool waitUntil(const std::function<bool()>& done, int limitMs = 60000) {
+  QElapsedTimer timer;
+  timer.start();
+  while (!done()) {
+    if (timer.elapsed() > limitMs) return false;
+    QCoreApplication::processEvents(QEventLoop::AllEvents, 20);
+  }
+  return true;
+}
+
+/// A page with one open line of three strokes that meet in two sharp corners at (200, 100) and (400, 300), 300 dpi.
+inline QImage zigzagPage(QSize size = {640, 400}) {
+  QImage page(size, QImage::Format_Grayscale8);
+  page.fill(245);
+  page.setDotsPerMeterX(11811);
+  page.setDotsPerMeterY(11811);
+  QPainter painter(&page);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(QColor(30, 30, 30), 5.0, Qt::SolidLine, Qt::FlatCap, Qt::MiterJoin));
+  painter.drawPolyline(QPolygonF({{60, 300}, {200, 100}, {400, 300}, {580, 80}}));
+  return page;
+}
+
+/// A page with one filled ellipse: a smooth closed outline.
+inline QImage ellipsePage(QSize size = {640, 400}) {
+  QImage page(size, QImage::Format_Grayscale8);
+  page.fill(245);
+  page.setDotsPerMeterX(11811);
+  page.setDotsPerMeterY(11811);
+  QPainter painter(&page);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setBrush(QColor(30, 30, 30));
+  painter.setPen(Qt::NoPen);
+  painter.drawEllipse(QRectF(0.2 * size.width(), 0.2 * size.height(), 0.6 * size.width(), 0.6 * size.height()));
+  return page;
+}
+
+/// A session with a page of its own, opened and computed.
+class OpenSession {
+ public:
+  explicit OpenSession(const QImage& page) {
+    page.save(path());
+    session.openScan(path());
+    isReady = waitUntil([this] { return session.hasScan() && !session.isBusy(); });
+  }
+  QString path() const { return folder.filePath(QStringLiteral("page.png")); }
+  bool settle() {
+    return waitUntil([this] { return !session.isBusy(); });
+  }
+
+  QTemporaryDir folder;
+  EditorSession session;
+  bool isReady = false;
+};
+
+}  // namespace batten::test

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <QFile>
+#include <QSignalSpy>
+#include <atomic>
+#include <set>
+#include <thread>
+
+#include "core/pipeline/recipe_file.h"
+#include "tests/ui/rendered_scan.h"
+#include "ui/commands/action_catalog.h"
+#include "ui/session/background_worker.h"
+
+namespace batten {
+namespace {
+
+using test::OpenSession;
+using test::waitUntil;
+
+Recipe withFactor(const Recipe& recipe, double factor) {
+  Recipe changed = recipe;
+  changed.log.factor = factor;
+  return changed;
+}
+
+TEST(EditorSession, OpensAScanAndTracesIt) {
+  OpenSession open(test::zigzagPage());
+  ASSERT_TRUE(open.isReady);
+  const auto& output = open.session.output();
+  ASSERT_FALSE(output.error) << output.error->message;
+  EXPECT_EQ(open.session.scan()->grey.width, 640);
+  ASSERT_FALSE(open.session.curves().empty());
+  EXPECT_NE(open.session.selected(), nullptr) << "the longest curve is selected at the start";
+  for (const StageId stage : kStages) EXPECT_FALSE(open.session.isStale(stage)) << name(stage);
+  EXPECT_TRUE(waitUntil([&] { return open.session.targets() != nullptr; }));
+}
+
+TEST(EditorSession, AScanThatCannotBeReadLeavesTheOpenOne) {
+  OpenSession open(test::zigzagPage());
+  ASSERT_TRUE(open.isReady);
+  const auto before = open.session.scan();
+  const auto curves = open.session.curves().size();
+  QSignalSpy failed(&open.session, &EditorSession::failed);
+  open.session.openScan(QStringLiteral("/nowhere/at/all.png"));
+  ASSERT_TRUE(waitUntil([&] { return failed.count() > 0 && !open.session.isBusy(); }));
+  const QString message = failed.first().first().toString();
+  EXPECT_FALSE(message.isEmpty());
+  EXPECT_FALSE(message.contains(QLatin1Char('\n')));
+  EXPECT_EQ(open.session.scan(), before);
+  EXPECT_EQ(open.session.curves().size(), curves);
+}
+
+TEST(EditorSession, ChangesOfOneGestureAreOneUndoStep) {
+  EditorSession session;
+  const Recipe start = session.recipe();
+  const int gesture = session.newGesture();
+  for (double factor = 50.0; factor <= 80.0; factor += 5.0)
+    session.change("Log factor", withFactor(start, factor), gesture);
+  EXPECT_EQ(session.undoStack()->count(), 1);
+  EXPECT_EQ(session.recipe().log.factor, 80.0);
+  session.change("Log factor", withFactor(start, 90.0), session.newGesture());
+  EXPECT_EQ(session.undoStack()->count(), 2);
+  session.undoStack()->undo();
+  EXPECT_EQ(session.recipe().log.factor, 80.0);
+  session.undoStack()->undo();
+  EXPECT_EQ(session.recipe(), start);
+  session.undoStack()->redo();
+  EXPECT_EQ(session.recipe().log.factor, 80.0);
+}
+
+TEST(EditorSession, ChangesWithoutGestureStaySeparate) {
+  EditorSession session;
+  const Recipe start = session.recipe();
+  session.change("Log factor", withFactor(start, 50.0));
+  session.change("Log factor", withFactor(start, 60.0));
+  EXPECT_EQ(session.undoStack()->count(), 2);
+  session.change("Log factor", withFactor(start, 60.0));
+  EXPECT_EQ(session.undoStack()->count(), 2) << "no change, no step";
+}
+
+TEST(EditorSession, AGestureThatReturnsLeavesNoStep) {
+  EditorSession session;
+  const Recipe start = session.recipe();
+  const int gesture = session.newGesture();
+  session.change("Log factor", withFactor(start, 70.0), gesture);
+  session.change("Log factor", start, gesture);
+  EXPECT_EQ(session.undoStack()->count(), 0);
+  EXPECT_EQ(session.recipe(), start);
+}
+
+TEST(EditorSession, TheNewestOfManyChangesIsWhatShows) {
+  OpenSession open(test::zigzagPage());
+  ASSERT_TRUE(open.isReady);
+  QSignalSpy finished(&open.session, &EditorSession::runFinished);
+  const Recipe start = open.session.recipe();
+  const int gesture = open.session.newGesture();
+  for (int i = 0; i < 40; ++i) {
+    Recipe recipe = start;
+    recipe.threshold.mode = ThresholdMode::Manual;
+    recipe.threshold.manualLevel = 90.0 + i;
+    open.session.change("Level", recipe, gesture);
+    EXPECT_TRUE(open.session.isStale(StageId::Thresholds));
+    QCoreApplication::processEvents();
+  }
+  ASSERT_TRUE(open.settle());
+  ASSERT_TRUE(open.session.output().thresholds);
+  for (const double level : open.session.output().thresholds->level) EXPECT_EQ(level, 129.0);
+  EXPECT_EQ(finished.count(), 1) << "only the newest run reports its end";
+  for (const StageId stage : kStages) EXPECT_FALSE(open.session.isStale(stage)) << name(stage);
+
+  // The same recipe from scratch gives the same curves: no stale part was mixed in.
+  StageCache cache;
+  const auto fresh = runPipeline(*open.session.scan(), open.session.recipe(), cache, {}, {});
+  ASSERT_TRUE(fresh.faired);
+  ASSERT_EQ(fresh.faired->curves.size(), open.session.curves().size());
+  for (std::size_t i = 0; i < fresh.faired->curves.size(); ++i)
+    EXPECT_TRUE(fresh.faired->curves[i].faired == open.session.curves()[i].faired) << i;
+}
+
+TEST(EditorSession, CancelStopsAndKeepsWhatThereIs) {
+  OpenSession open(test::zigzagPage({2400, 1600}));
+  ASSERT_TRUE(open.isReady);
+  const auto before = open.session.output().faired;
+  Recipe recipe = open.session.recipe();
+  recipe.threshold.mode = ThresholdMode::Manual;
+  recipe.threshold.manualLevel = 100.0;
+  open.session.change("Level", recipe);
+  ASSERT_TRUE(open.session.isBusy());
+  open.session.cancel();
+  EXPECT_FALSE(open.session.isBusy()) << "cancelling never waits";
+  EXPECT_EQ(open.session.output().faired, before);
+  EXPECT_TRUE(open.session.isStale(StageId::Faired));
+  // The next change works as ever.
+  open.session.undoStack()->undo();
+  ASSERT_TRUE(open.settle());
+  EXPECT_FALSE(open.session.isStale(StageId::Faired));
+}
+
+TEST(EditorSession, ClosesWhileItWorks) {
+  const QImage page = test::zigzagPage({2400, 1600});
+  QTemporaryDir folder;
+  const QString path = folder.filePath("page.png");
+  ASSERT_TRUE(page.save(path));
+  auto session = std::make_unique<EditorSession>();
+  session->openScan(path);
+  ASSERT_TRUE(waitUntil([&] { return session->hasScan(); }));
+  EXPECT_TRUE(session->isBusy());
+  session.reset();
+  QCoreApplication::processEvents();
+  SUCCEED() << "no result arrives at a session that is gone";
+}
+
+TEST(EditorSession, TheSelectionStaysWithItsPlace) {
+  QImage page = test::zigzagPage();
+  {
+    QPainter painter(&page);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(QColor(30, 30, 30), 5.0));
+    painter.drawArc(QRectF(440, 260, 140, 100), 0, 180 * 16);
+  }
+  OpenSession open(page);
+  ASSERT_TRUE(open.isReady);
+  ASSERT_GE(open.session.curves().size(), 2u);
+  open.session.selectCurve(static_cast<int>(open.session.curves().size()) - 1);
+  const Vec2 middle =
+      anchorOf(open.session.output().pieces->pieces[static_cast<std::size_t>(open.session.selected()->piece)]);
+  Recipe recipe = open.session.recipe();
+  recipe.cornerMarks = {{Vec2(200, 100)}, {Vec2(400, 300)}};
+  open.session.change("Corners", recipe);
+  ASSERT_TRUE(open.settle());
+  ASSERT_NE(open.session.selected(), nullptr);
+  const auto& piece = open.session.output().pieces->pieces[static_cast<std::size_t>(open.session.selected()->piece)];
+  double nearest = 1e9;
+  for (const Vec2& point : piece.points) nearest = std::min(nearest, (point - middle).norm());
+  EXPECT_LT(nearest, 2.0);
+}
+
+TEST(BackgroundWorker, RunsTheNewestAndDropsWhatWaited) {
+  std::atomic<int> ran{0};
+  std::atomic<bool> firstStarted{false}, release{false}, firstSawCancel{false}, lastRan{false};
+  {
+    BackgroundWorker worker;
+    worker.start([&](const CancelToken& token) {
+      firstStarted = true;
+      while (!release) std::this_thread::yield();
+      firstSawCancel = token.isCancelled();
+      ++ran;
+    });
+    while (!firstStarted) std::this_thread::yield();
+    for (int i = 0; i < 10; ++i) worker.start([&](const CancelToken&) { ++ran; });
+    worker.start([&](const CancelToken&) { ++ran, lastRan = true; });
+    release = true;
+    while (!lastRan) std::this_thread::yield();
+  }
+  EXPECT_TRUE(firstSawCancel);
+  EXPECT_EQ(ran, 2) << "the first and the last";
+}
+
+TEST(BackgroundWorker, SurvivesAJobThatThrows) {
+  std::atomic<bool> ran{false};
+  BackgroundWorker worker;
+  worker.start([](const CancelToken&) { throw std::bad_alloc(); });
+  worker.start([&](const CancelToken&) { ran = true; });
+  while (!ran) std::this_thread::yield();
+  EXPECT_TRUE(ran);
+}
+
+TEST(ActionCatalog, HasEveryActionOnceWithTextAndHelp) {
+  std::set<std::string> names;
+  std::set<QString> shortcuts;
+  for (const ActionInfo& info : actionCatalog()) {
+    EXPECT_TRUE(names.insert(info.name).second) << info.name;
+    EXPECT_FALSE(info.text.isEmpty()) << info.name;
+    EXPECT_TRUE(info.help.endsWith(QLatin1Char('.'))) << info.name;
+    for (const QKeySequence& key : info.shortcuts) {
+      EXPECT_FALSE(key.isEmpty()) << info.name;
+      EXPECT_TRUE(shortcuts.insert(key.toString()).second) << info.name << " shares " << key.toString().toStdString();
+    }
+  }
+  for (const Layer layer : kLayers) EXPECT_EQ(layerOf(showAction(layer)), layer);
+  EXPECT_EQ(targetOf(ActionId::Target4), 4);
+  EXPECT_FALSE(targetOf(ActionId::Undo));
+}
+
+}  // namespace
+}  // namespace batten
