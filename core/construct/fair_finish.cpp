@@ -13,7 +13,10 @@ namespace batten {
 namespace {
 
 constexpr double kPinPrecisionPx = 1e-3;  // the rest of the way a linear shift does
-constexpr double kCornerReachPx = 16.0;   // an end may lie this far beyond the curve of the moment
+constexpr int kChecksPerSpan = 4, kFineChecksPerSpan = 8;
+constexpr int kRefinements = 3;
+constexpr double kWrongWay = 2e-3;  // [1/diagonal] curvature that may turn back unasked before the frame is refined
+constexpr double kCornerReachPx = 16.0;  // an end may lie this far beyond the curve of the moment
 constexpr const char* kShortNote =
     "Too short for the fair fit; a smooth curve of low degree through the points instead.";
 constexpr const char* kPlainNote = "The fair fit could not be solved here; a smoothed curve instead.";
@@ -108,7 +111,7 @@ class Finish {
     for (double& t : data.t) t = lookUp(moved->oldParameters, moved->arcLengths, t);
     oldParameters_ = std::move(moved->oldParameters);
     arcLengths_ = std::move(moved->arcLengths);
-    frame_ = assembleFrame(moved->curve, data, options_, true);
+    frame_ = assembleFrame(moved->curve, data, options_, kChecksPerSpan);
     return !frame_.blocks.empty();
   }
 
@@ -176,28 +179,75 @@ class Finish {
     if (pins.end && !pins.start) start = end;
   }
 
-  bool finishCurve(const FairPosterior& posterior, StructureResult& found, double circleCost) {
-    FairPosterior pinned = posterior;
+  void pinEnds(FairPosterior& posterior) const {
     const UniformKnots& knots = frame_.base.knots();
     const auto pin = [&](const Vec2& target, double u) {
       const PlaneDerivatives d = frame_.base.at(u, 1);
       const double offset = (target - d[0]).dot(leftNormal(d[1]).normalized());
       const double weight = 1.0 / (kPinPrecisionPx * kPinPrecisionPx);
-      pinned.a.addOuter(knots.row(u, 0), weight);
-      addTo(pinned.b, knots.row(u, 0), weight * offset);
+      posterior.a.addOuter(knots.row(u, 0), weight);
+      addTo(posterior.b, knots.row(u, 0), weight * offset);
     };
     if (piece_.pins.start) pin(*piece_.pins.start, 0.0);
     if (piece_.pins.end) pin(*piece_.pins.end, knots.length);
+  }
+
+  std::optional<UniformQuintic> structuredCurve(FairPosterior posterior, StructureResult& found) {
+    const Eigen::VectorXd start = posterior.mean;
+    pinEnds(posterior);
     const double never = std::numeric_limits<double>::infinity();
-    const auto fit = fitStructure(frame_, pinned, found.structure, posterior.mean, 1.0, 0.0, never);
-    if (!fit) return false;
-    const auto curve = offsetCurve(frame_.base, fit->c);
-    if (!curve) return false;
+    const auto fit = fitStructure(frame_, posterior, found.structure, start, 1.0, 0.0, never);
+    if (!fit) return std::nullopt;
+    found.limited = found.limited || !fit->converged;
+    return offsetCurve(frame_.base, fit->c);
+  }
+
+  /// True if the curvature itself (the programs see it to first order) turns more often than the structure has extrema.
+  static bool turnsTooOften(const UniformQuintic& curve, const FairStructure& structure) {
+    const auto stations = checkStations(curve, kFineChecksPerSpan);
+    Vec2 low = curve.at(0.0, 0)[0], high = low;
+    for (const FrameStation& s : stations) {
+      const Vec2 p = curve.at(s.u, 0)[0];
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    const double least = kWrongWay / (high - low).norm();
+    double lowest = stations.front().kappa, highest = lowest;
+    std::size_t turns = 0;
+    int direction = 0;
+    for (const FrameStation& s : stations) {
+      lowest = std::min(lowest, s.kappa);
+      highest = std::max(highest, s.kappa);
+      if (direction >= 0 && highest - s.kappa > least) {
+        turns += direction > 0 ? 1 : 0;
+        direction = -1;
+        lowest = s.kappa;
+      } else if (direction <= 0 && s.kappa - lowest > least) {
+        turns += direction < 0 ? 1 : 0;
+        direction = 1;
+        highest = s.kappa;
+      }
+    }
+    return turns > structure.extrema.size();
+  }
+
+  bool finishCurve(const FairPosterior& posterior, StructureResult& found, double circleCost) {
+    auto curve = structuredCurve(posterior, found);
+    for (int pass = 0; curve && pass < kRefinements && turnsTooOften(*curve, found.structure); ++pass) {
+      // About the curve itself, with its own knots, the linear constraints are exact but for a tiny remainder.
+      frame_ = assembleFrame(*curve, piece_.data, options_, kFineChecksPerSpan);
+      const auto about = localPosterior(frame_, s0_, posterior.tau2, 0, options_.emWidthPx);
+      if (!about || context_.isCancelled()) break;
+      auto better = structuredCurve(*about, found);
+      if (!better) break;
+      curve = std::move(better);
+    }
+    if (!curve || context_.isCancelled()) return false;
     Vec2 start = Vec2::Zero(), end = Vec2::Zero();
     pinShifts(*curve, start, end);
     auto nurbs = placed(curve->toNurbs(pixelMm_, pixelMm_, start, end), piece_, in_, pixelMm_);
     if (!nurbs) return false;
-    report_.why = fit->converged && !found.limited ? Termination::Converged : Termination::IterationLimit;
+    report_.why = found.limited ? Termination::IterationLimit : Termination::Converged;
     noteExtrema(found, circleCost);
     noteBand(posterior, *curve);
     piece_.squares = frame_.squares;
@@ -218,7 +268,10 @@ class Finish {
   }
 
   void noteBand(const FairPosterior& posterior, const UniformQuintic& curve) {
-    for (const FrameStation& s : frame_.checks) {
+    const auto stride = std::max<std::size_t>(
+        1, frame_.checks.size() / static_cast<std::size_t>(kChecksPerSpan * frame_.base.knots().spans));
+    for (std::size_t i = 0; i < frame_.checks.size(); i += stride) {
+      const FrameStation& s = frame_.checks[i];
       const double variance = BandCholesky::quadratic(posterior.covariance, s.kappaRow);
       report_.bandS.push_back(curve.arcLength(s.u) * pixelMm_);
       report_.bandSigma.push_back(std::sqrt(std::max(0.0, variance)) / pixelMm_);

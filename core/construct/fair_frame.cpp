@@ -161,7 +161,7 @@ std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions& opt
   return curve;
 }
 
-FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFitOptions& options, bool withChecks) {
+FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFitOptions& options, int checksPerSpan) {
   FairFrame frame;
   frame.base = base;
   const UniformKnots& knots = base.knots();
@@ -184,12 +184,18 @@ FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFi
   }
   frame.cell = knots.spacing() / 3.0;
   for (int j = 0; j < 3 * knots.spans; ++j) frame.penalty.push_back(makeStation(base, (j + 0.5) * frame.cell, true));
-  if (withChecks) {
-    const int count = 4 * knots.spans + (knots.closed ? 0 : 1);
-    for (int j = 0; j < count; ++j)
-      frame.checks.push_back(makeStation(base, j * knots.length / (4.0 * knots.spans), false));
-  }
+  if (checksPerSpan > 0) frame.checks = checkStations(base, checksPerSpan);
   return frame;
+}
+
+std::vector<FrameStation> checkStations(const UniformQuintic& base, int perSpan) {
+  const UniformKnots& knots = base.knots();
+  const int count = perSpan * knots.spans + (knots.closed ? 0 : 1);
+  std::vector<FrameStation> stations;
+  stations.reserve(static_cast<std::size_t>(count));
+  for (int j = 0; j < count; ++j)
+    stations.push_back(makeStation(base, j * knots.length / (perSpan * knots.spans), false));
+  return stations;
 }
 
 OffsetPoint offsetPoint(const UniformQuintic& base, const Eigen::VectorXd& d, double u) {

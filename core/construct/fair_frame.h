@@ -40,7 +40,7 @@ struct FairFrame {
   double blockLength = 8.0, cell = 0.0;  ///< [px] length per block, per station of the penalty.
   std::vector<FairBlock> blocks;
   std::vector<FrameStation> penalty;  ///< Midpoints of thirds of spans.
-  std::vector<FrameStation> checks;   ///< Four per span; open: and the end.
+  std::vector<FrameStation> checks;   ///< Where signs are asked for; see checkStations.
   BandMatrix h;                       ///< Data term.
   Eigen::VectorXd g;
   double squares = 0.0;  ///< Sum of squared residuals of the single points about the base curve.
@@ -54,9 +54,12 @@ UniformKnots fairKnots(double length, double spacingPx, bool closed);
 /// data.t.
 std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions&);
 
-/// Projects the points on the curve (updates data.t), averages them over blocks and sets up the rows. False in
-/// `withChecks` leaves the check stations out.
-FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFitOptions&, bool withChecks);
+/// Projects the points on the curve (updates data.t), averages them over blocks and sets up the rows.
+/// @param checksPerSpan check stations a span; 0 leaves them out.
+FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFitOptions&, int checksPerSpan);
+
+/// Stations at equal steps, `perSpan` a span; open: and the end.
+std::vector<FrameStation> checkStations(const UniformQuintic& base, int perSpan);
 
 /// The curve base + d N from parameter `from` to `to` as a spline of its own arc length, with as many spans.
 struct Reframed {

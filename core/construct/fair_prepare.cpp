@@ -71,6 +71,10 @@ void gate(FairData& data, double gatePx, double spacing) {
     return some;
   };
   for (int i = 0; i < n; ++i) {
+    if (i >= kGateReach && i + kGateReach < n) {  // the usual case, without medians
+      const auto at = static_cast<std::size_t>(i);
+      if (distanceToSegment(p[at], p[at - kGateReach], p[at + kGateReach]) <= limit) continue;
+    }
     const auto before = around(i - kGateReach, i - 1), after = around(i + 1, i + kGateReach);
     if (before.size() < 3 || after.size() < 3) continue;
     if (distanceToSegment(p[static_cast<std::size_t>(i)], median(before), median(after)) > limit) {
@@ -135,7 +139,7 @@ FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, double pixel
   if (length < kShortestPx) return piece;
   const auto pilot = fitPilot(data, options);
   if (!pilot) return piece;
-  FairFrame frame = assembleFrame(*pilot, data, options, false);
+  FairFrame frame = assembleFrame(*pilot, data, options, 0);
   if (frame.blocks.size() < kFewestBlocks) return piece;
   piece.table = cutoffTable(frame);
   piece.frame = std::move(frame);

@@ -24,7 +24,7 @@ struct Stations {
   const FairFrame& frame;
   int count = static_cast<int>(frame.checks.size());
   bool closed = frame.base.knots().closed;
-  double step = frame.base.knots().length / (4.0 * frame.base.knots().spans);
+  double step = frame.base.knots().length / (closed ? count : count - 1);
 
   bool has(int j) const { return closed || (j >= 0 && j < count); }
   const FrameStation& operator[](int j) const {

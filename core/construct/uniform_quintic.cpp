@@ -35,10 +35,9 @@ std::array<double, 6> pieceValues(double t, int order, double spacing) {
 }  // namespace
 
 int UniformKnots::span(double& u) const {
-  double place = u / spacing();
-  if (closed) place -= spans * std::floor(place / spans);
-  const int j =
-      std::clamp(static_cast<int>(std::floor(std::clamp(place, 0.0, static_cast<double>(spans)))), 0, spans - 1);
+  double place = u * spans / length;
+  if (closed && !(place >= 0.0 && place < spans)) place -= spans * std::floor(place / spans);
+  const int j = place > 0.0 ? std::min(static_cast<int>(std::min(place, 1e9)), spans - 1) : 0;
   u = place - j;
   return j;
 }
