@@ -6,6 +6,7 @@
 #include <new>
 
 #include "core/base/parallel.h"
+#include "core/construct/bezier_chain.h"
 #include "core/construct/control_polygon.h"
 #include "core/construct/fair_fit.h"
 #include "core/construct/quintic_nurbs.h"
@@ -27,9 +28,10 @@ Result<ConstructedPiece> constructPiece(const ConstructPiece& piece, double pixe
   switch (params.method) {
     case ConstructMethod::ControlPolygon:
       return constructControlPolygon(piece, pixelMm, params, context);
+    case ConstructMethod::Bezier:
+      return constructBezierChain(piece, pixelMm, params, context);
     case ConstructMethod::Fair:
     case ConstructMethod::Nurbs:
-    case ConstructMethod::Bezier:
     case ConstructMethod::Typical:
       break;
   }

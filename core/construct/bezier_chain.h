@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/construct/construct.h"
+#include "core/construct/quintic_pieces.h"
+
+namespace batten {
+
+/// The Bezier path of 001: from station to station a quadratic on the crossing of both regression lines, elevated to
+/// degree 5; where the lines do not cross well (inflections) a cubic with handles of a third of the chord. G1.
+std::vector<Quintic> bezierPath(std::span<const Station> stations, bool closed);
+
+/// Curvature to aim at: the changes of direction between stations over the distance, low-passed by a local-linear
+/// Gaussian of standard deviation `width` [mm] (a plain mean would bias the ends), once over the data and once over
+/// what that missed, so that bends keep their height. One value per wanted arc length.
+std::vector<double> lowPassedCurvature(std::span<const Station> stations, bool closed, double width,
+                                       std::span<const double> arcLengths);
+
+/// The construction of 001 for one piece: the Bezier path; at joints the mean curvature of both sides; then the joints
+/// (offset, direction, curvature) are faired towards the low-passed curvature by Levenberg-Marquardt. G2; one B-spline
+/// of degree 5 with knots of multiplicity 3. Open ends stay where they are.
+Result<ConstructedPiece> constructBezierChain(const ConstructPiece&, double pixelMm, const ConstructParams&,
+                                              const RunContext&);
+
+}  // namespace batten
