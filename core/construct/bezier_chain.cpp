@@ -112,7 +112,7 @@ class Chain {
     return result;
   }
 
-  Result<NurbsCurve> curve(const Eigen::VectorXd& x) const {
+  std::vector<Joint> joints(const Eigen::VectorXd& x) const {
     std::vector<Joint> all;
     for (std::size_t i = 0; i < count(); ++i) {
       std::array<double, 3> own = {x(static_cast<Eigen::Index>(3 * i)), x(static_cast<Eigen::Index>(3 * i + 1)),
@@ -121,7 +121,7 @@ class Chain {
       all.push_back(moved(i, own.data()));
     }
     if (closed_) all.push_back(all.front());
-    return hermiteChain(all, lengths_);
+    return all;
   }
 
  private:
@@ -214,6 +214,27 @@ std::vector<double> lowPassedCurvature(std::span<const Station> stations, bool c
   return result;
 }
 
+FairedJoints fairedJoints(std::span<const Station> stations, bool closed, double pixelMm, const RunContext& context) {
+  const auto lengths = arcCorrectedDistances(stations, closed);
+  double total = 0.0;
+  std::vector<double> places;
+  for (const double length : lengths) {
+    for (const double t : kPlaces) places.push_back(total + t * length);
+    total += length;
+  }
+  if (!closed) places.push_back(total);
+  const double unit = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / 1000.0;
+  const double width =
+      std::max(kLowPassSegments * total / static_cast<double>(lengths.size()), kShortestLowPassPx * unit);
+  const auto targets = lowPassedCurvature(stations, closed, width, places);
+  const Chain chain(jointsOf(bezierPath(stations, closed), stations, closed), lengths, closed, unit);
+  const auto blocks = chain.blocks(targets);
+  const auto unknowns = static_cast<Eigen::Index>(3 * chain.count());
+  const LevenbergResult solved =
+      minimiseBlocks(Eigen::VectorXd::Zero(unknowns), Eigen::VectorXd::Ones(unknowns), blocks, context);
+  return {chain.joints(solved.x), lengths, solved.why};
+}
+
 Result<ConstructedPiece> constructBezierChain(const ConstructPiece& piece, double pixelMm, const ConstructParams&,
                                               const RunContext& context) {
   if (context.isCancelled()) return cancelled();
@@ -221,28 +242,12 @@ Result<ConstructedPiece> constructBezierChain(const ConstructPiece& piece, doubl
   if (stations.size() < (piece.closed ? 3u : 2u)) {
     return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
   }
-  const auto lengths = arcCorrectedDistances(stations, piece.closed);
-  double total = 0.0;
-  std::vector<double> places;
-  for (const double length : lengths) {
-    for (const double t : kPlaces) places.push_back(total + t * length);
-    total += length;
-  }
-  if (!piece.closed) places.push_back(total);
-  const double unit = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / 1000.0;
-  const double width =
-      std::max(kLowPassSegments * total / static_cast<double>(lengths.size()), kShortestLowPassPx * unit);
-  const auto targets = lowPassedCurvature(stations, piece.closed, width, places);
-  const Chain chain(jointsOf(bezierPath(stations, piece.closed), stations, piece.closed), lengths, piece.closed, unit);
-  const auto blocks = chain.blocks(targets);
-  const auto unknowns = static_cast<Eigen::Index>(3 * chain.count());
-  const LevenbergResult solved =
-      minimiseBlocks(Eigen::VectorXd::Zero(unknowns), Eigen::VectorXd::Ones(unknowns), blocks, context);
+  const FairedJoints faired = fairedJoints(stations, piece.closed, pixelMm, context);
   if (context.isCancelled()) return cancelled();
-  auto curve = chain.curve(solved.x);
+  auto curve = hermiteChain(faired.joints, faired.lengths);
   if (!curve) return fail(curve.error());
   ConstructedPiece result{std::move(*curve), {}};
-  result.report.why = solved.why;
+  result.report.why = faired.why;
   return result;
 }
 

@@ -20,6 +20,16 @@ std::vector<Quintic> bezierPath(std::span<const Station> stations, bool closed);
 std::vector<double> lowPassedCurvature(std::span<const Station> stations, bool closed, double width,
                                        std::span<const double> arcLengths);
 
+/// Stations as places, directions and curvatures, faired.
+struct FairedJoints {
+  std::vector<Joint> joints;    ///< One per station; closed: the first once more at the end.
+  std::vector<double> lengths;  ///< [mm] From joint to joint.
+  Termination why = Termination::NotRun;
+};
+/// Joints of the Bezier path (mean curvature of both sides) moved towards a fair curve. @pre at least 2 stations,
+/// closed 3.
+FairedJoints fairedJoints(std::span<const Station> stations, bool closed, double pixelMm, const RunContext& context);
+
 /// The construction of 001 for one piece: the Bezier path; at joints the mean curvature of both sides; then the joints
 /// (offset, direction, curvature) are faired towards the low-passed curvature by Levenberg-Marquardt. G2; one B-spline
 /// of degree 5 with knots of multiplicity 3. Open ends stay where they are.

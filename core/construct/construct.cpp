@@ -10,6 +10,7 @@
 #include "core/construct/control_polygon.h"
 #include "core/construct/fair_fit.h"
 #include "core/construct/quintic_nurbs.h"
+#include "core/construct/typical_curve.h"
 
 namespace batten {
 

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/typical_curve.h"
+
+#include <gtest/gtest.h>
+
+#include "core/curve/curve_analysis.h"
+#include "tests/support/known_answers.h"
+#include "tests/unit/construct/stations_of.h"
+
+namespace batten {
+namespace {
+
+using std::numbers::pi;
+
+NurbsCurve asCurve(const TypicalCurve& typical) {
+  const auto q = typical.controlPoints();
+  return NurbsCurve::make(3, {0, 0, 0, 0, 1, 1, 1, 1}, {q.begin(), q.end()}).value();
+}
+
+TEST(TypicalCurve, MatchesTheKnownAnswer) {
+  const auto answer = test::knownAnswer(BATTEN_TEST_DATA, "05_typical.json");
+  for (const auto& item : answer.at("cases")) {
+    const auto number = [&](const char* key) { return item.at(key).get<double>(); };
+    const auto made = typicalFromForm(Vec2::Zero(), 0.0, number("kappa0"), number("dS"), number("dW"));
+    ASSERT_TRUE(made);
+    EXPECT_NEAR(made->edge, number("l"), 1e-10 * number("l"));
+    EXPECT_NEAR(made->ratio, number("h"), 1e-10 * number("h"));
+    EXPECT_NEAR(made->turnRad, number("phi"), 1e-10);
+    EXPECT_EQ(made->isMonotone(), item.at("monotone").get<bool>());
+    EXPECT_NEAR(made->endCurvature(), number("kappa1"), 1e-10 * std::abs(number("kappa1")));
+    const auto curve = asCurve(*made);
+    for (std::size_t i = 0; i < item.at("u").size(); ++i) {
+      const double u = item.at("u").at(i), kappa = item.at("kappa").at(i);
+      EXPECT_LT((curve.point(u) - test::toVec2(item.at("points").at(i))).norm(), 1e-10 * number("dS"));
+      EXPECT_NEAR(curvature(curve, u).value(), kappa, 1e-9 * std::abs(kappa));
+    }
+    const auto longer = made->toParameter(1.25);
+    const auto& extrapolated = item.at("extrapolated_to_u_1_25");
+    EXPECT_NEAR(longer.edge, extrapolated.at("l").get<double>(), 1e-9 * longer.edge);
+    EXPECT_NEAR(longer.ratio, extrapolated.at("h").get<double>(), 1e-9);
+    EXPECT_NEAR(longer.turnRad, extrapolated.at("phi").get<double>(), 1e-9);
+    // The other way to the same curve: from the curvatures of both ends.
+    const auto again =
+        typicalFromCurvatures(Vec2::Zero(), 0.0, made->startCurvature(), made->endCurvature(), number("dW"));
+    ASSERT_TRUE(again);
+    EXPECT_NEAR(again->edge, made->edge, 1e-10 * made->edge);
+    EXPECT_NEAR(again->ratio, made->ratio, 1e-10);
+  }
+}
+
+TEST(TypicalCurve, MonotoneMeansNoExtremumInside) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    const TypicalCurve typical{{0, 0}, 0.0, 20.0, 0.5 + 1.5 * unit(random), 0.05 + unit(random)};
+    const auto extrema = curvatureExtrema(asCurve(typical), 1e-9 * std::abs(typical.startCurvature()), false);
+    EXPECT_EQ(extrema.empty(), typical.isMonotone()) << typical.ratio << " " << typical.turnRad;
+  }
+}
+
+TEST(TypicalCurve, TruncatedAndExtrapolatedLieOnTheSameCubic) {
+  const auto typical = typicalFromForm({3, 4}, 0.3, 0.01, 80.0, 0.7).value();
+  const auto half = asCurve(typical.toParameter(0.5)), whole = asCurve(typical);
+  const auto back = typical.toParameter(1.6).toParameter(1.0 / 1.6);
+  EXPECT_NEAR(back.edge, typical.edge, 1e-12 * typical.edge);
+  EXPECT_NEAR(back.ratio, typical.ratio, 1e-12);
+  for (int i = 0; i <= 10; ++i) EXPECT_LT((half.point(i / 10.0) - whole.point(i / 20.0)).norm(), 1e-12);
+}
+
+TEST(TypicalCurve, AbsentWhereThereIsNone) {
+  EXPECT_FALSE(typicalFromForm({0, 0}, 0, 0.0, 80, 0.7));
+  EXPECT_FALSE(typicalFromForm({0, 0}, 0, 0.01, 80, 0.0));
+  EXPECT_FALSE(typicalFromForm({0, 0}, 0, 0.01, 80, -0.7));
+  EXPECT_FALSE(typicalFromForm({0, 0}, 0, 0.01, 0.0, 0.7));
+  EXPECT_FALSE(typicalFromForm({0, 0}, 0, 0.01, 80, 3.2));
+  EXPECT_FALSE(typicalFromCurvatures({0, 0}, 0, 0.01, -0.01, 0.7));
+}
+
+Vec2 roof(double x) {
+  return {x, 60 * std::exp(-std::pow((x - 300) / 120, 2)) + 40 * std::exp(-std::pow((x - 650) / 90, 2))};
+}
+
+double largestJump(const NurbsCurve& curve) {
+  double jump = 0.0;
+  const auto breaks = curve.breaks();
+  for (std::size_t i = 1; i + 1 < breaks.size(); ++i) {
+    const double h = 1e-7 * (breaks[i] - breaks[i - 1]);
+    jump = std::max(jump, std::abs(curvature(curve, breaks[i]).value() - curvature(curve, breaks[i] - h).value()));
+  }
+  return jump;
+}
+
+TEST(ConstructTypical, IsTrueAndHasNoJumpOfCurvature) {
+  const auto open = test::pieceOf(roof, 0, 900, 30, false);
+  const auto line = constructTypical(open, 1.0, {}, {}).value();
+  EXPECT_LT(deviation(line.curve, open.points, true).max, 1.0);
+  EXPECT_LT(largestJump(line.curve), 1e-6);
+  EXPECT_EQ(line.curve.point(line.curve.start()), open.stations.front().point);
+  EXPECT_EQ(line.curve.point(line.curve.end()), open.stations.back().point);
+  const auto quarter = test::pieceOf(test::ellipsePoint, 0.1, 1.45, 10, false);
+  const auto arc = constructTypical(quarter, 1.0, {}, {}).value();
+  EXPECT_LT(deviation(arc.curve, quarter.points, true).max, 0.3);
+  EXPECT_TRUE(curvatureExtrema(arc.curve, 5e-3 / extent(arc.curve), false).empty());
+  const auto closed = test::pieceOf(test::ellipsePoint, 0, 2 * pi, 36, true);
+  const auto around = constructTypical(closed, 1.0, {}, {}).value();
+  EXPECT_LT(deviation(around.curve, closed.points, true).max, 1.0);
+  EXPECT_LT(largestJump(around.curve), 1e-6);
+  EXPECT_NEAR(curvature(around.curve, around.curve.start()).value(),
+              curvature(around.curve, around.curve.end()).value(), 1e-9);
+}
+
+TEST(ConstructTypical, AnythingGivesAFiniteCurveOrAnError) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> where(0.0, 40.0);
+  for (int trial = 0; trial < 120; ++trial) {
+    ConstructPiece piece;
+    piece.closed = trial % 3 == 0;
+    const auto count = random() % 12;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec2 p(where(random), where(random));
+      piece.points.push_back(p);
+      if (random() % 4 != 0) piece.stations.push_back({p, Vec2(where(random), where(random)), p, p});
+    }
+    const auto made = constructTypical(piece, 1.0, {}, {});
+    if (!made) {
+      EXPECT_EQ(made.error().code, ErrorCode::Numerical);
+      continue;
+    }
+    for (const Vec2& p : made->curve.controlPoints()) ASSERT_TRUE(p.allFinite());
+  }
+}
+
+}  // namespace
+}  // namespace batten
