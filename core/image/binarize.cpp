@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/image/faint_lines.h"
 #include "core/image/hot_loop.h"
 #include "core/image/plane.h"
 #include "core/image/region_surface.h"
@@ -17,6 +18,7 @@ namespace batten {
 namespace {
 
 constexpr int kRowsPerBlock = 64;
+constexpr double kAutomaticReach = 0.4;  // of the region's contrast; never into the noise of the paper
 /// A speck of the default 20 px has a box of 8 px across; other areas in proportion.
 constexpr double kDiagonalPerRootArea = 8.0 / 4.472135954999579;
 
@@ -80,9 +82,10 @@ struct Masks {
 };
 
 /// Smooths and compares with the levels, in blocks of rows that stay in the cache.
-Masks compareAll(const GreyImage& image, const RegionThresholds& t, const ThresholdParams& params, bool wantCertain,
+Masks compareAll(const GreyImage& image, const RegionThresholds& t, const ThresholdParams& params,
                  const RunContext& context) {
-  const bool wantFaint = params.reach < 1.0;
+  const bool wantFaint = params.reach < 1.0, wantCertain = wantFaint || params.speckArea > 0;
+  const auto reach = static_cast<float>(params.reach > 0.0 ? params.reach : kAutomaticReach);
   const BitImage blank(image.width, image.height);
   Masks masks{blank, wantCertain ? blank : BitImage(), wantFaint ? blank : BitImage()};
   const RegionSurface contrast(t.contrast, image.width, image.height, params.interpolate);
@@ -116,8 +119,7 @@ Masks compareAll(const GreyImage& image, const RegionThresholds& t, const Thresh
       contrast.fillRow(y, step.data());
       compare(step.data(), masks.ink.row(y));
       if (wantFaint) {
-        weaken(step.data(), static_cast<float>(params.reach), static_cast<float>(t.faintLimit), level.data(),
-               image.width);
+        weaken(step.data(), reach, static_cast<float>(t.faintLimit), level.data(), image.width);
         std::swap(step, level);
         compare(step.data(), masks.faint.row(y));
       }
@@ -137,15 +139,15 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
   if (const auto error = validate(params)) return fail(*error);
   try {
     if (image.width <= 0 || image.height <= 0) return BitImage();
-    const bool dropSpecks = params.speckArea > 0;
-    Masks masks = compareAll(image, thresholds, params, dropSpecks, context);
+    Masks masks = compareAll(image, thresholds, params, context);
     if (context.isCancelled()) return cancelled();
     BitImage ink = std::move(masks.ink);
-    if (params.reach < 1.0) ink = keepPieces(masks.faint, {.minArea = 0, .minDiagonal = 0.0, .seeds = &ink}, context);
-    if (dropSpecks) {
+    if (params.speckArea > 0) {
       const double diagonal = kDiagonalPerRootArea * std::sqrt(static_cast<double>(params.speckArea));
       ink = keepPieces(ink, {.minArea = params.speckArea, .minDiagonal = diagonal, .seeds = &masks.certain}, context);
     }
+    if (context.isCancelled()) return cancelled();
+    if (params.reach < 1.0) ink = addFaintLines({ink, masks.certain, masks.faint}, context);
     if (context.isCancelled()) return cancelled();
     fillHoles(ink, params.holeArea, context);
     if (context.isCancelled()) return cancelled();

@@ -15,7 +15,7 @@ bool within(double value, double low, double high) { return value >= low && valu
 std::optional<Error> validate(const ThresholdParams& params) {
   if (!within(params.manualLevel, 0.0, 255.0)) return outOfRange("The threshold must lie between 0 and 255.");
   if (!within(params.strength, 0.2, 3.0)) return outOfRange("The threshold strength must lie between 0.2 and 3.");
-  if (!within(params.reach, 0.2, 1.0)) return outOfRange("The threshold reach must lie between 0.2 and 1.");
+  if (!within(params.reach, 0.0, 1.0)) return outOfRange("The threshold reach must lie between 0 and 1.");
   if (params.speckArea < 0) return outOfRange("The speck area must not be negative.");
   if (params.holeArea < 0) return outOfRange("The hole area must not be negative.");
   for (const auto& level : params.grid) {

@@ -129,6 +129,21 @@ RunPieces findPieces(const BitImage& image, Connectivity connectivity, const Run
   return result;
 }
 
+void setBits(BitImage& image, const Run& run) { setBits(image.row(run.y), run.x0, run.x1); }
+
+int countBits(const BitImage& image, const Run& run) {
+  const std::uint64_t* row = image.row(run.y);
+  const int first = run.x0 >> 6, last = (run.x1 - 1) >> 6;
+  int count = 0;
+  for (int i = first; i <= last; ++i) {
+    std::uint64_t word = row[i];
+    if (i == first) word &= ~std::uint64_t{0} << (run.x0 & 63);
+    if (i == last) word &= ~std::uint64_t{0} >> (63 - ((run.x1 - 1) & 63));
+    count += std::popcount(word);
+  }
+  return count;
+}
+
 BitImage keepPieces(const BitImage& image, const PieceRule& rule, const RunContext& context) {
   struct Piece {
     std::int64_t area = 0;

@@ -23,6 +23,11 @@ struct RunPieces {
 enum class Connectivity { Four, Eight };
 RunPieces findPieces(const BitImage& image, Connectivity connectivity, const RunContext& context);
 
+/// Sets the pixels of a run.
+void setBits(BitImage& image, const Run& run);
+/// How many pixels of the run are set.
+int countBits(const BitImage& image, const Run& run);
+
 /// What a piece of ink must have to stay.
 struct PieceRule {
   std::int64_t minArea = 0;         ///< [px]

@@ -94,8 +94,8 @@ void appendThresholds(std::vector<Parameter>& table) {
                           [](auto& r) -> auto& { return r.threshold.interpolate; }));
   table.push_back(real(kBinary,
                        {"threshold.reach", "Faint parts", "",
-                        "Below 1, faint parts that touch ink are kept, which closes pencil lines. Smaller reaches farther."},
-                       {0.2, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.threshold.reach; }));
+                        "Thin faint lines count from this share of the contrast asked of ink. Smaller finds fainter ones; 1 none; 0 automatic."},
+                       {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.threshold.reach; }));
   table.push_back(integer(kBinary,
                           {"threshold.speck_area", "Drop specks below", "px",
                            "Pieces of ink with a smaller area are taken for dirt. Larger drops more; 0 keeps all."},
