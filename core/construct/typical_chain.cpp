@@ -113,10 +113,12 @@ class TypicalChain {
     const Vec2 atEnd = (chain.back().controlPoints()[3] - data_.back().point) / pixelMm_;
     const std::array<double, 4> ends = {atStart.x(), atStart.y(), atEnd.x(), atEnd.y()};
     for (std::size_t k = 0; k < 4; ++k) r[k] = 1e3 * ends[k];
+    std::vector<std::array<Vec2, 4>> cubics;
+    for (const TypicalCurve& segment : chain) cubics.push_back(segment.controlPoints());
     std::size_t segment = 0;
     double t = 0.0;
     for (std::size_t i = 0; i < data_.size(); ++i) {
-      const auto d = follow(chain, data_[i], segment, t);
+      const auto d = follow(cubics, data_[i], segment, t);
       const double reach = (data_[i + 1 < data_.size() ? i + 1 : i].point - data_[i > 0 ? i - 1 : i].point).norm();
       r[4 + 2 * i] = (d[0] - data_[i].point).dot(leftNormal(data_[i].tangent)) / pixelMm_;
       r[5 + 2 * i] = 0.1 * reach / pixelMm_ * angleBetween(data_[i].tangent, d[1]);
@@ -134,11 +136,11 @@ class TypicalChain {
 
  private:
   /// Point and derivative of the chain where it crosses the normal of a joint, from where the last one was found.
-  static std::array<Vec2, 2> follow(const std::vector<TypicalCurve>& chain, const Joint& joint, std::size_t& segment,
-                                    double& t) {
+  static std::array<Vec2, 2> follow(const std::vector<std::array<Vec2, 4>>& chain, const Joint& joint,
+                                    std::size_t& segment, double& t) {
     std::array<Vec2, 2> d;
     for (int i = 0; i < 30; ++i) {
-      const auto q = chain[segment].controlPoints();
+      const auto& q = chain[segment];
       const double s = 1.0 - t;
       d[0] = s * s * s * q[0] + 3 * s * s * t * q[1] + 3 * s * t * t * q[2] + t * t * t * q[3];
       d[1] = 3.0 * (s * s * (q[1] - q[0]) + 2 * s * t * (q[2] - q[1]) + t * t * (q[3] - q[2]));
@@ -190,6 +192,8 @@ std::vector<TypicalCurve> fitChain(std::span<const Joint> data, double pixelMm, 
     auto segments = chain.segments({solved.x.data(), static_cast<std::size_t>(solved.x.size())});
     const double rms = chain.rmsPx(solved.x);
     if (segments.empty() || !std::isfinite(rms)) continue;
+    // More segments must be worth it: the fewer, the fairer.
+    if (!best.empty() && rms > 0.8 * bestRms && bestRms < 1.0) break;
     if (best.empty() || rms < bestRms) {
       best = std::move(segments);
       bestRms = rms;
