@@ -221,51 +221,55 @@ RasterContent CurveCanvas::State::rasterContent() const {
   return content;
 }
 
-CurveCanvas::State::StillKey CurveCanvas::State::keyNow() const {
-  StillKey key;
-  key.raster = rasterContent();
+CurveCanvas::State::LinesKey CurveCanvas::State::linesKeyNow() const {
+  LinesKey key;
   key.origin = transform.origin();
   key.size = transform.viewSize();
   key.zoom = transform.zoom();
   key.ratio = transform.ratio();
+  if (view.isScanOnly()) return key;
+  for (std::size_t i = 0; i < kLayers.size(); ++i) key.layers |= view.isVisible(kLayers[i]) ? 1 << i : 0;
   key.combScale = view.combScale();
   key.combDensity = view.combDensity();
   key.selected = session.selectedCurve();
-  for (std::size_t i = 0; i < kLayers.size(); ++i) key.layers |= view.isVisible(kLayers[i]) ? 1 << i : 0;
-  if (view.isScanOnly()) key.layers = -1;
   key.shapes = shapes.get();
   key.combs = combs.get();
-  key.segments = session.output().segments.get();
-  key.pieces = session.output().pieces.get();
-  key.marks = session.recipe().cornerMarks;
-  key.piecesStale = session.isStale(StageId::Pieces);
+  if (view.isVisible(Layer::Segments)) key.segments = session.output().segments.get();
   return key;
 }
 
-void CurveCanvas::State::paintLayers(QPainter& painter) {
+void CurveCanvas::State::paintLines(const LinesKey& key) {
+  if (!lines.isNull() && key == linesKey) return;
+  linesKey = key;
+  if (lines.size() != key.size) lines = QImage(key.size, QImage::Format_ARGB32_Premultiplied);
+  if (lines.isNull()) return;
+  lines.setDevicePixelRatio(key.ratio);
+  lines.fill(Qt::transparent);
   if (view.isScanOnly()) return;
+  QPainter painter(&lines);
   if (view.isVisible(Layer::Segments)) paintSegments(painter, *this);
   if (view.isVisible(Layer::Curve)) paintSketched(painter, *this);
   if (view.isVisible(Layer::Faired)) paintFaired(painter, *this);
   if (view.isVisible(Layer::Comb)) paintCombs(painter, *this);
-  if (view.isVisible(Layer::Corners)) paintCorners(painter, *this);
-  if (view.isVisible(Layer::Regions) && view.tool() != Tool::Thresholds) paintRegionGrid(painter, *this);
   if (view.isVisible(Layer::Deviation)) paintDeviation(painter, *this);
 }
 
 void CurveCanvas::State::paintStill() {
-  const StillKey key = keyNow();
+  const StillKey key{rasterContent(), linesKeyNow()};
   if (!still.isNull() && key == stillKey) return;
-  if (still.size() != key.size) still = QImage(key.size, QImage::Format_RGB32);
+  paintLines(key.lines);
+  if (still.size() != key.lines.size) still = QImage(key.lines.size, QImage::Format_RGB32);
   if (still.isNull()) return;
   still.setDevicePixelRatio(1.0);
   {
     QPainter painter(&still);
     tiles.paint(painter, transform, key.raster);
+    if (!lines.isNull()) {
+      lines.setDevicePixelRatio(1.0);
+      painter.drawImage(QPoint(0, 0), lines);
+    }
   }
-  still.setDevicePixelRatio(key.ratio);
-  QPainter painter(&still);
-  paintLayers(painter);
+  still.setDevicePixelRatio(key.lines.ratio);
   stillKey = key;
 }
 
@@ -291,6 +295,8 @@ void CurveCanvas::State::paint(QPainter& painter) {
     return;
   }
   if (!view.isScanOnly()) {
+    if (view.isVisible(Layer::Corners)) paintCorners(painter, *this);
+    if (view.isVisible(Layer::Regions) && view.tool() != Tool::Thresholds) paintRegionGrid(painter, *this);
     if (!ghost.isEmpty()) paintGhost(painter, *this, ghost);
     tool().paint(painter);
     paintCursor(painter, *this);

@@ -49,17 +49,21 @@ struct CurveCanvas::State : CanvasScene {
   QElapsedTimer flashAge;
   QTimer flashTimer, lateTimer;
 
-  /// What is under the overlay, kept as long as nothing of it changes, so that moving the mouse costs one blit.
-  QImage still;
-  struct StillKey {
-    RasterContent raster;
+  /// The lines, and all that is under the overlay, each kept as long as nothing of it changes: moving the mouse costs
+  /// one blit, and a new mask does not stroke the curves again.
+  QImage lines, still;
+  struct LinesKey {
     QPoint origin;
     QSize size;
     double zoom = 0.0, ratio = 0.0, combScale = 0.0;
     int combDensity = 0, selected = -1, layers = 0;
-    const void *shapes = nullptr, *combs = nullptr, *segments = nullptr, *pieces = nullptr;
-    std::vector<CornerMark> marks;
-    bool piecesStale = false;
+    const void *shapes = nullptr, *combs = nullptr, *segments = nullptr;
+    bool operator==(const LinesKey&) const = default;
+  };
+  LinesKey linesKey;
+  struct StillKey {
+    RasterContent raster;
+    LinesKey lines;
     bool operator==(const StillKey&) const = default;
   };
   StillKey stillKey;
@@ -69,12 +73,12 @@ struct CurveCanvas::State : CanvasScene {
 
  private:
   void paintStill();
-  void paintLayers(QPainter&);
+  void paintLines(const LinesKey&);
   void requestShapes();
   void requestCombs();
   void requestSuggestions();
   CurveSource source() const;
-  StillKey keyNow() const;
+  LinesKey linesKeyNow() const;
   void paintFlash(QPainter&);
 
   CurveSource shapesFor, combsFor;
