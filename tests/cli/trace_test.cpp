@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nlohmann/json.hpp>
+
+#include "core/curve/curve_analysis.h"
+#include "core/pipeline/parameter_table.h"
+#include "core/pipeline/stage_id.h"
+#include "tests/cli/program.h"
+
+namespace batten {
+namespace {
+
+using nlohmann::json;
+using Trace = test::Program;
+
+TEST_F(Trace, WritesSvgJsonReportAndSummary) {
+  const auto done = run("trace " + scene() + " --dpi 254 -o " + file("o.svg") + " -o " + file("o.json") + " --report " + file("r.json"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(done.err, "");
+  const json summary = json::parse(done.out);
+  EXPECT_EQ(summary["curves"], 1);
+  EXPECT_EQ(summary["files"].size(), 3u);
+  EXPECT_NE(test::readFile(file("o.svg")).find("width=\"48mm\" height=\"32mm\""), std::string::npos);
+
+  const auto document = readCurveJson(test::readFile(file("o.json")));
+  ASSERT_TRUE(document) << document.error().message;
+  ASSERT_EQ(document->curves.size(), 1u);
+  EXPECT_TRUE(document->curves[0].closed);
+  EXPECT_EQ(document->dpi, 254.0);
+  const NurbsCurve& curve = document->curves[0].pieces[0].curve;
+  const auto truth = test::truthShape("ellipse", 480, 320).outline();
+  for (std::size_t i = 0; i < truth.size(); i += 97) {
+    EXPECT_LT(closestPoint(curve, document->frame.pointToModel(truth[i])).distance, 0.5 * document->frame.mmPerPx);
+  }
+
+  const json report = json::parse(test::readFile(file("r.json")));
+  EXPECT_GT(report["peak_memory_bytes"].get<double>(), 1e6);
+  EXPECT_GE(report["stages"].size(), kStages.size() - 1);
+  EXPECT_EQ(report["curves"][0]["targets"].size(), 6u);
+  EXPECT_EQ(report["image"]["sha256"], document->imageSha256);
+}
+
+TEST_F(Trace, GivesTheSameBytesWithAnyNumberOfThreads) {
+  const std::string start = "trace " + scene("car") + " --set fairing.mode=tolerance ";
+  ASSERT_EQ(run(start + "--threads 1 -o " + file("a.svg") + " -o " + file("a.json")).code, 0);
+  ASSERT_EQ(run(start + "--threads 2 -o " + file("b.svg") + " -o " + file("b.json")).code, 0);
+  ASSERT_EQ(run(start + "--threads 7 -o " + file("c.svg") + " -o " + file("c.json")).code, 0);
+  EXPECT_EQ(test::readFile(file("a.json")), test::readFile(file("b.json")));
+  EXPECT_EQ(test::readFile(file("a.json")), test::readFile(file("c.json")));
+  EXPECT_EQ(test::readFile(file("a.svg")), test::readFile(file("b.svg")));
+  EXPECT_FALSE(test::readFile(file("a.json")).empty());
+}
+
+TEST_F(Trace, CornersCutTheContourAndTheSavedRecipeRepeatsTheResult) {
+  const auto truth = test::truthShape("car", 480, 320);
+  std::string corners;
+  for (const Vec2& c : truth.corners) corners += " --corner " + std::to_string(c.x() + 3) + "," + std::to_string(c.y() - 2);
+  const std::string scan = scene("car");
+  ASSERT_EQ(run("trace " + scan + corners + " --set segments.spacing=25 -o " + file("a.json") + " --save-recipe " + file("r.json")).code, 0);
+  const auto document = readCurveJson(test::readFile(file("a.json")));
+  ASSERT_TRUE(document);
+  ASSERT_FALSE(document->curves.empty());
+  EXPECT_TRUE(document->curves[0].closed);
+  EXPECT_EQ(document->curves[0].pieces.size(), truth.corners.size());
+  ASSERT_EQ(run("trace " + scan + " --recipe " + file("r.json") + " -o " + file("b.json")).code, 0);
+  EXPECT_EQ(test::readFile(file("a.json")), test::readFile(file("b.json")));
+}
+
+TEST_F(Trace, SettingsComeOnTopOfTheRecipeInTheOrderGiven) {
+  const std::string scan = scene();
+  ASSERT_EQ(run("trace " + scan + " --set filter.iterations=3 --set segments.spacing=55 --save-recipe " + file("r.json")).code, 0);
+  const auto done = run("trace " + scan + " --recipe " + file("r.json") + " --set filter.iterations=4 --set filter.iterations=5 --dpi 200 --save-recipe " +
+                        file("s.json"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  const json recipe = json::parse(test::readFile(file("s.json")));
+  EXPECT_EQ(recipe["parameters"]["filter.iterations"], 5);
+  EXPECT_EQ(recipe["parameters"]["segments.spacing"], 55.0);
+  EXPECT_EQ(recipe["dpi"], 200.0);
+}
+
+TEST_F(Trace, DumpsEveryStageAsPng) {
+  std::string words = "trace " + scene("car");
+  std::vector<std::string> names{"log", "paper"};
+  for (const StageId stage : kStages) names.emplace_back(name(stage));
+  for (const std::string& one : names) words += " --dump " + one + "=" + file(one + ".png");
+  const auto done = run(words);
+  ASSERT_EQ(done.code, 0) << done.err;
+  for (const std::string& one : names) {
+    const std::string png = test::readFile(file(one + ".png"));
+    ASSERT_GT(png.size(), 60u) << one;
+    EXPECT_EQ(png.substr(1, 3), "PNG") << one;
+    EXPECT_EQ(png.substr(16, 8), std::string("\0\0\x01\xe0\0\0\x01\x40", 8)) << one;  // 480 x 320
+  }
+}
+
+TEST_F(Trace, NamesWithBlanksAndOtherScripts) {
+  write("süße 漢字.png", test::readFile(scene()));
+  const auto done = run("trace '" + file("süße 漢字.png") + "' -o '" + file("läuft gut.svg") + "'");
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(test::readFile(file("läuft gut.svg")).find("<title>süße 漢字.png</title>"), std::string::npos);
+}
+
+TEST_F(Trace, ListsTheParameters) {
+  const auto listed = run("parameters --json");
+  ASSERT_EQ(listed.code, 0);
+  const json list = json::parse(listed.out);
+  ASSERT_EQ(list.size(), parameterTable().size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    EXPECT_EQ(list[i]["name"], parameterTable()[i].name);
+    EXPECT_EQ(list[i]["default"], defaultValue(parameterTable()[i]));
+    EXPECT_FALSE(list[i]["help"].get<std::string>().empty());
+  }
+  const auto text = run("parameters");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(text.out.begin(), text.out.end(), '\n')), list.size() + 1);
+}
+
+TEST_F(Trace, HelpAndVersionSucceed) {
+  for (const char* words : {"--help", "trace --help", "parameters --help", "--version"}) {
+    const auto done = run(words);
+    EXPECT_EQ(done.code, 0) << words;
+    EXPECT_FALSE(done.out.empty()) << words;
+    EXPECT_EQ(done.err, "") << words;
+  }
+  EXPECT_NE(run("--help").out.find("Exit codes"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace batten

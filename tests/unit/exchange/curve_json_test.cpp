@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/exchange/writers.h"
+#include "tests/unit/exchange/exchange_shapes.h"
+
+namespace batten {
+namespace {
+
+using test::exportOfAllKinds;
+
+TEST(CurveJson, ReadsBackEveryCurveExactly) {
+  const ExportDocument document = exportOfAllKinds();
+  const auto text = writeCurveJson(document);
+  ASSERT_TRUE(text) << text.error().message;
+  const auto read = readCurveJson(*text);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->frame, document.frame);
+  EXPECT_EQ(read->dpi, document.dpi);
+  EXPECT_EQ(read->imageSha256, document.imageSha256);
+  ASSERT_EQ(read->curves.size(), document.curves.size());
+  for (std::size_t i = 0; i < read->curves.size(); ++i) {
+    EXPECT_EQ(read->curves[i].id, document.curves[i].id);
+    EXPECT_EQ(read->curves[i].closed, document.curves[i].closed);
+    ASSERT_EQ(read->curves[i].pieces.size(), document.curves[i].pieces.size());
+    for (std::size_t k = 0; k < read->curves[i].pieces.size(); ++k) {
+      const NurbsCurve &a = read->curves[i].pieces[k].curve, &b = document.curves[i].pieces[k].curve;
+      for (int s = 0; s <= 200; ++s) {
+        const double u = b.start() + (b.end() - b.start()) * s / 200.0;
+        const auto da = a.derivatives(u, 2), db = b.derivatives(u, 2);
+        for (std::size_t d = 0; d <= 2; ++d) EXPECT_LT((da[d] - db[d]).norm(), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(CurveJson, HoldsTheContract) {
+  const auto json = nlohmann::json::parse(*writeCurveJson(exportOfAllKinds()));
+  EXPECT_EQ(json["format"], "batten-curves");
+  EXPECT_EQ(json["version"], 1);
+  EXPECT_EQ(json["image"]["width"], 1200);
+  EXPECT_EQ(json["image"]["height"], 1000);
+  EXPECT_EQ(json["image"]["dpi"], 254.0);
+  EXPECT_EQ(json["image"]["sha256"], std::string(64, 'a'));
+  EXPECT_EQ(json["mm_per_px"], 0.1);
+  for (const auto& curve : json["curves"]) {
+    for (const auto& piece : curve["pieces"]) {
+      const int degree = piece["degree"];
+      const auto knots = piece["knots"].get<std::vector<double>>();
+      const auto n = static_cast<int>(piece["control_points_mm"].size());
+      ASSERT_EQ(static_cast<int>(knots.size()), n + degree + 1);
+      ASSERT_EQ(piece["control_points_px"].size(), piece["control_points_mm"].size());
+      EXPECT_EQ(knots.front(), knots[static_cast<std::size_t>(degree)]);  // clamped
+      for (int i = 0; i < n; ++i) {  // px: y down from the upper edge; mm: y up from the lower one
+        const double x = piece["control_points_px"][i][0], y = piece["control_points_px"][i][1];
+        EXPECT_NEAR(x * 0.1, piece["control_points_mm"][i][0].get<double>(), 1e-12);
+        EXPECT_NEAR(100.0 - y * 0.1, piece["control_points_mm"][i][1].get<double>(), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(CurveJson, AnAssumedScaleHasNoResolution) {
+  ExportDocument document = exportOfAllKinds();
+  document.dpi.reset();
+  const auto text = writeCurveJson(document);
+  EXPECT_TRUE(nlohmann::json::parse(*text)["image"]["dpi"].is_null());
+  EXPECT_EQ(readCurveJson(*text)->dpi, std::nullopt);
+}
+
+TEST(CurveJson, RefusesNothingAndDamage) {
+  ExportDocument document = exportOfAllKinds();
+  const std::string text = *writeCurveJson(document);
+  for (std::size_t length = 0; length + 2 < text.size(); length += 501) {
+    EXPECT_FALSE(readCurveJson(text.substr(0, length))) << length;
+  }
+  EXPECT_FALSE(readCurveJson("{}"));
+  EXPECT_FALSE(readCurveJson("[]"));
+  auto json = nlohmann::json::parse(text);
+  json["version"] = 2;
+  EXPECT_FALSE(readCurveJson(json.dump()));
+  json["version"] = 1;
+  json["curves"][0]["pieces"][0]["knots"][2] = 99.0;
+  EXPECT_FALSE(readCurveJson(json.dump()));
+  document.frame.mmPerPx = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(writeCurveJson(document));
+  document = exportOfAllKinds();
+  document.curves.clear();
+  EXPECT_EQ(writeCurveJson(document).error().code, ErrorCode::NoCurve);
+}
+
+}  // namespace
+}  // namespace batten

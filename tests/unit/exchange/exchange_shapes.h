@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "core/curve/knot_operations.h"
+#include "core/exchange/export_model.h"
+
+namespace batten::test {
+
+inline NurbsCurve made(int degree, std::vector<double> knots, std::vector<Vec2> points) {
+  return NurbsCurve::make(degree, std::move(knots), std::move(points)).value();
+}
+
+inline NurbsCurve oneSpan() {
+  return made(5, {0, 0, 0, 0, 0, 0, 30, 30, 30, 30, 30, 30}, {{10, 10}, {16, 18}, {24, 22}, {30, 20}, {36, 12}, {45, 15}});
+}
+/// Inner knots of multiplicity 1 and 3.
+inline NurbsCurve severalSpans() {
+  return made(5, {0, 0, 0, 0, 0, 0, 10, 20, 20, 20, 35, 50, 50, 50, 50, 50, 50},
+              {{5, 40}, {9, 48}, {16, 55}, {25, 52}, {33, 45}, {40, 41}, {48, 44}, {55, 50}, {61, 49}, {66, 44}, {70, 40}});
+}
+/// Two Bezier pieces with a corner at u = 20.
+inline NurbsCurve bezierChain() {
+  return made(5, {0, 0, 0, 0, 0, 0, 20, 20, 20, 20, 20, 40, 40, 40, 40, 40, 40},
+              {{5, 60}, {9, 64}, {13, 66}, {17, 66}, {21, 64}, {25, 60}, {29, 68}, {33, 72}, {37, 74}, {41, 73}, {45, 70}});
+}
+inline NurbsCurve straightLine() {
+  std::vector<Vec2> points;
+  for (int i = 0; i <= 5; ++i) points.emplace_back(10 + 8 * i, 80 + 2 * i);
+  return made(5, {0, 0, 0, 0, 0, 0, 41, 41, 41, 41, 41, 41}, points);
+}
+/// A smooth closed curve: a periodic uniform quintic through a bumpy ring, with clamped ends.
+inline NurbsCurve smoothLoop() {
+  std::vector<Vec2> points;
+  std::vector<double> knots;
+  const int n = 12;
+  for (int i = 0; i < n + 5; ++i) {
+    const double a = 2 * M_PI * i / n, r = 18 + 3 * std::sin(3 * a);
+    points.emplace_back(50 + r * std::cos(a), 50 + 0.8 * r * std::sin(a));
+  }
+  for (int i = 0; i < n + 11; ++i) knots.push_back(10.0 * (i - 5));
+  return clamped(made(5, knots, points)).value();
+}
+
+/// The test set: every kind of curve an export may meet.
+inline ExportDocument exportOfAllKinds() {
+  ExportDocument document;
+  document.frame = {1200, 1000, 0.1};
+  document.dpi = 254.0;
+  document.imageSha256 = std::string(64, 'a');
+  document.title = "Süße <Linie> & \"漢字\".png";
+  document.curves = {{"curve-1", false, {{oneSpan()}}},
+                     {"curve-2", false, {{severalSpans()}}},
+                     {"curve-3", false, {{bezierChain()}}},
+                     {"curve-4", true, {{smoothLoop()}}},
+                     {"curve-5", false, {{straightLine()}}}};
+  // A loop with three corners.
+  const auto edge = [](Vec2 a, Vec2 b) {
+    std::vector<Vec2> points;
+    for (int i = 0; i <= 5; ++i) {
+      const double t = i / 5.0;
+      points.push_back((1 - t) * a + t * b + 4.0 * t * (1 - t) * 2.0 * leftNormal((b - a).normalized()));
+    }
+    return made(5, {0, 0, 0, 0, 0, 0, 25, 25, 25, 25, 25, 25}, points);
+  };
+  const Vec2 a(80, 10), b(110, 15), c(92, 40);
+  document.curves.push_back({"curve-6", true, {{edge(a, b)}, {edge(b, c)}, {edge(c, a)}}});
+  return document;
+}
+
+}  // namespace batten::test

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/parameter_table.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/pipeline/number_text.h"
+
+namespace batten {
+namespace {
+
+/// A value that differs from the default, for every type.
+std::string otherValue(const Parameter& p) {
+  const std::string normal = defaultValue(p);
+  switch (p.type) {
+    case ParameterType::Boolean: return normal == "true" ? "false" : "true";
+    case ParameterType::Choice: return p.choices.front() == normal ? p.choices.back() : p.choices.front();
+    case ParameterType::Integer: return numberToText(normal == numberToText(p.maximum) ? p.minimum : p.maximum);
+    case ParameterType::Real: return numberToText(p.minimum + (p.maximum - p.minimum) / 3.0);
+    case ParameterType::Text: break;
+  }
+  std::string grid = "12.25";
+  for (int i = 1; i < kRegions; ++i) grid += i % 3 == 0 ? ",0.1" : ",a";
+  return grid;
+}
+
+TEST(ParameterTable, EveryEntryIsDescribed) {
+  std::set<std::string> names;
+  for (const Parameter& p : parameterTable()) {
+    EXPECT_TRUE(names.insert(p.name).second) << p.name;
+    EXPECT_NE(p.name.find('.'), std::string::npos) << p.name;
+    EXPECT_FALSE(p.label.empty()) << p.name;
+    EXPECT_GT(p.help.size(), 20u) << p.name;
+    EXPECT_EQ(p.help.find('\n'), std::string::npos) << p.name;
+    if (p.type == ParameterType::Choice) {
+      EXPECT_EQ(p.choices.size(), p.choiceLabels.size()) << p.name;
+    }
+    if (p.type == ParameterType::Integer || p.type == ParameterType::Real) {
+      EXPECT_LT(p.minimum, p.maximum) << p.name;
+    }
+    if (p.logarithmic && p.type == ParameterType::Real) {
+      EXPECT_GE(p.minimum, 0.0) << p.name;
+    }
+  }
+}
+
+TEST(ParameterTable, HoldsThePromisedNames) {
+  for (const char* name :
+       {"log.enabled", "log.factor", "threshold.mode", "threshold.grid", "threshold.interpolate", "filter.coefficient",
+        "filter.iterations", "filter.order", "edges.mode", "edges.internal", "edges.subpixel", "contours.min_length",
+        "segments.mode", "segments.count", "construct.method", "construct.derivative_magnitude", "fairing.mode",
+        "fairing.target", "fairing.tolerance", "paper.flatten", "corners.snap"}) {
+    EXPECT_NE(findParameter(name), nullptr) << name;
+  }
+}
+
+TEST(ParameterTable, EveryEntryRoundTripsAndTouchesOnlyItself) {
+  for (const Parameter& p : parameterTable()) {
+    Recipe recipe;
+    const std::string value = otherValue(p);
+    ASSERT_TRUE(p.set(recipe, value)) << p.name << " = " << value;
+    EXPECT_EQ(p.get(recipe), value) << p.name;
+    EXPECT_FALSE(recipe == Recipe{}) << p.name << " changes nothing";
+    for (const Parameter& q : parameterTable()) {
+      if (q.name != p.name) {
+        EXPECT_EQ(q.get(recipe), defaultValue(q)) << p.name << " changes " << q.name;
+      }
+    }
+    ASSERT_TRUE(p.set(recipe, defaultValue(p))) << p.name;
+    EXPECT_EQ(recipe, Recipe{}) << p.name;
+  }
+}
+
+TEST(ParameterTable, DefaultsAndBordersOfEveryRangeAreValid) {
+  EXPECT_FALSE(validate(Recipe{}));
+  for (const Parameter& p : parameterTable()) {
+    if (p.type != ParameterType::Integer && p.type != ParameterType::Real) continue;
+    for (const double border : {p.minimum, p.maximum}) {
+      Recipe recipe;
+      ASSERT_TRUE(p.set(recipe, numberToText(border))) << p.name;
+      const auto error = validate(recipe);
+      EXPECT_FALSE(error) << p.name << " = " << border << ": " << error->message;
+    }
+  }
+}
+
+TEST(ParameterTable, RefusesWhatDoesNotFitAndLeavesTheRecipe) {
+  for (const Parameter& p : parameterTable()) {
+    for (const std::string bad : {"", "nonsense", "nan", "inf", "1e999", "-1e9", "1,5", "1 2"}) {
+      Recipe recipe;
+      const auto result = p.set(recipe, bad);
+      ASSERT_FALSE(result) << p.name << " took \"" << bad << "\"";
+      EXPECT_EQ(result.error().code, ErrorCode::BadParameter);
+      EXPECT_NE(result.error().message.find(p.name), std::string::npos) << result.error().message;
+      EXPECT_EQ(recipe, Recipe{});
+    }
+  }
+  Recipe recipe;
+  EXPECT_FALSE(setParameter(recipe, "segments.count", "3"));
+  EXPECT_TRUE(setParameter(recipe, "segments.count", "4"));
+  EXPECT_FALSE(setParameter(recipe, "filter.coefficient", "2.5"));
+}
+
+TEST(ParameterTable, UnknownNamesSuggestTheNearest) {
+  Recipe recipe;
+  const auto typo = setParameter(recipe, "filter.coeficient", "2");
+  ASSERT_FALSE(typo);
+  EXPECT_NE(typo.error().message.find("filter.coefficient"), std::string::npos);
+  const auto bare = setParameter(recipe, "tolerance", "2");
+  ASSERT_FALSE(bare);
+  EXPECT_NE(bare.error().message.find("tolerance?"), std::string::npos);
+}
+
+TEST(ParameterTable, TheGridTakesSixtyFourEntries) {
+  Recipe recipe;
+  EXPECT_FALSE(setParameter(recipe, "threshold.grid", "1,2,3"));
+  std::string many = "a";
+  for (int i = 1; i < kRegions + 1; ++i) many += ",a";
+  EXPECT_FALSE(setParameter(recipe, "threshold.grid", many));
+  EXPECT_FALSE(setParameter(recipe, "threshold.grid", many.substr(4) + ",256"));
+  ASSERT_TRUE(setParameter(recipe, "threshold.grid", many.substr(4) + " , 99.5"));
+  EXPECT_EQ(recipe.threshold.grid[63], 99.5);
+  EXPECT_FALSE(recipe.threshold.grid[62].has_value());
+}
+
+TEST(NumberText, ReadsBackExactlyInThePlainForm) {
+  for (const double v : {0.0, 0.1, 1.0 / 3.0, 100000.0, 1e-9, 5e-324, 1.7976931348623157e308, -45.98590442833571}) {
+    EXPECT_EQ(numberFromText(numberToText(v)), v);
+  }
+  EXPECT_EQ(numberToText(100000.0), "100000");
+  EXPECT_EQ(numberFromText(" +2.5 "), 2.5);
+  EXPECT_EQ(numberFromText("+-2"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace batten

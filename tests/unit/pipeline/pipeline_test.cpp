@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/pipeline/report.h"
+#include "tests/support/render_page.h"
+
+namespace batten {
+namespace {
+
+constexpr int kWidth = 400, kHeight = 300;
+
+/// An ellipse with half axes 150 and 100 px, and a square beside nothing else.
+const Scan& ellipseScan() {
+  static const Scan scan = [] {
+    const auto shape = test::truthShape("ellipse", kWidth, kHeight);
+    return test::renderPage(test::fillCoverage(shape.outline(), kWidth, kHeight), kWidth, kHeight, test::cleanPage());
+  }();
+  return scan;
+}
+
+PipelineOutput run(const Recipe& recipe, StageCache& cache, int threads = 1, StageId upTo = StageId::Faired) {
+  RunContext context;
+  context.threads = threads;
+  PipelineRequest request;
+  request.upTo = upTo;
+  return runPipeline(ellipseScan(), recipe, cache, request, context);
+}
+
+/// First stage that did not come from the cache.
+std::optional<StageId> firstRerun(const PipelineOutput& out) {
+  for (const StageId stage : kStages) {
+    if (!out.timing[static_cast<std::size_t>(stage)].fromCache) return stage;
+  }
+  return std::nullopt;
+}
+
+TEST(Pipeline, TracesAnEllipseIntoTheModelFrame) {
+  StageCache cache;
+  const auto out = run({}, cache);
+  ASSERT_FALSE(out.error) << out.error->message;
+  ASSERT_EQ(out.faired->curves.size(), 1u);
+  const TracedCurve& curve = out.faired->curves.front();
+  EXPECT_TRUE(curve.closed);
+  EXPECT_EQ(curve.faired, curve.sketched);
+  EXPECT_GT(curve.sketchedFigures.fromPoints.count, 100);
+  // The truth, sampled densely, as an independent oracle: every point of it lies on the curve, y up.
+  const auto truth = test::truthShape("ellipse", kWidth, kHeight).outline();
+  for (std::size_t i = 0; i < truth.size(); i += 50) {
+    EXPECT_LT(closestPoint(curve.sketched, out.frame.pointToModel(truth[i])).distance, 0.3 * out.frame.mmPerPx);
+  }
+}
+
+TEST(Pipeline, RunsOnlyWhatAChangeAffects) {
+  StageCache cache;
+  ASSERT_FALSE(run({}, cache).error);
+  EXPECT_EQ(firstRerun(run({}, cache)), std::nullopt);
+  const auto after = [&](auto change) {
+    Recipe recipe;
+    change(recipe);
+    return firstRerun(run(recipe, cache));
+  };
+  EXPECT_EQ(after([](Recipe& r) { r.log.factor = 60.0; }), std::nullopt);
+  EXPECT_EQ(after([](Recipe& r) { r.threshold.grid[3] = 100.0; }), StageId::Thresholds);
+  EXPECT_EQ(after([](Recipe& r) { r.filter.iterations = 3; }), StageId::Filtered);
+  EXPECT_EQ(after([](Recipe& r) { r.contours.minLengthPx = 55.0; }), StageId::Contours);
+  EXPECT_EQ(after([](Recipe& r) { r.cornerMarks = {{Vec2(200, 50)}}; }), StageId::Pieces);
+  EXPECT_EQ(after([](Recipe& r) { r.segments.spacingPx = 30.0; }), StageId::Segments);
+  EXPECT_EQ(after([](Recipe& r) { r.construct.derivativeMagnitude = 1.1; }), StageId::Curves);
+  EXPECT_EQ(after([](Recipe& r) { r.dpi = 200.0; }), StageId::Curves);
+  EXPECT_EQ(after([](Recipe& r) { r.fairing.mode = FairingMode::Tolerance; }), StageId::Faired);
+}
+
+TEST(Pipeline, GivesTheSameWithAnyThreadsAndAnyCache) {
+  Recipe recipe;
+  recipe.fairing.mode = FairingMode::Target;
+  StageCache warm, cold;
+  const auto one = run(recipe, warm, 1);
+  const auto again = run(recipe, warm, 1);
+  const auto four = run(recipe, cold, 4);
+  ASSERT_FALSE(one.error) << one.error->message;
+  ASSERT_EQ(one.faired->curves.size(), four.faired->curves.size());
+  for (std::size_t i = 0; i < one.faired->curves.size(); ++i) {
+    EXPECT_EQ(one.faired->curves[i].faired, four.faired->curves[i].faired);
+    EXPECT_EQ(one.faired->curves[i].faired, again.faired->curves[i].faired);
+  }
+}
+
+TEST(Pipeline, StopsWhereAskedAndTellsOfEveryStage) {
+  StageCache cache;
+  std::vector<StageId> told;
+  PipelineRequest request;
+  request.upTo = StageId::Pieces;
+  request.needEdges = false;
+  request.stageReady = [&](StageId stage, const PipelineOutput&) { told.push_back(stage); };
+  const auto out = runPipeline(ellipseScan(), {}, cache, request, {});
+  EXPECT_EQ(told, (std::vector{StageId::Thresholds, StageId::Binary, StageId::Filtered, StageId::Contours, StageId::Pieces}));
+  EXPECT_EQ(out.edges, nullptr);
+  EXPECT_EQ(out.segments, nullptr);
+  EXPECT_FALSE(out.error);
+}
+
+TEST(Pipeline, CancelsWithoutStoring) {
+  StageCache cache;
+  RunContext context;
+  context.cancel.cancel();
+  const auto out = runPipeline(ellipseScan(), {}, cache, {}, context);
+  ASSERT_TRUE(out.error);
+  EXPECT_EQ(out.error->code, ErrorCode::Cancelled);
+  EXPECT_EQ(cache.bytesUsed(), 0u);
+  // Cancelled half way: what was finished before stays valid.
+  RunContext later;
+  PipelineRequest request;
+  request.stageReady = [&](StageId stage, const PipelineOutput&) {
+    if (stage == StageId::Contours) later.cancel.cancel();
+  };
+  const auto half = runPipeline(ellipseScan(), {}, cache, request, later);
+  ASSERT_TRUE(half.error);
+  EXPECT_EQ(half.error->code, ErrorCode::Cancelled);
+  EXPECT_NE(half.contours, nullptr);
+  EXPECT_EQ(half.pieces, nullptr);
+}
+
+TEST(Pipeline, AnEmptyPageGivesNoCurveAndABadRecipeIsRefused) {
+  Scan empty = ellipseScan();
+  empty.fileHash = {};
+  empty.grey = GreyImage(200, 100);
+  StageCache cache;
+  const auto out = runPipeline(empty, {}, cache, {}, {});
+  ASSERT_TRUE(out.error);
+  EXPECT_EQ(out.error->code, ErrorCode::NoCurve);
+  Recipe bad;
+  bad.fairing.toleranceMm = -1.0;
+  const auto refused = runPipeline(ellipseScan(), bad, cache, {}, {});
+  ASSERT_TRUE(refused.error);
+  EXPECT_EQ(refused.error->code, ErrorCode::BadParameter);
+}
+
+TEST(Pipeline, TheScaleOfTheModelFollowsTheResolution) {
+  StageCache cache;
+  Recipe a, b;
+  a.dpi = 100.0;
+  b.dpi = 300.0;
+  const auto coarse = run(a, cache), fine = run(b, cache);
+  ASSERT_FALSE(coarse.error || fine.error);
+  EXPECT_NEAR(coarse.faired->curves[0].sketchedFigures.lengthMm / fine.faired->curves[0].sketchedFigures.lengthMm, 3.0, 1e-4);
+  EXPECT_DOUBLE_EQ(coarse.frame.mmPerPx, 0.254);
+}
+
+TEST(Pipeline, OwnChoicesActOnTheNearestPieceOnly) {
+  Recipe recipe;
+  recipe.cornerMarks = {{Vec2(200, 40)}, {Vec2(200, 260)}};
+  recipe.corners.snapDistancePx = 60.0;
+  StageCache cache;
+  const auto cut = run(recipe, cache);
+  ASSERT_FALSE(cut.error) << cut.error->message;
+  ASSERT_EQ(cut.pieces->pieces.size(), 2u);
+  PieceChoice choice;
+  choice.anchorPx = anchorOf(cut.pieces->pieces[1]) + Vec2(3.0, 0.0);
+  choice.mode = FairingMode::Tolerance;
+  choice.toleranceMm = 0.05;
+  recipe.choices = {choice};
+  const auto out = run(recipe, cache);
+  ASSERT_FALSE(out.error);
+  EXPECT_EQ(out.faired->curves[0].fairingUsed.mode, FairingMode::None);
+  EXPECT_EQ(out.faired->curves[1].fairingUsed.mode, FairingMode::Tolerance);
+  EXPECT_EQ(out.faired->curves[1].fairingUsed.toleranceMm, 0.05);
+  EXPECT_LE(out.faired->curves[1].fairing.maxDeviationMm, 0.05);
+  EXPECT_EQ(choiceFor(out.pieces->pieces[1], recipe), 0u);
+  EXPECT_EQ(choiceFor(out.pieces->pieces[0], recipe), std::nullopt);
+  recipe.choices[0].included = false;
+  const auto without = run(recipe, cache);
+  EXPECT_TRUE(without.faired->curves[0].included);
+  EXPECT_FALSE(without.faired->curves[1].included);
+}
+
+TEST(Report, HoldsStagesCurvesAndTargetsWithoutNaN) {
+  StageCache cache;
+  Recipe recipe;
+  recipe.fairing.mode = FairingMode::Target;
+  const auto out = run(recipe, cache);
+  ASSERT_FALSE(out.error);
+  ReportExtras extras;
+  extras.peakMemoryBytes = 123;
+  auto targets = targetsFor(out.faired->curves[0], {});
+  ASSERT_TRUE(targets);
+  extras.targets.push_back(std::move(*targets));
+  const auto json = nlohmann::json::parse(reportToJson(ellipseScan(), recipe, out, extras));
+  EXPECT_EQ(json["stages"].size(), kStages.size());
+  ASSERT_EQ(json["curves"].size(), 1u);
+  const auto& curve = json["curves"][0];
+  EXPECT_EQ(curve["targets"].size(), 6u);
+  EXPECT_EQ(curve["sketched"]["control_points"], out.faired->curves[0].sketched.controlPointCount());
+  const double px = curve["faired"]["deviation_from_points"]["rms"]["px"], mm = curve["faired"]["deviation_from_points"]["rms"]["mm"];
+  EXPECT_NEAR(px * out.frame.mmPerPx, mm, 1e-12);
+  EXPECT_EQ(json["peak_memory_bytes"], 123);
+  EXPECT_FALSE(curve["fairing"]["stopped"].get<std::string>().empty());
+}
+
+}  // namespace
+}  // namespace batten

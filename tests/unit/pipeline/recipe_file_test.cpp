@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/recipe_file.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "core/pipeline/parameter_table.h"
+
+namespace batten {
+namespace {
+
+Recipe fullRecipe() {
+  Recipe r;
+  r.dpi = 299.7;
+  r.log.factor = 45.123456789012345;
+  r.threshold.grid[5] = 0.1 + 0.2;
+  r.cornerMarks = {{Vec2(1.0 / 3.0, 2e-17)}, {Vec2(-4.5, 1e6 / 7.0)}};
+  r.fairing.mode = FairingMode::Tolerance;
+  r.fairing.endHold = {true, true};
+  r.choices = {{Vec2(10.1, 20.2), false, std::nullopt, std::nullopt, std::nullopt},
+               {Vec2(0.3, 0.7), true, FairingMode::Target, 4, 0.123}};
+  return r;
+}
+
+TEST(RecipeFile, ReadsBackExactly) {
+  const auto read = recipeFromJson(recipeToJson(fullRecipe()));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(*read, fullRecipe());
+  const auto plain = recipeFromJson(recipeToJson(Recipe{}));
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(*plain, Recipe{});
+}
+
+TEST(RecipeFile, KeepsEveryDoubleOfRandomRecipes) {
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 50; ++i) {
+    Recipe r;
+    for (const Parameter& p : parameterTable()) {
+      if (p.type != ParameterType::Real) continue;
+      std::uniform_real_distribution<double> value(p.minimum, p.maximum);
+      char text[40];
+      std::snprintf(text, sizeof text, "%.17g", value(random));
+      ASSERT_TRUE(p.set(r, text)) << p.name;
+    }
+    const auto read = recipeFromJson(recipeToJson(r));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(*read, r);
+  }
+}
+
+TEST(RecipeFile, WritesAllParametersAndTakesDefaultsForMissingOnes) {
+  const auto json = nlohmann::json::parse(recipeToJson(Recipe{}));
+  EXPECT_EQ(json.at("parameters").size(), parameterTable().size());
+  const auto read = recipeFromJson(R"({"format":"batten-recipe","version":1,"parameters":{"filter.iterations":3}})");
+  ASSERT_TRUE(read);
+  Recipe expected;
+  expected.filter.iterations = 3;
+  EXPECT_EQ(*read, expected);
+}
+
+void expectRefused(const std::string& text, const std::string& named) {
+  const auto read = recipeFromJson(text);
+  ASSERT_FALSE(read) << text;
+  EXPECT_EQ(read.error().code, ErrorCode::BadParameter);
+  EXPECT_NE(read.error().message.find(named), std::string::npos) << read.error().message;
+}
+
+TEST(RecipeFile, RefusesWhatItDoesNotKnowByName) {
+  const std::string head = R"({"format":"batten-recipe","version":1,)";
+  expectRefused(R"({"format":"other","version":1})", "not a Batten recipe");
+  expectRefused("[1,2]", "not a Batten recipe");
+  expectRefused(R"({"format":"batten-recipe","version":2})", "version 2");
+  expectRefused(R"({"format":"batten-recipe"})", "version");
+  expectRefused(head + R"("parameters":{"filter.colour":1}})", "filter.colour");
+  expectRefused(head + R"("parameters":{"filter.iterations":101}})", "filter.iterations");
+  expectRefused(head + R"("parameters":{"filter.iterations":[1]}})", "filter.iterations");
+  expectRefused(head + R"("extra":1})", "extra");
+  expectRefused(head + R"("corners":[[1,2],[3]]})", "corner");
+  expectRefused(head + R"("choices":[{"target":2}]})", "anchor");
+  expectRefused(head + R"("choices":[{"anchor":[1,2],"target":7}]})", "target");
+  expectRefused(head + R"("dpi":-3})", "resolution");
+}
+
+TEST(RecipeFile, EveryCutOffTextIsRefused) {
+  const std::string text = recipeToJson(fullRecipe());
+  for (std::size_t length = 0; length + 2 < text.size(); length += 7) expectRefused(text.substr(0, length), "damaged");
+}
+
+}  // namespace
+}  // namespace batten
