@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/image/padded_bits.h"
 
 namespace batten {
 namespace {
@@ -18,19 +22,29 @@ int neighbourhood(const BitImage& image, int x, int y) {
   return bits;
 }
 
-// Guo and Hall, A1: removable in sub-iteration `odd`.
-bool removable(int bits, bool odd) {
-  const auto p = [bits](int k) { return (bits >> (k & 7)) & 1; };
-  int connectivity = 0, pairsA = 0, pairsB = 0;
-  for (int k = 0; k < 8; k += 2) {
-    connectivity += !p(k) && (p(k + 1) || p(k + 2));
-    pairsA += p(k - 1 + 8) || p(k);
-    pairsB += p(k) || p(k + 1);
-  }
-  const int pairs = std::min(pairsA, pairsB);
-  if (connectivity != 1 || pairs < 2 || pairs > 3) return false;
-  return odd ? !((p(0) || p(1) || !p(3)) && p(2)) : !((p(4) || p(5) || !p(7)) && p(6));
+// Guo and Hall's A1 for the 64 pixels of word `i` at once: the removable ones in sub-iteration `odd`.
+std::uint64_t removable(const std::uint64_t* above, const std::uint64_t* row, const std::uint64_t* below, int i,
+                        bool odd) {
+  const auto west = [i](const std::uint64_t* r) { return (r[i] << 1) | (r[i - 1] >> 63); };
+  const auto east = [i](const std::uint64_t* r) { return (r[i] >> 1) | (r[i + 1] << 63); };
+  const std::uint64_t n = above[i], ne = east(above), e = east(row), se = east(below);
+  const std::uint64_t s = below[i], sw = west(below), w = west(row), nw = west(above);
+  const std::uint64_t c0 = ~n & (ne | e), c1 = ~e & (se | s), c2 = ~s & (sw | w), c3 = ~w & (nw | n);
+  const std::uint64_t oneBranch = (c0 ^ c1 ^ c2 ^ c3) & ~((c0 & c1) | (c2 & c3));
+  const auto atLeastTwo = [](std::uint64_t a, std::uint64_t b, std::uint64_t c, std::uint64_t d) {
+    return (a & b) | (c & d) | ((a | b) & (c | d));
+  };
+  const std::uint64_t a0 = nw | n, a1 = ne | e, a2 = se | s, a3 = sw | w;
+  const std::uint64_t b0 = n | ne, b1 = e | se, b2 = s | sw, b3 = w | nw;
+  const std::uint64_t pairs = atLeastTwo(a0, a1, a2, a3) & atLeastTwo(b0, b1, b2, b3) &
+                              ~(a0 & a1 & a2 & a3 & b0 & b1 & b2 & b3);
+  const std::uint64_t side = odd ? ~((n | ne | ~se) & e) : ~((s | sw | ~nw) & w);
+  return row[i] & oneBranch & pairs & side;
 }
+
+struct Word {
+  int y, i;
+};
 
 std::vector<SkeletonPixel> inkPixels(const BitImage& image) {
   std::vector<SkeletonPixel> pixels;
@@ -42,6 +56,24 @@ std::vector<SkeletonPixel> inkPixels(const BitImage& image) {
     }
   }
   return pixels;
+}
+
+// Smallest |dx| to a paper pixel in a row, at most `most` (paper lies beyond both ends of a row).
+int paperReach(const BitImage& ink, int x, int y, int most) {
+  if (y < 0 || y >= ink.height) return 0;
+  const std::uint64_t* row = ink.row(y);
+  const auto inkWord = [&](int i) { return i < 0 || i >= ink.wordsPerRow ? std::uint64_t{0} : row[i]; };
+  const auto from = [&](int start) {  // 64 pixels from `start` on, low bit first
+    const int i = start >> 6, shift = start & 63;
+    return shift == 0 ? inkWord(i) : (inkWord(i) >> shift) | (inkWord(i + 1) << (64 - shift));
+  };
+  for (int d = 0; d < most; d += 63) {
+    const int right = std::countr_one(from(x + d));
+    const int left = std::countl_one(from(x - d - 63));
+    const int nearest = std::min(right, left);
+    if (nearest < 64) return std::min(most, d + nearest);
+  }
+  return most;
 }
 
 // Directions in which a pixel is linked in the pixel graph.
@@ -131,34 +163,63 @@ class GraphWalker {
 
 }  // namespace
 
-double SkeletonChain::length() const {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < pixels.size(); ++i) {
-    sum += std::hypot(pixels[i].x - pixels[i - 1].x, pixels[i].y - pixels[i - 1].y);
-  }
-  return sum;
-}
-
 bool thinToSkeleton(BitImage& ink, const RunContext& context) {
-  std::vector<SkeletonPixel> alive = inkPixels(ink);
-  std::vector<SkeletonPixel> removed;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const bool odd : {true, false}) {
-      if (context.isCancelled()) return false;
-      removed.clear();
-      for (const SkeletonPixel& p : alive) {
-        if (removable(neighbourhood(ink, p.x, p.y), odd)) removed.push_back(p);
-      }
-      for (const SkeletonPixel& p : removed) ink.set(p.x, p.y, false);
-      if (removed.empty()) continue;
-      changed = true;
-      std::erase_if(alive, [&](const SkeletonPixel& p) { return !ink.at(p.x, p.y); });
+  if (ink.width <= 0 || ink.height <= 0) return true;
+  PaddedBits bits(ink, false);
+  const auto words = static_cast<std::size_t>(ink.wordsPerRow);
+  const auto stride = words + 2;
+  // Sub-iteration in which a word last lost a pixel; a word whose surroundings rested for a full round is left alone.
+  std::vector<int> touched(stride * (static_cast<std::size_t>(ink.height) + 2), 0);
+  const auto slot = [&](const Word& w) {
+    return touched.data() + static_cast<std::size_t>(w.y + 1) * stride + static_cast<std::size_t>(w.i + 1);
+  };
+  std::vector<Word> alive, hit;
+  std::vector<std::uint64_t> loss;
+  for (int y = 0; y < ink.height; ++y) {
+    for (int i = 0; i < ink.wordsPerRow; ++i) {
+      if (ink.row(y)[i] != 0) alive.push_back({y, i});
     }
   }
+  const auto jump = static_cast<std::ptrdiff_t>(stride);
+  for (int time = 1, quiet = 0; quiet < 2; ++time) {
+    if (context.isCancelled()) return false;
+    hit.clear();
+    loss.clear();
+    for (const Word& w : alive) {
+      const int* t = slot(w);
+      int latest = 0;
+      for (std::ptrdiff_t d = -jump; d <= jump; d += jump) latest = std::max({latest, t[d - 1], t[d], t[d + 1]});
+      if (time > 2 && latest < time - 2) continue;
+      const std::uint64_t gone = removable(bits.row(w.y - 1), bits.row(w.y), bits.row(w.y + 1), w.i, (time & 1) != 0);
+      if (gone == 0) continue;
+      hit.push_back(w);
+      loss.push_back(gone);
+    }
+    for (std::size_t k = 0; k < hit.size(); ++k) {
+      bits.row(hit[k].y)[hit[k].i] &= ~loss[k];
+      *slot(hit[k]) = time;
+    }
+    quiet = hit.empty() ? quiet + 1 : 0;
+    if ((time & 7) == 0) std::erase_if(alive, [&](const Word& w) { return bits.row(w.y)[w.i] == 0; });
+  }
+  ink = bits.toImage();
   return true;
 }
 
 std::vector<SkeletonChain> skeletonChains(const BitImage& skeleton) { return GraphWalker(skeleton).chains(); }
+
+double inkRadius(const BitImage& ink, int x, int y) {
+  if (!ink.at(x, y)) return 0.0;
+  std::int64_t best = std::numeric_limits<std::int64_t>::max();
+  int reach = std::max(ink.width, ink.height);
+  for (int dy = 0; dy <= reach; ++dy) {
+    for (const int row : {y - dy, y + dy}) {
+      const std::int64_t dx = paperReach(ink, x, row, reach + 1);
+      best = std::min(best, dx * dx + static_cast<std::int64_t>(dy) * dy);
+    }
+    reach = static_cast<int>(std::sqrt(static_cast<double>(best)));
+  }
+  return std::sqrt(static_cast<double>(best));
+}
 
 }  // namespace batten

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline_legs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <queue>
+#include <unordered_map>
+
+namespace batten {
+namespace {
+
+std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+
+double lengthOf(const std::vector<StrandPoint>& points, bool closed) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i].at - points[i - 1].at).norm();
+  if (closed && points.size() > 1) sum += (points.front().at - points.back().at).norm();
+  return sum;
+}
+
+// Sets of indices that belong together.
+class Groups {
+ public:
+  explicit Groups(int n) : parent_(idx(n)) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int root(int i) {
+    while (parent_[idx(i)] != i) i = parent_[idx(i)] = parent_[idx(parent_[idx(i)])];
+    return i;
+  }
+  void join(int a, int b) {
+    a = root(a);
+    b = root(b);
+    parent_[idx(std::max(a, b))] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+// Node pixels of all chains, numbered in order of appearance; those side by side are one node.
+struct NodePixels {
+  std::unordered_map<std::int64_t, int> number;
+  std::vector<SkeletonPixel> pixels;
+  int of(const SkeletonPixel& p) {
+    const std::int64_t key = (static_cast<std::int64_t>(p.y) << 32) | static_cast<std::int64_t>(p.x);
+    const auto [it, fresh] = number.try_emplace(key, static_cast<int>(pixels.size()));
+    if (fresh) pixels.push_back(p);
+    return it->second;
+  }
+};
+
+bool isLink(const SkeletonChain& c) { return !c.closed && c.pixels.size() == 2 && !c.freeStart && !c.freeEnd; }
+
+// Direction in which a leg leaves its end `side`, looked at over about `reach` px.
+Vec2 leaving(const StrokeLeg& leg, int side, const Vec2& from, double reach) {
+  const auto n = leg.points.size();
+  Vec2 at = from;
+  for (std::size_t k = 0; k < n; ++k) {
+    at = leg.points[side == 0 ? k : n - 1 - k].at;
+    if ((at - from).norm() >= reach) break;
+  }
+  const Vec2 d = at - from;
+  return d.norm() > 0.0 ? Vec2(d / d.norm()) : Vec2::Zero();
+}
+
+}  // namespace
+
+LegGraph::LegGraph(const std::vector<SkeletonChain>& chains, const BitImage& ink) {
+  NodePixels pixels;
+  for (const SkeletonChain& c : chains) {
+    if (c.closed) continue;
+    pixels.of(c.pixels.front());
+    pixels.of(c.pixels.back());
+  }
+  Groups groups(static_cast<int>(pixels.pixels.size()));
+  for (const SkeletonChain& c : chains) {
+    if (isLink(c)) groups.join(pixels.of(c.pixels.front()), pixels.of(c.pixels.back()));
+  }
+  std::vector<int> nodeOf(pixels.pixels.size(), -1), members;
+  for (std::size_t i = 0; i < nodeOf.size(); ++i) {
+    const int root = groups.root(static_cast<int>(i));
+    if (root == static_cast<int>(i)) {
+      nodeOf[i] = static_cast<int>(nodes_.size());
+      nodes_.emplace_back();
+      members.push_back(0);
+    } else {
+      nodeOf[i] = nodeOf[idx(root)];
+    }
+    StrokeNode& node = nodes_[idx(nodeOf[i])];
+    const SkeletonPixel& p = pixels.pixels[i];
+    node.centre += Vec2(p.x + 0.5, p.y + 0.5);
+    node.radius = std::max(node.radius, inkRadius(ink, p.x, p.y));
+    ++members[idx(nodeOf[i])];
+  }
+  for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].centre /= members[i];
+
+  std::vector<float> radii;
+  for (const SkeletonChain& c : chains) {
+    if (isLink(c) || c.pixels.size() < 2) continue;
+    StrokeLeg leg;
+    for (const SkeletonPixel& p : c.pixels) {
+      // From the pixel's centre to the border of the ink: half a pixel before the nearest paper centre.
+      const auto radius = static_cast<float>(std::max(0.5, inkRadius(ink, p.x, p.y) - 0.5));
+      leg.points.push_back({Vec2(p.x + 0.5, p.y + 0.5), radius, StrandPart::Ink});
+      radii.push_back(radius);
+    }
+    leg.ring = c.closed;
+    leg.length = lengthOf(leg.points, c.closed);
+    const int number = static_cast<int>(legs_.size());
+    if (!c.closed) {
+      leg.node[0] = nodeOf[idx(pixels.of(c.pixels.front()))];
+      leg.node[1] = nodeOf[idx(pixels.of(c.pixels.back()))];
+      nodes_[idx(leg.node[0])].ends.push_back(2 * number);
+      nodes_[idx(leg.node[1])].ends.push_back(2 * number + 1);
+    }
+    legs_.push_back(std::move(leg));
+  }
+  if (!radii.empty()) {
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    medianRadius_ = *middle;
+  }
+  for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) splice(i);
+}
+
+void LegGraph::reverse(int leg) {
+  StrokeLeg& l = legs_[idx(leg)];
+  std::reverse(l.points.begin(), l.points.end());
+  std::swap(l.node[0], l.node[1]);
+  for (const int side : {0, 1}) {
+    if (l.node[side] < 0) continue;
+    for (int& end : nodes_[idx(l.node[side])].ends) {
+      if (end == 2 * leg + 1 - side) {
+        end = -1 - (2 * leg + side);  // marked, so that a loop is not turned back
+        break;
+      }
+    }
+  }
+  for (const int side : {0, 1}) {
+    if (l.node[side] < 0) continue;
+    for (int& end : nodes_[idx(l.node[side])].ends) end = end < 0 ? -1 - end : end;
+  }
+}
+
+// `from` starts where `into` ends.
+void LegGraph::appendLeg(int into, int from) {
+  StrokeLeg& a = legs_[idx(into)];
+  StrokeLeg& b = legs_[idx(from)];
+  const bool twice = !a.points.empty() && !b.points.empty() && (a.points.back().at - b.points.front().at).norm() < 0.5;
+  a.points.insert(a.points.end(), b.points.begin() + (twice ? 1 : 0), b.points.end());
+  a.node[1] = b.node[1];
+  for (int& end : nodes_[idx(a.node[1])].ends) {
+    if (end == 2 * from + 1) end = 2 * into + 1;
+  }
+  a.length = lengthOf(a.points, false);
+  b = StrokeLeg{};
+  b.alive = false;
+}
+
+void LegGraph::splice(int node) {
+  StrokeNode& n = nodes_[idx(node)];
+  if (n.ends.size() != 2) return;
+  const int a = n.ends[0] / 2, b = n.ends[1] / 2;
+  if (a == b) {
+    StrokeLeg& leg = legs_[idx(a)];
+    leg.ring = true;
+    leg.node[0] = leg.node[1] = -1;
+    if (leg.points.size() > 1 && (leg.points.front().at - leg.points.back().at).norm() < 0.5) leg.points.pop_back();
+    leg.length = lengthOf(leg.points, true);
+    n.ends.clear();
+    return;
+  }
+  if (n.ends[0] % 2 == 0) reverse(a);
+  if (n.ends[1] % 2 == 1) reverse(b);
+  n.ends.clear();
+  appendLeg(a, b);
+}
+
+void LegGraph::removeLeg(int leg) {
+  StrokeLeg& l = legs_[idx(leg)];
+  for (const int side : {0, 1}) {
+    if (l.node[side] >= 0) std::erase(nodes_[idx(l.node[side])].ends, 2 * leg + side);
+  }
+  l = StrokeLeg{};
+  l.alive = false;
+}
+
+// A sharp turn of one stroke: the two other legs lie close together and the branch points out between them.
+bool LegGraph::closesCorner(int leg, int node) const {
+  const StrokeNode& n = nodes_[idx(node)];
+  if (n.ends.size() != 3) return false;
+  const double reach = 2.0 * n.radius + 3.0;
+  Vec2 spur = Vec2::Zero(), other[2];
+  int k = 0;
+  for (const int end : n.ends) {
+    const Vec2 d = leaving(legs_[idx(end / 2)], end % 2, n.centre, reach);
+    if (end / 2 == leg) {
+      spur = d;
+    } else if (k < 2) {
+      other[k++] = d;
+    }
+  }
+  if (k != 2) return false;
+  constexpr double kAcute = 0.26;  // cos 75 deg
+  return other[0].dot(other[1]) > kAcute && spur.dot(other[0] + other[1]) < 0.0;
+}
+
+bool LegGraph::isSpur(int leg, double factor, int& tipSide) const {
+  const StrokeLeg& l = legs_[idx(leg)];
+  if (!l.alive || l.ring || l.node[0] == l.node[1]) return false;
+  const bool tips[2] = {nodes_[idx(l.node[0])].ends.size() == 1, nodes_[idx(l.node[1])].ends.size() == 1};
+  if (tips[0] == tips[1]) return false;
+  tipSide = tips[0] ? 0 : 1;
+  const int junction = l.node[1 - tipSide];
+  const double r = nodes_[idx(junction)].radius, rw = medianRadius_ + 0.5;
+  const double width = 2.0 * std::min(r, 2.0 * rw);
+  if (l.length <= factor * width + 1.0) return true;
+  // An acute corner is fat inside and has a long branch to its tip.
+  return r > 1.15 * rw && l.length <= factor * (5.0 / 3.0) * width + 1.0 && closesCorner(leg, junction);
+}
+
+void LegGraph::markCorner(int leg, int side, const Vec2& centre, double reach) {
+  std::vector<StrandPoint>& p = legs_[idx(leg)].points;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    StrandPoint& point = p[side == 0 ? k : p.size() - 1 - k];
+    if ((point.at - centre).norm() > reach) break;
+    point.part = StrandPart::Corner;
+  }
+}
+
+void LegGraph::pruneSpurs(double factor) {
+  if (!(factor > 0.0)) return;
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  int tip = 0;
+  const auto offer = [&](int leg) {
+    if (isSpur(leg, factor, tip)) queue.emplace(legs_[idx(leg)].length, leg);
+  };
+  for (int i = 0; i < static_cast<int>(legs_.size()); ++i) offer(i);
+  while (!queue.empty()) {
+    const auto [length, leg] = queue.top();
+    queue.pop();
+    if (!legs_[idx(leg)].alive || legs_[idx(leg)].length != length || !isSpur(leg, factor, tip)) continue;
+    const int node = legs_[idx(leg)].node[1 - tip];
+    const bool corner = closesCorner(leg, node);
+    removeLeg(leg);
+    StrokeNode& n = nodes_[idx(node)];
+    if (corner) {
+      for (const int end : n.ends) markCorner(end / 2, end % 2, n.centre, n.radius + 2.0 * medianRadius_);
+    }
+    const std::vector<int> ends = n.ends;
+    splice(node);
+    for (const int end : ends) offer(end / 2);
+  }
+}
+
+void LegGraph::mergeJunctions() {
+  const int legCount = static_cast<int>(legs_.size());
+  std::vector<double> radius;
+  for (const StrokeNode& n : nodes_) radius.push_back(n.radius);
+  Groups groups(static_cast<int>(nodes_.size()));
+  std::vector<int> inner;
+  for (int i = 0; i < legCount; ++i) {
+    const StrokeLeg& l = legs_[idx(i)];
+    if (!l.alive || l.ring) continue;
+    const auto a = idx(l.node[0]), b = idx(l.node[1]);
+    if (nodes_[a].ends.size() < 3 || nodes_[b].ends.size() < 3) continue;
+    if (l.length > 1.5 * (radius[a] + radius[b]) + 1.0) continue;
+    groups.join(l.node[0], l.node[1]);
+    inner.push_back(i);
+  }
+  for (const int leg : inner) removeLeg(leg);
+  // Centre of each cluster first, then the disc that holds the discs of all its members.
+  std::vector<Vec2> sum(nodes_.size(), Vec2::Zero());
+  std::vector<int> count(nodes_.size(), 0);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const auto root = idx(groups.root(static_cast<int>(i)));
+    sum[root] += nodes_[i].centre;
+    ++count[root];
+  }
+  std::vector<double> disc(nodes_.size(), 0.0);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const auto root = idx(groups.root(static_cast<int>(i)));
+    disc[root] = std::max(disc[root], (nodes_[i].centre - sum[root] / count[root]).norm() + radius[i]);
+    if (root == i) continue;
+    for (const int end : nodes_[i].ends) {
+      legs_[idx(end / 2)].node[end % 2] = static_cast<int>(root);
+      nodes_[root].ends.push_back(end);
+    }
+    nodes_[i].ends.clear();
+  }
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (count[i] == 0) continue;
+    nodes_[i].centre = sum[i] / count[i];
+    nodes_[i].radius = disc[i];
+    std::sort(nodes_[i].ends.begin(), nodes_[i].ends.end());
+  }
+  // What lies wholly within one disc is no stroke.
+  for (int i = 0; i < legCount; ++i) {
+    const StrokeLeg& l = legs_[idx(i)];
+    if (!l.alive || l.ring || l.node[0] != l.node[1]) continue;
+    const StrokeNode& n = nodes_[idx(l.node[0])];
+    const bool within = std::all_of(l.points.begin(), l.points.end(),
+                                    [&](const StrandPoint& p) { return (p.at - n.centre).norm() <= 1.1 * n.radius; });
+    if (within) removeLeg(i);
+  }
+  for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) splice(i);
+}
+
+}  // namespace batten

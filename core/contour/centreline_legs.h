@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/contour/centreline_graph.h"
+
+namespace batten {
+
+/// A stretch of skeleton between two nodes; its ends are numbered 2 * leg + side.
+struct StrokeLeg {
+  std::vector<StrandPoint> points;
+  int node[2] = {-1, -1};
+  double length = 0.0;
+  bool alive = true;
+  bool ring = false;  ///< Closed by itself, at no node.
+};
+
+struct StrokeNode {
+  Vec2 centre = Vec2::Zero();
+  double radius = 0.0;  ///< [px] of the largest disc of ink there; of all discs, where junctions were merged.
+  std::vector<int> ends;
+};
+
+/// The skeleton as a graph that gets simpler: junctions of several pixels are one node, spurs go, short links vanish.
+class LegGraph {
+ public:
+  LegGraph(const std::vector<SkeletonChain>& chains, const BitImage& ink);
+
+  /// Drops side branches that only a bump or a corner of the border caused. `factor` in stroke widths.
+  void pruneSpurs(double factor);
+  /// Makes one node of junctions that are nearer than their discs allow to tell apart (a crossing at a shallow angle).
+  void mergeJunctions();
+
+  const std::vector<StrokeLeg>& legs() const { return legs_; }
+  const std::vector<StrokeNode>& nodes() const { return nodes_; }
+  /// [px] median radius of the ink along the skeleton.
+  double medianRadius() const { return medianRadius_; }
+
+ private:
+  bool isSpur(int leg, double factor, int& tipSide) const;
+  bool closesCorner(int leg, int node) const;
+  void removeLeg(int leg);
+  void splice(int node);
+  void appendLeg(int into, int from);
+  void reverse(int leg);
+  void markCorner(int leg, int side, const Vec2& centre, double reach);
+
+  std::vector<StrokeLeg> legs_;
+  std::vector<StrokeNode> nodes_;
+  double medianRadius_ = 0.5;
+};
+
+}  // namespace batten

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "core/base/vec2.h"
+#include "core/image/grey_image.h"
+
+namespace batten {
+
+/// [px] Step of the profiles across a stroke. Half lengths are whole multiples, so that u = 0 is a sample: else the
+/// midpoint is off by a part of the step.
+inline constexpr double kStrokeStepPx = 0.25;
+
+/// Bilinear grey level 0..255, border replicated; for millions of samples.
+inline float sampleGrey(const GreyImage& grey, double x, double y) {
+  const double fx = std::clamp(x - 0.5, 0.0, grey.width - 1.0), fy = std::clamp(y - 0.5, 0.0, grey.height - 1.0);
+  const int x0 = static_cast<int>(fx), y0 = static_cast<int>(fy);
+  const int dx = x0 + 1 < grey.width ? 1 : 0;
+  const std::uint16_t* a = grey.row(y0) + x0;
+  const std::uint16_t* b = y0 + 1 < grey.height ? a + grey.width : a;
+  const auto tx = static_cast<float>(fx - x0), ty = static_cast<float>(fy - y0);
+  const float top = static_cast<float>(a[0]) + tx * (static_cast<float>(a[dx]) - static_cast<float>(a[0]));
+  const float low = static_cast<float>(b[0]) + tx * (static_cast<float>(b[dx]) - static_cast<float>(b[0]));
+  return (top + ty * (low - top)) * static_cast<float>(1.0 / GreyImage::kGreyUnit);
+}
+
+struct StrokeCentre {
+  double centre = 0.0;  ///< [px] along the profile, 0 = its middle.
+  double width = 0.0;   ///< [px] between the half levels.
+  bool ok = false;
+};
+
+/// Half-level midpoint of a dark ridge in a profile of 2 * half + 1 samples. `widthPx` is about the stroke's width.
+/// `scratch` holds as many values.
+StrokeCentre halfLevelCentre(std::span<const float> profile, double widthPx, std::span<float> scratch);
+
+/// Centroid of darkness over |u| <= reachPx; what is less than 15 % of the darkest counts as paper.
+StrokeCentre centroidCentre(std::span<const float> profile, double reachPx);
+
+}  // namespace batten

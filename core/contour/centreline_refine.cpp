@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline_refine.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "core/base/parallel.h"
+#include "core/contour/centreline_course.h"
+#include "core/contour/centreline_profile.h"
+#include "core/contour/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr int kBlock = 512;      // points refined together
+constexpr int kAlongHalf = 6;    // profiles averaged to either side
+constexpr double kAlong = 2.0;   // [points] Gaussian over neighbouring profiles
+
+struct Block {
+  int course, begin, end;
+};
+
+std::array<float, kAlongHalf + 1> alongKernel() {
+  std::array<float, kAlongHalf + 1> kernel{};
+  for (int k = 0; k <= kAlongHalf; ++k) {
+    kernel[static_cast<std::size_t>(k)] = static_cast<float>(std::exp(-0.5 * k * k / (kAlong * kAlong)));
+  }
+  return kernel;
+}
+
+// Measures the shift of the points [begin, end) of a course. The profiles are averaged in the moving frame, which bends
+// with the stroke: no bias on curved strokes.
+void measureBlock(StrandCourse& course, int begin, int end, const GreyImage& grey, CentreRule rule) {
+  static const std::array<float, kAlongHalf + 1> kKernel = alongKernel();
+  const int n = static_cast<int>(course.base.size());
+  const int half = course.profileHalf, samples = 2 * half + 1;
+  const auto width = static_cast<std::size_t>(samples);
+  const int rows = end - begin + 2 * kAlongHalf;
+  std::vector<float> band(static_cast<std::size_t>(rows) * width), mean(width), scratch(width);
+  std::vector<char> there(static_cast<std::size_t>(rows), 0);
+  for (int r = 0; r < rows; ++r) {
+    int i = begin - kAlongHalf + r;
+    if (course.closed) i = wrapIndex(i, n);
+    if (i < 0 || i >= n) continue;
+    there[static_cast<std::size_t>(r)] = 1;
+    const Vec2& at = course.base[static_cast<std::size_t>(i)];
+    const Vec2 normal = leftNormal(course.tangent[static_cast<std::size_t>(i)]);
+    float* out = band.data() + static_cast<std::size_t>(r) * width;
+    for (int k = 0; k < samples; ++k) {
+      const double u = (k - half) * kStrokeStepPx;
+      out[k] = sampleGrey(grey, at.x() + u * normal.x(), at.y() + u * normal.y());
+    }
+  }
+  for (int i = begin; i < end; ++i) {
+    std::fill(mean.begin(), mean.end(), 0.0f);
+    float weight = 0.0f;
+    const int here = i - begin + kAlongHalf;
+    // Near an open end the window shrinks evenly, so that it stays centred.
+    int reach = kAlongHalf;
+    while (reach > 0 && !(there[static_cast<std::size_t>(here - reach)] && there[static_cast<std::size_t>(here + reach)])) {
+      --reach;
+    }
+    for (int d = -reach; d <= reach; ++d) {
+      const float w = kKernel[static_cast<std::size_t>(std::abs(d))];
+      const float* row = band.data() + static_cast<std::size_t>(here + d) * width;
+      for (std::size_t k = 0; k < width; ++k) mean[k] += w * row[k];
+      weight += w;
+    }
+    for (float& m : mean) m /= weight;
+    const auto at = static_cast<std::size_t>(i);
+    const StrokeCentre c = rule == CentreRule::Centroid ? centroidCentre(mean, course.radius[at] + 1.5)
+                                                        : halfLevelCentre(mean, course.widthPx, scratch);
+    course.shift[at] = static_cast<float>(c.centre);
+    course.measuredWidth[at] = static_cast<float>(c.width);
+    course.measured[at] = c.ok ? 1 : 0;
+  }
+}
+
+void measureAll(std::vector<StrandCourse>& courses, const GreyImage& grey, CentreRule rule, const RunContext& context) {
+  std::vector<Block> blocks;
+  for (int c = 0; c < static_cast<int>(courses.size()); ++c) {
+    const int n = static_cast<int>(courses[static_cast<std::size_t>(c)].base.size());
+    for (int begin = 0; begin < n; begin += kBlock) blocks.push_back({c, begin, std::min(n, begin + kBlock)});
+  }
+  parallelFor(context, static_cast<int>(blocks.size()), 1, [&](int begin, int end) {
+    for (int b = begin; b < end; ++b) {
+      const Block& block = blocks[static_cast<std::size_t>(b)];
+      measureBlock(courses[static_cast<std::size_t>(block.course)], block.begin, block.end, grey, rule);
+    }
+  });
+}
+
+template <class Body>
+void forCourses(std::vector<StrandCourse>& courses, const RunContext& context, const Body& body) {
+  parallelFor(context, static_cast<int>(courses.size()), 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) body(static_cast<std::size_t>(i));
+  });
+}
+
+}  // namespace
+
+std::vector<Contour> refineStrands(const std::vector<Strand>& strands, const GreyImage& grey,
+                                   const RefineSettings& settings, const RunContext& context) {
+  constexpr int kRounds = 2;
+  std::vector<StrandCourse> courses(strands.size());
+  forCourses(courses, context, [&](std::size_t i) { courses[i] = layCourse(strands[i]); });
+  if (settings.rule != CentreRule::None) {
+    for (int round = 0; round < kRounds && !context.isCancelled(); ++round) {
+      measureAll(courses, grey, settings.rule, context);
+      forCourses(courses, context, [&](std::size_t i) {
+        judgeShifts(courses[i], settings.rule == CentreRule::HalfLevel);
+        if (settings.smoothShiftPx > 0.0) {
+          courses[i].shift = smoothValues(courses[i].shift, courses[i].closed, settings.smoothShiftPx);
+        }
+        moveCourse(courses[i], round + 1 < kRounds);
+      });
+    }
+  }
+  std::vector<Contour> contours(strands.size());
+  forCourses(courses, context, [&](std::size_t i) {
+    layThroughJunctions(courses[i]);
+    if (settings.rule != CentreRule::None) placeEnds(courses[i], grey);
+    contours[i] = contourOf(courses[i]);
+  });
+  return contours;
+}
+
+double grainAlong(const std::vector<Strand>& strands, const GreyImage& grey) {
+  constexpr int kWindow = 5;  // median over 11
+  constexpr std::size_t kMost = 20000;
+  double ink = 0.0, paper = 0.0;
+  std::size_t count = 0;
+  std::vector<float> lane[3];
+  for (const Strand& strand : strands) {
+    if (count > kMost) break;
+    if (strand.points.size() < 25) continue;
+    const StrandCourse course = layCourse(strand);
+    const auto n = course.base.size();
+    const double off = 0.5 * course.widthPx + 4.0;
+    for (auto& l : lane) l.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec2 normal = leftNormal(course.tangent[i]);
+      const double lateral[3] = {0.0, off, -off};
+      for (int k = 0; k < 3; ++k) {
+        const Vec2 at = course.base[i] + lateral[k] * normal;
+        // Five taps of a small Gaussian, so that the noise of single pixels counts little.
+        lane[k][i] = 0.4f * sampleGrey(grey, at.x(), at.y()) +
+                     0.15f * (sampleGrey(grey, at.x() - 1.0, at.y()) + sampleGrey(grey, at.x() + 1.0, at.y()) +
+                              sampleGrey(grey, at.x(), at.y() - 1.0) + sampleGrey(grey, at.x(), at.y() + 1.0));
+      }
+    }
+    for (std::size_t i = kWindow + 3; i + kWindow + 3 < n; ++i) {
+      if (course.part[i] != StrandPart::Ink) continue;
+      float median[3];
+      for (int k = 0; k < 3; ++k) {
+        std::array<float, 2 * kWindow + 1> window{};
+        std::copy_n(lane[k].begin() + static_cast<std::ptrdiff_t>(i - kWindow), window.size(), window.begin());
+        std::nth_element(window.begin(), window.begin() + kWindow, window.end());
+        median[k] = window[kWindow];
+      }
+      const double depth = std::max(median[1], median[2]) - median[0];
+      if (!(depth > 2.0)) continue;
+      ink += std::abs(lane[0][i] - median[0]) / depth;
+      paper += std::min(std::abs(lane[1][i] - median[1]), std::abs(lane[2][i] - median[2])) * 1.7 / depth;
+      ++count;
+    }
+  }
+  if (count == 0) return 0.0;
+  const double a = ink / static_cast<double>(count), b = paper / static_cast<double>(count);
+  return std::sqrt(std::max(0.0, a * a - b * b));
+}
+
+}  // namespace batten
