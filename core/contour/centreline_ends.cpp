@@ -99,6 +99,8 @@ void placeLastPoint(StrandCourse& c, const GreyImage& grey) {
   const std::optional<double> tip = inkEnd(end, w, inside, grey);
   if (!tip) return;
   const double stop = std::max(0.0, *tip + 0.06 * w - 0.5 * w);
+  // A skeleton ends within a pixel or two of the pen's last place; farther off, the parabola has left the stroke.
+  if (std::abs(stop - inside) > 0.6 * w + 2.0) return;
   // The last half width of a skeleton turns to one corner of the pen's end.
   const int kept = std::clamp(std::min(static_cast<int>(stop - 0.5), inside - static_cast<int>(std::ceil(0.5 * w))), 0,
                               inside);

@@ -254,6 +254,33 @@ void LegGraph::pruneSpurs(double factor) {
   }
 }
 
+// [px] How long two strokes that cross or touch at the angle seen at both ends of a link can share one skeleton; 0: the
+// link is no such place.
+double LegGraph::sharedLength(int link) const {
+  const StrokeLeg& l = legs_[idx(link)];
+  const double width = 2.0 * medianRadius_;
+  double angle = 0.0;
+  for (int side = 0; side < 2; ++side) {
+    const StrokeNode& n = nodes_[idx(l.node[side])];
+    if (n.ends.size() != 3) return 0.0;
+    const double reach = 4.0 * width + n.radius;
+    Vec2 inward = Vec2::Zero(), out[2];
+    int k = 0;
+    for (const int end : n.ends) {
+      const Vec2 d = leaving(legs_[idx(end / 2)], end % 2, n.centre, reach);
+      if (end == 2 * link + side) {
+        inward = d;
+      } else if (k < 2) {
+        out[k++] = d;
+      }
+    }
+    if (k != 2 || inward.dot(out[0]) > -0.7 || inward.dot(out[1]) > -0.7) return 0.0;
+    angle += 0.5 * std::acos(std::clamp(out[0].dot(out[1]), -1.0, 1.0));
+  }
+  constexpr double kLeast = 0.2, kMost = 1.05;  // 12 and 60 degrees
+  return angle > kMost ? 0.0 : 1.3 * width / std::sin(0.5 * std::max(kLeast, angle));
+}
+
 void LegGraph::mergeJunctions() {
   const int legCount = static_cast<int>(legs_.size());
   std::vector<double> radius;
@@ -265,7 +292,7 @@ void LegGraph::mergeJunctions() {
     if (!l.alive || l.ring) continue;
     const auto a = idx(l.node[0]), b = idx(l.node[1]);
     if (nodes_[a].ends.size() < 3 || nodes_[b].ends.size() < 3) continue;
-    if (l.length > 1.5 * (radius[a] + radius[b]) + 1.0) continue;
+    if (l.length > std::max(1.5 * (radius[a] + radius[b]) + 1.0, sharedLength(i))) continue;
     groups.join(l.node[0], l.node[1]);
     inner.push_back(i);
   }

@@ -40,6 +40,7 @@ class LegGraph {
  private:
   bool isSpur(int leg, double factor, int& tipSide) const;
   bool closesCorner(int leg, int node) const;
+  double sharedLength(int link) const;
   void removeLeg(int leg);
   void splice(int node);
   void appendLeg(int into, int from);

@@ -80,7 +80,7 @@ struct FatCells {
 };
 
 FatCells fatCells(const BitImage& ink, double limitPx) {
-  constexpr double kCellsPerLimit = 20.0;
+  constexpr double kCellsPerLimit = 16.0;
   FatCells cells;
   cells.factor = std::max(1, static_cast<int>(limitPx / kCellsPerLimit));
   const int f = cells.factor, columns = (ink.width + f - 1) / f, rows = (ink.height + f - 1) / f;
@@ -101,14 +101,14 @@ FatCells fatCells(const BitImage& ink, double limitPx) {
     }
   }
   cv::Mat inside, toCore;
-  cv::distanceTransform(coarse, inside, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  cv::distanceTransform(coarse, inside, cv::DIST_L2, cv::DIST_MASK_5);
   const double radius = 0.5 * limitPx / f;
   const cv::Mat core = inside > radius;
   if (cv::countNonZero(core) == 0) {
     cells.fat = cv::Mat(rows, columns, CV_8U, cv::Scalar(0));
     return cells;
   }
-  cv::distanceTransform(core == 0, toCore, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  cv::distanceTransform(core == 0, toCore, cv::DIST_L2, cv::DIST_MASK_5);
   cells.fat = cv::Mat(toCore <= radius)(cv::Rect(1, 1, columns, rows)).clone();
   return cells;
 }
@@ -122,6 +122,14 @@ std::int64_t fatPart(const Run& run, const FatCells& cells) {
     x = next;
   }
   return sum;
+}
+
+// Ink pixels in a column through (x, y), no more than `most` counted.
+int heightAt(const BitImage& ink, int x, int y, int most) {
+  int height = 1;
+  for (int yy = y - 1; height < most && ink.at(x, yy); --yy) ++height;
+  for (int yy = y + 1; height < most && ink.at(x, yy); ++yy) ++height;
+  return height;
 }
 
 void copyRun(const BitImage& from, const Run& run, BitImage& to) {
@@ -148,7 +156,8 @@ StrokeSplit split(const BitImage& ink, double limitPx, const RunContext& context
     Bulk& b = bulk[static_cast<std::size_t>(pieces.piece[i])];
     b.area += r.x1 - r.x0;
     // The chords of a disc that are longer than .7 diameters make up 4/5 of it.
-    if (r.x1 - r.x0 >= 0.7 * kNearLimit * limitPx) b.longRuns += r.x1 - r.x0;
+    const int chord = static_cast<int>(0.7 * kNearLimit * limitPx);
+    if (r.x1 - r.x0 >= chord && heightAt(ink, (r.x0 + r.x1) / 2, r.y, chord) >= chord) b.longRuns += r.x1 - r.x0;
   }
   for (const Bulk& b : bulk) anyThick = anyThick || (b.area > 0 && b.longRuns >= 0.35 * static_cast<double>(b.area));
   if (!anyThick) {
