@@ -193,7 +193,7 @@ std::vector<TypicalCurve> fitChain(std::span<const Joint> data, double pixelMm, 
     const double rms = chain.rmsPx(solved.x);
     if (segments.empty() || !std::isfinite(rms)) continue;
     // More segments must be worth it: the fewer, the fairer.
-    if (!best.empty() && rms > 0.8 * bestRms && bestRms < 1.0) break;
+    if (!best.empty() && rms > 0.8 * bestRms && bestRms < 0.3) break;
     if (best.empty() || rms < bestRms) {
       best = std::move(segments);
       bestRms = rms;
