@@ -28,8 +28,13 @@
 #include "ui/top_bar.h"
 
 namespace batten {
+namespace {
+constexpr double kSampleCornerRad = 0.6, kSampleCornerScalePx = 14.0;
+}
 
 MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
+  // Before the first widget: sizes follow from the font.
+  applyTheme(storedTheme());
   setObjectName(QStringLiteral("mainWindow"));
   setWindowTitle(QStringLiteral("Batten"));
   setWindowIcon(QIcon(QStringLiteral(":/icons/batten.svg")));
@@ -152,21 +157,28 @@ void MainWindow::connectSession() {
     rememberFile(session_.scanPath());
     refreshTitle();
     parts_->errors->hide();
-    if (parts_->fairSample) {
-      parts_->fairSample = false;
-      Recipe recipe = session_.recipe();
-      recipe.fairing.mode = FairingMode::Target;
-      session_.change(tr("Fair the sample"), std::move(recipe));
-      session_.undoStack()->clear();
-      setStage(PanelStage::Fairing);
-    }
+    if (parts_->fairSample) setStage(PanelStage::Fairing);
     parts_->canvas->zoomFit();
   });
+  connect(&session_, &EditorSession::runFinished, this, &MainWindow::finishSample);
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::runFinished,
                             &EditorSession::selectionChanged, &EditorSession::targetsChanged})
     connect(&session_, signal, this, &MainWindow::refreshActions);
   connect(&session_, &EditorSession::busyChanged, this, &MainWindow::refreshActions);
   connect(session_.undoStack(), &QUndoStack::indexChanged, this, &MainWindow::refreshActions);
+}
+
+void MainWindow::finishSample() {
+  const auto& contours = session_.output().contours;
+  if (!parts_->fairSample || !contours) return;
+  parts_->fairSample = false;
+  // The sample's corners are meant as corners: it opens marked and faired, to learn by changing.
+  Recipe recipe = session_.recipe();
+  for (const CornerSuggestion& corner : suggestCorners(*contours, kSampleCornerRad, kSampleCornerScalePx))
+    recipe.cornerMarks.push_back({corner.positionPx});
+  recipe.fairing.mode = FairingMode::Target;
+  session_.change(tr("Finish the sample"), std::move(recipe));
+  session_.undoStack()->clear();
 }
 
 void MainWindow::openPath(const QString& path) {
@@ -189,26 +201,47 @@ void MainWindow::setStage(PanelStage stage) {
 
 void MainWindow::enterStage(PanelStage stage) {
   parts_->inspector->setCurrentIndex(static_cast<int>(stage));
-  // What this stage works on is shown while it is open; what the user switched himself stays as he left it.
-  for (const Layer layer : parts_->stageLayers) view_.setVisible(layer, false);
+  // What this stage works on is shown while it is open and what hides it is not; what the user switches stays as he left it.
+  for (const Parts::StageLayer& one : parts_->stageLayers)
+    if (view_.isVisible(one.layer) == one.during) view_.setVisible(one.layer, one.before);
   parts_->stageLayers.clear();
-  const auto bring = [this](Layer layer) {
-    if (view_.isVisible(layer)) return;
-    parts_->stageLayers.push_back(layer);
-    view_.setVisible(layer, true);
+  const auto turn = [this](bool on, std::initializer_list<Layer> layers) {
+    for (const Layer layer : layers) {
+      if (view_.isVisible(layer) == on) continue;
+      parts_->stageLayers.push_back({layer, !on, on});
+      view_.setVisible(layer, on);
+    }
   };
   switch (stage) {
-    case PanelStage::Scan: bring(Layer::LogImage); break;
-    case PanelStage::Threshold:
-      bring(Layer::Mask);
-      bring(Layer::Regions);
+    case PanelStage::Scan:
+      turn(true, {Layer::LogImage});
+      turn(false, {Layer::Curve, Layer::Faired, Layer::Comb});
       break;
-    case PanelStage::CleanUp: bring(Layer::Mask); break;
-    case PanelStage::Edges: bring(Layer::Edges); break;
-    case PanelStage::Corners: bring(Layer::Corners); break;
-    case PanelStage::Curves: bring(Layer::Curve); break;
-    case PanelStage::Fairing:
-    case PanelStage::Export: bring(Layer::Faired); break;
+    case PanelStage::Threshold:
+      turn(true, {Layer::Mask, Layer::Regions});
+      turn(false, {Layer::Curve, Layer::Faired, Layer::Comb});
+      break;
+    case PanelStage::CleanUp:
+      turn(true, {Layer::Mask});
+      turn(false, {Layer::Curve, Layer::Faired, Layer::Comb});
+      break;
+    case PanelStage::Edges:
+      turn(true, {Layer::Edges, Layer::Curve});
+      turn(false, {Layer::Faired, Layer::Comb});
+      break;
+    case PanelStage::Corners:
+      turn(true, {Layer::Corners, Layer::Curve});
+      turn(false, {Layer::Faired, Layer::Comb});
+      break;
+    case PanelStage::Curves:
+      turn(true, {Layer::Curve});
+      turn(false, {Layer::Faired});
+      break;
+    case PanelStage::Fairing: turn(true, {Layer::Curve, Layer::Faired}); break;
+    case PanelStage::Export:
+      turn(true, {Layer::Faired});
+      turn(false, {Layer::Comb});
+      break;
   }
   view_.setTool(stage == PanelStage::Threshold ? Tool::Thresholds : stage == PanelStage::Corners ? Tool::Corners : Tool::Select);
 }

@@ -31,6 +31,7 @@ class MainWindow : public QMainWindow {
   ViewSettings& view() { return view_; }
   QAction* action(ActionId id) const;
   void setThemeChoice(ThemeChoice choice);
+  static ThemeChoice storedTheme();
   /// Files opened lately, newest first; those that have gone are left out.
   static QStringList recentFiles();
 
@@ -62,6 +63,7 @@ class MainWindow : public QMainWindow {
   void refreshRecent();
   void rememberFile(const QString& path);
   void enterStage(PanelStage stage);
+  void finishSample();
   void loadSettings();
   void saveSettings();
 

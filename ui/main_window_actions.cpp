@@ -151,7 +151,7 @@ void MainWindow::connectLayers() {
   for (const Layer layer : kLayers) {
     connect(action(showAction(layer)), &QAction::triggered, this, [this, layer](bool on) {
       // Switched by hand: from now on the stage leaves it alone.
-      std::erase(parts_->stageLayers, layer);
+      std::erase_if(parts_->stageLayers, [layer](const Parts::StageLayer& one) { return one.layer == layer; });
       view_.setVisible(layer, on);
     });
   }

@@ -47,7 +47,11 @@ struct MainWindow::Parts {
   QHash<int, QAction*> actions;
   QList<QAction*> ownActions;      ///< Beside the catalog: stages, plots, help, theme.
   QAction* foldAction = nullptr;
-  std::vector<Layer> stageLayers;  ///< Switched on by the present stage, off again when it is left.
+  struct StageLayer {
+    Layer layer;
+    bool before, during;
+  };
+  std::vector<StageLayer> stageLayers;  ///< Switched by the present stage, switched back when it is left.
   bool fairSample = false;
   enum class Remedy { None, OpenScan, Thresholds, Export } remedy = Remedy::None;
 };

@@ -16,6 +16,10 @@ namespace {
 constexpr int kRecentFiles = 10;
 }
 
+ThemeChoice MainWindow::storedTheme() {
+  return static_cast<ThemeChoice>(std::clamp(QSettings().value(QStringLiteral("theme"), 0).toInt(), 0, 2));
+}
+
 QStringList MainWindow::recentFiles() {
   QStringList files = QSettings().value(QStringLiteral("recent")).toStringList();
   files.erase(std::remove_if(files.begin(), files.end(), [](const QString& path) { return !QFileInfo::exists(path); }), files.end());
@@ -103,7 +107,8 @@ void MainWindow::loadSettings() {
   view_.setCombScale(settings.value(QStringLiteral("comb-scale"), view_.combScale()).toDouble());
   view_.setCombDensity(settings.value(QStringLiteral("comb-density"), view_.combDensity()).toInt());
   settings.endGroup();
-  setThemeChoice(static_cast<ThemeChoice>(std::clamp(settings.value(QStringLiteral("theme"), 0).toInt(), 0, 2)));
+  const ThemeChoice choice = storedTheme();
+  parts_->mainMenu->findChild<QAction*>(QStringLiteral("theme-%1").arg(static_cast<int>(choice)))->setChecked(true);
 }
 
 void MainWindow::saveSettings() {
@@ -113,8 +118,9 @@ void MainWindow::saveSettings() {
   settings.setValue(QStringLiteral("window/plots"), parts_->foldAction->isChecked());
   settings.beginGroup(QStringLiteral("view"));
   for (const Layer layer : kLayers) {
-    const bool ofStage = std::find(parts_->stageLayers.begin(), parts_->stageLayers.end(), layer) != parts_->stageLayers.end();
-    settings.setValue(action(showAction(layer))->objectName(), view_.isVisible(layer) && !ofStage);
+    const auto& switched = parts_->stageLayers;
+    const auto own = std::find_if(switched.begin(), switched.end(), [layer](const Parts::StageLayer& one) { return one.layer == layer; });
+    settings.setValue(action(showAction(layer))->objectName(), own == switched.end() ? view_.isVisible(layer) : own->before);
   }
   settings.setValue(QStringLiteral("comb-scale"), view_.combScale());
   settings.setValue(QStringLiteral("comb-density"), view_.combDensity());

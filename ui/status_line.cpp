@@ -113,8 +113,9 @@ void StatusLine::refreshWork() {
   }
   progress_->setValue(0);
   if (!session_.hasScan()) return work_->clear();
+  const double ms = session_.lastRunMilliseconds();
   const bool whole = !session_.isStale(StageId::Faired) && session_.output().faired;
-  work_->setText(whole ? tr("exact · %1 ms").arg(session_.lastRunMilliseconds(), 0, 'f', 0) : tr("stopped"));
+  work_->setText(!whole ? tr("stopped") : ms < 0.5 ? tr("exact") : tr("exact · %1 ms").arg(ms, 0, 'f', 0));
   work_->setToolTip(whole ? tr("All that is shown belongs to the present settings.") : tr("Some of what is shown is from earlier settings."));
 }
 

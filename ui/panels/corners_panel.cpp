@@ -25,11 +25,11 @@ namespace batten {
 namespace {
 
 constexpr double kLowestAngleDeg = 10.0, kHighestAngleDeg = 150.0;
-constexpr double kSuggestionScalePx = 12.0;
+constexpr double kSuggestionScalePx = 14.0;
 
 QString place(const Vec2& px) { return QStringLiteral("%1, %2").arg(px.x(), 0, 'f', 1).arg(px.y(), 0, 'f', 1); }
 
-QString degrees(double rad) { return QStringLiteral("%1°").arg(rad * 180.0 / std::numbers::pi, 0, 'f', 1); }
+QString degrees(double rad) { return QStringLiteral("%1°").arg(std::abs(rad) * 180.0 / std::numbers::pi, 0, 'f', 0); }
 
 void fitHeight(QListWidget* list, int most) {
   const int row = list->count() > 0 ? std::max(22, list->sizeHintForRow(0)) : 22;
@@ -206,8 +206,8 @@ void CornersPanel::showSuggestions(std::vector<CornerSuggestion> found) {
   suggested_->setVisible(!suggestions_.empty());
   fitHeight(suggested_, 6);
   suggestedNote_->setText(suggestions_.empty() ? tr("No further place turns that sharply.")
-                                               : tr("%n place(s) could be corners. None is used until you mark it.", nullptr,
-                                                    static_cast<int>(suggestions_.size())));
+                                               : counted(static_cast<qint64>(suggestions_.size()), tr("1 place could be a corner. It is used only when you mark it."),
+                                                         tr("%1 places could be corners. None is used until you mark it.")));
   take_->setEnabled(suggested_->currentRow() >= 0);
   takeAll_->setEnabled(!suggestions_.empty());
 }

@@ -143,7 +143,7 @@ void ExportPanel::refresh() {
   if (size.curves == 0)
     return size_->setText(session_.isBusy() ? tr("Still computing.") : tr("There is no curve to export yet."));
   QString text = tr("Will import as %1 × %2 mm").arg(size.widthMm, 0, 'f', 1).arg(size.heightMm, 0, 'f', 1);
-  text += tr(", %n curve(s).", nullptr, size.curves);
+  text += QStringLiteral(", ") + counted(size.curves, tr("1 curve."), tr("%1 curves."));
   if (isScaleAssumed(*session_.scan(), session_.recipe())) text += tr(" The scale is not known: set the resolution in the Scan stage.");
   size_->setText(text);
 }
@@ -180,12 +180,13 @@ void ExportPanel::finish(const Result<ExportOutcome>& outcome) {
   }
   lastWritten_ = QString::fromStdU16String(outcome->path.u16string());
   const QString name = QFileInfo(lastWritten_).fileName();
+  const QString curves = counted(outcome->curves, tr("1 curve"), tr("%1 curves"));
   const QString largest = QString::number(outcome->largestDifferenceMm, 'g', 2);
   if (outcome->cubics > 0)
-    result_->setText(tr("Wrote %n curve(s) to %1 as %2 cubics, largest difference from the exact curves %3 mm.", nullptr, outcome->curves)
-                         .arg(name, grouped(outcome->cubics), largest));
+    result_->setText(tr("Wrote %1 to %2 as %3 cubics, largest difference from the exact curves %4 mm.")
+                         .arg(curves, name, grouped(outcome->cubics), largest));
   else
-    result_->setText(tr("Wrote %n curve(s) to %1, read back, largest difference %2 mm.", nullptr, outcome->curves).arg(name, largest));
+    result_->setText(tr("Wrote %1 to %2, read back, largest difference %3 mm.").arg(curves, name, largest));
   refresh();
   emit exported(true);
 }

@@ -10,6 +10,7 @@
 
 #include "core/pipeline/parameter_table.h"
 #include "ui/panels/curve_list.h"
+#include "ui/panels/ends_table.h"
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/parameter_editor.h"
 #include "ui/panels/parameter_row.h"
@@ -28,7 +29,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
     : QWidget(parent), session_(session), scope_(new SegmentedControl({tr("All curves"), tr("Selected curve")}, this)),
       mode_(new SegmentedControl({tr("None"), tr("Target"), tr("Tolerance")}, this)),
       budget_(new ParameterRow(session, *findParameter("fairing.tolerance"), this)),
-      editor_(new ParameterEditor(session, {"fairing.hold_start", "fairing.hold_end", "fairing.samples", "fairing.quantity", "fairing.monotone"},
+      editor_(new ParameterEditor(session, {"fairing.samples", "fairing.quantity", "fairing.monotone"},
                                   this)),
       note_(note({}, this)), raise_(linkButton({}, QStringLiteral("fairing.raise"), this)),
       useForAll_(linkButton(tr("Use this for all curves"), QStringLiteral("fairing.useForAll"), this)),
@@ -53,6 +54,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   figures_->setHeader({}, {tr("sketched"), tr("faired")});
   layout->addWidget(figures_);
   layout->addWidget(caption(tr("Ends"), this));
+  layout->addWidget(new EndsTable(session, this));
   layout->addWidget(editor_);
   layout->addWidget(caption(tr("Curves"), this));
   layout->addWidget(new CurveList(session, this));

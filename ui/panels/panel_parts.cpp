@@ -131,6 +131,12 @@ QString millimetres(double mm) {
   return QString::number(mm, 'f', decimals) + QStringLiteral(" mm");
 }
 
+QString shortMillimetres(double mm) {
+  const double size = std::abs(mm);
+  const int decimals = size >= 99.95 ? 0 : size >= 9.995 ? 1 : size >= 0.0995 ? 2 : 3;
+  return QString::number(mm, 'f', decimals) + QStringLiteral(" mm");
+}
+
 QString grouped(qint64 count) {
   QString digits = QString::number(count);
   for (int at = static_cast<int>(digits.size()) - 3; at > (count < 0 ? 1 : 0); at -= 3) digits.insert(at, QChar(0x2009));
@@ -140,8 +146,11 @@ QString grouped(qint64 count) {
 QString similarityText(double s) {
   QString text = QString::number(s, 'f', 4);
   if (text.startsWith(QLatin1String("0."))) text.remove(0, 1);
+  if (text.startsWith(QLatin1String("-0."))) text = QChar(0x2212) + text.mid(2, 3);
   return text;
 }
+
+QString counted(qint64 count, const QString& one, const QString& many) { return count == 1 ? one : many.arg(grouped(count)); }
 
 QString degreeName(int degree) {
   static const std::array<const char*, 6> kNames = {QT_TRANSLATE_NOOP("Degree", "linear"),  QT_TRANSLATE_NOOP("Degree", "quadratic"),

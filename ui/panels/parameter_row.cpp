@@ -4,6 +4,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QEvent>
+#include <QFontMetrics>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -110,7 +111,8 @@ void ParameterRow::buildNumber() {
   field_->setUnit(text(parameter_.unit));
   field_->edit()->setObjectName(text(parameter_.name) + QStringLiteral(".field"));
   field_->edit()->setAccessibleName(text(parameter_.label));
-  field_->setFixedWidth(parameter_.unit.size() > 4 ? 112 : 76);
+  const int unitWidth = QFontMetrics(uiFont(11)).horizontalAdvance(text(parameter_.unit));
+  field_->setFixedWidth(std::max(76, 60 + unitWidth));
   track_ = new SliderTrack(this);
   track_->setObjectName(text(parameter_.name));
   layout->addWidget(name_, 0, 0);

@@ -5,6 +5,7 @@
 #include <QFontMetrics>
 #include <QHBoxLayout>
 #include <QToolButton>
+#include <algorithm>
 
 #include "ui/theme/theme.h"
 
@@ -16,6 +17,11 @@ SegmentedControl::SegmentedControl(const QStringList& labels, QWidget* parent)
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
+  // Equal parts where the longest word allows it, else parts that follow the words.
+  const QFontMetrics metrics(uiFont(13, QFont::DemiBold));
+  int widest = 0;
+  for (const QString& one : labels) widest = std::max(widest, metrics.horizontalAdvance(one));
+  const bool isEven = (widest + 10) * labels.size() <= 268;
   for (int i = 0; i < labels.size(); ++i) {
     auto* button = new QToolButton(this);
     button->setText(labels[i]);
@@ -23,9 +29,9 @@ SegmentedControl::SegmentedControl(const QStringList& labels, QWidget* parent)
     button->setCheckable(true);
     button->setProperty("segment", true);
     button->setFocusPolicy(Qt::StrongFocus);
-    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    button->setSizePolicy(isEven ? QSizePolicy::Ignored : QSizePolicy::Expanding, QSizePolicy::Fixed);
     group_->addButton(button, i);
-    layout->addWidget(button, QFontMetrics(uiFont(13, QFont::DemiBold)).horizontalAdvance(labels[i]) + 24);
+    layout->addWidget(button, isEven ? 1 : metrics.horizontalAdvance(labels[i]) + 24);
   }
   connect(group_, &QButtonGroup::idClicked, this, &SegmentedControl::chosen);
 }

@@ -76,8 +76,9 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double bud
     const auto& faired = *outcomes_->faired[static_cast<std::size_t>(degree_ - 1)];
     const auto& profile = outcomes_->targets.profiles[static_cast<std::size_t>(degree_ - 1)];
     spoken += tr(", moves the curve by %1, %2 extrema").arg(millimetres(faired.report.maxDeviationMm)).arg(faired.report.extremaAfter);
-    tip += tr("\nS %1, moves the curve by at most %2, %n extremum(s) left.", nullptr, faired.report.extremaAfter)
-               .arg(similarityText(profile.similarity), millimetres(faired.report.maxDeviationMm));
+    tip += tr("\nS %1, moves the curve by at most %2, %3 left.")
+               .arg(similarityText(profile.similarity), millimetres(faired.report.maxDeviationMm),
+                    counted(faired.report.extremaAfter, tr("1 curvature extremum"), tr("%1 curvature extrema")));
     if (!faired.report.withinBudget) tip += tr("\nTo meet it fully needs %1.").arg(millimetres(faired.report.neededMm));
     if (!profile.isMonotone) tip += tr("\nThis profile turns back: it is not monotone.");
   }
@@ -168,7 +169,7 @@ void TargetTile::paintFigures(QPainter& painter, const QRectF& box) const {
   painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, QStringLiteral("S ") + similarityText(outcomes_->targets.profiles[index].similarity));
   painter.drawText(box, Qt::AlignRight | Qt::AlignVCenter, tr("%1 extr.").arg(report.extremaAfter));
   painter.setPen(over ? theme.amber : theme.mute);
-  const QString text = QString::number(mm, 'f', mm < 0.095 ? 3 : 2) + QStringLiteral(" mm");
+  const QString text = shortMillimetres(mm);
   const double spare = painter.fontMetrics().horizontalAdvance(QStringLiteral("S .9987")) - painter.fontMetrics().horizontalAdvance(tr("%1 extr.").arg(report.extremaAfter));
   painter.drawText(box.translated(spare / 2, 0), Qt::AlignCenter, text);
 }

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <QAbstractButton>
+#include <QAction>
+#include <QComboBox>
+#include <QFile>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QSettings>
+#include <QSlider>
+#include <QTableWidget>
+#include <QTest>
+#include <QTextBrowser>
+#include <cmath>
+#include <set>
+
+#include "core/document/export_builder.h"
+#include "core/exchange/writers.h"
+#include "core/pipeline/parameter_table.h"
+#include "core/pipeline/recipe_file.h"
+#include "tests/ui/rendered_scan.h"
+#include "ui/canvas/curve_canvas.h"
+#include "ui/command_palette.h"
+#include "ui/error_strip.h"
+#include "ui/main_window.h"
+#include "ui/plots/plot_series.h"
+
+namespace batten {
+namespace {
+
+using test::waitUntil;
+
+/// A window with a page open and computed; its settings live in a folder of their own.
+class Window : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(folder_.isValid());
+    QSettings::setDefaultFormat(QSettings::IniFormat);
+    QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, folder_.path());
+    window_ = std::make_unique<MainWindow>();
+    window_->resize(1280, 860);
+    window_->show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+  }
+  void openPage(const QImage& page) {
+    path_ = folder_.filePath(QStringLiteral("page.png"));
+    ASSERT_TRUE(page.save(path_));
+    window_->openPath(path_);
+    ASSERT_TRUE(waitUntil([this] { return session().hasScan(); }));
+    ASSERT_TRUE(settle());
+    ASSERT_FALSE(session().output().error) << session().output().error->message;
+    ASSERT_FALSE(session().curves().empty());
+  }
+  bool settle() {
+    return waitUntil([this] { return !session().isBusy(); });
+  }
+  EditorSession& session() { return window_->session(); }
+  template <class T>
+  T* find(const char* name) {
+    auto* found = window_->findChild<T*>(QString::fromLatin1(name));
+    EXPECT_NE(found, nullptr) << name;
+    return found;
+  }
+  void clickCanvas(const Vec2& imagePx) {
+    auto* canvas = find<CurveCanvas>("canvas");
+    const QPoint at = canvas->toWidget(imagePx).toPoint();
+    QTest::mouseMove(canvas, at);
+    QTest::mouseClick(canvas, Qt::LeftButton, Qt::NoModifier, at);
+  }
+  /// Replaces what a field holds by typing.
+  void type(QLineEdit* field, const QString& text) {
+    field->setFocus();
+    field->selectAll();
+    QTest::keyClicks(field, text);
+    QTest::keyClick(field, Qt::Key_Return);
+  }
+  QByteArray read(const QString& path) {
+    QFile file(path);
+    EXPECT_TRUE(file.open(QIODevice::ReadOnly)) << path.toStdString();
+    return file.readAll();
+  }
+
+  QTemporaryDir folder_;
+  QString path_;
+  std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(Window, TheWholeWalkEndsInTheCurvesThatTheRecipeGives) {
+  openPage(test::zigzagPage());
+  const Recipe start = session().recipe();
+
+  window_->setStage(PanelStage::Scan);
+  auto* factor = find<QSlider>("log.factor");
+  QTest::mousePress(factor, Qt::LeftButton, {}, QPoint(factor->width() / 2, factor->height() / 2));
+  QTest::mouseMove(factor, QPoint(factor->width() / 2 + 12, factor->height() / 2));
+  QTest::mouseMove(factor, QPoint(factor->width() / 2 + 30, factor->height() / 2));
+  QTest::mouseRelease(factor, Qt::LeftButton, {}, QPoint(factor->width() / 2 + 30, factor->height() / 2));
+  EXPECT_NE(session().recipe().log.factor, start.log.factor);
+  EXPECT_EQ(session().undoStack()->count(), 1) << "a drag is one step";
+
+  window_->setStage(PanelStage::Threshold);
+  window_->view().setSelectedRegion(27);
+  type(find<QLineEdit>("threshold.regionLevel"), QStringLiteral("140"));
+  ASSERT_TRUE(session().recipe().threshold.grid[27]);
+  EXPECT_EQ(*session().recipe().threshold.grid[27], 140.0);
+  EXPECT_EQ(find<QTableWidget>("threshold.table")->item(3, 3)->text(), QStringLiteral("140"));
+  ASSERT_TRUE(settle());
+
+  window_->setStage(PanelStage::Corners);
+  clickCanvas({200, 100});
+  ASSERT_TRUE(settle());
+  clickCanvas({400, 300});
+  ASSERT_TRUE(settle());
+  ASSERT_EQ(session().recipe().cornerMarks.size(), 2u);
+  EXPECT_EQ(find<QListWidget>("corners.list")->count(), 2);
+  ASSERT_TRUE(session().output().pieces);
+  EXPECT_EQ(session().output().pieces->corners.size(), 2u);
+
+  window_->setStage(PanelStage::Fairing);
+  ASSERT_GT(session().curves().size(), 1u);
+  session().selectCurve(0);
+  ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr; }));
+  auto* tile = find<QAbstractButton>("target.3");
+  if (!tile->isEnabled()) GTEST_SKIP() << "the cubic does not fit this curve: " << tile->toolTip().toStdString();
+  QTest::mouseClick(tile, Qt::LeftButton);
+  ASSERT_EQ(session().recipe().choices.size(), 1u);
+  EXPECT_EQ(session().recipe().choices[0].target, 3);
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(session().curves()[0].fairingUsed.mode, FairingMode::Target);
+  EXPECT_EQ(session().curves()[0].fairingUsed.target, 3);
+
+  const Recipe end = session().recipe();
+  while (session().undoStack()->canUndo()) window_->action(ActionId::Undo)->trigger();
+  EXPECT_EQ(session().recipe(), start);
+  EXPECT_EQ(find<QListWidget>("corners.list")->count(), 0);
+  while (session().undoStack()->canRedo()) window_->action(ActionId::Redo)->trigger();
+  EXPECT_EQ(session().recipe(), end);
+  ASSERT_TRUE(settle());
+
+  window_->action(ActionId::Export)->trigger();
+  EXPECT_EQ(window_->stage(), PanelStage::Export);
+  QTest::mouseClick(find<QAbstractButton>("export.format.json"), Qt::LeftButton);
+  const QString target = folder_.filePath(QStringLiteral("curves.json"));
+  type(find<QLineEdit>("export.path"), target);
+  QTest::mouseClick(find<QAbstractButton>("export.run"), Qt::LeftButton);
+  ASSERT_TRUE(waitUntil([&] { return QFile::exists(target) && !find<QLabel>("export.result")->text().isEmpty(); }));
+
+  // The oracle: the stages alone, from the saved recipe, with nothing of the window.
+  const auto recipe = recipeFromJson(recipeToJson(end));
+  ASSERT_TRUE(recipe);
+  StageCache cache;
+  const PipelineOutput output = runPipeline(*session().scan(), *recipe, cache, {}, {});
+  const auto expected = writeCurveJson(exportDocument(output, *recipe, *session().scan()));
+  ASSERT_TRUE(expected);
+  EXPECT_EQ(read(target).toStdString(), *expected);
+}
+
+TEST_F(Window, EveryParameterHasAControlOfItsOwn) {
+  // fairing.mode and fairing.target are the segments and tiles, the holds a table of dots, the grid a table.
+  std::set<std::string> elsewhere = {"threshold.grid", "fairing.target", "fairing.mode", "fairing.hold_start", "fairing.hold_end"};
+  for (const Parameter& parameter : parameterTable()) {
+    if (elsewhere.contains(parameter.name)) continue;
+    const QString row = QString::fromStdString(parameter.name) + QStringLiteral(".row");
+    EXPECT_NE(window_->findChild<QWidget*>(row), nullptr) << parameter.name;
+  }
+  EXPECT_NE(find<QAbstractButton>("fairing.mode.target"), nullptr);
+  EXPECT_NE(find<QTableWidget>("threshold.table"), nullptr);
+  EXPECT_NE(find<QAbstractButton>("target.6"), nullptr);
+  QTest::mouseClick(find<QAbstractButton>("fairing.hold_start.curvature"), Qt::LeftButton);
+  EXPECT_EQ(session().recipe().fairing.startHold, (EndHold{true, true}));
+  QTest::mouseClick(find<QAbstractButton>("fairing.hold_start.tangent"), Qt::LeftButton);
+  EXPECT_EQ(session().recipe().fairing.startHold, (EndHold{false, false}));
+}
+
+TEST_F(Window, ControlsFollowUndoWithoutAnswering) {
+  openPage(test::ellipsePage());
+  window_->setStage(PanelStage::CleanUp);
+  auto* field = find<QLineEdit>("filter.coefficient.field");
+  auto* slider = find<QSlider>("filter.coefficient");
+  const QString before = field->text();
+  const int positionBefore = slider->value();
+  type(field, QStringLiteral("4"));
+  EXPECT_EQ(session().recipe().filter.coefficient, 4);
+  EXPECT_GT(slider->value(), positionBefore);
+  session().undoStack()->undo();
+  EXPECT_EQ(field->text(), before);
+  EXPECT_EQ(slider->value(), positionBefore);
+  EXPECT_TRUE(session().undoStack()->canRedo()) << "showing a value must not count as a change";
+}
+
+TEST_F(Window, FieldsBoundNumbersAndKeepWordsVisible) {
+  openPage(test::ellipsePage());
+  window_->setStage(PanelStage::CleanUp);
+  auto* field = find<QLineEdit>("filter.iterations.field");
+  type(field, QStringLiteral("5000"));
+  EXPECT_EQ(session().recipe().filter.iterations, 100);
+  EXPECT_EQ(field->text(), QStringLiteral("100"));
+  type(field, QStringLiteral("many"));
+  EXPECT_EQ(session().recipe().filter.iterations, 100);
+  EXPECT_EQ(field->text(), QStringLiteral("many"));
+  QTest::keyClick(field, Qt::Key_Escape);
+  EXPECT_EQ(field->text(), QStringLiteral("100"));
+}
+
+TEST_F(Window, ThresholdTableTakesNumbersAndDeleteMakesAutomatic) {
+  openPage(test::zigzagPage());
+  window_->setStage(PanelStage::Threshold);
+  auto* table = find<QTableWidget>("threshold.table");
+  table->item(2, 5)->setText(QStringLiteral("99"));
+  ASSERT_TRUE(session().recipe().threshold.grid[21]);
+  EXPECT_EQ(*session().recipe().threshold.grid[21], 99.0);
+  table->setCurrentCell(2, 5);
+  QTest::keyClick(table, Qt::Key_Delete);
+  EXPECT_FALSE(session().recipe().threshold.grid[21]);
+  table->item(0, 0)->setText(QStringLiteral("60"));
+  table->item(7, 7)->setText(QStringLiteral("61"));
+  QTest::mouseClick(find<QAbstractButton>("threshold.autoAll"), Qt::LeftButton);
+  for (const auto& cell : session().recipe().threshold.grid) EXPECT_FALSE(cell);
+}
+
+TEST_F(Window, ABadFileIsAMessageInTheWindow) {
+  const QString path = folder_.filePath(QStringLiteral("text.png"));
+  QFile file(path);
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write("this is no picture");
+  file.close();
+  window_->openPath(path);
+  auto* strip = find<ErrorStrip>("errorStrip");
+  ASSERT_TRUE(waitUntil([&] { return strip->isVisible(); }));
+  EXPECT_FALSE(strip->message().isEmpty());
+  EXPECT_TRUE(find<QAbstractButton>("error.action")->isVisible());
+  QTest::mouseClick(find<QAbstractButton>("error.dismiss"), Qt::LeftButton);
+  EXPECT_FALSE(strip->isVisible());
+}
+
+TEST_F(Window, LeavingACurveOutAndBackIsUndoable) {
+  openPage(test::zigzagPage());
+  window_->setStage(PanelStage::Curves);
+  auto* list = find<QListWidget>("curves.list");
+  ASSERT_GT(list->count(), 0);
+  list->setCurrentRow(0);
+  QTest::keyClick(list, Qt::Key_Space);
+  ASSERT_EQ(session().recipe().choices.size(), 1u);
+  EXPECT_FALSE(session().recipe().choices[0].included);
+  ASSERT_TRUE(settle());
+  EXPECT_FALSE(session().curves()[0].included);
+  session().undoStack()->undo();
+  EXPECT_TRUE(session().recipe().choices.empty());
+}
+
+TEST_F(Window, TheScaleCanBeTyped) {
+  QImage page = test::zigzagPage();
+  page.setDotsPerMeterX(0);
+  page.setDotsPerMeterY(0);
+  openPage(page);
+  window_->setStage(PanelStage::Scan);
+  type(find<QLineEdit>("scan.dpi"), QStringLiteral("300"));
+  ASSERT_TRUE(session().recipe().dpi);
+  EXPECT_EQ(*session().recipe().dpi, 300.0);
+  ASSERT_TRUE(settle());
+  EXPECT_NEAR(session().output().frame.mmPerPx, 25.4 / 300.0, 1e-12);
+}
+
+TEST_F(Window, TheFinderRunsAnAction) {
+  openPage(test::zigzagPage());
+  window_->action(ActionId::FindAction)->trigger();
+  auto* edit = find<QLineEdit>("palette.edit");
+  ASSERT_TRUE(edit->isVisible());
+  const bool before = window_->view().isVisible(Layer::Segments);
+  QTest::keyClicks(edit, QStringLiteral("segments"));
+  QTest::keyClick(edit, Qt::Key_Return);
+  EXPECT_FALSE(edit->isVisible());
+  EXPECT_NE(window_->view().isVisible(Layer::Segments), before);
+}
+
+TEST(CommandPalette, RanksLettersInOrder) {
+  EXPECT_EQ(CommandPalette::score("xyz", "Undo"), 0);
+  EXPECT_EQ(CommandPalette::score("du", "Undo"), 0);
+  EXPECT_GT(CommandPalette::score("und", "Undo"), 0);
+  EXPECT_GT(CommandPalette::score("zf", "Zoom fit"), CommandPalette::score("zf", "azurfix"));
+}
+
+TEST_F(Window, StagesHaveHelpAndNames) {
+  for (const PanelStage stage : kPanelStages) {
+    EXPECT_TRUE(QFile::exists(QStringLiteral(":/help/%1.md").arg(key(stage)))) << key(stage).toStdString();
+    auto* button = find<QAbstractButton>(("stage." + key(stage)).toLatin1().constData());
+    ASSERT_NE(button, nullptr);
+    QTest::mouseClick(button, Qt::LeftButton);
+    EXPECT_EQ(window_->stage(), stage);
+    EXPECT_TRUE(button->accessibleName().startsWith(label(stage)));
+  }
+}
+
+TEST_F(Window, ControlsThatTakeTheKeyboardHaveAccessibleNames) {
+  for (QWidget* widget : window_->findChildren<QWidget*>()) {
+    const bool control = qobject_cast<QAbstractButton*>(widget) || qobject_cast<QAbstractSlider*>(widget) || qobject_cast<QComboBox*>(widget);
+    if (!control || (widget->focusPolicy() & Qt::TabFocus) == 0 || widget->objectName().startsWith(QLatin1String("qt_"))) continue;
+    const auto* button = qobject_cast<QAbstractButton*>(widget);
+    const QString spoken = widget->accessibleName().isEmpty() && button ? button->text() : widget->accessibleName();
+    EXPECT_FALSE(spoken.isEmpty()) << widget->metaObject()->className() << " " << widget->objectName().toStdString();
+  }
+}
+
+TEST_F(Window, SettingsComeBack) {
+  window_->setStage(PanelStage::Fairing);
+  window_->view().setCombScale(3.5);
+  window_->view().setVisible(Layer::Comb, false);
+  window_->setThemeChoice(ThemeChoice::Dark);
+  window_->close();
+  window_ = std::make_unique<MainWindow>();
+  EXPECT_EQ(window_->view().combScale(), 3.5);
+  window_->setStage(PanelStage::Fairing);
+  EXPECT_FALSE(window_->view().isVisible(Layer::Comb));
+  EXPECT_TRUE(themeOf(window_->palette()).dark);
+  window_->setThemeChoice(ThemeChoice::Light);
+  EXPECT_FALSE(themeOf(window_->palette()).dark);
+}
+
+TEST_F(Window, PlotsHoldFiniteNumbersOverTheWholeLength) {
+  openPage(test::zigzagPage());
+  ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr; }));
+  session().selectCurve(0);
+  const double length = session().selected()->sketchedFigures.lengthMm;
+  for (const PlotTab tab : {PlotTab::Radius, PlotTab::Curvature, PlotTab::Derivative, PlotTab::Deviation}) {
+    const PlotData data = plotData(session(), tab);
+    ASSERT_FALSE(data.isEmpty());
+    EXPECT_NEAR(data.lengthMm, length, 1e-3 * length);
+    EXPECT_LT(data.low, data.high);
+    for (const PlotSeries& series : data.series) {
+      ASSERT_EQ(series.s.size(), series.value.size());
+      for (std::size_t i = 0; i < series.s.size(); ++i) {
+        ASSERT_TRUE(std::isfinite(series.value[i]));
+        if (tab == PlotTab::Radius) ASSERT_GT(series.value[i], 0.0);
+      }
+    }
+  }
+}
+
+TEST(PlotSeries, RadiusIsClamped) {
+  EXPECT_EQ(clampedRadius(0.0, 0.1, 500.0), 500.0);
+  EXPECT_EQ(clampedRadius(-0.01, 0.1, 500.0), 100.0);
+  EXPECT_EQ(clampedRadius(1e9, 0.1, 500.0), 0.1);
+  EXPECT_EQ(clampedRadius(std::nan(""), 0.1, 500.0), 0.1);
+}
+
+}  // namespace
+}  // namespace batten
