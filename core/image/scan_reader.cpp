@@ -24,7 +24,8 @@ constexpr std::uint64_t kProbeBytes = 1 << 20;  // headers lie within; EXIF bloc
 
 tl::unexpected<Error> unreadable(const std::filesystem::path& path, const std::string& what, std::string detail = {}) {
   std::string message(1, '"');
-  message.append(path.filename().string()).append("\" ").append(what);
+  for (const char c : path.string()) message.push_back(c == '\n' || c == '\r' ? '?' : c);  // stays one line
+  message.append("\" ").append(what);
   return fail(ErrorCode::UnreadableScan, std::move(message), std::move(detail));
 }
 

@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/image/scan_grey.h"
@@ -187,6 +188,54 @@ TEST_F(ScanReader, ReadsPnmAndRefusesItTruncated) {
   ASSERT_TRUE(bits.has_value()) << bits.error().message;
   EXPECT_EQ(levels(bits->grey), (std::vector<int>{0, 255, 0}));
   EXPECT_THAT(refusal(write("b.pgm", "P5\n3 2\n255\nabc")), HasSubstr("truncated"));
+}
+
+std::string fromHex(const std::string& hex) {
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
+    bytes.push_back(static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16)));
+  }
+  return bytes;
+}
+
+TEST_F(ScanReader, ReadsBmpFromTheBottomUp) {
+  const auto row = std::string("\x0a\x0a\x0a\x14\x14\x14\x1e\x1e\x1e\0\0\0", 12);  // three bytes fill the row
+  const auto last = std::string("\xff\0\0\0\xff\0\0\0\xff\0\0\0", 12);             // blue, green, red
+  const std::string bytes = "BM" + little(54 + 24, 4) + little(0, 4) + little(54, 4) + little(40, 4) + little(3, 4) +
+                            little(2, 4) + little(1, 2) + little(24, 2) + little(0, 4) + little(24, 4) +
+                            little(11811, 4) + little(11811, 4) + little(0, 4) + little(0, 4) + last + row;
+  const auto scan = readScan(write("a.bmp", bytes), {}, {});
+  ASSERT_TRUE(scan.has_value()) << scan.error().message;
+  EXPECT_EQ(levels(scan->grey), (std::vector<int>{10, 20, 30, 29, 150, 76}));
+  EXPECT_EQ(scan->info.format, "BMP");
+  EXPECT_EQ(scan->dpi, 300.0);
+  EXPECT_THAT(refusal(write("cut.bmp", bytes.substr(0, bytes.size() - 9))), HasSubstr("truncated"));
+}
+
+/// 3 x 2 pixels of grey 120 each, written once by a common encoder.
+TEST_F(ScanReader, ReadsJpegAndWebp) {
+  const std::string jpeg = fromHex(
+      "ffd8ffe000104a46494600010100000100010000ffdb00430001010101010101010101010101010101010101010101010101010101010101"
+      "01"
+      "0101010101010101010101010101010101010101010101010101010101010101ffc0000b080002000301011100ffc4001400010000000000"
+      "00"
+      "00000000000000000007ffc40014100100000000000000000000000000000000ffda0008010100003f003f7fffd9");
+  const std::string webp = fromHex("524946461e000000574542505650384c110000002f024000000750bce215afff8188e87f0000");
+  for (const auto& [name, format, bytes] : {std::tuple{"a.jpg", "JPEG", jpeg}, std::tuple{"a.webp", "WebP", webp}}) {
+    const auto path = write(name, bytes);
+    const auto scan = readScan(path, {}, {});
+    ASSERT_TRUE(scan.has_value()) << scan.error().message;
+    EXPECT_EQ(scan->info.format, format);
+    EXPECT_EQ(scan->grey.width, 3);
+    EXPECT_EQ(levels(scan->grey), std::vector<int>(6, 120));
+    EXPECT_EQ(probeScan(path)->height, 2);
+    EXPECT_THAT(refusal(write(std::string("cut") + name, bytes.substr(0, bytes.size() - 6))), HasSubstr("truncated"));
+  }
+}
+
+TEST_F(ScanReader, NamesTheFileAsItWasGiven) {
+  EXPECT_THAT(refusal("/nonexist"), HasSubstr("\"/nonexist\""));
+  EXPECT_THAT(refusal("no such folder/none.png"), HasSubstr("\"no such folder/none.png\""));
 }
 
 TEST_F(ScanReader, StopsWhenCancelled) {
