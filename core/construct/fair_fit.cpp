@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <new>
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/construct/fair_parts.h"
 #include "core/construct/fair_piece.h"
 
 namespace batten {
 namespace {
 
+constexpr int kRounds = 3;               // of fits of a contour; stretches are cut where a round has failed
 constexpr double kWhiteDensity = 0.045;  // [px^2 px] of ordinary edge points; where a contour is too short to tell
 
 Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour, const FairFitOptions& options,
@@ -53,6 +56,43 @@ Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour,
   return out;
 }
 
+/// The stretches of all pieces fitted together, so that they share what is known of the noise; a stretch whose fit has
+/// left its points is cut and fitted again.
+Result<std::vector<ConstructedPiece>> fitParts(const ConstructContour& contour, const FairFitOptions& options,
+                                               const RunContext& context) {
+  std::vector<FairParts> parts;
+  for (const ConstructPiece& piece : contour.pieces) {
+    parts.emplace_back(piece, contour.isStroke, contour.pixelMm, options);
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    ConstructContour stretches{{}, contour.isStroke, contour.pixelMm};
+    std::vector<std::size_t> counts;
+    for (const FairParts& part : parts) {
+      auto pieces = part.stretches();
+      counts.push_back(pieces.size());
+      std::move(pieces.begin(), pieces.end(), std::back_inserter(stretches.pieces));
+    }
+    auto fits = fitPieces(stretches, options, context);
+    if (!fits) return fits;
+    bool again = false;
+    auto next = std::make_move_iterator(fits->begin());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const auto end = next + static_cast<std::ptrdiff_t>(counts[i]);
+      again = parts[i].check({next, end}, round + 1 == kRounds) || again;
+      next = end;
+    }
+    if (!again) break;
+  }
+  std::vector<ConstructedPiece> out;
+  for (const FairParts& part : parts) {
+    auto piece = part.joined(context);
+    if (context.isCancelled()) return cancelled();
+    if (!piece) return fail(piece.error());
+    out.push_back(std::move(*piece));
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<std::vector<ConstructedPiece>> fairFit(const ConstructContour& contour, const FairFitOptions& options,
@@ -67,7 +107,7 @@ Result<std::vector<ConstructedPiece>> fairFit(const ConstructContour& contour, c
       return fail(ErrorCode::BadParameter, "An option of the fair fit must be above 0.");
   }
   try {
-    return fitPieces(contour, options, context);
+    return fitParts(contour, options, context);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to fit the curve.");
   }

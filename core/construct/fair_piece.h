@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/run_context.h"
 #include "core/construct/construct.h"
@@ -30,5 +31,11 @@ FairPiece prepareFairPiece(const ConstructPiece&, bool isStroke, double pixelMm,
 /// cancelled.
 void finishFairPiece(FairPiece&, const ConstructPiece&, double pixelMm, double s0, double cutoffPx,
                      const FairFitOptions&, const RunContext&);
+
+/// Median distance of neighbours; 1 for a single point.
+double medianSpacing(const std::vector<Vec2>& points);
+/// Marks points as not to be used that lie far from where their neighbours on both sides are (medians, so that strays
+/// cannot vote).
+void gateStrays(FairData&, double gatePx, double spacing);
 
 }  // namespace batten

@@ -56,33 +56,6 @@ double distanceToSegment(const Vec2& p, const Vec2& a, const Vec2& b) {
   return (p - a - x * along).norm();
 }
 
-/// Drops points that lie far from where their neighbours on both sides are (medians, so that strays cannot vote).
-void gate(FairData& data, double gatePx, double spacing) {
-  const int n = static_cast<int>(data.points.size());
-  if (n < 2 * kGateReach + 1) return;
-  // Half a window of points may lie round a bend that is as sharp as a line can be.
-  const double limit = gatePx + 0.5 * kGateReach * spacing;
-  const std::vector<Vec2> p = data.points;
-  const auto around = [&](int from, int to) {
-    std::vector<Vec2> some;
-    for (int j = from; j <= to; ++j) {
-      if (data.closed || (j >= 0 && j < n)) some.push_back(p[static_cast<std::size_t>(((j % n) + n) % n)]);
-    }
-    return some;
-  };
-  for (int i = 0; i < n; ++i) {
-    if (i >= kGateReach && i + kGateReach < n) {  // the usual case, without medians
-      const auto at = static_cast<std::size_t>(i);
-      if (distanceToSegment(p[at], p[at - kGateReach], p[at + kGateReach]) <= limit) continue;
-    }
-    const auto before = around(i - kGateReach, i - 1), after = around(i + 1, i + kGateReach);
-    if (before.size() < 3 || after.size() < 3) continue;
-    if (distanceToSegment(p[static_cast<std::size_t>(i)], median(before), median(after)) > limit) {
-      data.use[static_cast<std::size_t>(i)] = 0;
-    }
-  }
-}
-
 /// Leaves out the points next to corners, where blur has rounded the line.
 void guardCorners(FairPiece& piece, double guardPx) {
   auto& data = piece.data;
@@ -114,20 +87,50 @@ void trimFreeEnds(FairPiece& piece) {
 
 }  // namespace
 
+double medianSpacing(const std::vector<Vec2>& points) {
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < points.size(); ++i) gaps.push_back((points[i] - points[i - 1]).norm());
+  if (gaps.empty()) return 1.0;
+  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+  std::nth_element(gaps.begin(), middle, gaps.end());
+  return *middle;
+}
+
+void gateStrays(FairData& data, double gatePx, double spacing) {
+  const int n = static_cast<int>(data.points.size());
+  if (n < 2 * kGateReach + 1) return;
+  // Half a window of points may lie round a bend that is as sharp as a line can be.
+  const double limit = gatePx + 0.5 * kGateReach * spacing;
+  const std::vector<Vec2> p = data.points;
+  const auto around = [&](int from, int to) {
+    std::vector<Vec2> some;
+    for (int j = from; j <= to; ++j) {
+      if (data.closed || (j >= 0 && j < n)) some.push_back(p[static_cast<std::size_t>(((j % n) + n) % n)]);
+    }
+    return some;
+  };
+  for (int i = 0; i < n; ++i) {
+    if (i >= kGateReach && i + kGateReach < n) {  // the usual case, without medians
+      const auto at = static_cast<std::size_t>(i);
+      if (distanceToSegment(p[at], p[at - kGateReach], p[at + kGateReach]) <= limit) continue;
+    }
+    const auto before = around(i - kGateReach, i - 1), after = around(i + 1, i + kGateReach);
+    if (before.size() < 3 || after.size() < 3) continue;
+    if (distanceToSegment(p[static_cast<std::size_t>(i)], median(before), median(after)) > limit) {
+      data.use[static_cast<std::size_t>(i)] = 0;
+    }
+  }
+}
+
 FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, double pixelMm, const FairFitOptions& options) {
   FairPiece piece;
   readPoints(piece, in, pixelMm);
   FairData& data = piece.data;
   if (data.points.size() < 2) return piece;
-  std::vector<double> gaps;
   double length = 0.0;
-  for (std::size_t i = 1; i < data.points.size(); ++i) {
-    gaps.push_back((data.points[i] - data.points[i - 1]).norm());
-  }
-  std::nth_element(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2), gaps.end());
-  const double spacing = gaps[gaps.size() / 2];
+  const double spacing = medianSpacing(data.points);
   data.density = std::min(1.0, 1.0 / std::max(spacing, 1e-9));
-  gate(data, isStroke ? options.gateStrokePx : options.gateOutlinePx, spacing);
+  gateStrays(data, isStroke ? options.gateStrokePx : options.gateOutlinePx, spacing);
   trimFreeEnds(piece);
   const Vec2* last = nullptr;
   for (std::size_t i = 0; i < data.points.size(); ++i) {

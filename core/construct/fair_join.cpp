@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/fair_join.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include "core/construct/banded_matrix.h"
+#include "core/construct/fair_frame.h"
+#include "core/construct/uniform_quintic.h"
+#include "core/curve/knot_operations.h"
+
+namespace batten {
+namespace {
+
+constexpr double kKnotPx = 3.0;
+constexpr double kCutoffPx = 9.0;
+constexpr double kHold = 1e8;  // weight of what is set exactly afterwards
+
+double penalty(double cutoffPx, double density) { return density * std::pow(cutoffPx / (2.0 * std::numbers::pi), 6); }
+
+/// The first three control points of a clamped quintic from its derivatives at the start; `u` are its first knots.
+std::array<Vec2, 3> controlsOf(const CurveEnd& end, double u6, double u7) {
+  std::array<Vec2, 3> p;
+  p[0] = end[0];
+  p[1] = p[0] + end[1] * (u6 / 5.0);
+  p[2] = p[1] + (end[1] + end[2] * (u6 / 4.0)) * (u7 / 5.0);
+  return p;
+}
+
+BandRow bandRow(std::span<const double> knots, int count, double u, int order) {
+  const BasisRow row = basis(5, knots, count, u, order);
+  BandRow out;
+  out.first = row.first;
+  for (std::size_t i = 0; i < 6; ++i) out.v[i] = row.values[static_cast<std::size_t>(order)][i];
+  return out;
+}
+
+struct Fixed {
+  int index;
+  Vec2 point;
+};
+
+std::vector<Fixed> fixedControls(const std::vector<Vec2>& p, const std::vector<double>& knots, int count,
+                                 const std::optional<CurveEnd>& before, const std::optional<CurveEnd>& after) {
+  std::vector<Fixed> fixed;
+  const auto n = knots.size();
+  const double length = knots.back();
+  if (before) {
+    const auto c = controlsOf(*before, knots[6], knots[7]);
+    for (int i = 0; i < 3; ++i) fixed.push_back({i, c[static_cast<std::size_t>(i)]});
+  } else {
+    fixed.push_back({0, p.front()});
+  }
+  if (after) {
+    const CurveEnd turned{(*after)[0], -(*after)[1], (*after)[2]};
+    const auto c = controlsOf(turned, length - knots[n - 7], length - knots[n - 8]);
+    for (int i = 0; i < 3; ++i) fixed.push_back({count - 1 - i, c[static_cast<std::size_t>(i)]});
+  } else {
+    fixed.push_back({count - 1, p.back()});
+  }
+  return fixed;
+}
+
+/// Takes one knot of the run that ends at index r and has multiplicity s out of a quintic that allows it (Piegl &
+/// Tiller, The NURBS Book, A5.8 without the test).
+void removeKnot(std::vector<double>& knots, std::vector<Vec2>& points, int r, int s) {
+  constexpr int kDegree = 5;
+  const auto knot = [&](int i) { return knots[static_cast<std::size_t>(i)]; };
+  const auto point = [&](int i) -> Vec2& { return points[static_cast<std::size_t>(i)]; };
+  const double u = knot(r);
+  int i = r - kDegree, j = r - s;
+  Vec2 left = point(i - 1), right = point(j + 1);
+  while (j > i) {
+    const double a = (u - knot(i)) / (knot(i + kDegree + 1) - knot(i));
+    const double b = (u - knot(j)) / (knot(j + kDegree + 1) - knot(j));
+    left = (point(i) - (1.0 - a) * left) / a;
+    right = (point(j) - b * right) / (1.0 - b);
+    point(i++) = left;
+    point(j--) = right;
+  }
+  if (j < i && s == kDegree - 1) point(r - kDegree) = point(r - s) = 0.5 * (point(r - kDegree) + point(r - s));
+  points.erase(points.begin() + (2 * r - s - kDegree) / 2);
+  knots.erase(knots.begin() + r);
+}
+
+}  // namespace
+
+CurveEnd startOf(const NurbsCurve& curve) {
+  const auto d = curve.derivatives(curve.start(), 2);
+  return {d[0], d[1], d[2]};
+}
+
+CurveEnd endOf(const NurbsCurve& curve) {
+  const auto d = curve.derivatives(curve.end(), 2);
+  return {d[0], d[1], d[2]};
+}
+
+Result<NurbsCurve> tightCurve(std::span<const Vec2> points, double pixelMm, const std::optional<CurveEnd>& before,
+                              const std::optional<CurveEnd>& after) {
+  // In px about the first point: the numbers of the system stay near 1.
+  const auto scaled = [&](CurveEnd e, const Vec2& origin) {
+    return CurveEnd{(e[0] - origin) / pixelMm, e[1], e[2] * pixelMm};
+  };
+  const Vec2 origin = before ? (*before)[0] : points.empty() ? (*after)[0] : points.front();
+  std::optional<CurveEnd> first, last;
+  if (before) first = scaled(*before, origin);
+  if (after) last = scaled(*after, origin);
+  std::vector<Vec2> p;
+  if (first) p.push_back((*first)[0]);
+  for (const Vec2& q : points) p.push_back((q - origin) / pixelMm);
+  if (last) p.push_back((*last)[0]);
+  std::vector<double> t(1, 0.0);
+  for (std::size_t i = 1; i < p.size(); ++i) t.push_back(t.back() + (p[i] - p[i - 1]).norm());
+  const double length = t.back();
+  if (!(length > 0.0) || !std::isfinite(length)) {
+    return fail(ErrorCode::Numerical, "A line is too short to become a curve; leave out short lines.");
+  }
+  const double density = std::min(1.0, static_cast<double>(p.size()) / length);
+  const int spans = std::max(1, static_cast<int>(std::lround(length * density / kKnotPx)));
+  const int count = spans + 5;
+  const double h = length / spans;
+  std::vector<double> knots(6, 0.0);
+  for (int j = 1; j < spans; ++j) knots.push_back(j * h);
+  knots.insert(knots.end(), 6, length);
+  BandMatrix a(count, false);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(count), y = Eigen::VectorXd::Zero(count);
+  const auto add = [&](const BandRow& row, const Vec2& q, double weight) {
+    a.addOuter(row, weight);
+    addTo(x, row, weight * q.x());
+    addTo(y, row, weight * q.y());
+  };
+  for (std::size_t i = 0; i < p.size(); ++i) add(bandRow(knots, count, t[i], 0), p[i], 1.0);
+  const double lambda = penalty(kCutoffPx, density);
+  for (int j = 0; j < spans; ++j) {
+    for (std::size_t g = 0; g < 4; ++g) {
+      a.addOuter(bandRow(knots, count, (j + kGaussNodes[g]) * h, 3), lambda * h * kGaussWeights[g]);
+    }
+  }
+  const std::vector<Fixed> fixed = fixedControls(p, knots, count, first, last);
+  const double hold = kHold * (1.0 + lambda);
+  for (const Fixed& f : fixed) {
+    a.entry(f.index, 0) += hold;
+    x[f.index] += hold * f.point.x();
+    y[f.index] += hold * f.point.y();
+  }
+  BandCholesky cholesky;
+  if (!cholesky.factor(a)) return fail(ErrorCode::Numerical, "A sharp turn could not be rounded; mark its corner.");
+  cholesky.solveInPlace(x);
+  cholesky.solveInPlace(y);
+  std::vector<Vec2> controls;
+  for (int i = 0; i < count; ++i) controls.emplace_back(x[i], y[i]);
+  for (const Fixed& f : fixed) controls[static_cast<std::size_t>(f.index)] = f.point;
+  for (Vec2& c : controls) c = origin + c * pixelMm;
+  for (double& k : knots) k *= pixelMm;
+  if (!before) controls.front() = points.front();
+  if (!after) controls.back() = points.back();
+  return NurbsCurve::make(5, std::move(knots), std::move(controls));
+}
+
+Result<NurbsCurve> tightLoop(std::span<const Vec2> points, double pixelMm) {
+  std::vector<Vec2> p;
+  for (const Vec2& q : points) p.push_back((q - points.front()) / pixelMm);
+  std::vector<double> t(1, 0.0);
+  for (std::size_t i = 1; i < p.size(); ++i) t.push_back(t.back() + (p[i] - p[i - 1]).norm());
+  const double length = p.empty() ? 0.0 : t.back() + (p.front() - p.back()).norm();
+  const auto nothing = [] {
+    return fail(ErrorCode::Numerical, "A line is too short to become a curve; leave out short lines.");
+  };
+  if (!(length > 0.0) || !std::isfinite(length)) return nothing();
+  const double density = std::min(1.0, static_cast<double>(p.size()) / length);
+  const auto loop =
+      fitUniformQuintic(fairKnots(length, kKnotPx / density, true), t, p, {}, penalty(kCutoffPx, density));
+  if (!loop) return nothing();
+  auto curve = loop->toNurbs(pixelMm, pixelMm, Vec2::Zero(), Vec2::Zero());
+  if (!curve) return curve;
+  return curve->mapped(Eigen::Matrix2d::Identity(), points.front());
+}
+
+Result<NurbsCurve> joinSmoothly(std::span<const NurbsCurve> parts) {
+  std::vector<double> knots(6, 0.0);
+  std::vector<Vec2> points;
+  double end = 0.0;
+  for (const NurbsCurve& part : parts) {
+    const int joint = static_cast<int>(knots.size()) - 1;
+    const double shift = end - part.start();
+    for (auto k = part.knots().begin() + 6; k != part.knots().end(); ++k) knots.push_back(*k + shift);
+    const auto own = part.controlPoints();
+    if (points.empty()) {
+      points.assign(own.begin(), own.end());
+    } else {
+      points.insert(points.end(), own.begin() + 1, own.end());
+      knots.erase(knots.begin() + joint);
+      removeKnot(knots, points, joint - 1, 5);
+      removeKnot(knots, points, joint - 2, 4);
+    }
+    end = knots.back();
+  }
+  return NurbsCurve::make(5, std::move(knots), std::move(points));
+}
+
+}  // namespace batten

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/fair_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "core/construct/fair_join.h"
+#include "core/construct/quintic_nurbs.h"
+#include "core/contour/regression_segments.h"
+#include "core/curve/knot_operations.h"
+
+namespace batten {
+namespace {
+
+constexpr double kLeastSmoothPx = 24.0;  // between two turns; shorter stretches have no fairness to keep
+
+/// The notes of a part that begins at `offset` of the whole, for lengths from..to of the part.
+void append(ConstructReport& whole, const ConstructReport& part, double from, double to, double offset) {
+  for (ExtremumNote e : part.extrema) {
+    if (e.s < from || e.s > to) continue;
+    e.s += offset - from;
+    whole.extrema.push_back(e);
+  }
+  for (std::size_t i = 0; i < part.bandS.size(); ++i) {
+    if (part.bandS[i] < from || part.bandS[i] > to) continue;
+    whole.bandS.push_back(part.bandS[i] + offset - from);
+    whole.bandSigma.push_back(part.bandSigma[i]);
+  }
+  if (part.why == Termination::IterationLimit) whole.why = Termination::IterationLimit;
+}
+
+std::string turnNote(std::size_t count) {
+  if (count == 1) return "Turns sharply at 1 place: mark a corner there for an exact fit.";
+  return "Turns sharply at " + std::to_string(count) + " places: mark corners there for an exact fit.";
+}
+
+}  // namespace
+
+FairParts::FairParts(const ConstructPiece& piece, bool isStroke, double pixelMm, const FairFitOptions& options)
+    : piece_(piece), pixelMm_(pixelMm) {
+  turns_ = united(sharpTurns(piece, isStroke, pixelMm, options), piece, pixelMm, kLeastSmoothPx);
+  smooth_ = between(turns_, piece);
+}
+
+std::vector<Vec2> FairParts::pointsOf(const PointRange& range) const {
+  std::vector<Vec2> points;
+  const std::size_t n = piece_.points.size();
+  for (int i = range.first; i <= range.last; ++i) points.push_back(piece_.points[static_cast<std::size_t>(i) % n]);
+  return points;
+}
+
+std::vector<ConstructPiece> FairParts::stretches() const {
+  if (turns_.empty()) return {piece_};
+  std::vector<ConstructPiece> pieces;
+  for (const PointRange& range : smooth_) {
+    ConstructPiece piece;
+    piece.points = pointsOf(range);
+    piece.startIsCorner = piece_.startIsCorner && range.first == 0;
+    piece.endIsCorner = piece_.endIsCorner && range.last + 1 == static_cast<int>(piece_.points.size());
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+bool FairParts::check(std::vector<ConstructedPiece> fits, bool lastRound) {
+  fits_ = std::move(fits);
+  const auto pieces = stretches();
+  const std::size_t before = turns_.size();
+  std::vector<PointRange> turns = turns_;
+  bool more = false;
+  for (std::size_t i = 0; i < fits_.size(); ++i) {
+    const Closeness close = closeness(fits_[i].curve, pieces[i], pixelMm_);
+    const int offset = smooth_[i].first;
+    auto strays = strayRanges(close, pieces[i], pixelMm_, lastRound);
+    if (lastRound && !strays.empty()) strays = {{0, static_cast<int>(pieces[i].points.size()) - 1}};
+    for (PointRange r : strays) {
+      turns.push_back({r.first + offset, r.last + offset});
+      more = true;
+    }
+  }
+  if (!more) return false;
+  const int n = static_cast<int>(piece_.points.size());
+  for (PointRange& r : turns) {
+    if (r.first >= n) r = {r.first - n, r.last - n};
+  }
+  turns = united(std::move(turns), piece_, pixelMm_, kLeastSmoothPx);
+  const auto smooth = between(turns, piece_);
+  if (lastRound) {  // keeps the fits of the stretches that are still there
+    std::vector<ConstructedPiece> kept;
+    std::vector<PointRange> keptRanges;
+    for (const PointRange& r : smooth) {
+      for (std::size_t i = 0; i < smooth_.size(); ++i) {
+        if (smooth_[i].first % n != r.first % n || smooth_[i].last % n != r.last % n) continue;
+        kept.push_back(fits_[i]);
+        keptRanges.push_back(r);
+      }
+    }
+    fits_ = std::move(kept);
+    smooth_ = std::move(keptRanges);
+  } else {
+    smooth_ = smooth;
+  }
+  turns_ = std::move(turns);
+  return turns_.size() > before || more;
+}
+
+Result<ConstructedPiece> FairParts::withTurns() const {
+  const int n = static_cast<int>(piece_.points.size());
+  ConstructedPiece whole;
+  whole.report.why = Termination::Converged;
+  whole.report.note = turnNote(turns_.size());
+  if (smooth_.empty()) {
+    auto curve = piece_.closed ? tightLoop(piece_.points, pixelMm_) : tightCurve(piece_.points, pixelMm_, {}, {});
+    if (!curve) return fail(curve.error());
+    whole.curve = std::move(*curve);
+    return whole;
+  }
+  std::vector<NurbsCurve> parts;
+  const auto tight = [&](int first, int last, const std::optional<CurveEnd>& a, const std::optional<CurveEnd>& b) {
+    auto curve = tightCurve(pointsOf({first, last}), pixelMm_, a, b);
+    if (curve) parts.push_back(*curve);
+    return curve;
+  };
+  const auto total = [&] {
+    double sum = 0.0;
+    for (const NurbsCurve& part : parts) sum += part.end() - part.start();
+    return sum;
+  };
+  const auto place = [&](const NurbsCurve& curve, const ConstructReport& report, double from, double to) {
+    append(whole.report, report, from, to, total());
+    parts.push_back(curve);
+  };
+  const std::size_t count = smooth_.size();
+  std::size_t first = 0;
+  std::optional<SplitCurve> halves;
+  double cut = 0.0;
+  if (piece_.closed) {  // begins in the middle of the longest stretch, where all derivatives meet
+    for (std::size_t i = 1; i < count; ++i) {
+      if (smooth_[i].last - smooth_[i].first > smooth_[first].last - smooth_[first].first) first = i;
+    }
+    const NurbsCurve& longest = fits_[first].curve;
+    cut = 0.5 * (longest.end() - longest.start());
+    auto made = split(longest, longest.start() + cut);
+    if (!made) return fail(made.error());
+    halves = std::move(*made);
+    place(halves->right, fits_[first].report, cut, 2.0 * cut);
+  } else {
+    if (smooth_[0].first > 0) {
+      if (auto t = tight(0, smooth_[0].first - 1, {}, startOf(fits_[0].curve)); !t) return fail(t.error());
+    }
+    place(fits_[0].curve, fits_[0].report, 0.0, fits_[0].curve.end() - fits_[0].curve.start());
+  }
+  for (std::size_t k = 1; k < count + (piece_.closed ? 1 : 0); ++k) {
+    const std::size_t from = (first + k - 1) % count, to = (first + k) % count;
+    int next = smooth_[to].first;
+    while (next <= smooth_[from].last) next += n;
+    const auto turn = tight(smooth_[from].last + 1, next - 1, endOf(fits_[from].curve), startOf(fits_[to].curve));
+    if (!turn) return fail(turn.error());
+    if (piece_.closed && k == count) {
+      place(halves->left, fits_[first].report, 0.0, cut);
+    } else {
+      place(fits_[to].curve, fits_[to].report, 0.0, fits_[to].curve.end() - fits_[to].curve.start());
+    }
+  }
+  if (!piece_.closed && smooth_.back().last < n - 1) {
+    const auto turn = tight(smooth_.back().last + 1, n - 1, endOf(fits_.back().curve), {});
+    if (!turn) return fail(turn.error());
+  }
+  auto curve = joinSmoothly(parts);
+  if (!curve) return fail(curve.error());
+  whole.curve = std::move(*curve);
+  whole.report.noisePx = fits_[first].report.noisePx;
+  return whole;
+}
+
+Result<ConstructedPiece> FairParts::throughStations(const RunContext& context) const {
+  PieceSet set;
+  set.pieces.resize(1);
+  Piece& px = set.pieces[0];
+  for (const Vec2& p : piece_.points) px.points.push_back(p / pixelMm_);
+  px.closed = piece_.closed;
+  px.startIsCorner = piece_.startIsCorner;
+  px.endIsCorner = piece_.endIsCorner;
+  for (std::size_t i = 1; i < px.points.size(); ++i) px.lengthPx += (px.points[i] - px.points[i - 1]).norm();
+  px.refined.assign(px.points.size(), 1);
+  SegmentParams adaptive;
+  adaptive.mode = SegmentMode::Adaptive;
+  const auto segments = regressionSegments(set, adaptive);
+  if (!segments) return fail(segments.error());
+  ConstructPiece piece = piece_;
+  piece.stations = segments->pieces.at(0).stations;
+  for (Station& s : piece.stations) {
+    for (Vec2* p : {&s.point, &s.from, &s.to}) *p *= pixelMm_;
+  }
+  auto made = constructQuinticNurbs(piece, ConstructParams{}, context);
+  if (!made) return made;
+  made->report.why = Termination::Degenerate;
+  made->report.note = "The fair fit did not stay on this line; a quintic through stations instead.";
+  return made;
+}
+
+Result<ConstructedPiece> FairParts::joined(const RunContext& context) const {
+  if (turns_.empty()) return fits_.front();
+  auto whole = withTurns();
+  const auto farness = [&](const Closeness& c) { return c.far + 10 * c.veryFar + (c.lengthRatio > 1.15 ? 1000 : 0); };
+  int far = -1;
+  if (whole) {
+    const Closeness close = closeness(whole->curve, piece_, pixelMm_);
+    if (close.good()) return whole;
+    far = farness(close);
+  }
+  auto other = throughStations(context);
+  if (!other) return whole;
+  if (whole && farness(closeness(other->curve, piece_, pixelMm_)) >= far) return whole;
+  return other;
+}
+
+}  // namespace batten

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/construct/construct.h"
+#include "core/construct/fair_turns.h"
+
+namespace batten {
+
+/// A piece cut where it turns too sharply for the fair fit: smooth stretches, each fitted for itself, and tight turns.
+class FairParts {
+ public:
+  FairParts(const ConstructPiece& piece, bool isStroke, double pixelMm, const FairFitOptions&);
+
+  bool hasTurns() const { return !turns_.empty(); }
+  /// The smooth stretches as pieces of their own.
+  std::vector<ConstructPiece> stretches() const;
+  /// Takes the fits of stretches(); where one has left its points further turns are noted. True when there are.
+  bool check(std::vector<ConstructedPiece> fits, bool lastRound);
+  /// The whole: stretches and tight turns in one curve, with the reports together; what is not near its points is
+  /// replaced by a quintic through stations.
+  Result<ConstructedPiece> joined(const RunContext&) const;
+
+ private:
+  Result<ConstructedPiece> withTurns() const;
+  Result<ConstructedPiece> throughStations(const RunContext&) const;
+  std::vector<Vec2> pointsOf(const PointRange&) const;
+
+  const ConstructPiece& piece_;
+  double pixelMm_;
+  std::vector<PointRange> turns_, smooth_;
+  std::vector<ConstructedPiece> fits_;
+};
+
+}  // namespace batten
