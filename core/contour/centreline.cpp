@@ -14,8 +14,8 @@
 namespace batten {
 namespace {
 
-constexpr double kGrainLimit = 0.045;        // [-] grainAlong() above: pencil
-constexpr double kShortestWidths = 3.0;      // [stroke widths] shorter strands are blots
+constexpr double kGrainLimit = 0.045;    // [-] grainAlong() above: pencil
+constexpr double kShortestWidths = 3.0;  // [stroke widths] shorter strands are blots
 
 std::vector<Strand> strandsOf(const BitImage& ink, const EdgeParams& params, const RunContext& context) {
   BitImage skeleton = ink;
@@ -55,7 +55,8 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (context.isCancelled()) return cancelled();
   ContourSet set;
   set.report.found = static_cast<int>(strands.size());
-  std::erase_if(strands, [](const Strand& s) { return s.points.size() < 3 || s.length() < kShortestWidths * s.widthPx(); });
+  std::erase_if(strands,
+                [](const Strand& s) { return s.points.size() < 3 || s.length() < kShortestWidths * s.widthPx(); });
   set.report.droppedShort = set.report.found - static_cast<int>(strands.size());
   set.contours = refineStrands(strands, grey, settings, context);
   if (context.isCancelled()) return cancelled();

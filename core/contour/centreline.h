@@ -10,16 +10,18 @@
 
 namespace batten {
 
-/// Splits the ink into strokes and shapes: a component is a shape when more than half of its area survives an opening by a
-/// disc of the stroke-width limit (EdgeParams::strokeWidth * sqrt(width * height)). Both masks have the size of `ink`.
+/// Splits the ink into strokes and shapes: a component is a shape when more than half of its area survives an opening
+/// by a disc of the stroke-width limit (EdgeParams::strokeWidth * sqrt(width * height)). Both masks have the size of
+/// `ink`.
 struct StrokeSplit {
   BitImage strokes;
   BitImage shapes;
 };
 Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams&, const RunContext&);
 
-/// Centre lines of all strokes of a mask: skeleton for the topology (spurs pruned, smooth strands joined through crossings,
-/// gaps bridged, overdrawn strokes merged if asked), then the centre from the grey profile across the stroke.
+/// Centre lines of all strokes of a mask: skeleton for the topology (spurs pruned, smooth strands joined through
+/// crossings, gaps bridged, overdrawn strokes merged if asked), then the centre from the grey profile across the
+/// stroke.
 Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams&, const RunContext&);
 
 }  // namespace batten

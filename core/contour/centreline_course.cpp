@@ -110,7 +110,8 @@ StrandCourse layCourse(const Strand& strand) {
   std::vector<float> radius = course.radius;
   const auto high = radius.begin() + static_cast<std::ptrdiff_t>(radius.size() * 9 / 10);
   std::nth_element(radius.begin(), high, radius.end());
-  course.profileHalf = static_cast<int>(std::lround((std::max<double>(*high, 0.5 * course.widthPx) + 3.5) / kStrokeStepPx));
+  course.profileHalf =
+      static_cast<int>(std::lround((std::max<double>(*high, 0.5 * course.widthPx) + 3.5) / kStrokeStepPx));
   return course;
 }
 
@@ -146,7 +147,9 @@ void moveCourse(StrandCourse& c, bool again) {
 
 void layThroughJunctions(StrandCourse& c) {
   const int n = static_cast<int>(c.base.size());
-  const auto isJunction = [&](int i) { return c.part[static_cast<std::size_t>(wrapIndex(i, n))] == StrandPart::Junction; };
+  const auto isJunction = [&](int i) {
+    return c.part[static_cast<std::size_t>(wrapIndex(i, n))] == StrandPart::Junction;
+  };
   int start = 0;
   while (c.closed && start < n && isJunction(start)) ++start;
   if (start == n) return;

@@ -70,6 +70,48 @@ void replaceTail(StrandCourse& c, std::size_t keep, const std::vector<Vec2>& tai
   }
 }
 
+// Profile at a place, averaged over 3 px along the direction.
+StrokeCentre centreAt(const StrandCourse& c, const Vec2& at, const Vec2& direction, const GreyImage& grey) {
+  const auto samples = static_cast<std::size_t>(2 * c.profileHalf + 1);
+  std::vector<float> mean(samples, 0.0f), scratch(samples);
+  const Vec2 normal = leftNormal(direction);
+  for (int d = -1; d <= 1; ++d) {
+    for (std::size_t k = 0; k < samples; ++k) {
+      const double u = (static_cast<int>(k) - c.profileHalf) * kStrokeStepPx;
+      const Vec2 p = at + d * direction + u * normal;
+      mean[k] += sampleGrey(grey, p.x(), p.y()) / 3.0f;
+    }
+  }
+  return halfLevelCentre(mean, c.widthPx, scratch);
+}
+
+// Smoothing a mask eats the ends of thin strokes: follows the ink on the grey values from the end of the skeleton on,
+// as long as it stays this stroke (about its width and darkness, no turn).
+void followInk(StrandCourse& c, const GreyImage& grey) {
+  const double w = c.widthPx, farthest = 30.0 + 2.0 * w;
+  const int back = std::max(4, static_cast<int>(std::lround(w)));
+  const int n = static_cast<int>(c.base.size());
+  const int hook = std::min(n - back - 2, static_cast<int>(std::ceil(0.5 * w)));
+  if (hook < 1) return;
+  std::vector<Vec2> path(c.base.end() - hook - back - 1, c.base.end() - hook);
+  const auto direction = [&] {
+    return Vec2((path.back() - path[path.size() - 1 - static_cast<std::size_t>(back)]).normalized());
+  };
+  const StrokeCentre here = centreAt(c, path.back(), direction(), grey);
+  if (!here.ok) return;
+  const std::size_t known = path.size();
+  while (static_cast<double>(path.size() - known) < farthest) {
+    const Vec2 d = direction(), at = path.back() + d;
+    const StrokeCentre next = centreAt(c, at, d, grey);
+    const bool same = next.ok && next.contrast > 0.6 * here.contrast && next.width < 1.4 * here.width + 0.5 &&
+                      next.width > 0.6 * here.width && std::abs(next.centre) < 0.75;
+    if (!same) break;
+    path.push_back(at + 0.5 * next.centre * leftNormal(d));
+  }
+  if (static_cast<double>(path.size() - known) < hook + 1.0) return;
+  replaceTail(c, static_cast<std::size_t>(n - hook), {path.begin() + static_cast<std::ptrdiff_t>(known), path.end()});
+}
+
 void turnRound(StrandCourse& c) {
   std::reverse(c.chain.begin(), c.chain.end());
   std::reverse(c.base.begin(), c.base.end());
@@ -102,8 +144,8 @@ void placeLastPoint(StrandCourse& c, const GreyImage& grey) {
   // A skeleton ends within a pixel or two of the pen's last place; farther off, the parabola has left the stroke.
   if (std::abs(stop - inside) > 0.6 * w + 2.0) return;
   // The last half width of a skeleton turns to one corner of the pen's end.
-  const int kept = std::clamp(std::min(static_cast<int>(stop - 0.5), inside - static_cast<int>(std::ceil(0.5 * w))), 0,
-                              inside);
+  const int kept =
+      std::clamp(std::min(static_cast<int>(stop - 0.5), inside - static_cast<int>(std::ceil(0.5 * w))), 0, inside);
   const Vec2 offset = c.base[static_cast<std::size_t>(anchor + kept)] - end.position(kept);
   const int count = std::max(0, static_cast<int>(std::lround(stop - kept)));
   std::vector<Vec2> tail;
@@ -115,10 +157,14 @@ void placeLastPoint(StrandCourse& c, const GreyImage& grey) {
 
 void placeEnds(StrandCourse& c, const GreyImage& grey) {
   if (c.closed || c.base.size() < 8) return;
-  if (c.tip[1]) placeLastPoint(c, grey);
+  const auto place = [&] {
+    followInk(c, grey);
+    placeLastPoint(c, grey);
+  };
+  if (c.tip[1]) place();
   if (!c.tip[0]) return;
   turnRound(c);
-  placeLastPoint(c, grey);
+  place();
   turnRound(c);
 }
 
@@ -139,7 +185,8 @@ Contour contourOf(const StrandCourse& c) {
     contour.widthPx.push_back(std::max(0.1f, c.measuredWidth[i]));
     part.push_back(c.part[i]);
   }
-  while (contour.closed && contour.points.size() > 3 && (contour.points.front() - contour.points.back()).norm() < 0.35) {
+  while (contour.closed && contour.points.size() > 3 &&
+         (contour.points.front() - contour.points.back()).norm() < 0.35) {
     contour.points.pop_back();
     contour.chain.pop_back();
     contour.refined.pop_back();

@@ -107,8 +107,8 @@ void bridgeGaps(std::vector<Strand>& strands, const EdgeParams& params, const Ru
       if ((i & 255) == 0 && context.isCancelled()) return;
       for (std::size_t j = i + 1; j < ends.size() && ends[j].at.x() - ends[i].at.x() <= farthest; ++j) {
         FreeEnd &a = ends[i], &b = ends[j];
-        const bool tooShort = a.strand == b.strand &&
-                              strands[static_cast<std::size_t>(a.strand)].length() < 6.0 * a.width + (a.at - b.at).norm();
+        const bool tooShort = a.strand == b.strand && strands[static_cast<std::size_t>(a.strand)].length() <
+                                                          6.0 * a.width + (a.at - b.at).norm();
         const double cost = tooShort ? -1.0 : joinCost(a, b, params.gapFactor);
         if (cost < 0.0) continue;
         offer(a, static_cast<int>(j), cost);

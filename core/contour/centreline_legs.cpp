@@ -278,7 +278,7 @@ double LegGraph::sharedLength(int link) const {
     angle += 0.5 * std::acos(std::clamp(out[0].dot(out[1]), -1.0, 1.0));
   }
   constexpr double kLeast = 0.2, kMost = 1.05;  // 12 and 60 degrees
-  return angle > kMost ? 0.0 : 1.3 * width / std::sin(0.5 * std::max(kLeast, angle));
+  return angle > kMost ? 0.0 : 2.0 * width / std::sin(0.5 * std::max(kLeast, angle));
 }
 
 void LegGraph::mergeJunctions() {

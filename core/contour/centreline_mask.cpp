@@ -47,7 +47,8 @@ Window windowAround(const BitImage& ink, int margin) {
   return w;
 }
 
-// Fills the holes of `ink` (255) that no disc of diameter `limitPx` fits into; `toInk` is the distance of paper from ink.
+// Fills the holes of `ink` (255) that no disc of diameter `limitPx` fits into; `toInk` is the distance of paper from
+// ink.
 void fillNarrowHoles(cv::Mat& ink, double limitPx) {
   cv::Mat paper = ink == 0, labels, toInk;
   const int count = cv::connectedComponents(paper, labels, 4, CV_32S);
@@ -142,8 +143,8 @@ void copyRun(const BitImage& from, const Run& run, BitImage& to) {
   }
 }
 
-// A letter drawn with a broad nib is a shape, and so are its neighbours that are a little thinner: where half of the ink
-// lies in shapes, components near the limit are shapes as well.
+// A letter drawn with a broad nib is a shape, and so are its neighbours that are a little thinner: where half of the
+// ink lies in shapes, components near the limit are shapes as well.
 constexpr double kNearLimit = 0.6;
 
 StrokeSplit split(const BitImage& ink, double limitPx, const RunContext& context) {
@@ -211,7 +212,8 @@ Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams& params, 
   if (ink.width <= 0 || ink.height <= 0) return StrokeSplit{ink, ink};
   if (context.isCancelled()) return cancelled();
   try {
-    StrokeSplit result = split(ink, params.strokeWidth * std::sqrt(static_cast<double>(ink.width) * ink.height), context);
+    StrokeSplit result =
+        split(ink, params.strokeWidth * std::sqrt(static_cast<double>(ink.width) * ink.height), context);
     if (context.isCancelled()) return cancelled();
     return result;
   } catch (const cv::Exception& e) {

@@ -81,7 +81,7 @@ StrokeCentre halfLevelCentre(std::span<const float> profile, double widthPx, std
     if (k + d < 0 || k + d >= n) return result;
     border[side] = (k - half + d * depth(k) / (depth(k) - depth(k + d))) * kStrokeStepPx;
   }
-  result = {0.5 * (border[0] + border[1]), border[1] - border[0], true};
+  result = {0.5 * (border[0] + border[1]), border[1] - border[0], contrast, true};
   return result;
 }
 
@@ -108,7 +108,7 @@ StrokeCentre centroidCentre(std::span<const float> profile, double reachPx) {
   }
   if (!(sum > 0.0)) return result;
   const double centre = moment / sum;
-  result = {centre, std::sqrt(std::max(0.0, 12.0 * (square / sum - centre * centre))), true};
+  result = {centre, std::sqrt(std::max(0.0, 12.0 * (square / sum - centre * centre))), most, true};
   return result;
 }
 

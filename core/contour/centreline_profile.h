@@ -29,8 +29,9 @@ inline float sampleGrey(const GreyImage& grey, double x, double y) {
 }
 
 struct StrokeCentre {
-  double centre = 0.0;  ///< [px] along the profile, 0 = its middle.
-  double width = 0.0;   ///< [px] between the half levels.
+  double centre = 0.0;    ///< [px] along the profile, 0 = its middle.
+  double width = 0.0;     ///< [px] between the half levels.
+  double contrast = 0.0;  ///< [grey] paper minus the middle of the stroke.
   bool ok = false;
 };
 

@@ -14,9 +14,9 @@
 namespace batten {
 namespace {
 
-constexpr int kBlock = 512;      // points refined together
-constexpr int kAlongHalf = 6;    // profiles averaged to either side
-constexpr double kAlong = 2.0;   // [points] Gaussian over neighbouring profiles
+constexpr int kBlock = 512;     // points refined together
+constexpr int kAlongHalf = 6;   // profiles averaged to either side
+constexpr double kAlong = 2.0;  // [points] Gaussian over neighbouring profiles
 
 struct Block {
   int course, begin, end;
@@ -59,7 +59,8 @@ void measureBlock(StrandCourse& course, int begin, int end, const GreyImage& gre
     const int here = i - begin + kAlongHalf;
     // Near an open end the window shrinks evenly, so that it stays centred.
     int reach = kAlongHalf;
-    while (reach > 0 && !(there[static_cast<std::size_t>(here - reach)] && there[static_cast<std::size_t>(here + reach)])) {
+    while (reach > 0 &&
+           !(there[static_cast<std::size_t>(here - reach)] && there[static_cast<std::size_t>(here + reach)])) {
       --reach;
     }
     for (int d = -reach; d <= reach; ++d) {

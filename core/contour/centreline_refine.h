@@ -23,13 +23,13 @@ struct RefineSettings {
 };
 
 /// Strands to contours: points about 1 px apart, moved to the middle of the stroke on the grey values, laid smoothly
-/// through junctions, ended where the pen's disc was at the stroke's end. One contour per strand, same order. Not complete
-/// when the context is cancelled.
+/// through junctions, ended where the pen's disc was at the stroke's end. One contour per strand, same order. Not
+/// complete when the context is cancelled.
 std::vector<Contour> refineStrands(const std::vector<Strand>& strands, const GreyImage& grey,
                                    const RefineSettings& settings, const RunContext& context);
 
-/// [-] Standard deviation of the ink's darkness along the strands that is grain of the pencil (what the paper beside them
-/// shows as well is taken off), as part of the darkness. Ink: < .03; pencil: > .05.
+/// [-] Standard deviation of the ink's darkness along the strands that is grain of the pencil (what the paper beside
+/// them shows as well is taken off), as part of the darkness. Ink: < .03; pencil: > .05.
 double grainAlong(const std::vector<Strand>& strands, const GreyImage& grey);
 
 }  // namespace batten

@@ -36,8 +36,8 @@ std::uint64_t removable(const std::uint64_t* above, const std::uint64_t* row, co
   };
   const std::uint64_t a0 = nw | n, a1 = ne | e, a2 = se | s, a3 = sw | w;
   const std::uint64_t b0 = n | ne, b1 = e | se, b2 = s | sw, b3 = w | nw;
-  const std::uint64_t pairs = atLeastTwo(a0, a1, a2, a3) & atLeastTwo(b0, b1, b2, b3) &
-                              ~(a0 & a1 & a2 & a3 & b0 & b1 & b2 & b3);
+  const std::uint64_t pairs =
+      atLeastTwo(a0, a1, a2, a3) & atLeastTwo(b0, b1, b2, b3) & ~(a0 & a1 & a2 & a3 & b0 & b1 & b2 & b3);
   const std::uint64_t side = odd ? ~((n | ne | ~se) & e) : ~((s | sw | ~nw) & w);
   return row[i] & oneBranch & pairs & side;
 }
