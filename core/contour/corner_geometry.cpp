@@ -12,7 +12,8 @@ namespace {
 constexpr double kUnrefinedWeight = 0.1;  // points known to the pixel only
 constexpr double kOutlineZonePx = 4.0;
 constexpr double kFarthestMeetPx = 6.0;  // of the meeting point from the contour
-constexpr double kFarthestTipPx = 16.0;  // acute tips are eaten away by blur and threshold
+constexpr double kFarthestTipPx = 24.0;  // acute tips are eaten away by blur, threshold and the filter of the mask
+constexpr double kEatenHalfPx = 3.0;     // half the width at which a tip is eaten away
 constexpr double kSmallestSine = 0.08;   // of the angle between the sides; below, the meeting point is ill-conditioned
 constexpr int kNewtonSteps = 12;
 constexpr int kLocateRounds = 4;
@@ -183,7 +184,7 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
     const Meeting m = meetSides(contour, at, from, outerBefore, outerAfter, result.angleRad);
     if (!m.ok) return result;
     const double halfTip = std::max(0.03, 0.5 * (std::numbers::pi - std::abs(m.angle)));
-    const double farthest = std::clamp(1.5 / std::sin(halfTip), kFarthestMeetPx, kFarthestTipPx);
+    const double farthest = std::clamp(kEatenHalfPx / std::sin(halfTip), kFarthestMeetPx, kFarthestTipPx);
     const NearestPoint nearest = nearestAlong(contour, at, m.position, static_cast<int>(farthest * 2.0) + 4);
     if (nearest.distance > farthest) return result;
     result.position = m.position;

@@ -118,6 +118,34 @@ TEST(CornerMarks, AcuteTipsAreExtended) {
   }
 }
 
+// The filter of the mask eats thin tips away; the legs that are left still say where the tip was.
+TEST(CornerMarks, TipsEatenByTheMaskAreExtended) {
+  for (const double angle : {24.0, 33.0, 44.0}) {
+    const Vec2 tip(280, 150);
+    const double w = 220.0 * std::tan(0.5 * angle * kDeg);
+    const std::vector<Vec2> wedge{tip, {60, 150 + w}, {60, 150 - w}};
+    RenderSettings s;
+    s.width = 310;
+    s.height = 300;
+    s.noise = 3.0;
+    const GreyImage grey = renderShape(test::PolygonInside(wedge), s);
+    BitImage ink = test::thresholdMask(grey, 135.0);
+    const double eaten = 2.5 / std::sin(0.5 * angle * kDeg);  // where the tip is 5 px wide
+    for (int y = 0; y < s.height; ++y) {
+      for (int x = static_cast<int>(tip.x() - eaten); x < s.width; ++x) ink.set(x, y, false);
+    }
+    EdgeParams edges;
+    edges.mode = EdgeMode::Outline;
+    const auto set = traceContours(ink, grey, {}, edges, {}, {});
+    ASSERT_TRUE(set.has_value());
+    const std::vector<CornerMark> marks{{tip - Vec2(6, 3)}};
+    const auto pieces = splitAtCorners(*set, marks, {});
+    ASSERT_TRUE(pieces.has_value());
+    ASSERT_EQ(pieces->corners.size(), 1u) << angle;
+    EXPECT_LE((pieces->corners[0].positionPx - tip).norm(), 0.7) << angle;
+  }
+}
+
 TEST(CornerMarks, TurningAngleIsPositiveToTheLeftInTheModelFrame) {
   std::vector<Vec2> points;
   for (int i = 0; i <= 60; ++i) points.emplace_back(i, 100.0);
