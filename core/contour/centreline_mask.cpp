@@ -143,8 +143,8 @@ void copyRun(const BitImage& from, const Run& run, BitImage& to) {
   }
 }
 
-// A letter drawn with a broad nib is a shape, and so are its neighbours that are a little thinner: where half of the
-// ink lies in shapes, components near the limit are shapes as well.
+// A letter drawn with a broad nib is a shape, and so are its neighbours that are a little thinner: where a quarter of
+// the ink lies in shapes and three quarters near the limit, the latter are shapes as well.
 constexpr double kNearLimit = 0.6;
 
 StrokeSplit split(const BitImage& ink, double limitPx, const RunContext& context) {
@@ -177,7 +177,7 @@ StrokeSplit split(const BitImage& ink, double limitPx, const RunContext& context
     if (2 * b.fat > b.area) inShapes += b.area;
     if (2 * b.nearlyFat > b.area) nearShapes += b.area;
   }
-  const bool vote = inShapes > 0 && 2 * nearShapes > all;
+  const bool vote = 4 * inShapes > all && 4 * nearShapes > 3 * all;
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     const Bulk& b = bulk[static_cast<std::size_t>(pieces.piece[i])];
     const bool shape = 2 * (vote ? b.nearlyFat : b.fat) > b.area;
