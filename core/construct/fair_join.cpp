@@ -16,8 +16,10 @@ namespace batten {
 namespace {
 
 constexpr double kKnotPx = 3.0;
-constexpr double kCutoffPx = 9.0;
-constexpr double kHold = 1e8;  // weight of what is set exactly afterwards
+constexpr double kCutoffPx = 9.0;                               // where points lie all round a closed line
+constexpr double kCutoffsPx[] = {30.0, 22.0, 16.0, 12.0, 9.0};  // smoothest first
+constexpr double kAwayPx = 0.7;  // a smoother curve that leaves the points by more is not taken
+constexpr double kHold = 1e8;    // weight of what is set exactly afterwards
 
 double penalty(double cutoffPx, double density) { return density * std::pow(cutoffPx / (2.0 * std::numbers::pi), 6); }
 
@@ -63,6 +65,69 @@ std::vector<Fixed> fixedControls(const std::vector<Vec2>& p, const std::vector<d
   }
   return fixed;
 }
+
+/// Least squares for the control points of a clamped quintic through points at given parameters; px.
+class TightProblem {
+ public:
+  TightProblem(const std::vector<Vec2>& points, const std::vector<double>& t, const std::vector<double>& knots,
+               int count, const std::vector<Fixed>& fixed)
+      : points_(points), fixed_(fixed), count_(count), data_(count, false), bend_(count, false) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      rows_.push_back(bandRow(knots, count, t[i], 0));
+      data_.addOuter(rows_.back(), 1.0);
+    }
+    const int spans = count - 5;
+    const double h = knots.back() / spans;
+    for (int j = 0; j < spans; ++j) {
+      for (std::size_t g = 0; g < 4; ++g) {
+        bend_.addOuter(bandRow(knots, count, (j + kGaussNodes[g]) * h, 3), h * kGaussWeights[g]);
+      }
+    }
+  }
+
+  std::optional<std::vector<Vec2>> solve(double lambda) const {
+    BandMatrix a = data_;
+    a.add(bend_, lambda);
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(count_), y = Eigen::VectorXd::Zero(count_);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      addTo(x, rows_[i], points_[i].x());
+      addTo(y, rows_[i], points_[i].y());
+    }
+    const double hold = kHold * (1.0 + lambda);
+    for (const Fixed& f : fixed_) {
+      a.entry(f.index, 0) += hold;
+      x[f.index] += hold * f.point.x();
+      y[f.index] += hold * f.point.y();
+    }
+    BandCholesky cholesky;
+    if (!cholesky.factor(a)) return std::nullopt;
+    cholesky.solveInPlace(x);
+    cholesky.solveInPlace(y);
+    if (!x.allFinite() || !y.allFinite()) return std::nullopt;
+    std::vector<Vec2> controls;
+    for (int i = 0; i < count_; ++i) controls.emplace_back(x[i], y[i]);
+    for (const Fixed& f : fixed_) controls[static_cast<std::size_t>(f.index)] = f.point;
+    return controls;
+  }
+
+  /// Number of points that the curve leaves by more than it may.
+  int pointsAway(const std::vector<Vec2>& controls) const {
+    int away = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      Vec2 q = Vec2::Zero();
+      for (std::size_t k = 0; k < 6; ++k) q += rows_[i].v[k] * controls[static_cast<std::size_t>(rows_[i].first) + k];
+      away += (q - points_[i]).norm() > kAwayPx ? 1 : 0;
+    }
+    return away;
+  }
+
+ private:
+  const std::vector<Vec2>& points_;
+  const std::vector<Fixed>& fixed_;
+  int count_;
+  BandMatrix data_, bend_;
+  std::vector<BandRow> rows_;
+};
 
 /// Takes one knot of the run that ends at index r and has multiplicity s out of a quintic that allows it (Piegl &
 /// Tiller, The NURBS Book, A5.8 without the test).
@@ -125,34 +190,16 @@ Result<NurbsCurve> tightCurve(std::span<const Vec2> points, double pixelMm, cons
   std::vector<double> knots(6, 0.0);
   for (int j = 1; j < spans; ++j) knots.push_back(j * h);
   knots.insert(knots.end(), 6, length);
-  BandMatrix a(count, false);
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(count), y = Eigen::VectorXd::Zero(count);
-  const auto add = [&](const BandRow& row, const Vec2& q, double weight) {
-    a.addOuter(row, weight);
-    addTo(x, row, weight * q.x());
-    addTo(y, row, weight * q.y());
-  };
-  for (std::size_t i = 0; i < p.size(); ++i) add(bandRow(knots, count, t[i], 0), p[i], 1.0);
-  const double lambda = penalty(kCutoffPx, density);
-  for (int j = 0; j < spans; ++j) {
-    for (std::size_t g = 0; g < 4; ++g) {
-      a.addOuter(bandRow(knots, count, (j + kGaussNodes[g]) * h, 3), lambda * h * kGaussWeights[g]);
-    }
-  }
   const std::vector<Fixed> fixed = fixedControls(p, knots, count, first, last);
-  const double hold = kHold * (1.0 + lambda);
-  for (const Fixed& f : fixed) {
-    a.entry(f.index, 0) += hold;
-    x[f.index] += hold * f.point.x();
-    y[f.index] += hold * f.point.y();
-  }
-  BandCholesky cholesky;
-  if (!cholesky.factor(a)) return fail(ErrorCode::Numerical, "A sharp turn could not be rounded; mark its corner.");
-  cholesky.solveInPlace(x);
-  cholesky.solveInPlace(y);
+  const TightProblem problem(p, t, knots, count, fixed);
   std::vector<Vec2> controls;
-  for (int i = 0; i < count; ++i) controls.emplace_back(x[i], y[i]);
-  for (const Fixed& f : fixed) controls[static_cast<std::size_t>(f.index)] = f.point;
+  for (const double cutoffPx : kCutoffsPx) {
+    auto solved = problem.solve(penalty(cutoffPx, density));
+    if (!solved) continue;
+    controls = std::move(*solved);
+    if (problem.pointsAway(controls) <= 1) break;
+  }
+  if (controls.empty()) return fail(ErrorCode::Numerical, "A sharp turn could not be rounded; mark its corner.");
   for (Vec2& c : controls) c = origin + c * pixelMm;
   for (double& k : knots) k *= pixelMm;
   if (!before) controls.front() = points.front();
