@@ -116,6 +116,8 @@ Result<ConstructedPiece> FairParts::withTurns() const {
     auto curve = piece_.closed ? tightLoop(piece_.points, pixelMm_) : tightCurve(piece_.points, pixelMm_, {}, {});
     if (!curve) return fail(curve.error());
     whole.curve = std::move(*curve);
+    whole.report.why = Termination::Degenerate;
+    whole.report.note = "Turns too sharply all along for the fair fit; a curve close to the points instead.";
     return whole;
   }
   std::vector<NurbsCurve> parts;
