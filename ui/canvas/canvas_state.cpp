@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kLateMs = 200;
 constexpr int kFlashMs = 350;
-constexpr double kSuggestionAngleRad = 35.0 * std::numbers::pi / 180.0;
 constexpr double kSuggestionScalePx = 14.0;
 
 }  // namespace
@@ -180,14 +179,16 @@ void CurveCanvas::State::requestCombs() {
 
 void CurveCanvas::State::requestSuggestions() {
   const auto contours = session.output().contours;
-  if (view.tool() != Tool::Corners || contours == suggestionsFor) return;
+  if (view.tool() != Tool::Corners) return;
+  if (contours == suggestionsFor && suggestionsAngleDeg == view.suggestionAngleDeg()) return;
   suggestionsFor = contours;
+  suggestionsAngleDeg = view.suggestionAngleDeg();
   if (!contours) {
     suggestions.clear();
     return;
   }
-  suggesting.start([this, contours](const CancelToken&) {
-    auto found = suggestCorners(*contours, kSuggestionAngleRad, kSuggestionScalePx);
+  suggesting.start([this, contours, angleRad = suggestionsAngleDeg * std::numbers::pi / 180.0](const CancelToken&) {
+    auto found = suggestCorners(*contours, angleRad, kSuggestionScalePx);
     QMetaObject::invokeMethod(
         &inbox,
         [this, contours, found = std::move(found)] {

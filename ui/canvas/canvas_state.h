@@ -85,6 +85,7 @@ struct CurveCanvas::State : CanvasScene {
   double shapesZoom = 0.0;
   int combsSelected = -2;
   std::shared_ptr<const ContourSet> suggestionsFor;
+  double suggestionsAngleDeg = 0.0;
 };
 
 }  // namespace batten

@@ -12,7 +12,7 @@ namespace batten {
 namespace {
 
 constexpr double kAutomaticHeight = 0.13;  ///< Of the curve's extent, for the 95 % curvature at scale 1.
-constexpr double kLargestHeight = 3.0;     ///< Automatic heights; a spike does not fill the drawing.
+constexpr double kLargestHeight = 2.0;     ///< Automatic heights; a spike does not fill the drawing.
 
 /// Height [image px] per curvature [mm]: one scale for all curves, so that combs can be compared.
 struct CombScale {
