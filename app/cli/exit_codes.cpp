@@ -9,13 +9,17 @@ namespace {
 
 int codeOf(ErrorCode code) {
   switch (code) {
-    case ErrorCode::BadParameter: return kWrongUsage;
+    case ErrorCode::BadParameter:
+      return kWrongUsage;
     case ErrorCode::UnreadableScan:
-    case ErrorCode::OutOfMemory: return kUnreadableScan;  // the scan is too large for this machine
-    case ErrorCode::CannotWrite: return kCannotWrite;
+    case ErrorCode::OutOfMemory:
+      return kUnreadableScan;  // the scan is too large for this machine
+    case ErrorCode::CannotWrite:
+      return kCannotWrite;
     case ErrorCode::NoCurve:
     case ErrorCode::Numerical:
-    case ErrorCode::Cancelled: break;
+    case ErrorCode::Cancelled:
+      break;
   }
   return kNoCurve;
 }
@@ -24,7 +28,8 @@ int codeOf(ErrorCode code) {
 
 int reportError(const Error& error) {
   std::string line = error.message;
-  std::replace_if(line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   std::cerr << "batten-cli: " << line << std::endl;
   return codeOf(error.code);
 }

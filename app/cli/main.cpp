@@ -24,7 +24,8 @@ std::string dumpHelp() {
 }
 
 /// One value per option, so that "-o a.svg scan.png" does not take the scan for an output.
-void addRepeated(CLI::App& app, const char* names, std::vector<std::string>& values, const char* what, const std::string& help) {
+void addRepeated(CLI::App& app, const char* names, std::vector<std::string>& values, const char* what,
+                 const std::string& help) {
   app.add_option(names, values, help)->type_name(what)->allow_extra_args(false);
 }
 
@@ -32,14 +33,19 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   CLI::App* trace = app.add_subcommand("trace", "Turn a scan into fair curves");
   trace->footer("Prints one line of JSON: the scan, how many curves, the files written, and notes.");
   trace->add_option("scan", a.scan, "The scan: PNG, JPEG, TIFF, BMP, WebP, PGM or PBM")->type_name("SCAN")->required();
-  addRepeated(*trace, "-o,--output", a.outputs, "OUT.svg|OUT.json", "Write the curves; the extension chooses the format; may be repeated");
-  trace->add_option("--recipe", a.recipe, "Start from this recipe; --set, --corner and --dpi come on top")->type_name("R.json");
-  addRepeated(*trace, "--set", a.settings, "NAME=VALUE", "Set a parameter (see batten-cli parameters); may be repeated");
-  addRepeated(*trace, "--corner", a.corners, "X,Y", "Sharp corner near this place, px from the upper left; may be repeated");
+  addRepeated(*trace, "-o,--output", a.outputs, "OUT.svg|OUT.json",
+              "Write the curves; the extension chooses the format; may be repeated");
+  trace->add_option("--recipe", a.recipe, "Start from this recipe; --set, --corner and --dpi come on top")
+      ->type_name("R.json");
+  addRepeated(*trace, "--set", a.settings, "NAME=VALUE",
+              "Set a parameter (see batten-cli parameters); may be repeated");
+  addRepeated(*trace, "--corner", a.corners, "X,Y",
+              "Sharp corner near this place, px from the upper left; may be repeated");
   trace->add_option("--dpi", a.dpi, "Resolution of the scan, overrides what the file states")->type_name("N");
   trace->add_option("--report", a.report, "Write figures of every stage and curve")->type_name("REPORT.json");
   addRepeated(*trace, "--dump", a.dumps, "STAGE=FILE.png", dumpHelp());
-  trace->add_option("--save-recipe", a.saveRecipe, "Write all settings used, for --recipe and the window")->type_name("R.json");
+  trace->add_option("--save-recipe", a.saveRecipe, "Write all settings used, for --recipe and the window")
+      ->type_name("R.json");
   trace->add_option("--threads", a.threads, "Use at most this many threads; 0 = all. Never changes the result")
       ->type_name("N")
       ->check(CLI::Range(0, 1024));
@@ -53,7 +59,8 @@ int run(int argc, char** argv) {
   TraceArguments arguments;
   addTrace(app, arguments);
   bool asJson = false;
-  CLI::App* parameters = app.add_subcommand("parameters", "List every parameter: name, unit, range, default, what it does");
+  CLI::App* parameters =
+      app.add_subcommand("parameters", "List every parameter: name, unit, range, default, what it does");
   parameters->add_flag("--json", asJson, "As JSON");
   try {
     app.parse(argc, argv);
@@ -70,7 +77,8 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {
-    return reportError({ErrorCode::OutOfMemory, "There is not enough memory. Close other programs or use a smaller scan.", {}});
+    return reportError(
+        {ErrorCode::OutOfMemory, "There is not enough memory. Close other programs or use a smaller scan.", {}});
   } catch (const std::exception& e) {
     return reportError({ErrorCode::Numerical, std::string("Something unforeseen happened: ") + e.what(), {}});
   }

@@ -25,11 +25,16 @@ std::string rangeOf(const Parameter& p) {
 
 const char* typeOf(const Parameter& p) {
   switch (p.type) {
-    case ParameterType::Boolean: return "boolean";
-    case ParameterType::Integer: return "integer";
-    case ParameterType::Real: return "real";
-    case ParameterType::Choice: return "choice";
-    case ParameterType::Text: return "text";
+    case ParameterType::Boolean:
+      return "boolean";
+    case ParameterType::Integer:
+      return "integer";
+    case ParameterType::Real:
+      return "real";
+    case ParameterType::Choice:
+      return "choice";
+    case ParameterType::Text:
+      return "text";
   }
   return "text";
 }
@@ -65,7 +70,8 @@ void printText() {
     for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], shownWidth(row[i]) + 2);
   }
   for (const Row& row : rows) {
-    for (std::size_t i = 0; i < widths.size(); ++i) std::cout << row[i] << std::string(widths[i] - shownWidth(row[i]), ' ');
+    for (std::size_t i = 0; i < widths.size(); ++i)
+      std::cout << row[i] << std::string(widths[i] - shownWidth(row[i]), ' ');
     std::cout << row.back() << '\n';
   }
 }

@@ -10,7 +10,7 @@ namespace {
 constexpr Colour kSketchColour{60, 110, 200};
 constexpr Colour kFairedColour{210, 40, 40};
 constexpr Colour kCornerColour{20, 150, 60};
-constexpr std::array<Colour, 6> kCycle = {Colour{200, 50, 50},  Colour{40, 110, 200}, Colour{20, 150, 60},
+constexpr std::array<Colour, 6> kCycle = {Colour{200, 50, 50}, Colour{40, 110, 200}, Colour{20, 150, 60},
                                           Colour{190, 110, 0}, Colour{140, 60, 180}, Colour{0, 140, 150}};
 
 std::uint8_t toByte(double level) { return static_cast<std::uint8_t>(std::lround(std::clamp(level, 0.0, 255.0))); }
@@ -61,7 +61,8 @@ PictureLine lineOf(const NurbsCurve& curve, const PageFrame& frame, Colour colou
 
 PictureLine circleAt(const Vec2& centre, double radius, double width) {
   PictureLine line{{}, true, kCornerColour, width};
-  for (int i = 0; i < 32; ++i) line.points.push_back(centre + radius * Vec2(std::cos(i * M_PI / 16), std::sin(i * M_PI / 16)));
+  for (int i = 0; i < 32; ++i)
+    line.points.push_back(centre + radius * Vec2(std::cos(i * M_PI / 16), std::sin(i * M_PI / 16)));
   return line;
 }
 
@@ -78,7 +79,8 @@ std::vector<PictureLine> linesOf(StageId stage, const PipelineOutput& out, doubl
       for (const Station& s : p.stations) lines.push_back({{s.from, s.to}, false, colour(), width});
     }
   } else if (stage == StageId::Curves) {
-    for (const TracedCurve& c : out.constructed->curves) lines.push_back(lineOf(c.sketched, out.frame, kSketchColour, width));
+    for (const TracedCurve& c : out.constructed->curves)
+      lines.push_back(lineOf(c.sketched, out.frame, kSketchColour, width));
   } else if (stage == StageId::Faired) {
     for (const TracedCurve& c : out.faired->curves) {
       lines.push_back(lineOf(c.sketched, out.frame, kSketchColour, width));
@@ -90,15 +92,24 @@ std::vector<PictureLine> linesOf(StageId stage, const PipelineOutput& out, doubl
 
 bool isThere(StageId stage, const PipelineOutput& out) {
   switch (stage) {
-    case StageId::Thresholds: return out.thresholds != nullptr;
-    case StageId::Binary: return out.binary != nullptr;
-    case StageId::Filtered: return out.filtered != nullptr;
-    case StageId::Edges: return out.edges != nullptr;
-    case StageId::Contours: return out.contours != nullptr;
-    case StageId::Pieces: return out.pieces != nullptr;
-    case StageId::Segments: return out.segments != nullptr;
-    case StageId::Curves: return out.constructed != nullptr;
-    case StageId::Faired: return out.faired != nullptr;
+    case StageId::Thresholds:
+      return out.thresholds != nullptr;
+    case StageId::Binary:
+      return out.binary != nullptr;
+    case StageId::Filtered:
+      return out.filtered != nullptr;
+    case StageId::Edges:
+      return out.edges != nullptr;
+    case StageId::Contours:
+      return out.contours != nullptr;
+    case StageId::Pieces:
+      return out.pieces != nullptr;
+    case StageId::Segments:
+      return out.segments != nullptr;
+    case StageId::Curves:
+      return out.constructed != nullptr;
+    case StageId::Faired:
+      return out.faired != nullptr;
   }
   return false;
 }
@@ -125,13 +136,15 @@ std::vector<std::string> dumpNames() {
   return names;
 }
 
-Result<Picture> dumpStage(std::string_view dumpName, const Scan& scan, const Recipe& recipe, const PipelineOutput& out) {
+Result<Picture> dumpStage(std::string_view dumpName, const Scan& scan, const Recipe& recipe,
+                          const PipelineOutput& out) {
   const GreyImage& grey = scan.grey;
   if (dumpName == "log") return greyPicture(grey, [&](int x, int y) { return logTone(grey.level(x, y), recipe.log); });
   if (dumpName == "paper") {
     if (!out.thresholds) return notThere(dumpName);
     const PaperBackground& paper = out.thresholds->paper;
-    return greyPicture(grey, [&](int x, int y) { return 255.0 * grey.level(x, y) / std::max(1.0, paper.at(x + 0.5, y + 0.5)); });
+    return greyPicture(
+        grey, [&](int x, int y) { return 255.0 * grey.level(x, y) / std::max(1.0, paper.at(x + 0.5, y + 0.5)); });
   }
   const auto stage = stageFromName(dumpName);
   if (!stage || !isThere(*stage, out)) return notThere(dumpName);

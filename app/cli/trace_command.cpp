@@ -48,7 +48,8 @@ class Trace {
     readMilliseconds_ = millisecondsSince(begin_);
 
     PipelineRequest request;
-    request.needEdges = std::any_of(plan_.dumps.begin(), plan_.dumps.end(), [](const auto& d) { return d.stage == "edges"; });
+    request.needEdges =
+        std::any_of(plan_.dumps.begin(), plan_.dumps.end(), [](const auto& d) { return d.stage == "edges"; });
     StageCache nothingKept(0);
     out_ = runPipeline(scan_, plan_.recipe, nothingKept, request, context_);
 
@@ -132,7 +133,8 @@ class Trace {
   /// What the user should know although the trace was made.
   std::vector<std::string> notes() const {
     std::vector<std::string> list;
-    if (isScaleAssumed(scan_, plan_.recipe)) list.emplace_back("The scan states no resolution; 96 dpi was assumed. Set --dpi.");
+    if (isScaleAssumed(scan_, plan_.recipe))
+      list.emplace_back("The scan states no resolution; 96 dpi was assumed. Set --dpi.");
     if (!out_.thresholds->note.empty()) list.push_back(out_.thresholds->note);
     if (!out_.contours->report.note.empty()) list.push_back(out_.contours->report.note);
     for (const int mark : out_.pieces->lostMarks) {

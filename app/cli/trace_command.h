@@ -10,15 +10,15 @@ namespace batten::cli {
 /// The words of `batten-cli trace`, as typed.
 struct TraceArguments {
   std::string scan;
-  std::vector<std::string> outputs;    ///< -o: .svg or .json
-  std::string recipe;                  ///< --recipe
-  std::vector<std::string> settings;   ///< --set stage.parameter=value
-  std::vector<std::string> corners;    ///< --corner X,Y
-  std::optional<double> dpi;           ///< --dpi
-  std::string report;                  ///< --report
-  std::vector<std::string> dumps;      ///< --dump STAGE=FILE.png
-  std::string saveRecipe;              ///< --save-recipe
-  int threads = 0;                     ///< --threads, 0 = all
+  std::vector<std::string> outputs;   ///< -o: .svg or .json
+  std::string recipe;                 ///< --recipe
+  std::vector<std::string> settings;  ///< --set stage.parameter=value
+  std::vector<std::string> corners;   ///< --corner X,Y
+  std::optional<double> dpi;          ///< --dpi
+  std::string report;                 ///< --report
+  std::vector<std::string> dumps;     ///< --dump STAGE=FILE.png
+  std::string saveRecipe;             ///< --save-recipe
+  int threads = 0;                    ///< --threads, 0 = all
 };
 
 /// Traces a scan and writes what was asked for; one line of JSON on stdout when done. Returns the exit code.

@@ -21,7 +21,8 @@ tl::unexpected<Error> wrong(std::string message) { return fail(ErrorCode::BadPar
 
 std::string extensionOf(const fs::path& path) {
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   return extension;
 }
 
@@ -29,7 +30,8 @@ Result<Recipe> readRecipe(const std::string& path) {
   if (path.empty()) return Recipe{};
   std::error_code code;
   std::ifstream file(path, std::ios::binary);
-  if (!file || !fs::is_regular_file(path, code)) return wrong("The recipe " + path + " cannot be read. Check its name.");
+  if (!file || !fs::is_regular_file(path, code))
+    return wrong("The recipe " + path + " cannot be read. Check its name.");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   return recipeFromJson(text);
 }
@@ -37,7 +39,8 @@ Result<Recipe> readRecipe(const std::string& path) {
 Result<void> applySetting(const std::string& setting, Recipe& recipe) {
   const auto equals = setting.find('=');
   if (equals == std::string::npos) return wrong("--set takes stage.parameter=value, not \"" + setting + "\".");
-  return setParameter(recipe, trimmed(std::string_view(setting).substr(0, equals)), std::string_view(setting).substr(equals + 1));
+  return setParameter(recipe, trimmed(std::string_view(setting).substr(0, equals)),
+                      std::string_view(setting).substr(equals + 1));
 }
 
 Result<void> applyCorner(const std::string& corner, Recipe& recipe) {

@@ -11,8 +11,8 @@ namespace {
 /// All pieces of one contour in order of travel; null where there is no curve to export.
 using ContourPieces = std::vector<const TracedCurve*>;
 
-/// Runs of pieces that follow each other. A closed contour may be entered anywhere: it starts after a gap, so that no run
-/// is cut at the contour's own start.
+/// Runs of pieces that follow each other. A closed contour may be entered anywhere: it starts after a gap, so that no
+/// run is cut at the contour's own start.
 std::vector<std::vector<const TracedCurve*>> runs(const ContourPieces& pieces, bool closed) {
   std::vector<std::vector<const TracedCurve*>> result;
   const std::size_t n = pieces.size();

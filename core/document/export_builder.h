@@ -6,9 +6,9 @@
 
 namespace batten {
 
-/// What an export of the present result holds: the faired curves the user has not excluded, grouped by contour into curves
-/// "curve-1" …. Pieces that follow each other form one curve; where a piece is missing (excluded or failed) the line is
-/// interrupted and becomes several open curves. Empty curves if the run gave no faired curve.
+/// What an export of the present result holds: the faired curves the user has not excluded, grouped by contour into
+/// curves "curve-1" …. Pieces that follow each other form one curve; where a piece is missing (excluded or failed) the
+/// line is interrupted and becomes several open curves. Empty curves if the run gave no faired curve.
 ExportDocument exportDocument(const PipelineOutput&, const Recipe&, const Scan&);
 
 }  // namespace batten

@@ -9,10 +9,11 @@
 namespace batten {
 namespace {
 
-constexpr int kSamples = 32;        ///< Places per cubic at which the error is measured and handles are fitted.
-constexpr int kRounds = 4;          ///< Fits of the handles, each with better parameters.
-constexpr int kMaxDepth = 24;       ///< Halvings; 1/2^24 of a piece is far below any tolerance.
-constexpr double kMaxTurn = 1.75;   ///< [rad] A cubic that turns more than 100 degrees fits badly and looks wrong in editors.
+constexpr int kSamples = 32;   ///< Places per cubic at which the error is measured and handles are fitted.
+constexpr int kRounds = 4;     ///< Fits of the handles, each with better parameters.
+constexpr int kMaxDepth = 24;  ///< Halvings; 1/2^24 of a piece is far below any tolerance.
+constexpr double kMaxTurn =
+    1.75;  ///< [rad] A cubic that turns more than 100 degrees fits badly and looks wrong in editors.
 
 using Cubic = std::array<Vec2, 4>;
 
@@ -45,9 +46,7 @@ class Approximation {
       : curve_(curve), tolerance_(tolerance), grid_(grid), path_(path) {}
 
   void add(double from, double to) { recurse(from, to, 0); }
-  Vec2 rounded(const Vec2& p) const {
-    return {std::round(p.x() / grid_) * grid_, std::round(p.y() / grid_) * grid_};
-  }
+  Vec2 rounded(const Vec2& p) const { return {std::round(p.x() / grid_) * grid_, std::round(p.y() / grid_) * grid_}; }
 
  private:
   /// Unit direction at u, from the side of the interval [from, to] that u bounds.
@@ -58,7 +57,8 @@ class Approximation {
     if (speed * (to - from) > 1e-9 * chord.norm() && speed > 0.0) return d[1] / speed;
     // A vanishing derivative: the direction towards (or from) a near point of the interval.
     const double near = u == from ? from + (to - from) * 1e-3 : to - (to - from) * 1e-3;
-    const Vec2 step = u == from ? Vec2(curve_.point(near) - curve_.point(u)) : Vec2(curve_.point(u) - curve_.point(near));
+    const Vec2 step =
+        u == from ? Vec2(curve_.point(near) - curve_.point(u)) : Vec2(curve_.point(u) - curve_.point(near));
     return step.norm() > 0.0 ? Vec2(step.normalized()) : Vec2(Vec2::Zero());
   }
 
@@ -75,7 +75,8 @@ class Approximation {
     points_.clear();
     for (int i = 0; i <= kSamples; ++i) points_.push_back(curve_.point(from + (to - from) * i / kSamples));
     parameters_.assign(points_.size(), 0.0);
-    for (std::size_t i = 1; i < points_.size(); ++i) parameters_[i] = parameters_[i - 1] + (points_[i] - points_[i - 1]).norm();
+    for (std::size_t i = 1; i < points_.size(); ++i)
+      parameters_[i] = parameters_[i - 1] + (points_[i] - points_[i - 1]).norm();
     const double length = parameters_.back();
     for (double& t : parameters_) t = length > 0.0 ? t / length : 0.0;
   }

@@ -16,9 +16,9 @@ struct CubicPath {
   double largestError = 0.0;  ///< Measured distance between the path and the curve, both ways, in the curve's unit.
 };
 
-/// Cubics within `tolerance` of a curve, with its tangents at every joint, split by halves where one cubic is not enough.
-/// Coordinates are rounded to multiples of `grid` (what the file will hold) before the distance is measured; ends stay
-/// ends. @pre tolerance > 4 grid > 0.
+/// Cubics within `tolerance` of a curve, with its tangents at every joint, split by halves where one cubic is not
+/// enough. Coordinates are rounded to multiples of `grid` (what the file will hold) before the distance is measured;
+/// ends stay ends. @pre tolerance > 4 grid > 0.
 Result<CubicPath> cubicPath(const NurbsCurve&, double tolerance, double grid);
 
 }  // namespace batten

@@ -8,8 +8,8 @@
 
 namespace batten {
 
-/// Why a document must not be written: nothing in it, a curve without pieces, a number that is not finite, a frame without
-/// size. Every writer asks this first, so that no file ever holds a NaN.
+/// Why a document must not be written: nothing in it, a curve without pieces, a number that is not finite, a frame
+/// without size. Every writer asks this first, so that no file ever holds a NaN.
 std::optional<Error> exportProblem(const ExportDocument&);
 
 }  // namespace batten

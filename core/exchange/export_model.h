@@ -22,9 +22,9 @@ struct ExportCurve {
 };
 struct ExportDocument {
   PageFrame frame;
-  std::optional<double> dpi;   ///< Absent: the scale is assumed.
+  std::optional<double> dpi;  ///< Absent: the scale is assumed.
   std::string imageSha256;
-  std::string title;           ///< File name of the scan.
+  std::string title;  ///< File name of the scan.
   std::vector<ExportCurve> curves;
 };
 

@@ -30,8 +30,8 @@ void drawLines(Picture& picture, std::span<const PictureLine> lines) {
   painter.setRenderHint(QPainter::Antialiasing);
   for (const PictureLine& line : lines) {
     if (line.points.empty()) continue;
-    painter.setPen(QPen(QColor(line.colour[0], line.colour[1], line.colour[2]), line.widthPx, Qt::SolidLine, Qt::RoundCap,
-                        Qt::RoundJoin));
+    painter.setPen(QPen(QColor(line.colour[0], line.colour[1], line.colour[2]), line.widthPx, Qt::SolidLine,
+                        Qt::RoundCap, Qt::RoundJoin));
     painter.drawPath(pathOf(line));
   }
 }

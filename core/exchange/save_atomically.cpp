@@ -22,24 +22,33 @@ std::optional<std::string> obstacle(const fs::path& path) {
   if (path.empty() || path.filename().empty()) return "the file has no name. Add a file name.";
   if (fs::is_directory(path, code)) return "it is a folder. Add a file name.";
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::exists(folder, code)) return "the folder " + folder.string() + " does not exist. Create it or choose another.";
+  if (!fs::exists(folder, code))
+    return "the folder " + folder.string() + " does not exist. Create it or choose another.";
   if (!fs::is_directory(folder, code)) return folder.string() + " is not a folder. Choose another place.";
-  if (fs::exists(path, code) && !fs::is_regular_file(path, code)) return "it is not an ordinary file. Choose another name.";
+  if (fs::exists(path, code) && !fs::is_regular_file(path, code))
+    return "it is not an ordinary file. Choose another name.";
   return std::nullopt;
 }
 
 std::string reason(const QSaveFile& file, int systemError) {
   switch (systemError) {
     case ENOSPC:
-    case EDQUOT: return "the disk is full. Free some space or choose another place.";
-    case EFBIG: return "the file would become larger than is allowed here. Choose another place.";
+    case EDQUOT:
+      return "the disk is full. Free some space or choose another place.";
+    case EFBIG:
+      return "the file would become larger than is allowed here. Choose another place.";
     case EACCES:
-    case EPERM: return "there is no permission to write there. Choose another place.";
-    case EROFS: return "the disk is write-protected. Choose another place.";
-    case ENAMETOOLONG: return "the name is too long. Choose a shorter one.";
-    default: break;
+    case EPERM:
+      return "there is no permission to write there. Choose another place.";
+    case EROFS:
+      return "the disk is write-protected. Choose another place.";
+    case ENAMETOOLONG:
+      return "the name is too long. Choose a shorter one.";
+    default:
+      break;
   }
-  if (file.error() == QFileDevice::PermissionsError) return "there is no permission to write there. Choose another place.";
+  if (file.error() == QFileDevice::PermissionsError)
+    return "there is no permission to write there. Choose another place.";
   return file.errorString().toStdString() + ". Choose another place.";
 }
 

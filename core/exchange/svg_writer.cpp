@@ -18,7 +18,8 @@ constexpr double kGridMm = 1e-7;
 /// Fixed notation without trailing zeros, C locale, no exponent, no minus zero.
 std::string fixed(double value) {
   std::array<char, 400> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, kDecimals).ptr;
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, kDecimals).ptr;
   std::string text(buffer.data(), end);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
@@ -37,11 +38,20 @@ std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }
   }
   return result;
@@ -84,11 +94,13 @@ Result<std::string> pathData(const ExportCurve& curve, const PageFrame& frame, d
 }
 
 std::string metadata(const ExportDocument& document) {
-  std::string text = "  <metadata>\n    <batten:curves version=\"1\" unit=\"mm\" axes=\"x right, y up from the lower edge\"";
+  std::string text =
+      "  <metadata>\n    <batten:curves version=\"1\" unit=\"mm\" axes=\"x right, y up from the lower edge\"";
   text.append(" mm-per-px=\"").append(exact(document.frame.mmPerPx));
   text.append("\" image-sha256=\"").append(escaped(document.imageSha256)).append("\">\n");
   for (const ExportCurve& curve : document.curves) {
-    text += "      <batten:curve id=\"" + escaped(curve.id) + "\" closed=\"" + (curve.closed ? "true" : "false") + "\">\n";
+    text +=
+        "      <batten:curve id=\"" + escaped(curve.id) + "\" closed=\"" + (curve.closed ? "true" : "false") + "\">\n";
     for (const ExportPiece& piece : curve.pieces) {
       text += "        <batten:piece degree=\"" + std::to_string(piece.curve.degree()) + "\" knots=\"";
       for (const double knot : piece.curve.knots()) text += exact(knot) + " ";
@@ -127,18 +139,25 @@ Result<SvgText> writeSvg(const ExportDocument& document, const SvgOptions& optio
   }
   const std::string width = fixed(document.frame.lengthToModel(document.frame.widthPx));
   const std::string height = fixed(document.frame.lengthToModel(document.frame.heightPx));
-  svg.text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"\n"
-             "     xmlns:batten=\"urn:batten:curves:1\" version=\"1.1\"\n"
-             "     width=\"" + width + "mm\" height=\"" + height + "mm\" viewBox=\"0 0 " + width + " " + height + "\">\n"
-             "  <title>" + escaped(document.title) + "</title>\n"
-             "  <desc>Fair curves in mm. The cubic paths lie within " + fixed(svg.largestErrorMm) +
-             " mm of the exact curves in the metadata" +
-             (document.dpi ? " (" + fixed(*document.dpi) + " dpi)" : "; the scan states no resolution, so the scale is assumed") +
-             ".</desc>\n" + metadata(document) +
-             "  <g id=\"curves\" inkscape:groupmode=\"layer\" inkscape:label=\"Curves\" fill=\"none\" stroke=\"#000000\"\n"
-             "     stroke-width=\"" + fixed(options.strokeWidthMm) + "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n" +
-             paths + "  </g>\n</svg>\n";
+  svg.text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"\n"
+      "     xmlns:batten=\"urn:batten:curves:1\" version=\"1.1\"\n"
+      "     width=\"" +
+      width + "mm\" height=\"" + height + "mm\" viewBox=\"0 0 " + width + " " + height +
+      "\">\n"
+      "  <title>" +
+      escaped(document.title) +
+      "</title>\n"
+      "  <desc>Fair curves in mm. The cubic paths lie within " +
+      fixed(svg.largestErrorMm) + " mm of the exact curves in the metadata" +
+      (document.dpi ? " (" + fixed(*document.dpi) + " dpi)"
+                    : "; the scan states no resolution, so the scale is assumed") +
+      ".</desc>\n" + metadata(document) +
+      "  <g id=\"curves\" inkscape:groupmode=\"layer\" inkscape:label=\"Curves\" fill=\"none\" stroke=\"#000000\"\n"
+      "     stroke-width=\"" +
+      fixed(options.strokeWidthMm) + "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n" + paths +
+      "  </g>\n</svg>\n";
   return svg;
 }
 

@@ -11,16 +11,16 @@
 namespace batten {
 
 struct SvgOptions {
-  double toleranceMm = 0.002;   ///< [mm] > 0. Largest distance of the cubics from the exact curves.
-  double strokeWidthMm = 0.1;   ///< [mm] > 0.
+  double toleranceMm = 0.002;  ///< [mm] > 0. Largest distance of the cubics from the exact curves.
+  double strokeWidthMm = 0.1;  ///< [mm] > 0.
 };
 struct SvgText {
   std::string text;
   double largestErrorMm = 0.0;  ///< Measured, not the bound asked for.
   int cubics = 0;
 };
-/// SVG in mm (width and height in mm, 1 user unit = 1 mm, y down), one <path> per curve of the drawing, cubics within the
-/// tolerance of the exact quintics, the error stated in <desc>, the exact B-splines in <metadata>.
+/// SVG in mm (width and height in mm, 1 user unit = 1 mm, y down), one <path> per curve of the drawing, cubics within
+/// the tolerance of the exact quintics, the error stated in <desc>, the exact B-splines in <metadata>.
 /// @return NoCurve if there is nothing to write.
 Result<SvgText> writeSvg(const ExportDocument&, const SvgOptions&);
 
@@ -29,7 +29,8 @@ Result<std::string> writeCurveJson(const ExportDocument&);
 /// Reads curve JSON back (the self-check after an export, and tests).
 Result<ExportDocument> readCurveJson(std::string_view text);
 
-/// Writes all bytes or nothing: to a temporary file beside the target, then renames. CannotWrite says why and what to do.
+/// Writes all bytes or nothing: to a temporary file beside the target, then renames. CannotWrite says why and what to
+/// do.
 Result<void> saveAtomically(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace batten

@@ -14,6 +14,9 @@ namespace {
 /// Prominence of a counted curvature extremum, in units of 1 / extent of the curve.
 constexpr double kExtremumProminence = 5e-3;
 
+/// [px] A true and fair fit lies on its line. Where 5 % of the points are farther away than this it has lost the line.
+constexpr double kLostLinePx = 2.0;
+
 std::vector<Vec2> pointsToModel(const std::vector<Vec2>& points, const PageFrame& frame) {
   std::vector<Vec2> result;
   result.reserve(points.size());
@@ -66,7 +69,7 @@ class ContourBuilder {
 
   ContourOutcome build(PieceRange range) const {
     ContourOutcome outcome;
-    if (auto all = constructRange(range)) {
+    if (auto all = constructRange(range, recipe_.construct)) {
       for (std::size_t i = range.first; i < range.last; ++i) add(outcome, i, std::move((*all)[i - range.first]));
       return outcome;
     } else if (range.last - range.first == 1) {
@@ -75,7 +78,7 @@ class ContourBuilder {
     }
     // One piece that cannot be constructed must not cost its neighbours.
     for (std::size_t i = range.first; i < range.last && !context_.isCancelled(); ++i) {
-      if (auto one = constructRange({i, i + 1})) {
+      if (auto one = constructRange({i, i + 1}, recipe_.construct)) {
         add(outcome, i, std::move(one->front()));
       } else {
         outcome.failures.push_back(named(one.error(), i));
@@ -85,7 +88,7 @@ class ContourBuilder {
   }
 
  private:
-  Result<std::vector<ConstructedPiece>> constructRange(PieceRange range) const {
+  Result<std::vector<ConstructedPiece>> constructRange(PieceRange range, const ConstructParams& params) const {
     const auto contour = static_cast<std::size_t>(pieces_.pieces[range.first].contour);
     ConstructContour input;
     input.isStroke = contour < contours_.contours.size() && contours_.contours[contour].kind == ContourKind::Centreline;
@@ -99,7 +102,7 @@ class ContourBuilder {
       made.startIsCorner = piece.startIsCorner;
       made.endIsCorner = piece.endIsCorner;
     }
-    auto result = construct(input, recipe_.construct, context_);
+    auto result = construct(input, params, context_);
     if (result && result->size() != input.pieces.size()) {
       return fail(ErrorCode::Numerical, "The construction gave another number of curves than pieces.");
     }
@@ -116,13 +119,36 @@ class ContourBuilder {
 
   void add(ContourOutcome& outcome, std::size_t index, ConstructedPiece made) const {
     const Piece& piece = pieces_.pieces[index];
-    TracedCurve& curve = outcome.curves.emplace_back();
+    TracedCurve curve;
     curve.contour = piece.contour;
     curve.piece = static_cast<int>(index);
     curve.closed = piece.closed;
+    take(curve, std::move(made));
+    if (recipe_.construct.method == ConstructMethod::Fair) keepOnLine(curve, index);
+    outcome.curves.push_back(std::move(curve));
+  }
+
+  void take(TracedCurve& curve, ConstructedPiece made) const {
+    const Piece& piece = pieces_.pieces[static_cast<std::size_t>(curve.piece)];
     curve.sketched = made.curve;
     curve.construct = std::move(made.report);
     curve.sketchedFigures = figuresOf(made.curve, piece.closed, pointsToModel(piece.points, frame_));
+  }
+
+  /// The safety net of the default method: a line with corners nobody marked can throw a smooth fit off. Then the
+  /// quintic NURBS through the stations takes its place if it is nearer to the line, and the report says so.
+  void keepOnLine(TracedCurve& curve, std::size_t index) const {
+    if (frame_.lengthToImage(curve.sketchedFigures.fromPoints.percentile95) <= kLostLinePx) return;
+    ConstructParams params = recipe_.construct;
+    params.method = ConstructMethod::Nurbs;
+    auto other = constructRange({index, index + 1}, params);
+    if (!other) return;
+    TracedCurve replacement = curve;
+    take(replacement, std::move(other->front()));
+    if (replacement.sketchedFigures.fromPoints.percentile95 >= curve.sketchedFigures.fromPoints.percentile95) return;
+    replacement.construct.note =
+        "The fit did not stay on this line, so a quintic NURBS took its place. Mark its corners.";
+    curve = std::move(replacement);
   }
 
   const ContourSet& contours_;
@@ -198,9 +224,9 @@ Result<ConstructedSet> constructAll(const ContourSet& contours, const PieceSet& 
     std::move(outcome.failures.begin(), outcome.failures.end(), std::back_inserter(set.failures));
   }
   if (!set.curves.empty()) return set;
-  return fail(ErrorCode::NoCurve, set.failures.empty()
-                                      ? "No line was left to make a curve of. Lower contours.min_length or the thresholds."
-                                      : "No curve could be made. " + set.failures.front().message);
+  return fail(ErrorCode::NoCurve,
+              set.failures.empty() ? "No line was left to make a curve of. Lower contours.min_length or the thresholds."
+                                   : "No curve could be made. " + set.failures.front().message);
 }
 
 Result<FairedSet> fairAll(const ConstructedSet& constructed, const PieceSet& pieces, const Recipe& recipe,
@@ -224,7 +250,8 @@ Result<TargetOutcomes> targetsFor(const TracedCurve& curve, const RunContext& co
   try {
     return fairAllTargets(curve.sketched, curve.closed, curve.fairingUsed, context);
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "There is not enough memory for the six targets. Close other programs and try again.");
+    return fail(ErrorCode::OutOfMemory,
+                "There is not enough memory for the six targets. Close other programs and try again.");
   }
 }
 

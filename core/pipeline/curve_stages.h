@@ -5,14 +5,14 @@
 
 namespace batten {
 
-/// Curves of all pieces: image px become model mm here and nowhere else. Contours are constructed side by side; a contour
-/// that fails as a whole is tried piece by piece, and what then fails is listed.
+/// Curves of all pieces: image px become model mm here and nowhere else. Contours are constructed side by side; a
+/// contour that fails as a whole is tried piece by piece, and what then fails is listed.
 /// @return NoCurve, with the first reason, if no piece gave a curve.
-Result<ConstructedSet> constructAll(const ContourSet&, const PieceSet&, const SegmentSet&, const Recipe&, const PageFrame&,
-                                    const RunContext&);
+Result<ConstructedSet> constructAll(const ContourSet&, const PieceSet&, const SegmentSet&, const Recipe&,
+                                    const PageFrame&, const RunContext&);
 
-/// Fairs every included curve by the recipe or its own choice. A curve that cannot be faired keeps its sketched shape and
-/// its report says why.
+/// Fairs every included curve by the recipe or its own choice. A curve that cannot be faired keeps its sketched shape
+/// and its report says why.
 Result<FairedSet> fairAll(const ConstructedSet&, const PieceSet&, const Recipe&, const PageFrame&, const RunContext&);
 
 }  // namespace batten

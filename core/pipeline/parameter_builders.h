@@ -11,8 +11,8 @@
 #include "core/pipeline/parameter_table.h"
 
 /// \file
-/// One call per table entry. `field` is a generic lambda that returns the field of a recipe by reference, so that reading
-/// and writing cannot name different fields: `[](auto& r) -> auto& { return r.filter.coefficient; }`.
+/// One call per table entry. `field` is a generic lambda that returns the field of a recipe by reference, so that
+/// reading and writing cannot name different fields: `[](auto& r) -> auto& { return r.filter.coefficient; }`.
 
 namespace batten::table {
 

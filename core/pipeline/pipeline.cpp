@@ -41,7 +41,8 @@ std::size_t bytesOf(const std::vector<TracedCurve>& curves) {
   std::size_t bytes = 0;
   for (const TracedCurve& c : curves) {
     const auto points = static_cast<std::size_t>(c.sketched.isEmpty() ? 0 : c.sketched.controlPointCount());
-    bytes += sizeof(c) + 4 * points * sizeof(Vec2) + vectorBytes(c.construct.extrema) + 2 * vectorBytes(c.construct.bandS);
+    bytes +=
+        sizeof(c) + 4 * points * sizeof(Vec2) + vectorBytes(c.construct.extrema) + 2 * vectorBytes(c.construct.bandS);
   }
   return bytes;
 }
@@ -50,7 +51,8 @@ std::size_t bytesOf(const FairedSet& set) { return sizeof(set) + bytesOf(set.cur
 
 class Run {
  public:
-  Run(const Scan& scan, const Recipe& recipe, StageCache& cache, const PipelineRequest& request, const RunContext& context)
+  Run(const Scan& scan, const Recipe& recipe, StageCache& cache, const PipelineRequest& request,
+      const RunContext& context)
       : scan_(scan), recipe_(recipe), cache_(cache), request_(request), context_(context) {}
 
   PipelineOutput all() {
@@ -73,18 +75,23 @@ class Run {
   bool one(StageId stage) {
     switch (stage) {
       case StageId::Thresholds:
-        return step(stage, out_.thresholds, [&] { return findThresholds(scan_.grey, recipe_.paper, recipe_.threshold, context_); });
+        return step(stage, out_.thresholds,
+                    [&] { return findThresholds(scan_.grey, recipe_.paper, recipe_.threshold, context_); });
       case StageId::Binary:
-        return step(stage, out_.binary, [&] { return binarize(scan_.grey, *out_.thresholds, recipe_.threshold, context_); });
+        return step(stage, out_.binary,
+                    [&] { return binarize(scan_.grey, *out_.thresholds, recipe_.threshold, context_); });
       case StageId::Filtered:
         return step(stage, out_.filtered, [&] { return neighbourhoodFilter(*out_.binary, recipe_.filter, context_); });
-      case StageId::Edges: return step(stage, out_.edges, [&] { return laplacianEdges(out_.filtered->ink, context_); });
+      case StageId::Edges:
+        return step(stage, out_.edges, [&] { return laplacianEdges(out_.filtered->ink, context_); });
       case StageId::Contours:
         return step(stage, out_.contours, [&] {
-          return traceContours(out_.filtered->ink, scan_.grey, *out_.thresholds, recipe_.edges, recipe_.contours, context_);
+          return traceContours(out_.filtered->ink, scan_.grey, *out_.thresholds, recipe_.edges, recipe_.contours,
+                               context_);
         });
       case StageId::Pieces:
-        return step(stage, out_.pieces, [&] { return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners); });
+        return step(stage, out_.pieces,
+                    [&] { return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners); });
       case StageId::Segments:
         return step(stage, out_.segments, [&] { return regressionSegments(*out_.pieces, recipe_.segments); });
       case StageId::Curves:
@@ -92,7 +99,8 @@ class Run {
           return constructAll(*out_.contours, *out_.pieces, *out_.segments, recipe_, out_.frame, context_);
         });
       case StageId::Faired:
-        return step(stage, out_.faired, [&] { return fairAll(*out_.constructed, *out_.pieces, recipe_, out_.frame, context_); });
+        return step(stage, out_.faired,
+                    [&] { return fairAll(*out_.constructed, *out_.pieces, recipe_, out_.frame, context_); });
     }
     return false;
   }
@@ -124,7 +132,8 @@ class Run {
     } catch (const std::exception& e) {
       slot = nullptr;
       return stop(stage, {ErrorCode::Numerical,
-                          "The stage \"" + std::string(name(stage)) + "\" failed on this drawing. Change its settings or report it.",
+                          "The stage \"" + std::string(name(stage)) +
+                              "\" failed on this drawing. Change its settings or report it.",
                           e.what()});
     }
     timing.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

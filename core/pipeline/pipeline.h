@@ -26,23 +26,23 @@ namespace batten {
 struct CurveFigures {
   double lengthMm = 0.0;
   int controlPoints = 0;
-  Deviation fromPoints;      ///< [mm] edge points from the curve.
-  int extrema = 0;           ///< Curvature extrema of prominence >= 5e-3 / extent.
+  Deviation fromPoints;  ///< [mm] edge points from the curve.
+  int extrema = 0;       ///< Curvature extrema of prominence >= 5e-3 / extent.
   int inflections = 0;
 };
 
 /// One curve from corner to corner (or a smooth closed one), sketched and faired. Model frame, mm.
 struct TracedCurve {
-  int contour = 0;              ///< Index into the contour set.
-  int piece = 0;                ///< Index into the piece set.
+  int contour = 0;  ///< Index into the contour set.
+  int piece = 0;    ///< Index into the piece set.
   bool closed = false;
-  bool included = true;         ///< The user's choice.
+  bool included = true;  ///< The user's choice.
   NurbsCurve sketched;
   ConstructReport construct;
   CurveFigures sketchedFigures;
-  NurbsCurve faired;            ///< Equal to `sketched` while the mode is None.
+  NurbsCurve faired;  ///< Equal to `sketched` while the mode is None.
   FairingReport fairing;
-  FairingParams fairingUsed;    ///< The recipe's parameters with the piece's own choices applied.
+  FairingParams fairingUsed;  ///< The recipe's parameters with the piece's own choices applied.
   CurveFigures fairedFigures;
 };
 
@@ -74,7 +74,7 @@ struct PipelineOutput {
   std::shared_ptr<const FairedSet> faired;
   PageFrame frame;
   std::array<StageTiming, kStages.size()> timing;
-  std::optional<Error> error;            ///< Why the run ended early; outputs before it are valid.
+  std::optional<Error> error;  ///< Why the run ended early; outputs before it are valid.
   std::optional<StageId> failedStage;
 };
 
@@ -85,8 +85,9 @@ struct PipelineRequest {
   bool needEdges = true;  ///< The edges layer is only made when someone looks at it.
 };
 
-/// Runs the stages in order, taking from `cache` what has not changed. Deterministic: the same scan and recipe give the same
-/// output with any number of threads and any state of the cache. Never throws for bad input; see PipelineOutput::error.
+/// Runs the stages in order, taking from `cache` what has not changed. Deterministic: the same scan and recipe give the
+/// same output with any number of threads and any state of the cache. Never throws for bad input; see
+/// PipelineOutput::error.
 PipelineOutput runPipeline(const Scan&, const Recipe&, StageCache&, const PipelineRequest&, const RunContext&);
 
 /// The six targets of one curve, as the strip and the report show them.
@@ -99,8 +100,8 @@ bool isScaleAssumed(const Scan&, const Recipe&);
 
 /// The choice that belongs to a piece (nearest anchor within 24 px), or nullopt. `index` into recipe.choices.
 std::optional<std::size_t> choiceFor(const Piece&, const Recipe&);
-/// Owner of every choice when all pieces compete: each choice goes to the nearest piece alone, as runPipeline applies them.
-/// One entry per piece, an index into recipe.choices or nullopt.
+/// Owner of every choice when all pieces compete: each choice goes to the nearest piece alone, as runPipeline applies
+/// them. One entry per piece, an index into recipe.choices or nullopt.
 std::vector<std::optional<std::size_t>> assignChoices(const PieceSet&, const Recipe&);
 /// A good anchor for a new choice: the point of the piece at half its points.
 Vec2 anchorOf(const Piece&);

@@ -16,14 +16,14 @@
 
 namespace batten {
 
-/// A choice of the user about one curve, attached by position so that it survives changes upstream: it belongs to the piece
-/// whose points come nearest to the anchor (within 24 px).
+/// A choice of the user about one curve, attached by position so that it survives changes upstream: it belongs to the
+/// piece whose points come nearest to the anchor (within 24 px).
 struct PieceChoice {
   Vec2 anchorPx = Vec2::Zero();
-  bool included = true;                ///< False: left out of fairing results and export.
-  std::optional<FairingMode> mode;     ///< Own fairing mode; absent = the recipe's.
-  std::optional<int> target;           ///< Own target degree 0..6.
-  std::optional<double> toleranceMm;   ///< Own budget.
+  bool included = true;               ///< False: left out of fairing results and export.
+  std::optional<FairingMode> mode;    ///< Own fairing mode; absent = the recipe's.
+  std::optional<int> target;          ///< Own target degree 0..6.
+  std::optional<double> toleranceMm;  ///< Own budget.
   bool operator==(const PieceChoice& o) const {
     return anchorPx == o.anchorPx && included == o.included && mode == o.mode && target == o.target &&
            toleranceMm == o.toleranceMm;

@@ -22,11 +22,15 @@ tl::unexpected<Error> refuse(std::string message, std::string detail = {}) {
 Json parameterToJson(const Parameter& p, const Recipe& recipe) {
   const std::string text = p.get(recipe);
   switch (p.type) {
-    case ParameterType::Boolean: return text == "true";
-    case ParameterType::Integer: return *integerFromText(text);
-    case ParameterType::Real: return *numberFromText(text);
+    case ParameterType::Boolean:
+      return text == "true";
+    case ParameterType::Integer:
+      return *integerFromText(text);
+    case ParameterType::Real:
+      return *numberFromText(text);
     case ParameterType::Choice:
-    case ParameterType::Text: break;
+    case ParameterType::Text:
+      break;
   }
   return text;
 }
@@ -99,7 +103,8 @@ Result<PieceChoice> readChoice(const Json& json) {
     } else if (name == "tolerance" && value.is_number()) {
       choice.toleranceMm = value.get<double>();
     } else {
-      return refuse("The recipe holds \"" + name + "\" in a choice, which this version of Batten does not know or cannot read.");
+      return refuse("The recipe holds \"" + name +
+                    "\" in a choice, which this version of Batten does not know or cannot read.");
     }
   }
   if (!json.contains("anchor")) return refuse("The recipe is damaged: a choice has no anchor.");

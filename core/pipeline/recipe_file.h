@@ -9,11 +9,12 @@
 
 namespace batten {
 
-/// Recipe as JSON: {"format":"batten-recipe","version":1,"parameters":{name:value…},"corners":[[x,y]…],"dpi":…,"choices":[…]}.
-/// All parameters are written, defaults too, so that a recipe keeps its meaning when a default changes.
+/// Recipe as JSON:
+/// {"format":"batten-recipe","version":1,"parameters":{name:value…},"corners":[[x,y]…],"dpi":…,"choices":[…]}. All
+/// parameters are written, defaults too, so that a recipe keeps its meaning when a default changes.
 std::string recipeToJson(const Recipe&);
-/// Reads it back exactly. Missing parameters take their default; unknown ones, a wrong format or a newer version are refused
-/// with a message that names them.
+/// Reads it back exactly. Missing parameters take their default; unknown ones, a wrong format or a newer version are
+/// refused with a message that names them.
 Result<Recipe> recipeFromJson(std::string_view json);
 
 }  // namespace batten

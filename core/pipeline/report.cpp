@@ -27,14 +27,16 @@ Json deviationToJson(const Deviation& d, const PageFrame& frame) {
 }
 
 Json figuresToJson(const CurveFigures& f, const PageFrame& frame) {
-  return {{"length_mm", number(f.lengthMm)},     {"control_points", f.controlPoints},
+  return {{"length_mm", number(f.lengthMm)},
+          {"control_points", f.controlPoints},
           {"deviation_from_points", deviationToJson(f.fromPoints, frame)},
-          {"curvature_extrema", f.extrema},      {"inflections", f.inflections}};
+          {"curvature_extrema", f.extrema},
+          {"inflections", f.inflections}};
 }
 
 Json constructToJson(const ConstructReport& r) {
-  Json json{{"stopped", name(r.why)}, {"note", r.note},           {"noise_px", number(r.noisePx)},
-            {"is_circle", r.isCircle}, {"is_line", r.isLine},      {"extrema", Json::array()}};
+  Json json{{"stopped", name(r.why)},  {"note", r.note},      {"noise_px", number(r.noisePx)},
+            {"is_circle", r.isCircle}, {"is_line", r.isLine}, {"extrema", Json::array()}};
   for (const ExtremumNote& e : r.extrema) {
     json["extrema"].push_back({{"s_mm", number(e.s)},
                                {"curvature_per_mm", number(e.kappa)},
@@ -105,8 +107,9 @@ Json cornersToJson(const PipelineOutput& out, const TracedCurve& c) {
 Json curveToJson(const PipelineOutput& out, const ReportExtras& extras, std::size_t index) {
   const TracedCurve& c = out.faired->curves[index];
   Json json{{"index", static_cast<int>(index)}, {"contour", c.contour + 1}, {"piece", c.piece}, {"closed", c.closed}};
-  json["kind"] = out.contours->contours[static_cast<std::size_t>(c.contour)].kind == ContourKind::Centreline ? "centreline"
-                                                                                                              : "outline";
+  json["kind"] = out.contours->contours[static_cast<std::size_t>(c.contour)].kind == ContourKind::Centreline
+                     ? "centreline"
+                     : "outline";
   json["corners_px"] = cornersToJson(out, c);
   json["sketched"] = figuresToJson(c.sketchedFigures, out.frame);
   json["construct"] = constructToJson(c.construct);
@@ -190,7 +193,8 @@ Json stagesToJson(const PipelineOutput& out) {
 
 }  // namespace
 
-std::string reportToJson(const Scan& scan, const Recipe& recipe, const PipelineOutput& out, const ReportExtras& extras) {
+std::string reportToJson(const Scan& scan, const Recipe& recipe, const PipelineOutput& out,
+                         const ReportExtras& extras) {
   Json json{{"format", "batten-report"}, {"version", 1}};
   const std::optional<double> dpi = recipe.dpi ? recipe.dpi : scan.dpi;
   json["image"] = {{"path", scan.path},
@@ -204,13 +208,15 @@ std::string reportToJson(const Scan& scan, const Recipe& recipe, const PipelineO
   json["read_milliseconds"] = number(extras.readMilliseconds);
   json["stages"] = stagesToJson(out);
   Json& curves = json["curves"] = Json::array();
-  for (std::size_t i = 0; out.faired && i < out.faired->curves.size(); ++i) curves.push_back(curveToJson(out, extras, i));
+  for (std::size_t i = 0; out.faired && i < out.faired->curves.size(); ++i)
+    curves.push_back(curveToJson(out, extras, i));
   Json& failures = json["failures"] = Json::array();
   if (out.constructed) {
     for (const Error& e : out.constructed->failures) failures.push_back(e.message);
   }
   if (out.error) {
-    json["error"] = {{"stage", out.failedStage ? Json(name(*out.failedStage)) : Json(nullptr)}, {"message", out.error->message}};
+    json["error"] = {{"stage", out.failedStage ? Json(name(*out.failedStage)) : Json(nullptr)},
+                     {"message", out.error->message}};
   }
   json["peak_memory_bytes"] = extras.peakMemoryBytes > 0 ? Json(extras.peakMemoryBytes) : Json(nullptr);
   // Paths come from the system in any encoding: what is not UTF-8 is replaced, never thrown over.

@@ -12,15 +12,15 @@ namespace batten {
 
 /// What a report holds beside the outputs of the run.
 struct ReportExtras {
-  double readMilliseconds = 0.0;                      ///< Reading the scan.
-  std::vector<std::optional<TargetOutcomes>> targets; ///< One per faired curve; absent = not computed.
-  std::vector<std::string> targetProblems;            ///< Why, where a curve's targets failed; same size or empty.
-  std::uint64_t peakMemoryBytes = 0;                  ///< 0 = unknown.
+  double readMilliseconds = 0.0;                       ///< Reading the scan.
+  std::vector<std::optional<TargetOutcomes>> targets;  ///< One per faired curve; absent = not computed.
+  std::vector<std::string> targetProblems;             ///< Why, where a curve's targets failed; same size or empty.
+  std::uint64_t peakMemoryBytes = 0;                   ///< 0 = unknown.
 };
 
 /// The report as JSON, "batten-report" version 1: image; per stage milliseconds and counts; per curve length, control
-/// points, corners, deviations (px and mm), extrema, inflections, the six targets, the choice, and why each solver stopped;
-/// what failed; peak memory. Works on the outputs of a run that ended early, too.
+/// points, corners, deviations (px and mm), extrema, inflections, the six targets, the choice, and why each solver
+/// stopped; what failed; peak memory. Works on the outputs of a run that ended early, too.
 std::string reportToJson(const Scan&, const Recipe&, const PipelineOutput&, const ReportExtras&);
 
 }  // namespace batten

@@ -5,15 +5,24 @@ namespace batten {
 
 std::string_view name(StageId stage) {
   switch (stage) {
-    case StageId::Thresholds: return "thresholds";
-    case StageId::Binary: return "binary";
-    case StageId::Filtered: return "filtered";
-    case StageId::Edges: return "edges";
-    case StageId::Contours: return "contours";
-    case StageId::Pieces: return "pieces";
-    case StageId::Segments: return "segments";
-    case StageId::Curves: return "curves";
-    case StageId::Faired: return "faired";
+    case StageId::Thresholds:
+      return "thresholds";
+    case StageId::Binary:
+      return "binary";
+    case StageId::Filtered:
+      return "filtered";
+    case StageId::Edges:
+      return "edges";
+    case StageId::Contours:
+      return "contours";
+    case StageId::Pieces:
+      return "pieces";
+    case StageId::Segments:
+      return "segments";
+    case StageId::Curves:
+      return "curves";
+    case StageId::Faired:
+      return "faired";
   }
   return "unknown";
 }

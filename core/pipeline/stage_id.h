@@ -19,9 +19,9 @@ enum class StageId {
   Curves,      ///< Constructed ("sketched") curves.
   Faired,      ///< Faired curves.
 };
-inline constexpr std::array kStages = {StageId::Thresholds, StageId::Binary, StageId::Filtered, StageId::Edges,
-                                       StageId::Contours,   StageId::Pieces, StageId::Segments, StageId::Curves,
-                                       StageId::Faired};
+inline constexpr std::array kStages = {StageId::Thresholds, StageId::Binary,   StageId::Filtered,
+                                       StageId::Edges,      StageId::Contours, StageId::Pieces,
+                                       StageId::Segments,   StageId::Curves,   StageId::Faired};
 /// "thresholds", "binary", … as --dump and reports name them.
 std::string_view name(StageId);
 std::optional<StageId> stageFromName(std::string_view);

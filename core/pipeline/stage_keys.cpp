@@ -50,7 +50,8 @@ ContentHash scanKey(const Scan& scan) {
   HashBuilder h;
   h.integer(scan.grey.width).integer(scan.grey.height);
   // A scan that was not read from a file has no file hash; its pixels identify it.
-  const bool hasFile = std::any_of(scan.fileHash.bytes.begin(), scan.fileHash.bytes.end(), [](auto b) { return b != 0; });
+  const bool hasFile =
+      std::any_of(scan.fileHash.bytes.begin(), scan.fileHash.bytes.end(), [](auto b) { return b != 0; });
   return hasFile ? h.hash(scan.fileHash).finish() : h.bytes(std::as_bytes(std::span(scan.grey.pixels))).finish();
 }
 
@@ -61,9 +62,14 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
       h.integer(r.paper.flatten);
       add(h, r.threshold);
       break;
-    case StageId::Binary: add(h, r.threshold); break;
-    case StageId::Filtered: add(h, r.filter); break;
-    case StageId::Edges: break;
+    case StageId::Binary:
+      add(h, r.threshold);
+      break;
+    case StageId::Filtered:
+      add(h, r.filter);
+      break;
+    case StageId::Edges:
+      break;
     case StageId::Contours:
       add(h, r.edges);
       h.number(r.contours.minLengthPx).integer(r.contours.maxCount);
@@ -72,7 +78,9 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
       h.number(r.corners.snapDistancePx).integer(r.corners.exact);
       for (const CornerMark& mark : r.cornerMarks) add(h, mark.positionPx);
       break;
-    case StageId::Segments: add(h, r.segments); break;
+    case StageId::Segments:
+      add(h, r.segments);
+      break;
     case StageId::Curves:
       add(h, r.construct);
       h.number(frame.mmPerPx).integer(frame.heightPx);

@@ -60,7 +60,9 @@ TEST_F(BadInput, PicturesWithoutALineGiveFour) {
 
 TEST_F(BadInput, WithoutACurveReportAndDumpsStillShowWhy) {
   write("white.png", pngOf(GreyImage(200, 150, 65535)));
-  expectError("trace " + file("white.png") + " -o " + file("o.svg") + " --report " + file("r.json") + " --dump log=" + file("l.png"), 4, "");
+  expectError("trace " + file("white.png") + " -o " + file("o.svg") + " --report " + file("r.json") +
+                  " --dump log=" + file("l.png"),
+              4, "");
   EXPECT_NE(test::readFile(file("r.json")).find("\"error\""), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(file("l.png")));
 }

@@ -45,7 +45,8 @@ class Program : public ::testing::Test {
   }
   /// Runs the program with these words; words with blanks are to be quoted for the shell.
   Outcome run(const std::string& words) const {
-    const std::string command = std::string("'" BATTEN_CLI "' ") + words + " >'" + file("out.txt") + "' 2>'" + file("err.txt") + "'";
+    const std::string command =
+        std::string("'" BATTEN_CLI "' ") + words + " >'" + file("out.txt") + "' 2>'" + file("err.txt") + "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(file("out.txt")), readFile(file("err.txt"))};
   }

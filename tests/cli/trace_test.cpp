@@ -13,7 +13,8 @@ using nlohmann::json;
 using Trace = test::Program;
 
 TEST_F(Trace, WritesSvgJsonReportAndSummary) {
-  const auto done = run("trace " + scene() + " --dpi 254 -o " + file("o.svg") + " -o " + file("o.json") + " --report " + file("r.json"));
+  const auto done = run("trace " + scene() + " --dpi 254 -o " + file("o.svg") + " -o " + file("o.json") + " --report " +
+                        file("r.json"));
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(done.err, "");
   const json summary = json::parse(done.out);
@@ -53,9 +54,13 @@ TEST_F(Trace, GivesTheSameBytesWithAnyNumberOfThreads) {
 TEST_F(Trace, CornersCutTheContourAndTheSavedRecipeRepeatsTheResult) {
   const auto truth = test::truthShape("car", 480, 320);
   std::string corners;
-  for (const Vec2& c : truth.corners) corners += " --corner " + std::to_string(c.x() + 3) + "," + std::to_string(c.y() - 2);
+  for (const Vec2& c : truth.corners)
+    corners += " --corner " + std::to_string(c.x() + 3) + "," + std::to_string(c.y() - 2);
   const std::string scan = scene("car");
-  ASSERT_EQ(run("trace " + scan + corners + " --set segments.spacing=25 -o " + file("a.json") + " --save-recipe " + file("r.json")).code, 0);
+  ASSERT_EQ(run("trace " + scan + corners + " --set segments.spacing=25 -o " + file("a.json") + " --save-recipe " +
+                file("r.json"))
+                .code,
+            0);
   const auto document = readCurveJson(test::readFile(file("a.json")));
   ASSERT_TRUE(document);
   ASSERT_FALSE(document->curves.empty());
@@ -67,9 +72,13 @@ TEST_F(Trace, CornersCutTheContourAndTheSavedRecipeRepeatsTheResult) {
 
 TEST_F(Trace, SettingsComeOnTopOfTheRecipeInTheOrderGiven) {
   const std::string scan = scene();
-  ASSERT_EQ(run("trace " + scan + " --set filter.iterations=3 --set segments.spacing=55 --save-recipe " + file("r.json")).code, 0);
-  const auto done = run("trace " + scan + " --recipe " + file("r.json") + " --set filter.iterations=4 --set filter.iterations=5 --dpi 200 --save-recipe " +
-                        file("s.json"));
+  ASSERT_EQ(
+      run("trace " + scan + " --set filter.iterations=3 --set segments.spacing=55 --save-recipe " + file("r.json"))
+          .code,
+      0);
+  const auto done =
+      run("trace " + scan + " --recipe " + file("r.json") +
+          " --set filter.iterations=4 --set filter.iterations=5 --dpi 200 --save-recipe " + file("s.json"));
   ASSERT_EQ(done.code, 0) << done.err;
   const json recipe = json::parse(test::readFile(file("s.json")));
   EXPECT_EQ(recipe["parameters"]["filter.iterations"], 5);

@@ -82,11 +82,14 @@ json figuresOf(const test::TruthShape& truth, const PipelineOutput& out) {
   }
   const auto targets = targetsFor(out.faired->curves.front(), {});
   const auto similarity = targets ? targets->targets.profiles[5].similarity : 0.0;
-  return {{"curves", out.faired->curves.size()},   {"corners", out.pieces->corners.size()},
+  return {{"curves", out.faired->curves.size()},
+          {"corners", out.pieces->corners.size()},
           {"worst_corner_px", worstCornerError(truth, out)},
           {"length_ratio", length / polylineLength(truth.outline(), truth.closed)},
-          {"truth_rms_px", rms},                   {"truth_max_px", worst},
-          {"control_points", controlPoints},       {"curvature_extrema", extrema},
+          {"truth_rms_px", rms},
+          {"truth_max_px", worst},
+          {"control_points", controlPoints},
+          {"curvature_extrema", extrema},
           {"similarity_of_target_6", similarity}};
 }
 
@@ -110,24 +113,26 @@ TEST_P(Golden, FiguresStayWithinTheirTolerance) {
   EXPECT_EQ(expected.size(), actual.size()) << "figures without an expected value";
   for (const auto& [figure, bounds] : expected.items()) {
     ASSERT_TRUE(actual.contains(figure)) << figure;
-    EXPECT_NEAR(actual[figure].get<double>(), bounds.at("value").get<double>(), bounds.at("tolerance").get<double>()) << figure;
+    EXPECT_NEAR(actual[figure].get<double>(), bounds.at("value").get<double>(), bounds.at("tolerance").get<double>())
+        << figure;
   }
-  if (::testing::Test::HasFailure()) std::ofstream(std::string(BATTEN_GOLDEN_ACTUAL "/") + scene.name + ".actual.json") << actual.dump(1) << '\n';
+  if (::testing::Test::HasFailure())
+    std::ofstream(std::string(BATTEN_GOLDEN_ACTUAL "/") + scene.name + ".actual.json") << actual.dump(1) << '\n';
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Golden,
-                         ::testing::Values(
-                             Scene{"ellipse-nurbs", "ellipse", false, ConstructMethod::Nurbs, FairingMode::None},
-                             Scene{"ellipse-faired", "ellipse", false, ConstructMethod::Nurbs, FairingMode::Tolerance},
-                             Scene{"ellipse-stroke", "ellipse", true, ConstructMethod::Fair, FairingMode::None},
-                             Scene{"car-nurbs", "car", false, ConstructMethod::Nurbs, FairingMode::None},
-                             Scene{"car-fair", "car", false, ConstructMethod::Fair, FairingMode::None},
-                             Scene{"letter-k", "K", false, ConstructMethod::Fair, FairingMode::None}),
-                         [](const auto& scene) {
-                           std::string name = scene.param.name;
-                           std::erase(name, '-');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, Golden,
+    ::testing::Values(Scene{"ellipse-nurbs", "ellipse", false, ConstructMethod::Nurbs, FairingMode::None},
+                      Scene{"ellipse-faired", "ellipse", false, ConstructMethod::Nurbs, FairingMode::Tolerance},
+                      Scene{"ellipse-stroke", "ellipse", true, ConstructMethod::Fair, FairingMode::None},
+                      Scene{"car-nurbs", "car", false, ConstructMethod::Nurbs, FairingMode::None},
+                      Scene{"car-fair", "car", false, ConstructMethod::Fair, FairingMode::None},
+                      Scene{"letter-k", "K", false, ConstructMethod::Fair, FairingMode::None}),
+    [](const auto& scene) {
+      std::string name = scene.param.name;
+      std::erase(name, '-');
+      return name;
+    });
 
 }  // namespace
 }  // namespace batten

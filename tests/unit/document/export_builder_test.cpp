@@ -46,7 +46,8 @@ struct Scene {
 
 std::vector<int> firstAbscissas(const ExportCurve& curve) {
   std::vector<int> list;
-  for (const ExportPiece& piece : curve.pieces) list.push_back(static_cast<int>(piece.curve.controlPoints().front().x()));
+  for (const ExportPiece& piece : curve.pieces)
+    list.push_back(static_cast<int>(piece.curve.controlPoints().front().x()));
   return list;
 }
 

@@ -49,7 +49,8 @@ TEST_F(SaveAtomically, SaysWhatIsWrongWithThePlace) {
   EXPECT_NE(saveAtomically(folder_, "x").error().message.find("folder"), std::string::npos);
   EXPECT_FALSE(saveAtomically("", "x"));
   EXPECT_FALSE(saveAtomically("/dev/full", "x"));
-  EXPECT_NE(saveAtomically(folder_ / std::string(300, 'a'), "x").error().message.find("name is too long"), std::string::npos);
+  EXPECT_NE(saveAtomically(folder_ / std::string(300, 'a'), "x").error().message.find("name is too long"),
+            std::string::npos);
 }
 
 TEST_F(SaveAtomically, ADiskThatTakesNoMoreKeepsTheOldFile) {
@@ -74,7 +75,7 @@ TEST(Picture, DrawsLinesAndEncodesPng) {
   const PictureLine line{{{2.5, 10.5}, {37.5, 10.5}}, false, {255, 0, 0}, 1.0};
   drawLines(picture, {&line, 1});
   const auto pixel = [&](int x, int y) { return picture.rgb[3 * static_cast<std::size_t>(40 * y + x) + 1]; };
-  EXPECT_EQ(pixel(20, 10), 0);   // a line of one pixel through the pixel's centre covers exactly that row
+  EXPECT_EQ(pixel(20, 10), 0);  // a line of one pixel through the pixel's centre covers exactly that row
   EXPECT_EQ(pixel(20, 9), 255);
   EXPECT_EQ(pixel(20, 11), 255);
   const auto png = encodePng(picture);

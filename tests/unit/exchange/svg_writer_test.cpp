@@ -67,7 +67,9 @@ Vec2 evaluate(const std::vector<Vec2>& c, double t) {
   return p[0];
 }
 
-Vec2 fromPage(const Vec2& page, const PageFrame& frame) { return {page.x(), frame.heightPx * frame.mmPerPx - page.y()}; }
+Vec2 fromPage(const Vec2& page, const PageFrame& frame) {
+  return {page.x(), frame.heightPx * frame.mmPerPx - page.y()};
+}
 
 /// Largest distance of dense samples of the path from the exact curves.
 double pathError(const ReadPath& path, const ExportCurve& exact, const PageFrame& frame) {
@@ -165,8 +167,9 @@ TEST(SvgWriter, StatesMillimetresErrorAndExactData) {
   ASSERT_TRUE(svg);
   EXPECT_NE(svg->text.find("width=\"120mm\" height=\"100mm\" viewBox=\"0 0 120 100\""), std::string::npos);
   EXPECT_NE(svg->text.find("inkscape:groupmode=\"layer\""), std::string::npos);
-  EXPECT_NE(svg->text.find("<batten:piece degree=\"5\" knots=\"0 0 0 0 0 0 30 30 30 30 30 30\" control-points=\"10,10 16,18"),
-            std::string::npos);
+  EXPECT_NE(
+      svg->text.find("<batten:piece degree=\"5\" knots=\"0 0 0 0 0 0 30 30 30 30 30 30\" control-points=\"10,10 16,18"),
+      std::string::npos);
   EXPECT_NE(svg->text.find("Süße &lt;Linie&gt; &amp; &quot;漢字&quot;.png"), std::string::npos);
   EXPECT_EQ(svg->text.find("nan"), std::string::npos);
   for (std::size_t i = svg->text.find(" d=\""); i != std::string::npos; i = svg->text.find(" d=\"", i + 1)) {
@@ -187,7 +190,8 @@ TEST(SvgWriter, IsIndependentOfTheLocale) {
 TEST(SvgWriter, TakesTinyAndHugeCoordinates) {
   ExportDocument document = exportOfAllKinds();
   document.frame = {120000, 100000, 0.1};
-  document.curves = {{"curve-1", false, {{test::oneSpan().mapped(200.0 * Eigen::Matrix2d::Identity(), {1e-17, -1e-17})}}}};
+  document.curves = {
+      {"curve-1", false, {{test::oneSpan().mapped(200.0 * Eigen::Matrix2d::Identity(), {1e-17, -1e-17})}}}};
   const auto svg = writeSvg(document, {});
   ASSERT_TRUE(svg) << svg.error().message;
   EXPECT_LE(pathError(readPaths(svg->text)[0], document.curves[0], document.frame), 0.002 * 1.02);

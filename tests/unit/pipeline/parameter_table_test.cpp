@@ -14,11 +14,16 @@ namespace {
 std::string otherValue(const Parameter& p) {
   const std::string normal = defaultValue(p);
   switch (p.type) {
-    case ParameterType::Boolean: return normal == "true" ? "false" : "true";
-    case ParameterType::Choice: return p.choices.front() == normal ? p.choices.back() : p.choices.front();
-    case ParameterType::Integer: return numberToText(normal == numberToText(p.maximum) ? p.minimum : p.maximum);
-    case ParameterType::Real: return numberToText(p.minimum + (p.maximum - p.minimum) / 3.0);
-    case ParameterType::Text: break;
+    case ParameterType::Boolean:
+      return normal == "true" ? "false" : "true";
+    case ParameterType::Choice:
+      return p.choices.front() == normal ? p.choices.back() : p.choices.front();
+    case ParameterType::Integer:
+      return numberToText(normal == numberToText(p.maximum) ? p.minimum : p.maximum);
+    case ParameterType::Real:
+      return numberToText(p.minimum + (p.maximum - p.minimum) / 3.0);
+    case ParameterType::Text:
+      break;
   }
   std::string grid = "12.25";
   for (int i = 1; i < kRegions; ++i) grid += i % 3 == 0 ? ",0.1" : ",a";
@@ -46,11 +51,27 @@ TEST(ParameterTable, EveryEntryIsDescribed) {
 }
 
 TEST(ParameterTable, HoldsThePromisedNames) {
-  for (const char* name :
-       {"log.enabled", "log.factor", "threshold.mode", "threshold.grid", "threshold.interpolate", "filter.coefficient",
-        "filter.iterations", "filter.order", "edges.mode", "edges.internal", "edges.subpixel", "contours.min_length",
-        "segments.mode", "segments.count", "construct.method", "construct.derivative_magnitude", "fairing.mode",
-        "fairing.target", "fairing.tolerance", "paper.flatten", "corners.snap"}) {
+  for (const char* name : {"log.enabled",
+                           "log.factor",
+                           "threshold.mode",
+                           "threshold.grid",
+                           "threshold.interpolate",
+                           "filter.coefficient",
+                           "filter.iterations",
+                           "filter.order",
+                           "edges.mode",
+                           "edges.internal",
+                           "edges.subpixel",
+                           "contours.min_length",
+                           "segments.mode",
+                           "segments.count",
+                           "construct.method",
+                           "construct.derivative_magnitude",
+                           "fairing.mode",
+                           "fairing.target",
+                           "fairing.tolerance",
+                           "paper.flatten",
+                           "corners.snap"}) {
     EXPECT_NE(findParameter(name), nullptr) << name;
   }
 }

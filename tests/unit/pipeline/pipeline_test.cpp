@@ -47,8 +47,8 @@ TEST(Pipeline, TracesAnEllipseIntoTheModelFrame) {
   EXPECT_TRUE(curve.closed);
   EXPECT_EQ(curve.faired, curve.sketched);
   EXPECT_GT(curve.sketchedFigures.fromPoints.count, 100);
-  // The truth, sampled densely, as an independent oracle: every point of it lies on the curve, y up. Half a pixel is what
-  // any construction keeps; how near they really come is measured elsewhere.
+  // The truth, sampled densely, as an independent oracle: every point of it lies on the curve, y up. Half a pixel is
+  // what any construction keeps; how near they really come is measured elsewhere.
   const auto truth = test::truthShape("ellipse", kWidth, kHeight).outline();
   for (std::size_t i = 0; i < truth.size(); i += 50) {
     EXPECT_LT(closestPoint(curve.sketched, out.frame.pointToModel(truth[i])).distance, 0.5 * out.frame.mmPerPx);
@@ -98,7 +98,8 @@ TEST(Pipeline, StopsWhereAskedAndTellsOfEveryStage) {
   request.needEdges = false;
   request.stageReady = [&](StageId stage, const PipelineOutput&) { told.push_back(stage); };
   const auto out = runPipeline(ellipseScan(), {}, cache, request, {});
-  EXPECT_EQ(told, (std::vector{StageId::Thresholds, StageId::Binary, StageId::Filtered, StageId::Contours, StageId::Pieces}));
+  EXPECT_EQ(told,
+            (std::vector{StageId::Thresholds, StageId::Binary, StageId::Filtered, StageId::Contours, StageId::Pieces}));
   EXPECT_EQ(out.edges, nullptr);
   EXPECT_EQ(out.segments, nullptr);
   EXPECT_FALSE(out.error);
@@ -147,7 +148,8 @@ TEST(Pipeline, TheScaleOfTheModelFollowsTheResolution) {
   b.dpi = 300.0;
   const auto coarse = run(a, cache), fine = run(b, cache);
   ASSERT_FALSE(coarse.error || fine.error);
-  EXPECT_NEAR(coarse.faired->curves[0].sketchedFigures.lengthMm / fine.faired->curves[0].sketchedFigures.lengthMm, 3.0, 1e-4);
+  EXPECT_NEAR(coarse.faired->curves[0].sketchedFigures.lengthMm / fine.faired->curves[0].sketchedFigures.lengthMm, 3.0,
+              1e-4);
   EXPECT_DOUBLE_EQ(coarse.frame.mmPerPx, 0.254);
 }
 
@@ -195,7 +197,8 @@ TEST(Report, HoldsStagesCurvesAndTargetsWithoutNaN) {
   const auto& curve = json["curves"][0];
   EXPECT_EQ(curve["targets"].size(), 6u);
   EXPECT_EQ(curve["sketched"]["control_points"], out.faired->curves[0].sketched.controlPointCount());
-  const double px = curve["faired"]["deviation_from_points"]["rms"]["px"], mm = curve["faired"]["deviation_from_points"]["rms"]["mm"];
+  const double px = curve["faired"]["deviation_from_points"]["rms"]["px"],
+               mm = curve["faired"]["deviation_from_points"]["rms"]["mm"];
   EXPECT_NEAR(px * out.frame.mmPerPx, mm, 1e-12);
   EXPECT_EQ(json["peak_memory_bytes"], 123);
   EXPECT_FALSE(curve["fairing"]["stopped"].get<std::string>().empty());
