@@ -113,7 +113,7 @@ QWidget* MainWindow::makeInspector() {
       {PanelStage::Threshold, new ThresholdPanel(session_, view_)},
       {PanelStage::CleanUp, new CleanUpPanel(session_)},
       {PanelStage::Edges, new EdgesPanel(session_)},
-      {PanelStage::Corners, new CornersPanel(session_)},
+      {PanelStage::Corners, new CornersPanel(session_, view_)},
       {PanelStage::Curves, new CurvesPanel(session_, view_)},
       {PanelStage::Fairing, new FairingPanel(session_)},
       {PanelStage::Export, p.exportPanel}};
@@ -201,6 +201,7 @@ void MainWindow::setStage(PanelStage stage) {
 
 void MainWindow::enterStage(PanelStage stage) {
   parts_->inspector->setCurrentIndex(static_cast<int>(stage));
+  parts_->status->setStageHint(batten::hint(stage));
   // What this stage works on is shown while it is open and what hides it is not; what the user switches stays as he left it.
   for (const Parts::StageLayer& one : parts_->stageLayers)
     if (view_.isVisible(one.layer) == one.during) view_.setVisible(one.layer, one.before);

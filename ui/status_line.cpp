@@ -86,7 +86,15 @@ void StatusLine::setPlace(std::optional<Vec2> imagePx) {
 
 void StatusLine::setZoom(double zoom) { zoom_->setText(QStringLiteral("%1 %").arg(zoom * 100, 0, 'f', zoom < 0.0995 ? 1 : 0)); }
 
-void StatusLine::setHint(const QString& text) { hint_->setText(text); }
+void StatusLine::setHint(const QString& text) {
+  placeHint_ = text;
+  hint_->setText(placeHint_.isEmpty() ? stageHint_ : placeHint_);
+}
+
+void StatusLine::setStageHint(const QString& text) {
+  stageHint_ = text;
+  setHint(placeHint_);
+}
 
 void StatusLine::refreshScale() {
   if (!session_.hasScan()) {

@@ -21,6 +21,8 @@ class StatusLine : public QWidget {
   void setPlace(std::optional<Vec2> imagePx);
   void setZoom(double zoom);
   void setHint(const QString& text);
+  /// What stands there while nothing under the mouse has a hint of its own.
+  void setStageHint(const QString& text);
 
  signals:
   void scaleAsked();  ///< "no scale: set it" was pressed.
@@ -32,6 +34,7 @@ class StatusLine : public QWidget {
   void refreshScale();
   void refreshWork();
   EditorSession& session_;
+  QString stageHint_, placeHint_;
   QLabel *millimetres_, *pixels_, *scale_, *zoom_, *hint_, *work_;
   QPushButton* setScale_;
   QProgressBar* progress_;

@@ -38,8 +38,8 @@ void fitHeight(QListWidget* list, int most) {
 
 }  // namespace
 
-CornersPanel::CornersPanel(EditorSession& session, QWidget* parent)
-    : QWidget(parent), session_(session), marks_(new QListWidget(this)),
+CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
+    : QWidget(parent), session_(session), view_(view), marks_(new QListWidget(this)),
       remove_(plainButton(tr("Remove"), QStringLiteral("corners.remove"), this)),
       removeAll_(plainButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)), angle_(new NumberField(this)),
       angleTrack_(new SliderTrack(this)), suggested_(new QListWidget(this)), suggestedNote_(note({}, this)),
@@ -111,7 +111,7 @@ void CornersPanel::buildSuggestions() {
   buttons->addStretch();
   layout->addLayout(buttons);
   const auto set = [this](double degrees) {
-    minAngleDeg_ = degrees;
+    view_.setSuggestionAngleDeg(degrees);
     angle_->setValue(degrees);
     const QSignalBlocker quiet(angleTrack_);
     angleTrack_->setValue(static_cast<int>(std::lround(degrees)));
@@ -131,7 +131,7 @@ void CornersPanel::buildSuggestions() {
     mark(all);
   });
   connect(suggested_, &QListWidget::currentRowChanged, this, [this](int current) { take_->setEnabled(current >= 0); });
-  set(minAngleDeg_);
+  set(view_.suggestionAngleDeg());
 }
 
 void CornersPanel::showEvent(QShowEvent* event) {
@@ -177,7 +177,7 @@ void CornersPanel::suggest() {
   const auto contours = session_.output().contours;
   if (!contours) return showSuggestions({});
   if (!isVisible()) return;
-  const double angleRad = minAngleDeg_ * std::numbers::pi / 180.0;
+  const double angleRad = view_.suggestionAngleDeg() * std::numbers::pi / 180.0;
   worker_->start([contours, angleRad, panel = QPointer<CornersPanel>(this)](const CancelToken& token) {
     auto found = suggestCorners(*contours, angleRad, kSuggestionScalePx);
     if (token.isCancelled() || !panel) return;

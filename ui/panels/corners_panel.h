@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ui/session/editor_session.h"
+#include "ui/session/view_settings.h"
 
 class QLabel;
 class QListWidget;
@@ -21,7 +22,7 @@ class SliderTrack;
 class CornersPanel : public QWidget {
   Q_OBJECT
  public:
-  explicit CornersPanel(EditorSession& session, QWidget* parent = nullptr);
+  CornersPanel(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
   ~CornersPanel() override;
 
  protected:
@@ -39,6 +40,7 @@ class CornersPanel : public QWidget {
   bool isMarked(const Vec2& positionPx) const;
 
   EditorSession& session_;
+  ViewSettings& view_;
   QListWidget* marks_;
   QPushButton* remove_;
   QPushButton* removeAll_;
@@ -48,7 +50,6 @@ class CornersPanel : public QWidget {
   QLabel* suggestedNote_;
   QPushButton* take_;
   QPushButton* takeAll_;
-  double minAngleDeg_ = 35.0;
   std::vector<CornerSuggestion> suggestions_;
   std::unique_ptr<BackgroundWorker> worker_;
 };

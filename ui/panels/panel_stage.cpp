@@ -61,6 +61,20 @@ QString label(PanelStage stage) {
   return {};
 }
 
+QString hint(PanelStage stage) {
+  switch (stage) {
+    case PanelStage::Scan: return tr("Drop another drawing on the window to open it.");
+    case PanelStage::Threshold: return tr("Click a region, then turn the wheel or drag to change its threshold.");
+    case PanelStage::CleanUp: return tr("Watch the ink while you move the coefficient.");
+    case PanelStage::Edges: return tr("Lines follow the middle of strokes and the border of shapes.");
+    case PanelStage::Corners: return tr("Click a line to mark a corner; click the corner to remove it.");
+    case PanelStage::Curves: return tr("Click a curve to see its figures.");
+    case PanelStage::Fairing: return tr("Hover a target to see its curve; click to apply it.");
+    case PanelStage::Export: return tr("Curves whose eye is closed are left out.");
+  }
+  return {};
+}
+
 QString key(PanelStage stage) {
   static constexpr std::array kKeys = {"scan", "threshold", "clean-up", "edges", "corners", "curves", "fairing", "export"};
   return QString::fromLatin1(kKeys[static_cast<std::size_t>(stage)]);

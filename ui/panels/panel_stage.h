@@ -15,6 +15,7 @@ enum class PanelStage { Scan, Threshold, CleanUp, Edges, Corners, Curves, Fairin
 inline constexpr std::array kPanelStages = {PanelStage::Scan,    PanelStage::Threshold, PanelStage::CleanUp, PanelStage::Edges,
                                             PanelStage::Corners, PanelStage::Curves,    PanelStage::Fairing, PanelStage::Export};
 QString label(PanelStage);
+QString hint(PanelStage);  ///< One line: what to do here.
 /// "scan", "threshold", …: object names, help pages, settings.
 QString key(PanelStage);
 

@@ -76,6 +76,14 @@ void ViewSettings::setSelectedRegion(int region) {
   emit selectedRegionChanged(bounded);
 }
 
+void ViewSettings::setSuggestionAngleDeg(double degrees) {
+  if (!std::isfinite(degrees)) return;
+  const double bounded = std::clamp(degrees, 10.0, 150.0);
+  if (suggestionAngleDeg_ == bounded) return;
+  suggestionAngleDeg_ = bounded;
+  emit changed();
+}
+
 void ViewSettings::setScanOnly(bool scanOnly) {
   if (scanOnly_ == scanOnly) return;
   scanOnly_ = scanOnly;

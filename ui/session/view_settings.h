@@ -35,6 +35,8 @@ class ViewSettings : public QObject {
   void setCombDensity(int);
   int selectedRegion() const { return selectedRegion_; }  ///< 0..63, -1 = none.
   void setSelectedRegion(int);
+  double suggestionAngleDeg() const { return suggestionAngleDeg_; }  ///< [deg] 10..150, least turn of a suggested corner.
+  void setSuggestionAngleDeg(double);
   bool isScanOnly() const { return scanOnly_; }  ///< While the compare key is held.
   void setScanOnly(bool);
 
@@ -49,6 +51,7 @@ class ViewSettings : public QObject {
   double combScale_ = 1.0;
   int combDensity_ = 120;
   int selectedRegion_ = -1;
+  double suggestionAngleDeg_ = 35.0;
   bool scanOnly_ = false;
 };
 
