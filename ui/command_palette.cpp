@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kWidth = 520;
 constexpr int kRow = 30;
+constexpr int kMostRows = 10;
 enum Role { ShortcutRole = Qt::UserRole, EnabledRole, HelpRole };
 
 class ActionDelegate : public QStyledItemDelegate {
@@ -83,7 +84,7 @@ void CommandPalette::open(const QList<QAction*>& actions) {
   edit_->clear();
   refresh();
   const int width = std::min(kWidth, parentWidget()->width() - 32);
-  setGeometry((parentWidget()->width() - width) / 2, 52, width, 56 + 10 * kRow);
+  setGeometry((parentWidget()->width() - width) / 2, 52, width, height());
   show();
   raise();
   edit_->setFocus();
@@ -123,6 +124,10 @@ void CommandPalette::refresh() {
     shown_.append(action);
   }
   list_->setCurrentRow(0);
+  // As high as what was found, so that little of the drawing is covered.
+  const int rows = std::clamp(list_->count(), 1, kMostRows);
+  list_->setFixedHeight(rows * kRow + 2);
+  resize(width(), edit_->sizeHint().height() + rows * kRow + 26);
 }
 
 void CommandPalette::runCurrent() {

@@ -9,6 +9,7 @@
 #include <QScrollArea>
 #include <QSplitter>
 #include <QStackedWidget>
+#include <QUndoStack>
 #include <QUrl>
 #include <QVBoxLayout>
 
@@ -74,7 +75,13 @@ MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
   parts_->canvas->setFocus();
 }
 
-MainWindow::~MainWindow() = default;
+MainWindow::~MainWindow() {
+  // The widgets refer to the session and the view settings, which go before the base class would delete its children.
+  session_.disconnect(this);
+  session_.undoStack()->disconnect(this);
+  view_.disconnect(this);
+  delete takeCentralWidget();
+}
 
 QWidget* MainWindow::makeCentre() {
   Parts& p = *parts_;
@@ -176,7 +183,7 @@ void MainWindow::finishSample() {
   Recipe recipe = session_.recipe();
   for (const CornerSuggestion& corner : suggestCorners(*contours, kSampleCornerRad, kSampleCornerScalePx))
     recipe.cornerMarks.push_back({corner.positionPx});
-  recipe.fairing.mode = FairingMode::Target;
+  recipe.fairing.mode = FairingMode::Tolerance;
   session_.change(tr("Finish the sample"), std::move(recipe));
   session_.undoStack()->clear();
 }

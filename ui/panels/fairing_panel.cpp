@@ -31,7 +31,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       budget_(new ParameterRow(session, *findParameter("fairing.tolerance"), this)),
       editor_(new ParameterEditor(session, {"fairing.samples", "fairing.quantity", "fairing.monotone"},
                                   this)),
-      note_(note({}, this)), raise_(linkButton({}, QStringLiteral("fairing.raise"), this)),
+      note_(note({}, this)), raise_(linkButton(tr("Raise the budget"), QStringLiteral("fairing.raise"), this)),
       useForAll_(linkButton(tr("Use this for all curves"), QStringLiteral("fairing.useForAll"), this)),
       followAll_(linkButton(tr("Follow the common setting"), QStringLiteral("fairing.followAll"), this)),
       figures_(new FigureTable(this)) {

@@ -17,6 +17,7 @@
 #include "ui/panels/number_field.h"
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/parameter_editor.h"
+#include "ui/panels/parameter_row.h"
 #include "ui/panels/region_histogram.h"
 #include "ui/theme/theme.h"
 
@@ -38,6 +39,8 @@ ThresholdPanel::ThresholdPanel(EditorSession& session, ViewSettings& view, QWidg
   layout->addWidget(heading(tr("Threshold"), this));
   layout->addWidget(editor_);
   layout->addWidget(note_);
+  // The panel's title says it already.
+  editor_->row("threshold.mode")->setLabel({});
   buildRegion();
   layout->addStretch();
   connect(&session_, &EditorSession::scanOpened, this, &ThresholdPanel::refresh);
