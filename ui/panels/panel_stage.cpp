@@ -63,7 +63,7 @@ QString label(PanelStage stage) {
 
 QString hint(PanelStage stage) {
   switch (stage) {
-    case PanelStage::Scan: return tr("Drop another drawing on the window to open it.");
+    case PanelStage::Scan: return tr("Drop a drawing on the window to open it.");
     case PanelStage::Threshold: return tr("Click a region, then turn the wheel or drag to change its threshold.");
     case PanelStage::CleanUp: return tr("Watch the ink while you move the coefficient.");
     case PanelStage::Edges: return tr("Lines follow the middle of strokes and the border of shapes.");

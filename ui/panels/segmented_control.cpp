@@ -28,7 +28,7 @@ SegmentedControl::SegmentedControl(const QStringList& labels, QWidget* parent)
     button->setAccessibleName(labels[i]);
     button->setCheckable(true);
     button->setProperty("segment", true);
-    button->setFocusPolicy(Qt::StrongFocus);
+    button->setFocusPolicy(Qt::TabFocus);
     button->setSizePolicy(isEven ? QSizePolicy::Ignored : QSizePolicy::Expanding, QSizePolicy::Fixed);
     group_->addButton(button, i);
     layout->addWidget(button, isEven ? 1 : metrics.horizontalAdvance(labels[i]) + 24);

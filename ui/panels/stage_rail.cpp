@@ -19,7 +19,7 @@ class StageButton : public QAbstractButton {
     setObjectName(QStringLiteral("stage.") + key(stage));
     setCheckable(true);
     setAutoExclusive(true);
-    setFocusPolicy(Qt::StrongFocus);
+    setFocusPolicy(Qt::TabFocus);
     setAttribute(Qt::WA_Hover);
     setFixedHeight(36);
     setCursor(Qt::PointingHandCursor);

@@ -73,7 +73,7 @@ void CurvePlots::build() {
     button->setAccessibleName(tabs[i].text);
     button->setCheckable(true);
     button->setProperty("tab", true);
-    button->setFocusPolicy(Qt::StrongFocus);
+    button->setFocusPolicy(Qt::TabFocus);
     // Wide enough for the bold state, so that the row does not jump.
     button->setMinimumWidth(QFontMetrics(uiFont(12, QFont::DemiBold)).horizontalAdvance(tabs[i].text) + 16);
     d.tabs->addButton(button, i);
