@@ -24,28 +24,29 @@ enum class ConstructMethod {
 
 /// How the quintic NURBS uses the gradients (003 section 3).
 enum class GradientUse {
-  All,         ///< Points and all gradients (000).
-  Four,        ///< All points, gradients at the first two and the last two.
-  NaturalEnds, ///< Points only, R'' = R'''' = 0 at the ends.
+  All,          ///< Points and all gradients (000).
+  Four,         ///< All points, gradients at the first two and the last two.
+  NaturalEnds,  ///< Points only, R'' = R'''' = 0 at the ends.
 };
 
 /// One flat set for all methods; each method reads its own fields.
 struct ConstructParams {
-  ConstructMethod method = ConstructMethod::Nurbs;
-  double derivativeMagnitude = 1.0;      ///< [-] 0.1..3. Factor on the arc-corrected length of the first derivative.
-  bool magnitudeAsInPaper = false;       ///< 1/3 of the mean distance of adjacent points instead (000; wrong by 3).
+  ConstructMethod method = ConstructMethod::Fair;
+  double derivativeMagnitude = 1.0;  ///< [-] 0.1..3. Factor on the arc-corrected length of the first derivative.
+  bool magnitudeAsInPaper = false;   ///< 1/3 of the mean distance of adjacent points instead (000; wrong by 3).
   GradientUse gradients = GradientUse::All;
-  int degree = 3;                        ///< 2..5. Control polygon only.
-  double keepExtremaCost = 20.0;         ///< [chi2] 1..1000. Fair fit: a curvature extremum cheaper than this is dropped.
+  int degree = 3;                 ///< 2..5. Control polygon only.
+  double keepExtremaCost = 20.0;  ///< [chi2] 1..1000. Fair fit: a curvature extremum cheaper than this is dropped.
   bool operator==(const ConstructParams&) const = default;
 };
 std::optional<Error> validate(const ConstructParams&);
 
 /// One piece as the constructions take it. Model frame, mm.
 struct ConstructPiece {
-  std::vector<Vec2> points;        ///< Ordered edge points; the first and last are exactly the corners where there are corners.
-  std::vector<Station> stations;   ///< Regression segments, model frame.
-  bool closed = false;             ///< Smooth closed: the curve is periodic.
+  std::vector<Vec2>
+      points;  ///< Ordered edge points; the first and last are exactly the corners where there are corners.
+  std::vector<Station> stations;  ///< Regression segments, model frame.
+  bool closed = false;            ///< Smooth closed: the curve is periodic.
   bool startIsCorner = false;
   bool endIsCorner = false;
 };
@@ -58,8 +59,8 @@ struct ConstructContour {
 
 /// A curvature extremum that a construction considered.
 struct ExtremumNote {
-  double s = 0.0;            ///< [mm] arc length in the piece.
-  double kappa = 0.0;        ///< [1/mm]
+  double s = 0.0;      ///< [mm] arc length in the piece.
+  double kappa = 0.0;  ///< [1/mm]
   bool maximum = true;
   bool kept = true;
   double removalCost = 0.0;  ///< [chi2] rise of the misfit when it is removed; large = certain.
@@ -67,16 +68,17 @@ struct ExtremumNote {
 
 struct ConstructReport {
   Termination why = Termination::NotRun;
-  std::string note;                     ///< One line for the user when a fallback was used; else empty.
-  std::vector<ExtremumNote> extrema;    ///< Fair fit only.
-  std::vector<double> bandS;            ///< [mm] arc lengths at which the band is given (fair fit only).
-  std::vector<double> bandSigma;        ///< [1/mm] standard deviation of the curvature there.
-  double noisePx = 0.0;                 ///< [px] standard deviation of an edge point (fair fit only; 0 = not measured).
-  bool isCircle = false;                ///< Recognised as an exact circle.
-  bool isLine = false;                  ///< Recognised as an exact line.
+  std::string note;                   ///< One line for the user when a fallback was used; else empty.
+  std::vector<ExtremumNote> extrema;  ///< Fair fit only.
+  std::vector<double> bandS;          ///< [mm] arc lengths at which the band is given (fair fit only).
+  std::vector<double> bandSigma;      ///< [1/mm] standard deviation of the curvature there.
+  double noisePx = 0.0;               ///< [px] standard deviation of an edge point (fair fit only; 0 = not measured).
+  bool isCircle = false;              ///< Recognised as an exact circle.
+  bool isLine = false;                ///< Recognised as an exact line.
 };
 struct ConstructedPiece {
-  NurbsCurve curve;  ///< Degree 5 (control polygon: its own degree), clamped, model frame, domain in mm of chord or arc length.
+  NurbsCurve curve;  ///< Degree 5 (control polygon: its own degree), clamped, model frame, domain in mm of chord or arc
+                     ///< length.
   ConstructReport report;
 };
 
