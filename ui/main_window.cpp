@@ -6,6 +6,7 @@
 #include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QMimeData>
+#include <QScreen>
 #include <QScrollArea>
 #include <QSplitter>
 #include <QStackedWidget>
@@ -41,7 +42,9 @@ MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
   setWindowIcon(QIcon(QStringLiteral(":/icons/batten.svg")));
   setAcceptDrops(true);
   setMinimumSize(960, 600);
-  resize(1440, 900);
+  // The window manager's title bar needs room too, or the status line falls off a small screen.
+  constexpr int kTitleBar = 48;
+  resize(QSize(1440, 900).boundedTo(screen()->availableSize() - QSize(0, kTitleBar)));
   makeActions();
   makeMenus();
   auto* whole = new QWidget(this);
