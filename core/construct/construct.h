@@ -83,7 +83,8 @@ struct ConstructedPiece {
 };
 
 /// Constructs all pieces of a contour, in order. Where a corner bounds a piece the curve ends exactly there. A closed
-/// smooth piece gives a curve whose ends meet with all derivatives.
+/// smooth piece gives a curve whose ends meet with all derivatives (Fair, Nurbs, ControlPolygon), with two (Bezier), or with
+/// place, direction and curvature (Typical).
 /// @return Numerical, with what to do, if a piece holds too little to construct anything.
 Result<std::vector<ConstructedPiece>> construct(const ConstructContour&, const ConstructParams&, const RunContext&);
 

@@ -27,7 +27,7 @@ Result<QuinticSystemResult> solveQuintic(std::span<const Vec2> points, std::span
                                          GradientUse use);
 
 /// The construction of 000 for one piece: stations to a clamped quintic in the model frame, ends exactly at the stations'
-/// end points. Uneven stations use the rows R = P, n.R' = 0, d.R' = a (weight .3) and a small integral of |R'''|^2.
+/// end points. Uneven stations get knots at their arc distances, so that equal speed stays right.
 Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece&, const ConstructParams&, const RunContext&);
 
 }  // namespace batten
