@@ -24,6 +24,8 @@ struct Contour {
   std::vector<Vec2> chain;            ///< [px] unrefined positions, same size as `points`.
   std::vector<std::uint8_t> refined;  ///< 1 = placed on the raw grey values; 0 = fell back. Same size.
   std::vector<float> widthPx;         ///< [px] stroke width (centre lines); empty for outlines.
+  std::vector<float> bandPx;  ///< [px] half the spread of the strokes that were merged into this line, per point: the line
+                              ///< was drawn within points +- bandPx; empty where nothing was merged.
   std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.
   double lengthPx = 0.0;              ///< [px] length of the polyline through `points`.
   double areaPx = 0.0;                ///< [px^2] absolute enclosed area (closed), else 0.
