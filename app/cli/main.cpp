@@ -3,6 +3,7 @@
 #include <iostream>
 #include <new>
 
+#include "app/cli/compare_command.h"
 #include "app/cli/exit_codes.h"
 #include "app/cli/parameters_command.h"
 #include "app/cli/stage_dump.h"
@@ -62,12 +63,18 @@ int run(int argc, char** argv) {
   CLI::App* parameters =
       app.add_subcommand("parameters", "List every parameter: name, unit, range, default, what it does");
   parameters->add_flag("--json", asJson, "As JSON");
+  std::string first, second;
+  CLI::App* compare = app.add_subcommand("compare", "How alike the curves of two files are, whatever their size and place");
+  compare->footer("Prints one line of JSON: similarity S and Pearson's r of the radii over the perimeter for every pair.");
+  compare->add_option("first", first, "Curves as JSON, written by trace")->type_name("A.json")->required();
+  compare->add_option("second", second, "Curves to compare them with")->type_name("B.json")->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
     return reportError({ErrorCode::BadParameter, std::string(e.what()) + ". Run batten-cli --help.", {}});
   }
+  if (compare->parsed()) return runCompare(first, second);
   return parameters->parsed() ? runParameters(asJson) : runTrace(arguments);
 }
 

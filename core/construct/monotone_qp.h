@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "core/base/termination.h"
 #include "core/construct/banded_matrix.h"
+#include "core/solve/interior_point.h"
 
 namespace batten {
 
@@ -17,17 +17,9 @@ struct MonotoneQp {
   std::vector<double> bounds;
 };
 
-struct MonotoneQpResult {
-  /// Converged; ToleranceLimited when `abortAbove` was exceeded; IterationLimit; Degenerate when a system was singular.
-  Termination why = Termination::NotRun;
-  Eigen::VectorXd x;
-  double objective = 0.0;   ///< x'Ax - 2b'x.
-  double lowerBound = 0.0;  ///< No feasible x has a smaller objective.
-  int iterations = 0;
-};
+using MonotoneQpResult = InteriorPointResult;
 
-/// Mehrotra's predictor-corrector method (SIAM J. Optim. 2, 1992) with banded normal equations: linear cost per
-/// iteration.
+/// The interior point method of core/solve with banded normal equations: linear cost per iteration.
 /// @param abortAbove stops as soon as the objective is proven to exceed this.
 MonotoneQpResult solveMonotoneQp(const MonotoneQp&, double abortAbove = std::numeric_limits<double>::infinity());
 

@@ -6,6 +6,8 @@
 
 #include "core/base/parallel.h"
 #include "core/fairing/fairing_solvers.h"
+#include "core/fairing/low_pass.h"
+#include "core/fairing/monotone_fairing.h"
 
 namespace batten {
 namespace {
@@ -18,9 +20,10 @@ int extremaOf(const NurbsCurve& curve, bool closed) {
   return size > 0.0 ? static_cast<int>(curvatureExtrema(curve, kProminence / size, closed).size()) : 0;
 }
 
-/// Curves that cannot be made fair stay as they are when the reason lies in their shape.
-template <class Body>
-Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const FairingParams& params, const Body& body) {
+}  // namespace
+
+Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
+                              const std::function<Result<FairedCurve>(const FairingSetup&)>& body) {
   if (const auto error = validate(params)) return fail(*error);
   try {
     const auto setup = makeSetup(curve, closed, params);
@@ -32,19 +35,34 @@ Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const Fairin
   }
 }
 
-}  // namespace
-
 std::optional<Error> validate(const FairingParams& params) {
   if (!(params.toleranceMm >= 0.001 && params.toleranceMm <= 20.0)) {
     return Error{ErrorCode::BadParameter,
                  "The fairing tolerance must lie between 0.001 and 20 mm, not at " + std::to_string(params.toleranceMm) + ".",
                  {}};
   }
-  if (params.target < 0 || params.target > 6) {
+  if (params.target < 0 || params.target > kDrawnTarget) {
     return Error{ErrorCode::BadParameter,
-                 "The fairing target must be 1 to 6, or 0 for the recommended one, not " + std::to_string(params.target) + ".",
+                 "The fairing target must be 1 to 6, 0 for the recommended one or 7 for the drawn one, not " +
+                     std::to_string(params.target) + ".",
                  {}};
   }
+  if (!(params.lowPassMm >= 0.1 && params.lowPassMm <= 10000.0)) {
+    return Error{ErrorCode::BadParameter,
+                 "The wavelength of the low-pass must lie between 0.1 and 10000 mm, not at " +
+                     std::to_string(params.lowPassMm) + ".",
+                 {}};
+  }
+  if (params.keepExtrema < kKeepSignificant || params.keepExtrema > 99) {
+    return Error{ErrorCode::BadParameter,
+                 "The number of extrema to keep must be 0 to 99, or -1 for as few as possible, not " +
+                     std::to_string(params.keepExtrema) + ".",
+                 {}};
+  }
+  for (const double at : params.keptAt) {
+    if (!(at >= 0.0 && at <= 1.0)) return Error{ErrorCode::BadParameter, "An extremum to keep lies beside the curve.", {}};
+  }
+  if (auto wrong = validateProfile(params.profile)) return wrong;
   return validate(params.targets);
 }
 
@@ -117,7 +135,14 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
   switch (params.mode) {
     case FairingMode::None: return unchanged(curve, closed, Termination::NotRun, {});
     case FairingMode::Tolerance: return fairWithinTolerance(curve, closed, params, context);
+    case FairingMode::Monotone: return fairMonotone(curve, closed, params, context);
+    case FairingMode::LowPass: return fairByLowPass(curve, closed, params, context);
     case FairingMode::Target: break;
+  }
+  if (params.target == kDrawnTarget) {
+    const TargetProfile drawn = drawnProfile(params.profile, closed);
+    if (!drawn.valid) return unchanged(curve, closed, Termination::NotRun, drawn.problem);
+    return modifyShape(curve, closed, drawn, params, context);
   }
   const TargetSet targets = fitTargets(curve, params.targets, closed);
   const int degree = params.target > 0 ? params.target : targets.recommendedDegree;

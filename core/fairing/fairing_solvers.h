@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+
 #include "core/fairing/fairing_problem.h"
 
 namespace batten {
@@ -19,6 +21,10 @@ struct BoundedRun {
 };
 BoundedRun minimiseWithin(const FairingSetup& setup, const FairingObjective& objective, double toleranceMm,
                           const std::vector<Vec2>& points, const RunContext& context);
+
+/// Runs `body` on the curve's setup. Curves that cannot be made fair stay as they are when the reason lies in their shape.
+Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
+                              const std::function<Result<FairedCurve>(const FairingSetup&)>& body);
 
 /// The curve as sketched, with the reason why nothing was done.
 FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std::string note);

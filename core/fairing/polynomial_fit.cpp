@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/fairing/nonnegative_least_squares.h"
 #include "core/fairing/radius_target.h"
@@ -188,6 +189,47 @@ std::vector<double> fitPeriodicPolynomial(std::span<const double> f, std::span<c
   const Eigen::VectorXd c = free * reduced.colPivHouseholderQr().solve(s.values);
   if (!c.allFinite()) return {};
   return toPowers(c);
+}
+
+std::vector<double> fitPinnedPolynomial(std::span<const double> f, std::span<const double> values, int degree, bool monotone,
+                                        std::optional<double> start, std::optional<double> end) {
+  // Pins are heavy samples, and what the weight leaves of them is taken away by a line at the end.
+  std::vector<double> x(f.begin(), f.end()), y(values.begin(), values.end());
+  if (start) x.push_back(0.0), y.push_back(*start);
+  if (end) x.push_back(1.0), y.push_back(*end);
+  Samples s = collect(x, y, degree);
+  if (s.values.size() == 0) return {};
+  const double weight = 1e3 * std::sqrt(static_cast<double>(x.size()));
+  for (auto i = static_cast<Eigen::Index>(f.size()); i < s.values.size(); ++i) {
+    s.rows.row(i) *= weight;
+    s.values[i] *= weight;
+  }
+  const double scale = std::max(s.values.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  std::vector<double> best;
+  double bestError = std::numeric_limits<double>::infinity();
+  const auto offer = [&](const Eigen::VectorXd& c) {
+    const double error = (s.rows * c - s.values).squaredNorm();
+    if (c.allFinite() && error < bestError) bestError = error, best = toPowers(c);
+  };
+  if (!monotone || degree < 1) {
+    offer(s.rows.colPivHouseholderQr().solve(s.values));
+  } else {
+    Eigen::MatrixXd g(kMonotoneGrid, degree + 1);
+    Eigen::RowVectorXd line(degree + 1);
+    for (int i = 0; i < kMonotoneGrid; ++i) {
+      chebyshevSlopeRow(static_cast<double>(i) / (kMonotoneGrid - 1), degree, line);
+      g.row(i) = line;
+    }
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(kMonotoneGrid);
+    for (const double sign : {1.0, -1.0}) {
+      if (const auto solved = constrainedLeastSquares(s.rows, s.values / scale, sign * g, none)) offer(*solved * scale);
+    }
+  }
+  if (best.empty()) return best;
+  const double offStart = start ? *start - best[0] : 0.0, offEnd = end ? *end - polynomial(best, 1.0) : 0.0;
+  best[0] += offStart;
+  if (best.size() > 1) best[1] += offEnd - offStart;
+  return best;
 }
 
 bool isMonotonePolynomial(std::span<const double> coefficients) {

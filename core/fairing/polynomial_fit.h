@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,11 @@ std::vector<double> fitPeriodicPolynomial(std::span<const double> f, std::span<c
 /// than need be. Used where the constraints on a grid do not settle. Ascending powers of f; empty on failure.
 std::vector<double> fitMonotoneBernstein(std::span<const double> f, std::span<const double> values, int degree,
                                          bool increasing);
+
+/// Least-squares polynomial that takes given values at f = 0 and f = 1, monotone (rising or falling, whichever is nearer) if
+/// wanted. Ascending powers of f in 0..1; empty on failure.
+std::vector<double> fitPinnedPolynomial(std::span<const double> f, std::span<const double> values, int degree, bool monotone,
+                                        std::optional<double> start, std::optional<double> end);
 
 /// True when the polynomial (ascending powers) turns back by less than 1e-6 of its range anywhere in 0..1.
 bool isMonotonePolynomial(std::span<const double> coefficients);

@@ -8,6 +8,7 @@
 #include "core/fairing/polynomial_fit.h"
 #include "core/fairing/similarity.h"
 #include "core/fairing/span_curve.h"
+#include "core/fairing/split_profile.h"
 
 namespace batten {
 namespace {
@@ -116,16 +117,29 @@ TargetProfile fitProfile(const Data& data, const TargetParams& params, bool clos
   profile.quantity = params.quantity;
   profile.problem = data.problem;
   if (!data.problem.empty()) return profile;
-  profile.coefficients = closed            ? fitPeriodicPolynomial(data.perimeter, data.values, degree)
-                         : params.monotone ? fitMonotoneEitherWay(data, degree)
-                                           : fitPolynomial(data.perimeter, data.values, degree);
-  if (profile.coefficients.empty()) {
+  int coefficients = degree + 1;
+  if (!params.splits.empty()) {
+    if (params.quantity == TargetQuantity::Radius) {
+      profile.problem = "Only profiles of the curvature can be split. Choose curvature, or take the splits away.";
+      return profile;
+    }
+    profile.nodes =
+        fitSplitProfile(data.perimeter, data.kappa, params.splits, degree, params.monotone, closed, coefficients);
+  } else {
+    profile.coefficients = closed            ? fitPeriodicPolynomial(data.perimeter, data.values, degree)
+                           : params.monotone ? fitMonotoneEitherWay(data, degree)
+                                             : fitPolynomial(data.perimeter, data.values, degree);
+  }
+  if (profile.coefficients.empty() && profile.nodes.empty()) {
     profile.problem = "No polynomial of this degree could be fitted.";
     return profile;
   }
   profile.valid = true;
-  profile.isMonotone = isMonotonePolynomial(profile.coefficients);
-  const std::vector<double> fitted = valuesOf(profile.coefficients, data.perimeter);
+  std::vector<double> fitted;
+  for (const double f : data.perimeter) fitted.push_back(profile.value(f));
+  profile.isMonotone = profile.nodes.empty()
+                           ? isMonotonePolynomial(profile.coefficients)
+                           : std::is_sorted(fitted.begin(), fitted.end()) || std::is_sorted(fitted.rbegin(), fitted.rend());
   std::vector<double> radius;
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     const double rho = params.quantity == TargetQuantity::Curvature
@@ -141,7 +155,7 @@ TargetProfile fitProfile(const Data& data, const TargetParams& params, bool clos
   // A circle has no range: what is left is rounding and counts as a perfect fit.
   profile.rmsPercent = *high - *low > 1e-12 * size ? 100.0 * std::sqrt(square) / (*high - *low) : 0.0;
   const double scale = meanSquare(data.values, std::vector<double>(data.values.size(), 0.0));
-  profile.aicc = aicc(std::max(square, kExactShare * kExactShare * scale), degree, controlPoints);
+  profile.aicc = aicc(std::max(square, kExactShare * kExactShare * scale), coefficients - 1, controlPoints);
   return profile;
 }
 
@@ -152,10 +166,22 @@ std::optional<Error> validate(const TargetParams& params) {
     return Error{ErrorCode::BadParameter,
                  "Target samples must lie between 101 and 2001, not at " + std::to_string(params.samples) + ".", {}};
   }
+  for (std::size_t i = 0; i < params.splits.size(); ++i) {
+    if (params.splits[i] > (i > 0 ? params.splits[i - 1] : 0.0) && params.splits[i] < 1.0) continue;
+    return Error{ErrorCode::BadParameter, "The places where a profile is split must ascend between 0 and 1.", {}};
+  }
   return std::nullopt;
 }
 
-double TargetProfile::value(double f) const { return evaluatePowers(coefficients, f); }
+double TargetProfile::value(double f) const {
+  if (nodes.empty()) return evaluatePowers(coefficients, f);
+  const auto above = std::upper_bound(nodes.begin(), nodes.end(), f, [](double at, const ProfileNode& n) { return at < n.f; });
+  if (above == nodes.begin()) return nodes.front().value;
+  const ProfileNode& a = *(above - 1);
+  if (above == nodes.end()) return a.value;
+  const double h = above->f - a.f, t = (f - a.f) / h, u = 1.0 - t;
+  return u * u * ((1.0 + 2.0 * t) * a.value + t * h * a.slope) + t * t * ((3.0 - 2.0 * t) * above->value - u * h * above->slope);
+}
 
 double TargetProfile::curvatureAt(double f) const {
   const double v = value(f);

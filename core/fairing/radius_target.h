@@ -22,15 +22,24 @@ struct TargetParams {
   TargetQuantity quantity = TargetQuantity::Curvature;
   bool monotone = true;   ///< Never turns back; off: "as in the paper", and the tile says when it is not monotone.
   int samples = 121;      ///< 101..2001. Samples at equal arc length (at least 4 a knot span are taken).
+  /// Arc length fractions, ascending and inside 0..1, at which one profile ends and the next begins: each part has a
+  /// polynomial of its own, and the curvature goes on where they meet.
+  std::vector<double> splits;
   bool operator==(const TargetParams&) const = default;
 };
 std::optional<Error> validate(const TargetParams&);
 
-/// One of the six target profiles.
+/// A place of a profile made of cubics.
+struct ProfileNode {
+  double f = 0.0, value = 0.0, slope = 0.0;  ///< Slope with respect to f.
+};
+
+/// One of the six target profiles, or any other: where `nodes` are given, they count instead of the coefficients.
 struct TargetProfile {
   int degree = 1;                    ///< 1..6.
   TargetQuantity quantity = TargetQuantity::Curvature;
   std::vector<double> coefficients;  ///< Ascending powers of the perimeter f in 0..1, [1/mm] or [mm].
+  std::vector<ProfileNode> nodes;    ///< Ascending f from 0 to 1, cubic between two; a kink is two nodes of the same f.
   bool valid = false;                ///< False: could not be fitted; `problem` says why.
   std::string problem;
   bool isMonotone = false;

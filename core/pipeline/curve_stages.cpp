@@ -14,6 +14,9 @@ namespace {
 /// Prominence of a counted curvature extremum, in units of 1 / extent of the curve.
 constexpr double kExtremumProminence = 5e-3;
 
+/// Share of the length below which a part of a split curve is none.
+constexpr double kLeastPart = 1e-3;
+
 /// [px] A true and fair fit lies on its line. Where 5 % of the points are farther away than this it has lost the line.
 constexpr double kLostLinePx = 2.0;
 
@@ -179,13 +182,36 @@ void forEachItem(const RunContext& context, std::size_t items, const Work& work)
   });
 }
 
-FairingParams paramsFor(const std::optional<std::size_t>& choice, const Recipe& recipe) {
+/// Places on the page as ascending shares of the curve's arc length.
+std::vector<double> fractionsOf(const std::vector<Vec2>& placesPx, const NurbsCurve& curve, const PageFrame& frame) {
+  std::vector<double> fractions;
+  if (placesPx.empty() || curve.isEmpty()) return fractions;
+  const ArcLength arc(curve);
+  if (!(arc.total() > 0.0)) return fractions;
+  for (const Vec2& place : placesPx) {
+    const double s = arc.at(closestPoint(curve, frame.pointToModel(place)).u);
+    fractions.push_back(std::clamp(s / arc.total(), 0.0, 1.0));
+  }
+  std::sort(fractions.begin(), fractions.end());
+  fractions.erase(std::unique(fractions.begin(), fractions.end()), fractions.end());
+  return fractions;
+}
+
+FairingParams paramsFor(const std::optional<std::size_t>& choice, const Recipe& recipe, const NurbsCurve& curve,
+                        const PageFrame& frame) {
   FairingParams params = recipe.fairing;
   if (!choice) return params;
   const PieceChoice& own = recipe.choices[*choice];
   if (own.mode) params.mode = *own.mode;
   if (own.target) params.target = *own.target;
   if (own.toleranceMm) params.toleranceMm = *own.toleranceMm;
+  if (own.lowPassMm) params.lowPassMm = *own.lowPassMm;
+  if (own.keepExtrema) params.keepExtrema = *own.keepExtrema;
+  if (!own.profile.empty()) params.profile = own.profile;
+  params.keptAt = fractionsOf(own.keepPx, curve, frame);
+  params.targets.splits = fractionsOf(own.splitsPx, curve, frame);
+  // A split at an end of the curve parts nothing.
+  std::erase_if(params.targets.splits, [](double f) { return f < kLeastPart || f > 1.0 - kLeastPart; });
   return params;
 }
 
@@ -238,7 +264,7 @@ Result<FairedSet> fairAll(const ConstructedSet& constructed, const PieceSet& pie
     TracedCurve& curve = set.curves[i];
     const auto piece = static_cast<std::size_t>(curve.piece);
     curve.included = !choices[piece] || recipe.choices[*choices[piece]].included;
-    curve.fairingUsed = paramsFor(choices[piece], recipe);
+    curve.fairingUsed = paramsFor(choices[piece], recipe, curve.sketched, frame);
     fairOne(curve, pieces.pieces[piece], frame, inner);
   });
   if (context.isCancelled()) return cancelled();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pipeline/parameter_builders.h"
+#include "core/pipeline/profile_text.h"
 
 namespace batten::table {
 namespace {
@@ -152,33 +153,66 @@ Parameter holdParameter(Words words, Field field) {
                          field);
 }
 
+Parameter profileParameter() {
+  Parameter p = described(
+      StageId::Faired,
+      {"fairing.profile", "Drawn profile", "",
+       "Target drawn: share of the length 0 to 1 and curvature in 1/mm, as in \"0:0.01 0.5:0.02 1:0.01\"; a smooth curve "
+       "joins them."},
+      ParameterType::Text);
+  p.get = [](const Recipe& r) { return profileToText(r.fairing.profile); };
+  p.set = [name = p.name](Recipe& r, std::string_view text) -> Result<void> {
+    auto profile = profileFromText(text);
+    if (!profile) return refuse(name, text, profile.error().message);
+    r.fairing.profile = std::move(*profile);
+    return {};
+  };
+  return p;
+}
+
 void appendFairing(std::vector<Parameter>& table) {
   constexpr StageId kFaired = StageId::Faired;
   table.push_back(choice<FairingMode>(
       kFaired,
       {"fairing.mode", "Fairing", "",
-       "Off, towards one of the six curvature profiles, or as fair as the tolerance allows."},
+       "Off; towards a curvature profile; as even as the tolerance allows; curvature monotone between few extrema; or without "
+       "its short waves."},
       {{"none", "Off", FairingMode::None},
        {"target", "Target profile", FairingMode::Target},
-       {"tolerance", "Within tolerance", FairingMode::Tolerance}},
+       {"tolerance", "Within tolerance", FairingMode::Tolerance},
+       {"monotone", "Monotone curvature", FairingMode::Monotone},
+       {"lowpass", "Low-pass", FairingMode::LowPass}},
       [](auto& r) -> auto& { return r.fairing.mode; }));
   table.push_back(choice<int>(
       kFaired,
       {"fairing.target", "Target", "",
-       "Degree of the curvature profile; auto takes the recommended one. Larger follows the sketch closer."},
+       "Degree of the curvature profile; auto takes the recommended one, drawn the user's own (fairing.profile). A larger "
+       "degree follows the sketch closer."},
       {{"auto", "Recommended", 0},
        {"1", "Degree 1", 1},
        {"2", "Degree 2", 2},
        {"3", "Degree 3", 3},
        {"4", "Degree 4", 4},
        {"5", "Degree 5", 5},
-       {"6", "Degree 6", 6}},
+       {"6", "Degree 6", 6},
+       {"drawn", "Drawn", kDrawnTarget}},
       [](auto& r) -> auto& { return r.fairing.target; }));
   table.push_back(real(
       kFaired,
       {"fairing.tolerance", "Tolerance", "mm",
        "Farthest the faired curve may leave the sketched one. Larger: fairer, less faithful."},
       {0.001, 20.0, 0.01, 3, true}, [](auto& r) -> auto& { return r.fairing.toleranceMm; }));
+  table.push_back(profileParameter());
+  table.push_back(integer(
+      kFaired,
+      {"fairing.keep_extrema", "Extrema to keep", "",
+       "Monotone: places where the curvature may turn back; 0 is monotone from end to end, -1 as few as the tolerance allows."},
+      {-1, 99, 1}, [](auto& r) -> auto& { return r.fairing.keepExtrema; }));
+  table.push_back(real(
+      kFaired,
+      {"fairing.lowpass", "Wavelength", "mm",
+       "Low-pass: waves of the curvature of this length are halved, shorter ones go. Larger is smoother."},
+      {0.1, 10000.0, 0.1, 1, true}, [](auto& r) -> auto& { return r.fairing.lowPassMm; }));
   table.push_back(choice<TargetQuantity>(
       kFaired,
       {"fairing.quantity", "Profile of", "",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pipeline/recipe.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace batten {
@@ -15,12 +16,16 @@ bool isFinite(const Vec2& p) { return std::isfinite(p.x()) && std::isfinite(p.y(
 
 std::optional<Error> validateChoice(const PieceChoice& choice) {
   if (!isFinite(choice.anchorPx)) return bad("A choice for a curve has no valid position.");
-  if (choice.target && (*choice.target < 0 || *choice.target > 6)) {
-    return bad("The target of a curve must be 0 (recommended) or 1 to 6, not " + std::to_string(*choice.target) + ".");
-  }
-  if (choice.toleranceMm && !(*choice.toleranceMm >= 0.001 && *choice.toleranceMm <= 20.0)) {
-    return bad("The tolerance of a curve must be between 0.001 and 20 mm.");
-  }
+  const auto finite = [](const std::vector<Vec2>& places) { return std::all_of(places.begin(), places.end(), isFinite); };
+  if (!finite(choice.keepPx) || !finite(choice.splitsPx)) return bad("A choice for a curve holds a place that is no number.");
+  // The rest has the ranges of the common settings.
+  FairingParams own;
+  own.target = choice.target.value_or(own.target);
+  own.toleranceMm = choice.toleranceMm.value_or(own.toleranceMm);
+  own.lowPassMm = choice.lowPassMm.value_or(own.lowPassMm);
+  own.keepExtrema = choice.keepExtrema.value_or(own.keepExtrema);
+  own.profile = choice.profile;
+  if (auto wrong = validate(own)) return bad("The choice for a curve cannot be used. " + wrong->message);
   return std::nullopt;
 }
 

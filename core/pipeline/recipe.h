@@ -24,10 +24,29 @@ struct PieceChoice {
   std::optional<FairingMode> mode;    ///< Own fairing mode; absent = the recipe's.
   std::optional<int> target;          ///< Own target degree 0..6.
   std::optional<double> toleranceMm;  ///< Own budget.
-  bool operator==(const PieceChoice& o) const {
-    return anchorPx == o.anchorPx && included == o.included && mode == o.mode && target == o.target &&
-           toleranceMm == o.toleranceMm;
+  std::optional<double> lowPassMm{};  ///< Own wavelength of the low-pass.
+  std::optional<int> keepExtrema{};   ///< Own number of extrema to keep.
+  std::vector<Vec2> keepPx{};         ///< Extrema to keep, by place; not empty: counts instead of the number.
+  std::vector<Vec2> splitsPx{};       ///< Where one target profile ends and the next begins.
+  std::vector<ProfilePoint> profile{};  ///< Own drawn profile, from start to end of the piece.
+  bool operator==(const PieceChoice&) const = default;
+
+  /// True when the piece is not faired by the recipe's settings alone.
+  bool hasFairing() const {
+    return mode || target || toleranceMm || lowPassMm || keepExtrema || !keepPx.empty() || !profile.empty();
   }
+  /// Back to the recipe's settings; splits belong to the shape and stay.
+  void clearFairing() {
+    mode.reset();
+    target.reset();
+    toleranceMm.reset();
+    lowPassMm.reset();
+    keepExtrema.reset();
+    keepPx.clear();
+    profile.clear();
+  }
+  /// True when the choice says nothing.
+  bool isEmpty() const { return included && !hasFairing() && splitsPx.empty(); }
 };
 
 /// Everything the user decided: all parameters and all edits, one comparable value. Result = f(scan, recipe).

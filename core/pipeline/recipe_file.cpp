@@ -44,6 +44,12 @@ Json choiceToJson(const PieceChoice& choice) {
   }
   if (choice.target) json["target"] = *choice.target;
   if (choice.toleranceMm) json["tolerance"] = *choice.toleranceMm;
+  if (choice.lowPassMm) json["low_pass"] = *choice.lowPassMm;
+  if (choice.keepExtrema) json["keep_extrema"] = *choice.keepExtrema;
+  for (const auto& [name, places] : {std::pair("keep", &choice.keepPx), std::pair("splits", &choice.splitsPx)}) {
+    for (const Vec2& p : *places) json[name].push_back({p.x(), p.y()});
+  }
+  for (const ProfilePoint& p : choice.profile) json["profile"].push_back({p.fraction, p.kappa});
   return json;
 }
 
@@ -60,6 +66,17 @@ std::optional<Vec2> pointFromJson(const Json& json) {
   if (!json.is_array() || json.size() != 2 || !json[0].is_number() || !json[1].is_number()) return std::nullopt;
   const Vec2 p(json[0].get<double>(), json[1].get<double>());
   return std::isfinite(p.x()) && std::isfinite(p.y()) ? std::optional(p) : std::nullopt;
+}
+
+std::optional<std::vector<Vec2>> pairsFromJson(const Json& json) {
+  if (!json.is_array()) return std::nullopt;
+  std::vector<Vec2> pairs;
+  for (const Json& entry : json) {
+    const auto pair = pointFromJson(entry);
+    if (!pair) return std::nullopt;
+    pairs.push_back(*pair);
+  }
+  return pairs;
 }
 
 Result<void> readParameters(const Json& json, Recipe& recipe) {
@@ -102,6 +119,16 @@ Result<PieceChoice> readChoice(const Json& json) {
       choice.target = value.get<int>();
     } else if (name == "tolerance" && value.is_number()) {
       choice.toleranceMm = value.get<double>();
+    } else if (name == "low_pass" && value.is_number()) {
+      choice.lowPassMm = value.get<double>();
+    } else if (name == "keep_extrema" && value.is_number_integer()) {
+      choice.keepExtrema = value.get<int>();
+    } else if (const auto pairs = pairsFromJson(value); pairs && name == "keep") {
+      choice.keepPx = *pairs;
+    } else if (pairs && name == "splits") {
+      choice.splitsPx = *pairs;
+    } else if (pairs && name == "profile") {
+      for (const Vec2& p : *pairs) choice.profile.push_back({p.x(), p.y()});
     } else {
       return refuse("The recipe holds \"" + name +
                     "\" in a choice, which this version of Batten does not know or cannot read.");

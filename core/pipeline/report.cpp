@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/fairing/curve_comparison.h"
 #include "core/pipeline/parameter_table.h"
 
 namespace batten {
@@ -93,6 +94,11 @@ Json choiceToJson(const TracedCurve& c) {
   return {{"included", c.included},
           {"mode", wordOf(c.fairingUsed, "fairing.mode")},
           {"target", wordOf(c.fairingUsed, "fairing.target")},
+          {"drawn_profile", wordOf(c.fairingUsed, "fairing.profile")},
+          {"splits", c.fairingUsed.targets.splits},
+          {"keep_extrema", c.fairingUsed.keepExtrema},
+          {"keep_at", c.fairingUsed.keptAt},
+          {"low_pass_mm", c.fairingUsed.lowPassMm},
           {"tolerance_mm", c.fairingUsed.toleranceMm}};
 }
 
@@ -123,6 +129,35 @@ Json curveToJson(const PipelineOutput& out, const ReportExtras& extras, std::siz
     json["targets_problem"] = extras.targetProblems[index];
   }
   return json;
+}
+
+/// More curves than this are not all compared with each other.
+constexpr std::size_t kMostCompared = 60;
+
+/// For every curve the one that is most alike (003 section 5).
+void addComparisons(const PipelineOutput& out, Json& curves) {
+  const auto& all = out.faired->curves;
+  if (all.size() < 2 || all.size() > kMostCompared) return;
+  std::vector<ShapeProfile> shapes;
+  for (const TracedCurve& c : all) shapes.push_back(c.included ? shapeProfile(c.faired, c.closed) : ShapeProfile{});
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::optional<ShapeComparison> best;
+    std::size_t other = 0;
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      if (j == i || shapes[i].radius.empty() || shapes[j].radius.empty()) continue;
+      ShapeComparison found = compareShapes(shapes[i], shapes[j]);
+      if (best && found.similarity <= best->similarity) continue;
+      best = std::move(found);
+      other = j;
+    }
+    if (!best) continue;
+    curves[i]["most_alike"] = {{"index", static_cast<int>(other)},
+                               {"similarity", number(best->similarity)},
+                               {"pearson", number(best->pearson)},
+                               {"curvature_similarity", number(best->curvatureSimilarity)},
+                               {"mirrored", best->mirrored},
+                               {"reversed", best->reversed}};
+  }
 }
 
 std::size_t stationCount(const SegmentSet& set) {
@@ -210,6 +245,7 @@ std::string reportToJson(const Scan& scan, const Recipe& recipe, const PipelineO
   Json& curves = json["curves"] = Json::array();
   for (std::size_t i = 0; out.faired && i < out.faired->curves.size(); ++i)
     curves.push_back(curveToJson(out, extras, i));
+  if (out.faired) addComparisons(out, curves);
   Json& failures = json["failures"] = Json::array();
   if (out.constructed) {
     for (const Error& e : out.constructed->failures) failures.push_back(e.message);

@@ -15,6 +15,10 @@ void add(HashBuilder& h, const std::optional<double>& v) {
   if (v) h.number(*v);
 }
 void add(HashBuilder& h, const Vec2& p) { h.number(p.x()).number(p.y()); }
+void add(HashBuilder& h, const std::vector<ProfilePoint>& profile) {
+  h.integer(static_cast<int>(profile.size()));
+  for (const ProfilePoint& p : profile) h.number(p.fraction).number(p.kappa);
+}
 
 void add(HashBuilder& h, const ThresholdParams& p) {
   h.integer(static_cast<int>(p.mode)).number(p.manualLevel).number(p.strength).integer(p.interpolate).number(p.reach);
@@ -39,11 +43,20 @@ void add(HashBuilder& h, const FairingParams& p) {
   h.integer(static_cast<int>(p.mode)).integer(p.target).number(p.toleranceMm);
   h.integer(p.startHold.tangent).integer(p.startHold.curvature).integer(p.endHold.tangent).integer(p.endHold.curvature);
   h.integer(static_cast<int>(p.targets.quantity)).integer(p.targets.monotone).integer(p.targets.samples);
+  h.number(p.lowPassMm).integer(p.keepExtrema);
+  add(h, p.profile);
 }
 void add(HashBuilder& h, const PieceChoice& c) {
   add(h, c.anchorPx);
   h.integer(c.included).integer(c.mode ? static_cast<int>(*c.mode) : -1).integer(c.target.value_or(-1));
   add(h, c.toleranceMm);
+  add(h, c.lowPassMm);
+  h.integer(c.keepExtrema.value_or(-2));
+  for (const auto* places : {&c.keepPx, &c.splitsPx}) {
+    h.integer(static_cast<int>(places->size()));
+    for (const Vec2& p : *places) add(h, p);
+  }
+  add(h, c.profile);
 }
 
 ContentHash scanKey(const Scan& scan) {

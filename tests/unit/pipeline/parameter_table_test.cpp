@@ -25,6 +25,7 @@ std::string otherValue(const Parameter& p) {
     case ParameterType::Text:
       break;
   }
+  if (p.name == "fairing.profile") return "0:0.01 0.25:-0.5 1:0.02";
   std::string grid = "12.25";
   for (int i = 1; i < kRegions; ++i) grid += i % 3 == 0 ? ",0.1" : ",a";
   return grid;

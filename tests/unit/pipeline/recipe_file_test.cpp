@@ -20,7 +20,10 @@ Recipe fullRecipe() {
   r.fairing.mode = FairingMode::Tolerance;
   r.fairing.endHold = {true, true};
   r.choices = {{Vec2(10.1, 20.2), false, std::nullopt, std::nullopt, std::nullopt},
-               {Vec2(0.3, 0.7), true, FairingMode::Target, 4, 0.123}};
+               {Vec2(0.3, 0.7), true, FairingMode::Target, 4, 0.123},
+               {Vec2(3.0, 4.0), true, FairingMode::Monotone, kDrawnTarget, std::nullopt, 12.5, 3, {Vec2(1, 2)},
+                {Vec2(5, 6), Vec2(1.0 / 7.0, 8)}, {{0.0, 0.01}, {1.0 / 3.0, -0.02}, {1.0, 1e-9}}}};
+  r.fairing.profile = {{0.0, 0.1}, {1.0, 0.2}};
   return r;
 }
 
@@ -79,7 +82,10 @@ TEST(RecipeFile, RefusesWhatItDoesNotKnowByName) {
   expectRefused(head + R"("extra":1})", "extra");
   expectRefused(head + R"("corners":[[1,2],[3]]})", "corner");
   expectRefused(head + R"("choices":[{"target":2}]})", "anchor");
-  expectRefused(head + R"("choices":[{"anchor":[1,2],"target":7}]})", "target");
+  expectRefused(head + R"("choices":[{"anchor":[1,2],"target":8}]})", "target");
+  expectRefused(head + R"("choices":[{"anchor":[1,2],"splits":[[1]]}]})", "splits");
+  expectRefused(head + R"("choices":[{"anchor":[1,2],"profile":[[0.5,1],[0.4,1]]}]})", "ascend");
+  expectRefused(head + R"("choices":[{"anchor":[1,2],"low_pass":0}]})", "wavelength");
   expectRefused(head + R"("dpi":-3})", "resolution");
 }
 

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/compare_command.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/cli/exit_codes.h"
+#include "core/exchange/writers.h"
+#include "core/fairing/curve_comparison.h"
+
+namespace batten::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct NamedShape {
+  std::string name;
+  ShapeProfile profile;
+};
+
+Result<std::vector<NamedShape>> shapesOf(const std::string& path) {
+  std::error_code code;
+  std::ifstream file(path, std::ios::binary);
+  if (!file || !std::filesystem::is_regular_file(path, code)) {
+    return fail(ErrorCode::BadParameter, "The curves " + path + " cannot be read. Check the name.");
+  }
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const auto document = readCurveJson(text);
+  if (!document) return fail(ErrorCode::BadParameter, path + ": " + document.error().message);
+  std::vector<NamedShape> shapes;
+  for (const ExportCurve& curve : document->curves) {
+    for (std::size_t i = 0; i < curve.pieces.size(); ++i) {
+      const bool closed = curve.closed && curve.pieces.size() == 1;
+      std::string name = curve.id;
+      if (curve.pieces.size() > 1) name.append("/").append(std::to_string(i + 1));
+      ShapeProfile profile = shapeProfile(curve.pieces[i].curve, closed);
+      if (!profile.radius.empty()) shapes.push_back({std::move(name), std::move(profile)});
+    }
+  }
+  if (shapes.empty()) return fail(ErrorCode::NoCurve, "There is no curve in " + path + ".");
+  return shapes;
+}
+
+}  // namespace
+
+int runCompare(const std::string& first, const std::string& second) {
+  const auto a = shapesOf(first), b = shapesOf(second);
+  if (!a) return reportError(a.error());
+  if (!b) return reportError(b.error());
+  std::vector<Json> pairs;
+  for (const NamedShape& one : *a) {
+    for (const NamedShape& other : *b) {
+      const ShapeComparison c = compareShapes(one.profile, other.profile);
+      pairs.push_back({{"first", one.name},
+                       {"second", other.name},
+                       {"similarity", c.similarity},
+                       {"pearson", c.pearson},
+                       {"curvature_similarity", c.curvatureSimilarity},
+                       {"curvature_pearson", c.curvaturePearson},
+                       {"mirrored", c.mirrored},
+                       {"reversed", c.reversed},
+                       {"shift", c.shift}});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Json& x, const Json& y) {
+    return x.at("similarity").get<double>() > y.at("similarity").get<double>();
+  });
+  const Json result{{"first", first}, {"second", second}, {"pairs", pairs}};
+  std::cout << result.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
+  return kDone;
+}
+
+}  // namespace batten::cli
