@@ -37,6 +37,6 @@ install_missing() {
 
 # build TARGET...: configures once and builds the release preset below build/release.
 build() {
-  cmake --preset release >build/configure.log 2>&1 || { tail -30 build/configure.log >&2; exit 1; }
+  cmake --preset release -DBATTEN_TEST_PCH=ON >build/configure.log 2>&1 || { tail -30 build/configure.log >&2; exit 1; }
   cmake --build --preset release --target "$@"
 }

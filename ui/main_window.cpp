@@ -30,10 +30,6 @@
 #include "ui/top_bar.h"
 
 namespace batten {
-namespace {
-constexpr double kSampleCornerRad = 0.6, kSampleCornerScalePx = 14.0;
-}
-
 MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
   // Before the first widget: sizes follow from the font.
   applyTheme(storedTheme());
@@ -167,10 +163,14 @@ void MainWindow::connectSession() {
     rememberFile(session_.scanPath());
     refreshTitle();
     parts_->errors->hide();
-    if (parts_->fairSample) setStage(PanelStage::Fairing);
+    if (!session_.openProblem().isEmpty()) parts_->errors->show(session_.openProblem(), {});
+    // Work that was saved is past the first stages: it opens where it is read.
+    if (session_.openedWithRecipe()) {
+      setStage(PanelStage::Fairing);
+      parts_->status->setHint(tr("Opened with the recipe saved beside the drawing."));
+    }
     parts_->canvas->zoomFit();
   });
-  connect(&session_, &EditorSession::runFinished, this, &MainWindow::finishSample);
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::runFinished,
                             &EditorSession::selectionChanged, &EditorSession::targetsChanged})
     connect(&session_, signal, this, &MainWindow::refreshActions);
@@ -178,27 +178,8 @@ void MainWindow::connectSession() {
   connect(session_.undoStack(), &QUndoStack::indexChanged, this, &MainWindow::refreshActions);
 }
 
-void MainWindow::finishSample() {
-  const auto& contours = session_.output().contours;
-  if (!parts_->fairSample || !contours) return;
-  parts_->fairSample = false;
-  // The sample's corners are meant as corners: it opens marked and faired, to learn by changing.
-  Recipe recipe = session_.recipe();
-  for (const CornerSuggestion& corner : suggestCorners(*contours, kSampleCornerRad, kSampleCornerScalePx))
-    recipe.cornerMarks.push_back({corner.positionPx});
-  recipe.fairing.mode = FairingMode::Tolerance;
-  session_.change(tr("Finish the sample"), std::move(recipe));
-  session_.undoStack()->clear();
-}
-
 void MainWindow::openPath(const QString& path) {
   if (path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive)) return applyRecipeFile(path);
-  parts_->fairSample = false;
-  session_.openScan(path);
-}
-
-void MainWindow::openSample(const QString& path) {
-  parts_->fairSample = true;
   session_.openScan(path);
 }
 

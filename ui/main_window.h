@@ -21,10 +21,8 @@ class MainWindow : public QMainWindow {
   MainWindow();
   ~MainWindow() override;
 
-  /// Opens a scan; a recipe file (.json) is applied to the open one.
+  /// Opens a scan, with the recipe saved beside it; a recipe file (.json) is applied to the open one.
   void openPath(const QString& path);
-  /// Opens the shipped sketch, faired, as a place to learn by changing.
-  void openSample(const QString& path);
   void setStage(PanelStage stage);
   PanelStage stage() const;
   EditorSession& session() { return session_; }
@@ -63,7 +61,6 @@ class MainWindow : public QMainWindow {
   void refreshRecent();
   void rememberFile(const QString& path);
   void enterStage(PanelStage stage);
-  void finishSample();
   void loadSettings();
   void saveSettings();
 

@@ -52,7 +52,6 @@ struct MainWindow::Parts {
     bool before, during;
   };
   std::vector<StageLayer> stageLayers;  ///< Switched by the present stage, switched back when it is left.
-  bool fairSample = false;
   enum class Remedy { None, OpenScan, Thresholds, Export } remedy = Remedy::None;
 };
 

@@ -24,6 +24,16 @@ struct SvgText {
 /// @return NoCurve if there is nothing to write.
 Result<SvgText> writeSvg(const ExportDocument&, const SvgOptions&);
 
+/// What an SVG of ours holds when it is read back.
+struct SvgCheck {
+  int curves = 0, cubics = 0;
+  double largestErrorMm = 0.0;  ///< Largest distance of points of the paths from the exact curves.
+};
+/// Reads an SVG back and compares it with the document it was written from: as many paths, the exact B-splines of the
+/// metadata equal to the last bit, every path along its curve.
+/// @return CannotWrite if it holds something else.
+Result<SvgCheck> checkSvg(std::string_view text, const ExportDocument&);
+
 /// Curve JSON, "batten-curves" version 1 (see README); numbers with 17 significant digits.
 Result<std::string> writeCurveJson(const ExportDocument&);
 /// Reads curve JSON back (the self-check after an export, and tests).

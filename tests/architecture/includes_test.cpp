@@ -164,6 +164,21 @@ TEST(Architecture, FoldersIncludeOnlyWhatTheirArrowsAllow) {
   }
 }
 
+TEST(Architecture, AHeaderIsTheFirstIncludeOfItsSource) {
+  // So every such header is compiled with nothing before it; headers without a source are compiled on their own.
+  int pairs = 0;
+  for (const fs::path& file : sources()) {
+    if (file.extension() != ".cpp") continue;
+    const fs::path header = fs::path(file).replace_extension(".h");
+    if (!fs::exists(header)) continue;
+    const auto includes = includesOf(slurp(file));
+    ASSERT_FALSE(includes.empty()) << file;
+    EXPECT_EQ(includes.front(), fs::relative(header, kRoot).generic_string()) << file;
+    ++pairs;
+  }
+  EXPECT_GT(pairs, 50);
+}
+
 TEST(Architecture, FoldersHaveNoCycle) {
   for (const auto& [folder, rule] : rules())
     for (const std::string& target : rule.folders)

@@ -3,6 +3,7 @@
 
 #include <QFile>
 #include <QSignalSpy>
+#include <QTemporaryDir>
 #include <atomic>
 #include <set>
 #include <thread>
@@ -34,6 +35,43 @@ TEST(EditorSession, OpensAScanAndTracesIt) {
   EXPECT_NE(open.session.selected(), nullptr) << "the longest curve is selected at the start";
   for (const StageId stage : kStages) EXPECT_FALSE(open.session.isStale(stage)) << name(stage);
   EXPECT_TRUE(waitUntil([&] { return open.session.targets() != nullptr; }));
+}
+
+TEST(EditorSession, OpensADrawingWithTheRecipeBesideIt) {
+  QTemporaryDir folder;
+  const QString path = folder.filePath(QStringLiteral("page.png"));
+  ASSERT_TRUE(test::zigzagPage().save(path));
+  Recipe saved = withFactor(Recipe{}, 77.0);
+  saved.cornerMarks = {{Vec2(200.0, 100.0)}};
+  QFile file(folder.filePath(QStringLiteral("page.recipe.json")));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write(QByteArray::fromStdString(recipeToJson(saved)));
+  file.close();
+  EditorSession session;
+  session.openScan(path);
+  ASSERT_TRUE(waitUntil([&] { return session.hasScan() && !session.isBusy(); }));
+  EXPECT_TRUE(session.openedWithRecipe());
+  EXPECT_EQ(session.recipe(), saved);
+  EXPECT_EQ(session.undoStack()->count(), 0) << "opening is nothing to undo";
+  ASSERT_TRUE(session.output().pieces);
+  EXPECT_TRUE(session.output().pieces->lostMarks.empty());
+}
+
+TEST(EditorSession, ADamagedRecipeBesideADrawingIsNamedAndLeftOut) {
+  QTemporaryDir folder;
+  const QString path = folder.filePath(QStringLiteral("page.png"));
+  ASSERT_TRUE(test::zigzagPage().save(path));
+  QFile file(folder.filePath(QStringLiteral("page.recipe.json")));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write("{\"format\": \"batten-rec");
+  file.close();
+  EditorSession session;
+  session.openScan(path);
+  ASSERT_TRUE(waitUntil([&] { return session.hasScan() && !session.isBusy(); }));
+  EXPECT_FALSE(session.openedWithRecipe());
+  EXPECT_EQ(session.recipe(), Recipe{});
+  EXPECT_TRUE(session.openProblem().contains(QStringLiteral("page.recipe.json"))) << session.openProblem().toStdString();
+  EXPECT_FALSE(session.curves().empty());
 }
 
 TEST(EditorSession, AScanThatCannotBeReadLeavesTheOpenOne) {

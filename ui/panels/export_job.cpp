@@ -33,22 +33,28 @@ Result<double> difference(const ExportDocument& a, const ExportDocument& b) {
   return largest;
 }
 
+/// What a file holds now that it is written.
+std::string readBack(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 Result<ExportOutcome> writeAsSvg(const ExportRequest& request, const ExportDocument& document) {
   SvgOptions options;
   options.toleranceMm = request.toleranceMm;
   auto svg = writeSvg(document, options);
   if (!svg) return fail(std::move(svg).error());
   if (auto saved = saveAtomically(request.path, svg->text); !saved) return fail(std::move(saved).error());
-  return ExportOutcome{static_cast<int>(document.curves.size()), svg->cubics, svg->largestErrorMm, request.path};
+  const auto back = checkSvg(readBack(request.path), document);
+  if (!back) return fail(back.error());
+  return ExportOutcome{back->curves, back->cubics, std::max(svg->largestErrorMm, back->largestErrorMm), request.path};
 }
 
 Result<ExportOutcome> writeAsJson(const ExportRequest& request, const ExportDocument& document) {
   auto json = writeCurveJson(document);
   if (!json) return fail(std::move(json).error());
   if (auto saved = saveAtomically(request.path, *json); !saved) return fail(std::move(saved).error());
-  std::ifstream file(request.path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const auto back = readCurveJson(text);
+  const auto back = readCurveJson(readBack(request.path));
   if (!back) return fail(back.error());
   const auto largest = difference(document, *back);
   if (!largest) return fail(largest.error());

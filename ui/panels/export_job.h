@@ -24,7 +24,7 @@ struct ExportRequest {
 struct ExportOutcome {
   int curves = 0;
   int cubics = 0;                    ///< SVG only.
-  double largestDifferenceMm = 0.0;  ///< SVG: cubics from the exact curves; JSON: read back from the file against memory.
+  double largestDifferenceMm = 0.0;  ///< SVG, read back: cubics from the exact curves; JSON: read back from the file against memory.
   std::filesystem::path path;
 };
 

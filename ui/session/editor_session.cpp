@@ -22,6 +22,10 @@ void EditorSession::openScan(const QString& path) { runner_->read(path); }
 
 QString EditorSession::scanPath() const { return runner_->path; }
 
+bool EditorSession::openedWithRecipe() const { return runner_->openedWithRecipe; }
+
+QString EditorSession::openProblem() const { return runner_->openProblem; }
+
 void EditorSession::change(const QString& what, Recipe after, int gesture) {
   if (after == recipe_) return;
   undo_.push(new ChangeRecipe(*this, what, recipe_, std::move(after), gesture));

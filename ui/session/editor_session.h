@@ -22,11 +22,16 @@ class EditorSession : public QObject {
   explicit EditorSession(QObject* parent = nullptr);
   ~EditorSession() override;
 
-  /// Reads a scan in the background; scanOpened or failed follows. An open drawing stays until the new one is there.
+  /// Reads a scan in the background, with the recipe that was saved beside it; scanOpened or failed follows. An open
+  /// drawing stays until the new one is there.
   void openScan(const QString& path);
   bool hasScan() const { return scan_ != nullptr; }
   std::shared_ptr<const Scan> scan() const { return scan_; }
   QString scanPath() const;
+  /// True if the drawing opened with the recipe beside it.
+  bool openedWithRecipe() const;
+  /// Why the recipe beside the drawing was not used; empty = there was none, or it was.
+  QString openProblem() const;
 
   const Recipe& recipe() const { return recipe_; }
   /// Changes the recipe by an undoable command. Changes with one `gesture` (>= 0) merge into one undo step; -1 never merges.

@@ -6,7 +6,6 @@
 #include <new>
 #include <utility>
 
-#include "core/image/scan_reader.h"
 
 namespace batten {
 namespace {
@@ -70,15 +69,15 @@ void EditorSession::Runner::read(const QString& scanPath) {
   reader.start([this, id, scanPath](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
-    auto result = std::make_shared<Result<Scan>>(guarded<Scan>(
-        [&] { return readScan(std::filesystem::path(scanPath.toStdU16String()), ScanLimits{}, context); }));
+    auto result = std::make_shared<Result<OpenedScan>>(guarded<OpenedScan>(
+        [&] { return openWithRecipe(std::filesystem::path(scanPath.toStdU16String()), context); }));
     QMetaObject::invokeMethod(
         &inbox, [this, id, scanPath, result] { applyScan(id, scanPath, result); }, Qt::QueuedConnection);
   });
   updateBusy();
 }
 
-void EditorSession::Runner::applyScan(std::uint64_t id, const QString& scanPath, std::shared_ptr<Result<Scan>> result) {
+void EditorSession::Runner::applyScan(std::uint64_t id, const QString& scanPath, std::shared_ptr<Result<OpenedScan>> result) {
   if (id != newestRead) return;
   isReading = false;
   if (!result->has_value()) {
@@ -89,12 +88,15 @@ void EditorSession::Runner::applyScan(std::uint64_t id, const QString& scanPath,
   pipeline.cancelAll();
   targeting.cancelAll();
   ++newestTargets;
-  session.scan_ = std::make_shared<const Scan>(std::move(**result));
+  OpenedScan& opened = **result;
+  session.scan_ = std::make_shared<const Scan>(std::move(opened.scan));
   path = scanPath;
+  openedWithRecipe = opened.hasRecipe;
+  openProblem = QString::fromStdString(opened.problem).simplified();
   cache.clear();
   session.output_ = PipelineOutput{};
-  session.output_.frame = frameFor(*session.scan_, Recipe{});
-  session.recipe_ = Recipe{};
+  session.recipe_ = std::move(opened.recipe);
+  session.output_.frame = frameFor(*session.scan_, session.recipe_);
   session.selectedCurve_ = -1;
   session.targets_.reset();
   session.cursorMm_.reset();

@@ -9,6 +9,7 @@
 
 #include "ui/session/background_worker.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/opened_scan.h"
 
 namespace batten {
 
@@ -28,7 +29,8 @@ struct EditorSession::Runner {
   EditorSession& session;
   QObject inbox;
   StageCache cache;
-  QString path;
+  QString path, openProblem;
+  bool openedWithRecipe = false;
 
   std::uint64_t recipeGeneration = 1;                           ///< Counts changes of recipe or scan.
   std::array<std::uint64_t, kStages.size()> shownGeneration{};  ///< Which of them each shown output belongs to.
@@ -53,7 +55,7 @@ struct EditorSession::Runner {
 
  private:
   struct Job;
-  void applyScan(std::uint64_t id, const QString& scanPath, std::shared_ptr<Result<Scan>> result);
+  void applyScan(std::uint64_t id, const QString& scanPath, std::shared_ptr<Result<OpenedScan>> result);
   void applyStage(const std::shared_ptr<const Scan>&, std::uint64_t generation, StageId, const PipelineOutput&);
   void applyEnd(const std::shared_ptr<const Scan>&, std::uint64_t generation, std::uint64_t runId,
                 const PipelineOutput&, double milliseconds);

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "core/exchange/writers.h"
+#include "tests/unit/exchange/exchange_shapes.h"
+
+namespace batten {
+namespace {
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const auto at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+
+TEST(SvgCheck, FindsWhatWasWrittenWithItsStatedError) {
+  const ExportDocument document = test::exportOfAllKinds();
+  for (const double tolerance : {0.05, 0.002}) {
+    const auto svg = writeSvg(document, {tolerance, 0.1});
+    ASSERT_TRUE(svg);
+    const auto check = checkSvg(svg->text, document);
+    ASSERT_TRUE(check) << check.error().message << check.error().detail;
+    EXPECT_EQ(check->curves, static_cast<int>(document.curves.size()));
+    EXPECT_EQ(check->cubics, svg->cubics);
+    // The writer measures at other points, both ways.
+    EXPECT_LE(check->largestErrorMm, 1.02 * svg->largestErrorMm + 1e-7);
+    EXPECT_GT(check->largestErrorMm, 0.1 * svg->largestErrorMm);
+  }
+}
+
+TEST(SvgCheck, RefusesWhatIsCutOffOrChanged) {
+  const ExportDocument document = test::exportOfAllKinds();
+  const std::string text = writeSvg(document, {}).value().text;
+  EXPECT_FALSE(checkSvg("", document));
+  EXPECT_FALSE(checkSvg(text.substr(0, text.size() / 2), document));
+  EXPECT_FALSE(checkSvg(text.substr(0, text.size() - 20), document));
+  EXPECT_FALSE(checkSvg(replaced(text, "degree=\"5\"", "degree=\"4\""), document));
+  EXPECT_FALSE(checkSvg(replaced(text, "control-points=\"10,10", "control-points=\"10,11"), document));
+  EXPECT_FALSE(checkSvg(replaced(text, "<path id=\"curve-2\"", "<rect id=\"curve-2\""), document));
+  ExportDocument fewer = document;
+  fewer.curves.pop_back();
+  EXPECT_FALSE(checkSvg(text, fewer));
+}
+
+TEST(SvgCheck, MeasuresAPathThatLeavesItsCurve) {
+  const ExportDocument document = test::exportOfAllKinds();
+  const std::string text = writeSvg(document, {}).value().text;
+  const auto start = text.find("<path id=\"curve-1\" d=\"M10,90");
+  ASSERT_NE(start, std::string::npos) << "the first curve starts at (10, 10) mm on a page of 100 mm";
+  std::string moved = text;
+  moved.replace(text.find("M10,90", start), 6, "M10,93");
+  const auto check = checkSvg(moved, document);
+  ASSERT_TRUE(check);
+  EXPECT_GT(check->largestErrorMm, 1.0);
+}
+
+}  // namespace
+}  // namespace batten

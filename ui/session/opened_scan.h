@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/image/scan.h"
+#include "core/pipeline/recipe.h"
+
+namespace batten {
+
+/// A scan with the recipe that lies beside it, if one does.
+struct OpenedScan {
+  Scan scan;
+  Recipe recipe;            ///< The defaults when no recipe lies there or it cannot be used.
+  bool hasRecipe = false;
+  std::string problem;      ///< Why the recipe beside the scan was not used; empty = none there, or all well.
+};
+
+/// Where a recipe is saved by itself and looked for: "drawing.recipe.json" beside "drawing.png".
+std::filesystem::path recipeBeside(const std::filesystem::path& scan);
+
+/// Reads both. A damaged recipe does not keep the scan from opening.
+Result<OpenedScan> openWithRecipe(const std::filesystem::path& scan, const RunContext&);
+
+}  // namespace batten
