@@ -35,6 +35,18 @@ double medianWidth(const std::vector<Strand>& strands) {
   return std::max(1.0, 2.0 * static_cast<double>(*middle));
 }
 
+// Ink that touches the border of the page nearly all along is the margin of the scanner or the edge of the sheet.
+bool isMargin(const Contour& c, const GreyImage& grey) {
+  constexpr double kTouchPx = 2.0, kMostly = 0.7;
+  std::size_t touching = 0;
+  for (std::size_t i = 0; i < c.points.size(); ++i) {
+    const Vec2& p = c.points[i];
+    const double toBorder = std::min({p.x(), p.y(), grey.width - p.x(), grey.height - p.y()});
+    if (toBorder <= 0.5 * c.widthPx[i] + kTouchPx) ++touching;
+  }
+  return static_cast<double>(touching) >= kMostly * static_cast<double>(c.points.size());
+}
+
 Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
                                 const RunContext& context) {
   std::vector<Strand> strands = strandsOf(strokes, params, context);
@@ -44,11 +56,16 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   const double merge = params.mergeWidths * width;
   const bool grainy = merge < 1.0 && grainAlong(strands, grey) > kGrainLimit;
   if (merge >= 1.0 || grainy) {
+    // Finer than from the distances of pixels.
+    double length = 0.0;
+    for (const Strand& s : strands) length += s.length();
+    const double penHalf = length > 0.0 ? std::max(0.5, 0.5 * static_cast<double>(strokes.count()) / length) : 0.5;
     // Overdrawn strokes and the specks of a pencil become one body first; the middle of its darkness is the line.
     const double diameter = grainy ? 0.75 * width + 1.0 : merge;
     strands = strandsOf(closeInk(strokes, diameter), params, context);
     settings.rule = CentreRule::Centroid;
     settings.smoothShiftPx = grainy ? 3.0 : 6.0;
+    settings.penHalfPx = grainy ? 0.0 : penHalf;
   }
   if (!params.subpixel) settings.rule = CentreRule::None;
   bridgeGaps(strands, params, context);
@@ -61,6 +78,8 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   set.contours = refineStrands(strands, grey, settings, context);
   if (context.isCancelled()) return cancelled();
   std::erase_if(set.contours, [](const Contour& c) { return c.points.size() < 3; });
+  set.report.droppedMargins =
+      static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return isMargin(c, grey); }));
   return set;
 }
 

@@ -35,6 +35,7 @@ struct ContourReport {
   int found = 0;           ///< Before any was dropped.
   int droppedShort = 0;    ///< Shorter than the smallest length.
   int droppedHoles = 0;    ///< Inner borders, in outline mode without them.
+  int droppedMargins = 0;  ///< Lines along the border of the page: the margin of the scanner.
   double refinedShare = 0; ///< Part of the points that were placed on the grey values, 0..1.
   std::string note;
 };

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contour/corner_geometry.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "core/contour/corner_sides.h"
 
 namespace batten {
 namespace {
@@ -12,15 +13,13 @@ namespace {
 constexpr double kUnrefinedWeight = 0.1;  // points known to the pixel only
 constexpr double kOutlineZonePx = 4.0;
 constexpr double kFarthestMeetPx = 6.0;  // of the meeting point from the contour
-constexpr double kFarthestTipPx = 24.0;  // acute tips are eaten away by blur, threshold and the filter of the mask
-constexpr double kEatenHalfPx = 3.0;     // half the width at which a tip is eaten away
+constexpr double kFarthestTipPx = 28.0;  // acute tips are eaten away by blur, threshold and the filter of the mask
+constexpr double kEatenHalfPx = 4.0;     // half the width at which a tip is eaten away
 constexpr double kSmallestSine = 0.08;   // of the angle between the sides; below, the meeting point is ill-conditioned
 constexpr int kNewtonSteps = 12;
 constexpr int kLocateRounds = 4;
-constexpr double kShortestWindowPx = 20.0;
-constexpr double kTrendLimit = 4.0;  // neighbouring points share noise: three of these are about two true ones
-constexpr double kFreeLegsPx = 6.0;  // legs nearer to each other than this share their blur
-constexpr double kWidestZonePx = 16.0;
+constexpr double kFreeLegsPx = 6.0;     // legs nearer to each other than this share their blur
+constexpr double kWidestZonePx = 14.0;  // beyond the rounded one
 
 struct Meeting {
   Vec2 position = Vec2::Zero();
@@ -28,8 +27,8 @@ struct Meeting {
   bool ok = false;
 };
 
-// Newton for fit a(s) = b(t), from s = t = 0.
-Meeting meet(const LocalQuadratic& a, const LocalQuadratic& b, double scale) {
+// Newton for a(s) = b(t), from s = t = 0.
+Meeting meet(const CornerSide& a, const CornerSide& b, double scale) {
   Meeting m;
   double s = 0.0, t = 0.0;
   for (int step = 0; step < kNewtonSteps; ++step) {
@@ -53,35 +52,15 @@ Meeting meet(const LocalQuadratic& a, const LocalQuadratic& b, double scale) {
   return m;
 }
 
-// The longest stretch that one parabola describes: extrapolated to the corner, the noise of a short one grows tenfold.
-// A longer one is refused as soon as its residuals show a third-order trend beyond their noise.
-OneSidedFit longestGoodFit(const Contour& contour, int index, int side, double inner, double outer) {
-  const double span = outer - inner;
-  OneSidedFit best = fitOneSide(contour, index, side, inner, inner + std::min(span, kShortestWindowPx));
-  for (const double length : {32.0, 48.0, 64.0}) {
-    if (span < length) break;
-    const OneSidedFit longer = fitOneSide(contour, index, side, inner, inner + length);
-    if (longer.fit.order < 2 || longer.cubicTrend > kTrendLimit || longer.fit.residualRms > 1.5 * best.fit.residualRms)
-      break;
-    best = longer;
-  }
-  return best;
-}
-
 double turn(const Vec2& in, const Vec2& out) { return -std::atan2(cross(in, out), in.dot(out)); }
 
-// Extends both sides until they meet: parabolas, or short lines where parabolas miss each other.
+// Extends both sides until they meet; `scale` bounds how far.
 Meeting meetSides(const Contour& contour, int at, double inner, double outerBefore, double outerAfter, double& angle) {
-  const OneSidedFit before = longestGoodFit(contour, at, -1, inner, outerBefore);
-  const OneSidedFit after = longestGoodFit(contour, at, 1, inner, outerAfter);
-  if (before.reach <= 0.0 || after.reach <= 0.0) return {};
-  angle = turn(-before.fit.r1, after.fit.r1);
-  const Meeting m = meet(before.fit, after.fit, inner + 20.0);
-  if (m.ok) return m;
-  const OneSidedFit lineBefore = fitOneSide(contour, at, -1, inner, inner + std::min(10.0, outerBefore), 1);
-  const OneSidedFit lineAfter = fitOneSide(contour, at, 1, inner, inner + std::min(10.0, outerAfter), 1);
-  if (lineBefore.reach <= 0.0 || lineAfter.reach <= 0.0) return {};
-  return meet(lineBefore.fit, lineAfter.fit, inner + 20.0);
+  const CornerSide before = fitCornerSide(contour, at, -1, inner, outerBefore);
+  const CornerSide after = fitCornerSide(contour, at, 1, inner, outerAfter);
+  if (before.degree < 0 || after.degree < 0) return {};
+  angle = turn(-before.derivative(0.0), after.derivative(0.0));
+  return meet(before, after, inner + 2.0 * kFarthestTipPx);
 }
 
 struct NearestPoint {
@@ -99,26 +78,6 @@ NearestPoint nearestAlong(const Contour& contour, int at, const Vec2& position, 
     if (d < best.distance) best = {i, d};
   }
   return best;
-}
-
-// Third Legendre polynomial in the normal residuals, in units of its standard deviation for independent noise.
-double cubicTrendOf(const std::vector<double>& s, const std::vector<Vec2>& points, const std::vector<double>& weights,
-                    const LocalQuadratic& fit) {
-  const double middle = 0.5 * (s.front() + s.back()), half = 0.5 * (s.back() - s.front());
-  double product = 0.0, square = 0.0, noise = 0.0, weightSum = 0.0;
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    const double x = (s[i] - middle) / half;
-    const double p3 = 0.5 * x * (5.0 * x * x - 3.0);
-    const Vec2 tangent = fit.derivative(s[i]);
-    const double speed = tangent.norm();
-    const double e = speed > 0.0 ? cross(tangent, points[i] - fit.at(s[i])) / speed : 0.0;
-    product += weights[i] * e * p3;
-    square += weights[i] * p3 * p3;
-    noise += weights[i] * e * e;
-    weightSum += weights[i];
-  }
-  const double variance = noise / weightSum * square;
-  return variance > 0.0 ? std::abs(product) / std::sqrt(variance) : 0.0;
 }
 
 }  // namespace
@@ -147,7 +106,6 @@ OneSidedFit fitOneSide(const Contour& contour, int index, int side, double inner
   if (s.size() < 3) return result;
   result.fit = fitLocalQuadratic(s, points, weights, maxOrder);
   if (result.fit.order >= 1) result.reach = s.back() - s.front();
-  if (result.fit.order == 2) result.cubicTrend = cubicTrendOf(s, points, weights, result.fit);
   return result;
 }
 
@@ -178,6 +136,7 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
   // the angle says how far the legs are near enough to blur into each other.
   int at = index;
   double zone = inner;
+  const double blending = contour.kind == ContourKind::Outline ? kFreeLegsPx : inner + kFreeLegsPx;
   for (int round = 0; round < kLocateRounds; ++round) {
     const double legs = std::min(outerBefore, outerAfter);
     const double from = std::clamp(zone, inner, std::max(inner, 0.5 * legs));
@@ -191,7 +150,9 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
     result.angleRad = -m.angle;
     result.exact = true;
     result.zonePx = from;
-    const double wanted = std::clamp(kFreeLegsPx / (2.0 * std::tan(std::min(halfTip, 1.5))), inner, kWidestZonePx);
+    // From the tip, where the contour may have ended before it.
+    const double free = blending / (2.0 * std::tan(std::min(halfTip, 1.5))) - nearest.distance;
+    const double wanted = std::clamp(free, inner, inner + kWidestZonePx);
     if (nearest.index == at && std::abs(wanted - zone) < 0.5) break;
     at = nearest.index;
     zone = wanted;

@@ -12,8 +12,7 @@ namespace batten {
 /// Leaving out the nearest pixels and extrapolating back is what tells a corner from a tight arc.
 struct OneSidedFit {
   LocalQuadratic fit;
-  double reach = 0.0;       ///< [px] arc actually covered; 0: no fit.
-  double cubicTrend = 0.0;  ///< [standard deviations] of the third-order part that the parabola leaves over.
+  double reach = 0.0;  ///< [px] arc actually covered; 0: no fit.
 };
 /// `side` is +1 along the contour, -1 against it. Stops at open ends and after half of a closed contour.
 OneSidedFit fitOneSide(const Contour& contour, int index, int side, double inner, double outer, int maxOrder = 2);

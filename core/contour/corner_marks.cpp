@@ -14,8 +14,10 @@ namespace {
 constexpr double kLooksLikeCornerRad = 25.0 * std::numbers::pi / 180.0;
 constexpr double kTurnInnerPx = 3.0;   // the part next to a corner that blur has rounded
 constexpr double kTurnOuterPx = 16.0;  // about as far as a corner of a drawing stands free
-constexpr double kFitOuterPx = 84.0;
+constexpr double kFitOuterPx = 260.0;
 constexpr double kSamePlacePx = 2.0;
+constexpr double kFarthestTipPx = 28.0;  // that a contour may end before the tip it leads to
+constexpr double kSnapOuterPx = 64.0;    // looked at on either side before the neighbours are known
 
 struct Nearest {
   int contour = -1;
@@ -38,24 +40,65 @@ Nearest nearestOf(const ContourSet& set, const Vec2& at, double limit) {
   return best;
 }
 
-// A click need not be exact: the sharpest turn within the snap distance wins over the nearest point. On a smooth part
-// no point turns, and the nearest one is taken.
-int sharpestNear(const Contour& contour, int nearest, const Vec2& at, double snap) {
+// The first of equally sharp points within this of each other stands for the turn.
+constexpr double kOneTurnPx = 5.0;
+
+// A click need not be exact: a sharp turn within the snap distance wins over the nearest point, the nearer and sharper
+// one first. The turn is where its two sides meet when extended, because the filter of the mask ends a contour 10 px
+// and more before an acute tip. On a smooth part no point turns, and the nearest one is taken.
+struct Snap {
+  int index = -1;
+  double distance = 0.0;  // [px] from the mark to the turn or the point
+  double score = 0.0;
+};
+
+void considerTurns(const Contour& contour, const Vec2& mark, double snap, int first, int last, Snap& best) {
   const int n = static_cast<int>(contour.points.size());
-  const int reach = std::min(n / 2, static_cast<int>(2.0 * snap) + 2);
-  const double inner = contour.kind == ContourKind::Outline ? kTurnInnerPx : roundedZonePx(contour, nearest);
-  const double outer = kTurnOuterPx + 2.0 * (inner - kTurnInnerPx);
-  int best = nearest;
-  double bestScore = 0.0;
-  for (int k = -reach; k <= reach; ++k) {
-    const int i = contour.closed ? wrapIndex(nearest + k, n) : nearest + k;
-    if (i < 0 || i >= n) continue;
-    const double distance = (contour.points[static_cast<std::size_t>(i)] - at).norm();
-    if (distance > snap) continue;
-    const auto turning = turningAt(contour, i, inner, outer);
+  struct Turn {
+    int index;
+    double score;
+  };
+  std::vector<Turn> turns;
+  for (int k = first; k <= last; ++k) {
+    const int i = contour.closed ? wrapIndex(k, n) : k;
+    if ((contour.points[static_cast<std::size_t>(i)] - mark).norm() > snap + kFarthestTipPx) continue;
+    const double inner = contour.kind == ContourKind::Outline ? kTurnInnerPx : roundedZonePx(contour, i);
+    const auto turning = turningAt(contour, i, inner, kTurnOuterPx + 2.0 * (inner - kTurnInnerPx));
     if (!turning || std::abs(turning->angleRad) < kLooksLikeCornerRad) continue;
-    const double score = turning->score * (1.0 - 0.5 * distance / snap);
-    if (score > bestScore) bestScore = score, best = i;
+    turns.push_back({i, turning->score});
+  }
+  std::stable_sort(turns.begin(), turns.end(), [](const Turn& a, const Turn& b) { return a.score > b.score; });
+  std::vector<Vec2> taken;
+  for (const Turn& turn : turns) {
+    const Vec2& at = contour.points[static_cast<std::size_t>(turn.index)];
+    if (std::any_of(taken.begin(), taken.end(), [&](const Vec2& t) { return (t - at).norm() < kOneTurnPx; })) continue;
+    taken.push_back(at);
+    const CornerFix fix =
+        locateCorner(contour, turn.index, roundedZonePx(contour, turn.index), kSnapOuterPx, kSnapOuterPx);
+    const double distance = (fix.position - mark).norm();
+    const double score = turn.score * (1.0 - 0.5 * distance / snap);
+    if (distance <= snap && score > best.score) best = {turn.index, distance, score};
+  }
+}
+
+// The stretches of a contour near a mark, as index ranges (a closed contour's first may begin before 0).
+Snap sharpestNear(const Contour& contour, const Vec2& mark, double snap) {
+  Snap best;
+  const int n = static_cast<int>(contour.points.size());
+  const double reach = snap + kFarthestTipPx;
+  const auto near = [&](int i) {
+    return (contour.points[static_cast<std::size_t>(i)] - mark).squaredNorm() <= reach * reach;
+  };
+  for (int i = 0; i < n; ++i) {
+    if (!near(i)) {
+      i += std::max(0,
+                    static_cast<int>(0.5 * ((contour.points[static_cast<std::size_t>(i)] - mark).norm() - reach)) - 1);
+      continue;
+    }
+    int end = i;
+    while (end + 1 < n && near(end + 1)) ++end;
+    considerTurns(contour, mark, snap, i, end, best);
+    i = end;
   }
   return best;
 }
@@ -96,20 +139,19 @@ void locateCuts(const Contour& contour, double length, std::vector<Cut>& cuts) {
   }
 }
 
-// How many points to leave out at one end of a piece: those inside the rounded zone, and those that lie behind the
-// corner.
-std::size_t pointsToDrop(const std::vector<Vec2>& points, bool fromEnd, const Vec2& corner, double zone) {
-  const std::size_t n = points.size();
+// How many points to leave out at one end of a piece: those inside the rounded zone, those that lie behind the corner,
+// and beyond them those that were not measured but laid between measured ones.
+std::size_t pointsToDrop(const Piece& piece, bool fromEnd, const Vec2& corner, double zone) {
+  const std::size_t n = piece.points.size();
   std::size_t drop = 0;
   double arc = 0.0;
   for (std::size_t k = 0; k < n; ++k) {
-    const Vec2& p = points[fromEnd ? n - 1 - k : k];
-    if (k > 0) arc += (p - points[fromEnd ? n - k : k - 1]).norm();
+    const std::size_t i = fromEnd ? n - 1 - k : k;
+    const Vec2& p = piece.points[i];
+    if (k > 0) arc += (p - piece.points[fromEnd ? n - k : k - 1]).norm();
     if (arc > 3.0 * zone + 12.0) break;
-    if ((p - corner).norm() < zone)
-      drop = k + 1;
-    else if (arc < zone)
-      drop = k + 1;
+    const bool guessed = drop == k && piece.refined[i] == 0;
+    if ((p - corner).norm() < zone || arc < zone || guessed) drop = k + 1;
   }
   return drop;
 }
@@ -127,8 +169,8 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   }
   const auto zoneOf = [&](const Cut* cut) { return cut->exact ? cut->zone : 0.5; };
   std::size_t head = 0, tail = 0;
-  if (start != nullptr) head = pointsToDrop(piece.points, false, start->corner.positionPx, zoneOf(start));
-  if (end != nullptr) tail = pointsToDrop(piece.points, true, end->corner.positionPx, zoneOf(end));
+  if (start != nullptr) head = pointsToDrop(piece, false, start->corner.positionPx, zoneOf(start));
+  if (end != nullptr) tail = pointsToDrop(piece, true, end->corner.positionPx, zoneOf(end));
   if (head + tail >= piece.points.size()) head = piece.points.size(), tail = 0;
   const auto cutEnds = [&](auto& values) {
     values.erase(values.end() - static_cast<std::ptrdiff_t>(tail), values.end());
@@ -194,15 +236,24 @@ std::optional<Error> validate(const CornerParams& p) {
 
 std::optional<Corner> nearestContourPoint(const ContourSet& set, const Vec2& positionPx, double snapDistancePx) {
   if (!positionPx.allFinite() || !(snapDistancePx >= 0.0)) return std::nullopt;
-  const Nearest nearest = nearestOf(set, positionPx, snapDistancePx);
-  if (nearest.contour < 0) return std::nullopt;
-  const Contour& contour = set.contours[static_cast<std::size_t>(nearest.contour)];
   Corner corner;
-  corner.contour = nearest.contour;
-  corner.pointIndex = sharpestNear(contour, nearest.index, positionPx, snapDistancePx);
-  corner.positionPx = contour.points[static_cast<std::size_t>(corner.pointIndex)];
-  corner.snapPx = (corner.positionPx - positionPx).norm();
-  if (const auto turning = turningAt(contour, corner.pointIndex, kTurnInnerPx, kTurnOuterPx)) {
+  Snap best;
+  for (std::size_t c = 0; c < set.contours.size() && snapDistancePx > 0.0; ++c) {
+    const Snap snap = sharpestNear(set.contours[c], positionPx, snapDistancePx);
+    if (snap.index >= 0 && snap.score > best.score) best = snap, corner.contour = static_cast<int>(c);
+  }
+  if (best.index < 0) {
+    const Nearest nearest = nearestOf(set, positionPx, snapDistancePx);
+    if (nearest.contour < 0) return std::nullopt;
+    corner.contour = nearest.contour;
+    best.index = nearest.index;
+    best.distance = std::sqrt(nearest.squared);
+  }
+  const Contour& contour = set.contours[static_cast<std::size_t>(corner.contour)];
+  corner.pointIndex = best.index;
+  corner.snapPx = best.distance;
+  corner.positionPx = contour.points[static_cast<std::size_t>(best.index)];
+  if (const auto turning = turningAt(contour, best.index, kTurnInnerPx, kTurnOuterPx)) {
     corner.turningAngleRad = turning->angleRad;
   }
   return corner;

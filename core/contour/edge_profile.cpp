@@ -97,7 +97,7 @@ ProfileBand sampleProfiles(const GreyImage& grey, std::span<const Vec2> base, st
   return band;
 }
 
-ProfileBand averageAlong(const ProfileBand& band, bool closed, double sigma) {
+ProfileBand averageAlong(const ProfileBand& band, bool closed, double sigma, const RunContext& context) {
   ProfileBand out;
   out.grey.resize(band.grey.size());
   const int n = band.count();
@@ -106,20 +106,22 @@ ProfileBand averageAlong(const ProfileBand& band, bool closed, double sigma) {
   for (int d = -half; d <= half; ++d) {
     weight[static_cast<std::size_t>(d + half)] = static_cast<float>(std::exp(-0.5 * (d / sigma) * (d / sigma)));
   }
-  for (int i = 0; i < n; ++i) {
-    float sum[kProfileSamples] = {};
-    float total = 0.0f;
-    for (int d = -half; d <= half; ++d) {
-      const int j = closed ? wrapIndex(i + d, n) : i + d;
-      if (j < 0 || j >= n) continue;
-      const float w = weight[static_cast<std::size_t>(d + half)];
-      const float* row = band.row(j);
-      for (int k = 0; k < kProfileSamples; ++k) sum[k] += w * row[k];
-      total += w;
+  parallelFor(context, n, kSamplingGrain, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      float sum[kProfileSamples] = {};
+      float total = 0.0f;
+      for (int d = -half; d <= half; ++d) {
+        const int j = closed ? wrapIndex(i + d, n) : i + d;
+        if (j < 0 || j >= n) continue;
+        const float w = weight[static_cast<std::size_t>(d + half)];
+        const float* row = band.row(j);
+        for (int k = 0; k < kProfileSamples; ++k) sum[k] += w * row[k];
+        total += w;
+      }
+      float* target = out.row(i);
+      for (int k = 0; k < kProfileSamples; ++k) target[k] = sum[k] / total;
     }
-    float* target = out.row(i);
-    for (int k = 0; k < kProfileSamples; ++k) target[k] = sum[k] / total;
-  }
+  });
   return out;
 }
 

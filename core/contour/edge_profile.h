@@ -35,7 +35,7 @@ struct ProfileBand {
 ProfileBand sampleProfiles(const GreyImage& grey, std::span<const Vec2> base, std::span<const Vec2> normal, bool cubic,
                            const RunContext& context);
 /// Averages neighbouring profiles along the line (Gaussian, sigma in points), in the frame of the line.
-ProfileBand averageAlong(const ProfileBand& band, bool closed, double sigma);
+ProfileBand averageAlong(const ProfileBand& band, bool closed, double sigma, const RunContext& context);
 
 /// What a profile says about its surroundings.
 struct EdgeSpan {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/parallel.h"
 #include "core/contour/edge_profile.h"
 #include "core/contour/polyline_tools.h"
 
@@ -22,8 +23,9 @@ constexpr double kSmallestContrast = 2.0;  // [grey]
 constexpr int kNewtonSteps = 4;
 constexpr int kBlurRounds = 4;
 constexpr int kTwinRounds = 4;
-constexpr int kBlurSamples = 1500;  // points that vote for the blur
-constexpr int kBendHalf = 6;        // points: half window of the curvature filter
+constexpr int kBlurSamples = 1500;    // points that vote for the blur
+constexpr int kPointsPerBlock = 512;  // worked on together; the result does not depend on it
+constexpr int kBendHalf = 6;          // points: half window of the curvature filter
 
 // The state of the matched pass, one entry per point.
 struct Matched {
@@ -53,6 +55,14 @@ EdgeModel edgeModel(const NormalTable& table, double x, double inkTwin, double p
   return m;
 }
 
+// Calls body(i) for all points, in parallel; it writes only what belongs to its own point.
+template <class Body>
+void forPoints(const RunContext& context, std::size_t count, const Body& body) {
+  parallelFor(context, static_cast<int>(count), kPointsPerBlock, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) body(static_cast<std::size_t>(i));
+  });
+}
+
 bool onPageBorder(const Vec2& crack, const GreyImage& grey) {
   return crack.x() <= 0.0 || crack.y() <= 0.0 || crack.x() >= grey.width || crack.y() >= grey.height;
 }
@@ -68,15 +78,16 @@ std::vector<Vec2> normalsOf(const std::vector<Vec2>& points, bool closed) {
 std::vector<Vec2> halfLevelPass(const Contour& contour, const GreyImage& grey, const RunContext& context) {
   const std::vector<Vec2> base = smoothPolyline(contour.chain, contour.closed, kChainSigma);
   const std::vector<Vec2> normal = normalsOf(base, contour.closed);
-  const ProfileBand band = averageAlong(sampleProfiles(grey, base, normal, false, context), contour.closed, 1.0);
+  const ProfileBand band =
+      averageAlong(sampleProfiles(grey, base, normal, false, context), contour.closed, 1.0, context);
   std::vector<Vec2> points = base;
-  for (std::size_t i = 0; i < base.size(); ++i) {
+  forPoints(context, base.size(), [&](std::size_t i) {
     const float* profile = band.row(static_cast<int>(i));
     const EdgeSpan span = findEdgeSpan(profile);
-    if (span.contrast < kSmallestContrast || onPageBorder(contour.chain[i], grey)) continue;
+    if (span.contrast < kSmallestContrast || onPageBorder(contour.chain[i], grey)) return;
     const Vec2 found = base[i] + halfLevelCrossing(profile, span) * normal[i];
     if ((found - contour.chain[i]).norm() <= kGatePx + 0.5) points[i] = found;
-  }
+  });
   return points;
 }
 
@@ -120,19 +131,19 @@ std::vector<float> weightedSmooth(const std::vector<float>& values, const std::v
 // Ink and paper of every point: the two side means freed of what the blur carries over from the other side, everything
 // smoothed along the line first because a single profile is noisy. Weight: contrast squared, so that places without an
 // edge (the page border, tips) say nothing about the levels of their neighbours.
-void measureLevels(const ProfileBand& band, bool closed, Matched& m) {
+void measureLevels(const ProfileBand& band, bool closed, Matched& m, const RunContext& context) {
   const auto n = m.span.size();
   std::vector<float> inkGrey(n), inkModel(n, 1.0f), paperGrey(n), paperModel(n), weight(n);
-  for (std::size_t i = 0; i < n; ++i) {
+  forPoints(context, n, [&](std::size_t i) {
     SideSums ink, paper;
     sideSums(band.row(static_cast<int>(i)), m.span[i], m.position[i], m.blur, ink, paper);
-    if (m.span[i].contrast <= 0.0 || ink.count == 0 || paper.count == 0) continue;
+    if (m.span[i].contrast <= 0.0 || ink.count == 0 || paper.count == 0) return;
     weight[i] = static_cast<float>(m.span[i].contrast * m.span[i].contrast);
     inkGrey[i] = static_cast<float>(ink.grey / ink.count);
     inkModel[i] = static_cast<float>(ink.model / ink.count);
     paperGrey[i] = static_cast<float>(paper.grey / paper.count);
     paperModel[i] = static_cast<float>(paper.model / paper.count);
-  }
+  });
   const std::vector<float> smoothWeight = smoothValues(weight, closed, kLevelSigma);
   inkGrey = weightedSmooth(inkGrey, weight, smoothWeight, closed);
   inkModel = weightedSmooth(inkModel, weight, smoothWeight, closed);
@@ -205,13 +216,15 @@ void updateBlur(const ProfileBand& band, Matched& m) {
   m.noise = 1.4826 * *middle;
 }
 
-void fitAll(const ProfileBand& band, const std::vector<double>& start, Matched& m, std::size_t stride, bool twinsOnly) {
-  for (std::size_t i = 0; i < m.span.size(); i += stride) {
-    if (twinsOnly && m.span[i].inkTwin <= 0.0 && m.span[i].paperTwin <= 0.0) continue;
+void fitAll(const ProfileBand& band, const std::vector<double>& start, Matched& m, std::size_t stride, bool twinsOnly,
+            const RunContext& context) {
+  forPoints(context, (m.span.size() + stride - 1) / stride, [&](std::size_t k) {
+    const std::size_t i = k * stride;
+    if (twinsOnly && m.span[i].inkTwin <= 0.0 && m.span[i].paperTwin <= 0.0) return;
     const double contrast = m.paper[i] - m.ink[i];
-    if (m.span[i].contrast <= 0.0 || contrast < kSmallestContrast) continue;
+    if (m.span[i].contrast <= 0.0 || contrast < kSmallestContrast) return;
     m.position[i] = fitPosition(band.row(static_cast<int>(i)), m.span[i], start[i], m.paper[i], contrast, m.blur);
-  }
+  });
 }
 
 // A border seen twice lies as far beyond the turn of the grey as this edge lies before it. The turn is found to a
@@ -236,26 +249,26 @@ Matched matchedPass(const ProfileBand& band, bool closed, const RunContext& cont
   m.span.resize(n);
   m.position.resize(n);
   {
-    const ProfileBand average = averageAlong(band, closed, kSpanSigma);
-    for (std::size_t i = 0; i < n; ++i) {
+    const ProfileBand average = averageAlong(band, closed, kSpanSigma, context);
+    forPoints(context, n, [&](std::size_t i) {
       m.span[i] = findEdgeSpan(average.row(static_cast<int>(i)));
       m.position[i] = halfLevelCrossing(average.row(static_cast<int>(i)), m.span[i]);
-    }
+    });
   }
   const std::vector<double> start = m.position;
   updateTwins(closed, m);
   const std::size_t stride = std::max<std::size_t>(1, n / kBlurSamples);
   for (int round = 0; round < kBlurRounds && !context.isCancelled(); ++round) {
-    measureLevels(band, closed, m);
-    fitAll(band, start, m, stride, false);
+    measureLevels(band, closed, m, context);
+    fitAll(band, start, m, stride, false, context);
     if (stride == 1) updateTwins(closed, m);
     const double before = m.blur;
     updateBlur(band, m);
     if (std::abs(m.blur - before) < 0.005) break;
   }
   for (int round = 0; round < kTwinRounds && !context.isCancelled(); ++round) {
-    measureLevels(band, closed, m);
-    fitAll(band, start, m, 1, round > 0);
+    measureLevels(band, closed, m, context);
+    fitAll(band, start, m, 1, round > 0, context);
     if (!updateTwins(closed, m)) break;
   }
   return m;

@@ -64,6 +64,7 @@ void append(ContourSet& to, ContourSet&& from) {
   to.report.found += from.report.found;
   to.report.droppedShort += from.report.droppedShort;
   to.report.droppedHoles += from.report.droppedHoles;
+  to.report.droppedMargins += from.report.droppedMargins;
   if (to.report.note.empty()) to.report.note = std::move(from.report.note);
   std::move(from.contours.begin(), from.contours.end(), std::back_inserter(to.contours));
 }

@@ -193,6 +193,7 @@ Json countsOf(StageId stage, const PipelineOutput& out) {
               {"found", out.contours->report.found},
               {"dropped_short", out.contours->report.droppedShort},
               {"dropped_holes", out.contours->report.droppedHoles},
+              {"dropped_margins", out.contours->report.droppedMargins},
               {"refined_share", number(out.contours->report.refinedShare)},
               {"note", out.contours->report.note}};
     case StageId::Pieces:

@@ -5,60 +5,91 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <unordered_map>
 
 namespace batten::test {
 namespace {
 
-constexpr double kCornerZonePx = 10.0;  ///< "Smooth parts" begin this far from a corner.
-constexpr double kFoundWithinPx = 2.0;
+constexpr double kCornerZonePx = 10.0;
+constexpr double kFoundWithinPx = 2.0, kStrayPx = 6.0, kCornerWithinPx = 4.0;
+constexpr double kProminence = 5e-3;  // of kappa times the diagonal
+constexpr double kSamplePx = 0.5;
+constexpr double kAcuteRad = 40.0 * std::numbers::pi / 180.0;
 
-/// A sample of a traced curve, back in the image frame.
-struct Traced {
-  Vec2 point;
-  double kappa;
-};
-
-struct Nearest {
+/// Where the truth is nearest to a place.
+struct Foot {
   double distance = std::numeric_limits<double>::infinity();
   double kappa = 0.0;
+  int piece = -1;
+  double s = 0.0;  ///< [px] along the piece.
+  Vec2 tangent = Vec2::Zero();
 };
 
-/// Truth outline in a bucket grid: nearest facet by exact projection.
+/// The truth as facets in a grid of cells.
 class TruthIndex {
  public:
   explicit TruthIndex(const TruthShape& shape) {
-    for (const TruthPiece& piece : shape.pieces) {
+    for (std::size_t p = 0; p < shape.pieces.size(); ++p) {
+      const TruthPiece& piece = shape.pieces[p];
       const std::size_t count = piece.points.size();
       const bool wraps = shape.corners.empty();
-      for (std::size_t i = 0; i + (wraps ? 0 : 1) < count; ++i)
-        facets_.push_back({piece.points[i], piece.points[(i + 1) % count], piece.kappa[i]});
+      double s = 0.0;
+      for (std::size_t i = 0; i + (wraps ? 0 : 1) < count; ++i) {
+        const std::size_t j = (i + 1) % count;
+        facets_.push_back({piece.points[i], piece.points[j], piece.kappa[i], piece.kappa[j], static_cast<int>(p), s});
+        s += (piece.points[j] - piece.points[i]).norm();
+      }
+      length.push_back(s);
     }
-    std::sort(facets_.begin(), facets_.end(), [](const Facet& a, const Facet& b) { return a.a.x() < b.a.x(); });
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      auto& cell = cells_[key(cellOf(facets_[f].a.x()), cellOf(facets_[f].a.y()))];
+      cell.push_back(f);
+    }
   }
 
-  Nearest nearest(const Vec2& p) const {
-    Nearest best;
-    const auto middle =
-        std::lower_bound(facets_.begin(), facets_.end(), p.x(), [](const Facet& f, double x) { return f.a.x() < x; });
-    const auto look = [&](const Facet& f) {
-      const Vec2 d = f.b - f.a;
-      const double t = std::clamp((p - f.a).dot(d) / std::max(1e-300, d.squaredNorm()), 0.0, 1.0);
-      const double distance = (p - f.a - t * d).norm();
-      if (distance < best.distance) best = {distance, f.kappa};
-    };
-    constexpr double kFacetReach = 2.0;  // facets are far shorter
-    for (auto it = middle; it != facets_.end() && it->a.x() - p.x() < best.distance + kFacetReach; ++it) look(*it);
-    for (auto it = middle; it != facets_.begin() && p.x() - std::prev(it)->a.x() < best.distance + kFacetReach; --it)
-      look(*std::prev(it));
+  Foot nearest(const Vec2& p) const {
+    Foot best;
+    const int cx = cellOf(p.x()), cy = cellOf(p.y());
+    // Facets start in the cell they are filed under and are far shorter than a cell: one ring more than the distance.
+    for (int ring = 0; ring < 400 && (ring - 2) * kCellPx <= best.distance; ++ring) {
+      for (int dy = -ring; dy <= ring; ++dy) {
+        const int step = std::abs(dy) == ring || ring == 0 ? 1 : 2 * ring;
+        for (int dx = -ring; dx <= ring; dx += step) look(p, key(cx + dx, cy + dy), best);
+      }
+    }
     return best;
   }
+
+  std::vector<double> length;  ///< [px] of every piece.
 
  private:
   struct Facet {
     Vec2 a, b;
-    double kappa;
+    double kappaA, kappaB;
+    int piece;
+    double s;
   };
+  static constexpr double kCellPx = 8.0;
+  static int cellOf(double v) { return static_cast<int>(std::floor(v / kCellPx)); }
+  static std::int64_t key(int x, int y) { return (static_cast<std::int64_t>(y) << 32) ^ (x & 0xffffffffLL); }
+
+  void look(const Vec2& p, std::int64_t cell, Foot& best) const {
+    const auto found = cells_.find(cell);
+    if (found == cells_.end()) return;
+    for (const std::size_t index : found->second) {
+      const Facet& f = facets_[index];
+      const Vec2 d = f.b - f.a;
+      const double square = d.squaredNorm();
+      const double t = square > 0.0 ? std::clamp((p - f.a).dot(d) / square, 0.0, 1.0) : 0.0;
+      const double distance = (p - f.a - t * d).norm();
+      if (!(distance < best.distance)) continue;
+      best = {distance, std::lerp(f.kappaA, f.kappaB, t), f.piece, f.s + t * std::sqrt(square), d};
+    }
+  }
+
   std::vector<Facet> facets_;
+  std::unordered_map<std::int64_t, std::vector<std::size_t>> cells_;
 };
 
 double distanceToCorners(const TruthShape& shape, const Vec2& p) {
@@ -67,45 +98,224 @@ double distanceToCorners(const TruthShape& shape, const Vec2& p) {
   return best;
 }
 
-std::vector<Traced> samplesOf(const TracedCurve& curve, bool faired, const PageFrame& frame) {
-  const NurbsCurve& c = faired ? curve.faired : curve.sketched;
-  const int count = std::max(20, static_cast<int>(frame.lengthToImage(curve.sketchedFigures.lengthMm)));
-  std::vector<Traced> samples;
-  for (const CurveSample& s : sampleByArcLength(c, count))
-    samples.push_back({frame.pointToImage(s.point), s.kappa * frame.mmPerPx});
-  return samples;
-}
+/// An extremum somewhere along a piece of the truth.
+struct Placed {
+  double s = 0.0;
+  bool isMaximum = false;
+};
 
-int extremaOfTruth(const TruthShape& shape) {
-  int sum = 0;
-  for (const TruthPiece& piece : shape.pieces)
-    sum += countExtrema(piece.kappa, 5e-3 / shape.diagonal(), shape.corners.empty());
-  return sum;
-}
-
-void measureCorners(const TruthShape& shape, const PieceSet& pieces, Accuracy& result) {
-  result.cornersTrue = static_cast<int>(shape.corners.size());
-  double sum = 0.0;
-  for (const Vec2& truth : shape.corners) {
-    double best = std::numeric_limits<double>::infinity();
-    for (const Corner& corner : pieces.corners) best = std::min(best, (corner.positionPx - truth).norm());
-    if (best > 4.0) continue;
-    ++result.cornersFound;
-    sum += best * best;
-    result.cornerMaxPx = std::max(result.cornerMaxPx, best);
+std::vector<Placed> trueExtremaOf(const TruthShape& shape, std::size_t piece) {
+  const TruthPiece& t = shape.pieces[piece];
+  std::vector<double> kappa, s;
+  double arc = 0.0;
+  for (std::size_t i = 0; i < t.points.size(); ++i) {
+    if (i > 0) arc += (t.points[i] - t.points[i - 1]).norm();
+    if (distanceToCorners(shape, t.points[i]) < kCornerZonePx) continue;
+    kappa.push_back(t.kappa[i]);
+    s.push_back(arc);
   }
-  if (result.cornersFound > 0) result.cornerRmsPx = std::sqrt(sum / result.cornersFound);
+  std::vector<Placed> placed;
+  for (const ProfileExtremum& e : extremaOf(kappa, kProminence / shape.diagonal(), shape.corners.empty()))
+    placed.push_back({s[e.index], e.isMaximum});
+  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.s < b.s; });
+  return placed;
+}
+
+/// Largest number of pairs of the same kind, near each other and in the same order.
+int pairsOf(const std::vector<Placed>& a, const std::vector<Placed>& b, double within) {
+  std::vector<std::vector<int>> best(a.size() + 1, std::vector<int>(b.size() + 1, 0));
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool match = a[i - 1].isMaximum == b[j - 1].isMaximum && std::abs(a[i - 1].s - b[j - 1].s) <= within;
+      best[i][j] = std::max({best[i - 1][j], best[i][j - 1], best[i - 1][j - 1] + (match ? 1 : 0)});
+    }
+  return best[a.size()][b.size()];
+}
+
+/// The same on a ring: extrema near the seam may lie on either side of it.
+int pairsOnRing(const std::vector<Placed>& a, std::vector<Placed> b, double within, double length) {
+  int most = 0;
+  for (std::size_t turn = 0; turn <= b.size(); ++turn) {
+    most = std::max(most, pairsOf(a, b, within));
+    if (b.empty()) break;
+    b.insert(b.begin(), Placed{b.back().s - length, b.back().isMaximum});
+    b.pop_back();
+  }
+  return most;
+}
+
+/// Sums over the smooth parts of all curves.
+struct Sums {
+  double square = 0.0, max = 0.0, curvatureSquare = 0.0;
+  std::size_t count = 0;
+};
+
+class Comparison {
+ public:
+  Comparison(const TruthShape& shape, double borderPx)
+      : shape_(shape), index_(shape), border_(borderPx), found_(shape.pieces.size()) {}
+
+  void add(const SampledCurve& curve, Accuracy& result) {
+    std::vector<Foot> feet;
+    for (const Vec2& p : curve.points) feet.push_back(index_.nearest(p));
+    std::vector<double> distances;
+    for (const Foot& f : feet) distances.push_back(f.distance);
+    std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2),
+                     distances.end());
+    if (distances[distances.size() / 2] > kStrayPx + border_) {  // another line of the page, not this shape
+      result.strayPx += kSamplePx * static_cast<double>(curve.points.size());
+      return;
+    }
+    double along = 0.0;
+    for (std::size_t i = 1; i < feet.size(); ++i)
+      along += (curve.points[i] - curve.points[i - 1]).dot(feet[i].tangent) > 0.0 ? 1.0 : -1.0;
+    const double sign = along < 0.0 ? -1.0 : 1.0;
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+      if (feet[i].distance > kStrayPx + border_) result.strayPx += kSamplePx;
+      reached_.push_back(curve.points[i]);
+    }
+    addSmooth(curve, feet, sign);
+    if (border_ <= 0.0) addExtrema(curve, feet, sign);
+  }
+
+  void finish(Accuracy& result) const {
+    result.cornersTrue = static_cast<int>(shape_.corners.size());
+    if (sums_.count == 0) return;
+    result.rmsPx = std::sqrt(sums_.square / static_cast<double>(sums_.count));
+    result.maxPx = sums_.max;
+    result.curvatureError = std::sqrt(sums_.curvatureSquare / static_cast<double>(sums_.count)) * shape_.diagonal();
+    measureCoverage(result);
+    if (border_ > 0.0) return;
+    const bool ring = shape_.corners.empty();
+    for (std::size_t p = 0; p < shape_.pieces.size(); ++p) {
+      const std::vector<Placed> truth = trueExtremaOf(shape_, p);
+      std::vector<Placed> found = found_[p];
+      std::sort(found.begin(), found.end(), [](const Placed& a, const Placed& b) { return a.s < b.s; });
+      const double length = index_.length[p], within = 0.06 * length + 10.0;
+      const int pairs = ring ? pairsOnRing(truth, found, within, length) : pairsOf(truth, found, within);
+      result.trueExtrema += static_cast<int>(truth.size());
+      result.falseExtrema += static_cast<int>(found.size()) - pairs;
+      result.missedExtrema += static_cast<int>(truth.size()) - pairs;
+    }
+  }
+
+ private:
+  bool isSmooth(const Vec2& p) const { return distanceToCorners(shape_, p) >= kCornerZonePx; }
+
+  void addSmooth(const SampledCurve& curve, const std::vector<Foot>& feet, double sign) {
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+      if (!isSmooth(curve.points[i])) continue;
+      const double distance = std::abs(feet[i].distance - border_);
+      const double error = sign * curve.kappa[i] - feet[i].kappa;
+      sums_.square += distance * distance;
+      sums_.max = std::max(sums_.max, distance);
+      sums_.curvatureSquare += error * error;
+      ++sums_.count;
+    }
+  }
+
+  void addExtrema(const SampledCurve& curve, const std::vector<Foot>& feet, double sign) {
+    const std::size_t n = feet.size();
+    const double prominence = kProminence / shape_.diagonal();
+    for (std::size_t begin = 0; begin < n;) {
+      std::size_t end = begin;
+      const int piece = feet[begin].piece;
+      while (end < n && feet[end].piece == piece && isSmooth(curve.points[end])) ++end;
+      std::vector<double> kappa;
+      for (std::size_t i = begin; i < end; ++i) kappa.push_back(sign * curve.kappa[i]);
+      const bool periodic = curve.closed && begin == 0 && end == n;
+      for (const ProfileExtremum& e : extremaOf(kappa, prominence, periodic))
+        found_[static_cast<std::size_t>(piece)].push_back({feet[begin + e.index].s, e.isMaximum});
+      begin = std::max(end, begin + 1);
+    }
+  }
+
+  void measureCoverage(Accuracy& result) const {
+    std::vector<Vec2> reached = reached_;
+    std::sort(reached.begin(), reached.end(), [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
+    const double within = kFoundWithinPx + border_;
+    const std::vector<Vec2> outline = shape_.outline();
+    std::size_t covered = 0, asked = 0;
+    for (std::size_t i = 0; i < outline.size(); i += 25) {
+      ++asked;
+      const Vec2& at = outline[i];
+      const auto from = std::lower_bound(reached.begin(), reached.end(), at.x() - within,
+                                         [](const Vec2& p, double x) { return p.x() < x; });
+      for (auto it = from; it != reached.end() && it->x() <= at.x() + within; ++it) {
+        if ((*it - at).norm() > within) continue;
+        ++covered;
+        break;
+      }
+    }
+    result.coverage = static_cast<double>(covered) / static_cast<double>(asked);
+    result.found = result.coverage >= 0.95;
+  }
+
+  const TruthShape& shape_;
+  TruthIndex index_;
+  double border_;
+  std::vector<std::vector<Placed>> found_;
+  std::vector<Vec2> reached_;
+  Sums sums_;
+};
+
+/// The angle between the two sides that meet at corner i: pieces i - 1 and i.
+double openingAt(const TruthShape& shape, std::size_t i) {
+  const TruthPiece& before = shape.pieces[(i + shape.pieces.size() - 1) % shape.pieces.size()];
+  const TruthPiece& after = shape.pieces[i];
+  const Vec2 in = before.points[before.points.size() - 2] - before.points.back();
+  const Vec2 out = after.points[1] - after.points[0];
+  return std::atan2(std::abs(cross(in, out)), in.dot(out));
+}
+
+void measureCorners(const TruthShape& shape, const std::vector<Vec2>& corners, Accuracy& result) {
+  for (std::size_t i = 0; i < shape.corners.size(); ++i) {
+    double best = std::numeric_limits<double>::infinity();
+    for (const Vec2& corner : corners) best = std::min(best, (corner - shape.corners[i]).norm());
+    if (best > kCornerWithinPx) continue;
+    ++result.cornersFound;
+    (openingAt(shape, i) < kAcuteRad ? result.acuteErrorPx : result.cornerErrorPx).push_back(best);
+  }
+}
+
+SampledCurve sampledCurve(const TracedCurve& curve, bool faired, const PageFrame& frame) {
+  const NurbsCurve& c = faired ? curve.faired : curve.sketched;
+  const double length = frame.lengthToImage((faired ? curve.fairedFigures : curve.sketchedFigures).lengthMm);
+  SampledCurve sampled;
+  sampled.closed = curve.closed;
+  for (const CurveSample& s : sampleByArcLength(c, std::max(20, static_cast<int>(length / kSamplePx)))) {
+    sampled.points.push_back(frame.pointToImage(s.point));
+    sampled.kappa.push_back(-s.kappa * frame.mmPerPx);  // y points down here
+  }
+  if (sampled.closed) sampled.points.pop_back(), sampled.kappa.pop_back();
+  return sampled;
+}
+
+Vec2 directionOf(const SvgCubic& c, bool atEnd) {
+  for (const int k : {1, 2, 3}) {
+    const Vec2 d = atEnd ? Vec2(c.p[3] - c.p[3 - k]) : Vec2(c.p[k] - c.p[0]);
+    if (d.norm() > 1e-9) return d.normalized();
+  }
+  return Vec2::Zero();
 }
 
 }  // namespace
 
-Accuracy measureAccuracy(const TruthShape& shape, const Scan& scan, Recipe recipe, const AccuracyCase& options) {
-  Accuracy result;
-  result.trueExtrema = extremaOfTruth(shape);
+Accuracy compareWithTruth(const TruthShape& shape, const TraceResult& result, double borderPx) {
+  Accuracy accuracy;
+  Comparison comparison(shape, borderPx);
+  for (const SampledCurve& curve : result.curves)
+    if (!curve.points.empty()) comparison.add(curve, accuracy);
+  comparison.finish(accuracy);
+  measureCorners(shape, result.corners, accuracy);
+  return accuracy;
+}
+
+TraceResult traceShape(const TruthShape& shape, const Scan& scan, Recipe recipe, double clickOffsetPx) {
+  TraceResult result;
   for (std::size_t i = 0; i < shape.corners.size(); ++i) {
     const double angle = 2.4 * static_cast<double>(i);  // clicks miss in every direction
-    recipe.cornerMarks.push_back(
-        {shape.corners[i] + options.cornerClickOffsetPx * Vec2(std::cos(angle), std::sin(angle))});
+    recipe.cornerMarks.push_back({shape.corners[i] + clickOffsetPx * Vec2(std::cos(angle), std::sin(angle))});
   }
   StageCache cache;
   const auto begin = std::chrono::steady_clock::now();
@@ -113,52 +323,41 @@ Accuracy measureAccuracy(const TruthShape& shape, const Scan& scan, Recipe recip
   result.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   if (output.error) result.failure = output.error->message;
   if (!output.faired) return result;
-
-  const TruthIndex index(shape);
-  std::vector<Vec2> reached;
-  double sum = 0.0, curvatureSum = 0.0;
-  std::size_t count = 0;
+  const bool faired = recipe.fairing.mode != FairingMode::None;
   for (const TracedCurve& curve : output.faired->curves) {
-    const std::vector<Traced> samples = samplesOf(curve, options.faired, output.frame);
-    std::vector<double> distances;
-    for (const Traced& sample : samples) distances.push_back(index.nearest(sample.point).distance);
-    std::vector<double> sorted = distances;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    if (sorted[sorted.size() / 2] > 3.0 * kFoundWithinPx) continue;  // another line of the page, not this shape
-    result.controlPoints += (options.faired ? curve.faired : curve.sketched).controlPointCount();
-    result.extrema += (options.faired ? curve.fairedFigures : curve.sketchedFigures).extrema;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      reached.push_back(samples[i].point);
-      if (distanceToCorners(shape, samples[i].point) < kCornerZonePx) continue;
-      const Nearest truth = index.nearest(samples[i].point);
-      sum += truth.distance * truth.distance;
-      result.maxPx = std::max(result.maxPx, truth.distance);
-      const double error = std::abs(samples[i].kappa) - std::abs(truth.kappa);  // travel and y direction may differ
-      curvatureSum += error * error;
-      ++count;
-    }
+    result.curves.push_back(sampledCurve(curve, faired, output.frame));
+    result.controlPoints += (faired ? curve.faired : curve.sketched).controlPointCount();
   }
-  if (count == 0) return result;
-  result.rmsPx = std::sqrt(sum / static_cast<double>(count));
-  result.curvatureError = std::sqrt(curvatureSum / static_cast<double>(count)) * shape.diagonal();
-  if (output.pieces) measureCorners(shape, *output.pieces, result);
+  if (output.pieces)
+    for (const Corner& corner : output.pieces->corners) result.corners.push_back(corner.positionPx);
+  return result;
+}
 
-  std::sort(reached.begin(), reached.end(), [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
-  std::size_t covered = 0, asked = 0;
-  const std::vector<Vec2> outline = shape.outline();
-  for (std::size_t i = 0; i < outline.size(); i += 50) {
-    ++asked;
-    const auto from = std::lower_bound(reached.begin(), reached.end(), outline[i].x() - kFoundWithinPx,
-                                       [](const Vec2& p, double x) { return p.x() < x; });
-    covered +=
-        std::any_of(from, reached.end(),
-                    [&](const Vec2& p) {
-                      return p.x() <= outline[i].x() + kFoundWithinPx && (p - outline[i]).norm() <= kFoundWithinPx;
-                    })
-            ? 1
-            : 0;
+TraceResult sampledPaths(const std::vector<SvgPath>& paths) {
+  constexpr double kCornerCosine = 0.94;  // 20 degrees
+  TraceResult result;
+  for (const SvgPath& path : paths) {
+    SampledCurve curve;
+    curve.closed = path.closed;
+    const std::size_t n = path.segments.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const SvgCubic& c = path.segments[i];
+      const double chord = (c.p[1] - c.p[0]).norm() + (c.p[2] - c.p[1]).norm() + (c.p[3] - c.p[2]).norm();
+      const int steps = std::max(2, static_cast<int>(std::ceil(chord / kSamplePx)));
+      for (int k = 0; k < steps; ++k) {
+        const double t = (k + 0.5) / steps;  // within the segment: a joint has two curvatures
+        const Vec2 d = c.derivative(t);
+        const double speed = std::max(1e-9, d.norm());
+        curve.points.push_back(c.at(t));
+        curve.kappa.push_back(cross(d, c.second(t)) / (speed * speed * speed));
+      }
+      result.controlPoints += 3;
+      if (!path.closed && i + 1 == n) continue;
+      if (directionOf(c, true).dot(directionOf(path.segments[(i + 1) % n], false)) < kCornerCosine)
+        result.corners.push_back(c.p[3]);
+    }
+    result.curves.push_back(std::move(curve));
   }
-  result.found = static_cast<double>(covered) >= 0.95 * static_cast<double>(asked);
   return result;
 }
 

@@ -1,37 +1,56 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/pipeline/pipeline.h"
+#include "tests/support/svg_paths.h"
 #include "tests/support/truth_shapes.h"
 
 namespace batten::test {
 
-/// How a run compares with the truth. Lengths in px of the scan.
-struct Accuracy {
-  bool found = false;  ///< At least 95 % of the smooth outline has a curve within 2 px.
-  double rmsPx = 0.0;  ///< Of the curve from the truth, away from corners.
-  double maxPx = 0.0;
-  double curvatureError = 0.0;  ///< rms of (kappa - truth) times the diagonal of the shape, away from corners.
-  int extrema = 0;              ///< Of the curves, prominence 5e-3 / diagonal.
-  int trueExtrema = 0;
-  double cornerRmsPx = 0.0;  ///< 0 without corners.
-  double cornerMaxPx = 0.0;
-  int cornersFound = 0;
-  int cornersTrue = 0;
+/// A curve as points at even steps of about half a pixel. Image frame; kappa as TruthPiece::kappa.
+struct SampledCurve {
+  std::vector<Vec2> points;
+  std::vector<double> kappa;  ///< [1/px]
+  bool closed = false;        ///< Smooth closed: the last point is followed by the first.
+};
+
+/// What any tracer found on a page.
+struct TraceResult {
+  std::vector<SampledCurve> curves;
+  std::vector<Vec2> corners;
   int controlPoints = 0;
   double milliseconds = 0.0;
-  std::string failure;  ///< Message of the pipeline if it ended early.
+  std::string failure;
 };
 
-struct AccuracyCase {
-  bool faired = false;             ///< Measure the faired curves instead of the sketched ones.
-  double cornerClickOffsetPx = 8;  ///< Corners are marked by clicks this far from the truth.
+/// How a result compares with the truth. Lengths in px of the scan. "Smooth parts" are at least 10 px from corners.
+struct Accuracy {
+  bool found = false;           ///< At least 95 % of the outline has a curve within 2 px.
+  double coverage = 0.0;        ///< 0..1 of the outline.
+  double strayPx = 0.0;         ///< [px] length of curves that lie more than 6 px off the truth.
+  double rmsPx = 0.0;           ///< Of the curves from the truth on smooth parts.
+  double maxPx = 0.0;           ///< There.
+  double curvatureError = 0.0;  ///< rms of (kappa - truth) times the diagonal of the shape, on smooth parts.
+  int falseExtrema = 0;         ///< Curvature extrema (prominence 5e-3 / diagonal) with no true one of their kind near.
+  int missedExtrema = 0;        ///< True ones with none of their kind near.
+  int trueExtrema = 0;
+  int cornersFound = 0;  ///< True corners with one found within 4 px.
+  int cornersTrue = 0;
+  std::vector<double> cornerErrorPx;  ///< Of the found ones whose sides open by 40 degrees or more.
+  std::vector<double> acuteErrorPx;   ///< Of the sharper ones.
 };
 
-/// Runs the pipeline on a page that shows `shape`, corners marked by clicks, and measures the result.
-Accuracy measureAccuracy(const TruthShape& shape, const Scan& scan, Recipe recipe, const AccuracyCase& options);
+/// `borderPx`: the curves are compared with the lines this far on either side of the truth (a tracer that gives both
+/// borders of a stroke instead of its middle); curvature and extrema are not compared then.
+Accuracy compareWithTruth(const TruthShape& shape, const TraceResult& result, double borderPx = 0.0);
+
+/// Runs the program on a page that shows `shape`, every corner marked by a click `clickOffsetPx` beside it.
+TraceResult traceShape(const TruthShape& shape, const Scan& scan, Recipe recipe, double clickOffsetPx);
+
+/// Samples paths of cubics; points where the direction jumps by 20 degrees or more are corners.
+TraceResult sampledPaths(const std::vector<SvgPath>& paths);
 
 }  // namespace batten::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Traces every drawing of a folder with the default recipe and prints, per drawing, how much of the curves lies on ink,
-// how much of the ink has a curve, and how many curves and control points there are; writes the curves over the scan.
+// how much of the ink has a curve, and how many curves and control points there are; where a file of the same name with
+// the ending .svg says how the drawing was made, also how far the curves are from it. Writes the curves over the scan.
 //
 //   bench_sketches FOLDER [OVERLAY_FOLDER] [stage.parameter=value …]
 
@@ -18,6 +19,7 @@
 #include "core/image/scan_reader.h"
 #include "core/pipeline/parameter_table.h"
 #include "core/pipeline/pipeline.h"
+#include "tests/bench/sketch_truth.h"
 
 using namespace batten;
 namespace fs = std::filesystem;
@@ -39,6 +41,7 @@ cv::Mat distanceToInk(const BitImage& ink) {
 struct Figures {
   int curves = 0, controlPoints = 0, failures = 0, extrema = 0;
   double lengthPx = 0.0, onInk = 0.0, worstRmsPx = 0.0;
+  std::vector<test::CurvePoint> points;
 };
 
 Figures drawAndMeasure(const PipelineOutput& output, QImage& overlay, double scale) {
@@ -51,6 +54,7 @@ Figures drawAndMeasure(const PipelineOutput& output, QImage& overlay, double sca
   for (const TracedCurve& curve : output.faired->curves) {
     const int count = std::max(8, static_cast<int>(output.frame.lengthToImage(curve.sketchedFigures.lengthMm)));
     QPainterPath path;
+    Vec2 last = Vec2::Zero();
     for (const CurveSample& sample : sampleByArcLength(curve.faired, count)) {
       const Vec2 p = output.frame.pointToImage(sample.point);
       const int x = std::clamp(static_cast<int>(p.x()), 0, distance.cols - 1),
@@ -58,6 +62,8 @@ Figures drawAndMeasure(const PipelineOutput& output, QImage& overlay, double sca
       on += distance.at<float>(y, x) <= kOnInkPx ? 1.0 : 0.0;
       all += 1.0;
       const QPointF q(p.x() * scale, p.y() * scale);
+      if (path.elementCount() > 0 && p != last) figures.points.push_back({0.5 * (p + last), (p - last).normalized()});
+      last = p;
       path.elementCount() == 0 ? path.moveTo(q) : path.lineTo(q);
     }
     painter.setPen(QPen(QColor::fromHsv(hue, 255, 210), 1.3));
@@ -109,6 +115,13 @@ void trace(const fs::path& file, const Recipe& recipe, const fs::path& overlays)
       "%-30s %5d curves %6d points %5d extrema %8.0f px  on ink %5.1f %%  worst rms %.2f px  %d failed  %7.0f ms\n",
       file.filename().c_str(), f.curves, f.controlPoints, f.extrema, f.lengthPx, 100.0 * f.onInk, f.worstRmsPx,
       f.failures, ms);
+  if (const auto truth = test::SketchTruth::beside(file, scan->grey.width, scan->grey.height)) {
+    const test::SketchTruth::Figures t = truth->compare(f.points);
+    std::printf(
+        "%-30s %5d lines were meant; curves off them median %.2f, rms %.2f px, %.1f %% on none; covered %.1f %%\n",
+        "  as it was drawn", t.groups, t.medianPx, t.rmsPx, 100.0 * t.unmatched, 100.0 * t.covered);
+  }
+  std::fflush(stdout);
   if (!overlays.empty())
     overlay.save(QString::fromStdString((overlays / (file.stem().string() + "-overlay.png")).string()));
 }

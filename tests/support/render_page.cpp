@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgcodecs.hpp>
 #include <random>
 
 namespace batten::test {
@@ -64,12 +65,25 @@ void blur(std::vector<float>& image, int width, int height, double sigma) {
   blurRows(image, width, height, kernel, true);
 }
 
+void throughJpeg(GreyImage& grey, int quality) {
+  cv::Mat page(grey.height, grey.width, CV_8U);
+  for (int y = 0; y < grey.height; ++y)
+    for (int x = 0; x < grey.width; ++x)
+      page.at<unsigned char>(y, x) = static_cast<unsigned char>(grey.row(y)[x] / 257);
+  std::vector<unsigned char> bytes;
+  cv::imencode(".jpg", page, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
+  const cv::Mat back = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+  for (int y = 0; y < grey.height; ++y)
+    for (int x = 0; x < grey.width; ++x)
+      grey.row(y)[x] = static_cast<std::uint16_t>(back.at<unsigned char>(y, x) * 257);
+}
+
 }  // namespace
 
 PageStyle cleanPage() { return {}; }
-PageStyle scannedPage(std::uint32_t seed) { return {255, 140, 30, 0, 0.8, 6, 4, seed}; }
-PageStyle darkPage(std::uint32_t seed) { return {190, 40, 0, 20, 0.8, 2, 0, seed}; }
-PageStyle gradatedPage(std::uint32_t seed) { return {250, 150, 30, 0, 1.2, 5, 0, seed}; }
+PageStyle scannedPage(std::uint32_t seed) { return {255, 140, 30, 0, 0.8, 6, 4, seed, 0}; }
+PageStyle darkPage(std::uint32_t seed) { return {190, 40, 0, 20, 0.8, 2, 0, seed, 0}; }
+PageStyle gradatedPage(std::uint32_t seed) { return {250, 150, 30, 0, 1.2, 5, 0, seed, 0}; }
 
 std::vector<float> fillCoverage(const std::vector<Vec2>& outline, int width, int height) {
   std::vector<double> cells(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(height), 0.0);
@@ -135,6 +149,7 @@ Scan renderPage(std::vector<float> coverage, int width, int height, const PageSt
       scan.grey.row(y)[x] = static_cast<std::uint16_t>(std::lround(std::clamp(std::round(value), 0.0, 255.0)) * 257);
     }
   }
+  if (style.jpegQuality > 0) throughJpeg(scan.grey, style.jpegQuality);
   scan.fileHash = sha256(std::as_bytes(std::span(scan.grey.pixels)));
   return scan;
 }

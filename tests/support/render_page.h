@@ -18,6 +18,7 @@ struct PageStyle {
   double noise = 0.0;                            ///< [grey] standard deviation, white.
   double texture = 0.0;                          ///< [grey] amplitude of slow paper texture.
   std::uint32_t seed = 1;
+  int jpegQuality = 0;  ///< 1..100: the page goes through JPEG; 0: it does not.
 };
 PageStyle cleanPage();
 PageStyle scannedPage(std::uint32_t seed);   ///< Blur .8, noise 6, paper 255 to 140, texture.

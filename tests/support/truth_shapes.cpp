@@ -118,32 +118,39 @@ std::vector<Vec2> TruthShape::outline() const {
   return all;
 }
 
-int countExtrema(const std::vector<double>& kappa, double prominence, bool periodic) {
+std::vector<ProfileExtremum> extremaOf(const std::vector<double>& kappa, double prominence, bool periodic) {
   // Turning points of the profile once every wiggle below the prominence is ignored (hysteresis).
-  const std::size_t n = kappa.size(),
-                    begin = periodic
-                                ? static_cast<std::size_t>(std::max_element(kappa.begin(), kappa.end()) - kappa.begin())
-                                : 0;
-  double low = kappa[begin], high = kappa[begin];
-  int direction = 0, turns = 0;
+  std::vector<ProfileExtremum> found;
+  const std::size_t n = kappa.size();
+  if (n < 3) return found;
+  const std::size_t begin =
+      periodic ? static_cast<std::size_t>(std::max_element(kappa.begin(), kappa.end()) - kappa.begin()) : 0;
+  std::size_t low = begin, high = begin;
+  int direction = 0;
   for (std::size_t i = 1; i < n + (periodic ? 1 : 0); ++i) {
-    const double k = kappa[(begin + i) % n];
-    low = std::min(low, k);
-    high = std::max(high, k);
-    if (direction >= 0 && k < high - prominence) {
-      turns += direction > 0 ? 1 : 0;
+    const std::size_t at = (begin + i) % n;
+    const double k = kappa[at];
+    if (k < kappa[low]) low = at;
+    if (k > kappa[high]) high = at;
+    if (direction >= 0 && k < kappa[high] - prominence) {
+      if (direction > 0) found.push_back({high, true});
       direction = -1;
-      low = k;
-    } else if (direction <= 0 && k > low + prominence) {
-      turns += direction < 0 ? 1 : 0;
+      low = at;
+    } else if (direction <= 0 && k > kappa[low] + prominence) {
+      if (direction < 0) found.push_back({low, false});
       direction = 1;
-      high = k;
+      high = at;
     }
     if (direction < 0) high = low;
     if (direction > 0) low = high;
   }
-  // The periodic walk starts and ends on the largest maximum, which the hysteresis itself does not count.
-  return periodic && turns > 0 ? turns + 1 : turns;
+  // The periodic walk starts and ends on the largest maximum, which the hysteresis itself does not see turn.
+  if (periodic && !found.empty()) found.push_back({begin, true});
+  return found;
+}
+
+int countExtrema(const std::vector<double>& kappa, double prominence, bool periodic) {
+  return static_cast<int>(extremaOf(kappa, prominence, periodic).size());
 }
 
 std::vector<TruthShape> truthShapes(int widthPx, int heightPx) {

@@ -24,6 +24,13 @@ struct TruthShape {
   std::vector<Vec2> outline() const;
 };
 
+/// A turning point of a curvature profile.
+struct ProfileExtremum {
+  std::size_t index = 0;
+  bool isMaximum = false;
+};
+/// The extrema of a curvature profile with at least this prominence, in order. Ends are no extrema.
+std::vector<ProfileExtremum> extremaOf(const std::vector<double>& kappa, double prominence, bool periodic);
 /// Number of extrema of a curvature profile with at least this prominence. The oracle for CurvatureExtremum counts:
 /// written without the program's own code.
 int countExtrema(const std::vector<double>& kappa, double prominence, bool periodic);

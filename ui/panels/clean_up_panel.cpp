@@ -97,6 +97,8 @@ void EdgesPanel::refresh() {
       {tr("of these strokes"), {{grouped(strokes)}}, tr("Followed along the middle of the pen stroke.")},
       {tr("of these closed"), {{grouped(closed)}}, tr("Lines that return to their start.")},
       {tr("Too short"), {{grouped(report.droppedShort)}}, tr("Left out because they are shorter than the shortest line.")}};
+  if (report.droppedMargins > 0)
+    rows.push_back({tr("Margins of the scanner left out"), {{grouped(report.droppedMargins)}}, {}});
   if (report.droppedHoles > 0) rows.push_back({tr("Inner outlines left out"), {{grouped(report.droppedHoles)}}, {}});
   rows.push_back({tr("Placed on grey values"), {{QStringLiteral("%1 %").arg(100 * report.refinedShare, 0, 'f', 0)}},
                   tr("Part of the points that lie on the scan's grey values, finer than a pixel.")});

@@ -291,6 +291,14 @@ TEST(Centreline, OverdrawnStrokesMergeOnlyWhenAsked) {
       EXPECT_NEAR(q.y(), 103.67, 0.4);
     }
   }
+  // The strokes' middles are 13 px apart.
+  ASSERT_EQ(found[0].bandPx.size(), found[0].points.size());
+  for (std::size_t i = 0; i < found[0].points.size(); ++i) {
+    if (found[0].points[i].x() > 60 && found[0].points[i].x() < 340) {
+      EXPECT_NEAR(found[0].bandPx[i], 6.5, 0.9);  // borders are ragged by half a pixel
+    }
+  }
+  for (const Contour& alone : strandsOf(p)) EXPECT_TRUE(alone.bandPx.empty());
 }
 
 TEST(Centreline, SameResultWithAnyNumberOfThreads) {

@@ -146,6 +146,67 @@ TEST(CornerMarks, TipsEatenByTheMaskAreExtended) {
   }
 }
 
+// Clicks on the far side of such a tip are more than the snap distance from every point of the contour.
+TEST(CornerMarks, ClicksBesideEatenTipsFindThem) {
+  for (const double angle : {24.0, 32.0, 44.0, 52.0}) {
+    const Vec2 tip(280, 150);
+    const double w = 220.0 * std::tan(0.5 * angle * kDeg);
+    RenderSettings s;
+    s.width = 310;
+    s.height = 300;
+    s.noise = 5.0;
+    s.seed = 7;
+    const GreyImage grey = renderShape(test::PolygonInside({tip, {60, 150 + w}, {60, 150 - w}}), s);
+    BitImage ink = test::thresholdMask(grey, 135.0);
+    const double eaten = 3.0 / std::sin(0.5 * angle * kDeg);
+    for (int y = 0; y < s.height; ++y) {
+      for (int x = static_cast<int>(tip.x() - eaten); x < s.width; ++x) ink.set(x, y, false);
+    }
+    EdgeParams edges;
+    edges.mode = EdgeMode::Outline;
+    const auto set = traceContours(ink, grey, {}, edges, {}, {});
+    ASSERT_TRUE(set.has_value());
+    for (const double direction : {0.0, 70.0, 140.0, 220.0, 290.0}) {
+      const std::vector<CornerMark> marks{{tip + 8.0 * Vec2(std::cos(direction * kDeg), std::sin(direction * kDeg))}};
+      const auto pieces = splitAtCorners(*set, marks, {});
+      ASSERT_TRUE(pieces.has_value());
+      ASSERT_EQ(pieces->corners.size(), 1u) << angle << " clicked at " << direction;
+      EXPECT_LE((pieces->corners[0].positionPx - tip).norm(), angle < 40.0 ? 0.5 : 0.25) << angle << ", " << direction;
+      EXPECT_LE(pieces->corners[0].snapPx, 9.0);
+    }
+  }
+}
+
+// Shallow corners: the position along the line is 1 / sin(angle) less certain, so the sides must be used as far as they
+// are smooth.
+TEST(CornerMarks, ShallowCornersOfLongSides) {
+  double square = 0.0;
+  int count = 0;
+  for (const double turnDeg : {25.0, 35.0, 60.0}) {
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      std::mt19937 random(seed);
+      std::normal_distribution<double> gauss(0.0, 1.0);
+      std::vector<Vec2> points;
+      const Vec2 corner(300, 300), out(std::cos(turnDeg * kDeg), std::sin(turnDeg * kDeg));
+      for (int i = 250; i > 0; --i) points.emplace_back(300.0 - i, 300.0 - 0.5 * i * i / 500.0);
+      for (int i = 0; i <= 250; ++i) points.push_back(corner + i * out + (0.5 * i * i / 400.0) * leftNormal(out));
+      for (Vec2& p : points) p += 0.07 * Vec2(gauss(random), gauss(random));
+      Contour c;
+      c.chain = c.points = std::move(points);
+      c.refined.assign(c.points.size(), 1);
+      ContourSet set;
+      set.contours.push_back(c);
+      const std::vector<CornerMark> marks{{corner + Vec2(-5, 6)}};
+      const auto pieces = splitAtCorners(set, marks, {});
+      ASSERT_TRUE(pieces.has_value());
+      ASSERT_EQ(pieces->corners.size(), 1u);
+      square += (pieces->corners[0].positionPx - corner).squaredNorm();
+      ++count;
+    }
+  }
+  EXPECT_LE(std::sqrt(square / count), 0.18);
+}
+
 TEST(CornerMarks, TurningAngleIsPositiveToTheLeftInTheModelFrame) {
   std::vector<Vec2> points;
   for (int i = 0; i <= 60; ++i) points.emplace_back(i, 100.0);

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/trace_contours.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/contour_shapes.h"
+
+namespace batten {
+namespace {
+
+using test::RenderSettings;
+
+struct Page {
+  GreyImage grey;
+  BitImage ink;
+};
+
+Page render(const std::function<bool(double, double)>& inside, double noise = 3.0) {
+  RenderSettings s;
+  s.width = 400;
+  s.height = 300;
+  s.noise = noise;
+  Page page{renderShape(inside, s), {}};
+  page.ink = test::thresholdMask(page.grey, 135.0);
+  return page;
+}
+
+bool inDisc(double x, double y, double cx, double cy, double r) { return std::hypot(x - cx, y - cy) < r; }
+
+// Two discs, a ring of 3 px and a short dash.
+Page mixedPage() {
+  return render([](double x, double y) {
+    const double ring = std::hypot(x - 300, y - 80);
+    return inDisc(x, y, 100, 100, 60) || inDisc(x, y, 330, 230, 30) || std::abs(ring - 50.0) < 1.5 ||
+           (x > 30 && x < 50 && std::abs(y - 260) < 1.5);
+  });
+}
+
+EdgeParams withMode(EdgeMode mode) {
+  EdgeParams p;
+  p.mode = mode;
+  return p;
+}
+
+TEST(TraceContours, ShapesGiveOutlinesAndStrokesCentreLines) {
+  const Page page = mixedPage();
+  ContourParams any;
+  any.minLengthPx = 0.0;
+  const auto set = traceContours(page.ink, page.grey, {}, withMode(EdgeMode::Automatic), any, {});
+  ASSERT_TRUE(set.has_value());
+  ASSERT_EQ(set->contours.size(), 4u);
+  EXPECT_EQ(set->contours[0].kind, ContourKind::Outline);
+  EXPECT_EQ(set->contours[1].kind, ContourKind::Centreline);
+  EXPECT_EQ(set->contours[2].kind, ContourKind::Outline);
+  EXPECT_EQ(set->contours[3].kind, ContourKind::Centreline);
+  EXPECT_NEAR(set->contours[0].lengthPx, 2 * M_PI * 60, 2.0);
+  EXPECT_NEAR(set->contours[0].areaPx, M_PI * 3600, 40.0);
+  EXPECT_NEAR(set->contours[1].lengthPx, 2 * M_PI * 50, 2.0);
+  for (const Contour& c : set->contours) {
+    EXPECT_EQ(c.points.size(), c.chain.size());
+    EXPECT_EQ(c.points.size(), c.refined.size());
+    EXPECT_TRUE(c.bandPx.empty());
+    EXPECT_EQ(c.widthPx.size(), c.kind == ContourKind::Centreline ? c.points.size() : 0u);
+  }
+  EXPECT_GT(set->report.refinedShare, 0.97);
+}
+
+TEST(TraceContours, ModesOverrideTheChoice) {
+  const Page page = mixedPage();
+  const auto outlines = traceContours(page.ink, page.grey, {}, withMode(EdgeMode::Outline), {}, {});
+  const auto lines = traceContours(page.ink, page.grey, {}, withMode(EdgeMode::Centreline), {}, {});
+  ASSERT_TRUE(outlines.has_value());
+  ASSERT_TRUE(lines.has_value());
+  for (const Contour& c : outlines->contours) EXPECT_EQ(c.kind, ContourKind::Outline);
+  for (const Contour& c : lines->contours) EXPECT_EQ(c.kind, ContourKind::Centreline);
+  EXPECT_EQ(outlines->report.droppedHoles, 1);
+  EdgeParams inner = withMode(EdgeMode::Outline);
+  inner.internal = true;
+  const auto both = traceContours(page.ink, page.grey, {}, inner, {}, {});
+  ASSERT_TRUE(both.has_value());
+  EXPECT_EQ(both->contours.size(), outlines->contours.size() + 1);
+}
+
+TEST(TraceContours, LongestFirstShortOnesDroppedAndTheCutIsSaid) {
+  const Page page = mixedPage();
+  ContourParams params;
+  params.minLengthPx = 60.0;
+  const auto set = traceContours(page.ink, page.grey, {}, {}, params, {});
+  ASSERT_TRUE(set.has_value());
+  EXPECT_EQ(set->contours.size(), 3u);
+  EXPECT_EQ(set->report.droppedShort, 1);
+  for (std::size_t i = 1; i < set->contours.size(); ++i)
+    EXPECT_GE(set->contours[i - 1].lengthPx, set->contours[i].lengthPx);
+  params.maxCount = 2;
+  const auto cut = traceContours(page.ink, page.grey, {}, {}, params, {});
+  ASSERT_TRUE(cut.has_value());
+  EXPECT_EQ(cut->contours.size(), 2u);
+  EXPECT_NE(cut->report.note.find("2 longest of 3"), std::string::npos);
+}
+
+TEST(TraceContours, MarginsOfTheScannerAreNoLines) {
+  const Page page = render([](double x, double y) {
+    return x < 4 + 0.5 * std::sin(y * 0.1) || y > 297 || (std::abs(y - 150 - 0.2 * x) < 2.0 && x < 399);
+  });
+  const auto set = traceContours(page.ink, page.grey, {}, {}, {}, {});
+  ASSERT_TRUE(set.has_value());
+  ASSERT_EQ(set->contours.size(), 1u);
+  EXPECT_EQ(set->report.droppedMargins, 1);
+  for (const Vec2& p : set->contours[0].points) EXPECT_NEAR(p.y(), 150 + 0.2 * p.x(), 4.0);
+}
+
+TEST(TraceContours, NothingLongEnoughSaysWhatToDo) {
+  const Page page = mixedPage();
+  ContourParams params;
+  params.minLengthPx = 5000.0;
+  const auto none = traceContours(page.ink, page.grey, {}, {}, params, {});
+  ASSERT_FALSE(none.has_value());
+  EXPECT_EQ(none.error().code, ErrorCode::NoCurve);
+  EXPECT_NE(none.error().message.find("5000 px"), std::string::npos);
+  const auto empty = traceContours(BitImage(400, 300), page.grey, {}, {}, {}, {});
+  ASSERT_FALSE(empty.has_value());
+  EXPECT_EQ(empty.error().code, ErrorCode::NoCurve);
+}
+
+TEST(TraceContours, BadInputIsRefused) {
+  const Page page = mixedPage();
+  EXPECT_FALSE(traceContours(BitImage(10, 10), page.grey, {}, {}, {}, {}).has_value());
+  EdgeParams edges;
+  edges.mergeWidths = 21.0;
+  EXPECT_FALSE(traceContours(page.ink, page.grey, {}, edges, {}, {}).has_value());
+  ContourParams params;
+  params.maxCount = 0;
+  EXPECT_FALSE(traceContours(page.ink, page.grey, {}, {}, params, {}).has_value());
+}
+
+// A border of more points than one block of any loop.
+TEST(TraceContours, SameOutlineWithAnyNumberOfThreads) {
+  RenderSettings s;
+  s.width = 1300;
+  s.height = 1300;
+  s.noise = 4.0;
+  s.blurPx = 0.8;
+  const GreyImage grey =
+      renderShape([](double x, double y) { return std::hypot(x - 650, y - 650) < 570 + 20 * std::sin(x * 0.05); }, s);
+  const BitImage ink = test::thresholdMask(grey, 135.0);
+  std::vector<ContourSet> sets;
+  for (const int threads : {1, 2, 5}) {
+    RunContext context;
+    context.threads = threads;
+    auto set = traceContours(ink, grey, {}, withMode(EdgeMode::Outline), {}, context);
+    ASSERT_TRUE(set.has_value());
+    sets.push_back(std::move(*set));
+  }
+  ASSERT_GE(sets[0].contours[0].points.size(), 4000u);
+  for (std::size_t k = 1; k < sets.size(); ++k) {
+    ASSERT_EQ(sets[k].contours.size(), sets[0].contours.size());
+    EXPECT_EQ(sets[k].contours[0].points, sets[0].contours[0].points);
+    EXPECT_EQ(sets[k].contours[0].refined, sets[0].contours[0].refined);
+  }
+}
+
+TEST(TraceContours, CancelIsObeyed) {
+  const Page page = mixedPage();
+  RunContext context;
+  context.cancel.cancel();
+  const auto set = traceContours(page.ink, page.grey, {}, {}, {}, context);
+  ASSERT_FALSE(set.has_value());
+  EXPECT_EQ(set.error().code, ErrorCode::Cancelled);
+}
+
+}  // namespace
+}  // namespace batten
