@@ -10,6 +10,7 @@
 #include "core/contour/centreline_mask.h"
 #include "core/contour/centreline_refine.h"
 #include "core/contour/centreline_skeleton.h"
+#include "core/contour/stroke_merge.h"
 
 namespace batten {
 namespace {
@@ -53,19 +54,11 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (context.isCancelled()) return cancelled();
   const double width = medianWidth(strands);
   RefineSettings settings;
-  const double merge = params.mergeWidths * width;
-  const bool grainy = merge < 1.0 && grainAlong(strands, grey) > kGrainLimit;
-  if (merge >= 1.0 || grainy) {
-    // Finer than from the distances of pixels.
-    double length = 0.0;
-    for (const Strand& s : strands) length += s.length();
-    const double penHalf = length > 0.0 ? std::max(0.5, 0.5 * static_cast<double>(strokes.count()) / length) : 0.5;
-    // Overdrawn strokes and the specks of a pencil become one body first; the middle of its darkness is the line.
-    const double diameter = grainy ? 0.75 * width + 1.0 : merge;
-    strands = strandsOf(closeInk(strokes, diameter), params, context);
+  if (grainAlong(strands, grey) > kGrainLimit) {
+    // The specks of a pencil become one body first; the middle of its darkness is the line.
+    strands = strandsOf(closeInk(strokes, 0.75 * width + 1.0), params, context);
     settings.rule = CentreRule::Centroid;
-    settings.smoothShiftPx = grainy ? 3.0 : 6.0;
-    settings.penHalfPx = grainy ? 0.0 : penHalf;
+    settings.smoothShiftPx = 3.0;
   }
   if (!params.subpixel) settings.rule = CentreRule::None;
   bridgeGaps(strands, params, context);
@@ -78,6 +71,11 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   set.contours = refineStrands(strands, grey, settings, context);
   if (context.isCancelled()) return cancelled();
   std::erase_if(set.contours, [](const Contour& c) { return c.points.size() < 3; });
+  if (params.mergeWidths * width >= 1.0) {
+    // Between middles: the paper between two strokes is a width less.
+    set.contours = mergeStrokes(set.contours, (params.mergeWidths + 1.0) * width, context);
+    if (context.isCancelled()) return cancelled();
+  }
   set.report.droppedMargins =
       static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return isMargin(c, grey); }));
   return set;

@@ -24,7 +24,6 @@ struct StrandCourse {
   bool tip[2] = {false, false};
   double widthPx = 1.0;  ///< Median.
   int profileHalf = 0;   ///< [samples]
-  double penHalfPx = 0.0;  ///< [px] Half the width of the single strokes that were merged; 0: nothing was.
 };
 
 /// Position, direction of travel and bend (second derivative, 1/px) at point `border` by a parabola through the points

@@ -183,10 +183,6 @@ Contour contourOf(const StrandCourse& c) {
     contour.chain.push_back(c.chain[i]);
     contour.refined.push_back(c.measured[i]);
     contour.widthPx.push_back(std::max(0.1f, c.measuredWidth[i]));
-    if (c.penHalfPx > 0.0) {
-      contour.bandPx.push_back(std::max(0.0f, c.radius[i] - static_cast<float>(c.penHalfPx)));
-      contour.widthPx.back() = static_cast<float>(2.0 * c.penHalfPx);
-    }
     part.push_back(c.part[i]);
   }
   while (contour.closed && contour.points.size() > 3 &&
@@ -195,11 +191,8 @@ Contour contourOf(const StrandCourse& c) {
     contour.chain.pop_back();
     contour.refined.pop_back();
     contour.widthPx.pop_back();
-    if (!contour.bandPx.empty()) contour.bandPx.pop_back();
     part.pop_back();
   }
-  // The border of a bundle is as ragged as its strokes begin and end.
-  if (!contour.bandPx.empty()) contour.bandPx = smoothValues(contour.bandPx, contour.closed, 4.0);
   const int n = static_cast<int>(part.size());
   for (int i = 0; i < n; ++i) {
     if (part[static_cast<std::size_t>(i)] != StrandPart::Bridge) continue;

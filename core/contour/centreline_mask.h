@@ -6,8 +6,8 @@
 
 namespace batten {
 
-/// Closing by a disc of this diameter [px], then holes whose largest disc is less than 2 px wider are filled: strokes
-/// of one bundle, or the specks of a pencil stroke, become one body. May throw std::bad_alloc or cv::Exception.
+/// Closing by a disc of this diameter [px], then holes whose largest disc is less than 2 px wider are filled: the
+/// specks of a pencil stroke become one body. May throw std::bad_alloc or cv::Exception.
 BitImage closeInk(const BitImage& ink, double diameterPx);
 
 }  // namespace batten

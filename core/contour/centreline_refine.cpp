@@ -106,10 +106,7 @@ std::vector<Contour> refineStrands(const std::vector<Strand>& strands, const Gre
                                    const RefineSettings& settings, const RunContext& context) {
   constexpr int kRounds = 2;
   std::vector<StrandCourse> courses(strands.size());
-  forCourses(courses, context, [&](std::size_t i) {
-    courses[i] = layCourse(strands[i]);
-    courses[i].penHalfPx = settings.penHalfPx;
-  });
+  forCourses(courses, context, [&](std::size_t i) { courses[i] = layCourse(strands[i]); });
   if (settings.rule != CentreRule::None) {
     for (int round = 0; round < kRounds && !context.isCancelled(); ++round) {
       measureAll(courses, grey, settings.rule, context);

@@ -20,8 +20,6 @@ enum class CentreRule {
 struct RefineSettings {
   CentreRule rule = CentreRule::HalfLevel;
   double smoothShiftPx = 0.0;  ///< [px] Gaussian over the shifts along the strand (Centroid).
-  double penHalfPx = 0.0;      ///< [px] > 0: the strands are bundles of strokes of this half width; Contour::bandPx
-                               ///< is what the bundle is wider.
 };
 
 /// Strands to contours: points about 1 px apart, moved to the middle of the stroke on the grey values, laid smoothly

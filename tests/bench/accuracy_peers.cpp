@@ -31,7 +31,8 @@ std::string quoted(const fs::path& path) {
   return text;
 }
 
-/// Runs a command that writes an SVG of px times `scale`, and samples its paths.
+/// Runs a command that writes an SVG of px times `scale`, and samples its paths. Scaling up puts the first samples of
+/// both pictures on one another and not their borders: half a fine pixel and half a coarse one apart.
 std::optional<TraceResult> tracedBy(const std::string& command, const fs::path& svg, double scale) {
   fs::remove(svg);
   const auto begin = std::chrono::steady_clock::now();
@@ -42,7 +43,7 @@ std::optional<TraceResult> tracedBy(const std::string& command, const fs::path& 
   std::vector<SvgPath> paths = readSvgPaths({std::istreambuf_iterator<char>(in), {}});
   for (SvgPath& path : paths)
     for (SvgCubic& cubic : path.segments)
-      for (Vec2& p : cubic.p) p /= scale;
+      for (Vec2& p : cubic.p) p = ((p / scale).array() + 0.5 * (1.0 - 1.0 / scale)).matrix();
   TraceResult result = sampledPaths(paths);
   result.milliseconds = ms;
   return result;

@@ -24,7 +24,12 @@ std::optional<SketchTruth> SketchTruth::beside(const std::filesystem::path& draw
   if (!in) return std::nullopt;
   SketchTruth truth;
   std::map<std::string, int> numbers;
-  std::vector<SvgPath> paths = readSvgPaths({std::istreambuf_iterator<char>(in), {}});
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::vector<SvgPath> paths = readSvgPaths(text);
+  const double width = svgWidthPx(text);
+  for (SvgPath& path : paths)
+    for (SvgCubic& cubic : path.segments)
+      for (Vec2& p : cubic.p) p *= width > 0.0 ? widthPx / width : 1.0;
   for (std::size_t p = 0; p < paths.size(); ++p) {
     const std::string name = paths[p].group.starts_with("curve") ? paths[p].group : "path" + std::to_string(p);
     const auto [it, fresh] = numbers.try_emplace(name, static_cast<int>(numbers.size()));

@@ -262,6 +262,13 @@ Vec2 SvgCubic::second(double t) const {
   return 6.0 * ((1.0 - t) * (p[2] - 2.0 * p[1] + p[0]) + t * (p[3] - 2.0 * p[2] + p[1]));
 }
 
+double svgWidthPx(const std::string& text) {
+  const std::size_t open = text.find("<svg"), close = text.find('>', std::min(open, text.size()));
+  if (close == std::string::npos) return 0.0;
+  const auto width = attribute(std::string_view(text).substr(open, close - open), "width");
+  return width ? lengthPx(*width) : 0.0;
+}
+
 std::vector<SvgPath> readSvgPaths(const std::string& text) {
   std::vector<SvgPath> all;
   std::vector<Level> levels(1);

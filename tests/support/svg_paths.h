@@ -27,4 +27,7 @@ struct SvgPath {
 /// quadratics. Lengths with units count as px of 96 dpi (pt: 4/3). Unknown elements are passed over.
 std::vector<SvgPath> readSvgPaths(const std::string& text);
 
+/// Width of the picture in px; 0 if the file does not say.
+double svgWidthPx(const std::string& text);
+
 }  // namespace batten::test

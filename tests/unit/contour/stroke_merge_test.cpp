@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/stroke_merge.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contour/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+Contour strokeOf(std::vector<Vec2> points, bool closed = false) {
+  Contour c;
+  c.kind = ContourKind::Centreline;
+  c.closed = closed;
+  c.chain = c.points = std::move(points);
+  c.refined.assign(c.points.size(), 1);
+  c.widthPx.assign(c.points.size(), 3.0f);
+  c.lengthPx = polylineLength(c.points, closed);
+  return c;
+}
+
+Contour arc(const Vec2& centre, double radius, double from, double to) {
+  std::vector<Vec2> points;
+  const int n = static_cast<int>(std::abs(to - from) * radius);
+  for (int i = 0; i <= n; ++i) {
+    const double a = from + (to - from) * i / n;
+    points.push_back(centre + radius * Vec2(std::cos(a), std::sin(a)));
+  }
+  return strokeOf(std::move(points));
+}
+
+Contour line(const Vec2& a, const Vec2& b) {
+  std::vector<Vec2> points;
+  const int n = static_cast<int>((b - a).norm());
+  for (int i = 0; i <= n; ++i) points.push_back(a + (b - a) * (static_cast<double>(i) / n));
+  return strokeOf(std::move(points));
+}
+
+TEST(StrokeMerge, StrokesSideBySideBecomeTheirMean) {
+  const std::vector<Contour> strokes{line({40, 97}, {360, 97}), line({360, 104}, {40, 104}),
+                                     line({40, 110}, {360, 110})};
+  const auto merged = mergeStrokes(strokes, 12.0, {});
+  ASSERT_EQ(merged.size(), 1u);
+  for (std::size_t i = 0; i < merged[0].points.size(); ++i) {
+    if (merged[0].points[i].x() < 70 || merged[0].points[i].x() > 330) continue;
+    EXPECT_NEAR(merged[0].points[i].y(), 311.0 / 3.0, 0.25);
+    EXPECT_NEAR(merged[0].bandPx[i], 6.5, 0.3);
+  }
+}
+
+// Where one stroke ends and the next begins, the mean goes over without a step.
+TEST(StrokeMerge, OverlappingStrokesAreOneSmoothLine) {
+  const std::vector<Contour> strokes{line({0, 100}, {240, 100}), line({160, 106}, {400, 106})};
+  const auto merged = mergeStrokes(strokes, 12.0, {});
+  ASSERT_EQ(merged.size(), 1u);
+  EXPECT_NEAR(merged[0].lengthPx, 400.0, 4.0);
+  for (const Vec2& p : merged[0].points) {
+    EXPECT_GE(p.y(), 99.9);
+    EXPECT_LE(p.y(), 106.1);
+    if (p.x() < 150) {
+      EXPECT_NEAR(p.y(), 100.0, 0.05);
+    }
+    if (p.x() > 250) {
+      EXPECT_NEAR(p.y(), 106.0, 0.05);
+    }
+  }
+  const std::vector<Vec2> way = directions(merged[0].points, false, 3);
+  for (const Vec2& d : way) EXPECT_GT(std::abs(d.x()), 0.93);  // 6 px over at least 20
+}
+
+TEST(StrokeMerge, ALoopOfSeveralStrokesIsClosed) {
+  const Vec2 c(200, 200);
+  const std::vector<Contour> strokes{arc(c, 120, 0.0, 2.4), arc(c, 124, 4.5, 2.1), arc(c, 121, 4.2, 2 * kPi + 0.3)};
+  const auto merged = mergeStrokes(strokes, 14.0, {});
+  ASSERT_EQ(merged.size(), 1u);
+  EXPECT_TRUE(merged[0].closed);
+  for (std::size_t i = 0; i < merged[0].points.size(); ++i) {
+    EXPECT_NEAR((merged[0].points[i] - c).norm(), 122.0, 2.6);
+    EXPECT_LE(merged[0].bandPx[i], 2.6f);
+    EXPECT_GE(merged[0].bandPx[i], 0.0f);
+  }
+}
+
+TEST(StrokeMerge, CrossingsAndLonelyLinesStayAsTheyAre) {
+  const std::vector<Contour> lines{line({20, 20}, {300, 300}), line({20, 300}, {300, 20}), line({20, 400}, {300, 400}),
+                                   line({20, 430}, {300, 430})};
+  const auto merged = mergeStrokes(lines, 20.0, {});
+  ASSERT_EQ(merged.size(), lines.size());
+  for (const Contour& c : merged) {
+    const bool known = std::any_of(lines.begin(), lines.end(), [&](const Contour& l) { return l.points == c.points; });
+    EXPECT_TRUE(known);
+    for (const float b : c.bandPx) EXPECT_EQ(b, 0.0f);
+  }
+}
+
+TEST(StrokeMerge, OvershootsGoAndLongBranchesStay) {
+  // A second stroke runs along the first and turns away: 25 px, then 150 px beyond where it leaves.
+  const auto turning = [](double length) {
+    std::vector<Vec2> points;
+    for (int x = 60; x <= 200; ++x) points.emplace_back(x, 103.0);
+    Vec2 p = points.back();
+    for (double s = 0.0; s < length; s += 1.0) {
+      const double angle = std::min(1.0, s / 30.0);
+      p += Vec2(std::cos(angle), std::sin(angle));
+      points.push_back(p);
+    }
+    return strokeOf(std::move(points));
+  };
+  const std::vector<Contour> shortOne{line({0, 100}, {400, 100}), turning(25.0)};
+  EXPECT_EQ(mergeStrokes(shortOne, 14.0, {}).size(), 1u);
+  const std::vector<Contour> longOne{line({0, 100}, {400, 100}), turning(150.0)};
+  EXPECT_EQ(mergeStrokes(longOne, 14.0, {}).size(), 2u);
+}
+
+TEST(StrokeMerge, SameResultWithAnyNumberOfThreads) {
+  std::vector<Contour> strokes;
+  for (int i = 0; i < 12; ++i) strokes.push_back(arc({200, 200}, 100.0 + 3.0 * i, 0.2 * i, 0.2 * i + 2.5));
+  RunContext one, five;
+  one.threads = 1;
+  five.threads = 5;
+  const auto a = mergeStrokes(strokes, 9.0, one), b = mergeStrokes(strokes, 9.0, five);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].points, b[i].points);
+    EXPECT_EQ(a[i].bandPx, b[i].bandPx);
+    for (const Vec2& p : a[i].points) EXPECT_TRUE(p.allFinite());
+  }
+}
+
+TEST(StrokeMerge, NothingAndTinyThings) {
+  EXPECT_TRUE(mergeStrokes({}, 10.0, {}).empty());
+  const std::vector<Contour> tiny{strokeOf({{1, 1}, {2, 1}}), strokeOf({{5, 5}, {5, 5}, {5, 5}}),
+                                  line({0, 50}, {90, 50})};
+  EXPECT_GE(mergeStrokes(tiny, 10.0, {}).size(), 1u);
+  RunContext cancelled;
+  cancelled.cancel.cancel();
+  EXPECT_TRUE(mergeStrokes(tiny, 10.0, cancelled).empty());
+}
+
+}  // namespace
+}  // namespace batten
