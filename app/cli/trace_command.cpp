@@ -12,7 +12,6 @@
 #include "app/cli/exit_codes.h"
 #include "app/cli/stage_dump.h"
 #include "app/cli/trace_plan.h"
-#include "core/base/parallel.h"
 #include "core/document/export_builder.h"
 #include "core/exchange/writers.h"
 #include "core/image/scan_reader.h"
@@ -98,16 +97,12 @@ class Trace {
       const auto& curves = out_.faired->curves;
       extras.targets.resize(curves.size());
       extras.targetProblems.resize(curves.size());
-      RunContext one = context_;
-      one.threads = 1;
-      parallelFor(context_, static_cast<int>(curves.size()), 1, [&](int first, int last) {
-        for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
-          if (!curves[i].included) continue;
-          auto targets = targetsFor(curves[i], one);
-          if (!targets) extras.targetProblems[i] = targets.error().message;
-          if (targets) extras.targets[i] = std::move(*targets);
-        }
-      });
+      auto targets = targetsForAll(curves, context_);
+      for (std::size_t i = 0; i < curves.size(); ++i) {
+        if (!curves[i].included) continue;
+        if (!targets[i]) extras.targetProblems[i] = targets[i].error().message;
+        if (targets[i]) extras.targets[i] = std::move(*targets[i]);
+      }
     }
     extras.peakMemoryBytes = peakMemoryBytes();
     return save(arguments_.report, reportToJson(scan_, plan_.recipe, out_, extras));

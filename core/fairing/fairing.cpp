@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fairing/fairing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <new>
+#include <numeric>
 
 #include "core/base/parallel.h"
 #include "core/fairing/fairing_solvers.h"
@@ -18,6 +20,50 @@ constexpr double kProminence = 5e-3;
 int extremaOf(const NurbsCurve& curve, bool closed) {
   const double size = extent(curve);
   return size > 0.0 ? static_cast<int>(curvatureExtrema(curve, kProminence / size, closed).size()) : 0;
+}
+
+/// The targets of one curve, on the way.
+struct TargetsRun {
+  std::shared_ptr<const FairingSetup> setup;  ///< Null: the curve cannot be made fair, `problem` says why.
+  std::string problem;
+  Result<TargetOutcomes> outcomes = cancelled();
+};
+
+TargetsRun prepared(const TargetsJob& job) {
+  TargetsRun run;
+  try {
+    if (const auto error = validate(job.params)) return {nullptr, {}, fail(*error)};
+    if (job.curve.isEmpty()) return {nullptr, {}, fail(ErrorCode::BadParameter, "There is no curve to make fair.")};
+    TargetOutcomes outcomes;
+    outcomes.targets = fitTargets(job.curve, job.params.targets, job.closed);
+    outcomes.recommendedDegree = outcomes.targets.recommendedDegree;
+    auto setup = makeSetup(job.curve, job.closed, job.params);
+    if (!setup && setup.error().code != ErrorCode::Numerical) return {nullptr, {}, fail(setup.error())};
+    if (setup) run.setup = std::move(*setup);
+    if (!setup) run.problem = setup.error().message;
+    run.outcomes = std::move(outcomes);
+  } catch (const std::bad_alloc&) {
+    run.outcomes = fail(ErrorCode::OutOfMemory, "Not enough memory to make the curve fair.");
+  }
+  return run;
+}
+
+void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const RunContext& context) {
+  TargetOutcomes& outcomes = *run.outcomes;
+  try {
+    if (!run.setup) {
+      outcomes.faired[at] = unchanged(job.curve, job.closed, Termination::Degenerate, run.problem);
+      return;
+    }
+    auto faired = modifyShape(*run.setup, outcomes.targets.profiles[at], job.params.toleranceMm, context);
+    if (faired) {
+      outcomes.faired[at] = std::move(*faired);
+    } else {
+      outcomes.problems[at] = faired.error().message;
+    }
+  } catch (const std::bad_alloc&) {
+    outcomes.problems[at] = "Not enough memory to make the curve fair.";
+  }
 }
 
 }  // namespace
@@ -97,36 +143,34 @@ Result<FairedCurve> fairWithinTolerance(const NurbsCurve& curve, bool closed, co
                    [&](const FairingSetup& setup) { return fairWithinTolerance(setup, params.toleranceMm, context); });
 }
 
+std::vector<Result<TargetOutcomes>> fairAllTargets(std::span<const TargetsJob> jobs, const RunContext& context) {
+  std::vector<TargetsRun> runs(jobs.size());
+  parallelFor(context, static_cast<int>(jobs.size()), 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) runs[static_cast<std::size_t>(i)] = prepared(jobs[static_cast<std::size_t>(i)]);
+  });
+  std::vector<std::size_t> order(jobs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto samples = [&](std::size_t i) { return runs[i].setup ? runs[i].setup->sampleCount() : 0; };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return samples(a) > samples(b); });
+  parallelFor(context, 6 * static_cast<int>(jobs.size()), 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const std::size_t job = order[at / 6];
+      if (runs[job].outcomes) runTarget(jobs[job], runs[job], at % 6, context);
+    }
+  });
+  std::vector<Result<TargetOutcomes>> results;
+  for (TargetsRun& run : runs) {
+    if (context.isCancelled()) run.outcomes = cancelled();
+    results.push_back(std::move(run.outcomes));
+  }
+  return results;
+}
+
 Result<TargetOutcomes> fairAllTargets(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                       const RunContext& context) {
-  if (const auto error = validate(params)) return fail(*error);
-  if (curve.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to make fair.");
-  try {
-    TargetOutcomes outcomes;
-    outcomes.targets = fitTargets(curve, params.targets, closed);
-    outcomes.recommendedDegree = outcomes.targets.recommendedDegree;
-    const auto setup = makeSetup(curve, closed, params);
-    if (!setup && setup.error().code != ErrorCode::Numerical) return fail(setup.error());
-    parallelFor(context, 6, 1, [&](int begin, int end) {
-      for (int i = begin; i < end; ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        if (!setup) {
-          outcomes.faired[at] = unchanged(curve, closed, Termination::Degenerate, setup.error().message);
-          continue;
-        }
-        auto faired = modifyShape(**setup, outcomes.targets.profiles[at], params.toleranceMm, context);
-        if (faired) {
-          outcomes.faired[at] = std::move(*faired);
-        } else {
-          outcomes.problems[at] = faired.error().message;
-        }
-      }
-    });
-    if (context.isCancelled()) return cancelled();
-    return outcomes;
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "Not enough memory to make the curve fair.");
-  }
+  const TargetsJob job{curve, closed, params};
+  return std::move(fairAllTargets(std::span(&job, 1), context).front());
 }
 
 Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingParams& params, const RunContext& context) {

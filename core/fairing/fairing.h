@@ -83,6 +83,14 @@ struct TargetOutcomes {
 };
 Result<TargetOutcomes> fairAllTargets(const NurbsCurve&, bool closed, const FairingParams&, const RunContext&);
 
+/// The same for several curves at once: all targets of all curves share the threads, the longest first.
+struct TargetsJob {
+  NurbsCurve curve;
+  bool closed = false;
+  FairingParams params;
+};
+std::vector<Result<TargetOutcomes>> fairAllTargets(std::span<const TargetsJob>, const RunContext&);
+
 /// One call for every mode.
 Result<FairedCurve> fair(const NurbsCurve&, bool closed, const FairingParams&, const RunContext&);
 

@@ -44,7 +44,8 @@ FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& ob
   const double length = state.arc.length;
   const bool profile = !objective.wanted.empty();
   stepLength_ = length / (setup.closed ? count : count - 1);
-  for (auto* rows : {&local_, &bending_, &fidelity_, &normal_, &tangent_}) rows->resize(stride, count);
+  for (auto* rows : {&local_, &normal_, &tangent_}) rows->setZero(stride, count);
+  across_.resize(count);
   weight_.resize(count);
   nonlocal_.resize(count);
   lengthTerm_.resize(count);
@@ -66,8 +67,7 @@ FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& ob
     unknowns.reduce(span, local, &local_(0, i));
     unknowns.reduce(span, positionRow(normal, basis, degree), &normal_(0, i));
     unknowns.reduce(span, positionRow(tangent, basis, degree), &tangent_(0, i));
-    bending_.col(i) = c.kappa * normal_.col(i);
-    fidelity_.col(i) = state.normal[at].dot(normal) * normal_.col(i);
+    across_[i] = state.normal[at].dot(normal);
     weight_[i] = profile ? 1.0 / objective.reference / std::sqrt(count) : std::sqrt(length / count) / objective.reference;
     lengthTerm_[i] = profile ? weight_[i] * setup.start.length / (length * length) * objective.wanted[at]
                              : 0.5 * state.residual[i] / length;
@@ -84,7 +84,7 @@ FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& ob
   dampingUnit_ = std::pow(wave, profile ? 4.0 : 6.0) * (profile ? 1.0 : length) / (objective.reference * objective.reference) /
                  count;
   gradient_ = applyTransposed(state.residual);
-  for (int i = 0; i < count; ++i) accumulate(fidelity_, i, corridorGradient[i], gradient_);
+  for (int i = 0; i < count; ++i) accumulate(normal_, i, across_[i] * corridorGradient[i], gradient_);
   assemble();
 }
 
@@ -109,17 +109,17 @@ void FairingModel::assemble() {
   tangentFloor_ = kTangentFloor * dampingUnit_;
   for (int i = 0; i < setup_->sampleCount(); ++i) {
     const auto index = unknowns.indices(state_->arc.places[static_cast<std::size_t>(i)].span);
-    const double w2 = weight_[i] * weight_[i], f2 = corridorCurvature_[i];
+    const double w2 = weight_[i] * weight_[i], f2 = corridorCurvature_[i] * across_[i] * across_[i];
     for (std::size_t b = 0; b < index.size(); ++b) {
       const auto col = static_cast<Eigen::Index>(b);
-      const double l = w2 * local_(col, i), f = f2 * fidelity_(col, i), n = dampingUnit_ * normal_(col, i),
+      const double l = w2 * local_(col, i), f = f2 * normal_(col, i), n = dampingUnit_ * normal_(col, i),
                    t = dampingUnit_ * tangent_(col, i);
       double* stiff = &stiffness_.at(index[b], index[b]);
       double* mass = &mass_.at(index[b], index[b]);
       for (std::size_t a = b; a < index.size(); ++a) {
         const auto row = static_cast<Eigen::Index>(a);
         const int below = index[a] - index[b];
-        stiff[below] += l * local_(row, i) + f * fidelity_(row, i) + kTangentFloor * t * tangent_(row, i);
+        stiff[below] += l * local_(row, i) + f * normal_(row, i) + kTangentFloor * t * tangent_(row, i);
         mass[below] += n * normal_(row, i) + kTangentDamping * t * tangent_(row, i);
       }
     }
@@ -152,33 +152,53 @@ Eigen::VectorXd FairingModel::cumulativeTransposed(const Eigen::VectorXd& values
   return result;
 }
 
-Eigen::VectorXd FairingModel::apply(const Eigen::VectorXd& v) const {
+Eigen::VectorXd FairingModel::applyTo(const Eigen::VectorXd& local, const Eigen::VectorXd& normal, double shift) const {
   const int count = setup_->sampleCount();
   Eigen::VectorXd bent(count), result(count);
-  for (int i = 0; i < count; ++i) bent[i] = dot(bending_, i, v);
+  for (int i = 0; i < count; ++i) bent[i] = state_->curvature[static_cast<std::size_t>(i)].kappa * normal[i];
   double total = 0.0;
   const Eigen::VectorXd sums = cumulative(bent, total);
-  const double lengthChange = -total, shift = setup_->closed ? dot(tangent_, 0, v) : 0.0;
+  const double lengthChange = -total;
   for (int i = 0; i < count; ++i) {
     const double slide = shift + sums[i] + setup_->fraction(i) * lengthChange;
-    result[i] = weight_[i] * (dot(local_, i, v) + nonlocal_[i] * slide) + lengthTerm_[i] * lengthChange;
+    result[i] = weight_[i] * (local[i] + nonlocal_[i] * slide) + lengthTerm_[i] * lengthChange;
   }
   return result;
 }
 
-Eigen::VectorXd FairingModel::applyTransposed(const Eigen::VectorXd& y) const {
+void FairingModel::transposeTo(const Eigen::VectorXd& y, Eigen::VectorXd& local, Eigen::VectorXd& normal,
+                               double& shift) const {
   const int count = setup_->sampleCount();
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(setup_->unknowns.count()), slide(count);
-  double length = 0.0, shift = 0.0;
+  Eigen::VectorXd slide(count);
+  double length = 0.0;
+  shift = 0.0;
   for (int i = 0; i < count; ++i) {
     slide[i] = weight_[i] * y[i] * nonlocal_[i];
     length += slide[i] * setup_->fraction(i) + lengthTerm_[i] * y[i];
     shift += slide[i];
   }
-  const Eigen::VectorXd bent = cumulativeTransposed(slide, -length);
+  local = weight_.cwiseProduct(y);
+  normal = cumulativeTransposed(slide, -length);
+  for (int i = 0; i < count; ++i) normal[i] *= state_->curvature[static_cast<std::size_t>(i)].kappa;
+}
+
+Eigen::VectorXd FairingModel::apply(const Eigen::VectorXd& v) const {
+  const int count = setup_->sampleCount();
+  Eigen::VectorXd local(count), normal(count);
   for (int i = 0; i < count; ++i) {
-    accumulate(local_, i, weight_[i] * y[i], out);
-    accumulate(bending_, i, bent[i], out);
+    local[i] = dot(local_, i, v);
+    normal[i] = dot(normal_, i, v);
+  }
+  return applyTo(local, normal, setup_->closed ? dot(tangent_, 0, v) : 0.0);
+}
+
+Eigen::VectorXd FairingModel::applyTransposed(const Eigen::VectorXd& y) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(setup_->unknowns.count()), local, normal;
+  double shift = 0.0;
+  transposeTo(y, local, normal, shift);
+  for (int i = 0; i < setup_->sampleCount(); ++i) {
+    accumulate(local_, i, local[i], out);
+    accumulate(normal_, i, normal[i], out);
   }
   if (setup_->closed) accumulate(tangent_, 0, shift, out);
   return out;
@@ -186,17 +206,35 @@ Eigen::VectorXd FairingModel::applyTransposed(const Eigen::VectorXd& y) const {
 
 Eigen::VectorXd FairingModel::distances(const Eigen::VectorXd& v) const {
   Eigen::VectorXd result(setup_->sampleCount());
-  for (int i = 0; i < setup_->sampleCount(); ++i) result[i] = dot(fidelity_, i, v);
+  for (int i = 0; i < setup_->sampleCount(); ++i) result[i] = across_[i] * dot(normal_, i, v);
   return result;
 }
 
+/// All rows of a sample are gone through at once: this is what conjugate gradients spend their time on.
 Eigen::VectorXd FairingModel::applyNormal(const Eigen::VectorXd& v, double damping) const {
-  Eigen::VectorXd out = applyTransposed(apply(v));
+  const int count = setup_->sampleCount();
+  Eigen::VectorXd local(count), normal(count), tangent(count), near(setup_->unknowns.stride());
+  for (int i = 0; i < count; ++i) {
+    const auto index = setup_->unknowns.indices(state_->arc.places[static_cast<std::size_t>(i)].span);
+    const auto size = static_cast<Eigen::Index>(index.size());
+    for (Eigen::Index k = 0; k < size; ++k) near[k] = v[index[static_cast<std::size_t>(k)]];
+    const auto head = near.head(size);
+    local[i] = local_.col(i).head(size).dot(head);
+    normal[i] = normal_.col(i).head(size).dot(head);
+    tangent[i] = tangent_.col(i).head(size).dot(head);
+  }
+  const Eigen::VectorXd y = applyTo(local, normal, setup_->closed ? tangent[0] : 0.0);
+  Eigen::VectorXd backLocal, backNormal, out = Eigen::VectorXd::Zero(v.size());
+  double shift = 0.0;
+  transposeTo(y, backLocal, backNormal, shift);
   const double along = damping * kTangentDamping * dampingUnit_ + tangentFloor_, across = damping * dampingUnit_;
-  for (int i = 0; i < setup_->sampleCount(); ++i) {
-    accumulate(fidelity_, i, corridorCurvature_[i] * dot(fidelity_, i, v), out);
-    accumulate(normal_, i, across * dot(normal_, i, v), out);
-    accumulate(tangent_, i, along * dot(tangent_, i, v), out);
+  for (int i = 0; i < count; ++i) {
+    const auto index = setup_->unknowns.indices(state_->arc.places[static_cast<std::size_t>(i)].span);
+    const auto size = static_cast<Eigen::Index>(index.size());
+    const double n = backNormal[i] + (corridorCurvature_[i] * across_[i] * across_[i] + across) * normal[i];
+    const double t = along * tangent[i] + (setup_->closed && i == 0 ? shift : 0.0);
+    near.head(size) = backLocal[i] * local_.col(i).head(size) + n * normal_.col(i).head(size) + t * tangent_.col(i).head(size);
+    for (Eigen::Index k = 0; k < size; ++k) out[index[static_cast<std::size_t>(k)]] += near[k];
   }
   return out;
 }

@@ -134,13 +134,17 @@ class FairingModel {
   double dot(const Eigen::MatrixXd& rows, int sample, const Eigen::VectorXd& v) const;
   void accumulate(const Eigen::MatrixXd& rows, int sample, double factor, Eigen::VectorXd& out) const;
   void assemble();
+  /// What J v is made of, per sample, and what J' y adds to the rows.
+  Eigen::VectorXd applyTo(const Eigen::VectorXd& local, const Eigen::VectorXd& normal, double shift) const;
+  void transposeTo(const Eigen::VectorXd& y, Eigen::VectorXd& local, Eigen::VectorXd& normal, double& shift) const;
   Eigen::VectorXd applyNormal(const Eigen::VectorXd& v, double damping) const;
   Eigen::VectorXd cumulative(const Eigen::VectorXd& values, double& total) const;
   Eigen::VectorXd cumulativeTransposed(const Eigen::VectorXd& values, double total) const;
 
   const FairingSetup* setup_;
   const FairingState* state_;
-  Eigen::MatrixXd local_, bending_, fidelity_, normal_, tangent_;  ///< One column a sample, over indices(span).
+  Eigen::MatrixXd local_, normal_, tangent_;  ///< One column a sample, over indices(span).
+  Eigen::VectorXd across_;  ///< Cosine between the curve's normal and the sketch's: signed distances change by it.
   Eigen::VectorXd weight_, nonlocal_, lengthTerm_, corridorCurvature_, gradient_;
   double stepLength_ = 0.0, tangentFloor_ = 0.0, dampingUnit_ = 0.0;
   BandedMatrix stiffness_, mass_;

@@ -87,15 +87,16 @@ class MonotoneFairing {
     return levels_.size() - 1;
   }
 
-  Attempt attempt(const CurvatureStructure& structure, double estimateMm) {
+  /// @param giveUpMm where not 0, a curve farther off than this is of no interest.
+  Attempt attempt(const CurvatureStructure& structure, double estimateMm, double giveUpMm = 0.0) {
     const double tolerance = params_.toleranceMm;
-    MonotoneSearch::Outcome outcome = search_.solve(structure, setup_.points, estimateMm, 0.0);
+    MonotoneSearch::Outcome outcome = search_.solve(structure, setup_.points, estimateMm, 0.0, giveUpMm);
     iterations_ += outcome.iterations;
     Attempt result{std::move(outcome.points), false, outcome.found, outcome.deviationMm};
     if (!outcome.found || context_.isCancelled()) return result;
     result.attained = outcome.deviationMm <= kKeptShare * tolerance;
     if (result.attained || outcome.deviationMm > kWorthBounding * tolerance) return result;
-    MonotoneSearch::Outcome bounded = search_.solve(structure, result.points, tolerance, kBoundShare * tolerance);
+    MonotoneSearch::Outcome bounded = search_.solve(structure, result.points, tolerance, kBoundShare * tolerance, 0.0);
     iterations_ += bounded.iterations;
     if (!bounded.found || bounded.deviationMm > kKeptShare * tolerance) return result;
     return {std::move(bounded.points), true, true, bounded.deviationMm};
@@ -110,7 +111,7 @@ class MonotoneFairing {
     while (next + 1 < outside && levels_[next + 1].estimateMm <= params_.toleranceMm) ++next;
     while (inside + 1 < outside && !context_.isCancelled()) {
       next = std::clamp(next, inside + 1, outside - 1);
-      Attempt trial = attempt(levels_[next].structure, levels_[next].estimateMm);
+      Attempt trial = attempt(levels_[next].structure, levels_[next].estimateMm, kWorthBounding * params_.toleranceMm);
       if (trial.attained) {
         inside = next;
         best = std::move(trial);

@@ -211,7 +211,8 @@ void MonotoneSearch::addSigns(Program& program, const State& state, const Curvat
 }
 
 MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, const std::vector<Vec2>& start,
-                                              double estimateMm, double boundMm) const {
+                                              double estimateMm, double boundMm,
+                                              double giveUpMm) const {
   Outcome outcome;
   outcome.points = start;
   State state = evaluate(start, places_);
@@ -234,6 +235,11 @@ MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, cons
     if (!next.valid) break;
     state = std::move(next);
     recentre(structure, used, state);
+    const auto isFar = [giveUpMm](double distance) { return std::abs(distance) > giveUpMm; };
+    if (giveUpMm > 0.0 && std::any_of(state.distance.begin(), state.distance.end(), isFar)) {
+      outcome.found = false;
+      break;
+    }
     const bool settled = moved < kSettled * std::max(toleranceMm_, estimateMm);
     if (denseTurns(state.points) == static_cast<int>(structure.extrema.size())) {
       outcome.found = true;

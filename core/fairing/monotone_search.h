@@ -29,7 +29,9 @@ class MonotoneSearch {
   };
   /// @param estimateMm about how far the curve will move: scales the problem.
   /// @param boundMm > 0: the distance from the sketch is bounded.
-  Outcome solve(CurvatureStructure structure, const std::vector<Vec2>& start, double estimateMm, double boundMm) const;
+  /// @param giveUpMm > 0: a curve that goes farther than this is not looked for to its end (not found).
+  Outcome solve(CurvatureStructure structure, const std::vector<Vec2>& start, double estimateMm, double boundMm,
+                double giveUpMm) const;
 
   /// Turns of the curvature of the curve over `points`, sampled densely.
   int denseTurns(const std::vector<Vec2>& points) const;

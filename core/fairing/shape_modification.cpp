@@ -18,6 +18,12 @@ constexpr double kMeasured = 0.999;
 /// A reference curvature below this (times extent) would weigh a straight line's rounding as shape.
 constexpr double kSmallestReference = 1e-3;
 constexpr FairingLimits kFull{40, 1e-4}, kWarm{8, 1e-3}, kPolish{12, 1e-5};
+/// A long wavy curve whose target is plainly out of reach is not worth the last per cent of what the tolerance allows: from
+/// so many samples on, a target farther off than so many tolerances after the first iterations is followed with less effort.
+constexpr int kLongCurve = 600;
+constexpr double kOutOfReach = 10.0;
+constexpr FairingLimits kProbe{12, 1e-3}, kRest{28, 1e-4}, kRough{4, 1e-2};
+constexpr int kRoughSteps = 5;
 
 /// One weight of the search: solution and its deviation.
 struct Trial {
@@ -51,12 +57,15 @@ class WeightSearch {
   }
 
   /// The smallest weight that keeps within the tolerance, between `wide` (which does not) and infinity.
-  std::optional<Trial> search(Trial wide) {
+  std::optional<Trial> search(Trial wide, bool rough) {
+    const FairingLimits limits = rough ? kRough : kWarm;
+    const double usedShare = rough ? kStuckShare : kUsedShare;
+    const int steps = rough ? kRoughSteps : kSearchSteps;
     double guess = std::clamp(kSmallestWeight * wide.deviation / toleranceMm_ * 10.0, 1e-2, 1.0);
     std::optional<Trial> inside;
     while (!inside && guess <= kLargestWeight && !context_.isCancelled()) {
       const bool near = wide.deviation < 5.0 * toleranceMm_;
-      auto trial = near ? solveFrom(wide, guess, kWarm) : solveFromStart(guess, kWarm);
+      auto trial = near ? solveFrom(wide, guess, limits) : solveFromStart(guess, limits);
       if (!trial) return std::nullopt;
       if (trial->deviation <= toleranceMm_) {
         inside = std::move(trial);
@@ -66,13 +75,13 @@ class WeightSearch {
         wide = std::move(*trial);
       }
     }
-    for (int step = 0; inside && step < kSearchSteps && !context_.isCancelled(); ++step) {
-      if (inside->deviation >= kUsedShare * toleranceMm_ || inside->weight < 1.02 * wide.weight) break;
+    for (int step = 0; inside && step < steps && !context_.isCancelled(); ++step) {
+      if (inside->deviation >= usedShare * toleranceMm_ || inside->weight < 1.02 * wide.weight) break;
       const double a = std::log(wide.weight), b = std::log(inside->weight);
       const double da = std::log(wide.deviation / toleranceMm_);
-      const double db = std::log(std::max(inside->deviation / toleranceMm_, 1e-9)) - std::log(0.5 * (1.0 + kUsedShare));
+      const double db = std::log(std::max(inside->deviation / toleranceMm_, 1e-9)) - std::log(0.5 * (1.0 + usedShare));
       const double share = std::clamp(da / std::max(da - db, 1e-12), 0.1, 0.9);
-      auto trial = solveFrom(*inside, std::exp(a + share * (b - a)), kWarm);
+      auto trial = solveFrom(*inside, std::exp(a + share * (b - a)), limits);
       if (!trial) break;
       (trial->deviation <= toleranceMm_ ? *inside : wide) = std::move(*trial);
     }
@@ -130,7 +139,12 @@ Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& 
   if (!objective) return fail(objective.error());
   FairingReport report;
   WeightSearch search(setup, *objective, toleranceMm, context);
-  auto full = search.solveFromStart(kSmallestWeight, kFull);
+  const bool isLong = setup.sampleCount() > kLongCurve;
+  auto full = search.solveFromStart(kSmallestWeight, isLong ? kProbe : kFull);
+  const bool rough = isLong && full && full->deviation > kOutOfReach * toleranceMm;
+  if (isLong && full && !rough && full->run.why == Termination::IterationLimit && !context.isCancelled()) {
+    full = search.solveFrom(*full, kSmallestWeight, kRest);
+  }
   if (context.isCancelled()) return cancelled();
   if (!full) return unchanged(setup.original, setup.closed, Termination::Degenerate, "The curve has a cusp and was left alone.");
   const auto before = evaluate(setup, *objective, {}, setup.points, setup.start.places);
@@ -144,15 +158,15 @@ Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& 
   } else {
     report.why = Termination::ToleranceLimited;
     report.note = "The profile was followed as far as the tolerance allows.";
-    if (auto inside = search.search(std::move(*full))) {
+    if (auto inside = search.search(std::move(*full), rough)) {
       points = inside->run.state.points;
-      if (auto polished = search.solveFrom(*inside, inside->weight, kPolish)) points = polished->run.state.points;
+      if (auto polished = rough ? std::nullopt : search.solveFrom(*inside, inside->weight, kPolish)) points = polished->run.state.points;
     }
   }
   if (context.isCancelled()) return cancelled();
   report.iterations = search.iterations();
   const double deviation = keepWithin(setup, toleranceMm, points);
-  if (!report.withinBudget && deviation < kStuckShare * toleranceMm) {
+  if (!report.withinBudget && !rough && deviation < kStuckShare * toleranceMm) {
     BoundedRun bounded = minimiseWithin(setup, *objective, toleranceMm, points, context);
     if (context.isCancelled()) return cancelled();
     report.iterations += bounded.iterations;

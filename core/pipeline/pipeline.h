@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/page_frame.h"
@@ -92,6 +93,9 @@ PipelineOutput runPipeline(const Scan&, const Recipe&, StageCache&, const Pipeli
 
 /// The six targets of one curve, as the strip and the report show them.
 Result<TargetOutcomes> targetsFor(const TracedCurve&, const RunContext&);
+
+/// The same for many curves at once, those left out excepted (their entry is Cancelled): one entry a curve.
+std::vector<Result<TargetOutcomes>> targetsForAll(std::span<const TracedCurve>, const RunContext&);
 
 /// Frame of the scan at the recipe's, the file's or the assumed resolution.
 PageFrame frameFor(const Scan&, const Recipe&);

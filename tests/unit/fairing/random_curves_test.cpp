@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
@@ -67,13 +68,17 @@ void expectSound(const NurbsCurve& start, bool closed, const FairedCurve& faired
 }
 
 TEST(RandomCurves, AreFairedWithinTheToleranceInEveryMode) {
+  constexpr std::array kModes = {FairingMode::Target, FairingMode::Tolerance, FairingMode::Monotone, FairingMode::LowPass};
   std::mt19937 random(20240607);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   for (int i = 0; i < 200; ++i) {
     const bool closed = i % 5 == 4;
     const NurbsCurve curve = closed ? randomClosed(random) : randomOpen(random);
     FairingParams params;
-    params.mode = i % 2 == 0 ? FairingMode::Target : FairingMode::Tolerance;
+    params.mode = kModes[static_cast<std::size_t>(i) % kModes.size()];
+    params.keepExtrema = i / 4 % 5 - 1;
+    params.lowPassMm = std::pow(10.0, 2.5 * uniform(random));
+    if (i % 3 == 0) params.targets.splits = {0.3 + 0.4 * uniform(random)};
     params.target = i % 7;
     params.toleranceMm = 0.01 * std::pow(100.0, uniform(random));
     params.targets.monotone = i % 3 != 0;
