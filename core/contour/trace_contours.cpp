@@ -10,6 +10,7 @@
 #include "core/contour/centreline.h"
 #include "core/contour/crack_contours.h"
 #include "core/contour/polyline_tools.h"
+#include "core/contour/soft_borders.h"
 #include "core/contour/subpixel_edges.h"
 
 namespace batten {
@@ -49,6 +50,23 @@ void refineOutlines(ContourSet& set, const GreyImage& grey, const RunContext& co
   parallelFor(context, static_cast<int>(small.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) refineOutline(*small[static_cast<std::size_t>(i)], grey, alone);
   });
+}
+
+// Who asked for outlines on a shaded drawing wants the edges of its tones, not where they fade.
+void dropSoftBorders(ContourSet& set, const GreyImage& grey, const ContourParams& params, const RunContext& context) {
+  std::vector<Contour> kept;
+  for (Contour& contour : set.contours) {
+    std::vector<Contour> parts = cutSoftBorders(contour, grey, context);
+    if (context.isCancelled()) return;
+    const bool cut = parts.size() != 1 || parts[0].closed != contour.closed;
+    if (cut) {
+      const std::size_t all = parts.size();
+      std::erase_if(parts, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
+      set.report.droppedShort += static_cast<int>(all - parts.size());
+    }
+    std::move(parts.begin(), parts.end(), std::back_inserter(kept));
+  }
+  set.contours = std::move(kept);
 }
 
 void countRefined(ContourSet& set) {
@@ -120,6 +138,7 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
   context.report(0.6);
   if (edges.subpixel) {
     refineOutlines(*set, grey, context);
+    if (edges.mode == EdgeMode::Outline) dropSoftBorders(*set, grey, params, context);
     if (context.isCancelled()) return cancelled();
     std::sort(set->contours.begin(), set->contours.end(), before);
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "tests/support/contour_shapes.h"
 
@@ -109,6 +110,53 @@ TEST(TraceContours, MarginsOfTheScannerAreNoLines) {
   ASSERT_EQ(set->contours.size(), 1u);
   EXPECT_EQ(set->report.droppedMargins, 1);
   for (const Vec2& p : set->contours[0].points) EXPECT_NEAR(p.y(), 150 + 0.2 * p.x(), 4.0);
+}
+
+// A tone laid up to a curved edge that fades out below it: no line is drawn, the edge itself is followed.
+TEST(TraceContours, EdgesOfTonesAreFollowedWhereTheyAreSharp) {
+  constexpr int kWidth = 500, kHeight = 400;
+  const auto edge = [](double x) { return 140.0 + 30.0 * std::sin(x / 90.0); };
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 3.0);
+  GreyImage grey(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double u = x + 0.5, slope = std::cos(u / 90.0) / 3.0;
+      const double d = (y + 0.5 - edge(u)) / std::sqrt(1.0 + slope * slope);
+      const double sides = std::clamp(std::min(u - 40.0, 460.0 - u) / 60.0, 0.0, 1.0);
+      const double tone = 60.0 * std::max(0.0, 1.0 - std::max(0.0, d) / 160.0) * sides * 0.5 * std::erfc(-d / 1.2);
+      const double level = std::clamp(235.0 - tone + noise(random), 0.0, 255.0);
+      grey.row(y)[x] = static_cast<std::uint16_t>(std::lround(level * GreyImage::kGreyUnit));
+    }
+  }
+  BitImage ink(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      double sum = 0.0;
+      for (int j = -3; j <= 3; ++j) {
+        for (int i = -3; i <= 3; ++i) {
+          sum += grey.level(std::clamp(x + i, 0, kWidth - 1), std::clamp(y + j, 0, kHeight - 1));
+        }
+      }
+      ink.set(x, y, sum / 49.0 < 205.0);
+    }
+  }
+  const auto set = traceContours(ink, grey, {}, withMode(EdgeMode::Outline), {}, {});
+  ASSERT_TRUE(set.has_value());
+  ASSERT_EQ(set->contours.size(), 1u);
+  const Contour& line = set->contours[0];
+  EXPECT_FALSE(line.closed);
+  EXPECT_GT(line.lengthPx, 330.0);
+  EXPECT_LT(line.lengthPx, 460.0);
+  double square = 0.0;
+  int count = 0;
+  for (std::size_t i = 25; i + 25 < line.points.size(); ++i) {
+    const Vec2& p = line.points[i];
+    const double slope = std::cos(p.x() / 90.0) / 3.0;
+    square += std::pow((p.y() - edge(p.x())) / std::sqrt(1.0 + slope * slope), 2);
+    ++count;
+  }
+  EXPECT_LE(std::sqrt(square / count), 0.15);
 }
 
 TEST(TraceContours, NothingLongEnoughSaysWhatToDo) {
