@@ -47,7 +47,10 @@ void HelpWindow::open(const QString& page) {
 
 void HelpWindow::load(const QString& page) {
   QFile file(QStringLiteral(":/help/%1.md").arg(page));
-  if (!file.open(QIODevice::ReadOnly)) return;
+  if (!file.open(QIODevice::ReadOnly)) {
+    if (page != QLatin1String("index")) load(QStringLiteral("index"));
+    return;
+  }
   page_ = page;
   browser_->document()->setDefaultFont(uiFont(14));
   browser_->setMarkdown(QString::fromUtf8(file.readAll()));

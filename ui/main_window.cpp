@@ -16,6 +16,7 @@
 
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
+#include "ui/new_drawing_dialog.h"
 #include "ui/panels/clean_up_panel.h"
 #include "ui/panels/corners_panel.h"
 #include "ui/panels/curves_panel.h"
@@ -25,6 +26,7 @@
 #include "ui/panels/stage_rail.h"
 #include "ui/panels/target_strip.h"
 #include "ui/panels/threshold_panel.h"
+#include "ui/panels/tool_list.h"
 #include "ui/plots/curve_plots.h"
 #include "ui/status_line.h"
 #include "ui/top_bar.h"
@@ -52,6 +54,9 @@ MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
   parts_->topBar = new TopBar(view_, bar, parts_->mainMenu, parts_->layersMenu, whole);
   parts_->errors = new ErrorStrip(whole);
   parts_->rail = new StageRail(session_, whole);
+  QList<QAction*> tools;
+  for (const Tool tool : kTools) tools.append(action(toolAction(tool)));
+  parts_->rail->layout()->addWidget(new ToolList(tools, parts_->rail));
   parts_->status = new StatusLine(session_, whole);
   auto* row = new QHBoxLayout;
   row->setSpacing(0);
@@ -114,13 +119,15 @@ QWidget* MainWindow::makeInspector() {
   p.inspector->setObjectName(QStringLiteral("inspector"));
   p.scanPanel = new ScanPanel(session_);
   p.exportPanel = new ExportPanel(session_);
+  auto* curves = new CurvesPanel(session_, view_);
+  connect(curves, &CurvesPanel::helpAsked, this, &MainWindow::showHelp);
   const std::pair<PanelStage, QWidget*> panels[] = {
       {PanelStage::Scan, p.scanPanel},
       {PanelStage::Threshold, new ThresholdPanel(session_, view_)},
       {PanelStage::CleanUp, new CleanUpPanel(session_)},
-      {PanelStage::Edges, new EdgesPanel(session_)},
+      {PanelStage::Edges, new EdgesPanel(session_, view_)},
       {PanelStage::Corners, new CornersPanel(session_, view_)},
-      {PanelStage::Curves, new CurvesPanel(session_, view_)},
+      {PanelStage::Curves, curves},
       {PanelStage::Fairing, new FairingPanel(session_)},
       {PanelStage::Export, p.exportPanel}};
   for (const auto& [stage, panel] : panels) {
@@ -160,7 +167,7 @@ void MainWindow::connectSession() {
   connect(&session_, &EditorSession::failed, this, &MainWindow::showProblem);
   connect(&session_, &EditorSession::failureCleared, p.errors, &QWidget::hide);
   connect(&session_, &EditorSession::scanOpened, this, [this] {
-    rememberFile(session_.scanPath());
+    if (!session_.isBlankPage()) rememberFile(session_.scanPath());
     refreshTitle();
     parts_->errors->hide();
     if (!session_.openProblem().isEmpty()) parts_->errors->show(session_.openProblem(), {});
@@ -171,11 +178,23 @@ void MainWindow::connectSession() {
     }
     parts_->canvas->zoomFit();
   });
+  connect(&session_, &EditorSession::pinChanged, this, &MainWindow::refreshActions);
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::runFinished,
                             &EditorSession::selectionChanged, &EditorSession::targetsChanged})
     connect(&session_, signal, this, &MainWindow::refreshActions);
   connect(&session_, &EditorSession::busyChanged, this, &MainWindow::refreshActions);
   connect(session_.undoStack(), &QUndoStack::indexChanged, this, &MainWindow::refreshActions);
+}
+
+void MainWindow::newDrawing() {
+  NewDrawingDialog dialog(this);
+  if (dialog.exec() == QDialog::Accepted) beginDrawing(dialog.recipe());
+}
+
+void MainWindow::beginDrawing(const Recipe& recipe) {
+  session_.newDrawing(recipe);
+  setStage(PanelStage::Edges);
+  view_.setTool(Tool::Pen);
 }
 
 void MainWindow::openPath(const QString& path) {

@@ -23,6 +23,8 @@ class MainWindow : public QMainWindow {
 
   /// Opens a scan, with the recipe saved beside it; a recipe file (.json) is applied to the open one.
   void openPath(const QString& path);
+  /// Begins a drawing on the empty page of the recipe, with the pen in hand.
+  void beginDrawing(const Recipe& recipe);
   void setStage(PanelStage stage);
   PanelStage stage() const;
   EditorSession& session() { return session_; }
@@ -48,6 +50,7 @@ class MainWindow : public QMainWindow {
   void connectActions();
   void connectLayers();
   void trigger(ActionId id);
+  void newDrawing();
   void chooseScan();
   void chooseRecipe();
   void saveRecipe();
@@ -60,6 +63,8 @@ class MainWindow : public QMainWindow {
   void refreshTitle();
   void refreshRecent();
   void rememberFile(const QString& path);
+  /// Where file dialogs open: at the drawing, else where the last one was.
+  QString startFolder() const;
   void enterStage(PanelStage stage);
   void loadSettings();
   void saveSettings();

@@ -2,6 +2,7 @@
 #include <QAction>
 #include <QActionGroup>
 #include <QApplication>
+#include <QDir>
 #include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -14,6 +15,7 @@
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
 #include "ui/panels/piece_choice.h"
+#include "ui/session/opened_scan.h"
 #include "ui/plots/curve_plots.h"
 #include "ui/top_bar.h"
 
@@ -28,7 +30,7 @@ void MainWindow::makeActions() {
     addAction(made);
   }
   auto* tools = new QActionGroup(this);
-  for (const Tool tool : {Tool::Select, Tool::Thresholds, Tool::Corners}) tools->addAction(action(toolAction(tool)));
+  for (const Tool tool : kTools) tools->addAction(action(toolAction(tool)));
   const auto own = [this](const QString& text, const QString& name, const QString& help, const QKeySequence& keys) {
     auto* made = new QAction(text, this);
     made->setObjectName(name);
@@ -73,6 +75,7 @@ void MainWindow::makeMenus() {
   p.mainMenu->setObjectName(QStringLiteral("mainMenu"));
   p.layersMenu = new QMenu(this);
   p.recentMenu = new QMenu(tr("Open recent"), this);
+  p.recentMenu->setObjectName(QStringLiteral("recentMenu"));
   connect(p.recentMenu, &QMenu::aboutToShow, this, &MainWindow::refreshRecent);
   const auto ownNamed = [&p](const QString& name) {
     for (QAction* one : p.ownActions)
@@ -124,6 +127,8 @@ void MainWindow::connectActions() {
 void MainWindow::trigger(ActionId id) {
   if (const auto degree = targetOf(id)) return chooseTarget(session_, *degree);
   switch (id) {
+    case ActionId::NewDrawing: return newDrawing();
+    case ActionId::Pin: return session_.pinned() ? session_.unpin() : session_.pin();
     case ActionId::OpenScan: return chooseScan();
     case ActionId::OpenRecipe: return chooseRecipe();
     case ActionId::SaveRecipe: return saveRecipe();
@@ -155,8 +160,12 @@ void MainWindow::connectLayers() {
       view_.setVisible(layer, on);
     });
   }
-  for (const Tool tool : {Tool::Select, Tool::Thresholds, Tool::Corners})
-    connect(action(toolAction(tool)), &QAction::triggered, this, [this, tool] { view_.setTool(tool); });
+  for (const Tool tool : kTools)
+    connect(action(toolAction(tool)), &QAction::triggered, this, [this, tool] {
+      // What the pen draws can only be seen where curves are shown.
+      if (tool == Tool::Pen && !view_.isVisible(Layer::Curve)) setStage(PanelStage::Edges);
+      view_.setTool(tool);
+    });
   connect(&view_, &ViewSettings::changed, this, follow);
   connect(&view_, &ViewSettings::toolChanged, this, [this](Tool tool) { action(toolAction(tool))->setChecked(true); });
   action(toolAction(view_.tool()))->setChecked(true);
@@ -172,46 +181,59 @@ void MainWindow::refreshActions() {
   describe(action(ActionId::Undo), tr("Undo"), undo.undoText(), undo.canUndo());
   describe(action(ActionId::Redo), tr("Redo"), undo.redoText(), undo.canRedo());
   const bool has = session_.hasScan();
-  for (const ActionId id : {ActionId::OpenRecipe, ActionId::SaveRecipe, ActionId::Export, ActionId::ZoomFit, ActionId::ZoomActual,
+  for (const ActionId id : {ActionId::ToolPen, ActionId::SaveRecipe, ActionId::Export, ActionId::ZoomFit, ActionId::ZoomActual,
                             ActionId::ZoomIn, ActionId::ZoomOut})
     action(id)->setEnabled(has);
   const bool curves = !session_.curves().empty();
+  action(ActionId::Pin)->setEnabled(curves || session_.pinned());
+  action(ActionId::Pin)->setChecked(session_.pinned() != nullptr);
   for (int degree = 1; degree <= 6; ++degree)
     action(static_cast<ActionId>(static_cast<int>(ActionId::Target1) + degree - 1))->setEnabled(curves);
   action(ActionId::CancelWork)->setEnabled(session_.isBusy() || !parts_->errors->isHidden());
 }
 
+QString MainWindow::startFolder() const {
+  if (session_.hasScan() && !session_.isBlankPage()) return QFileInfo(session_.scanPath()).absolutePath();
+  const QStringList recent = recentFiles();
+  return recent.isEmpty() ? QDir::homePath() : QFileInfo(recent.first()).absolutePath();
+}
+
 void MainWindow::chooseScan() {
-  const QString folder = session_.hasScan() ? QFileInfo(session_.scanPath()).absolutePath() : QString();
+  const QString folder = startFolder();
   const QString path = QFileDialog::getOpenFileName(this, tr("Open scan"), folder,
                                                     tr("Scans (*.png *.jpg *.jpeg *.tif *.tiff *.bmp *.webp *.pgm *.pbm *.ppm *.pnm);;All files (*)"));
   if (!path.isEmpty()) openPath(path);
 }
 
 void MainWindow::chooseRecipe() {
-  const QString path = QFileDialog::getOpenFileName(this, tr("Open recipe"), QFileInfo(session_.scanPath()).absolutePath(), tr("Recipes (*.json)"));
+  const QString path = QFileDialog::getOpenFileName(this, tr("Open recipe"), startFolder(), tr("Recipes (*.json)"));
   if (!path.isEmpty()) applyRecipeFile(path);
 }
 
 void MainWindow::applyRecipeFile(const QString& path) {
-  if (!session_.hasScan()) return showProblem(tr("A recipe needs a drawing: open a scan first, then this recipe."));
   QFile file(path);
   if (!file.open(QIODevice::ReadOnly))
     return showProblem(tr("%1 cannot be read: %2. Choose another file.").arg(QFileInfo(path).fileName(), file.errorString()));
   const QByteArray text = file.readAll();
   auto recipe = recipeFromJson(std::string_view(text.constData(), static_cast<std::size_t>(text.size())));
   if (!recipe) return showProblem(tr("%1: %2").arg(QFileInfo(path).fileName(), QString::fromStdString(recipe.error().message)));
+  if (recipe->page) {
+    beginDrawing(*recipe);
+    rememberFile(path);
+    return;
+  }
+  if (!session_.hasScan()) return showProblem(tr("A recipe needs a drawing: open a scan first, then this recipe."));
   session_.change(tr("Open recipe"), std::move(*recipe));
 }
 
 void MainWindow::saveRecipe() {
-  const QFileInfo scan(session_.scanPath());
-  const QString start = scan.absolutePath() + QLatin1Char('/') + scan.completeBaseName() + QStringLiteral(".recipe.json");
+  const QString start = session_.isBlankPage() ? startFolder() + QStringLiteral("/drawing.recipe.json") : QString::fromStdU16String(recipeBeside(std::filesystem::path(session_.scanPath().toStdU16String())).u16string());
   QString path = QFileDialog::getSaveFileName(this, tr("Save recipe"), start, tr("Recipes (*.json)"));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".json");
   const auto saved = saveAtomically(std::filesystem::path(path.toStdU16String()), recipeToJson(session_.recipe()));
-  if (!saved) showProblem(QString::fromStdString(saved.error().message));
+  if (!saved) return showProblem(QString::fromStdString(saved.error().message));
+  if (session_.isBlankPage()) rememberFile(path);
 }
 
 void MainWindow::findAction() {

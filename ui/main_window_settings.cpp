@@ -50,7 +50,7 @@ void MainWindow::refreshRecent() {
 
 void MainWindow::refreshTitle() {
   const QString path = session_.scanPath();
-  const QString name = session_.hasScan() ? QFileInfo(path).fileName() : tr("No scan");
+  const QString name = session_.isBlankPage() ? tr("New drawing") : session_.hasScan() ? QFileInfo(path).fileName() : tr("No scan");
   parts_->topBar->setTitle(name, path);
   setWindowTitle(session_.hasScan() ? name + QStringLiteral(" – Batten") : QStringLiteral("Batten"));
 }

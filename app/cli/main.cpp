@@ -33,7 +33,8 @@ void addRepeated(CLI::App& app, const char* names, std::vector<std::string>& val
 void addTrace(CLI::App& app, TraceArguments& a) {
   CLI::App* trace = app.add_subcommand("trace", "Turn a scan into fair curves");
   trace->footer("Prints one line of JSON: the scan, how many curves, the files written, and notes.");
-  trace->add_option("scan", a.scan, "The scan: PNG, JPEG, TIFF, BMP, WebP, PGM or PBM")->type_name("SCAN")->required();
+  trace->add_option("scan", a.scan, "The scan: PNG, JPEG, TIFF, BMP, WebP, PGM or PBM; none for a recipe drawn on an empty page")
+      ->type_name("SCAN");
   addRepeated(*trace, "-o,--output", a.outputs, "OUT.svg|OUT.json",
               "Write the curves; the extension chooses the format; may be repeated");
   trace->add_option("--recipe", a.recipe, "Start from this recipe; --set, --corner and --dpi come on top")

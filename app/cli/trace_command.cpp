@@ -12,6 +12,7 @@
 #include "app/cli/exit_codes.h"
 #include "app/cli/stage_dump.h"
 #include "app/cli/trace_plan.h"
+#include "core/base/conventions.h"
 #include "core/document/export_builder.h"
 #include "core/exchange/writers.h"
 #include "core/image/scan_reader.h"
@@ -41,7 +42,7 @@ class Trace {
   }
 
   Result<void> run() {
-    auto scan = readScan(arguments_.scan, {}, context_);
+    auto scan = readDrawing();
     if (!scan) return fail(scan.error());
     scan_ = std::move(*scan);
     readMilliseconds_ = millisecondsSince(begin_);
@@ -71,6 +72,13 @@ class Trace {
   }
 
  private:
+  /// The scan named; without a name the empty page on which the recipe was drawn.
+  Result<Scan> readDrawing() const {
+    if (!arguments_.scan.empty()) return readScan(arguments_.scan, {}, context_);
+    const BlankPage& page = *plan_.recipe.page;
+    return blankScan(page.widthPx, page.heightPx, plan_.recipe.dpi.value_or(kAssumedDpi));
+  }
+
   Result<void> save(const std::filesystem::path& path, std::string_view bytes) {
     auto saved = saveAtomically(path, bytes);
     if (saved) files_.push_back(path.string());
@@ -130,7 +138,7 @@ class Trace {
     std::vector<std::string> list;
     if (isScaleAssumed(scan_, plan_.recipe))
       list.emplace_back("The scan states no resolution; 96 dpi was assumed. Set --dpi.");
-    if (!out_.thresholds->note.empty()) list.push_back(out_.thresholds->note);
+    if (!out_.thresholds->note.empty() && !isBlank(scan_)) list.push_back(out_.thresholds->note);
     if (!out_.contours->report.note.empty()) list.push_back(out_.contours->report.note);
     for (const int mark : out_.pieces->lostMarks) {
       const Vec2& at = plan_.recipe.cornerMarks[static_cast<std::size_t>(mark)].positionPx;

@@ -9,7 +9,7 @@ namespace batten::cli {
 
 /// The words of `batten-cli trace`, as typed.
 struct TraceArguments {
-  std::string scan;
+  std::string scan;                   ///< Empty: the recipe's own empty page
   std::vector<std::string> outputs;   ///< -o: .svg or .json
   std::string recipe;                 ///< --recipe
   std::vector<std::string> settings;  ///< --set stage.parameter=value

@@ -80,7 +80,8 @@ Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan
   if (!arguments.report.empty()) targets.emplace_back(arguments.report);
   if (!arguments.saveRecipe.empty()) targets.emplace_back(arguments.saveRecipe);
   if (targets.empty()) return wrong("Nothing would be written. Add -o OUT.svg or -o OUT.json.");
-  std::set<fs::path> seen{fs::path(arguments.scan).lexically_normal()};
+  std::set<fs::path> seen;
+  if (!arguments.scan.empty()) seen.insert(fs::path(arguments.scan).lexically_normal());
   for (const fs::path& target : targets) {
     if (!seen.insert(target.lexically_normal()).second) {
       return wrong("The file " + target.string() + " is named twice. Give every output its own name.");
@@ -115,6 +116,9 @@ Result<TracePlan> planTrace(const TraceArguments& arguments) {
     if (auto set = applyCorner(corner, plan.recipe); !set) return fail(set.error());
   }
   if (arguments.dpi) plan.recipe.dpi = arguments.dpi;
+  if (arguments.scan.empty() && !plan.recipe.page) {
+    return wrong("No scan is named. Only a recipe that was drawn on an empty page needs none.");
+  }
   if (auto problem = validate(plan.recipe)) return fail(std::move(*problem));
   return plan;
 }

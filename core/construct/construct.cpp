@@ -44,6 +44,8 @@ Result<ConstructedPiece> constructPiece(const ConstructPiece& piece, double pixe
 std::optional<Error> validate(const ConstructParams& params) {
   if (auto error = outside("construct.derivative_magnitude", params.derivativeMagnitude, 0.1, 3.0)) return error;
   if (auto error = outside("construct.degree", params.degree, 2, 5)) return error;
+  if (auto error = outside("construct.removal_step", params.removalStepPx, 0.0, 200.0)) return error;
+  if (auto error = outside("construct.removal_tolerance", params.removalTolerancePx, 0.0, 50.0)) return error;
   return outside("construct.keep_extrema_cost", params.keepExtremaCost, 1.0, 1000.0);
 }
 

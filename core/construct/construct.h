@@ -29,13 +29,30 @@ enum class GradientUse {
   NaturalEnds,  ///< Points only, R'' = R'''' = 0 at the ends.
 };
 
+/// What the knot vector of a control polygon does at a sharp point (004 section 4).
+enum class SharpKnots {
+  Degree,   ///< A knot of multiplicity = degree: the curve passes through the point with a corner (default).
+  Order,    ///< Multiplicity = degree + 1, as in the paper: the curve is broken between the point and the one before.
+  Uniform,  ///< Equal steps everywhere, ends included: the curve passes through no point (only for comparison).
+};
+
+/// How the points of a control polygon are thinned (004 section 3.1).
+enum class PointRemoval {
+  Step,       ///< Points at equal distance along the line.
+  Tolerance,  ///< As few as keep the polygon within a distance of the line.
+};
+
 /// One flat set for all methods; each method reads its own fields.
 struct ConstructParams {
   ConstructMethod method = ConstructMethod::Fair;
   double derivativeMagnitude = 1.0;  ///< [-] 0.1..3. Factor on the arc-corrected length of the first derivative.
   bool magnitudeAsInPaper = false;   ///< 1/3 of the mean distance of adjacent points instead (000; wrong by 3).
   GradientUse gradients = GradientUse::All;
-  int degree = 3;                 ///< 2..5. Control polygon only.
+  int degree = 3;                 ///< 2..5. Control polygon only, as the next four.
+  SharpKnots knots = SharpKnots::Degree;  ///< Degree or Order.
+  PointRemoval removal = PointRemoval::Step;
+  double removalStepPx = 8.0;       ///< [px] 0..200. Distance of the points that are kept; 0 keeps all.
+  double removalTolerancePx = 1.0;  ///< [px] 0..50. Farthest that a removed point lies from the polygon.
   double keepExtremaCost = 20.0;  ///< [chi2] 1..1000. Fair fit: a curvature extremum cheaper than this is dropped.
   bool operator==(const ConstructParams&) const = default;
 };
@@ -47,6 +64,7 @@ struct ConstructPiece {
       points;  ///< Ordered edge points; the first and last are exactly the corners where there are corners.
   std::vector<Station> stations;  ///< Regression segments, model frame.
   bool closed = false;            ///< Smooth closed: the curve is periodic.
+  std::vector<int> drawn;         ///< Pen strokes: indices of the points that were drawn; empty = all are measured.
   bool startIsCorner = false;
   bool endIsCorner = false;
 };
@@ -73,6 +91,9 @@ struct ConstructReport {
   std::vector<double> bandS;          ///< [mm] arc lengths at which the band is given (fair fit only).
   std::vector<double> bandSigma;      ///< [1/mm] standard deviation of the curvature there.
   double noisePx = 0.0;               ///< [px] standard deviation of an edge point (fair fit only; 0 = not measured).
+  int pointsBefore = 0;               ///< Control polygon: points of the line (0 = not a control polygon) …
+  int pointsAfter = 0;                ///< … that are left after point removal …
+  int pointsAdded = 0;                ///< … and control points added between close corners.
   bool isCircle = false;              ///< Recognised as an exact circle.
   bool isLine = false;                ///< Recognised as an exact line.
 };
@@ -82,7 +103,8 @@ struct ConstructedPiece {
   ConstructReport report;
 };
 
-/// Constructs all pieces of a contour, in order. Where a corner bounds a piece the curve ends exactly there. A closed
+/// Constructs all pieces of a contour, in order. Where a corner bounds a piece the curve ends exactly there (but for
+/// SharpKnots::Order, which breaks it). A closed
 /// smooth piece gives a curve whose ends meet with all derivatives (Fair, Nurbs, ControlPolygon), with two (Bezier), or with
 /// place, direction and curvature (Typical).
 /// @return Numerical, with what to do, if a piece holds too little to construct anything.

@@ -12,8 +12,6 @@ namespace batten {
 
 namespace {
 
-constexpr double kThinningPx = 8.0;
-
 double polygonLength(std::span<const Vec2> points) {
   double length = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
@@ -66,6 +64,36 @@ Result<NurbsCurve> periodicPolygon(const std::vector<Vec2>& points, int degree) 
   if (!curve) return curve;
   const Vec2 seam = curve->point(curve->start());
   return clampedWithEnds(*curve, seam, seam);
+}
+
+/// The control points of a piece after removal.
+struct ThinnedPiece {
+  std::vector<Vec2> points;  ///< No two neighbours at one place; closed: the first is not repeated.
+  int before = 0;
+};
+
+ThinnedPiece thinnedPiece(const ConstructPiece& piece, double pixelMm, const ConstructParams& params) {
+  std::vector<Vec2> all;
+  const auto take = [&](const Vec2& p) {
+    if (p.allFinite() && (all.empty() || p != all.back())) all.push_back(p);
+  };
+  if (piece.drawn.empty()) {
+    for (const Vec2& p : piece.points) take(p);
+  } else {
+    for (const int i : piece.drawn) take(piece.points[static_cast<std::size_t>(i)]);
+    // A stroke that a corner cuts ends there, drawn or not.
+    if (!piece.closed && !piece.points.empty()) take(piece.points.back());
+  }
+  ThinnedPiece result;
+  result.before = static_cast<int>(all.size());
+  const std::vector<int> kept = params.removal == PointRemoval::Step
+                                    ? thinnedByStep(all, {}, params.removalStepPx * pixelMm)
+                                    : thinnedByTolerance(all, {}, params.removalTolerancePx * pixelMm);
+  for (const int i : kept) result.points.push_back(all[static_cast<std::size_t>(i)]);
+  if (piece.closed && result.points.size() > 1 && result.points.front() == result.points.back()) {
+    result.points.pop_back();
+  }
+  return result;
 }
 
 }  // namespace
@@ -121,8 +149,11 @@ Result<PolygonCurve> controlPolygonCurve(std::span<const Vec2> points, std::span
   SharpPolygon polygon = withEnoughPoints(points, spread ? sharp : std::span<const int>{}, degree);
   if (!spread) polygon.sharp.assign(sharp.begin(), sharp.end());
   PolygonCurve result;
-  auto knots = sharpKnotVector(degree + 1, static_cast<int>(polygon.points.size()), polygon.sharp, kind);
-  auto curve = scaledToLength(degree, std::move(knots), std::move(polygon.points), length);
+  result.knots = sharpKnotVector(degree + 1, static_cast<int>(polygon.points.size()), polygon.sharp, kind);
+  result.points = polygon.points;
+  result.sharp = polygon.sharp;
+  result.added = polygon.added;
+  auto curve = scaledToLength(degree, result.knots, std::move(polygon.points), length);
   if (!curve) return fail(curve.error());
   result.curve = std::move(*curve);
   if (kind == SharpKnots::Order && !sharp.empty()) {
@@ -193,24 +224,78 @@ std::vector<int> thinnedByTolerance(std::span<const Vec2> points, std::span<cons
   return result;
 }
 
+LinePolygon linePolygon(const ConstructContour& contour, const ConstructParams& params) {
+  LinePolygon line;
+  if (contour.pieces.empty()) return line;
+  const ConstructPiece& first = contour.pieces.front();
+  const ConstructPiece& last = contour.pieces.back();
+  for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
+    ThinnedPiece piece = thinnedPiece(contour.pieces[i], contour.pixelMm, params);
+    if (piece.points.empty()) continue;
+    line.before += piece.before;
+    const bool meets = !line.points.empty() && line.points.back() == piece.points.front();
+    if (meets) --line.before;
+    if (!line.points.empty()) line.sharp.push_back(static_cast<int>(line.points.size()) - (meets ? 1 : 0));
+    line.points.insert(line.points.end(), piece.points.begin() + (meets ? 1 : 0), piece.points.end());
+  }
+  line.closed = first.closed;
+  const bool ringOfPieces = !first.closed && first.startIsCorner && last.endIsCorner && line.points.size() > 2 &&
+                            line.points.front() == line.points.back();
+  if (ringOfPieces) {
+    line.closed = true;
+    line.points.pop_back();
+    --line.before;
+    line.sharp.insert(line.sharp.begin(), 0);
+  }
+  return line;
+}
+
+Result<PolygonCurve> polygonCurve(const LinePolygon& line, int degree, SharpKnots kind) {
+  if (!line.closed) return controlPolygonCurve(line.points, line.sharp, degree, kind);
+  if (kind != SharpKnots::Uniform && !line.sharp.empty()) {
+    const int shift = line.sharp.front();
+    std::vector<Vec2> points = line.points;
+    std::rotate(points.begin(), points.begin() + shift, points.end());
+    points.push_back(points.front());
+    std::vector<int> inner;
+    for (std::size_t i = 1; i < line.sharp.size(); ++i) inner.push_back(line.sharp[i] - shift);
+    return controlPolygonCurve(points, inner, degree, kind);
+  }
+  if (line.points.size() < 3 || degree < 1 || degree > 5) {
+    return fail(ErrorCode::Numerical, "A closed control polygon needs at least three points.");
+  }
+  auto curve = periodicPolygon(line.points, degree);
+  if (!curve) return fail(curve.error());
+  PolygonCurve result;
+  result.curve = std::move(*curve);
+  result.points = line.points;
+  for (std::size_t i = 0; i <= line.points.size(); ++i) result.knots.push_back(static_cast<double>(i));
+  return result;
+}
+
 Result<ConstructedPiece> constructControlPolygon(const ConstructPiece& piece, double pixelMm,
                                                  const ConstructParams& params, const RunContext& context) {
   if (context.isCancelled()) return cancelled();
-  std::vector<Vec2> points;
-  for (const int i : thinnedByStep(piece.points, {}, kThinningPx * pixelMm)) {
-    const Vec2& p = piece.points[static_cast<std::size_t>(i)];
-    if (p.allFinite() && (points.empty() || p != points.back())) points.push_back(p);
-  }
-  if (piece.closed && points.size() > 1 && points.front() == points.back()) points.pop_back();
+  ThinnedPiece thinned = thinnedPiece(piece, pixelMm, params);
+  std::vector<Vec2>& points = thinned.points;
   ConstructedPiece result;
+  result.report.pointsBefore = thinned.before;
+  result.report.pointsAfter = static_cast<int>(points.size());
   if (piece.closed && points.size() >= 3) {
     auto curve = periodicPolygon(points, params.degree);
     if (!curve) return fail(curve.error());
     result.curve = std::move(*curve);
   } else {
+    const bool breaks = params.knots == SharpKnots::Order && piece.endIsCorner && points.size() > 2;
+    if (breaks) points.pop_back();
     auto made = controlPolygonCurve(points, {}, params.degree, SharpKnots::Degree);
     if (!made || piece.closed) return straightPiece(piece, "Too few points for a control polygon.");
     result.curve = std::move(made->curve);
+    result.report.pointsAdded = made->added;
+    if (made->added > 0) {
+      result.report.note = "Too few points for this degree: " + std::to_string(made->added) + " were added.";
+    }
+    if (breaks) result.report.note = "Multiplicity = order: the curve is broken just before its last corner.";
   }
   result.report.why = Termination::Exact;
   return result;

@@ -11,13 +11,6 @@
 
 namespace batten {
 
-/// What the knot vector does at a sharp point (004 section 4).
-enum class SharpKnots {
-  Degree,   ///< A knot of multiplicity = degree: the curve passes through the point with a corner (default).
-  Order,    ///< Multiplicity = degree + 1, as in the paper: the curve is broken between the point and the one before.
-  Uniform,  ///< Equal steps everywhere, ends included: the curve passes through no point (for comparison).
-};
-
 /// Knot vector of order k for N control points with sharp points at the given indices (0-based, increasing).
 /// Order: 004 section 4.3 with its base mended: k zeros; then, for 1-based i = k+1..N, a sharp i has the next value k
 /// times (and i moves on by k), any other once; k times the last. Degree: the value k - 1 times right behind a sharp
@@ -35,8 +28,12 @@ struct SharpPolygon {
 SharpPolygon withEnoughPoints(std::span<const Vec2> points, std::span<const int> sharp, int degree);
 
 struct PolygonCurve {
-  NurbsCurve curve;     ///< Domain: length of the polygon.
-  std::string warning;  ///< One line for the user, or empty.
+  NurbsCurve curve;           ///< Domain: length of the polygon.
+  std::vector<double> knots;  ///< The knot vector as sharpKnotVector made it, in whole numbers.
+  std::vector<Vec2> points;   ///< The control points that belong to it, with those that were added.
+  std::vector<int> sharp;     ///< Indices of the inner sharp points in `points`.
+  int added = 0;              ///< Control points added between sharp points that were too close.
+  std::string warning;        ///< One line for the user, or empty.
 };
 /// B-spline of the control polygon; clamped but for Uniform. @param sharp 0-based, increasing; the ends need no
 /// mention.
@@ -44,14 +41,30 @@ struct PolygonCurve {
 Result<PolygonCurve> controlPolygonCurve(std::span<const Vec2> points, std::span<const int> sharp, int degree,
                                          SharpKnots kind);
 
+/// The control polygon of a whole line of the drawing: the points of all its pieces after removal, every corner once.
+struct LinePolygon {
+  std::vector<Vec2> points;  ///< Closed: the first is not repeated.
+  std::vector<int> sharp;    ///< Corners, increasing, without the ends of an open line.
+  bool closed = false;
+  int before = 0;            ///< Points of the line before removal.
+};
+/// @param contour pieces in order of travel. Those that do not meet their neighbour (one in between is missing) are
+/// joined all the same.
+LinePolygon linePolygon(const ConstructContour& contour, const ConstructParams& params);
+/// The line as one B-spline. A closed line with corners starts and ends at its first corner; without, or with Uniform,
+/// it is periodic (`knots` then are 0, 1, 2, …, one period).
+Result<PolygonCurve> polygonCurve(const LinePolygon&, int degree, SharpKnots kind);
+
 /// Indices of the points to keep (004 section 3.1), first, last and sharp ones always. By arc length: points at least
 /// `step` apart along the line, evenly between two points that must stay.
 std::vector<int> thinnedByStep(std::span<const Vec2> points, std::span<const int> sharp, double step);
 /// By tolerance: no removed point lies farther than `tolerance` from the chord that replaces it.
 std::vector<int> thinnedByTolerance(std::span<const Vec2> points, std::span<const int> sharp, double tolerance);
 
-/// The construction of 004 for one piece: its points, thinned to about 8 px, are the control polygon. Closed pieces
-/// give a periodic curve. Degree params.degree.
+/// The construction of 004 for one piece: its points (of a pen stroke: those that were drawn), thinned as the parameters
+/// say, are the control polygon. Closed pieces give a periodic curve. Degree params.degree. Knots of multiplicity =
+/// degree at the corners are what the pieces give when they are joined; with Order a piece ends one point before its
+/// last corner, and the curve is broken there.
 Result<ConstructedPiece> constructControlPolygon(const ConstructPiece&, double pixelMm, const ConstructParams&,
                                                  const RunContext&);
 

@@ -13,6 +13,7 @@ namespace batten {
 enum class ContourKind {
   Outline,     ///< The border between ink and paper, ink on the right of travel on the screen for outer borders.
   Centreline,  ///< The middle of a pen or pencil stroke.
+  Pen,         ///< Drawn in the program (pen_strokes.h), not found on the scan.
 };
 
 /// One line of the drawing, ordered, about one point a pixel. Image frame, px.
@@ -22,7 +23,7 @@ struct Contour {
   bool hole = false;    ///< An inner border (outline mode with internal contours on).
   std::vector<Vec2> points;           ///< [px] sub-pixel positions where refined, else crack or skeleton positions.
   std::vector<Vec2> chain;            ///< [px] unrefined positions, same size as `points`.
-  std::vector<std::uint8_t> refined;  ///< 1 = placed on the raw grey values; 0 = fell back. Same size.
+  std::vector<std::uint8_t> refined;  ///< 1 = placed on the raw grey values; 0 = fell back. Pen: 1 = drawn, 0 = between. Same size.
   std::vector<float> widthPx;         ///< [px] stroke width (centre lines); empty for outlines.
   std::vector<float> bandPx;  ///< [px] half the spread of the strokes that were merged into this line, per point: the line
                               ///< was drawn within points +- bandPx; empty where nothing was merged.

@@ -30,7 +30,10 @@ Nearest nearestOf(const ContourSet& set, const Vec2& at, double limit) {
   best.squared = limit * limit;
   for (std::size_t c = 0; c < set.contours.size(); ++c) {
     const auto& points = set.contours[c].points;
+    // The sharp point of a pen stroke is one of the points that were drawn (004 section 3.2), none in between.
+    const bool onlyDrawn = set.contours[c].kind == ContourKind::Pen;
     for (std::size_t i = 0; i < points.size(); ++i) {
+      if (onlyDrawn && set.contours[c].refined[i] == 0) continue;
       const double d = (points[i] - at).squaredNorm();
       if (d < best.squared || (best.contour < 0 && d == best.squared)) {
         best = {static_cast<int>(c), static_cast<int>(i), d};
@@ -141,7 +144,7 @@ void locateCuts(const Contour& contour, double length, std::vector<Cut>& cuts) {
 
 // How many points to leave out at one end of a piece: those inside the rounded zone, those that lie behind the corner,
 // and beyond them those that were not measured but laid between measured ones.
-std::size_t pointsToDrop(const Piece& piece, bool fromEnd, const Vec2& corner, double zone) {
+std::size_t pointsToDrop(const Piece& piece, bool isPen, bool fromEnd, const Vec2& corner, double zone) {
   const std::size_t n = piece.points.size();
   std::size_t drop = 0;
   double arc = 0.0;
@@ -150,7 +153,7 @@ std::size_t pointsToDrop(const Piece& piece, bool fromEnd, const Vec2& corner, d
     const Vec2& p = piece.points[i];
     if (k > 0) arc += (p - piece.points[fromEnd ? n - k : k - 1]).norm();
     if (arc > 3.0 * zone + 12.0) break;
-    const bool guessed = drop == k && piece.refined[i] == 0;
+    const bool guessed = drop == k && piece.refined[i] == 0 && !isPen;
     if ((p - corner).norm() < zone || arc < zone || guessed) drop = k + 1;
   }
   return drop;
@@ -169,8 +172,8 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   }
   const auto zoneOf = [&](const Cut* cut) { return cut->exact ? cut->zone : 0.5; };
   std::size_t head = 0, tail = 0;
-  if (start != nullptr) head = pointsToDrop(piece, false, start->corner.positionPx, zoneOf(start));
-  if (end != nullptr) tail = pointsToDrop(piece, true, end->corner.positionPx, zoneOf(end));
+  if (start != nullptr) head = pointsToDrop(piece, contour.kind == ContourKind::Pen, false, start->corner.positionPx, zoneOf(start));
+  if (end != nullptr) tail = pointsToDrop(piece, contour.kind == ContourKind::Pen, true, end->corner.positionPx, zoneOf(end));
   if (head + tail >= piece.points.size()) head = piece.points.size(), tail = 0;
   const auto cutEnds = [&](auto& values) {
     values.erase(values.end() - static_cast<std::ptrdiff_t>(tail), values.end());
@@ -180,12 +183,12 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   cutEnds(piece.refined);
   if (start != nullptr) {
     piece.points.insert(piece.points.begin(), start->corner.positionPx);
-    piece.refined.insert(piece.refined.begin(), start->exact ? 1 : 0);
+    piece.refined.insert(piece.refined.begin(), start->exact || contour.kind == ContourKind::Pen ? 1 : 0);
     piece.startIsCorner = true;
   }
   if (end != nullptr) {
     piece.points.push_back(end->corner.positionPx);
-    piece.refined.push_back(end->exact ? 1 : 0);
+    piece.refined.push_back(end->exact || contour.kind == ContourKind::Pen ? 1 : 0);
     piece.endIsCorner = true;
   }
   piece.lengthPx = polylineLength(piece.points, false);
@@ -239,11 +242,15 @@ std::optional<Corner> nearestContourPoint(const ContourSet& set, const Vec2& pos
   Corner corner;
   Snap best;
   for (std::size_t c = 0; c < set.contours.size() && snapDistancePx > 0.0; ++c) {
+    if (set.contours[c].kind == ContourKind::Pen) continue;
     const Snap snap = sharpestNear(set.contours[c], positionPx, snapDistancePx);
     if (snap.index >= 0 && snap.score > best.score) best = snap, corner.contour = static_cast<int>(c);
   }
-  if (best.index < 0) {
-    const Nearest nearest = nearestOf(set, positionPx, snapDistancePx);
+  const Nearest nearest = nearestOf(set, positionPx, snapDistancePx);
+  const bool isOnPen =
+      nearest.contour >= 0 && set.contours[static_cast<std::size_t>(nearest.contour)].kind == ContourKind::Pen;
+  // A drawn point means itself: it need not be the sharpest place around.
+  if (best.index < 0 || (isOnPen && std::sqrt(nearest.squared) < best.distance)) {
     if (nearest.contour < 0) return std::nullopt;
     corner.contour = nearest.contour;
     best.index = nearest.index;
@@ -282,7 +289,8 @@ Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMar
     std::sort(cuts[c].begin(), cuts[c].end(),
               [](const Cut& a, const Cut& b) { return a.corner.pointIndex < b.corner.pointIndex; });
     const Contour& contour = set.contours[c];
-    if (params.exact && !cuts[c].empty()) {
+    // A pen stroke is exact already: its corner is the point that was drawn.
+    if (params.exact && contour.kind != ContourKind::Pen && !cuts[c].empty()) {
       locateCuts(contour, polylineLength(contour.points, contour.closed), cuts[c]);
     }
     cutContour(set, static_cast<int>(c), cuts[c], out);

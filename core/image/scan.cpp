@@ -5,6 +5,20 @@
 
 namespace batten {
 
+Scan blankScan(int widthPx, int heightPx, double dpi) {
+  Scan scan;
+  scan.grey = GreyImage(widthPx, heightPx);
+  scan.info.format = "blank";
+  scan.info.width = widthPx;
+  scan.info.height = heightPx;
+  scan.info.bitsPerChannel = 16;
+  scan.dpi = dpi;
+  scan.fileHash = HashBuilder().text("blank page").integer(widthPx).integer(heightPx).finish();
+  return scan;
+}
+
+bool isBlank(const Scan& scan) { return scan.info.format == "blank"; }
+
 PageFrame pageFrame(const Scan& scan, std::optional<double> dpi) {
   return {scan.grey.width, scan.grey.height, kMillimetresPerInch / dpi.value_or(kAssumedDpi)};
 }

@@ -30,6 +30,12 @@ struct Scan {
   std::string path;           ///< As given by the user; for messages only.
 };
 
+/// A page of white paper, for drawing without a scan. Its format is "blank", its path empty; the hash
+/// stands for the size.
+/// @pre width and height > 0.
+Scan blankScan(int widthPx, int heightPx, double dpi);
+bool isBlank(const Scan&);
+
 /// The frame of a scan at a resolution; an absent one means the assumed resolution (conventions.h).
 PageFrame pageFrame(const Scan& scan, std::optional<double> dpi);
 

@@ -45,6 +45,15 @@ CurveFigures figuresOf(const NurbsCurve& curve, bool closed, const std::vector<V
   return figures;
 }
 
+/// Of a pen stroke: which of the points were drawn, and not put in between.
+std::vector<int> drawnPoints(const Piece& piece) {
+  std::vector<int> drawn;
+  for (std::size_t i = 0; i < piece.refined.size(); ++i) {
+    if (piece.refined[i] != 0) drawn.push_back(static_cast<int>(i));
+  }
+  return drawn;
+}
+
 /// The pieces [first, last) of one contour.
 struct PieceRange {
   std::size_t first, last;
@@ -59,6 +68,33 @@ std::vector<PieceRange> rangesByContour(const PieceSet& set) {
   return ranges;
 }
 
+ConstructContour inputOf(const ContourSet& contours, const PieceSet& pieces, const SegmentSet& segments,
+                         PieceRange range, const PageFrame& frame) {
+  const Contour& contour = contours.contours[static_cast<std::size_t>(pieces.pieces[range.first].contour)];
+  ConstructContour input;
+  input.isStroke = contour.kind == ContourKind::Centreline;
+  input.pixelMm = frame.mmPerPx;
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    const Piece& piece = pieces.pieces[i];
+    ConstructPiece& made = input.pieces.emplace_back();
+    made.points = pointsToModel(piece.points, frame);
+    if (contour.kind == ContourKind::Pen) made.drawn = drawnPoints(piece);
+    for (const Station& s : segments.pieces[i].stations) made.stations.push_back(stationToModel(s, frame));
+    made.closed = piece.closed;
+    made.startIsCorner = piece.startIsCorner;
+    made.endIsCorner = piece.endIsCorner;
+  }
+  return input;
+}
+
+/// Where the pieces of a line stand; empty if it has none.
+PieceRange rangeOf(const PieceSet& set, int contour) {
+  for (const PieceRange& range : rangesByContour(set)) {
+    if (set.pieces[range.first].contour == contour) return range;
+  }
+  return {0, 0};
+}
+
 struct ContourOutcome {
   std::vector<TracedCurve> curves;
   std::vector<Error> failures;
@@ -68,9 +104,23 @@ class ContourBuilder {
  public:
   ContourBuilder(const ContourSet& contours, const PieceSet& pieces, const SegmentSet& segments, const Recipe& recipe,
                  const PageFrame& frame, const RunContext& context)
-      : contours_(contours), pieces_(pieces), segments_(segments), recipe_(recipe), frame_(frame), context_(context) {}
+      : contours_(contours), pieces_(pieces), segments_(segments), recipe_(recipe), frame_(frame), context_(context) {
+    const auto hasMethod = [](const PieceChoice& choice) { return choice.method.has_value(); };
+    if (std::any_of(recipe.choices.begin(), recipe.choices.end(), hasMethod)) choices_ = assignChoices(pieces, recipe);
+  }
 
   ContourOutcome build(PieceRange range) const {
+    ContourOutcome outcome = buildAlike(range);
+    if (choices_.empty()) return outcome;
+    for (TracedCurve& curve : outcome.curves) {
+      const auto& choice = choices_[static_cast<std::size_t>(curve.piece)];
+      if (choice) constructAsChosen(curve, recipe_.choices[*choice]);
+    }
+    return outcome;
+  }
+
+ private:
+  ContourOutcome buildAlike(PieceRange range) const {
     ContourOutcome outcome;
     if (auto all = constructRange(range, recipe_.construct)) {
       for (std::size_t i = range.first; i < range.last; ++i) add(outcome, i, std::move((*all)[i - range.first]));
@@ -90,26 +140,27 @@ class ContourBuilder {
     return outcome;
   }
 
- private:
   Result<std::vector<ConstructedPiece>> constructRange(PieceRange range, const ConstructParams& params) const {
-    const auto contour = static_cast<std::size_t>(pieces_.pieces[range.first].contour);
-    ConstructContour input;
-    input.isStroke = contour < contours_.contours.size() && contours_.contours[contour].kind == ContourKind::Centreline;
-    input.pixelMm = frame_.mmPerPx;
-    for (std::size_t i = range.first; i < range.last; ++i) {
-      const Piece& piece = pieces_.pieces[i];
-      ConstructPiece& made = input.pieces.emplace_back();
-      made.points = pointsToModel(piece.points, frame_);
-      for (const Station& s : segments_.pieces[i].stations) made.stations.push_back(stationToModel(s, frame_));
-      made.closed = piece.closed;
-      made.startIsCorner = piece.startIsCorner;
-      made.endIsCorner = piece.endIsCorner;
-    }
+    const ConstructContour input = inputOf(contours_, pieces_, segments_, range, frame_);
     auto result = construct(input, params, context_);
     if (result && result->size() != input.pieces.size()) {
       return fail(ErrorCode::Numerical, "The construction gave another number of curves than pieces.");
     }
     return result;
+  }
+
+  /// A piece with a method of its own.
+  void constructAsChosen(TracedCurve& curve, const PieceChoice& choice) const {
+    if (!choice.method || *choice.method == recipe_.construct.method) return;
+    ConstructParams params = recipe_.construct;
+    params.method = *choice.method;
+    const auto index = static_cast<std::size_t>(curve.piece);
+    auto own = constructRange({index, index + 1}, params);
+    if (own) {
+      take(curve, std::move(own->front()));
+    } else {
+      curve.construct.note = "Its own method gave no curve: " + own.error().message;
+    }
   }
 
   Error named(Error error, std::size_t piece) const {
@@ -160,6 +211,7 @@ class ContourBuilder {
   const Recipe& recipe_;
   const PageFrame& frame_;
   const RunContext& context_;
+  std::vector<std::optional<std::size_t>> choices_;  ///< Per piece, when any curve has a method of its own.
 };
 
 /// Work on the items of a stage in parallel already; each item alone stays on its thread.
@@ -253,6 +305,35 @@ Result<ConstructedSet> constructAll(const ContourSet& contours, const PieceSet& 
   return fail(ErrorCode::NoCurve,
               set.failures.empty() ? "No line was left to make a curve of. Lower contours.min_length or the thresholds."
                                    : "No curve could be made. " + set.failures.front().message);
+}
+
+ConstructContour lineInput(const PipelineOutput& out, int contour) {
+  if (!out.contours || !out.pieces || !out.segments) return {};
+  if (out.segments->pieces.size() != out.pieces->pieces.size()) return {};
+  const PieceRange range = rangeOf(*out.pieces, contour);
+  if (range.first == range.last || static_cast<std::size_t>(contour) >= out.contours->contours.size()) return {};
+  return inputOf(*out.contours, *out.pieces, *out.segments, range, out.frame);
+}
+
+Result<std::vector<TracedCurve>> constructLine(const PipelineOutput& out, const Recipe& recipe, int contour,
+                                               const RunContext& context) {
+  if (lineInput(out, contour).pieces.empty()) return fail(ErrorCode::NoCurve, "There is no such line.");
+  try {
+    Recipe alike = recipe;
+    alike.choices.clear();
+    const PieceRange range = rangeOf(*out.pieces, contour);
+    const ContourBuilder builder(*out.contours, *out.pieces, *out.segments, alike, out.frame, context);
+    ContourOutcome outcome = builder.build(range);
+    if (context.isCancelled()) return cancelled();
+    std::vector<TracedCurve> curves(range.last - range.first);
+    for (TracedCurve& curve : outcome.curves) {
+      const auto at = static_cast<std::size_t>(curve.piece) - range.first;
+      curves[at] = std::move(curve);
+    }
+    return curves;
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "There is not enough memory to construct this line.");
+  }
 }
 
 Result<FairedSet> fairAll(const ConstructedSet& constructed, const PieceSet& pieces, const Recipe& recipe,

@@ -102,6 +102,33 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
       {0.02, 5.0, 0.01, 2, true}, [](auto& r) -> auto& { return r.segments.tolerancePx; }));
 }
 
+void appendControlPolygon(std::vector<Parameter>& table) {
+  constexpr StageId kCurves = StageId::Curves;
+  table.push_back(choice<SharpKnots>(
+      kCurves,
+      {"construct.knots", "Knots at corners", "",
+       "Control polygon: degree equal knots make a sharp corner. As many as the order, as in the paper, break the curve "
+       "there."},
+      {{"degree", "As the degree", SharpKnots::Degree}, {"order", "As the order (paper)", SharpKnots::Order}},
+      [](auto& r) -> auto& { return r.construct.knots; }));
+  table.push_back(choice<PointRemoval>(
+      kCurves,
+      {"construct.removal", "Remove points by", "",
+       "Control polygon: which points of the line are kept as control points. Corners and ends always are."},
+      {{"step", "Distance", PointRemoval::Step}, {"tolerance", "Accuracy", PointRemoval::Tolerance}},
+      [](auto& r) -> auto& { return r.construct.removal; }));
+  table.push_back(real(
+      kCurves,
+      {"construct.removal_step", "Keep one point every", "px",
+       "Control polygon: distance of the points that are kept. Larger keeps fewer; 0 keeps all."},
+      {0.0, 200.0, 1.0, 0}, [](auto& r) -> auto& { return r.construct.removalStepPx; }));
+  table.push_back(real(
+      kCurves,
+      {"construct.removal_tolerance", "Within", "px",
+       "Control polygon: farthest that a removed point may lie from the polygon. Larger keeps fewer."},
+      {0.0, 50.0, 0.1, 1}, [](auto& r) -> auto& { return r.construct.removalTolerancePx; }));
+}
+
 void appendConstruct(std::vector<Parameter>& table) {
   constexpr StageId kCurves = StageId::Curves;
   table.push_back(choice<ConstructMethod>(
@@ -136,6 +163,7 @@ void appendConstruct(std::vector<Parameter>& table) {
       {"construct.degree", "Degree", "",
        "Control polygon: degree of the curve. Larger is smoother and cuts corners more."},
       {2, 5, 1}, [](auto& r) -> auto& { return r.construct.degree; }));
+  appendControlPolygon(table);
   table.push_back(real(
       kCurves,
       {"construct.keep_extrema", "Certainty of bumps", "",

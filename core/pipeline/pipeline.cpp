@@ -85,10 +85,7 @@ class Run {
       case StageId::Edges:
         return step(stage, out_.edges, [&] { return laplacianEdges(out_.filtered->ink, context_); });
       case StageId::Contours:
-        return step(stage, out_.contours, [&] {
-          return traceContours(out_.filtered->ink, scan_.grey, *out_.thresholds, recipe_.edges, recipe_.contours,
-                               context_);
-        });
+        return step(stage, out_.contours, [&] { return lines(); });
       case StageId::Pieces:
         return step(stage, out_.pieces,
                     [&] { return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners); });
@@ -103,6 +100,28 @@ class Run {
                     [&] { return fairAll(*out_.constructed, *out_.pieces, recipe_, out_.frame, context_); });
     }
     return false;
+  }
+
+  /// The lines found on the scan, and behind them those drawn by hand. The found ones are kept by themselves, so that a
+  /// new stroke does not trace the page again.
+  Result<ContourSet> lines() {
+    const auto trace = [&] {
+      return traceContours(out_.filtered->ink, scan_.grey, *out_.thresholds, recipe_.edges, recipe_.contours, context_);
+    };
+    if (recipe_.penStrokes.empty()) {
+      if (isBlank(scan_)) return fail(ErrorCode::NoCurve, "The page is empty. Draw a line with the pen.");
+      return trace();
+    }
+    auto traced = cache_.find<ContourSet>(keys_.traced);
+    if (!traced) {
+      auto found = trace();
+      if (context_.isCancelled()) return cancelled();
+      // On white paper, or beside a drawing that gives no line, the strokes are the drawing.
+      if (!found && found.error().code != ErrorCode::NoCurve) return found;
+      traced = std::make_shared<const ContourSet>(found ? std::move(*found) : ContourSet{});
+      if (found) cache_.store(keys_.traced, traced, bytesOf(*traced));
+    }
+    return withPenStrokes(*traced, recipe_.penStrokes);
   }
 
   /// Fills `slot` from the cache or by running `work`; false if the run ends here.

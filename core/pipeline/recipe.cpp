@@ -14,6 +14,8 @@ std::optional<Error> bad(std::string message) { return Error{ErrorCode::BadParam
 
 bool isFinite(const Vec2& p) { return std::isfinite(p.x()) && std::isfinite(p.y()); }
 
+bool isPageSide(int px) { return px >= 16 && px <= 20000; }
+
 std::optional<Error> validateChoice(const PieceChoice& choice) {
   if (!isFinite(choice.anchorPx)) return bad("A choice for a curve has no valid position.");
   const auto finite = [](const std::vector<Vec2>& places) { return std::all_of(places.begin(), places.end(), isFinite); };
@@ -40,6 +42,12 @@ std::optional<Error> validate(const Recipe& recipe) {
   if (auto e = validate(recipe.filter)) return e;
   if (auto e = validate(recipe.edges)) return e;
   if (auto e = validate(recipe.contours)) return e;
+  for (const PenStroke& stroke : recipe.penStrokes) {
+    if (auto e = validate(stroke)) return e;
+  }
+  if (recipe.page && !(isPageSide(recipe.page->widthPx) && isPageSide(recipe.page->heightPx))) {
+    return bad("A page without a scan must be 16 to 20000 px wide and high.");
+  }
   if (auto e = validate(recipe.corners)) return e;
   for (const CornerMark& mark : recipe.cornerMarks) {
     if (!isFinite(mark.positionPx)) return bad("A corner mark has no valid position.");

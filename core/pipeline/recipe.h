@@ -7,6 +7,7 @@
 #include "core/base/result.h"
 #include "core/construct/construct.h"
 #include "core/contour/corner_marks.h"
+#include "core/contour/pen_strokes.h"
 #include "core/contour/regression_segments.h"
 #include "core/contour/trace_contours.h"
 #include "core/fairing/fairing.h"
@@ -29,6 +30,7 @@ struct PieceChoice {
   std::vector<Vec2> keepPx{};         ///< Extrema to keep, by place; not empty: counts instead of the number.
   std::vector<Vec2> splitsPx{};       ///< Where one target profile ends and the next begins.
   std::vector<ProfilePoint> profile{};  ///< Own drawn profile, from start to end of the piece.
+  std::optional<ConstructMethod> method{};  ///< Own way of construction.
   bool operator==(const PieceChoice&) const = default;
 
   /// True when the piece is not faired by the recipe's settings alone.
@@ -46,7 +48,14 @@ struct PieceChoice {
     profile.clear();
   }
   /// True when the choice says nothing.
-  bool isEmpty() const { return included && !hasFairing() && splitsPx.empty(); }
+  bool isEmpty() const { return included && !hasFairing() && splitsPx.empty() && !method; }
+};
+
+/// The size of a drawing that has no scan: white paper. Resolution: the recipe's.
+struct BlankPage {
+  int widthPx = 0;   ///< [px] 16..20000
+  int heightPx = 0;  ///< [px] 16..20000
+  bool operator==(const BlankPage&) const = default;
 };
 
 /// Everything the user decided: all parameters and all edits, one comparable value. Result = f(scan, recipe).
@@ -58,6 +67,8 @@ struct Recipe {
   FilterParams filter;
   EdgeParams edges;
   ContourParams contours;
+  std::vector<PenStroke> penStrokes;  ///< Lines drawn by hand, behind those found on the scan.
+  std::optional<BlankPage> page;      ///< The drawing was begun without a scan; null = it needs its scan.
   CornerParams corners;
   std::vector<CornerMark> cornerMarks;
   SegmentParams segments;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pipeline/recipe_file.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "core/pipeline/number_text.h"
@@ -42,6 +44,11 @@ Json choiceToJson(const PieceChoice& choice) {
     named.fairing.mode = *choice.mode;
     json["mode"] = findParameter("fairing.mode")->get(named);
   }
+  if (choice.method) {
+    Recipe named;
+    named.construct.method = *choice.method;
+    json["method"] = findParameter("construct.method")->get(named);
+  }
   if (choice.target) json["target"] = *choice.target;
   if (choice.toleranceMm) json["tolerance"] = *choice.toleranceMm;
   if (choice.lowPassMm) json["low_pass"] = *choice.lowPassMm;
@@ -51,6 +58,12 @@ Json choiceToJson(const PieceChoice& choice) {
   }
   for (const ProfilePoint& p : choice.profile) json["profile"].push_back({p.fraction, p.kappa});
   return json;
+}
+
+Json strokeToJson(const PenStroke& stroke) {
+  Json points = Json::array();
+  for (const Vec2& p : stroke.points) points.push_back({p.x(), p.y()});
+  return {{"closed", stroke.closed}, {"points", std::move(points)}};
 }
 
 /// A JSON value as the text that the table's setters take.
@@ -101,6 +114,43 @@ Result<void> readCorners(const Json& json, Recipe& recipe) {
   return {};
 }
 
+Result<void> readStrokes(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"strokes\" is not a list.");
+  for (const Json& entry : json) {
+    if (!entry.is_object() || !entry.contains("points") || !entry["points"].is_array()) {
+      return refuse("The recipe is damaged: a pen stroke has no list of points.");
+    }
+    PenStroke stroke;
+    for (const auto& [name, value] : entry.items()) {
+      if (name == "points") continue;
+      if (name != "closed" || !value.is_boolean()) {
+        return refuse("The recipe holds \"" + name +
+                      "\" in a pen stroke, which this version of Batten does not know or cannot read.");
+      }
+      stroke.closed = value.get<bool>();
+    }
+    for (const Json& place : entry["points"]) {
+      const auto point = pointFromJson(place);
+      if (!point) return refuse("The recipe is damaged: a point of a pen stroke is not a pair of numbers [x, y].");
+      stroke.points.push_back(*point);
+    }
+    recipe.penStrokes.push_back(std::move(stroke));
+  }
+  return {};
+}
+
+Result<void> readPage(const Json& json, Recipe& recipe) {
+  if (json.is_null()) return {};
+  const bool isPair =
+      json.is_array() && json.size() == 2 && json[0].is_number_integer() && json[1].is_number_integer();
+  if (!isPair) return refuse("The recipe is damaged: the size of the page is not a pair of whole numbers.");
+  const auto side = [](const Json& value) {
+    return static_cast<int>(std::clamp<std::int64_t>(value.get<std::int64_t>(), 0, 1000000));
+  };
+  recipe.page = BlankPage{side(json[0]), side(json[1])};
+  return {};
+}
+
 Result<PieceChoice> readChoice(const Json& json) {
   PieceChoice choice;
   if (!json.is_object()) return refuse("The recipe is damaged: an entry of \"choices\" is not an object.");
@@ -115,6 +165,10 @@ Result<PieceChoice> readChoice(const Json& json) {
       Recipe named;
       if (auto set = setParameter(named, "fairing.mode", value.get<std::string>()); !set) return fail(set.error());
       choice.mode = named.fairing.mode;
+    } else if (name == "method" && value.is_string()) {
+      Recipe named;
+      if (auto set = setParameter(named, "construct.method", value.get<std::string>()); !set) return fail(set.error());
+      choice.method = named.construct.method;
     } else if (name == "target" && value.is_number_integer()) {
       choice.target = value.get<int>();
     } else if (name == "tolerance" && value.is_number()) {
@@ -169,6 +223,8 @@ Result<void> readEntry(const std::string& name, const Json& value, Recipe& recip
   if (name == "parameters") return readParameters(value, recipe);
   if (name == "corners") return readCorners(value, recipe);
   if (name == "choices") return readChoices(value, recipe);
+  if (name == "strokes") return readStrokes(value, recipe);
+  if (name == "page") return readPage(value, recipe);
   if (name != "dpi") {
     return refuse("The recipe holds \"" + name + "\", which this version of Batten does not know.");
   }
@@ -189,6 +245,12 @@ std::string recipeToJson(const Recipe& recipe) {
   for (const CornerMark& mark : recipe.cornerMarks) corners.push_back({mark.positionPx.x(), mark.positionPx.y()});
   Json& choices = json["choices"] = Json::array();
   for (const PieceChoice& choice : recipe.choices) choices.push_back(choiceToJson(choice));
+  // Only where there are any: recipes of drawings without them stay what they were.
+  if (!recipe.penStrokes.empty()) {
+    Json& strokes = json["strokes"] = Json::array();
+    for (const PenStroke& stroke : recipe.penStrokes) strokes.push_back(strokeToJson(stroke));
+  }
+  if (recipe.page) json["page"] = {recipe.page->widthPx, recipe.page->heightPx};
   return json.dump(1) + "\n";
 }
 

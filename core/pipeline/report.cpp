@@ -38,6 +38,9 @@ Json figuresToJson(const CurveFigures& f, const PageFrame& frame) {
 Json constructToJson(const ConstructReport& r) {
   Json json{{"stopped", name(r.why)},  {"note", r.note},      {"noise_px", number(r.noisePx)},
             {"is_circle", r.isCircle}, {"is_line", r.isLine}, {"extrema", Json::array()}};
+  if (r.pointsBefore > 0) {
+    json["polygon_points"] = {{"before", r.pointsBefore}, {"after", r.pointsAfter}, {"added", r.pointsAdded}};
+  }
   for (const ExtremumNote& e : r.extrema) {
     json["extrema"].push_back({{"s_mm", number(e.s)},
                                {"curvature_per_mm", number(e.kappa)},
@@ -102,6 +105,11 @@ Json choiceToJson(const TracedCurve& c) {
           {"tolerance_mm", c.fairingUsed.toleranceMm}};
 }
 
+const char* kindName(ContourKind kind) {
+  if (kind == ContourKind::Pen) return "pen";
+  return kind == ContourKind::Centreline ? "centreline" : "outline";
+}
+
 Json cornersToJson(const PipelineOutput& out, const TracedCurve& c) {
   Json list = Json::array();
   const Piece& piece = out.pieces->pieces[static_cast<std::size_t>(c.piece)];
@@ -113,9 +121,7 @@ Json cornersToJson(const PipelineOutput& out, const TracedCurve& c) {
 Json curveToJson(const PipelineOutput& out, const ReportExtras& extras, std::size_t index) {
   const TracedCurve& c = out.faired->curves[index];
   Json json{{"index", static_cast<int>(index)}, {"contour", c.contour + 1}, {"piece", c.piece}, {"closed", c.closed}};
-  json["kind"] = out.contours->contours[static_cast<std::size_t>(c.contour)].kind == ContourKind::Centreline
-                     ? "centreline"
-                     : "outline";
+  json["kind"] = kindName(out.contours->contours[static_cast<std::size_t>(c.contour)].kind);
   json["corners_px"] = cornersToJson(out, c);
   json["sketched"] = figuresToJson(c.sketchedFigures, out.frame);
   json["construct"] = constructToJson(c.construct);

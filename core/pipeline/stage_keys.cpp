@@ -38,6 +38,8 @@ void add(HashBuilder& h, const SegmentParams& p) {
 void add(HashBuilder& h, const ConstructParams& p) {
   h.integer(static_cast<int>(p.method)).number(p.derivativeMagnitude).integer(p.magnitudeAsInPaper);
   h.integer(static_cast<int>(p.gradients)).integer(p.degree).number(p.keepExtremaCost);
+  h.integer(static_cast<int>(p.knots)).integer(static_cast<int>(p.removal)).number(p.removalStepPx);
+  h.number(p.removalTolerancePx);
 }
 void add(HashBuilder& h, const FairingParams& p) {
   h.integer(static_cast<int>(p.mode)).integer(p.target).number(p.toleranceMm);
@@ -86,7 +88,7 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
     case StageId::Contours:
       add(h, r.edges);
       h.number(r.contours.minLengthPx).integer(r.contours.maxCount);
-      break;
+      break;  // the pen strokes come on top, see stageKeys
     case StageId::Pieces:
       h.number(r.corners.snapDistancePx).integer(r.corners.exact);
       for (const CornerMark& mark : r.cornerMarks) add(h, mark.positionPx);
@@ -96,6 +98,11 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
       break;
     case StageId::Curves:
       add(h, r.construct);
+      for (const PieceChoice& choice : r.choices) {
+        if (!choice.method) continue;
+        add(h, choice.anchorPx);
+        h.integer(static_cast<int>(*choice.method));
+      }
       h.number(frame.mmPerPx).integer(frame.heightPx);
       break;
     case StageId::Faired:
@@ -103,6 +110,16 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
       for (const PieceChoice& choice : r.choices) add(h, choice);
       break;
   }
+}
+
+ContentHash withStrokes(const ContentHash& traced, const Recipe& recipe) {
+  HashBuilder h;
+  h.text("pen strokes").hash(traced);
+  for (const PenStroke& stroke : recipe.penStrokes) {
+    h.integer(stroke.closed).integer(static_cast<std::int64_t>(stroke.points.size()));
+    for (const Vec2& p : stroke.points) add(h, p);
+  }
+  return h.finish();
 }
 
 }  // namespace
@@ -116,6 +133,10 @@ StageKeys stageKeys(const Scan& scan, const Recipe& recipe, const PageFrame& fra
     h.text(name(kStages[i])).integer(kAlgorithmVersions[i]).hash(*input);
     addOwn(h, kStages[i], recipe, frame);
     result.keys[i] = h.finish();
+    if (kStages[i] == StageId::Contours) {
+      result.traced = result.keys[i];
+      if (!recipe.penStrokes.empty()) result.keys[i] = withStrokes(result.traced, recipe);
+    }
     // The edges picture is only looked at; contours are made from the filtered mask.
     if (kStages[i] != StageId::Edges) input = &result.keys[i];
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/contour/corner_marks.h"
+#include "ui/canvas/compare_overlay.h"
 #include "ui/canvas/curve_shapes.h"
 #include "ui/canvas/tile_pyramid.h"
 #include "ui/canvas/view_transform.h"
@@ -30,6 +31,7 @@ struct CanvasScene {
   std::shared_ptr<const TilePyramid> pyramid;
   std::shared_ptr<const CurveShapes> shapes;
   std::shared_ptr<const CurveCombs> combs;
+  std::shared_ptr<const CompareOverlay> overlay;
   std::vector<CornerSuggestion> suggestions;
   QPalette palette;
   QFont font;

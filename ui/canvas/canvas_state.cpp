@@ -17,7 +17,7 @@ constexpr double kSuggestionScalePx = 14.0;
 }  // namespace
 
 CurveCanvas::State::State(CurveCanvas& owner, EditorSession& s, ViewSettings& v)
-    : CanvasScene(s, v), canvas(owner), tools{makeSelectTool(*this), makeThresholdTool(*this), makeCornerTool(*this)} {
+    : CanvasScene(s, v), canvas(owner), tools{makeSelectTool(*this), makeThresholdTool(*this), makeCornerTool(*this), makePenTool(*this)} {
   repaint = [this] { canvas.update(); };
   hint = [this](const QString& text) {
     if (text == lastHint) return;
@@ -51,6 +51,8 @@ void CurveCanvas::State::scanOpened() {
   pyramid = coarsePyramid(scan);
   shapes.reset();
   combs.reset();
+  overlay.reset();
+  overlayFor = {};
   suggestions.clear();
   suggestionsFor.reset();
   ghost = {};
@@ -81,6 +83,7 @@ void CurveCanvas::State::stageReady(StageId stage) {
   if (stage == StageId::Curves || stage == StageId::Faired) {
     requestShapes();
     requestCombs();
+    requestOverlay();
   }
   canvas.update();
 }
@@ -90,11 +93,13 @@ void CurveCanvas::State::recipeChanged() { canvas.update(); }
 void CurveCanvas::State::viewChanged() {
   session.setEdgesWanted(view.isVisible(Layer::Edges));
   requestSuggestions();
+  requestOverlay();
   canvas.update();
 }
 
 void CurveCanvas::State::transformChanged() {
   requestShapes();
+  requestOverlay();
   canvas.update();
 }
 
@@ -177,6 +182,32 @@ void CurveCanvas::State::requestCombs() {
   });
 }
 
+void CurveCanvas::State::requestOverlay() {
+  const OverlaySource from = overlaySource(session, view.showsUniformKnots(), zoomBracket(transform.zoom()));
+  if (from == overlayFor) return;
+  overlayFor = from;
+  if (!from.pinned && !from.contours) {
+    comparing.cancelAll();
+    overlay.reset();
+    canvas.update();
+    return;
+  }
+  comparing.start([this, from](const CancelToken& token) {
+    RunContext context;
+    context.cancel = token;
+    auto built = buildOverlay(from, context);
+    if (!built) return;
+    QMetaObject::invokeMethod(
+        &inbox,
+        [this, from, built] {
+          if (!(from == overlayFor)) return;
+          overlay = built;
+          canvas.update();
+        },
+        Qt::QueuedConnection);
+  });
+}
+
 void CurveCanvas::State::requestSuggestions() {
   const auto contours = session.output().contours;
   if (view.tool() != Tool::Corners) return;
@@ -235,6 +266,7 @@ CurveCanvas::State::LinesKey CurveCanvas::State::linesKeyNow() const {
   key.selected = session.selectedCurve();
   key.shapes = shapes.get();
   key.combs = combs.get();
+  key.overlay = overlay.get();
   if (view.isVisible(Layer::Segments)) key.segments = session.output().segments.get();
   return key;
 }
@@ -248,6 +280,7 @@ void CurveCanvas::State::paintLines(const LinesKey& key) {
   lines.fill(Qt::transparent);
   if (view.isScanOnly()) return;
   QPainter painter(&lines);
+  paintOverlay(painter, *this);
   if (view.isVisible(Layer::Segments)) paintSegments(painter, *this);
   if (view.isVisible(Layer::Curve)) paintSketched(painter, *this);
   if (view.isVisible(Layer::Faired)) paintFaired(painter, *this);

@@ -38,7 +38,7 @@ struct CurveCanvas::State : CanvasScene {
 
   CurveCanvas& canvas;
   ScreenTiles tiles;
-  std::array<std::unique_ptr<CanvasTool>, 3> tools;
+  std::array<std::unique_ptr<CanvasTool>, kTools.size()> tools;
   QPainterPath ghost;
   int ghostDegree = 0;
   bool isFitted = true;  ///< Follows the size of the view until the user zooms or pans.
@@ -57,7 +57,7 @@ struct CurveCanvas::State : CanvasScene {
     QSize size;
     double zoom = 0.0, ratio = 0.0, combScale = 0.0;
     int combDensity = 0, selected = -1, layers = 0;
-    const void *shapes = nullptr, *combs = nullptr, *segments = nullptr;
+    const void *shapes = nullptr, *combs = nullptr, *segments = nullptr, *overlay = nullptr;
     bool operator==(const LinesKey&) const = default;
   };
   LinesKey linesKey;
@@ -69,7 +69,10 @@ struct CurveCanvas::State : CanvasScene {
   StillKey stillKey;
 
   QObject inbox;
-  BackgroundWorker imaging, shaping, combing, suggesting;
+  BackgroundWorker imaging, shaping, combing, suggesting, comparing;
+
+  /// The pinned result, or the uniform curves, have changed.
+  void requestOverlay();
 
  private:
   void paintStill();
@@ -84,6 +87,7 @@ struct CurveCanvas::State : CanvasScene {
   CurveSource shapesFor, combsFor;
   double shapesZoom = 0.0;
   int combsSelected = -2;
+  OverlaySource overlayFor;
   std::shared_ptr<const ContourSet> suggestionsFor;
   double suggestionsAngleDeg = 0.0;
 };

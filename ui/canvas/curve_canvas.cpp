@@ -8,6 +8,7 @@
 #include <QPaintEvent>
 #include <QPainter>
 #include <QPinchGesture>
+#include <QTabletEvent>
 #include <QWheelEvent>
 #include <cmath>
 
@@ -41,6 +42,7 @@ CurveCanvas::CurveCanvas(EditorSession& session, ViewSettings& view, QWidget* pa
   connect(&session, &EditorSession::selectionChanged, this, [state] { state->selectionChanged(); });
   connect(&session, &EditorSession::targetsChanged, this, [state] { state->hoverChanged(); });
   connect(&session, &EditorSession::hoverChanged, this, [state] { state->hoverChanged(); });
+  connect(&session, &EditorSession::pinChanged, this, [state] { state->requestOverlay(); });
   connect(&session, &EditorSession::cursorChanged, this, qOverload<>(&QWidget::update));
   connect(&session, &EditorSession::runFinished, this, qOverload<>(&QWidget::update));
   connect(&session, &EditorSession::busyChanged, this, [state](bool busy) { state->busyChanged(busy); });
@@ -193,9 +195,41 @@ void CurveCanvas::leaveEvent(QEvent* event) {
   state_->linkCursor(std::nullopt);
 }
 
+void CurveCanvas::tabletEvent(QTabletEvent* event) {
+  State& s = *state_;
+  // Other tools and the barrel buttons work through the mouse events that Qt makes of what is ignored here.
+  const bool isPen = s.view.tool() == Tool::Pen && s.session.hasScan() && !s.spaceHeld && !s.view.isScanOnly();
+  const bool isTip = event->button() == Qt::LeftButton || event->buttons() == Qt::LeftButton || s.isPressed;
+  if (!isPen || !isTip) return event->ignore();
+  const ToolEvent at = s.toolEvent(event->position(), event->modifiers());
+  if (event->type() == QEvent::TabletPress) {
+    setFocus(Qt::MouseFocusReason);
+    s.isPressed = true;
+    s.tool().press(at);
+  } else if (event->type() == QEvent::TabletMove && s.isPressed) {
+    s.tool().move(at, true);
+  } else if (event->type() == QEvent::TabletRelease && s.isPressed) {
+    s.isPressed = false;
+    s.tool().release(at);
+  }
+  emit hovered(at.px);
+  event->accept();
+}
+
+bool CurveCanvas::focusNextPrevChild(bool next) {
+  // Tab walks the curves and leaves the drawing behind the last one.
+  const int count = static_cast<int>(state_->session.curves().size());
+  const int now = state_->session.selectedCurve();
+  const int wanted = now < 0 ? (next ? 0 : count - 1) : now + (next ? 1 : -1);
+  if (count == 0 || wanted < 0 || wanted >= count) return QWidget::focusNextPrevChild(next);
+  state_->session.selectCurve(wanted);
+  return true;
+}
+
 void CurveCanvas::keyPressEvent(QKeyEvent* event) {
   State& s = *state_;
   QPointF step;
+  if (s.session.hasScan() && !s.view.isScanOnly() && event->key() != Qt::Key_Space && s.tool().key(event)) return;
   switch (event->key()) {
     case Qt::Key_Space:
       if (!event->isAutoRepeat()) s.spaceHeld = true;
@@ -217,7 +251,7 @@ void CurveCanvas::keyPressEvent(QKeyEvent* event) {
       step = {0, -kArrowStepPx};
       break;
     default:
-      if (!s.tool().key(event)) QWidget::keyPressEvent(event);
+      QWidget::keyPressEvent(event);
       return;
   }
   s.transform.pan(step);

@@ -22,9 +22,11 @@ std::vector<ActionInfo> fileActions() {
   using enum ActionId;
   const auto menu = ActionMenu::File;
   return {
+      {NewDrawing, "new-drawing", menu, tr("New drawing…"), keys({"Ctrl+N"}),
+       tr("Begin on an empty page and draw with the pen.")},
       {OpenScan, "open-scan", menu, tr("Open scan…"), keys({"Ctrl+O"}), tr("Open a scanned or photographed drawing.")},
       {OpenRecipe, "open-recipe", menu, tr("Open recipe…"), keys({"Ctrl+Shift+O"}),
-       tr("Use the saved settings, corners and choices of another session on this drawing.")},
+       tr("Use saved settings, corners and choices on this drawing, or open a saved pen drawing.")},
       {SaveRecipe, "save-recipe", menu, tr("Save recipe…"), keys({"Ctrl+S"}),
        tr("Save all settings, corners and choices, for this program or batten-cli.")},
       {Export, "export", menu, tr("Export…"), keys({"Ctrl+E"}),
@@ -74,6 +76,8 @@ std::vector<ActionInfo> viewActions() {
       {ShowRegions, "show-regions", menu, tr("Regions"), keys({"Alt+0"}), tr("Show the 64 threshold regions."), true},
       {ShowDeviation, "show-deviation", menu, tr("Deviation"), keys({"Alt+D"}),
        tr("Show how far the faired curve lies from the sketched one."), true},
+      {Pin, "pin", menu, tr("Pin this result"), keys({"A"}),
+       tr("Keep this result as a thin line to compare later ones with; again to take it away."), true},
   };
 }
 
@@ -87,6 +91,8 @@ std::vector<ActionInfo> toolActions() {
        tr("Click a region, then turn the wheel or drag up and down to change its threshold."), true},
       {ToolCorners, "tool-corners", menu, tr("Mark corners"), keys({"K"}),
        tr("Click a line where it has a sharp corner; click the corner again to remove it."), true},
+      {ToolPen, "tool-pen", menu, tr("Draw with pen"), keys({"D"}),
+       tr("Drag to draw a line, with a mouse or a tablet; Del removes the selected one."), true},
   };
 }
 
@@ -181,6 +187,8 @@ std::optional<Tool> toolOf(ActionId id) {
       return Tool::Thresholds;
     case ActionId::ToolCorners:
       return Tool::Corners;
+    case ActionId::ToolPen:
+      return Tool::Pen;
     default:
       return std::nullopt;
   }
@@ -205,6 +213,8 @@ ActionId toolAction(Tool tool) {
       return ActionId::ToolThresholds;
     case Tool::Corners:
       return ActionId::ToolCorners;
+    case Tool::Pen:
+      return ActionId::ToolPen;
   }
   return ActionId::ToolSelect;
 }

@@ -17,6 +17,7 @@ namespace batten {
 /// Everything the window can do. Menus, the action finder and the shortcut list are built from the catalog, so that no
 /// two of them can disagree.
 enum class ActionId {
+  NewDrawing,
   OpenScan,
   OpenRecipe,
   SaveRecipe,
@@ -45,6 +46,8 @@ enum class ActionId {
   ToolSelect,
   ToolThresholds,
   ToolCorners,
+  ToolPen,
+  Pin,
   Target1,
   Target2,
   Target3,

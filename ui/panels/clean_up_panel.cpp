@@ -7,6 +7,7 @@
 
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/parameter_editor.h"
+#include "ui/panels/pen_panel.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -63,7 +64,7 @@ void CleanUpPanel::refresh() {
   warning_->setText(tr("Much of the ink vanished: strokes of one pixel do not survive this. Use a larger coefficient or fewer iterations."));
 }
 
-EdgesPanel::EdgesPanel(EditorSession& session, QWidget* parent)
+EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
     : QWidget(parent), session_(session), figures_(new FigureTable(this)), note_(note({}, this)) {
   auto* layout = panelLayout(this, tr("Edges"));
   layout->addWidget(new ParameterEditor(session,
@@ -73,6 +74,7 @@ EdgesPanel::EdgesPanel(EditorSession& session, QWidget* parent)
   layout->addWidget(caption(tr("Lines found"), this));
   layout->addWidget(figures_);
   layout->addWidget(note_);
+  layout->addWidget(new PenPanel(session, view, this));
   layout->addStretch();
   follow(session, this, StageId::Contours, [this] { refresh(); });
   refresh();

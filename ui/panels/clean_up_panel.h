@@ -4,6 +4,7 @@
 #include <QWidget>
 
 #include "ui/session/editor_session.h"
+#include "ui/session/view_settings.h"
 
 class QLabel;
 
@@ -28,7 +29,7 @@ class CleanUpPanel : public QWidget {
 class EdgesPanel : public QWidget {
   Q_OBJECT
  public:
-  explicit EdgesPanel(EditorSession& session, QWidget* parent = nullptr);
+  EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
 
  private:
   void refresh();

@@ -10,9 +10,12 @@
 #include <functional>
 
 #include "ui/panels/curve_list.h"
+#include "ui/panels/knot_panel.h"
+#include "ui/panels/method_table.h"
 #include "ui/panels/number_field.h"
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/parameter_editor.h"
+#include "ui/panels/pin_panel.h"
 #include "ui/panels/slider_track.h"
 
 namespace batten {
@@ -69,24 +72,29 @@ CombControls::CombControls(ViewSettings& view, QWidget* parent) : QWidget(parent
 CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
     : QWidget(parent), session_(session),
       editor_(new ParameterEditor(session,
-                                  {"construct.method", "construct.derivative_magnitude", "construct.keep_extrema", "construct.degree",
+                                  {"construct.derivative_magnitude", "construct.keep_extrema",
                                    "segments.mode", "segments.count", "segments.spacing", "segments.tolerance",
                                    "construct.gradients", "construct.magnitude_as_in_paper"},
                                   this)),
-      figures_(new FigureTable(this)), note_(note({}, this)) {
+      methods_(new MethodTable(session, this)), knots_(new KnotPanel(session, view, this)), figures_(new FigureTable(this)),
+      note_(note({}, this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(14, 12, 14, 12);
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Curves"), this));
+  layout->addWidget(methods_);
   layout->addWidget(editor_);
+  layout->addWidget(knots_);
   layout->addWidget(caption(tr("Curves"), this));
   layout->addWidget(new CurveList(session, this));
   layout->addWidget(caption(tr("Selected curve"), this));
   layout->addWidget(figures_);
   layout->addWidget(note_);
+  layout->addWidget(new PinPanel(session, this));
   layout->addWidget(caption(tr("Comb"), this));
   layout->addWidget(new CombControls(view, this));
   layout->addStretch();
+  connect(methods_, &MethodTable::helpAsked, this, &CurvesPanel::helpAsked);
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
                             &EditorSession::runFinished})
     connect(&session_, signal, this, &CurvesPanel::refresh);
@@ -97,15 +105,15 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
 }
 
 void CurvesPanel::refresh() {
-  const ConstructMethod method = session_.recipe().construct.method;
+  const ConstructMethod method = methods_->current();
   const SegmentParams& segments = session_.recipe().segments;
   const bool nurbs = method == ConstructMethod::Nurbs;
   editor_->setRowVisible("construct.derivative_magnitude", nurbs);
   editor_->setRowVisible("construct.magnitude_as_in_paper", nurbs);
   editor_->setRowVisible("construct.gradients", nurbs);
   editor_->setRowVisible("construct.keep_extrema", method == ConstructMethod::Fair);
-  editor_->setRowVisible("construct.degree", method == ConstructMethod::ControlPolygon);
-  const bool segmented = method != ConstructMethod::Fair;
+  knots_->setVisible(method == ConstructMethod::ControlPolygon);
+  const bool segmented = method != ConstructMethod::Fair && method != ConstructMethod::ControlPolygon;
   const bool counted = segments.mode == SegmentMode::Stations || segments.mode == SegmentMode::Count;
   editor_->setRowVisible("segments.mode", segmented);
   editor_->setRowVisible("segments.count", segmented && counted);

@@ -11,6 +11,8 @@ class QLabel;
 namespace batten {
 
 class FigureTable;
+class KnotPanel;
+class MethodTable;
 class ParameterEditor;
 
 /// How lines become curves, the curves themselves, and the figures of the selected one.
@@ -19,10 +21,15 @@ class CurvesPanel : public QWidget {
  public:
   CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
 
+ signals:
+  void helpAsked(const QString& page);
+
  private:
   void refresh();
   EditorSession& session_;
   ParameterEditor* editor_;
+  MethodTable* methods_;
+  KnotPanel* knots_;
   FigureTable* figures_;
   QLabel* note_;
 };

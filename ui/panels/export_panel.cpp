@@ -115,6 +115,7 @@ void ExportPanel::suggestName() {
     path_->setText((writable ? scan.absolutePath() : QDir::homePath()) + QLatin1Char('/') + scan.completeBaseName() + QLatin1Char('.') + suffix);
     path_->setCursorPosition(static_cast<int>(path_->text().size()));
   }
+  if (path_->text().isEmpty() && session_.isBlankPage()) path_->setText(QDir::homePath() + QStringLiteral("/drawing.") + suffix);
   path_->setToolTip(path_->text());
   refresh();
 }

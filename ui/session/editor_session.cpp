@@ -8,6 +8,10 @@
 #include "ui/session/session_runner.h"
 
 namespace batten {
+namespace {
+/// [px] A curve that lies farther from a pinned one than this is another curve.
+constexpr double kSamePlacePx = 24.0;
+}  // namespace
 
 EditorSession::EditorSession(QObject* parent) : QObject(parent), runner_(std::make_unique<Runner>(*this)) {}
 
@@ -19,6 +23,8 @@ EditorSession::~EditorSession() {
 }
 
 void EditorSession::openScan(const QString& path) { runner_->read(path); }
+
+void EditorSession::newDrawing(const Recipe& recipe) { runner_->begin(recipe); }
 
 QString EditorSession::scanPath() const { return runner_->path; }
 
@@ -80,6 +86,39 @@ void EditorSession::selectCurve(int index) {
   emit selectionChanged();
   emit targetsChanged();
   runner_->computeTargets();
+}
+
+void EditorSession::selectNear(const Vec2& px) {
+  runner_->selectsItself = false;
+  runner_->anchorPx = px;
+}
+
+void EditorSession::pin() {
+  if (!output_.faired || !output_.pieces) return;
+  pinned_ = std::make_shared<const PinnedResult>(PinnedResult{output_.faired, output_.pieces, output_.frame, recipe_});
+  emit pinChanged();
+}
+
+void EditorSession::unpin() {
+  if (!pinned_) return;
+  pinned_.reset();
+  emit pinChanged();
+}
+
+const TracedCurve* EditorSession::pinnedOf(int curve) const {
+  const auto all = curves();
+  if (!pinned_ || !output_.pieces || curve < 0 || static_cast<std::size_t>(curve) >= all.size()) return nullptr;
+  const auto piece = static_cast<std::size_t>(all[static_cast<std::size_t>(curve)].piece);
+  if (piece >= output_.pieces->pieces.size()) return nullptr;
+  const Vec2 anchor = anchorOf(output_.pieces->pieces[piece]);
+  const TracedCurve* nearest = nullptr;
+  double best = kSamePlacePx * kSamePlacePx;
+  for (const TracedCurve& candidate : pinned_->faired->curves) {
+    for (const Vec2& p : pinned_->pieces->pieces[static_cast<std::size_t>(candidate.piece)].points) {
+      if (const double d = (p - anchor).squaredNorm(); d < best) best = d, nearest = &candidate;
+    }
+  }
+  return nearest;
 }
 
 void EditorSession::hoverTarget(int degree) {

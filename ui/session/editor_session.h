@@ -14,6 +14,14 @@
 
 namespace batten {
 
+/// A result set aside to compare later ones with. All parts belong together.
+struct PinnedResult {
+  std::shared_ptr<const FairedSet> faired;
+  std::shared_ptr<const PieceSet> pieces;
+  PageFrame frame;
+  Recipe recipe;
+};
+
 /// The open drawing: scan, recipe, undo stack, and the newest outputs of the pipeline. Paints nothing. All functions and
 /// signals belong to the GUI thread; work runs in the background, the newest request wins, and nothing here ever waits.
 class EditorSession : public QObject {
@@ -25,7 +33,11 @@ class EditorSession : public QObject {
   /// Reads a scan in the background, with the recipe that was saved beside it; scanOpened or failed follows. An open
   /// drawing stays until the new one is there.
   void openScan(const QString& path);
+  /// Begins a drawing without a scan, on white paper of the size recipe.page, with this recipe. scanOpened follows at
+  /// once; the undo stack is empty. @pre recipe.page
+  void newDrawing(const Recipe& recipe);
   bool hasScan() const { return scan_ != nullptr; }
+  bool isBlankPage() const { return scan_ && isBlank(*scan_); }
   std::shared_ptr<const Scan> scan() const { return scan_; }
   QString scanPath() const;
   /// True if the drawing opened with the recipe beside it.
@@ -61,6 +73,16 @@ class EditorSession : public QObject {
   /// The curve that panels and plots show; -1 = none. Kept by position when the curves change.
   int selectedCurve() const { return selectedCurve_; }
   void selectCurve(int index);
+  /// Selects the curve nearest to a place now and when the curves change next: for a line that is only being made.
+  void selectNear(const Vec2& px);
+
+  /// Sets the present result aside (nothing while there is none); a second pin replaces the first.
+  void pin();
+  void unpin();
+  std::shared_ptr<const PinnedResult> pinned() const { return pinned_; }
+  /// The pinned curve that belongs to one of curves(), by place; null = none.
+  const TracedCurve* pinnedOf(int curve) const;
+
   /// The six targets of the selected curve, null while they are computed.
   std::shared_ptr<const TargetOutcomes> targets() const { return targets_; }
   /// Target shown as a ghost while hovered, 0 = none.
@@ -81,6 +103,7 @@ class EditorSession : public QObject {
   void targetsChanged();
   void hoverChanged();
   void cursorChanged();
+  void pinChanged();
   void failed(const QString& message);  ///< One line that says what to do.
   void failureCleared();
 
@@ -96,6 +119,7 @@ class EditorSession : public QObject {
   std::shared_ptr<const TargetOutcomes> targets_;
   int hoveredTarget_ = 0;
   std::optional<double> cursorMm_;
+  std::shared_ptr<const PinnedResult> pinned_;
   double lastRunMs_ = 0.0;
 };
 

@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "core/base/conventions.h"
 
 namespace batten {
 namespace {
@@ -85,10 +86,22 @@ void EditorSession::Runner::applyScan(std::uint64_t id, const QString& scanPath,
     updateBusy();
     return;
   }
+  adopt(std::move(**result), scanPath);
+}
+
+void EditorSession::Runner::begin(const Recipe& recipe) {
+  const BlankPage page = *recipe.page;
+  reader.cancelAll();
+  ++newestRead;
+  isReading = false;
+  Scan scan = blankScan(page.widthPx, page.heightPx, recipe.dpi.value_or(kAssumedDpi));
+  adopt({std::move(scan), recipe, false, {}}, {});
+}
+
+void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath) {
   pipeline.cancelAll();
   targeting.cancelAll();
   ++newestTargets;
-  OpenedScan& opened = **result;
   session.scan_ = std::make_shared<const Scan>(std::move(opened.scan));
   path = scanPath;
   openedWithRecipe = opened.hasRecipe;
@@ -97,6 +110,7 @@ void EditorSession::Runner::applyScan(std::uint64_t id, const QString& scanPath,
   session.output_ = PipelineOutput{};
   session.recipe_ = std::move(opened.recipe);
   session.output_.frame = frameFor(*session.scan_, session.recipe_);
+  session.pinned_.reset();
   session.selectedCurve_ = -1;
   session.targets_.reset();
   session.cursorMm_.reset();
@@ -113,6 +127,7 @@ void EditorSession::Runner::applyScan(std::uint64_t id, const QString& scanPath,
   emit session.selectionChanged();
   emit session.targetsChanged();
   emit session.cursorChanged();
+  emit session.pinChanged();
   run();
 }
 
@@ -212,7 +227,9 @@ void EditorSession::Runner::applyEnd(const std::shared_ptr<const Scan>& scan, st
   isRunning = false;
   overtaken.clear();
   if (!wasCancelled) {
-    if (output.error)
+    // An empty page is not a failure, it is a beginning.
+    const bool isBeginning = session.isBlankPage() && session.recipe_.penStrokes.empty();
+    if (output.error && !isBeginning)
       fail(QString::fromStdString(output.error->message));
     else
       clearFailure();

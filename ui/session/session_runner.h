@@ -19,6 +19,7 @@ struct EditorSession::Runner {
   explicit Runner(EditorSession&);
 
   void read(const QString& path);
+  void begin(const Recipe&);
   void run();
   void computeTargets();
   void stopAll();
@@ -55,6 +56,7 @@ struct EditorSession::Runner {
 
  private:
   struct Job;
+  void adopt(OpenedScan opened, const QString& scanPath);
   void applyScan(std::uint64_t id, const QString& scanPath, std::shared_ptr<Result<OpenedScan>> result);
   void applyStage(const std::shared_ptr<const Scan>&, std::uint64_t generation, StageId, const PipelineOutput&);
   void applyEnd(const std::shared_ptr<const Scan>&, std::uint64_t generation, std::uint64_t runId,

@@ -84,6 +84,12 @@ void ViewSettings::setSuggestionAngleDeg(double degrees) {
   emit changed();
 }
 
+void ViewSettings::setShowsUniformKnots(bool shows) {
+  if (showsUniform_ == shows) return;
+  showsUniform_ = shows;
+  emit changed();
+}
+
 void ViewSettings::setScanOnly(bool scanOnly) {
   if (scanOnly_ == scanOnly) return;
   scanOnly_ = scanOnly;

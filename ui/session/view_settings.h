@@ -18,7 +18,9 @@ enum class Tool {
   Select,      ///< Click selects a curve.
   Thresholds,  ///< Click selects a region; wheel or vertical drag changes its threshold.
   Corners,     ///< Click on a line marks a corner, click on a corner removes it.
+  Pen,         ///< Drag draws a line; click selects a drawn one, Del removes it.
 };
+inline constexpr std::array kTools = {Tool::Select, Tool::Thresholds, Tool::Corners, Tool::Pen};
 
 /// How the drawing is shown: never part of the recipe, never undone, kept between sessions.
 class ViewSettings : public QObject {
@@ -37,6 +39,8 @@ class ViewSettings : public QObject {
   void setSelectedRegion(int);
   double suggestionAngleDeg() const { return suggestionAngleDeg_; }  ///< [deg] 10..150, least turn of a suggested corner.
   void setSuggestionAngleDeg(double);
+  bool showsUniformKnots() const { return showsUniform_; }  ///< Control polygon: the curve without repeated knots too.
+  void setShowsUniformKnots(bool);
   bool isScanOnly() const { return scanOnly_; }  ///< While the compare key is held.
   void setScanOnly(bool);
 
@@ -52,7 +56,7 @@ class ViewSettings : public QObject {
   int combDensity_ = 120;
   int selectedRegion_ = -1;
   double suggestionAngleDeg_ = 35.0;
-  bool scanOnly_ = false;
+  bool scanOnly_ = false, showsUniform_ = false;
 };
 
 }  // namespace batten

@@ -102,6 +102,7 @@ QString pageText(const CanvasScene& scene) {
                            .arg(number(frame.widthPx * frame.mmPerPx, 0), number(frame.heightPx * frame.mmPerPx, 0));
   const double dpi = kMillimetresPerInch / frame.mmPerPx;
   const QString value = number(dpi, std::abs(dpi - std::round(dpi)) < 0.05 ? 0 : 1);
+  if (scene.session.isBlankPage()) return tr("empty page, %1 dpi · %2").arg(value, size);
   return (recipe.dpi ? tr("%1 dpi set by hand · %2") : tr("%1 dpi from file · %2")).arg(value, size);
 }
 

@@ -47,6 +47,13 @@ bool fairedIsShown(const CanvasScene& scene, const CurveShape& shape) {
 
 }  // namespace
 
+void paintOverlay(QPainter& painter, const CanvasScene& scene) {
+  if (!scene.overlay) return;
+  ImagePainter image(painter, scene);
+  if (!scene.overlay->uniform.isEmpty()) image.stroke(scene.overlay->uniform, colors::uniform(), 1.2);
+  if (!scene.overlay->pinned.isEmpty()) image.stroke(scene.overlay->pinned, colors::pinned(), 1.2);
+}
+
 void paintSketched(QPainter& painter, const CanvasScene& scene) {
   if (!scene.shapes) return;
   ImagePainter image(painter, scene);

@@ -10,6 +10,8 @@
 namespace batten {
 
 void paintSegments(QPainter&, const CanvasScene&);
+/// The pinned result and the curves with uniform knots, thin.
+void paintOverlay(QPainter&, const CanvasScene&);
 void paintSketched(QPainter&, const CanvasScene&);
 void paintFaired(QPainter&, const CanvasScene&);
 void paintCombs(QPainter&, const CanvasScene&);

@@ -43,5 +43,6 @@ class CanvasTool {
 std::unique_ptr<CanvasTool> makeSelectTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeThresholdTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeCornerTool(CanvasScene&);
+std::unique_ptr<CanvasTool> makePenTool(CanvasScene&);
 
 }  // namespace batten

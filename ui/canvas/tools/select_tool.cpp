@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QCoreApplication>
+#include <QKeyEvent>
 
 #include "ui/canvas/tools/canvas_tool.h"
+#include "ui/session/pen_edits.h"
 
 namespace batten {
 namespace {
@@ -20,6 +22,13 @@ class SelectTool final : public CanvasTool {
     isOver_ = curve.has_value() && *curve != scene_.session.selectedCurve();
     scene_.hint(isOver_ ? QCoreApplication::translate("CurveCanvas", "Click to select curve %1.").arg(*curve + 1)
                         : QString());
+  }
+
+  bool key(QKeyEvent* event) override {
+    if (event->key() != Qt::Key_Delete && event->key() != Qt::Key_Backspace) return false;
+    const auto stroke = strokeOf(scene_.session, scene_.session.selectedCurve());
+    if (stroke) removeStroke(scene_.session, *stroke);
+    return stroke.has_value();
   }
 
   void leave() override { isOver_ = false; }

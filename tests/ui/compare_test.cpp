@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <QAbstractButton>
+#include <QCheckBox>
+#include <QFile>
+#include <QFileInfo>
+#include <QMenu>
+#include <QMimeData>
+#include <QTextBrowser>
+#include <cmath>
+
+#include "core/curve/curve_analysis.h"
+#include "core/curve/variation_energy.h"
+#include "core/pipeline/recipe_file.h"
+#include "tests/ui/window_fixture.h"
+#include "ui/panels/method_table.h"
+#include "ui/panels/panel_parts.h"
+#include "ui/panels/pin_panel.h"
+
+namespace batten {
+namespace {
+
+using test::waitUntil;
+
+class Compare : public test::WindowFixture {};
+
+TEST_F(Compare, EveryMethodIsComputedAndChosenFromTheTable) {
+  openPage(test::zigzagPage());
+  window_->setStage(PanelStage::Curves);
+  auto* table = find<MethodTable>("construct.method.row");
+  for (const ConstructMethod method : kMethods) {
+    ASSERT_TRUE(waitUntil([&] { return table->figures(method).has_value(); })) << word(method).toStdString();
+    QTest::mouseClick(find<QAbstractButton>(("construct.method." + word(method)).toLatin1().constData()), Qt::LeftButton);
+    EXPECT_EQ(session().recipe().construct.method, method);
+    ASSERT_TRUE(settle());
+    // What the table foretold is what the drawing then has.
+    ASSERT_NE(session().selected(), nullptr);
+    ASSERT_TRUE(waitUntil([&] { return table->figures(method).has_value(); }));
+    EXPECT_EQ(table->figures(method)->controlPoints, session().selected()->sketchedFigures.controlPoints);
+    EXPECT_EQ(table->figures(method)->fromPoints.rms, session().selected()->sketchedFigures.fromPoints.rms);
+  }
+}
+
+TEST_F(Compare, OneCurveCanHaveAMethodOfItsOwn) {
+  openPage(test::zigzagPage());
+  Recipe marked = session().recipe();
+  marked.cornerMarks = {{{200, 100}}, {{400, 300}}};
+  session().change(QStringLiteral("Marks"), marked);
+  ASSERT_TRUE(settle());
+  window_->setStage(PanelStage::Curves);
+  ASSERT_EQ(session().curves().size(), 3u);
+  session().selectCurve(1);
+  auto* own = find<QCheckBox>("construct.method.own");
+  ASSERT_TRUE(own->isVisible());
+  QTest::mouseClick(own, Qt::LeftButton, {}, QPoint(8, own->height() / 2));
+  QTest::mouseClick(find<QAbstractButton>("construct.method.control-polygon"), Qt::LeftButton);
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(session().recipe().construct.method, ConstructMethod::Fair);
+  EXPECT_EQ(session().curves()[1].sketched.degree(), session().recipe().construct.degree);
+  session().selectCurve(0);
+  EXPECT_FALSE(own->isChecked());
+  session().selectCurve(1);
+  EXPECT_TRUE(own->isChecked());
+  QTest::mouseClick(own, Qt::LeftButton, {}, QPoint(8, own->height() / 2));
+  ASSERT_TRUE(settle());
+  EXPECT_FALSE(session().recipe().choices.at(0).method);
+}
+
+TEST_F(Compare, APinnedResultStaysAndIsSetBesideThePresentOne) {
+  openPage(test::zigzagPage());
+  window_->setStage(PanelStage::Curves);
+  auto* figures = find<FigureTable>("pin.figures");
+  EXPECT_FALSE(figures->isVisible());
+  const TracedCurve before = *session().selected();
+  QTest::mouseClick(find<QAbstractButton>("pin.set"), Qt::LeftButton);
+  ASSERT_TRUE(session().pinned());
+  EXPECT_TRUE(window_->action(ActionId::Pin)->isChecked());
+  QTest::mouseClick(find<QAbstractButton>("construct.method.control-polygon"), Qt::LeftButton);
+  ASSERT_TRUE(settle());
+  ASSERT_NE(session().pinnedOf(session().selectedCurve()), nullptr);
+  EXPECT_EQ(session().pinnedOf(session().selectedCurve())->sketched, before.sketched);
+  EXPECT_FALSE(session().selected()->sketched == before.sketched);
+  const QString points = QString::number(session().selected()->sketchedFigures.controlPoints);
+  ASSERT_TRUE(waitUntil([&] {
+    return figures->isVisible() && figures->rows().size() == 6 && figures->rows()[2].cells[1].text == points;
+  }));
+  EXPECT_EQ(figures->rows()[2].cells[0].text, QString::number(before.sketchedFigures.controlPoints));
+  const Comparison c = compare(before, *session().selected());
+  EXPECT_EQ(c.pinned.energy, variationEnergy(before.sketched));
+  EXPECT_GE(c.apartMm, deviation(before.sketched, session().selected()->sketched).rms);
+  // Undo and redo leave the pin alone; its button takes it away.
+  session().undoStack()->undo();
+  EXPECT_TRUE(session().pinned());
+  QTest::mouseClick(find<QAbstractButton>("pin.clear"), Qt::LeftButton);
+  EXPECT_FALSE(session().pinned());
+  window_->action(ActionId::Pin)->trigger();
+  EXPECT_TRUE(session().pinned());
+  window_->action(ActionId::Pin)->trigger();
+  EXPECT_FALSE(session().pinned());
+}
+
+TEST_F(Compare, EveryMethodHasAHelpPageBehindTheQuestionMark) {
+  openPage(test::zigzagPage());
+  window_->setStage(PanelStage::Curves);
+  for (const ConstructMethod method : kMethods) {
+    EXPECT_TRUE(QFile::exists(QStringLiteral(":/help/%1.md").arg(helpPage(method)))) << helpPage(method).toStdString();
+    Recipe recipe = session().recipe();
+    recipe.construct.method = method;
+    session().change(QStringLiteral("Method"), recipe);
+    QTest::mouseClick(find<QAbstractButton>("construct.method.help"), Qt::LeftButton);
+    auto* text = window_->findChild<QTextBrowser*>(QStringLiteral("help.text"));
+    ASSERT_NE(text, nullptr);
+    EXPECT_GT(text->toPlainText().size(), 400) << helpPage(method).toStdString();
+  }
+}
+
+TEST_F(Compare, ARecentFileOpensWithTheRecipeBesideIt) {
+  openPage(test::zigzagPage());
+  Recipe recipe = session().recipe();
+  recipe.cornerMarks = {{{200, 100}}};
+  recipe.construct.method = ConstructMethod::Bezier;
+  QFile file(folder_.filePath(QStringLiteral("page.recipe.json")));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write(QByteArray::fromStdString(recipeToJson(recipe)));
+  file.close();
+  // By the menu of recent files, as a user would.
+  auto* menu = window_->findChild<QMenu*>(QStringLiteral("recentMenu"));
+  ASSERT_NE(menu, nullptr);
+  emit menu->aboutToShow();
+  ASSERT_FALSE(menu->actions().isEmpty());
+  menu->actions().first()->trigger();
+  ASSERT_TRUE(waitUntil([&] { return session().recipe() == recipe && !session().isBusy(); }));
+  EXPECT_EQ(session().curves().size(), 2u);
+}
+
+TEST_F(Compare, AFileDroppedOnTheWindowIsOpened) {
+  const QString path = folder_.filePath(QStringLiteral("dropped drawing.png"));
+  ASSERT_TRUE(test::ellipsePage().save(path));
+  QMimeData data;
+  data.setUrls({QUrl::fromLocalFile(path)});
+  QDragEnterEvent enter(QPoint(300, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(window_.get(), &enter);
+  EXPECT_TRUE(enter.isAccepted());
+  QDropEvent drop(QPointF(300, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(window_.get(), &drop);
+  ASSERT_TRUE(waitUntil([this] { return session().hasScan() && !session().isBusy(); }));
+  EXPECT_EQ(QFileInfo(session().scanPath()), QFileInfo(path));
+  EXPECT_EQ(session().curves().size(), 1u);
+}
+
+TEST_F(Compare, TabWalksTheCurvesAndArrowsMoveTheSelectedCorner) {
+  openPage(test::zigzagPage());
+  window_->setStage(PanelStage::Corners);
+  clickCanvas({200, 100});
+  ASSERT_TRUE(settle());
+  ASSERT_EQ(session().recipe().cornerMarks.size(), 1u);
+  auto* canvas = find<CurveCanvas>("canvas");
+  const Vec2 before = session().recipe().cornerMarks[0].positionPx;
+  const int steps = session().undoStack()->count();
+  QTest::keyClick(canvas, Qt::Key_Right);
+  QTest::keyClick(canvas, Qt::Key_Right);
+  QTest::keyClick(canvas, Qt::Key_Up, Qt::ShiftModifier);
+  EXPECT_LT((session().recipe().cornerMarks[0].positionPx - (before + Vec2(2.0, -0.1))).norm(), 1e-9);
+  EXPECT_EQ(session().undoStack()->count(), steps + 1) << "arrows in a row are one step";
+  ASSERT_TRUE(settle());
+  ASSERT_EQ(session().curves().size(), 2u);
+  window_->setStage(PanelStage::Curves);
+  session().selectCurve(0);
+  window_->activateWindow();
+  canvas->setFocus();
+  QTest::keyClick(canvas, Qt::Key_Tab);
+  EXPECT_EQ(session().selectedCurve(), 1);
+  QTest::keyClick(canvas, Qt::Key_Backtab);
+  EXPECT_EQ(session().selectedCurve(), 0);
+}
+
+}  // namespace
+}  // namespace batten

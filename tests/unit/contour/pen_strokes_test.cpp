@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/pen_strokes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "core/contour/corner_marks.h"
+
+namespace batten {
+namespace {
+
+TEST(PenStroke, NeedsTwoDifferentPlaces) {
+  EXPECT_FALSE(validate(PenStroke{{{0, 0}, {3, 4}}, false}));
+  EXPECT_TRUE(validate(PenStroke{{}, false}));
+  EXPECT_TRUE(validate(PenStroke{{{1, 1}, {1, 1}, {1, 1}}, false}));
+  EXPECT_TRUE(validate(PenStroke{{{0, 0}, {3, 4}, {0, 0}}, true}));
+  EXPECT_TRUE(validate(PenStroke{{{0, 0}, {std::nan(""), 4}}, false}));
+  EXPECT_TRUE(validate(PenStroke{{{0, 0}, {std::numeric_limits<double>::infinity(), 4}}, false}));
+}
+
+TEST(PenContour, KeepsEveryDrawnPointAndFillsTheWayBetween) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> where(0.0, 300.0);
+  for (const bool closed : {false, true}) {
+    PenStroke stroke;
+    stroke.closed = closed;
+    double length = 0.0;
+    for (int i = 0; i < 40; ++i) {
+      stroke.points.emplace_back(where(random), where(random));
+      if (i % 7 == 0) stroke.points.push_back(stroke.points.back());  // the pen rested
+    }
+    for (std::size_t i = 1; i < stroke.points.size(); ++i) length += (stroke.points[i] - stroke.points[i - 1]).norm();
+    if (closed) length += (stroke.points.front() - stroke.points.back()).norm();
+    const Contour contour = penContour(stroke);
+    EXPECT_EQ(contour.kind, ContourKind::Pen);
+    EXPECT_EQ(contour.closed, closed);
+    EXPECT_NEAR(contour.lengthPx, length, 1e-9 * length);
+    ASSERT_EQ(contour.refined.size(), contour.points.size());
+    std::vector<Vec2> drawn;
+    double along = 0.0;
+    for (std::size_t i = 0; i < contour.points.size(); ++i) {
+      if (contour.refined[i]) drawn.push_back(contour.points[i]);
+      if (i == 0) continue;
+      const double step = (contour.points[i] - contour.points[i - 1]).norm();
+      EXPECT_LE(step, 1.0 + 1e-12);
+      EXPECT_GT(step, 0.0);
+      along += step;
+    }
+    auto expected = stroke.points;
+    expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+    EXPECT_EQ(drawn, expected);
+    if (closed) along += (contour.points.front() - contour.points.back()).norm();
+    EXPECT_NEAR(along, length, 1e-9 * length);
+  }
+}
+
+TEST(PenContour, IsCutAtTheDrawnPointNearestToAMark) {
+  // A right angle of five drawn points; the marks miss by a little, and one is out of reach.
+  const PenStroke stroke{{{10, 10}, {60, 10}, {110, 10}, {110, 60}, {110, 110}}, false};
+  const ContourSet set = withPenStrokes({}, std::vector<PenStroke>{stroke});
+  const std::vector<CornerMark> marks = {{Vec2(104, 13)}, {Vec2(300, 300)}};
+  for (const bool exact : {true, false}) {
+    CornerParams params;
+    params.exact = exact;
+    const auto pieces = splitAtCorners(set, marks, params);
+    ASSERT_TRUE(pieces);
+    ASSERT_EQ(pieces->corners.size(), 1u);
+    EXPECT_EQ(pieces->corners[0].positionPx, Vec2(110, 10));
+    EXPECT_EQ(pieces->lostMarks, std::vector<int>{1});
+    ASSERT_EQ(pieces->pieces.size(), 2u);
+    EXPECT_EQ(pieces->pieces[0].points.back(), Vec2(110, 10));
+    EXPECT_EQ(pieces->pieces[1].points.front(), Vec2(110, 10));
+    EXPECT_EQ(pieces->pieces[0].points.front(), Vec2(10, 10));
+    EXPECT_EQ(pieces->pieces[1].points.back(), Vec2(110, 110));
+    for (const Piece& piece : pieces->pieces) {
+      EXPECT_EQ(std::count(piece.refined.begin(), piece.refined.end(), 1), 3) << "the drawn points, corner included";
+    }
+    EXPECT_NEAR(pieces->pieces[0].lengthPx + pieces->pieces[1].lengthPx, 200.0, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace batten

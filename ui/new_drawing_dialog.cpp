@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/new_drawing_dialog.h"
+
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/conventions.h"
+#include "ui/panels/number_field.h"
+#include "ui/panels/panel_parts.h"
+#include "ui/panels/segmented_control.h"
+
+namespace batten {
+namespace {
+
+const QSizeF kFormats[] = {{297, 210}, {210, 297}, {420, 297}};
+constexpr double kSmallestMm = 10.0, kLargestMm = 1500.0;
+constexpr double kLowestDpi = 50.0, kHighestDpi = 600.0, kUsualDpi = 150.0;
+constexpr double kMostPx = 20000.0;
+
+}  // namespace
+
+NewDrawingDialog::NewDrawingDialog(QWidget* parent)
+    : QDialog(parent), format_(new SegmentedControl({tr("A4 wide"), tr("A4 high"), tr("A3 wide")}, this)), width_(new NumberField(this)),
+      height_(new NumberField(this)), dpi_(new NumberField(this)), begin_(plainButton(tr("Begin"), QStringLiteral("newDrawing.begin"), this)) {
+  setObjectName(QStringLiteral("newDrawing"));
+  setWindowTitle(tr("New drawing"));
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(20, 16, 20, 16);
+  grid->setVerticalSpacing(10);
+  grid->setHorizontalSpacing(16);
+  auto* about = note(tr("An empty page to draw on with the pen. It can be saved as a recipe and opened again."), this);
+  about->setFixedWidth(280);
+  grid->addWidget(about, 0, 0, 1, 2);
+  format_->setNames(QStringLiteral("newDrawing.format"), {QStringLiteral("a4-wide"), QStringLiteral("a4-high"), QStringLiteral("a3-wide")});
+  grid->addWidget(format_, 1, 0, 1, 2);
+  const auto row = [&](int at, const QString& label, const QString& name, NumberField* field, double low, double high, double value,
+                       const QString& unit) {
+    field->setRange(low, high);
+    field->setStep(1);
+    field->setUnit(unit);
+    field->setFixedWidth(100);
+    field->edit()->setObjectName(name);
+    field->edit()->setAccessibleName(label);
+    field->setValue(value);
+    grid->addWidget(new QLabel(label, this), at, 0);
+    grid->addWidget(field, at, 1, Qt::AlignRight);
+    connect(field, &NumberField::committed, this, [this, field](double now) {
+      field->setValue(now);
+      follow();
+    });
+  };
+  row(2, tr("Width"), QStringLiteral("newDrawing.width"), width_, kSmallestMm, kLargestMm, kFormats[0].width(), tr("mm"));
+  row(3, tr("Height"), QStringLiteral("newDrawing.height"), height_, kSmallestMm, kLargestMm, kFormats[0].height(), tr("mm"));
+  row(4, tr("Resolution"), QStringLiteral("newDrawing.dpi"), dpi_, kLowestDpi, kHighestDpi, kUsualDpi, tr("dpi"));
+  auto* buttons = new QHBoxLayout;
+  auto* cancel = plainButton(tr("Cancel"), QStringLiteral("newDrawing.cancel"), this);
+  begin_->setProperty("primary", true);
+  begin_->setDefault(true);
+  cancel->setAutoDefault(false);
+  buttons->addStretch();
+  buttons->addWidget(cancel);
+  buttons->addWidget(begin_);
+  grid->addLayout(buttons, 5, 0, 1, 2);
+  connect(format_, &SegmentedControl::chosen, this, [this](int index) {
+    width_->setValue(kFormats[index].width());
+    height_->setValue(kFormats[index].height());
+    follow();
+  });
+  connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
+  connect(begin_, &QPushButton::clicked, this, &QDialog::accept);
+  follow();
+}
+
+void NewDrawingDialog::follow() {
+  int chosen = -1;
+  for (int i = 0; i < 3; ++i)
+    if (QSizeF(width_->value(), height_->value()) == kFormats[i]) chosen = i;
+  format_->setCurrent(chosen);
+}
+
+Recipe NewDrawingDialog::recipe() const { return recipeFor({width_->value(), height_->value()}, dpi_->value()); }
+
+Recipe NewDrawingDialog::recipeFor(QSizeF millimetres, double dpi) {
+  // A page too large for its resolution is drawn coarser rather than refused.
+  const double longest = std::max(millimetres.width(), millimetres.height());
+  const double bounded = std::min(dpi, kMostPx * kMillimetresPerInch / longest);
+  const auto pixels = [bounded](double mm) { return std::max(16, static_cast<int>(std::lround(mm / kMillimetresPerInch * bounded))); };
+  Recipe recipe;
+  recipe.page = BlankPage{pixels(millimetres.width()), pixels(millimetres.height())};
+  recipe.dpi = bounded;
+  return recipe;
+}
+
+}  // namespace batten

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDialog>
+#include <QSizeF>
+
+#include "core/pipeline/recipe.h"
+
+class QPushButton;
+
+namespace batten {
+
+class NumberField;
+class SegmentedControl;
+
+/// Asks for the size of an empty page.
+class NewDrawingDialog : public QDialog {
+  Q_OBJECT
+ public:
+  explicit NewDrawingDialog(QWidget* parent = nullptr);
+  /// A recipe of nothing but the page asked for and its resolution.
+  Recipe recipe() const;
+  static Recipe recipeFor(QSizeF millimetres, double dpi);
+
+ private:
+  void follow();
+  SegmentedControl* format_;
+  NumberField *width_, *height_, *dpi_;
+  QPushButton* begin_;
+};
+
+}  // namespace batten

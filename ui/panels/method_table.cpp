@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/method_table.h"
+
+#include <QAbstractButton>
+#include <QCheckBox>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QPainter>
+#include <QPointer>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "core/pipeline/parameter_table.h"
+#include "ui/panels/panel_parts.h"
+#include "ui/panels/piece_choice.h"
+#include "ui/session/background_worker.h"
+#include "ui/theme/theme.h"
+
+namespace batten {
+namespace {
+
+constexpr int kRow = 28;
+/// Widths of the three columns of figures, from the right.
+constexpr int kColumns[] = {34, 40, 62};
+
+void paintColumns(QPainter& painter, const QRectF& box, const QStringList& texts) {
+  double right = box.right() - 8;
+  for (int c = 0; c < 3; ++c) {
+    painter.drawText(QRectF(right - kColumns[c], box.top(), kColumns[c], box.height()), Qt::AlignVCenter | Qt::AlignRight,
+                     texts[2 - c]);
+    right -= kColumns[c];
+  }
+}
+
+/// The heads of the columns of figures.
+class MethodHead : public QWidget {
+ public:
+  explicit MethodHead(QWidget* parent) : QWidget(parent) { setFixedHeight(20); }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    QPainter painter(this);
+    painter.setFont(uiFont(11));
+    painter.setPen(themeOf(palette()).mute);
+    paintColumns(painter, rect(), {MethodTable::tr("rms"), MethodTable::tr("points"), MethodTable::tr("extr.")});
+  }
+};
+
+}  // namespace
+
+/// One method: dot, name, figures.
+class MethodRow : public QAbstractButton {
+ public:
+  MethodRow(ConstructMethod method, QWidget* parent) : QAbstractButton(parent) {
+    setText(label(method));
+    setObjectName(QStringLiteral("construct.method.") + word(method));
+    setCheckable(true);
+    setAutoExclusive(true);
+    setFocusPolicy(Qt::TabFocus);
+    setAttribute(Qt::WA_Hover);
+    setFixedHeight(kRow);
+    setCursor(Qt::PointingHandCursor);
+    setToolTip(MethodTable::tr("What this method gives for the selected curve: mean deviation from the points of the line, control "
+                               "points, curvature extrema. Click to use it."));
+    show({}, false);
+  }
+  void show(const std::optional<CurveFigures>& figures, bool failed) {
+    if (figures) {
+      texts_ = {shortMillimetres(figures->fromPoints.rms), QString::number(figures->controlPoints), QString::number(figures->extrema)};
+      setAccessibleName(MethodTable::tr("%1: %2 rms, %3 control points, %4 extrema").arg(text(), texts_[0], texts_[1], texts_[2]));
+    } else {
+      texts_ = {failed ? MethodTable::tr("no curve") : QStringLiteral("…"), {}, {}};
+      setAccessibleName(text());
+    }
+    update();
+  }
+  QSize sizeHint() const override { return {240, kRow}; }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    const Theme& theme = themeOf(palette());
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const QRectF box = QRectF(rect()).adjusted(0, 1, 0, -1);
+    if (isChecked() || underMouse()) {
+      painter.setPen(Qt::NoPen);
+      painter.setBrush(isChecked() ? theme.selection : theme.hover);
+      painter.drawRoundedRect(box, 5, 5);
+    }
+    if (hasFocus()) drawFocusRing(painter, box, 5, theme);
+    painter.setFont(uiFont(12, isChecked() ? QFont::DemiBold : QFont::Normal));
+    painter.setPen(theme.text);
+    painter.drawText(box.adjusted(8, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, text());
+    painter.setFont(uiFont(12));
+    painter.setPen(theme.mute);
+    paintColumns(painter, box, texts_);
+  }
+  void keyPressEvent(QKeyEvent* event) override {
+    if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) return click();
+    QAbstractButton::keyPressEvent(event);
+  }
+
+ private:
+  QStringList texts_;
+};
+
+QString word(ConstructMethod method) {
+  Recipe named;
+  named.construct.method = method;
+  return QString::fromStdString(findParameter("construct.method")->get(named));
+}
+
+QString label(ConstructMethod method) {
+  const Parameter* parameter = findParameter("construct.method");
+  const std::string name = word(method).toStdString();
+  for (std::size_t i = 0; i < parameter->choices.size(); ++i)
+    if (parameter->choices[i] == name) return QString::fromStdString(parameter->choiceLabels[i]);
+  return {};
+}
+
+QString helpPage(ConstructMethod method) {
+  switch (method) {
+    case ConstructMethod::Fair: return QStringLiteral("fair-fit");
+    case ConstructMethod::Nurbs: return QStringLiteral("quintic-nurbs");
+    case ConstructMethod::Bezier: return QStringLiteral("bezier-path");
+    case ConstructMethod::Typical: return QStringLiteral("typical-curves");
+    case ConstructMethod::ControlPolygon: return QStringLiteral("control-polygon");
+  }
+  return {};
+}
+
+MethodTable::MethodTable(EditorSession& session, QWidget* parent)
+    : QWidget(parent), session_(session),
+      own_(new QCheckBox(tr("Only for the selected curve"), this)),
+      worker_(std::make_unique<BackgroundWorker>()) {
+  setObjectName(QStringLiteral("construct.method.row"));
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  auto* head = new QHBoxLayout;
+  head->setSpacing(6);
+  head->addWidget(caption(tr("Method"), this));
+  auto* help = linkButton(QStringLiteral("?"), QStringLiteral("construct.method.help"), this);
+  help->setAccessibleName(tr("Help on this method"));
+  help->setToolTip(tr("What this method is good for, how it works, and its limits."));
+  head->addWidget(help);
+  head->addWidget(new MethodHead(this), 1);
+  layout->addLayout(head);
+  for (const ConstructMethod method : kMethods) {
+    auto* row = new MethodRow(method, this);
+    rows_.push_back(row);
+    layout->addWidget(row);
+    connect(row, &QAbstractButton::clicked, this, [this, method] { choose(method); });
+  }
+  own_->setObjectName(QStringLiteral("construct.method.own"));
+  own_->setToolTip(tr("Gives the selected curve a method of its own; the other curves keep theirs."));
+  layout->addSpacing(4);
+  layout->addWidget(own_);
+  connect(help, &QPushButton::clicked, this, [this] { emit helpAsked(helpPage(current())); });
+  connect(own_, &QCheckBox::clicked, this, [this](bool own) {
+    const auto edit = [own, method = current()](PieceChoice& choice) {
+      choice.method = own ? std::optional(method) : std::nullopt;
+    };
+    session_.change(own ? tr("Own method") : tr("Common method"), withChoice(session_, session_.selectedCurve(), edit));
+    refresh();
+  });
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
+                            &EditorSession::runFinished})
+    connect(&session_, signal, this, &MethodTable::refresh);
+  refresh();
+}
+
+MethodTable::~MethodTable() = default;
+
+ConstructMethod MethodTable::current() const {
+  const PieceChoice* choice = choiceOf(session_, session_.selectedCurve());
+  return choice && choice->method ? *choice->method : session_.recipe().construct.method;
+}
+
+std::optional<CurveFigures> MethodTable::figures(ConstructMethod method) const {
+  for (std::size_t i = 0; i < kMethods.size(); ++i)
+    if (kMethods[i] == method) return figures_[i];
+  return std::nullopt;
+}
+
+void MethodTable::choose(ConstructMethod method) {
+  const int curve = session_.selectedCurve();
+  const PieceChoice* choice = choiceOf(session_, curve);
+  // A curve that already goes its own way keeps doing so; else the choice is for the whole drawing.
+  Recipe after = session_.recipe();
+  if (choice && choice->method)
+    after = withChoice(session_, curve, [method](PieceChoice& own) { own.method = method; });
+  else
+    after.construct.method = method;
+  session_.change(tr("Method: %1").arg(label(method)), std::move(after));
+  refresh();
+}
+
+void MethodTable::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  refresh();
+}
+
+void MethodTable::refresh() {
+  const ConstructMethod now = current();
+  for (std::size_t i = 0; i < kMethods.size(); ++i) rows_[i]->setChecked(kMethods[i] == now);
+  const PieceChoice* choice = choiceOf(session_, session_.selectedCurve());
+  own_->setVisible(session_.curves().size() > 1);
+  own_->setEnabled(session_.selected() != nullptr);
+  own_->setChecked(choice && choice->method);
+  if (isVisible()) compute();
+}
+
+void MethodTable::compute() {
+  const TracedCurve* curve = session_.selected();
+  const PipelineOutput& output = session_.output();
+  if (!curve || !output.pieces || !output.segments || session_.isStale(StageId::Segments)) return;
+  Source source{output.pieces, output.segments, session_.recipe().construct, curve->contour, curve->piece, output.frame.mmPerPx};
+  source.params.method = ConstructMethod::Fair;  // whichever is chosen, all are compared
+  if (source_ && *source_ == source) return;
+  source_ = source;
+  for (std::size_t i = 0; i < kMethods.size(); ++i) {
+    figures_[i].reset();
+    rows_[i]->show({}, false);
+  }
+  worker_->start([output, source, panel = QPointer<MethodTable>(this)](const CancelToken& token) {
+    RunContext context;
+    context.cancel = token;
+    context.threads = 1;
+    for (std::size_t i = 0; i < kMethods.size(); ++i) {
+      Recipe recipe;
+      recipe.construct = source.params;
+      recipe.construct.method = kMethods[i];
+      std::optional<CurveFigures> figures;
+      if (const auto made = constructLine(output, recipe, source.contour, context)) {
+        for (const TracedCurve& each : *made)
+          if (each.piece == source.piece && !each.sketched.isEmpty()) figures = each.sketchedFigures;
+      }
+      if (token.isCancelled()) return;
+      QMetaObject::invokeMethod(panel.data(), [panel, i, figures, source] {
+        if (panel && panel->source_ && *panel->source_ == source) panel->show(static_cast<int>(i), figures);
+      }, Qt::QueuedConnection);
+    }
+  });
+}
+
+void MethodTable::show(int method, const std::optional<CurveFigures>& figures) {
+  const auto at = static_cast<std::size_t>(method);
+  figures_[at] = figures;
+  rows_[at]->show(figures, !figures);
+}
+
+}  // namespace batten

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "ui/session/editor_session.h"
+
+class QLabel;
+class QPushButton;
+
+namespace batten {
+
+class BackgroundWorker;
+class FigureTable;
+
+/// One curve in numbers, to set beside another.
+struct ComparedFigures {
+  double rmsMm = 0.0, maxMm = 0.0;  ///< Of the points of the line from the curve.
+  int controlPoints = 0, extrema = 0;
+  double energy = 0.0;              ///< variationEnergy.
+};
+struct Comparison {
+  ComparedFigures pinned, now;
+  double apartMm = 0.0;  ///< Largest distance between the two curves.
+};
+/// Both curves as shown: faired where they are. @pre both hold a curve.
+Comparison compare(const TracedCurve& pinned, const TracedCurve& now);
+
+/// Sets a result aside and compares the selected curve with it.
+class PinPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit PinPanel(EditorSession& session, QWidget* parent = nullptr);
+  ~PinPanel() override;
+
+ protected:
+  void showEvent(QShowEvent*) override;
+
+ private:
+  void refresh();
+  void show(const Comparison&);
+
+  EditorSession& session_;
+  QPushButton* pin_;
+  QPushButton* unpin_;
+  QLabel* what_;
+  FigureTable* figures_;
+  std::unique_ptr<BackgroundWorker> worker_;
+  int request_ = 0;
+};
+
+}  // namespace batten
