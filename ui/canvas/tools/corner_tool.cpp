@@ -62,7 +62,6 @@ class CornerTool final : public CanvasTool {
 
   bool key(QKeyEvent* event) override {
     if (const auto way = arrowOf(event)) return nudge(*way);
-    nudgeGesture_ = -1;
     if (event->key() != Qt::Key_Delete && event->key() != Qt::Key_Backspace) return false;
     const auto mark = hovered_ ? hovered_ : selected_;
     if (!mark) return false;
