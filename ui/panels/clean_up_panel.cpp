@@ -67,11 +67,13 @@ void CleanUpPanel::refresh() {
 EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
     : QWidget(parent), session_(session), figures_(new FigureTable(this)), note_(note({}, this)) {
   auto* layout = panelLayout(this, tr("Edges"));
-  layout->addWidget(new ParameterEditor(session,
-                                        {"edges.mode", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
-                                         "edges.merge", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
-                                        this));
-  layout->addWidget(caption(tr("Lines found"), this));
+  tracing_ = {new ParameterEditor(session,
+                                  {"edges.mode", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
+                                   "edges.merge", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
+                                  this),
+              caption(tr("Lines found"), this), figures_};
+  layout->addWidget(tracing_[0]);
+  layout->addWidget(tracing_[1]);
   layout->addWidget(figures_);
   layout->addWidget(note_);
   layout->addWidget(new PenPanel(session, view, this));
@@ -81,6 +83,8 @@ EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* pare
 }
 
 void EdgesPanel::refresh() {
+  // On an empty page there is nothing to follow: the pen alone is left.
+  for (QWidget* one : tracing_) one->setVisible(!session_.isBlankPage());
   const auto& set = session_.output().contours;
   if (!set) {
     figures_->setRows({{tr("Kept"), {{QStringLiteral("–")}}, {}}});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QWidget>
+#include <vector>
 
 #include "ui/session/editor_session.h"
 #include "ui/session/view_settings.h"
@@ -34,6 +35,7 @@ class EdgesPanel : public QWidget {
  private:
   void refresh();
   EditorSession& session_;
+  std::vector<QWidget*> tracing_;  ///< What is about the lines of the scan.
   FigureTable* figures_;
   QLabel* note_;
 };

@@ -83,6 +83,7 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Curves"), this));
   layout->addWidget(methods_);
+  layout->addWidget(new PinPanel(session, this));
   layout->addWidget(editor_);
   layout->addWidget(knots_);
   layout->addWidget(caption(tr("Curves"), this));
@@ -90,7 +91,6 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
   layout->addWidget(caption(tr("Selected curve"), this));
   layout->addWidget(figures_);
   layout->addWidget(note_);
-  layout->addWidget(new PinPanel(session, this));
   layout->addWidget(caption(tr("Comb"), this));
   layout->addWidget(new CombControls(view, this));
   layout->addStretch();

@@ -57,7 +57,8 @@ class KnotTile : public QAbstractButton {
     setCheckable(true);
     setFocusPolicy(Qt::TabFocus);
     setAttribute(Qt::WA_Hover);
-    setMinimumSize(150, 150);
+    setMinimumSize(120, 110);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     setAccessibleName(uniform ? KnotGallery::tr("Degree %1, uniform knots").arg(degree) : KnotGallery::tr("Degree %1, repeated knots").arg(degree));
     setToolTip(KnotGallery::tr("Click to take degree %1.").arg(degree));
   }
@@ -115,6 +116,7 @@ KnotGallery::KnotGallery(EditorSession& session, QWidget* parent)
   for (int degree = kFirstDegree; degree <= kLastDegree; ++degree) {
     auto* title = caption(tr("Degree %1").arg(degree), this);
     title->setAlignment(Qt::AlignHCenter);
+    title->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
     grid->addWidget(title, 0, degree - 1);
   }
   for (const bool uniform : {true, false}) {
@@ -138,6 +140,8 @@ KnotGallery::KnotGallery(EditorSession& session, QWidget* parent)
   grid->setRowStretch(2, 1);
   connect(&session_, &EditorSession::recipeChanged, this, &KnotGallery::refresh);
   refresh();
+  for (KnotTile* tile : tiles_)
+    if (tile->isChecked()) tile->setFocus();
 }
 
 KnotGallery::~KnotGallery() = default;

@@ -104,7 +104,7 @@ void KnotPanel::show(const std::shared_ptr<const Result>& result) {
   strip_->setKnots(knots);
   const QString whole = knotText(knots);
   // The picture tells the whole; the text is cut where it would push everything else out of sight.
-  constexpr int kMostLetters = 260;
+  constexpr int kMostLetters = 220;
   text_->setText(whole.size() <= kMostLetters ? whole : whole.left(whole.lastIndexOf(QLatin1Char(' '), kMostLetters)) + QStringLiteral(" …"));
   text_->setProperty("whole", whole);
   const bool breaks = session_.recipe().construct.knots == SharpKnots::Order && !line.sharp.empty();

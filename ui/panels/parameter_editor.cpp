@@ -3,6 +3,7 @@
 
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "core/pipeline/parameter_table.h"
 #include "ui/panels/parameter_row.h"
@@ -30,7 +31,7 @@ ParameterEditor::ParameterEditor(EditorSession& session, const std::vector<std::
     rows_.push_back(row);
   }
   if (!folded) return;
-  auto* more = new QToolButton(this);
+  auto* more = more_ = new QToolButton(this);
   more->setObjectName(QStringLiteral("moreButton"));
   more->setText(tr("More"));
   more->setAccessibleName(tr("More settings"));
@@ -54,6 +55,12 @@ ParameterRow* ParameterEditor::row(std::string_view name) const {
 
 void ParameterEditor::setRowVisible(std::string_view name, bool visible) {
   if (auto* found = row(name)) found->setVisible(visible);
+  if (!more_) return;
+  // "More" of nothing would be a door to an empty room.
+  const bool any = std::any_of(rows_.begin(), rows_.end(), [](const ParameterRow* one) {
+    return one->parameter().expert && !one->isHidden();
+  });
+  more_->setVisible(any);
 }
 
 }  // namespace batten

@@ -25,6 +25,7 @@ class ParameterEditor : public QWidget {
 
  private:
   QVBoxLayout* layout_;
+  QToolButton* more_ = nullptr;
   std::vector<ParameterRow*> rows_;
 };
 

@@ -166,12 +166,18 @@ void TargetTile::paintFigures(QPainter& painter, const QRectF& box) const {
   const double mm = over ? std::max(report.neededMm, report.maxDeviationMm) : report.maxDeviationMm;
   painter.setFont(uiFont(11));
   painter.setPen(theme.mute);
-  painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, QStringLiteral("S ") + similarityText(outcomes_->targets.profiles[index].similarity));
-  painter.drawText(box, Qt::AlignRight | Qt::AlignVCenter, tr("%1 extr.").arg(report.extremaAfter));
+  const QString similarity = QStringLiteral("S ") + similarityText(outcomes_->targets.profiles[index].similarity);
+  const QString needed = shortMillimetres(mm), extrema = tr("%1 extr.").arg(report.extremaAfter);
+  const auto wide = [&painter](const QString& one) { return painter.fontMetrics().horizontalAdvance(one); };
+  // Where three do not fit beside each other, the similarity, which cannot choose, is the one to go.
+  const bool fits = wide(similarity) + wide(needed) + wide(extrema) + 12 <= box.width();
+  if (fits) painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, similarity);
+  painter.drawText(box, Qt::AlignRight | Qt::AlignVCenter, extrema);
   painter.setPen(over ? theme.amber : theme.mute);
-  const QString text = shortMillimetres(mm);
-  const double spare = painter.fontMetrics().horizontalAdvance(QStringLiteral("S .9987")) - painter.fontMetrics().horizontalAdvance(tr("%1 extr.").arg(report.extremaAfter));
-  painter.drawText(box.translated(spare / 2, 0), Qt::AlignCenter, text);
+  if (fits)
+    painter.drawText(box.translated(0.5 * (wide(similarity) - wide(extrema)), 0), Qt::AlignCenter, needed);
+  else
+    painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, needed);
 }
 
 void TargetTile::enterEvent(QEnterEvent*) {
