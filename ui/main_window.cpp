@@ -195,6 +195,7 @@ void MainWindow::beginDrawing(const Recipe& recipe) {
   session_.newDrawing(recipe);
   setStage(PanelStage::Edges);
   view_.setTool(Tool::Pen);
+  parts_->status->setStageHint(tr("Drag on the page to draw a line; end where it began to close it."));
 }
 
 void MainWindow::openPath(const QString& path) {

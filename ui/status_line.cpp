@@ -120,7 +120,8 @@ void StatusLine::refreshWork() {
     return;
   }
   progress_->setValue(0);
-  if (!session_.hasScan()) return work_->clear();
+  const bool isBeginning = session_.isBlankPage() && session_.recipe().penStrokes.empty();
+  if (!session_.hasScan() || isBeginning) return work_->clear();
   const double ms = session_.lastRunMilliseconds();
   const bool whole = !session_.isStale(StageId::Faired) && session_.output().faired;
   work_->setText(!whole ? tr("stopped") : ms < 0.5 ? tr("exact") : tr("exact · %1 ms").arg(ms, 0, 'f', 0));
