@@ -304,6 +304,47 @@ TEST(SuggestCorners, NoneOnSmoothLines) {
   }
 }
 
+// The border of dry ink: dents of a pixel or so, a few pixels long.
+std::vector<Vec2> roughened(const std::vector<Vec2>& points, double rough, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> gauss(0.0, 1.0);
+  std::vector<double> white(points.size());
+  for (double& w : white) w = gauss(random);
+  std::vector<Vec2> out = points;
+  const int n = static_cast<int>(points.size());
+  for (int i = 0; i < n; ++i) {
+    double sum = 0.0, square = 0.0;
+    for (int k = -6; k <= 6; ++k) {
+      const double weight = std::exp(-0.5 * k * k / 4.0);
+      sum += weight * white[static_cast<std::size_t>((i + k + n) % n)];
+      square += weight * weight;
+    }
+    const Vec2 way = points[static_cast<std::size_t>((i + 1) % n)] - points[static_cast<std::size_t>((i + n - 1) % n)];
+    out[static_cast<std::size_t>(i)] += rough * sum / std::sqrt(square) * leftNormal(way.normalized());
+  }
+  return out;
+}
+
+TEST(SuggestCorners, DentsOfARaggedEdgeAreNone) {
+  int onCircles = 0, onSquares = 0;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    onCircles +=
+        static_cast<int>(suggestCorners(fromPoints(roughened(circle(120.0), 0.45, seed), true), 28 * kDeg, 16.0).size());
+    std::vector<Vec2> square;
+    for (int i = 0; i < 300; ++i) square.emplace_back(i, 0);
+    for (int i = 0; i < 300; ++i) square.emplace_back(300, i);
+    for (int i = 300; i > 0; --i) square.emplace_back(i, 300);
+    for (int i = 300; i > 0; --i) square.emplace_back(0, i);
+    for (const CornerSuggestion& s : suggestCorners(fromPoints(roughened(square, 0.4, seed), true), 28 * kDeg, 16.0)) {
+      const bool corner = std::min(std::abs(s.positionPx.x()), std::abs(s.positionPx.x() - 300)) < 4.0 &&
+                          std::min(std::abs(s.positionPx.y()), std::abs(s.positionPx.y() - 300)) < 4.0;
+      onSquares += corner ? 1 : -1;
+    }
+  }
+  EXPECT_LE(onCircles, 1);   // of 3800 px
+  EXPECT_GE(onSquares, 17);  // of 20, none elsewhere
+}
+
 TEST(SuggestCorners, EveryCornerOfALetterOnce) {
   const CurvedPolygon shape = letterK();
   const ContourSet set = traceShape(shape.sampled(), 5.0, 3);
