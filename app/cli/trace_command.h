@@ -13,7 +13,8 @@ struct TraceArguments {
   std::vector<std::string> outputs;   ///< -o: .svg or .json
   std::string recipe;                 ///< --recipe
   std::vector<std::string> settings;  ///< --set stage.parameter=value
-  std::vector<std::string> corners;   ///< --corner X,Y
+  std::vector<std::string> corners;   ///< --corner X,Y or X,Y,MM
+  std::vector<std::string> segmentPoints;  ///< --segment-point X,Y
   std::optional<double> dpi;          ///< --dpi
   std::string report;                 ///< --report
   std::vector<std::string> dumps;     ///< --dump STAGE=FILE.png

@@ -43,12 +43,34 @@ Result<void> applySetting(const std::string& setting, Recipe& recipe) {
                       std::string_view(setting).substr(equals + 1));
 }
 
+/// Numbers between commas, or nothing.
+std::optional<std::vector<double>> numbersOf(std::string_view text) {
+  std::vector<double> values;
+  while (true) {
+    const auto comma = text.find(',');
+    const auto value = numberFromText(text.substr(0, comma));
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+    if (comma == std::string_view::npos) return values;
+    text.remove_prefix(comma + 1);
+  }
+}
+
 Result<void> applyCorner(const std::string& corner, Recipe& recipe) {
-  const auto comma = corner.find(',');
-  const auto x = numberFromText(std::string_view(corner).substr(0, comma));
-  const auto y = comma == std::string::npos ? std::nullopt : numberFromText(std::string_view(corner).substr(comma + 1));
-  if (!x || !y) return wrong("--corner takes X,Y in px from the upper left corner, not \"" + corner + "\".");
-  recipe.cornerMarks.push_back({Vec2(*x, *y)});
+  const auto values = numbersOf(corner);
+  if (!values || values->size() < 2 || values->size() > 3) {
+    return wrong("--corner takes X,Y in px from the upper left corner, or X,Y,MM to round it, not \"" + corner + "\".");
+  }
+  recipe.cornerMarks.push_back({Vec2((*values)[0], (*values)[1]), values->size() == 3 ? (*values)[2] : 0.0});
+  return {};
+}
+
+Result<void> applySegmentPoint(const std::string& point, Recipe& recipe) {
+  const auto values = numbersOf(point);
+  if (!values || values->size() != 2) {
+    return wrong("--segment-point takes X,Y in px from the upper left corner, not \"" + point + "\".");
+  }
+  recipe.segmentPoints.push_back({Vec2((*values)[0], (*values)[1])});
   return {};
 }
 
@@ -114,6 +136,9 @@ Result<TracePlan> planTrace(const TraceArguments& arguments) {
   }
   for (const std::string& corner : arguments.corners) {
     if (auto set = applyCorner(corner, plan.recipe); !set) return fail(set.error());
+  }
+  for (const std::string& point : arguments.segmentPoints) {
+    if (auto set = applySegmentPoint(point, plan.recipe); !set) return fail(set.error());
   }
   if (arguments.dpi) plan.recipe.dpi = arguments.dpi;
   if (arguments.scan.empty() && !plan.recipe.page) {

@@ -11,7 +11,6 @@ namespace batten {
 
 namespace {
 
-constexpr double kLowPassSegments = 1.0;
 /// Short segments are faired over this length all the same.
 constexpr double kShortestLowPassPx = 20.0;
 /// Weights of one px: offset of a joint, turn of a joint (over a quarter of a segment), sagitta of a segment that the
@@ -185,6 +184,18 @@ struct TurningData {
   }
 };
 
+/// The path as 001 leaves it without the low pass: at every joint the mean of both curvatures (Eq 9, 10).
+Result<ConstructedPiece> plainPath(std::span<const Station> stations, bool closed) {
+  std::vector<Quintic> path = bezierPath(stations, closed);
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) equaliseJoint(path[i], path[i + 1]);
+  if (closed) equaliseJoint(path.back(), path.front());
+  auto curve = joinedQuintics(path, 1.0);
+  if (!curve) return fail(curve.error());
+  ConstructedPiece result{std::move(*curve), {}};
+  result.report.why = Termination::Exact;
+  return result;
+}
+
 }  // namespace
 
 std::vector<Quintic> bezierPath(std::span<const Station> stations, bool closed) {
@@ -214,7 +225,8 @@ std::vector<double> lowPassedCurvature(std::span<const Station> stations, bool c
   return result;
 }
 
-FairedJoints fairedJoints(std::span<const Station> stations, bool closed, double pixelMm, const RunContext& context) {
+FairedJoints fairedJoints(std::span<const Station> stations, bool closed, double pixelMm, double lowPass,
+                          const RunContext& context) {
   const auto lengths = arcCorrectedDistances(stations, closed);
   double total = 0.0;
   std::vector<double> places;
@@ -225,7 +237,7 @@ FairedJoints fairedJoints(std::span<const Station> stations, bool closed, double
   if (!closed) places.push_back(total);
   const double unit = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / 1000.0;
   const double width =
-      std::max(kLowPassSegments * total / static_cast<double>(lengths.size()), kShortestLowPassPx * unit);
+      std::max(lowPass * total / static_cast<double>(lengths.size()), kShortestLowPassPx * unit);
   const auto targets = lowPassedCurvature(stations, closed, width, places);
   const Chain chain(jointsOf(bezierPath(stations, closed), stations, closed), lengths, closed, unit);
   const auto blocks = chain.blocks(targets);
@@ -235,14 +247,15 @@ FairedJoints fairedJoints(std::span<const Station> stations, bool closed, double
   return {chain.joints(solved.x), lengths, solved.why};
 }
 
-Result<ConstructedPiece> constructBezierChain(const ConstructPiece& piece, double pixelMm, const ConstructParams&,
-                                              const RunContext& context) {
+Result<ConstructedPiece> constructBezierChain(const ConstructPiece& piece, double pixelMm,
+                                              const ConstructParams& params, const RunContext& context) {
   if (context.isCancelled()) return cancelled();
   const std::vector<Station> stations = usableStations(piece, 6);
   if (stations.size() < (piece.closed ? 3u : 2u)) {
     return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
   }
-  const FairedJoints faired = fairedJoints(stations, piece.closed, pixelMm, context);
+  if (params.lowPass == 0.0) return plainPath(stations, piece.closed);
+  const FairedJoints faired = fairedJoints(stations, piece.closed, pixelMm, params.lowPass, context);
   if (context.isCancelled()) return cancelled();
   auto curve = hermiteChain(faired.joints, faired.lengths);
   if (!curve) return fail(curve.error());

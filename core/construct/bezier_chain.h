@@ -27,12 +27,14 @@ struct FairedJoints {
   Termination why = Termination::NotRun;
 };
 /// Joints of the Bezier path (mean curvature of both sides) moved towards a fair curve. @pre at least 2 stations,
-/// closed 3.
-FairedJoints fairedJoints(std::span<const Station> stations, bool closed, double pixelMm, const RunContext& context);
+/// closed 3. @param lowPass standard deviation of the low pass in mean distances of stations.
+FairedJoints fairedJoints(std::span<const Station> stations, bool closed, double pixelMm, double lowPass,
+                          const RunContext& context);
 
 /// The construction of 001 for one piece: the Bezier path; at joints the mean curvature of both sides; then the joints
 /// (offset, direction, curvature) are faired towards the low-passed curvature by Levenberg-Marquardt. G2; one B-spline
-/// of degree 5 with knots of multiplicity 3. Open ends stay where they are.
+/// of degree 5 with knots of multiplicity 3. Open ends stay where they are. Without low pass (0) the path stays as it is
+/// but for the curvatures at its joints, which become one.
 Result<ConstructedPiece> constructBezierChain(const ConstructPiece&, double pixelMm, const ConstructParams&,
                                               const RunContext&);
 

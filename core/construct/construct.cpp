@@ -31,9 +31,10 @@ Result<ConstructedPiece> constructPiece(const ConstructPiece& piece, double pixe
       return constructControlPolygon(piece, pixelMm, params, context);
     case ConstructMethod::Bezier:
       return constructBezierChain(piece, pixelMm, params, context);
+    case ConstructMethod::Typical:
+      return constructTypical(piece, pixelMm, params, context);
     case ConstructMethod::Fair:
     case ConstructMethod::Nurbs:
-    case ConstructMethod::Typical:
       break;
   }
   return constructQuinticNurbs(piece, params, context);
@@ -46,6 +47,8 @@ std::optional<Error> validate(const ConstructParams& params) {
   if (auto error = outside("construct.degree", params.degree, 2, 5)) return error;
   if (auto error = outside("construct.removal_step", params.removalStepPx, 0.0, 200.0)) return error;
   if (auto error = outside("construct.removal_tolerance", params.removalTolerancePx, 0.0, 50.0)) return error;
+  if (auto error = outside("construct.lowpass", params.lowPass, 0.0, 8.0)) return error;
+  if (auto error = outside("construct.growing_stop", params.growingStopDeg, 0.2, 20.0)) return error;
   return outside("construct.keep_extrema_cost", params.keepExtremaCost, 1.0, 1000.0);
 }
 

@@ -27,6 +27,13 @@ enum class GradientUse {
   All,          ///< Points and all gradients (000).
   Four,         ///< All points, gradients at the first two and the last two.
   NaturalEnds,  ///< Points only, R'' = R'''' = 0 at the ends.
+  Directions,   ///< Points and directions; the lengths of the derivatives count less (uneven stations on even knots).
+};
+
+/// How a chain of typical curves comes about.
+enum class TypicalMode {
+  Chain,    ///< All segments fitted together (default).
+  Growing,  ///< One after the other: seed, extrapolation, fit, until the normals deviate (002 section 6).
 };
 
 /// What the knot vector of a control polygon does at a sharp point (004 section 4).
@@ -53,6 +60,10 @@ struct ConstructParams {
   PointRemoval removal = PointRemoval::Step;
   double removalStepPx = 8.0;       ///< [px] 0..200. Distance of the points that are kept; 0 keeps all.
   double removalTolerancePx = 1.0;  ///< [px] 0..50. Farthest that a removed point lies from the polygon.
+  double lowPass = 1.0;           ///< [stations] 0..8. Bezier path: standard deviation of the low pass of its curvature; 0 = none.
+  TypicalMode typical = TypicalMode::Chain;
+  double growingStopDeg = 2.0;    ///< [degrees] 0.2..20. Growing: the normals of curve and points may differ by this.
+  bool growingAsInPaper = false;  ///< Growing: keeps each fit whole (002; unstable) instead of its first half.
   double keepExtremaCost = 20.0;  ///< [chi2] 1..1000. Fair fit: a curvature extremum cheaper than this is dropped.
   bool operator==(const ConstructParams&) const = default;
 };
@@ -67,6 +78,7 @@ struct ConstructPiece {
   std::vector<int> drawn;         ///< Pen strokes: indices of the points that were drawn; empty = all are measured.
   bool startIsCorner = false;
   bool endIsCorner = false;
+  std::vector<Vec2> divisions;  ///< Places along the line where the user wants typical curves to meet.
 };
 /// All pieces of one contour: methods may pool what they have in common (noise).
 struct ConstructContour {
@@ -84,12 +96,24 @@ struct ExtremumNote {
   double removalCost = 0.0;  ///< [chi2] rise of the misfit when it is removed; large = certain.
 };
 
+/// One segment of a typical chain.
+struct SegmentNote {
+  bool typical = true;             ///< Else a quintic between two, at an inflection or a straight part.
+  Vec2 startMm = Vec2::Zero();     ///< Where it starts.
+  double lengthMm = 0.0;
+  double ratio = 1.0;              ///< h
+  double turnRad = 0.0;            ///< Change of direction, 2 phi.
+  double startKappa = 0.0, endKappa = 0.0;  ///< [1/mm]
+  bool monotone = false;           ///< h <= cos(phi) or h >= 1 / cos(phi); typical segments only.
+};
+
 struct ConstructReport {
   Termination why = Termination::NotRun;
   std::string note;                   ///< One line for the user when a fallback was used; else empty.
   std::vector<ExtremumNote> extrema;  ///< Fair fit only.
   std::vector<double> bandS;          ///< [mm] arc lengths at which the band is given (fair fit only).
   std::vector<double> bandSigma;      ///< [1/mm] standard deviation of the curvature there.
+  std::vector<SegmentNote> segments;  ///< Typical curves only.
   double noisePx = 0.0;               ///< [px] standard deviation of an edge point (fair fit only; 0 = not measured).
   int pointsBefore = 0;               ///< Control polygon: points of the line (0 = not a control polygon) …
   int pointsAfter = 0;                ///< … that are left after point removal …

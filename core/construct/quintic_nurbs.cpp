@@ -8,6 +8,7 @@
 
 #include "core/construct/banded_least_squares.h"
 #include "core/construct/piece_stations.h"
+#include "core/construct/quintic_directions.h"
 #include "core/curve/knot_operations.h"
 
 namespace batten {
@@ -58,7 +59,7 @@ struct SystemInput {
 };
 
 bool usesGradient(const SystemInput& in, bool closed, std::size_t i) {
-  if (in.use == GradientUse::All) return true;
+  if (in.use == GradientUse::All || in.use == GradientUse::Directions) return true;
   if (in.use == GradientUse::NaturalEnds || closed) return false;
   return i < 2 || i + 2 >= in.points.size();
 }
@@ -185,6 +186,33 @@ std::vector<Vec2> derivativesFor(std::span<const Station> stations, const Constr
   return derivatives;
 }
 
+/// Even knots whatever the distances; what that costs is taken from the lengths of the derivatives.
+Result<ConstructedPiece> constructFromDirections(std::span<const Station> stations, const ConstructParams& params) {
+  const auto magnitudes =
+      derivativeMagnitudes(stations, false, params.derivativeMagnitude, params.magnitudeAsInPaper);
+  std::vector<Vec2> points, directions;
+  double total = 0.0;
+  for (const double d : arcCorrectedDistances(stations, false)) total += d;
+  for (const Station& s : stations) {
+    points.push_back(s.point);
+    directions.push_back(s.direction);
+  }
+  DirectionWeights weights;
+  weights.pinEnds = true;
+  auto solution = solveQuinticDirections(points, directions, magnitudes, weights);
+  if (!solution) return fail(solution.error());
+  const SplineSpace space = makeSpace(uniformPlaces(stations.size(), false), false);
+  std::vector<double> knots = space.knots;
+  for (double& k : knots) k *= total / static_cast<double>(stations.size() - 1);
+  auto open = NurbsCurve::make(kDegree, std::move(knots), std::move(*solution));
+  if (!open) return fail(open.error());
+  auto curve = clampedWithEnds(*open, points.front(), points.back());
+  if (!curve) return fail(curve.error());
+  ConstructedPiece result{std::move(*curve), {}};
+  result.report.why = Termination::Exact;
+  return result;
+}
+
 }  // namespace
 
 std::vector<double> derivativeMagnitudes(std::span<const Station> stations, bool closed, double factor,
@@ -245,6 +273,7 @@ Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, cons
   const bool closed = piece.closed;
   if (m < (closed ? 6u : 2u)) return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
 
+  if (params.gradients == GradientUse::Directions && !closed && m >= 4) return constructFromDirections(stations, params);
   const auto distances = arcCorrectedDistances(stations, closed);
   const Places places = placesOf(distances, m, closed, params.magnitudeAsInPaper);
   const auto derivatives = derivativesFor(stations, params, closed, places);

@@ -93,6 +93,21 @@ std::optional<Vec2> tangentVertex(const Vec2& p, const Vec2& direction, const Ve
   return Vec2(p + fromP * direction);
 }
 
+Result<NurbsCurve> joinedQuintics(std::span<const Quintic> path, double speed) {
+  if (path.empty()) return fail(ErrorCode::Numerical, "A chain of curves needs at least one.");
+  std::vector<double> knots(6, 0.0);
+  std::vector<Vec2> points = {path.front()[0]};
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Quintic& q = path[i];
+    const double interval = 5.0 * (q[1] - q[0]).norm() / speed, at = knots.back() + interval;
+    speed = 5.0 * (q[5] - q[4]).norm() / interval;
+    const bool last = i + 1 == path.size();
+    points.insert(points.end(), q.begin() + 1, q.begin() + (last ? 6 : 5));
+    knots.insert(knots.end(), last ? 6 : 4, at);
+  }
+  return NurbsCurve::make(5, std::move(knots), std::move(points));
+}
+
 Result<NurbsCurve> hermiteChain(std::span<const Joint> joints, std::span<const double> lengths) {
   if (joints.size() < 2 || lengths.size() + 1 != joints.size()) {
     return fail(ErrorCode::Numerical, "A chain of curves needs at least two joints.");

@@ -48,4 +48,9 @@ std::optional<Vec2> tangentVertex(const Vec2& p, const Vec2& direction, const Ve
 /// lengths, C2 everywhere. @param lengths one per piece. Closed: the last joint must repeat the first.
 Result<NurbsCurve> hermiteChain(std::span<const Joint> joints, std::span<const double> lengths);
 
+/// Quintics end to start with a common direction at every joint, as one B-spline: intervals such that the first
+/// derivatives agree, so that a joint needs a knot of multiplicity 4 and no control point of its own. The curve is as
+/// continuous as the quintics are (G2 stays G2). @param speed length of the first derivative at the start.
+Result<NurbsCurve> joinedQuintics(std::span<const Quintic> path, double speed);
+
 }  // namespace batten

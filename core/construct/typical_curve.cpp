@@ -55,7 +55,11 @@ Joint TypicalCurve::endJoint() const {
   return {controlPoints()[3], direction(angleRad + 2.0 * turnRad), endCurvature()};
 }
 
-bool TypicalCurve::isMonotone() const { return ratio <= std::cos(turnRad) || ratio * std::cos(turnRad) >= 1.0; }
+bool TypicalCurve::isMonotone() const {
+  // A curve cut exactly at its extremum is monotone but for rounding.
+  constexpr double kRounding = 1e-12;
+  return ratio <= std::cos(turnRad) * (1.0 + kRounding) || ratio * std::cos(turnRad) >= 1.0 - kRounding;
+}
 
 TypicalCurve TypicalCurve::toParameter(double e) const {
   const std::complex<double> z = 1.0 + e * (std::polar(ratio, turnRad) - 1.0);

@@ -41,10 +41,10 @@ std::optional<TypicalCurve> typicalFromForm(const Vec2& start, double angleRad, 
 std::optional<TypicalCurve> typicalFromCurvatures(const Vec2& start, double angleRad, double startCurvature,
                                                   double endCurvature, double changeOfAngleRad);
 
-/// The construction of 002 for one piece: wherever the line bends one way, a chain of typical curves with common
-/// tangents and curvatures, fitted as a whole (with the second differences of log kappa small); at inflections and
-/// straight parts, which typical curves cannot draw, quintic Hermite pieces. G2 everywhere; degree 5, knots of
-/// multiplicity 4.
+/// The construction of 002 for one piece: wherever the line bends one way, typical curves with common tangents and
+/// curvatures, every one with monotone curvature; at inflections and straight parts, which typical curves cannot draw,
+/// quintic Hermite pieces. Chain: fitted to the points as a whole, as few segments as they ask for. Growing: one after
+/// the other. Where `divisions` are given the segments meet there. G2 everywhere; degree 5, knots of multiplicity 4.
 Result<ConstructedPiece> constructTypical(const ConstructPiece&, double pixelMm, const ConstructParams&,
                                           const RunContext&);
 

@@ -13,7 +13,10 @@ namespace batten {
 /// A place where the user said: here the line has a sharp corner. By position, so that it survives a changed threshold.
 struct CornerMark {
   Vec2 positionPx = Vec2::Zero();
-  bool operator==(const CornerMark& other) const { return positionPx == other.positionPx; }
+  double roundMm = 0.0;  ///< [mm] 0..500. Rounded by two typical curves that begin this far from the corner; 0 = sharp.
+  bool operator==(const CornerMark& other) const {
+    return positionPx == other.positionPx && roundMm == other.roundMm;
+  }
 };
 
 struct CornerParams {

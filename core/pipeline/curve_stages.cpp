@@ -7,6 +7,8 @@
 #include <new>
 
 #include "core/base/parallel.h"
+#include "core/pipeline/corner_rounding.h"
+#include "core/pipeline/segment_points.h"
 
 namespace batten {
 namespace {
@@ -32,17 +34,13 @@ Station stationToModel(const Station& s, const PageFrame& frame) {
           frame.pointToModel(s.to)};
 }
 
-CurveFigures figuresOf(const NurbsCurve& curve, bool closed, const std::vector<Vec2>& points) {
-  CurveFigures figures;
-  figures.lengthMm = ArcLength(curve).total();
-  figures.controlPoints = curve.controlPointCount();
-  figures.fromPoints = deviation(curve, points, true);
-  const double size = extent(curve);
-  if (size > 0.0) {
-    figures.extrema = static_cast<int>(curvatureExtrema(curve, kExtremumProminence / size, closed).size());
-    figures.inflections = static_cast<int>(inflections(curve, kExtremumProminence / size, closed).size());
+/// Where the user wants typical curves to meet on a piece.
+std::vector<Vec2> divisionsOf(const PieceSet& pieces, const Recipe& recipe, const PageFrame& frame, std::size_t piece) {
+  std::vector<Vec2> places;
+  for (const std::size_t point : segmentPointsOf(pieces, recipe, piece)) {
+    places.push_back(frame.pointToModel(recipe.segmentPoints[point].positionPx));
   }
-  return figures;
+  return places;
 }
 
 /// Of a pen stroke: which of the points were drawn, and not put in between.
@@ -141,7 +139,10 @@ class ContourBuilder {
   }
 
   Result<std::vector<ConstructedPiece>> constructRange(PieceRange range, const ConstructParams& params) const {
-    const ConstructContour input = inputOf(contours_, pieces_, segments_, range, frame_);
+    ConstructContour input = inputOf(contours_, pieces_, segments_, range, frame_);
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      input.pieces[i - range.first].divisions = divisionsOf(pieces_, recipe_, frame_, i);
+    }
     auto result = construct(input, params, context_);
     if (result && result->size() != input.pieces.size()) {
       return fail(ErrorCode::Numerical, "The construction gave another number of curves than pieces.");
@@ -284,6 +285,32 @@ void fairOne(TracedCurve& curve, const Piece& piece, const PageFrame& frame, con
 
 }  // namespace
 
+CurveFigures figuresOf(const NurbsCurve& curve, bool closed, const std::vector<Vec2>& points) {
+  CurveFigures figures;
+  figures.lengthMm = ArcLength(curve).total();
+  figures.controlPoints = curve.controlPointCount();
+  figures.fromPoints = deviation(curve, points, true);
+  const double size = extent(curve);
+  if (size > 0.0) {
+    figures.extrema = static_cast<int>(curvatureExtrema(curve, kExtremumProminence / size, closed).size());
+    figures.inflections = static_cast<int>(inflections(curve, kExtremumProminence / size, closed).size());
+  }
+  return figures;
+}
+
+ConstructPiece constructPieceOf(const PieceSet& pieces, const SegmentSet& segments, const Recipe& recipe,
+                                const PageFrame& frame, std::size_t index) {
+  const Piece& piece = pieces.pieces[index];
+  ConstructPiece made;
+  made.points = pointsToModel(piece.points, frame);
+  for (const Station& s : segments.pieces[index].stations) made.stations.push_back(stationToModel(s, frame));
+  made.closed = piece.closed;
+  made.startIsCorner = piece.startIsCorner;
+  made.endIsCorner = piece.endIsCorner;
+  made.divisions = divisionsOf(pieces, recipe, frame, index);
+  return made;
+}
+
 Result<ConstructedSet> constructAll(const ContourSet& contours, const PieceSet& pieces, const SegmentSet& segments,
                                     const Recipe& recipe, const PageFrame& frame, const RunContext& context) {
   if (segments.pieces.size() != pieces.pieces.size()) {
@@ -349,6 +376,7 @@ Result<FairedSet> fairAll(const ConstructedSet& constructed, const PieceSet& pie
     fairOne(curve, pieces.pieces[piece], frame, inner);
   });
   if (context.isCancelled()) return cancelled();
+  roundCorners(set, pieces, recipe, frame);
   return set;
 }
 

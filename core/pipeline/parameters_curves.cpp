@@ -156,8 +156,30 @@ void appendConstruct(std::vector<Parameter>& table) {
       {"construct.gradients", "Gradients", "", "Quintic NURBS: which directions it uses beside the points.", true},
       {{"all", "All", GradientUse::All},
        {"four", "Two at each end", GradientUse::Four},
-       {"natural-ends", "None, natural ends", GradientUse::NaturalEnds}},
+       {"natural-ends", "None, natural ends", GradientUse::NaturalEnds},
+       {"directions", "Directions, lengths loosely", GradientUse::Directions}},
       [](auto& r) -> auto& { return r.construct.gradients; }));
+  table.push_back(real(
+      kCurves,
+      {"construct.lowpass", "Low pass", "stations",
+       "Bézier path: length over which its curvature is evened out. 0 is the path as in the paper; larger is calmer."},
+      {0.0, 8.0, 0.25, 2}, [](auto& r) -> auto& { return r.construct.lowPass; }));
+  table.push_back(choice<TypicalMode>(
+      kCurves,
+      {"construct.typical", "Segments of the chain", "",
+       "Typical curves: all fitted together, or grown one after the other as in the paper."},
+      {{"chain", "Fitted together", TypicalMode::Chain}, {"growing", "Grown", TypicalMode::Growing}},
+      [](auto& r) -> auto& { return r.construct.typical; }));
+  table.push_back(real(
+      kCurves,
+      {"construct.growing_stop", "Stop growing at", "°",
+       "Grown typical curves: a segment ends where its normal leaves that of the line by this. Larger: longer segments."},
+      {0.2, 20.0, 0.1, 1, true}, [](auto& r) -> auto& { return r.construct.growingStopDeg; }));
+  table.push_back(boolean(
+      kCurves,
+      {"construct.growing_as_in_paper", "Growing as in the paper", "",
+       "Grown typical curves: keeps every fit whole, for comparison; errors grow from segment to segment.", true},
+      [](auto& r) -> auto& { return r.construct.growingAsInPaper; }));
   table.push_back(integer(
       kCurves,
       {"construct.degree", "Degree", "",

@@ -51,6 +51,10 @@ std::optional<Error> validate(const Recipe& recipe) {
   if (auto e = validate(recipe.corners)) return e;
   for (const CornerMark& mark : recipe.cornerMarks) {
     if (!isFinite(mark.positionPx)) return bad("A corner mark has no valid position.");
+    if (!(mark.roundMm >= 0.0 && mark.roundMm <= 500.0)) return bad("The rounding of a corner must be 0 to 500 mm.");
+  }
+  for (const SegmentPoint& point : recipe.segmentPoints) {
+    if (!isFinite(point.positionPx)) return bad("A segment point has no valid position.");
   }
   if (auto e = validate(recipe.segments)) return e;
   if (auto e = validate(recipe.construct)) return e;

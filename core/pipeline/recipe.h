@@ -58,6 +58,13 @@ struct BlankPage {
   bool operator==(const BlankPage&) const = default;
 };
 
+/// A place on a line where the user wants two typical curves to meet (002 section 6, semi-automatic). Attached by
+/// position like a corner mark: it belongs to the line nearest to it within the corner reach.
+struct SegmentPoint {
+  Vec2 positionPx = Vec2::Zero();
+  bool operator==(const SegmentPoint& other) const { return positionPx == other.positionPx; }
+};
+
 /// Everything the user decided: all parameters and all edits, one comparable value. Result = f(scan, recipe).
 struct Recipe {
   std::optional<double> dpi;  ///< The user's own resolution; absent = the file's, else the assumed one.
@@ -72,6 +79,7 @@ struct Recipe {
   CornerParams corners;
   std::vector<CornerMark> cornerMarks;
   SegmentParams segments;
+  std::vector<SegmentPoint> segmentPoints;
   ConstructParams construct;
   FairingParams fairing;
   std::vector<PieceChoice> choices;

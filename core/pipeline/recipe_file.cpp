@@ -107,9 +107,12 @@ Result<void> readParameters(const Json& json, Recipe& recipe) {
 Result<void> readCorners(const Json& json, Recipe& recipe) {
   if (!json.is_array()) return refuse("The recipe is damaged: \"corners\" is not a list of positions.");
   for (const Json& entry : json) {
-    const auto point = pointFromJson(entry);
+    // Sharp: [x, y]. Rounded: {"at": [x, y], "round": mm}.
+    const bool rounded = entry.is_object() && entry.size() == 2 && entry.contains("at") && entry.contains("round") &&
+                         entry["round"].is_number();
+    const auto point = pointFromJson(rounded ? entry["at"] : entry);
     if (!point) return refuse("The recipe is damaged: a corner is not a pair of numbers [x, y].");
-    recipe.cornerMarks.push_back({*point});
+    recipe.cornerMarks.push_back({*point, rounded ? entry["round"].get<double>() : 0.0});
   }
   return {};
 }
@@ -139,6 +142,16 @@ Result<void> readStrokes(const Json& json, Recipe& recipe) {
   return {};
 }
 
+Result<void> readSegmentPoints(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"segment_points\" is not a list of positions.");
+  for (const Json& entry : json) {
+    const auto point = pointFromJson(entry);
+    if (!point) return refuse("The recipe is damaged: a segment point is not a pair of numbers [x, y].");
+    recipe.segmentPoints.push_back({*point});
+  }
+  return {};
+}
+
 Result<void> readPage(const Json& json, Recipe& recipe) {
   if (json.is_null()) return {};
   const bool isPair =
@@ -149,6 +162,11 @@ Result<void> readPage(const Json& json, Recipe& recipe) {
   };
   recipe.page = BlankPage{side(json[0]), side(json[1])};
   return {};
+}
+
+Json cornerToJson(const CornerMark& mark) {
+  const Json at = {mark.positionPx.x(), mark.positionPx.y()};
+  return mark.roundMm > 0.0 ? Json{{"at", at}, {"round", mark.roundMm}} : at;
 }
 
 Result<PieceChoice> readChoice(const Json& json) {
@@ -222,6 +240,7 @@ Result<void> readEntry(const std::string& name, const Json& value, Recipe& recip
   if (name == "format" || name == "version") return {};
   if (name == "parameters") return readParameters(value, recipe);
   if (name == "corners") return readCorners(value, recipe);
+  if (name == "segment_points") return readSegmentPoints(value, recipe);
   if (name == "choices") return readChoices(value, recipe);
   if (name == "strokes") return readStrokes(value, recipe);
   if (name == "page") return readPage(value, recipe);
@@ -242,7 +261,11 @@ std::string recipeToJson(const Recipe& recipe) {
   Json& parameters = json["parameters"] = Json::object();
   for (const Parameter& p : parameterTable()) parameters[p.name] = parameterToJson(p, recipe);
   Json& corners = json["corners"] = Json::array();
-  for (const CornerMark& mark : recipe.cornerMarks) corners.push_back({mark.positionPx.x(), mark.positionPx.y()});
+  for (const CornerMark& mark : recipe.cornerMarks) corners.push_back(cornerToJson(mark));
+  if (!recipe.segmentPoints.empty()) {
+    Json& places = json["segment_points"] = Json::array();
+    for (const SegmentPoint& one : recipe.segmentPoints) places.push_back({one.positionPx.x(), one.positionPx.y()});
+  }
   Json& choices = json["choices"] = Json::array();
   for (const PieceChoice& choice : recipe.choices) choices.push_back(choiceToJson(choice));
   // Only where there are any: recipes of drawings without them stay what they were.

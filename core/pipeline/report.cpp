@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <nlohmann/json.hpp>
 
 #include "core/fairing/curve_comparison.h"
@@ -40,6 +41,16 @@ Json constructToJson(const ConstructReport& r) {
             {"is_circle", r.isCircle}, {"is_line", r.isLine}, {"extrema", Json::array()}};
   if (r.pointsBefore > 0) {
     json["polygon_points"] = {{"before", r.pointsBefore}, {"after", r.pointsAfter}, {"added", r.pointsAdded}};
+  }
+  for (const SegmentNote& n : r.segments) {
+    json["segments"].push_back({{"kind", n.typical ? "typical" : "transition"},
+                                {"start_mm", pointToJson(n.startMm)},
+                                {"length_mm", number(n.lengthMm)},
+                                {"ratio", number(n.ratio)},
+                                {"turn_deg", number(n.turnRad * 180.0 / std::numbers::pi)},
+                                {"start_curvature_per_mm", number(n.startKappa)},
+                                {"end_curvature_per_mm", number(n.endKappa)},
+                                {"monotone", n.typical ? Json(n.monotone) : Json(nullptr)}});
   }
   for (const ExtremumNote& e : r.extrema) {
     json["extrema"].push_back({{"s_mm", number(e.s)},

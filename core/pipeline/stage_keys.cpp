@@ -40,6 +40,7 @@ void add(HashBuilder& h, const ConstructParams& p) {
   h.integer(static_cast<int>(p.gradients)).integer(p.degree).number(p.keepExtremaCost);
   h.integer(static_cast<int>(p.knots)).integer(static_cast<int>(p.removal)).number(p.removalStepPx);
   h.number(p.removalTolerancePx);
+  h.number(p.lowPass).integer(static_cast<int>(p.typical)).number(p.growingStopDeg).integer(p.growingAsInPaper);
 }
 void add(HashBuilder& h, const FairingParams& p) {
   h.integer(static_cast<int>(p.mode)).integer(p.target).number(p.toleranceMm);
@@ -104,10 +105,12 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
         h.integer(static_cast<int>(*choice.method));
       }
       h.number(frame.mmPerPx).integer(frame.heightPx);
+      for (const SegmentPoint& point : r.segmentPoints) add(h, point.positionPx);
       break;
     case StageId::Faired:
       add(h, r.fairing);
       for (const PieceChoice& choice : r.choices) add(h, choice);
+      for (const CornerMark& mark : r.cornerMarks) h.number(mark.roundMm);
       break;
   }
 }

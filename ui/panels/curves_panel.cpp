@@ -73,8 +73,9 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
     : QWidget(parent), session_(session),
       editor_(new ParameterEditor(session,
                                   {"construct.derivative_magnitude", "construct.keep_extrema",
+                                   "construct.lowpass", "construct.typical", "construct.growing_stop",
                                    "segments.mode", "segments.count", "segments.spacing", "segments.tolerance",
-                                   "construct.gradients", "construct.magnitude_as_in_paper"},
+                                   "construct.gradients", "construct.magnitude_as_in_paper", "construct.growing_as_in_paper"},
                                   this)),
       methods_(new MethodTable(session, this)), knots_(new KnotPanel(session, view, this)), figures_(new FigureTable(this)),
       note_(note({}, this)) {
@@ -111,6 +112,12 @@ void CurvesPanel::refresh() {
   editor_->setRowVisible("construct.derivative_magnitude", nurbs);
   editor_->setRowVisible("construct.magnitude_as_in_paper", nurbs);
   editor_->setRowVisible("construct.gradients", nurbs);
+  const bool typical = method == ConstructMethod::Typical;
+  const bool grows = typical && session_.recipe().construct.typical == TypicalMode::Growing;
+  editor_->setRowVisible("construct.lowpass", method == ConstructMethod::Bezier);
+  editor_->setRowVisible("construct.typical", typical);
+  editor_->setRowVisible("construct.growing_stop", grows);
+  editor_->setRowVisible("construct.growing_as_in_paper", grows);
   editor_->setRowVisible("construct.keep_extrema", method == ConstructMethod::Fair);
   knots_->setVisible(method == ConstructMethod::ControlPolygon);
   const bool segmented = method != ConstructMethod::Fair && method != ConstructMethod::ControlPolygon;

@@ -5,6 +5,7 @@
 
 #include "core/construct/block_levenberg.h"
 #include "core/curve/curve_analysis.h"
+#include "core/curve/knot_operations.h"
 #include "tests/unit/construct/stations_of.h"
 
 namespace batten {
@@ -118,6 +119,33 @@ TEST(ConstructBezierChain, TamesNoise) {
   const auto made = constructBezierChain(piece, 1.0, {}, {}).value();
   EXPECT_LT(variation(made.curve), 1.3 * truth);
   EXPECT_LT(deviation(made.curve, piece.points, true).max, 1.0);
+}
+
+TEST(ConstructBezierChain, WithoutLowPassIsThePathOfThePaperWithOneCurvatureAtEveryJoint) {
+  auto piece = test::pieceOf(roof, 0, 900, 30, false);
+  disturb(piece.stations, 0.3, 1);
+  ConstructParams params;
+  params.lowPass = 0.0;
+  const auto made = constructBezierChain(piece, 1.0, params, {}).value();
+  const auto pieces = bezierPieces(made.curve).value();
+  ASSERT_EQ(pieces.size(), 29u);
+  std::optional<double> before;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    Quintic q;
+    std::copy(pieces[i].controlPoints.begin(), pieces[i].controlPoints.end(), q.begin());
+    EXPECT_LT((q[0] - piece.stations[i].point).norm(), 1e-9);
+    if (before) {
+      EXPECT_NEAR(*startCurvature(q), *before, 1e-9 * std::abs(*before) + 1e-12);
+    }
+    before = endCurvature(q);
+  }
+  // A wide low pass is calmer than a narrow one, and both are calmer than none.
+  params.lowPass = 0.5;
+  const double narrow = variation(constructBezierChain(piece, 1.0, params, {}).value().curve);
+  params.lowPass = 2.0;
+  const double wide = variation(constructBezierChain(piece, 1.0, params, {}).value().curve);
+  EXPECT_LT(wide, narrow);
+  EXPECT_LT(narrow, variation(made.curve));
 }
 
 TEST(ConstructBezierChain, AnythingGivesAFiniteCurveOrAnError) {

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/corner_rounding.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/construct/rounded_corner.h"
+#include "core/curve/knot_operations.h"
+#include "core/pipeline/curve_stages.h"
+
+namespace batten {
+namespace {
+
+constexpr double kLargestShare = 0.45;
+/// How evenly: nearly as round as a circular arc, and monotone to both sides.
+constexpr double kForm = 0.85;
+constexpr int kDegree = 5;
+
+Joint jointAt(const NurbsCurve& curve, double u) {
+  const auto d = curve.derivatives(u, 1);
+  return {d[0], d[1].normalized(), curvature(curve, u).value_or(0.0)};
+}
+
+Result<NurbsCurve> asCurve(const TypicalCurve& arc, double start) {
+  const auto q = arc.controlPoints();
+  const Quintic quintic = elevatedCubic(q[0], q[1], q[2], q[3]);
+  std::vector<double> knots(6, start);
+  const double length = arc.edge * (1.0 + arc.ratio * std::cos(arc.turnRad) + arc.ratio * arc.ratio);
+  knots.insert(knots.end(), 6, start + length);
+  return NurbsCurve::make(kDegree, std::move(knots), {quintic.begin(), quintic.end()});
+}
+
+/// Two curves end to start as one of degree 5.
+Result<NurbsCurve> together(const NurbsCurve& first, const NurbsCurve& second) {
+  std::vector<NurbsCurve> both;
+  for (const NurbsCurve& one : {first, second}) {
+    auto raised = one.degree() < kDegree ? elevated(one, kDegree) : Result<NurbsCurve>(one);
+    if (!raised) return raised;
+    both.push_back(std::move(*raised));
+  }
+  return joinAtCorners(both, 1e-6 * std::max(extent(first), extent(second)));
+}
+
+/// The curve without the last (first) `length`.
+Result<NurbsCurve> shortened(const NurbsCurve& curve, double length, bool atEnd) {
+  const ArcLength arc(curve);
+  auto parts = split(curve, arc.parameter(atEnd ? arc.total() - length : length));
+  if (!parts) return fail(parts.error());
+  return atEnd ? parts->left : parts->right;
+}
+
+struct Neighbours {
+  TracedCurve* before = nullptr;
+  TracedCurve* behind = nullptr;
+};
+
+Neighbours neighboursOf(FairedSet& set, const PieceSet& pieces, const Corner& corner) {
+  Neighbours found;
+  for (TracedCurve& curve : set.curves) {
+    const Piece& piece = pieces.pieces[static_cast<std::size_t>(curve.piece)];
+    if (piece.contour != corner.contour || piece.points.empty() || curve.faired.isEmpty()) continue;
+    const auto isHere = [&](const Vec2& p) { return (p - corner.positionPx).norm() < 1e-6; };
+    if (piece.endIsCorner && isHere(piece.points.back())) found.before = &curve;
+    if (piece.startIsCorner && isHere(piece.points.front())) found.behind = &curve;
+  }
+  return found;
+}
+
+bool roundOne(const Neighbours& at, double sizeMm) {
+  const double room = std::min(ArcLength(at.before->faired).total(), ArcLength(at.behind->faired).total());
+  const double size = std::min(sizeMm, kLargestShare * room);
+  if (!(size > 0.0)) return false;
+  const auto first = shortened(at.before->faired, size, true);
+  if (!first) return false;
+  // One curve from its corner back to it is cut at both ends.
+  const bool same = at.before == at.behind;
+  const auto second = shortened(same ? *first : at.behind->faired, size, false);
+  if (!second) return false;
+  const NurbsCurve& cutBefore = same ? *second : *first;
+  const auto corner = roundCorner(jointAt(cutBefore, cutBefore.end()), jointAt(*second, second->start()), kForm);
+  if (!corner) return false;
+  const auto arc1 = asCurve(corner->arcs[0], 0.0), arc2 = asCurve(corner->arcs[1], 0.0);
+  if (!arc1 || !arc2) return false;
+  const auto behind = together(*arc2, *second);
+  if (!behind) return false;
+  const auto before = together(same ? *behind : *first, *arc1);
+  if (!before) return false;
+  if (!same) at.behind->faired = *behind;
+  at.before->faired = *before;
+  return true;
+}
+
+/// What the rounding changed; the distance from the edge points stays that of the curve itself.
+void measureAgain(TracedCurve& curve) {
+  CurveFigures figures = figuresOf(curve.faired, curve.closed, {});
+  figures.fromPoints = curve.fairedFigures.fromPoints;
+  curve.fairedFigures = figures;
+}
+
+}  // namespace
+
+void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, const PageFrame&) {
+  for (const Corner& corner : pieces.corners) {
+    const auto mark = static_cast<std::size_t>(corner.mark);
+    if (mark >= recipe.cornerMarks.size() || !(recipe.cornerMarks[mark].roundMm > 0.0)) continue;
+    const Neighbours at = neighboursOf(set, pieces, corner);
+    if (!at.before || !at.behind) continue;
+    const bool done = roundOne(at, recipe.cornerMarks[mark].roundMm);
+    for (TracedCurve* curve : {at.before, at.behind}) {
+      if (done) {
+        measureAgain(*curve);
+      } else if (curve->fairing.note.empty()) {
+        curve->fairing.note = "A corner could not be rounded: its sides do not meet ahead. It stays sharp.";
+      }
+    }
+  }
+}
+
+}  // namespace batten

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/construct/typical_growing.h"
+#include "core/pipeline/pipeline.h"
+
+namespace batten {
+
+/// The segment points of the recipe that belong to a piece: those to which it is nearest of all pieces, within the
+/// corner reach. Indices into recipe.segmentPoints.
+std::vector<std::size_t> segmentPointsOf(const PieceSet&, const Recipe&, std::size_t piece);
+
+/// How the typical chain of one curve grows (002 section 6), step by step, in model mm. Works whatever the method of the
+/// recipe is. Empty for lines that nowhere bend clearly. @return Numerical while there is no such piece.
+Result<std::vector<GrowingStep>> growingStepsOf(const PieceSet&, const SegmentSet&, const Recipe&, const PageFrame&,
+                                                int piece, const RunContext&);
+
+}  // namespace batten

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/typical_path.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <random>
+
+#include "core/construct/typical_growing.h"
+#include "core/curve/curve_analysis.h"
+#include "core/curve/knot_operations.h"
+#include "tests/support/known_answers.h"
+#include "tests/unit/construct/stations_of.h"
+
+namespace batten {
+namespace {
+
+PathElement typicalElement(double turn, double logRatio, Trend trend) {
+  PathElement element;
+  element.logTurn = std::log(turn);
+  element.trend = trend;
+  element.setLogRatio(logRatio);
+  return element;
+}
+
+/// Typical, typical, Hermite, turning left.
+TypicalPath somePath() {
+  TypicalPath path;
+  path.elements = {typicalElement(0.3, -0.1, Trend::Rising), typicalElement(0.25, 0.1, Trend::Falling), {}};
+  path.elements[2].typical = false;
+  path.states.resize(4);
+  path.states[0] = {{0, 0}, 0.1, 0.005};
+  EXPECT_TRUE(path.update());
+  path.states[3] = {path.states[2].point + Vec2(20, 90), 1.4, 0.001};
+  EXPECT_TRUE(path.update());
+  return path;
+}
+
+TEST(TypicalPath, SharesPlaceDirectionAndCurvatureAtEveryJoint) {
+  const TypicalPath path = somePath();
+  for (std::size_t e = 0; e + 1 < path.elements.size(); ++e) {
+    const Quintic one = path.quintic(e), next = path.quintic(e + 1);
+    EXPECT_LT((one[5] - next[0]).norm(), 1e-10);
+    EXPECT_NEAR(cross((one[5] - one[4]).normalized(), (next[1] - next[0]).normalized()), 0.0, 1e-12);
+    EXPECT_NEAR(*endCurvature(one), *startCurvature(next), 1e-12);
+  }
+}
+
+TEST(TypicalPath, TrendsKeepTheCurvatureMonotoneWhateverTheUnknowns) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int trial = 0; trial < 500; ++trial) {
+    PathElement element = typicalElement(0.4 + 0.39 * unit(random), 0.0, trial % 2 == 0 ? Trend::Rising : Trend::Falling);
+    element.shape = 3.0 * unit(random);
+    TypicalPath path;
+    path.elements = {element};
+    path.states.resize(2);
+    path.states[0].kappa = 0.01;
+    if (!path.update()) continue;
+    EXPECT_TRUE(path.typical(0).isMonotone());
+    EXPECT_EQ(path.states[1].kappa > 0.01, element.trend == Trend::Rising);
+  }
+}
+
+TEST(TypicalPath, SplittingATypicalElementIsExact) {
+  TypicalPath path = somePath();
+  const TypicalCurve whole = path.typical(1);
+  path.split(1, 0.3);
+  ASSERT_EQ(path.elements.size(), 4u);
+  const auto q = path.typical(1).controlPoints(), r = path.typical(2).controlPoints(), w = whole.controlPoints();
+  // De Casteljau on the whole.
+  std::array<Vec2, 4> b = w;
+  for (std::size_t n = 3; n > 0; --n) {
+    for (std::size_t i = 0; i < n; ++i) b[i] += 0.3 * (b[i + 1] - b[i]);
+  }
+  EXPECT_LT((q[3] - b[0]).norm(), 0.05);  // the trends leave a hair of slack
+  EXPECT_LT((r[3] - w[3]).norm(), 0.5);
+}
+
+TEST(FitPath, FindsTheCurveItsPointsCameFrom) {
+  const TypicalPath truth = somePath();
+  PathData data;
+  for (std::size_t e = 0; e < truth.elements.size(); ++e) {
+    const Quintic q = truth.quintic(e);
+    const auto curve = NurbsCurve::make(5, {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1}, {q.begin(), q.end()}).value();
+    for (int i = 0; i < 40; ++i) data.points.push_back(curve.point(i / 40.0));
+  }
+  data.start = truth.states.front().point;
+  data.end = truth.states.back().point;
+  data.fairness = 0.0;
+  TypicalPath path = truth;
+  path.states[0].angleRad += 0.02;
+  path.states[0].kappa *= 1.2;
+  path.elements[0].logTurn += 0.2;
+  path.elements[1].shape += 0.1;
+  const auto fit = fitPath(path, data, 60);
+  ASSERT_TRUE(fit);
+  EXPECT_LT(fit->rms, 0.02);
+  EXPECT_NEAR(path.states[0].angleRad, 0.1, 2e-3);
+}
+
+TEST(FitPath, ClosesExactlyAndMeetsPinnedEnds) {
+  // A closed ring of eight typical curves around an ellipse.
+  TypicalPath path;
+  path.closed = true;
+  path.states.resize(9);
+  PathData data;
+  for (int i = 0; i < 400; ++i) data.points.push_back(test::ellipsePoint(std::numbers::pi / 2 + 2 * std::numbers::pi * i / 400));
+  path.states[0] = {test::ellipsePoint(std::numbers::pi / 2), std::numbers::pi, 150.0 / 90000.0};
+  for (int k = 0; k < 8; ++k) path.elements.push_back(typicalElement(std::numbers::pi / 8, 0.0, Trend::Free));
+  // Curvature of the ellipse at equal turns.
+  const auto kappa = [](double turn) {
+    const double s = std::sin(turn), c = std::cos(turn);
+    return std::pow(150.0 * 150.0 * c * c + 300.0 * 300.0 * s * s, 1.5) / (300.0 * 300.0 * 150.0 * 150.0);
+  };
+  for (int k = 0; k < 8; ++k) {
+    path.elements[static_cast<std::size_t>(k)].shape =
+        0.25 * std::log(kappa(k * std::numbers::pi / 4) / kappa((k + 1) * std::numbers::pi / 4));
+  }
+  const auto fit = fitPath(path, data, 60);
+  ASSERT_TRUE(fit);
+  EXPECT_LT(fit->rms, 0.5);
+  EXPECT_LT((path.states.back().point - path.states.front().point).norm(), 1e-9);
+  EXPECT_NEAR(path.states.back().angleRad - path.states.front().angleRad, 2 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(path.states.back().kappa, path.states.front().kappa, 1e-12);
+
+  TypicalPath open = somePath();
+  open.elements.pop_back();
+  open.states.pop_back();
+  PathData ends;
+  for (int i = 0; i <= 20; ++i) ends.points.push_back(open.states[0].point + (open.states[2].point - open.states[0].point) * i / 20.0);
+  ends.start = open.states[0].point + Vec2(0.5, 0.2);
+  ends.end = open.states[2].point + Vec2(-0.3, 0.4);
+  ASSERT_TRUE(fitPath(open, ends, 40));
+  EXPECT_EQ(open.states.front().point, ends.start);
+  EXPECT_LT((open.states.back().point - ends.end).norm(), 1e-9);
+}
+
+TEST(FormGradient, MatchesTheKnownAnswer) {
+  const auto answer = test::knownAnswer(BATTEN_TEST_DATA, "05_typical.json");
+  for (const auto& item : answer.at("cases")) {
+    const auto number = [&](const char* key) { return item.at(key).get<double>(); };
+    const auto curve = typicalFromForm(Vec2::Zero(), 0.0, number("kappa0"), number("dS"), number("dW"));
+    ASSERT_TRUE(curve);
+    const FormGradient g = formGradient(*curve);
+    EXPECT_NEAR(g.edgeByTurn, number("dl_dphi"), 1e-9 * std::abs(number("dl_dphi")));
+    EXPECT_NEAR(g.ratioByTurn, number("dh_dphi"), 1e-9 * std::abs(number("dh_dphi")));
+    const Vec2 expected = test::toVec2(item.at("dC1_dphi"));
+    EXPECT_LT((g.endByTurn - expected).norm(), 1e-9 * expected.norm());
+  }
+}
+
+}  // namespace
+}  // namespace batten
