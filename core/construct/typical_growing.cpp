@@ -348,7 +348,12 @@ void divideAtMaxima(TypicalPath& path) {
   for (std::size_t e = 0; e < path.elements.size(); ++e) {
     if (!path.elements[e].typical || path.elements[e].isMonotone()) continue;
     const double top = placeOfMaximum(path.elements[e]);
-    if (top > 1e-3 && top < 1.0 - 1e-3) path.split(e++, top);
+    if (top > 1e-3 && top < 1.0 - 1e-3) {
+      path.split(e++, top);
+    } else {
+      // So near to an end that a hair of shape makes up for it.
+      path.elements[e].setTrend(path.elements[e].logRatio() < 0.0 ? Trend::Rising : Trend::Falling);
+    }
   }
 }
 
@@ -433,9 +438,10 @@ std::optional<TypicalPath> grownPath(const TypicalLine& line, std::span<const Ve
   }
   goTo(line.joints.size() - 1);
   if (path.elements.empty()) return std::nullopt;
-  if (!path.closed && path.endsTypical()) settleEnd(path, line.joints.back().point);
   if (!path.update()) return std::nullopt;
   divideAtMaxima(path);
+  if (!path.update()) return std::nullopt;
+  if (!path.closed && path.endsTypical()) settleEnd(path, line.joints.back().point);
   return path;
 }
 

@@ -17,7 +17,8 @@ constexpr double kSuggestionScalePx = 14.0;
 }  // namespace
 
 CurveCanvas::State::State(CurveCanvas& owner, EditorSession& s, ViewSettings& v)
-    : CanvasScene(s, v), canvas(owner), tools{makeSelectTool(*this), makeThresholdTool(*this), makeCornerTool(*this), makePenTool(*this)} {
+    : CanvasScene(s, v), canvas(owner), tools{makeSelectTool(*this), makeThresholdTool(*this), makeCornerTool(*this), makePenTool(*this),
+                                                  makeSegmentTool(*this)} {
   repaint = [this] { canvas.update(); };
   hint = [this](const QString& text) {
     if (text == lastHint) return;
@@ -331,7 +332,9 @@ void CurveCanvas::State::paint(QPainter& painter) {
   if (!view.isScanOnly()) {
     if (view.isVisible(Layer::Corners)) paintCorners(painter, *this);
     if (view.isVisible(Layer::Regions) && view.tool() != Tool::Thresholds) paintRegionGrid(painter, *this);
+    paintSegmentPoints(painter, *this);
     if (!ghost.isEmpty()) paintGhost(painter, *this, ghost);
+    paintGrowing(painter, *this);
     tool().paint(painter);
     paintCursor(painter, *this);
     paintFlash(painter);

@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "ui/canvas/canvas_state.h"
+#include "ui/session/growing_player.h"
 
 namespace batten {
 namespace {
@@ -43,6 +44,7 @@ CurveCanvas::CurveCanvas(EditorSession& session, ViewSettings& view, QWidget* pa
   connect(&session, &EditorSession::targetsChanged, this, [state] { state->hoverChanged(); });
   connect(&session, &EditorSession::hoverChanged, this, [state] { state->hoverChanged(); });
   connect(&session, &EditorSession::pinChanged, this, [state] { state->requestOverlay(); });
+  connect(&session.growing(), &GrowingPlayer::changed, this, [this] { update(); });
   connect(&session, &EditorSession::cursorChanged, this, qOverload<>(&QWidget::update));
   connect(&session, &EditorSession::runFinished, this, qOverload<>(&QWidget::update));
   connect(&session, &EditorSession::busyChanged, this, [state](bool busy) { state->busyChanged(busy); });

@@ -93,6 +93,8 @@ std::vector<ActionInfo> toolActions() {
        tr("Click a line where it has a sharp corner; click the corner again to remove it."), true},
       {ToolPen, "tool-pen", menu, tr("Draw with pen"), keys({"D"}),
        tr("Drag to draw a line, with a mouse or a tablet; Del removes the selected one."), true},
+      {ToolSegments, "tool-segments", menu, tr("Set segment points"), keys({"G"}),
+       tr("Click a line where two typical curves are to meet; click the point again to remove it."), true},
   };
 }
 
@@ -189,6 +191,8 @@ std::optional<Tool> toolOf(ActionId id) {
       return Tool::Corners;
     case ActionId::ToolPen:
       return Tool::Pen;
+    case ActionId::ToolSegments:
+      return Tool::Segments;
     default:
       return std::nullopt;
   }
@@ -215,6 +219,8 @@ ActionId toolAction(Tool tool) {
       return ActionId::ToolCorners;
     case Tool::Pen:
       return ActionId::ToolPen;
+    case Tool::Segments:
+      return ActionId::ToolSegments;
   }
   return ActionId::ToolSelect;
 }

@@ -47,6 +47,7 @@ enum class ActionId {
   ToolThresholds,
   ToolCorners,
   ToolPen,
+  ToolSegments,
   Pin,
   Target1,
   Target2,

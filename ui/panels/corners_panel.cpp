@@ -41,7 +41,8 @@ void fitHeight(QListWidget* list, int most) {
 CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
     : QWidget(parent), session_(session), view_(view), marks_(new QListWidget(this)),
       remove_(plainButton(tr("Remove"), QStringLiteral("corners.remove"), this)),
-      removeAll_(plainButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)), angle_(new NumberField(this)),
+      removeAll_(plainButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)), rounding_(new NumberField(this)),
+      angle_(new NumberField(this)),
       angleTrack_(new SliderTrack(this)), suggested_(new QListWidget(this)), suggestedNote_(note({}, this)),
       take_(plainButton(tr("Mark"), QStringLiteral("corners.take"), this)),
       takeAll_(plainButton(tr("Mark all"), QStringLiteral("corners.takeAll"), this)),
@@ -61,13 +62,33 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
   buttons->addWidget(removeAll_);
   buttons->addStretch();
   layout->addLayout(buttons);
+  auto* rounding = new QHBoxLayout;
+  auto* roundingName = new QLabel(tr("Rounding"), this);
+  const QString roundingHelp = tr("How far from the selected corner its rounding by two typical curves begins. 0 keeps it sharp.");
+  roundingName->setToolTip(roundingHelp);
+  rounding_->setToolTip(roundingHelp);
+  rounding_->setObjectName(QStringLiteral("corners.rounding"));
+  rounding_->setRange(0.0, 500.0);
+  rounding_->setDecimals(2);
+  rounding_->setStep(0.5);
+  rounding_->setUnit(QStringLiteral("mm"));
+  rounding_->setFixedWidth(92);
+  rounding_->edit()->setAccessibleName(tr("Rounding of the selected corner"));
+  rounding->addWidget(roundingName);
+  rounding->addStretch();
+  rounding->addWidget(rounding_);
+  layout->addLayout(rounding);
+  connect(rounding_, &NumberField::committed, this, &CornersPanel::roundSelected);
   buildSuggestions();
   layout->addStretch();
   auto* del = new QShortcut(QKeySequence(Qt::Key_Delete), marks_, nullptr, nullptr, Qt::WidgetShortcut);
   connect(del, &QShortcut::activated, this, &CornersPanel::removeSelected);
   connect(remove_, &QPushButton::clicked, this, &CornersPanel::removeSelected);
   connect(removeAll_, &QPushButton::clicked, this, &CornersPanel::removeAll);
-  connect(marks_, &QListWidget::currentRowChanged, this, [this](int row) { remove_->setEnabled(row >= 0); });
+  connect(marks_, &QListWidget::currentRowChanged, this, [this](int row) {
+    remove_->setEnabled(row >= 0);
+    showRounding();
+  });
   connect(&session_, &EditorSession::scanOpened, this, &CornersPanel::refresh);
   connect(&session_, &EditorSession::recipeChanged, this, &CornersPanel::refreshMarks);
   connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
@@ -170,6 +191,7 @@ void CornersPanel::refreshMarks() {
   marks_->setCurrentRow(std::min(current, marks_->count() - 1));
   remove_->setEnabled(marks_->currentRow() >= 0);
   removeAll_->setEnabled(!marks.empty());
+  showRounding();
   showSuggestions(suggestions_);
 }
 
@@ -216,6 +238,26 @@ void CornersPanel::mark(const std::vector<Vec2>& positions) {
   Recipe after = session_.recipe();
   for (const Vec2& position : positions) after.cornerMarks.push_back({position});
   session_.change(positions.size() == 1 ? tr("Mark corner") : tr("Mark suggested corners"), std::move(after));
+}
+
+void CornersPanel::showRounding() {
+  const int row = marks_->currentRow();
+  const auto& marks = session_.recipe().cornerMarks;
+  const bool isMark = row >= 0 && row < static_cast<int>(marks.size());
+  rounding_->setEnabled(isMark);
+  if (isMark) {
+    rounding_->setValue(marks[static_cast<std::size_t>(row)].roundMm);
+  } else {
+    rounding_->setEmpty(tr("select one"));
+  }
+}
+
+void CornersPanel::roundSelected(double mm) {
+  const int row = marks_->currentRow();
+  Recipe after = session_.recipe();
+  if (row < 0 || row >= static_cast<int>(after.cornerMarks.size())) return;
+  after.cornerMarks[static_cast<std::size_t>(row)].roundMm = mm;
+  session_.change(mm > 0.0 ? tr("Round corner") : tr("Sharpen corner"), std::move(after));
 }
 
 void CornersPanel::removeSelected() {

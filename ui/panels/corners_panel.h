@@ -34,6 +34,8 @@ class CornersPanel : public QWidget {
   void refreshMarks();
   void suggest();
   void showSuggestions(std::vector<CornerSuggestion> found);
+  void showRounding();
+  void roundSelected(double mm);
   void removeSelected();
   void removeAll();
   void mark(const std::vector<Vec2>& positions);
@@ -44,6 +46,7 @@ class CornersPanel : public QWidget {
   QListWidget* marks_;
   QPushButton* remove_;
   QPushButton* removeAll_;
+  NumberField* rounding_;
   NumberField* angle_;
   SliderTrack* angleTrack_;
   QListWidget* suggested_;

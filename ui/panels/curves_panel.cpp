@@ -6,10 +6,12 @@
 #include <QLineEdit>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "ui/panels/curve_list.h"
+#include "ui/panels/growing_controls.h"
 #include "ui/panels/knot_panel.h"
 #include "ui/panels/method_table.h"
 #include "ui/panels/number_field.h"
@@ -78,7 +80,8 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
                                    "construct.gradients", "construct.magnitude_as_in_paper", "construct.growing_as_in_paper"},
                                   this)),
       methods_(new MethodTable(session, this)), knots_(new KnotPanel(session, view, this)), figures_(new FigureTable(this)),
-      note_(note({}, this)) {
+      note_(note({}, this)), segmentsNote_(note({}, this)),
+      growing_(new GrowingControls(session.growing(), this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(14, 12, 14, 12);
   layout->setSpacing(8);
@@ -87,6 +90,8 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
   layout->addWidget(new PinPanel(session, this));
   layout->addWidget(editor_);
   layout->addWidget(knots_);
+  layout->addWidget(segmentsNote_);
+  layout->addWidget(growing_);
   layout->addWidget(caption(tr("Curves"), this));
   layout->addWidget(new CurveList(session, this));
   layout->addWidget(caption(tr("Selected curve"), this));
@@ -119,6 +124,12 @@ void CurvesPanel::refresh() {
   editor_->setRowVisible("construct.growing_stop", grows);
   editor_->setRowVisible("construct.growing_as_in_paper", grows);
   editor_->setRowVisible("construct.keep_extrema", method == ConstructMethod::Fair);
+  growing_->setVisible(grows);
+  const auto set = session_.recipe().segmentPoints.size();
+  segmentsNote_->setVisible(typical);
+  segmentsNote_->setText(set == 0 ? tr("To say where segments meet, press G and click the line.")
+                                  : counted(static_cast<qint64>(set), tr("1 segment point set. G, then click it to remove it."),
+                                            tr("%1 segment points set. G, then click one to remove it.")));
   knots_->setVisible(method == ConstructMethod::ControlPolygon);
   const bool segmented = method != ConstructMethod::Fair && method != ConstructMethod::ControlPolygon;
   const bool counted = segments.mode == SegmentMode::Stations || segments.mode == SegmentMode::Count;
@@ -140,7 +151,18 @@ void CurvesPanel::refresh() {
                      {tr("95 % of points within"), {{millimetres(f.fromPoints.percentile95)}}, {}},
                      {tr("Curvature extrema"), {{QString::number(f.extrema)}}, tr("Places where the curvature turns back: fewer is fairer.")},
                      {tr("Inflections"), {{QString::number(f.inflections)}}, tr("Places where the curve bends the other way.")}});
-  note_->setText(QString::fromStdString(curve->construct.note));
+  QString text = QString::fromStdString(curve->construct.note);
+  const auto& made = curve->construct.segments;
+  const auto typicalCount = std::count_if(made.begin(), made.end(), [](const SegmentNote& n) { return n.typical; });
+  const auto monotoneCount =
+      std::count_if(made.begin(), made.end(), [](const SegmentNote& n) { return n.typical && n.monotone; });
+  if (!made.empty() && text.isEmpty()) {
+    text = tr("%1 typical curves, %2 of them monotone, and %3 transitions.")
+               .arg(typicalCount)
+               .arg(monotoneCount)
+               .arg(static_cast<qint64>(made.size()) - typicalCount);
+  }
+  note_->setText(text);
   note_->setVisible(!note_->text().isEmpty());
 }
 

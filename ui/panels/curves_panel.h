@@ -13,6 +13,7 @@ namespace batten {
 class FigureTable;
 class KnotPanel;
 class MethodTable;
+class GrowingControls;
 class ParameterEditor;
 
 /// How lines become curves, the curves themselves, and the figures of the selected one.
@@ -32,6 +33,8 @@ class CurvesPanel : public QWidget {
   KnotPanel* knots_;
   FigureTable* figures_;
   QLabel* note_;
+  QLabel* segmentsNote_;
+  GrowingControls* growing_;
 };
 
 /// Height and density of the curvature comb; a matter of view, not of the drawing.

@@ -216,6 +216,7 @@ void CurvePlots::refresh() {
       case PlotRole::Budget: return QPen(theme.amber, 1, Qt::DashLine);
       case PlotRole::Sketched: return QPen(grey, 1.2);
       case PlotRole::Faired: return QPen(theme.accent, 2);
+      case PlotRole::Joint: return QPen(theme.text, 1);
     }
     return QPen(grey, 1);
   };
@@ -223,6 +224,10 @@ void CurvePlots::refresh() {
     QCPGraph* graph = d.plot->addGraph();
     graph->setData(QVector<double>(series.s.begin(), series.s.end()), QVector<double>(series.value.begin(), series.value.end()), true);
     graph->setPen(penOf(series));
+    if (series.role == PlotRole::Joint) {
+      graph->setLineStyle(QCPGraph::lsNone);
+      graph->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, theme.text, theme.panel, 5.0));
+    }
     graph->setAntialiased(true);
   }
   const bool sameView = d.shownTab == d.tab && d.shownCurve == d.session.selectedCurve() &&

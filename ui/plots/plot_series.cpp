@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -92,6 +93,21 @@ void addBand(PlotData& data, const TracedCurve& curve, const std::vector<CurveSa
   }
 }
 
+/// Where two pieces of the shown curve meet (001 figures 11 to 14): knots of multiplicity 3 and more.
+void addJoints(PlotData& data, const NurbsCurve& curve, double scale, const auto& valueAt) {
+  PlotSeries joints{PlotRole::Joint, 0, {}, {}};
+  const auto knots = curve.knots();
+  const ArcLength arc(curve);
+  for (const double u : curve.breaks()) {
+    if (u <= curve.start() || u >= curve.end() || std::count(knots.begin(), knots.end(), u) < 3) continue;
+    const std::optional<double> value = valueAt(curve, u);
+    if (!value) continue;
+    joints.s.push_back(arc.at(u) * scale);
+    joints.value.push_back(*value);
+  }
+  if (!joints.s.empty()) data.series.push_back(std::move(joints));
+}
+
 void addDeviation(PlotData& data, const EditorSession& session, const TracedCurve& curve, double scale) {
   // Signed distance of the scan's edge points and of the faired curve from the sketched one, positive to the left.
   const ArcLength arc(curve.sketched);
@@ -158,6 +174,8 @@ PlotData plotData(const EditorSession& session, PlotTab tab) {
     add(data, PlotRole::Sketched, sketched, scale, valueOf);
     add(data, PlotRole::Faired, faired, 1.0, valueOf);
   };
+  const NurbsCurve& shown = faired.empty() ? curve->sketched : curve->faired;
+  const double shownScale = faired.empty() ? scale : 1.0;
   switch (tab) {
     case PlotTab::Radius:
       data.logarithmic = true;
@@ -166,10 +184,14 @@ PlotData plotData(const EditorSession& session, PlotTab tab) {
     case PlotTab::Curvature:
       addBand(data, *curve, sketched, scale);
       addBoth([](const CurveSample& sample) { return sample.kappa; });
+      addJoints(data, shown, shownScale, [](const NurbsCurve& of, double u) { return curvature(of, u); });
       break;
     case PlotTab::Derivative:
       add(data, PlotRole::Sketched, sketched, scale, [](const CurveSample& sample) { return sample.speed; });
       add(data, PlotRole::Faired, faired, 1.0, [](const CurveSample& sample) { return sample.speed; });
+      addJoints(data, shown, shownScale, [](const NurbsCurve& of, double u) {
+        return std::optional(of.derivatives(u, 1)[1].norm());
+      });
       break;
     case PlotTab::Deviation: addDeviation(data, session, *curve, scale); break;
   }

@@ -10,7 +10,7 @@ namespace batten {
 enum class PlotTab { Radius, Curvature, Derivative, Deviation };
 
 /// What a line of a plot stands for; the plot chooses pen and colour.
-enum class PlotRole { Sketched, Faired, Target, ChosenTarget, HoveredTarget, Budget };
+enum class PlotRole { Sketched, Faired, Target, ChosenTarget, HoveredTarget, Budget, Joint };
 
 struct PlotSeries {
   PlotRole role = PlotRole::Sketched;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ui/session/change_recipe.h"
+#include "ui/session/growing_player.h"
 #include "ui/session/session_runner.h"
 
 namespace batten {
@@ -13,9 +14,10 @@ namespace {
 constexpr double kSamePlacePx = 24.0;
 }  // namespace
 
-EditorSession::EditorSession(QObject* parent) : QObject(parent), runner_(std::make_unique<Runner>(*this)) {}
+EditorSession::EditorSession(QObject* parent) : QObject(parent), runner_(std::make_unique<Runner>(*this)), growing_(new GrowingPlayer(*this)) {}
 
 EditorSession::~EditorSession() {
+  growing_->close();
   // Told to stop together, then joined one by one: quitting takes as long as the slowest, not as the sum.
   runner_->pipeline.cancelAll();
   runner_->reader.cancelAll();

@@ -14,6 +14,7 @@
 
 namespace batten {
 
+class GrowingPlayer;
 /// A result set aside to compare later ones with. All parts belong together.
 struct PinnedResult {
   std::shared_ptr<const FairedSet> faired;
@@ -90,6 +91,8 @@ class EditorSession : public QObject {
   void hoverTarget(int degree);
   /// The cursor common to canvas and plots: arc length [mm] on the selected curve, or none.
   std::optional<double> cursor() const { return cursorMm_; }
+  /// How the typical chain of the selected curve grows, step by step; idle until it is opened.
+  GrowingPlayer& growing() const { return *growing_; }
   void setCursor(std::optional<double> sMm);
 
  signals:
@@ -121,6 +124,7 @@ class EditorSession : public QObject {
   std::optional<double> cursorMm_;
   std::shared_ptr<const PinnedResult> pinned_;
   double lastRunMs_ = 0.0;
+  GrowingPlayer* growing_ = nullptr;
 };
 
 }  // namespace batten

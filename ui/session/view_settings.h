@@ -19,8 +19,9 @@ enum class Tool {
   Thresholds,  ///< Click selects a region; wheel or vertical drag changes its threshold.
   Corners,     ///< Click on a line marks a corner, click on a corner removes it.
   Pen,         ///< Drag draws a line; click selects a drawn one, Del removes it.
+  Segments,    ///< Click on a line sets a place where typical curves meet, click on it removes it.
 };
-inline constexpr std::array kTools = {Tool::Select, Tool::Thresholds, Tool::Corners, Tool::Pen};
+inline constexpr std::array kTools = {Tool::Select, Tool::Thresholds, Tool::Corners, Tool::Pen, Tool::Segments};
 
 /// How the drawing is shown: never part of the recipe, never undone, kept between sessions.
 class ViewSettings : public QObject {

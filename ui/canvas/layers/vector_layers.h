@@ -17,6 +17,10 @@ void paintFaired(QPainter&, const CanvasScene&);
 void paintCombs(QPainter&, const CanvasScene&);
 void paintDeviation(QPainter&, const CanvasScene&);
 void paintCorners(QPainter&, const CanvasScene&);
+/// Where the user wants typical curves to meet.
+void paintSegmentPoints(QPainter&, const CanvasScene&);
+/// The step of the growing chain that is played.
+void paintGrowing(QPainter&, const CanvasScene&);
 void paintRegionGrid(QPainter&, const CanvasScene&);
 /// The hovered target, dashed.
 void paintGhost(QPainter&, const CanvasScene&, const QPainterPath& ghost);

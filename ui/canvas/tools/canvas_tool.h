@@ -44,5 +44,6 @@ std::unique_ptr<CanvasTool> makeSelectTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeThresholdTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeCornerTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makePenTool(CanvasScene&);
+std::unique_ptr<CanvasTool> makeSegmentTool(CanvasScene&);
 
 }  // namespace batten

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/session/growing_player.h"
+
+#include <QPointer>
+#include <algorithm>
+
+#include "ui/session/editor_session.h"
+
+namespace batten {
+namespace {
+
+constexpr int kStepMs = 350;
+
+}  // namespace
+
+GrowingPlayer::GrowingPlayer(EditorSession& session) : QObject(&session), session_(session) {
+  timer_.setInterval(kStepMs);
+  connect(&timer_, &QTimer::timeout, this, [this] {
+    if (step_ + 1 < stepCount()) setStep(step_ + 1);
+    if (step_ + 1 >= stepCount()) setPlaying(false);
+  });
+  connect(&session_, &EditorSession::selectionChanged, this, &GrowingPlayer::compute);
+  connect(&session_, &EditorSession::runFinished, this, &GrowingPlayer::compute);
+  connect(&session_, &EditorSession::scanOpened, this, &GrowingPlayer::close);
+}
+
+void GrowingPlayer::open() {
+  if (isOpen_) return;
+  isOpen_ = true;
+  compute();
+}
+
+void GrowingPlayer::close() {
+  if (!isOpen_) return;
+  isOpen_ = false;
+  timer_.stop();
+  worker_.cancelAll();
+  ++newest_;
+  steps_.reset();
+  problem_.clear();
+  step_ = -1;
+  emit changed();
+}
+
+void GrowingPlayer::compute() {
+  if (!isOpen_) return;
+  const std::uint64_t request = ++newest_;
+  timer_.stop();
+  steps_.reset();
+  step_ = -1;
+  const auto pieces = session_.output().pieces;
+  const auto segments = session_.output().segments;
+  const TracedCurve* curve = session_.selected();
+  problem_ = curve && pieces && segments ? QString() : tr("Select a curve to see how its chain grows.");
+  emit changed();
+  if (!problem_.isEmpty()) return;
+  worker_.start([pieces, segments, request, recipe = session_.recipe(), frame = session_.output().frame, piece = curve->piece,
+                 player = QPointer<GrowingPlayer>(this)](const CancelToken& token) {
+    RunContext context;
+    context.cancel = token;
+    auto result = growingStepsOf(*pieces, *segments, recipe, frame, piece, context);
+    if (token.isCancelled()) return;
+    auto steps = result ? std::make_shared<const std::vector<GrowingStep>>(std::move(*result)) : nullptr;
+    const QString problem = result ? QString() : QString::fromStdString(result.error().message);
+    if (!player) return;
+    QMetaObject::invokeMethod(player.data(), [player, request, steps, problem] {
+      if (player) player->take(request, steps, problem);
+    }, Qt::QueuedConnection);
+  });
+}
+
+void GrowingPlayer::take(std::uint64_t request, std::shared_ptr<const std::vector<GrowingStep>> steps, const QString& problem) {
+  if (request != newest_ || !isOpen_) return;
+  steps_ = std::move(steps);
+  problem_ = problem;
+  if (steps_ && steps_->empty()) problem_ = tr("This line nowhere bends clearly enough for typical curves.");
+  step_ = stepCount() > 0 ? 0 : -1;
+  emit changed();
+}
+
+void GrowingPlayer::setStep(int step) {
+  const int bounded = std::clamp(step, stepCount() > 0 ? 0 : -1, std::max(stepCount() - 1, -1));
+  if (bounded == step_) return;
+  step_ = bounded;
+  emit changed();
+}
+
+void GrowingPlayer::setPlaying(bool playing) {
+  if (playing == timer_.isActive()) return;
+  if (playing && stepCount() > 0) {
+    if (step_ + 1 >= stepCount()) step_ = 0;
+    timer_.start();
+  } else {
+    timer_.stop();
+  }
+  emit changed();
+}
+
+}  // namespace batten

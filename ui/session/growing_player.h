@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <QTimer>
+#include <memory>
+#include <vector>
+
+#include "core/pipeline/segment_points.h"
+#include "ui/session/background_worker.h"
+
+namespace batten {
+
+class EditorSession;
+
+/// Plays how the typical chain of the selected curve grows (002 figures 3 and 5): the steps are computed behind the
+/// window on request and shown one by one. Belongs to the GUI thread; never waits.
+class GrowingPlayer : public QObject {
+  Q_OBJECT
+ public:
+  explicit GrowingPlayer(EditorSession& session);
+
+  /// Computes the steps of the selected curve; `changed` follows.
+  void open();
+  void close();
+  bool isOpen() const { return isOpen_; }
+  bool isComputing() const { return isOpen_ && !steps_ && problem_.isEmpty(); }
+  QString problem() const { return problem_; }
+  int stepCount() const { return steps_ ? static_cast<int>(steps_->size()) : 0; }
+  /// The step shown, 0..stepCount() - 1; -1 while there are none.
+  int step() const { return step_; }
+  const std::vector<GrowingStep>* steps() const { return steps_.get(); }
+  void setStep(int step);
+  bool isPlaying() const { return timer_.isActive(); }
+  void setPlaying(bool playing);
+
+ signals:
+  void changed();
+
+ private:
+  void compute();
+  void take(std::uint64_t request, std::shared_ptr<const std::vector<GrowingStep>> steps, const QString& problem);
+
+  EditorSession& session_;
+  std::shared_ptr<const std::vector<GrowingStep>> steps_;
+  QString problem_;
+  bool isOpen_ = false;
+  int step_ = -1;
+  std::uint64_t newest_ = 0;
+  QTimer timer_;
+  BackgroundWorker worker_;
+};
+
+}  // namespace batten
