@@ -51,6 +51,7 @@ TypicalLine typicalLine(const ConstructPiece& piece, double pixelMm, const Const
   for (const double length : faired.lengths) total += length;
   line.unitMm = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / 1000.0;
   line.originMm = stations.front().point;
+  line.endMm = stations.back().point;
   for (const Joint& j : faired.joints) {
     line.joints.push_back({line.toLine(j.point), j.tangent, j.kappa * line.unitMm});
   }
@@ -205,8 +206,8 @@ Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, double pi
     }
     return other;
   }
-  const Vec2 end = line.closed ? Vec2(curve->controlPoints().front()) : line.toModel(line.joints.back().point);
-  const Vec2 start = line.closed ? end : line.toModel(line.joints.front().point);
+  const Vec2 end = line.closed ? Vec2(curve->controlPoints().front()) : line.endMm;
+  const Vec2 start = line.closed ? end : line.originMm;
   curve = clampedWithEnds(*curve, start, end);
   if (!curve) return fail(curve.error());
   ConstructedPiece result{std::move(*curve), {}};

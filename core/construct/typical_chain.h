@@ -16,6 +16,7 @@ struct TypicalLine {
   bool closed = false;
   double unitMm = 1.0;
   Vec2 originMm = Vec2::Zero();
+  Vec2 endMm = Vec2::Zero();  ///< Open: where the line ends; it starts at the origin.
 
   Vec2 toLine(const Vec2& mm) const { return (mm - originMm) / unitMm; }
   Vec2 toModel(const Vec2& p) const { return originMm + unitMm * p; }

@@ -21,7 +21,7 @@ constexpr double kFirstTurn = 0.7;
 constexpr std::size_t kJointsPerHermite = 12;
 constexpr std::size_t kMostElements = 60;
 /// Points nearer than this to the path are near enough: what scans can tell at best.
-constexpr double kFloor = 0.02;
+constexpr double kFloor = 0.04;
 /// [chi2] An extremum that costs less to remove goes.
 constexpr double kExtremumCost = 20.0;
 constexpr double kTurnCost = 8.0;
@@ -225,7 +225,7 @@ class StructureSearch {
     std::set<std::size_t> tried;
     int failures = 0;
     for (int i = 0; i < most && failures < 3 && path_.elements.size() < kMostElements; ++i) {
-      if (context_.isCancelled()) return;
+      if (context_.isCancelled() || fit_.rms < kFloor) return;
       const auto misfit = systematicMisfit(path_, fit_);
       std::optional<std::size_t> worst;
       for (std::size_t e = 0; e < misfit.size(); ++e) {

@@ -40,7 +40,7 @@ TEST(SolveQuinticDirections, IsRefusedWithTooLittle) {
 
 TEST(ConstructQuinticNurbs, DirectionsTakeUnevenStations) {
   std::mt19937 random(4);
-  std::uniform_real_distribution<double> unit(-0.3, 0.3);
+  std::uniform_real_distribution<double> unit(-0.1, 0.1);
   ConstructPiece piece = test::pieceOf(test::ellipsePoint, 0.1, 1.45, 9, false);
   piece.stations = test::stationsOf(test::ellipsePoint, 0.1, 1.45, 9, false,
                                     [&](int k) { return k > 0 && k < 8 ? unit(random) : 0.0; });
