@@ -86,7 +86,10 @@ class SegmentTool final : public CanvasTool {
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setBrush(Qt::NoBrush);
-    if (const auto& place = hovered_ ? std::optional(scene_.session.recipe().segmentPoints[*hovered_].positionPx) : snapped_) {
+    // Undo may have taken away what the mouse was over.
+    const auto& points = scene_.session.recipe().segmentPoints;
+    const bool isOver = hovered_ && *hovered_ < points.size();
+    if (const std::optional<Vec2> place = isOver ? std::optional(points[*hovered_].positionPx) : snapped_) {
       const QPointF at = scene_.transform.toWidget(*place);
       painter.setPen(QPen(Qt::white, 4.0));
       painter.drawEllipse(at, 7.0, 7.0);
