@@ -215,7 +215,8 @@ void MethodTable::compute() {
   const TracedCurve* curve = session_.selected();
   const PipelineOutput& output = session_.output();
   if (!curve || !output.pieces || !output.segments || session_.isStale(StageId::Segments)) return;
-  Source source{output.pieces, output.segments, session_.recipe().construct, curve->contour, curve->piece, output.frame.mmPerPx};
+  Source source{output.pieces, output.segments, session_.recipe().construct, session_.recipe().segmentPoints, curve->contour, curve->piece,
+                output.frame.mmPerPx};
   source.params.method = ConstructMethod::Fair;  // whichever is chosen, all are compared
   if (source_ && *source_ == source) return;
   source_ = source;
@@ -223,13 +224,12 @@ void MethodTable::compute() {
     figures_[i].reset();
     rows_[i]->show({}, false);
   }
-  worker_->start([output, source, panel = QPointer<MethodTable>(this)](const CancelToken& token) {
+  worker_->start([output, source, base = session_.recipe(), panel = QPointer<MethodTable>(this)](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
     context.threads = 1;
     for (std::size_t i = 0; i < kMethods.size(); ++i) {
-      Recipe recipe;
-      recipe.construct = source.params;
+      Recipe recipe = base;
       recipe.construct.method = kMethods[i];
       std::optional<CurveFigures> figures;
       if (const auto made = constructLine(output, recipe, source.contour, context)) {
