@@ -238,7 +238,7 @@ void MainWindow::enterStage(PanelStage stage) {
       turn(false, {Layer::Curve, Layer::Faired, Layer::Comb});
       break;
     case PanelStage::Edges:
-      turn(true, {Layer::Edges, Layer::Curve});
+      turn(true, {Layer::Edges, Layer::Curve, Layer::Fallback});
       turn(false, {Layer::Faired, Layer::Comb});
       break;
     case PanelStage::Corners:

@@ -14,8 +14,8 @@
 #include "core/pipeline/recipe_file.h"
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
-#include "ui/panels/piece_choice.h"
 #include "ui/session/opened_scan.h"
+#include "ui/session/piece_choice.h"
 #include "ui/plots/curve_plots.h"
 #include "ui/top_bar.h"
 
@@ -144,6 +144,11 @@ void MainWindow::trigger(ActionId id) {
     case ActionId::ZoomActual: return parts_->canvas->zoomActual();
     case ActionId::ZoomIn: return parts_->canvas->zoomBy(1.25);
     case ActionId::ZoomOut: return parts_->canvas->zoomBy(0.8);
+    case ActionId::ClearRegions: {
+      Recipe recipe = session_.recipe();
+      recipe.regions.clear();
+      return session_.change(tr("Clear regions"), std::move(recipe));
+    }
     default: return;
   }
 }
@@ -184,6 +189,7 @@ void MainWindow::refreshActions() {
   for (const ActionId id : {ActionId::ToolPen, ActionId::SaveRecipe, ActionId::Export, ActionId::ZoomFit, ActionId::ZoomActual,
                             ActionId::ZoomIn, ActionId::ZoomOut})
     action(id)->setEnabled(has);
+  action(ActionId::ClearRegions)->setEnabled(!session_.recipe().regions.empty());
   const bool curves = !session_.curves().empty();
   action(ActionId::Pin)->setEnabled(curves || session_.pinned());
   action(ActionId::Pin)->setChecked(session_.pinned() != nullptr);

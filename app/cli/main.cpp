@@ -45,6 +45,8 @@ void addTrace(CLI::App& app, TraceArguments& a) {
               "Sharp corner near this place, px from the upper left; with MM rounded by that size; may be repeated");
   addRepeated(*trace, "--segment-point", a.segmentPoints, "X,Y",
               "Typical curves meet near this place of a line, px from the upper left; may be repeated");
+  addRepeated(*trace, "--roi", a.regions, "X,Y,WIDTH,HEIGHT",
+              "Trace only what lies in this rectangle, px from the upper left; may be repeated");
   trace->add_option("--dpi", a.dpi, "Resolution of the scan, overrides what the file states")->type_name("N");
   trace->add_option("--report", a.report, "Write figures of every stage and curve")->type_name("REPORT.json");
   addRepeated(*trace, "--dump", a.dumps, "STAGE=FILE.png", dumpHelp());

@@ -15,6 +15,7 @@ struct TraceArguments {
   std::vector<std::string> settings;  ///< --set stage.parameter=value
   std::vector<std::string> corners;   ///< --corner X,Y or X,Y,MM
   std::vector<std::string> segmentPoints;  ///< --segment-point X,Y
+  std::vector<std::string> regions;   ///< --roi X,Y,WIDTH,HEIGHT
   std::optional<double> dpi;          ///< --dpi
   std::string report;                 ///< --report
   std::vector<std::string> dumps;     ///< --dump STAGE=FILE.png

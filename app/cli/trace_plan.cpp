@@ -74,6 +74,24 @@ Result<void> applySegmentPoint(const std::string& point, Recipe& recipe) {
   return {};
 }
 
+Result<void> applyRegion(const std::string& region, Recipe& recipe) {
+  std::vector<double> numbers;
+  for (std::size_t from = 0; from <= region.size() && numbers.size() < 5;) {
+    const auto comma = std::min(region.find(',', from), region.size());
+    const auto number = numberFromText(std::string_view(region).substr(from, comma - from));
+    if (!number) break;
+    numbers.push_back(*number);
+    from = comma + 1;
+  }
+  const bool isWhole = std::count(region.begin(), region.end(), ',') == 3 && numbers.size() == 4;
+  if (!isWhole || !(numbers[2] > 0.0) || !(numbers[3] > 0.0)) {
+    return wrong("--roi takes X,Y,WIDTH,HEIGHT in px from the upper left corner, not \"" + region + "\".");
+  }
+  const Vec2 corner(numbers[0], numbers[1]);
+  recipe.regions.push_back(rectangleRegion(corner, corner + Vec2(numbers[2], numbers[3])));
+  return {};
+}
+
 Result<TracePlan::Output> outputOf(const std::string& path) {
   const std::string extension = extensionOf(path);
   if (extension == ".svg") return TracePlan::Output{path, TracePlan::Format::Svg};
@@ -139,6 +157,9 @@ Result<TracePlan> planTrace(const TraceArguments& arguments) {
   }
   for (const std::string& point : arguments.segmentPoints) {
     if (auto set = applySegmentPoint(point, plan.recipe); !set) return fail(set.error());
+  }
+  for (const std::string& region : arguments.regions) {
+    if (auto set = applyRegion(region, plan.recipe); !set) return fail(set.error());
   }
   if (arguments.dpi) plan.recipe.dpi = arguments.dpi;
   if (arguments.scan.empty() && !plan.recipe.page) {

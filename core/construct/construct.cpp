@@ -49,6 +49,7 @@ std::optional<Error> validate(const ConstructParams& params) {
   if (auto error = outside("construct.removal_tolerance", params.removalTolerancePx, 0.0, 50.0)) return error;
   if (auto error = outside("construct.lowpass", params.lowPass, 0.0, 8.0)) return error;
   if (auto error = outside("construct.growing_stop", params.growingStopDeg, 0.2, 20.0)) return error;
+  if (auto error = outside("construct.reduce", params.reduceShare, 0.0, 1.0)) return error;
   return outside("construct.keep_extrema_cost", params.keepExtremaCost, 1.0, 1000.0);
 }
 
@@ -58,6 +59,7 @@ Result<std::vector<ConstructedPiece>> construct(const ConstructContour& contour,
   if (params.method == ConstructMethod::Fair) {
     FairFitOptions options;
     options.keepExtremaCost = params.keepExtremaCost;
+    options.reduceShare = params.reduceShare;
     return fairFit(contour, options, context);
   }
   try {

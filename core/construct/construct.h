@@ -65,9 +65,19 @@ struct ConstructParams {
   double growingStopDeg = 2.0;    ///< [degrees] 0.2..20. Growing: the normals of curve and points may differ by this.
   bool growingAsInPaper = false;  ///< Growing: keeps each fit whole (002; unstable) instead of its first half.
   double keepExtremaCost = 20.0;  ///< [chi2] 1..1000. Fair fit: a curvature extremum cheaper than this is dropped.
+  /// [-] 0..1. Fair fit: part of the noise of an edge point by which the curve may move to need fewer control points;
+  /// 0 keeps them all.
+  double reduceShare = 0.25;
   bool operator==(const ConstructParams&) const = default;
 };
 std::optional<Error> validate(const ConstructParams&);
+
+/// What the user wants of the curvature extremum nearest to a place (fair fit only).
+struct ExtremumWish {
+  Vec2 point = Vec2::Zero();  ///< [mm] model frame, on or near the line.
+  bool keep = true;           ///< False: to be removed.
+  int id = 0;                 ///< The caller's name for it; comes back in the report.
+};
 
 /// One piece as the constructions take it. Model frame, mm.
 struct ConstructPiece {
@@ -79,6 +89,7 @@ struct ConstructPiece {
   bool startIsCorner = false;
   bool endIsCorner = false;
   std::vector<Vec2> divisions;  ///< Places along the line where the user wants typical curves to meet.
+  std::vector<ExtremumWish> wishes = {};
 };
 /// All pieces of one contour: methods may pool what they have in common (noise).
 struct ConstructContour {
@@ -94,6 +105,8 @@ struct ExtremumNote {
   bool maximum = true;
   bool kept = true;
   double removalCost = 0.0;  ///< [chi2] rise of the misfit when it is removed; large = certain.
+  Vec2 point = Vec2::Zero();      ///< [mm] where it is on the curve (a dropped one: where it was seen).
+  std::optional<int> wish = {};   ///< Id of the wish that was attached to it.
 };
 
 /// One segment of a typical chain.
@@ -111,6 +124,7 @@ struct ConstructReport {
   Termination why = Termination::NotRun;
   std::string note;                   ///< One line for the user when a fallback was used; else empty.
   std::vector<ExtremumNote> extrema;  ///< Fair fit only.
+  std::vector<int> unmetWishes;       ///< Ids of wishes that found no extremum, or one that cannot go.
   std::vector<double> bandS;          ///< [mm] arc lengths at which the band is given (fair fit only).
   std::vector<double> bandSigma;      ///< [1/mm] standard deviation of the curvature there.
   std::vector<SegmentNote> segments;  ///< Typical curves only.
@@ -118,6 +132,8 @@ struct ConstructReport {
   int pointsBefore = 0;               ///< Control polygon: points of the line (0 = not a control polygon) …
   int pointsAfter = 0;                ///< … that are left after point removal …
   int pointsAdded = 0;                ///< … and control points added between close corners.
+  int fullControlPoints = 0;          ///< Of the fair fit before control points were spared (0 = not done).
+  double reducedMovedPx = 0.0;        ///< [px] farthest that sparing them moved the curve.
   bool isCircle = false;              ///< Recognised as an exact circle.
   bool isLine = false;                ///< Recognised as an exact line.
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/construct/fair_piece.h"
+#include "core/construct/fair_reduce.h"
 #include "core/construct/fair_structure.h"
 
 namespace batten {
@@ -16,6 +17,8 @@ constexpr double kPinPrecisionPx = 1e-3;  // the rest of the way a linear shift 
 constexpr int kChecksPerSpan = 4, kFineChecksPerSpan = 8;
 constexpr int kRefinements = 3;
 constexpr double kWrongWay = 2e-3;  // [1/diagonal] curvature that may turn back unasked before the frame is refined
+constexpr double kLeastNoisePx = 0.02;  // systematic error of edges on perfect pages
+constexpr double kKappaShare = 2.0;     // of the share of the noise, for the curvature
 constexpr double kCornerReachPx = 16.0;  // an end may lie this far beyond the curve of the moment
 constexpr const char* kShortNote =
     "Too short for the fair fit; a smooth curve of low degree through the points instead.";
@@ -56,6 +59,7 @@ class Finish {
     auto curve = placed(base.toNurbs(pixelMm_, pixelMm_, start, end), piece_, in_, pixelMm_);
     if (!curve) return simple(kPlainNote);
     report_ = {};
+    noWishMet();
     report_.why = Termination::Degenerate;
     report_.note = kPlainNote;
     piece_.result = ConstructedPiece{*curve, report_};
@@ -69,6 +73,7 @@ class Finish {
       return;
     }
     report_ = {};
+    noWishMet();
     report_.why = Termination::Degenerate;
     report_.note = note;
     piece_.result = ConstructedPiece{*curve, report_};
@@ -83,9 +88,12 @@ class Finish {
         localPosterior(frame_, s0_, uniformPrior(frame_, s0_, cutoffPx_), options_.emRounds, options_.emWidthPx);
     if (!local || context_.isCancelled()) return false;
     double circleCost = std::numeric_limits<double>::quiet_NaN();
-    if (piece_.data.closed && circle(local->objective(local->mean), circleCost)) return true;
-    auto found = findStructure(frame_, *local, options_.keepExtremaCost, context_);
+    const std::vector<PlacedWish> wishes = placedWishes();
+    const bool keeps = std::any_of(wishes.begin(), wishes.end(), [](const PlacedWish& w) { return w.keep; });
+    if (piece_.data.closed && !keeps && circle(local->objective(local->mean), circleCost)) return true;
+    auto found = findStructure(frame_, *local, options_.keepExtremaCost, wishes, context_);
     if (!found) return false;
+    report_.unmetWishes = found->unmetWishes;
     if (!piece_.data.closed && found->structure.extrema.empty() && line(found->objective)) return true;
 
     if (!moveFrame(found->c)) return false;
@@ -115,6 +123,25 @@ class Finish {
     return !frame_.blocks.empty();
   }
 
+  /// The wishes by the parameter of the nearest point.
+  std::vector<PlacedWish> placedWishes() const {
+    std::vector<PlacedWish> placed;
+    for (const ExtremumWish& wish : in_.wishes) {
+      const Vec2 p = wish.point / pixelMm_ - piece_.origin;
+      double least = std::numeric_limits<double>::infinity(), u = 0.0;
+      for (std::size_t i = 0; i < piece_.data.points.size(); ++i) {
+        const double distance = (piece_.data.points[i] - p).squaredNorm();
+        if (piece_.data.use[i] && distance < least) least = distance, u = piece_.data.t[i];
+      }
+      placed.push_back({u, wish.keep, wish.id});
+    }
+    return placed;
+  }
+
+  void noWishMet() {
+    for (const ExtremumWish& wish : in_.wishes) report_.unmetWishes.push_back(wish.id);
+  }
+
   bool circle(double objective, double& cost) {
     const auto fit = fitCircle(blockMeans(frame_));
     if (!fit) return false;
@@ -122,11 +149,12 @@ class Finish {
     if (!(cost < 2.0 * options_.keepExtremaCost)) return false;
     const PlaneDerivatives start = frame_.base.at(0.0, 1);
     const bool left = cross(start[0] - fit->centre, start[1]) > 0.0;
-    const UniformQuintic curve = circleCurve(*fit, start[0], left, options_.knotSpacingPx);
+    const UniformQuintic curve = circleCurve(*fit, start[0], left);
     auto nurbs = placed(curve.toNurbs(pixelMm_, pixelMm_, Vec2::Zero(), Vec2::Zero()), piece_, in_, pixelMm_);
     if (!nurbs) return false;
     report_.why = Termination::Exact;
     report_.isCircle = true;
+    noWishMet();
     // Three parameters: the curvature -1/r varies as the radius does, r +- sqrt(S0 / length).
     const double sigma = std::sqrt(s0_ / frame_.base.knots().length) / (fit->radius * fit->radius);
     for (const double s : {0.0, curve.knots().length}) {
@@ -212,23 +240,9 @@ class Finish {
       high = high.cwiseMax(p);
     }
     const double least = kWrongWay / (high - low).norm();
-    double lowest = stations.front().kappa, highest = lowest;
-    std::size_t turns = 0;
-    int direction = 0;
-    for (const FrameStation& s : stations) {
-      lowest = std::min(lowest, s.kappa);
-      highest = std::max(highest, s.kappa);
-      if (direction >= 0 && highest - s.kappa > least) {
-        turns += direction > 0 ? 1 : 0;
-        direction = -1;
-        lowest = s.kappa;
-      } else if (direction <= 0 && s.kappa - lowest > least) {
-        turns += direction < 0 ? 1 : 0;
-        direction = 1;
-        highest = s.kappa;
-      }
-    }
-    return turns > structure.extrema.size();
+    std::vector<double> kappa;
+    for (const FrameStation& s : stations) kappa.push_back(s.kappa);
+    return countTurns(kappa, least) > static_cast<int>(structure.extrema.size());
   }
 
   bool finishCurve(const FairPosterior& posterior, StructureResult& found, double circleCost) {
@@ -247,8 +261,10 @@ class Finish {
     pinShifts(*curve, start, end);
     auto nurbs = placed(curve->toNurbs(pixelMm_, pixelMm_, start, end), piece_, in_, pixelMm_);
     if (!nurbs) return false;
+    report_.fullControlPoints = nurbs->controlPointCount();
+    if (auto fewer = reduced(posterior, *curve, start, end)) nurbs = std::move(*fewer);
     report_.why = found.limited ? Termination::IterationLimit : Termination::Converged;
-    noteExtrema(found, circleCost);
+    noteExtrema(found, *curve, circleCost);
     noteBand(posterior, *curve);
     piece_.squares = frame_.squares;
     piece_.pointCount = frame_.pointCount;
@@ -256,10 +272,45 @@ class Finish {
     return true;
   }
 
-  void noteExtrema(const StructureResult& found, double circleCost) {
+  /// The same curve with fewer control points, as far as the noise of the edge allows.
+  std::optional<Result<NurbsCurve>> reduced(const FairPosterior& posterior, const UniformQuintic& curve,
+                                            const Vec2& start, const Vec2& end) {
+    if (!(options_.reduceShare > 0.0) || frame_.pointCount == 0 || context_.isCancelled()) return std::nullopt;
+    const auto stations = static_cast<std::size_t>(kChecksPerSpan * curve.knots().spans + (piece_.data.closed ? 0 : 1));
+    const std::size_t stride = std::max<std::size_t>(1, frame_.checks.size() / stations);
+    std::vector<double> sigma;
+    for (std::size_t i = 0; i < frame_.checks.size(); i += stride) {
+      sigma.push_back(std::sqrt(
+          std::max(0.0, BandCholesky::quadratic(posterior.covariance, frame_.checks[i].kappaRow))));
+    }
+    ReduceLimits limits;
+    limits.distancePx =
+        options_.reduceShare * std::max(kLeastNoisePx, std::sqrt(frame_.squares / frame_.pointCount));
+    limits.kappaSigma = sigma;
+    limits.perSpan = kChecksPerSpan;
+    limits.kappaShare = kKappaShare * options_.reduceShare;
+    limits.startShift = start;
+    limits.endShift = end;
+    const auto fewer = withFewestPoints(curve, limits);
+    if (!fewer) return std::nullopt;
+    std::vector<double> knots(fewer->curve.knots().begin(), fewer->curve.knots().end());
+    std::vector<Vec2> points(fewer->curve.controlPoints().begin(), fewer->curve.controlPoints().end());
+    for (double& k : knots) k *= pixelMm_;
+    for (Vec2& p : points) p *= pixelMm_;
+    auto nurbs = placed(NurbsCurve::make(5, std::move(knots), std::move(points)), piece_, in_, pixelMm_);
+    if (!nurbs) return std::nullopt;
+    report_.reducedMovedPx = fewer->movedPx;
+    return nurbs;
+  }
+
+  void noteExtrema(const StructureResult& found, const UniformQuintic& curve, double circleCost) {
     const auto note = [&](const FairExtremum& e, bool kept) {
       const double cost = e.costKnown || !kept || !std::isfinite(circleCost) ? e.removalCost : circleCost;
-      report_.extrema.push_back({e.u * pixelMm_, e.kappa / pixelMm_, e.maximum, kept, cost});
+      const double u = std::clamp(e.u, 0.0, curve.knots().length);
+      ExtremumNote made{curve.arcLength(u) * pixelMm_, e.kappa / pixelMm_, e.maximum, kept, cost};
+      made.point = (curve.at(u, 0)[0] + piece_.origin) * pixelMm_;
+      if (e.wish >= 0) made.wish = e.wish;
+      report_.extrema.push_back(made);
     };
     for (const FairExtremum& e : found.structure.extrema) note(e, true);
     for (const FairExtremum& e : found.dropped) note(e, false);

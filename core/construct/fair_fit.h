@@ -18,6 +18,7 @@ struct FairFitOptions {
   int emRounds = 5;
   double emWidthPx = 40.0;
   double keepExtremaCost = 20.0;  ///< T: an extremum whose removal costs less is dropped.
+  double reduceShare = 0.25;      ///< Of the noise of an edge point: how far fewer control points may move the curve.
   double gateOutlinePx = 1.5, gateStrokePx = 2.5;
 };
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kPilotCutoffPx = 50.0;
 constexpr double kSmoothingSamples = 3.0;
+constexpr double kTwoNodes = 0.28867513459481287;  // of Gauss-Legendre, from the middle of a unit interval
 constexpr int kClosedSpansMin = 12;  // so that band entries of periodic inverses are all different places
 
 /// Gaussian smoothing by order; open ends are continued by reflection in the end point, which keeps it in place.
@@ -44,31 +45,14 @@ Vec2 unitNormal(const Vec2& velocity) {
 }
 
 FrameStation makeStation(const UniformQuintic& base, double u, bool bendOnly) {
-  const PlaneDerivatives d = base.at(u, 4);
-  FrameStation s;
-  s.u = u;
-  const double w = std::max(d[1].squaredNorm(), 1e-12), v = std::sqrt(w);
-  const double w1 = 2.0 * d[1].dot(d[2]), w2 = 2.0 * (d[2].squaredNorm() + d[1].dot(d[3]));
-  const double c = cross(d[1], d[2]), c1 = cross(d[1], d[3]), c2 = cross(d[2], d[3]) + cross(d[1], d[4]);
-  const double w32 = 1.0 / (w * v);
-  s.kappa = c * w32;
-  const double kt = w32 * (c1 - 1.5 * c * w1 / w);
-  const double ktt = w32 * (c2 - 3.0 * c1 * w1 / w + 3.75 * c * w1 * w1 / (w * w) - 1.5 * c * w2 / w);
-  s.slope = kt / v;
-  s.bend = (ktt - 0.5 * kt * w1 / w) / w;
   const UniformKnots& knots = base.knots();
-  const BandRow b0 = knots.row(u, 0), b1 = knots.row(u, 1), b2 = knots.row(u, 2), b4 = knots.row(u, 4);
-  const double k = s.kappa, k1 = s.slope, k2 = s.bend;
-  s.bendRow.first = s.kappaRow.first = s.slopeRow.first = b0.first;
-  for (std::size_t i = 0; i < 6; ++i) {
-    s.bendRow.v[i] = b4.v[i] + k * k * b2.v[i] + 4.0 * k * k1 * b1.v[i] + (2.0 * k1 * k1 + 2.0 * k * k2) * b0.v[i];
+  std::array<BandRow, 5> rows;
+  for (int order = 0; order < 5; ++order) {
+    if (order == 3 && bendOnly) continue;
+    rows[static_cast<std::size_t>(order)] = knots.row(u, order);
   }
-  if (bendOnly) return s;
-  const BandRow b3 = knots.row(u, 3);
-  for (std::size_t i = 0; i < 6; ++i) {
-    s.kappaRow.v[i] = b2.v[i] + k * k * b0.v[i];
-    s.slopeRow.v[i] = b3.v[i] + k * k * b1.v[i] + 2.0 * k * k1 * b0.v[i];
-  }
+  FrameStation s = frameStation(base.at(u, 4), rows);
+  s.u = u;
   return s;
 }
 
@@ -114,6 +98,27 @@ double robustSigma(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return 1.4826 * *middle;
+}
+
+FrameStation frameStation(const PlaneDerivatives& d, const std::array<BandRow, 5>& b) {
+  FrameStation s;
+  const double w = std::max(d[1].squaredNorm(), 1e-12), v = std::sqrt(w);
+  const double w1 = 2.0 * d[1].dot(d[2]), w2 = 2.0 * (d[2].squaredNorm() + d[1].dot(d[3]));
+  const double c = cross(d[1], d[2]), c1 = cross(d[1], d[3]), c2 = cross(d[2], d[3]) + cross(d[1], d[4]);
+  const double w32 = 1.0 / (w * v);
+  s.kappa = c * w32;
+  const double kt = w32 * (c1 - 1.5 * c * w1 / w);
+  const double ktt = w32 * (c2 - 3.0 * c1 * w1 / w + 3.75 * c * w1 * w1 / (w * w) - 1.5 * c * w2 / w);
+  s.slope = kt / v;
+  s.bend = (ktt - 0.5 * kt * w1 / w) / w;
+  const double k = s.kappa, k1 = s.slope, k2 = s.bend;
+  s.bendRow.first = s.kappaRow.first = s.slopeRow.first = b[0].first;
+  for (std::size_t i = 0; i < 6; ++i) {
+    s.bendRow.v[i] = b[4].v[i] + k * k * b[2].v[i] + 4.0 * k * k1 * b[1].v[i] + (2.0 * k1 * k1 + 2.0 * k * k2) * b[0].v[i];
+    s.kappaRow.v[i] = b[2].v[i] + k * k * b[0].v[i];
+    s.slopeRow.v[i] = b[3].v[i] + k * k * b[1].v[i] + 2.0 * k * k1 * b[0].v[i];
+  }
+  return s;
 }
 
 UniformKnots fairKnots(double length, double spacingPx, bool closed) {
@@ -217,11 +222,10 @@ std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorX
   double length = 0.0;
   for (int j = 0; j <= intervals; ++j) {
     if (j > 0) {
-      double sum = 0.0;
-      for (std::size_t g = 0; g < 4; ++g) {
-        sum += kGaussWeights[g] * offsetPoint(base, d, from + (j - 1 + kGaussNodes[g]) * step).velocity.norm();
-      }
-      length += sum * step;
+      // Two nodes: an interval is an eighth of a span.
+      const double a = offsetPoint(base, d, from + (j - 0.5 - kTwoNodes) * step).velocity.norm();
+      const double b = offsetPoint(base, d, from + (j - 0.5 + kTwoNodes) * step).velocity.norm();
+      length += 0.5 * (a + b) * step;
     }
     out.oldParameters.push_back(from + j * step);
     out.arcLengths.push_back(length);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -28,6 +29,9 @@ struct FrameStation {
   double kappa = 0.0, slope = 0.0, bend = 0.0;  ///< kp, kp', kp''.
   BandRow kappaRow, slopeRow, bendRow;
 };
+
+/// The same from derivatives 0..4 of the curve, which runs at about unit speed, and the basis rows of these orders.
+FrameStation frameStation(const PlaneDerivatives&, const std::array<BandRow, 5>& rows);
 
 struct FairBlock {
   double u = 0.0, offset = 0.0, weight = 0.0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -29,6 +30,7 @@ void append(ConstructReport& whole, const ConstructReport& part, double from, do
     whole.bandS.push_back(part.bandS[i] + offset - from);
     whole.bandSigma.push_back(part.bandSigma[i]);
   }
+  whole.reducedMovedPx = std::max(whole.reducedMovedPx, part.reducedMovedPx);
   if (part.why == Termination::IterationLimit) whole.why = Termination::IterationLimit;
 }
 
@@ -62,6 +64,17 @@ std::vector<ConstructPiece> FairParts::stretches() const {
     piece.endIsCorner = piece_.endIsCorner && range.last + 1 == static_cast<int>(piece_.points.size());
     pieces.push_back(std::move(piece));
   }
+  for (const ExtremumWish& wish : piece_.wishes) {  // to the stretch with the nearest point
+    ConstructPiece* owner = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (ConstructPiece& piece : pieces) {
+      for (const Vec2& p : piece.points) {
+        const double distance = (p - wish.point).squaredNorm();
+        if (distance < least) least = distance, owner = &piece;
+      }
+    }
+    if (owner) owner->wishes.push_back(wish);
+  }
   return pieces;
 }
 
@@ -72,6 +85,9 @@ bool FairParts::check(std::vector<ConstructedPiece> fits, bool lastRound) {
   std::vector<PointRange> turns = turns_;
   bool more = false;
   for (std::size_t i = 0; i < fits_.size(); ++i) {
+    // Where the user took a bump out that was drawn, the curve leaves its points because he wants it.
+    const auto& wishes = pieces[i].wishes;
+    if (std::any_of(wishes.begin(), wishes.end(), [](const ExtremumWish& w) { return !w.keep; })) continue;
     const Closeness close = closeness(fits_[i].curve, pieces[i], pixelMm_);
     const int offset = smooth_[i].first;
     auto strays = strayRanges(close, pieces[i], pixelMm_, lastRound);
@@ -175,6 +191,11 @@ Result<ConstructedPiece> FairParts::withTurns() const {
   if (!curve) return fail(curve.error());
   whole.curve = std::move(*curve);
   whole.report.noisePx = fits_[first].report.noisePx;
+  whole.report.fullControlPoints = whole.curve.controlPointCount();
+  for (const ConstructedPiece& fit : fits_) {
+    if (fit.report.fullControlPoints == 0) continue;
+    whole.report.fullControlPoints += fit.report.fullControlPoints - fit.curve.controlPointCount();
+  }
   return whole;
 }
 
@@ -204,8 +225,24 @@ Result<ConstructedPiece> FairParts::throughStations(const RunContext& context) c
   return made;
 }
 
+/// Wishes whose extremum the parts did not hold, or could not let go.
+void FairParts::noteUnmet(ConstructReport& report) const {
+  report.unmetWishes.clear();
+  for (const ExtremumWish& wish : piece_.wishes) {
+    const bool met = std::any_of(report.extrema.begin(), report.extrema.end(),
+                                 [&](const ExtremumNote& e) { return e.wish == wish.id && e.kept == wish.keep; });
+    if (!met) report.unmetWishes.push_back(wish.id);
+  }
+}
+
 Result<ConstructedPiece> FairParts::joined(const RunContext& context) const {
   if (turns_.empty()) return fits_.front();
+  auto whole = joinedParts(context);
+  if (whole) noteUnmet(whole->report);
+  return whole;
+}
+
+Result<ConstructedPiece> FairParts::joinedParts(const RunContext& context) const {
   auto whole = withTurns();
   const auto farness = [&](const Closeness& c) { return c.far + 10 * c.veryFar + (c.lengthRatio > 1.15 ? 1000 : 0); };
   int far = -1;

@@ -24,7 +24,9 @@ class FairParts {
   Result<ConstructedPiece> joined(const RunContext&) const;
 
  private:
+  Result<ConstructedPiece> joinedParts(const RunContext&) const;
   Result<ConstructedPiece> withTurns() const;
+  void noteUnmet(ConstructReport&) const;
   Result<ConstructedPiece> throughStations(const RunContext&) const;
   std::vector<Vec2> pointsOf(const PointRange&) const;
 

@@ -11,6 +11,7 @@ namespace batten {
 namespace {
 
 constexpr double kLongestCutoffPx = 1400.0;
+constexpr int kMeasuredStep = 3;  // of the candidates for the cut-off
 
 double cutoffWeight(double cutoffPx) { return std::pow(cutoffPx / (2.0 * std::numbers::pi), 8); }
 
@@ -60,6 +61,36 @@ bool assemble(FairPosterior& p, BandCholesky& cholesky, const FairFrame& frame, 
   return p.mean.allFinite();
 }
 
+/// Both figures are smooth in the logarithm of the cut-off: every third is measured, the others are interpolated
+/// (cubic, in logarithms).
+void fillBetween(CutoffTable& table) {
+  constexpr int kLast = CutoffTable::kCount - 1;
+  static_assert(kLast % kMeasuredStep == 0);
+  for (int k = 0; k < CutoffTable::kCount; ++k) {
+    if (k % kMeasuredStep == 0) continue;
+    const int first = std::clamp(k / kMeasuredStep - 1, 0, kLast / kMeasuredStep - 3) * kMeasuredStep;
+    double rss = 0.0, dof = 0.0;
+    bool valid = true;
+    for (int i = 0; i < 4; ++i) {
+      const auto node = static_cast<std::size_t>(first + i * kMeasuredStep);
+      valid = valid && table.valid[node] && table.rss[node] > 0.0;
+      if (!valid) break;
+      double weight = 1.0;
+      for (int j = 0; j < 4; ++j) {
+        const double place = first + j * kMeasuredStep;
+        if (j != i) weight *= (k - place) / (static_cast<double>(node) - place);
+      }
+      rss += weight * std::log(table.rss[node]);
+      dof += weight * std::log(table.dof[node]);
+    }
+    if (!valid) continue;
+    const auto at = static_cast<std::size_t>(k);
+    table.rss[at] = std::exp(rss);
+    table.dof[at] = std::exp(dof);
+    table.valid[at] = table.dof[at] < table.blocks;
+  }
+}
+
 }  // namespace
 
 double CutoffTable::cutoffPx(int k) { return 24.0 * std::pow(1.15, k); }
@@ -74,7 +105,7 @@ CutoffTable cutoffTable(const FairFrame& frame) {
     addTo(toward, station.bendRow, -frame.cell * station.bend);
   }
   BandCholesky cholesky;
-  for (int k = 0; k < CutoffTable::kCount; ++k) {
+  for (int k = 0; k < CutoffTable::kCount; k += kMeasuredStep) {
     const double lambda = cutoffWeight(CutoffTable::cutoffPx(k));
     BandMatrix m = frame.h;
     m.add(q, lambda);
@@ -89,6 +120,7 @@ CutoffTable cutoffTable(const FairFrame& frame) {
     }
     table.valid[at] = std::isfinite(table.rss[at]) && table.dof[at] > 0.0 && table.dof[at] < table.blocks;
   }
+  fillBetween(table);
   return table;
 }
 

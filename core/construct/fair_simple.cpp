@@ -119,9 +119,9 @@ std::optional<CircleFit> fitCircle(const WeightedPoints& data) {
   return fit;
 }
 
-UniformQuintic circleCurve(const CircleFit& circle, const Vec2& first, bool left, double spacingPx) {
+UniformQuintic circleCurve(const CircleFit& circle, const Vec2& first, bool left) {
   const double length = 2.0 * std::numbers::pi * circle.radius;
-  const int spans = std::max(24, static_cast<int>(std::lround(length / spacingPx)));
+  constexpr int spans = 24;  // already far finer than any scan
   const double turn = 2.0 * std::numbers::pi / spans;
   const double radius = circle.radius * 120.0 / (66.0 + 52.0 * std::cos(turn) + 2.0 * std::cos(2.0 * turn));
   const Vec2 out = first - circle.centre;

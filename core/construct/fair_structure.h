@@ -19,6 +19,14 @@ struct FairExtremum {
   int id = 0;
   double removalCost = 0.0;  ///< [chi2] known so far; a lower bound when its quadratic program was cut short.
   bool costKnown = false;
+  int wish = -1;  ///< Id of the user's wish for it, -1 = none.
+};
+
+/// The user's wish for the extremum nearest to a parameter of the frame.
+struct PlacedWish {
+  double u = 0.0;
+  bool keep = true;
+  int id = 0;
 };
 
 /// Which extrema a curve has, in order. Without extrema (open only) `rising` says whether the curvature rises.
@@ -30,16 +38,19 @@ struct FairStructure {
 struct StructureResult {
   FairStructure structure;
   std::vector<FairExtremum> dropped;  ///< Of the local extrema worth a test.
+  std::vector<int> unmetWishes;       ///< Wishes that found no extremum, or one that cannot go.
   Eigen::VectorXd c;                  ///< Offsets under the structure.
   double objective = 0.0;             ///< Penalised chi2 of c.
   double kappaSigma = 0.0;            ///< [1/px] median standard deviation of the curvature.
   bool limited = false;               ///< A quadratic program did not converge.
 };
 
-/// Drops curvature extrema, cheapest first, as long as the penalised chi2 rises by less than `keepCost` each. Absent
-/// when cancelled or when the first program cannot be solved.
+/// Drops curvature extrema, cheapest first, as long as the penalised chi2 rises by less than `keepCost` each. A wish
+/// belongs to the nearest extremum that was kept or dropped after a test: a kept one is never dropped, a removed one
+/// goes whatever it costs, with its cheaper neighbour where it is not the only one at an end (closed curves keep four).
+/// Absent when cancelled or when the first program cannot be solved.
 std::optional<StructureResult> findStructure(const FairFrame&, const FairPosterior&, double keepCost,
-                                             const RunContext&);
+                                             const std::vector<PlacedWish>&, const RunContext&);
 
 /// Sets the half widths of the windows from the distances between extrema and their stretches.
 void setWindows(FairStructure&, const UniformKnots&);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace {
 constexpr double kPersistence = 1.0;  // standard deviations of kappa below which an extremum is not worth a test
 constexpr double kCertain = 8.0;      // standard deviations above which the search stops
 constexpr int kClosedLeast = 4;       // four vertex theorem
+constexpr double kWishReachPx = 24.0;  // beyond the window in which an extremum may lie
 constexpr double kAbortFactor = 3.0;  // a program is cut short once its cost has passed this many thresholds
 
 /// The removal of one extremum at an end, or of two neighbours.
@@ -25,8 +27,9 @@ struct Candidate {
 
 class Search {
  public:
-  Search(const FairFrame& frame, const FairPosterior& posterior, double keepCost, const RunContext& context)
-      : frame_(frame), posterior_(posterior), keepCost_(keepCost), context_(context) {
+  Search(const FairFrame& frame, const FairPosterior& posterior, double keepCost,
+         const std::vector<PlacedWish>& wishes, const RunContext& context)
+      : frame_(frame), posterior_(posterior), keepCost_(keepCost), wishes_(wishes), context_(context) {
     closed_ = frame.base.knots().closed;
     std::vector<double> sigma;
     for (const FrameStation& s : frame.checks) {
@@ -35,21 +38,12 @@ class Search {
     const auto middle = sigma.begin() + static_cast<std::ptrdiff_t>(sigma.size() / 2);
     std::nth_element(sigma.begin(), middle, sigma.end());
     result_.kappaSigma = *middle;
+    isFactored_ = factors_.factor(posterior.a);
   }
 
   std::optional<StructureResult> run() {
-    result_.structure = localExtrema(frame_, posterior_.mean);
-    simplify();
-    auto fit = fitStructure(frame_, posterior_, result_.structure, posterior_.mean, 1.0, 0.0, kNever);
-    if (!fit) return std::nullopt;
-    result_.c = fit->c;
-    result_.limited = !fit->converged;
-    while (!result_.structure.extrema.empty()) {
-      if (context_.isCancelled()) return std::nullopt;
-      const auto next = cheapest(true);
-      if (!next || (!tested_.empty() && next->change > kCertain * result_.kappaSigma)) break;
-      tryRemoval(*next);
-    }
+    if (!search()) return std::nullopt;
+    if (!wishes_.empty() && !grantWishes()) return std::nullopt;
     if (!priceTheRest()) return std::nullopt;
     result_.objective = posterior_.objective(result_.c);
     return std::move(result_);
@@ -57,6 +51,112 @@ class Search {
 
  private:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
+
+  /// Drops what is cheap enough and not held. False when cancelled or when the first program cannot be solved.
+  bool search() {
+    result_.structure = localExtrema(frame_, posterior_.mean);
+    result_.dropped.clear();
+    result_.c.resize(0);
+    tested_.clear();
+    simplify();
+    auto fit = fitStructure(frame_, posterior_, result_.structure, posterior_.mean, 1.0, 0.0, kNever);
+    if (!fit) return false;
+    result_.c = fit->c;
+    result_.limited = !fit->converged;
+    while (!result_.structure.extrema.empty()) {
+      if (context_.isCancelled()) return false;
+      const auto next = cheapest(true);
+      if (!next || (!tested_.empty() && next->change > kCertain * result_.kappaSigma)) break;
+      tryRemoval(*next);
+    }
+    return true;
+  }
+
+  /// The extremum, kept or dropped, that a wish is about.
+  FairExtremum* nearest(const PlacedWish& wish) {
+    FairExtremum* best = nullptr;
+    double least = kNever;
+    const UniformKnots& knots = frame_.base.knots();
+    for (auto* list : {&result_.structure.extrema, &result_.dropped}) {
+      for (FairExtremum& e : *list) {
+        double distance = std::abs(e.u - wish.u);
+        if (closed_) distance = std::abs(distance - knots.length * std::round(distance / knots.length));
+        if (distance > kWishReachPx + e.halfWidth || distance >= least) continue;
+        least = distance;
+        best = &e;
+      }
+    }
+    return best;
+  }
+
+  /// Holds what is to be kept, searching once more if that had been dropped, and takes out what is to go.
+  bool grantWishes() {
+    std::map<int, PlacedWish> wanted;  // by extremum; of two wishes for one the later counts
+    for (const PlacedWish& wish : wishes_) {
+      if (const FairExtremum* e = nearest(wish)) {
+        wanted[e->id] = wish;
+      } else {
+        result_.unmetWishes.push_back(wish.id);
+      }
+    }
+    bool again = false;
+    for (const auto& [id, wish] : wanted) {
+      if (!wish.keep) continue;
+      held_.insert(id);
+      again = again || find(id) == result_.structure.extrema.size();
+    }
+    if (again && !search()) return false;
+    for (const auto& [id, wish] : wanted) {
+      if (context_.isCancelled()) return false;
+      if (!wish.keep && !forceOut(id)) result_.unmetWishes.push_back(wish.id);
+    }
+    for (const auto& [id, wish] : wanted) {
+      bool met = false;
+      for (auto* list : {&result_.structure.extrema, &result_.dropped}) {
+        for (FairExtremum& e : *list) {
+          if (e.id == id) e.wish = wish.id, met = true;
+        }
+      }
+      if (!met) result_.unmetWishes.push_back(wish.id);
+    }
+    return true;
+  }
+
+  /// Place of an extremum in the structure; the number of extrema when it is not there.
+  std::size_t find(int id) const {
+    const auto& e = result_.structure.extrema;
+    return static_cast<std::size_t>(
+        std::find_if(e.begin(), e.end(), [id](const FairExtremum& x) { return x.id == id; }) - e.begin());
+  }
+
+  bool touches(const Candidate& c, int id) const {
+    const auto& e = result_.structure.extrema;
+    return e[c.index].id == id || (c.kind == Candidate::Kind::Pair && e[(c.index + 1) % e.size()].id == id);
+  }
+
+  bool isHeld(const Candidate& c) const {
+    return std::any_of(held_.begin(), held_.end(), [&](int id) { return touches(c, id); });
+  }
+
+  /// Removes an extremum in the cheapest way there is. False when there is none; true when it has gone already.
+  bool forceOut(int id) {
+    if (find(id) == result_.structure.extrema.size()) return true;
+    std::optional<StructureFit> best;
+    std::optional<Candidate> how;
+    FairStructure after;
+    for (const Candidate& c : candidates(result_.c)) {
+      if (!touches(c, id) || isHeld(c)) continue;
+      FairStructure rest = without(result_.structure, c);
+      auto fit = fitStructure(frame_, posterior_, rest, result_.c, 1.0, 0.0, kNever);
+      if (!fit || fit->aborted || (best && best->rise <= fit->rise)) continue;
+      best = std::move(fit);
+      how = c;
+      after = std::move(rest);
+    }
+    if (!best) return false;
+    drop(*how, std::max(0.0, best->rise), std::move(after), *best);
+    return true;
+  }
 
   std::pair<int, int> key(const Candidate& c) const {
     const auto& e = result_.structure.extrema;
@@ -90,6 +190,7 @@ class Search {
     std::optional<Candidate> best;
     for (const Candidate& c : candidates(result_.c.size() > 0 ? result_.c : posterior_.mean)) {
       if (untestedOnly && tested_.count(key(c)) > 0) continue;
+      if (isHeld(c)) continue;
       if (!best || c.change < best->change) best = c;
     }
     return best;
@@ -144,8 +245,61 @@ class Search {
     return fitStructure(frame_, posterior_, rest, result_.c, from, to, kAbortFactor * keepCost_);
   }
 
+  /// A rise of the objective that the removal costs at least, from one inequality that it asks for: where the curvature
+  /// falls between the two extrema (or an extremum and the end) it must not fall any more. Costs one solution instead
+  /// of a program. 0 when nothing can be said.
+  double leastCost(const Candidate& c, const FairStructure& rest) const {
+    const UniformKnots& knots = frame_.base.knots();
+    const auto& e = result_.structure.extrema;
+    const bool pair = c.kind == Candidate::Kind::Pair;
+    const FairExtremum &first = e[c.index], &second = pair ? e[(c.index + 1) % e.size()] : first;
+    double from = first.u, to = second.u;
+    if (c.kind == Candidate::Kind::First) from = 0.0;
+    if (c.kind == Candidate::Kind::Last) to = knots.length;
+    if (pair && to < from) to += knots.length;
+    // The neighbours that stay may move within their windows, and the windows may follow them once.
+    FairStructure widened = rest;
+    setWindows(widened, knots);
+    for (const FairExtremum& other : widened.extrema) {
+      for (const double turn : {-knots.length, 0.0, knots.length}) {
+        const double low = other.u - 2.0 * other.halfWidth + turn, high = other.u + 2.0 * other.halfWidth + turn;
+        if (!knots.closed && turn != 0.0) continue;
+        if (high <= from || low >= to) continue;
+        if (other.u + turn <= 0.5 * (from + to)) {
+          from = std::max(from, high);
+        } else {
+          to = std::min(to, low);
+        }
+      }
+    }
+    if (!isFactored_) return 0.0;
+    const auto count = static_cast<int>(frame_.checks.size());
+    const double step = knots.length / (closed_ ? count : count - 1);
+    const int a = static_cast<int>(std::ceil(from / step)), b = static_cast<int>(std::floor(to / step));
+    if (b <= a) return 0.0;
+    const FrameStation &low = frame_.checks[static_cast<std::size_t>(a % count)],
+                       &high = frame_.checks[static_cast<std::size_t>(b % count)];
+    // Which way it falls now: from a maximum down, from a minimum up.
+    const double sign = (c.kind == Candidate::Kind::First ? !first.maximum : first.maximum) ? 1.0 : -1.0;
+    const double violation =
+        sign * (kappaAt(low, posterior_.mean) - kappaAt(high, posterior_.mean));
+    if (!(violation > 0.0)) return 0.0;
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(posterior_.b.size());
+    addTo(row, low.kappaRow, 1.0);
+    addTo(row, high.kappaRow, -1.0);
+    const double variance = row.dot(factors_.solve(row));
+    if (!(variance > 0.0)) return 0.0;
+    const double above = posterior_.objective(result_.c) - posterior_.objective(posterior_.mean);
+    return violation * violation / variance - above;
+  }
+
   void tryRemoval(const Candidate& c) {
     FairStructure rest = without(result_.structure, c);
+    if (const double least = leastCost(c, rest); least > kAbortFactor * keepCost_) {
+      tested_.insert(key(c));
+      noteCost(c, least);
+      return;
+    }
     const auto fit = solveWithout(c, rest);
     const double cost = fit ? std::max(0.0, fit->rise) : kAbortFactor * keepCost_;
     if (!fit || fit->aborted || cost >= keepCost_) {
@@ -153,15 +307,19 @@ class Search {
       noteCost(c, cost);
       return;
     }
+    drop(c, cost, std::move(rest), *fit);
+  }
+
+  void drop(const Candidate& c, double cost, FairStructure rest, const StructureFit& fit) {
     const auto& e = result_.structure.extrema;
     for (std::size_t i = 0; i < (c.kind == Candidate::Kind::Pair ? 2U : 1U); ++i) {
       FairExtremum gone = e[(c.index + i) % e.size()];
       gone.removalCost = cost;
       result_.dropped.push_back(gone);
     }
-    result_.limited = result_.limited || !fit->converged;
+    result_.limited = result_.limited || !fit.converged;
     result_.structure = std::move(rest);
-    result_.c = fit->c;
+    result_.c = fit.c;
   }
 
   /// Costs of the extrema that were too clear to be tested. False when cancelled.
@@ -170,6 +328,10 @@ class Search {
       if (context_.isCancelled()) return false;
       if (tested_.count(key(c)) > 0) continue;
       FairStructure rest = without(result_.structure, c);
+      if (const double least = leastCost(c, rest); least > kAbortFactor * keepCost_) {
+        noteCost(c, least);
+        continue;
+      }
       const auto fit = solveWithout(c, rest);
       noteCost(c, fit ? std::max(0.0, fit->rise) : kAbortFactor * keepCost_);
     }
@@ -179,17 +341,21 @@ class Search {
   const FairFrame& frame_;
   const FairPosterior& posterior_;
   double keepCost_;
+  const std::vector<PlacedWish>& wishes_;
   const RunContext& context_;
   bool closed_ = false;
+  BandCholesky factors_;  ///< Of the posterior.
+  bool isFactored_ = false;
   StructureResult result_;
   std::set<std::pair<int, int>> tested_;
+  std::set<int> held_;  ///< Extrema that the user wants to keep.
 };
 
 }  // namespace
 
 std::optional<StructureResult> findStructure(const FairFrame& frame, const FairPosterior& posterior, double keepCost,
-                                             const RunContext& context) {
-  return Search(frame, posterior, keepCost, context).run();
+                                             const std::vector<PlacedWish>& wishes, const RunContext& context) {
+  return Search(frame, posterior, keepCost, wishes, context).run();
 }
 
 }  // namespace batten

@@ -20,14 +20,45 @@ constexpr double fallingFactor(int power, int order) {
   return f;
 }
 
+/// The pieces derived 0..4 times: row, then coefficients of the powers left, highest last.
+constexpr auto kDerived = [] {
+  std::array<std::array<std::array<double, 6>, 6>, 5> table{};
+  for (int order = 0; order < 5; ++order) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      for (int power = order; power < 6; ++power) {
+        table[static_cast<std::size_t>(order)][j][static_cast<std::size_t>(power - order)] =
+            fallingFactor(power, order) * kPieces[j][power];
+      }
+    }
+  }
+  return table;
+}();
+
+/// Powers of the Lagrange polynomials of the four Gauss nodes.
+constexpr auto kSpeedPowers = [] {
+  std::array<std::array<double, 4>, 4> table{};
+  for (std::size_t g = 0; g < 4; ++g) {
+    std::array<double, 4> p = {1.0, 0.0, 0.0, 0.0};
+    double scale = 1.0;
+    for (std::size_t other = 0; other < 4; ++other) {
+      if (other == g) continue;
+      for (std::size_t k = 3; k > 0; --k) p[k] = p[k - 1] - kGaussNodes[other] * p[k];
+      p[0] *= -kGaussNodes[other];
+      scale *= kGaussNodes[g] - kGaussNodes[other];
+    }
+    for (std::size_t k = 0; k < 4; ++k) table[g][k] = p[k] / scale;
+  }
+  return table;
+}();
+
 std::array<double, 6> pieceValues(double t, int order, double spacing) {
-  std::array<double, 6> values{};
+  std::array<double, 6> values;
   double scale = 1.0 / 120.0;
   for (int i = 0; i < order; ++i) scale /= spacing;
+  const auto& table = kDerived[static_cast<std::size_t>(order)];
   for (std::size_t j = 0; j < 6; ++j) {
-    double sum = 0.0;
-    for (int power = 5; power >= order; --power) sum = sum * t + fallingFactor(power, order) * kPieces[j][power];
-    values[j] = sum * scale;
+    const auto& c = table[j];
+    values[j] = (c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))))) * scale;
   }
   return values;
 }
@@ -49,6 +80,7 @@ BandRow UniformKnots::row(double u, int order) const {
 
 UniformQuintic::UniformQuintic(const UniformKnots& knots, std::vector<Vec2> coefficients)
     : knots_(knots), coefficients_(std::move(coefficients)) {
+  perUnit_ = knots_.spans / knots_.length;
   const auto count = static_cast<std::size_t>(knots_.coefficients());
   polynomials_.resize(static_cast<std::size_t>(knots_.spans));
   for (std::size_t j = 0; j < polynomials_.size(); ++j) {
@@ -60,16 +92,32 @@ UniformQuintic::UniformQuintic(const UniformKnots& knots, std::vector<Vec2> coef
   }
   spanLengths_.assign(1, 0.0);
   const double h = knots_.spacing();
-  for (int j = 0; j < knots_.spans; ++j) {
+  for (const auto& p : polynomials_) {
+    std::array<double, 4> speed{};
     double sum = 0.0;
-    for (std::size_t g = 0; g < 4; ++g) sum += kGaussWeights[g] * at((j + kGaussNodes[g]) * h, 1)[1].norm();
+    for (std::size_t g = 0; g < 4; ++g) {
+      const double u = kGaussNodes[g];
+      const Vec2 d = p[1] + u * (2 * p[2] + u * (3 * p[3] + u * (4 * p[4] + u * (5 * p[5]))));
+      const double v = d.norm() / h;
+      sum += kGaussWeights[g] * v;
+      for (std::size_t k = 0; k < 4; ++k) speed[k] += v * kSpeedPowers[g][k];
+    }
+    speeds_.push_back(speed);
     spanLengths_.push_back(spanLengths_.back() + sum * h);
   }
 }
 
 PlaneDerivatives UniformQuintic::at(double u, int order) const {
-  const auto& p = polynomials_[static_cast<std::size_t>(knots_.span(u))];
-  const double f = 1.0 / knots_.spacing();
+  const double f = perUnit_;
+  std::size_t span = 0;
+  const double place = u * f;
+  if (place >= 0.0 && place < knots_.spans) {  // the usual case, without a division
+    span = static_cast<std::size_t>(place);
+    u = place - static_cast<double>(span);
+  } else {
+    span = static_cast<std::size_t>(knots_.span(u));
+  }
+  const auto& p = polynomials_[span];
   PlaneDerivatives d{};
   d[0] = p[0] + u * (p[1] + u * (p[2] + u * (p[3] + u * (p[4] + u * p[5]))));
   if (order >= 1) d[1] = f * (p[1] + u * (2 * p[2] + u * (3 * p[3] + u * (4 * p[4] + u * (5 * p[5])))));
@@ -89,9 +137,14 @@ double UniformQuintic::arcLength(double u) const {
   } else {
     j = knots_.span(place);
   }
-  double sum = 0.0;
-  for (std::size_t g = 0; g < 4; ++g) sum += kGaussWeights[g] * at((j + kGaussNodes[g] * place) * h, 1)[1].norm();
-  return spanLengths_[static_cast<std::size_t>(j)] + sum * place * h;
+  if (place < 0.0 || place > 1.0) {  // the end polynomial runs on: the cubic would not
+    double sum = 0.0;
+    for (std::size_t g = 0; g < 4; ++g) sum += kGaussWeights[g] * at((j + kGaussNodes[g] * place) * h, 1)[1].norm();
+    return spanLengths_[static_cast<std::size_t>(j)] + sum * place * h;
+  }
+  const auto& v = speeds_[static_cast<std::size_t>(j)];
+  return spanLengths_[static_cast<std::size_t>(j)] +
+         h * place * (v[0] + place * (v[1] / 2.0 + place * (v[2] / 3.0 + place * (v[3] / 4.0))));
 }
 
 double UniformQuintic::footPoint(const Vec2& p, double start, double beyond) const {
@@ -108,7 +161,7 @@ double UniformQuintic::footPoint(const Vec2& p, double start, double beyond) con
     if (!knots_.closed) next = std::clamp(next, low, high);
     const double move = std::abs(next - t);
     t = next;
-    if (move < 1e-5 * h) break;
+    if (move < 1e-3 * h) break;  // Newton: what is left is about the square
   }
   return t;
 }

@@ -19,9 +19,6 @@ constexpr double kExtremumProminence = 5e-3;
 /// Share of the length below which a part of a split curve is none.
 constexpr double kLeastPart = 1e-3;
 
-/// [px] A true and fair fit lies on its line. Where 5 % of the points are farther away than this it has lost the line.
-constexpr double kLostLinePx = 2.0;
-
 std::vector<Vec2> pointsToModel(const std::vector<Vec2>& points, const PageFrame& frame) {
   std::vector<Vec2> result;
   result.reserve(points.size());
@@ -102,7 +99,8 @@ class ContourBuilder {
  public:
   ContourBuilder(const ContourSet& contours, const PieceSet& pieces, const SegmentSet& segments, const Recipe& recipe,
                  const PageFrame& frame, const RunContext& context)
-      : contours_(contours), pieces_(pieces), segments_(segments), recipe_(recipe), frame_(frame), context_(context) {
+      : contours_(contours), pieces_(pieces), segments_(segments), recipe_(recipe), frame_(frame), context_(context),
+        wishes_(assignExtremumChoices(pieces, recipe)) {
     const auto hasMethod = [](const PieceChoice& choice) { return choice.method.has_value(); };
     if (std::any_of(recipe.choices.begin(), recipe.choices.end(), hasMethod)) choices_ = assignChoices(pieces, recipe);
   }
@@ -142,6 +140,11 @@ class ContourBuilder {
     ConstructContour input = inputOf(contours_, pieces_, segments_, range, frame_);
     for (std::size_t i = range.first; i < range.last; ++i) {
       input.pieces[i - range.first].divisions = divisionsOf(pieces_, recipe_, frame_, i);
+      for (const std::size_t wish : wishes_[i]) {
+        const ExtremumChoice& choice = recipe_.extremumChoices[wish];
+        const Vec2 place = frame_.pointToModel(choice.positionPx);
+        input.pieces[i - range.first].wishes.push_back({place, choice.keep, static_cast<int>(wish)});
+      }
     }
     auto result = construct(input, params, context_);
     if (result && result->size() != input.pieces.size()) {
@@ -179,7 +182,6 @@ class ContourBuilder {
     curve.piece = static_cast<int>(index);
     curve.closed = piece.closed;
     take(curve, std::move(made));
-    if (recipe_.construct.method == ConstructMethod::Fair) keepOnLine(curve, index);
     outcome.curves.push_back(std::move(curve));
   }
 
@@ -190,22 +192,6 @@ class ContourBuilder {
     curve.sketchedFigures = figuresOf(made.curve, piece.closed, pointsToModel(piece.points, frame_));
   }
 
-  /// The safety net of the default method: a line with corners nobody marked can throw a smooth fit off. Then the
-  /// quintic NURBS through the stations takes its place if it is nearer to the line, and the report says so.
-  void keepOnLine(TracedCurve& curve, std::size_t index) const {
-    if (frame_.lengthToImage(curve.sketchedFigures.fromPoints.percentile95) <= kLostLinePx) return;
-    ConstructParams params = recipe_.construct;
-    params.method = ConstructMethod::Nurbs;
-    auto other = constructRange({index, index + 1}, params);
-    if (!other) return;
-    TracedCurve replacement = curve;
-    take(replacement, std::move(other->front()));
-    if (replacement.sketchedFigures.fromPoints.percentile95 >= curve.sketchedFigures.fromPoints.percentile95) return;
-    replacement.construct.note =
-        "The fit did not stay on this line, so a quintic NURBS took its place. Mark its corners.";
-    curve = std::move(replacement);
-  }
-
   const ContourSet& contours_;
   const PieceSet& pieces_;
   const SegmentSet& segments_;
@@ -213,6 +199,7 @@ class ContourBuilder {
   const PageFrame& frame_;
   const RunContext& context_;
   std::vector<std::optional<std::size_t>> choices_;  ///< Per piece, when any curve has a method of its own.
+  std::vector<std::vector<std::size_t>> wishes_;
 };
 
 /// Work on the items of a stage in parallel already; each item alone stays on its thread.

@@ -191,6 +191,12 @@ void appendConstruct(std::vector<Parameter>& table) {
       {"construct.keep_extrema", "Certainty of bumps", "",
        "True and fair fit: a bump of the curvature must be this certain to be kept. Larger keeps fewer."},
       {1.0, 1000.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.construct.keepExtremaCost; }));
+  table.push_back(real(
+      kCurves,
+      {"construct.reduce", "Spare control points", "× noise",
+       "True and fair fit: how far the curve may move, as a part of the noise of the scan's edge, to need fewer control "
+       "points. Larger: fewer points; 0 keeps all."},
+      {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.construct.reduceShare; }));
 }
 
 /// The end condition as one choice: each step holds what the one before holds, and more.

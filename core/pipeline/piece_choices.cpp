@@ -17,6 +17,19 @@ double distanceTo(const Piece& piece, const Vec2& p) {
   return std::sqrt(nearest);
 }
 
+/// The piece nearest to a place, the first of equals; none beyond the reach.
+std::optional<std::size_t> nearestPiece(const PieceSet& set, const Vec2& p) {
+  std::optional<std::size_t> owner;
+  double nearest = kAnchorReachPx;
+  for (std::size_t piece = 0; piece < set.pieces.size(); ++piece) {
+    const double distance = distanceTo(set.pieces[piece], p);
+    if (distance > nearest || (owner && distance == nearest)) continue;
+    nearest = distance;
+    owner = piece;
+  }
+  return owner;
+}
+
 }  // namespace
 
 std::optional<std::size_t> choiceFor(const Piece& piece, const Recipe& recipe) {
@@ -35,18 +48,21 @@ std::vector<std::optional<std::size_t>> assignChoices(const PieceSet& set, const
   std::vector<std::optional<std::size_t>> assigned(set.pieces.size());
   std::vector<double> distances(set.pieces.size(), kAnchorReachPx);
   for (std::size_t choice = 0; choice < recipe.choices.size(); ++choice) {
-    std::optional<std::size_t> owner;
-    double nearest = kAnchorReachPx;
-    for (std::size_t piece = 0; piece < set.pieces.size(); ++piece) {
-      const double distance = distanceTo(set.pieces[piece], recipe.choices[choice].anchorPx);
-      if (distance > nearest || (owner && distance == nearest)) continue;
-      nearest = distance;
-      owner = piece;
-    }
+    const auto owner = nearestPiece(set, recipe.choices[choice].anchorPx);
+    if (!owner) continue;
+    const double nearest = distanceTo(set.pieces[*owner], recipe.choices[choice].anchorPx);
     // Two choices for one piece can come from an undone split: the nearer one counts, the later one of equals.
-    if (!owner || nearest > distances[*owner]) continue;
+    if (nearest > distances[*owner]) continue;
     assigned[*owner] = choice;
     distances[*owner] = nearest;
+  }
+  return assigned;
+}
+
+std::vector<std::vector<std::size_t>> assignExtremumChoices(const PieceSet& set, const Recipe& recipe) {
+  std::vector<std::vector<std::size_t>> assigned(set.pieces.size());
+  for (std::size_t i = 0; i < recipe.extremumChoices.size(); ++i) {
+    if (const auto owner = nearestPiece(set, recipe.extremumChoices[i].positionPx)) assigned[*owner].push_back(i);
   }
   return assigned;
 }

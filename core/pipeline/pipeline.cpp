@@ -23,7 +23,8 @@ std::size_t bytesOf(const FilteredImage& image) { return bytesOf(image.ink); }
 std::size_t bytesOf(const ContourSet& set) {
   std::size_t bytes = sizeof(set);
   for (const Contour& c : set.contours) {
-    bytes += sizeof(c) + vectorBytes(c.points) + vectorBytes(c.chain) + vectorBytes(c.refined) + vectorBytes(c.widthPx);
+    bytes += sizeof(c) + vectorBytes(c.points) + vectorBytes(c.chain) + vectorBytes(c.refined) + vectorBytes(c.widthPx) +
+             vectorBytes(c.bandPx);
   }
   return bytes;
 }
@@ -102,19 +103,29 @@ class Run {
     return false;
   }
 
+  /// The lines of the page, or of the parts of it that the user wants.
+  Result<ContourSet> traceRegions() {
+    const auto trace = [&](const BitImage& ink) {
+      return traceContours(ink, scan_.grey, *out_.thresholds, recipe_.edges, recipe_.contours, context_);
+    };
+    if (recipe_.regions.empty()) return trace(out_.filtered->ink);
+    auto set = trace(inkTouching(out_.filtered->ink, recipe_.regions, context_));
+    if (set) set = keepInside(std::move(*set), recipe_.regions, recipe_.contours.minLengthPx);
+    const bool isEmpty = set ? set->contours.empty() : set.error().code == ErrorCode::NoCurve;
+    if (!isEmpty) return set;
+    return fail(ErrorCode::NoCurve, "No line lies inside the region: draw a larger one or clear it.");
+  }
+
   /// The lines found on the scan, and behind them those drawn by hand. The found ones are kept by themselves, so that a
   /// new stroke does not trace the page again.
   Result<ContourSet> lines() {
-    const auto trace = [&] {
-      return traceContours(out_.filtered->ink, scan_.grey, *out_.thresholds, recipe_.edges, recipe_.contours, context_);
-    };
     if (recipe_.penStrokes.empty()) {
       if (isBlank(scan_)) return fail(ErrorCode::NoCurve, "The page is empty. Draw a line with the pen.");
-      return trace();
+      return traceRegions();
     }
     auto traced = cache_.find<ContourSet>(keys_.traced);
     if (!traced) {
-      auto found = trace();
+      auto found = traceRegions();
       if (context_.isCancelled()) return cancelled();
       // On white paper, or beside a drawing that gives no line, the strokes are the drawing.
       if (!found && found.error().code != ErrorCode::NoCurve) return found;

@@ -113,6 +113,9 @@ std::optional<std::size_t> choiceFor(const Piece&, const Recipe&);
 /// Owner of every choice when all pieces compete: each choice goes to the nearest piece alone, as runPipeline applies
 /// them. One entry per piece, an index into recipe.choices or nullopt.
 std::vector<std::optional<std::size_t>> assignChoices(const PieceSet&, const Recipe&);
+/// The extremum choices of every piece: each belongs to the nearest piece within 24 px. Indices into
+/// recipe.extremumChoices, one list per piece.
+std::vector<std::vector<std::size_t>> assignExtremumChoices(const PieceSet&, const Recipe&);
 /// A good anchor for a new choice: the point of the piece at half its points.
 Vec2 anchorOf(const Piece&);
 

@@ -48,6 +48,9 @@ std::optional<Error> validate(const Recipe& recipe) {
   if (recipe.page && !(isPageSide(recipe.page->widthPx) && isPageSide(recipe.page->heightPx))) {
     return bad("A page without a scan must be 16 to 20000 px wide and high.");
   }
+  for (const RegionOfInterest& region : recipe.regions) {
+    if (auto e = validate(region)) return e;
+  }
   if (auto e = validate(recipe.corners)) return e;
   for (const CornerMark& mark : recipe.cornerMarks) {
     if (!isFinite(mark.positionPx)) return bad("A corner mark has no valid position.");
@@ -61,6 +64,9 @@ std::optional<Error> validate(const Recipe& recipe) {
   if (auto e = validate(recipe.fairing)) return e;
   for (const PieceChoice& choice : recipe.choices) {
     if (auto e = validateChoice(choice)) return e;
+  }
+  for (const ExtremumChoice& choice : recipe.extremumChoices) {
+    if (!isFinite(choice.positionPx)) return bad("A choice for a curvature extremum has no valid position.");
   }
   return std::nullopt;
 }

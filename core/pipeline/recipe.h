@@ -8,6 +8,7 @@
 #include "core/construct/construct.h"
 #include "core/contour/corner_marks.h"
 #include "core/contour/pen_strokes.h"
+#include "core/contour/region_of_interest.h"
 #include "core/contour/regression_segments.h"
 #include "core/contour/trace_contours.h"
 #include "core/fairing/fairing.h"
@@ -65,6 +66,14 @@ struct SegmentPoint {
   bool operator==(const SegmentPoint& other) const { return positionPx == other.positionPx; }
 };
 
+/// A curvature extremum that the user keeps or takes out of the true and fair fit, by position: it belongs to the
+/// nearest extremum of the nearest line (within 24 px).
+struct ExtremumChoice {
+  Vec2 positionPx = Vec2::Zero();
+  bool keep = true;  ///< False: removed.
+  bool operator==(const ExtremumChoice& o) const { return positionPx == o.positionPx && keep == o.keep; }
+};
+
 /// Everything the user decided: all parameters and all edits, one comparable value. Result = f(scan, recipe).
 struct Recipe {
   std::optional<double> dpi;  ///< The user's own resolution; absent = the file's, else the assumed one.
@@ -76,6 +85,7 @@ struct Recipe {
   ContourParams contours;
   std::vector<PenStroke> penStrokes;  ///< Lines drawn by hand, behind those found on the scan.
   std::optional<BlankPage> page;      ///< The drawing was begun without a scan; null = it needs its scan.
+  std::vector<RegionOfInterest> regions;  ///< Only what lies inside one of them is traced; none = the whole page.
   CornerParams corners;
   std::vector<CornerMark> cornerMarks;
   SegmentParams segments;
@@ -83,6 +93,7 @@ struct Recipe {
   ConstructParams construct;
   FairingParams fairing;
   std::vector<PieceChoice> choices;
+  std::vector<ExtremumChoice> extremumChoices;
   bool operator==(const Recipe&) const = default;
 };
 

@@ -220,6 +220,35 @@ Result<void> readChoices(const Json& json, Recipe& recipe) {
   return {};
 }
 
+Result<void> readExtrema(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"extrema\" is not a list.");
+  for (const Json& entry : json) {
+    if (!entry.is_object() || entry.size() != 2 || !entry.contains("at") || !entry.contains("keep")) {
+      return refuse("The recipe is damaged: an entry of \"extrema\" does not hold just \"at\" and \"keep\".");
+    }
+    const auto point = pointFromJson(entry["at"]);
+    if (!point) return refuse("The recipe is damaged: the place of an extremum is not a pair of numbers [x, y].");
+    if (!entry["keep"].is_boolean()) return refuse("The recipe is damaged: \"keep\" of an extremum is not true or false.");
+    recipe.extremumChoices.push_back({*point, entry["keep"].get<bool>()});
+  }
+  return {};
+}
+
+Result<void> readRegions(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"regions\" is not a list.");
+  for (const Json& entry : json) {
+    RegionOfInterest region;
+    if (!entry.is_array()) return refuse("The recipe is damaged: a region is not a list of corners.");
+    for (const Json& corner : entry) {
+      const auto point = pointFromJson(corner);
+      if (!point) return refuse("The recipe is damaged: a corner of a region is not a pair of numbers [x, y].");
+      region.cornersPx.push_back(*point);
+    }
+    recipe.regions.push_back(std::move(region));
+  }
+  return {};
+}
+
 Result<void> checkHead(const Json& json) {
   if (!json.is_object() || !json.contains("format") || json["format"] != kFormat) {
     return refuse("This is not a Batten recipe. Choose a file that Batten saved as a recipe.");
@@ -244,6 +273,8 @@ Result<void> readEntry(const std::string& name, const Json& value, Recipe& recip
   if (name == "choices") return readChoices(value, recipe);
   if (name == "strokes") return readStrokes(value, recipe);
   if (name == "page") return readPage(value, recipe);
+  if (name == "extrema") return readExtrema(value, recipe);
+  if (name == "regions") return readRegions(value, recipe);
   if (name != "dpi") {
     return refuse("The recipe holds \"" + name + "\", which this version of Batten does not know.");
   }
@@ -274,6 +305,15 @@ std::string recipeToJson(const Recipe& recipe) {
     for (const PenStroke& stroke : recipe.penStrokes) strokes.push_back(strokeToJson(stroke));
   }
   if (recipe.page) json["page"] = {recipe.page->widthPx, recipe.page->heightPx};
+  Json& extrema = json["extrema"] = Json::array();
+  for (const ExtremumChoice& choice : recipe.extremumChoices) {
+    extrema.push_back({{"at", {choice.positionPx.x(), choice.positionPx.y()}}, {"keep", choice.keep}});
+  }
+  Json& regions = json["regions"] = Json::array();
+  for (const RegionOfInterest& region : recipe.regions) {
+    Json& polygon = regions.emplace_back(Json::array());
+    for (const Vec2& p : region.cornersPx) polygon.push_back({p.x(), p.y()});
+  }
   return json.dump(1) + "\n";
 }
 

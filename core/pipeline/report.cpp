@@ -36,8 +36,13 @@ Json figuresToJson(const CurveFigures& f, const PageFrame& frame) {
           {"inflections", f.inflections}};
 }
 
-Json constructToJson(const ConstructReport& r) {
+Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
   Json json{{"stopped", name(r.why)},  {"note", r.note},      {"noise_px", number(r.noisePx)},
+            {"noise_um", number(1000.0 * frame.lengthToModel(r.noisePx))},
+            {"control_points_before_sparing", r.fullControlPoints},
+            {"moved_by_sparing_px", number(r.reducedMovedPx)},
+            {"moved_by_sparing_um", number(1000.0 * frame.lengthToModel(r.reducedMovedPx))},
+            
             {"is_circle", r.isCircle}, {"is_line", r.isLine}, {"extrema", Json::array()}};
   if (r.pointsBefore > 0) {
     json["polygon_points"] = {{"before", r.pointsBefore}, {"after", r.pointsAfter}, {"added", r.pointsAdded}};
@@ -57,8 +62,11 @@ Json constructToJson(const ConstructReport& r) {
                                {"curvature_per_mm", number(e.kappa)},
                                {"maximum", e.maximum},
                                {"kept", e.kept},
-                               {"removal_cost", number(e.removalCost)}});
+                               {"removal_cost", number(e.removalCost)},
+                               {"at_px", pointToJson(frame.pointToImage(e.point))},
+                               {"chosen_by_user", e.wish.has_value()}});
   }
+  json["unmet_choices"] = r.unmetWishes;
   return json;
 }
 
@@ -134,8 +142,11 @@ Json curveToJson(const PipelineOutput& out, const ReportExtras& extras, std::siz
   Json json{{"index", static_cast<int>(index)}, {"contour", c.contour + 1}, {"piece", c.piece}, {"closed", c.closed}};
   json["kind"] = kindName(out.contours->contours[static_cast<std::size_t>(c.contour)].kind);
   json["corners_px"] = cornersToJson(out, c);
+  const auto& refined = out.pieces->pieces[static_cast<std::size_t>(c.piece)].refined;
+  json["points"] = refined.size();
+  json["points_not_placed"] = std::count(refined.begin(), refined.end(), std::uint8_t{0});
   json["sketched"] = figuresToJson(c.sketchedFigures, out.frame);
-  json["construct"] = constructToJson(c.construct);
+  json["construct"] = constructToJson(c.construct, out.frame);
   json["choice"] = choiceToJson(c);
   json["faired"] = figuresToJson(c.fairedFigures, out.frame);
   json["fairing"] = fairingToJson(c.fairing);

@@ -37,7 +37,7 @@ void add(HashBuilder& h, const SegmentParams& p) {
 }
 void add(HashBuilder& h, const ConstructParams& p) {
   h.integer(static_cast<int>(p.method)).number(p.derivativeMagnitude).integer(p.magnitudeAsInPaper);
-  h.integer(static_cast<int>(p.gradients)).integer(p.degree).number(p.keepExtremaCost);
+  h.integer(static_cast<int>(p.gradients)).integer(p.degree).number(p.keepExtremaCost).number(p.reduceShare);
   h.integer(static_cast<int>(p.knots)).integer(static_cast<int>(p.removal)).number(p.removalStepPx);
   h.number(p.removalTolerancePx);
   h.number(p.lowPass).integer(static_cast<int>(p.typical)).number(p.growingStopDeg).integer(p.growingAsInPaper);
@@ -89,6 +89,10 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
     case StageId::Contours:
       add(h, r.edges);
       h.number(r.contours.minLengthPx).integer(r.contours.maxCount);
+      for (const RegionOfInterest& region : r.regions) {
+        h.integer(static_cast<std::int64_t>(region.cornersPx.size()));
+        for (const Vec2& p : region.cornersPx) add(h, p);
+      }
       break;  // the pen strokes come on top, see stageKeys
     case StageId::Pieces:
       h.number(r.corners.snapDistancePx).integer(r.corners.exact);
@@ -106,6 +110,10 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
       }
       h.number(frame.mmPerPx).integer(frame.heightPx);
       for (const SegmentPoint& point : r.segmentPoints) add(h, point.positionPx);
+      for (const ExtremumChoice& choice : r.extremumChoices) {
+        add(h, choice.positionPx);
+        h.integer(choice.keep);
+      }
       break;
     case StageId::Faired:
       add(h, r.fairing);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/curve/curve_analysis.h"
@@ -49,6 +50,36 @@ TEST_F(Trace, GivesTheSameBytesWithAnyNumberOfThreads) {
   EXPECT_EQ(test::readFile(file("a.json")), test::readFile(file("c.json")));
   EXPECT_EQ(test::readFile(file("a.svg")), test::readFile(file("b.svg")));
   EXPECT_FALSE(test::readFile(file("a.json")).empty());
+}
+
+TEST_F(Trace, ARegionTracesItsPartAndChoicesComeFromTheRecipe) {
+  const std::string scan = scene("ellipse");
+  ASSERT_EQ(run("trace " + scan + " --roi 0,0,240,320 -o " + file("a.json") + " --report " + file("r.json") +
+                " --save-recipe " + file("recipe.json")).code, 0);
+  const json report = json::parse(test::readFile(file("r.json")));
+  ASSERT_EQ(report["curves"].size(), 1u);
+  EXPECT_EQ(report["curves"][0]["closed"], false);
+  EXPECT_GT(report["curves"][0]["construct"]["noise_um"].get<double>(), 0.0);
+  json recipe = json::parse(test::readFile(file("recipe.json")));
+  EXPECT_EQ(recipe["regions"], json::parse("[[[0,0],[240,0],[240,320],[0,320]]]"));
+  // An extremum that the report names is taken out by the recipe, and the report says whose choice it was.
+  json kept;
+  for (const json& e : report["curves"][0]["construct"]["extrema"])
+    if (e["kept"]) kept = e;
+  ASSERT_FALSE(kept.is_null());
+  recipe["extrema"] = json::array({{{"at", kept["at_px"]}, {"keep", false}}});
+  std::ofstream(file("recipe2.json")) << recipe.dump();
+  ASSERT_EQ(run("trace " + scan + " --recipe " + file("recipe2.json") + " -o " + file("b.json") + " --report " + file("r2.json")).code, 0);
+  int chosen = 0;
+  const json second = json::parse(test::readFile(file("r2.json")));
+  for (const json& e : second["curves"][0]["construct"]["extrema"]) {
+    if (!e["chosen_by_user"]) continue;
+    ++chosen;
+    EXPECT_FALSE(e["kept"]);
+  }
+  EXPECT_EQ(chosen, 1);
+  EXPECT_NE(run("trace " + scan + " --roi 0,0,240 -o " + file("c.json")).code, 0);
+  EXPECT_NE(run("trace " + scan + " --roi 0,0,240,-3 -o " + file("c.json")).code, 0);
 }
 
 TEST_F(Trace, CornersCutTheContourAndTheSavedRecipeRepeatsTheResult) {

@@ -26,4 +26,17 @@ std::optional<int> CanvasScene::curveNear(const Vec2& px) const {
   return found;
 }
 
+const ExtremumMark* CanvasScene::extremumNear(const Vec2& px) const {
+  if (!view.isVisible(Layer::Extrema) || view.isScanOnly()) return nullptr;
+  const ExtremumMark* best = nullptr;
+  double least = kMarkReachPx * transform.imagePerWidget();
+  for (const ExtremumMark& mark : extrema) {
+    const double distance = (mark.px - px).norm();
+    if (distance > least) continue;
+    least = distance;
+    best = &mark;
+  }
+  return best;
+}
+
 }  // namespace batten

@@ -14,12 +14,15 @@
 #include "ui/canvas/tile_pyramid.h"
 #include "ui/canvas/view_transform.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/extremum_marks.h"
 #include "ui/session/view_settings.h"
 
 namespace batten {
 
 /// How near to a line or a mark the mouse has to be [widget px].
 inline constexpr double kReachPx = 12.0;
+/// The same for a small mark on a line that can be clicked itself.
+inline constexpr double kMarkReachPx = 8.0;
 
 /// What layers paint from and tools act on. Plain data of the GUI thread; what was computed behind it is shared and
 /// constant.
@@ -33,6 +36,7 @@ struct CanvasScene {
   std::shared_ptr<const CurveCombs> combs;
   std::shared_ptr<const CompareOverlay> overlay;
   std::vector<CornerSuggestion> suggestions;
+  std::vector<ExtremumMark> extrema;  ///< Of the selected curve.
   QPalette palette;
   QFont font;
   bool isLate = false;  ///< Work has been going on long enough to say so.
@@ -45,6 +49,8 @@ struct CanvasScene {
   const CurveComb* selectedComb() const;
   /// The curve nearest to a place within reach, or none.
   std::optional<int> curveNear(const Vec2& px) const;
+  /// The mark of an extremum under the mouse, or null; none while they are not shown.
+  const ExtremumMark* extremumNear(const Vec2& px) const;
 };
 
 }  // namespace batten

@@ -17,8 +17,9 @@ constexpr double kSuggestionScalePx = 14.0;
 }  // namespace
 
 CurveCanvas::State::State(CurveCanvas& owner, EditorSession& s, ViewSettings& v)
-    : CanvasScene(s, v), canvas(owner), tools{makeSelectTool(*this), makeThresholdTool(*this), makeCornerTool(*this), makePenTool(*this),
-                                                  makeSegmentTool(*this)} {
+    : CanvasScene(s, v), canvas(owner), tools{makeSelectTool(*this), makeThresholdTool(*this), makeCornerTool(*this),
+                                              makePenTool(*this), makeSegmentTool(*this), makeLinesTool(*this),
+                                              makeRegionTool(*this, false), makeRegionTool(*this, true)} {
   repaint = [this] { canvas.update(); };
   hint = [this](const QString& text) {
     if (text == lastHint) return;
@@ -55,6 +56,7 @@ void CurveCanvas::State::scanOpened() {
   overlay.reset();
   overlayFor = {};
   suggestions.clear();
+  extrema.clear();
   suggestionsFor.reset();
   ghost = {};
   for (const auto& each : tools) each->reset();
@@ -85,11 +87,17 @@ void CurveCanvas::State::stageReady(StageId stage) {
     requestShapes();
     requestCombs();
     requestOverlay();
+    refreshExtrema();
   }
   canvas.update();
 }
 
-void CurveCanvas::State::recipeChanged() { canvas.update(); }
+void CurveCanvas::State::recipeChanged() {
+  refreshExtrema();
+  canvas.update();
+}
+
+void CurveCanvas::State::refreshExtrema() { extrema = extremumMarks(session, session.selectedCurve()); }
 
 void CurveCanvas::State::viewChanged() {
   session.setEdgesWanted(view.isVisible(Layer::Edges));
@@ -105,6 +113,7 @@ void CurveCanvas::State::transformChanged() {
 }
 
 void CurveCanvas::State::selectionChanged() {
+  refreshExtrema();
   requestCombs();
   hoverChanged();
   canvas.update();
@@ -269,6 +278,7 @@ CurveCanvas::State::LinesKey CurveCanvas::State::linesKeyNow() const {
   key.combs = combs.get();
   key.overlay = overlay.get();
   if (view.isVisible(Layer::Segments)) key.segments = session.output().segments.get();
+  if (view.isVisible(Layer::Strokes) || view.isVisible(Layer::Fallback)) key.contours = session.output().contours.get();
   return key;
 }
 
@@ -282,6 +292,8 @@ void CurveCanvas::State::paintLines(const LinesKey& key) {
   if (view.isScanOnly()) return;
   QPainter painter(&lines);
   paintOverlay(painter, *this);
+  if (view.isVisible(Layer::Strokes)) paintStrokes(painter, *this);
+  if (view.isVisible(Layer::Fallback)) paintFallback(painter, *this);
   if (view.isVisible(Layer::Segments)) paintSegments(painter, *this);
   if (view.isVisible(Layer::Curve)) paintSketched(painter, *this);
   if (view.isVisible(Layer::Faired)) paintFaired(painter, *this);
@@ -330,6 +342,8 @@ void CurveCanvas::State::paint(QPainter& painter) {
     return;
   }
   if (!view.isScanOnly()) {
+    paintRegions(painter, *this);
+    if (view.isVisible(Layer::Extrema) && view.isVisible(Layer::Curve)) paintExtrema(painter, *this);
     if (view.isVisible(Layer::Corners)) paintCorners(painter, *this);
     if (view.isVisible(Layer::Regions) && view.tool() != Tool::Thresholds) paintRegionGrid(painter, *this);
     paintSegmentPoints(painter, *this);

@@ -57,7 +57,7 @@ struct CurveCanvas::State : CanvasScene {
     QSize size;
     double zoom = 0.0, ratio = 0.0, combScale = 0.0;
     int combDensity = 0, selected = -1, layers = 0;
-    const void *shapes = nullptr, *combs = nullptr, *segments = nullptr, *overlay = nullptr;
+    const void *shapes = nullptr, *combs = nullptr, *segments = nullptr, *overlay = nullptr, *contours = nullptr;
     bool operator==(const LinesKey&) const = default;
   };
   LinesKey linesKey;
@@ -80,6 +80,7 @@ struct CurveCanvas::State : CanvasScene {
   void requestShapes();
   void requestCombs();
   void requestSuggestions();
+  void refreshExtrema();
   CurveSource source() const;
   LinesKey linesKeyNow() const;
   void paintFlash(QPainter&);

@@ -39,6 +39,21 @@ std::vector<CombPoint> combPoints(const NurbsCurve& curve, const PageFrame& fram
   return points;
 }
 
+/// Gives the points of a sketched curve the noise that its construction measured.
+void addNoise(std::vector<CombPoint>& points, const ConstructReport& report) {
+  const auto &s = report.bandS, &sigma = report.bandSigma;
+  if (s.size() < 2 || s.size() != sigma.size()) return;
+  for (CombPoint& point : points) {
+    const auto next = std::clamp<std::ptrdiff_t>(std::upper_bound(s.begin(), s.end(), point.s) - s.begin(), 1,
+                                                 static_cast<std::ptrdiff_t>(s.size()) - 1);
+    const auto i = static_cast<std::size_t>(next);
+    const double width = s[i] - s[i - 1];
+    const double t = width > 0.0 ? std::clamp((point.s - s[i - 1]) / width, 0.0, 1.0) : 0.0;
+    const double value = sigma[i - 1] + t * (sigma[i] - sigma[i - 1]);
+    if (std::isfinite(value)) point.sigma = value;
+  }
+}
+
 CombMark markAt(const CurveComb& comb, double s, double kappa, bool isInflection) {
   const CombPoint place = comb.at(s);
   return {place.px, place.outPx, kappa, isInflection};
@@ -63,6 +78,7 @@ CurveComb combOf(const TracedCurve& traced, int index, bool isSelected, const Pa
   const NurbsCurve& shown = comb.isFaired ? traced.faired : traced.sketched;
   comb.points = combPoints(shown, frame);
   if (comb.points.empty()) return comb;
+  if (!comb.isFaired) addNoise(comb.points, traced.construct);
   comb.lengthMm = comb.points.back().s;
   comb.extentPx = frame.lengthToImage(extent(shown));
   std::vector<double> sizes;
@@ -73,6 +89,7 @@ CurveComb combOf(const TracedCurve& traced, int index, bool isSelected, const Pa
   addMarks(comb, shown, traced.closed);
   if (!comb.isFaired || !isSelected) return comb;
   comb.sketched = combPoints(traced.sketched, frame);
+  addNoise(comb.sketched, traced.construct);
   for (const CurveSample& sample : sampleByArcLength(traced.faired, kWhiskers)) {
     const ClosestPoint nearest = closestPoint(traced.sketched, sample.point);
     comb.whiskers.push_back(

@@ -45,6 +45,7 @@ struct CombPoint {
   Vec2 outPx = Vec2::Zero();  ///< Unit, image frame: the side on which positive curvature is drawn (outwards).
   double kappa = 0.0;         ///< [1/mm]
   double s = 0.0;             ///< [mm]
+  double sigma = 0.0;         ///< [1/mm] noise of the curvature; 0 = not known.
 };
 struct CombMark {
   Vec2 px = Vec2::Zero(), outPx = Vec2::Zero();

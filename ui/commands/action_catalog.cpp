@@ -78,6 +78,14 @@ std::vector<ActionInfo> viewActions() {
        tr("Show how far the faired curve lies from the sketched one."), true},
       {Pin, "pin", menu, tr("Pin this result"), keys({"A"}),
        tr("Keep this result as a thin line to compare later ones with; again to take it away."), true},
+      {ShowExtrema, "show-extrema", menu, tr("Curvature extrema"), keys({"Alt+X"}),
+       tr("Show where the curvature turns back, how certain that is, and what was dropped as noise."), true},
+      {ShowBand, "show-band", menu, tr("Noise band"), keys({"Alt+N"}),
+       tr("Show in the comb what the noise of the scan leaves open."), true},
+      {ShowStrokes, "show-strokes", menu, tr("Strokes"), keys({"Alt+S"}),
+       tr("Show how wide each stroke is, which strokes were merged, and which gaps were bridged."), true},
+      {ShowFallback, "show-fallback", menu, tr("Unplaced points"), keys({"Alt+U"}),
+       tr("Show where the line could not be placed on the grey values of the scan."), true},
   };
 }
 
@@ -95,6 +103,14 @@ std::vector<ActionInfo> toolActions() {
        tr("Drag to draw a line, with a mouse or a tablet; Del removes the selected one."), true},
       {ToolSegments, "tool-segments", menu, tr("Set segment points"), keys({"G"}),
        tr("Click a line where two typical curves are to meet; click the point again to remove it."), true},
+      {ToolLines, "tool-lines", menu, tr("Choose lines"), keys({"L"}),
+       tr("Click a line to leave it out of fairing and export; click it again to take it in."), true},
+      {ToolRectangle, "tool-rectangle", menu, tr("Region: rectangle"), keys({"R"}),
+       tr("Drag a rectangle: only what lies inside is traced. Further regions add to it."), true},
+      {ToolLasso, "tool-lasso", menu, tr("Region: lasso"), keys({"Shift+R"}),
+       tr("Draw round what is to be traced. Further regions add to it."), true},
+      {ClearRegions, "clear-regions", menu, tr("Clear regions"), keys({"Ctrl+Shift+R"}),
+       tr("Trace the whole page again.")},
   };
 }
 
@@ -176,7 +192,7 @@ QAction* makeAction(ActionId id, QObject* parent) {
 }
 
 std::optional<Layer> layerOf(ActionId id) {
-  const auto index = offset(id, ActionId::ShowScan, ActionId::ShowDeviation);
+  const auto index = offset(id, ActionId::ShowScan, ActionId::ShowFallback);
   if (!index) return std::nullopt;
   return kLayers[static_cast<std::size_t>(*index)];
 }
@@ -193,6 +209,12 @@ std::optional<Tool> toolOf(ActionId id) {
       return Tool::Pen;
     case ActionId::ToolSegments:
       return Tool::Segments;
+    case ActionId::ToolLines:
+      return Tool::Lines;
+    case ActionId::ToolRectangle:
+      return Tool::Rectangle;
+    case ActionId::ToolLasso:
+      return Tool::Lasso;
     default:
       return std::nullopt;
   }
@@ -221,6 +243,12 @@ ActionId toolAction(Tool tool) {
       return ActionId::ToolPen;
     case Tool::Segments:
       return ActionId::ToolSegments;
+    case Tool::Lines:
+      return ActionId::ToolLines;
+    case Tool::Rectangle:
+      return ActionId::ToolRectangle;
+    case Tool::Lasso:
+      return ActionId::ToolLasso;
   }
   return ActionId::ToolSelect;
 }

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/clean_up_panel.h"
 
+#include <QCheckBox>
+#include <QHBoxLayout>
 #include <QLabel>
+#include <QPushButton>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <functional>
 
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/parameter_editor.h"
 #include "ui/panels/pen_panel.h"
+#include "ui/panels/segmented_control.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -65,7 +70,12 @@ void CleanUpPanel::refresh() {
 }
 
 EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
-    : QWidget(parent), session_(session), figures_(new FigureTable(this)), note_(note({}, this)) {
+    : QWidget(parent), session_(session), view_(view),
+      tools_(new SegmentedControl({tr("Select"), tr("Lines"), tr("Rectangle"), tr("Lasso")}, this)),
+      regions_(note({}, this)), clear_(linkButton(tr("Clear"), QStringLiteral("edges.clearRegions"), this)),
+      strokes_(new QCheckBox(tr("Show stroke widths, merges, bridges"), this)),
+      fallback_(new QCheckBox(tr("Show points that could not be placed"), this)), figures_(new FigureTable(this)),
+      note_(note({}, this)) {
   auto* layout = panelLayout(this, tr("Edges"));
   tracing_ = {new ParameterEditor(session,
                                   {"edges.mode", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
@@ -73,6 +83,7 @@ EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* pare
                                   this),
               caption(tr("Lines found"), this), figures_};
   layout->addWidget(tracing_[0]);
+  buildChoice();
   layout->addWidget(tracing_[1]);
   layout->addWidget(figures_);
   layout->addWidget(note_);
@@ -80,6 +91,52 @@ EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* pare
   layout->addStretch();
   follow(session, this, StageId::Contours, [this] { refresh(); });
   refresh();
+}
+
+void EdgesPanel::buildChoice() {
+  auto* layout = static_cast<QVBoxLayout*>(this->layout());
+  layout->addWidget(caption(tr("What is traced"), this));
+  tools_->setNames(QStringLiteral("edges.tool"), {QStringLiteral("select"), QStringLiteral("lines"),
+                                                  QStringLiteral("rectangle"), QStringLiteral("lasso")});
+  tools_->setToolTip(tr("What a click on the drawing does: select a curve, leave a line out or take it in, or draw a region."));
+  layout->addWidget(tools_);
+  auto* row = new QHBoxLayout;
+  row->addWidget(regions_, 1);
+  row->addWidget(clear_);
+  layout->addLayout(row);
+  strokes_->setObjectName(QStringLiteral("edges.showStrokes"));
+  fallback_->setObjectName(QStringLiteral("edges.showFallback"));
+  layout->addWidget(strokes_);
+  layout->addWidget(fallback_);
+  static constexpr Tool kChoices[] = {Tool::Select, Tool::Lines, Tool::Rectangle, Tool::Lasso};
+  connect(tools_, &SegmentedControl::chosen, this, [this](int index) { view_.setTool(kChoices[index]); });
+  connect(clear_, &QPushButton::clicked, this, [this] {
+    Recipe after = session_.recipe();
+    after.regions.clear();
+    session_.change(tr("Clear regions"), std::move(after));
+  });
+  connect(strokes_, &QCheckBox::toggled, this, [this](bool on) { view_.setVisible(Layer::Strokes, on); });
+  connect(fallback_, &QCheckBox::toggled, this, [this](bool on) { view_.setVisible(Layer::Fallback, on); });
+  connect(&view_, &ViewSettings::toolChanged, this, &EdgesPanel::refreshChoice);
+  connect(&view_, &ViewSettings::changed, this, &EdgesPanel::refreshChoice);
+  connect(&session_, &EditorSession::recipeChanged, this, &EdgesPanel::refreshChoice);
+  refreshChoice();
+}
+
+void EdgesPanel::refreshChoice() {
+  switch (view_.tool()) {
+    case Tool::Select: tools_->setCurrent(0); break;
+    case Tool::Lines: tools_->setCurrent(1); break;
+    case Tool::Rectangle: tools_->setCurrent(2); break;
+    case Tool::Lasso: tools_->setCurrent(3); break;
+    default: tools_->setCurrent(-1); break;
+  }
+  const auto count = static_cast<qint64>(session_.recipe().regions.size());
+  regions_->setText(count == 0 ? tr("The whole page is traced.")
+                               : counted(count, tr("Only 1 region is traced."), tr("Only %1 regions are traced.")));
+  clear_->setVisible(count > 0);
+  strokes_->setChecked(view_.isVisible(Layer::Strokes));
+  fallback_->setChecked(view_.isVisible(Layer::Fallback));
 }
 
 void EdgesPanel::refresh() {
@@ -102,10 +159,14 @@ void EdgesPanel::refresh() {
       {tr("Kept"), {{grouped(kept)}}, tr("Lines that go on to become curves.")},
       {tr("of these strokes"), {{grouped(strokes)}}, tr("Followed along the middle of the pen stroke.")},
       {tr("of these closed"), {{grouped(closed)}}, tr("Lines that return to their start.")},
-      {tr("Too short"), {{grouped(report.droppedShort)}}, tr("Left out because they are shorter than the shortest line.")}};
+      {tr("Too short"), {{grouped(report.droppedShort)}}, tr("Left out because they are shorter than %1.").arg(millimetres(session_.recipe().contours.minLengthPx * session_.output().frame.mmPerPx))}};
   if (report.droppedMargins > 0)
     rows.push_back({tr("Margins of the scanner left out"), {{grouped(report.droppedMargins)}}, {}});
   if (report.droppedHoles > 0) rows.push_back({tr("Inner outlines left out"), {{grouped(report.droppedHoles)}}, {}});
+  qint64 fallback = 0;
+  for (const Contour& contour : set->contours) fallback += std::count(contour.refined.begin(), contour.refined.end(), std::uint8_t{0});
+  rows.push_back({tr("Points not placed"), {{grouped(fallback)}},
+                  tr("Places where the scan shows no clear edge: amber dots on the drawing. The line lies on the pixel border there.")});
   rows.push_back({tr("Placed on grey values"), {{QStringLiteral("%1 %").arg(100 * report.refinedShare, 0, 'f', 0)}},
                   tr("Part of the points that lie on the scan's grey values, finer than a pixel.")});
   figures_->setRows(std::move(rows));

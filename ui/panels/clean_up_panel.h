@@ -7,11 +7,14 @@
 #include "ui/session/editor_session.h"
 #include "ui/session/view_settings.h"
 
+class QCheckBox;
 class QLabel;
+class QPushButton;
 
 namespace batten {
 
 class FigureTable;
+class SegmentedControl;
 
 /// The neighbourhood filter and what it did to the ink.
 class CleanUpPanel : public QWidget {
@@ -26,16 +29,24 @@ class CleanUpPanel : public QWidget {
   QLabel* warning_;
 };
 
-/// Which lines are followed, and how many were.
+/// Which lines are followed, what of the page is traced, and how many lines that gave.
 class EdgesPanel : public QWidget {
   Q_OBJECT
  public:
   EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
 
  private:
+  void buildChoice();
   void refresh();
+  void refreshChoice();
   EditorSession& session_;
   std::vector<QWidget*> tracing_;  ///< What is about the lines of the scan.
+  ViewSettings& view_;
+  SegmentedControl* tools_;
+  QLabel* regions_;
+  QPushButton* clear_;
+  QCheckBox* strokes_;
+  QCheckBox* fallback_;
   FigureTable* figures_;
   QLabel* note_;
 };

@@ -74,7 +74,7 @@ CombControls::CombControls(ViewSettings& view, QWidget* parent) : QWidget(parent
 CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
     : QWidget(parent), session_(session),
       editor_(new ParameterEditor(session,
-                                  {"construct.derivative_magnitude", "construct.keep_extrema",
+                                  {"construct.derivative_magnitude", "construct.keep_extrema", "construct.reduce",
                                    "construct.lowpass", "construct.typical", "construct.growing_stop",
                                    "segments.mode", "segments.count", "segments.spacing", "segments.tolerance",
                                    "construct.gradients", "construct.magnitude_as_in_paper", "construct.growing_as_in_paper"},
@@ -110,6 +110,32 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
   refresh();
 }
 
+void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const {
+  const ConstructReport& fit = curve.construct;
+  const double mmPerPx = session_.output().frame.mmPerPx;
+  const auto length = [mmPerPx](double px) {
+    return tr("%1 px · %2 µm").arg(px, 0, 'f', 3).arg(1000.0 * px * mmPerPx, 0, 'f', 1);
+  };
+  if (fit.isCircle || fit.isLine)
+    rows.insert(rows.begin(), {tr("Recognised"), {{fit.isCircle ? tr("exact circle") : tr("exact line")}},
+                               tr("The scan holds nothing that a perfect one would not, so it is one.")});
+  if (fit.noisePx > 0.0)
+    rows.push_back({tr("Noise of the edge"), {{length(fit.noisePx)}}, tr("Standard deviation of the scan's edge points from the curve.")});
+  if (fit.fullControlPoints > curve.sketchedFigures.controlPoints) {
+    rows.push_back({tr("Before sparing"), {{tr("%1 points").arg(fit.fullControlPoints)}}, tr("Control points of the fit before they were spared.")});
+    rows.push_back({tr("Moved by sparing"), {{length(fit.reducedMovedPx)}}, tr("How far that moved the curve at most.")});
+  }
+  const auto dropped = std::count_if(fit.extrema.begin(), fit.extrema.end(), [](const ExtremumNote& e) { return !e.kept; });
+  if (dropped > 0) rows.push_back({tr("Dropped as noise"), {{tr("%1 extrema").arg(dropped)}}, tr("Hollow marks on the curve: click one to keep it.")});
+  const auto& pieces = session_.output().pieces;
+  if (!pieces || curve.piece < 0 || static_cast<std::size_t>(curve.piece) >= pieces->pieces.size()) return;
+  const auto& refined = pieces->pieces[static_cast<std::size_t>(curve.piece)].refined;
+  const auto fallback = std::count(refined.begin(), refined.end(), std::uint8_t{0});
+  if (fallback > 0)
+    rows.push_back({tr("Points not placed"), {{tr("%1 of %2").arg(fallback).arg(refined.size())}},
+                    tr("Points where the scan shows no clear edge; they lie on the pixel border.")});
+}
+
 void CurvesPanel::refresh() {
   const ConstructMethod method = methods_->current();
   const SegmentParams& segments = session_.recipe().segments;
@@ -130,6 +156,7 @@ void CurvesPanel::refresh() {
   segmentsNote_->setText(set == 0 ? tr("To say where segments meet, press G and click the line.")
                                   : counted(static_cast<qint64>(set), tr("1 segment point set. G, then click it to remove it."),
                                             tr("%1 segment points set. G, then click one to remove it.")));
+  editor_->setRowVisible("construct.reduce", method == ConstructMethod::Fair);
   knots_->setVisible(method == ConstructMethod::ControlPolygon);
   const bool segmented = method != ConstructMethod::Fair && method != ConstructMethod::ControlPolygon;
   const bool counted = segments.mode == SegmentMode::Stations || segments.mode == SegmentMode::Count;
@@ -144,13 +171,15 @@ void CurvesPanel::refresh() {
     return;
   }
   const CurveFigures& f = curve->sketchedFigures;
-  figures_->setRows({{tr("Length"), {{millimetres(f.lengthMm)}}, tr("Arc length of the sketched curve.")},
+  std::vector<FigureTable::Row> rows = {{tr("Length"), {{millimetres(f.lengthMm)}}, tr("Arc length of the sketched curve.")},
                      {tr("Control points"), {{QString::number(f.controlPoints)}}, {}},
                      {tr("Largest deviation"), {{millimetres(f.fromPoints.max)}}, tr("Farthest edge point from the curve.")},
                      {tr("Mean deviation (rms)"), {{millimetres(f.fromPoints.rms)}}, {}},
                      {tr("95 % of points within"), {{millimetres(f.fromPoints.percentile95)}}, {}},
                      {tr("Curvature extrema"), {{QString::number(f.extrema)}}, tr("Places where the curvature turns back: fewer is fairer.")},
-                     {tr("Inflections"), {{QString::number(f.inflections)}}, tr("Places where the curve bends the other way.")}});
+                     {tr("Inflections"), {{QString::number(f.inflections)}}, tr("Places where the curve bends the other way.")}};
+  addFitRows(rows, *curve);
+  figures_->setRows(std::move(rows));
   QString text = QString::fromStdString(curve->construct.note);
   const auto& made = curve->construct.segments;
   const auto typicalCount = std::count_if(made.begin(), made.end(), [](const SegmentNote& n) { return n.typical; });
@@ -161,6 +190,11 @@ void CurvesPanel::refresh() {
                .arg(typicalCount)
                .arg(monotoneCount)
                .arg(static_cast<qint64>(made.size()) - typicalCount);
+  }
+  if (const auto unmet = static_cast<qint64>(curve->construct.unmetWishes.size())) {
+    if (!text.isEmpty()) text += QLatin1Char('\n');
+    text += batten::counted(unmet, tr("1 bump could not be kept or taken out as you wished."),
+                            tr("%1 bumps could not be kept or taken out as you wished."));
   }
   note_->setText(text);
   note_->setVisible(!note_->text().isEmpty());

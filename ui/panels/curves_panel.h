@@ -3,6 +3,7 @@
 
 #include <QWidget>
 
+#include "ui/panels/panel_parts.h"
 #include "ui/session/editor_session.h"
 #include "ui/session/view_settings.h"
 
@@ -10,7 +11,6 @@ class QLabel;
 
 namespace batten {
 
-class FigureTable;
 class KnotPanel;
 class MethodTable;
 class GrowingControls;
@@ -27,6 +27,8 @@ class CurvesPanel : public QWidget {
 
  private:
   void refresh();
+  /// What the fair fit says of the selected curve: noise, spared control points, dropped extrema.
+  void addFitRows(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const;
   EditorSession& session_;
   ParameterEditor* editor_;
   MethodTable* methods_;

@@ -14,7 +14,7 @@
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/parameter_editor.h"
 #include "ui/panels/parameter_row.h"
-#include "ui/panels/piece_choice.h"
+#include "ui/session/piece_choice.h"
 #include "ui/panels/segmented_control.h"
 
 namespace batten {

@@ -12,7 +12,7 @@
 
 #include "core/pipeline/parameter_table.h"
 #include "ui/panels/panel_parts.h"
-#include "ui/panels/piece_choice.h"
+#include "ui/session/piece_choice.h"
 #include "ui/session/background_worker.h"
 #include "ui/theme/theme.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "ui/panels/panel_parts.h"
-#include "ui/panels/piece_choice.h"
+#include "ui/session/piece_choice.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

@@ -166,7 +166,14 @@ void ThresholdPanel::refresh() {
   const auto own = std::count_if(params.grid.begin(), params.grid.end(), [](const auto& cell) { return cell.has_value(); });
   allAuto_->setEnabled(own > 0);
   const auto& found = session_.output().thresholds;
-  note_->setText(found ? QString::fromStdString(found->note) : QString());
+  QString text = found ? QString::fromStdString(found->note) : QString();
+  const double mm = session_.output().frame.mmPerPx;
+  if (found && mm > 0.0 && (params.speckArea > 0 || params.holeArea > 0)) {
+    if (!text.isEmpty()) text += QLatin1Char('\n');
+    text += tr("Specks under %1 mm² are dropped, holes under %2 mm² filled.")
+                .arg(params.speckArea * mm * mm, 0, 'g', 2).arg(params.holeArea * mm * mm, 0, 'g', 2);
+  }
+  note_->setText(text);
   note_->setVisible(!note_->text().isEmpty());
   refreshRegion();
   refreshTable();

@@ -16,6 +16,9 @@
 #include "ui/theme/theme.h"
 
 namespace batten {
+namespace {
+constexpr double kMarkReachPx = 9.0;  // how near the mouse has to be to a mark
+}
 
 struct CurvePlots::State {
   explicit State(EditorSession& s) : session(s) {}
@@ -40,7 +43,7 @@ CurvePlots::CurvePlots(EditorSession& session, QWidget* parent) : QWidget(parent
   build();
   applyTheme();
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::selectionChanged, &EditorSession::targetsChanged,
-                            &EditorSession::hoverChanged, &EditorSession::runFinished})
+                            &EditorSession::hoverChanged, &EditorSession::runFinished, &EditorSession::recipeChanged})
     connect(&session, signal, this, &CurvePlots::refreshSoon);
   connect(&session, &EditorSession::stageReady, this, [this](StageId stage) {
     if (stage == StageId::Curves || stage == StageId::Faired) refreshSoon();
@@ -230,6 +233,7 @@ void CurvePlots::refresh() {
     }
     graph->setAntialiased(true);
   }
+  addMarks();
   const bool sameView = d.shownTab == d.tab && d.shownCurve == d.session.selectedCurve() &&
                         std::abs(d.shownLength - d.data.lengthMm) < 0.2 * std::abs(d.shownLength);
   d.shownTab = d.tab;
@@ -238,6 +242,41 @@ void CurvePlots::refresh() {
   if (sameView) d.plot->yAxis->setRange(d.data.low, d.data.high);
   else resetView();
   showCursor();
+}
+
+void CurvePlots::addMarks() {
+  State& d = *state_;
+  const Theme& theme = themeOf(palette());
+  for (const ExtremumMark& mark : d.data.marks) {
+    QColor faint = theme.accent;
+    faint.setAlphaF(0.4F);
+    const QColor line = mark.wantedToKeep ? theme.amber : mark.isKept ? theme.accent : theme.mute;
+    const QColor fill = !mark.isKept ? theme.panel : mark.isCertain ? theme.accent : faint;
+    QCPGraph* graph = d.plot->addGraph();
+    graph->setData({mark.s}, {mark.kappa}, true);
+    graph->setLineStyle(QCPGraph::lsNone);
+    graph->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(line, mark.wantedToKeep ? 2.2 : 1.5), fill, 9));
+    graph->setAntialiasedScatters(true);
+  }
+}
+
+const ExtremumMark* CurvePlots::markAt(const QPointF& place) const {
+  const State& d = *state_;
+  const ExtremumMark* best = nullptr;
+  double least = kMarkReachPx;
+  for (const ExtremumMark& mark : d.data.marks) {
+    const double distance = std::hypot(d.plot->xAxis->coordToPixel(mark.s) - place.x(), d.plot->yAxis->coordToPixel(mark.kappa) - place.y());
+    if (distance > least) continue;
+    least = distance;
+    best = &mark;
+  }
+  return best;
+}
+
+QPointF CurvePlots::markPlace(int note) const {
+  for (const ExtremumMark& mark : state_->data.marks)
+    if (mark.note == note) return {state_->plot->xAxis->coordToPixel(mark.s), state_->plot->yAxis->coordToPixel(mark.kappa)};
+  return {-1.0, -1.0};
 }
 
 void CurvePlots::resetView() {
@@ -283,7 +322,18 @@ bool CurvePlots::eventFilter(QObject* watched, QEvent* event) {
       const auto* mouse = static_cast<QMouseEvent*>(event);
       const double s = d.plot->xAxis->pixelToCoord(mouse->position().x());
       d.session.setCursor(s >= 0 && s <= d.data.lengthMm ? std::optional(s) : std::nullopt);
-      emit hint(tr("The cursor is the same place on the drawing. Wheel zooms, drag pans, double click shows all."));
+      const ExtremumMark* mark = markAt(mouse->position());
+      d.plot->setToolTip(mark ? mark->text : QString());
+      d.plot->setCursor(mark ? Qt::PointingHandCursor : Qt::ArrowCursor);
+      emit hint(mark ? mark->text : tr("The cursor is the same place on the drawing. Wheel zooms, drag pans, double click shows all."));
+    }
+    if (event->type() == QEvent::MouseButtonPress) {
+      const auto* mouse = static_cast<QMouseEvent*>(event);
+      const ExtremumMark* mark = mouse->button() == Qt::LeftButton ? markAt(mouse->position()) : nullptr;
+      if (mark) {
+        toggleExtremum(d.session, d.session.selectedCurve(), mark->note);
+        return true;
+      }
     }
     if (event->type() == QEvent::Leave) {
       d.session.setCursor(std::nullopt);

@@ -17,6 +17,8 @@ class CurvePlots : public QWidget {
   ~CurvePlots() override;
   PlotTab tab() const;
   void setTab(PlotTab tab);
+  /// Where a mark of the curvature plot is in the plot widget, for tests; outside when there is none.
+  QPointF markPlace(int note) const;
 
  signals:
   void hint(const QString& text);
@@ -34,6 +36,8 @@ class CurvePlots : public QWidget {
   void applyTheme();
   void showCursor();
   void resetView();
+  void addMarks();
+  const ExtremumMark* markAt(const QPointF& place) const;
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -185,6 +185,8 @@ PlotData plotData(const EditorSession& session, PlotTab tab) {
       addBand(data, *curve, sketched, scale);
       addBoth([](const CurveSample& sample) { return sample.kappa; });
       addJoints(data, shown, shownScale, [](const NurbsCurve& of, double u) { return curvature(of, u); });
+      data.marks = extremumMarks(session, session.selectedCurve());
+      for (ExtremumMark& mark : data.marks) mark.s *= scale;
       break;
     case PlotTab::Derivative:
       add(data, PlotRole::Sketched, sketched, scale, [](const CurveSample& sample) { return sample.speed; });

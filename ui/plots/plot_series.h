@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "ui/session/editor_session.h"
+#include "ui/session/extremum_marks.h"
 
 namespace batten {
 
@@ -23,6 +24,7 @@ struct PlotData {
   double lengthMm = 0.0;
   std::vector<PlotSeries> series;
   std::vector<double> bandS, bandLow, bandHigh;  ///< Curvature: +-2 sigma of the sketched curve.
+  std::vector<ExtremumMark> marks;               ///< Curvature: the extrema of the fair fit; s as on the axis.
   bool logarithmic = false;
   double low = 0.0, high = 1.0;                  ///< Range of the values that is shown at first.
   bool isEmpty() const { return series.empty(); }

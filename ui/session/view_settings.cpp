@@ -32,12 +32,20 @@ QString label(Layer layer) {
       return QObject::tr("Regions");
     case Layer::Deviation:
       return QObject::tr("Deviation");
+    case Layer::Extrema:
+      return QObject::tr("Extrema");
+    case Layer::Band:
+      return QObject::tr("Noise band");
+    case Layer::Strokes:
+      return QObject::tr("Strokes");
+    case Layer::Fallback:
+      return QObject::tr("Unplaced points");
   }
   return {};
 }
 
 ViewSettings::ViewSettings(QObject* parent) : QObject(parent) {
-  for (const Layer layer : {Layer::Scan, Layer::Curve, Layer::Faired, Layer::Comb, Layer::Corners})
+  for (const Layer layer : {Layer::Scan, Layer::Curve, Layer::Faired, Layer::Comb, Layer::Corners, Layer::Extrema, Layer::Band})
     visible_[static_cast<std::size_t>(layer)] = true;
 }
 

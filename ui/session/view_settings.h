@@ -8,9 +8,11 @@
 namespace batten {
 
 /// What the canvas can show, in painting order.
-enum class Layer { Scan, LogImage, Mask, Edges, Segments, Curve, Faired, Comb, Corners, Regions, Deviation };
+enum class Layer { Scan, LogImage, Mask, Edges, Segments, Curve, Faired, Comb, Corners, Regions, Deviation,
+                   Extrema, Band, Strokes, Fallback };
 inline constexpr std::array kLayers = {Layer::Scan,   Layer::LogImage, Layer::Mask,    Layer::Edges,   Layer::Segments, Layer::Curve,
-                                       Layer::Faired, Layer::Comb,     Layer::Corners, Layer::Regions, Layer::Deviation};
+                                       Layer::Faired, Layer::Comb,     Layer::Corners, Layer::Regions, Layer::Deviation,
+                                       Layer::Extrema, Layer::Band, Layer::Strokes, Layer::Fallback};
 QString label(Layer);  ///< "Scan", "Log image", …
 
 /// What a press on the canvas does. Pan and zoom work in every tool.
@@ -20,8 +22,12 @@ enum class Tool {
   Corners,     ///< Click on a line marks a corner, click on a corner removes it.
   Pen,         ///< Drag draws a line; click selects a drawn one, Del removes it.
   Segments,    ///< Click on a line sets a place where typical curves meet, click on it removes it.
+  Lines,       ///< Click leaves a line out or takes it in again.
+  Rectangle,   ///< Drag draws a rectangle: only what lies inside the regions is traced.
+  Lasso,       ///< The same drawn freely.
 };
-inline constexpr std::array kTools = {Tool::Select, Tool::Thresholds, Tool::Corners, Tool::Pen, Tool::Segments};
+inline constexpr std::array kTools = {Tool::Select, Tool::Thresholds, Tool::Corners,   Tool::Pen,
+                                      Tool::Segments, Tool::Lines,    Tool::Rectangle, Tool::Lasso};
 
 /// How the drawing is shown: never part of the recipe, never undone, kept between sessions.
 class ViewSettings : public QObject {

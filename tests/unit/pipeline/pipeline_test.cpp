@@ -180,6 +180,62 @@ TEST(Pipeline, OwnChoicesActOnTheNearestPieceOnly) {
   EXPECT_FALSE(without.faired->curves[1].included);
 }
 
+TEST(Pipeline, ARegionTracesOnlyWhatLiesInside) {
+  StageCache cache;
+  const auto whole = run({}, cache);
+  ASSERT_FALSE(whole.error);
+  ASSERT_EQ(whole.contours->contours.size(), 1u);
+  Recipe recipe;
+  recipe.regions = {rectangleRegion({0, 0}, {200, 300})};
+  const auto half = run(recipe, cache);
+  ASSERT_FALSE(half.error) << half.error->message;
+  ASSERT_EQ(half.contours->contours.size(), 1u);
+  EXPECT_FALSE(half.contours->contours[0].closed);
+  EXPECT_NEAR(half.contours->contours[0].lengthPx / whole.contours->contours[0].lengthPx, 0.5, 0.05);
+  for (const Vec2& p : half.contours->contours[0].points) EXPECT_LT(p.x(), 200.0);
+  recipe.regions = {rectangleRegion({0, 0}, {4, 4})};
+  const auto none = run(recipe, cache);
+  ASSERT_TRUE(none.error);
+  EXPECT_EQ(none.error->code, ErrorCode::NoCurve);
+  EXPECT_NE(none.error->message.find("region"), std::string::npos);
+}
+
+TEST(Pipeline, ChoicesOutliveAThresholdThatMovesAndComesBack) {
+  StageCache cache;
+  Recipe recipe;
+  const auto before = run(recipe, cache);
+  ASSERT_FALSE(before.error);
+  PieceChoice choice;
+  choice.anchorPx = anchorOf(before.pieces->pieces[0]);
+  choice.included = false;
+  recipe.choices = {choice};
+  recipe.extremumChoices = {{before.pieces->pieces[0].points[5], true}};
+  recipe.cornerMarks = {{Vec2(200, 40)}};
+  recipe.corners.snapDistancePx = 60.0;
+  const auto chosen = run(recipe, cache);
+  ASSERT_FALSE(chosen.error);
+  ASSERT_EQ(chosen.pieces->corners.size(), 1u);
+  // Slightly moved: the same line, a little elsewhere. Everything still holds.
+  Recipe moved = recipe;
+  moved.threshold.mode = ThresholdMode::Manual;
+  for (const double level : {90.0, 150.0, 190.0}) {
+    moved.threshold.manualLevel = level;
+    const auto out = run(moved, cache);
+    ASSERT_FALSE(out.error) << level;
+    EXPECT_EQ(out.pieces->corners.size(), 1u) << level;
+    for (const TracedCurve& c : out.faired->curves) EXPECT_FALSE(c.included) << level;
+    EXPECT_EQ(assignExtremumChoices(*out.pieces, moved)[0].size(), 1u) << level;
+  }
+  // So far that the line is gone: nothing to choose from, and nothing forgotten.
+  moved.threshold.manualLevel = 1.0;
+  EXPECT_TRUE(run(moved, cache).error);
+  moved.threshold = recipe.threshold;
+  EXPECT_EQ(moved, recipe);
+  const auto back = run(moved, cache);
+  EXPECT_FALSE(back.faired->curves[0].included);
+  EXPECT_EQ(back.pieces->corners.size(), 1u);
+}
+
 TEST(Report, HoldsStagesCurvesAndTargetsWithoutNaN) {
   StageCache cache;
   Recipe recipe;

@@ -42,9 +42,31 @@ QPolygonF envelope(const std::vector<CombPoint>& points, const CombScale& scale,
   return line;
 }
 
+/// What the noise of the scan leaves open of the curvature: +-2 standard deviations about the comb's tips.
+void paintBand(QPainter& painter, const CanvasScene& scene, const std::vector<CombPoint>& points,
+               const CombScale& scale) {
+  if (points.empty() || !(points.front().sigma > 0.0)) return;
+  QPolygonF band;
+  band.reserve(2 * static_cast<qsizetype>(points.size()));
+  const auto edge = [&](CombPoint point, double side) {
+    point.kappa += side * 2.0 * point.sigma;
+    band.append(tipOf(point, scale, scene.transform));
+  };
+  for (const CombPoint& point : points) edge(point, 1.0);
+  for (auto point = points.rbegin(); point != points.rend(); ++point) edge(*point, -1.0);
+  QColor fill = colors::sketched();
+  fill.setAlpha(54);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(fill);
+  painter.drawPolygon(band, Qt::WindingFill);
+}
+
 void paintComb(QPainter& painter, const CanvasScene& scene, const CurveComb& comb, const CombScale& scale,
                bool isSelected) {
   const ViewTransform& transform = scene.transform;
+  if (isSelected && scene.view.isVisible(Layer::Band)) {
+    paintBand(painter, scene, comb.isFaired ? comb.sketched : comb.points, scale);
+  }
   if (!comb.sketched.empty() && scene.view.isVisible(Layer::Curve)) {
     painter.setPen(QPen(colors::sketchedFaint(), 1.0));
     painter.drawPolyline(envelope(comb.sketched, scale, transform));

@@ -28,6 +28,12 @@ class ImagePainter {
     painter_.setPen(QPen(color, width * unit_, style, Qt::RoundCap, Qt::RoundJoin));
     painter_.drawPath(path);
   }
+  void fill(const QPainterPath& path, const QColor& color) {
+    painter_.setPen(Qt::NoPen);
+    painter_.setBrush(color);
+    painter_.drawPath(path);
+    painter_.setBrush(Qt::NoBrush);
+  }
   bool sees(const QRectF& bounds) const {
     const double margin = 4.0 * unit_;
     // A straight line has a flat box, which QRectF::intersects would call empty.
@@ -40,6 +46,45 @@ class ImagePainter {
   double unit_;
   QRectF seen_;
 };
+
+QRectF boundsOf(const std::vector<Vec2>& points) {
+  if (points.empty()) return {};
+  Vec2 low = points.front(), high = low;
+  for (const Vec2& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return QRectF(QPointF(low.x(), low.y()), QPointF(high.x(), high.y()));
+}
+
+/// The ground within share * width on either side of a line.
+QPainterPath ribbon(const Contour& line, const std::vector<float>& width, double share) {
+  const std::size_t n = std::min(line.points.size(), width.size());
+  QPolygonF left, right;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t before = i > 0 ? i - 1 : line.closed ? n - 1 : 0;
+    const std::size_t after = i + 1 < n ? i + 1 : line.closed ? 0 : n - 1;
+    const Vec2 along = line.points[after] - line.points[before];
+    if (!(along.norm() > 0.0)) continue;
+    const Vec2 out = share * static_cast<double>(width[i]) * Vec2(-along.y(), along.x()) / along.norm();
+    const Vec2 a = line.points[i] + out, b = line.points[i] - out;
+    left.append(QPointF(a.x(), a.y()));
+    right.append(QPointF(b.x(), b.y()));
+  }
+  QPainterPath path;
+  path.setFillRule(line.closed ? Qt::OddEvenFill : Qt::WindingFill);
+  if (left.size() < 2) return path;
+  if (line.closed) {
+    path.addPolygon(left);
+    path.closeSubpath();
+    path.addPolygon(right);
+  } else {
+    std::reverse(right.begin(), right.end());
+    path.addPolygon(left + right);
+  }
+  path.closeSubpath();
+  return path;
+}
 
 bool fairedIsShown(const CanvasScene& scene, const CurveShape& shape) {
   return scene.view.isVisible(Layer::Faired) && !shape.faired.isEmpty();
@@ -88,10 +133,48 @@ void paintFaired(QPainter& painter, const CanvasScene& scene) {
   }
 }
 
+void paintLeftOut(QPainter& painter, const CanvasScene& scene) {
+  if (!scene.shapes) return;
+  ImagePainter image(painter, scene);
+  for (const CurveShape& shape : scene.shapes->curves) {
+    if (shape.isIncluded || !image.sees(shape.bounds)) continue;
+    image.stroke(shape.sketched, QColor(255, 255, 255, 170), 3.0);
+    image.stroke(shape.sketched, colors::corner(), 1.4, Qt::DotLine);
+  }
+}
+
+void paintChoice(QPainter& painter, const CanvasScene& scene, const CurveShape& shape) {
+  QColor color = shape.isIncluded ? colors::corner() : colors::accent();
+  color.setAlpha(110);
+  ImagePainter image(painter, scene);
+  image.stroke(shape.sketched, color, 8.0);
+}
+
 void paintGhost(QPainter& painter, const CanvasScene& scene, const QPainterPath& ghost) {
   ImagePainter image(painter, scene);
   image.stroke(ghost, QColor(255, 255, 255, 150), 3.2);
   image.stroke(ghost, colors::target(), 1.7, Qt::DashLine);
+}
+
+void paintStrokes(QPainter& painter, const CanvasScene& scene) {
+  const auto& contours = scene.session.output().contours;
+  if (!contours) return;
+  ImagePainter image(painter, scene);
+  for (const Contour& line : contours->contours) {
+    if (!image.sees(boundsOf(line.points))) continue;
+    if (!line.bandPx.empty()) image.fill(ribbon(line, line.bandPx, 1.0), QColor(200, 112, 0, 70));
+    if (!line.widthPx.empty()) image.fill(ribbon(line, line.widthPx, 0.5), QColor(20, 130, 80, 60));
+    for (const auto& [first, last] : line.bridges) {
+      QPainterPath bridge;
+      for (int i = std::max(0, first); i <= last && i < static_cast<int>(line.points.size()); ++i) {
+        const Vec2& p = line.points[static_cast<std::size_t>(i)];
+        if (bridge.elementCount() == 0) bridge.moveTo(p.x(), p.y());
+        bridge.lineTo(p.x(), p.y());
+      }
+      image.stroke(bridge, QColor(255, 255, 255, 200), 4.5);
+      image.stroke(bridge, colors::target(), 2.0, Qt::DashLine);
+    }
+  }
 }
 
 void paintSegments(QPainter& painter, const CanvasScene& scene) {

@@ -21,7 +21,19 @@ void paintCorners(QPainter&, const CanvasScene&);
 void paintSegmentPoints(QPainter&, const CanvasScene&);
 /// The step of the growing chain that is played.
 void paintGrowing(QPainter&, const CanvasScene&);
+/// Curvature extrema of the selected curve: filled = certain, half = probable, hollow = dropped, ringed = the user's.
+void paintExtrema(QPainter&, const CanvasScene&);
+/// Widths of strokes, bands of merged ones, bridged gaps.
+void paintStrokes(QPainter&, const CanvasScene&);
+/// Points that could not be placed on the grey values.
+void paintFallback(QPainter&, const CanvasScene&);
+/// The regions of interest; what lies outside is veiled.
+void paintRegions(QPainter&, const CanvasScene&);
 void paintRegionGrid(QPainter&, const CanvasScene&);
+/// Lines that the user has left out, so that they can be found again.
+void paintLeftOut(QPainter&, const CanvasScene&);
+/// A line that a click would leave out (red) or take in (blue).
+void paintChoice(QPainter&, const CanvasScene&, const CurveShape&);
 /// The hovered target, dashed.
 void paintGhost(QPainter&, const CanvasScene&, const QPainterPath& ghost);
 /// The place that canvas and plots have in common.

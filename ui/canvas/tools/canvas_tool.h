@@ -45,5 +45,7 @@ std::unique_ptr<CanvasTool> makeThresholdTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeCornerTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makePenTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeSegmentTool(CanvasScene&);
+std::unique_ptr<CanvasTool> makeLinesTool(CanvasScene&);
+std::unique_ptr<CanvasTool> makeRegionTool(CanvasScene&, bool isLasso);
 
 }  // namespace batten

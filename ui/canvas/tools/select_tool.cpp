@@ -2,6 +2,7 @@
 #include <QCoreApplication>
 #include <QKeyEvent>
 
+#include "ui/canvas/layers/vector_layers.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/pen_edits.h"
 
@@ -13,15 +14,25 @@ class SelectTool final : public CanvasTool {
   using CanvasTool::CanvasTool;
 
   void press(const ToolEvent& event) override {
+    if (const ExtremumMark* mark = scene_.extremumNear(event.px)) {
+      const int note = mark->note;
+      over_.reset();
+      return toggleExtremum(scene_.session, scene_.session.selectedCurve(), note);
+    }
     if (const auto curve = scene_.curveNear(event.px)) scene_.session.selectCurve(*curve);
   }
 
   void move(const ToolEvent& event, bool isPressed) override {
     if (isPressed) return;
+    const ExtremumMark* mark = scene_.extremumNear(event.px);
+    const auto over = mark ? std::optional(*mark) : std::nullopt;
+    if (over.has_value() != over_.has_value() || (over && over->note != over_->note)) scene_.repaint();
+    over_ = over;
     const auto curve = scene_.curveNear(event.px);
     isOver_ = curve.has_value() && *curve != scene_.session.selectedCurve();
-    scene_.hint(isOver_ ? QCoreApplication::translate("CurveCanvas", "Click to select curve %1.").arg(*curve + 1)
-                        : QString());
+    scene_.hint(over_     ? over_->text
+                : isOver_ ? QCoreApplication::translate("CurveCanvas", "Click to select curve %1.").arg(*curve + 1)
+                          : QString());
   }
 
   bool key(QKeyEvent* event) override {
@@ -31,11 +42,20 @@ class SelectTool final : public CanvasTool {
     return stroke.has_value();
   }
 
-  void leave() override { isOver_ = false; }
-  Qt::CursorShape cursorShape() const override { return isOver_ ? Qt::PointingHandCursor : Qt::ArrowCursor; }
+  void paint(QPainter& painter) override {
+    if (over_) paintLabel(painter, scene_, over_->text, scene_.transform.toWidget(over_->px));
+  }
+
+  void leave() override { reset(); }
+  void reset() override {
+    isOver_ = false;
+    over_.reset();
+  }
+  Qt::CursorShape cursorShape() const override { return isOver_ || over_ ? Qt::PointingHandCursor : Qt::ArrowCursor; }
 
  private:
   bool isOver_ = false;
+  std::optional<ExtremumMark> over_;  ///< The mark under the mouse.
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/piece_choice.h"
+#include "ui/session/piece_choice.h"
 
 #include <QCoreApplication>
 

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the user chooses on the drawing: bumps to keep or take out, lines to leave out, regions to trace.
+#include <gtest/gtest.h>
+
+#include <QAction>
+#include <QSettings>
+#include <QTest>
+#include <cmath>
+#include <numbers>
+
+#include "tests/ui/rendered_scan.h"
+#include "ui/canvas/curve_canvas.h"
+#include "ui/main_window.h"
+#include "ui/plots/curve_plots.h"
+#include "ui/session/extremum_marks.h"
+
+namespace batten {
+namespace {
+
+using test::waitUntil;
+
+/// An open stroke whose curvature rises, falls and rises again.
+QImage wavePage() {
+  QImage page(QSize(700, 420), QImage::Format_Grayscale8);
+  page.fill(245);
+  page.setDotsPerMeterX(11811);
+  page.setDotsPerMeterY(11811);
+  QPainter painter(&page);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(QColor(30, 30, 30), 5.0, Qt::SolidLine, Qt::FlatCap));
+  QPolygonF line;
+  for (int i = 0; i <= 600; ++i) line.append(QPointF(50.0 + i, 210.0 - 70.0 * std::sin(i / 600.0 * 3.0 * std::numbers::pi)));
+  painter.drawPolyline(line);
+  return page;
+}
+
+/// Two strokes apart.
+QImage twoLinesPage() {
+  QImage page(QSize(640, 400), QImage::Format_Grayscale8);
+  page.fill(245);
+  QPainter painter(&page);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(QColor(30, 30, 30), 5.0, Qt::SolidLine, Qt::FlatCap));
+  painter.drawLine(QPointF(60, 100), QPointF(580, 120));
+  painter.drawLine(QPointF(60, 300), QPointF(500, 310));
+  return page;
+}
+
+class Choices : public testing::Test {
+ protected:
+  void SetUp() override {
+    QSettings::setDefaultFormat(QSettings::IniFormat);
+    QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, folder_.path());
+    window_ = std::make_unique<MainWindow>();
+    window_->resize(1280, 860);
+    window_->show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
+  }
+  void open(const QImage& page) {
+    const QString path = folder_.filePath(QStringLiteral("page.png"));
+    ASSERT_TRUE(page.save(path));
+    window_->openPath(path);
+    ASSERT_TRUE(waitUntil([this] { return session().hasScan(); }));
+    ASSERT_TRUE(settle());
+    ASSERT_FALSE(session().curves().empty());
+    window_->setStage(PanelStage::Curves);
+    canvas_ = window_->findChild<CurveCanvas*>(QStringLiteral("canvas"));
+    ASSERT_NE(canvas_, nullptr);
+  }
+  bool settle() {
+    return waitUntil([this] { return !session().isBusy(); });
+  }
+  EditorSession& session() { return window_->session(); }
+  QPoint at(const Vec2& px) { return canvas_->toWidget(px).toPoint(); }
+  void click(const Vec2& px) {
+    QTest::mouseMove(canvas_, at(px));
+    QTest::mouseClick(canvas_, Qt::LeftButton, Qt::NoModifier, at(px));
+  }
+  void drag(const std::vector<Vec2>& way) {
+    QTest::mousePress(canvas_, Qt::LeftButton, Qt::NoModifier, at(way.front()));
+    for (const Vec2& px : way) QTest::mouseMove(canvas_, at(px));
+    QTest::mouseRelease(canvas_, Qt::LeftButton, Qt::NoModifier, at(way.back()));
+  }
+  const ExtremumMark* kept(const std::vector<ExtremumMark>& marks) {
+    for (const ExtremumMark& mark : marks)
+      if (mark.isKept && mark.isCertain) return &mark;
+    return nullptr;
+  }
+
+  QTemporaryDir folder_;
+  std::unique_ptr<MainWindow> window_;
+  CurveCanvas* canvas_ = nullptr;
+};
+
+TEST_F(Choices, AClickOnAnExtremumTakesItOutAndAnotherBringsItBack) {
+  open(wavePage());
+  const auto marks = extremumMarks(session(), session().selectedCurve());
+  const ExtremumMark* mark = kept(marks);
+  ASSERT_NE(mark, nullptr);
+  const Vec2 place = mark->px;
+  EXPECT_TRUE(mark->text.contains(QStringLiteral("certain")));
+  click(place);
+  ASSERT_EQ(session().recipe().extremumChoices.size(), 1u);
+  EXPECT_FALSE(session().recipe().extremumChoices[0].keep);
+  EXPECT_LT((session().recipe().extremumChoices[0].positionPx - place).norm(), 1e-9);
+  ASSERT_TRUE(settle());
+  const auto after = extremumMarks(session(), session().selectedCurve());
+  const auto gone = std::find_if(after.begin(), after.end(), [](const ExtremumMark& m) { return m.wantedToKeep.has_value(); });
+  ASSERT_NE(gone, after.end());
+  EXPECT_FALSE(gone->isKept);
+  EXPECT_FALSE(*gone->wantedToKeep);
+  click(gone->px);
+  EXPECT_TRUE(session().recipe().extremumChoices.empty()) << "the program decides again";
+  ASSERT_TRUE(settle());
+  window_->action(ActionId::Undo)->trigger();
+  EXPECT_EQ(session().recipe().extremumChoices.size(), 1u);
+  window_->action(ActionId::Undo)->trigger();
+  EXPECT_TRUE(session().recipe().extremumChoices.empty());
+}
+
+TEST_F(Choices, HiddenMarksCannotBeClicked) {
+  open(wavePage());
+  const auto marks = extremumMarks(session(), session().selectedCurve());
+  ASSERT_NE(kept(marks), nullptr);
+  window_->action(ActionId::ShowExtrema)->trigger();
+  EXPECT_FALSE(window_->view().isVisible(Layer::Extrema));
+  click(kept(marks)->px);
+  EXPECT_TRUE(session().recipe().extremumChoices.empty());
+}
+
+TEST_F(Choices, TheCurvaturePlotTakesTheSameClicks) {
+  open(wavePage());
+  auto* plots = window_->findChild<CurvePlots*>(QStringLiteral("plots"));
+  ASSERT_NE(plots, nullptr);
+  plots->setTab(PlotTab::Curvature);
+  QCoreApplication::processEvents();
+  const auto marks = extremumMarks(session(), session().selectedCurve());
+  ASSERT_NE(kept(marks), nullptr);
+  auto* plot = plots->findChild<QWidget*>(QStringLiteral("plot"));
+  const QPoint place = plots->markPlace(kept(marks)->note).toPoint();
+  ASSERT_TRUE(plot->rect().contains(place));
+  QTest::mouseMove(plot, place);
+  EXPECT_TRUE(plot->toolTip().contains(QStringLiteral("certain")));
+  QTest::mouseClick(plot, Qt::LeftButton, Qt::NoModifier, place);
+  ASSERT_EQ(session().recipe().extremumChoices.size(), 1u);
+  EXPECT_FALSE(session().recipe().extremumChoices[0].keep);
+}
+
+TEST_F(Choices, AClickLeavesALineOutAndTakesItInAgain) {
+  open(twoLinesPage());
+  ASSERT_EQ(session().curves().size(), 2u);
+  window_->action(ActionId::ToolLines)->trigger();
+  click({300, 109});
+  ASSERT_TRUE(settle());
+  EXPECT_FALSE(session().curves()[0].included);
+  EXPECT_TRUE(session().curves()[1].included);
+  // The choice belongs to the line, wherever the thresholds put it, and outlives its absence.
+  Recipe moved = session().recipe();
+  moved.contours.minLengthPx = 500.0;
+  session().change(QStringLiteral("shortest line"), moved);
+  ASSERT_TRUE(settle());
+  ASSERT_EQ(session().curves().size(), 1u);
+  EXPECT_FALSE(session().curves()[0].included);
+  moved.contours.minLengthPx = 450.0;
+  session().change(QStringLiteral("shortest line"), moved);
+  moved.contours.minLengthPx = 40.0;
+  session().change(QStringLiteral("shortest line"), moved);
+  ASSERT_TRUE(settle());
+  EXPECT_FALSE(session().curves()[0].included);
+  click({300, 109});
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(session().curves()[0].included);
+}
+
+TEST_F(Choices, ARectangleAndALassoTraceWhatLiesInside) {
+  open(twoLinesPage());
+  window_->action(ActionId::ToolRectangle)->trigger();
+  drag({{30, 60}, {200, 100}, {320, 160}});
+  ASSERT_EQ(session().recipe().regions.size(), 1u);
+  ASSERT_TRUE(settle());
+  ASSERT_EQ(session().curves().size(), 1u);
+  ASSERT_TRUE(session().output().contours);
+  for (const Vec2& p : session().output().contours->contours[0].points) EXPECT_LT(p.x(), 321.5);
+  EXPECT_TRUE(window_->action(ActionId::ClearRegions)->isEnabled());
+
+  window_->action(ActionId::ToolLasso)->trigger();
+  drag({{40, 260}, {300, 250}, {520, 280}, {520, 340}, {300, 350}, {40, 345}});
+  ASSERT_EQ(session().recipe().regions.size(), 2u);
+  EXPECT_GE(session().recipe().regions[1].cornersPx.size(), 5u);
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(session().curves().size(), 2u);
+
+  drag({{400, 20}, {401, 21}});  // hardly a drag: nothing
+  EXPECT_EQ(session().recipe().regions.size(), 2u);
+  window_->action(ActionId::ClearRegions)->trigger();
+  EXPECT_TRUE(session().recipe().regions.empty());
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(session().curves().size(), 2u);
+  EXPECT_FALSE(window_->action(ActionId::ClearRegions)->isEnabled());
+  window_->action(ActionId::Undo)->trigger();
+  EXPECT_EQ(session().recipe().regions.size(), 2u);
+}
+
+TEST_F(Choices, EveryNewLayerPaintsWithoutChangingTheRecipe) {
+  open(wavePage());
+  const Recipe before = session().recipe();
+  canvas_->setFocus();
+  const QImage plain = canvas_->grab().toImage();
+  for (const ActionId id : {ActionId::ShowStrokes, ActionId::ShowBand, ActionId::ShowExtrema}) {
+    const QImage one = canvas_->grab().toImage();
+    window_->action(id)->trigger();
+    const QImage other = canvas_->grab().toImage();
+    EXPECT_NE(one, other) << window_->action(id)->objectName().toStdString();
+  }
+  EXPECT_EQ(session().recipe(), before);
+}
+
+}  // namespace
+}  // namespace batten

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QCoreApplication>
+#include <QPen>
+
+#include "ui/canvas/canvas_colors.h"
+#include "ui/canvas/layers/vector_layers.h"
+#include "ui/canvas/tools/canvas_tool.h"
+#include "ui/session/piece_choice.h"
+
+namespace batten {
+namespace {
+
+QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
+
+/// Click leaves a line out of fairing and export, click again takes it in.
+class LinesTool final : public CanvasTool {
+ public:
+  using CanvasTool::CanvasTool;
+
+  void press(const ToolEvent& event) override {
+    const auto curve = scene_.curveNear(event.px);
+    if (!curve) {
+      scene_.flash(event.px);
+      return;
+    }
+    scene_.session.selectCurve(*curve);
+    setIncluded(scene_.session, *curve, !isIncluded(*curve));
+    over_.reset();
+    scene_.repaint();
+  }
+
+  void move(const ToolEvent& event, bool isPressed) override {
+    if (isPressed) return;
+    const auto over = scene_.curveNear(event.px);
+    if (over != over_) scene_.repaint();
+    over_ = over;
+    scene_.hint(!over_               ? tr("Click a line to leave it out, or to take it in again.")
+                : isIncluded(*over_) ? tr("Click to leave curve %1 out of fairing and export.").arg(*over_ + 1)
+                                     : tr("Click to take curve %1 in again.").arg(*over_ + 1));
+  }
+
+  void leave() override {
+    over_.reset();
+    scene_.repaint();
+  }
+  void reset() override { over_.reset(); }
+  Qt::CursorShape cursorShape() const override { return over_ ? Qt::PointingHandCursor : Qt::ArrowCursor; }
+
+  void paint(QPainter& painter) override {
+    if (!scene_.shapes) return;
+    paintLeftOut(painter, scene_);
+    if (over_ && static_cast<std::size_t>(*over_) < scene_.shapes->curves.size())
+      paintChoice(painter, scene_, scene_.shapes->curves[static_cast<std::size_t>(*over_)]);
+  }
+
+ private:
+  bool isIncluded(int curve) const {
+    const PieceChoice* choice = choiceOf(scene_.session, curve);
+    return !choice || choice->included;
+  }
+
+  std::optional<int> over_;
+};
+
+}  // namespace
+
+std::unique_ptr<CanvasTool> makeLinesTool(CanvasScene& scene) { return std::make_unique<LinesTool>(scene); }
+
+}  // namespace batten

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/session/extremum_marks.h"
+
+#include <QCoreApplication>
+#include <cmath>
+#include <utility>
+
+namespace batten {
+namespace {
+
+constexpr double kCertainFactor = 5.0;  // of the cost that an extremum must have to be kept
+constexpr double kSamePlacePx = 1.0;
+
+QString tr(const char* text) { return QCoreApplication::translate("ExtremumMarks", text); }
+
+const TracedCurve* curveAt(const EditorSession& session, int curve) {
+  const auto curves = session.curves();
+  if (curve < 0 || static_cast<std::size_t>(curve) >= curves.size()) return nullptr;
+  return &curves[static_cast<std::size_t>(curve)];
+}
+
+/// The choice in the recipe that a note stands for. While a new run is on its way the numbers in the report are those of
+/// the recipe before; then the place counts.
+std::optional<std::size_t> choiceOf(const EditorSession& session, const ExtremumNote& note) {
+  const auto& choices = session.recipe().extremumChoices;
+  if (!session.isStale(StageId::Curves)) {
+    if (!note.wish || *note.wish < 0 || static_cast<std::size_t>(*note.wish) >= choices.size()) return std::nullopt;
+    return static_cast<std::size_t>(*note.wish);
+  }
+  const Vec2 px = session.output().frame.pointToImage(note.point);
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    if ((choices[i].positionPx - px).norm() < kSamePlacePx) return i;
+  return std::nullopt;
+}
+
+QString textOf(const ExtremumMark& mark, const ExtremumNote& note, double keepCost) {
+  // Seen along the line, whichever way it runs: where it bends most, or least.
+  const bool isPeak = note.maximum == (note.kappa > 0.0);
+  QString text = isPeak ? tr("Bends most here") : tr("Bends least here");
+  const QString cost = QString::number(note.removalCost, 'f', note.removalCost < 9.95 ? 1 : 0);
+  const QString chi = QStringLiteral(" (χ² %1)").arg(cost);
+  text += QStringLiteral(" · ");
+  if (note.kept) {
+    text += (mark.isCertain ? tr("certain") : note.removalCost >= keepCost ? tr("probable") : tr("not certain")) + chi;
+  } else {
+    text += (note.removalCost >= keepCost         ? tr("drawn, but taken out")
+             : note.removalCost >= 0.5 * keepCost ? tr("doubtful, dropped")
+                                                  : tr("noise, dropped")) +
+            chi;
+  }
+  if (mark.wantedToKeep) {
+    text += *mark.wantedToKeep == note.kept ? (note.kept ? tr(" · kept by you") : tr(" · taken out by you"))
+                                            : tr(" · cannot be changed: a closed line has at least four");
+    return text + tr(". Click to let the program decide.");
+  }
+  return text + (note.kept ? tr(". Click to take it out.") : tr(". Click to keep it."));
+}
+
+}  // namespace
+
+std::vector<ExtremumMark> extremumMarks(const EditorSession& session, int curve) {
+  std::vector<ExtremumMark> marks;
+  const TracedCurve* traced = curveAt(session, curve);
+  if (!traced) return marks;
+  const double keepCost = session.recipe().construct.keepExtremaCost;
+  for (std::size_t i = 0; i < traced->construct.extrema.size(); ++i) {
+    const ExtremumNote& note = traced->construct.extrema[i];
+    if (!note.point.allFinite() || !std::isfinite(note.kappa)) continue;
+    ExtremumMark mark;
+    mark.note = static_cast<int>(i);
+    mark.px = session.output().frame.pointToImage(note.point);
+    mark.s = note.s;
+    mark.kappa = note.kappa;
+    mark.isKept = note.kept;
+    mark.isCertain = note.kept && note.removalCost >= kCertainFactor * keepCost;
+    if (const auto choice = choiceOf(session, note)) mark.wantedToKeep = session.recipe().extremumChoices[*choice].keep;
+    mark.text = textOf(mark, note, keepCost);
+    marks.push_back(std::move(mark));
+  }
+  return marks;
+}
+
+void toggleExtremum(EditorSession& session, int curve, int note) {
+  const TracedCurve* traced = curveAt(session, curve);
+  if (!traced || note < 0 || static_cast<std::size_t>(note) >= traced->construct.extrema.size()) return;
+  const ExtremumNote& extremum = traced->construct.extrema[static_cast<std::size_t>(note)];
+  Recipe after = session.recipe();
+  if (const auto choice = choiceOf(session, extremum)) {
+    after.extremumChoices.erase(after.extremumChoices.begin() + static_cast<std::ptrdiff_t>(*choice));
+    session.change(tr("Let the program decide on a bump"), std::move(after));
+    return;
+  }
+  after.extremumChoices.push_back({session.output().frame.pointToImage(extremum.point), !extremum.kept});
+  session.change(extremum.kept ? tr("Take a bump out") : tr("Keep a bump"), std::move(after));
+}
+
+}  // namespace batten
