@@ -64,7 +64,11 @@ class MonotoneFairing {
     if (wanted && wanted->attained) return done(std::move(wanted->points), Termination::Converged, {}, wanted->neededMm, true);
     Attempt best = fewest(simplest, wanted.has_value());
     if (context_.isCancelled()) return cancelled();
-    if (!wanted) return done(std::move(best.points), Termination::Converged, {}, best.neededMm, true);
+    if (!wanted) {
+      const bool nothing = best.points == setup_.points && levels_.size() > 1;
+      return done(std::move(best.points), Termination::Converged,
+                  nothing ? "No extremum can be taken away within the tolerance." : "", best.neededMm, true);
+    }
     return limited(*wanted, wantedCount, std::move(best));
   }
 

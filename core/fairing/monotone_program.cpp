@@ -117,12 +117,23 @@ void MonotoneSearch::Program::addBound(const SparseRow& row, double factor, doub
   bounds_.push_back(bound);
 }
 
-std::optional<Eigen::VectorXd> MonotoneSearch::Program::solve(bool mayBeInfeasible) const {
+std::optional<Eigen::VectorXd> MonotoneSearch::Program::solve(bool mayBeInfeasible) {
   int half = setup_.unknowns.halfWidth();
   for (const Square& square : squares_) half = std::max(half, width(square.row));
   for (const SparseRow& row : rows_) half = std::max(half, width(row));
   Quadratic quadratic{*this, BandedMatrix(setup_.unknowns.count(), std::min(half, setup_.unknowns.count() - 1))};
   for (const Square& square : squares_) addOuter(quadratic.a, square.row, square.weight);
+  // Rows of all kinds, at places of any speed, in units of about their standard deviation.
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    SparseRow& row = rows_[i];
+    double variance = 0.0;
+    for (std::size_t k = 0; k < row.index.size(); ++k) {
+      variance += row.value[k] * row.value[k] / quadratic.a.at(row.index[k], row.index[k]);
+    }
+    const double unit = variance > 0.0 && std::isfinite(variance) ? 1.0 / std::sqrt(variance) : 1.0;
+    for (double& v : row.value) v *= unit;
+    bounds_[i] *= unit;
+  }
   InteriorPointLimits limits;
   if (mayBeInfeasible) limits.abortAbove = kHopeless * (constant_ + static_cast<double>(rows_.size()));
   const InteriorPointResult result = InteriorPoint(quadratic, limits).solve();

@@ -28,7 +28,7 @@ class MonotoneSearch::Program {
   /// factor * row . x >= bound.
   void addBound(const SparseRow& row, double factor, double bound);
   /// Absent when there is no solution or it could not be found.
-  std::optional<Eigen::VectorXd> solve(bool mayBeInfeasible) const;
+  std::optional<Eigen::VectorXd> solve(bool mayBeInfeasible);
 
  private:
   struct Square {

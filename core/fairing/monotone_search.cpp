@@ -14,19 +14,22 @@ namespace {
 /// Constraints act at so many places a span; the result is checked at four times as many.
 constexpr int kPlacesPerSpan = 8, kDenseFactor = 4;
 /// Cut-off wave in mean spans of the term against staircases.
-constexpr double kWaveSpans = 4.0;
+constexpr double kWaveSpans = 2.0;
 /// Share of a sliding along the curve in the distance: it changes no shape, but far slides make the linear model wrong.
 constexpr double kSlideShare = 0.01;
-constexpr int kIterations = 14;
+constexpr int kIterations = 20;
+/// After so many iterations windows stay, and steps are shortened: what has not settled by then swings.
+constexpr int kFreeIterations = 6;
+constexpr double kLateShare = 0.6;
 /// The least slope that is asked for, in units of the range of the curvature over the length, and its growth where the
 /// curvature still turned between the places.
-constexpr double kMargin = 1e-3, kMarginGrowth = 6.0;
+constexpr double kMargin = 1e-3, kMarginGrowth = 2.5;
 /// Share of the tolerance that the last step may move the curve.
-constexpr double kSettled = 2e-3;
+constexpr double kSettled = 5e-3;
+/// No step moves a control point by more than this, in the larger of the tolerance and the estimated move.
+constexpr double kLongestStep = 1.0;
 /// A derivative below this share of the mean speed counts as a cusp.
 constexpr double kCuspShare = 1e-6;
-/// Rows of a second kind are brought to about the standard deviation of the slope rows.
-constexpr double kDifferenceScale = 5.0;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -141,13 +144,14 @@ void MonotoneSearch::recentre(CurvatureStructure& structure, const std::vector<W
     for (int i = windows[j].low; i <= windows[j].high; ++i) {
       if (sign * state.curvature[at(wrapped(i))].kappa > sign * state.curvature[at(wrapped(best))].kappa) best = i;
     }
-    structure.extrema[j].sample = wrapped(best);
+    // An extremum in the middle of its window is left there, or two of them would swing to and fro.
+    const int centre = (windows[j].low + windows[j].high) / 2, half = (windows[j].high - windows[j].low) / 2;
+    if (10 * std::abs(best - centre) > 7 * half) structure.extrema[j].sample = wrapped(best);
   }
 }
 
 void MonotoneSearch::addDistance(Program& program, const State& state, const Scales& scales) const {
   const int degree = setup_.basis.degree();
-  const double slopeUnit = std::pow(2.0 * std::numbers::pi / wave_, 3.0);
   LocalRow row;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const SpanRow basis = setup_.basis.row(places_[i], 0);
@@ -162,8 +166,8 @@ void MonotoneSearch::addDistance(Program& program, const State& state, const Sca
     program.addSquare(along(state.tangent[i]), state.slide[i], kSlideShare * w);
     // Places far inside the bound cannot reach it in one step, and every second one is dense enough.
     if (!(scales.bound > 0.0) || i % 2 != 0 || std::abs(state.distance[i]) < 0.25 * scales.bound) continue;
-    program.addBound(normal, -slopeUnit, slopeUnit * (state.distance[i] - scales.bound));
-    program.addBound(normal, slopeUnit, slopeUnit * (-scales.bound - state.distance[i]));
+    program.addBound(normal, -1.0, state.distance[i] - scales.bound);
+    program.addBound(normal, 1.0, -scales.bound - state.distance[i]);
   }
 }
 
@@ -197,12 +201,15 @@ void MonotoneSearch::addSigns(Program& program, const State& state, const Curvat
     const Window& w = all[j];
     const double sign = w.maximum ? 1.0 : -1.0;
     if (!setup_.closed && j == 0) stretch(0, w.low, sign);
-    rising(w.low, sign, 0.0);
-    rising(w.high, -sign, 0.0);
+    // A window of one place: the extremum lies about there, and its neighbours fix the rest.
+    if (w.low < w.high) {
+      rising(w.low, sign, 0.0);
+      rising(w.high, -sign, 0.0);
+    }
     for (int i = w.low; i < w.high; ++i) {
       const SparseRow row = program.difference(wrapped(i), wrapped(i + 1));
       const double change = slope(i + 1) - slope(i);
-      program.addBound(row, -sign * kDifferenceScale, sign * kDifferenceScale * change);
+      program.addBound(row, -sign, sign * change);
     }
     const bool last = j + 1 == all.size();
     const int end = !last ? all[j + 1].low : setup_.closed ? all.front().low + count : count;
@@ -231,10 +238,15 @@ MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, cons
     std::vector<Vec2> points = state.points;
     setup_.unknowns.move(*step, points);
     for (std::size_t i = 0; i < points.size(); ++i) moved = std::max(moved, (points[i] - state.points[i]).norm());
+    // The linear model of the curvature holds for small moves only.
+    const double longest = kLongestStep * std::max(toleranceMm_, estimateMm);
+    if (const double share = std::min(longest / moved, outcome.iterations < kFreeIterations ? 1.0 : kLateShare); share < 1.0) {
+      for (std::size_t i = 0; i < points.size(); ++i) points[i] = state.points[i] + share * (points[i] - state.points[i]);
+    }
     State next = evaluate(points, state.feet);
     if (!next.valid) break;
     state = std::move(next);
-    recentre(structure, used, state);
+    if (outcome.iterations < kFreeIterations) recentre(structure, used, state);
     const auto isFar = [giveUpMm](double distance) { return std::abs(distance) > giveUpMm; };
     if (giveUpMm > 0.0 && std::any_of(state.distance.begin(), state.distance.end(), isFar)) {
       outcome.found = false;
@@ -245,7 +257,7 @@ MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, cons
       outcome.found = true;
       outcome.points = state.points;
       if (settled) break;
-    } else if (settled) {
+    } else if (settled || outcome.iterations >= kFreeIterations) {
       scales.margin *= kMarginGrowth;
     }
   }

@@ -180,7 +180,8 @@ Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& 
   if (!report.withinBudget && largestDeviation(setup, points) < kStuckShare * toleranceMm) {
     // The corridor had room left: it was not what stopped the curve.
     report.why = Termination::NoProgress;
-    report.note = "The curve is too rough to follow the profile further. Fair it by tolerance first.";
+    report.note = rough ? "The profile lies far out of reach for this curve. Split it, or mark its corners."
+                        : "The curve is too rough to follow the profile further. Fair it by tolerance first.";
   }
   return finished(setup, std::move(points), toleranceMm, std::move(report));
 }
