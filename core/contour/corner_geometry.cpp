@@ -13,9 +13,8 @@ namespace {
 constexpr double kUnrefinedWeight = 0.1;  // points known to the pixel only
 constexpr double kOutlineZonePx = 4.0;
 constexpr double kFarthestMeetPx = 6.0;  // of the meeting point from the contour
-constexpr double kFarthestTipPx = 28.0;  // acute tips are eaten away by blur, threshold and the filter of the mask
-constexpr double kEatenHalfPx = 4.0;     // half the width at which a tip is eaten away
-constexpr double kSmallestSine = 0.08;   // of the angle between the sides; below, the meeting point is ill-conditioned
+constexpr double kEatenHalfPx = 4.0;    // half the width at which the tip of a shape is eaten away by blur and the mask
+constexpr double kSmallestSine = 0.08;  // of the angle between the sides; below, the meeting point is ill-conditioned
 constexpr int kNewtonSteps = 12;
 constexpr int kLocateRounds = 4;
 constexpr double kFreeLegsPx = 6.0;     // legs nearer to each other than this share their blur
@@ -136,6 +135,8 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
   // the angle says how far the legs are near enough to blur into each other.
   int at = index;
   double zone = inner;
+  // Two legs of a stroke have one middle until they are a stroke's width apart.
+  const double eatenHalf = contour.kind == ContourKind::Outline ? kEatenHalfPx : 0.5 * inner + 1.5;
   const double blending = contour.kind == ContourKind::Outline ? kFreeLegsPx : inner + kFreeLegsPx;
   for (int round = 0; round < kLocateRounds; ++round) {
     const double legs = std::min(outerBefore, outerAfter);
@@ -143,7 +144,7 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
     const Meeting m = meetSides(contour, at, from, outerBefore, outerAfter, result.angleRad);
     if (!m.ok) return result;
     const double halfTip = std::max(0.03, 0.5 * (std::numbers::pi - std::abs(m.angle)));
-    const double farthest = std::clamp(kEatenHalfPx / std::sin(halfTip), kFarthestMeetPx, kFarthestTipPx);
+    const double farthest = std::clamp(eatenHalf / std::sin(halfTip), kFarthestMeetPx, kFarthestTipPx);
     const NearestPoint nearest = nearestAlong(contour, at, m.position, static_cast<int>(farthest * 2.0) + 4);
     if (nearest.distance > farthest) return result;
     result.position = m.position;

@@ -24,6 +24,9 @@ struct Turning {
 };
 std::optional<Turning> turningAt(const Contour& contour, int index, double inner, double outer);
 
+/// [px] Farthest that a contour may end before the tip its sides lead to; less where they open wider.
+inline constexpr double kFarthestTipPx = 60.0;
+
 /// Where the two sides of a contour meet when extended, at most `outer` px of each looked at.
 struct CornerFix {
   Vec2 position = Vec2::Zero();

@@ -16,8 +16,7 @@ constexpr double kTurnInnerPx = 3.0;   // the part next to a corner that blur ha
 constexpr double kTurnOuterPx = 16.0;  // about as far as a corner of a drawing stands free
 constexpr double kFitOuterPx = 260.0;
 constexpr double kSamePlacePx = 2.0;
-constexpr double kFarthestTipPx = 28.0;  // that a contour may end before the tip it leads to
-constexpr double kSnapOuterPx = 64.0;    // looked at on either side before the neighbours are known
+constexpr double kSnapOuterPx = 64.0;  // looked at on either side before the neighbours are known
 
 struct Nearest {
   int contour = -1;
@@ -172,8 +171,10 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   }
   const auto zoneOf = [&](const Cut* cut) { return cut->exact ? cut->zone : 0.5; };
   std::size_t head = 0, tail = 0;
-  if (start != nullptr) head = pointsToDrop(piece, contour.kind == ContourKind::Pen, false, start->corner.positionPx, zoneOf(start));
-  if (end != nullptr) tail = pointsToDrop(piece, contour.kind == ContourKind::Pen, true, end->corner.positionPx, zoneOf(end));
+  if (start != nullptr)
+    head = pointsToDrop(piece, contour.kind == ContourKind::Pen, false, start->corner.positionPx, zoneOf(start));
+  if (end != nullptr)
+    tail = pointsToDrop(piece, contour.kind == ContourKind::Pen, true, end->corner.positionPx, zoneOf(end));
   if (head + tail >= piece.points.size()) head = piece.points.size(), tail = 0;
   const auto cutEnds = [&](auto& values) {
     values.erase(values.end() - static_cast<std::ptrdiff_t>(tail), values.end());

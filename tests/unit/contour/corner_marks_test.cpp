@@ -148,7 +148,7 @@ TEST(CornerMarks, TipsEatenByTheMaskAreExtended) {
 
 // Clicks on the far side of such a tip are more than the snap distance from every point of the contour.
 TEST(CornerMarks, ClicksBesideEatenTipsFindThem) {
-  for (const double angle : {24.0, 32.0, 44.0, 52.0}) {
+  for (const double angle : {16.0, 24.0, 32.0, 44.0, 52.0}) {
     const Vec2 tip(280, 150);
     const double w = 220.0 * std::tan(0.5 * angle * kDeg);
     RenderSettings s;
