@@ -23,6 +23,7 @@
 #include "ui/panels/export_panel.h"
 #include "ui/panels/fairing_panel.h"
 #include "ui/panels/scan_panel.h"
+#include "ui/panels/shape_window.h"
 #include "ui/panels/stage_rail.h"
 #include "ui/panels/target_strip.h"
 #include "ui/panels/threshold_panel.h"
@@ -84,6 +85,7 @@ MainWindow::~MainWindow() {
   session_.disconnect(this);
   session_.undoStack()->disconnect(this);
   view_.disconnect(this);
+  delete parts_->shapes.data();
   delete takeCentralWidget();
 }
 
@@ -121,6 +123,8 @@ QWidget* MainWindow::makeInspector() {
   p.exportPanel = new ExportPanel(session_);
   auto* curves = new CurvesPanel(session_, view_);
   connect(curves, &CurvesPanel::helpAsked, this, &MainWindow::showHelp);
+  auto* fairing = new FairingPanel(session_);
+  connect(fairing, &FairingPanel::comparisonAsked, this, &MainWindow::showShapes);
   const std::pair<PanelStage, QWidget*> panels[] = {
       {PanelStage::Scan, p.scanPanel},
       {PanelStage::Threshold, new ThresholdPanel(session_, view_)},
@@ -128,7 +132,7 @@ QWidget* MainWindow::makeInspector() {
       {PanelStage::Edges, new EdgesPanel(session_, view_)},
       {PanelStage::Corners, new CornersPanel(session_, view_)},
       {PanelStage::Curves, curves},
-      {PanelStage::Fairing, new FairingPanel(session_)},
+      {PanelStage::Fairing, fairing},
       {PanelStage::Export, p.exportPanel}};
   for (const auto& [stage, panel] : panels) {
     panel->setObjectName(QStringLiteral("panel.") + key(stage));

@@ -57,6 +57,7 @@ class MainWindow : public QMainWindow {
   void applyRecipeFile(const QString& path);
   void findAction();
   void showHelp(const QString& page);
+  void showShapes();
   void showProblem(const QString& message);
   void actOnProblem();
   void refreshActions();

@@ -14,9 +14,10 @@
 #include "core/pipeline/recipe_file.h"
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
+#include "ui/panels/shape_window.h"
+#include "ui/plots/curve_plots.h"
 #include "ui/session/opened_scan.h"
 #include "ui/session/piece_choice.h"
-#include "ui/plots/curve_plots.h"
 #include "ui/top_bar.h"
 
 namespace batten {
@@ -52,6 +53,8 @@ void MainWindow::makeActions() {
   for (const auto& plot : plots)
     connect(own(plot.text, {}, tr("Show this plot of the selected curve."), {}), &QAction::triggered, this,
             [this, tab = plot.tab] { parts_->plots->setTab(tab); });
+  connect(own(tr("Compare shapes"), QStringLiteral("compare-shapes"), tr("How alike two curves are, whatever their size and place."), {}),
+          &QAction::triggered, this, &MainWindow::showShapes);
   parts_->foldAction = own(tr("Targets and plots"), QStringLiteral("fold-plots"), tr("Show or fold away what lies below the drawing."),
                            QKeySequence(QStringLiteral("P")));
   parts_->foldAction->setCheckable(true);
@@ -67,6 +70,12 @@ void MainWindow::makeActions() {
           [this] { showHelp(QStringLiteral("about")); });
   auto* menuKey = own(tr("Open the menu"), QStringLiteral("open-menu"), tr("Open the menu at the top left."), QKeySequence(Qt::Key_F10));
   connect(menuKey, &QAction::triggered, this, [this] { parts_->topBar->openMenu(); });
+}
+
+void MainWindow::showShapes() {
+  if (!parts_->shapes) parts_->shapes = new ShapeWindow(session_, this);
+  parts_->shapes->show();
+  parts_->shapes->raise();
 }
 
 void MainWindow::makeMenus() {
@@ -92,6 +101,7 @@ void MainWindow::makeMenus() {
       if (info.id == ActionId::SaveRecipe) sub->addSeparator();
       if (layerOf(info.id)) p.layersMenu->addAction(action(info.id));
     }
+    if (menu == ActionMenu::Fairing) sub->addAction(ownNamed(QStringLiteral("compare-shapes")));
     if (menu != ActionMenu::View) continue;
     sub->addSeparator();
     sub->addAction(p.foldAction);

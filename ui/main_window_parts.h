@@ -20,6 +20,7 @@ class CurveCanvas;
 class CurvePlots;
 class ExportPanel;
 class ScanPanel;
+class ShapeWindow;
 class StageRail;
 class StatusLine;
 class TargetStrip;
@@ -41,6 +42,7 @@ struct MainWindow::Parts {
   StatusLine* status = nullptr;
   CommandPalette* finder = nullptr;
   QPointer<HelpWindow> help;
+  QPointer<ShapeWindow> shapes;
   QMenu* mainMenu = nullptr;
   QMenu* layersMenu = nullptr;
   QMenu* recentMenu = nullptr;

@@ -106,7 +106,7 @@ TEST_F(Window, TheWholeWalkEndsInTheCurvesThatTheRecipeGives) {
 
 TEST_F(Window, EveryParameterHasAControlOfItsOwn) {
   // fairing.mode and fairing.target are the segments and tiles, the holds a table of dots, the grid a table.
-  std::set<std::string> elsewhere = {"threshold.grid", "fairing.target", "fairing.mode", "fairing.hold_start", "fairing.hold_end"};
+  std::set<std::string> elsewhere = {"threshold.grid", "fairing.target", "fairing.mode", "fairing.profile", "fairing.hold_start", "fairing.hold_end"};
   for (const Parameter& parameter : parameterTable()) {
     if (elsewhere.contains(parameter.name)) continue;
     const QString row = QString::fromStdString(parameter.name) + QStringLiteral(".row");

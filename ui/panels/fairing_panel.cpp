@@ -16,6 +16,7 @@
 #include "ui/panels/parameter_row.h"
 #include "ui/session/piece_choice.h"
 #include "ui/panels/segmented_control.h"
+#include "ui/session/fairing_edits.h"
 
 namespace batten {
 namespace {
@@ -27,13 +28,19 @@ constexpr double kLeastBudgetMm = 0.01, kMostBudgetMm = 5.0;
 
 FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
     : QWidget(parent), session_(session), scope_(new SegmentedControl({tr("All curves"), tr("Selected curve")}, this)),
-      mode_(new SegmentedControl({tr("None"), tr("Target"), tr("Tolerance")}, this)),
+      mode_(new SegmentedControl({tr("None"), tr("Target"), tr("Even"), tr("Monotone"), tr("Low-pass")}, this)),
       budget_(new ParameterRow(session, *findParameter("fairing.tolerance"), this)),
+      keep_(new ParameterRow(session, *findParameter("fairing.keep_extrema"), this)),
+      wavelength_(new ParameterRow(session, *findParameter("fairing.lowpass"), this)),
       editor_(new ParameterEditor(session, {"fairing.samples", "fairing.quantity", "fairing.monotone"},
                                   this)),
       note_(note({}, this)), raise_(linkButton(tr("Raise the budget"), QStringLiteral("fairing.raise"), this)),
       useForAll_(linkButton(tr("Use this for all curves"), QStringLiteral("fairing.useForAll"), this)),
       followAll_(linkButton(tr("Follow the common setting"), QStringLiteral("fairing.followAll"), this)),
+      split_(linkButton({}, QStringLiteral("fairing.split"), this)),
+      unsplit_(linkButton({}, QStringLiteral("fairing.unsplit"), this)),
+      draw_(linkButton(tr("Draw the target in the plot"), QStringLiteral("fairing.draw"), this)),
+      forget_(linkButton(tr("Back to the six targets"), QStringLiteral("fairing.forget"), this)),
       figures_(new FigureTable(this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(14, 12, 14, 12);
@@ -42,11 +49,20 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   scope_->setNames(QStringLiteral("fairing.scope"), {QStringLiteral("all"), QStringLiteral("one")});
   scope_->setToolTip(tr("Whether the settings below act on the whole drawing or on the selected curve alone."));
   layout->addWidget(scope_);
-  mode_->setNames(QStringLiteral("fairing.mode"), {QStringLiteral("none"), QStringLiteral("target"), QStringLiteral("tolerance")});
-  mode_->setToolTip(tr("None: as sketched. Target: follow one of the six profiles below the drawing. Tolerance: as fair as the budget allows."));
+  mode_->setNames(QStringLiteral("fairing.mode"), {QStringLiteral("none"), QStringLiteral("target"), QStringLiteral("tolerance"),
+                                                    QStringLiteral("monotone"), QStringLiteral("lowpass")});
+  mode_->setToolTip(tr("None: as sketched. Target: follow a profile of the curvature. Even: the smallest change of curvature that the budget "
+                       "allows. Monotone: curvature without a turn, or with few. Low-pass: without short waves."));
   layout->addWidget(mode_);
   buildBudget();
+  layout->addWidget(keep_);
+  layout->addWidget(wavelength_);
+  bindToScope(keep_, [](PieceChoice& choice, const FairingParams& params) { choice.keepExtrema = params.keepExtrema; });
+  bindToScope(wavelength_, [](PieceChoice& choice, const FairingParams& params) { choice.lowPassMm = params.lowPassMm; });
+  wavelength_->setSliderRange(1.0, 300.0);
+  keep_->setSliderRange(-1.0, 12.0);
   layout->addWidget(note_);
+  buildLinks();
   layout->addWidget(raise_, 0, Qt::AlignLeft);
   layout->addWidget(useForAll_, 0, Qt::AlignLeft);
   layout->addWidget(followAll_, 0, Qt::AlignLeft);
@@ -91,22 +107,62 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
 void FairingPanel::buildBudget() {
   budget_->setLabel(tr("Deviation budget"));
   budget_->setSliderRange(kLeastBudgetMm, kMostBudgetMm);
-  const Parameter* parameter = findParameter("fairing.tolerance");
-  budget_->setBinding({[this, parameter](const Recipe& recipe) {
-                         Recipe probe;
-                         probe.fairing = shown(recipe);
-                         return parameter->get(probe);
-                       },
-                       [this, parameter](Recipe& recipe, std::string_view text) -> Result<void> {
-                         if (!actsOnOne()) return parameter->set(recipe, text);
-                         Recipe probe;
-                         auto done = parameter->set(probe, text);
-                         if (!done) return done;
-                         recipe = withChoice(session_, session_.selectedCurve(),
-                                             [&](PieceChoice& choice) { choice.toleranceMm = probe.fairing.toleranceMm; });
-                         return {};
-                       }});
+  bindToScope(budget_, [](PieceChoice& choice, const FairingParams& params) { choice.toleranceMm = params.toleranceMm; });
   static_cast<QVBoxLayout*>(layout())->addWidget(budget_);
+}
+
+void FairingPanel::bindToScope(ParameterRow* row, const std::function<void(PieceChoice&, const FairingParams&)>& store) {
+  const Parameter* parameter = &row->parameter();
+  row->setBinding({[this, parameter](const Recipe& recipe) {
+                     Recipe probe;
+                     probe.fairing = shown(recipe);
+                     return parameter->get(probe);
+                   },
+                   [this, parameter, store](Recipe& recipe, std::string_view text) -> Result<void> {
+                     if (!actsOnOne()) return parameter->set(recipe, text);
+                     Recipe probe;
+                     auto done = parameter->set(probe, text);
+                     if (!done) return done;
+                     recipe = withChoice(session_, session_.selectedCurve(),
+                                         [&](PieceChoice& choice) { store(choice, probe.fairing); });
+                     return {};
+                   }});
+}
+
+void FairingPanel::buildLinks() {
+  auto* column = static_cast<QVBoxLayout*>(layout());
+  for (QPushButton* link : {split_, unsplit_, draw_, forget_}) column->addWidget(link, 0, Qt::AlignLeft);
+  split_->setToolTip(tr("One polynomial is too stiff for a line that bends both ways: each part gets one of its own."));
+  draw_->setToolTip(tr("Turns the target into points that you drag in the curvature plot."));
+  auto* compare = linkButton(tr("Compare shapes…"), QStringLiteral("fairing.compare"), this);
+  compare->setToolTip(tr("How alike two curves are, and how fair this one is: the similarities in a table."));
+  column->addWidget(compare, 0, Qt::AlignLeft);
+  connect(compare, &QPushButton::clicked, this, &FairingPanel::comparisonAsked);
+  connect(split_, &QPushButton::clicked, this, [this] { splitAtInflections(session_); });
+  connect(unsplit_, &QPushButton::clicked, this, [this] { removeSplits(session_); });
+  connect(draw_, &QPushButton::clicked, this, [this] { drawTarget(session_, profileToBeginWith(session_), -1); });
+  connect(forget_, &QPushButton::clicked, this, [this] { forgetDrawnTarget(session_); });
+}
+
+void FairingPanel::refreshLinks(const FairingParams& params) {
+  keep_->setVisible(params.mode == FairingMode::Monotone);
+  wavelength_->setVisible(params.mode == FairingMode::LowPass);
+  keep_->sync();
+  wavelength_->sync();
+  const bool isTarget = params.mode == FairingMode::Target && session_.selected();
+  const bool isDrawn = isTargetDrawn(session_);
+  draw_->setVisible(isTarget && !isDrawn);
+  forget_->setVisible(isDrawn);
+  const PieceChoice* own = choiceOf(session_, session_.selectedCurve());
+  const auto splits = own ? static_cast<qint64>(own->splitsPx.size()) : 0;
+  unsplit_->setText(counted(splits, tr("Remove the split"), tr("Remove the %1 splits")));
+  unsplit_->setVisible(isTarget && splits > 0);
+  const bool isOffered = isSplitOffered(session_);
+  if (isOffered) {
+    split_->setText(counted(static_cast<qint64>(inflectionsOf(session_).size()), tr("Split at the inflection"),
+                            tr("Split at the %1 inflections")));
+  }
+  split_->setVisible(isOffered);
 }
 
 FairingParams FairingPanel::shown(const Recipe& recipe) const {
@@ -115,6 +171,9 @@ FairingParams FairingPanel::shown(const Recipe& recipe) const {
   if (choice && choice->mode) params.mode = *choice->mode;
   if (choice && choice->target) params.target = *choice->target;
   if (choice && choice->toleranceMm) params.toleranceMm = *choice->toleranceMm;
+  if (choice && choice->lowPassMm) params.lowPassMm = *choice->lowPassMm;
+  if (choice && choice->keepExtrema) params.keepExtrema = *choice->keepExtrema;
+  if (choice && !choice->profile.empty()) params.profile = choice->profile;
   return params;
 }
 
@@ -133,23 +192,18 @@ void FairingPanel::useForAll() {
   after.fairing.mode = own.mode;
   after.fairing.target = own.target;
   after.fairing.toleranceMm = own.toleranceMm;
-  for (PieceChoice& choice : after.choices) {
-    choice.mode.reset();
-    choice.target.reset();
-    choice.toleranceMm.reset();
-  }
-  std::erase_if(after.choices, [](const PieceChoice& choice) { return choice.included; });
+  after.fairing.lowPassMm = own.lowPassMm;
+  after.fairing.keepExtrema = own.keepExtrema;
+  after.fairing.profile = own.profile;
+  for (PieceChoice& choice : after.choices) choice.clearFairing();
+  std::erase_if(after.choices, [](const PieceChoice& choice) { return choice.isEmpty(); });
   oneCurve_ = false;
   session_.change(tr("Fairing of all curves"), std::move(after));
 }
 
 void FairingPanel::followAll() {
-  Recipe after = withChoice(session_, session_.selectedCurve(), [](PieceChoice& choice) {
-    choice.mode.reset();
-    choice.target.reset();
-    choice.toleranceMm.reset();
-  });
-  std::erase_if(after.choices, [](const PieceChoice& c) { return c.included && !c.mode && !c.target && !c.toleranceMm; });
+  Recipe after = withChoice(session_, session_.selectedCurve(), [](PieceChoice& choice) { choice.clearFairing(); });
+  std::erase_if(after.choices, [](const PieceChoice& choice) { return choice.isEmpty(); });
   oneCurve_ = false;
   session_.change(tr("Follow the common fairing"), std::move(after));
 }
@@ -169,6 +223,7 @@ void FairingPanel::refresh() {
   mode_->setCurrent(static_cast<int>(params.mode));
   budget_->sync();
   budget_->setEnabled(params.mode != FairingMode::None);
+  refreshLinks(params);
   useForAll_->setVisible(several && own);
   followAll_->setVisible(several && own);
   refreshFigures();
@@ -207,7 +262,7 @@ void FairingPanel::refreshFigures() {
   }
   figures_->setRows(std::move(rows));
   QString text = QString::fromStdString(report.note);
-  if (faired && curve->fairingUsed.mode == FairingMode::Target && !report.withinBudget) {
+  if (faired && !report.withinBudget) {
     if (text.isEmpty()) text = tr("The budget stops the curve before it meets the target.");
     raise_->setText(tr("Needs %1: raise the budget").arg(millimetres(report.neededMm)));
     raise_->setVisible(report.neededMm > curve->fairingUsed.toleranceMm && report.neededMm <= 20.0);

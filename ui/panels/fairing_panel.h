@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
 
 #include "ui/session/editor_session.h"
 
@@ -21,6 +22,9 @@ class FairingPanel : public QWidget {
  public:
   explicit FairingPanel(EditorSession& session, QWidget* parent = nullptr);
 
+ signals:
+  void comparisonAsked();  ///< The user wants to compare shapes.
+
  private:
   void buildBudget();
   void refresh();
@@ -29,6 +33,9 @@ class FairingPanel : public QWidget {
   FairingParams shown(const Recipe& recipe) const;
   bool actsOnOne() const { return oneCurve_; }
   void setMode(FairingMode mode);
+  void bindToScope(ParameterRow* row, const std::function<void(PieceChoice&, const FairingParams&)>& store);
+  void buildLinks();
+  void refreshLinks(const FairingParams& params);
   void useForAll();
   void followAll();
 
@@ -36,11 +43,17 @@ class FairingPanel : public QWidget {
   SegmentedControl* scope_;
   SegmentedControl* mode_;
   ParameterRow* budget_;
+  ParameterRow* keep_;
+  ParameterRow* wavelength_;
   ParameterEditor* editor_;
   QLabel* note_;
   QPushButton* raise_;
   QPushButton* useForAll_;
   QPushButton* followAll_;
+  QPushButton* split_;
+  QPushButton* unsplit_;
+  QPushButton* draw_;
+  QPushButton* forget_;
   FigureTable* figures_;
   bool oneCurve_ = false;
   int lastSelected_ = -2;

@@ -241,7 +241,7 @@ void TargetStrip::refresh() {
       used.toleranceMm = own->toleranceMm.value_or(used.toleranceMm);
     }
     budget = used.toleranceMm;
-    if (used.mode == FairingMode::Target) chosen = used.target > 0 ? used.target : targets ? targets->recommendedDegree : 0;
+    if (used.mode == FairingMode::Target && used.target != kDrawnTarget) chosen = used.target > 0 ? used.target : targets ? targets->recommendedDegree : 0;
   }
   for (int degree = 1; degree <= 6; ++degree)
     tiles_[static_cast<std::size_t>(degree - 1)]->show(curve ? targets : nullptr, budget, degree == chosen, choosesForOneCurve(session_));

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/plots/plot_editing.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -32,6 +33,7 @@ struct CurvePlots::State {
   QCPItemStraightLine* cursor = nullptr;
   QSharedPointer<QCPAxisTicker> linearTicker;
   QSharedPointer<QCPAxisTickerLog> logTicker;
+  PlotEditing* editing = nullptr;
   bool isPending = false;
   double shownLength = -1.0;
   PlotTab shownTab = PlotTab::Radius;
@@ -102,6 +104,9 @@ void CurvePlots::build() {
   d.plot->axisRect()->setMargins(QMargins(54, 6, 16, 22));
   d.plot->setMouseTracking(true);
   d.plot->installEventFilter(this);
+  // Installed last, so asked first.
+  d.editing = new PlotEditing(d.session, d.plot, this);
+  connect(d.editing, &PlotEditing::wholeAsked, this, &CurvePlots::resetView);
   d.linearTicker = QSharedPointer<QCPAxisTicker>::create();
   d.linearTicker->setTickCount(4);
   d.logTicker = QSharedPointer<QCPAxisTickerLog>::create();
@@ -210,12 +215,13 @@ void CurvePlots::refresh() {
     faint.setAlphaF(0.22F);
     QColor grey = theme.mute;
     grey.setAlphaF(0.9F);
-    QPen dashed(theme.amber, 1.6);
+    QPen dashed(theme.amber, 1.6), dotted(theme.amber, 2, Qt::DotLine, Qt::RoundCap);
     dashed.setDashPattern({5, 3.5});
     switch (series.role) {
       case PlotRole::Target: return QPen(faint, 1);
       case PlotRole::HoveredTarget: return QPen(theme.text, 1.6);
       case PlotRole::ChosenTarget: return dashed;
+      case PlotRole::DrawnTarget: return dotted;
       case PlotRole::Budget: return QPen(theme.amber, 1, Qt::DashLine);
       case PlotRole::Sketched: return QPen(grey, 1.2);
       case PlotRole::Faired: return QPen(theme.accent, 2);
@@ -234,12 +240,15 @@ void CurvePlots::refresh() {
     graph->setAntialiased(true);
   }
   addMarks();
+  d.editing->show(d.data, d.tab);
   const bool sameView = d.shownTab == d.tab && d.shownCurve == d.session.selectedCurve() &&
                         std::abs(d.shownLength - d.data.lengthMm) < 0.2 * std::abs(d.shownLength);
   d.shownTab = d.tab;
   d.shownCurve = d.session.selectedCurve();
   d.shownLength = d.data.lengthMm;
-  if (sameView) d.plot->yAxis->setRange(d.data.low, d.data.high);
+  // While a point is dragged the axes stay, or it would run away from the mouse.
+  if (sameView && d.editing->isDragging()) d.plot->replot(QCustomPlot::rpQueuedReplot);
+  else if (sameView) d.plot->yAxis->setRange(d.data.low, d.data.high);
   else resetView();
   showCursor();
 }
@@ -324,8 +333,11 @@ bool CurvePlots::eventFilter(QObject* watched, QEvent* event) {
       d.session.setCursor(s >= 0 && s <= d.data.lengthMm ? std::optional(s) : std::nullopt);
       const ExtremumMark* mark = markAt(mouse->position());
       d.plot->setToolTip(mark ? mark->text : QString());
-      d.plot->setCursor(mark ? Qt::PointingHandCursor : Qt::ArrowCursor);
-      emit hint(mark ? mark->text : tr("The cursor is the same place on the drawing. Wheel zooms, drag pans, double click shows all."));
+      const QString editing = d.editing->hintAt(mouse->position().toPoint());
+      if (mark || editing.isEmpty()) d.plot->setCursor(mark ? Qt::PointingHandCursor : Qt::ArrowCursor);
+      const QString otherwise =
+          tr("The cursor is the same place on the drawing. Wheel zooms, drag pans, double click shows all, right click edits the target.");
+      emit hint(mark ? mark->text : !editing.isEmpty() ? editing : otherwise);
     }
     if (event->type() == QEvent::MouseButtonPress) {
       const auto* mouse = static_cast<QMouseEvent*>(event);

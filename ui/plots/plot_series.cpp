@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/curve/curve_analysis.h"
+#include "ui/session/fairing_edits.h"
 
 namespace batten {
 namespace {
@@ -29,7 +30,7 @@ void add(PlotData& data, PlotRole role, const std::vector<CurveSample>& samples,
 }
 
 int chosenDegree(const TracedCurve& curve, const TargetOutcomes& targets) {
-  if (curve.fairingUsed.mode != FairingMode::Target) return 0;
+  if (curve.fairingUsed.mode != FairingMode::Target || curve.fairingUsed.target == kDrawnTarget) return 0;
   return curve.fairingUsed.target > 0 ? curve.fairingUsed.target : targets.recommendedDegree;
 }
 
@@ -51,6 +52,26 @@ void addTargets(PlotData& data, const EditorSession& session, const TracedCurve&
     }
     if (series.s.size() > 1) data.series.push_back(std::move(series));
   }
+}
+
+/// The drawn target as the recipe has it now, so that it follows the mouse and not the run.
+void addDrawn(PlotData& data, const EditorSession& session, const TracedCurve& curve, const auto& valueOf) {
+  for (const double f : splitsOf(session)) data.splits.push_back(f * data.lengthMm);
+  if (fairingAsked(session).mode == FairingMode::Monotone)
+    for (const double f : keptOf(session)) data.kept.push_back(f * data.lengthMm);
+  if (!isTargetDrawn(session)) return;
+  const FairingParams asked = fairingAsked(session);
+  const TargetProfile profile = drawnProfile(asked.profile, curve.closed);
+  if (!profile.valid) return;
+  PlotSeries series{PlotRole::DrawnTarget, 0, {}, {}};
+  for (int i = 0; i < kSamples; ++i) {
+    const double f = i / (kSamples - 1.0), value = valueOf(profile.curvatureAt(f));
+    if (!std::isfinite(value)) continue;
+    series.s.push_back(f * data.lengthMm);
+    series.value.push_back(value);
+  }
+  if (series.s.size() > 1) data.series.push_back(std::move(series));
+  for (const ProfilePoint& p : asked.profile) data.handles.emplace_back(p.fraction * data.lengthMm, valueOf(p.kappa));
 }
 
 /// Range from the two curves alone: a target that shoots off must not flatten them.
@@ -166,11 +187,13 @@ PlotData plotData(const EditorSession& session, PlotTab tab) {
   const double scale = data.lengthMm / sketchedLength;
   const double size = extent(curve->sketched);
   const auto addBoth = [&](const auto& valueOf) {
-    addTargets(data, session, *curve, [&](double kappa) {
+    const auto ofKappa = [&](double kappa) {
       CurveSample sample;
       sample.kappa = kappa;
       return valueOf(sample);
-    });
+    };
+    addTargets(data, session, *curve, ofKappa);
+    addDrawn(data, session, *curve, ofKappa);
     add(data, PlotRole::Sketched, sketched, scale, valueOf);
     add(data, PlotRole::Faired, faired, 1.0, valueOf);
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "ui/session/editor_session.h"
@@ -11,7 +12,7 @@ namespace batten {
 enum class PlotTab { Radius, Curvature, Derivative, Deviation };
 
 /// What a line of a plot stands for; the plot chooses pen and colour.
-enum class PlotRole { Sketched, Faired, Target, ChosenTarget, HoveredTarget, Budget, Joint };
+enum class PlotRole { Sketched, Faired, Target, ChosenTarget, HoveredTarget, DrawnTarget, Budget, Joint };
 
 struct PlotSeries {
   PlotRole role = PlotRole::Sketched;
@@ -25,6 +26,9 @@ struct PlotData {
   std::vector<PlotSeries> series;
   std::vector<double> bandS, bandLow, bandHigh;  ///< Curvature: +-2 sigma of the sketched curve.
   std::vector<ExtremumMark> marks;               ///< Curvature: the extrema of the fair fit; s as on the axis.
+  std::vector<std::pair<double, double>> handles;  ///< Points of the drawn target: s, value.
+  std::vector<double> kept;                        ///< s of the extrema that monotone fairing is to keep.
+  std::vector<double> splits;                      ///< s of the splits, in the order of the recipe.
   bool logarithmic = false;
   double low = 0.0, high = 1.0;                  ///< Range of the values that is shown at first.
   bool isEmpty() const { return series.empty(); }

@@ -28,7 +28,7 @@ const PieceChoice* choiceOf(const EditorSession& session, int curve) {
 
 bool hasOwnFairing(const EditorSession& session, int curve) {
   const PieceChoice* choice = choiceOf(session, curve);
-  return choice && (choice->mode || choice->target || choice->toleranceMm);
+  return choice && choice->hasFairing();
 }
 
 Recipe withChoice(const EditorSession& session, int curve, const std::function<void(PieceChoice&)>& edit) {

@@ -280,6 +280,10 @@ void EditorSession::Runner::computeTargets() {
   FairingParams params = curve->fairingUsed;
   params.mode = FairingMode::None;
   params.target = 0;
+  params.lowPassMm = FairingParams{}.lowPassMm;
+  params.keepExtrema = kKeepSignificant;
+  params.keptAt.clear();
+  params.profile.clear();
   if (targetsCurve && *targetsCurve == curve->sketched && targetsParams == params) return;
   targetsCurve = curve->sketched;
   targetsParams = params;
