@@ -132,6 +132,8 @@ void FairingPanel::bindToScope(ParameterRow* row, const std::function<void(Piece
 void FairingPanel::buildLinks() {
   auto* column = static_cast<QVBoxLayout*>(layout());
   for (QPushButton* link : {split_, unsplit_, draw_, forget_}) column->addWidget(link, 0, Qt::AlignLeft);
+  split_->setAccessibleName(tr("Split at the inflections"));
+  unsplit_->setAccessibleName(tr("Remove the splits"));
   split_->setToolTip(tr("One polynomial is too stiff for a line that bends both ways: each part gets one of its own."));
   draw_->setToolTip(tr("Turns the target into points that you drag in the curvature plot."));
   auto* compare = linkButton(tr("Compare shapes…"), QStringLiteral("fairing.compare"), this);
