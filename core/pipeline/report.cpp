@@ -42,7 +42,7 @@ Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
             {"control_points_before_sparing", r.fullControlPoints},
             {"moved_by_sparing_px", number(r.reducedMovedPx)},
             {"moved_by_sparing_um", number(1000.0 * frame.lengthToModel(r.reducedMovedPx))},
-            
+
             {"is_circle", r.isCircle}, {"is_line", r.isLine}, {"extrema", Json::array()}};
   if (r.pointsBefore > 0) {
     json["polygon_points"] = {{"before", r.pointsBefore}, {"after", r.pointsAfter}, {"added", r.pointsAdded}};
