@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/base/parallel.h"
+#include "core/curve/curve_analysis.h"
 #include "core/fairing/fairing_solvers.h"
 #include "core/fairing/low_pass.h"
 #include "core/fairing/monotone_fairing.h"
@@ -121,10 +122,42 @@ FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std
   return result;
 }
 
+namespace {
+
+/// Largest distance of a curve from the whole of another. The solvers follow feet from place to place, which a loop or a
+/// spike between two places escapes; this looks at many places and forgets where the last foot was.
+double farthestFrom(const NurbsCurve& original, const NurbsCurve& curve) {
+  const int places = std::max(1000, 24 * curve.controlPointCount());
+  double farthest = 0.0;
+  for (int i = 0; i <= places; ++i) {
+    const double u = curve.start() + (curve.end() - curve.start()) * i / places;
+    const Vec2 point = curve.point(u);
+    // Fairing keeps the knots: the place of the same parameter is near, and most often near enough to tell.
+    const double distance = (point - original.point(u)).norm();
+    if (distance <= farthest) continue;
+    farthest = std::max(farthest, std::min(distance, deviation(original, std::span(&point, 1), false).max));
+  }
+  return farthest;
+}
+
+}  // namespace
+
 Result<FairedCurve> finished(const FairingSetup& setup, std::vector<Vec2> points, double toleranceMm, FairingReport report) {
   report.maxDeviationMm = keepWithin(setup, toleranceMm, points);
   auto curve = toCurve(setup, points);
   if (!curve) return fail(curve.error());
+  constexpr int kRounds = 12;
+  for (int round = 0; report.maxDeviationMm > 0.0; ++round) {
+    const double farthest = farthestFrom(setup.original, *curve);
+    report.maxDeviationMm = std::max(report.maxDeviationMm, farthest);
+    if (farthest <= toleranceMm) break;
+    const double share = round < kRounds ? std::min(0.9, 0.99 * toleranceMm / farthest) : 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = setup.points[i] + share * (points[i] - setup.points[i]);
+    report.maxDeviationMm = share > 0.0 ? keepWithin(setup, toleranceMm, points) : 0.0;
+    report.why = Termination::ToleranceLimited;
+    curve = toCurve(setup, points);
+    if (!curve) return fail(curve.error());
+  }
   report.extremaBefore = extremaOf(setup.original, setup.closed);
   report.extremaAfter = extremaOf(*curve, setup.closed);
   return FairedCurve{std::move(*curve), std::move(report)};
