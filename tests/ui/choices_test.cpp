@@ -7,6 +7,7 @@
 #include <QTest>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "tests/ui/rendered_scan.h"
 #include "ui/canvas/curve_canvas.h"
@@ -31,6 +32,19 @@ QImage wavePage() {
   QPolygonF line;
   for (int i = 0; i <= 600; ++i) line.append(QPointF(50.0 + i, 210.0 - 70.0 * std::sin(i / 600.0 * 3.0 * std::numbers::pi)));
   painter.drawPolyline(line);
+  return page;
+}
+
+/// The same with the grain of a scan, so that its curvature is uncertain.
+QImage grainyWavePage() {
+  QImage page = wavePage();
+  std::mt19937 random(7);
+  std::normal_distribution<double> grain(0.0, 12.0);
+  for (int y = 0; y < page.height(); ++y)
+    for (int x = 0; x < page.width(); ++x) {
+      uchar& grey = page.scanLine(y)[x];
+      grey = static_cast<uchar>(std::clamp(grey + grain(random), 0.0, 255.0));
+    }
   return page;
 }
 
@@ -203,10 +217,10 @@ TEST_F(Choices, ARectangleAndALassoTraceWhatLiesInside) {
 }
 
 TEST_F(Choices, EveryNewLayerPaintsWithoutChangingTheRecipe) {
-  open(wavePage());
+  open(grainyWavePage());
   const Recipe before = session().recipe();
   canvas_->setFocus();
-  const QImage plain = canvas_->grab().toImage();
+  QTest::qWait(800);  // the comb is made in the background
   for (const ActionId id : {ActionId::ShowStrokes, ActionId::ShowBand, ActionId::ShowExtrema}) {
     const QImage one = canvas_->grab().toImage();
     window_->action(id)->trigger();

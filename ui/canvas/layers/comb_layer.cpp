@@ -45,7 +45,7 @@ QPolygonF envelope(const std::vector<CombPoint>& points, const CombScale& scale,
 /// What the noise of the scan leaves open of the curvature: +-2 standard deviations about the comb's tips.
 void paintBand(QPainter& painter, const CanvasScene& scene, const std::vector<CombPoint>& points,
                const CombScale& scale) {
-  if (points.empty() || !(points.front().sigma > 0.0)) return;
+  if (std::none_of(points.begin(), points.end(), [](const CombPoint& point) { return point.sigma > 0.0; })) return;
   QPolygonF band;
   band.reserve(2 * static_cast<qsizetype>(points.size()));
   const auto edge = [&](CombPoint point, double side) {
