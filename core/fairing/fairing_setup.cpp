@@ -36,6 +36,20 @@ double largestDistance(const SpanCurve& from, const SpanCurve& to) {
   return largest;
 }
 
+/// Samples at equal arc length, so that the shortest span has its share too: what happens between samples is not felt by
+/// the objective, and curves of few control points have short spans where they bend. Bounded where one span is a sliver.
+int samplesFor(const SpanBasis& basis) {
+  const int spans = basis.spanCount();
+  double whole = 0.0, shortest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < spans; ++i) {
+    whole += basis.width(i);
+    shortest = std::min(shortest, basis.width(i));
+  }
+  constexpr double kMostUneven = 8.0;
+  const double uneven = shortest > 0.0 ? std::clamp(whole / (shortest * spans), 1.0, kMostUneven) : kMostUneven;
+  return static_cast<int>(std::ceil(kSamplesPerSpan * spans * uneven - 1e-6)) + 1;
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, bool closed, const FairingParams& params) {
@@ -62,7 +76,7 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
     setup->basis = SpanBasis(curve.degree(), curve.knots(), curve.controlPointCount(), 0);
   }
   setup->reference = SpanCurve(setup->basis, setup->points);
-  const int samples = std::max(params.targets.samples, kSamplesPerSpan * setup->basis.spanCount() + 1);
+  const int samples = std::max(params.targets.samples, samplesFor(setup->basis));
   auto start = equalArcPlaces(setup->reference, samples, closed);
   if (!start || !(start->length > 1e-9 * setup->extent)) {
     return fail(ErrorCode::Numerical, "The curve has no length.");

@@ -29,9 +29,10 @@ SegmentedControl::SegmentedControl(const QStringList& labels, QWidget* parent)
     button->setCheckable(true);
     button->setProperty("segment", true);
     button->setFocusPolicy(Qt::TabFocus);
-    button->setSizePolicy(isEven ? QSizePolicy::Ignored : QSizePolicy::Expanding, QSizePolicy::Fixed);
+    // Never wider than the panel: a control that is would push everything in it out of sight.
+    button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     group_->addButton(button, i);
-    layout->addWidget(button, isEven ? 1 : metrics.horizontalAdvance(labels[i]) + 24);
+    layout->addWidget(button, isEven ? 1 : metrics.horizontalAdvance(labels[i]) + 10);
   }
   connect(group_, &QButtonGroup::idClicked, this, &SegmentedControl::chosen);
 }
