@@ -10,6 +10,7 @@
 #include "core/construct/piece_stations.h"
 #include "core/construct/typical_growing.h"
 #include "core/construct/typical_structure.h"
+#include "core/curve/curve_analysis.h"
 
 namespace batten {
 
@@ -187,6 +188,16 @@ std::optional<TypicalPath> chainPath(TypicalLine line, std::span<const Vec2> pla
   return path;
 }
 
+/// The Bezier path of a piece, with the reason why it took the place of the chain.
+Result<ConstructedPiece> pathInstead(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
+                                     const RunContext& context) {
+  auto other = constructBezierChain(piece, pixelMm, params, context);
+  if (other && other->report.note.empty()) {
+    other->report.note = "Typical curves do not fit this line, so a Bézier path took their place.";
+  }
+  return other;
+}
+
 }  // namespace
 
 Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
@@ -199,17 +210,16 @@ Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, double pi
                                                      : chainPath(line, piece.divisions, context);
   if (context.isCancelled()) return cancelled();
   auto curve = path ? pathCurve(*path, line) : Result<NurbsCurve>(fail(ErrorCode::Numerical, ""));
-  if (!curve) {
-    auto other = constructBezierChain(piece, pixelMm, params, context);
-    if (other && other->report.note.empty()) {
-      other->report.note = "Typical curves do not fit this line, so a Bézier path took their place.";
-    }
-    return other;
-  }
+  if (!curve) return pathInstead(piece, pixelMm, params, context);
   const Vec2 end = line.closed ? Vec2(curve->controlPoints().front()) : line.endMm;
   const Vec2 start = line.closed ? end : line.originMm;
   curve = clampedWithEnds(*curve, start, end);
   if (!curve) return fail(curve.error());
+  // The fit looks at feet that move along with it; a chain that has run away from its line is seen only from the line.
+  constexpr double kAstrayPx = 5.0;
+  if (!(deviation(*curve, piece.points, true).rms < kAstrayPx * pixelMm)) {
+    return pathInstead(piece, pixelMm, params, context);
+  }
   ConstructedPiece result{std::move(*curve), {}};
   result.report.why = Termination::Converged;
   result.report.segments = segmentNotes(*path, line);
