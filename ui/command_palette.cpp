@@ -50,14 +50,16 @@ class ActionDelegate : public QStyledItemDelegate {
     const QRect middle = box.adjusted(nameWidth, 0, -keysWidth, 0);
     const QString help = enabled ? index.data(HelpRole).toString() : CommandPalette::tr("not possible now");
     if (middle.width() > 40)
-      painter->drawText(middle, Qt::AlignVCenter | Qt::AlignLeft, painter->fontMetrics().elidedText(help, Qt::ElideRight, middle.width()));
+      painter->drawText(middle, Qt::AlignVCenter | Qt::AlignLeft,
+                        painter->fontMetrics().elidedText(help, Qt::ElideRight, middle.width()));
     painter->restore();
   }
 };
 
 }  // namespace
 
-CommandPalette::CommandPalette(QWidget* parent) : QFrame(parent), edit_(new QLineEdit(this)), list_(new QListWidget(this)) {
+CommandPalette::CommandPalette(QWidget* parent)
+    : QFrame(parent), edit_(new QLineEdit(this)), list_(new QListWidget(this)) {
   setObjectName(QStringLiteral("commandPalette"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(8, 8, 8, 8);
@@ -148,7 +150,11 @@ bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
   if (watched == edit_ && event->type() == QEvent::FocusOut && !underMouse()) hide();
   if (watched == edit_ && event->type() == QEvent::KeyPress) {
     const int key = static_cast<QKeyEvent*>(event)->key();
-    const int step = key == Qt::Key_Down ? 1 : key == Qt::Key_Up ? -1 : key == Qt::Key_PageDown ? 9 : key == Qt::Key_PageUp ? -9 : 0;
+    const int step = key == Qt::Key_Down       ? 1
+                     : key == Qt::Key_Up       ? -1
+                     : key == Qt::Key_PageDown ? 9
+                     : key == Qt::Key_PageUp   ? -9
+                                               : 0;
     if (step != 0) {
       list_->setCurrentRow(std::clamp(list_->currentRow() + step, 0, std::max(0, list_->count() - 1)));
       return true;

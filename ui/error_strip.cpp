@@ -13,7 +13,9 @@
 namespace batten {
 
 ErrorStrip::ErrorStrip(QWidget* parent)
-    : QWidget(parent), text_(new QLabel(this)), action_(plainButton(tr("Open…"), QStringLiteral("error.action"), this)),
+    : QWidget(parent),
+      text_(new QLabel(this)),
+      action_(plainButton(tr("Open…"), QStringLiteral("error.action"), this)),
       dismiss_(linkButton(tr("Dismiss"), QStringLiteral("error.dismiss"), this)) {
   setObjectName(QStringLiteral("errorStrip"));
   auto* layout = new QHBoxLayout(this);

@@ -32,8 +32,10 @@ HelpWindow::HelpWindow(QWidget* parent) : QWidget(parent, Qt::Window), browser_(
   browser_->setObjectName(QStringLiteral("help.text"));
   browser_->setOpenLinks(false);
   connect(browser_, &QTextBrowser::anchorClicked, this, [this](const QUrl& url) {
-    if (url.scheme().isEmpty()) load(QFileInfo(url.path()).completeBaseName());
-    else QDesktopServices::openUrl(url);
+    if (url.scheme().isEmpty())
+      load(QFileInfo(url.path()).completeBaseName());
+    else
+      QDesktopServices::openUrl(url);
   });
   layout->addWidget(browser_, 1);
 }

@@ -50,8 +50,9 @@ MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
   auto* column = new QVBoxLayout(whole);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  const TopBar::Actions bar{action(ActionId::Undo),    action(ActionId::Redo),       action(ActionId::ShowScan),   action(ActionId::ShowComb),
-                            action(ActionId::ZoomFit), action(ActionId::ZoomActual), action(ActionId::FindAction), action(ActionId::Export)};
+  const TopBar::Actions bar{action(ActionId::Undo),       action(ActionId::Redo),    action(ActionId::ShowScan),
+                            action(ActionId::ShowComb),   action(ActionId::ZoomFit), action(ActionId::ZoomActual),
+                            action(ActionId::FindAction), action(ActionId::Export)};
   parts_->topBar = new TopBar(view_, bar, parts_->mainMenu, parts_->layersMenu, whole);
   parts_->errors = new ErrorStrip(whole);
   parts_->rail = new StageRail(session_, whole);
@@ -125,15 +126,14 @@ QWidget* MainWindow::makeInspector() {
   connect(curves, &CurvesPanel::helpAsked, this, &MainWindow::showHelp);
   auto* fairing = new FairingPanel(session_);
   connect(fairing, &FairingPanel::comparisonAsked, this, &MainWindow::showShapes);
-  const std::pair<PanelStage, QWidget*> panels[] = {
-      {PanelStage::Scan, p.scanPanel},
-      {PanelStage::Threshold, new ThresholdPanel(session_, view_)},
-      {PanelStage::CleanUp, new CleanUpPanel(session_)},
-      {PanelStage::Edges, new EdgesPanel(session_, view_)},
-      {PanelStage::Corners, new CornersPanel(session_, view_)},
-      {PanelStage::Curves, curves},
-      {PanelStage::Fairing, fairing},
-      {PanelStage::Export, p.exportPanel}};
+  const std::pair<PanelStage, QWidget*> panels[] = {{PanelStage::Scan, p.scanPanel},
+                                                    {PanelStage::Threshold, new ThresholdPanel(session_, view_)},
+                                                    {PanelStage::CleanUp, new CleanUpPanel(session_)},
+                                                    {PanelStage::Edges, new EdgesPanel(session_, view_)},
+                                                    {PanelStage::Corners, new CornersPanel(session_, view_)},
+                                                    {PanelStage::Curves, curves},
+                                                    {PanelStage::Fairing, fairing},
+                                                    {PanelStage::Export, p.exportPanel}};
   for (const auto& [stage, panel] : panels) {
     panel->setObjectName(QStringLiteral("panel.") + key(stage));
     auto* scroll = new QScrollArea;
@@ -217,7 +217,8 @@ void MainWindow::setStage(PanelStage stage) {
 void MainWindow::enterStage(PanelStage stage) {
   parts_->inspector->setCurrentIndex(static_cast<int>(stage));
   parts_->status->setStageHint(batten::hint(stage));
-  // What this stage works on is shown while it is open and what hides it is not; what the user switches stays as he left it.
+  // What this stage works on is shown while it is open and what hides it is not; what the user switches stays as he
+  // left it.
   for (const Parts::StageLayer& one : parts_->stageLayers)
     if (view_.isVisible(one.layer) == one.during) view_.setVisible(one.layer, one.before);
   parts_->stageLayers.clear();
@@ -253,13 +254,17 @@ void MainWindow::enterStage(PanelStage stage) {
       turn(true, {Layer::Curve});
       turn(false, {Layer::Faired});
       break;
-    case PanelStage::Fairing: turn(true, {Layer::Curve, Layer::Faired}); break;
+    case PanelStage::Fairing:
+      turn(true, {Layer::Curve, Layer::Faired});
+      break;
     case PanelStage::Export:
       turn(true, {Layer::Faired});
       turn(false, {Layer::Comb});
       break;
   }
-  view_.setTool(stage == PanelStage::Threshold ? Tool::Thresholds : stage == PanelStage::Corners ? Tool::Corners : Tool::Select);
+  view_.setTool(stage == PanelStage::Threshold ? Tool::Thresholds
+                : stage == PanelStage::Corners ? Tool::Corners
+                                               : Tool::Select);
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

@@ -43,32 +43,41 @@ void MainWindow::makeActions() {
     return made;
   };
   for (const PanelStage stage : kPanelStages) {
-    auto* made = own(tr("Stage: %1").arg(label(stage)), QStringLiteral("go-") + key(stage), tr("Show the settings of this stage."),
+    auto* made = own(tr("Stage: %1").arg(label(stage)), QStringLiteral("go-") + key(stage),
+                     tr("Show the settings of this stage."),
                      QKeySequence(QStringLiteral("F%1").arg(static_cast<int>(stage) + 2)));
     // F2 to F9; F10 opens the menu.
     connect(made, &QAction::triggered, this, [this, stage] { setStage(stage); });
   }
-  const struct { PlotTab tab; QString text; } plots[] = {{PlotTab::Radius, tr("Plot: radius")}, {PlotTab::Curvature, tr("Plot: curvature")},
-                                                         {PlotTab::Derivative, tr("Plot: derivative")}, {PlotTab::Deviation, tr("Plot: deviation")}};
+  const struct {
+    PlotTab tab;
+    QString text;
+  } plots[] = {{PlotTab::Radius, tr("Plot: radius")},
+               {PlotTab::Curvature, tr("Plot: curvature")},
+               {PlotTab::Derivative, tr("Plot: derivative")},
+               {PlotTab::Deviation, tr("Plot: deviation")}};
   for (const auto& plot : plots)
     connect(own(plot.text, {}, tr("Show this plot of the selected curve."), {}), &QAction::triggered, this,
             [this, tab = plot.tab] { parts_->plots->setTab(tab); });
-  connect(own(tr("Compare shapes"), QStringLiteral("compare-shapes"), tr("How alike two curves are, whatever their size and place."), {}),
+  connect(own(tr("Compare shapes"), QStringLiteral("compare-shapes"),
+              tr("How alike two curves are, whatever their size and place."), {}),
           &QAction::triggered, this, &MainWindow::showShapes);
-  parts_->foldAction = own(tr("Targets and plots"), QStringLiteral("fold-plots"), tr("Show or fold away what lies below the drawing."),
-                           QKeySequence(QStringLiteral("P")));
+  parts_->foldAction = own(tr("Targets and plots"), QStringLiteral("fold-plots"),
+                           tr("Show or fold away what lies below the drawing."), QKeySequence(QStringLiteral("P")));
   parts_->foldAction->setCheckable(true);
   parts_->foldAction->setChecked(true);
   connect(parts_->foldAction, &QAction::toggled, this, [this](bool shown) { parts_->lower->setVisible(shown); });
-  connect(own(tr("Help on this stage"), QStringLiteral("help-stage"), tr("What this stage does, in plain words."), QKeySequence(Qt::Key_F1)),
+  connect(own(tr("Help on this stage"), QStringLiteral("help-stage"), tr("What this stage does, in plain words."),
+              QKeySequence(Qt::Key_F1)),
           &QAction::triggered, this, [this] { showHelp(key(stage())); });
-  connect(own(tr("All help pages"), QStringLiteral("help-contents"), tr("Start page of the help."), {}), &QAction::triggered, this,
-          [this] { showHelp(QStringLiteral("index")); });
-  connect(own(tr("Keys and mouse"), QStringLiteral("help-keys"), tr("Every shortcut, and what the mouse does."), {}), &QAction::triggered, this,
-          [this] { showHelp(QStringLiteral("keys")); });
-  connect(own(tr("About Batten"), QStringLiteral("about"), tr("What this program is, and its licence."), {}), &QAction::triggered, this,
-          [this] { showHelp(QStringLiteral("about")); });
-  auto* menuKey = own(tr("Open the menu"), QStringLiteral("open-menu"), tr("Open the menu at the top left."), QKeySequence(Qt::Key_F10));
+  connect(own(tr("All help pages"), QStringLiteral("help-contents"), tr("Start page of the help."), {}),
+          &QAction::triggered, this, [this] { showHelp(QStringLiteral("index")); });
+  connect(own(tr("Keys and mouse"), QStringLiteral("help-keys"), tr("Every shortcut, and what the mouse does."), {}),
+          &QAction::triggered, this, [this] { showHelp(QStringLiteral("keys")); });
+  connect(own(tr("About Batten"), QStringLiteral("about"), tr("What this program is, and its licence."), {}),
+          &QAction::triggered, this, [this] { showHelp(QStringLiteral("about")); });
+  auto* menuKey = own(tr("Open the menu"), QStringLiteral("open-menu"), tr("Open the menu at the top left."),
+                      QKeySequence(Qt::Key_F10));
   connect(menuKey, &QAction::triggered, this, [this] { parts_->topBar->openMenu(); });
 }
 
@@ -91,11 +100,13 @@ void MainWindow::makeMenus() {
       if (one->objectName() == name) return one;
     return static_cast<QAction*>(nullptr);
   };
-  for (const ActionMenu menu : {ActionMenu::File, ActionMenu::Edit, ActionMenu::View, ActionMenu::Tools, ActionMenu::Fairing}) {
+  for (const ActionMenu menu :
+       {ActionMenu::File, ActionMenu::Edit, ActionMenu::View, ActionMenu::Tools, ActionMenu::Fairing}) {
     QMenu* sub = p.mainMenu->addMenu(label(menu));
     for (const ActionInfo& info : actionCatalog()) {
       if (info.menu != menu || info.isHeld) continue;
-      if (info.id == ActionId::ShowScan || info.id == ActionId::Quit || info.id == ActionId::CancelWork) sub->addSeparator();
+      if (info.id == ActionId::ShowScan || info.id == ActionId::Quit || info.id == ActionId::CancelWork)
+        sub->addSeparator();
       sub->addAction(action(info.id));
       if (info.id == ActionId::OpenScan) sub->addMenu(p.recentMenu);
       if (info.id == ActionId::SaveRecipe) sub->addSeparator();
@@ -107,8 +118,9 @@ void MainWindow::makeMenus() {
     sub->addAction(p.foldAction);
     QMenu* theme = sub->addMenu(tr("Theme"));
     auto* group = new QActionGroup(theme);
-    const std::pair<ThemeChoice, QString> themes[] = {
-        {ThemeChoice::System, tr("As the desktop")}, {ThemeChoice::Light, tr("Light")}, {ThemeChoice::Dark, tr("Dark")}};
+    const std::pair<ThemeChoice, QString> themes[] = {{ThemeChoice::System, tr("As the desktop")},
+                                                      {ThemeChoice::Light, tr("Light")},
+                                                      {ThemeChoice::Dark, tr("Dark")}};
     for (const auto& [choice, text] : themes) {
       auto* entry = group->addAction(text);
       entry->setCheckable(true);
@@ -123,7 +135,8 @@ void MainWindow::makeMenus() {
     }
   }
   QMenu* help = p.mainMenu->addMenu(tr("Help"));
-  for (const char* name : {"help-stage", "help-contents", "help-keys", "about"}) help->addAction(ownNamed(QString::fromLatin1(name)));
+  for (const char* name : {"help-stage", "help-contents", "help-keys", "about"})
+    help->addAction(ownNamed(QString::fromLatin1(name)));
   help->insertAction(help->actions().last(), action(ActionId::FindAction));
 }
 
@@ -137,29 +150,44 @@ void MainWindow::connectActions() {
 void MainWindow::trigger(ActionId id) {
   if (const auto degree = targetOf(id)) return chooseTarget(session_, *degree);
   switch (id) {
-    case ActionId::NewDrawing: return newDrawing();
-    case ActionId::Pin: return session_.pinned() ? session_.unpin() : session_.pin();
-    case ActionId::OpenScan: return chooseScan();
-    case ActionId::OpenRecipe: return chooseRecipe();
-    case ActionId::SaveRecipe: return saveRecipe();
-    case ActionId::Export: return setStage(PanelStage::Export);
-    case ActionId::Quit: return void(close());
-    case ActionId::Undo: return session_.undoStack()->undo();
-    case ActionId::Redo: return session_.undoStack()->redo();
+    case ActionId::NewDrawing:
+      return newDrawing();
+    case ActionId::Pin:
+      return session_.pinned() ? session_.unpin() : session_.pin();
+    case ActionId::OpenScan:
+      return chooseScan();
+    case ActionId::OpenRecipe:
+      return chooseRecipe();
+    case ActionId::SaveRecipe:
+      return saveRecipe();
+    case ActionId::Export:
+      return setStage(PanelStage::Export);
+    case ActionId::Quit:
+      return void(close());
+    case ActionId::Undo:
+      return session_.undoStack()->undo();
+    case ActionId::Redo:
+      return session_.undoStack()->redo();
     case ActionId::CancelWork:
       parts_->errors->hide();
       return session_.cancel();
-    case ActionId::FindAction: return findAction();
-    case ActionId::ZoomFit: return parts_->canvas->zoomFit();
-    case ActionId::ZoomActual: return parts_->canvas->zoomActual();
-    case ActionId::ZoomIn: return parts_->canvas->zoomBy(1.25);
-    case ActionId::ZoomOut: return parts_->canvas->zoomBy(0.8);
+    case ActionId::FindAction:
+      return findAction();
+    case ActionId::ZoomFit:
+      return parts_->canvas->zoomFit();
+    case ActionId::ZoomActual:
+      return parts_->canvas->zoomActual();
+    case ActionId::ZoomIn:
+      return parts_->canvas->zoomBy(1.25);
+    case ActionId::ZoomOut:
+      return parts_->canvas->zoomBy(0.8);
     case ActionId::ClearRegions: {
       Recipe recipe = session_.recipe();
       recipe.regions.clear();
       return session_.change(tr("Clear regions"), std::move(recipe));
     }
-    default: return;
+    default:
+      return;
   }
 }
 
@@ -196,8 +224,8 @@ void MainWindow::refreshActions() {
   describe(action(ActionId::Undo), tr("Undo"), undo.undoText(), undo.canUndo());
   describe(action(ActionId::Redo), tr("Redo"), undo.redoText(), undo.canRedo());
   const bool has = session_.hasScan();
-  for (const ActionId id : {ActionId::ToolPen, ActionId::SaveRecipe, ActionId::Export, ActionId::ZoomFit, ActionId::ZoomActual,
-                            ActionId::ZoomIn, ActionId::ZoomOut})
+  for (const ActionId id : {ActionId::ToolPen, ActionId::SaveRecipe, ActionId::Export, ActionId::ZoomFit,
+                            ActionId::ZoomActual, ActionId::ZoomIn, ActionId::ZoomOut})
     action(id)->setEnabled(has);
   action(ActionId::ClearRegions)->setEnabled(!session_.recipe().regions.empty());
   const bool curves = !session_.curves().empty();
@@ -216,8 +244,9 @@ QString MainWindow::startFolder() const {
 
 void MainWindow::chooseScan() {
   const QString folder = startFolder();
-  const QString path = QFileDialog::getOpenFileName(this, tr("Open scan"), folder,
-                                                    tr("Scans (*.png *.jpg *.jpeg *.tif *.tiff *.bmp *.webp *.pgm *.pbm *.ppm *.pnm);;All files (*)"));
+  const QString path = QFileDialog::getOpenFileName(
+      this, tr("Open scan"), folder,
+      tr("Scans (*.png *.jpg *.jpeg *.tif *.tiff *.bmp *.webp *.pgm *.pbm *.ppm *.pnm);;All files (*)"));
   if (!path.isEmpty()) openPath(path);
 }
 
@@ -229,10 +258,12 @@ void MainWindow::chooseRecipe() {
 void MainWindow::applyRecipeFile(const QString& path) {
   QFile file(path);
   if (!file.open(QIODevice::ReadOnly))
-    return showProblem(tr("%1 cannot be read: %2. Choose another file.").arg(QFileInfo(path).fileName(), file.errorString()));
+    return showProblem(
+        tr("%1 cannot be read: %2. Choose another file.").arg(QFileInfo(path).fileName(), file.errorString()));
   const QByteArray text = file.readAll();
   auto recipe = recipeFromJson(std::string_view(text.constData(), static_cast<std::size_t>(text.size())));
-  if (!recipe) return showProblem(tr("%1: %2").arg(QFileInfo(path).fileName(), QString::fromStdString(recipe.error().message)));
+  if (!recipe)
+    return showProblem(tr("%1: %2").arg(QFileInfo(path).fileName(), QString::fromStdString(recipe.error().message)));
   if (recipe->page) {
     beginDrawing(*recipe);
     rememberFile(path);
@@ -243,7 +274,11 @@ void MainWindow::applyRecipeFile(const QString& path) {
 }
 
 void MainWindow::saveRecipe() {
-  const QString start = session_.isBlankPage() ? startFolder() + QStringLiteral("/drawing.recipe.json") : QString::fromStdU16String(recipeBeside(std::filesystem::path(session_.scanPath().toStdU16String())).u16string());
+  const QString start =
+      session_.isBlankPage()
+          ? startFolder() + QStringLiteral("/drawing.recipe.json")
+          : QString::fromStdU16String(
+                recipeBeside(std::filesystem::path(session_.scanPath().toStdU16String())).u16string());
   QString path = QFileDialog::getSaveFileName(this, tr("Save recipe"), start, tr("Recipes (*.json)"));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".json");

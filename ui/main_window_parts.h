@@ -47,7 +47,7 @@ struct MainWindow::Parts {
   QMenu* layersMenu = nullptr;
   QMenu* recentMenu = nullptr;
   QHash<int, QAction*> actions;
-  QList<QAction*> ownActions;      ///< Beside the catalog: stages, plots, help, theme.
+  QList<QAction*> ownActions;  ///< Beside the catalog: stages, plots, help, theme.
   QAction* foldAction = nullptr;
   struct StageLayer {
     Layer layer;

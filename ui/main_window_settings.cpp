@@ -22,7 +22,8 @@ ThemeChoice MainWindow::storedTheme() {
 
 QStringList MainWindow::recentFiles() {
   QStringList files = QSettings().value(QStringLiteral("recent")).toStringList();
-  files.erase(std::remove_if(files.begin(), files.end(), [](const QString& path) { return !QFileInfo::exists(path); }), files.end());
+  files.erase(std::remove_if(files.begin(), files.end(), [](const QString& path) { return !QFileInfo::exists(path); }),
+              files.end());
   return files;
 }
 
@@ -50,7 +51,9 @@ void MainWindow::refreshRecent() {
 
 void MainWindow::refreshTitle() {
   const QString path = session_.scanPath();
-  const QString name = session_.isBlankPage() ? tr("New drawing") : session_.hasScan() ? QFileInfo(path).fileName() : tr("No scan");
+  const QString name = session_.isBlankPage() ? tr("New drawing")
+                       : session_.hasScan()   ? QFileInfo(path).fileName()
+                                              : tr("No scan");
   parts_->topBar->setTitle(name, path);
   setWindowTitle(session_.hasScan() ? name + QStringLiteral(" – Batten") : QStringLiteral("Batten"));
 }
@@ -58,7 +61,8 @@ void MainWindow::refreshTitle() {
 void MainWindow::setThemeChoice(ThemeChoice choice) {
   applyTheme(choice);
   QSettings().setValue(QStringLiteral("theme"), static_cast<int>(choice));
-  if (auto* entry = parts_->mainMenu->findChild<QAction*>(QStringLiteral("theme-%1").arg(static_cast<int>(choice)))) entry->setChecked(true);
+  if (auto* entry = parts_->mainMenu->findChild<QAction*>(QStringLiteral("theme-%1").arg(static_cast<int>(choice))))
+    entry->setChecked(true);
 }
 
 void MainWindow::showProblem(const QString& message) {
@@ -80,23 +84,29 @@ void MainWindow::showProblem(const QString& message) {
 void MainWindow::actOnProblem() {
   using Remedy = Parts::Remedy;
   switch (parts_->remedy) {
-    case Remedy::OpenScan: return chooseScan();
-    case Remedy::Thresholds: return setStage(PanelStage::Threshold);
-    case Remedy::Export: return setStage(PanelStage::Export);
-    case Remedy::None: return;
+    case Remedy::OpenScan:
+      return chooseScan();
+    case Remedy::Thresholds:
+      return setStage(PanelStage::Threshold);
+    case Remedy::Export:
+      return setStage(PanelStage::Export);
+    case Remedy::None:
+      return;
   }
 }
 
 void MainWindow::loadSettings() {
   QSettings settings;
-  if (const QByteArray geometry = settings.value(QStringLiteral("window/geometry")).toByteArray(); !geometry.isEmpty()) {
+  if (const QByteArray geometry = settings.value(QStringLiteral("window/geometry")).toByteArray();
+      !geometry.isEmpty()) {
     restoreGeometry(geometry);
     // A screen that has gone must not take the window with it.
     const auto screens = QGuiApplication::screens();
     const bool visible = std::any_of(screens.begin(), screens.end(), [this](const QScreen* screen) {
       return screen->availableGeometry().intersects(frameGeometry().adjusted(40, 20, -40, -40));
     });
-    if (!visible && QGuiApplication::primaryScreen()) move(QGuiApplication::primaryScreen()->availableGeometry().topLeft());
+    if (!visible && QGuiApplication::primaryScreen())
+      move(QGuiApplication::primaryScreen()->availableGeometry().topLeft());
   }
   if (const QByteArray split = settings.value(QStringLiteral("window/splitter")).toByteArray(); !split.isEmpty())
     parts_->splitter->restoreState(split);
@@ -119,8 +129,10 @@ void MainWindow::saveSettings() {
   settings.beginGroup(QStringLiteral("view"));
   for (const Layer layer : kLayers) {
     const auto& switched = parts_->stageLayers;
-    const auto own = std::find_if(switched.begin(), switched.end(), [layer](const Parts::StageLayer& one) { return one.layer == layer; });
-    settings.setValue(action(showAction(layer))->objectName(), own == switched.end() ? view_.isVisible(layer) : own->before);
+    const auto own = std::find_if(switched.begin(), switched.end(),
+                                  [layer](const Parts::StageLayer& one) { return one.layer == layer; });
+    settings.setValue(action(showAction(layer))->objectName(),
+                      own == switched.end() ? view_.isVisible(layer) : own->before);
   }
   settings.setValue(QStringLiteral("comb-scale"), view_.combScale());
   settings.setValue(QStringLiteral("comb-density"), view_.combDensity());

@@ -25,8 +25,12 @@ constexpr double kMostPx = 20000.0;
 }  // namespace
 
 NewDrawingDialog::NewDrawingDialog(QWidget* parent)
-    : QDialog(parent), format_(new SegmentedControl({tr("A4 wide"), tr("A4 high"), tr("A3 wide")}, this)), width_(new NumberField(this)),
-      height_(new NumberField(this)), dpi_(new NumberField(this)), begin_(plainButton(tr("Begin"), QStringLiteral("newDrawing.begin"), this)) {
+    : QDialog(parent),
+      format_(new SegmentedControl({tr("A4 wide"), tr("A4 high"), tr("A3 wide")}, this)),
+      width_(new NumberField(this)),
+      height_(new NumberField(this)),
+      dpi_(new NumberField(this)),
+      begin_(plainButton(tr("Begin"), QStringLiteral("newDrawing.begin"), this)) {
   setObjectName(QStringLiteral("newDrawing"));
   setWindowTitle(tr("New drawing"));
   auto* grid = new QGridLayout(this);
@@ -36,10 +40,11 @@ NewDrawingDialog::NewDrawingDialog(QWidget* parent)
   auto* about = note(tr("An empty page to draw on with the pen. It can be saved as a recipe and opened again."), this);
   about->setFixedWidth(280);
   grid->addWidget(about, 0, 0, 1, 2);
-  format_->setNames(QStringLiteral("newDrawing.format"), {QStringLiteral("a4-wide"), QStringLiteral("a4-high"), QStringLiteral("a3-wide")});
+  format_->setNames(QStringLiteral("newDrawing.format"),
+                    {QStringLiteral("a4-wide"), QStringLiteral("a4-high"), QStringLiteral("a3-wide")});
   grid->addWidget(format_, 1, 0, 1, 2);
-  const auto row = [&](int at, const QString& label, const QString& name, NumberField* field, double low, double high, double value,
-                       const QString& unit) {
+  const auto row = [&](int at, const QString& label, const QString& name, NumberField* field, double low, double high,
+                       double value, const QString& unit) {
     field->setRange(low, high);
     field->setStep(1);
     field->setUnit(unit);
@@ -54,8 +59,10 @@ NewDrawingDialog::NewDrawingDialog(QWidget* parent)
       follow();
     });
   };
-  row(2, tr("Width"), QStringLiteral("newDrawing.width"), width_, kSmallestMm, kLargestMm, kFormats[0].width(), tr("mm"));
-  row(3, tr("Height"), QStringLiteral("newDrawing.height"), height_, kSmallestMm, kLargestMm, kFormats[0].height(), tr("mm"));
+  row(2, tr("Width"), QStringLiteral("newDrawing.width"), width_, kSmallestMm, kLargestMm, kFormats[0].width(),
+      tr("mm"));
+  row(3, tr("Height"), QStringLiteral("newDrawing.height"), height_, kSmallestMm, kLargestMm, kFormats[0].height(),
+      tr("mm"));
   row(4, tr("Resolution"), QStringLiteral("newDrawing.dpi"), dpi_, kLowestDpi, kHighestDpi, kUsualDpi, tr("dpi"));
   auto* buttons = new QHBoxLayout;
   auto* cancel = plainButton(tr("Cancel"), QStringLiteral("newDrawing.cancel"), this);
@@ -89,7 +96,9 @@ Recipe NewDrawingDialog::recipeFor(QSizeF millimetres, double dpi) {
   // A page too large for its resolution is drawn coarser rather than refused.
   const double longest = std::max(millimetres.width(), millimetres.height());
   const double bounded = std::min(dpi, kMostPx * kMillimetresPerInch / longest);
-  const auto pixels = [bounded](double mm) { return std::max(16, static_cast<int>(std::lround(mm / kMillimetresPerInch * bounded))); };
+  const auto pixels = [bounded](double mm) {
+    return std::max(16, static_cast<int>(std::lround(mm / kMillimetresPerInch * bounded)));
+  };
   Recipe recipe;
   recipe.page = BlankPage{pixels(millimetres.width()), pixels(millimetres.height())};
   recipe.dpi = bounded;

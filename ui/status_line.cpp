@@ -19,15 +19,19 @@ namespace {
 QString decimal(double value, int decimals) {
   const double whole = std::trunc(value);
   QString fraction = QString::number(std::abs(value - whole), 'f', decimals).mid(1);
-  if (fraction.isEmpty() || std::abs(value - whole) >= 1.0 - 0.5 * std::pow(10.0, -decimals)) return QString::number(value, 'f', decimals);
+  if (fraction.isEmpty() || std::abs(value - whole) >= 1.0 - 0.5 * std::pow(10.0, -decimals))
+    return QString::number(value, 'f', decimals);
   return (value < 0 && whole == 0 ? QStringLiteral("-") : QString()) + grouped(static_cast<qint64>(whole)) + fraction;
 }
 
 }  // namespace
 
 StatusLine::StatusLine(EditorSession& session, QWidget* parent)
-    : QWidget(parent), session_(session), setScale_(linkButton(tr("no scale: set it"), QStringLiteral("status.setScale"), this)),
-      progress_(new QProgressBar(this)), cancel_(linkButton(tr("Cancel"), QStringLiteral("status.cancel"), this)) {
+    : QWidget(parent),
+      session_(session),
+      setScale_(linkButton(tr("no scale: set it"), QStringLiteral("status.setScale"), this)),
+      progress_(new QProgressBar(this)),
+      cancel_(linkButton(tr("Cancel"), QStringLiteral("status.cancel"), this)) {
   setFixedHeight(30);
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(14, 1, 14, 0);
@@ -66,7 +70,8 @@ StatusLine::StatusLine(EditorSession& session, QWidget* parent)
   connect(&session_, &EditorSession::recipeChanged, this, &StatusLine::refreshScale);
   connect(&session_, &EditorSession::busyChanged, this, &StatusLine::refreshWork);
   connect(&session_, &EditorSession::runFinished, this, &StatusLine::refreshWork);
-  connect(&session_, &EditorSession::progress, this, [this](double fraction) { progress_->setValue(static_cast<int>(fraction * 100)); });
+  connect(&session_, &EditorSession::progress, this,
+          [this](double fraction) { progress_->setValue(static_cast<int>(fraction * 100)); });
   refreshScale();
   refreshWork();
   setPlace(std::nullopt);
@@ -84,7 +89,9 @@ void StatusLine::setPlace(std::optional<Vec2> imagePx) {
   pixels_->setText(tr("px %1, %2").arg(decimal(imagePx->x(), 1), decimal(imagePx->y(), 1)));
 }
 
-void StatusLine::setZoom(double zoom) { zoom_->setText(QStringLiteral("%1 %").arg(zoom * 100, 0, 'f', zoom < 0.0995 ? 1 : 0)); }
+void StatusLine::setZoom(double zoom) {
+  zoom_->setText(QStringLiteral("%1 %").arg(zoom * 100, 0, 'f', zoom < 0.0995 ? 1 : 0));
+}
 
 void StatusLine::setHint(const QString& text) {
   placeHint_ = text;
@@ -125,7 +132,8 @@ void StatusLine::refreshWork() {
   const double ms = session_.lastRunMilliseconds();
   const bool whole = !session_.isStale(StageId::Faired) && session_.output().faired;
   work_->setText(!whole ? tr("stopped") : ms < 0.5 ? tr("exact") : tr("exact · %1 ms").arg(ms, 0, 'f', 0));
-  work_->setToolTip(whole ? tr("All that is shown belongs to the present settings.") : tr("Some of what is shown is from earlier settings."));
+  work_->setToolTip(whole ? tr("All that is shown belongs to the present settings.")
+                          : tr("Some of what is shown is from earlier settings."));
 }
 
 void StatusLine::paintEvent(QPaintEvent*) {

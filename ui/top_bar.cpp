@@ -15,7 +15,8 @@
 
 namespace batten {
 
-TopBar::TopBar(ViewSettings& view, const Actions& actions, QMenu* mainMenu, QMenu* layersMenu, QWidget* parent) : QWidget(parent) {
+TopBar::TopBar(ViewSettings& view, const Actions& actions, QMenu* mainMenu, QMenu* layersMenu, QWidget* parent)
+    : QWidget(parent) {
   setFixedHeight(44);
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(10, 0, 12, 1);
@@ -70,7 +71,8 @@ TopBar::TopBar(ViewSettings& view, const Actions& actions, QMenu* mainMenu, QMen
   send->setProperty("primary", true);
   send->setToolTip(actions.exportCurves->toolTip());
   send->setEnabled(actions.exportCurves->isEnabled());
-  connect(actions.exportCurves, &QAction::changed, send, [send, action = actions.exportCurves] { send->setEnabled(action->isEnabled()); });
+  connect(actions.exportCurves, &QAction::changed, send,
+          [send, action = actions.exportCurves] { send->setEnabled(action->isEnabled()); });
   connect(send, &QPushButton::clicked, actions.exportCurves, &QAction::trigger);
   layout->addWidget(send);
   setIcons();
@@ -108,7 +110,9 @@ void TopBar::setTitle(const QString& title, const QString& toolTip) {
   title_->setToolTip(toolTip);
 }
 
-void TopBar::setZoom(double zoom) { zoom_->setText(QStringLiteral("%1 %").arg(zoom * 100, 0, 'f', zoom < 0.0995 ? 1 : 0)); }
+void TopBar::setZoom(double zoom) {
+  zoom_->setText(QStringLiteral("%1 %").arg(zoom * 100, 0, 'f', zoom < 0.0995 ? 1 : 0));
+}
 
 void TopBar::openMenu() { menu_->showMenu(); }
 

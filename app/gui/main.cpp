@@ -9,7 +9,8 @@ namespace {
 
 /// The sketch that ships with the program, beside it in the build and installed trees.
 QString samplePath() {
-  const QString path = QCoreApplication::applicationDirPath() + QStringLiteral("/../share/batten/samples/coupe-side.png");
+  const QString path =
+      QCoreApplication::applicationDirPath() + QStringLiteral("/../share/batten/samples/coupe-side.png");
   return QFileInfo::exists(path) ? QDir::cleanPath(path) : QString();
 }
 

@@ -30,7 +30,8 @@ QImage wavePage() {
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(QPen(QColor(30, 30, 30), 5.0, Qt::SolidLine, Qt::FlatCap));
   QPolygonF line;
-  for (int i = 0; i <= 600; ++i) line.append(QPointF(50.0 + i, 210.0 - 70.0 * std::sin(i / 600.0 * 3.0 * std::numbers::pi)));
+  for (int i = 0; i <= 600; ++i)
+    line.append(QPointF(50.0 + i, 210.0 - 70.0 * std::sin(i / 600.0 * 3.0 * std::numbers::pi)));
   painter.drawPolyline(line);
   return page;
 }
@@ -119,7 +120,8 @@ TEST_F(Choices, AClickOnAnExtremumTakesItOutAndAnotherBringsItBack) {
   EXPECT_LT((session().recipe().extremumChoices[0].positionPx - place).norm(), 1e-9);
   ASSERT_TRUE(settle());
   const auto after = extremumMarks(session(), session().selectedCurve());
-  const auto gone = std::find_if(after.begin(), after.end(), [](const ExtremumMark& m) { return m.wantedToKeep.has_value(); });
+  const auto gone =
+      std::find_if(after.begin(), after.end(), [](const ExtremumMark& m) { return m.wantedToKeep.has_value(); });
   ASSERT_NE(gone, after.end());
   EXPECT_FALSE(gone->isKept);
   EXPECT_FALSE(*gone->wantedToKeep);

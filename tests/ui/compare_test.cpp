@@ -31,7 +31,8 @@ TEST_F(Compare, EveryMethodIsComputedAndChosenFromTheTable) {
   auto* table = find<MethodTable>("construct.method.row");
   for (const ConstructMethod method : kMethods) {
     ASSERT_TRUE(waitUntil([&] { return table->figures(method).has_value(); })) << word(method).toStdString();
-    QTest::mouseClick(find<QAbstractButton>(("construct.method." + word(method)).toLatin1().constData()), Qt::LeftButton);
+    QTest::mouseClick(find<QAbstractButton>(("construct.method." + word(method)).toLatin1().constData()),
+                      Qt::LeftButton);
     EXPECT_EQ(session().recipe().construct.method, method);
     ASSERT_TRUE(settle());
     // What the table foretold is what the drawing then has.

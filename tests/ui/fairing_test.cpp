@@ -35,7 +35,8 @@ class FairingWindow : public testing::Test {
     const QString path = folder_.filePath(QStringLiteral("page.png"));
     ASSERT_TRUE(test::ellipsePage().save(path));
     window_->openPath(path);
-    ASSERT_TRUE(waitUntil([this] { return session().hasScan() && !session().isBusy() && !session().curves().empty(); }));
+    ASSERT_TRUE(
+        waitUntil([this] { return session().hasScan() && !session().isBusy() && !session().curves().empty(); }));
     window_->setStage(PanelStage::Fairing);
     session().selectCurve(0);
     ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr; }));

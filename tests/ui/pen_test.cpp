@@ -38,8 +38,8 @@ class Pen : public test::WindowFixture {
     for (std::size_t i = 1; i < places.size(); ++i)
       for (int k = 1; k <= 6; ++k) {
         const Vec2 at = places[i - 1] + (places[i] - places[i - 1]) * (k / 6.0);
-        QMouseEvent move(QEvent::MouseMove, canvas->toWidget(at), canvas->mapToGlobal(canvas->toWidget(at)), Qt::NoButton,
-                         Qt::LeftButton, modifiers);
+        QMouseEvent move(QEvent::MouseMove, canvas->toWidget(at), canvas->mapToGlobal(canvas->toWidget(at)),
+                         Qt::NoButton, Qt::LeftButton, modifiers);
         QCoreApplication::sendEvent(canvas, &move);
       }
     QTest::mouseRelease(canvas, Qt::LeftButton, modifiers, canvas->toWidget(places.back()).toPoint());
@@ -97,8 +97,8 @@ TEST_F(Pen, AStrokeBecomesACurveAndCanBeTakenBackAndRemoved) {
 TEST_F(Pen, ATabletDrawsAtItsOwnAccuracyWhateverThePressure) {
   begin();
   auto* canvas = find<CurveCanvas>("canvas");
-  const QPointingDevice stylus(QStringLiteral("stylus"), 7, QInputDevice::DeviceType::Stylus, QPointingDevice::PointerType::Pen,
-                               QInputDevice::Capability::Pressure, 1, 2);
+  const QPointingDevice stylus(QStringLiteral("stylus"), 7, QInputDevice::DeviceType::Stylus,
+                               QPointingDevice::PointerType::Pen, QInputDevice::Capability::Pressure, 1, 2);
   const auto send = [&](QEvent::Type type, const Vec2& px, double pressure) {
     const QPointF at = canvas->toWidget(px);
     const bool up = type == QEvent::TabletRelease;
@@ -107,7 +107,8 @@ TEST_F(Pen, ATabletDrawsAtItsOwnAccuracyWhateverThePressure) {
     QCoreApplication::sendEvent(canvas, &event);
   };
   send(QEvent::TabletPress, {100.25, 100.5}, 0.2);
-  for (int i = 1; i <= 40; ++i) send(QEvent::TabletMove, {100.25 + 5 * i, 100.5 + 40.0 * std::sin(0.1 * i)}, 0.1 + 0.02 * i);
+  for (int i = 1; i <= 40; ++i)
+    send(QEvent::TabletMove, {100.25 + 5 * i, 100.5 + 40.0 * std::sin(0.1 * i)}, 0.1 + 0.02 * i);
   send(QEvent::TabletRelease, {300.25, 100.5 + 40.0 * std::sin(4.0)}, 0.0);
   ASSERT_TRUE(settle());
   ASSERT_EQ(session().recipe().penStrokes.size(), 1u);
@@ -128,7 +129,8 @@ TEST_F(Pen, PointsAreRemovedSharpPointsMarkedAndTheKnotsShown) {
   const auto drawn = session().recipe().penStrokes[0].points.size();
   type(find<QLineEdit>("construct.removal_step.field"), QStringLiteral("0"));
   ASSERT_TRUE(settle());
-  const QString all = QString::number(drawn) + QStringLiteral(" points, ") + QString::number(drawn) + QStringLiteral(" kept");
+  const QString all =
+      QString::number(drawn) + QStringLiteral(" points, ") + QString::number(drawn) + QStringLiteral(" kept");
   EXPECT_TRUE(waitUntil([&] { return counts->text().startsWith(all); })) << counts->text().toStdString();
   type(find<QLineEdit>("construct.removal_step.field"), QStringLiteral("60"));
   ASSERT_TRUE(settle());
@@ -150,7 +152,8 @@ TEST_F(Pen, PointsAreRemovedSharpPointsMarkedAndTheKnotsShown) {
   for (int degree = 2; degree <= 5; ++degree) {
     type(find<QLineEdit>("construct.degree.field"), QString::number(degree));
     ASSERT_TRUE(settle());
-    ASSERT_TRUE(waitUntil([&] { return !strip->columns().empty() && strip->columns().front().times == degree + 1; })) << degree;
+    ASSERT_TRUE(waitUntil([&] { return !strip->columns().empty() && strip->columns().front().times == degree + 1; }))
+        << degree;
     int corners = 0;
     for (std::size_t i = 1; i + 1 < strip->columns().size(); ++i) {
       EXPECT_TRUE(strip->columns()[i].times == 1 || strip->columns()[i].times == degree);
@@ -159,7 +162,8 @@ TEST_F(Pen, PointsAreRemovedSharpPointsMarkedAndTheKnotsShown) {
     EXPECT_EQ(corners, 2);
     EXPECT_TRUE(find<QLabel>("knots.text")->text().startsWith(QStringLiteral("0×%1 1").arg(degree + 1)));
   }
-  QTest::mouseClick(find<QCheckBox>("knots.uniform"), Qt::LeftButton, {}, QPoint(8, find<QCheckBox>("knots.uniform")->height() / 2));
+  QTest::mouseClick(find<QCheckBox>("knots.uniform"), Qt::LeftButton, {},
+                    QPoint(8, find<QCheckBox>("knots.uniform")->height() / 2));
   EXPECT_TRUE(window_->view().showsUniformKnots());
   QTest::mouseClick(find<QAbstractButton>("knots.compare"), Qt::LeftButton);
   auto* tile = find<QAbstractButton>("knots.tile.repeated.3");

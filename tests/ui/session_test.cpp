@@ -70,7 +70,8 @@ TEST(EditorSession, ADamagedRecipeBesideADrawingIsNamedAndLeftOut) {
   ASSERT_TRUE(waitUntil([&] { return session.hasScan() && !session.isBusy(); }));
   EXPECT_FALSE(session.openedWithRecipe());
   EXPECT_EQ(session.recipe(), Recipe{});
-  EXPECT_TRUE(session.openProblem().contains(QStringLiteral("page.recipe.json"))) << session.openProblem().toStdString();
+  EXPECT_TRUE(session.openProblem().contains(QStringLiteral("page.recipe.json")))
+      << session.openProblem().toStdString();
   EXPECT_FALSE(session.curves().empty());
 }
 

@@ -106,7 +106,8 @@ TEST_F(Window, TheWholeWalkEndsInTheCurvesThatTheRecipeGives) {
 
 TEST_F(Window, EveryParameterHasAControlOfItsOwn) {
   // fairing.mode and fairing.target are the segments and tiles, the holds a table of dots, the grid a table.
-  std::set<std::string> elsewhere = {"threshold.grid", "fairing.target", "fairing.mode", "fairing.profile", "fairing.hold_start", "fairing.hold_end"};
+  std::set<std::string> elsewhere = {"threshold.grid",  "fairing.target",     "fairing.mode",
+                                     "fairing.profile", "fairing.hold_start", "fairing.hold_end"};
   for (const Parameter& parameter : parameterTable()) {
     if (elsewhere.contains(parameter.name)) continue;
     const QString row = QString::fromStdString(parameter.name) + QStringLiteral(".row");
@@ -241,8 +242,11 @@ TEST_F(Window, StagesHaveHelpAndNames) {
 
 TEST_F(Window, ControlsThatTakeTheKeyboardHaveAccessibleNames) {
   for (QWidget* widget : window_->findChildren<QWidget*>()) {
-    const bool control = qobject_cast<QAbstractButton*>(widget) || qobject_cast<QAbstractSlider*>(widget) || qobject_cast<QComboBox*>(widget);
-    if (!control || (widget->focusPolicy() & Qt::TabFocus) == 0 || widget->objectName().startsWith(QLatin1String("qt_"))) continue;
+    const bool control = qobject_cast<QAbstractButton*>(widget) || qobject_cast<QAbstractSlider*>(widget) ||
+                         qobject_cast<QComboBox*>(widget);
+    if (!control || (widget->focusPolicy() & Qt::TabFocus) == 0 ||
+        widget->objectName().startsWith(QLatin1String("qt_")))
+      continue;
     const auto* button = qobject_cast<QAbstractButton*>(widget);
     const QString spoken = widget->accessibleName().isEmpty() && button ? button->text() : widget->accessibleName();
     EXPECT_FALSE(spoken.isEmpty()) << widget->metaObject()->className() << " " << widget->objectName().toStdString();

@@ -19,9 +19,9 @@ inline QColor accent() { return {11, 107, 203}; }
 inline QColor halo() { return {11, 107, 203, 56}; }
 inline QColor corner() { return {201, 60, 16}; }
 inline QColor lost() { return {196, 0, 0}; }
-inline QColor pinned() { return {132, 58, 186}; }   ///< A result set aside.
-inline QColor uniform() { return {200, 112, 0}; }   ///< A control polygon without repeated knots.
-inline QColor pen() { return {60, 60, 72, 150}; }   ///< What was drawn by hand.
+inline QColor pinned() { return {132, 58, 186}; }  ///< A result set aside.
+inline QColor uniform() { return {200, 112, 0}; }  ///< A control polygon without repeated knots.
+inline QColor pen() { return {60, 60, 72, 150}; }  ///< What was drawn by hand.
 inline QColor segment() { return {20, 130, 80}; }
 inline QColor grid() { return {40, 40, 40, 70}; }
 

@@ -17,8 +17,9 @@ constexpr double kSuggestionScalePx = 14.0;
 }  // namespace
 
 CurveCanvas::State::State(CurveCanvas& owner, EditorSession& s, ViewSettings& v)
-    : CanvasScene(s, v), canvas(owner), tools{makeSelectTool(*this), makeThresholdTool(*this), makeCornerTool(*this),
-                                              makePenTool(*this), makeSegmentTool(*this), makeLinesTool(*this),
+    : CanvasScene(s, v), canvas(owner), tools{makeSelectTool(*this),        makeThresholdTool(*this),
+                                              makeCornerTool(*this),        makePenTool(*this),
+                                              makeSegmentTool(*this),       makeLinesTool(*this),
                                               makeRegionTool(*this, false), makeRegionTool(*this, true)} {
   repaint = [this] { canvas.update(); };
   hint = [this](const QString& text) {

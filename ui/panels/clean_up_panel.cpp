@@ -39,7 +39,8 @@ void follow(EditorSession& session, QWidget* panel, StageId stage, const std::fu
 CleanUpPanel::CleanUpPanel(EditorSession& session, QWidget* parent)
     : QWidget(parent), session_(session), figures_(new FigureTable(this)), warning_(note({}, this)) {
   auto* layout = panelLayout(this, tr("Clean-up"));
-  layout->addWidget(new ParameterEditor(session, {"filter.coefficient", "filter.iterations", "filter.order", "filter.border"}, this));
+  layout->addWidget(
+      new ParameterEditor(session, {"filter.coefficient", "filter.iterations", "filter.order", "filter.border"}, this));
   layout->addWidget(caption(tr("What it did"), this));
   layout->addWidget(figures_);
   layout->addWidget(warning_);
@@ -56,32 +57,43 @@ void CleanUpPanel::refresh() {
     return;
   }
   const FilterReport& report = filtered->report;
-  const double change = report.inkBefore > 0 ? 100.0 * double(report.inkAfter - report.inkBefore) / double(report.inkBefore) : 0.0;
+  const double change =
+      report.inkBefore > 0 ? 100.0 * double(report.inkAfter - report.inkBefore) / double(report.inkBefore) : 0.0;
   QString rounds = QString::number(report.iterations);
   if (report.why == Termination::FixedPoint) rounds = tr("%1, then no change").arg(report.iterations);
   if (report.why == Termination::IterationLimit) rounds = tr("%1, still changing").arg(report.iterations);
   if (report.why == Termination::NotRun) rounds = tr("none");
-  figures_->setRows({{tr("Ink before, px"), {{grouped(report.inkBefore)}}, tr("Pixels that count as ink after the threshold.")},
-                     {tr("Ink after, px"), {{grouped(report.inkAfter)}}, tr("Pixels that count as ink after the clean-up.")},
-                     {tr("Change"), {{QStringLiteral("%1 %").arg(change, 0, 'f', 1), report.thinStrokesLost}}, {}},
-                     {tr("Rounds"), {{rounds}}, tr("A round is one erosion and one dilation; the filter stops when nothing changes.")}});
+  figures_->setRows(
+      {{tr("Ink before, px"), {{grouped(report.inkBefore)}}, tr("Pixels that count as ink after the threshold.")},
+       {tr("Ink after, px"), {{grouped(report.inkAfter)}}, tr("Pixels that count as ink after the clean-up.")},
+       {tr("Change"), {{QStringLiteral("%1 %").arg(change, 0, 'f', 1), report.thinStrokesLost}}, {}},
+       {tr("Rounds"),
+        {{rounds}},
+        tr("A round is one erosion and one dilation; the filter stops when nothing changes.")}});
   warning_->setVisible(report.thinStrokesLost);
-  warning_->setText(tr("Much of the ink vanished: strokes of one pixel do not survive this. Use a larger coefficient or fewer iterations."));
+  warning_->setText(
+      tr("Much of the ink vanished: strokes of one pixel do not survive this. Use a larger coefficient or fewer "
+         "iterations."));
 }
 
 EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
-    : QWidget(parent), session_(session), view_(view),
+    : QWidget(parent),
+      session_(session),
+      view_(view),
       tools_(new SegmentedControl({tr("Select"), tr("Lines"), tr("Rectangle"), tr("Lasso")}, this)),
-      regions_(note({}, this)), clear_(linkButton(tr("Clear"), QStringLiteral("edges.clearRegions"), this)),
+      regions_(note({}, this)),
+      clear_(linkButton(tr("Clear"), QStringLiteral("edges.clearRegions"), this)),
       strokes_(new QCheckBox(tr("Show stroke widths, merges, bridges"), this)),
-      fallback_(new QCheckBox(tr("Show points that could not be placed"), this)), figures_(new FigureTable(this)),
+      fallback_(new QCheckBox(tr("Show points that could not be placed"), this)),
+      figures_(new FigureTable(this)),
       note_(note({}, this)) {
   auto* layout = panelLayout(this, tr("Edges"));
-  tracing_ = {new ParameterEditor(session,
-                                  {"edges.mode", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
-                                   "edges.merge", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
-                                  this),
-              caption(tr("Lines found"), this), figures_};
+  tracing_ = {
+      new ParameterEditor(session,
+                          {"edges.mode", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
+                           "edges.merge", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
+                          this),
+      caption(tr("Lines found"), this), figures_};
   layout->addWidget(tracing_[0]);
   buildChoice();
   layout->addWidget(tracing_[1]);
@@ -98,7 +110,8 @@ void EdgesPanel::buildChoice() {
   layout->addWidget(caption(tr("What is traced"), this));
   tools_->setNames(QStringLiteral("edges.tool"), {QStringLiteral("select"), QStringLiteral("lines"),
                                                   QStringLiteral("rectangle"), QStringLiteral("lasso")});
-  tools_->setToolTip(tr("What a click on the drawing does: select a curve, leave a line out or take it in, or draw a region."));
+  tools_->setToolTip(
+      tr("What a click on the drawing does: select a curve, leave a line out or take it in, or draw a region."));
   layout->addWidget(tools_);
   auto* row = new QHBoxLayout;
   row->addWidget(regions_, 1);
@@ -125,11 +138,21 @@ void EdgesPanel::buildChoice() {
 
 void EdgesPanel::refreshChoice() {
   switch (view_.tool()) {
-    case Tool::Select: tools_->setCurrent(0); break;
-    case Tool::Lines: tools_->setCurrent(1); break;
-    case Tool::Rectangle: tools_->setCurrent(2); break;
-    case Tool::Lasso: tools_->setCurrent(3); break;
-    default: tools_->setCurrent(-1); break;
+    case Tool::Select:
+      tools_->setCurrent(0);
+      break;
+    case Tool::Lines:
+      tools_->setCurrent(1);
+      break;
+    case Tool::Rectangle:
+      tools_->setCurrent(2);
+      break;
+    case Tool::Lasso:
+      tools_->setCurrent(3);
+      break;
+    default:
+      tools_->setCurrent(-1);
+      break;
   }
   const auto count = static_cast<qint64>(session_.recipe().regions.size());
   regions_->setText(count == 0 ? tr("The whole page is traced.")
@@ -159,15 +182,22 @@ void EdgesPanel::refresh() {
       {tr("Kept"), {{grouped(kept)}}, tr("Lines that go on to become curves.")},
       {tr("of these strokes"), {{grouped(strokes)}}, tr("Followed along the middle of the pen stroke.")},
       {tr("of these closed"), {{grouped(closed)}}, tr("Lines that return to their start.")},
-      {tr("Too short"), {{grouped(report.droppedShort)}}, tr("Left out because they are shorter than %1.").arg(millimetres(session_.recipe().contours.minLengthPx * session_.output().frame.mmPerPx))}};
+      {tr("Too short"),
+       {{grouped(report.droppedShort)}},
+       tr("Left out because they are shorter than %1.")
+           .arg(millimetres(session_.recipe().contours.minLengthPx * session_.output().frame.mmPerPx))}};
   if (report.droppedMargins > 0)
     rows.push_back({tr("Margins of the scanner left out"), {{grouped(report.droppedMargins)}}, {}});
   if (report.droppedHoles > 0) rows.push_back({tr("Inner outlines left out"), {{grouped(report.droppedHoles)}}, {}});
   qint64 fallback = 0;
-  for (const Contour& contour : set->contours) fallback += std::count(contour.refined.begin(), contour.refined.end(), std::uint8_t{0});
-  rows.push_back({tr("Points not placed"), {{grouped(fallback)}},
-                  tr("Places where the scan shows no clear edge: amber dots on the drawing. The line lies on the pixel border there.")});
-  rows.push_back({tr("Placed on grey values"), {{QStringLiteral("%1 %").arg(100 * report.refinedShare, 0, 'f', 0)}},
+  for (const Contour& contour : set->contours)
+    fallback += std::count(contour.refined.begin(), contour.refined.end(), std::uint8_t{0});
+  rows.push_back({tr("Points not placed"),
+                  {{grouped(fallback)}},
+                  tr("Places where the scan shows no clear edge: amber dots on the drawing. The line lies on the pixel "
+                     "border there.")});
+  rows.push_back({tr("Placed on grey values"),
+                  {{QStringLiteral("%1 %").arg(100 * report.refinedShare, 0, 'f', 0)}},
                   tr("Part of the points that lie on the scan's grey values, finer than a pixel.")});
   figures_->setRows(std::move(rows));
   note_->setText(QString::fromStdString(report.note));

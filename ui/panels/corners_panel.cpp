@@ -39,11 +39,17 @@ void fitHeight(QListWidget* list, int most) {
 }  // namespace
 
 CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
-    : QWidget(parent), session_(session), view_(view), marks_(new QListWidget(this)),
+    : QWidget(parent),
+      session_(session),
+      view_(view),
+      marks_(new QListWidget(this)),
       remove_(plainButton(tr("Remove"), QStringLiteral("corners.remove"), this)),
-      removeAll_(plainButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)), rounding_(new NumberField(this)),
+      removeAll_(plainButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)),
+      rounding_(new NumberField(this)),
       angle_(new NumberField(this)),
-      angleTrack_(new SliderTrack(this)), suggested_(new QListWidget(this)), suggestedNote_(note({}, this)),
+      angleTrack_(new SliderTrack(this)),
+      suggested_(new QListWidget(this)),
+      suggestedNote_(note({}, this)),
       take_(plainButton(tr("Mark"), QStringLiteral("corners.take"), this)),
       takeAll_(plainButton(tr("Mark all"), QStringLiteral("corners.takeAll"), this)),
       worker_(std::make_unique<BackgroundWorker>()) {
@@ -64,7 +70,8 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
   layout->addLayout(buttons);
   auto* rounding = new QHBoxLayout;
   auto* roundingName = new QLabel(tr("Rounding"), this);
-  const QString roundingHelp = tr("How far from the selected corner its rounding by two typical curves begins. 0 keeps it sharp.");
+  const QString roundingHelp =
+      tr("How far from the selected corner its rounding by two typical curves begins. 0 keeps it sharp.");
   roundingName->setToolTip(roundingHelp);
   rounding_->setToolTip(roundingHelp);
   rounding_->setObjectName(QStringLiteral("corners.rounding"));
@@ -143,7 +150,8 @@ void CornersPanel::buildSuggestions() {
   connect(angleTrack_, &QSlider::valueChanged, this, set);
   connect(take_, &QPushButton::clicked, this, [this] {
     const int at = suggested_->currentRow();
-    if (at >= 0 && at < static_cast<int>(suggestions_.size())) mark({suggestions_[static_cast<std::size_t>(at)].positionPx});
+    if (at >= 0 && at < static_cast<int>(suggestions_.size()))
+      mark({suggestions_[static_cast<std::size_t>(at)].positionPx});
   });
   connect(suggested_, &QListWidget::itemActivated, take_, &QPushButton::click);
   connect(takeAll_, &QPushButton::clicked, this, [this] {
@@ -178,13 +186,16 @@ void CornersPanel::refreshMarks() {
       const auto corner = std::find_if(pieces->corners.begin(), pieces->corners.end(),
                                        [&](const Corner& c) { return static_cast<std::size_t>(c.mark) == i; });
       if (corner != pieces->corners.end()) angle = QStringLiteral("   ") + degrees(corner->turningAngleRad);
-      lost = std::find(pieces->lostMarks.begin(), pieces->lostMarks.end(), static_cast<int>(i)) != pieces->lostMarks.end();
+      lost =
+          std::find(pieces->lostMarks.begin(), pieces->lostMarks.end(), static_cast<int>(i)) != pieces->lostMarks.end();
     }
-    auto* item = new QListWidgetItem(tr("%1   px %2%3").arg(i + 1).arg(what, lost ? tr("   no line here") : angle), marks_);
+    auto* item =
+        new QListWidgetItem(tr("%1   px %2%3").arg(i + 1).arg(what, lost ? tr("   no line here") : angle), marks_);
     item->setFont(uiFont(12));
     if (lost) item->setForeground(theme.bad);
-    item->setToolTip(lost ? tr("No line within reach of this mark. It comes back when a line does; remove it if it is not wanted.")
-                          : tr("Place of the mark, and how much the line turns there."));
+    item->setToolTip(
+        lost ? tr("No line within reach of this mark. It comes back when a line does; remove it if it is not wanted.")
+             : tr("Place of the mark, and how much the line turns there."));
   }
   marks_->setVisible(!marks.empty());
   fitHeight(marks_, 8);
@@ -203,9 +214,12 @@ void CornersPanel::suggest() {
   worker_->start([contours, angleRad, panel = QPointer<CornersPanel>(this)](const CancelToken& token) {
     auto found = suggestCorners(*contours, angleRad, kSuggestionScalePx);
     if (token.isCancelled() || !panel) return;
-    QMetaObject::invokeMethod(panel.data(), [panel, found = std::move(found)] {
-      if (panel) panel->showSuggestions(found);
-    }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        panel.data(),
+        [panel, found = std::move(found)] {
+          if (panel) panel->showSuggestions(found);
+        },
+        Qt::QueuedConnection);
   });
 }
 
@@ -221,15 +235,18 @@ void CornersPanel::showSuggestions(std::vector<CornerSuggestion> found) {
   suggestions_ = std::move(found);
   suggested_->clear();
   for (const auto& suggestion : suggestions_) {
-    auto* item = new QListWidgetItem(QStringLiteral("px %1   %2").arg(place(suggestion.positionPx), degrees(suggestion.turningAngleRad)),
-                                     suggested_);
+    auto* item = new QListWidgetItem(
+        QStringLiteral("px %1   %2").arg(place(suggestion.positionPx), degrees(suggestion.turningAngleRad)),
+        suggested_);
     item->setFont(uiFont(12));
   }
   suggested_->setVisible(!suggestions_.empty());
   fitHeight(suggested_, 6);
-  suggestedNote_->setText(suggestions_.empty() ? tr("No further place turns that sharply.")
-                                               : counted(static_cast<qint64>(suggestions_.size()), tr("1 place could be a corner. It is used only when you mark it."),
-                                                         tr("%1 places could be corners. None is used until you mark it.")));
+  suggestedNote_->setText(suggestions_.empty()
+                              ? tr("No further place turns that sharply.")
+                              : counted(static_cast<qint64>(suggestions_.size()),
+                                        tr("1 place could be a corner. It is used only when you mark it."),
+                                        tr("%1 places could be corners. None is used until you mark it.")));
   take_->setEnabled(suggested_->currentRow() >= 0);
   takeAll_->setEnabled(!suggestions_.empty());
 }

@@ -79,9 +79,14 @@ void CurveList::refresh() {
     const TracedCurve& curve = curves[static_cast<std::size_t>(i)];
     const bool faired = curve.included && !curve.faired.isEmpty() && curve.fairingUsed.mode != FairingMode::None;
     const CurveFigures& figures = faired ? curve.fairedFigures : curve.sketchedFigures;
-    const QString shape = curve.construct.isCircle ? tr(", circle") : curve.construct.isLine ? tr(", line") : curve.closed ? tr(", closed") : QString();
+    const QString shape = curve.construct.isCircle ? tr(", circle")
+                          : curve.construct.isLine ? tr(", line")
+                          : curve.closed           ? tr(", closed")
+                                                   : QString();
     const QString name = tr("Curve %1").arg(i + 1) + shape;
-    const QString right = curve.included ? tr("%1 pts · %2").arg(figures.controlPoints).arg(millimetres(figures.lengthMm)) : tr("left out");
+    const QString right = curve.included
+                              ? tr("%1 pts · %2").arg(figures.controlPoints).arg(millimetres(figures.lengthMm))
+                              : tr("left out");
     item(i)->setText(name);
     item(i)->setData(IncludedRole, curve.included);
     item(i)->setData(FiguresRole, right);

@@ -7,7 +7,8 @@
 
 namespace batten {
 
-/// All curves of the drawing: an eye that takes a curve in or leaves it out (Space does the same), its name, its figures.
+/// All curves of the drawing: an eye that takes a curve in or leaves it out (Space does the same), its name, its
+/// figures.
 class CurveList : public QListWidget {
   Q_OBJECT
  public:

@@ -24,13 +24,15 @@ namespace batten {
 namespace {
 
 /// A slider with a field for something of the view; both follow `get`.
-void addViewRow(QGridLayout* grid, ViewSettings& view, QWidget* parent, const QString& label, const QString& name, const QString& help,
-                double low, double high, int decimals, const std::function<double()>& get, const std::function<void(double)>& set) {
+void addViewRow(QGridLayout* grid, ViewSettings& view, QWidget* parent, const QString& label, const QString& name,
+                const QString& help, double low, double high, int decimals, const std::function<double()>& get,
+                const std::function<void(double)>& set) {
   const int row = grid->rowCount();
   auto* text = new QLabel(label, parent);
   auto* field = new NumberField(parent);
   auto* track = new SliderTrack(parent);
-  for (QWidget* widget : {static_cast<QWidget*>(text), static_cast<QWidget*>(field), static_cast<QWidget*>(track)}) widget->setToolTip(help);
+  for (QWidget* widget : {static_cast<QWidget*>(text), static_cast<QWidget*>(field), static_cast<QWidget*>(track)})
+    widget->setToolTip(help);
   field->setRange(low, high);
   field->setDecimals(decimals);
   field->setFixedWidth(76);
@@ -45,13 +47,13 @@ void addViewRow(QGridLayout* grid, ViewSettings& view, QWidget* parent, const QS
     field->setValue(get());
     const QSignalBlocker quiet(track);
     if (!track->isSliderDown())
-      track->setValue(static_cast<int>(std::lround(std::log(get() / low) / std::log(high / low) * SliderTrack::kSteps)));
+      track->setValue(
+          static_cast<int>(std::lround(std::log(get() / low) / std::log(high / low) * SliderTrack::kSteps)));
     track->update();
   };
   QObject::connect(field, &NumberField::committed, parent, [set](double value) { set(value); });
-  QObject::connect(track, &QSlider::valueChanged, parent, [=](int position) {
-    set(low * std::pow(high / low, double(position) / SliderTrack::kSteps));
-  });
+  QObject::connect(track, &QSlider::valueChanged, parent,
+                   [=](int position) { set(low * std::pow(high / low, double(position) / SliderTrack::kSteps)); });
   QObject::connect(&view, &ViewSettings::changed, parent, show);
   show();
 }
@@ -64,23 +66,30 @@ CombControls::CombControls(ViewSettings& view, QWidget* parent) : QWidget(parent
   grid->setHorizontalSpacing(8);
   grid->setVerticalSpacing(4);
   grid->setColumnStretch(0, 1);
-  addViewRow(grid, view, this, tr("Comb height"), QStringLiteral("view.combScale"), tr("Length of the quills of the curvature comb; 1 is automatic."),
-             0.05, 20.0, 2, [&view] { return view.combScale(); }, [&view](double value) { view.setCombScale(value); });
-  addViewRow(grid, view, this, tr("Comb density"), QStringLiteral("view.combDensity"), tr("Number of quills on a curve."), 20, 1000, 0,
-             [&view] { return double(view.combDensity()); },
-             [&view](double value) { view.setCombDensity(static_cast<int>(std::lround(value))); });
+  addViewRow(
+      grid, view, this, tr("Comb height"), QStringLiteral("view.combScale"),
+      tr("Length of the quills of the curvature comb; 1 is automatic."), 0.05, 20.0, 2,
+      [&view] { return view.combScale(); }, [&view](double value) { view.setCombScale(value); });
+  addViewRow(
+      grid, view, this, tr("Comb density"), QStringLiteral("view.combDensity"), tr("Number of quills on a curve."), 20,
+      1000, 0, [&view] { return double(view.combDensity()); },
+      [&view](double value) { view.setCombDensity(static_cast<int>(std::lround(value))); });
 }
 
 CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
-    : QWidget(parent), session_(session),
+    : QWidget(parent),
+      session_(session),
       editor_(new ParameterEditor(session,
                                   {"construct.derivative_magnitude", "construct.keep_extrema", "construct.reduce",
-                                   "construct.lowpass", "construct.typical", "construct.growing_stop",
-                                   "segments.mode", "segments.count", "segments.spacing", "segments.tolerance",
-                                   "construct.gradients", "construct.magnitude_as_in_paper", "construct.growing_as_in_paper"},
+                                   "construct.lowpass", "construct.typical", "construct.growing_stop", "segments.mode",
+                                   "segments.count", "segments.spacing", "segments.tolerance", "construct.gradients",
+                                   "construct.magnitude_as_in_paper", "construct.growing_as_in_paper"},
                                   this)),
-      methods_(new MethodTable(session, this)), knots_(new KnotPanel(session, view, this)), figures_(new FigureTable(this)),
-      note_(note({}, this)), segmentsNote_(note({}, this)),
+      methods_(new MethodTable(session, this)),
+      knots_(new KnotPanel(session, view, this)),
+      figures_(new FigureTable(this)),
+      note_(note({}, this)),
+      segmentsNote_(note({}, this)),
       growing_(new GrowingControls(session.growing(), this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(14, 12, 14, 12);
@@ -117,22 +126,33 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
     return tr("%1 px · %2 µm").arg(px, 0, 'f', 3).arg(1000.0 * px * mmPerPx, 0, 'f', 1);
   };
   if (fit.isCircle || fit.isLine)
-    rows.insert(rows.begin(), {tr("Recognised"), {{fit.isCircle ? tr("exact circle") : tr("exact line")}},
+    rows.insert(rows.begin(), {tr("Recognised"),
+                               {{fit.isCircle ? tr("exact circle") : tr("exact line")}},
                                tr("The scan holds nothing that a perfect one would not, so it is one.")});
   if (fit.noisePx > 0.0)
-    rows.push_back({tr("Noise of the edge"), {{length(fit.noisePx)}}, tr("Standard deviation of the scan's edge points from the curve.")});
+    rows.push_back({tr("Noise of the edge"),
+                    {{length(fit.noisePx)}},
+                    tr("Standard deviation of the scan's edge points from the curve.")});
   if (fit.fullControlPoints > curve.sketchedFigures.controlPoints) {
-    rows.push_back({tr("Before sparing"), {{tr("%1 points").arg(fit.fullControlPoints)}}, tr("Control points of the fit before they were spared.")});
-    rows.push_back({tr("Moved by sparing"), {{length(fit.reducedMovedPx)}}, tr("How far that moved the curve at most.")});
+    rows.push_back({tr("Before sparing"),
+                    {{tr("%1 points").arg(fit.fullControlPoints)}},
+                    tr("Control points of the fit before they were spared.")});
+    rows.push_back(
+        {tr("Moved by sparing"), {{length(fit.reducedMovedPx)}}, tr("How far that moved the curve at most.")});
   }
-  const auto dropped = std::count_if(fit.extrema.begin(), fit.extrema.end(), [](const ExtremumNote& e) { return !e.kept; });
-  if (dropped > 0) rows.push_back({tr("Dropped as noise"), {{tr("%1 extrema").arg(dropped)}}, tr("Hollow marks on the curve: click one to keep it.")});
+  const auto dropped =
+      std::count_if(fit.extrema.begin(), fit.extrema.end(), [](const ExtremumNote& e) { return !e.kept; });
+  if (dropped > 0)
+    rows.push_back({tr("Dropped as noise"),
+                    {{tr("%1 extrema").arg(dropped)}},
+                    tr("Hollow marks on the curve: click one to keep it.")});
   const auto& pieces = session_.output().pieces;
   if (!pieces || curve.piece < 0 || static_cast<std::size_t>(curve.piece) >= pieces->pieces.size()) return;
   const auto& refined = pieces->pieces[static_cast<std::size_t>(curve.piece)].refined;
   const auto fallback = std::count(refined.begin(), refined.end(), std::uint8_t{0});
   if (fallback > 0)
-    rows.push_back({tr("Points not placed"), {{tr("%1 of %2").arg(fallback).arg(refined.size())}},
+    rows.push_back({tr("Points not placed"),
+                    {{tr("%1 of %2").arg(fallback).arg(refined.size())}},
                     tr("Points where the scan shows no clear edge; they lie on the pixel border.")});
 }
 
@@ -154,7 +174,8 @@ void CurvesPanel::refresh() {
   const auto set = session_.recipe().segmentPoints.size();
   segmentsNote_->setVisible(typical);
   segmentsNote_->setText(set == 0 ? tr("To say where segments meet, press G and click the line.")
-                                  : counted(static_cast<qint64>(set), tr("1 segment point set. G, then click it to remove it."),
+                                  : counted(static_cast<qint64>(set),
+                                            tr("1 segment point set. G, then click it to remove it."),
                                             tr("%1 segment points set. G, then click one to remove it.")));
   editor_->setRowVisible("construct.reduce", method == ConstructMethod::Fair);
   knots_->setVisible(method == ConstructMethod::ControlPolygon);
@@ -171,13 +192,16 @@ void CurvesPanel::refresh() {
     return;
   }
   const CurveFigures& f = curve->sketchedFigures;
-  std::vector<FigureTable::Row> rows = {{tr("Length"), {{millimetres(f.lengthMm)}}, tr("Arc length of the sketched curve.")},
-                     {tr("Control points"), {{QString::number(f.controlPoints)}}, {}},
-                     {tr("Largest deviation"), {{millimetres(f.fromPoints.max)}}, tr("Farthest edge point from the curve.")},
-                     {tr("Mean deviation (rms)"), {{millimetres(f.fromPoints.rms)}}, {}},
-                     {tr("95 % of points within"), {{millimetres(f.fromPoints.percentile95)}}, {}},
-                     {tr("Curvature extrema"), {{QString::number(f.extrema)}}, tr("Places where the curvature turns back: fewer is fairer.")},
-                     {tr("Inflections"), {{QString::number(f.inflections)}}, tr("Places where the curve bends the other way.")}};
+  std::vector<FigureTable::Row> rows = {
+      {tr("Length"), {{millimetres(f.lengthMm)}}, tr("Arc length of the sketched curve.")},
+      {tr("Control points"), {{QString::number(f.controlPoints)}}, {}},
+      {tr("Largest deviation"), {{millimetres(f.fromPoints.max)}}, tr("Farthest edge point from the curve.")},
+      {tr("Mean deviation (rms)"), {{millimetres(f.fromPoints.rms)}}, {}},
+      {tr("95 % of points within"), {{millimetres(f.fromPoints.percentile95)}}, {}},
+      {tr("Curvature extrema"),
+       {{QString::number(f.extrema)}},
+       tr("Places where the curvature turns back: fewer is fairer.")},
+      {tr("Inflections"), {{QString::number(f.inflections)}}, tr("Places where the curve bends the other way.")}};
   addFitRows(rows, *curve);
   figures_->setRows(std::move(rows));
   QString text = QString::fromStdString(curve->construct.note);

@@ -42,7 +42,8 @@ EndsTable::EndsTable(EditorSession& session, QWidget* parent) : QWidget(parent),
   const std::array<QString, 2> ends = {tr("start"), tr("end")};
   const std::array<QString, 2> endNames = {QStringLiteral("start"), QStringLiteral("end")};
   const std::array<QString, 3> rows = {tr("Position"), tr("Tangent"), tr("Curvature")};
-  const std::array<QString, 3> rowNames = {QStringLiteral("position"), QStringLiteral("tangent"), QStringLiteral("curvature")};
+  const std::array<QString, 3> rowNames = {QStringLiteral("position"), QStringLiteral("tangent"),
+                                           QStringLiteral("curvature")};
   const std::array<QString, 3> help = {tr("The ends of an open curve always stay where they are."),
                                        tr("Holds the direction of the curve at this end."),
                                        tr("Holds the direction and the bend of the curve at this end.")};
@@ -85,7 +86,8 @@ void EndsTable::resizeEvent(QResizeEvent*) {
   for (std::size_t end = 0; end < 2; ++end)
     for (std::size_t row = 0; row < 3; ++row)
       // The dot's middle stands under the end of the word above.
-      dots_[end][row]->move(width() - (1 - static_cast<int>(end)) * kColumnWidth - 20, (static_cast<int>(row) + 1) * kRowHeight);
+      dots_[end][row]->move(width() - (1 - static_cast<int>(end)) * kColumnWidth - 20,
+                            (static_cast<int>(row) + 1) * kRowHeight);
 }
 
 void EndsTable::paintEvent(QPaintEvent*) {
@@ -95,13 +97,16 @@ void EndsTable::paintEvent(QPaintEvent*) {
   const std::array<QString, 3> rows = {tr("Position"), tr("Tangent"), tr("Curvature")};
   painter.setPen(theme.mute);
   painter.drawText(QRect(0, 0, width(), kRowHeight), Qt::AlignVCenter | Qt::AlignLeft, tr("Hold"));
-  const auto column = [this](int end) { return QRect(width() - (2 - end) * kColumnWidth, 0, kColumnWidth, kRowHeight); };
+  const auto column = [this](int end) {
+    return QRect(width() - (2 - end) * kColumnWidth, 0, kColumnWidth, kRowHeight);
+  };
   painter.drawText(column(0), Qt::AlignVCenter | Qt::AlignRight, tr("start"));
   painter.drawText(column(1), Qt::AlignVCenter | Qt::AlignRight, tr("end"));
   for (int row = 0; row < 3; ++row) {
     const int y = (row + 1) * kRowHeight;
     painter.setPen(theme.text);
-    painter.drawText(QRect(0, y, width(), kRowHeight), Qt::AlignVCenter | Qt::AlignLeft, rows[static_cast<std::size_t>(row)]);
+    painter.drawText(QRect(0, y, width(), kRowHeight), Qt::AlignVCenter | Qt::AlignLeft,
+                     rows[static_cast<std::size_t>(row)]);
     painter.fillRect(0, y + kRowHeight - 1, width(), 1, theme.line);
   }
 }

@@ -16,7 +16,8 @@ namespace {
 /// Largest distance of corresponding control points and knots; the same structure is demanded.
 Result<double> difference(const ExportDocument& a, const ExportDocument& b) {
   const auto differs = [] {
-    return fail(ErrorCode::CannotWrite, "The file that was written reads back as something else. Export again, to another place.");
+    return fail(ErrorCode::CannotWrite,
+                "The file that was written reads back as something else. Export again, to another place.");
   };
   if (a.curves.size() != b.curves.size()) return differs();
   double largest = 0.0;
@@ -27,7 +28,8 @@ Result<double> difference(const ExportDocument& a, const ExportDocument& b) {
       if (p.degree() != q.degree() || p.controlPointCount() != q.controlPointCount()) return differs();
       for (std::size_t k = 0; k < p.controlPoints().size(); ++k)
         largest = std::max(largest, (p.controlPoints()[k] - q.controlPoints()[k]).norm());
-      for (std::size_t k = 0; k < p.knots().size(); ++k) largest = std::max(largest, std::abs(p.knots()[k] - q.knots()[k]));
+      for (std::size_t k = 0; k < p.knots().size(); ++k)
+        largest = std::max(largest, std::abs(p.knots()[k] - q.knots()[k]));
     }
   }
   return largest;
@@ -67,7 +69,8 @@ Result<ExportOutcome> runExport(const ExportRequest& request) {
   try {
     const ExportDocument document = exportDocument(request.output, request.recipe, *request.scan);
     if (document.curves.empty())
-      return fail(ErrorCode::NoCurve, "There is no curve to export. Take at least one curve in (its eye in the list of curves).");
+      return fail(ErrorCode::NoCurve,
+                  "There is no curve to export. Take at least one curve in (its eye in the list of curves).");
     return request.format == ExportFormat::Svg ? writeAsSvg(request, document) : writeAsJson(request, document);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to export. Close other programs or leave some curves out.");

@@ -23,8 +23,9 @@ struct ExportRequest {
 
 struct ExportOutcome {
   int curves = 0;
-  int cubics = 0;                    ///< SVG only.
-  double largestDifferenceMm = 0.0;  ///< SVG, read back: cubics from the exact curves; JSON: read back from the file against memory.
+  int cubics = 0;  ///< SVG only.
+  double largestDifferenceMm =
+      0.0;  ///< SVG, read back: cubics from the exact curves; JSON: read back from the file against memory.
   std::filesystem::path path;
 };
 

@@ -21,10 +21,17 @@
 namespace batten {
 
 ExportPanel::ExportPanel(EditorSession& session, QWidget* parent)
-    : QWidget(parent), session_(session), format_(new SegmentedControl({tr("SVG"), tr("Curve JSON")}, this)),
-      path_(new QLineEdit(this)), browse_(plainButton(tr("Choose…"), QStringLiteral("export.browse"), this)),
-      toleranceLabel_(new QLabel(tr("Accuracy of the cubics"), this)), tolerance_(new NumberField(this)), formatNote_(note({}, this)),
-      size_(note({}, this)), export_(plainButton(tr("Export"), QStringLiteral("export.run"), this)), result_(note({}, this)),
+    : QWidget(parent),
+      session_(session),
+      format_(new SegmentedControl({tr("SVG"), tr("Curve JSON")}, this)),
+      path_(new QLineEdit(this)),
+      browse_(plainButton(tr("Choose…"), QStringLiteral("export.browse"), this)),
+      toleranceLabel_(new QLabel(tr("Accuracy of the cubics"), this)),
+      tolerance_(new NumberField(this)),
+      formatNote_(note({}, this)),
+      size_(note({}, this)),
+      export_(plainButton(tr("Export"), QStringLiteral("export.run"), this)),
+      result_(note({}, this)),
       worker_(std::make_unique<BackgroundWorker>()) {
   buildForm();
   connect(format_, &SegmentedControl::chosen, this, [this](int index) { setFormat(static_cast<ExportFormat>(index)); });
@@ -95,8 +102,9 @@ void ExportPanel::buildForm() {
 void ExportPanel::setFormat(ExportFormat format) {
   format_->setCurrent(static_cast<int>(format));
   const bool svg = format == ExportFormat::Svg;
-  formatNote_->setText(svg ? tr("A drawing in mm for illustration and cutting programs. The exact curves are kept in its metadata.")
-                           : tr("Degree, knots and control points of every curve, in mm and px, without any loss."));
+  formatNote_->setText(
+      svg ? tr("A drawing in mm for illustration and cutting programs. The exact curves are kept in its metadata.")
+          : tr("Degree, knots and control points of every curve, in mm and px, without any loss."));
   toleranceLabel_->setVisible(svg);
   tolerance_->setVisible(svg);
   confirmReplace_ = false;
@@ -112,17 +120,20 @@ void ExportPanel::suggestName() {
   } else if (!session_.scanPath().isEmpty()) {
     const QFileInfo scan(session_.scanPath());
     const bool writable = QFileInfo(scan.absolutePath()).isWritable();
-    path_->setText((writable ? scan.absolutePath() : QDir::homePath()) + QLatin1Char('/') + scan.completeBaseName() + QLatin1Char('.') + suffix);
+    path_->setText((writable ? scan.absolutePath() : QDir::homePath()) + QLatin1Char('/') + scan.completeBaseName() +
+                   QLatin1Char('.') + suffix);
     path_->setCursorPosition(static_cast<int>(path_->text().size()));
   }
-  if (path_->text().isEmpty() && session_.isBlankPage()) path_->setText(QDir::homePath() + QStringLiteral("/drawing.") + suffix);
+  if (path_->text().isEmpty() && session_.isBlankPage())
+    path_->setText(QDir::homePath() + QStringLiteral("/drawing.") + suffix);
   path_->setToolTip(path_->text());
   refresh();
 }
 
 void ExportPanel::browse() {
   const bool svg = format_->current() == 0;
-  const QString chosen = QFileDialog::getSaveFileName(this, tr("Export"), path_->text(), svg ? tr("SVG (*.svg)") : tr("Curve JSON (*.json)"));
+  const QString chosen = QFileDialog::getSaveFileName(this, tr("Export"), path_->text(),
+                                                      svg ? tr("SVG (*.svg)") : tr("Curve JSON (*.json)"));
   if (chosen.isEmpty()) return;
   path_->setText(chosen);
   path_->setModified(true);
@@ -132,7 +143,8 @@ void ExportPanel::browse() {
 }
 
 bool ExportPanel::isReady() const {
-  return session_.hasScan() && session_.output().faired && !session_.isBusy() && !session_.isStale(StageId::Faired) && !running_;
+  return session_.hasScan() && session_.output().faired && !session_.isBusy() && !session_.isStale(StageId::Faired) &&
+         !running_;
 }
 
 void ExportPanel::refresh() {
@@ -145,7 +157,8 @@ void ExportPanel::refresh() {
     return size_->setText(session_.isBusy() ? tr("Still computing.") : tr("There is no curve to export yet."));
   QString text = tr("Will import as %1 × %2 mm").arg(size.widthMm, 0, 'f', 1).arg(size.heightMm, 0, 'f', 1);
   text += QStringLiteral(", ") + counted(size.curves, tr("1 curve."), tr("%1 curves."));
-  if (isScaleAssumed(*session_.scan(), session_.recipe())) text += tr(" The scale is not known: set the resolution in the Scan stage.");
+  if (isScaleAssumed(*session_.scan(), session_.recipe()))
+    text += tr(" The scale is not known: set the resolution in the Scan stage.");
   size_->setText(text);
 }
 
@@ -157,18 +170,24 @@ void ExportPanel::start() {
     result_->setText(tr("%1 exists. Press again to replace it.").arg(QFileInfo(path).fileName()));
     return refresh();
   }
-  ExportRequest request{session_.output(), session_.recipe(), session_.scan(), static_cast<ExportFormat>(format_->current()),
+  ExportRequest request{session_.output(),   session_.recipe(),
+                        session_.scan(),     static_cast<ExportFormat>(format_->current()),
                         tolerance_->value(), std::filesystem::path(path.toStdU16String())};
   running_ = true;
   result_->clear();
   refresh();
-  worker_->start([request = std::move(request), panel = QPointer<ExportPanel>(this)](const CancelToken&) {
-    const auto outcome = runExport(request);
-    if (!panel) return;
-    QMetaObject::invokeMethod(panel.data(), [panel, outcome] {
-      if (panel) panel->finish(outcome);
-    }, Qt::QueuedConnection);
-  }, BackgroundWorker::Running::Finish);
+  worker_->start(
+      [request = std::move(request), panel = QPointer<ExportPanel>(this)](const CancelToken&) {
+        const auto outcome = runExport(request);
+        if (!panel) return;
+        QMetaObject::invokeMethod(
+            panel.data(),
+            [panel, outcome] {
+              if (panel) panel->finish(outcome);
+            },
+            Qt::QueuedConnection);
+      },
+      BackgroundWorker::Running::Finish);
 }
 
 void ExportPanel::finish(const Result<ExportOutcome>& outcome) {

@@ -25,7 +25,7 @@ class ExportPanel : public QWidget {
   ~ExportPanel() override;
 
  signals:
-  void exported(bool presentResult);        ///< True after a file holds the present result, false once that changes.
+  void exported(bool presentResult);  ///< True after a file holds the present result, false once that changes.
   void failed(const QString& message);
 
  private:

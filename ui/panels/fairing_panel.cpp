@@ -14,9 +14,9 @@
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/parameter_editor.h"
 #include "ui/panels/parameter_row.h"
-#include "ui/session/piece_choice.h"
 #include "ui/panels/segmented_control.h"
 #include "ui/session/fairing_edits.h"
+#include "ui/session/piece_choice.h"
 
 namespace batten {
 namespace {
@@ -27,14 +27,16 @@ constexpr double kLeastBudgetMm = 0.01, kMostBudgetMm = 5.0;
 }  // namespace
 
 FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
-    : QWidget(parent), session_(session), scope_(new SegmentedControl({tr("All curves"), tr("Selected curve")}, this)),
+    : QWidget(parent),
+      session_(session),
+      scope_(new SegmentedControl({tr("All curves"), tr("Selected curve")}, this)),
       mode_(new SegmentedControl({tr("None"), tr("Target"), tr("Even"), tr("Monotone"), tr("Low-pass")}, this)),
       budget_(new ParameterRow(session, *findParameter("fairing.tolerance"), this)),
       keep_(new ParameterRow(session, *findParameter("fairing.keep_extrema"), this)),
       wavelength_(new ParameterRow(session, *findParameter("fairing.lowpass"), this)),
-      editor_(new ParameterEditor(session, {"fairing.samples", "fairing.quantity", "fairing.monotone"},
-                                  this)),
-      note_(note({}, this)), raise_(linkButton(tr("Raise the budget"), QStringLiteral("fairing.raise"), this)),
+      editor_(new ParameterEditor(session, {"fairing.samples", "fairing.quantity", "fairing.monotone"}, this)),
+      note_(note({}, this)),
+      raise_(linkButton(tr("Raise the budget"), QStringLiteral("fairing.raise"), this)),
       useForAll_(linkButton(tr("Use this for all curves"), QStringLiteral("fairing.useForAll"), this)),
       followAll_(linkButton(tr("Follow the common setting"), QStringLiteral("fairing.followAll"), this)),
       split_(linkButton({}, QStringLiteral("fairing.split"), this)),
@@ -49,16 +51,20 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   scope_->setNames(QStringLiteral("fairing.scope"), {QStringLiteral("all"), QStringLiteral("one")});
   scope_->setToolTip(tr("Whether the settings below act on the whole drawing or on the selected curve alone."));
   layout->addWidget(scope_);
-  mode_->setNames(QStringLiteral("fairing.mode"), {QStringLiteral("none"), QStringLiteral("target"), QStringLiteral("tolerance"),
-                                                    QStringLiteral("monotone"), QStringLiteral("lowpass")});
-  mode_->setToolTip(tr("None: as sketched. Target: follow a profile of the curvature. Even: the smallest change of curvature that the budget "
-                       "allows. Monotone: curvature without a turn, or with few. Low-pass: without short waves."));
+  mode_->setNames(QStringLiteral("fairing.mode"),
+                  {QStringLiteral("none"), QStringLiteral("target"), QStringLiteral("tolerance"),
+                   QStringLiteral("monotone"), QStringLiteral("lowpass")});
+  mode_->setToolTip(
+      tr("None: as sketched. Target: follow a profile of the curvature. Even: the smallest change of curvature that "
+         "the budget "
+         "allows. Monotone: curvature without a turn, or with few. Low-pass: without short waves."));
   layout->addWidget(mode_);
   buildBudget();
   layout->addWidget(keep_);
   layout->addWidget(wavelength_);
   bindToScope(keep_, [](PieceChoice& choice, const FairingParams& params) { choice.keepExtrema = params.keepExtrema; });
-  bindToScope(wavelength_, [](PieceChoice& choice, const FairingParams& params) { choice.lowPassMm = params.lowPassMm; });
+  bindToScope(wavelength_,
+              [](PieceChoice& choice, const FairingParams& params) { choice.lowPassMm = params.lowPassMm; });
   wavelength_->setSliderRange(1.0, 300.0);
   keep_->setSliderRange(-1.0, 12.0);
   layout->addWidget(note_);
@@ -89,7 +95,8 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       // Rounded up to what the field shows, so that the target really fits.
       const double needed = std::min(20.0, std::ceil(curve->fairing.neededMm * 1000.0) / 1000.0);
       if (hasOwnFairing(session_, session_.selectedCurve()))
-        after = withChoice(session_, session_.selectedCurve(), [needed](PieceChoice& choice) { choice.toleranceMm = needed; });
+        after = withChoice(session_, session_.selectedCurve(),
+                           [needed](PieceChoice& choice) { choice.toleranceMm = needed; });
       else
         after.fairing.toleranceMm = needed;
       session_.change(tr("Deviation budget"), std::move(after));
@@ -107,11 +114,13 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
 void FairingPanel::buildBudget() {
   budget_->setLabel(tr("Deviation budget"));
   budget_->setSliderRange(kLeastBudgetMm, kMostBudgetMm);
-  bindToScope(budget_, [](PieceChoice& choice, const FairingParams& params) { choice.toleranceMm = params.toleranceMm; });
+  bindToScope(budget_,
+              [](PieceChoice& choice, const FairingParams& params) { choice.toleranceMm = params.toleranceMm; });
   static_cast<QVBoxLayout*>(layout())->addWidget(budget_);
 }
 
-void FairingPanel::bindToScope(ParameterRow* row, const std::function<void(PieceChoice&, const FairingParams&)>& store) {
+void FairingPanel::bindToScope(ParameterRow* row,
+                               const std::function<void(PieceChoice&, const FairingParams&)>& store) {
   const Parameter* parameter = &row->parameter();
   row->setBinding({[this, parameter](const Recipe& recipe) {
                      Recipe probe;
@@ -215,8 +224,10 @@ void FairingPanel::refresh() {
   const bool own = selected >= 0 && hasOwnFairing(session_, selected);
   const bool several = session_.curves().size() > 1;
   // A curve that has its own choice shows it; otherwise the choice of scope stays as the user left it.
-  if (own) oneCurve_ = true;
-  else if (selected != lastSelected_ || selected < 0) oneCurve_ = false;
+  if (own)
+    oneCurve_ = true;
+  else if (selected != lastSelected_ || selected < 0)
+    oneCurve_ = false;
   lastSelected_ = selected;
   scope_->setVisible(several);
   scope_->setSegmentEnabled(1, selected >= 0);
@@ -246,20 +257,25 @@ void FairingPanel::refreshFigures() {
   const bool over = faired && report.maxDeviationMm > curve->fairingUsed.toleranceMm * (1 + 1e-9);
   const auto mm = [](double value) { return QString::number(value, 'f', value < 0.1 ? 3 : 2); };
   std::vector<FigureTable::Row> rows = {
-      {tr("Curvature extrema"), {{QString::number(before.extrema)}, faired ? FigureTable::Cell{QString::number(after.extrema)} : none},
+      {tr("Curvature extrema"),
+       {{QString::number(before.extrema)}, faired ? FigureTable::Cell{QString::number(after.extrema)} : none},
        tr("Places where the curvature turns back: fewer is fairer.")},
-      {tr("Moved at most, mm"), {none, faired ? FigureTable::Cell{mm(report.maxDeviationMm), over} : none},
+      {tr("Moved at most, mm"),
+       {none, faired ? FigureTable::Cell{mm(report.maxDeviationMm), over} : none},
        tr("Largest distance of the faired curve from the sketched one; never above the budget.")},
-      {tr("Off the line, mm"), {{mm(before.fromPoints.max)}, faired ? FigureTable::Cell{mm(after.fromPoints.max)} : none},
+      {tr("Off the line, mm"),
+       {{mm(before.fromPoints.max)}, faired ? FigureTable::Cell{mm(after.fromPoints.max)} : none},
        tr("Largest distance of an edge point of the scan from the curve.")}};
   const auto targets = session_.targets();
   int degree = curve->fairingUsed.target;
   if (targets && degree == 0) degree = targets->recommendedDegree;
   if (targets && faired && curve->fairingUsed.mode == FairingMode::Target && degree >= 1 && degree <= 6) {
     const TargetProfile& profile = targets->targets.profiles[static_cast<std::size_t>(degree - 1)];
-    rows.push_back({tr("Similarity S"), {{similarityText(profile.similarity)}, none},
+    rows.push_back({tr("Similarity S"),
+                    {{similarityText(profile.similarity)}, none},
                     tr("How much the radius of the sketched curve resembles the target; 1 is the same.")});
-    rows.push_back({tr("Monotone target"), {none, {profile.isMonotone ? tr("yes") : tr("no")}},
+    rows.push_back({tr("Monotone target"),
+                    {none, {profile.isMonotone ? tr("yes") : tr("no")}},
                     tr("A monotone profile never turns back, so it brings no bump.")});
   }
   figures_->setRows(std::move(rows));

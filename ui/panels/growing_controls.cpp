@@ -37,10 +37,14 @@ QString textOf(const GrowingStep& step) {
 }  // namespace
 
 GrowingControls::GrowingControls(GrowingPlayer& player, QWidget* parent)
-    : QWidget(parent), player_(player), open_(plainButton(tr("Show the growing"), QStringLiteral("growing.open"), this)),
-      steps_(new QWidget(this)), previous_(plainButton(tr("Previous"), QStringLiteral("growing.previous"), steps_)),
+    : QWidget(parent),
+      player_(player),
+      open_(plainButton(tr("Show the growing"), QStringLiteral("growing.open"), this)),
+      steps_(new QWidget(this)),
+      previous_(plainButton(tr("Previous"), QStringLiteral("growing.previous"), steps_)),
       play_(plainButton(tr("Play"), QStringLiteral("growing.play"), steps_)),
-      next_(plainButton(tr("Next"), QStringLiteral("growing.next"), steps_)), track_(new SliderTrack(steps_)),
+      next_(plainButton(tr("Next"), QStringLiteral("growing.next"), steps_)),
+      track_(new SliderTrack(steps_)),
       text_(note({}, this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -95,7 +99,8 @@ void GrowingControls::refresh() {
   play_->setText(player_.isPlaying() ? tr("Pause") : tr("Play"));
   QString text = player_.problem();
   if (player_.isComputing()) text = tr("Growing…");
-  if (at >= 0 && at < count) text = tr("%1 of %2. ").arg(at + 1).arg(count) + textOf((*player_.steps())[static_cast<std::size_t>(at)]);
+  if (at >= 0 && at < count)
+    text = tr("%1 of %2. ").arg(at + 1).arg(count) + textOf((*player_.steps())[static_cast<std::size_t>(at)]);
   text_->setText(text);
   text_->setVisible(!text.isEmpty());
 }

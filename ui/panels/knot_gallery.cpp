@@ -53,13 +53,16 @@ QPainterPath pathOf(const NurbsCurve& curve) {
 class KnotTile : public QAbstractButton {
  public:
   KnotTile(int degree, bool uniform, QWidget* parent) : QAbstractButton(parent), degree_(degree), uniform_(uniform) {
-    setObjectName(QStringLiteral("knots.tile.%1.%2").arg(uniform ? QStringLiteral("uniform") : QStringLiteral("repeated")).arg(degree));
+    setObjectName(QStringLiteral("knots.tile.%1.%2")
+                      .arg(uniform ? QStringLiteral("uniform") : QStringLiteral("repeated"))
+                      .arg(degree));
     setCheckable(true);
     setFocusPolicy(Qt::TabFocus);
     setAttribute(Qt::WA_Hover);
     setMinimumSize(120, 110);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    setAccessibleName(uniform ? KnotGallery::tr("Degree %1, uniform knots").arg(degree) : KnotGallery::tr("Degree %1, repeated knots").arg(degree));
+    setAccessibleName(uniform ? KnotGallery::tr("Degree %1, uniform knots").arg(degree)
+                              : KnotGallery::tr("Degree %1, repeated knots").arg(degree));
     setToolTip(KnotGallery::tr("Click to take degree %1.").arg(degree));
   }
   int degree() const { return degree_; }
@@ -83,7 +86,8 @@ class KnotTile : public QAbstractButton {
     for (const QPointF& p : picture_.points) bounds = bounds.united(QRectF(p, QSizeF(1e-9, 1e-9)));
     if (bounds.width() <= 0.0 && bounds.height() <= 0.0) return;
     const QRectF room = frame.adjusted(12, 12, -12, -12);
-    const double scale = std::min(room.width() / std::max(bounds.width(), 1e-9), room.height() / std::max(bounds.height(), 1e-9));
+    const double scale =
+        std::min(room.width() / std::max(bounds.width(), 1e-9), room.height() / std::max(bounds.height(), 1e-9));
     painter.translate(room.center());
     painter.scale(scale, scale);
     painter.translate(-bounds.center());
@@ -91,7 +95,8 @@ class KnotTile : public QAbstractButton {
     painter.setBrush(theme.mute);
     for (const QPointF& p : picture_.points) painter.drawEllipse(p, 1.1 / scale, 1.1 / scale);
     painter.setBrush(Qt::NoBrush);
-    painter.setPen(QPen(uniform_ ? QColor(200, 112, 0) : theme.accent, 1.5 / scale, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    painter.setPen(
+        QPen(uniform_ ? QColor(200, 112, 0) : theme.accent, 1.5 / scale, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
     painter.drawPath(picture_.curve);
     painter.setPen(QPen(QColor(201, 60, 16), 1.3 / scale));
     painter.setBrush(theme.panel);
@@ -147,7 +152,8 @@ KnotGallery::KnotGallery(EditorSession& session, QWidget* parent)
 KnotGallery::~KnotGallery() = default;
 
 void KnotGallery::refresh() {
-  for (KnotTile* tile : tiles_) tile->setChecked(!tile->isUniform() && tile->degree() == session_.recipe().construct.degree);
+  for (KnotTile* tile : tiles_)
+    tile->setChecked(!tile->isUniform() && tile->degree() == session_.recipe().construct.degree);
 }
 
 void KnotGallery::setLine(const LinePolygon& line, SharpKnots repeated) {
@@ -158,16 +164,20 @@ void KnotGallery::setLine(const LinePolygon& line, SharpKnots repeated) {
       for (int degree = kFirstDegree; degree <= kLastDegree; ++degree) {
         if (token.isCancelled()) return;
         TilePicture picture;
-        if (const auto made = polygonCurve(line, degree, uniform ? SharpKnots::Uniform : repeated)) picture.curve = pathOf(made->curve);
+        if (const auto made = polygonCurve(line, degree, uniform ? SharpKnots::Uniform : repeated))
+          picture.curve = pathOf(made->curve);
         for (const Vec2& p : line.points) picture.points.push_back(onScreen(p));
         for (const int s : line.sharp) picture.sharp.push_back(onScreen(line.points[static_cast<std::size_t>(s)]));
         pictures.push_back(std::move(picture));
       }
     }
-    QMetaObject::invokeMethod(gallery.data(), [gallery, request, pictures = std::move(pictures)] {
-      if (!gallery || gallery->request_ != request) return;
-      for (std::size_t i = 0; i < pictures.size(); ++i) gallery->tiles_[i]->setPicture(pictures[i]);
-    }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        gallery.data(),
+        [gallery, request, pictures = std::move(pictures)] {
+          if (!gallery || gallery->request_ != request) return;
+          for (std::size_t i = 0; i < pictures.size(); ++i) gallery->tiles_[i]->setPicture(pictures[i]);
+        },
+        Qt::QueuedConnection);
   });
 }
 

@@ -26,18 +26,26 @@ QString knotText(const std::vector<double>& knots) {
 }
 
 KnotPanel::KnotPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
-    : QWidget(parent), session_(session),
-      editor_(new ParameterEditor(session, {"construct.degree", "construct.removal", "construct.removal_step",
-                                            "construct.removal_tolerance", "construct.knots"}, this)),
-      counts_(note({}, this)), warning_(note({}, this)), strip_(new KnotStrip(this)), text_(note({}, this)),
-      uniform_(new QCheckBox(tr("Show the uniform curve too"), this)), worker_(std::make_unique<BackgroundWorker>()) {
+    : QWidget(parent),
+      session_(session),
+      editor_(new ParameterEditor(session,
+                                  {"construct.degree", "construct.removal", "construct.removal_step",
+                                   "construct.removal_tolerance", "construct.knots"},
+                                  this)),
+      counts_(note({}, this)),
+      warning_(note({}, this)),
+      strip_(new KnotStrip(this)),
+      text_(note({}, this)),
+      uniform_(new QCheckBox(tr("Show the uniform curve too"), this)),
+      worker_(std::make_unique<BackgroundWorker>()) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);
   counts_->setObjectName(QStringLiteral("knots.counts"));
   text_->setObjectName(QStringLiteral("knots.text"));
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  text_->setToolTip(tr("Knot values; ×3 stands for three equal knots. A knot as often as the degree is a sharp corner."));
+  text_->setToolTip(
+      tr("Knot values; ×3 stands for three equal knots. A knot as often as the degree is a sharp corner."));
   layout->addWidget(editor_);
   layout->addWidget(counts_);
   layout->addWidget(caption(tr("Knot vector"), this));
@@ -45,7 +53,8 @@ KnotPanel::KnotPanel(EditorSession& session, ViewSettings& view, QWidget* parent
   layout->addWidget(text_);
   layout->addWidget(warning_);
   uniform_->setObjectName(QStringLiteral("knots.uniform"));
-  uniform_->setToolTip(tr("Draws the same points with equal knots as a thin amber line: without repeated knots the corners are lost."));
+  uniform_->setToolTip(
+      tr("Draws the same points with equal knots as a thin amber line: without repeated knots the corners are lost."));
   layout->addWidget(uniform_);
   auto* all = plainButton(tr("Compare all degrees…"), QStringLiteral("knots.compare"), this);
   all->setToolTip(tr("Degrees 2 to 5 with uniform and with repeated knots, side by side."));
@@ -80,9 +89,12 @@ void KnotPanel::refresh() {
     result->line = linePolygon(lineInput(output, contour), params);
     if (auto made = polygonCurve(result->line, params.degree, params.knots)) result->curve = std::move(*made);
     if (token.isCancelled() || !panel) return;
-    QMetaObject::invokeMethod(panel.data(), [panel, request, shared = std::shared_ptr<const Result>(result)] {
-      if (panel && panel->request_ == request) panel->show(shared);
-    }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        panel.data(),
+        [panel, request, shared = std::shared_ptr<const Result>(result)] {
+          if (panel && panel->request_ == request) panel->show(shared);
+        },
+        Qt::QueuedConnection);
   });
 }
 
@@ -99,16 +111,21 @@ void KnotPanel::show(const std::shared_ptr<const Result>& result) {
   const int added = result->curve ? result->curve->added : 0;
   QString counts = tr("%1 points, %2 kept").arg(grouped(line.before), grouped(kept));
   if (added > 0) counts += tr(", %1 added between close corners").arg(added);
-  counts_->setText(counts + QStringLiteral(" · ") + counted(static_cast<qint64>(line.sharp.size()), tr("1 corner"), tr("%1 corners")));
+  counts_->setText(counts + QStringLiteral(" · ") +
+                   counted(static_cast<qint64>(line.sharp.size()), tr("1 corner"), tr("%1 corners")));
   const std::vector<double> knots = result->curve ? result->curve->knots : std::vector<double>{};
   strip_->setKnots(knots);
   const QString whole = knotText(knots);
   // The picture tells the whole; the text is cut where it would push everything else out of sight.
   constexpr int kMostLetters = 220;
-  text_->setText(whole.size() <= kMostLetters ? whole : whole.left(whole.lastIndexOf(QLatin1Char(' '), kMostLetters)) + QStringLiteral(" …"));
+  text_->setText(whole.size() <= kMostLetters
+                     ? whole
+                     : whole.left(whole.lastIndexOf(QLatin1Char(' '), kMostLetters)) + QStringLiteral(" …"));
   text_->setProperty("whole", whole);
   const bool breaks = session_.recipe().construct.knots == SharpKnots::Order && !line.sharp.empty();
-  warning_->setText(breaks ? tr("As many equal knots as the order, as in the paper, break the curve just before each corner.") : QString());
+  warning_->setText(
+      breaks ? tr("As many equal knots as the order, as in the paper, break the curve just before each corner.")
+             : QString());
   warning_->setVisible(breaks);
   if (gallery_) gallery_->setLine(line, session_.recipe().construct.knots);
 }

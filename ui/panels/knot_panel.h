@@ -22,8 +22,8 @@ class ParameterEditor;
 /// A knot vector as a line of text with multiplicities: "0×4 1 2 3×3 4 …".
 QString knotText(const std::vector<double>& knots);
 
-/// Everything about the control polygon of the selected line: degree, point removal with its counts, the knot vector, and
-/// the same polygon with uniform knots beside it.
+/// Everything about the control polygon of the selected line: degree, point removal with its counts, the knot vector,
+/// and the same polygon with uniform knots beside it.
 class KnotPanel : public QWidget {
   Q_OBJECT
  public:

@@ -56,7 +56,9 @@ void KnotStrip::paintEvent(QPaintEvent*) {
   painter.setPen(Qt::NoPen);
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const bool isEnd = i == 0 || i + 1 == columns_.size();
-    painter.setBrush(columns_[i].times > 1 && !isEnd ? QColor(201, 60, 16) : columns_[i].times > 1 ? theme.text : theme.mute);
+    painter.setBrush(columns_[i].times > 1 && !isEnd ? QColor(201, 60, 16)
+                     : columns_[i].times > 1         ? theme.text
+                                                     : theme.mute);
     for (int k = 0; k < columns_[i].times; ++k)
       painter.drawEllipse(QPointF(xOf(i), base - k * rise), std::max(radius, columns_[i].times > 1 ? 1.8 : 0.0),
                           std::max(radius, columns_[i].times > 1 ? 1.8 : 0.0));
@@ -83,7 +85,9 @@ bool KnotStrip::event(QEvent* event) {
       if (std::abs(xOf(i) - help->pos().x()) < std::abs(xOf(nearest) - help->pos().x())) nearest = i;
     const Column& column = columns_[nearest];
     QToolTip::showText(help->globalPos(),
-                       column.times > 1 ? tr("Knot %1, %2 times").arg(column.value).arg(column.times) : tr("Knot %1").arg(column.value), this);
+                       column.times > 1 ? tr("Knot %1, %2 times").arg(column.value).arg(column.times)
+                                        : tr("Knot %1").arg(column.value),
+                       this);
     return true;
   }
   return QWidget::event(event);

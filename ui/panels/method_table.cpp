@@ -12,8 +12,8 @@
 
 #include "core/pipeline/parameter_table.h"
 #include "ui/panels/panel_parts.h"
-#include "ui/session/piece_choice.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/piece_choice.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -26,8 +26,8 @@ constexpr int kColumns[] = {34, 40, 62};
 void paintColumns(QPainter& painter, const QRectF& box, const QStringList& texts) {
   double right = box.right() - 8;
   for (int c = 0; c < 3; ++c) {
-    painter.drawText(QRectF(right - kColumns[c], box.top(), kColumns[c], box.height()), Qt::AlignVCenter | Qt::AlignRight,
-                     texts[2 - c]);
+    painter.drawText(QRectF(right - kColumns[c], box.top(), kColumns[c], box.height()),
+                     Qt::AlignVCenter | Qt::AlignRight, texts[2 - c]);
     right -= kColumns[c];
   }
 }
@@ -60,14 +60,17 @@ class MethodRow : public QAbstractButton {
     setAttribute(Qt::WA_Hover);
     setFixedHeight(kRow);
     setCursor(Qt::PointingHandCursor);
-    setToolTip(MethodTable::tr("What this method gives for the selected curve: mean deviation from the points of the line, control "
-                               "points, curvature extrema. Click to use it."));
+    setToolTip(MethodTable::tr(
+        "What this method gives for the selected curve: mean deviation from the points of the line, control "
+        "points, curvature extrema. Click to use it."));
     show({}, false);
   }
   void show(const std::optional<CurveFigures>& figures, bool failed) {
     if (figures) {
-      texts_ = {shortMillimetres(figures->fromPoints.rms), QString::number(figures->controlPoints), QString::number(figures->extrema)};
-      setAccessibleName(MethodTable::tr("%1: %2 rms, %3 control points, %4 extrema").arg(text(), texts_[0], texts_[1], texts_[2]));
+      texts_ = {shortMillimetres(figures->fromPoints.rms), QString::number(figures->controlPoints),
+                QString::number(figures->extrema)};
+      setAccessibleName(
+          MethodTable::tr("%1: %2 rms, %3 control points, %4 extrema").arg(text(), texts_[0], texts_[1], texts_[2]));
     } else {
       texts_ = {failed ? MethodTable::tr("no curve") : QStringLiteral("…"), {}, {}};
       setAccessibleName(text());
@@ -120,17 +123,23 @@ QString label(ConstructMethod method) {
 
 QString helpPage(ConstructMethod method) {
   switch (method) {
-    case ConstructMethod::Fair: return QStringLiteral("fair-fit");
-    case ConstructMethod::Nurbs: return QStringLiteral("quintic-nurbs");
-    case ConstructMethod::Bezier: return QStringLiteral("bezier-path");
-    case ConstructMethod::Typical: return QStringLiteral("typical-curves");
-    case ConstructMethod::ControlPolygon: return QStringLiteral("control-polygon");
+    case ConstructMethod::Fair:
+      return QStringLiteral("fair-fit");
+    case ConstructMethod::Nurbs:
+      return QStringLiteral("quintic-nurbs");
+    case ConstructMethod::Bezier:
+      return QStringLiteral("bezier-path");
+    case ConstructMethod::Typical:
+      return QStringLiteral("typical-curves");
+    case ConstructMethod::ControlPolygon:
+      return QStringLiteral("control-polygon");
   }
   return {};
 }
 
 MethodTable::MethodTable(EditorSession& session, QWidget* parent)
-    : QWidget(parent), session_(session),
+    : QWidget(parent),
+      session_(session),
       own_(new QCheckBox(tr("Only for the selected curve"), this)),
       worker_(std::make_unique<BackgroundWorker>()) {
   setObjectName(QStringLiteral("construct.method.row"));
@@ -215,8 +224,8 @@ void MethodTable::compute() {
   const TracedCurve* curve = session_.selected();
   const PipelineOutput& output = session_.output();
   if (!curve || !output.pieces || !output.segments || session_.isStale(StageId::Segments)) return;
-  Source source{output.pieces, output.segments, session_.recipe().construct, session_.recipe().segmentPoints, curve->contour, curve->piece,
-                output.frame.mmPerPx};
+  Source source{output.pieces,  output.segments, session_.recipe().construct, session_.recipe().segmentPoints,
+                curve->contour, curve->piece,    output.frame.mmPerPx};
   source.params.method = ConstructMethod::Fair;  // whichever is chosen, all are compared
   if (source_ && *source_ == source) return;
   source_ = source;
@@ -224,24 +233,28 @@ void MethodTable::compute() {
     figures_[i].reset();
     rows_[i]->show({}, false);
   }
-  worker_->start([output, source, base = session_.recipe(), panel = QPointer<MethodTable>(this)](const CancelToken& token) {
-    RunContext context;
-    context.cancel = token;
-    context.threads = 1;
-    for (std::size_t i = 0; i < kMethods.size(); ++i) {
-      Recipe recipe = base;
-      recipe.construct.method = kMethods[i];
-      std::optional<CurveFigures> figures;
-      if (const auto made = constructLine(output, recipe, source.contour, context)) {
-        for (const TracedCurve& each : *made)
-          if (each.piece == source.piece && !each.sketched.isEmpty()) figures = each.sketchedFigures;
-      }
-      if (token.isCancelled()) return;
-      QMetaObject::invokeMethod(panel.data(), [panel, i, figures, source] {
-        if (panel && panel->source_ && *panel->source_ == source) panel->show(static_cast<int>(i), figures);
-      }, Qt::QueuedConnection);
-    }
-  });
+  worker_->start(
+      [output, source, base = session_.recipe(), panel = QPointer<MethodTable>(this)](const CancelToken& token) {
+        RunContext context;
+        context.cancel = token;
+        context.threads = 1;
+        for (std::size_t i = 0; i < kMethods.size(); ++i) {
+          Recipe recipe = base;
+          recipe.construct.method = kMethods[i];
+          std::optional<CurveFigures> figures;
+          if (const auto made = constructLine(output, recipe, source.contour, context)) {
+            for (const TracedCurve& each : *made)
+              if (each.piece == source.piece && !each.sketched.isEmpty()) figures = each.sketchedFigures;
+          }
+          if (token.isCancelled()) return;
+          QMetaObject::invokeMethod(
+              panel.data(),
+              [panel, i, figures, source] {
+                if (panel && panel->source_ && *panel->source_ == source) panel->show(static_cast<int>(i), figures);
+              },
+              Qt::QueuedConnection);
+        }
+      });
 }
 
 void MethodTable::show(int method, const std::optional<CurveFigures>& figures) {

@@ -58,7 +58,9 @@ QPushButton* linkButton(const QString& text, const QString& name, QWidget* paren
   return button;
 }
 
-FigureTable::FigureTable(QWidget* parent) : QWidget(parent) { setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed); }
+FigureTable::FigureTable(QWidget* parent) : QWidget(parent) {
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+}
 
 void FigureTable::setHeader(const QString& first, const QStringList& columns) {
   first_ = first;
@@ -107,7 +109,8 @@ void FigureTable::paintEvent(QPaintEvent*) {
     for (int c = 0; c < count; ++c) {
       const Cell& cell = row.cells[static_cast<std::size_t>(c)];
       painter.setPen(cell.warns ? theme.amber : theme.text);
-      painter.drawText(columnRect(count - 1 - c, y, std::max(count, shownColumns)), Qt::AlignVCenter | Qt::AlignRight, cell.text);
+      painter.drawText(columnRect(count - 1 - c, y, std::max(count, shownColumns)), Qt::AlignVCenter | Qt::AlignRight,
+                       cell.text);
     }
     painter.fillRect(0, y + kRowHeight - 1, width(), 1, theme.line);
     y += kRowHeight;
@@ -139,7 +142,8 @@ QString shortMillimetres(double mm) {
 
 QString grouped(qint64 count) {
   QString digits = QString::number(count);
-  for (int at = static_cast<int>(digits.size()) - 3; at > (count < 0 ? 1 : 0); at -= 3) digits.insert(at, QChar(0x2009));
+  for (int at = static_cast<int>(digits.size()) - 3; at > (count < 0 ? 1 : 0); at -= 3)
+    digits.insert(at, QChar(0x2009));
   return digits;
 }
 
@@ -150,12 +154,15 @@ QString similarityText(double s) {
   return text;
 }
 
-QString counted(qint64 count, const QString& one, const QString& many) { return count == 1 ? one : many.arg(grouped(count)); }
+QString counted(qint64 count, const QString& one, const QString& many) {
+  return count == 1 ? one : many.arg(grouped(count));
+}
 
 QString degreeName(int degree) {
-  static const std::array<const char*, 6> kNames = {QT_TRANSLATE_NOOP("Degree", "linear"),  QT_TRANSLATE_NOOP("Degree", "quadratic"),
-                                                    QT_TRANSLATE_NOOP("Degree", "cubic"),   QT_TRANSLATE_NOOP("Degree", "quartic"),
-                                                    QT_TRANSLATE_NOOP("Degree", "quintic"), QT_TRANSLATE_NOOP("Degree", "sextic")};
+  static const std::array<const char*, 6> kNames = {
+      QT_TRANSLATE_NOOP("Degree", "linear"),  QT_TRANSLATE_NOOP("Degree", "quadratic"),
+      QT_TRANSLATE_NOOP("Degree", "cubic"),   QT_TRANSLATE_NOOP("Degree", "quartic"),
+      QT_TRANSLATE_NOOP("Degree", "quintic"), QT_TRANSLATE_NOOP("Degree", "sextic")};
   if (degree < 1 || degree > 6) return {};
   return QCoreApplication::translate("Degree", kNames[static_cast<std::size_t>(degree - 1)]);
 }

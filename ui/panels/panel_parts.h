@@ -16,13 +16,14 @@ namespace batten {
 
 /// Small pieces that all panels are put together from.
 
-QLabel* heading(const QString& text, QWidget* parent);        ///< "Fairing": bold, 13 px.
-QLabel* caption(const QString& text, QWidget* parent);        ///< "BEFORE AND AFTER": small, grey, spaced.
-QLabel* note(const QString& text, QWidget* parent);           ///< Grey 12 px, wraps.
+QLabel* heading(const QString& text, QWidget* parent);  ///< "Fairing": bold, 13 px.
+QLabel* caption(const QString& text, QWidget* parent);  ///< "BEFORE AND AFTER": small, grey, spaced.
+QLabel* note(const QString& text, QWidget* parent);     ///< Grey 12 px, wraps.
 QPushButton* plainButton(const QString& text, const QString& name, QWidget* parent);
 QPushButton* linkButton(const QString& text, const QString& name, QWidget* parent);  ///< Accent text without frame.
 
-/// Numbers in rows with hairlines: a name at the left, one or two columns at the right. Amber marks what is over budget.
+/// Numbers in rows with hairlines: a name at the left, one or two columns at the right. Amber marks what is over
+/// budget.
 class FigureTable : public QWidget {
   Q_OBJECT
  public:
@@ -53,11 +54,11 @@ class FigureTable : public QWidget {
 };
 
 /// Lengths and places as the window writes them.
-QString millimetres(double mm);            ///< "286.4 mm", "0.14 mm"
-QString shortMillimetres(double mm);       ///< At most four digits: "0.014 mm", "0.14 mm", "51.9 mm", "340 mm"
-QString grouped(qint64 count);             ///< "12 345" with thin spaces
-QString similarityText(double s);          ///< ".9987"
+QString millimetres(double mm);       ///< "286.4 mm", "0.14 mm"
+QString shortMillimetres(double mm);  ///< At most four digits: "0.014 mm", "0.14 mm", "51.9 mm", "340 mm"
+QString grouped(qint64 count);        ///< "12 345" with thin spaces
+QString similarityText(double s);     ///< ".9987"
 QString counted(qint64 count, const QString& one, const QString& many);  ///< "1 curve", "4 curves": `many` holds %1.
-QString degreeName(int degree);            ///< "linear" … "sextic"
+QString degreeName(int degree);                                          ///< "linear" … "sextic"
 
 }  // namespace batten

@@ -14,34 +14,49 @@ QString tr(const char* text) { return QCoreApplication::translate("PanelStage", 
 /// The last pipeline stage that a panel's result needs.
 std::optional<StageId> pipelineStage(PanelStage stage) {
   switch (stage) {
-    case PanelStage::Scan: return std::nullopt;
-    case PanelStage::Threshold: return StageId::Binary;
-    case PanelStage::CleanUp: return StageId::Filtered;
-    case PanelStage::Edges: return StageId::Contours;
-    case PanelStage::Corners: return StageId::Pieces;
-    case PanelStage::Curves: return StageId::Curves;
+    case PanelStage::Scan:
+      return std::nullopt;
+    case PanelStage::Threshold:
+      return StageId::Binary;
+    case PanelStage::CleanUp:
+      return StageId::Filtered;
+    case PanelStage::Edges:
+      return StageId::Contours;
+    case PanelStage::Corners:
+      return StageId::Pieces;
+    case PanelStage::Curves:
+      return StageId::Curves;
     case PanelStage::Fairing:
-    case PanelStage::Export: return StageId::Faired;
+    case PanelStage::Export:
+      return StageId::Faired;
   }
   return std::nullopt;
 }
 
 bool hasOutput(StageId stage, const PipelineOutput& out) {
   switch (stage) {
-    case StageId::Binary: return out.binary != nullptr;
-    case StageId::Filtered: return out.filtered != nullptr;
-    case StageId::Contours: return out.contours != nullptr;
-    case StageId::Pieces: return out.pieces != nullptr;
-    case StageId::Curves: return out.constructed != nullptr;
-    case StageId::Faired: return out.faired != nullptr;
-    default: return false;
+    case StageId::Binary:
+      return out.binary != nullptr;
+    case StageId::Filtered:
+      return out.filtered != nullptr;
+    case StageId::Contours:
+      return out.contours != nullptr;
+    case StageId::Pieces:
+      return out.pieces != nullptr;
+    case StageId::Curves:
+      return out.constructed != nullptr;
+    case StageId::Faired:
+      return out.faired != nullptr;
+    default:
+      return false;
   }
 }
 
 /// The first panel whose part of the pipeline contains a stage.
 PanelStage panelOf(StageId stage) {
   for (const PanelStage panel : kPanelStages)
-    if (const auto last = pipelineStage(panel); last && static_cast<int>(stage) <= static_cast<int>(*last)) return panel;
+    if (const auto last = pipelineStage(panel); last && static_cast<int>(stage) <= static_cast<int>(*last))
+      return panel;
   return PanelStage::Fairing;
 }
 
@@ -49,34 +64,51 @@ PanelStage panelOf(StageId stage) {
 
 QString label(PanelStage stage) {
   switch (stage) {
-    case PanelStage::Scan: return tr("Scan");
-    case PanelStage::Threshold: return tr("Threshold");
-    case PanelStage::CleanUp: return tr("Clean-up");
-    case PanelStage::Edges: return tr("Edges");
-    case PanelStage::Corners: return tr("Corners");
-    case PanelStage::Curves: return tr("Curves");
-    case PanelStage::Fairing: return tr("Fairing");
-    case PanelStage::Export: return tr("Export");
+    case PanelStage::Scan:
+      return tr("Scan");
+    case PanelStage::Threshold:
+      return tr("Threshold");
+    case PanelStage::CleanUp:
+      return tr("Clean-up");
+    case PanelStage::Edges:
+      return tr("Edges");
+    case PanelStage::Corners:
+      return tr("Corners");
+    case PanelStage::Curves:
+      return tr("Curves");
+    case PanelStage::Fairing:
+      return tr("Fairing");
+    case PanelStage::Export:
+      return tr("Export");
   }
   return {};
 }
 
 QString hint(PanelStage stage) {
   switch (stage) {
-    case PanelStage::Scan: return tr("Drop a drawing on the window to open it.");
-    case PanelStage::Threshold: return tr("Click a region, then turn the wheel or drag to change its threshold.");
-    case PanelStage::CleanUp: return tr("Watch the ink while you move the coefficient.");
-    case PanelStage::Edges: return tr("Lines follow the middle of strokes and the border of shapes.");
-    case PanelStage::Corners: return tr("Click a line to mark a corner; click the corner to remove it.");
-    case PanelStage::Curves: return tr("Click a curve to see its figures.");
-    case PanelStage::Fairing: return tr("Hover a target to see its curve; click to apply it.");
-    case PanelStage::Export: return tr("Curves whose eye is closed are left out.");
+    case PanelStage::Scan:
+      return tr("Drop a drawing on the window to open it.");
+    case PanelStage::Threshold:
+      return tr("Click a region, then turn the wheel or drag to change its threshold.");
+    case PanelStage::CleanUp:
+      return tr("Watch the ink while you move the coefficient.");
+    case PanelStage::Edges:
+      return tr("Lines follow the middle of strokes and the border of shapes.");
+    case PanelStage::Corners:
+      return tr("Click a line to mark a corner; click the corner to remove it.");
+    case PanelStage::Curves:
+      return tr("Click a curve to see its figures.");
+    case PanelStage::Fairing:
+      return tr("Hover a target to see its curve; click to apply it.");
+    case PanelStage::Export:
+      return tr("Curves whose eye is closed are left out.");
   }
   return {};
 }
 
 QString key(PanelStage stage) {
-  static constexpr std::array kKeys = {"scan", "threshold", "clean-up", "edges", "corners", "curves", "fairing", "export"};
+  static constexpr std::array kKeys = {"scan",    "threshold", "clean-up", "edges",
+                                       "corners", "curves",    "fairing",  "export"};
   return QString::fromLatin1(kKeys[static_cast<std::size_t>(stage)]);
 }
 

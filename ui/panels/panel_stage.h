@@ -12,8 +12,9 @@ class EditorSession;
 
 /// The stages as the window shows them, one inspector panel each.
 enum class PanelStage { Scan, Threshold, CleanUp, Edges, Corners, Curves, Fairing, Export };
-inline constexpr std::array kPanelStages = {PanelStage::Scan,    PanelStage::Threshold, PanelStage::CleanUp, PanelStage::Edges,
-                                            PanelStage::Corners, PanelStage::Curves,    PanelStage::Fairing, PanelStage::Export};
+inline constexpr std::array kPanelStages = {PanelStage::Scan,    PanelStage::Threshold, PanelStage::CleanUp,
+                                            PanelStage::Edges,   PanelStage::Corners,   PanelStage::Curves,
+                                            PanelStage::Fairing, PanelStage::Export};
 QString label(PanelStage);
 QString hint(PanelStage);  ///< One line: what to do here.
 /// "scan", "threshold", …: object names, help pages, settings.

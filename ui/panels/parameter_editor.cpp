@@ -57,9 +57,8 @@ void ParameterEditor::setRowVisible(std::string_view name, bool visible) {
   if (auto* found = row(name)) found->setVisible(visible);
   if (!more_) return;
   // "More" of nothing would be a door to an empty room.
-  const bool any = std::any_of(rows_.begin(), rows_.end(), [](const ParameterRow* one) {
-    return one->parameter().expert && !one->isHidden();
-  });
+  const bool any = std::any_of(rows_.begin(), rows_.end(),
+                               [](const ParameterRow* one) { return one->parameter().expert && !one->isHidden(); });
   more_->setVisible(any);
 }
 

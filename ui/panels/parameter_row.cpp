@@ -34,8 +34,12 @@ QStringList list(const std::vector<std::string>& words) {
 }  // namespace
 
 ParameterRow::ParameterRow(EditorSession& session, const Parameter& parameter, QWidget* parent)
-    : QWidget(parent), session_(session), parameter_(parameter), binding_{parameter.get, parameter.set},
-      low_(parameter.minimum), high_(parameter.maximum) {
+    : QWidget(parent),
+      session_(session),
+      parameter_(parameter),
+      binding_{parameter.get, parameter.set},
+      low_(parameter.minimum),
+      high_(parameter.maximum) {
   setObjectName(text(parameter.name) + QStringLiteral(".row"));
   build();
   connect(&session_, &EditorSession::recipeChanged, this, &ParameterRow::sync);
@@ -44,18 +48,28 @@ ParameterRow::ParameterRow(EditorSession& session, const Parameter& parameter, Q
 
 void ParameterRow::build() {
   const QString help = text(parameter_.help);
-  setToolTip(help + QStringLiteral("\n") + tr("Double-click the name for the default, %1.").arg(text(defaultValue(parameter_))));
+  setToolTip(help + QStringLiteral("\n") +
+             tr("Double-click the name for the default, %1.").arg(text(defaultValue(parameter_))));
   name_ = new QLabel(text(parameter_.label), this);
   name_->installEventFilter(this);
   switch (parameter_.type) {
-    case ParameterType::Boolean: buildBoolean(); break;
-    case ParameterType::Choice: buildChoice(); break;
+    case ParameterType::Boolean:
+      buildBoolean();
+      break;
+    case ParameterType::Choice:
+      buildChoice();
+      break;
     case ParameterType::Integer:
-    case ParameterType::Real: buildNumber(); break;
-    case ParameterType::Text: buildText(); break;
+    case ParameterType::Real:
+      buildNumber();
+      break;
+    case ParameterType::Text:
+      buildText();
+      break;
   }
-  for (QWidget* control : {static_cast<QWidget*>(check_), static_cast<QWidget*>(segments_), static_cast<QWidget*>(combo_),
-                           static_cast<QWidget*>(track_), static_cast<QWidget*>(text_)}) {
+  for (QWidget* control :
+       {static_cast<QWidget*>(check_), static_cast<QWidget*>(segments_), static_cast<QWidget*>(combo_),
+        static_cast<QWidget*>(track_), static_cast<QWidget*>(text_)}) {
     if (!control) continue;
     control->setAccessibleName(text(parameter_.label));
     control->setAccessibleDescription(help);
@@ -72,7 +86,8 @@ void ParameterRow::buildBoolean() {
   name_->hide();
   layout->addWidget(check_);
   layout->addStretch();
-  connect(check_, &QCheckBox::toggled, this, [this](bool on) { give(on ? QStringLiteral("true") : QStringLiteral("false"), -1); });
+  connect(check_, &QCheckBox::toggled, this,
+          [this](bool on) { give(on ? QStringLiteral("true") : QStringLiteral("false"), -1); });
 }
 
 void ParameterRow::buildChoice() {
@@ -191,7 +206,8 @@ double ParameterRow::fromTrack(int position) const {
     value = low_ > 0 ? low_ * std::pow(high_ / low_, t) : low_ + std::expm1(t * std::log1p(high_ - low_));
   // Round to what the field shows, so that number and curve agree; the ends stay exact.
   if (position > 0 && position < SliderTrack::kSteps) {
-    const double grain = parameter_.logarithmic || parameter_.step <= 0 ? std::pow(10.0, -parameter_.decimals) : parameter_.step;
+    const double grain =
+        parameter_.logarithmic || parameter_.step <= 0 ? std::pow(10.0, -parameter_.decimals) : parameter_.step;
     value = std::clamp(std::round(value / grain) * grain, low_, high_);
   }
   return value;
@@ -201,7 +217,8 @@ int ParameterRow::toTrack(double value) const {
   value = std::clamp(value, low_, high_);
   double t = high_ > low_ ? (value - low_) / (high_ - low_) : 0.0;
   if (parameter_.logarithmic)
-    t = low_ > 0 ? std::log(value / low_) / std::log(high_ / low_) : std::log1p(value - low_) / std::log1p(high_ - low_);
+    t = low_ > 0 ? std::log(value / low_) / std::log(high_ / low_)
+                 : std::log1p(value - low_) / std::log1p(high_ - low_);
   return static_cast<int>(std::lround(t * SliderTrack::kSteps));
 }
 

@@ -16,14 +16,19 @@
 namespace batten {
 
 PenPanel::PenPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
-    : QWidget(parent), session_(session), view_(view), draw_(plainButton(tr("Draw with the pen"), QStringLiteral("pen.draw"), this)),
-      list_(new QListWidget(this)), remove_(plainButton(tr("Remove"), QStringLiteral("pen.remove"), this)),
+    : QWidget(parent),
+      session_(session),
+      view_(view),
+      draw_(plainButton(tr("Draw with the pen"), QStringLiteral("pen.draw"), this)),
+      list_(new QListWidget(this)),
+      remove_(plainButton(tr("Remove"), QStringLiteral("pen.remove"), this)),
       removeAll_(plainButton(tr("Remove all"), QStringLiteral("pen.removeAll"), this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);
   layout->addWidget(caption(tr("Drawn by hand"), this));
-  layout->addWidget(note(tr("Drag on the drawing, with a mouse or a tablet. Such lines join those of the scan."), this));
+  layout->addWidget(
+      note(tr("Drag on the drawing, with a mouse or a tablet. Such lines join those of the scan."), this));
   draw_->setCheckable(true);
   draw_->setToolTip(tr("Drag to draw a line; end where it began to close it  (D)"));
   layout->addWidget(draw_, 0, Qt::AlignLeft);
@@ -58,7 +63,8 @@ void PenPanel::refresh() {
   list_->clear();
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     const QString points = tr("%1 points").arg(grouped(static_cast<qint64>(strokes[i].points.size())));
-    auto* item = new QListWidgetItem(tr("Line %1   %2%3").arg(i + 1).arg(points, strokes[i].closed ? tr(", closed") : QString()), list_);
+    auto* item = new QListWidgetItem(
+        tr("Line %1   %2%3").arg(i + 1).arg(points, strokes[i].closed ? tr(", closed") : QString()), list_);
     item->setFont(uiFont(12));
   }
   const auto selected = strokeOf(session_, session_.selectedCurve());

@@ -21,15 +21,14 @@ namespace {
 ComparedFigures figuresOf(const TracedCurve& curve) {
   const bool faired = !curve.faired.isEmpty();
   const CurveFigures& f = faired ? curve.fairedFigures : curve.sketchedFigures;
-  return {f.fromPoints.rms, f.fromPoints.max, f.controlPoints, f.extrema, variationEnergy(faired ? curve.faired : curve.sketched)};
+  return {f.fromPoints.rms, f.fromPoints.max, f.controlPoints, f.extrema,
+          variationEnergy(faired ? curve.faired : curve.sketched)};
 }
 
 /// Three digits, powers of ten where needed.
 QString energyText(double energy) { return QString::number(energy, 'g', 3); }
 
-QString fairingText(FairingMode mode) {
-  return mode == FairingMode::None ? QString() : PinPanel::tr(", faired");
-}
+QString fairingText(FairingMode mode) { return mode == FairingMode::None ? QString() : PinPanel::tr(", faired"); }
 
 }  // namespace
 
@@ -42,9 +41,13 @@ Comparison compare(const TracedCurve& pinned, const TracedCurve& now) {
 }
 
 PinPanel::PinPanel(EditorSession& session, QWidget* parent)
-    : QWidget(parent), session_(session), pin_(plainButton(tr("Pin this result"), QStringLiteral("pin.set"), this)),
-      unpin_(plainButton(tr("Take away"), QStringLiteral("pin.clear"), this)), what_(note({}, this)),
-      figures_(new FigureTable(this)), worker_(std::make_unique<BackgroundWorker>()) {
+    : QWidget(parent),
+      session_(session),
+      pin_(plainButton(tr("Pin this result"), QStringLiteral("pin.set"), this)),
+      unpin_(plainButton(tr("Take away"), QStringLiteral("pin.clear"), this)),
+      what_(note({}, this)),
+      figures_(new FigureTable(this)),
+      worker_(std::make_unique<BackgroundWorker>()) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);
@@ -82,30 +85,42 @@ void PinPanel::refresh() {
   pin_->setText(pinned ? tr("Pin the present one") : tr("Pin this result"));
   unpin_->setVisible(pinned != nullptr);
   figures_->setVisible(now && before);
-  what_->setText(!pinned ? tr("Pin a result, then change the method or a setting: the pinned one stays as a thin violet line.")
-                 : before || !now
-                     ? tr("Pinned: %1%2").arg(label(pinned->recipe.construct.method), fairingText(pinned->recipe.fairing.mode))
-                     : tr("The pinned result has no curve here."));
+  what_->setText(
+      !pinned ? tr("Pin a result, then change the method or a setting: the pinned one stays as a thin violet line.")
+      : before || !now
+          ? tr("Pinned: %1%2").arg(label(pinned->recipe.construct.method), fairingText(pinned->recipe.fairing.mode))
+          : tr("The pinned result has no curve here."));
   const int request = ++request_;
   if (!now || !before || !isVisible()) return;
   // Shared constants: the copies keep what the job reads.
-  worker_->start([pinnedCurve = *before, nowCurve = *now, request, panel = QPointer<PinPanel>(this)](const CancelToken& token) {
-    const Comparison result = compare(pinnedCurve, nowCurve);
-    if (token.isCancelled() || !panel) return;
-    QMetaObject::invokeMethod(panel.data(), [panel, result, request] {
-      if (panel && panel->request_ == request) panel->show(result);
-    }, Qt::QueuedConnection);
-  });
+  worker_->start(
+      [pinnedCurve = *before, nowCurve = *now, request, panel = QPointer<PinPanel>(this)](const CancelToken& token) {
+        const Comparison result = compare(pinnedCurve, nowCurve);
+        if (token.isCancelled() || !panel) return;
+        QMetaObject::invokeMethod(
+            panel.data(),
+            [panel, result, request] {
+              if (panel && panel->request_ == request) panel->show(result);
+            },
+            Qt::QueuedConnection);
+      });
 }
 
 void PinPanel::show(const Comparison& c) {
   const auto count = [](int n) { return QString::number(n); };
   figures_->setRows(
-      {{tr("Mean deviation"), {{shortMillimetres(c.pinned.rmsMm)}, {shortMillimetres(c.now.rmsMm)}}, tr("Root mean square of the distances of the line's points.")},
-       {tr("Largest deviation"), {{shortMillimetres(c.pinned.maxMm)}, {shortMillimetres(c.now.maxMm)}}, tr("Farthest point of the line from the curve.")},
+      {{tr("Mean deviation"),
+        {{shortMillimetres(c.pinned.rmsMm)}, {shortMillimetres(c.now.rmsMm)}},
+        tr("Root mean square of the distances of the line's points.")},
+       {tr("Largest deviation"),
+        {{shortMillimetres(c.pinned.maxMm)}, {shortMillimetres(c.now.maxMm)}},
+        tr("Farthest point of the line from the curve.")},
        {tr("Control points"), {{count(c.pinned.controlPoints)}, {count(c.now.controlPoints)}}, {}},
-       {tr("Curvature extrema"), {{count(c.pinned.extrema)}, {count(c.now.extrema)}}, tr("Places where the curvature turns back: fewer is fairer.")},
-       {tr("Unrest"), {{energyText(c.pinned.energy)}, {energyText(c.now.energy)}},
+       {tr("Curvature extrema"),
+        {{count(c.pinned.extrema)}, {count(c.now.extrema)}},
+        tr("Places where the curvature turns back: fewer is fairer.")},
+       {tr("Unrest"),
+        {{energyText(c.pinned.energy)}, {energyText(c.now.energy)}},
         tr("Integral of the squared change of curvature, free of the size: 0 for a circle, smaller is fairer.")},
        {tr("Apart"), {{}, {shortMillimetres(c.apartMm)}}, tr("Largest distance between the two curves.")}});
 }

@@ -18,7 +18,7 @@ class FigureTable;
 struct ComparedFigures {
   double rmsMm = 0.0, maxMm = 0.0;  ///< Of the points of the line from the curve.
   int controlPoints = 0, extrema = 0;
-  double energy = 0.0;              ///< variationEnergy.
+  double energy = 0.0;  ///< variationEnergy.
 };
 struct Comparison {
   ComparedFigures pinned, now;

@@ -17,7 +17,9 @@ RegionHistogram::RegionHistogram(QWidget* parent) : QWidget(parent) {
   setFocusPolicy(Qt::StrongFocus);
   setObjectName(QStringLiteral("threshold.histogram"));
   setAccessibleName(tr("Histogram of the region with its threshold"));
-  setToolTip(tr("How often each grey occurs here, dark at the left. Drag the line or use the arrow keys: darker than the line is ink."));
+  setToolTip(
+      tr("How often each grey occurs here, dark at the left. Drag the line or use the arrow keys: darker than the line "
+         "is ink."));
 }
 
 void RegionHistogram::show(const std::array<std::uint32_t, 256>& counts, double threshold) {

@@ -7,7 +7,8 @@
 
 namespace batten {
 
-/// How often each grey level occurs in a region, with the threshold as a line that can be dragged or moved by arrow keys.
+/// How often each grey level occurs in a region, with the threshold as a line that can be dragged or moved by arrow
+/// keys.
 class RegionHistogram : public QWidget {
   Q_OBJECT
  public:

@@ -53,8 +53,12 @@ void ToneSwatch::paintEvent(QPaintEvent*) {
 }
 
 ScanPanel::ScanPanel(EditorSession& session, QWidget* parent)
-    : QWidget(parent), session_(session), facts_(new FigureTable(this)), dpi_(new NumberField(this)),
-      scaleNote_(note({}, this)), fromFile_(linkButton(tr("Use the file's resolution"), QStringLiteral("scan.dpiFromFile"), this)),
+    : QWidget(parent),
+      session_(session),
+      facts_(new FigureTable(this)),
+      dpi_(new NumberField(this)),
+      scaleNote_(note({}, this)),
+      fromFile_(linkButton(tr("Use the file's resolution"), QStringLiteral("scan.dpiFromFile"), this)),
       swatch_(new ToneSwatch(this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(14, 12, 14, 12);
@@ -118,21 +122,29 @@ void ScanPanel::refresh() {
   const Scan& scan = *session_.scan();
   const PageFrame frame = frameFor(scan, session_.recipe());
   const QString size = QStringLiteral("%1 × %2").arg(grouped(frame.widthPx), grouped(frame.heightPx));
-  const QString paper = QStringLiteral("%1 × %2 mm").arg(frame.widthPx * frame.mmPerPx, 0, 'f', 1).arg(frame.heightPx * frame.mmPerPx, 0, 'f', 1);
+  const QString paper = QStringLiteral("%1 × %2 mm")
+                            .arg(frame.widthPx * frame.mmPerPx, 0, 'f', 1)
+                            .arg(frame.heightPx * frame.mmPerPx, 0, 'f', 1);
   const bool assumed = isScaleAssumed(scan, session_.recipe());
   const QString depth = tr("%1, %2 bit").arg(QString::fromStdString(scan.info.format)).arg(scan.info.bitsPerChannel);
-  facts_->setRows({{tr("File"), {{depth}}, QString::fromStdString(scan.path)},
-                   {tr("Size, px"), {{size}}, tr("Width and height of the upright picture.")},
-                   {tr("Size, mm"), {{assumed ? tr("not known yet") : paper, assumed}}, tr("What the resolution makes of it.")}});
+  facts_->setRows(
+      {{tr("File"), {{depth}}, QString::fromStdString(scan.path)},
+       {tr("Size, px"), {{size}}, tr("Width and height of the upright picture.")},
+       {tr("Size, mm"), {{assumed ? tr("not known yet") : paper, assumed}}, tr("What the resolution makes of it.")}});
   const auto own = session_.recipe().dpi;
-  if (own) dpi_->setValue(*own);
-  else if (scan.dpi) dpi_->setValue(*scan.dpi);
-  else dpi_->setEmpty(tr("unknown"));
+  if (own)
+    dpi_->setValue(*own);
+  else if (scan.dpi)
+    dpi_->setValue(*scan.dpi);
+  else
+    dpi_->setEmpty(tr("unknown"));
   fromFile_->setVisible(own.has_value());
   fromFile_->setText(scan.dpi ? tr("Use the file's %1 dpi").arg(*scan.dpi, 0, 'f', 0) : tr("Forget this resolution"));
   if (assumed)
-    scaleNote_->setText(tr("The file states no resolution. Type the scanner's dpi, or lengths are only right up to a factor "
-                           "(%1 dpi assumed).").arg(kAssumedDpi, 0, 'f', 0));
+    scaleNote_->setText(
+        tr("The file states no resolution. Type the scanner's dpi, or lengths are only right up to a factor "
+           "(%1 dpi assumed).")
+            .arg(kAssumedDpi, 0, 'f', 0));
   else
     scaleNote_->setText(own ? tr("Set by you.") : tr("Stated by the file."));
 }

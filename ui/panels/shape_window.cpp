@@ -26,9 +26,16 @@ QString number(double value, int decimals) { return QString::number(value, 'f', 
 }  // namespace
 
 ShapeWindow::ShapeWindow(EditorSession& session, QWidget* parent)
-    : QDialog(parent), session_(session), first_(new QComboBox(this)), second_(new QComboBox(this)),
-      quantity_(new SegmentedControl({tr("Radius"), tr("Curvature")}, this)), view_(new ShapeView(this)),
-      figures_(new FigureTable(this)), table_(new FigureTable(this)), way_(note({}, this)), recommendation_(note({}, this)) {
+    : QDialog(parent),
+      session_(session),
+      first_(new QComboBox(this)),
+      second_(new QComboBox(this)),
+      quantity_(new SegmentedControl({tr("Radius"), tr("Curvature")}, this)),
+      view_(new ShapeView(this)),
+      figures_(new FigureTable(this)),
+      table_(new FigureTable(this)),
+      way_(note({}, this)),
+      recommendation_(note({}, this)) {
   setObjectName(QStringLiteral("shapes"));
   setWindowTitle(tr("Compare shapes"));
   setMinimumWidth(500);
@@ -65,8 +72,8 @@ ShapeWindow::ShapeWindow(EditorSession& session, QWidget* parent)
     quantity_->setCurrent(index);
     compare();
   });
-  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::selectionChanged, &EditorSession::targetsChanged,
-                            &EditorSession::runFinished})
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::selectionChanged,
+                            &EditorSession::targetsChanged, &EditorSession::runFinished})
     connect(&session_, signal, this, [this] {
       if (isVisible()) refill();
     });
@@ -95,9 +102,12 @@ std::vector<ShapeWindow::Entry> ShapeWindow::entries() const {
 
 QString ShapeWindow::nameOf(const Entry& entry) const {
   switch (entry.kind) {
-    case Entry::Kind::Sketched: return tr("Curve %1, sketched").arg(entry.number + 1);
-    case Entry::Kind::Faired: return tr("Curve %1, faired").arg(entry.number + 1);
-    case Entry::Kind::Target: return tr("Target %1, %2").arg(entry.number).arg(degreeName(entry.number));
+    case Entry::Kind::Sketched:
+      return tr("Curve %1, sketched").arg(entry.number + 1);
+    case Entry::Kind::Faired:
+      return tr("Curve %1, faired").arg(entry.number + 1);
+    case Entry::Kind::Target:
+      return tr("Target %1, %2").arg(entry.number).arg(degreeName(entry.number));
   }
   return {};
 }
@@ -119,7 +129,9 @@ ShapeProfile ShapeWindow::profileOf(const Entry& entry) const {
 void ShapeWindow::refill() {
   const auto chosen = [this](const QComboBox* box) {
     const int index = box->currentIndex();
-    return index >= 0 && static_cast<std::size_t>(index) < entries_.size() ? std::optional(entries_[static_cast<std::size_t>(index)]) : std::nullopt;
+    return index >= 0 && static_cast<std::size_t>(index) < entries_.size()
+               ? std::optional(entries_[static_cast<std::size_t>(index)])
+               : std::nullopt;
   };
   const auto first = chosen(first_), second = chosen(second_);
   entries_ = entries();
@@ -147,18 +159,25 @@ void ShapeWindow::compare() {
     figures_->setRows({{tr("No curve yet"), {{QStringLiteral("–")}, {QStringLiteral("–")}}, {}}});
     return;
   }
-  const ShapeComparison found = compareShapes(profileOf(entries_[static_cast<std::size_t>(a)]), profileOf(entries_[static_cast<std::size_t>(b)]));
+  const ShapeComparison found =
+      compareShapes(profileOf(entries_[static_cast<std::size_t>(a)]), profileOf(entries_[static_cast<std::size_t>(b)]));
   view_->show(found, quantity_->current() != 1);
   QStringList ways;
   if (found.mirrored) ways << tr("mirrored");
   if (found.reversed) ways << tr("run backwards");
   if (found.shift > 0) ways << tr("begun elsewhere");
-  figures_->setRows({{tr("Similarity S"), {{number(found.similarity, 4)}, {number(found.curvatureSimilarity, 4)}},
-                      tr("1 is the same shape, whatever size, place and turn. Any two bends of one side come near 1: look at r too.")},
-                     {tr("Pearson r"), {{number(found.pearson, 4)}, {number(found.curvaturePearson, 4)}},
-                      tr("The same without what both have in common on the mean: 0 is no likeness, -1 the opposite course.")}});
-  way_->setText(ways.isEmpty() ? tr("Both as drawn, rescaled to one length and one mean size.")
-                               : tr("Rescaled to one length and one mean size; the second curve %1.").arg(ways.join(QStringLiteral(", "))));
+  figures_->setRows(
+      {{tr("Similarity S"),
+        {{number(found.similarity, 4)}, {number(found.curvatureSimilarity, 4)}},
+        tr("1 is the same shape, whatever size, place and turn. Any two bends of one side come near 1: look at r "
+           "too.")},
+       {tr("Pearson r"),
+        {{number(found.pearson, 4)}, {number(found.curvaturePearson, 4)}},
+        tr("The same without what both have in common on the mean: 0 is no likeness, -1 the opposite course.")}});
+  way_->setText(
+      ways.isEmpty()
+          ? tr("Both as drawn, rescaled to one length and one mean size.")
+          : tr("Rescaled to one length and one mean size; the second curve %1.").arg(ways.join(QStringLiteral(", "))));
 }
 
 void ShapeWindow::refreshTable() {
@@ -179,14 +198,16 @@ void ShapeWindow::refreshTable() {
                      {faired ? number(faired->report.neededMm, 3) : none, faired && !faired->report.withinBudget},
                      {faired ? QString::number(faired->report.extremaAfter) : none},
                      {usable ? number(p.aicc, 1) : none}},
-                    p.valid ? (p.isMonotone ? tr("Monotone profile.") : tr("This profile turns back.")) : QString::fromStdString(p.problem)});
+                    p.valid ? (p.isMonotone ? tr("Monotone profile.") : tr("This profile turns back."))
+                            : QString::fromStdString(p.problem)});
   }
   if (rows.empty()) rows.push_back({tr("No curve selected"), {}, {}});
   table_->setRows(std::move(rows));
-  recommendation_->setText(targets && targets->recommendedDegree > 0
-                               ? tr("✓ recommended: the degree that explains the curve with the fewest coefficients (smallest AICc). S "
-                                    "alone must rise with the degree and cannot choose.")
-                               : QString());
+  recommendation_->setText(
+      targets && targets->recommendedDegree > 0
+          ? tr("✓ recommended: the degree that explains the curve with the fewest coefficients (smallest AICc). S "
+               "alone must rise with the degree and cannot choose.")
+          : QString());
 }
 
 void ShapeView::show(const ShapeComparison& comparison, bool radius) {
@@ -226,7 +247,8 @@ void ShapeView::paintEvent(QPaintEvent*) {
   const auto draw = [&](const std::vector<double>& values, const QPen& pen) {
     QPainterPath path;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const QPointF at(box.left() + box.width() * static_cast<double>(i) / static_cast<double>(values.size() - 1), yOf(values[i]));
+      const QPointF at(box.left() + box.width() * static_cast<double>(i) / static_cast<double>(values.size() - 1),
+                       yOf(values[i]));
       i == 0 ? path.moveTo(at) : path.lineTo(at);
     }
     painter.setPen(pen);

@@ -16,8 +16,9 @@ class FigureTable;
 class SegmentedControl;
 class ShapeView;
 
-/// How alike two curves of the drawing are, each sketched, faired or a target of the selected one, whatever their size and
-/// place (003 section 5); and how fair the selected curve is: the similarities of Table 1 with what S alone does not tell.
+/// How alike two curves of the drawing are, each sketched, faired or a target of the selected one, whatever their size
+/// and place (003 section 5); and how fair the selected curve is: the similarities of Table 1 with what S alone does
+/// not tell.
 class ShapeWindow : public QDialog {
   Q_OBJECT
  public:

@@ -31,7 +31,8 @@ class StageButton : public QAbstractButton {
                                          QT_TR_NOOP("failed")};
     const QString word = tr(kWords[static_cast<int>(state)]);
     setToolTip(word);
-    setAccessibleName(text() + QStringLiteral(", ") + word + (tally.isEmpty() ? QString() : QStringLiteral(", ") + tally));
+    setAccessibleName(text() + QStringLiteral(", ") + word +
+                      (tally.isEmpty() ? QString() : QStringLiteral(", ") + tally));
     update();
   }
   QSize sizeHint() const override { return {132, 36}; }

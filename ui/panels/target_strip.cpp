@@ -20,11 +20,13 @@ namespace {
 std::vector<double> drawn(const TargetOutcomes& outcomes, const TargetProfile* profile) {
   const TargetSet& set = outcomes.targets;
   std::vector<double> values(set.perimeter.size());
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = profile ? profile->curvatureAt(set.perimeter[i]) : set.kappa[i];
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = profile ? profile->curvatureAt(set.perimeter[i]) : set.kappa[i];
   return values;
 }
 
-QPainterPath pathOf(const TargetOutcomes& outcomes, const std::vector<double>& values, const QRectF& box, double low, double high) {
+QPainterPath pathOf(const TargetOutcomes& outcomes, const std::vector<double>& values, const QRectF& box, double low,
+                    double high) {
   QPainterPath path;
   bool pen = false;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -56,9 +58,11 @@ QString TargetTile::problem() const {
   if (!outcomes_) return {};
   const auto index = static_cast<std::size_t>(degree_ - 1);
   const TargetProfile& profile = outcomes_->targets.profiles[index];
-  if (!profile.valid) return profile.problem.empty() ? tr("does not fit this curve") : QString::fromStdString(profile.problem);
+  if (!profile.valid)
+    return profile.problem.empty() ? tr("does not fit this curve") : QString::fromStdString(profile.problem);
   if (!outcomes_->faired[index])
-    return outcomes_->problems[index].empty() ? tr("could not be reached") : QString::fromStdString(outcomes_->problems[index]);
+    return outcomes_->problems[index].empty() ? tr("could not be reached")
+                                              : QString::fromStdString(outcomes_->problems[index]);
   return {};
 }
 
@@ -75,7 +79,9 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double bud
   } else if (outcomes_) {
     const auto& faired = *outcomes_->faired[static_cast<std::size_t>(degree_ - 1)];
     const auto& profile = outcomes_->targets.profiles[static_cast<std::size_t>(degree_ - 1)];
-    spoken += tr(", moves the curve by %1, %2 extrema").arg(millimetres(faired.report.maxDeviationMm)).arg(faired.report.extremaAfter);
+    spoken += tr(", moves the curve by %1, %2 extrema")
+                  .arg(millimetres(faired.report.maxDeviationMm))
+                  .arg(faired.report.extremaAfter);
     tip += tr("\nS %1, moves the curve by at most %2, %3 left.")
                .arg(similarityText(profile.similarity), millimetres(faired.report.maxDeviationMm),
                     counted(faired.report.extremaAfter, tr("1 curvature extremum"), tr("%1 curvature extrema")));
@@ -241,10 +247,12 @@ void TargetStrip::refresh() {
       used.toleranceMm = own->toleranceMm.value_or(used.toleranceMm);
     }
     budget = used.toleranceMm;
-    if (used.mode == FairingMode::Target && used.target != kDrawnTarget) chosen = used.target > 0 ? used.target : targets ? targets->recommendedDegree : 0;
+    if (used.mode == FairingMode::Target && used.target != kDrawnTarget)
+      chosen = used.target > 0 ? used.target : targets ? targets->recommendedDegree : 0;
   }
   for (int degree = 1; degree <= 6; ++degree)
-    tiles_[static_cast<std::size_t>(degree - 1)]->show(curve ? targets : nullptr, budget, degree == chosen, choosesForOneCurve(session_));
+    tiles_[static_cast<std::size_t>(degree - 1)]->show(curve ? targets : nullptr, budget, degree == chosen,
+                                                       choosesForOneCurve(session_));
 }
 
 void TargetStrip::paintEvent(QPaintEvent*) {

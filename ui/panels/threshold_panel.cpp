@@ -24,15 +24,21 @@
 namespace batten {
 
 ThresholdPanel::ThresholdPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
-    : QWidget(parent), session_(session), view_(view),
-      editor_(new ParameterEditor(session, {"threshold.mode", "threshold.level", "threshold.strength", "threshold.reach",
-                                            "threshold.speck_area", "threshold.hole_area", "threshold.interpolate"},
+    : QWidget(parent),
+      session_(session),
+      view_(view),
+      editor_(new ParameterEditor(session,
+                                  {"threshold.mode", "threshold.level", "threshold.strength", "threshold.reach",
+                                   "threshold.speck_area", "threshold.hole_area", "threshold.interpolate"},
                                   this)),
-      regionName_(caption(tr("Region"), this)), histogram_(new RegionHistogram(this)), level_(new NumberField(this)),
+      regionName_(caption(tr("Region"), this)),
+      histogram_(new RegionHistogram(this)),
+      level_(new NumberField(this)),
       regionAuto_(plainButton(tr("Automatic here"), QStringLiteral("threshold.autoRegion"), this)),
       allAuto_(plainButton(tr("All automatic"), QStringLiteral("threshold.autoAll"), this)),
       table_(new QTableWidget(kRegionsPerSide, kRegionsPerSide, this)),
-      showRegions_(new QCheckBox(tr("Show the regions on the picture"), this)), note_(note({}, this)) {
+      showRegions_(new QCheckBox(tr("Show the regions on the picture"), this)),
+      note_(note({}, this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(14, 12, 14, 12);
   layout->setSpacing(8);
@@ -77,7 +83,8 @@ void ThresholdPanel::buildRegion() {
   layout->addLayout(buttons);
   table_->setObjectName(QStringLiteral("threshold.table"));
   table_->setAccessibleName(tr("Thresholds of the 64 regions"));
-  table_->setToolTip(tr("The 64 thresholds as they lie on the page. Type a grey level 0 to 255; Delete makes a region automatic again."));
+  table_->setToolTip(tr(
+      "The 64 thresholds as they lie on the page. Type a grey level 0 to 255; Delete makes a region automatic again."));
   table_->horizontalHeader()->hide();
   table_->verticalHeader()->hide();
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
@@ -121,7 +128,8 @@ void ThresholdPanel::setRegion(int region, std::optional<double> grey, int gestu
   if (region < 0 || region >= kRegions) return;
   Recipe after = session_.recipe();
   after.threshold.grid[static_cast<std::size_t>(region)] = grey;
-  const QString place = tr("Threshold of region %1, %2").arg(region / kRegionsPerSide + 1).arg(region % kRegionsPerSide + 1);
+  const QString place =
+      tr("Threshold of region %1, %2").arg(region / kRegionsPerSide + 1).arg(region % kRegionsPerSide + 1);
   session_.change(place, std::move(after), gesture);
 }
 
@@ -138,8 +146,10 @@ void ThresholdPanel::readCell(QTableWidgetItem* item) {
   bool ok = false;
   const double grey = item->text().trimmed().replace(QLatin1Char(','), QLatin1Char('.')).toDouble(&ok);
   const bool cleared = item->text().trimmed().isEmpty() || item->text().trimmed().startsWith(QLatin1Char('a'));
-  if (ok) setRegion(region, std::clamp(grey, 0.0, 255.0), -1);
-  else if (cleared) setRegion(region, std::nullopt, -1);
+  if (ok)
+    setRegion(region, std::clamp(grey, 0.0, 255.0), -1);
+  else if (cleared)
+    setRegion(region, std::nullopt, -1);
   refreshTable();
 }
 
@@ -163,7 +173,8 @@ void ThresholdPanel::refresh() {
   const ThresholdParams& params = session_.recipe().threshold;
   editor_->setRowVisible("threshold.level", params.mode == ThresholdMode::Manual);
   editor_->setRowVisible("threshold.strength", params.mode == ThresholdMode::Automatic);
-  const auto own = std::count_if(params.grid.begin(), params.grid.end(), [](const auto& cell) { return cell.has_value(); });
+  const auto own =
+      std::count_if(params.grid.begin(), params.grid.end(), [](const auto& cell) { return cell.has_value(); });
   allAuto_->setEnabled(own > 0);
   const auto& found = session_.output().thresholds;
   QString text = found ? QString::fromStdString(found->note) : QString();
@@ -171,7 +182,8 @@ void ThresholdPanel::refresh() {
   if (found && mm > 0.0 && (params.speckArea > 0 || params.holeArea > 0)) {
     if (!text.isEmpty()) text += QLatin1Char('\n');
     text += tr("Specks under %1 mm² are dropped, holes under %2 mm² filled.")
-                .arg(params.speckArea * mm * mm, 0, 'g', 2).arg(params.holeArea * mm * mm, 0, 'g', 2);
+                .arg(params.speckArea * mm * mm, 0, 'g', 2)
+                .arg(params.holeArea * mm * mm, 0, 'g', 2);
   }
   note_->setText(text);
   note_->setVisible(!note_->text().isEmpty());
@@ -183,14 +195,16 @@ void ThresholdPanel::refreshRegion() {
   const int region = view_.selectedRegion();
   const bool has = region >= 0 && session_.hasScan();
   level_->setEnabled(has);
-  regionAuto_->setEnabled(has && session_.recipe().threshold.grid[static_cast<std::size_t>(std::max(region, 0))].has_value());
+  regionAuto_->setEnabled(has &&
+                          session_.recipe().threshold.grid[static_cast<std::size_t>(std::max(region, 0))].has_value());
   if (!has) {
     regionName_->setText(tr("Click a region").toUpper());
     level_->setEmpty(QStringLiteral("–"));
     histogram_->clear();
     return;
   }
-  regionName_->setText(tr("Region %1, %2").arg(region / kRegionsPerSide + 1).arg(region % kRegionsPerSide + 1).toUpper());
+  regionName_->setText(
+      tr("Region %1, %2").arg(region / kRegionsPerSide + 1).arg(region % kRegionsPerSide + 1).toUpper());
   level_->setValue(levelOf(region));
   histogram_->show(regionHistogram(session_.scan()->grey, region), levelOf(region));
 }

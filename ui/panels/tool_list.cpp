@@ -45,7 +45,8 @@ class ToolButton : public QAbstractButton {
     painter.drawText(box.adjusted(10, 0, -26, 0), Qt::AlignVCenter | Qt::AlignLeft, text());
     painter.setFont(uiFont(11));
     painter.setPen(theme.mute);
-    painter.drawText(box.adjusted(0, 0, -10, 0), Qt::AlignVCenter | Qt::AlignRight, action_->shortcut().toString(QKeySequence::NativeText));
+    painter.drawText(box.adjusted(0, 0, -10, 0), Qt::AlignVCenter | Qt::AlignRight,
+                     action_->shortcut().toString(QKeySequence::NativeText));
   }
   void keyPressEvent(QKeyEvent* event) override {
     if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) return click();

@@ -40,12 +40,14 @@ struct CurvePlots::State {
   int shownCurve = -2;
 };
 
-CurvePlots::CurvePlots(EditorSession& session, QWidget* parent) : QWidget(parent), state_(std::make_unique<State>(session)) {
+CurvePlots::CurvePlots(EditorSession& session, QWidget* parent)
+    : QWidget(parent), state_(std::make_unique<State>(session)) {
   setObjectName(QStringLiteral("plots"));
   build();
   applyTheme();
-  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::selectionChanged, &EditorSession::targetsChanged,
-                            &EditorSession::hoverChanged, &EditorSession::runFinished, &EditorSession::recipeChanged})
+  for (const auto signal :
+       {&EditorSession::scanOpened, &EditorSession::selectionChanged, &EditorSession::targetsChanged,
+        &EditorSession::hoverChanged, &EditorSession::runFinished, &EditorSession::recipeChanged})
     connect(&session, signal, this, &CurvePlots::refreshSoon);
   connect(&session, &EditorSession::stageReady, this, [this](StageId stage) {
     if (stage == StageId::Curves || stage == StageId::Faired) refreshSoon();
@@ -65,11 +67,17 @@ void CurvePlots::build() {
   head->setContentsMargins(4, 2, 14, 0);
   head->setSpacing(2);
   d.tabs = new QButtonGroup(this);
-  const struct { QString text, name, help; } tabs[] = {
-      {tr("Radius over arc length"), QStringLiteral("plot.radius"), tr("Radius of curvature in mm, logarithmic; straight stretches are cut off at the top.")},
-      {tr("Curvature"), QStringLiteral("plot.curvature"), tr("Signed curvature, 1/mm: positive where the curve turns left. The band is what the scan leaves open.")},
-      {tr("Derivative"), QStringLiteral("plot.derivative"), tr("Magnitude of the first derivative: even is good parametrisation.")},
-      {tr("Deviation"), QStringLiteral("plot.deviation"), tr("Distance of the scan's edge points and of the faired curve from the sketched curve, in mm.")}};
+  const struct {
+    QString text, name, help;
+  } tabs[] = {
+      {tr("Radius over arc length"), QStringLiteral("plot.radius"),
+       tr("Radius of curvature in mm, logarithmic; straight stretches are cut off at the top.")},
+      {tr("Curvature"), QStringLiteral("plot.curvature"),
+       tr("Signed curvature, 1/mm: positive where the curve turns left. The band is what the scan leaves open.")},
+      {tr("Derivative"), QStringLiteral("plot.derivative"),
+       tr("Magnitude of the first derivative: even is good parametrisation.")},
+      {tr("Deviation"), QStringLiteral("plot.deviation"),
+       tr("Distance of the scan's edge points and of the faired curve from the sketched curve, in mm.")}};
   for (int i = 0; i < 4; ++i) {
     auto* button = new QToolButton(this);
     button->setText(tabs[i].text);
@@ -218,20 +226,29 @@ void CurvePlots::refresh() {
     QPen dashed(theme.amber, 1.6), dotted(theme.amber, 2, Qt::DotLine, Qt::RoundCap);
     dashed.setDashPattern({5, 3.5});
     switch (series.role) {
-      case PlotRole::Target: return QPen(faint, 1);
-      case PlotRole::HoveredTarget: return QPen(theme.text, 1.6);
-      case PlotRole::ChosenTarget: return dashed;
-      case PlotRole::DrawnTarget: return dotted;
-      case PlotRole::Budget: return QPen(theme.amber, 1, Qt::DashLine);
-      case PlotRole::Sketched: return QPen(grey, 1.2);
-      case PlotRole::Faired: return QPen(theme.accent, 2);
-      case PlotRole::Joint: return QPen(theme.text, 1);
+      case PlotRole::Target:
+        return QPen(faint, 1);
+      case PlotRole::HoveredTarget:
+        return QPen(theme.text, 1.6);
+      case PlotRole::ChosenTarget:
+        return dashed;
+      case PlotRole::DrawnTarget:
+        return dotted;
+      case PlotRole::Budget:
+        return QPen(theme.amber, 1, Qt::DashLine);
+      case PlotRole::Sketched:
+        return QPen(grey, 1.2);
+      case PlotRole::Faired:
+        return QPen(theme.accent, 2);
+      case PlotRole::Joint:
+        return QPen(theme.text, 1);
     }
     return QPen(grey, 1);
   };
   for (const PlotSeries& series : d.data.series) {
     QCPGraph* graph = d.plot->addGraph();
-    graph->setData(QVector<double>(series.s.begin(), series.s.end()), QVector<double>(series.value.begin(), series.value.end()), true);
+    graph->setData(QVector<double>(series.s.begin(), series.s.end()),
+                   QVector<double>(series.value.begin(), series.value.end()), true);
     graph->setPen(penOf(series));
     if (series.role == PlotRole::Joint) {
       graph->setLineStyle(QCPGraph::lsNone);
@@ -247,9 +264,12 @@ void CurvePlots::refresh() {
   d.shownCurve = d.session.selectedCurve();
   d.shownLength = d.data.lengthMm;
   // While a point is dragged the axes stay, or it would run away from the mouse.
-  if (sameView && d.editing->isDragging()) d.plot->replot(QCustomPlot::rpQueuedReplot);
-  else if (sameView) d.plot->yAxis->setRange(d.data.low, d.data.high);
-  else resetView();
+  if (sameView && d.editing->isDragging())
+    d.plot->replot(QCustomPlot::rpQueuedReplot);
+  else if (sameView)
+    d.plot->yAxis->setRange(d.data.low, d.data.high);
+  else
+    resetView();
   showCursor();
 }
 
@@ -264,7 +284,8 @@ void CurvePlots::addMarks() {
     QCPGraph* graph = d.plot->addGraph();
     graph->setData({mark.s}, {mark.kappa}, true);
     graph->setLineStyle(QCPGraph::lsNone);
-    graph->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(line, mark.wantedToKeep ? 2.2 : 1.5), fill, 9));
+    graph->setScatterStyle(
+        QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(line, mark.wantedToKeep ? 2.2 : 1.5), fill, 9));
     graph->setAntialiasedScatters(true);
   }
 }
@@ -274,7 +295,8 @@ const ExtremumMark* CurvePlots::markAt(const QPointF& place) const {
   const ExtremumMark* best = nullptr;
   double least = kMarkReachPx;
   for (const ExtremumMark& mark : d.data.marks) {
-    const double distance = std::hypot(d.plot->xAxis->coordToPixel(mark.s) - place.x(), d.plot->yAxis->coordToPixel(mark.kappa) - place.y());
+    const double distance = std::hypot(d.plot->xAxis->coordToPixel(mark.s) - place.x(),
+                                       d.plot->yAxis->coordToPixel(mark.kappa) - place.y());
     if (distance > least) continue;
     least = distance;
     best = &mark;
@@ -284,7 +306,8 @@ const ExtremumMark* CurvePlots::markAt(const QPointF& place) const {
 
 QPointF CurvePlots::markPlace(int note) const {
   for (const ExtremumMark& mark : state_->data.marks)
-    if (mark.note == note) return {state_->plot->xAxis->coordToPixel(mark.s), state_->plot->yAxis->coordToPixel(mark.kappa)};
+    if (mark.note == note)
+      return {state_->plot->xAxis->coordToPixel(mark.s), state_->plot->yAxis->coordToPixel(mark.kappa)};
   return {-1.0, -1.0};
 }
 
@@ -306,16 +329,25 @@ void CurvePlots::showCursor() {
     d.cursor->point2->setCoords(*s, d.data.high);
     QString text = tr("s %1 mm").arg(*s, 0, 'f', 1);
     for (const PlotRole role : {PlotRole::Faired, PlotRole::Sketched}) {
-      const auto series = std::find_if(d.data.series.begin(), d.data.series.end(), [role](const PlotSeries& one) { return one.role == role; });
+      const auto series = std::find_if(d.data.series.begin(), d.data.series.end(),
+                                       [role](const PlotSeries& one) { return one.role == role; });
       if (series == d.data.series.end()) continue;
       const auto at = std::lower_bound(series->s.begin(), series->s.end(), *s);
       const auto i = std::min<std::size_t>(static_cast<std::size_t>(at - series->s.begin()), series->s.size() - 1);
       const QString number = QString::number(series->value[i], 'g', 4);
       switch (d.tab) {
-        case PlotTab::Radius: text += tr(" · R %1 mm").arg(number); break;
-        case PlotTab::Curvature: text += tr(" · κ %1 /mm").arg(number); break;
-        case PlotTab::Derivative: text += tr(" · |R'| %1").arg(number); break;
-        case PlotTab::Deviation: text += tr(" · %1 mm").arg(number); break;
+        case PlotTab::Radius:
+          text += tr(" · R %1 mm").arg(number);
+          break;
+        case PlotTab::Curvature:
+          text += tr(" · κ %1 /mm").arg(number);
+          break;
+        case PlotTab::Derivative:
+          text += tr(" · |R'| %1").arg(number);
+          break;
+        case PlotTab::Deviation:
+          text += tr(" · %1 mm").arg(number);
+          break;
       }
       break;
     }
@@ -336,7 +368,8 @@ bool CurvePlots::eventFilter(QObject* watched, QEvent* event) {
       const QString editing = d.editing->hintAt(mouse->position().toPoint());
       if (mark || editing.isEmpty()) d.plot->setCursor(mark ? Qt::PointingHandCursor : Qt::ArrowCursor);
       const QString otherwise =
-          tr("The cursor is the same place on the drawing. Wheel zooms, drag pans, double click shows all, right click edits the target.");
+          tr("The cursor is the same place on the drawing. Wheel zooms, drag pans, double click shows all, right click "
+             "edits the target.");
       emit hint(mark ? mark->text : !editing.isEmpty() ? editing : otherwise);
     }
     if (event->type() == QEvent::MouseButtonPress) {

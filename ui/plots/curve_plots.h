@@ -8,8 +8,8 @@
 
 namespace batten {
 
-/// The plots under the canvas: radius, curvature, first derivative and deviation over arc length of the selected curve. The
-/// cursor is linked with the canvas both ways; the wheel zooms, a drag pans, a double click shows all.
+/// The plots under the canvas: radius, curvature, first derivative and deviation over arc length of the selected curve.
+/// The cursor is linked with the canvas both ways; the wheel zooms, a drag pans, a double click shows all.
 class CurvePlots : public QWidget {
   Q_OBJECT
  public:

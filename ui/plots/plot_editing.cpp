@@ -127,7 +127,8 @@ bool PlotEditing::press(const QMouseEvent& event) {
     if (index_ < 0) return false;
     const bool isNear = spacing * plot_->axisRect()->width() < 2.0 * kReachPx;
     if (!isNear && isTargetDrawn(session_)) {
-      const auto above = std::upper_bound(profile.begin(), profile.end(), f, [](double x, const ProfilePoint& p) { return x < p.fraction; });
+      const auto above = std::upper_bound(profile.begin(), profile.end(), f,
+                                          [](double x, const ProfilePoint& p) { return x < p.fraction; });
       const double sign = profile[static_cast<std::size_t>(index_)].kappa;
       index_ = static_cast<int>(profile.insert(above, {f, kappaAt(at.y(), sign)}) - profile.begin());
     }
@@ -149,8 +150,10 @@ void PlotEditing::drag(const QPoint& position) {
   if (index_ < 0 || at >= profile.size()) return;
   // Points keep their order; the first and last of an open curve stay at its ends.
   const double gap = 1e-3;
-  const double low = at == 0 ? 0.0 : profile[at - 1].fraction + gap, high = at + 1 == profile.size() ? 1.0 : profile[at + 1].fraction - gap;
-  const bool isEnd = (at == 0 && profile[at].fraction <= 0.0) || (at + 1 == profile.size() && profile[at].fraction >= 1.0);
+  const double low = at == 0 ? 0.0 : profile[at - 1].fraction + gap,
+               high = at + 1 == profile.size() ? 1.0 : profile[at + 1].fraction - gap;
+  const bool isEnd =
+      (at == 0 && profile[at].fraction <= 0.0) || (at + 1 == profile.size() && profile[at].fraction >= 1.0);
   if (!isEnd && low < high) profile[at].fraction = std::clamp(fractionAt(position.x()), low, high);
   const QRect inside = plot_->axisRect()->rect();
   profile[at].kappa = kappaAt(std::clamp(position.y(), inside.top(), inside.bottom()), profile[at].kappa);
@@ -172,7 +175,9 @@ bool PlotEditing::move(const QMouseEvent& event) {
     return true;
   }
   const QString text = hintAt(at);
-  plot_->setCursor(text.isEmpty() ? Qt::ArrowCursor : splitAt(at) >= 0 && handleAt(at) < 0 ? Qt::SizeHorCursor : Qt::PointingHandCursor);
+  plot_->setCursor(text.isEmpty()                         ? Qt::ArrowCursor
+                   : splitAt(at) >= 0 && handleAt(at) < 0 ? Qt::SizeHorCursor
+                                                          : Qt::PointingHandCursor);
   return false;
 }
 
@@ -197,7 +202,8 @@ void PlotEditing::openMenu(const QPoint& position) {
     add(tr("Split at inflections"), "plot.splitInflections", [this] { splitAtInflections(session_); });
   if (fairingAsked(session_).mode == FairingMode::Monotone) {
     add(tr("Keep the extremum here"), "plot.keep", [this, f] { keepExtremum(session_, f); });
-    if (!data_.kept.empty()) add(tr("Keep extrema by number again"), "plot.keepByNumber", [this] { keepByNumber(session_); });
+    if (!data_.kept.empty())
+      add(tr("Keep extrema by number again"), "plot.keepByNumber", [this] { keepByNumber(session_); });
   }
   menu->addSeparator();
   std::vector<ProfilePoint> profile = profileToBeginWith(session_);
@@ -208,7 +214,8 @@ void PlotEditing::openMenu(const QPoint& position) {
       profile.erase(profile.begin() + handle);
       add(tr("Remove this point"), "plot.removePoint", [this, profile] { drawTarget(session_, profile, -1); });
     } else if (handle < 0) {
-      const auto above = std::upper_bound(profile.begin(), profile.end(), f, [](double x, const ProfilePoint& p) { return x < p.fraction; });
+      const auto above = std::upper_bound(profile.begin(), profile.end(), f,
+                                          [](double x, const ProfilePoint& p) { return x < p.fraction; });
       profile.insert(above, {f, drawnProfile(profile, session_.selected()->closed).curvatureAt(f)});
       add(tr("Add a point here"), "plot.addPoint", [this, profile] { drawTarget(session_, profile, -1); });
     }
@@ -230,13 +237,15 @@ bool PlotEditing::eventFilter(QObject* watched, QEvent* event) {
       }
       return press(mouse);
     }
-    case QEvent::MouseMove: return move(*static_cast<QMouseEvent*>(event));
+    case QEvent::MouseMove:
+      return move(*static_cast<QMouseEvent*>(event));
     case QEvent::MouseButtonRelease:
       if (!isDragging()) break;
       dragged_ = Dragged::Nothing;
       index_ = gesture_ = -1;
       return true;
-    default: break;
+    default:
+      break;
   }
   return QObject::eventFilter(watched, event);
 }

@@ -12,8 +12,8 @@ class QPoint;
 
 namespace batten {
 
-/// What can be dragged in the radius and curvature plots: the points of the drawn target (001 Fig. 18) and the splits, and
-/// the menu under the right mouse button. Dragging the dashed target itself makes it a drawn one.
+/// What can be dragged in the radius and curvature plots: the points of the drawn target (001 Fig. 18) and the splits,
+/// and the menu under the right mouse button. Dragging the dashed target itself makes it a drawn one.
 class PlotEditing : public QObject {
   Q_OBJECT
  public:

@@ -16,7 +16,9 @@ namespace {
 constexpr int kSamples = 400;
 constexpr int kDeviationSamples = 160;
 
-bool isFaired(const TracedCurve& curve) { return !curve.faired.isEmpty() && curve.fairingUsed.mode != FairingMode::None; }
+bool isFaired(const TracedCurve& curve) {
+  return !curve.faired.isEmpty() && curve.fairingUsed.mode != FairingMode::None;
+}
 
 void add(PlotData& data, PlotRole role, const std::vector<CurveSample>& samples, double scale, const auto& valueOf) {
   PlotSeries series{role, 0, {}, {}};
@@ -214,11 +216,12 @@ PlotData plotData(const EditorSession& session, PlotTab tab) {
     case PlotTab::Derivative:
       add(data, PlotRole::Sketched, sketched, scale, [](const CurveSample& sample) { return sample.speed; });
       add(data, PlotRole::Faired, faired, 1.0, [](const CurveSample& sample) { return sample.speed; });
-      addJoints(data, shown, shownScale, [](const NurbsCurve& of, double u) {
-        return std::optional(of.derivatives(u, 1)[1].norm());
-      });
+      addJoints(data, shown, shownScale,
+                [](const NurbsCurve& of, double u) { return std::optional(of.derivatives(u, 1)[1].norm()); });
       break;
-    case PlotTab::Deviation: addDeviation(data, session, *curve, scale); break;
+    case PlotTab::Deviation:
+      addDeviation(data, session, *curve, scale);
+      break;
   }
   fitRange(data, tab == PlotTab::Radius ? 0.06 : 0.12);
   return data;

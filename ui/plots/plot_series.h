@@ -16,21 +16,21 @@ enum class PlotRole { Sketched, Faired, Target, ChosenTarget, HoveredTarget, Dra
 
 struct PlotSeries {
   PlotRole role = PlotRole::Sketched;
-  int degree = 0;                  ///< Targets: 1..6.
-  std::vector<double> s, value;    ///< Same size, s ascending [mm]; only finite values.
+  int degree = 0;                ///< Targets: 1..6.
+  std::vector<double> s, value;  ///< Same size, s ascending [mm]; only finite values.
 };
 
 /// Everything one plot draws of the selected curve.
 struct PlotData {
   double lengthMm = 0.0;
   std::vector<PlotSeries> series;
-  std::vector<double> bandS, bandLow, bandHigh;  ///< Curvature: +-2 sigma of the sketched curve.
-  std::vector<ExtremumMark> marks;               ///< Curvature: the extrema of the fair fit; s as on the axis.
+  std::vector<double> bandS, bandLow, bandHigh;    ///< Curvature: +-2 sigma of the sketched curve.
+  std::vector<ExtremumMark> marks;                 ///< Curvature: the extrema of the fair fit; s as on the axis.
   std::vector<std::pair<double, double>> handles;  ///< Points of the drawn target: s, value.
   std::vector<double> kept;                        ///< s of the extrema that monotone fairing is to keep.
   std::vector<double> splits;                      ///< s of the splits, in the order of the recipe.
   bool logarithmic = false;
-  double low = 0.0, high = 1.0;                  ///< Range of the values that is shown at first.
+  double low = 0.0, high = 1.0;  ///< Range of the values that is shown at first.
   bool isEmpty() const { return series.empty(); }
 };
 

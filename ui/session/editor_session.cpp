@@ -14,7 +14,8 @@ namespace {
 constexpr double kSamePlacePx = 24.0;
 }  // namespace
 
-EditorSession::EditorSession(QObject* parent) : QObject(parent), runner_(std::make_unique<Runner>(*this)), growing_(new GrowingPlayer(*this)) {}
+EditorSession::EditorSession(QObject* parent)
+    : QObject(parent), runner_(std::make_unique<Runner>(*this)), growing_(new GrowingPlayer(*this)) {}
 
 EditorSession::~EditorSession() {
   growing_->close();

@@ -23,8 +23,9 @@ struct PinnedResult {
   Recipe recipe;
 };
 
-/// The open drawing: scan, recipe, undo stack, and the newest outputs of the pipeline. Paints nothing. All functions and
-/// signals belong to the GUI thread; work runs in the background, the newest request wins, and nothing here ever waits.
+/// The open drawing: scan, recipe, undo stack, and the newest outputs of the pipeline. Paints nothing. All functions
+/// and signals belong to the GUI thread; work runs in the background, the newest request wins, and nothing here ever
+/// waits.
 class EditorSession : public QObject {
   Q_OBJECT
  public:
@@ -47,7 +48,8 @@ class EditorSession : public QObject {
   QString openProblem() const;
 
   const Recipe& recipe() const { return recipe_; }
-  /// Changes the recipe by an undoable command. Changes with one `gesture` (>= 0) merge into one undo step; -1 never merges.
+  /// Changes the recipe by an undoable command. Changes with one `gesture` (>= 0) merge into one undo step; -1 never
+  /// merges.
   void change(const QString& what, Recipe after, int gesture = -1);
   /// A fresh gesture number for a drag.
   int newGesture() { return ++lastGesture_; }
@@ -99,7 +101,7 @@ class EditorSession : public QObject {
   void scanOpened();
   void recipeChanged();
   void stageReady(batten::StageId stage);
-  void runFinished();              ///< The newest run ended (done, failed or cancelled).
+  void runFinished();  ///< The newest run ended (done, failed or cancelled).
   void busyChanged(bool busy);
   void progress(double fraction);
   void selectionChanged();

@@ -19,8 +19,8 @@ const TracedCurve* curveAt(const EditorSession& session, int curve) {
   return &curves[static_cast<std::size_t>(curve)];
 }
 
-/// The choice in the recipe that a note stands for. While a new run is on its way the numbers in the report are those of
-/// the recipe before; then the place counts.
+/// The choice in the recipe that a note stands for. While a new run is on its way the numbers in the report are those
+/// of the recipe before; then the place counts.
 std::optional<std::size_t> choiceOf(const EditorSession& session, const ExtremumNote& note) {
   const auto& choices = session.recipe().extremumChoices;
   if (!session.isStale(StageId::Curves)) {

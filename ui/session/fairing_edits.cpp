@@ -88,13 +88,15 @@ void moveSplit(EditorSession& session, int index, double fraction, int gesture) 
   if (!isUsable(session)) return;
   const Vec2 place = placeAt(session, std::clamp(fraction, kLeastPart, 1.0 - kLeastPart));
   edit(session, tr("Move a split"), gesture, [&](PieceChoice& choice) {
-    if (index >= 0 && static_cast<std::size_t>(index) < choice.splitsPx.size()) choice.splitsPx[static_cast<std::size_t>(index)] = place;
+    if (index >= 0 && static_cast<std::size_t>(index) < choice.splitsPx.size())
+      choice.splitsPx[static_cast<std::size_t>(index)] = place;
   });
 }
 
 void removeSplit(EditorSession& session, int index) {
   edit(session, tr("Remove a split"), -1, [&](PieceChoice& choice) {
-    if (index >= 0 && static_cast<std::size_t>(index) < choice.splitsPx.size()) choice.splitsPx.erase(choice.splitsPx.begin() + index);
+    if (index >= 0 && static_cast<std::size_t>(index) < choice.splitsPx.size())
+      choice.splitsPx.erase(choice.splitsPx.begin() + index);
   });
 }
 
@@ -144,7 +146,8 @@ std::vector<ProfilePoint> profileToBeginWith(const EditorSession& session) {
   if (asked.target == kDrawnTarget && asked.profile.size() >= 2) return asked.profile;
   const auto targets = session.targets();
   const int degree = asked.target >= 1 && asked.target <= 6 ? asked.target : targets ? targets->recommendedDegree : 0;
-  const TargetProfile* target = targets && degree > 0 ? &targets->targets.profiles[static_cast<std::size_t>(degree - 1)] : nullptr;
+  const TargetProfile* target =
+      targets && degree > 0 ? &targets->targets.profiles[static_cast<std::size_t>(degree - 1)] : nullptr;
   std::vector<double> sketch;
   const int count = curve.closed ? kClosedPoints : kOpenPoints;
   constexpr int kSamples = 400;
@@ -155,7 +158,8 @@ std::vector<ProfilePoint> profileToBeginWith(const EditorSession& session) {
   }
   for (int i = 0; i < count; ++i) {
     const double f = static_cast<double>(i) / (curve.closed ? count : count - 1);
-    const auto at = std::min(static_cast<std::size_t>(std::lround(f * kSamples)), sketch.empty() ? 0 : sketch.size() - 1);
+    const auto at =
+        std::min(static_cast<std::size_t>(std::lround(f * kSamples)), sketch.empty() ? 0 : sketch.size() - 1);
     points.push_back({f, sketch.empty() ? target->curvatureAt(f) : sketch[at]});
   }
   return points;

@@ -7,8 +7,8 @@
 
 namespace batten {
 
-/// Edits of how the selected curve is faired that are made on its plots: all undoable, all kept by place on the drawing or
-/// share of the length, never by number.
+/// Edits of how the selected curve is faired that are made on its plots: all undoable, all kept by place on the drawing
+/// or share of the length, never by number.
 
 /// The fairing that the recipe asks for the selected curve, known before the run that follows it.
 FairingParams fairingAsked(const EditorSession& session);
@@ -34,7 +34,8 @@ void keepByNumber(EditorSession& session);
 
 /// True when the selected curve follows a drawn target.
 bool isTargetDrawn(const EditorSession& session);
-/// A drawn profile to begin with: points on the target that the curve follows now, or on the sketch's smoothed curvature.
+/// A drawn profile to begin with: points on the target that the curve follows now, or on the sketch's smoothed
+/// curvature.
 std::vector<ProfilePoint> profileToBeginWith(const EditorSession& session);
 /// The selected curve follows this profile from now on.
 void drawTarget(EditorSession& session, std::vector<ProfilePoint> profile, int gesture);

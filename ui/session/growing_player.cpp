@@ -54,8 +54,8 @@ void GrowingPlayer::compute() {
   problem_ = curve && pieces && segments ? QString() : tr("Select a curve to see how its chain grows.");
   emit changed();
   if (!problem_.isEmpty()) return;
-  worker_.start([pieces, segments, request, recipe = session_.recipe(), frame = session_.output().frame, piece = curve->piece,
-                 player = QPointer<GrowingPlayer>(this)](const CancelToken& token) {
+  worker_.start([pieces, segments, request, recipe = session_.recipe(), frame = session_.output().frame,
+                 piece = curve->piece, player = QPointer<GrowingPlayer>(this)](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
     auto result = growingStepsOf(*pieces, *segments, recipe, frame, piece, context);
@@ -63,13 +63,17 @@ void GrowingPlayer::compute() {
     auto steps = result ? std::make_shared<const std::vector<GrowingStep>>(std::move(*result)) : nullptr;
     const QString problem = result ? QString() : QString::fromStdString(result.error().message);
     if (!player) return;
-    QMetaObject::invokeMethod(player.data(), [player, request, steps, problem] {
-      if (player) player->take(request, steps, problem);
-    }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        player.data(),
+        [player, request, steps, problem] {
+          if (player) player->take(request, steps, problem);
+        },
+        Qt::QueuedConnection);
   });
 }
 
-void GrowingPlayer::take(std::uint64_t request, std::shared_ptr<const std::vector<GrowingStep>> steps, const QString& problem) {
+void GrowingPlayer::take(std::uint64_t request, std::shared_ptr<const std::vector<GrowingStep>> steps,
+                         const QString& problem) {
   if (request != newest_ || !isOpen_) return;
   steps_ = std::move(steps);
   problem_ = problem;

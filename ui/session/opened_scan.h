@@ -12,9 +12,9 @@ namespace batten {
 /// A scan with the recipe that lies beside it, if one does.
 struct OpenedScan {
   Scan scan;
-  Recipe recipe;            ///< The defaults when no recipe lies there or it cannot be used.
+  Recipe recipe;  ///< The defaults when no recipe lies there or it cannot be used.
   bool hasRecipe = false;
-  std::string problem;      ///< Why the recipe beside the scan was not used; empty = none there, or all well.
+  std::string problem;  ///< Why the recipe beside the scan was not used; empty = none there, or all well.
 };
 
 /// Where a recipe is saved by itself and looked for: "drawing.recipe.json" beside "drawing.png".

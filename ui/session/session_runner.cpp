@@ -70,15 +70,16 @@ void EditorSession::Runner::read(const QString& scanPath) {
   reader.start([this, id, scanPath](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
-    auto result = std::make_shared<Result<OpenedScan>>(guarded<OpenedScan>(
-        [&] { return openWithRecipe(std::filesystem::path(scanPath.toStdU16String()), context); }));
+    auto result = std::make_shared<Result<OpenedScan>>(
+        guarded<OpenedScan>([&] { return openWithRecipe(std::filesystem::path(scanPath.toStdU16String()), context); }));
     QMetaObject::invokeMethod(
         &inbox, [this, id, scanPath, result] { applyScan(id, scanPath, result); }, Qt::QueuedConnection);
   });
   updateBusy();
 }
 
-void EditorSession::Runner::applyScan(std::uint64_t id, const QString& scanPath, std::shared_ptr<Result<OpenedScan>> result) {
+void EditorSession::Runner::applyScan(std::uint64_t id, const QString& scanPath,
+                                      std::shared_ptr<Result<OpenedScan>> result) {
   if (id != newestRead) return;
   isReading = false;
   if (!result->has_value()) {

@@ -45,7 +45,8 @@ QString label(Layer layer) {
 }
 
 ViewSettings::ViewSettings(QObject* parent) : QObject(parent) {
-  for (const Layer layer : {Layer::Scan, Layer::Curve, Layer::Faired, Layer::Comb, Layer::Corners, Layer::Extrema, Layer::Band})
+  for (const Layer layer :
+       {Layer::Scan, Layer::Curve, Layer::Faired, Layer::Comb, Layer::Corners, Layer::Extrema, Layer::Band})
     visible_[static_cast<std::size_t>(layer)] = true;
 }
 

@@ -8,11 +8,26 @@
 namespace batten {
 
 /// What the canvas can show, in painting order.
-enum class Layer { Scan, LogImage, Mask, Edges, Segments, Curve, Faired, Comb, Corners, Regions, Deviation,
-                   Extrema, Band, Strokes, Fallback };
-inline constexpr std::array kLayers = {Layer::Scan,   Layer::LogImage, Layer::Mask,    Layer::Edges,   Layer::Segments, Layer::Curve,
-                                       Layer::Faired, Layer::Comb,     Layer::Corners, Layer::Regions, Layer::Deviation,
-                                       Layer::Extrema, Layer::Band, Layer::Strokes, Layer::Fallback};
+enum class Layer {
+  Scan,
+  LogImage,
+  Mask,
+  Edges,
+  Segments,
+  Curve,
+  Faired,
+  Comb,
+  Corners,
+  Regions,
+  Deviation,
+  Extrema,
+  Band,
+  Strokes,
+  Fallback
+};
+inline constexpr std::array kLayers = {Layer::Scan,      Layer::LogImage, Layer::Mask, Layer::Edges,   Layer::Segments,
+                                       Layer::Curve,     Layer::Faired,   Layer::Comb, Layer::Corners, Layer::Regions,
+                                       Layer::Deviation, Layer::Extrema,  Layer::Band, Layer::Strokes, Layer::Fallback};
 QString label(Layer);  ///< "Scan", "Log image", …
 
 /// What a press on the canvas does. Pan and zoom work in every tool.
@@ -26,8 +41,8 @@ enum class Tool {
   Rectangle,   ///< Drag draws a rectangle: only what lies inside the regions is traced.
   Lasso,       ///< The same drawn freely.
 };
-inline constexpr std::array kTools = {Tool::Select, Tool::Thresholds, Tool::Corners,   Tool::Pen,
-                                      Tool::Segments, Tool::Lines,    Tool::Rectangle, Tool::Lasso};
+inline constexpr std::array kTools = {Tool::Select,   Tool::Thresholds, Tool::Corners,   Tool::Pen,
+                                      Tool::Segments, Tool::Lines,      Tool::Rectangle, Tool::Lasso};
 
 /// How the drawing is shown: never part of the recipe, never undone, kept between sessions.
 class ViewSettings : public QObject {
@@ -44,7 +59,9 @@ class ViewSettings : public QObject {
   void setCombDensity(int);
   int selectedRegion() const { return selectedRegion_; }  ///< 0..63, -1 = none.
   void setSelectedRegion(int);
-  double suggestionAngleDeg() const { return suggestionAngleDeg_; }  ///< [deg] 10..150, least turn of a suggested corner.
+  double suggestionAngleDeg() const {
+    return suggestionAngleDeg_;
+  }  ///< [deg] 10..150, least turn of a suggested corner.
   void setSuggestionAngleDeg(double);
   bool showsUniformKnots() const { return showsUniform_; }  ///< Control polygon: the curve without repeated knots too.
   void setShowsUniformKnots(bool);

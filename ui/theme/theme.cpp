@@ -54,11 +54,20 @@ QString sheetOf(const Theme& t) {
   QFile file(QStringLiteral(":/theme/style.qss"));
   QString sheet;
   if (file.open(QIODevice::ReadOnly)) sheet = QString::fromUtf8(file.readAll());
-  const std::pair<const char*, QColor> names[] = {
-      {"@background", t.background}, {"@panel", t.panel},   {"@line", t.line},           {"@text", t.text},
-      {"@mute", t.mute},             {"@accent", t.accent}, {"@on-accent", t.onAccent},  {"@selection", t.selection},
-      {"@hover", t.hover},           {"@good", t.good},     {"@amber", t.amber},         {"@bad", t.bad}};
-  for (const auto& [name, color] : names) sheet.replace(QString::fromLatin1(name) + QLatin1Char(';'), color.name() + QLatin1Char(';'));
+  const std::pair<const char*, QColor> names[] = {{"@background", t.background},
+                                                  {"@panel", t.panel},
+                                                  {"@line", t.line},
+                                                  {"@text", t.text},
+                                                  {"@mute", t.mute},
+                                                  {"@accent", t.accent},
+                                                  {"@on-accent", t.onAccent},
+                                                  {"@selection", t.selection},
+                                                  {"@hover", t.hover},
+                                                  {"@good", t.good},
+                                                  {"@amber", t.amber},
+                                                  {"@bad", t.bad}};
+  for (const auto& [name, color] : names)
+    sheet.replace(QString::fromLatin1(name) + QLatin1Char(';'), color.name() + QLatin1Char(';'));
   return sheet;
 }
 
@@ -84,7 +93,8 @@ void applyTheme(ThemeChoice choice) {
   static const bool systemIsDark = QApplication::palette().color(QPalette::Window).lightness() < 128;
   const bool dark = choice == ThemeChoice::Dark || (choice == ThemeChoice::System && systemIsDark);
   const Theme& theme = dark ? darkTheme() : lightTheme();
-  if (QApplication::style()->name().compare(QLatin1String("fusion"), Qt::CaseInsensitive) != 0 || qApp->styleSheet().isEmpty())
+  if (QApplication::style()->name().compare(QLatin1String("fusion"), Qt::CaseInsensitive) != 0 ||
+      qApp->styleSheet().isEmpty())
     QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
   QApplication::setFont(uiFont());
   QApplication::setPalette(paletteOf(theme));

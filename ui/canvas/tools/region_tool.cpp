@@ -29,9 +29,10 @@ class RegionTool final : public CanvasTool {
 
   void move(const ToolEvent& event, bool isPressed) override {
     if (!isPressed || !isDrawing_) {
-      scene_.hint(scene_.session.recipe().regions.empty()
-                      ? (isLasso_ ? tr("Draw round what is to be traced.") : tr("Drag a rectangle round what is to be traced."))
-                      : tr("Draw another region to add to it; Delete traces the whole page again."));
+      scene_.hint(
+          scene_.session.recipe().regions.empty()
+              ? (isLasso_ ? tr("Draw round what is to be traced.") : tr("Drag a rectangle round what is to be traced."))
+              : tr("Draw another region to add to it; Delete traces the whole page again."));
       return;
     }
     if (!isLasso_) {

@@ -80,7 +80,9 @@ class SegmentTool final : public CanvasTool {
     held_.reset();
     isDragging_ = false;
   }
-  Qt::CursorShape cursorShape() const override { return snapped_ || hovered_ ? Qt::PointingHandCursor : Qt::ArrowCursor; }
+  Qt::CursorShape cursorShape() const override {
+    return snapped_ || hovered_ ? Qt::PointingHandCursor : Qt::ArrowCursor;
+  }
 
   void paint(QPainter& painter) override {
     painter.save();
@@ -122,10 +124,10 @@ class SegmentTool final : public CanvasTool {
     hovered_ = pointAt(event.px);
     snapped_ = hovered_ ? std::nullopt : onLine(event.px);
     const bool typical = scene_.session.recipe().construct.method == ConstructMethod::Typical;
-    scene_.hint(hovered_    ? tr("Click to remove this segment point; drag to move it.")
-                : !typical  ? tr("Segment points count for the method Typical curves; choose it under Curves.")
-                : snapped_  ? tr("Click to let two typical curves meet here.")
-                            : tr("Click a line where two typical curves are to meet."));
+    scene_.hint(hovered_   ? tr("Click to remove this segment point; drag to move it.")
+                : !typical ? tr("Segment points count for the method Typical curves; choose it under Curves.")
+                : snapped_ ? tr("Click to let two typical curves meet here.")
+                           : tr("Click a line where two typical curves are to meet."));
     scene_.repaint();
   }
 
