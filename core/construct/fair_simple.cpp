@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/solve/dense_solve.h"
+
 namespace batten {
 namespace {
 
@@ -52,7 +54,7 @@ Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, double 
   const Vec2 first = pins.start.value_or(data.points.front()), last = pins.end.value_or(data.points.back());
   if (pins.start || used < 4) add(0.0, first, kPinWeight);
   if (pins.end || used < 4) add(1.0, last, kPinWeight);
-  const Eigen::MatrixXd solution = normal.ldlt().solve(right);
+  const Eigen::MatrixXd solution = solveSymmetric(normal, right);
   std::vector<Vec2> points;
   for (int i = 0; i < n; ++i) points.emplace_back(solution(i, 0), solution(i, 1));
   const bool sound = solution.allFinite() && (normal * solution - right).norm() <= 1e-6 * (1.0 + right.norm());

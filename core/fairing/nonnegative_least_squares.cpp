@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/solve/dense_solve.h"
+
 namespace batten {
 namespace {
 
@@ -13,7 +15,7 @@ namespace {
 Eigen::VectorXd solvePassive(const Eigen::MatrixXd& e, const Eigen::VectorXd& f, const std::vector<Eigen::Index>& passive) {
   Eigen::MatrixXd sub(e.rows(), static_cast<Eigen::Index>(passive.size()));
   for (std::size_t k = 0; k < passive.size(); ++k) sub.col(static_cast<Eigen::Index>(k)) = e.col(passive[k]);
-  return sub.colPivHouseholderQr().solve(f);
+  return leastSquares(sub, f);
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fairing/periodic_form.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "core/curve/curve_analysis.h"
 #include "core/fairing/span_curve.h"
+#include "core/solve/dense_solve.h"
 
 namespace batten {
 namespace {
@@ -59,7 +59,7 @@ void fitPeriodic(const NurbsCurve& curve, PeriodicForm& form) {
       }
     }
   }
-  const Eigen::MatrixXd solved = normal.ldlt().solve(right);
+  const Eigen::MatrixXd solved = solveSymmetric(normal, right);
   if (!solved.allFinite()) return;
   for (int j = 0; j < m; ++j) form.points[static_cast<std::size_t>(j)] = solved.row(j).transpose();
 }

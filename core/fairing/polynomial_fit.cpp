@@ -2,13 +2,13 @@
 #include "core/fairing/polynomial_fit.h"
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/fairing/nonnegative_least_squares.h"
 #include "core/fairing/radius_target.h"
+#include "core/solve/dense_solve.h"
 
 namespace batten {
 namespace {
@@ -99,7 +99,7 @@ double polynomial(std::span<const double> c, double f) {
 std::vector<double> fitPolynomial(std::span<const double> f, std::span<const double> values, int degree) {
   const Samples s = collect(f, values, degree);
   if (s.values.size() == 0) return {};
-  const Eigen::VectorXd c = s.rows.colPivHouseholderQr().solve(s.values);
+  const Eigen::VectorXd c = leastSquares(s.rows, s.values);
   if (!c.allFinite()) return {};
   return toPowers(c);
 }
@@ -182,11 +182,8 @@ std::vector<double> fitPeriodicPolynomial(std::span<const double> f, std::span<c
   chebyshevSlopeRow(0.0, degree, a);
   chebyshevSlopeRow(1.0, degree, b);
   ends.row(1) = b - a;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(ends.transpose());
-  const Eigen::MatrixXd q = qr.householderQ();
-  const Eigen::MatrixXd free = q.rightCols(degree + 1 - qr.rank());
-  const Eigen::MatrixXd reduced = s.rows * free;
-  const Eigen::VectorXd c = free * reduced.colPivHouseholderQr().solve(s.values);
+  const Eigen::MatrixXd free = nullSpace(ends);
+  const Eigen::VectorXd c = free * leastSquares(s.rows * free, s.values);
   if (!c.allFinite()) return {};
   return toPowers(c);
 }
@@ -212,7 +209,7 @@ std::vector<double> fitPinnedPolynomial(std::span<const double> f, std::span<con
     if (c.allFinite() && error < bestError) bestError = error, best = toPowers(c);
   };
   if (!monotone || degree < 1) {
-    offer(s.rows.colPivHouseholderQr().solve(s.values));
+    offer(leastSquares(s.rows, s.values));
   } else {
     Eigen::MatrixXd g(kMonotoneGrid, degree + 1);
     Eigen::RowVectorXd line(degree + 1);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "core/fairing/fairing_problem.h"
+#include "core/solve/dense_solve.h"
 
 namespace batten {
 namespace {
@@ -37,13 +37,6 @@ struct Block {
   int first = 0, last = -1;  ///< Points.
   Eigen::MatrixXd free;      ///< Columns: the null space of the conditions over 2 (last - first + 1) coordinates.
 };
-
-/// The null space of conditions over `points` points.
-Eigen::MatrixXd nullSpace(const Eigen::MatrixXd& conditions) {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(conditions.transpose());
-  const Eigen::MatrixXd q = qr.householderQ();
-  return q.rightCols(conditions.cols() - qr.rank());
-}
 
 /// Range of the local points that conditions touch.
 std::pair<int, int> touched(const Eigen::MatrixXd& c) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/QR>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -23,24 +22,7 @@ inline std::vector<double> clampedKnots(int degree, int count) {
 }
 
 /// Dense least squares through samples of `shape` over 0..1, with both ends met: slow and simple.
-inline NurbsCurve fitted(const std::function<Vec2(double)>& shape, int count, int degree = 5) {
-  const std::vector<double> knots = clampedKnots(degree, count);
-  const int samples = 8 * count;
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(samples + 1, count);
-  Eigen::MatrixXd y(samples + 1, 2);
-  for (int i = 0; i <= samples; ++i) {
-    const double t = static_cast<double>(i) / samples, w = i == 0 || i == samples ? 1e4 : 1.0;
-    const BasisRow row = basis(degree, knots, count, t, 0);
-    for (int j = 0; j <= degree; ++j) a(i, row.first + j) = w * row.values[0][static_cast<std::size_t>(j)];
-    y.row(i) = w * shape(t).transpose();
-  }
-  const Eigen::MatrixXd q = a.colPivHouseholderQr().solve(y);
-  std::vector<Vec2> points;
-  for (int j = 0; j < count; ++j) points.emplace_back(q(j, 0), q(j, 1));
-  points.front() = shape(0.0);
-  points.back() = shape(1.0);
-  return NurbsCurve::make(degree, knots, points).value();
-}
+NurbsCurve fitted(const std::function<Vec2(double)>& shape, int count, int degree = 5);
 
 inline NurbsCurve arc(double radius, double angle, int count) {
   return fitted([=](double t) { return Vec2(radius * std::cos(t * angle), radius * std::sin(t * angle)); }, count);
