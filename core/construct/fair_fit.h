@@ -14,7 +14,7 @@ struct FairFitOptions {
   double knotSpacingPx = 16.0;
   double blockPx = 8.0;
   double effectiveDofWeight = 3.0;    ///< gamma in RSS/sigma^2 + gamma tr.
-  double noiseDensityFloor = 0.0064;  ///< [px^2 px]
+  double noiseDensityFloor = 0.0006;  ///< [px^2 px] what pixel models leave on perfect pages: .006 px over 16 px
   int emRounds = 5;
   double emWidthPx = 40.0;
   double keepExtremaCost = 20.0;  ///< T: an extremum whose removal costs less is dropped.

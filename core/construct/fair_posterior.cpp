@@ -11,7 +11,8 @@ namespace batten {
 namespace {
 
 constexpr double kLongestCutoffPx = 1400.0;
-constexpr int kMeasuredStep = 3;  // of the candidates for the cut-off
+constexpr double kOrdinaryBlocks = 4.0, kOrdinaryVariance = 1.25e-3;  // [px^2] of a mean over 8 px: .01 px^2 px
+constexpr int kMeasuredStep = 3;                                      // of the candidates for the cut-off
 
 double cutoffWeight(double cutoffPx) { return std::pow(cutoffPx / (2.0 * std::numbers::pi), 8); }
 
@@ -149,7 +150,9 @@ CutoffChoice chooseCutoffs(const std::vector<CutoffTable>& tables, double gamma)
       rss += t.rss[static_cast<std::size_t>(choice.k[i])];
       freedom += t.blocks - t.dof[static_cast<std::size_t>(choice.k[i])];
     }
-    choice.blockVariance = freedom > 0.0 ? rss / freedom : 0.0;
+    // What a few blocks say of the noise is a matter of luck: an ordinary scan counts as some more of them.
+    choice.blockVariance =
+        freedom > 0.0 ? (rss + kOrdinaryBlocks * kOrdinaryVariance) / (freedom + kOrdinaryBlocks) : 0.0;
   }
   return choice;
 }

@@ -107,6 +107,7 @@ StrandCourse layCourse(const Strand& strand) {
   course.measuredWidth = course.radius;
   for (float& w : course.measuredWidth) w = std::max(1.0f, 2.0f * w);
   course.measured.assign(n, 0);
+  course.tone.assign(n, {});
   std::vector<float> radius = course.radius;
   const auto high = radius.begin() + static_cast<std::ptrdiff_t>(radius.size() * 9 / 10);
   std::nth_element(radius.begin(), high, radius.end());

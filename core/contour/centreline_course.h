@@ -20,6 +20,12 @@ struct StrandCourse {
   std::vector<float> shift;  ///< [px] from `base` to the middle of the stroke, along the left normal.
   std::vector<float> measuredWidth;
   std::vector<std::uint8_t> measured;
+  struct Tone {
+    float contrast = 0.0f;              ///< [grey] paper minus the middle of the stroke.
+    float paper = 255.0f, slope = 0.0f; ///< [grey, grey/px] at `base` and along the left normal.
+    float reach = 0.0f;                 ///< [px] no other ink nearer than this.
+  };
+  std::vector<Tone> tone;  ///< Where measured, as the profile of the last round had it.
   bool closed = false;
   bool tip[2] = {false, false};
   double widthPx = 1.0;  ///< Median.

@@ -7,6 +7,7 @@ namespace {
 // Paper across the profile: a line through the level at either side.
 struct PaperLine {
   double level = 255.0, slope = 0.0;
+  double reach = 0.0;  // samples to either side that belong to this stroke and its paper
   double at(double k) const { return level + slope * k; }
 };
 
@@ -21,7 +22,7 @@ double meanOf(std::span<const float> p, int first, int count) {
 PaperLine paperBeside(std::span<const float> p, int edge, double ink) {
   const int n = static_cast<int>(p.size()), half = n / 2;
   const int box = std::min(5, std::max(1, half - edge));
-  double level[2], place[2];
+  double level[2], place[2], reach = half;
   for (int side = 0; side < 2; ++side) {
     const auto mean = [&](int distance) {  // box that ends `distance` samples from the middle
       return side == 0 ? meanOf(p, half - distance, box) : meanOf(p, half + distance - box + 1, box);
@@ -40,10 +41,12 @@ PaperLine paperBeside(std::span<const float> p, int edge, double ink) {
     level[side] = crowded ? brightest : outer;
     const double middle = (crowded ? best : half) - 0.5 * (box - 1);
     place[side] = side == 0 ? half - middle : half + middle;
+    if (crowded) reach = std::min(reach, middle);
   }
   PaperLine line;
   line.slope = (level[1] - level[0]) / (place[1] - place[0]);
   line.level = level[0] - line.slope * place[0];
+  line.reach = reach;
   return line;
 }
 
@@ -81,7 +84,13 @@ StrokeCentre halfLevelCentre(std::span<const float> profile, double widthPx, std
     if (k + d < 0 || k + d >= n) return result;
     border[side] = (k - half + d * depth(k) / (depth(k) - depth(k + d))) * kStrokeStepPx;
   }
-  result = {0.5 * (border[0] + border[1]), border[1] - border[0], contrast, true};
+  result.centre = 0.5 * (border[0] + border[1]);
+  result.width = border[1] - border[0];
+  result.contrast = contrast;
+  result.ok = true;
+  result.paper = paper.at(half);
+  result.slope = paper.slope / kStrokeStepPx;
+  result.reach = paper.reach * kStrokeStepPx;
   return result;
 }
 
@@ -108,7 +117,10 @@ StrokeCentre centroidCentre(std::span<const float> profile, double reachPx) {
   }
   if (!(sum > 0.0)) return result;
   const double centre = moment / sum;
-  result = {centre, std::sqrt(std::max(0.0, 12.0 * (square / sum - centre * centre))), most, true};
+  result.centre = centre;
+  result.width = std::sqrt(std::max(0.0, 12.0 * (square / sum - centre * centre)));
+  result.contrast = most;
+  result.ok = true;
   return result;
 }
 

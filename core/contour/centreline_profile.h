@@ -33,6 +33,8 @@ struct StrokeCentre {
   double width = 0.0;     ///< [px] between the half levels.
   double contrast = 0.0;  ///< [grey] paper minus the middle of the stroke.
   bool ok = false;
+  double paper = 255.0, slope = 0.0;  ///< [grey, grey/px] of the paper, a line along the profile.
+  double reach = 0.0;                 ///< [px] no other ink nearer than this to the middle of the profile.
 };
 
 /// Half-level midpoint of a dark ridge in a profile of 2 * half + 1 samples. `widthPx` is about the stroke's width.

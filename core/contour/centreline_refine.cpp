@@ -8,6 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "core/contour/centreline_course.h"
+#include "core/contour/centreline_pixels.h"
 #include "core/contour/centreline_profile.h"
 #include "core/contour/polyline_tools.h"
 
@@ -76,6 +77,8 @@ void measureBlock(StrandCourse& course, int begin, int end, const GreyImage& gre
     course.shift[at] = static_cast<float>(c.centre);
     course.measuredWidth[at] = static_cast<float>(c.width);
     course.measured[at] = c.ok ? 1 : 0;
+    course.tone[at] = {static_cast<float>(c.contrast), static_cast<float>(c.paper), static_cast<float>(c.slope),
+                       static_cast<float>(c.reach)};
   }
 }
 
@@ -119,6 +122,7 @@ std::vector<Contour> refineStrands(const std::vector<Strand>& strands, const Gre
       });
     }
   }
+  if (settings.rule == CentreRule::HalfLevel) placeOnPixels(courses, grey, context);
   std::vector<Contour> contours(strands.size());
   forCourses(courses, context, [&](std::size_t i) {
     layThroughJunctions(courses[i]);

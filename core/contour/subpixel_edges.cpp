@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/contour/curvature_shift.h"
 #include "core/contour/edge_profile.h"
+#include "core/contour/pixel_edge.h"
 #include "core/contour/polyline_tools.h"
 
 namespace batten {
@@ -25,7 +27,6 @@ constexpr int kBlurRounds = 4;
 constexpr int kTwinRounds = 4;
 constexpr int kBlurSamples = 1500;    // points that vote for the blur
 constexpr int kPointsPerBlock = 512;  // worked on together; the result does not depend on it
-constexpr int kBendHalf = 6;          // points: half window of the curvature filter
 
 // The state of the matched pass, one entry per point.
 struct Matched {
@@ -274,39 +275,67 @@ Matched matchedPass(const ProfileBand& band, bool closed, const RunContext& cont
   return m;
 }
 
-double smallestMagnitude(double a, double b, double c) {
-  if ((a > 0.0) != (b > 0.0) || (b > 0.0) != (c > 0.0)) return 0.0;
-  const double m = std::min({std::abs(a), std::abs(b), std::abs(c)});
-  return a > 0.0 ? m : -m;
+constexpr int kPixelBlurPoints = 300;  // that vote for the blur of the pixel pass
+
+PixelEdge pixelEdge(const Matched& m, std::size_t i, const PixelResponse& response, const Vec2& normal) {
+  return {m.paper[i], static_cast<double>(m.paper[i]) - m.ink[i], m.span[i].inkTwin, m.span[i].paperTwin,
+          response.direction(normal)};
 }
 
-// Blur draws the half level of a curved edge towards its centre of curvature by blur^2 kappa / 2 (the mean of a
-// parabola under a Gaussian). The curvature is the smallest of three windows, so that a corner is not taken for a tight
-// arc.
-void undoCurvatureShift(std::vector<Vec2>& points, const std::vector<Vec2>& normal, bool closed, double blur) {
-  const int n = static_cast<int>(points.size());
-  if (n < 6 * kBendHalf) return;
-  double meanSquare = 0.0, norm = 0.0;
-  for (int j = -kBendHalf; j <= kBendHalf; ++j) meanSquare += j * j;
-  meanSquare /= 2 * kBendHalf + 1;
-  for (int j = -kBendHalf; j <= kBendHalf; ++j) norm += (j * j - meanSquare) * (j * j - meanSquare);
-  const auto at = [&](int i) { return static_cast<std::size_t>(closed ? wrapIndex(i, n) : std::clamp(i, 0, n - 1)); };
-  std::vector<Vec2> bend(points.size());
-  for (int i = 0; i < n; ++i) {
-    Vec2 sum = Vec2::Zero();
-    for (int j = -kBendHalf; j <= kBendHalf; ++j) sum += (j * j - meanSquare) * points[at(i + j)];
-    const double chord = (points[at(i + kBendHalf)] - points[at(i - kBendHalf)]).norm() / (2 * kBendHalf);
-    bend[at(i)] = chord > 0.0 ? Vec2(2.0 * sum / (norm * chord * chord)) : Vec2(Vec2::Zero());
+bool readWindow(const GreyImage& grey, const Vec2& base, const Vec2& normal, const Matched& m, std::size_t i,
+                double reach, PixelWindow& window) {
+  const EdgeSpan& span = m.span[i];
+  if (span.contrast <= 0.0 || m.paper[i] - m.ink[i] < kSmallestContrast) return false;
+  window.read(grey, base, normal, std::max(span.lo - 0.25, m.position[i] - reach),
+              std::min(span.hi + 0.25, m.position[i] + reach));
+  return !window.pixels.empty();
+}
+
+// The blur of the light, without that of the pixels themselves, which explains a sample of the points best.
+int pixelBlur(const GreyImage& grey, const std::vector<Vec2>& base, const std::vector<Vec2>& normal, const Matched& m) {
+  const std::size_t stride = std::max<std::size_t>(1, base.size() / kPixelBlurPoints);
+  const auto left = [&](int index) {
+    const PixelResponse& response = PixelResponse::forBlur(index);
+    PixelWindow window;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < base.size(); i += stride) {
+      if (!readWindow(grey, base[i], normal[i], m, i, PixelResponse::forBlur(PixelResponse::kBlurs - 1).reach(),
+                      window))
+        continue;
+      const PixelEdge edge = pixelEdge(m, i, response, normal[i]);
+      sum += std::min(
+          squaresLeft(window, response, edge, mostLikelyPosition(window, response, edge, m.position[i], 0.5)), 1e9);
+    }
+    return sum;
+  };
+  const double start = std::sqrt(std::max(0.0, m.blur * m.blur - kPixelVariance));
+  int best =
+      std::clamp(static_cast<int>(std::lround(start / PixelResponse::kStepPx)) - 1, 0, PixelResponse::kBlurs - 1);
+  double least = left(best);
+  for (const int step : {-1, 1}) {
+    for (int next = best + step; next >= 0 && next < PixelResponse::kBlurs; next += step) {
+      const double sum = left(next);
+      if (!(sum < least)) break;
+      least = sum;
+      best = next;
+    }
   }
-  std::vector<double> shift(points.size());
-  for (int i = 0; i < n; ++i) {
-    const Vec2& unit = normal[at(i)];
-    const double kappa =
-        smallestMagnitude(bend[at(i)].dot(unit), bend[at(i - kBendHalf)].dot(normal[at(i - kBendHalf)]),
-                          bend[at(i + kBendHalf)].dot(normal[at(i + kBendHalf)]));
-    shift[at(i)] = -0.5 * blur * blur * std::clamp(kappa, -0.2, 0.2);
-  }
-  for (int i = 0; i < n; ++i) points[at(i)] += shift[at(i)] * normal[at(i)];
+  return best;
+}
+
+// Last pass, on the raw pixels, which know nothing of the phase between profile and grid. Returns the blur used.
+double pixelPass(const GreyImage& grey, const std::vector<Vec2>& base, const std::vector<Vec2>& normal, Matched& m,
+                 const RunContext& context) {
+  const PixelResponse& response = PixelResponse::forBlur(pixelBlur(grey, base, normal, m));
+  parallelFor(context, static_cast<int>(base.size()), kPointsPerBlock, [&](int begin, int end) {
+    PixelWindow window;
+    for (int k = begin; k < end; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (!readWindow(grey, base[i], normal[i], m, i, response.reach() + 0.5, window)) continue;
+      m.position[i] = mostLikelyPosition(window, response, pixelEdge(m, i, response, normal[i]), m.position[i], 0.5);
+    }
+  });
+  return std::sqrt(response.blur() * response.blur() + kPixelVariance + PixelWindow::kVariance);
 }
 
 // Points must advance along the line: a step backwards is replaced by the way between its neighbours.
@@ -342,10 +371,12 @@ void refineOutline(Contour& contour, const GreyImage& grey, const RunContext& co
   if (context.isCancelled()) return;
   const ProfileBand band = sampleProfiles(grey, base, normal, true, context);
   if (context.isCancelled()) return;
-  const Matched m = matchedPass(band, contour.closed, context);
+  Matched m = matchedPass(band, contour.closed, context);
+  if (context.isCancelled()) return;
+  const double blur = pixelPass(grey, base, normal, m, context);
   std::vector<Vec2> found(n);
   for (std::size_t i = 0; i < n; ++i) found[i] = base[i] + m.position[i] * normal[i];
-  undoCurvatureShift(found, normal, contour.closed, m.blur);
+  undoCurvatureShift(found, normal, contour.closed, blur);
   const std::vector<Vec2> fallback = smoothPolyline(contour.chain, contour.closed, 1.5);
   for (std::size_t i = 0; i < n; ++i) {
     if (onPageBorder(contour.chain[i], grey)) continue;

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline_pixels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/base/parallel.h"
+#include "core/contour/curvature_shift.h"
+#include "core/contour/pixel_edge.h"
+#include "core/contour/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr double kToneSigma = 6.0;         // points: ink and paper change slowly along a stroke
+constexpr double kFarthestPx = 0.3;        // from the half levels
+constexpr double kSmallestContrast = 4.0;  // [grey]
+constexpr double kProfileVariance = 0.42;  // [px^2] of the smoothing that a profile's middle has seen: .5 px, bilinear
+constexpr std::size_t kBlurPoints = 400;   // that vote for the blur
+constexpr std::size_t kGainPoints = 60;    // of a stroke that vote for its darkness
+constexpr int kNewtonSteps = 4;
+constexpr double kLargestStepPx = 0.25, kSettledPx = 5e-4;
+
+struct Stroke {
+  double middle = 0.0, width = 1.0;  // [px]
+};
+
+struct StrokeModel {
+  double paper, slope, contrast;
+  int direction;
+};
+
+int blurIndex(double blur) {
+  return std::clamp(static_cast<int>(std::lround(blur / PixelResponse::kStepPx)) - 1, 0, PixelResponse::kBlurs - 1);
+}
+
+/// The darkness of a stroke without blur: the profile's middle has lost some of it to the paper.
+double fullContrast(double measured, double width, const PixelResponse& response, int direction) {
+  const PixelResponse& wide =
+      PixelResponse::forBlur(blurIndex(std::sqrt(response.blur() * response.blur() + kProfileVariance)));
+  double part = 0.0;
+  for (const double u : {-0.2 * width, 0.0, 0.2 * width})
+    part += (wide.at(u + 0.5 * width, direction).part - wide.at(u - 0.5 * width, direction).part) / 3.0;
+  return measured / std::max(0.2, part);
+}
+
+double inkPart(const PixelResponse& response, const StrokeModel& m, const Stroke& s, double distance) {
+  const double u = distance - s.middle;
+  return response.at(u + 0.5 * s.width, m.direction).part - response.at(u - 0.5 * s.width, m.direction).part;
+}
+
+double squaresLeft(const PixelWindow& window, const PixelResponse& response, const StrokeModel& m, const Stroke& s) {
+  double sum = 0.0;
+  for (const PixelWindow::Pixel& p : window.pixels) {
+    const double e = p.grey - (m.paper + m.slope * p.distance - m.contrast * inkPart(response, m, s, p.distance));
+    sum += p.weight * e * e;
+  }
+  return sum;
+}
+
+/// Newton steps for both borders.
+std::optional<Stroke> mostLikely(const PixelWindow& window, const PixelResponse& response, const StrokeModel& m,
+                                 double width) {
+  double low = -0.5 * width, high = 0.5 * width;
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    double ll = 0.0, lh = 0.0, hh = 0.0, l = 0.0, h = 0.0;
+    for (const PixelWindow::Pixel& p : window.pixels) {
+      const auto in = response.at(p.distance - low, m.direction), out = response.at(p.distance - high, m.direction);
+      const double e = p.grey - (m.paper + m.slope * p.distance - m.contrast * (in.part - out.part));
+      const double dl = m.contrast * in.slope, dh = -m.contrast * out.slope;
+      ll += p.weight * dl * dl;
+      lh += p.weight * dl * dh;
+      hh += p.weight * dh * dh;
+      l += p.weight * dl * e;
+      h += p.weight * dh * e;
+    }
+    const double det = ll * hh - lh * lh;
+    if (!(det > 1e-3 * ll * hh)) return std::nullopt;
+    const double moveLow = std::clamp((hh * l - lh * h) / det, -kLargestStepPx, kLargestStepPx);
+    const double moveHigh = std::clamp((ll * h - lh * l) / det, -kLargestStepPx, kLargestStepPx);
+    low += moveLow;
+    high += moveHigh;
+    if (!(high - low > 0.2)) return std::nullopt;
+    if (std::abs(moveLow) + std::abs(moveHigh) < kSettledPx) break;
+  }
+  return Stroke{0.5 * (low + high), high - low};
+}
+
+/// Tones and widths as they are along the stroke, without the noise of single profiles.
+struct Smoothed {
+  std::vector<float> contrast, paper, slope, width;
+};
+
+Smoothed smoothed(const StrandCourse& c) {
+  const std::size_t n = c.base.size();
+  std::vector<float> weight(n), contrast(n), paper(n), slope(n), width(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!c.measured[i] || c.tone[i].contrast <= 0.0f) continue;
+    weight[i] = 1.0f;
+    contrast[i] = c.tone[i].contrast;
+    paper[i] = c.tone[i].paper;
+    slope[i] = c.tone[i].slope;
+    width[i] = c.measuredWidth[i];
+  }
+  const std::vector<float> sum = smoothValues(weight, c.closed, kToneSigma);
+  const auto mean = [&](const std::vector<float>& v) {
+    std::vector<float> out = smoothValues(v, c.closed, kToneSigma);
+    for (std::size_t i = 0; i < n; ++i) out[i] = sum[i] > 0.0f ? out[i] / sum[i] : 0.0f;
+    return out;
+  };
+  return {mean(contrast), mean(paper), mean(slope), mean(width)};
+}
+
+class Placer {
+ public:
+  Placer(const StrandCourse& course, const GreyImage& grey) : c_(course), grey_(grey), s_(smoothed(course)) {}
+
+  bool canPlace(std::size_t i) const {
+    return c_.measured[i] && c_.part[i] == StrandPart::Ink && s_.contrast[i] > kSmallestContrast;
+  }
+  /// Measures by how much the darkness that profiles show differs from that of the pixels' own model.
+  void tune(const PixelResponse& response, PixelWindow& window) {
+    const std::size_t stride = std::max<std::size_t>(1, c_.base.size() / kGainPoints);
+    double top = 0.0, bottom = 0.0;
+    for (std::size_t i = 0; i < c_.base.size(); i += stride) {
+      if (!canPlace(i)) continue;
+      const auto stroke = place(i, response, window);
+      if (!stroke) continue;
+      const StrokeModel m = modelAt(i, response);
+      for (const PixelWindow::Pixel& p : window.pixels) {
+        const double model = m.contrast * inkPart(response, m, *stroke, p.distance);
+        top += p.weight * model * (m.paper + m.slope * p.distance - p.grey);
+        bottom += p.weight * model * model;
+      }
+    }
+    if (bottom > 0.0) gain_ *= std::clamp(top / bottom, 0.8, 1.25);
+  }
+  /// The stroke at point i and, where asked for, what the model leaves there.
+  std::optional<Stroke> place(std::size_t i, const PixelResponse& response, PixelWindow& window,
+                              double* left = nullptr) const {
+    const Vec2 normal = leftNormal(c_.tangent[i]);
+    const double width = s_.width[i];
+    const double reach = std::min(0.5 * width + response.reach() + kFarthestPx, static_cast<double>(c_.tone[i].reach));
+    window.read(grey_, c_.base[i], normal, -reach, reach);
+    const StrokeModel m = modelAt(i, response);
+    const auto stroke = mostLikely(window, response, m, width);
+    if (!stroke || std::abs(stroke->middle) > kFarthestPx || std::abs(stroke->width - width) > 0.3 * width + 0.3)
+      return std::nullopt;
+    if (left) *left = squaresLeft(window, response, m, *stroke);
+    return stroke;
+  }
+
+ private:
+  StrokeModel modelAt(std::size_t i, const PixelResponse& response) const {
+    StrokeModel m{s_.paper[i], s_.slope[i], 0.0, response.direction(leftNormal(c_.tangent[i]))};
+    m.contrast = gain_ * fullContrast(s_.contrast[i], s_.width[i], response, m.direction);
+    return m;
+  }
+
+  const StrandCourse& c_;
+  const GreyImage& grey_;
+  Smoothed s_;
+  double gain_ = 1.0;
+};
+
+int pageBlur(const std::vector<StrandCourse>& courses, const std::vector<Placer>& placers) {
+  struct Place {
+    std::size_t course, point;
+  };
+  std::vector<Place> all, some;
+  for (std::size_t c = 0; c < courses.size(); ++c)
+    for (std::size_t i = 0; i < courses[c].base.size(); i += 5)
+      if (placers[c].canPlace(i)) all.push_back({c, i});
+  const std::size_t stride = std::max<std::size_t>(1, all.size() / kBlurPoints);
+  for (std::size_t k = 0; k < all.size(); k += stride) some.push_back(all[k]);
+  const auto left = [&](int index) {
+    PixelWindow window;
+    std::vector<double> squares;
+    for (const Place& p : some) {
+      double sum = 0.0;
+      if (placers[p.course].place(p.point, PixelResponse::forBlur(index), window, &sum)) squares.push_back(sum);
+    }
+    if (squares.size() < some.size() / 2 || squares.empty()) return 1e300;  // does not describe these strokes
+    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+    std::nth_element(squares.begin(), middle, squares.end());
+    return *middle;
+  };
+  constexpr int kStart = 12;  // .65 px
+  int best = kStart;
+  double least = left(best);
+  for (const int step : {-1, 1}) {
+    for (int next = best + step; next >= 0 && next < PixelResponse::kBlurs; next += step) {
+      const double sum = left(next);
+      if (!(sum < least)) break;
+      least = sum;
+      best = next;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+void placeOnPixels(std::vector<StrandCourse>& courses, const GreyImage& grey, const RunContext& context) {
+  std::vector<Placer> placers;
+  for (const StrandCourse& c : courses) placers.emplace_back(c, grey);
+  const PixelResponse& response = PixelResponse::forBlur(pageBlur(courses, placers));
+  const double blur = std::sqrt(response.blur() * response.blur() + kPixelVariance + PixelWindow::kVariance);
+  parallelFor(context, static_cast<int>(courses.size()), 1, [&](int begin, int end) {
+    PixelWindow window;
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      StrandCourse& c = courses[k];
+      placers[k].tune(response, window);
+      placers[k].tune(response, window);
+      std::vector<Vec2> normal;
+      for (const Vec2& t : c.tangent) normal.push_back(leftNormal(t));
+      for (std::size_t i = 0; i < c.base.size(); ++i) {
+        if (!placers[k].canPlace(i)) continue;
+        const auto stroke = placers[k].place(i, response, window);
+        if (!stroke) continue;
+        c.shift[i] = static_cast<float>(stroke->middle);
+        c.measuredWidth[i] = static_cast<float>(stroke->width);
+      }
+      for (std::size_t i = 0; i < c.base.size(); ++i) c.base[i] += static_cast<double>(c.shift[i]) * normal[i];
+      std::fill(c.shift.begin(), c.shift.end(), 0.0f);
+      undoCurvatureShift(c.base, normal, c.closed, blur);
+    }
+  });
+}
+
+}  // namespace batten
