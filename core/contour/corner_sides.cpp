@@ -4,6 +4,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
 #include <vector>
 
 #include "core/contour/polyline_tools.h"
@@ -16,11 +19,11 @@ constexpr double kUnrefinedWeight = 0.02;  // points known to the pixel only, or
 constexpr double kSteepest = 0.8;          // slope against the axis up to which a side is a function of x
 constexpr double kPriorDensity = 0.01;     // [px^2 px] noise of an edge in an ordinary scan, worth kPriorBlocks blocks
 constexpr double kPriorBlocks = 3.0;
-constexpr double kLeastDensity = 0.0064;  // [px^2 px] what the pixel grid leaves: .02 px over 16 px
-constexpr double kTrendLimit = 7.8;       // chi squared of three trends: one in twenty by chance
-constexpr int kTrends = 3;
-constexpr double kAgree = 2.0;  // [standard deviations] by which higher orders may move the end
-constexpr double kShortestPx = 8.0, kLengthStep = 1.26;
+constexpr double kLeastDensity = 0.0006;  // [px^2 px] what the pixel grid leaves: .02 px over 16 px
+constexpr std::size_t kFewestBlocks = 3;
+// [px] Waves shorter than these are noise: what the side may be, from scribble to spline.
+constexpr double kShortestCutoffPx = 40.0, kLongestCutoffPx = 1100.0, kCutoffStep = 1.6;
+constexpr double kStartPx = 100.0, kStartSlope = 2.0;  // what a side may be at its far end, along its axis
 
 struct Block {
   double x = 0.0, y = 0.0, weight = 0.0;
@@ -120,93 +123,175 @@ double noiseDensity(const std::vector<Block>& blocks, std::size_t group) {
   return std::max(kLeastDensity, (measured * count + kPriorDensity * kPriorBlocks) / (count + kPriorBlocks));
 }
 
-constexpr int kMostTerms = CornerSide::kMostDegree + kTrends + 1;
+using State = Eigen::Vector4d;  // y and its derivatives 1 to 3 on the way towards the corner
+using Spread = Eigen::Matrix4d;
 
-void legendre(double z, int terms, double* p) {
-  p[0] = 1.0;
-  if (terms > 1) p[1] = z;
-  for (int k = 2; k < terms; ++k) p[k] = ((2 * k - 1) * z * p[k - 1] - (k - 1) * p[k - 2]) / k;
-}
-
-struct Candidate {
-  Eigen::VectorXd coefficient;  // of Legendre polynomials over the stretch
-  double end = 0.0;             // [px] at x = 0
-  double variance = -1.0;       // [px^2] of that; < 0: no fit
-  bool describes = false;       // its points, and where they lead, as well as higher orders do
-  double from = 0.0, to = 0.0;  // [px]
+// What a side may be: a line, an arc, or a course whose fourth derivative is white noise.
+struct Model {
+  enum class Kind { Line, Arc, Free } kind = Kind::Free;
+  double tau2 = 0.0;  // density of that noise
 };
 
-Candidate fitDegree(const std::vector<Block>& blocks, std::size_t count, int degree, double density) {
-  Candidate result;
-  const int terms = degree + 1;
-  const int all = std::min<int>(terms + kTrends, static_cast<int>(count));
-  if (static_cast<int>(count) < terms + 1) return result;
-  const double a = blocks.front().x, b = blocks[count - 1].x;
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(all, all);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(all);
-  double p[kMostTerms];
-  double mean = 0.0;
-  for (std::size_t i = 0; i < count; ++i) mean += blocks[i].weight / static_cast<double>(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    legendre((2.0 * blocks[i].x - a - b) / (b - a), all, p);
-    const Eigen::Map<Eigen::VectorXd> row(p, all);
-    const double w = blocks[i].weight / mean;
-    normal.noalias() += w * row * row.transpose();
-    right.noalias() += w * blocks[i].y * row;
+// The circle nearest to blocks (Kasa: algebraic least squares) as a function over the axis, which a parabola is not.
+class CircleBase {
+ public:
+  CircleBase() = default;
+  explicit CircleBase(std::span<const Block> blocks) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    const double x0 = blocks.front().x, y0 = blocks.front().y;
+    for (const Block& b : blocks) {
+      const double x = b.x - x0, y = b.y - y0;
+      const Eigen::Vector3d row(2.0 * x, 2.0 * y, 1.0);
+      normal += b.weight * row * row.transpose();
+      right += b.weight * (x * x + y * y) * row;
+    }
+    const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
+    if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 0.0)) return;
+    const Eigen::Vector3d c = solver.solve(right);
+    const double radius = std::sqrt(c[2] + c[0] * c[0] + c[1] * c[1]);
+    centreX_ = c[0] + x0;
+    centreY_ = c[1] + y0;
+    const double far = std::max(std::abs(blocks.front().x - centreX_), std::abs(blocks.back().x - centreX_));
+    if (!std::isfinite(radius) || radius > kFlattestPx || far > kWidestPart * radius) return;
+    radius_ = centreY_ > y0 ? -radius : radius;
   }
-  const Eigen::LDLT<Eigen::MatrixXd> small(normal.topLeftCorner(terms, terms));
-  if (small.info() != Eigen::Success || !(small.vectorD().minCoeff() > 1e-9 * small.vectorD().maxCoeff()))
-    return result;
-  result.coefficient = small.solve(right.head(terms));
-  const double perBlock = density / kBlockPx;
-  legendre((-a - b) / (b - a), terms, p);
-  const Eigen::Map<Eigen::VectorXd> end(p, terms);
-  result.variance = perBlock * end.dot(small.solve(end));
-  result.end = end.dot(result.coefficient);
-  result.from = a;
-  result.to = b;
-  // What the further terms explain, in units of the noise, and how far they move the end.
-  result.describes = true;
-  double ends[kMostTerms];
-  legendre((-a - b) / (b - a), all, ends);
-  for (int more = terms + 1; more <= all && result.describes; ++more) {
-    const Eigen::LDLT<Eigen::MatrixXd> large(normal.topLeftCorner(more, more));
-    const Eigen::VectorXd wide = large.solve(right.head(more));
-    const Eigen::Map<Eigen::VectorXd> wideEnd(ends, more);
-    const double chi = (wide.dot(right.head(more)) - result.coefficient.dot(right.head(terms))) / perBlock;
-    const double change = wideEnd.dot(wide) - result.end;
-    const double spread = perBlock * wideEnd.dot(large.solve(wideEnd)) - result.variance;
-    result.describes = chi <= kTrendLimit && change * change <= kAgree * kAgree * spread;
+  // Height and its derivatives 1 to 3 with respect to x; 0 where there is no circle.
+  State at(double x) const {
+    if (!(radius_ != 0.0)) return State::Zero();
+    const double dx = x - centreX_, root = std::sqrt(radius_ * radius_ - dx * dx), sign = radius_ > 0.0 ? 1.0 : -1.0;
+    const double p = -dx / root, q = -(1.0 + p * p) / root, r = -3.0 * p * q / root;
+    return {centreY_ + sign * root, sign * p, sign * q, sign * r};
+  }
+
+ private:
+  static constexpr double kFlattestPx = 1e5, kWidestPart = 0.9;
+  double centreX_ = 0.0, centreY_ = 0.0, radius_ = 0.0;
+};
+
+// What of the derivatives is open where a model begins.
+State openOf(const State& start, Model::Kind kind) {
+  State spread = start;
+  if (kind != Model::Kind::Free) spread[3] = 0.0;
+  if (kind == Model::Kind::Line) spread[2] = 0.0;
+  return spread;
+}
+
+struct Followed {
+  State mean = State::Zero();
+  Spread spread = Spread::Zero();
+  double logLikelihood = 0.0;
+};
+
+// One step of length h towards the corner.
+void goTo(Followed& f, double h, double tau2) {
+  Spread go = Spread::Identity();
+  for (int i = 0; i < 4; ++i)
+    for (int j = i + 1; j < 4; ++j) go(i, j) = go(i, j - 1) * h / (j - i);
+  f.mean = go * f.mean;
+  f.spread = go * f.spread * go.transpose();
+  if (!(tau2 > 0.0)) return;
+  static constexpr double kRest[4] = {6.0, 2.0, 1.0, 1.0};
+  const double h2 = h * h, odd[7] = {h, h2, h2 * h, h2 * h2, h2 * h2 * h, h2 * h2 * h2, h2 * h2 * h2 * h};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) f.spread(i, j) += tau2 * odd[6 - i - j] / ((7 - i - j) * kRest[i] * kRest[j]);
+}
+
+void learn(Followed& f, const Block& block, double perBlock) {
+  const double variance = f.spread(0, 0) + perBlock / block.weight;
+  const double miss = block.y - f.mean[0];
+  f.logLikelihood -= 0.5 * (miss * miss / variance + std::log(variance));
+  const State gain = f.spread.col(0) / variance;
+  f.mean += gain * miss;
+  f.spread -= gain * f.spread.row(0).eval();
+}
+
+// Through blocks from the farthest to the nearest.
+// @param sums if given, raised to the logarithm of the likelihood of the blocks from each one on.
+Followed follow(std::span<const Block> blocks, const Model& model, const State& start, double perBlock,
+                std::vector<double>* sums) {
+  const CircleBase base = model.kind == Model::Kind::Arc ? CircleBase(blocks) : CircleBase();
+  const auto about = [&](Block b) {
+    b.y -= base.at(b.x)[0];
+    return b;
+  };
+  Followed f;
+  f.mean[0] = about(blocks.back()).y;
+  f.spread = openOf(start, model.kind).cwiseAbs2().asDiagonal();
+  for (std::size_t k = blocks.size(); k-- > 0;) {
+    if (k + 1 < blocks.size()) goTo(f, blocks[k + 1].x - blocks[k].x, model.tau2);
+    learn(f, about(blocks[k]), perBlock);
+    if (sums) (*sums)[k] = std::max((*sums)[k], f.logLikelihood);
+  }
+  f.mean += State(1.0, -1.0, 1.0, -1.0).cwiseProduct(base.at(blocks.front().x));  // against x
+  return f;
+}
+
+// The mean over all that a side may be and over how far from the corner on it is that, each as likely as the points
+// make it. What lies beyond is a course of its own: a side may come round another corner.
+struct Extension {
+  Followed f;
+  std::size_t count = 0;  // blocks of the most likely one
+};
+
+Extension extend(const std::vector<Block>& blocks, double density) {
+  std::vector<Model> models{{Model::Kind::Line}, {Model::Kind::Arc}};
+  for (double cutoff = kShortestCutoffPx; cutoff < kLongestCutoffPx; cutoff *= kCutoffStep)
+    models.push_back({Model::Kind::Free, density / std::pow(cutoff / (2.0 * std::numbers::pi), 8)});
+  const double oneOfFree = std::log(static_cast<double>(models.size() - 2));
+  double weight = 0.0;
+  for (const Block& b : blocks) weight += b.weight / static_cast<double>(blocks.size());
+  const double perBlock = density / kBlockPx * weight;
+  // What a side and its derivatives may be at its far end: it turns by a radian or two along its way, no more, because
+  // it stays a function of its axis.
+  const double length = std::max(kBlockPx, blocks.back().x - blocks.front().x);
+  const State start(kStartPx, kStartSlope, 2.0 / length, 4.0 / (length * length));
+  std::vector<double> beyond(blocks.size() + 1, -std::numeric_limits<double>::infinity());
+  beyond.back() = 0.0;
+  struct Choice {
+    Followed f;
+    double evidence;
+    std::size_t count;
+  };
+  std::vector<Choice> all;
+  for (std::size_t count = blocks.size(); count >= kFewestBlocks; count = count * 7 / 10) {
+    const bool whole = count == blocks.size();
+    for (const Model& model : models) {
+      const Followed f = follow(std::span(blocks).first(count), model, start, perBlock, whole ? &beyond : nullptr);
+      // A line, an arc and a free course are as likely before anything is known.
+      all.push_back({f, f.logLikelihood - (model.kind == Model::Kind::Free ? oneOfFree : 0.0), count});
+    }
+  }
+  double best = -std::numeric_limits<double>::infinity();
+  Extension result;
+  for (Choice& c : all) {
+    // A course may change anywhere; the stretches are spaced by ratios.
+    if (c.count < blocks.size())
+      c.evidence += beyond[c.count] + std::log(static_cast<double>(c.count) / static_cast<double>(blocks.size()));
+    if (c.evidence > best) best = c.evidence, result.count = c.count;
+  }
+  double total = 0.0;
+  for (const Choice& c : all) total += std::exp(c.evidence - best);
+  // At one place for all: the nearest block.
+  for (const Choice& c : all) result.f.mean += std::exp(c.evidence - best) / total * c.f.mean;
+  for (const Choice& c : all) {
+    const State off = c.f.mean - result.f.mean;
+    result.f.spread += std::exp(c.evidence - best) / total * (c.f.spread + off * off.transpose());
   }
   return result;
 }
 
-// Legendre polynomials to powers of z.
-void toPowers(const Eigen::VectorXd& legendre, CornerSide& side) {
-  static constexpr double kPowers[CornerSide::kMostDegree + 1][CornerSide::kMostDegree + 1] = {
-      {1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}, {-0.5, 0, 1.5, 0, 0}, {0, -1.5, 0, 2.5, 0}, {0.375, 0, -3.75, 0, 4.375}};
-  side.coefficient = {};
-  for (Eigen::Index k = 0; k < legendre.size(); ++k)
-    for (std::size_t j = 0; j < side.coefficient.size(); ++j)
-      side.coefficient[j] += legendre[k] * kPowers[static_cast<std::size_t>(k)][j];
-}
-
-// Among all orders over all stretches.
-Candidate bestOf(const std::vector<Block>& blocks, double density) {
-  Candidate best;
-  for (double length = kShortestPx;; length *= kLengthStep) {
-    std::size_t count = 0;
-    while (count < blocks.size() && blocks[count].x <= blocks.front().x + length) ++count;
-    for (int degree = 1; degree <= CornerSide::kMostDegree; ++degree) {
-      Candidate c = fitDegree(blocks, count, degree, density);
-      if (c.variance < 0.0) continue;
-      // Something first, then anything that describes its points, then the better known one.
-      if (best.variance >= 0.0 && !(c.describes && (!best.describes || c.variance < best.variance))) continue;
-      best = std::move(c);
-    }
-    if (count == blocks.size()) break;
-  }
-  return best;
+// The cubic that goes on from the last state, as a side; the state runs against x.
+void goOn(const Followed& f, double from, double to, CornerSide& side) {
+  side.degree = 3;
+  side.from = from;
+  side.to = std::max(to, from + 1.0);
+  const double half = 0.5 * (side.to - side.from);  // x - from = half (z + 1)
+  const double w[4] = {f.mean[0], -f.mean[1] * half, f.mean[2] / 2.0 * half * half,
+                       -f.mean[3] / 6.0 * half * half * half};
+  side.coefficient = {w[0] + w[1] + w[2] + w[3], w[1] + 2.0 * w[2] + 3.0 * w[3], w[2] + 3.0 * w[3], w[3], 0.0};
+  const State row(1.0, from, from * from / 2.0, from * from * from / 6.0);
+  side.sigmaPx = std::sqrt(std::max(0.0, row.dot(f.spread * row)));
 }
 
 }  // namespace
@@ -235,14 +320,9 @@ CornerSide fitCornerSide(const Contour& contour, int index, int side, double inn
   if (!(best.along.norm() > 0.5)) return best;
   const std::vector<Block> blocks = blocksOf(points, best);
   const double density = noiseDensity(blocks, contour.kind == ContourKind::Outline ? 2 : 4);
-  const Candidate candidate = bestOf(blocks, density);
-  const Candidate* chosen = &candidate;
-  if (candidate.variance < 0.0) return best;
-  best.degree = static_cast<int>(chosen->coefficient.size()) - 1;
-  best.from = chosen->from;
-  best.to = chosen->to;
-  best.sigmaPx = std::sqrt(chosen->variance);
-  toPowers(chosen->coefficient, best);
+  if (blocks.size() < kFewestBlocks) return best;
+  const Extension extension = extend(blocks, density);
+  goOn(extension.f, blocks.front().x, blocks[extension.count - 1].x, best);
   return best;
 }
 

@@ -7,14 +7,15 @@
 
 namespace batten {
 
-/// One side of a corner as a polynomial over a straight axis, ready to be extended to the corner and beyond.
+/// One side of a corner as a polynomial over a straight axis, ready to be extended to the corner and beyond; away from
+/// the corner, beyond `from`, it need not follow the points.
 struct CornerSide {
   static constexpr int kMostDegree = 4;
   Vec2 origin = Vec2::Zero();                         ///< [px] the contour point that the fit started from.
   Vec2 along = Vec2::Zero();                          ///< Unit axis, pointing away from the corner.
   Vec2 across = Vec2::Zero();                         ///< Unit, along turned by 90 degrees.
   std::array<double, kMostDegree + 1> coefficient{};  ///< [px] of powers of z, which is -1 at `from` and 1 at `to`.
-  int degree = -1;                                    ///< -1: no fit.
+  int degree = -1;                                    ///< -1: no fit; else 3.
   double from = 0.0;                                  ///< [px] the points used begin here...
   double to = 0.0;                                    ///< ...and end here, along the axis.
   double sigmaPx = 0.0;  ///< [px] standard deviation of the side where it is extended to x = 0.
@@ -23,11 +24,11 @@ struct CornerSide {
   Vec2 derivative(double x) const;
 };
 
-/// Fits the side +1 (along the contour) or -1 (against it) of a point to the points `inner`..`outer` [px of arc] away.
-/// Polynomials of order 1 to 4 over stretches of growing length extend it to the corner, each with a known variance,
-/// which falls with the length and rises with the square of the order. The one with the least variance is taken among
-/// those that neither the points nor the place of the extension contradict: up to three further orders explain no more
-/// than noise and do not move the end by more than twice what noise would.
+/// Fits the side +1 (along the contour) or -1 (against it) of a point to the points `inner`..`outer` [px of arc] away
+/// and extends it to the corner. A side is a line, an arc, or a course whose fourth derivative is white noise of some
+/// density (a quintic-like spline, as in the fair fit), from the corner up to some place where it goes over into
+/// another course; the result is the mean over all of these, each as likely as the points make it (Kalman filter
+/// towards the corner, marginal likelihood). `sigmaPx` holds the noise and what is uncertain about the choice.
 CornerSide fitCornerSide(const Contour& contour, int index, int side, double inner, double outer);
 
 }  // namespace batten
