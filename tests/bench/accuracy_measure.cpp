@@ -15,7 +15,6 @@ constexpr double kCornerZonePx = 10.0;
 constexpr double kFoundWithinPx = 2.0, kStrayPx = 6.0, kCornerWithinPx = 4.0;
 constexpr double kProminence = 5e-3;  // of kappa times the diagonal
 constexpr double kSamplePx = 0.5;
-constexpr double kAcuteRad = 40.0 * std::numbers::pi / 180.0;
 
 /// Where the truth is nearest to a place.
 struct Foot {
@@ -272,9 +271,9 @@ void measureCorners(const TruthShape& shape, const std::vector<Vec2>& corners, A
   for (std::size_t i = 0; i < shape.corners.size(); ++i) {
     double best = std::numeric_limits<double>::infinity();
     for (const Vec2& corner : corners) best = std::min(best, (corner - shape.corners[i]).norm());
-    if (best > kCornerWithinPx) continue;
-    ++result.cornersFound;
-    (openingAt(shape, i) < kAcuteRad ? result.acuteErrorPx : result.cornerErrorPx).push_back(best);
+    if (best > kCornerWithinPx) best = std::numeric_limits<double>::infinity();
+    result.corners.push_back({i, openingAt(shape, i) * 180.0 / std::numbers::pi, best});
+    if (best <= kCornerWithinPx) ++result.cornersFound;
   }
 }
 

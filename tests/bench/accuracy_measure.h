@@ -39,8 +39,12 @@ struct Accuracy {
   int trueExtrema = 0;
   int cornersFound = 0;  ///< True corners with one found within 4 px.
   int cornersTrue = 0;
-  std::vector<double> cornerErrorPx;  ///< Of the found ones whose sides open by 40 degrees or more.
-  std::vector<double> acuteErrorPx;   ///< Of the sharper ones.
+  struct CornerError {
+    std::size_t corner = 0;   ///< Of the shape.
+    double openingDeg = 0.0;  ///< Between its sides; 180 would be none.
+    double errorPx = 0.0;     ///< Infinite: not found.
+  };
+  std::vector<CornerError> corners;  ///< All true ones.
 };
 
 /// `borderPx`: the curves are compared with the lines this far on either side of the truth (a tracer that gives both
