@@ -9,6 +9,7 @@
 #include "core/construct/fair_piece.h"
 #include "core/construct/fair_reduce.h"
 #include "core/construct/fair_structure.h"
+#include "core/construct/fair_turns.h"
 
 namespace batten {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 constexpr double kPinPrecisionPx = 1e-3;  // the rest of the way a linear shift does
 constexpr int kChecksPerSpan = 4, kFineChecksPerSpan = 8;
 constexpr int kRefinements = 3;
-constexpr double kWrongWay = 2e-3;  // [1/diagonal] curvature that may turn back unasked before the frame is refined
+constexpr double kWrongWay = 2e-3;      // [1/diagonal] curvature that may turn back unasked before the frame is refined
 constexpr double kLeastNoisePx = 0.02;  // systematic error of edges on perfect pages
 constexpr double kKappaShare = 2.0;     // of the share of the noise, for the curvature
 constexpr double kCornerReachPx = 16.0;  // an end may lie this far beyond the curve of the moment
@@ -46,9 +47,16 @@ Result<NurbsCurve> placed(const Result<NurbsCurve>& curve, const FairPiece& piec
 
 class Finish {
  public:
-  Finish(FairPiece& piece, const ConstructPiece& in, double pixelMm, double s0, double cutoffPx,
+  Finish(FairPiece& piece, const ConstructPiece& in, double pixelMm, double s0, double cutoffPx, bool willBeCut,
          const FairFitOptions& options, const RunContext& context)
-      : piece_(piece), in_(in), pixelMm_(pixelMm), s0_(s0), cutoffPx_(cutoffPx), options_(options), context_(context) {}
+      : piece_(piece),
+        in_(in),
+        pixelMm_(pixelMm),
+        s0_(s0),
+        cutoffPx_(cutoffPx),
+        willBeCut_(willBeCut),
+        options_(options),
+        context_(context) {}
 
   void run() {
     if (!piece_.frame) return simple(kShortNote);
@@ -87,6 +95,7 @@ class Finish {
     auto local =
         localPosterior(frame_, s0_, uniformPrior(frame_, s0_, cutoffPx_), options_.emRounds, options_.emWidthPx);
     if (!local || context_.isCancelled()) return false;
+    if (willBeCut_ && in_.wishes.empty() && leavesItsPoints(local->mean)) return true;
     double circleCost = std::numeric_limits<double>::quiet_NaN();
     const std::vector<PlacedWish> wishes = placedWishes();
     const bool keeps = std::any_of(wishes.begin(), wishes.end(), [](const PlacedWish& w) { return w.keep; });
@@ -102,6 +111,19 @@ class Finish {
     for (FairExtremum& e : found->structure.extrema) e.u = lookUp(oldParameters_, arcLengths_, e.u);
     for (FairExtremum& e : found->dropped) e.u = lookUp(oldParameters_, arcLengths_, e.u);
     return finishCurve(*final, *found, circleCost);
+  }
+
+  /// True, and a result was set, when the smoothing alone leaves the points: no structure brings it back.
+  bool leavesItsPoints(const Eigen::VectorXd& mean) {
+    const auto curve = offsetCurve(frame_.base, mean);
+    if (!curve) return false;
+    auto nurbs = placed(curve->toNurbs(pixelMm_, pixelMm_, Vec2::Zero(), Vec2::Zero()), piece_, in_, pixelMm_);
+    if (!nurbs || strayRanges(closeness(*nurbs, in_, pixelMm_), in_, pixelMm_, false).empty()) return false;
+    report_ = {};
+    report_.why = Termination::Degenerate;
+    report_.note = kPlainNote;
+    piece_.result = ConstructedPiece{std::move(*nurbs), report_};
+    return true;
   }
 
   /// New frame along base + d N, cut to where the piece begins and ends.
@@ -280,12 +302,11 @@ class Finish {
     const std::size_t stride = std::max<std::size_t>(1, frame_.checks.size() / stations);
     std::vector<double> sigma;
     for (std::size_t i = 0; i < frame_.checks.size(); i += stride) {
-      sigma.push_back(std::sqrt(
-          std::max(0.0, BandCholesky::quadratic(posterior.covariance, frame_.checks[i].kappaRow))));
+      sigma.push_back(
+          std::sqrt(std::max(0.0, BandCholesky::quadratic(posterior.covariance, frame_.checks[i].kappaRow))));
     }
     ReduceLimits limits;
-    limits.distancePx =
-        options_.reduceShare * std::max(kLeastNoisePx, std::sqrt(frame_.squares / frame_.pointCount));
+    limits.distancePx = options_.reduceShare * std::max(kLeastNoisePx, std::sqrt(frame_.squares / frame_.pointCount));
     limits.kappaSigma = sigma;
     limits.perSpan = kChecksPerSpan;
     limits.kappaShare = kKappaShare * options_.reduceShare;
@@ -332,6 +353,7 @@ class Finish {
   FairPiece& piece_;
   const ConstructPiece& in_;
   double pixelMm_, s0_, cutoffPx_;
+  bool willBeCut_;
   const FairFitOptions& options_;
   const RunContext& context_;
   FairFrame frame_;
@@ -342,8 +364,8 @@ class Finish {
 }  // namespace
 
 void finishFairPiece(FairPiece& piece, const ConstructPiece& in, double pixelMm, double s0, double cutoffPx,
-                     const FairFitOptions& options, const RunContext& context) {
-  Finish(piece, in, pixelMm, s0, cutoffPx, options, context).run();
+                     bool willBeCut, const FairFitOptions& options, const RunContext& context) {
+  Finish(piece, in, pixelMm, s0, cutoffPx, willBeCut, options, context).run();
 }
 
 }  // namespace batten

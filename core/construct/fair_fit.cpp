@@ -18,8 +18,8 @@ namespace {
 constexpr int kRounds = 3;               // of fits of a contour; stretches are cut where a round has failed
 constexpr double kWhiteDensity = 0.045;  // [px^2 px] of ordinary edge points; where a contour is too short to tell
 
-Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour, const FairFitOptions& options,
-                                                const RunContext& context) {
+Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour, bool willBeCut,
+                                                const FairFitOptions& options, const RunContext& context) {
   const int count = static_cast<int>(contour.pieces.size());
   std::vector<FairPiece> pieces(contour.pieces.size());
   parallelFor(context, count, 1, [&](int begin, int end) {
@@ -40,7 +40,7 @@ Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour,
       const auto at = static_cast<std::size_t>(i);
       if (choice.k[at] < 0) pieces[at].frame.reset();
       const double cutoff = CutoffTable::cutoffPx(std::max(0, choice.k[at]));
-      finishFairPiece(pieces[at], contour.pieces[at], contour.pixelMm, s0, cutoff, options, context);
+      finishFairPiece(pieces[at], contour.pieces[at], contour.pixelMm, s0, cutoff, willBeCut, options, context);
     }
   });
   double squares = 0.0, points = 0.0;
@@ -72,7 +72,7 @@ Result<std::vector<ConstructedPiece>> fitParts(const ConstructContour& contour, 
       counts.push_back(pieces.size());
       std::move(pieces.begin(), pieces.end(), std::back_inserter(stretches.pieces));
     }
-    auto fits = fitPieces(stretches, options, context);
+    auto fits = fitPieces(stretches, round + 1 < kRounds, options, context);
     if (!fits) return fits;
     bool again = false;
     auto next = std::make_move_iterator(fits->begin());

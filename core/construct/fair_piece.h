@@ -28,8 +28,9 @@ struct FairPiece {
 FairPiece prepareFairPiece(const ConstructPiece&, bool isStroke, double pixelMm, const FairFitOptions&);
 
 /// The rest, once noise and cut-off are known: sets `result`, `squares` and `pointCount`. Leaves `result` absent when
-/// cancelled.
-void finishFairPiece(FairPiece&, const ConstructPiece&, double pixelMm, double s0, double cutoffPx,
+/// cancelled. `willBeCut`: a piece whose smoothing already leaves its points will be cut there and fitted again, and
+/// gets no more than that smoothing.
+void finishFairPiece(FairPiece&, const ConstructPiece&, double pixelMm, double s0, double cutoffPx, bool willBeCut,
                      const FairFitOptions&, const RunContext&);
 
 /// Median distance of neighbours; 1 for a single point.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/curve/curve_analysis.h"
@@ -40,29 +41,59 @@ ClosestPoint descend(const NurbsCurve& curve, const Vec2& p, double start, doubl
   return {u, std::sqrt(squared), d[0]};
 }
 
-/// Sample points of a curve, fine enough that each local minimum of a distance has a start value.
-struct StartTable {
+/// Sample points of a curve, fine enough that each local minimum of a distance has a start value: closer where the
+/// curve turns about, so that no hairpin hides between two of them.
+class StartTable {
+ public:
+  explicit StartTable(const NurbsCurve& curve) : curve_(curve) {
+    const std::vector<double> breaks = curve.breaks();
+    const int perSpan = 2 * curve.degree() + 2;
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+      const double step = (breaks[i + 1] - breaks[i]) / perSpan;
+      auto from = curve.derivatives(breaks[i], 1);
+      add(breaks[i], from[0], true);
+      for (int k = 1; k <= perSpan; ++k) {
+        const double low = breaks[i] + step * (k - 1), high = k < perSpan ? breaks[i] + step * k : breaks[i + 1];
+        const auto to = curve.derivatives(high, 1);
+        addBetween(low, from, high, to, kDeepest);
+        if (k < perSpan) add(high, to[0], false);
+        from = to;
+      }
+    }
+    add(curve.end(), curve.point(curve.end()), true);
+  }
+  std::size_t size() const { return u.size(); }
+
   std::vector<double> u;
   std::vector<Vec2> points;
+  std::vector<char> isKnot;
 
-  std::size_t perSpan;
+ private:
+  static constexpr int kDeepest = 6;         // halvings of a step
+  static constexpr double kMostTurn = 0.87;  // cosine of half a radian
+  static constexpr double kMostSag = 0.15;   // of the chord, beside its middle
 
-  explicit StartTable(const NurbsCurve& curve) : perSpan(2 * static_cast<std::size_t>(curve.degree()) + 2) {
-    const std::vector<double> breaks = curve.breaks();
-    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-      const double step = (breaks[i + 1] - breaks[i]) / static_cast<double>(perSpan);
-      for (std::size_t k = 0; k < perSpan; ++k) add(curve, breaks[i] + step * static_cast<double>(k));
-    }
-    add(curve, curve.end());
-  }
-  void add(const NurbsCurve& curve, double at) {
+  void add(double at, const Vec2& point, bool knot) {
     u.push_back(at);
-    points.push_back(curve.point(at));
+    points.push_back(point);
+    isKnot.push_back(knot ? 1 : 0);
   }
+  void addBetween(double low, const std::array<Vec2, 5>& a, double high, const std::array<Vec2, 5>& b, int depth) {
+    if (depth == 0) return;
+    const double middle = 0.5 * (low + high), chord = (b[0] - a[0]).norm();
+    const bool turns = !(a[1].dot(b[1]) >= kMostTurn * a[1].norm() * b[1].norm());
+    const auto m = curve_.derivatives(middle, 1);
+    if (!turns && (m[0] - 0.5 * (a[0] + b[0])).norm() <= kMostSag * chord) return;
+    addBetween(low, a, middle, m, depth - 1);
+    add(middle, m[0], false);
+    addBetween(middle, m, high, b, depth - 1);
+  }
+
+  const NurbsCurve& curve_;
 };
 
 ClosestPoint closestWith(const NurbsCurve& curve, const StartTable& table, const Vec2& p) {
-  const std::size_t n = table.u.size();
+  const std::size_t n = table.size();
   std::vector<double> distances(n);
   for (std::size_t i = 0; i < n; ++i) distances[i] = (table.points[i] - p).norm();
   const std::size_t nearest =
@@ -70,7 +101,7 @@ ClosestPoint closestWith(const NurbsCurve& curve, const StartTable& table, const
   const auto refine = [&](std::size_t i) {
     const double low = table.u[i == 0 ? 0 : i - 1], here = table.u[i], high = table.u[std::min(i + 1, n - 1)];
     ClosestPoint found = descend(curve, p, here, low, high);
-    if (i % table.perSpan != 0) return found;
+    if (!table.isKnot[i]) return found;
     // A knot may be a corner, where the derivatives tell of one side only.
     for (const ClosestPoint& side : {descend(curve, p, here - 0.25 * (here - low), low, here),
                                      descend(curve, p, here + 0.25 * (high - here), here, high)}) {

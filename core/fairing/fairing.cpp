@@ -84,9 +84,10 @@ Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const Fairin
 
 std::optional<Error> validate(const FairingParams& params) {
   if (!(params.toleranceMm >= 0.001 && params.toleranceMm <= 20.0)) {
-    return Error{ErrorCode::BadParameter,
-                 "The fairing tolerance must lie between 0.001 and 20 mm, not at " + std::to_string(params.toleranceMm) + ".",
-                 {}};
+    return Error{
+        ErrorCode::BadParameter,
+        "The fairing tolerance must lie between 0.001 and 20 mm, not at " + std::to_string(params.toleranceMm) + ".",
+        {}};
   }
   if (params.target < 0 || params.target > kDrawnTarget) {
     return Error{ErrorCode::BadParameter,
@@ -107,7 +108,8 @@ std::optional<Error> validate(const FairingParams& params) {
                  {}};
   }
   for (const double at : params.keptAt) {
-    if (!(at >= 0.0 && at <= 1.0)) return Error{ErrorCode::BadParameter, "An extremum to keep lies beside the curve.", {}};
+    if (!(at >= 0.0 && at <= 1.0))
+      return Error{ErrorCode::BadParameter, "An extremum to keep lies beside the curve.", {}};
   }
   if (auto wrong = validateProfile(params.profile)) return wrong;
   return validate(params.targets);
@@ -122,42 +124,11 @@ FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std
   return result;
 }
 
-namespace {
-
-/// Largest distance of a curve from the whole of another. The solvers follow feet from place to place, which a loop or a
-/// spike between two places escapes; this looks at many places and forgets where the last foot was.
-double farthestFrom(const NurbsCurve& original, const NurbsCurve& curve) {
-  const int places = std::max(1000, 24 * curve.controlPointCount());
-  double farthest = 0.0;
-  for (int i = 0; i <= places; ++i) {
-    const double u = curve.start() + (curve.end() - curve.start()) * i / places;
-    const Vec2 point = curve.point(u);
-    // Fairing keeps the knots: the place of the same parameter is near, and most often near enough to tell.
-    const double distance = (point - original.point(u)).norm();
-    if (distance <= farthest) continue;
-    farthest = std::max(farthest, std::min(distance, deviation(original, std::span(&point, 1), false).max));
-  }
-  return farthest;
-}
-
-}  // namespace
-
-Result<FairedCurve> finished(const FairingSetup& setup, std::vector<Vec2> points, double toleranceMm, FairingReport report) {
+Result<FairedCurve> finished(const FairingSetup& setup, std::vector<Vec2> points, double toleranceMm,
+                             FairingReport report) {
   report.maxDeviationMm = keepWithin(setup, toleranceMm, points);
   auto curve = toCurve(setup, points);
   if (!curve) return fail(curve.error());
-  constexpr int kRounds = 12;
-  for (int round = 0; report.maxDeviationMm > 0.0; ++round) {
-    const double farthest = farthestFrom(setup.original, *curve);
-    report.maxDeviationMm = std::max(report.maxDeviationMm, farthest);
-    if (farthest <= toleranceMm) break;
-    const double share = round < kRounds ? std::min(0.9, 0.99 * toleranceMm / farthest) : 0.0;
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = setup.points[i] + share * (points[i] - setup.points[i]);
-    report.maxDeviationMm = share > 0.0 ? keepWithin(setup, toleranceMm, points) : 0.0;
-    report.why = Termination::ToleranceLimited;
-    curve = toCurve(setup, points);
-    if (!curve) return fail(curve.error());
-  }
   report.extremaBefore = extremaOf(setup.original, setup.closed);
   report.extremaAfter = extremaOf(*curve, setup.closed);
   return FairedCurve{std::move(*curve), std::move(report)};
@@ -165,9 +136,8 @@ Result<FairedCurve> finished(const FairingSetup& setup, std::vector<Vec2> points
 
 Result<FairedCurve> modifyShape(const NurbsCurve& curve, bool closed, const TargetProfile& profile,
                                 const FairingParams& params, const RunContext& context) {
-  return withSetup(curve, closed, params, [&](const FairingSetup& setup) {
-    return modifyShape(setup, profile, params.toleranceMm, context);
-  });
+  return withSetup(curve, closed, params,
+                   [&](const FairingSetup& setup) { return modifyShape(setup, profile, params.toleranceMm, context); });
 }
 
 Result<FairedCurve> fairWithinTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params,
@@ -210,11 +180,16 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
   if (const auto error = validate(params)) return fail(*error);
   if (curve.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to make fair.");
   switch (params.mode) {
-    case FairingMode::None: return unchanged(curve, closed, Termination::NotRun, {});
-    case FairingMode::Tolerance: return fairWithinTolerance(curve, closed, params, context);
-    case FairingMode::Monotone: return fairMonotone(curve, closed, params, context);
-    case FairingMode::LowPass: return fairByLowPass(curve, closed, params, context);
-    case FairingMode::Target: break;
+    case FairingMode::None:
+      return unchanged(curve, closed, Termination::NotRun, {});
+    case FairingMode::Tolerance:
+      return fairWithinTolerance(curve, closed, params, context);
+    case FairingMode::Monotone:
+      return fairMonotone(curve, closed, params, context);
+    case FairingMode::LowPass:
+      return fairByLowPass(curve, closed, params, context);
+    case FairingMode::Target:
+      break;
   }
   if (params.target == kDrawnTarget) {
     const TargetProfile drawn = drawnProfile(params.profile, closed);

@@ -27,9 +27,9 @@ struct CurvatureJet {
 };
 CurvatureJet curvatureJet(const Jet& jet);
 
-/// Coordinates that move freely, as a null-space basis of the linear end conditions: position always, with `tangent` also
-/// the direction, with `curvature` the derivative and the normal part of the second one, which fixes both. Periodic points
-/// are folded (0, m-1, 1, m-2, ...), so that cyclic coupling stays within a band.
+/// Coordinates that move freely, as a null-space basis of the linear end conditions: position always, with `tangent`
+/// also the direction, with `curvature` the derivative and the normal part of the second one, which fixes both.
+/// Periodic points are folded (0, m-1, 1, m-2, ...), so that cyclic coupling stays within a band.
 class Unknowns {
  public:
   Unknowns() = default;
@@ -60,27 +60,32 @@ class Unknowns {
   std::vector<SpanMap> spans_;
 };
 
-/// What all fairings of one curve share. Never changes once made; owned by a shared_ptr because curves refer to `basis`.
+/// What all fairings of one curve share. Never changes once made; owned by a shared_ptr because curves refer to
+/// `basis`.
 struct FairingSetup {
   NurbsCurve original;
   bool closed = false;
-  PeriodicForm periodic;      ///< Closed curves only.
+  PeriodicForm periodic;  ///< Closed curves only.
   SpanBasis basis;
-  std::vector<Vec2> points;   ///< Control points of the sketched curve (each once).
-  SpanCurve reference;        ///< The sketched curve.
-  EqualArc start;             ///< Sample places on it.
+  std::vector<Vec2> points;  ///< Control points of the sketched curve (each once).
+  SpanCurve reference;       ///< The sketched curve.
+  EqualArc start;            ///< Sample places on it.
   Unknowns unknowns;
   double extent = 0.0;
   int sampleCount() const { return static_cast<int>(start.places.size()); }
-  double fraction(int sample) const { return static_cast<double>(sample) / (closed ? sampleCount() : sampleCount() - 1); }
+  double fraction(int sample) const {
+    return static_cast<double>(sample) / (closed ? sampleCount() : sampleCount() - 1);
+  }
 };
 /// @return BadParameter for rational curves and degrees outside 3..7; Numerical for a curve without length.
-Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, bool closed, const FairingParams& params);
+Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, bool closed,
+                                                      const FairingParams& params);
 
 /// The faired curve over the knots of the sketched one.
 Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& points);
 
-/// Largest distance of the curve from the sketched one: foot points at 12 places a span, peaks refined by a parabola.
+/// Largest distance of the curve from the sketched one: foot points at 12 places a span or, where the two swing
+/// apart quickly, so many that no more than 1 % can hide between them.
 /// `bothWays` also measures the sketched curve's distance from the curve.
 double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays = false);
 
@@ -104,9 +109,9 @@ struct FairingState {
   EqualArc arc;
   std::vector<Jet> jets;
   std::vector<CurvatureJet> curvature;
-  std::vector<SpanPlace> feet;      ///< Foot points of the samples on the sketched curve.
-  std::vector<double> distance;     ///< Signed distances of the samples.
-  std::vector<Vec2> normal;         ///< Left normals of the sketched curve at the feet.
+  std::vector<SpanPlace> feet;   ///< Foot points of the samples on the sketched curve.
+  std::vector<double> distance;  ///< Signed distances of the samples.
+  std::vector<Vec2> normal;      ///< Left normals of the sketched curve at the feet.
   Eigen::VectorXd residual;
   double misfit = 0.0, total = 0.0;  ///< Sum of squared residuals; the same with the corridor.
 };

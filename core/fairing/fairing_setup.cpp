@@ -10,34 +10,61 @@ namespace batten {
 namespace {
 
 constexpr int kSamplesPerSpan = 4;
-constexpr int kChecksPerSpan = 12;
+constexpr int kChecksPerSpan = 12, kMostChecks = 400;
+constexpr double kUnseenShare = 0.01;  // of the largest distance, between the places where it is measured
+constexpr double kMostTurn = 0.5;      // [rad] of the curve from place to place
 /// A derivative below this share of the mean speed counts as a cusp.
 constexpr double kCuspShare = 1e-6;
 
-/// Largest distance of points of `from` from their feet on `to`, a curve of similar course and the same basis.
-double largestDistance(const SpanCurve& from, const SpanCurve& to) {
-  const int spans = from.basis().spanCount(), count = spans * kChecksPerSpan + 1;
-  std::vector<double> distance(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    const int span = std::min(i / kChecksPerSpan, spans - 1);
-    const SpanPlace place{span, static_cast<double>(i - span * kChecksPerSpan) / kChecksPerSpan};
+/// Largest distance of `count` + 1 equally spaced points of a span of `from` from their feet on `to`, a curve of
+/// similar course and the same basis; peaks between them by a parabola.
+double largestInSpan(const SpanCurve& from, const SpanCurve& to, int span, int count) {
+  double largest = 0.0, before = 0.0, here = 0.0;
+  for (int i = 0; i <= count; ++i) {
+    const SpanPlace place{span, static_cast<double>(i) / count};
     const Vec2 point = from.at(place, 0)[0];
-    const SpanPlace foot = footPoint(to, point, place);
-    distance[static_cast<std::size_t>(i)] = (to.at(foot, 0)[0] - point).norm();
-  }
-  double largest = 0.0;
-  for (std::size_t i = 0; i < distance.size(); ++i) {
-    if (!std::isfinite(distance[i])) return std::numeric_limits<double>::max();
-    largest = std::max(largest, distance[i]);
-    if (i == 0 || i + 1 == distance.size()) continue;
-    const double a = distance[i - 1], b = distance[i], c = distance[i + 1], bend = a - 2.0 * b + c;
-    if (b >= a && b >= c && bend < 0.0) largest = std::max(largest, b - (a - c) * (a - c) / (8.0 * bend));
+    const double next = (to.at(footPoint(to, point, place), 0)[0] - point).norm();
+    if (!std::isfinite(next)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, next);
+    const double bend = before - 2.0 * here + next;
+    if (i >= 2 && here >= before && here >= next && bend < 0.0) {
+      largest = std::max(largest, here - (before - next) * (before - next) / (8.0 * bend));
+    }
+    before = here;
+    here = next;
   }
   return largest;
 }
 
-/// Samples at equal arc length, so that the shortest span has its share too: what happens between samples is not felt by
-/// the objective, and curves of few control points have short spans where they bend. Bounded where one span is a sliver.
+/// How closely a span must be looked at. Between places 1/n apart the difference of the curves bends away by no more
+/// than its second derivative over 8 n^2; but where a curve turns about between two places, its distance may come and
+/// go there.
+int checksFor(const SpanCurve& from, const SpanCurve& to, int span, double largest) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kChecksPerSpan; ++i) {
+    slowest = std::min(slowest, from.speed({span, static_cast<double>(i) / kChecksPerSpan}));
+  }
+  const double apart = std::sqrt(from.bendBound(to, span) / (8.0 * kUnseenShare * largest));
+  const double turned = from.bendBound(span) / (kMostTurn * slowest * from.basis().width(span));
+  const double count = std::ceil(std::max({apart, turned, 0.0}));
+  return count < kMostChecks ? std::max(static_cast<int>(count), kChecksPerSpan) : kMostChecks;
+}
+
+double largestDistance(const SpanCurve& from, const SpanCurve& to) {
+  double largest = 0.0;
+  const int spans = from.basis().spanCount();
+  for (int span = 0; span < spans; ++span) largest = std::max(largest, largestInSpan(from, to, span, kChecksPerSpan));
+  if (!std::isfinite(largest)) return std::numeric_limits<double>::max();
+  for (int span = 0; span < spans && largest > 0.0; ++span) {
+    const int checks = checksFor(from, to, span, largest);
+    if (checks > kChecksPerSpan) largest = std::max(largest, largestInSpan(from, to, span, checks));
+  }
+  return std::isfinite(largest) ? largest : std::numeric_limits<double>::max();
+}
+
+/// Samples at equal arc length, so that the shortest span has its share too: what happens between samples is not felt
+/// by the objective, and curves of few control points have short spans where they bend. Bounded where one span is a
+/// sliver.
 int samplesFor(const SpanBasis& basis) {
   const int spans = basis.spanCount();
   double whole = 0.0, shortest = std::numeric_limits<double>::infinity();
@@ -52,7 +79,8 @@ int samplesFor(const SpanBasis& basis) {
 
 }  // namespace
 
-Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, bool closed, const FairingParams& params) {
+Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, bool closed,
+                                                      const FairingParams& params) {
   if (curve.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to make fair.");
   if (curve.isRational()) {
     return fail(ErrorCode::BadParameter, "Curves with weights cannot be made fair: set all weights to 1.");
@@ -88,7 +116,8 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
 
 Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& points) {
   if (!setup.closed) {
-    return NurbsCurve::make(setup.original.degree(), {setup.original.knots().begin(), setup.original.knots().end()}, points);
+    return NurbsCurve::make(setup.original.degree(), {setup.original.knots().begin(), setup.original.knots().end()},
+                            points);
   }
   PeriodicForm form = setup.periodic;
   form.points = points;

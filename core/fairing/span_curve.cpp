@@ -17,7 +17,8 @@ constexpr int kPartsPerSpan = 2;
 double lengthBetween(const SpanCurve& curve, int span, double from, double to) {
   const double mid = 0.5 * (from + to), half = 0.5 * (to - from);
   double sum = 0.0;
-  for (std::size_t i = 0; i < kGaussAt.size(); ++i) sum += kGaussWeight[i] * curve.speed({span, mid + half * kGaussAt[i]});
+  for (std::size_t i = 0; i < kGaussAt.size(); ++i)
+    sum += kGaussWeight[i] * curve.speed({span, mid + half * kGaussAt[i]});
   return sum * half * curve.basis().width(span);
 }
 
@@ -31,7 +32,8 @@ SpanBasis::SpanBasis(int degree, std::span<const double> knots, int count, int w
     if (!(h > 0.0)) continue;
     breaks_.push_back(a);
     first_.push_back(static_cast<int>(k - p));
-    // Cox-de Boor on polynomials in tau = (t - a) / h; n[j][i] = coefficient of tau^i of the j-th function alive in the span.
+    // Cox-de Boor on polynomials in tau = (t - a) / h; n[j][i] = coefficient of tau^i of the j-th function alive in the
+    // span.
     std::vector<std::vector<double>> n(size, std::vector<double>(size, 0.0));
     n[0][0] = 1.0;
     for (std::size_t m = 1; m <= p; ++m) {
@@ -82,7 +84,8 @@ SpanCurve::SpanCurve(const SpanBasis& basis, std::span<const Vec2> points) : bas
   coefficients_.assign(static_cast<std::size_t>(basis.spanCount()) * static_cast<std::size_t>(p + 1), Vec2::Zero());
   for (int s = 0; s < basis.spanCount(); ++s) {
     for (int k = 0; k <= p; ++k) {
-      Vec2& c = coefficients_[static_cast<std::size_t>(s) * static_cast<std::size_t>(p + 1) + static_cast<std::size_t>(k)];
+      Vec2& c =
+          coefficients_[static_cast<std::size_t>(s) * static_cast<std::size_t>(p + 1) + static_cast<std::size_t>(k)];
       for (int j = 0; j <= p; ++j) {
         c += basis.coefficient(s, k, j) * points[static_cast<std::size_t>(basis.point(s, j))];
       }
@@ -98,7 +101,8 @@ Jet SpanCurve::at(const SpanPlace& place, int order) const {
   jet[0] = c[p];
   for (std::size_t k = p; k-- > 0;) {  // Horner for the Taylor coefficients at tau
     for (int d = order; d >= 1; --d) {
-      jet[static_cast<std::size_t>(d)] = jet[static_cast<std::size_t>(d)] * place.tau + jet[static_cast<std::size_t>(d) - 1];
+      jet[static_cast<std::size_t>(d)] =
+          jet[static_cast<std::size_t>(d)] * place.tau + jet[static_cast<std::size_t>(d) - 1];
     }
     jet[0] = jet[0] * place.tau + c[k];
   }
@@ -119,13 +123,30 @@ double SpanCurve::speed(const SpanPlace& place) const {
   return sum.norm() / basis_->width(place.span);
 }
 
+double SpanCurve::bendBound(int span) const {
+  const auto p = static_cast<std::size_t>(basis_->degree()), first = static_cast<std::size_t>(span) * (p + 1);
+  double bound = 0.0;
+  for (std::size_t k = 2; k <= p; ++k) bound += static_cast<double>(k * (k - 1)) * coefficients_[first + k].norm();
+  return bound;
+}
+
+double SpanCurve::bendBound(const SpanCurve& other, int span) const {
+  const auto p = static_cast<std::size_t>(basis_->degree()), first = static_cast<std::size_t>(span) * (p + 1);
+  double bound = 0.0;
+  for (std::size_t k = 2; k <= p; ++k) {
+    bound += static_cast<double>(k * (k - 1)) * (coefficients_[first + k] - other.coefficients_[first + k]).norm();
+  }
+  return bound;
+}
+
 std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool closed) {
   const int parts = curve.basis().spanCount() * kPartsPerSpan;
   std::vector<double> cumulative(static_cast<std::size_t>(parts) + 1, 0.0);
   for (int k = 0; k < parts; ++k) {
     const double from = static_cast<double>(k % kPartsPerSpan) / kPartsPerSpan;
     cumulative[static_cast<std::size_t>(k) + 1] =
-        cumulative[static_cast<std::size_t>(k)] + lengthBetween(curve, k / kPartsPerSpan, from, from + 1.0 / kPartsPerSpan);
+        cumulative[static_cast<std::size_t>(k)] +
+        lengthBetween(curve, k / kPartsPerSpan, from, from + 1.0 / kPartsPerSpan);
   }
   EqualArc result;
   result.length = cumulative.back();
@@ -137,7 +158,8 @@ std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool c
     while (k + 1 < parts && cumulative[static_cast<std::size_t>(k) + 1] <= target) ++k;
     const int span = k / kPartsPerSpan;
     double low = static_cast<double>(k % kPartsPerSpan) / kPartsPerSpan, high = low + 1.0 / kPartsPerSpan;
-    const double start = low, s0 = cumulative[static_cast<std::size_t>(k)], s1 = cumulative[static_cast<std::size_t>(k) + 1];
+    const double start = low, s0 = cumulative[static_cast<std::size_t>(k)],
+                 s1 = cumulative[static_cast<std::size_t>(k) + 1];
     double x = s1 > s0 ? low + (high - low) * std::clamp((target - s0) / (s1 - s0), 0.0, 1.0) : low;
     for (int step = 0; step < 30; ++step) {
       const double miss = s0 + lengthBetween(curve, span, start, x) - target;

@@ -23,8 +23,8 @@ struct SpanRow {
   std::array<std::array<double, kMaxFairingDegree + 1>, 5> d{};
 };
 
-/// The B-spline basis of a knot vector as polynomials per span, computed once: fairing evaluates the same basis some hundred
-/// thousand times. `wrap` > 0: periodic, control point j is j modulo wrap.
+/// The B-spline basis of a knot vector as polynomials per span, computed once: fairing evaluates the same basis some
+/// hundred thousand times. `wrap` > 0: periodic, control point j is j modulo wrap.
 class SpanBasis {
  public:
   SpanBasis() = default;
@@ -71,6 +71,10 @@ class SpanCurve {
   /// Derivatives up to `order` (0..4); those above are zero.
   Jet at(const SpanPlace& place, int order) const;
   double speed(const SpanPlace& place) const;
+  /// No second derivative with respect to the position 0..1 within the span is longer: of the curve, and of its
+  /// difference to another one over the same basis.
+  double bendBound(int span) const;
+  double bendBound(const SpanCurve& other, int span) const;
 
  private:
   const SpanBasis* basis_ = nullptr;
@@ -82,11 +86,12 @@ struct EqualArc {
   double length = 0.0;
   std::vector<SpanPlace> places;
 };
-/// Absent when the curve has no length or is not finite. Gauss-Legendre of five points on half spans, safeguarded Newton.
+/// Absent when the curve has no length or is not finite. Gauss-Legendre of five points on half spans, safeguarded
+/// Newton.
 std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool closed);
 
-/// The foot point of `point` on the curve that Newton's method reaches from `start`; periodic curves run on over the seam,
-/// others stop at their ends.
+/// The foot point of `point` on the curve that Newton's method reaches from `start`; periodic curves run on over the
+/// seam, others stop at their ends.
 SpanPlace footPoint(const SpanCurve& curve, const Vec2& point, SpanPlace start);
 
 }  // namespace batten

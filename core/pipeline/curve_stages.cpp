@@ -99,7 +99,12 @@ class ContourBuilder {
  public:
   ContourBuilder(const ContourSet& contours, const PieceSet& pieces, const SegmentSet& segments, const Recipe& recipe,
                  const PageFrame& frame, const RunContext& context)
-      : contours_(contours), pieces_(pieces), segments_(segments), recipe_(recipe), frame_(frame), context_(context),
+      : contours_(contours),
+        pieces_(pieces),
+        segments_(segments),
+        recipe_(recipe),
+        frame_(frame),
+        context_(context),
         wishes_(assignExtremumChoices(pieces, recipe)) {
     const auto hasMethod = [](const PieceChoice& choice) { return choice.method.has_value(); };
     if (std::any_of(recipe.choices.begin(), recipe.choices.end(), hasMethod)) choices_ = assignChoices(pieces, recipe);
@@ -202,11 +207,13 @@ class ContourBuilder {
   std::vector<std::vector<std::size_t>> wishes_;
 };
 
-/// Work on the items of a stage in parallel already; each item alone stays on its thread.
+/// Many items fill the threads, and each alone stays on its own; of a few the longest would keep one busy and the
+/// others waiting.
 RunContext itemContext(const RunContext& context, std::size_t items) {
+  constexpr std::size_t kMany = 4;  // a thread
   RunContext inner = context;
   inner.progress = nullptr;
-  if (items >= static_cast<std::size_t>(threadCount(context))) inner.threads = 1;
+  if (items >= kMany * static_cast<std::size_t>(threadCount(context))) inner.threads = 1;
   return inner;
 }
 

@@ -21,7 +21,8 @@ ConstructPiece randomPiece(std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const int stations = 6 + static_cast<int>(uniform(random) * uniform(random) * 55.0);
   const double length = kSpacing * (stations - 1), bend = 5.0 * uniform(random) * uniform(random);
-  const double wave = 8.0 * uniform(random), phase = 6.0 * uniform(random), noise = 2.0 * std::pow(uniform(random), 2.0);
+  const double wave = 8.0 * uniform(random), phase = 6.0 * uniform(random),
+               noise = 2.0 * std::pow(uniform(random), 2.0);
   const double straightFrom = uniform(random), straightTo = straightFrom + 0.4 * uniform(random);
   std::normal_distribution<double> normal(0.0, noise);
   Piece piece;
@@ -103,17 +104,13 @@ void expectSoundConstruction(const ConstructedPiece& made, const ConstructPiece&
   }
 }
 
-/// Largest distance of places of one curve from the other, each against the whole of it. Both have the same knots: the
-/// place of the same parameter bounds the distance from above.
+/// Largest distance of places of one curve from the other, each against the whole of it.
 double farthest(const NurbsCurve& from, const NurbsCurve& to) {
   constexpr int kPlaces = 611;  // none of the places at which the fairing looks
-  double worst = 0.0;
-  for (int i = 0; i <= kPlaces; ++i) {
-    const double u = from.start() + (from.end() - from.start()) * i / kPlaces;
-    const Vec2 p = from.point(u);
-    worst = std::max(worst, std::min((p - to.point(u)).norm(), closestPoint(to, p).distance));
-  }
-  return worst;
+  std::vector<Vec2> points;
+  for (int i = 0; i <= kPlaces; ++i)
+    points.push_back(from.point(from.start() + (from.end() - from.start()) * i / kPlaces));
+  return deviation(to, points, false).max;
 }
 
 void expectSoundFairing(const NurbsCurve& start, const FairedCurve& faired, double tolerance) {

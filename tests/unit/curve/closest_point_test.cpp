@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "core/curve/curve_analysis.h"
+
+namespace batten {
+namespace {
+
+/// Control points that jump about: curves full of hairpins, much narrower than a span.
+NurbsCurve tangled(std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const int count = 8 + static_cast<int>(random() % 5U);
+  std::vector<Vec2> points;
+  std::vector<double> knots(6, 0.0);
+  for (int i = 0; i < count; ++i) points.emplace_back(i + 6.0 * uniform(random), uniform(random));
+  for (int i = 1; i < count - 5; ++i) knots.push_back(i);
+  knots.insert(knots.end(), 6, count - 5);
+  return NurbsCurve::make(5, knots, points).value();
+}
+
+double bruteForce(const NurbsCurve& curve, const Vec2& p) {
+  constexpr int kPlaces = 20000;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kPlaces; ++i) {
+    least = std::min(least, (curve.point(curve.start() + (curve.end() - curve.start()) * i / kPlaces) - p).norm());
+  }
+  return least;
+}
+
+TEST(ClosestPoint, FindsTheTipOfEveryHairpin) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int line = 0; line < 60; ++line) {
+    const NurbsCurve curve = tangled(random);
+    for (int place = 0; place < 8; ++place) {
+      const Vec2 on = curve.point(curve.start() + (curve.end() - curve.start()) * uniform(random));
+      const Vec2 p = on + 0.02 * Vec2(uniform(random) - 0.5, uniform(random) - 0.5);
+      EXPECT_LE(closestPoint(curve, p).distance, bruteForce(curve, p) + 1e-9) << "line " << line << ", place " << place;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace batten
