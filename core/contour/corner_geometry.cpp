@@ -14,6 +14,7 @@ constexpr double kUnrefinedWeight = 0.1;  // points known to the pixel only
 constexpr double kOutlineZonePx = 4.0;
 constexpr double kFarthestMeetPx = 6.0;  // of the meeting point from the contour
 constexpr double kEatenHalfPx = 4.0;    // half the width at which the tip of a shape is eaten away by blur and the mask
+constexpr double kFilledHalfPx = 3.0;   // half of a gap between two legs of a stroke that blur and the mask may fill
 constexpr double kSmallestSine = 0.08;  // of the angle between the sides; below, the meeting point is ill-conditioned
 constexpr int kNewtonSteps = 12;
 constexpr int kLocateRounds = 4;
@@ -136,7 +137,7 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
   int at = index;
   double zone = inner;
   // Two legs of a stroke have one middle until they are a stroke's width apart.
-  const double eatenHalf = contour.kind == ContourKind::Outline ? kEatenHalfPx : 0.5 * inner + 1.5;
+  const double eatenHalf = contour.kind == ContourKind::Outline ? kEatenHalfPx : 0.5 * inner + kFilledHalfPx;
   const double blending = contour.kind == ContourKind::Outline ? kFreeLegsPx : inner + kFreeLegsPx;
   for (int round = 0; round < kLocateRounds; ++round) {
     const double legs = std::min(outerBefore, outerAfter);

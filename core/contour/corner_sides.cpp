@@ -21,6 +21,7 @@ constexpr double kPriorDensity = 0.01;     // [px^2 px] noise of an edge in an o
 constexpr double kPriorBlocks = 3.0;
 constexpr double kLeastDensity = 0.0006;  // [px^2 px] what the pixel grid leaves: .02 px over 16 px
 constexpr std::size_t kFewestBlocks = 3;
+constexpr std::size_t kMostGuessed = 40, kFewestKnown = 12;  // points
 // [px] Waves shorter than these are noise: what the side may be, from scribble to spline.
 constexpr double kShortestCutoffPx = 40.0, kLongestCutoffPx = 1100.0, kCutoffStep = 1.6;
 constexpr double kStartPx = 100.0, kStartSlope = 2.0;  // what a side may be at its far end, along its axis
@@ -58,6 +59,17 @@ SidePoints collect(const Contour& contour, int index, int side, double inner, do
     points.weight.push_back(weightOf(contour, at));
   }
   return points;
+}
+
+// Next to a corner the points may be guessed only, laid round the turn where the legs of a stroke are one body: they
+// say nothing of the side.
+void dropGuessed(SidePoints& points) {
+  std::size_t first = 0, known = 0;
+  while (first < points.at.size() && points.weight[first] < 1.0) ++first;
+  for (const double w : points.weight) known += w < 1.0 ? 0 : 1;
+  if (first > kMostGuessed || known < kFewestKnown) return;
+  points.at.erase(points.at.begin(), points.at.begin() + static_cast<std::ptrdiff_t>(first));
+  points.weight.erase(points.weight.begin(), points.weight.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
 // The axis: the direction of the first few points.
@@ -313,7 +325,8 @@ Vec2 CornerSide::derivative(double x) const {
 CornerSide fitCornerSide(const Contour& contour, int index, int side, double inner, double outer) {
   CornerSide best;
   best.origin = contour.points[static_cast<std::size_t>(index)];
-  const SidePoints points = collect(contour, index, side, inner, outer);
+  SidePoints points = collect(contour, index, side, inner, outer);
+  dropGuessed(points);
   if (points.at.size() < 3) return best;
   best.along = axisOf(points);
   best.across = Vec2(-best.along.y(), best.along.x());
