@@ -35,12 +35,14 @@ ErrorStrip::ErrorStrip(QWidget* parent)
   hide();
 }
 
-void ErrorStrip::show(const QString& message, const QString& action) {
+void ErrorStrip::show(const QString& message, const QString& action, const QString& dismiss) {
   text_->setText(message);
   text_->setAccessibleName(message);
   action_->setText(action);
   action_->setAccessibleName(action);
   action_->setVisible(!action.isEmpty());
+  dismiss_->setText(dismiss.isEmpty() ? tr("Dismiss") : dismiss);
+  dismiss_->setAccessibleName(dismiss_->text());
   QWidget::show();
   QAccessibleEvent event(text_, QAccessible::Alert);
   QAccessible::updateAccessibility(&event);

@@ -14,7 +14,8 @@ class ErrorStrip : public QWidget {
  public:
   explicit ErrorStrip(QWidget* parent = nullptr);
   /// @param action text of the button that helps; empty = only Dismiss.
-  void show(const QString& message, const QString& action);
+  /// @param dismiss text of the button that hides the message; empty = "Dismiss".
+  void show(const QString& message, const QString& action, const QString& dismiss = {});
   QString message() const;
 
  signals:

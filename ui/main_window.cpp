@@ -71,6 +71,7 @@ MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
   column->addWidget(parts_->status);
   setCentralWidget(whole);
   parts_->finder = new CommandPalette(whole);
+  parts_->journal = std::make_unique<RecipeJournal>(session_, journalFolder());
   connectSession();
   connectActions();
   connectLayers();
@@ -165,23 +166,24 @@ void MainWindow::connectSession() {
     setStage(PanelStage::Scan);
     parts_->scanPanel->focusResolution();
   });
-  connect(p.exportPanel, &ExportPanel::failed, this, &MainWindow::showProblem);
+  connect(p.exportPanel, &ExportPanel::failed, this,
+          [this](const Error& error) { showProblem(error, FailureOrigin::Export); });
   connect(p.exportPanel, &ExportPanel::exported, p.rail, &StageRail::setExported);
-  connect(p.errors, &ErrorStrip::actionPressed, this, &MainWindow::actOnProblem);
-  connect(&session_, &EditorSession::failed, this, &MainWindow::showProblem);
-  connect(&session_, &EditorSession::failureCleared, p.errors, &QWidget::hide);
-  connect(&session_, &EditorSession::scanOpened, this, [this] {
-    if (!session_.isBlankPage()) rememberFile(session_.scanPath());
-    refreshTitle();
-    parts_->errors->hide();
-    if (!session_.openProblem().isEmpty()) parts_->errors->show(session_.openProblem(), {});
-    // Work that was saved is past the first stages: it opens where it is read.
-    if (session_.openedWithRecipe()) {
-      setStage(PanelStage::Fairing);
-      parts_->status->setHint(tr("Opened with the recipe saved beside the drawing."));
-    }
-    parts_->canvas->zoomFit();
+  connect(p.errors, &ErrorStrip::actionPressed, this, [this] {
+    if (const auto remedy = parts_->remedy) remedy();
   });
+  connect(p.errors, &ErrorStrip::dismissed, this, [this] {
+    if (const auto dismissal = std::exchange(parts_->dismissal, {})) dismissal();
+    refreshActions();
+  });
+  connect(&session_, &EditorSession::failed, this, &MainWindow::showProblem);
+  connect(&session_, &EditorSession::failureCleared, this, [this] {
+    // What a run says goes with the next run; other messages wait for the user.
+    if (parts_->problemOrigin == FailureOrigin::Run) parts_->errors->hide();
+  });
+  connect(&session_, &EditorSession::scanOpened, this, &MainWindow::scanOpened);
+  connect(session_.undoStack(), &QUndoStack::cleanChanged, this, &MainWindow::refreshTitle);
+  connect(&session_, &EditorSession::workingChanged, this, &MainWindow::refreshActions);
   connect(&session_, &EditorSession::pinChanged, this, &MainWindow::refreshActions);
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::runFinished,
                             &EditorSession::selectionChanged, &EditorSession::targetsChanged})
@@ -193,18 +195,6 @@ void MainWindow::connectSession() {
 void MainWindow::newDrawing() {
   NewDrawingDialog dialog(this);
   if (dialog.exec() == QDialog::Accepted) beginDrawing(dialog.recipe());
-}
-
-void MainWindow::beginDrawing(const Recipe& recipe) {
-  session_.newDrawing(recipe);
-  setStage(PanelStage::Edges);
-  view_.setTool(Tool::Pen);
-  parts_->status->setStageHint(tr("Drag on the page to draw a line; end where it began to close it."));
-}
-
-void MainWindow::openPath(const QString& path) {
-  if (path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive)) return applyRecipeFile(path);
-  session_.openScan(path);
 }
 
 PanelStage MainWindow::stage() const { return parts_->rail->current(); }
@@ -280,9 +270,29 @@ void MainWindow::dropEvent(QDropEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!maybeDiscard()) return event->ignore();
   saveSettings();
   session_.cancel();
   QMainWindow::closeEvent(event);
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+  QMainWindow::resizeEvent(event);
+  fitPlots();
+}
+
+void MainWindow::fitPlots() {
+  constexpr int kLowWindow = 760, kLowestWindow = 680, kLowPlots = 120;
+  using Height = Parts::Height;
+  Parts& p = *parts_;
+  const Height now = height() < kLowestWindow ? Height::Lowest : height() < kLowWindow ? Height::Low : Height::Roomy;
+  if (now == p.height) return;
+  if (p.height == Height::Roomy) p.roomySizes = p.splitter->sizes();
+  p.height = now;
+  p.plots->setVisible(now != Height::Lowest);
+  if (now == Height::Roomy) return p.splitter->setSizes(p.roomySizes);
+  const int lower = p.strip->height() + (now == Height::Low ? kLowPlots : 0);
+  p.splitter->setSizes({std::max(1, p.splitter->height() - lower), lower});
 }
 
 void MainWindow::changeEvent(QEvent* event) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QMainWindow>
+#include <functional>
 #include <memory>
 
 #include "ui/commands/action_catalog.h"
@@ -14,6 +15,9 @@ class QMenu;
 
 namespace batten {
 
+/// What is to become of unsaved work that is in the way.
+enum class UnsavedAnswer { Save, Discard, Cancel };
+
 /// The one window: stages at the left, the drawing in the middle, the inspector at the right, targets and plots below.
 class MainWindow : public QMainWindow {
   Q_OBJECT
@@ -21,10 +25,19 @@ class MainWindow : public QMainWindow {
   MainWindow();
   ~MainWindow() override;
 
-  /// Opens a scan, with the recipe saved beside it; a recipe file (.json) is applied to the open one.
+  /// Opens a scan, with the recipe saved beside it; a recipe file (.json) is applied to the open one. Asks first where
+  /// unsaved work would go.
   void openPath(const QString& path);
-  /// Begins a drawing on the empty page of the recipe, with the pen in hand.
+  /// What the program starts with: work that a crash has left, else the newest recent file that is there, else
+  /// `sample`.
+  void openAtStart(const QString& sample);
+  /// Offers work that a program left which did not end as it should; false = there is none.
+  bool offerLeftWork();
+  /// Begins a drawing on the empty page of the recipe, with the pen in hand. Asks first where unsaved work would go.
   void beginDrawing(const Recipe& recipe);
+  /// Who answers what is to become of unsaved work in a drawing of this name; a box on the screen unless set.
+  using UnsavedQuestion = std::function<UnsavedAnswer(const QString& drawing)>;
+  void setUnsavedQuestion(UnsavedQuestion question);
   void setStage(PanelStage stage);
   PanelStage stage() const;
   EditorSession& session() { return session_; }
@@ -32,14 +45,17 @@ class MainWindow : public QMainWindow {
   QAction* action(ActionId id) const;
   void setThemeChoice(ThemeChoice choice);
   static ThemeChoice storedTheme();
-  /// Files opened lately, newest first; those that have gone are left out.
+  /// Files opened lately, newest first, as they were remembered.
   static QStringList recentFiles();
+  /// Where journals of unsaved work lie.
+  static QString journalFolder();
 
  protected:
   void dragEnterEvent(QDragEnterEvent*) override;
   void dropEvent(QDropEvent*) override;
   void closeEvent(QCloseEvent*) override;
   void changeEvent(QEvent*) override;
+  void resizeEvent(QResizeEvent*) override;
 
  private:
   void makeActions();
@@ -53,13 +69,21 @@ class MainWindow : public QMainWindow {
   void newDrawing();
   void chooseScan();
   void chooseRecipe();
-  void saveRecipe();
-  void applyRecipeFile(const QString& path);
+  /// False when it was not saved after all.
+  bool saveRecipe();
+  void readRecipe(const QString& path);
+  void useRecipe(const QString& path, const Result<Recipe>& recipe);
+  /// True when nothing unsaved is left that would be lost.
+  bool maybeDiscard();
+  void scanOpened();
+  void checkRecent(std::function<void()> then);
+  QString drawingName() const;
   void findAction();
   void showHelp(const QString& page);
   void showShapes();
-  void showProblem(const QString& message);
-  void actOnProblem();
+  void showProblem(const Error& error, FailureOrigin origin);
+  /// What helps against an error: the button's text, and what it does.
+  std::pair<QString, std::function<void()>> remedyFor(const Error& error, FailureOrigin origin);
   void refreshActions();
   void refreshTitle();
   void refreshRecent();
@@ -67,6 +91,8 @@ class MainWindow : public QMainWindow {
   /// Where file dialogs open: at the drawing, else where the last one was.
   QString startFolder() const;
   void enterStage(PanelStage stage);
+  /// In a low window the drawing comes first: the plots shrink, then fold.
+  void fitPlots();
   void loadSettings();
   void saveSettings();
 

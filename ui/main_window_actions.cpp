@@ -2,22 +2,16 @@
 #include <QAction>
 #include <QActionGroup>
 #include <QApplication>
-#include <QDir>
-#include <QFile>
-#include <QFileDialog>
-#include <QFileInfo>
 #include <QMenu>
 #include <QSplitter>
 #include <QUndoStack>
 
-#include "core/exchange/writers.h"
-#include "core/pipeline/recipe_file.h"
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
 #include "ui/panels/shape_window.h"
 #include "ui/plots/curve_plots.h"
-#include "ui/session/opened_scan.h"
 #include "ui/session/piece_choice.h"
+#include "ui/session/region_edits.h"
 #include "ui/top_bar.h"
 
 namespace batten {
@@ -159,7 +153,7 @@ void MainWindow::trigger(ActionId id) {
     case ActionId::OpenRecipe:
       return chooseRecipe();
     case ActionId::SaveRecipe:
-      return saveRecipe();
+      return void(saveRecipe());
     case ActionId::Export:
       return setStage(PanelStage::Export);
     case ActionId::Quit:
@@ -171,6 +165,8 @@ void MainWindow::trigger(ActionId id) {
     case ActionId::CancelWork:
       parts_->errors->hide();
       return session_.cancel();
+    case ActionId::ComputeAgain:
+      return session_.computeAgain();
     case ActionId::FindAction:
       return findAction();
     case ActionId::ZoomFit:
@@ -181,11 +177,8 @@ void MainWindow::trigger(ActionId id) {
       return parts_->canvas->zoomBy(1.25);
     case ActionId::ZoomOut:
       return parts_->canvas->zoomBy(0.8);
-    case ActionId::ClearRegions: {
-      Recipe recipe = session_.recipe();
-      recipe.regions.clear();
-      return session_.change(tr("Clear regions"), std::move(recipe));
-    }
+    case ActionId::ClearRegions:
+      return clearRegions(session_);
     default:
       return;
   }
@@ -197,16 +190,17 @@ void MainWindow::connectLayers() {
     session_.setEdgesWanted(view_.isVisible(Layer::Edges));
   };
   for (const Layer layer : kLayers) {
-    connect(action(showAction(layer)), &QAction::triggered, this, [this, layer](bool on) {
-      // Switched by hand: from now on the stage leaves it alone.
-      std::erase_if(parts_->stageLayers, [layer](const Parts::StageLayer& one) { return one.layer == layer; });
-      view_.setVisible(layer, on);
-    });
+    connect(action(showAction(layer)), &QAction::triggered, this, [this, layer](bool on) { view_.choose(layer, on); });
   }
+  connect(&view_, &ViewSettings::chosen, this, [this](Layer layer) {
+    std::erase_if(parts_->stageLayers, [layer](const Parts::StageLayer& one) { return one.layer == layer; });
+  });
   for (const Tool tool : kTools)
     connect(action(toolAction(tool)), &QAction::triggered, this, [this, tool] {
-      // What the pen draws can only be seen where curves are shown.
+      // What the pen draws, and which line is meant, can only be seen where curves are shown.
       if (tool == Tool::Pen && !view_.isVisible(Layer::Curve)) setStage(PanelStage::Edges);
+      if (tool == Tool::Lines && !view_.isVisible(Layer::Curve) && !view_.isVisible(Layer::Faired))
+        setStage(PanelStage::Curves);
       view_.setTool(tool);
     });
   connect(&view_, &ViewSettings::changed, this, follow);
@@ -233,58 +227,8 @@ void MainWindow::refreshActions() {
   action(ActionId::Pin)->setChecked(session_.pinned() != nullptr);
   for (int degree = 1; degree <= 6; ++degree)
     action(static_cast<ActionId>(static_cast<int>(ActionId::Target1) + degree - 1))->setEnabled(curves);
-  action(ActionId::CancelWork)->setEnabled(session_.isBusy() || !parts_->errors->isHidden());
-}
-
-QString MainWindow::startFolder() const {
-  if (session_.hasScan() && !session_.isBlankPage()) return QFileInfo(session_.scanPath()).absolutePath();
-  const QStringList recent = recentFiles();
-  return recent.isEmpty() ? QDir::homePath() : QFileInfo(recent.first()).absolutePath();
-}
-
-void MainWindow::chooseScan() {
-  const QString folder = startFolder();
-  const QString path = QFileDialog::getOpenFileName(
-      this, tr("Open scan"), folder,
-      tr("Scans (*.png *.jpg *.jpeg *.tif *.tiff *.bmp *.webp *.pgm *.pbm *.ppm *.pnm);;All files (*)"));
-  if (!path.isEmpty()) openPath(path);
-}
-
-void MainWindow::chooseRecipe() {
-  const QString path = QFileDialog::getOpenFileName(this, tr("Open recipe"), startFolder(), tr("Recipes (*.json)"));
-  if (!path.isEmpty()) applyRecipeFile(path);
-}
-
-void MainWindow::applyRecipeFile(const QString& path) {
-  QFile file(path);
-  if (!file.open(QIODevice::ReadOnly))
-    return showProblem(
-        tr("%1 cannot be read: %2. Choose another file.").arg(QFileInfo(path).fileName(), file.errorString()));
-  const QByteArray text = file.readAll();
-  auto recipe = recipeFromJson(std::string_view(text.constData(), static_cast<std::size_t>(text.size())));
-  if (!recipe)
-    return showProblem(tr("%1: %2").arg(QFileInfo(path).fileName(), QString::fromStdString(recipe.error().message)));
-  if (recipe->page) {
-    beginDrawing(*recipe);
-    rememberFile(path);
-    return;
-  }
-  if (!session_.hasScan()) return showProblem(tr("A recipe needs a drawing: open a scan first, then this recipe."));
-  session_.change(tr("Open recipe"), std::move(*recipe));
-}
-
-void MainWindow::saveRecipe() {
-  const QString start =
-      session_.isBlankPage()
-          ? startFolder() + QStringLiteral("/drawing.recipe.json")
-          : QString::fromStdU16String(
-                recipeBeside(std::filesystem::path(session_.scanPath().toStdU16String())).u16string());
-  QString path = QFileDialog::getSaveFileName(this, tr("Save recipe"), start, tr("Recipes (*.json)"));
-  if (path.isEmpty()) return;
-  if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".json");
-  const auto saved = saveAtomically(std::filesystem::path(path.toStdU16String()), recipeToJson(session_.recipe()));
-  if (!saved) return showProblem(QString::fromStdString(saved.error().message));
-  if (session_.isBlankPage()) rememberFile(path);
+  action(ActionId::CancelWork)->setEnabled(session_.isWorking() || !parts_->errors->isHidden());
+  action(ActionId::ComputeAgain)->setEnabled(session_.isStopped());
 }
 
 void MainWindow::findAction() {

@@ -10,6 +10,8 @@
 #include "ui/error_strip.h"
 #include "ui/help_window.h"
 #include "ui/main_window.h"
+#include "ui/session/background_worker.h"
+#include "ui/session/recipe_journal.h"
 
 class QSplitter;
 class QStackedWidget;
@@ -53,8 +55,18 @@ struct MainWindow::Parts {
     Layer layer;
     bool before, during;
   };
-  std::vector<StageLayer> stageLayers;  ///< Switched by the present stage, switched back when it is left.
-  enum class Remedy { None, OpenScan, Thresholds, Export } remedy = Remedy::None;
+  enum class Height { Roomy, Low, Lowest } height = Height::Roomy;
+  QList<int> roomySizes;                       ///< Of the splitter, while the window is low.
+  std::vector<StageLayer> stageLayers;         ///< Switched by the present stage, switched back when it is left.
+  std::function<void()> remedy, dismissal;     ///< Of the message shown.
+  std::optional<FailureOrigin> problemOrigin;  ///< Of the message shown.
+  UnsavedQuestion unsavedQuestion;
+  std::unique_ptr<RecipeJournal> journal;
+  std::optional<RecipeJournal::Left> leftWork;  ///< Offered, not yet answered.
+  QString sample;                               ///< Opened when the offer at the start is discarded.
+  QStringList goneFiles;                        ///< Recent files that were not there when last looked for.
+  std::unique_ptr<BackgroundWorker> recipeReader = std::make_unique<BackgroundWorker>();
+  std::unique_ptr<BackgroundWorker> recentChecker = std::make_unique<BackgroundWorker>();
 };
 
 /// A panel with a hairline at its left edge.

@@ -9,22 +9,36 @@
 #include <algorithm>
 
 #include "ui/main_window_parts.h"
+#include "ui/panels/export_panel.h"
+#include "ui/plots/curve_plots.h"
 #include "ui/top_bar.h"
 
 namespace batten {
 namespace {
 constexpr int kRecentFiles = 10;
-}
+const QString kAngleKey = QStringLiteral("suggestion-angle"), kPlotKey = QStringLiteral("window/plot");
+}  // namespace
 
 ThemeChoice MainWindow::storedTheme() {
   return static_cast<ThemeChoice>(std::clamp(QSettings().value(QStringLiteral("theme"), 0).toInt(), 0, 2));
 }
 
-QStringList MainWindow::recentFiles() {
-  QStringList files = QSettings().value(QStringLiteral("recent")).toStringList();
-  files.erase(std::remove_if(files.begin(), files.end(), [](const QString& path) { return !QFileInfo::exists(path); }),
-              files.end());
-  return files;
+QStringList MainWindow::recentFiles() { return QSettings().value(QStringLiteral("recent")).toStringList(); }
+
+void MainWindow::checkRecent(std::function<void()> then) {
+  // A drive that has gone to sleep or away answers after seconds.
+  parts_->recentChecker->start([this, files = recentFiles(), then = std::move(then)](const CancelToken&) {
+    QStringList gone;
+    for (const QString& path : files)
+      if (!QFileInfo::exists(path)) gone.append(path);
+    QMetaObject::invokeMethod(
+        this,
+        [this, gone, then] {
+          parts_->goneFiles = gone;
+          if (then) then();
+        },
+        Qt::QueuedConnection);
+  });
 }
 
 void MainWindow::rememberFile(const QString& path) {
@@ -34,12 +48,15 @@ void MainWindow::rememberFile(const QString& path) {
   files.prepend(full);
   while (files.size() > kRecentFiles) files.removeLast();
   QSettings().setValue(QStringLiteral("recent"), files);
+  parts_->goneFiles.removeAll(full);
 }
 
 void MainWindow::refreshRecent() {
   QMenu* menu = parts_->recentMenu;
   menu->clear();
+  checkRecent({});  // For the next time; the menu opens at once.
   for (const QString& path : recentFiles()) {
+    if (parts_->goneFiles.contains(path)) continue;
     QAction* entry = menu->addAction(QFileInfo(path).fileName());
     entry->setToolTip(path);
     entry->setStatusTip(path);
@@ -49,13 +66,16 @@ void MainWindow::refreshRecent() {
   if (menu->isEmpty()) menu->addAction(tr("No files yet"))->setEnabled(false);
 }
 
+QString MainWindow::drawingName() const {
+  if (session_.isBlankPage()) return tr("New drawing");
+  return session_.hasScan() ? QFileInfo(session_.scanPath()).fileName() : tr("No scan");
+}
+
 void MainWindow::refreshTitle() {
-  const QString path = session_.scanPath();
-  const QString name = session_.isBlankPage() ? tr("New drawing")
-                       : session_.hasScan()   ? QFileInfo(path).fileName()
-                                              : tr("No scan");
-  parts_->topBar->setTitle(name, path);
-  setWindowTitle(session_.hasScan() ? name + QStringLiteral(" – Batten") : QStringLiteral("Batten"));
+  const bool unsaved = session_.hasUnsavedChanges();
+  parts_->topBar->setTitle(drawingName(), unsaved, session_.scanPath());
+  setWindowTitle(session_.hasScan() ? drawingName() + QStringLiteral("[*] – Batten") : QStringLiteral("Batten"));
+  setWindowModified(unsaved);
 }
 
 void MainWindow::setThemeChoice(ThemeChoice choice) {
@@ -65,34 +85,38 @@ void MainWindow::setThemeChoice(ThemeChoice choice) {
     entry->setChecked(true);
 }
 
-void MainWindow::showProblem(const QString& message) {
-  using Remedy = Parts::Remedy;
-  Remedy remedy = Remedy::None;
-  QString text;
-  if (!session_.hasScan()) {
-    remedy = Remedy::OpenScan;
-    text = tr("Open…");
-  } else if (session_.output().error && session_.output().error->code == ErrorCode::NoCurve) {
-    remedy = Remedy::Thresholds;
-    text = tr("Show the thresholds");
+std::pair<QString, std::function<void()>> MainWindow::remedyFor(const Error& error, FailureOrigin origin) {
+  const auto stageOf = [this](PanelStage stage) { return [this, stage] { setStage(stage); }; };
+  switch (origin) {
+    case FailureOrigin::OpenScan:
+      return {tr("Open…"), [this] { chooseScan(); }};
+    case FailureOrigin::OpenRecipe:
+      if (!session_.hasScan()) return {tr("Open…"), [this] { chooseScan(); }};
+      return {tr("Open recipe…"), [this] { chooseRecipe(); }};
+    case FailureOrigin::SaveRecipe:
+      return {tr("Save elsewhere…"), [this] { saveRecipe(); }};
+    case FailureOrigin::Export:
+      if (error.code == ErrorCode::NoCurve) return {tr("Show the curves"), stageOf(PanelStage::Curves)};
+      return {tr("Choose a place…"), [this] {
+                setStage(PanelStage::Export);
+                parts_->exportPanel->browse();
+              }};
+    case FailureOrigin::Run:
+      break;
   }
-  parts_->remedy = remedy;
-  parts_->errors->show(message, text);
-  refreshActions();
+  if (error.code == ErrorCode::NoCurve) return {tr("Show the thresholds"), stageOf(PanelStage::Threshold)};
+  if (error.code == ErrorCode::OutOfMemory) return {tr("Open…"), [this] { chooseScan(); }};
+  if (session_.undoStack()->canUndo()) return {tr("Take the change back"), [this] { session_.undoStack()->undo(); }};
+  return {tr("Show the settings"), stageOf(PanelStage::Curves)};
 }
 
-void MainWindow::actOnProblem() {
-  using Remedy = Parts::Remedy;
-  switch (parts_->remedy) {
-    case Remedy::OpenScan:
-      return chooseScan();
-    case Remedy::Thresholds:
-      return setStage(PanelStage::Threshold);
-    case Remedy::Export:
-      return setStage(PanelStage::Export);
-    case Remedy::None:
-      return;
-  }
+void MainWindow::showProblem(const Error& error, FailureOrigin origin) {
+  auto [text, remedy] = remedyFor(error, origin);
+  parts_->remedy = std::move(remedy);
+  parts_->dismissal = {};
+  parts_->problemOrigin = origin;
+  parts_->errors->show(QString::fromStdString(error.message).simplified(), text);
+  refreshActions();
 }
 
 void MainWindow::loadSettings() {
@@ -116,7 +140,9 @@ void MainWindow::loadSettings() {
     view_.setVisible(layer, settings.value(action(showAction(layer))->objectName(), view_.isVisible(layer)).toBool());
   view_.setCombScale(settings.value(QStringLiteral("comb-scale"), view_.combScale()).toDouble());
   view_.setCombDensity(settings.value(QStringLiteral("comb-density"), view_.combDensity()).toInt());
+  view_.setSuggestionAngleDeg(settings.value(kAngleKey, view_.suggestionAngleDeg()).toDouble());
   settings.endGroup();
+  parts_->plots->setTab(static_cast<PlotTab>(std::clamp(settings.value(kPlotKey, 0).toInt(), 0, 3)));
   const ThemeChoice choice = storedTheme();
   parts_->mainMenu->findChild<QAction*>(QStringLiteral("theme-%1").arg(static_cast<int>(choice)))->setChecked(true);
 }
@@ -124,7 +150,8 @@ void MainWindow::loadSettings() {
 void MainWindow::saveSettings() {
   QSettings settings;
   settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
-  settings.setValue(QStringLiteral("window/splitter"), parts_->splitter->saveState());
+  if (parts_->height == Parts::Height::Roomy)
+    settings.setValue(QStringLiteral("window/splitter"), parts_->splitter->saveState());
   settings.setValue(QStringLiteral("window/plots"), parts_->foldAction->isChecked());
   settings.beginGroup(QStringLiteral("view"));
   for (const Layer layer : kLayers) {
@@ -136,7 +163,9 @@ void MainWindow::saveSettings() {
   }
   settings.setValue(QStringLiteral("comb-scale"), view_.combScale());
   settings.setValue(QStringLiteral("comb-density"), view_.combDensity());
+  settings.setValue(kAngleKey, view_.suggestionAngleDeg());
   settings.endGroup();
+  settings.setValue(kPlotKey, static_cast<int>(parts_->plots->tab()));
 }
 
 }  // namespace batten

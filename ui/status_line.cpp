@@ -16,6 +16,8 @@
 namespace batten {
 namespace {
 
+constexpr int kMessageMs = 5000;
+
 QString decimal(double value, int decimals) {
   const double whole = std::trunc(value);
   QString fraction = QString::number(std::abs(value - whole), 'f', decimals).mid(1);
@@ -31,7 +33,9 @@ StatusLine::StatusLine(EditorSession& session, QWidget* parent)
       session_(session),
       setScale_(linkButton(tr("no scale: set it"), QStringLiteral("status.setScale"), this)),
       progress_(new QProgressBar(this)),
-      cancel_(linkButton(tr("Cancel"), QStringLiteral("status.cancel"), this)) {
+      cancel_(linkButton(tr("Cancel"), QStringLiteral("status.cancel"), this)),
+      again_(linkButton(tr("Compute again"), QStringLiteral("status.again"), this)) {
+  setObjectName(QStringLiteral("statusLine"));
   setFixedHeight(30);
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(14, 1, 14, 0);
@@ -60,14 +64,25 @@ StatusLine::StatusLine(EditorSession& session, QWidget* parent)
   progress_->setAccessibleName(tr("Progress"));
   layout->addWidget(progress_);
   layout->addWidget(cancel_);
+  layout->addWidget(again_);
   work_ = add("status.work", QStringLiteral("exact · 888 ms"));
   work_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   setScale_->setFont(uiFont(12));
   cancel_->setFont(uiFont(12));
+  again_->setFont(uiFont(12));
+  again_->setToolTip(tr("Go on with the computation that was stopped.  (F5)"));
+  messageTimer_.setSingleShot(true);
+  messageTimer_.setInterval(kMessageMs);
+  connect(&messageTimer_, &QTimer::timeout, this, [this] {
+    message_.clear();
+    refreshHint();
+  });
   connect(setScale_, &QPushButton::clicked, this, &StatusLine::scaleAsked);
   connect(cancel_, &QPushButton::clicked, &session_, &EditorSession::cancel);
+  connect(again_, &QPushButton::clicked, &session_, &EditorSession::computeAgain);
   connect(&session_, &EditorSession::scanOpened, this, &StatusLine::refreshScale);
   connect(&session_, &EditorSession::recipeChanged, this, &StatusLine::refreshScale);
+  connect(&session_, &EditorSession::workingChanged, this, &StatusLine::refreshWork);
   connect(&session_, &EditorSession::busyChanged, this, &StatusLine::refreshWork);
   connect(&session_, &EditorSession::runFinished, this, &StatusLine::refreshWork);
   connect(&session_, &EditorSession::progress, this,
@@ -89,18 +104,27 @@ void StatusLine::setPlace(std::optional<Vec2> imagePx) {
   pixels_->setText(tr("px %1, %2").arg(decimal(imagePx->x(), 1), decimal(imagePx->y(), 1)));
 }
 
-void StatusLine::setZoom(double zoom) {
-  zoom_->setText(QStringLiteral("%1 %").arg(zoom * 100, 0, 'f', zoom < 0.0995 ? 1 : 0));
-}
+void StatusLine::setZoom(double zoom) { zoom_->setText(zoomText(zoom)); }
 
 void StatusLine::setHint(const QString& text) {
   placeHint_ = text;
-  hint_->setText(placeHint_.isEmpty() ? stageHint_ : placeHint_);
+  refreshHint();
+}
+
+void StatusLine::showMessage(const QString& text) {
+  message_ = text;
+  messageTimer_.start();
+  refreshHint();
+}
+
+void StatusLine::refreshHint() {
+  hint_->setText(!message_.isEmpty() ? message_ : placeHint_.isEmpty() ? stageHint_ : placeHint_);
 }
 
 void StatusLine::setStageHint(const QString& text) {
   stageHint_ = text;
-  setHint(placeHint_);
+  message_.clear();
+  refreshHint();
 }
 
 void StatusLine::refreshScale() {
@@ -119,11 +143,12 @@ void StatusLine::refreshScale() {
 }
 
 void StatusLine::refreshWork() {
-  const bool busy = session_.isBusy();
+  const bool busy = session_.isBusy(), working = session_.isWorking();
   progress_->setVisible(busy);
-  cancel_->setVisible(busy);
-  if (busy) {
-    work_->setText(tr("working"));
+  cancel_->setVisible(working);
+  again_->setVisible(!working && session_.isStopped());
+  if (working) {
+    work_->setText(busy ? tr("working") : session_.isTargeting() ? tr("computing targets") : tr("comparing"));
     return;
   }
   progress_->setValue(0);
@@ -131,7 +156,9 @@ void StatusLine::refreshWork() {
   if (!session_.hasScan() || isBeginning) return work_->clear();
   const double ms = session_.lastRunMilliseconds();
   const bool whole = !session_.isStale(StageId::Faired) && session_.output().faired;
-  work_->setText(!whole ? tr("stopped") : ms < 0.5 ? tr("exact") : tr("exact · %1 ms").arg(ms, 0, 'f', 0));
+  work_->setText(session_.isStopped() || !whole ? tr("stopped")
+                 : ms < 0.5                     ? tr("exact")
+                                                : tr("exact · %1 ms").arg(ms, 0, 'f', 0));
   work_->setToolTip(whole ? tr("All that is shown belongs to the present settings.")
                           : tr("Some of what is shown is from earlier settings."));
 }

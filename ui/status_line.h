@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QTimer>
 #include <QWidget>
 #include <optional>
 
@@ -23,6 +24,8 @@ class StatusLine : public QWidget {
   void setHint(const QString& text);
   /// What stands there while nothing under the mouse has a hint of its own.
   void setStageHint(const QString& text);
+  /// Says what has happened, for five seconds or until the stage changes.
+  void showMessage(const QString& text);
 
  signals:
   void scaleAsked();  ///< "no scale: set it" was pressed.
@@ -33,12 +36,14 @@ class StatusLine : public QWidget {
  private:
   void refreshScale();
   void refreshWork();
+  void refreshHint();
   EditorSession& session_;
-  QString stageHint_, placeHint_;
+  QString stageHint_, placeHint_, message_;
+  QTimer messageTimer_;
   QLabel *millimetres_, *pixels_, *scale_, *zoom_, *hint_, *work_;
   QPushButton* setScale_;
   QProgressBar* progress_;
-  QPushButton* cancel_;
+  QPushButton *cancel_, *again_;
 };
 
 }  // namespace batten

@@ -10,6 +10,7 @@
 #include <QPushButton>
 #include <QToolButton>
 
+#include "ui/panels/panel_parts.h"
 #include "ui/session/view_settings.h"
 #include "ui/theme/theme.h"
 
@@ -105,14 +106,13 @@ void TopBar::setIcons() {
   find_->setIcon(themedIcon(QStringLiteral("find"), palette()));
 }
 
-void TopBar::setTitle(const QString& title, const QString& toolTip) {
-  title_->setText(title_->fontMetrics().elidedText(title, Qt::ElideMiddle, 300));
-  title_->setToolTip(toolTip);
+void TopBar::setTitle(const QString& title, bool unsaved, const QString& toolTip) {
+  const QString mark = unsaved ? QStringLiteral(" •") : QString();
+  title_->setText(title_->fontMetrics().elidedText(title, Qt::ElideMiddle, 285) + mark);
+  title_->setToolTip(unsaved ? QStringList{toolTip, tr("Unsaved changes")}.join(QLatin1Char('\n')).trimmed() : toolTip);
 }
 
-void TopBar::setZoom(double zoom) {
-  zoom_->setText(QStringLiteral("%1 %").arg(zoom * 100, 0, 'f', zoom < 0.0995 ? 1 : 0));
-}
+void TopBar::setZoom(double zoom) { zoom_->setText(zoomText(zoom)); }
 
 void TopBar::openMenu() { menu_->showMenu(); }
 

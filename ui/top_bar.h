@@ -21,7 +21,8 @@ class TopBar : public QWidget {
     QAction *undo, *redo, *scan, *comb, *fit, *actual, *find, *exportCurves;
   };
   TopBar(ViewSettings& view, const Actions& actions, QMenu* mainMenu, QMenu* layersMenu, QWidget* parent = nullptr);
-  void setTitle(const QString& title, const QString& toolTip);
+  /// @param unsaved marks the title.
+  void setTitle(const QString& title, bool unsaved, const QString& toolTip);
   void setZoom(double zoom);
   void openMenu();
 

@@ -26,13 +26,11 @@ int main(int argc, char** argv) {
   batten::MainWindow window;
   window.show();
   const QStringList arguments = QCoreApplication::arguments().mid(1);
-  const QString sample = samplePath();
   if (!arguments.isEmpty()) {
+    window.offerLeftWork();
     window.openPath(QFileInfo(arguments.first()).absoluteFilePath());
-  } else if (const QStringList recent = batten::MainWindow::recentFiles(); !recent.isEmpty()) {
-    window.openPath(recent.first());
-  } else if (!sample.isEmpty()) {
-    window.openPath(sample);  // It opens finished, by the recipe beside it: one learns by changing it.
+  } else {
+    window.openAtStart(samplePath());  // The sample opens finished, by the recipe beside it: one learns by changing it.
   }
   return QApplication::exec();
 }

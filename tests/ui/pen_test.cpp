@@ -28,8 +28,7 @@ class Pen : public test::WindowFixture {
  protected:
   void begin() {
     window_->beginDrawing(NewDrawingDialog::recipeFor({100, 80}, 127.0));
-    ASSERT_TRUE(session().isBlankPage());
-    ASSERT_TRUE(settle());
+    ASSERT_TRUE(waitUntil([this] { return session().isBlankPage() && !session().isBusy(); }));
   }
   /// Draws through these places (image px) with the left button, a few moves to each.
   void draw(const std::vector<Vec2>& places, Qt::KeyboardModifiers modifiers = {}) {
@@ -204,8 +203,7 @@ TEST_F(Pen, ADrawingIsSavedOpenedAgainAndTracedAlikeByItsRecipe) {
   const QString path = folder_.filePath(QStringLiteral("drawing.recipe.json"));
   ASSERT_TRUE(saveAtomically(std::filesystem::path(path.toStdU16String()), saved));
   openPage(test::ellipsePage());
-  window_->openPath(path);
-  ASSERT_TRUE(settle());
+  ASSERT_NO_FATAL_FAILURE(openFile(path));
   EXPECT_TRUE(session().isBlankPage());
   EXPECT_EQ(session().recipe(), *read);
   EXPECT_EQ(session().curves().size(), output.faired->curves.size());

@@ -83,7 +83,7 @@ TEST(EditorSession, AScanThatCannotBeReadLeavesTheOpenOne) {
   QSignalSpy failed(&open.session, &EditorSession::failed);
   open.session.openScan(QStringLiteral("/nowhere/at/all.png"));
   ASSERT_TRUE(waitUntil([&] { return failed.count() > 0 && !open.session.isBusy(); }));
-  const QString message = failed.first().first().toString();
+  const QString message = QString::fromStdString(failed.first().first().value<Error>().message);
   EXPECT_FALSE(message.isEmpty());
   EXPECT_FALSE(message.contains(QLatin1Char('\n')));
   EXPECT_EQ(open.session.scan(), before);

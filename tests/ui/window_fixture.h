@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <QApplication>
 #include <QFile>
 #include <QLineEdit>
 #include <QSettings>
+#include <QSignalSpy>
 #include <QTest>
+#include <QTimer>
+#include <functional>
 #include <memory>
 
 #include "tests/ui/rendered_scan.h"
@@ -22,19 +26,67 @@ class WindowFixture : public testing::Test {
     ASSERT_TRUE(folder_.isValid());
     QSettings::setDefaultFormat(QSettings::IniFormat);
     QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, folder_.path());
+    ASSERT_NO_FATAL_FAILURE(openWindow());
+  }
+  /// A new window in place of the one there is, as at the next start.
+  void openWindow() {
+    window_.reset();
     window_ = std::make_unique<MainWindow>();
+    // No test waits for an answer that nobody gives.
+    window_->setUnsavedQuestion([this](const QString&) {
+      ++questions_;
+      return answer_;
+    });
     window_->resize(1280, 860);
     window_->show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
   }
+  /// Does something with the dialog that comes up, which then must be gone; fails when none comes.
+  void inDialog(const std::function<void(QWidget&)>& act, const std::function<void()>& open) {
+    bool seen = false;
+    QTimer timer;
+    QObject::connect(&timer, &QTimer::timeout, [&] {
+      QWidget* dialog = QApplication::activeModalWidget();
+      if (!dialog || !dialog->isVisible()) return;
+      timer.stop();
+      seen = true;
+      act(*dialog);
+    });
+    timer.start(20);
+    open();
+    EXPECT_TRUE(seen) << "no dialog came up";
+  }
+  /// Types a name into the dialog for saving and accepts.
+  void saveAs(const QString& path, const std::function<void()>& open) {
+    inDialog(
+        [&](QWidget& dialog) {
+          auto* edit = dialog.findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
+          ASSERT_NE(edit, nullptr);
+          edit->setText(path);
+          QTest::keyClick(edit, Qt::Key_Return);
+        },
+        open);
+  }
   void openPage(const QImage& page) {
     path_ = folder_.filePath(QStringLiteral("page.png"));
     ASSERT_TRUE(page.save(path_));
-    window_->openPath(path_);
-    ASSERT_TRUE(waitUntil([this] { return session().hasScan(); }));
+    ASSERT_NO_FATAL_FAILURE(openFile(path_));
     ASSERT_TRUE(settle());
     ASSERT_FALSE(session().output().error) << session().output().error->message;
     ASSERT_FALSE(session().curves().empty());
+  }
+  void openFile(const QString& path) {
+    QSignalSpy opened(&session(), &EditorSession::scanOpened);
+    window_->openPath(path);
+    ASSERT_TRUE(waitUntil([&] { return opened.count() > 0; }));
+    ASSERT_TRUE(settle());
+  }
+  /// A change that is worth a question.
+  void changeSomething() {
+    Recipe recipe = session().recipe();
+    recipe.filter.coefficient = recipe.filter.coefficient == 3 ? 2 : 3;
+    session().change(QStringLiteral("Coefficient"), recipe);
+    ASSERT_TRUE(settle());
   }
   bool settle() {
     return waitUntil([this] { return !session().isBusy(); });
@@ -68,6 +120,8 @@ class WindowFixture : public testing::Test {
   QTemporaryDir folder_;
   QString path_;
   std::unique_ptr<MainWindow> window_;
+  UnsavedAnswer answer_ = UnsavedAnswer::Discard;
+  int questions_ = 0;
 };
 
 }  // namespace batten::test

@@ -44,6 +44,8 @@ std::vector<ActionInfo> editActions() {
        tr("Make the change that was taken back again.")},
       {CancelWork, "cancel", menu, tr("Stop working"), keys({"Esc"}),
        tr("Stop the running computation; what is ready stays.")},
+      {ComputeAgain, "compute-again", menu, tr("Compute again"), keys({"F5"}),
+       tr("Go on with a computation that was stopped.")},
       {FindAction, "find-action", menu, tr("Find an action…"), keys({"Ctrl+Shift+P"}),
        tr("Search everything the program can do by name.")},
   };
@@ -62,7 +64,7 @@ std::vector<ActionInfo> viewActions() {
        tr("Step back; the wheel zooms at the cursor.")},
       {Compare, "compare", menu, tr("Compare"), keys({"\\"}), tr("Hold to see the scan alone."), true, true},
       {ShowScan, "show-scan", menu, tr("Scan"), keys({"Alt+1"}), tr("Show the scan."), true},
-      {ShowLogImage, "show-log-image", menu, tr("Log image"), keys({"Alt+2"}),
+      {ShowLogImage, "show-log-image", menu, tr("Log picture"), keys({"Alt+2"}),
        tr("Show the scan after the log transform."), true},
       {ShowMask, "show-mask", menu, tr("Mask"), keys({"Alt+3"}), tr("Show what counts as ink."), true},
       {ShowEdges, "show-edges", menu, tr("Edges"), keys({"Alt+4"}), tr("Show the pixels where ink meets paper."), true},

@@ -26,6 +26,7 @@ enum class ActionId {
   Undo,
   Redo,
   CancelWork,
+  ComputeAgain,
   FindAction,
   ZoomFit,
   ZoomActual,

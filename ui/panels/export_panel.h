@@ -23,20 +23,29 @@ class ExportPanel : public QWidget {
  public:
   explicit ExportPanel(EditorSession& session, QWidget* parent = nullptr);
   ~ExportPanel() override;
+  /// Asks for the file to write.
+  void browse();
 
  signals:
   void exported(bool presentResult);  ///< True after a file holds the present result, false once that changes.
-  void failed(const QString& message);
+  void failed(const batten::Error& error);
+
+ protected:
+  void showEvent(QShowEvent*) override;
 
  private:
   void buildForm();
   void refresh();
   void suggestName();
   void setFormat(ExportFormat format);
-  void browse();
+  void openedAnother();
+  QString suffix() const;
+  QString reasonToWait() const;
+  void saveSettings() const;
   void start();
   void finish(const Result<ExportOutcome>& outcome);
   bool isReady() const;
+  const ExportSize& size();
 
   EditorSession& session_;
   SegmentedControl* format_;
@@ -47,10 +56,14 @@ class ExportPanel : public QWidget {
   QLabel* formatNote_;
   QLabel* size_;
   QPushButton* export_;
+  QPushButton* again_;
   QLabel* result_;
   bool confirmReplace_ = false;
   bool running_ = false;
   QString lastWritten_;
+  std::shared_ptr<const FairedSet> sizeOf_;  ///< What size_ was measured of: only when it changes, and is seen.
+  ExportSize measured_;
+  Recipe writing_;
   std::unique_ptr<BackgroundWorker> worker_;
 };
 

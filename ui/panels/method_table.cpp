@@ -13,6 +13,7 @@
 #include "core/pipeline/parameter_table.h"
 #include "ui/panels/panel_parts.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/guarded.h"
 #include "ui/session/piece_choice.h"
 #include "ui/theme/theme.h"
 
@@ -173,6 +174,8 @@ MethodTable::MethodTable(EditorSession& session, QWidget* parent)
     session_.change(own ? tr("Own method") : tr("Common method"), withChoice(session_, session_.selectedCurve(), edit));
     refresh();
   });
+  connect(&session_, &EditorSession::stopped, this, &MethodTable::stop);
+  connect(&session_, &EditorSession::workingChanged, this, &MethodTable::refresh);
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
                             &EditorSession::runFinished})
     connect(&session_, signal, this, &MethodTable::refresh);
@@ -224,6 +227,7 @@ void MethodTable::compute() {
   const TracedCurve* curve = session_.selected();
   const PipelineOutput& output = session_.output();
   if (!curve || !output.pieces || !output.segments || session_.isStale(StageId::Segments)) return;
+  if (session_.isStopped()) return;
   Source source{output.pieces,  output.segments, session_.recipe().construct, session_.recipe().segmentPoints,
                 curve->contour, curve->piece,    output.frame.mmPerPx};
   source.params.method = ConstructMethod::Fair;  // whichever is chosen, all are compared
@@ -233,6 +237,7 @@ void MethodTable::compute() {
     figures_[i].reset();
     rows_[i]->show({}, false);
   }
+  session_.setSideWork(this, true);
   worker_->start(
       [output, source, base = session_.recipe(), panel = QPointer<MethodTable>(this)](const CancelToken& token) {
         RunContext context;
@@ -242,7 +247,8 @@ void MethodTable::compute() {
           Recipe recipe = base;
           recipe.construct.method = kMethods[i];
           std::optional<CurveFigures> figures;
-          if (const auto made = constructLine(output, recipe, source.contour, context)) {
+          if (const auto made = guarded<std::vector<TracedCurve>>(
+                  [&] { return constructLine(output, recipe, source.contour, context); })) {
             for (const TracedCurve& each : *made)
               if (each.piece == source.piece && !each.sketched.isEmpty()) figures = each.sketchedFigures;
           }
@@ -261,6 +267,13 @@ void MethodTable::show(int method, const std::optional<CurveFigures>& figures) {
   const auto at = static_cast<std::size_t>(method);
   figures_[at] = figures;
   rows_[at]->show(figures, !figures);
+  if (at + 1 == kMethods.size()) session_.setSideWork(this, false);
+}
+
+void MethodTable::stop() {
+  worker_->cancelAll();
+  for (std::size_t i = 0; source_ && i < kMethods.size(); ++i)
+    if (!figures_[i]) source_.reset();  // Asked for again once the work goes on.
 }
 
 }  // namespace batten

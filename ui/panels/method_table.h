@@ -44,6 +44,7 @@ class MethodTable : public QWidget {
   void compute();
   void choose(ConstructMethod);
   void show(int method, const std::optional<CurveFigures>& figures);
+  void stop();
 
   EditorSession& session_;
   std::vector<MethodRow*> rows_;

@@ -140,6 +140,8 @@ QString shortMillimetres(double mm) {
   return QString::number(mm, 'f', decimals) + QStringLiteral(" mm");
 }
 
+QString zoomText(double zoom) { return QStringLiteral("%1 %").arg(zoom * 100, 0, 'f', zoom < 0.0995 ? 1 : 0); }
+
 QString grouped(qint64 count) {
   QString digits = QString::number(count);
   for (int at = static_cast<int>(digits.size()) - 3; at > (count < 0 ? 1 : 0); at -= 3)

@@ -66,8 +66,10 @@ QString TargetTile::problem() const {
   return {};
 }
 
-void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double budgetMm, bool chosen, bool oneCurve) {
+void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double budgetMm, bool chosen, bool oneCurve,
+                      const QString& waiting) {
   outcomes_ = std::move(outcomes);
+  waiting_ = outcomes_ ? QString() : waiting;
   budgetMm_ = budgetMm;
   chosen_ = chosen;
   const QString name = tr("Target %1, %2").arg(degree_).arg(degreeName(degree_));
@@ -90,11 +92,20 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double bud
   }
   tip += QLatin1Char('\n') + (oneCurve ? tr("Click or press %1: for the selected curve.").arg(degree_)
                                        : tr("Click or press %1: for all curves.").arg(degree_));
-  if (outcomes_ && outcomes_->recommendedDegree == degree_) spoken += tr(", recommended");
+  if (outcomes_ && outcomes_->recommendedDegree == degree_)
+    spoken += isWithinBudget() ? tr(", recommended") : tr(", closest shape");
+  if (!outcomes_ && !waiting_.isEmpty()) spoken += QStringLiteral(", ") + waiting_;
   if (chosen_) spoken += tr(", chosen");
   setAccessibleName(spoken);
   setToolTip(tip);
   update();
+}
+
+bool TargetTile::isWithinBudget() const {
+  const auto index = static_cast<std::size_t>(degree_ - 1);
+  if (!outcomes_ || !outcomes_->faired[index]) return false;
+  const FairingReport& report = outcomes_->faired[index]->report;
+  return report.withinBudget && report.maxDeviationMm <= budgetMm_ * (1 + 1e-9);
 }
 
 void TargetTile::paintEvent(QPaintEvent*) {
@@ -106,35 +117,47 @@ void TargetTile::paintEvent(QPaintEvent*) {
   painter.setBrush(theme.panel);
   painter.setPen(QPen(live ? theme.accent : underMouse() && isEnabled() ? theme.mute : theme.line, live ? 2 : 1));
   painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 7, 7);
-  if (hasFocus()) drawFocusRing(painter, QRectF(rect()).adjusted(0, 0, 0, 0), 8, theme);
+  if (hasFocus()) drawFocusRing(painter, QRectF(rect()), 8, theme);
   const QRectF inner = box.adjusted(9, 6, -9, -5);
   const QRectF title(inner.left(), inner.top(), inner.width(), 17);
+  paintTitle(painter, title);
+  const QRectF below(inner.left(), title.bottom() + 4, inner.width(), inner.bottom() - title.bottom() - 4);
+  const QString instead = outcomes_ ? problem() : waiting_;
+  if (!instead.isEmpty()) {
+    painter.setFont(uiFont(11));
+    painter.setPen(theme.mute);
+    painter.drawText(below, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, instead);
+  }
+  if (!outcomes_ || !instead.isEmpty()) return;
+  paintProfiles(painter, below.adjusted(0, 0, 0, -18));
+  paintFigures(painter, QRectF(inner.left(), inner.bottom() - 15, inner.width(), 15));
+}
+
+void TargetTile::paintTitle(QPainter& painter, const QRectF& title) const {
+  const Theme& theme = themeOf(palette());
   const QString number = QString::number(degree_);
   painter.setFont(uiFont(12, QFont::Bold));
   painter.setPen(isEnabled() ? theme.text : theme.mute);
   painter.drawText(title, Qt::AlignLeft | Qt::AlignVCenter, number);
-  const int numberWidth = painter.fontMetrics().horizontalAdvance(number) + 5;
+  const double numberWidth = painter.fontMetrics().horizontalAdvance(number) + 5;
+  // The shape nearest to the sketch is only advice where the budget allows it.
+  const bool isNearest = outcomes_ && outcomes_->recommendedDegree == degree_;
+  const bool isAdvised = isNearest && isWithinBudget();
+  const QFontMetricsF metrics(uiFont(12)), small(uiFont(11));
+  const double nameWidth = metrics.horizontalAdvance(degreeName(degree_));
+  QString word = isAdvised ? tr("recommended") : isNearest ? tr("closest shape") : QString();
+  const auto fits = [&](const QString& one) {
+    return numberWidth + nameWidth + 6 + small.horizontalAdvance(one) <= title.width();
+  };
+  if (!fits(word)) word = isAdvised ? QStringLiteral("✓") : tr("closest");
+  if (!fits(word) && !isAdvised) word.clear();
+  const double taken = word.isEmpty() ? 0.0 : small.horizontalAdvance(word) + 6;
   painter.setFont(uiFont(12));
-  painter.drawText(title.adjusted(numberWidth, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter, degreeName(degree_));
-  if (outcomes_ && outcomes_->recommendedDegree == degree_) {
-    const int nameWidth = numberWidth + painter.fontMetrics().horizontalAdvance(degreeName(degree_)) + 6;
-    painter.setFont(uiFont(11));
-    painter.setPen(theme.good);
-    const QString word = tr("recommended");
-    const bool fits = nameWidth + painter.fontMetrics().horizontalAdvance(word) <= title.width();
-    painter.drawText(title, Qt::AlignRight | Qt::AlignVCenter, fits ? word : QStringLiteral("✓"));
-  }
-  const QRectF middle(inner.left(), title.bottom() + 4, inner.width(), inner.bottom() - title.bottom() - 22);
-  if (!outcomes_) return;
-  if (const QString why = problem(); !why.isEmpty()) {
-    painter.setFont(uiFont(11));
-    painter.setPen(theme.mute);
-    painter.drawText(QRectF(inner.left(), title.bottom() + 4, inner.width(), inner.bottom() - title.bottom() - 4),
-                     Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, why);
-    return;
-  }
-  paintProfiles(painter, middle);
-  paintFigures(painter, QRectF(inner.left(), inner.bottom() - 15, inner.width(), 15));
+  painter.drawText(title.adjusted(numberWidth, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter,
+                   metrics.elidedText(degreeName(degree_), Qt::ElideRight, title.width() - numberWidth - taken));
+  painter.setFont(uiFont(11));
+  painter.setPen(isAdvised ? theme.good : theme.mute);
+  painter.drawText(title, Qt::AlignRight | Qt::AlignVCenter, word);
 }
 
 void TargetTile::paintProfiles(QPainter& painter, const QRectF& box) const {
@@ -167,23 +190,34 @@ void TargetTile::paintFigures(QPainter& painter, const QRectF& box) const {
   const Theme& theme = themeOf(palette());
   const auto index = static_cast<std::size_t>(degree_ - 1);
   const FairingReport& report = outcomes_->faired[index]->report;
-  const bool over = !report.withinBudget || report.maxDeviationMm > budgetMm_ * (1 + 1e-9);
+  const bool over = !isWithinBudget();
   // What meeting the target takes is the number that decides; the curve itself never leaves the budget.
   const double mm = over ? std::max(report.neededMm, report.maxDeviationMm) : report.maxDeviationMm;
   painter.setFont(uiFont(11));
-  painter.setPen(theme.mute);
+  const QFontMetricsF metrics(painter.font());
   const QString similarity = QStringLiteral("S ") + similarityText(outcomes_->targets.profiles[index].similarity);
-  const QString needed = shortMillimetres(mm), extrema = tr("%1 extr.").arg(report.extremaAfter);
-  const auto wide = [&painter](const QString& one) { return painter.fontMetrics().horizontalAdvance(one); };
-  // Where three do not fit beside each other, the similarity, which cannot choose, is the one to go.
-  const bool fits = wide(similarity) + wide(needed) + wide(extrema) + 12 <= box.width();
-  if (fits) painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, similarity);
-  painter.drawText(box, Qt::AlignRight | Qt::AlignVCenter, extrema);
+  const QString length = shortMillimetres(mm), needs = over ? tr("needs %1").arg(length) : length;
+  const QString extrema = tr("%1 extr.").arg(report.extremaAfter),
+                times = QStringLiteral("%1×").arg(report.extremaAfter);
+  const auto fits = [&](std::initializer_list<QString> parts) {
+    double width = 8.0 * static_cast<double>(parts.size() - 1);
+    for (const QString& part : parts) width += metrics.horizontalAdvance(part);
+    return width <= box.width();
+  };
+  // From the most said to the least: the similarity, which cannot choose, is the first to go, then the words.
+  const bool withSimilarity = fits({similarity, needs, extrema});
+  const bool withWords = fits({needs, extrema});
+  const QString number = withWords || fits({needs, times}) ? needs : length;
+  const QString count = withWords ? extrema : fits({number, times}) ? times : QString();
+  painter.setPen(theme.mute);
+  painter.drawText(box, Qt::AlignRight | Qt::AlignVCenter, count);
+  if (withSimilarity) painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, similarity);
   painter.setPen(over ? theme.amber : theme.mute);
-  if (fits)
-    painter.drawText(box.translated(0.5 * (wide(similarity) - wide(extrema)), 0), Qt::AlignCenter, needed);
+  const double shift = 0.5 * (metrics.horizontalAdvance(similarity) - metrics.horizontalAdvance(count));
+  if (withSimilarity)
+    painter.drawText(box.translated(shift, 0), Qt::AlignCenter, number);
   else
-    painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, needed);
+    painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, metrics.elidedText(number, Qt::ElideRight, box.width()));
 }
 
 void TargetTile::enterEvent(QEnterEvent*) {
@@ -231,6 +265,7 @@ TargetStrip::TargetStrip(EditorSession& session, QWidget* parent) : QWidget(pare
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
                             &EditorSession::targetsChanged, &EditorSession::runFinished})
     connect(&session_, signal, this, &TargetStrip::refresh);
+  connect(&session_, &EditorSession::workingChanged, this, &TargetStrip::refresh);
   refresh();
 }
 
@@ -250,9 +285,13 @@ void TargetStrip::refresh() {
     if (used.mode == FairingMode::Target && used.target != kDrawnTarget)
       chosen = used.target > 0 ? used.target : targets ? targets->recommendedDegree : 0;
   }
+  const QString waiting = !curve                   ? QString()
+                          : session_.isTargeting() ? tr("computing…")
+                          : session_.isStopped()   ? tr("stopped")
+                                                   : QString();
   for (int degree = 1; degree <= 6; ++degree)
     tiles_[static_cast<std::size_t>(degree - 1)]->show(curve ? targets : nullptr, budget, degree == chosen,
-                                                       choosesForOneCurve(session_));
+                                                       choosesForOneCurve(session_), waiting);
 }
 
 void TargetStrip::paintEvent(QPaintEvent*) {

@@ -16,7 +16,9 @@ class TargetTile : public QAbstractButton {
  public:
   TargetTile(int degree, QWidget* parent);
   /// @param budgetMm deviations above it are amber.
-  void show(std::shared_ptr<const TargetOutcomes> outcomes, double budgetMm, bool chosen, bool oneCurve);
+  /// @param waiting what an empty tile says.
+  void show(std::shared_ptr<const TargetOutcomes> outcomes, double budgetMm, bool chosen, bool oneCurve,
+            const QString& waiting);
   QSize sizeHint() const override { return {156, 97}; }
   QSize minimumSizeHint() const override { return {96, 97}; }
 
@@ -34,10 +36,13 @@ class TargetTile : public QAbstractButton {
 
  private:
   QString problem() const;
+  bool isWithinBudget() const;
+  void paintTitle(class QPainter&, const QRectF&) const;
   void paintProfiles(class QPainter&, const QRectF&) const;
   void paintFigures(class QPainter&, const QRectF&) const;
   int degree_;
   std::shared_ptr<const TargetOutcomes> outcomes_;
+  QString waiting_;
   double budgetMm_ = 0.0;
   bool chosen_ = false;
 };

@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "ui/plots/plot_editing.h"
+#include "ui/plots/plot_style.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -26,13 +27,14 @@ struct CurvePlots::State {
   EditorSession& session;
   PlotTab tab = PlotTab::Radius;
   PlotData data;
+  std::optional<DataKey> dataKey;
   QButtonGroup* tabs = nullptr;
   QLabel* value = nullptr;
-  QLabel* empty = nullptr;
+  QLabel *empty = nullptr, *quantity = nullptr;
   QCustomPlot* plot = nullptr;
   QCPItemStraightLine* cursor = nullptr;
   QSharedPointer<QCPAxisTicker> linearTicker;
-  QSharedPointer<QCPAxisTickerLog> logTicker;
+  QSharedPointer<RoundLogTicker> logTicker;
   PlotEditing* editing = nullptr;
   bool isPending = false;
   double shownLength = -1.0;
@@ -58,11 +60,8 @@ CurvePlots::CurvePlots(EditorSession& session, QWidget* parent)
 
 CurvePlots::~CurvePlots() = default;
 
-void CurvePlots::build() {
+QLayout* CurvePlots::makeHead() {
   State& d = *state_;
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 1, 0, 0);
-  layout->setSpacing(0);
   auto* head = new QHBoxLayout;
   head->setContentsMargins(4, 2, 14, 0);
   head->setSpacing(2);
@@ -99,7 +98,15 @@ void CurvePlots::build() {
   d.value->setFont(uiFont(12));
   d.value->setForegroundRole(QPalette::PlaceholderText);
   head->addWidget(d.value);
-  layout->addLayout(head);
+  return head;
+}
+
+void CurvePlots::build() {
+  State& d = *state_;
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 1, 0, 0);
+  layout->setSpacing(0);
+  layout->addLayout(makeHead());
   d.plot = new QCustomPlot(this);
   d.plot->setObjectName(QStringLiteral("plot"));
   d.plot->setAccessibleName(tr("Plot over arc length of the selected curve"));
@@ -117,17 +124,23 @@ void CurvePlots::build() {
   connect(d.editing, &PlotEditing::wholeAsked, this, &CurvePlots::resetView);
   d.linearTicker = QSharedPointer<QCPAxisTicker>::create();
   d.linearTicker->setTickCount(4);
-  d.logTicker = QSharedPointer<QCPAxisTickerLog>::create();
-  d.logTicker->setSubTickCount(0);
+  d.logTicker = QSharedPointer<RoundLogTicker>::create();
+  d.plot->xAxis->setTicker(QSharedPointer<LengthTicker>::create());
   d.cursor = new QCPItemStraightLine(d.plot);
   d.cursor->setVisible(false);
   d.cursor->setLayer(QStringLiteral("overlay"));
   layout->addWidget(d.plot, 1);
-  d.empty = new QLabel(tr("Select a curve to see its curvature."), d.plot);
-  d.empty->setFont(uiFont(12));
-  d.empty->setForegroundRole(QPalette::PlaceholderText);
-  d.empty->setAttribute(Qt::WA_TransparentForMouseEvents);
-  d.empty->move(54, 8);
+  const auto overlay = [&d](const QString& text, int pixels, QPoint place) {
+    auto* label = new QLabel(text, d.plot);
+    label->setFont(uiFont(pixels));
+    label->setForegroundRole(QPalette::PlaceholderText);
+    label->setAttribute(Qt::WA_TransparentForMouseEvents);
+    label->move(place);
+    return label;
+  };
+  d.empty = overlay(tr("Select a curve to see its curvature."), 12, {54, 8});
+  d.quantity = overlay({}, 11, {58, 4});
+  d.quantity->setObjectName(QStringLiteral("plot.quantity"));
   connect(d.plot->xAxis, QOverload<const QCPRange&>::of(&QCPAxis::rangeChanged), this, [this](const QCPRange& range) {
     const double length = state_->data.lengthMm;
     if (!(length > 0)) return;
@@ -194,7 +207,10 @@ void CurvePlots::refreshSoon() {
 void CurvePlots::refresh() {
   State& d = *state_;
   const Theme& theme = themeOf(palette());
-  d.data = plotData(d.session, d.tab);
+  // Measuring deviations takes hundreds of nearest points; they only change with the curve.
+  const DataKey key{d.session.output().faired, d.session.output().pieces, d.session.selectedCurve(), d.tab};
+  if (d.tab != PlotTab::Deviation || !d.dataKey || !(*d.dataKey == key)) d.data = plotData(d.session, d.tab);
+  d.dataKey = key;
   d.plot->clearGraphs();
   d.empty->setVisible(d.data.isEmpty());
   d.empty->setText(d.session.curves().empty() ? tr("No curve yet.") : tr("Select a curve to see its curvature."));
@@ -203,53 +219,17 @@ void CurvePlots::refresh() {
   d.plot->yAxis->setVisible(!d.data.isEmpty());
   d.plot->yAxis->setScaleType(d.data.logarithmic ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
   d.plot->yAxis->setTicker(d.data.logarithmic ? QSharedPointer<QCPAxisTicker>(d.logTicker) : d.linearTicker);
-  d.plot->yAxis->setNumberFormat(d.data.logarithmic ? QStringLiteral("gb") : QStringLiteral("g"));
-  d.plot->yAxis->setNumberPrecision(d.data.logarithmic ? 6 : 3);
-  if (d.data.bandS.size() > 1) {
-    QCPGraph* low = d.plot->addGraph();
-    QCPGraph* high = d.plot->addGraph();
-    const auto vector = [](const std::vector<double>& v) { return QVector<double>(v.begin(), v.end()); };
-    low->setData(vector(d.data.bandS), vector(d.data.bandLow), true);
-    high->setData(vector(d.data.bandS), vector(d.data.bandHigh), true);
-    low->setPen(Qt::NoPen);
-    high->setPen(Qt::NoPen);
-    QColor fill = theme.mute;
-    fill.setAlphaF(0.18F);
-    high->setBrush(fill);
-    high->setChannelFillGraph(low);
-  }
-  const auto penOf = [&](const PlotSeries& series) {
-    QColor faint = theme.text;
-    faint.setAlphaF(0.22F);
-    QColor grey = theme.mute;
-    grey.setAlphaF(0.9F);
-    QPen dashed(theme.amber, 1.6), dotted(theme.amber, 2, Qt::DotLine, Qt::RoundCap);
-    dashed.setDashPattern({5, 3.5});
-    switch (series.role) {
-      case PlotRole::Target:
-        return QPen(faint, 1);
-      case PlotRole::HoveredTarget:
-        return QPen(theme.text, 1.6);
-      case PlotRole::ChosenTarget:
-        return dashed;
-      case PlotRole::DrawnTarget:
-        return dotted;
-      case PlotRole::Budget:
-        return QPen(theme.amber, 1, Qt::DashLine);
-      case PlotRole::Sketched:
-        return QPen(grey, 1.2);
-      case PlotRole::Faired:
-        return QPen(theme.accent, 2);
-      case PlotRole::Joint:
-        return QPen(theme.text, 1);
-    }
-    return QPen(grey, 1);
-  };
+  d.plot->yAxis->setNumberFormat(QStringLiteral("g"));
+  d.plot->yAxis->setNumberPrecision(3);
+  d.quantity->setVisible(!d.data.isEmpty());
+  d.quantity->setText(quantityText(d.tab));
+  d.quantity->adjustSize();
+  addBand();
   for (const PlotSeries& series : d.data.series) {
     QCPGraph* graph = d.plot->addGraph();
     graph->setData(QVector<double>(series.s.begin(), series.s.end()),
                    QVector<double>(series.value.begin(), series.value.end()), true);
-    graph->setPen(penOf(series));
+    graph->setPen(penOf(series.role, theme));
     if (series.role == PlotRole::Joint) {
       graph->setLineStyle(QCPGraph::lsNone);
       graph->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, theme.text, theme.panel, 5.0));
@@ -271,6 +251,23 @@ void CurvePlots::refresh() {
   else
     resetView();
   showCursor();
+}
+
+void CurvePlots::addBand() {
+  State& d = *state_;
+  const Theme& theme = themeOf(palette());
+  if (d.data.bandS.size() < 2) return;
+  QCPGraph* low = d.plot->addGraph();
+  QCPGraph* high = d.plot->addGraph();
+  const auto vector = [](const std::vector<double>& v) { return QVector<double>(v.begin(), v.end()); };
+  low->setData(vector(d.data.bandS), vector(d.data.bandLow), true);
+  high->setData(vector(d.data.bandS), vector(d.data.bandHigh), true);
+  low->setPen(Qt::NoPen);
+  high->setPen(Qt::NoPen);
+  QColor fill = theme.mute;
+  fill.setAlphaF(0.18F);
+  high->setBrush(fill);
+  high->setChannelFillGraph(low);
 }
 
 void CurvePlots::addMarks() {

@@ -30,12 +30,14 @@ class CurvePlots : public QWidget {
   void paintEvent(QPaintEvent*) override;
 
  private:
+  QLayout* makeHead();
   void build();
   void refreshSoon();
   void refresh();
   void applyTheme();
   void showCursor();
   void resetView();
+  void addBand();
   void addMarks();
   const ExtremumMark* markAt(const QPointF& place) const;
   struct State;

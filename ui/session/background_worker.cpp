@@ -36,6 +36,11 @@ void BackgroundWorker::cancelAll() {
   if (running_) running_->cancel();
 }
 
+bool BackgroundWorker::isRunning() const {
+  const std::scoped_lock lock(mutex_);
+  return running_.has_value() || next_.has_value();
+}
+
 void BackgroundWorker::loop() {
   std::unique_lock lock(mutex_);
   while (true) {

@@ -28,11 +28,13 @@ class BackgroundWorker {
   CancelToken start(Job job, Running running = Running::Cancel);
   /// Tells the running job to stop and drops the one that waits.
   void cancelAll();
+  /// True while a job runs or waits, a cancelled one too until it has ended.
+  bool isRunning() const;
 
  private:
   void loop();
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable wake_;
   struct Waiting {
     Job job;

@@ -1,21 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/session/editor_session.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "ui/session/change_recipe.h"
 #include "ui/session/growing_player.h"
 #include "ui/session/session_runner.h"
+#include "ui/session/suggestion_source.h"
 
 namespace batten {
 namespace {
+constexpr int kMostUndoSteps = 500;
 /// [px] A curve that lies farther from a pinned one than this is another curve.
 constexpr double kSamePlacePx = 24.0;
 }  // namespace
 
 EditorSession::EditorSession(QObject* parent)
-    : QObject(parent), runner_(std::make_unique<Runner>(*this)), growing_(new GrowingPlayer(*this)) {}
+    : QObject(parent),
+      runner_(std::make_unique<Runner>(*this)),
+      growing_(new GrowingPlayer(*this)),
+      suggestions_(new SuggestionSource(*this)) {
+  // A step holds two recipes; some hundred are a long afternoon.
+  undo_.setUndoLimit(kMostUndoSteps);
+}
 
 EditorSession::~EditorSession() {
   growing_->close();
@@ -25,9 +34,18 @@ EditorSession::~EditorSession() {
   runner_->targeting.cancelAll();
 }
 
-void EditorSession::openScan(const QString& path) { runner_->read(path); }
+void EditorSession::openScan(const QString& path) { runner_->read(path, std::nullopt); }
 
-void EditorSession::newDrawing(const Recipe& recipe) { runner_->begin(recipe); }
+void EditorSession::newDrawing(const Recipe& recipe) { runner_->begin(recipe, false); }
+
+void EditorSession::restore(const QString& path, const Recipe& recipe) {
+  if (path.isEmpty())
+    runner_->begin(recipe, true);
+  else
+    runner_->read(path, recipe);
+}
+
+bool EditorSession::wasRestored() const { return runner_->wasRestored; }
 
 QString EditorSession::scanPath() const { return runner_->path; }
 
@@ -42,6 +60,7 @@ void EditorSession::change(const QString& what, Recipe after, int gesture) {
 
 void EditorSession::setRecipe(const Recipe& recipe) {
   if (recipe == recipe_) return;
+  keepCornerSelection(recipe.cornerMarks);
   recipe_ = recipe;
   ++runner_->recipeGeneration;
   emit recipeChanged();
@@ -72,7 +91,31 @@ bool EditorSession::isStale(StageId stage) const {
 
 bool EditorSession::isBusy() const { return runner_->isRunning || runner_->isReading; }
 
+bool EditorSession::isTargeting() const { return runner_->isTargeting; }
+
+bool EditorSession::isWorking() const { return isBusy() || isTargeting() || !sideWork_.isEmpty(); }
+
 void EditorSession::cancel() { runner_->stopAll(); }
+
+bool EditorSession::isStopped() const { return runner_->isStopped; }
+
+void EditorSession::computeAgain() {
+  runner_->isStopped = false;
+  runner_->run();
+  if (!isStale(StageId::Faired)) runner_->computeTargets();
+}
+
+bool EditorSession::hasRunningJobs() const {
+  return runner_->reader.isRunning() || runner_->pipeline.isRunning() || runner_->targeting.isRunning();
+}
+
+void EditorSession::setSideWork(const QObject* panel, bool busy) {
+  if (busy)
+    sideWork_.insert(panel);
+  else
+    sideWork_.remove(panel);
+  runner_->updateBusy();
+}
 
 void EditorSession::selectCurve(int index) {
   if (index < 0 || static_cast<std::size_t>(index) >= curves().size()) index = -1;
@@ -89,6 +132,23 @@ void EditorSession::selectCurve(int index) {
   emit selectionChanged();
   emit targetsChanged();
   runner_->computeTargets();
+}
+
+void EditorSession::selectCorner(int mark) {
+  if (mark < 0 || static_cast<std::size_t>(mark) >= recipe_.cornerMarks.size()) mark = -1;
+  if (mark == selectedCorner_) return;
+  selectedCorner_ = mark;
+  emit cornerSelectionChanged();
+}
+
+void EditorSession::keepCornerSelection(const std::vector<CornerMark>& after) {
+  const auto& before = recipe_.cornerMarks;
+  // As many as before: the selected one may have moved. Else it is where it was, or it has gone.
+  if (selectedCorner_ < 0 || after.size() == before.size()) return;
+  const Vec2 place = before[static_cast<std::size_t>(selectedCorner_)].positionPx;
+  const auto found =
+      std::find_if(after.begin(), after.end(), [&](const CornerMark& mark) { return mark.positionPx == place; });
+  selectedCorner_ = found == after.end() ? -1 : static_cast<int>(found - after.begin());
 }
 
 void EditorSession::selectNear(const Vec2& px) {

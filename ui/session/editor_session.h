@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QObject>
+#include <QSet>
 #include <QString>
 #include <QUndoStack>
 #include <array>
@@ -15,6 +16,7 @@
 namespace batten {
 
 class GrowingPlayer;
+class SuggestionSource;
 /// A result set aside to compare later ones with. All parts belong together.
 struct PinnedResult {
   std::shared_ptr<const FairedSet> faired;
@@ -22,6 +24,9 @@ struct PinnedResult {
   PageFrame frame;
   Recipe recipe;
 };
+
+/// What was being done when something failed: the window offers help by it.
+enum class FailureOrigin { OpenScan, OpenRecipe, SaveRecipe, Run, Export };
 
 /// The open drawing: scan, recipe, undo stack, and the newest outputs of the pipeline. Paints nothing. All functions
 /// and signals belong to the GUI thread; work runs in the background, the newest request wins, and nothing here ever
@@ -35,15 +40,24 @@ class EditorSession : public QObject {
   /// Reads a scan in the background, with the recipe that was saved beside it; scanOpened or failed follows. An open
   /// drawing stays until the new one is there.
   void openScan(const QString& path);
-  /// Begins a drawing without a scan, on white paper of the size recipe.page, with this recipe. scanOpened follows at
-  /// once; the undo stack is empty. @pre recipe.page
+  /// Begins a drawing without a scan, on white paper of the size recipe.page, with this recipe. The paper is made in
+  /// the background, scanOpened or failed follows; the undo stack is empty. @pre recipe.page
   void newDrawing(const Recipe& recipe);
+  /// Opens a scan (an empty path: the page of the recipe) with this recipe, which counts as unsaved: work that a crash
+  /// has left behind.
+  void restore(const QString& path, const Recipe& recipe);
   bool hasScan() const { return scan_ != nullptr; }
   bool isBlankPage() const { return scan_ && isBlank(*scan_); }
   std::shared_ptr<const Scan> scan() const { return scan_; }
   QString scanPath() const;
   /// True if the drawing opened with the recipe beside it.
   bool openedWithRecipe() const;
+  /// True if the drawing was opened by restore().
+  bool wasRestored() const;
+  /// True while the recipe differs from what was opened or saved last.
+  bool hasUnsavedChanges() const { return scan_ && !undo_.isClean(); }
+  /// The present recipe is on disk.
+  void markSaved() { undo_.setClean(); }
   /// Why the recipe beside the drawing was not used; empty = there was none, or it was.
   QString openProblem() const;
 
@@ -68,8 +82,20 @@ class EditorSession : public QObject {
   /// True while a stage's shown output does not belong to the present recipe yet.
   bool isStale(StageId) const;
   bool isBusy() const;
+  /// True while the six targets of the selected curve are computed.
+  bool isTargeting() const;
+  /// True while anything runs that cancel() stops: reading, the pipeline, the targets, work of panels.
+  bool isWorking() const;
   /// Esc: stops running work; the outputs so far stay.
   void cancel();
+  /// True after cancel() has stopped something, until it is computed again.
+  bool isStopped() const;
+  /// Computes what cancel() has stopped.
+  void computeAgain();
+  /// True while a thread of the session still runs a job, even a cancelled one.
+  bool hasRunningJobs() const;
+  /// Work that a panel does in the background for its own display: shown as busy, and stopped by `stopped`.
+  void setSideWork(const QObject* panel, bool busy);
   /// Milliseconds of the last finished run.
   double lastRunMilliseconds() const { return lastRunMs_; }
 
@@ -86,6 +112,11 @@ class EditorSession : public QObject {
   /// The pinned curve that belongs to one of curves(), by place; null = none.
   const TracedCurve* pinnedOf(int curve) const;
 
+  /// The corner mark chosen in the list or on the drawing, index into recipe().cornerMarks; -1 = none. It follows its
+  /// place when marks come and go.
+  int selectedCorner() const { return selectedCorner_; }
+  void selectCorner(int mark);
+
   /// The six targets of the selected curve, null while they are computed.
   std::shared_ptr<const TargetOutcomes> targets() const { return targets_; }
   /// Target shown as a ghost while hovered, 0 = none.
@@ -95,6 +126,8 @@ class EditorSession : public QObject {
   std::optional<double> cursor() const { return cursorMm_; }
   /// How the typical chain of the selected curve grows, step by step; idle until it is opened.
   GrowingPlayer& growing() const { return *growing_; }
+  /// Places that could be corners; idle until someone looks.
+  SuggestionSource& suggestions() const { return *suggestions_; }
   void setCursor(std::optional<double> sMm);
 
  signals:
@@ -103,30 +136,37 @@ class EditorSession : public QObject {
   void stageReady(batten::StageId stage);
   void runFinished();  ///< The newest run ended (done, failed or cancelled).
   void busyChanged(bool busy);
+  void workingChanged(bool working);
+  void stopped();  ///< cancel() has stopped what ran.
   void progress(double fraction);
   void selectionChanged();
+  void cornerSelectionChanged();
   void targetsChanged();
   void hoverChanged();
   void cursorChanged();
   void pinChanged();
-  void failed(const QString& message);  ///< One line that says what to do.
-  void failureCleared();
+  void failed(const batten::Error& error, batten::FailureOrigin origin);
+  void failureCleared();  ///< A run succeeds after one that failed.
 
  private:
   struct Runner;
+  void keepCornerSelection(const std::vector<CornerMark>& after);
+
   std::unique_ptr<Runner> runner_;
   std::shared_ptr<const Scan> scan_;
   Recipe recipe_;
   PipelineOutput output_;
   QUndoStack undo_;
   int lastGesture_ = 0;
-  int selectedCurve_ = -1;
+  int selectedCurve_ = -1, selectedCorner_ = -1;
+  QSet<const QObject*> sideWork_;
   std::shared_ptr<const TargetOutcomes> targets_;
   int hoveredTarget_ = 0;
   std::optional<double> cursorMm_;
   std::shared_ptr<const PinnedResult> pinned_;
   double lastRunMs_ = 0.0;
   GrowingPlayer* growing_ = nullptr;
+  SuggestionSource* suggestions_ = nullptr;
 };
 
 }  // namespace batten

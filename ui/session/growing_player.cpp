@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "ui/session/editor_session.h"
+#include "ui/session/guarded.h"
 
 namespace batten {
 namespace {
@@ -22,6 +23,9 @@ GrowingPlayer::GrowingPlayer(EditorSession& session) : QObject(&session), sessio
   connect(&session_, &EditorSession::selectionChanged, this, &GrowingPlayer::compute);
   connect(&session_, &EditorSession::runFinished, this, &GrowingPlayer::compute);
   connect(&session_, &EditorSession::scanOpened, this, &GrowingPlayer::close);
+  connect(&session_, &EditorSession::stopped, this, [this] {
+    if (isComputing()) close();
+  });
 }
 
 void GrowingPlayer::open() {
@@ -36,6 +40,7 @@ void GrowingPlayer::close() {
   timer_.stop();
   worker_.cancelAll();
   ++newest_;
+  source_.reset();
   steps_.reset();
   problem_.clear();
   step_ = -1;
@@ -44,21 +49,27 @@ void GrowingPlayer::close() {
 
 void GrowingPlayer::compute() {
   if (!isOpen_) return;
+  // A run that leaves the line as it is leaves the player where it stands.
+  const TracedCurve* selected = session_.selected();
+  const Source source{session_.output().pieces, session_.output().segments, session_.recipe().construct,
+                      session_.recipe().segmentPoints, selected ? selected->piece : -1};
+  if (source_ && *source_ == source) return;
+  source_ = source;
   const std::uint64_t request = ++newest_;
   timer_.stop();
   steps_.reset();
   step_ = -1;
   const auto pieces = session_.output().pieces;
   const auto segments = session_.output().segments;
-  const TracedCurve* curve = session_.selected();
-  problem_ = curve && pieces && segments ? QString() : tr("Select a curve to see how its chain grows.");
+  problem_ = selected && pieces && segments ? QString() : tr("Select a curve to see how its chain grows.");
   emit changed();
   if (!problem_.isEmpty()) return;
   worker_.start([pieces, segments, request, recipe = session_.recipe(), frame = session_.output().frame,
-                 piece = curve->piece, player = QPointer<GrowingPlayer>(this)](const CancelToken& token) {
+                 piece = selected->piece, player = QPointer<GrowingPlayer>(this)](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
-    auto result = growingStepsOf(*pieces, *segments, recipe, frame, piece, context);
+    auto result = guarded<std::vector<GrowingStep>>(
+        [&] { return growingStepsOf(*pieces, *segments, recipe, frame, piece, context); });
     if (token.isCancelled()) return;
     auto steps = result ? std::make_shared<const std::vector<GrowingStep>>(std::move(*result)) : nullptr;
     const QString problem = result ? QString() : QString::fromStdString(result.error().message);

@@ -5,6 +5,7 @@
 #include <QString>
 #include <QTimer>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/pipeline/segment_points.h"
@@ -43,6 +44,16 @@ class GrowingPlayer : public QObject {
   void take(std::uint64_t request, std::shared_ptr<const std::vector<GrowingStep>> steps, const QString& problem);
 
   EditorSession& session_;
+  /// What the steps follow from.
+  struct Source {
+    std::shared_ptr<const PieceSet> pieces;
+    std::shared_ptr<const SegmentSet> segments;
+    ConstructParams params;
+    std::vector<SegmentPoint> segmentPoints;
+    int piece = -1;
+    bool operator==(const Source&) const = default;
+  };
+  std::optional<Source> source_;
   std::shared_ptr<const std::vector<GrowingStep>> steps_;
   QString problem_;
   bool isOpen_ = false;

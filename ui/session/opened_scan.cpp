@@ -22,6 +22,19 @@ std::filesystem::path recipeBeside(const std::filesystem::path& scan) {
   return recipe.replace_extension(".recipe.json");
 }
 
+Result<Recipe> readRecipeFile(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  std::error_code ignored;
+  if (const auto size = std::filesystem::file_size(path, ignored); !ignored && size > kLargestRecipeBytes)
+    return fail(ErrorCode::BadParameter, name + " is no recipe: it is too large.");
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file.is_open() || file.bad()) return fail(ErrorCode::UnreadableScan, name + " cannot be read.");
+  auto recipe = recipeFromJson(text);
+  if (!recipe) return fail(recipe.error().code, name + ": " + recipe.error().message, recipe.error().detail);
+  return recipe;
+}
+
 Result<OpenedScan> openWithRecipe(const std::filesystem::path& path, const RunContext& context) {
   auto scan = readScan(path, ScanLimits{}, context);
   if (!scan) return fail(std::move(scan).error());
@@ -29,24 +42,12 @@ Result<OpenedScan> openWithRecipe(const std::filesystem::path& path, const RunCo
   const std::filesystem::path beside = recipeBeside(path);
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(beside, ignored)) return opened;
-  const std::string name = beside.filename().string();
-  const std::string instead = " The drawing opened without it.";
-  if (const auto size = std::filesystem::file_size(beside, ignored); ignored || size > kLargestRecipeBytes) {
-    opened.problem = name + " is no recipe: it is too large." + instead;
-    return opened;
-  }
-  std::ifstream file(beside, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file.is_open() || file.bad()) {
-    opened.problem = name + " cannot be read." + instead;
-    return opened;
-  }
-  auto recipe = recipeFromJson(text);
+  auto recipe = readRecipeFile(beside);
   if (recipe) {
     opened.recipe = std::move(*recipe);
     opened.hasRecipe = true;
   } else {
-    opened.problem = name + ": " + recipe.error().message + instead;
+    opened.problem = recipe.error().message + " The drawing opened without it.";
   }
   return opened;
 }

@@ -20,6 +20,9 @@ struct OpenedScan {
 /// Where a recipe is saved by itself and looked for: "drawing.recipe.json" beside "drawing.png".
 std::filesystem::path recipeBeside(const std::filesystem::path& scan);
 
+/// Reads a recipe; a file far larger than any recipe is refused unread.
+Result<Recipe> readRecipeFile(const std::filesystem::path& path);
+
 /// Reads both. A damaged recipe does not keep the scan from opening.
 Result<OpenedScan> openWithRecipe(const std::filesystem::path& scan, const RunContext&);
 

@@ -3,27 +3,15 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <new>
 #include <utility>
 
 #include "core/base/conventions.h"
+#include "ui/session/guarded.h"
 
 namespace batten {
 namespace {
 
 std::size_t indexOf(StageId stage) { return static_cast<std::size_t>(stage); }
-
-/// Runs `body` and turns what it throws into an error, so that no worker dies of a missing allocation.
-template <class T, class F>
-Result<T> guarded(F&& body) {
-  try {
-    return body();
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "There is not enough memory for this drawing; scan it at a lower resolution.");
-  } catch (const std::exception& e) {
-    return fail(ErrorCode::Numerical, "The computation failed; take the last change back.", e.what());
-  }
-}
 
 /// Puts the outputs up to `last` of a run over the shown ones; later stages keep what they have.
 void mergeOutputs(PipelineOutput& shown, const PipelineOutput& run, StageId last) {
@@ -64,55 +52,84 @@ EditorSession::Runner::Runner(EditorSession& owner) : session(owner) {
   QObject::connect(&grace, &QTimer::timeout, &inbox, [this] { stopOvertaken(); });
 }
 
-void EditorSession::Runner::read(const QString& scanPath) {
+void EditorSession::Runner::open(const QString& scanPath, bool isRestored, ScanJob job) {
   const auto id = ++newestRead;
   isReading = true;
-  reader.start([this, id, scanPath](const CancelToken& token) {
-    RunContext context;
-    context.cancel = token;
-    auto result = std::make_shared<Result<OpenedScan>>(
-        guarded<OpenedScan>([&] { return openWithRecipe(std::filesystem::path(scanPath.toStdU16String()), context); }));
+  reader.start([this, id, scanPath, isRestored, job = std::move(job)](const CancelToken& token) {
+    auto result = std::make_shared<Result<OpenedScan>>(guarded<OpenedScan>([&] { return job(token); }));
     QMetaObject::invokeMethod(
-        &inbox, [this, id, scanPath, result] { applyScan(id, scanPath, result); }, Qt::QueuedConnection);
+        &inbox, [this, id, scanPath, isRestored, result] { applyScan(id, scanPath, isRestored, result); },
+        Qt::QueuedConnection);
   });
   updateBusy();
 }
 
-void EditorSession::Runner::applyScan(std::uint64_t id, const QString& scanPath,
-                                      std::shared_ptr<Result<OpenedScan>> result) {
+void EditorSession::Runner::read(const QString& scanPath, const std::optional<Recipe>& restored) {
+  open(scanPath, restored.has_value(), [scanPath, restored](const CancelToken& token) {
+    RunContext context;
+    context.cancel = token;
+    auto opened = openWithRecipe(std::filesystem::path(scanPath.toStdU16String()), context);
+    if (opened && restored) {
+      opened->recipe = *restored;
+      opened->problem.clear();
+    }
+    return opened;
+  });
+}
+
+void EditorSession::Runner::begin(const Recipe& recipe, bool isRestored) {
+  // A large page is some hundred megabytes of white.
+  open({}, isRestored, [recipe](const CancelToken&) -> Result<OpenedScan> {
+    const BlankPage page = *recipe.page;
+    Scan scan = blankScan(page.widthPx, page.heightPx, recipe.dpi.value_or(kAssumedDpi));
+    return OpenedScan{std::move(scan), recipe, false, {}};
+  });
+}
+
+void EditorSession::Runner::applyScan(std::uint64_t id, const QString& scanPath, bool isRestored,
+                                      const std::shared_ptr<Result<OpenedScan>>& result) {
   if (id != newestRead) return;
   isReading = false;
   if (!result->has_value()) {
-    if (result->error().code != ErrorCode::Cancelled) fail(QString::fromStdString(result->error().message));
+    if (result->error().code != ErrorCode::Cancelled) fail(result->error(), FailureOrigin::OpenScan);
     updateBusy();
     return;
   }
-  adopt(std::move(**result), scanPath);
+  adopt(std::move(**result), scanPath, isRestored);
 }
 
-void EditorSession::Runner::begin(const Recipe& recipe) {
-  const BlankPage page = *recipe.page;
-  reader.cancelAll();
-  ++newestRead;
-  isReading = false;
-  Scan scan = blankScan(page.widthPx, page.heightPx, recipe.dpi.value_or(kAssumedDpi));
-  adopt({std::move(scan), recipe, false, {}}, {});
+void EditorSession::Runner::dropOldDrawing() {
+  struct Old {
+    std::shared_ptr<const Scan> scan;
+    PipelineOutput output;
+    std::shared_ptr<const PinnedResult> pinned;
+  };
+  auto old = std::make_shared<Old>(
+      Old{std::move(session.scan_), std::exchange(session.output_, {}), std::move(session.pinned_)});
+  // Up to a gigabyte goes back to the system: not while the window waits.
+  janitor.start(
+      [this, old = std::move(old)](const CancelToken&) mutable {
+        cache.clear();
+        old.reset();
+      },
+      BackgroundWorker::Running::Finish);
 }
 
-void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath) {
+void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bool isRestored) {
   pipeline.cancelAll();
   targeting.cancelAll();
   ++newestTargets;
+  isTargeting = isStopped = false;
+  dropOldDrawing();
   session.scan_ = std::make_shared<const Scan>(std::move(opened.scan));
   path = scanPath;
   openedWithRecipe = opened.hasRecipe;
+  wasRestored = isRestored;
   openProblem = QString::fromStdString(opened.problem).simplified();
-  cache.clear();
-  session.output_ = PipelineOutput{};
   session.recipe_ = std::move(opened.recipe);
   session.output_.frame = frameFor(*session.scan_, session.recipe_);
   session.pinned_.reset();
-  session.selectedCurve_ = -1;
+  session.selectedCurve_ = session.selectedCorner_ = -1;
   session.targets_.reset();
   session.cursorMm_.reset();
   session.hoveredTarget_ = 0;
@@ -122,10 +139,12 @@ void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath) {
   shownGeneration.fill(0);
   ++recipeGeneration;
   session.undo_.clear();
+  if (isRestored) session.undo_.resetClean();
   clearFailure();
   emit session.scanOpened();
   emit session.recipeChanged();
   emit session.selectionChanged();
+  emit session.cornerSelectionChanged();
   emit session.targetsChanged();
   emit session.cursorChanged();
   emit session.pinChanged();
@@ -136,6 +155,7 @@ void EditorSession::Runner::run() {
   if (!session.scan_) return;
   const auto runId = ++newestRun;
   isRunning = true;
+  isStopped = false;
   const qint64 started = startedMs.load();
   const bool spare = started >= 0 && clock.elapsed() - started < kGraceMs;
   overtaken.push_back(newestToken);
@@ -231,7 +251,7 @@ void EditorSession::Runner::applyEnd(const std::shared_ptr<const Scan>& scan, st
     // An empty page is not a failure, it is a beginning.
     const bool isBeginning = session.isBlankPage() && session.recipe_.penStrokes.empty();
     if (output.error && !isBeginning)
-      fail(QString::fromStdString(output.error->message));
+      fail(*output.error, FailureOrigin::Run);
     else
       clearFailure();
   }
@@ -262,7 +282,8 @@ void EditorSession::Runner::curvesChanged() {
   }
   session.selectedCurve_ = index;
   if (index != before) emit session.selectionChanged();
-  computeTargets();
+  // Stages that were done when Esc was pressed still arrive: they begin nothing new.
+  if (!isStopped) computeTargets();
 }
 
 void EditorSession::Runner::computeTargets() {
@@ -271,6 +292,8 @@ void EditorSession::Runner::computeTargets() {
     targeting.cancelAll();
     ++newestTargets;
     targetsCurve.reset();
+    isTargeting = false;
+    updateBusy();
     if (session.targets_) {
       session.targets_.reset();
       emit session.targetsChanged();
@@ -289,6 +312,8 @@ void EditorSession::Runner::computeTargets() {
   targetsCurve = curve->sketched;
   targetsParams = params;
   const auto id = ++newestTargets;
+  isTargeting = true;
+  if (!session.isStale(StageId::Faired)) isStopped = false;
   targeting.start([this, id, job = *curve](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
@@ -299,41 +324,51 @@ void EditorSession::Runner::computeTargets() {
     QMetaObject::invokeMethod(
         &inbox, [this, id, outcomes] { applyTargets(id, outcomes); }, Qt::QueuedConnection);
   });
+  updateBusy();
 }
 
 void EditorSession::Runner::applyTargets(std::uint64_t id, std::shared_ptr<const TargetOutcomes> outcomes) {
   if (id != newestTargets) return;
   session.targets_ = std::move(outcomes);
+  isTargeting = false;
   emit session.targetsChanged();
+  updateBusy();
 }
 
 void EditorSession::Runner::stopAll() {
   pipeline.cancelAll();
   reader.cancelAll();
+  targeting.cancelAll();
   overtaken.clear();
   ++newestRead;
   const bool ran = isRunning;
   if (ran) ++newestRun;  // What a stopped run still reports is no longer the newest.
-  isRunning = isReading = false;
+  if (isTargeting) {
+    ++newestTargets;
+    targetsCurve.reset();
+  }
+  if (ran || isTargeting || !session.sideWork_.isEmpty()) isStopped = true;
+  isRunning = isReading = isTargeting = false;
+  session.sideWork_.clear();
+  emit session.stopped();
   updateBusy();
   if (ran) emit session.runFinished();
 }
 
 void EditorSession::Runner::updateBusy() {
-  const bool busy = isRunning || isReading;
-  if (busy == wasBusy) return;
-  wasBusy = busy;
-  emit session.busyChanged(busy);
+  const bool busy = session.isBusy(), working = session.isWorking();
+  if (std::exchange(wasBusy, busy) != busy) emit session.busyChanged(busy);
+  if (std::exchange(wasWorking, working) != working) emit session.workingChanged(working);
 }
 
-void EditorSession::Runner::fail(const QString& message) {
-  hasFailure = true;
-  emit session.failed(message.simplified());
+void EditorSession::Runner::fail(const Error& error, FailureOrigin origin) {
+  hasRunFailure = hasRunFailure || origin == FailureOrigin::Run;
+  emit session.failed(error, origin);
 }
 
 void EditorSession::Runner::clearFailure() {
-  if (!hasFailure) return;
-  hasFailure = false;
+  if (!hasRunFailure) return;
+  hasRunFailure = false;
   emit session.failureCleared();
 }
 

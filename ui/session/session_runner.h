@@ -5,6 +5,7 @@
 #include <QTimer>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "ui/session/background_worker.h"
@@ -18,25 +19,26 @@ namespace batten {
 struct EditorSession::Runner {
   explicit Runner(EditorSession&);
 
-  void read(const QString& path);
-  void begin(const Recipe&);
+  void read(const QString& path, const std::optional<Recipe>& restored);
+  void begin(const Recipe&, bool isRestored);
   void run();
   void computeTargets();
   void stopAll();
   void updateBusy();
-  void fail(const QString& message);
+  void fail(const Error& error, FailureOrigin origin);
   void clearFailure();
 
   EditorSession& session;
   QObject inbox;
   StageCache cache;
   QString path, openProblem;
-  bool openedWithRecipe = false;
+  bool openedWithRecipe = false, wasRestored = false;
 
   std::uint64_t recipeGeneration = 1;                           ///< Counts changes of recipe or scan.
   std::array<std::uint64_t, kStages.size()> shownGeneration{};  ///< Which of them each shown output belongs to.
   std::uint64_t newestRun = 0, newestRead = 0, newestTargets = 0;
-  bool isRunning = false, isReading = false, wasBusy = false, hasFailure = false, edgesWanted = false;
+  bool isRunning = false, isReading = false, isTargeting = false, isStopped = false;
+  bool wasBusy = false, wasWorking = false, hasRunFailure = false, edgesWanted = false;
   bool selectsItself = true;  ///< Until the user selects: the longest curve.
   std::optional<Vec2> anchorPx;
   std::optional<NurbsCurve> targetsCurve;
@@ -52,12 +54,16 @@ struct EditorSession::Runner {
   std::vector<CancelToken> overtaken;
 
   /// Last, so that they are stopped and joined before anything they use goes away.
-  BackgroundWorker reader, pipeline, targeting;
+  BackgroundWorker reader, pipeline, targeting, janitor;
 
  private:
   struct Job;
-  void adopt(OpenedScan opened, const QString& scanPath);
-  void applyScan(std::uint64_t id, const QString& scanPath, std::shared_ptr<Result<OpenedScan>> result);
+  using ScanJob = std::function<Result<OpenedScan>(const CancelToken&)>;
+  void open(const QString& scanPath, bool isRestored, ScanJob job);
+  void adopt(OpenedScan opened, const QString& scanPath, bool isRestored);
+  void applyScan(std::uint64_t id, const QString& scanPath, bool isRestored,
+                 const std::shared_ptr<Result<OpenedScan>>& result);
+  void dropOldDrawing();
   void applyStage(const std::shared_ptr<const Scan>&, std::uint64_t generation, StageId, const PipelineOutput&);
   void applyEnd(const std::shared_ptr<const Scan>&, std::uint64_t generation, std::uint64_t runId,
                 const PipelineOutput&, double milliseconds);

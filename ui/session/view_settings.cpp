@@ -13,7 +13,7 @@ QString label(Layer layer) {
     case Layer::Scan:
       return QObject::tr("Scan");
     case Layer::LogImage:
-      return QObject::tr("Log image");
+      return QObject::tr("Log picture");
     case Layer::Mask:
       return QObject::tr("Mask");
     case Layer::Edges:

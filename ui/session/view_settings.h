@@ -28,7 +28,7 @@ enum class Layer {
 inline constexpr std::array kLayers = {Layer::Scan,      Layer::LogImage, Layer::Mask, Layer::Edges,   Layer::Segments,
                                        Layer::Curve,     Layer::Faired,   Layer::Comb, Layer::Corners, Layer::Regions,
                                        Layer::Deviation, Layer::Extrema,  Layer::Band, Layer::Strokes, Layer::Fallback};
-QString label(Layer);  ///< "Scan", "Log image", …
+QString label(Layer);  ///< "Scan", "Log picture", …
 
 /// What a press on the canvas does. Pan and zoom work in every tool.
 enum class Tool {
@@ -51,6 +51,11 @@ class ViewSettings : public QObject {
   explicit ViewSettings(QObject* parent = nullptr);
   bool isVisible(Layer layer) const { return visible_[static_cast<std::size_t>(layer)]; }
   void setVisible(Layer, bool);
+  /// The same by the user's hand: from then on no stage switches the layer.
+  void choose(Layer layer, bool visible) {
+    emit chosen(layer);
+    setVisible(layer, visible);
+  }
   Tool tool() const { return tool_; }
   void setTool(Tool);
   double combScale() const { return combScale_; }  ///< [-] 0.05..20, factor on the automatic comb height.
@@ -70,6 +75,7 @@ class ViewSettings : public QObject {
 
  signals:
   void changed();
+  void chosen(batten::Layer layer);
   void toolChanged(batten::Tool tool);
   void selectedRegionChanged(int region);
 

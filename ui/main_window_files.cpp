@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QLocale>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QStandardPaths>
+
+#include "core/exchange/writers.h"
+#include "core/pipeline/recipe_file.h"
+#include "ui/canvas/curve_canvas.h"
+#include "ui/main_window_parts.h"
+#include "ui/panels/save_dialog.h"
+#include "ui/session/opened_scan.h"
+#include "ui/status_line.h"
+
+namespace batten {
+namespace {
+
+std::filesystem::path nativePath(const QString& path) { return {path.toStdU16String()}; }
+
+bool isRecipeFile(const QString& path) { return path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive); }
+
+UnsavedAnswer askOnScreen(QWidget* window, const QString& drawing) {
+  QMessageBox box(QMessageBox::Question, QStringLiteral("Batten"),
+                  QObject::tr("%1 has changes that are not saved.").arg(drawing),
+                  QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, window);
+  box.setObjectName(QStringLiteral("unsavedBox"));
+  box.setInformativeText(QObject::tr("Save the recipe, or give the changes up?"));
+  box.button(QMessageBox::Save)->setText(QObject::tr("Save…"));
+  box.button(QMessageBox::Discard)->setText(QObject::tr("Discard"));
+  box.setDefaultButton(QMessageBox::Save);
+  switch (box.exec()) {
+    case QMessageBox::Save:
+      return UnsavedAnswer::Save;
+    case QMessageBox::Discard:
+      return UnsavedAnswer::Discard;
+    default:
+      return UnsavedAnswer::Cancel;
+  }
+}
+
+}  // namespace
+
+void MainWindow::setUnsavedQuestion(UnsavedQuestion question) { parts_->unsavedQuestion = std::move(question); }
+
+bool MainWindow::maybeDiscard() {
+  if (!session_.hasUnsavedChanges()) return true;
+  const UnsavedAnswer answer =
+      parts_->unsavedQuestion ? parts_->unsavedQuestion(drawingName()) : askOnScreen(this, drawingName());
+  return answer == UnsavedAnswer::Discard || (answer == UnsavedAnswer::Save && saveRecipe());
+}
+
+void MainWindow::openPath(const QString& path) {
+  if (isRecipeFile(path)) return readRecipe(path);
+  if (maybeDiscard()) session_.openScan(path);
+}
+
+void MainWindow::beginDrawing(const Recipe& recipe) {
+  if (maybeDiscard()) session_.newDrawing(recipe);
+}
+
+void MainWindow::scanOpened() {
+  Parts& p = *parts_;
+  if (!session_.isBlankPage()) rememberFile(session_.scanPath());
+  refreshTitle();
+  p.errors->hide();
+  p.problemOrigin.reset();
+  if (!session_.openProblem().isEmpty())
+    showProblem({ErrorCode::BadParameter, session_.openProblem().toStdString(), {}}, FailureOrigin::OpenRecipe);
+  else if (p.leftWork)
+    offerLeftWork();
+  if (session_.isBlankPage()) {
+    setStage(PanelStage::Edges);
+    view_.setTool(Tool::Pen);
+    p.status->setStageHint(tr("Drag on the page to draw a line; end where it began to close it."));
+  } else if (session_.openedWithRecipe() || session_.wasRestored()) {
+    // Work that was saved is past the first stages: it opens where it is read.
+    setStage(PanelStage::Fairing);
+  }
+  if (session_.wasRestored())
+    p.status->showMessage(tr("The unsaved work is back. Save it to keep it."));
+  else if (session_.openedWithRecipe())
+    p.status->showMessage(tr("Opened with the recipe saved beside the drawing."));
+  p.canvas->zoomFit();
+}
+
+QString MainWindow::startFolder() const {
+  if (session_.hasScan() && !session_.isBlankPage()) return QFileInfo(session_.scanPath()).absolutePath();
+  const QStringList recent = recentFiles();
+  return recent.isEmpty() ? QDir::homePath() : QFileInfo(recent.first()).absolutePath();
+}
+
+void MainWindow::chooseScan() {
+  const QString path = QFileDialog::getOpenFileName(
+      this, tr("Open scan"), startFolder(),
+      tr("Scans (*.png *.jpg *.jpeg *.tif *.tiff *.bmp *.webp *.pgm *.pbm *.ppm *.pnm);;All files (*)"));
+  if (!path.isEmpty()) openPath(path);
+}
+
+void MainWindow::chooseRecipe() {
+  const QString path = QFileDialog::getOpenFileName(this, tr("Open recipe"), startFolder(), tr("Recipes (*.json)"));
+  if (!path.isEmpty()) readRecipe(path);
+}
+
+void MainWindow::readRecipe(const QString& path) {
+  parts_->recipeReader->start([this, path](const CancelToken& token) {
+    const auto recipe = readRecipeFile(nativePath(path));
+    if (token.isCancelled()) return;
+    QMetaObject::invokeMethod(
+        this, [this, path, recipe] { useRecipe(path, recipe); }, Qt::QueuedConnection);
+  });
+}
+
+void MainWindow::useRecipe(const QString& path, const Result<Recipe>& recipe) {
+  if (!recipe) return showProblem(recipe.error(), FailureOrigin::OpenRecipe);
+  if (recipe->page) {
+    beginDrawing(*recipe);
+    return rememberFile(path);
+  }
+  if (!session_.hasScan())
+    return showProblem({ErrorCode::BadParameter,
+                        tr("A recipe needs a drawing: open a scan first, then this recipe.").toStdString(),
+                        {}},
+                       FailureOrigin::OpenRecipe);
+  session_.change(tr("Open recipe"), *recipe);
+}
+
+bool MainWindow::saveRecipe() {
+  const QString start = session_.isBlankPage()
+                            ? startFolder() + QStringLiteral("/drawing.recipe.json")
+                            : QString::fromStdU16String(recipeBeside(nativePath(session_.scanPath())).u16string());
+  const QString path = askSavePath(this, {tr("Save recipe"), start, tr("Recipes (*.json)"), QStringLiteral("json")});
+  if (path.isEmpty()) return false;
+  if (const auto saved = saveAtomically(nativePath(path), recipeToJson(session_.recipe())); !saved) {
+    showProblem(saved.error(), FailureOrigin::SaveRecipe);
+    return false;
+  }
+  session_.markSaved();
+  if (session_.isBlankPage()) rememberFile(path);
+  parts_->status->showMessage(tr("Saved the recipe to %1.").arg(QFileInfo(path).fileName()));
+  return true;
+}
+
+QString MainWindow::journalFolder() {
+  return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + QStringLiteral("/unsaved");
+}
+
+bool MainWindow::offerLeftWork() {
+  Parts& p = *parts_;
+  if (!p.leftWork) p.leftWork = p.journal->left();
+  if (!p.leftWork) return false;
+  const RecipeJournal::Left& left = *p.leftWork;
+  p.problemOrigin.reset();
+  p.remedy = [this] {
+    if (!maybeDiscard()) return;
+    const RecipeJournal::Left taken = *std::exchange(parts_->leftWork, std::nullopt);
+    parts_->journal->takeOver(taken);
+    parts_->errors->hide();
+    session_.restore(taken.scanPath, taken.recipe);
+  };
+  p.dismissal = [this] {
+    if (const auto dropped = std::exchange(parts_->leftWork, std::nullopt)) parts_->journal->discard(*dropped);
+    if (const QString sample = std::exchange(parts_->sample, {}); !sample.isEmpty()) openAtStart(sample);
+  };
+  const QString name = left.scanPath.isEmpty() ? tr("a new drawing") : QFileInfo(left.scanPath).fileName();
+  p.errors->show(tr("Batten did not end as it should. Unsaved work on %1 from %2 was kept.")
+                     .arg(name, QLocale().toString(left.when, QLocale::ShortFormat)),
+                 tr("Restore it"), tr("Discard it"));
+  refreshActions();
+  return true;
+}
+
+void MainWindow::openAtStart(const QString& sample) {
+  if (offerLeftWork()) {
+    parts_->sample = sample;
+    return;
+  }
+  checkRecent([this, sample] {
+    if (session_.hasScan() || session_.isBusy()) return;  // The user was faster.
+    for (const QString& path : recentFiles())
+      if (!parts_->goneFiles.contains(path)) return openPath(path);
+    if (!sample.isEmpty()) openPath(sample);
+  });
+}
+
+}  // namespace batten

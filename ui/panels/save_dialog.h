@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QString>
+
+class QWidget;
+
+namespace batten {
+
+/// Where to write.
+struct SaveQuestion {
+  QString title;
+  QString start;   ///< The path proposed.
+  QString filter;  ///< "SVG (*.svg)"
+  QString suffix;  ///< "svg": what a name without a suffix gets.
+};
+
+/// Asks for a file to write; empty = cancelled. The suffix is added before the question about an existing file, so that
+/// what is replaced is what was asked about.
+QString askSavePath(QWidget* parent, const SaveQuestion&);
+
+/// A typed path by the same rule.
+QString withSuffix(const QString& path, const QString& suffix);
+
+}  // namespace batten

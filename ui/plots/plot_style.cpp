@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/plots/plot_style.h"
+
+#include <QCoreApplication>
+#include <cmath>
+
+namespace batten {
+namespace {
+
+/// Fewer labels than this do not touch at the smallest height of the plot.
+constexpr int kMostTicks = 5;
+
+}  // namespace
+
+QPen penOf(PlotRole role, const Theme& theme) {
+  QColor faint = theme.text, grey = theme.mute;
+  faint.setAlphaF(0.22F);
+  grey.setAlphaF(0.9F);
+  QPen dashed(theme.amber, 1.6);
+  dashed.setDashPattern({5, 3.5});
+  switch (role) {
+    case PlotRole::Target:
+      return {faint, 1};
+    case PlotRole::HoveredTarget:
+      return {theme.text, 1.6};
+    case PlotRole::ChosenTarget:
+      return dashed;
+    case PlotRole::DrawnTarget:
+      return {theme.amber, 2, Qt::DotLine, Qt::RoundCap};
+    case PlotRole::Budget:
+      return {theme.amber, 1, Qt::DashLine};
+    case PlotRole::Faired:
+      return {theme.accent, 2};
+    case PlotRole::Joint:
+      return {theme.text, 1};
+    case PlotRole::Sketched:
+      break;
+  }
+  return {grey, 1.2};
+}
+
+QString quantityText(PlotTab tab) {
+  const auto tr = [](const char* text) { return QCoreApplication::translate("CurvePlots", text); };
+  switch (tab) {
+    case PlotTab::Radius:
+      return tr("R, mm");
+    case PlotTab::Curvature:
+      return tr("κ, 1/mm");
+    case PlotTab::Derivative:
+      return tr("|R'|, mm");
+    case PlotTab::Deviation:
+      return tr("off the sketched curve, mm");
+  }
+  return {};
+}
+
+QVector<double> RoundLogTicker::createTickVector(double, const QCPRange& range) {
+  if (!(range.lower > 0.0) || !(range.upper > range.lower)) return {};
+  const double whole = std::log(range.upper / range.lower), gap = whole / kMostTicks;
+  QVector<double> round;
+  if (whole < std::log(4.0)) {
+    // Less than a decade's worth: even steps.
+    const double raw = (range.upper - range.lower) / kMostTicks;
+    const double ten = std::pow(10.0, std::floor(std::log10(raw))), share = raw / ten;
+    const double step = ten * (share <= 1.0 ? 1.0 : share <= 2.0 ? 2.0 : share <= 5.0 ? 5.0 : 10.0);
+    for (double tick = std::ceil(range.lower / step) * step; tick <= range.upper; tick += step) round.append(tick);
+  } else {
+    for (int e = static_cast<int>(std::floor(std::log10(range.lower))); std::pow(10.0, e) <= range.upper; ++e)
+      for (const double m : {1.0, 2.0, 5.0}) {
+        const double tick = m * std::pow(10.0, e);
+        if (tick >= range.lower && tick <= range.upper && (m == 1.0 || whole < std::log(50.0))) round.append(tick);
+      }
+  }
+  QVector<double> apart;
+  for (const double tick : round)
+    if (apart.isEmpty() || std::log(tick / apart.last()) >= 0.8 * gap) apart.append(tick);
+  return apart;
+}
+
+QString RoundLogTicker::getTickLabel(double tick, const QLocale&, QChar, int) {
+  return QString::number(tick, tick < 1e6 && tick > 1e-4 ? 'f' : 'g',
+                         tick < 1.0    ? 3
+                         : tick < 10.0 ? 1
+                                       : 0)
+      .remove(QStringLiteral(".0"));
+}
+
+QVector<double> LengthTicker::createTickVector(double, const QCPRange& range) {
+  shown_ = range;
+  return {range.lower, 0.5 * (range.lower + range.upper), range.upper};
+}
+
+QString LengthTicker::getTickLabel(double tick, const QLocale&, QChar, int) {
+  const double size = shown_.size();
+  const int decimals = size >= 20.0 ? 0 : size >= 2.0 ? 1 : 2;
+  const QString number = QString::number(tick, 'f', tick == 0.0 ? 0 : decimals);
+  return std::abs(tick - shown_.center()) < 1e-6 * size ? number + QStringLiteral(" mm") : number;
+}
+
+}  // namespace batten

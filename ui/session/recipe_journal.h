@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDateTime>
+#include <QLockFile>
+#include <QObject>
+#include <QString>
+#include <QTimer>
+#include <memory>
+#include <optional>
+
+#include "ui/session/background_worker.h"
+#include "ui/session/editor_session.h"
+
+namespace batten {
+
+/// Keeps unsaved work on disk, so that a crash loses at most half a minute of it. A file of its own while the session
+/// has unsaved changes, written in the background, gone once they are saved, discarded or the program ends as it
+/// should. What a program left that did not end so is offered by left(). Belongs to the GUI thread.
+class RecipeJournal : public QObject {
+  Q_OBJECT
+ public:
+  static constexpr int kIntervalMs = 30000;
+
+  /// @param folder where the files lie; made when the first is written.
+  RecipeJournal(EditorSession& session, const QString& folder);
+  ~RecipeJournal() override;
+
+  void setIntervalMs(int ms) { timer_.setInterval(ms); }
+  QString file() const { return file_; }
+
+  struct Left {
+    QString file;      ///< The journal itself.
+    QString scanPath;  ///< Empty: a drawing on an empty page.
+    QDateTime when;
+    Recipe recipe;
+  };
+  /// The newest work that a program left which has ended without saving or discarding it; none of programs that run.
+  std::optional<Left> left();
+  /// Goes on with that file as this session's own, until it is saved.
+  void takeOver(const Left&);
+  void discard(const Left&);
+
+ private:
+  void write();
+  void forget();
+
+  EditorSession& session_;
+  QString folder_, file_;
+  std::unique_ptr<QLockFile> lock_, leftLock_;
+  QTimer timer_;
+  std::optional<Recipe> written_;
+  std::unique_ptr<BackgroundWorker> worker_;
+};
+
+}  // namespace batten
