@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <QCursor>
+#include <QProcess>
 #include <QSignalSpy>
 #include <QTest>
 #include <QWheelEvent>
@@ -164,7 +165,7 @@ class CanvasTest : public testing::Test {
     canvas->show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(canvas.get()));
     canvas->zoomFit();
-    ASSERT_TRUE(waitUntil([] { return true; }));
+    QCoreApplication::processEvents();
   }
   EditorSession& session() { return opened->session; }
   QPoint at(double x, double y) const { return canvas->toWidget({x, y}).toPoint(); }
@@ -347,6 +348,44 @@ TEST_F(CanvasTest, PaintsScanCurvesAndTheDropHint) {
   const QColor scan = canvas->grab().toImage().pixelColor(at(130, 200));
   EXPECT_LT(std::abs(scan.blue() - scan.red()), 8) << "the scan alone is grey";
   view.setScanOnly(false);
+}
+
+TEST_F(CanvasTest, PaintsInDevicePixels) {
+  open(test::zigzagPage());
+  view.setVisible(Layer::Comb, false);
+  const double ratio = canvas->devicePixelRatioF();
+  const bool isChild = qEnvironmentVariable("QT_SCALE_FACTOR") == QLatin1String("2");
+  ASSERT_EQ(ratio, isChild ? 2.0 : ratio);
+  QImage shown;
+  const auto isLine = [&](double x, double y) {
+    const QPointF place = canvas->toWidget({x, y}) * ratio;
+    const QColor color = shown.pixelColor(place.toPoint());
+    return color.blue() > color.red() + 40;
+  };
+  ASSERT_TRUE(waitUntil([&] {
+    shown = canvas->grab().toImage();
+    return isLine(130, 200);
+  }));
+  EXPECT_EQ(shown.size(), canvas->size() * ratio);
+  EXPECT_FALSE(isLine(130, 230));
+  // Painted for these pixels, not blown up: blocks of 2 x 2 that begin at even places are not all of one colour.
+  int mixed = 0;
+  for (int y = 0; y + 1 < shown.height(); y += 2)
+    for (int x = 0; x + 1 < shown.width(); x += 2) mixed += shown.pixel(x, y) != shown.pixel(x + 1, y + 1) ? 1 : 0;
+  EXPECT_GT(mixed, 500);
+}
+
+TEST(CanvasAtTwoPixelsAPoint, PaintsInDevicePixelsToo) {
+  // The factor is one of the whole program.
+  if (qEnvironmentVariableIsSet("QT_SCALE_FACTOR")) GTEST_SKIP() << "this is the program that the test starts";
+  QProcess child;
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  environment.insert(QStringLiteral("QT_SCALE_FACTOR"), QStringLiteral("2"));
+  child.setProcessEnvironment(environment);
+  child.start(QCoreApplication::applicationFilePath(),
+              {QStringLiteral("--gtest_filter=CanvasTest.PaintsInDevicePixels:CanvasTest.ClickMarksACorner*")});
+  ASSERT_TRUE(child.waitForFinished(120000));
+  EXPECT_EQ(child.exitCode(), 0) << child.readAllStandardOutput().toStdString();
 }
 
 TEST_F(CanvasTest, HoldingBackslashShowsTheScanAlone) {

@@ -9,7 +9,7 @@ const CurveComb* CanvasScene::selectedComb() const {
 }
 
 std::optional<int> CanvasScene::curveNear(const Vec2& px) const {
-  if (!shapes) return std::nullopt;
+  if (!shapes || view.isScanOnly()) return std::nullopt;
   const double reach = reachImagePx();
   const QPointF at(px.x(), px.y());
   double best = reach;
@@ -17,17 +17,23 @@ std::optional<int> CanvasScene::curveNear(const Vec2& px) const {
   for (std::size_t i = 0; i < shapes->curves.size(); ++i) {
     const CurveShape& shape = shapes->curves[i];
     if (!shape.bounds.adjusted(-reach, -reach, reach, reach).contains(at)) continue;
-    for (const QPainterPath* path : {&shape.sketched, &shape.faired})
-      if (const auto distance = distanceTo(*path, px); distance && *distance <= best) {
-        best = *distance;
-        found = static_cast<int>(i);
-      }
+    // Only what is painted can be clicked. What is left out is painted dotted, and in its tool always.
+    const bool sketched = view.isVisible(Layer::Curve) || (!shape.isIncluded && view.tool() == Tool::Lines);
+    const bool faired = view.isVisible(Layer::Faired) && shape.isIncluded;
+    const auto look = [&](const QPainterPath& path) {
+      const auto distance = distanceTo(path, px);
+      if (!distance || *distance > best) return;
+      best = *distance;
+      found = static_cast<int>(i);
+    };
+    if (sketched) look(shape.sketched);
+    if (faired) look(shape.faired);
   }
   return found;
 }
 
 const ExtremumMark* CanvasScene::extremumNear(const Vec2& px) const {
-  if (!view.isVisible(Layer::Extrema) || view.isScanOnly()) return nullptr;
+  if (!areExtremaShown()) return nullptr;
   const ExtremumMark* best = nullptr;
   double least = kMarkReachPx * transform.imagePerWidget();
   for (const ExtremumMark& mark : extrema) {

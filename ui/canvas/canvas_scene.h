@@ -35,7 +35,6 @@ struct CanvasScene {
   std::shared_ptr<const CurveShapes> shapes;
   std::shared_ptr<const CurveCombs> combs;
   std::shared_ptr<const CompareOverlay> overlay;
-  std::vector<CornerSuggestion> suggestions;
   std::vector<ExtremumMark> extrema;  ///< Of the selected curve.
   QPalette palette;
   QFont font;
@@ -47,7 +46,11 @@ struct CanvasScene {
 
   double reachImagePx() const { return kReachPx * transform.imagePerWidget(); }
   const CurveComb* selectedComb() const;
-  /// The curve nearest to a place within reach, or none.
+  /// Marks of extrema lie on the sketched curve: without it they would hang in the air.
+  bool areExtremaShown() const {
+    return view.isVisible(Layer::Extrema) && view.isVisible(Layer::Curve) && !view.isScanOnly();
+  }
+  /// The shown curve nearest to a place within reach, or none.
   std::optional<int> curveNear(const Vec2& px) const;
   /// The mark of an extremum under the mouse, or null; none while they are not shown.
   const ExtremumMark* extremumNear(const Vec2& px) const;

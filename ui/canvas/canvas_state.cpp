@@ -2,17 +2,16 @@
 #include "ui/canvas/canvas_state.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "core/image/log_transform.h"
 #include "ui/canvas/layers/vector_layers.h"
+#include "ui/session/suggestion_source.h"
 
 namespace batten {
 namespace {
 
 constexpr int kLateMs = 200;
 constexpr int kFlashMs = 350;
-constexpr double kSuggestionScalePx = 14.0;
 
 }  // namespace
 
@@ -56,9 +55,7 @@ void CurveCanvas::State::scanOpened() {
   combs.reset();
   overlay.reset();
   overlayFor = {};
-  suggestions.clear();
   extrema.clear();
-  suggestionsFor.reset();
   ghost = {};
   for (const auto& each : tools) each->reset();
   transform.setImageSize({scan->grey.width, scan->grey.height});
@@ -95,6 +92,7 @@ void CurveCanvas::State::stageReady(StageId stage) {
 
 void CurveCanvas::State::recipeChanged() {
   refreshExtrema();
+  tool().recipeChanged();
   canvas.update();
 }
 
@@ -220,26 +218,7 @@ void CurveCanvas::State::requestOverlay() {
 }
 
 void CurveCanvas::State::requestSuggestions() {
-  const auto contours = session.output().contours;
-  if (view.tool() != Tool::Corners) return;
-  if (contours == suggestionsFor && suggestionsAngleDeg == view.suggestionAngleDeg()) return;
-  suggestionsFor = contours;
-  suggestionsAngleDeg = view.suggestionAngleDeg();
-  if (!contours) {
-    suggestions.clear();
-    return;
-  }
-  suggesting.start([this, contours, angleRad = suggestionsAngleDeg * std::numbers::pi / 180.0](const CancelToken&) {
-    auto found = suggestCorners(*contours, angleRad, kSuggestionScalePx);
-    QMetaObject::invokeMethod(
-        &inbox,
-        [this, contours, found = std::move(found)] {
-          if (contours != suggestionsFor) return;
-          suggestions = found;
-          canvas.update();
-        },
-        Qt::QueuedConnection);
-  });
+  if (view.tool() == Tool::Corners) session.suggestions().look(view.suggestionAngleDeg());
 }
 
 RasterContent CurveCanvas::State::rasterContent() const {
@@ -344,7 +323,7 @@ void CurveCanvas::State::paint(QPainter& painter) {
   }
   if (!view.isScanOnly()) {
     paintRegions(painter, *this);
-    if (view.isVisible(Layer::Extrema) && view.isVisible(Layer::Curve)) paintExtrema(painter, *this);
+    if (areExtremaShown()) paintExtrema(painter, *this);
     if (view.isVisible(Layer::Corners)) paintCorners(painter, *this);
     if (view.isVisible(Layer::Regions) && view.tool() != Tool::Thresholds) paintRegionGrid(painter, *this);
     paintSegmentPoints(painter, *this);

@@ -69,7 +69,7 @@ struct CurveCanvas::State : CanvasScene {
   StillKey stillKey;
 
   QObject inbox;
-  BackgroundWorker imaging, shaping, combing, suggesting, comparing;
+  BackgroundWorker imaging, shaping, combing, comparing;
 
   /// The pinned result, or the uniform curves, have changed.
   void requestOverlay();
@@ -89,8 +89,6 @@ struct CurveCanvas::State : CanvasScene {
   double shapesZoom = 0.0;
   int combsSelected = -2;
   OverlaySource overlayFor;
-  std::shared_ptr<const ContourSet> suggestionsFor;
-  double suggestionsAngleDeg = 0.0;
 };
 
 }  // namespace batten

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/canvas/curve_canvas.h"
 
+#include <QApplication>
 #include <QGestureEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
@@ -14,6 +15,7 @@
 
 #include "ui/canvas/canvas_state.h"
 #include "ui/session/growing_player.h"
+#include "ui/session/suggestion_source.h"
 
 namespace batten {
 namespace {
@@ -35,6 +37,7 @@ CurveCanvas::CurveCanvas(EditorSession& session, ViewSettings& view, QWidget* pa
   setAttribute(Qt::WA_OpaquePaintEvent);
   setMinimumSize(240, 180);
   grabGesture(Qt::PinchGesture);
+  qApp->installEventFilter(this);
   setAccessibleName(tr("Drawing"));
   State* state = state_.get();
   connect(&session, &EditorSession::scanOpened, this, [state] { state->scanOpened(); });
@@ -44,6 +47,8 @@ CurveCanvas::CurveCanvas(EditorSession& session, ViewSettings& view, QWidget* pa
   connect(&session, &EditorSession::targetsChanged, this, [state] { state->hoverChanged(); });
   connect(&session, &EditorSession::hoverChanged, this, [state] { state->hoverChanged(); });
   connect(&session, &EditorSession::pinChanged, this, [state] { state->requestOverlay(); });
+  connect(&session.suggestions(), &SuggestionSource::changed, this, qOverload<>(&QWidget::update));
+  connect(&session, &EditorSession::cornerSelectionChanged, this, qOverload<>(&QWidget::update));
   connect(&session.growing(), &GrowingPlayer::changed, this, [this] { update(); });
   connect(&session, &EditorSession::cursorChanged, this, qOverload<>(&QWidget::update));
   connect(&session, &EditorSession::runFinished, this, qOverload<>(&QWidget::update));
@@ -219,6 +224,7 @@ void CurveCanvas::tabletEvent(QTabletEvent* event) {
 }
 
 bool CurveCanvas::focusNextPrevChild(bool next) {
+  if (const auto walked = state_->tool().tab(next)) return *walked || QWidget::focusNextPrevChild(next);
   // Tab walks the curves and leaves the drawing behind the last one.
   const int count = static_cast<int>(state_->session.curves().size());
   const int now = state_->session.selectedCurve();
@@ -231,15 +237,15 @@ bool CurveCanvas::focusNextPrevChild(bool next) {
 void CurveCanvas::keyPressEvent(QKeyEvent* event) {
   State& s = *state_;
   QPointF step;
-  if (s.session.hasScan() && !s.view.isScanOnly() && event->key() != Qt::Key_Space && s.tool().key(event)) return;
+  if (event->key() == Qt::Key_Escape && s.isPressed) {
+    s.isPressed = false;
+    s.tool().abort();
+    s.updateMouseCursor();
+    return;
+  }
+  if (event->key() == Qt::Key_Space || event->key() == Qt::Key_Backslash) return hold(*event, true);
+  if (s.session.hasScan() && !s.view.isScanOnly() && s.tool().key(event)) return;
   switch (event->key()) {
-    case Qt::Key_Space:
-      if (!event->isAutoRepeat()) s.spaceHeld = true;
-      s.updateMouseCursor();
-      return;
-    case Qt::Key_Backslash:
-      s.view.setScanOnly(true);
-      return;
     case Qt::Key_Left:
       step = {kArrowStepPx, 0};
       break;
@@ -262,15 +268,37 @@ void CurveCanvas::keyPressEvent(QKeyEvent* event) {
 }
 
 void CurveCanvas::keyReleaseEvent(QKeyEvent* event) {
-  if (event->isAutoRepeat()) return;
-  if (event->key() == Qt::Key_Space) {
-    state_->spaceHeld = false;
-    state_->updateMouseCursor();
-  } else if (event->key() == Qt::Key_Backslash) {
-    state_->view.setScanOnly(false);
-  } else {
-    QWidget::keyReleaseEvent(event);
-  }
+  if (event->key() == Qt::Key_Space || event->key() == Qt::Key_Backslash) return hold(*event, false);
+  QWidget::keyReleaseEvent(event);
+}
+
+void CurveCanvas::hold(const QKeyEvent& event, bool isDown) {
+  if (event.isAutoRepeat()) return;
+  if (event.key() == Qt::Key_Backslash) return state_->view.setScanOnly(isDown);
+  state_->spaceHeld = isDown;
+  state_->updateMouseCursor();
+}
+
+bool CurveCanvas::eventFilter(QObject* watched, QEvent* event) {
+  const bool isDown = event->type() == QEvent::KeyPress;
+  if ((!isDown && event->type() != QEvent::KeyRelease) || watched == this || !watched->isWidgetType()) return false;
+  const auto& key = *static_cast<QKeyEvent*>(event);
+  const bool isSpace = key.key() == Qt::Key_Space;
+  if ((!isSpace && key.key() != Qt::Key_Backslash) || (key.modifiers() & ~Qt::KeypadModifier) != 0) return false;
+  // What was pressed for the drawing is released for it, wherever the mouse has gone meanwhile.
+  const bool isHeld = isSpace ? state_->spaceHeld : state_->view.isScanOnly();
+  if (isDown ? !takesHeldKey(static_cast<QWidget&>(*watched), isSpace) : !isHeld) return false;
+  hold(key, isDown);
+  return true;
+}
+
+bool CurveCanvas::takesHeldKey(const QWidget& focused, bool isSpace) const {
+  if (focused.window() != window() || QApplication::activePopupWidget() || QApplication::activeModalWidget())
+    return false;
+  const bool isEditor = focused.inherits("QLineEdit") || focused.inherits("QTextEdit") ||
+                        focused.inherits("QPlainTextEdit") || focused.inherits("QAbstractSpinBox");
+  // Space presses the button that has the focus, unless the mouse is on the drawing.
+  return !isEditor && (!isSpace || rect().contains(mapFromGlobal(QCursor::pos())));
 }
 
 bool CurveCanvas::event(QEvent* event) {
@@ -288,7 +316,13 @@ bool CurveCanvas::event(QEvent* event) {
       factor = pinch->scaleFactor();
       anchor = mapFromGlobal(pinch->centerPoint().toPoint());
     }
-  } else if (event->type() == QEvent::FocusOut) {
+  } else if (event->type() == QEvent::ShortcutOverride) {
+    // While the button is down Esc is the gesture's, before it stops work or hides a message.
+    if (state_->isPressed && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
+      event->accept();
+      return true;
+    }
+  } else if (event->type() == QEvent::WindowDeactivate) {
     // A key released in another window is never seen here.
     state_->spaceHeld = false;
     state_->view.setScanOnly(false);

@@ -47,8 +47,13 @@ class CurveCanvas : public QWidget {
   void keyPressEvent(QKeyEvent*) override;
   void keyReleaseEvent(QKeyEvent*) override;
   bool event(QEvent*) override;
+  /// Sees Space and \\ wherever the focus is, but for fields that take text.
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void hold(const QKeyEvent& event, bool isDown);
+  bool takesHeldKey(const QWidget& focused, bool isSpace) const;
+
   struct State;
   std::unique_ptr<State> state_;
 };

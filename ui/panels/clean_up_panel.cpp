@@ -13,6 +13,7 @@
 #include "ui/panels/parameter_editor.h"
 #include "ui/panels/pen_panel.h"
 #include "ui/panels/segmented_control.h"
+#include "ui/session/region_edits.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -123,13 +124,9 @@ void EdgesPanel::buildChoice() {
   layout->addWidget(fallback_);
   static constexpr Tool kChoices[] = {Tool::Select, Tool::Lines, Tool::Rectangle, Tool::Lasso};
   connect(tools_, &SegmentedControl::chosen, this, [this](int index) { view_.setTool(kChoices[index]); });
-  connect(clear_, &QPushButton::clicked, this, [this] {
-    Recipe after = session_.recipe();
-    after.regions.clear();
-    session_.change(tr("Clear regions"), std::move(after));
-  });
-  connect(strokes_, &QCheckBox::toggled, this, [this](bool on) { view_.setVisible(Layer::Strokes, on); });
-  connect(fallback_, &QCheckBox::toggled, this, [this](bool on) { view_.setVisible(Layer::Fallback, on); });
+  connect(clear_, &QPushButton::clicked, this, [this] { clearRegions(session_); });
+  connect(strokes_, &QCheckBox::clicked, this, [this](bool on) { view_.choose(Layer::Strokes, on); });
+  connect(fallback_, &QCheckBox::clicked, this, [this](bool on) { view_.choose(Layer::Fallback, on); });
   connect(&view_, &ViewSettings::toolChanged, this, &EdgesPanel::refreshChoice);
   connect(&view_, &ViewSettings::changed, this, &EdgesPanel::refreshChoice);
   connect(&session_, &EditorSession::recipeChanged, this, &EdgesPanel::refreshChoice);

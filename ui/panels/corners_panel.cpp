@@ -5,7 +5,6 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
-#include <QPointer>
 #include <QPushButton>
 #include <QShortcut>
 #include <QSignalBlocker>
@@ -18,14 +17,13 @@
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/parameter_editor.h"
 #include "ui/panels/slider_track.h"
-#include "ui/session/background_worker.h"
+#include "ui/session/suggestion_source.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
 namespace {
 
 constexpr double kLowestAngleDeg = 10.0, kHighestAngleDeg = 150.0;
-constexpr double kSuggestionScalePx = 14.0;
 
 QString place(const Vec2& px) { return QStringLiteral("%1, %2").arg(px.x(), 0, 'f', 1).arg(px.y(), 0, 'f', 1); }
 
@@ -51,13 +49,13 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       suggested_(new QListWidget(this)),
       suggestedNote_(note({}, this)),
       take_(plainButton(tr("Mark"), QStringLiteral("corners.take"), this)),
-      takeAll_(plainButton(tr("Mark all"), QStringLiteral("corners.takeAll"), this)),
-      worker_(std::make_unique<BackgroundWorker>()) {
+      takeAll_(plainButton(tr("Mark all"), QStringLiteral("corners.takeAll"), this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(14, 12, 14, 12);
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Corners"), this));
-  layout->addWidget(note(tr("Click a line where it turns sharply; click the corner again to remove it."), this));
+  layout->addWidget(
+      note(tr("Click a line where it turns sharply; click a corner to select it, and again to remove it."), this));
   layout->addWidget(new ParameterEditor(session, {"corners.exact", "corners.snap"}, this));
   layout->addWidget(caption(tr("Marked"), this));
   marks_->setObjectName(QStringLiteral("corners.list"));
@@ -93,9 +91,10 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
   connect(remove_, &QPushButton::clicked, this, &CornersPanel::removeSelected);
   connect(removeAll_, &QPushButton::clicked, this, &CornersPanel::removeAll);
   connect(marks_, &QListWidget::currentRowChanged, this, [this](int row) {
-    remove_->setEnabled(row >= 0);
-    showRounding();
+    if (!filling_) session_.selectCorner(row);
   });
+  connect(&session_, &EditorSession::cornerSelectionChanged, this, &CornersPanel::showSelected);
+  connect(&session_.suggestions(), &SuggestionSource::changed, this, &CornersPanel::showSuggestions);
   connect(&session_, &EditorSession::scanOpened, this, &CornersPanel::refresh);
   connect(&session_, &EditorSession::recipeChanged, this, &CornersPanel::refreshMarks);
   connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
@@ -104,8 +103,6 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
   });
   refresh();
 }
-
-CornersPanel::~CornersPanel() = default;
 
 void CornersPanel::buildSuggestions() {
   auto* layout = static_cast<QVBoxLayout*>(this->layout());
@@ -138,14 +135,16 @@ void CornersPanel::buildSuggestions() {
   buttons->addWidget(takeAll_);
   buttons->addStretch();
   layout->addLayout(buttons);
-  const auto set = [this](double degrees) {
-    view_.setSuggestionAngleDeg(degrees);
+  const auto set = [this](double degrees) { view_.setSuggestionAngleDeg(degrees); };
+  const auto follow = [this] {
+    const double degrees = view_.suggestionAngleDeg();
     angle_->setValue(degrees);
     const QSignalBlocker quiet(angleTrack_);
     angleTrack_->setValue(static_cast<int>(std::lround(degrees)));
     angleTrack_->update();
     suggest();
   };
+  connect(&view_, &ViewSettings::changed, this, follow);
   connect(angle_, &NumberField::committed, this, set);
   connect(angleTrack_, &QSlider::valueChanged, this, set);
   connect(take_, &QPushButton::clicked, this, [this] {
@@ -160,7 +159,7 @@ void CornersPanel::buildSuggestions() {
     mark(all);
   });
   connect(suggested_, &QListWidget::currentRowChanged, this, [this](int current) { take_->setEnabled(current >= 0); });
-  set(view_.suggestionAngleDeg());
+  follow();
 }
 
 void CornersPanel::showEvent(QShowEvent* event) {
@@ -177,7 +176,7 @@ void CornersPanel::refreshMarks() {
   const Theme& theme = themeOf(palette());
   const auto& marks = session_.recipe().cornerMarks;
   const auto& pieces = session_.output().pieces;
-  const int current = marks_->currentRow();
+  filling_ = true;
   marks_->clear();
   for (std::size_t i = 0; i < marks.size(); ++i) {
     QString angle, what = place(marks[i].positionPx);
@@ -199,28 +198,22 @@ void CornersPanel::refreshMarks() {
   }
   marks_->setVisible(!marks.empty());
   fitHeight(marks_, 8);
-  marks_->setCurrentRow(std::min(current, marks_->count() - 1));
-  remove_->setEnabled(marks_->currentRow() >= 0);
+  filling_ = false;
   removeAll_->setEnabled(!marks.empty());
+  showSelected();
+  showSuggestions();
+}
+
+void CornersPanel::showSelected() {
+  filling_ = true;
+  marks_->setCurrentRow(session_.selectedCorner());
+  filling_ = false;
+  remove_->setEnabled(marks_->currentRow() >= 0);
   showRounding();
-  showSuggestions(suggestions_);
 }
 
 void CornersPanel::suggest() {
-  const auto contours = session_.output().contours;
-  if (!contours) return showSuggestions({});
-  if (!isVisible()) return;
-  const double angleRad = view_.suggestionAngleDeg() * std::numbers::pi / 180.0;
-  worker_->start([contours, angleRad, panel = QPointer<CornersPanel>(this)](const CancelToken& token) {
-    auto found = suggestCorners(*contours, angleRad, kSuggestionScalePx);
-    if (token.isCancelled() || !panel) return;
-    QMetaObject::invokeMethod(
-        panel.data(),
-        [panel, found = std::move(found)] {
-          if (panel) panel->showSuggestions(found);
-        },
-        Qt::QueuedConnection);
-  });
+  if (isVisible() || !session_.output().contours) session_.suggestions().look(view_.suggestionAngleDeg());
 }
 
 bool CornersPanel::isMarked(const Vec2& positionPx) const {
@@ -230,9 +223,9 @@ bool CornersPanel::isMarked(const Vec2& positionPx) const {
                      [&](const CornerMark& mark) { return (mark.positionPx - positionPx).norm() <= reach; });
 }
 
-void CornersPanel::showSuggestions(std::vector<CornerSuggestion> found) {
-  std::erase_if(found, [this](const CornerSuggestion& s) { return isMarked(s.positionPx); });
-  suggestions_ = std::move(found);
+void CornersPanel::showSuggestions() {
+  suggestions_ = session_.suggestions().found();
+  std::erase_if(suggestions_, [this](const CornerSuggestion& s) { return isMarked(s.positionPx); });
   suggested_->clear();
   for (const auto& suggestion : suggestions_) {
     auto* item = new QListWidgetItem(
@@ -265,7 +258,7 @@ void CornersPanel::showRounding() {
   if (isMark) {
     rounding_->setValue(marks[static_cast<std::size_t>(row)].roundMm);
   } else {
-    rounding_->setEmpty(tr("select one"));
+    rounding_->setEmpty(QStringLiteral("–"));
   }
 }
 

@@ -14,7 +14,6 @@ class QPushButton;
 
 namespace batten {
 
-class BackgroundWorker;
 class NumberField;
 class SliderTrack;
 
@@ -23,7 +22,6 @@ class CornersPanel : public QWidget {
   Q_OBJECT
  public:
   CornersPanel(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
-  ~CornersPanel() override;
 
  protected:
   void showEvent(QShowEvent*) override;
@@ -33,7 +31,8 @@ class CornersPanel : public QWidget {
   void refresh();
   void refreshMarks();
   void suggest();
-  void showSuggestions(std::vector<CornerSuggestion> found);
+  void showSuggestions();
+  void showSelected();
   void showRounding();
   void roundSelected(double mm);
   void removeSelected();
@@ -54,7 +53,7 @@ class CornersPanel : public QWidget {
   QPushButton* take_;
   QPushButton* takeAll_;
   std::vector<CornerSuggestion> suggestions_;
-  std::unique_ptr<BackgroundWorker> worker_;
+  bool filling_ = false;
 };
 
 }  // namespace batten

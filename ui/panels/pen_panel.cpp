@@ -23,6 +23,8 @@ PenPanel::PenPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
       list_(new QListWidget(this)),
       remove_(plainButton(tr("Remove"), QStringLiteral("pen.remove"), this)),
       removeAll_(plainButton(tr("Remove all"), QStringLiteral("pen.removeAll"), this)) {
+  // What is left of the panel's height belongs below it.
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);

@@ -113,7 +113,7 @@ void ThresholdPanel::buildRegion() {
   });
   connect(table_, &QTableWidget::cellClicked, this,
           [this](int row, int column) { view_.setSelectedRegion(row * kRegionsPerSide + column); });
-  connect(showRegions_, &QCheckBox::toggled, this, [this](bool on) { view_.setVisible(Layer::Regions, on); });
+  connect(showRegions_, &QCheckBox::clicked, this, [this](bool on) { view_.choose(Layer::Regions, on); });
 }
 
 double ThresholdPanel::levelOf(int region) const {
@@ -191,6 +191,11 @@ void ThresholdPanel::refresh() {
   refreshTable();
 }
 
+void ThresholdPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  refreshRegion();
+}
+
 void ThresholdPanel::refreshRegion() {
   const int region = view_.selectedRegion();
   const bool has = region >= 0 && session_.hasScan();
@@ -206,7 +211,14 @@ void ThresholdPanel::refreshRegion() {
   regionName_->setText(
       tr("Region %1, %2").arg(region / kRegionsPerSide + 1).arg(region % kRegionsPerSide + 1).toUpper());
   level_->setValue(levelOf(region));
-  histogram_->show(regionHistogram(session_.scan()->grey, region), levelOf(region));
+  // Counting a region of a large scan takes a while: once, and only when it is looked at.
+  if (!isVisible()) return;
+  if (countedIn_.lock() != session_.scan() || countedRegion_ != region) {
+    countedIn_ = session_.scan();
+    countedRegion_ = region;
+    counts_ = regionHistogram(session_.scan()->grey, region);
+  }
+  histogram_->show(counts_, levelOf(region));
 }
 
 void ThresholdPanel::refreshTable() {

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <QWidget>
+#include <array>
+#include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "ui/session/editor_session.h"
@@ -25,6 +28,9 @@ class ThresholdPanel : public QWidget {
  public:
   ThresholdPanel(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
 
+ protected:
+  void showEvent(QShowEvent*) override;
+
  private:
   void buildRegion();
   void refresh();
@@ -47,6 +53,9 @@ class ThresholdPanel : public QWidget {
   QTableWidget* table_;
   QCheckBox* showRegions_;
   QLabel* note_;
+  std::weak_ptr<const Scan> countedIn_;  ///< What counts_ were counted in.
+  int countedRegion_ = -1;
+  std::array<std::uint32_t, 256> counts_{};
   int gesture_ = -1;
   bool filling_ = false;
 };

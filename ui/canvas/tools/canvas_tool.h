@@ -3,6 +3,7 @@
 
 #include <QPainter>
 #include <memory>
+#include <optional>
 
 #include "ui/canvas/canvas_scene.h"
 
@@ -30,6 +31,12 @@ class CanvasTool {
   /// @param steps wheel notches, positive away from the user.
   virtual bool wheel(const ToolEvent&, double /*steps*/) { return false; }
   virtual bool key(QKeyEvent*) { return false; }
+  /// Esc while the button is down: takes back what the gesture has changed so far.
+  virtual void abort() {}
+  /// Tab or Shift+Tab: true = it chose another mark, false = there is none behind the last, none = not the tool's.
+  virtual std::optional<bool> tab(bool /*next*/) { return std::nullopt; }
+  /// The recipe has changed, by undo, a panel or the tool itself.
+  virtual void recipeChanged() {}
   virtual void leave() {}
   /// The drawing or the tool has changed: forget what referred to it.
   virtual void reset() {}

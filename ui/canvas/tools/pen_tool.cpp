@@ -66,18 +66,16 @@ class PenTool final : public CanvasTool {
   }
 
   bool key(QKeyEvent* event) override {
-    if (event->key() == Qt::Key_Escape && !points_.empty()) {
-      points_.clear();
-      isDrawing_ = false;
-      scene_.repaint();
-      return true;
-    }
     if (event->key() != Qt::Key_Delete && event->key() != Qt::Key_Backspace) return false;
     const auto stroke = strokeOf(scene_.session, scene_.session.selectedCurve());
     if (stroke) removeStroke(scene_.session, *stroke);
     return stroke.has_value();
   }
 
+  void abort() override {
+    reset();
+    scene_.repaint();
+  }
   void reset() override {
     points_.clear();
     isDrawing_ = false;

@@ -7,6 +7,7 @@
 
 #include "ui/canvas/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
+#include "ui/session/region_edits.h"
 
 namespace batten {
 namespace {
@@ -61,19 +62,16 @@ class RegionTool final : public CanvasTool {
   }
 
   bool key(QKeyEvent* event) override {
-    if (event->key() == Qt::Key_Escape && isDrawing_) {
-      reset();
-      scene_.repaint();
-      return true;
-    }
     if (event->key() != Qt::Key_Delete && event->key() != Qt::Key_Backspace) return false;
     if (scene_.session.recipe().regions.empty()) return false;
-    Recipe recipe = scene_.session.recipe();
-    recipe.regions.clear();
-    scene_.session.change(tr("Clear regions"), std::move(recipe));
+    clearRegions(scene_.session);
     return true;
   }
 
+  void abort() override {
+    reset();
+    scene_.repaint();
+  }
   void reset() override {
     drawn_.clear();
     isDrawing_ = false;

@@ -37,6 +37,8 @@ class ThresholdTool final : public CanvasTool {
     isDragging_ = false;
     gesture_ = scene_.session.newGesture();
     base_ = levels();
+    before_ = scene_.session.recipe();
+    wheelGesture_ = -1;
   }
 
   void move(const ToolEvent& event, bool isPressed) override {
@@ -52,12 +54,25 @@ class ThresholdTool final : public CanvasTool {
     const double way = pressed_.y() - event.widget.y();
     if (!isDragging_ && std::abs(way) < kDragStartPx) return;
     isDragging_ = true;
-    apply(way * kLevelsPerPx);
+    apply(base_, way * kLevelsPerPx, gesture_);
   }
 
   void release(const ToolEvent&) override {
     base_.clear();
+    before_.reset();
     isDragging_ = false;
+  }
+
+  void abort() override {
+    if (before_ && isDragging_) change(*before_, gesture_);
+    base_.clear();
+    before_.reset();
+    isDragging_ = false;
+  }
+
+  void recipeChanged() override {
+    // After undo the wheel begins from what it finds.
+    if (!isChanging_) wheelGesture_ = -1;
   }
 
   void doubleClick(const ToolEvent& event) override {
@@ -77,12 +92,15 @@ class ThresholdTool final : public CanvasTool {
     const bool continues =
         inSet && wheelGesture_ >= 0 && sinceWheel_.isValid() && sinceWheel_.elapsed() < kWheelPauseMs;
     if (!inSet) select(region, false);
-    if (!continues) wheelGesture_ = scene_.session.newGesture();
+    if (!continues) {
+      wheelGesture_ = scene_.session.newGesture();
+      wheelBase_ = levels();
+      wheelSteps_ = 0.0;
+    }
     sinceWheel_.start();
-    gesture_ = wheelGesture_;
-    base_ = levels();
-    apply(steps * kLevelsPerNotch);
-    base_.clear();
+    // Fine wheels and touchpads send small fractions of a notch: they add up, each alone would be rounded away.
+    wheelSteps_ += steps;
+    apply(wheelBase_, wheelSteps_ * kLevelsPerNotch, wheelGesture_);
     return true;
   }
 
@@ -122,6 +140,8 @@ class ThresholdTool final : public CanvasTool {
   }
 
  private:
+  using Levels = std::vector<std::pair<int, double>>;
+
   int regionAt(const Vec2& px) const {
     const QSize size = scene_.transform.imageSize();
     if (size.isEmpty() || px.x() < 0 || px.y() < 0 || px.x() >= size.width() || px.y() >= size.height()) return -1;
@@ -175,18 +195,24 @@ class ThresholdTool final : public CanvasTool {
     scene_.repaint();
   }
 
-  std::vector<std::pair<int, double>> levels() const {
-    std::vector<std::pair<int, double>> all;
+  Levels levels() const {
+    Levels all;
     for (const int r : chosen()) all.emplace_back(r, level(r));
     return all;
   }
 
-  void apply(double change) {
+  void apply(const Levels& base, double levels, int gesture) {
     Recipe recipe = scene_.session.recipe();
-    for (const auto& [region, from] : base_)
+    for (const auto& [region, from] : base)
       recipe.threshold.grid[static_cast<std::size_t>(region)] =
-          std::clamp(std::round(2.0 * (from + change)) / 2.0, 0.0, 255.0);
-    scene_.session.change(tr("Region threshold"), recipe, gesture_);
+          std::clamp(std::round(2.0 * (from + levels)) / 2.0, 0.0, 255.0);
+    change(std::move(recipe), gesture);
+  }
+
+  void change(Recipe after, int gesture) {
+    isChanging_ = true;
+    scene_.session.change(tr("Region threshold"), std::move(after), gesture);
+    isChanging_ = false;
     scene_.repaint();
   }
 
@@ -222,7 +248,10 @@ class ThresholdTool final : public CanvasTool {
   bool isDragging_ = false;
   int gesture_ = -1, wheelGesture_ = -1;
   QElapsedTimer sinceWheel_;
-  std::vector<std::pair<int, double>> base_;  ///< Regions and their thresholds when the gesture began.
+  double wheelSteps_ = 0.0;
+  Levels base_, wheelBase_;       ///< Regions and their thresholds when the gesture began.
+  std::optional<Recipe> before_;  ///< Of the drag in progress.
+  bool isChanging_ = false;
 };
 
 }  // namespace
