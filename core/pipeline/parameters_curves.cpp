@@ -188,12 +188,12 @@ void appendConstruct(std::vector<Parameter>& table) {
   appendControlPolygon(table);
   table.push_back(real(
       kCurves,
-      {"construct.keep_extrema", "Certainty of bumps", "",
+      {"construct.keep_extrema", "Keep bumps above", "",
        "True and fair fit: a bump of the curvature must be this certain to be kept. Larger keeps fewer."},
       {1.0, 1000.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.construct.keepExtremaCost; }));
   table.push_back(real(
       kCurves,
-      {"construct.reduce", "Spare control points", "× noise",
+      {"construct.reduce", "Fewer control points", "× noise",
        "True and fair fit: how far the curve may move, as a part of the noise of the scan's edge, to need fewer control "
        "points. Larger: fewer points; 0 keeps all."},
       {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.construct.reduceShare; }));
@@ -235,7 +235,7 @@ void appendFairing(std::vector<Parameter>& table) {
        "its short waves."},
       {{"none", "Off", FairingMode::None},
        {"target", "Target profile", FairingMode::Target},
-       {"tolerance", "Within tolerance", FairingMode::Tolerance},
+       {"tolerance", "Smooth within budget", FairingMode::Tolerance},
        {"monotone", "Monotone curvature", FairingMode::Monotone},
        {"lowpass", "Low-pass", FairingMode::LowPass}},
       [](auto& r) -> auto& { return r.fairing.mode; }));

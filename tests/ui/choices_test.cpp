@@ -3,15 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <QAction>
-#include <QSettings>
 #include <QTest>
 #include <cmath>
 #include <numbers>
 #include <random>
 
-#include "tests/ui/rendered_scan.h"
-#include "ui/canvas/curve_canvas.h"
-#include "ui/main_window.h"
+#include "tests/ui/window_fixture.h"
 #include "ui/plots/curve_plots.h"
 #include "ui/session/extremum_marks.h"
 
@@ -61,36 +58,16 @@ QImage twoLinesPage() {
   return page;
 }
 
-class Choices : public testing::Test {
+class Choices : public test::WindowFixture {
  protected:
-  void SetUp() override {
-    QSettings::setDefaultFormat(QSettings::IniFormat);
-    QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, folder_.path());
-    window_ = std::make_unique<MainWindow>();
-    window_->resize(1280, 860);
-    window_->show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
-  }
   void open(const QImage& page) {
-    const QString path = folder_.filePath(QStringLiteral("page.png"));
-    ASSERT_TRUE(page.save(path));
-    window_->openPath(path);
-    ASSERT_TRUE(waitUntil([this] { return session().hasScan(); }));
-    ASSERT_TRUE(settle());
-    ASSERT_FALSE(session().curves().empty());
+    ASSERT_NO_FATAL_FAILURE(openPage(page));
     window_->setStage(PanelStage::Curves);
-    canvas_ = window_->findChild<CurveCanvas*>(QStringLiteral("canvas"));
+    canvas_ = find<CurveCanvas>("canvas");
     ASSERT_NE(canvas_, nullptr);
   }
-  bool settle() {
-    return waitUntil([this] { return !session().isBusy(); });
-  }
-  EditorSession& session() { return window_->session(); }
   QPoint at(const Vec2& px) { return canvas_->toWidget(px).toPoint(); }
-  void click(const Vec2& px) {
-    QTest::mouseMove(canvas_, at(px));
-    QTest::mouseClick(canvas_, Qt::LeftButton, Qt::NoModifier, at(px));
-  }
+  void click(const Vec2& px) { clickCanvas(px); }
   void drag(const std::vector<Vec2>& way) {
     QTest::mousePress(canvas_, Qt::LeftButton, Qt::NoModifier, at(way.front()));
     for (const Vec2& px : way) QTest::mouseMove(canvas_, at(px));
@@ -102,8 +79,6 @@ class Choices : public testing::Test {
     return nullptr;
   }
 
-  QTemporaryDir folder_;
-  std::unique_ptr<MainWindow> window_;
   CurveCanvas* canvas_ = nullptr;
 };
 

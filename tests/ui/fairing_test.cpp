@@ -6,11 +6,9 @@
 #include <QComboBox>
 #include <QLineEdit>
 #include <QMenu>
-#include <QSettings>
 #include <QTest>
 
-#include "tests/ui/rendered_scan.h"
-#include "ui/main_window.h"
+#include "tests/ui/window_fixture.h"
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/shape_window.h"
 #include "ui/plots/curve_plots.h"
@@ -21,35 +19,16 @@ namespace {
 
 using test::waitUntil;
 
-/// A window on the fairing stage with a page open; its settings live in a folder of their own.
-class FairingWindow : public testing::Test {
+/// A window on the fairing stage with a page open.
+class FairingWindow : public test::WindowFixture {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(folder_.isValid());
-    QSettings::setDefaultFormat(QSettings::IniFormat);
-    QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, folder_.path());
-    window_ = std::make_unique<MainWindow>();
+    ASSERT_NO_FATAL_FAILURE(WindowFixture::SetUp());
     window_->resize(1280, 900);
-    window_->show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
-    const QString path = folder_.filePath(QStringLiteral("page.png"));
-    ASSERT_TRUE(test::ellipsePage().save(path));
-    window_->openPath(path);
-    ASSERT_TRUE(
-        waitUntil([this] { return session().hasScan() && !session().isBusy() && !session().curves().empty(); }));
+    ASSERT_NO_FATAL_FAILURE(openPage(test::ellipsePage()));
     window_->setStage(PanelStage::Fairing);
     session().selectCurve(0);
     ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr; }));
-  }
-  EditorSession& session() { return window_->session(); }
-  bool settle() {
-    return waitUntil([this] { return !session().isBusy(); });
-  }
-  template <class T>
-  T* find(const char* name) {
-    auto* found = window_->findChild<T*>(QString::fromLatin1(name));
-    EXPECT_NE(found, nullptr) << name;
-    return found;
   }
   void click(const char* name) { QTest::mouseClick(find<QAbstractButton>(name), Qt::LeftButton); }
   FairingParams used() { return session().selected()->fairingUsed; }
@@ -63,9 +42,6 @@ class FairingWindow : public testing::Test {
         if (editing->hintAt(QPoint(x, y)).startsWith(hint)) return {x, y};
     return {-1, -1};
   }
-
-  QTemporaryDir folder_;
-  std::unique_ptr<MainWindow> window_;
 };
 
 TEST_F(FairingWindow, EveryModeHasItsButtonAndItsOwnSetting) {

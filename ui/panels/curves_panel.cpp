@@ -157,6 +157,11 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
 }
 
 void CurvesPanel::refresh() {
+  refreshRows();
+  refreshFigures();
+}
+
+void CurvesPanel::refreshRows() {
   const ConstructMethod method = methods_->current();
   const SegmentParams& segments = session_.recipe().segments;
   const bool nurbs = method == ConstructMethod::Nurbs;
@@ -185,6 +190,9 @@ void CurvesPanel::refresh() {
   editor_->setRowVisible("segments.count", segmented && counted);
   editor_->setRowVisible("segments.spacing", segmented && counted && segments.count == 0);
   editor_->setRowVisible("segments.tolerance", segmented && segments.mode == SegmentMode::Adaptive);
+}
+
+void CurvesPanel::refreshFigures() {
   const TracedCurve* curve = session_.selected();
   note_->hide();
   if (!curve) {

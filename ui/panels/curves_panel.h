@@ -27,6 +27,8 @@ class CurvesPanel : public QWidget {
 
  private:
   void refresh();
+  void refreshRows();
+  void refreshFigures();
   /// What the fair fit says of the selected curve: noise, spared control points, dropped extrema.
   void addFitRows(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const;
   EditorSession& session_;

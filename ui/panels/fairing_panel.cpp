@@ -30,7 +30,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
       scope_(new SegmentedControl({tr("All curves"), tr("Selected curve")}, this)),
-      mode_(new SegmentedControl({tr("None"), tr("Target"), tr("Even"), tr("Monotone"), tr("Low-pass")}, this)),
+      mode_(new SegmentedControl({tr("None"), tr("Target"), tr("Smooth"), tr("Monotone"), tr("Low-pass")}, this)),
       budget_(new ParameterRow(session, *findParameter("fairing.tolerance"), this)),
       keep_(new ParameterRow(session, *findParameter("fairing.keep_extrema"), this)),
       wavelength_(new ParameterRow(session, *findParameter("fairing.lowpass"), this)),
@@ -55,7 +55,8 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
                   {QStringLiteral("none"), QStringLiteral("target"), QStringLiteral("tolerance"),
                    QStringLiteral("monotone"), QStringLiteral("lowpass")});
   mode_->setToolTip(
-      tr("None: as sketched. Target: follow a profile of the curvature. Even: the smallest change of curvature that "
+      tr("None: as sketched. Target: follow a profile of the curvature. Smooth within budget: the smallest change of "
+         "curvature that "
          "the budget "
          "allows. Monotone: curvature without a turn, or with few. Low-pass: without short waves."));
   layout->addWidget(mode_);

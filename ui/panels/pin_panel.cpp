@@ -119,7 +119,7 @@ void PinPanel::show(const Comparison& c) {
        {tr("Curvature extrema"),
         {{count(c.pinned.extrema)}, {count(c.now.extrema)}},
         tr("Places where the curvature turns back: fewer is fairer.")},
-       {tr("Unrest"),
+       {tr("Unevenness"),
         {{energyText(c.pinned.energy)}, {energyText(c.now.energy)}},
         tr("Integral of the squared change of curvature, free of the size: 0 for a circle, smaller is fairer.")},
        {tr("Apart"), {{}, {shortMillimetres(c.apartMm)}}, tr("Largest distance between the two curves.")}});

@@ -137,7 +137,7 @@ void ScanPanel::refresh() {
   else if (scan.dpi)
     dpi_->setValue(*scan.dpi);
   else
-    dpi_->setEmpty(tr("unknown"));
+    dpi_->setEmpty(QStringLiteral("–"));
   fromFile_->setVisible(own.has_value());
   fromFile_->setText(scan.dpi ? tr("Use the file's %1 dpi").arg(*scan.dpi, 0, 'f', 0) : tr("Forget this resolution"));
   if (assumed)

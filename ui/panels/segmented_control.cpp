@@ -22,12 +22,14 @@ SegmentedControl::SegmentedControl(const QStringList& labels, QWidget* parent)
   int widest = 0;
   for (const QString& one : labels) widest = std::max(widest, metrics.horizontalAdvance(one));
   const bool isEven = (widest + 10) * labels.size() <= 268;
+  const bool isTight = !fits(labels, 280);
   for (int i = 0; i < labels.size(); ++i) {
     auto* button = new QToolButton(this);
     button->setText(labels[i]);
     button->setAccessibleName(labels[i]);
     button->setCheckable(true);
     button->setProperty("segment", true);
+    button->setProperty("tight", isTight);
     button->setFocusPolicy(Qt::TabFocus);
     // Never wider than the panel: a control that is would push everything in it out of sight.
     button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
