@@ -71,8 +71,8 @@ int runCompare(const std::string& first, const std::string& second) {
     return x.at("similarity").get<double>() > y.at("similarity").get<double>();
   });
   const Json result{{"first", first}, {"second", second}, {"pairs", pairs}};
-  std::cout << result.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
-  return kDone;
+  std::cout << result.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+  return endOutput();
 }
 
 }  // namespace batten::cli

@@ -34,4 +34,10 @@ int reportError(const Error& error) {
   return codeOf(error.code);
 }
 
+int endOutput() {
+  if (std::cout.flush()) return kDone;
+  return reportError(
+      {ErrorCode::CannotWrite, "The result cannot be written to stdout. Send it where there is room.", {}});
+}
+
 }  // namespace batten::cli

@@ -17,4 +17,8 @@ enum ExitCode : int {
 /// Prints the error as one line on stderr and gives the exit code that belongs to it.
 int reportError(const Error&);
 
+/// Ends a command whose results have been written to std::cout: flushes them and gives kDone, or says on stderr that
+/// they could not be written (a full disk, a closed pipe) and gives kCannotWrite.
+int endOutput();
+
 }  // namespace batten::cli

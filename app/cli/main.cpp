@@ -33,7 +33,9 @@ void addRepeated(CLI::App& app, const char* names, std::vector<std::string>& val
 void addTrace(CLI::App& app, TraceArguments& a) {
   CLI::App* trace = app.add_subcommand("trace", "Turn a scan into fair curves");
   trace->footer("Prints one line of JSON: the scan, how many curves, the files written, and notes.");
-  trace->add_option("scan", a.scan, "The scan: PNG, JPEG, TIFF, BMP, WebP, PGM or PBM; none for a recipe drawn on an empty page")
+  trace
+      ->add_option("scan", a.scan,
+                   "The scan: PNG, JPEG, TIFF, BMP, WebP, PGM or PBM; none for a recipe drawn on an empty page")
       ->type_name("SCAN");
   addRepeated(*trace, "-o,--output", a.outputs, "OUT.svg|OUT.json",
               "Write the curves; the extension chooses the format; may be repeated");
@@ -69,14 +71,19 @@ int run(int argc, char** argv) {
       app.add_subcommand("parameters", "List every parameter: name, unit, range, default, what it does");
   parameters->add_flag("--json", asJson, "As JSON");
   std::string first, second;
-  CLI::App* compare = app.add_subcommand("compare", "How alike the curves of two files are, whatever their size and place");
-  compare->footer("Prints one line of JSON: similarity S and Pearson's r of the radii over the perimeter for every pair.");
+  CLI::App* compare =
+      app.add_subcommand("compare", "How alike the curves of two files are, whatever their size and place");
+  compare->footer(
+      "Prints one line of JSON: similarity S and Pearson's r of the radii over the perimeter for every pair.");
   compare->add_option("first", first, "Curves as JSON, written by trace")->type_name("A.json")->required();
   compare->add_option("second", second, "Curves to compare them with")->type_name("B.json")->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
+    if (e.get_exit_code() == 0) {  // --help and --version
+      app.exit(e);
+      return endOutput();
+    }
     return reportError({ErrorCode::BadParameter, std::string(e.what()) + ". Run batten-cli --help.", {}});
   }
   if (compare->parsed()) return runCompare(first, second);

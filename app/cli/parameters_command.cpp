@@ -86,7 +86,7 @@ int runParameters(bool asJson) {
   } else {
     printText();
   }
-  return std::cout.flush() ? kDone : kCannotWrite;
+  return endOutput();
 }
 
 }  // namespace batten::cli

@@ -48,8 +48,8 @@ class Trace {
     readMilliseconds_ = millisecondsSince(begin_);
 
     PipelineRequest request;
-    request.needEdges =
-        std::any_of(plan_.dumps.begin(), plan_.dumps.end(), [](const auto& d) { return d.stage == "edges"; });
+    const auto isOfEdges = [](const auto& dump) { return dump.stage == "edges"; };
+    request.needEdges = !arguments_.report.empty() || std::any_of(plan_.dumps.begin(), plan_.dumps.end(), isOfEdges);
     StageCache nothingKept(0);
     out_ = runPipeline(scan_, plan_.recipe, nothingKept, request, context_);
 
@@ -167,8 +167,8 @@ int runTrace(const TraceArguments& arguments) {
   if (!plan) return reportError(plan.error());
   Trace trace(arguments, std::move(*plan));
   if (auto done = trace.run(); !done) return reportError(done.error());
-  std::cout << trace.summary() << std::endl;
-  return kDone;
+  std::cout << trace.summary() << '\n';
+  return endOutput();
 }
 
 }  // namespace batten::cli

@@ -9,18 +9,18 @@ namespace batten::cli {
 
 /// The words of `batten-cli trace`, as typed.
 struct TraceArguments {
-  std::string scan;                   ///< Empty: the recipe's own empty page
-  std::vector<std::string> outputs;   ///< -o: .svg or .json
-  std::string recipe;                 ///< --recipe
-  std::vector<std::string> settings;  ///< --set stage.parameter=value
-  std::vector<std::string> corners;   ///< --corner X,Y or X,Y,MM
+  std::string scan;                        ///< Empty: the recipe's own empty page
+  std::vector<std::string> outputs;        ///< -o: .svg or .json
+  std::string recipe;                      ///< --recipe
+  std::vector<std::string> settings;       ///< --set stage.parameter=value
+  std::vector<std::string> corners;        ///< --corner X,Y or X,Y,MM
   std::vector<std::string> segmentPoints;  ///< --segment-point X,Y
-  std::vector<std::string> regions;   ///< --roi X,Y,WIDTH,HEIGHT
-  std::optional<double> dpi;          ///< --dpi
-  std::string report;                 ///< --report
-  std::vector<std::string> dumps;     ///< --dump STAGE=FILE.png
-  std::string saveRecipe;             ///< --save-recipe
-  int threads = 0;                    ///< --threads, 0 = all
+  std::vector<std::string> regions;        ///< --roi X,Y,WIDTH,HEIGHT
+  std::optional<double> dpi;               ///< --dpi
+  std::string report;                      ///< --report
+  std::vector<std::string> dumps;          ///< --dump STAGE=FILE.png
+  std::string saveRecipe;                  ///< --save-recipe
+  int threads = 0;                         ///< --threads, 0 = all
 };
 
 /// Traces a scan and writes what was asked for; one line of JSON on stdout when done. Returns the exit code.

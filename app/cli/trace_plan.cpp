@@ -5,7 +5,6 @@
 #include <cctype>
 #include <fstream>
 #include <iterator>
-#include <set>
 
 #include "app/cli/stage_dump.h"
 #include "core/pipeline/number_text.h"
@@ -113,18 +112,39 @@ Result<TracePlan::Dump> dumpOf(const std::string& dump) {
   return TracePlan::Dump{stage, path};
 }
 
+/// Whether two names mean one file, be it by way of links or of folders named differently.
+bool isSameFile(const fs::path& a, const fs::path& b) {
+  std::error_code code;
+  if (fs::equivalent(a, b, code)) return true;
+  const auto plain = [](const fs::path& path) {
+    std::error_code wrong;
+    fs::path whole = fs::weakly_canonical(fs::absolute(path, wrong), wrong);
+    return wrong ? path.lexically_normal() : whole.lexically_normal();
+  };
+  return plain(a) == plain(b);
+}
+
+/// No file is written over what is read, nor twice. Only the recipe may be saved where it was.
 Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan) {
   std::vector<fs::path> targets;
   for (const auto& output : plan.outputs) targets.push_back(output.path);
   for (const auto& dump : plan.dumps) targets.push_back(dump.path);
   if (!arguments.report.empty()) targets.emplace_back(arguments.report);
+  const std::size_t withoutRecipe = targets.size();
   if (!arguments.saveRecipe.empty()) targets.emplace_back(arguments.saveRecipe);
   if (targets.empty()) return wrong("Nothing would be written. Add -o OUT.svg or -o OUT.json.");
-  std::set<fs::path> seen;
-  if (!arguments.scan.empty()) seen.insert(fs::path(arguments.scan).lexically_normal());
-  for (const fs::path& target : targets) {
-    if (!seen.insert(target.lexically_normal()).second) {
-      return wrong("The file " + target.string() + " is named twice. Give every output its own name.");
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const std::string name = targets[i].string();
+    if (!arguments.scan.empty() && isSameFile(targets[i], arguments.scan)) {
+      return wrong("The file " + name + " is the scan itself. Give the output another name.");
+    }
+    if (i < withoutRecipe && !arguments.recipe.empty() && isSameFile(targets[i], arguments.recipe)) {
+      return wrong("The file " + name + " is the recipe itself. Give the output another name.");
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (isSameFile(targets[i], targets[k])) {
+        return wrong("The file " + name + " is named twice. Give every output its own name.");
+      }
     }
   }
   return {};

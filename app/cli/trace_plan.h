@@ -27,7 +27,8 @@ struct TracePlan {
   std::vector<Dump> dumps;
 };
 
-/// Recipe file first, then --set in the order given, then corners, regions and resolution. @return BadParameter with what to do.
+/// Recipe file first, then --set in the order given, then corners, regions and resolution. @return BadParameter with
+/// what to do.
 Result<TracePlan> planTrace(const TraceArguments&);
 
 }  // namespace batten::cli

@@ -50,7 +50,7 @@ std::optional<Error> validate(const ConstructParams& params) {
   if (auto error = outside("construct.lowpass", params.lowPass, 0.0, 8.0)) return error;
   if (auto error = outside("construct.growing_stop", params.growingStopDeg, 0.2, 20.0)) return error;
   if (auto error = outside("construct.reduce", params.reduceShare, 0.0, 1.0)) return error;
-  return outside("construct.keep_extrema_cost", params.keepExtremaCost, 1.0, 1000.0);
+  return outside("construct.keep_extrema", params.keepExtremaCost, 1.0, 1000.0);
 }
 
 Result<std::vector<ConstructedPiece>> construct(const ConstructContour& contour, const ConstructParams& params,

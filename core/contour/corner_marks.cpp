@@ -93,8 +93,9 @@ Snap sharpestNear(const Contour& contour, const Vec2& mark, double snap) {
   };
   for (int i = 0; i < n; ++i) {
     if (!near(i)) {
-      i += std::max(0,
-                    static_cast<int>(0.5 * ((contour.points[static_cast<std::size_t>(i)] - mark).norm() - reach)) - 1);
+      // Points lie less than 2 px apart, so those skipped cannot be near. A mark may be any distance away.
+      const double away = (contour.points[static_cast<std::size_t>(i)] - mark).norm() - reach;
+      i += static_cast<int>(std::clamp(std::floor(0.5 * away) - 1.0, 0.0, static_cast<double>(n)));
       continue;
     }
     int end = i;
@@ -235,7 +236,7 @@ void cutContour(const ContourSet& set, int c, const std::vector<Cut>& cuts, Piec
 
 std::optional<Error> validate(const CornerParams& p) {
   if (p.snapDistancePx > 0.0 && std::isfinite(p.snapDistancePx)) return std::nullopt;
-  return Error{ErrorCode::BadParameter, "corners.snap_distance must be more than 0 px.", {}};
+  return Error{ErrorCode::BadParameter, "corners.snap must be more than 0 px.", {}};
 }
 
 std::optional<Corner> nearestContourPoint(const ContourSet& set, const Vec2& positionPx, double snapDistancePx) {

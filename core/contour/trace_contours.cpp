@@ -155,7 +155,7 @@ std::optional<Error> validate(const EdgeParams& p) {
   if (!(p.gapFactor >= 0.0 && p.gapFactor <= 20.0)) return bad("edges.gap must be 0 to 20 stroke widths.");
   if (!(p.mergeWidths >= 0.0 && p.mergeWidths <= 20.0)) return bad("edges.merge must be 0 to 20 stroke widths.");
   if (!(p.spurFactor >= 0.0 && p.spurFactor <= 5.0)) return bad("edges.spur must be 0 to 5 stroke widths.");
-  if (!(p.maxBendDeg >= 0.0 && p.maxBendDeg <= 90.0)) return bad("edges.max_bend must be 0 to 90 degrees.");
+  if (!(p.maxBendDeg >= 0.0 && p.maxBendDeg <= 90.0)) return bad("edges.bend must be 0 to 90 degrees.");
   return std::nullopt;
 }
 
@@ -166,8 +166,8 @@ std::optional<Error> validate(const ContourParams& p) {
   return std::nullopt;
 }
 
-Result<ContourSet> traceContours(const BitImage& ink, const GreyImage& grey, const RegionThresholds&,
-                                 const EdgeParams& edges, const ContourParams& params, const RunContext& context) {
+Result<ContourSet> traceContours(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
+                                 const ContourParams& params, const RunContext& context) {
   if (auto error = validate(edges)) return fail(*error);
   if (auto error = validate(params)) return fail(*error);
   if (ink.width != grey.width || ink.height != grey.height) {

@@ -8,7 +8,6 @@
 #include "core/contour/contour_set.h"
 #include "core/image/bit_image.h"
 #include "core/image/grey_image.h"
-#include "core/image/region_thresholds.h"
 
 namespace batten {
 
@@ -20,13 +19,16 @@ enum class EdgeMode {
 
 struct EdgeParams {
   EdgeMode mode = EdgeMode::Automatic;
-  bool internal = false;      ///< Outline: also the borders of holes inside the ink.
-  bool subpixel = true;       ///< Place the points on the raw grey values; off: crack midpoints or skeleton pixels.
-  double strokeWidth = 0.025; ///< [-] 0.005..0.1. Strokes narrower than this part of sqrt(width * height) are lines, wider ones are shapes.
-  double gapFactor = 4.0;     ///< [stroke widths] 0..20. Longest gap that is bridged between two ends that face each other; 0 = none.
-  double mergeWidths = 0.0;   ///< [stroke widths] 0..20. Strokes of one intended line closer than this are merged into one; 0 = off.
-  double spurFactor = 1.5;    ///< [stroke widths] 0..5. Side branches of the skeleton shorter than this are dropped.
-  double maxBendDeg = 40.0;   ///< [deg] 0..90. Strands bending less than this continue through a crossing.
+  bool internal = false;       ///< Outline: also the borders of holes inside the ink.
+  bool subpixel = true;        ///< Place the points on the raw grey values; off: crack midpoints or skeleton pixels.
+  double strokeWidth = 0.025;  ///< [-] 0.005..0.1. Strokes narrower than this part of sqrt(width * height) are lines,
+                               ///< wider ones are shapes.
+  double gapFactor =
+      4.0;  ///< [stroke widths] 0..20. Longest gap that is bridged between two ends that face each other; 0 = none.
+  double mergeWidths =
+      0.0;  ///< [stroke widths] 0..20. Strokes of one intended line closer than this are merged into one; 0 = off.
+  double spurFactor = 1.5;   ///< [stroke widths] 0..5. Side branches of the skeleton shorter than this are dropped.
+  double maxBendDeg = 40.0;  ///< [deg] 0..90. Strands bending less than this continue through a crossing.
   bool operator==(const EdgeParams&) const = default;
 };
 std::optional<Error> validate(const EdgeParams&);
@@ -41,7 +43,7 @@ std::optional<Error> validate(const ContourParams&);
 /// Ink to ordered lines: borders by crack following, strokes by their skeleton, each refined on the raw grey values.
 /// The mask decides topology only; positions come from `grey` where EdgeParams::subpixel is on.
 /// @return NoCurve, with what to do, if nothing long enough is left.
-Result<ContourSet> traceContours(const BitImage& ink, const GreyImage& grey, const RegionThresholds& thresholds,
-                                 const EdgeParams&, const ContourParams&, const RunContext&);
+Result<ContourSet> traceContours(const BitImage& ink, const GreyImage& grey, const EdgeParams&, const ContourParams&,
+                                 const RunContext&);
 
 }  // namespace batten

@@ -12,14 +12,44 @@ constexpr double kMinDpi = 1.0, kMaxDpi = 100000.0;
 
 std::optional<Error> bad(std::string message) { return Error{ErrorCode::BadParameter, std::move(message), {}}; }
 
-bool isFinite(const Vec2& p) { return std::isfinite(p.x()) && std::isfinite(p.y()); }
+/// [px] No page is larger: a place farther out is a typing error or damage.
+constexpr double kFarthestPlacePx = 1e6;
+
+bool isPlace(const Vec2& p) { return std::abs(p.x()) <= kFarthestPlacePx && std::abs(p.y()) <= kFarthestPlacePx; }
+bool arePlaces(const std::vector<Vec2>& places) { return std::all_of(places.begin(), places.end(), isPlace); }
+
+std::optional<Error> badPlace(const std::string& what) {
+  return bad(what + " lies nowhere on a page: x and y must be numbers from -1000000 to 1000000 px.");
+}
+
+/// The first place of the recipe that no page can have.
+std::optional<Error> validatePlaces(const Recipe& recipe) {
+  for (const PenStroke& stroke : recipe.penStrokes) {
+    if (!arePlaces(stroke.points)) return badPlace("A point of a pen stroke");
+  }
+  for (const RegionOfInterest& region : recipe.regions) {
+    if (!arePlaces(region.cornersPx)) return badPlace("A corner of a region");
+  }
+  for (const CornerMark& mark : recipe.cornerMarks) {
+    if (!isPlace(mark.positionPx)) return badPlace("A corner mark");
+  }
+  for (const SegmentPoint& point : recipe.segmentPoints) {
+    if (!isPlace(point.positionPx)) return badPlace("A segment point");
+  }
+  for (const PieceChoice& choice : recipe.choices) {
+    if (!isPlace(choice.anchorPx)) return badPlace("The anchor of a choice for a curve");
+    if (!arePlaces(choice.keepPx)) return badPlace("An extremum kept by a choice for a curve");
+    if (!arePlaces(choice.splitsPx)) return badPlace("A split in a choice for a curve");
+  }
+  for (const ExtremumChoice& choice : recipe.extremumChoices) {
+    if (!isPlace(choice.positionPx)) return badPlace("A choice for a curvature extremum");
+  }
+  return std::nullopt;
+}
 
 bool isPageSide(int px) { return px >= 16 && px <= 20000; }
 
 std::optional<Error> validateChoice(const PieceChoice& choice) {
-  if (!isFinite(choice.anchorPx)) return bad("A choice for a curve has no valid position.");
-  const auto finite = [](const std::vector<Vec2>& places) { return std::all_of(places.begin(), places.end(), isFinite); };
-  if (!finite(choice.keepPx) || !finite(choice.splitsPx)) return bad("A choice for a curve holds a place that is no number.");
   // The rest has the ranges of the common settings.
   FairingParams own;
   own.target = choice.target.value_or(own.target);
@@ -37,6 +67,7 @@ std::optional<Error> validate(const Recipe& recipe) {
   if (recipe.dpi && !(*recipe.dpi >= kMinDpi && *recipe.dpi <= kMaxDpi)) {
     return bad("The resolution must be between 1 and 100000 dpi.");
   }
+  if (auto e = validatePlaces(recipe)) return e;
   if (auto e = validate(recipe.log)) return e;
   if (auto e = validate(recipe.threshold)) return e;
   if (auto e = validate(recipe.filter)) return e;
@@ -53,20 +84,13 @@ std::optional<Error> validate(const Recipe& recipe) {
   }
   if (auto e = validate(recipe.corners)) return e;
   for (const CornerMark& mark : recipe.cornerMarks) {
-    if (!isFinite(mark.positionPx)) return bad("A corner mark has no valid position.");
     if (!(mark.roundMm >= 0.0 && mark.roundMm <= 500.0)) return bad("The rounding of a corner must be 0 to 500 mm.");
-  }
-  for (const SegmentPoint& point : recipe.segmentPoints) {
-    if (!isFinite(point.positionPx)) return bad("A segment point has no valid position.");
   }
   if (auto e = validate(recipe.segments)) return e;
   if (auto e = validate(recipe.construct)) return e;
   if (auto e = validate(recipe.fairing)) return e;
   for (const PieceChoice& choice : recipe.choices) {
     if (auto e = validateChoice(choice)) return e;
-  }
-  for (const ExtremumChoice& choice : recipe.extremumChoices) {
-    if (!isFinite(choice.positionPx)) return bad("A choice for a curvature extremum has no valid position.");
   }
   return std::nullopt;
 }

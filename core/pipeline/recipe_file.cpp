@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pipeline/recipe_file.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/pipeline/number_text.h"
@@ -81,6 +80,11 @@ std::optional<Vec2> pointFromJson(const Json& json) {
   return std::isfinite(p.x()) && std::isfinite(p.y()) ? std::optional(p) : std::nullopt;
 }
 
+/// A whole number that fits; one that does not is none, never what is left of it.
+std::optional<int> integerFromJson(const Json& json) {
+  return json.is_number_integer() ? integerFromText(json.dump()) : std::nullopt;
+}
+
 std::optional<std::vector<Vec2>> pairsFromJson(const Json& json) {
   if (!json.is_array()) return std::nullopt;
   std::vector<Vec2> pairs;
@@ -154,13 +158,11 @@ Result<void> readSegmentPoints(const Json& json, Recipe& recipe) {
 
 Result<void> readPage(const Json& json, Recipe& recipe) {
   if (json.is_null()) return {};
-  const bool isPair =
-      json.is_array() && json.size() == 2 && json[0].is_number_integer() && json[1].is_number_integer();
-  if (!isPair) return refuse("The recipe is damaged: the size of the page is not a pair of whole numbers.");
-  const auto side = [](const Json& value) {
-    return static_cast<int>(std::clamp<std::int64_t>(value.get<std::int64_t>(), 0, 1000000));
-  };
-  recipe.page = BlankPage{side(json[0]), side(json[1])};
+  const bool isPair = json.is_array() && json.size() == 2;
+  const auto width = isPair ? integerFromJson(json[0]) : std::nullopt;
+  const auto height = isPair ? integerFromJson(json[1]) : std::nullopt;
+  if (!width || !height) return refuse("The recipe is damaged: the size of the page is not a pair of whole numbers.");
+  recipe.page = BlankPage{*width, *height};
   return {};
 }
 
@@ -187,14 +189,14 @@ Result<PieceChoice> readChoice(const Json& json) {
       Recipe named;
       if (auto set = setParameter(named, "construct.method", value.get<std::string>()); !set) return fail(set.error());
       choice.method = named.construct.method;
-    } else if (name == "target" && value.is_number_integer()) {
-      choice.target = value.get<int>();
+    } else if (const auto whole = integerFromJson(value); whole && name == "target") {
+      choice.target = *whole;
     } else if (name == "tolerance" && value.is_number()) {
       choice.toleranceMm = value.get<double>();
     } else if (name == "low_pass" && value.is_number()) {
       choice.lowPassMm = value.get<double>();
-    } else if (name == "keep_extrema" && value.is_number_integer()) {
-      choice.keepExtrema = value.get<int>();
+    } else if (whole && name == "keep_extrema") {
+      choice.keepExtrema = *whole;
     } else if (const auto pairs = pairsFromJson(value); pairs && name == "keep") {
       choice.keepPx = *pairs;
     } else if (pairs && name == "splits") {
@@ -228,7 +230,8 @@ Result<void> readExtrema(const Json& json, Recipe& recipe) {
     }
     const auto point = pointFromJson(entry["at"]);
     if (!point) return refuse("The recipe is damaged: the place of an extremum is not a pair of numbers [x, y].");
-    if (!entry["keep"].is_boolean()) return refuse("The recipe is damaged: \"keep\" of an extremum is not true or false.");
+    if (!entry["keep"].is_boolean())
+      return refuse("The recipe is damaged: \"keep\" of an extremum is not true or false.");
     recipe.extremumChoices.push_back({*point, entry["keep"].get<bool>()});
   }
   return {};
@@ -256,9 +259,9 @@ Result<void> checkHead(const Json& json) {
   if (!json.contains("version") || !json["version"].is_number_integer()) {
     return refuse("The recipe is damaged: it does not state its version.");
   }
-  const auto version = json["version"].get<std::int64_t>();
+  const int version = integerFromJson(json["version"]).value_or(std::numeric_limits<int>::max());
   if (version > kVersion) {
-    return refuse("The recipe is of version " + std::to_string(version) + "; this Batten reads up to version " +
+    return refuse("The recipe is of version " + json["version"].dump() + "; this Batten reads up to version " +
                   std::to_string(kVersion) + ". Use a newer Batten.");
   }
   if (version < 1) return refuse("The recipe is damaged: it states the version " + std::to_string(version) + ".");

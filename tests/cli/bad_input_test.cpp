@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/program.h"
 
@@ -7,6 +8,7 @@ namespace batten {
 namespace {
 
 using BadInput = test::Program;
+using test::Outcome;
 
 std::uint32_t crc32(const std::string& bytes) {
   std::uint32_t crc = 0xffffffffu;
@@ -63,7 +65,11 @@ TEST_F(BadInput, WithoutACurveReportAndDumpsStillShowWhy) {
   expectError("trace " + file("white.png") + " -o " + file("o.svg") + " --report " + file("r.json") +
                   " --dump log=" + file("l.png"),
               4, "");
-  EXPECT_NE(test::readFile(file("r.json")).find("\"error\""), std::string::npos);
+  const auto report = nlohmann::json::parse(test::readFile(file("r.json")));
+  EXPECT_TRUE(report.contains("error"));
+  // Even the stage that failed says how long it took.
+  EXPECT_EQ(report["stages"].back()["stage"], report["error"]["stage"]);
+  for (const auto& stage : report["stages"]) EXPECT_GT(stage["milliseconds"].get<double>(), 0.0) << stage;
   EXPECT_TRUE(std::filesystem::exists(file("l.png")));
 }
 
@@ -90,6 +96,91 @@ TEST_F(BadInput, WrongWordsGiveTwo) {
   expectError(start + "--recipe " + file("none.json"), 2, "none.json");
   write("broken.json", "{\"format\":\"batten-recipe\",");
   expectError(start + "--recipe " + file("broken.json"), 2, "damaged");
+}
+
+TEST_F(BadInput, PlacesOffEveryPageAreRefused) {
+  const std::string start = "trace " + scene("car") + " -o " + file("o.svg") + " ";
+  for (const char* at : {"5000000000,5", "1e10,1e10", "-1e12,3", "1e300,0", "3,-1e300"})
+    expectError(start + "--corner=" + at, 2, "corner mark lies nowhere");
+  expectError(start + "--corner=1e10,3,2", 2, "corner mark lies nowhere");
+  expectError(start + "--segment-point=1e300,0", 2, "segment point lies nowhere");
+  expectError(start + "--roi=-1e10,0,50,50", 2, "region lies nowhere");
+  for (const std::string entry :
+       {R"("corners":[[1e10,3.0]])", R"("corners":[{"at":[1e10,3],"round":2}])", R"("segment_points":[[1e10,3]])",
+        R"("extrema":[{"at":[-1e300,3],"keep":true}])", R"("regions":[[[0,0],[9,1e10],[9,9]]])",
+        R"("strokes":[{"points":[[1,1],[5,1e10]]}])", R"("choices":[{"anchor":[1e10,3]}])",
+        R"("choices":[{"anchor":[1,1],"keep":[[1e10,3]]}])", R"("choices":[{"anchor":[1,1],"splits":[[0,-1e10]]}])"}) {
+    write("far.json", R"({"format":"batten-recipe","version":1,)" + entry + "}");
+    expectError(start + "--recipe " + file("far.json"), 2, "1000000 px");
+  }
+  for (const char* at : {"nan,5", "5,inf", "-nan,nan"}) expectError(start + "--corner=" + at, 2, "X,Y");
+  // Far away, but a place: there is merely no line.
+  const Outcome done = run(start + "--corner=999999,-999999");
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("No line lies near the corner"), std::string::npos) << done.out;
+}
+TEST_F(BadInput, NothingIsWrittenOverTheScanOrTheRecipe) {
+  namespace fs = std::filesystem;
+  const std::string scan = scene(), bytes = test::readFile(scan);
+  ASSERT_EQ(run("trace " + scan + " --save-recipe " + file("r.json")).code, 0);
+  const std::string recipe = test::readFile(file("r.json"));
+  fs::create_symlink(scan, file("link.png"));
+  fs::create_hard_link(scan, file("hard.png"));
+  fs::create_directory_symlink(folder_, file("same"));
+  fs::create_symlink(file("r.json"), file("linked.json"));
+  for (const std::string& name :
+       {file("link.png"), file("hard.png"), file("same/scan.png"), file("./no/../scan.png")}) {
+    expectError("trace " + scan + " --dump log=" + name, 2, "is the scan itself");
+    expectError("trace " + name + " --dump log=" + scan, 2, "is the scan itself");
+  }
+  // One name relative to the present folder, the other absolute.
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_);
+  expectError("trace scan.png --dump log=" + scan, 2, "is the scan itself");
+  expectError("trace " + scan + " --dump log=scan.png", 2, "is the scan itself");
+  expectError("trace scan.png --recipe r.json -o " + file("r.json"), 2, "is the recipe itself");
+  expectError("trace scan.png -o o.svg -o " + file("o.svg"), 2, "twice");
+  fs::current_path(before);
+  expectError("trace " + scan + " --recipe " + file("r.json") + " -o " + file("r.json"), 2, "is the recipe itself");
+  expectError("trace " + scan + " --recipe " + file("linked.json") + " --report " + file("r.json"), 2, "recipe itself");
+  EXPECT_EQ(test::readFile(scan), bytes);
+  EXPECT_EQ(test::readFile(file("r.json")), recipe);
+  // A recipe may be brought up to date in its place.
+  const Outcome done = run("trace " + scan + " --recipe " + file("r.json") +
+                           " --set filter.iterations=4 --save-recipe " + file("r.json"));
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(test::readFile(file("r.json")), recipe);
+}
+
+TEST_F(BadInput, AStdoutThatTakesNothingGivesFive) {
+  const std::string scan = scene();
+  ASSERT_EQ(run("trace " + scan + " -o " + file("a.json")).code, 0);
+  for (const char* where : {">/dev/full", ">&-"}) {
+    for (const std::string& words :
+         {"trace " + scan + " -o " + file("o.svg"), "compare " + file("a.json") + " " + file("a.json"),
+          std::string("parameters"), std::string("parameters --json"), std::string("--help"),
+          std::string("--version")}) {
+      const Outcome done = runInto(where, words);
+      EXPECT_EQ(done.code, 5) << words << " " << where;
+      EXPECT_EQ(std::count(done.err.begin(), done.err.end(), '\n'), 1) << done.err;
+      EXPECT_NE(done.err.find("stdout"), std::string::npos) << done.err;
+    }
+  }
+}
+
+TEST_F(BadInput, NumbersThatDoNotFitAreNotCutToFit) {
+  const std::string start = "trace " + scene() + " -o " + file("o.svg") + " --recipe " + file("r.json");
+  for (const char* number : {"4294967297", "-4294967295", "18446744073709551617", "18446744073709551615"}) {
+    for (const std::string& entry : {"\"choices\":[{\"anchor\":[1,1],\"target\":" + std::string(number) + "}]",
+                                     "\"choices\":[{\"anchor\":[1,1],\"keep_extrema\":" + std::string(number) + "}]",
+                                     "\"page\":[" + std::string(number) + ",400]",
+                                     "\"parameters\":{\"filter.coefficient\":" + std::string(number) + "}"}) {
+      write("r.json", "{\"format\":\"batten-recipe\",\"version\":1," + entry + "}");
+      expectError(start, 2, "recipe");
+    }
+    write("r.json", "{\"format\":\"batten-recipe\",\"version\":" + std::string(number) + "}");
+    expectError(start, 2, "recipe");
+  }
 }
 
 TEST_F(BadInput, PlacesThatTakeNoFileGiveFive) {

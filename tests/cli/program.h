@@ -50,6 +50,13 @@ class Program : public ::testing::Test {
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(file("out.txt")), readFile(file("err.txt"))};
   }
+  /// Runs the program with stdout going where `redirection` says, e.g. ">/dev/full".
+  Outcome runInto(const std::string& redirection, const std::string& words) const {
+    const std::string command =
+        std::string("'" BATTEN_CLI "' ") + words + " " + redirection + " 2>'" + file("err.txt") + "'";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", readFile(file("err.txt"))};
+  }
   void expectError(const std::string& words, int code, const std::string& says) const {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.code, code) << words << "\n" << outcome.err;

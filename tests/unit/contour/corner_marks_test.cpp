@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -43,7 +44,7 @@ ContourSet traceShape(const std::vector<Vec2>& outline, double noise, unsigned s
   const GreyImage grey = renderShape(test::PolygonInside(outline), s);
   EdgeParams edges;
   edges.mode = EdgeMode::Outline;
-  const auto set = traceContours(test::thresholdMask(grey, 135.0), grey, {}, edges, {}, {});
+  const auto set = traceContours(test::thresholdMask(grey, 135.0), grey, edges, {}, {});
   EXPECT_TRUE(set.has_value());
   return set.value_or(ContourSet{});
 }
@@ -136,7 +137,7 @@ TEST(CornerMarks, TipsEatenByTheMaskAreExtended) {
     }
     EdgeParams edges;
     edges.mode = EdgeMode::Outline;
-    const auto set = traceContours(ink, grey, {}, edges, {}, {});
+    const auto set = traceContours(ink, grey, edges, {}, {});
     ASSERT_TRUE(set.has_value());
     const std::vector<CornerMark> marks{{tip - Vec2(6, 3)}};
     const auto pieces = splitAtCorners(*set, marks, {});
@@ -164,7 +165,7 @@ TEST(CornerMarks, ClicksBesideEatenTipsFindThem) {
     }
     EdgeParams edges;
     edges.mode = EdgeMode::Outline;
-    const auto set = traceContours(ink, grey, {}, edges, {}, {});
+    const auto set = traceContours(ink, grey, edges, {}, {});
     ASSERT_TRUE(set.has_value());
     for (const double direction : {0.0, 70.0, 140.0, 220.0, 290.0}) {
       const std::vector<CornerMark> marks{{tip + 8.0 * Vec2(std::cos(direction * kDeg), std::sin(direction * kDeg))}};
@@ -240,6 +241,14 @@ TEST(CornerMarks, OnASmoothLineTheNearestPointIsTaken) {
   EXPECT_LE((corner->positionPx - Vec2(210, 150)).norm(), 1.0);
   EXPECT_FALSE(nearestContourPoint(set, {150 + 80, 150}, 16.0).has_value());
   EXPECT_FALSE(nearestContourPoint(ContourSet{}, {0, 0}, 16.0).has_value());
+}
+
+TEST(CornerMarks, MarksAnyDistanceAwayFindNoLine) {
+  const ContourSet set = fromPoints(circle(60.0), true);
+  for (const double far : {1e4, 5e9, 1e12, 1e300, -1e300, std::numeric_limits<double>::infinity()}) {
+    EXPECT_FALSE(nearestContourPoint(set, {far, 5.0}, 16.0).has_value()) << far;
+    EXPECT_FALSE(nearestContourPoint(set, {5.0, far}, 16.0).has_value()) << far;
+  }
 }
 
 TEST(CornerMarks, ClosedContours) {
@@ -328,8 +337,8 @@ std::vector<Vec2> roughened(const std::vector<Vec2>& points, double rough, unsig
 TEST(SuggestCorners, DentsOfARaggedEdgeAreNone) {
   int onCircles = 0, onSquares = 0;
   for (unsigned seed = 1; seed <= 5; ++seed) {
-    onCircles +=
-        static_cast<int>(suggestCorners(fromPoints(roughened(circle(120.0), 0.45, seed), true), 28 * kDeg, 16.0).size());
+    onCircles += static_cast<int>(
+        suggestCorners(fromPoints(roughened(circle(120.0), 0.45, seed), true), 28 * kDeg, 16.0).size());
     std::vector<Vec2> square;
     for (int i = 0; i < 300; ++i) square.emplace_back(i, 0);
     for (int i = 0; i < 300; ++i) square.emplace_back(300, i);

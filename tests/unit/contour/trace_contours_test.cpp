@@ -49,7 +49,7 @@ TEST(TraceContours, ShapesGiveOutlinesAndStrokesCentreLines) {
   const Page page = mixedPage();
   ContourParams any;
   any.minLengthPx = 0.0;
-  const auto set = traceContours(page.ink, page.grey, {}, withMode(EdgeMode::Automatic), any, {});
+  const auto set = traceContours(page.ink, page.grey, withMode(EdgeMode::Automatic), any, {});
   ASSERT_TRUE(set.has_value());
   ASSERT_EQ(set->contours.size(), 4u);
   EXPECT_EQ(set->contours[0].kind, ContourKind::Outline);
@@ -70,8 +70,8 @@ TEST(TraceContours, ShapesGiveOutlinesAndStrokesCentreLines) {
 
 TEST(TraceContours, ModesOverrideTheChoice) {
   const Page page = mixedPage();
-  const auto outlines = traceContours(page.ink, page.grey, {}, withMode(EdgeMode::Outline), {}, {});
-  const auto lines = traceContours(page.ink, page.grey, {}, withMode(EdgeMode::Centreline), {}, {});
+  const auto outlines = traceContours(page.ink, page.grey, withMode(EdgeMode::Outline), {}, {});
+  const auto lines = traceContours(page.ink, page.grey, withMode(EdgeMode::Centreline), {}, {});
   ASSERT_TRUE(outlines.has_value());
   ASSERT_TRUE(lines.has_value());
   for (const Contour& c : outlines->contours) EXPECT_EQ(c.kind, ContourKind::Outline);
@@ -79,7 +79,7 @@ TEST(TraceContours, ModesOverrideTheChoice) {
   EXPECT_EQ(outlines->report.droppedHoles, 1);
   EdgeParams inner = withMode(EdgeMode::Outline);
   inner.internal = true;
-  const auto both = traceContours(page.ink, page.grey, {}, inner, {}, {});
+  const auto both = traceContours(page.ink, page.grey, inner, {}, {});
   ASSERT_TRUE(both.has_value());
   EXPECT_EQ(both->contours.size(), outlines->contours.size() + 1);
 }
@@ -88,14 +88,14 @@ TEST(TraceContours, LongestFirstShortOnesDroppedAndTheCutIsSaid) {
   const Page page = mixedPage();
   ContourParams params;
   params.minLengthPx = 60.0;
-  const auto set = traceContours(page.ink, page.grey, {}, {}, params, {});
+  const auto set = traceContours(page.ink, page.grey, {}, params, {});
   ASSERT_TRUE(set.has_value());
   EXPECT_EQ(set->contours.size(), 3u);
   EXPECT_EQ(set->report.droppedShort, 1);
   for (std::size_t i = 1; i < set->contours.size(); ++i)
     EXPECT_GE(set->contours[i - 1].lengthPx, set->contours[i].lengthPx);
   params.maxCount = 2;
-  const auto cut = traceContours(page.ink, page.grey, {}, {}, params, {});
+  const auto cut = traceContours(page.ink, page.grey, {}, params, {});
   ASSERT_TRUE(cut.has_value());
   EXPECT_EQ(cut->contours.size(), 2u);
   EXPECT_NE(cut->report.note.find("2 longest of 3"), std::string::npos);
@@ -105,7 +105,7 @@ TEST(TraceContours, MarginsOfTheScannerAreNoLines) {
   const Page page = render([](double x, double y) {
     return x < 4 + 0.5 * std::sin(y * 0.1) || y > 297 || (std::abs(y - 150 - 0.2 * x) < 2.0 && x < 399);
   });
-  const auto set = traceContours(page.ink, page.grey, {}, {}, {}, {});
+  const auto set = traceContours(page.ink, page.grey, {}, {}, {});
   ASSERT_TRUE(set.has_value());
   ASSERT_EQ(set->contours.size(), 1u);
   EXPECT_EQ(set->report.droppedMargins, 1);
@@ -141,7 +141,7 @@ TEST(TraceContours, EdgesOfTonesAreFollowedWhereTheyAreSharp) {
       ink.set(x, y, sum / 49.0 < 205.0);
     }
   }
-  const auto set = traceContours(ink, grey, {}, withMode(EdgeMode::Outline), {}, {});
+  const auto set = traceContours(ink, grey, withMode(EdgeMode::Outline), {}, {});
   ASSERT_TRUE(set.has_value());
   ASSERT_EQ(set->contours.size(), 1u);
   const Contour& line = set->contours[0];
@@ -163,24 +163,24 @@ TEST(TraceContours, NothingLongEnoughSaysWhatToDo) {
   const Page page = mixedPage();
   ContourParams params;
   params.minLengthPx = 5000.0;
-  const auto none = traceContours(page.ink, page.grey, {}, {}, params, {});
+  const auto none = traceContours(page.ink, page.grey, {}, params, {});
   ASSERT_FALSE(none.has_value());
   EXPECT_EQ(none.error().code, ErrorCode::NoCurve);
   EXPECT_NE(none.error().message.find("5000 px"), std::string::npos);
-  const auto empty = traceContours(BitImage(400, 300), page.grey, {}, {}, {}, {});
+  const auto empty = traceContours(BitImage(400, 300), page.grey, {}, {}, {});
   ASSERT_FALSE(empty.has_value());
   EXPECT_EQ(empty.error().code, ErrorCode::NoCurve);
 }
 
 TEST(TraceContours, BadInputIsRefused) {
   const Page page = mixedPage();
-  EXPECT_FALSE(traceContours(BitImage(10, 10), page.grey, {}, {}, {}, {}).has_value());
+  EXPECT_FALSE(traceContours(BitImage(10, 10), page.grey, {}, {}, {}).has_value());
   EdgeParams edges;
   edges.mergeWidths = 21.0;
-  EXPECT_FALSE(traceContours(page.ink, page.grey, {}, edges, {}, {}).has_value());
+  EXPECT_FALSE(traceContours(page.ink, page.grey, edges, {}, {}).has_value());
   ContourParams params;
   params.maxCount = 0;
-  EXPECT_FALSE(traceContours(page.ink, page.grey, {}, {}, params, {}).has_value());
+  EXPECT_FALSE(traceContours(page.ink, page.grey, {}, params, {}).has_value());
 }
 
 // A border of more points than one block of any loop.
@@ -197,7 +197,7 @@ TEST(TraceContours, SameOutlineWithAnyNumberOfThreads) {
   for (const int threads : {1, 2, 5}) {
     RunContext context;
     context.threads = threads;
-    auto set = traceContours(ink, grey, {}, withMode(EdgeMode::Outline), {}, context);
+    auto set = traceContours(ink, grey, withMode(EdgeMode::Outline), {}, context);
     ASSERT_TRUE(set.has_value());
     sets.push_back(std::move(*set));
   }
@@ -213,7 +213,7 @@ TEST(TraceContours, CancelIsObeyed) {
   const Page page = mixedPage();
   RunContext context;
   context.cancel.cancel();
-  const auto set = traceContours(page.ink, page.grey, {}, {}, {}, context);
+  const auto set = traceContours(page.ink, page.grey, {}, {}, context);
   ASSERT_FALSE(set.has_value());
   EXPECT_EQ(set.error().code, ErrorCode::Cancelled);
 }
