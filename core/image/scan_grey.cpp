@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/image/scan_grey.h"
 
+#include <algorithm>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
@@ -14,7 +15,7 @@ constexpr int kRowsPerBlock = 64;
 
 /// One row to 16-bit grey. `Unit` is what one step of the sample is worth on the 16-bit scale: 257 for 8 bit, 1 for 16.
 template <class Sample, std::uint32_t Unit>
-void greyRow(const Sample* in, std::uint16_t* out, int count, int channels) {
+void greyRow(const Sample* in, std::uint16_t* out, int count, int channels, bool associated) {
   constexpr std::uint64_t kWhite = std::numeric_limits<Sample>::max();
   if (channels == 1) {
     for (int i = 0; i < count; ++i) out[i] = static_cast<std::uint16_t>(in[i] * Unit);
@@ -28,26 +29,45 @@ void greyRow(const Sample* in, std::uint16_t* out, int count, int channels) {
       continue;
     }
     const std::uint64_t alpha = in[channels - 1];
-    const std::uint64_t mixed = luma * alpha + 1000 * kWhite * (kWhite - alpha);
+    const std::uint64_t covered = std::min(luma * (associated ? kWhite : alpha), 1000 * kWhite * alpha);
+    const std::uint64_t mixed = covered + 1000 * kWhite * (kWhite - alpha);
     out[i] = static_cast<std::uint16_t>((mixed * Unit + 500 * kWhite) / (1000 * kWhite));
   }
 }
 
+/// The key level on the 16-bit scale: levels of few bits are spread over it.
+std::optional<std::uint16_t> keyLevel(const SampleMeaning& meaning) {
+  if (!meaning.transparent) return std::nullopt;
+  const std::uint32_t white = (1u << meaning.bits) - 1;
+  return static_cast<std::uint16_t>((*meaning.transparent & white) * (65535u / white));
+}
+
 }  // namespace
 
-std::optional<GreyImage> decodeGrey(std::span<std::byte> file, const RunContext& context) {
+std::optional<GreyImage> decodeGrey(std::span<std::byte> file, const SampleMeaning& meaning,
+                                    const RunContext& context) {
   const cv::Mat raw(1, static_cast<int>(file.size()), CV_8UC1, file.data());
   const cv::Mat picture = cv::imdecode(raw, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
   if (picture.empty() || picture.channels() > 4) return std::nullopt;
   if (picture.depth() != CV_8U && picture.depth() != CV_16U) return std::nullopt;
+  // TIFFs of up to 8 bit come by way of RGBA: white is white then, and every alpha associated. Wider ones come as
+  // stored.
+  const bool deep = picture.depth() == CV_16U;
+  const bool associated = meaning.isTiff && (!deep || meaning.alphaAssociated);
+  const bool inverted = meaning.minIsWhite && deep && picture.channels() == 1;
+  const auto key = picture.channels() == 1 ? keyLevel(meaning) : std::nullopt;
+  const int channels = picture.channels();
   GreyImage grey(picture.cols, picture.rows);
   parallelFor(context, picture.rows, kRowsPerBlock, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      if (picture.depth() == CV_8U) {
-        greyRow<std::uint8_t, 257>(picture.ptr<std::uint8_t>(y), grey.row(y), picture.cols, picture.channels());
+      std::uint16_t* const row = grey.row(y);
+      if (deep) {
+        greyRow<std::uint16_t, 1>(picture.ptr<std::uint16_t>(y), row, picture.cols, channels, associated);
       } else {
-        greyRow<std::uint16_t, 1>(picture.ptr<std::uint16_t>(y), grey.row(y), picture.cols, picture.channels());
+        greyRow<std::uint8_t, 257>(picture.ptr<std::uint8_t>(y), row, picture.cols, channels, associated);
       }
+      if (inverted) std::transform(row, row + picture.cols, row, [](std::uint16_t v) { return ~v & 0xffff; });
+      if (key) std::replace(row, row + picture.cols, *key, std::uint16_t{0xffff});
     }
   });
   return grey;

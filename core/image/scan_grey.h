@@ -10,9 +10,18 @@
 
 namespace batten {
 
+/// What the header says of the samples and the decoder does not heed.
+struct SampleMeaning {
+  bool isTiff = false;
+  bool minIsWhite = false;                     ///< TIFF: 0 is white.
+  bool alphaAssociated = false;                ///< TIFF: the colours are multiplied by their alpha already.
+  std::optional<std::uint16_t> transparent{};  ///< PNG, grey: the level as stored that stands for no ink at all.
+  int bits = 8;                                ///< Of a stored sample.
+};
+
 /// Decodes a file held in memory to grey: colour by the luma of Rec. 601 (.299 red, .587 green, .114 blue), which is
 /// also JPEG's own grey; alpha laid over white. The orientation is left as stored. Empty if the file cannot be decoded.
-std::optional<GreyImage> decodeGrey(std::span<std::byte> file, const RunContext& context);
+std::optional<GreyImage> decodeGrey(std::span<std::byte> file, const SampleMeaning&, const RunContext& context);
 
 /// The picture turned upright. @param orientation EXIF 1..8.
 GreyImage turnUpright(GreyImage image, int orientation, const RunContext& context);

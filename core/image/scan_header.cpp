@@ -78,8 +78,10 @@ ScanHeader readPngHeader(const ByteReader& file) {
       if (header.info.dpi && std::fabs(*header.info.dpi - std::round(*header.info.dpi)) < 0.02) {
         header.info.dpi = std::round(*header.info.dpi);
       }
-    } else if (file.matches(at + 4, "tRNS") && colour == 3) {
-      header.info.channels = 4;
+    } else if (file.matches(at + 4, "tRNS") && (colour == 2 || colour == 3)) {
+      header.info.channels = 4;  // the decoder makes alpha of it
+    } else if (file.matches(at + 4, "tRNS") && colour == 0 && length >= 2) {
+      header.meaning.transparent = static_cast<std::uint16_t>(file.u16(at + 8));
     } else if (file.matches(at + 4, "eXIf")) {
       const bool big = file.matches(at + 8, "MM");
       ScanHeader exif;
@@ -89,6 +91,7 @@ ScanHeader readPngHeader(const ByteReader& file) {
     ended = file.matches(at + 4, "IEND");
     at += length + 12;
   }
+  header.meaning.bits = header.info.bitsPerChannel;
   header.complete = header.complete && ended;
   return header;
 }

@@ -6,6 +6,7 @@
 
 #include "core/image/byte_reader.h"
 #include "core/image/scan.h"
+#include "core/image/scan_grey.h"
 
 namespace batten {
 
@@ -16,6 +17,7 @@ struct ScanHeader {
   bool supported = true;            ///< False: a kind of picture that cannot be read (floating point, 32 bit).
   std::uint64_t orientationAt = 0;  ///< TIFF: where the orientation is written; 0 = nowhere.
   bool bigEndian = true;
+  SampleMeaning meaning;
 };
 
 /// Reads the header of whichever format the bytes are; empty when they are none of those that can be read.

@@ -130,7 +130,9 @@ ScanHeader readTiffHeader(const ByteReader& file) {
   const std::uint64_t directory = tiff.u32(4);
   const std::uint64_t entries = tiff.u16(directory);
   header.info.bitsPerChannel = 1;
+  header.meaning.isTiff = true;
   Tag offsets, sizes;
+  bool hasAlpha = false;
   header.complete = directory >= 8 && tiff.has(directory, 2 + entries * 12);
   for (std::uint64_t i = 0; i < entries && header.complete; ++i) {
     const std::uint64_t entry = directory + 2 + i * 12;
@@ -148,6 +150,7 @@ ScanHeader readTiffHeader(const ByteReader& file) {
         break;
       case 262:
         if (value == 3) header.info.channels = 3;
+        header.meaning.minIsWhite = value == 0;
         break;
       case 277:
         header.info.channels = std::max(header.info.channels, value);
@@ -160,6 +163,10 @@ ScanHeader readTiffHeader(const ByteReader& file) {
       case 325:
         sizes = tag;
         break;
+      case 338:
+        header.meaning.alphaAssociated = value == 1;
+        hasAlpha = value == 1 || value == 2;
+        break;
       case 339:
         header.supported = value == 1;
         break;
@@ -168,6 +175,7 @@ ScanHeader readTiffHeader(const ByteReader& file) {
     }
   }
   readTiffTags(tiff, header);
+  if (hasAlpha && header.info.channels == 2) header.supported = false;  // the decoder would drop the alpha
   header.complete = header.complete && blocksInside(tiff, offsets, sizes);
   return header;
 }

@@ -149,7 +149,8 @@ Result<Scan> readChecked(const std::filesystem::path& path, std::uint64_t size, 
   if (!header->complete)
     return unreadable(path, "is truncated or damaged: part of the picture is missing. Scan or copy it again.");
   if (!header->supported) {
-    return unreadable(path, "holds a kind of pixels that cannot be read; export it with 8 or 16 bit per channel.");
+    return unreadable(path,
+                      "holds a kind of pixels that cannot be read; export it as PNG with 8 or 16 bit per channel.");
   }
   Scan scan;
   scan.info = header->info;
@@ -158,7 +159,7 @@ Result<Scan> readChecked(const std::filesystem::path& path, std::uint64_t size, 
   scan.fileHash = sha256(*bytes);
   if (context.isCancelled()) return cancelled();
   clearTiffOrientation(*bytes, *header);
-  auto grey = decodeGrey(*bytes, context);
+  auto grey = decodeGrey(*bytes, header->meaning, context);
   if (context.isCancelled()) return cancelled();
   if (!grey || grey->width != header->info.width || grey->height != header->info.height) {
     return unreadable(path, "is damaged or of a rare kind that cannot be decoded. Scan it again or export it as PNG.");

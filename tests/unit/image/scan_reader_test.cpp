@@ -90,6 +90,41 @@ std::string tiff(std::uint32_t orientation) {
          little(1, 4) + little(300, 4) + little(1, 4) + "\x0a\x14\x1e\x28\x32\x3c";
 }
 
+std::string fromHex(const std::string& hex) {
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
+    bytes.push_back(static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16)));
+  }
+  return bytes;
+}
+
+/// TIFF of one strip, without compression. `extra`: the meaning of the last sample (1 associated, 2 other alpha; 0
+/// none).
+std::string tiffOf(std::uint32_t width, std::uint32_t height, std::uint32_t bits, std::uint32_t photometric,
+                   std::uint32_t samples, std::uint32_t extra, const std::string& data) {
+  std::vector<std::string> entries;
+  const auto entry = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t count, std::uint32_t value) {
+    entries.push_back(little(tag, 2) + little(type, 2) + little(count, 4) + little(value, 4));
+  };
+  const std::uint32_t count = extra > 0 ? 12 : 11;
+  const std::uint32_t depths = 8 + 2 + count * 12 + 4, start = depths + 8;
+  entry(256, 3, 1, width);
+  entry(257, 3, 1, height);
+  entry(258, 3, samples, samples > 2 ? depths : bits | (samples == 2 ? bits << 16 : 0));
+  entry(259, 3, 1, 1);
+  entry(262, 3, 1, photometric);
+  entry(273, 4, 1, start);
+  entry(274, 3, 1, 1);
+  entry(277, 3, 1, samples);
+  entry(278, 3, 1, height);
+  entry(279, 4, 1, static_cast<std::uint32_t>(data.size()));
+  entry(284, 3, 1, 1);
+  if (extra > 0) entry(338, 3, 1, extra);
+  std::string file = "II" + little(42, 2) + little(8, 4) + little(count, 2);
+  for (const std::string& one : entries) file += one;
+  return file + little(0, 4) + little(bits, 2) + little(bits, 2) + little(bits, 2) + little(bits, 2) + data;
+}
+
 std::vector<int> levels(const GreyImage& grey) {
   std::vector<int> values;
   for (const auto pixel : grey.pixels) values.push_back(static_cast<int>(pixel / 257.0 + 0.5));
@@ -180,6 +215,102 @@ TEST_F(ScanReader, TurnsTiffUprightByItsOrientation) {
   EXPECT_THAT(refusal(write("cut.tif", tiff(1).substr(0, tiff(1).size() - 2))), HasSubstr("truncated"));
 }
 
+TEST_F(ScanReader, ReadsTiffsWhoseZeroIsWhiteOrBlack) {
+  const struct {
+    std::uint32_t bits;
+    std::string data;
+    std::vector<int> expected;
+  } cases[] = {
+      {1, std::string("\xa0", 1), {255, 0, 255}},
+      {8, std::string("\x01\x80\xff", 3), {1, 128, 255}},
+      {16, std::string("\x01\x01\x80\x80\xff\xff", 6), {1, 128, 255}},
+  };
+  for (const auto& c : cases) {
+    for (const std::uint32_t photometric : {1u, 0u}) {
+      const auto scan = readScan(write("grey.tif", tiffOf(3, 1, c.bits, photometric, 1, 0, c.data)), {}, {});
+      ASSERT_TRUE(scan.has_value()) << c.bits << ": " << scan.error().message;
+      std::vector<int> expected = c.expected;
+      if (photometric == 0)
+        for (int& level : expected) level = 255 - level;
+      EXPECT_EQ(levels(scan->grey), expected) << c.bits << " bit, photometric " << photometric;
+    }
+  }
+}
+
+TEST_F(ScanReader, LaysTheAlphaOfTiffsOverWhiteWhetherAssociatedOrNot) {
+  // Full red; black, half covered; a light grey, half covered, as is (200) and multiplied already (100); nothing.
+  const std::string straight = fromHex(
+      "ff0000ff"
+      "00000080"
+      "c8c8c880"
+      "12345600");
+  const std::string associated = fromHex(
+      "ff0000ff"
+      "00000080"
+      "64646480"
+      "00000000");
+  const std::vector<int> expected{76, 127, 227, 255};
+  const auto wide = [](const std::string& data) {  // every sample twice: 16 bit
+    std::string twice;
+    for (const char c : data) twice.append(2, c);
+    return twice;
+  };
+  for (const auto& [extra, data] : {std::pair{2u, straight}, {1u, associated}}) {
+    for (const std::uint32_t bits : {8u, 16u}) {
+      const auto scan =
+          readScan(write("a.tif", tiffOf(4, 1, bits, 2, 4, extra, bits == 8 ? data : wide(data))), {}, {});
+      ASSERT_TRUE(scan.has_value()) << scan.error().message;
+      const auto found = levels(scan->grey);
+      for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(found[i], expected[i], 1) << bits << " bit, " << extra << ", " << i;
+    }
+  }
+}
+
+TEST_F(ScanReader, RefusesGreyTiffsWhoseAlphaTheDecoderDrops) {
+  const std::string data = fromHex("c88000ff7700");
+  for (const std::uint32_t extra : {1u, 2u})
+    EXPECT_THAT(refusal(write("ga.tif", tiffOf(3, 1, 8, 1, 2, extra, data))), HasSubstr("as PNG"));
+  // A second sample that is no alpha, a mask as painting programs keep them, does not matter.
+  const auto scan = readScan(write("mask.tif", tiffOf(3, 1, 8, 1, 2, 0, data)), {}, {});
+  ASSERT_TRUE(scan.has_value()) << scan.error().message;
+  EXPECT_EQ(levels(scan->grey), (std::vector<int>{200, 0, 119}));
+}
+
+TEST_F(ScanReader, TakesTheKeyColourOfPngsForPaper) {
+  const struct {
+    int bits;
+    std::string row, key;
+    std::vector<int> expected;
+  } greys[] = {
+      {1, std::string("\0\x80", 2), std::string("\0\0", 2), {255, 255, 255}},
+      {2, std::string("\0\x6c", 2), std::string("\0\1", 2), {255, 170, 255}},
+      {4, std::string("\0\x5a\xf0", 3), std::string("\0\xa", 2), {85, 255, 255}},
+      {8, std::string("\0\x01\x80\xff", 4), std::string("\0\1", 2), {255, 128, 255}},
+      {16, std::string("\0\x01\x01\x80\x80\x80\x81", 7), std::string("\x80\x80", 2), {1, 255, 128}},
+  };
+  for (const auto& c : greys) {
+    const auto scan = readScan(write("key.png", png(3, 1, c.bits, 0, c.row, chunk("tRNS", c.key))), {}, {});
+    ASSERT_TRUE(scan.has_value()) << c.bits << ": " << scan.error().message;
+    EXPECT_EQ(levels(scan->grey), c.expected) << c.bits << " bit";
+  }
+  const std::string key8 = fromHex("000a00140001"), row8 = std::string("\0", 1) + fromHex(
+                                                                                      "0a1401"
+                                                                                      "0a1402"
+                                                                                      "000000");
+  const auto colour = readScan(write("rgb.png", png(3, 1, 8, 2, row8, chunk("tRNS", key8))), {}, {});
+  ASSERT_TRUE(colour.has_value()) << colour.error().message;
+  EXPECT_EQ(levels(colour->grey), (std::vector<int>{255, 15, 0}));
+  const std::string key16 = fromHex("0a0014000100");
+  const std::string row16 = std::string("\0", 1) + fromHex(
+                                                       "0a0014000100"
+                                                       "0a0014000101"
+                                                       "000000000000");
+  const auto deep = readScan(write("deep.png", png(3, 1, 16, 2, row16, chunk("tRNS", key16))), {}, {});
+  ASSERT_TRUE(deep.has_value()) << deep.error().message;
+  EXPECT_EQ(levels(deep->grey), (std::vector<int>{255, 15, 0}));
+}
+
 TEST_F(ScanReader, ReadsPnmAndRefusesItTruncated) {
   const auto grey = readScan(write("a.pgm", "P5\n# made by hand\n3 1\n255\n\x0a\x14\x1e"), {}, {});
   ASSERT_TRUE(grey.has_value()) << grey.error().message;
@@ -188,14 +319,6 @@ TEST_F(ScanReader, ReadsPnmAndRefusesItTruncated) {
   ASSERT_TRUE(bits.has_value()) << bits.error().message;
   EXPECT_EQ(levels(bits->grey), (std::vector<int>{0, 255, 0}));
   EXPECT_THAT(refusal(write("b.pgm", "P5\n3 2\n255\nabc")), HasSubstr("truncated"));
-}
-
-std::string fromHex(const std::string& hex) {
-  std::string bytes;
-  for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
-    bytes.push_back(static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-  }
-  return bytes;
 }
 
 TEST_F(ScanReader, ReadsBmpFromTheBottomUp) {
