@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <map>
 
+#include "core/exchange/export_check.h"
+
 namespace batten {
 namespace {
 
@@ -58,8 +60,9 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
     for (const auto& run : runs(pieces, closed)) {
       ExportCurve& curve = document.curves.emplace_back();
       curve.id = "curve-" + std::to_string(document.curves.size());
-      curve.closed = isWholeClosed(run, pieces, closed);
       for (const TracedCurve* piece : run) curve.pieces.push_back({piece->faired});
+      // A loop of the drawing whose curves do not meet, because a construction breaks them, is none.
+      curve.closed = isWholeClosed(run, pieces, closed) && isLoop(curve.pieces);
     }
   }
   return document;

@@ -15,6 +15,8 @@ constexpr int kMaxDepth = 24;  ///< Halvings; 1/2^24 of a piece is far below any
 constexpr double kMaxTurn =
     1.75;  ///< [rad] A cubic that turns more than 100 degrees fits badly and looks wrong in editors.
 
+constexpr double kJump = 4.0;  ///< [grid] Parts of a curve that end and start farther apart than by rounding.
+
 using Cubic = std::array<Vec2, 4>;
 
 Vec2 at(const Cubic& c, double t) {
@@ -45,10 +47,17 @@ class Approximation {
   Approximation(const NurbsCurve& curve, double tolerance, double grid, CubicPath& path)
       : curve_(curve), tolerance_(tolerance), grid_(grid), path_(path) {}
 
-  void add(double from, double to) { recurse(from, to, 0); }
-  Vec2 rounded(const Vec2& p) const { return {std::round(p.x() / grid_) * grid_, std::round(p.y() / grid_) * grid_}; }
+  /// Adds the curve to the last run, or begins one where it starts elsewhere.
+  void add() {
+    const Vec2 start = rounded(curve_.point(curve_.start()));
+    if (path_.runs.empty() || (path_.runs.back().end() - start).norm() > kJump * grid_)
+      path_.runs.push_back({start, {}});
+    recurse(curve_.start(), curve_.end(), 0);
+  }
 
  private:
+  Vec2 rounded(const Vec2& p) const { return {std::round(p.x() / grid_) * grid_, std::round(p.y() / grid_) * grid_}; }
+
   /// Unit direction at u, from the side of the interval [from, to] that u bounds.
   Vec2 direction(double u, double from, double to) const {
     const auto d = curve_.derivatives(u, 1);
@@ -145,7 +154,7 @@ class Approximation {
   }
 
   void recurse(double from, double to, int depth) {
-    const Vec2 start = path_.cubics.empty() ? path_.start : path_.cubics.back()[2];
+    const Vec2 start = path_.runs.back().end();
     const Vec2 end = rounded(curve_.point(to));
     const double middle = 0.5 * (from + to);
     sample(from, to);
@@ -156,7 +165,7 @@ class Approximation {
       c[2] = rounded(c[2]);
       const double measured = error(c, from, to);
       if (measured <= tolerance_ || !mayHalve) {
-        path_.cubics.push_back({c[1], c[2], c[3]});
+        path_.runs.back().cubics.push_back({c[1], c[2], c[3]});
         path_.largestError = std::max(path_.largestError, measured);
         return;
       }
@@ -195,8 +204,7 @@ Result<CubicPath> cubicPath(const NurbsCurve& curve, double tolerance, double gr
   auto parts = smoothParts(curve);
   if (!parts) return fail(parts.error());
   CubicPath path;
-  path.start = Approximation(curve, tolerance, grid, path).rounded(curve.point(curve.start()));
-  for (const NurbsCurve& part : *parts) Approximation(part, tolerance, grid, path).add(part.start(), part.end());
+  for (const NurbsCurve& part : *parts) Approximation(part, tolerance, grid, path).add();
   return path;
 }
 

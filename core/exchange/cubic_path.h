@@ -9,10 +9,16 @@
 
 namespace batten {
 
-/// Cubic Bezier pieces of a path: the start, then two handles and an end per cubic.
-struct CubicPath {
+/// Cubic Bezier pieces in one go: the start, then two handles and an end per cubic.
+struct CubicRun {
   Vec2 start = Vec2::Zero();
   std::vector<std::array<Vec2, 3>> cubics;
+
+  const Vec2& end() const { return cubics.empty() ? start : cubics.back()[2]; }
+};
+/// A curve as cubics. More than one run only where the curve itself jumps, at a knot of multiplicity degree + 1.
+struct CubicPath {
+  std::vector<CubicRun> runs;
   double largestError = 0.0;  ///< Measured distance between the path and the curve, both ways, in the curve's unit.
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "core/curve/knot_operations.h"
@@ -41,6 +42,15 @@ tl::unexpected<Error> damaged(const std::string& what) {
   return fail(ErrorCode::BadParameter, "The curve file cannot be read: " + what + ".");
 }
 
+/// A whole number as large as an int, else nothing: never what is left of a larger one.
+std::optional<int> integerOf(const Json& json) {
+  if (!json.is_number_integer()) return std::nullopt;
+  const auto value = json.get<std::int64_t>();
+  const int whole = static_cast<int>(value);
+  const bool wrapped = json.is_number_unsigned() && value < 0;
+  return whole == value && !wrapped ? std::optional(whole) : std::nullopt;
+}
+
 Result<NurbsCurve> pieceFromJson(const Json& json) {
   std::vector<Vec2> points;
   for (const Json& p : json.at("control_points_mm")) {
@@ -49,18 +59,21 @@ Result<NurbsCurve> pieceFromJson(const Json& json) {
   }
   std::vector<double> weights;
   if (json.contains("weights")) weights = json.at("weights").get<std::vector<double>>();
-  return NurbsCurve::make(json.at("degree").get<int>(), json.at("knots").get<std::vector<double>>(), std::move(points),
-                          std::move(weights));
+  const auto degree = integerOf(json.at("degree"));
+  if (!degree) return damaged("a degree is not a whole number");
+  return NurbsCurve::make(*degree, json.at("knots").get<std::vector<double>>(), std::move(points), std::move(weights));
 }
 
 Result<ExportDocument> documentFromJson(const Json& json) {
   if (!json.is_object() || json.value("format", "") != kFormat) return damaged("it is not a \"batten-curves\" file");
-  if (const int version = json.at("version").get<int>(); version < 1 || version > kVersion) {
-    return damaged("it is of version " + std::to_string(version) + ", and this Batten reads version 1");
+  if (integerOf(json.at("version")) != kVersion) {
+    return damaged("it is of version " + json.at("version").dump() + ", and this Batten reads version 1");
   }
   ExportDocument document;
   const Json& image = json.at("image");
-  document.frame = {image.at("width").get<int>(), image.at("height").get<int>(), json.at("mm_per_px").get<double>()};
+  const auto width = integerOf(image.at("width")), height = integerOf(image.at("height"));
+  if (!width || !height) return damaged("the size of its page is not a pair of whole numbers");
+  document.frame = {*width, *height, json.at("mm_per_px").get<double>()};
   if (const Json& dpi = image.at("dpi"); !dpi.is_null()) document.dpi = dpi.get<double>();
   document.imageSha256 = image.at("sha256").get<std::string>();
   for (const Json& entry : json.at("curves")) {
@@ -95,7 +108,9 @@ Result<std::string> writeCurveJson(const ExportDocument& document) {
       if (!made) return fail(made.error());
       pieces.push_back(std::move(*made));
     }
-    curves.push_back({{"id", curve.id}, {"closed", curve.closed}, {"pieces", std::move(pieces)}});
+    Json& entry = curves.emplace_back(Json{{"id", curve.id}, {"closed", curve.closed}});
+    if (curve.closed) entry["continuity"] = continuityOf(curve.pieces);
+    entry["pieces"] = std::move(pieces);
   }
   return json.dump(1) + "\n";
 }

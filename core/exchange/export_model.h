@@ -14,10 +14,11 @@ namespace batten {
 struct ExportPiece {
   NurbsCurve curve;
 };
-/// All pieces of one line of the drawing, in order of travel; neighbouring pieces meet at corners.
+/// All pieces of one line of the drawing, in order of travel; neighbouring pieces meet at corners, but for
+/// curves that a construction breaks there.
 struct ExportCurve {
   std::string id;       ///< "curve-1" …, unique.
-  bool closed = false;  ///< The last piece ends where the first starts.
+  bool closed = false;  ///< Every piece ends where the next starts, the last one where the first does.
   std::vector<ExportPiece> pieces;
 };
 struct ExportDocument {

@@ -3,8 +3,10 @@
 #include <QXmlStreamReader>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "core/curve/curve_analysis.h"
 #include "core/exchange/writers.h"
@@ -29,7 +31,7 @@ tl::unexpected<Error> differs(std::string detail) {
               std::move(detail));
 }
 
-/// All numbers of a text; blanks, commas and path letters part them.
+/// All numbers of a text; blanks and commas part them.
 std::vector<double> numbersIn(const QByteArray& text) {
   std::vector<double> numbers;
   const char* at = text.data();
@@ -72,52 +74,68 @@ bool isSame(const ReadPiece& read, const NurbsCurve& curve) {
   return std::ranges::equal(read.knots, curve.knots()) && std::ranges::equal(read.weights, curve.weights());
 }
 
-/// Points along a path, model frame, with the index at which each cubic begins; the last index ends the last cubic.
-struct PathPoints {
-  std::vector<Vec2> points;
-  int cubics = 0;
+/// A path in the model frame: points along every cubic, its start and its end included.
+using CubicPoints = std::array<Vec2, kSamplesPerCubic + 1>;
+struct ReadPath {
+  std::vector<CubicPoints> cubics;
+  bool closes = false;
 };
-Result<PathPoints> pointsOf(const QByteArray& data, const PageFrame& frame) {
-  const std::vector<double> numbers = numbersIn(data);
-  if (numbers.size() < 2 || (numbers.size() - 2) % 6 != 0) return differs("a path that is no chain of cubics");
-  const auto model = [&](std::size_t i) {
-    return Vec2(numbers[i], frame.lengthToModel(frame.heightPx) - numbers[i + 1]);
-  };
-  PathPoints path;
-  path.points.push_back(model(0));
-  for (std::size_t i = 0; i + 8 <= numbers.size(); i += 6, ++path.cubics) {
-    const std::array<Vec2, 4> c = {model(i), model(i + 2), model(i + 4), model(i + 6)};
-    for (int k = 1; k <= kSamplesPerCubic; ++k) {
-      const double t = static_cast<double>(k) / kSamplesPerCubic, r = 1.0 - t;
-      path.points.push_back(r * r * r * c[0] + 3 * r * r * t * c[1] + 3 * r * t * t * c[2] + t * t * t * c[3]);
+
+CubicPoints pointsAlong(const std::array<Vec2, 4>& c) {
+  CubicPoints points;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double t = static_cast<double>(k) / kSamplesPerCubic, r = 1.0 - t;
+    points[k] = r * r * r * c[0] + 3 * r * r * t * c[1] + 3 * r * t * t * c[2] + t * t * t * c[3];
+  }
+  return points;
+}
+
+Result<ReadPath> pathOf(const QByteArray& data, const PageFrame& frame) {
+  ReadPath path;
+  Vec2 pen = Vec2::Zero();
+  qsizetype at = 0;
+  while (at < data.size()) {
+    const char command = data[at++];
+    if (command == ' ') continue;
+    if (path.closes) return differs("a path that goes on behind its end");
+    qsizetype end = at;
+    while (end < data.size() && std::isalpha(static_cast<unsigned char>(data[end])) == 0) ++end;
+    const std::vector<double> n = numbersIn(data.mid(at, end - at));
+    at = end;
+    const auto model = [&](std::size_t i) { return Vec2(n[i], frame.lengthToModel(frame.heightPx) - n[i + 1]); };
+    if (command == 'M' && n.size() == 2) {
+      pen = model(0);
+    } else if (command == 'C' && n.size() == 6) {
+      path.cubics.push_back(pointsAlong({pen, model(0), model(2), model(4)}));
+      pen = model(4);
+    } else if (command == 'Z' && n.empty()) {
+      path.closes = true;
+    } else {
+      return differs("a path that is no chain of cubics");
     }
   }
+  if (path.cubics.empty()) return differs("an empty path");
   return path;
 }
 
 /// Largest distance of a path from the pieces it was made of. Each piece ends where a cubic ends.
-double distanceFromPieces(const std::vector<Vec2>& points, const ExportCurve& curve) {
+double distanceFromPieces(const std::vector<CubicPoints>& cubics, const ExportCurve& curve) {
   double worst = 0.0;
   std::size_t first = 0;
-  for (std::size_t piece = 0; piece < curve.pieces.size(); ++piece) {
+  for (std::size_t piece = 0; piece < curve.pieces.size() && first < cubics.size(); ++piece) {
     const NurbsCurve& exact = curve.pieces[piece].curve;
-    std::size_t last = points.size() - 1;
-    if (piece + 1 < curve.pieces.size()) {
-      const Vec2 end = exact.point(exact.end());
-      // Nearest joint beyond the first: a closed piece starts where it ends.
-      std::size_t best = last;
-      for (std::size_t i = first + kSamplesPerCubic; i < points.size(); i += kSamplesPerCubic) {
-        if ((points[i] - end).norm() > 1e-3 * extent(exact)) continue;
-        best = i;
-        break;
-      }
-      last = best;
+    const Vec2 start = exact.point(exact.start()), end = exact.point(exact.end());
+    std::size_t last = cubics.size() - 1;
+    for (std::size_t i = first; i < last && piece + 1 < curve.pieces.size(); ++i) {
+      if ((cubics[i].back() - end).norm() <= 1e-3 * extent(exact)) last = i;
     }
-    const std::span<const Vec2> part(points.data() + first, last - first + 1);
-    worst = std::max(worst, deviation(exact, part, true).max);
-    first = last;
+    std::vector<Vec2> part;
+    for (std::size_t i = first; i <= last; ++i) part.insert(part.end(), cubics[i].begin(), cubics[i].end());
+    worst =
+        std::max({worst, deviation(exact, part, true).max, (part.front() - start).norm(), (part.back() - end).norm()});
+    first = last + 1;
   }
-  return worst;
+  return first == cubics.size() ? worst : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -133,10 +151,11 @@ Result<SvgCheck> checkSvg(std::string_view text, const ExportDocument& document)
     if (svg->curves[i].size() != curve.pieces.size()) return differs("another number of pieces in " + curve.id);
     for (std::size_t k = 0; k < curve.pieces.size(); ++k)
       if (!isSame(svg->curves[i][k], curve.pieces[k].curve)) return differs("another B-spline in " + curve.id);
-    const auto path = pointsOf(svg->paths[i], document.frame);
+    const auto path = pathOf(svg->paths[i], document.frame);
     if (!path) return fail(path.error());
-    check.largestErrorMm = std::max(check.largestErrorMm, distanceFromPieces(path->points, curve));
-    check.cubics += path->cubics;
+    if (path->closes != curve.closed) return differs("a path closed otherwise than " + curve.id);
+    check.largestErrorMm = std::max(check.largestErrorMm, distanceFromPieces(path->cubics, curve));
+    check.cubics += static_cast<int>(path->cubics.size());
     ++check.curves;
   }
   return check;

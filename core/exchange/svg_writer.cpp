@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include "core/exchange/cubic_path.h"
 #include "core/exchange/export_check.h"
@@ -66,31 +67,53 @@ NurbsCurve toPage(const NurbsCurve& curve, const PageFrame& frame) {
   return curve.mapped(flip, {0.0, frame.lengthToModel(frame.heightPx)});
 }
 
-Result<std::string> pathData(const ExportCurve& curve, const PageFrame& frame, double toleranceMm, SvgText& svg) {
-  std::string data;
-  Vec2 first = Vec2::Zero();
+void appendRun(std::string& data, const CubicRun& run) {
+  for (const auto& cubic : run.cubics) {
+    data.append(" C").append(pointText(cubic[0]));
+    data.append(" ").append(pointText(cubic[1]));
+    data.append(" ").append(pointText(cubic[2]));
+  }
+}
+
+/// The pieces of a curve as runs without a gap. Where a piece begins where the last one ends, but for rounding, it
+/// goes on there, and the shift counts as error.
+Result<std::vector<CubicRun>> runsOf(const ExportCurve& curve, const PageFrame& frame, double toleranceMm,
+                                     SvgText& svg) {
+  std::vector<CubicRun> runs;
   for (std::size_t i = 0; i < curve.pieces.size(); ++i) {
     auto path = cubicPath(toPage(curve.pieces[i].curve, frame), toleranceMm, kGridMm);
     if (!path) return fail(path.error());
-    if (i == 0) {
-      first = path->start;
-      data.append("M").append(pointText(first));
+    for (std::size_t k = 0; k < path->runs.size(); ++k) {
+      CubicRun& run = path->runs[k];
+      svg.cubics += static_cast<int>(run.cubics.size());
+      if (k == 0 && i > 0 && doMeet(curve.pieces[i - 1].curve, curve.pieces[i].curve)) {
+        svg.largestErrorMm = std::max(svg.largestErrorMm, (runs.back().end() - run.start).norm());
+        std::move(run.cubics.begin(), run.cubics.end(), std::back_inserter(runs.back().cubics));
+      } else {
+        runs.push_back(std::move(run));
+      }
     }
-    const bool closing = curve.closed && i + 1 == curve.pieces.size();
-    if (closing && !path->cubics.empty()) {
-      // The end and the start are one point: write it alike, so that Z adds no line. The shift counts as error.
-      svg.largestErrorMm = std::max(svg.largestErrorMm, (path->cubics.back()[2] - first).norm());
-      path->cubics.back()[2] = first;
-    }
-    for (const auto& cubic : path->cubics) {
-      data.append(" C").append(pointText(cubic[0]));
-      data.append(" ").append(pointText(cubic[1]));
-      data.append(" ").append(pointText(cubic[2]));
-    }
-    svg.cubics += static_cast<int>(path->cubics.size());
     svg.largestErrorMm = std::max(svg.largestErrorMm, path->largestError);
   }
-  return curve.closed ? data + " Z" : data;
+  return runs;
+}
+
+Result<std::string> pathData(const ExportCurve& curve, const PageFrame& frame, double toleranceMm, SvgText& svg) {
+  auto runs = runsOf(curve, frame, toleranceMm, svg);
+  if (!runs) return fail(runs.error());
+  const bool closes = curve.closed && runs->size() == 1 && !runs->front().cubics.empty();
+  if (closes) {
+    // The end and the start are one point: write it alike, so that Z adds no line. The shift counts as error.
+    CubicRun& loop = runs->front();
+    svg.largestErrorMm = std::max(svg.largestErrorMm, (loop.end() - loop.start).norm());
+    loop.cubics.back()[2] = loop.start;
+  }
+  std::string data;
+  for (const CubicRun& run : *runs) {
+    data.append(data.empty() ? "M" : " M").append(pointText(run.start));
+    appendRun(data, run);
+  }
+  return closes ? data + " Z" : data;
 }
 
 std::string metadata(const ExportDocument& document) {

@@ -30,7 +30,7 @@ struct Scene {
       TracedCurve& curve = faired.curves.emplace_back();
       curve.contour = piece.contour;
       curve.piece = i;
-      curve.sketched = curve.faired = segment(i, i + 1);
+      curve.sketched = curve.faired = segment(i, i == 3 ? 0 : i + 1);  // back to the start
     }
     output.contours = std::make_shared<ContourSet>(contours);
     output.pieces = std::make_shared<PieceSet>(pieces);
@@ -65,6 +65,15 @@ TEST(ExportBuilder, GroupsThePiecesOfAContour) {
   Recipe recipe;
   recipe.dpi = 100.0;
   EXPECT_EQ(scene.build(recipe).dpi, 100.0);
+}
+
+TEST(ExportBuilder, ALoopWhoseCurvesDoNotMeetIsNotClosed) {
+  Scene scene;
+  scene.faired.curves[2].faired = segment(2.0, 2.9);
+  const ExportDocument document = scene.build();
+  ASSERT_EQ(document.curves.size(), 2u);
+  EXPECT_FALSE(document.curves[0].closed);
+  EXPECT_EQ(document.curves[0].pieces.size(), 4u);
 }
 
 TEST(ExportBuilder, AnExcludedPieceOpensTheLoopWithoutCuttingItAgain) {

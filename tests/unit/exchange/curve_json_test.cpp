@@ -63,6 +63,34 @@ TEST(CurveJson, HoldsTheContract) {
   }
 }
 
+TEST(CurveJson, SaysHowSmoothlyALoopCloses) {
+  const auto json = nlohmann::json::parse(*writeCurveJson(exportOfAllKinds()));
+  const auto& curves = json["curves"];
+  EXPECT_FALSE(curves[0].contains("continuity")) << "an open curve has no seam";
+  EXPECT_EQ(curves[3]["continuity"], 3) << "a periodic quintic";
+  EXPECT_EQ(curves[5]["continuity"], 0) << "corners";
+  // Directions agree at its start, curvatures do not.
+  ExportDocument document = exportOfAllKinds();
+  document.curves.resize(1);
+  document.curves[0].closed = true;
+  document.curves[0].pieces[0].curve =
+      test::made(2, {0, 0, 0, 1, 2, 3, 4, 4, 4}, {{10, 0}, {20, 0}, {20, 10}, {0, 20}, {0, 0}, {10, 0}});
+  EXPECT_EQ(nlohmann::json::parse(*writeCurveJson(document))["curves"][0]["continuity"], 1);
+}
+
+TEST(CurveJson, RefusesNumbersThatDoNotFit) {
+  for (const char* number : {"4294967297", "18446744073709551617", "-4294967295", "1.5"}) {
+    for (const char* what : {"\"version\": 1", "\"width\": 1200", "\"degree\": 5"}) {
+      std::string text = *writeCurveJson(exportOfAllKinds());
+      const auto at = text.find(what);
+      ASSERT_NE(at, std::string::npos) << what;
+      const auto digits = text.find(": ", at) + 2;
+      text.replace(digits, text.find_first_not_of("0123456789", digits) - digits, number);
+      EXPECT_FALSE(readCurveJson(text)) << what << " " << number;
+    }
+  }
+}
+
 TEST(CurveJson, AnAssumedScaleHasNoResolution) {
   ExportDocument document = exportOfAllKinds();
   document.dpi.reset();

@@ -42,6 +42,19 @@ TEST(SvgCheck, RefusesWhatIsCutOffOrChanged) {
   EXPECT_FALSE(checkSvg(text, fewer));
 }
 
+TEST(SvgCheck, FindsABridgeOverAGapAndAPathClosedOtherwise) {
+  ExportDocument document = test::exportOfAllKinds();
+  const auto line = [](const Vec2& a, const Vec2& b) { return test::made(1, {0, 0, 30, 30}, {a, b}); };
+  document.curves.push_back({"curve-7", false, {{line({10, 10}, {40, 10})}, {line({43, 10}, {43, 40})}}});
+  const std::string text = writeSvg(document, {}).value().text;
+  ASSERT_TRUE(checkSvg(text, document));
+  const auto bridged = checkSvg(replaced(text, " M43,90", ""), document);
+  ASSERT_TRUE(bridged);
+  EXPECT_GE(bridged->largestErrorMm, 3.0 - 1e-6);
+  EXPECT_FALSE(checkSvg(replaced(text, " Z\"", "\""), document));
+  EXPECT_FALSE(checkSvg(replaced(text, "\"/>\n  </g>", " Z\"/>\n  </g>"), document));
+}
+
 TEST(SvgCheck, MeasuresAPathThatLeavesItsCurve) {
   const ExportDocument document = test::exportOfAllKinds();
   const std::string text = writeSvg(document, {}).value().text;

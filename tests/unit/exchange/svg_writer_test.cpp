@@ -4,6 +4,7 @@
 #include <clocale>
 #include <cstdlib>
 #include <limits>
+#include <locale>
 #include <sstream>
 
 #include "core/curve/curve_analysis.h"
@@ -39,6 +40,8 @@ ReadPath parsePath(const std::string& data) {
   for (char command; in >> command;) {
     if (command == 'Z') {
       path.closed = true;
+    } else if (command == 'M') {
+      at = point();
     } else if (command == 'C') {
       const Vec2 a = point(), b = point(), c = point();
       path.cubics.push_back({at, a, b, c});
@@ -162,6 +165,52 @@ TEST(SvgWriter, KeepsTheCornerOfABezierChain) {
   EXPECT_LT(nearest, 1e-6);
 }
 
+/// Two lines at right angles, 3 mm apart; one curve that jumps by 3 mm.
+ExportDocument broken() {
+  const auto line = [](const Vec2& a, const Vec2& b) { return test::made(1, {0, 0, 30, 30}, {a, b}); };
+  ExportDocument document = exportOfAllKinds();
+  document.curves = {
+      {"curve-1", false, {{line({10, 10}, {40, 10})}, {line({43, 10}, {43, 40})}}},
+      {"curve-2", false, {{test::made(1, {0, 0, 30, 30, 60, 60}, {{50, 50}, {60, 50}, {63, 50}, {63, 60}})}}}};
+  return document;
+}
+
+TEST(SvgWriter, LeavesAGapWhereTheCurvesLeaveOne) {
+  const ExportDocument document = broken();
+  const auto svg = writeSvg(document, {});
+  ASSERT_TRUE(svg) << svg.error().message;
+  EXPECT_LT(svg->largestErrorMm, 1e-6);
+  const auto paths = readPaths(svg->text);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    EXPECT_LT(pathError(paths[i], document.curves[i], document.frame), 1e-6) << i;
+    EXPECT_LT(curveError(paths[i], document.curves[i], document.frame), 1e-6) << i;
+    EXPECT_FALSE(paths[i].closed);
+  }
+  EXPECT_TRUE(checkSvg(svg->text, document)) << "reads back";
+}
+
+TEST(SvgWriter, RefusesToCloseWhatDoesNotMeet) {
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    ExportDocument document = broken();
+    document.curves[i].closed = true;
+    const auto svg = writeSvg(document, {});
+    ASSERT_FALSE(svg);
+    EXPECT_NE(svg.error().message.find("lie apart"), std::string::npos);
+    EXPECT_FALSE(writeCurveJson(document));
+  }
+}
+
+TEST(SvgWriter, CountsTheRoundingOfASeamAsError) {
+  ExportDocument document = exportOfAllKinds();
+  const Vec2 a(10, 10), b(40, 10), off(1e-5, 0.0), c(40, 40);
+  document.curves = {
+      {"curve-1", false, {{test::made(1, {0, 0, 1, 1}, {a, b})}, {test::made(1, {0, 0, 1, 1}, {b + off, c})}}}};
+  const auto svg = writeSvg(document, {});
+  ASSERT_TRUE(svg) << svg.error().message;
+  EXPECT_EQ(svg->text.find(" M"), std::string::npos) << "one line";
+  EXPECT_NEAR(svg->largestErrorMm, 1e-5, 2e-6);
+}
+
 TEST(SvgWriter, StatesMillimetresErrorAndExactData) {
   const auto svg = writeSvg(exportOfAllKinds(), {});
   ASSERT_TRUE(svg);
@@ -178,13 +227,35 @@ TEST(SvgWriter, StatesMillimetresErrorAndExactData) {
   }
 }
 
+/// Numbers as in a language with commas for points and points between thousands, whether or not the machine knows one.
+class Continental : public std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
 TEST(SvgWriter, IsIndependentOfTheLocale) {
   const auto before = writeSvg(exportOfAllKinds(), {});
-  const char* german = std::setlocale(LC_ALL, "de_DE.UTF-8");
+  const auto json = writeCurveJson(exportOfAllKinds());
+  ASSERT_TRUE(before && json);
+  const std::locale old = std::locale::global(std::locale(std::locale::classic(), new Continental));
+  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"})
+    if (std::setlocale(LC_ALL, name) != nullptr) break;
+  std::ostringstream commas;
+  commas << 1234.5;
   const auto after = writeSvg(exportOfAllKinds(), {});
+  const auto jsonAfter = writeCurveJson(exportOfAllKinds());
+  const auto read = readCurveJson(*json);
+  const auto check = checkSvg(before->text, exportOfAllKinds());
+  std::locale::global(old);
   std::setlocale(LC_ALL, "C");
-  ASSERT_TRUE(before && after);
-  EXPECT_EQ(before->text, after->text) << (german ? german : "no German locale here");
+  EXPECT_EQ(commas.str(), "1.234,5") << "the locale holds";
+  ASSERT_TRUE(after && jsonAfter);
+  EXPECT_EQ(before->text, after->text);
+  EXPECT_EQ(*json, *jsonAfter);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(*writeCurveJson(*read), *json);
+  EXPECT_TRUE(check);
 }
 
 TEST(SvgWriter, TakesTinyAndHugeCoordinates) {
