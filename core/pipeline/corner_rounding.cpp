@@ -16,6 +16,7 @@ constexpr double kLargestShare = 0.45;
 /// How evenly: nearly as round as a circular arc, and monotone to both sides.
 constexpr double kForm = 0.85;
 constexpr int kDegree = 5;
+constexpr const char* kStaysSharp = "A corner could not be rounded: its sides do not meet ahead. It stays sharp.";
 
 Joint jointAt(const NurbsCurve& curve, double u) {
   const auto d = curve.derivatives(u, 1);
@@ -60,7 +61,8 @@ Neighbours neighboursOf(FairedSet& set, const PieceSet& pieces, const Corner& co
   for (TracedCurve& curve : set.curves) {
     const Piece& piece = pieces.pieces[static_cast<std::size_t>(curve.piece)];
     if (piece.contour != corner.contour || piece.points.empty() || curve.faired.isEmpty()) continue;
-    const auto isHere = [&](const Vec2& p) { return (p - corner.positionPx).norm() < 1e-6; };
+    // Pieces begin and end with the very place of their corner.
+    const auto isHere = [&](const Vec2& p) { return p == corner.positionPx; };
     if (piece.endIsCorner && isHere(piece.points.back())) found.before = &curve;
     if (piece.startIsCorner && isHere(piece.points.front())) found.behind = &curve;
   }
@@ -91,16 +93,20 @@ bool roundOne(const Neighbours& at, double sizeMm) {
   return true;
 }
 
-/// What the rounding changed; the distance from the edge points stays that of the curve itself.
-void measureAgain(TracedCurve& curve) {
-  CurveFigures figures = figuresOf(curve.faired, curve.closed, {});
-  figures.fromPoints = curve.fairedFigures.fromPoints;
-  curve.fairedFigures = figures;
+void addNote(std::string& notes, const std::string& note) {
+  if (notes.find(note) != std::string::npos) return;
+  notes.append(notes.empty() ? "" : " ").append(note);
+}
+
+/// The figures of the curve as it is exported: where a corner is cut off, the edge points lie beside it.
+void measureAgain(TracedCurve& curve, const Piece& piece, const PageFrame& frame) {
+  curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(piece.points, frame));
 }
 
 }  // namespace
 
-void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, const PageFrame&) {
+void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, const PageFrame& frame) {
+  std::vector<bool> changed(pieces.pieces.size(), false);
   for (const Corner& corner : pieces.corners) {
     const auto mark = static_cast<std::size_t>(corner.mark);
     if (mark >= recipe.cornerMarks.size() || !(recipe.cornerMarks[mark].roundMm > 0.0)) continue;
@@ -108,12 +114,13 @@ void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, 
     if (!at.before || !at.behind) continue;
     const bool done = roundOne(at, recipe.cornerMarks[mark].roundMm);
     for (TracedCurve* curve : {at.before, at.behind}) {
-      if (done) {
-        measureAgain(*curve);
-      } else if (curve->fairing.note.empty()) {
-        curve->fairing.note = "A corner could not be rounded: its sides do not meet ahead. It stays sharp.";
-      }
+      if (done) changed[static_cast<std::size_t>(curve->piece)] = true;
+      if (!done) addNote(curve->fairing.note, kStaysSharp);
     }
+  }
+  for (TracedCurve& curve : set.curves) {
+    const auto piece = static_cast<std::size_t>(curve.piece);
+    if (changed[piece]) measureAgain(curve, pieces.pieces[piece], frame);
   }
 }
 

@@ -19,25 +19,27 @@ constexpr double kExtremumProminence = 5e-3;
 /// Share of the length below which a part of a split curve is none.
 constexpr double kLeastPart = 1e-3;
 
-std::vector<Vec2> pointsToModel(const std::vector<Vec2>& points, const PageFrame& frame) {
-  std::vector<Vec2> result;
-  result.reserve(points.size());
-  for (const Vec2& p : points) result.push_back(frame.pointToModel(p));
-  return result;
-}
-
 Station stationToModel(const Station& s, const PageFrame& frame) {
   return {frame.pointToModel(s.point), frame.vectorToModel(s.direction).normalized(), frame.pointToModel(s.from),
           frame.pointToModel(s.to)};
 }
 
 /// Where the user wants typical curves to meet on a piece.
-std::vector<Vec2> divisionsOf(const PieceSet& pieces, const Recipe& recipe, const PageFrame& frame, std::size_t piece) {
+std::vector<Vec2> divisionsOf(const std::vector<std::size_t>& points, const Recipe& recipe, const PageFrame& frame) {
   std::vector<Vec2> places;
-  for (const std::size_t point : segmentPointsOf(pieces, recipe, piece)) {
-    places.push_back(frame.pointToModel(recipe.segmentPoints[point].positionPx));
-  }
+  for (const std::size_t point : points) places.push_back(frame.pointToModel(recipe.segmentPoints[point].positionPx));
   return places;
+}
+
+/// A piece with its stations in the model frame: what every method takes.
+ConstructPiece pieceInput(const Piece& piece, const PieceSegments& segments, const PageFrame& frame) {
+  ConstructPiece made;
+  made.points = pointsToModel(piece.points, frame);
+  for (const Station& s : segments.stations) made.stations.push_back(stationToModel(s, frame));
+  made.closed = piece.closed;
+  made.startIsCorner = piece.startIsCorner;
+  made.endIsCorner = piece.endIsCorner;
+  return made;
 }
 
 /// Of a pen stroke: which of the points were drawn, and not put in between.
@@ -70,14 +72,8 @@ ConstructContour inputOf(const ContourSet& contours, const PieceSet& pieces, con
   input.isStroke = contour.kind == ContourKind::Centreline;
   input.pixelMm = frame.mmPerPx;
   for (std::size_t i = range.first; i < range.last; ++i) {
-    const Piece& piece = pieces.pieces[i];
-    ConstructPiece& made = input.pieces.emplace_back();
-    made.points = pointsToModel(piece.points, frame);
-    if (contour.kind == ContourKind::Pen) made.drawn = drawnPoints(piece);
-    for (const Station& s : segments.pieces[i].stations) made.stations.push_back(stationToModel(s, frame));
-    made.closed = piece.closed;
-    made.startIsCorner = piece.startIsCorner;
-    made.endIsCorner = piece.endIsCorner;
+    input.pieces.push_back(pieceInput(pieces.pieces[i], segments.pieces[i], frame));
+    if (contour.kind == ContourKind::Pen) input.pieces.back().drawn = drawnPoints(pieces.pieces[i]);
   }
   return input;
 }
@@ -106,8 +102,15 @@ class ContourBuilder {
         frame_(frame),
         context_(context),
         wishes_(assignExtremumChoices(pieces, recipe)) {
-    const auto hasMethod = [](const PieceChoice& choice) { return choice.method.has_value(); };
-    if (std::any_of(recipe.choices.begin(), recipe.choices.end(), hasMethod)) choices_ = assignChoices(pieces, recipe);
+    // Only choices with a method compete for a piece here: this stage is not run again when others change.
+    std::copy_if(recipe.choices.begin(), recipe.choices.end(), std::back_inserter(own_.choices),
+                 [](const PieceChoice& choice) { return choice.method.has_value(); });
+    if (!own_.choices.empty()) choices_ = assignChoices(pieces, own_);
+    const auto isTypical = [](const PieceChoice& choice) { return choice.method == ConstructMethod::Typical; };
+    const bool someTypical = recipe.construct.method == ConstructMethod::Typical ||
+                             std::any_of(own_.choices.begin(), own_.choices.end(), isTypical);
+    divisions_ =
+        someTypical ? assignSegmentPoints(pieces, recipe) : std::vector<std::vector<std::size_t>>(pieces.pieces.size());
   }
 
   ContourOutcome build(PieceRange range) const {
@@ -115,7 +118,7 @@ class ContourBuilder {
     if (choices_.empty()) return outcome;
     for (TracedCurve& curve : outcome.curves) {
       const auto& choice = choices_[static_cast<std::size_t>(curve.piece)];
-      if (choice) constructAsChosen(curve, recipe_.choices[*choice]);
+      if (choice) constructAsChosen(curve, *own_.choices[*choice].method);
     }
     return outcome;
   }
@@ -144,7 +147,7 @@ class ContourBuilder {
   Result<std::vector<ConstructedPiece>> constructRange(PieceRange range, const ConstructParams& params) const {
     ConstructContour input = inputOf(contours_, pieces_, segments_, range, frame_);
     for (std::size_t i = range.first; i < range.last; ++i) {
-      input.pieces[i - range.first].divisions = divisionsOf(pieces_, recipe_, frame_, i);
+      input.pieces[i - range.first].divisions = divisionsOf(divisions_[i], recipe_, frame_);
       for (const std::size_t wish : wishes_[i]) {
         const ExtremumChoice& choice = recipe_.extremumChoices[wish];
         const Vec2 place = frame_.pointToModel(choice.positionPx);
@@ -159,10 +162,10 @@ class ContourBuilder {
   }
 
   /// A piece with a method of its own.
-  void constructAsChosen(TracedCurve& curve, const PieceChoice& choice) const {
-    if (!choice.method || *choice.method == recipe_.construct.method) return;
+  void constructAsChosen(TracedCurve& curve, ConstructMethod method) const {
+    if (method == recipe_.construct.method) return;
     ConstructParams params = recipe_.construct;
-    params.method = *choice.method;
+    params.method = method;
     const auto index = static_cast<std::size_t>(curve.piece);
     auto own = constructRange({index, index + 1}, params);
     if (own) {
@@ -203,7 +206,9 @@ class ContourBuilder {
   const Recipe& recipe_;
   const PageFrame& frame_;
   const RunContext& context_;
-  std::vector<std::optional<std::size_t>> choices_;  ///< Per piece, when any curve has a method of its own.
+  Recipe own_;                                       ///< Holds the choices that have a method.
+  std::vector<std::optional<std::size_t>> choices_;  ///< Per piece, when there are such choices: which.
+  std::vector<std::vector<std::size_t>> divisions_;  ///< Per piece, the segment points on it.
   std::vector<std::vector<std::size_t>> wishes_;
 };
 
@@ -279,6 +284,13 @@ void fairOne(TracedCurve& curve, const Piece& piece, const PageFrame& frame, con
 
 }  // namespace
 
+std::vector<Vec2> pointsToModel(const std::vector<Vec2>& points, const PageFrame& frame) {
+  std::vector<Vec2> result;
+  result.reserve(points.size());
+  for (const Vec2& p : points) result.push_back(frame.pointToModel(p));
+  return result;
+}
+
 CurveFigures figuresOf(const NurbsCurve& curve, bool closed, const std::vector<Vec2>& points) {
   CurveFigures figures;
   figures.lengthMm = ArcLength(curve).total();
@@ -292,16 +304,10 @@ CurveFigures figuresOf(const NurbsCurve& curve, bool closed, const std::vector<V
   return figures;
 }
 
-ConstructPiece constructPieceOf(const PieceSet& pieces, const SegmentSet& segments, const Recipe& recipe,
-                                const PageFrame& frame, std::size_t index) {
-  const Piece& piece = pieces.pieces[index];
-  ConstructPiece made;
-  made.points = pointsToModel(piece.points, frame);
-  for (const Station& s : segments.pieces[index].stations) made.stations.push_back(stationToModel(s, frame));
-  made.closed = piece.closed;
-  made.startIsCorner = piece.startIsCorner;
-  made.endIsCorner = piece.endIsCorner;
-  made.divisions = divisionsOf(pieces, recipe, frame, index);
+ConstructPiece typicalPieceOf(const PieceSet& pieces, const SegmentSet& segments, const Recipe& recipe,
+                              const PageFrame& frame, std::size_t index) {
+  ConstructPiece made = pieceInput(pieces.pieces[index], segments.pieces[index], frame);
+  made.divisions = divisionsOf(assignSegmentPoints(pieces, recipe)[index], recipe, frame);
   return made;
 }
 
@@ -372,30 +378,6 @@ Result<FairedSet> fairAll(const ConstructedSet& constructed, const PieceSet& pie
   if (context.isCancelled()) return cancelled();
   roundCorners(set, pieces, recipe, frame);
   return set;
-}
-
-Result<TargetOutcomes> targetsFor(const TracedCurve& curve, const RunContext& context) {
-  if (curve.sketched.isEmpty()) return fail(ErrorCode::NoCurve, "There is no curve to compare with the targets.");
-  try {
-    return fairAllTargets(curve.sketched, curve.closed, curve.fairingUsed, context);
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory,
-                "There is not enough memory for the six targets. Close other programs and try again.");
-  }
-}
-
-std::vector<Result<TargetOutcomes>> targetsForAll(std::span<const TracedCurve> curves, const RunContext& context) {
-  std::vector<TargetsJob> jobs;
-  std::vector<std::size_t> owner;
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (!curves[i].included || curves[i].sketched.isEmpty()) continue;
-    jobs.push_back({curves[i].sketched, curves[i].closed, curves[i].fairingUsed});
-    owner.push_back(i);
-  }
-  std::vector<Result<TargetOutcomes>> results(curves.size(), cancelled());
-  auto outcomes = fairAllTargets(jobs, context);
-  for (std::size_t k = 0; k < owner.size(); ++k) results[owner[k]] = std::move(outcomes[k]);
-  return results;
 }
 
 }  // namespace batten

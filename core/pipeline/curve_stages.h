@@ -5,11 +5,14 @@
 
 namespace batten {
 
+/// Places of the page in the model frame.
+std::vector<Vec2> pointsToModel(const std::vector<Vec2>&, const PageFrame&);
+
 /// Figures of one curve; `points` are the edge points in model mm, in order.
 CurveFigures figuresOf(const NurbsCurve&, bool closed, const std::vector<Vec2>& points);
 
-/// One piece in the model frame, as the constructions take it.
-ConstructPiece constructPieceOf(const PieceSet&, const SegmentSet&, const Recipe&, const PageFrame&, std::size_t piece);
+/// One piece in the model frame, as typical chains take it (they do not ask which points of a stroke were drawn).
+ConstructPiece typicalPieceOf(const PieceSet&, const SegmentSet&, const Recipe&, const PageFrame&, std::size_t piece);
 
 /// Curves of all pieces: image px become model mm here and nowhere else. Contours are constructed side by side; a
 /// contour that fails as a whole is tried piece by piece, and what then fails is listed.

@@ -23,8 +23,8 @@ std::size_t bytesOf(const FilteredImage& image) { return bytesOf(image.ink); }
 std::size_t bytesOf(const ContourSet& set) {
   std::size_t bytes = sizeof(set);
   for (const Contour& c : set.contours) {
-    bytes += sizeof(c) + vectorBytes(c.points) + vectorBytes(c.chain) + vectorBytes(c.refined) + vectorBytes(c.widthPx) +
-             vectorBytes(c.bandPx);
+    bytes += sizeof(c) + vectorBytes(c.points) + vectorBytes(c.chain) + vectorBytes(c.refined) +
+             vectorBytes(c.widthPx) + vectorBytes(c.bandPx);
   }
   return bytes;
 }
@@ -106,7 +106,7 @@ class Run {
   /// The lines of the page, or of the parts of it that the user wants.
   Result<ContourSet> traceRegions() {
     const auto trace = [&](const BitImage& ink) {
-      return traceContours(ink, scan_.grey, *out_.thresholds, recipe_.edges, recipe_.contours, context_);
+      return traceContours(ink, scan_.grey, recipe_.edges, recipe_.contours, context_);
     };
     if (recipe_.regions.empty()) return trace(out_.filtered->ink);
     auto set = trace(inkTouching(out_.filtered->ink, recipe_.regions, context_));
@@ -138,7 +138,7 @@ class Run {
   /// Fills `slot` from the cache or by running `work`; false if the run ends here.
   template <class T, class Work>
   bool step(StageId stage, std::shared_ptr<const T>& slot, const Work& work) {
-    const auto begin = std::chrono::steady_clock::now();
+    begin_ = Clock::now();
     StageTiming& timing = out_.timing[static_cast<std::size_t>(stage)];
     timing.run = true;
     try {
@@ -166,11 +166,17 @@ class Run {
                               "\" failed on this drawing. Change its settings or report it.",
                           e.what()});
     }
-    timing.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    takeTime(stage);
     return true;
   }
 
+  void takeTime(StageId stage) {
+    out_.timing[static_cast<std::size_t>(stage)].milliseconds =
+        std::chrono::duration<double, std::milli>(Clock::now() - begin_).count();
+  }
+
   bool stop(StageId stage, Error error) {
+    takeTime(stage);
     out_.error = std::move(error);
     out_.failedStage = stage;
     return false;
@@ -181,6 +187,8 @@ class Run {
   StageCache& cache_;
   const PipelineRequest& request_;
   const RunContext& context_;
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_;  ///< Of the present stage.
   StageKeys keys_;
   PipelineOutput out_;
 };

@@ -275,6 +275,10 @@ std::string reportToJson(const Scan& scan, const Recipe& recipe, const PipelineO
   for (std::size_t i = 0; out.faired && i < out.faired->curves.size(); ++i)
     curves.push_back(curveToJson(out, extras, i));
   if (out.faired) addComparisons(out, curves);
+  if (curves.size() > kMostCompared) {
+    json["most_alike_note"] = "Curves are compared with each other up to " + std::to_string(kMostCompared) +
+                              "; there are " + std::to_string(curves.size()) + ".";
+  }
   Json& failures = json["failures"] = Json::array();
   if (out.constructed) {
     for (const Error& e : out.constructed->failures) failures.push_back(e.message);

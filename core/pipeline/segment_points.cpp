@@ -8,8 +8,8 @@
 
 namespace batten {
 
-std::vector<std::size_t> segmentPointsOf(const PieceSet& pieces, const Recipe& recipe, std::size_t piece) {
-  std::vector<std::size_t> result;
+std::vector<std::vector<std::size_t>> assignSegmentPoints(const PieceSet& pieces, const Recipe& recipe) {
+  std::vector<std::vector<std::size_t>> assigned(pieces.pieces.size());
   for (std::size_t i = 0; i < recipe.segmentPoints.size(); ++i) {
     const Vec2& place = recipe.segmentPoints[i].positionPx;
     std::size_t owner = pieces.pieces.size();
@@ -22,13 +22,14 @@ std::vector<std::size_t> segmentPointsOf(const PieceSet& pieces, const Recipe& r
         owner = k;
       }
     }
-    if (owner == piece) result.push_back(i);
+    if (owner < assigned.size()) assigned[owner].push_back(i);
   }
-  return result;
+  return assigned;
 }
 
-Result<std::vector<GrowingStep>> growingStepsOf(const PieceSet& pieces, const SegmentSet& segments, const Recipe& recipe,
-                                                const PageFrame& frame, int piece, const RunContext& context) {
+Result<std::vector<GrowingStep>> growingStepsOf(const PieceSet& pieces, const SegmentSet& segments,
+                                                const Recipe& recipe, const PageFrame& frame, int piece,
+                                                const RunContext& context) {
   const auto at = static_cast<std::size_t>(piece);
   if (piece < 0 || at >= pieces.pieces.size() || segments.pieces.size() != pieces.pieces.size()) {
     return fail(ErrorCode::Numerical, "There is no such curve any more.");
@@ -36,7 +37,7 @@ Result<std::vector<GrowingStep>> growingStepsOf(const PieceSet& pieces, const Se
   Recipe grown = recipe;
   grown.construct.method = ConstructMethod::Typical;
   grown.construct.typical = TypicalMode::Growing;
-  return growingSteps(constructPieceOf(pieces, segments, grown, frame, at), frame.mmPerPx, grown.construct, context);
+  return growingSteps(typicalPieceOf(pieces, segments, grown, frame, at), frame.mmPerPx, grown.construct, context);
 }
 
 }  // namespace batten

@@ -8,12 +8,12 @@
 
 namespace batten {
 
-/// The segment points of the recipe that belong to a piece: those to which it is nearest of all pieces, within the
-/// corner reach. Indices into recipe.segmentPoints.
-std::vector<std::size_t> segmentPointsOf(const PieceSet&, const Recipe&, std::size_t piece);
+/// The segment points of every piece: each belongs to the nearest piece within the corner reach. Indices into
+/// recipe.segmentPoints, one list per piece.
+std::vector<std::vector<std::size_t>> assignSegmentPoints(const PieceSet&, const Recipe&);
 
-/// How the typical chain of one curve grows (002 section 6), step by step, in model mm. Works whatever the method of the
-/// recipe is. Empty for lines that nowhere bend clearly. @return Numerical while there is no such piece.
+/// How the typical chain of one curve grows (002 section 6), step by step, in model mm. Works whatever the method of
+/// the recipe is. Empty for lines that nowhere bend clearly. @return Numerical while there is no such piece.
 Result<std::vector<GrowingStep>> growingStepsOf(const PieceSet&, const SegmentSet&, const Recipe&, const PageFrame&,
                                                 int piece, const RunContext&);
 

@@ -15,8 +15,13 @@ void add(HashBuilder& h, const std::optional<double>& v) {
   if (v) h.number(*v);
 }
 void add(HashBuilder& h, const Vec2& p) { h.number(p.x()).number(p.y()); }
+/// Before every list, so that what follows it cannot be taken for more of it.
+template <class T>
+void addCount(HashBuilder& h, const std::vector<T>& list) {
+  h.integer(static_cast<std::int64_t>(list.size()));
+}
 void add(HashBuilder& h, const std::vector<ProfilePoint>& profile) {
-  h.integer(static_cast<int>(profile.size()));
+  addCount(h, profile);
   for (const ProfilePoint& p : profile) h.number(p.fraction).number(p.kappa);
 }
 
@@ -56,10 +61,20 @@ void add(HashBuilder& h, const PieceChoice& c) {
   add(h, c.lowPassMm);
   h.integer(c.keepExtrema.value_or(-2));
   for (const auto* places : {&c.keepPx, &c.splitsPx}) {
-    h.integer(static_cast<int>(places->size()));
+    addCount(h, *places);
     for (const Vec2& p : *places) add(h, p);
   }
   add(h, c.profile);
+}
+
+/// The choices with a method; no others compete for a curve's method.
+void addMethods(HashBuilder& h, const std::vector<PieceChoice>& choices) {
+  h.integer(std::count_if(choices.begin(), choices.end(), [](const PieceChoice& c) { return c.method.has_value(); }));
+  for (const PieceChoice& choice : choices) {
+    if (!choice.method) continue;
+    add(h, choice.anchorPx);
+    h.integer(static_cast<int>(*choice.method));
+  }
 }
 
 ContentHash scanKey(const Scan& scan) {
@@ -89,13 +104,15 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
     case StageId::Contours:
       add(h, r.edges);
       h.number(r.contours.minLengthPx).integer(r.contours.maxCount);
+      addCount(h, r.regions);
       for (const RegionOfInterest& region : r.regions) {
-        h.integer(static_cast<std::int64_t>(region.cornersPx.size()));
+        addCount(h, region.cornersPx);
         for (const Vec2& p : region.cornersPx) add(h, p);
       }
       break;  // the pen strokes come on top, see stageKeys
     case StageId::Pieces:
       h.number(r.corners.snapDistancePx).integer(r.corners.exact);
+      addCount(h, r.cornerMarks);
       for (const CornerMark& mark : r.cornerMarks) add(h, mark.positionPx);
       break;
     case StageId::Segments:
@@ -103,13 +120,11 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
       break;
     case StageId::Curves:
       add(h, r.construct);
-      for (const PieceChoice& choice : r.choices) {
-        if (!choice.method) continue;
-        add(h, choice.anchorPx);
-        h.integer(static_cast<int>(*choice.method));
-      }
+      addMethods(h, r.choices);
       h.number(frame.mmPerPx).integer(frame.heightPx);
+      addCount(h, r.segmentPoints);
       for (const SegmentPoint& point : r.segmentPoints) add(h, point.positionPx);
+      addCount(h, r.extremumChoices);
       for (const ExtremumChoice& choice : r.extremumChoices) {
         add(h, choice.positionPx);
         h.integer(choice.keep);
@@ -117,6 +132,7 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
       break;
     case StageId::Faired:
       add(h, r.fairing);
+      addCount(h, r.choices);
       for (const PieceChoice& choice : r.choices) add(h, choice);
       for (const CornerMark& mark : r.cornerMarks) h.number(mark.roundMm);
       break;
@@ -126,8 +142,10 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
 ContentHash withStrokes(const ContentHash& traced, const Recipe& recipe) {
   HashBuilder h;
   h.text("pen strokes").hash(traced);
+  addCount(h, recipe.penStrokes);
   for (const PenStroke& stroke : recipe.penStrokes) {
-    h.integer(stroke.closed).integer(static_cast<std::int64_t>(stroke.points.size()));
+    h.integer(stroke.closed);
+    addCount(h, stroke.points);
     for (const Vec2& p : stroke.points) add(h, p);
   }
   return h.finish();

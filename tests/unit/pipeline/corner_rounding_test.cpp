@@ -74,6 +74,39 @@ TEST(RoundCorners, TakesAtMostPartOfItsNeighboursAndLeavesSharpOnesAlone) {
   EXPECT_EQ(sharp.set.curves[0].faired, sharp.set.curves[0].sketched);
 }
 
+TEST(RoundCorners, TheFiguresAreThoseOfTheRoundedCurve) {
+  Angle angle(5);
+  const PageFrame frame{200, 100, 0.5};
+  for (std::size_t k = 0; k < 2; ++k) {
+    Piece& piece = angle.pieces.pieces[k];
+    const Vec2 a = piece.points[0], b = piece.points[1];
+    piece.points.clear();
+    for (int i = 0; i < 100; ++i) piece.points.push_back(a + (b - a) * i / 100.0);
+    piece.points.push_back(b);
+    angle.set.curves[k].faired = line(frame.pointToModel(a), frame.pointToModel(b), 5);
+  }
+  roundCorners(angle.set, angle.pieces, angle.recipe, frame);
+  for (const TracedCurve& curve : angle.set.curves) {
+    const double cut = closestPoint(curve.faired, frame.pointToModel({100.0, 0.0})).distance;
+    EXPECT_GT(cut, 1.0);
+    EXPECT_NEAR(curve.fairedFigures.fromPoints.max, cut, 1e-6);
+    EXPECT_EQ(curve.fairedFigures.fromPoints.count, 101);
+    EXPECT_EQ(curve.sketchedFigures.fromPoints.count, 0) << "figures of the sketch are not those of the rounding";
+  }
+}
+
+TEST(RoundCorners, SaysSoEvenWhereFairingHasSaidSomethingElse) {
+  Angle angle(5);
+  // Straight on: there is no corner to round.
+  angle.set.curves[1].faired = line({100, 0}, {180, 0}, 5);
+  angle.set.curves[0].fairing.note = "Left as sketched.";
+  roundCorners(angle.set, angle.pieces, angle.recipe, {});
+  EXPECT_EQ(angle.set.curves[0].fairing.note,
+            "Left as sketched. A corner could not be rounded: its sides do not meet ahead. It stays sharp.");
+  EXPECT_EQ(angle.set.curves[1].fairing.note,
+            "A corner could not be rounded: its sides do not meet ahead. It stays sharp.");
+}
+
 TEST(RecipeFile, KeepsRoundedCornersAndSegmentPoints) {
   Recipe recipe;
   recipe.cornerMarks = {{Vec2(1, 2)}, {Vec2(3, 4), 2.5}};
@@ -93,8 +126,7 @@ TEST(SegmentPoints, BelongToTheNearestPieceWithinReach) {
     for (int i = 0; i <= 100; ++i) piece.points.push_back(a + (b - a) * i / 100.0);
   }
   angle.recipe.segmentPoints = {{Vec2(50, 3)}, {Vec2(97, 40)}, {Vec2(0, 70)}};
-  EXPECT_EQ(segmentPointsOf(angle.pieces, angle.recipe, 0), std::vector<std::size_t>{0});
-  EXPECT_EQ(segmentPointsOf(angle.pieces, angle.recipe, 1), std::vector<std::size_t>{1});
+  EXPECT_EQ(assignSegmentPoints(angle.pieces, angle.recipe), (std::vector<std::vector<std::size_t>>{{0}, {1}}));
 }
 
 }  // namespace

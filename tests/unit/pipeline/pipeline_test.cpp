@@ -180,6 +180,31 @@ TEST(Pipeline, OwnChoicesActOnTheNearestPieceOnly) {
   EXPECT_FALSE(without.faired->curves[1].included);
 }
 
+TEST(Pipeline, TwoChoicesForOnePieceGiveTheSameFromTheCacheAndFromScratch) {
+  StageCache warm;
+  Recipe recipe;
+  const auto plain = run(recipe, warm);
+  ASSERT_FALSE(plain.error);
+  PieceChoice method, nearer;
+  method.anchorPx = anchorOf(plain.pieces->pieces[0]) + Vec2(0.0, 8.0);
+  method.method = ConstructMethod::Bezier;
+  nearer.anchorPx = anchorOf(plain.pieces->pieces[0]);
+  nearer.mode = FairingMode::Tolerance;
+  recipe.choices = {method};
+  ASSERT_FALSE(run(recipe, warm).error);
+  recipe.choices = {method, nearer};
+  const auto cached = run(recipe, warm);
+  ASSERT_FALSE(cached.error);
+  EXPECT_EQ(firstRerun(cached), StageId::Faired) << "what is no method does not construct again";
+  StageCache cold;
+  const auto fresh = run(recipe, cold);
+  ASSERT_FALSE(fresh.error);
+  EXPECT_EQ(cached.faired->curves[0].sketched, fresh.faired->curves[0].sketched);
+  EXPECT_EQ(cached.faired->curves[0].faired, fresh.faired->curves[0].faired);
+  EXPECT_EQ(fresh.faired->curves[0].fairingUsed.mode, FairingMode::Tolerance);
+  EXPECT_FALSE(fresh.faired->curves[0].sketched == plain.faired->curves[0].sketched) << "the method counts, too";
+}
+
 TEST(Pipeline, ARegionTracesOnlyWhatLiesInside) {
   StageCache cache;
   const auto whole = run({}, cache);
@@ -258,6 +283,23 @@ TEST(Report, HoldsStagesCurvesAndTargetsWithoutNaN) {
   EXPECT_NEAR(px * out.frame.mmPerPx, mm, 1e-12);
   EXPECT_EQ(json["peak_memory_bytes"], 123);
   EXPECT_FALSE(curve["fairing"]["stopped"].get<std::string>().empty());
+}
+
+TEST(Report, SaysThatTooManyCurvesAreNotCompared) {
+  StageCache cache;
+  auto out = run({}, cache);
+  ASSERT_FALSE(out.error);
+  const auto report = [&](std::size_t count) {
+    FairedSet many;
+    many.curves.assign(count, out.faired->curves[0]);
+    out.faired = std::make_shared<const FairedSet>(std::move(many));
+    return nlohmann::json::parse(reportToJson(ellipseScan(), {}, out, {}));
+  };
+  const auto few = report(3), more = report(61);
+  EXPECT_FALSE(few.contains("most_alike_note"));
+  EXPECT_TRUE(few["curves"][0].contains("most_alike"));
+  EXPECT_NE(more.value("most_alike_note", "").find("61"), std::string::npos);
+  EXPECT_FALSE(more["curves"][0].contains("most_alike"));
 }
 
 }  // namespace
