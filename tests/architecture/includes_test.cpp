@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -11,6 +12,8 @@
 #include <set>
 #include <string>
 #include <vector>
+
+#include "core/pipeline/parameter_table.h"
 
 namespace {
 
@@ -25,9 +28,9 @@ struct Rule {
 
 /// The allowed arrows. "qt-core", "qt-gui" and "qt-widgets" grow into each other in that order.
 const std::map<std::string, Rule>& rules() {
-  static const std::set<std::string> core = {"core/base",     "core/solve",    "core/image",     "core/contour",
-                                             "core/curve",    "core/construct", "core/fairing",
-                                             "core/pipeline", "core/exchange",  "core/document"};
+  static const std::set<std::string> core = {"core/base",     "core/solve",     "core/image",   "core/contour",
+                                             "core/curve",    "core/construct", "core/fairing", "core/pipeline",
+                                             "core/exchange", "core/document"};
   static const auto with = [](std::set<std::string> folders, std::initializer_list<const char*> more) {
     for (const char* folder : more) folders.insert(folder);
     return folders;
@@ -39,7 +42,8 @@ const std::map<std::string, Rule>& rules() {
       {"core/contour", {{"core/base", "core/image"}, {"eigen", "expected", "opencv"}, {"eigen", "expected"}}},
       {"core/curve", {{"core/base"}, {"eigen", "expected"}, {"eigen", "expected"}}},
       {"core/solve", {{"core/base"}, {"eigen"}, {"eigen"}}},
-      {"core/construct", {{"core/base", "core/solve", "core/contour", "core/curve"}, {"eigen", "expected"}, {"eigen", "expected"}}},
+      {"core/construct",
+       {{"core/base", "core/solve", "core/contour", "core/curve"}, {"eigen", "expected"}, {"eigen", "expected"}}},
       {"core/fairing", {{"core/base", "core/solve", "core/curve"}, {"eigen", "expected"}, {"eigen", "expected"}}},
       {"core/pipeline",
        {{"core/base", "core/solve", "core/image", "core/contour", "core/curve", "core/construct", "core/fairing"},
@@ -48,8 +52,8 @@ const std::map<std::string, Rule>& rules() {
       {"core/exchange",
        {{"core/base", "core/curve"}, {"eigen", "expected", "json", "qt-core", "qt-gui"}, {"eigen", "expected"}}},
       {"core/document",
-       {{"core/base", "core/solve", "core/image", "core/contour", "core/curve", "core/construct", "core/fairing", "core/pipeline",
-         "core/exchange"},
+       {{"core/base", "core/solve", "core/image", "core/contour", "core/curve", "core/construct", "core/fairing",
+         "core/pipeline", "core/exchange"},
         {"eigen", "expected", "json", "qt-core"},
         {"eigen", "expected"}}},
       {"app/cli",
@@ -84,6 +88,7 @@ std::string folderOf(const std::string& path) {
   return parts.size() == 2 ? parts[0] : parts[0] + "/" + parts[1];
 }
 
+/// The family a header belongs to: empty for the standard library and the system, "unknown" for what no rule names.
 std::string libraryOf(const std::string& header) {
   static const std::set<std::string> widgets = {"QApplication", "QMainWindow", "QDialog", "QMessageBox",
                                                 "QFileDialog",  "QLabel",      "QMenu",   "QToolTip"};
@@ -104,7 +109,11 @@ std::string libraryOf(const std::string& header) {
   if (header.size() > 1 && header[0] == 'Q' &&
       (std::isupper(static_cast<unsigned char>(header[1])) != 0 || header[1] == 't'))
     return "qt-core";
-  return "";
+  if (header.starts_with("sys/") || header == "unistd.h") return "";  // the system
+  const bool isStandard = std::all_of(header.begin(), header.end(), [](unsigned char c) {
+    return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_';
+  });
+  return isStandard ? "" : "unknown";
 }
 
 std::vector<fs::path> sources() {
@@ -126,6 +135,32 @@ std::vector<std::string> includesOf(const std::string& text) {
   std::vector<std::string> found;
   for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) found.push_back((*it)[1]);
   return found;
+}
+
+/// The folders of the first cycle found, by depth-first search; empty if there is none.
+std::string cycleFrom(const std::string& folder, const std::map<std::string, std::set<std::string>>& arrows,
+                      std::vector<std::string>& way, std::set<std::string>& done) {
+  if (const auto seen = std::find(way.begin(), way.end(), folder); seen != way.end()) {
+    std::string cycle;
+    for (auto it = seen; it != way.end(); ++it) cycle += *it + " ";
+    return cycle + folder;
+  }
+  if (!arrows.contains(folder) || !done.insert(folder).second) return "";
+  way.push_back(folder);
+  for (const std::string& target : arrows.at(folder)) {
+    if (const std::string cycle = cycleFrom(target, arrows, way, done); !cycle.empty()) return cycle;
+  }
+  way.pop_back();
+  return "";
+}
+
+std::string cycleIn(const std::map<std::string, std::set<std::string>>& arrows) {
+  std::set<std::string> done;
+  for (const auto& [folder, targets] : arrows) {
+    std::vector<std::string> way;
+    if (const std::string cycle = cycleFrom(folder, arrows, way, done); !cycle.empty()) return cycle;
+  }
+  return "";
 }
 
 /// A widget-level Qt class is allowed wherever "qt-widgets" is, and so on down.
@@ -154,6 +189,7 @@ TEST(Architecture, FoldersIncludeOnlyWhatTheirArrowsAllow) {
         const std::string target = folderOf(header);
         EXPECT_TRUE(target == folder || rule.folders.contains(target)) << relative << " includes " << header;
       } else if (const std::string library = libraryOf(header); !library.empty()) {
+        ASSERT_NE(library, "unknown") << relative << " includes <" << header << ">, for which no rule is stated";
         EXPECT_TRUE(allows(rule.libraries, library)) << relative << " includes <" << header << "> (" << library << ")";
         if (file.extension() == ".h") {
           EXPECT_TRUE(allows(rule.inHeaders, library))
@@ -180,11 +216,22 @@ TEST(Architecture, AHeaderIsTheFirstIncludeOfItsSource) {
 }
 
 TEST(Architecture, FoldersHaveNoCycle) {
-  for (const auto& [folder, rule] : rules())
-    for (const std::string& target : rule.folders)
-      if (rules().contains(target)) {
-        EXPECT_FALSE(rules().at(target).folders.contains(folder)) << folder << " and " << target;
-      }
+  std::map<std::string, std::set<std::string>> arrows;
+  for (const auto& [folder, rule] : rules()) arrows[folder] = rule.folders;
+  EXPECT_EQ(cycleIn(arrows), "");
+}
+
+TEST(Architecture, ACycleOfAnyLengthIsFound) {
+  EXPECT_EQ(cycleIn({{"a", {"b", "c"}}, {"b", {"c", "d"}}, {"c", {"d"}}, {"d", {}}}), "");
+  EXPECT_EQ(cycleIn({{"a", {"b"}}, {"b", {"a"}}}), "a b a");
+  EXPECT_EQ(cycleIn({{"a", {"b"}}, {"b", {"c"}}, {"c", {"d"}}, {"d", {"b"}}}), "b c d b");
+}
+
+TEST(Architecture, EveryHeaderBelongsToSomeone) {
+  EXPECT_EQ(libraryOf("boost/version.hpp"), "unknown");
+  EXPECT_EQ(libraryOf("zlib.h"), "unknown");
+  EXPECT_EQ(libraryOf("format"), "");
+  EXPECT_EQ(libraryOf("QVariantAnimation"), "qt-core");
 }
 
 TEST(Architecture, NoUmbrellaHeadersAndNoOutputFromTheEngine) {
@@ -206,11 +253,53 @@ TEST(Architecture, EverySourceNamesItsLicence) {
 
 TEST(Architecture, NoUnitTestIsLeftOutOfTheBuild) {
   // tests/CMakeLists.txt takes unit/<folder>/*.cpp of the folders it lists; anything else would silently not run.
-  const std::set<std::string> listed = {"base",    "image",    "contour",  "curve",   "construct",
-                                        "fairing", "pipeline", "exchange", "document"};
+  const std::set<std::string> listed = {"base",      "solve",   "image",    "contour",  "curve",
+                                        "construct", "fairing", "pipeline", "exchange", "document"};
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests" / "unit")) {
     if (entry.path().extension() != ".cpp") continue;
     const fs::path inner = fs::relative(entry.path(), kRoot / "tests" / "unit");
     EXPECT_TRUE(std::distance(inner.begin(), inner.end()) == 2 && listed.contains(inner.begin()->string())) << inner;
+  }
+}
+
+TEST(Architecture, EveryParameterThatATextNamesExists) {
+  std::string stages;
+  for (const batten::Parameter& p : batten::parameterTable()) {
+    const std::string stage = p.name.substr(0, p.name.find('.'));
+    if (("|" + stages + "|").find("|" + stage + "|") == std::string::npos)
+      stages += (stages.empty() ? "" : "|") + stage;
+  }
+  // Names in the literals of the programs; in the window those beside other words, as a lone word names a widget.
+  const std::regex literal(R"re("((?:[^"\\\n]|\\.)*)")re"), named("\\b(?:" + stages + ")\\.[a-z][a-z0-9_]*");
+  const std::regex include("#include[^\n]*");
+  int found = 0;
+  const auto check = [&](const std::string& text, const std::string& where) {
+    for (std::sregex_iterator it(text.begin(), text.end(), named), end; it != end; ++it, ++found)
+      EXPECT_NE(batten::findParameter(it->str()), nullptr) << where << " names " << it->str() << ": " << text;
+  };
+  for (const fs::path& file : sources()) {
+    const std::string text = std::regex_replace(slurp(file), include, ""),
+                      relative = fs::relative(file, kRoot).generic_string();
+    for (std::sregex_iterator it(text.begin(), text.end(), literal), end; it != end; ++it) {
+      const std::string words = (*it)[1];
+      if (relative.starts_with("ui/") && words.find(' ') == std::string::npos) continue;
+      check(words, relative);
+    }
+  }
+  EXPECT_GT(found, 60);
+}
+
+TEST(Architecture, NoLineOfTheProgramsIsLongerThanTheFormatAllows) {
+  for (const fs::path& file : sources()) {
+    const std::string relative = fs::relative(file, kRoot).generic_string();
+    if (relative.starts_with("core/")) continue;
+    std::ifstream in(file);
+    int number = 0;
+    for (std::string line; std::getline(in, line);) {
+      ++number;
+      // Bytes that continue a UTF-8 character take no place.
+      const auto shown = std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
+      EXPECT_LE(shown, 120) << relative << ":" << number;
+    }
   }
 }

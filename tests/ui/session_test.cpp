@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <QCoreApplication>
 #include <QFile>
+#include <QPointer>
 #include <QSignalSpy>
 #include <QTemporaryDir>
 #include <atomic>
@@ -185,9 +187,17 @@ TEST(EditorSession, ClosesWhileItWorks) {
   session->openScan(path);
   ASSERT_TRUE(waitUntil([&] { return session->hasScan(); }));
   EXPECT_TRUE(session->isBusy());
+  int told = 0;
+  QObject::connect(session.get(), &EditorSession::stageReady, qApp, [&told] { ++told; });
+  const QPointer<EditorSession> watched = session.get();
+  const auto before = told;
   session.reset();
-  QCoreApplication::processEvents();
-  SUCCEED() << "no result arrives at a session that is gone";
+  EXPECT_TRUE(watched.isNull());
+  for (int i = 0; i < 20; ++i) {
+    QCoreApplication::processEvents();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_EQ(told, before) << "no result arrives at a session that is gone";
 }
 
 TEST(EditorSession, TheSelectionStaysWithItsPlace) {

@@ -49,9 +49,11 @@ TEST_P(Banded, AgreesWithTheDenseMatrix) {
   EXPECT_LT((solved - reference).norm(), 1e-9 * reference.norm());
 }
 
-TEST_P(Banded, InverseWithinTheBandEqualsTheDenseInverse) {
+/// Without small cyclic matrices, whose places in the band coincide.
+class BandedInverse : public Banded {};
+
+TEST_P(BandedInverse, WithinTheBandEqualsTheDenseInverse) {
   const auto [n, cyclic] = GetParam();
-  if (cyclic && n < 11) GTEST_SKIP() << "band places of small cyclic matrices coincide";
   const Both m = randomSystem(n, cyclic, 8);
   BandCholesky cholesky;
   ASSERT_TRUE(cholesky.factor(m.band));
@@ -72,6 +74,10 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Banded,
                          testing::Values(std::pair{6, false}, std::pair{7, false}, std::pair{40, false},
                                          std::pair{7, true}, std::pair{11, true}, std::pair{12, true},
                                          std::pair{41, true}));
+
+INSTANTIATE_TEST_SUITE_P(Sizes, BandedInverse,
+                         testing::Values(std::pair{6, false}, std::pair{7, false}, std::pair{40, false},
+                                         std::pair{11, true}, std::pair{12, true}, std::pair{41, true}));
 
 TEST(BandedMatrix, RefusesWhatIsNotPositiveDefinite) {
   BandMatrix m(8, false);

@@ -63,7 +63,7 @@ TEST(RefineOutline, EdgesWithoutBlurAreFreeOfTheBeatOfTheGrid) {
       for (int x = 0; x < kSize; ++x) ink.set(x, y, scan.grey.level(x, y) < 135.0);
     EdgeParams edges;
     edges.mode = EdgeMode::Outline;
-    const auto set = traceContours(ink, scan.grey, {}, edges, {}, {});
+    const auto set = traceContours(ink, scan.grey, edges, {}, {});
     ASSERT_TRUE(set.has_value());
     double square2 = 0.0, worst = 0.0;
     int count = 0;
@@ -95,7 +95,7 @@ TEST(Centreline, StrokesWithoutBlurAreFreeOfTheBeatOfTheGrid) {
       for (int x = 0; x < kSize; ++x) ink.set(x, y, scan.grey.level(x, y) < 135.0);
     EdgeParams edges;
     edges.mode = EdgeMode::Centreline;
-    const auto set = traceContours(ink, scan.grey, {}, edges, {}, {});
+    const auto set = traceContours(ink, scan.grey, edges, {}, {});
     ASSERT_TRUE(set.has_value());
     double worst = 0.0, square = 0.0;
     int count = 0;
