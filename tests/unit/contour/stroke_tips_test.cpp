@@ -27,7 +27,7 @@ TEST(CornerMarks, SharpTipsOfStrokesAreFound) {
       for (int x = 0; x < kSize; ++x) ink.set(x, y, scan.grey.level(x, y) < 0.55 * (255.0 - 115.0 * x / kSize));
     EdgeParams edges;
     edges.mode = EdgeMode::Centreline;
-    const auto set = traceContours(ink, scan.grey, {}, edges, {}, {});
+    const auto set = traceContours(ink, scan.grey, edges, {}, {});
     ASSERT_TRUE(set.has_value());
     for (const double direction : {0.0, 90.0, 200.0}) {
       const std::vector<CornerMark> marks{{tip + 8.0 * Vec2(std::cos(direction * kDeg), std::sin(direction * kDeg))}};
