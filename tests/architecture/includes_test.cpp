@@ -170,6 +170,17 @@ bool allows(const std::set<std::string>& libraries, const std::string& library) 
   return library == "qt-gui" && libraries.contains("qt-widgets");
 }
 
+/// The headers that another folder than their own includes.
+std::set<std::string> headersForOthers() {
+  std::set<std::string> shown;
+  for (const fs::path& file : sources()) {
+    const std::string folder = folderOf(fs::relative(file, kRoot).generic_string());
+    for (const std::string& header : includesOf(slurp(file)))
+      if (folderOf(header) != folder) shown.insert(header);
+  }
+  return shown;
+}
+
 }  // namespace
 
 TEST(Architecture, EveryFolderHasARule) {
@@ -180,6 +191,7 @@ TEST(Architecture, EveryFolderHasARule) {
 }
 
 TEST(Architecture, FoldersIncludeOnlyWhatTheirArrowsAllow) {
+  const std::set<std::string> shown = headersForOthers();
   for (const fs::path& file : sources()) {
     const std::string relative = fs::relative(file, kRoot).generic_string(), folder = folderOf(relative);
     if (!rules().contains(folder)) continue;
@@ -192,7 +204,8 @@ TEST(Architecture, FoldersIncludeOnlyWhatTheirArrowsAllow) {
         ASSERT_NE(library, "unknown") << relative << " includes <" << header << ">, for which no rule is stated";
         EXPECT_TRUE(allows(rule.libraries, library)) << relative << " includes <" << header << "> (" << library << ")";
         if (file.extension() == ".h") {
-          EXPECT_TRUE(allows(rule.inHeaders, library))
+          const bool staysHere = library == "qcustomplot" && !shown.contains(relative);
+          EXPECT_TRUE(staysHere || allows(rule.inHeaders, library))
               << relative << " shows <" << header << "> to whoever includes it";
         }
       }
