@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Takes the pictures of the README from the real window: take_screenshots SAMPLE.png FOLDER
 #include <QApplication>
+#include <QCursor>
 #include <QDir>
 #include <QElapsedTimer>
 #include <QFileInfo>
+#include <QScreen>
 #include <QStandardPaths>
 #include <functional>
 #include <iostream>
@@ -28,7 +30,8 @@ bool waitUntil(const std::function<bool()>& done) {
 void settle(batten::MainWindow& window) {
   QElapsedTimer timer;
   timer.start();
-  waitUntil([&] { return timer.elapsed() > 1000 && !window.session().isBusy() && window.session().targets() != nullptr; });
+  waitUntil(
+      [&] { return timer.elapsed() > 1000 && !window.session().isWorking() && window.session().targets() != nullptr; });
 }
 
 }  // namespace
@@ -49,11 +52,14 @@ int main(int argc, char** argv) {
   window.setThemeChoice(batten::ThemeChoice::Light);
   window.show();
   window.openPath(QFileInfo(arguments[1]).absoluteFilePath());
-  if (!waitUntil([&] { return window.session().hasScan() && !window.session().isBusy() && window.session().targets(); })) {
+  if (!waitUntil(
+          [&] { return window.session().hasScan() && !window.session().isBusy() && window.session().targets(); })) {
     std::cerr << "The sample was not traced in time.\n";
     return 1;
   }
   const auto save = [&](const char* name) {
+    // What is under the pointer would show as hovered.
+    QCursor::setPos(window.screen()->geometry().bottomRight());
     settle(window);
     const QString path = folder.filePath(QString::fromLatin1(name));
     if (!window.grab().save(path)) std::cerr << "Cannot write " << path.toStdString() << '\n';

@@ -72,7 +72,7 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       tr("How far from the selected corner its rounding by two typical curves begins. 0 keeps it sharp.");
   roundingName->setToolTip(roundingHelp);
   rounding_->setToolTip(roundingHelp);
-  rounding_->setObjectName(QStringLiteral("corners.rounding"));
+  rounding_->edit()->setObjectName(QStringLiteral("corners.rounding"));
   rounding_->setRange(0.0, 500.0);
   rounding_->setDecimals(2);
   rounding_->setStep(0.5);

@@ -95,7 +95,7 @@ QString hint(PanelStage stage) {
     case PanelStage::Edges:
       return tr("Lines follow the middle of strokes and the border of shapes.");
     case PanelStage::Corners:
-      return tr("Click a line to mark a corner; click the corner to remove it.");
+      return tr("Click a line to mark a corner; click a corner to select it, again to remove it.");
     case PanelStage::Curves:
       return tr("Click a curve to see its figures.");
     case PanelStage::Fairing:
