@@ -114,8 +114,9 @@ ClosestPoint closestWith(const NurbsCurve& curve, const StartTable& table, const
     if (i == nearest) continue;
     const double before = i == 0 ? 0.0 : (table.points[i] - table.points[i - 1]).norm();
     const double after = i + 1 == n ? 0.0 : (table.points[i + 1] - table.points[i]).norm();
-    const bool lowest =
-        (i == 0 || distances[i] <= distances[i - 1]) && (i + 1 == n || distances[i] <= distances[i + 1]);
+    // Behind a corner another side begins, however the distance changes before it.
+    const bool lowest = table.isKnot[i] != 0 || ((i == 0 || distances[i] <= distances[i - 1]) &&
+                                                 (i + 1 == n || distances[i] <= distances[i + 1]));
     // Within one sample step the distance changes by no more than the arc to the neighbour.
     if (!lowest || distances[i] - 1.5 * std::max(before, after) > best.distance) continue;
     const ClosestPoint other = refine(i);

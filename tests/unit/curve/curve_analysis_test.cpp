@@ -139,6 +139,19 @@ TEST(SampleByArcLength, StepsAreEqual) {
   }
 }
 
+TEST(ClosestPoint, FindsBothSidesOfACorner) {
+  // Two Bezier pieces that meet at an acute corner: a place on one side has samples of the other side near it.
+  const NurbsCurve curve =
+      NurbsCurve::make(
+          5, {0, 0, 0, 0, 0, 0, 20, 20, 20, 20, 20, 40, 40, 40, 40, 40, 40},
+          {{5, 60}, {9, 64}, {13, 66}, {17, 66}, {21, 64}, {25, 60}, {29, 68}, {33, 72}, {37, 74}, {41, 73}, {45, 70}})
+          .value();
+  for (int i = 0; i <= 3000; ++i) {
+    const double u = 40.0 * i / 3000;
+    EXPECT_LT(closestPoint(curve, curve.point(u)).distance, 1e-9) << u;
+  }
+}
+
 TEST(ClosestPoint, NotFartherThanAnyOfManySamples) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> where(-100, 300);
