@@ -69,8 +69,28 @@ std::optional<Edges> edgesOf(const Quintic& q) {
 Quintic withLengths(const Vec2& start, const Edges& edges, std::span<const double> logFactors) {
   Quintic q;
   q[0] = start;
-  for (std::size_t i = 0; i < 5; ++i) q[i + 1] = q[i] + edges.lengths[i] * std::exp(logFactors[i]) * edges.directions[i];
+  for (std::size_t i = 0; i < 5; ++i)
+    q[i + 1] = q[i] + edges.lengths[i] * std::exp(logFactors[i]) * edges.directions[i];
   return q;
+}
+
+/// The nearest lengths whose polygon ends exactly at `end`: what the weight of the pinned end left open. Directions
+/// stay, so that neighbours keep their common tangent. Unchanged for a straight polygon, which cannot be led sideways.
+Quintic endedAt(const Vec2& end, const Quintic& q, const Edges& edges) {
+  const Vec2 gap = end - q[5];
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (const Vec2& d : edges.directions) xx += d.x() * d.x(), xy += d.x() * d.y(), yy += d.y() * d.y();
+  const double determinant = xx * yy - xy * xy;
+  Quintic result = q;
+  if (determinant > 1e-9) {
+    const Vec2 m((yy * gap.x() - xy * gap.y()) / determinant, (xx * gap.y() - xy * gap.x()) / determinant);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const double length = (q[i + 1] - q[i]).norm() + edges.directions[i].dot(m);
+      result[i + 1] = result[i] + length * edges.directions[i];
+    }
+  }
+  result[5] = end;
+  return result;
 }
 
 bool turnsOver(const Edges& edges) {
@@ -155,7 +175,7 @@ EdgeLengthResult followCurvature(std::span<const Quintic> path, const SpecifiedC
       result.iterations += solved.iterations;
       if (solved.why != Termination::Converged) result.why = solved.why;
       if (solved.x.allFinite()) q = withLengths(q[0], *edges, std::span(solved.x.data(), 5));
-      if (options.pinEnds) q[5] = end;
+      if (options.pinEnds) q = endedAt(end, q, *edges);
       shift += q[5] - end;
     }
     result.misfitAfter += squaredMisfit(q, values[k], scale);

@@ -10,14 +10,14 @@
 
 namespace batten {
 
-/// Signed curvature at u in 1/unit, positive when the curve turns left in a frame with y up (conventions.h). Absent where
-/// the first derivative vanishes; never NaN.
+/// Signed curvature at u in 1/unit, positive when the curve turns left in a frame with y up (conventions.h). Absent
+/// where the first derivative vanishes; never NaN.
 std::optional<double> curvature(const NurbsCurve&, double u);
 /// Derivative of the curvature with respect to arc length. Absent where the first derivative vanishes.
 std::optional<double> curvatureSlope(const NurbsCurve&, double u);
 
-/// Arc length as a function of the parameter and back. Gauss-Legendre per polynomial span, subdivided until the relative
-/// change is below 1e-10; inverse by safeguarded Newton.
+/// Arc length as a function of the parameter and back. Gauss-Legendre per polynomial span, subdivided until the
+/// relative change is below 1e-10; inverse by safeguarded Newton.
 class ArcLength {
  public:
   explicit ArcLength(const NurbsCurve&);
@@ -35,9 +35,9 @@ class ArcLength {
 struct CurveSample {
   double u = 0.0, s = 0.0;
   Vec2 point = Vec2::Zero();
-  Vec2 tangent = Vec2::UnitX();   ///< Unit direction of travel.
-  double kappa = 0.0;             ///< 1/unit; 0 where the derivative vanishes.
-  double speed = 0.0;             ///< |R'(u)|.
+  Vec2 tangent = Vec2::UnitX();  ///< Unit direction of travel.
+  double kappa = 0.0;            ///< 1/unit; 0 where the derivative vanishes.
+  double speed = 0.0;            ///< |R'(u)|.
 };
 /// `count` samples at equal arc length, both ends included. @pre count >= 2.
 std::vector<CurveSample> sampleByArcLength(const NurbsCurve&, int count);
@@ -58,7 +58,8 @@ struct Deviation {
 };
 /// @param ordered the points follow the curve from start to end (edge points do): searches locally, much faster.
 Deviation deviation(const NurbsCurve&, std::span<const Vec2> points, bool ordered);
-/// Largest and mean distance between two curves of similar course, sampled at equal arc length of `a` and projected on `b`.
+/// Largest and mean distance between two curves of similar course, sampled at equal arc length of `a` and projected on
+/// `b`.
 Deviation deviation(const NurbsCurve& a, const NurbsCurve& b);
 
 struct CurvatureExtremumPoint {
@@ -74,5 +75,10 @@ std::vector<double> inflections(const NurbsCurve&, double threshold, bool period
 /// Diagonal of the bounding box of the control points; the scale that relative tolerances refer to. > 0 for made curves
 /// that are not a point.
 double extent(const NurbsCurve&);
+
+/// Largest difference between the curvatures of both sides of a joint (a knot inside the curve; closed: the seam too),
+/// relative to the largest curvature at the joints and ends. 0 for a curve with one curvature at every joint (G2), up
+/// to rounding; a joint at which a derivative vanishes does not count. @pre no corner inside the curve.
+double largestCurvatureJump(const NurbsCurve&, bool closed);
 
 }  // namespace batten

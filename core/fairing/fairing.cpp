@@ -141,9 +141,11 @@ Result<FairedCurve> modifyShape(const NurbsCurve& curve, bool closed, const Targ
 }
 
 Result<FairedCurve> fairWithinTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params,
-                                        const RunContext& context) {
-  return withSetup(curve, closed, params,
-                   [&](const FairingSetup& setup) { return fairWithinTolerance(setup, params.toleranceMm, context); });
+                                        const RunContext& context, const FairingLine& line) {
+  return withSetup(curve, closed, params, [&](const FairingSetup& setup) {
+    return params.spend == FairingSpend::All ? fairWithinTolerance(setup, params.toleranceMm, context)
+                                             : fairAsNeeded(setup, params, line, context);
+  });
 }
 
 std::vector<Result<TargetOutcomes>> fairAllTargets(std::span<const TargetsJob> jobs, const RunContext& context) {
@@ -176,14 +178,15 @@ Result<TargetOutcomes> fairAllTargets(const NurbsCurve& curve, bool closed, cons
   return std::move(fairAllTargets(std::span(&job, 1), context).front());
 }
 
-Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingParams& params, const RunContext& context) {
+Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingParams& params, const RunContext& context,
+                         const FairingLine& line) {
   if (const auto error = validate(params)) return fail(*error);
   if (curve.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to make fair.");
   switch (params.mode) {
     case FairingMode::None:
       return unchanged(curve, closed, Termination::NotRun, {});
     case FairingMode::Tolerance:
-      return fairWithinTolerance(curve, closed, params, context);
+      return fairWithinTolerance(curve, closed, params, context, line);
     case FairingMode::Monotone:
       return fairMonotone(curve, closed, params, context);
     case FairingMode::LowPass:

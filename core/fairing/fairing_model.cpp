@@ -8,8 +8,8 @@
 namespace batten {
 namespace {
 
-/// Stiffness against sliding along the curve, in that of the longest wave. Sliding changes no shape, but far slides make the
-/// linear model wrong: it is damped more than moves across the curve, and never quite free.
+/// Stiffness against sliding along the curve, in that of the longest wave. Sliding changes no shape, but far slides
+/// make the linear model wrong: it is damped more than moves across the curve, and never quite free.
 constexpr double kTangentDamping = 1e5, kTangentFloor = 1.0;
 constexpr int kConjugateSteps = 25;
 constexpr double kConjugateTolerance = 1e-3;
@@ -17,7 +17,8 @@ constexpr double kConjugateTolerance = 1e-3;
 LocalRow positionRow(const Vec2& direction, const SpanRow& basis, int degree) {
   LocalRow row;
   row.fill(Vec2::Zero());
-  for (int j = 0; j <= degree; ++j) row[static_cast<std::size_t>(j)] = basis.d[0][static_cast<std::size_t>(j)] * direction;
+  for (int j = 0; j <= degree; ++j)
+    row[static_cast<std::size_t>(j)] = basis.d[0][static_cast<std::size_t>(j)] * direction;
   return row;
 }
 
@@ -28,7 +29,8 @@ struct IntervalRule {
 };
 IntervalRule intervalRule(int k, int count, bool closed) {
   if (closed) {
-    return {{(k + count - 1) % count, k, (k + 1) % count, (k + 2) % count}, {-1.0 / 24, 13.0 / 24, 13.0 / 24, -1.0 / 24}};
+    return {{(k + count - 1) % count, k, (k + 1) % count, (k + 2) % count},
+            {-1.0 / 24, 13.0 / 24, 13.0 / 24, -1.0 / 24}};
   }
   if (k == 0) return {{0, 1, 2, 0}, {5.0 / 12, 8.0 / 12, -1.0 / 12, 0.0}};
   if (k == count - 2) return {{k + 1, k, k - 1, k}, {5.0 / 12, 8.0 / 12, -1.0 / 12, 0.0}};
@@ -37,8 +39,8 @@ IntervalRule intervalRule(int k, int count, bool closed) {
 
 }  // namespace
 
-FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& objective, const FairingCorridor& corridor,
-                           const FairingState& state)
+FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& objective,
+                           const FairingCorridor& corridor, const FairingState& state)
     : setup_(&setup), state_(&state) {
   const int count = setup.sampleCount(), degree = setup.basis.degree(), stride = setup.unknowns.stride();
   const double length = state.arc.length;
@@ -58,7 +60,8 @@ FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& ob
     const CurvatureJet& c = state.curvature[at];
     const Vec2 tangent = state.jets[at][1] / c.speed, normal = leftNormal(tangent);
     const Unknowns& unknowns = setup.unknowns;
-    LocalRow local = profile ? curvatureRow(state.jets[at], basis, degree) : curvatureSlopeRow(state.jets[at], basis, degree);
+    LocalRow local =
+        profile ? curvatureRow(state.jets[at], basis, degree) : curvatureSlopeRow(state.jets[at], basis, degree);
     // A sample that is re-located loses what sliding along the curve would change.
     nonlocal_[i] = profile ? c.slope : c.bend;
     for (int j = 0; j <= degree; ++j) {
@@ -68,11 +71,12 @@ FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& ob
     unknowns.reduce(span, positionRow(normal, basis, degree), &normal_(0, i));
     unknowns.reduce(span, positionRow(tangent, basis, degree), &tangent_(0, i));
     across_[i] = state.normal[at].dot(normal);
-    weight_[i] = profile ? 1.0 / objective.reference / std::sqrt(count) : std::sqrt(length / count) / objective.reference;
+    weight_[i] =
+        profile ? 1.0 / objective.reference / std::sqrt(count) : std::sqrt(length / count) / objective.reference;
     lengthTerm_[i] = profile ? weight_[i] * setup.start.length / (length * length) * objective.wanted[at]
                              : 0.5 * state.residual[i] / length;
     const double e = state.distance[at];
-    corridorGradient[i] = corridor.weight * corridor.weight * e / count;
+    corridorGradient[i] = corridor.weight * corridor.weight * (e - setup.offsetAt(state.feet[at])) / count;
     corridorCurvature_[i] = corridor.weight * corridor.weight / count;
     if (corridor.barrier > 0.0) {
       const double room = corridor.bound * corridor.bound - e * e;
@@ -81,8 +85,8 @@ FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& ob
     }
   }
   const double wave = 2.0 * std::numbers::pi / length;
-  dampingUnit_ = std::pow(wave, profile ? 4.0 : 6.0) * (profile ? 1.0 : length) / (objective.reference * objective.reference) /
-                 count;
+  dampingUnit_ = std::pow(wave, profile ? 4.0 : 6.0) * (profile ? 1.0 : length) /
+                 (objective.reference * objective.reference) / count;
   gradient_ = applyTransposed(state.residual);
   for (int i = 0; i < count; ++i) accumulate(normal_, i, across_[i] * corridorGradient[i], gradient_);
   assemble();
@@ -233,7 +237,8 @@ Eigen::VectorXd FairingModel::applyNormal(const Eigen::VectorXd& v, double dampi
     const auto size = static_cast<Eigen::Index>(index.size());
     const double n = backNormal[i] + (corridorCurvature_[i] * across_[i] * across_[i] + across) * normal[i];
     const double t = along * tangent[i] + (setup_->closed && i == 0 ? shift : 0.0);
-    near.head(size) = backLocal[i] * local_.col(i).head(size) + n * normal_.col(i).head(size) + t * tangent_.col(i).head(size);
+    near.head(size) =
+        backLocal[i] * local_.col(i).head(size) + n * normal_.col(i).head(size) + t * tangent_.col(i).head(size);
     for (Eigen::Index k = 0; k < size; ++k) out[index[static_cast<std::size_t>(k)]] += near[k];
   }
   return out;

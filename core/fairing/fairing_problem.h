@@ -72,6 +72,13 @@ struct FairingSetup {
   EqualArc start;            ///< Sample places on it.
   Unknowns unknowns;
   double extent = 0.0;
+  /// Signed distance of the line's own points from the sketched curve, at its samples (in the mean of those nearby);
+  /// empty when the line is not known: the sketched curve then stands for it.
+  std::vector<double> offsets;
+  /// That distance at a place of the sketched curve.
+  double offsetAt(const SpanPlace& foot) const;
+  /// Where a place of the sketched curve lies among its samples: 0 at the first, 1 at the second, …
+  double sampleAt(const SpanPlace& place) const;
   int sampleCount() const { return static_cast<int>(start.places.size()); }
   double fraction(int sample) const {
     return static_cast<double>(sample) / (closed ? sampleCount() : sampleCount() - 1);

@@ -114,6 +114,32 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
   return std::shared_ptr<const FairingSetup>(std::move(setup));
 }
 
+double FairingSetup::sampleAt(const SpanPlace& place) const {
+  const double u = basis.parameter(place);
+  const auto above =
+      std::upper_bound(start.places.begin(), start.places.end(), u,
+                       [&](double value, const SpanPlace& sample) { return value < basis.parameter(sample); });
+  const int count = sampleCount(), next = static_cast<int>(above - start.places.begin());
+  if (!closed && next == 0) return 0.0;
+  if (!closed && next == count) return count - 1;
+  const double period = original.end() - original.start();
+  const auto parameterOf = [&](int i) {
+    return basis.parameter(start.places[static_cast<std::size_t>((i + count) % count)]);
+  };
+  const double from = parameterOf(next - 1) - (next == 0 ? period : 0.0);
+  const double to = parameterOf(next) + (next == count ? period : 0.0);
+  const double share = to > from ? std::clamp((u - from) / (to - from), 0.0, 1.0) : 0.0;
+  return next - 1 + share + (next == 0 ? count : 0);
+}
+
+double FairingSetup::offsetAt(const SpanPlace& foot) const {
+  if (offsets.empty()) return 0.0;
+  const double x = sampleAt(foot), below = std::floor(x);
+  const std::size_t count = offsets.size(), i = static_cast<std::size_t>(below) % count;
+  const std::size_t next = closed ? (i + 1) % count : std::min(i + 1, count - 1);
+  return offsets[i] + (x - below) * (offsets[next] - offsets[i]);
+}
+
 Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& points) {
   if (!setup.closed) {
     return NurbsCurve::make(setup.original.degree(), {setup.original.knots().begin(), setup.original.knots().end()},
@@ -162,7 +188,8 @@ std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObj
     state.residual[i] = profile ? (state.curvature[at].kappa - setup.start.length / length * objective.wanted[at]) /
                                       objective.reference / std::sqrt(count)
                                 : state.curvature[at].slope * std::sqrt(length / count) / objective.reference;
-    state.total += corridor.weight * corridor.weight * e * e / count;
+    const double miss = e - setup.offsetAt(state.feet[at]);
+    state.total += corridor.weight * corridor.weight * miss * miss / count;
     if (corridor.barrier > 0.0) {
       const double share = e / corridor.bound;
       if (!(std::abs(share) < 1.0)) return std::nullopt;

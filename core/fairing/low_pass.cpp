@@ -28,7 +28,8 @@ TargetProfile smoothedProfile(const FairingSetup& setup, double wavelength) {
   const int nodes = setup.closed ? count + 1 : count;
   const auto at = [&](int i) { return smooth[static_cast<std::size_t>(setup.closed ? (i + count) % count : i)]; };
   for (int i = 0; i < nodes; ++i) {
-    const int before = setup.closed ? i - 1 : std::max(i - 1, 0), after = setup.closed ? i + 1 : std::min(i + 1, count - 1);
+    const int before = setup.closed ? i - 1 : std::max(i - 1, 0),
+              after = setup.closed ? i + 1 : std::min(i + 1, count - 1);
     const double step = setup.fraction(1) * (after - before);
     profile.nodes.push_back({i + 1 == nodes ? 1.0 : setup.fraction(i), at(i), (at(after) - at(before)) / step});
   }
@@ -71,6 +72,12 @@ std::vector<double> lowPass(std::span<const double> values, double spacing, doub
     result[static_cast<std::size_t>(i)] = determinant > 1e-12 * w0 * w0 && std::isfinite(line) ? line : mean;
   }
   return result;
+}
+
+Result<TargetProfile> lowPassedProfile(const NurbsCurve& curve, bool closed, const FairingParams& params) {
+  const auto setup = makeSetup(curve, closed, params);
+  if (!setup) return fail(setup.error());
+  return smoothedProfile(**setup, params.lowPassMm);
 }
 
 Result<FairedCurve> fairByLowPass(const NurbsCurve& curve, bool closed, const FairingParams& params,

@@ -8,15 +8,18 @@
 
 namespace batten {
 
-/// Low-pass of samples at equal distances: local straight lines with Gaussian weights, so that ends and ramps stay where
-/// they are (a plain mean would pull the ends inwards). Inside the data this is a Gaussian filter; a wave of length
-/// `wavelength` keeps half its height.
+/// Low-pass of samples at equal distances: local straight lines with Gaussian weights, so that ends and ramps stay
+/// where they are (a plain mean would pull the ends inwards). Inside the data this is a Gaussian filter; a wave of
+/// length `wavelength` keeps half its height.
 /// @param spacing,wavelength in one unit, > 0.
 /// @param closed the last sample is followed by the first.
 std::vector<double> lowPass(std::span<const double> values, double spacing, double wavelength, bool closed);
 
-/// Towards the sketched curve's curvature over arc length without its short waves (001 section 7: low-pass filtering of the
-/// curvature), as far as the tolerance allows.
+/// That curvature over arc length as a profile. @return what makeSetup says of curves that cannot be made fair.
+Result<TargetProfile> lowPassedProfile(const NurbsCurve&, bool closed, const FairingParams&);
+
+/// Towards the sketched curve's curvature over arc length without its short waves (001 section 7: low-pass filtering of
+/// the curvature), as far as the tolerance allows.
 Result<FairedCurve> fairByLowPass(const NurbsCurve&, bool closed, const FairingParams&, const RunContext&);
 
 }  // namespace batten

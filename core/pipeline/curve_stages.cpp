@@ -2,22 +2,17 @@
 #include "core/pipeline/curve_stages.h"
 
 #include <algorithm>
-#include <atomic>
 #include <iterator>
 #include <new>
 
-#include "core/base/parallel.h"
-#include "core/pipeline/corner_rounding.h"
 #include "core/pipeline/segment_points.h"
+#include "core/pipeline/stage_items.h"
 
 namespace batten {
 namespace {
 
 /// Prominence of a counted curvature extremum, in units of 1 / extent of the curve.
 constexpr double kExtremumProminence = 5e-3;
-
-/// Share of the length below which a part of a split curve is none.
-constexpr double kLeastPart = 1e-3;
 
 Station stationToModel(const Station& s, const PageFrame& frame) {
   return {frame.pointToModel(s.point), frame.vectorToModel(s.direction).normalized(), frame.pointToModel(s.from),
@@ -212,76 +207,6 @@ class ContourBuilder {
   std::vector<std::vector<std::size_t>> wishes_;
 };
 
-/// Many items fill the threads, and each alone stays on its own; of a few the longest would keep one busy and the
-/// others waiting.
-RunContext itemContext(const RunContext& context, std::size_t items) {
-  constexpr std::size_t kMany = 4;  // a thread
-  RunContext inner = context;
-  inner.progress = nullptr;
-  if (items >= kMany * static_cast<std::size_t>(threadCount(context))) inner.threads = 1;
-  return inner;
-}
-
-/// Runs `work(i)` for all items, with the stage's progress.
-template <class Work>
-void forEachItem(const RunContext& context, std::size_t items, const Work& work) {
-  std::atomic<std::size_t> done{0};
-  parallelFor(context, static_cast<int>(items), 1, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      work(static_cast<std::size_t>(i));
-      context.report(static_cast<double>(++done) / static_cast<double>(items));
-    }
-  });
-}
-
-/// Places on the page as ascending shares of the curve's arc length.
-std::vector<double> fractionsOf(const std::vector<Vec2>& placesPx, const NurbsCurve& curve, const PageFrame& frame) {
-  std::vector<double> fractions;
-  if (placesPx.empty() || curve.isEmpty()) return fractions;
-  const ArcLength arc(curve);
-  if (!(arc.total() > 0.0)) return fractions;
-  for (const Vec2& place : placesPx) {
-    const double s = arc.at(closestPoint(curve, frame.pointToModel(place)).u);
-    fractions.push_back(std::clamp(s / arc.total(), 0.0, 1.0));
-  }
-  std::sort(fractions.begin(), fractions.end());
-  fractions.erase(std::unique(fractions.begin(), fractions.end()), fractions.end());
-  return fractions;
-}
-
-FairingParams paramsFor(const std::optional<std::size_t>& choice, const Recipe& recipe, const NurbsCurve& curve,
-                        const PageFrame& frame) {
-  FairingParams params = recipe.fairing;
-  if (!choice) return params;
-  const PieceChoice& own = recipe.choices[*choice];
-  if (own.mode) params.mode = *own.mode;
-  if (own.target) params.target = *own.target;
-  if (own.toleranceMm) params.toleranceMm = *own.toleranceMm;
-  if (own.lowPassMm) params.lowPassMm = *own.lowPassMm;
-  if (own.keepExtrema) params.keepExtrema = *own.keepExtrema;
-  if (!own.profile.empty()) params.profile = own.profile;
-  params.keptAt = fractionsOf(own.keepPx, curve, frame);
-  params.targets.splits = fractionsOf(own.splitsPx, curve, frame);
-  // A split at an end of the curve parts nothing.
-  std::erase_if(params.targets.splits, [](double f) { return f < kLeastPart || f > 1.0 - kLeastPart; });
-  return params;
-}
-
-void fairOne(TracedCurve& curve, const Piece& piece, const PageFrame& frame, const RunContext& context) {
-  curve.faired = curve.sketched;
-  curve.fairedFigures = curve.sketchedFigures;
-  if (!curve.included || curve.fairingUsed.mode == FairingMode::None) return;
-  auto result = fair(curve.sketched, curve.closed, curve.fairingUsed, context);
-  if (!result) {
-    curve.fairing.why = Termination::Degenerate;
-    curve.fairing.note = "Left as sketched: " + result.error().message;
-    return;
-  }
-  curve.faired = result->curve;
-  curve.fairing = std::move(result->report);
-  curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(piece.points, frame));
-}
-
 }  // namespace
 
 std::vector<Vec2> pointsToModel(const std::vector<Vec2>& points, const PageFrame& frame) {
@@ -300,6 +225,7 @@ CurveFigures figuresOf(const NurbsCurve& curve, bool closed, const std::vector<V
   if (size > 0.0) {
     figures.extrema = static_cast<int>(curvatureExtrema(curve, kExtremumProminence / size, closed).size());
     figures.inflections = static_cast<int>(inflections(curve, kExtremumProminence / size, closed).size());
+    figures.curvatureJump = largestCurvatureJump(curve, closed);
   }
   return figures;
 }
@@ -361,23 +287,6 @@ Result<std::vector<TracedCurve>> constructLine(const PipelineOutput& out, const 
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "There is not enough memory to construct this line.");
   }
-}
-
-Result<FairedSet> fairAll(const ConstructedSet& constructed, const PieceSet& pieces, const Recipe& recipe,
-                          const PageFrame& frame, const RunContext& context) {
-  const auto choices = assignChoices(pieces, recipe);
-  FairedSet set{constructed.curves};
-  const RunContext inner = itemContext(context, set.curves.size());
-  forEachItem(context, set.curves.size(), [&](std::size_t i) {
-    TracedCurve& curve = set.curves[i];
-    const auto piece = static_cast<std::size_t>(curve.piece);
-    curve.included = !choices[piece] || recipe.choices[*choices[piece]].included;
-    curve.fairingUsed = paramsFor(choices[piece], recipe, curve.sketched, frame);
-    fairOne(curve, pieces.pieces[piece], frame, inner);
-  });
-  if (context.isCancelled()) return cancelled();
-  roundCorners(set, pieces, recipe, frame);
-  return set;
 }
 
 }  // namespace batten

@@ -22,6 +22,7 @@ Result<ConstructedSet> constructAll(const ContourSet&, const PieceSet&, const Se
 
 /// Fairs every included curve by the recipe or its own choice. A curve that cannot be faired keeps its sketched shape
 /// and its report says why.
-Result<FairedSet> fairAll(const ConstructedSet&, const PieceSet&, const Recipe&, const PageFrame&, const RunContext&);
+Result<FairedSet> fairAll(const ConstructedSet&, const ContourSet&, const PieceSet&, const Recipe&, const PageFrame&,
+                          const RunContext&);
 
 }  // namespace batten

@@ -107,7 +107,8 @@ void appendControlPolygon(std::vector<Parameter>& table) {
   table.push_back(choice<SharpKnots>(
       kCurves,
       {"construct.knots", "Knots at corners", "",
-       "Control polygon: degree equal knots make a sharp corner. As many as the order, as in the paper, break the curve "
+       "Control polygon: degree equal knots make a sharp corner. As many as the order, as in the paper, break the "
+       "curve "
        "there."},
       {{"degree", "As the degree", SharpKnots::Degree}, {"order", "As the order (paper)", SharpKnots::Order}},
       [](auto& r) -> auto& { return r.construct.knots; }));
@@ -173,7 +174,8 @@ void appendConstruct(std::vector<Parameter>& table) {
   table.push_back(real(
       kCurves,
       {"construct.growing_stop", "Stop growing at", "°",
-       "Grown typical curves: a segment ends where its normal leaves that of the line by this. Larger: longer segments."},
+       "Grown typical curves: a segment ends where its normal leaves that of the line by this. Larger: longer "
+       "segments."},
       {0.2, 20.0, 0.1, 1, true}, [](auto& r) -> auto& { return r.construct.growingStopDeg; }));
   table.push_back(boolean(
       kCurves,
@@ -210,12 +212,12 @@ Parameter holdParameter(Words words, Field field) {
 }
 
 Parameter profileParameter() {
-  Parameter p = described(
-      StageId::Faired,
-      {"fairing.profile", "Drawn profile", "",
-       "Target drawn: share of the length 0 to 1 and curvature in 1/mm, as in \"0:0.01 0.5:0.02 1:0.01\"; a smooth curve "
-       "joins them."},
-      ParameterType::Text);
+  Parameter p = described(StageId::Faired,
+                          {"fairing.profile", "Drawn profile", "",
+                           "Target drawn: share of the length 0 to 1 and curvature in 1/mm, as in \"0:0.01 0.5:0.02 "
+                           "1:0.01\"; a smooth curve "
+                           "joins them."},
+                          ParameterType::Text);
   p.get = [](const Recipe& r) { return profileToText(r.fairing.profile); };
   p.set = [name = p.name](Recipe& r, std::string_view text) -> Result<void> {
     auto profile = profileFromText(text);
@@ -231,7 +233,8 @@ void appendFairing(std::vector<Parameter>& table) {
   table.push_back(choice<FairingMode>(
       kFaired,
       {"fairing.mode", "Fairing", "",
-       "Off; towards a curvature profile; as even as the tolerance allows; curvature monotone between few extrema; or without "
+       "Off; towards a curvature profile; as even as the tolerance allows; curvature monotone between few extrema; or "
+       "without "
        "its short waves."},
       {{"none", "Off", FairingMode::None},
        {"target", "Target profile", FairingMode::Target},
@@ -242,7 +245,8 @@ void appendFairing(std::vector<Parameter>& table) {
   table.push_back(choice<int>(
       kFaired,
       {"fairing.target", "Target", "",
-       "Degree of the curvature profile; auto takes the recommended one, drawn the user's own (fairing.profile). A larger "
+       "Degree of the curvature profile; auto takes the recommended one, drawn the user's own (fairing.profile). A "
+       "larger "
        "degree follows the sketch closer."},
       {{"auto", "Recommended", 0},
        {"1", "Degree 1", 1},
@@ -258,11 +262,25 @@ void appendFairing(std::vector<Parameter>& table) {
       {"fairing.tolerance", "Tolerance", "mm",
        "Farthest the faired curve may leave the sketched one. Larger: fairer, less faithful."},
       {0.001, 20.0, 0.01, 3, true}, [](auto& r) -> auto& { return r.fairing.toleranceMm; }));
+  table.push_back(choice<FairingSpend>(
+      kFaired,
+      {"fairing.spend", "Use the tolerance", "",
+       "Within tolerance: until no wave is left that the line does not prove, or all of it, whatever was drawn."},
+      {{"needed", "As needed", FairingSpend::AsNeeded}, {"all", "All of it", FairingSpend::All}},
+      [](auto& r) -> auto& { return r.fairing.spend; }));
+  table.push_back(choice<FairingMeans>(
+      kFaired,
+      {"fairing.moves", "Move", "",
+       "Target and low-pass: all control points, or only the lengths of the edges of a Bézier path, whose directions "
+       "stay."},
+      {{"points", "Control points", FairingMeans::ControlPoints}, {"edges", "Edge lengths", FairingMeans::EdgeLengths}},
+      [](auto& r) -> auto& { return r.fairing.means; }));
   table.push_back(profileParameter());
   table.push_back(integer(
       kFaired,
       {"fairing.keep_extrema", "Extrema to keep", "",
-       "Monotone: places where the curvature may turn back; 0 is monotone from end to end, -1 as few as the tolerance allows."},
+       "Monotone: places where the curvature may turn back; 0 is monotone from end to end, -1 as few as the tolerance "
+       "allows."},
       {-1, 99, 1}, [](auto& r) -> auto& { return r.fairing.keepExtrema; }));
   table.push_back(real(
       kFaired,

@@ -97,8 +97,9 @@ class Run {
           return constructAll(*out_.contours, *out_.pieces, *out_.segments, recipe_, out_.frame, context_);
         });
       case StageId::Faired:
-        return step(stage, out_.faired,
-                    [&] { return fairAll(*out_.constructed, *out_.pieces, recipe_, out_.frame, context_); });
+        return step(stage, out_.faired, [&] {
+          return fairAll(*out_.constructed, *out_.contours, *out_.pieces, recipe_, out_.frame, context_);
+        });
     }
     return false;
   }

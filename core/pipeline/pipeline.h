@@ -30,6 +30,8 @@ struct CurveFigures {
   Deviation fromPoints;  ///< [mm] edge points from the curve.
   int extrema = 0;       ///< Curvature extrema of prominence >= 5e-3 / extent.
   int inflections = 0;
+  double curvatureJump =
+      0.0;  ///< [-] Largest at a joint, relative to the largest curvature at joints (largestCurvatureJump).
 };
 
 /// One curve from corner to corner (or a smooth closed one), sketched and faired. Model frame, mm.

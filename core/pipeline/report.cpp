@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "core/fairing/curve_comparison.h"
 #include "core/pipeline/parameter_table.h"
@@ -33,17 +33,22 @@ Json figuresToJson(const CurveFigures& f, const PageFrame& frame) {
           {"control_points", f.controlPoints},
           {"deviation_from_points", deviationToJson(f.fromPoints, frame)},
           {"curvature_extrema", f.extrema},
-          {"inflections", f.inflections}};
+          {"inflections", f.inflections},
+          {"curvature_jump_at_joints", number(f.curvatureJump)}};
 }
 
 Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
-  Json json{{"stopped", name(r.why)},  {"note", r.note},      {"noise_px", number(r.noisePx)},
+  Json json{{"stopped", name(r.why)},
+            {"note", r.note},
+            {"noise_px", number(r.noisePx)},
             {"noise_um", number(1000.0 * frame.lengthToModel(r.noisePx))},
             {"control_points_before_sparing", r.fullControlPoints},
             {"moved_by_sparing_px", number(r.reducedMovedPx)},
             {"moved_by_sparing_um", number(1000.0 * frame.lengthToModel(r.reducedMovedPx))},
 
-            {"is_circle", r.isCircle}, {"is_line", r.isLine}, {"extrema", Json::array()}};
+            {"is_circle", r.isCircle},
+            {"is_line", r.isLine},
+            {"extrema", Json::array()}};
   if (r.pointsBefore > 0) {
     json["polygon_points"] = {{"before", r.pointsBefore}, {"after", r.pointsAfter}, {"added", r.pointsAdded}};
   }
@@ -79,6 +84,7 @@ Json fairingToJson(const FairingReport& r) {
           {"max_deviation_mm", number(r.maxDeviationMm)},
           {"needed_mm", number(r.neededMm)},
           {"within_budget", r.withinBudget},
+          {"noise_of_points_mm", number(r.noiseMm)},
           {"curvature_extrema_before", r.extremaBefore},
           {"curvature_extrema_after", r.extremaAfter}};
 }
@@ -121,7 +127,9 @@ Json choiceToJson(const TracedCurve& c) {
           {"keep_extrema", c.fairingUsed.keepExtrema},
           {"keep_at", c.fairingUsed.keptAt},
           {"low_pass_mm", c.fairingUsed.lowPassMm},
-          {"tolerance_mm", c.fairingUsed.toleranceMm}};
+          {"tolerance_mm", c.fairingUsed.toleranceMm},
+          {"spend", wordOf(c.fairingUsed, "fairing.spend")},
+          {"moves", wordOf(c.fairingUsed, "fairing.moves")}};
 }
 
 const char* kindName(ContourKind kind) {
@@ -179,12 +187,10 @@ void addComparisons(const PipelineOutput& out, Json& curves) {
       other = j;
     }
     if (!best) continue;
-    curves[i]["most_alike"] = {{"index", static_cast<int>(other)},
-                               {"similarity", number(best->similarity)},
-                               {"pearson", number(best->pearson)},
-                               {"curvature_similarity", number(best->curvatureSimilarity)},
-                               {"mirrored", best->mirrored},
-                               {"reversed", best->reversed}};
+    curves[i]["most_alike"] = {
+        {"index", static_cast<int>(other)}, {"similarity", number(best->similarity)},
+        {"pearson", number(best->pearson)}, {"curvature_similarity", number(best->curvatureSimilarity)},
+        {"mirrored", best->mirrored},       {"reversed", best->reversed}};
   }
 }
 

@@ -12,9 +12,7 @@
 #include <vector>
 
 #include "core/construct/construct.h"
-#include "core/construct/quintic_pieces.h"
 #include "core/curve/curve_analysis.h"
-#include "core/curve/knot_operations.h"
 #include "core/fairing/fairing.h"
 #include "core/pipeline/parameter_table.h"
 #include "tests/support/method_truths.h"
@@ -31,16 +29,18 @@ struct Method {
 };
 
 std::vector<Method> methods() {
-  return {{"fair", {"construct.method=fair"}},
-          {"nurbs", {"construct.method=nurbs"}},
-          {"nurbs+tolerance", {"construct.method=nurbs", "fairing.mode=tolerance", "fairing.tolerance=0.5"}},
-          {"nurbs+target", {"construct.method=nurbs", "fairing.mode=target", "fairing.tolerance=0.5"}},
-          {"nurbs+monotone", {"construct.method=nurbs", "fairing.mode=monotone", "fairing.tolerance=0.5"}},
-          {"nurbs+lowpass", {"construct.method=nurbs", "fairing.mode=lowpass", "fairing.tolerance=0.5"}},
-          {"bezier", {"construct.method=bezier"}},
-          {"typical", {"construct.method=typical"}},
-          {"typical-growing", {"construct.method=typical", "construct.typical=growing"}},
-          {"control-polygon", {"construct.method=control-polygon"}}};
+  return {
+      {"fair", {"construct.method=fair"}},
+      {"nurbs", {"construct.method=nurbs"}},
+      {"nurbs+tolerance", {"construct.method=nurbs", "fairing.mode=tolerance", "fairing.tolerance=0.5"}},
+      {"nurbs+all", {"construct.method=nurbs", "fairing.mode=tolerance", "fairing.tolerance=0.5", "fairing.spend=all"}},
+      {"nurbs+target", {"construct.method=nurbs", "fairing.mode=target", "fairing.tolerance=0.5"}},
+      {"nurbs+monotone", {"construct.method=nurbs", "fairing.mode=monotone", "fairing.tolerance=0.5"}},
+      {"nurbs+lowpass", {"construct.method=nurbs", "fairing.mode=lowpass", "fairing.tolerance=0.5"}},
+      {"bezier", {"construct.method=bezier"}},
+      {"typical", {"construct.method=typical"}},
+      {"typical-growing", {"construct.method=typical", "construct.typical=growing"}},
+      {"control-polygon", {"construct.method=control-polygon"}}};
 }
 
 /// A program that does not know a fairing way yet leaves its row out.
@@ -65,23 +65,6 @@ ConstructContour contourOf(const std::vector<Vec2>& points, const SegmentParams&
   return contour;
 }
 
-/// Largest difference of curvature of both sides of a joint, relative to the largest curvature.
-double largestJump(const NurbsCurve& curve) {
-  const auto pieces = bezierPieces(curve);
-  if (!pieces || curve.degree() != 5) return 0.0;
-  double jump = 0.0, largest = 0.0;
-  std::optional<double> before;
-  for (const auto& piece : *pieces) {
-    Quintic q;
-    std::copy(piece.controlPoints.begin(), piece.controlPoints.end(), q.begin());
-    const auto start = startCurvature(q), end = endCurvature(q);
-    if (before && start) jump = std::max(jump, std::abs(*start - *before));
-    if (start) largest = std::max(largest, std::abs(*start));
-    before = end;
-  }
-  return largest > 0.0 ? jump / largest : 0.0;
-}
-
 struct Outcome {
   double rms = 0, max = 0, kappa = 0, jump = 0, ms = 0;
   int extrema = 0, controlPoints = 0, notMonotone = 0, typical = 0;
@@ -99,9 +82,11 @@ Outcome measure(const OpenTruth& truth, const Recipe& recipe, double noise, unsi
   }
   NurbsCurve curve = made->front().curve;
   if (recipe.fairing.mode != FairingMode::None) {
-    const auto faired = fair(curve, false, recipe.fairing, {});
-    if (faired) curve = faired->curve;
-    else out.problem = faired.error().message;
+    const auto faired = fair(curve, false, recipe.fairing, {}, FairingLine{contour.pieces[0].points, 1.0});
+    if (faired)
+      curve = faired->curve;
+    else
+      out.problem = faired.error().message;
   }
   out.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   const Deviation away = deviation(curve, truth.points, true);
@@ -110,13 +95,14 @@ Outcome measure(const OpenTruth& truth, const Recipe& recipe, double noise, unsi
   const auto samples = sampleByArcLength(curve, 1001);
   double misfit = 0.0, size = 0.0;
   for (std::size_t i = 50; i <= 950; ++i) {
-    const auto at = static_cast<std::size_t>(static_cast<double>(i) / 1000.0 * static_cast<double>(truth.kappa.size() - 1));
+    const auto at =
+        static_cast<std::size_t>(static_cast<double>(i) / 1000.0 * static_cast<double>(truth.kappa.size() - 1));
     misfit += std::pow(samples[i].kappa - truth.kappa[at], 2);
     size += std::pow(truth.kappa[at], 2);
   }
   out.kappa = std::sqrt(misfit / size);
   out.extrema = static_cast<int>(curvatureExtrema(curve, 5e-3 / extent(curve), false).size());
-  out.jump = largestJump(curve);
+  out.jump = largestCurvatureJump(curve, false);
   out.controlPoints = curve.controlPointCount();
   for (const SegmentNote& note : made->front().report.segments) {
     out.typical += note.typical;
@@ -160,8 +146,9 @@ int main(int argc, char** argv) {
     Vec2 low = truth.points.front(), high = low;
     for (const Vec2& p : truth.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
     const int trueExtrema = countExtrema(truth.kappa, 5e-3 / (high - low).norm(), false);
-    std::printf("\n%s, noise %.2f px, %d seeds, %d extrema\n%-16s %8s %8s %8s %9s %9s %7s %9s %8s\n", truth.name.c_str(), noise,
-                seeds, trueExtrema, "method", "rms px", "max px", "kappa", "false ex", "missed", "points", "jump", "ms");
+    std::printf("\n%s, noise %.2f px, %d seeds, %d extrema\n%-16s %8s %8s %8s %9s %9s %7s %9s %8s\n",
+                truth.name.c_str(), noise, seeds, trueExtrema, "method", "rms px", "max px", "kappa", "false ex",
+                "missed", "points", "jump", "ms");
     for (Method method : methods()) {
       if (!isIn(wanted, method.name)) continue;
       Recipe recipe;
@@ -183,12 +170,13 @@ int main(int argc, char** argv) {
         notMonotone += one.notMonotone;
         typical += one.typical;
         if (each) {
-          std::printf("    seed %2d %8.4f %8.3f %8.3f  extrema %d  points %d  %.1f ms %s\n", seed, one.rms, one.max, one.kappa,
-                      one.extrema, one.controlPoints, one.ms, one.problem.c_str());
+          std::printf("    seed %2d %8.4f %8.3f %8.3f  extrema %d  points %d  %.1f ms %s\n", seed, one.rms, one.max,
+                      one.kappa, one.extrema, one.controlPoints, one.ms, one.problem.c_str());
         }
       }
       std::printf("%-16s %8.4f %8.3f %8.3f %9d %9d %7.0f %9.1e %8.1f", method.name.c_str(), median(rms), median(max),
-                  median(kappa), extra, missed, median(points), *std::max_element(jump.begin(), jump.end()), median(ms));
+                  median(kappa), extra, missed, median(points), *std::max_element(jump.begin(), jump.end()),
+                  median(ms));
       if (typical > 0) std::printf("  %.1f typical, %d not monotone", typical / double(seeds), notMonotone);
       if (failed > 0) std::printf("  %d failed", failed);
       std::printf("\n");

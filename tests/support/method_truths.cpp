@@ -10,6 +10,7 @@ namespace batten::test {
 namespace {
 
 constexpr double kStep = 0.25;
+constexpr std::size_t kStride = 4;
 
 /// By its curvature over arc length: circular arcs of 1/40 of a step would change the tenth digit.
 OpenTruth fromProfile(std::string name, double length, const std::function<double(double)>& kappaAt) {
@@ -59,6 +60,11 @@ std::vector<OpenTruth> openTruths() {
   all.push_back(fromCourse("roof", 0.0, 900.0, [](double x) {
     return Vec2(x, 60 * std::exp(-std::pow((x - 300) / 120, 2)) + 40 * std::exp(-std::pow((x - 650) / 90, 2)));
   }));
+  // The last point is one that is seen: a line is not measured where nothing was said of it.
+  for (OpenTruth& truth : all) {
+    truth.points.resize((truth.points.size() - 1) / kStride * kStride + 1);
+    truth.kappa.resize(truth.points.size());
+  }
   return all;
 }
 
@@ -66,7 +72,7 @@ std::vector<Vec2> noisyPoints(const OpenTruth& truth, double noisePx, unsigned s
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, noisePx);
   std::vector<Vec2> points;
-  for (std::size_t i = 0; i < truth.points.size(); i += 4) {
+  for (std::size_t i = 0; i < truth.points.size(); i += kStride) {
     const double x = normal(random), y = normal(random);
     points.push_back(truth.points[i] + Vec2(x, y));
   }

@@ -45,6 +45,8 @@ class FairingPanel : public QWidget {
   ParameterRow* budget_;
   ParameterRow* keep_;
   ParameterRow* wavelength_;
+  ParameterRow* spend_;
+  ParameterRow* moves_;
   ParameterEditor* editor_;
   QLabel* note_;
   QPushButton* raise_;

@@ -261,5 +261,24 @@ TEST(Inflections, CubicAndClosedEight) {
   EXPECT_TRUE(inflections(test::circle(5, {0, 0}), 1e-6, true).empty());
 }
 
+TEST(CurvatureJump, IsTheDifferenceAtAJointOverTheLargestCurvature) {
+  // Two quadratic pieces that meet at (1, 0) along the x axis: curvature at the joint is half the height over the
+  // square of the edge, 0.5 on one side and 1 on the other; at the ends of the first 0.5 / (edge ratio 1) as well.
+  const auto curve = NurbsCurve::make(2, {0, 0, 0, 1, 1, 2, 2, 2}, {{-1, 1}, {0, 0}, {1, 0}, {2, 0}, {3, 2}});
+  ASSERT_TRUE(curve);
+  double largest = 0.0, before = 0.0, after = 0.0;
+  for (const double u : {0.0, 1.0 - 1e-9, 1.0, 2.0 - 1e-9}) {
+    const double kappa = curvature(*curve, u).value();
+    largest = std::max(largest, std::abs(kappa));
+    if (u == 1.0) after = kappa;
+    if (u > 0.5 && u < 1.0) before = kappa;
+  }
+  ASSERT_GT(std::abs(after - before), 0.1);
+  EXPECT_NEAR(largestCurvatureJump(*curve, false), std::abs(after - before) / largest, 1e-6);
+  EXPECT_LT(largestCurvatureJump(ellipse(3.0, 2.0, 40, 0.3), false), 1e-9);
+  const NurbsCurve open = parabola(2.0, 1.0);
+  EXPECT_EQ(largestCurvatureJump(open, false), 0.0);
+}
+
 }  // namespace
 }  // namespace batten

@@ -9,6 +9,7 @@
 
 #include "core/curve/curve_analysis.h"
 #include "core/fairing/fairing.h"
+#include "core/pipeline/edge_length_fairing.h"
 #include "core/pipeline/parameter_table.h"
 
 namespace batten {
@@ -76,6 +77,17 @@ std::vector<Way> constructions() {
   return all;
 }
 
+std::vector<Way> fairings() {
+  std::vector<Way> all;
+  for (const std::string& word : wordsOf("fairing.mode")) {
+    if (word != "none") all.push_back({word, {"fairing.mode=" + word}});
+  }
+  all.push_back({"whole tolerance", {"fairing.mode=tolerance", "fairing.spend=all"}});
+  all.push_back({"edge lengths", {"fairing.mode=target", "fairing.moves=edges"}});
+  all.push_back({"edge lengths, low pass", {"fairing.mode=lowpass", "fairing.moves=edges"}});
+  return all;
+}
+
 Recipe recipeOf(const Way& way) {
   Recipe recipe;
   for (const std::string& setting : way.settings) {
@@ -130,8 +142,7 @@ TEST_P(RandomLines, GiveSoundCurvesInEveryWay) {
   std::mt19937 random(static_cast<unsigned>(1000 + GetParam()));
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const auto ways = constructions();
-  std::vector<std::string> modes = wordsOf("fairing.mode");
-  std::erase(modes, "none");
+  const std::vector<Way> modes = fairings();
   for (int trial = 0; trial < 100; ++trial) {
     ConstructContour contour;
     contour.pieces.push_back(randomPiece(random));
@@ -146,13 +157,14 @@ TEST_P(RandomLines, GiveSoundCurvesInEveryWay) {
     for (std::size_t i = 0; i < modes.size(); ++i) {
       // The curves take turns: every mode meets every construction.
       const NurbsCurve& curve = curves[(static_cast<std::size_t>(trial) + i) % curves.size()];
-      SCOPED_TRACE("fairing " + modes[i] + ", line " + std::to_string(trial));
-      Recipe recipe;
-      ASSERT_TRUE(setParameter(recipe, "fairing.mode", modes[i]));
+      SCOPED_TRACE("fairing " + modes[i].name + ", line " + std::to_string(trial));
+      Recipe recipe = recipeOf(modes[i]);
       recipe.fairing.target = trial % 7;
       recipe.fairing.toleranceMm = 0.02 * std::pow(100.0, uniform(random));
       recipe.fairing.targets.monotone = trial % 3 != 0;
-      const auto faired = fair(curve, false, recipe.fairing, {});
+      const FairingLine line{trial % 2 == 0 ? contour.pieces[0].points : std::vector<Vec2>{}, 1.0};
+      const auto faired = movesEdgeLengths(recipe.fairing) ? fairByEdgeLengths(curve, false, recipe.fairing, {})
+                                                           : fair(curve, false, recipe.fairing, {}, line);
       ASSERT_TRUE(faired) << faired.error().message;
       expectSoundFairing(curve, *faired, recipe.fairing.toleranceMm);
     }
