@@ -18,15 +18,23 @@ double polygonLength(std::span<const Vec2> points) {
   return length;
 }
 
-/// Bezier points of one degree more.
-std::vector<Vec2> raised(const std::vector<Vec2>& b) {
-  const std::size_t n = b.size();
-  std::vector<Vec2> result = {b.front()};
-  for (std::size_t i = 1; i < n; ++i) {
-    const double f = static_cast<double>(i) / static_cast<double>(n);
-    result.emplace_back(f * b[i - 1] + (1.0 - f) * b[i]);
+/// The stretch from corner to corner with as many points as a curve of the degree needs: the inner ones are taken twice
+/// or more, the middle ones first. The curve is drawn to them as to any others, only harder, and stays within the
+/// polygon's corners. The corners themselves are never doubled, as the curve would have no direction there; where
+/// nothing lies between them it is a straight line, and the missing points are spread along it.
+std::vector<Vec2> doubled(const std::vector<Vec2>& stretch, int needed) {
+  const int inner = static_cast<int>(stretch.size()) - 2, missing = needed - static_cast<int>(stretch.size());
+  std::vector<Vec2> result = {stretch.front()};
+  for (int i = 1; i <= missing && inner == 0; ++i) {
+    result.emplace_back(stretch.front() +
+                        (stretch.back() - stretch.front()) * (static_cast<double>(i) / (missing + 1)));
   }
-  result.push_back(b.back());
+  const int more = inner > 0 ? missing % inner : 0, firstMore = (inner - more) / 2;
+  for (int i = 0; i < inner; ++i) {
+    const int times = 1 + missing / inner + (i >= firstMore && i < firstMore + more ? 1 : 0);
+    result.insert(result.end(), static_cast<std::size_t>(times), stretch[static_cast<std::size_t>(i) + 1]);
+  }
+  result.push_back(stretch.back());
   return result;
 }
 
@@ -128,9 +136,9 @@ SharpPolygon withEnoughPoints(std::span<const Vec2> points, std::span<const int>
   result.points = {points.front()};
   for (std::size_t k = 0; k + 1 < keep.size(); ++k) {
     std::vector<Vec2> stretch(points.begin() + keep[k], points.begin() + keep[k + 1] + 1);
-    while (static_cast<int>(stretch.size()) < degree + 1) {
-      stretch = raised(stretch);
-      ++result.added;
+    if (static_cast<int>(stretch.size()) < degree + 1) {
+      result.added += degree + 1 - static_cast<int>(stretch.size());
+      stretch = doubled(stretch, degree + 1);
     }
     result.points.insert(result.points.end(), stretch.begin() + 1, stretch.end());
     if (k + 2 < keep.size()) result.sharp.push_back(static_cast<int>(result.points.size()) - 1);
@@ -159,7 +167,7 @@ Result<PolygonCurve> controlPolygonCurve(std::span<const Vec2> points, std::span
   if (kind == SharpKnots::Order && !sharp.empty()) {
     result.warning = "Knots of multiplicity = order break the curve just before each sharp point.";
   } else if (polygon.added > 0) {
-    result.warning = "Between close sharp points " + std::to_string(polygon.added) + " control points were added.";
+    result.warning = "Between close sharp points " + std::to_string(polygon.added) + " control points were doubled.";
   }
   return result;
 }
@@ -293,7 +301,7 @@ Result<ConstructedPiece> constructControlPolygon(const ConstructPiece& piece, do
     result.curve = std::move(made->curve);
     result.report.pointsAdded = made->added;
     if (made->added > 0) {
-      result.report.note = "Too few points for this degree: " + std::to_string(made->added) + " were added.";
+      result.report.note = "Too few points for this degree: " + std::to_string(made->added) + " were doubled.";
     }
     if (breaks) result.report.note = "Multiplicity = order: the curve is broken just before its last corner.";
   }

@@ -21,10 +21,11 @@ std::vector<double> sharpKnotVector(int order, int controlPointCount, std::span<
 struct SharpPolygon {
   std::vector<Vec2> points;
   std::vector<int> sharp;  ///< Indices of the inner sharp points in `points`.
-  int added = 0;           ///< Control points added between sharp points that were too close.
+  int added = 0;           ///< Control points doubled between sharp points that were too close.
 };
 /// Between two sharp points (or a sharp point and an end) lie at least degree + 1 control points, both included; where
-/// there are fewer, the degree of the stretch is raised: the same shape with the points that were missing.
+/// there are fewer, inner ones are doubled as often as points are missing (004 section 4.3; algorithms: knot vector).
+/// Sharp points with nothing between them are joined by a straight line, with points spread evenly along it.
 SharpPolygon withEnoughPoints(std::span<const Vec2> points, std::span<const int> sharp, int degree);
 
 struct PolygonCurve {
@@ -32,7 +33,7 @@ struct PolygonCurve {
   std::vector<double> knots;  ///< The knot vector as sharpKnotVector made it, in whole numbers.
   std::vector<Vec2> points;   ///< The control points that belong to it, with those that were added.
   std::vector<int> sharp;     ///< Indices of the inner sharp points in `points`.
-  int added = 0;              ///< Control points added between sharp points that were too close.
+  int added = 0;              ///< Control points doubled between sharp points that were too close.
   std::string warning;        ///< One line for the user, or empty.
 };
 /// B-spline of the control polygon; clamped but for Uniform. @param sharp 0-based, increasing; the ends need no
@@ -46,7 +47,7 @@ struct LinePolygon {
   std::vector<Vec2> points;  ///< Closed: the first is not repeated.
   std::vector<int> sharp;    ///< Corners, increasing, without the ends of an open line.
   bool closed = false;
-  int before = 0;            ///< Points of the line before removal.
+  int before = 0;  ///< Points of the line before removal.
 };
 /// @param contour pieces in order of travel. Those that do not meet their neighbour (one in between is missing) are
 /// joined all the same.
@@ -61,10 +62,10 @@ std::vector<int> thinnedByStep(std::span<const Vec2> points, std::span<const int
 /// By tolerance: no removed point lies farther than `tolerance` from the chord that replaces it.
 std::vector<int> thinnedByTolerance(std::span<const Vec2> points, std::span<const int> sharp, double tolerance);
 
-/// The construction of 004 for one piece: its points (of a pen stroke: those that were drawn), thinned as the parameters
-/// say, are the control polygon. Closed pieces give a periodic curve. Degree params.degree. Knots of multiplicity =
-/// degree at the corners are what the pieces give when they are joined; with Order a piece ends one point before its
-/// last corner, and the curve is broken there.
+/// The construction of 004 for one piece: its points (of a pen stroke: those that were drawn), thinned as the
+/// parameters say, are the control polygon. Closed pieces give a periodic curve. Degree params.degree. Knots of
+/// multiplicity = degree at the corners are what the pieces give when they are joined; with Order a piece ends one
+/// point before its last corner, and the curve is broken there.
 Result<ConstructedPiece> constructControlPolygon(const ConstructPiece&, double pixelMm, const ConstructParams&,
                                                  const RunContext&);
 

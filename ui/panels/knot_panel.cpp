@@ -110,7 +110,7 @@ void KnotPanel::show(const std::shared_ptr<const Result>& result) {
   const int kept = static_cast<int>(line.points.size());
   const int added = result->curve ? result->curve->added : 0;
   QString counts = tr("%1 points, %2 kept").arg(grouped(line.before), grouped(kept));
-  if (added > 0) counts += tr(", %1 added between close corners").arg(added);
+  if (added > 0) counts += tr(", %1 doubled between close corners").arg(added);
   counts_->setText(counts + QStringLiteral(" · ") +
                    counted(static_cast<qint64>(line.sharp.size()), tr("1 corner"), tr("%1 corners")));
   const std::vector<double> knots = result->curve ? result->curve->knots : std::vector<double>{};

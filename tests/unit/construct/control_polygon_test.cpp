@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/curve/curve_analysis.h"
 #include "tests/support/known_answers.h"
 #include "tests/unit/construct/stations_of.h"
@@ -92,14 +94,16 @@ TEST(ControlPolygonCurve, UniformStaysAwayFromTheCorner) {
   EXPECT_FALSE(controlPolygonCurve(std::span(points).first(1), {}, 3, SharpKnots::Degree));
 }
 
-TEST(ControlPolygonCurve, AddedPointsLeaveTheShapeOfALowerDegree) {
-  // Three points between two corners: a parabola, whatever the degree asked for.
+TEST(ControlPolygonCurve, IsTheBezierCurveOfItsDoubledPoints) {
+  // Three points between two corners: a Bezier curve whose middle point counts as often as it is taken.
   const std::vector<Vec2> points = {{0, 0}, {4, 5}, {11, 3}};
   for (int degree = 2; degree <= 5; ++degree) {
     const auto made = controlPolygonCurve(points, {}, degree, SharpKnots::Degree).value();
+    EXPECT_EQ(made.added, degree - 2);
     for (const double f : {0.0, 0.2, 0.5, 0.8, 1.0}) {
-      const Vec2 parabola = (1 - f) * (1 - f) * points[0] + 2 * f * (1 - f) * points[1] + f * f * points[2];
-      EXPECT_LT((made.curve.point(f * made.curve.end()) - parabola).norm(), 1e-12);
+      const double first = std::pow(1 - f, degree), last = std::pow(f, degree);
+      const Vec2 expected = first * points[0] + (1 - first - last) * points[1] + last * points[2];
+      EXPECT_LT((made.curve.point(f * made.curve.end()) - expected).norm(), 1e-12);
     }
   }
 }
@@ -144,6 +148,31 @@ TEST(ConstructControlPolygon, AllDegreesOpenAndClosed) {
     const auto b = around.curve.derivatives(around.curve.end(), degree - 1);
     for (std::size_t d = 0; d < static_cast<std::size_t>(degree); ++d) EXPECT_LT((a[d] - b[d]).norm(), 1e-9);
   }
+}
+
+TEST(WithEnoughPoints, DoublesWhatIsMissingBetweenCloseCorners) {
+  // Corners at 2 and 4 with one point between them; a quartic needs five from corner to corner.
+  const std::vector<Vec2> points = {{0, 0}, {10, 4}, {20, 0}, {25, 8}, {30, 0}, {40, 5}, {50, 0}, {60, 4}, {70, 0}};
+  const std::vector<int> sharp = {2, 4};
+  const SharpPolygon made = withEnoughPoints(points, sharp, 4);
+  EXPECT_EQ(made.added, 2 + 2);
+  ASSERT_EQ(made.sharp, (std::vector<int>{4, 8}));
+  EXPECT_EQ(std::count(made.points.begin(), made.points.end(), points[1]), 3);
+  EXPECT_EQ(std::count(made.points.begin(), made.points.end(), points[3]), 3);
+  for (const std::size_t corner : {0u, 2u, 4u, 8u}) {
+    EXPECT_EQ(std::count(made.points.begin(), made.points.end(), points[corner]), 1) << "corners are never doubled";
+  }
+  const auto curve = controlPolygonCurve(points, sharp, 4, SharpKnots::Degree).value();
+  for (const int s : sharp) {
+    EXPECT_LT(closestPoint(curve.curve, points[static_cast<std::size_t>(s)]).distance, 1e-9);
+  }
+  // Drawn harder: nearer to the doubled point than the three points of a parabola would bring it.
+  EXPECT_LT(closestPoint(curve.curve, points[3]).distance, 0.5 * (8.0 - 4.0));
+  // Two of two inner points, then nothing between the corners.
+  EXPECT_EQ(withEnoughPoints(std::vector<Vec2>{{0, 0}, {1, 1}, {2, 1}, {3, 0}}, {}, 5).points,
+            (std::vector<Vec2>{{0, 0}, {1, 1}, {1, 1}, {2, 1}, {2, 1}, {3, 0}}));
+  EXPECT_EQ(withEnoughPoints(std::vector<Vec2>{{0, 0}, {3, 0}}, {}, 3).points,
+            (std::vector<Vec2>{{0, 0}, {1, 0}, {2, 0}, {3, 0}}));
 }
 
 }  // namespace
