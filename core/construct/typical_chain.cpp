@@ -7,9 +7,11 @@
 #include <numbers>
 
 #include "core/construct/bezier_chain.h"
+#include "core/construct/fair_fit.h"
 #include "core/construct/piece_stations.h"
 #include "core/construct/typical_growing.h"
 #include "core/construct/typical_structure.h"
+#include "core/construct/typical_tiling.h"
 #include "core/curve/curve_analysis.h"
 
 namespace batten {
@@ -20,6 +22,9 @@ namespace {
 constexpr std::size_t kMostPoints = 400;
 /// A path that runs this far [px, rms] from its points while the joints do not has lost its line.
 constexpr double kLostRmsPx = 3.0;
+/// Distance of the joints along a fair fit, and the shortest one that is taken as a guide.
+constexpr double kHoldPx = 0.01, kAgreePx = 0.05;
+constexpr double kJointPx = 40.0, kLeastFairPx = 40.0;
 
 double angleBetween(const Vec2& a, const Vec2& b) { return std::atan2(cross(a, b), a.dot(b)); }
 
@@ -41,8 +46,51 @@ void turnToStraightest(std::vector<Station>& stations) {
 
 }  // namespace
 
-TypicalLine typicalLine(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
-                        const RunContext& context) {
+namespace {
+
+/// The line as its true and fair fit shows it; absent where there is none.
+std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, double pixelMm, const RunContext& context) {
+  ConstructContour contour;
+  contour.pieces = {piece};
+  contour.pieces.front().wishes.clear();
+  contour.pixelMm = pixelMm;
+  FairFitOptions options;
+  options.reduceShare = 0.0;
+  const auto fitted = fairFit(contour, options, context);
+  if (!fitted || fitted->size() != 1 || !fitted->front().report.note.empty()) return std::nullopt;
+  const NurbsCurve& curve = fitted->front().curve;
+  const double length = curve.isEmpty() ? 0.0 : ArcLength(curve).total();
+  if (!(pixelMm > 0.0) || !(length > kLeastFairPx * pixelMm)) return std::nullopt;
+  // A fit that lost its line is no guide.
+  if (!(deviation(curve, piece.points, true).rms < kLostRmsPx * pixelMm)) return std::nullopt;
+  TypicalLine line;
+  line.unitMm = pixelMm;
+  line.closed = piece.closed;
+  line.fair = curve;
+  const int joints = std::max(8, static_cast<int>(std::ceil(length / (kJointPx * pixelMm)))) + 1;
+  const auto samples = sampleByArcLength(curve, joints);
+  line.originMm = samples.front().point;
+  line.endMm = samples.back().point;
+  // Where the stations and the fit agree on an end, it is that of the stations, as in the other constructions.
+  const std::vector<Station> stations = line.closed ? std::vector<Station>{} : usableStations(piece, 6);
+  if (!stations.empty()) {
+    const auto agrees = [&](const Vec2& a, const Vec2& b) { return (a - b).norm() < kAgreePx * pixelMm; };
+    if (agrees(stations.front().point, line.originMm)) line.originMm = stations.front().point;
+    if (agrees(stations.back().point, line.endMm)) line.endMm = stations.back().point;
+  }
+  for (const CurveSample& s : samples) line.joints.push_back({line.toLine(s.point), s.tangent, s.kappa * pixelMm});
+  if (line.closed) {
+    line.joints.back() = line.joints.front();
+  } else {
+    line.joints.front().point = Vec2::Zero();
+    line.joints.back().point = line.toLine(line.endMm);
+  }
+  return line;
+}
+
+/// The line as its stations show it.
+TypicalLine lineOnStations(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
+                           const RunContext& context) {
   TypicalLine line;
   std::vector<Station> stations = usableStations(piece, 6);
   if (stations.size() < (piece.closed ? 3u : 2u)) return line;
@@ -57,7 +105,16 @@ TypicalLine typicalLine(const ConstructPiece& piece, double pixelMm, const Const
     line.joints.push_back({line.toLine(j.point), j.tangent, j.kappa * line.unitMm});
   }
   line.closed = piece.closed;
-  line.points = pointsAlong(piece, line);
+  return line;
+}
+
+}  // namespace
+
+TypicalLine typicalLine(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
+                        const RunContext& context) {
+  auto fair = lineOnFairFit(piece, pixelMm, context);
+  TypicalLine line = fair ? std::move(*fair) : lineOnStations(piece, pixelMm, params, context);
+  if (!line.joints.empty()) line.points = pointsAlong(piece, line);
   return line;
 }
 
@@ -84,12 +141,13 @@ std::vector<Vec2> pointsAlong(const ConstructPiece& piece, const TypicalLine& li
   for (std::size_t i = 0; i + group <= all.size(); i += group) {
     Vec2 mean = Vec2::Zero();
     for (std::size_t k = i; k < i + group; ++k) mean += all[k] / static_cast<double>(group);
-    while (joint + 1 < line.joints.size() && (line.joints[joint + 1].point - mean).squaredNorm() <=
-                                                 (line.joints[joint].point - mean).squaredNorm()) {
+    while (joint + 1 < line.joints.size() &&
+           (line.joints[joint + 1].point - mean).squaredNorm() <= (line.joints[joint].point - mean).squaredNorm()) {
       ++joint;
     }
     // The mean of an arc lies inside it: kappa / 2 times the variance of the arc length.
-    const double length = (all[i + group - 1] - all[i]).norm() * static_cast<double>(group) / static_cast<double>(group - 1);
+    const double length =
+        (all[i + group - 1] - all[i]).norm() * static_cast<double>(group) / static_cast<double>(group - 1);
     means.push_back(mean - line.joints[joint].kappa * length * length / 24.0 * leftNormal(line.joints[joint].tangent));
   }
   return means;
@@ -117,7 +175,8 @@ std::vector<SegmentNote> segmentNotes(const TypicalPath& path, const TypicalLine
     if (note.typical) {
       const TypicalCurve curve = path.typical(e);
       note.ratio = curve.ratio;
-      note.lengthMm = line.unitMm * curve.edge * (1.0 + curve.ratio * std::cos(curve.turnRad) + curve.ratio * curve.ratio);
+      note.lengthMm =
+          line.unitMm * curve.edge * (1.0 + curve.ratio * std::cos(curve.turnRad) + curve.ratio * curve.ratio);
       note.monotone = curve.isMonotone();
     } else {
       note.lengthMm = line.unitMm * path.hermiteLength(e);
@@ -170,8 +229,13 @@ PathData dataOf(const TypicalLine& line) {
   return data;
 }
 
-/// The path of the global chain; absent where the points allow none.
-std::optional<TypicalPath> chainPath(TypicalLine line, std::span<const Vec2> placesMm, const RunContext& context) {
+/// True when a fitted path is still on its line.
+bool isOnLine(const std::optional<PathFit>& fit, const PathData& data) {
+  return fit && fit->rms < kLostRmsPx + 3.0 * data.noise;
+}
+
+/// The path divided where the user wants it; absent where the points allow none.
+std::optional<TypicalPath> dividedPath(TypicalLine line, std::span<const Vec2> placesMm, const RunContext& context) {
   const auto at = jointsAtPlaces(line, placesMm);
   TypicalPath path = roughTypicalPath(line.joints, line.closed, at);
   PathData data = dataOf(line);
@@ -183,9 +247,95 @@ std::optional<TypicalPath> chainPath(TypicalLine line, std::span<const Vec2> pla
       break;
     }
   }
-  const auto fit = fitTypicalStructure(path, data, placesMm.empty(), context);
-  if (!fit || !(fit->rms < kLostRmsPx + 3.0 * data.noise)) return std::nullopt;
-  return path;
+  const auto fit = fitTypicalStructure(path, data, PathSearch::Keep, context);
+  return isOnLine(fit, data) ? std::optional(std::move(path)) : std::nullopt;
+}
+
+/// True for a curve that leaves its line: a loop between points, or an end that runs away, moves no point's foot.
+bool isAstray(const NurbsCurve& curve, const TypicalLine& line) {
+  constexpr double kFarthestPx = 3.0, kLonger = 1.2;
+  if (line.fair && !(deviation(curve, *line.fair).max < kFarthestPx * line.unitMm)) return true;
+  double length = 0.0;
+  for (std::size_t i = 1; i < line.joints.size(); ++i)
+    length += (line.joints[i].point - line.joints[i - 1].point).norm();
+  return !(ArcLength(curve).total() < line.unitMm * (kLonger * length + 2.0 * kFarthestPx));
+}
+
+/// True when the ends of a closed path share place, direction and curvature.
+bool isClosed(const TypicalPath& path) {
+  constexpr double kShare = 1e-10;
+  const PathState &a = path.states.front(), &b = path.states.back();
+  const double turned = std::remainder(b.angleRad - a.angleRad, 2.0 * std::numbers::pi);
+  return (b.point - a.point).norm() < 1e-9 && std::abs(turned) < kShare &&
+         std::abs(b.kappa - a.kappa) <= kShare * std::abs(a.kappa);
+}
+
+/// True for a path with a segment too short to be one: its curvature would be all rounding.
+bool hasSliver(const TypicalPath& path) {
+  constexpr double kShortest = 0.5;
+  for (std::size_t e = 0; e < path.elements.size(); ++e) {
+    if (!((path.states[e + 1].point - path.states[e].point).norm() > kShortest)) return true;
+  }
+  return false;
+}
+
+/// A path with what speaks for it.
+struct Candidate {
+  std::optional<TypicalPath> path;
+  int falseExtrema = 0;  ///< More than the fair fit of the line has.
+  double rms = 0.0;
+
+  bool isBetterThan(const Candidate& other) const {
+    if (!path || !other.path) return path.has_value();
+    return falseExtrema != other.falseExtrema ? falseExtrema < other.falseExtrema : rms < other.rms;
+  }
+};
+
+int extremaOf(const NurbsCurve& curve, bool closed) {
+  constexpr double kProminence = 5e-3;
+  const double size = extent(curve);
+  return size > 0.0 ? static_cast<int>(curvatureExtrema(curve, kProminence / size, closed).size()) : 0;
+}
+
+Candidate fittedCandidate(TypicalPath path, PathData data, PathSearch search, const TypicalLine& line,
+                          const RunContext& context) {
+  const auto fit = fitTypicalStructure(path, data, search, context);
+  if (!isOnLine(fit, data) || hasSliver(path) || (path.closed && !isClosed(path))) return {};
+  const auto curve = pathCurve(path, line);
+  if (!curve || isAstray(*curve, line)) return {};
+  const int known = line.fair ? extremaOf(*line.fair, line.closed) : 0;
+  const int more = std::max(0, extremaOf(*curve, line.closed) - known);
+  return {std::move(path), more, fit->rms};
+}
+
+/// The path of the global chain; absent where the points allow none. Laid along the fair fit of the line; where that
+/// brings extrema that the line has not, also from a rough path that is divided and made plain as the points ask for.
+std::optional<TypicalPath> chainPath(const TypicalLine& line, std::span<const Vec2> placesMm,
+                                     const RunContext& context) {
+  if (!placesMm.empty()) return dividedPath(line, placesMm, context);
+  Candidate best;
+  if (auto tiled = tiledPath(line)) {
+    PathData data = dataOf(line);
+    data.hold = kHoldPx;
+    best = fittedCandidate(std::move(*tiled), data, PathSearch::Simplify, line, context);
+  }
+  if (best.path && best.falseExtrema == 0) return best.path;
+  Candidate rough =
+      fittedCandidate(roughTypicalPath(line.joints, line.closed, {}), dataOf(line), PathSearch::Full, line, context);
+  return rough.isBetterThan(best) ? rough.path : best.path;
+}
+
+/// The grown path, tidied: growing sees only what lies before it, so that its many short segments bring turns of the
+/// curvature that the line has not. As grown where that helps nothing, or the segments are the user's or the paper's.
+std::optional<TypicalPath> grownAndTidied(const TypicalLine& line, std::span<const Vec2> placesMm,
+                                          const ConstructParams& params, const RunContext& context) {
+  auto grown = grownPath(line, placesMm, params, nullptr, context);
+  if (!grown || !placesMm.empty() || params.growingAsInPaper) return grown;
+  Candidate tidy = fittedCandidate(*grown, dataOf(line), PathSearch::Tidy, line, context);
+  const auto curve = pathCurve(*grown, line);
+  const bool stays = curve && !isAstray(*curve, line);
+  if (!tidy.path || (stays && extremaOf(*curve, line.closed) < tidy.falseExtrema)) return grown;
+  return tidy.path;
 }
 
 /// The Bezier path of a piece, with the reason why it took the place of the chain.
@@ -206,7 +356,7 @@ Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, double pi
   const TypicalLine line = typicalLine(piece, pixelMm, params, context);
   if (line.joints.empty()) return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
   if (context.isCancelled()) return cancelled();
-  auto path = params.typical == TypicalMode::Growing ? grownPath(line, piece.divisions, params, nullptr, context)
+  auto path = params.typical == TypicalMode::Growing ? grownAndTidied(line, piece.divisions, params, context)
                                                      : chainPath(line, piece.divisions, context);
   if (context.isCancelled()) return cancelled();
   auto curve = path ? pathCurve(*path, line) : Result<NurbsCurve>(fail(ErrorCode::Numerical, ""));
@@ -217,7 +367,7 @@ Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, double pi
   if (!curve) return fail(curve.error());
   // The fit looks at feet that move along with it; a chain that has run away from its line is seen only from the line.
   constexpr double kAstrayPx = 5.0;
-  if (!(deviation(*curve, piece.points, true).rms < kAstrayPx * pixelMm)) {
+  if (isAstray(*curve, line) || !(deviation(*curve, piece.points, true).rms < kAstrayPx * pixelMm)) {
     return pathInstead(piece, pixelMm, params, context);
   }
   ConstructedPiece result{std::move(*curve), {}};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/construct/construct.h"
@@ -16,7 +17,8 @@ struct TypicalLine {
   bool closed = false;
   double unitMm = 1.0;
   Vec2 originMm = Vec2::Zero();
-  Vec2 endMm = Vec2::Zero();  ///< Open: where the line ends; it starts at the origin.
+  Vec2 endMm = Vec2::Zero();       ///< Open: where the line ends; it starts at the origin.
+  std::optional<NurbsCurve> fair;  ///< [mm] The true and fair fit of the line, which the joints then lie on.
 
   Vec2 toLine(const Vec2& mm) const { return (mm - originMm) / unitMm; }
   Vec2 toModel(const Vec2& p) const { return originMm + unitMm * p; }

@@ -12,9 +12,9 @@ namespace batten {
 /// How a typical curve changes with phi while place, direction and curvature at its start and its size dS stay
 /// (002 Eq 7, 8).
 struct FormGradient {
-  double edgeByTurn = 0.0;             ///< dl / dphi
-  double ratioByTurn = 0.0;            ///< dh / dphi
-  Vec2 endByTurn = Vec2::Zero();       ///< dC(1) / dphi, in the frame of the curve itself.
+  double edgeByTurn = 0.0;        ///< dl / dphi
+  double ratioByTurn = 0.0;       ///< dh / dphi
+  Vec2 endByTurn = Vec2::Zero();  ///< dC(1) / dphi, in the frame of the curve itself.
 };
 FormGradient formGradient(const TypicalCurve&);
 
@@ -39,8 +39,8 @@ std::string_view name(GrowingStep::Kind);
 Result<std::vector<GrowingStep>> growingSteps(const ConstructPiece&, double pixelMm, const ConstructParams&,
                                               const RunContext&);
 
-/// The grown path. Stable: only the first half of each fit stays, as the start of the next segment is only known as well
-/// as the fit before; `growingAsInPaper` keeps all. @param steps filled unless null.
+/// The grown path. Stable: only the first half of each fit stays, as the start of the next segment is only known as
+/// well as the fit before; `growingAsInPaper` keeps all. @param steps filled unless null.
 std::optional<TypicalPath> grownPath(const TypicalLine&, std::span<const Vec2> divisionsMm, const ConstructParams&,
                                      std::vector<GrowingStep>* steps, const RunContext&);
 

@@ -87,18 +87,21 @@ struct PathFoot {
 
 /// What a fit is to meet.
 struct PathData {
-  std::vector<Vec2> points;  ///< In order along the path.
+  std::vector<Vec2> points;                       ///< In order along the path.
   Vec2 start = Vec2::Zero(), end = Vec2::Zero();  ///< Open: where the path is pinned.
   /// A state with a place of its own along the line (set by the user), by index; the path may pass it sideways.
   std::vector<std::optional<Vec2>> places;
-  double noise = 0.3;         ///< Standard deviation of a point.
-  double outlier = 0.0;       ///< Distance from which on a point counts less; 0 = never.
-  double fairness = 3.0;      ///< Weight of differences of log h of neighbours, per standard deviation.
+  double noise = 0.3;     ///< Standard deviation of a point.
+  double outlier = 0.0;   ///< Distance from which on a point counts less; 0 = never.
+  double fairness = 3.0;  ///< Weight of differences of log h of neighbours, per standard deviation.
+  /// Free states keep place, direction and curvature: about this far [units] may a piece move by each; 0 = they are
+  /// free, and the curvature of Hermite pieces is evened out instead.
+  double hold = 0.0;
 };
 
 struct PathFit {
-  double cost = 0.0;      ///< Sum of squared distances, outliers damped.
-  double rms = 0.0;       ///< Of the distances.
+  double cost = 0.0;  ///< Sum of squared distances, outliers damped.
+  double rms = 0.0;   ///< Of the distances.
   int unknowns = 0;
   int iterations = 0;
   bool converged = false;

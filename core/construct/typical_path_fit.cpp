@@ -7,6 +7,7 @@
 
 #include "core/construct/typical_path.h"
 #include "core/construct/typical_path_geometry.h"
+#include "core/construct/typical_path_unknowns.h"
 
 namespace batten {
 
@@ -21,197 +22,17 @@ constexpr double kPlaceWeight = 10.0;
 /// How firmly a segment keeps its share of the turn, and a free state its place along the line.
 constexpr double kTurnWeight = 0.5;
 constexpr double kAlongWeight = 0.02;
+/// Share of the hold of a free state by which those behind typical curves are held.
+constexpr double kBehindTypical = 0.3;
 constexpr double kHermiteFairness = 0.5;
 constexpr double kHermiteChange = 0.2;
-
-using Row = Eigen::RowVectorXd;
-/// Derivatives of a state's x, y, angle and curvature by all unknowns.
-using StateRows = Eigen::Matrix<double, 4, Eigen::Dynamic>;
-
-std::vector<PathGeometry> geometryOf(const TypicalPath& path) {
-  std::vector<PathGeometry> all;
-  all.reserve(path.elements.size());
-  for (std::size_t e = 0; e < path.elements.size(); ++e) all.emplace_back(path, e);
-  return all;
-}
-
-/// Newton on the distance, from where the foot is; passes from element to element.
-PathFoot refined(const std::vector<PathGeometry>& geometry, const Vec2& p, PathFoot foot) {
-  for (int i = 0; i < 25; ++i) {
-    const auto d = geometry[foot.element].at(foot.t, 2);
-    const Vec2 away = d[0] - p;
-    const double speed = d[1].squaredNorm();
-    foot.distance = speed > 0.0 ? cross(d[1], p - d[0]) / std::sqrt(speed) : away.norm();
-    if (!(speed > 0.0)) break;
-    const double bend = std::max(speed + away.dot(d[2]), 0.2 * speed);
-    const double next = foot.t - std::clamp(away.dot(d[1]) / bend, -0.7, 0.7);
-    const bool forward = next > 1.0 && foot.element + 1 < geometry.size(), back = next < 0.0 && foot.element > 0;
-    if ((forward || back) && i < 20) {
-      foot.element += forward ? 1 : static_cast<std::size_t>(-1);
-      foot.t = forward ? 0.0 : 1.0;
-      continue;
-    }
-    const double t = std::clamp(next, foot.element > 0 ? 0.0 : -0.4, foot.element + 1 < geometry.size() ? 1.0 : 1.4);
-    const bool done = std::abs(t - foot.t) < 1e-9;
-    foot.t = t;
-    if (done) break;
-  }
-  return foot;
-}
-
-void follow(const std::vector<PathGeometry>& geometry, const std::vector<Vec2>& points, std::vector<PathFoot>& feet) {
-  const bool fresh = feet.size() != points.size();
-  if (fresh) feet.assign(points.size(), {});
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    feet[i] = refined(geometry, points[i], fresh && i > 0 ? feet[i - 1] : feet[i]);
-  }
-}
-
-/// The unknowns of a path by column, and how a step changes it.
-class Unknowns {
- public:
-  Unknowns(const TypicalPath& path, bool pinned) {
-    for (std::size_t s = 0; s < path.states.size(); ++s) {
-      Columns c;
-      if (path.isFree(s)) {
-        const bool atEnd = s == 0 || s + 1 == path.states.size();
-        if (!(atEnd && pinned && !path.closed)) c.place = take(2);
-        c.angle = take(1);
-        c.kappa = take(1);
-        c.isLog = s < path.elements.size() && path.elements[s].typical;
-      }
-      states_.push_back(c);
-    }
-    for (const PathElement& e : path.elements) shapes_.push_back(e.typical ? take(2) : -1);
-  }
-  int count() const { return count_; }
-  int shape(std::size_t e) const { return shapes_[e]; }
-
-  TypicalPath moved(const TypicalPath& path, const Eigen::VectorXd& step) const {
-    TypicalPath result = path;
-    for (std::size_t s = 0; s < states_.size(); ++s) {
-      const Columns& c = states_[s];
-      if (c.place >= 0) result.states[s].point += Vec2(step(c.place), step(c.place + 1));
-      if (c.angle >= 0) result.states[s].angleRad += step(c.angle);
-      if (c.kappa < 0) continue;
-      result.states[s].kappa = c.isLog ? path.states[s].kappa * std::exp(std::clamp(step(c.kappa), -3.0, 3.0))
-                                       : path.states[s].kappa + step(c.kappa);
-    }
-    for (std::size_t e = 0; e < shapes_.size(); ++e) {
-      if (shapes_[e] < 0) continue;
-      result.elements[e].logTurn += step(shapes_[e]);
-      result.elements[e].shape += step(shapes_[e] + 1);
-    }
-    return result;
-  }
-
-  /// Derivatives of all states.
-  std::vector<StateRows> stateRows(const TypicalPath& path) const {
-    std::vector<StateRows> rows(path.states.size());
-    for (StateRows& one : rows) one.setZero(4, count_);
-    for (std::size_t s = 0; s < states_.size(); ++s) {
-      const Columns& c = states_[s];
-      if (path.isFree(s)) {
-        if (c.place >= 0) rows[s](0, c.place) = rows[s](1, c.place + 1) = 1.0;
-        rows[s](2, c.angle) = 1.0;
-        rows[s](3, c.kappa) = c.isLog ? path.states[s].kappa : 1.0;
-      } else if (path.elements[s - 1].typical) {
-        rows[s] = behindTypical(path, s - 1, rows[s - 1]);
-      } else {
-        rows[s] = rows[0];
-      }
-    }
-    return rows;
-  }
-
-  /// d(log h), d(phi) of an element as its two own columns.
-  struct ShapeSlopes {
-    double ratioByTurn, ratioByShape, phiByTurn;
-  };
-  static ShapeSlopes slopes(const PathElement& e) {
-    const auto ratio = e.logRatioSlopes();
-    return {ratio[0], ratio[1], e.side * e.turn()};
-  }
-
-  /// Derivative along `n` of the point at t of a typical element, without the foot's own movement.
-  void addTypical(Row& row, const TypicalPath& path, const PathGeometry& g, std::size_t e, const StateRows& start,
-                  double t, const Vec2& n) const {
-    const std::complex<double> z = g.ratio(), w = 1.0 + t * (z - 1.0), v = g.edge() * t * (w * w + w + 1.0);
-    const std::complex<double> u = g.edge() * t * t * (2.0 * w + 1.0) * z;
-    const auto along = [&](const std::complex<double>& c) { return n.x() * c.real() + n.y() * c.imag(); };
-    const std::complex<double> i(0.0, 1.0);
-    const Eigen::RowVector4d byState(n.x(), n.y(), along(i * v), -along(v) / path.states[e].kappa);
-    row.noalias() += byState * start;
-    const ShapeSlopes s = slopes(path.elements[e]);
-    const double byRatio = along(v + u), byPhi = along(v) / std::tan(path.elements[e].side * path.elements[e].turn()) + along(i * u);
-    row(shapes_[e]) += byRatio * s.ratioByTurn + byPhi * s.phiByTurn;
-    row(shapes_[e] + 1) += byRatio * s.ratioByShape;
-  }
-
-  /// The same for a Hermite element.
-  static void addHermite(Row& row, const PathState& a, const PathState& b, const StateRows& start, const StateRows& end,
-                         double t, const Vec2& n) {
-    const double s = 1.0 - t;
-    const std::array<double, 6> basis = {s * s * s * s * s,          5 * t * s * s * s * s, 10 * t * t * s * s * s,
-                                         10 * t * t * t * s * s, 5 * t * t * t * t * s, t * t * t * t * t};
-    const HermiteLength length = hermiteLength(a, b);
-    const double l = length.length, place = basis[0] + basis[1] + basis[2];
-    const double a1 = basis[1] + 2 * basis[2], b1 = basis[4] + 2 * basis[3];
-    const Joint from = a.joint(), to = b.joint();
-    const Vec2 na = leftNormal(from.tangent), nb = leftNormal(to.tangent);
-    const double byLength = n.dot(a1 / 5 * from.tangent + basis[2] * a.kappa * l / 10 * na - b1 / 5 * to.tangent +
-                                  basis[3] * b.kappa * l / 10 * nb);
-    Eigen::RowVector4d byStart, byEnd;
-    byStart << place * n.x(), place * n.y(), n.dot(a1 * l / 5 * na - basis[2] * a.kappa * l * l / 20 * from.tangent),
-        basis[2] * l * l / 20 * n.dot(na);
-    byEnd << (1 - place) * n.x(), (1 - place) * n.y(),
-        n.dot(-b1 * l / 5 * nb - basis[3] * b.kappa * l * l / 20 * to.tangent), basis[3] * l * l / 20 * n.dot(nb);
-    for (Eigen::Index k = 0; k < 4; ++k) {
-      byStart(k) += byLength * length.fromStart[static_cast<std::size_t>(k)];
-      byEnd(k) += byLength * length.fromEnd[static_cast<std::size_t>(k)];
-    }
-    row.noalias() += byStart * start + byEnd * end;
-  }
-
- private:
-  struct Columns {
-    int place = -1, angle = -1, kappa = -1;
-    bool isLog = false;
-  };
-  int take(int n) {
-    const int first = count_;
-    count_ += n;
-    return first;
-  }
-
-  StateRows behindTypical(const TypicalPath& path, std::size_t e, const StateRows& start) const {
-    StateRows rows = start;
-    const PathGeometry g(path, e);
-    for (const Eigen::Index k : {0, 1}) {
-      Row row = Row::Zero(count_);
-      addTypical(row, path, g, e, start, 1.0, k == 0 ? Vec2::UnitX() : Vec2::UnitY());
-      rows.row(k) = row;
-    }
-    const ShapeSlopes s = slopes(path.elements[e]);
-    rows(2, shapes_[e]) += 2.0 * s.phiByTurn;
-    const double kappa = path.states[e + 1].kappa;
-    rows.row(3) *= kappa / path.states[e].kappa;
-    rows(3, shapes_[e]) -= 4.0 * kappa * s.ratioByTurn;
-    rows(3, shapes_[e] + 1) -= 4.0 * kappa * s.ratioByShape;
-    return rows;
-  }
-
-  std::vector<Columns> states_;
-  std::vector<int> shapes_;
-  int count_ = 0;
-};
 
 /// Sum of squares of everything, as normal equations when asked.
 class Problem {
  public:
   Problem(const TypicalPath& start, const PathData& data)
       : data_(data), unknowns_(start, true), before_(start), unit_(std::max(data.noise, 1e-6)) {}
-  const Unknowns& unknowns() const { return unknowns_; }
+  const PathUnknowns& unknowns() const { return unknowns_; }
 
   struct System {
     Eigen::MatrixXd squared;
@@ -224,7 +45,7 @@ class Problem {
     constexpr double kImpossible = std::numeric_limits<double>::infinity();
     if (!path.update()) return kImpossible;
     const auto geometry = geometryOf(path);
-    follow(geometry, data_.points, feet);
+    followFeet(geometry, data_.points, feet);
     std::vector<StateRows> rows;
     if (system) {
       rows = unknowns_.stateRows(path);
@@ -262,7 +83,8 @@ class Problem {
   }
 
   /// The damped step of least squares that closes the gap, or a part of it when it is wide.
-  std::optional<Eigen::VectorXd> step(const TypicalPath& path, const System& system, const Eigen::VectorXd& damping) const {
+  std::optional<Eigen::VectorXd> step(const TypicalPath& path, const System& system,
+                                      const Eigen::VectorXd& damping) const {
     Eigen::MatrixXd matrix = system.squared;
     matrix.diagonal() += damping;
     const Eigen::LDLT<Eigen::MatrixXd> solver(matrix);
@@ -279,8 +101,8 @@ class Problem {
   }
 
  private:
-  double addPoints(const TypicalPath& path, const std::vector<PathGeometry>& geometry, const std::vector<PathFoot>& feet,
-                   const std::vector<StateRows>& rows, System* system) const {
+  double addPoints(const TypicalPath& path, const std::vector<PathGeometry>& geometry,
+                   const std::vector<PathFoot>& feet, const std::vector<StateRows>& rows, System* system) const {
     double sum = 0.0;
     const double c2 = data_.outlier * data_.outlier;
     const auto count = static_cast<Eigen::Index>(feet.size());
@@ -304,7 +126,7 @@ class Problem {
       if (path.elements[e].typical) {
         unknowns_.addTypical(row, path, geometry[e], e, rows[e], foot.t, n);
       } else {
-        Unknowns::addHermite(row, path.states[e], path.states[e + 1], rows[e], rows[e + 1], foot.t, n);
+        PathUnknowns::addHermite(row, path.states[e], path.states[e + 1], rows[e], rows[e + 1], foot.t, n);
       }
       // The distance shrinks as the path moves towards the point.
       jacobian.row(static_cast<Eigen::Index>(i)) = -weight / unit_ * row;
@@ -347,8 +169,37 @@ class Problem {
       row(other + 1) += data_.fairness * b[1];
       sum += add(system, row, data_.fairness * (next.logRatio() - one.logRatio()));
     }
-    sum += addHermitePriors(path, rows, system);
+    sum += data_.hold > 0.0 ? addHolds(path, rows, system) : addHermitePriors(path, rows, system);
     sum += addPlaces(path, rows, system);
+    return sum;
+  }
+
+  double elementLength(const TypicalPath& path, std::size_t e) const {
+    return (path.states[e + 1].point - path.states[e].point).norm();
+  }
+
+  /// States stay as they were: what a turn or a bend there would move over half of the neighbouring pieces. Behind
+  /// typical curves the place is left to these.
+  double addHolds(const TypicalPath& path, const std::vector<StateRows>& rows, System* system) const {
+    double sum = 0.0;
+    const std::size_t last = path.states.size() - 1;
+    for (std::size_t s = 0; s <= last; ++s) {
+      const bool free = path.isFree(s);
+      if (!free && s < last && path.elements[s].typical) continue;
+      const double behind = elementLength(path, s < last ? s : s - 1),
+                   ahead = s > 0 ? elementLength(path, s - 1) : behind;
+      const double reach = 0.25 * (behind + ahead);
+      const double weight = (free ? 1.0 : kBehindTypical) / data_.hold;
+      const PathState &is = path.states[s], &was = before_.states[s];
+      const Vec2 moved = is.point - was.point;
+      const std::array<double, 4> miss = {moved.x(), moved.y(), reach * (is.angleRad - was.angleRad),
+                                          0.5 * reach * reach * (is.kappa - was.kappa)};
+      const std::array<double, 4> factor = {1.0, 1.0, reach, 0.5 * reach * reach};
+      for (std::size_t k = 0; k < 4; ++k) {
+        sum += add(system, system ? Row(weight * factor[k] * rows[s].row(static_cast<Eigen::Index>(k))) : Row(),
+                   weight * miss[k]);
+      }
+    }
     return sum;
   }
 
@@ -365,7 +216,8 @@ class Problem {
       if (!path.isFree(s)) continue;
       const Vec2 along = before_.states[s].joint().tangent;
       const double moved = along.dot(path.states[s].point - before_.states[s].point);
-      sum += add(system, system ? Row(kAlongWeight * along.transpose() * rows[s].topRows(2)) : Row(), kAlongWeight * moved);
+      sum += add(system, system ? Row(kAlongWeight * along.transpose() * rows[s].topRows(2)) : Row(),
+                 kAlongWeight * moved);
       if (path.elements[s].typical) continue;
       // The curvature goes on evenly from Hermite piece to Hermite piece.
       const double before = path.hermiteLength(s - 1), after = path.hermiteLength(s), mean = 0.5 * (before + after);
@@ -387,19 +239,21 @@ class Problem {
       if (!data_.places[s]) continue;
       const Vec2 along = before_.states[s].joint().tangent;
       const double away = along.dot(path.states[s].point - *data_.places[s]);
-      sum += add(system, system ? Row(kPlaceWeight * along.transpose() * rows[s].topRows(2)) : Row(), kPlaceWeight * away);
+      sum +=
+          add(system, system ? Row(kPlaceWeight * along.transpose() * rows[s].topRows(2)) : Row(), kPlaceWeight * away);
     }
     return sum;
   }
 
   const PathData& data_;
-  Unknowns unknowns_;
+  PathUnknowns unknowns_;
   TypicalPath before_;
   double unit_;
 };
 
 /// Closes the gap at the end exactly, with the least change of the fit: Newton in the metric of the normal equations.
-void closeGap(TypicalPath& path, const Problem& problem, const Problem::System& system, const Eigen::VectorXd& damping) {
+void closeGap(TypicalPath& path, const Problem& problem, const Problem::System& system,
+              const Eigen::VectorXd& damping) {
   Eigen::MatrixXd metric = system.squared;
   metric.diagonal() += 1e-6 * damping;
   const Eigen::LDLT<Eigen::MatrixXd> solver(metric);
@@ -418,12 +272,6 @@ void closeGap(TypicalPath& path, const Problem& problem, const Problem::System& 
 }
 
 }  // namespace
-
-std::vector<PathFoot> pathFeet(const TypicalPath& path, const std::vector<Vec2>& points) {
-  std::vector<PathFoot> feet;
-  follow(geometryOf(path), points, feet);
-  return feet;
-}
 
 std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxIterations) {
   if (path.elements.empty() || path.states.size() != path.elements.size() + 1) return std::nullopt;
@@ -469,7 +317,7 @@ std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxI
   }
   closeGap(path, problem, system, damped());
   fit.feet.clear();
-  follow(geometryOf(path), data.points, fit.feet);
+  followFeet(geometryOf(path), data.points, fit.feet);
   double squares = 0.0;
   const double c2 = data.outlier * data.outlier;
   for (const PathFoot& f : fit.feet) {

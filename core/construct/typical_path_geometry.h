@@ -62,4 +62,10 @@ class PathGeometry {
   std::array<Vec2, 6> powers_;
 };
 
+/// All elements of a path, made ready.
+std::vector<PathGeometry> geometryOf(const TypicalPath& path);
+/// Feet of points in order, each searched from where it was, or at first from the one before.
+void followFeet(const std::vector<PathGeometry>& geometry, const std::vector<Vec2>& points,
+                std::vector<PathFoot>& feet);
+
 }  // namespace batten

@@ -22,9 +22,17 @@ double placeOfMaximum(const PathElement&);
 /// @param places joints where the user wants the path divided, by index in order; empty = divided as needed.
 TypicalPath roughTypicalPath(std::span<const Joint> joints, bool closed, std::span<const std::size_t> places);
 
+enum class PathSearch {
+  Full,      ///< Elements are divided where the points ask for it, extrema dropped that these do not prove, the rest
+             ///< joined.
+  Tidy,      ///< Grown: extrema dropped that the points do not prove, neighbours joined; nothing divided.
+  Simplify,  ///< The path has the right extrema and trends already: only joined where that costs nothing.
+  Keep,      ///< The elements are the user's: only fitted and made monotone.
+};
+
 /// The path with as few elements as the points ask for (Bayesian information), every typical curve monotone, and no
-/// extremum of curvature that the points do not prove. @param divide false: the elements are the user's; they are only
-/// fitted and made monotone.
-std::optional<PathFit> fitTypicalStructure(TypicalPath& path, PathData& data, bool divide, const RunContext& context);
+/// extremum of curvature that the points do not prove. Absent where the path cannot be fitted.
+std::optional<PathFit> fitTypicalStructure(TypicalPath& path, PathData& data, PathSearch search,
+                                           const RunContext& context);
 
 }  // namespace batten
