@@ -61,6 +61,8 @@ class NeededFairing {
     if (!smooth) return fairWithinTolerance(setup_, params_.toleranceMm, context_);
     std::vector<Vec2> points = known ? withoutDoubtfulExtrema(*smooth) : *smooth;
     if (context_.isCancelled()) return cancelled();
+    // A sketch that is fairer than that, as the true and fair fit is, needs nothing.
+    if (extremaOf(points) > extremaOf(setup_.points)) return done(setup_.points, Termination::FixedPoint);
     return done(std::move(points), Termination::Converged);
   }
 
