@@ -21,6 +21,7 @@ constexpr int kBisections = 12;
 constexpr double kUsedShare = 0.97;
 /// Room for what lies between the places where the deviation is measured.
 constexpr double kRoom = 0.999;
+constexpr int kPlacesPerPiece = 64;
 constexpr double kProminence = 5e-3;
 
 /// The pieces of a path; empty for any other curve.
@@ -126,8 +127,16 @@ class EdgeLengthFairing {
     return curve ? std::optional(std::move(*curve)) : std::nullopt;
   }
 
+  /// Both ways, at so many places of each piece that what lies between them fits in the room.
   double moved(const NurbsCurve& curve) const {
-    return std::max(deviation(curve, curve_).max, deviation(curve_, curve).max);
+    const int places = std::max(2000, kPlacesPerPiece * static_cast<int>(path_.size())) + 1;
+    const auto farthest = [places](const NurbsCurve& from, const NurbsCurve& to) {
+      std::vector<Vec2> points;
+      for (int i = 0; i < places; ++i)
+        points.push_back(from.point(from.start() + (from.end() - from.start()) * i / (places - 1)));
+      return deviation(to, points, true).max;
+    };
+    return std::max(farthest(curve, curve_), farthest(curve_, curve));
   }
 
   std::optional<FairedCurve> followed(bool pin) {
