@@ -234,8 +234,14 @@ bool isOnLine(const std::optional<PathFit>& fit, const PathData& data) {
   return fit && fit->rms < kLostRmsPx + 3.0 * data.noise;
 }
 
+/// A path, and whether the fit that gave it came to rest.
+struct FoundPath {
+  TypicalPath path;
+  bool converged = true;
+};
+
 /// The path divided where the user wants it; absent where the points allow none.
-std::optional<TypicalPath> dividedPath(TypicalLine line, std::span<const Vec2> placesMm, const RunContext& context) {
+std::optional<FoundPath> dividedPath(TypicalLine line, std::span<const Vec2> placesMm, const RunContext& context) {
   const auto at = jointsAtPlaces(line, placesMm);
   TypicalPath path = roughTypicalPath(line.joints, line.closed, at);
   PathData data = dataOf(line);
@@ -248,7 +254,8 @@ std::optional<TypicalPath> dividedPath(TypicalLine line, std::span<const Vec2> p
     }
   }
   const auto fit = fitTypicalStructure(path, data, PathSearch::Keep, context);
-  return isOnLine(fit, data) ? std::optional(std::move(path)) : std::nullopt;
+  if (!isOnLine(fit, data)) return std::nullopt;
+  return FoundPath{std::move(path), fit->converged};
 }
 
 /// True for a curve that leaves its line: a loop between points, or an end that runs away, moves no point's foot.
@@ -281,7 +288,7 @@ bool hasSliver(const TypicalPath& path) {
 
 /// A path with what speaks for it.
 struct Candidate {
-  std::optional<TypicalPath> path;
+  std::optional<FoundPath> path;
   int falseExtrema = 0;  ///< More than the fair fit of the line has.
   double rms = 0.0;
 
@@ -305,13 +312,12 @@ Candidate fittedCandidate(TypicalPath path, PathData data, PathSearch search, co
   if (!curve || isAstray(*curve, line)) return {};
   const int known = line.fair ? extremaOf(*line.fair, line.closed) : 0;
   const int more = std::max(0, extremaOf(*curve, line.closed) - known);
-  return {std::move(path), more, fit->rms};
+  return {FoundPath{std::move(path), fit->converged}, more, fit->rms};
 }
 
 /// The path of the global chain; absent where the points allow none. Laid along the fair fit of the line; where that
 /// brings extrema that the line has not, also from a rough path that is divided and made plain as the points ask for.
-std::optional<TypicalPath> chainPath(const TypicalLine& line, std::span<const Vec2> placesMm,
-                                     const RunContext& context) {
+std::optional<FoundPath> chainPath(const TypicalLine& line, std::span<const Vec2> placesMm, const RunContext& context) {
   if (!placesMm.empty()) return dividedPath(line, placesMm, context);
   Candidate best;
   if (auto tiled = tiledPath(line)) {
@@ -327,14 +333,17 @@ std::optional<TypicalPath> chainPath(const TypicalLine& line, std::span<const Ve
 
 /// The grown path, tidied: growing sees only what lies before it, so that its many short segments bring turns of the
 /// curvature that the line has not. As grown where that helps nothing, or the segments are the user's or the paper's.
-std::optional<TypicalPath> grownAndTidied(const TypicalLine& line, std::span<const Vec2> placesMm,
-                                          const ConstructParams& params, const RunContext& context) {
+std::optional<FoundPath> grownAndTidied(const TypicalLine& line, std::span<const Vec2> placesMm,
+                                        const ConstructParams& params, const RunContext& context) {
   auto grown = grownPath(line, placesMm, params, nullptr, context);
-  if (!grown || !placesMm.empty() || params.growingAsInPaper) return grown;
+  if (!grown) return std::nullopt;
+  if (!placesMm.empty() || params.growingAsInPaper) return FoundPath{std::move(*grown)};
   Candidate tidy = fittedCandidate(*grown, dataOf(line), PathSearch::Tidy, line, context);
   const auto curve = pathCurve(*grown, line);
   const bool stays = curve && !isAstray(*curve, line);
-  if (!tidy.path || (stays && extremaOf(*curve, line.closed) < tidy.falseExtrema)) return grown;
+  if (!tidy.path || (stays && extremaOf(*curve, line.closed) < tidy.falseExtrema)) {
+    return FoundPath{std::move(*grown)};
+  }
   return tidy.path;
 }
 
@@ -356,10 +365,10 @@ Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, double pi
   const TypicalLine line = typicalLine(piece, pixelMm, params, context);
   if (line.joints.empty()) return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
   if (context.isCancelled()) return cancelled();
-  auto path = params.typical == TypicalMode::Growing ? grownAndTidied(line, piece.divisions, params, context)
-                                                     : chainPath(line, piece.divisions, context);
+  auto found = params.typical == TypicalMode::Growing ? grownAndTidied(line, piece.divisions, params, context)
+                                                      : chainPath(line, piece.divisions, context);
   if (context.isCancelled()) return cancelled();
-  auto curve = path ? pathCurve(*path, line) : Result<NurbsCurve>(fail(ErrorCode::Numerical, ""));
+  auto curve = found ? pathCurve(found->path, line) : Result<NurbsCurve>(fail(ErrorCode::Numerical, ""));
   if (!curve) return pathInstead(piece, pixelMm, params, context);
   const Vec2 end = line.closed ? Vec2(curve->controlPoints().front()) : line.endMm;
   const Vec2 start = line.closed ? end : line.originMm;
@@ -371,8 +380,8 @@ Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, double pi
     return pathInstead(piece, pixelMm, params, context);
   }
   ConstructedPiece result{std::move(*curve), {}};
-  result.report.why = Termination::Converged;
-  result.report.segments = segmentNotes(*path, line);
+  result.report.why = found->converged ? Termination::Converged : Termination::IterationLimit;
+  result.report.segments = segmentNotes(found->path, line);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/run_context.h"
 #include "core/base/vec2.h"
 #include "core/construct/quintic_pieces.h"
 #include "core/construct/typical_curve.h"
@@ -109,8 +110,9 @@ struct PathFit {
 };
 
 /// Levenberg-Marquardt with analytic derivatives; closes or pins the path exactly at the end. The path becomes the best
-/// found. Absent where the path or its start is impossible.
-std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxIterations);
+/// found, also when cancelled. Absent where the path or its start is impossible.
+std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxIterations,
+                               const RunContext& context = {});
 
 /// Feet of points in order, each searched from the one before.
 std::vector<PathFoot> pathFeet(const TypicalPath& path, const std::vector<Vec2>& points);

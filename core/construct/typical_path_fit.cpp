@@ -273,7 +273,7 @@ void closeGap(TypicalPath& path, const Problem& problem, const Problem::System& 
 
 }  // namespace
 
-std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxIterations) {
+std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxIterations, const RunContext& context) {
   if (path.elements.empty() || path.states.size() != path.elements.size() + 1) return std::nullopt;
   if (!path.closed) {
     path.states.front().point = data.start;
@@ -291,10 +291,10 @@ std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxI
   };
   double lambda = 1e-3;
   int small = 0;
-  for (; fit.iterations < maxIterations; ++fit.iterations) {
+  for (; fit.iterations < maxIterations && !context.isCancelled(); ++fit.iterations) {
     const Eigen::VectorXd diagonal = damped();
     bool better = false;
-    for (int attempt = 0; attempt < 10 && !better; ++attempt) {
+    for (int attempt = 0; attempt < 10 && !better && !context.isCancelled(); ++attempt) {
       if (const auto step = problem.step(path, system, lambda * diagonal)) {
         TypicalPath trial = problem.unknowns().moved(path, *step);
         std::vector<PathFoot> feet = fit.feet;

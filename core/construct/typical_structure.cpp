@@ -45,7 +45,7 @@ class StructureSearch {
 
   std::optional<PathFit> run(PathSearch search) {
     const bool divide = search == PathSearch::Full, doubts = divide || search == PathSearch::Tidy;
-    auto first = fitPath(path_, data_, 25);
+    auto first = fitPath(path_, data_, 25, context_);
     if (!first) return std::nullopt;
     fit_ = std::move(*first);
     watchOutliers();
@@ -82,7 +82,7 @@ class StructureSearch {
   }
 
   bool refit(TypicalPath& path, PathFit& fit, int iterations) {
-    auto fitted = fitPath(path, data_, iterations);
+    auto fitted = fitPath(path, data_, iterations, context_);
     if (!fitted) return false;
     fit = std::move(*fitted);
     return true;
