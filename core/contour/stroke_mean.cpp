@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 
 #include "core/base/parallel.h"
@@ -158,13 +159,49 @@ std::vector<MeanLine> moveToMean(const std::vector<Contour>& lines, double dista
       first += n;
     }
   }
-  for (std::size_t l = 0; l < means.size(); ++l) {
-    MeanLine& m = means[l];
-    for (std::size_t i = 0; i < m.points.size(); ++i)
-      m.low.push_back(static_cast<float>((lines[l].points[i] - m.points[i]).dot(leftNormal(m.tangent[i]))));
-    m.high = m.low;
-  }
   return means;
+}
+
+struct StrokesBeside::Parts {
+  std::vector<MeanLine> lines;
+  double distance = 0.0;
+  std::optional<Cells> cells;
+};
+
+StrokesBeside::StrokesBeside(const std::vector<Contour>& lines, double distancePx) : parts_(std::make_unique<Parts>()) {
+  for (const Contour& line : lines) {
+    MeanLine stroke;
+    stroke.points = line.points;
+    stroke.tangent = directions(line.points, line.closed, 3);
+    parts_->lines.push_back(std::move(stroke));
+  }
+  parts_->distance = std::max(1.0, distancePx);
+  parts_->cells.emplace(parts_->lines, parts_->distance);
+}
+
+StrokesBeside::~StrokesBeside() = default;
+
+std::vector<float> StrokesBeside::halfSpread(const std::vector<Vec2>& points, bool closed) const {
+  constexpr double kAlongPx = 1.5, kOneStrokePx = 1.0;
+  const std::vector<Vec2> tangent = directions(points, closed, 3);
+  std::vector<float> spread;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec2 n(-tangent[i].y(), tangent[i].x());
+    double low = 0.0, high = 0.0;
+    parts_->cells->around(points[i], [&](const MeanLine::Source& place) {
+      const MeanLine& other = parts_->lines[static_cast<std::size_t>(place.line)];
+      const auto k = static_cast<std::size_t>(place.index);
+      const Vec2 d = other.points[k] - points[i];
+      const double offset = d.dot(n);
+      if (std::abs(d.dot(tangent[i])) > kAlongPx || std::abs(offset) >= parts_->distance) return;
+      if (std::abs(other.tangent[k].dot(tangent[i])) < kCrossingCos) return;
+      low = std::min(low, offset);
+      high = std::max(high, offset);
+    });
+    // The points of one stroke scatter by less.
+    spread.push_back(high - low > kOneStrokePx ? static_cast<float>(0.5 * (high - low)) : 0.0f);
+  }
+  return spread;
 }
 
 }  // namespace batten

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/base/run_context.h"
@@ -14,9 +15,7 @@ struct MeanLine {
     int line = 0, index = 0;
   };
   std::vector<Vec2> points;
-  std::vector<Vec2> tangent;  ///< Unit direction of travel.
-  /// [px] Where along the left normal the strokes lay that are this line now; the line's own one to begin with.
-  std::vector<float> low, high;
+  std::vector<Vec2> tangent;   ///< Unit direction of travel.
   std::vector<Source> source;  ///< The point of the line given that each came from.
   bool closed = false;
 };
@@ -25,5 +24,20 @@ struct MeanLine {
 /// three rounds. Weights fall towards the ends of a stroke, near the distance and with the angle between the strokes.
 /// One per line, same order; not complete when cancelled. Same result with any number of threads.
 std::vector<MeanLine> moveToMean(const std::vector<Contour>& lines, double distancePx, const RunContext& context);
+
+/// Asks where strokes lay beside a line.
+class StrokesBeside {
+ public:
+  /// @param lines must outlive this.
+  StrokesBeside(const std::vector<Contour>& lines, double distancePx);
+  ~StrokesBeside();
+  /// [px] per point: half the distance between the outermost strokes within `distancePx` that run along the line, the
+  /// line itself being one.
+  std::vector<float> halfSpread(const std::vector<Vec2>& points, bool closed) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
 
 }  // namespace batten

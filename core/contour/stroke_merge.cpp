@@ -9,6 +9,7 @@
 
 #include "core/base/parallel.h"
 #include "core/contour/polyline_tools.h"
+#include "core/contour/stroke_fair.h"
 #include "core/contour/stroke_mean.h"
 
 namespace batten {
@@ -19,6 +20,7 @@ constexpr double kOnLine = 0.15;         // the distance within which strokes ar
 constexpr double kSameWay = 0.8;         // cosine between lines that are one
 constexpr int kShortestRun = 12;         // points: lying on a line for less is crossing it
 constexpr double kJointSmoothing = 3.0;  // points
+constexpr double kLongestWaver = 6.0;    // distances: what the mean does over a longer way was drawn
 
 struct Place {
   int line = 0, index = 0;
@@ -54,11 +56,6 @@ void reverse(MeanLine& line) {
   std::reverse(line.points.begin(), line.points.end());
   std::reverse(line.tangent.begin(), line.tangent.end());
   for (Vec2& t : line.tangent) t = -t;
-  std::reverse(line.low.begin(), line.low.end());
-  std::reverse(line.high.begin(), line.high.end());
-  std::swap(line.low, line.high);
-  for (float& v : line.low) v = -v;
-  for (float& v : line.high) v = -v;
   std::reverse(line.source.begin(), line.source.end());
 }
 
@@ -67,8 +64,6 @@ MeanLine part(const MeanLine& line, int from, int to) {
   MeanLine p;
   p.points = cut(line.points);
   p.tangent = cut(line.tangent);
-  p.low = cut(line.low);
-  p.high = cut(line.high);
   p.source = cut(line.source);
   return p;
 }
@@ -78,8 +73,6 @@ void append(MeanLine& line, const MeanLine& more) {
   const std::size_t joint = line.points.size();
   add(line.points, more.points);
   add(line.tangent, more.tangent);
-  add(line.low, more.low);
-  add(line.high, more.high);
   add(line.source, more.source);
   // The two parts meet to within a pixel or two: a little smoothing about the joint.
   const std::size_t reach = 12, from = joint > reach ? joint - reach : 0,
@@ -101,7 +94,6 @@ class Consolidation {
     if (std::none_of(covered.begin(), covered.end(), [](bool c) { return c; })) return keep(std::move(line));
     if (line.closed) line = openAtCoverage(std::move(line), covered);
     const std::vector<bool> again = coverage(line);
-    widen(line, again);
     for (int i = 0; i < n; ++i) {
       if (again[static_cast<std::size_t>(i)]) continue;
       int end = i;
@@ -142,26 +134,6 @@ class Consolidation {
     return on;
   }
 
-  // What lies on a kept line counts to its band.
-  void widen(const MeanLine& line, const std::vector<bool>& covered) {
-    for (std::size_t i = 0; i < line.points.size(); ++i) {
-      if (!covered[i]) continue;
-      Place nearest{-1, 0};
-      double best = 2.0 * onLine_;
-      index_.around(line.points[i], [&](const Place& place) {
-        const MeanLine& other = lines_[static_cast<std::size_t>(place.line)];
-        const double d = (other.points[static_cast<std::size_t>(place.index)] - line.points[i]).norm();
-        if (d < best) best = d, nearest = place;
-      });
-      if (nearest.line < 0) continue;
-      MeanLine& other = lines_[static_cast<std::size_t>(nearest.line)];
-      const auto k = static_cast<std::size_t>(nearest.index);
-      const bool same = other.tangent[k].dot(line.tangent[i]) > 0.0;
-      other.low[k] = std::min(other.low[k], same ? line.low[i] : -line.high[i]);
-      other.high[k] = std::max(other.high[k], same ? line.high[i] : -line.low[i]);
-    }
-  }
-
   static void flipRuns(std::vector<bool>& values, bool what, int shorter, bool onlyInside) {
     const int n = static_cast<int>(values.size());
     for (int i = 0; i < n; ++i) {
@@ -181,11 +153,18 @@ class Consolidation {
     const auto turn = [&](auto& v) { std::rotate(v.begin(), v.begin() + first, v.end()); };
     turn(line.points);
     turn(line.tangent);
-    turn(line.low);
-    turn(line.high);
     turn(line.source);
     line.closed = false;
     return line;
+  }
+
+  // Unit direction from an end into the line, over about the distance: the last few points may be a hook.
+  Vec2 inwards(const MeanLine& line, int side) const {
+    const std::size_t n = line.points.size(), reach = std::min(n - 1, static_cast<std::size_t>(std::ceil(distance_)));
+    const Vec2 chord =
+        side == 0 ? line.points[reach] - line.points.front() : line.points[n - 1 - reach] - line.points.back();
+    if (chord.norm() > 0.0) return chord.normalized();
+    return side == 0 ? line.tangent.front() : Vec2(-line.tangent.back());
   }
 
   // The kept line whose open end a tail that begins at `at` in direction `out` goes on from: 2 * line + side, or -1.
@@ -197,7 +176,7 @@ class Consolidation {
       if (line.closed || line.points.empty()) continue;
       for (const int side : {0, 1}) {
         const Vec2& end = side == 0 ? line.points.front() : line.points.back();
-        const Vec2 away = side == 0 ? Vec2(-line.tangent.front()) : line.tangent.back();
+        const Vec2 away = -inwards(line, side);
         const double d = (end - at).norm();
         if (d >= nearest || away.dot(out) < 0.7) continue;
         nearest = d;
@@ -208,8 +187,8 @@ class Consolidation {
   }
 
   void addTail(MeanLine tail, bool cutStart, bool cutEnd) {
-    const int start = cutStart ? endAt(tail.points.front(), tail.tangent.front()) : -1;
-    const int end = cutEnd ? endAt(tail.points.back(), -tail.tangent.back()) : -1;
+    const int start = cutStart ? endAt(tail.points.front(), inwards(tail, 0)) : -1;
+    const int end = cutEnd ? endAt(tail.points.back(), inwards(tail, 1)) : -1;
     const double length = polylineLength(tail.points, false);
     if (start < 0 && end < 0) {
       // An overshoot, or a way between two lines that nearly touch.
@@ -282,7 +261,8 @@ class Consolidation {
   PlaceIndex index_;
 };
 
-Contour contourOf(const MeanLine& line, const std::vector<Contour>& lines) {
+Contour contourOf(const MeanLine& line, const std::vector<Contour>& lines, const StrokesBeside& strokes,
+                  double distancePx) {
   Contour c;
   c.kind = ContourKind::Centreline;
   c.closed = line.closed;
@@ -294,22 +274,16 @@ Contour contourOf(const MeanLine& line, const std::vector<Contour>& lines) {
     c.chain.push_back(line.points[i]);
     c.refined.push_back(from.refined[at]);
     c.widthPx.push_back(from.widthPx[at]);
-    // Not every point has one of every stroke beside it.
-    float low = line.low[i], high = line.high[i];
-    for (std::size_t k = i > 2 ? i - 2 : 0; k < std::min(line.low.size(), i + 3); ++k) {
-      low = std::min(low, line.low[k]);
-      high = std::max(high, line.high[k]);
-    }
-    c.bandPx.push_back(0.5f * (high - low));
   }
   while (c.closed && c.points.size() > 3 && (c.points.front() - c.points.back()).norm() < 0.35) {
     c.points.pop_back();
     c.chain.pop_back();
     c.refined.pop_back();
     c.widthPx.pop_back();
-    c.bandPx.pop_back();
   }
-  c.bandPx = smoothValues(c.bandPx, c.closed, 4.0);
+  c.bandPx = smoothValues(strokes.halfSpread(c.points, c.closed), c.closed, 4.0);
+  fairWithinBand(c.points, c.closed, c.bandPx, kLongestWaver * distancePx);
+  c.chain = c.points;
   c.lengthPx = polylineLength(c.points, c.closed);
   c.areaPx = c.closed ? polygonArea(c.points) : 0.0;
   return c;
@@ -330,7 +304,11 @@ std::vector<Contour> mergeStrokes(const std::vector<Contour>& lines, double dist
     if (means[i].points.size() >= 3) consolidation.add(std::move(means[i]));
   }
   std::vector<Contour> merged;
-  for (const MeanLine& line : consolidation.finish()) merged.push_back(contourOf(line, lines));
+  const StrokesBeside strokes(lines, distancePx);
+  for (const MeanLine& line : consolidation.finish()) {
+    if (context.isCancelled()) return {};
+    merged.push_back(contourOf(line, lines, strokes, distancePx));
+  }
   std::erase_if(merged, [](const Contour& c) { return c.points.size() < 3; });
   return merged;
 }
