@@ -10,6 +10,8 @@
 namespace batten {
 namespace {
 
+constexpr double kSharedWidth = 1.1;  // of a single stroke
+
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
 double lengthOf(const std::vector<StrandPoint>& points, bool closed) {
@@ -254,15 +256,22 @@ void LegGraph::pruneSpurs(double factor) {
   }
 }
 
+double LegGraph::meanRadius(int leg) const {
+  double sum = 0.0;
+  for (const StrandPoint& p : legs_[idx(leg)].points) sum += static_cast<double>(p.radius);
+  return sum / std::max<double>(1.0, static_cast<double>(legs_[idx(leg)].points.size()));
+}
+
 // [px] How long two strokes that cross or touch at the angle seen at both ends of a link can share one skeleton; 0: the
 // link is no such place.
 double LegGraph::sharedLength(int link) const {
   const StrokeLeg& l = legs_[idx(link)];
   const double width = 2.0 * medianRadius_;
-  double angle = 0.0;
+  double angle = 0.0, others = 0.0;
   for (int side = 0; side < 2; ++side) {
     const StrokeNode& n = nodes_[idx(l.node[side])];
     if (n.ends.size() != 3) return 0.0;
+    for (const int end : n.ends) others += end / 2 == link ? 0.0 : 0.25 * meanRadius(end / 2);
     const double reach = 4.0 * width + n.radius;
     Vec2 inward = Vec2::Zero(), out[2];
     int k = 0;
@@ -277,6 +286,8 @@ double LegGraph::sharedLength(int link) const {
     if (k != 2 || inward.dot(out[0]) > -0.7 || inward.dot(out[1]) > -0.7) return 0.0;
     angle += 0.5 * std::acos(std::clamp(out[0].dot(out[1]), -1.0, 1.0));
   }
+  // Two strokes that part on either side are wider than one; a line between two things that hang on it is not.
+  if (meanRadius(link) < kSharedWidth * others) return 0.0;
   constexpr double kLeast = 0.2, kMost = 1.05;  // 12 and 60 degrees
   return angle > kMost ? 0.0 : 2.0 * width / std::sin(0.5 * std::max(kLeast, angle));
 }

@@ -41,6 +41,7 @@ class LegGraph {
   bool isSpur(int leg, double factor, int& tipSide) const;
   bool closesCorner(int leg, int node) const;
   double sharedLength(int link) const;
+  double meanRadius(int leg) const;
   void removeLeg(int leg);
   void splice(int node);
   void appendLeg(int into, int from);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "core/contour/polyline_tools.h"
 #include "core/fairing/curve_comparison.h"
 #include "core/pipeline/parameter_table.h"
 
@@ -167,6 +168,60 @@ Json curveToJson(const PipelineOutput& out, const ReportExtras& extras, std::siz
   return json;
 }
 
+/// Where a line was not measured as elsewhere: points first..last of it.
+Json stretchToJson(const Contour& c, int first, int last) {
+  const auto a = c.points.begin() + first, b = c.points.begin() + last + 1;
+  return {{"from_px", pointToJson(*a)},
+          {"to_px", pointToJson(*(b - 1))},
+          {"points", last - first + 1},
+          {"length_px", number(polylineLength({a, b}, false))}};
+}
+
+Json notPlacedToJson(const Contour& c) {
+  Json list = Json::array();
+  const int n = static_cast<int>(std::min(c.refined.size(), c.points.size()));
+  for (int i = 0; i < n; ++i) {
+    if (c.refined[static_cast<std::size_t>(i)] != 0) continue;
+    int last = i;
+    while (last + 1 < n && c.refined[static_cast<std::size_t>(last) + 1] == 0) ++last;
+    list.push_back(stretchToJson(c, i, last));
+    i = last;
+  }
+  return list;
+}
+
+/// Median and largest of some lengths along a line.
+Json rangeToJson(std::vector<float> px, const PageFrame& frame) {
+  if (px.empty()) return nullptr;
+  std::sort(px.begin(), px.end());
+  const double middle = static_cast<double>(px[px.size() / 2]), most = static_cast<double>(px.back());
+  return {{"median_px", number(middle)},
+          {"largest_px", number(most)},
+          {"median_mm", number(frame.lengthToModel(middle))},
+          {"largest_mm", number(frame.lengthToModel(most))}};
+}
+
+Json contourToJson(const Contour& c, std::size_t index, const PageFrame& frame) {
+  const double mm2 = frame.mmPerPx * frame.mmPerPx;
+  Json json{{"contour", index + 1},
+            {"kind", kindName(c.kind)},
+            {"closed", c.closed},
+            {"hole", c.hole},
+            {"length_px", number(c.lengthPx)},
+            {"length_mm", number(frame.lengthToModel(c.lengthPx))},
+            {"area_px2", c.closed ? number(c.areaPx) : Json(nullptr)},
+            {"area_mm2", c.closed ? number(c.areaPx * mm2) : Json(nullptr)},
+            {"stroke_width", rangeToJson(c.widthPx, frame)},
+            {"merged_half_spread", rangeToJson(c.bandPx, frame)},
+            {"bridges", Json::array()},
+            {"not_placed", c.kind == ContourKind::Pen ? Json::array() : notPlacedToJson(c)}};
+  const int n = static_cast<int>(c.points.size());
+  for (const auto& [first, last] : c.bridges) {
+    if (first >= 0 && first <= last && last < n) json["bridges"].push_back(stretchToJson(c, first, last));
+  }
+  return json;
+}
+
 /// More curves than this are not all compared with each other.
 constexpr std::size_t kMostCompared = 60;
 
@@ -277,6 +332,9 @@ std::string reportToJson(const Scan& scan, const Recipe& recipe, const PipelineO
   json["mm_per_px"] = number(out.frame.mmPerPx);
   json["read_milliseconds"] = number(extras.readMilliseconds);
   json["stages"] = stagesToJson(out);
+  Json& contours = json["contours"] = Json::array();
+  for (std::size_t i = 0; out.contours && i < out.contours->contours.size(); ++i)
+    contours.push_back(contourToJson(out.contours->contours[i], i, out.frame));
   Json& curves = json["curves"] = Json::array();
   for (std::size_t i = 0; out.faired && i < out.faired->curves.size(); ++i)
     curves.push_back(curveToJson(out, extras, i));

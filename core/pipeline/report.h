@@ -18,7 +18,8 @@ struct ReportExtras {
   std::uint64_t peakMemoryBytes = 0;                   ///< 0 = unknown.
 };
 
-/// The report as JSON, "batten-report" version 1: image; per stage milliseconds and counts; per curve length, control
+/// The report as JSON, "batten-report" version 1: image; per stage milliseconds and counts; per contour length, area,
+/// stroke width, spread of merged strokes, bridged gaps and where it was not placed; per curve length, control
 /// points, corners, deviations (px and mm), extrema, inflections, the six targets, the choice, and why each solver
 /// stopped; what failed; peak memory. Works on the outputs of a run that ended early, too.
 std::string reportToJson(const Scan&, const Recipe&, const PipelineOutput&, const ReportExtras&);

@@ -254,6 +254,20 @@ TEST(Centreline, AnAcuteCornerKeepsTheRing) {
   EXPECT_TRUE(found[0].closed);
 }
 
+// Between two lugs that sit on a line there is that line alone, however the lugs lean: it is not two strokes in one.
+TEST(Centreline, ALineWithLugsStaysOnItsInk) {
+  const auto ring = [](double x, double y) {
+    return Polyline{{x, y}, {x - 12.0, y}, {x - 12.0, y + 12.0}, {x + 3.4, y + 12.0}};
+  };
+  Polyline whole;
+  for (int y = 40; y <= 360; ++y) whole.push_back({200.0 + 0.002 * (y - 40.0) * (y - 120.0), static_cast<double>(y)});
+  const auto x = [](double y) { return 200.0 + 0.002 * (y - 40.0) * (y - 120.0); };
+  const auto found = strandsOf(page({whole, ring(x(125), 125), ring(x(190), 190)}, false, 4.0, 460, 400));
+  ASSERT_FALSE(found.empty());
+  EXPECT_LE(fitTo(found[0], whole, false).allWorst, 1.0);
+  EXPECT_GT(found[0].lengthPx, 330.0);
+}
+
 TEST(Centreline, GapsAreBridgedAndSaid) {
   const Polyline whole = line({40, 80.2}, {360, 90.2});
   Polyline left, right;
