@@ -218,15 +218,20 @@ void printCorners(const Tally& t) {
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<double> errors;
     double opening = 0.0;
+    Vec2 sum = Vec2::Zero();
     int all = 0;
     for (const auto& c : t.each) {
       if (c.corner != i) continue;
       opening = c.openingDeg;
       ++all;
-      if (std::isfinite(c.errorPx)) errors.push_back(c.errorPx);
+      if (!std::isfinite(c.errorPx)) continue;
+      errors.push_back(c.errorPx);
+      sum += c.offPx;
     }
-    std::printf("      corner %2zu opens %6.1f degrees: %zu of %d, %.3f px\n", i, opening, errors.size(), all,
-                rmsOf(errors));
+    // The mean of n misses without bias is about rms / sqrt(n) long.
+    std::printf("      corner %2zu opens %6.1f degrees: %zu of %d, %.3f px; mean miss %.3f px\n", i, opening,
+                errors.size(), all, rmsOf(errors),
+                errors.empty() ? 0.0 : sum.norm() / static_cast<double>(errors.size()));
   }
 }
 

@@ -270,9 +270,13 @@ double openingAt(const TruthShape& shape, std::size_t i) {
 void measureCorners(const TruthShape& shape, const std::vector<Vec2>& corners, Accuracy& result) {
   for (std::size_t i = 0; i < shape.corners.size(); ++i) {
     double best = std::numeric_limits<double>::infinity();
-    for (const Vec2& corner : corners) best = std::min(best, (corner - shape.corners[i]).norm());
+    Vec2 off = Vec2::Zero();
+    for (const Vec2& corner : corners) {
+      const Vec2 d = corner - shape.corners[i];
+      if (d.norm() < best) best = d.norm(), off = d;
+    }
     if (best > kCornerWithinPx) best = std::numeric_limits<double>::infinity();
-    result.corners.push_back({i, openingAt(shape, i) * 180.0 / std::numbers::pi, best});
+    result.corners.push_back({i, openingAt(shape, i) * 180.0 / std::numbers::pi, best, off});
     if (best <= kCornerWithinPx) ++result.cornersFound;
   }
 }

@@ -40,9 +40,10 @@ struct Accuracy {
   int cornersFound = 0;  ///< True corners with one found within 4 px.
   int cornersTrue = 0;
   struct CornerError {
-    std::size_t corner = 0;   ///< Of the shape.
-    double openingDeg = 0.0;  ///< Between its sides; 180 would be none.
-    double errorPx = 0.0;     ///< Infinite: not found.
+    std::size_t corner = 0;     ///< Of the shape.
+    double openingDeg = 0.0;    ///< Between its sides; 180 would be none.
+    double errorPx = 0.0;       ///< Infinite: not found.
+    Vec2 offPx = Vec2::Zero();  ///< Where it was found, from where it is.
   };
   std::vector<CornerError> corners;  ///< All true ones.
 };
