@@ -235,6 +235,7 @@ void MainWindow::enterStage(PanelStage stage) {
     case PanelStage::Edges:
       turn(true, {Layer::Edges, Layer::Curve, Layer::Fallback});
       turn(false, {Layer::Faired, Layer::Comb});
+      showMerges();
       break;
     case PanelStage::Corners:
       turn(true, {Layer::Corners, Layer::Curve});

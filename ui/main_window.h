@@ -65,6 +65,7 @@ class MainWindow : public QMainWindow {
   void connectSession();
   void connectActions();
   void connectLayers();
+  void showMerges();
   void trigger(ActionId id);
   void newDrawing();
   void chooseScan();

@@ -5,6 +5,7 @@
 #include <QMenu>
 #include <QSplitter>
 #include <QUndoStack>
+#include <algorithm>
 
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
@@ -184,7 +185,25 @@ void MainWindow::trigger(ActionId id) {
   }
 }
 
+// While edges are worked on and strokes are merged, the room within which they lay is shown, unless the user hides it.
+void MainWindow::showMerges() {
+  parts_->isMerging = session_.recipe().edges.mergeWidths > 0.0;
+  const auto is = [](const Parts::StageLayer& one) { return one.layer == Layer::Strokes; };
+  const bool switched = std::any_of(parts_->stageLayers.begin(), parts_->stageLayers.end(), is);
+  if (parts_->isMerging && !view_.isVisible(Layer::Strokes)) {
+    parts_->stageLayers.push_back({Layer::Strokes, false, true});
+    view_.setVisible(Layer::Strokes, true);
+  } else if (!parts_->isMerging && switched) {
+    std::erase_if(parts_->stageLayers, is);
+    view_.setVisible(Layer::Strokes, false);
+  }
+}
+
 void MainWindow::connectLayers() {
+  connect(&session_, &EditorSession::recipeChanged, this, [this] {
+    const bool isMerging = session_.recipe().edges.mergeWidths > 0.0;
+    if (stage() == PanelStage::Edges && isMerging != parts_->isMerging) showMerges();
+  });
   const auto follow = [this] {
     for (const Layer layer : kLayers) action(showAction(layer))->setChecked(view_.isVisible(layer));
     session_.setEdgesWanted(view_.isVisible(Layer::Edges));

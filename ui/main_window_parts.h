@@ -58,6 +58,7 @@ struct MainWindow::Parts {
   enum class Height { Roomy, Low, Lowest } height = Height::Roomy;
   QList<int> roomySizes;                       ///< Of the splitter, while the window is low.
   std::vector<StageLayer> stageLayers;         ///< Switched by the present stage, switched back when it is left.
+  bool isMerging = false;                      ///< Strokes were merged when the recipe changed last.
   std::function<void()> remedy, dismissal;     ///< Of the message shown.
   std::optional<FailureOrigin> problemOrigin;  ///< Of the message shown.
   UnsavedQuestion unsavedQuestion;

@@ -193,6 +193,31 @@ TEST_F(Choices, ARectangleAndALassoTraceWhatLiesInside) {
   EXPECT_EQ(session().recipe().regions.size(), 2u);
 }
 
+TEST_F(Choices, MergedStrokesShowTheirRoomWhileEdgesAreWorkedOn) {
+  open(twoLinesPage());
+  const auto shows = [&] { return window_->view().isVisible(Layer::Strokes); };
+  const auto merge = [&](double widths) {
+    Recipe recipe = session().recipe();
+    recipe.edges.mergeWidths = widths;
+    session().change(QStringLiteral("Merge strokes"), recipe);
+  };
+  window_->setStage(PanelStage::Edges);
+  EXPECT_FALSE(shows());
+  merge(4.0);
+  EXPECT_TRUE(shows());
+  window_->setStage(PanelStage::Curves);
+  EXPECT_FALSE(shows());
+  window_->setStage(PanelStage::Edges);
+  EXPECT_TRUE(shows());
+  merge(0.0);
+  EXPECT_FALSE(shows());
+  merge(4.0);
+  window_->action(ActionId::ShowStrokes)->trigger();  // the user's own choice stays
+  EXPECT_FALSE(shows());
+  merge(5.0);
+  EXPECT_FALSE(shows());
+}
+
 TEST_F(Choices, EveryNewLayerPaintsWithoutChangingTheRecipe) {
   open(grainyWavePage());
   const Recipe before = session().recipe();
