@@ -35,8 +35,10 @@ install_missing() {
   rm -f "$log"
 }
 
-# build TARGET...: configures once and builds the release preset below build/release.
+# build TARGET...: configures once and builds the release preset below build/release. The cache trusts the compiler's own
+# list of included files and knows the precompiled headers, wherever the sources lie.
 build() {
-  cmake --preset release -DBATTEN_TEST_PCH=ON >build/configure.log 2>&1 || { tail -30 build/configure.log >&2; exit 1; }
+  export CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+  cmake --preset release -DBATTEN_PCH=ON >build/configure.log 2>&1 || { tail -30 build/configure.log >&2; exit 1; }
   cmake --build --preset release --target "$@"
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/construct/typical_grower.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -9,6 +8,7 @@
 #include <numbers>
 
 #include "core/construct/block_levenberg.h"
+#include "core/solve/dense_solve.h"
 
 namespace batten {
 
@@ -245,7 +245,7 @@ class Grower {
       a.row(row) << 1.0, x, x * x;
       b(row) = (points_[i] - place).dot(normal);
     }
-    const Eigen::Vector3d parabola = a.colPivHouseholderQr().solve(b);
+    const Eigen::Vector3d parabola = leastSquares(a, b);
     return {place + parabola(0) * normal, (along + parabola(1) * normal).normalized()};
   }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/construct/typical_structure.h"
+#include "core/solve/dense_solve.h"
 
 namespace batten {
 
@@ -133,7 +133,7 @@ class RoughPath {
         a(row++, k) = -2.0 * kEven;
       }
     }
-    const Eigen::VectorXd x = a.topRows(row).colPivHouseholderQr().solve(b.head(row));
+    const Eigen::VectorXd x = leastSquares(a.topRows(row), b.head(row));
     return {x.data(), x.data() + x.size()};
   }
 

@@ -19,8 +19,9 @@ constexpr double kSmallestContrast = 4.0;  // [grey]
 constexpr double kProfileVariance = 0.42;  // [px^2] of the smoothing that a profile's middle has seen: .5 px, bilinear
 constexpr std::size_t kBlurPoints = 400;   // that vote for the blur
 constexpr std::size_t kGainPoints = 60;    // of a stroke that vote for its darkness
+constexpr int kGrain = 64;                 // points worked on together; the result does not depend on it
 constexpr int kNewtonSteps = 4;
-constexpr double kLargestStepPx = 0.25, kSettledPx = 5e-4;
+constexpr double kLargestStepPx = 0.25, kSettledPx = 2e-3;
 
 struct Stroke {
   double middle = 0.0, width = 1.0;  // [px]
@@ -164,10 +165,12 @@ class Placer {
   double gain_ = 1.0;
 };
 
-int pageBlur(const std::vector<StrandCourse>& courses, const std::vector<Placer>& placers) {
-  struct Place {
-    std::size_t course, point;
-  };
+/// A point of one of the courses.
+struct Place {
+  std::size_t course, point;
+};
+
+int pageBlur(const std::vector<StrandCourse>& courses, const std::vector<Placer>& placers, const RunContext& context) {
   std::vector<Place> all, some;
   for (std::size_t c = 0; c < courses.size(); ++c)
     for (std::size_t i = 0; i < courses[c].base.size(); i += 5)
@@ -175,12 +178,13 @@ int pageBlur(const std::vector<StrandCourse>& courses, const std::vector<Placer>
   const std::size_t stride = std::max<std::size_t>(1, all.size() / kBlurPoints);
   for (std::size_t k = 0; k < all.size(); k += stride) some.push_back(all[k]);
   const auto left = [&](int index) {
-    PixelWindow window;
-    std::vector<double> squares;
-    for (const Place& p : some) {
-      double sum = 0.0;
-      if (placers[p.course].place(p.point, PixelResponse::forBlur(index), window, &sum)) squares.push_back(sum);
-    }
+    std::vector<double> squares(some.size(), -1.0);
+    parallelFor(context, static_cast<int>(some.size()), kGrain, [&](int begin, int end) {
+      PixelWindow window;
+      for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
+        placers[some[k].course].place(some[k].point, PixelResponse::forBlur(index), window, &squares[k]);
+    });
+    std::erase_if(squares, [](double sum) { return sum < 0.0; });
     if (squares.size() < some.size() / 2 || squares.empty()) return 1e300;  // does not describe these strokes
     const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
     std::nth_element(squares.begin(), middle, squares.end());
@@ -200,33 +204,48 @@ int pageBlur(const std::vector<StrandCourse>& courses, const std::vector<Placer>
   return best;
 }
 
+void placeOne(StrandCourse& c, const Placer& placer, std::size_t i, const PixelResponse& response,
+              PixelWindow& window) {
+  if (!placer.canPlace(i)) return;
+  const auto stroke = placer.place(i, response, window);
+  if (!stroke) return;
+  c.shift[i] = static_cast<float>(stroke->middle);
+  c.measuredWidth[i] = static_cast<float>(stroke->width);
+}
+
+void moveBase(StrandCourse& c, double blur) {
+  std::vector<Vec2> normal;
+  for (const Vec2& t : c.tangent) normal.push_back(leftNormal(t));
+  for (std::size_t i = 0; i < c.base.size(); ++i) c.base[i] += static_cast<double>(c.shift[i]) * normal[i];
+  std::fill(c.shift.begin(), c.shift.end(), 0.0f);
+  undoCurvatureShift(c.base, normal, c.closed, blur);
+}
+
 }  // namespace
 
 void placeOnPixels(std::vector<StrandCourse>& courses, const GreyImage& grey, const RunContext& context) {
   std::vector<Placer> placers;
   for (const StrandCourse& c : courses) placers.emplace_back(c, grey);
-  const PixelResponse& response = PixelResponse::forBlur(pageBlur(courses, placers));
-  const double blur = std::sqrt(response.blur() * response.blur() + kPixelVariance + PixelWindow::kVariance);
-  parallelFor(context, static_cast<int>(courses.size()), 1, [&](int begin, int end) {
-    PixelWindow window;
-    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      StrandCourse& c = courses[k];
-      placers[k].tune(response, window);
-      placers[k].tune(response, window);
-      std::vector<Vec2> normal;
-      for (const Vec2& t : c.tangent) normal.push_back(leftNormal(t));
-      for (std::size_t i = 0; i < c.base.size(); ++i) {
-        if (!placers[k].canPlace(i)) continue;
-        const auto stroke = placers[k].place(i, response, window);
-        if (!stroke) continue;
-        c.shift[i] = static_cast<float>(stroke->middle);
-        c.measuredWidth[i] = static_cast<float>(stroke->width);
-      }
-      for (std::size_t i = 0; i < c.base.size(); ++i) c.base[i] += static_cast<double>(c.shift[i]) * normal[i];
-      std::fill(c.shift.begin(), c.shift.end(), 0.0f);
-      undoCurvatureShift(c.base, normal, c.closed, blur);
-    }
+  const PixelResponse& response = PixelResponse::forBlur(pageBlur(courses, placers, context));
+  const auto each = [&](std::size_t count, int grain, const auto& body) {
+    parallelFor(context, static_cast<int>(count), grain, [&](int begin, int end) {
+      PixelWindow window;
+      for (int k = begin; k < end; ++k) body(static_cast<std::size_t>(k), window);
+    });
+  };
+  each(courses.size(), 1, [&](std::size_t k, PixelWindow& window) {
+    placers[k].tune(response, window);
+    placers[k].tune(response, window);
   });
+  // A page is often one long line: the points are shared among the threads, not the lines.
+  std::vector<Place> places;
+  for (std::size_t c = 0; c < courses.size(); ++c)
+    for (std::size_t i = 0; i < courses[c].base.size(); ++i) places.push_back({c, i});
+  each(places.size(), kGrain, [&](std::size_t k, PixelWindow& window) {
+    placeOne(courses[places[k].course], placers[places[k].course], places[k].point, response, window);
+  });
+  const double blur = std::sqrt(response.blur() * response.blur() + kPixelVariance + PixelWindow::kVariance);
+  each(courses.size(), 1, [&](std::size_t k, PixelWindow&) { moveBase(courses[k], blur); });
 }
 
 }  // namespace batten

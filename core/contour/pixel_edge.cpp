@@ -25,7 +25,7 @@ struct Answer {
 };
 
 constexpr int kNewtonSteps = 4;
-constexpr double kLargestStepPx = 0.5, kSettledPx = 5e-4;
+constexpr double kLargestStepPx = 0.5, kSettledPx = 2e-3;
 
 PixelResponse::Value modelAt(const PixelResponse& response, const PixelEdge& edge, double distance) {
   PixelResponse::Value value = response.at(distance, edge.direction);

@@ -21,7 +21,7 @@ constexpr int kBisections = 12;
 constexpr double kUsedShare = 0.97;
 /// Room for what lies between the places where the deviation is measured.
 constexpr double kRoom = 0.999;
-constexpr int kPlacesPerPiece = 64;
+constexpr int kFewPlaces = 100, kManyPlaces = 2000, kPlacesPerPiece = 64;
 constexpr double kProminence = 5e-3;
 
 /// The pieces of a path; empty for any other curve.
@@ -127,13 +127,18 @@ class EdgeLengthFairing {
     return curve ? std::optional(std::move(*curve)) : std::nullopt;
   }
 
-  /// Both ways, at so many places of each piece that what lies between them fits in the room.
+  /// Both ways, at so many places of each piece that what lies between them fits in the room. The search looks at few
+  /// of them first: what is too far away there is too far away.
   double moved(const NurbsCurve& curve) const {
-    const int places = std::max(2000, kPlacesPerPiece * static_cast<int>(path_.size())) + 1;
+    const double seen = movedAt(curve, kFewPlaces);
+    if (!(seen <= kRoom * params_.toleranceMm)) return seen;
+    return movedAt(curve, std::max(kManyPlaces, kPlacesPerPiece * static_cast<int>(path_.size())));
+  }
+
+  double movedAt(const NurbsCurve& curve, int places) const {
     const auto farthest = [places](const NurbsCurve& from, const NurbsCurve& to) {
       std::vector<Vec2> points;
-      for (int i = 0; i < places; ++i)
-        points.push_back(from.point(from.start() + (from.end() - from.start()) * i / (places - 1)));
+      for (int i = 0; i <= places; ++i) points.push_back(from.point(from.start() + (from.end() - from.start()) * i / places));
       return deviation(to, points, true).max;
     };
     return std::max(farthest(curve, curve_), farthest(curve_, curve));
