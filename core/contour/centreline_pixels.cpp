@@ -193,12 +193,15 @@ int pageBlur(const std::vector<StrandCourse>& courses, const std::vector<Placer>
   constexpr int kStart = 12;  // .65 px
   int best = kStart;
   double least = left(best);
-  for (const int step : {-1, 1}) {
-    for (int next = best + step; next >= 0 && next < PixelResponse::kBlurs; next += step) {
-      const double sum = left(next);
-      if (!(sum < least)) break;
-      least = sum;
-      best = next;
+  // Downhill in ever shorter strides: what is left has one minimum.
+  for (const int far : {6, 2, 1}) {
+    for (const int step : {-far, far}) {
+      for (int next = best + step; next >= 0 && next < PixelResponse::kBlurs; next += step) {
+        const double sum = left(next);
+        if (!(sum < least)) break;
+        least = sum;
+        best = next;
+      }
     }
   }
   return best;

@@ -17,9 +17,9 @@ constexpr std::array<double, 5> kWeights = {0.2955242247147529, 0.26926671930999
 constexpr double kRelativeChange = 1e-11;
 constexpr int kMaxDepth = 30;
 
-double speed(const NurbsCurve& curve, double u) { return curve.derivatives(u, 1)[1].norm(); }
+double speed(const SpanPolynomials& curve, double u) { return curve.at(u)[1].norm(); }
 
-double gauss(const NurbsCurve& curve, double from, double to) {
+double gauss(const SpanPolynomials& curve, double from, double to) {
   const double mid = 0.5 * (from + to), half = 0.5 * (to - from);
   double sum = 0.0;
   for (std::size_t i = 0; i < kNodes.size(); ++i) {
@@ -30,7 +30,7 @@ double gauss(const NurbsCurve& curve, double from, double to) {
 
 /// Subdivides [from, to] until halving changes nothing; appends the borders and the length up to them.
 struct Subdivision {
-  const NurbsCurve& curve;
+  const SpanPolynomials& curve;
   double negligible;   ///< Change of length that does not matter, whatever the piece.
   std::size_t budget;  ///< Borders after which no interval is halved any more: rounding noise must not be chased.
   std::vector<double>& breaks;
@@ -58,17 +58,17 @@ ArcLength::ArcLength(const NurbsCurve& curve) : curve_(curve) {
   const std::vector<double> spans = curve.breaks();
   std::vector<double> rough(spans.size(), 0.0);
   double roughTotal = 0.0;
-  for (std::size_t i = 0; i + 1 < spans.size(); ++i) roughTotal += rough[i] = gauss(curve, spans[i], spans[i + 1]);
+  for (std::size_t i = 0; i + 1 < spans.size(); ++i) roughTotal += rough[i] = gauss(curve_, spans[i], spans[i + 1]);
   breaks_ = {spans.front()};
   cumulative_ = {0.0};
   breaks_.reserve(2 * spans.size());
   cumulative_.reserve(2 * spans.size());
   double largest = roughTotal;
   for (const Vec2& p : curve.controlPoints()) largest = std::max(largest, p.lpNorm<Eigen::Infinity>());
-  Subdivision subdivision{curve, 1e-14 * largest, 4096 + 64 * spans.size(), breaks_, cumulative_};
+  Subdivision subdivision{curve_, 1e-14 * largest, 4096 + 64 * spans.size(), breaks_, cumulative_};
   for (std::size_t i = 0; i + 1 < spans.size(); ++i) subdivision.add(spans[i], spans[i + 1], rough[i], 0);
   speeds_.reserve(breaks_.size());
-  for (const double u : breaks_) speeds_.push_back(speed(curve, u));
+  for (const double u : breaks_) speeds_.push_back(speed(curve_, u));
   total_ = cumulative_.back();
 }
 

@@ -4,15 +4,16 @@
 #include <cmath>
 
 #include "core/curve/curve_analysis.h"
+#include "core/curve/span_polynomials.h"
 
 namespace batten {
 
 namespace {
 
 /// Local minimum of the distance within [low, high], from `start`: Newton on (R - p).R', never uphill.
-ClosestPoint descend(const NurbsCurve& curve, const Vec2& p, double start, double low, double high) {
+ClosestPoint descend(const SpanPolynomials& curve, const Vec2& p, double start, double low, double high) {
   double u = std::clamp(start, low, high);
-  auto d = curve.derivatives(u, 2);
+  auto d = curve.at(u);
   double squared = (d[0] - p).squaredNorm();
   const double smallest = 1e-13 * (curve.end() - curve.start());
   for (int iteration = 0; iteration < 30; ++iteration) {
@@ -25,7 +26,7 @@ ClosestPoint descend(const NurbsCurve& curve, const Vec2& p, double start, doubl
     double step = std::clamp(u - gradient / hessian, low, high) - u;
     bool moved = false;
     while (std::abs(step) > smallest) {
-      const auto trial = curve.derivatives(u + step, 2);
+      const auto trial = curve.at(u + step);
       const double trialSquared = (trial[0] - p).squaredNorm();
       if (trialSquared <= squared) {
         moved = trialSquared < squared;
@@ -45,25 +46,26 @@ ClosestPoint descend(const NurbsCurve& curve, const Vec2& p, double start, doubl
 /// curve turns about, so that no hairpin hides between two of them.
 class StartTable {
  public:
-  explicit StartTable(const NurbsCurve& curve) : curve_(curve) {
+  explicit StartTable(const NurbsCurve& curve) : polynomials(curve) {
     const std::vector<double> breaks = curve.breaks();
     const int perSpan = 2 * curve.degree() + 2;
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
       const double step = (breaks[i + 1] - breaks[i]) / perSpan;
-      auto from = curve.derivatives(breaks[i], 1);
+      auto from = polynomials.at(breaks[i]);
       add(breaks[i], from[0], true);
       for (int k = 1; k <= perSpan; ++k) {
         const double low = breaks[i] + step * (k - 1), high = k < perSpan ? breaks[i] + step * k : breaks[i + 1];
-        const auto to = curve.derivatives(high, 1);
+        const auto to = polynomials.at(high);
         addBetween(low, from, high, to, kDeepest);
         if (k < perSpan) add(high, to[0], false);
         from = to;
       }
     }
-    add(curve.end(), curve.point(curve.end()), true);
+    add(curve.end(), polynomials.at(curve.end())[0], true);
   }
   std::size_t size() const { return u.size(); }
 
+  SpanPolynomials polynomials;
   std::vector<double> u;
   std::vector<Vec2> points;
   std::vector<char> isKnot;
@@ -78,21 +80,20 @@ class StartTable {
     points.push_back(point);
     isKnot.push_back(knot ? 1 : 0);
   }
-  void addBetween(double low, const std::array<Vec2, 5>& a, double high, const std::array<Vec2, 5>& b, int depth) {
+  void addBetween(double low, const std::array<Vec2, 3>& a, double high, const std::array<Vec2, 3>& b, int depth) {
     if (depth == 0) return;
     const double middle = 0.5 * (low + high), chord = (b[0] - a[0]).norm();
     const bool turns = !(a[1].dot(b[1]) >= kMostTurn * a[1].norm() * b[1].norm());
-    const auto m = curve_.derivatives(middle, 1);
+    const auto m = polynomials.at(middle);
     if (!turns && (m[0] - 0.5 * (a[0] + b[0])).norm() <= kMostSag * chord) return;
     addBetween(low, a, middle, m, depth - 1);
     add(middle, m[0], false);
     addBetween(middle, m, high, b, depth - 1);
   }
-
-  const NurbsCurve& curve_;
 };
 
-ClosestPoint closestWith(const NurbsCurve& curve, const StartTable& table, const Vec2& p) {
+ClosestPoint closestWith(const StartTable& table, const Vec2& p) {
+  const SpanPolynomials& curve = table.polynomials;
   const std::size_t n = table.size();
   std::vector<double> distances(n);
   for (std::size_t i = 0; i < n; ++i) distances[i] = (table.points[i] - p).norm();
@@ -129,12 +130,12 @@ ClosestPoint closestWith(const NurbsCurve& curve, const StartTable& table, const
 class Follower {
  public:
   explicit Follower(const NurbsCurve& curve)
-      : curve_(curve), table_(curve), closed_(meets(curve)), window_((curve.end() - curve.start()) / 4.0) {}
+      : table_(curve), closed_(meets(curve)), window_((curve.end() - curve.start()) / 4.0) {}
 
   ClosestPoint next(const Vec2& p) {
     ClosestPoint found;
     if (count_ == 0) {
-      found = closestWith(curve_, table_, p);
+      found = closestWith(table_, p);
     } else {
       found = descend(curve_, p, last_.u, std::max(curve_.start(), last_.u - window_),
                       std::min(curve_.end(), last_.u + window_));
@@ -142,7 +143,7 @@ class Follower {
       const double possible = last_.distance + (p - lastPoint_).norm();
       const double usual = std::sqrt(sumSquares_ / count_);
       if (found.distance > possible * (1.0 + 1e-9) || found.distance > 3.0 * usual) {
-        const ClosestPoint anywhere = closestWith(curve_, table_, p);
+        const ClosestPoint anywhere = closestWith(table_, p);
         if (anywhere.distance < found.distance) found = anywhere;
       }
     }
@@ -164,8 +165,8 @@ class Follower {
     return other.distance < found.distance ? other : found;
   }
 
-  const NurbsCurve& curve_;
   StartTable table_;
+  const SpanPolynomials& curve_ = table_.polynomials;
   bool closed_;
   double window_;
   ClosestPoint last_;
@@ -196,7 +197,7 @@ Deviation summary(std::span<const Vec2> points, std::vector<double> distances) {
 
 }  // namespace
 
-ClosestPoint closestPoint(const NurbsCurve& curve, const Vec2& p) { return closestWith(curve, StartTable(curve), p); }
+ClosestPoint closestPoint(const NurbsCurve& curve, const Vec2& p) { return closestWith(StartTable(curve), p); }
 
 Deviation deviation(const NurbsCurve& curve, std::span<const Vec2> points, bool ordered) {
   std::vector<double> distances;
@@ -206,7 +207,7 @@ Deviation deviation(const NurbsCurve& curve, std::span<const Vec2> points, bool 
     for (const Vec2& p : points) distances.push_back(follower.next(p).distance);
   } else {
     const StartTable table(curve);
-    for (const Vec2& p : points) distances.push_back(closestWith(curve, table, p).distance);
+    for (const Vec2& p : points) distances.push_back(closestWith(table, p).distance);
   }
   return summary(points, std::move(distances));
 }

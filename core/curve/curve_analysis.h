@@ -7,6 +7,7 @@
 
 #include "core/base/vec2.h"
 #include "core/curve/nurbs_curve.h"
+#include "core/curve/span_polynomials.h"
 
 namespace batten {
 
@@ -26,7 +27,7 @@ class ArcLength {
   double parameter(double s) const;  ///< u at length s (clamped to 0..total).
 
  private:
-  NurbsCurve curve_;
+  SpanPolynomials curve_;
   std::vector<double> breaks_, cumulative_, speeds_;  ///< At the borders of the subdivision.
   double total_ = 0.0;
 };
