@@ -16,7 +16,8 @@
 namespace batten {
 namespace {
 constexpr int kRecentFiles = 10;
-const QString kAngleKey = QStringLiteral("suggestion-angle"), kPlotKey = QStringLiteral("window/plot");
+const QString kAngleKey = QStringLiteral("suggestion-angle"), kScaleKey = QStringLiteral("suggestion-scale"),
+              kPlotKey = QStringLiteral("window/plot");
 }  // namespace
 
 ThemeChoice MainWindow::storedTheme() {
@@ -141,6 +142,7 @@ void MainWindow::loadSettings() {
   view_.setCombScale(settings.value(QStringLiteral("comb-scale"), view_.combScale()).toDouble());
   view_.setCombDensity(settings.value(QStringLiteral("comb-density"), view_.combDensity()).toInt());
   view_.setSuggestionAngleDeg(settings.value(kAngleKey, view_.suggestionAngleDeg()).toDouble());
+  view_.setSuggestionScalePx(settings.value(kScaleKey, view_.suggestionScalePx()).toDouble());
   settings.endGroup();
   parts_->plots->setTab(static_cast<PlotTab>(std::clamp(settings.value(kPlotKey, 0).toInt(), 0, 3)));
   const ThemeChoice choice = storedTheme();
@@ -164,6 +166,7 @@ void MainWindow::saveSettings() {
   settings.setValue(QStringLiteral("comb-scale"), view_.combScale());
   settings.setValue(QStringLiteral("comb-density"), view_.combDensity());
   settings.setValue(kAngleKey, view_.suggestionAngleDeg());
+  settings.setValue(kScaleKey, view_.suggestionScalePx());
   settings.endGroup();
   settings.setValue(kPlotKey, static_cast<int>(parts_->plots->tab()));
 }

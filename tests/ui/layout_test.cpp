@@ -59,11 +59,14 @@ TEST_F(Layout, EveryPlotNamesItsQuantityAndComesBack) {
     EXPECT_TRUE(quantity->text().contains(QStringLiteral("mm"))) << quantity->text().toStdString();
   }
   window_->view().setSuggestionAngleDeg(61);
+  find<QSlider>("corners.suggestScale")->setValue(23);
+  EXPECT_EQ(window_->view().suggestionScalePx(), 23);
   window_->close();
   openWindow();
   EXPECT_EQ(window_->findChild<CurvePlots*>()->tab(), PlotTab::Curvature);
   EXPECT_EQ(window_->view().suggestionAngleDeg(), 61);
   EXPECT_EQ(find<QSlider>("corners.suggestAngle")->value(), 61);
+  EXPECT_EQ(find<QSlider>("corners.suggestScale")->value(), 23);
 }
 
 }  // namespace

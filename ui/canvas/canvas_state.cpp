@@ -218,7 +218,7 @@ void CurveCanvas::State::requestOverlay() {
 }
 
 void CurveCanvas::State::requestSuggestions() {
-  if (view.tool() == Tool::Corners) session.suggestions().look(view.suggestionAngleDeg());
+  if (view.tool() == Tool::Corners) session.suggestions().look(view.suggestionAngleDeg(), view.suggestionScalePx());
 }
 
 RasterContent CurveCanvas::State::rasterContent() const {

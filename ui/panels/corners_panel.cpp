@@ -24,6 +24,7 @@ namespace batten {
 namespace {
 
 constexpr double kLowestAngleDeg = 10.0, kHighestAngleDeg = 150.0;
+constexpr double kLeastScalePx = 6.0, kLargestScalePx = 60.0;
 
 QString place(const Vec2& px) { return QStringLiteral("%1, %2").arg(px.x(), 0, 'f', 1).arg(px.y(), 0, 'f', 1); }
 
@@ -46,6 +47,8 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       rounding_(new NumberField(this)),
       angle_(new NumberField(this)),
       angleTrack_(new SliderTrack(this)),
+      scale_(new NumberField(this)),
+      scaleTrack_(new SliderTrack(this)),
       suggested_(new QListWidget(this)),
       suggestedNote_(note({}, this)),
       take_(plainButton(tr("Mark"), QStringLiteral("corners.take"), this)),
@@ -104,28 +107,43 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
   refresh();
 }
 
+void CornersPanel::addSlider(const QString& title, const QString& help, const SliderNames& names, NumberField* field,
+                             SliderTrack* track) {
+  auto* layout = static_cast<QVBoxLayout*>(this->layout());
+  auto* row = new QHBoxLayout;
+  auto* name = new QLabel(title, this);
+  name->setToolTip(help);
+  track->setToolTip(help);
+  track->setObjectName(names.object);
+  track->setAccessibleName(names.accessible);
+  track->setRange(static_cast<int>(names.least), static_cast<int>(names.most));
+  track->setSingleStep(1);
+  field->setRange(names.least, names.most);
+  field->setUnit(names.unit);
+  field->setStep(1);
+  field->setFixedWidth(76);
+  field->edit()->setAccessibleName(names.accessible);
+  row->addWidget(name);
+  row->addStretch();
+  row->addWidget(field);
+  layout->addLayout(row);
+  layout->addWidget(track);
+}
+
 void CornersPanel::buildSuggestions() {
   auto* layout = static_cast<QVBoxLayout*>(this->layout());
   layout->addWidget(caption(tr("Suggestions"), this));
-  auto* row = new QHBoxLayout;
-  auto* name = new QLabel(tr("Sharper than"), this);
-  const QString help = tr("Suggests places where a line turns by more than this. Larger: fewer, sharper places.");
-  name->setToolTip(help);
-  angleTrack_->setToolTip(help);
-  angleTrack_->setObjectName(QStringLiteral("corners.suggestAngle"));
-  angleTrack_->setAccessibleName(tr("Smallest angle of a suggested corner"));
-  angleTrack_->setRange(static_cast<int>(kLowestAngleDeg), static_cast<int>(kHighestAngleDeg));
-  angleTrack_->setSingleStep(1);
-  angle_->setRange(kLowestAngleDeg, kHighestAngleDeg);
-  angle_->setUnit(QStringLiteral("°"));
-  angle_->setStep(1);
-  angle_->setFixedWidth(76);
-  angle_->edit()->setAccessibleName(angleTrack_->accessibleName());
-  row->addWidget(name);
-  row->addStretch();
-  row->addWidget(angle_);
-  layout->addLayout(row);
-  layout->addWidget(angleTrack_);
+  addSlider(tr("Sharper than"),
+            tr("Suggests places where a line turns by more than this. Larger: fewer, sharper places."),
+            {QStringLiteral("corners.suggestAngle"), tr("Smallest angle of a suggested corner"), QStringLiteral("°"),
+             kLowestAngleDeg, kHighestAngleDeg},
+            angle_, angleTrack_);
+  addSlider(tr("Looked at over"),
+            tr("How much of the line on either side says that it turns. Larger: ragged edges count less, small corners "
+               "are missed."),
+            {QStringLiteral("corners.suggestScale"), tr("Length over which a turn is looked at"), QStringLiteral("px"),
+             kLeastScalePx, kLargestScalePx},
+            scale_, scaleTrack_);
   layout->addWidget(suggestedNote_);
   suggested_->setObjectName(QStringLiteral("corners.suggestions"));
   suggested_->setAccessibleName(tr("Suggested corners"));
@@ -135,18 +153,24 @@ void CornersPanel::buildSuggestions() {
   buttons->addWidget(takeAll_);
   buttons->addStretch();
   layout->addLayout(buttons);
-  const auto set = [this](double degrees) { view_.setSuggestionAngleDeg(degrees); };
-  const auto follow = [this] {
-    const double degrees = view_.suggestionAngleDeg();
-    angle_->setValue(degrees);
-    const QSignalBlocker quiet(angleTrack_);
-    angleTrack_->setValue(static_cast<int>(std::lround(degrees)));
-    angleTrack_->update();
+  const auto setAngle = [this](double degrees) { view_.setSuggestionAngleDeg(degrees); };
+  const auto setScale = [this](double px) { view_.setSuggestionScalePx(px); };
+  const auto show = [](NumberField* field, SliderTrack* track, double value) {
+    field->setValue(value);
+    const QSignalBlocker quiet(track);
+    track->setValue(static_cast<int>(std::lround(value)));
+    track->update();
+  };
+  const auto follow = [this, show] {
+    show(angle_, angleTrack_, view_.suggestionAngleDeg());
+    show(scale_, scaleTrack_, view_.suggestionScalePx());
     suggest();
   };
   connect(&view_, &ViewSettings::changed, this, follow);
-  connect(angle_, &NumberField::committed, this, set);
-  connect(angleTrack_, &QSlider::valueChanged, this, set);
+  connect(angle_, &NumberField::committed, this, setAngle);
+  connect(angleTrack_, &QSlider::valueChanged, this, setAngle);
+  connect(scale_, &NumberField::committed, this, setScale);
+  connect(scaleTrack_, &QSlider::valueChanged, this, setScale);
   connect(take_, &QPushButton::clicked, this, [this] {
     const int at = suggested_->currentRow();
     if (at >= 0 && at < static_cast<int>(suggestions_.size()))
@@ -213,7 +237,8 @@ void CornersPanel::showSelected() {
 }
 
 void CornersPanel::suggest() {
-  if (isVisible() || !session_.output().contours) session_.suggestions().look(view_.suggestionAngleDeg());
+  if (isVisible() || !session_.output().contours)
+    session_.suggestions().look(view_.suggestionAngleDeg(), view_.suggestionScalePx());
 }
 
 bool CornersPanel::isMarked(const Vec2& positionPx) const {

@@ -27,6 +27,11 @@ class CornersPanel : public QWidget {
   void showEvent(QShowEvent*) override;
 
  private:
+  struct SliderNames {
+    QString object, accessible, unit;
+    double least, most;
+  };
+  void addSlider(const QString& title, const QString& help, const SliderNames&, NumberField*, SliderTrack*);
   void buildSuggestions();
   void refresh();
   void refreshMarks();
@@ -48,6 +53,8 @@ class CornersPanel : public QWidget {
   NumberField* rounding_;
   NumberField* angle_;
   SliderTrack* angleTrack_;
+  NumberField* scale_;
+  SliderTrack* scaleTrack_;
   QListWidget* suggested_;
   QLabel* suggestedNote_;
   QPushButton* take_;

@@ -9,34 +9,29 @@
 #include "ui/session/guarded.h"
 
 namespace batten {
-namespace {
-
-/// [px] Over which length a turn counts as a corner.
-constexpr double kScalePx = 14.0;
-
-}  // namespace
-
 SuggestionSource::SuggestionSource(EditorSession& session) : QObject(&session), session_(session) {}
 
-void SuggestionSource::look(double angleDeg) {
+void SuggestionSource::look(double angleDeg, double scalePx) {
   const auto contours = session_.output().contours;
-  if (contours == of_ && angleDeg == angleDeg_) return;
+  if (contours == of_ && angleDeg == angleDeg_ && scalePx == scalePx_) return;
   of_ = contours;
   angleDeg_ = angleDeg;
+  scalePx_ = scalePx;
   if (!contours) {
     worker_.cancelAll();
     found_.clear();
     emit changed();
     return;
   }
-  worker_.start([contours, angleDeg, source = QPointer<SuggestionSource>(this)](const CancelToken& token) {
+  worker_.start([contours, angleDeg, scalePx, source = QPointer<SuggestionSource>(this)](const CancelToken& token) {
     auto found = guarded<std::vector<CornerSuggestion>>(
-        [&] { return suggestCorners(*contours, angleDeg * std::numbers::pi / 180.0, kScalePx); });
+        [&] { return suggestCorners(*contours, angleDeg * std::numbers::pi / 180.0, scalePx); });
     if (token.isCancelled() || !found || !source) return;
     QMetaObject::invokeMethod(
         source.data(),
-        [source, contours, angleDeg, found = std::move(*found)] {
-          if (!source || contours != source->of_ || angleDeg != source->angleDeg_) return;
+        [source, contours, angleDeg, scalePx, found = std::move(*found)] {
+          if (!source || contours != source->of_ || angleDeg != source->angleDeg_ || scalePx != source->scalePx_)
+            return;
           source->found_ = found;
           emit source->changed();
         },

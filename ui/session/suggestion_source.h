@@ -18,8 +18,9 @@ class SuggestionSource : public QObject {
   Q_OBJECT
  public:
   explicit SuggestionSource(EditorSession& session);
-  /// Looks for turns of at least this in the present lines, unless that is what was found; `changed` follows.
-  void look(double angleDeg);
+  /// Looks for turns of at least this, over this length on either side, in the present lines, unless that is what was
+  /// found; `changed` follows.
+  void look(double angleDeg, double scalePx);
   const std::vector<CornerSuggestion>& found() const { return found_; }
 
  signals:
@@ -28,7 +29,7 @@ class SuggestionSource : public QObject {
  private:
   EditorSession& session_;
   std::shared_ptr<const ContourSet> of_;
-  double angleDeg_ = 0.0;
+  double angleDeg_ = 0.0, scalePx_ = 0.0;
   std::vector<CornerSuggestion> found_;
   BackgroundWorker worker_;
 };

@@ -93,6 +93,14 @@ void ViewSettings::setSuggestionAngleDeg(double degrees) {
   emit changed();
 }
 
+void ViewSettings::setSuggestionScalePx(double px) {
+  if (!std::isfinite(px)) return;
+  const double bounded = std::clamp(px, 6.0, 60.0);
+  if (suggestionScalePx_ == bounded) return;
+  suggestionScalePx_ = bounded;
+  emit changed();
+}
+
 void ViewSettings::setShowsUniformKnots(bool shows) {
   if (showsUniform_ == shows) return;
   showsUniform_ = shows;

@@ -68,6 +68,10 @@ class ViewSettings : public QObject {
     return suggestionAngleDeg_;
   }  ///< [deg] 10..150, least turn of a suggested corner.
   void setSuggestionAngleDeg(double);
+  double suggestionScalePx() const {
+    return suggestionScalePx_;
+  }  ///< [px] 6..60, length over which a turn is looked at.
+  void setSuggestionScalePx(double);
   bool showsUniformKnots() const { return showsUniform_; }  ///< Control polygon: the curve without repeated knots too.
   void setShowsUniformKnots(bool);
   bool isScanOnly() const { return scanOnly_; }  ///< While the compare key is held.
@@ -86,6 +90,7 @@ class ViewSettings : public QObject {
   int combDensity_ = 120;
   int selectedRegion_ = -1;
   double suggestionAngleDeg_ = 35.0;
+  double suggestionScalePx_ = 14.0;
   bool scanOnly_ = false, showsUniform_ = false;
 };
 
