@@ -46,8 +46,12 @@ Vec2 turned(const Vec2& v, double angle) {
 /// [px of sagitta]; all about 1.
 class Chain {
  public:
-  Chain(std::vector<Joint> joints, std::vector<double> lengths, bool closed, double pixelMm)
-      : joints_(std::move(joints)), lengths_(std::move(lengths)), closed_(closed), pixelMm_(pixelMm) {
+  Chain(std::vector<Joint> joints, std::vector<double> lengths, std::vector<double> share, bool closed, double pixelMm)
+      : joints_(std::move(joints)),
+        lengths_(std::move(lengths)),
+        share_(std::move(share)),
+        closed_(closed),
+        pixelMm_(pixelMm) {
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const double before = lengths_[i > 0 ? i - 1 : (closed ? lengths_.size() - 1 : 0)];
       reach_.push_back(0.5 * (before + (i < lengths_.size() ? lengths_[i] : before)));
@@ -78,7 +82,7 @@ class Chain {
         for (int k = 0; k < 3; ++k) block.columns.push_back(static_cast<int>(3 * joint) + k);
       }
       block.size = 2 * static_cast<int>(kPlaces.size());
-      const double reach = std::max(lengths_[i], kShortestLowPassPx * pixelMm_);
+      const double reach = std::max(lengths_[i], kShortestLowPassPx * std::min(share_[i], share_[j]) * pixelMm_);
       const double weight = reach * reach / (8.0 * pixelMm_) / std::sqrt(static_cast<double>(kPlaces.size()));
       block.evaluate = [this, i, j, weight, &targets](std::span<const double> x, std::span<double> r) {
         const Quintic q = quinticHermite(moved(i, &x[0]), moved(j, &x[3]), lengths_[i]);
@@ -125,7 +129,7 @@ class Chain {
 
  private:
   std::vector<Joint> joints_;
-  std::vector<double> lengths_, reach_;
+  std::vector<double> lengths_, share_, reach_;
   bool closed_;
   double pixelMm_;
 };
@@ -152,13 +156,14 @@ std::vector<Joint> jointsOf(std::vector<Quintic> path, std::span<const Station> 
 /// Changes of direction between stations over their distances, at the middles.
 struct TurningData {
   bool closed;
-  std::vector<double> lengths, middle, kappa;
+  std::vector<double> lengths, start, middle, kappa;
   double total = 0.0;
 
   TurningData(std::span<const Station> stations, bool isClosed)
       : closed(isClosed), lengths(arcCorrectedDistances(stations, isClosed)) {
     for (std::size_t i = 0; i < lengths.size(); ++i) {
       const Vec2 &a = stations[i].direction, &b = stations[(i + 1) % stations.size()].direction;
+      start.push_back(total);
       middle.push_back(total + 0.5 * lengths[i]);
       kappa.push_back(lengths[i] > 0.0 ? std::atan2(cross(a, b), a.dot(b)) / lengths[i] : 0.0);
       total += lengths[i];
@@ -183,6 +188,24 @@ struct TurningData {
     return w0 > 0.0 ? k0 / w0 : 0.0;
   }
 };
+
+Vec2 pointOf(const Quintic& q, double t) {
+  Quintic p = q;
+  for (std::size_t n = 5; n > 0; --n) {
+    for (std::size_t i = 0; i < n; ++i) p[i] += t * (p[i + 1] - p[i]);
+  }
+  return p[0];
+}
+
+std::vector<std::vector<Vec2>> polylinesOf(const std::vector<Quintic>& path) {
+  constexpr int kSteps = 16;
+  std::vector<std::vector<Vec2>> lines;
+  for (const Quintic& q : path) {
+    auto& line = lines.emplace_back();
+    for (int k = 0; k <= kSteps; ++k) line.push_back(pointOf(q, static_cast<double>(k) / kSteps));
+  }
+  return lines;
+}
 
 /// The path as 001 leaves it without the low pass: at every joint the mean of both curvatures (Eq 9, 10).
 Result<ConstructedPiece> plainPath(std::span<const Station> stations, bool closed) {
@@ -215,9 +238,20 @@ std::vector<Quintic> bezierPath(std::span<const Station> stations, bool closed) 
 
 std::vector<double> lowPassedCurvature(std::span<const Station> stations, bool closed, double width,
                                        std::span<const double> arcLengths) {
+  return lowPassedCurvature(stations, closed, std::vector<double>(stations.size(), width), arcLengths);
+}
+
+std::vector<double> lowPassedCurvature(std::span<const Station> stations, bool closed, std::span<const double> widths,
+                                       std::span<const double> arcLengths) {
   const TurningData data(stations, closed);
+  const auto widthAt = [&](double s) {
+    const auto after = std::upper_bound(data.start.begin(), data.start.end(), s) - data.start.begin();
+    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - 1, 0, std::ssize(data.lengths) - 1));
+    const double t = data.lengths[i] > 0.0 ? std::clamp((s - data.start[i]) / data.lengths[i], 0.0, 1.0) : 0.0;
+    return (1.0 - t) * widths[i] + t * widths[(i + 1) % widths.size()];
+  };
   // Once over the data and once over what it missed there: the bends keep their height.
-  const auto at = [&](const std::vector<double>& values, double s) { return data.smoothed(values, s, width); };
+  const auto at = [&](const std::vector<double>& values, double s) { return data.smoothed(values, s, widthAt(s)); };
   std::vector<double> missed;
   for (std::size_t i = 0; i < data.kappa.size(); ++i) missed.push_back(data.kappa[i] - at(data.kappa, data.middle[i]));
   std::vector<double> result;
@@ -225,8 +259,9 @@ std::vector<double> lowPassedCurvature(std::span<const Station> stations, bool c
   return result;
 }
 
-FairedJoints fairedJoints(std::span<const Station> stations, bool closed, double pixelMm, double lowPass,
+FairedJoints fairedJoints(const StationSet& set, bool closed, double pixelMm, double lowPass,
                           const RunContext& context) {
+  const std::vector<Station>& stations = set.stations;
   const auto lengths = arcCorrectedDistances(stations, closed);
   double total = 0.0;
   std::vector<double> places;
@@ -236,10 +271,16 @@ FairedJoints fairedJoints(std::span<const Station> stations, bool closed, double
   }
   if (!closed) places.push_back(total);
   const double unit = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / 1000.0;
-  const double width =
-      std::max(lowPass * total / static_cast<double>(lengths.size()), kShortestLowPassPx * unit);
-  const auto targets = lowPassedCurvature(stations, closed, width, places);
-  const Chain chain(jointsOf(bezierPath(stations, closed), stations, closed), lengths, closed, unit);
+  // Distances that there were before stations were set closer.
+  double distances = 0.0;
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    distances += 0.5 * (set.share[i] + set.share[(i + 1) % set.share.size()]);
+  }
+  const double width = std::max(lowPass * total / distances, kShortestLowPassPx * unit);
+  std::vector<double> widths;
+  for (const double share : set.share) widths.push_back(share * width);
+  const auto targets = lowPassedCurvature(stations, closed, widths, places);
+  const Chain chain(jointsOf(bezierPath(stations, closed), stations, closed), lengths, set.share, closed, unit);
   const auto blocks = chain.blocks(targets);
   const auto unknowns = static_cast<Eigen::Index>(3 * chain.count());
   const LevenbergResult solved =
@@ -247,20 +288,46 @@ FairedJoints fairedJoints(std::span<const Station> stations, bool closed, double
   return {chain.joints(solved.x), lengths, solved.why};
 }
 
+StationSet bezierStations(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
+                          const RunContext& context) {
+  StationSet set = givenStations(usableStations(piece, 6));
+  const bool closed = piece.closed;
+  if (set.stations.size() < (closed ? 3u : 2u)) return set;
+  const auto plain = [closed](const StationSet& now) { return polylinesOf(bezierPath(now.stations, closed)); };
+  set = closerStations(piece, std::move(set), pixelMm, params.closenessPx, plain, context);
+  // A wider low pass is to calm the path, and may move it.
+  const double lowPass = std::min(params.lowPass, 1.0);
+  if (lowPass == 0.0) return set;
+  const auto faired = [&](const StationSet& now) {
+    const FairedJoints joints = fairedJoints(now, closed, pixelMm, lowPass, context);
+    std::vector<Quintic> path;
+    for (std::size_t i = 0; i < joints.lengths.size(); ++i) {
+      path.push_back(quinticHermite(joints.joints[i], joints.joints[i + 1], joints.lengths[i]));
+    }
+    return polylinesOf(path);
+  };
+  return closerStations(piece, std::move(set), pixelMm, params.closenessPx, faired, context);
+}
+
 Result<ConstructedPiece> constructBezierChain(const ConstructPiece& piece, double pixelMm,
                                               const ConstructParams& params, const RunContext& context) {
   if (context.isCancelled()) return cancelled();
-  const std::vector<Station> stations = usableStations(piece, 6);
-  if (stations.size() < (piece.closed ? 3u : 2u)) {
+  const StationSet set = bezierStations(piece, pixelMm, params, context);
+  if (set.stations.size() < (piece.closed ? 3u : 2u)) {
     return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
   }
-  if (params.lowPass == 0.0) return plainPath(stations, piece.closed);
-  const FairedJoints faired = fairedJoints(stations, piece.closed, pixelMm, params.lowPass, context);
+  if (params.lowPass == 0.0) {
+    auto plain = plainPath(set.stations, piece.closed);
+    if (plain) plain->report.stationsAdded = set.added;
+    return plain;
+  }
+  const FairedJoints faired = fairedJoints(set, piece.closed, pixelMm, params.lowPass, context);
   if (context.isCancelled()) return cancelled();
   auto curve = hermiteChain(faired.joints, faired.lengths);
   if (!curve) return fail(curve.error());
   ConstructedPiece result{std::move(*curve), {}};
   result.report.why = faired.why;
+  result.report.stationsAdded = set.added;
   return result;
 }
 

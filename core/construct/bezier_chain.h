@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/construct/closer_stations.h"
 #include "core/construct/construct.h"
 #include "core/construct/quintic_pieces.h"
 
@@ -19,6 +20,9 @@ std::vector<Quintic> bezierPath(std::span<const Station> stations, bool closed);
 /// what that missed, so that bends keep their height. One value per wanted arc length.
 std::vector<double> lowPassedCurvature(std::span<const Station> stations, bool closed, double width,
                                        std::span<const double> arcLengths);
+/// The same with a width [mm] of its own at every station; in between it changes evenly.
+std::vector<double> lowPassedCurvature(std::span<const Station> stations, bool closed, std::span<const double> widths,
+                                       std::span<const double> arcLengths);
 
 /// Stations as places, directions and curvatures, faired.
 struct FairedJoints {
@@ -27,9 +31,14 @@ struct FairedJoints {
   Termination why = Termination::NotRun;
 };
 /// Joints of the Bezier path (mean curvature of both sides) moved towards a fair curve. @pre at least 2 stations,
-/// closed 3. @param lowPass standard deviation of the low pass in mean distances of stations.
-FairedJoints fairedJoints(std::span<const Station> stations, bool closed, double pixelMm, double lowPass,
+/// closed 3. @param lowPass standard deviation of the low pass in mean distances of stations; where stations were set
+/// closer, in their own.
+FairedJoints fairedJoints(const StationSet& stations, bool closed, double pixelMm, double lowPass,
                           const RunContext& context);
+
+/// The usable stations of a piece, set closer where the path (with a low pass of at most one station) would leave the
+/// line by more than params.closenessPx.
+StationSet bezierStations(const ConstructPiece&, double pixelMm, const ConstructParams&, const RunContext&);
 
 /// The construction of 001 for one piece: the Bezier path; at joints the mean curvature of both sides; then the joints
 /// (offset, direction, curvature) are faired towards the low-passed curvature by Levenberg-Marquardt. G2; one B-spline

@@ -37,7 +37,7 @@ Result<ConstructedPiece> constructPiece(const ConstructPiece& piece, double pixe
     case ConstructMethod::Nurbs:
       break;
   }
-  return constructQuinticNurbs(piece, params, context);
+  return constructQuinticNurbs(piece, pixelMm, params, context);
 }
 
 }  // namespace
@@ -47,6 +47,7 @@ std::optional<Error> validate(const ConstructParams& params) {
   if (auto error = outside("construct.degree", params.degree, 2, 5)) return error;
   if (auto error = outside("construct.removal_step", params.removalStepPx, 0.0, 200.0)) return error;
   if (auto error = outside("construct.removal_tolerance", params.removalTolerancePx, 0.0, 50.0)) return error;
+  if (auto error = outside("construct.closeness", params.closenessPx, 0.0, 50.0)) return error;
   if (auto error = outside("construct.lowpass", params.lowPass, 0.0, 8.0)) return error;
   if (auto error = outside("construct.growing_stop", params.growingStopDeg, 0.2, 20.0)) return error;
   if (auto error = outside("construct.reduce", params.reduceShare, 0.0, 1.0)) return error;

@@ -61,6 +61,8 @@ struct ConstructParams {
   double removalStepPx = 8.0;       ///< [px] 0..200. Distance of the points that are kept; 0 keeps all.
   double removalTolerancePx = 1.0;  ///< [px] 0..50. Farthest that a removed point lies from the polygon.
   double lowPass = 1.0;           ///< [stations] 0..8. Bezier path: standard deviation of the low pass of its curvature; 0 = none.
+  /// [px] 0..50. Nurbs, Bezier: where the curve leaves the line by more, stations are set closer; 0 = never (papers).
+  double closenessPx = 2.0;
   TypicalMode typical = TypicalMode::Chain;
   double growingStopDeg = 2.0;    ///< [degrees] 0.2..20. Growing: the normals of curve and points may differ by this.
   bool growingAsInPaper = false;  ///< Growing: keeps each fit whole (002; unstable) instead of its first half.
@@ -129,6 +131,7 @@ struct ConstructReport {
   std::vector<double> bandSigma;      ///< [1/mm] standard deviation of the curvature there.
   std::vector<SegmentNote> segments;  ///< Typical curves only.
   double noisePx = 0.0;               ///< [px] standard deviation of an edge point (fair fit only; 0 = not measured).
+  int stationsAdded = 0;              ///< Nurbs, Bezier: set where the line turns too quickly for those given.
   int pointsBefore = 0;               ///< Control polygon: points of the line (0 = not a control polygon) …
   int pointsAfter = 0;                ///< … that are left after point removal …
   int pointsAdded = 0;                ///< … and control points added between close corners.

@@ -218,7 +218,7 @@ Result<ConstructedPiece> FairParts::throughStations(const RunContext& context) c
   for (Station& s : piece.stations) {
     for (Vec2* p : {&s.point, &s.from, &s.to}) *p *= pixelMm_;
   }
-  auto made = constructQuinticNurbs(piece, ConstructParams{}, context);
+  auto made = constructQuinticNurbs(piece, pixelMm_, ConstructParams{}, context);
   if (!made) return made;
   made->report.why = Termination::Degenerate;
   made->report.note = "The fair fit did not stay on this line; a quintic through stations instead.";

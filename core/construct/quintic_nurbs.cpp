@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/construct/banded_least_squares.h"
+#include "core/construct/closer_stations.h"
 #include "core/construct/piece_stations.h"
 #include "core/construct/quintic_directions.h"
 #include "core/curve/knot_operations.h"
@@ -213,6 +214,48 @@ Result<ConstructedPiece> constructFromDirections(std::span<const Station> statio
   return result;
 }
 
+/// A clamped curve and the parameters of its stations.
+struct CurveOnStations {
+  NurbsCurve curve;
+  std::vector<double> places;
+};
+
+std::optional<CurveOnStations> curveThrough(std::span<const Station> stations, bool closed,
+                                            const ConstructParams& params) {
+  const auto distances = arcCorrectedDistances(stations, closed);
+  const Places places = placesOf(distances, stations.size(), closed, params.magnitudeAsInPaper);
+  const auto derivatives = derivativesFor(stations, params, closed, places);
+  std::vector<Vec2> points;
+  for (const Station& s : stations) points.push_back(s.point);
+  const SplineSpace space = makeSpace(places.at, closed);
+  const auto solution = solveSystem(space, {points, derivatives, params.gradients, !closed, !closed});
+  if (!solution) return std::nullopt;
+  std::vector<double> knots = space.knots, at = places.at;
+  for (std::vector<double>* values : {&knots, &at}) {
+    for (double& k : *values) k *= places.unitMm;
+  }
+  auto open = NurbsCurve::make(kDegree, std::move(knots), unrolled(space, *solution));
+  if (!open) return std::nullopt;
+  const Vec2 start = closed ? open->point(open->start()) : points.front();
+  auto curve = clampedWithEnds(*open, start, closed ? start : points.back());
+  if (!curve) return std::nullopt;
+  return CurveOnStations{std::move(*curve), std::move(at)};
+}
+
+/// From station to station.
+std::vector<std::vector<Vec2>> polylinesOf(const CurveOnStations& made) {
+  constexpr int kSteps = 16;
+  std::vector<std::vector<Vec2>> lines;
+  for (std::size_t i = 0; i + 1 < made.places.size(); ++i) {
+    auto& line = lines.emplace_back();
+    for (int k = 0; k <= kSteps; ++k) {
+      const double t = static_cast<double>(k) / kSteps;
+      line.push_back(made.curve.point((1.0 - t) * made.places[i] + t * made.places[i + 1]));
+    }
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::vector<double> derivativeMagnitudes(std::span<const Station> stations, bool closed, double factor,
@@ -265,33 +308,30 @@ Result<QuinticSystemResult> solveQuintic(std::span<const Vec2> points, std::span
   return result;
 }
 
-Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, const ConstructParams& params,
-                                               const RunContext& context) {
+Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, double pixelMm,
+                                               const ConstructParams& params, const RunContext& context) {
   if (context.isCancelled()) return cancelled();
-  const std::vector<Station> stations = usableStations(piece, 6);
-  const std::size_t m = stations.size();
+  StationSet set = givenStations(usableStations(piece, 6));
   const bool closed = piece.closed;
-  if (m < (closed ? 6u : 2u)) return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
-
-  if (params.gradients == GradientUse::Directions && !closed && m >= 4) return constructFromDirections(stations, params);
-  const auto distances = arcCorrectedDistances(stations, closed);
-  const Places places = placesOf(distances, m, closed, params.magnitudeAsInPaper);
-  const auto derivatives = derivativesFor(stations, params, closed, places);
-  std::vector<Vec2> points;
-  for (const Station& s : stations) points.push_back(s.point);
-  const SplineSpace space = makeSpace(places.at, closed);
-  const auto solution = solveSystem(space, {points, derivatives, params.gradients, !closed, !closed});
-  if (!solution) return straightPiece(piece, "The equations of the curve have no solution; a straight line was drawn.");
-
-  std::vector<double> knots = space.knots;
-  for (double& k : knots) k *= places.unitMm;
-  auto open = NurbsCurve::make(kDegree, std::move(knots), unrolled(space, *solution));
-  if (!open) return fail(open.error());
-  const Vec2 start = closed ? open->point(open->start()) : points.front();
-  auto curve = clampedWithEnds(*open, start, closed ? start : points.back());
-  if (!curve) return fail(curve.error());
-  ConstructedPiece result{std::move(*curve), {}};
+  if (set.stations.size() < (closed ? 6u : 2u)) {
+    return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
+  }
+  if (params.gradients == GradientUse::Directions && !closed && set.stations.size() >= 4) {
+    return constructFromDirections(set.stations, params);
+  }
+  if (!params.magnitudeAsInPaper) {
+    const auto through = [&](const StationSet& now) {
+      const auto made = curveThrough(now.stations, closed, params);
+      return made ? polylinesOf(*made) : std::vector<std::vector<Vec2>>{};
+    };
+    set = closerStations(piece, std::move(set), pixelMm, params.closenessPx, through, context);
+    if (context.isCancelled()) return cancelled();
+  }
+  auto made = curveThrough(set.stations, closed, params);
+  if (!made) return straightPiece(piece, "The equations of the curve have no solution; a straight line was drawn.");
+  ConstructedPiece result{std::move(made->curve), {}};
   result.report.why = Termination::Exact;
+  result.report.stationsAdded = set.added;
   return result;
 }
 

@@ -27,7 +27,10 @@ Result<QuinticSystemResult> solveQuintic(std::span<const Vec2> points, std::span
                                          GradientUse use);
 
 /// The construction of 000 for one piece: stations to a clamped quintic in the model frame, ends exactly at the stations'
-/// end points. Uneven stations get knots at their arc distances, so that equal speed stays right.
-Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece&, const ConstructParams&, const RunContext&);
+/// end points. Uneven stations get knots at their arc distances, so that equal speed stays right. Where the curve would
+/// leave the line by more than params.closenessPx, stations are set closer; not where the paper's own rules are asked
+/// for (its magnitude, or even knots with loose lengths).
+Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece&, double pixelMm, const ConstructParams&,
+                                               const RunContext&);
 
 }  // namespace batten

@@ -30,7 +30,8 @@ double angleBetween(const Vec2& a, const Vec2& b) { return std::atan2(cross(a, b
 
 /// A closed line is opened after the station whose segment bends least: curvature is least at a joint, never inside a
 /// typical curve.
-void turnToStraightest(std::vector<Station>& stations) {
+void turnToStraightest(StationSet& set) {
+  std::vector<Station>& stations = set.stations;
   std::size_t best = 0;
   double least = 10.0;
   for (std::size_t i = 0; i < stations.size(); ++i) {
@@ -40,8 +41,10 @@ void turnToStraightest(std::vector<Station>& stations) {
       best = i;
     }
   }
-  std::rotate(stations.begin(), stations.begin() + static_cast<std::ptrdiff_t>((best + 1) % stations.size()),
-              stations.end());
+  const auto first = static_cast<std::ptrdiff_t>((best + 1) % stations.size());
+  std::rotate(stations.begin(), stations.begin() + first, stations.end());
+  std::rotate(set.share.begin(), set.share.begin() + first, set.share.end());
+  std::rotate(set.halvings.begin(), set.halvings.begin() + first, set.halvings.end());
 }
 
 }  // namespace
@@ -57,7 +60,8 @@ std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, double pix
   FairFitOptions options;
   options.reduceShare = 0.0;
   const auto fitted = fairFit(contour, options, context);
-  if (!fitted || fitted->size() != 1 || !fitted->front().report.note.empty()) return std::nullopt;
+  // With sharp turns it still is the line; a curve that only took its place has no structure to go by.
+  if (!fitted || fitted->size() != 1 || fitted->front().report.why == Termination::Degenerate) return std::nullopt;
   const NurbsCurve& curve = fitted->front().curve;
   const double length = curve.isEmpty() ? 0.0 : ArcLength(curve).total();
   if (!(pixelMm > 0.0) || !(length > kLeastFairPx * pixelMm)) return std::nullopt;
@@ -92,10 +96,11 @@ std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, double pix
 TypicalLine lineOnStations(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
                            const RunContext& context) {
   TypicalLine line;
-  std::vector<Station> stations = usableStations(piece, 6);
+  StationSet set = bezierStations(piece, pixelMm, params, context);
+  const std::vector<Station>& stations = set.stations;
   if (stations.size() < (piece.closed ? 3u : 2u)) return line;
-  if (piece.closed) turnToStraightest(stations);
-  const FairedJoints faired = fairedJoints(stations, piece.closed, pixelMm, params.lowPass, context);
+  if (piece.closed) turnToStraightest(set);
+  const FairedJoints faired = fairedJoints(set, piece.closed, pixelMm, params.lowPass, context);
   double total = 0.0;
   for (const double length : faired.lengths) total += length;
   line.unitMm = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / 1000.0;

@@ -14,6 +14,9 @@ namespace {
 /// Places of the fair curve at which pieces may meet [units apart], and how many at most.
 constexpr double kStep = 3.0;
 constexpr int kFewest = 60, kMost = 2500;
+/// In sharp turns they lie closer: up to this many in one step, one whenever the line has turned by so much [rad].
+constexpr std::size_t kFiner = 12;
+constexpr double kTurnOfStep = 0.08;
 /// How far a piece may lie from the fair curve [units]: the fit that follows moves it less than that.
 constexpr double kTypicalMiss = 0.12, kHermiteMiss = 0.005;
 /// Turn of one piece, and of the shortest typical curve that is worth it [rad]; its length [units].
@@ -34,10 +37,16 @@ class Tiling {
  public:
   explicit Tiling(const TypicalLine& line) : closed_(line.closed) {
     const double length = ArcLength(*line.fair).total() / line.unitMm;
-    const int count = std::clamp(static_cast<int>(length / kStep), kFewest, kMost) + 1;
+    const double step = length / std::clamp(static_cast<int>(length / kStep), kFewest, kMost);
+    const int fine = static_cast<int>(std::lround(length / step)) * static_cast<int>(kFiner) + 1;
     double angle = 0.0;
-    for (const CurveSample& sample : sampleByArcLength(*line.fair, count)) {
+    const auto samples = sampleByArcLength(*line.fair, fine);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const CurveSample& sample = samples[i];
       angle += std::remainder(std::atan2(sample.tangent.y(), sample.tangent.x()) - angle, 2.0 * std::numbers::pi);
+      const bool regular = i % kFiner == 0;
+      const bool turns = !regular && std::abs(angle - places_.back().state.angleRad) > kTurnOfStep;
+      if (!regular && !turns) continue;
       places_.push_back({{line.toLine(sample.point), angle, sample.kappa * line.unitMm}, sample.s / line.unitMm});
     }
     findTurns();

@@ -139,7 +139,12 @@ class ContourBuilder {
     return outcome;
   }
 
-  Result<std::vector<ConstructedPiece>> constructRange(PieceRange range, const ConstructParams& params) const {
+  Result<std::vector<ConstructedPiece>> constructRange(PieceRange range, const ConstructParams& asked) const {
+    ConstructParams params = asked;
+    // Groups of points, as in the paper, and a number that the user set are taken as they are.
+    const SegmentParams& segments = recipe_.segments;
+    const bool grouped = segments.mode == SegmentMode::Sturges || segments.mode == SegmentMode::Count;
+    if (grouped || (segments.mode == SegmentMode::Stations && segments.count > 0)) params.closenessPx = 0.0;
     ConstructContour input = inputOf(contours_, pieces_, segments_, range, frame_);
     for (std::size_t i = range.first; i < range.last; ++i) {
       input.pieces[i - range.first].divisions = divisionsOf(divisions_[i], recipe_, frame_);

@@ -165,6 +165,12 @@ void appendConstruct(std::vector<Parameter>& table) {
       {"construct.lowpass", "Low pass", "stations",
        "Bézier path: length over which its curvature is evened out. 0 is the path as in the paper; larger is calmer."},
       {0.0, 8.0, 0.25, 2}, [](auto& r) -> auto& { return r.construct.lowPass; }));
+  table.push_back(real(
+      kCurves,
+      {"construct.closeness", "Stay within", "px",
+       "Quintic NURBS and Bézier path: where the curve would leave the line by more, stations are set closer. Larger: "
+       "fewer, and calmer; 0, a set number of segments or Sturges' rule: only those given, as in the papers."},
+      {0.0, 50.0, 0.1, 1}, [](auto& r) -> auto& { return r.construct.closenessPx; }));
   table.push_back(choice<TypicalMode>(
       kCurves,
       {"construct.typical", "Segments of the chain", "",

@@ -43,6 +43,7 @@ Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
             {"note", r.note},
             {"noise_px", number(r.noisePx)},
             {"noise_um", number(1000.0 * frame.lengthToModel(r.noisePx))},
+            {"stations_added", r.stationsAdded},
             {"control_points_before_sparing", r.fullControlPoints},
             {"moved_by_sparing_px", number(r.reducedMovedPx)},
             {"moved_by_sparing_um", number(1000.0 * frame.lengthToModel(r.reducedMovedPx))},

@@ -45,6 +45,7 @@ void add(HashBuilder& h, const ConstructParams& p) {
   h.integer(static_cast<int>(p.gradients)).integer(p.degree).number(p.keepExtremaCost).number(p.reduceShare);
   h.integer(static_cast<int>(p.knots)).integer(static_cast<int>(p.removal)).number(p.removalStepPx);
   h.number(p.removalTolerancePx);
+  h.number(p.closenessPx);
   h.number(p.lowPass).integer(static_cast<int>(p.typical)).number(p.growingStopDeg).integer(p.growingAsInPaper);
 }
 void add(HashBuilder& h, const FairingParams& p) {

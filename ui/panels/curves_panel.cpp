@@ -81,7 +81,7 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
       session_(session),
       editor_(new ParameterEditor(session,
                                   {"construct.derivative_magnitude", "construct.keep_extrema", "construct.reduce",
-                                   "construct.lowpass", "construct.typical", "construct.growing_stop", "segments.mode",
+                                   "construct.lowpass", "construct.closeness", "construct.typical", "construct.growing_stop", "segments.mode",
                                    "segments.count", "segments.spacing", "segments.tolerance", "construct.gradients",
                                    "construct.magnitude_as_in_paper", "construct.growing_as_in_paper"},
                                   this)),
@@ -171,6 +171,9 @@ void CurvesPanel::refreshRows() {
   const bool typical = method == ConstructMethod::Typical;
   const bool grows = typical && session_.recipe().construct.typical == TypicalMode::Growing;
   editor_->setRowVisible("construct.lowpass", method == ConstructMethod::Bezier);
+  const bool paperNurbs = nurbs && (session_.recipe().construct.magnitudeAsInPaper ||
+                                    session_.recipe().construct.gradients == GradientUse::Directions);
+  editor_->setRowVisible("construct.closeness", (nurbs && !paperNurbs) || method == ConstructMethod::Bezier);
   editor_->setRowVisible("construct.typical", typical);
   editor_->setRowVisible("construct.growing_stop", grows);
   editor_->setRowVisible("construct.growing_as_in_paper", grows);
@@ -210,6 +213,10 @@ void CurvesPanel::refreshFigures() {
        {{QString::number(f.extrema)}},
        tr("Places where the curvature turns back: fewer is fairer.")},
       {tr("Inflections"), {{QString::number(f.inflections)}}, tr("Places where the curve bends the other way.")}};
+  if (const int added = curve->construct.stationsAdded; added > 0)
+    rows.push_back({tr("Stations added"),
+                    {{QString::number(added)}},
+                    tr("Set between the given ones where the line turns too quickly for them.")});
   addFitRows(rows, *curve);
   figures_->setRows(std::move(rows));
   QString text = QString::fromStdString(curve->construct.note);

@@ -61,17 +61,21 @@ class MethodRow : public QAbstractButton {
     setAttribute(Qt::WA_Hover);
     setFixedHeight(kRow);
     setCursor(Qt::PointingHandCursor);
-    setToolTip(MethodTable::tr(
-        "What this method gives for the selected curve: mean deviation from the points of the line, control "
-        "points, curvature extrema. Click to use it."));
-    show({}, false);
+    show({}, false, {});
   }
-  void show(const std::optional<CurveFigures>& figures, bool failed) {
+  /// @param instead why another construction took this one's place; empty = none did.
+  void show(const std::optional<CurveFigures>& figures, bool failed, const QString& instead) {
+    isOther_ = !instead.isEmpty();
+    const QString what = MethodTable::tr(
+        "What this method gives for the selected curve: mean deviation from the points of the line, control "
+        "points, curvature extrema. Click to use it.");
+    setToolTip(isOther_ ? instead + QLatin1Char('\n') + what : what);
     if (figures) {
       texts_ = {shortMillimetres(figures->fromPoints.rms), QString::number(figures->controlPoints),
                 QString::number(figures->extrema)};
       setAccessibleName(
-          MethodTable::tr("%1: %2 rms, %3 control points, %4 extrema").arg(text(), texts_[0], texts_[1], texts_[2]));
+          MethodTable::tr("%1: %2 rms, %3 control points, %4 extrema").arg(text(), texts_[0], texts_[1], texts_[2]) +
+                        (isOther_ ? QStringLiteral(". ") + instead : QString()));
     } else {
       texts_ = {failed ? MethodTable::tr("no curve") : QStringLiteral("…"), {}, {}};
       setAccessibleName(text());
@@ -94,7 +98,8 @@ class MethodRow : public QAbstractButton {
     if (hasFocus()) drawFocusRing(painter, box, 5, theme);
     painter.setFont(uiFont(12, isChecked() ? QFont::DemiBold : QFont::Normal));
     painter.setPen(theme.text);
-    painter.drawText(box.adjusted(8, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, text());
+    const QString shown = isOther_ ? MethodTable::tr("%1 *", "mark: another construction took its place").arg(text()) : text();
+    painter.drawText(box.adjusted(8, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, shown);
     painter.setFont(uiFont(12));
     painter.setPen(theme.mute);
     paintColumns(painter, box, texts_);
@@ -106,6 +111,7 @@ class MethodRow : public QAbstractButton {
 
  private:
   QStringList texts_;
+  bool isOther_ = false;
 };
 
 QString word(ConstructMethod method) {
@@ -235,7 +241,7 @@ void MethodTable::compute() {
   source_ = source;
   for (std::size_t i = 0; i < kMethods.size(); ++i) {
     figures_[i].reset();
-    rows_[i]->show({}, false);
+    rows_[i]->show({}, false, {});
   }
   session_.setSideWork(this, true);
   worker_->start(
@@ -247,26 +253,32 @@ void MethodTable::compute() {
           Recipe recipe = base;
           recipe.construct.method = kMethods[i];
           std::optional<CurveFigures> figures;
+          QString instead;
           if (const auto made = guarded<std::vector<TracedCurve>>(
                   [&] { return constructLine(output, recipe, source.contour, context); })) {
-            for (const TracedCurve& each : *made)
-              if (each.piece == source.piece && !each.sketched.isEmpty()) figures = each.sketchedFigures;
+            for (const TracedCurve& each : *made) {
+              if (each.piece != source.piece || each.sketched.isEmpty()) continue;
+              figures = each.sketchedFigures;
+              const bool other = kMethods[i] == ConstructMethod::Typical && each.construct.segments.empty();
+              instead = other ? QString::fromStdString(each.construct.note) : QString();
+            }
           }
           if (token.isCancelled()) return;
           QMetaObject::invokeMethod(
               panel.data(),
-              [panel, i, figures, source] {
-                if (panel && panel->source_ && *panel->source_ == source) panel->show(static_cast<int>(i), figures);
+              [panel, i, figures, instead, source] {
+                if (!panel || !panel->source_ || !(*panel->source_ == source)) return;
+                panel->show(static_cast<int>(i), figures, instead);
               },
               Qt::QueuedConnection);
         }
       });
 }
 
-void MethodTable::show(int method, const std::optional<CurveFigures>& figures) {
+void MethodTable::show(int method, const std::optional<CurveFigures>& figures, const QString& instead) {
   const auto at = static_cast<std::size_t>(method);
   figures_[at] = figures;
-  rows_[at]->show(figures, !figures);
+  rows_[at]->show(figures, !figures, instead);
   if (at + 1 == kMethods.size()) session_.setSideWork(this, false);
 }
 

@@ -43,7 +43,7 @@ class MethodTable : public QWidget {
   void refresh();
   void compute();
   void choose(ConstructMethod);
-  void show(int method, const std::optional<CurveFigures>& figures);
+  void show(int method, const std::optional<CurveFigures>& figures, const QString& instead);
   void stop();
 
   EditorSession& session_;

@@ -8,6 +8,7 @@
 #include "core/construct/construct.h"
 #include "core/curve/curve_analysis.h"
 #include "core/pipeline/parameter_table.h"
+#include "core/pipeline/pipeline.h"
 #include "tests/support/method_truths.h"
 
 namespace batten {
@@ -113,6 +114,29 @@ TEST(EdgeLengthFairing, IsReachedByTheParameter) {
   EXPECT_FALSE(movesEdgeLengths(recipe.fairing));
   ASSERT_TRUE(setParameter(recipe, "fairing.mode", "target"));
   EXPECT_TRUE(movesEdgeLengths(recipe.fairing));
+}
+
+/// The six tiles show what a click on them gives.
+TEST(EdgeLengthFairing, IsWhatTheTargetsShow) {
+  TracedCurve curve;
+  curve.sketched = clothoidPath(2);
+  curve.fairingUsed = edges(0.5);
+  const auto outcomes = targetsFor(curve, {});
+  ASSERT_TRUE(outcomes) << outcomes.error().message;
+  for (int degree = 1; degree <= 6; ++degree) {
+    const auto at = static_cast<std::size_t>(degree - 1);
+    if (!outcomes->targets.profiles[at].valid) continue;
+    FairingParams params = edges(0.5);
+    params.target = degree;
+    const auto chosen = fairByEdgeLengths(curve.sketched, false, params, {});
+    ASSERT_TRUE(chosen && outcomes->faired[at]);
+    EXPECT_EQ(outcomes->faired[at]->report.maxDeviationMm, chosen->report.maxDeviationMm);
+    EXPECT_LT(deviation(outcomes->faired[at]->curve, chosen->curve).max, 1e-12);
+  }
+  const std::vector<TracedCurve> all = {curve};
+  const auto alike = targetsForAll(all, {});
+  ASSERT_TRUE(alike[0]);
+  EXPECT_EQ(alike[0]->faired[2]->report.maxDeviationMm, outcomes->faired[2]->report.maxDeviationMm);
 }
 
 }  // namespace

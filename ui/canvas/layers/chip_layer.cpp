@@ -7,6 +7,7 @@
 
 #include "core/base/conventions.h"
 #include "ui/canvas/layers/vector_layers.h"
+#include "ui/session/piece_choice.h"
 
 namespace batten {
 namespace {
@@ -16,8 +17,11 @@ constexpr double kPadX = 10.0, kPadY = 6.0;
 
 QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
-QString methodText(const CanvasScene& scene, int degree) {
-  switch (scene.session.recipe().construct.method) {
+/// How the selected curve came about: its own method if it has one, or what took its place.
+QString methodText(const CanvasScene& scene, const TracedCurve& curve, int degree) {
+  const PieceChoice* choice = choiceOf(scene.session, scene.session.selectedCurve());
+  const bool own = choice != nullptr && choice->method.has_value();
+  switch (own ? *choice->method : scene.session.recipe().construct.method) {
     case ConstructMethod::Fair:
       return degree == 5 ? tr("fair quintic") : tr("fair fit");
     case ConstructMethod::Nurbs:
@@ -25,7 +29,7 @@ QString methodText(const CanvasScene& scene, int degree) {
     case ConstructMethod::Bezier:
       return tr("quintic Bézier path");
     case ConstructMethod::Typical:
-      return tr("typical curves");
+      return curve.construct.segments.empty() ? tr("Bézier path, as typical curves do not fit") : tr("typical curves");
     case ConstructMethod::ControlPolygon:
       return tr("control polygon");
   }
@@ -87,7 +91,7 @@ QString curveText(const CanvasScene& scene) {
       faired && curve->fairedFigures.lengthMm > 0.0 ? curve->fairedFigures : curve->sketchedFigures;
   return tr("Curve %1 · %2 · %3 control points · %4 mm")
       .arg(scene.session.selectedCurve() + 1)
-      .arg(methodText(scene, shown.degree()))
+      .arg(methodText(scene, *curve, shown.degree()))
       .arg(shown.controlPointCount())
       .arg(number(figures.lengthMm, 1));
 }

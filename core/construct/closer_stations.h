@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/construct/construct.h"
+
+namespace batten {
+
+/// Stations along a piece and how much closer than at first they stand.
+struct StationSet {
+  std::vector<Station> stations;
+  /// Per station 0..1: its distance from its neighbours, in distances that there were at first.
+  std::vector<double> share;
+  std::vector<int> halvings;  ///< Per station: how often the interval after it was halved.
+  int added = 0;
+};
+
+/// The curve through stations: one polyline per interval from station to station, ends included. Empty where there is
+/// none.
+using CurveThrough = std::function<std::vector<std::vector<Vec2>>(const StationSet&)>;
+
+/// Stations set closer, by halving their distance, wherever the curve through them leaves the points of the piece: by
+/// more than `tolerancePx` in the mean over 5 px, so that noise alone adds none. What is added and its neighbours are
+/// measured anew, from as many points as their own distance allows: stations far apart take a hairpin for a straight
+/// line. Neighbouring distances differ by a factor of 2 at most. Everything else stays as it is, and all of it where the
+/// points do not go along with the stations.
+StationSet closerStations(const ConstructPiece& piece, StationSet start, double pixelMm, double tolerancePx,
+                          const CurveThrough& curve, const RunContext& context);
+
+/// The stations as they are.
+StationSet givenStations(std::vector<Station> stations);
+
+}  // namespace batten
