@@ -324,13 +324,17 @@ Candidate fittedCandidate(TypicalPath path, PathData data, PathSearch search, co
 /// brings extrema that the line has not, also from a rough path that is divided and made plain as the points ask for.
 std::optional<FoundPath> chainPath(const TypicalLine& line, std::span<const Vec2> placesMm, const RunContext& context) {
   if (!placesMm.empty()) return dividedPath(line, placesMm, context);
+  // To divide a rough path of so many pieces takes long, and brings nothing where a line turns sharply again and again.
+  constexpr std::size_t kManyElements = 60;
+  bool isLong = false;
   Candidate best;
   if (auto tiled = tiledPath(line)) {
     PathData data = dataOf(line);
     data.hold = kHoldPx;
+    isLong = tiled->elements.size() > kManyElements;
     best = fittedCandidate(std::move(*tiled), data, PathSearch::Simplify, line, context);
   }
-  if (best.path && best.falseExtrema == 0) return best.path;
+  if (best.path && (best.falseExtrema == 0 || isLong)) return best.path;
   Candidate rough =
       fittedCandidate(roughTypicalPath(line.joints, line.closed, {}), dataOf(line), PathSearch::Full, line, context);
   return rough.isBetterThan(best) ? rough.path : best.path;
