@@ -52,7 +52,8 @@ void turnToStraightest(StationSet& set) {
 namespace {
 
 /// The line as its true and fair fit shows it; absent where there is none.
-std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, double pixelMm, const RunContext& context) {
+std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, double pixelMm, bool grows,
+                                         const RunContext& context) {
   ConstructContour contour;
   contour.pieces = {piece};
   contour.pieces.front().wishes.clear();
@@ -60,8 +61,9 @@ std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, double pix
   FairFitOptions options;
   options.reduceShare = 0.0;
   const auto fitted = fairFit(contour, options, context);
-  // With sharp turns it still is the line; a curve that only took its place has no structure to go by.
+  // With sharp turns it still is the line, but nothing grows through them; a curve that only took its place is none.
   if (!fitted || fitted->size() != 1 || fitted->front().report.why == Termination::Degenerate) return std::nullopt;
+  if (grows && !fitted->front().report.note.empty()) return std::nullopt;
   const NurbsCurve& curve = fitted->front().curve;
   const double length = curve.isEmpty() ? 0.0 : ArcLength(curve).total();
   if (!(pixelMm > 0.0) || !(length > kLeastFairPx * pixelMm)) return std::nullopt;
@@ -117,7 +119,7 @@ TypicalLine lineOnStations(const ConstructPiece& piece, double pixelMm, const Co
 
 TypicalLine typicalLine(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
                         const RunContext& context) {
-  auto fair = lineOnFairFit(piece, pixelMm, context);
+  auto fair = lineOnFairFit(piece, pixelMm, params.typical == TypicalMode::Growing, context);
   TypicalLine line = fair ? std::move(*fair) : lineOnStations(piece, pixelMm, params, context);
   if (!line.joints.empty()) line.points = pointsAlong(piece, line);
   return line;

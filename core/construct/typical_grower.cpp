@@ -225,6 +225,7 @@ class Grower {
   };
   /// Place and direction of the points near a place: local parabola.
   LocalLine lineNear(const Vec2& place) const {
+    if (points_.empty()) return {place, Vec2::UnitX()};
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < points_.size(); ++i) {
       if ((points_[i] - place).squaredNorm() < (points_[nearest] - place).squaredNorm()) nearest = i;
