@@ -98,7 +98,8 @@ std::optional<TypicalLine> lineOnFairFit(const ConstructPiece& piece, double pix
 TypicalLine lineOnStations(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
                            const RunContext& context) {
   TypicalLine line;
-  StationSet set = bezierStations(piece, pixelMm, params, context);
+  // A chain needs no closer stations: it goes by the points, and by more joints it only takes longer.
+  StationSet set = givenStations(usableStations(piece, 6));
   const std::vector<Station>& stations = set.stations;
   if (stations.size() < (piece.closed ? 3u : 2u)) return line;
   if (piece.closed) turnToStraightest(set);
