@@ -6,8 +6,8 @@
 
 namespace batten {
 
-/// A flag shared by whoever asks for work and whoever does it. Copies refer to the same flag. Thread-safe; cancelling never
-/// waits.
+/// A flag shared by whoever asks for work and whoever does it. Copies refer to the same flag. Thread-safe; cancelling
+/// never waits.
 class CancelToken {
  public:
   CancelToken() : flag_(std::make_shared<std::atomic<bool>>(false)) {}

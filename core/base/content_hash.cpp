@@ -13,7 +13,8 @@ struct HashBuilder::State {
 };
 
 HashBuilder::HashBuilder() : state_(std::make_unique<State>()) {
-  if (state_->context == nullptr || EVP_DigestInit_ex(state_->context, EVP_sha256(), nullptr) != 1) throw std::bad_alloc();
+  if (state_->context == nullptr || EVP_DigestInit_ex(state_->context, EVP_sha256(), nullptr) != 1)
+    throw std::bad_alloc();
 }
 HashBuilder::~HashBuilder() = default;
 

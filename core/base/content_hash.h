@@ -20,8 +20,8 @@ struct ContentHash {
   std::string hex() const;
 };
 
-/// Feeds values into one digest. Numbers are hashed by their bytes, strings with their length, so that neighbours cannot
-/// run into each other.
+/// Feeds values into one digest. Numbers are hashed by their bytes, strings with their length, so that neighbours
+/// cannot run into each other.
 class HashBuilder {
  public:
   HashBuilder();

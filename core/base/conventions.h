@@ -4,11 +4,11 @@
 /// \file
 /// The conventions of the whole program, stated once.
 ///
-/// Image frame: pixels, x right, y down. The first pixel covers [0,1] x [0,1], so its centre is (0.5, 0.5). Scans, masks,
-///   contours, corner marks and regression segments live here. Grey is 0 = black to 255 = white as a real number,
-///   whatever the bit depth of the file.
-/// Model frame: millimetres, x right, y up, origin at the lower left corner of the page. Curves, curvature, plots, targets
-///   and CAD exports live here. PageFrame (page_frame.h) is the only place that converts.
+/// Image frame: pixels, x right, y down. The first pixel covers [0,1] x [0,1], so its centre is (0.5, 0.5). Scans,
+///   masks, contours, corner marks and regression segments live here. Grey is 0 = black to 255 = white as a real
+///   number, whatever the bit depth of the file.
+/// Model frame: millimetres, x right, y up, origin at the lower left corner of the page. Curves, curvature, plots,
+///   targets and CAD exports live here. PageFrame (page_frame.h) is the only place that converts.
 /// Curvature kappa [1/mm] is signed: positive where the curve turns left (counter-clockwise) in the model frame.
 /// Radius rho = 1/kappa carries the sign; where |kappa| < kStraightCurvature / (extent of the curve) it has no value.
 /// Arc length s [mm] runs from the start of a piece; "perimeter" is s divided by the length, 0..1.

@@ -9,9 +9,9 @@ namespace batten {
 
 /// Calls `body(begin, end)` for consecutive blocks of at most `grain` indices that cover [0, count), on up to
 /// `context.threads` threads. The cut into blocks depends on `count` and `grain` alone, never on the number of threads:
-/// whoever writes only to its own block, or reduces block results in order, is deterministic. Blocks not yet started are
-/// skipped once the context is cancelled; the caller checks `context.isCancelled()` afterwards. An exception of a body is
-/// rethrown here.
+/// whoever writes only to its own block, or reduces block results in order, is deterministic. Blocks not yet started
+/// are skipped once the context is cancelled; the caller checks `context.isCancelled()` afterwards. An exception of a
+/// body is rethrown here.
 void parallelFor(const RunContext& context, int count, int grain, const std::function<void(int begin, int end)>& body);
 
 /// The number of threads that parallelFor would use at most.

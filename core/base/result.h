@@ -9,16 +9,17 @@ namespace batten {
 
 /// What kind of expected failure happened. Bugs are assertions, not errors; cancellation is never shown to the user.
 enum class ErrorCode {
-  Cancelled,        ///< The caller asked to stop. Not a failure.
-  BadParameter,     ///< A parameter or edit is out of its range. CLI exit code 2.
-  UnreadableScan,   ///< Missing, damaged, empty, too large or not an image. CLI exit code 3.
-  NoCurve,          ///< The picture was read but holds no line that could be followed. CLI exit code 4.
-  CannotWrite,      ///< The output could not be written. CLI exit code 5.
-  Numerical,        ///< A system was singular or a solver could not start.
-  OutOfMemory,      ///< An allocation failed.
+  Cancelled,       ///< The caller asked to stop. Not a failure.
+  BadParameter,    ///< A parameter or edit is out of its range. CLI exit code 2.
+  UnreadableScan,  ///< Missing, damaged, empty, too large or not an image. CLI exit code 3.
+  NoCurve,         ///< The picture was read but holds no line that could be followed. CLI exit code 4.
+  CannotWrite,     ///< The output could not be written. CLI exit code 5.
+  Numerical,       ///< A system was singular or a solver could not start.
+  OutOfMemory,     ///< An allocation failed.
 };
 
-/// An expected failure. `message` is one line for the user that says what is wrong and what to do; `detail` is for the log.
+/// An expected failure. `message` is one line for the user that says what is wrong and what to do; `detail` is for the
+/// log.
 struct Error {
   ErrorCode code = ErrorCode::Numerical;
   std::string message;

@@ -19,14 +19,22 @@ enum class Termination {
 
 constexpr std::string_view name(Termination t) {
   switch (t) {
-    case Termination::NotRun: return "not run";
-    case Termination::Exact: return "exact";
-    case Termination::Converged: return "converged";
-    case Termination::FixedPoint: return "fixed point";
-    case Termination::IterationLimit: return "iteration limit";
-    case Termination::NoProgress: return "no progress";
-    case Termination::ToleranceLimited: return "tolerance limited";
-    case Termination::Degenerate: return "degenerate";
+    case Termination::NotRun:
+      return "not run";
+    case Termination::Exact:
+      return "exact";
+    case Termination::Converged:
+      return "converged";
+    case Termination::FixedPoint:
+      return "fixed point";
+    case Termination::IterationLimit:
+      return "iteration limit";
+    case Termination::NoProgress:
+      return "no progress";
+    case Termination::ToleranceLimited:
+      return "tolerance limited";
+    case Termination::Degenerate:
+      return "degenerate";
   }
   return "unknown";
 }

@@ -148,11 +148,14 @@ std::vector<double> inverseRows(const std::vector<double>& lower, int size) {
     const int reach = std::min(size - 1 - i, kBand);
     double* own = &z[static_cast<std::size_t>(i) * kWidth];
     std::array<double, kWidth> l{};  // L(i + m, i)
-    for (int m = 1; m <= reach; ++m) l[static_cast<std::size_t>(m)] = lower[static_cast<std::size_t>(i + m) * kWidth + static_cast<std::size_t>(kBand - m)];
+    for (int m = 1; m <= reach; ++m)
+      l[static_cast<std::size_t>(m)] =
+          lower[static_cast<std::size_t>(i + m) * kWidth + static_cast<std::size_t>(kBand - m)];
     for (int j = reach; j >= 1; --j) {
       double sum = 0.0;
       const double* below = own + static_cast<std::ptrdiff_t>(j) * kWidth;
-      for (int m = 1; m < j; ++m) sum -= l[static_cast<std::size_t>(m)] * own[static_cast<std::ptrdiff_t>(m) * kWidth + j - m];
+      for (int m = 1; m < j; ++m)
+        sum -= l[static_cast<std::size_t>(m)] * own[static_cast<std::ptrdiff_t>(m) * kWidth + j - m];
       for (int m = j; m <= reach; ++m) sum -= l[static_cast<std::size_t>(m)] * below[m - j];
       own[j] = sum;
     }
@@ -192,8 +195,8 @@ void BandCholesky::solveInPlace(Eigen::VectorXd& x) const {
 }
 
 BandMatrix BandCholesky::inverseBand() const {
-  const std::vector<double> z = cyclic_ ? inverseRows<2 * BandMatrix::kHalf>(lower_, size_)
-                                        : inverseRows<BandMatrix::kHalf>(lower_, size_);
+  const std::vector<double> z =
+      cyclic_ ? inverseRows<2 * BandMatrix::kHalf>(lower_, size_) : inverseRows<BandMatrix::kHalf>(lower_, size_);
   const auto width = static_cast<std::size_t>(half_ + 1);
   BandMatrix inverse(size_, cyclic_);
   for (int i = 0; i < size_; ++i) {

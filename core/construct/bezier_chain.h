@@ -42,8 +42,8 @@ StationSet bezierStations(const ConstructPiece&, double pixelMm, const Construct
 
 /// The construction of 001 for one piece: the Bezier path; at joints the mean curvature of both sides; then the joints
 /// (offset, direction, curvature) are faired towards the low-passed curvature by Levenberg-Marquardt. G2; one B-spline
-/// of degree 5 with knots of multiplicity 3. Open ends stay where they are. Without low pass (0) the path stays as it is
-/// but for the curvatures at its joints, which become one.
+/// of degree 5 with knots of multiplicity 3. Open ends stay where they are. Without low pass (0) the path stays as it
+/// is but for the curvatures at its joints, which become one.
 Result<ConstructedPiece> constructBezierChain(const ConstructPiece&, double pixelMm, const ConstructParams&,
                                               const RunContext&);
 

@@ -25,8 +25,8 @@ using CurveThrough = std::function<std::vector<std::vector<Vec2>>(const StationS
 /// Stations set closer, by halving their distance, wherever the curve through them leaves the points of the piece: by
 /// more than `tolerancePx` in the mean over 5 px, so that noise alone adds none. What is added and its neighbours are
 /// measured anew, from as many points as their own distance allows: stations far apart take a hairpin for a straight
-/// line. Neighbouring distances differ by a factor of 2 at most. Everything else stays as it is, and all of it where the
-/// points do not go along with the stations.
+/// line. Neighbouring distances differ by a factor of 2 at most. Everything else stays as it is, and all of it where
+/// the points do not go along with the stations.
 StationSet closerStations(const ConstructPiece& piece, StationSet start, double pixelMm, double tolerancePx,
                           const CurveThrough& curve, const RunContext& context);
 

@@ -55,12 +55,13 @@ struct ConstructParams {
   double derivativeMagnitude = 1.0;  ///< [-] 0.1..3. Factor on the arc-corrected length of the first derivative.
   bool magnitudeAsInPaper = false;   ///< 1/3 of the mean distance of adjacent points instead (000; wrong by 3).
   GradientUse gradients = GradientUse::All;
-  int degree = 3;                 ///< 2..5. Control polygon only, as the next four.
+  int degree = 3;                         ///< 2..5. Control polygon only, as the next four.
   SharpKnots knots = SharpKnots::Degree;  ///< Degree or Order.
   PointRemoval removal = PointRemoval::Step;
   double removalStepPx = 8.0;       ///< [px] 0..200. Distance of the points that are kept; 0 keeps all.
   double removalTolerancePx = 1.0;  ///< [px] 0..50. Farthest that a removed point lies from the polygon.
-  double lowPass = 1.0;           ///< [stations] 0..8. Bezier path: standard deviation of the low pass of its curvature; 0 = none.
+  double lowPass =
+      1.0;  ///< [stations] 0..8. Bezier path: standard deviation of the low pass of its curvature; 0 = none.
   /// [px] 0..50. Nurbs, Bezier: where the curve leaves the line by more, stations are set closer; 0 = never (papers).
   double closenessPx = 2.0;
   TypicalMode typical = TypicalMode::Chain;
@@ -106,20 +107,20 @@ struct ExtremumNote {
   double kappa = 0.0;  ///< [1/mm]
   bool maximum = true;
   bool kept = true;
-  double removalCost = 0.0;  ///< [chi2] rise of the misfit when it is removed; large = certain.
-  Vec2 point = Vec2::Zero();      ///< [mm] where it is on the curve (a dropped one: where it was seen).
-  std::optional<int> wish = {};   ///< Id of the wish that was attached to it.
+  double removalCost = 0.0;      ///< [chi2] rise of the misfit when it is removed; large = certain.
+  Vec2 point = Vec2::Zero();     ///< [mm] where it is on the curve (a dropped one: where it was seen).
+  std::optional<int> wish = {};  ///< Id of the wish that was attached to it.
 };
 
 /// One segment of a typical chain.
 struct SegmentNote {
-  bool typical = true;             ///< Else a quintic between two, at an inflection or a straight part.
-  Vec2 startMm = Vec2::Zero();     ///< Where it starts.
+  bool typical = true;          ///< Else a quintic between two, at an inflection or a straight part.
+  Vec2 startMm = Vec2::Zero();  ///< Where it starts.
   double lengthMm = 0.0;
-  double ratio = 1.0;              ///< h
-  double turnRad = 0.0;            ///< Change of direction, 2 phi.
+  double ratio = 1.0;                       ///< h
+  double turnRad = 0.0;                     ///< Change of direction, 2 phi.
   double startKappa = 0.0, endKappa = 0.0;  ///< [1/mm]
-  bool monotone = false;           ///< h <= cos(phi) or h >= 1 / cos(phi); typical segments only.
+  bool monotone = false;                    ///< h <= cos(phi) or h >= 1 / cos(phi); typical segments only.
 };
 
 struct ConstructReport {
@@ -148,8 +149,8 @@ struct ConstructedPiece {
 
 /// Constructs all pieces of a contour, in order. Where a corner bounds a piece the curve ends exactly there (but for
 /// SharpKnots::Order, which breaks it). A closed
-/// smooth piece gives a curve whose ends meet with all derivatives (Fair, Nurbs, ControlPolygon), with two (Bezier), or with
-/// place, direction and curvature (Typical).
+/// smooth piece gives a curve whose ends meet with all derivatives (Fair, Nurbs, ControlPolygon), with two (Bezier), or
+/// with place, direction and curvature (Typical).
 /// @return Numerical, with what to do, if a piece holds too little to construct anything.
 Result<std::vector<ConstructedPiece>> construct(const ConstructContour&, const ConstructParams&, const RunContext&);
 

@@ -21,7 +21,7 @@ struct EdgeLengthOptions {
 struct EdgeLengthResult {
   std::vector<Quintic> path;
   Termination why = Termination::NotRun;
-  int iterations = 0;                    ///< Of all pieces.
+  int iterations = 0;                            ///< Of all pieces.
   double misfitBefore = 0.0, misfitAfter = 0.0;  ///< Rms of the difference of curvature over its largest wanted value.
 };
 

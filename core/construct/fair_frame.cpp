@@ -12,7 +12,7 @@ namespace {
 constexpr double kPilotCutoffPx = 50.0;
 constexpr double kSmoothingSamples = 3.0;
 constexpr double kTwoNodes = 0.28867513459481287;  // of Gauss-Legendre, from the middle of a unit interval
-constexpr int kClosedSpansMin = 12;  // so that band entries of periodic inverses are all different places
+constexpr int kClosedSpansMin = 12;                // so that band entries of periodic inverses are all different places
 
 /// Gaussian smoothing by order; open ends are continued by reflection in the end point, which keeps it in place.
 std::vector<Vec2> smoothedByOrder(const std::vector<Vec2>& p, bool closed) {
@@ -114,7 +114,8 @@ FrameStation frameStation(const PlaneDerivatives& d, const std::array<BandRow, 5
   const double k = s.kappa, k1 = s.slope, k2 = s.bend;
   s.bendRow.first = s.kappaRow.first = s.slopeRow.first = b[0].first;
   for (std::size_t i = 0; i < 6; ++i) {
-    s.bendRow.v[i] = b[4].v[i] + k * k * b[2].v[i] + 4.0 * k * k1 * b[1].v[i] + (2.0 * k1 * k1 + 2.0 * k * k2) * b[0].v[i];
+    s.bendRow.v[i] =
+        b[4].v[i] + k * k * b[2].v[i] + 4.0 * k * k1 * b[1].v[i] + (2.0 * k1 * k1 + 2.0 * k * k2) * b[0].v[i];
     s.kappaRow.v[i] = b[2].v[i] + k * k * b[0].v[i];
     s.slopeRow.v[i] = b[3].v[i] + k * k * b[1].v[i] + 2.0 * k * k1 * b[0].v[i];
   }

@@ -15,18 +15,18 @@
 namespace batten {
 namespace {
 
-constexpr int kFewestClosed = 8;       // spans of a closed curve
-constexpr double kLeastGain = 0.85;    // of the spans: more are not worth another curve
-constexpr double kFirstGuess = 0.25;   // of the spans
+constexpr int kFewestClosed = 8;      // spans of a closed curve
+constexpr double kLeastGain = 0.85;   // of the spans: more are not worth another curve
+constexpr double kFirstGuess = 0.25;  // of the spans
 constexpr int kTrials = 6;
 constexpr double kCloseEnough = 0.06;  // of the spans: that many more or less are not worth a trial
 constexpr double kTurnExcess = 1.6, kHopeless = 20.0;
 constexpr double kStraightenBelow = 1.5;  // excess of a fit that is worth another solution
 constexpr int kFreeSpans = 1;             // of the full curve on either side of a turn
 constexpr double kEndHold = 1e4;          // relative weight of exact ends in the frame
-constexpr double kMonitorFloor = 0.2;  // of the mean density of knots
-constexpr double kWrongWay = 3e-3;     // [1/diagonal] curvature that may turn back
-constexpr double kHold = 1e8;          // weight of what is set exactly afterwards
+constexpr double kMonitorFloor = 0.2;     // of the mean density of knots
+constexpr double kWrongWay = 3e-3;        // [1/diagonal] curvature that may turn back
+constexpr double kHold = 1e8;             // weight of what is set exactly afterwards
 
 double kappaOf(const Vec2& first, const Vec2& second) {
   const double w = std::max(first.squaredNorm(), 1e-12);
@@ -57,7 +57,8 @@ class KnotPlacing {
       mean += density.back() / n;
     }
     cumulative_.assign(1, 0.0);
-    for (const double d : density) cumulative_.push_back(cumulative_.back() + std::max(d, kMonitorFloor * mean) + 1e-300);
+    for (const double d : density)
+      cumulative_.push_back(cumulative_.back() + std::max(d, kMonitorFloor * mean) + 1e-300);
   }
 
   double at(double share) const {
@@ -128,7 +129,8 @@ class Reduction {
   std::vector<double> knotsFor(int spans) const {
     const double length = full_.knots().length;
     std::vector<double> inner;
-    for (int i = 0; i <= spans; ++i) inner.push_back(i == spans ? length : i == 0 ? 0.0 : placing_.at(double(i) / spans));
+    for (int i = 0; i <= spans; ++i)
+      inner.push_back(i == spans ? length : i == 0 ? 0.0 : placing_.at(double(i) / spans));
     std::vector<double> knots;
     for (int i = -5; i <= spans + 5; ++i) {
       if (!closed_) {
@@ -232,8 +234,8 @@ class Reduction {
     for (std::size_t i = 0; i < places.size(); ++i) {
       const bool end = !closed_ && (i == 0 || i + 1 == places.size());
       const double w = end ? kHold : 1.0;
-      const Vec2 p = end ? targets_[i]
-                         : Vec2(curve[i][0] + dot(places[i], solved.x) * leftNormal(curve[i][1]).normalized());
+      const Vec2 p =
+          end ? targets_[i] : Vec2(curve[i][0] + dot(places[i], solved.x) * leftNormal(curve[i][1]).normalized());
       normal.addOuter(places[i], w);
       addTo(x, places[i], w * p.x());
       addTo(y, places[i], w * p.y());

@@ -30,8 +30,8 @@ struct CircleFit {
 };
 /// Geometric least squares circle (Gauss-Newton from the algebraic one). Absent for points on a line.
 std::optional<CircleFit> fitCircle(const WeightedPoints&);
-/// The circle as a periodic uniform quintic of 24 spans; radius exact to 1e-8, curvature to 1e-5. Starts next to `first`,
-/// turns left if `left`.
+/// The circle as a periodic uniform quintic of 24 spans; radius exact to 1e-8, curvature to 1e-5. Starts next to
+/// `first`, turns left if `left`.
 UniformQuintic circleCurve(const CircleFit&, const Vec2& first, bool left);
 
 struct LineFit {

@@ -12,11 +12,11 @@
 namespace batten {
 namespace {
 
-constexpr double kPersistence = 1.0;  // standard deviations of kappa below which an extremum is not worth a test
-constexpr double kCertain = 8.0;      // standard deviations above which the search stops
-constexpr int kClosedLeast = 4;       // four vertex theorem
+constexpr double kPersistence = 1.0;   // standard deviations of kappa below which an extremum is not worth a test
+constexpr double kCertain = 8.0;       // standard deviations above which the search stops
+constexpr int kClosedLeast = 4;        // four vertex theorem
 constexpr double kWishReachPx = 24.0;  // beyond the window in which an extremum may lie
-constexpr double kAbortFactor = 3.0;  // a program is cut short once its cost has passed this many thresholds
+constexpr double kAbortFactor = 3.0;   // a program is cut short once its cost has passed this many thresholds
 
 /// The removal of one extremum at an end, or of two neighbours.
 struct Candidate {
@@ -27,8 +27,8 @@ struct Candidate {
 
 class Search {
  public:
-  Search(const FairFrame& frame, const FairPosterior& posterior, double keepCost,
-         const std::vector<PlacedWish>& wishes, const RunContext& context)
+  Search(const FairFrame& frame, const FairPosterior& posterior, double keepCost, const std::vector<PlacedWish>& wishes,
+         const RunContext& context)
       : frame_(frame), posterior_(posterior), keepCost_(keepCost), wishes_(wishes), context_(context) {
     closed_ = frame.base.knots().closed;
     std::vector<double> sigma;
@@ -281,8 +281,7 @@ class Search {
                        &high = frame_.checks[static_cast<std::size_t>(b % count)];
     // Which way it falls now: from a maximum down, from a minimum up.
     const double sign = (c.kind == Candidate::Kind::First ? !first.maximum : first.maximum) ? 1.0 : -1.0;
-    const double violation =
-        sign * (kappaAt(low, posterior_.mean) - kappaAt(high, posterior_.mean));
+    const double violation = sign * (kappaAt(low, posterior_.mean) - kappaAt(high, posterior_.mean));
     if (!(violation > 0.0)) return 0.0;
     Eigen::VectorXd row = Eigen::VectorXd::Zero(posterior_.b.size());
     addTo(row, low.kappaRow, 1.0);

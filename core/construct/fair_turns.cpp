@@ -264,8 +264,8 @@ std::vector<PointRange> strayRanges(const Closeness& close, const ConstructPiece
   std::vector<PointRange> out;
   const int n = static_cast<int>(piece.points.size());
   if (n < 5) return out;
-  const bool strays = std::any_of(close.distancePx.begin(), close.distancePx.end(),
-                                  [](double d) { return !(d <= kStrayPx); });
+  const bool strays =
+      std::any_of(close.distancePx.begin(), close.distancePx.end(), [](double d) { return !(d <= kStrayPx); });
   if (!strays && close.lengthRatio < kLongestRatio) return out;
   const Course course = courseOf(piece, pixelMm, 0.0);
   const std::vector<double> angle = turning(course, std::max(kArmPx, 3.0 * course.total / n));

@@ -189,8 +189,7 @@ std::vector<Vec2> derivativesFor(std::span<const Station> stations, const Constr
 
 /// Even knots whatever the distances; what that costs is taken from the lengths of the derivatives.
 Result<ConstructedPiece> constructFromDirections(std::span<const Station> stations, const ConstructParams& params) {
-  const auto magnitudes =
-      derivativeMagnitudes(stations, false, params.derivativeMagnitude, params.magnitudeAsInPaper);
+  const auto magnitudes = derivativeMagnitudes(stations, false, params.derivativeMagnitude, params.magnitudeAsInPaper);
   std::vector<Vec2> points, directions;
   double total = 0.0;
   for (const double d : arcCorrectedDistances(stations, false)) total += d;

@@ -31,7 +31,8 @@ std::optional<Frame> frameOf(const Joint& before, const Joint& behind) {
   const Vec2 way = behind.point - before.point;
   f.chord = {way.dot(before.tangent), f.side * way.dot(leftNormal(before.tangent))};
   // The vertex lies ahead of the first place and behind the second.
-  const double toVertex = f.chord.real() - f.chord.imag() / std::tan(f.turn), fromVertex = f.chord.imag() / std::sin(f.turn);
+  const double toVertex = f.chord.real() - f.chord.imag() / std::tan(f.turn),
+               fromVertex = f.chord.imag() / std::sin(f.turn);
   if (!(toVertex > 0.0) || !(fromVertex > 0.0)) return std::nullopt;
   return f;
 }
@@ -94,7 +95,8 @@ std::optional<RoundedCorner> withCurvatures(const Frame& f, double kappa1, doubl
   };
   ResidualBlock block{{0, 1}, 2, [&](std::span<const double> x, std::span<double> r) {
                         const Shape s = shapeOf(x);
-                        const Complex away = (wayOver(f, s.edge1, s.h1, s.phi1, s.edge2, s.h2, s.phi2) - f.chord) / size;
+                        const Complex away =
+                            (wayOver(f, s.edge1, s.h1, s.phi1, s.edge2, s.h2, s.phi2) - f.chord) / size;
                         r[0] = away.real();
                         r[1] = away.imag();
                       }};

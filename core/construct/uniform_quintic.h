@@ -59,7 +59,7 @@ class UniformQuintic {
   std::vector<Vec2> coefficients_;
   std::vector<std::array<Vec2, 6>> polynomials_;  ///< Per span, powers of the place in the span (0..1).
   std::vector<double> spanLengths_;
-  double perUnit_ = 1.0;  ///< Spans per unit of the parameter.
+  double perUnit_ = 1.0;                       ///< Spans per unit of the parameter.
   std::vector<std::array<double, 4>> speeds_;  ///< Per span, powers of the place: the cubic through the Gauss nodes.
 };
 

@@ -21,9 +21,9 @@ struct StrandCourse {
   std::vector<float> measuredWidth;
   std::vector<std::uint8_t> measured;
   struct Tone {
-    float contrast = 0.0f;              ///< [grey] paper minus the middle of the stroke.
-    float paper = 255.0f, slope = 0.0f; ///< [grey, grey/px] at `base` and along the left normal.
-    float reach = 0.0f;                 ///< [px] no other ink nearer than this.
+    float contrast = 0.0f;               ///< [grey] paper minus the middle of the stroke.
+    float paper = 255.0f, slope = 0.0f;  ///< [grey, grey/px] at `base` and along the left normal.
+    float reach = 0.0f;                  ///< [px] no other ink nearer than this.
   };
   std::vector<Tone> tone;  ///< Where measured, as the profile of the last round had it.
   bool closed = false;

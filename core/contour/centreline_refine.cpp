@@ -133,7 +133,7 @@ std::vector<Contour> refineStrands(const std::vector<Strand>& strands, const Gre
 }
 
 double grainAlong(const std::vector<Strand>& strands, const GreyImage& grey) {
-  constexpr int kWindow = 5;  // median over 11
+  constexpr int kWindow = 5;                        // median over 11
   constexpr std::size_t kStride = 3, kMost = 7000;  // neighbours say the same
   double ink = 0.0, paper = 0.0;
   std::size_t count = 0;

@@ -19,25 +19,26 @@ enum class ContourKind {
 /// One line of the drawing, ordered, about one point a pixel. Image frame, px.
 struct Contour {
   ContourKind kind = ContourKind::Outline;
-  bool closed = false;  ///< The last point is followed by the first; the first is not repeated at the end.
-  bool hole = false;    ///< An inner border (outline mode with internal contours on).
-  std::vector<Vec2> points;           ///< [px] sub-pixel positions where refined, else crack or skeleton positions.
-  std::vector<Vec2> chain;            ///< [px] unrefined positions, same size as `points`.
-  std::vector<std::uint8_t> refined;  ///< 1 = placed on the raw grey values; 0 = fell back. Pen: 1 = drawn, 0 = between. Same size.
-  std::vector<float> widthPx;         ///< [px] stroke width (centre lines); empty for outlines.
-  std::vector<float> bandPx;  ///< [px] half the spread of the strokes that were merged into this line, per point: the line
-                              ///< was drawn within points +- bandPx; empty where nothing was merged.
+  bool closed = false;       ///< The last point is followed by the first; the first is not repeated at the end.
+  bool hole = false;         ///< An inner border (outline mode with internal contours on).
+  std::vector<Vec2> points;  ///< [px] sub-pixel positions where refined, else crack or skeleton positions.
+  std::vector<Vec2> chain;   ///< [px] unrefined positions, same size as `points`.
+  std::vector<std::uint8_t>
+      refined;  ///< 1 = placed on the raw grey values; 0 = fell back. Pen: 1 = drawn, 0 = between. Same size.
+  std::vector<float> widthPx;  ///< [px] stroke width (centre lines); empty for outlines.
+  std::vector<float> bandPx;   ///< [px] half the spread of the strokes that were merged into this line, per point: the
+                              ///< line was drawn within points +- bandPx; empty where nothing was merged.
   std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.
-  double lengthPx = 0.0;              ///< [px] length of the polyline through `points`.
-  double areaPx = 0.0;                ///< [px^2] absolute enclosed area (closed), else 0.
+  double lengthPx = 0.0;                     ///< [px] length of the polyline through `points`.
+  double areaPx = 0.0;                       ///< [px^2] absolute enclosed area (closed), else 0.
 };
 
 struct ContourReport {
-  int found = 0;           ///< Before any was dropped.
-  int droppedShort = 0;    ///< Shorter than the smallest length.
-  int droppedHoles = 0;    ///< Inner borders, in outline mode without them.
-  int droppedMargins = 0;  ///< Lines along the border of the page: the margin of the scanner.
-  double refinedShare = 0; ///< Part of the points that were placed on the grey values, 0..1.
+  int found = 0;            ///< Before any was dropped.
+  int droppedShort = 0;     ///< Shorter than the smallest length.
+  int droppedHoles = 0;     ///< Inner borders, in outline mode without them.
+  int droppedMargins = 0;   ///< Lines along the border of the page: the margin of the scanner.
+  double refinedShare = 0;  ///< Part of the points that were placed on the grey values, 0..1.
   std::string note;
 };
 

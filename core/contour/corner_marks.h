@@ -14,34 +14,34 @@ namespace batten {
 struct CornerMark {
   Vec2 positionPx = Vec2::Zero();
   double roundMm = 0.0;  ///< [mm] 0..500. Rounded by two typical curves that begin this far from the corner; 0 = sharp.
-  bool operator==(const CornerMark& other) const {
-    return positionPx == other.positionPx && roundMm == other.roundMm;
-  }
+  bool operator==(const CornerMark& other) const { return positionPx == other.positionPx && roundMm == other.roundMm; }
 };
 
 struct CornerParams {
-  double snapDistancePx = 16.0;  ///< [px] > 0. A mark farther than this from every line holds no corner (004 section 3.2: distance d).
-  bool exact = true;             ///< Extend both neighbouring lines and put the corner where they meet; off: the contour point itself.
+  double snapDistancePx =
+      16.0;  ///< [px] > 0. A mark farther than this from every line holds no corner (004 section 3.2: distance d).
+  bool exact =
+      true;  ///< Extend both neighbouring lines and put the corner where they meet; off: the contour point itself.
   bool operator==(const CornerParams&) const = default;
 };
 std::optional<Error> validate(const CornerParams&);
 
 /// A mark that found its line.
 struct Corner {
-  int mark = 0;                         ///< Index into the marks given.
-  int contour = 0;                      ///< Index into the contour set.
-  int pointIndex = 0;                   ///< Nearest point of the contour.
-  Vec2 positionPx = Vec2::Zero();       ///< [px] Where the corner is.
-  double turningAngleRad = 0.0;         ///< [rad] -pi..pi, change of direction, positive to the left in the model frame.
-  double snapPx = 0.0;                  ///< [px] Distance from the mark.
+  int mark = 0;                    ///< Index into the marks given.
+  int contour = 0;                 ///< Index into the contour set.
+  int pointIndex = 0;              ///< Nearest point of the contour.
+  Vec2 positionPx = Vec2::Zero();  ///< [px] Where the corner is.
+  double turningAngleRad = 0.0;    ///< [rad] -pi..pi, change of direction, positive to the left in the model frame.
+  double snapPx = 0.0;             ///< [px] Distance from the mark.
 };
 
 /// A stretch of one contour from corner to corner (or end), or a whole closed contour without corner. Image frame.
 struct Piece {
   int contour = 0;
-  int index = 0;                ///< Position within the contour.
-  bool closed = false;          ///< Smooth closed: periodic, no start and no end.
-  std::vector<Vec2> points;     ///< [px] ordered; where an end is a corner, the first or last point is exactly the corner.
+  int index = 0;             ///< Position within the contour.
+  bool closed = false;       ///< Smooth closed: periodic, no start and no end.
+  std::vector<Vec2> points;  ///< [px] ordered; where an end is a corner, the first or last point is exactly the corner.
   std::vector<std::uint8_t> refined;  ///< As in Contour, same size.
   bool startIsCorner = false;
   bool endIsCorner = false;
@@ -67,8 +67,8 @@ struct CornerSuggestion {
   Vec2 positionPx = Vec2::Zero();
   double turningAngleRad = 0.0;
 };
-/// Places where two one-sided local parabolas, extrapolated to the point, differ in direction by at least `minAngleRad`;
-/// one suggestion per turn. `scalePx` is the length looked at on either side.
+/// Places where two one-sided local parabolas, extrapolated to the point, differ in direction by at least
+/// `minAngleRad`; one suggestion per turn. `scalePx` is the length looked at on either side.
 std::vector<CornerSuggestion> suggestCorners(const ContourSet&, double minAngleRad, double scalePx);
 
 }  // namespace batten

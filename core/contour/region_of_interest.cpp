@@ -134,7 +134,8 @@ ContourSet keepInside(ContourSet set, std::span<const RegionOfInterest> regions,
   std::vector<Contour> kept;
   for (Contour& line : set.contours) addParts(kept, std::move(line), regions);
   std::erase_if(kept, [&](const Contour& c) { return c.lengthPx < minLengthPx; });
-  std::stable_sort(kept.begin(), kept.end(), [](const Contour& a, const Contour& b) { return a.lengthPx > b.lengthPx; });
+  std::stable_sort(kept.begin(), kept.end(),
+                   [](const Contour& a, const Contour& b) { return a.lengthPx > b.lengthPx; });
   set.contours = std::move(kept);
   return set;
 }

@@ -16,7 +16,7 @@ constexpr int kFewestClosed = 6;
 constexpr int kMostStations = 2000;
 constexpr double kSmallestSpacingPx = 8.0;
 constexpr double kAdaptiveGrowth = 1.2;
-constexpr double kAveragedPx = 5.0;        // the tolerance speaks of the line, not of its noise
+constexpr double kAveragedPx = 5.0;  // the tolerance speaks of the line, not of its noise
 
 void pinEnds(const Piece& piece, std::vector<FittedStation>& stations) {
   const auto pin = [](FittedStation& s, const Vec2& corner) {

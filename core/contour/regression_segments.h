@@ -20,18 +20,20 @@ enum class SegmentMode {
 
 struct SegmentParams {
   SegmentMode mode = SegmentMode::Stations;
-  int count = 0;                ///< 0 or 4..2000. Number of segments or stations; 0 = from the length (one per `spacingPx`, at least 4).
-  double spacingPx = 40.0;      ///< [px] 8..400. Length of contour per station when `count` is 0.
-  double tolerancePx = 0.15;    ///< [px] 0.02..5. Adaptive: largest distance of the line (points averaged over 5 px) from the local parabola.
+  int count =
+      0;  ///< 0 or 4..2000. Number of segments or stations; 0 = from the length (one per `spacingPx`, at least 4).
+  double spacingPx = 40.0;    ///< [px] 8..400. Length of contour per station when `count` is 0.
+  double tolerancePx = 0.15;  ///< [px] 0.02..5. Adaptive: largest distance of the line (points averaged over 5 px) from
+                              ///< the local parabola.
   bool operator==(const SegmentParams&) const = default;
 };
 std::optional<Error> validate(const SegmentParams&);
 
 /// One regression segment: the line that stands for a group of points. Image frame or model frame, as its holder says.
 struct Station {
-  Vec2 point = Vec2::Zero();      ///< Midpoint (groups) or the station itself.
-  Vec2 direction = Vec2::UnitX(); ///< Unit, along the contour.
-  Vec2 from = Vec2::Zero();       ///< Ends of the drawn segment.
+  Vec2 point = Vec2::Zero();       ///< Midpoint (groups) or the station itself.
+  Vec2 direction = Vec2::UnitX();  ///< Unit, along the contour.
+  Vec2 from = Vec2::Zero();        ///< Ends of the drawn segment.
   Vec2 to = Vec2::Zero();
 };
 

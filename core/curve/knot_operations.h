@@ -11,7 +11,8 @@ namespace batten {
 
 /// A clamped knot vector repeats its first and last knot degree + 1 times.
 
-/// Inserts u `times` times without changing the shape (Boehm). Multiplicity may not exceed the degree (degree + 1 at ends).
+/// Inserts u `times` times without changing the shape (Boehm). Multiplicity may not exceed the degree (degree + 1 at
+/// ends).
 Result<NurbsCurve> insertKnot(const NurbsCurve&, double u, int times);
 /// The same shape with clamped ends over the same domain (a uniform, unclamped curve becomes one that CAD takes).
 Result<NurbsCurve> clamped(const NurbsCurve&);
@@ -20,8 +21,8 @@ struct SplitCurve {
   NurbsCurve left, right;
 };
 Result<SplitCurve> split(const NurbsCurve&, double u);
-/// Joins clamped curves of one degree end to start into one B-spline; at every joint a knot of multiplicity = degree (C0,
-/// exact), the joint's control point once. Ends may differ by at most `tolerance` (the mean is taken).
+/// Joins clamped curves of one degree end to start into one B-spline; at every joint a knot of multiplicity = degree
+/// (C0, exact), the joint's control point once. Ends may differ by at most `tolerance` (the mean is taken).
 Result<NurbsCurve> joinAtCorners(std::span<const NurbsCurve> pieces, double tolerance);
 /// Raises the degree by one or more without changing the shape.
 Result<NurbsCurve> elevated(const NurbsCurve&, int degree);

@@ -11,9 +11,9 @@
 
 namespace batten {
 
-/// A NURBS curve of the plane. Immutable: a curve that exists is valid (degree >= 1, non-decreasing finite knots, number of
-/// knots = control points + degree + 1, no knot of multiplicity above degree + 1, positive domain, positive weights).
-/// The domain is [knots[degree], knots[n]] with n = number of control points. Copies share their data.
+/// A NURBS curve of the plane. Immutable: a curve that exists is valid (degree >= 1, non-decreasing finite knots,
+/// number of knots = control points + degree + 1, no knot of multiplicity above degree + 1, positive domain, positive
+/// weights). The domain is [knots[degree], knots[n]] with n = number of control points. Copies share their data.
 class NurbsCurve {
  public:
   /// An empty placeholder (isEmpty() is true); every other function but assignment needs a made curve.
@@ -36,8 +36,8 @@ class NurbsCurve {
 
   /// Position at u; u is clamped to the domain.
   Vec2 point(double u) const;
-  /// Position and derivatives with respect to u up to order `order` (0..4): result[d]. At an inner knot the right limit, at
-  /// the end the left limit. Piegl & Tiller, The NURBS Book, A3.2 and A4.2.
+  /// Position and derivatives with respect to u up to order `order` (0..4): result[d]. At an inner knot the right
+  /// limit, at the end the left limit. Piegl & Tiller, The NURBS Book, A3.2 and A4.2.
   std::array<Vec2, 5> derivatives(double u, int order) const;
 
   /// Distinct knots of the domain, both ends included: the borders of the polynomial spans.

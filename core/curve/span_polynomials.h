@@ -9,8 +9,8 @@
 
 namespace batten {
 
-/// The polynomials of a curve's spans, for whoever evaluates one curve many times: several times as fast as its B-spline
-/// basis, equal to it up to rounding. A rational curve has none; it is evaluated as it is.
+/// The polynomials of a curve's spans, for whoever evaluates one curve many times: several times as fast as its
+/// B-spline basis, equal to it up to rounding. A rational curve has none; it is evaluated as it is.
 class SpanPolynomials {
  public:
   explicit SpanPolynomials(const NurbsCurve&);

@@ -11,7 +11,8 @@ class BandedMatrix {
  public:
   BandedMatrix() = default;
   BandedMatrix(int size, int halfWidth)
-      : size_(size), halfWidth_(halfWidth),
+      : size_(size),
+        halfWidth_(halfWidth),
         data_(static_cast<std::size_t>(size) * static_cast<std::size_t>(halfWidth + 1), 0.0) {}
   int size() const { return size_; }
   int halfWidth() const { return halfWidth_; }

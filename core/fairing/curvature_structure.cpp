@@ -34,7 +34,8 @@ CurvatureStructure allExtrema(std::span<const double> kappa, bool closed) {
     result.extrema.push_back({(from + (to - 1 - from + 1) / 2) % count, signs[before] > 0});
   }
   if (closed) {
-    std::sort(result.extrema.begin(), result.extrema.end(), [](const auto& a, const auto& b) { return a.sample < b.sample; });
+    std::sort(result.extrema.begin(), result.extrema.end(),
+              [](const auto& a, const auto& b) { return a.sample < b.sample; });
   }
   if (!result.extrema.empty()) result.rising = result.extrema.front().maximum;
   return result;
@@ -125,8 +126,8 @@ std::vector<StructureLevel> structureLevels(std::span<const double> s, std::span
   return Simplifier(s, kappa, length, closed).levels();
 }
 
-CurvatureStructure structureAt(std::span<const double> kappa, const CurvatureStructure& all, std::span<const int> samples,
-                               bool closed) {
+CurvatureStructure structureAt(std::span<const double> kappa, const CurvatureStructure& all,
+                               std::span<const int> samples, bool closed) {
   CurvatureStructure result;
   const int count = static_cast<int>(kappa.size());
   std::vector<std::size_t> chosen;
@@ -155,15 +156,16 @@ CurvatureStructure structureAt(std::span<const double> kappa, const CurvatureStr
       const std::size_t j = i % all.extrema.size();
       if (all.extrema[j].maximum == here.maximum) continue;
       const double value = kappa[at(all.extrema[j].sample)];
-      const bool farther = between == all.extrema.size() ||
-                           (here.maximum ? value < kappa[at(all.extrema[between].sample)]
-                                         : value > kappa[at(all.extrema[between].sample)]);
+      const bool farther =
+          between == all.extrema.size() || (here.maximum ? value < kappa[at(all.extrema[between].sample)]
+                                                         : value > kappa[at(all.extrema[between].sample)]);
       if (farther) between = j;
     }
     if (between < all.extrema.size()) result.extrema.push_back(all.extrema[between]);
   }
   if (closed) {
-    std::sort(result.extrema.begin(), result.extrema.end(), [](const auto& a, const auto& b) { return a.sample < b.sample; });
+    std::sort(result.extrema.begin(), result.extrema.end(),
+              [](const auto& a, const auto& b) { return a.sample < b.sample; });
   }
   result.rising = result.extrema.empty() ? kappa.back() > kappa.front() : result.extrema.front().maximum;
   return result;

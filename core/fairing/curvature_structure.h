@@ -18,21 +18,23 @@ struct CurvatureStructure {
   bool rising = true;
 };
 
-/// All structures from the sampled profile's own down to the simplest one: each drops the extremum at an end, or the pair of
-/// neighbours, that moves the curve least to remove. To take a bump of height h and half wave w out of the curvature moves
-/// the curve by about h w^2 / (2 pi^2).
+/// All structures from the sampled profile's own down to the simplest one: each drops the extremum at an end, or the
+/// pair of neighbours, that moves the curve least to remove. To take a bump of height h and half wave w out of the
+/// curvature moves the curve by about h w^2 / (2 pi^2).
 struct StructureLevel {
   CurvatureStructure structure;
   double estimateMm = 0.0;  ///< Largest such move so far.
 };
 /// @param s arc length of the samples, ascending [mm]; @param kappa [1/mm].
-/// @param closed the last sample is followed by the first at `length`; pairs only, and never below four (four-vertex theorem).
+/// @param closed the last sample is followed by the first at `length`; pairs only, and never below four (four-vertex
+/// theorem).
 std::vector<StructureLevel> structureLevels(std::span<const double> s, std::span<const double> kappa, double length,
                                             bool closed);
 
-/// The structure that keeps the extrema nearest to given samples, and between two of one kind the extreme that parts them.
-CurvatureStructure structureAt(std::span<const double> kappa, const CurvatureStructure& all, std::span<const int> samples,
-                               bool closed);
+/// The structure that keeps the extrema nearest to given samples, and between two of one kind the extreme that parts
+/// them.
+CurvatureStructure structureAt(std::span<const double> kappa, const CurvatureStructure& all,
+                               std::span<const int> samples, bool closed);
 
 /// Number of times that a profile turns back; steps smaller than `flat` count as none.
 int countTurns(std::span<const double> kappa, double flat, bool closed);

@@ -47,7 +47,8 @@ ShapeProfile shapeProfile(const NurbsCurve& curve, bool closed) {
   const std::vector<CurveSample> samples = sampleByArcLength(curve, closed ? kShapeSamples + 1 : kShapeSamples);
   const double length = samples.back().s, largest = kLargestRadius * extent(curve);
   if (!(length > 0.0)) return profile;
-  for (int i = 0; i < kShapeSamples; ++i) addSample(profile, samples[static_cast<std::size_t>(i)].kappa, length, largest);
+  for (int i = 0; i < kShapeSamples; ++i)
+    addSample(profile, samples[static_cast<std::size_t>(i)].kappa, length, largest);
   return profile;
 }
 

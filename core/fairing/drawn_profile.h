@@ -17,13 +17,13 @@ struct ProfilePoint {
 
 inline constexpr std::size_t kMostProfilePoints = 200;
 
-/// What makes a list no profile: fewer than two or too many points, fractions outside 0..1 or not ascending, numbers that are
-/// not finite. An empty list is valid: nothing is drawn.
+/// What makes a list no profile: fewer than two or too many points, fractions outside 0..1 or not ascending, numbers
+/// that are not finite. An empty list is valid: nothing is drawn.
 std::optional<Error> validateProfile(std::span<const ProfilePoint>);
 
 /// The smooth curve through the points that turns back only where they do: cubics whose slopes are bounded as by F. N.
-/// Fritsch and J. Butland (A method for constructing local monotone piecewise cubic interpolants, SIAM J. Sci. Stat. Comput.
-/// 5, 1984). Constant before the first and after the last point.
+/// Fritsch and J. Butland (A method for constructing local monotone piecewise cubic interpolants, SIAM J. Sci. Stat.
+/// Comput. 5, 1984). Constant before the first and after the last point.
 /// @param closed the value at 1 is that at 0 (their mean where both are given), and the slope goes on over the seam.
 TargetProfile drawnProfile(std::span<const ProfilePoint>, bool closed);
 

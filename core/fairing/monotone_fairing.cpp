@@ -12,7 +12,8 @@
 namespace batten {
 namespace {
 
-/// The distance is bounded at the samples by the first share of the tolerance, and must keep the second between them too.
+/// The distance is bounded at the samples by the first share of the tolerance, and must keep the second between them
+/// too.
 constexpr double kBoundShare = 0.985, kKeptShare = 0.999;
 /// A nearest curve (in the mean) that lies farther off than so many tolerances is not tried with the bound.
 constexpr double kWorthBounding = 6.0;
@@ -34,8 +35,8 @@ int sizeOf(const StructureLevel& level) { return static_cast<int>(level.structur
 struct Attempt {
   std::vector<Vec2> points;
   bool attained = false;
-  bool found = false;      ///< A curve of this structure exists, within the tolerance or not.
-  double neededMm = 0.0;   ///< Its distance from the sketch.
+  bool found = false;     ///< A curve of this structure exists, within the tolerance or not.
+  double neededMm = 0.0;  ///< Its distance from the sketch.
 };
 
 class MonotoneFairing {
@@ -45,7 +46,8 @@ class MonotoneFairing {
 
   Result<FairedCurve> run() {
     if (search_.arcLength().empty()) {
-      return unchanged(setup_.original, setup_.closed, Termination::Degenerate, "The curve has a cusp and was left alone.");
+      return unchanged(setup_.original, setup_.closed, Termination::Degenerate,
+                       "The curve has a cusp and was left alone.");
     }
     levels_ = structureLevels(search_.arcLength(), search_.curvature(), setup_.start.length, setup_.closed);
     std::optional<Attempt> wanted;
@@ -61,7 +63,8 @@ class MonotoneFairing {
       if (simplest > 0) wanted = attempt(levels_[simplest].structure, levels_[simplest].estimateMm);
     }
     if (context_.isCancelled()) return cancelled();
-    if (wanted && wanted->attained) return done(std::move(wanted->points), Termination::Converged, {}, wanted->neededMm, true);
+    if (wanted && wanted->attained)
+      return done(std::move(wanted->points), Termination::Converged, {}, wanted->neededMm, true);
     Attempt best = fewest(simplest, wanted.has_value());
     if (context_.isCancelled()) return cancelled();
     if (!wanted) {
@@ -149,8 +152,8 @@ class MonotoneFairing {
     if (!result) return result;
     const std::string asked = extremaText(wantedCount), kept = std::to_string(result->report.extremaAfter);
     result->report.why = why;
-    result->report.note = wanted.found ? "A curve with " + asked + " needs a tolerance of " + millimetres(wanted.neededMm) +
-                                             "; " + kept + " extrema were kept."
+    result->report.note = wanted.found ? "A curve with " + asked + " needs a tolerance of " +
+                                             millimetres(wanted.neededMm) + "; " + kept + " extrema were kept."
                                        : "No curve near the sketch has " + asked + "; " + kept + " extrema were kept.";
     return result;
   }

@@ -64,7 +64,8 @@ struct MonotoneSearch::Program::Quadratic {
   }
   bool factorise(const Eigen::VectorXd& weights, Factor& factor) const {
     factor.matrix = a;
-    for (Eigen::Index i = 0; i < weights.size(); ++i) addOuter(factor.matrix, p.rows_[static_cast<std::size_t>(i)], weights[i]);
+    for (Eigen::Index i = 0; i < weights.size(); ++i)
+      addOuter(factor.matrix, p.rows_[static_cast<std::size_t>(i)], weights[i]);
     const BandedMatrix plain = factor.matrix;
     if (factor.matrix.factorize()) return true;
     factor.matrix = plain;
@@ -77,7 +78,8 @@ MonotoneSearch::Program::Program(const FairingSetup& setup, const std::vector<Sp
                                  const std::vector<Jet>& jets)
     : setup_(setup), linear_(Eigen::VectorXd::Zero(setup.unknowns.count())) {
   for (std::size_t i = 0; i < places.size(); ++i) {
-    slopes_.push_back(localRow(places[i].span, curvatureSlopeRow(jets[i], setup.basis.row(places[i], 3), setup.basis.degree())));
+    slopes_.push_back(
+        localRow(places[i].span, curvatureSlopeRow(jets[i], setup.basis.row(places[i], 3), setup.basis.degree())));
   }
 }
 

@@ -38,7 +38,8 @@ std::vector<SpanPlace> checkPlaces(const SpanBasis& basis, int perSpan) {
   const bool smooth = basis.degree() >= 5;
   std::vector<SpanPlace> places;
   for (int span = 0; span < basis.spanCount(); ++span) {
-    for (int k = 0; k < perSpan; ++k) places.push_back({span, static_cast<double>(k) / (smooth ? perSpan : perSpan - 1)});
+    for (int k = 0; k < perSpan; ++k)
+      places.push_back({span, static_cast<double>(k) / (smooth ? perSpan : perSpan - 1)});
   }
   if (smooth && !basis.isPeriodic()) places.push_back({basis.spanCount() - 1, 1.0});
   return places;
@@ -50,8 +51,8 @@ std::vector<SpanPlace> checkPlaces(const SpanBasis& basis, int perSpan) {
 struct MonotoneSearch::State {
   std::vector<Vec2> points;
   std::vector<CurvatureJet> curvature;
-  std::vector<double> weight;    ///< Arc length that a place stands for, in mean spans.
-  std::vector<double> step;      ///< Arc length to the next place [mm].
+  std::vector<double> weight;  ///< Arc length that a place stands for, in mean spans.
+  std::vector<double> step;    ///< Arc length to the next place [mm].
   std::vector<SpanPlace> feet;
   std::vector<double> distance, slide;
   std::vector<Vec2> normal, tangent;  ///< Of the sketch at the feet.
@@ -80,7 +81,8 @@ int MonotoneSearch::wrapped(int sample) const {
   return setup_.closed ? (sample % count + count) % count : std::clamp(sample, 0, count - 1);
 }
 
-MonotoneSearch::State MonotoneSearch::evaluate(const std::vector<Vec2>& points, const std::vector<SpanPlace>& feet) const {
+MonotoneSearch::State MonotoneSearch::evaluate(const std::vector<Vec2>& points,
+                                               const std::vector<SpanPlace>& feet) const {
   State state;
   state.points = points;
   const SpanCurve curve(setup_.basis, points);
@@ -121,7 +123,8 @@ std::vector<MonotoneSearch::Window> MonotoneSearch::windows(const CurvatureStruc
   const int count = static_cast<int>(places_.size()), extrema = static_cast<int>(structure.extrema.size());
   for (int j = 0; j < extrema; ++j) {
     const int here = structure.extrema[at(j)].sample;
-    int before = j > 0 ? structure.extrema[at(j - 1)].sample : -1, after = j + 1 < extrema ? structure.extrema[at(j + 1)].sample : count;
+    int before = j > 0 ? structure.extrema[at(j - 1)].sample : -1,
+        after = j + 1 < extrema ? structure.extrema[at(j + 1)].sample : count;
     if (setup_.closed && j == 0) before = structure.extrema.back().sample - count;
     if (setup_.closed && j + 1 == extrema) after = structure.extrema.front().sample + count;
     const int left = std::max((here - before) / 4, here - before > 3 ? 1 : 0);
@@ -137,7 +140,8 @@ std::vector<MonotoneSearch::Window> MonotoneSearch::windows(const CurvatureStruc
   return result;
 }
 
-void MonotoneSearch::recentre(CurvatureStructure& structure, const std::vector<Window>& windows, const State& state) const {
+void MonotoneSearch::recentre(CurvatureStructure& structure, const std::vector<Window>& windows,
+                              const State& state) const {
   for (std::size_t j = 0; j < windows.size(); ++j) {
     const double sign = windows[j].maximum ? 1.0 : -1.0;
     int best = windows[j].low;
@@ -218,14 +222,14 @@ void MonotoneSearch::addSigns(Program& program, const State& state, const Curvat
 }
 
 MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, const std::vector<Vec2>& start,
-                                              double estimateMm, double boundMm,
-                                              double giveUpMm) const {
+                                              double estimateMm, double boundMm, double giveUpMm) const {
   Outcome outcome;
   outcome.points = start;
   State state = evaluate(start, places_);
   if (!state.valid) return outcome;
   const auto [low, high] = std::minmax_element(kappa_.begin(), kappa_.end());
-  Scales scales{std::max(0.05 * toleranceMm_, 0.1 * estimateMm), kMargin * (*high - *low) / setup_.start.length, boundMm};
+  Scales scales{std::max(0.05 * toleranceMm_, 0.1 * estimateMm), kMargin * (*high - *low) / setup_.start.length,
+                boundMm};
   for (; outcome.iterations < kIterations && !context_.isCancelled(); ++outcome.iterations) {
     Program program(setup_, places_, state.jets);
     addDistance(program, state, scales);
@@ -240,8 +244,10 @@ MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, cons
     for (std::size_t i = 0; i < points.size(); ++i) moved = std::max(moved, (points[i] - state.points[i]).norm());
     // The linear model of the curvature holds for small moves only.
     const double longest = kLongestStep * std::max(toleranceMm_, estimateMm);
-    if (const double share = std::min(longest / moved, outcome.iterations < kFreeIterations ? 1.0 : kLateShare); share < 1.0) {
-      for (std::size_t i = 0; i < points.size(); ++i) points[i] = state.points[i] + share * (points[i] - state.points[i]);
+    if (const double share = std::min(longest / moved, outcome.iterations < kFreeIterations ? 1.0 : kLateShare);
+        share < 1.0) {
+      for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = state.points[i] + share * (points[i] - state.points[i]);
     }
     State next = evaluate(points, state.feet);
     if (!next.valid) break;

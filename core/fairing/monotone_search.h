@@ -9,10 +9,10 @@
 
 namespace batten {
 
-/// The curve nearest to a sketched one whose curvature has a given structure: sequential quadratic programs over the control
-/// points (fair-fit's monotone program on the curve itself). Minimised is the mean square distance from the sketch plus a
-/// little of the integral of kappa''^2, which only takes waves shorter than a few knot spans and keeps the result from
-/// becoming a staircase where the constraints act.
+/// The curve nearest to a sketched one whose curvature has a given structure: sequential quadratic programs over the
+/// control points (fair-fit's monotone program on the curve itself). Minimised is the mean square distance from the
+/// sketch plus a little of the integral of kappa''^2, which only takes waves shorter than a few knot spans and keeps
+/// the result from becoming a staircase where the constraints act.
 class MonotoneSearch {
  public:
   MonotoneSearch(const FairingSetup& setup, double toleranceMm, const RunContext& context);
@@ -23,7 +23,7 @@ class MonotoneSearch {
 
   struct Outcome {
     std::vector<Vec2> points;
-    bool found = false;      ///< Sampled densely, the curvature turns back at the structure's extrema only.
+    bool found = false;        ///< Sampled densely, the curvature turns back at the structure's extrema only.
     double deviationMm = 0.0;  ///< From the sketch, both ways.
     int iterations = 0;
   };

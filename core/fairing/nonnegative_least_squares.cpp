@@ -12,7 +12,8 @@ namespace batten {
 namespace {
 
 /// The unconstrained least squares solution with all columns outside `passive` held at zero.
-Eigen::VectorXd solvePassive(const Eigen::MatrixXd& e, const Eigen::VectorXd& f, const std::vector<Eigen::Index>& passive) {
+Eigen::VectorXd solvePassive(const Eigen::MatrixXd& e, const Eigen::VectorXd& f,
+                             const std::vector<Eigen::Index>& passive) {
   Eigen::MatrixXd sub(e.rows(), static_cast<Eigen::Index>(passive.size()));
   for (std::size_t k = 0; k < passive.size(); ++k) sub.col(static_cast<Eigen::Index>(k)) = e.col(passive[k]);
   return leastSquares(sub, f);

@@ -23,7 +23,8 @@ std::size_t intervalOf(std::span<const double> knots, std::size_t degree, std::s
   return k;
 }
 
-/// The blossom (polar form) of the polynomial of interval k at `arguments`: de Boor's algorithm with one argument a level.
+/// The blossom (polar form) of the polynomial of interval k at `arguments`: de Boor's algorithm with one argument a
+/// level.
 Vec2 blossom(std::span<const double> knots, std::size_t degree, const std::function<Vec2(std::size_t)>& point,
              std::size_t k, std::span<const double> arguments) {
   std::array<Vec2, kMaxFairingDegree + 1> d;
@@ -117,8 +118,8 @@ Result<NurbsCurve> fromPeriodic(const PeriodicForm& form, const NurbsCurve& like
   std::vector<Vec2> points(static_cast<std::size_t>(like.controlPointCount()));
   for (std::size_t j = 0; j < points.size(); ++j) {
     const double low = std::max(knots[j], like.start()), high = std::min(knots[j + p + 1], like.end());
-    points[j] = blossom(form.knots, p, point, intervalOf(form.knots, p, m + p, 0.5 * (low + high)),
-                        knots.subspan(j + 1, p));
+    points[j] =
+        blossom(form.knots, p, point, intervalOf(form.knots, p, m + p, 0.5 * (low + high)), knots.subspan(j + 1, p));
   }
   // The seam is one point: rounding must not open the curve.
   if (knots[p] == knots[0] && knots[points.size()] == knots[points.size() + p]) points.back() = points.front();

@@ -188,8 +188,8 @@ std::vector<double> fitPeriodicPolynomial(std::span<const double> f, std::span<c
   return toPowers(c);
 }
 
-std::vector<double> fitPinnedPolynomial(std::span<const double> f, std::span<const double> values, int degree, bool monotone,
-                                        std::optional<double> start, std::optional<double> end) {
+std::vector<double> fitPinnedPolynomial(std::span<const double> f, std::span<const double> values, int degree,
+                                        bool monotone, std::optional<double> start, std::optional<double> end) {
   // Pins are heavy samples, and what the weight leaves of them is taken away by a line at the end.
   std::vector<double> x(f.begin(), f.end()), y(values.begin(), values.end());
   if (start) x.push_back(0.0), y.push_back(*start);

@@ -72,7 +72,8 @@ Data collect(const NurbsCurve& curve, const TargetParams& params) {
     return data;
   }
   if (left && right) {
-    data.problem = "The curvature changes sign: a radius has no profile there. Use curvature, or split at the inflection.";
+    data.problem =
+        "The curvature changes sign: a radius has no profile there. Use curvature, or split at the inflection.";
   } else if (!left && !right) {
     data.problem = "The curve is straight: its radius has no value. Use curvature.";
   }
@@ -137,9 +138,9 @@ TargetProfile fitProfile(const Data& data, const TargetParams& params, bool clos
   profile.valid = true;
   std::vector<double> fitted;
   for (const double f : data.perimeter) fitted.push_back(profile.value(f));
-  profile.isMonotone = profile.nodes.empty()
-                           ? isMonotonePolynomial(profile.coefficients)
-                           : std::is_sorted(fitted.begin(), fitted.end()) || std::is_sorted(fitted.rbegin(), fitted.rend());
+  profile.isMonotone = profile.nodes.empty() ? isMonotonePolynomial(profile.coefficients)
+                                             : std::is_sorted(fitted.begin(), fitted.end()) ||
+                                                   std::is_sorted(fitted.rbegin(), fitted.rend());
   std::vector<double> radius;
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     const double rho = params.quantity == TargetQuantity::Curvature
@@ -164,7 +165,8 @@ TargetProfile fitProfile(const Data& data, const TargetParams& params, bool clos
 std::optional<Error> validate(const TargetParams& params) {
   if (params.samples < 101 || params.samples > 2001) {
     return Error{ErrorCode::BadParameter,
-                 "Target samples must lie between 101 and 2001, not at " + std::to_string(params.samples) + ".", {}};
+                 "Target samples must lie between 101 and 2001, not at " + std::to_string(params.samples) + ".",
+                 {}};
   }
   for (std::size_t i = 0; i < params.splits.size(); ++i) {
     if (params.splits[i] > (i > 0 ? params.splits[i - 1] : 0.0) && params.splits[i] < 1.0) continue;
@@ -175,12 +177,14 @@ std::optional<Error> validate(const TargetParams& params) {
 
 double TargetProfile::value(double f) const {
   if (nodes.empty()) return evaluatePowers(coefficients, f);
-  const auto above = std::upper_bound(nodes.begin(), nodes.end(), f, [](double at, const ProfileNode& n) { return at < n.f; });
+  const auto above =
+      std::upper_bound(nodes.begin(), nodes.end(), f, [](double at, const ProfileNode& n) { return at < n.f; });
   if (above == nodes.begin()) return nodes.front().value;
   const ProfileNode& a = *(above - 1);
   if (above == nodes.end()) return a.value;
   const double h = above->f - a.f, t = (f - a.f) / h, u = 1.0 - t;
-  return u * u * ((1.0 + 2.0 * t) * a.value + t * h * a.slope) + t * t * ((3.0 - 2.0 * t) * above->value - u * h * above->slope);
+  return u * u * ((1.0 + 2.0 * t) * a.value + t * h * a.slope) +
+         t * t * ((3.0 - 2.0 * t) * above->value - u * h * above->slope);
 }
 
 double TargetProfile::curvatureAt(double f) const {

@@ -20,8 +20,8 @@ enum class TargetQuantity {
 
 struct TargetParams {
   TargetQuantity quantity = TargetQuantity::Curvature;
-  bool monotone = true;   ///< Never turns back; off: "as in the paper", and the tile says when it is not monotone.
-  int samples = 121;      ///< 101..2001. Samples at equal arc length (at least 4 a knot span are taken).
+  bool monotone = true;  ///< Never turns back; off: "as in the paper", and the tile says when it is not monotone.
+  int samples = 121;     ///< 101..2001. Samples at equal arc length (at least 4 a knot span are taken).
   /// Arc length fractions, ascending and inside 0..1, at which one profile ends and the next begins: each part has a
   /// polynomial of its own, and the curvature goes on where they meet.
   std::vector<double> splits;
@@ -36,17 +36,17 @@ struct ProfileNode {
 
 /// One of the six target profiles, or any other: where `nodes` are given, they count instead of the coefficients.
 struct TargetProfile {
-  int degree = 1;                    ///< 1..6.
+  int degree = 1;  ///< 1..6.
   TargetQuantity quantity = TargetQuantity::Curvature;
   std::vector<double> coefficients;  ///< Ascending powers of the perimeter f in 0..1, [1/mm] or [mm].
   std::vector<ProfileNode> nodes;    ///< Ascending f from 0 to 1, cubic between two; a kink is two nodes of the same f.
   bool valid = false;                ///< False: could not be fitted; `problem` says why.
   std::string problem;
   bool isMonotone = false;
-  double similarity = 0.0;           ///< S (003 Eq 14) of the target's radius against the curve's, 0..1.
-  double pearson = 0.0;              ///< Pearson r of the same, -1..1.
-  double rmsPercent = 0.0;           ///< rms difference in % of the range of the data.
-  double aicc = 0.0;                 ///< Smaller is better; n_eff = number of control points.
+  double similarity = 0.0;  ///< S (003 Eq 14) of the target's radius against the curve's, 0..1.
+  double pearson = 0.0;     ///< Pearson r of the same, -1..1.
+  double rmsPercent = 0.0;  ///< rms difference in % of the range of the data.
+  double aicc = 0.0;        ///< Smaller is better; n_eff = number of control points.
   /// Target value at perimeter f; curvature() converts a radius target.
   double value(double f) const;
   double curvatureAt(double f) const;
@@ -60,16 +60,18 @@ struct TargetSet {
 };
 
 /// Least-squares polynomials of degree 1..6 over the perimeter (000 VI, 003 section 4), monotone by non-negative least
-/// squares on a grid of 200 (Bernstein coefficients as fallback), with their similarity to the curve. A monotone profile of
-/// data that turn back stays monotone and lies far off: S, Pearson and rms tell.
-/// S and Pearson compare radii, which have no end where the curve is straight: |rho| counts as at most ten times the extent
-/// of the curve (sagitta 1/80 of it), with the sign of kappa. rms and AICc refer to the fitted quantity; for AICc a residual
-/// below 1e-6 of the data's rms counts as this, so that exact data choose the lowest degree and not the rounding.
-/// @param closed value and slope of the profile at f = 1 equal those at 0 (degrees 1 and 2: a circle); `monotone` is off.
+/// squares on a grid of 200 (Bernstein coefficients as fallback), with their similarity to the curve. A monotone
+/// profile of data that turn back stays monotone and lies far off: S, Pearson and rms tell. S and Pearson compare
+/// radii, which have no end where the curve is straight: |rho| counts as at most ten times the extent of the curve
+/// (sagitta 1/80 of it), with the sign of kappa. rms and AICc refer to the fitted quantity; for AICc a residual below
+/// 1e-6 of the data's rms counts as this, so that exact data choose the lowest degree and not the rounding.
+/// @param closed value and slope of the profile at f = 1 equal those at 0 (degrees 1 and 2: a circle); `monotone` is
+/// off.
 TargetSet fitTargets(const NurbsCurve&, const TargetParams&, bool closed = false);
 
 /// The polynomial fit alone, for tests and for other data. `f` in 0..1.
 std::vector<double> fitPolynomial(std::span<const double> f, std::span<const double> values, int degree);
-std::vector<double> fitMonotonePolynomial(std::span<const double> f, std::span<const double> values, int degree, bool increasing);
+std::vector<double> fitMonotonePolynomial(std::span<const double> f, std::span<const double> values, int degree,
+                                          bool increasing);
 
 }  // namespace batten

@@ -18,8 +18,9 @@ constexpr double kMeasured = 0.999;
 /// A reference curvature below this (times extent) would weigh a straight line's rounding as shape.
 constexpr double kSmallestReference = 1e-3;
 constexpr FairingLimits kFull{40, 1e-4}, kWarm{8, 1e-3}, kPolish{12, 1e-5};
-/// A long wavy curve whose target is plainly out of reach is not worth the last per cent of what the tolerance allows: from
-/// so many samples on, a target farther off than so many tolerances after the first iterations is followed with less effort.
+/// A long wavy curve whose target is plainly out of reach is not worth the last per cent of what the tolerance allows:
+/// from so many samples on, a target farther off than so many tolerances after the first iterations is followed with
+/// less effort.
 constexpr int kLongCurve = 600;
 constexpr double kOutOfReach = 10.0;
 constexpr FairingLimits kProbe{12, 1e-3}, kRest{28, 1e-4}, kRough{4, 1e-2};
@@ -33,7 +34,8 @@ struct Trial {
 
 class WeightSearch {
  public:
-  WeightSearch(const FairingSetup& setup, const FairingObjective& objective, double toleranceMm, const RunContext& context)
+  WeightSearch(const FairingSetup& setup, const FairingObjective& objective, double toleranceMm,
+               const RunContext& context)
       : setup_(setup), objective_(objective), toleranceMm_(toleranceMm), context_(context) {}
 
   /// Solves at a weight from the given control points. Absent when even the start cannot be evaluated.
@@ -146,7 +148,8 @@ Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& 
     full = search.solveFrom(*full, kSmallestWeight, kRest);
   }
   if (context.isCancelled()) return cancelled();
-  if (!full) return unchanged(setup.original, setup.closed, Termination::Degenerate, "The curve has a cusp and was left alone.");
+  if (!full)
+    return unchanged(setup.original, setup.closed, Termination::Degenerate, "The curve has a cusp and was left alone.");
   const auto before = evaluate(setup, *objective, {}, setup.points, setup.start.places);
   report.objectiveBefore = before ? std::sqrt(before->misfit) : 0.0;
   report.neededMm = full->deviation;
@@ -160,7 +163,8 @@ Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& 
     report.note = "The profile was followed as far as the tolerance allows.";
     if (auto inside = search.search(std::move(*full), rough)) {
       points = inside->run.state.points;
-      if (auto polished = rough ? std::nullopt : search.solveFrom(*inside, inside->weight, kPolish)) points = polished->run.state.points;
+      if (auto polished = rough ? std::nullopt : search.solveFrom(*inside, inside->weight, kPolish))
+        points = polished->run.state.points;
     }
   }
   if (context.isCancelled()) return cancelled();

@@ -9,8 +9,9 @@ namespace batten {
 double similarity(std::span<const double> a, std::span<const double> b);
 /// Mean-centred S. 0 where either is constant.
 double pearson(std::span<const double> a, std::span<const double> b);
-/// Akaike's criterion for least squares with small-sample correction: n ln(meanSquare) + 2k + 2k(k+1)/(n-k-1), k = degree + 2.
-/// The largest double where n is too small for the degree (n <= k + 1), so that such a degree is never chosen.
+/// Akaike's criterion for least squares with small-sample correction: n ln(meanSquare) + 2k + 2k(k+1)/(n-k-1), k =
+/// degree + 2. The largest double where n is too small for the degree (n <= k + 1), so that such a degree is never
+/// chosen.
 double aicc(double meanSquareResidual, int degree, int effectiveSamples);
 
 }  // namespace batten

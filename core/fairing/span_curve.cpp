@@ -22,6 +22,36 @@ double lengthBetween(const SpanCurve& curve, int span, double from, double to) {
   return sum * half * curve.basis().width(span);
 }
 
+/// The place in the part of a span that begins at `low` at which its length, `whole` in all, has reached `wanted`.
+double placeAtLength(const SpanCurve& curve, int span, double low, double whole, double wanted, double tolerance) {
+  constexpr double kPart = 1.0 / kPartsPerSpan;
+  const double start = low, width = curve.basis().width(span);
+  const auto slope = [&](double x) { return curve.speed({span, x}) * width; };
+  double high = low + kPart;
+  const double f = whole > 0.0 ? std::clamp(wanted / whole, 0.0, 1.0) : 0.0;
+  double guess = f;
+  // First guess: the inverse as a cubic with the right slopes at both borders.
+  const double v0 = slope(low), v1 = slope(high);
+  if (v0 > 0.0 && v1 > 0.0) {
+    const double m0 = whole / (v0 * kPart), m1 = whole / (v1 * kPart), g = 1.0 - f;
+    if (m0 < 3.0 && m1 < 3.0) guess = f * f * (3.0 - 2.0 * f) + m0 * f * g * g - m1 * f * f * g;
+  }
+  double x = std::clamp(low + kPart * guess, low, high);
+  for (int step = 0; step < 30; ++step) {
+    const double miss = lengthBetween(curve, span, start, x) - wanted;
+    if (std::abs(miss) <= tolerance) break;
+    (miss > 0.0 ? high : low) = x;
+    const double v = slope(x);
+    double next = v > 0.0 ? x - miss / v : low - 1.0;
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    // The error of a last Newton step is the square of the step.
+    const bool settled = std::abs(next - x) < 1e-7 * kPart;
+    x = next;
+    if (settled) break;
+  }
+  return x;
+}
+
 }  // namespace
 
 SpanBasis::SpanBasis(int degree, std::span<const double> knots, int count, int wrap)
@@ -156,20 +186,11 @@ std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool c
   for (int i = 0; i < count; ++i) {
     const double target = result.length * i / (closed ? count : count - 1);
     while (k + 1 < parts && cumulative[static_cast<std::size_t>(k) + 1] <= target) ++k;
+    const double s0 = cumulative[static_cast<std::size_t>(k)], s1 = cumulative[static_cast<std::size_t>(k) + 1];
     const int span = k / kPartsPerSpan;
-    double low = static_cast<double>(k % kPartsPerSpan) / kPartsPerSpan, high = low + 1.0 / kPartsPerSpan;
-    const double start = low, s0 = cumulative[static_cast<std::size_t>(k)],
-                 s1 = cumulative[static_cast<std::size_t>(k) + 1];
-    double x = s1 > s0 ? low + (high - low) * std::clamp((target - s0) / (s1 - s0), 0.0, 1.0) : low;
-    for (int step = 0; step < 30; ++step) {
-      const double miss = s0 + lengthBetween(curve, span, start, x) - target;
-      if (std::abs(miss) <= 1e-13 * result.length) break;
-      (miss > 0.0 ? high : low) = x;
-      const double slope = curve.speed({span, x}) * curve.basis().width(span);
-      const double next = slope > 0.0 ? x - miss / slope : low - 1.0;
-      x = next >= low && next <= high ? next : 0.5 * (low + high);
-    }
-    if (i == 0) x = start;
+    double x = placeAtLength(curve, span, static_cast<double>(k % kPartsPerSpan) / kPartsPerSpan, s1 - s0, target - s0,
+                             1e-13 * result.length);
+    if (i == 0) x = static_cast<double>(k % kPartsPerSpan) / kPartsPerSpan;
     if (!closed && i == count - 1) x = static_cast<double>(k % kPartsPerSpan + 1) / kPartsPerSpan;
     result.places.push_back({span, x});
   }

@@ -30,8 +30,8 @@ double slopeOf(const std::vector<double>& c, double x) {
   return v;
 }
 
-std::vector<Part> partsOf(std::span<const double> perimeter, std::span<const double> kappa, std::span<const double> splits,
-                          bool closed) {
+std::vector<Part> partsOf(std::span<const double> perimeter, std::span<const double> kappa,
+                          std::span<const double> splits, bool closed) {
   std::vector<double> borders;
   if (!closed) borders.push_back(0.0);
   borders.insert(borders.end(), splits.begin(), splits.end());

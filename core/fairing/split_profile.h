@@ -9,8 +9,8 @@
 
 namespace batten {
 
-/// A profile of several polynomials of one degree, one from split to split, that meet in the mean of what both sides want
-/// there; monotone ones are so within each part. Parts with too few samples take a lower degree.
+/// A profile of several polynomials of one degree, one from split to split, that meet in the mean of what both sides
+/// want there; monotone ones are so within each part. Parts with too few samples take a lower degree.
 /// @param perimeter,kappa samples over 0..1, both ends included. @param splits ascending inside 0..1, at least one.
 /// @param closed the last part goes on over the seam to the first split.
 /// @param coefficientCount receives the number of free coefficients.

@@ -9,7 +9,8 @@ namespace batten {
 namespace {
 
 /// Linear end conditions on the coordinates (2j + c) of the points of one span, as rows.
-Eigen::MatrixXd endConditions(const SpanBasis& basis, const SpanCurve& curve, const SpanPlace& place, const EndHold& hold) {
+Eigen::MatrixXd endConditions(const SpanBasis& basis, const SpanCurve& curve, const SpanPlace& place,
+                              const EndHold& hold) {
   const int p = basis.degree();
   const SpanRow row = basis.row(place, 2);
   const Jet jet = curve.at(place, 1);
@@ -64,8 +65,7 @@ std::vector<Block> endBlocks(const SpanBasis& basis, const SpanCurve& curve, con
   const int first = std::min(a0, b0 + shift), end = std::max(a1, b1 + shift), count = end - first + 1;
   Eigen::MatrixXd both = Eigen::MatrixXd::Zero(a.rows() + b.rows(), 2 * count);
   both.block(0, 2 * (a0 - first), a.rows(), 2 * (a1 - a0 + 1)) = a.middleCols(2 * a0, 2 * (a1 - a0 + 1));
-  both.block(a.rows(), 2 * (b0 + shift - first), b.rows(), 2 * (b1 - b0 + 1)) =
-      b.middleCols(2 * b0, 2 * (b1 - b0 + 1));
+  both.block(a.rows(), 2 * (b0 + shift - first), b.rows(), 2 * (b1 - b0 + 1)) = b.middleCols(2 * b0, 2 * (b1 - b0 + 1));
   return {{first, end, nullSpace(both)}};
 }
 
@@ -94,7 +94,8 @@ void Unknowns::buildBlocks(const SpanBasis& basis, const SpanCurve& curve, const
                            const EndHold& endHold) {
   const std::vector<Block> blocks = endBlocks(basis, curve, startHold, endHold);
   for (int j = 0; j < basis.pointCount(); ++j) {
-    const auto block = std::find_if(blocks.begin(), blocks.end(), [&](const Block& b) { return j >= b.first && j <= b.last; });
+    const auto block =
+        std::find_if(blocks.begin(), blocks.end(), [&](const Block& b) { return j >= b.first && j <= b.last; });
     if (block == blocks.end()) {
       for (int c = 0; c < 2; ++c) coordinates_[static_cast<std::size_t>(2 * j + c)].push_back({count_++, 1.0});
       continue;
@@ -129,7 +130,8 @@ void Unknowns::buildSpans(const SpanBasis& basis) {
       for (int c = 0; c < 2; ++c) {
         for (const Part& part : coordinates_[static_cast<std::size_t>(2 * basis.point(s, j) + c)]) {
           const auto at = std::lower_bound(map.index.begin(), map.index.end(), part.index);
-          map.slots[static_cast<std::size_t>(2 * j + c)].emplace_back(static_cast<int>(at - map.index.begin()), part.factor);
+          map.slots[static_cast<std::size_t>(2 * j + c)].emplace_back(static_cast<int>(at - map.index.begin()),
+                                                                      part.factor);
         }
       }
     }

@@ -138,7 +138,8 @@ class EdgeLengthFairing {
   double movedAt(const NurbsCurve& curve, int places) const {
     const auto farthest = [places](const NurbsCurve& from, const NurbsCurve& to) {
       std::vector<Vec2> points;
-      for (int i = 0; i <= places; ++i) points.push_back(from.point(from.start() + (from.end() - from.start()) * i / places));
+      for (int i = 0; i <= places; ++i)
+        points.push_back(from.point(from.start() + (from.end() - from.start()) * i / places));
       return deviation(to, points, true).max;
     };
     return std::max(farthest(curve, curve_), farthest(curve_, curve));

@@ -202,7 +202,8 @@ void appendConstruct(std::vector<Parameter>& table) {
   table.push_back(real(
       kCurves,
       {"construct.reduce", "Fewer control points", "× noise",
-       "True and fair fit: how far the curve may move, as a part of the noise of the scan's edge, to need fewer control "
+       "True and fair fit: how far the curve may move, as a part of the noise of the scan's edge, to need fewer "
+       "control "
        "points. Larger: fewer points; 0 keeps all."},
       {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.construct.reduceShare; }));
 }

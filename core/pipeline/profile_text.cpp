@@ -18,7 +18,8 @@ std::string profileToText(std::span<const ProfilePoint> profile) {
 }
 
 Result<std::vector<ProfilePoint>> profileFromText(std::string_view text) {
-  constexpr const char* kExpected = "it must be pairs of share of the length and curvature like \"0:0.01 1:0.02\", or none";
+  constexpr const char* kExpected =
+      "it must be pairs of share of the length and curvature like \"0:0.01 1:0.02\", or none";
   constexpr std::string_view kBlank = " \t\n,;";
   std::vector<ProfilePoint> profile;
   if (trimmed(text) == "none") return profile;

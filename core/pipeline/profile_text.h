@@ -11,7 +11,8 @@
 
 namespace batten {
 
-/// A drawn profile as text: "0:0.01 0.5:0.02 1:0.01" or "none", share of the arc length and curvature in 1/mm. Reads back exactly.
+/// A drawn profile as text: "0:0.01 0.5:0.02 1:0.01" or "none", share of the arc length and curvature in 1/mm. Reads
+/// back exactly.
 std::string profileToText(std::span<const ProfilePoint>);
 /// @return BadParameter that says what is expected, as the end of a sentence.
 Result<std::vector<ProfilePoint>> profileFromText(std::string_view text);

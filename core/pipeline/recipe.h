@@ -22,15 +22,15 @@ namespace batten {
 /// piece whose points come nearest to the anchor (within 24 px).
 struct PieceChoice {
   Vec2 anchorPx = Vec2::Zero();
-  bool included = true;               ///< False: left out of fairing results and export.
-  std::optional<FairingMode> mode;    ///< Own fairing mode; absent = the recipe's.
-  std::optional<int> target;          ///< Own target degree 0..6.
-  std::optional<double> toleranceMm;  ///< Own budget.
-  std::optional<double> lowPassMm{};  ///< Own wavelength of the low-pass.
-  std::optional<int> keepExtrema{};   ///< Own number of extrema to keep.
-  std::vector<Vec2> keepPx{};         ///< Extrema to keep, by place; not empty: counts instead of the number.
-  std::vector<Vec2> splitsPx{};       ///< Where one target profile ends and the next begins.
-  std::vector<ProfilePoint> profile{};  ///< Own drawn profile, from start to end of the piece.
+  bool included = true;                     ///< False: left out of fairing results and export.
+  std::optional<FairingMode> mode;          ///< Own fairing mode; absent = the recipe's.
+  std::optional<int> target;                ///< Own target degree 0..6.
+  std::optional<double> toleranceMm;        ///< Own budget.
+  std::optional<double> lowPassMm{};        ///< Own wavelength of the low-pass.
+  std::optional<int> keepExtrema{};         ///< Own number of extrema to keep.
+  std::vector<Vec2> keepPx{};               ///< Extrema to keep, by place; not empty: counts instead of the number.
+  std::vector<Vec2> splitsPx{};             ///< Where one target profile ends and the next begins.
+  std::vector<ProfilePoint> profile{};      ///< Own drawn profile, from start to end of the piece.
   std::optional<ConstructMethod> method{};  ///< Own way of construction.
   bool operator==(const PieceChoice&) const = default;
 
@@ -83,8 +83,8 @@ struct Recipe {
   FilterParams filter;
   EdgeParams edges;
   ContourParams contours;
-  std::vector<PenStroke> penStrokes;  ///< Lines drawn by hand, behind those found on the scan.
-  std::optional<BlankPage> page;      ///< The drawing was begun without a scan; null = it needs its scan.
+  std::vector<PenStroke> penStrokes;      ///< Lines drawn by hand, behind those found on the scan.
+  std::optional<BlankPage> page;          ///< The drawing was begun without a scan; null = it needs its scan.
   std::vector<RegionOfInterest> regions;  ///< Only what lies inside one of them is traced; none = the whole page.
   CornerParams corners;
   std::vector<CornerMark> cornerMarks;

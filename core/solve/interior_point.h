@@ -11,26 +11,26 @@
 
 namespace batten {
 
-/// A convex quadratic program min x'Ax - 2b'x subject to r_i . x >= h_i, by what the solver needs of it. The problem knows
-/// the shape of its matrix and rows, so that each step costs what they cost.
+/// A convex quadratic program min x'Ax - 2b'x subject to r_i . x >= h_i, by what the solver needs of it. The problem
+/// knows the shape of its matrix and rows, so that each step costs what they cost.
 template <class P>
-concept QuadraticProgram = requires(const P& p, typename P::Factor& factor, const Eigen::VectorXd& v, Eigen::VectorXd& out,
-                                    Eigen::Index i) {
+concept QuadraticProgram = requires(const P& p, typename P::Factor& factor, const Eigen::VectorXd& v,
+                                    Eigen::VectorXd& out, Eigen::Index i) {
   { p.size() } -> std::convertible_to<Eigen::Index>;
   { p.rowCount() } -> std::convertible_to<Eigen::Index>;
-  { p.linear() } -> std::convertible_to<const Eigen::VectorXd&>;   // b
-  { p.multiply(v) } -> std::convertible_to<Eigen::VectorXd>;       // A v
-  { p.bound(i) } -> std::convertible_to<double>;                   // h_i
-  { p.dotRow(i, v) } -> std::convertible_to<double>;               // r_i . v
-  p.addRow(i, 1.0, out);                                           // out += factor r_i'
-  { p.factorise(v, factor) } -> std::convertible_to<bool>;         // A + sum v_i r_i' r_i; an empty v is zero
+  { p.linear() } -> std::convertible_to<const Eigen::VectorXd&>;  // b
+  { p.multiply(v) } -> std::convertible_to<Eigen::VectorXd>;      // A v
+  { p.bound(i) } -> std::convertible_to<double>;                  // h_i
+  { p.dotRow(i, v) } -> std::convertible_to<double>;              // r_i . v
+  p.addRow(i, 1.0, out);                                          // out += factor r_i'
+  { p.factorise(v, factor) } -> std::convertible_to<bool>;        // A + sum v_i r_i' r_i; an empty v is zero
   factor.solveInPlace(out);
 };
 
 struct InteriorPointLimits {
   int iterations = 40;
   double complementarity = 1e-3;  ///< In units of the objective.
-  double residual = 1e-4;         ///< In standard deviations of the constrained quantities, where the objective is chi2.
+  double residual = 1e-4;  ///< In standard deviations of the constrained quantities, where the objective is chi2.
   double abortAbove = std::numeric_limits<double>::infinity();  ///< Stop when the objective is proven to exceed this.
 };
 
@@ -44,9 +44,9 @@ struct InteriorPointResult {
   int iterations = 0;
 };
 
-/// Mehrotra's predictor-corrector method (On the implementation of a primal-dual interior point method, SIAM J. Optim. 2,
-/// 1992). All rows are scaled by one number, the standard deviation of the middle row, so that slacks and multipliers of one
-/// are a sound start for every problem; rows of different kinds should come in like units.
+/// Mehrotra's predictor-corrector method (On the implementation of a primal-dual interior point method, SIAM J. Optim.
+/// 2, 1992). All rows are scaled by one number, the standard deviation of the middle row, so that slacks and
+/// multipliers of one are a sound start for every problem; rows of different kinds should come in like units.
 template <QuadraticProgram Problem>
 class InteriorPoint {
  public:

@@ -75,7 +75,7 @@ class MethodRow : public QAbstractButton {
                 QString::number(figures->extrema)};
       setAccessibleName(
           MethodTable::tr("%1: %2 rms, %3 control points, %4 extrema").arg(text(), texts_[0], texts_[1], texts_[2]) +
-                        (isOther_ ? QStringLiteral(". ") + instead : QString()));
+          (isOther_ ? QStringLiteral(". ") + instead : QString()));
     } else {
       texts_ = {failed ? MethodTable::tr("no curve") : QStringLiteral("…"), {}, {}};
       setAccessibleName(text());
@@ -98,7 +98,8 @@ class MethodRow : public QAbstractButton {
     if (hasFocus()) drawFocusRing(painter, box, 5, theme);
     painter.setFont(uiFont(12, isChecked() ? QFont::DemiBold : QFont::Normal));
     painter.setPen(theme.text);
-    const QString shown = isOther_ ? MethodTable::tr("%1 *", "mark: another construction took its place").arg(text()) : text();
+    const QString shown =
+        isOther_ ? MethodTable::tr("%1 *", "mark: another construction took its place").arg(text()) : text();
     painter.drawText(box.adjusted(8, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, shown);
     painter.setFont(uiFont(12));
     painter.setPen(theme.mute);

@@ -60,7 +60,8 @@ TEST(FollowCurvature, LeavesInflectionsAndDegeneratePiecesAlone) {
   const Quintic point = elevatedCubic({30, 0}, {30, 0}, {30, 0}, {30, 0});
   const auto made = followCurvature(std::vector<Quintic>{turning}, [](double) { return 0.01; }, {}, {});
   EXPECT_EQ(made.path[0], turning);
-  EXPECT_EQ(followCurvature(std::vector<Quintic>{point}, [](double) { return 0.01; }, {}, {}).why, Termination::Degenerate);
+  EXPECT_EQ(followCurvature(std::vector<Quintic>{point}, [](double) { return 0.01; }, {}, {}).why,
+            Termination::Degenerate);
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ double bump(double s, double at, double width) { return std::exp(-std::pow((s - 
 
 /// Two roofs with a valley between them: three extrema.
 test::TrueCurve roofs() {
-  return test::curveOfCurvature(
-      620.0, [](double s) { return 0.0006 + 0.0045 * bump(s, 167, 90) + 0.005 * bump(s, 484, 80); });
+  return test::curveOfCurvature(620.0,
+                                [](double s) { return 0.0006 + 0.0045 * bump(s, 167, 90) + 0.005 * bump(s, 484, 80); });
 }
 
 ConstructedPiece fitWith(const std::vector<Vec2>& points, bool closed, std::vector<ExtremumWish> wishes) {
@@ -61,7 +61,8 @@ TEST(ExtremumWishes, ADroppedBumpComesBackWhenTheUserKeepsIt) {
     EXPECT_LT((note->point - dropped->point).norm(), 60.0);
     EXPECT_GT(keptOf(kept.report), keptOf(plain.report));
     // Counted on the curve itself, with a threshold that sees weak bumps too.
-    EXPECT_GT(test::extremaOf(kept.curve, false, 2e-4).size(), test::extremaOf(plain.curve, false, 5e-3).size()) << seed;
+    EXPECT_GT(test::extremaOf(kept.curve, false, 2e-4).size(), test::extremaOf(plain.curve, false, 5e-3).size())
+        << seed;
   }
   EXPECT_GT(tried, 0);
 }

@@ -17,8 +17,8 @@ struct PaperK {
 };
 PaperK paperK() {
   const auto answer = test::knownAnswer(BATTEN_TEST_DATA, "04_knots.json");
-  const std::vector<Vec2> corners = {{0, 0},     {0, 100},   {25, 100}, {25, 60},  {60, 100}, {95, 100}, {50, 52},
-                                     {100, -50}, {65, -50},  {25, 35},  {25, 0},   {12, -3},  {0, 0}};
+  const std::vector<Vec2> corners = {{0, 0},     {0, 100},  {25, 100}, {25, 60}, {60, 100}, {95, 100}, {50, 52},
+                                     {100, -50}, {65, -50}, {25, 35},  {25, 0},  {12, -3},  {0, 0}};
   PaperK k;
   for (const auto& p : answer.at("sharp_1based")) k.sharp.push_back(p.get<int>() - 1);
   std::vector<int> at = {0};
@@ -177,7 +177,8 @@ TEST(LinePolygon, AClosedLineStartsAtItsFirstCornerAndIsPeriodicWithout) {
   EXPECT_LT((made.curve.point(made.curve.end()) - Vec2(0, 0)).norm(), 1e-12);
   EXPECT_EQ(made.sharp, (std::vector<int>{6, 12, 18}));
   const auto uniform = polygonCurve(line, 3, SharpKnots::Uniform).value();
-  // A cubic B-spline leaves a right angle of unit steps by sqrt(2)/6 of a step (closed form of its basis 1/6, 4/6, 1/6).
+  // A cubic B-spline leaves a right angle of unit steps by sqrt(2)/6 of a step (closed form of its basis 1/6, 4/6,
+  // 1/6).
   EXPECT_NEAR(closestPoint(uniform.curve, {60, 60}).distance, 10.0 * std::sqrt(2.0) / 6.0, 1e-6);
   EXPECT_LT((uniform.curve.point(uniform.curve.start()) - uniform.curve.point(uniform.curve.end())).norm(), 1e-9);
 }

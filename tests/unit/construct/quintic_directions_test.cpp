@@ -24,7 +24,8 @@ TEST(SolveQuinticDirections, MatchesTheKnownAnswer) {
       const auto expected = test::toPoints(item.at(key).at("control_points"));
       ASSERT_EQ(made->size(), expected.size());
       for (std::size_t i = 0; i < expected.size(); ++i) {
-        EXPECT_LT(((*made)[i] - expected[i]).norm(), answer.at("tolerance_aniso").get<double>() * 10) << key << " " << i;
+        EXPECT_LT(((*made)[i] - expected[i]).norm(), answer.at("tolerance_aniso").get<double>() * 10)
+            << key << " " << i;
       }
       ++compared;
     }

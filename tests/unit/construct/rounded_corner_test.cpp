@@ -30,7 +30,8 @@ void expectJoins(const RoundedCorner& corner, const Joint& before, const Joint& 
 
 TEST(RoundCorner, IsSymmetricBetweenStraightLines) {
   for (const double side : {1.0, -1.0}) {
-    const Joint before = jointAt({-10, 0}, 0.0, 0.0), behind = jointAt({0, side * 10}, side * std::numbers::pi / 2, 0.0);
+    const Joint before = jointAt({-10, 0}, 0.0, 0.0),
+                behind = jointAt({0, side * 10}, side * std::numbers::pi / 2, 0.0);
     const auto corner = roundCorner(before, behind, 0.8);
     ASSERT_TRUE(corner);
     EXPECT_FALSE(corner->curvatureAtEnds);

@@ -50,7 +50,8 @@ TEST(TypicalPath, TrendsKeepTheCurvatureMonotoneWhateverTheUnknowns) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int trial = 0; trial < 500; ++trial) {
-    PathElement element = typicalElement(0.4 + 0.39 * unit(random), 0.0, trial % 2 == 0 ? Trend::Rising : Trend::Falling);
+    PathElement element =
+        typicalElement(0.4 + 0.39 * unit(random), 0.0, trial % 2 == 0 ? Trend::Rising : Trend::Falling);
     element.shape = 3.0 * unit(random);
     TypicalPath path;
     path.elements = {element};
@@ -105,7 +106,8 @@ TEST(FitPath, ClosesExactlyAndMeetsPinnedEnds) {
   path.closed = true;
   path.states.resize(9);
   PathData data;
-  for (int i = 0; i < 400; ++i) data.points.push_back(test::ellipsePoint(std::numbers::pi / 2 + 2 * std::numbers::pi * i / 400));
+  for (int i = 0; i < 400; ++i)
+    data.points.push_back(test::ellipsePoint(std::numbers::pi / 2 + 2 * std::numbers::pi * i / 400));
   path.states[0] = {test::ellipsePoint(std::numbers::pi / 2), std::numbers::pi, 150.0 / 90000.0};
   for (int k = 0; k < 8; ++k) path.elements.push_back(typicalElement(std::numbers::pi / 8, 0.0, Trend::Free));
   // Curvature of the ellipse at equal turns.
@@ -128,7 +130,8 @@ TEST(FitPath, ClosesExactlyAndMeetsPinnedEnds) {
   open.elements.pop_back();
   open.states.pop_back();
   PathData ends;
-  for (int i = 0; i <= 20; ++i) ends.points.push_back(open.states[0].point + (open.states[2].point - open.states[0].point) * i / 20.0);
+  for (int i = 0; i <= 20; ++i)
+    ends.points.push_back(open.states[0].point + (open.states[2].point - open.states[0].point) * i / 20.0);
   ends.start = open.states[0].point + Vec2(0.5, 0.2);
   ends.end = open.states[2].point + Vec2(-0.3, 0.4);
   ASSERT_TRUE(fitPath(open, ends, 40));

@@ -31,10 +31,9 @@ TEST(VariationEnergy, OfAParabolaIsTheIntegralOfItsClosedForm) {
 }
 
 TEST(VariationEnergy, DoesNotDependOnSizePlaceOrDirection) {
-  const NurbsCurve curve =
-      NurbsCurve::make(5, {0, 0, 0, 0, 0, 0, 1, 2, 3, 3, 3, 3, 3, 3},
-                       {{0, 0}, {1, 2}, {3, 3}, {5, 2}, {6, -1}, {8, -2}, {10, 0}, {12, 1}})
-          .value();
+  const NurbsCurve curve = NurbsCurve::make(5, {0, 0, 0, 0, 0, 0, 1, 2, 3, 3, 3, 3, 3, 3},
+                                            {{0, 0}, {1, 2}, {3, 3}, {5, 2}, {6, -1}, {8, -2}, {10, 0}, {12, 1}})
+                               .value();
   const double energy = variationEnergy(curve);
   EXPECT_GT(energy, 0.0);
   Eigen::Matrix2d turned;

@@ -61,7 +61,8 @@ TEST(CompareShapes, TellsShapesApart) {
   const ShapeProfile arc = shapeProfile(test::arc(50, 1.0, 12), false);
   const ShapeProfile ellipse = shapeProfile(test::ellipseQuarter(200, 60, 24), false);
   const ShapeProfile wave = shapeProfile(test::wave(200, 30, 30), false);
-  const ShapeComparison same = compareShapes(arc, arc), other = compareShapes(arc, ellipse), far = compareShapes(arc, wave);
+  const ShapeComparison same = compareShapes(arc, arc), other = compareShapes(arc, ellipse),
+                        far = compareShapes(arc, wave);
   EXPECT_NEAR(same.similarity, 1.0, 1e-12);
   EXPECT_LT(other.similarity, 0.95);
   EXPECT_LT(far.curvatureSimilarity, 0.1);

@@ -31,8 +31,9 @@ inline NurbsCurve wave(double length, double height, int count) {
   return fitted([=](double t) { return Vec2(length * t, height * std::sin(2.0 * std::numbers::pi * t)); }, count);
 }
 inline NurbsCurve ellipseQuarter(double a, double b, int count) {
-  return fitted([=](double t) { return Vec2(a * std::cos(t * std::numbers::pi / 2), b * std::sin(t * std::numbers::pi / 2)); },
-                count);
+  return fitted(
+      [=](double t) { return Vec2(a * std::cos(t * std::numbers::pi / 2), b * std::sin(t * std::numbers::pi / 2)); },
+      count);
 }
 
 /// The curve with every control point but the ends moved by a normally distributed amount.

@@ -144,9 +144,11 @@ TEST(Monotone, ClosedCurvesKeepFourExtremaAndMeet) {
 
 TEST(FairingModes, HoldTheEndsInEveryMode) {
   const NurbsCurve start = test::noisy(test::ellipseQuarter(200, 120, 20), 0.05, 5);
-  for (const FairingMode mode : {FairingMode::Target, FairingMode::Tolerance, FairingMode::Monotone, FairingMode::LowPass}) {
+  for (const FairingMode mode :
+       {FairingMode::Target, FairingMode::Tolerance, FairingMode::Monotone, FairingMode::LowPass}) {
     for (const EndHold hold : {EndHold{false, false}, EndHold{true, false}, EndHold{true, true}}) {
-      SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(mode) << " hold " << hold.tangent << hold.curvature);
+      SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(mode) << " hold " << hold.tangent
+                                      << hold.curvature);
       FairingParams params;
       params.mode = mode;
       params.toleranceMm = 1.0;
@@ -174,7 +176,8 @@ TEST(LowPassMode, TakesShortWavesAndLeavesLongOnes) {
   // An arc whose radius carries two waves, of 8 and of 100 mm: measured by the curvature's Fourier coefficients.
   const double radius = 200.0, angle = 1.6, length = radius * angle;
   const auto shape = [&](double t) {
-    const double s = t * length, r = radius + 0.004 * std::sin(2.0 * std::numbers::pi * s / 16.0) + 1.5 * std::sin(2.0 * std::numbers::pi * s / 107.0);
+    const double s = t * length, r = radius + 0.004 * std::sin(2.0 * std::numbers::pi * s / 16.0) +
+                                     1.5 * std::sin(2.0 * std::numbers::pi * s / 107.0);
     return Vec2(r * std::cos(t * angle), r * std::sin(t * angle));
   };
   const NurbsCurve start = test::fitted(shape, 100);

@@ -133,7 +133,8 @@ TEST(SplitProfile, ClosedOnesGoOnOverTheSeam) {
     const TargetProfile& profile = set.profiles[static_cast<std::size_t>(degree - 1)];
     ASSERT_TRUE(profile.valid) << profile.problem;
     EXPECT_NEAR(profile.curvatureAt(0.0), profile.curvatureAt(1.0), 1e-12);
-    for (const double f : params.splits) EXPECT_NEAR(profile.curvatureAt(f - 1e-9), profile.curvatureAt(f + 1e-9), 1e-8);
+    for (const double f : params.splits)
+      EXPECT_NEAR(profile.curvatureAt(f - 1e-9), profile.curvatureAt(f + 1e-9), 1e-8);
   }
 }
 
@@ -188,7 +189,8 @@ TEST(CurvatureStructure, ClosedProfilesKeepFour) {
   std::vector<double> s, kappa;
   for (int i = 0; i < 500; ++i) {
     s.push_back(i * 0.2);
-    kappa.push_back(std::cos(4.0 * std::numbers::pi * i / 500.0) + 0.05 * std::cos(60.0 * std::numbers::pi * i / 500.0));
+    kappa.push_back(std::cos(4.0 * std::numbers::pi * i / 500.0) +
+                    0.05 * std::cos(60.0 * std::numbers::pi * i / 500.0));
   }
   const auto levels = structureLevels(s, kappa, 100.0, true);
   EXPECT_EQ(levels.back().structure.extrema.size(), 4u);

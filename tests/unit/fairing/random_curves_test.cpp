@@ -18,7 +18,8 @@ NurbsCurve randomOpen(std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const int count = 6 + static_cast<int>(uniform(random) * 55), degree = uniform(random) < 0.7 ? 5 : 3;
   const double length = 20.0 + 300.0 * uniform(random), bend = 3.0 * uniform(random) * uniform(random);
-  const double wave = 6.0 * uniform(random), phase = 6.0 * uniform(random), noise = 0.5 * std::pow(uniform(random), 3.0);
+  const double wave = 6.0 * uniform(random), phase = 6.0 * uniform(random),
+               noise = 0.5 * std::pow(uniform(random), 3.0);
   std::normal_distribution<double> normal(0.0, noise);
   std::vector<Vec2> points;
   Vec2 at(uniform(random) * 100.0, uniform(random) * 100.0);
@@ -35,7 +36,8 @@ NurbsCurve randomOpen(std::mt19937& random) {
 NurbsCurve randomClosed(std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const int count = 8 + static_cast<int>(uniform(random) * 30);
-  const double a = 20.0 + 100.0 * uniform(random), b = a * (0.4 + 0.6 * uniform(random)), noise = 0.01 * uniform(random);
+  const double a = 20.0 + 100.0 * uniform(random), b = a * (0.4 + 0.6 * uniform(random)),
+               noise = 0.01 * uniform(random);
   std::normal_distribution<double> normal(0.0, noise);
   std::vector<double> radius;
   for (int j = 0; j < count; ++j) radius.push_back(1.0 + normal(random));
@@ -68,7 +70,8 @@ void expectSound(const NurbsCurve& start, bool closed, const FairedCurve& faired
 }
 
 TEST(RandomCurves, AreFairedWithinTheToleranceInEveryMode) {
-  constexpr std::array kModes = {FairingMode::Target, FairingMode::Tolerance, FairingMode::Monotone, FairingMode::LowPass};
+  constexpr std::array kModes = {FairingMode::Target, FairingMode::Tolerance, FairingMode::Monotone,
+                                 FairingMode::LowPass};
   std::mt19937 random(20240607);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   for (int i = 0; i < 200; ++i) {

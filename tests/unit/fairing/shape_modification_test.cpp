@@ -63,7 +63,8 @@ void checkModel(const NurbsCurve& curve, bool closed, bool profile) {
   FairingObjective objective;
   objective.reference = 0.01;
   if (profile) {
-    for (int i = 0; i < (*setup)->sampleCount(); ++i) objective.wanted.push_back(0.008 + 0.004 * std::sin(6.3 * (*setup)->fraction(i)));
+    for (int i = 0; i < (*setup)->sampleCount(); ++i)
+      objective.wanted.push_back(0.008 + 0.004 * std::sin(6.3 * (*setup)->fraction(i)));
   }
   const auto state = evaluate(**setup, objective, {}, (*setup)->points, (*setup)->start.places);
   ASSERT_TRUE(state);
@@ -126,7 +127,9 @@ TEST(ModifyShape, FindsTheKnownCurves) {
     const auto wanted = test::toPoints(known.at("curve_at_0_25_50_75_100pct_arclength"));
     const auto arc = equalArcPlaces(run.state.curve, 5, false);
     for (std::size_t i = 0; i < 5; ++i) {
-      EXPECT_LT((run.state.curve.at(arc->places[i], 0)[0] - wanted[i]).norm(), data.at("tolerance_points").get<double>()) << i;
+      EXPECT_LT((run.state.curve.at(arc->places[i], 0)[0] - wanted[i]).norm(),
+                data.at("tolerance_points").get<double>())
+          << i;
     }
     EXPECT_LT((faired->point(0) - start.point(0)).norm(), 1e-9 * extent(start));
     EXPECT_LT((faired->point(7) - start.point(7)).norm(), 1e-9 * extent(start));
