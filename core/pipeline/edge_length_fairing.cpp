@@ -184,6 +184,13 @@ class EdgeLengthFairing {
   int iterations_ = 0;
 };
 
+/// What came of a curve that has no edge lengths to move.
+Result<FairedCurve> noted(Result<FairedCurve> other) {
+  if (other && other->report.note.empty())
+    other->report.note = "Not a Bézier path: its control points were moved instead of edge lengths.";
+  return other;
+}
+
 }  // namespace
 
 bool movesEdgeLengths(const FairingParams& params) {
@@ -196,15 +203,20 @@ Result<FairedCurve> fairByEdgeLengths(const NurbsCurve& path, bool closed, const
   if (const auto error = validate(params)) return fail(*error);
   if (path.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to make fair.");
   const std::vector<Quintic> pieces = quinticsOf(path);
+  if (pieces.empty()) return noted(fair(path, closed, params, context));
   const auto profile = profileFor(path, closed, params);
-  if (pieces.empty() || !profile || !profile->valid) {
-    auto other = fair(path, closed, params, context);
-    if (other && pieces.empty() && other->report.note.empty()) {
-      other->report.note = "Not a Bézier path: its control points were moved instead of edge lengths.";
-    }
-    return other;
-  }
+  if (!profile || !profile->valid) return fair(path, closed, params, context);
   return EdgeLengthFairing(path, closed, pieces, *profile, params, context).run();
+}
+
+Result<FairedCurve> fairByEdgeLengths(const NurbsCurve& path, bool closed, const TargetProfile& profile,
+                                      const FairingParams& params, const RunContext& context) {
+  if (const auto error = validate(params)) return fail(*error);
+  if (path.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to make fair.");
+  const std::vector<Quintic> pieces = quinticsOf(path);
+  if (pieces.empty()) return noted(modifyShape(path, closed, profile, params, context));
+  if (!profile.valid) return modifyShape(path, closed, profile, params, context);
+  return EdgeLengthFairing(path, closed, pieces, profile, params, context).run();
 }
 
 }  // namespace batten

@@ -21,4 +21,8 @@ bool movesEdgeLengths(const FairingParams&);
 /// were.
 Result<FairedCurve> fairByEdgeLengths(const NurbsCurve& path, bool closed, const FairingParams&, const RunContext&);
 
+/// The same towards this profile, whatever mode and target say.
+Result<FairedCurve> fairByEdgeLengths(const NurbsCurve& path, bool closed, const TargetProfile&, const FairingParams&,
+                                      const RunContext&);
+
 }  // namespace batten

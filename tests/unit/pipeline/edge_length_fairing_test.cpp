@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "core/construct/construct.h"
 #include "core/curve/curve_analysis.h"
@@ -116,11 +118,12 @@ TEST(EdgeLengthFairing, IsReachedByTheParameter) {
   EXPECT_TRUE(movesEdgeLengths(recipe.fairing));
 }
 
-/// The six tiles show what a click on them gives.
+/// The six tiles show what a click on them gives, whatever was chosen before.
 TEST(EdgeLengthFairing, IsWhatTheTargetsShow) {
   TracedCurve curve;
   curve.sketched = clothoidPath(2);
   curve.fairingUsed = edges(0.5);
+  curve.fairingUsed.mode = FairingMode::None;
   const auto outcomes = targetsFor(curve, {});
   ASSERT_TRUE(outcomes) << outcomes.error().message;
   for (int degree = 1; degree <= 6; ++degree) {
@@ -137,6 +140,55 @@ TEST(EdgeLengthFairing, IsWhatTheTargetsShow) {
   const auto alike = targetsForAll(all, {});
   ASSERT_TRUE(alike[0]);
   EXPECT_EQ(alike[0]->faired[2]->report.maxDeviationMm, outcomes->faired[2]->report.maxDeviationMm);
+}
+
+TEST(EdgeLengthFairing, TargetsOfACurveThatIsNoPathAreThoseOfItsControlPoints) {
+  TracedCurve curve;
+  const auto spline = NurbsCurve::make(5, {0, 0, 0, 0, 0, 0, 1, 2, 3, 3, 3, 3, 3, 3},
+                                       {{0, 0}, {10, 3}, {20, 5}, {30, 6}, {40, 5}, {50, 3}, {60, 1}, {70, -5}});
+  ASSERT_TRUE(spline);
+  curve.sketched = *spline;
+  curve.fairingUsed = edges(1.0);
+  const auto moved = targetsFor(curve, {});
+  const auto points = fairAllTargets(curve.sketched, false, curve.fairingUsed, {});
+  ASSERT_TRUE(moved && points);
+  EXPECT_EQ(moved->recommendedDegree, points->recommendedDegree);
+  for (std::size_t i = 0; i < points->faired.size(); ++i) {
+    ASSERT_EQ(moved->faired[i].has_value(), points->faired[i].has_value());
+    EXPECT_EQ(moved->problems[i], points->problems[i]);
+    if (!moved->faired[i]) continue;
+    EXPECT_EQ(moved->faired[i]->curve, points->faired[i]->curve);
+    EXPECT_FALSE(moved->faired[i]->report.note.empty());
+  }
+}
+
+/// Cancelled at any moment, the targets are either all there or none is.
+TEST(EdgeLengthFairing, CancelledTargetsAreNone) {
+  std::vector<TracedCurve> curves(2);
+  for (TracedCurve& curve : curves) {
+    curve.sketched = clothoidPath(2);
+    curve.fairingUsed = edges(0.5);
+  }
+  const auto whole = targetsForAll(curves, {});
+  for (const int reports : {1, 3, 7}) {
+    RunContext context;
+    context.threads = 1;
+    auto left = std::make_shared<int>(reports);
+    std::vector<double> progress;
+    context.progress = [&, token = context.cancel](double share) mutable {
+      progress.push_back(share);
+      if (--*left == 0) token.cancel();
+    };
+    for (const auto& outcomes : targetsForAll(curves, context)) {
+      ASSERT_FALSE(outcomes);
+      EXPECT_EQ(outcomes.error().code, ErrorCode::Cancelled);
+    }
+    EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end())) << "one way for all curves";
+  }
+  for (const auto& outcomes : whole) {
+    ASSERT_TRUE(outcomes);
+    for (const auto& faired : outcomes->faired) EXPECT_TRUE(faired.has_value());
+  }
 }
 
 }  // namespace
