@@ -16,6 +16,13 @@ enum class ContourKind {
   Pen,         ///< Drawn in the program (pen_strokes.h), not found on the scan.
 };
 
+/// How far the strokes that were merged into a line lie beside its points. [px, never negative]
+struct StrokeBand {
+  std::vector<float> left;   ///< To the side of leftNormal(direction of travel).
+  std::vector<float> right;  ///< To the other side. Same size.
+  bool isEmpty() const { return left.empty(); }
+};
+
 /// One line of the drawing, ordered, about one point a pixel. Image frame, px.
 struct Contour {
   ContourKind kind = ContourKind::Outline;
@@ -26,8 +33,7 @@ struct Contour {
   std::vector<std::uint8_t>
       refined;  ///< 1 = placed on the raw grey values; 0 = fell back. Pen: 1 = drawn, 0 = between. Same size.
   std::vector<float> widthPx;  ///< [px] stroke width (centre lines); empty for outlines.
-  std::vector<float> bandPx;   ///< [px] half the spread of the strokes that were merged into this line, per point: the
-                              ///< line was drawn within points +- bandPx; empty where nothing was merged.
+  StrokeBand band;             ///< The strokes that were merged into this line; empty where nothing was merged.
   std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.
   double lengthPx = 0.0;                     ///< [px] length of the polyline through `points`.
   double areaPx = 0.0;                       ///< [px^2] absolute enclosed area (closed), else 0.

@@ -53,7 +53,8 @@ Contour part(const Contour& whole, std::size_t first, std::size_t count) {
   take(whole.chain, cut.chain);
   take(whole.refined, cut.refined);
   take(whole.widthPx, cut.widthPx);
-  take(whole.bandPx, cut.bandPx);
+  take(whole.band.left, cut.band.left);
+  take(whole.band.right, cut.band.right);
   const int last = static_cast<int>(count) - 1, size = static_cast<int>(n);
   for (const auto& [from, to] : whole.bridges) {
     for (const int turn : {-size, 0}) {  // a part may run over the end of a closed line

@@ -14,42 +14,72 @@ namespace {
 
 constexpr double kNodePx = 4.0;        // between the nodes at which the line is moved
 constexpr double kBandShare = 0.9;     // of the band: the line stays between the strokes
-constexpr double kFade = 0.12;         // [px/px] how fast the room goes to nothing beyond the end of a stroke
+constexpr double kBeyond = 0.45;       // of the spread: the room just beyond the end of a stroke
+constexpr double kFade = 0.12;         // [px/px] how fast it goes to nothing from there
 constexpr double kLeastRoomPx = 0.02;  // of single strokes
 constexpr double kLeastBandPx = 0.5;   // strokes nearer to each other need no fairing
 constexpr double kSmoothRoomPx = 0.5;  // from here on the line is smoothed between the nodes, too
-constexpr double kMostStiffer = 100.0;
+constexpr double kOver = 0.01;         // of the room: so little beyond it is cut off
+constexpr double kLeastStiffer = 2.0, kMostStiffer = 100.0;
 constexpr int kRounds = 24;
 constexpr int kFewestNodes = 8;
 
 // Every value becomes the largest that is left of its neighbours' when they fall by `fall` a step.
 void spread(std::vector<double>& v, bool closed, double fall) {
-  const int n = static_cast<int>(v.size());
-  const int steps = closed ? 2 * n : n;
-  for (int k = 1; k < steps; ++k) {
-    const auto to = static_cast<std::size_t>(k % n), from = static_cast<std::size_t>((k - 1) % n);
+  const int n = static_cast<int>(v.size()), steps = closed ? 2 * n : n;
+  const auto pass = [&](int i, int neighbour) {
+    const auto to = static_cast<std::size_t>(i % n), from = static_cast<std::size_t>(neighbour % n);
     v[to] = std::max(v[to], v[from] - fall);
-  }
-  for (int k = steps - 1; k-- > 0;) {
-    const auto to = static_cast<std::size_t>(k % n), from = static_cast<std::size_t>((k + 1) % n);
-    v[to] = std::max(v[to], v[from] - fall);
-  }
+  };
+  for (int k = 1; k < steps; ++k) pass(k, k - 1);
+  for (int k = steps - 1; k-- > 0;) pass(k, k + 1);
+}
+
+// How far a place of the line may move to its left and to its right.
+struct Room {
+  double left = 0.0, right = 0.0;
+  double larger() const { return std::max(left, right); }
+};
+
+// As much of a move as there is room for: not beyond the strokes on either side, and nowhere farther than they are.
+Vec2 within(const Vec2& move, const Vec2& normal, const Room& room) {
+  if (!(room.larger() > kLeastRoomPx)) return Vec2::Zero();  // single strokes stay
+  const double wanted = move.dot(normal), across = std::clamp(wanted, -room.right, room.left);
+  Vec2 along = move - wanted * normal;
+  const double most = std::sqrt(std::max(0.0, room.larger() * room.larger() - across * across));
+  if (along.norm() > most) along *= most / along.norm();
+  return across * normal + along;
 }
 
 // Positions at even steps along the line, and the room there.
 struct Nodes {
   std::vector<double> s;  // of the points
   double step = 0.0;
-  std::vector<Vec2> at;
-  std::vector<double> room;
+  std::vector<Vec2> at, normal;
+  std::vector<double> left, right;
+  Room room(std::size_t k) const { return {left[k], right[k]}; }
 };
 
-Nodes nodesOf(const std::vector<Vec2>& points, bool closed, const std::vector<float>& bandPx) {
+// Beyond the end of a stroke there is room still, and less the farther away: the line need not turn to it at once.
+void addRoomBeyond(Nodes& nodes, bool closed) {
+  std::vector<double> left = nodes.left, right = nodes.right;
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    const double most = kBeyond * (left[k] + right[k]);
+    left[k] = std::min(left[k], most);
+    right[k] = std::min(right[k], most);
+  }
+  spread(left, closed, kFade * nodes.step);
+  spread(right, closed, kFade * nodes.step);
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    nodes.left[k] = std::max(nodes.left[k], left[k]);
+    nodes.right[k] = std::max(nodes.right[k], right[k]);
+  }
+}
+
+Nodes nodesOf(const std::vector<Vec2>& points, bool closed, const StrokeBand& band, const std::vector<Vec2>& tangent) {
   Nodes nodes;
-  nodes.s.push_back(0.0);
-  for (std::size_t i = 1; i < points.size(); ++i)
-    nodes.s.push_back(nodes.s.back() + (points[i] - points[i - 1]).norm());
-  const double length = nodes.s.back() + (closed ? (points.front() - points.back()).norm() : 0.0);
+  nodes.s = cumulativeLength(points);
+  const double length = polylineLength(points, closed);
   const int spans = static_cast<int>(std::lround(length / kNodePx));
   if (spans < kFewestNodes) return nodes;
   nodes.step = length / spans;
@@ -61,9 +91,11 @@ Nodes nodesOf(const std::vector<Vec2>& points, bool closed, const std::vector<fl
     const double gap = (points[next] - points[i]).norm();
     const double part = gap > 0.0 ? std::clamp((s - nodes.s[i]) / gap, 0.0, 1.0) : 0.0;
     nodes.at.push_back(points[i] + part * (points[next] - points[i]));
-    nodes.room.push_back(kBandShare * static_cast<double>(std::max(bandPx[i], bandPx[next])));
+    nodes.normal.push_back(leftNormal(tangent[i]));
+    nodes.left.push_back(kBandShare * static_cast<double>(std::max(band.left[i], band.left[next])));
+    nodes.right.push_back(kBandShare * static_cast<double>(std::max(band.right[i], band.right[next])));
   }
-  spread(nodes.room, closed, kFade * nodes.step);
+  addRoomBeyond(nodes, closed);
   return nodes;
 }
 
@@ -105,34 +137,27 @@ class ThirdDifferences {
   bool analysed_ = false;
 };
 
-// How the nodes move: weights grow where the line would leave its room.
+// How the nodes move: they are held ever more firmly where the line would leave its room.
 std::vector<Vec2> shifts(const Nodes& nodes, bool closed, double longestPx) {
   const std::size_t n = nodes.at.size();
   const double longest = std::max(longestPx, 6.0 * nodes.step);
   std::vector<double> weight(n, std::pow(2.0 * std::numbers::pi * nodes.step / longest, 6));
-  std::vector<Vec2> shift(n, Vec2::Zero()), fair;
+  std::vector<Vec2> shift(n, Vec2::Zero()), held = nodes.at, fair;
   ThirdDifferences system(static_cast<int>(n), closed);
   for (int round = 0; round < kRounds; ++round) {
-    if (!system.solve(nodes.at, weight, fair)) break;
+    if (!system.solve(held, weight, fair)) break;
     bool outside = false;
     for (std::size_t k = 0; k < n; ++k) {
-      shift[k] = fair[k] - nodes.at[k];
-      const double room = std::max(nodes.room[k], kLeastRoomPx);
-      const double over = shift[k].squaredNorm() / (room * room);
-      if (over <= 1.02) continue;
+      const Vec2 wanted = fair[k] - nodes.at[k];
+      shift[k] = within(wanted, nodes.normal[k], nodes.room(k));
+      const double room = std::max(nodes.room(k).larger(), kLeastRoomPx);
+      const double beyond = (wanted - shift[k]).norm(), over = beyond / room;
+      if (beyond <= std::max(kLeastRoomPx, kOver * room)) continue;
       outside = true;
-      weight[k] = std::min(1e6, weight[k] * std::min(over, kMostStiffer));
+      held[k] = nodes.at[k] + shift[k];
+      weight[k] = std::min(1e6, weight[k] * std::clamp((1.0 + over) * (1.0 + over), kLeastStiffer, kMostStiffer));
     }
     if (!outside) break;
-  }
-  for (std::size_t k = 0; k < n; ++k) {
-    // Never farther than there is room, whatever the rounds came to; single strokes stay.
-    const double room = nodes.room[k], far = shift[k].norm();
-    if (!(room > kLeastRoomPx)) {
-      shift[k] = Vec2::Zero();
-    } else if (far > 1.2 * room) {
-      shift[k] *= 1.2 * room / far;
-    }
   }
   return shift;
 }
@@ -151,24 +176,29 @@ Vec2 between(const std::vector<Vec2>& v, bool closed, double place) {
 
 }  // namespace
 
-void fairWithinBand(std::vector<Vec2>& points, bool closed, const std::vector<float>& bandPx, double longestPx) {
-  if (points.size() < 2 || bandPx.size() != points.size()) return;
-  if (*std::max_element(bandPx.begin(), bandPx.end()) < static_cast<float>(kLeastBandPx)) return;
-  const Nodes nodes = nodesOf(points, closed, bandPx);
+void fairWithinBand(std::vector<Vec2>& points, bool closed, const StrokeBand& band, double longestPx) {
+  const std::size_t n = points.size();
+  if (n < 2 || band.left.size() != n || band.right.size() != n) return;
+  float widest = 0.0f;
+  for (std::size_t i = 0; i < n; ++i) widest = std::max(widest, 0.5f * (band.left[i] + band.right[i]));
+  if (widest < static_cast<float>(kLeastBandPx)) return;
+  const std::vector<Vec2> before = points, tangent = directions(points, closed, 3);
+  const Nodes nodes = nodesOf(points, closed, band, tangent);
   if (nodes.at.empty()) return;
   const std::vector<Vec2> shift = shifts(nodes, closed, longestPx);
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] += between(shift, closed, nodes.s[i] / nodes.step);
+  for (std::size_t i = 0; i < n; ++i) points[i] += between(shift, closed, nodes.s[i] / nodes.step);
   // What is shorter than the nodes are apart.
   const std::vector<Vec2> smooth = smoothPolyline(points, closed, kNodePx);
-  const int n = static_cast<int>(nodes.room.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  const int last = static_cast<int>(nodes.at.size()) - 1;
+  for (std::size_t i = 0; i < n; ++i) {
     const double place = nodes.s[i] / nodes.step;
-    const int k = std::clamp(static_cast<int>(place), 0, n - 1),
-              next = closed ? wrapIndex(k + 1, n) : std::min(k + 1, n - 1);
+    const int k = std::clamp(static_cast<int>(place), 0, last);
+    const int after = closed ? wrapIndex(k + 1, last + 1) : std::min(k + 1, last);
+    const Room here = nodes.room(static_cast<std::size_t>(k)), next = nodes.room(static_cast<std::size_t>(after));
     const double part = std::clamp(place - k, 0.0, 1.0);
-    const double room =
-        (1.0 - part) * nodes.room[static_cast<std::size_t>(k)] + part * nodes.room[static_cast<std::size_t>(next)];
-    points[i] += std::min(1.0, room / kSmoothRoomPx) * (smooth[i] - points[i]);
+    const Room room{std::lerp(here.left, next.left, part), std::lerp(here.right, next.right, part)};
+    points[i] += std::min(1.0, room.larger() / kSmoothRoomPx) * (smooth[i] - points[i]);
+    points[i] = before[i] + within(points[i] - before[i], leftNormal(tangent[i]), room);
   }
 }
 

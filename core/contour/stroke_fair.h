@@ -4,15 +4,17 @@
 #include <vector>
 
 #include "core/base/vec2.h"
+#include "core/contour/contour_set.h"
 
 namespace batten {
 
 /// Takes the wavering out of the mean of strokes that were drawn over one another. Where strokes begin and end their
 /// mean jumps from one to the other, and how it does so was not drawn: the line becomes the one of least change of
-/// curvature (third differences) that stays within a part of the band; waves longer than `longestPx` stay in any case.
+/// curvature (third differences) between the outermost strokes; waves longer than `longestPx` stay in any case. Just
+/// beyond the end of a stroke it may lie outside the others, by less than half of their spread there, fading away.
 /// Where only one stroke was drawn, away from the ends of others, the line stays where it is.
-/// @param points about one a pixel; moved.
-/// @param bandPx [px] half the spread of the strokes at every point; same size.
-void fairWithinBand(std::vector<Vec2>& points, bool closed, const std::vector<float>& bandPx, double longestPx);
+/// @param points about one a pixel; moved, never farther than the farther of the strokes beside it.
+/// @param band where the strokes lie beside every point; same size.
+void fairWithinBand(std::vector<Vec2>& points, bool closed, const StrokeBand& band, double longestPx);
 
 }  // namespace batten

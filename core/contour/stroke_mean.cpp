@@ -65,7 +65,7 @@ class MeanRound {
   void measure(std::size_t line, std::size_t index, std::vector<Crossing>& crossings, float& shift) const {
     const MeanLine& here = lines_[line];
     const Vec2 &at = here.points[index], &t = here.tangent[index];
-    const Vec2 n(-t.y(), t.x());
+    const Vec2 n = leftNormal(t);
     crossings.clear();
     cells_.around(at, [&](const MeanLine::Source& place) {
       const MeanLine& other = lines_[static_cast<std::size_t>(place.line)];
@@ -181,12 +181,12 @@ StrokesBeside::StrokesBeside(const std::vector<Contour>& lines, double distanceP
 
 StrokesBeside::~StrokesBeside() = default;
 
-std::vector<float> StrokesBeside::halfSpread(const std::vector<Vec2>& points, bool closed) const {
+StrokeBand StrokesBeside::band(const std::vector<Vec2>& points, bool closed, const RunContext& context) const {
   constexpr double kAlongPx = 1.5, kOneStrokePx = 1.0;
   const std::vector<Vec2> tangent = directions(points, closed, 3);
-  std::vector<float> spread;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec2 n(-tangent[i].y(), tangent[i].x());
+  StrokeBand band{std::vector<float>(points.size()), std::vector<float>(points.size())};
+  const auto measure = [&](std::size_t i) {
+    const Vec2 n = leftNormal(tangent[i]);
     double low = 0.0, high = 0.0;
     parts_->cells->around(points[i], [&](const MeanLine::Source& place) {
       const MeanLine& other = parts_->lines[static_cast<std::size_t>(place.line)];
@@ -199,9 +199,14 @@ std::vector<float> StrokesBeside::halfSpread(const std::vector<Vec2>& points, bo
       high = std::max(high, offset);
     });
     // The points of one stroke scatter by less.
-    spread.push_back(high - low > kOneStrokePx ? static_cast<float>(0.5 * (high - low)) : 0.0f);
-  }
-  return spread;
+    if (high - low <= kOneStrokePx) return;
+    band.left[i] = static_cast<float>(high);
+    band.right[i] = static_cast<float>(-low);
+  };
+  parallelFor(context, static_cast<int>(points.size()), kPointsPerBlock, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) measure(static_cast<std::size_t>(i));
+  });
+  return band;
 }
 
 }  // namespace batten

@@ -25,15 +25,15 @@ struct MeanLine {
 /// One per line, same order; not complete when cancelled. Same result with any number of threads.
 std::vector<MeanLine> moveToMean(const std::vector<Contour>& lines, double distancePx, const RunContext& context);
 
-/// Asks where strokes lay beside a line.
+/// Asks where strokes lay beside a line. Keeps its own copy of the strokes.
 class StrokesBeside {
  public:
-  /// @param lines must outlive this.
   StrokesBeside(const std::vector<Contour>& lines, double distancePx);
   ~StrokesBeside();
-  /// [px] per point: half the distance between the outermost strokes within `distancePx` that run along the line, the
-  /// line itself being one.
-  std::vector<float> halfSpread(const std::vector<Vec2>& points, bool closed) const;
+  /// The outermost strokes within `distancePx` that run along the line, the line itself being one: 0 to a side where
+  /// none lies, and to both where they are no farther apart than one stroke scatters. Not complete when cancelled. Same
+  /// result with any number of threads.
+  StrokeBand band(const std::vector<Vec2>& points, bool closed, const RunContext& context) const;
 
  private:
   struct Parts;

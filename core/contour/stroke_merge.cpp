@@ -8,8 +8,8 @@
 #include <unordered_map>
 
 #include "core/base/parallel.h"
+#include "core/contour/merged_contour.h"
 #include "core/contour/polyline_tools.h"
-#include "core/contour/stroke_fair.h"
 #include "core/contour/stroke_mean.h"
 
 namespace batten {
@@ -20,7 +20,7 @@ constexpr double kOnLine = 0.15;         // the distance within which strokes ar
 constexpr double kSameWay = 0.8;         // cosine between lines that are one
 constexpr int kShortestRun = 12;         // points: lying on a line for less is crossing it
 constexpr double kJointSmoothing = 3.0;  // points
-constexpr double kLongestWaver = 6.0;    // distances: what the mean does over a longer way was drawn
+constexpr int kJointReach = 12;          // points on either side
 
 struct Place {
   int line = 0, index = 0;
@@ -68,19 +68,32 @@ MeanLine part(const MeanLine& line, int from, int to) {
   return p;
 }
 
+// The two parts of a line meet before `joint` to within a few pixels: a little smoothing there.
+void smoothJoint(std::vector<Vec2>& points, int joint) {
+  const auto from = points.begin() + std::max(0, joint - kJointReach),
+             to = points.begin() + std::min(static_cast<int>(points.size()), joint + kJointReach);
+  std::ranges::copy(smoothPolyline(std::vector<Vec2>(from, to), false, kJointSmoothing), from);
+}
+
 void append(MeanLine& line, const MeanLine& more) {
   const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  const std::size_t joint = line.points.size();
+  const int joint = static_cast<int>(line.points.size());
   add(line.points, more.points);
   add(line.tangent, more.tangent);
   add(line.source, more.source);
-  // The two parts meet to within a pixel or two: a little smoothing about the joint.
-  const std::size_t reach = 12, from = joint > reach ? joint - reach : 0,
-                    to = std::min(line.points.size(), joint + reach);
-  const std::vector<Vec2> around(line.points.begin() + static_cast<std::ptrdiff_t>(from),
-                                 line.points.begin() + static_cast<std::ptrdiff_t>(to));
-  const std::vector<Vec2> smooth = smoothPolyline(around, false, kJointSmoothing);
-  for (std::size_t i = from; i < to; ++i) line.points[i] = smooth[i - from];
+  smoothJoint(line.points, joint);
+}
+
+// The end goes on at the beginning.
+void close(MeanLine& line) {
+  line.closed = true;
+  // Half a turn brings the seam where there are points on both sides.
+  const auto half = static_cast<std::ptrdiff_t>(line.points.size() / 2);
+  const auto turn = [half](auto& v) { std::rotate(v.begin(), v.begin() + half, v.end()); };
+  turn(line.points);
+  turn(line.tangent);
+  turn(line.source);
+  smoothJoint(line.points, static_cast<int>(line.points.size()) - static_cast<int>(half));
 }
 
 class Consolidation {
@@ -230,7 +243,10 @@ class Consolidation {
     reindex();
   }
 
-  void closeLine(int line) { lines_[static_cast<std::size_t>(line)].closed = true; }
+  void closeLine(int line) {
+    close(lines_[static_cast<std::size_t>(line)]);
+    reindex();
+  }
 
   void reindex() {
     index_.clear();
@@ -253,41 +269,13 @@ class Consolidation {
     }
     if (best < 0) return;
     line = part(line, 0, best);
-    line.closed = true;
+    close(line);
   }
 
   double distance_, onLine_;
   std::vector<MeanLine> lines_;
   PlaceIndex index_;
 };
-
-Contour contourOf(const MeanLine& line, const std::vector<Contour>& lines, const StrokesBeside& strokes,
-                  double distancePx) {
-  Contour c;
-  c.kind = ContourKind::Centreline;
-  c.closed = line.closed;
-  for (std::size_t i = 0; i < line.points.size(); ++i) {
-    if (!c.points.empty() && (line.points[i] - c.points.back()).dot(line.tangent[i]) < 0.2) continue;  // never back
-    const Contour& from = lines[static_cast<std::size_t>(line.source[i].line)];
-    const auto at = static_cast<std::size_t>(line.source[i].index);
-    c.points.push_back(line.points[i]);
-    c.chain.push_back(line.points[i]);
-    c.refined.push_back(from.refined[at]);
-    c.widthPx.push_back(from.widthPx[at]);
-  }
-  while (c.closed && c.points.size() > 3 && (c.points.front() - c.points.back()).norm() < 0.35) {
-    c.points.pop_back();
-    c.chain.pop_back();
-    c.refined.pop_back();
-    c.widthPx.pop_back();
-  }
-  c.bandPx = smoothValues(strokes.halfSpread(c.points, c.closed), c.closed, 4.0);
-  fairWithinBand(c.points, c.closed, c.bandPx, kLongestWaver * distancePx);
-  c.chain = c.points;
-  c.lengthPx = polylineLength(c.points, c.closed);
-  c.areaPx = c.closed ? polygonArea(c.points) : 0.0;
-  return c;
-}
 
 }  // namespace
 
@@ -306,8 +294,8 @@ std::vector<Contour> mergeStrokes(const std::vector<Contour>& lines, double dist
   std::vector<Contour> merged;
   const StrokesBeside strokes(lines, distancePx);
   for (const MeanLine& line : consolidation.finish()) {
+    merged.push_back(mergedContour(line, lines, strokes, distancePx, context));
     if (context.isCancelled()) return {};
-    merged.push_back(contourOf(line, lines, strokes, distancePx));
   }
   std::erase_if(merged, [](const Contour& c) { return c.points.size() < 3; });
   return merged;

@@ -13,8 +13,9 @@ namespace batten {
 /// others or turns from them, so that the mean has no jumps where strokes begin and end. What then lies on a longer
 /// line is dropped, what goes on from its end is joined to it, and overshoots shorter than twice the distance go. The
 /// result is the fairest line between the strokes (stroke_fair.h).
-/// Contour::bandPx of the result is half the spread of the strokes beside a point. Lines without a neighbour stay as
-/// they are, with a band of 0. The order of the result is that of the lines that began it. Not complete when cancelled.
+/// Contour::band of the result holds the strokes within the distance that run beside it. Lines without a neighbour stay
+/// as they are, with a band of 0. About one point a pixel, also where strokes were joined: those points are not
+/// refined. The order of the result is that of the lines that began it. Not complete when cancelled.
 std::vector<Contour> mergeStrokes(const std::vector<Contour>& lines, double distancePx, const RunContext& context);
 
 }  // namespace batten

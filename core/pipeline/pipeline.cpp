@@ -24,7 +24,7 @@ std::size_t bytesOf(const ContourSet& set) {
   std::size_t bytes = sizeof(set);
   for (const Contour& c : set.contours) {
     bytes += sizeof(c) + vectorBytes(c.points) + vectorBytes(c.chain) + vectorBytes(c.refined) +
-             vectorBytes(c.widthPx) + vectorBytes(c.bandPx);
+             vectorBytes(c.widthPx) + vectorBytes(c.band.left) + vectorBytes(c.band.right);
   }
   return bytes;
 }

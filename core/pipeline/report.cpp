@@ -202,6 +202,12 @@ Json rangeToJson(std::vector<float> px, const PageFrame& frame) {
           {"largest_mm", number(frame.lengthToModel(most))}};
 }
 
+std::vector<float> halfSpread(const StrokeBand& band) {
+  std::vector<float> half;
+  for (std::size_t i = 0; i < band.left.size(); ++i) half.push_back(0.5f * (band.left[i] + band.right[i]));
+  return half;
+}
+
 Json contourToJson(const Contour& c, std::size_t index, const PageFrame& frame) {
   const double mm2 = frame.mmPerPx * frame.mmPerPx;
   Json json{{"contour", index + 1},
@@ -213,7 +219,7 @@ Json contourToJson(const Contour& c, std::size_t index, const PageFrame& frame) 
             {"area_px2", c.closed ? number(c.areaPx) : Json(nullptr)},
             {"area_mm2", c.closed ? number(c.areaPx * mm2) : Json(nullptr)},
             {"stroke_width", rangeToJson(c.widthPx, frame)},
-            {"merged_half_spread", rangeToJson(c.bandPx, frame)},
+            {"merged_half_spread", rangeToJson(halfSpread(c.band), frame)},
             {"bridges", Json::array()},
             {"not_placed", c.kind == ContourKind::Pen ? Json::array() : notPlacedToJson(c)}};
   const int n = static_cast<int>(c.points.size());

@@ -306,13 +306,15 @@ TEST(Centreline, OverdrawnStrokesMergeOnlyWhenAsked) {
     }
   }
   // The strokes' middles are 13 px apart.
-  ASSERT_EQ(found[0].bandPx.size(), found[0].points.size());
+  ASSERT_EQ(found[0].band.left.size(), found[0].points.size());
+  ASSERT_EQ(found[0].band.right.size(), found[0].points.size());
   for (std::size_t i = 0; i < found[0].points.size(); ++i) {
     if (found[0].points[i].x() > 60 && found[0].points[i].x() < 340) {
-      EXPECT_NEAR(found[0].bandPx[i], 6.5, 0.9);  // borders are ragged by half a pixel
+      // Borders are ragged by half a pixel.
+      EXPECT_NEAR(0.5f * (found[0].band.left[i] + found[0].band.right[i]), 6.5f, 0.9f);
     }
   }
-  for (const Contour& alone : strandsOf(p)) EXPECT_TRUE(alone.bandPx.empty());
+  for (const Contour& alone : strandsOf(p)) EXPECT_TRUE(alone.band.isEmpty());
 }
 
 TEST(Centreline, SameResultWithAnyNumberOfThreads) {

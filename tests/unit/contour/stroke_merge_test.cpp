@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <random>
 
 #include "core/contour/polyline_tools.h"
 
@@ -49,7 +51,11 @@ TEST(StrokeMerge, StrokesSideBySideBecomeTheirMean) {
   for (std::size_t i = 0; i < merged[0].points.size(); ++i) {
     if (merged[0].points[i].x() < 70 || merged[0].points[i].x() > 330) continue;
     EXPECT_NEAR(merged[0].points[i].y(), 311.0 / 3.0, 0.25);
-    EXPECT_NEAR(merged[0].bandPx[i], 6.5, 0.3);
+    const double y = merged[0].points[i].y();
+    // Which side is left depends on the way the line runs.
+    const auto [low, high] = std::minmax(merged[0].band.left[i], merged[0].band.right[i]);
+    EXPECT_NEAR(low, 110.0 - y, 0.3);
+    EXPECT_NEAR(high, y - 97.0, 0.3);
   }
 }
 
@@ -89,9 +95,112 @@ TEST(StrokeMerge, ALoopOfSeveralStrokesIsClosed) {
   EXPECT_TRUE(merged[0].closed);
   for (std::size_t i = 0; i < merged[0].points.size(); ++i) {
     EXPECT_NEAR((merged[0].points[i] - c).norm(), 122.0, 2.6);
-    EXPECT_LE(merged[0].bandPx[i], 2.6f);
-    EXPECT_GE(merged[0].bandPx[i], 0.0f);
+    EXPECT_LE(std::max(merged[0].band.left[i], merged[0].band.right[i]), 4.3f);
+    EXPECT_GE(std::min(merged[0].band.left[i], merged[0].band.right[i]), 0.0f);
   }
+}
+
+Contour wave(double y, double amplitude, int from, int to) {
+  std::vector<Vec2> points;
+  for (int x = from; x <= to; ++x) points.emplace_back(x, y + amplitude * std::sin(0.15 * x));
+  return strokeOf(std::move(points));
+}
+
+// Several strokes to one side and one to the other: the mean is near the many.
+TEST(StrokeMerge, TheLineStaysBetweenStrokesThatLieUnevenly) {
+  for (const double amplitude : {0.0, 2.0, 4.0}) {
+    const std::vector<Contour> strokes{wave(100.0, amplitude, 0, 600), wave(100.4, amplitude, 0, 600),
+                                       wave(99.6, amplitude, 0, 600), wave(110.0, 0.0, 100, 500)};
+    const auto merged = mergeStrokes(strokes, 15.0, {});
+    ASSERT_EQ(merged.size(), 1u);
+    for (const Vec2& p : merged[0].points) {
+      if (p.x() < 100 || p.x() > 500) continue;
+      const double waver = amplitude * std::sin(0.15 * p.x());
+      EXPECT_GE(p.y(), std::min(99.6 + waver, 110.0) - 0.3) << p.x();
+      EXPECT_LE(p.y(), std::max(100.4 + waver, 110.0) + 0.3) << p.x();
+    }
+  }
+}
+
+TEST(StrokeMerge, TheBandHoldsEveryStroke) {
+  const std::vector<std::vector<Contour>> bundles{
+      {wave(100.0, 0.0, 0, 600), wave(100.5, 0.0, 0, 600), wave(99.5, 0.0, 0, 600), wave(110.0, 0.0, 0, 600)},
+      {wave(100.0, 3.0, 0, 600), wave(104.0, 0.0, 0, 600), wave(108.0, -3.0, 150, 450)},
+      {arc({300, 300}, 150, 0.2, 2.8), arc({300, 300}, 151, 2.7, 0.3), arc({303, 300}, 158, 0.8, 2.2)}};
+  for (const auto& strokes : bundles) {
+    const auto merged = mergeStrokes(strokes, 15.0, {});
+    ASSERT_EQ(merged.size(), 1u);
+    const Contour& c = merged[0];
+    const std::vector<Vec2> tangent = directions(c.points, c.closed, 3);
+    for (const Contour& stroke : strokes) {
+      for (const Vec2& p : stroke.points) {
+        std::size_t at = 0;
+        for (std::size_t i = 0; i < c.points.size(); ++i)
+          if ((c.points[i] - p).norm() < (c.points[at] - p).norm()) at = i;
+        if (at < 20 || at + 20 >= c.points.size()) continue;
+        const double offset = (p - c.points[at]).dot(leftNormal(tangent[at]));
+        EXPECT_LE(offset, c.band.left[at] + 0.6) << p.transpose();
+        EXPECT_GE(offset, -c.band.right[at] - 0.6) << p.transpose();
+      }
+    }
+    // Nor is it wider than the strokes lie apart.
+    const auto most = [](const std::vector<float>& v) { return *std::max_element(v.begin(), v.end()); };
+    EXPECT_LE(most(c.band.left) + most(c.band.right), 22.0f);
+  }
+}
+
+// Two strokes around a corner: what is between them is little, and the line rounds the corner by no more.
+TEST(StrokeMerge, CornersStaySharp) {
+  for (const double apart : {2.0, 4.0, 8.0}) {
+    std::vector<Contour> strokes;
+    for (const double offset : {-0.5 * apart, 0.5 * apart}) {
+      std::vector<Vec2> points;
+      for (double x = 0.0; x < 200.0 + offset; ++x) points.emplace_back(x, -offset);
+      for (double y = -offset; y < 200.0; ++y) points.emplace_back(200.0 + offset, y);
+      strokes.push_back(strokeOf(std::move(points)));
+    }
+    const auto merged = mergeStrokes(strokes, apart + 6.0, {});
+    ASSERT_FALSE(merged.empty());
+    double missed = std::numeric_limits<double>::infinity();
+    for (const Vec2& p : merged[0].points) missed = std::min(missed, (p - Vec2(200.0, 0.0)).norm());
+    EXPECT_LE(missed, 0.5 * apart + 0.5);
+  }
+}
+
+// A loop drawn in strokes that begin and end beside each other, or leave a gap.
+TEST(StrokeMerge, AJoinedLineHasAPointAPixel) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int closed = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const double distance = 8.0 + 40.0 * unit(random), radius = 100.0 + 80.0 * unit(random);
+    const int count = 2 + static_cast<int>(4.0 * unit(random));
+    double begin = 2.0 * kPi * unit(random);
+    std::vector<Contour> strokes;
+    for (int k = 0; k < count; ++k) {
+      const double span = 2.0 * kPi / count + (1.2 * unit(random) - 0.6) * distance / radius;
+      const double from = radius + 0.8 * distance * (unit(random) - 0.5),
+                   to = radius + 0.8 * distance * (unit(random) - 0.5);
+      std::vector<Vec2> points;
+      const int n = static_cast<int>(span * radius);
+      for (int i = 0; i <= n; ++i) {
+        const double part = static_cast<double>(i) / n, angle = begin + span * part;
+        points.push_back(std::lerp(from, to, part) * Vec2(std::cos(angle), std::sin(angle)));
+      }
+      strokes.push_back(strokeOf(std::move(points)));
+      begin += 2.0 * kPi / count;
+    }
+    for (const Contour& c : mergeStrokes(strokes, distance, {})) {
+      closed += c.closed ? 1 : 0;
+      ASSERT_EQ(c.refined.size(), c.points.size());
+      ASSERT_EQ(c.widthPx.size(), c.points.size());
+      for (std::size_t i = c.closed ? 0 : 1; i < c.points.size(); ++i) {
+        const Vec2& before = c.points[i > 0 ? i - 1 : c.points.size() - 1];
+        EXPECT_LE((c.points[i] - before).norm(), 1.8) << "trial " << trial << " point " << i << " closed " << c.closed;
+      }
+    }
+  }
+  EXPECT_GE(closed, 15);
 }
 
 TEST(StrokeMerge, CrossingsAndLonelyLinesStayAsTheyAre) {
@@ -102,7 +211,10 @@ TEST(StrokeMerge, CrossingsAndLonelyLinesStayAsTheyAre) {
   for (const Contour& c : merged) {
     const bool known = std::any_of(lines.begin(), lines.end(), [&](const Contour& l) { return l.points == c.points; });
     EXPECT_TRUE(known);
-    for (const float b : c.bandPx) EXPECT_EQ(b, 0.0f);
+    ASSERT_EQ(c.band.left.size(), c.points.size());
+    ASSERT_EQ(c.band.right.size(), c.points.size());
+    for (const float b : c.band.left) EXPECT_EQ(b, 0.0f);
+    for (const float b : c.band.right) EXPECT_EQ(b, 0.0f);
   }
 }
 
@@ -135,7 +247,8 @@ TEST(StrokeMerge, SameResultWithAnyNumberOfThreads) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].points, b[i].points);
-    EXPECT_EQ(a[i].bandPx, b[i].bandPx);
+    EXPECT_EQ(a[i].band.left, b[i].band.left);
+    EXPECT_EQ(a[i].band.right, b[i].band.right);
     for (const Vec2& p : a[i].points) EXPECT_TRUE(p.allFinite());
   }
 }

@@ -62,7 +62,7 @@ TEST(TraceContours, ShapesGiveOutlinesAndStrokesCentreLines) {
   for (const Contour& c : set->contours) {
     EXPECT_EQ(c.points.size(), c.chain.size());
     EXPECT_EQ(c.points.size(), c.refined.size());
-    EXPECT_TRUE(c.bandPx.empty());
+    EXPECT_TRUE(c.band.isEmpty());
     EXPECT_EQ(c.widthPx.size(), c.kind == ContourKind::Centreline ? c.points.size() : 0u);
   }
   EXPECT_GT(set->report.refinedShare, 0.97);

@@ -57,17 +57,19 @@ QRectF boundsOf(const std::vector<Vec2>& points) {
   return QRectF(QPointF(low.x(), low.y()), QPointF(high.x(), high.y()));
 }
 
-/// The ground within share * width on either side of a line.
-QPainterPath ribbon(const Contour& line, const std::vector<float>& width, double share) {
-  const std::size_t n = std::min(line.points.size(), width.size());
+/// The ground within share * left and share * right of a line.
+QPainterPath ribbon(const Contour& line, const std::vector<float>& toLeft, const std::vector<float>& toRight,
+                    double share) {
+  const std::size_t n = std::min({line.points.size(), toLeft.size(), toRight.size()});
   QPolygonF left, right;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t before = i > 0 ? i - 1 : line.closed ? n - 1 : 0;
     const std::size_t after = i + 1 < n ? i + 1 : line.closed ? 0 : n - 1;
     const Vec2 along = line.points[after] - line.points[before];
     if (!(along.norm() > 0.0)) continue;
-    const Vec2 out = share * static_cast<double>(width[i]) * Vec2(-along.y(), along.x()) / along.norm();
-    const Vec2 a = line.points[i] + out, b = line.points[i] - out;
+    const Vec2 out = share * leftNormal(along) / along.norm();
+    const Vec2 a = line.points[i] + static_cast<double>(toLeft[i]) * out;
+    const Vec2 b = line.points[i] - static_cast<double>(toRight[i]) * out;
     left.append(QPointF(a.x(), a.y()));
     right.append(QPointF(b.x(), b.y()));
   }
@@ -162,8 +164,12 @@ void paintStrokes(QPainter& painter, const CanvasScene& scene) {
   ImagePainter image(painter, scene);
   for (const Contour& line : contours->contours) {
     if (!image.sees(boundsOf(line.points))) continue;
-    if (!line.bandPx.empty()) image.fill(ribbon(line, line.bandPx, 1.0), QColor(200, 112, 0, 70));
-    if (!line.widthPx.empty()) image.fill(ribbon(line, line.widthPx, 0.5), QColor(20, 130, 80, 60));
+    if (!line.band.isEmpty()) {
+      image.fill(ribbon(line, line.band.left, line.band.right, 1.0), QColor(200, 112, 0, 70));
+    }
+    if (!line.widthPx.empty()) {
+      image.fill(ribbon(line, line.widthPx, line.widthPx, 0.5), QColor(20, 130, 80, 60));
+    }
     for (const auto& [first, last] : line.bridges) {
       QPainterPath bridge;
       for (int i = std::max(0, first); i <= last && i < static_cast<int>(line.points.size()); ++i) {
