@@ -6,18 +6,13 @@
 
 #include "core/base/conventions.h"
 #include "ui/canvas/canvas_colors.h"
+#include "ui/canvas/comb_runs.h"
 #include "ui/canvas/layers/vector_layers.h"
 
 namespace batten {
 namespace {
 
-constexpr double kAutomaticHeight = 0.13;  ///< Of the curve's extent, for the 95 % curvature at scale 1.
-constexpr double kLargestHeight = 2.0;     ///< Automatic heights; a spike does not fill the drawing.
-
-/// Height [image px] per curvature [mm]: one scale for all curves, so that combs can be compared.
-struct CombScale {
-  double pxPerKappa = 0.0, limitPx = 0.0;
-};
+/// One scale for all curves, so that combs can be compared.
 CombScale combScale(const CanvasScene& scene) {
   const CurveComb* reference = scene.selectedComb();
   if (reference == nullptr)
@@ -26,39 +21,74 @@ CombScale combScale(const CanvasScene& scene) {
   if (reference == nullptr) return {};
   const double extentMm = scene.combs->source.frame.lengthToModel(reference->extentPx);
   if (!(reference->robustKappa * extentMm > kStraightCurvature)) return {};
-  const double height = kAutomaticHeight * reference->extentPx * scene.view.combScale();
-  return {height / reference->robustKappa, kLargestHeight * height};
+  const QSizeF view = QSizeF(scene.transform.viewSize()) / scene.transform.ratio();
+  // By the sketched curve, so that fairing does not change the scale under the eye.
+  const auto curves = scene.session.curves();
+  const auto at = static_cast<std::size_t>(reference->index);
+  const int extrema = reference->index >= 0 && at < curves.size() ? curves[at].sketchedFigures.extrema : 0;
+  const double lengthPx = reference->lengthMm / scene.combs->source.frame.lengthToModel(1.0);
+  return combScaleFor({reference->robustKappa, reference->extentPx, lengthPx, extrema}, scene.view.combScale(),
+                      std::min(view.width(), view.height()) * scene.transform.imagePerWidget());
 }
 
 QPointF tipOf(const CombPoint& point, const CombScale& scale, const ViewTransform& transform) {
-  const double height = std::clamp(point.kappa * scale.pxPerKappa, -scale.limitPx, scale.limitPx);
-  return transform.toWidget(point.px + height * point.outPx);
+  return transform.toWidget(point.px + scale.heightOf(point.kappa) * point.outPx);
 }
 
-QPolygonF envelope(const std::vector<CombPoint>& points, const CombScale& scale, const ViewTransform& transform) {
-  QPolygonF line;
-  line.reserve(static_cast<qsizetype>(points.size()));
-  for (const CombPoint& point : points) line.append(tipOf(point, scale, transform));
-  return line;
+/// The line through the tips; it breaks off where quills are cut, and runs on dotted over a long stretch of them.
+void paintEnvelope(QPainter& painter, const std::vector<CombPoint>& points, const std::vector<CombRun>& runs,
+                   const CombScale& scale, const ViewTransform& transform) {
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const CombRun& run = runs[r];
+    if (run.isSpike) continue;
+    QPolygonF line;
+    line.reserve(static_cast<qsizetype>(run.last - run.first + 3));
+    if (!run.isCut && r > 0 && runs[r - 1].isCut)
+      line.append(tipOf(combCrossing(points[run.first], points[run.first - 1], scale), scale, transform));
+    for (std::size_t i = run.first; i <= run.last; ++i) line.append(tipOf(points[i], scale, transform));
+    if (!run.isCut && r + 1 < runs.size() && runs[r + 1].isCut)
+      line.append(tipOf(combCrossing(points[run.last], points[run.last + 1], scale), scale, transform));
+    QPen pen = painter.pen();
+    pen.setStyle(run.isCut ? Qt::DotLine : Qt::SolidLine);
+    painter.setPen(pen);
+    painter.drawPolyline(line);
+  }
+}
+
+/// Says that a quill goes on: two short strokes aslant across its end.
+void paintCut(QPainter& painter, QPointF foot, QPointF tip) {
+  const QPointF way = tip - foot;
+  const double length = std::hypot(way.x(), way.y());
+  if (!(length > 0.0)) return;
+  const QPointF along = way / length, across(-along.y(), along.x());
+  const QPointF aslant = 4.0 * across + 2.0 * along;
+  for (const double back : {0.0, 4.0}) {
+    const QPointF at = tip - back * along;
+    painter.drawLine(at - aslant, at + aslant);
+  }
 }
 
 /// What the noise of the scan leaves open of the curvature: +-2 standard deviations about the comb's tips.
 void paintBand(QPainter& painter, const CanvasScene& scene, const std::vector<CombPoint>& points,
                const CombScale& scale) {
   if (std::none_of(points.begin(), points.end(), [](const CombPoint& point) { return point.sigma > 0.0; })) return;
-  QPolygonF band;
-  band.reserve(2 * static_cast<qsizetype>(points.size()));
-  const auto edge = [&](CombPoint point, double side) {
-    point.kappa += side * 2.0 * point.sigma;
-    band.append(tipOf(point, scale, scene.transform));
-  };
-  for (const CombPoint& point : points) edge(point, 1.0);
-  for (auto point = points.rbegin(); point != points.rend(); ++point) edge(*point, -1.0);
   QColor fill = colors::sketched();
   fill.setAlpha(54);
   painter.setPen(Qt::NoPen);
   painter.setBrush(fill);
-  painter.drawPolygon(band, Qt::WindingFill);
+  for (const CombRun& run : combRuns(points, scale)) {
+    // Where the comb is cut there is nothing for it to lie about.
+    if (run.isCut) continue;
+    QPolygonF band;
+    band.reserve(2 * static_cast<qsizetype>(run.last - run.first + 1));
+    const auto edge = [&](CombPoint point, double side) {
+      point.kappa += side * 2.0 * point.sigma;
+      band.append(tipOf(point, scale, scene.transform));
+    };
+    for (std::size_t i = run.first; i <= run.last; ++i) edge(points[i], 1.0);
+    for (std::size_t i = run.last + 1; i-- > run.first;) edge(points[i], -1.0);
+    painter.drawPolygon(band, Qt::WindingFill);
+  }
 }
 
 void paintComb(QPainter& painter, const CanvasScene& scene, const CurveComb& comb, const CombScale& scale,
@@ -69,8 +99,9 @@ void paintComb(QPainter& painter, const CanvasScene& scene, const CurveComb& com
   }
   if (!comb.sketched.empty() && scene.view.isVisible(Layer::Curve)) {
     painter.setPen(QPen(colors::sketchedFaint(), 1.0));
-    painter.drawPolyline(envelope(comb.sketched, scale, transform));
+    paintEnvelope(painter, comb.sketched, combRuns(comb.sketched, scale), scale, transform);
   }
+  const std::vector<CombRun> runs = combRuns(comb.points, scale);
   QColor color = colors::accent();
   color.setAlpha(isSelected ? 120 : 60);
   painter.setPen(QPen(color, 0.8));
@@ -78,14 +109,25 @@ void paintComb(QPainter& painter, const CanvasScene& scene, const CurveComb& com
   QVector<QLineF> lines;
   lines.reserve(quills);
   const double last = static_cast<double>(comb.points.size() - 1);
+  auto run = runs.begin();
   for (int i = 0; i < quills; ++i) {
-    const auto& point = comb.points[static_cast<std::size_t>(std::lround(last * i / (quills - 1)))];
-    lines.append(QLineF(transform.toWidget(point.px), tipOf(point, scale, transform)));
+    const auto at = static_cast<std::size_t>(std::lround(last * i / (quills - 1)));
+    while (run->last < at) ++run;
+    if (run->isSpike) continue;
+    lines.append(QLineF(transform.toWidget(comb.points[at].px), tipOf(comb.points[at], scale, transform)));
   }
   painter.drawLines(lines);
   color.setAlpha(isSelected ? 255 : 130);
   painter.setPen(QPen(color, isSelected ? 1.3 : 1.0));
-  painter.drawPolyline(envelope(comb.points, scale, transform));
+  paintEnvelope(painter, comb.points, runs, scale, transform);
+  painter.setPen(QPen(color, 1.0));
+  for (const CombRun& cut : runs) {
+    if (!cut.isCut) continue;
+    const CombPoint& peak = comb.points[cut.peak];
+    const QPointF foot = transform.toWidget(peak.px), tip = tipOf(peak, scale, transform);
+    if (cut.isSpike) painter.drawLine(foot, tip);
+    paintCut(painter, foot, tip);
+  }
 }
 
 /// Extrema: a short bar across the comb's tip. Inflections: a small diamond on the curve.
@@ -100,6 +142,8 @@ void paintMarks(QPainter& painter, const CanvasScene& scene, const CurveComb& co
           {foot + QPointF(0, -4.5), foot + QPointF(4.5, 0), foot + QPointF(0, 4.5), foot + QPointF(-4.5, 0)}));
       continue;
     }
+    // A quill that is cut says so itself.
+    if (scale.cuts(mark.kappa)) continue;
     CombPoint point;
     point.px = mark.px, point.outPx = mark.outPx, point.kappa = mark.kappa;
     const QPointF tip = tipOf(point, scale, transform);
