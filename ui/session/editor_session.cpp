@@ -60,6 +60,8 @@ void EditorSession::change(const QString& what, Recipe after, int gesture) {
 
 void EditorSession::setRecipe(const Recipe& recipe) {
   if (recipe == recipe_) return;
+  // A piece of the line on which corners are marked is selected then, though another line may be longer.
+  if (recipe.cornerMarks != recipe_.cornerMarks && selected()) runner_->markedContour = selected()->contour;
   keepCornerSelection(recipe.cornerMarks);
   recipe_ = recipe;
   ++runner_->recipeGeneration;

@@ -2,6 +2,7 @@
 #include "ui/session/session_runner.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -10,6 +11,9 @@
 
 namespace batten {
 namespace {
+
+/// Of its length: a curve that is longer or shorter by more is another one.
+constexpr double kOtherCurve = 0.2;
 
 std::size_t indexOf(StageId stage) { return static_cast<std::size_t>(stage); }
 
@@ -135,6 +139,7 @@ void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bo
   session.hoveredTarget_ = 0;
   targetsCurve.reset();
   anchorPx.reset();
+  markedContour.reset();
   selectsItself = true;
   shownGeneration.fill(0);
   ++recipeGeneration;
@@ -265,8 +270,10 @@ void EditorSession::Runner::curvesChanged() {
   int index = -1;
   if (selectsItself) {
     double longest = -1.0;
+    const auto isMarked = [this](const TracedCurve& curve) { return curve.contour == markedContour; };
+    const bool hasMarked = std::any_of(curves.begin(), curves.end(), isMarked);
     for (std::size_t i = 0; i < curves.size(); ++i)
-      if (curves[i].included && curves[i].sketchedFigures.lengthMm > longest) {
+      if (curves[i].included && (!hasMarked || isMarked(curves[i])) && curves[i].sketchedFigures.lengthMm > longest) {
         longest = curves[i].sketchedFigures.lengthMm;
         index = static_cast<int>(i);
       }
@@ -281,6 +288,13 @@ void EditorSession::Runner::curvesChanged() {
     }
   }
   session.selectedCurve_ = index;
+  if (const TracedCurve* marked = session.selected(); marked && markedContour && session.output_.pieces) {
+    const auto piece = static_cast<std::size_t>(marked->piece);
+    const auto& pieces = session.output_.pieces->pieces;
+    // From now on the user works on this line.
+    if (selectsItself && piece < pieces.size()) anchorPx = anchorOf(pieces[piece]), selectsItself = false;
+  }
+  markedContour.reset();
   if (index != before) emit session.selectionChanged();
   // Stages that were done when Esc was pressed still arrive: they begin nothing new.
   if (!isStopped) computeTargets();
@@ -313,6 +327,13 @@ void EditorSession::Runner::computeTargets() {
   targetsParams = params;
   const auto id = ++newestTargets;
   isTargeting = true;
+  // While one curve changes, its last outcomes stay; another curve's would be read as this one's.
+  const double length = curve->sketchedFigures.lengthMm;
+  const double before = std::exchange(targetsLengthMm, length);
+  if (session.targets_ && std::abs(length - before) > kOtherCurve * std::max(length, before)) {
+    session.targets_.reset();
+    emit session.targetsChanged();
+  }
   if (!session.isStale(StageId::Faired)) isStopped = false;
   targeting.start([this, id, job = *curve](const CancelToken& token) {
     RunContext context;

@@ -41,8 +41,10 @@ struct EditorSession::Runner {
   bool wasBusy = false, wasWorking = false, hasRunFailure = false, edgesWanted = false;
   bool selectsItself = true;  ///< Until the user selects: the longest curve.
   std::optional<Vec2> anchorPx;
+  std::optional<int> markedContour;  ///< Whose corners have changed since the curves were shown.
   std::optional<NurbsCurve> targetsCurve;
   FairingParams targetsParams;
+  double targetsLengthMm = 0.0;  ///< Of the curve whose outcomes are shown.
 
   /// A run that a newer request overtakes still gets this long since its start, so that a drag that never pauses shows
   /// results all the same.
