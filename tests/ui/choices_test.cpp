@@ -9,6 +9,7 @@
 #include <random>
 
 #include "tests/ui/window_fixture.h"
+#include "ui/panels/method_table.h"
 #include "ui/plots/curve_plots.h"
 #include "ui/session/extremum_marks.h"
 
@@ -107,6 +108,21 @@ TEST_F(Choices, AClickOnAnExtremumTakesItOutAndAnotherBringsItBack) {
   EXPECT_EQ(session().recipe().extremumChoices.size(), 1u);
   window_->action(ActionId::Undo)->trigger();
   EXPECT_TRUE(session().recipe().extremumChoices.empty());
+}
+
+TEST_F(Choices, TheMethodTableFollowsWhatIsTakenOut) {
+  open(wavePage());
+  auto* table = find<MethodTable>("construct.method.row");
+  const auto shown = [&] { return table->figures(ConstructMethod::Fair); };
+  ASSERT_TRUE(waitUntil([&] { return shown().has_value(); }));
+  const auto marks = extremumMarks(session(), session().selectedCurve());
+  ASSERT_NE(kept(marks), nullptr);
+  const double before = shown()->fromPoints.rms;
+  click(kept(marks)->px);
+  ASSERT_TRUE(settle());
+  const double now = session().selected()->sketchedFigures.fromPoints.rms;
+  ASSERT_GT(now, before) << "the line is followed less closely without its bump";
+  EXPECT_TRUE(waitUntil([&] { return shown() && shown()->fromPoints.rms == now; }, 20000));
 }
 
 TEST_F(Choices, HiddenMarksCannotBeClicked) {

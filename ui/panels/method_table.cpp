@@ -235,8 +235,9 @@ void MethodTable::compute() {
   const PipelineOutput& output = session_.output();
   if (!curve || !output.pieces || !output.segments || session_.isStale(StageId::Segments)) return;
   if (session_.isStopped()) return;
-  Source source{output.pieces,  output.segments, session_.recipe().construct, session_.recipe().segmentPoints,
-                curve->contour, curve->piece,    output.frame.mmPerPx};
+  const Recipe& chosen = session_.recipe();
+  Source source{output.pieces,          output.segments, chosen.construct, chosen.segmentPoints,
+                chosen.extremumChoices, curve->contour,  curve->piece,     output.frame.mmPerPx};
   source.params.method = ConstructMethod::Fair;  // whichever is chosen, all are compared
   if (source_ && *source_ == source) return;
   source_ = source;

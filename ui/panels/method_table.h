@@ -55,6 +55,7 @@ class MethodTable : public QWidget {
     std::shared_ptr<const SegmentSet> segments;
     ConstructParams params;
     std::vector<SegmentPoint> segmentPoints;
+    std::vector<ExtremumChoice> extremumChoices;
     int contour = -1, piece = -1;
     double mmPerPx = 0.0;
     bool operator==(const Source&) const = default;

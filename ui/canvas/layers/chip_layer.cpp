@@ -2,6 +2,7 @@
 #include <QCoreApplication>
 #include <QFontMetricsF>
 #include <QPen>
+#include <QStringList>
 #include <algorithm>
 #include <cmath>
 
@@ -17,8 +18,10 @@ constexpr double kPadX = 10.0, kPadY = 6.0;
 
 QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
-/// How the selected curve came about: its own method if it has one, or what took its place.
+/// How the selected curve came about: its own method if it has one, or what took its place. Nothing is known of a curve
+/// that an earlier choice left.
 QString methodText(const CanvasScene& scene, const TracedCurve& curve, int degree) {
+  if (scene.session.isStale(StageId::Curves)) return {};
   const PieceChoice* choice = choiceOf(scene.session, scene.session.selectedCurve());
   const bool own = choice != nullptr && choice->method.has_value();
   switch (own ? *choice->method : scene.session.recipe().construct.method) {
@@ -89,11 +92,10 @@ QString curveText(const CanvasScene& scene) {
   const NurbsCurve& shown = faired ? curve->faired : curve->sketched;
   const CurveFigures& figures =
       faired && curve->fairedFigures.lengthMm > 0.0 ? curve->fairedFigures : curve->sketchedFigures;
-  return tr("Curve %1 · %2 · %3 control points · %4 mm")
-      .arg(scene.session.selectedCurve() + 1)
-      .arg(methodText(scene, *curve, shown.degree()))
-      .arg(shown.controlPointCount())
-      .arg(number(figures.lengthMm, 1));
+  QStringList parts{tr("Curve %1").arg(scene.session.selectedCurve() + 1)};
+  if (const QString method = methodText(scene, *curve, shown.degree()); !method.isEmpty()) parts << method;
+  parts << tr("%1 control points").arg(shown.controlPointCount()) << tr("%1 mm").arg(number(figures.lengthMm, 1));
+  return parts.join(QStringLiteral(" · "));
 }
 
 QString pageText(const CanvasScene& scene) {
