@@ -205,6 +205,9 @@ void MainWindow::setStage(PanelStage stage) {
 }
 
 void MainWindow::enterStage(PanelStage stage) {
+  // The stack would hand the keys on to the first number of the next panel, where a tool's letter would be lost.
+  const QWidget* holder = focusWidget();
+  if (holder && parts_->inspector->isAncestorOf(holder)) parts_->canvas->setFocus(Qt::OtherFocusReason);
   parts_->inspector->setCurrentIndex(static_cast<int>(stage));
   parts_->status->setStageHint(batten::hint(stage));
   // What this stage works on is shown while it is open and what hides it is not; what the user switches stays as he
@@ -219,6 +222,8 @@ void MainWindow::enterStage(PanelStage stage) {
       view_.setVisible(layer, on);
     }
   };
+  // Marks that a click changes are shown where curves are judged, not where they would be in the way.
+  if (stage != PanelStage::Curves && stage != PanelStage::Fairing) turn(false, {Layer::Extrema});
   switch (stage) {
     case PanelStage::Scan:
       turn(true, {Layer::LogImage});
@@ -240,6 +245,7 @@ void MainWindow::enterStage(PanelStage stage) {
     case PanelStage::Corners:
       turn(true, {Layer::Corners, Layer::Curve});
       turn(false, {Layer::Faired, Layer::Comb});
+      showRoundings();
       break;
     case PanelStage::Curves:
       turn(true, {Layer::Curve});
@@ -253,9 +259,7 @@ void MainWindow::enterStage(PanelStage stage) {
       turn(false, {Layer::Comb});
       break;
   }
-  view_.setTool(stage == PanelStage::Threshold ? Tool::Thresholds
-                : stage == PanelStage::Corners ? Tool::Corners
-                                               : Tool::Select);
+  view_.setTool(usualTool(stage));
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
@@ -280,6 +284,14 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 void MainWindow::resizeEvent(QResizeEvent* event) {
   QMainWindow::resizeEvent(event);
   fitPlots();
+}
+
+// What had the keyboard has gone: it goes back to the drawing, whose keys are the tools', not into the next number.
+bool MainWindow::focusNextPrevChild(bool next) {
+  const QWidget* holder = focusWidget();
+  if (!holder || (holder->isVisible() && holder->isEnabled())) return QMainWindow::focusNextPrevChild(next);
+  parts_->canvas->setFocus(Qt::OtherFocusReason);
+  return true;
 }
 
 void MainWindow::fitPlots() {

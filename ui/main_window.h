@@ -56,6 +56,7 @@ class MainWindow : public QMainWindow {
   void closeEvent(QCloseEvent*) override;
   void changeEvent(QEvent*) override;
   void resizeEvent(QResizeEvent*) override;
+  bool focusNextPrevChild(bool next) override;
 
  private:
   void makeActions();
@@ -66,6 +67,7 @@ class MainWindow : public QMainWindow {
   void connectActions();
   void connectLayers();
   void showMerges();
+  void showRoundings();
   void trigger(ActionId id);
   void newDrawing();
   void chooseScan();

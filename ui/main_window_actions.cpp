@@ -13,6 +13,7 @@
 #include "ui/plots/curve_plots.h"
 #include "ui/session/piece_choice.h"
 #include "ui/session/region_edits.h"
+#include "ui/status_line.h"
 #include "ui/top_bar.h"
 
 namespace batten {
@@ -199,10 +200,24 @@ void MainWindow::showMerges() {
   }
 }
 
+// A rounding is seen on the curve as it will be exported; without one that would only hide the sketched one.
+void MainWindow::showRoundings() {
+  const auto& marks = session_.recipe().cornerMarks;
+  const bool isRounding =
+      std::any_of(marks.begin(), marks.end(), [](const CornerMark& mark) { return mark.roundMm > 0.0; });
+  const auto entry = std::find_if(parts_->stageLayers.begin(), parts_->stageLayers.end(),
+                                  [](const Parts::StageLayer& one) { return one.layer == Layer::Faired; });
+  // Without an entry the user has switched the layer himself.
+  if (entry == parts_->stageLayers.end()) return;
+  entry->during = isRounding;
+  view_.setVisible(Layer::Faired, isRounding);
+}
+
 void MainWindow::connectLayers() {
   connect(&session_, &EditorSession::recipeChanged, this, [this] {
     const bool isMerging = session_.recipe().edges.mergeWidths > 0.0;
     if (stage() == PanelStage::Edges && isMerging != parts_->isMerging) showMerges();
+    if (stage() == PanelStage::Corners) showRoundings();
   });
   const auto follow = [this] {
     for (const Layer layer : kLayers) action(showAction(layer))->setChecked(view_.isVisible(layer));
@@ -223,7 +238,10 @@ void MainWindow::connectLayers() {
       view_.setTool(tool);
     });
   connect(&view_, &ViewSettings::changed, this, follow);
-  connect(&view_, &ViewSettings::toolChanged, this, [this](Tool tool) { action(toolAction(tool))->setChecked(true); });
+  connect(&view_, &ViewSettings::toolChanged, this, [this](Tool tool) {
+    action(toolAction(tool))->setChecked(true);
+    parts_->status->setStageHint(tool == usualTool(stage()) ? hint(stage()) : actionInfo(toolAction(tool)).help);
+  });
   action(toolAction(view_.tool()))->setChecked(true);
   follow();
 }

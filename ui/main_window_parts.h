@@ -70,6 +70,13 @@ struct MainWindow::Parts {
   std::unique_ptr<BackgroundWorker> recentChecker = std::make_unique<BackgroundWorker>();
 };
 
+/// The tool that a stage begins with.
+inline Tool usualTool(PanelStage stage) {
+  return stage == PanelStage::Threshold ? Tool::Thresholds
+         : stage == PanelStage::Corners ? Tool::Corners
+                                        : Tool::Select;
+}
+
 /// A panel with a hairline at its left edge.
 class HairlineFrame : public QWidget {
   Q_OBJECT

@@ -26,6 +26,7 @@ class LinesTool final : public CanvasTool {
     scene_.session.selectCurve(*curve);
     setIncluded(scene_.session, *curve, !isIncluded(*curve));
     over_.reset();
+    scene_.hint(hintFor(curve));
     scene_.repaint();
   }
 
@@ -34,9 +35,7 @@ class LinesTool final : public CanvasTool {
     const auto over = scene_.curveNear(event.px);
     if (over != over_) scene_.repaint();
     over_ = over;
-    scene_.hint(!over_               ? tr("Click a line to leave it out, or to take it in again.")
-                : isIncluded(*over_) ? tr("Click to leave curve %1 out of fairing and export.").arg(*over_ + 1)
-                                     : tr("Click to take curve %1 in again.").arg(*over_ + 1));
+    scene_.hint(hintFor(over_));
   }
 
   void leave() override {
@@ -54,6 +53,11 @@ class LinesTool final : public CanvasTool {
   }
 
  private:
+  QString hintFor(std::optional<int> curve) const {
+    if (!curve) return tr("Click a line to leave it out, or to take it in again.");
+    return isIncluded(*curve) ? tr("Click to leave curve %1 out of fairing and export.").arg(*curve + 1)
+                              : tr("Click to take curve %1 in again.").arg(*curve + 1);
+  }
   bool isIncluded(int curve) const {
     const PieceChoice* choice = choiceOf(scene_.session, curve);
     return !choice || choice->included;

@@ -62,6 +62,7 @@ class PenTool final : public CanvasTool {
     stroke.closed = closes(event, stroke.points);
     // Closed lines begin and end at the same place: the way from the last point to the first is the line's own.
     if (!addStroke(scene_.session, std::move(stroke))) scene_.flash(event.px);
+    hover(event);
     scene_.repaint();
   }
 
