@@ -43,7 +43,15 @@ void NumberField::setUnit(const QString& unit) {
   unit_->setVisible(!unit.isEmpty());
 }
 
-QString NumberField::format(double value) const { return QString::number(value, 'f', decimals_); }
+void NumberField::setMinimumText(const QString& text) {
+  minimumText_ = text;
+  if (!empty_) edit_->setText(format(value_));
+}
+
+QString NumberField::format(double value) const {
+  if (!minimumText_.isEmpty() && value <= minimum_) return minimumText_;
+  return QString::number(value, 'f', decimals_);
+}
 
 void NumberField::setValue(double value) {
   const QString text = format(value);
@@ -67,7 +75,11 @@ void NumberField::commit() {
   if (!unit_->text().isEmpty() && text.endsWith(unit_->text())) text.chop(unit_->text().size());
   if (text.isEmpty() && empty_) return;
   bool ok = false;
-  const double typed = QLocale::c().toDouble(text, &ok);
+  double typed = QLocale::c().toDouble(text, &ok);
+  if (!minimumText_.isEmpty() && text.compare(minimumText_, Qt::CaseInsensitive) == 0) {
+    typed = minimum_;
+    ok = true;
+  }
   if (!ok || !std::isfinite(typed)) {
     // A word in a number field: keep it visible and marked; Escape brings the number back.
     show("wrong", true);

@@ -18,6 +18,8 @@ class NumberField : public QFrame {
   void setStep(double step) { step_ = step; }
   void setDecimals(int decimals) { decimals_ = decimals; }
   void setUnit(const QString& unit);
+  /// What the smallest value means, shown and taken in its place; empty = the number.
+  void setMinimumText(const QString& text);
   /// Shows a value; emits nothing.
   void setValue(double value);
   /// Shows that there is no value.
@@ -40,6 +42,7 @@ class NumberField : public QFrame {
 
   QLineEdit* edit_;
   QLabel* unit_;
+  QString minimumText_;
   double minimum_ = 0.0, maximum_ = 1.0, step_ = 0.0, value_ = 0.0;
   int decimals_ = 0;
   bool empty_ = true;

@@ -31,6 +31,13 @@ QStringList list(const std::vector<std::string>& words) {
   return out;
 }
 
+/// What the smallest value stands for where it is no number of its kind.
+QString minimumText(const std::string& name) {
+  if (name == "segments.count") return ParameterRow::tr("auto", "number of segments taken from the length");
+  if (name == "fairing.keep_extrema") return ParameterRow::tr("fewest", "as few extrema as the tolerance allows");
+  return {};
+}
+
 }  // namespace
 
 ParameterRow::ParameterRow(EditorSession& session, const Parameter& parameter, QWidget* parent)
@@ -124,6 +131,7 @@ void ParameterRow::buildNumber() {
   field_->setStep(parameter_.step);
   field_->setDecimals(parameter_.decimals);
   field_->setUnit(text(parameter_.unit));
+  field_->setMinimumText(minimumText(parameter_.name));
   field_->edit()->setObjectName(text(parameter_.name) + QStringLiteral(".field"));
   field_->edit()->setAccessibleName(text(parameter_.label));
   const int unitWidth = QFontMetrics(uiFont(11)).horizontalAdvance(text(parameter_.unit));

@@ -16,6 +16,9 @@
 namespace batten {
 namespace {
 
+/// Of the budget: a curve that moves less than this has not been faired.
+constexpr double kStill = 1e-3;
+
 /// The quantity that a tile draws: curvature, or the logarithm of the radius where the targets describe that.
 std::vector<double> drawn(const TargetOutcomes& outcomes, const TargetProfile* profile) {
   const TargetSet& set = outcomes.targets;
@@ -93,7 +96,7 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double bud
   tip += QLatin1Char('\n') + (oneCurve ? tr("Click or press %1: for the selected curve.").arg(degree_)
                                        : tr("Click or press %1: for all curves.").arg(degree_));
   if (outcomes_ && outcomes_->recommendedDegree == degree_)
-    spoken += isWithinBudget() ? tr(", recommended") : tr(", closest shape");
+    spoken += isAdvisable() ? tr(", recommended") : tr(", closest shape");
   if (!outcomes_ && !waiting_.isEmpty()) spoken += QStringLiteral(", ") + waiting_;
   if (chosen_) spoken += tr(", chosen");
   setAccessibleName(spoken);
@@ -106,6 +109,12 @@ bool TargetTile::isWithinBudget() const {
   if (!outcomes_ || !outcomes_->faired[index]) return false;
   const FairingReport& report = outcomes_->faired[index]->report;
   return report.withinBudget && report.maxDeviationMm <= budgetMm_ * (1 + 1e-9);
+}
+
+bool TargetTile::isAdvisable() const {
+  if (!isWithinBudget()) return false;
+  const FairingReport& report = outcomes_->faired[static_cast<std::size_t>(degree_ - 1)]->report;
+  return report.extremaAfter <= report.extremaBefore && report.maxDeviationMm > kStill * budgetMm_;
 }
 
 void TargetTile::paintEvent(QPaintEvent*) {
@@ -142,7 +151,7 @@ void TargetTile::paintTitle(QPainter& painter, const QRectF& title) const {
   const double numberWidth = painter.fontMetrics().horizontalAdvance(number) + 5;
   // The shape nearest to the sketch is only advice where the budget allows it.
   const bool isNearest = outcomes_ && outcomes_->recommendedDegree == degree_;
-  const bool isAdvised = isNearest && isWithinBudget();
+  const bool isAdvised = isNearest && isAdvisable();
   const QFontMetricsF metrics(uiFont(12)), small(uiFont(11));
   const double nameWidth = metrics.horizontalAdvance(degreeName(degree_));
   QString word = isAdvised ? tr("recommended") : isNearest ? tr("closest shape") : QString();
