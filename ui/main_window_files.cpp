@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <QAbstractButton>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -23,13 +24,15 @@ std::filesystem::path nativePath(const QString& path) { return {path.toStdU16Str
 bool isRecipeFile(const QString& path) { return path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive); }
 
 UnsavedAnswer askOnScreen(QWidget* window, const QString& drawing) {
-  QMessageBox box(QMessageBox::Question, QStringLiteral("Batten"),
+  QMessageBox box(QMessageBox::NoIcon, QStringLiteral("Batten"),
                   QObject::tr("%1 has changes that are not saved.").arg(drawing),
                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, window);
   box.setObjectName(QStringLiteral("unsavedBox"));
   box.setInformativeText(QObject::tr("Save the recipe, or give the changes up?"));
   box.button(QMessageBox::Save)->setText(QObject::tr("Save…"));
   box.button(QMessageBox::Discard)->setText(QObject::tr("Discard"));
+  // The words say it; the toolkit's pictures are from another house.
+  for (QAbstractButton* button : box.buttons()) button->setIcon({});
   box.setDefaultButton(QMessageBox::Save);
   switch (box.exec()) {
     case QMessageBox::Save:

@@ -65,6 +65,7 @@ NewDrawingDialog::NewDrawingDialog(QWidget* parent)
       tr("mm"));
   row(4, tr("Resolution"), QStringLiteral("newDrawing.dpi"), dpi_, kLowestDpi, kHighestDpi, kUsualDpi, tr("dpi"));
   auto* buttons = new QHBoxLayout;
+  buttons->setSpacing(8);
   auto* cancel = plainButton(tr("Cancel"), QStringLiteral("newDrawing.cancel"), this);
   begin_->setProperty("primary", true);
   begin_->setDefault(true);

@@ -5,6 +5,7 @@
 
 #include "core/image/log_transform.h"
 #include "ui/canvas/layers/vector_layers.h"
+#include "ui/session/growing_player.h"
 #include "ui/session/suggestion_source.h"
 
 namespace batten {
@@ -254,6 +255,7 @@ CurveCanvas::State::LinesKey CurveCanvas::State::linesKeyNow() const {
   key.combScale = view.combScale();
   key.combDensity = view.combDensity();
   key.selected = session.selectedCurve();
+  key.isGrowing = session.growing().isOpen();
   key.shapes = shapes.get();
   key.combs = combs.get();
   key.overlay = overlay.get();
@@ -277,7 +279,8 @@ void CurveCanvas::State::paintLines(const LinesKey& key) {
   if (view.isVisible(Layer::Segments)) paintSegments(painter, *this);
   if (view.isVisible(Layer::Curve)) paintSketched(painter, *this);
   if (view.isVisible(Layer::Faired)) paintFaired(painter, *this);
-  if (view.isVisible(Layer::Comb)) paintCombs(painter, *this);
+  // A chain that grows is watched alone.
+  if (view.isVisible(Layer::Comb) && !session.growing().isOpen()) paintCombs(painter, *this);
   if (view.isVisible(Layer::Deviation)) paintDeviation(painter, *this);
 }
 
@@ -323,7 +326,7 @@ void CurveCanvas::State::paint(QPainter& painter) {
   }
   if (!view.isScanOnly()) {
     paintRegions(painter, *this);
-    if (areExtremaShown()) paintExtrema(painter, *this);
+    if (areExtremaShown() && !session.growing().isOpen()) paintExtrema(painter, *this);
     if (view.isVisible(Layer::Corners)) paintCorners(painter, *this);
     if (view.isVisible(Layer::Regions) && view.tool() != Tool::Thresholds) paintRegionGrid(painter, *this);
     paintSegmentPoints(painter, *this);

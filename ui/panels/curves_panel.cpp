@@ -19,6 +19,7 @@
 #include "ui/panels/parameter_editor.h"
 #include "ui/panels/pin_panel.h"
 #include "ui/panels/slider_track.h"
+#include "ui/session/pen_edits.h"
 
 namespace batten {
 namespace {
@@ -151,7 +152,8 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
   if (!pieces || curve.piece < 0 || static_cast<std::size_t>(curve.piece) >= pieces->pieces.size()) return;
   const auto& refined = pieces->pieces[static_cast<std::size_t>(curve.piece)].refined;
   const auto fallback = std::count(refined.begin(), refined.end(), std::uint8_t{0});
-  if (fallback > 0)
+  // A line drawn by hand is where the hand drew it.
+  if (fallback > 0 && !strokeOf(session_, session_.selectedCurve()))
     rows.push_back({tr("Points not placed"),
                     {{tr("%1 of %2").arg(fallback).arg(refined.size())}},
                     tr("Points where the scan shows no clear edge; they lie on the pixel border.")});

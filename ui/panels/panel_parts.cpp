@@ -17,6 +17,7 @@ namespace batten {
 namespace {
 constexpr int kRowHeight = 24;
 constexpr int kColumnWidth = 64;
+constexpr int kWideColumn = 72;  // where the heads of many columns would touch
 }  // namespace
 
 QLabel* heading(const QString& text, QWidget* parent) {
@@ -91,7 +92,7 @@ void FigureTable::paintEvent(QPaintEvent*) {
   painter.setFont(uiFont(12));
   int y = 0;
   const auto columnRect = [&](int fromRight, int top, int columns) {
-    const int w = columns == 1 ? width() / 2 : kColumnWidth;
+    const int w = columns == 1 ? width() / 2 : columns > 3 ? kWideColumn : kColumnWidth;
     return QRect(width() - (fromRight + 1) * w, top, w, kRowHeight);
   };
   const int shownColumns = static_cast<int>(columns_.size());
@@ -99,7 +100,8 @@ void FigureTable::paintEvent(QPaintEvent*) {
     painter.setPen(theme.mute);
     painter.drawText(QRect(0, y, width(), kRowHeight), Qt::AlignVCenter | Qt::AlignLeft, first_);
     for (int c = 0; c < shownColumns; ++c)
-      painter.drawText(columnRect(shownColumns - 1 - c, y, 2), Qt::AlignVCenter | Qt::AlignRight, columns_[c]);
+      painter.drawText(columnRect(shownColumns - 1 - c, y, std::max(2, shownColumns)),
+                       Qt::AlignVCenter | Qt::AlignRight, columns_[c]);
     y += kRowHeight;
   }
   for (const Row& row : rows_) {

@@ -25,8 +25,17 @@ ComparedFigures figuresOf(const TracedCurve& curve) {
           variationEnergy(faired ? curve.faired : curve.sketched)};
 }
 
-/// Three digits, powers of ten where needed.
-QString energyText(double energy) { return QString::number(energy, 'g', 3); }
+/// Three digits; large ones as 2.79 · 10⁷.
+QString energyText(double energy) {
+  if (!(energy >= 1e4)) return QString::number(energy, 'g', 3);
+  static constexpr char16_t kRaised[] = u"⁰¹²³⁴⁵⁶⁷⁸⁹";
+  int exponent = static_cast<int>(std::floor(std::log10(energy)));
+  double digits = energy / std::pow(10.0, exponent);
+  if (digits >= 9.995) digits /= 10.0, ++exponent;
+  QString power;
+  for (const QChar digit : QString::number(exponent)) power += QChar(kRaised[digit.digitValue()]);
+  return QStringLiteral("%1 · 10%2").arg(digits, 0, 'f', 2).arg(power);
+}
 
 QString fairingText(FairingMode mode) { return mode == FairingMode::None ? QString() : PinPanel::tr(", faired"); }
 

@@ -38,7 +38,7 @@ ShapeWindow::ShapeWindow(EditorSession& session, QWidget* parent)
       recommendation_(note({}, this)) {
   setObjectName(QStringLiteral("shapes"));
   setWindowTitle(tr("Compare shapes"));
-  setMinimumWidth(500);
+  setMinimumWidth(548);
   first_->setObjectName(QStringLiteral("shapes.first"));
   second_->setObjectName(QStringLiteral("shapes.second"));
   first_->setAccessibleName(tr("First curve"));

@@ -4,6 +4,7 @@
 
 #include "ui/canvas/canvas_colors.h"
 #include "ui/canvas/layers/vector_layers.h"
+#include "ui/session/growing_player.h"
 
 namespace batten {
 namespace {
@@ -115,7 +116,9 @@ void paintSketched(QPainter& painter, const CanvasScene& scene) {
     }
     if (isSelected && !fairedIsShown(scene, shape)) {
       image.stroke(shape.sketched, colors::halo(), 7.0);
-      image.stroke(shape.sketched, colors::accent(), 1.8);
+      // What grows is drawn over it.
+      const bool isWatched = scene.session.growing().isOpen();
+      image.stroke(shape.sketched, isWatched ? colors::sketchedFaint() : colors::accent(), 1.8);
     } else {
       image.stroke(shape.sketched, colors::sketched(), isSelected ? 1.8 : 1.4);
     }

@@ -230,9 +230,15 @@ class ThresholdTool final : public CanvasTool {
       font.setBold(isOwn);
       painter.setFont(font);
       const bool isCertain = isOwn || (found && found->measured[k]);
-      painter.setPen(isOwn ? colors::accent() : QColor(30, 30, 30, isCertain ? 190 : 90));
-      painter.drawText(rectOf(r).adjusted(5, 3, -5, -3), Qt::AlignLeft | Qt::AlignTop,
-                       QString::number(level(r), 'f', 0));
+      const QString number = QString::number(level(r), 'f', 0);
+      // On a light ground of its own: there may be ink below.
+      const QRectF text(rectOf(r).topLeft() + QPointF(5.0, 3.0), QSizeF(painter.fontMetrics().size(0, number)));
+      painter.setPen(Qt::NoPen);
+      painter.setBrush(QColor(255, 255, 255, isCertain ? 190 : 110));
+      painter.drawRoundedRect(text.adjusted(-2.0, -0.5, 2.0, 0.5), 2.0, 2.0);
+      painter.setBrush(Qt::NoBrush);
+      painter.setPen(isOwn ? colors::accent() : QColor(30, 30, 30, isCertain ? 210 : 110));
+      painter.drawText(text, Qt::AlignCenter, number);
     }
     if (hovered_ < 0) return;
     const auto h = static_cast<std::size_t>(hovered_);
