@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What somebody meets who uses the window for the first time: where keys go, what a change shows, what words say.
+#include <gtest/gtest.h>
+
+#include <QAction>
+#include <QLabel>
+#include <QPushButton>
+#include <QTest>
+#include <algorithm>
+#include <cmath>
+
+#include "tests/ui/window_fixture.h"
+#include "ui/canvas/canvas_scene.h"
+#include "ui/canvas/comb_runs.h"
+#include "ui/canvas/layers/vector_layers.h"
+#include "ui/panels/number_field.h"
+
+namespace batten {
+namespace {
+
+using test::waitUntil;
+
+/// A long angle above a straight line that is longer than each of its sides.
+QImage angleAndLinePage() {
+  QImage page(QSize(700, 500), QImage::Format_Grayscale8);
+  page.fill(245);
+  page.setDotsPerMeterX(11811);
+  page.setDotsPerMeterY(11811);
+  QPainter painter(&page);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(QColor(30, 30, 30), 5.0, Qt::SolidLine, Qt::FlatCap, Qt::MiterJoin));
+  painter.drawPolyline(QPolygonF({{60, 300}, {340, 60}, {620, 300}}));
+  painter.drawLine(QPointF(80, 440), QPointF(600, 450));
+  return page;
+}
+
+class FirstSteps : public test::WindowFixture {
+ protected:
+  void round(double mm) {
+    Recipe recipe = session().recipe();
+    ASSERT_FALSE(recipe.cornerMarks.empty());
+    recipe.cornerMarks[0].roundMm = mm;
+    session().change(QStringLiteral("Round corner"), recipe);
+    ASSERT_TRUE(settle());
+  }
+  void markCorner(const Vec2& px) {
+    Recipe recipe = session().recipe();
+    recipe.cornerMarks.push_back({px});
+    session().change(QStringLiteral("Mark corner"), recipe);
+    ASSERT_TRUE(settle());
+  }
+  /// How far the selected line lies from a place [px].
+  double selectedTo(const Vec2& px) {
+    const TracedCurve* curve = session().selected();
+    if (!curve || !session().output().pieces) return 1e9;
+    double best = 1e9;
+    for (const Vec2& p : session().output().pieces->pieces[static_cast<std::size_t>(curve->piece)].points)
+      best = std::min(best, (p - px).norm());
+    return best;
+  }
+};
+
+TEST_F(FirstSteps, KeysGoToTheDrawingWhenWhatHadThemHasGone) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+  window_->setStage(PanelStage::Edges);
+  auto* field = find<QLineEdit>("contours.min_length.field");
+  field->setFocus();
+  ASSERT_TRUE(field->hasFocus());
+  window_->setStage(PanelStage::Curves);
+  EXPECT_EQ(window_->focusWidget(), find<CurveCanvas>("canvas"));
+  // The letter is a tool's again, not half of a number.
+  QTest::keyClick(window_->focusWidget(), Qt::Key_K);
+  EXPECT_EQ(window_->view().tool(), Tool::Corners);
+}
+
+TEST_F(FirstSteps, AButtonThatHasDoneItsWorkDoesNotHandItsKeysToANumber) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+  window_->setStage(PanelStage::Corners);
+  auto* all = find<QPushButton>("corners.takeAll");
+  ASSERT_TRUE(waitUntil([&] { return all->isEnabled(); }));
+  all->setFocus();
+  all->click();
+  ASSERT_TRUE(waitUntil([&] { return !all->isEnabled(); }));
+  EXPECT_TRUE(waitUntil([&] { return qobject_cast<QLineEdit*>(window_->focusWidget()) == nullptr; }));
+}
+
+TEST_F(FirstSteps, ARoundingIsSeenWhereItIsSet) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+  ASSERT_NO_FATAL_FAILURE(markCorner({200, 100}));
+  window_->setStage(PanelStage::Corners);
+  EXPECT_FALSE(window_->view().isVisible(Layer::Faired)) << "the sketched curve is what corners are marked on";
+  ASSERT_NO_FATAL_FAILURE(round(3.0));
+  EXPECT_TRUE(window_->view().isVisible(Layer::Faired));
+  session().undoStack()->undo();
+  EXPECT_FALSE(window_->view().isVisible(Layer::Faired));
+  session().undoStack()->redo();
+  window_->setStage(PanelStage::Edges);
+  EXPECT_FALSE(window_->view().isVisible(Layer::Faired));
+  window_->setStage(PanelStage::Corners);
+  EXPECT_TRUE(window_->view().isVisible(Layer::Faired)) << "a rounding from before is seen, too";
+  window_->setStage(PanelStage::Fairing);
+  EXPECT_TRUE(window_->view().isVisible(Layer::Faired));
+}
+
+TEST_F(FirstSteps, MarkingACornerDoesNotSelectAnotherLine) {
+  ASSERT_NO_FATAL_FAILURE(openPage(angleAndLinePage()));
+  ASSERT_EQ(session().curves().size(), 2u);
+  ASSERT_LT(selectedTo({200, 180}), 3.0) << "the angle is the longest line";
+  ASSERT_NO_FATAL_FAILURE(markCorner({340, 60}));
+  ASSERT_EQ(session().curves().size(), 3u);
+  EXPECT_LT(std::min(selectedTo({200, 180}), selectedTo({480, 180})), 3.0) << "one side of it stays selected";
+}
+
+TEST_F(FirstSteps, TilesOfALineThatIsGoneAreNotShownForAnother) {
+  ASSERT_NO_FATAL_FAILURE(openPage(angleAndLinePage()));
+  ASSERT_TRUE(waitUntil([&] { return session().targets() && !session().isTargeting(); }));
+  const auto before = session().targets();
+  bool wasShown = false;
+  QObject::connect(&session(), &EditorSession::runFinished, window_.get(),
+                   [&] { wasShown = wasShown || session().targets() == before; });
+  ASSERT_NO_FATAL_FAILURE(markCorner({340, 60}));
+  EXPECT_FALSE(wasShown);
+  ASSERT_TRUE(waitUntil([&] { return session().targets() && !session().isTargeting(); }));
+}
+
+TEST_F(FirstSteps, BumpsAreMarkedWhereCurvesAreJudged) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::ellipsePage()));
+  for (const PanelStage stage : {PanelStage::Edges, PanelStage::Corners, PanelStage::Export}) {
+    window_->setStage(stage);
+    EXPECT_FALSE(window_->view().isVisible(Layer::Extrema));
+  }
+  for (const PanelStage stage : {PanelStage::Curves, PanelStage::Fairing}) {
+    window_->setStage(stage);
+    EXPECT_TRUE(window_->view().isVisible(Layer::Extrema));
+  }
+}
+
+TEST_F(FirstSteps, TheHintSpeaksOfTheToolInHand) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+  window_->setStage(PanelStage::Corners);
+  const auto* hint = find<QLabel>("status.hint");
+  const QString atCorners = hint->text();
+  window_->action(ActionId::ToolLines)->trigger();
+  EXPECT_EQ(hint->text(), actionInfo(ActionId::ToolLines).help);
+  window_->action(ActionId::ToolCorners)->trigger();
+  EXPECT_EQ(hint->text(), atCorners);
+}
+
+TEST_F(FirstSteps, AnOldResultIsNotCalledAFallback) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::ellipsePage()));
+  ASSERT_NE(session().selected(), nullptr);
+  const CanvasScene scene(session(), window_->view());
+  EXPECT_TRUE(curveText(scene).contains(QStringLiteral("fair"))) << curveText(scene).toStdString();
+  Recipe recipe = session().recipe();
+  recipe.construct.method = ConstructMethod::Typical;
+  session().change(QStringLiteral("Method"), recipe);
+  ASSERT_TRUE(session().isStale(StageId::Curves)) << "the run cannot have ended before events were handled";
+  EXPECT_FALSE(curveText(scene).contains(QStringLiteral("do not fit"))) << curveText(scene).toStdString();
+  ASSERT_TRUE(settle());
+}
+
+TEST(NumberField, SaysWhatItsSmallestValueMeans) {
+  NumberField field;
+  field.setRange(-1.0, 99.0);
+  field.setMinimumText(QStringLiteral("fewest"));
+  field.setValue(-1.0);
+  EXPECT_EQ(field.edit()->text(), QStringLiteral("fewest"));
+  field.setValue(0.0);
+  EXPECT_EQ(field.edit()->text(), QStringLiteral("0"));
+  double given = 7.0;
+  QObject::connect(&field, &NumberField::committed, [&](double value) { given = value; });
+  field.edit()->setText(QStringLiteral("Fewest"));
+  QTest::keyClick(field.edit(), Qt::Key_Return);
+  EXPECT_EQ(given, -1.0);
+  EXPECT_EQ(field.edit()->text(), QStringLiteral("fewest"));
+}
+
+/// A comb over a straight line along x whose curvature is given.
+std::vector<CombPoint> combOf(const std::vector<double>& kappa) {
+  std::vector<CombPoint> points(kappa.size());
+  for (std::size_t i = 0; i < kappa.size(); ++i) {
+    points[i].px = Vec2(double(i), 0.0);
+    points[i].outPx = Vec2(0.0, -1.0);
+    points[i].kappa = kappa[i];
+    points[i].s = double(i);
+  }
+  return points;
+}
+
+TEST(CombRuns, ASharpPlaceIsOneCutQuill) {
+  std::vector<double> kappa(200, 0.1);
+  kappa[100] = 5.0;
+  kappa[101] = 7.0;
+  kappa[102] = -6.0;
+  const CombScale scale = combScaleFor({0.1, 100.0, 200.0, 2}, 1.0, 1000.0);
+  const auto points = combOf(kappa);
+  const auto runs = combRuns(points, scale);
+  ASSERT_EQ(runs.size(), 4u);
+  EXPECT_FALSE(runs[0].isCut);
+  EXPECT_TRUE(runs[1].isCut && runs[1].isSpike);
+  EXPECT_EQ(runs[1].peak, 101u);
+  EXPECT_TRUE(runs[2].isCut && runs[2].isSpike) << "to the other side it is another one";
+  EXPECT_FALSE(runs[3].isCut);
+  std::size_t next = 0;
+  for (const CombRun& run : runs) {
+    EXPECT_EQ(run.first, next);
+    next = run.last + 1;
+  }
+  EXPECT_EQ(next, points.size());
+  // At 1 / mm a quill of 130 px would be due (0.13 of 100 px at 0.1 / mm).
+  const CombPoint crossing = combCrossing(points[99], points[100], scale);
+  EXPECT_NEAR(std::abs(scale.heightOf(crossing.kappa)), scale.limitPx, 1e-9);
+  EXPECT_GT(crossing.px.x(), 99.0);
+  EXPECT_LT(crossing.px.x(), 100.0);
+}
+
+TEST(CombRuns, AnEvenCombIsNeverCutAndALowerOneShowsMore) {
+  const auto points = combOf(std::vector<double>(50, 0.02));
+  const CombedCurve smooth{0.02, 400.0, 500.0, 1};
+  const auto whole = combRuns(points, combScaleFor(smooth, 1.0, 1000.0));
+  ASSERT_EQ(whole.size(), 1u);
+  EXPECT_FALSE(whole[0].isCut);
+  const CombScale usual = combScaleFor(smooth, 1.0, 1000.0), low = combScaleFor(smooth, 0.2, 1000.0);
+  EXPECT_TRUE(usual.cuts(0.08));
+  EXPECT_FALSE(low.cuts(0.08));
+  EXPECT_LE(combScaleFor(smooth, 20.0, 300.0).limitPx, 150.0) << "never more than half of the view";
+  EXPECT_EQ(combScaleFor({0.0, 400.0, 500.0, 1}, 1.0, 1000.0).pxPerKappa, 0.0);
+  EXPECT_TRUE(combRuns({}, usual).empty());
+}
+
+TEST(CombRuns, ALineOfManyBendsHasALowerComb) {
+  const CombScale plain = combScaleFor({0.1, 400.0, 1200.0, 4}, 1.0, 1000.0);
+  const CombScale wavy = combScaleFor({0.1, 400.0, 1200.0, 60}, 1.0, 1000.0);
+  EXPECT_NEAR(plain.pxPerKappa * 0.1, 0.13 * 400.0, 1e-9);
+  EXPECT_NEAR(wavy.pxPerKappa * 0.1, 1200.0 / 61.0, 1e-9) << "a quill about as long as a bend";
+  EXPECT_GT(combScaleFor({0.1, 400.0, 1200.0, 5000}, 1.0, 1000.0).pxPerKappa, 0.0);
+}
+
+}  // namespace
+}  // namespace batten
