@@ -137,18 +137,21 @@ class Follower {
     if (count_ == 0) {
       found = closestWith(table_, p);
     } else {
-      found = descend(curve_, p, last_.u, std::max(curve_.start(), last_.u - window_),
-                      std::min(curve_.end(), last_.u + window_));
+      found = descend(curve(), p, last_.u, std::max(curve().start(), last_.u - window_),
+                      std::min(curve().end(), last_.u + window_));
       if (closed_) found = acrossSeam(p, found);
       const double possible = last_.distance + (p - lastPoint_).norm();
       const double usual = std::sqrt(sumSquares_ / count_);
-      if (found.distance > possible * (1.0 + 1e-9) || found.distance > 3.0 * usual) {
+      // A larger distance than any before is never taken on trust: a search that has lost its branch creeps away by no
+      // more than is possible, and makes the large distance the usual one.
+      if (found.distance > possible * (1.0 + 1e-9) || found.distance > 3.0 * usual || found.distance > largest_) {
         const ClosestPoint anywhere = closestWith(table_, p);
         if (anywhere.distance < found.distance) found = anywhere;
       }
     }
     ++count_;
     sumSquares_ += found.distance * found.distance;
+    largest_ = std::max(largest_, found.distance);
     last_ = found;
     lastPoint_ = p;
     return found;
@@ -160,19 +163,21 @@ class Follower {
   }
   ClosestPoint acrossSeam(const Vec2& p, const ClosestPoint& found) const {
     ClosestPoint other = found;
-    if (found.u >= curve_.end()) other = descend(curve_, p, curve_.start(), curve_.start(), curve_.start() + window_);
-    if (found.u <= curve_.start()) other = descend(curve_, p, curve_.end(), curve_.end() - window_, curve_.end());
+    if (found.u >= curve().end())
+      other = descend(curve(), p, curve().start(), curve().start(), curve().start() + window_);
+    if (found.u <= curve().start()) other = descend(curve(), p, curve().end(), curve().end() - window_, curve().end());
     return other.distance < found.distance ? other : found;
   }
 
+  const SpanPolynomials& curve() const { return table_.polynomials; }
+
   StartTable table_;
-  const SpanPolynomials& curve_ = table_.polynomials;
   bool closed_;
   double window_;
   ClosestPoint last_;
   Vec2 lastPoint_ = Vec2::Zero();
   int count_ = 0;
-  double sumSquares_ = 0.0;
+  double sumSquares_ = 0.0, largest_ = 0.0;
 };
 
 Deviation summary(std::span<const Vec2> points, std::vector<double> distances) {

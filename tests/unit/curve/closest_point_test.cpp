@@ -44,5 +44,17 @@ TEST(ClosestPoint, FindsTheTipOfEveryHairpin) {
   }
 }
 
+TEST(Deviation, IsNotLostWhereTheFirstPointHasTwoSides) {
+  // 10 out and back, then on the other way: the first point lies nearer to the side that leads nowhere.
+  const auto curve =
+      NurbsCurve::make(2, {0, 0, 0, 1, 2, 3, 4, 4, 4}, {{0, 0}, {8, 0}, {10, 0.5}, {8, 1}, {-200, 1}, {-300, 1}})
+          .value();
+  std::vector<Vec2> points;
+  for (int x = 0; x >= -300; --x) points.emplace_back(x, 0.4);
+  double largest = 0.0;
+  for (const Vec2& p : points) largest = std::max(largest, bruteForce(curve, p));
+  for (const bool ordered : {false, true}) EXPECT_NEAR(deviation(curve, points, ordered).max, largest, 1e-3);
+}
+
 }  // namespace
 }  // namespace batten
