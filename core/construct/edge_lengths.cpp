@@ -15,34 +15,14 @@ constexpr double kPinned = 1e4;
 /// Keeps lengths that the curvature does not tell where they are.
 constexpr double kStay = 1e-4;
 
-struct Sample {
-  Vec2 point, first, second;
-};
-
-Sample sampleAt(const Quintic& q, double t) {
-  std::array<Vec2, 6> b = q;
-  std::array<std::array<Vec2, 6>, 3> levels{};
-  for (std::size_t n = 5; n > 0; --n) {
-    if (n == 2) levels[2] = b;
-    if (n == 1) levels[1] = b;
-    for (std::size_t i = 0; i < n; ++i) b[i] += t * (b[i + 1] - b[i]);
-  }
-  return {b[0], 5.0 * (levels[1][1] - levels[1][0]), 20.0 * (levels[2][2] - 2.0 * levels[2][1] + levels[2][0])};
-}
-
-double curvatureAt(const Quintic& q, double t) {
-  const Sample s = sampleAt(q, t);
-  return cross(s.first, s.second) / std::pow(s.first.norm(), 3.0);
-}
-
 /// Arc lengths at the samples by the trapezoid rule on ten times as many.
 std::vector<double> lengthsAt(const Quintic& q, int samples) {
   constexpr int kFine = 10;
   std::vector<double> lengths = {0.0};
-  double length = 0.0, before = sampleAt(q, 0.0).first.norm();
+  double length = 0.0, before = evaluate(q, 0.0).first.norm();
   const double step = 1.0 / ((samples - 1) * kFine);
   for (int i = 1; i <= (samples - 1) * kFine; ++i) {
-    const double speed = sampleAt(q, i * step).first.norm();
+    const double speed = evaluate(q, i * step).first.norm();
     length += 0.5 * step * (before + speed);
     before = speed;
     if (i % kFine == 0) lengths.push_back(length);
@@ -115,7 +95,7 @@ LevenbergResult solvePiece(const Quintic& q, const Edges& edges, std::span<const
     const Quintic moved = withLengths(q[0], edges, x);
     for (int i = 0; i < n; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      r[at] = share * (curvatureAt(moved, static_cast<double>(i) / (n - 1)) - wanted[at]) / scale;
+      r[at] = share * (evaluate(moved, static_cast<double>(i) / (n - 1)).curvature() - wanted[at]) / scale;
     }
     for (std::size_t i = 0; i < 5; ++i) r[static_cast<std::size_t>(n) + i] = kStay * x[i];
     if (!pin) return;
@@ -130,7 +110,7 @@ double squaredMisfit(const Quintic& q, std::span<const double> wanted, double sc
   double sum = 0.0;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const double t = static_cast<double>(i) / static_cast<double>(wanted.size() - 1);
-    sum += std::pow((curvatureAt(q, t) - wanted[i]) / scale, 2);
+    sum += std::pow((evaluate(q, t).curvature() - wanted[i]) / scale, 2);
   }
   return sum / static_cast<double>(wanted.size());
 }

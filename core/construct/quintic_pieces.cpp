@@ -32,6 +32,19 @@ struct EndEdge {
 
 }  // namespace
 
+QuinticPoint evaluate(const Quintic& q, double t) {
+  Quintic b = q;
+  const auto lower = [&](std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) b[i] += t * (b[i + 1] - b[i]);
+  };
+  for (std::size_t n = 5; n > 2; --n) lower(n);
+  const Vec2 second = 20.0 * (b[2] - 2.0 * b[1] + b[0]);
+  lower(2);
+  const Vec2 first = 5.0 * (b[1] - b[0]);
+  lower(1);
+  return {b[0], first, second};
+}
+
 Quintic elevatedCubic(const Vec2& q0, const Vec2& q1, const Vec2& q2, const Vec2& q3) {
   return raised(raised(std::array<Vec2, 4>{q0, q1, q2, q3}));
 }

@@ -15,6 +15,17 @@ namespace batten {
 /// Bezier points of one quintic piece.
 using Quintic = std::array<Vec2, 6>;
 
+/// Place and derivatives at parameter t in 0..1, by de Casteljau.
+struct QuinticPoint {
+  Vec2 point, first, second;
+
+  double curvature() const {
+    const double speed = first.norm();
+    return cross(first, second) / (speed * speed * speed);
+  }
+};
+QuinticPoint evaluate(const Quintic& q, double t);
+
 /// A quadratic or cubic piece as a quintic, the same shape (001 section 5).
 Quintic elevatedQuadratic(const Vec2& q0, const Vec2& q1, const Vec2& q2);
 Quintic elevatedCubic(const Vec2& q0, const Vec2& q1, const Vec2& q2, const Vec2& q3);

@@ -44,6 +44,31 @@ TEST(QuinticPieces, ElevatedCubicIsTheCubic) {
   for (int i = 0; i <= 20; ++i) EXPECT_LT((cubic.point(i / 20.0) - quintic.point(i / 20.0)).norm(), 1e-13);
 }
 
+TEST(QuinticPieces, PlacesAndDerivativesAreThoseOfThePolynomial) {
+  std::mt19937 random(8);
+  std::normal_distribution<double> where(0.0, 10.0);
+  Quintic q;
+  for (Vec2& p : q) p = {where(random), where(random)};
+  // Sums of Bernstein polynomials, of degree 5, 4 and 3.
+  const auto sum = [](int n, double t, const auto& value) {
+    Vec2 result = Vec2::Zero();
+    double binomial = 1.0;
+    for (int i = 0; i <= n; binomial *= static_cast<double>(n - i) / (i + 1), ++i) {
+      result += binomial * std::pow(t, i) * std::pow(1.0 - t, n - i) * value(static_cast<std::size_t>(i));
+    }
+    return result;
+  };
+  for (const double t : {0.0, 0.3, 0.77, 1.0}) {
+    const QuinticPoint at = evaluate(q, t);
+    EXPECT_LT((at.point - sum(5, t, [&](std::size_t i) { return q[i]; })).norm(), 1e-12);
+    const Vec2 first = sum(4, t, [&](std::size_t i) { return Vec2(5.0 * (q[i + 1] - q[i])); });
+    const Vec2 second = sum(3, t, [&](std::size_t i) { return Vec2(20.0 * (q[i + 2] - 2.0 * q[i + 1] + q[i])); });
+    EXPECT_LT((at.first - first).norm(), 1e-11);
+    EXPECT_LT((at.second - second).norm(), 1e-10);
+    EXPECT_NEAR(at.curvature(), cross(first, second) / std::pow(first.norm(), 3.0), 1e-10);
+  }
+}
+
 TEST(QuinticPieces, EndCurvaturesMatchTheKnownAnswer) {
   const auto known = answer("end_curvature");
   const Quintic q = toQuintic(known.at("Q"));
