@@ -11,7 +11,7 @@ namespace batten {
 
 namespace {
 
-/// Short segments are faired over this length all the same.
+/// The least length of the low pass; where stations were set closer, the least is shorter by as much.
 constexpr double kShortestLowPassPx = 20.0;
 /// Weights of one px: offset of a joint, turn of a joint (over a quarter of a segment), sagitta of a segment that the
 /// curvature misses, change of that miss along a segment. Tuned on ellipses and roof lines with noise of 0 to 0.3 px.
@@ -21,21 +21,6 @@ constexpr double kLevelWeight = 0.05;
 constexpr double kChangeWeight = 3.0;
 /// Places within a piece, as shares of its length, at which the curvature is compared; the start stands for the joint.
 constexpr std::array<double, 5> kPlaces = {0.0, 0.2, 0.4, 0.6, 0.8};
-
-double bezierCurvature(const Quintic& q, double t) {
-  std::array<Vec2, 5> d;
-  for (std::size_t i = 0; i < 5; ++i) d[i] = 5.0 * (q[i + 1] - q[i]);
-  std::array<Vec2, 4> dd;
-  for (std::size_t i = 0; i < 4; ++i) dd[i] = 4.0 * (d[i + 1] - d[i]);
-  for (std::size_t n = 4; n > 0; --n) {
-    for (std::size_t i = 0; i < n; ++i) d[i] += t * (d[i + 1] - d[i]);
-  }
-  for (std::size_t n = 3; n > 0; --n) {
-    for (std::size_t i = 0; i < n; ++i) dd[i] += t * (dd[i + 1] - dd[i]);
-  }
-  const double speed = d[0].norm();
-  return cross(d[0], dd[0]) / (speed * speed * speed);
-}
 
 Vec2 turned(const Vec2& v, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -93,7 +78,7 @@ class Chain {
         for (std::size_t k = 0; k <= kCount; ++k) {
           const bool end = k == kCount;
           const double target = end ? targets[j * kCount] : targets[i * kCount + k];
-          const double miss = weight * (bezierCurvature(q, end ? 1.0 : kPlaces[k]) - target);
+          const double miss = weight * (evaluate(q, end ? 1.0 : kPlaces[k]).curvature() - target);
           if (!end) r[k] = kLevelWeight * miss;
           if (k > 0) r[kCount + k - 1] = kChangeWeight * (miss - last);
           last = miss;
@@ -189,20 +174,12 @@ struct TurningData {
   }
 };
 
-Vec2 pointOf(const Quintic& q, double t) {
-  Quintic p = q;
-  for (std::size_t n = 5; n > 0; --n) {
-    for (std::size_t i = 0; i < n; ++i) p[i] += t * (p[i + 1] - p[i]);
-  }
-  return p[0];
-}
-
 std::vector<std::vector<Vec2>> polylinesOf(const std::vector<Quintic>& path) {
   constexpr int kSteps = 16;
   std::vector<std::vector<Vec2>> lines;
   for (const Quintic& q : path) {
     auto& line = lines.emplace_back();
-    for (int k = 0; k <= kSteps; ++k) line.push_back(pointOf(q, static_cast<double>(k) / kSteps));
+    for (int k = 0; k <= kSteps; ++k) line.push_back(evaluate(q, static_cast<double>(k) / kSteps).point);
   }
   return lines;
 }
@@ -309,26 +286,38 @@ StationSet bezierStations(const ConstructPiece& piece, double pixelMm, const Con
   return closerStations(piece, std::move(set), pixelMm, params.closenessPx, faired, context);
 }
 
-Result<ConstructedPiece> constructBezierChain(const ConstructPiece& piece, double pixelMm,
-                                              const ConstructParams& params, const RunContext& context) {
-  if (context.isCancelled()) return cancelled();
-  const StationSet set = bezierStations(piece, pixelMm, params, context);
-  if (set.stations.size() < (piece.closed ? 3u : 2u)) {
-    return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
-  }
-  if (params.lowPass == 0.0) {
-    auto plain = plainPath(set.stations, piece.closed);
-    if (plain) plain->report.stationsAdded = set.added;
-    return plain;
-  }
-  const FairedJoints faired = fairedJoints(set, piece.closed, pixelMm, params.lowPass, context);
+namespace {
+
+Result<ConstructedPiece> chainThrough(const StationSet& set, bool closed, double pixelMm, double lowPass,
+                                      const RunContext& context) {
+  if (lowPass == 0.0) return plainPath(set.stations, closed);
+  const FairedJoints faired = fairedJoints(set, closed, pixelMm, lowPass, context);
   if (context.isCancelled()) return cancelled();
   auto curve = hermiteChain(faired.joints, faired.lengths);
   if (!curve) return fail(curve.error());
   ConstructedPiece result{std::move(*curve), {}};
   result.report.why = faired.why;
-  result.report.stationsAdded = set.added;
   return result;
+}
+
+}  // namespace
+
+Result<ConstructedPiece> constructBezierChain(const ConstructPiece& piece, double pixelMm,
+                                              const ConstructParams& params, const RunContext& context) {
+  if (context.isCancelled()) return cancelled();
+  StationSet set = bezierStations(piece, pixelMm, params, context);
+  if (set.stations.size() < (piece.closed ? 3u : 2u)) {
+    return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
+  }
+  auto made = chainThrough(set, piece.closed, pixelMm, params.lowPass, context);
+  if (!made && set.added > 0 && !context.isCancelled()) {
+    set = givenStations(usableStations(piece, 6));
+    made = chainThrough(set, piece.closed, pixelMm, params.lowPass, context);
+  }
+  if (!made) return made;
+  made->report.stationsAdded = set.added;
+  made->report.note = closenessNote(set);
+  return made;
 }
 
 }  // namespace batten

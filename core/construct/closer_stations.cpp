@@ -2,8 +2,12 @@
 #include "core/construct/closer_stations.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <optional>
+#include <span>
 
 #include "core/contour/station_meter.h"
 
@@ -14,8 +18,27 @@ namespace {
 constexpr double kAveragedPx = 5.0;
 /// Closer stations would follow the pixels.
 constexpr double kClosestPx = 3.0;
+/// Means over 5 px leave a true line by so many times the noise of a point.
+constexpr double kNoises = 1.5;
+/// What lies as many times the limit away is told: less is no news.
+constexpr double kTold = 1.1;
+/// A gap between the points as long as this part of an interval leaves too few of them for its halves.
+constexpr double kGapShare = 0.34;
 constexpr int kMostRounds = 10;
 constexpr std::size_t kMostStations = 2000;
+
+/// Noise [px] of points that stand evenly: what the third differences, across the line, tell of it.
+double noiseOf(const MeasuredPiece& piece) {
+  std::vector<double> sizes;
+  for (int i = 0; i + 3 < piece.count(); ++i) {
+    const Vec2 chord = piece.point(i + 3) - piece.point(i), inner = piece.point(i + 2) - piece.point(i + 1);
+    if (chord.norm() > 0.0) sizes.push_back(std::abs(cross(chord.normalized(), chord - 3.0 * inner)));
+  }
+  if (sizes.empty()) return 0.0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return 1.4826 * *middle / std::sqrt(20.0);
+}
 
 /// Signed distance of a point from the nearest of some polylines.
 double distanceFrom(const Vec2& p, std::span<const std::vector<Vec2>* const> lines) {
@@ -37,7 +60,9 @@ double distanceFrom(const Vec2& p, std::span<const std::vector<Vec2>* const> lin
 class Refiner {
  public:
   Refiner(const Piece& piece, const ConstructPiece& given, StationSet start, double pixelMm, double tolerancePx)
-      : meter_(piece), given_(given), set_(std::move(start)), pixelMm_(pixelMm), tolerancePx_(tolerancePx) {}
+      : meter_(piece), given_(given), set_(std::move(start)), pixelMm_(pixelMm) {
+    limitPx_ = std::max(tolerancePx, kNoises * noiseOf(meter_));
+  }
 
   /// Arc lengths of the stations; false where the points do not go along with them.
   bool placeStations() {
@@ -48,29 +73,45 @@ class Refiner {
     if (!(run.back() > 0.0) || !(meter_.length() > 0.0)) return false;
     const double scale = meter_.length() / run.back();
     const double reach = 2.0 * meter_.length() / static_cast<double>(n);
-    const double first = given_.closed ? nearest(stationPx(0), 0.0, meter_.length()) : 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-      const double guess = first + scale * run[i];
-      const double s = i == 0 && given_.closed ? first : nearest(stationPx(i), guess - reach, guess + reach);
+      const double guess = (i > 0 ? s_.front() : 0.0) + scale * run[i];
+      double s = set_.stations[i].along * meter_.length();
+      // A station at a free end stands for it, however far from it a turn there has put it.
+      if (!given_.closed && (i == 0 || i + 1 == n)) s = i == 0 ? 0.0 : meter_.length();
+      if (std::isnan(s)) {
+        s = i > 0 ? nearest(stationPx(i), guess - reach, guess + reach) : nearest(stationPx(i), 0.0, meter_.length());
+      }
       if (i > 0 && !(s > s_.back() + 1e-6 * meter_.length())) return false;
       s_.push_back(s);
     }
     return !given_.closed || s_.back() < s_.front() + meter_.length();
   }
 
-  /// Halves the intervals whose curve leaves the points; false if there was none.
-  bool divide(const std::vector<std::vector<Vec2>>& curve) {
-    const std::size_t intervals = s_.size() - (given_.closed ? 0 : 1);
-    if (curve.size() != intervals) return false;
-    std::vector<char> halved(intervals, 0);
-    bool any = false;
-    for (std::size_t i = 0; i < intervals; ++i) {
-      if (length(i) < 2.0 * kClosestPx || !(worst(curve, i) > tolerancePx_)) continue;
-      halved[i] = 1;
-      any = true;
+  /// How far the points lie from the curve; false where it is no curve through the stations.
+  bool measure(const std::vector<std::vector<Vec2>>& curve) {
+    if (curve.size() != s_.size() - (given_.closed ? 0 : 1)) return false;
+    for (const auto& line : curve) {
+      if (!std::all_of(line.begin(), line.end(), [](const Vec2& p) { return p.allFinite(); })) return false;
     }
-    if (!any || s_.size() >= kMostStations) return false;
+    away_.clear();
+    excess_ = set_.missedPx = 0.0;
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      away_.push_back(worst(curve, i));
+      if (away_[i] > kTold * limitPx_) set_.missedPx = std::max(set_.missedPx, away_[i]);
+      excess_ += length(i) * std::pow(std::max(0.0, away_[i] - limitPx_), 2);
+    }
+    return true;
+  }
+  /// What `measure` found beyond the limit, over the whole piece.
+  double excess() const { return excess_; }
+
+  /// Halves the intervals whose curve leaves the points; false if there was none.
+  bool divide() {
+    std::vector<char> halved(away_.size(), 0);
+    for (std::size_t i = 0; i < halved.size(); ++i) halved[i] = away_[i] > limitPx_ && mayHalve(i);
     grade(halved);
+    const auto more = static_cast<std::size_t>(std::count(halved.begin(), halved.end(), 1));
+    if (more == 0 || s_.size() + more > kMostStations) return false;
     insert(halved);
     return true;
   }
@@ -81,6 +122,17 @@ class Refiner {
   Vec2 stationPx(std::size_t i) const { return set_.stations[i].point / pixelMm_; }
   double end(std::size_t i) const { return i + 1 < s_.size() ? s_[i + 1] : s_.front() + meter_.length(); }
   double length(std::size_t i) const { return end(i) - s_[i]; }
+
+  /// True where both halves keep points to be measured from.
+  bool mayHalve(std::size_t i) const {
+    if (length(i) < 2.0 * kClosestPx) return false;
+    int k = meter_.lowerBound(s_[i]), last = meter_.lowerBound(end(i));
+    if (!given_.closed) last = std::min(last, meter_.count() - 1);
+    for (; k < last; ++k) {
+      if (meter_.s(k + 1) - meter_.s(k) > std::max(kClosestPx, kGapShare * length(i))) return false;
+    }
+    return true;
+  }
 
   double nearest(const Vec2& p, double from, double to) const {
     int first = meter_.lowerBound(from), last = meter_.lowerBound(to);
@@ -103,15 +155,16 @@ class Refiner {
     if (interval + 1 < n || given_.closed) lines.push_back(&curve[(interval + 1) % n]);
     int i = meter_.lowerBound(s_[interval]), last = meter_.lowerBound(end(interval));
     if (!given_.closed) last = std::min(last, meter_.count() - 1);
+    // Blocks of equal length: a short one left over at the end would be a mean over too little.
+    const double block = length(interval) / std::max(1.0, std::floor(length(interval) / kAveragedPx));
     double largest = 0.0;
-    while (i <= last) {
-      const double from = meter_.s(i);
+    for (double until = s_[interval] + block; i <= last; until += block) {
       double sum = 0.0;
       int count = 0;
-      for (; i <= last && meter_.s(i) - from < kAveragedPx; ++i, ++count) {
+      for (; i <= last && (meter_.s(i) < until || until > end(interval) - 0.5 * block); ++i, ++count) {
         sum += distanceFrom(meter_.point(i) * pixelMm_, lines) / pixelMm_;
       }
-      largest = std::max(largest, std::abs(sum / count));
+      if (count > 0) largest = std::max(largest, std::abs(sum / count));
     }
     return largest;
   }
@@ -125,7 +178,7 @@ class Refiner {
       for (std::size_t i = 0; i < n; ++i) {
         for (const std::size_t j : {(i + 1) % n, (i + n - 1) % n}) {
           const bool apart = !given_.closed && (j > i ? j - i : i - j) != 1;
-          if (apart || after(i) + 1 >= after(j) || halved[i]) continue;
+          if (apart || after(i) + 1 >= after(j) || halved[i] || !mayHalve(i)) continue;
           halved[i] = 1;
           changed = true;
         }
@@ -186,8 +239,9 @@ class Refiner {
   MeasuredPiece meter_;
   const ConstructPiece& given_;
   StationSet set_;
-  double pixelMm_, tolerancePx_;
-  std::vector<double> s_;  ///< [px] per station, increasing.
+  double pixelMm_, limitPx_ = 0.0, excess_ = 0.0;
+  std::vector<double> s_;     ///< [px] per station, increasing.
+  std::vector<double> away_;  ///< [px] per interval: how far the points lie from the curve.
 };
 
 }  // namespace
@@ -208,17 +262,33 @@ StationSet closerStations(const ConstructPiece& piece, StationSet start, double 
   if (start.stations.size() < (piece.closed ? 3u : 2u)) return start;
   Piece px;
   px.closed = piece.closed;
+  px.refined = piece.refined;
   for (const Vec2& p : piece.points) {
     if (!p.allFinite()) return start;
     px.points.push_back(p / pixelMm);
   }
   Refiner refiner(px, piece, start, pixelMm, tolerancePx);
   if (!refiner.placeStations()) return start;
-  for (int round = 0; round < kMostRounds && !context.isCancelled(); ++round) {
-    const auto lines = curve(refiner.set());
-    if (lines.empty() || !refiner.divide(lines)) break;
+  std::optional<StationSet> best;
+  double least = 0.0;
+  for (int round = 0; round <= kMostRounds && !context.isCancelled(); ++round) {
+    if (!refiner.measure(curve(refiner.set()))) break;
+    if (!best || refiner.excess() < least) {
+      best = refiner.set();
+      least = refiner.excess();
+    }
+    if (!refiner.divide()) break;
   }
-  return refiner.set();
+  return best ? *best : start;
+}
+
+std::string closenessNote(const StationSet& set) {
+  if (!(set.missedPx > 0.0)) return {};
+  std::array<char, 32> distance{};
+  std::snprintf(distance.data(), distance.size(), "%.1f", set.missedPx);
+  return std::string("The curve leaves the line by about ") + distance.data() +
+         " px, farther than \"Stay within\" asks: the line turns too sharply there. Mark a corner, or use the true and "
+         "fair fit.";
 }
 
 }  // namespace batten

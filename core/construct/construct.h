@@ -62,7 +62,8 @@ struct ConstructParams {
   double removalTolerancePx = 1.0;  ///< [px] 0..50. Farthest that a removed point lies from the polygon.
   double lowPass =
       1.0;  ///< [stations] 0..8. Bezier path: standard deviation of the low pass of its curvature; 0 = none.
-  /// [px] 0..50. Nurbs, Bezier: where the curve leaves the line by more, stations are set closer; 0 = never (papers).
+  /// [px] 0..50. Nurbs, Bezier: where the curve leaves the line by more (and by more than its noise), stations are set
+  /// closer, and the report says where that was of no avail; 0 = never (papers).
   double closenessPx = 2.0;
   TypicalMode typical = TypicalMode::Chain;
   double growingStopDeg = 2.0;    ///< [degrees] 0.2..20. Growing: the normals of curve and points may differ by this.
@@ -89,6 +90,7 @@ struct ConstructPiece {
   std::vector<Station> stations;  ///< Regression segments, model frame.
   bool closed = false;            ///< Smooth closed: the curve is periodic.
   std::vector<int> drawn;         ///< Pen strokes: indices of the points that were drawn; empty = all are measured.
+  std::vector<std::uint8_t> refined = {};  ///< Per point: 0 = known to the pixel only; empty = all are better known.
   bool startIsCorner = false;
   bool endIsCorner = false;
   std::vector<Vec2> divisions;  ///< Places along the line where the user wants typical curves to meet.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/curve/knot_operations.h"
 
@@ -48,7 +49,9 @@ std::vector<Station> measuredAround(std::span<const Vec2> points, int count) {
   const double step = length.back() / count;
   for (int i = 0; i < count; ++i) {
     const Vec2 ahead = at(step * (i + 0.5)) - at(step * (i - 0.5));
-    if (ahead.norm() > 0.0) stations.push_back(stationAt(at(step * i), ahead.normalized()));
+    if (!(ahead.norm() > 0.0)) continue;
+    stations.push_back(stationAt(at(step * i), ahead.normalized()));
+    stations.back().along = static_cast<double>(i) / count;
   }
   return stations;
 }
@@ -72,11 +75,14 @@ std::vector<Station> cleaned(std::span<const Station> stations, double tooNear) 
 }
 
 /// Sees to it that the first station is the start of the piece.
-void settleStart(std::vector<Station>& stations, const Vec2& start, bool corner) {
+void settleStart(std::vector<Station>& stations, const Vec2& start, bool corner, double along) {
   const Vec2 gap = stations.front().point - start;
   const double spacing = stations.size() > 1 ? (stations[1].point - stations[0].point).norm() : gap.norm();
   if (gap.norm() > 0.25 * spacing && gap.dot(stations.front().direction) > 0.5 * gap.norm()) {
+    // What was first stands away from where it was measured.
+    stations.front().along = std::numeric_limits<double>::quiet_NaN();
     stations.insert(stations.begin(), stationAt(start, mirrored(stations.front().direction, gap)));
+    stations.front().along = along;
   } else if (corner) {
     stations.front().point = start;
   }
@@ -104,9 +110,9 @@ std::vector<Station> usableStations(const ConstructPiece& piece, int fewestClose
     return stations;
   }
   if (stations.empty() || piece.points.size() < 2) return stations;
-  settleStart(stations, piece.points.front(), piece.startIsCorner);
+  settleStart(stations, piece.points.front(), piece.startIsCorner, 0.0);
   turnRound(stations);
-  settleStart(stations, piece.points.back(), piece.endIsCorner);
+  settleStart(stations, piece.points.back(), piece.endIsCorner, 1.0);
   turnRound(stations);
   return cleaned(stations, tooNear);
 }

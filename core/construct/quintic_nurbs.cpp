@@ -327,10 +327,15 @@ Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, doub
     if (context.isCancelled()) return cancelled();
   }
   auto made = curveThrough(set.stations, closed, params);
+  if (!made && set.added > 0) {
+    set = givenStations(usableStations(piece, 6));
+    made = curveThrough(set.stations, closed, params);
+  }
   if (!made) return straightPiece(piece, "The equations of the curve have no solution; a straight line was drawn.");
   ConstructedPiece result{std::move(made->curve), {}};
   result.report.why = Termination::Exact;
   result.report.stationsAdded = set.added;
+  result.report.note = closenessNote(set);
   return result;
 }
 

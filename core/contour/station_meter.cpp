@@ -68,6 +68,7 @@ FittedStation makeStation(const MeasuredPiece& piece, double s, double spacing) 
   result.fit = fitWindow(piece, s, kWindowSpacings * spacing);
   Station& station = result.station;
   station.point = result.fit.r0;
+  if (piece.length() > 0.0) station.along = s / piece.length();
   const double speed = result.fit.r1.norm();
   if (speed > 0.0) station.direction = result.fit.r1 / speed;
   double before = 0.5 * spacing, after = 0.5 * spacing;

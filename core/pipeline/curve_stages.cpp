@@ -16,7 +16,7 @@ constexpr double kExtremumProminence = 5e-3;
 
 Station stationToModel(const Station& s, const PageFrame& frame) {
   return {frame.pointToModel(s.point), frame.vectorToModel(s.direction).normalized(), frame.pointToModel(s.from),
-          frame.pointToModel(s.to)};
+          frame.pointToModel(s.to), s.along};
 }
 
 /// Where the user wants typical curves to meet on a piece.
@@ -30,6 +30,7 @@ std::vector<Vec2> divisionsOf(const std::vector<std::size_t>& points, const Reci
 ConstructPiece pieceInput(const Piece& piece, const PieceSegments& segments, const PageFrame& frame) {
   ConstructPiece made;
   made.points = pointsToModel(piece.points, frame);
+  made.refined = piece.refined;
   for (const Station& s : segments.stations) made.stations.push_back(stationToModel(s, frame));
   made.closed = piece.closed;
   made.startIsCorner = piece.startIsCorner;

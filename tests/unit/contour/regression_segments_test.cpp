@@ -74,6 +74,7 @@ TEST(Stations, LieOnACircleAtEqualArcLength) {
       EXPECT_LE((s.point - Vec2(300 + radius * std::cos(a), 300 + radius * std::sin(a))).norm(), 0.1) << j;
       EXPECT_LE((s.direction - Vec2(-std::sin(a), std::cos(a))).norm(), 0.02) << j;
       EXPECT_NEAR(s.direction.norm(), 1.0, 1e-12);
+      EXPECT_NEAR(s.along, static_cast<double>(j) / (closed ? m : m - 1), 1e-12);
     }
   }
 }
