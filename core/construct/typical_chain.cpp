@@ -30,8 +30,7 @@ double angleBetween(const Vec2& a, const Vec2& b) { return std::atan2(cross(a, b
 
 /// A closed line is opened after the station whose segment bends least: curvature is least at a joint, never inside a
 /// typical curve.
-void turnToStraightest(StationSet& set) {
-  std::vector<Station>& stations = set.stations;
+void turnToStraightest(std::vector<Station>& stations) {
   std::size_t best = 0;
   double least = 10.0;
   for (std::size_t i = 0; i < stations.size(); ++i) {
@@ -43,8 +42,6 @@ void turnToStraightest(StationSet& set) {
   }
   const auto first = static_cast<std::ptrdiff_t>((best + 1) % stations.size());
   std::rotate(stations.begin(), stations.begin() + first, stations.end());
-  std::rotate(set.share.begin(), set.share.begin() + first, set.share.end());
-  std::rotate(set.halvings.begin(), set.halvings.begin() + first, set.halvings.end());
 }
 
 }  // namespace
@@ -99,11 +96,10 @@ TypicalLine lineOnStations(const ConstructPiece& piece, double pixelMm, const Co
                            const RunContext& context) {
   TypicalLine line;
   // A chain needs no closer stations: it goes by the points, and by more joints it only takes longer.
-  StationSet set = givenStations(usableStations(piece, 6));
-  const std::vector<Station>& stations = set.stations;
+  std::vector<Station> stations = usableStations(piece, 6);
   if (stations.size() < (piece.closed ? 3u : 2u)) return line;
-  if (piece.closed) turnToStraightest(set);
-  const FairedJoints faired = fairedJoints(set, piece.closed, pixelMm, params.lowPass, context);
+  if (piece.closed) turnToStraightest(stations);
+  const FairedJoints faired = fairedJoints(givenStations(stations), piece.closed, pixelMm, params.lowPass, context);
   double total = 0.0;
   for (const double length : faired.lengths) total += length;
   line.unitMm = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / 1000.0;
@@ -242,12 +238,6 @@ bool isOnLine(const std::optional<PathFit>& fit, const PathData& data) {
   return fit && fit->rms < kLostRmsPx + 3.0 * data.noise;
 }
 
-/// A path, and whether the fit that gave it came to rest.
-struct FoundPath {
-  TypicalPath path;
-  bool converged = true;
-};
-
 /// The path divided where the user wants it; absent where the points allow none.
 std::optional<FoundPath> dividedPath(TypicalLine line, std::span<const Vec2> placesMm, const RunContext& context) {
   const auto at = jointsAtPlaces(line, placesMm);
@@ -349,22 +339,20 @@ std::optional<FoundPath> grownAndTidied(const TypicalLine& line, std::span<const
                                         const ConstructParams& params, const RunContext& context) {
   auto grown = grownPath(line, placesMm, params, nullptr, context);
   if (!grown) return std::nullopt;
-  if (!placesMm.empty() || params.growingAsInPaper) return FoundPath{std::move(*grown)};
-  Candidate tidy = fittedCandidate(*grown, dataOf(line), PathSearch::Tidy, line, context);
-  const auto curve = pathCurve(*grown, line);
+  if (!placesMm.empty() || params.growingAsInPaper) return grown;
+  Candidate tidy = fittedCandidate(grown->path, dataOf(line), PathSearch::Tidy, line, context);
+  const auto curve = pathCurve(grown->path, line);
   const bool stays = curve && !isAstray(*curve, line);
-  if (!tidy.path || (stays && extremaOf(*curve, line.closed) < tidy.falseExtrema)) {
-    return FoundPath{std::move(*grown)};
-  }
-  return tidy.path;
+  return !tidy.path || (stays && extremaOf(*curve, line.closed) < tidy.falseExtrema) ? grown : tidy.path;
 }
 
 /// The Bezier path of a piece, with the reason why it took the place of the chain.
 Result<ConstructedPiece> pathInstead(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
                                      const RunContext& context) {
   auto other = constructBezierChain(piece, pixelMm, params, context);
-  if (other && other->report.note.empty()) {
-    other->report.note = "Typical curves do not fit this line, so a Bézier path took their place.";
+  if (other && other->report.why != Termination::Degenerate) {
+    const std::string more = other->report.note.empty() ? "" : " " + other->report.note;
+    other->report.note = "Typical curves do not fit this line, so a Bézier path took their place." + more;
   }
   return other;
 }

@@ -67,6 +67,8 @@ class Grower {
     points_ = stretch.points;
     isFree_ = freeStart;
     std::vector<TypicalCurve> kept;
+    // Nothing to grow along: what the joints know of this stretch is better than a curve that follows nothing.
+    if (points_.empty()) return kept;
     auto curve = seed(from, stretch, freeStart);
     const Vec2 end = line_.joints[stretch.lastJoint].point;
     for (int i = 0; i < kMostSteps && curve && !context.isCancelled(); ++i) {
@@ -81,6 +83,7 @@ class Grower {
         stays = grown->toParameter(0.5);
       }
       if (sizeOf(stays) < kShortestPx) break;
+      record_.rested = record_.rested && rested_;
       record(GrowingStep::Kind::Kept, stays, false);
       kept.push_back(stays);
       isFree_ = false;
@@ -88,7 +91,7 @@ class Grower {
       ++record_.segment;
       curve = continued(stays, params_.growingAsInPaper ? 0.4 * sizeOf(stays) : sizeOf(*grown) - sizeOf(stays));
       if (curve) {
-        refit(*curve);
+        rested_ = refit(*curve);
         record(GrowingStep::Kind::Seed, *curve, false);
       }
     }
@@ -121,15 +124,16 @@ class Grower {
       turn += std::atan2(cross(a.tangent, b.tangent), a.tangent.dot(b.tangent));
     }
     auto first = typicalFromForm(from.point, from.angleRad, from.kappa, size, turn);
-    if (first && std::abs(first->turnRad) < kLargestTurn && freeStart) refitWhole(*first);
+    if (first && std::abs(first->turnRad) < kLargestTurn && freeStart) rested_ = refitWhole(*first);
     if (first) record(GrowingStep::Kind::Seed, *first, false);
     return first;
   }
 
   /// While nothing comes before it, a curve also finds its direction and curvature at the start.
-  void refitWhole(TypicalCurve& c) const {
+  /// @return whether the fit came to rest.
+  bool refitWhole(TypicalCurve& c) const {
     const auto near = pointsOn(c);
-    if (near.size() < 8) return;
+    if (near.size() < 8) return true;
     const double size = sizeOf(c), kappa = c.startCurvature();
     const auto curveOf = [&](std::span<const double> x) {
       return typicalFromForm(c.start, c.angleRad + x[0], kappa * std::exp(x[1]), size,
@@ -148,6 +152,7 @@ class Grower {
         }};
     const auto solved = minimiseBlocks(Eigen::Vector3d::Zero(), Eigen::Vector3d(0.1, 1.0, 1.0), std::array{block}, {});
     if (const auto better = curveOf(std::span(solved.x.data(), 3))) c = *better;
+    return solved.why != Termination::IterationLimit;
   }
 
   static std::optional<TypicalCurve> continued(const TypicalCurve& before, double size) {
@@ -158,11 +163,12 @@ class Grower {
   }
 
   /// Bends the curve until it meets the points: only the change of direction moves (002 section 5).
-  void refit(TypicalCurve& c) const {
+  /// @return whether it came to rest; also true where there is nothing to meet.
+  bool refit(TypicalCurve& c) const {
     const double size = sizeOf(c), kappa = c.startCurvature();
     for (int i = 0; i < 12; ++i) {
       const auto near = pointsOn(c);
-      if (near.size() < 3) return;
+      if (near.size() < 3) return true;
       double step = 0.0;
       const FormGradient gradient = formGradient(c);
       if (params_.growingAsInPaper) {
@@ -174,12 +180,12 @@ class Grower {
         const auto local = lineNear(end.point);
         const Vec2 normal = leftNormal(local.direction);
         const double across = way.dot(normal);
-        if (!(std::abs(across) > 1e-9)) return;
+        if (!(std::abs(across) > 1e-9)) return true;
         step = (local.point - end.point).dot(normal) / across;
       } else {
         // Least squares over all points: the influence of the turn grows with the third power along the curve.
         const auto moved = typicalFromForm(c.start, c.angleRad, kappa, size, 2.0 * (c.turnRad * (1.0 + 1e-5)));
-        if (!moved) return;
+        if (!moved) return false;
         const Feet here = feetOn(c, near), there = feetOn(*moved, near);
         double top = 0.0, bottom = 0.0;
         for (std::size_t k = 0; k < near.size(); ++k) {
@@ -187,16 +193,17 @@ class Grower {
           top += slope * here.distance[k];
           bottom += slope * slope;
         }
-        if (!(bottom > 0.0)) return;
+        if (!(bottom > 0.0)) return true;
         step = -top / bottom;
       }
       const double next = c.turnRad + std::clamp(step, -0.3 * std::abs(c.turnRad), 0.5 * std::abs(c.turnRad));
       const auto better = typicalFromForm(c.start, c.angleRad, kappa, size, 2.0 * next);
-      if (!better) return;
+      if (!better) return false;
       const double change = std::abs(next - c.turnRad);
       c = *better;
-      if (change < 1e-7) return;
+      if (change < 1e-7) return true;
     }
+    return false;
   }
 
   /// The best fit over as many points as one curve can take. Where not even the first fits, the curve itself.
@@ -206,13 +213,14 @@ class Grower {
       if (reachesEnd) return c;
       TypicalCurve longer = c.toParameter(kExtrapolations[way]);
       record(GrowingStep::Kind::Extrapolated, longer, false);
-      isFree_ ? refitWhole(longer) : refit(longer);
+      const bool rested = isFree_ ? refitWhole(longer) : refit(longer);
       const bool fits = std::abs(longer.turnRad) < kLargestTurn && longer.ratio > 0.3 && longer.ratio < 3.0 &&
                         deviation(longer) < params_.growingStopDeg * std::numbers::pi / 180.0 &&
                         distance(longer) < kLostPx;
       record(GrowingStep::Kind::Fitted, longer, !fits);
       if (fits) {
         c = longer;
+        rested_ = rested;
       } else {
         ++way;
       }
@@ -223,9 +231,8 @@ class Grower {
   struct LocalLine {
     Vec2 point, direction;
   };
-  /// Place and direction of the points near a place: local parabola.
+  /// Place and direction of the points near a place: local parabola. @pre there are points.
   LocalLine lineNear(const Vec2& place) const {
-    if (points_.empty()) return {place, Vec2::UnitX()};
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < points_.size(); ++i) {
       if ((points_[i] - place).squaredNorm() < (points_[nearest] - place).squaredNorm()) nearest = i;
@@ -280,6 +287,7 @@ class Grower {
   GrowingRecord& record_;
   std::vector<Vec2> points_;
   bool isFree_ = true;
+  bool rested_ = true;  ///< The fit that gave the curve in hand came to rest.
 };
 
 }  // namespace

@@ -17,6 +17,7 @@ struct GrowingStretch {
 struct GrowingRecord {
   std::vector<GrowingStep>* steps = nullptr;  ///< Null: nothing.
   int segment = 0;                            ///< Number of the next segment.
+  bool rested = true;                         ///< Every fit whose curve was kept came to rest.
 };
 
 /// Grows typical curves from a state over a stretch; the state becomes where they end. @param freeStart nothing comes

@@ -117,12 +117,12 @@ std::string_view name(GrowingStep::Kind kind) {
   return "unknown";
 }
 
-std::optional<TypicalPath> grownPath(const TypicalLine& line, std::span<const Vec2> divisionsMm,
-                                     const ConstructParams& params, std::vector<GrowingStep>* steps,
-                                     const RunContext& context) {
+std::optional<FoundPath> grownPath(const TypicalLine& line, std::span<const Vec2> divisionsMm,
+                                   const ConstructParams& params, std::vector<GrowingStep>* steps,
+                                   const RunContext& context) {
   std::vector<Vec2> divisions;
   for (const Vec2& p : divisionsMm) divisions.push_back(line.toLine(p));
-  GrowingRecord record{steps, 0};
+  GrowingRecord record{steps};
   TypicalPath path;
   path.closed = line.closed;
   path.states.push_back(stateOf(line.joints.front(), 0.0));
@@ -158,7 +158,7 @@ std::optional<TypicalPath> grownPath(const TypicalLine& line, std::span<const Ve
   divideAtMaxima(path);
   if (!path.update()) return std::nullopt;
   if (!path.closed && path.endsTypical()) settleEnd(path, line.joints.back().point);
-  return path;
+  return FoundPath{std::move(path), record.rested};
 }
 
 Result<std::vector<GrowingStep>> growingSteps(const ConstructPiece& piece, double pixelMm,

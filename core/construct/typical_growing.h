@@ -41,7 +41,7 @@ Result<std::vector<GrowingStep>> growingSteps(const ConstructPiece&, double pixe
 
 /// The grown path. Stable: only the first half of each fit stays, as the start of the next segment is only known as
 /// well as the fit before; `growingAsInPaper` keeps all. @param steps filled unless null.
-std::optional<TypicalPath> grownPath(const TypicalLine&, std::span<const Vec2> divisionsMm, const ConstructParams&,
-                                     std::vector<GrowingStep>* steps, const RunContext&);
+std::optional<FoundPath> grownPath(const TypicalLine&, std::span<const Vec2> divisionsMm, const ConstructParams&,
+                                   std::vector<GrowingStep>* steps, const RunContext&);
 
 }  // namespace batten

@@ -109,6 +109,12 @@ struct PathFit {
   std::vector<PathFoot> feet;  ///< One per point.
 };
 
+/// A path, and whether the fit that gave it, or every one of its fits, came to rest.
+struct FoundPath {
+  TypicalPath path;
+  bool converged = true;
+};
+
 /// Levenberg-Marquardt with analytic derivatives; closes or pins the path exactly at the end. The path becomes the best
 /// found, also when cancelled. Absent where the path or its start is impossible.
 std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxIterations,

@@ -54,10 +54,22 @@ class StructureSearch {
     if (doubts) dropExtrema();
     if (divide) divideWhereNeeded(6);
     if (search != PathSearch::Keep) simplify(doubts);
+    comeToRest();
     return context_.isCancelled() ? std::nullopt : std::optional(fit_);
   }
 
  private:
+  /// The fits in between are cut short: they only have to tell which path is the better one.
+  void comeToRest() {
+    constexpr int kIterations = 60;
+    if (fit_.converged || context_.isCancelled()) return;
+    TypicalPath path = path_;
+    PathFit fit;
+    if (!refit(path, fit, kIterations)) return;
+    path_ = std::move(path);
+    fit_ = std::move(fit);
+  }
+
   /// Bayesian information; a turn of the curvature at a joint has to be worth more than its unknowns.
   static double score(const TypicalPath& path, const PathFit& fit) {
     const double n = static_cast<double>(std::max<std::size_t>(4, fit.feet.size()));

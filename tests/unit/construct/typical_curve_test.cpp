@@ -109,6 +109,18 @@ TEST(ConstructTypical, IsTrueAndHasNoJumpOfCurvature) {
               curvature(around.curve, around.curve.end()).value(), 1e-9);
 }
 
+TEST(ConstructTypical, ComesToRestOnAnOrdinaryLine) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 0.3);
+  auto piece =
+      test::pieceOf([](double t) { return Vec2(300.0 * std::cos(t), 90.0 * std::sin(t)); }, 0.0, 2.0 * pi, 36, true);
+  const auto truth = piece.points;
+  for (Vec2& p : piece.points) p += Vec2(noise(random), noise(random));
+  const auto made = constructTypical(piece, 1.0, {}, {}).value();
+  EXPECT_EQ(made.report.why, Termination::Converged);
+  EXPECT_LT(deviation(made.curve, truth, true).rms, 0.1);
+}
+
 TEST(ConstructTypical, AnythingGivesAFiniteCurveOrAnError) {
   std::mt19937 random(9);
   std::normal_distribution<double> where(0.0, 40.0);

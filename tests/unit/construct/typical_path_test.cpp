@@ -139,6 +139,47 @@ TEST(FitPath, ClosesExactlyAndMeetsPinnedEnds) {
   EXPECT_LT((open.states.back().point - ends.end).norm(), 1e-9);
 }
 
+/// A spiral with a stretch in the middle that has no points, on a page turned by an angle.
+TypicalLine lineWithGap(double turnRad) {
+  const auto rotated = [turnRad](const Vec2& v) {
+    return Vec2(std::cos(turnRad) * v.x() - std::sin(turnRad) * v.y(),
+                std::sin(turnRad) * v.x() + std::cos(turnRad) * v.y());
+  };
+  TypicalLine line;
+  Vec2 at = Vec2::Zero();
+  double angle = 0.3;
+  for (int i = 0; i <= 1000; ++i) {
+    const double kappa = 0.002 + 4e-6 * i;
+    if (i % 40 == 0) line.joints.push_back({rotated(at), rotated({std::cos(angle), std::sin(angle)}), kappa});
+    if (i < 300 || i > 700) line.points.push_back(rotated(at));
+    angle += 0.5 * kappa;
+    at += Vec2(std::cos(angle), std::sin(angle));
+    angle += 0.5 * kappa;
+  }
+  line.endMm = line.joints.back().point;
+  return line;
+}
+
+TEST(GrownPath, TurnsWithThePageAlsoWhereThereAreNoPoints) {
+  const auto pathOn = [](double turnRad) {
+    const TypicalLine line = lineWithGap(turnRad);
+    const std::vector<Vec2> divisions = {line.joints[9].point, line.joints[16].point};
+    return grownPath(line, divisions, {}, nullptr, {})->path;
+  };
+  const TypicalPath upright = pathOn(0.0);
+  // Also such that the middle of the gap runs along the axes of the page.
+  for (double turn = -1.7; turn < -1.3; turn += 0.03) {
+    const TypicalPath turned = pathOn(turn);
+    ASSERT_EQ(turned.elements.size(), upright.elements.size());
+    for (std::size_t i = 0; i < upright.states.size(); ++i) {
+      EXPECT_NEAR(turned.states[i].point.norm(), upright.states[i].point.norm(), 1e-5) << i;
+      EXPECT_NEAR(turned.states[i].kappa, upright.states[i].kappa, 1e-8) << i;
+      EXPECT_NEAR(std::remainder(turned.states[i].angleRad - upright.states[i].angleRad - turn, 2.0 * std::numbers::pi),
+                  0.0, 1e-6);
+    }
+  }
+}
+
 TEST(FormGradient, MatchesTheKnownAnswer) {
   const auto answer = test::knownAnswer(BATTEN_TEST_DATA, "05_typical.json");
   for (const auto& item : answer.at("cases")) {
