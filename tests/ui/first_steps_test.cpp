@@ -100,6 +100,18 @@ TEST_F(FirstSteps, ARoundingIsSeenWhereItIsSet) {
   EXPECT_TRUE(window_->view().isVisible(Layer::Faired)) << "a rounding from before is seen, too";
   window_->setStage(PanelStage::Fairing);
   EXPECT_TRUE(window_->view().isVisible(Layer::Faired));
+  // What is said is said of the curve that is drawn.
+  ASSERT_TRUE(settle());
+  const TracedCurve* curve = session().selected();
+  ASSERT_NE(curve, nullptr);
+  ASSERT_NE(curve->faired.controlPointCount(), curve->sketched.controlPointCount());
+  const CanvasScene scene(session(), window_->view());
+  const auto says = [&](const NurbsCurve& one) {
+    return curveText(scene).contains(QStringLiteral(" %1 control points").arg(one.controlPointCount()));
+  };
+  EXPECT_TRUE(says(curve->faired)) << curveText(scene).toStdString();
+  window_->setStage(PanelStage::Curves);
+  EXPECT_TRUE(says(curve->sketched)) << curveText(scene).toStdString();
 }
 
 TEST_F(FirstSteps, MarkingACornerDoesNotSelectAnotherLine) {

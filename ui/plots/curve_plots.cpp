@@ -141,7 +141,9 @@ void CurvePlots::build() {
   d.empty = overlay(tr("Select a curve to see its curvature."), 12, {54, 8});
   d.quantity = overlay({}, 11, {56, 3});
   d.quantity->setObjectName(QStringLiteral("plot.quantity"));
+  // Curves and grid pass behind the name of the axis.
   d.quantity->setAutoFillBackground(true);
+  d.quantity->setBackgroundRole(QPalette::Base);
   d.quantity->setContentsMargins(2, 0, 4, 0);
   connect(d.plot->xAxis, QOverload<const QCPRange&>::of(&QCPAxis::rangeChanged), this, [this](const QCPRange& range) {
     const double length = state_->data.lengthMm;
@@ -166,10 +168,6 @@ void CurvePlots::applyTheme() {
   State& d = *state_;
   const Theme& theme = themeOf(palette());
   d.plot->setBackground(theme.panel);
-  // Curves and grid pass behind the name of the axis.
-  QPalette paper = palette();
-  paper.setColor(QPalette::Window, theme.panel);
-  d.quantity->setPalette(paper);
   for (QCPAxis* axis : {d.plot->xAxis, d.plot->yAxis}) {
     axis->setBasePen(Qt::NoPen);
     axis->setTickPen(Qt::NoPen);

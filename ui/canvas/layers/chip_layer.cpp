@@ -88,7 +88,8 @@ void paintLabel(QPainter& painter, const CanvasScene& scene, const QString& text
 QString curveText(const CanvasScene& scene) {
   const TracedCurve* curve = scene.session.selected();
   if (curve == nullptr || curve->sketched.isEmpty()) return {};
-  const bool faired = !curve->faired.isEmpty();
+  // Of the curve that is drawn.
+  const bool faired = !curve->faired.isEmpty() && scene.view.isVisible(Layer::Faired);
   const NurbsCurve& shown = faired ? curve->faired : curve->sketched;
   const CurveFigures& figures =
       faired && curve->fairedFigures.lengthMm > 0.0 ? curve->fairedFigures : curve->sketchedFigures;
