@@ -7,6 +7,7 @@
 #include <QPainterPath>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "ui/theme/theme.h"
 
@@ -54,14 +55,17 @@ void RegionHistogram::paintEvent(QPaintEvent*) {
     painter.drawText(rect(), Qt::AlignCenter, tr("No region selected"));
     return;
   }
-  // The square root keeps thin ink visible beside the mountain of paper.
-  const double top = std::sqrt(double(std::max<std::uint32_t>(1, *std::max_element(counts_.begin(), counts_.end()))));
+  // The square root keeps thin ink visible beside the mountain of paper; where the paper is a single grey, it is cut
+  // off.
+  auto sorted = counts_;
+  std::nth_element(sorted.begin(), sorted.begin() + 1, sorted.end(), std::greater<>());
+  const double top = std::sqrt(double(std::max<std::uint32_t>(1, sorted[1])));
   const auto shape = [&](int from, int to) {
     QPainterPath path;
     const double step = box.width() / 256.0;
     path.moveTo(box.left() + from * step, box.bottom());
     for (int i = from; i < to; ++i) {
-      const double h = std::sqrt(double(counts_[static_cast<std::size_t>(i)])) / top * box.height();
+      const double h = std::min(1.0, std::sqrt(double(counts_[static_cast<std::size_t>(i)])) / top) * box.height();
       path.lineTo(box.left() + i * step, box.bottom() - h);
       path.lineTo(box.left() + (i + 1) * step, box.bottom() - h);
     }
