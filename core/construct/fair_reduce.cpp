@@ -25,8 +25,8 @@ constexpr double kStraightenBelow = 1.5;  // excess of a fit that is worth anoth
 constexpr int kFreeSpans = 1;             // of the full curve on either side of a turn
 constexpr double kEndHold = 1e4;          // relative weight of exact ends in the frame
 constexpr double kMonitorFloor = 0.2;     // of the mean density of knots
-constexpr double kWrongWay = 3e-3;        // [1/diagonal] curvature that may turn back
-constexpr double kHold = 1e8;             // weight of what is set exactly afterwards
+constexpr double kWrongWayKept = 3e-3;    // [1/diagonal] curvature that may turn back
+constexpr double kHoldWeight = 1e8;       // weight of what is set exactly afterwards
 
 double kappaOf(const Vec2& first, const Vec2& second) {
   const double w = std::max(first.squaredNorm(), 1e-12);
@@ -95,7 +95,7 @@ class Reduction {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    least_ = kWrongWay / std::max((high - low).norm(), 1e-12);
+    least_ = kWrongWayKept / std::max((high - low).norm(), 1e-12);
     turns_ = countTurns(kappas_, least_);
     findCourses();
   }
@@ -174,7 +174,7 @@ class Reduction {
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
       rows.push_back(basis(5, knots, points, parameters_[i], 2));
       const bool end = !closed_ && (i == 0 || i + 1 == parameters_.size());
-      add(rowOf(rows.back(), 0), end ? kHold : 1.0, targets_[i]);
+      add(rowOf(rows.back(), 0), end ? kHoldWeight : 1.0, targets_[i]);
       const double share = limits_.distancePx / std::max(kappaLimit(i), 1e-12);
       add(rowOf(rows.back(), 2), share * share, bends_[i]);
     }
@@ -233,7 +233,7 @@ class Reduction {
     Eigen::VectorXd x = Eigen::VectorXd::Zero(unknowns), y = x;
     for (std::size_t i = 0; i < places.size(); ++i) {
       const bool end = !closed_ && (i == 0 || i + 1 == places.size());
-      const double w = end ? kHold : 1.0;
+      const double w = end ? kHoldWeight : 1.0;
       const Vec2 p =
           end ? targets_[i] : Vec2(curve[i][0] + dot(places[i], solved.x) * leftNormal(curve[i][1]).normalized());
       normal.addOuter(places[i], w);

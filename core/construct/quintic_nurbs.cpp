@@ -16,9 +16,9 @@ namespace batten {
 
 namespace {
 
-constexpr int kDegree = 5;
+constexpr int kQuintic = 5;
 /// Weight of a pinned end against the other equations: what is left of the misfit is its square smaller, 1e-14.
-constexpr double kPinned = 1e7;
+constexpr double kPinnedWeight = 1e7;
 /// Stations whose distances differ by more than this get knots at their distances instead of uniform ones.
 constexpr double kUneven = 1.05;
 
@@ -30,7 +30,7 @@ struct SplineSpace {
   int unknowns = 0;  ///< Control points that differ.
   int count = 0;     ///< Control points of the unclamped curve.
 
-  BasisRow row(double u, int order) const { return basis(kDegree, knots, count, u, order); }
+  BasisRow row(double u, int order) const { return basis(kQuintic, knots, count, u, order); }
 };
 
 SplineSpace makeSpace(std::vector<double> places, bool closed) {
@@ -38,16 +38,16 @@ SplineSpace makeSpace(std::vector<double> places, bool closed) {
   space.closed = closed;
   const auto last = places.size() - 1;
   const double period = places[last] - places[0];
-  for (int k = kDegree; k >= 1; --k) {
+  for (int k = kQuintic; k >= 1; --k) {
     const auto back = static_cast<std::size_t>(k);
     space.knots.push_back(closed ? places[last - back] - period : places[0] - k * (places[1] - places[0]));
   }
   space.knots.insert(space.knots.end(), places.begin(), places.end());
-  for (int k = 1; k <= kDegree; ++k) {
+  for (int k = 1; k <= kQuintic; ++k) {
     space.knots.push_back(closed ? places[static_cast<std::size_t>(k)] + period
                                  : places[last] + k * (places[last] - places[last - 1]));
   }
-  space.count = static_cast<int>(space.knots.size()) - kDegree - 1;
+  space.count = static_cast<int>(space.knots.size()) - kQuintic - 1;
   space.unknowns = closed ? static_cast<int>(last) : space.count;
   space.places = std::move(places);
   return space;
@@ -67,9 +67,9 @@ bool usesGradient(const SystemInput& in, bool closed, std::size_t i) {
 
 /// Four or more points: as many equations as unknowns or more.
 std::optional<std::vector<Vec2>> solveLeastSquares(const SplineSpace& space, const SystemInput& in) {
-  BandedLeastSquares system(space.unknowns, kDegree + 1, space.closed);
+  BandedLeastSquares system(space.unknowns, kQuintic + 1, space.closed);
   const std::size_t m = in.points.size();
-  std::array<double, kDegree + 1> row{};
+  std::array<double, kQuintic + 1> row{};
   const auto add = [&](double u, int order, const Vec2& right, double weight) {
     const BasisRow values = space.row(u, order);
     for (std::size_t j = 0; j < row.size(); ++j) row[j] = weight * values.values[static_cast<std::size_t>(order)][j];
@@ -77,7 +77,7 @@ std::optional<std::vector<Vec2>> solveLeastSquares(const SplineSpace& space, con
   };
   for (std::size_t i = 0; i < m; ++i) {
     const bool pinned = (i == 0 && in.pinStart) || (i + 1 == m && in.pinEnd);
-    add(space.places[i], 0, in.points[i], pinned ? kPinned : 1.0);
+    add(space.places[i], 0, in.points[i], pinned ? kPinnedWeight : 1.0);
     if (usesGradient(in, space.closed, i)) add(space.places[i], 1, in.derivatives[i], 1.0);
   }
   if (in.use == GradientUse::NaturalEnds && !space.closed) {
@@ -111,7 +111,7 @@ std::optional<std::vector<Vec2>> solveSmallestEnergy(const SplineSpace& space, c
   for (int i = 0; i < m; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const BasisRow row = space.row(space.places[at], 1);
-    for (int j = 0; j <= kDegree; ++j) {
+    for (int j = 0; j <= kQuintic; ++j) {
       for (int order = 0; order < 2; ++order) {
         const double value = row.values[static_cast<std::size_t>(order)][static_cast<std::size_t>(j)];
         system(n + 2 * i + order, row.first + j) = system(row.first + j, n + 2 * i + order) = value;
@@ -204,7 +204,7 @@ Result<ConstructedPiece> constructFromDirections(std::span<const Station> statio
   const SplineSpace space = makeSpace(uniformPlaces(stations.size(), false), false);
   std::vector<double> knots = space.knots;
   for (double& k : knots) k *= total / static_cast<double>(stations.size() - 1);
-  auto open = NurbsCurve::make(kDegree, std::move(knots), std::move(*solution));
+  auto open = NurbsCurve::make(kQuintic, std::move(knots), std::move(*solution));
   if (!open) return fail(open.error());
   auto curve = clampedWithEnds(*open, points.front(), points.back());
   if (!curve) return fail(curve.error());
@@ -233,7 +233,7 @@ std::optional<CurveOnStations> curveThrough(std::span<const Station> stations, b
   for (std::vector<double>* values : {&knots, &at}) {
     for (double& k : *values) k *= places.unitMm;
   }
-  auto open = NurbsCurve::make(kDegree, std::move(knots), unrolled(space, *solution));
+  auto open = NurbsCurve::make(kQuintic, std::move(knots), unrolled(space, *solution));
   if (!open) return std::nullopt;
   const Vec2 start = closed ? open->point(open->start()) : points.front();
   auto curve = clampedWithEnds(*open, start, closed ? start : points.back());
@@ -294,7 +294,7 @@ Result<QuinticSystemResult> solveQuintic(std::span<const Vec2> points, std::span
   for (std::size_t i = 0; i < m; ++i) {
     const BasisRow row = space.row(space.places[i], 1);
     Vec2 r = -points[i], d = -derivatives[i];
-    for (std::size_t j = 0; j <= kDegree; ++j) {
+    for (std::size_t j = 0; j <= kQuintic; ++j) {
       const auto index = (static_cast<std::size_t>(row.first) + j) % static_cast<std::size_t>(space.unknowns);
       r += row.values[0][j] * result.controlPoints[index];
       d += row.values[1][j] * result.controlPoints[index];

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array<double, 2> kExtrapolations = {1.35, 1.12};
 /// Segments shorter than this [px] mean that the growing has come to an end of its own.
 constexpr double kShortestPx = 6.0;
-constexpr double kLargestTurn = 0.7;
+constexpr double kLargestGrownTurn = 0.7;
 /// A fit whose points lie this far [px] to one side in the mean has lost the line, whatever its normals say.
 constexpr double kLostPx = 0.25;
 /// Half of the stretch [px] from whose points a normal is taken.
@@ -124,7 +124,7 @@ class Grower {
       turn += std::atan2(cross(a.tangent, b.tangent), a.tangent.dot(b.tangent));
     }
     auto first = typicalFromForm(from.point, from.angleRad, from.kappa, size, turn);
-    if (first && std::abs(first->turnRad) < kLargestTurn && freeStart) rested_ = refitWhole(*first);
+    if (first && std::abs(first->turnRad) < kLargestGrownTurn && freeStart) rested_ = refitWhole(*first);
     if (first) record(GrowingStep::Kind::Seed, *first, false);
     return first;
   }
@@ -214,7 +214,7 @@ class Grower {
       TypicalCurve longer = c.toParameter(kExtrapolations[way]);
       record(GrowingStep::Kind::Extrapolated, longer, false);
       const bool rested = isFree_ ? refitWhole(longer) : refit(longer);
-      const bool fits = std::abs(longer.turnRad) < kLargestTurn && longer.ratio > 0.3 && longer.ratio < 3.0 &&
+      const bool fits = std::abs(longer.turnRad) < kLargestGrownTurn && longer.ratio > 0.3 && longer.ratio < 3.0 &&
                         deviation(longer) < params_.growingStopDeg * std::numbers::pi / 180.0 &&
                         distance(longer) < kLostPx;
       record(GrowingStep::Kind::Fitted, longer, !fits);

@@ -14,7 +14,7 @@ namespace {
 
 /// The slack of a monotone segment is never less than about this square over its unknown: it softens the border.
 constexpr double kSoftness = 0.01;
-constexpr double kLargestTurn = 0.85;
+constexpr double kLargestElementTurn = 0.85;
 constexpr double kLargestLogRatio = 1.7;
 constexpr double kLargestHermiteTurn = 0.4;
 
@@ -79,7 +79,7 @@ bool TypicalPath::update() {
       continue;
     }
     const double turn = element.turn(), ratio = element.logRatio();
-    if (!(turn < kLargestTurn) || !(turn > 1e-7) || !(std::abs(ratio) < kLargestLogRatio)) return false;
+    if (!(turn < kLargestElementTurn) || !(turn > 1e-7) || !(std::abs(ratio) < kLargestLogRatio)) return false;
     if (!(from.kappa * element.side > 0.0)) return false;
     const TypicalCurve curve = typical(e);
     states[e + 1].point = curve.controlPoints()[3];
@@ -143,7 +143,7 @@ void TypicalPath::split(std::size_t e, double t) {
 bool TypicalPath::join(std::size_t e) {
   const double turn = elements[e].turn() + elements[e + 1].turn();
   const double ratio = elements[e].logRatio() + elements[e + 1].logRatio();
-  if (!elements[e].typical || !elements[e + 1].typical || !(turn < kLargestTurn)) return false;
+  if (!elements[e].typical || !elements[e + 1].typical || !(turn < kLargestElementTurn)) return false;
   elements[e].logTurn = std::log(turn);
   elements[e].setLogRatio(ratio);
   elements.erase(elements.begin() + static_cast<std::ptrdiff_t>(e) + 1);

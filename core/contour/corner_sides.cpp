@@ -14,10 +14,10 @@
 namespace batten {
 namespace {
 
-constexpr double kBlockPx = 2.0;           // points are averaged over this much of the axis
-constexpr double kUnrefinedWeight = 0.02;  // points known to the pixel only, or guessed
-constexpr double kSteepest = 0.8;          // slope against the axis up to which a side is a function of x
-constexpr double kPriorDensity = 0.01;     // [px^2 px] noise of an edge in an ordinary scan, worth kPriorBlocks blocks
+constexpr double kBlockPx = 2.0;         // points are averaged over this much of the axis
+constexpr double kGuessedWeight = 0.02;  // points known to the pixel only, or guessed
+constexpr double kSteepest = 0.8;        // slope against the axis up to which a side is a function of x
+constexpr double kPriorDensity = 0.01;   // [px^2 px] noise of an edge in an ordinary scan, worth kPriorBlocks blocks
 constexpr double kPriorBlocks = 3.0;
 constexpr double kLeastDensity = 0.0006;  // [px^2 px] what the pixel grid leaves: .02 px over 16 px
 constexpr std::size_t kFewestBlocks = 3;
@@ -26,12 +26,12 @@ constexpr std::size_t kMostGuessed = 40, kFewestKnown = 12;  // points
 constexpr double kShortestCutoffPx = 40.0, kLongestCutoffPx = 1100.0, kCutoffStep = 1.6;
 constexpr double kStartPx = 100.0, kStartSlope = 2.0;  // what a side may be at its far end, along its axis
 
-struct Block {
+struct SideBlock {
   double x = 0.0, y = 0.0, weight = 0.0;
 };
 
 double weightOf(const Contour& contour, std::size_t i) {
-  return i < contour.refined.size() && contour.refined[i] == 0 ? kUnrefinedWeight : 1.0;
+  return i < contour.refined.size() && contour.refined[i] == 0 ? kGuessedWeight : 1.0;
 }
 
 // The points of one side, in order away from the corner.
@@ -85,9 +85,9 @@ Vec2 axisOf(const SidePoints& points) {
   return length > 0.0 ? Vec2(direction / length) : Vec2::Zero();
 }
 
-std::vector<Block> blocksOf(const SidePoints& points, const CornerSide& frame) {
-  std::vector<Block> blocks;
-  Block sum;
+std::vector<SideBlock> blocksOf(const SidePoints& points, const CornerSide& frame) {
+  std::vector<SideBlock> blocks;
+  SideBlock sum;
   double begin = 0.0, furthest = 0.0;
   const auto close = [&] {
     if (sum.weight > 0.0) blocks.push_back({sum.x / sum.weight, sum.y / sum.weight, sum.weight});
@@ -115,7 +115,7 @@ std::vector<Block> blocksOf(const SidePoints& points, const CornerSide& frame) {
 
 // [px^2 px] Density of the noise: variance of the mean over a length, times the length. From third differences, which
 // a smooth side leaves small, of the means of `group` blocks: neighbouring points of a centre line share their noise.
-double noiseDensity(const std::vector<Block>& blocks, std::size_t group) {
+double noiseDensity(const std::vector<SideBlock>& blocks, std::size_t group) {
   std::vector<double> mean, square;
   for (std::size_t i = 0; i + group <= blocks.size(); i += group) {
     double sum = 0.0;
@@ -148,11 +148,11 @@ struct Model {
 class CircleBase {
  public:
   CircleBase() = default;
-  explicit CircleBase(std::span<const Block> blocks) {
+  explicit CircleBase(std::span<const SideBlock> blocks) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     const double x0 = blocks.front().x, y0 = blocks.front().y;
-    for (const Block& b : blocks) {
+    for (const SideBlock& b : blocks) {
       const double x = b.x - x0, y = b.y - y0;
       const Eigen::Vector3d row(2.0 * x, 2.0 * y, 1.0);
       normal += b.weight * row * row.transpose();
@@ -209,7 +209,7 @@ void goTo(Followed& f, double h, double tau2) {
     for (int j = 0; j < 4; ++j) f.spread(i, j) += tau2 * odd[6 - i - j] / ((7 - i - j) * kRest[i] * kRest[j]);
 }
 
-void learn(Followed& f, const Block& block, double perBlock) {
+void learn(Followed& f, const SideBlock& block, double perBlock) {
   const double variance = f.spread(0, 0) + perBlock / block.weight;
   const double miss = block.y - f.mean[0];
   f.logLikelihood -= 0.5 * (miss * miss / variance + std::log(variance));
@@ -220,10 +220,10 @@ void learn(Followed& f, const Block& block, double perBlock) {
 
 // Through blocks from the farthest to the nearest.
 // @param sums if given, raised to the logarithm of the likelihood of the blocks from each one on.
-Followed follow(std::span<const Block> blocks, const Model& model, const State& start, double perBlock,
+Followed follow(std::span<const SideBlock> blocks, const Model& model, const State& start, double perBlock,
                 std::vector<double>* sums) {
   const CircleBase base = model.kind == Model::Kind::Arc ? CircleBase(blocks) : CircleBase();
-  const auto about = [&](Block b) {
+  const auto about = [&](SideBlock b) {
     b.y -= base.at(b.x)[0];
     return b;
   };
@@ -246,13 +246,13 @@ struct Extension {
   std::size_t count = 0;  // blocks of the most likely one
 };
 
-Extension extend(const std::vector<Block>& blocks, double density) {
+Extension extend(const std::vector<SideBlock>& blocks, double density) {
   std::vector<Model> models{{Model::Kind::Line}, {Model::Kind::Arc}};
   for (double cutoff = kShortestCutoffPx; cutoff < kLongestCutoffPx; cutoff *= kCutoffStep)
     models.push_back({Model::Kind::Free, density / std::pow(cutoff / (2.0 * std::numbers::pi), 8)});
   const double oneOfFree = std::log(static_cast<double>(models.size() - 2));
   double weight = 0.0;
-  for (const Block& b : blocks) weight += b.weight / static_cast<double>(blocks.size());
+  for (const SideBlock& b : blocks) weight += b.weight / static_cast<double>(blocks.size());
   const double perBlock = density / kBlockPx * weight;
   // What a side and its derivatives may be at its far end: it turns by a radian or two along its way, no more, because
   // it stays a function of its axis.
@@ -331,7 +331,7 @@ CornerSide fitCornerSide(const Contour& contour, int index, int side, double inn
   best.along = axisOf(points);
   best.across = Vec2(-best.along.y(), best.along.x());
   if (!(best.along.norm() > 0.5)) return best;
-  const std::vector<Block> blocks = blocksOf(points, best);
+  const std::vector<SideBlock> blocks = blocksOf(points, best);
   const double density = noiseDensity(blocks, contour.kind == ContourKind::Outline ? 2 : 4);
   if (blocks.size() < kFewestBlocks) return best;
   const Extension extension = extend(blocks, density);

@@ -8,7 +8,7 @@ namespace batten {
 namespace {
 
 constexpr double kWindowSpacings = 1.5;    // width of the stretch that a station is fitted to
-constexpr double kUnrefinedWeight = 0.25;  // points that are only known to the pixel
+constexpr double kPixelPointWeight = 0.25;  // points that are only known to the pixel
 
 LocalQuadratic fitWindow(const MeasuredPiece& piece, double s, double window) {
   double from = s - 0.5 * window, to = s + 0.5 * window;
@@ -49,7 +49,7 @@ double MeasuredPiece::s(int i) const {
 
 double MeasuredPiece::weight(int i) const {
   const auto j = slot(i);
-  return j < piece_.refined.size() && piece_.refined[j] == 0 ? kUnrefinedWeight : 1.0;
+  return j < piece_.refined.size() && piece_.refined[j] == 0 ? kPixelPointWeight : 1.0;
 }
 
 int MeasuredPiece::lowerBound(double value) const {

@@ -13,8 +13,8 @@
 namespace batten {
 namespace {
 
-constexpr int kRounds = 3;
-constexpr int kPointsPerBlock = 256;
+constexpr int kMeanRounds = 3;
+constexpr int kMeansPerBlock = 256;
 constexpr double kParallelCos = 0.985;  // 10 degrees: fully one line
 constexpr double kCrossingCos = 0.906;  // 25 degrees: another line
 constexpr double kLeastWeight = 0.02;   // at the very end of a stroke: alone it still is the line
@@ -134,10 +134,10 @@ std::vector<MeanLine> moveToMean(const std::vector<Contour>& lines, double dista
   for (const MeanLine& m : means) all.insert(all.end(), m.source.begin(), m.source.end());
   // [points] A mean changes over about the distance of the strokes.
   const double smoothing = std::clamp(0.5 * distancePx, 3.0, 8.0);
-  for (int round = 0; round < kRounds && !context.isCancelled(); ++round) {
+  for (int round = 0; round < kMeanRounds && !context.isCancelled(); ++round) {
     const MeanRound measure(means, std::max(1.0, distancePx));
     std::vector<float> shift(all.size());
-    parallelFor(context, static_cast<int>(all.size()), kPointsPerBlock, [&](int begin, int end) {
+    parallelFor(context, static_cast<int>(all.size()), kMeansPerBlock, [&](int begin, int end) {
       std::vector<Crossing> crossings;
       for (int i = begin; i < end; ++i) {
         const auto at = static_cast<std::size_t>(i);
@@ -203,7 +203,7 @@ StrokeBand StrokesBeside::band(const std::vector<Vec2>& points, bool closed, con
     band.left[i] = static_cast<float>(high);
     band.right[i] = static_cast<float>(-low);
   };
-  parallelFor(context, static_cast<int>(points.size()), kPointsPerBlock, [&](int begin, int end) {
+  parallelFor(context, static_cast<int>(points.size()), kMeansPerBlock, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) measure(static_cast<std::size_t>(i));
   });
   return band;

@@ -25,8 +25,8 @@ constexpr double kSmallestContrast = 2.0;  // [grey]
 constexpr int kNewtonSteps = 4;
 constexpr int kBlurRounds = 4;
 constexpr int kTwinRounds = 4;
-constexpr int kBlurSamples = 1500;    // points that vote for the blur
-constexpr int kPointsPerBlock = 512;  // worked on together; the result does not depend on it
+constexpr int kBlurSamples = 1500;   // points that vote for the blur
+constexpr int kEdgesPerBlock = 512;  // worked on together; the result does not depend on it
 
 // The state of the matched pass, one entry per point.
 struct Matched {
@@ -59,7 +59,7 @@ EdgeModel edgeModel(const NormalTable& table, double x, double inkTwin, double p
 // Calls body(i) for all points, in parallel; it writes only what belongs to its own point.
 template <class Body>
 void forPoints(const RunContext& context, std::size_t count, const Body& body) {
-  parallelFor(context, static_cast<int>(count), kPointsPerBlock, [&](int begin, int end) {
+  parallelFor(context, static_cast<int>(count), kEdgesPerBlock, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) body(static_cast<std::size_t>(i));
   });
 }
@@ -327,7 +327,7 @@ int pixelBlur(const GreyImage& grey, const std::vector<Vec2>& base, const std::v
 double pixelPass(const GreyImage& grey, const std::vector<Vec2>& base, const std::vector<Vec2>& normal, Matched& m,
                  const RunContext& context) {
   const PixelResponse& response = PixelResponse::forBlur(pixelBlur(grey, base, normal, m));
-  parallelFor(context, static_cast<int>(base.size()), kPointsPerBlock, [&](int begin, int end) {
+  parallelFor(context, static_cast<int>(base.size()), kEdgesPerBlock, [&](int begin, int end) {
     PixelWindow window;
     for (int k = begin; k < end; ++k) {
       const auto i = static_cast<std::size_t>(k);

@@ -30,8 +30,6 @@ constexpr double kLeastDensity = 0.0064;
 constexpr FairingLimits kLimits{15, 1e-4};
 /// Room for what lies between the places where the deviation is measured.
 constexpr double kRoom = 0.998;
-/// Prominence of a counted extremum, in units of 1 / extent.
-constexpr double kProminence = 5e-3;
 
 class NeededFairing {
  public:

@@ -16,7 +16,6 @@ namespace batten {
 namespace {
 
 /// Extrema of a smaller rise (times extent) are not seen by an eye nor by light.
-constexpr double kProminence = 5e-3;
 
 int extremaOf(const NurbsCurve& curve, bool closed) {
   const double size = extent(curve);

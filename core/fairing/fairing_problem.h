@@ -14,6 +14,11 @@
 
 namespace batten {
 
+/// A derivative below this share of the mean speed counts as a cusp.
+inline constexpr double kCuspShare = 1e-6;
+/// Prominence of a counted curvature extremum, in units of 1 / extent.
+inline constexpr double kProminence = 5e-3;
+
 /// d kappa / d q at a fixed parameter, per control point of the span (003 section 4; algorithms: shape modification):
 /// row[j] = (d kappa / d x_j, d kappa / d y_j) with s = |R'|.
 using LocalRow = std::array<Vec2, kMaxFairingDegree + 1>;
@@ -150,6 +155,8 @@ class FairingModel {
   Eigen::VectorXd applyTo(const Eigen::VectorXd& local, const Eigen::VectorXd& normal, double shift) const;
   void transposeTo(const Eigen::VectorXd& y, Eigen::VectorXd& local, Eigen::VectorXd& normal, double& shift) const;
   Eigen::VectorXd applyNormal(const Eigen::VectorXd& v, double damping) const;
+  template <int Stride>
+  Eigen::VectorXd applyNormalOf(const Eigen::VectorXd& v, double damping) const;
   Eigen::VectorXd cumulative(const Eigen::VectorXd& values, double& total) const;
   Eigen::VectorXd cumulativeTransposed(const Eigen::VectorXd& values, double total) const;
 

@@ -13,8 +13,6 @@ constexpr int kSamplesPerSpan = 4;
 constexpr int kChecksPerSpan = 12, kMostChecks = 400;
 constexpr double kUnseenShare = 0.01;  // of the largest distance, between the places where it is measured
 constexpr double kMostTurn = 0.5;      // [rad] of the curve from place to place
-/// A derivative below this share of the mean speed counts as a cusp.
-constexpr double kCuspShare = 1e-6;
 
 /// Largest distance of `count` + 1 equally spaced points of a span of `from` from their feet on `to`, a curve of
 /// similar course and the same basis; peaks between them by a parabola.

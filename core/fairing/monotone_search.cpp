@@ -28,8 +28,6 @@ constexpr double kMargin = 1e-3, kMarginGrowth = 2.5;
 constexpr double kSettled = 5e-3;
 /// No step moves a control point by more than this, in the larger of the tolerance and the estimated move.
 constexpr double kLongestStep = 1.0;
-/// A derivative below this share of the mean speed counts as a cusp.
-constexpr double kCuspShare = 1e-6;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 

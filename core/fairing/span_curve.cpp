@@ -7,50 +7,76 @@
 namespace batten {
 namespace {
 
-constexpr std::array<double, 5> kGaussAt = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
-                                            0.9061798459386640};
-constexpr std::array<double, 5> kGaussWeight = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
-                                                0.4786286704993665, 0.2369268850561891};
 constexpr int kPartsPerSpan = 2;
 
-/// Length between two positions of one span.
-double lengthBetween(const SpanCurve& curve, int span, double from, double to) {
-  const double mid = 0.5 * (from + to), half = 0.5 * (to - from);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < kGaussAt.size(); ++i)
-    sum += kGaussWeight[i] * curve.speed({span, mid + half * kGaussAt[i]});
-  return sum * half * curve.basis().width(span);
+/// Legendre nodes of the speed on 0..1, and the polynomial of lowest degree through the speeds there.
+constexpr std::size_t kNodes = 7;
+using NodeValues = std::array<double, kNodes>;
+constexpr NodeValues kNodeAt = {0.0254460438286207, 0.1292344072003028, 0.2970774243113014, 0.5,
+                                0.7029225756886986, 0.8707655927996972, 0.9745539561713793};
+
+/// Row k: the coefficients of x^0, x^1, ... of the polynomial that is 1 at node k and 0 at the others.
+std::array<NodeValues, kNodes> lagrangePolynomials() {
+  std::array<NodeValues, kNodes> all{};
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    NodeValues& c = all[k];
+    c[0] = 1.0;
+    std::size_t degree = 0;
+    for (std::size_t j = 0; j < kNodes; ++j) {
+      if (j == k) continue;
+      const double scale = 1.0 / (kNodeAt[k] - kNodeAt[j]);
+      for (std::size_t i = ++degree; i > 0; --i) c[i] = scale * (c[i - 1] - kNodeAt[j] * c[i]);
+      c[0] *= -scale * kNodeAt[j];
+    }
+  }
+  return all;
 }
 
-/// The place in the part of a span that begins at `low` at which its length, `whole` in all, has reached `wanted`.
-double placeAtLength(const SpanCurve& curve, int span, double low, double whole, double wanted, double tolerance) {
-  constexpr double kPart = 1.0 / kPartsPerSpan;
-  const double start = low, width = curve.basis().width(span);
-  const auto slope = [&](double x) { return curve.speed({span, x}) * width; };
-  double high = low + kPart;
-  const double f = whole > 0.0 ? std::clamp(wanted / whole, 0.0, 1.0) : 0.0;
-  double guess = f;
-  // First guess: the inverse as a cubic with the right slopes at both borders.
-  const double v0 = slope(low), v1 = slope(high);
-  if (v0 > 0.0 && v1 > 0.0) {
-    const double m0 = whole / (v0 * kPart), m1 = whole / (v1 * kPart), g = 1.0 - f;
-    if (m0 < 3.0 && m1 < 3.0) guess = f * f * (3.0 - 2.0 * f) + m0 * f * g * g - m1 * f * f * g;
+/// The arc length over one part of a span, as the integral of the polynomial through the speeds at the nodes: for the
+/// whole part the Gauss-Legendre rule, within it as good as that polynomial. So a curve's samples cost no integrals.
+class PartLength {
+ public:
+  PartLength(const SpanCurve& curve, int part) {
+    static const std::array<NodeValues, kNodes> kLagrange = lagrangePolynomials();
+    const int span = part / kPartsPerSpan;
+    const double low = lowOf(part), width = curve.basis().width(span) / kPartsPerSpan;
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      const double v = width * curve.speed({span, low + kNodeAt[k] / kPartsPerSpan});
+      for (std::size_t i = 0; i < kNodes; ++i) slope_[i] += v * kLagrange[k][i];
+    }
   }
-  double x = std::clamp(low + kPart * guess, low, high);
-  for (int step = 0; step < 30; ++step) {
-    const double miss = lengthBetween(curve, span, start, x) - wanted;
-    if (std::abs(miss) <= tolerance) break;
-    (miss > 0.0 ? high : low) = x;
-    const double v = slope(x);
-    double next = v > 0.0 ? x - miss / v : low - 1.0;
-    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    // The error of a last Newton step is the square of the step.
-    const bool settled = std::abs(next - x) < 1e-7 * kPart;
-    x = next;
-    if (settled) break;
+  static double lowOf(int part) { return static_cast<double>(part % kPartsPerSpan) / kPartsPerSpan; }
+
+  double whole() const { return at(1.0); }
+  /// The place 0..1 in the part at which its length has reached `wanted`, by safeguarded Newton.
+  double placeAt(double wanted, double whole) const {
+    double low = 0.0, high = 1.0, x = whole > 0.0 ? std::clamp(wanted / whole, 0.0, 1.0) : 0.0;
+    for (int step = 0; step < 60; ++step) {
+      const double miss = at(x) - wanted;
+      (miss > 0.0 ? high : low) = x;
+      const double v = slopeAt(x);
+      double next = v > 0.0 ? x - miss / v : -1.0;
+      if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+      const bool settled = std::abs(next - x) < 1e-15;
+      x = next;
+      if (settled) break;
+    }
+    return x;
   }
-  return x;
-}
+
+ private:
+  double slopeAt(double x) const {
+    double sum = slope_.back();
+    for (std::size_t i = kNodes - 1; i-- > 0;) sum = sum * x + slope_[i];
+    return sum;
+  }
+  double at(double x) const {
+    double sum = slope_.back() / kNodes;
+    for (std::size_t i = kNodes - 1; i-- > 0;) sum = sum * x + slope_[i] / static_cast<double>(i + 1);
+    return sum * x;
+  }
+  NodeValues slope_{};
+};
 
 }  // namespace
 
@@ -171,28 +197,24 @@ double SpanCurve::bendBound(const SpanCurve& other, int span) const {
 
 std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool closed) {
   const int parts = curve.basis().spanCount() * kPartsPerSpan;
-  std::vector<double> cumulative(static_cast<std::size_t>(parts) + 1, 0.0);
+  std::vector<PartLength> lengths;
+  lengths.reserve(static_cast<std::size_t>(parts));
+  std::vector<double> cumulative{0.0};
   for (int k = 0; k < parts; ++k) {
-    const double from = static_cast<double>(k % kPartsPerSpan) / kPartsPerSpan;
-    cumulative[static_cast<std::size_t>(k) + 1] =
-        cumulative[static_cast<std::size_t>(k)] +
-        lengthBetween(curve, k / kPartsPerSpan, from, from + 1.0 / kPartsPerSpan);
+    lengths.emplace_back(curve, k);
+    cumulative.push_back(cumulative.back() + lengths.back().whole());
   }
   EqualArc result;
   result.length = cumulative.back();
   if (!(result.length > 0.0) || !std::isfinite(result.length)) return std::nullopt;
   result.places.reserve(static_cast<std::size_t>(count));
-  int k = 0;
+  std::size_t k = 0;
   for (int i = 0; i < count; ++i) {
     const double target = result.length * i / (closed ? count : count - 1);
-    while (k + 1 < parts && cumulative[static_cast<std::size_t>(k) + 1] <= target) ++k;
-    const double s0 = cumulative[static_cast<std::size_t>(k)], s1 = cumulative[static_cast<std::size_t>(k) + 1];
-    const int span = k / kPartsPerSpan;
-    double x = placeAtLength(curve, span, static_cast<double>(k % kPartsPerSpan) / kPartsPerSpan, s1 - s0, target - s0,
-                             1e-13 * result.length);
-    if (i == 0) x = static_cast<double>(k % kPartsPerSpan) / kPartsPerSpan;
-    if (!closed && i == count - 1) x = static_cast<double>(k % kPartsPerSpan + 1) / kPartsPerSpan;
-    result.places.push_back({span, x});
+    while (k + 1 < lengths.size() && cumulative[k + 1] <= target) ++k;
+    const int part = static_cast<int>(k);
+    const double x = i == 0 ? 0.0 : lengths[k].placeAt(target - cumulative[k], cumulative[k + 1] - cumulative[k]);
+    result.places.push_back({part / kPartsPerSpan, PartLength::lowOf(part) + x / kPartsPerSpan});
   }
   if (!closed) result.places.back() = {curve.basis().spanCount() - 1, 1.0};
   return result;

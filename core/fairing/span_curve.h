@@ -86,8 +86,8 @@ struct EqualArc {
   double length = 0.0;
   std::vector<SpanPlace> places;
 };
-/// Absent when the curve has no length or is not finite. Gauss-Legendre of five points on half spans, safeguarded
-/// Newton.
+/// Absent when the curve has no length or is not finite. The speed of each half span is taken as the polynomial through
+/// its values at seven Legendre nodes; the places on its integral are found by safeguarded Newton.
 std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool closed);
 
 /// The foot point of `point` on the curve that Newton's method reaches from `start`; periodic curves run on over the

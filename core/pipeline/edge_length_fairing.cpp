@@ -13,7 +13,7 @@
 namespace batten {
 namespace {
 
-constexpr int kDegree = 5;
+constexpr int kPathDegree = 5;
 /// Samples of the path's own curvature, and of the misfit.
 constexpr int kSamples = 801;
 /// Bisections of the share of the way to the profile, and the part of the tolerance that ends them.
@@ -27,13 +27,13 @@ constexpr double kProminence = 5e-3;
 /// The pieces of a path; empty for any other curve.
 std::vector<Quintic> quinticsOf(const NurbsCurve& curve) {
   std::vector<Quintic> path;
-  const auto pieces = curve.degree() == kDegree && !curve.isRational()
+  const auto pieces = curve.degree() == kPathDegree && !curve.isRational()
                           ? bezierPieces(curve)
                           : Result<std::vector<BezierPiece>>(fail(ErrorCode::Numerical, ""));
   if (!pieces) return path;
   const int joints = static_cast<int>(pieces->size()) - 1;
   // Every joint brings as many control points as its knot is multiple.
-  if (curve.controlPointCount() - (kDegree + 1) < 3 * joints) return path;
+  if (curve.controlPointCount() - (kPathDegree + 1) < 3 * joints) return path;
   for (const BezierPiece& piece : *pieces) {
     Quintic& q = path.emplace_back();
     std::copy(piece.controlPoints.begin(), piece.controlPoints.end(), q.begin());

@@ -6,16 +6,13 @@
 #include "core/construct/block_levenberg.h"
 #include "core/curve/curve_analysis.h"
 #include "core/curve/knot_operations.h"
+#include "tests/unit/construct/roof_line.h"
 #include "tests/unit/construct/stations_of.h"
 
 namespace batten {
 namespace {
 
 using std::numbers::pi;
-
-Vec2 roof(double x) {
-  return {x, 60 * std::exp(-std::pow((x - 300) / 120, 2)) + 40 * std::exp(-std::pow((x - 650) / 90, 2))};
-}
 
 void disturb(std::vector<Station>& stations, double noise, unsigned seed) {
   std::mt19937 random(seed);
@@ -49,7 +46,7 @@ TEST(MinimiseBlocks, FindsTheBottomOfRosenbrocksValley) {
 }
 
 TEST(BezierPath, PassesTheStationsInTheirDirections) {
-  const auto stations = test::stationsOf(roof, 0, 900, 24, false);
+  const auto stations = test::stationsOf(test::roofLine, 0, 900, 24, false);
   const auto path = bezierPath(stations, false);
   ASSERT_EQ(path.size(), 23u);
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -77,7 +74,7 @@ TEST(LowPassedCurvature, KeepsCirclesAndClothoidsToTheEnds) {
 }
 
 TEST(ConstructBezierChain, HasG2AtEveryJoint) {
-  auto piece = test::pieceOf(roof, 0, 900, 30, false);
+  auto piece = test::pieceOf(test::roofLine, 0, 900, 30, false);
   disturb(piece.stations, 0.3, 1);
   const auto made = constructBezierChain(piece, 1.0, {}, {}).value();
   const auto breaks = made.curve.breaks();
@@ -99,7 +96,7 @@ TEST(ConstructBezierChain, HasG2AtEveryJoint) {
 
 TEST(ConstructBezierChain, IsTrueAndFair) {
   for (const double noise : {0.0, 0.05}) {
-    auto open = test::pieceOf(roof, 0, 900, 24, false);
+    auto open = test::pieceOf(test::roofLine, 0, 900, 24, false);
     disturb(open.stations, noise, 2);
     const auto line = constructBezierChain(open, 1.0, {}, {}).value();
     EXPECT_LT(deviation(line.curve, open.points, true).max, 1.0);
@@ -113,7 +110,7 @@ TEST(ConstructBezierChain, IsTrueAndFair) {
 }
 
 TEST(ConstructBezierChain, TamesNoise) {
-  auto piece = test::pieceOf(roof, 0, 900, 60, false);
+  auto piece = test::pieceOf(test::roofLine, 0, 900, 60, false);
   const double truth = variation(constructBezierChain(piece, 1.0, {}, {}).value().curve);
   disturb(piece.stations, 0.3, 4);
   const auto made = constructBezierChain(piece, 1.0, {}, {}).value();
@@ -122,7 +119,7 @@ TEST(ConstructBezierChain, TamesNoise) {
 }
 
 TEST(ConstructBezierChain, WithoutLowPassIsThePathOfThePaperWithOneCurvatureAtEveryJoint) {
-  auto piece = test::pieceOf(roof, 0, 900, 30, false);
+  auto piece = test::pieceOf(test::roofLine, 0, 900, 30, false);
   disturb(piece.stations, 0.3, 1);
   ConstructParams params;
   params.lowPass = 0.0;

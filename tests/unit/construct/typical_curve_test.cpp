@@ -5,6 +5,7 @@
 
 #include "core/curve/curve_analysis.h"
 #include "tests/support/known_answers.h"
+#include "tests/unit/construct/roof_line.h"
 #include "tests/unit/construct/stations_of.h"
 
 namespace batten {
@@ -76,10 +77,6 @@ TEST(TypicalCurve, AbsentWhereThereIsNone) {
   EXPECT_FALSE(typicalFromCurvatures({0, 0}, 0, 0.01, -0.01, 0.7));
 }
 
-Vec2 roof(double x) {
-  return {x, 60 * std::exp(-std::pow((x - 300) / 120, 2)) + 40 * std::exp(-std::pow((x - 650) / 90, 2))};
-}
-
 double largestJump(const NurbsCurve& curve) {
   double jump = 0.0;
   const auto breaks = curve.breaks();
@@ -91,7 +88,7 @@ double largestJump(const NurbsCurve& curve) {
 }
 
 TEST(ConstructTypical, IsTrueAndHasNoJumpOfCurvature) {
-  const auto open = test::pieceOf(roof, 0, 900, 30, false);
+  const auto open = test::pieceOf(test::roofLine, 0, 900, 30, false);
   const auto line = constructTypical(open, 1.0, {}, {}).value();
   EXPECT_LT(deviation(line.curve, open.points, true).max, 1.0);
   EXPECT_LT(largestJump(line.curve), 1e-6);

@@ -17,14 +17,14 @@ namespace {
 
 using Polyline = std::vector<Vec2>;
 
-Polyline line(const Vec2& a, const Vec2& b) {
+Polyline strokeLine(const Vec2& a, const Vec2& b) {
   Polyline p;
   const int n = static_cast<int>((b - a).norm() * 10.0);
   for (int i = 0; i <= n; ++i) p.push_back(a + (b - a) * (static_cast<double>(i) / n));
   return p;
 }
 
-Polyline arc(const Vec2& centre, double radius, double from, double to) {
+Polyline strokeArc(const Vec2& centre, double radius, double from, double to) {
   Polyline p;
   const int n = static_cast<int>(std::abs(to - from) * radius * 10.0);
   for (int i = 0; i <= n; ++i) {
@@ -202,7 +202,7 @@ TEST(Centreline, StrokesOfAllShapesAreOneStrandOnTheirMiddle) {
 
 TEST(Centreline, OpenEndsLieWhereThePenStopped) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
-    const Polyline truth = arc({200, 220}, 150.0, -2.6, -0.4);
+    const Polyline truth = strokeArc({200, 220}, 150.0, -2.6, -0.4);
     const auto found = strandsOf(page({truth}, false, 5.0, 400, 300, seed));
     ASSERT_EQ(found.size(), 1u);
     EXPECT_FALSE(found[0].closed);
@@ -218,7 +218,7 @@ TEST(Centreline, CrossingStrokesGoStraightThrough) {
   for (const double angle : {90.0, 60.0, 35.0, 20.0}) {
     const double t = angle * std::numbers::pi / 180.0;
     const Vec2 d = 130.0 * Vec2(std::cos(t), std::sin(t)), c(200.3, 200.7);
-    const std::vector<Polyline> strokes{line(c - Vec2(150, 0), c + Vec2(150, 0)), line(c - d, c + d)};
+    const std::vector<Polyline> strokes{strokeLine(c - Vec2(150, 0), c + Vec2(150, 0)), strokeLine(c - d, c + d)};
     const auto found = strandsOf(page(strokes, false, 5.0, 400, 400));
     ASSERT_EQ(found.size(), 2u) << angle;
     for (int k = 0; k < 2; ++k) {
@@ -232,7 +232,7 @@ TEST(Centreline, CrossingStrokesGoStraightThrough) {
 }
 
 TEST(Centreline, ATeeIsTwoStrandsThatTouch) {
-  const std::vector<Polyline> strokes{line({40, 100.4}, {360, 100.4}), line({200.6, 100.4}, {200.6, 280})};
+  const std::vector<Polyline> strokes{strokeLine({40, 100.4}, {360, 100.4}), strokeLine({200.6, 100.4}, {200.6, 280})};
   const auto found = strandsOf(page(strokes, false, 5.0, 400, 320));
   ASSERT_EQ(found.size(), 2u);
   EXPECT_LE(fitTo(found[0], strokes[0], false).allWorst, 0.3);
@@ -246,7 +246,7 @@ TEST(Centreline, AnAcuteCornerKeepsTheRing) {
   const std::vector<Vec2> corners{{60, 200}, {340, 160}, {340, 240}};  // 16 degrees at the left
   Polyline outline;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Polyline side = line(corners[i], corners[(i + 1) % 3]);
+    const Polyline side = strokeLine(corners[i], corners[(i + 1) % 3]);
     outline.insert(outline.end(), side.begin(), side.end() - 1);
   }
   const auto found = strandsOf(page({outline}, true, 5.0, 400, 400));
@@ -269,7 +269,7 @@ TEST(Centreline, ALineWithLugsStaysOnItsInk) {
 }
 
 TEST(Centreline, GapsAreBridgedAndSaid) {
-  const Polyline whole = line({40, 80.2}, {360, 90.2});
+  const Polyline whole = strokeLine({40, 80.2}, {360, 90.2});
   Polyline left, right;
   for (const Vec2& p : whole) {
     if (p.x() < 190.0) left.push_back(p);
@@ -293,7 +293,7 @@ TEST(Centreline, GapsAreBridgedAndSaid) {
 
 TEST(Centreline, OverdrawnStrokesMergeOnlyWhenAsked) {
   std::vector<Polyline> strokes;
-  for (const double y : {97.0, 104.0, 110.0}) strokes.push_back(line({40, y}, {360, y}));
+  for (const double y : {97.0, 104.0, 110.0}) strokes.push_back(strokeLine({40, y}, {360, y}));
   const Page p = page(strokes, false, 3.0, 400, 200);
   EXPECT_EQ(strandsOf(p).size(), 3u);
   EdgeParams merge;
@@ -318,7 +318,7 @@ TEST(Centreline, OverdrawnStrokesMergeOnlyWhenAsked) {
 }
 
 TEST(Centreline, SameResultWithAnyNumberOfThreads) {
-  const Page p = page({arc({200, 200}, 120, 0.0, 5.0), line({20, 60}, {380, 350})}, false, 5.0, 400, 400);
+  const Page p = page({strokeArc({200, 200}, 120, 0.0, 5.0), strokeLine({20, 60}, {380, 350})}, false, 5.0, 400, 400);
   RunContext one, four;
   one.threads = 1;
   four.threads = 4;
@@ -334,7 +334,7 @@ TEST(Centreline, SameResultWithAnyNumberOfThreads) {
 }
 
 TEST(Centreline, CancelIsObeyed) {
-  const Page p = page({line({20, 60}, {380, 350})}, false, 5.0, 400, 400);
+  const Page p = page({strokeLine({20, 60}, {380, 350})}, false, 5.0, 400, 400);
   RunContext context;
   context.cancel.cancel();
   const auto set = centrelines(p.ink, p.grey, {}, context);

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "core/contour/trace_contours.h"
+#include "tests/support/angles.h"
 #include "tests/support/contour_shapes.h"
 
 namespace batten {
@@ -17,7 +18,7 @@ namespace {
 using test::CurvedPolygon;
 using test::RenderSettings;
 
-constexpr double kDeg = std::numbers::pi / 180.0;
+using test::kDeg;
 
 // A letter-K like outline with gently curved sides; corners of 50 to 300 degrees.
 CurvedPolygon letterK() {

@@ -8,12 +8,13 @@
 
 #include "core/contour/subpixel_edges.h"
 #include "core/contour/trace_contours.h"
+#include "tests/support/angles.h"
 #include "tests/support/render_page.h"
 
 namespace batten {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
+using test::kDeg;
 
 /// Oracle: the ink in a pixel by brute force, 400 x 400 points, each blurred by itself.
 double inkInPixel(double distance, const Vec2& normal, double blur) {

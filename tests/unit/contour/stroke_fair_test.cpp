@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/angles.h"
+
 namespace batten {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using test::kPi;
 
 double roughness(const std::vector<Vec2>& p) {
   double sum = 0.0;

@@ -9,11 +9,12 @@
 #include <random>
 
 #include "core/contour/polyline_tools.h"
+#include "tests/support/angles.h"
 
 namespace batten {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using test::kPi;
 
 Contour strokeOf(std::vector<Vec2> points, bool closed = false) {
   Contour c;

@@ -2,16 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "core/contour/corner_marks.h"
 #include "core/contour/trace_contours.h"
+#include "tests/support/angles.h"
 #include "tests/support/render_page.h"
 
 namespace batten {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
+using test::kDeg;
 
 /// The legs of a stroke are one body of ink for tens of pixels before a very sharp tip, and its centre line turns back
 /// there: the tip is where the legs lead to.

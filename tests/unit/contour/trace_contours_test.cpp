@@ -13,17 +13,17 @@ namespace {
 
 using test::RenderSettings;
 
-struct Page {
+struct OutlinePage {
   GreyImage grey;
   BitImage ink;
 };
 
-Page render(const std::function<bool(double, double)>& inside, double noise = 3.0) {
+OutlinePage render(const std::function<bool(double, double)>& inside, double noise = 3.0) {
   RenderSettings s;
   s.width = 400;
   s.height = 300;
   s.noise = noise;
-  Page page{renderShape(inside, s), {}};
+  OutlinePage page{renderShape(inside, s), {}};
   page.ink = test::thresholdMask(page.grey, 135.0);
   return page;
 }
@@ -31,7 +31,7 @@ Page render(const std::function<bool(double, double)>& inside, double noise = 3.
 bool inDisc(double x, double y, double cx, double cy, double r) { return std::hypot(x - cx, y - cy) < r; }
 
 // Two discs, a ring of 3 px and a short dash.
-Page mixedPage() {
+OutlinePage mixedPage() {
   return render([](double x, double y) {
     const double ring = std::hypot(x - 300, y - 80);
     return inDisc(x, y, 100, 100, 60) || inDisc(x, y, 330, 230, 30) || std::abs(ring - 50.0) < 1.5 ||
@@ -46,7 +46,7 @@ EdgeParams withMode(EdgeMode mode) {
 }
 
 TEST(TraceContours, ShapesGiveOutlinesAndStrokesCentreLines) {
-  const Page page = mixedPage();
+  const OutlinePage page = mixedPage();
   ContourParams any;
   any.minLengthPx = 0.0;
   const auto set = traceContours(page.ink, page.grey, withMode(EdgeMode::Automatic), any, {});
@@ -69,7 +69,7 @@ TEST(TraceContours, ShapesGiveOutlinesAndStrokesCentreLines) {
 }
 
 TEST(TraceContours, ModesOverrideTheChoice) {
-  const Page page = mixedPage();
+  const OutlinePage page = mixedPage();
   const auto outlines = traceContours(page.ink, page.grey, withMode(EdgeMode::Outline), {}, {});
   const auto lines = traceContours(page.ink, page.grey, withMode(EdgeMode::Centreline), {}, {});
   ASSERT_TRUE(outlines.has_value());
@@ -85,7 +85,7 @@ TEST(TraceContours, ModesOverrideTheChoice) {
 }
 
 TEST(TraceContours, LongestFirstShortOnesDroppedAndTheCutIsSaid) {
-  const Page page = mixedPage();
+  const OutlinePage page = mixedPage();
   ContourParams params;
   params.minLengthPx = 60.0;
   const auto set = traceContours(page.ink, page.grey, {}, params, {});
@@ -102,7 +102,7 @@ TEST(TraceContours, LongestFirstShortOnesDroppedAndTheCutIsSaid) {
 }
 
 TEST(TraceContours, MarginsOfTheScannerAreNoLines) {
-  const Page page = render([](double x, double y) {
+  const OutlinePage page = render([](double x, double y) {
     return x < 4 + 0.5 * std::sin(y * 0.1) || y > 297 || (std::abs(y - 150 - 0.2 * x) < 2.0 && x < 399);
   });
   const auto set = traceContours(page.ink, page.grey, {}, {}, {});
@@ -160,7 +160,7 @@ TEST(TraceContours, EdgesOfTonesAreFollowedWhereTheyAreSharp) {
 }
 
 TEST(TraceContours, NothingLongEnoughSaysWhatToDo) {
-  const Page page = mixedPage();
+  const OutlinePage page = mixedPage();
   ContourParams params;
   params.minLengthPx = 5000.0;
   const auto none = traceContours(page.ink, page.grey, {}, params, {});
@@ -173,7 +173,7 @@ TEST(TraceContours, NothingLongEnoughSaysWhatToDo) {
 }
 
 TEST(TraceContours, BadInputIsRefused) {
-  const Page page = mixedPage();
+  const OutlinePage page = mixedPage();
   EXPECT_FALSE(traceContours(BitImage(10, 10), page.grey, {}, {}, {}).has_value());
   EdgeParams edges;
   edges.mergeWidths = 21.0;
@@ -210,7 +210,7 @@ TEST(TraceContours, SameOutlineWithAnyNumberOfThreads) {
 }
 
 TEST(TraceContours, CancelIsObeyed) {
-  const Page page = mixedPage();
+  const OutlinePage page = mixedPage();
   RunContext context;
   context.cancel.cancel();
   const auto set = traceContours(page.ink, page.grey, {}, {}, context);

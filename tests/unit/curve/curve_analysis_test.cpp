@@ -14,12 +14,6 @@ namespace {
 
 using std::numbers::pi;
 
-/// A parabola y = x^2 / (2 r) over [-a, a]: curvature 1/r in the middle, falling to both sides.
-NurbsCurve parabola(double r, double a) {
-  return NurbsCurve::make(2, {0, 0, 0, 1, 1, 1}, {{-a, a * a / (2 * r)}, {0, -a * a / (2 * r)}, {a, a * a / (2 * r)}})
-      .value();
-}
-
 /// An ellipse as closed uniform quintic of `n` control points, good to about 1e-5 of its size for n = 40.
 NurbsCurve ellipse(double a, double b, int n, double phase) {
   std::vector<Vec2> points;
@@ -92,7 +86,7 @@ TEST(ArcLength, KnownCurves) {
   EXPECT_NEAR(ArcLength(test::circle(10, {0, 0})).total(), 20 * pi, 1e-9);
   const double a = 3.0, r = 0.5;  // y = x^2 / (2 r), r = 0.5: y = x^2
   const double exact = a * std::sqrt(1 + 4 * a * a) + std::asinh(2 * a) / 2;
-  EXPECT_NEAR(ArcLength(parabola(r, a)).total(), exact, 1e-10 * exact);
+  EXPECT_NEAR(ArcLength(test::parabola(r, a)).total(), exact, 1e-10 * exact);
   // A curve that turns back in a cusp: both branches count.
   const auto fold = NurbsCurve::make(2, {0, 0, 0, 1, 1, 1}, {{0, 0}, {2, 0}, {0, 0}}).value();
   EXPECT_NEAR(ArcLength(fold).total(), 2.0, 1e-9);
@@ -211,7 +205,7 @@ TEST(CurvatureExtrema, EllipseHasFour) {
 }
 
 TEST(CurvatureExtrema, ParabolaOneLineNoneCircleNone) {
-  const auto one = curvatureExtrema(parabola(2.0, 3.0), 1e-3, false);
+  const auto one = curvatureExtrema(test::parabola(2.0, 3.0), 1e-3, false);
   ASSERT_EQ(one.size(), 1u);
   EXPECT_NEAR(one[0].u, 0.5, 1e-9);
   EXPECT_NEAR(one[0].kappa, 0.5, 1e-12);
@@ -276,7 +270,7 @@ TEST(CurvatureJump, IsTheDifferenceAtAJointOverTheLargestCurvature) {
   ASSERT_GT(std::abs(after - before), 0.1);
   EXPECT_NEAR(largestCurvatureJump(*curve, false), std::abs(after - before) / largest, 1e-6);
   EXPECT_LT(largestCurvatureJump(ellipse(3.0, 2.0, 40, 0.3), false), 1e-9);
-  const NurbsCurve open = parabola(2.0, 1.0);
+  const NurbsCurve open = test::parabola(2.0, 1.0);
   EXPECT_EQ(largestCurvatureJump(open, false), 0.0);
 }
 

@@ -59,4 +59,10 @@ inline std::vector<double> parametersOf(const NurbsCurve& curve) {
   return u;
 }
 
+/// A parabola y = x^2 / (2 r) over [-a, a]: curvature 1/r in the middle, falling to both sides.
+inline NurbsCurve parabola(double r, double a) {
+  return NurbsCurve::make(2, {0, 0, 0, 1, 1, 1}, {{-a, a * a / (2 * r)}, {0, -a * a / (2 * r)}, {a, a * a / (2 * r)}})
+      .value();
+}
+
 }  // namespace batten::test

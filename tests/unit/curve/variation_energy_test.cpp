@@ -6,14 +6,10 @@
 #include <cmath>
 
 #include "core/curve/curve_analysis.h"
+#include "tests/unit/curve/curve_samples.h"
 
 namespace batten {
 namespace {
-
-/// y = a x^2 from -w to w as a Bezier curve.
-NurbsCurve parabola(double a, double w) {
-  return NurbsCurve::make(2, {0, 0, 0, 1, 1, 1}, {{-w, a * w * w}, {0, -a * w * w}, {w, a * w * w}}).value();
-}
 
 TEST(VariationEnergy, OfAParabolaIsTheIntegralOfItsClosedForm) {
   const double a = 0.7, w = 2.0;
@@ -27,7 +23,7 @@ TEST(VariationEnergy, OfAParabolaIsTheIntegralOfItsClosedForm) {
     length += std::sqrt(q) * 2.0 * w / n;
   }
   const double expected = energy * length * length * length;
-  EXPECT_NEAR(variationEnergy(parabola(a, w)), expected, 0.02 * expected);
+  EXPECT_NEAR(variationEnergy(test::parabola(0.5 / a, w)), expected, 0.02 * expected);
 }
 
 TEST(VariationEnergy, DoesNotDependOnSizePlaceOrDirection) {

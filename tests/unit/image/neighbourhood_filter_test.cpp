@@ -8,6 +8,7 @@
 
 #include "core/image/laplacian_edges.h"
 #include "tests/support/known_answers.h"
+#include "tests/unit/image/random_image.h"
 
 namespace batten {
 namespace {
@@ -17,16 +18,6 @@ BitImage fromRows(const nlohmann::json& rows) {
   for (int y = 0; y < image.height; ++y) {
     const auto line = rows.at(static_cast<std::size_t>(y)).get<std::string>();
     for (int x = 0; x < image.width; ++x) image.set(x, y, line[static_cast<std::size_t>(x)] == '1');
-  }
-  return image;
-}
-
-BitImage randomImage(int width, int height, double density, unsigned seed) {
-  std::mt19937 random(seed);
-  std::bernoulli_distribution ink(density);
-  BitImage image(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) image.set(x, y, ink(random));
   }
   return image;
 }
@@ -83,7 +74,7 @@ TEST(NeighbourhoodFilter, MatchesThePixelwiseRuleAtAnyWidth) {
     for (int coefficient = 0; coefficient <= 4; ++coefficient) {
       for (const auto border : {FilterBorder::Paper, FilterBorder::Replicate}) {
         SCOPED_TRACE(width * 10 + coefficient);
-        const BitImage image = randomImage(width, 37, 0.5, static_cast<unsigned>(width));
+        const BitImage image = test::randomImage(width, 37, 0.5, static_cast<unsigned>(width));
         ASSERT_EQ(erode(image, coefficient, border, context), naiveStep(image, coefficient, border, true));
         ASSERT_EQ(dilate(image, coefficient, border, context), naiveStep(image, coefficient, border, false));
         BitImage expected = image;
@@ -98,7 +89,7 @@ TEST(NeighbourhoodFilter, MatchesThePixelwiseRuleAtAnyWidth) {
 }
 
 TEST(NeighbourhoodFilter, StopsAtTheFixedPointAndDoesNotDependOnThreads) {
-  const BitImage image = randomImage(300, 700, 0.55, 3);
+  const BitImage image = test::randomImage(300, 700, 0.55, 3);
   RunContext one, four;
   one.threads = 1;
   four.threads = 4;
@@ -129,7 +120,7 @@ TEST(NeighbourhoodFilter, RefusesBadParametersAndStopsWhenCancelled) {
 
 TEST(LaplacianEdges, AreTheInkPixelsThatTouchPaper) {
   for (const int width : {1, 63, 64, 65, 130}) {
-    const BitImage image = randomImage(width, 40, 0.85, 9);
+    const BitImage image = test::randomImage(width, 40, 0.85, 9);
     const auto edges = laplacianEdges(image, {});
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < width; ++x) {

@@ -7,6 +7,8 @@
 #include <random>
 #include <utility>
 
+#include "tests/unit/image/random_image.h"
+
 namespace batten {
 namespace {
 
@@ -34,21 +36,11 @@ void floodPieces(const BitImage& image, bool ink, int neighbours,
   }
 }
 
-BitImage randomImage(int width, int height, double density, unsigned seed) {
-  std::mt19937 random(seed);
-  std::bernoulli_distribution ink(density);
-  BitImage image(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) image.set(x, y, ink(random));
-  }
-  return image;
-}
-
 TEST(RunPieces, KeepsWhatFloodFillKeeps) {
   for (const double density : {0.1, 0.3, 0.4, 0.6}) {
     for (const int width : {64, 65, 131}) {
-      const BitImage image = randomImage(width, 600, density, 5);
-      const BitImage seeds = randomImage(width, 600, 0.05, 6);
+      const BitImage image = test::randomImage(width, 600, density, 5);
+      const BitImage seeds = test::randomImage(width, 600, 0.05, 6);
       BitImage expected(width, 600);
       floodPieces(image, true, 8, [&](const auto& piece) {
         bool seeded = false;
@@ -66,7 +58,7 @@ TEST(RunPieces, KeepsWhatFloodFillKeeps) {
 TEST(RunPieces, FillsTheHolesThatFloodFillFinds) {
   for (const double density : {0.5, 0.6, 0.75, 0.95}) {
     for (const int width : {63, 64, 130}) {
-      BitImage image = randomImage(width, 300, density, 8);
+      BitImage image = test::randomImage(width, 300, density, 8);
       BitImage expected = image;
       floodPieces(image, false, 4, [&](const auto& piece) {
         bool atBorder = false;

@@ -9,11 +9,10 @@
 #include "core/pipeline/recipe_file.h"
 #include "core/pipeline/report.h"
 #include "tests/support/render_page.h"
+#include "tests/unit/pipeline/ellipse_scan.h"
 
 namespace batten {
 namespace {
-
-constexpr int kWidth = 400, kHeight = 300;
 
 /// A wave of 60 drawn points, and a triangle.
 std::vector<PenStroke> strokes() {
@@ -24,7 +23,7 @@ std::vector<PenStroke> strokes() {
 
 Recipe drawing() {
   Recipe recipe;
-  recipe.page = BlankPage{kWidth, kHeight};
+  recipe.page = BlankPage{test::kEllipseWidth, test::kEllipseHeight};
   recipe.dpi = 254.0;
   recipe.penStrokes = strokes();
   return recipe;
@@ -34,16 +33,8 @@ PipelineOutput run(const Scan& scan, const Recipe& recipe, StageCache& cache) {
   return runPipeline(scan, recipe, cache, {}, {});
 }
 
-const Scan& ellipseScan() {
-  static const Scan scan = [] {
-    const auto shape = test::truthShape("ellipse", kWidth, kHeight);
-    return test::renderPage(test::fillCoverage(shape.outline(), kWidth, kHeight), kWidth, kHeight, test::cleanPage());
-  }();
-  return scan;
-}
-
 TEST(PenDrawing, NeedsNoScan) {
-  const Scan page = blankScan(kWidth, kHeight, 254.0);
+  const Scan page = blankScan(test::kEllipseWidth, test::kEllipseHeight, 254.0);
   StageCache cache;
   const auto empty = run(page, Recipe{}, cache);
   ASSERT_TRUE(empty.error);
@@ -67,11 +58,11 @@ TEST(PenDrawing, NeedsNoScan) {
 
 TEST(PenDrawing, StrokesComeBehindTheLinesOfTheScanWithoutTracingAgain) {
   StageCache cache;
-  const auto before = run(ellipseScan(), {}, cache);
+  const auto before = run(test::ellipseScan(), {}, cache);
   ASSERT_FALSE(before.error);
   Recipe recipe;
   recipe.penStrokes = strokes();
-  const auto after = run(ellipseScan(), recipe, cache);
+  const auto after = run(test::ellipseScan(), recipe, cache);
   ASSERT_FALSE(after.error);
   ASSERT_EQ(after.contours->contours.size(), before.contours->contours.size() + 2);
   EXPECT_EQ(after.contours->contours[0].points, before.contours->contours[0].points);
@@ -80,10 +71,10 @@ TEST(PenDrawing, StrokesComeBehindTheLinesOfTheScanWithoutTracingAgain) {
   EXPECT_TRUE(after.timing[static_cast<std::size_t>(StageId::Filtered)].fromCache);
   // Another cache, the same result; and without the strokes all is as it was.
   StageCache fresh;
-  EXPECT_EQ(run(ellipseScan(), recipe, fresh).faired->curves[2].sketched, after.faired->curves[2].sketched);
-  EXPECT_EQ(run(ellipseScan(), {}, cache).contours->contours.size(), before.contours->contours.size());
+  EXPECT_EQ(run(test::ellipseScan(), recipe, fresh).faired->curves[2].sketched, after.faired->curves[2].sketched);
+  EXPECT_EQ(run(test::ellipseScan(), {}, cache).contours->contours.size(), before.contours->contours.size());
   recipe.penStrokes[0].points[30].y() += 1.0;
-  EXPECT_FALSE(run(ellipseScan(), recipe, cache).timing[static_cast<std::size_t>(StageId::Contours)].fromCache);
+  EXPECT_FALSE(run(test::ellipseScan(), recipe, cache).timing[static_cast<std::size_t>(StageId::Contours)].fromCache);
 }
 
 TEST(PenDrawing, TheRecipeKeepsEveryPoint) {
@@ -119,7 +110,7 @@ TEST(PenDrawing, DamagedStrokesAreRefused) {
 }
 
 TEST(PenDrawing, ReportCountsThePointsOfThePolygon) {
-  const Scan page = blankScan(kWidth, kHeight, 254.0);
+  const Scan page = blankScan(test::kEllipseWidth, test::kEllipseHeight, 254.0);
   Recipe recipe = drawing();
   recipe.construct.method = ConstructMethod::ControlPolygon;
   recipe.construct.removalStepPx = 20.0;
@@ -136,7 +127,7 @@ TEST(PenDrawing, ReportCountsThePointsOfThePolygon) {
 
 TEST(PieceMethod, OneCurveCanBeConstructedInItsOwnWay) {
   StageCache cache;
-  const Scan page = blankScan(kWidth, kHeight, 254.0);
+  const Scan page = blankScan(test::kEllipseWidth, test::kEllipseHeight, 254.0);
   Recipe recipe = drawing();
   recipe.construct.method = ConstructMethod::Nurbs;
   const auto alike = run(page, recipe, cache);

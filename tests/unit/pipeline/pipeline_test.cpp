@@ -7,27 +7,17 @@
 
 #include "core/pipeline/report.h"
 #include "tests/support/render_page.h"
+#include "tests/unit/pipeline/ellipse_scan.h"
 
 namespace batten {
 namespace {
-
-constexpr int kWidth = 400, kHeight = 300;
-
-/// One filled ellipse.
-const Scan& ellipseScan() {
-  static const Scan scan = [] {
-    const auto shape = test::truthShape("ellipse", kWidth, kHeight);
-    return test::renderPage(test::fillCoverage(shape.outline(), kWidth, kHeight), kWidth, kHeight, test::cleanPage());
-  }();
-  return scan;
-}
 
 PipelineOutput run(const Recipe& recipe, StageCache& cache, int threads = 1, StageId upTo = StageId::Faired) {
   RunContext context;
   context.threads = threads;
   PipelineRequest request;
   request.upTo = upTo;
-  return runPipeline(ellipseScan(), recipe, cache, request, context);
+  return runPipeline(test::ellipseScan(), recipe, cache, request, context);
 }
 
 /// First stage that did not come from the cache.
@@ -49,7 +39,7 @@ TEST(Pipeline, TracesAnEllipseIntoTheModelFrame) {
   EXPECT_GT(curve.sketchedFigures.fromPoints.count, 100);
   // The truth, sampled densely, as an independent oracle: every point of it lies on the curve, y up. Half a pixel is
   // what any construction keeps; how near they really come is measured elsewhere.
-  const auto truth = test::truthShape("ellipse", kWidth, kHeight).outline();
+  const auto truth = test::truthShape("ellipse", test::kEllipseWidth, test::kEllipseHeight).outline();
   for (std::size_t i = 0; i < truth.size(); i += 50) {
     EXPECT_LT(closestPoint(curve.sketched, out.frame.pointToModel(truth[i])).distance, 0.5 * out.frame.mmPerPx);
   }
@@ -97,7 +87,7 @@ TEST(Pipeline, StopsWhereAskedAndTellsOfEveryStage) {
   request.upTo = StageId::Pieces;
   request.needEdges = false;
   request.stageReady = [&](StageId stage, const PipelineOutput&) { told.push_back(stage); };
-  const auto out = runPipeline(ellipseScan(), {}, cache, request, {});
+  const auto out = runPipeline(test::ellipseScan(), {}, cache, request, {});
   EXPECT_EQ(told,
             (std::vector{StageId::Thresholds, StageId::Binary, StageId::Filtered, StageId::Contours, StageId::Pieces}));
   EXPECT_EQ(out.edges, nullptr);
@@ -109,7 +99,7 @@ TEST(Pipeline, CancelsWithoutStoring) {
   StageCache cache;
   RunContext context;
   context.cancel.cancel();
-  const auto out = runPipeline(ellipseScan(), {}, cache, {}, context);
+  const auto out = runPipeline(test::ellipseScan(), {}, cache, {}, context);
   ASSERT_TRUE(out.error);
   EXPECT_EQ(out.error->code, ErrorCode::Cancelled);
   EXPECT_EQ(cache.bytesUsed(), 0u);
@@ -119,7 +109,7 @@ TEST(Pipeline, CancelsWithoutStoring) {
   request.stageReady = [&](StageId stage, const PipelineOutput&) {
     if (stage == StageId::Contours) later.cancel.cancel();
   };
-  const auto half = runPipeline(ellipseScan(), {}, cache, request, later);
+  const auto half = runPipeline(test::ellipseScan(), {}, cache, request, later);
   ASSERT_TRUE(half.error);
   EXPECT_EQ(half.error->code, ErrorCode::Cancelled);
   EXPECT_NE(half.contours, nullptr);
@@ -127,7 +117,7 @@ TEST(Pipeline, CancelsWithoutStoring) {
 }
 
 TEST(Pipeline, AnEmptyPageGivesNoCurveAndABadRecipeIsRefused) {
-  Scan empty = ellipseScan();
+  Scan empty = test::ellipseScan();
   empty.fileHash = {};
   empty.grey = GreyImage(200, 100);
   StageCache cache;
@@ -136,7 +126,7 @@ TEST(Pipeline, AnEmptyPageGivesNoCurveAndABadRecipeIsRefused) {
   EXPECT_EQ(out.error->code, ErrorCode::NoCurve);
   Recipe bad;
   bad.fairing.toleranceMm = -1.0;
-  const auto refused = runPipeline(ellipseScan(), bad, cache, {}, {});
+  const auto refused = runPipeline(test::ellipseScan(), bad, cache, {}, {});
   ASSERT_TRUE(refused.error);
   EXPECT_EQ(refused.error->code, ErrorCode::BadParameter);
 }
@@ -272,7 +262,7 @@ TEST(Report, HoldsStagesCurvesAndTargetsWithoutNaN) {
   auto targets = targetsFor(out.faired->curves[0], {});
   ASSERT_TRUE(targets);
   extras.targets.push_back(std::move(*targets));
-  const auto json = nlohmann::json::parse(reportToJson(ellipseScan(), recipe, out, extras));
+  const auto json = nlohmann::json::parse(reportToJson(test::ellipseScan(), recipe, out, extras));
   EXPECT_EQ(json["stages"].size(), kStages.size());
   ASSERT_EQ(json["curves"].size(), 1u);
   const auto& curve = json["curves"][0];
@@ -293,7 +283,7 @@ TEST(Report, SaysThatTooManyCurvesAreNotCompared) {
     FairedSet many;
     many.curves.assign(count, out.faired->curves[0]);
     out.faired = std::make_shared<const FairedSet>(std::move(many));
-    return nlohmann::json::parse(reportToJson(ellipseScan(), {}, out, {}));
+    return nlohmann::json::parse(reportToJson(test::ellipseScan(), {}, out, {}));
   };
   const auto few = report(3), more = report(61);
   EXPECT_FALSE(few.contains("most_alike_note"));
