@@ -15,6 +15,13 @@ namespace {
 constexpr int kMostUndoSteps = 500;
 /// [px] A curve that lies farther from a pinned one than this is another curve.
 constexpr double kSamePlacePx = 24.0;
+
+/// A step that changes more, as opening a recipe does, is no marking of corners.
+bool differInMarksOnly(Recipe a, const Recipe& b) {
+  if (a.cornerMarks == b.cornerMarks) return false;
+  a.cornerMarks = b.cornerMarks;
+  return a == b;
+}
 }  // namespace
 
 EditorSession::EditorSession(QObject* parent)
@@ -60,8 +67,14 @@ void EditorSession::change(const QString& what, Recipe after, int gesture) {
 
 void EditorSession::setRecipe(const Recipe& recipe) {
   if (recipe == recipe_) return;
-  // A piece of the line on which corners are marked is selected then, though another line may be longer.
-  if (recipe.cornerMarks != recipe_.cornerMarks && selected()) runner_->markedContour = selected()->contour;
+  const TracedCurve* curve = selected();
+  if (runner_->selectsItself && curve && !curve->sketched.isEmpty() && differInMarksOnly(recipe_, recipe)) {
+    // Marking corners is work on this line: it stays selected, though another one may be longer than its parts. By its
+    // place on the curve, as the pieces may already be those of a newer recipe.
+    const double middle = 0.5 * (curve->sketched.start() + curve->sketched.end());
+    runner_->anchorPx = output_.frame.pointToImage(curve->sketched.point(middle));
+    runner_->selectsItself = false;
+  }
   keepCornerSelection(recipe.cornerMarks);
   recipe_ = recipe;
   ++runner_->recipeGeneration;

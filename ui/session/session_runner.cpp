@@ -139,7 +139,6 @@ void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bo
   session.hoveredTarget_ = 0;
   targetsCurve.reset();
   anchorPx.reset();
-  markedContour.reset();
   selectsItself = true;
   shownGeneration.fill(0);
   ++recipeGeneration;
@@ -270,10 +269,8 @@ void EditorSession::Runner::curvesChanged() {
   int index = -1;
   if (selectsItself) {
     double longest = -1.0;
-    const auto isMarked = [this](const TracedCurve& curve) { return curve.contour == markedContour; };
-    const bool hasMarked = std::any_of(curves.begin(), curves.end(), isMarked);
     for (std::size_t i = 0; i < curves.size(); ++i)
-      if (curves[i].included && (!hasMarked || isMarked(curves[i])) && curves[i].sketchedFigures.lengthMm > longest) {
+      if (curves[i].included && curves[i].sketchedFigures.lengthMm > longest) {
         longest = curves[i].sketchedFigures.lengthMm;
         index = static_cast<int>(i);
       }
@@ -288,14 +285,12 @@ void EditorSession::Runner::curvesChanged() {
     }
   }
   session.selectedCurve_ = index;
-  if (const TracedCurve* marked = session.selected(); marked && markedContour && session.output_.pieces) {
-    const auto piece = static_cast<std::size_t>(marked->piece);
-    const auto& pieces = session.output_.pieces->pieces;
-    // From now on the user works on this line.
-    if (selectsItself && piece < pieces.size()) anchorPx = anchorOf(pieces[piece]), selectsItself = false;
-  }
-  markedContour.reset();
+  const TracedCurve* now = session.selected();
+  const bool isKnown = now != nullptr && targetsCurve && *targetsCurve == now->sketched;
+  const bool areOfAnother = index != before && session.targets_ && !isKnown;
+  if (areOfAnother) session.targets_.reset(), targetsCurve.reset();
   if (index != before) emit session.selectionChanged();
+  if (areOfAnother) emit session.targetsChanged();
   // Stages that were done when Esc was pressed still arrive: they begin nothing new.
   if (!isStopped) computeTargets();
 }
@@ -329,8 +324,7 @@ void EditorSession::Runner::computeTargets() {
   isTargeting = true;
   // While one curve changes, its last outcomes stay; another curve's would be read as this one's.
   const double length = curve->sketchedFigures.lengthMm;
-  const double before = std::exchange(targetsLengthMm, length);
-  if (session.targets_ && std::abs(length - before) > kOtherCurve * std::max(length, before)) {
+  if (session.targets_ && std::abs(length - targetsLengthMm) > kOtherCurve * std::max(length, targetsLengthMm)) {
     session.targets_.reset();
     emit session.targetsChanged();
   }
@@ -343,14 +337,17 @@ void EditorSession::Runner::computeTargets() {
     std::shared_ptr<const TargetOutcomes> outcomes;
     if (result) outcomes = std::make_shared<const TargetOutcomes>(std::move(*result));
     QMetaObject::invokeMethod(
-        &inbox, [this, id, outcomes] { applyTargets(id, outcomes); }, Qt::QueuedConnection);
+        &inbox, [this, id, outcomes, length = job.sketchedFigures.lengthMm] { applyTargets(id, outcomes, length); },
+        Qt::QueuedConnection);
   });
   updateBusy();
 }
 
-void EditorSession::Runner::applyTargets(std::uint64_t id, std::shared_ptr<const TargetOutcomes> outcomes) {
+void EditorSession::Runner::applyTargets(std::uint64_t id, std::shared_ptr<const TargetOutcomes> outcomes,
+                                         double lengthMm) {
   if (id != newestTargets) return;
   session.targets_ = std::move(outcomes);
+  targetsLengthMm = lengthMm;
   isTargeting = false;
   emit session.targetsChanged();
   updateBusy();

@@ -41,8 +41,7 @@ struct EditorSession::Runner {
   bool wasBusy = false, wasWorking = false, hasRunFailure = false, edgesWanted = false;
   bool selectsItself = true;  ///< Until the user selects: the longest curve.
   std::optional<Vec2> anchorPx;
-  std::optional<int> markedContour;  ///< Whose corners have changed since the curves were shown.
-  std::optional<NurbsCurve> targetsCurve;
+  std::optional<NurbsCurve> targetsCurve;  ///< Whose outcomes are computed or shown.
   FairingParams targetsParams;
   double targetsLengthMm = 0.0;  ///< Of the curve whose outcomes are shown.
 
@@ -69,7 +68,7 @@ struct EditorSession::Runner {
   void applyStage(const std::shared_ptr<const Scan>&, std::uint64_t generation, StageId, const PipelineOutput&);
   void applyEnd(const std::shared_ptr<const Scan>&, std::uint64_t generation, std::uint64_t runId,
                 const PipelineOutput&, double milliseconds);
-  void applyTargets(std::uint64_t id, std::shared_ptr<const TargetOutcomes> outcomes);
+  void applyTargets(std::uint64_t id, std::shared_ptr<const TargetOutcomes> outcomes, double lengthMm);
   void stopOvertaken();
   void curvesChanged();
 };
