@@ -82,7 +82,7 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
   Parameter count = integer(
       kSegments,
       {"segments.count", "Number of segments", "",
-       "Segments of every line; 0 takes it from the length, else at least 4. More follows the line closer."},
+       "Segments of every line: auto (0) takes it from the length, else at least 4. More follows the line closer."},
       {0, 2000, 1}, [](auto& r) -> auto& { return r.segments.count; });
   count.set = [inRange = count.set, name = count.name](Recipe& r, std::string_view text) -> Result<void> {
     const auto value = integerFromText(text);
@@ -286,8 +286,8 @@ void appendFairing(std::vector<Parameter>& table) {
   table.push_back(integer(
       kFaired,
       {"fairing.keep_extrema", "Extrema to keep", "",
-       "Monotone: places where the curvature may turn back; 0 is monotone from end to end, -1 as few as the tolerance "
-       "allows."},
+       "Monotone: places where the curvature may turn back; 0 is monotone from end to end, fewest (-1) keeps as few as "
+       "the tolerance allows."},
       {-1, 99, 1}, [](auto& r) -> auto& { return r.fairing.keepExtrema; }));
   table.push_back(real(
       kFaired,

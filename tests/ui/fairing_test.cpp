@@ -4,13 +4,16 @@
 #include <QAbstractButton>
 #include <QAction>
 #include <QComboBox>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QTest>
+#include <cmath>
 
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/shape_window.h"
+#include "ui/panels/target_advice.h"
 #include "ui/plots/curve_plots.h"
 #include "ui/plots/plot_editing.h"
 
@@ -149,6 +152,72 @@ TEST_F(FairingWindow, ShapesAreComparedAndTheTableShowsAllSixProfiles) {
   second->setCurrentIndex(first->currentIndex());
   EXPECT_EQ(figures->rows()[0].cells[0].text, QStringLiteral("1.0000")) << "a curve is like itself";
   shapes->close();
+}
+
+/// A spiral drawn by a trembling hand.
+QImage spiralPage() {
+  QImage page(QSize(640, 480), QImage::Format_Grayscale8);
+  page.fill(245);
+  page.setDotsPerMeterX(11811);
+  page.setDotsPerMeterY(11811);
+  QPolygonF line;
+  for (double angle = 0.0; angle < 3.6; angle += 0.01) {
+    const double radius = 120.0 + 35.0 * angle + 2.0 * std::sin(9.0 * angle);
+    line << QPointF(340.0 + radius * std::cos(angle), 250.0 - radius * std::sin(angle));
+  }
+  QPainter painter(&page);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(QColor(30, 30, 30), 5.0, Qt::SolidLine, Qt::FlatCap, Qt::MiterJoin));
+  painter.drawPolyline(line);
+  return page;
+}
+
+TEST_F(FairingWindow, TilesAndTableRecommendAlike) {
+  ASSERT_NO_FATAL_FAILURE(openPage(spiralPage()));
+  click("fairing.mode.target");
+  ASSERT_TRUE(settle());
+  ASSERT_TRUE(waitUntil([&] { return session().targets() && !session().isTargeting(); }));
+  click("fairing.compare");
+  const auto* shapes = find<ShapeWindow>("shapes");
+  const auto* table = shapes->findChild<FigureTable*>(QStringLiteral("shapes.table"));
+  const auto* words = shapes->findChild<QLabel*>(QStringLiteral("shapes.recommendation"));
+  const int nearest = session().targets()->recommendedDegree;
+  ASSERT_GT(nearest, 0);
+  const auto* tile = window_->findChild<QAbstractButton*>(QStringLiteral("target.%1").arg(nearest));
+  const auto isTicked = [&] { return table->rows()[std::size_t(nearest - 1)].name.contains(QStringLiteral("✓")); };
+  // Of the largest budget and the least, one allows it and one does not.
+  for (const bool allowed : {true, false}) {
+    type(find<QLineEdit>("fairing.tolerance.field"), allowed ? QStringLiteral("20") : QStringLiteral("0.001"));
+    ASSERT_TRUE(settle());
+    ASSERT_TRUE(waitUntil([&] { return session().targets() && !session().isTargeting(); }));
+    ASSERT_EQ(session().targets()->recommendedDegree, nearest);
+    EXPECT_EQ(isAdvisable(*session().targets(), nearest, session().recipe().fairing.toleranceMm), allowed);
+    EXPECT_EQ(tile->accessibleName().contains(QStringLiteral(", recommended")), allowed);
+    EXPECT_EQ(tile->accessibleName().contains(QStringLiteral("closest shape")), !allowed);
+    EXPECT_EQ(isTicked(), allowed);
+    EXPECT_EQ(words->text().contains(QStringLiteral("not recommended")), !allowed) << words->text().toStdString();
+  }
+}
+
+TEST(TargetAdvice, NothingIsRecommendedThatAddsBumpsOrDoesNotMove) {
+  const auto isAdvised = [](int before, int after, double movedMm, bool withinBudget = true) {
+    TargetOutcomes outcomes;
+    outcomes.faired[2].emplace();
+    FairingReport& report = outcomes.faired[2]->report;
+    report.extremaBefore = before;
+    report.extremaAfter = after;
+    report.maxDeviationMm = movedMm;
+    report.withinBudget = withinBudget;
+    return isAdvisable(outcomes, 3, 0.1);
+  };
+  EXPECT_TRUE(isAdvised(4, 4, 0.05));
+  EXPECT_TRUE(isAdvised(4, 2, 0.05));
+  EXPECT_TRUE(isAdvised(4, 2, 0.00001)) << "fewer bumps for nothing";
+  EXPECT_FALSE(isAdvised(4, 4, 0.00001));
+  EXPECT_FALSE(isAdvised(4, 5, 0.05));
+  EXPECT_FALSE(isAdvised(4, 2, 0.11));
+  EXPECT_FALSE(isAdvised(4, 2, 0.05, false));
+  EXPECT_FALSE(isAdvisable(TargetOutcomes{}, 3, 0.1));
 }
 
 }  // namespace

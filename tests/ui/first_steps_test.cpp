@@ -14,25 +14,13 @@
 #include "ui/canvas/comb_runs.h"
 #include "ui/canvas/layers/vector_layers.h"
 #include "ui/panels/number_field.h"
+#include "ui/panels/pin_panel.h"
+#include "ui/session/growing_player.h"
 
 namespace batten {
 namespace {
 
 using test::waitUntil;
-
-/// A long angle above a straight line that is longer than each of its sides.
-QImage angleAndLinePage() {
-  QImage page(QSize(700, 500), QImage::Format_Grayscale8);
-  page.fill(245);
-  page.setDotsPerMeterX(11811);
-  page.setDotsPerMeterY(11811);
-  QPainter painter(&page);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(QColor(30, 30, 30), 5.0, Qt::SolidLine, Qt::FlatCap, Qt::MiterJoin));
-  painter.drawPolyline(QPolygonF({{60, 300}, {340, 60}, {620, 300}}));
-  painter.drawLine(QPointF(80, 440), QPointF(600, 450));
-  return page;
-}
 
 class FirstSteps : public test::WindowFixture {
  protected:
@@ -48,15 +36,6 @@ class FirstSteps : public test::WindowFixture {
     recipe.cornerMarks.push_back({px});
     session().change(QStringLiteral("Mark corner"), recipe);
     ASSERT_TRUE(settle());
-  }
-  /// How far the selected line lies from a place [px].
-  double selectedTo(const Vec2& px) {
-    const TracedCurve* curve = session().selected();
-    if (!curve || !session().output().pieces) return 1e9;
-    double best = 1e9;
-    for (const Vec2& p : session().output().pieces->pieces[static_cast<std::size_t>(curve->piece)].points)
-      best = std::min(best, (p - px).norm());
-    return best;
   }
 };
 
@@ -114,27 +93,6 @@ TEST_F(FirstSteps, ARoundingIsSeenWhereItIsSet) {
   EXPECT_TRUE(says(curve->sketched)) << curveText(scene).toStdString();
 }
 
-TEST_F(FirstSteps, MarkingACornerDoesNotSelectAnotherLine) {
-  ASSERT_NO_FATAL_FAILURE(openPage(angleAndLinePage()));
-  ASSERT_EQ(session().curves().size(), 2u);
-  ASSERT_LT(selectedTo({200, 180}), 3.0) << "the angle is the longest line";
-  ASSERT_NO_FATAL_FAILURE(markCorner({340, 60}));
-  ASSERT_EQ(session().curves().size(), 3u);
-  EXPECT_LT(std::min(selectedTo({200, 180}), selectedTo({480, 180})), 3.0) << "one side of it stays selected";
-}
-
-TEST_F(FirstSteps, TilesOfALineThatIsGoneAreNotShownForAnother) {
-  ASSERT_NO_FATAL_FAILURE(openPage(angleAndLinePage()));
-  ASSERT_TRUE(waitUntil([&] { return session().targets() && !session().isTargeting(); }));
-  const auto before = session().targets();
-  bool wasShown = false;
-  QObject::connect(&session(), &EditorSession::runFinished, window_.get(),
-                   [&] { wasShown = wasShown || session().targets() == before; });
-  ASSERT_NO_FATAL_FAILURE(markCorner({340, 60}));
-  EXPECT_FALSE(wasShown);
-  ASSERT_TRUE(waitUntil([&] { return session().targets() && !session().isTargeting(); }));
-}
-
 TEST_F(FirstSteps, BumpsAreMarkedWhereCurvesAreJudged) {
   ASSERT_NO_FATAL_FAILURE(openPage(test::ellipsePage()));
   for (const PanelStage stage : {PanelStage::Edges, PanelStage::Corners, PanelStage::Export}) {
@@ -187,6 +145,64 @@ TEST(NumberField, SaysWhatItsSmallestValueMeans) {
   EXPECT_EQ(field.edit()->text(), QStringLiteral("fewest"));
 }
 
+TEST_F(FirstSteps, ArrowsPassBetweenAutoAndTheFewestSegments) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+  window_->setStage(PanelStage::Curves);
+  Recipe recipe = session().recipe();
+  recipe.construct.method = ConstructMethod::Bezier;
+  session().change(QStringLiteral("Method"), recipe);
+  ASSERT_TRUE(settle());
+  auto* field = find<QLineEdit>("segments.count.field");
+  ASSERT_TRUE(field->isVisible());
+  EXPECT_EQ(field->text(), QStringLiteral("auto"));
+  const std::pair<Qt::Key, int> steps[] = {
+      {Qt::Key_Up, 4}, {Qt::Key_Up, 5}, {Qt::Key_Down, 4}, {Qt::Key_Down, 0}, {Qt::Key_Up, 4}};
+  for (const auto& [key, count] : steps) {
+    QTest::keyClick(field, key);
+    EXPECT_EQ(session().recipe().segments.count, count);
+    EXPECT_EQ(field->text(), count == 0 ? QStringLiteral("auto") : QString::number(count));
+  }
+  const QString help = find<QWidget>("segments.count.row")->toolTip();
+  EXPECT_TRUE(help.contains(QStringLiteral("auto (0)"))) << help.toStdString();
+  EXPECT_TRUE(find<QWidget>("fairing.keep_extrema.row")->toolTip().contains(QStringLiteral("fewest (-1)")));
+  ASSERT_TRUE(settle());
+}
+
+TEST_F(FirstSteps, AHiddenCombShowsNoQuillUnderTheMouse) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::ellipsePage()));
+  window_->setStage(PanelStage::Curves);
+  Recipe recipe = session().recipe();
+  recipe.construct.method = ConstructMethod::Typical;
+  recipe.construct.typical = TypicalMode::Growing;
+  session().change(QStringLiteral("Method"), recipe);
+  ASSERT_TRUE(settle());
+  ASSERT_NE(session().selected(), nullptr);
+  auto* canvas = find<CurveCanvas>("canvas");
+  const auto shown = [&](bool comb, double share) {
+    window_->view().setVisible(Layer::Comb, comb);
+    session().setCursor(share * session().selected()->sketchedFigures.lengthMm);
+    return canvas->grab().toImage();
+  };
+  ASSERT_TRUE(waitUntil([&] { return shown(true, 0.3) != shown(false, 0.3); })) << "the comb is drawn";
+  auto* open = find<QPushButton>("growing.open");
+  QTest::mouseClick(open, Qt::LeftButton);
+  ASSERT_TRUE(waitUntil([&] { return session().growing().isOpen() && !session().growing().isComputing(); }));
+  EXPECT_NE(shown(true, 0.3), shown(true, 0.6)) << "the place under the mouse is marked";
+  EXPECT_EQ(shown(true, 0.3), shown(false, 0.3));
+  QTest::mouseClick(open, Qt::LeftButton);
+  EXPECT_NE(shown(true, 0.3), shown(false, 0.3));
+}
+
+TEST(PinPanel, WritesUnevennessInFewDigits) {
+  EXPECT_EQ(unevennessText(0.5), QStringLiteral("0.5"));
+  EXPECT_EQ(unevennessText(37.21), QStringLiteral("37.2"));
+  EXPECT_EQ(unevennessText(999.7), QStringLiteral("1000"));
+  EXPECT_EQ(unevennessText(1234.0), QStringLiteral("1234"));
+  EXPECT_EQ(unevennessText(9999.4), QStringLiteral("9999"));
+  EXPECT_EQ(unevennessText(9999.7), QStringLiteral("1.00 · 10⁴"));
+  EXPECT_EQ(unevennessText(2.79e7), QStringLiteral("2.79 · 10⁷"));
+}
+
 /// A comb over a straight line along x whose curvature is given.
 std::vector<CombPoint> combOf(const std::vector<double>& kappa) {
   std::vector<CombPoint> points(kappa.size());
@@ -205,6 +221,7 @@ TEST(CombRuns, ASharpPlaceIsOneCutQuill) {
   kappa[101] = 7.0;
   kappa[102] = -6.0;
   const CombScale scale = combScaleFor({0.1, 100.0, 200.0, 2}, 1.0, 1000.0);
+  EXPECT_NEAR(scale.pxPerKappa, 130.0, 1e-9) << "at 0.1 / mm 0.13 of the extent";
   const auto points = combOf(kappa);
   const auto runs = combRuns(points, scale);
   ASSERT_EQ(runs.size(), 4u);
@@ -219,7 +236,6 @@ TEST(CombRuns, ASharpPlaceIsOneCutQuill) {
     next = run.last + 1;
   }
   EXPECT_EQ(next, points.size());
-  // At 1 / mm a quill of 130 px would be due (0.13 of 100 px at 0.1 / mm).
   const CombPoint crossing = combCrossing(points[99], points[100], scale);
   EXPECT_NEAR(std::abs(scale.heightOf(crossing.kappa)), scale.limitPx, 1e-9);
   EXPECT_GT(crossing.px.x(), 99.0);
@@ -235,7 +251,7 @@ TEST(CombRuns, AnEvenCombIsNeverCutAndALowerOneShowsMore) {
   const CombScale usual = combScaleFor(smooth, 1.0, 1000.0), low = combScaleFor(smooth, 0.2, 1000.0);
   EXPECT_TRUE(usual.cuts(0.08));
   EXPECT_FALSE(low.cuts(0.08));
-  EXPECT_LE(combScaleFor(smooth, 20.0, 300.0).limitPx, 150.0) << "never more than half of the view";
+  EXPECT_LE(combScaleFor(smooth, 20.0, 300.0).limitPx, 120.0) << "never more than two fifths of the view";
   EXPECT_EQ(combScaleFor({0.0, 400.0, 500.0, 1}, 1.0, 1000.0).pxPerKappa, 0.0);
   EXPECT_TRUE(combRuns({}, usual).empty());
 }

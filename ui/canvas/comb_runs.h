@@ -37,8 +37,7 @@ struct CombedCurve {
 };
 /// The scale of combs for a curve, seen in a view `viewPx` [image px] high or wide (the smaller). The more the curve
 /// turns to and fro, the lower they are: quills longer than a bend would hide it. No comb at all where the curve is
-/// straight
-/// (`pxPerKappa` = 0).
+/// straight (`pxPerKappa` = 0).
 CombScale combScaleFor(const CombedCurve&, double wantedScale, double viewPx);
 
 }  // namespace batten

@@ -38,6 +38,13 @@ QString minimumText(const std::string& name) {
   return {};
 }
 
+/// What a parameter takes for a wanted value: where that one is refused, the next on the way.
+double taken(const std::string& name, double wanted, double before) {
+  // Auto (0), then 4 and more.
+  if (name == "segments.count" && wanted > 0.0 && wanted < 4.0) return before < 4.0 ? 4.0 : 0.0;
+  return wanted;
+}
+
 }  // namespace
 
 ParameterRow::ParameterRow(EditorSession& session, const Parameter& parameter, QWidget* parent)
@@ -197,6 +204,7 @@ void ParameterRow::give(const QString& value, int gesture) {
 void ParameterRow::giveNumber(double value, int gesture) {
   value = std::clamp(value, parameter_.minimum, parameter_.maximum);
   if (parameter_.type == ParameterType::Integer) value = std::round(value);
+  value = taken(parameter_.name, value, text(binding_.get(session_.recipe())).toDouble());
   give(QString::number(value, 'g', 17), gesture);
 }
 

@@ -25,9 +25,14 @@ ComparedFigures figuresOf(const TracedCurve& curve) {
           variationEnergy(faired ? curve.faired : curve.sketched)};
 }
 
-/// Three digits; large ones as 2.79 · 10⁷.
-QString energyText(double energy) {
-  if (!(energy >= 1e4)) return QString::number(energy, 'g', 3);
+QString fairingText(FairingMode mode) { return mode == FairingMode::None ? QString() : PinPanel::tr(", faired"); }
+
+}  // namespace
+
+QString unevennessText(double energy) {
+  // Asking for three digits gives 1e+03 from here on.
+  if (!(energy >= 999.5)) return QString::number(energy, 'g', 3);
+  if (energy < 9999.5) return QString::number(energy, 'f', 0);
   static constexpr char16_t kRaised[] = u"⁰¹²³⁴⁵⁶⁷⁸⁹";
   int exponent = static_cast<int>(std::floor(std::log10(energy)));
   double digits = energy / std::pow(10.0, exponent);
@@ -36,10 +41,6 @@ QString energyText(double energy) {
   for (const QChar digit : QString::number(exponent)) power += QChar(kRaised[digit.digitValue()]);
   return QStringLiteral("%1 · 10%2").arg(digits, 0, 'f', 2).arg(power);
 }
-
-QString fairingText(FairingMode mode) { return mode == FairingMode::None ? QString() : PinPanel::tr(", faired"); }
-
-}  // namespace
 
 Comparison compare(const TracedCurve& pinned, const TracedCurve& now) {
   Comparison result{figuresOf(pinned), figuresOf(now), 0.0};
@@ -129,7 +130,7 @@ void PinPanel::show(const Comparison& c) {
         {{count(c.pinned.extrema)}, {count(c.now.extrema)}},
         tr("Places where the curvature turns back: fewer is fairer.")},
        {tr("Unevenness"),
-        {{energyText(c.pinned.energy)}, {energyText(c.now.energy)}},
+        {{unevennessText(c.pinned.energy)}, {unevennessText(c.now.energy)}},
         tr("Integral of the squared change of curvature, free of the size: 0 for a circle, smaller is fairer.")},
        {tr("Apart"), {{}, {shortMillimetres(c.apartMm)}}, tr("Largest distance between the two curves.")}});
 }

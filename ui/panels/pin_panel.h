@@ -27,6 +27,9 @@ struct Comparison {
 /// Both curves as shown: faired where they are. @pre both hold a curve.
 Comparison compare(const TracedCurve& pinned, const TracedCurve& now);
 
+/// ComparedFigures::energy in few digits: "0.5", "1234", "2.79 · 10⁷".
+QString unevennessText(double energy);
+
 /// Sets a result aside and compares the selected curve with it.
 class PinPanel : public QWidget {
   Q_OBJECT

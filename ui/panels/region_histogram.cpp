@@ -55,8 +55,7 @@ void RegionHistogram::paintEvent(QPaintEvent*) {
     painter.drawText(rect(), Qt::AlignCenter, tr("No region selected"));
     return;
   }
-  // The square root keeps thin ink visible beside the mountain of paper; where the paper is a single grey, it is cut
-  // off.
+  // The square root keeps thin ink visible beside the mountain of paper; paper of a single grey is cut off.
   auto sorted = counts_;
   std::nth_element(sorted.begin(), sorted.begin() + 1, sorted.end(), std::greater<>());
   const double top = std::sqrt(double(std::max<std::uint32_t>(1, sorted[1])));

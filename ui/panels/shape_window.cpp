@@ -16,6 +16,7 @@
 #include "core/curve/curve_analysis.h"
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/segmented_control.h"
+#include "ui/panels/target_advice.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -36,6 +37,7 @@ ShapeWindow::ShapeWindow(EditorSession& session, QWidget* parent)
       table_(new FigureTable(this)),
       way_(note({}, this)),
       recommendation_(note({}, this)) {
+  recommendation_->setObjectName(QStringLiteral("shapes.recommendation"));
   setObjectName(QStringLiteral("shapes"));
   setWindowTitle(tr("Compare shapes"));
   setMinimumWidth(548);
@@ -72,7 +74,7 @@ ShapeWindow::ShapeWindow(EditorSession& session, QWidget* parent)
     quantity_->setCurrent(index);
     compare();
   });
-  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::selectionChanged,
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
                             &EditorSession::targetsChanged, &EditorSession::runFinished})
     connect(&session_, signal, this, [this] {
       if (isVisible()) refill();
@@ -182,6 +184,8 @@ void ShapeWindow::compare() {
 
 void ShapeWindow::refreshTable() {
   const auto targets = session_.targets();
+  const int nearest = targets ? targets->recommendedDegree : 0;
+  const bool isAdvised = nearest > 0 && isAdvisable(*targets, nearest, fairingOfSelected(session_).toleranceMm);
   std::vector<FigureTable::Row> rows;
   for (int degree = 1; targets && degree <= 6; ++degree) {
     const auto at = static_cast<std::size_t>(degree - 1);
@@ -189,7 +193,7 @@ void ShapeWindow::refreshTable() {
     const QString none = QStringLiteral("–");
     const auto& faired = targets->faired[at];
     QString name = QStringLiteral("%1 %2").arg(degree).arg(degreeName(degree));
-    if (targets->recommendedDegree == degree) name += QStringLiteral(" ✓");
+    if (isAdvised && degree == nearest) name += QStringLiteral(" ✓");
     const bool usable = p.valid && p.aicc < std::numeric_limits<double>::max();
     rows.push_back({name,
                     {{p.valid ? number(p.similarity, 5) : none},
@@ -204,10 +208,12 @@ void ShapeWindow::refreshTable() {
   if (rows.empty()) rows.push_back({tr("No curve selected"), {}, {}});
   table_->setRows(std::move(rows));
   recommendation_->setText(
-      targets && targets->recommendedDegree > 0
-          ? tr("✓ recommended: the degree that explains the curve with the fewest coefficients (smallest AICc). S "
-               "alone must rise with the degree and cannot choose.")
-          : QString());
+      isAdvised     ? tr("✓ recommended: the degree that explains the curve with the fewest coefficients (smallest "
+                             "AICc). S alone must rise with the degree and cannot choose.")
+      : nearest > 0 ? tr("Closest shape: %1 (smallest AICc). It is not recommended, as it needs more than the budget, "
+                         "adds bumps or moves nothing.")
+                          .arg(degreeName(nearest))
+                    : QString());
 }
 
 void ShapeView::show(const ShapeComparison& comparison, bool radius) {

@@ -10,14 +10,12 @@
 #include <vector>
 
 #include "ui/panels/panel_parts.h"
+#include "ui/panels/target_advice.h"
 #include "ui/session/piece_choice.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
 namespace {
-
-/// Of the budget: a curve that moves less than this has not been faired.
-constexpr double kStill = 1e-3;
 
 /// The quantity that a tile draws: curvature, or the logarithm of the radius where the targets describe that.
 std::vector<double> drawn(const TargetOutcomes& outcomes, const TargetProfile* profile) {
@@ -96,25 +94,12 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double bud
   tip += QLatin1Char('\n') + (oneCurve ? tr("Click or press %1: for the selected curve.").arg(degree_)
                                        : tr("Click or press %1: for all curves.").arg(degree_));
   if (outcomes_ && outcomes_->recommendedDegree == degree_)
-    spoken += isAdvisable() ? tr(", recommended") : tr(", closest shape");
+    spoken += isAdvisable(*outcomes_, degree_, budgetMm_) ? tr(", recommended") : tr(", closest shape");
   if (!outcomes_ && !waiting_.isEmpty()) spoken += QStringLiteral(", ") + waiting_;
   if (chosen_) spoken += tr(", chosen");
   setAccessibleName(spoken);
   setToolTip(tip);
   update();
-}
-
-bool TargetTile::isWithinBudget() const {
-  const auto index = static_cast<std::size_t>(degree_ - 1);
-  if (!outcomes_ || !outcomes_->faired[index]) return false;
-  const FairingReport& report = outcomes_->faired[index]->report;
-  return report.withinBudget && report.maxDeviationMm <= budgetMm_ * (1 + 1e-9);
-}
-
-bool TargetTile::isAdvisable() const {
-  if (!isWithinBudget()) return false;
-  const FairingReport& report = outcomes_->faired[static_cast<std::size_t>(degree_ - 1)]->report;
-  return report.extremaAfter <= report.extremaBefore && report.maxDeviationMm > kStill * budgetMm_;
 }
 
 void TargetTile::paintEvent(QPaintEvent*) {
@@ -151,7 +136,7 @@ void TargetTile::paintTitle(QPainter& painter, const QRectF& title) const {
   const double numberWidth = painter.fontMetrics().horizontalAdvance(number) + 5;
   // The shape nearest to the sketch is only advice where the budget allows it.
   const bool isNearest = outcomes_ && outcomes_->recommendedDegree == degree_;
-  const bool isAdvised = isNearest && isAdvisable();
+  const bool isAdvised = isNearest && isAdvisable(*outcomes_, degree_, budgetMm_);
   const QFontMetricsF metrics(uiFont(12)), small(uiFont(11));
   const double nameWidth = metrics.horizontalAdvance(degreeName(degree_));
   QString word = isAdvised ? tr("recommended") : isNearest ? tr("closest shape") : QString();
@@ -199,7 +184,7 @@ void TargetTile::paintFigures(QPainter& painter, const QRectF& box) const {
   const Theme& theme = themeOf(palette());
   const auto index = static_cast<std::size_t>(degree_ - 1);
   const FairingReport& report = outcomes_->faired[index]->report;
-  const bool over = !isWithinBudget();
+  const bool over = !isWithinBudget(*outcomes_, degree_, budgetMm_);
   // What meeting the target takes is the number that decides; the curve itself never leaves the budget.
   const double mm = over ? std::max(report.neededMm, report.maxDeviationMm) : report.maxDeviationMm;
   painter.setFont(uiFont(11));
@@ -284,12 +269,7 @@ void TargetStrip::refresh() {
   int chosen = 0;
   double budget = session_.recipe().fairing.toleranceMm;
   if (curve) {
-    FairingParams used = session_.recipe().fairing;
-    if (const PieceChoice* own = choiceOf(session_, session_.selectedCurve())) {
-      used.mode = own->mode.value_or(used.mode);
-      used.target = own->target.value_or(used.target);
-      used.toleranceMm = own->toleranceMm.value_or(used.toleranceMm);
-    }
+    const FairingParams used = fairingOfSelected(session_);
     budget = used.toleranceMm;
     if (used.mode == FairingMode::Target && used.target != kDrawnTarget)
       chosen = used.target > 0 ? used.target : targets ? targets->recommendedDegree : 0;

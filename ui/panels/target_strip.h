@@ -36,9 +36,6 @@ class TargetTile : public QAbstractButton {
 
  private:
   QString problem() const;
-  bool isWithinBudget() const;
-  /// Within the budget, and not at the price of more bumps or by not moving at all.
-  bool isAdvisable() const;
   void paintTitle(class QPainter&, const QRectF&) const;
   void paintProfiles(class QPainter&, const QRectF&) const;
   void paintFigures(class QPainter&, const QRectF&) const;
