@@ -287,8 +287,8 @@ std::string closenessNote(const StationSet& set) {
   std::array<char, 32> distance{};
   std::snprintf(distance.data(), distance.size(), "%.1f", set.missedPx);
   return std::string("The curve leaves the line by about ") + distance.data() +
-         " px, farther than \"Stay within\" asks: the line turns too sharply there. Mark a corner, or use the true and "
-         "fair fit.";
+         " px, farther than \"Stay within\" asks. Where it turns sharply, mark a corner; else use the true and fair "
+         "fit.";
 }
 
 }  // namespace batten

@@ -16,7 +16,8 @@ enum class ContourKind {
   Pen,         ///< Drawn in the program (pen_strokes.h), not found on the scan.
 };
 
-/// How far the strokes that were merged into a line lie beside its points. [px, never negative]
+/// How far the strokes that were merged into a line lie beside its points, at most within a few points of each.
+/// [px, never negative]
 struct StrokeBand {
   std::vector<float> left;   ///< To the side of leftNormal(direction of travel).
   std::vector<float> right;  ///< To the other side. Same size.

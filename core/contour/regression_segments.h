@@ -36,7 +36,8 @@ struct Station {
   Vec2 direction = Vec2::UnitX();  ///< Unit, along the contour.
   Vec2 from = Vec2::Zero();        ///< Ends of the drawn segment.
   Vec2 to = Vec2::Zero();
-  /// [-] 0..1: part of the piece's length that lies before it; not a number where that is not known (groups).
+  /// [-] Part of the piece's length that lies before it: 0..1, on a closed piece up to 2 for stations added behind its
+  /// start. Not a number where that is not known (groups).
   double along = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -7,7 +7,7 @@
 namespace batten {
 namespace {
 
-constexpr double kWindowSpacings = 1.5;    // width of the stretch that a station is fitted to
+constexpr double kWindowSpacings = 1.5;     // width of the stretch that a station is fitted to
 constexpr double kPixelPointWeight = 0.25;  // points that are only known to the pixel
 
 LocalQuadratic fitWindow(const MeasuredPiece& piece, double s, double window) {

@@ -15,8 +15,6 @@
 namespace batten {
 namespace {
 
-/// Extrema of a smaller rise (times extent) are not seen by an eye nor by light.
-
 int extremaOf(const NurbsCurve& curve, bool closed) {
   const double size = extent(curve);
   return size > 0.0 ? static_cast<int>(curvatureExtrema(curve, kProminence / size, closed).size()) : 0;

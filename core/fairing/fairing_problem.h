@@ -16,7 +16,7 @@ namespace batten {
 
 /// A derivative below this share of the mean speed counts as a cusp.
 inline constexpr double kCuspShare = 1e-6;
-/// Prominence of a counted curvature extremum, in units of 1 / extent.
+/// [1/extent] Prominence of a counted curvature extremum: smaller rises are not seen by an eye nor by light.
 inline constexpr double kProminence = 5e-3;
 
 /// d kappa / d q at a fixed parameter, per control point of the span (003 section 4; algorithms: shape modification):
