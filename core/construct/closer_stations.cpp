@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "core/contour/polyline_tools.h"
 #include "core/contour/station_meter.h"
 
 namespace batten {
@@ -45,13 +46,11 @@ double distanceFrom(const Vec2& p, std::span<const std::vector<Vec2>* const> lin
   double least = std::numeric_limits<double>::infinity(), side = 1.0;
   for (const std::vector<Vec2>* line : lines) {
     for (std::size_t i = 0; i + 1 < line->size(); ++i) {
-      const Vec2 along = (*line)[i + 1] - (*line)[i], to = p - (*line)[i];
-      const double square = along.squaredNorm();
-      const double t = square > 0.0 ? std::clamp(to.dot(along) / square, 0.0, 1.0) : 0.0;
-      const double away = (to - t * along).squaredNorm();
+      const Vec2 &a = (*line)[i], &b = (*line)[i + 1];
+      const double away = awayFromSegment(p, a, b).squaredNorm();
       if (away >= least) continue;
       least = away;
-      side = cross(along, to) < 0.0 ? -1.0 : 1.0;
+      side = cross(b - a, p - a) < 0.0 ? -1.0 : 1.0;
     }
   }
   return side * std::sqrt(least);

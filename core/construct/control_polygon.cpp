@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/construct/piece_stations.h"
+#include "core/contour/polyline_tools.h"
 #include "core/curve/knot_operations.h"
 
 namespace batten {
@@ -47,13 +48,6 @@ std::vector<int> anchors(std::span<const Vec2> points, std::span<const int> shar
   }
   if (last > 0) all.push_back(last);
   return all;
-}
-
-double distanceToChord(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 chord = b - a;
-  const double squared = chord.squaredNorm();
-  const double f = squared > 0.0 ? std::clamp((p - a).dot(chord) / squared, 0.0, 1.0) : 0.0;
-  return (p - a - f * chord).norm();
 }
 
 Result<NurbsCurve> scaledToLength(int degree, std::vector<double> knots, std::vector<Vec2> points, double length) {
@@ -213,8 +207,9 @@ std::vector<int> thinnedByTolerance(std::span<const Vec2> points, std::span<cons
     int worst = -1;
     double largest = tolerance;
     for (int i = from + 1; i < to; ++i) {
-      const double d = distanceToChord(points[static_cast<std::size_t>(i)], points[static_cast<std::size_t>(from)],
-                                       points[static_cast<std::size_t>(to)]);
+      const double d = awayFromSegment(points[static_cast<std::size_t>(i)], points[static_cast<std::size_t>(from)],
+                                       points[static_cast<std::size_t>(to)])
+                           .norm();
       if (d > largest) {
         largest = d;
         worst = i;

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/construct/fair_piece.h"
+#include "core/contour/polyline_tools.h"
 
 namespace batten {
 namespace {
@@ -47,13 +48,6 @@ Vec2 median(std::vector<Vec2> p) {
   const double x = p[static_cast<std::size_t>(middle)].x();
   std::nth_element(p.begin(), p.begin() + middle, p.end(), [](const Vec2& a, const Vec2& b) { return a.y() < b.y(); });
   return {x, p[static_cast<std::size_t>(middle)].y()};
-}
-
-double distanceToSegment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 along = b - a;
-  const double square = along.squaredNorm();
-  const double x = square > 0.0 ? std::clamp((p - a).dot(along) / square, 0.0, 1.0) : 0.0;
-  return (p - a - x * along).norm();
 }
 
 /// Leaves out the points next to corners, where blur has rounded the line.
@@ -112,11 +106,11 @@ void gateStrays(FairData& data, double gatePx, double spacing) {
   for (int i = 0; i < n; ++i) {
     if (i >= kGateReach && i + kGateReach < n) {  // the usual case, without medians
       const auto at = static_cast<std::size_t>(i);
-      if (distanceToSegment(p[at], p[at - kGateReach], p[at + kGateReach]) <= limit) continue;
+      if (awayFromSegment(p[at], p[at - kGateReach], p[at + kGateReach]).norm() <= limit) continue;
     }
     const auto before = around(i - kGateReach, i - 1), after = around(i + 1, i + kGateReach);
     if (before.size() < 3 || after.size() < 3) continue;
-    if (distanceToSegment(p[static_cast<std::size_t>(i)], median(before), median(after)) > limit) {
+    if (awayFromSegment(p[static_cast<std::size_t>(i)], median(before), median(after)).norm() > limit) {
       data.use[static_cast<std::size_t>(i)] = 0;
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,14 @@ double polygonArea(std::span<const Vec2> points);
 
 /// Arc length at every point, starting at 0. Same size.
 std::vector<double> cumulativeLength(std::span<const Vec2> points);
+
+/// The way to p from the place of the segment a-b that is nearest to it.
+inline Vec2 awayFromSegment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 along = b - a;
+  const double square = along.squaredNorm();
+  const double f = square > 0.0 ? std::clamp((p - a).dot(along) / square, 0.0, 1.0) : 0.0;
+  return p - a - f * along;
+}
 
 /// Gaussian smoothing over the index (points about evenly spaced), sigma in samples. Closed: periodic. Open: the
 /// continuation beyond an end is the point mirrored at that end, so that ends stay where they are.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,8 +23,12 @@ struct Parameter {
   std::string label;  ///< "Neighbourhood coefficient"
   std::string unit;   ///< "px", "mm", "" …
   ParameterType type = ParameterType::Real;
-  double minimum = 0.0, maximum = 1.0;    ///< Integer and Real.
-  double step = 0.0;                      ///< Of the slider's arrow keys and the spin field; 0 = free.
+  double minimum = 0.0, maximum = 1.0;  ///< Integer and Real.
+  double step = 0.0;                    ///< Of the slider's arrow keys and the spin field; 0 = free.
+  /// What `minimum` stands for where it is no number of its kind ("auto"), and the least value above it, where
+  /// not the next.
+  std::string minimumWord;
+  std::optional<double> leastAbove;
   bool logarithmic = false;               ///< The slider's scale.
   int decimals = 0;                       ///< Shown by the panel.
   std::vector<std::string> choices;       ///< Choice: the words the CLI and files use.

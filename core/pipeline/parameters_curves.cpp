@@ -89,6 +89,8 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
     if (value && *value >= 1 && *value <= 3) return refuse(name, text, "it must be 0 (from the length) or 4 to 2000");
     return inRange(r, text);
   };
+  count.minimumWord = "auto";
+  count.leastAbove = 4.0;
   table.push_back(std::move(count));
   table.push_back(real(
       kSegments,
@@ -283,12 +285,14 @@ void appendFairing(std::vector<Parameter>& table) {
       {{"points", "Control points", FairingMeans::ControlPoints}, {"edges", "Edge lengths", FairingMeans::EdgeLengths}},
       [](auto& r) -> auto& { return r.fairing.means; }));
   table.push_back(profileParameter());
-  table.push_back(integer(
+  Parameter keep = integer(
       kFaired,
       {"fairing.keep_extrema", "Extrema to keep", "",
        "Monotone: places where the curvature may turn back; 0 is monotone from end to end, fewest (-1) keeps as few as "
        "the tolerance allows."},
-      {-1, 99, 1}, [](auto& r) -> auto& { return r.fairing.keepExtrema; }));
+      {-1, 99, 1}, [](auto& r) -> auto& { return r.fairing.keepExtrema; });
+  keep.minimumWord = "fewest";
+  table.push_back(std::move(keep));
   table.push_back(real(
       kFaired,
       {"fairing.lowpass", "Wavelength", "mm",

@@ -20,18 +20,13 @@ using test::waitUntil;
 
 /// An open stroke whose curvature rises, falls and rises again.
 QImage wavePage() {
-  QImage page(QSize(700, 420), QImage::Format_Grayscale8);
-  page.fill(245);
-  page.setDotsPerMeterX(11811);
-  page.setDotsPerMeterY(11811);
-  QPainter painter(&page);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(QColor(30, 30, 30), 5.0, Qt::SolidLine, Qt::FlatCap));
-  QPolygonF line;
-  for (int i = 0; i <= 600; ++i)
-    line.append(QPointF(50.0 + i, 210.0 - 70.0 * std::sin(i / 600.0 * 3.0 * std::numbers::pi)));
-  painter.drawPolyline(line);
-  return page;
+  return test::drawnPage({700, 420}, [](QPainter& painter) {
+    painter.setPen(QPen(QColor(30, 30, 30), 5.0, Qt::SolidLine, Qt::FlatCap));
+    QPolygonF line;
+    for (int i = 0; i <= 600; ++i)
+      line.append(QPointF(50.0 + i, 210.0 - 70.0 * std::sin(i / 600.0 * 3.0 * std::numbers::pi)));
+    painter.drawPolyline(line);
+  });
 }
 
 /// The same with the grain of a scan, so that its curvature is uncertain.

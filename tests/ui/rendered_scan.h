@@ -26,8 +26,8 @@ inline bool waitUntil(const std::function<bool()>& done, int limitMs = 60000) {
   return true;
 }
 
-/// A page with one open line of three strokes that meet in two sharp corners at (200, 100) and (400, 300), 300 dpi.
-inline QImage zigzagPage(QSize size = {640, 400}) {
+/// A page of 300 dpi with what `draw` draws on it, with a dark pen of 5 px unless it takes another.
+inline QImage drawnPage(QSize size, const std::function<void(QPainter&)>& draw) {
   QImage page(size, QImage::Format_Grayscale8);
   page.fill(245);
   page.setDotsPerMeterX(11811);
@@ -35,22 +35,24 @@ inline QImage zigzagPage(QSize size = {640, 400}) {
   QPainter painter(&page);
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(QPen(QColor(30, 30, 30), 5.0, Qt::SolidLine, Qt::FlatCap, Qt::MiterJoin));
-  painter.drawPolyline(QPolygonF({{60, 300}, {200, 100}, {400, 300}, {580, 80}}));
+  draw(painter);
   return page;
+}
+
+/// A page with one open line of three strokes that meet in two sharp corners at (200, 100) and (400, 300), 300 dpi.
+inline QImage zigzagPage(QSize size = {640, 400}) {
+  return drawnPage(size, [](QPainter& painter) {
+    painter.drawPolyline(QPolygonF({{60, 300}, {200, 100}, {400, 300}, {580, 80}}));
+  });
 }
 
 /// A page with one filled ellipse: a smooth closed outline.
 inline QImage ellipsePage(QSize size = {640, 400}) {
-  QImage page(size, QImage::Format_Grayscale8);
-  page.fill(245);
-  page.setDotsPerMeterX(11811);
-  page.setDotsPerMeterY(11811);
-  QPainter painter(&page);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setBrush(QColor(30, 30, 30));
-  painter.setPen(Qt::NoPen);
-  painter.drawEllipse(QRectF(0.2 * size.width(), 0.2 * size.height(), 0.6 * size.width(), 0.6 * size.height()));
-  return page;
+  return drawnPage(size, [size](QPainter& painter) {
+    painter.setBrush(QColor(30, 30, 30));
+    painter.setPen(Qt::NoPen);
+    painter.drawEllipse(QRectF(0.2 * size.width(), 0.2 * size.height(), 0.6 * size.width(), 0.6 * size.height()));
+  });
 }
 
 /// A session with a page of its own, opened and computed.

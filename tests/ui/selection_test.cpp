@@ -14,21 +14,11 @@ namespace {
 
 using test::waitUntil;
 
-QImage pageOf(const std::function<void(QPainter&)>& draw) {
-  QImage page(QSize(700, 500), QImage::Format_Grayscale8);
-  page.fill(245);
-  page.setDotsPerMeterX(11811);
-  page.setDotsPerMeterY(11811);
-  QPainter painter(&page);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(QColor(30, 30, 30), 5.0, Qt::SolidLine, Qt::FlatCap, Qt::MiterJoin));
-  draw(painter);
-  return page;
-}
+const QSize kPage(700, 500);
 
 /// A long angle above a straight line that is longer than each of its sides.
 QImage angleAndLinePage() {
-  return pageOf([](QPainter& painter) {
+  return test::drawnPage(kPage, [](QPainter& painter) {
     painter.drawPolyline(QPolygonF({{60, 300}, {340, 60}, {620, 300}}));
     painter.drawLine(QPointF(80, 440), QPointF(600, 450));
   });
@@ -36,7 +26,7 @@ QImage angleAndLinePage() {
 
 /// A corner opens a ring, it does not divide it.
 QImage twoRingsPage() {
-  return pageOf([](QPainter& painter) {
+  return test::drawnPage(kPage, [](QPainter& painter) {
     painter.drawEllipse(QRectF(40, 40, 400, 400));
     painter.drawEllipse(QRectF(500, 160, 160, 160));
   });
@@ -44,7 +34,7 @@ QImage twoRingsPage() {
 
 /// Three arcs below each other; the second is a little shorter than the first and its halves shorter than the third.
 QImage threeArcsPage() {
-  return pageOf([](QPainter& painter) {
+  return test::drawnPage(kPage, [](QPainter& painter) {
     for (const QRectF& box : {QRectF(60, 60, 580, 60), QRectF(80, 200, 530, 60), QRectF(180, 340, 340, 60)}) {
       QPainterPath path(box.bottomLeft());
       path.quadTo(QPointF(box.center().x(), box.top() - 60), box.bottomRight());

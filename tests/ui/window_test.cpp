@@ -37,19 +37,13 @@ class Window : public test::WindowFixture {};
 
 /// Two straight legs, joined in sharp corners at (200, 100) and (400, 300) to a bend between them.
 QImage bendPage() {
-  QImage page(640, 400, QImage::Format_Grayscale8);
-  page.fill(245);
-  page.setDotsPerMeterX(11811);
-  page.setDotsPerMeterY(11811);
-  QPainter painter(&page);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(QColor(30, 30, 30), 5.0, Qt::SolidLine, Qt::FlatCap, Qt::MiterJoin));
-  QPainterPath path(QPointF(60, 300));
-  path.lineTo(200, 100);
-  path.cubicTo(280, 110, 400, 160, 400, 300);
-  path.lineTo(580, 80);
-  painter.drawPath(path);
-  return page;
+  return test::drawnPage({640, 400}, [](QPainter& painter) {
+    QPainterPath path(QPointF(60, 300));
+    path.lineTo(200, 100);
+    path.cubicTo(280, 110, 400, 160, 400, 300);
+    path.lineTo(580, 80);
+    painter.drawPath(path);
+  });
 }
 
 TEST_F(Window, TheWholeWalkEndsInTheCurvesThatTheRecipeGives) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/canvas/canvas_scene.h"
+#include "ui/session/growing_player.h"
 
 namespace batten {
 
@@ -31,6 +32,13 @@ std::optional<int> CanvasScene::curveNear(const Vec2& px) const {
   }
   return found;
 }
+
+bool CanvasScene::areExtremaShown() const {
+  return view.isVisible(Layer::Extrema) && view.isVisible(Layer::Curve) && !view.isScanOnly() &&
+         !session.growing().isOpen();
+}
+
+bool CanvasScene::areCombsShown() const { return view.isVisible(Layer::Comb) && !session.growing().isOpen(); }
 
 const ExtremumMark* CanvasScene::extremumNear(const Vec2& px) const {
   if (!areExtremaShown()) return nullptr;

@@ -47,9 +47,9 @@ struct CanvasScene {
   double reachImagePx() const { return kReachPx * transform.imagePerWidget(); }
   const CurveComb* selectedComb() const;
   /// Marks of extrema lie on the sketched curve: without it they would hang in the air.
-  bool areExtremaShown() const {
-    return view.isVisible(Layer::Extrema) && view.isVisible(Layer::Curve) && !view.isScanOnly();
-  }
+  bool areExtremaShown() const;
+  /// A chain that grows is watched alone, without combs and marks.
+  bool areCombsShown() const;
   /// The shown curve nearest to a place within reach, or none.
   std::optional<int> curveNear(const Vec2& px) const;
   /// The mark of an extremum under the mouse, or null; none while they are not shown.

@@ -279,8 +279,7 @@ void CurveCanvas::State::paintLines(const LinesKey& key) {
   if (view.isVisible(Layer::Segments)) paintSegments(painter, *this);
   if (view.isVisible(Layer::Curve)) paintSketched(painter, *this);
   if (view.isVisible(Layer::Faired)) paintFaired(painter, *this);
-  // A chain that grows is watched alone.
-  if (view.isVisible(Layer::Comb) && !session.growing().isOpen()) paintCombs(painter, *this);
+  if (areCombsShown()) paintCombs(painter, *this);
   if (view.isVisible(Layer::Deviation)) paintDeviation(painter, *this);
 }
 
@@ -326,7 +325,7 @@ void CurveCanvas::State::paint(QPainter& painter) {
   }
   if (!view.isScanOnly()) {
     paintRegions(painter, *this);
-    if (areExtremaShown() && !session.growing().isOpen()) paintExtrema(painter, *this);
+    if (areExtremaShown()) paintExtrema(painter, *this);
     if (view.isVisible(Layer::Corners)) paintCorners(painter, *this);
     if (view.isVisible(Layer::Regions) && view.tool() != Tool::Thresholds) paintRegionGrid(painter, *this);
     paintSegmentPoints(painter, *this);

@@ -31,18 +31,11 @@ QStringList list(const std::vector<std::string>& words) {
   return out;
 }
 
-/// What the smallest value stands for where it is no number of its kind.
-QString minimumText(const std::string& name) {
-  if (name == "segments.count") return ParameterRow::tr("auto", "number of segments taken from the length");
-  if (name == "fairing.keep_extrema") return ParameterRow::tr("fewest", "as few extrema as the tolerance allows");
-  return {};
-}
-
 /// What a parameter takes for a wanted value: where that one is refused, the next on the way.
-double taken(const std::string& name, double wanted, double before) {
-  // Auto (0), then 4 and more.
-  if (name == "segments.count" && wanted > 0.0 && wanted < 4.0) return before < 4.0 ? 4.0 : 0.0;
-  return wanted;
+double taken(const Parameter& parameter, double wanted, double before) {
+  const double least = parameter.leastAbove.value_or(parameter.minimum);
+  if (wanted <= parameter.minimum || wanted >= least) return wanted;
+  return before < least ? least : parameter.minimum;
 }
 
 }  // namespace
@@ -138,7 +131,7 @@ void ParameterRow::buildNumber() {
   field_->setStep(parameter_.step);
   field_->setDecimals(parameter_.decimals);
   field_->setUnit(text(parameter_.unit));
-  field_->setMinimumText(minimumText(parameter_.name));
+  field_->setMinimumText(text(parameter_.minimumWord));
   field_->edit()->setObjectName(text(parameter_.name) + QStringLiteral(".field"));
   field_->edit()->setAccessibleName(text(parameter_.label));
   const int unitWidth = QFontMetrics(uiFont(11)).horizontalAdvance(text(parameter_.unit));
@@ -204,7 +197,7 @@ void ParameterRow::give(const QString& value, int gesture) {
 void ParameterRow::giveNumber(double value, int gesture) {
   value = std::clamp(value, parameter_.minimum, parameter_.maximum);
   if (parameter_.type == ParameterType::Integer) value = std::round(value);
-  value = taken(parameter_.name, value, text(binding_.get(session_.recipe())).toDouble());
+  value = taken(parameter_, value, text(binding_.get(session_.recipe())).toDouble());
   give(QString::number(value, 'g', 17), gesture);
 }
 

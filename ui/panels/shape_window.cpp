@@ -17,6 +17,7 @@
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/segmented_control.h"
 #include "ui/panels/target_advice.h"
+#include "ui/session/fairing_edits.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -185,7 +186,7 @@ void ShapeWindow::compare() {
 void ShapeWindow::refreshTable() {
   const auto targets = session_.targets();
   const int nearest = targets ? targets->recommendedDegree : 0;
-  const bool isAdvised = nearest > 0 && isAdvisable(*targets, nearest, fairingOfSelected(session_).toleranceMm);
+  const bool isAdvised = nearest > 0 && isAdvisable(*targets, nearest, fairingAsked(session_).toleranceMm);
   std::vector<FigureTable::Row> rows;
   for (int degree = 1; targets && degree <= 6; ++degree) {
     const auto at = static_cast<std::size_t>(degree - 1);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/target_advice.h"
 
-#include "ui/session/piece_choice.h"
-
 namespace batten {
 namespace {
 
@@ -10,16 +8,6 @@ namespace {
 constexpr double kStill = 1e-3;
 
 }  // namespace
-
-FairingParams fairingOfSelected(const EditorSession& session) {
-  FairingParams used = session.recipe().fairing;
-  if (const PieceChoice* own = choiceOf(session, session.selectedCurve())) {
-    used.mode = own->mode.value_or(used.mode);
-    used.target = own->target.value_or(used.target);
-    used.toleranceMm = own->toleranceMm.value_or(used.toleranceMm);
-  }
-  return used;
-}
 
 bool isWithinBudget(const TargetOutcomes& outcomes, int degree, double budgetMm) {
   const auto& faired = outcomes.faired[static_cast<std::size_t>(degree - 1)];

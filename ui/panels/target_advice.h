@@ -6,9 +6,6 @@
 namespace batten {
 
 /// Whether a target's curve can be advised, said alike wherever the six targets are shown. `degree` is 1 to 6.
-
-/// The parameters that fair the selected curve: the recipe's with the curve's own choices.
-FairingParams fairingOfSelected(const EditorSession& session);
 /// The target is met, and its curve stays within the budget.
 bool isWithinBudget(const TargetOutcomes&, int degree, double budgetMm);
 /// Within the budget, with fewer bumps than before; or with as many, and it moves the curve at all.

@@ -11,6 +11,7 @@
 
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/target_advice.h"
+#include "ui/session/fairing_edits.h"
 #include "ui/session/piece_choice.h"
 #include "ui/theme/theme.h"
 
@@ -269,7 +270,7 @@ void TargetStrip::refresh() {
   int chosen = 0;
   double budget = session_.recipe().fairing.toleranceMm;
   if (curve) {
-    const FairingParams used = fairingOfSelected(session_);
+    const FairingParams used = fairingAsked(session_);
     budget = used.toleranceMm;
     if (used.mode == FairingMode::Target && used.target != kDrawnTarget)
       chosen = used.target > 0 ? used.target : targets ? targets->recommendedDegree : 0;

@@ -288,7 +288,10 @@ void EditorSession::Runner::curvesChanged() {
   const TracedCurve* now = session.selected();
   const bool isKnown = now != nullptr && targetsCurve && *targetsCurve == now->sketched;
   const bool areOfAnother = index != before && session.targets_ && !isKnown;
-  if (areOfAnother) session.targets_.reset(), targetsCurve.reset();
+  if (areOfAnother) {
+    session.targets_.reset();
+    targetsCurve.reset();
+  }
   if (index != before) emit session.selectionChanged();
   if (areOfAnother) emit session.targetsChanged();
   // Stages that were done when Esc was pressed still arrive: they begin nothing new.

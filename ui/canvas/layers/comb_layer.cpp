@@ -8,7 +8,6 @@
 #include "ui/canvas/canvas_colors.h"
 #include "ui/canvas/comb_runs.h"
 #include "ui/canvas/layers/vector_layers.h"
-#include "ui/session/growing_player.h"
 
 namespace batten {
 namespace {
@@ -211,8 +210,7 @@ void paintCursor(QPainter& painter, const CanvasScene& scene) {
   const QPointF foot = scene.transform.toWidget(place.px);
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
-  const bool hasComb = scene.view.isVisible(Layer::Comb) && !scene.session.growing().isOpen();
-  const CombScale scale = hasComb ? combScale(scene) : CombScale{};
+  const CombScale scale = scene.areCombsShown() ? combScale(scene) : CombScale{};
   if (scale.pxPerKappa > 0.0) {
     painter.setPen(QPen(colors::accent(), 1.2));
     painter.drawLine(foot, tipOf(place, scale, scene.transform));
