@@ -14,6 +14,9 @@ namespace batten {
 /// body is rethrown here.
 void parallelFor(const RunContext& context, int count, int grain, const std::function<void(int begin, int end)>& body);
 
+/// A good grain for loops over the rows of a page.
+inline constexpr int kRowsPerBlock = 64;
+
 /// The number of threads that parallelFor would use at most.
 int threadCount(const RunContext& context);
 

@@ -19,7 +19,7 @@ constexpr double kWishReachPx = 24.0;  // beyond the window in which an extremum
 constexpr double kAbortFactor = 3.0;   // a program is cut short once its cost has passed this many thresholds
 
 /// The removal of one extremum at an end, or of two neighbours.
-struct Candidate {
+struct StructureCandidate {
   enum class Kind { First, Last, Pair } kind = Kind::Pair;
   std::size_t index = 0;  ///< Of the (first) extremum.
   double change = 0.0;    ///< [1/px] difference of curvature that disappears.
@@ -129,12 +129,12 @@ class Search {
         std::find_if(e.begin(), e.end(), [id](const FairExtremum& x) { return x.id == id; }) - e.begin());
   }
 
-  bool touches(const Candidate& c, int id) const {
+  bool touches(const StructureCandidate& c, int id) const {
     const auto& e = result_.structure.extrema;
-    return e[c.index].id == id || (c.kind == Candidate::Kind::Pair && e[(c.index + 1) % e.size()].id == id);
+    return e[c.index].id == id || (c.kind == StructureCandidate::Kind::Pair && e[(c.index + 1) % e.size()].id == id);
   }
 
-  bool isHeld(const Candidate& c) const {
+  bool isHeld(const StructureCandidate& c) const {
     return std::any_of(held_.begin(), held_.end(), [&](int id) { return touches(c, id); });
   }
 
@@ -142,9 +142,9 @@ class Search {
   bool forceOut(int id) {
     if (find(id) == result_.structure.extrema.size()) return true;
     std::optional<StructureFit> best;
-    std::optional<Candidate> how;
+    std::optional<StructureCandidate> how;
     FairStructure after;
-    for (const Candidate& c : candidates(result_.c)) {
+    for (const StructureCandidate& c : candidates(result_.c)) {
       if (!touches(c, id) || isHeld(c)) continue;
       FairStructure rest = without(result_.structure, c);
       auto fit = fitStructure(frame_, posterior_, rest, result_.c, 1.0, 0.0, kNever);
@@ -158,37 +158,37 @@ class Search {
     return true;
   }
 
-  std::pair<int, int> key(const Candidate& c) const {
+  std::pair<int, int> key(const StructureCandidate& c) const {
     const auto& e = result_.structure.extrema;
     switch (c.kind) {
-      case Candidate::Kind::First:
+      case StructureCandidate::Kind::First:
         return {-1, e[c.index].id};
-      case Candidate::Kind::Last:
+      case StructureCandidate::Kind::Last:
         return {e[c.index].id, -1};
-      case Candidate::Kind::Pair:
+      case StructureCandidate::Kind::Pair:
         break;
     }
     return {e[c.index].id, e[(c.index + 1) % e.size()].id};
   }
 
-  std::vector<Candidate> candidates(const Eigen::VectorXd& c) const {
-    std::vector<Candidate> list;
+  std::vector<StructureCandidate> candidates(const Eigen::VectorXd& c) const {
+    std::vector<StructureCandidate> list;
     const auto& e = result_.structure.extrema;
     if (e.empty() || (closed_ && static_cast<int>(e.size()) <= kClosedLeast)) return list;
     for (std::size_t i = 0; i + 1 < e.size() + (closed_ ? 1 : 0); ++i) {
-      list.push_back({Candidate::Kind::Pair, i, std::abs(e[i].kappa - e[(i + 1) % e.size()].kappa)});
+      list.push_back({StructureCandidate::Kind::Pair, i, std::abs(e[i].kappa - e[(i + 1) % e.size()].kappa)});
     }
     if (!closed_) {
       const double atStart = kappaAt(frame_.checks.front(), c), atEnd = kappaAt(frame_.checks.back(), c);
-      list.push_back({Candidate::Kind::First, 0, std::abs(e.front().kappa - atStart)});
-      list.push_back({Candidate::Kind::Last, e.size() - 1, std::abs(e.back().kappa - atEnd)});
+      list.push_back({StructureCandidate::Kind::First, 0, std::abs(e.front().kappa - atStart)});
+      list.push_back({StructureCandidate::Kind::Last, e.size() - 1, std::abs(e.back().kappa - atEnd)});
     }
     return list;
   }
 
-  std::optional<Candidate> cheapest(bool untestedOnly) const {
-    std::optional<Candidate> best;
-    for (const Candidate& c : candidates(result_.c.size() > 0 ? result_.c : posterior_.mean)) {
+  std::optional<StructureCandidate> cheapest(bool untestedOnly) const {
+    std::optional<StructureCandidate> best;
+    for (const StructureCandidate& c : candidates(result_.c.size() > 0 ? result_.c : posterior_.mean)) {
       if (untestedOnly && tested_.count(key(c)) > 0) continue;
       if (isHeld(c)) continue;
       if (!best || c.change < best->change) best = c;
@@ -196,20 +196,20 @@ class Search {
     return best;
   }
 
-  static FairStructure without(const FairStructure& structure, const Candidate& c) {
+  static FairStructure without(const FairStructure& structure, const StructureCandidate& c) {
     FairStructure rest = structure;
     auto& e = rest.extrema;
     const FairExtremum gone = e[c.index];
     switch (c.kind) {
-      case Candidate::Kind::First:
+      case StructureCandidate::Kind::First:
         rest.rising = !gone.maximum;
         e.erase(e.begin());
         break;
-      case Candidate::Kind::Last:
+      case StructureCandidate::Kind::Last:
         rest.rising = gone.maximum;
         e.pop_back();
         break;
-      case Candidate::Kind::Pair:
+      case StructureCandidate::Kind::Pair:
         rest.rising = gone.maximum;
         e.erase(e.begin() + static_cast<std::ptrdiff_t>(c.index));
         e.erase(e.begin() + static_cast<std::ptrdiff_t>(c.index % e.size()));
@@ -227,20 +227,20 @@ class Search {
     }
   }
 
-  void noteCost(const Candidate& c, double cost) {
+  void noteCost(const StructureCandidate& c, double cost) {
     auto& e = result_.structure.extrema;
     const auto note = [&](FairExtremum& x) {
       x.removalCost = x.costKnown ? std::min(x.removalCost, cost) : cost;
       x.costKnown = true;
     };
     note(e[c.index]);
-    if (c.kind == Candidate::Kind::Pair) note(e[(c.index + 1) % e.size()]);
+    if (c.kind == StructureCandidate::Kind::Pair) note(e[(c.index + 1) % e.size()]);
   }
 
-  std::optional<StructureFit> solveWithout(const Candidate& c, FairStructure& rest) const {
+  std::optional<StructureFit> solveWithout(const StructureCandidate& c, FairStructure& rest) const {
     const auto& e = result_.structure.extrema;
     const double from = e[c.index].u;
-    double to = c.kind == Candidate::Kind::Pair ? e[(c.index + 1) % e.size()].u : from;
+    double to = c.kind == StructureCandidate::Kind::Pair ? e[(c.index + 1) % e.size()].u : from;
     if (to < from) to += frame_.base.knots().length;
     return fitStructure(frame_, posterior_, rest, result_.c, from, to, kAbortFactor * keepCost_);
   }
@@ -248,14 +248,14 @@ class Search {
   /// A rise of the objective that the removal costs at least, from one inequality that it asks for: where the curvature
   /// falls between the two extrema (or an extremum and the end) it must not fall any more. Costs one solution instead
   /// of a program. 0 when nothing can be said.
-  double leastCost(const Candidate& c, const FairStructure& rest) const {
+  double leastCost(const StructureCandidate& c, const FairStructure& rest) const {
     const UniformKnots& knots = frame_.base.knots();
     const auto& e = result_.structure.extrema;
-    const bool pair = c.kind == Candidate::Kind::Pair;
+    const bool pair = c.kind == StructureCandidate::Kind::Pair;
     const FairExtremum &first = e[c.index], &second = pair ? e[(c.index + 1) % e.size()] : first;
     double from = first.u, to = second.u;
-    if (c.kind == Candidate::Kind::First) from = 0.0;
-    if (c.kind == Candidate::Kind::Last) to = knots.length;
+    if (c.kind == StructureCandidate::Kind::First) from = 0.0;
+    if (c.kind == StructureCandidate::Kind::Last) to = knots.length;
     if (pair && to < from) to += knots.length;
     // The neighbours that stay may move within their windows, and the windows may follow them once.
     FairStructure widened = rest;
@@ -280,7 +280,7 @@ class Search {
     const FrameStation &low = frame_.checks[static_cast<std::size_t>(a % count)],
                        &high = frame_.checks[static_cast<std::size_t>(b % count)];
     // Which way it falls now: from a maximum down, from a minimum up.
-    const double sign = (c.kind == Candidate::Kind::First ? !first.maximum : first.maximum) ? 1.0 : -1.0;
+    const double sign = (c.kind == StructureCandidate::Kind::First ? !first.maximum : first.maximum) ? 1.0 : -1.0;
     const double violation = sign * (kappaAt(low, posterior_.mean) - kappaAt(high, posterior_.mean));
     if (!(violation > 0.0)) return 0.0;
     Eigen::VectorXd row = Eigen::VectorXd::Zero(posterior_.b.size());
@@ -292,7 +292,7 @@ class Search {
     return violation * violation / variance - above;
   }
 
-  void tryRemoval(const Candidate& c) {
+  void tryRemoval(const StructureCandidate& c) {
     FairStructure rest = without(result_.structure, c);
     if (const double least = leastCost(c, rest); least > kAbortFactor * keepCost_) {
       tested_.insert(key(c));
@@ -309,9 +309,9 @@ class Search {
     drop(c, cost, std::move(rest), *fit);
   }
 
-  void drop(const Candidate& c, double cost, FairStructure rest, const StructureFit& fit) {
+  void drop(const StructureCandidate& c, double cost, FairStructure rest, const StructureFit& fit) {
     const auto& e = result_.structure.extrema;
-    for (std::size_t i = 0; i < (c.kind == Candidate::Kind::Pair ? 2U : 1U); ++i) {
+    for (std::size_t i = 0; i < (c.kind == StructureCandidate::Kind::Pair ? 2U : 1U); ++i) {
       FairExtremum gone = e[(c.index + i) % e.size()];
       gone.removalCost = cost;
       result_.dropped.push_back(gone);
@@ -323,7 +323,7 @@ class Search {
 
   /// Costs of the extrema that were too clear to be tested. False when cancelled.
   bool priceTheRest() {
-    for (const Candidate& c : candidates(result_.c)) {
+    for (const StructureCandidate& c : candidates(result_.c)) {
       if (context_.isCancelled()) return false;
       if (tested_.count(key(c)) > 0) continue;
       FairStructure rest = without(result_.structure, c);

@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kSharedWidth = 1.1;  // of a single stroke
 
-std::size_t idx(int i) { return static_cast<std::size_t>(i); }
-
 double lengthOf(const std::vector<StrandPoint>& points, bool closed) {
   double sum = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i].at - points[i - 1].at).norm();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/contour/centreline_graph.h"
@@ -21,6 +22,9 @@ struct StrokeNode {
   double radius = 0.0;  ///< [px] of the largest disc of ink there; of all discs, where junctions were merged.
   std::vector<int> ends;
 };
+
+/// Nodes and legs are numbered by int, with -1 for none.
+inline std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
 /// The skeleton as a graph that gets simpler: junctions of several pixels are one node, spurs go, short links vanish.
 class LegGraph {

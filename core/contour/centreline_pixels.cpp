@@ -20,7 +20,7 @@ constexpr double kProfileVariance = 0.42;  // [px^2] of the smoothing that a pro
 constexpr std::size_t kBlurPoints = 400;   // that vote for the blur
 constexpr std::size_t kGainPoints = 60;    // of a stroke that vote for its darkness
 constexpr int kGrain = 64;                 // points worked on together; the result does not depend on it
-constexpr int kNewtonSteps = 4;
+constexpr int kStrokeNewtonSteps = 4;
 constexpr double kLargestStepPx = 0.25, kSettledPx = 2e-3;
 
 struct Stroke {
@@ -64,7 +64,7 @@ double squaresLeft(const PixelWindow& window, const PixelResponse& response, con
 std::optional<Stroke> mostLikely(const PixelWindow& window, const PixelResponse& response, const StrokeModel& m,
                                  double width) {
   double low = -0.5 * width, high = 0.5 * width;
-  for (int step = 0; step < kNewtonSteps; ++step) {
+  for (int step = 0; step < kStrokeNewtonSteps; ++step) {
     double ll = 0.0, lh = 0.0, hh = 0.0, l = 0.0, h = 0.0;
     for (const PixelWindow::Pixel& p : window.pixels) {
       const auto in = response.at(p.distance - low, m.direction), out = response.at(p.distance - high, m.direction);

@@ -10,8 +10,6 @@
 namespace batten {
 namespace {
 
-std::size_t idx(int i) { return static_cast<std::size_t>(i); }
-
 double angleDeg(const Vec2& a, const Vec2& b) {
   return std::atan2(std::abs(cross(a, b)), a.dot(b)) * 180.0 / std::numbers::pi;
 }

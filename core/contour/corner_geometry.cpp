@@ -16,7 +16,7 @@ constexpr double kFarthestMeetPx = 6.0;  // of the meeting point from the contou
 constexpr double kEatenHalfPx = 4.0;    // half the width at which the tip of a shape is eaten away by blur and the mask
 constexpr double kFilledHalfPx = 3.0;   // half of a gap between two legs of a stroke that blur and the mask may fill
 constexpr double kSmallestSine = 0.08;  // of the angle between the sides; below, the meeting point is ill-conditioned
-constexpr int kNewtonSteps = 12;
+constexpr int kCornerNewtonSteps = 12;
 constexpr int kLocateRounds = 4;
 constexpr double kFreeLegsPx = 6.0;     // legs nearer to each other than this share their blur
 constexpr double kWidestZonePx = 14.0;  // beyond the rounded one
@@ -31,7 +31,7 @@ struct Meeting {
 Meeting meet(const CornerSide& a, const CornerSide& b, double scale) {
   Meeting m;
   double s = 0.0, t = 0.0;
-  for (int step = 0; step < kNewtonSteps; ++step) {
+  for (int step = 0; step < kCornerNewtonSteps; ++step) {
     const Vec2 da = a.derivative(s), db = b.derivative(t);
     const double det = -cross(da, db);
     if (std::abs(det) < kSmallestSine * da.norm() * db.norm() || !(det != 0.0)) return m;

@@ -24,7 +24,7 @@ struct Answer {
   double part, slope;
 };
 
-constexpr int kNewtonSteps = 4;
+constexpr int kEdgeNewtonSteps = 4;
 constexpr double kLargestStepPx = 0.5, kSettledPx = 2e-3;
 
 PixelResponse::Value modelAt(const PixelResponse& response, const PixelEdge& edge, double distance) {
@@ -127,7 +127,7 @@ void PixelWindow::read(const GreyImage& grey, const Vec2& base, const Vec2& norm
 double mostLikelyPosition(const PixelWindow& window, const PixelResponse& response, const PixelEdge& edge, double start,
                           double gate) {
   double position = start;
-  for (int step = 0; step < kNewtonSteps; ++step) {
+  for (int step = 0; step < kEdgeNewtonSteps; ++step) {
     double top = 0.0, bottom = 0.0;
     for (const PixelWindow::Pixel& p : window.pixels) {
       if (std::abs(p.distance - position) > response.reach()) continue;

@@ -22,7 +22,7 @@ constexpr double kGatePx = 1.5;            // farthest that an edge may lie from
 constexpr double kLargestMovePx = 2.0;     // from the base of the second pass
 constexpr double kSideFromPx = 1.9;        // side levels are taken beyond this distance
 constexpr double kSmallestContrast = 2.0;  // [grey]
-constexpr int kNewtonSteps = 4;
+constexpr int kProfileNewtonSteps = 4;
 constexpr int kBlurRounds = 4;
 constexpr int kTwinRounds = 4;
 constexpr int kBlurSamples = 1500;   // points that vote for the blur
@@ -166,7 +166,7 @@ double fitPosition(const float* profile, const EdgeSpan& span, double start, dou
   const NormalTable& table = NormalTable::instance();
   const double reach = 3.0 * blur;  // beyond, the slope is below 1 % of its peak
   double position = start;
-  for (int step = 0; step < kNewtonSteps; ++step) {
+  for (int step = 0; step < kProfileNewtonSteps; ++step) {
     double top = 0.0, bottom = 0.0;
     for (int k = 0; k < kProfileSamples; ++k) {
       const double u = profileU(k);

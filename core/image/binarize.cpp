@@ -17,7 +17,6 @@
 namespace batten {
 namespace {
 
-constexpr int kRowsPerBlock = 64;
 constexpr double kAutomaticReach = 0.4;  // of the region's contrast; never into the noise of the paper
 /// A speck of the default 20 px has a box of 8 px across; other areas in proportion.
 constexpr double kDiagonalPerRootArea = 8.0 / 4.472135954999579;

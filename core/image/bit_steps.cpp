@@ -9,8 +9,6 @@
 namespace batten {
 namespace {
 
-constexpr int kRowsPerBlock = 128;
-
 /// out = the row together with its neighbours at the left and right.
 void spreadRow(const std::uint64_t* in, std::uint64_t* out, int words) {
   for (int i = 0; i < words; ++i) {
@@ -44,7 +42,7 @@ BitImage octagon(const BitImage& image, int steps, bool inverse, const RunContex
   const int words = image.wordsPerRow;
   if (words == 0) return out;
   const std::uint64_t flip = inverse ? ~std::uint64_t{0} : 0, lastMask = image.lastWordMask();
-  parallelFor(context, image.height, kRowsPerBlock, [&](int begin, int end) {
+  parallelFor(context, image.height, 2 * kRowsPerBlock, [&](int begin, int end) {
     const int first = std::max(0, begin - steps), rows = std::min(image.height, end + steps) - first;
     const auto size = static_cast<std::size_t>(words) * static_cast<std::size_t>(rows);
     std::vector<std::uint64_t> now(image.row(first), image.row(first) + size), next(size);

@@ -10,8 +10,6 @@
 namespace batten {
 namespace {
 
-constexpr int kRowsPerBlock = 256;
-
 /// Ink with paper among the 8 neighbours: not all nine of the block are ink.
 BATTEN_HOT_LOOP void edgeRow(const std::uint64_t* above, const std::uint64_t* here, const std::uint64_t* below,
                              std::uint64_t* out, int words) {
@@ -30,7 +28,7 @@ Result<BitImage> laplacianEdges(const BitImage& ink, const RunContext& context) 
   try {
     const PaddedBits padded(ink, false);
     BitImage edges(ink.width, ink.height);
-    parallelFor(context, ink.height, kRowsPerBlock, [&](int begin, int end) {
+    parallelFor(context, ink.height, 4 * kRowsPerBlock, [&](int begin, int end) {
       for (int y = begin; y < end; ++y) {
         edgeRow(padded.row(y - 1), padded.row(y), padded.row(y + 1), edges.row(y), ink.wordsPerRow);
       }

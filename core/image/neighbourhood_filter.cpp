@@ -13,7 +13,6 @@
 namespace batten {
 namespace {
 
-constexpr int kRowsPerBlock = 128;
 /// Below this share of the ink left, the strokes were too thin for the filter.
 constexpr double kLostShare = 0.5;
 
@@ -90,7 +89,7 @@ void runStep(const PaddedBits& in, const RowFlags& inChanged, PaddedBits& out, R
   const std::uint64_t flip = step == Step::Erosion ? ~std::uint64_t{0} : 0;
   const int height = in.height();
   const int words = in.wordsPerRow();
-  parallelFor(context, height, kRowsPerBlock, [&](int begin, int end) {
+  parallelFor(context, height, 2 * kRowsPerBlock, [&](int begin, int end) {
     std::vector<std::uint64_t> before(static_cast<std::size_t>(words));
     for (int y = begin; y < end; ++y) {
       const auto flag = [&](int row) { return inChanged[static_cast<std::size_t>(std::clamp(row, 0, height - 1))]; };

@@ -14,7 +14,6 @@
 namespace batten {
 namespace {
 
-constexpr int kRowsPerBlock = 64;
 constexpr int kSampleStep = 3;  // the smoothed picture has no more to say than every third pixel
 constexpr float kWeak = 3.0f;
 constexpr float kCertain = 6.0f;

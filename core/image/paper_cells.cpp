@@ -15,8 +15,6 @@
 namespace batten {
 namespace {
 
-constexpr int kMinVotes = 15;
-constexpr float kVotesOfConfidence = 60.0f;
 constexpr int kRounds = 2;
 
 struct Cells {

@@ -11,6 +11,10 @@
 
 namespace batten {
 
+/// Edge pixels that an estimate needs at least, and those that make it half certain.
+inline constexpr int kMinVotes = 15;
+inline constexpr float kVotesOfConfidence = 60.0f;
+
 struct PaperEstimate {
   PaperBackground paper;
   std::vector<std::uint8_t> isPaper;  ///< Per cell: no edge, and as bright as the paper around.

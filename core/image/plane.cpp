@@ -10,8 +10,6 @@
 namespace batten {
 namespace {
 
-constexpr int kRowsPerBlock = 64;
-
 BATTEN_HOT_LOOP void scaleRow(const std::uint16_t* in, float* __restrict out, int count) {
   constexpr float kScale = static_cast<float>(1.0 / GreyImage::kGreyUnit);
   for (int i = 0; i < count; ++i) out[i] = static_cast<float>(in[i]) * kScale;

@@ -27,8 +27,6 @@ constexpr double kLeastContrast = 1.5;  // [grey]
 constexpr double kDustShare = 0.25;     // of the page's contrast: regions of dust alone do not get below
 constexpr double kCertainShare = 1.25;
 constexpr double kNever = -1000.0;  // [grey] darker than anything
-constexpr int kMinVotes = 15;
-constexpr float kVotesOfConfidence = 60.0f;
 constexpr std::size_t kNoiseSamples = 20000;
 
 int shrinkFor(const GreyImage& image) {

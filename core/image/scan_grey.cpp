@@ -11,8 +11,6 @@
 namespace batten {
 namespace {
 
-constexpr int kRowsPerBlock = 64;
-
 /// One row to 16-bit grey. `Unit` is what one step of the sample is worth on the 16-bit scale: 257 for 8 bit, 1 for 16.
 template <class Sample, std::uint32_t Unit>
 void greyRow(const Sample* in, std::uint16_t* out, int count, int channels, bool associated) {

@@ -14,14 +14,14 @@
 namespace batten {
 namespace {
 
-constexpr int kRow = 26;
+constexpr int kCurveRow = 26;
 constexpr int kEyeWidth = 26;
 enum Role { IncludedRole = Qt::UserRole, FiguresRole };
 
 class CurveDelegate : public QStyledItemDelegate {
  public:
   using QStyledItemDelegate::QStyledItemDelegate;
-  QSize sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const override { return {120, kRow}; }
+  QSize sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const override { return {120, kCurveRow}; }
   void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
     const Theme& theme = themeOf(option.palette);
     painter->save();
@@ -35,7 +35,7 @@ class CurveDelegate : public QStyledItemDelegate {
     if (option.state & QStyle::State_HasFocus) drawFocusRing(*painter, box, 5, theme);
     const bool included = index.data(IncludedRole).toBool();
     const QIcon eye = themedIcon(included ? QStringLiteral("eye") : QStringLiteral("eye-off"), option.palette);
-    eye.paint(painter, QRect(option.rect.left() + 6, option.rect.top() + (kRow - 14) / 2, 14, 14));
+    eye.paint(painter, QRect(option.rect.left() + 6, option.rect.top() + (kCurveRow - 14) / 2, 14, 14));
     painter->setFont(uiFont(12));
     painter->setPen(included ? theme.text : theme.mute);
     painter->drawText(box.adjusted(kEyeWidth, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, index.data().toString());
@@ -68,7 +68,7 @@ CurveList::CurveList(EditorSession& session, QWidget* parent) : QListWidget(pare
   refresh();
 }
 
-QSize CurveList::sizeHint() const { return {240, kRow * std::clamp(count(), 1, 10) + 2}; }
+QSize CurveList::sizeHint() const { return {240, kCurveRow * std::clamp(count(), 1, 10) + 2}; }
 
 void CurveList::refresh() {
   filling_ = true;

@@ -9,8 +9,8 @@
 namespace batten {
 namespace {
 
-constexpr int kRowHeight = 24;
-constexpr int kColumnWidth = 56;
+constexpr int kEndRow = 24;
+constexpr int kEndColumn = 56;
 
 /// A dot that is full when held.
 class HoldDot : public QAbstractButton {
@@ -18,7 +18,7 @@ class HoldDot : public QAbstractButton {
   explicit HoldDot(QWidget* parent) : QAbstractButton(parent) {
     setCheckable(true);
     setFocusPolicy(Qt::StrongFocus);
-    setFixedSize(24, kRowHeight - 2);
+    setFixedSize(24, kEndRow - 2);
     setCursor(Qt::PointingHandCursor);
   }
 
@@ -38,7 +38,7 @@ class HoldDot : public QAbstractButton {
 }  // namespace
 
 EndsTable::EndsTable(EditorSession& session, QWidget* parent) : QWidget(parent), session_(session) {
-  setFixedHeight(4 * kRowHeight);
+  setFixedHeight(4 * kEndRow);
   const std::array<QString, 2> ends = {tr("start"), tr("end")};
   const std::array<QString, 2> endNames = {QStringLiteral("start"), QStringLiteral("end")};
   const std::array<QString, 3> rows = {tr("Position"), tr("Tangent"), tr("Curvature")};
@@ -86,8 +86,8 @@ void EndsTable::resizeEvent(QResizeEvent*) {
   for (std::size_t end = 0; end < 2; ++end)
     for (std::size_t row = 0; row < 3; ++row)
       // The dot's middle stands under the end of the word above.
-      dots_[end][row]->move(width() - (1 - static_cast<int>(end)) * kColumnWidth - 20,
-                            (static_cast<int>(row) + 1) * kRowHeight);
+      dots_[end][row]->move(width() - (1 - static_cast<int>(end)) * kEndColumn - 20,
+                            (static_cast<int>(row) + 1) * kEndRow);
 }
 
 void EndsTable::paintEvent(QPaintEvent*) {
@@ -96,18 +96,18 @@ void EndsTable::paintEvent(QPaintEvent*) {
   painter.setFont(uiFont(12));
   const std::array<QString, 3> rows = {tr("Position"), tr("Tangent"), tr("Curvature")};
   painter.setPen(theme.mute);
-  painter.drawText(QRect(0, 0, width(), kRowHeight), Qt::AlignVCenter | Qt::AlignLeft, tr("Hold"));
+  painter.drawText(QRect(0, 0, width(), kEndRow), Qt::AlignVCenter | Qt::AlignLeft, tr("Hold"));
   const auto column = [this](int end) {
-    return QRect(width() - (2 - end) * kColumnWidth, 0, kColumnWidth, kRowHeight);
+    return QRect(width() - (2 - end) * kEndColumn, 0, kEndColumn, kEndRow);
   };
   painter.drawText(column(0), Qt::AlignVCenter | Qt::AlignRight, tr("start"));
   painter.drawText(column(1), Qt::AlignVCenter | Qt::AlignRight, tr("end"));
   for (int row = 0; row < 3; ++row) {
-    const int y = (row + 1) * kRowHeight;
+    const int y = (row + 1) * kEndRow;
     painter.setPen(theme.text);
-    painter.drawText(QRect(0, y, width(), kRowHeight), Qt::AlignVCenter | Qt::AlignLeft,
+    painter.drawText(QRect(0, y, width(), kEndRow), Qt::AlignVCenter | Qt::AlignLeft,
                      rows[static_cast<std::size_t>(row)]);
-    painter.fillRect(0, y + kRowHeight - 1, width(), 1, theme.line);
+    painter.fillRect(0, y + kEndRow - 1, width(), 1, theme.line);
   }
 }
 

@@ -20,7 +20,7 @@
 namespace batten {
 namespace {
 
-constexpr int kRow = 28;
+constexpr int kMethodRow = 28;
 /// Widths of the three columns of figures, from the right.
 constexpr int kColumns[] = {34, 40, 62};
 
@@ -59,7 +59,7 @@ class MethodRow : public QAbstractButton {
     setAutoExclusive(true);
     setFocusPolicy(Qt::TabFocus);
     setAttribute(Qt::WA_Hover);
-    setFixedHeight(kRow);
+    setFixedHeight(kMethodRow);
     setCursor(Qt::PointingHandCursor);
     show({}, false, {});
   }
@@ -82,7 +82,7 @@ class MethodRow : public QAbstractButton {
     }
     update();
   }
-  QSize sizeHint() const override { return {240, kRow}; }
+  QSize sizeHint() const override { return {240, kMethodRow}; }
 
  protected:
   void paintEvent(QPaintEvent*) override {
