@@ -38,6 +38,14 @@ class Problem {
     Eigen::MatrixXd squared;
     Eigen::VectorXd gradient;
     Eigen::MatrixXd gapRows;  ///< Derivatives of the gap; no rows where nothing has to vanish.
+    std::vector<Row> priors;  ///< Rows that are not yet in `squared`: all at once is several times as fast.
+
+    void takePriors() {
+      Eigen::MatrixXd rows(gradient.size(), static_cast<Eigen::Index>(priors.size()));
+      for (std::size_t i = 0; i < priors.size(); ++i) rows.col(static_cast<Eigen::Index>(i)) = priors[i].transpose();
+      squared.selfadjointView<Eigen::Lower>().rankUpdate(rows);
+      priors.clear();
+    }
   };
 
   /// @param feet warm start and result. Infinity where there is no path.
@@ -54,6 +62,7 @@ class Problem {
     }
     double sum = addPoints(path, geometry, feet, rows, system);
     sum += addPriors(path, rows, system);
+    if (system) system->takePriors();
     const Eigen::VectorXd open = gap(path);
     if (system && open.size() > 0) system->gapRows = gapRows(path, rows);
     if (open.size() > 0) sum += (kGapWeight / unit_ * levers(open)).squaredNorm();
@@ -141,7 +150,7 @@ class Problem {
 
   static double add(System* system, const Row& row, double residual) {
     if (system) {
-      system->squared.selfadjointView<Eigen::Lower>().rankUpdate(row.transpose());
+      system->priors.push_back(row);
       system->gradient.noalias() += residual * row.transpose();
     }
     return residual * residual;

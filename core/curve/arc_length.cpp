@@ -11,9 +11,9 @@ namespace {
 
 /// Gauss-Legendre, 10 points on [-1, 1]; the positive half.
 constexpr std::array<double, 5> kGaussTenNodes = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244,
-                                          0.8650633666889845, 0.9739065285171717};
+                                                  0.8650633666889845, 0.9739065285171717};
 constexpr std::array<double, 5> kGaussTenWeights = {0.2955242247147529, 0.2692667193099964, 0.2190863625159820,
-                                            0.1494513491505806, 0.0666713443086881};
+                                                    0.1494513491505806, 0.0666713443086881};
 constexpr double kRelativeChange = 1e-11;
 constexpr int kMaxDepth = 30;
 
@@ -23,7 +23,8 @@ double gauss(const SpanPolynomials& curve, double from, double to) {
   const double mid = 0.5 * (from + to), half = 0.5 * (to - from);
   double sum = 0.0;
   for (std::size_t i = 0; i < kGaussTenNodes.size(); ++i) {
-    sum += kGaussTenWeights[i] * (speed(curve, mid - half * kGaussTenNodes[i]) + speed(curve, mid + half * kGaussTenNodes[i]));
+    sum += kGaussTenWeights[i] *
+           (speed(curve, mid - half * kGaussTenNodes[i]) + speed(curve, mid + half * kGaussTenNodes[i]));
   }
   return sum * half;
 }

@@ -12,9 +12,9 @@ namespace {
 
 /// Abscissae and weights of five points on [-1, 1] (Abramowitz and Stegun, table 25.4).
 constexpr std::array<double, 5> kGaussFiveNodes = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
-                                           0.9061798459386640};
+                                                   0.9061798459386640};
 constexpr std::array<double, 5> kGaussFiveWeights = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
-                                            0.4786286704993665, 0.2369268850561891};
+                                                     0.4786286704993665, 0.2369268850561891};
 constexpr int kPartsPerSpan = 4;
 
 }  // namespace
