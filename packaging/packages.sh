@@ -3,7 +3,7 @@
 
 build_packages=(
   build-essential cmake ninja-build ccache git
-  qt6-base-dev qt6-base-dev-tools libqt6svg6-dev libgl1-mesa-dev libqcustomplot-dev
+  qt6-base-dev qt6-base-dev-tools libgl1-mesa-dev libqcustomplot-dev
   libopencv-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libexpected-dev libssl-dev
   libgtest-dev libgmock-dev libbenchmark-dev
 )

@@ -224,6 +224,7 @@ void MainWindow::enterStage(PanelStage stage) {
   };
   // Marks that a click changes are shown where curves are judged, not where they would be in the way.
   if (stage != PanelStage::Curves && stage != PanelStage::Fairing) turn(false, {Layer::Extrema});
+  view_.setShowsMaskUncleaned(stage == PanelStage::Threshold);
   switch (stage) {
     case PanelStage::Scan:
       turn(true, {Layer::LogImage});

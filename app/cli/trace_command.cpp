@@ -139,6 +139,9 @@ class Trace {
     if (isScaleAssumed(scan_, plan_.recipe))
       list.emplace_back("The scan states no resolution; 96 dpi was assumed. Set --dpi.");
     if (!out_.thresholds->note.empty() && !isBlank(scan_)) list.push_back(out_.thresholds->note);
+    if (out_.filtered && out_.filtered->report.thinStrokesLost) {
+      list.emplace_back("The clean-up took thin strokes away. Set filter.max_change to 8 or fewer filter.iterations.");
+    }
     if (!out_.contours->report.note.empty()) list.push_back(out_.contours->report.note);
     for (const int mark : out_.pieces->lostMarks) {
       const Vec2& at = plan_.recipe.cornerMarks[static_cast<std::size_t>(mark)].positionPx;

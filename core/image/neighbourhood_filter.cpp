@@ -7,14 +7,16 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/image/bit_steps.h"
 #include "core/image/hot_loop.h"
 #include "core/image/padded_bits.h"
+#include "core/image/run_pieces.h"
 
 namespace batten {
 namespace {
 
-/// Below this share of the ink left, the strokes were too thin for the filter.
-constexpr double kLostShare = 0.5;
+/// When more than this share of the ink is gone, the strokes were too thin for the filter.
+constexpr double kLostShare = 0.1;
 
 enum class Step { Erosion, Dilation };
 
@@ -150,6 +152,23 @@ PaddedBits runPairs(const BitImage& image, const FilterParams& params, FilterRep
   return state;
 }
 
+/// Undoes the larger ones of the changes, and counts.
+void limitChanges(const BitImage& before, const FilterParams& params, FilteredImage& result,
+                  const RunContext& context) {
+  FilterReport& report = result.report;
+  if (params.maxChangePx > 0) {
+    const PieceRule large{.minArea = params.maxChangePx + 1};
+    const BitImage lost = keepPieces(without(before, result.ink), large, context);
+    const BitImage gained = keepPieces(without(result.ink, before), large, context);
+    result.ink = either(without(std::move(result.ink), gained), lost);
+    report.undone = lost.count() + gained.count();
+  }
+  report.inkAfter = result.ink.count();
+  report.inkLost = without(before, result.ink).count();
+  report.inkGained = report.inkAfter - (report.inkBefore - report.inkLost);
+  report.thinStrokesLost = static_cast<double>(report.inkLost) > kLostShare * static_cast<double>(report.inkBefore);
+}
+
 BitImage singleStep(const BitImage& image, Step step, int coefficient, FilterBorder border, const RunContext& context) {
   const bool replicate = border == FilterBorder::Replicate;
   const PaddedBits in(image, replicate);
@@ -171,6 +190,9 @@ std::optional<Error> validate(const FilterParams& params) {
   if (params.iterations < 0 || params.iterations > 100) {
     return Error{ErrorCode::BadParameter, "The filter iterations must lie between 0 and 100.", {}};
   }
+  if (params.maxChangePx < 0 || params.maxChangePx > 100000) {
+    return Error{ErrorCode::BadParameter, "The filter's largest change must lie between 0 and 100000 px.", {}};
+  }
   return std::nullopt;
 }
 
@@ -185,10 +207,8 @@ Result<FilteredImage> neighbourhoodFilter(const BitImage& image, const FilterPar
     } else {
       result.ink = runPairs(image, params, result.report, context).toImage();
     }
+    if (!context.isCancelled()) limitChanges(image, params, result, context);
     if (context.isCancelled()) return cancelled();
-    result.report.inkAfter = result.ink.count();
-    result.report.thinStrokesLost =
-        static_cast<double>(result.report.inkAfter) < kLostShare * static_cast<double>(result.report.inkBefore);
     return result;
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory for the filter; scan at a lower resolution or crop.");

@@ -23,6 +23,9 @@ struct FilterParams {
   int iterations = 15;  ///< 0..100. Pairs of one erosion and one dilation; stops earlier at the fixed point.
   FilterOrder order = FilterOrder::ErosionFirst;
   FilterBorder border = FilterBorder::Paper;
+  /// [px] 0..100000. Connected changes of a larger area are undone: thin strokes, tips and narrow gaps, which no rule
+  /// about eight neighbours can tell from dirt, stay as they are. 0 = no limit, as in the paper.
+  int maxChangePx = 8;
   bool operator==(const FilterParams&) const = default;
 };
 std::optional<Error> validate(const FilterParams&);
@@ -32,7 +35,10 @@ struct FilterReport {
   int iterations = 0;            ///< Pairs really run.
   std::int64_t inkBefore = 0;    ///< [px]
   std::int64_t inkAfter = 0;     ///< [px]
-  bool thinStrokesLost = false;  ///< A large part of the ink vanished: strokes of one pixel do not survive.
+  std::int64_t inkLost = 0;      ///< [px] of ink that is paper now.
+  std::int64_t inkGained = 0;    ///< [px] of paper that is ink now.
+  std::int64_t undone = 0;       ///< [px] of changes that were too large (FilterParams::maxChangePx).
+  bool thinStrokesLost = false;  ///< A good part of the ink vanished: thin strokes did not survive.
   bool alternates =
       false;  ///< Two states take turns (why = NoProgress); the result is that of the asked number of pairs.
 };
@@ -44,7 +50,7 @@ struct FilteredImage {
 /// "Feature based" erosion and dilation (000 II.C; the printed rule counts the wrong colour, this is the cited
 /// source's): all pixels at once; erosion: an ink pixel with more than `coefficient` paper pixels among its 8
 /// neighbours becomes paper; dilation: a paper pixel with more than `coefficient` ink neighbours becomes ink; equality
-/// changes nothing.
+/// changes nothing. Large changes are undone in the end (`maxChangePx`, our own).
 Result<FilteredImage> neighbourhoodFilter(const BitImage&, const FilterParams&, const RunContext&);
 
 /// One step of each, for tests and for stepping through.

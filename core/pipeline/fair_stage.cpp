@@ -33,12 +33,7 @@ FairingParams paramsFor(const std::optional<std::size_t>& choice, const Recipe& 
   FairingParams params = recipe.fairing;
   if (!choice) return params;
   const PieceChoice& own = recipe.choices[*choice];
-  if (own.mode) params.mode = *own.mode;
-  if (own.target) params.target = *own.target;
-  if (own.toleranceMm) params.toleranceMm = *own.toleranceMm;
-  if (own.lowPassMm) params.lowPassMm = *own.lowPassMm;
-  if (own.keepExtrema) params.keepExtrema = *own.keepExtrema;
-  if (!own.profile.empty()) params.profile = own.profile;
+  params = own.fairing(std::move(params));
   params.keptAt = fractionsOf(own.keepPx, curve, frame);
   params.targets.splits = fractionsOf(own.splitsPx, curve, frame);
   // A split at an end of the curve parts nothing.

@@ -35,6 +35,7 @@ struct Parameter {
   std::vector<std::string> choiceLabels;  ///< Choice: what the panel shows.
   std::string help;                       ///< One line: what it does, what a larger value means.
   bool expert = false;                    ///< Folded away in the panel.
+  bool isForDisplay = false;              ///< Changes what is shown, never a result.
   StageId stage = StageId::Thresholds;    ///< First stage it affects.
   /// Value as text: numbers in the C locale with enough digits to read back exactly, "true"/"false", a choice word.
   std::function<std::string(const Recipe&)> get;

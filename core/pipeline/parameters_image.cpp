@@ -70,11 +70,13 @@ void appendThresholds(std::vector<Parameter>& table) {
       {"log.enabled", "Log picture", "",
        "Shows the scan through the log transform, which lifts faint lines out of dark paper. Display only."},
       [](auto& r) -> auto& { return r.log.enabled; }));
+  table.back().isForDisplay = true;
   table.push_back(real(
       kThresholds,
       {"log.factor", "Log factor", "",
        "Slope of the log transform. Larger lifts the dark tones more and washes out the bright ones."},
       {10.0, 150.0, 1.0, 1, true}, [](auto& r) -> auto& { return r.log.factor; }));
+  table.back().isForDisplay = true;
   table.push_back(boolean(
       kThresholds,
       {"paper.flatten", "Flatten paper", "",
@@ -102,12 +104,14 @@ void appendThresholds(std::vector<Parameter>& table) {
       {"threshold.interpolate", "Blend regions", "",
        "Thresholds change smoothly from region to region, without seams. Off: blocks, as in the paper."},
       [](auto& r) -> auto& { return r.threshold.interpolate; }));
-  table.push_back(real(
+  Parameter reach = real(
       kBinary,
-      {"threshold.reach", "Faint parts", "",
-       "Thin faint lines count from this share of the contrast asked of ink. Smaller finds fainter ones; 1 none; 0 "
-       "automatic."},
-      {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.threshold.reach; }));
+      {"threshold.reach", "Faint parts from", "",
+       "Thin faint lines count from this share of the contrast asked of ink. Smaller finds fainter "
+       "ones; 1 none; 0 automatic."},
+      {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.threshold.reach; });
+  reach.minimumWord = "auto";
+  table.push_back(std::move(reach));
   table.push_back(integer(
       kBinary,
       {"threshold.speck_area", "Drop specks below", "px",
@@ -143,6 +147,13 @@ void appendFilter(std::vector<Parameter>& table) {
        "What lies outside the scan: paper, or the border repeated for cropped drawings.", true},
       {{"paper", "Paper", FilterBorder::Paper}, {"replicate", "Border repeated", FilterBorder::Replicate}},
       [](auto& r) -> auto& { return r.filter.border; }));
+  table.push_back(integer(
+      kFiltered,
+      {"filter.max_change", "Largest change", "px",
+       "Connected changes of a larger area are undone: thin strokes, tips and narrow gaps stay. 0 = no limit, as in "
+       "the "
+       "paper."},
+      {0, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.filter.maxChangePx; }));
 }
 
 }  // namespace

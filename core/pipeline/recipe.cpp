@@ -51,17 +51,25 @@ bool isPageSide(int px) { return px >= 16 && px <= 20000; }
 
 std::optional<Error> validateChoice(const PieceChoice& choice) {
   // The rest has the ranges of the common settings.
-  FairingParams own;
-  own.target = choice.target.value_or(own.target);
-  own.toleranceMm = choice.toleranceMm.value_or(own.toleranceMm);
-  own.lowPassMm = choice.lowPassMm.value_or(own.lowPassMm);
-  own.keepExtrema = choice.keepExtrema.value_or(own.keepExtrema);
-  own.profile = choice.profile;
-  if (auto wrong = validate(own)) return bad("The choice for a curve cannot be used. " + wrong->message);
+  if (auto wrong = validate(choice.fairing({}))) return bad("The choice for a curve cannot be used. " + wrong->message);
   return std::nullopt;
 }
 
 }  // namespace
+
+FairingParams PieceChoice::fairing(FairingParams common) const {
+  common.mode = mode.value_or(common.mode);
+  common.target = target.value_or(common.target);
+  common.toleranceMm = toleranceMm.value_or(common.toleranceMm);
+  common.lowPassMm = lowPassMm.value_or(common.lowPassMm);
+  common.keepExtrema = keepExtrema.value_or(common.keepExtrema);
+  common.spend = spend.value_or(common.spend);
+  common.means = means.value_or(common.means);
+  common.startHold = startHold.value_or(common.startHold);
+  common.endHold = endHold.value_or(common.endHold);
+  if (!profile.empty()) common.profile = profile;
+  return common;
+}
 
 std::optional<Error> validate(const Recipe& recipe) {
   if (recipe.dpi && !(*recipe.dpi >= kMinDpi && *recipe.dpi <= kMaxDpi)) {

@@ -22,21 +22,25 @@ namespace batten {
 /// piece whose points come nearest to the anchor (within 24 px).
 struct PieceChoice {
   Vec2 anchorPx = Vec2::Zero();
-  bool included = true;                     ///< False: left out of fairing results and export.
-  std::optional<FairingMode> mode;          ///< Own fairing mode; absent = the recipe's.
-  std::optional<int> target;                ///< Own target degree 0..6.
-  std::optional<double> toleranceMm;        ///< Own budget.
-  std::optional<double> lowPassMm{};        ///< Own wavelength of the low-pass.
-  std::optional<int> keepExtrema{};         ///< Own number of extrema to keep.
-  std::vector<Vec2> keepPx{};               ///< Extrema to keep, by place; not empty: counts instead of the number.
-  std::vector<Vec2> splitsPx{};             ///< Where one target profile ends and the next begins.
-  std::vector<ProfilePoint> profile{};      ///< Own drawn profile, from start to end of the piece.
+  bool included = true;                 ///< False: left out of fairing results and export.
+  std::optional<FairingMode> mode{};    ///< Own fairing mode; absent = the recipe's.
+  std::optional<int> target{};          ///< Own target degree 0..6.
+  std::optional<double> toleranceMm{};  ///< Own budget.
+  std::optional<double> lowPassMm{};    ///< Own wavelength of the low-pass.
+  std::optional<int> keepExtrema{};     ///< Own number of extrema to keep.
+  std::vector<Vec2> keepPx{};           ///< Extrema to keep, by place; not empty: counts instead of the number.
+  std::vector<Vec2> splitsPx{};         ///< Where one target profile ends and the next begins.
+  std::vector<ProfilePoint> profile{};  ///< Own drawn profile, from start to end of the piece.
+  std::optional<FairingSpend> spend{};  ///< Own use of the budget.
+  std::optional<FairingMeans> means{};  ///< Own way to move, on Bézier paths.
+  std::optional<EndHold> startHold{}, endHold{};
   std::optional<ConstructMethod> method{};  ///< Own way of construction.
   bool operator==(const PieceChoice&) const = default;
 
   /// True when the piece is not faired by the recipe's settings alone.
   bool hasFairing() const {
-    return mode || target || toleranceMm || lowPassMm || keepExtrema || !keepPx.empty() || !profile.empty();
+    return mode || target || toleranceMm || lowPassMm || keepExtrema || spend || means || startHold || endHold ||
+           !keepPx.empty() || !profile.empty();
   }
   /// Back to the recipe's settings; splits belong to the shape and stay.
   void clearFairing() {
@@ -45,9 +49,15 @@ struct PieceChoice {
     toleranceMm.reset();
     lowPassMm.reset();
     keepExtrema.reset();
+    spend.reset();
+    means.reset();
+    startHold.reset();
+    endHold.reset();
     keepPx.clear();
     profile.clear();
   }
+  /// The common fairing with what is chosen here in its place; what is chosen by place on the drawing is not in it.
+  FairingParams fairing(FairingParams common) const;
   /// True when the choice says nothing.
   bool isEmpty() const { return included && !hasFairing() && splitsPx.empty() && !method; }
 };

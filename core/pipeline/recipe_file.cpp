@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/pipeline/number_text.h"
@@ -38,11 +39,16 @@ Json parameterToJson(const Parameter& p, const Recipe& recipe) {
 
 Json choiceToJson(const PieceChoice& choice) {
   Json json{{"anchor", {choice.anchorPx.x(), choice.anchorPx.y()}}, {"included", choice.included}};
-  if (choice.mode) {
-    Recipe named;  // the table knows the word of a mode
-    named.fairing.mode = *choice.mode;
-    json["mode"] = findParameter("fairing.mode")->get(named);
-  }
+  Recipe own;  // the table knows the words of choices
+  own.fairing = choice.fairing(own.fairing);
+  const auto word = [&](bool isOwn, const char* key, const char* parameter) {
+    if (isOwn) json[key] = findParameter(parameter)->get(own);
+  };
+  word(choice.mode.has_value(), "mode", "fairing.mode");
+  word(choice.spend.has_value(), "spend", "fairing.spend");
+  word(choice.means.has_value(), "moves", "fairing.moves");
+  word(choice.startHold.has_value(), "hold_start", "fairing.hold_start");
+  word(choice.endHold.has_value(), "hold_end", "fairing.hold_end");
   if (choice.method) {
     Recipe named;
     named.construct.method = *choice.method;
@@ -171,24 +177,38 @@ Json cornerToJson(const CornerMark& mark) {
   return mark.roundMm > 0.0 ? Json{{"at", at}, {"round", mark.roundMm}} : at;
 }
 
+/// A choice's own setting whose words the table knows; false where the name is none of these.
+Result<bool> readWord(const std::string& name, const Json& value, PieceChoice& choice) {
+  static const std::map<std::string, std::string> kParameters = {
+      {"mode", "fairing.mode"},         {"spend", "fairing.spend"},
+      {"moves", "fairing.moves"},       {"hold_start", "fairing.hold_start"},
+      {"hold_end", "fairing.hold_end"}, {"method", "construct.method"}};
+  const auto known = kParameters.find(name);
+  if (known == kParameters.end() || !value.is_string()) return false;
+  Recipe named;
+  if (auto set = setParameter(named, known->second, value.get<std::string>()); !set) return fail(set.error());
+  if (name == "mode") choice.mode = named.fairing.mode;
+  if (name == "spend") choice.spend = named.fairing.spend;
+  if (name == "moves") choice.means = named.fairing.means;
+  if (name == "hold_start") choice.startHold = named.fairing.startHold;
+  if (name == "hold_end") choice.endHold = named.fairing.endHold;
+  if (name == "method") choice.method = named.construct.method;
+  return true;
+}
+
 Result<PieceChoice> readChoice(const Json& json) {
   PieceChoice choice;
   if (!json.is_object()) return refuse("The recipe is damaged: an entry of \"choices\" is not an object.");
   for (const auto& [name, value] : json.items()) {
+    const auto word = readWord(name, value, choice);
+    if (!word) return fail(word.error());
+    if (*word) continue;
     if (name == "anchor") {
       const auto point = pointFromJson(value);
       if (!point) return refuse("The recipe is damaged: the anchor of a choice is not a pair of numbers [x, y].");
       choice.anchorPx = *point;
     } else if (name == "included" && value.is_boolean()) {
       choice.included = value.get<bool>();
-    } else if (name == "mode" && value.is_string()) {
-      Recipe named;
-      if (auto set = setParameter(named, "fairing.mode", value.get<std::string>()); !set) return fail(set.error());
-      choice.mode = named.fairing.mode;
-    } else if (name == "method" && value.is_string()) {
-      Recipe named;
-      if (auto set = setParameter(named, "construct.method", value.get<std::string>()); !set) return fail(set.error());
-      choice.method = named.construct.method;
     } else if (const auto whole = integerFromJson(value); whole && name == "target") {
       choice.target = *whole;
     } else if (name == "tolerance" && value.is_number()) {

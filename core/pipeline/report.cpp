@@ -277,6 +277,9 @@ Json countsOf(StageId stage, const PipelineOutput& out) {
     case StageId::Filtered:
       if (!out.filtered) break;
       return {{"ink_px", out.filtered->report.inkAfter},
+              {"lost_px", out.filtered->report.inkLost},
+              {"gained_px", out.filtered->report.inkGained},
+              {"undone_px", out.filtered->report.undone},
               {"iterations", out.filtered->report.iterations},
               {"stopped", name(out.filtered->report.why)},
               {"thin_strokes_lost", out.filtered->report.thinStrokesLost}};

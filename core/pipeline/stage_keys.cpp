@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <span>
 
+#include "core/pipeline/parameter_table.h"
+
 namespace batten {
 namespace {
 
@@ -25,42 +27,15 @@ void add(HashBuilder& h, const std::vector<ProfilePoint>& profile) {
   for (const ProfilePoint& p : profile) h.number(p.fraction).number(p.kappa);
 }
 
-void add(HashBuilder& h, const ThresholdParams& p) {
-  h.integer(static_cast<int>(p.mode)).number(p.manualLevel).number(p.strength).integer(p.interpolate).number(p.reach);
-  h.integer(p.speckArea).integer(p.holeArea);
-  for (const auto& cell : p.grid) add(h, cell);
-}
-void add(HashBuilder& h, const FilterParams& p) {
-  h.integer(p.coefficient).integer(p.iterations).integer(static_cast<int>(p.order)).integer(static_cast<int>(p.border));
-}
-void add(HashBuilder& h, const EdgeParams& p) {
-  h.integer(static_cast<int>(p.mode)).integer(p.internal).integer(p.subpixel).number(p.strokeWidth).number(p.gapFactor);
-  h.number(p.mergeWidths).number(p.spurFactor).number(p.maxBendDeg);
-}
-void add(HashBuilder& h, const SegmentParams& p) {
-  h.integer(static_cast<int>(p.mode)).integer(p.count).number(p.spacingPx).number(p.tolerancePx);
-}
-void add(HashBuilder& h, const ConstructParams& p) {
-  h.integer(static_cast<int>(p.method)).number(p.derivativeMagnitude).integer(p.magnitudeAsInPaper);
-  h.integer(static_cast<int>(p.gradients)).integer(p.degree).number(p.keepExtremaCost).number(p.reduceShare);
-  h.integer(static_cast<int>(p.knots)).integer(static_cast<int>(p.removal)).number(p.removalStepPx);
-  h.number(p.removalTolerancePx);
-  h.number(p.closenessPx);
-  h.number(p.lowPass).integer(static_cast<int>(p.typical)).number(p.growingStopDeg).integer(p.growingAsInPaper);
-}
-void add(HashBuilder& h, const FairingParams& p) {
-  h.integer(static_cast<int>(p.mode)).integer(p.target).number(p.toleranceMm);
-  h.integer(p.startHold.tangent).integer(p.startHold.curvature).integer(p.endHold.tangent).integer(p.endHold.curvature);
-  h.integer(static_cast<int>(p.targets.quantity)).integer(p.targets.monotone).integer(p.targets.samples);
-  h.number(p.lowPassMm).integer(p.keepExtrema);
-  add(h, p.profile);
-}
 void add(HashBuilder& h, const PieceChoice& c) {
   add(h, c.anchorPx);
   h.integer(c.included).integer(c.mode ? static_cast<int>(*c.mode) : -1).integer(c.target.value_or(-1));
   add(h, c.toleranceMm);
   add(h, c.lowPassMm);
   h.integer(c.keepExtrema.value_or(-2));
+  h.integer(c.spend ? static_cast<int>(*c.spend) : -1).integer(c.means ? static_cast<int>(*c.means) : -1);
+  for (const auto& hold : {c.startHold, c.endHold})
+    h.integer(hold.has_value()).integer(hold && hold->tangent).integer(hold && hold->curvature);
   for (const auto* places : {&c.keepPx, &c.splitsPx}) {
     addCount(h, *places);
     for (const Vec2& p : *places) add(h, p);
@@ -87,24 +62,20 @@ ContentHash scanKey(const Scan& scan) {
   return hasFile ? h.hash(scan.fileHash).finish() : h.bytes(std::as_bytes(std::span(scan.grey.pixels))).finish();
 }
 
-/// Adds to the digest what of the recipe a stage reads itself.
+/// Adds to the digest what of the recipe a stage reads itself: its parameters, so that none can be forgotten, and the
+/// choices that no table lists.
 void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& frame) {
+  for (const Parameter& p : parameterTable()) {
+    if (p.stage == stage && !p.isForDisplay) h.text(p.name).text(p.get(r));
+  }
   switch (stage) {
     case StageId::Thresholds:
-      h.integer(r.paper.flatten);
-      add(h, r.threshold);
-      break;
     case StageId::Binary:
-      add(h, r.threshold);
-      break;
     case StageId::Filtered:
-      add(h, r.filter);
-      break;
     case StageId::Edges:
+    case StageId::Segments:
       break;
     case StageId::Contours:
-      add(h, r.edges);
-      h.number(r.contours.minLengthPx).integer(r.contours.maxCount);
       addCount(h, r.regions);
       for (const RegionOfInterest& region : r.regions) {
         addCount(h, region.cornersPx);
@@ -112,15 +83,10 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
       }
       break;  // the pen strokes come on top, see stageKeys
     case StageId::Pieces:
-      h.number(r.corners.snapDistancePx).integer(r.corners.exact);
       addCount(h, r.cornerMarks);
       for (const CornerMark& mark : r.cornerMarks) add(h, mark.positionPx);
       break;
-    case StageId::Segments:
-      add(h, r.segments);
-      break;
     case StageId::Curves:
-      add(h, r.construct);
       addMethods(h, r.choices);
       h.number(frame.mmPerPx).integer(frame.heightPx);
       addCount(h, r.segmentPoints);
@@ -132,7 +98,6 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
       }
       break;
     case StageId::Faired:
-      add(h, r.fairing);
       addCount(h, r.choices);
       for (const PieceChoice& choice : r.choices) add(h, choice);
       for (const CornerMark& mark : r.cornerMarks) h.number(mark.roundMm);

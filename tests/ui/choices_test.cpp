@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <QAction>
+#include <QLineEdit>
+#include <QPixmap>
 #include <QTest>
 #include <cmath>
 #include <numbers>
@@ -44,14 +46,10 @@ QImage grainyWavePage() {
 
 /// Two strokes apart.
 QImage twoLinesPage() {
-  QImage page(QSize(640, 400), QImage::Format_Grayscale8);
-  page.fill(245);
-  QPainter painter(&page);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(QColor(30, 30, 30), 5.0, Qt::SolidLine, Qt::FlatCap));
-  painter.drawLine(QPointF(60, 100), QPointF(580, 120));
-  painter.drawLine(QPointF(60, 300), QPointF(500, 310));
-  return page;
+  return test::drawnPage({640, 400}, [](QPainter& painter) {
+    painter.drawLine(QPointF(60, 100), QPointF(580, 120));
+    painter.drawLine(QPointF(60, 300), QPointF(500, 310));
+  });
 }
 
 class Choices : public test::WindowFixture {
@@ -227,6 +225,26 @@ TEST_F(Choices, MergedStrokesShowTheirRoomWhileEdgesAreWorkedOn) {
   EXPECT_FALSE(shows());
   merge(5.0);
   EXPECT_FALSE(shows());
+}
+
+TEST_F(Choices, ThresholdsShowTheInkBeforeTheCleanUpAndTheCleanUpWhatItLeaves) {
+  open(test::drawnPage({640, 400}, [](QPainter& painter) {
+    painter.setRenderHint(QPainter::Antialiasing, false);
+    painter.fillRect(60, 100, 500, 2, QColor(30, 30, 30));
+    painter.fillRect(60, 200, 500, 9, QColor(30, 30, 30));
+  }));
+  // Whether the mask's colour lies on a place of the picture; ink itself is grey.
+  const auto isInk = [this](const Vec2& px) {
+    const QPixmap shot = canvas_->grab();
+    const QColor colour = shot.toImage().pixelColor((canvas_->toWidget(px) * shot.devicePixelRatio()).toPoint());
+    return colour.saturation() > 60;
+  };
+  window_->setStage(PanelStage::CleanUp);
+  EXPECT_TRUE(waitUntil([&] { return isInk({300, 204.5}) && isInk({300, 101}); })) << "thin strokes are spared";
+  type(find<QLineEdit>("filter.max_change.field"), QStringLiteral("0"));
+  EXPECT_TRUE(waitUntil([&] { return isInk({300, 204.5}) && !isInk({300, 101}); })) << "as in the paper";
+  window_->setStage(PanelStage::Threshold);
+  EXPECT_TRUE(waitUntil([&] { return isInk({300, 204.5}) && isInk({300, 101}); }));
 }
 
 TEST_F(Choices, EveryNewLayerPaintsWithoutChangingTheRecipe) {

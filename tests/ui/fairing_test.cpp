@@ -47,6 +47,56 @@ class FairingWindow : public test::WindowFixture {
   }
 };
 
+TEST_F(FairingWindow, EndsAndUseOfTheBudgetBelongToTheCurveWhileItIsMeant) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::drawnPage({640, 400}, [](QPainter& painter) {
+    painter.drawArc(QRectF(80, 60, 480, 240), 20 * 16, 140 * 16);
+    painter.drawArc(QRectF(80, 160, 480, 240), 20 * 16, 140 * 16);
+  })));
+  window_->setStage(PanelStage::Fairing);
+  ASSERT_EQ(session().curves().size(), 2u);
+  session().selectCurve(0);
+  click("fairing.mode.tolerance");
+  click("fairing.scope.one");
+  click("fairing.hold_start.tangent");
+  click("fairing.hold_end.curvature");
+  click("fairing.spend.all");
+  ASSERT_TRUE(waitUntil([this] { return used().spend == FairingSpend::All; }));
+  const Recipe& recipe = session().recipe();
+  EXPECT_EQ(recipe.fairing.startHold, EndHold{});
+  EXPECT_EQ(recipe.fairing.spend, FairingSpend::AsNeeded);
+  EXPECT_EQ(used().startHold, (EndHold{true, false}));
+  EXPECT_EQ(used().endHold, (EndHold{true, true}));
+  EXPECT_EQ(session().curves()[1].fairingUsed.endHold, EndHold{});
+  // The other curve shows its own, the common ones; back at the first they are as they were set.
+  session().selectCurve(1);
+  EXPECT_FALSE(find<QAbstractButton>("fairing.hold_end.curvature")->isChecked());
+  session().selectCurve(0);
+  EXPECT_TRUE(find<QAbstractButton>("fairing.hold_end.curvature")->isChecked());
+  click("fairing.useForAll");
+  EXPECT_EQ(session().recipe().fairing.endHold, (EndHold{true, true}));
+  EXPECT_TRUE(session().recipe().choices.empty());
+}
+
+TEST_F(FairingWindow, ThePlotFollowsACurveThatGetsShorter) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+  const auto mark = [this](double x, double y) {
+    Recipe recipe = session().recipe();
+    recipe.cornerMarks = {{{x, y}}};
+    session().change(QStringLiteral("mark"), recipe);
+    return waitUntil([this] { return !session().isBusy(); });
+  };
+  const auto* plots = window_->findChild<CurvePlots*>();
+  ASSERT_TRUE(mark(400, 300));
+  session().selectCurve(0);
+  const double before = session().selected()->sketchedFigures.lengthMm;
+  ASSERT_TRUE(waitUntil([&] { return std::abs(plots->shownLengths().second - before) < 1e-6; }));
+  ASSERT_TRUE(mark(420, 278));
+  const double after = session().selected()->sketchedFigures.lengthMm;
+  ASSERT_LT(after, 0.97 * before);
+  ASSERT_GT(after, 0.85 * before);
+  EXPECT_TRUE(waitUntil([&] { return std::abs(plots->shownLengths().second - after) < 1e-6; }));
+}
+
 TEST_F(FairingWindow, EveryModeHasItsButtonAndItsOwnSetting) {
   const std::pair<const char*, FairingMode> modes[] = {{"fairing.mode.target", FairingMode::Target},
                                                        {"fairing.mode.tolerance", FairingMode::Tolerance},
@@ -193,7 +243,7 @@ TEST_F(FairingWindow, TilesAndTableRecommendAlike) {
     ASSERT_EQ(session().targets()->recommendedDegree, nearest);
     EXPECT_EQ(isAdvisable(*session().targets(), nearest, session().recipe().fairing.toleranceMm), allowed);
     EXPECT_EQ(tile->accessibleName().contains(QStringLiteral(", recommended")), allowed);
-    EXPECT_EQ(tile->accessibleName().contains(QStringLiteral("closest shape")), !allowed);
+    EXPECT_EQ(tile->accessibleName().contains(QStringLiteral("simplest fit")), !allowed);
     EXPECT_EQ(isTicked(), allowed);
     EXPECT_EQ(words->text().contains(QStringLiteral("not recommended")), !allowed) << words->text().toStdString();
   }

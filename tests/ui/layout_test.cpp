@@ -47,7 +47,7 @@ TEST_F(Layout, OnlyWhatTheBudgetAllowsIsRecommended) {
   ASSERT_TRUE(outcome);
   auto* tile = find<QAbstractButton>(("target." + std::to_string(degree)).c_str());
   EXPECT_EQ(tile->accessibleName().contains(QStringLiteral("recommended")), outcome->report.withinBudget);
-  EXPECT_EQ(tile->accessibleName().contains(QStringLiteral("closest shape")), !outcome->report.withinBudget);
+  EXPECT_EQ(tile->accessibleName().contains(QStringLiteral("simplest fit")), !outcome->report.withinBudget);
 }
 
 TEST_F(Layout, EveryPlotNamesItsQuantityAndComesBack) {

@@ -235,7 +235,7 @@ RasterContent CurveCanvas::State::rasterContent() const {
   if (view.isScanOnly()) return content;
   const PipelineOutput& output = session.output();
   if (view.isVisible(Layer::Mask)) {
-    if (output.filtered)
+    if (output.filtered && !view.showsMaskUncleaned())
       content.mask = std::shared_ptr<const BitImage>(output.filtered, &output.filtered->ink);
     else
       content.mask = output.binary;

@@ -40,8 +40,9 @@ void follow(EditorSession& session, QWidget* panel, StageId stage, const std::fu
 CleanUpPanel::CleanUpPanel(EditorSession& session, QWidget* parent)
     : QWidget(parent), session_(session), figures_(new FigureTable(this)), warning_(note({}, this)) {
   auto* layout = panelLayout(this, tr("Clean-up"));
-  layout->addWidget(
-      new ParameterEditor(session, {"filter.coefficient", "filter.iterations", "filter.order", "filter.border"}, this));
+  layout->addWidget(new ParameterEditor(
+      session, {"filter.coefficient", "filter.iterations", "filter.max_change", "filter.order", "filter.border"},
+      this));
   layout->addWidget(caption(tr("What it did"), this));
   layout->addWidget(figures_);
   layout->addWidget(warning_);
@@ -58,8 +59,10 @@ void CleanUpPanel::refresh() {
     return;
   }
   const FilterReport& report = filtered->report;
-  const double change =
-      report.inkBefore > 0 ? 100.0 * double(report.inkAfter - report.inkBefore) / double(report.inkBefore) : 0.0;
+  const auto share = [&](std::int64_t pixels) {
+    const double percent = report.inkBefore > 0 ? 100.0 * double(pixels) / double(report.inkBefore) : 0.0;
+    return QStringLiteral("%1 %").arg(percent, 0, 'f', 1);
+  };
   QString rounds = QString::number(report.iterations);
   if (report.why == Termination::FixedPoint) rounds = tr("%1, then no change").arg(report.iterations);
   if (report.why == Termination::IterationLimit) rounds = tr("%1, still changing").arg(report.iterations);
@@ -67,14 +70,18 @@ void CleanUpPanel::refresh() {
   figures_->setRows(
       {{tr("Ink before, px"), {{grouped(report.inkBefore)}}, tr("Pixels that count as ink after the threshold.")},
        {tr("Ink after, px"), {{grouped(report.inkAfter)}}, tr("Pixels that count as ink after the clean-up.")},
-       {tr("Change"), {{QStringLiteral("%1 %").arg(change, 0, 'f', 1), report.thinStrokesLost}}, {}},
+       {tr("Taken away"), {{share(report.inkLost), report.thinStrokesLost}}, tr("Ink that became paper.")},
+       {tr("Filled in"), {{share(report.inkGained)}}, tr("Paper that became ink.")},
+       {tr("Undone"),
+        {{share(report.undone)}},
+        tr("Changes larger than the largest change: thin strokes, tips, gaps.")},
        {tr("Rounds"),
         {{rounds}},
         tr("A round is one erosion and one dilation; the filter stops when nothing changes.")}});
   warning_->setVisible(report.thinStrokesLost);
   warning_->setText(
-      tr("Much of the ink vanished: strokes of one pixel do not survive this. Use a larger coefficient or fewer "
-         "iterations."));
+      tr("Much of the ink vanished: thin strokes do not survive this. Set a largest change, a larger coefficient or "
+         "fewer iterations."));
 }
 
 EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)

@@ -37,7 +37,8 @@ class HoldDot : public QAbstractButton {
 
 }  // namespace
 
-EndsTable::EndsTable(EditorSession& session, QWidget* parent) : QWidget(parent), session_(session) {
+EndsTable::EndsTable(std::function<FairingParams()> shown, std::function<void(int, EndHold)> set, QWidget* parent)
+    : QWidget(parent), shown_(std::move(shown)), set_(std::move(set)) {
   setFixedHeight(4 * kEndRow);
   const std::array<QString, 2> ends = {tr("start"), tr("end")};
   const std::array<QString, 2> endNames = {QStringLiteral("start"), QStringLiteral("end")};
@@ -59,12 +60,11 @@ EndsTable::EndsTable(EditorSession& session, QWidget* parent) : QWidget(parent),
     }
     dots_[end][0]->setEnabled(false);
   }
-  connect(&session_, &EditorSession::recipeChanged, this, &EndsTable::refresh);
-  refresh();
 }
 
 void EndsTable::refresh() {
-  const std::array<EndHold, 2> holds = {session_.recipe().fairing.startHold, session_.recipe().fairing.endHold};
+  const FairingParams params = shown_();
+  const std::array<EndHold, 2> holds = {params.startHold, params.endHold};
   for (std::size_t end = 0; end < 2; ++end) {
     dots_[end][0]->setChecked(true);
     dots_[end][1]->setChecked(holds[end].tangent);
@@ -73,12 +73,11 @@ void EndsTable::refresh() {
 }
 
 void EndsTable::toggle(int end, int row, bool on) {
-  Recipe after = session_.recipe();
-  EndHold& hold = end == 0 ? after.fairing.startHold : after.fairing.endHold;
   // Holding the bend without the direction means nothing: each step holds what the one before holds.
+  EndHold hold;
   if (row == 1) hold = on ? EndHold{true, false} : EndHold{false, false};
   if (row == 2) hold = on ? EndHold{true, true} : EndHold{true, false};
-  session_.change(end == 0 ? tr("Hold at start") : tr("Hold at end"), std::move(after));
+  set_(end, hold);
   refresh();
 }
 
@@ -97,9 +96,7 @@ void EndsTable::paintEvent(QPaintEvent*) {
   const std::array<QString, 3> rows = {tr("Position"), tr("Tangent"), tr("Curvature")};
   painter.setPen(theme.mute);
   painter.drawText(QRect(0, 0, width(), kEndRow), Qt::AlignVCenter | Qt::AlignLeft, tr("Hold"));
-  const auto column = [this](int end) {
-    return QRect(width() - (2 - end) * kEndColumn, 0, kEndColumn, kEndRow);
-  };
+  const auto column = [this](int end) { return QRect(width() - (2 - end) * kEndColumn, 0, kEndColumn, kEndRow); };
   painter.drawText(column(0), Qt::AlignVCenter | Qt::AlignRight, tr("start"));
   painter.drawText(column(1), Qt::AlignVCenter | Qt::AlignRight, tr("end"));
   for (int row = 0; row < 3; ++row) {

@@ -3,8 +3,9 @@
 
 #include <QWidget>
 #include <array>
+#include <functional>
 
-#include "ui/session/editor_session.h"
+#include "core/fairing/fairing.h"
 
 class QAbstractButton;
 
@@ -14,16 +15,19 @@ namespace batten {
 class EndsTable : public QWidget {
   Q_OBJECT
  public:
-  explicit EndsTable(EditorSession& session, QWidget* parent = nullptr);
+  /// @param shown the fairing whose ends the table shows; @param set called with the end (0, 1) when the user changes
+  /// it.
+  EndsTable(std::function<FairingParams()> shown, std::function<void(int end, EndHold)> set, QWidget* parent);
+  void refresh();
 
  protected:
   void paintEvent(QPaintEvent*) override;
   void resizeEvent(QResizeEvent*) override;
 
  private:
-  void refresh();
   void toggle(int end, int row, bool on);
-  EditorSession& session_;
+  std::function<FairingParams()> shown_;
+  std::function<void(int, EndHold)> set_;
   std::array<std::array<QAbstractButton*, 3>, 2> dots_{};  ///< [start, end][position, tangent, curvature]
 };
 

@@ -45,7 +45,9 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       unsplit_(linkButton({}, QStringLiteral("fairing.unsplit"), this)),
       draw_(linkButton(tr("Draw the target in the plot"), QStringLiteral("fairing.draw"), this)),
       forget_(linkButton(tr("Back to the six targets"), QStringLiteral("fairing.forget"), this)),
-      figures_(new FigureTable(this)) {
+      figures_(new FigureTable(this)),
+      ends_(new EndsTable([this] { return shown(session_.recipe()); },
+                          [this](int end, EndHold hold) { setHold(end, hold); }, this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(14, 12, 14, 12);
   layout->setSpacing(8);
@@ -70,6 +72,8 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   bindToScope(keep_, [](PieceChoice& choice, const FairingParams& params) { choice.keepExtrema = params.keepExtrema; });
   bindToScope(wavelength_,
               [](PieceChoice& choice, const FairingParams& params) { choice.lowPassMm = params.lowPassMm; });
+  bindToScope(spend_, [](PieceChoice& choice, const FairingParams& params) { choice.spend = params.spend; });
+  bindToScope(moves_, [](PieceChoice& choice, const FairingParams& params) { choice.means = params.means; });
   wavelength_->setSliderRange(1.0, 300.0);
   keep_->setSliderRange(-1.0, 12.0);
   layout->addWidget(note_);
@@ -81,7 +85,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   figures_->setHeader({}, {tr("sketched"), tr("faired")});
   layout->addWidget(figures_);
   layout->addWidget(caption(tr("Ends"), this));
-  layout->addWidget(new EndsTable(session, this));
+  layout->addWidget(ends_);
   layout->addWidget(editor_);
   layout->addWidget(caption(tr("Curves"), this));
   layout->addWidget(new CurveList(session, this));
@@ -187,15 +191,8 @@ void FairingPanel::refreshLinks(const FairingParams& params) {
 }
 
 FairingParams FairingPanel::shown(const Recipe& recipe) const {
-  FairingParams params = recipe.fairing;
   const PieceChoice* choice = actsOnOne() ? choiceOf(session_, session_.selectedCurve()) : nullptr;
-  if (choice && choice->mode) params.mode = *choice->mode;
-  if (choice && choice->target) params.target = *choice->target;
-  if (choice && choice->toleranceMm) params.toleranceMm = *choice->toleranceMm;
-  if (choice && choice->lowPassMm) params.lowPassMm = *choice->lowPassMm;
-  if (choice && choice->keepExtrema) params.keepExtrema = *choice->keepExtrema;
-  if (choice && !choice->profile.empty()) params.profile = choice->profile;
-  return params;
+  return choice ? choice->fairing(recipe.fairing) : recipe.fairing;
 }
 
 void FairingPanel::setMode(FairingMode mode) {
@@ -207,15 +204,19 @@ void FairingPanel::setMode(FairingMode mode) {
   session_.change(tr("Fairing"), std::move(after));
 }
 
+void FairingPanel::setHold(int end, EndHold hold) {
+  Recipe after = session_.recipe();
+  if (actsOnOne())
+    after = withChoice(session_, session_.selectedCurve(),
+                       [end, hold](PieceChoice& choice) { (end == 0 ? choice.startHold : choice.endHold) = hold; });
+  else
+    (end == 0 ? after.fairing.startHold : after.fairing.endHold) = hold;
+  session_.change(end == 0 ? tr("Hold at start") : tr("Hold at end"), std::move(after));
+}
+
 void FairingPanel::useForAll() {
   Recipe after = session_.recipe();
-  const FairingParams own = shown(after);
-  after.fairing.mode = own.mode;
-  after.fairing.target = own.target;
-  after.fairing.toleranceMm = own.toleranceMm;
-  after.fairing.lowPassMm = own.lowPassMm;
-  after.fairing.keepExtrema = own.keepExtrema;
-  after.fairing.profile = own.profile;
+  after.fairing = shown(after);
   for (PieceChoice& choice : after.choices) choice.clearFairing();
   std::erase_if(after.choices, [](const PieceChoice& choice) { return choice.isEmpty(); });
   oneCurve_ = false;
@@ -246,6 +247,7 @@ void FairingPanel::refresh() {
   mode_->setCurrent(static_cast<int>(params.mode));
   budget_->sync();
   budget_->setEnabled(params.mode != FairingMode::None);
+  ends_->refresh();
   refreshLinks(params);
   useForAll_->setVisible(several && own);
   followAll_->setVisible(several && own);

@@ -11,6 +11,7 @@ class QPushButton;
 
 namespace batten {
 
+class EndsTable;
 class FigureTable;
 class ParameterEditor;
 class ParameterRow;
@@ -36,6 +37,7 @@ class FairingPanel : public QWidget {
   void bindToScope(ParameterRow* row, const std::function<void(PieceChoice&, const FairingParams&)>& store);
   void buildLinks();
   void refreshLinks(const FairingParams& params);
+  void setHold(int end, EndHold hold);
   void useForAll();
   void followAll();
 
@@ -57,6 +59,7 @@ class FairingPanel : public QWidget {
   QPushButton* draw_;
   QPushButton* forget_;
   FigureTable* figures_;
+  EndsTable* ends_;
   bool oneCurve_ = false;
   int lastSelected_ = -2;
 };

@@ -89,13 +89,15 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double bud
     tip += tr("\nS %1, moves the curve by at most %2, %3 left.")
                .arg(similarityText(profile.similarity), millimetres(faired.report.maxDeviationMm),
                     counted(faired.report.extremaAfter, tr("1 curvature extremum"), tr("%1 curvature extrema")));
+    if (const int more = faired.report.extremaAfter - faired.report.extremaBefore; more > 0)
+      tip += counted(more, tr("\nThat is 1 more than the sketch has."), tr("\nThat is %1 more than the sketch has."));
     if (!faired.report.withinBudget) tip += tr("\nTo meet it fully needs %1.").arg(millimetres(faired.report.neededMm));
     if (!profile.isMonotone) tip += tr("\nThis profile turns back: it is not monotone.");
   }
   tip += QLatin1Char('\n') + (oneCurve ? tr("Click or press %1: for the selected curve.").arg(degree_)
                                        : tr("Click or press %1: for all curves.").arg(degree_));
   if (outcomes_ && outcomes_->recommendedDegree == degree_)
-    spoken += isAdvisable(*outcomes_, degree_, budgetMm_) ? tr(", recommended") : tr(", closest shape");
+    spoken += isAdvisable(*outcomes_, degree_, budgetMm_) ? tr(", recommended") : tr(", simplest fit");
   if (!outcomes_ && !waiting_.isEmpty()) spoken += QStringLiteral(", ") + waiting_;
   if (chosen_) spoken += tr(", chosen");
   setAccessibleName(spoken);
@@ -140,7 +142,7 @@ void TargetTile::paintTitle(QPainter& painter, const QRectF& title) const {
   const bool isAdvised = isNearest && isAdvisable(*outcomes_, degree_, budgetMm_);
   const QFontMetricsF metrics(uiFont(12)), small(uiFont(11));
   const double nameWidth = metrics.horizontalAdvance(degreeName(degree_));
-  QString word = isAdvised ? tr("recommended") : isNearest ? tr("closest shape") : QString();
+  QString word = isAdvised ? tr("recommended") : isNearest ? tr("simplest fit") : QString();
   const auto fits = [&](const QString& one) {
     return numberWidth + nameWidth + 6 + small.horizontalAdvance(one) <= title.width();
   };
@@ -204,8 +206,9 @@ void TargetTile::paintFigures(QPainter& painter, const QRectF& box) const {
   const bool withWords = fits({needs, extrema});
   const QString number = withWords || fits({needs, times}) ? needs : length;
   const QString count = withWords ? extrema : fits({number, times}) ? times : QString();
-  painter.setPen(theme.mute);
+  painter.setPen(report.extremaAfter > report.extremaBefore ? theme.amber : theme.mute);
   painter.drawText(box, Qt::AlignRight | Qt::AlignVCenter, count);
+  painter.setPen(theme.mute);
   if (withSimilarity) painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, similarity);
   painter.setPen(over ? theme.amber : theme.mute);
   const double shift = 0.5 * (metrics.horizontalAdvance(similarity) - metrics.horizontalAdvance(count));

@@ -12,6 +12,7 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
 
 #include "core/image/region_thresholds.h"
 #include "ui/panels/number_field.h"
@@ -22,6 +23,15 @@
 #include "ui/theme/theme.h"
 
 namespace batten {
+namespace {
+
+/// [mm²] with two digits, and never as a power of ten.
+QString areaText(double mm2) {
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(std::max(mm2, 1e-4)))), 0, 4);
+  return QString::number(mm2, 'f', decimals);
+}
+
+}  // namespace
 
 ThresholdPanel::ThresholdPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
     : QWidget(parent),
@@ -182,8 +192,7 @@ void ThresholdPanel::refresh() {
   if (found && mm > 0.0 && (params.speckArea > 0 || params.holeArea > 0)) {
     if (!text.isEmpty()) text += QLatin1Char('\n');
     text += tr("Specks under %1 mm² are dropped, holes under %2 mm² filled.")
-                .arg(params.speckArea * mm * mm, 0, 'g', 2)
-                .arg(params.holeArea * mm * mm, 0, 'g', 2);
+                .arg(areaText(params.speckArea * mm * mm), areaText(params.holeArea * mm * mm));
   }
   note_->setText(text);
   note_->setVisible(!note_->text().isEmpty());

@@ -244,13 +244,15 @@ void CurvePlots::refresh() {
   d.editing->show(d.data, d.tab);
   const bool sameView = d.shownTab == d.tab && d.shownCurve == d.session.selectedCurve() &&
                         std::abs(d.shownLength - d.data.lengthMm) < 0.2 * std::abs(d.shownLength);
+  const QCPRange shown = d.plot->xAxis->range();
+  const bool wasWhole = shown.lower <= 0.0 && std::abs(shown.upper - d.shownLength) < 1e-6 * d.shownLength;
   d.shownTab = d.tab;
   d.shownCurve = d.session.selectedCurve();
   d.shownLength = d.data.lengthMm;
   // While a point is dragged the axes stay, or it would run away from the mouse.
   if (sameView && d.editing->isDragging())
     d.plot->replot(QCustomPlot::rpQueuedReplot);
-  else if (sameView)
+  else if (sameView && !wasWhole)
     d.plot->yAxis->setRange(d.data.low, d.data.high);
   else
     resetView();
@@ -310,6 +312,11 @@ QPointF CurvePlots::markPlace(int note) const {
     if (mark.note == note)
       return {state_->plot->xAxis->coordToPixel(mark.s), state_->plot->yAxis->coordToPixel(mark.kappa)};
   return {-1.0, -1.0};
+}
+
+std::pair<double, double> CurvePlots::shownLengths() const {
+  const QCPRange range = state_->plot->xAxis->range();
+  return {range.lower, range.upper};
 }
 
 void CurvePlots::resetView() {

@@ -3,6 +3,7 @@
 
 #include <QWidget>
 #include <memory>
+#include <utility>
 
 #include "ui/plots/plot_series.h"
 
@@ -19,6 +20,8 @@ class CurvePlots : public QWidget {
   void setTab(PlotTab tab);
   /// Where a mark of the curvature plot is in the plot widget, for tests; outside when there is none.
   QPointF markPlace(int note) const;
+  /// The stretch of the curve that the plot shows, as lengths along it [mm].
+  std::pair<double, double> shownLengths() const;
 
  signals:
   void hint(const QString& text);

@@ -52,16 +52,8 @@ std::vector<double> fractionsOf(const EditorSession& session, std::vector<Vec2> 
 }  // namespace
 
 FairingParams fairingAsked(const EditorSession& session) {
-  FairingParams params = session.recipe().fairing;
   const PieceChoice* own = choiceOf(session, session.selectedCurve());
-  if (!own) return params;
-  params.mode = own->mode.value_or(params.mode);
-  params.target = own->target.value_or(params.target);
-  params.toleranceMm = own->toleranceMm.value_or(params.toleranceMm);
-  params.lowPassMm = own->lowPassMm.value_or(params.lowPassMm);
-  params.keepExtrema = own->keepExtrema.value_or(params.keepExtrema);
-  if (!own->profile.empty()) params.profile = own->profile;
-  return params;
+  return own ? own->fairing(session.recipe().fairing) : session.recipe().fairing;
 }
 
 std::vector<double> splitsOf(const EditorSession& session) { return fractionsOf(session, &PieceChoice::splitsPx); }

@@ -107,6 +107,12 @@ void ViewSettings::setShowsUniformKnots(bool shows) {
   emit changed();
 }
 
+void ViewSettings::setShowsMaskUncleaned(bool shows) {
+  if (maskUncleaned_ == shows) return;
+  maskUncleaned_ = shows;
+  emit changed();
+}
+
 void ViewSettings::setScanOnly(bool scanOnly) {
   if (scanOnly_ == scanOnly) return;
   scanOnly_ = scanOnly;

@@ -74,6 +74,8 @@ class ViewSettings : public QObject {
   void setSuggestionScalePx(double);
   bool showsUniformKnots() const { return showsUniform_; }  ///< Control polygon: the curve without repeated knots too.
   void setShowsUniformKnots(bool);
+  bool showsMaskUncleaned() const { return maskUncleaned_; }  ///< While thresholds are set: the ink as they find it.
+  void setShowsMaskUncleaned(bool);
   bool isScanOnly() const { return scanOnly_; }  ///< While the compare key is held.
   void setScanOnly(bool);
 
@@ -91,7 +93,7 @@ class ViewSettings : public QObject {
   int selectedRegion_ = -1;
   double suggestionAngleDeg_ = 35.0;
   double suggestionScalePx_ = 14.0;
-  bool scanOnly_ = false, showsUniform_ = false;
+  bool scanOnly_ = false, showsUniform_ = false, maskUncleaned_ = false;
 };
 
 }  // namespace batten

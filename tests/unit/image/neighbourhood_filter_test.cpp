@@ -62,6 +62,7 @@ TEST(NeighbourhoodFilter, MatchesKnownAnswer) {
     FilterParams params;
     params.coefficient = coefficient;
     params.iterations = 15;
+    params.maxChangePx = 0;
     EXPECT_EQ(neighbourhoodFilter(image, params, context)->ink, fromRows(entry.at("ED_x15")));
     params.order = FilterOrder::DilationFirst;
     EXPECT_EQ(neighbourhoodFilter(image, params, context)->ink, fromRows(entry.at("DE_x15")));
@@ -81,7 +82,7 @@ TEST(NeighbourhoodFilter, MatchesThePixelwiseRuleAtAnyWidth) {
         for (int i = 0; i < 9; ++i) {
           expected = naiveStep(naiveStep(expected, coefficient, border, true), coefficient, border, false);
         }
-        FilterParams params{.coefficient = coefficient, .iterations = 9, .border = border};
+        FilterParams params{.coefficient = coefficient, .iterations = 9, .border = border, .maxChangePx = 0};
         ASSERT_EQ(neighbourhoodFilter(image, params, context)->ink, expected);
       }
     }
@@ -105,13 +106,57 @@ TEST(NeighbourhoodFilter, StopsAtTheFixedPointAndDoesNotDependOnThreads) {
 TEST(NeighbourhoodFilter, WarnsWhenThinStrokesVanish) {
   BitImage line(100, 20);
   for (int x = 5; x < 95; ++x) line.set(x, 10, true);
-  const auto result = neighbourhoodFilter(line, {}, {});
+  const auto result = neighbourhoodFilter(line, {.maxChangePx = 0}, {});
   EXPECT_EQ(result->report.inkAfter, 0);
+  EXPECT_EQ(result->report.inkLost, 90);
   EXPECT_TRUE(result->report.thinStrokesLost);
+}
+
+/// Lines of one and two pixels, a notch of two, and among them dirt: specks, a hole and a dent of one pixel.
+TEST(NeighbourhoodFilter, LeavesThinStrokesAndNarrowGapsAndTakesDirtAway) {
+  BitImage clean(200, 100);
+  const auto fill = [](BitImage& image, int x0, int y0, int x1, int y1, bool ink) {
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) image.set(x, y, ink);
+    }
+  };
+  fill(clean, 10, 10, 150, 11, true);
+  fill(clean, 10, 20, 150, 22, true);
+  fill(clean, 10, 40, 150, 80, true);
+  fill(clean, 80, 40, 82, 65, false);
+  BitImage dirty = clean;
+  fill(dirty, 170, 30, 172, 32, true);
+  dirty.set(180, 60, true);
+  dirty.set(110, 79, false);
+  dirty.set(120, 60, false);
+  const auto result = neighbourhoodFilter(dirty, {}, {});
+  ASSERT_TRUE(result);
+  const auto differences = [&](const BitImage& image, int x0, int y0, int x1, int y1) {
+    int count = 0;
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) count += image.at(x, y) != clean.at(x, y) ? 1 : 0;
+    }
+    return count;
+  };
+  // The corners of the block and the ends of the lines may be rounded by a few pixels; nothing else differs.
+  EXPECT_EQ(differences(result->ink, 13, 0, 147, 39), 0);
+  EXPECT_EQ(differences(result->ink, 160, 0, 200, 100), 0);
+  EXPECT_EQ(differences(result->ink, 20, 38, 70, 100), 0);
+  EXPECT_EQ(differences(result->ink, 80, 42, 82, 62), 0);
+  EXPECT_EQ(differences(result->ink, 90, 50, 140, 100), 0);
+  EXPECT_GE(result->report.undone, 140);
+  EXPECT_FALSE(result->report.thinStrokesLost);
+  const FilterReport& report = result->report;
+  EXPECT_EQ(report.inkAfter, report.inkBefore - report.inkLost + report.inkGained);
+  // As in the paper, the lines and the notch go.
+  const auto paper = neighbourhoodFilter(dirty, {.maxChangePx = 0}, {});
+  EXPECT_FALSE(paper->ink.at(80, 10));
+  EXPECT_TRUE(paper->ink.at(80, 60));
 }
 
 TEST(NeighbourhoodFilter, RefusesBadParametersAndStopsWhenCancelled) {
   EXPECT_EQ(neighbourhoodFilter(BitImage(3, 3), {.coefficient = 5}, {}).error().code, ErrorCode::BadParameter);
+  EXPECT_EQ(neighbourhoodFilter(BitImage(3, 3), {.maxChangePx = -1}, {}).error().code, ErrorCode::BadParameter);
   EXPECT_EQ(neighbourhoodFilter(BitImage(3, 3), {.iterations = 101}, {}).error().code, ErrorCode::BadParameter);
   RunContext context;
   context.cancel.cancel();

@@ -6,30 +6,10 @@
 #include <set>
 
 #include "core/pipeline/number_text.h"
+#include "tests/unit/pipeline/other_value.h"
 
 namespace batten {
 namespace {
-
-/// A value that differs from the default, for every type.
-std::string otherValue(const Parameter& p) {
-  const std::string normal = defaultValue(p);
-  switch (p.type) {
-    case ParameterType::Boolean:
-      return normal == "true" ? "false" : "true";
-    case ParameterType::Choice:
-      return p.choices.front() == normal ? p.choices.back() : p.choices.front();
-    case ParameterType::Integer:
-      return numberToText(normal == numberToText(p.maximum) ? p.minimum : p.maximum);
-    case ParameterType::Real:
-      return numberToText(p.minimum + (p.maximum - p.minimum) / 3.0);
-    case ParameterType::Text:
-      break;
-  }
-  if (p.name == "fairing.profile") return "0:0.01 0.25:-0.5 1:0.02";
-  std::string grid = "12.25";
-  for (int i = 1; i < kRegions; ++i) grid += i % 3 == 0 ? ",0.1" : ",a";
-  return grid;
-}
 
 TEST(ParameterTable, EveryEntryIsDescribed) {
   std::set<std::string> names;
@@ -59,6 +39,7 @@ TEST(ParameterTable, HoldsThePromisedNames) {
                            "threshold.interpolate",
                            "filter.coefficient",
                            "filter.iterations",
+                           "filter.max_change",
                            "filter.order",
                            "edges.mode",
                            "edges.internal",
@@ -80,7 +61,7 @@ TEST(ParameterTable, HoldsThePromisedNames) {
 TEST(ParameterTable, EveryEntryRoundTripsAndTouchesOnlyItself) {
   for (const Parameter& p : parameterTable()) {
     Recipe recipe;
-    const std::string value = otherValue(p);
+    const std::string value = test::otherValue(p);
     ASSERT_TRUE(p.set(recipe, value)) << p.name << " = " << value;
     EXPECT_EQ(p.get(recipe), value) << p.name;
     EXPECT_FALSE(recipe == Recipe{}) << p.name << " changes nothing";

@@ -30,7 +30,16 @@ Recipe fullRecipe() {
                 3,
                 {Vec2(1, 2)},
                 {Vec2(5, 6), Vec2(1.0 / 7.0, 8)},
-                {{0.0, 0.01}, {1.0 / 3.0, -0.02}, {1.0, 1e-9}}}};
+                {{0.0, 0.01}, {1.0 / 3.0, -0.02}, {1.0, 1e-9}}},
+               {.anchorPx = Vec2(7.0, 8.0),
+                .mode = FairingMode::None,
+                .target = std::nullopt,
+                .toleranceMm = std::nullopt,
+                .spend = FairingSpend::All,
+                .means = FairingMeans::EdgeLengths,
+                .startHold = EndHold{true, false},
+                .endHold = EndHold{true, true},
+                .method = ConstructMethod::Bezier}};
   r.fairing.profile = {{0.0, 0.1}, {1.0, 0.2}};
   r.extremumChoices = {{Vec2(1.0 / 7.0, 300.5), true}, {Vec2(12.25, 1e-3), false}};
   r.regions = {rectangleRegion({1.0 / 3.0, 2.0}, {300.0, 4e2}), {{Vec2(0, 0), Vec2(10.1, 3.3), Vec2(-4, 9)}}};
