@@ -273,7 +273,7 @@ void appendFairing(std::vector<Parameter>& table) {
       {0.001, 20.0, 0.01, 3, true}, [](auto& r) -> auto& { return r.fairing.toleranceMm; }));
   table.push_back(choice<FairingSpend>(
       kFaired,
-      {"fairing.spend", "Use the tolerance", "",
+      {"fairing.spend", "Use the budget", "",
        "Within tolerance: until no wave is left that the line does not prove, or all of it, whatever was drawn."},
       {{"needed", "As needed", FairingSpend::AsNeeded}, {"all", "All of it", FairingSpend::All}},
       [](auto& r) -> auto& { return r.fairing.spend; }));

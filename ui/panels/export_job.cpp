@@ -41,6 +41,12 @@ std::string readBack(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+int pieceCount(const ExportDocument& document) {
+  std::size_t count = 0;
+  for (const auto& curve : document.curves) count += curve.pieces.size();
+  return static_cast<int>(count);
+}
+
 Result<ExportOutcome> writeAsSvg(const ExportRequest& request, const ExportDocument& document) {
   SvgOptions options;
   options.toleranceMm = request.toleranceMm;
@@ -49,7 +55,8 @@ Result<ExportOutcome> writeAsSvg(const ExportRequest& request, const ExportDocum
   if (auto saved = saveAtomically(request.path, svg->text); !saved) return fail(std::move(saved).error());
   const auto back = checkSvg(readBack(request.path), document);
   if (!back) return fail(back.error());
-  return ExportOutcome{back->curves, back->cubics, std::max(svg->largestErrorMm, back->largestErrorMm), request.path};
+  return ExportOutcome{back->curves, pieceCount(document), back->cubics,
+                       std::max(svg->largestErrorMm, back->largestErrorMm), request.path};
 }
 
 Result<ExportOutcome> writeAsJson(const ExportRequest& request, const ExportDocument& document) {
@@ -60,7 +67,7 @@ Result<ExportOutcome> writeAsJson(const ExportRequest& request, const ExportDocu
   if (!back) return fail(back.error());
   const auto largest = difference(document, *back);
   if (!largest) return fail(largest.error());
-  return ExportOutcome{static_cast<int>(document.curves.size()), 0, *largest, request.path};
+  return ExportOutcome{static_cast<int>(document.curves.size()), pieceCount(document), 0, *largest, request.path};
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ struct ExportRequest {
 };
 
 struct ExportOutcome {
-  int curves = 0;
+  int lines = 0;   ///< From end to end, or closed.
+  int curves = 0;  ///< Their pieces from corner to corner, as the window numbers them.
   int cubics = 0;  ///< SVG only.
   double largestDifferenceMm =
       0.0;  ///< SVG, read back: cubics from the exact curves; JSON: read back from the file against memory.

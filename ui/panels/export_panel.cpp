@@ -264,7 +264,9 @@ void ExportPanel::finish(const Result<ExportOutcome>& outcome) {
   }
   lastWritten_ = QString::fromStdU16String(outcome->path.u16string());
   const QString name = QFileInfo(lastWritten_).fileName();
-  const QString curves = counted(outcome->curves, tr("1 curve"), tr("%1 curves"));
+  QString curves = counted(outcome->curves, tr("1 curve"), tr("%1 curves"));
+  if (outcome->lines != outcome->curves)
+    curves += QLatin1Char(' ') + counted(outcome->lines, tr("in 1 line"), tr("in %1 lines"));
   const QString largest = QString::number(outcome->largestDifferenceMm, 'g', 2);
   if (outcome->cubics > 0)
     result_->setText(tr("Wrote %1 to %2 as %3 cubics, largest difference from the exact curves %4 mm.")
