@@ -203,7 +203,17 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
   }
   const TargetProfile& profile = targets.profiles[static_cast<std::size_t>(degree - 1)];
   if (!profile.valid) return unchanged(curve, closed, Termination::Degenerate, profile.problem);
-  return modifyShape(curve, closed, profile, params, context);
+  auto faired = modifyShape(curve, closed, profile, params, context);
+  // Whoever chooses a target gets it; nobody is given one that adds bumps.
+  if (params.target == 0 && faired && faired->report.extremaAfter > faired->report.extremaBefore) {
+    FairedCurve kept = unchanged(curve, closed, Termination::ToleranceLimited,
+                                 "Left as sketched: within the tolerance, the recommended target would add curvature "
+                                 "extrema. Raise the tolerance or smooth without a target.");
+    kept.report.neededMm = faired->report.neededMm;
+    kept.report.withinBudget = false;
+    return kept;
+  }
+  return faired;
 }
 
 }  // namespace batten

@@ -264,6 +264,27 @@ TEST(Architecture, EverySourceNamesItsLicence) {
     EXPECT_TRUE(slurp(file).starts_with("// SPDX-License-Identifier: GPL-3.0-or-later")) << file;
 }
 
+TEST(Architecture, NothingStandsAtTheTopThatDoesNotBelongThere) {
+  static const std::set<std::string> allowed = {"CMakeLists.txt",
+                                                "CMakePresets.json",
+                                                "README.md",
+                                                "ARCHITECTURE.md",
+                                                "CONTRIBUTING.md",
+                                                "LICENSE",
+                                                "app",
+                                                "core",
+                                                "ui",
+                                                "resources",
+                                                "tests",
+                                                "packaging",
+                                                "build",
+                                                "out"};  // the last two are made, and in no commit
+  for (const auto& entry : fs::directory_iterator(kRoot)) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_TRUE(name.front() == '.' || allowed.contains(name)) << name;
+  }
+}
+
 TEST(Architecture, NoUnitTestIsLeftOutOfTheBuild) {
   // tests/CMakeLists.txt takes unit/<folder>/*.cpp of the folders it lists; anything else would silently not run.
   const std::set<std::string> listed = {"base",      "solve",   "image",    "contour",  "curve",

@@ -137,8 +137,13 @@ int main(int argc, char** argv) {
   fs::path overlays;
   for (int i = 2; i < argc; ++i) {
     const std::string word = argv[i];
+    if (word.empty()) continue;
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos) {
+      if (word.front() == '-') {
+        std::fprintf(stderr, "%s is no option; settings are given as stage.parameter=value\n", word.c_str());
+        return 2;
+      }
       overlays = word;
       fs::create_directories(overlays);
     } else if (const auto done = setParameter(recipe, word.substr(0, equals), word.substr(equals + 1)); !done) {

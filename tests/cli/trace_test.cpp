@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -39,6 +40,24 @@ TEST_F(Trace, WritesSvgJsonReportAndSummary) {
   EXPECT_EQ(report["stages"].size(), kStages.size());
   EXPECT_EQ(report["curves"][0]["targets"].size(), 6u);
   EXPECT_EQ(report["image"]["sha256"], document->imageSha256);
+}
+
+/// What a first-time user sees: every line of the drawing whole, cut at its nine corners and nowhere else.
+TEST_F(Trace, TheSampleGivesItsLinesWhole) {
+  const std::string sample = BATTEN_SAMPLE;
+  const std::string recipe = sample.substr(0, sample.rfind('.')) + ".recipe.json";
+  const auto plain = run("trace " + sample + " -o " + file("p.json"));
+  ASSERT_EQ(plain.code, 0) << plain.err;
+  EXPECT_EQ(json::parse(plain.out)["curves"], 7) << "outline, windows, belt line, two wheels of two rings";
+  const auto done = run("trace " + sample + " --recipe " + recipe + " -o " + file("o.json"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(json::parse(done.out)["curves"], 7);
+  EXPECT_EQ(json::parse(done.out)["pieces"], 14);
+  EXPECT_TRUE(json::parse(done.out)["notes"].empty());
+  const auto document = readCurveJson(test::readFile(file("o.json")));
+  ASSERT_TRUE(document);
+  EXPECT_EQ(std::count_if(document->curves.begin(), document->curves.end(), [](const auto& c) { return c.closed; }), 6)
+      << "all but the belt line";
 }
 
 TEST_F(Trace, GivesTheSameBytesWithAnyNumberOfThreads) {

@@ -46,6 +46,41 @@ QImage bendPage() {
   });
 }
 
+TEST_F(Window, ThresholdsAreGivenOnTheTonesThatAreShown) {
+  openPage(bendPage());
+  window_->setStage(PanelStage::Threshold);
+  window_->view().setSelectedRegion(27);
+  auto* field = find<QLineEdit>("threshold.regionLevel");
+  type(field, QStringLiteral("140"));
+  ASSERT_EQ(session().recipe().threshold.grid[27], 140.0);
+  window_->view().choose(Layer::LogImage, true);
+  // y = a log(1 + x) with the recipe's a.
+  const double a = session().recipe().log.factor;
+  EXPECT_NEAR(field->text().toDouble(), a * std::log(141.0), 0.51);
+  EXPECT_NEAR(find<QTableWidget>("threshold.table")->item(3, 3)->text().toDouble(), a * std::log(141.0), 0.51);
+  type(field, QStringLiteral("200"));
+  EXPECT_NEAR(*session().recipe().threshold.grid[27], std::exp(200.0 / a) - 1.0, 1e-6);
+  window_->view().choose(Layer::LogImage, false);
+  EXPECT_NEAR(field->text().toDouble(), std::exp(200.0 / a) - 1.0, 0.51);
+}
+
+TEST_F(Window, TheSampleOpensWithItsCornersAndFollowsATarget) {
+  ASSERT_NO_FATAL_FAILURE(openFile(QStringLiteral(BATTEN_SAMPLE)));
+  ASSERT_TRUE(waitUntil([this] { return session().curves().size() == 14; }));
+  EXPECT_EQ(session().recipe().cornerMarks.size(), 9u);
+  window_->setStage(PanelStage::Fairing);
+  session().selectCurve(0);
+  ASSERT_TRUE(waitUntil([this] { return !session().isBusy() && session().targets(); }));
+  const Recipe before = session().recipe();
+  QTest::keyClick(find<CurveCanvas>("canvas"), Qt::Key_3);
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(session().selected()->fairingUsed.target, 3);
+  while (session().undoStack()->canUndo()) session().undoStack()->undo();
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(session().recipe(), before);
+  EXPECT_EQ(session().curves().size(), 14u);
+}
+
 TEST_F(Window, TheWholeWalkEndsInTheCurvesThatTheRecipeGives) {
   openPage(bendPage());
   const Recipe start = session().recipe();

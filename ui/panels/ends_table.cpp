@@ -18,7 +18,7 @@ class HoldDot : public QAbstractButton {
   explicit HoldDot(QWidget* parent) : QAbstractButton(parent) {
     setCheckable(true);
     setFocusPolicy(Qt::StrongFocus);
-    setFixedSize(24, kEndRow - 2);
+    setFixedSize(20, kEndRow - 2);
     setCursor(Qt::PointingHandCursor);
   }
 

@@ -23,7 +23,9 @@
 namespace batten {
 namespace {
 
-QString number(double value, int decimals) { return QString::number(value, 'f', decimals); }
+QString number(double value, int decimals) {
+  return QString::number(value, 'f', decimals).replace(QLatin1Char('-'), QChar(0x2212));
+}
 
 }  // namespace
 

@@ -201,11 +201,15 @@ void TargetTile::paintFigures(QPainter& painter, const QRectF& box) const {
     for (const QString& part : parts) width += metrics.horizontalAdvance(part);
     return width <= box.width();
   };
-  // From the most said to the least: the similarity, which cannot choose, is the first to go, then the words.
-  const bool withSimilarity = fits({similarity, needs, extrema});
-  const bool withWords = fits({needs, extrema});
-  const QString number = withWords || fits({needs, times}) ? needs : length;
-  const QString count = withWords ? extrema : fits({number, times}) ? times : QString();
+  // From the most said to the least: first the words go, which amber says too, then the similarity, which cannot
+  // choose.
+  const bool withSimilarity = fits({similarity, length, times});
+  const auto room = [&](const QString& middle, const QString& right) {
+    return withSimilarity ? fits({similarity, middle, right}) : fits({middle, right});
+  };
+  const bool withWords = room(needs, extrema);
+  const QString number = withWords || (!withSimilarity && fits({needs, times})) ? needs : length;
+  const QString count = withWords || room(number, extrema) ? extrema : room(number, times) ? times : QString();
   painter.setPen(report.extremaAfter > report.extremaBefore ? theme.amber : theme.mute);
   painter.drawText(box, Qt::AlignRight | Qt::AlignVCenter, count);
   painter.setPen(theme.mute);

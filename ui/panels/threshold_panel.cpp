@@ -37,6 +37,7 @@ ThresholdPanel::ThresholdPanel(EditorSession& session, ViewSettings& view, QWidg
     : QWidget(parent),
       session_(session),
       view_(view),
+      scale_(session, view),
       editor_(new ParameterEditor(session,
                                   {"threshold.mode", "threshold.level", "threshold.strength", "threshold.reach",
                                    "threshold.speck_area", "threshold.hole_area", "threshold.interpolate"},
@@ -68,7 +69,12 @@ ThresholdPanel::ThresholdPanel(EditorSession& session, ViewSettings& view, QWidg
     refreshRegion();
     refreshTable();
   });
-  connect(&view_, &ViewSettings::changed, this, [this] { showRegions_->setChecked(view_.isVisible(Layer::Regions)); });
+  connect(&view_, &ViewSettings::changed, this, [this] {
+    showRegions_->setChecked(view_.isVisible(Layer::Regions));
+    if (scale_ == GreyScale(session_, view_)) return;
+    refreshRegion();
+    refreshTable();
+  });
   refresh();
 }
 
@@ -113,8 +119,9 @@ void ThresholdPanel::buildRegion() {
 
   connect(histogram_, &RegionHistogram::dragStarted, this, [this] { gesture_ = session_.newGesture(); });
   connect(histogram_, &RegionHistogram::thresholdMoved, this,
-          [this](double grey) { setRegion(view_.selectedRegion(), grey, gesture_); });
-  connect(level_, &NumberField::committed, this, [this](double grey) { setRegion(view_.selectedRegion(), grey, -1); });
+          [this](double shown) { setRegion(view_.selectedRegion(), scale_.grey(shown), gesture_); });
+  connect(level_, &NumberField::committed, this,
+          [this](double shown) { setRegion(view_.selectedRegion(), scale_.grey(shown), -1); });
   connect(regionAuto_, &QPushButton::clicked, this, [this] { setRegion(view_.selectedRegion(), std::nullopt, -1); });
   connect(allAuto_, &QPushButton::clicked, this, &ThresholdPanel::setAllAutomatic);
   connect(table_, &QTableWidget::itemChanged, this, &ThresholdPanel::readCell);
@@ -154,10 +161,10 @@ void ThresholdPanel::readCell(QTableWidgetItem* item) {
   if (filling_) return;
   const int region = item->row() * kRegionsPerSide + item->column();
   bool ok = false;
-  const double grey = item->text().trimmed().replace(QLatin1Char(','), QLatin1Char('.')).toDouble(&ok);
+  const double shown = item->text().trimmed().replace(QLatin1Char(','), QLatin1Char('.')).toDouble(&ok);
   const bool cleared = item->text().trimmed().isEmpty() || item->text().trimmed().startsWith(QLatin1Char('a'));
   if (ok)
-    setRegion(region, std::clamp(grey, 0.0, 255.0), -1);
+    setRegion(region, scale_.grey(shown), -1);
   else if (cleared)
     setRegion(region, std::nullopt, -1);
   refreshTable();
@@ -206,6 +213,7 @@ void ThresholdPanel::showEvent(QShowEvent* event) {
 }
 
 void ThresholdPanel::refreshRegion() {
+  scale_ = GreyScale(session_, view_);
   const int region = view_.selectedRegion();
   const bool has = region >= 0 && session_.hasScan();
   level_->setEnabled(has);
@@ -219,7 +227,7 @@ void ThresholdPanel::refreshRegion() {
   }
   regionName_->setText(
       tr("Region %1, %2").arg(region / kRegionsPerSide + 1).arg(region % kRegionsPerSide + 1).toUpper());
-  level_->setValue(levelOf(region));
+  level_->setValue(scale_.shown(levelOf(region)));
   // Counting a region of a large scan takes a while: once, and only when it is looked at.
   if (!isVisible()) return;
   if (countedIn_.lock() != session_.scan() || countedRegion_ != region) {
@@ -227,7 +235,10 @@ void ThresholdPanel::refreshRegion() {
     countedRegion_ = region;
     counts_ = regionHistogram(session_.scan()->grey, region);
   }
-  histogram_->show(counts_, levelOf(region));
+  std::array<std::uint32_t, 256> shown{};
+  for (std::size_t grey = 0; grey < counts_.size(); ++grey)
+    shown[static_cast<std::size_t>(std::lround(scale_.shown(static_cast<double>(grey))))] += counts_[grey];
+  histogram_->show(shown, scale_.shown(levelOf(region)));
 }
 
 void ThresholdPanel::refreshTable() {
@@ -242,7 +253,8 @@ void ThresholdPanel::refreshTable() {
       table_->setItem(row, column, item);
     }
     const bool own = session_.recipe().threshold.grid[static_cast<std::size_t>(region)].has_value();
-    item->setText(session_.hasScan() || own ? QString::number(levelOf(region), 'f', 0) : QStringLiteral("–"));
+    item->setText(session_.hasScan() || own ? QString::number(scale_.shown(levelOf(region)), 'f', 0)
+                                            : QStringLiteral("–"));
     item->setForeground(own ? theme.accent : theme.text);
     item->setToolTip(own ? tr("Set by you") : tr("Automatic"));
     QFont font = table_->font();

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "ui/session/editor_session.h"
+#include "ui/session/grey_scale.h"
 #include "ui/session/view_settings.h"
 
 class QCheckBox;
@@ -44,6 +45,7 @@ class ThresholdPanel : public QWidget {
 
   EditorSession& session_;
   ViewSettings& view_;
+  GreyScale scale_;  ///< On which the panel shows levels now.
   ParameterEditor* editor_;
   QLabel* regionName_;
   RegionHistogram* histogram_;

@@ -10,6 +10,7 @@
 #include "ui/canvas/canvas_colors.h"
 #include "ui/canvas/layers/vector_layers.h"
 #include "ui/canvas/tools/canvas_tool.h"
+#include "ui/session/grey_scale.h"
 
 namespace batten {
 namespace {
@@ -221,6 +222,7 @@ class ThresholdTool final : public CanvasTool {
     const auto& grid = scene_.session.recipe().threshold.grid;
     QFont font = scene_.font;
     font.setPixelSize(11);
+    const GreyScale scale(scene_.session, scene_.view);
     const bool roomy = rectOf(0).width() >= kNumbersFromPx;
     for (int r = 0; r < kRegions; ++r) {
       const auto k = static_cast<std::size_t>(r);
@@ -230,7 +232,7 @@ class ThresholdTool final : public CanvasTool {
       font.setBold(isOwn);
       painter.setFont(font);
       const bool isCertain = isOwn || (found && found->measured[k]);
-      const QString number = QString::number(level(r), 'f', 0);
+      const QString number = QString::number(scale.shown(level(r)), 'f', 0);
       // On a light ground of its own: there may be ink below.
       const QRectF text(rectOf(r).topLeft() + QPointF(5.0, 3.0), QSizeF(painter.fontMetrics().size(0, number)));
       painter.setPen(Qt::NoPen);
@@ -245,7 +247,7 @@ class ThresholdTool final : public CanvasTool {
     const QString kind = grid[h]                        ? tr("set by hand")
                          : found && !found->measured[h] ? tr("automatic, from its neighbours")
                                                         : tr("automatic");
-    paintLabel(painter, scene_, QString::number(level(hovered_), 'f', 1) + QStringLiteral(" · ") + kind,
+    paintLabel(painter, scene_, QString::number(scale.shown(level(hovered_)), 'f', 1) + QStringLiteral(" · ") + kind,
                rectOf(hovered_).center());
   }
 
