@@ -134,6 +134,28 @@ TEST(RasterLayer, ThinInkIsStillSeenFarAway) {
   EXPECT_EQ(out.pixel(199, 20), out.pixel(100, 20));
 }
 
+TEST(RasterLayer, FlattenedPaperIsWhiteAndInkKeepsItsShare) {
+  auto scan = std::make_shared<Scan>();
+  scan->grey = GreyImage(64, 16);
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 64; ++x) scan->grey.row(y)[x] = static_cast<std::uint16_t>((x < 32 ? 100 : 200) * 257);
+  for (int x = 0; x < 64; ++x) scan->grey.row(8)[x] = static_cast<std::uint16_t>((x < 32 ? 50 : 100) * 257);
+  auto paper = std::make_shared<PaperBackground>();
+  paper->cellPx = 8, paper->columns = 8, paper->rows = 2;
+  for (int i = 0; i < 16; ++i) paper->grey.push_back(i % 8 < 4 ? 100.0F : 200.0F);
+  RasterContent content;
+  content.pyramid = coarsePyramid(scan);
+  content.showsPicture = true;
+  content.paper = paper;
+  content.pageWidth = 64, content.pageHeight = 16;
+  QImage out(64 * 4, 16 * 4, QImage::Format_RGB32);
+  renderRaster(content, 4.0, QRect(0, 0, out.width(), out.height()), out);
+  for (const int x : {10, 56}) {
+    EXPECT_EQ(qGray(out.pixel(4 * x + 2, 4 * 3 + 2)), 255);
+    EXPECT_NEAR(qGray(out.pixel(4 * x + 2, 4 * 8 + 2)), 127.5, 1.0);
+  }
+}
+
 TEST(CurveShapes, SampledLinesStayWithinTheTolerance) {
   const auto curve = NurbsCurve::make(3, {0, 0, 0, 0, 1, 2, 2, 2, 2}, {{0, 0}, {2, 30}, {20, 40}, {30, -10}, {60, 5}});
   ASSERT_TRUE(curve);

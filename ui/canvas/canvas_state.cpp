@@ -234,6 +234,8 @@ RasterContent CurveCanvas::State::rasterContent() const {
   if (isLog) content.tones = toneTable(session.recipe().log);
   if (view.isScanOnly()) return content;
   const PipelineOutput& output = session.output();
+  if (view.isVisible(Layer::Paper) && output.thresholds && !output.thresholds->paper.isEmpty())
+    content.paper = std::shared_ptr<const PaperBackground>(output.thresholds, &output.thresholds->paper);
   if (view.isVisible(Layer::Mask)) {
     if (output.filtered && !view.showsMaskUncleaned())
       content.mask = std::shared_ptr<const BitImage>(output.filtered, &output.filtered->ink);

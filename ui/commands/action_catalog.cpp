@@ -66,6 +66,8 @@ std::vector<ActionInfo> viewActions() {
       {ShowScan, "show-scan", menu, tr("Scan"), keys({"Alt+1"}), tr("Show the scan."), true},
       {ShowLogImage, "show-log-image", menu, tr("Log picture"), keys({"Alt+2"}),
        tr("Show the scan after the log transform."), true},
+      {ShowPaper, "show-paper", menu, tr("Flattened paper"), keys({"Alt+P"}),
+       tr("Show the scan without the shadows and gradations of its paper, as automatic thresholds see it."), true},
       {ShowMask, "show-mask", menu, tr("Mask"), keys({"Alt+3"}), tr("Show what counts as ink."), true},
       {ShowEdges, "show-edges", menu, tr("Edges"), keys({"Alt+4"}), tr("Show the pixels where ink meets paper."), true},
       {ShowSegments, "show-segments", menu, tr("Segments"), keys({"Alt+5"}), tr("Show the regression segments."), true},

@@ -35,6 +35,7 @@ enum class ActionId {
   Compare,
   ShowScan,
   ShowLogImage,
+  ShowPaper,
   ShowMask,
   ShowEdges,
   ShowSegments,

@@ -14,6 +14,8 @@ QString label(Layer layer) {
       return QObject::tr("Scan");
     case Layer::LogImage:
       return QObject::tr("Log picture");
+    case Layer::Paper:
+      return QObject::tr("Flattened paper");
     case Layer::Mask:
       return QObject::tr("Mask");
     case Layer::Edges:

@@ -11,6 +11,7 @@ namespace batten {
 enum class Layer {
   Scan,
   LogImage,
+  Paper,
   Mask,
   Edges,
   Segments,
@@ -25,9 +26,10 @@ enum class Layer {
   Strokes,
   Fallback
 };
-inline constexpr std::array kLayers = {Layer::Scan,      Layer::LogImage, Layer::Mask, Layer::Edges,   Layer::Segments,
-                                       Layer::Curve,     Layer::Faired,   Layer::Comb, Layer::Corners, Layer::Regions,
-                                       Layer::Deviation, Layer::Extrema,  Layer::Band, Layer::Strokes, Layer::Fallback};
+inline constexpr std::array kLayers = {Layer::Scan,    Layer::LogImage, Layer::Paper,   Layer::Mask,
+                                       Layer::Edges,   Layer::Segments, Layer::Curve,   Layer::Faired,
+                                       Layer::Comb,    Layer::Corners,  Layer::Regions, Layer::Deviation,
+                                       Layer::Extrema, Layer::Band,     Layer::Strokes, Layer::Fallback};
 QString label(Layer);  ///< "Scan", "Log picture", …
 
 /// What a press on the canvas does. Pan and zoom work in every tool.

@@ -75,6 +75,10 @@ void renderPage(const RasterContent& content, double zoom, const QRect& device, 
       const bool onPage = onRow && x >= 0.0 && x < content.pageWidth;
       const std::size_t at =
           static_cast<std::size_t>(j) * static_cast<std::size_t>(device.width()) + static_cast<std::size_t>(i);
+      if (onPage && content.paper && !grey.empty()) {
+        const double paper = std::max(1.0, content.paper->at(x, y));
+        grey[at] = static_cast<std::uint8_t>(std::min(255.0, 255.0 * grey[at] / paper + 0.5));
+      }
       line[i] = !onPage ? colors::kDesk : grey.empty() ? colors::kPaper : palette[grey[at]];
     }
   }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/image/bit_image.h"
+#include "core/image/region_thresholds.h"
 #include "ui/canvas/tile_pyramid.h"
 
 namespace batten {
@@ -15,6 +16,7 @@ namespace batten {
 /// The pixel layers: what one screen tile is rendered from. Shared and constant, so tiles render on any thread.
 struct RasterContent {
   std::shared_ptr<const TilePyramid> pyramid;          ///< Null: no picture of the page.
+  std::shared_ptr<const PaperBackground> paper;        ///< Not null: divided out, so that the paper is white.
   std::optional<std::array<std::uint8_t, 256>> tones;  ///< The log image instead of the scan.
   std::shared_ptr<const BitImage> mask, edges;         ///< Null: not shown.
   bool showsPicture = false;
