@@ -14,6 +14,7 @@ namespace {
 constexpr double kLongestWaver = 6.0;   // distances: what the mean does over a longer way was drawn
 constexpr double kGapPx = 1.5;          // points farther apart than this get others between them
 constexpr double kJointPx = 3.0;        // farther apart: no stroke was there
+constexpr int kMostStep = 4;            // points: neighbours on the mean lie no farther apart on the line
 constexpr double kRoomSmoothing = 4.0;  // points
 constexpr double kBandSmoothing = 1.5;  // points: little, as every stroke is to stay inside
 
@@ -91,6 +92,35 @@ StrokeBand movedBand(StrokeBand band, const std::vector<Vec2>& before, const Con
   return {widened(band.left, c.closed), widened(band.right, c.closed)};
 }
 
+bool isBridged(const Contour& stroke, int index) {
+  return std::any_of(stroke.bridges.begin(), stroke.bridges.end(),
+                     [index](const auto& b) { return index >= b.first && index <= b.second; });
+}
+
+// The stretches of a merged line for which the strokes only bridge a gap in the ink.
+std::vector<std::pair<int, int>> bridgesOf(const Contour& c, const MeanLine& line, const std::vector<Contour>& lines) {
+  std::vector<std::pair<int, int>> bridges;
+  int at = -1;
+  for (std::size_t i = 0; i < line.points.size(); ++i) {
+    if (!isBridged(lines[static_cast<std::size_t>(line.source[i].line)], line.source[i].index)) continue;
+    int nearest = 0;
+    for (int k = 1; k < static_cast<int>(c.points.size()); ++k) {
+      const auto distance = [&](int j) {
+        return (c.points[static_cast<std::size_t>(j)] - line.points[i]).squaredNorm();
+      };
+      if (distance(k) < distance(nearest)) nearest = k;
+    }
+    // Neighbours on the mean are about a pixel apart: a jump begins another bridge.
+    if (at >= 0 && std::abs(nearest - at) <= kMostStep) {
+      bridges.back() = {std::min(bridges.back().first, nearest), std::max(bridges.back().second, nearest)};
+    } else {
+      bridges.emplace_back(nearest, nearest);
+    }
+    at = nearest;
+  }
+  return bridges;
+}
+
 }  // namespace
 
 Contour mergedContour(const MeanLine& line, const std::vector<Contour>& lines, const StrokesBeside& strokes,
@@ -105,6 +135,7 @@ Contour mergedContour(const MeanLine& line, const std::vector<Contour>& lines, c
       kLongestWaver * distancePx);
   c.band = movedBand(std::move(band), before, c);
   fillGaps(c);
+  c.bridges = bridgesOf(c, line, lines);
   c.chain = c.points;
   c.lengthPx = polylineLength(c.points, c.closed);
   c.areaPx = c.closed ? polygonArea(c.points) : 0.0;

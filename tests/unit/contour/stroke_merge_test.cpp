@@ -88,6 +88,27 @@ TEST(StrokeMerge, OverlappingStrokesAreOneSmoothLine) {
   EXPECT_LT(turning, 3.3 * steepest);
 }
 
+// A gap in the ink that a stroke bridges stays marked on the line that it is merged into, where that line runs along
+// it.
+TEST(StrokeMerge, BridgesStayMarked) {
+  std::vector<Contour> strokes{line({0, 100}, {240, 100}), line({160, 106}, {400, 106})};
+  strokes[0].bridges = {{60, 80}};
+  strokes[1].bridges = {{200, 210}};
+  const auto merged = mergeStrokes(strokes, 12.0, {});
+  ASSERT_EQ(merged.size(), 1u);
+  ASSERT_EQ(merged[0].bridges.size(), 2u);
+  std::vector<std::pair<double, double>> places;
+  for (const auto& [first, last] : merged[0].bridges) {
+    places.push_back(std::minmax(merged[0].points[static_cast<std::size_t>(first)].x(),
+                                 merged[0].points[static_cast<std::size_t>(last)].x()));
+  }
+  std::sort(places.begin(), places.end());
+  EXPECT_NEAR(places[0].first, 60.0, 2.0);
+  EXPECT_NEAR(places[0].second, 80.0, 2.0);
+  EXPECT_NEAR(places[1].first, 360.0, 2.0);
+  EXPECT_NEAR(places[1].second, 370.0, 2.0);
+}
+
 TEST(StrokeMerge, ALoopOfSeveralStrokesIsClosed) {
   const Vec2 c(200, 200);
   const std::vector<Contour> strokes{arc(c, 120, 0.0, 2.4), arc(c, 124, 4.5, 2.1), arc(c, 121, 4.2, 2 * kPi + 0.3)};
