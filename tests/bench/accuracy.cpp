@@ -174,9 +174,9 @@ struct Tally {
 };
 
 void printHeader(const std::string& kind, const std::string& name, const std::string& size) {
-  std::printf("\n%s, %s, %s\n%-18s %8s %8s %9s %7s %7s %9s %8s %8s %8s %7s %7s %8s\n", kind.c_str(), name.c_str(),
+  std::printf("\n%s, %s, %s\n%-18s %8s %8s %9s %7s %7s %9s %8s %8s %8s %7s %7s %7s %8s\n", kind.c_str(), name.c_str(),
               size.c_str(), "", "rms px", "max px", "kappa err", "false", "missed", "corners", "rms px", "<40 px",
-              "found", "stray", "points", "ms");
+              "found", "curve %", "stray", "points", "ms");
 }
 
 void printTally(const std::string& label, const Tally& t, int seeds, bool curvature = true) {
@@ -186,10 +186,10 @@ void printTally(const std::string& label, const Tally& t, int seeds, bool curvat
     std::snprintf(kappa, sizeof kappa, "%9.3f", median(t.curvature));
     std::snprintf(extrema, sizeof extrema, "%7.1f %7.1f", 1.0 * t.falseExtrema / seeds, 1.0 * t.missed / seeds);
   }
-  std::printf("%-18s %8.4f %8.3f %s %s %4d/%-4d %8.3f %8.3f %4d/%-3d %7.0f %7.0f %8.1f %s\n", label.c_str(),
+  std::printf("%-18s %8.4f %8.3f %s %s %4d/%-4d %8.3f %8.3f %4d/%-3d %7.1f %7.0f %7.0f %8.1f %s\n", label.c_str(),
               median(t.rms), median(t.max), kappa, extrema, t.cornersFound, t.cornersTrue, rmsOf(t.corner),
-              rmsOf(t.acute), t.found, t.runs, *std::max_element(t.stray.begin(), t.stray.end()), t.points / t.runs,
-              median(t.ms), t.failure.c_str());
+              rmsOf(t.acute), t.found, t.runs, 100.0 * median(t.coverage),
+              *std::max_element(t.stray.begin(), t.stray.end()), t.points / t.runs, median(t.ms), t.failure.c_str());
   std::fflush(stdout);
 }
 

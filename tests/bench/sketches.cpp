@@ -16,6 +16,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "core/image/laplacian_edges.h"
 #include "core/image/scan_reader.h"
 #include "core/pipeline/parameter_table.h"
 #include "core/pipeline/pipeline.h"
@@ -38,9 +39,32 @@ cv::Mat distanceToInk(const BitImage& ink) {
   return distance;
 }
 
+/// Half the stroke that a curve runs along; 0 on the border of ink.
+double halfWidthOf(const Contour& contour) {
+  std::vector<float> widths = contour.widthPx;
+  if (widths.empty()) return 0.0;
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  return 0.5 * static_cast<double>(*middle);
+}
+
+/// Share of the border of the ink, as thresholds find it, that lies within `reached`.
+double shareReached(const BitImage& ink, const cv::Mat& reached) {
+  const auto edges = laplacianEdges(ink, {});
+  double in = 0.0, all = 0.0;
+  for (int y = 0; edges && y < edges->height; ++y) {
+    for (int x = 0; x < edges->width; ++x) {
+      if (!edges->at(x, y)) continue;
+      all += 1.0;
+      in += reached.at<unsigned char>(y, x) != 0 ? 1.0 : 0.0;
+    }
+  }
+  return all > 0.0 ? in / all : 0.0;
+}
+
 struct Figures {
   int curves = 0, controlPoints = 0, failures = 0, extrema = 0;
-  double lengthPx = 0.0, onInk = 0.0, worstRmsPx = 0.0;
+  double lengthPx = 0.0, onInk = 0.0, traced = 0.0, worstRmsPx = 0.0;
   std::vector<test::CurvePoint> points;
 };
 
@@ -49,10 +73,13 @@ Figures drawAndMeasure(const PipelineOutput& output, QImage& overlay, double sca
   QPainter painter(&overlay);
   painter.setRenderHint(QPainter::Antialiasing);
   const cv::Mat distance = distanceToInk(*output.binary);
+  cv::Mat reached = cv::Mat::zeros(distance.size(), CV_8U);
   double on = 0.0, all = 0.0;
   int hue = 0;
   for (const TracedCurve& curve : output.faired->curves) {
     const int count = std::max(8, static_cast<int>(output.frame.lengthToImage(curve.sketchedFigures.lengthMm)));
+    const double reach =
+        kOnInkPx + halfWidthOf(output.contours->contours[static_cast<std::size_t>(curve.contour)]) + 0.5;
     QPainterPath path;
     Vec2 last = Vec2::Zero();
     for (const CurveSample& sample : sampleByArcLength(curve.faired, count)) {
@@ -61,6 +88,7 @@ Figures drawAndMeasure(const PipelineOutput& output, QImage& overlay, double sca
                 y = std::clamp(static_cast<int>(p.y()), 0, distance.rows - 1);
       on += distance.at<float>(y, x) <= kOnInkPx ? 1.0 : 0.0;
       all += 1.0;
+      cv::circle(reached, {x, y}, static_cast<int>(std::ceil(reach)), 255, cv::FILLED);
       const QPointF q(p.x() * scale, p.y() * scale);
       if (path.elementCount() > 0 && p != last) figures.points.push_back({0.5 * (p + last), (p - last).normalized()});
       last = p;
@@ -79,6 +107,7 @@ Figures drawAndMeasure(const PipelineOutput& output, QImage& overlay, double sca
   for (const Corner& corner : output.pieces->corners)
     painter.drawRect(QRectF(corner.positionPx.x() * scale - 4, corner.positionPx.y() * scale - 4, 8, 8));
   figures.onInk = all > 0 ? on / all : 0.0;
+  figures.traced = shareReached(*output.binary, reached);
   return figures;
 }
 
@@ -112,9 +141,10 @@ void trace(const fs::path& file, const Recipe& recipe, const fs::path& overlays)
   Figures f = drawAndMeasure(output, overlay, scale);
   f.failures = static_cast<int>(output.constructed->failures.size());
   std::printf(
-      "%-30s %5d curves %6d points %5d extrema %8.0f px  on ink %5.1f %%  worst rms %.2f px  %d failed  %7.0f ms\n",
-      file.filename().c_str(), f.curves, f.controlPoints, f.extrema, f.lengthPx, 100.0 * f.onInk, f.worstRmsPx,
-      f.failures, ms);
+      "%-30s %5d curves %6d points %5d extrema %8.0f px  on ink %5.1f %%  ink traced %5.1f %%  worst rms %.2f px  %d "
+      "failed  %7.0f ms\n",
+      file.filename().c_str(), f.curves, f.controlPoints, f.extrema, f.lengthPx, 100.0 * f.onInk, 100.0 * f.traced,
+      f.worstRmsPx, f.failures, ms);
   if (const auto truth = test::SketchTruth::beside(file, scan->grey.width, scan->grey.height)) {
     const test::SketchTruth::Figures t = truth->compare(f.points);
     std::printf(
