@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/exit_codes.h"
+#include "app/cli/quiet_stderr.h"
 #include "app/cli/stage_dump.h"
 #include "app/cli/trace_plan.h"
 #include "core/base/conventions.h"
@@ -74,7 +75,10 @@ class Trace {
  private:
   /// The scan named; without a name the empty page on which the recipe was drawn.
   Result<Scan> readDrawing() const {
-    if (!arguments_.scan.empty()) return readScan(arguments_.scan, {}, context_);
+    if (!arguments_.scan.empty()) {
+      const QuietStderr quiet;
+      return readScan(arguments_.scan, {}, context_);
+    }
     const BlankPage& page = *plan_.recipe.page;
     return blankScan(page.widthPx, page.heightPx, plan_.recipe.dpi.value_or(kAssumedDpi));
   }

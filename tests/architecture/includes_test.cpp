@@ -109,7 +109,7 @@ std::string libraryOf(const std::string& header) {
   if (header.size() > 1 && header[0] == 'Q' &&
       (std::isupper(static_cast<unsigned char>(header[1])) != 0 || header[1] == 't'))
     return "qt-core";
-  if (header.starts_with("sys/") || header == "unistd.h") return "";  // the system
+  if (header.starts_with("sys/") || header == "unistd.h" || header == "fcntl.h") return "";  // the system
   const bool isStandard = std::all_of(header.begin(), header.end(), [](unsigned char c) {
     return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_';
   });

@@ -29,6 +29,16 @@ std::string pngHead(std::uint32_t width, std::uint32_t height) {
   return "\x89PNG\r\n\x1a\n" + bigEndian(13) + chunk + bigEndian(crc32(chunk));
 }
 
+/// A whole PNG of 100 x 100 grey pixels that holds ten rows only: the decoder itself complains.
+std::string pngOfTenRows() {
+  const auto chunk = [](const std::string& name, const std::string& data) {
+    return bigEndian(static_cast<std::uint32_t>(data.size())) + name + data + bigEndian(crc32(name + data));
+  };
+  // A zlib stream of one stored block: 1010 zeros, whose Adler-32 is 1010 << 16 | 1.
+  const std::string stored = std::string("\x78\x01\x01\xf2\x03\x0d\xfc", 7) + std::string(1010, '\0');
+  return pngHead(100, 100) + chunk("IDAT", stored + bigEndian((1010u << 16) | 1u)) + chunk("IEND", "");
+}
+
 TEST_F(BadInput, FilesThatAreNoScanGiveThree) {
   const std::string out = " -o " + file("o.svg");
   const std::string good = test::readFile(scene());
@@ -42,6 +52,8 @@ TEST_F(BadInput, FilesThatAreNoScanGiveThree) {
     write("cut.png", good.substr(0, length));
     expectError("trace " + file("cut.png") + out, 3, "");
   }
+  write("short.png", pngOfTenRows());
+  expectError("trace " + file("short.png") + out, 3, "damaged");
   write("huge.png", pngHead(30000, 30000));
   expectError("trace " + file("huge.png") + out, 3, "");
   write("absurd.png", pngHead(0x7fffffff, 0x7fffffff));
