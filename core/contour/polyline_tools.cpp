@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/image/hot_loop.h"
+
 namespace batten {
 namespace {
 
@@ -86,6 +88,15 @@ std::vector<Vec2> smoothPolyline(std::span<const Vec2> points, bool closed, doub
   return out;
 }
 
+namespace {
+
+BATTEN_HOT_LOOP void addTaps(const float* values, int k, double weight, double* __restrict sums, int count) {
+  const float *before = values - k, *after = values + k;
+  for (int i = 0; i < count; ++i) sums[i] += weight * (before[i] + after[i]);
+}
+
+}  // namespace
+
 std::vector<float> smoothValues(std::span<const float> values, bool closed, double sigma) {
   std::vector<float> out(values.begin(), values.end());
   const int n = static_cast<int>(values.size());
@@ -97,11 +108,15 @@ std::vector<float> smoothValues(std::span<const float> values, bool closed, doub
     const int reflected = i < 0 ? -i : (i >= n ? 2 * (n - 1) - i : i);
     return values[static_cast<std::size_t>(std::clamp(reflected, 0, n - 1))];
   };
+  // Tap by tap over all values, which is several times as fast as value by value and adds up in the same order.
+  const int inner = std::max(0, n - 2 * half);
+  std::vector<double> sums(values.begin(), values.end());
+  for (double& sum : sums) sum *= kernel[0];
+  for (int k = 1; k <= half && inner > 0; ++k)
+    addTaps(values.data() + half, k, kernel[static_cast<std::size_t>(k)], sums.data() + half, inner);
   for (int i = 0; i < n; ++i) {
+    double& sum = sums[static_cast<std::size_t>(i)];
     const bool inside = i >= half && i + half < n;
-    double sum = kernel[0] * at(i);
-    const float* here = values.data() + i;
-    for (int k = 1; inside && k <= half; ++k) sum += kernel[static_cast<std::size_t>(k)] * (here[-k] + here[k]);
     for (int k = 1; !inside && k <= half; ++k) sum += kernel[static_cast<std::size_t>(k)] * (at(i - k) + at(i + k));
     out[static_cast<std::size_t>(i)] = static_cast<float>(sum);
   }
