@@ -5,7 +5,10 @@
 #include <cmath>
 #include <new>
 #include <opencv2/core.hpp>
+#include <utility>
+#include <vector>
 
+#include "core/base/parallel.h"
 #include "core/image/otsu_thresholds.h"
 #include "core/image/page_edges.h"
 #include "core/image/paper_cells.h"
@@ -28,6 +31,7 @@ constexpr double kDustShare = 0.25;     // of the page's contrast: regions of du
 constexpr double kCertainShare = 1.25;
 constexpr double kNever = -1000.0;  // [grey] darker than anything
 constexpr std::size_t kNoiseSamples = 20000;
+constexpr int kDepthsPerBlock = 1024;
 
 int shrinkFor(const GreyImage& image) {
   int shrink = 1;
@@ -66,23 +70,30 @@ struct Depths {
 };
 
 Depths measureDepths(const Plane& grey, const PageEdges& edges, const PaperEstimate& estimate, int shrink,
-                     const std::vector<float>& kernel) {
+                     const std::vector<float>& kernel, const RunContext& context) {
   Depths depths;
   const PaperBackground& paper = estimate.paper;
-  const auto depth = [&](int x, int y) {
-    return smoothedAt(grey, x, y, kernel) - static_cast<float>(paper.at((x + 0.5) * shrink, (y + 0.5) * shrink));
+  const auto measure = [&](int count, std::vector<float>& out, const auto& placeOf) {
+    out.assign(static_cast<std::size_t>(count), 0.0f);
+    parallelFor(context, count, kDepthsPerBlock, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) {
+        const auto [x, y] = placeOf(static_cast<std::size_t>(i));
+        out[static_cast<std::size_t>(i)] =
+            smoothedAt(grey, x, y, kernel) - static_cast<float>(paper.at((x + 0.5) * shrink, (y + 0.5) * shrink));
+      }
+    });
   };
+  measure(static_cast<int>(edges.crests.size()), depths.atCrests,
+          [&](std::size_t i) { return std::pair(edges.crests[i].x, edges.crests[i].y); });
   double sum = 0.0, weight = 0.0;
-  depths.atCrests.reserve(edges.crests.size());
-  for (const EdgePoint& p : edges.crests) {
-    depths.atCrests.push_back(depth(p.x, p.y));
-    sum += static_cast<double>(p.strength * depths.atCrests.back());
-    weight += static_cast<double>(p.strength);
+  for (std::size_t i = 0; i < edges.crests.size(); ++i) {
+    sum += static_cast<double>(edges.crests[i].strength * depths.atCrests[i]);
+    weight += static_cast<double>(edges.crests[i].strength);
   }
   depths.mean = weight > 0.0 ? sum / weight : 0.0;
   const int cell = paper.cellPx / shrink;
   const std::size_t stride = estimate.isPaper.size() / kNoiseSamples + 1;
-  std::vector<float> samples;
+  std::vector<std::pair<int, int>> places;
   for (std::size_t i = 0; i < estimate.isPaper.size(); i += stride) {
     if (estimate.isPaper[i] == 0) continue;
     const auto column = static_cast<int>(i % static_cast<std::size_t>(paper.columns));
@@ -90,8 +101,11 @@ Depths measureDepths(const Plane& grey, const PageEdges& edges, const PaperEstim
     // A pixel of the cell that changes from cell to cell, so that no grid of the scanner is met in step.
     const int x = column * cell + static_cast<int>((i * 5) % static_cast<std::size_t>(cell));
     const int y = row * cell + static_cast<int>((i * 3) % static_cast<std::size_t>(cell));
-    if (x < grey.width && y < grey.height) samples.push_back(std::fabs(depth(x, y)));
+    if (x < grey.width && y < grey.height) places.emplace_back(x, y);
   }
+  std::vector<float> samples;
+  measure(static_cast<int>(places.size()), samples, [&](std::size_t i) { return places[i]; });
+  for (float& sample : samples) sample = std::fabs(sample);
   if (!samples.empty()) {
     const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
     std::nth_element(samples.begin(), middle, samples.end());
@@ -133,7 +147,7 @@ void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, 
   PaperEstimate estimate = estimatePaper(grey, edges, shrink, cellPx, context);
   Depths depths;
   for (const double q : kSmoothings) {
-    depths = measureDepths(grey, edges, estimate, shrink, gaussianKernel(remainingVariance(q * q, shrink)));
+    depths = measureDepths(grey, edges, estimate, shrink, gaussianKernel(remainingVariance(q * q, shrink)), context);
     out.smoothingPx = q;
     if (std::fabs(depths.mean) >= kContrastPerNoise * depths.noise) break;
   }
