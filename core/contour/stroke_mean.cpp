@@ -19,6 +19,14 @@ constexpr double kParallelCos = 0.985;  // 10 degrees: fully one line
 constexpr double kCrossingCos = 0.906;  // 25 degrees: another line
 constexpr double kLeastWeight = 0.02;   // at the very end of a stroke: alone it still is the line
 
+constexpr double kKissGap = 2.0;        // distances: nearer stretches beside a stroke are one
+constexpr double kSameShare = 0.5;      // of the shorter stroke: beside each other for longer they are one line
+constexpr double kSharpTurnRad = 0.87;  // 50 degrees
+constexpr double kGoesOnWidths = 4.0;   // stroke widths to the next line
+constexpr double kGoesOnCos = 0.8;      // 37 degrees
+constexpr double kTurnWidths = 1.5;     // stroke widths over which a turn is seen
+constexpr int kLeastTurnReach = 4;      // points
+
 double smoothStep(double x) {
   const double t = std::clamp(x, 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
@@ -50,19 +58,25 @@ class Cells {
   std::unordered_map<std::int64_t, std::vector<MeanLine::Source>> cells_;
 };
 
+// Stretches of two strokes that come near each other and part again.
+struct Kiss {
+  int from = 0, to = 0, other = 0;
+};
+using Kisses = std::vector<std::vector<Kiss>>;  // by line
+
 // A stroke that crosses the normal of a point.
 struct Crossing {
-  int line = 0;
+  int line = 0, index = 0;
   double offset = 0.0, weight = 0.0;
 };
 
 class MeanRound {
  public:
-  MeanRound(const std::vector<MeanLine>& lines, double distance)
-      : lines_(lines), distance_(distance), cells_(lines, distance) {}
+  MeanRound(const std::vector<MeanLine>& lines, double distance, const Kisses& kisses)
+      : lines_(lines), distance_(distance), cells_(lines, distance), kisses_(kisses) {}
 
-  // How far the point moves along its left normal.
-  void measure(std::size_t line, std::size_t index, std::vector<Crossing>& crossings, float& shift) const {
+  // The strokes beside a point, in a fixed order, so that sums come out the same whatever the order of the cells.
+  void find(std::size_t line, std::size_t index, std::vector<Crossing>& crossings) const {
     const MeanLine& here = lines_[line];
     const Vec2 &at = here.points[index], &t = here.tangent[index];
     const Vec2 n = leftNormal(t);
@@ -78,24 +92,32 @@ class MeanRound {
       const double cosine = std::abs(to.dot(t));
       if (cosine < kCrossingCos) return;
       const double offset = d.dot(n) - along * to.dot(n) / to.dot(t);
-      if (std::abs(offset) >= distance_) return;
-      const double weight = endWeight(other, k) * smoothStep((cosine - kCrossingCos) / (kParallelCos - kCrossingCos)) *
+      if (std::abs(offset) >= distance_ || isKiss(line, index, place.line)) return;
+      const double weight = static_cast<double>(other.weight[k]) * endWeight(other, k) *
+                            smoothStep((cosine - kCrossingCos) / (kParallelCos - kCrossingCos)) *
                             smoothStep((1.0 - std::abs(offset) / distance_) / 0.3);
+      const Crossing found{place.line, place.index, offset, weight};
       for (Crossing& c : crossings) {
         if (c.line != place.line) continue;
-        if (std::abs(offset) < std::abs(c.offset)) c = {place.line, offset, weight};
+        if (std::abs(offset) < std::abs(c.offset)) c = found;
         return;
       }
-      crossings.push_back({place.line, offset, weight});
+      crossings.push_back(found);
     });
-    // In a fixed order, so that sums come out the same whatever the order of the cells.
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) { return a.line < b.line; });
-    double sum = 0.0, weights = std::max(kLeastWeight, endWeight(here, index));
+  }
+
+  // How far the point moves along its left normal, and the weight of all strokes there.
+  std::pair<float, float> shift(std::size_t line, std::size_t index, std::vector<Crossing>& crossings) const {
+    find(line, index, crossings);
+    const double own = static_cast<double>(lines_[line].weight[index]);
+    double sum = 0.0, weights = own * std::max(kLeastWeight, endWeight(lines_[line], index)), all = own;
     for (const Crossing& c : crossings) {
       sum += c.weight * c.offset;
       weights += c.weight;
+      all += c.weight;
     }
-    shift = static_cast<float>(sum / weights);
+    return {static_cast<float>(sum / weights), static_cast<float>(all)};
   }
 
  private:
@@ -106,60 +128,215 @@ class MeanRound {
     return static_cast<double>(apart) < 4.0 * distance_ + 10.0;
   }
 
+  bool isKiss(std::size_t line, std::size_t index, int other) const {
+    if (kisses_.empty()) return false;
+    const auto i = static_cast<int>(index);
+    return std::any_of(kisses_[line].begin(), kisses_[line].end(),
+                       [&](const Kiss& k) { return k.other == other && i >= k.from && i <= k.to; });
+  }
+
   // 0 at an open end, 1 from two distances (or a third of the stroke) on.
   double endWeight(const MeanLine& line, std::size_t index) const {
     if (line.closed) return 1.0;
     const auto n = line.points.size();
-    const double toEnd = static_cast<double>(std::min(index, n - 1 - index));
+    std::size_t points = n;
+    if (!line.goesOn[0]) points = std::min(points, index);
+    if (!line.goesOn[1]) points = std::min(points, n - 1 - index);
+    const auto toEnd = static_cast<double>(points);
     return smoothStep(toEnd / std::max(1.0, std::min(2.0 * distance_, static_cast<double>(n) / 3.0)));
   }
 
   const std::vector<MeanLine>& lines_;
   double distance_;
   Cells cells_;
+  const Kisses& kisses_;
 };
+
+// A stretch of a stroke beside another.
+struct Beside {
+  int other = 0, from = 0, to = 0;  // points of the stroke
+  int otherFrom = 0, otherTo = 0;   // and of the other there
+};
+
+// Where strokes come near each other and part again on both sides, though both go on.
+Kisses findKisses(const std::vector<MeanLine>& strokes, double distance, const RunContext& context) {
+  const Kisses none;
+  const MeanRound round(strokes, distance, none);
+  const int gap = static_cast<int>(kKissGap * distance), nearEnd = static_cast<int>(distance);
+  std::vector<std::vector<Beside>> stretches(strokes.size());
+  parallelFor(context, static_cast<int>(strokes.size()), 1, [&](int begin, int end) {
+    std::vector<Crossing> crossings;
+    for (int l = begin; l < end && !context.isCancelled(); ++l) {
+      auto& mine = stretches[static_cast<std::size_t>(l)];
+      for (int i = 0; i < static_cast<int>(strokes[static_cast<std::size_t>(l)].points.size()); ++i) {
+        round.find(static_cast<std::size_t>(l), static_cast<std::size_t>(i), crossings);
+        for (const Crossing& c : crossings) {
+          const auto open = std::find_if(mine.rbegin(), mine.rend(), [&](const Beside& b) {
+            return b.other == c.line && i - b.to <= gap && std::abs(c.index - b.otherTo) <= 2 * gap;
+          });
+          if (open == mine.rend()) {
+            mine.push_back({c.line, i, i, c.index, c.index});
+          } else {
+            open->to = i;
+            open->otherTo = c.index;
+          }
+        }
+      }
+    }
+  });
+  Kisses kisses(strokes.size());
+  if (context.isCancelled()) return kisses;
+  for (std::size_t l = 0; l < strokes.size(); ++l) {
+    for (const Beside& b : stretches[l]) {
+      const MeanLine &a = strokes[l], &o = strokes[static_cast<std::size_t>(b.other)];
+      const int n = static_cast<int>(a.points.size()), m = static_cast<int>(o.points.size());
+      const auto ends = [&](int i, int k) {
+        return (!a.closed && std::min(i, n - 1 - i) <= nearEnd) || (!o.closed && std::min(k, m - 1 - k) <= nearEnd);
+      };
+      if (ends(b.from, b.otherFrom) || ends(b.to, b.otherTo)) continue;
+      if (b.to - b.from >= static_cast<int>(kSameShare * std::min(n, m))) continue;
+      kisses[l].push_back({b.from, b.to, b.other});
+      kisses[static_cast<std::size_t>(b.other)].push_back(
+          {std::min(b.otherFrom, b.otherTo), std::max(b.otherFrom, b.otherTo), static_cast<int>(l)});
+    }
+  }
+  return kisses;
+}
+
+// The end of a stroke and the direction in which it would go on.
+struct StrokeEnd {
+  int line = 0, side = 0;
+  Vec2 at = Vec2::Zero(), out = Vec2::Zero();
+};
+
+// Where a line turns sharply: the places of largest turn between chords of `reach` points.
+std::vector<int> turnsOf(const Contour& line, int reach) {
+  const int n = static_cast<int>(line.points.size());
+  std::vector<double> turn(line.points.size(), 0.0);
+  const auto p = [&](int i) -> const Vec2& { return line.points[static_cast<std::size_t>(wrapIndex(i, n))]; };
+  for (int i = line.closed ? 0 : reach; i < (line.closed ? n : n - reach); ++i) {
+    const Vec2 in = p(i) - p(i - reach), out = p(i + reach) - p(i);
+    turn[static_cast<std::size_t>(i)] = std::atan2(std::abs(cross(in, out)), in.dot(out));
+  }
+  std::vector<int> found;
+  for (int i = 0; i < n; ++i) {
+    const double here = turn[static_cast<std::size_t>(i)];
+    if (here < kSharpTurnRad) continue;
+    bool most = true;
+    for (int k = -2 * reach; k <= 2 * reach && most; ++k) {
+      if (k == 0 || (!line.closed && (i + k < 0 || i + k >= n))) continue;
+      const double there = turn[static_cast<std::size_t>(wrapIndex(i + k, n))];
+      most = there < here || (there == here && k > 0);
+    }
+    if (most) found.push_back(i);
+  }
+  return found;
+}
+
+double medianWidth(const Contour& line) {
+  std::vector<float> widths = line.widthPx;
+  if (widths.empty()) return 1.0;
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  return static_cast<double>(*middle);
+}
 
 }  // namespace
 
-std::vector<MeanLine> moveToMean(const std::vector<Contour>& lines, double distancePx, const RunContext& context) {
-  std::vector<MeanLine> means(lines.size());
-  for (std::size_t l = 0; l < lines.size(); ++l) {
-    means[l].points = lines[l].points;
-    means[l].closed = lines[l].closed;
-    means[l].tangent = directions(lines[l].points, lines[l].closed, 3);
-    for (std::size_t i = 0; i < lines[l].points.size(); ++i)
-      means[l].source.push_back({static_cast<int>(l), static_cast<int>(i)});
+// At crossings strokes come in several lines, the next of which begins where one ends.
+void findContinuations(std::vector<MeanLine>& strokes, double nearPx) {
+  std::vector<StrokeEnd> ends;
+  for (int l = 0; l < static_cast<int>(strokes.size()); ++l) {
+    MeanLine& s = strokes[static_cast<std::size_t>(l)];
+    const std::size_t n = s.points.size();
+    s.goesOn[0] = s.goesOn[1] = false;
+    if (s.closed || n < 3) continue;
+    const std::size_t reach = std::min(n - 1, static_cast<std::size_t>(std::max(8.0, nearPx)));
+    const Vec2 start = s.points.front() - s.points[reach], end = s.points.back() - s.points[n - 1 - reach];
+    ends.push_back({l, 0, s.points.front(), start.norm() > 0.0 ? Vec2(start.normalized()) : Vec2::Zero()});
+    ends.push_back({l, 1, s.points.back(), end.norm() > 0.0 ? Vec2(end.normalized()) : Vec2::Zero()});
   }
+  for (const StrokeEnd& a : ends)
+    for (const StrokeEnd& b : ends) {
+      if (a.line == b.line || -a.out.dot(b.out) < kGoesOnCos) continue;
+      const Vec2 d = b.at - a.at;
+      if (d.norm() <= nearPx && std::abs(cross(a.out, d)) <= 0.5 * nearPx)
+        strokes[static_cast<std::size_t>(a.line)].goesOn[a.side] = true;
+    }
+}
+
+std::vector<MeanLine> strokesOf(const std::vector<Contour>& lines, double distancePx, std::vector<Vec2>& turns) {
+  const StrokesBeside others(lines, distancePx);
+  std::vector<MeanLine> strokes;
+  double width = 1.0;
+  for (int l = 0; l < static_cast<int>(lines.size()); ++l) {
+    const Contour& line = lines[static_cast<std::size_t>(l)];
+    const int n = static_cast<int>(line.points.size());
+    width = std::max(width, medianWidth(line));
+    const int reach = std::clamp(static_cast<int>(kTurnWidths * medianWidth(line)), kLeastTurnReach,
+                                 std::max(kLeastTurnReach, static_cast<int>(0.5 * distancePx)));
+    std::vector<int> cuts = n > 4 * reach ? turnsOf(line, reach) : std::vector<int>{};
+    // Where no other stroke is near, it was the hand that turned.
+    std::erase_if(cuts, [&](int c) { return !others.isNear(line.points[static_cast<std::size_t>(c)], l, c); });
+    for (const int c : cuts) turns.push_back(line.points[static_cast<std::size_t>(c)]);
+    const auto add = [&](int from, int to, bool closed) {
+      MeanLine stroke;
+      stroke.closed = closed;
+      for (int i = from; i <= to; ++i) {
+        const int at = wrapIndex(i, n);
+        stroke.points.push_back(line.points[static_cast<std::size_t>(at)]);
+        stroke.source.push_back({l, at});
+      }
+      stroke.tangent = directions(stroke.points, closed, 3);
+      stroke.weight.assign(stroke.points.size(), 1.0f);
+      strokes.push_back(std::move(stroke));
+    };
+    if (cuts.empty()) {
+      add(0, n - 1, line.closed);
+      continue;
+    }
+    if (!line.closed) add(0, cuts.front(), false);
+    for (std::size_t c = 0; c + 1 < cuts.size(); ++c) add(cuts[c], cuts[c + 1], false);
+    add(cuts.back(), line.closed ? n + cuts.front() : n - 1, false);
+  }
+  findContinuations(strokes, std::min(0.5 * distancePx, kGoesOnWidths * width));
+  return strokes;
+}
+
+void moveToMean(std::vector<MeanLine>& means, double distancePx, const RunContext& context) {
   std::vector<MeanLine::Source> all;
-  for (const MeanLine& m : means) all.insert(all.end(), m.source.begin(), m.source.end());
+  for (int l = 0; l < static_cast<int>(means.size()); ++l)
+    for (int i = 0; i < static_cast<int>(means[static_cast<std::size_t>(l)].points.size()); ++i) all.push_back({l, i});
+  const Kisses kisses = findKisses(means, std::max(1.0, distancePx), context);
   // [points] A mean changes over about the distance of the strokes.
   const double smoothing = std::clamp(0.5 * distancePx, 3.0, 8.0);
   for (int round = 0; round < kMeanRounds && !context.isCancelled(); ++round) {
-    const MeanRound measure(means, std::max(1.0, distancePx));
-    std::vector<float> shift(all.size());
+    const MeanRound measure(means, std::max(1.0, distancePx), kisses);
+    std::vector<std::pair<float, float>> shift(all.size());
     parallelFor(context, static_cast<int>(all.size()), kMeansPerBlock, [&](int begin, int end) {
       std::vector<Crossing> crossings;
       for (int i = begin; i < end; ++i) {
         const auto at = static_cast<std::size_t>(i);
-        measure.measure(static_cast<std::size_t>(all[at].line), static_cast<std::size_t>(all[at].index), crossings,
-                        shift[at]);
+        shift[at] =
+            measure.shift(static_cast<std::size_t>(all[at].line), static_cast<std::size_t>(all[at].index), crossings);
       }
     });
     if (context.isCancelled()) break;
     std::size_t first = 0;
     for (MeanLine& m : means) {
       const auto n = m.points.size();
-      const std::vector<float> own(shift.begin() + static_cast<std::ptrdiff_t>(first),
-                                   shift.begin() + static_cast<std::ptrdiff_t>(first + n));
+      std::vector<float> own;
+      for (std::size_t i = 0; i < n; ++i) own.push_back(shift[first + i].first);
       const std::vector<float> smooth = smoothValues(own, m.closed, smoothing);
       for (std::size_t i = 0; i < n; ++i) {
         m.points[i] += static_cast<double>(smooth[i]) * leftNormal(m.tangent[i]);
       }
       m.tangent = directions(m.points, m.closed, 3);
+      if (round + 1 == kMeanRounds)
+        for (std::size_t i = 0; i < n; ++i) m.weight[i] = shift[first + i].second;
       first += n;
     }
   }
-  return means;
 }
 
 struct StrokesBeside::Parts {
@@ -173,6 +350,7 @@ StrokesBeside::StrokesBeside(const std::vector<Contour>& lines, double distanceP
     MeanLine stroke;
     stroke.points = line.points;
     stroke.tangent = directions(line.points, line.closed, 3);
+    stroke.closed = line.closed;
     parts_->lines.push_back(std::move(stroke));
   }
   parts_->distance = std::max(1.0, distancePx);
@@ -180,6 +358,19 @@ StrokesBeside::StrokesBeside(const std::vector<Contour>& lines, double distanceP
 }
 
 StrokesBeside::~StrokesBeside() = default;
+
+bool StrokesBeside::isNear(const Vec2& at, int line, int index) const {
+  bool near = false;
+  parts_->cells->around(at, [&](const MeanLine::Source& place) {
+    const MeanLine& other = parts_->lines[static_cast<std::size_t>(place.line)];
+    const auto n = static_cast<int>(other.points.size());
+    int apart = std::abs(place.index - index);
+    if (other.closed) apart = std::min(apart, n - apart);
+    if (place.line == line && apart < 4.0 * parts_->distance + 10.0) return;
+    near = near || (other.points[static_cast<std::size_t>(place.index)] - at).norm() <= parts_->distance;
+  });
+  return near;
+}
 
 StrokeBand StrokesBeside::band(const std::vector<Vec2>& points, bool closed, const RunContext& context) const {
   constexpr double kAlongPx = 1.5, kOneStrokePx = 1.0;

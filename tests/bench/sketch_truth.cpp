@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -13,6 +14,8 @@ namespace batten::test {
 namespace {
 
 constexpr double kReachPx = 20.0, kCoveredPx = 8.0, kCellPx = 8.0;
+constexpr double kBundlePx = 30.0;  // strokes of one line lie no farther from its middle
+constexpr double kOnPx = 3.0, kMostly = 0.9;
 
 int cellOf(double v) { return static_cast<int>(std::floor(v / kCellPx)); }
 
@@ -48,6 +51,8 @@ std::optional<SketchTruth> SketchTruth::beside(const std::filesystem::path& draw
     if (onPage) truth.strokes_.push_back(std::move(stroke));
   }
   truth.groups_ = static_cast<int>(numbers.size());
+  truth.names_.resize(numbers.size());
+  for (const auto& [name, number] : numbers) truth.names_[static_cast<std::size_t>(number)] = name;
   if (truth.strokes_.empty()) return std::nullopt;
   truth.fillGrid();
   return truth;
@@ -62,12 +67,11 @@ void SketchTruth::fillGrid() {
   }
 }
 
-// Mean place, along the normal, of the strokes of the group that lies nearest.
-std::optional<double> SketchTruth::offsetAt(const CurvePoint& point) const {
+std::map<int, SketchTruth::Crossed> SketchTruth::crossedAt(const CurvePoint& point, double reachPx) const {
   const Vec2 normal(-point.tangent.y(), point.tangent.x());
-  std::map<int, double> nearest;  // by stroke
+  std::map<int, Crossed> nearest;
   std::set<std::pair<int, int>> seen;
-  for (double u = -kReachPx; u <= kReachPx; u += 0.5 * kCellPx) {
+  for (double u = -reachPx; u <= reachPx; u += 0.5 * kCellPx) {
     const Vec2 at = point.at + u * normal;
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
@@ -83,16 +87,21 @@ std::optional<double> SketchTruth::offsetAt(const CurvePoint& point) const {
           // Strokes that cross the curve are other lines.
           if (std::abs(sb - sa) < 0.6 * (b - a).norm()) continue;
           const double t = sa / (sa - sb), offset = (a + t * (b - a)).dot(normal);
-          if (std::abs(offset) > kReachPx) continue;
-          const auto [it, fresh] = nearest.try_emplace(f.stroke, offset);
-          if (!fresh && std::abs(offset) < std::abs(it->second)) it->second = offset;
+          if (std::abs(offset) > reachPx) continue;
+          const auto [it, fresh] = nearest.try_emplace(f.stroke, Crossed{offset, f.first});
+          if (!fresh && std::abs(offset) < std::abs(it->second.offset)) it->second = {offset, f.first};
         }
       }
   }
+  return nearest;
+}
+
+// Mean place, along the normal, of the strokes of the group that lies nearest.
+std::optional<double> SketchTruth::offsetAt(const CurvePoint& point) const {
   std::map<int, std::pair<double, int>> mean;  // by group
-  for (const auto& [stroke, offset] : nearest) {
+  for (const auto& [stroke, crossed] : crossedAt(point, kReachPx)) {
     auto& m = mean[strokes_[static_cast<std::size_t>(stroke)].group];
-    m.first += offset;
+    m.first += crossed.offset;
     ++m.second;
   }
   std::optional<double> best;
@@ -101,6 +110,75 @@ std::optional<double> SketchTruth::offsetAt(const CurvePoint& point) const {
     if (!best || std::abs(offset) < std::abs(*best)) best = offset;
   }
   return best;
+}
+
+SketchTruth::Grouping SketchTruth::group(const std::vector<std::vector<CurvePoint>>& lines) const {
+  const auto groups = static_cast<std::size_t>(groups_);
+  const auto groupOf = [&](int stroke) {
+    return static_cast<std::size_t>(strokes_[static_cast<std::size_t>(stroke)].group);
+  };
+  std::vector<double> length(groups, 0.0);
+  for (const Stroke& s : strokes_)
+    for (std::size_t i = 0; i + 1 < s.points.size(); ++i)
+      length[static_cast<std::size_t>(s.group)] += (s.points[i + 1] - s.points[i]).norm();
+  Grouping result;
+  struct Share {
+    double on = 0.0, covers = 0.0;
+  };
+  std::vector<std::vector<Share>> shares;  // by line and group
+  for (const auto& line : lines) {
+    std::vector<Share> share(groups);
+    std::set<std::pair<int, std::size_t>> covered;
+    for (const CurvePoint& point : line) {
+      std::vector<std::pair<double, double>> extent(groups, {1e9, -1e9});
+      const auto crossed = crossedAt(point, kBundlePx);
+      for (const auto& [stroke, c] : crossed) {
+        auto& [low, high] = extent[groupOf(stroke)];
+        low = std::min(low, c.offset);
+        high = std::max(high, c.offset);
+      }
+      const auto isOn = [&](std::size_t g) { return extent[g].first <= kOnPx && extent[g].second >= -kOnPx; };
+      for (std::size_t g = 0; g < groups; ++g) share[g].on += isOn(g) ? 1.0 / static_cast<double>(line.size()) : 0.0;
+      for (const auto& [stroke, c] : crossed)
+        if (isOn(groupOf(stroke))) covered.insert({stroke, c.first});
+    }
+    // Facets are up to a few px long, and the normals fan out on the outer side of a bend: their neighbours count.
+    for (std::size_t s = 0; s < strokes_.size(); ++s) {
+      const auto& p = strokes_[s].points;
+      const auto has = [&](std::size_t i) { return covered.contains({static_cast<int>(s), i}); };
+      for (std::size_t i = 0; i + 1 < p.size(); ++i)
+        if (has(i) || (i > 0 && has(i - 1)) || has(i + 1))
+          share[groupOf(static_cast<int>(s))].covers += (p[i + 1] - p[i]).norm();
+    }
+    for (std::size_t g = 0; g < groups; ++g) share[g].covers /= std::max(1e-9, length[g]);
+    int ons = 0, parts = 0;
+    for (const Share& s : share) {
+      ons += s.on >= kMostly ? 1 : 0;
+      parts += s.on >= 1.0 - kMostly && s.covers >= 1.0 - kMostly ? 1 : 0;
+    }
+    result.onOne += ons > 0 ? 1 : 0;
+    result.divided += parts > 1 ? 1 : 0;
+    shares.push_back(std::move(share));
+  }
+  for (std::size_t g = 0; g < groups; ++g) {
+    int covering = 0, matching = 0, lying = 0;
+    std::string words = names_[g] + ":";
+    for (std::size_t l = 0; l < shares.size(); ++l) {
+      const Share& s = shares[l][g];
+      covering += s.covers >= kMostly ? 1 : 0;
+      lying += s.on >= kMostly ? 1 : 0;
+      matching += s.covers >= kMostly && s.on >= kMostly ? 1 : 0;
+      char text[64];
+      std::snprintf(text, sizeof text, " line %zu covers %.0f %% (%.0f %% of it on)", l + 1, 100 * s.covers,
+                    100 * s.on);
+      if (s.covers >= 0.05) words += text;
+    }
+    result.covered += covering > 0 ? 1 : 0;
+    const bool matched = matching == 1 && lying == 1;
+    result.matched += matched ? 1 : 0;
+    if (!matched) result.unmatched.push_back(words);
+  }
+  return result;
 }
 
 SketchTruth::Figures SketchTruth::compare(const std::vector<CurvePoint>& curves) const {

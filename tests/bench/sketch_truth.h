@@ -31,6 +31,17 @@ class SketchTruth {
   };
   Figures compare(const std::vector<CurvePoint>& curves) const;
 
+  struct Grouping {
+    int matched = 0;  ///< Meant lines that one found line covers to 90 % and that hold 90 % of it, and no other line.
+    int covered = 0;  ///< Meant lines that some found line covers to 90 %, whatever else it runs along.
+    int onOne = 0;    ///< Found lines of which 90 % lies on one meant line.
+    int divided = 0;  ///< Found lines with two meant lines or more on at least a tenth each.
+    std::vector<std::string> unmatched;  ///< For each other meant line its name and what was found on it.
+  };
+  /// How far the lines found are the lines meant. A line lies on a meant one where it runs between its strokes (or
+  /// within 3 px of one), about in their direction; it covers those parts of the strokes that its normals cross.
+  Grouping group(const std::vector<std::vector<CurvePoint>>& lines) const;
+
  private:
   struct Stroke {
     int group = 0;
@@ -40,11 +51,18 @@ class SketchTruth {
     int stroke = 0;
     std::size_t first = 0;
   };
+  struct Crossed {
+    double offset = 0.0;
+    std::size_t first = 0;
+  };
+  /// By stroke: where it crosses the normal of a point nearest, within `reachPx`.
+  std::map<int, Crossed> crossedAt(const CurvePoint& point, double reachPx) const;
   std::optional<double> offsetAt(const CurvePoint& point) const;
   void fillGrid();
   std::vector<Stroke> strokes_;
   std::map<std::pair<int, int>, std::vector<Facet>> cells_;
   int groups_ = 0;
+  std::vector<std::string> names_;
 };
 
 }  // namespace batten::test

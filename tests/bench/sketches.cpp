@@ -3,7 +3,9 @@
 // how much of the ink has a curve, and how many curves and control points there are; where a file of the same name with
 // the ending .svg says how the drawing was made, also how far the curves are from it. Writes the curves over the scan.
 //
-//   bench_sketches FOLDER [OVERLAY_FOLDER] [stage.parameter=value …]
+//   bench_sketches FOLDER [OVERLAY_FOLDER] [--groups] [stage.parameter=value …]
+//
+// --groups says for every meant line that was not found as one line which lines were found on it.
 
 #include <QColor>
 #include <QImage>
@@ -16,6 +18,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "core/contour/corner_marks.h"
 #include "core/image/laplacian_edges.h"
 #include "core/image/scan_reader.h"
 #include "core/pipeline/parameter_table.h"
@@ -66,6 +69,7 @@ struct Figures {
   int curves = 0, controlPoints = 0, failures = 0, extrema = 0;
   double lengthPx = 0.0, onInk = 0.0, traced = 0.0, worstRmsPx = 0.0;
   std::vector<test::CurvePoint> points;
+  std::vector<std::vector<test::CurvePoint>> lines;
 };
 
 Figures drawAndMeasure(const PipelineOutput& output, QImage& overlay, double scale) {
@@ -82,6 +86,7 @@ Figures drawAndMeasure(const PipelineOutput& output, QImage& overlay, double sca
         kOnInkPx + halfWidthOf(output.contours->contours[static_cast<std::size_t>(curve.contour)]) + 0.5;
     QPainterPath path;
     Vec2 last = Vec2::Zero();
+    std::vector<test::CurvePoint> line;
     for (const CurveSample& sample : sampleByArcLength(curve.faired, count)) {
       const Vec2 p = output.frame.pointToImage(sample.point);
       const int x = std::clamp(static_cast<int>(p.x()), 0, distance.cols - 1),
@@ -90,13 +95,15 @@ Figures drawAndMeasure(const PipelineOutput& output, QImage& overlay, double sca
       all += 1.0;
       cv::circle(reached, {x, y}, static_cast<int>(std::ceil(reach)), 255, cv::FILLED);
       const QPointF q(p.x() * scale, p.y() * scale);
-      if (path.elementCount() > 0 && p != last) figures.points.push_back({0.5 * (p + last), (p - last).normalized()});
+      if (path.elementCount() > 0 && p != last) line.push_back({0.5 * (p + last), (p - last).normalized()});
       last = p;
       path.elementCount() == 0 ? path.moveTo(q) : path.lineTo(q);
     }
     painter.setPen(QPen(QColor::fromHsv(hue, 255, 210), 1.3));
     painter.drawPath(path);
     hue = (hue + 83) % 360;
+    figures.points.insert(figures.points.end(), line.begin(), line.end());
+    figures.lines.push_back(std::move(line));
     ++figures.curves;
     figures.controlPoints += curve.faired.controlPointCount();
     figures.extrema += curve.fairedFigures.extrema;
@@ -122,7 +129,33 @@ QImage faded(const GreyImage& grey, double scale) {
                       Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
 }
 
-void trace(const fs::path& file, const Recipe& recipe, const fs::path& overlays) {
+// The lines cut at the corners that the program would suggest: what was drawn from corner to corner.
+std::vector<std::vector<test::CurvePoint>> cornerToCorner(const ContourSet& contours) {
+  constexpr double kAngleRad = 0.61, kScalePx = 16.0;  // 35 degrees, as in the window
+  std::vector<CornerMark> marks;
+  for (const CornerSuggestion& s : suggestCorners(contours, kAngleRad, kScalePx)) marks.push_back({s.positionPx, 0.0});
+  std::vector<std::vector<test::CurvePoint>> lines;
+  const auto pieces = splitAtCorners(contours, marks, {});
+  for (std::size_t i = 0; pieces && i < pieces->pieces.size(); ++i) {
+    std::vector<test::CurvePoint> line;
+    const auto& p = pieces->pieces[i].points;
+    for (std::size_t k = 0; k + 1 < p.size(); ++k)
+      if (p[k] != p[k + 1]) line.push_back({0.5 * (p[k] + p[k + 1]), (p[k + 1] - p[k]).normalized()});
+    if (!line.empty()) lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+void printGrouping(const char* what, const test::SketchTruth& truth,
+                   const std::vector<std::vector<test::CurvePoint>>& lines, int meant, bool detailed) {
+  const test::SketchTruth::Grouping g = truth.group(lines);
+  std::printf(
+      "%-30s %5zu found of %d meant; %d matched, %d covered by one line; found: %d on one line, %d on several\n", what,
+      lines.size(), meant, g.matched, g.covered, g.onOne, g.divided);
+  for (std::size_t i = 0; detailed && i < g.unmatched.size(); ++i) std::printf("      %s\n", g.unmatched[i].c_str());
+}
+
+void trace(const fs::path& file, const Recipe& recipe, const fs::path& overlays, bool detailed) {
   const auto scan = readScan(file, {}, {});
   if (!scan) {
     std::printf("%-30s %s\n", file.filename().c_str(), scan.error().message.c_str());
@@ -150,6 +183,8 @@ void trace(const fs::path& file, const Recipe& recipe, const fs::path& overlays)
     std::printf(
         "%-30s %5d lines were meant; curves off them median %.2f, rms %.2f px, %.1f %% on none; covered %.1f %%\n",
         "  as it was drawn", t.groups, t.medianPx, t.rmsPx, 100.0 * t.unmatched, 100.0 * t.covered);
+    printGrouping("  lines", *truth, f.lines, t.groups, false);
+    printGrouping("  from corner to corner", *truth, cornerToCorner(*output.contours), t.groups, detailed);
   }
   std::fflush(stdout);
   if (!overlays.empty())
@@ -160,14 +195,19 @@ void trace(const fs::path& file, const Recipe& recipe, const fs::path& overlays)
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fputs("usage: bench_sketches FOLDER [OVERLAY_FOLDER] [stage.parameter=value …]\n", stderr);
+    std::fputs("usage: bench_sketches FOLDER [OVERLAY_FOLDER] [--groups] [stage.parameter=value …]\n", stderr);
     return 2;
   }
   Recipe recipe;
   fs::path overlays;
+  bool detailed = false;
   for (int i = 2; i < argc; ++i) {
     const std::string word = argv[i];
     if (word.empty()) continue;
+    if (word == "--groups") {
+      detailed = true;
+      continue;
+    }
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos) {
       if (word.front() == '-') {
@@ -187,6 +227,6 @@ int main(int argc, char** argv) {
     if (ending == ".png" || ending == ".jpg" || ending == ".tif" || ending == ".pgm") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
-  for (const fs::path& file : files) trace(file, recipe, overlays);
+  for (const fs::path& file : files) trace(file, recipe, overlays, detailed);
   return 0;
 }

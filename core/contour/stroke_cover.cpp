@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/stroke_cover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+namespace batten {
+namespace {
+
+constexpr double kOnLinePx = 1.6;     // a point this near to another line lies on it, or this part of
+constexpr double kOnLine = 0.15;      // the distance within which strokes are one
+constexpr double kSameWay = 0.8;      // cosine between lines that are one
+constexpr int kShortestRun = 12;      // points: lying on a line for less is crossing it
+constexpr int kShortestGap = 4;       // points: not lying on a line for less is noise
+constexpr double kOwnWay = 4.0;       // distances along a line before it can lie on itself
+constexpr double kBesideSlack = 0.1;  // part of a stretch that may be farther away than beside
+
+struct Place {
+  int piece = 0, index = 0;
+};
+
+// Points by cells of the distance.
+class PlaceIndex {
+ public:
+  explicit PlaceIndex(double cellPx) : cell_(cellPx) {}
+  void add(const Vec2& at, Place place) { cells_[key(cellOf(at.x()), cellOf(at.y()))].push_back(place); }
+  template <class Visit>
+  void around(const Vec2& at, const Visit& visit) const {
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const auto found = cells_.find(key(cellOf(at.x()) + dx, cellOf(at.y()) + dy));
+        if (found == cells_.end()) continue;
+        for (const Place& place : found->second) visit(place);
+      }
+  }
+
+ private:
+  int cellOf(double v) const { return static_cast<int>(std::floor(v / cell_)); }
+  static std::int64_t key(int x, int y) { return (static_cast<std::int64_t>(y) << 32) ^ (x & 0xffffffffLL); }
+  double cell_;
+  std::unordered_map<std::int64_t, std::vector<Place>> cells_;
+};
+
+// How one point lies to the lines before it.
+struct Cover {
+  bool on = false, beside = false;
+  Place place;  // the nearest point in the same direction
+};
+
+MeanLine part(const MeanLine& line, int from, int to) {
+  const auto cut = [&](const auto& v) { return std::decay_t<decltype(v)>(v.begin() + from, v.begin() + to + 1); };
+  MeanLine p;
+  p.points = cut(line.points);
+  p.tangent = cut(line.tangent);
+  p.source = cut(line.source);
+  p.weight = cut(line.weight);
+  return p;
+}
+
+class PieceMaker {
+ public:
+  explicit PieceMaker(double distancePx)
+      : distance_(std::max(1.0, distancePx)),
+        onLine_(std::clamp(kOnLine * distancePx, kOnLinePx, 4.0)),
+        index_(std::max(distance_, onLine_)) {}
+
+  void add(MeanLine line, const RunContext& context) {
+    std::vector<Cover> covers = coverage(line, context);
+    if (context.isCancelled()) return;
+    if (line.closed) {
+      const auto first = std::find_if(covers.begin(), covers.end(), [](const Cover& c) { return c.on; });
+      if (first == covers.end()) return keepWhole(std::move(line));
+      // A ring that partly lies on other lines becomes an open line that begins there.
+      const auto by = first - covers.begin();
+      const auto turn = [by](auto& v) { std::rotate(v.begin(), v.begin() + by, v.end()); };
+      turn(line.points);
+      turn(line.tangent);
+      turn(line.source);
+      turn(line.weight);
+      line.closed = false;
+      covers = coverage(line, context);
+      if (context.isCancelled()) return;
+    }
+    keepUncovered(line, covers);
+  }
+
+  StrokePieces finish() { return std::move(result_); }
+
+ private:
+  std::vector<Cover> coverage(const MeanLine& line, const RunContext& context) const {
+    const int n = static_cast<int>(line.points.size());
+    const int ownWay = static_cast<int>(kOwnWay * distance_) + 30;
+    std::vector<Cover> covers(line.points.size());
+    PlaceIndex own(std::max(distance_, onLine_));
+    for (int i = 0; i < n; ++i) {
+      if ((i & 4095) == 0 && context.isCancelled()) break;
+      const auto at = static_cast<std::size_t>(i);
+      Cover& c = covers[at];
+      double nearest = distance_;
+      const auto look = [&](const Vec2& p, const Vec2& t, Place place) {
+        const double d = (p - line.points[at]).norm();
+        if (d > nearest || std::abs(t.dot(line.tangent[at])) < kSameWay) return;
+        // The same from any order of the cells.
+        if (d == nearest && c.beside && std::pair(place.piece, place.index) > std::pair(c.place.piece, c.place.index))
+          return;
+        nearest = d;
+        c = {d <= onLine_, true, place};
+      };
+      index_.around(line.points[at], [&](const Place& p) {
+        const MeanLine& piece = result_.pieces[static_cast<std::size_t>(p.piece)];
+        look(piece.points[static_cast<std::size_t>(p.index)], piece.tangent[static_cast<std::size_t>(p.index)], p);
+      });
+      own.around(line.points[at], [&](const Place& p) {
+        const int apart = i - p.index;
+        if (apart < ownWay || (line.closed && n - apart < ownWay)) return;
+        look(line.points[static_cast<std::size_t>(p.index)], line.tangent[static_cast<std::size_t>(p.index)], p);
+      });
+      if (!c.on) own.add(line.points[at], {-1, i});
+    }
+    flipRuns(covers, false, kShortestGap, false);
+    flipRuns(covers, true, kShortestRun, true);
+    absorbBeside(covers);
+    return covers;
+  }
+
+  static void flipRuns(std::vector<Cover>& covers, bool what, int shorter, bool onlyInside) {
+    const int n = static_cast<int>(covers.size());
+    for (int i = 0; i < n; ++i) {
+      if (covers[static_cast<std::size_t>(i)].on != what) continue;
+      int end = i;
+      while (end + 1 < n && covers[static_cast<std::size_t>(end) + 1].on == what) ++end;
+      const bool inside = i > 0 && end + 1 < n;
+      if (end - i + 1 < shorter && (inside || !onlyInside))
+        for (int k = i; k <= end; ++k) covers[static_cast<std::size_t>(k)].on = !what;
+      i = end;
+    }
+  }
+
+  // A stretch that leaves a line, stays within the distance all along and comes back, or ends there, is of that line.
+  static void absorbBeside(std::vector<Cover>& covers) {
+    const int n = static_cast<int>(covers.size());
+    for (int i = 0; i < n; ++i) {
+      if (covers[static_cast<std::size_t>(i)].on) continue;
+      int end = i, beside = 0;
+      while (end + 1 < n && !covers[static_cast<std::size_t>(end) + 1].on) ++end;
+      for (int k = i; k <= end; ++k) beside += covers[static_cast<std::size_t>(k)].beside ? 1 : 0;
+      const bool touches = i > 0 || end + 1 < n;
+      if (touches && beside >= (1.0 - kBesideSlack) * (end - i + 1))
+        for (int k = i; k <= end; ++k) covers[static_cast<std::size_t>(k)].on = true;
+      i = end;
+    }
+  }
+
+  void index(int piece) {
+    const MeanLine& line = result_.pieces[static_cast<std::size_t>(piece)];
+    for (std::size_t i = 0; i < line.points.size(); ++i) index_.add(line.points[i], {piece, static_cast<int>(i)});
+  }
+
+  void keepWhole(MeanLine line) {
+    result_.pieces.push_back(std::move(line));
+    index(static_cast<int>(result_.pieces.size()) - 1);
+  }
+
+  // The place on what was kept that the point `i` lies on; the line's own points have become pieces by then.
+  static std::optional<Place> placeOf(const std::vector<Cover>& covers, const std::vector<Place>& kept, int i) {
+    for (int k : {i, i - 1, i + 1, i - 2, i + 2}) {
+      if (k < 0 || k >= static_cast<int>(covers.size())) continue;
+      const Cover& c = covers[static_cast<std::size_t>(k)];
+      if (!c.beside) continue;
+      const Place place = c.place.piece >= 0 ? c.place : kept[static_cast<std::size_t>(c.place.index)];
+      if (place.piece >= 0) return place;
+    }
+    return std::nullopt;
+  }
+
+  void keepUncovered(const MeanLine& line, const std::vector<Cover>& covers) {
+    const int n = static_cast<int>(line.points.size());
+    std::vector<Place> kept(line.points.size(), {-1, 0});
+    std::vector<std::pair<int, int>> runs;
+    const auto before = static_cast<int>(result_.pieces.size());
+    for (int i = 0; i < n; ++i) {
+      if (covers[static_cast<std::size_t>(i)].on) continue;
+      int end = i;
+      while (end + 1 < n && !covers[static_cast<std::size_t>(end) + 1].on) ++end;
+      if (end - i >= 2) {
+        for (int k = i; k <= end; ++k)
+          kept[static_cast<std::size_t>(k)] = {static_cast<int>(result_.pieces.size()), k - i};
+        result_.pieces.push_back(part(line, i, end));
+        runs.emplace_back(i, end);
+      }
+      i = end;
+    }
+    for (int r = 0; r < static_cast<int>(runs.size()); ++r) {
+      const auto [from, to] = runs[static_cast<std::size_t>(r)];
+      const auto attach = [&](int side, int beyond) {
+        if (beyond < 0 || beyond >= n) return;
+        if (const auto place = placeOf(covers, kept, beyond))
+          result_.attachments.push_back({before + r, side, place->piece, place->index});
+      };
+      attach(0, from - 1);
+      attach(1, to + 1);
+      index(before + r);
+    }
+  }
+
+  double distance_, onLine_;
+  StrokePieces result_;
+  PlaceIndex index_;
+};
+
+}  // namespace
+
+StrokePieces coverPieces(std::vector<MeanLine> lines, double distancePx, const RunContext& context) {
+  PieceMaker maker(distancePx);
+  for (MeanLine& line : lines) {
+    if (context.isCancelled()) return {};
+    if (line.points.size() >= 3) maker.add(std::move(line), context);
+  }
+  return maker.finish();
+}
+
+}  // namespace batten
