@@ -91,6 +91,7 @@ struct ConstructPiece {
   bool closed = false;            ///< Smooth closed: the curve is periodic.
   std::vector<int> drawn;         ///< Pen strokes: indices of the points that were drawn; empty = all are measured.
   std::vector<std::uint8_t> refined = {};  ///< Per point: 0 = known to the pixel only; empty = all are better known.
+  std::vector<float> sigmaPx = {};         ///< [px] per point: standard deviation across the line; empty = all alike.
   bool startIsCorner = false;
   bool endIsCorner = false;
   std::vector<Vec2> divisions;  ///< Places along the line where the user wants typical curves to meet.

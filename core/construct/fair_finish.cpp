@@ -89,9 +89,7 @@ class Finish {
 
   /// True when a result was set.
   bool fair() {
-    const auto rough =
-        localPosterior(*piece_.frame, s0_, uniformPrior(*piece_.frame, s0_, cutoffPx_), 0, options_.emWidthPx);
-    if (!rough || !moveFrame(rough->mean)) return false;
+    if (piece_.rough.size() == 0 || !moveFrame(piece_.rough)) return false;
     auto local =
         localPosterior(frame_, s0_, uniformPrior(frame_, s0_, cutoffPx_), options_.emRounds, options_.emWidthPx);
     if (!local || context_.isCancelled()) return false;
@@ -178,7 +176,7 @@ class Finish {
     report_.isCircle = true;
     noWishMet();
     // Three parameters: the curvature -1/r varies as the radius does, r +- sqrt(S0 / length).
-    const double sigma = std::sqrt(s0_ / frame_.base.knots().length) / (fit->radius * fit->radius);
+    const double sigma = std::sqrt(s0_ / meanWeight() / frame_.base.knots().length) / (fit->radius * fit->radius);
     for (const double s : {0.0, curve.knots().length}) {
       report_.bandS.push_back(s * pixelMm_);
       report_.bandSigma.push_back(sigma / pixelMm_);
@@ -186,14 +184,20 @@ class Finish {
     for (std::size_t i = 0; i < piece_.data.points.size(); ++i) {
       if (!piece_.data.use[i]) continue;
       const double e = (piece_.data.points[i] - fit->centre).norm() - fit->radius;
-      addResidual(e);
+      addResidual(e, piece_.data.weight[i]);
     }
     piece_.result = ConstructedPiece{*nurbs, report_};
     return true;
   }
 
-  void addResidual(double e) {
-    if (std::abs(e) > 6.0 * std::sqrt(s0_)) return;
+  double meanWeight() const {
+    double sum = 0.0;
+    for (const FairBlock& block : frame_.blocks) sum += block.weight;
+    return std::max(1e-3, sum / static_cast<double>(frame_.blocks.size()));
+  }
+
+  void addResidual(double e, double weight) {
+    if (std::abs(e) * std::sqrt(weight) > 6.0 * std::sqrt(s0_)) return;
     piece_.squares += e * e;
     ++piece_.pointCount;
   }
@@ -207,11 +211,11 @@ class Finish {
     report_.why = Termination::Exact;
     report_.isLine = true;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (piece_.data.use[i]) addResidual(cross(fit->direction, points[i] - fit->point));
+      if (piece_.data.use[i]) addResidual(cross(fit->direction, points[i] - fit->point), piece_.data.weight[i]);
     }
     // A parabola's curvature from data of density S0 over the length L: variance 720 S0 / L^5.
     const double length = (points.back() - points.front()).norm();
-    const double sigma = std::sqrt(720.0 * s0_ / std::pow(length, 5));
+    const double sigma = std::sqrt(720.0 * s0_ / meanWeight() / std::pow(length, 5));
     for (const double s : {0.0, length}) {
       report_.bandS.push_back(s * pixelMm_);
       report_.bandSigma.push_back(sigma / pixelMm_);
@@ -246,10 +250,11 @@ class Finish {
     const Eigen::VectorXd start = posterior.mean;
     pinEnds(posterior);
     const double never = std::numeric_limits<double>::infinity();
-    const auto fit = fitStructure(frame_, posterior, found.structure, start, 1.0, 0.0, never);
+    found.structure.leastSlope.clear();
+    auto fit = fitStructure(frame_, posterior, found.structure, start, 1.0, 0.0, never);
     if (!fit) return std::nullopt;
     found.limited = found.limited || !fit->converged;
-    return offsetCurve(frame_.base, fit->c);
+    return offsetCurve(frame_.base, withoutPlateaus(frame_, posterior, found.structure, std::move(*fit)).c);
   }
 
   /// True if the curvature itself (the programs see it to first order) turns more often than the structure has extrema.
@@ -306,7 +311,9 @@ class Finish {
           std::sqrt(std::max(0.0, BandCholesky::quadratic(posterior.covariance, frame_.checks[i].kappaRow))));
     }
     ReduceLimits limits;
-    limits.distancePx = options_.reduceShare * std::max(kLeastNoisePx, std::sqrt(frame_.squares / frame_.pointCount));
+    // By weight: the calm stretches of an uneven line say how far it may move.
+    limits.distancePx =
+        options_.reduceShare * std::max(kLeastNoisePx, std::sqrt(frame_.weightedSquares / frame_.weights));
     limits.kappaSigma = sigma;
     limits.perSpan = kChecksPerSpan;
     limits.kappaShare = kKappaShare * options_.reduceShare;

@@ -15,17 +15,39 @@
 namespace batten {
 namespace {
 
-constexpr int kRounds = 3;               // of fits of a contour; stretches are cut where a round has failed
+constexpr int kFitRounds = 3;            // of fits of a contour; stretches are cut where a round has failed
 constexpr double kWhiteDensity = 0.045;  // [px^2 px] of ordinary edge points; where a contour is too short to tell
+
+/// Smooths every piece by its own cut-off and weighs its points by the noise that this leaves.
+void followNoise(std::vector<FairPiece>& pieces, const CutoffChoice& choice, double density, double s0,
+                 const FairFitOptions& options, const RunContext& context) {
+  std::vector<NoiseTrace> traces(pieces.size());
+  parallelFor(context, static_cast<int>(pieces.size()), 1, [&](int begin, int end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      FairPiece& piece = pieces[i];
+      if (!piece.frame || context.isCancelled()) continue;
+      const std::vector<double> prior = uniformPrior(*piece.frame, s0, CutoffTable::cutoffPx(choice.k[i]));
+      const auto smooth = localPosterior(*piece.frame, s0, prior, 0, options.emWidthPx);
+      if (!smooth) continue;
+      piece.rough = smooth->mean;
+      traces[i] = noiseTrace(*piece.frame, smooth->mean, s0);
+    }
+  });
+  const std::vector<LocalNoise> noise = localNoise(traces);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (pieces[i].frame) weighByNoise(pieces[i].data, noise[i], density, options.noiseDensityFloor);
+  }
+}
 
 Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour, bool willBeCut,
                                                 const FairFitOptions& options, const RunContext& context) {
   const int count = static_cast<int>(contour.pieces.size());
   std::vector<FairPiece> pieces(contour.pieces.size());
+  const double ordinary = ordinarySigma(contour);
   parallelFor(context, count, 1, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
       const auto at = static_cast<std::size_t>(i);
-      pieces[at] = prepareFairPiece(contour.pieces[at], contour.isStroke, contour.pixelMm, options);
+      pieces[at] = prepareFairPiece(contour.pieces[at], contour.isStroke, contour.pixelMm, ordinary, options);
     }
   });
   if (context.isCancelled()) return cancelled();
@@ -35,10 +57,13 @@ Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour,
   const bool measured = std::any_of(choice.k.begin(), choice.k.end(), [](int k) { return k >= 0; });
   const double density = measured ? options.blockPx * choice.blockVariance : kWhiteDensity;
   const double s0 = std::max(density, options.noiseDensityFloor);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (choice.k[i] < 0) pieces[i].frame.reset();
+  }
+  followNoise(pieces, choice, density, s0, options, context);
   parallelFor(context, count, 1, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
       const auto at = static_cast<std::size_t>(i);
-      if (choice.k[at] < 0) pieces[at].frame.reset();
       const double cutoff = CutoffTable::cutoffPx(std::max(0, choice.k[at]));
       finishFairPiece(pieces[at], contour.pieces[at], contour.pixelMm, s0, cutoff, willBeCut, options, context);
     }
@@ -64,7 +89,7 @@ Result<std::vector<ConstructedPiece>> fitParts(const ConstructContour& contour, 
   for (const ConstructPiece& piece : contour.pieces) {
     parts.emplace_back(piece, contour.isStroke, contour.pixelMm, options);
   }
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     ConstructContour stretches{{}, contour.isStroke, contour.pixelMm};
     std::vector<std::size_t> counts;
     for (const FairParts& part : parts) {
@@ -72,13 +97,13 @@ Result<std::vector<ConstructedPiece>> fitParts(const ConstructContour& contour, 
       counts.push_back(pieces.size());
       std::move(pieces.begin(), pieces.end(), std::back_inserter(stretches.pieces));
     }
-    auto fits = fitPieces(stretches, round + 1 < kRounds, options, context);
+    auto fits = fitPieces(stretches, round + 1 < kFitRounds, options, context);
     if (!fits) return fits;
     bool again = false;
     auto next = std::make_move_iterator(fits->begin());
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const auto end = next + static_cast<std::ptrdiff_t>(counts[i]);
-      again = parts[i].check({next, end}, round + 1 == kRounds) || again;
+      again = parts[i].check({next, end}, round + 1 == kFitRounds) || again;
       next = end;
     }
     if (!again) break;

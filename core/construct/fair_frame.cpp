@@ -63,28 +63,32 @@ void averageBlocks(FairFrame& frame, const FairData& data, const FairFitOptions&
   const int count = std::max(1, static_cast<int>(std::lround(length / wished)));
   frame.blockLength = length / count;
   struct Sum {
-    double e = 0.0, t = 0.0;
+    double e = 0.0, t = 0.0, w = 0.0;
     int n = 0;
   };
   std::vector<Sum> sums(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < data.points.size(); ++i) {
-    if (!data.use[i] || std::abs(e[i]) > limit) continue;
+    const double w = data.weight[i];
+    if (!data.use[i] || std::abs(e[i]) * std::sqrt(w) > limit) continue;
     auto& sum =
         sums[static_cast<std::size_t>(std::clamp(static_cast<int>(data.t[i] / frame.blockLength), 0, count - 1))];
-    sum.e += e[i];
-    sum.t += data.t[i];
+    sum.e += w * e[i];
+    sum.t += w * data.t[i];
+    sum.w += w;
     ++sum.n;
     frame.squares += e[i] * e[i];
     ++frame.pointCount;
+    frame.weightedSquares += w * e[i] * e[i];
+    frame.weights += w;
   }
   const double expected = frame.blockLength * data.density;
   const double least = std::min(2.0, 0.5 * expected);
   for (const Sum& sum : sums) {
     if (sum.n < std::max(least, 0.3 * expected) || sum.n == 0) continue;
     FairBlock block;
-    block.u = sum.t / sum.n;
-    block.offset = sum.e / sum.n;
-    block.weight = std::min(1.0, sum.n / (0.6 * expected));
+    block.u = sum.t / sum.w;
+    block.offset = sum.e / sum.w;
+    block.weight = std::min(1.0, sum.n / (0.6 * expected)) * sum.w / sum.n;
     block.row = frame.base.knots().row(block.u, 0);
     frame.blocks.push_back(block);
   }
@@ -136,7 +140,7 @@ std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions& opt
   double length = t.back() + (data.closed ? (smooth.front() - smooth.back()).norm() : 0.0);
   const double spacing = std::max(options.knotSpacingPx, 3.0 / data.density);
   std::vector<double> weights(n), e(n);
-  for (std::size_t i = 0; i < n; ++i) weights[i] = data.use[i] ? 1.0 : 0.0;
+  for (std::size_t i = 0; i < n; ++i) weights[i] = data.use[i] ? data.weight[i] : 0.0;
   std::optional<UniformQuintic> curve;
   for (int pass = 0; pass < 4; ++pass) {
     if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
@@ -148,12 +152,12 @@ std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions& opt
       t[i] = curve->footPoint(data.points[i], t[i], spacing);
       const PlaneDerivatives d = curve->at(t[i], 1);
       e[i] = (data.points[i] - d[0]).dot(unitNormal(d[1]));
-      if (data.use[i]) used.push_back(e[i]);
+      if (data.use[i]) used.push_back(e[i] * std::sqrt(data.weight[i]));
     }
     const double reach = 6.0 * std::max(robustSigma(used), 0.02);
     for (std::size_t i = 0; i < n; ++i) {
-      const double x = std::min(1.0, std::abs(e[i]) / reach);
-      weights[i] = data.use[i] ? (1.0 - x * x) * (1.0 - x * x) : 0.0;
+      const double x = std::min(1.0, std::abs(e[i]) * std::sqrt(data.weight[i]) / reach);
+      weights[i] = data.use[i] ? data.weight[i] * (1.0 - x * x) * (1.0 - x * x) : 0.0;
     }
     if (pass == 3) break;
     for (double& u : t) {
@@ -179,7 +183,7 @@ FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFi
     data.t[i] = u;
     const PlaneDerivatives d = base.at(u, 1);
     e[i] = (data.points[i] - d[0]).dot(unitNormal(d[1]));
-    used.push_back(e[i]);
+    used.push_back(e[i] * std::sqrt(data.weight[i]));
   }
   averageBlocks(frame, data, options, e, 6.0 * std::max(robustSigma(std::move(used)), 0.02));
   frame.h = BandMatrix(knots.coefficients(), knots.closed);

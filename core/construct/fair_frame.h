@@ -17,6 +17,7 @@ namespace batten {
 struct FairData {
   std::vector<Vec2> points;
   std::vector<std::uint8_t> use;  ///< 0: gated out or too near a corner.
+  std::vector<double> weight;     ///< 1 / variance, 1 being that of an ordinary point of the contour; same size.
   std::vector<double> t;          ///< Parameters of the foot points on the curve of the moment.
   bool closed = false;
   double density = 1.0;  ///< [1/px] points per length, at most 1.
@@ -33,8 +34,10 @@ struct FrameStation {
 /// The same from derivatives 0..4 of the curve, which runs at about unit speed, and the basis rows of these orders.
 FrameStation frameStation(const PlaneDerivatives&, const std::array<BandRow, 5>& rows);
 
+/// The mean of the points over some px of the line.
 struct FairBlock {
-  double u = 0.0, offset = 0.0, weight = 0.0;
+  double u = 0.0, offset = 0.0;
+  double weight = 0.0;  ///< Of the mean: 1 for a block full of ordinary points.
   BandRow row;
 };
 
@@ -49,6 +52,7 @@ struct FairFrame {
   Eigen::VectorXd g;
   double squares = 0.0;  ///< Sum of squared residuals of the single points about the base curve.
   int pointCount = 0;
+  double weightedSquares = 0.0, weights = 0.0;  ///< The same by weight; sum of the weights.
 };
 
 /// Uniform knots for a length: spacing as near to `spacingPx` as whole spans allow.
@@ -58,7 +62,7 @@ UniformKnots fairKnots(double length, double spacingPx, bool closed);
 /// data.t.
 std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions&);
 
-/// Projects the points on the curve (updates data.t), averages them over blocks and sets up the rows.
+/// Projects the points on the curve (updates data.t), averages them by their weights over blocks and sets up the rows.
 /// @param checksPerSpan check stations a span; 0 leaves them out.
 FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFitOptions&, int checksPerSpan);
 

@@ -60,6 +60,12 @@ std::vector<ConstructPiece> FairParts::stretches() const {
   for (const PointRange& range : smooth_) {
     ConstructPiece piece;
     piece.points = pointsOf(range);
+    const std::size_t n = piece_.points.size();
+    for (int i = range.first; i <= range.last; ++i) {
+      const std::size_t at = static_cast<std::size_t>(i) % n;
+      if (piece_.refined.size() == n) piece.refined.push_back(piece_.refined[at]);
+      if (piece_.sigmaPx.size() == n) piece.sigmaPx.push_back(piece_.sigmaPx[at]);
+    }
     piece.startIsCorner = piece_.startIsCorner && range.first == 0;
     piece.endIsCorner = piece_.endIsCorner && range.last + 1 == static_cast<int>(piece_.points.size());
     pieces.push_back(std::move(piece));

@@ -7,6 +7,7 @@
 
 #include "core/base/run_context.h"
 #include "core/construct/construct.h"
+#include "core/construct/fair_noise.h"
 #include "core/construct/fair_posterior.h"
 #include "core/construct/fair_simple.h"
 
@@ -19,17 +20,26 @@ struct FairPiece {
   FairPins pins;                   ///< As data.
   std::optional<FairFrame> frame;  ///< About the pilot; absent: too short for the fair fit.
   CutoffTable table;
-  double squares = 0.0;  ///< Of the residuals of single points about the result.
+  Eigen::VectorXd rough;  ///< Offsets from the pilot by the cut-off of the piece.
+  double squares = 0.0;   ///< Of the residuals of single points about the result.
   int pointCount = 0;
   std::optional<Result<ConstructedPiece>> result;
 };
 
-/// Points in px, cleaned and gated; pilot, first frame and the table of cut-offs.
-FairPiece prepareFairPiece(const ConstructPiece&, bool isStroke, double pixelMm, const FairFitOptions&);
+/// [px] Median of the standard deviations that the points of a contour came with; 0: they came with none.
+double ordinarySigma(const ConstructContour&);
 
-/// The rest, once noise and cut-off are known: sets `result`, `squares` and `pointCount`. Leaves `result` absent when
-/// cancelled. `willBeCut`: a piece whose smoothing already leaves its points will be cut there and fitted again, and
-/// gets no more than that smoothing.
+/// Points in px, cleaned and gated; pilot, first frame and the table of cut-offs.
+FairPiece prepareFairPiece(const ConstructPiece&, bool isStroke, double pixelMm, double ordinarySigmaPx,
+                           const FairFitOptions&);
+
+/// Adapts the weights to the noise along the piece, and to what is left of it above the floor: a weight of 1 is a noise
+/// density of max(measured, floor).
+void weighByNoise(FairData&, const LocalNoise&, double measured, double floor);
+
+/// The rest, once noise and cut-off are known and `rough` is set: sets `result`, `squares` and `pointCount`. Leaves
+/// `result` absent when cancelled. `willBeCut`: a piece whose smoothing already leaves its points will be cut there and
+/// fitted again, and gets no more than that smoothing.
 void finishFairPiece(FairPiece&, const ConstructPiece&, double pixelMm, double s0, double cutoffPx, bool willBeCut,
                      const FairFitOptions&, const RunContext&);
 

@@ -165,6 +165,7 @@ std::optional<FairPosterior> localPosterior(const FairFrame& frame, double s0, s
                                             double widthPx) {
   FairPosterior p;
   p.tau2 = std::move(tau2);
+  p.s0 = s0;
   BandCholesky cholesky;
   const double least = s0 / cutoffWeight(kLongestCutoffPx);
   for (int round = 0; round <= rounds; ++round) {

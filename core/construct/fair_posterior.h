@@ -15,6 +15,7 @@ struct FairPosterior {
   BandMatrix a;
   Eigen::VectorXd b;
   double constant = 0.0;
+  double s0 = 1.0;           ///< [px^2 px] noise density of weight 1.
   BandMatrix covariance;     ///< A^-1 within the band.
   Eigen::VectorXd mean;      ///< Unconstrained minimum.
   std::vector<double> tau2;  ///< [1/px^6 px] prior density of kappa'' per station of the penalty.

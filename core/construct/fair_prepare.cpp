@@ -10,16 +10,24 @@ namespace batten {
 namespace {
 
 constexpr double kGuardOutlinePx = 4.0, kGuardStrokePx = 8.0;
-constexpr double kGuardShare = 0.1;   // of the length: short pieces keep most of their points
-constexpr double kShortestPx = 40.0;  // below, a low degree says all there is to say
+constexpr double kGuardShare = 0.1;       // of the length: short pieces keep most of their points
+constexpr double kShortestFairPx = 40.0;  // below, a low degree says all there is to say
 constexpr std::size_t kFewestBlocks = 5;
 constexpr int kGateReach = 5;
+// So that a wrong estimate of the noise does little harm; points known to the pixel only may weigh less.
+constexpr double kLeastWeight = 1.0 / 64.0, kMostWeight = 16.0, kGuessedWeight = 1e-3;
 
-/// Points that differ from their predecessor, in px about their mean.
-void readPoints(FairPiece& piece, const ConstructPiece& in, double pixelMm) {
+/// Points that differ from their predecessor, in px about their mean, and what they weigh.
+void readPoints(FairPiece& piece, const ConstructPiece& in, double pixelMm, double ordinarySigmaPx) {
   std::vector<Vec2> px;
-  for (const Vec2& p : in.points) {
-    if (p.allFinite()) px.push_back(p / pixelMm);
+  std::vector<double> weight;
+  for (std::size_t i = 0; i < in.points.size(); ++i) {
+    if (!in.points[i].allFinite()) continue;
+    px.push_back(in.points[i] / pixelMm);
+    const double sigma = i < in.sigmaPx.size() ? static_cast<double>(in.sigmaPx[i]) : 0.0;
+    const double ratio = sigma > 0.0 && ordinarySigmaPx > 0.0 ? ordinarySigmaPx / sigma : 1.0;
+    const bool guessed = i < in.refined.size() && in.refined[i] == 0;
+    weight.push_back(std::clamp(ratio * ratio, guessed ? kGuessedWeight : kLeastWeight, kMostWeight));
   }
   if (px.empty()) return;
   Vec2 low = px.front(), high = px.front(), sum = Vec2::Zero();
@@ -31,11 +39,16 @@ void readPoints(FairPiece& piece, const ConstructPiece& in, double pixelMm) {
   piece.origin = sum / static_cast<double>(px.size());
   const double same = 1e-9 * (high - low).norm();
   auto& points = piece.data.points;
-  for (const Vec2& p : px) {
-    const Vec2 centred = p - piece.origin;
-    if (points.empty() || (centred - points.back()).norm() > same) points.push_back(centred);
+  for (std::size_t i = 0; i < px.size(); ++i) {
+    const Vec2 centred = px[i] - piece.origin;
+    if (!points.empty() && (centred - points.back()).norm() <= same) continue;
+    points.push_back(centred);
+    piece.data.weight.push_back(weight[i]);
   }
-  while (in.closed && points.size() > 1 && (points.front() - points.back()).norm() <= same) points.pop_back();
+  while (in.closed && points.size() > 1 && (points.front() - points.back()).norm() <= same) {
+    points.pop_back();
+    piece.data.weight.pop_back();
+  }
   piece.data.closed = in.closed;
   piece.data.use.assign(points.size(), 1);
   if (in.startIsCorner && !in.closed) piece.pins.start = points.front();
@@ -77,6 +90,7 @@ void trimFreeEnds(FairPiece& piece) {
   };
   cut(data.points);
   cut(data.use);
+  cut(data.weight);
 }
 
 }  // namespace
@@ -116,9 +130,32 @@ void gateStrays(FairData& data, double gatePx, double spacing) {
   }
 }
 
-FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, double pixelMm, const FairFitOptions& options) {
+double ordinarySigma(const ConstructContour& contour) {
+  std::vector<float> sigma;
+  for (const ConstructPiece& piece : contour.pieces) {
+    const std::size_t n = std::min(piece.sigmaPx.size(), piece.points.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      if (piece.sigmaPx[i] > 0.0f && std::isfinite(piece.sigmaPx[i])) sigma.push_back(piece.sigmaPx[i]);
+    }
+  }
+  if (sigma.empty()) return 0.0;
+  const auto middle = sigma.begin() + static_cast<std::ptrdiff_t>(sigma.size() / 2);
+  std::nth_element(sigma.begin(), middle, sigma.end());
+  return *middle;
+}
+
+void weighByNoise(FairData& data, const LocalNoise& noise, double measured, double floor) {
+  const double s0 = std::max(measured, floor);
+  for (std::size_t i = 0; i < data.weight.size(); ++i) {
+    const double there = measured * noise.at(data.t[i]) / data.weight[i];
+    data.weight[i] = s0 / std::max(there, floor);
+  }
+}
+
+FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, double pixelMm, double ordinarySigmaPx,
+                           const FairFitOptions& options) {
   FairPiece piece;
-  readPoints(piece, in, pixelMm);
+  readPoints(piece, in, pixelMm, ordinarySigmaPx);
   FairData& data = piece.data;
   if (data.points.size() < 2) return piece;
   double length = 0.0;
@@ -133,7 +170,7 @@ FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, double pixel
     last = &data.points[i];
   }
   guardCorners(piece, std::min(isStroke ? kGuardStrokePx : kGuardOutlinePx, kGuardShare * length));
-  if (length < kShortestPx) return piece;
+  if (length < kShortestFairPx) return piece;
   const auto pilot = fitPilot(data, options);
   if (!pilot) return piece;
   FairFrame frame = assembleFrame(*pilot, data, options, 0);

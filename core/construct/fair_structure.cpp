@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 
 #include "core/construct/monotone_qp.h"
@@ -90,11 +91,22 @@ void addConstraint(MonotoneQp& qp, const FrameStation& station, const FairStruct
   }
   const FairExtremum* window = nullptr;
   bool rising = structure.rising;
+  std::size_t stretch = 0;
+  double away = kWindowMaxPx, gentle = 1.0;  // px beyond the windows on either side, px over which the slope may set in
   if (!extrema.empty()) {
     const auto notBefore = [&](const FairExtremum& e, double u) { return e.u + e.halfWidth < u; };
     const auto next = std::lower_bound(extrema.begin(), extrema.end(), station.u, notBefore);
     const FairExtremum& last = extrema.back();
     const FairExtremum& first = extrema.front();
+    stretch = next == extrema.end() && knots.closed ? 0 : static_cast<std::size_t>(next - extrema.begin());
+    const auto consider = [&](const FairExtremum& e, double u) {
+      const double distance = std::abs(u - e.u) - e.halfWidth;
+      if (distance < away) away = distance, gentle = e.halfWidth;
+    };
+    if (next != extrema.end()) consider(*next, station.u);
+    if (next != extrema.begin()) consider(*std::prev(next), station.u);
+    if (knots.closed && next == extrema.end()) consider(first, station.u - knots.length);
+    if (knots.closed && next == extrema.begin()) consider(last, station.u + knots.length);
     if (next != extrema.end()) {
       if (station.u >= next->u - next->halfWidth) window = &*next;
       rising = next->maximum;
@@ -111,7 +123,11 @@ void addConstraint(MonotoneQp& qp, const FrameStation& station, const FairStruct
   row.first = firstOwn;
   for (double& v : row.v) v *= sign;
   qp.rows.push_back(row);
-  qp.bounds.push_back(-sign * (window ? station.bend : station.slope));
+  double least = 0.0;
+  if (!window && stretch < structure.leastSlope.size()) {
+    least = structure.leastSlope[stretch] * std::clamp(away / gentle, 0.0, 1.0);
+  }
+  qp.bounds.push_back(least - sign * (window ? station.bend : station.slope));
 }
 
 /// The columns that a program solves for.

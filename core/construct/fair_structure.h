@@ -33,6 +33,9 @@ struct PlacedWish {
 struct FairStructure {
   std::vector<FairExtremum> extrema;
   bool rising = true;
+  /// [1/px^2] The curvature rises or falls at least this much away from the extrema, per stretch between them (closed:
+  /// the first one ends at the first extremum; open: and one after the last). Empty: it need not.
+  std::vector<double> leastSlope = {};
 };
 
 struct StructureResult {
@@ -68,6 +71,12 @@ struct StructureFit {
 /// @param abortRise stops as soon as the rise is proven to exceed this.
 std::optional<StructureFit> fitStructure(const FairFrame&, const FairPosterior&, FairStructure&,
                                          const Eigen::VectorXd& start, double from, double to, double abortRise);
+
+/// Where the constraints of a structure act the curvature of `fit` is a staircase of plateaus. Asks every stretch for a
+/// part of its mean slope all along, as far as that raises the penalised chi2 of the stretch by no more than noise is
+/// (a line that was drawn with an arc in it keeps its arc), and solves again. Sets structure.leastSlope. Returns `fit`
+/// where nothing can be had.
+StructureFit withoutPlateaus(const FairFrame&, const FairPosterior&, FairStructure&, StructureFit fit);
 
 /// Local extrema of the curvature under offsets c, with their stretches. Sets `rising`.
 FairStructure localExtrema(const FairFrame&, const Eigen::VectorXd& c);

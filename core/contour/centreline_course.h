@@ -6,6 +6,7 @@
 
 #include "core/contour/centreline_graph.h"
 #include "core/contour/contour_set.h"
+#include "core/contour/point_noise.h"
 #include "core/image/grey_image.h"
 
 namespace batten {
@@ -25,7 +26,8 @@ struct StrandCourse {
     float paper = 255.0f, slope = 0.0f;  ///< [grey, grey/px] at `base` and along the left normal.
     float reach = 0.0f;                  ///< [px] no other ink nearer than this.
   };
-  std::vector<Tone> tone;  ///< Where measured, as the profile of the last round had it.
+  std::vector<Tone> tone;                     ///< Where measured, as the profile of the last round had it.
+  std::vector<PointInformation> information;  ///< Of those placed on the pixels themselves; empty: none were.
   bool closed = false;
   bool tip[2] = {false, false};
   double widthPx = 1.0;  ///< Median.

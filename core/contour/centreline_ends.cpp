@@ -168,11 +168,30 @@ void placeEnds(StrandCourse& c, const GreyImage& grey) {
   turnRound(c);
 }
 
+namespace {
+
+// Points that only the half levels of their profile have placed are known half as well as those next to them.
+std::vector<float> sigmasOf(std::vector<PointInformation> information, const std::vector<std::uint8_t>& measured,
+                            bool closed) {
+  double gain = 0.0;
+  for (std::size_t i = 0; i < information.size(); ++i) {
+    if (information[i].gain > 0.0) {
+      gain = information[i].gain;
+    } else if (measured[i]) {
+      information[i].gain = 2.0 * gain;
+    }
+  }
+  return pointSigmas(information, measured, closed);
+}
+
+}  // namespace
+
 Contour contourOf(const StrandCourse& c) {
   Contour contour;
   contour.kind = ContourKind::Centreline;
   contour.closed = c.closed;
   std::vector<StrandPart> part;
+  std::vector<PointInformation> information;
   for (std::size_t i = 0; i < c.base.size(); ++i) {
     if (!contour.points.empty()) {
       // Never back: where a tight turn folded the course, its points go.
@@ -184,6 +203,7 @@ Contour contourOf(const StrandCourse& c) {
     contour.refined.push_back(c.measured[i]);
     contour.widthPx.push_back(std::max(0.1f, c.measuredWidth[i]));
     part.push_back(c.part[i]);
+    if (i < c.information.size()) information.push_back(c.information[i]);
   }
   while (contour.closed && contour.points.size() > 3 &&
          (contour.points.front() - contour.points.back()).norm() < 0.35) {
@@ -192,7 +212,9 @@ Contour contourOf(const StrandCourse& c) {
     contour.refined.pop_back();
     contour.widthPx.pop_back();
     part.pop_back();
+    if (!information.empty()) information.pop_back();
   }
+  if (!information.empty()) contour.sigmaPx = sigmasOf(std::move(information), contour.refined, contour.closed);
   const int n = static_cast<int>(part.size());
   for (int i = 0; i < n; ++i) {
     if (part[static_cast<std::size_t>(i)] != StrandPart::Bridge) continue;

@@ -60,26 +60,52 @@ double squaresLeft(const PixelWindow& window, const PixelResponse& response, con
   return sum;
 }
 
+/// Sums over the pixels for the step of both borders.
+struct BorderSums {
+  double ll = 0.0, lh = 0.0, hh = 0.0, l = 0.0, h = 0.0;  // by weight: normal equations, right side
+  double wll = 0.0, wlh = 0.0, whh = 0.0;                 // by weight squared
+  double squares = 0.0, weights = 0.0;
+  double det() const { return ll * hh - lh * lh; }
+
+  void add(const PixelWindow::Pixel& p, double e, double dl, double dh) {
+    const double w = p.weight, w2 = w * w;
+    ll += w * dl * dl;
+    lh += w * dl * dh;
+    hh += w * dh * dh;
+    l += w * dl * e;
+    h += w * dh * e;
+    wll += w2 * dl * dl;
+    wlh += w2 * dl * dh;
+    whh += w2 * dh * dh;
+    squares += w * e * e;
+    weights += w;
+  }
+  /// What they tell of the middle: weighted least squares under white noise.
+  PointInformation information() const {
+    const double a = (hh - lh) / det(), b = (ll - lh) / det();  // (1 1) times the inverse
+    const double gain = 0.5 * std::sqrt(std::max(0.0, a * a * wll + 2.0 * a * b * wlh + b * b * whh));
+    const double taken = (hh * l * l - 2.0 * lh * l * h + ll * h * h) / det();
+    const double used = (hh * wll - 2.0 * lh * wlh + ll * whh) / det();
+    return {gain, std::max(0.0, squares - taken), std::max(0.0, weights - used)};
+  }
+};
+
 /// Newton steps for both borders.
 std::optional<Stroke> mostLikely(const PixelWindow& window, const PixelResponse& response, const StrokeModel& m,
-                                 double width) {
+                                 double width, PointInformation* information) {
   double low = -0.5 * width, high = 0.5 * width;
   for (int step = 0; step < kStrokeNewtonSteps; ++step) {
-    double ll = 0.0, lh = 0.0, hh = 0.0, l = 0.0, h = 0.0;
+    BorderSums sums;
     for (const PixelWindow::Pixel& p : window.pixels) {
       const auto in = response.at(p.distance - low, m.direction), out = response.at(p.distance - high, m.direction);
       const double e = p.grey - (m.paper + m.slope * p.distance - m.contrast * (in.part - out.part));
-      const double dl = m.contrast * in.slope, dh = -m.contrast * out.slope;
-      ll += p.weight * dl * dl;
-      lh += p.weight * dl * dh;
-      hh += p.weight * dh * dh;
-      l += p.weight * dl * e;
-      h += p.weight * dh * e;
+      sums.add(p, e, m.contrast * in.slope, -m.contrast * out.slope);
     }
-    const double det = ll * hh - lh * lh;
-    if (!(det > 1e-3 * ll * hh)) return std::nullopt;
-    const double moveLow = std::clamp((hh * l - lh * h) / det, -kLargestStepPx, kLargestStepPx);
-    const double moveHigh = std::clamp((ll * h - lh * l) / det, -kLargestStepPx, kLargestStepPx);
+    const double det = sums.det();
+    if (!(det > 1e-3 * sums.ll * sums.hh)) return std::nullopt;
+    if (information) *information = sums.information();
+    const double moveLow = std::clamp((sums.hh * sums.l - sums.lh * sums.h) / det, -kLargestStepPx, kLargestStepPx);
+    const double moveHigh = std::clamp((sums.ll * sums.h - sums.lh * sums.l) / det, -kLargestStepPx, kLargestStepPx);
     low += moveLow;
     high += moveHigh;
     if (!(high - low > 0.2)) return std::nullopt;
@@ -137,15 +163,15 @@ class Placer {
     }
     if (bottom > 0.0) gain_ *= std::clamp(top / bottom, 0.8, 1.25);
   }
-  /// The stroke at point i and, where asked for, what the model leaves there.
-  std::optional<Stroke> place(std::size_t i, const PixelResponse& response, PixelWindow& window,
-                              double* left = nullptr) const {
+  /// The stroke at point i and, where asked for, what the model leaves there and how well the pixels tell.
+  std::optional<Stroke> place(std::size_t i, const PixelResponse& response, PixelWindow& window, double* left = nullptr,
+                              PointInformation* information = nullptr) const {
     const Vec2 normal = leftNormal(c_.tangent[i]);
     const double width = s_.width[i];
     const double reach = std::min(0.5 * width + response.reach() + kFarthestPx, static_cast<double>(c_.tone[i].reach));
     window.read(grey_, c_.base[i], normal, -reach, reach);
     const StrokeModel m = modelAt(i, response);
-    const auto stroke = mostLikely(window, response, m, width);
+    const auto stroke = mostLikely(window, response, m, width, information);
     if (!stroke || std::abs(stroke->middle) > kFarthestPx || std::abs(stroke->width - width) > 0.3 * width + 0.3)
       return std::nullopt;
     if (left) *left = squaresLeft(window, response, m, *stroke);
@@ -210,8 +236,10 @@ int pageBlur(const std::vector<StrandCourse>& courses, const std::vector<Placer>
 void placeOne(StrandCourse& c, const Placer& placer, std::size_t i, const PixelResponse& response,
               PixelWindow& window) {
   if (!placer.canPlace(i)) return;
-  const auto stroke = placer.place(i, response, window);
+  PointInformation information;
+  const auto stroke = placer.place(i, response, window, nullptr, &information);
   if (!stroke) return;
+  c.information[i] = information;
   c.shift[i] = static_cast<float>(stroke->middle);
   c.measuredWidth[i] = static_cast<float>(stroke->width);
 }
@@ -242,6 +270,7 @@ void placeOnPixels(std::vector<StrandCourse>& courses, const GreyImage& grey, co
   });
   // A page is often one long line: the points are shared among the threads, not the lines.
   std::vector<Place> places;
+  for (StrandCourse& c : courses) c.information.assign(c.base.size(), {});
   for (std::size_t c = 0; c < courses.size(); ++c)
     for (std::size_t i = 0; i < courses[c].base.size(); ++i) places.push_back({c, i});
   each(places.size(), kGrain, [&](std::size_t k, PixelWindow& window) {

@@ -33,6 +33,9 @@ struct Contour {
   std::vector<Vec2> chain;   ///< [px] unrefined positions, same size as `points`.
   std::vector<std::uint8_t>
       refined;  ///< 1 = placed on the raw grey values; 0 = fell back. Pen: 1 = drawn, 0 = between. Same size.
+  /// [px] > 0. Standard deviations of the points across the line, as the grey values around them tell; same size, or
+  /// empty: not measured (pen, pencil, merged strokes).
+  std::vector<float> sigmaPx;
   std::vector<float> widthPx;  ///< [px] stroke width (centre lines); empty for outlines.
   StrokeBand band;             ///< The strokes that were merged into this line; empty where nothing was merged.
   std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.

@@ -16,6 +16,7 @@ constexpr double kTurnInnerPx = 3.0;   // the part next to a corner that blur ha
 constexpr double kTurnOuterPx = 16.0;  // about as far as a corner of a drawing stands free
 constexpr double kFitOuterPx = 260.0;
 constexpr double kSamePlacePx = 2.0;
+constexpr float kCornerSigmaPx = 0.1f;
 constexpr double kSnapOuterPx = 64.0;  // looked at on either side before the neighbours are known
 
 struct Nearest {
@@ -169,6 +170,7 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
     const auto at = static_cast<std::size_t>(wrapIndex(i, n));
     piece.points.push_back(contour.points[at]);
     piece.refined.push_back(at < contour.refined.size() ? contour.refined[at] : std::uint8_t{0});
+    if (contour.sigmaPx.size() == contour.points.size()) piece.sigmaPx.push_back(contour.sigmaPx[at]);
   }
   const auto zoneOf = [&](const Cut* cut) { return cut->exact ? cut->zone : 0.5; };
   std::size_t head = 0, tail = 0;
@@ -183,13 +185,21 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   };
   cutEnds(piece.points);
   cutEnds(piece.refined);
+  const bool hasSigma = !piece.sigmaPx.empty();
+  if (hasSigma) cutEnds(piece.sigmaPx);
+  // Of a corner: what is known of the line next to it.
+  const auto sigmaOfCorner = [&](bool atEnd) {
+    return piece.sigmaPx.empty() ? kCornerSigmaPx : atEnd ? piece.sigmaPx.back() : piece.sigmaPx.front();
+  };
   if (start != nullptr) {
     piece.points.insert(piece.points.begin(), start->corner.positionPx);
+    if (hasSigma) piece.sigmaPx.insert(piece.sigmaPx.begin(), sigmaOfCorner(false));
     piece.refined.insert(piece.refined.begin(), start->exact || contour.kind == ContourKind::Pen ? 1 : 0);
     piece.startIsCorner = true;
   }
   if (end != nullptr) {
     piece.points.push_back(end->corner.positionPx);
+    if (hasSigma) piece.sigmaPx.push_back(sigmaOfCorner(true));
     piece.refined.push_back(end->exact || contour.kind == ContourKind::Pen ? 1 : 0);
     piece.endIsCorner = true;
   }

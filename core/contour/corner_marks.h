@@ -43,6 +43,7 @@ struct Piece {
   bool closed = false;       ///< Smooth closed: periodic, no start and no end.
   std::vector<Vec2> points;  ///< [px] ordered; where an end is a corner, the first or last point is exactly the corner.
   std::vector<std::uint8_t> refined;  ///< As in Contour, same size.
+  std::vector<float> sigmaPx;         ///< As in Contour: same size or empty.
   bool startIsCorner = false;
   bool endIsCorner = false;
   double lengthPx = 0.0;

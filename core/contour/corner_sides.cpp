@@ -16,8 +16,9 @@ namespace {
 
 constexpr double kBlockPx = 2.0;         // points are averaged over this much of the axis
 constexpr double kGuessedWeight = 0.02;  // points known to the pixel only, or guessed
-constexpr double kSteepest = 0.8;        // slope against the axis up to which a side is a function of x
-constexpr double kPriorDensity = 0.01;   // [px^2 px] noise of an edge in an ordinary scan, worth kPriorBlocks blocks
+constexpr double kLeastSideWeight = 1.0 / 64.0, kMostSideWeight = 16.0;
+constexpr double kSteepest = 0.8;       // slope against the axis up to which a side is a function of x
+constexpr double kPriorDensity = 0.01;  // [px^2 px] noise of an edge in an ordinary scan, worth kPriorBlocks blocks
 constexpr double kPriorBlocks = 3.0;
 constexpr double kLeastDensity = 0.0006;  // [px^2 px] what the pixel grid leaves: .02 px over 16 px
 constexpr std::size_t kFewestBlocks = 3;
@@ -27,7 +28,8 @@ constexpr double kShortestCutoffPx = 40.0, kLongestCutoffPx = 1100.0, kCutoffSte
 constexpr double kStartPx = 100.0, kStartSlope = 2.0;  // what a side may be at its far end, along its axis
 
 struct SideBlock {
-  double x = 0.0, y = 0.0, weight = 0.0;
+  double x = 0.0, y = 0.0;
+  double weight = 0.0;  // 1: full of ordinary points
 };
 
 double weightOf(const Contour& contour, std::size_t i) {
@@ -37,7 +39,7 @@ double weightOf(const Contour& contour, std::size_t i) {
 // The points of one side, in order away from the corner.
 struct SidePoints {
   std::vector<Vec2> at;
-  std::vector<double> weight;
+  std::vector<double> weight, sigma;  // sigma: empty, or as Contour::sigmaPx
 };
 
 SidePoints collect(const Contour& contour, int index, int side, double inner, double outer) {
@@ -57,6 +59,7 @@ SidePoints collect(const Contour& contour, int index, int side, double inner, do
     if (arc < inner) continue;
     points.at.push_back(contour.points[at]);
     points.weight.push_back(weightOf(contour, at));
+    if (contour.sigmaPx.size() == contour.points.size()) points.sigma.push_back(contour.sigmaPx[at]);
   }
   return points;
 }
@@ -70,6 +73,23 @@ void dropGuessed(SidePoints& points) {
   if (first > kMostGuessed || known < kFewestKnown) return;
   points.at.erase(points.at.begin(), points.at.begin() + static_cast<std::ptrdiff_t>(first));
   points.weight.erase(points.weight.begin(), points.weight.begin() + static_cast<std::ptrdiff_t>(first));
+  if (!points.sigma.empty())
+    points.sigma.erase(points.sigma.begin(), points.sigma.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+// Known points weigh by their own noise, against the median of the side.
+void weighByNoise(SidePoints& points) {
+  std::vector<double> known;
+  for (std::size_t i = 0; i < points.sigma.size(); ++i)
+    if (points.weight[i] >= 1.0) known.push_back(points.sigma[i]);
+  if (known.empty()) return;
+  const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+  std::nth_element(known.begin(), middle, known.end());
+  for (std::size_t i = 0; i < points.sigma.size(); ++i) {
+    if (points.weight[i] < 1.0) continue;
+    const double ratio = *middle / std::max(points.sigma[i], 1e-3);
+    points.weight[i] = std::clamp(ratio * ratio, kLeastSideWeight, kMostSideWeight);
+  }
 }
 
 // The axis: the direction of the first few points.
@@ -88,7 +108,7 @@ Vec2 axisOf(const SidePoints& points) {
 std::vector<SideBlock> blocksOf(const SidePoints& points, const CornerSide& frame) {
   std::vector<SideBlock> blocks;
   SideBlock sum;
-  double begin = 0.0, furthest = 0.0;
+  double begin = 0.0, furthest = 0.0, count = 0.0;
   const auto close = [&] {
     if (sum.weight > 0.0) blocks.push_back({sum.x / sum.weight, sum.y / sum.weight, sum.weight});
     sum = {};
@@ -106,25 +126,33 @@ std::vector<SideBlock> blocksOf(const SidePoints& points, const CornerSide& fram
     sum.x += points.weight[i] * x;
     sum.y += points.weight[i] * y;
     sum.weight += points.weight[i];
+    count += 1.0;
     const std::size_t n = blocks.size();
     if (n >= 4 && std::abs(blocks[n - 1].y - blocks[n - 4].y) > kSteepest * (blocks[n - 1].x - blocks[n - 4].x)) break;
   }
   close();
+  for (SideBlock& b : blocks) b.weight *= static_cast<double>(blocks.size()) / count;
   return blocks;
 }
 
 // [px^2 px] Density of the noise: variance of the mean over a length, times the length. From third differences, which
 // a smooth side leaves small, of the means of `group` blocks: neighbouring points of a centre line share their noise.
+// For blocks of weight 1.
 double noiseDensity(const std::vector<SideBlock>& blocks, std::size_t group) {
-  std::vector<double> mean, square;
+  std::vector<double> mean, weight, square;
   for (std::size_t i = 0; i + group <= blocks.size(); i += group) {
-    double sum = 0.0;
-    for (std::size_t k = i; k < i + group; ++k) sum += blocks[k].y / static_cast<double>(group);
+    double sum = 0.0, weights = 0.0;
+    for (std::size_t k = i; k < i + group; ++k) {
+      sum += blocks[k].y / static_cast<double>(group);
+      weights += blocks[k].weight / static_cast<double>(group);
+    }
     mean.push_back(sum);
+    weight.push_back(weights);
   }
   for (std::size_t i = 0; i + 3 < mean.size(); ++i) {
     const double d = mean[i + 3] - 3.0 * mean[i + 2] + 3.0 * mean[i + 1] - mean[i];
-    square.push_back(d * d / 20.0);
+    const double w = (weight[i] + 9.0 * weight[i + 1] + 9.0 * weight[i + 2] + weight[i + 3]) / 20.0;
+    square.push_back(w * d * d / 20.0);
   }
   if (square.empty()) return kPriorDensity;
   // The median of squares of a normal variable is .455 of its variance.
@@ -251,9 +279,7 @@ Extension extend(const std::vector<SideBlock>& blocks, double density) {
   for (double cutoff = kShortestCutoffPx; cutoff < kLongestCutoffPx; cutoff *= kCutoffStep)
     models.push_back({Model::Kind::Free, density / std::pow(cutoff / (2.0 * std::numbers::pi), 8)});
   const double oneOfFree = std::log(static_cast<double>(models.size() - 2));
-  double weight = 0.0;
-  for (const SideBlock& b : blocks) weight += b.weight / static_cast<double>(blocks.size());
-  const double perBlock = density / kBlockPx * weight;
+  const double perBlock = density / kBlockPx;
   // What a side and its derivatives may be at its far end: it turns by a radian or two along its way, no more, because
   // it stays a function of its axis.
   const double length = std::max(kBlockPx, blocks.back().x - blocks.front().x);
@@ -327,6 +353,7 @@ CornerSide fitCornerSide(const Contour& contour, int index, int side, double inn
   best.origin = contour.points[static_cast<std::size_t>(index)];
   SidePoints points = collect(contour, index, side, inner, outer);
   dropGuessed(points);
+  weighByNoise(points);
   if (points.at.size() < 3) return best;
   best.along = axisOf(points);
   best.across = Vec2(-best.along.y(), best.along.x());

@@ -125,18 +125,28 @@ void PixelWindow::read(const GreyImage& grey, const Vec2& base, const Vec2& norm
 }
 
 double mostLikelyPosition(const PixelWindow& window, const PixelResponse& response, const PixelEdge& edge, double start,
-                          double gate) {
+                          double gate, PointInformation* information) {
+  if (information) *information = {};
   double position = start;
   for (int step = 0; step < kEdgeNewtonSteps; ++step) {
-    double top = 0.0, bottom = 0.0;
+    double top = 0.0, bottom = 0.0, spread = 0.0, squares = 0.0, weights = 0.0;
     for (const PixelWindow::Pixel& p : window.pixels) {
       if (std::abs(p.distance - position) > response.reach()) continue;
       const auto model = modelAt(response, edge, p.distance - position);
       const double gradient = edge.contrast * model.slope;  // of the grey with respect to the position
-      top += p.weight * gradient * (p.grey - (edge.paper - edge.contrast * model.part));
-      bottom += p.weight * gradient * gradient;
+      const double left = p.grey - (edge.paper - edge.contrast * model.part), weighted = p.weight * gradient;
+      top += weighted * left;
+      bottom += weighted * gradient;
+      spread += weighted * weighted;
+      squares += p.weight * left * left;
+      weights += p.weight;
     }
     if (!(bottom > 0.0)) return start;
+    // Weighted least squares under white noise; one step more takes its part of the squares.
+    if (information) {
+      *information = {std::sqrt(spread) / bottom, std::max(0.0, squares - top * top / bottom),
+                      std::max(0.0, weights - spread / bottom)};
+    }
     const double move = std::clamp(top / bottom, -kLargestStepPx, kLargestStepPx);
     position = std::clamp(position + move, start - gate, start + gate);
     if (std::abs(move) < kSettledPx) break;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/vec2.h"
+#include "core/contour/point_noise.h"
 #include "core/image/grey_image.h"
 
 namespace batten {
@@ -64,7 +65,9 @@ struct PixelEdge {
 
 /// The position along the normal that the pixels make most likely under white noise: Newton steps from `start`, at most
 /// `gate` px away from it. `start` when the pixels say nothing.
-double mostLikelyPosition(const PixelWindow&, const PixelResponse&, const PixelEdge&, double start, double gate);
+/// @param information if given, set to how well the pixels tell.
+double mostLikelyPosition(const PixelWindow&, const PixelResponse&, const PixelEdge&, double start, double gate,
+                          PointInformation* information = nullptr);
 /// [grey^2] weighted sum of the squares that the model leaves.
 double squaresLeft(const PixelWindow&, const PixelResponse&, const PixelEdge&, double position);
 

@@ -52,6 +52,7 @@ Contour part(const Contour& whole, std::size_t first, std::size_t count) {
   take(whole.points, cut.points);
   take(whole.chain, cut.chain);
   take(whole.refined, cut.refined);
+  take(whole.sigmaPx, cut.sigmaPx);
   take(whole.widthPx, cut.widthPx);
   take(whole.band.left, cut.band.left);
   take(whole.band.right, cut.band.right);

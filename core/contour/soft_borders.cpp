@@ -81,6 +81,7 @@ Contour stretchOf(const Contour& c, int from, int to) {
     part.points.push_back(c.points[i]);
     part.chain.push_back(c.chain[i]);
     part.refined.push_back(c.refined[i]);
+    if (!c.sigmaPx.empty()) part.sigmaPx.push_back(c.sigmaPx[i]);
   }
   part.lengthPx = polylineLength(part.points, false);
   return part;

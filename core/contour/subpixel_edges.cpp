@@ -8,6 +8,7 @@
 #include "core/contour/curvature_shift.h"
 #include "core/contour/edge_profile.h"
 #include "core/contour/pixel_edge.h"
+#include "core/contour/point_noise.h"
 #include "core/contour/polyline_tools.h"
 
 namespace batten {
@@ -35,6 +36,7 @@ struct Matched {
   std::vector<float> ink, paper;  // [grey] side levels, smoothed along the line
   double blur = 1.1;              // [px] standard deviation of the edge's own blur
   double noise = 0.0;             // [grey] robust standard deviation of the residuals
+  std::vector<PointInformation> information;
 };
 
 // Model of the profile of an edge at 0 and of its twins: 0 = paper, 1 = ink.
@@ -323,16 +325,19 @@ int pixelBlur(const GreyImage& grey, const std::vector<Vec2>& base, const std::v
   return best;
 }
 
-// Last pass, on the raw pixels, which know nothing of the phase between profile and grid. Returns the blur used.
+// Last pass, on the raw pixels, which know nothing of the phase between profile and grid; it also finds how well each
+// point is known. Returns the blur used.
 double pixelPass(const GreyImage& grey, const std::vector<Vec2>& base, const std::vector<Vec2>& normal, Matched& m,
                  const RunContext& context) {
   const PixelResponse& response = PixelResponse::forBlur(pixelBlur(grey, base, normal, m));
+  m.information.resize(base.size());
   parallelFor(context, static_cast<int>(base.size()), kEdgesPerBlock, [&](int begin, int end) {
     PixelWindow window;
     for (int k = begin; k < end; ++k) {
       const auto i = static_cast<std::size_t>(k);
       if (!readWindow(grey, base[i], normal[i], m, i, response.reach() + 0.5, window)) continue;
-      m.position[i] = mostLikelyPosition(window, response, pixelEdge(m, i, response, normal[i]), m.position[i], 0.5);
+      m.position[i] = mostLikelyPosition(window, response, pixelEdge(m, i, response, normal[i]), m.position[i], 0.5,
+                                         &m.information[i]);
     }
   });
   return std::sqrt(response.blur() * response.blur() + kPixelVariance + PixelWindow::kVariance);
@@ -387,6 +392,7 @@ void refineOutline(Contour& contour, const GreyImage& grey, const RunContext& co
     contour.refined[i] = edge ? 1 : 0;
   }
   removeReversals(contour, normal);
+  contour.sigmaPx = pointSigmas(m.information, contour.refined, contour.closed);
   contour.lengthPx = polylineLength(contour.points, contour.closed);
   contour.areaPx = contour.closed ? polygonArea(contour.points) : 0.0;
 }

@@ -31,6 +31,7 @@ ConstructPiece pieceInput(const Piece& piece, const PieceSegments& segments, con
   ConstructPiece made;
   made.points = pointsToModel(piece.points, frame);
   made.refined = piece.refined;
+  made.sigmaPx = piece.sigmaPx;
   for (const Station& s : segments.stations) made.stations.push_back(stationToModel(s, frame));
   made.closed = piece.closed;
   made.startIsCorner = piece.startIsCorner;

@@ -24,13 +24,14 @@ std::size_t bytesOf(const ContourSet& set) {
   std::size_t bytes = sizeof(set);
   for (const Contour& c : set.contours) {
     bytes += sizeof(c) + vectorBytes(c.points) + vectorBytes(c.chain) + vectorBytes(c.refined) +
-             vectorBytes(c.widthPx) + vectorBytes(c.band.left) + vectorBytes(c.band.right);
+             vectorBytes(c.sigmaPx) + vectorBytes(c.widthPx) + vectorBytes(c.band.left) + vectorBytes(c.band.right);
   }
   return bytes;
 }
 std::size_t bytesOf(const PieceSet& set) {
   std::size_t bytes = sizeof(set) + vectorBytes(set.corners);
-  for (const Piece& p : set.pieces) bytes += sizeof(p) + vectorBytes(p.points) + vectorBytes(p.refined);
+  for (const Piece& p : set.pieces)
+    bytes += sizeof(p) + vectorBytes(p.points) + vectorBytes(p.refined) + vectorBytes(p.sigmaPx);
   return bytes;
 }
 std::size_t bytesOf(const SegmentSet& set) {

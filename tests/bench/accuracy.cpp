@@ -3,13 +3,15 @@
 // tracers make of the same pages.
 //
 //   bench_accuracy [--seeds N] [--peer-seeds N] [--sizes 1200x800,2480x3508] [--kinds outline,stroke]
-//                  [--cases clean,scan,dark] [--shapes a,b,…] [--click PX] [--brief] [--corners]
+//                  [--cases clean,scan,dark,varying,foundation] [--shapes a,b,…] [--click PX] [--brief] [--corners]
 //                  [--set stage.parameter=value …]
 //
 // rms, max, curvature error (kappa times the size of the shape): medians over the shapes. False and missed extrema: per
 // seed, summed over the shapes. Corners: clicked 8 px beside the truth; found of those there; rms of their distance for
-// those whose sides open by 40 degrees or more, and for the sharper ones. --corners lists each of them. Clean pages
-// have no seed. The goals are those of 1200 x 800.
+// those whose sides open by 40 degrees or more, and for the sharper ones. --corners lists each of them. Flat:
+// percentage of the stretches between extrema along which the curvature hardly changes (by less than a twentieth of the
+// mean of its stretch), after the same for the truth. Clean pages have no seed. On varying ones the noise grows sixfold
+// from left to right while the contrast falls to a third. The goals are those of 1200 x 800.
 
 #include <algorithm>
 #include <cmath>
@@ -96,6 +98,7 @@ Options parse(int argc, char** argv) {
 PageStyle styleOf(const std::string& name, std::uint32_t seed) {
   if (name == "clean") return cleanPage();
   if (name == "dark") return darkPage(seed);
+  if (name == "varying") return varyingPage(seed);
   PageStyle style = name == "foundation" ? gradatedPage(seed) : scannedPage(seed);
   if (name == "scan") style.jpegQuality = 85;
   return style;
@@ -131,7 +134,7 @@ double rmsOf(const std::vector<double>& values) {
 struct Tally {
   std::vector<double> rms, max, curvature, corner, acute, ms, coverage, stray;
   int falseExtrema = 0, missed = 0, cornersFound = 0, cornersTrue = 0, found = 0, runs = 0;
-  double points = 0;
+  double points = 0, monotonePx = 0, flatPx = 0, trueMonotonePx = 0, trueFlatPx = 0;
   std::string failure;
   std::vector<Accuracy::CornerError> each;
 
@@ -151,6 +154,10 @@ struct Tally {
     cornersTrue += a.cornersTrue;
     found += a.found ? 1 : 0;
     points += r.controlPoints;
+    monotonePx += a.monotonePx;
+    flatPx += a.flatPx;
+    trueMonotonePx += a.trueMonotonePx;
+    trueFlatPx += a.trueFlatPx;
     ++runs;
     if (failure.empty()) failure = r.failure;
   }
@@ -169,27 +176,34 @@ struct Tally {
     cornersTrue += t.cornersTrue;
     found += t.found;
     points += t.points;
+    monotonePx += t.monotonePx;
+    flatPx += t.flatPx;
+    trueMonotonePx += t.trueMonotonePx;
+    trueFlatPx += t.trueFlatPx;
     runs += t.runs;
   }
 };
 
 void printHeader(const std::string& kind, const std::string& name, const std::string& size) {
-  std::printf("\n%s, %s, %s\n%-18s %8s %8s %9s %7s %7s %9s %8s %8s %8s %7s %7s %7s %8s\n", kind.c_str(), name.c_str(),
-              size.c_str(), "", "rms px", "max px", "kappa err", "false", "missed", "corners", "rms px", "<40 px",
-              "found", "curve %", "stray", "points", "ms");
+  std::printf("\n%s, %s, %s\n%-18s %8s %8s %9s %7s %7s %9s %8s %8s %8s %7s %7s %7s %9s %8s\n", kind.c_str(),
+              name.c_str(), size.c_str(), "", "rms px", "max px", "kappa err", "false", "missed", "corners", "rms px",
+              "<40 px", "found", "curve %", "stray", "points", "flat %", "ms");
 }
 
 void printTally(const std::string& label, const Tally& t, int seeds, bool curvature = true) {
   if (t.runs == 0) return;
-  char extrema[48] = "      -       -", kappa[16] = "        -";
+  char extrema[48] = "      -       -", kappa[16] = "        -", flat[32] = "-";
   if (curvature) {
     std::snprintf(kappa, sizeof kappa, "%9.3f", median(t.curvature));
     std::snprintf(extrema, sizeof extrema, "%7.1f %7.1f", 1.0 * t.falseExtrema / seeds, 1.0 * t.missed / seeds);
+    std::snprintf(flat, sizeof flat, "%.0f>%.0f", 100.0 * t.trueFlatPx / std::max(1.0, t.trueMonotonePx),
+                  100.0 * t.flatPx / std::max(1.0, t.monotonePx));
   }
-  std::printf("%-18s %8.4f %8.3f %s %s %4d/%-4d %8.3f %8.3f %4d/%-3d %7.1f %7.0f %7.0f %8.1f %s\n", label.c_str(),
+  std::printf("%-18s %8.4f %8.3f %s %s %4d/%-4d %8.3f %8.3f %4d/%-3d %7.1f %7.0f %7.0f %9s %8.1f %s\n", label.c_str(),
               median(t.rms), median(t.max), kappa, extrema, t.cornersFound, t.cornersTrue, rmsOf(t.corner),
               rmsOf(t.acute), t.found, t.runs, 100.0 * median(t.coverage),
-              *std::max_element(t.stray.begin(), t.stray.end()), t.points / t.runs, median(t.ms), t.failure.c_str());
+              *std::max_element(t.stray.begin(), t.stray.end()), t.points / t.runs, flat, median(t.ms),
+              t.failure.c_str());
   std::fflush(stdout);
 }
 

@@ -143,6 +143,38 @@ int pairsOnRing(const std::vector<Placed>& a, std::vector<Placed> b, double with
   return most;
 }
 
+constexpr double kFlatShare = 0.05;  // of the mean slope of a stretch
+constexpr double kSlopeReachPx = 1.5;
+
+/// How much of a profile lies between extrema, and how much of that is flat.
+struct Flatness {
+  double monotonePx = 0.0, flatPx = 0.0;
+  /// @param s arc length at the samples of `kappa`. Stretches along which it changes by less than the prominence of an
+  /// extremum are constant and count as nothing.
+  void add(const std::vector<double>& s, const std::vector<double>& kappa, double prominence, bool periodic) {
+    std::vector<std::size_t> ends{0};
+    auto extrema = extremaOf(kappa, prominence, periodic);
+    std::sort(extrema.begin(), extrema.end(),
+              [](const ProfileExtremum& a, const ProfileExtremum& b) { return a.index < b.index; });
+    for (const ProfileExtremum& e : extrema) ends.push_back(e.index);
+    ends.push_back(kappa.size() - 1);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      const std::size_t from = ends[i], to = ends[i + 1];
+      if (to <= from + 1) continue;
+      const double rise = kappa[to] - kappa[from], length = s[to] - s[from];
+      if (std::abs(rise) < prominence) continue;
+      monotonePx += length;
+      for (std::size_t k = from, low = from, high = from; k < to; ++k) {
+        const double middle = 0.5 * (s[k] + s[k + 1]);
+        while (low < k && s[low + 1] < middle - kSlopeReachPx) ++low;
+        while (high < to && s[high] < middle + kSlopeReachPx) ++high;
+        const double slope = (kappa[high] - kappa[low]) / (s[high] - s[low]);
+        if (std::abs(slope) < kFlatShare * std::abs(rise) / length) flatPx += s[k + 1] - s[k];
+      }
+    }
+  }
+};
+
 /// Sums over the smooth parts of all curves.
 struct Sums {
   double square = 0.0, max = 0.0, curvatureSquare = 0.0;
@@ -186,6 +218,11 @@ class Comparison {
     measureCoverage(result);
     if (border_ > 0.0) return;
     const bool ring = shape_.corners.empty();
+    result.monotonePx = flatness_.monotonePx;
+    result.flatPx = flatness_.flatPx;
+    const Flatness asDrawn = trueFlatness();
+    result.trueMonotonePx = asDrawn.monotonePx;
+    result.trueFlatPx = asDrawn.flatPx;
     for (std::size_t p = 0; p < shape_.pieces.size(); ++p) {
       const std::vector<Placed> truth = trueExtremaOf(shape_, p);
       std::vector<Placed> found = found_[p];
@@ -225,8 +262,26 @@ class Comparison {
       const bool periodic = curve.closed && begin == 0 && end == n;
       for (const ProfileExtremum& e : extremaOf(kappa, prominence, periodic))
         found_[static_cast<std::size_t>(piece)].push_back({feet[begin + e.index].s, e.isMaximum});
+      std::vector<double> s;
+      for (std::size_t i = begin; i < end; ++i)
+        s.push_back(i > begin ? s.back() + (curve.points[i] - curve.points[i - 1]).norm() : 0.0);
+      if (end > begin + 1) flatness_.add(s, kappa, prominence, periodic);
       begin = std::max(end, begin + 1);
     }
+  }
+
+  Flatness trueFlatness() const {
+    Flatness truth;
+    for (const TruthPiece& piece : shape_.pieces) {
+      std::vector<double> s, kappa;
+      for (std::size_t i = 0; i < piece.points.size(); ++i) {
+        if (!isSmooth(piece.points[i])) continue;
+        s.push_back(s.empty() ? 0.0 : s.back() + (piece.points[i] - piece.points[i - 1]).norm());
+        kappa.push_back(piece.kappa[i]);
+      }
+      if (s.size() > 1) truth.add(s, kappa, kProminence / shape_.diagonal(), shape_.corners.empty());
+    }
+    return truth;
   }
 
   void measureCoverage(Accuracy& result) const {
@@ -255,6 +310,7 @@ class Comparison {
   double border_;
   std::vector<std::vector<Placed>> found_;
   std::vector<Vec2> reached_;
+  Flatness flatness_;
   Sums sums_;
 };
 

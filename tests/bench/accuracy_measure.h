@@ -37,7 +37,10 @@ struct Accuracy {
   int falseExtrema = 0;         ///< Curvature extrema (prominence 5e-3 / diagonal) with no true one of their kind near.
   int missedExtrema = 0;        ///< True ones with none of their kind near.
   int trueExtrema = 0;
-  int cornersFound = 0;  ///< True corners with one found within 4 px.
+  double monotonePx = 0.0;                        ///< [px] of the stretches between extrema, smooth parts only,
+  double flatPx = 0.0;                            ///< and how much of them lies flat (a plateau of the curvature).
+  double trueMonotonePx = 0.0, trueFlatPx = 0.0;  ///< The same of the truth.
+  int cornersFound = 0;                           ///< True corners with one found within 4 px.
   int cornersTrue = 0;
   struct CornerError {
     std::size_t corner = 0;     ///< Of the shape.

@@ -83,6 +83,7 @@ void throughJpeg(GreyImage& grey, int quality) {
 PageStyle cleanPage() { return {}; }
 PageStyle scannedPage(std::uint32_t seed) { return {255, 140, 30, 0, 0.8, 6, 4, seed, 0}; }
 PageStyle darkPage(std::uint32_t seed) { return {190, 40, 0, 20, 0.8, 2, 0, seed, 0}; }
+PageStyle varyingPage(std::uint32_t seed) { return {230, 120, 0, 120, 0.8, 2, 0, seed, 0, 12, 40}; }
 PageStyle gradatedPage(std::uint32_t seed) { return {250, 150, 30, 0, 1.2, 5, 0, seed, 0}; }
 
 std::vector<float> fillCoverage(const std::vector<Vec2>& outline, int width, int height) {
@@ -143,9 +144,12 @@ Scan renderPage(std::vector<float> coverage, int width, int height, const PageSt
       double paper = std::lerp(style.paperLeft, style.paperRight, u);
       if (style.texture > 0.0)
         paper += style.texture * std::sin(0.021 * x + 1.3 * std::sin(0.017 * y)) * std::sin(0.019 * y);
-      const double ink = style.contrast > 0.0 ? paper - style.contrast : style.inkLevel * (0.6 + 0.4 * paper / 255.0);
+      const double contrast =
+          style.contrastRight > 0.0 ? std::lerp(style.contrast, style.contrastRight, u) : style.contrast;
+      const double noise = style.noiseRight >= 0.0 ? std::lerp(style.noise, style.noiseRight, u) : style.noise;
+      const double ink = contrast > 0.0 ? paper - contrast : style.inkLevel * (0.6 + 0.4 * paper / 255.0);
       const double c = coverage[at(x, y, width)];
-      const double value = paper * (1.0 - c) + ink * c + style.noise * normal(random);
+      const double value = paper * (1.0 - c) + ink * c + noise * normal(random);
       scan.grey.row(y)[x] = static_cast<std::uint16_t>(std::lround(std::clamp(std::round(value), 0.0, 255.0)) * 257);
     }
   }

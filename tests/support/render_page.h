@@ -18,11 +18,15 @@ struct PageStyle {
   double noise = 0.0;                            ///< [grey] standard deviation, white.
   double texture = 0.0;                          ///< [grey] amplitude of slow paper texture.
   std::uint32_t seed = 1;
-  int jpegQuality = 0;  ///< 1..100: the page goes through JPEG; 0: it does not.
+  int jpegQuality = 0;         ///< 1..100: the page goes through JPEG; 0: it does not.
+  double noiseRight = -1.0;    ///< [grey] >= 0: the noise grows or falls to this at the right border.
+  double contrastRight = 0.0;  ///< [grey] > 0: and `contrast` to this.
 };
 PageStyle cleanPage();
-PageStyle scannedPage(std::uint32_t seed);   ///< Blur .8, noise 6, paper 255 to 140, texture.
-PageStyle darkPage(std::uint32_t seed);      ///< Background falling to 40, line 20 darker.
+PageStyle scannedPage(std::uint32_t seed);  ///< Blur .8, noise 6, paper 255 to 140, texture.
+PageStyle darkPage(std::uint32_t seed);     ///< Background falling to 40, line 20 darker.
+/// Noise 2 on the left growing to 12 on the right, ink 120 to 40 darker than paper that falls from 230 to 120; blur .8.
+PageStyle varyingPage(std::uint32_t seed);
 PageStyle gradatedPage(std::uint32_t seed);  ///< Blur 1.2, noise 5, gradation: the accuracy cases of the foundation.
 
 /// Exact area coverage (0..1) of the filled outline, pixel by pixel.

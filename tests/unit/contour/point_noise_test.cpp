@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/point_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/contour/centreline.h"
+#include "core/contour/crack_contours.h"
+#include "core/contour/subpixel_edges.h"
+#include "tests/support/contour_shapes.h"
+
+namespace batten {
+namespace {
+
+constexpr double kRadius = 70.0;
+const Vec2 kCentre(100.3, 99.6);
+
+/// The page with white noise whose standard deviation grows from left to right.
+GreyImage noisy(const GreyImage& clean, double left, double right, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  GreyImage grey = clean;
+  for (int y = 0; y < grey.height; ++y) {
+    for (int x = 0; x < grey.width; ++x) {
+      const double sigma = std::lerp(left, right, (x + 0.5) / grey.width);
+      const double level = clean.level(x, y) + sigma * normal(random);
+      grey.row(y)[x] = static_cast<std::uint16_t>(std::lround(std::clamp(level, 0.0, 255.0) * GreyImage::kGreyUnit));
+    }
+  }
+  return grey;
+}
+
+/// Mean squares of what points miss a circle by, and of what they are said to miss it by, left and right of its centre.
+struct Halves {
+  double missed[2] = {0.0, 0.0}, said[2] = {0.0, 0.0};
+  int count[2] = {0, 0};
+  void add(const Contour& c, double radius) {
+    ASSERT_EQ(c.sigmaPx.size(), c.points.size());
+    for (std::size_t i = 0; i < c.points.size(); ++i) {
+      if (!c.refined[i]) continue;
+      const double across = c.points[i].x() - kCentre.x();
+      if (std::abs(across) < 0.4 * radius) continue;
+      const int side = across > 0.0 ? 1 : 0;
+      const double e = (c.points[i] - kCentre).norm() - radius;
+      missed[side] += e * e;
+      said[side] += static_cast<double>(c.sigmaPx[i]) * c.sigmaPx[i];
+      ++count[side];
+    }
+  }
+  double ratio(int side) const { return std::sqrt(said[side] / missed[side]); }
+};
+
+TEST(PointSigmas, SayHowFarBordersScatter) {
+  test::RenderSettings s;
+  s.ink = 130.0;
+  s.slope = -0.25;
+  const GreyImage clean =
+      test::renderShape([](double x, double y) { return std::hypot(x - kCentre.x(), y - kCentre.y()) < kRadius; }, s);
+  auto set = crackContours(test::thresholdMask(clean, 155.0), false, 100.0, {});
+  ASSERT_TRUE(set.has_value());
+  ASSERT_FALSE(set->contours.empty());
+  Halves halves;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    Contour c = set->contours.front();
+    refineOutline(c, noisy(clean, 1.0, 9.0, seed), {});
+    halves.add(c, kRadius);
+  }
+  for (const int side : {0, 1}) EXPECT_NEAR(halves.ratio(side), 1.0, 0.25) << side;
+  EXPECT_GT(halves.missed[1] / halves.count[1], 4.0 * halves.missed[0] / halves.count[0]);
+}
+
+TEST(PointSigmas, SayHowFarCentreLinesScatter) {
+  test::RenderSettings s;
+  s.ink = 110.0;
+  const GreyImage clean = test::renderShape(
+      [](double x, double y) { return std::abs(std::hypot(x - kCentre.x(), y - kCentre.y()) - kRadius) < 2.5; }, s);
+  const BitImage ink = test::thresholdMask(clean, 170.0);
+  Halves halves;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const auto set = centrelines(ink, noisy(clean, 1.0, 8.0, seed), {}, {});
+    ASSERT_TRUE(set.has_value());
+    ASSERT_EQ(set->contours.size(), 1U);
+    halves.add(set->contours.front(), kRadius);
+  }
+  for (const int side : {0, 1}) EXPECT_NEAR(halves.ratio(side), 1.0, 0.25) << side;
+}
+
+TEST(PointSigmas, HoldBackSurprisesAndPointsThatWereNotPlaced) {
+  std::vector<PointInformation> points(200, PointInformation{0.01, 40.0, 10.0});  // noise of 2
+  std::vector<std::uint8_t> placed(200, 1);
+  points[100].squares = 4e5;  // a hundred times the noise
+  placed[30] = 0;
+  points[40].gain = 0.0;
+  const std::vector<float> sigma = pointSigmas(points, placed, false);
+  const double expected = std::hypot(0.02, 0.01);
+  EXPECT_NEAR(sigma[0], expected, 0.05 * expected);
+  EXPECT_NEAR(sigma[99], expected, 0.05 * expected);
+  EXPECT_GT(sigma[30], 0.3f);
+  EXPECT_GT(sigma[40], 0.3f);
+  EXPECT_NEAR(sigma[35], expected, 0.05 * expected);
+}
+
+}  // namespace
+}  // namespace batten
