@@ -2,11 +2,14 @@
 #include "core/contour/stroke_cover.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
 #include <utility>
+
+#include "core/contour/stroke_lines.h"
 
 namespace batten {
 namespace {
@@ -17,24 +20,26 @@ constexpr double kSameWay = 0.8;      // cosine between lines that are one
 constexpr int kShortestRun = 12;      // points: lying on a line for less is crossing it
 constexpr int kShortestGap = 4;       // points: not lying on a line for less is noise
 constexpr double kOwnWay = 4.0;       // distances along a line before it can lie on itself
+constexpr double kTouch = 0.25;       // distances: an end as near as this touches
+constexpr double kShort = 2.0;        // distances: such strokes need not touch
 constexpr double kBesideSlack = 0.1;  // part of a stretch that may be farther away than beside
 
-struct Place {
+struct CoverPlace {
   int piece = 0, index = 0;
 };
 
 // Points by cells of the distance.
-class PlaceIndex {
+class CoverIndex {
  public:
-  explicit PlaceIndex(double cellPx) : cell_(cellPx) {}
-  void add(const Vec2& at, Place place) { cells_[key(cellOf(at.x()), cellOf(at.y()))].push_back(place); }
+  explicit CoverIndex(double cellPx) : cell_(cellPx) {}
+  void add(const Vec2& at, CoverPlace place) { cells_[key(cellOf(at.x()), cellOf(at.y()))].push_back(place); }
   template <class Visit>
   void around(const Vec2& at, const Visit& visit) const {
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         const auto found = cells_.find(key(cellOf(at.x()) + dx, cellOf(at.y()) + dy));
         if (found == cells_.end()) continue;
-        for (const Place& place : found->second) visit(place);
+        for (const CoverPlace& place : found->second) visit(place);
       }
   }
 
@@ -42,24 +47,14 @@ class PlaceIndex {
   int cellOf(double v) const { return static_cast<int>(std::floor(v / cell_)); }
   static std::int64_t key(int x, int y) { return (static_cast<std::int64_t>(y) << 32) ^ (x & 0xffffffffLL); }
   double cell_;
-  std::unordered_map<std::int64_t, std::vector<Place>> cells_;
+  std::unordered_map<std::int64_t, std::vector<CoverPlace>> cells_;
 };
 
 // How one point lies to the lines before it.
-struct Cover {
+struct PointCover {
   bool on = false, beside = false;
-  Place place;  // the nearest point in the same direction
+  CoverPlace place;  // the nearest point in the same direction
 };
-
-MeanLine part(const MeanLine& line, int from, int to) {
-  const auto cut = [&](const auto& v) { return std::decay_t<decltype(v)>(v.begin() + from, v.begin() + to + 1); };
-  MeanLine p;
-  p.points = cut(line.points);
-  p.tangent = cut(line.tangent);
-  p.source = cut(line.source);
-  p.weight = cut(line.weight);
-  return p;
-}
 
 class PieceMaker {
  public:
@@ -69,10 +64,10 @@ class PieceMaker {
         index_(std::max(distance_, onLine_)) {}
 
   void add(MeanLine line, const RunContext& context) {
-    std::vector<Cover> covers = coverage(line, context);
+    std::vector<PointCover> covers = coverage(line, context);
     if (context.isCancelled()) return;
     if (line.closed) {
-      const auto first = std::find_if(covers.begin(), covers.end(), [](const Cover& c) { return c.on; });
+      const auto first = std::find_if(covers.begin(), covers.end(), [](const PointCover& c) { return c.on; });
       if (first == covers.end()) return keepWhole(std::move(line));
       // A ring that partly lies on other lines becomes an open line that begins there.
       const auto by = first - covers.begin();
@@ -88,20 +83,23 @@ class PieceMaker {
     keepUncovered(line, covers);
   }
 
-  StrokePieces finish() { return std::move(result_); }
+  StrokePieces finish() {
+    attachEnds();
+    return std::move(result_);
+  }
 
  private:
-  std::vector<Cover> coverage(const MeanLine& line, const RunContext& context) const {
+  std::vector<PointCover> coverage(const MeanLine& line, const RunContext& context) const {
     const int n = static_cast<int>(line.points.size());
     const int ownWay = static_cast<int>(kOwnWay * distance_) + 30;
-    std::vector<Cover> covers(line.points.size());
-    PlaceIndex own(std::max(distance_, onLine_));
+    std::vector<PointCover> covers(line.points.size());
+    CoverIndex own(std::max(distance_, onLine_));
     for (int i = 0; i < n; ++i) {
       if ((i & 4095) == 0 && context.isCancelled()) break;
       const auto at = static_cast<std::size_t>(i);
-      Cover& c = covers[at];
+      PointCover& c = covers[at];
       double nearest = distance_;
-      const auto look = [&](const Vec2& p, const Vec2& t, Place place) {
+      const auto look = [&](const Vec2& p, const Vec2& t, CoverPlace place) {
         const double d = (p - line.points[at]).norm();
         if (d > nearest || std::abs(t.dot(line.tangent[at])) < kSameWay) return;
         // The same from any order of the cells.
@@ -110,11 +108,11 @@ class PieceMaker {
         nearest = d;
         c = {d <= onLine_, true, place};
       };
-      index_.around(line.points[at], [&](const Place& p) {
+      index_.around(line.points[at], [&](const CoverPlace& p) {
         const MeanLine& piece = result_.pieces[static_cast<std::size_t>(p.piece)];
         look(piece.points[static_cast<std::size_t>(p.index)], piece.tangent[static_cast<std::size_t>(p.index)], p);
       });
-      own.around(line.points[at], [&](const Place& p) {
+      own.around(line.points[at], [&](const CoverPlace& p) {
         const int apart = i - p.index;
         if (apart < ownWay || (line.closed && n - apart < ownWay)) return;
         look(line.points[static_cast<std::size_t>(p.index)], line.tangent[static_cast<std::size_t>(p.index)], p);
@@ -127,7 +125,7 @@ class PieceMaker {
     return covers;
   }
 
-  static void flipRuns(std::vector<Cover>& covers, bool what, int shorter, bool onlyInside) {
+  static void flipRuns(std::vector<PointCover>& covers, bool what, int shorter, bool onlyInside) {
     const int n = static_cast<int>(covers.size());
     for (int i = 0; i < n; ++i) {
       if (covers[static_cast<std::size_t>(i)].on != what) continue;
@@ -141,14 +139,15 @@ class PieceMaker {
   }
 
   // A stretch that leaves a line, stays within the distance all along and comes back, or ends there, is of that line.
-  static void absorbBeside(std::vector<Cover>& covers) {
+  // A short stroke beside one is, too.
+  void absorbBeside(std::vector<PointCover>& covers) const {
     const int n = static_cast<int>(covers.size());
     for (int i = 0; i < n; ++i) {
       if (covers[static_cast<std::size_t>(i)].on) continue;
       int end = i, beside = 0;
       while (end + 1 < n && !covers[static_cast<std::size_t>(end) + 1].on) ++end;
       for (int k = i; k <= end; ++k) beside += covers[static_cast<std::size_t>(k)].beside ? 1 : 0;
-      const bool touches = i > 0 || end + 1 < n;
+      const bool touches = i > 0 || end + 1 < n || n < kShort * distance_;
       if (touches && beside >= (1.0 - kBesideSlack) * (end - i + 1))
         for (int k = i; k <= end; ++k) covers[static_cast<std::size_t>(k)].on = true;
       i = end;
@@ -166,20 +165,21 @@ class PieceMaker {
   }
 
   // The place on what was kept that the point `i` lies on; the line's own points have become pieces by then.
-  static std::optional<Place> placeOf(const std::vector<Cover>& covers, const std::vector<Place>& kept, int i) {
+  static std::optional<CoverPlace> placeOf(const std::vector<PointCover>& covers, const std::vector<CoverPlace>& kept,
+                                           int i) {
     for (int k : {i, i - 1, i + 1, i - 2, i + 2}) {
       if (k < 0 || k >= static_cast<int>(covers.size())) continue;
-      const Cover& c = covers[static_cast<std::size_t>(k)];
+      const PointCover& c = covers[static_cast<std::size_t>(k)];
       if (!c.beside) continue;
-      const Place place = c.place.piece >= 0 ? c.place : kept[static_cast<std::size_t>(c.place.index)];
+      const CoverPlace place = c.place.piece >= 0 ? c.place : kept[static_cast<std::size_t>(c.place.index)];
       if (place.piece >= 0) return place;
     }
     return std::nullopt;
   }
 
-  void keepUncovered(const MeanLine& line, const std::vector<Cover>& covers) {
+  void keepUncovered(const MeanLine& line, const std::vector<PointCover>& covers) {
     const int n = static_cast<int>(line.points.size());
-    std::vector<Place> kept(line.points.size(), {-1, 0});
+    std::vector<CoverPlace> kept(line.points.size(), {-1, 0});
     std::vector<std::pair<int, int>> runs;
     const auto before = static_cast<int>(result_.pieces.size());
     for (int i = 0; i < n; ++i) {
@@ -189,7 +189,7 @@ class PieceMaker {
       if (end - i >= 2) {
         for (int k = i; k <= end; ++k)
           kept[static_cast<std::size_t>(k)] = {static_cast<int>(result_.pieces.size()), k - i};
-        result_.pieces.push_back(part(line, i, end));
+        result_.pieces.push_back(partOf(line, i, end));
         runs.emplace_back(i, end);
       }
       i = end;
@@ -207,9 +207,41 @@ class PieceMaker {
     }
   }
 
+  // A line that begins or ends in another, about in its direction, goes on along it.
+  void attachEnds() {
+    const double nearPx = std::max(onLine_, kTouch * distance_);
+    std::vector<std::array<bool, 2>> attached(result_.pieces.size(), {false, false});
+    for (const StrokePieces::Attachment& a : result_.attachments)
+      attached[static_cast<std::size_t>(a.piece)][static_cast<std::size_t>(a.side)] = true;
+    const int ownWay = static_cast<int>(kOwnWay * distance_) + 30;
+    for (int p = 0; p < static_cast<int>(result_.pieces.size()); ++p) {
+      const MeanLine& piece = result_.pieces[static_cast<std::size_t>(p)];
+      const int n = static_cast<int>(piece.points.size());
+      for (const int side : {0, 1}) {
+        if (piece.closed || attached[static_cast<std::size_t>(p)][static_cast<std::size_t>(side)]) continue;
+        const int end = side == 0 ? 0 : n - 1, inside = side == 0 ? std::min(n - 1, 8) : std::max(0, n - 9);
+        const Vec2& tip = piece.points[static_cast<std::size_t>(end)];
+        const Vec2 way = tip - piece.points[static_cast<std::size_t>(inside)];
+        std::optional<CoverPlace> best;
+        double nearest = nearPx;
+        index_.around(tip, [&](const CoverPlace& place) {
+          if (place.piece == p && std::abs(place.index - end) < ownWay) return;
+          const MeanLine& other = result_.pieces[static_cast<std::size_t>(place.piece)];
+          const auto k = static_cast<std::size_t>(place.index);
+          const double d = (other.points[k] - tip).norm();
+          if (d > nearest || std::abs(other.tangent[k].dot(way)) < kSameWay * way.norm()) return;
+          if (d == nearest && best && std::pair(place.piece, place.index) > std::pair(best->piece, best->index)) return;
+          nearest = d;
+          best = place;
+        });
+        if (best) result_.attachments.push_back({p, side, best->piece, best->index});
+      }
+    }
+  }
+
   double distance_, onLine_;
   StrokePieces result_;
-  PlaceIndex index_;
+  CoverIndex index_;
 };
 
 }  // namespace

@@ -19,13 +19,8 @@ constexpr double kParallelCos = 0.985;  // 10 degrees: fully one line
 constexpr double kCrossingCos = 0.906;  // 25 degrees: another line
 constexpr double kLeastWeight = 0.02;   // at the very end of a stroke: alone it still is the line
 
-constexpr double kKissGap = 2.0;        // distances: nearer stretches beside a stroke are one
-constexpr double kSameShare = 0.5;      // of the shorter stroke: beside each other for longer they are one line
-constexpr double kSharpTurnRad = 0.87;  // 50 degrees
-constexpr double kGoesOnWidths = 4.0;   // stroke widths to the next line
-constexpr double kGoesOnCos = 0.8;      // 37 degrees
-constexpr double kTurnWidths = 1.5;     // stroke widths over which a turn is seen
-constexpr int kLeastTurnReach = 4;      // points
+constexpr double kKissGap = 2.0;    // distances: nearer stretches beside a stroke are one
+constexpr double kSameShare = 0.5;  // of the shorter stroke: beside each other for longer they are one line
 
 double smoothStep(double x) {
   const double t = std::clamp(x, 0.0, 1.0);
@@ -203,105 +198,7 @@ Kisses findKisses(const std::vector<MeanLine>& strokes, double distance, const R
   return kisses;
 }
 
-// The end of a stroke and the direction in which it would go on.
-struct StrokeEnd {
-  int line = 0, side = 0;
-  Vec2 at = Vec2::Zero(), out = Vec2::Zero();
-};
-
-// Where a line turns sharply: the places of largest turn between chords of `reach` points.
-std::vector<int> turnsOf(const Contour& line, int reach) {
-  const int n = static_cast<int>(line.points.size());
-  std::vector<double> turn(line.points.size(), 0.0);
-  const auto p = [&](int i) -> const Vec2& { return line.points[static_cast<std::size_t>(wrapIndex(i, n))]; };
-  for (int i = line.closed ? 0 : reach; i < (line.closed ? n : n - reach); ++i) {
-    const Vec2 in = p(i) - p(i - reach), out = p(i + reach) - p(i);
-    turn[static_cast<std::size_t>(i)] = std::atan2(std::abs(cross(in, out)), in.dot(out));
-  }
-  std::vector<int> found;
-  for (int i = 0; i < n; ++i) {
-    const double here = turn[static_cast<std::size_t>(i)];
-    if (here < kSharpTurnRad) continue;
-    bool most = true;
-    for (int k = -2 * reach; k <= 2 * reach && most; ++k) {
-      if (k == 0 || (!line.closed && (i + k < 0 || i + k >= n))) continue;
-      const double there = turn[static_cast<std::size_t>(wrapIndex(i + k, n))];
-      most = there < here || (there == here && k > 0);
-    }
-    if (most) found.push_back(i);
-  }
-  return found;
-}
-
-double medianWidth(const Contour& line) {
-  std::vector<float> widths = line.widthPx;
-  if (widths.empty()) return 1.0;
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  return static_cast<double>(*middle);
-}
-
 }  // namespace
-
-// At crossings strokes come in several lines, the next of which begins where one ends.
-void findContinuations(std::vector<MeanLine>& strokes, double nearPx) {
-  std::vector<StrokeEnd> ends;
-  for (int l = 0; l < static_cast<int>(strokes.size()); ++l) {
-    MeanLine& s = strokes[static_cast<std::size_t>(l)];
-    const std::size_t n = s.points.size();
-    s.goesOn[0] = s.goesOn[1] = false;
-    if (s.closed || n < 3) continue;
-    const std::size_t reach = std::min(n - 1, static_cast<std::size_t>(std::max(8.0, nearPx)));
-    const Vec2 start = s.points.front() - s.points[reach], end = s.points.back() - s.points[n - 1 - reach];
-    ends.push_back({l, 0, s.points.front(), start.norm() > 0.0 ? Vec2(start.normalized()) : Vec2::Zero()});
-    ends.push_back({l, 1, s.points.back(), end.norm() > 0.0 ? Vec2(end.normalized()) : Vec2::Zero()});
-  }
-  for (const StrokeEnd& a : ends)
-    for (const StrokeEnd& b : ends) {
-      if (a.line == b.line || -a.out.dot(b.out) < kGoesOnCos) continue;
-      const Vec2 d = b.at - a.at;
-      if (d.norm() <= nearPx && std::abs(cross(a.out, d)) <= 0.5 * nearPx)
-        strokes[static_cast<std::size_t>(a.line)].goesOn[a.side] = true;
-    }
-}
-
-std::vector<MeanLine> strokesOf(const std::vector<Contour>& lines, double distancePx, std::vector<Vec2>& turns) {
-  const StrokesBeside others(lines, distancePx);
-  std::vector<MeanLine> strokes;
-  double width = 1.0;
-  for (int l = 0; l < static_cast<int>(lines.size()); ++l) {
-    const Contour& line = lines[static_cast<std::size_t>(l)];
-    const int n = static_cast<int>(line.points.size());
-    width = std::max(width, medianWidth(line));
-    const int reach = std::clamp(static_cast<int>(kTurnWidths * medianWidth(line)), kLeastTurnReach,
-                                 std::max(kLeastTurnReach, static_cast<int>(0.5 * distancePx)));
-    std::vector<int> cuts = n > 4 * reach ? turnsOf(line, reach) : std::vector<int>{};
-    // Where no other stroke is near, it was the hand that turned.
-    std::erase_if(cuts, [&](int c) { return !others.isNear(line.points[static_cast<std::size_t>(c)], l, c); });
-    for (const int c : cuts) turns.push_back(line.points[static_cast<std::size_t>(c)]);
-    const auto add = [&](int from, int to, bool closed) {
-      MeanLine stroke;
-      stroke.closed = closed;
-      for (int i = from; i <= to; ++i) {
-        const int at = wrapIndex(i, n);
-        stroke.points.push_back(line.points[static_cast<std::size_t>(at)]);
-        stroke.source.push_back({l, at});
-      }
-      stroke.tangent = directions(stroke.points, closed, 3);
-      stroke.weight.assign(stroke.points.size(), 1.0f);
-      strokes.push_back(std::move(stroke));
-    };
-    if (cuts.empty()) {
-      add(0, n - 1, line.closed);
-      continue;
-    }
-    if (!line.closed) add(0, cuts.front(), false);
-    for (std::size_t c = 0; c + 1 < cuts.size(); ++c) add(cuts[c], cuts[c + 1], false);
-    add(cuts.back(), line.closed ? n + cuts.front() : n - 1, false);
-  }
-  findContinuations(strokes, std::min(0.5 * distancePx, kGoesOnWidths * width));
-  return strokes;
-}
 
 void moveToMean(std::vector<MeanLine>& means, double distancePx, const RunContext& context) {
   std::vector<MeanLine::Source> all;

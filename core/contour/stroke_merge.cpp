@@ -33,17 +33,18 @@ void smoothMerged(MeanLine& line, double sigma) {
   line.tangent = directions(line.points, line.closed, 3);
 }
 
-std::vector<MeanLine> mergeWithin(std::vector<MeanLine> strokes, double distancePx, const RunContext& context) {
+std::vector<MeanLine> mergeWithin(std::vector<MeanLine> strokes, double distancePx, double widestPx,
+                                  const RunContext& context) {
   moveToMean(strokes, distancePx, context);
   if (context.isCancelled()) return {};
   std::stable_sort(strokes.begin(), strokes.end(),
                    [](const MeanLine& a, const MeanLine& b) { return a.points.size() > b.points.size(); });
   StrokePieces pieces = coverPieces(std::move(strokes), distancePx, context);
   if (context.isCancelled()) return {};
-  return joinPieces(std::move(pieces), distancePx, context);
+  return joinPieces(std::move(pieces), distancePx, widestPx, context);
 }
 
-double medianWidth(const std::vector<Contour>& lines) {
+double penWidth(const std::vector<Contour>& lines) {
   std::vector<float> widths;
   for (const Contour& line : lines) widths.insert(widths.end(), line.widthPx.begin(), line.widthPx.end());
   if (widths.empty()) return 1.0;
@@ -55,7 +56,7 @@ double medianWidth(const std::vector<Contour>& lines) {
 }  // namespace
 
 std::vector<Contour> mergeStrokes(const std::vector<Contour>& lines, double distancePx, const RunContext& context) {
-  const double width = medianWidth(lines);
+  const double width = penWidth(lines);
   std::vector<Vec2> turns;
   std::vector<MeanLine> means = strokesOf(lines, distancePx, turns);
   // The nearest first: what then comes near another line and parts from it is seen in full.
@@ -63,7 +64,7 @@ std::vector<Contour> mergeStrokes(const std::vector<Contour>& lines, double dist
   while (levels < kMostLevels && std::ldexp(distancePx, -levels) >= kFirstWidths * width) ++levels;
   for (int level = levels - 1; level >= 0; --level) {
     const double within = std::ldexp(distancePx, -level);
-    means = mergeWithin(std::move(means), within, context);
+    means = mergeWithin(std::move(means), within, distancePx, context);
     if (context.isCancelled()) return {};
     if (level == 0) break;
     for (MeanLine& line : means) smoothMerged(line, std::max(2.0, kSmoothing * within));

@@ -12,8 +12,9 @@ namespace batten {
 /// fit; what is left over there and no longer than twice `distancePx` was an overshoot and goes. Lines that share a
 /// short way go on at its other end as they came. Free ends that look at each other within the distance are joined,
 /// and a line is closed where it meets itself. A single stroke that leaves the others smoothly and ends is an overshoot
-/// for longer than a bundle is. Not complete when cancelled.
-std::vector<MeanLine> joinPieces(StrokePieces pieces, double distancePx, const RunContext& context);
+/// for longer than a bundle is. `widestPx` is the distance within which strokes will be one in the end. Not complete
+/// when cancelled.
+std::vector<MeanLine> joinPieces(StrokePieces pieces, double distancePx, double widestPx, const RunContext& context);
 
 /// The two ends nearest to each sharp turn (strokesOf()), no farther from it than the distance, meet where their lines
 /// do.

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/stroke_legs.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "core/contour/polyline_tools.h"
+#include "core/contour/stroke_lines.h"
+
+namespace batten {
+namespace {
+
+// Attachments that are one node.
+class NodeNumbers {
+ public:
+  explicit NodeNumbers(std::size_t attachments) : parent_(attachments), number_(attachments, -1) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  void join(int a, int b) { parent_[place(root(a))] = root(b); }
+  int of(int attachment, MeanLegs& legs) {
+    int& n = number_[place(root(attachment))];
+    if (n < 0) {
+      n = static_cast<int>(legs.nodes.size());
+      legs.nodes.emplace_back();
+    }
+    return n;
+  }
+
+ private:
+  static std::size_t place(int i) { return static_cast<std::size_t>(i); }
+  int root(int i) {
+    while (parent_[place(i)] != i) i = parent_[place(i)] = parent_[place(parent_[place(i)])];
+    return i;
+  }
+  std::vector<int> parent_, number_;
+};
+
+// Where something is attached to a piece, or the piece to something.
+struct AttachedMark {
+  int index = 0, attachment = 0;
+  bool end = false;  // of the piece itself
+};
+
+struct PieceCut {
+  int index = 0, attachment = 0;
+};
+
+std::vector<std::vector<AttachedMark>> marksOf(const StrokePieces& pieces) {
+  std::vector<std::vector<AttachedMark>> marks(pieces.pieces.size());
+  for (int a = 0; a < static_cast<int>(pieces.attachments.size()); ++a) {
+    const StrokePieces::Attachment& m = pieces.attachments[static_cast<std::size_t>(a)];
+    const auto piece = static_cast<std::size_t>(m.piece);
+    const int last = static_cast<int>(pieces.pieces[piece].points.size()) - 1;
+    marks[piece].push_back({m.side == 0 ? 0 : last, a, true});
+    marks[static_cast<std::size_t>(m.onto)].push_back({m.index, a, false});
+  }
+  for (auto& m : marks)
+    std::stable_sort(m.begin(), m.end(),
+                     [](const AttachedMark& a, const AttachedMark& b) { return a.index < b.index; });
+  return marks;
+}
+
+std::vector<PieceCut> cutsOf(const MeanLine& line, const std::vector<AttachedMark>& m, double distancePx,
+                             NodeNumbers& numbers) {
+  const int together = static_cast<int>(distancePx), snap = static_cast<int>(std::max(6.0, 0.5 * distancePx));
+  const int last = static_cast<int>(line.points.size()) - 1;
+  std::vector<PieceCut> cuts;
+  for (std::size_t i = 0; i < m.size();) {
+    std::size_t k = i;
+    long sum = 0;
+    int own = -1;
+    for (; k < m.size() && (k == i || m[k].index - m[k - 1].index <= together); ++k) {
+      // Both ends of a short piece are two nodes.
+      if (own >= 0 && m[k].end && m[k].index != own) break;
+      sum += m[k].index;
+      if (m[k].end) own = m[k].index;
+      numbers.join(m[k].attachment, m[i].attachment);
+    }
+    int index = own >= 0 ? own : static_cast<int>(sum / static_cast<long>(k - i));
+    if (!line.closed && index < snap) index = 0;
+    if (!line.closed && index > last - snap) index = last;
+    cuts.push_back({index, m[i].attachment});
+    i = k;
+  }
+  return cuts;
+}
+
+void addPiece(MeanLine line, std::vector<PieceCut> cuts, NodeNumbers& numbers, MeanLegs& legs) {
+  if (cuts.empty()) return legs.add(std::move(line), -1, -1);
+  if (line.closed) {
+    const int first = cuts.front().index;
+    const auto turn = [first](auto& v) { std::rotate(v.begin(), v.begin() + first, v.end()); };
+    turn(line.points);
+    turn(line.tangent);
+    turn(line.source);
+    turn(line.weight);
+    line.closed = false;
+    for (PieceCut& cut : cuts) cut.index -= first;
+    cuts.push_back({static_cast<int>(line.points.size()) - 1, cuts.front().attachment});
+  }
+  int from = 0, node = -1;
+  const auto add = [&](int to, int next) {
+    if (to - from >= 2) legs.add(partOf(line, from, to), node, next);
+  };
+  for (const PieceCut& cut : cuts) {
+    const int next = numbers.of(cut.attachment, legs);
+    add(cut.index, next);
+    from = cut.index;
+    node = next;
+  }
+  add(static_cast<int>(line.points.size()) - 1, -1);
+}
+
+}  // namespace
+
+void MeanLegs::add(MeanLine line, int from, int to) {
+  MeanLeg leg;
+  leg.length = polylineLength(line.points, line.closed);
+  leg.line = std::move(line);
+  leg.node[0] = from;
+  leg.node[1] = to;
+  const int number = static_cast<int>(legs.size());
+  if (from >= 0) nodes[static_cast<std::size_t>(from)].push_back(2 * number);
+  if (to >= 0) nodes[static_cast<std::size_t>(to)].push_back(2 * number + 1);
+  legs.push_back(std::move(leg));
+}
+
+void MeanLegs::remove(int leg) {
+  MeanLeg& gone = legs[static_cast<std::size_t>(leg)];
+  for (const int side : {0, 1})
+    if (gone.node[side] >= 0) std::erase(nodes[static_cast<std::size_t>(gone.node[side])], 2 * leg + side);
+  gone = MeanLeg{};
+  gone.alive = false;
+}
+
+MeanLegs legsOf(StrokePieces pieces, double distancePx) {
+  MeanLegs legs;
+  NodeNumbers numbers(pieces.attachments.size());
+  const std::vector<std::vector<AttachedMark>> marks = marksOf(pieces);
+  std::vector<std::vector<PieceCut>> cuts;
+  for (std::size_t p = 0; p < pieces.pieces.size(); ++p)
+    cuts.push_back(cutsOf(pieces.pieces[p], marks[p], distancePx, numbers));
+  for (std::size_t p = 0; p < pieces.pieces.size(); ++p)
+    addPiece(std::move(pieces.pieces[p]), std::move(cuts[p]), numbers, legs);
+  return legs;
+}
+
+}  // namespace batten
