@@ -50,7 +50,7 @@ void packRow(const std::uint8_t* flags, int words, std::uint64_t* out) {
   }
 }
 
-/// Paper along row y, at the pixel centres.
+/// Paper along row y, at the pixel centres, without its folds.
 void fillPaperRow(const PaperBackground& paper, int y, int width, std::vector<float>& columns, float* out) {
   if (paper.isEmpty()) {
     std::fill_n(out, width, 255.0f);
@@ -138,7 +138,11 @@ Result<BitImage> binarize(const GreyImage& image, const RegionThresholds& thresh
   if (const auto error = validate(params)) return fail(*error);
   try {
     if (image.width <= 0 || image.height <= 0) return BitImage();
-    Masks masks = compareAll(image, thresholds, params, context);
+    // Folds are taken out before the picture is smoothed: a sharp step and a smoothed one would differ.
+    const std::vector<PaperFold>& folds = thresholds.paper.folds;
+    const GreyImage flat = folds.empty() ? GreyImage() : withoutFolds(image, folds, context);
+    if (context.isCancelled()) return cancelled();
+    Masks masks = compareAll(folds.empty() ? image : flat, thresholds, params, context);
     if (context.isCancelled()) return cancelled();
     BitImage ink = std::move(masks.ink);
     if (params.speckArea > 0) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/image/find_folds.h"
 #include "core/image/otsu_thresholds.h"
 #include "core/image/page_edges.h"
 #include "core/image/paper_cells.h"
@@ -165,6 +166,24 @@ void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, 
   }
 }
 
+Plane statisticsPlane(const Plane& grey, int shrink, const RunContext& context) {
+  return smooth(grey, gaussianKernel(std::max(0.25, remainingVariance(kEdgeVariance, shrink))), context);
+}
+
+/// The folds are taken out of the picture, and the thresholds found on what is left.
+void thresholdsBesideFolds(const GreyImage& image, std::vector<PaperFold> folds, int shrink, double strength,
+                           RegionThresholds& out, const RunContext& context) {
+  const Plane grey = shrinkGrey(withoutFolds(image, folds, context), shrink, context);
+  if (context.isCancelled()) return;
+  const PageEdges edges = findPageEdges(statisticsPlane(grey, shrink, context), context);
+  if (context.isCancelled()) return;
+  flattenedThresholds(grey, edges, shrink, strength, out, context);
+  if (out.note.empty())
+    out.note = folds.size() == 1 ? "A fold or the edge of a shadow runs across the page; it is evened out."
+                                 : "Folds or edges of shadows run across the page; they are evened out.";
+  out.paper.folds = std::move(folds);
+}
+
 /// Puts the user's own values where set, and the acting contrast everywhere.
 void applyUser(const GreyImage& image, const ThresholdParams& params, RegionThresholds& out) {
   for (int region = 0; region < kRegions; ++region) {
@@ -200,13 +219,19 @@ Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParam
     const int shrink = shrinkFor(image);
     const Plane grey = shrinkGrey(image, shrink, context);
     if (context.isCancelled()) return cancelled();
-    const Plane smoothed =
-        smooth(grey, gaussianKernel(std::max(0.25, remainingVariance(kEdgeVariance, shrink))), context);
+    const Plane smoothed = statisticsPlane(grey, shrink, context);
     if (context.isCancelled()) return cancelled();
     if (paper.flatten) {
       const PageEdges edges = findPageEdges(smoothed, context);
       if (context.isCancelled()) return cancelled();
-      flattenedThresholds(grey, edges, shrink, params.strength, out, context);
+      std::vector<PaperFold> folds;
+      if (paper.folds) folds = findFolds(image, smoothed, edges, shrink, context);
+      if (context.isCancelled()) return cancelled();
+      if (folds.empty()) {
+        flattenedThresholds(grey, edges, shrink, params.strength, out, context);
+      } else {
+        thresholdsBesideFolds(image, std::move(folds), shrink, params.strength, out, context);
+      }
     } else {
       out.smoothingPx = kSmoothings.front();
       otsuThresholds(smoothed, params.strength, out, context);

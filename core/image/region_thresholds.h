@@ -10,12 +10,14 @@
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/image/grey_image.h"
+#include "core/image/paper_fold.h"
 
 namespace batten {
 
 /// Whether the slow changes of the paper's grey (shading, gradation, shadow) are taken out before the thresholds.
 struct PaperParams {
   bool flatten = true;  ///< Thresholds are measured against the local paper instead of against black.
+  bool folds = true;    ///< With `flatten`: so are folds and edges of shadows that run straight across the page.
   bool operator==(const PaperParams&) const = default;
 };
 
@@ -46,7 +48,8 @@ struct PaperBackground {
   int cellPx = 8;
   int columns = 0;
   int rows = 0;
-  std::vector<float> grey;  ///< [grey 0..255] columns * rows.
+  std::vector<float> grey;       ///< [grey 0..255] columns * rows.
+  std::vector<PaperFold> folds;  ///< Steps that come on top: folds and edges of shadows.
   bool isEmpty() const { return grey.empty(); }
   /// Paper level at an image position; 255 when empty.
   double at(double xPx, double yPx) const;

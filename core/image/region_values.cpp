@@ -52,7 +52,9 @@ double PaperBackground::at(double xPx, double yPx) const {
   };
   const double above = cell(x0, y0) + (u - x0) * (cell(x1, y0) - cell(x0, y0));
   const double below = cell(x0, y1) + (u - x0) * (cell(x1, y1) - cell(x0, y1));
-  return above + (v - y0) * (below - above);
+  double level = above + (v - y0) * (below - above);
+  for (const PaperFold& fold : folds) level += fold.at(xPx, yPx);
+  return level;
 }
 
 }  // namespace batten

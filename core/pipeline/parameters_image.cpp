@@ -82,6 +82,11 @@ void appendThresholds(std::vector<Parameter>& table) {
       {"paper.flatten", "Flatten paper", "",
        "Takes shading, shadows and gradations of the paper out before the thresholds look for ink."},
       [](auto& r) -> auto& { return r.paper.flatten; }));
+  table.push_back(boolean(
+      kThresholds,
+      {"paper.folds", "Even out folds", "",
+       "Takes straight steps of the paper's grey that run from border to border out as well: folds, edges of shadows."},
+      [](auto& r) -> auto& { return r.paper.folds; }));
   table.push_back(choice<ThresholdMode>(
       kThresholds,
       {"threshold.mode", "Thresholds", "",

@@ -17,7 +17,12 @@ std::size_t vectorBytes(const std::vector<T>& v) {
 }
 
 // Sizes for the cache's budget: the large parts exactly, the rest roughly.
-std::size_t bytesOf(const RegionThresholds& t) { return sizeof(t) + vectorBytes(t.paper.grey); }
+std::size_t bytesOf(const RegionThresholds& t) {
+  std::size_t bytes = sizeof(t) + vectorBytes(t.paper.grey);
+  for (const PaperFold& fold : t.paper.folds)
+    bytes += sizeof(fold) + vectorBytes(fold.depth) + vectorBytes(fold.profile);
+  return bytes;
+}
 std::size_t bytesOf(const BitImage& image) { return sizeof(image) + vectorBytes(image.words); }
 std::size_t bytesOf(const FilteredImage& image) { return bytesOf(image.ink); }
 std::size_t bytesOf(const ContourSet& set) {
@@ -107,8 +112,12 @@ class Run {
 
   /// The lines of the page, or of the parts of it that the user wants.
   Result<ContourSet> traceRegions() {
+    const auto& folds = out_.thresholds->paper.folds;
+    const GreyImage flat = folds.empty() ? GreyImage() : withoutFolds(scan_.grey, folds, context_);
+    if (context_.isCancelled()) return cancelled();
+    const GreyImage& grey = folds.empty() ? scan_.grey : flat;
     const auto trace = [&](const BitImage& ink) {
-      return traceContours(ink, scan_.grey, recipe_.edges, recipe_.contours, context_);
+      return traceContours(ink, grey, recipe_.edges, recipe_.contours, context_);
     };
     if (recipe_.regions.empty()) return trace(out_.filtered->ink);
     auto set = trace(inkTouching(out_.filtered->ink, recipe_.regions, context_));

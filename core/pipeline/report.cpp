@@ -270,6 +270,7 @@ Json countsOf(StageId stage, const PipelineOutput& out) {
       return {{"regions_measured", std::count(out.thresholds->measured.begin(), out.thresholds->measured.end(), true)},
               {"paper_noise_grey", number(out.thresholds->paperNoise)},
               {"smoothing_px", number(out.thresholds->smoothingPx)},
+              {"folds", out.thresholds->paper.folds.size()},
               {"note", out.thresholds->note}};
     case StageId::Binary:
       if (out.binary) return {{"ink_px", out.binary->count()}};

@@ -8,10 +8,11 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "tests/support/angles.h"
+
 namespace batten::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Profile = std::function<double(double)>;  ///< Curvature over 0..1 of the perimeter, any scale.
 using Course = std::function<Vec2(double)>;
 

@@ -89,7 +89,7 @@ ScanPanel::ScanPanel(EditorSession& session, QWidget* parent)
   layout->addWidget(new ParameterEditor(session, {"log.enabled", "log.factor"}, this));
   layout->addWidget(swatch_);
   layout->addWidget(caption(tr("Paper"), this));
-  layout->addWidget(new ParameterEditor(session, {"paper.flatten"}, this));
+  layout->addWidget(new ParameterEditor(session, {"paper.flatten", "paper.folds"}, this));
   layout->addStretch();
   connect(dpi_, &NumberField::committed, this, [this](double value) { setDpi(value); });
   connect(fromFile_, &QPushButton::clicked, this, [this] { setDpi(std::nullopt); });

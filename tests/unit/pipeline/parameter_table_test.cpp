@@ -53,6 +53,7 @@ TEST(ParameterTable, HoldsThePromisedNames) {
                            "fairing.target",
                            "fairing.tolerance",
                            "paper.flatten",
+                           "paper.folds",
                            "corners.snap"}) {
     EXPECT_NE(findParameter(name), nullptr) << name;
   }
