@@ -36,6 +36,7 @@ struct Contour {
   /// [px] > 0. Standard deviations of the points across the line, as the grey values around them tell; same size, or
   /// empty: not measured (pen, pencil, merged strokes).
   std::vector<float> sigmaPx;
+  double blurPx = 0.0;         ///< [px] standard deviation of the light's blur along an outline; 0: not measured.
   std::vector<float> widthPx;  ///< [px] stroke width (centre lines); empty for outlines.
   StrokeBand band;             ///< The strokes that were merged into this line; empty where nothing was merged.
   std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.

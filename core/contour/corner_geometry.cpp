@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/contour/corner_pixels.h"
 #include "core/contour/corner_sides.h"
 
 namespace batten {
@@ -18,7 +19,8 @@ constexpr double kFilledHalfPx = 3.0;   // half of a gap between two legs of a s
 constexpr double kSmallestSine = 0.08;  // of the angle between the sides; below, the meeting point is ill-conditioned
 constexpr int kCornerNewtonSteps = 12;
 constexpr int kLocateRounds = 4;
-constexpr double kFreeLegsPx = 6.0;     // legs nearer to each other than this share their blur
+constexpr double kFreeLegsPx = 6.0;  // legs nearer to each other than this share their blur
+constexpr double kFarthestPixelMovePx = 3.0;
 constexpr double kWidestZonePx = 14.0;  // beyond the rounded one
 
 struct Meeting {
@@ -54,13 +56,27 @@ Meeting meet(const CornerSide& a, const CornerSide& b, double scale) {
 
 double turn(const Vec2& in, const Vec2& out) { return -std::atan2(cross(in, out), in.dot(out)); }
 
-// Extends both sides until they meet; `scale` bounds how far.
-Meeting meetSides(const Contour& contour, int at, double inner, double outerBefore, double outerAfter, double& angle) {
-  const CornerSide before = fitCornerSide(contour, at, -1, inner, outerBefore);
-  const CornerSide after = fitCornerSide(contour, at, 1, inner, outerAfter);
-  if (before.degree < 0 || after.degree < 0) return {};
-  angle = turn(-before.derivative(0.0), after.derivative(0.0));
-  return meet(before, after, inner + 2.0 * kFarthestTipPx);
+struct CornerLegs {
+  CornerSide before, after;
+};
+
+// Extends both sides until they meet; `inner` bounds how far.
+Meeting meetSides(const Contour& contour, int at, double inner, double outerBefore, double outerAfter, double& angle,
+                  CornerLegs& legs) {
+  legs.before = fitCornerSide(contour, at, -1, inner, outerBefore);
+  legs.after = fitCornerSide(contour, at, 1, inner, outerAfter);
+  if (legs.before.degree < 0 || legs.after.degree < 0) return {};
+  angle = turn(-legs.before.derivative(0.0), legs.after.derivative(0.0));
+  return meet(legs.before, legs.after, inner + 2.0 * kFarthestTipPx);
+}
+
+// Lets the pixels have their say, within reason.
+void askPixels(const GreyImage& grey, double blurPx, CornerLegs legs, CornerFix& fix) {
+  if (!fitCornerToPixels(grey, fix.position, blurPx, legs.before, legs.after)) return;
+  const Meeting m = meet(legs.before, legs.after, fix.zonePx + 2.0 * kFarthestTipPx);
+  if (!m.ok || (m.position - fix.position).norm() > kFarthestPixelMovePx) return;
+  fix.position = m.position;
+  fix.angleRad = -m.angle;
 }
 
 struct NearestPoint {
@@ -128,8 +144,10 @@ double roundedZonePx(const Contour& contour, int index) {
   return i < contour.widthPx.size() ? std::clamp(static_cast<double>(contour.widthPx[i]), 3.0, 60.0) : kOutlineZonePx;
 }
 
-CornerFix locateCorner(const Contour& contour, int index, double inner, double outerBefore, double outerAfter) {
+CornerFix locateCorner(const Contour& contour, int index, double inner, double outerBefore, double outerAfter,
+                       const GreyImage* grey) {
   CornerFix result;
+  CornerLegs legs;
   result.position = contour.points[static_cast<std::size_t>(index)];
   result.zonePx = inner;
   // Several times: the meeting point says which contour point is really nearest and so where the rounded zone lies, and
@@ -140,9 +158,9 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
   const double eatenHalf = contour.kind == ContourKind::Outline ? kEatenHalfPx : 0.5 * inner + kFilledHalfPx;
   const double blending = contour.kind == ContourKind::Outline ? kFreeLegsPx : inner + kFreeLegsPx;
   for (int round = 0; round < kLocateRounds; ++round) {
-    const double legs = std::min(outerBefore, outerAfter);
-    const double from = std::clamp(zone, inner, std::max(inner, 0.5 * legs));
-    const Meeting m = meetSides(contour, at, from, outerBefore, outerAfter, result.angleRad);
+    const double shorter = std::min(outerBefore, outerAfter);
+    const double from = std::clamp(zone, inner, std::max(inner, 0.5 * shorter));
+    const Meeting m = meetSides(contour, at, from, outerBefore, outerAfter, result.angleRad, legs);
     if (!m.ok) return result;
     const double halfTip = std::max(0.03, 0.5 * (std::numbers::pi - std::abs(m.angle)));
     const double farthest = std::clamp(eatenHalf / std::sin(halfTip), kFarthestMeetPx, kFarthestTipPx);
@@ -159,6 +177,7 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
     at = nearest.index;
     zone = wanted;
   }
+  if (grey != nullptr && contour.blurPx > 0.0) askPixels(*grey, contour.blurPx, legs, result);
   return result;
 }
 

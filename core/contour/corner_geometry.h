@@ -5,6 +5,7 @@
 
 #include "core/contour/contour_set.h"
 #include "core/contour/polyline_tools.h"
+#include "core/image/grey_image.h"
 
 namespace batten {
 
@@ -28,13 +29,15 @@ std::optional<Turning> turningAt(const Contour& contour, int index, double inner
 inline constexpr double kFarthestTipPx = 60.0;
 
 /// Where the two sides of a contour meet when extended, at most `outer` px of each looked at.
+/// @param grey if given, the pixels around the corner of an outline have a say (corner_pixels.h).
 struct CornerFix {
   Vec2 position = Vec2::Zero();
   double angleRad = 0.0;
   double zonePx = 4.0;  ///< [px] points nearer than this are not to be trusted: rounded, or squeezed by the other leg.
   bool exact = false;   ///< False: the sides do not meet well; position is the contour point.
 };
-CornerFix locateCorner(const Contour& contour, int index, double inner, double outerBefore, double outerAfter);
+CornerFix locateCorner(const Contour& contour, int index, double inner, double outerBefore, double outerAfter,
+                       const GreyImage* grey = nullptr);
 
 /// [px] Points nearer than this to a corner are rounded by blur (outlines) or by the other leg's ink (strokes).
 double roundedZonePx(const Contour& contour, int index);

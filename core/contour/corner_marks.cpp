@@ -116,7 +116,7 @@ struct Cut {
 };
 
 // Arc length between neighbouring cuts on either side, so that no fit looks beyond the next corner.
-void locateCuts(const Contour& contour, double length, std::vector<Cut>& cuts) {
+void locateCuts(const Contour& contour, double length, const GreyImage* grey, std::vector<Cut>& cuts) {
   const auto count = cuts.size();
   for (std::size_t i = 0; i < count; ++i) {
     double before = cuts[i].s, after = length - cuts[i].s;
@@ -134,8 +134,8 @@ void locateCuts(const Contour& contour, double length, std::vector<Cut>& cuts) {
     };
     const bool cornerBefore = contour.closed ? count > 1 : i > 0;
     const bool cornerAfter = contour.closed ? count > 1 : i + 1 < count;
-    const CornerFix fix =
-        locateCorner(contour, cuts[i].corner.pointIndex, zone, outer(before, cornerBefore), outer(after, cornerAfter));
+    const CornerFix fix = locateCorner(contour, cuts[i].corner.pointIndex, zone, outer(before, cornerBefore),
+                                       outer(after, cornerAfter), grey);
     cuts[i].corner.positionPx = fix.position;
     cuts[i].corner.turningAngleRad = fix.angleRad;
     cuts[i].exact = fix.exact;
@@ -278,7 +278,8 @@ std::optional<Corner> nearestContourPoint(const ContourSet& set, const Vec2& pos
   return corner;
 }
 
-Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMark> marks, const CornerParams& params) {
+Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMark> marks, const CornerParams& params,
+                                const GreyImage* grey) {
   if (auto error = validate(params)) return fail(*error);
   PieceSet out;
   std::vector<std::vector<Cut>> cuts(set.contours.size());
@@ -303,7 +304,7 @@ Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMar
     const Contour& contour = set.contours[c];
     // A pen stroke is exact already: its corner is the point that was drawn.
     if (params.exact && contour.kind != ContourKind::Pen && !cuts[c].empty()) {
-      locateCuts(contour, polylineLength(contour.points, contour.closed), cuts[c]);
+      locateCuts(contour, polylineLength(contour.points, contour.closed), grey, cuts[c]);
     }
     cutContour(set, static_cast<int>(c), cuts[c], out);
     for (const Cut& cut : cuts[c]) out.corners.push_back(cut.corner);

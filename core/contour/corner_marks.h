@@ -7,6 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/contour/contour_set.h"
+#include "core/image/grey_image.h"
 
 namespace batten {
 
@@ -56,7 +57,9 @@ struct PieceSet {
 };
 
 /// Cuts the contours at the marks (004 section 3.2). Two marks that snap to the same point count once.
-Result<PieceSet> splitAtCorners(const ContourSet&, std::span<const CornerMark>, const CornerParams&);
+/// @param grey the page that the contours were refined on, if there is one: its pixels help to place the corners.
+Result<PieceSet> splitAtCorners(const ContourSet&, std::span<const CornerMark>, const CornerParams&,
+                                const GreyImage* grey = nullptr);
 
 /// Where a click would put a corner: nearest contour point within the snap distance, without the exact intersection.
 std::optional<Corner> nearestContourPoint(const ContourSet&, const Vec2& positionPx, double snapDistancePx);

@@ -18,6 +18,8 @@ struct CornerSide {
   int degree = -1;                                    ///< -1: no fit; else 3.
   double from = 0.0;                                  ///< [px] the points used begin here...
   double to = 0.0;                                    ///< ...and end here, along the axis.
+  /// Covariance of the side and its derivatives 1 to 3 with respect to x at `from` [px, 1/px per derivative].
+  std::array<double, 16> spread{};
   double sigmaPx = 0.0;  ///< [px] standard deviation of the side where it is extended to x = 0.
 
   Vec2 at(double x) const;

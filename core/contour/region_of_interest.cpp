@@ -44,6 +44,7 @@ Contour part(const Contour& whole, std::size_t first, std::size_t count) {
   Contour cut;
   cut.kind = whole.kind;
   cut.hole = whole.hole;
+  cut.blurPx = whole.blurPx;
   const std::size_t n = whole.points.size();
   const auto take = [&](const auto& from, auto& to) {
     if (from.size() != n) return;

@@ -392,6 +392,7 @@ void refineOutline(Contour& contour, const GreyImage& grey, const RunContext& co
     contour.refined[i] = edge ? 1 : 0;
   }
   removeReversals(contour, normal);
+  contour.blurPx = std::sqrt(std::max(1e-6, blur * blur - kPixelVariance - PixelWindow::kVariance));
   contour.sigmaPx = pointSigmas(m.information, contour.refined, contour.closed);
   contour.lengthPx = polylineLength(contour.points, contour.closed);
   contour.areaPx = contour.closed ? polygonArea(contour.points) : 0.0;

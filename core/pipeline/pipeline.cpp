@@ -95,7 +95,7 @@ class Run {
         return step(stage, out_.contours, [&] { return lines(); });
       case StageId::Pieces:
         return step(stage, out_.pieces,
-                    [&] { return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners); });
+                    [&] { return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, &scan_.grey); });
       case StageId::Segments:
         return step(stage, out_.segments, [&] { return regressionSegments(*out_.pieces, recipe_.segments); });
       case StageId::Curves:
