@@ -254,7 +254,10 @@ class Finish {
     auto fit = fitStructure(frame_, posterior, found.structure, start, 1.0, 0.0, never);
     if (!fit) return std::nullopt;
     found.limited = found.limited || !fit->converged;
-    return offsetCurve(frame_.base, withoutPlateaus(frame_, posterior, found.structure, std::move(*fit)).c);
+    auto curve = offsetCurve(frame_.base, fit->c);
+    pinned_ = std::move(posterior);
+    last_ = std::move(fit);
+    return curve;
   }
 
   /// True if the curvature itself (the programs see it to first order) turns more often than the structure has extrema.
@@ -277,6 +280,7 @@ class Finish {
     for (int pass = 0; curve && pass < kRefinements && turnsTooOften(*curve, found.structure); ++pass) {
       // About the curve itself, with its own knots, the linear constraints are exact but for a tiny remainder.
       frame_ = assembleFrame(*curve, piece_.data, options_, kFineChecksPerSpan);
+      last_.reset();
       const auto about = localPosterior(frame_, s0_, posterior.tau2, 0, options_.emWidthPx);
       if (!about || context_.isCancelled()) break;
       auto better = structuredCurve(*about, found);
@@ -284,6 +288,11 @@ class Finish {
       curve = std::move(better);
     }
     if (!curve || context_.isCancelled()) return false;
+    if (last_) {
+      const StructureFit lifted = withoutPlateaus(frame_, pinned_, found.structure, *last_);
+      auto steady = found.structure.leastSlope.empty() ? std::nullopt : offsetCurve(frame_.base, lifted.c);
+      if (steady && !turnsTooOften(*steady, found.structure)) curve = std::move(steady);
+    }
     Vec2 start = Vec2::Zero(), end = Vec2::Zero();
     pinShifts(*curve, start, end);
     auto nurbs = placed(curve->toNurbs(pixelMm_, pixelMm_, start, end), piece_, in_, pixelMm_);
@@ -365,6 +374,8 @@ class Finish {
   const RunContext& context_;
   FairFrame frame_;
   std::vector<double> oldParameters_, arcLengths_;  ///< Of the last change of frame.
+  FairPosterior pinned_;                            ///< With the ends on the pins, and the last fit by it about frame_.
+  std::optional<StructureFit> last_;
   ConstructReport report_;
 };
 

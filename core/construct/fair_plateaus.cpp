@@ -12,20 +12,26 @@ namespace {
 constexpr double kSlopeShare = 0.25;  // of the mean slope of a stretch
 constexpr double kStretchCost = 1.0;  // [chi2] what a stretch may pay for it
 constexpr double kLessSlope = 0.4;    // next try of a stretch that paid more
-constexpr int kPlateauRounds = 4;
+constexpr int kPlateauRounds = 3;
+constexpr double kFlatSlope = 0.05;  // of the mean slope: a plateau
+constexpr double kFlatShare = 0.02;  // of a stretch that may be plateaus as it is
 
-/// Penalised chi2 by stretches; the end of a closed curve belongs to its first stretch.
+/// Number of the stretch that a place belongs to; the end of a closed curve belongs to its first stretch.
+std::size_t stretchAt(const FairStructure& structure, bool closed, double u) {
+  const auto& extrema = structure.extrema;
+  const auto next = std::lower_bound(extrema.begin(), extrema.end(), u,
+                                     [](const FairExtremum& e, double place) { return e.u < place; });
+  const auto i = static_cast<std::size_t>(next - extrema.begin());
+  return closed && i == extrema.size() ? 0 : i;
+}
+
+/// Penalised chi2 by stretches.
 std::vector<double> costByStretch(const FairFrame& frame, const FairPosterior& posterior,
                                   const FairStructure& structure, const Eigen::VectorXd& c) {
   const auto& extrema = structure.extrema;
   const bool closed = frame.base.knots().closed;
   std::vector<double> cost(extrema.size() + (closed ? 0 : 1), 0.0);
-  const auto at = [&](double u) -> double& {
-    const auto next = std::lower_bound(extrema.begin(), extrema.end(), u,
-                                       [](const FairExtremum& e, double place) { return e.u < place; });
-    const auto i = static_cast<std::size_t>(next - extrema.begin());
-    return cost[closed && i == extrema.size() ? 0 : i];
-  };
+  const auto at = [&](double u) -> double& { return cost[stretchAt(structure, closed, u)]; };
   for (const FairBlock& block : frame.blocks) {
     const double e = block.offset - dot(block.row, c);
     at(block.u) += frame.blockLength * block.weight / posterior.s0 * e * e;
@@ -61,11 +67,33 @@ std::vector<double> meanSlopes(const FairFrame& frame, const FairStructure& stru
   return slopes;
 }
 
+/// No slope is asked of stretches that have next to no plateau.
+void spareSteady(const FairFrame& frame, const FairStructure& structure, const Eigen::VectorXd& c,
+                 std::vector<double>& slopes) {
+  std::vector<int> flat(slopes.size(), 0), all(slopes.size(), 0);
+  const bool closed = frame.base.knots().closed;
+  for (const FrameStation& s : frame.checks) {
+    const std::size_t i = stretchAt(structure, closed, s.u);
+    if (i >= slopes.size()) continue;
+    const bool nearExtremum = std::any_of(structure.extrema.begin(), structure.extrema.end(), [&](const auto& e) {
+      double away = std::abs(s.u - e.u);
+      if (closed) away = std::min(away, frame.base.knots().length - away);
+      return away < 1.5 * e.halfWidth;
+    });
+    ++all[i];
+    if (!nearExtremum && std::abs(s.slope + dot(s.slopeRow, c)) < kFlatSlope * slopes[i]) ++flat[i];
+  }
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    if (flat[i] <= kFlatShare * all[i]) slopes[i] = 0.0;
+  }
+}
+
 }  // namespace
 
 StructureFit withoutPlateaus(const FairFrame& frame, const FairPosterior& posterior, FairStructure& structure,
                              StructureFit fit) {
   std::vector<double> slopes = meanSlopes(frame, structure, fit.c);
+  spareSteady(frame, structure, fit.c, slopes);
   for (double& slope : slopes) slope *= kSlopeShare;
   const double never = std::numeric_limits<double>::infinity();
   const std::vector<double> before = costByStretch(frame, posterior, structure, fit.c);

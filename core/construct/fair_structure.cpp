@@ -235,7 +235,8 @@ std::optional<StructureFit> fitStructure(const FairFrame& frame, const FairPoste
   for (int i = 0; i < part.count; ++i) local[i] = start[(part.first + i) % knots.coefficients()];
   const double reference = local.dot(qp.a * local) - 2.0 * qp.b.dot(local);
   StructureFit fit;
-  for (int round = 0; round < kRounds; ++round) {
+  const int rounds = structure.leastSlope.empty() ? kRounds : 1;  // slopes are asked for once all is in place
+  for (int round = 0; round < rounds; ++round) {
     setWindows(structure, knots);
     qp.rows.clear();
     qp.bounds.clear();
