@@ -14,8 +14,9 @@ constexpr double kGuardShare = 0.1;       // of the length: short pieces keep mo
 constexpr double kShortestFairPx = 40.0;  // below, a low degree says all there is to say
 constexpr std::size_t kFewestBlocks = 5;
 constexpr int kGateReach = 5;
-// So that a wrong estimate of the noise does little harm; points known to the pixel only may weigh less.
-constexpr double kLeastWeight = 1.0 / 64.0, kMostWeight = 16.0, kGuessedWeight = 1e-3;
+// So that a wrong estimate of the noise does little harm; points that were not placed, in crossings mostly, still hold
+// the line together.
+constexpr double kLeastWeight = 1.0 / 16.0, kMostWeight = 16.0;
 
 /// Points that differ from their predecessor, in px about their mean, and what they weigh.
 void readPoints(FairPiece& piece, const ConstructPiece& in, double pixelMm, double ordinarySigmaPx) {
@@ -26,8 +27,7 @@ void readPoints(FairPiece& piece, const ConstructPiece& in, double pixelMm, doub
     px.push_back(in.points[i] / pixelMm);
     const double sigma = i < in.sigmaPx.size() ? static_cast<double>(in.sigmaPx[i]) : 0.0;
     const double ratio = sigma > 0.0 && ordinarySigmaPx > 0.0 ? ordinarySigmaPx / sigma : 1.0;
-    const bool guessed = i < in.refined.size() && in.refined[i] == 0;
-    weight.push_back(std::clamp(ratio * ratio, guessed ? kGuessedWeight : kLeastWeight, kMostWeight));
+    weight.push_back(std::clamp(ratio * ratio, kLeastWeight, kMostWeight));
   }
   if (px.empty()) return;
   Vec2 low = px.front(), high = px.front(), sum = Vec2::Zero();
