@@ -211,6 +211,31 @@ std::optional<int> reachOf(const Strip& strip, const StepFit& fit) {
   return last + 3;
 }
 
+float sample(const Plane& u, const Vec2& p) {
+  const int x = std::clamp(static_cast<int>(p.x()), 0, u.width - 1);
+  const int y = std::clamp(static_cast<int>(p.y()), 0, u.height - 1);
+  return u.row(y)[x];
+}
+
+/// Whether the smoothed page has other levels on the two sides at most places along the course: tells the many straight
+/// lines of a drawing from the few steps before these are looked at closely.
+bool mayStep(const Plane& u, const FoldCourse& c) {
+  constexpr int kPlaces = 160;
+  constexpr double kNear = 14.0, kFar = 28.0;
+  std::vector<float> steps;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double t = c.from + (i + 0.5) * (c.to - c.from) / kPlaces;
+    const auto at = [&](double d) { return sample(u, c.at(t, d)); };
+    const float bright = at(kNear), dark = at(-kNear);
+    const float slope = static_cast<float>(0.5 / (kFar - kNear)) * (at(kFar) - bright + dark - at(-kFar));
+    steps.push_back(bright - dark - static_cast<float>(2.0 * kNear) * slope);
+  }
+  std::vector<float> sorted = steps;
+  const float middle = quantile(sorted, 0.5);
+  const auto shown = std::count_if(steps.begin(), steps.end(), [&](float step) { return step > 0.3f * middle; });
+  return static_cast<double>(middle) > 0.5 * kLeastStep && 2 * shown > kPlaces;
+}
+
 class FoldMaker {
  public:
   FoldMaker(const GreyImage& image, const FoldCourse& course, double scale)
@@ -396,6 +421,7 @@ std::vector<PaperFold> findFolds(const GreyImage& image, const Plane& smoothed, 
   std::vector<PaperFold> found;
   for (const FoldCourse& line : findFoldLines(smoothed, edges, context)) {
     if (context.isCancelled()) return {};
+    if (!mayStep(smoothed, line)) continue;
     const double scale = std::clamp(std::sqrt(static_cast<double>(image.width) * image.height) / 1000.0, 0.5, 3.0);
     if (auto fold = FoldMaker(image, enlarged(line, shrink), scale).make()) found.push_back(std::move(*fold));
   }

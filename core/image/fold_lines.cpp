@@ -14,8 +14,8 @@ namespace {
 constexpr int kAngles = 720;      // of half a degree: the side of the bright paper counts
 constexpr int kAngleSpread = 8;   // [bins] uncertainty of a gradient's direction
 constexpr double kRhoStep = 3.0;  // [px of the plane]
-constexpr std::size_t kMostVoters = 20000;
-constexpr int kMostLines = 8;
+constexpr std::size_t kMostVoters = 8000;
+constexpr int kMostLines = 12;
 constexpr double kLeastShare = 0.2;  // of the crests that a line from border to border would have
 constexpr double kLeastChord = 0.5;  // of the page's smaller side
 constexpr double kSameDirection = 0.9;
