@@ -9,6 +9,7 @@
 #include "core/construct/bezier_chain.h"
 #include "core/construct/control_polygon.h"
 #include "core/construct/fair_fit.h"
+#include "core/construct/fit_start.h"
 #include "core/construct/quintic_nurbs.h"
 #include "core/construct/typical_curve.h"
 
@@ -40,6 +41,36 @@ Result<ConstructedPiece> constructPiece(const ConstructPiece& piece, double pixe
   return constructQuinticNurbs(piece, pixelMm, params, context);
 }
 
+Result<std::vector<ConstructedPiece>> constructEach(const ConstructContour& contour, const ConstructParams& params,
+                                                    const RunContext& context) {
+  std::vector<Result<ConstructedPiece>> made(contour.pieces.size(), cancelled());
+  parallelFor(context, static_cast<int>(made.size()), 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      made[at] = constructPiece(contour.pieces[at], contour.pixelMm, params, context);
+    }
+  });
+  if (context.isCancelled()) return cancelled();
+  std::vector<ConstructedPiece> pieces;
+  for (auto& piece : made) {
+    if (!piece) return fail(std::move(piece.error()));
+    pieces.push_back(std::move(*piece));
+  }
+  return pieces;
+}
+
+Result<std::vector<ConstructedPiece>> constructFromFit(const ConstructContour& contour, const ConstructParams& params,
+                                                       const RunContext& context) {
+  if (const auto fitted = onFairFit(contour, params, context)) return constructEach(*fitted, params, context);
+  if (context.isCancelled()) return cancelled();
+  auto pieces = constructEach(contour, params, context);
+  if (!pieces) return pieces;
+  for (ConstructedPiece& piece : *pieces) {
+    if (piece.report.note.empty()) piece.report.note = "Starts from the line itself: it allows no true and fair fit.";
+  }
+  return pieces;
+}
+
 }  // namespace
 
 std::optional<Error> validate(const ConstructParams& params) {
@@ -64,21 +95,10 @@ Result<std::vector<ConstructedPiece>> construct(const ConstructContour& contour,
     return fairFit(contour, options, context);
   }
   try {
-    const int count = static_cast<int>(contour.pieces.size());
-    std::vector<Result<ConstructedPiece>> made(contour.pieces.size(), cancelled());
-    parallelFor(context, count, 1, [&](int begin, int end) {
-      for (int i = begin; i < end; ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        made[at] = constructPiece(contour.pieces[at], contour.pixelMm, params, context);
-      }
-    });
-    if (context.isCancelled()) return cancelled();
-    std::vector<ConstructedPiece> pieces;
-    for (auto& piece : made) {
-      if (!piece) return fail(std::move(piece.error()));
-      pieces.push_back(std::move(*piece));
+    if (params.start == ConstructStart::Fit && params.method != ConstructMethod::Typical) {
+      return constructFromFit(contour, params, context);
     }
-    return pieces;
+    return constructEach(contour, params, context);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "There is not enough memory to construct the curves.");
   }

@@ -22,6 +22,12 @@ enum class ConstructMethod {
   ControlPolygon,  ///< The points as control polygon with repeated knots at sharp points (004).
 };
 
+/// What the papers' constructions take for the line.
+enum class ConstructStart {
+  Line,  ///< The edge points, as in the papers (default).
+  Fit,   ///< Points and directions of the true and fair fit of the edge points.
+};
+
 /// How the quintic NURBS uses the gradients (003 section 3).
 enum class GradientUse {
   All,          ///< Points and all gradients (000).
@@ -52,6 +58,8 @@ enum class PointRemoval {
 /// One flat set for all methods; each method reads its own fields.
 struct ConstructParams {
   ConstructMethod method = ConstructMethod::Fair;
+  ConstructStart start =
+      ConstructStart::Line;          ///< Nurbs, Bezier and control polygon; chains always start from the fit.
   double derivativeMagnitude = 1.0;  ///< [-] 0.1..3. Factor on the arc-corrected length of the first derivative.
   bool magnitudeAsInPaper = false;   ///< 1/3 of the mean distance of adjacent points instead (000; wrong by 3).
   GradientUse gradients = GradientUse::All;

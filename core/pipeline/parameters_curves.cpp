@@ -110,8 +110,7 @@ void appendControlPolygon(std::vector<Parameter>& table) {
       kCurves,
       {"construct.knots", "Knots at corners", "",
        "Control polygon: degree equal knots make a sharp corner. As many as the order, as in the paper, break the "
-       "curve "
-       "there."},
+       "curve there."},
       {{"degree", "As the degree", SharpKnots::Degree}, {"order", "As the order (paper)", SharpKnots::Order}},
       [](auto& r) -> auto& { return r.construct.knots; }));
   table.push_back(choice<PointRemoval>(
@@ -144,6 +143,14 @@ void appendConstruct(std::vector<Parameter>& table) {
        {"typical", "Typical curves", ConstructMethod::Typical},
        {"control-polygon", "Control polygon", ConstructMethod::ControlPolygon}},
       [](auto& r) -> auto& { return r.construct.method; }));
+  table.push_back(choice<ConstructStart>(
+      kCurves,
+      {"construct.start", "Start from", "",
+       "Quintic NURBS, Bézier path, control polygon: the edge points as they are, or where the true and fair fit of "
+       "them "
+       "lies, free of their noise."},
+      {{"line", "Edge points", ConstructStart::Line}, {"fit", "True and fair fit", ConstructStart::Fit}},
+      [](auto& r) -> auto& { return r.construct.start; }));
   table.push_back(real(
       kCurves,
       {"construct.derivative_magnitude", "Derivative magnitude", "",
@@ -205,8 +212,7 @@ void appendConstruct(std::vector<Parameter>& table) {
       kCurves,
       {"construct.reduce", "Fewer control points", "× noise",
        "True and fair fit: how far the curve may move, as a part of the noise of the scan's edge, to need fewer "
-       "control "
-       "points. Larger: fewer points; 0 keeps all."},
+       "control points. Larger: fewer points; 0 keeps all."},
       {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.construct.reduceShare; }));
 }
 
@@ -243,8 +249,7 @@ void appendFairing(std::vector<Parameter>& table) {
       kFaired,
       {"fairing.mode", "Fairing", "",
        "Off; towards a curvature profile; as even as the tolerance allows; curvature monotone between few extrema; or "
-       "without "
-       "its short waves."},
+       "without its short waves."},
       {{"none", "Off", FairingMode::None},
        {"target", "Target profile", FairingMode::Target},
        {"tolerance", "Smooth within budget", FairingMode::Tolerance},
@@ -255,8 +260,7 @@ void appendFairing(std::vector<Parameter>& table) {
       kFaired,
       {"fairing.target", "Target", "",
        "Degree of the curvature profile; auto takes the recommended one, drawn the user's own (fairing.profile). A "
-       "larger "
-       "degree follows the sketch closer."},
+       "larger degree follows the sketch closer."},
       {{"auto", "Recommended", 0},
        {"1", "Degree 1", 1},
        {"2", "Degree 2", 2},

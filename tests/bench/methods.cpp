@@ -32,12 +32,14 @@ std::vector<Method> methods() {
   return {
       {"fair", {"construct.method=fair"}},
       {"nurbs", {"construct.method=nurbs"}},
+      {"nurbs from fit", {"construct.method=nurbs", "construct.start=fit"}},
       {"nurbs+tolerance", {"construct.method=nurbs", "fairing.mode=tolerance", "fairing.tolerance=0.5"}},
       {"nurbs+all", {"construct.method=nurbs", "fairing.mode=tolerance", "fairing.tolerance=0.5", "fairing.spend=all"}},
       {"nurbs+target", {"construct.method=nurbs", "fairing.mode=target", "fairing.tolerance=0.5"}},
       {"nurbs+monotone", {"construct.method=nurbs", "fairing.mode=monotone", "fairing.tolerance=0.5"}},
       {"nurbs+lowpass", {"construct.method=nurbs", "fairing.mode=lowpass", "fairing.tolerance=0.5"}},
       {"bezier", {"construct.method=bezier"}},
+      {"bezier from fit", {"construct.method=bezier", "construct.start=fit"}},
       {"typical", {"construct.method=typical"}},
       {"typical-growing", {"construct.method=typical", "construct.typical=growing"}},
       {"control-polygon", {"construct.method=control-polygon"}}};

@@ -82,10 +82,10 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
       session_(session),
       editor_(new ParameterEditor(
           session,
-          {"construct.derivative_magnitude", "construct.keep_extrema", "construct.reduce", "construct.lowpass",
-           "construct.closeness", "construct.typical", "construct.growing_stop", "segments.mode", "segments.count",
-           "segments.spacing", "segments.tolerance", "construct.gradients", "construct.magnitude_as_in_paper",
-           "construct.growing_as_in_paper"},
+          {"construct.start", "construct.derivative_magnitude", "construct.keep_extrema", "construct.reduce",
+           "construct.lowpass", "construct.closeness", "construct.typical", "construct.growing_stop", "segments.mode",
+           "segments.count", "segments.spacing", "segments.tolerance", "construct.gradients",
+           "construct.magnitude_as_in_paper", "construct.growing_as_in_paper"},
           this)),
       methods_(new MethodTable(session, this)),
       knots_(new KnotPanel(session, view, this)),
@@ -168,6 +168,8 @@ void CurvesPanel::refreshRows() {
   const ConstructMethod method = methods_->current();
   const SegmentParams& segments = session_.recipe().segments;
   const bool nurbs = method == ConstructMethod::Nurbs;
+  // The fit needs no start, and a chain of typical curves always begins at the fit.
+  editor_->setRowVisible("construct.start", method != ConstructMethod::Fair && method != ConstructMethod::Typical);
   editor_->setRowVisible("construct.derivative_magnitude", nurbs);
   editor_->setRowVisible("construct.magnitude_as_in_paper", nurbs);
   editor_->setRowVisible("construct.gradients", nurbs);

@@ -24,15 +24,21 @@ TEST(Construct, SaysWhichParameterIsWrong) {
   EXPECT_FALSE(construct({}, params, {}));
 }
 
-class EachMethod : public testing::TestWithParam<ConstructMethod> {};
+class EachMethod : public testing::TestWithParam<std::tuple<ConstructMethod, ConstructStart>> {
+ protected:
+  static ConstructParams paramsOfTest() {
+    ConstructParams params;
+    std::tie(params.method, params.start) = GetParam();
+    return params;
+  }
+};
 
 TEST_P(EachMethod, FollowsAnEllipseInPiecesOrClosed) {
   ConstructContour contour;
   contour.pieces.push_back(test::pieceOf(test::ellipsePoint, 0.1, 1.45, 10, false));
   contour.pieces.push_back(test::pieceOf(test::ellipsePoint, 0.0, 2 * std::numbers::pi, 30, true));
   contour.pieces[0].startIsCorner = contour.pieces[0].endIsCorner = true;
-  ConstructParams params;
-  params.method = GetParam();
+  const ConstructParams params = paramsOfTest();
   const auto one = construct(contour, params, {});
   RunContext threads;
   threads.threads = 3;
@@ -51,8 +57,7 @@ TEST_P(EachMethod, FollowsAnEllipseInPiecesOrClosed) {
 TEST_P(EachMethod, CancelsAndRefusesNothingness) {
   ConstructContour contour;
   contour.pieces.push_back(test::pieceOf(test::ellipsePoint, 0.1, 1.45, 10, false));
-  ConstructParams params;
-  params.method = GetParam();
+  const ConstructParams params = paramsOfTest();
   RunContext context;
   context.cancel.cancel();
   const auto result = construct(contour, params, context);
@@ -64,8 +69,9 @@ TEST_P(EachMethod, CancelsAndRefusesNothingness) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EachMethod,
-                         testing::Values(ConstructMethod::Nurbs, ConstructMethod::Bezier, ConstructMethod::Typical,
-                                         ConstructMethod::ControlPolygon));
+                         testing::Combine(testing::Values(ConstructMethod::Nurbs, ConstructMethod::Bezier,
+                                                          ConstructMethod::Typical, ConstructMethod::ControlPolygon),
+                                          testing::Values(ConstructStart::Line, ConstructStart::Fit)));
 
 }  // namespace
 }  // namespace batten
