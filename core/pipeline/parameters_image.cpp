@@ -119,12 +119,12 @@ void appendThresholds(std::vector<Parameter>& table) {
   table.push_back(std::move(reach));
   table.push_back(integer(
       kBinary,
-      {"threshold.speck_area", "Drop specks below", "px",
+      {"threshold.speck_area", "Drop specks below", "px²",
        "Pieces of ink with a smaller area are taken for dirt. Larger drops more; 0 keeps all."},
       {0, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.threshold.speckArea; }));
   table.push_back(integer(
       kBinary,
-      {"threshold.hole_area", "Fill holes below", "px",
+      {"threshold.hole_area", "Fill holes below", "px²",
        "Holes in the ink with a smaller area are filled. Larger fills more; 0 keeps all."},
       {0, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.threshold.holeArea; }));
 }
@@ -154,10 +154,9 @@ void appendFilter(std::vector<Parameter>& table) {
       [](auto& r) -> auto& { return r.filter.border; }));
   table.push_back(integer(
       kFiltered,
-      {"filter.max_change", "Largest change", "px",
+      {"filter.max_change", "Largest change", "px²",
        "Connected changes of a larger area are undone: thin strokes, tips and narrow gaps stay. 0 = no limit, as in "
-       "the "
-       "paper."},
+       "the paper."},
       {0, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.filter.maxChangePx; }));
 }
 

@@ -145,6 +145,37 @@ TEST(NumberField, SaysWhatItsSmallestValueMeans) {
   EXPECT_EQ(field.edit()->text(), QStringLiteral("fewest"));
 }
 
+TEST_F(FirstSteps, AreasAndLengthsCanBeTypedInMillimetres) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+  Recipe recipe = session().recipe();
+  recipe.dpi = 254.0;  // 10 px a millimetre
+  session().change(QStringLiteral("Resolution"), recipe);
+  ASSERT_TRUE(settle());
+  window_->setStage(PanelStage::Threshold);
+  const auto type = [&](const char* field, const QString& text) {
+    auto* edit = find<QLineEdit>(field);
+    edit->setFocus();
+    edit->setText(text);
+    QTest::keyClick(edit, Qt::Key_Return);
+  };
+  type("threshold.speck_area.field", QStringLiteral("0.5 mm2"));
+  EXPECT_EQ(session().recipe().threshold.speckArea, 50);
+  type("threshold.speck_area.field", QStringLiteral("0,3 mm²"));
+  EXPECT_EQ(session().recipe().threshold.speckArea, 30);
+  type("threshold.speck_area.field", QStringLiteral("40 px2"));
+  EXPECT_EQ(session().recipe().threshold.speckArea, 40);
+  type("threshold.speck_area.field", QStringLiteral("7 mm"));  // no area
+  EXPECT_EQ(session().recipe().threshold.speckArea, 40);
+  type("threshold.speck_area.field", QStringLiteral("45"));
+  EXPECT_EQ(session().recipe().threshold.speckArea, 45);
+  EXPECT_TRUE(
+      find<QLineEdit>("threshold.speck_area.field")->parentWidget()->toolTip().contains(QStringLiteral("0.45")));
+  window_->setStage(PanelStage::Edges);
+  type("contours.min_length.field", QStringLiteral("2.5 mm"));
+  EXPECT_EQ(session().recipe().contours.minLengthPx, 25.0);
+  ASSERT_TRUE(settle());
+}
+
 TEST_F(FirstSteps, ArrowsPassBetweenAutoAndTheFewestSegments) {
   ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
   window_->setStage(PanelStage::Curves);

@@ -69,24 +69,32 @@ void NumberField::setEmpty(const QString& placeholder) {
   show("wrong", false);
 }
 
+std::optional<double> NumberField::read(QString text) const {
+  if (!minimumText_.isEmpty() && text.compare(minimumText_, Qt::CaseInsensitive) == 0) return minimum_;
+  const auto isOfNumber = [](QChar c) { return c.isDigit() || QStringLiteral("+-.eE").contains(c); };
+  const auto end = std::find_if_not(text.cbegin(), text.cend(), isOfNumber) - text.cbegin();
+  QString unit = text.mid(end), own = unit_->text();
+  // Who has no raised 2 types a plain one.
+  for (QString* one : {&unit, &own}) one->replace(QChar(0x00b2), QLatin1Char('2'));
+  double factor = 1.0;
+  if (!unit.isEmpty() && unit != own) factor = inOwnUnits_ ? inOwnUnits_(unit) : 0.0;
+  bool ok = false;
+  const double typed = QLocale::c().toDouble(text.left(end), &ok) * factor;
+  return ok && factor > 0.0 && std::isfinite(typed) ? std::optional(typed) : std::nullopt;
+}
+
 void NumberField::commit() {
   QString text = edit_->text().trimmed();
   text.replace(QLatin1Char(','), QLatin1Char('.')).remove(QChar(0x2009)).remove(QLatin1Char(' '));
-  if (!unit_->text().isEmpty() && text.endsWith(unit_->text())) text.chop(unit_->text().size());
   if (text.isEmpty() && empty_) return;
-  bool ok = false;
-  double typed = QLocale::c().toDouble(text, &ok);
-  if (!minimumText_.isEmpty() && text.compare(minimumText_, Qt::CaseInsensitive) == 0) {
-    typed = minimum_;
-    ok = true;
-  }
-  if (!ok || !std::isfinite(typed)) {
+  const std::optional<double> typed = read(text);
+  if (!typed) {
     // A word in a number field: keep it visible and marked; Escape brings the number back.
     show("wrong", true);
     return;
   }
   if (!empty_ && text == format(value_)) return;
-  const double bounded = std::clamp(typed, minimum_, maximum_);
+  const double bounded = std::clamp(*typed, minimum_, maximum_);
   const bool changed = empty_ || bounded != value_;
   empty_ = false;
   value_ = bounded;

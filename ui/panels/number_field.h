@@ -3,6 +3,8 @@
 
 #include <QFrame>
 #include <QString>
+#include <functional>
+#include <optional>
 
 class QLabel;
 class QLineEdit;
@@ -18,6 +20,8 @@ class NumberField : public QFrame {
   void setStep(double step) { step_ = step; }
   void setDecimals(int decimals) { decimals_ = decimals; }
   void setUnit(const QString& unit);
+  /// How many of its own units one of another makes (0: no such unit), so that a number can be typed in that one too.
+  void setOtherUnits(std::function<double(const QString& unit)> inOwnUnits) { inOwnUnits_ = std::move(inOwnUnits); }
   /// What the smallest value means, shown and taken in its place; empty = the number.
   void setMinimumText(const QString& text);
   /// Shows a value; emits nothing.
@@ -39,10 +43,12 @@ class NumberField : public QFrame {
   void stepBy(int steps);
   void show(const char* property, bool on);
   QString format(double value) const;
+  std::optional<double> read(QString text) const;
 
   QLineEdit* edit_;
   QLabel* unit_;
   QString minimumText_;
+  std::function<double(const QString& unit)> inOwnUnits_;
   double minimum_ = 0.0, maximum_ = 1.0, step_ = 0.0, value_ = 0.0;
   int decimals_ = 0;
   bool empty_ = true;

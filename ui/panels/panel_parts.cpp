@@ -144,6 +144,11 @@ QString shortMillimetres(double mm) {
 
 QString zoomText(double zoom) { return QStringLiteral("%1 %").arg(zoom * 100, 0, 'f', zoom < 0.0995 ? 1 : 0); }
 
+QString areaText(double mm2) {
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(std::max(mm2, 1e-4)))), 0, 4);
+  return QString::number(mm2, 'f', decimals) + QStringLiteral(" mm²");
+}
+
 QString grouped(qint64 count) {
   QString digits = QString::number(count);
   for (int at = static_cast<int>(digits.size()) - 3; at > (count < 0 ? 1 : 0); at -= 3)

@@ -56,6 +56,7 @@ class FigureTable : public QWidget {
 /// Lengths and places as the window writes them.
 QString millimetres(double mm);       ///< "286.4 mm", "0.14 mm"
 QString shortMillimetres(double mm);  ///< At most four digits: "0.014 mm", "0.14 mm", "51.9 mm", "340 mm"
+QString areaText(double mm2);         ///< "0.14 mm²": two digits, and never a power of ten.
 QString zoomText(double zoom);        ///< "78 %", below ten percent "7.8 %"
 QString grouped(qint64 count);        ///< "12 345" with thin spaces
 QString similarityText(double s);     ///< ".9987"

@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "ui/panels/number_field.h"
+#include "ui/panels/panel_parts.h"
 #include "ui/panels/segmented_control.h"
 #include "ui/panels/slider_track.h"
 #include "ui/theme/theme.h"
@@ -134,6 +135,7 @@ void ParameterRow::buildNumber() {
   field_->setMinimumText(text(parameter_.minimumWord));
   field_->edit()->setObjectName(text(parameter_.name) + QStringLiteral(".field"));
   field_->edit()->setAccessibleName(text(parameter_.label));
+  field_->setOtherUnits([this](const QString& unit) { return inOwnUnits(unit); });
   const int unitWidth = QFontMetrics(uiFont(11)).horizontalAdvance(text(parameter_.unit));
   field_->setFixedWidth(std::max(76, 60 + unitWidth));
   track_ = new SliderTrack(this);
@@ -150,6 +152,25 @@ void ParameterRow::buildNumber() {
     gesture_ = -1;
     sync();
   });
+}
+
+double ParameterRow::inOwnUnits(const QString& unit) const {
+  const double mm = session_.output().frame.mmPerPx;
+  if (!(mm > 0.0)) return 0.0;
+  if (parameter_.unit == "px" && unit == QLatin1String("mm")) return 1.0 / mm;
+  if (parameter_.unit == "px²" && unit == QLatin1String("mm2")) return 1.0 / (mm * mm);
+  if (parameter_.unit == "mm" && unit == QLatin1String("px")) return mm;
+  return 0.0;
+}
+
+void ParameterRow::showOtherUnit(double value) {
+  const double mm = session_.output().frame.mmPerPx;
+  QString other;
+  if (mm > 0.0 && parameter_.unit == "px")
+    other = tr("%1 mm. Millimetres can be typed, too.").arg(value * mm, 0, 'g', 3);
+  if (mm > 0.0 && parameter_.unit == "px²")
+    other = tr("%1. Square millimetres can be typed, too, as in 0.5 mm2.").arg(areaText(value * mm * mm));
+  field_->setToolTip(other);
 }
 
 void ParameterRow::buildText() {
@@ -242,6 +263,7 @@ void ParameterRow::sync() {
   if (combo_) combo_->setCurrentIndex(index);
   if (field_) {
     field_->setValue(value.toDouble());
+    showOtherUnit(value.toDouble());
     const QSignalBlocker quiet(track_);
     if (!track_->isSliderDown()) track_->setValue(toTrack(value.toDouble()));
     track_->update();

@@ -51,6 +51,8 @@ class ParameterRow : public QWidget {
   void give(const QString& text, int gesture);
   void giveNumber(double value, int gesture);
   int gestureOfKeys();
+  double inOwnUnits(const QString& unit) const;
+  void showOtherUnit(double value);
   double fromTrack(int position) const;
   int toTrack(double value) const;
 

@@ -23,15 +23,6 @@
 #include "ui/theme/theme.h"
 
 namespace batten {
-namespace {
-
-/// [mm²] with two digits, and never as a power of ten.
-QString areaText(double mm2) {
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(std::max(mm2, 1e-4)))), 0, 4);
-  return QString::number(mm2, 'f', decimals);
-}
-
-}  // namespace
 
 ThresholdPanel::ThresholdPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
     : QWidget(parent),
@@ -198,7 +189,7 @@ void ThresholdPanel::refresh() {
   const double mm = session_.output().frame.mmPerPx;
   if (found && mm > 0.0 && (params.speckArea > 0 || params.holeArea > 0)) {
     if (!text.isEmpty()) text += QLatin1Char('\n');
-    text += tr("Specks under %1 mm² are dropped, holes under %2 mm² filled.")
+    text += tr("Specks under %1 are dropped, holes under %2 filled.")
                 .arg(areaText(params.speckArea * mm * mm), areaText(params.holeArea * mm * mm));
   }
   note_->setText(text);
