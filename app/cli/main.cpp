@@ -47,6 +47,10 @@ void addTrace(CLI::App& app, TraceArguments& a) {
               "Sharp corner near this place, px from the upper left; with MM rounded by that size; may be repeated");
   addRepeated(*trace, "--segment-point", a.segmentPoints, "X,Y",
               "Typical curves meet near this place of a line, px from the upper left; may be repeated");
+  addRepeated(*trace, "--outline", a.outlines, "X,Y",
+              "Follow the border of the ink near this place, px from the upper left; may be repeated");
+  addRepeated(*trace, "--centreline", a.centrelines, "X,Y",
+              "Follow the middle of the ink near this place, px from the upper left; may be repeated");
   addRepeated(*trace, "--roi", a.regions, "X,Y,WIDTH,HEIGHT",
               "Trace only what lies in this rectangle, px from the upper left; may be repeated");
   trace->add_option("--dpi", a.dpi, "Resolution of the scan, overrides what the file states")->type_name("N");

@@ -15,6 +15,8 @@ struct TraceArguments {
   std::vector<std::string> settings;       ///< --set stage.parameter=value
   std::vector<std::string> corners;        ///< --corner X,Y or X,Y,MM
   std::vector<std::string> segmentPoints;  ///< --segment-point X,Y
+  std::vector<std::string> outlines;       ///< --outline X,Y
+  std::vector<std::string> centrelines;    ///< --centreline X,Y
   std::vector<std::string> regions;        ///< --roi X,Y,WIDTH,HEIGHT
   std::optional<double> dpi;               ///< --dpi
   std::string report;                      ///< --report

@@ -73,6 +73,16 @@ Result<void> applySegmentPoint(const std::string& point, Recipe& recipe) {
   return {};
 }
 
+Result<void> applyWay(const std::string& place, EdgeMode mode, Recipe& recipe) {
+  const auto values = numbersOf(place);
+  if (!values || values->size() != 2) {
+    return wrong(std::string(mode == EdgeMode::Outline ? "--outline" : "--centreline") +
+                 " takes X,Y in px from the upper left corner, not \"" + place + "\".");
+  }
+  recipe.edges.choices.push_back({Vec2((*values)[0], (*values)[1]), mode});
+  return {};
+}
+
 Result<void> applyRegion(const std::string& region, Recipe& recipe) {
   std::vector<double> numbers;
   for (std::size_t from = 0; from <= region.size() && numbers.size() < 5;) {
@@ -177,6 +187,12 @@ Result<TracePlan> planTrace(const TraceArguments& arguments) {
   }
   for (const std::string& point : arguments.segmentPoints) {
     if (auto set = applySegmentPoint(point, plan.recipe); !set) return fail(set.error());
+  }
+  for (const std::string& place : arguments.outlines) {
+    if (auto set = applyWay(place, EdgeMode::Outline, plan.recipe); !set) return fail(set.error());
+  }
+  for (const std::string& place : arguments.centrelines) {
+    if (auto set = applyWay(place, EdgeMode::Centreline, plan.recipe); !set) return fail(set.error());
   }
   for (const std::string& region : arguments.regions) {
     if (auto set = applyRegion(region, plan.recipe); !set) return fail(set.error());

@@ -54,14 +54,18 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (context.isCancelled()) return cancelled();
   const double width = medianWidth(strands);
   RefineSettings settings;
+  BitImage closed;
+  const BitImage* ink = &strokes;
   if (grainAlong(strands, grey) > kGrainLimit) {
     // The specks of a pencil become one body first; the middle of its darkness is the line.
-    strands = strandsOf(closeInk(strokes, 0.75 * width + 1.0), params, context);
+    closed = closeInk(strokes, 0.75 * width + 1.0);
+    ink = &closed;
+    strands = strandsOf(closed, params, context);
     settings.rule = CentreRule::Centroid;
     settings.smoothShiftPx = 3.0;
   }
   if (!params.subpixel) settings.rule = CentreRule::None;
-  bridgeGaps(strands, params, context);
+  bridgeGaps(strands, *ink, params, context);
   if (context.isCancelled()) return cancelled();
   ContourSet set;
   set.report.found = static_cast<int>(strands.size());

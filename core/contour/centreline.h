@@ -11,8 +11,8 @@
 namespace batten {
 
 /// Splits the ink into strokes and shapes: a component is a shape when more than half of its area survives an opening
-/// by a disc of the stroke-width limit (EdgeParams::strokeWidth * sqrt(width * height)). Both masks have the size of
-/// `ink`.
+/// by a disc of the stroke-width limit (EdgeParams::strokeWidth * sqrt(width * height)), unless the page is followed in
+/// one way (EdgeParams::mode) or the user chose one for the component. Both masks have the size of `ink`.
 struct StrokeSplit {
   BitImage strokes;
   BitImage shapes;

@@ -38,8 +38,9 @@ struct Strand {
 std::vector<Strand> findStrands(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
                                 const RunContext& context);
 
-/// Joins strands over gaps: mutually nearest free ends that look at each other (EdgeParams::gapFactor).
-void bridgeGaps(std::vector<Strand>& strands, const EdgeParams& params, const RunContext& context);
+/// Joins strands over gaps: mutually nearest free ends that look at each other. How long a gap is
+/// (EdgeParams::gapFactor) is measured from ink to ink.
+void bridgeGaps(std::vector<Strand>& strands, const BitImage& ink, const EdgeParams& params, const RunContext& context);
 
 /// Points about 1 px apart on a cubic that leaves `from` in direction `fromDirection` and arrives at `to` in
 /// direction `toDirection` (unit vectors), both ends excluded.

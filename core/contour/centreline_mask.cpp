@@ -9,6 +9,7 @@
 
 #include "core/base/parallel.h"
 #include "core/contour/centreline.h"
+#include "core/contour/chosen_ink.h"
 #include "core/image/run_pieces.h"
 
 namespace batten {
@@ -147,9 +148,8 @@ void copyRun(const BitImage& from, const Run& run, BitImage& to) {
 // the ink lies in shapes and three quarters near the limit, the latter are shapes as well.
 constexpr double kNearLimit = 0.6;
 
-StrokeSplit split(const BitImage& ink, double limitPx, const RunContext& context) {
-  StrokeSplit result{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height)};
-  const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
+std::vector<bool> shapesByWidth(const BitImage& ink, const RunPieces& pieces, double limitPx) {
+  std::vector<bool> shapes(pieces.runs.size(), false);
   std::vector<Bulk> bulk(pieces.runs.size());
   bool anyThick = false;
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
@@ -161,10 +161,7 @@ StrokeSplit split(const BitImage& ink, double limitPx, const RunContext& context
     if (r.x1 - r.x0 >= chord && heightAt(ink, (r.x0 + r.x1) / 2, r.y, chord) >= chord) b.longRuns += r.x1 - r.x0;
   }
   for (const Bulk& b : bulk) anyThick = anyThick || (b.area > 0 && b.longRuns >= 0.35 * static_cast<double>(b.area));
-  if (!anyThick) {
-    result.strokes = ink;
-    return result;
-  }
+  if (!anyThick) return shapes;
   const FatCells fat = fatCells(ink, limitPx), nearly = fatCells(ink, kNearLimit * limitPx);
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     Bulk& b = bulk[static_cast<std::size_t>(pieces.piece[i])];
@@ -180,7 +177,25 @@ StrokeSplit split(const BitImage& ink, double limitPx, const RunContext& context
   const bool vote = 4 * inShapes > all && 4 * nearShapes > 3 * all;
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     const Bulk& b = bulk[static_cast<std::size_t>(pieces.piece[i])];
-    const bool shape = 2 * (vote ? b.nearlyFat : b.fat) > b.area;
+    shapes[i] = 2 * (vote ? b.nearlyFat : b.fat) > b.area;
+  }
+  return shapes;
+}
+
+StrokeSplit split(const BitImage& ink, const EdgeParams& params, const RunContext& context) {
+  StrokeSplit result{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height)};
+  const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
+  if (context.isCancelled()) return result;
+  std::vector<bool> shapes(pieces.runs.size(), params.mode == EdgeMode::Outline);
+  if (params.mode == EdgeMode::Automatic) {
+    const double side = std::sqrt(static_cast<double>(ink.width) * ink.height);
+    shapes = shapesByWidth(ink, pieces, params.strokeWidth * side);
+  }
+  const ChosenInk chosen(pieces, params.choices);
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    const int choice = params.choices.empty() ? -1 : chosen.choiceOf(pieces.piece[i]);
+    const EdgeMode own = choice < 0 ? EdgeMode::Automatic : params.choices[static_cast<std::size_t>(choice)].mode;
+    const bool shape = own == EdgeMode::Automatic ? shapes[i] : own == EdgeMode::Outline;
     copyRun(ink, pieces.runs[i], shape ? result.shapes : result.strokes);
   }
   return result;
@@ -212,8 +227,7 @@ Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams& params, 
   if (ink.width <= 0 || ink.height <= 0) return StrokeSplit{ink, ink};
   if (context.isCancelled()) return cancelled();
   try {
-    StrokeSplit result =
-        split(ink, params.strokeWidth * std::sqrt(static_cast<double>(ink.width) * ink.height), context);
+    StrokeSplit result = split(ink, params, context);
     if (context.isCancelled()) return cancelled();
     return result;
   } catch (const cv::Exception& e) {

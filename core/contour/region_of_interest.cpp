@@ -45,6 +45,7 @@ Contour part(const Contour& whole, std::size_t first, std::size_t count) {
   cut.kind = whole.kind;
   cut.hole = whole.hole;
   cut.blurPx = whole.blurPx;
+  cut.way = whole.way;
   const std::size_t n = whole.points.size();
   const auto take = [&](const auto& from, auto& to) {
     if (from.size() != n) return;

@@ -77,6 +77,7 @@ Contour stretchOf(const Contour& c, int from, int to) {
   part.kind = c.kind;
   part.hole = c.hole;
   part.blurPx = c.blurPx;
+  part.way = c.way;
   for (int k = from; k <= to; ++k) {
     const auto i = static_cast<std::size_t>(wrapIndex(k, n));
     part.points.push_back(c.points[i]);

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <span>
 #include <string>
 
 #include "core/base/parallel.h"
 #include "core/contour/centreline.h"
+#include "core/contour/chosen_ink.h"
 #include "core/contour/crack_contours.h"
 #include "core/contour/polyline_tools.h"
 #include "core/contour/soft_borders.h"
@@ -56,6 +58,10 @@ void refineOutlines(ContourSet& set, const GreyImage& grey, const RunContext& co
 void dropSoftBorders(ContourSet& set, const GreyImage& grey, const ContourParams& params, const RunContext& context) {
   std::vector<Contour> kept;
   for (Contour& contour : set.contours) {
+    if (contour.kind != ContourKind::Outline) {
+      kept.push_back(std::move(contour));
+      continue;
+    }
     std::vector<Contour> parts = cutSoftBorders(contour, grey, context);
     if (context.isCancelled()) return;
     const bool cut = parts.size() != 1 || parts[0].closed != contour.closed;
@@ -90,9 +96,11 @@ void append(ContourSet& to, ContourSet&& from) {
 // The lines of the page before sub-pixel placement of the outlines; centre lines come placed.
 Result<ContourSet> findLines(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
                              const ContourParams& params, const RunContext& context) {
-  if (edges.mode == EdgeMode::Outline) return crackContours(ink, edges.internal, params.minLengthPx, context);
+  if (edges.mode == EdgeMode::Outline && edges.choices.empty()) {
+    return crackContours(ink, edges.internal, params.minLengthPx, context);
+  }
   StrokeSplit split;
-  if (edges.mode == EdgeMode::Centreline) {
+  if (edges.mode == EdgeMode::Centreline && edges.choices.empty()) {
     split.strokes = ink;
   } else {
     Result<StrokeSplit> found = splitStrokes(ink, edges, context);
@@ -116,6 +124,58 @@ Result<ContourSet> findLines(const BitImage& ink, const GreyImage& grey, const E
   return set;
 }
 
+void addNote(ContourSet& set, const std::string& what, const Vec2& px) {
+  if (!set.report.note.empty()) set.report.note += ' ';
+  set.report.note +=
+      what + " near (" + std::to_string(std::lround(px.x())) + ", " + std::to_string(std::lround(px.y())) + ").";
+}
+
+// Notes on every line which choice of the user its ink follows; true for every choice that gave a line.
+std::vector<bool> noteWays(ContourSet& set, const ChosenInk& chosen, std::span<const EdgeChoice> choices) {
+  std::vector<bool> gaveLine(choices.size(), false);
+  for (Contour& contour : set.contours) {
+    for (std::size_t i = 0; i < contour.chain.size() && !contour.way; ++i) {
+      const int choice = chosen.choiceAt(contour.chain[i]);
+      if (choice < 0) continue;
+      contour.way = choices[static_cast<std::size_t>(choice)];
+      gaveLine[static_cast<std::size_t>(choice)] = true;
+    }
+  }
+  return gaveLine;
+}
+
+// Ink that was chosen to be followed along its middle, but is a blot that has none, keeps its outline: a line that
+// vanished could not be clicked again.
+Result<void> followChoices(ContourSet& set, const BitImage& ink, const EdgeParams& edges, const ContourParams& params,
+                           const RunContext& context) {
+  if (edges.choices.empty()) return {};
+  const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
+  if (context.isCancelled()) return cancelled();
+  const ChosenInk chosen(pieces, edges.choices);
+  for (const EdgeChoice& choice : chosen.withoutInk())
+    addNote(set, "No ink to follow in its own way lies", choice.positionPx);
+  const std::vector<bool> gaveLine = noteWays(set, chosen, edges.choices);
+  BitImage blots(ink.width, ink.height);
+  std::vector<bool> isNoted(edges.choices.size(), false);
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    const int index = chosen.choiceOf(pieces.piece[i]);
+    if (index < 0) continue;
+    const auto at = static_cast<std::size_t>(index);
+    const EdgeChoice& choice = edges.choices[at];
+    if (gaveLine[at] || choice.mode != EdgeMode::Centreline) continue;
+    setBits(blots, pieces.runs[i]);
+    if (!isNoted[at])
+      addNote(set, "Too short and wide for a centre line, followed along its outline: the ink", choice.positionPx);
+    isNoted[at] = true;
+  }
+  if (std::find(isNoted.begin(), isNoted.end(), true) == isNoted.end()) return {};
+  Result<ContourSet> outlines = crackContours(blots, edges.internal, params.minLengthPx, context);
+  if (!outlines) return fail(outlines.error());
+  noteWays(*outlines, chosen, edges.choices);
+  append(set, std::move(*outlines));
+  return {};
+}
+
 std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
   const std::string length = std::to_string(static_cast<long>(std::lround(std::min(params.minLengthPx, 1e9))));
   if (set.report.found == 0) {
@@ -128,6 +188,7 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
                             const ContourParams& params, const RunContext& context) {
   Result<ContourSet> set = findLines(ink, grey, edges, params, context);
   if (!set) return set;
+  if (auto followed = followChoices(*set, ink, edges, params, context); !followed) return fail(followed.error());
   if (context.isCancelled()) return cancelled();
   if (set->contours.empty()) {
     return fail(
@@ -156,6 +217,9 @@ std::optional<Error> validate(const EdgeParams& p) {
   if (!(p.mergeWidths >= 0.0 && p.mergeWidths <= 20.0)) return bad("edges.merge must be 0 to 20 stroke widths.");
   if (!(p.spurFactor >= 0.0 && p.spurFactor <= 5.0)) return bad("edges.spur must be 0 to 5 stroke widths.");
   if (!(p.maxBendDeg >= 0.0 && p.maxBendDeg <= 90.0)) return bad("edges.bend must be 0 to 90 degrees.");
+  for (const EdgeChoice& choice : p.choices) {
+    if (auto error = validate(choice)) return error;
+  }
   return std::nullopt;
 }
 

@@ -2,20 +2,16 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
+#include "core/contour/edge_choices.h"
 #include "core/image/bit_image.h"
 #include "core/image/grey_image.h"
 
 namespace batten {
-
-enum class EdgeMode {
-  Automatic,   ///< Per component: strokes give centre lines, filled shapes give outlines.
-  Outline,     ///< The borders between ink and paper (000).
-  Centreline,  ///< The middle of every stroke.
-};
 
 struct EdgeParams {
   EdgeMode mode = EdgeMode::Automatic;
@@ -29,6 +25,7 @@ struct EdgeParams {
       0.0;  ///< [stroke widths] 0..20. Strokes of one intended line closer than this are merged into one; 0 = off.
   double spurFactor = 1.5;   ///< [stroke widths] 0..5. Side branches of the skeleton shorter than this are dropped.
   double maxBendDeg = 40.0;  ///< [deg] 0..90. Strands bending less than this continue through a crossing.
+  std::vector<EdgeChoice> choices;  ///< Pieces of ink that are followed in a way of their own.
   bool operator==(const EdgeParams&) const = default;
 };
 std::optional<Error> validate(const EdgeParams&);

@@ -30,6 +30,9 @@ std::optional<Error> validatePlaces(const Recipe& recipe) {
   for (const RegionOfInterest& region : recipe.regions) {
     if (!arePlaces(region.cornersPx)) return badPlace("A corner of a region");
   }
+  for (const EdgeChoice& choice : recipe.edges.choices) {
+    if (!isPlace(choice.positionPx)) return badPlace("A place of ink that is followed in its own way");
+  }
   for (const CornerMark& mark : recipe.cornerMarks) {
     if (!isPlace(mark.positionPx)) return badPlace("A corner mark");
   }

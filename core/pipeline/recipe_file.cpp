@@ -172,6 +172,17 @@ Result<void> readPage(const Json& json, Recipe& recipe) {
   return {};
 }
 
+Json waysToJson(const Recipe& recipe) {
+  Json ways = Json::array();
+  for (const EdgeChoice& choice : recipe.edges.choices) {
+    Recipe named;
+    named.edges.mode = choice.mode;
+    const std::string word = findParameter("edges.mode")->get(named);
+    ways.push_back({{"at", {choice.positionPx.x(), choice.positionPx.y()}}, {"mode", word}});
+  }
+  return ways;
+}
+
 Json cornerToJson(const CornerMark& mark) {
   const Json at = {mark.positionPx.x(), mark.positionPx.y()};
   return mark.roundMm > 0.0 ? Json{{"at", at}, {"round", mark.roundMm}} : at;
@@ -272,6 +283,20 @@ Result<void> readRegions(const Json& json, Recipe& recipe) {
   return {};
 }
 
+Result<void> readWays(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"ways\" is not a list.");
+  for (const Json& entry : json) {
+    const bool isWhole = entry.is_object() && entry.size() == 2 && entry.contains("at") && entry.contains("mode");
+    const auto point = isWhole ? pointFromJson(entry["at"]) : std::nullopt;
+    Recipe named;
+    if (!point || !entry["mode"].is_string() || !setParameter(named, "edges.mode", entry["mode"].get<std::string>())) {
+      return refuse("The recipe is damaged: an entry of \"ways\" does not hold just a place \"at\" and a \"mode\".");
+    }
+    recipe.edges.choices.push_back({*point, named.edges.mode});
+  }
+  return {};
+}
+
 Result<void> checkHead(const Json& json) {
   if (!json.is_object() || !json.contains("format") || json["format"] != kFormat) {
     return refuse("This is not a Batten recipe. Choose a file that Batten saved as a recipe.");
@@ -298,6 +323,7 @@ Result<void> readEntry(const std::string& name, const Json& value, Recipe& recip
   if (name == "page") return readPage(value, recipe);
   if (name == "extrema") return readExtrema(value, recipe);
   if (name == "regions") return readRegions(value, recipe);
+  if (name == "ways") return readWays(value, recipe);
   if (name != "dpi") {
     return refuse("The recipe holds \"" + name + "\", which this version of Batten does not know.");
   }
@@ -337,6 +363,7 @@ std::string recipeToJson(const Recipe& recipe) {
     Json& polygon = regions.emplace_back(Json::array());
     for (const Vec2& p : region.cornersPx) polygon.push_back({p.x(), p.y()});
   }
+  if (!recipe.edges.choices.empty()) json["ways"] = waysToJson(recipe);
   return json.dump(1) + "\n";
 }
 

@@ -214,6 +214,7 @@ Json contourToJson(const Contour& c, std::size_t index, const PageFrame& frame) 
             {"kind", kindName(c.kind)},
             {"closed", c.closed},
             {"hole", c.hole},
+            {"kind_chosen_by_user", c.way.has_value()},
             {"length_px", number(c.lengthPx)},
             {"length_mm", number(frame.lengthToModel(c.lengthPx))},
             {"area_px2", c.closed ? number(c.areaPx) : Json(nullptr)},

@@ -81,6 +81,11 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
         addCount(h, region.cornersPx);
         for (const Vec2& p : region.cornersPx) add(h, p);
       }
+      addCount(h, r.edges.choices);
+      for (const EdgeChoice& choice : r.edges.choices) {
+        add(h, choice.positionPx);
+        h.integer(static_cast<int>(choice.mode));
+      }
       break;  // the pen strokes come on top, see stageKeys
     case StageId::Pieces:
       addCount(h, r.cornerMarks);

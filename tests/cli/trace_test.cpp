@@ -106,6 +106,16 @@ TEST_F(Trace, ARegionTracesItsPartAndChoicesComeFromTheRecipe) {
   EXPECT_NE(run("trace " + scan + " --roi 0,0,240,-3 -o " + file("c.json")).code, 0);
 }
 
+TEST_F(Trace, InkIsFollowedInTheWayAskedFor) {
+  const std::string middles = "trace " + scene("ellipse") + " --set edges.mode=centreline -o " + file("a.json") +
+                              " --report " + file("r.json") + " --save-recipe " + file("way.json");
+  EXPECT_EQ(run(middles).code, 4) << "a filled ellipse has no middle";
+  ASSERT_EQ(run(middles + " --outline 240,160").code, 0);
+  EXPECT_EQ(json::parse(test::readFile(file("r.json")))["curves"][0]["kind"], "outline");
+  const json ways = json::parse(test::readFile(file("way.json")))["ways"];
+  EXPECT_EQ(ways, json::parse(R"([{"at":[240.0,160.0],"mode":"outline"}])"));
+}
+
 TEST_F(Trace, CornersCutTheContourAndTheSavedRecipeRepeatsTheResult) {
   const auto truth = test::truthShape("car", 480, 320);
   std::string corners;

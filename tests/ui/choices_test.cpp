@@ -2,6 +2,7 @@
 // What the user chooses on the drawing: bumps to keep or take out, lines to leave out, regions to trace.
 #include <gtest/gtest.h>
 
+#include <QAbstractButton>
 #include <QAction>
 #include <QLineEdit>
 #include <QPixmap>
@@ -171,6 +172,44 @@ TEST_F(Choices, AClickLeavesALineOutAndTakesItInAgain) {
   click({300, 109});
   ASSERT_TRUE(settle());
   EXPECT_TRUE(session().curves()[0].included);
+}
+
+TEST_F(Choices, TheSelectedLineIsFollowedInAWayOfItsOwn) {
+  open(twoLinesPage());
+  window_->setStage(PanelStage::Edges);
+  auto* outline = find<QAbstractButton>("edges.way.outline");
+  auto* page = find<QAbstractButton>("edges.way.page");
+  click({300, 109});
+  ASSERT_TRUE(outline->isVisible());
+  EXPECT_TRUE(page->isChecked());
+  const auto kinds = [&] {
+    std::vector<ContourKind> all;
+    for (const Contour& c : session().output().contours->contours) all.push_back(c.kind);
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  QTest::mouseClick(outline, Qt::LeftButton);
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(kinds(), (std::vector{ContourKind::Outline, ContourKind::Centreline}));
+  EXPECT_TRUE(outline->isChecked()) << "the line stays selected";
+  // The choice outlives its line.
+  Recipe moved = session().recipe();
+  moved.contours.minLengthPx = 3000.0;
+  session().change(QStringLiteral("shortest line"), moved);
+  ASSERT_TRUE(settle());
+  EXPECT_FALSE(outline->isVisible());
+  moved.contours.minLengthPx = 40.0;
+  session().change(QStringLiteral("shortest line"), moved);
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(kinds(), (std::vector{ContourKind::Outline, ContourKind::Centreline}));
+  click({300, 107});
+  ASSERT_TRUE(page->isVisible());
+  QTest::mouseClick(page, Qt::LeftButton);
+  EXPECT_TRUE(session().recipe().edges.choices.empty());
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(kinds(), (std::vector{ContourKind::Centreline, ContourKind::Centreline}));
+  window_->action(ActionId::Undo)->trigger();
+  EXPECT_EQ(session().recipe().edges.choices.size(), 1u);
 }
 
 TEST_F(Choices, ARectangleAndALassoTraceWhatLiesInside) {

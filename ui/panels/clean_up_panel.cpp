@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "ui/panels/line_way.h"
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/parameter_editor.h"
 #include "ui/panels/pen_panel.h"
@@ -101,10 +102,11 @@ EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* pare
                           {"edges.mode", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
                            "edges.merge", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
                           this),
-      caption(tr("Lines found"), this), figures_};
+      new LineWay(session, this), caption(tr("Lines found"), this), figures_};
   layout->addWidget(tracing_[0]);
-  buildChoice();
   layout->addWidget(tracing_[1]);
+  buildChoice();
+  layout->addWidget(tracing_[2]);
   layout->addWidget(figures_);
   layout->addWidget(note_);
   layout->addWidget(new PenPanel(session, view, this));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -82,6 +83,80 @@ TEST(TraceContours, ModesOverrideTheChoice) {
   const auto both = traceContours(page.ink, page.grey, inner, {}, {});
   ASSERT_TRUE(both.has_value());
   EXPECT_EQ(both->contours.size(), outlines->contours.size() + 1);
+}
+
+// Two discs, a ring of 3 px and a dash: the ring is to be followed along its border, a disc along its middle.
+TEST(TraceContours, ChosenInkGoesItsOwnWay) {
+  const OutlinePage page = mixedPage();
+  for (const EdgeMode mode : {EdgeMode::Automatic, EdgeMode::Outline, EdgeMode::Centreline}) {
+    EdgeParams params = withMode(mode);
+    // Near the ring, not on it; on the ring again, which counts; the second place is nowhere near any ink.
+    params.choices = {
+        {{365, 80}, EdgeMode::Centreline}, {{20, 200}, EdgeMode::Outline}, {{300, 36}, EdgeMode::Outline}};
+    const auto set = traceContours(page.ink, page.grey, params, {}, {});
+    ASSERT_TRUE(set.has_value());
+    int ringLines = 0;
+    for (const Contour& c : set->contours) {
+      const bool isRing = std::abs((c.points[0] - Vec2(300, 80)).norm() - 50.0) < 4.0;
+      ringLines += isRing;
+      if (isRing) {
+        EXPECT_EQ(c.kind, ContourKind::Outline);
+        EXPECT_NEAR(c.lengthPx, 2 * M_PI * 51.5, 2.0);
+        ASSERT_TRUE(c.way);
+        EXPECT_EQ(*c.way, params.choices[2]);
+      } else {
+        EXPECT_FALSE(c.way);
+        const bool isBig = (c.points[0] - Vec2(100, 100)).norm() < 70.0;
+        const bool isOutline = c.kind == ContourKind::Outline;
+        EXPECT_TRUE(mode == EdgeMode::Automatic ? !isBig || isOutline : isOutline == (mode == EdgeMode::Outline));
+      }
+    }
+    EXPECT_EQ(ringLines, 1);
+  }
+}
+
+TEST(TraceContours, AChoiceSurvivesAsLongAsItsInkIsNear) {
+  const OutlinePage page = mixedPage();
+  EdgeParams params = withMode(EdgeMode::Outline);
+  for (const double away : {0.0, 10.0, 20.0, 30.0}) {
+    params.choices = {{{300, 80 + 51.5 + away}, EdgeMode::Centreline}};
+    const auto set = traceContours(page.ink, page.grey, params, {}, {});
+    ASSERT_TRUE(set.has_value());
+    const auto chosen = std::count_if(set->contours.begin(), set->contours.end(),
+                                      [](const Contour& c) { return c.kind == ContourKind::Centreline && c.way; });
+    EXPECT_EQ(chosen, away < kInkReachPx ? 1 : 0) << away;
+  }
+  params.choices = {{{std::nan(""), 0.0}, EdgeMode::Outline}};
+  EXPECT_FALSE(traceContours(page.ink, page.grey, params, {}, {}));
+}
+
+// What the user sets is the paper between the ends, whatever the pen's shape and the direction.
+TEST(TraceContours, AGapIsAsLongAsItLooks) {
+  for (const double w : {3.0, 5.0, 9.0}) {
+    for (const double turn : {0.0, 0.4}) {
+      for (const bool isSquare : {true, false}) {
+        const double gap = 4.0 * w;
+        const Vec2 along(std::cos(turn), std::sin(turn)), across = leftNormal(along);
+        const OutlinePage p = render([&](double x, double y) {
+          const Vec2 d = Vec2(x, y) - Vec2(200.3, 150.4);
+          const double u = std::abs(d.dot(along)) - 0.5 * gap, v = std::abs(d.dot(across));
+          if (u < 0.0 || u > 110.0) return false;
+          return isSquare || u > 0.5 * w ? v < 0.5 * w : std::hypot(u - 0.5 * w, v) < 0.5 * w;
+        });
+        EdgeParams params;
+        params.mode = EdgeMode::Centreline;
+        const auto linesWith = [&](double factor) {
+          params.gapFactor = factor;
+          const auto set = traceContours(p.ink, p.grey, params, {}, {});
+          return set ? set->contours.size() : 0u;
+        };
+        // The width of a stroke is known to half a pixel, its gap to one.
+        const double doubt = (1.2 + 0.5 * gap / w) / w;
+        EXPECT_EQ(linesWith(4.0 + doubt), 1u) << w << " " << turn << " " << isSquare;
+        EXPECT_EQ(linesWith(4.0 - doubt), 2u) << w << " " << turn << " " << isSquare;
+      }
+    }
+  }
 }
 
 TEST(TraceContours, LongestFirstShortOnesDroppedAndTheCutIsSaid) {

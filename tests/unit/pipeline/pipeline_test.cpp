@@ -195,6 +195,32 @@ TEST(Pipeline, TwoChoicesForOnePieceGiveTheSameFromTheCacheAndFromScratch) {
   EXPECT_FALSE(fresh.faired->curves[0].sketched == plain.faired->curves[0].sketched) << "the method counts, too";
 }
 
+TEST(Pipeline, InkFollowedInItsOwnWayIsTracedAnew) {
+  StageCache cache;
+  const auto whole = run({}, cache);
+  ASSERT_FALSE(whole.error);
+  const Contour& line = whole.contours->contours[0];
+  ASSERT_EQ(line.kind, ContourKind::Outline);
+  Recipe recipe;
+  recipe.edges.mode = EdgeMode::Centreline;
+  ASSERT_FALSE(run(recipe, cache).contours) << "a blot has no middle";
+  recipe.edges.choices = {{line.chain[10], EdgeMode::Outline}};
+  const auto own = run(recipe, cache);
+  ASSERT_TRUE(own.contours);
+  EXPECT_EQ(own.contours->contours[0].points, line.points);
+  EXPECT_EQ(own.contours->contours[0].way, recipe.edges.choices[0]);
+  recipe.edges.mode = EdgeMode::Automatic;
+  recipe.edges.choices[0].mode = EdgeMode::Centreline;
+  const auto kept = run(recipe, cache);
+  ASSERT_TRUE(kept.contours);
+  EXPECT_EQ(kept.contours->contours[0].kind, ContourKind::Outline) << "it must not vanish";
+  EXPECT_NE(kept.contours->report.note.find("along its outline"), std::string::npos);
+  recipe.edges.choices[0].positionPx = Vec2(-500, -500);
+  const auto nowhere = run(recipe, cache);
+  ASSERT_TRUE(nowhere.contours);
+  EXPECT_NE(nowhere.contours->report.note.find("No ink"), std::string::npos);
+}
+
 TEST(Pipeline, ARegionTracesOnlyWhatLiesInside) {
   StageCache cache;
   const auto whole = run({}, cache);

@@ -43,6 +43,7 @@ Recipe fullRecipe() {
   r.fairing.profile = {{0.0, 0.1}, {1.0, 0.2}};
   r.extremumChoices = {{Vec2(1.0 / 7.0, 300.5), true}, {Vec2(12.25, 1e-3), false}};
   r.regions = {rectangleRegion({1.0 / 3.0, 2.0}, {300.0, 4e2}), {{Vec2(0, 0), Vec2(10.1, 3.3), Vec2(-4, 9)}}};
+  r.edges.choices = {{Vec2(1.0 / 3.0, 20.0), EdgeMode::Outline}, {Vec2(300.0, 4e2), EdgeMode::Centreline}};
   return r;
 }
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "core/base/result.h"
+#include "core/base/vec2.h"
+
+namespace batten {
+
+enum class EdgeMode {
+  Automatic,   ///< Per component: strokes give centre lines, filled shapes give outlines.
+  Outline,     ///< The borders between ink and paper (000).
+  Centreline,  ///< The middle of every stroke.
+};
+
+/// How the user wants one piece of ink followed, whatever holds for the page. Attached by position so that it survives
+/// changes of the mask: it belongs to the piece of ink nearest to it within kInkReachPx; of several, the last counts.
+struct EdgeChoice {
+  Vec2 positionPx = Vec2::Zero();
+  EdgeMode mode = EdgeMode::Outline;
+  bool operator==(const EdgeChoice& o) const { return positionPx == o.positionPx && mode == o.mode; }
+};
+std::optional<Error> validate(const EdgeChoice&);
+
+inline constexpr double kInkReachPx = 24.0;
+
+}  // namespace batten
