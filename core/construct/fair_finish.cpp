@@ -289,9 +289,13 @@ class Finish {
     }
     if (!curve || context_.isCancelled()) return false;
     if (last_) {
-      const StructureFit lifted = withoutPlateaus(frame_, pinned_, found.structure, *last_);
-      auto steady = found.structure.leastSlope.empty() ? std::nullopt : offsetCurve(frame_.base, lifted.c);
-      if (steady && !turnsTooOften(*steady, found.structure)) curve = std::move(steady);
+      FairStructure structure = found.structure;
+      const StructureFit lifted = withoutPlateaus(frame_, pinned_, structure, *last_);
+      auto steady = structure.leastSlope.empty() ? std::nullopt : offsetCurve(frame_.base, lifted.c);
+      if (steady && !turnsTooOften(*steady, structure)) {
+        curve = std::move(steady);
+        found.structure = std::move(structure);
+      }
     }
     Vec2 start = Vec2::Zero(), end = Vec2::Zero();
     pinShifts(*curve, start, end);

@@ -93,6 +93,7 @@ void spareSteady(const FairFrame& frame, const FairStructure& structure, const E
 StructureFit withoutPlateaus(const FairFrame& frame, const FairPosterior& posterior, FairStructure& structure,
                              StructureFit fit) {
   std::vector<double> slopes = meanSlopes(frame, structure, fit.c);
+  if (slopes.empty()) return fit;
   spareSteady(frame, structure, fit.c, slopes);
   for (double& slope : slopes) slope *= kSlopeShare;
   const double never = std::numeric_limits<double>::infinity();

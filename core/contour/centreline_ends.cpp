@@ -63,6 +63,10 @@ void replaceTail(StrandCourse& c, std::size_t keep, const std::vector<Vec2>& tai
   resizeTail(c.shift, keep, total);
   resizeTail(c.measuredWidth, keep, total);
   resizeTail(c.measured, keep, total);
+  if (!c.information.empty()) {
+    c.information.resize(keep);
+    c.information.resize(total);  // nothing is known of the new ones
+  }
   for (std::size_t i = 0; i < tail.size(); ++i) {
     c.base[keep + i] = tail[i];
     c.chain[keep + i] = keep + i < chain.size() ? chain[keep + i] : tail[i];
@@ -122,6 +126,7 @@ void turnRound(StrandCourse& c) {
   std::reverse(c.shift.begin(), c.shift.end());
   std::reverse(c.measuredWidth.begin(), c.measuredWidth.end());
   std::reverse(c.measured.begin(), c.measured.end());
+  std::reverse(c.information.begin(), c.information.end());
   std::swap(c.tip[0], c.tip[1]);
 }
 
@@ -173,7 +178,9 @@ namespace {
 // Points that only the half levels of their profile have placed are known half as well as those next to them.
 std::vector<float> sigmasOf(std::vector<PointInformation> information, const std::vector<std::uint8_t>& measured,
                             bool closed) {
-  double gain = 0.0;
+  const auto known = std::find_if(information.begin(), information.end(),
+                                  [](const PointInformation& point) { return point.gain > 0.0; });
+  double gain = known == information.end() ? 0.0 : known->gain;
   for (std::size_t i = 0; i < information.size(); ++i) {
     if (information[i].gain > 0.0) {
       gain = information[i].gain;

@@ -102,13 +102,13 @@ double joinCost(const FreeEnd& a, const FreeEnd& b, const BitImage& ink, double 
   const double width = 0.5 * (a.width + b.width);
   const Vec2 d = b.at - a.at;
   const double gap = d.norm(), longest = gapFactor * 0.5 * (a.inkWidth + b.inkWidth);
-  // Half a pixel for the mask, whose pixels are whole.
-  if (gap > longest + 2.0 * width + 2.0 || paperBetween(a, b, ink) > longest + 0.5) return -1.0;
+  if (gap > longest + 2.0 * width + 2.0) return -1.0;
   const double turn = std::acos(std::clamp(-a.out.dot(b.out), -1.0, 1.0));
-  const double deg = std::numbers::pi / 180.0;
-  if (gap <= 1.5 * width) return turn <= 60.0 * deg && d.dot(a.out) >= -0.5 * width ? gap + width * turn : -1.0;
-  const double limit = std::cos(30.0 * deg) * gap;
-  if (d.dot(a.out) < limit || -d.dot(b.out) < limit) return -1.0;
+  const double deg = std::numbers::pi / 180.0, limit = std::cos(30.0 * deg) * gap;
+  const bool isFacing = gap <= 1.5 * width ? turn <= 60.0 * deg && d.dot(a.out) >= -0.5 * width
+                                           : d.dot(a.out) >= limit && -d.dot(b.out) >= limit;
+  // Half a pixel for the mask, whose pixels are whole.
+  if (!isFacing || paperBetween(a, b, ink) > longest + 0.5) return -1.0;
   return gap + width * turn;
 }
 

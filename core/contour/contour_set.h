@@ -46,6 +46,12 @@ struct Contour {
   double areaPx = 0.0;                       ///< [px^2] absolute enclosed area (closed), else 0.
 };
 
+/// Where the ink lies that a point of a line was made of: the point itself, and of merged strokes the outermost ones.
+/// [px, unrefined]
+std::vector<Vec2> inkBeside(const Contour&, std::size_t point);
+/// A place on or near the ink of a line, about in its middle; not over a gap. [px] @pre the chain is not empty.
+Vec2 placeOnInk(const Contour&);
+
 struct ContourReport {
   int found = 0;            ///< Before any was dropped.
   int droppedShort = 0;     ///< Shorter than the smallest length.

@@ -18,8 +18,19 @@ constexpr double kModelErrorPx = 0.01;         // of the pixel model itself
 constexpr float kGuessedSigmaPx = 0.35f;       // of a point that is known to the pixel only
 constexpr double kLargestPointSigmaPx = 0.35;  // of one that was placed
 
-/// [grey^2] Running median of the squares per freedom: what no model explains, as next to a corner, is no noise. 0:
-/// none known near.
+/// Where nothing is known it is as next to there.
+void fillUnknown(std::vector<float>& values) {
+  const auto isKnown = [](float v) { return v >= 0.0f; };
+  const auto first = std::find_if(values.begin(), values.end(), isKnown);
+  float last = first == values.end() ? -1.0f : *first;
+  for (float& v : values) {
+    if (isKnown(v)) last = v;
+    v = last;
+  }
+}
+
+/// [grey^2] Running median of the squares per freedom: what no model explains, as next to a corner, is no noise. -1
+/// where no point is known at all.
 std::vector<float> noiseAlong(const std::vector<PointInformation>& points, const std::vector<std::uint8_t>& known,
                               bool closed) {
   const int n = static_cast<int>(points.size());
@@ -35,7 +46,7 @@ std::vector<float> noiseAlong(const std::vector<PointInformation>& points, const
       ratios.push_back(points[at].squares / points[at].freedom);
       freedom += points[at].freedom;
     }
-    float median = 0.0f;
+    float median = -1.0f;
     if (!ratios.empty()) {
       const auto count = static_cast<double>(ratios.size());
       const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
@@ -47,6 +58,7 @@ std::vector<float> noiseAlong(const std::vector<PointInformation>& points, const
     }
     for (int k = i; k < std::min(n, i + kNoiseStride); ++k) variance[static_cast<std::size_t>(k)] = median;
   }
+  fillUnknown(variance);
   return smoothValues(variance, closed, kNoiseAlong);
 }
 
@@ -62,8 +74,8 @@ std::vector<float> pointSigmas(const std::vector<PointInformation>& points, cons
   const std::vector<float> variance = noiseAlong(points, known, closed);
   std::vector<float> sigma(n, kGuessedSigmaPx);
   for (std::size_t i = 0; i < n; ++i) {
-    if (!placed[i] || !(points[i].gain > 0.0)) continue;
-    const double noise = std::sqrt(std::max(0.0f, variance[i]));
+    if (!placed[i] || !(points[i].gain > 0.0) || variance[i] < 0.0f) continue;
+    const double noise = std::sqrt(variance[i]);
     sigma[i] = static_cast<float>(std::min(std::hypot(points[i].gain * noise, kModelErrorPx), kLargestPointSigmaPx));
   }
   return sigma;

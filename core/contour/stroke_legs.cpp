@@ -78,8 +78,14 @@ std::vector<PieceCut> cutsOf(const MeanLine& line, const std::vector<AttachedMar
       numbers.join(m[k].attachment, m[i].attachment);
     }
     int index = own >= 0 ? own : static_cast<int>(sum / static_cast<long>(k - i));
-    if (!line.closed && index < snap) index = 0;
-    if (!line.closed && index > last - snap) index = last;
+    // The ends of a short piece are near both.
+    if (!line.closed && own < 0) {
+      if (index < snap && index <= last - index) {
+        index = 0;
+      } else if (index > last - snap) {
+        index = last;
+      }
+    }
     cuts.push_back({index, m[i].attachment});
     i = k;
   }

@@ -164,6 +164,7 @@ Kisses findKisses(const std::vector<MeanLine>& strokes, double distance, const R
     for (int l = begin; l < end && !context.isCancelled(); ++l) {
       auto& mine = stretches[static_cast<std::size_t>(l)];
       for (int i = 0; i < static_cast<int>(strokes[static_cast<std::size_t>(l)].points.size()); ++i) {
+        if ((i & 1023) == 0 && context.isCancelled()) return;
         round.find(static_cast<std::size_t>(l), static_cast<std::size_t>(i), crossings);
         for (const Crossing& c : crossings) {
           const auto open = std::find_if(mine.rbegin(), mine.rend(), [&](const Beside& b) {

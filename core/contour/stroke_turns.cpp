@@ -66,12 +66,18 @@ void findContinuations(std::vector<MeanLine>& strokes, double nearPx) {
     ends.push_back({l, 0, s.points.front(), start.norm() > 0.0 ? Vec2(start.normalized()) : Vec2::Zero()});
     ends.push_back({l, 1, s.points.back(), end.norm() > 0.0 ? Vec2(end.normalized()) : Vec2::Zero()});
   }
-  for (const StrokeEnd& a : ends)
-    for (const StrokeEnd& b : ends) {
-      if (a.line == b.line || -a.out.dot(b.out) < kGoesOnCos) continue;
-      const Vec2 d = b.at - a.at;
-      if (d.norm() <= nearPx && std::abs(cross(a.out, d)) <= 0.5 * nearPx)
-        strokes[static_cast<std::size_t>(a.line)].goesOn[a.side] = true;
+  std::stable_sort(ends.begin(), ends.end(),
+                   [](const StrokeEnd& a, const StrokeEnd& b) { return a.at.x() < b.at.x(); });
+  const auto look = [&](const StrokeEnd& a, const StrokeEnd& b) {
+    const Vec2 d = b.at - a.at;
+    if (d.norm() <= nearPx && std::abs(cross(a.out, d)) <= 0.5 * nearPx)
+      strokes[static_cast<std::size_t>(a.line)].goesOn[a.side] = true;
+  };
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (std::size_t k = i + 1; k < ends.size() && ends[k].at.x() - ends[i].at.x() <= nearPx; ++k) {
+      if (ends[i].line == ends[k].line || -ends[i].out.dot(ends[k].out) < kGoesOnCos) continue;
+      look(ends[i], ends[k]);
+      look(ends[k], ends[i]);
     }
 }
 

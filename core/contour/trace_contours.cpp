@@ -32,8 +32,9 @@ void sortAndCut(ContourSet& set, const ContourParams& params) {
   std::sort(set.contours.begin(), set.contours.end(), before);
   const auto most = static_cast<std::size_t>(params.maxCount);
   if (set.contours.size() <= most) return;
-  set.report.note = "Only the " + std::to_string(most) + " longest of " + std::to_string(set.contours.size()) +
-                    " lines are kept: raise the largest number of lines to see the rest.";
+  if (!set.report.note.empty()) set.report.note += ' ';
+  set.report.note += "Only the " + std::to_string(most) + " longest of " + std::to_string(set.contours.size()) +
+                     " lines are kept: raise the largest number of lines to see the rest.";
   set.contours.resize(most);
 }
 
@@ -135,10 +136,12 @@ std::vector<bool> noteWays(ContourSet& set, const ChosenInk& chosen, std::span<c
   std::vector<bool> gaveLine(choices.size(), false);
   for (Contour& contour : set.contours) {
     for (std::size_t i = 0; i < contour.chain.size() && !contour.way; ++i) {
-      const int choice = chosen.choiceAt(contour.chain[i]);
-      if (choice < 0) continue;
-      contour.way = choices[static_cast<std::size_t>(choice)];
-      gaveLine[static_cast<std::size_t>(choice)] = true;
+      for (const Vec2& place : inkBeside(contour, i)) {
+        const int choice = chosen.choiceAt(place);
+        if (choice < 0) continue;
+        contour.way = choices[static_cast<std::size_t>(choice)];
+        gaveLine[static_cast<std::size_t>(choice)] = true;
+      }
     }
   }
   return gaveLine;

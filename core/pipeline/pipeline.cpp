@@ -94,8 +94,10 @@ class Run {
       case StageId::Contours:
         return step(stage, out_.contours, [&] { return lines(); });
       case StageId::Pieces:
-        return step(stage, out_.pieces,
-                    [&] { return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, &scan_.grey); });
+        return step(stage, out_.pieces, [&] {
+          const GreyImage& grey = recipe_.cornerMarks.empty() ? scan_.grey : evenPage();
+          return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, &grey);
+        });
       case StageId::Segments:
         return step(stage, out_.segments, [&] { return regressionSegments(*out_.pieces, recipe_.segments); });
       case StageId::Curves:
@@ -110,12 +112,18 @@ class Run {
     return false;
   }
 
+  /// The scan without its folds, made once a run.
+  const GreyImage& evenPage() {
+    const auto& folds = out_.thresholds->paper.folds;
+    if (folds.empty()) return scan_.grey;
+    if (!even_) even_ = withoutFolds(scan_.grey, folds, context_);
+    return *even_;
+  }
+
   /// The lines of the page, or of the parts of it that the user wants.
   Result<ContourSet> traceRegions() {
-    const auto& folds = out_.thresholds->paper.folds;
-    const GreyImage flat = folds.empty() ? GreyImage() : withoutFolds(scan_.grey, folds, context_);
+    const GreyImage& grey = evenPage();
     if (context_.isCancelled()) return cancelled();
-    const GreyImage& grey = folds.empty() ? scan_.grey : flat;
     const auto trace = [&](const BitImage& ink) {
       return traceContours(ink, grey, recipe_.edges, recipe_.contours, context_);
     };
@@ -202,6 +210,7 @@ class Run {
   Clock::time_point begin_;  ///< Of the present stage.
   StageKeys keys_;
   PipelineOutput out_;
+  std::optional<GreyImage> even_;
 };
 
 }  // namespace

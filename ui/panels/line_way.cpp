@@ -41,6 +41,8 @@ LineWay::LineWay(EditorSession& session, QWidget* parent)
 }
 
 void LineWay::refresh() {
+  // Between new lines and their curves all stays as it is.
+  if (session_.isStale(StageId::Contours) != session_.isStale(StageId::Faired)) return;
   const int curve = session_.selectedCurve();
   const bool isTraced = tracedLineOf(session_, curve) != nullptr;
   ways_->setVisible(isTraced);

@@ -6,10 +6,19 @@
 
 namespace batten {
 
+namespace {
+
+/// Where the choice about a line's ink is attached, or would be.
+Vec2 placeOf(const Contour& line) { return line.way ? line.way->positionPx : placeOnInk(line); }
+
+}  // namespace
+
 const Contour* tracedLineOf(const EditorSession& session, int curve) {
   const auto curves = session.curves();
   const auto& set = session.output().contours;
-  if (!set || curve < 0 || static_cast<std::size_t>(curve) >= curves.size()) return nullptr;
+  // New lines come before their curves.
+  if (!set || session.isStale(StageId::Contours) != session.isStale(StageId::Faired)) return nullptr;
+  if (curve < 0 || static_cast<std::size_t>(curve) >= curves.size()) return nullptr;
   const int contour = curves[static_cast<std::size_t>(curve)].contour;
   if (contour < 0 || static_cast<std::size_t>(contour) >= set->contours.size()) return nullptr;
   const Contour& line = set->contours[static_cast<std::size_t>(contour)];
@@ -18,19 +27,20 @@ const Contour* tracedLineOf(const EditorSession& session, int curve) {
 
 EdgeMode wayOf(const EditorSession& session, int curve) {
   const Contour* line = tracedLineOf(session, curve);
-  if (!line || !line->way) return EdgeMode::Automatic;
+  if (!line) return EdgeMode::Automatic;
+  // The recipe's, which the shown line may not follow yet.
   const auto& choices = session.recipe().edges.choices;
-  const bool isThere = std::find(choices.begin(), choices.end(), *line->way) != choices.end();
-  return isThere ? line->way->mode : EdgeMode::Automatic;
+  const auto last = std::find_if(choices.rbegin(), choices.rend(),
+                                 [place = placeOf(*line)](const EdgeChoice& c) { return c.positionPx == place; });
+  return last == choices.rend() ? EdgeMode::Automatic : last->mode;
 }
 
 void chooseWay(EditorSession& session, int curve, EdgeMode mode) {
   const Contour* line = tracedLineOf(session, curve);
   if (!line || wayOf(session, curve) == mode) return;
   Recipe after = session.recipe();
-  // The unrefined places lie on the ink or on its border, whatever the line's way.
-  const Vec2 place = line->way ? line->way->positionPx : line->chain[line->chain.size() / 2];
-  if (line->way) std::erase(after.edges.choices, *line->way);
+  const Vec2 place = placeOf(*line);
+  std::erase_if(after.edges.choices, [&](const EdgeChoice& c) { return c.positionPx == place; });
   if (mode != EdgeMode::Automatic) after.edges.choices.push_back({place, mode});
   session.selectNear(place);
   session.change(mode == EdgeMode::Automatic ? QCoreApplication::translate("WayEdits", "Follow line as the page")

@@ -87,6 +87,41 @@ TEST(PointSigmas, SayHowFarCentreLinesScatter) {
   for (const int side : {0, 1}) EXPECT_NEAR(halves.ratio(side), 1.0, 0.25) << side;
 }
 
+TEST(PointSigmas, StayWithTheirPointsWhereEndsAreMoved) {
+  test::RenderSettings s;
+  s.ink = 110.0;
+  const GreyImage clean = test::renderShape(
+      [](double x, double y) { return x > 20.0 && x < 180.0 && std::abs(y - 90.3 - 0.05 * x) < 2.5; }, s);
+  const BitImage ink = test::thresholdMask(clean, 170.0);
+  double left = 0.0, right = 0.0;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const auto set = centrelines(ink, noisy(clean, 1.0, 9.0, seed), {}, {});
+    ASSERT_TRUE(set.has_value());
+    ASSERT_EQ(set->contours.size(), 1U);
+    const Contour& c = set->contours.front();
+    ASSERT_EQ(c.sigmaPx.size(), c.points.size());
+    for (std::size_t i = 0; i < c.points.size(); ++i) {
+      if (c.points[i].x() > 30.0 && c.points[i].x() < 70.0) left += c.sigmaPx[i];
+      if (c.points[i].x() > 130.0 && c.points[i].x() < 170.0) right += c.sigmaPx[i];
+    }
+  }
+  // The noise is 7 at the right and 3 at the left, on the mean.
+  EXPECT_GT(right, 1.8 * left);
+  EXPECT_LT(right, 4.0 * left);
+}
+
+TEST(PointSigmas, AreNotBestWhereNothingIsKnown) {
+  for (const std::size_t from : {std::size_t{0}, std::size_t{70}, std::size_t{140}}) {
+    std::vector<PointInformation> points(200, PointInformation{0.01, 40.0, 10.0});  // noise of 2
+    for (std::size_t i = from; i < from + 60; ++i) points[i] = {0.02, 0.0, 0.0};    // half as well known
+    const std::vector<float> sigma = pointSigmas(points, std::vector<std::uint8_t>(200, 1), false);
+    const double expected = std::hypot(0.04, 0.01);
+    for (std::size_t i = from; i < from + 60; ++i) EXPECT_NEAR(sigma[i], expected, 0.1 * expected) << from << " " << i;
+  }
+  const std::vector<PointInformation> none(50, PointInformation{0.02, 0.0, 0.0});
+  for (const float s : pointSigmas(none, std::vector<std::uint8_t>(50, 1), false)) EXPECT_GT(s, 0.3f);
+}
+
 TEST(PointSigmas, HoldBackSurprisesAndPointsThatWereNotPlaced) {
   std::vector<PointInformation> points(200, PointInformation{0.01, 40.0, 10.0});  // noise of 2
   std::vector<std::uint8_t> placed(200, 1);

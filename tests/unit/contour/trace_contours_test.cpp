@@ -130,6 +130,33 @@ TEST(TraceContours, AChoiceSurvivesAsLongAsItsInkIsNear) {
   EXPECT_FALSE(traceContours(page.ink, page.grey, params, {}, {}));
 }
 
+// The mean of merged strokes lies on paper.
+TEST(TraceContours, AMergedLineKnowsTheInkItIsMadeOf) {
+  const OutlinePage page = render(
+      [](double x, double y) { return x > 40 && x < 360 && (std::abs(y - 140.3) < 2.0 || std::abs(y - 155.2) < 2.0); });
+  EdgeParams params;
+  params.mergeWidths = 6.0;
+  auto set = traceContours(page.ink, page.grey, params, {}, {});
+  ASSERT_TRUE(set.has_value());
+  ASSERT_EQ(set->contours.size(), 1u);
+  const Vec2 place = placeOnInk(set->contours[0]);
+  EXPECT_LT(std::min(std::abs(place.y() - 140.3), std::abs(place.y() - 155.2)), 4.0);
+  params.choices = {{place, EdgeMode::Centreline}};
+  set = traceContours(page.ink, page.grey, params, {}, {});
+  ASSERT_TRUE(set.has_value());
+  ASSERT_EQ(set->contours.size(), 1u);
+  EXPECT_TRUE(set->contours[0].way);
+  EXPECT_TRUE(set->report.note.empty()) << set->report.note;
+}
+
+TEST(TraceContours, APlaceOnTheInkIsNotOverAGap) {
+  Contour c;
+  for (int i = 0; i < 101; ++i) c.chain.push_back({static_cast<double>(i), 0.0});
+  EXPECT_EQ(placeOnInk(c), Vec2(50, 0));
+  c.bridges = {{40, 55}};
+  EXPECT_EQ(placeOnInk(c), Vec2(56, 0));
+}
+
 // What the user sets is the paper between the ends, whatever the pen's shape and the direction.
 TEST(TraceContours, AGapIsAsLongAsItLooks) {
   for (const double w : {3.0, 5.0, 9.0}) {
