@@ -63,7 +63,6 @@ std::vector<ConstructPiece> FairParts::stretches() const {
     const std::size_t n = piece_.points.size();
     for (int i = range.first; i <= range.last; ++i) {
       const std::size_t at = static_cast<std::size_t>(i) % n;
-      if (piece_.refined.size() == n) piece.refined.push_back(piece_.refined[at]);
       if (piece_.sigmaPx.size() == n) piece.sigmaPx.push_back(piece_.sigmaPx[at]);
     }
     piece.startIsCorner = piece_.startIsCorner && range.first == 0;

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
+#include "core/contour/place_cells.h"
 #include "core/contour/stroke_lines.h"
 
 namespace batten {
@@ -26,28 +25,6 @@ constexpr double kBesideSlack = 0.1;  // part of a stretch that may be farther a
 
 struct CoverPlace {
   int piece = 0, index = 0;
-};
-
-// Points by cells of the distance.
-class CoverIndex {
- public:
-  explicit CoverIndex(double cellPx) : cell_(cellPx) {}
-  void add(const Vec2& at, CoverPlace place) { cells_[key(cellOf(at.x()), cellOf(at.y()))].push_back(place); }
-  template <class Visit>
-  void around(const Vec2& at, const Visit& visit) const {
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) {
-        const auto found = cells_.find(key(cellOf(at.x()) + dx, cellOf(at.y()) + dy));
-        if (found == cells_.end()) continue;
-        for (const CoverPlace& place : found->second) visit(place);
-      }
-  }
-
- private:
-  int cellOf(double v) const { return static_cast<int>(std::floor(v / cell_)); }
-  static std::int64_t key(int x, int y) { return (static_cast<std::int64_t>(y) << 32) ^ (x & 0xffffffffLL); }
-  double cell_;
-  std::unordered_map<std::int64_t, std::vector<CoverPlace>> cells_;
 };
 
 // How one point lies to the lines before it.
@@ -70,12 +47,7 @@ class PieceMaker {
       const auto first = std::find_if(covers.begin(), covers.end(), [](const PointCover& c) { return c.on; });
       if (first == covers.end()) return keepWhole(std::move(line));
       // A ring that partly lies on other lines becomes an open line that begins there.
-      const auto by = first - covers.begin();
-      const auto turn = [by](auto& v) { std::rotate(v.begin(), v.begin() + by, v.end()); };
-      turn(line.points);
-      turn(line.tangent);
-      turn(line.source);
-      turn(line.weight);
+      turnTo(line, static_cast<int>(first - covers.begin()));
       line.closed = false;
       covers = coverage(line, context);
       if (context.isCancelled()) return;
@@ -93,7 +65,7 @@ class PieceMaker {
     const int n = static_cast<int>(line.points.size());
     const int ownWay = static_cast<int>(kOwnWay * distance_) + 30;
     std::vector<PointCover> covers(line.points.size());
-    CoverIndex own(std::max(distance_, onLine_));
+    PlaceCells<CoverPlace> own(std::max(distance_, onLine_));
     for (int i = 0; i < n; ++i) {
       if ((i & 4095) == 0 && context.isCancelled()) break;
       const auto at = static_cast<std::size_t>(i);
@@ -241,7 +213,7 @@ class PieceMaker {
 
   double distance_, onLine_;
   StrokePieces result_;
-  CoverIndex index_;
+  PlaceCells<CoverPlace> index_;
 };
 
 }  // namespace

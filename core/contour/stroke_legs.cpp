@@ -96,11 +96,7 @@ void addPiece(MeanLine line, std::vector<PieceCut> cuts, NodeNumbers& numbers, M
   if (cuts.empty()) return legs.add(std::move(line), -1, -1);
   if (line.closed) {
     const int first = cuts.front().index;
-    const auto turn = [first](auto& v) { std::rotate(v.begin(), v.begin() + first, v.end()); };
-    turn(line.points);
-    turn(line.tangent);
-    turn(line.source);
-    turn(line.weight);
+    turnTo(line, first);
     line.closed = false;
     for (PieceCut& cut : cuts) cut.index -= first;
     cuts.push_back({static_cast<int>(line.points.size()) - 1, cuts.front().attachment});

@@ -76,6 +76,14 @@ MeanLine partOf(const MeanLine& line, int from, int to) {
   return p;
 }
 
+void turnTo(MeanLine& line, int first) {
+  const auto turn = [first](auto& v) { std::rotate(v.begin(), v.begin() + first, v.end()); };
+  turn(line.points);
+  turn(line.tangent);
+  turn(line.source);
+  turn(line.weight);
+}
+
 void appendLine(MeanLine& line, const MeanLine& more, double mostPx) {
   giveIn(line, more.points.front(), more.tangent.front(), mostPx);
   const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
@@ -91,13 +99,9 @@ void closeLine(MeanLine& line, double mostPx) {
   giveIn(line, line.points.front(), line.tangent.front(), mostPx);
   line.closed = true;
   // Half a turn brings the seam where there are points on both sides.
-  const auto half = static_cast<std::ptrdiff_t>(line.points.size() / 2);
-  const auto turn = [half](auto& v) { std::rotate(v.begin(), v.begin() + half, v.end()); };
-  turn(line.points);
-  turn(line.tangent);
-  turn(line.source);
-  turn(line.weight);
-  smoothSeam(line.points, static_cast<int>(line.points.size()) - static_cast<int>(half));
+  const auto n = static_cast<int>(line.points.size());
+  turnTo(line, n / 2);
+  smoothSeam(line.points, n - n / 2);
 }
 
 EndLook lookFrom(const MeanLine& line, int side, double distancePx) {

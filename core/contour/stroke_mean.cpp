@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
-#include <unordered_map>
 
 #include "core/base/parallel.h"
+#include "core/contour/place_cells.h"
 #include "core/contour/polyline_tools.h"
 
 namespace batten {
@@ -28,30 +27,16 @@ double smoothStep(double x) {
 }
 
 // All points in cells as wide as the distance.
-class Cells {
- public:
-  Cells(const std::vector<MeanLine>& lines, double size) : size_(size) {
-    for (std::size_t l = 0; l < lines.size(); ++l)
-      for (std::size_t i = 0; i < lines[l].points.size(); ++i)
-        cells_[key(cellOf(lines[l].points[i].x()), cellOf(lines[l].points[i].y()))].push_back(
-            {static_cast<int>(l), static_cast<int>(i)});
-  }
-  template <class Visit>
-  void around(const Vec2& at, const Visit& visit) const {
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) {
-        const auto found = cells_.find(key(cellOf(at.x()) + dx, cellOf(at.y()) + dy));
-        if (found == cells_.end()) continue;
-        for (const auto& place : found->second) visit(place);
-      }
-  }
+using Cells = PlaceCells<MeanLine::Source>;
 
- private:
-  int cellOf(double v) const { return static_cast<int>(std::floor(v / size_)); }
-  static std::int64_t key(int x, int y) { return (static_cast<std::int64_t>(y) << 32) ^ (x & 0xffffffffLL); }
-  double size_;
-  std::unordered_map<std::int64_t, std::vector<MeanLine::Source>> cells_;
-};
+Cells cellsOf(const std::vector<MeanLine>& lines, double sizePx) {
+  Cells cells(sizePx);
+  for (int l = 0; l < static_cast<int>(lines.size()); ++l) {
+    const auto& points = lines[static_cast<std::size_t>(l)].points;
+    for (std::size_t i = 0; i < points.size(); ++i) cells.add(points[i], {l, static_cast<int>(i)});
+  }
+  return cells;
+}
 
 // Stretches of two strokes that come near each other and part again.
 struct Kiss {
@@ -68,7 +53,7 @@ struct Crossing {
 class MeanRound {
  public:
   MeanRound(const std::vector<MeanLine>& lines, double distance, const Kisses& kisses)
-      : lines_(lines), distance_(distance), cells_(lines, distance), kisses_(kisses) {}
+      : lines_(lines), distance_(distance), cells_(cellsOf(lines, distance)), kisses_(kisses) {}
 
   // The strokes beside a point, in a fixed order, so that sums come out the same whatever the order of the cells.
   void find(std::size_t line, std::size_t index, std::vector<Crossing>& crossings) const {
@@ -252,7 +237,7 @@ StrokesBeside::StrokesBeside(const std::vector<Contour>& lines, double distanceP
     parts_->lines.push_back(std::move(stroke));
   }
   parts_->distance = std::max(1.0, distancePx);
-  parts_->cells.emplace(parts_->lines, parts_->distance);
+  parts_->cells = cellsOf(parts_->lines, parts_->distance);
 }
 
 StrokesBeside::~StrokesBeside() = default;
