@@ -6,16 +6,18 @@
 #include <new>
 #include <opencv2/core.hpp>
 
+#include "core/contour/centreline_grain.h"
 #include "core/contour/centreline_graph.h"
 #include "core/contour/centreline_mask.h"
 #include "core/contour/centreline_refine.h"
 #include "core/contour/centreline_skeleton.h"
+#include "core/contour/line_comb.h"
 #include "core/contour/stroke_merge.h"
+#include "core/image/bit_steps.h"
 
 namespace batten {
 namespace {
 
-constexpr double kGrainLimit = 0.045;    // [-] grainAlong() above: pencil
 constexpr double kShortestWidths = 3.0;  // [stroke widths] shorter strands are blots
 
 std::vector<Strand> strandsOf(const BitImage& ink, const EdgeParams& params, const RunContext& context) {
@@ -24,11 +26,13 @@ std::vector<Strand> strandsOf(const BitImage& ink, const EdgeParams& params, con
   return findStrands(skeleton, ink, params, context);
 }
 
-// [px] median over all points.
-double medianWidth(const std::vector<Strand>& strands) {
+// [px] median over all points of the strands chosen.
+template <class Chosen>
+double medianWidth(const std::vector<Strand>& strands, const Chosen& isChosen) {
   std::vector<float> radii;
-  for (const Strand& s : strands) {
-    for (const StrandPoint& p : s.points) radii.push_back(p.radius);
+  for (std::size_t i = 0; i < strands.size(); ++i) {
+    if (!isChosen(i)) continue;
+    for (const StrandPoint& p : strands[i].points) radii.push_back(p.radius);
   }
   if (radii.empty()) return 1.0;
   const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
@@ -48,23 +52,79 @@ bool isMargin(const Contour& c, const GreyImage& grey) {
   return static_cast<double>(touching) >= kMostly * static_cast<double>(c.points.size());
 }
 
+// Sets the pixels whose centres lie within a disc.
+void setDisc(BitImage& image, const Vec2& at, double radius) {
+  const int y0 = std::max(0, static_cast<int>(std::floor(at.y() - radius)));
+  const int y1 = std::min(image.height - 1, static_cast<int>(std::ceil(at.y() + radius)));
+  const int x0 = std::max(0, static_cast<int>(std::floor(at.x() - radius)));
+  const int x1 = std::min(image.width - 1, static_cast<int>(std::ceil(at.x() + radius)));
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      if ((Vec2(x + 0.5, y + 0.5) - at).squaredNorm() <= radius * radius) image.set(x, y, true);
+    }
+  }
+}
+
+// The specks of a pencil become one body each; pen strokes stay as they are, and so does the paper between lines.
+BitImage bodiesOf(const BitImage& strokes, const GreyImage& grey, const std::vector<Strand>& strands,
+                  const GrainField& grain, const RunContext& context) {
+  const double width = medianWidth(strands, [&](std::size_t i) { return grain.isPencil(i); });
+  const double closing = 0.75 * width + 1.0;
+  BitImage body = closeInk(strokes, closing);
+  BitImage pens(strokes.width, strokes.height), pencils = pens;
+  bool anyPen = false;
+  for (std::size_t i = 0; i < strands.size(); ++i) {
+    anyPen = anyPen || !grain.isPencil(i);
+    BitImage& band = grain.isPencil(i) ? pencils : pens;
+    for (const StrandPoint& p : strands[i].points) setDisc(band, p.at, static_cast<double>(p.radius) + closing);
+  }
+  if (context.isCancelled()) return strokes;
+  const BitImage ownPens = without(pens, pencils);
+  if (anyPen) body = either(without(std::move(body), ownPens), strokes);
+  const LineComb comb = combLines(without(body, ownPens), grey, grain, width, context);
+  return either(without(std::move(body), comb.gaps), without(comb.lines, ownPens));
+}
+
+// Every strand is placed by the rule that suits it.
+std::vector<Contour> placeStrands(const std::vector<Strand>& strands, const GrainField* grain, const GreyImage& grey,
+                                  bool subpixel, const RunContext& context) {
+  RefineSettings pen, pencil;
+  pencil.rule = CentreRule::Centroid;
+  pencil.smoothShiftPx = 3.0;
+  if (!subpixel) pen.rule = CentreRule::None;
+  if (!subpixel || grain == nullptr) return refineStrands(strands, grey, pen, context);
+  std::vector<Contour> contours(strands.size());
+  for (const bool isPencil : {false, true}) {
+    std::vector<Strand> some;
+    std::vector<std::size_t> number;
+    for (std::size_t i = 0; i < strands.size(); ++i) {
+      if (grain->isPencil(i) != isPencil) continue;
+      some.push_back(strands[i]);
+      number.push_back(i);
+    }
+    if (some.empty()) continue;
+    std::vector<Contour> placed = refineStrands(some, grey, isPencil ? pencil : pen, context);
+    for (std::size_t k = 0; k < placed.size(); ++k) contours[number[k]] = std::move(placed[k]);
+  }
+  return contours;
+}
+
 Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
                                 const RunContext& context) {
   std::vector<Strand> strands = strandsOf(strokes, params, context);
   if (context.isCancelled()) return cancelled();
-  const double width = medianWidth(strands);
-  RefineSettings settings;
-  BitImage closed;
+  const double width = medianWidth(strands, [](std::size_t) { return true; });
+  const GrainField grain(strands, grey, context);
+  BitImage bodies;
   const BitImage* ink = &strokes;
-  if (grainAlong(strands, grey) > kGrainLimit) {
-    // The specks of a pencil become one body first; the middle of its darkness is the line.
-    closed = closeInk(strokes, 0.75 * width + 1.0);
-    ink = &closed;
-    strands = strandsOf(closed, params, context);
-    settings.rule = CentreRule::Centroid;
-    settings.smoothShiftPx = 3.0;
+  bool anyPencil = false;
+  for (std::size_t i = 0; i < strands.size(); ++i) anyPencil = anyPencil || grain.isPencil(i);
+  if (anyPencil) {
+    bodies = bodiesOf(strokes, grey, strands, grain, context);
+    ink = &bodies;
+    if (context.isCancelled()) return cancelled();
+    strands = strandsOf(bodies, params, context);
   }
-  if (!params.subpixel) settings.rule = CentreRule::None;
   bridgeGaps(strands, *ink, params, context);
   if (context.isCancelled()) return cancelled();
   ContourSet set;
@@ -72,7 +132,12 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   std::erase_if(strands,
                 [](const Strand& s) { return s.points.size() < 3 || s.length() < kShortestWidths * s.widthPx(); });
   set.report.droppedShort = set.report.found - static_cast<int>(strands.size());
-  set.contours = refineStrands(strands, grey, settings, context);
+  if (anyPencil) {
+    const GrainField found(strands, grey, context);
+    set.contours = placeStrands(strands, &found, grey, params.subpixel, context);
+  } else {
+    set.contours = placeStrands(strands, nullptr, grey, params.subpixel, context);
+  }
   if (context.isCancelled()) return cancelled();
   std::erase_if(set.contours, [](const Contour& c) { return c.points.size() < 3; });
   if (params.mergeWidths * width >= 1.0) {

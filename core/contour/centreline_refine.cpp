@@ -132,49 +132,4 @@ std::vector<Contour> refineStrands(const std::vector<Strand>& strands, const Gre
   return contours;
 }
 
-double grainAlong(const std::vector<Strand>& strands, const GreyImage& grey) {
-  constexpr int kWindow = 5;                        // median over 11
-  constexpr std::size_t kStride = 3, kMost = 7000;  // neighbours say the same
-  double ink = 0.0, paper = 0.0;
-  std::size_t count = 0;
-  std::vector<float> lane[3];
-  for (const Strand& strand : strands) {
-    if (count > kMost) break;
-    if (strand.points.size() < 25) continue;
-    const StrandCourse course = layCourse(strand);
-    const auto n = course.base.size();
-    const double off = 0.5 * course.widthPx + 4.0;
-    for (auto& l : lane) l.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vec2 normal = leftNormal(course.tangent[i]);
-      const double lateral[3] = {0.0, off, -off};
-      for (int k = 0; k < 3; ++k) {
-        const Vec2 at = course.base[i] + lateral[k] * normal;
-        // Five taps of a small Gaussian, so that the noise of single pixels counts little.
-        lane[k][i] = 0.4f * sampleGrey(grey, at.x(), at.y()) +
-                     0.15f * (sampleGrey(grey, at.x() - 1.0, at.y()) + sampleGrey(grey, at.x() + 1.0, at.y()) +
-                              sampleGrey(grey, at.x(), at.y() - 1.0) + sampleGrey(grey, at.x(), at.y() + 1.0));
-      }
-    }
-    for (std::size_t i = kWindow + 3; i + kWindow + 3 < n; i += kStride) {
-      if (course.part[i] != StrandPart::Ink) continue;
-      float median[3];
-      for (int k = 0; k < 3; ++k) {
-        std::array<float, 2 * kWindow + 1> window{};
-        std::copy_n(lane[k].begin() + static_cast<std::ptrdiff_t>(i - kWindow), window.size(), window.begin());
-        std::nth_element(window.begin(), window.begin() + kWindow, window.end());
-        median[k] = window[kWindow];
-      }
-      const double depth = std::max(median[1], median[2]) - median[0];
-      if (!(depth > 2.0)) continue;
-      ink += std::abs(lane[0][i] - median[0]) / depth;
-      paper += std::min(std::abs(lane[1][i] - median[1]), std::abs(lane[2][i] - median[2])) * 1.7 / depth;
-      ++count;
-    }
-  }
-  if (count == 0) return 0.0;
-  const double a = ink / static_cast<double>(count), b = paper / static_cast<double>(count);
-  return std::sqrt(std::max(0.0, a * a - b * b));
-}
-
 }  // namespace batten

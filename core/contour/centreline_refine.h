@@ -28,8 +28,4 @@ struct RefineSettings {
 std::vector<Contour> refineStrands(const std::vector<Strand>& strands, const GreyImage& grey,
                                    const RefineSettings& settings, const RunContext& context);
 
-/// [-] Standard deviation of the ink's darkness along the strands that is grain of the pencil (what the paper beside
-/// them shows as well is taken off), as part of the darkness. Ink: < .03; pencil: > .05.
-double grainAlong(const std::vector<Strand>& strands, const GreyImage& grey);
-
 }  // namespace batten

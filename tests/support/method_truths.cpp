@@ -3,8 +3,9 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <random>
+
+#include "tests/support/angles.h"
 
 namespace batten::test {
 namespace {
@@ -51,11 +52,10 @@ OpenTruth fromCourse(std::string name, double from, double to, const std::functi
 }  // namespace
 
 std::vector<OpenTruth> openTruths() {
-  constexpr double kPi = std::numbers::pi;
   std::vector<OpenTruth> all;
   all.push_back(fromCourse("ellipse", 0.1, 1.45, [](double a) { return Vec2(300 * std::cos(a), 150 * std::sin(a)); }));
   all.push_back(fromProfile("clothoid", 500.0, [](double f) { return 0.001 + 0.007 * f; }));
-  all.push_back(fromProfile("s-curve", 600.0, [=](double f) { return -0.006 * std::cos(kPi * f); }));
+  all.push_back(fromProfile("s-curve", 600.0, [](double f) { return -0.006 * std::cos(kPi * f); }));
   all.push_back(fromProfile("spiral", 500.0, [](double f) { return 1.0 / (300.0 - 220.0 * f); }));
   all.push_back(fromCourse("roof", 0.0, 900.0, [](double x) {
     return Vec2(x, 60 * std::exp(-std::pow((x - 300) / 120, 2)) + 40 * std::exp(-std::pow((x - 650) / 90, 2)));

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lines side by side, pen and pencil on one page: against lines whose course is known.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/contour/centreline.h"
+#include "core/contour/centreline_grain.h"
+#include "core/contour/centreline_mask.h"
+#include "core/contour/centreline_skeleton.h"
+#include "core/contour/line_comb.h"
+#include "tests/support/dense_page.h"
+#include "tests/support/render_page.h"
+
+namespace batten {
+namespace {
+
+constexpr int kDenseWidth = 480, kDenseHeight = 360;
+using DenseLines = std::vector<std::vector<Vec2>>;
+
+struct DensePage {
+  BitImage ink;
+  GreyImage grey;
+};
+
+// Ink is what is darker than `level` after a smoothing of 3 x 3.
+DensePage densePage(std::vector<float> cover, double level, std::uint32_t seed) {
+  DensePage page{BitImage(kDenseWidth, kDenseHeight),
+                 test::scanOfLines(std::move(cover), kDenseWidth, kDenseHeight, seed).grey};
+  for (int y = 1; y + 1 < kDenseHeight; ++y) {
+    for (int x = 1; x + 1 < kDenseWidth; ++x) {
+      double sum = 0.0;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) sum += (dx == 0 ? 2 : 1) * (dy == 0 ? 2 : 1) * page.grey.level(x + dx, y + dy);
+      page.ink.set(x, y, sum / 16.0 < level);
+    }
+  }
+  return page;
+}
+
+DenseLines foundOn(const DensePage& page) {
+  DenseLines lines;
+  const auto set = centrelines(page.ink, page.grey, {}, {});
+  EXPECT_TRUE(set);
+  if (!set) return lines;
+  for (const Contour& c : set->contours) lines.push_back(c.points);
+  return lines;
+}
+
+std::vector<Strand> rawStrands(const DensePage& page) {
+  BitImage skeleton = page.ink;
+  EXPECT_TRUE(thinToSkeleton(skeleton, {}));
+  return findStrands(skeleton, page.ink, {}, {});
+}
+
+double everywhere(double, double) { return 1.0; }
+
+TEST(DenseLines, PenHatchingIsNoPencil) {
+  for (const double spacing : {2.0, 3.0}) {
+    const DenseLines lines = test::hatchLines({240, 180}, 17.0, 10, spacing * 3.0, 240.0, 400.0);
+    const DensePage page = densePage(test::coverageOf(lines, 3.0, kDenseWidth, kDenseHeight), 135.0, 3);
+    const test::DenseScore score = test::scoreDense(lines, foundOn(page), 1.5 * spacing, 6.0);
+    EXPECT_EQ(score.whole, 10) << spacing;
+    EXPECT_EQ(score.bridges, 0) << spacing;
+    EXPECT_LE(score.rmsPx, 0.1) << spacing;
+  }
+}
+
+TEST(DenseLines, PencilHatchingStaysApart) {
+  const DenseLines lines = test::hatchLines({240, 180}, 17.0, 10, 7.5, 240.0, 0.0);
+  std::vector<float> cover = test::coverageOf(lines, 3.0, kDenseWidth, kDenseHeight);
+  test::grainCoverage(cover, kDenseWidth, kDenseHeight, everywhere, 5);
+  const test::DenseScore score = test::scoreDense(lines, foundOn(densePage(std::move(cover), 165.0, 5)), 3.75, 6.0);
+  EXPECT_EQ(score.whole + score.inPieces, 10);
+  EXPECT_LE(score.bridges, 1);
+  EXPECT_LE(score.rmsPx, 0.3);
+}
+
+TEST(DenseLines, PenAndPencilOnOnePageAreToldApart) {
+  const DenseLines left = test::hatchLines({120, 180}, 5.0, 8, 30.0, 200.0, 0.0);
+  const DenseLines right = test::hatchLines({360, 180}, 5.0, 8, 30.0, 200.0, 0.0);
+  DenseLines all = left;
+  all.insert(all.end(), right.begin(), right.end());
+  std::vector<float> cover = test::coverageOf(all, 4.0, kDenseWidth, kDenseHeight);
+  test::grainCoverage(
+      cover, kDenseWidth, kDenseHeight, [](double x, double) { return x > 240.0 ? 1.0 : 0.0; }, 2);
+  const DensePage page = densePage(std::move(cover), 150.0, 2);
+  const std::vector<Strand> strands = rawStrands(page);
+  const GrainField grain(strands, page.grey, {});
+  int pens = 0, pencils = 0;
+  for (std::size_t i = 0; i < strands.size(); ++i) {
+    const double x = strands[i].points[strands[i].points.size() / 2].at.x();
+    if (strands[i].length() < 20.0) continue;
+    EXPECT_EQ(grain.isPencil(i), x > 240.0) << "near " << x << ": " << grain.grainOf(i);
+    ++(x > 240.0 ? pencils : pens);
+  }
+  EXPECT_GE(pens, 8);
+  EXPECT_GE(pencils, 8);
+  EXPECT_NEAR(grain.depthAt({60, 180}), 205.0, 30.0);
+  const DenseLines found = foundOn(page);
+  EXPECT_EQ(test::scoreDense(left, found, 4.0, 8.0).whole, 8);
+  EXPECT_GE(test::scoreDense(right, found, 4.0, 8.0).whole, 7);
+}
+
+TEST(DenseLines, ALineFromPenToPencilIsNotCut) {
+  const DenseLines lines = test::hatchLines({240, 180}, 5.0, 8, 30.0, 420.0, 0.0);
+  std::vector<float> cover = test::coverageOf(lines, 4.0, kDenseWidth, kDenseHeight);
+  test::grainCoverage(
+      cover, kDenseWidth, kDenseHeight, [](double x, double) { return x > 240.0 ? 1.0 : 0.0; }, 2);
+  const test::DenseScore score = test::scoreDense(lines, foundOn(densePage(std::move(cover), 150.0, 2)), 4.0, 8.0);
+  EXPECT_GE(score.whole, 7);
+  EXPECT_EQ(score.bridges, 0);
+}
+
+TEST(LineComb, GapsLieBetweenLinesAndNotWithinOne) {
+  for (const bool pencil : {false, true}) {
+    const DenseLines two = test::hatchLines({240, 180}, 30.0, 2, 9.0, 240.0, 0.0);
+    std::vector<float> cover = test::coverageOf(two, 5.0, kDenseWidth, kDenseHeight);
+    if (pencil) test::grainCoverage(cover, kDenseWidth, kDenseHeight, everywhere, 7);
+    const DensePage page = densePage(std::move(cover), 150.0, 7);
+    const GrainField grain(rawStrands(page), page.grey, {});
+    const LineComb comb = combLines(closeInk(page.ink, 6.0), page.grey, grain, 5.0, {});
+    const Vec2 across(-std::sin(30.0 * std::numbers::pi / 180.0), std::cos(30.0 * std::numbers::pi / 180.0));
+    int inGap = 0;
+    for (int y = 0; y < kDenseHeight; ++y) {
+      for (int x = 0; x < kDenseWidth; ++x) {
+        if (!comb.gaps.at(x, y)) continue;
+        EXPECT_LE(std::abs((Vec2(x + 0.5, y + 0.5) - Vec2(240, 180)).dot(across)), 3.5) << x << " " << y;
+        ++inGap;
+      }
+    }
+    // Four px by 240, less the ends.
+    EXPECT_GE(inGap, 400) << pencil;
+  }
+  for (const double width : {3.0, 5.0, 10.0}) {
+    const DenseLines one = test::hatchLines({240, 180}, 30.0, 1, 1.0, 300.0, 300.0);
+    std::vector<float> cover = test::coverageOf(one, width, kDenseWidth, kDenseHeight);
+    test::grainCoverage(cover, kDenseWidth, kDenseHeight, everywhere, 7);
+    const DensePage page = densePage(std::move(cover), 150.0, 7);
+    const GrainField grain(rawStrands(page), page.grey, {});
+    EXPECT_EQ(combLines(closeInk(page.ink, 0.75 * width + 1.0), page.grey, grain, width, {}).gaps.count(), 0) << width;
+  }
+}
+
+}  // namespace
+}  // namespace batten
