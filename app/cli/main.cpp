@@ -7,6 +7,7 @@
 #include "app/cli/exit_codes.h"
 #include "app/cli/parameters_command.h"
 #include "app/cli/stage_dump.h"
+#include "app/cli/suggest_command.h"
 #include "app/cli/trace_command.h"
 
 namespace {
@@ -30,37 +31,49 @@ void addRepeated(CLI::App& app, const char* names, std::vector<std::string>& val
   app.add_option(names, values, help)->type_name(what)->allow_extra_args(false);
 }
 
+/// What the drawing is and what is followed on it.
+void addDrawing(CLI::App& app, TraceArguments& a) {
+  app.add_option("scan", a.scan,
+                 "The scan: PNG, JPEG, TIFF, BMP, WebP, PGM or PBM; none for a recipe drawn on an empty page")
+      ->type_name("SCAN");
+  app.add_option("--recipe", a.recipe, "Start from this recipe; --set, --corner and --dpi come on top")
+      ->type_name("R.json");
+  addRepeated(app, "--set", a.settings, "NAME=VALUE", "Set a parameter (see batten-cli parameters); may be repeated");
+  addRepeated(app, "--outline", a.outlines, "X,Y",
+              "Follow the border of the ink near this place, px from the upper left; may be repeated");
+  addRepeated(app, "--centreline", a.centrelines, "X,Y",
+              "Follow the middle of the ink near this place, px from the upper left; may be repeated");
+  addRepeated(app, "--roi", a.regions, "X,Y,WIDTH,HEIGHT",
+              "Trace only what lies in this rectangle, px from the upper left; may be repeated");
+  app.add_option("--threads", a.threads, "Use at most this many threads; 0 = all. Never changes the result")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024));
+}
+
 void addTrace(CLI::App& app, TraceArguments& a) {
   CLI::App* trace = app.add_subcommand("trace", "Turn a scan into fair curves");
   trace->footer("Prints one line of JSON: the scan, how many curves, the files written, and notes.");
-  trace
-      ->add_option("scan", a.scan,
-                   "The scan: PNG, JPEG, TIFF, BMP, WebP, PGM or PBM; none for a recipe drawn on an empty page")
-      ->type_name("SCAN");
+  addDrawing(*trace, a);
   addRepeated(*trace, "-o,--output", a.outputs, "OUT.svg|OUT.json",
               "Write the curves; the extension chooses the format; may be repeated");
-  trace->add_option("--recipe", a.recipe, "Start from this recipe; --set, --corner and --dpi come on top")
-      ->type_name("R.json");
-  addRepeated(*trace, "--set", a.settings, "NAME=VALUE",
-              "Set a parameter (see batten-cli parameters); may be repeated");
   addRepeated(*trace, "--corner", a.corners, "X,Y[,MM]",
               "Sharp corner near this place, px from the upper left; with MM rounded by that size; may be repeated");
   addRepeated(*trace, "--segment-point", a.segmentPoints, "X,Y",
               "Typical curves meet near this place of a line, px from the upper left; may be repeated");
-  addRepeated(*trace, "--outline", a.outlines, "X,Y",
-              "Follow the border of the ink near this place, px from the upper left; may be repeated");
-  addRepeated(*trace, "--centreline", a.centrelines, "X,Y",
-              "Follow the middle of the ink near this place, px from the upper left; may be repeated");
-  addRepeated(*trace, "--roi", a.regions, "X,Y,WIDTH,HEIGHT",
-              "Trace only what lies in this rectangle, px from the upper left; may be repeated");
   trace->add_option("--dpi", a.dpi, "Resolution of the scan, overrides what the file states")->type_name("N");
   trace->add_option("--report", a.report, "Write figures of every stage and curve")->type_name("REPORT.json");
   addRepeated(*trace, "--dump", a.dumps, "STAGE=FILE.png", dumpHelp());
   trace->add_option("--save-recipe", a.saveRecipe, "Write all settings used, for --recipe and the window")
       ->type_name("R.json");
-  trace->add_option("--threads", a.threads, "Use at most this many threads; 0 = all. Never changes the result")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+}
+
+CLI::App* addSuggest(CLI::App& app, TraceArguments& a) {
+  CLI::App* suggest = app.add_subcommand("suggest", "Whether a scan has overdrawn strokes, and how far to merge them");
+  suggest->footer(
+      "Prints one line of JSON: a value for edges.merge (0: no overdrawn strokes), how many strokes become how many "
+      "lines, and the reason. Changes nothing.");
+  addDrawing(*suggest, a);
+  return suggest;
 }
 
 int run(int argc, char** argv) {
@@ -70,6 +83,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   TraceArguments arguments;
   addTrace(app, arguments);
+  const CLI::App* suggest = addSuggest(app, arguments);
   bool asJson = false;
   CLI::App* parameters =
       app.add_subcommand("parameters", "List every parameter: name, unit, range, default, what it does");
@@ -91,6 +105,7 @@ int run(int argc, char** argv) {
     return reportError({ErrorCode::BadParameter, std::string(e.what()) + ". Run batten-cli --help.", {}});
   }
   if (compare->parsed()) return runCompare(first, second);
+  if (suggest->parsed()) return runSuggest(arguments);
   return parameters->parsed() ? runParameters(asJson) : runTrace(arguments);
 }
 

@@ -162,6 +162,35 @@ Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan
 
 }  // namespace
 
+Result<Recipe> recipeOf(const TraceArguments& arguments) {
+  auto recipe = readRecipe(arguments.recipe);
+  if (!recipe) return recipe;
+  for (const std::string& setting : arguments.settings) {
+    if (auto set = applySetting(setting, *recipe); !set) return fail(set.error());
+  }
+  for (const std::string& corner : arguments.corners) {
+    if (auto set = applyCorner(corner, *recipe); !set) return fail(set.error());
+  }
+  for (const std::string& point : arguments.segmentPoints) {
+    if (auto set = applySegmentPoint(point, *recipe); !set) return fail(set.error());
+  }
+  for (const std::string& place : arguments.outlines) {
+    if (auto set = applyWay(place, EdgeMode::Outline, *recipe); !set) return fail(set.error());
+  }
+  for (const std::string& place : arguments.centrelines) {
+    if (auto set = applyWay(place, EdgeMode::Centreline, *recipe); !set) return fail(set.error());
+  }
+  for (const std::string& region : arguments.regions) {
+    if (auto set = applyRegion(region, *recipe); !set) return fail(set.error());
+  }
+  if (arguments.dpi) recipe->dpi = arguments.dpi;
+  if (arguments.scan.empty() && !recipe->page) {
+    return wrong("No scan is named. Only a recipe that was drawn on an empty page needs none.");
+  }
+  if (auto problem = validate(*recipe)) return fail(std::move(*problem));
+  return recipe;
+}
+
 Result<TracePlan> planTrace(const TraceArguments& arguments) {
   TracePlan plan;
   for (const std::string& path : arguments.outputs) {
@@ -175,33 +204,9 @@ Result<TracePlan> planTrace(const TraceArguments& arguments) {
     plan.dumps.push_back(std::move(*parsed));
   }
   if (auto checked = checkTargets(arguments, plan); !checked) return fail(checked.error());
-
-  auto recipe = readRecipe(arguments.recipe);
+  auto recipe = recipeOf(arguments);
   if (!recipe) return fail(recipe.error());
   plan.recipe = std::move(*recipe);
-  for (const std::string& setting : arguments.settings) {
-    if (auto set = applySetting(setting, plan.recipe); !set) return fail(set.error());
-  }
-  for (const std::string& corner : arguments.corners) {
-    if (auto set = applyCorner(corner, plan.recipe); !set) return fail(set.error());
-  }
-  for (const std::string& point : arguments.segmentPoints) {
-    if (auto set = applySegmentPoint(point, plan.recipe); !set) return fail(set.error());
-  }
-  for (const std::string& place : arguments.outlines) {
-    if (auto set = applyWay(place, EdgeMode::Outline, plan.recipe); !set) return fail(set.error());
-  }
-  for (const std::string& place : arguments.centrelines) {
-    if (auto set = applyWay(place, EdgeMode::Centreline, plan.recipe); !set) return fail(set.error());
-  }
-  for (const std::string& region : arguments.regions) {
-    if (auto set = applyRegion(region, plan.recipe); !set) return fail(set.error());
-  }
-  if (arguments.dpi) plan.recipe.dpi = arguments.dpi;
-  if (arguments.scan.empty() && !plan.recipe.page) {
-    return wrong("No scan is named. Only a recipe that was drawn on an empty page needs none.");
-  }
-  if (auto problem = validate(plan.recipe)) return fail(std::move(*problem));
   return plan;
 }
 

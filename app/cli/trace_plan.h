@@ -27,8 +27,11 @@ struct TracePlan {
   std::vector<Dump> dumps;
 };
 
-/// Recipe file first, then --set in the order given, then corners, regions and resolution. @return BadParameter with
-/// what to do.
+/// The recipe that the words ask for: recipe file first, then --set in the order given, then corners, regions and
+/// resolution. @return BadParameter with what to do.
+Result<Recipe> recipeOf(const TraceArguments&);
+
+/// The recipe and what is to be written. @return BadParameter with what to do.
 Result<TracePlan> planTrace(const TraceArguments&);
 
 }  // namespace batten::cli

@@ -140,6 +140,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   }
   if (context.isCancelled()) return cancelled();
   std::erase_if(set.contours, [](const Contour& c) { return c.points.size() < 3; });
+  if (!set.contours.empty()) set.report.widthPx = width;
   if (params.mergeWidths * width >= 1.0) {
     // Between middles: the paper between two strokes is a width less.
     set.contours = mergeStrokes(set.contours, (params.mergeWidths + 1.0) * width, context);

@@ -58,6 +58,7 @@ struct ContourReport {
   int droppedHoles = 0;     ///< Inner borders, in outline mode without them.
   int droppedMargins = 0;   ///< Lines along the border of the page: the margin of the scanner.
   double refinedShare = 0;  ///< Part of the points that were placed on the grey values, 0..1.
+  double widthPx = 0.0;     ///< [px] What EdgeParams::mergeWidths counts in; 0: no strokes.
   std::string note;
 };
 

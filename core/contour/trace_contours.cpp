@@ -90,6 +90,7 @@ void append(ContourSet& to, ContourSet&& from) {
   to.report.droppedShort += from.report.droppedShort;
   to.report.droppedHoles += from.report.droppedHoles;
   to.report.droppedMargins += from.report.droppedMargins;
+  to.report.widthPx = std::max(to.report.widthPx, from.report.widthPx);
   if (to.report.note.empty()) to.report.note = std::move(from.report.note);
   std::move(from.contours.begin(), from.contours.end(), std::back_inserter(to.contours));
 }

@@ -4,72 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <random>
 #include <string>
 
-#include "core/contour/centreline.h"
 #include "core/contour/polyline_tools.h"
 #include "tests/support/angles.h"
-#include "tests/support/render_page.h"
-#include "tests/support/truth_shapes.h"
+#include "tests/support/overdrawn_page.h"
 
 namespace batten {
 namespace {
 
+using test::beanAt;
+using test::cubicLine;
+using test::drawOver;
 using test::kPi;
-using MeantLine = std::function<Vec2(double)>;  // 0..1
-
-constexpr double kPenPx = 4.0, kInkPx = 3.6;  // on paper, and as measured
-constexpr int kPagePx = 640;
-
-// One stroke along a line: from part `from` to part `to`, wavering about an offset to the side.
-std::vector<Vec2> strokeAlong(const MeantLine& line, double from, double to, double offset, double waver,
-                              double phase) {
-  std::vector<Vec2> points;
-  constexpr int kSteps = 1500;
-  for (int i = 0; i <= kSteps; ++i) {
-    const double part = static_cast<double>(i) / kSteps, t = from + (to - from) * part;
-    const Vec2 along = line(t + 1e-4) - line(t - 1e-4);
-    points.push_back(line(t) + (offset + waver * std::sin(phase + 5.0 * part)) * leftNormal(along.normalized()));
-  }
-  return points;
-}
-
-// A line in `count` strokes that each run over all of it, but for what they leave out or overshoot at the ends.
-void drawOver(std::vector<std::vector<Vec2>>& strokes, const MeantLine& line, int count, double spreadPx,
-              unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  for (int k = 0; k < count; ++k) {
-    const double offset = count > 1 ? spreadPx * (static_cast<double>(k) / (count - 1) - 0.5) : 0.0;
-    const double from = 0.03 * (unit(random) - 0.5), to = 1.0 + 0.03 * (unit(random) - 0.5);
-    strokes.push_back(strokeAlong(line, from, to, offset, 0.15 * spreadPx, 2.0 * kPi * unit(random)));
-  }
-}
-
-// The lines of a page with these strokes, merged where their middles are no farther apart than the distance.
-std::vector<Contour> mergedLines(const std::vector<std::vector<Vec2>>& strokes, double distancePx) {
-  std::vector<float> cover(static_cast<std::size_t>(kPagePx) * kPagePx, 0.0f);
-  for (const auto& s : strokes) {
-    const std::vector<float> one = test::strokeCoverage(s, false, kPenPx, kPagePx, kPagePx);
-    for (std::size_t i = 0; i < cover.size(); ++i) cover[i] = std::max(cover[i], one[i]);
-  }
-  test::PageStyle style;
-  style.paperLeft = style.paperRight = 240.0;
-  style.inkLevel = 30.0;
-  style.blurPx = 0.8;
-  style.noise = 5.0;
-  const GreyImage grey = test::renderPage(std::move(cover), kPagePx, kPagePx, style).grey;
-  BitImage ink(kPagePx, kPagePx);
-  for (int y = 0; y < kPagePx; ++y)
-    for (int x = 0; x < kPagePx; ++x) ink.set(x, y, grey.level(x, y) < 135.0);
-  EdgeParams params;
-  params.mergeWidths = distancePx / kInkPx - 1.0;
-  const Result<ContourSet> set = centrelines(ink, grey, params, {});
-  EXPECT_TRUE(set);
-  return set ? set->contours : std::vector<Contour>{};
-}
+using test::MeantLine;
+using test::mergedLines;
+using test::straightLine;
+using test::strokeAlong;
 
 double distanceTo(const Vec2& p, const std::vector<Vec2>& points) {
   double least = 1e9;
@@ -107,26 +59,10 @@ void expectMeant(const std::vector<Contour>& found, const std::vector<MeantLine>
   }
 }
 
-MeantLine straight(const Vec2& a, const Vec2& b) {
-  return [a, b](double t) { return Vec2(a + t * (b - a)); };
-}
-
-MeantLine cubic(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  return [=](double t) {
-    const double u = 1.0 - t;
-    return Vec2(u * u * u * a + 3.0 * u * u * t * b + 3.0 * u * t * t * c + t * t * t * d);
-  };
-}
-
-Vec2 beanAt(double t) {
-  const double a = 2.0 * kPi * t, r = 190.0 + 45.0 * std::cos(a) - 30.0 * std::cos(2.0 * a + 0.7);
-  return {320.0 + r * std::cos(a), 320.0 + r * std::sin(a)};
-}
-
 TEST(Overdrawn, AScriptKIsThreeLines) {
-  const std::vector<MeantLine> k{cubic({120, 40}, {330, 120}, {230, 400}, {200, 600}),
-                                 cubic({560, 60}, {470, 200}, {360, 290}, {225, 350}),
-                                 cubic({320, 290}, {380, 420}, {440, 590}, {600, 560})};
+  const std::vector<MeantLine> k{cubicLine({120, 40}, {330, 120}, {230, 400}, {200, 600}),
+                                 cubicLine({560, 60}, {470, 200}, {360, 290}, {225, 350}),
+                                 cubicLine({320, 290}, {380, 420}, {440, 590}, {600, 560})};
   for (const unsigned seed : {1u, 2u, 3u, 4u, 5u}) {
     SCOPED_TRACE(seed);
     std::vector<std::vector<Vec2>> strokes;
@@ -174,7 +110,7 @@ TEST(Overdrawn, ABeanDrawnRoundAndRoundIsOneRing) {
 
 // Strokes that run together and part at both ends, by less than they may be apart.
 TEST(Overdrawn, ABundleThatFansOutIsOneLine) {
-  const MeantLine middle = cubic({60, 400}, {220, 300}, {420, 300}, {580, 380});
+  const MeantLine middle = cubicLine({60, 400}, {220, 300}, {420, 300}, {580, 380});
   std::vector<std::vector<Vec2>> strokes;
   for (const double side : {-1.0, 0.0, 1.0}) {
     std::vector<Vec2> points;
@@ -192,14 +128,15 @@ TEST(Overdrawn, ABundleThatFansOutIsOneLine) {
 TEST(Overdrawn, NeighboursStayTwoLines) {
   constexpr double kDistance = 18.0;
   // Side by side, half a distance farther apart than strokes of one line may be.
-  std::vector<MeantLine> meant{straight({60, 300}, {580, 280}),
-                               straight({60, 300 + 1.5 * kDistance + 7.0}, {580, 280 + 1.5 * kDistance + 7.0})};
+  std::vector<MeantLine> meant{straightLine({60, 300}, {580, 280}),
+                               straightLine({60, 300 + 1.5 * kDistance + 7.0}, {580, 280 + 1.5 * kDistance + 7.0})};
   std::vector<std::vector<Vec2>> strokes;
   drawOver(strokes, meant[0], 2, 7.0, 1);
   drawOver(strokes, meant[1], 2, 7.0, 2);
   expectMeant(mergedLines(strokes, kDistance), meant, 3.5);
   // Coming as near as strokes of one line, and parting again.
-  meant = {cubic({60, 120}, {260, 345}, {380, 345}, {580, 120}), cubic({60, 490}, {260, 272}, {380, 272}, {580, 490})};
+  meant = {cubicLine({60, 120}, {260, 345}, {380, 345}, {580, 120}),
+           cubicLine({60, 490}, {260, 272}, {380, 272}, {580, 490})};
   strokes.clear();
   drawOver(strokes, meant[0], 2, 7.0, 3);
   drawOver(strokes, meant[1], 2, 7.0, 4);
@@ -211,8 +148,8 @@ TEST(Overdrawn, BundlesCross) {
     SCOPED_TRACE(angle);
     const double half = 0.5 * angle * kPi / 180.0;
     const Vec2 centre(320, 320), d(std::cos(half), std::sin(half)), e(std::cos(half), -std::sin(half));
-    const std::vector<MeantLine> meant{straight(centre - 270.0 * d, centre + 270.0 * d),
-                                       straight(centre - 270.0 * e, centre + 270.0 * e)};
+    const std::vector<MeantLine> meant{straightLine(centre - 270.0 * d, centre + 270.0 * d),
+                                       straightLine(centre - 270.0 * e, centre + 270.0 * e)};
     std::vector<std::vector<Vec2>> strokes;
     drawOver(strokes, meant[0], 3, 14.0, 5);
     drawOver(strokes, meant[1], 3, 14.0, 6);
@@ -237,7 +174,7 @@ TEST(Overdrawn, WhatOvershootsGoes) {
 
 // The mean has no step and no wave where a stroke of the bundle begins or ends.
 TEST(Overdrawn, TheMeanIsFairWhereStrokesBegin) {
-  const MeantLine line = straight({40, 320}, {600, 320});
+  const MeantLine line = straightLine({40, 320}, {600, 320});
   std::vector<std::vector<Vec2>> strokes{strokeAlong(line, 0.0, 1.0, 0.0, 0.0, 0.0),
                                          strokeAlong(line, 0.3, 0.7, 8.0, 0.0, 0.0),
                                          strokeAlong(line, 0.5, 1.0, -7.0, 0.0, 0.0)};

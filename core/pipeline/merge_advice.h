@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/image/scan.h"
+#include "core/pipeline/recipe.h"
+#include "core/pipeline/stage_cache.h"
+
+namespace batten {
+
+/// A strength for edges.merge that the drawing itself suggests.
+struct MergeAdvice {
+  double widths = 0.0;  ///< [stroke widths] For EdgeParams::mergeWidths; 0: no overdrawn strokes were found.
+  int strokes = 0;      ///< Centre lines of the page without merging
+  int lines = 0;        ///< and with it.
+  double share = 0.0;   ///< [-] See OverdrawnStrokes::share.
+};
+
+/// Traces the page without merging, looks for strokes drawn over one another (findOverdrawnStrokes()), and where there
+/// are some, traces it with the strength found to count the lines. What the recipe says about merging does not matter.
+/// @return Cancelled, or why the page gives no lines.
+Result<MergeAdvice> adviseMerge(const Scan& scan, const Recipe& recipe, StageCache& cache, const RunContext& context);
+
+/// "9 stroke widths: 13 strokes become 1 line.", or that there are none.
+std::string describe(const MergeAdvice& advice);
+
+}  // namespace batten

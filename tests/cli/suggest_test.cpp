@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+#include "tests/support/overdrawn_page.h"
+
+namespace batten {
+namespace {
+
+using nlohmann::json;
+
+class Suggest : public test::Program {
+ protected:
+  std::string page(int strokes) const {
+    const test::MeantLine line = test::cubicLine({60, 500}, {420, 560}, {200, 80}, {580, 120});
+    std::vector<test::PenPath> drawn;
+    for (int k = 0; k < strokes; ++k)
+      drawn.push_back(test::wanderAlong(line, 0.0, 1.0, 10.0, 101 + static_cast<unsigned>(k)));
+    write("page.png", pngOf(test::overdrawnScan(drawn).grey));
+    return file("page.png");
+  }
+};
+
+TEST_F(Suggest, AStrengthThatMakesOneLineOfABundle) {
+  const std::string scan = page(3);
+  const auto done = run("suggest " + scan);
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(done.err, "");
+  const json said = json::parse(done.out);
+  const double strength = said["edges.merge"];
+  EXPECT_GT(strength, 0.0);
+  EXPECT_GT(said["strokes"].get<int>(), 1);
+  EXPECT_EQ(said["lines"], 1);
+  EXPECT_NE(said["reason"].get<std::string>().find("strokes become 1 line."), std::string::npos);
+  const auto traced =
+      run("trace " + scan + " --set edges.merge=" + std::to_string(strength) + " -o " + file("lines.json"));
+  ASSERT_EQ(traced.code, 0) << traced.err;
+  EXPECT_EQ(json::parse(traced.out)["curves"], 1);
+  EXPECT_EQ(json::parse(run("suggest " + scan + " --threads 1").out), said);
+}
+
+TEST_F(Suggest, NoneForASingleStroke) {
+  const auto done = run("suggest " + page(1));
+  ASSERT_EQ(done.code, 0) << done.err;
+  const json said = json::parse(done.out);
+  EXPECT_EQ(said["edges.merge"], 0.0);
+  EXPECT_EQ(said["lines"], said["strokes"]);
+  EXPECT_NE(said["reason"].get<std::string>().find("No overdrawn strokes"), std::string::npos);
+}
+
+TEST_F(Suggest, SaysWhatIsWrong) {
+  expectError("suggest", 2, "scan");
+  expectError("suggest " + file("none.png"), 3, "none.png");
+  expectError("suggest " + page(1) + " --set edges.merge=99", 2, "edges.merge");
+  expectError("suggest " + page(0), 4, "line");
+}
+
+}  // namespace
+}  // namespace batten
