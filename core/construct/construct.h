@@ -76,7 +76,7 @@ struct ConstructParams {
   TypicalMode typical = TypicalMode::Chain;
   double growingStopDeg = 2.0;    ///< [degrees] 0.2..20. Growing: the normals of curve and points may differ by this.
   bool growingAsInPaper = false;  ///< Growing: keeps each fit whole (002; unstable) instead of its first half.
-  double keepExtremaCost = 20.0;  ///< [chi2] 1..1000. Fair fit: a curvature extremum cheaper than this is dropped.
+  double keepExtremaCost = 25.0;  ///< [chi2] 1..1000. Fair fit: a curvature extremum cheaper than this is dropped.
   /// [-] 0..1. Fair fit: part of the noise of an edge point by which the curve may move to need fewer control points;
   /// 0 keeps them all.
   double reduceShare = 0.25;

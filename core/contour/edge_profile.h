@@ -15,6 +15,7 @@ namespace batten {
 inline constexpr int kProfileHalf = 8;
 inline constexpr int kProfileSamples = 2 * kProfileHalf + 1;
 inline constexpr double kProfileStepPx = 0.5;
+inline constexpr double kSideFromPx = 1.9;  ///< The levels of ink and paper are taken beyond this distance.
 inline constexpr double profileU(int k) { return (k - kProfileHalf) * kProfileStepPx; }
 
 /// Grey level 0..255 at an image position, by cubic convolution (Catmull-Rom; reproduces parabolas, so it adds no blur

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kLevelSigma = 6.0;  // points: ink and paper change slowly along an edge
 constexpr double kSpanSigma = 2.0;   // points
-constexpr double kSideFromPx = 1.9;  // side levels are taken beyond this distance
 constexpr int kProfileNewtonSteps = 4;
 constexpr int kBlurRounds = 4;
 constexpr int kTwinRounds = 4;

@@ -13,6 +13,7 @@
 #include "core/contour/crack_contours.h"
 #include "core/contour/polyline_tools.h"
 #include "core/contour/soft_borders.h"
+#include "core/contour/soft_edges.h"
 #include "core/contour/subpixel_edges.h"
 
 namespace batten {
@@ -203,6 +204,7 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
   context.report(0.6);
   if (edges.subpixel) {
     refineOutlines(*set, grey, context);
+    refineSoftOutlines(*set, grey, context);
     if (edges.mode == EdgeMode::Outline) dropSoftBorders(*set, grey, params, context);
     if (context.isCancelled()) return cancelled();
     std::sort(set->contours.begin(), set->contours.end(), before);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,24 @@ double intoTone(const Tone& tone, double x, double y) {
   return (y - 360.0 - 160.0 * std::sin(2.0 * kPi * x / 1500.0)) / std::hypot(1.0, slope);
 }
 
+/// How much of the tone every pixel has: it falls as exp(-d / fade) from the edge on, all blurred.
+std::vector<float> blurredTone(const Tone& tone, double blurPx) {
+  constexpr int kParts = 4;
+  cv::Mat cover(kHeight, kWidth, CV_32F);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      double sum = 0.0;
+      for (int k = 0; k < kParts * kParts; ++k) {
+        const double d = intoTone(tone, x + (k % kParts + 0.5) / kParts, y + (k / kParts + 0.5) / kParts);
+        if (d > 0.0) sum += tone.fadePx > 0.0 ? std::exp(-d / tone.fadePx) : 1.0;
+      }
+      cover.at<float>(y, x) = static_cast<float>(sum / (kParts * kParts));
+    }
+  }
+  cv::GaussianBlur(cover, cover, {}, blurPx, blurPx, cv::BORDER_REPLICATE);
+  return {cover.begin<float>(), cover.end<float>()};
+}
+
 std::vector<Vec2> toneEdge(const Tone& tone) {
   std::vector<Vec2> line;
   for (int i = 0; i <= 2400; ++i) {
@@ -107,13 +126,13 @@ void measureTones(bool details) {
     int good = 0, all = 0;
     double least = 1.0, most = 0.0, worst = 0.0;
     std::vector<double> fair;
-    for (const double contrast : {60.0, 100.0, 150.0}) {
-      for (const double blur : {1.0, 3.0, 6.0}) {
+    for (const double blur : {1.0, 3.0, 6.0}) {
+      const std::vector<float> cover = blurredTone(tone, blur);
+      for (const double contrast : {60.0, 100.0, 150.0}) {
         for (const double noise : {2.0, 8.0}) {
           const auto paper = [&](double x, double y) {
-            const double d = intoTone(tone, x, y);
-            const double cover = 0.5 * std::erfc(-d / (std::sqrt(2.0) * blur));
-            return 235.0 - contrast * cover * (tone.fadePx > 0.0 ? std::exp(-std::max(0.0, d) / tone.fadePx) : 1.0);
+            const std::size_t pixel = static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x);
+            return 235.0 - contrast * static_cast<double>(cover[pixel]);
           };
           const Scan scan = renderStress(blank, kWidth, kHeight, paper, {1.0, noise, 0.0}, 11);
           const TonePage page = measureTone(tone, scan);
