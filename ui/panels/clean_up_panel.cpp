@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "ui/panels/line_way.h"
+#include "ui/panels/merge_suggestion.h"
 #include "ui/panels/panel_parts.h"
 #include "ui/panels/parameter_editor.h"
 #include "ui/panels/pen_panel.h"
@@ -97,12 +98,13 @@ EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* pare
       figures_(new FigureTable(this)),
       note_(note({}, this)) {
   auto* layout = panelLayout(this, tr("Edges"));
-  tracing_ = {
+  auto* editor =
       new ParameterEditor(session,
                           {"edges.mode", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
                            "edges.merge", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
-                          this),
-      new LineWay(session, this), caption(tr("Lines found"), this), figures_};
+                          this);
+  editor->addBelow("edges.merge", new MergeSuggestion(session, editor));
+  tracing_ = {editor, new LineWay(session, this), caption(tr("Lines found"), this), figures_};
   layout->addWidget(tracing_[0]);
   layout->addWidget(tracing_[1]);
   buildChoice();

@@ -53,6 +53,10 @@ ParameterRow* ParameterEditor::row(std::string_view name) const {
   return nullptr;
 }
 
+void ParameterEditor::addBelow(std::string_view name, QWidget* widget) {
+  layout_->insertWidget(layout_->indexOf(row(name)) + 1, widget);
+}
+
 void ParameterEditor::setRowVisible(std::string_view name, bool visible) {
   if (auto* found = row(name)) found->setVisible(visible);
   if (!more_) return;

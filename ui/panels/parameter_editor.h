@@ -21,6 +21,8 @@ class ParameterEditor : public QWidget {
  public:
   ParameterEditor(EditorSession& session, const std::vector<std::string_view>& names, QWidget* parent = nullptr);
   ParameterRow* row(std::string_view name) const;
+  /// Puts a control of its own right below the row of a parameter that is not folded.
+  void addBelow(std::string_view name, QWidget* widget);
   void setRowVisible(std::string_view name, bool visible);
 
  private:

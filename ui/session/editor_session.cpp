@@ -124,9 +124,9 @@ bool EditorSession::hasRunningJobs() const {
   return runner_->reader.isRunning() || runner_->pipeline.isRunning() || runner_->targeting.isRunning();
 }
 
-void EditorSession::setSideWork(const QObject* panel, bool busy) {
+void EditorSession::setSideWork(const QObject* panel, bool busy, bool isShown) {
   if (busy)
-    sideWork_.insert(panel);
+    sideWork_.insert(panel, isShown);
   else
     sideWork_.remove(panel);
   runner_->updateBusy();

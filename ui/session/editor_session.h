@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QHash>
 #include <QObject>
-#include <QSet>
 #include <QString>
 #include <QUndoStack>
 #include <array>
@@ -95,7 +95,8 @@ class EditorSession : public QObject {
   /// True while a thread of the session still runs a job, even a cancelled one.
   bool hasRunningJobs() const;
   /// Work that a panel does in the background for its own display: shown as busy, and stopped by `stopped`.
-  void setSideWork(const QObject* panel, bool busy);
+  /// @param isShown the display lacks something while it is stopped.
+  void setSideWork(const QObject* panel, bool busy, bool isShown = true);
   /// Milliseconds of the last finished run.
   double lastRunMilliseconds() const { return lastRunMs_; }
 
@@ -159,7 +160,7 @@ class EditorSession : public QObject {
   QUndoStack undo_;
   int lastGesture_ = 0;
   int selectedCurve_ = -1, selectedCorner_ = -1;
-  QSet<const QObject*> sideWork_;
+  QHash<const QObject*, bool> sideWork_;  ///< And whether its result is on display.
   std::shared_ptr<const TargetOutcomes> targets_;
   int hoveredTarget_ = 0;
   std::optional<double> cursorMm_;

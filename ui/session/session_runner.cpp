@@ -368,7 +368,8 @@ void EditorSession::Runner::stopAll() {
     ++newestTargets;
     targetsCurve.reset();
   }
-  if (ran || isTargeting || !session.sideWork_.isEmpty()) isStopped = true;
+  const auto& side = session.sideWork_;
+  if (ran || isTargeting || std::find(side.begin(), side.end(), true) != side.end()) isStopped = true;
   isRunning = isReading = isTargeting = false;
   session.sideWork_.clear();
   emit session.stopped();
