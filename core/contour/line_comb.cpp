@@ -123,14 +123,10 @@ class Tile {
     }
   }
 
-  // [grey] Mean of the brighter one of the two lines at the sides of pixel (x, y) of the tile.
-  float flank(const Direction& d, int x, int y) const {
-    const auto darkest = [&](const std::vector<Step>& places) {
-      float least = 1e9f;
-      for (const Step& s : places) least = std::min(least, mean_[index(margin_ + x + s.x, margin_ + y + s.y)]);
-      return least;
-    };
-    return std::max(darkest(d.left), darkest(d.right));
+  // Whether lines darker than `limit` lie at both sides of pixel (x, y) of the tile.
+  bool isFlanked(const Direction& d, float limit, int x, int y) const {
+    const auto isDark = [&](const Step& s) { return mean_[index(margin_ + x + s.x, margin_ + y + s.y)] < limit; };
+    return std::any_of(d.left.begin(), d.left.end(), isDark) && std::any_of(d.right.begin(), d.right.end(), isDark);
   }
   // [grey] How much darker than both its sides a line is at pixel (x, y), where it is fainter: ahead or behind.
   float ridge(const Direction& d, std::size_t sides, int x, int y) const {
@@ -168,37 +164,56 @@ std::vector<Pixel> bodyPixels(const BitImage& body, int x0, int y0) {
   return pixels;
 }
 
-void searchTile(const BitImage& body, const GreyImage& grey, const GrainField& grain, const Comb& comb, int x0, int y0,
-                LineComb& found) {
-  const std::vector<Pixel> pixels = bodyPixels(body, x0, y0);
-  if (pixels.empty()) return;
-  Tile tile(grey, x0, y0, comb);
-  const Vec2 middle(x0 + 0.5 * kTile, y0 + 0.5 * kTile);
-  // The deviation is a mean of absolute values; over a line it shrinks with the number of grains.
+// [grey] What is clear in a tile. The deviation is a mean of absolute values; over a line it shrinks with the number of
+// grains.
+float clearAt(const GrainField& grain, const Comb& comb, const Vec2& middle) {
   const double grains = std::max(1.0, (2.0 * comb.halfPx + 1.0) / kGrainLengthPx);
   const double share = std::max(kLeastShare, kClear * 1.25 * grain.deviationAt(middle) / std::sqrt(grains));
-  const auto clear = static_cast<float>(share * grain.depthAt(middle));
-  const float ridge = std::max(kHalf * clear, static_cast<float>(0.5 * grain.depthAt(middle)));
-  // [grey] At every pixel the darkest pair of sides: the brighter one of the two.
-  std::vector<float> flanks(pixels.size(), 255.0f);
-  std::vector<float> ridges(pixels.size(), 0.0f);
-  for (const Direction& d : comb.directions) {
-    tile.meanAlong(d, comb.reachPx);
-    tile.noteDarkest();
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      flanks[i] = std::min(flanks[i], tile.flank(d, pixels[i].x, pixels[i].y));
-      ridges[i] = std::max(ridges[i], tile.ridge(d, comb.ridgeSides, pixels[i].x, pixels[i].y));
-    }
-  }
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const int x = x0 + pixels[i].x, y = y0 + pixels[i].y;
-    if (ridges[i] > ridge) {
-      found.lines.set(x, y, true);
-    } else if (tile.best(pixels[i].x, pixels[i].y) - flanks[i] > clear) {
-      found.gaps.set(x, y, true);
-    }
-  }
+  return static_cast<float>(share * grain.depthAt(middle));
 }
+
+struct Search {
+  const GreyImage& grey;
+  const GrainField& grain;
+  const Comb& comb;
+
+  void gaps(const BitImage& where, int x0, int y0, BitImage& found) const {
+    std::vector<Pixel> pixels = bodyPixels(where, x0, y0);
+    if (pixels.empty()) return;
+    Tile tile(grey, x0, y0, comb);
+    const float clear = clearAt(grain, comb, middleOf(x0, y0));
+    for (const Direction& d : comb.directions) {
+      tile.meanAlong(d, 0);
+      tile.noteDarkest();
+    }
+    for (const Direction& d : comb.directions) {
+      tile.meanAlong(d, comb.reachPx);
+      std::erase_if(pixels, [&](const Pixel& p) {
+        if (!tile.isFlanked(d, tile.best(p.x, p.y) - clear, p.x, p.y)) return false;
+        found.set(x0 + p.x, y0 + p.y, true);
+        return true;
+      });
+    }
+  }
+
+  void lines(const BitImage& where, int x0, int y0, BitImage& found) const {
+    std::vector<Pixel> pixels = bodyPixels(where, x0, y0);
+    if (pixels.empty()) return;
+    Tile tile(grey, x0, y0, comb);
+    const Vec2 middle = middleOf(x0, y0);
+    const float least = std::max(kHalf * clearAt(grain, comb, middle), static_cast<float>(0.5 * grain.depthAt(middle)));
+    for (const Direction& d : comb.directions) {
+      tile.meanAlong(d, comb.reachPx);
+      std::erase_if(pixels, [&](const Pixel& p) {
+        if (!(tile.ridge(d, comb.ridgeSides, p.x, p.y) > least)) return false;
+        found.set(x0 + p.x, y0 + p.y, true);
+        return true;
+      });
+    }
+  }
+
+  static Vec2 middleOf(int x0, int y0) { return {x0 + 0.5 * kTile, y0 + 0.5 * kTile}; }
+};
 
 }  // namespace
 
@@ -207,18 +222,22 @@ LineComb combLines(const BitImage& body, const GreyImage& grey, const GrainField
   LineComb found{BitImage(body.width, body.height), BitImage(body.width, body.height)};
   if (widthPx > kWidestPx) return found;
   const Comb comb = combFor(widthPx);
-  const BitImage where = grown(body, comb.halfPx / 2, context);
+  const Search search{grey, grain, comb};
   const int columns = body.wordsPerRow, rows = (body.height + kTile - 1) / kTile;
-  parallelFor(context, columns * rows, 1, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i)
-      searchTile(where, grey, grain, comb, i % columns * kTile, i / columns * kTile, found);
-  });
+  const auto overTiles = [&](const auto& visit) {
+    parallelFor(context, columns * rows, 1, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) visit(i % columns * kTile, i / columns * kTile);
+    });
+  };
+  const BitImage near = grown(body, comb.halfPx / 2, context);
+  overTiles([&](int x0, int y0) { search.gaps(near, x0, y0, found.gaps); });
   if (context.isCancelled()) return found;
   // A gap runs on as far as the lines that it was seen between.
   found.gaps = keepPieces(found.gaps, {.minArea = 0, .minDiagonal = static_cast<double>(comb.halfPx)}, context);
   // Lines alone are mended by closing and by bridging their gaps; it is beside other lines that both go astray.
-  const int beside = static_cast<int>(std::lround(kFlankTo * widthPx));
-  found.lines = both(std::move(found.lines), grown(found.gaps, beside, context));
+  const BitImage beside = both(grown(found.gaps, static_cast<int>(std::lround(kFlankTo * widthPx)), context), near);
+  overTiles([&](int x0, int y0) { search.lines(beside, x0, y0, found.lines); });
+  found.gaps = without(std::move(found.gaps), found.lines);
   return found;
 }
 
