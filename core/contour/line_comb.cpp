@@ -229,13 +229,13 @@ LineComb combLines(const BitImage& body, const GreyImage& grey, const GrainField
       for (int i = begin; i < end; ++i) visit(i % columns * kTile, i / columns * kTile);
     });
   };
-  const BitImage near = grown(body, comb.halfPx / 2, context);
+  const BitImage near = grown(body, comb.halfPx, context);
   overTiles([&](int x0, int y0) { search.gaps(near, x0, y0, found.gaps); });
   if (context.isCancelled()) return found;
   // A gap runs on as far as the lines that it was seen between.
   found.gaps = keepPieces(found.gaps, {.minArea = 0, .minDiagonal = static_cast<double>(comb.halfPx)}, context);
-  // Lines alone are mended by closing and by bridging their gaps; it is beside other lines that both go astray.
-  const BitImage beside = both(grown(found.gaps, static_cast<int>(std::lround(kFlankTo * widthPx)), context), near);
+  // Lines alone are mended by closing and by bridging their gaps; it is near other lines that both go astray.
+  const BitImage beside = both(grown(found.gaps, 2 * comb.halfPx, context), near);
   overTiles([&](int x0, int y0) { search.lines(beside, x0, y0, found.lines); });
   found.gaps = without(std::move(found.gaps), found.lines);
   return found;
