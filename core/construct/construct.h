@@ -76,7 +76,9 @@ struct ConstructParams {
   TypicalMode typical = TypicalMode::Chain;
   double growingStopDeg = 2.0;    ///< [degrees] 0.2..20. Growing: the normals of curve and points may differ by this.
   bool growingAsInPaper = false;  ///< Growing: keeps each fit whole (002; unstable) instead of its first half.
-  double keepExtremaCost = 25.0;  ///< [chi2] 1..1000. Fair fit: a curvature extremum cheaper than this is dropped.
+  /// [chi2] 1..1000. Fair fit: a curvature extremum cheaper than this is dropped, on lines of 2000 px and shorter; a
+  /// little more is asked on longer ones (ExtremumNote::askedCost).
+  double keepExtremaCost = 20.0;
   /// [-] 0..1. Fair fit: part of the noise of an edge point by which the curve may move to need fewer control points;
   /// 0 keeps them all.
   double reduceShare = 0.25;
@@ -119,6 +121,7 @@ struct ExtremumNote {
   bool maximum = true;
   bool kept = true;
   double removalCost = 0.0;      ///< [chi2] rise of the misfit when it is removed; large = certain.
+  double askedCost = 0.0;        ///< [chi2] what it had to be at least to be kept.
   Vec2 point = Vec2::Zero();     ///< [mm] where it is on the curve (a dropped one: where it was seen).
   std::optional<int> wish = {};  ///< Id of the wish that was attached to it.
 };

@@ -15,8 +15,9 @@
 namespace batten {
 namespace {
 
-constexpr int kFitRounds = 3;            // of fits of a contour; stretches are cut where a round has failed
-constexpr double kWhiteDensity = 0.045;  // [px^2 px] of ordinary edge points; where a contour is too short to tell
+constexpr int kFitRounds = 3;              // of fits of a contour; stretches are cut where a round has failed
+constexpr double kUsualLengthPx = 2000.0;  // of a line; longer ones have more places where noise looks like a bump
+constexpr double kWhiteDensity = 0.045;    // [px^2 px] of ordinary edge points; where a contour is too short to tell
 
 /// Smooths every piece by its own cut-off and weighs its points by the noise that this leaves.
 void followNoise(std::vector<FairPiece>& pieces, const CutoffChoice& choice, double density, double s0,
@@ -120,6 +121,14 @@ Result<std::vector<ConstructedPiece>> fitParts(const ConstructContour& contour, 
 
 }  // namespace
 
+double costAsked(const ConstructContour& contour, const FairFitOptions& options) {
+  double length = 0.0;
+  for (const ConstructPiece& piece : contour.pieces) {
+    for (std::size_t i = 1; i < piece.points.size(); ++i) length += (piece.points[i] - piece.points[i - 1]).norm();
+  }
+  return options.keepExtremaCost + 2.0 * std::log(std::max(1.0, length / (contour.pixelMm * kUsualLengthPx)));
+}
+
 Result<std::vector<ConstructedPiece>> fairFit(const ConstructContour& contour, const FairFitOptions& options,
                                               const RunContext& context) {
   if (!(contour.pixelMm > 0.0) || !std::isfinite(contour.pixelMm)) {
@@ -132,7 +141,13 @@ Result<std::vector<ConstructedPiece>> fairFit(const ConstructContour& contour, c
       return fail(ErrorCode::BadParameter, "An option of the fair fit must be above 0.");
   }
   try {
-    return fitParts(contour, options, context);
+    FairFitOptions asked = options;
+    asked.keepExtremaCost = costAsked(contour, options);
+    auto pieces = fitParts(contour, asked, context);
+    if (!pieces) return pieces;
+    for (ConstructedPiece& piece : *pieces)
+      for (ExtremumNote& note : piece.report.extrema) note.askedCost = asked.keepExtremaCost;
+    return pieces;
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to fit the curve.");
   }

@@ -17,12 +17,15 @@ struct FairFitOptions {
   double noiseDensityFloor = 0.0006;  ///< [px^2 px] what pixel models leave on perfect pages: .006 px over 16 px
   int emRounds = 5;
   double emWidthPx = 40.0;
-  /// T: an extremum whose removal costs less is dropped. Noise that looks like a bump of three freedoms costs 25 in one
-  /// of 65000 places; an A4 page of lines has about 1300 places of 40 px, so that one page of 50 has a false bump.
-  double keepExtremaCost = 25.0;
+  double keepExtremaCost = 20.0;  ///< T: an extremum whose removal costs less is dropped (see costAsked).
   double reduceShare = 0.25;      ///< Of the noise of an edge point: how far fewer control points may move the curve.
   double gateOutlinePx = 1.5, gateStrokePx = 2.5;
 };
+
+/// [chi2] What the removal of an extremum of this line must cost for it to be kept: T, and 2 ln (length / 2000 px) more
+/// on longer lines. Noise that looks like a bump of three freedoms costs more than 20 at one place of 40 px in 6000,
+/// and a long line has many places; so the chance of a false bump is about the same for every line.
+double costAsked(const ConstructContour&, const FairFitOptions&);
 
 /// Fits the edge points of all pieces of a contour: quintic B-splines that lie on the line and have no curvature
 /// extremum that was not drawn (pilot, in-frame fit with local penalty, structure test, monotone quadratic program).

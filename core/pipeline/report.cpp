@@ -70,6 +70,7 @@ Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
                                {"maximum", e.maximum},
                                {"kept", e.kept},
                                {"removal_cost", number(e.removalCost)},
+                               {"asked_cost", number(e.askedCost)},
                                {"at_px", pointToJson(frame.pointToImage(e.point))},
                                {"chosen_by_user", e.wish.has_value()}});
   }

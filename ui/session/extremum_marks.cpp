@@ -33,7 +33,7 @@ std::optional<std::size_t> choiceOf(const EditorSession& session, const Extremum
   return std::nullopt;
 }
 
-QString textOf(const ExtremumMark& mark, const ExtremumNote& note, double keepCost) {
+QString textOf(const ExtremumMark& mark, const ExtremumNote& note) {
   // Seen along the line, whichever way it runs: where it bends most, or least.
   const bool isPeak = note.maximum == (note.kappa > 0.0);
   QString text = isPeak ? tr("Bends most here") : tr("Bends least here");
@@ -41,11 +41,14 @@ QString textOf(const ExtremumMark& mark, const ExtremumNote& note, double keepCo
   const QString chi = QStringLiteral(" (χ² %1)").arg(cost);
   text += QStringLiteral(" · ");
   if (note.kept) {
-    text += (mark.isCertain ? tr("certain") : note.removalCost >= keepCost ? tr("probable") : tr("not certain")) + chi;
+    text += (mark.isCertain                       ? tr("certain")
+             : note.removalCost >= note.askedCost ? tr("probable")
+                                                  : tr("not certain")) +
+            chi;
   } else {
-    text += (note.removalCost >= keepCost         ? tr("drawn, but taken out")
-             : note.removalCost >= 0.5 * keepCost ? tr("doubtful, dropped")
-                                                  : tr("noise, dropped")) +
+    text += (note.removalCost >= note.askedCost         ? tr("drawn, but taken out")
+             : note.removalCost >= 0.5 * note.askedCost ? tr("doubtful, dropped")
+                                                        : tr("noise, dropped")) +
             chi;
   }
   if (mark.wantedToKeep) {
@@ -62,7 +65,6 @@ std::vector<ExtremumMark> extremumMarks(const EditorSession& session, int curve)
   std::vector<ExtremumMark> marks;
   const TracedCurve* traced = curveAt(session, curve);
   if (!traced) return marks;
-  const double keepCost = session.recipe().construct.keepExtremaCost;
   for (std::size_t i = 0; i < traced->construct.extrema.size(); ++i) {
     const ExtremumNote& note = traced->construct.extrema[i];
     if (!note.point.allFinite() || !std::isfinite(note.kappa)) continue;
@@ -72,9 +74,9 @@ std::vector<ExtremumMark> extremumMarks(const EditorSession& session, int curve)
     mark.s = note.s;
     mark.kappa = note.kappa;
     mark.isKept = note.kept;
-    mark.isCertain = note.kept && note.removalCost >= kCertainFactor * keepCost;
+    mark.isCertain = note.kept && note.removalCost >= kCertainFactor * note.askedCost;
     if (const auto choice = choiceOf(session, note)) mark.wantedToKeep = session.recipe().extremumChoices[*choice].keep;
-    mark.text = textOf(mark, note, keepCost);
+    mark.text = textOf(mark, note);
     marks.push_back(std::move(mark));
   }
   return marks;

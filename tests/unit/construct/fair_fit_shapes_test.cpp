@@ -39,11 +39,29 @@ TEST(FairFit, LiesOnTheTrueCurveAndKeepsItsExtrema) {
     int kept = 0;
     for (const ExtremumNote& e : fit->front().report.extrema) {
       EXPECT_GE(e.removalCost, 0.0);
-      EXPECT_EQ(e.kept, e.removalCost >= 20.0);
+      EXPECT_EQ(e.kept, e.removalCost >= e.askedCost);
       kept += e.kept ? 1 : 0;
     }
     EXPECT_EQ(kept, 3);
   }
+}
+
+TEST(FairFit, LongLinesAskMoreOfABump) {
+  // A bump of three freedoms passes x by chance with P(x) = erfc(sqrt(x / 2)) + sqrt(2 x / pi) exp(-x / 2): a line of
+  // 10 times the length has 10 times the places, and must not have 10 times the chance.
+  const auto passes = [](double x) {
+    return std::erfc(std::sqrt(0.5 * x)) + std::sqrt(2.0 * x / 3.14159265358979) * std::exp(-0.5 * x);
+  };
+  const auto asked = [](double px) {
+    ConstructContour contour;
+    contour.pixelMm = 0.1;
+    contour.pieces.resize(2);
+    for (ConstructPiece& piece : contour.pieces) piece.points = {Vec2(0.0, 0.0), Vec2(0.05 * px, 0.0)};
+    return costAsked(contour, {});
+  };
+  EXPECT_DOUBLE_EQ(asked(300.0), FairFitOptions().keepExtremaCost);
+  EXPECT_DOUBLE_EQ(asked(2000.0), FairFitOptions().keepExtremaCost);
+  EXPECT_NEAR(10.0 * passes(asked(20000.0)) / passes(asked(2000.0)), 1.0, 0.15);
 }
 
 /// The fit before control points are spared: its spans are those of the band.
