@@ -38,8 +38,9 @@ Judged judge(const SideBySide& s) {
 // What merging within a distance does to the lines, by length.
 class MergeBalance {
  public:
-  MergeBalance(const std::vector<SideBySide>& stretches, double touching) {
+  MergeBalance(const std::vector<SideBySide>& stretches, double touching, const RunContext& context) {
     for (const SideBySide& s : stretches) {
+      if (context.isCancelled()) return;
       const Judged judged = judge(s);
       if (judged.verdict == Verdict::OneLine) {
         rightly_.push_back({s.widestPx, s.lengthPx()});
@@ -49,10 +50,12 @@ class MergeBalance {
       for (const double apart : s.apartPx)
         if (apart > touching) wrongly_.push_back({apart, s.stepPx});
     }
-    for (auto* parts : {&rightly_, &meeting_, &wrongly_}) sumUp(*parts);
+    for (auto* parts : {&rightly_, &meeting_, &wrongly_}) {
+      if (context.isCancelled()) return;
+      sumUp(*parts);
+    }
   }
   double at(double distance) const { return upTo(rightly_, distance) - upTo(wrongly_, distance); }
-  double rightly(double distance) const { return upTo(rightly_, distance); }
   double meeting(double distance) const { return upTo(meeting_, distance); }
 
  private:
@@ -81,12 +84,37 @@ double singleWidth(const std::vector<Contour>& strokes) {
   return std::max(1.0, static_cast<double>(*thin));
 }
 
+// Of all places on the strokes, those beside a stroke of the same line; one between two such strokes counts once.
+double shareWithin(double distance, const std::vector<Contour>& strokes, const std::vector<SideBySide>& stretches,
+                   const RunContext& context) {
+  std::vector<std::vector<bool>> beside(strokes.size());
+  for (const SideBySide& s : stretches) {
+    if (context.isCancelled()) return 0.0;
+    if (s.widestPx > distance || judge(s).verdict != Verdict::OneLine) continue;
+    const auto line = static_cast<std::size_t>(s.line);
+    if (beside[line].empty()) beside[line].resize(strokes[line].points.size(), false);
+    const auto points = beside[line].size(), step = static_cast<std::size_t>(s.stepPx);
+    const std::size_t steps = (points + step - 1) / step;
+    for (std::size_t k = 0; k < s.apartPx.size(); ++k) {
+      const std::size_t from = (static_cast<std::size_t>(s.firstStep) + k) % steps * step;
+      for (std::size_t i = from; i < std::min(from + step, points); ++i) beside[line][i] = true;
+    }
+  }
+  double such = 0.0, all = 0.0;
+  for (std::size_t l = 0; l < strokes.size(); ++l) {
+    such += static_cast<double>(std::count(beside[l].begin(), beside[l].end(), true));
+    all += static_cast<double>(strokes[l].points.size());
+  }
+  return such / all;
+}
+
 }  // namespace
 
 OverdrawnStrokes findOverdrawnStrokes(const std::vector<Contour>& lines, double reachPx, const RunContext& context) {
   std::vector<Contour> strokes;
   double length = 0.0;
   for (const Contour& c : lines) {
+    if (context.isCancelled()) return {};
     if (c.kind != ContourKind::Centreline || c.points.size() < 3) continue;
     strokes.push_back(c);
     length += c.lengthPx;
@@ -95,7 +123,8 @@ OverdrawnStrokes findOverdrawnStrokes(const std::vector<Contour>& lines, double 
   const double width = singleWidth(strokes);
   const std::vector<SideBySide> stretches = findSideBySide(strokes, width, reachPx, context);
   if (context.isCancelled()) return {};
-  const MergeBalance balance(stretches, touchingPx(width));
+  const MergeBalance balance(stretches, touchingPx(width), context);
+  if (context.isCancelled()) return {};
   double best = 0.0, nearest = 0.0;
   for (double d = touchingPx(width); d <= reachPx; d *= kLadder) {
     if (balance.at(d) <= best) continue;
@@ -106,7 +135,9 @@ OverdrawnStrokes findOverdrawnStrokes(const std::vector<Contour>& lines, double 
   double farthest = nearest;
   const double most = std::min(nearest / kFullWeight, reachPx);
   while (farthest * kLadder <= most && balance.at(farthest * kLadder) >= kNearlyBest * best) farthest *= kLadder;
-  return {std::sqrt(nearest * farthest), balance.rightly(nearest) / length};
+  const double share = shareWithin(nearest, strokes, stretches, context);
+  if (context.isCancelled()) return {};
+  return {std::sqrt(nearest * farthest), share};
 }
 
 }  // namespace batten

@@ -11,7 +11,7 @@ namespace batten {
 /// Whether lines were drawn in several strokes over one another, and within which distance such strokes lie.
 struct OverdrawnStrokes {
   double distancePx = 0.0;  ///< [px] Between middles, for mergeStrokes(); 0: no such strokes.
-  double share = 0.0;       ///< [-] Of the length of all lines, counted on either side, that lies beside such strokes.
+  double share = 0.0;       ///< [-] 0..1 of the length of all lines: what lies beside a stroke of the same line.
 };
 
 /// Judges by how lines that run side by side begin and end to do so (side_by_side.h). Strokes of one line cross or join

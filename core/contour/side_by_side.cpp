@@ -39,20 +39,23 @@ struct LinePlace {
 
 class SideFinder {
  public:
-  SideFinder(const std::vector<Contour>& lines, double widthPx, double reachPx)
+  SideFinder(const std::vector<Contour>& lines, double widthPx, double reachPx, const RunContext& context)
       : width_(widthPx),
         reach_(reachPx),
         cell_(std::max(3.0, touchingPx(widthPx))),
         stride_(std::max(1, static_cast<int>(std::lround(0.5 * widthPx)))),
         cells_(cell_) {
     for (int l = 0; l < static_cast<int>(lines.size()); ++l) {
+      if (context.isCancelled()) return;
       const Contour& c = lines[static_cast<std::size_t>(l)];
       lines_.push_back({c.points, directions(c.points, c.closed, 3), c.closed, {false, false}});
       for (int i = 0; i < static_cast<int>(c.points.size()); ++i)
         cells_.add(c.points[static_cast<std::size_t>(i)], {l, i, 0.0});
     }
-    for (int l = 0; l < static_cast<int>(lines_.size()); ++l)
-      for (const int side : {0, 1}) at(l).isFree[side] = !at(l).closed && touchesNothing(l, side);
+    for (int l = 0; l < static_cast<int>(lines_.size()) && !context.isCancelled(); ++l) {
+      if (at(l).closed || at(l).points.empty()) continue;
+      for (const int side : {0, 1}) at(l).isFree[side] = touchesNothing(l, side);
+    }
   }
 
   std::vector<SideBySide> all(const RunContext& context) const {
@@ -77,11 +80,13 @@ class SideFinder {
         }
       });
       if (context.isCancelled()) return {};
-      for (std::size_t l = 0; l + 1 < first.size(); ++l)
+      for (std::size_t l = 0; l + 1 < first.size(); ++l) {
+        if (context.isCancelled()) return {};
         stretches(static_cast<int>(l),
                   {nearest.begin() + static_cast<std::ptrdiff_t>(first[l]),
                    nearest.begin() + static_cast<std::ptrdiff_t>(first[l + 1])},
                   found);
+      }
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const SideBySide& a, const SideBySide& b) { return a.line < b.line; });
@@ -183,6 +188,7 @@ class SideFinder {
       SideBySide s;
       s.line = l;
       s.stepPx = stride_;
+      s.firstStep = wrapIndex(first, count);
       int last = first;
       while (true) {
         const double apart = of(places, wrapIndex(last, count)).apart;
@@ -266,7 +272,7 @@ class SideFinder {
 std::vector<SideBySide> findSideBySide(const std::vector<Contour>& lines, double widthPx, double reachPx,
                                        const RunContext& context) {
   if (!(widthPx > 0.0) || !(reachPx > 0.0)) return {};
-  return SideFinder(lines, widthPx, reachPx).all(context);
+  return SideFinder(lines, widthPx, reachPx, context).all(context);
 }
 
 }  // namespace batten

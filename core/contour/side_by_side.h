@@ -27,6 +27,7 @@ struct SideBySide {
   int line = 0;
   SideEnd begin = SideEnd::Never, end = SideEnd::Never;
   double stepPx = 1.0;          ///< Between the places where it was measured.
+  int firstStep = 0;            ///< Where it begins, in steps from the line's start; on a ring it may run past that.
   std::vector<double> apartPx;  ///< Between the middles, there.
   double widestPx = 0.0;
   double lengthPx() const { return stepPx * static_cast<double>(apartPx.size()); }

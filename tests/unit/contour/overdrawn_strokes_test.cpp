@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/contour/side_by_side.h"
 #include "tests/support/angles.h"
 #include "tests/support/overdrawn_page.h"
 
@@ -32,6 +33,7 @@ Suggested suggested(const std::vector<PenPath>& strokes) {
   EXPECT_GT(set.report.widthPx, 1.0);
   const OverdrawnStrokes found = findOverdrawnStrokes(set.contours, 21.0 * set.report.widthPx, {});
   EXPECT_EQ(found.distancePx > 0.0, found.share > 0.0);
+  EXPECT_LE(found.share, 1.0);
   return {std::max(0.0, found.distancePx / set.report.widthPx - 1.0), found.share};
 }
 
@@ -175,7 +177,9 @@ TEST(OverdrawnStrokes, NoneInAHatching) {
 
 TEST(OverdrawnStrokes, NothingToLookAt) {
   EXPECT_EQ(findOverdrawnStrokes({}, 60.0, {}).distancePx, 0.0);
+  EXPECT_TRUE(findSideBySide({Contour{}, Contour{}}, 3.0, 60.0, {}).empty()) << "lines without points";
   const ContourSet set = traceOverdrawn(roundInArcs(6, 6.0, 1), 0.0);
+  ASSERT_GT(findOverdrawnStrokes(set.contours, 60.0, {}).distancePx, 0.0);
   RunContext stopped;
   stopped.cancel.cancel();
   EXPECT_EQ(findOverdrawnStrokes(set.contours, 60.0, stopped).distancePx, 0.0);
@@ -185,8 +189,12 @@ TEST(OverdrawnStrokes, NothingToLookAt) {
   RunContext one, four;
   one.threads = 1;
   four.threads = 4;
-  EXPECT_EQ(findOverdrawnStrokes(set.contours, 80.0, one).distancePx,
-            findOverdrawnStrokes(set.contours, 80.0, four).distancePx);
+  const OverdrawnStrokes a = findOverdrawnStrokes(set.contours, 80.0, one);
+  const OverdrawnStrokes b = findOverdrawnStrokes(set.contours, 80.0, four);
+  ASSERT_GT(a.distancePx, 0.0);
+  EXPECT_GT(a.share, 0.5) << "a ring of arcs that overlap";
+  EXPECT_EQ(a.distancePx, b.distancePx);
+  EXPECT_EQ(a.share, b.share);
 }
 
 }  // namespace
