@@ -7,24 +7,33 @@
 #include "core/contour/overdrawn_strokes.h"
 #include "core/pipeline/number_text.h"
 #include "core/pipeline/pipeline.h"
+#include "core/pipeline/stage_keys.h"
 
 namespace batten {
 namespace {
 
 constexpr double kMostWidths = 20.0, kStepWidths = 0.5;  // of edges.merge
 
+constexpr int kAllLines = 100000;  // contours.max_count at its largest
+
+// Every line counts, also those that the recipe leaves out for being too many.
+Recipe mergedBy(double mergeWidths, Recipe recipe) {
+  recipe.edges.mergeWidths = mergeWidths;
+  recipe.contours.maxCount = kAllLines;
+  return recipe;
+}
+
 int centrelinesOf(const ContourSet& set) {
   return static_cast<int>(std::count_if(set.contours.begin(), set.contours.end(),
                                         [](const Contour& c) { return c.kind == ContourKind::Centreline; }));
 }
 
-Result<std::shared_ptr<const ContourSet>> linesWith(double mergeWidths, const Scan& scan, Recipe recipe,
+Result<std::shared_ptr<const ContourSet>> linesWith(double mergeWidths, const Scan& scan, const Recipe& recipe,
                                                     StageCache& cache, const RunContext& context) {
-  recipe.edges.mergeWidths = mergeWidths;
   PipelineRequest request;
   request.upTo = StageId::Contours;
   request.needEdges = false;
-  PipelineOutput output = runPipeline(scan, recipe, cache, request, context);
+  PipelineOutput output = runPipeline(scan, mergedBy(mergeWidths, recipe), cache, request, context);
   if (context.isCancelled()) return cancelled();
   if (output.error) return fail(std::move(*output.error));
   return output.contours;
@@ -51,15 +60,21 @@ Result<MergeAdvice> adviseMerge(const Scan& scan, const Recipe& recipe, StageCac
   const double strength = std::clamp(widths, kStepWidths, kMostWidths);
   const auto merged = linesWith(strength, scan, recipe, cache, context);
   if (!merged) return fail(merged.error());
+  advice.share = strokes.share;
   if (centrelinesOf(**merged) >= advice.strokes) return advice;
   advice.widths = strength;
   advice.lines = centrelinesOf(**merged);
-  advice.share = strokes.share;
   return advice;
+}
+
+ContentHash mergeAdviceKey(const Scan& scan, const Recipe& recipe) {
+  return stageKeys(scan, mergedBy(0.0, recipe), {})[StageId::Contours];
 }
 
 std::string describe(const MergeAdvice& advice) {
   if (advice.strokes == 0) return "No ink is followed along its middle: there are no strokes to merge.";
+  if (!(advice.widths > 0.0) && advice.share > 0.0)
+    return "Some strokes run over one another, but merging them would not make fewer lines.";
   if (!(advice.widths > 0.0)) return "No overdrawn strokes were found: merging is not needed.";
   return numberToText(advice.widths) + (advice.widths == 1.0 ? " stroke width: " : " stroke widths: ") +
          counted(advice.strokes, "stroke becomes ", "strokes become ") + counted(advice.lines, "line.", "lines.");

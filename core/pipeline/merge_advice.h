@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/base/content_hash.h"
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/image/scan.h"
@@ -13,8 +14,8 @@ namespace batten {
 
 /// A strength for edges.merge that the drawing itself suggests.
 struct MergeAdvice {
-  double widths = 0.0;  ///< [stroke widths] For EdgeParams::mergeWidths; 0: no overdrawn strokes were found.
-  int strokes = 0;      ///< Centre lines of the page without merging
+  double widths = 0.0;  ///< [stroke widths] For EdgeParams::mergeWidths; 0: none were found, or it would not help.
+  int strokes = 0;      ///< Centre lines of the page without merging, all of them,
   int lines = 0;        ///< and with it.
   double share = 0.0;   ///< [-] See OverdrawnStrokes::share.
 };
@@ -24,7 +25,10 @@ struct MergeAdvice {
 /// @return Cancelled, or why the page gives no lines.
 Result<MergeAdvice> adviseMerge(const Scan& scan, const Recipe& recipe, StageCache& cache, const RunContext& context);
 
-/// "9 stroke widths: 13 strokes become 1 line.", or that there are none.
+/// Digest of all that the advice depends on: the lines of the page without merging.
+ContentHash mergeAdviceKey(const Scan& scan, const Recipe& recipe);
+
+/// "9 stroke widths: 13 strokes become 1 line.", or that there are none, or that merging would not help.
 std::string describe(const MergeAdvice& advice);
 
 }  // namespace batten

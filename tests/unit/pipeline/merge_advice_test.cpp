@@ -43,6 +43,29 @@ TEST(MergeAdvice, SaysHowManyStrokesBecomeHowManyLines) {
   ASSERT_TRUE(again);
   EXPECT_EQ(again->widths, advice->widths);
   EXPECT_EQ(again->strokes, advice->strokes);
+  // Nor does how many lines it keeps.
+  recipe.contours.maxCount = 1;
+  const auto few = adviseMerge(scan, recipe, cache, {});
+  ASSERT_TRUE(few);
+  EXPECT_EQ(few->widths, advice->widths);
+  EXPECT_EQ(few->strokes, advice->strokes);
+}
+
+TEST(MergeAdvice, SaysWhenMergingWouldNotHelp) {
+  EXPECT_EQ(describe({0.0, 5, 5, 0.3}),
+            "Some strokes run over one another, but merging them would not make fewer lines.");
+}
+
+TEST(MergeAdvice, TheKeyIsOfWhatItDependsOn) {
+  const Scan scan = bundlePage();
+  Recipe recipe;
+  const ContentHash key = mergeAdviceKey(scan, recipe);
+  recipe.edges.mergeWidths = 5.0;
+  recipe.contours.maxCount = 7;
+  recipe.fairing.toleranceMm *= 2.0;
+  EXPECT_EQ(mergeAdviceKey(scan, recipe), key);
+  recipe.edges.mode = EdgeMode::Outline;
+  EXPECT_NE(mergeAdviceKey(scan, recipe), key);
 }
 
 TEST(MergeAdvice, NoneForSingleStrokesAndOutlines) {
@@ -82,6 +105,7 @@ TEST(MergeAdvice, SameWithAnyNumberOfThreads) {
   five.threads = 5;
   const auto a = adviseMerge(scan, {}, first, one), b = adviseMerge(scan, {}, second, five);
   ASSERT_TRUE(a && b);
+  ASSERT_GT(a->widths, 0.0);
   EXPECT_EQ(a->widths, b->widths);
   EXPECT_EQ(a->lines, b->lines);
   EXPECT_EQ(a->share, b->share);
