@@ -32,12 +32,9 @@ void addRepeated(CLI::App& app, const char* names, std::vector<std::string>& val
 }
 
 /// What the drawing is and what is followed on it.
-void addDrawing(CLI::App& app, TraceArguments& a) {
-  app.add_option("scan", a.scan,
-                 "The scan: PNG, JPEG, TIFF, BMP, WebP, PGM or PBM; none for a recipe drawn on an empty page")
-      ->type_name("SCAN");
-  app.add_option("--recipe", a.recipe, "Start from this recipe; --set, --corner and --dpi come on top")
-      ->type_name("R.json");
+void addDrawing(CLI::App& app, TraceArguments& a, const char* scanHelp, const char* recipeHelp) {
+  app.add_option("scan", a.scan, scanHelp)->type_name("SCAN");
+  app.add_option("--recipe", a.recipe, recipeHelp)->type_name("R.json");
   addRepeated(app, "--set", a.settings, "NAME=VALUE", "Set a parameter (see batten-cli parameters); may be repeated");
   addRepeated(app, "--outline", a.outlines, "X,Y",
               "Follow the border of the ink near this place, px from the upper left; may be repeated");
@@ -53,7 +50,8 @@ void addDrawing(CLI::App& app, TraceArguments& a) {
 void addTrace(CLI::App& app, TraceArguments& a) {
   CLI::App* trace = app.add_subcommand("trace", "Turn a scan into fair curves");
   trace->footer("Prints one line of JSON: the scan, how many curves, the files written, and notes.");
-  addDrawing(*trace, a);
+  addDrawing(*trace, a, "The scan: PNG, JPEG, TIFF, BMP, WebP, PGM or PBM; none for a recipe drawn on an empty page",
+             "Start from this recipe; --set, --corner and --dpi come on top");
   addRepeated(*trace, "-o,--output", a.outputs, "OUT.svg|OUT.json",
               "Write the curves; the extension chooses the format; may be repeated");
   addRepeated(*trace, "--corner", a.corners, "X,Y[,MM]",
@@ -70,9 +68,10 @@ void addTrace(CLI::App& app, TraceArguments& a) {
 CLI::App* addSuggest(CLI::App& app, TraceArguments& a) {
   CLI::App* suggest = app.add_subcommand("suggest", "Whether a scan has overdrawn strokes, and how far to merge them");
   suggest->footer(
-      "Prints one line of JSON: a value for edges.merge (0: no overdrawn strokes), how many strokes become how many "
+      "Prints one line of JSON: a value for edges.merge (0: nothing to merge), how many strokes become how many "
       "lines, and the reason. Changes nothing.");
-  addDrawing(*suggest, a);
+  addDrawing(*suggest, a, "The scan: PNG, JPEG, TIFF, BMP, WebP, PGM or PBM",
+             "Start from this recipe; --set and the places given come on top");
   return suggest;
 }
 

@@ -14,7 +14,7 @@ namespace batten::cli {
 namespace {
 
 Result<MergeAdvice> adviceFor(const TraceArguments& arguments) {
-  if (arguments.scan.empty()) return fail(ErrorCode::BadParameter, "No scan is named.");
+  if (arguments.scan.empty()) return fail(ErrorCode::BadParameter, "Name the scan to look at.");
   const auto recipe = recipeOf(arguments);
   if (!recipe) return fail(recipe.error());
   RunContext context;
