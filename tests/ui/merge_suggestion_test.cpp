@@ -85,6 +85,25 @@ TEST_F(MergeButton, ChangesNothingWhereNoStrokesAreOverdrawn) {
   EXPECT_EQ(session().undoStack()->index(), 0);
 }
 
+TEST_F(MergeButton, TheNoteStaysAsLongAsItHolds) {
+  open(strokesPage(1));
+  ask_->click();
+  const QString looking = note_->text();
+  Recipe other = session().recipe();
+  other.fairing.toleranceMm *= 2.0;  // nothing that the lines depend on
+  session().change(QStringLiteral("Tolerance"), other);
+  EXPECT_EQ(note_->text(), looking);
+  ASSERT_TRUE(answered());
+  const QString said = note_->text();
+  EXPECT_TRUE(said.startsWith(QStringLiteral("No overdrawn strokes"))) << said.toStdString();
+  other.fairing.toleranceMm *= 2.0;
+  session().change(QStringLiteral("Tolerance"), other);
+  EXPECT_EQ(note_->text(), said);
+  other.edges.mode = EdgeMode::Outline;
+  session().change(QStringLiteral("Outline"), other);
+  EXPECT_EQ(note_->text(), rest_);
+}
+
 TEST_F(MergeButton, EscStopsIt) {
   open(strokesPage(3));
   ASSERT_TRUE(answered()) << "the targets are there, too";

@@ -12,23 +12,8 @@
 namespace batten {
 namespace {
 
-// What the suggestion depends on: all but the strength itself.
-Recipe withoutMerging(Recipe recipe) {
-  recipe.edges.mergeWidths = 0.0;
-  return recipe;
-}
-
-QString textOf(const MergeAdvice& advice) {
-  if (advice.strokes == 0)
-    return MergeSuggestion::tr("No ink is followed along its middle: there are no strokes to merge.");
-  if (!(advice.widths > 0.0)) return MergeSuggestion::tr("No overdrawn strokes were found: merging is not needed.");
-  const QString strokes =
-      counted(advice.strokes, MergeSuggestion::tr("1 stroke becomes"), MergeSuggestion::tr("%1 strokes become"));
-  const QString lines = counted(advice.lines, MergeSuggestion::tr("1 line"), MergeSuggestion::tr("%1 lines"));
-  const QString widths = advice.widths == 1.0 ? MergeSuggestion::tr("%1 stroke width: %2 %3.")
-                                              : MergeSuggestion::tr("%1 stroke widths: %2 %3.");
-  return widths.arg(QString::number(advice.widths), strokes, lines);
-}
+// Holds the masks and lines of a page between the two traces; the session has its own cache beside this one.
+constexpr std::size_t kCacheBytes = std::size_t{64} << 20;
 
 }  // namespace
 
@@ -52,7 +37,7 @@ MergeSuggestion::MergeSuggestion(EditorSession& session, QWidget* parent)
   connect(&session_, &EditorSession::recipeChanged, this, &MergeSuggestion::follow);
   connect(&session_, &EditorSession::scanOpened, this, [this] {
     stop();
-    said_ = -1.0;
+    said_.reset();
     say({});
   });
 }
@@ -60,29 +45,31 @@ MergeSuggestion::MergeSuggestion(EditorSession& session, QWidget* parent)
 void MergeSuggestion::look() {
   const auto scan = session_.scan();
   if (!scan) return;
-  const Recipe recipe = withoutMerging(session_.recipe());
-  asked_ = recipe;
-  said_ = -1.0;
+  const Recipe recipe = session_.recipe();
+  const ContentHash key = mergeAdviceKey(*scan, recipe);
+  asked_ = key;
+  said_.reset();
   say(tr("Looking at the strokes …"));
   session_.setSideWork(this, true, false);
-  worker_.start([scan, recipe, panel = QPointer<MergeSuggestion>(this)](const CancelToken& token) {
+  worker_.start([scan, recipe, key, panel = QPointer<MergeSuggestion>(this)](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
     const auto advice = guarded<MergeAdvice>([&] {
-      StageCache cache;
+      StageCache cache(kCacheBytes);
       return adviseMerge(*scan, recipe, cache, context);
     });
     if (token.isCancelled() || !panel) return;
     QMetaObject::invokeMethod(
         panel.data(),
-        [panel, scan, recipe, advice] {
-          if (panel && panel->session_.scan() == scan && panel->asked_ == recipe) panel->take(advice);
+        [panel, scan, key, advice] {
+          if (panel && panel->session_.scan() == scan && panel->asked_ == key) panel->take(advice);
         },
         Qt::QueuedConnection);
   });
 }
 
 void MergeSuggestion::take(const Result<MergeAdvice>& advice) {
+  said_ = {*asked_, session_.recipe().edges.mergeWidths};
   asked_.reset();
   session_.setSideWork(this, false);
   if (!advice) {
@@ -90,12 +77,12 @@ void MergeSuggestion::take(const Result<MergeAdvice>& advice) {
     return;
   }
   if (advice->widths > 0.0) {
-    said_ = advice->widths;
+    said_->strength = advice->widths;
     Recipe after = session_.recipe();
     after.edges.mergeWidths = advice->widths;
     if (!(after == session_.recipe())) session_.change(tr("Merge strokes as suggested"), std::move(after));
   }
-  say(textOf(*advice));
+  say(QString::fromStdString(describe(*advice)));
 }
 
 void MergeSuggestion::stop() {
@@ -107,12 +94,16 @@ void MergeSuggestion::stop() {
 }
 
 void MergeSuggestion::follow() {
+  const auto scan = session_.scan();
+  if (!scan || !(asked_ || said_)) return;
+  const ContentHash key = mergeAdviceKey(*scan, session_.recipe());
   if (asked_) {
-    if (!(*asked_ == withoutMerging(session_.recipe()))) look();
+    if (*asked_ != key) look();
     return;
   }
-  // What was said holds for that strength alone.
-  if (session_.recipe().edges.mergeWidths != said_) say({});
+  if (said_->key == key && said_->strength == session_.recipe().edges.mergeWidths) return;
+  said_.reset();
+  say({});
 }
 
 void MergeSuggestion::say(const QString& text) {

@@ -14,7 +14,7 @@ class QPushButton;
 namespace batten {
 
 /// A button that asks the drawing how far its strokes are to be merged, sets that, and says why. Works in the
-/// background; while it does, a change of the recipe makes it look anew, and Esc stops it.
+/// background; while it does, a change of the lines makes it look anew, and Esc stops it.
 class MergeSuggestion : public QWidget {
   Q_OBJECT
  public:
@@ -30,9 +30,14 @@ class MergeSuggestion : public QWidget {
   EditorSession& session_;
   QLabel* note_;
   QPushButton* ask_;
-  std::optional<Recipe> asked_;  ///< What is being looked at; merging left out.
-  double said_ = -1.0;           ///< The strength that the note speaks of; -1: none.
-  BackgroundWorker worker_;      ///< Last, so that it is joined before anything goes.
+  /// What the note is about: it holds no longer than both.
+  struct Said {
+    ContentHash key;
+    double strength = 0.0;
+  };
+  std::optional<ContentHash> asked_;  ///< mergeAdviceKey() of what is being looked at.
+  std::optional<Said> said_;          ///< None: the note says what the button is for, or that it is looking.
+  BackgroundWorker worker_;           ///< Last, so that it is joined before anything goes.
 };
 
 }  // namespace batten
