@@ -24,7 +24,8 @@ struct FairFitOptions {
 
 /// [chi2] What the removal of an extremum of this line must cost for it to be kept: T, and 2 ln (length / 2000 px) more
 /// on longer lines. Noise that looks like a bump of three freedoms costs more than 20 at one place of 40 px in 6000,
-/// and a long line has many places; so the chance of a false bump is about the same for every line.
+/// and a long line has many places; so the chance of a false bump is about the same for all of them (less for shorter
+/// lines).
 double costAsked(const ConstructContour&, const FairFitOptions&);
 
 /// Fits the edge points of all pieces of a contour: quintic B-splines that lie on the line and have no curvature

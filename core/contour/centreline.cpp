@@ -65,22 +65,43 @@ void setDisc(BitImage& image, const Vec2& at, double radius) {
   }
 }
 
-// The specks of a pencil become one body each; pen strokes stay as they are, and so does the paper between lines.
+// Covers the strokes that were, or were not, drawn with a pencil, and `margin` px around them.
+BitImage bandOf(const BitImage& like, const std::vector<Strand>& strands, const GrainField& grain, bool pencil,
+                double margin, const RunContext& context) {
+  constexpr std::size_t kCheckEvery = 64;
+  BitImage band(like.width, like.height);
+  for (std::size_t i = 0; i < strands.size(); ++i) {
+    if (grain.isPencil(i) != pencil) continue;
+    const std::vector<StrandPoint>& points = strands[i].points;
+    std::size_t painted = 0;
+    for (std::size_t k = 0; k < points.size();) {
+      if (painted++ % kCheckEvery == 0 && context.isCancelled()) return band;
+      const double radius = static_cast<double>(points[k].radius) + margin;
+      setDisc(band, points[k].at, radius);
+      // Discs much nearer to each other than their radius cover nothing new; the last one is always painted.
+      const auto step = static_cast<std::size_t>(std::max(1.0, radius / 6.0));
+      k = k + 1 < points.size() ? std::min(k + step, points.size() - 1) : points.size();
+    }
+  }
+  return band;
+}
+
+// The specks of a pencil become one body each, pen strokes do not grow. Paper that runs on between two lines stays
+// paper, beside pens too: there a threshold closes it as well.
 BitImage bodiesOf(const BitImage& strokes, const GreyImage& grey, const std::vector<Strand>& strands,
                   const GrainField& grain, const RunContext& context) {
   const double width = medianWidth(strands, [&](std::size_t i) { return grain.isPencil(i); });
   const double closing = 0.75 * width + 1.0;
   BitImage body = closeInk(strokes, closing);
-  BitImage pens(strokes.width, strokes.height), pencils = pens;
   bool anyPen = false;
-  for (std::size_t i = 0; i < strands.size(); ++i) {
-    anyPen = anyPen || !grain.isPencil(i);
-    BitImage& band = grain.isPencil(i) ? pencils : pens;
-    for (const StrandPoint& p : strands[i].points) setDisc(band, p.at, static_cast<double>(p.radius) + closing);
+  for (std::size_t i = 0; i < strands.size(); ++i) anyPen = anyPen || !grain.isPencil(i);
+  BitImage ownPens(strokes.width, strokes.height);
+  if (anyPen) {
+    ownPens = without(bandOf(strokes, strands, grain, false, closing, context),
+                      bandOf(strokes, strands, grain, true, closing, context));
+    body = either(without(std::move(body), ownPens), strokes);
   }
   if (context.isCancelled()) return strokes;
-  const BitImage ownPens = without(pens, pencils);
-  if (anyPen) body = either(without(std::move(body), ownPens), strokes);
   const LineComb comb = combLines(without(body, ownPens), grey, grain, width, context);
   return either(without(std::move(body), comb.gaps), without(comb.lines, ownPens));
 }

@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kWindow = 5;                       // median over 11
 constexpr double kMostPx = 60000.0;              // of all strands; longer drawings are sampled more sparsely
+constexpr std::size_t kFewestSamples = 30;       // of a strand, at three px or more: one or two could not tell
 constexpr double kStrandTellsPx = 90.0;          // a strand this long counts as much as its surroundings
 constexpr double kRegionTellsPx = 300.0;         // a region with so much line counts as much as the page
 constexpr int kLanes = 7;                        // the stroke, then three to either side
@@ -25,15 +26,16 @@ struct GrainSample {
   Vec2 at = Vec2::Zero();
   double ink = 0.0, paper = 0.0;  // [-] deviations as part of the depth
   double depth = 0.0;             // [grey]
+  double px = 0.0;                // of the strand that it stands for
 };
 
 struct GrainSum {
   double length = 0.0, ink = 0.0, paper = 0.0, depth = 0.0;
-  void add(const GrainSample& s, double px) {
-    length += px;
-    ink += px * s.ink;
-    paper += px * s.paper;
-    depth += px * s.depth;
+  void add(const GrainSample& s) {
+    length += s.px;
+    ink += s.px * s.ink;
+    paper += s.px * s.paper;
+    depth += s.px * s.depth;
   }
 };
 
@@ -46,9 +48,10 @@ float softGrey(const GreyImage& grey, const Vec2& at) {
                   sampleGrey(grey, at.x(), at.y() - 1.0) + sampleGrey(grey, at.x(), at.y() + 1.0));
 }
 
-std::vector<GrainSample> samplesAlong(const Strand& strand, const GreyImage& grey, std::size_t stride) {
+std::vector<GrainSample> samplesAlong(const Strand& strand, const GreyImage& grey, std::size_t most) {
   std::vector<GrainSample> samples;
   if (strand.points.size() < 25) return samples;
+  const std::size_t stride = std::min(most, std::max<std::size_t>(3, strand.points.size() / kFewestSamples));
   const StrandCourse course = layCourse(strand);
   const auto n = course.base.size();
   std::array<std::vector<float>, kLanes> lanes;
@@ -79,7 +82,8 @@ std::vector<GrainSample> samplesAlong(const Strand& strand, const GreyImage& gre
     if (!(depth > 2.0)) continue;
     const auto off = [&](std::size_t k) { return static_cast<double>(std::abs(lanes[k][i] - median[k])); };
     // 1.7: the smaller of two is less than either.
-    samples.push_back({course.base[i], off(0) / depth, 1.7 * std::min(off(left), off(right)) / depth, depth});
+    samples.push_back({course.base[i], off(0) / depth, 1.7 * std::min(off(left), off(right)) / depth, depth,
+                       static_cast<double>(stride)});
   }
   return samples;
 }
@@ -118,20 +122,19 @@ GrainField::GrainField(const std::vector<Strand>& strands, const GreyImage& grey
   const auto stride = static_cast<std::size_t>(3.0 * std::max(1.0, total / kMostPx));
   std::vector<std::vector<GrainSample>> samples(strands.size());
   parallelFor(context, static_cast<int>(strands.size()), 4, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
+    for (int i = begin; i < end && !context.isCancelled(); ++i) {
       const auto at = static_cast<std::size_t>(i);
       samples[at] = samplesAlong(strands[at], grey, stride);
     }
   });
   std::array<GrainSum, kRegions> regions{};
   std::vector<GrainSum> own(strands.size());
-  const auto step = static_cast<double>(stride);
   for (std::size_t i = 0; i < strands.size(); ++i) {
     for (const GrainSample& s : samples[i]) {
       const int x = std::clamp(static_cast<int>(s.at.x()), 0, width_ - 1);
       const int y = std::clamp(static_cast<int>(s.at.y()), 0, height_ - 1);
-      regions[static_cast<std::size_t>(regionOf(x, y, width_, height_))].add(s, step);
-      own[i].add(s, step);
+      regions[static_cast<std::size_t>(regionOf(x, y, width_, height_))].add(s);
+      own[i].add(s);
     }
   }
   ink_ = filledRegions(regions, &GrainSum::ink);

@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/contour/edge_fade.h"
+#include "core/contour/edge_profile.h"
 #include "core/contour/polyline_tools.h"
 #include "core/contour/subpixel_edges.h"
 
@@ -15,7 +16,7 @@ namespace {
 constexpr double kSoftBlurPx = 1.4;    // a profile of 4 px to each side says too little of the blur, and less in noise
 constexpr double kLeastBlurPx = 1.1;   // on a smaller copy; below, the larger one shows the edge as well
 constexpr int kLargestScale = 8;       // an edge over some 60 px is none
-constexpr int kFewestPoints = 24;      // on a smaller copy
+constexpr int kFewestPoints = 40;      // on a smaller copy
 constexpr double kLeastRefined = 0.8;  // of what was placed before, else the smaller copy shows no edge there
 constexpr double kCrackSigma = 1.0;    // points of the smaller copy: the staircase of the cracks
 constexpr int kSmallestPage = 64;      // px
@@ -58,7 +59,7 @@ Contour shrunk(const Contour& contour, int scale) {
 }
 
 /// Cubic convolution of a sequence at index i + f.
-Vec2 between(const std::vector<Vec2>& p, bool closed, int i, double f) {
+Vec2 betweenPoints(const std::vector<Vec2>& p, bool closed, int i, double f) {
   const int n = static_cast<int>(p.size());
   const auto at = [&](int k) -> Vec2 {
     if (closed) return p[static_cast<std::size_t>(wrapIndex(k, n))];
@@ -70,21 +71,51 @@ Vec2 between(const std::vector<Vec2>& p, bool closed, int i, double f) {
   return b + 0.5 * f * ((c - a) + f * ((2.0 * a - 5.0 * b + 4.0 * c - d) + f * (3.0 * (b - c) + d - a)));
 }
 
-/// Takes what was found on a copy that is `scale` times smaller.
-void enlarge(Contour& contour, const Contour& small, int scale) {
+/// 0..1 per point: where the grey goes on changing beyond 3 px to each side of the line, so that the scan itself shows
+/// too little of the edge. Outlines are soft in parts: a tone against a mask is sharp there and fades elsewhere.
+std::vector<float> softness(const Contour& contour, const GreyImage& grey, double blurPx, const RunContext& context) {
+  constexpr double kInnerPx = 3.0, kLeastShare = 0.9, kMeasureSigma = 8.0, kBlendSigma = 4.0;
+  constexpr int kRisesPerBlock = 512;
+  const auto n = contour.points.size();
+  const std::vector<Vec2> base = smoothPolyline(contour.chain, contour.closed, 4.0);
+  const std::vector<Vec2> along = directions(base, contour.closed, 3);
+  std::vector<float> inner(n), outer(n), soft(n);
+  const double reach = std::max(2.0 * kInnerPx, 2.5 * blurPx);
+  parallelFor(context, static_cast<int>(n), kRisesPerBlock, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const Vec2 inward = leftNormal(along[i]);  // with y down: ink lies to the right of travel
+      const auto rise = [&](double u) {
+        return static_cast<float>(sampleLinear(grey, base[i] - u * inward) - sampleLinear(grey, base[i] + u * inward));
+      };
+      inner[i] = rise(kInnerPx);
+      outer[i] = rise(reach);
+    }
+  });
+  inner = smoothValues(inner, contour.closed, kMeasureSigma);
+  outer = smoothValues(outer, contour.closed, kMeasureSigma);
+  for (std::size_t i = 0; i < n; ++i) soft[i] = inner[i] < static_cast<float>(kLeastShare) * outer[i] ? 1.0f : 0.0f;
+  return smoothValues(soft, contour.closed, kBlendSigma);
+}
+
+/// Takes what was found on a copy that is `scale` times smaller, where the edge is soft and was found there.
+void enlarge(Contour& contour, const Contour& small, int scale, const std::vector<float>& soft) {
   const auto n = contour.chain.size(), m = small.points.size();
   const double step = contour.closed ? static_cast<double>(m) / static_cast<double>(n)
                                      : static_cast<double>(m - 1) / static_cast<double>(n - 1);
-  contour.sigmaPx.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double at = std::min(static_cast<double>(i) * step, static_cast<double>(m) - (contour.closed ? 1e-9 : 1.0));
     const auto k = static_cast<std::size_t>(at);
     const std::size_t next = contour.closed ? (k + 1) % m : std::min(k + 1, m - 1);
     const double f = at - static_cast<double>(k);
-    contour.points[i] = scale * between(small.points, contour.closed, static_cast<int>(k), f);
-    contour.refined[i] = small.refined[k] && small.refined[next] ? 1 : 0;
-    contour.sigmaPx[i] = static_cast<float>(
-        scale * ((1.0 - f) * static_cast<double>(small.sigmaPx[k]) + f * static_cast<double>(small.sigmaPx[next])));
+    if (!small.refined[k] || !small.refined[next]) continue;
+    const double share = static_cast<double>(soft[i]);
+    const Vec2 found = scale * betweenPoints(small.points, contour.closed, static_cast<int>(k), f);
+    const double sigma =
+        scale * std::lerp(static_cast<double>(small.sigmaPx[k]), static_cast<double>(small.sigmaPx[next]), f);
+    contour.points[i] += share * (found - contour.points[i]);
+    contour.sigmaPx[i] = static_cast<float>(std::lerp(static_cast<double>(contour.sigmaPx[i]), sigma, share));
+    if (share > 0.5) contour.refined[i] = 1;
   }
   contour.blurPx = scale * small.blurPx;
   contour.lengthPx = polylineLength(contour.points, contour.closed);
@@ -97,7 +128,7 @@ double refinedShare(const Contour& c) {
 }
 
 /// Takes what this copy shows, if it shows an edge; true where a smaller one might show it better.
-bool refineOn(Contour& contour, const GreyImage& grey, int scale, const RunContext& context) {
+bool refineOn(Contour& contour, const GreyImage& scan, const GreyImage& grey, int scale, const RunContext& context) {
   if (contour.chain.size() < static_cast<std::size_t>(kFewestPoints * scale)) return false;
   Contour small = shrunk(contour, scale);
   refineOutline(small, grey, context);
@@ -105,7 +136,9 @@ bool refineOn(Contour& contour, const GreyImage& grey, int scale, const RunConte
   if (small.blurPx < kLeastBlurPx) return false;
   if (refinedShare(small) < kLeastRefined * refinedShare(contour)) return false;
   undoFade(small, grey, context);
-  enlarge(contour, small, scale);
+  const std::vector<float> soft = softness(contour, scan, scale * small.blurPx, context);
+  if (context.isCancelled()) return false;
+  enlarge(contour, small, scale, soft);
   return small.blurPx >= kSoftBlurPx;
 }
 
@@ -114,7 +147,8 @@ bool refineOn(Contour& contour, const GreyImage& grey, int scale, const RunConte
 void refineSoftOutlines(ContourSet& set, const GreyImage& grey, const RunContext& context) {
   std::vector<Contour*> soft;
   for (Contour& contour : set.contours) {
-    if (contour.kind == ContourKind::Outline && contour.blurPx >= kSoftBlurPx) soft.push_back(&contour);
+    if (contour.kind == ContourKind::Outline && contour.blurPx >= kSoftBlurPx && !contour.sigmaPx.empty())
+      soft.push_back(&contour);
   }
   GreyImage copy;
   for (int scale = 2; scale <= kLargestScale && !soft.empty(); scale *= 2) {
@@ -127,7 +161,7 @@ void refineSoftOutlines(ContourSet& set, const GreyImage& grey, const RunContext
     parallelFor(context, static_cast<int>(soft.size()), 1, [&](int begin, int end) {
       for (int i = begin; i < end && !context.isCancelled(); ++i) {
         const auto at = static_cast<std::size_t>(i);
-        isSoft[at] = refineOn(*soft[at], copy, scale, alone) ? 1 : 0;
+        isSoft[at] = refineOn(*soft[at], grey, copy, scale, alone) ? 1 : 0;
       }
     });
     if (context.isCancelled()) return;

@@ -23,14 +23,15 @@ double normalCdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
 /// A disc; its tone falls inward as exp(-d / fade), 0 = it does not. The blur of a disc moves the half level inward by
 /// blur^2 / (2 radius); but for that the edge is blurred like a straight one.
-GreyImage softDisc(double radius, double blur, double fadePx, double noise, unsigned seed) {
+GreyImage softDisc(double radius, double blur, double fadePx, double noise, unsigned seed,
+                   const Vec2& middle = kMiddle) {
   GreyImage grey(kPage, kPage);
   std::mt19937 random(seed);
   std::normal_distribution<double> deviate(0.0, 1.0);
   const double part = fadePx > 0.0 ? blur / fadePx : 0.0;
   for (int y = 0; y < kPage; ++y) {
     for (int x = 0; x < kPage; ++x) {
-      const double d = radius - 0.5 * blur * blur / radius - std::hypot(x + 0.5 - kMiddle.x(), y + 0.5 - kMiddle.y());
+      const double d = radius - 0.5 * blur * blur / radius - std::hypot(x + 0.5 - middle.x(), y + 0.5 - middle.y());
       const double fade = fadePx > 0.0 ? std::exp(0.5 * part * part - d / fadePx) : 1.0;
       const double level = kPaper - kContrast * fade * normalCdf(d / blur - part) + noise * deviate(random);
       grey.row(y)[x] = static_cast<std::uint16_t>(std::lround(std::clamp(level, 0.0, 255.0) * GreyImage::kGreyUnit));
@@ -88,13 +89,34 @@ TEST(RefineSoftOutlines, TighterCurvesAreNotShifted) {
   EXPECT_LE(std::abs(fromCircle(c, 60.0).bias), 0.04);
 }
 
+TEST(RefineSoftOutlines, SmallSoftDotsKeepTheirSize) {
+  for (const double radius : {15.0, 24.0}) {
+    const GreyImage grey = softDisc(radius, 4.4, 0.0, 1.0, 3);
+    const double was = fromCircle(outlineOf(grey, false), radius).bias;
+    const double is = fromCircle(outlineOf(grey, true), radius).bias;
+    printf("radius %.0f: bias %.3f -> %.3f\n", radius, was, is);
+    EXPECT_LE(std::abs(is), std::max(0.15, std::abs(was)));
+  }
+}
+
+TEST(RefineSoftOutlines, AFadingToneIsNotFoundTooFarOutside) {
+  const GreyImage grey = softDisc(150.0, 4.0, 90.0, 2.0, 5);
+  const double is = fromCircle(outlineOf(grey, true), 150.0).bias;
+  printf("fading and soft: bias %.3f\n", is);
+  EXPECT_LE(std::abs(is), 0.06);
+}
+
 TEST(RefineSoftOutlines, SharpEdgesStayAsTheyAre) {
   const GreyImage grey = softDisc(150.0, 0.9, 0.0, 6.0, 5);
   EXPECT_EQ(outlineOf(grey, true).points, outlineOf(grey, false).points);
 }
 
 TEST(RefineSoftOutlines, AreTheSameWithAnyNumberOfThreads) {
-  const GreyImage grey = softDisc(150.0, 5.0, 80.0, 6.0, 5);
+  GreyImage grey = softDisc(80.0, 5.0, 80.0, 6.0, 5, {130.2, 140.7});
+  for (const Vec2& middle : {Vec2(330.4, 120.3), Vec2(250.6, 350.1)}) {
+    const GreyImage other = softDisc(90.0, 5.0, 80.0, 6.0, 5, middle);
+    for (std::size_t i = 0; i < grey.pixels.size(); ++i) grey.pixels[i] = std::min(grey.pixels[i], other.pixels[i]);
+  }
   auto set = crackContours(test::thresholdMask(grey, kPaper - 0.5 * kContrast), false, 40.0, {});
   for (Contour& c : set->contours) refineOutline(c, grey, {});
   ContourSet other = *set;
@@ -103,8 +125,14 @@ TEST(RefineSoftOutlines, AreTheSameWithAnyNumberOfThreads) {
   four.threads = 4;
   refineSoftOutlines(*set, grey, one);
   refineSoftOutlines(other, grey, four);
+  ASSERT_GE(set->contours.size(), 3U);
   ASSERT_EQ(set->contours.size(), other.contours.size());
-  for (std::size_t i = 0; i < set->contours.size(); ++i) EXPECT_EQ(set->contours[i].points, other.contours[i].points);
+  for (std::size_t i = 0; i < set->contours.size(); ++i) {
+    EXPECT_EQ(set->contours[i].points, other.contours[i].points);
+    EXPECT_EQ(set->contours[i].sigmaPx, other.contours[i].sigmaPx);
+    EXPECT_EQ(set->contours[i].refined, other.contours[i].refined);
+    EXPECT_EQ(set->contours[i].blurPx, other.contours[i].blurPx);
+  }
 }
 
 TEST(UndoFade, AToneThatFadesBehindItsEdgeDoesNotMoveIt) {
