@@ -142,13 +142,19 @@ bool refineOn(Contour& contour, const GreyImage& scan, const GreyImage& grey, in
   return small.blurPx >= kSoftBlurPx;
 }
 
+/// Cheap against placing it once more: most scans are a little blurred, few are soft.
+bool isSoftSomewhere(const Contour& contour, const GreyImage& grey, const RunContext& context) {
+  if (contour.blurPx < kSoftBlurPx || contour.sigmaPx.empty()) return false;
+  const std::vector<float> soft = softness(contour, grey, contour.blurPx, context);
+  return std::count_if(soft.begin(), soft.end(), [](float s) { return s > 0.5f; }) >= kFewestPoints;
+}
+
 }  // namespace
 
 void refineSoftOutlines(ContourSet& set, const GreyImage& grey, const RunContext& context) {
   std::vector<Contour*> soft;
   for (Contour& contour : set.contours) {
-    if (contour.kind == ContourKind::Outline && contour.blurPx >= kSoftBlurPx && !contour.sigmaPx.empty())
-      soft.push_back(&contour);
+    if (contour.kind == ContourKind::Outline && isSoftSomewhere(contour, grey, context)) soft.push_back(&contour);
   }
   GreyImage copy;
   for (int scale = 2; scale <= kLargestScale && !soft.empty(); scale *= 2) {
