@@ -15,7 +15,7 @@
 namespace batten {
 namespace {
 
-constexpr int kFitRounds = 3;              // of fits of a contour; stretches are cut where a round has failed
+constexpr int kFitRounds = 6;              // of fits of a contour; stretches are cut where a round has failed
 constexpr double kUsualLengthPx = 2000.0;  // of a line; longer ones have more places where noise looks like a bump
 constexpr double kWhiteDensity = 0.045;    // [px^2 px] of ordinary edge points; where a contour is too short to tell
 
