@@ -125,6 +125,26 @@ ProfileBand averageAlong(const ProfileBand& band, bool closed, double sigma, con
   return out;
 }
 
+EdgeRises edgeRises(std::span<const Vec2> chain, bool closed, const GreyImage& grey, std::array<double, 2> reachPx,
+                    double sigma, const RunContext& context) {
+  constexpr double kStairSigma = 4.0;  // points: the staircase of the cracks
+  const std::vector<Vec2> base = smoothPolyline(chain, closed, kStairSigma);
+  const std::vector<Vec2> along = directions(base, closed, 3);
+  EdgeRises rises{std::vector<float>(base.size()), std::vector<float>(base.size())};
+  parallelFor(context, static_cast<int>(base.size()), kSamplingGrain, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const Vec2 inward = leftNormal(along[i]);  // with y down: ink lies to the right of travel
+      const auto rise = [&](double u) {
+        return static_cast<float>(sampleLinear(grey, base[i] - u * inward) - sampleLinear(grey, base[i] + u * inward));
+      };
+      rises.inner[i] = rise(reachPx[0]);
+      rises.outer[i] = rise(reachPx[1]);
+    }
+  });
+  return {smoothValues(rises.inner, closed, sigma), smoothValues(rises.outer, closed, sigma)};
+}
+
 EdgeSpan findEdgeSpan(const float* p) {
   EdgeSpan span;
   const auto [low, high] = std::minmax_element(p, p + kProfileSamples);

@@ -52,6 +52,14 @@ EdgeSpan findEdgeSpan(const float* profile);
 /// Half-level crossing nearest to the centre of the span; NaN-free, falls back to the centre.
 double halfLevelCrossing(const float* profile, const EdgeSpan& span);
 
+/// How much the grey falls from paper to ink between u = -reach and u = reach of each point of an outline, for two
+/// reaches [px], averaged along it (sigma in points). An edge that goes on rising further out is soft.
+struct EdgeRises {
+  std::vector<float> inner, outer;
+};
+EdgeRises edgeRises(std::span<const Vec2> chain, bool closed, const GreyImage& grey, std::array<double, 2> reachPx,
+                    double sigma, const RunContext& context);
+
 /// Standard normal distribution and density from a table (error < 2e-5), so that millions of evaluations stay cheap.
 class NormalTable {
  public:

@@ -123,6 +123,20 @@ std::vector<float> smoothValues(std::span<const float> values, bool closed, doub
   return out;
 }
 
+Vec2 pointBetween(std::span<const Vec2> points, bool closed, double place) {
+  const int n = static_cast<int>(points.size());
+  const int k = std::clamp(static_cast<int>(std::floor(place)), 0, closed ? n - 1 : n - 2);
+  const double t = std::clamp(place - k, 0.0, 1.0);
+  const auto at = [&](int i) -> Vec2 {
+    if (closed) return points[static_cast<std::size_t>(wrapIndex(i, n))];
+    if (i < 0) return 2.0 * points[0] - points[1];
+    if (i >= n) return 2.0 * points[points.size() - 1] - points[points.size() - 2];
+    return points[static_cast<std::size_t>(i)];
+  };
+  const Vec2 a = at(k - 1), b = at(k), c = at(k + 1), d = at(k + 2);
+  return b + 0.5 * t * ((c - a) + t * ((2.0 * a - 5.0 * b + 4.0 * c - d) + t * (3.0 * (b - c) + d - a)));
+}
+
 std::vector<Vec2> directions(std::span<const Vec2> points, bool closed, int reach) {
   const int n = static_cast<int>(points.size());
   std::vector<Vec2> out(points.size(), Vec2::UnitX());

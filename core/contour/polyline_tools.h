@@ -38,6 +38,10 @@ std::vector<Vec2> smoothPolyline(std::span<const Vec2> points, bool closed, doub
 /// The same for a sequence of numbers; open ends are continued by reflection, so that no slope is invented.
 std::vector<float> smoothValues(std::span<const float> values, bool closed, double sigma);
 
+/// The point at index `place` (0..n-1; closed: 0..n) by cubic convolution (Catmull-Rom; open ends are mirrored, so that
+/// lines stay lines). @pre at least 2 points.
+Vec2 pointBetween(std::span<const Vec2> points, bool closed, double place);
+
 /// Unit directions by central differences over +-`reach` points (one-sided at open ends). Where points coincide the
 /// direction of the neighbour is kept.
 std::vector<Vec2> directions(std::span<const Vec2> points, bool closed, int reach);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/parallel.h"
 #include "core/contour/edge_profile.h"
 #include "core/contour/polyline_tools.h"
 
@@ -17,7 +16,6 @@ constexpr double kAlongSigma = 6.0;     // points: noise along the border
 constexpr int kShortestSoft = 30;       // points
 constexpr int kShortestSharp = 20;      // points: between soft stretches
 constexpr double kNearlyAllSoft = 0.9;  // no edge to tell from
-constexpr int kPointsPerBlock = 512;
 
 void flipShortRuns(std::vector<std::uint8_t>& soft, bool closed, std::uint8_t what, int shorter) {
   const int n = static_cast<int>(soft.size());
@@ -38,24 +36,9 @@ void flipShortRuns(std::vector<std::uint8_t>& soft, bool closed, std::uint8_t wh
 
 std::vector<std::uint8_t> softPoints(const Contour& c, const GreyImage& grey, const RunContext& context) {
   const auto n = c.points.size();
-  const std::vector<Vec2> base = smoothPolyline(c.chain, c.closed, 4.0);
-  const std::vector<Vec2> along = directions(base, c.closed, 3);
-  std::vector<float> nearRise(n), farRise(n);
   std::vector<std::uint8_t> soft(n, 0);
-  parallelFor(context, static_cast<int>(n), kPointsPerBlock, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      const Vec2 inward = leftNormal(along[i]);  // with y down: ink lies to the right of travel
-      const auto rise = [&](double u) {
-        return static_cast<float>(sampleLinear(grey, base[i] - u * inward) - sampleLinear(grey, base[i] + u * inward));
-      };
-      nearRise[i] = rise(kNearPx);
-      farRise[i] = rise(kFarPx);
-    }
-  });
+  const auto [nearRise, farRise] = edgeRises(c.chain, c.closed, grey, {kNearPx, kFarPx}, kAlongSigma, context);
   if (context.isCancelled()) return soft;
-  nearRise = smoothValues(nearRise, c.closed, kAlongSigma);
-  farRise = smoothValues(farRise, c.closed, kAlongSigma);
   const auto onBorder = [&](const Vec2& p) {
     return p.x() < kFarPx || p.y() < kFarPx || p.x() > grey.width - kFarPx || p.y() > grey.height - kFarPx;
   };

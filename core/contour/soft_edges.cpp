@@ -58,43 +58,15 @@ Contour shrunk(const Contour& contour, int scale) {
   return small;
 }
 
-/// Cubic convolution of a sequence at index i + f.
-Vec2 betweenPoints(const std::vector<Vec2>& p, bool closed, int i, double f) {
-  const int n = static_cast<int>(p.size());
-  const auto at = [&](int k) -> Vec2 {
-    if (closed) return p[static_cast<std::size_t>(wrapIndex(k, n))];
-    if (k < 0) return 2.0 * p[0] - p[1];
-    if (k >= n) return 2.0 * p[static_cast<std::size_t>(n - 1)] - p[static_cast<std::size_t>(n - 2)];
-    return p[static_cast<std::size_t>(k)];
-  };
-  const Vec2 a = at(i - 1), b = at(i), c = at(i + 1), d = at(i + 2);
-  return b + 0.5 * f * ((c - a) + f * ((2.0 * a - 5.0 * b + 4.0 * c - d) + f * (3.0 * (b - c) + d - a)));
-}
-
 /// 0..1 per point: where the grey goes on changing beyond 3 px to each side of the line, so that the scan itself shows
 /// too little of the edge. Outlines are soft in parts: a tone against a mask is sharp there and fades elsewhere.
 std::vector<float> softness(const Contour& contour, const GreyImage& grey, double blurPx, const RunContext& context) {
   constexpr double kInnerPx = 3.0, kLeastShare = 0.9, kMeasureSigma = 8.0, kBlendSigma = 4.0;
-  constexpr int kRisesPerBlock = 512;
-  const auto n = contour.points.size();
-  const std::vector<Vec2> base = smoothPolyline(contour.chain, contour.closed, 4.0);
-  const std::vector<Vec2> along = directions(base, contour.closed, 3);
-  std::vector<float> inner(n), outer(n), soft(n);
   const double reach = std::max(2.0 * kInnerPx, 2.5 * blurPx);
-  parallelFor(context, static_cast<int>(n), kRisesPerBlock, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      const Vec2 inward = leftNormal(along[i]);  // with y down: ink lies to the right of travel
-      const auto rise = [&](double u) {
-        return static_cast<float>(sampleLinear(grey, base[i] - u * inward) - sampleLinear(grey, base[i] + u * inward));
-      };
-      inner[i] = rise(kInnerPx);
-      outer[i] = rise(reach);
-    }
-  });
-  inner = smoothValues(inner, contour.closed, kMeasureSigma);
-  outer = smoothValues(outer, contour.closed, kMeasureSigma);
-  for (std::size_t i = 0; i < n; ++i) soft[i] = inner[i] < static_cast<float>(kLeastShare) * outer[i] ? 1.0f : 0.0f;
+  const auto [inner, outer] = edgeRises(contour.chain, contour.closed, grey, {kInnerPx, reach}, kMeasureSigma, context);
+  std::vector<float> soft(inner.size());
+  for (std::size_t i = 0; i < soft.size(); ++i)
+    soft[i] = inner[i] < static_cast<float>(kLeastShare) * outer[i] ? 1.0f : 0.0f;
   return smoothValues(soft, contour.closed, kBlendSigma);
 }
 
@@ -110,7 +82,7 @@ void enlarge(Contour& contour, const Contour& small, int scale, const std::vecto
     const double f = at - static_cast<double>(k);
     if (!small.refined[k] || !small.refined[next]) continue;
     const double share = static_cast<double>(soft[i]);
-    const Vec2 found = scale * betweenPoints(small.points, contour.closed, static_cast<int>(k), f);
+    const Vec2 found = scale * pointBetween(small.points, contour.closed, at);
     const double sigma =
         scale * std::lerp(static_cast<double>(small.sigmaPx[k]), static_cast<double>(small.sigmaPx[next]), f);
     contour.points[i] += share * (found - contour.points[i]);

@@ -162,18 +162,6 @@ std::vector<Vec2> shifts(const Nodes& nodes, bool closed, double longestPx) {
   return shift;
 }
 
-// Catmull-Rom between the nodes.
-Vec2 between(const std::vector<Vec2>& v, bool closed, double place) {
-  const int n = static_cast<int>(v.size());
-  const int k = std::clamp(static_cast<int>(std::floor(place)), 0, closed ? n - 1 : n - 2);
-  const double t = std::clamp(place - k, 0.0, 1.0);
-  const auto get = [&](int i) -> const Vec2& {
-    return v[static_cast<std::size_t>(closed ? wrapIndex(i, n) : std::clamp(i, 0, n - 1))];
-  };
-  const Vec2 &a = get(k - 1), &b = get(k), &c = get(k + 1), &d = get(k + 2);
-  return b + 0.5 * t * ((c - a) + t * ((2.0 * a - 5.0 * b + 4.0 * c - d) + t * (3.0 * (b - c) + d - a)));
-}
-
 }  // namespace
 
 void fairWithinBand(std::vector<Vec2>& points, bool closed, const StrokeBand& band, double longestPx) {
@@ -186,7 +174,7 @@ void fairWithinBand(std::vector<Vec2>& points, bool closed, const StrokeBand& ba
   const Nodes nodes = nodesOf(points, closed, band, tangent);
   if (nodes.at.empty()) return;
   const std::vector<Vec2> shift = shifts(nodes, closed, longestPx);
-  for (std::size_t i = 0; i < n; ++i) points[i] += between(shift, closed, nodes.s[i] / nodes.step);
+  for (std::size_t i = 0; i < n; ++i) points[i] += pointBetween(shift, closed, nodes.s[i] / nodes.step);
   // What is shorter than the nodes are apart.
   const std::vector<Vec2> smooth = smoothPolyline(points, closed, kNodePx);
   const int last = static_cast<int>(nodes.at.size()) - 1;
