@@ -2,6 +2,7 @@
 #include "core/construct/fair_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -32,6 +33,36 @@ void append(ConstructReport& whole, const ConstructReport& part, double from, do
   }
   whole.reducedMovedPx = std::max(whole.reducedMovedPx, part.reducedMovedPx);
   if (part.why == Termination::IterationLimit) whole.why = Termination::IterationLimit;
+}
+
+/// What lies between two parameters of a fit; of a closed one through its seam where `to` comes before `from`.
+Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, double to, bool closed) {
+  const NurbsCurve& c = fit.curve;
+  const double start = c.start(), end = c.end(), least = 1e-9 * (end - start);
+  const auto between = [&](double a, double b) -> Result<NurbsCurve> {
+    auto rest = a > start + least ? split(c, a).map([](SplitCurve s) { return s.right; }) : Result<NurbsCurve>(c);
+    if (!rest || b > end - least) return rest;
+    return split(*rest, b).map([](SplitCurve s) { return s.left; });
+  };
+  ConstructedPiece part{c, fit.report};
+  part.report.extrema.clear();
+  part.report.bandS.clear();
+  part.report.bandSigma.clear();
+  auto curve = Result<NurbsCurve>(fail(ErrorCode::Numerical, "Nothing lies between."));
+  if (from + least < to) {
+    append(part.report, fit.report, from - start, to - start, 0.0);
+    curve = between(from, to);
+  } else if (closed && from + least < end && to > start + least) {
+    append(part.report, fit.report, from - start, end - start, 0.0);
+    append(part.report, fit.report, 0.0, to - start, end - from);
+    const auto before = between(from, end), after = between(start, to);
+    if (before && after) curve = joinSmoothly(std::array{*before, *after});
+  }
+  if (!curve) return fail(curve.error());
+  const double share = static_cast<double>(curve->controlPointCount()) / c.controlPointCount();
+  part.report.fullControlPoints = static_cast<int>(std::lround(share * part.report.fullControlPoints));
+  part.curve = std::move(*curve);
+  return part;
 }
 
 std::string turnNote(std::size_t count) {
@@ -86,8 +117,8 @@ std::vector<ConstructPiece> FairParts::stretches() const {
 bool FairParts::check(std::vector<ConstructedPiece> fits, bool lastRound) {
   fits_ = std::move(fits);
   const auto pieces = stretches();
-  const std::size_t before = turns_.size();
   std::vector<PointRange> turns = turns_;
+  std::vector<Cut> cuts;
   bool more = false;
   for (std::size_t i = 0; i < fits_.size(); ++i) {
     // Where the user took a bump out that was drawn, the curve leaves its points because he wants it.
@@ -95,37 +126,52 @@ bool FairParts::check(std::vector<ConstructedPiece> fits, bool lastRound) {
     if (std::any_of(wishes.begin(), wishes.end(), [](const ExtremumWish& w) { return !w.keep; })) continue;
     const Closeness close = closeness(fits_[i].curve, pieces[i], pixelMm_);
     const int offset = smooth_[i].first;
-    auto strays = strayRanges(close, pieces[i], pixelMm_, lastRound);
-    if (lastRound && !strays.empty()) strays = {{0, static_cast<int>(pieces[i].points.size()) - 1}};
-    for (PointRange r : strays) {
-      turns.push_back({r.first + offset, r.last + offset});
-      more = true;
-    }
+    const auto strays = strayRanges(close, pieces[i], pixelMm_, lastRound);
+    for (PointRange r : strays) turns.push_back({r.first + offset, r.last + offset});
+    if (lastRound && !strays.empty()) cuts.push_back({i, close, strays});
+    more = more || !strays.empty();
   }
   if (!more) return false;
   const int n = static_cast<int>(piece_.points.size());
   for (PointRange& r : turns) {
     if (r.first >= n) r = {r.first - n, r.last - n};
   }
-  turns = united(std::move(turns), piece_, pixelMm_, kLeastSmoothPx);
-  const auto smooth = between(turns, piece_);
-  if (lastRound) {  // keeps the fits of the stretches that are still there
-    std::vector<ConstructedPiece> kept;
-    std::vector<PointRange> keptRanges;
-    for (const PointRange& r : smooth) {
-      for (std::size_t i = 0; i < smooth_.size(); ++i) {
-        if (smooth_[i].first % n != r.first % n || smooth_[i].last % n != r.last % n) continue;
-        kept.push_back(fits_[i]);
-        keptRanges.push_back(r);
-      }
-    }
-    fits_ = std::move(kept);
-    smooth_ = std::move(keptRanges);
+  turns_ = united(std::move(turns), piece_, pixelMm_, kLeastSmoothPx);
+  if (lastRound) {
+    keepNear(cuts, pieces);
   } else {
-    smooth_ = smooth;
+    smooth_ = between(turns_, piece_);
   }
-  turns_ = std::move(turns);
-  return turns_.size() > before || more;
+  return true;
+}
+
+void FairParts::keepNear(const std::vector<Cut>& cuts, const std::vector<ConstructPiece>& pieces) {
+  std::vector<ConstructedPiece> kept;
+  std::vector<PointRange> ranges;
+  auto cut = cuts.begin();
+  for (std::size_t i = 0; i < fits_.size(); ++i) {
+    if (cut == cuts.end() || cut->fit != i) {
+      kept.push_back(std::move(fits_[i]));
+      ranges.push_back(smooth_[i]);
+      continue;
+    }
+    const ConstructPiece& piece = pieces[i];
+    const auto strays = united(cut->strays, piece, pixelMm_, kLeastSmoothPx);
+    const std::vector<double>& at = cut->close.parameter;
+    const int n = static_cast<int>(at.size());
+    for (const PointRange& r : between(strays, piece)) {
+      const bool atStart = !piece.closed && r.first == 0, atEnd = !piece.closed && r.last == n - 1;
+      const double from = atStart ? fits_[i].curve.start() : at[static_cast<std::size_t>(r.first % n)];
+      const double to = atEnd ? fits_[i].curve.end() : at[static_cast<std::size_t>(r.last % n)];
+      auto part = stretchOf(fits_[i], from, to, piece.closed);
+      if (!part) continue;  // left to the tight curve
+      kept.push_back(std::move(*part));
+      ranges.push_back({r.first + smooth_[i].first, r.last + smooth_[i].first});
+    }
+    ++cut;
+  }
+  fits_ = std::move(kept);
+  smooth_ = std::move(ranges);
 }
 
 Result<ConstructedPiece> FairParts::withTurns() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -24,6 +25,14 @@ class FairParts {
   Result<ConstructedPiece> joined(const RunContext&) const;
 
  private:
+  /// A fit that has left its points in the last round.
+  struct Cut {
+    std::size_t fit = 0;
+    Closeness close;
+    std::vector<PointRange> strays;
+  };
+  /// Of those fits only what is near the points; tight curves come between.
+  void keepNear(const std::vector<Cut>&, const std::vector<ConstructPiece>& pieces);
   Result<ConstructedPiece> joinedParts(const RunContext&) const;
   Result<ConstructedPiece> withTurns() const;
   void noteUnmet(ConstructReport&) const;

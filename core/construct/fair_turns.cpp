@@ -109,8 +109,14 @@ double lengthBetween(const ConstructPiece& piece, int first, int last) {
   return length;
 }
 
-/// Distance of p from the polygon near place `at`, which follows along.
-double follow(const std::vector<Vec2>& polygon, const Vec2& p, std::size_t& at, std::size_t reach) {
+/// Where a polygon passes a point.
+struct Passing {
+  double distance = 0.0;
+  double place = 0.0;  ///< Index into the polygon.
+};
+
+/// The place of the polygon nearest to p near vertex `at`, which follows along.
+Passing follow(const std::vector<Vec2>& polygon, const Vec2& p, std::size_t& at, std::size_t reach) {
   const std::size_t last = polygon.size() - 1;
   const std::size_t low = at > reach / 2 ? at - reach / 2 : 0, high = std::min(last, at + reach);
   double best = (polygon[at] - p).squaredNorm();
@@ -118,15 +124,17 @@ double follow(const std::vector<Vec2>& polygon, const Vec2& p, std::size_t& at, 
     const double d = (polygon[i] - p).squaredNorm();
     if (d < best) best = d, at = i;
   }
+  double place = static_cast<double>(at);
   for (const std::size_t i : {at, at + 1}) {
     if (i == 0 || i > last) continue;
     const Vec2 along = polygon[i] - polygon[i - 1];
     const double square = along.squaredNorm();
     if (!(square > 0.0)) continue;
     const double x = std::clamp((p - polygon[i - 1]).dot(along) / square, 0.0, 1.0);
-    best = std::min(best, (p - polygon[i - 1] - x * along).squaredNorm());
+    const double d = (p - polygon[i - 1] - x * along).squaredNorm();
+    if (d < best) best = d, place = static_cast<double>(i - 1) + x;
   }
-  return std::sqrt(best);
+  return {std::sqrt(best), place};
 }
 
 }  // namespace
@@ -214,14 +222,16 @@ bool Closeness::good() const {
 Closeness closeness(const NurbsCurve& curve, const ConstructPiece& piece, double pixelMm) {
   Closeness result;
   std::vector<Vec2> polygon;
+  std::vector<double> parameter;
   double length = 0.0, pointLength = 0.0;
   const auto breaks = curve.breaks();
   for (std::size_t j = 0; j + 1 < breaks.size(); ++j) {
     const double width = breaks[j + 1] - breaks[j];
     const int steps = std::clamp(static_cast<int>(width / pixelMm / 2.0), 2, 16);
-    for (int i = 0; i < steps; ++i) polygon.push_back(curve.point(breaks[j] + width * i / steps) / pixelMm);
+    for (int i = 0; i < steps; ++i) parameter.push_back(breaks[j] + width * i / steps);
   }
-  polygon.push_back(curve.point(breaks.back()) / pixelMm);
+  parameter.push_back(breaks.back());
+  for (const double u : parameter) polygon.push_back(curve.point(u) / pixelMm);
   for (std::size_t i = 1; i < polygon.size(); ++i) length += (polygon[i] - polygon[i - 1]).norm();
   const std::size_t n = piece.points.size();
   constexpr std::size_t kStride = 4;  // noise of single points makes no length
@@ -237,15 +247,19 @@ Closeness closeness(const NurbsCurve& curve, const ConstructPiece& piece, double
   }
   double along = 0.0;
   for (const Vec2& p : piece.points) {
-    double d = follow(polygon, p / pixelMm, at, 8);
-    if (d > kBackPx) d = std::min(d, follow(polygon, p / pixelMm, at, 24));
+    Passing d = follow(polygon, p / pixelMm, at, 8);
+    if (d.distance > kBackPx) {
+      if (const Passing further = follow(polygon, p / pixelMm, at, 24); further.distance < d.distance) d = further;
+    }
     if (piece.closed && (at < 2 || at + 2 >= polygon.size())) {
       std::size_t other = at < 2 ? polygon.size() - 1 : 0;
-      const double round = follow(polygon, p / pixelMm, other, 8);
-      if (round < d) d = round, at = other;
+      const Passing round = follow(polygon, p / pixelMm, other, 8);
+      if (round.distance < d.distance) d = round, at = other;
     }
-    result.distancePx.push_back(d);
-    along += d;
+    result.distancePx.push_back(d.distance);
+    const auto low = std::min(static_cast<std::size_t>(d.place), parameter.size() - 2);
+    result.parameter.push_back(std::lerp(parameter[low], parameter[low + 1], d.place - static_cast<double>(low)));
+    along += d.distance;
   }
   if (!std::isfinite(along)) result.veryFar = static_cast<int>(n) + 1;
   for (std::size_t i = 0; i < n; ++i) {  // one stray point is none of the curve's business

@@ -26,7 +26,8 @@ std::vector<PointRange> between(const std::vector<PointRange>& turns, const Cons
 
 /// How far the points of a piece lie from a curve that should follow them in order.
 struct Closeness {
-  std::vector<double> distancePx;  ///< Per point.
+  std::vector<double> distancePx;  ///< Per point …
+  std::vector<double> parameter;   ///< … and where on the curve.
   double lengthRatio = 1.0;        ///< Of the curve to the points.
   int far = 0;                     ///< Points more than 1.5 px off in a row of neighbours that are.
   int veryFar = 0;                 ///< The same for 4 px.

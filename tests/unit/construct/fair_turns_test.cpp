@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "core/construct/fair_fit.h"
 #include "core/construct/fair_join.h"
+#include "core/construct/fair_parts.h"
 #include "core/construct/fair_turns.h"
+#include "core/curve/curve_analysis.h"
 #include "tests/unit/construct/fair_shapes.h"
 
 namespace batten {
@@ -108,6 +112,53 @@ TEST(FairTurns, TightCurvesMeetTheirNeighbours) {
       EXPECT_LT((last[d] - b[d]).norm(), 1e-9 / pixelMm) << d;
     }
     EXPECT_LT(farthest(scaled, *curve), 1.5 * pixelMm);
+  }
+}
+
+/// The points of a piece moved aside about one place, so that a fit of the others leaves them there.
+std::vector<Vec2> bulged(std::vector<Vec2> points, const std::vector<Vec2>& normals, int at) {
+  for (int i = at - 12; i <= at + 12; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    points[k] += 3.0 * std::exp(-0.02 * (i - at) * (i - at)) * normals[k];
+  }
+  return points;
+}
+
+TEST(FairTurns, WhatIsLeftInTheLastRoundIsOnlyCutOut) {
+  constexpr int kCount = 1256, kAt = 300;
+  std::vector<Vec2> circle, out;
+  for (int i = 0; i < kCount; ++i) {
+    const double t = 2.0 * std::numbers::pi * i / kCount;
+    out.emplace_back(std::cos(t), std::sin(t));
+    circle.push_back(200.0 * out.back() + 20.0 * Vec2(std::cos(2.0 * t), 0.0));
+  }
+  for (const bool closed : {true, false}) {
+    for (const int at : closed ? std::vector{kAt, 20} : std::vector{kAt}) {
+      const auto fit = test::fitOne(circle, closed);
+      ASSERT_TRUE(fit.has_value());
+      ConstructPiece piece;
+      piece.points = bulged(circle, out, at);
+      piece.closed = closed;
+      FairParts parts(piece, false, 1.0, {});
+      ASSERT_EQ(parts.stretches().size(), 1U);
+      EXPECT_TRUE(parts.check({fit->front()}, true));
+      const auto whole = parts.joined({});
+      ASSERT_TRUE(whole.has_value()) << whole.error().message;
+      EXPECT_EQ(whole->report.why, Termination::Converged) << closed;
+      EXPECT_NE(whole->report.note.find("at 1 place"), std::string::npos) << whole->report.note;
+      EXPECT_LT(farthest(piece.points, whole->curve), 1.5) << closed;
+      EXPECT_LE(whole->curve.controlPointCount(), fit->front().curve.controlPointCount() + 40);
+      double worst = 0.0;  // the rest is the curve of before
+      for (int i = 0; i < kCount; i += 5) {
+        if (std::abs(i - at) < 40 || std::abs(i - at) > kCount - 40) continue;
+        const Vec2 on = closestPoint(fit->front().curve, circle[static_cast<std::size_t>(i)]).point;
+        worst = std::max(worst, closestPoint(whole->curve, on).distance);
+      }
+      EXPECT_LT(worst, 1e-6) << closed << ' ' << at;
+      const double length = whole->curve.end() - whole->curve.start();
+      for (const double s : whole->report.bandS) EXPECT_LE(s, length + 1e-9);
+      EXPECT_TRUE(std::is_sorted(whole->report.bandS.begin(), whole->report.bandS.end()));
+    }
   }
 }
 
