@@ -102,6 +102,9 @@ struct ConstructPiece {
   std::vector<int> drawn;         ///< Pen strokes: indices of the points that were drawn; empty = all are measured.
   std::vector<std::uint8_t> refined = {};  ///< Per point: 0 = known to the pixel only; empty = all are better known.
   std::vector<float> sigmaPx = {};         ///< [px] per point: standard deviation across the line; empty = all alike.
+  /// [px] per point: half the breadth of the strokes that were merged there; empty = none were. The line that was meant
+  /// may lie anywhere between them.
+  std::vector<float> spreadPx = {};
   bool startIsCorner = false;
   bool endIsCorner = false;
   std::vector<Vec2> divisions;  ///< Places along the line where the user wants typical curves to meet.

@@ -318,15 +318,16 @@ class Finish {
     if (!(options_.reduceShare > 0.0) || frame_.pointCount == 0 || context_.isCancelled()) return std::nullopt;
     const auto stations = static_cast<std::size_t>(kChecksPerSpan * curve.knots().spans + (piece_.data.closed ? 0 : 1));
     const std::size_t stride = std::max<std::size_t>(1, frame_.checks.size() / stations);
-    std::vector<double> sigma;
+    // By weight: the calm stretches of an uneven line say how far it may move.
+    const double calm = std::max(kLeastNoisePx, std::sqrt(frame_.weightedSquares / frame_.weights));
+    std::vector<double> sigma, distance;
     for (std::size_t i = 0; i < frame_.checks.size(); i += stride) {
-      sigma.push_back(
-          std::sqrt(std::max(0.0, BandCholesky::quadratic(posterior.covariance, frame_.checks[i].kappaRow))));
+      const FrameStation& s = frame_.checks[i];
+      sigma.push_back(std::sqrt(std::max(0.0, BandCholesky::quadratic(posterior.covariance, s.kappaRow))));
+      distance.push_back(options_.reduceShare * std::max(calm, kMeanShare * spreadAt(s.u)));
     }
     ReduceLimits limits;
-    // By weight: the calm stretches of an uneven line say how far it may move.
-    limits.distancePx =
-        options_.reduceShare * std::max(kLeastNoisePx, std::sqrt(frame_.weightedSquares / frame_.weights));
+    limits.distancePx = distance;
     limits.kappaSigma = sigma;
     limits.perSpan = kChecksPerSpan;
     limits.kappaShare = kKappaShare * options_.reduceShare;
@@ -342,6 +343,13 @@ class Finish {
     if (!nurbs) return std::nullopt;
     report_.reducedMovedPx = fewer->movedPx;
     return nurbs;
+  }
+
+  /// Half the breadth of the strokes at a parameter. The points lie along the curve in order, nearly.
+  double spreadAt(double u) const {
+    const auto& t = piece_.data.t;
+    const auto at = std::lower_bound(t.begin(), t.end(), u);
+    return piece_.data.spread[std::min(static_cast<std::size_t>(at - t.begin()), t.size() - 1)];
   }
 
   void noteExtrema(const StructureResult& found, const UniformQuintic& curve, double circleCost) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "core/construct/banded_matrix.h"
@@ -15,13 +16,16 @@
 namespace batten {
 namespace {
 
-constexpr double kKnotPx = 3.0;
-constexpr double kCutoffPx = 9.0;                               // where points lie all round a closed line
+constexpr double kKnotPx = 3.0;                                 // at least, from knot to knot …
+constexpr double kKnotShare = 0.25;                             // … and of the cut-off: what is finer is not seen
 constexpr double kCutoffsPx[] = {30.0, 22.0, 16.0, 12.0, 9.0};  // smoothest first
-constexpr double kAwayPx = 0.7;  // a smoother curve that leaves the points by more is not taken
-constexpr double kHold = 1e8;    // weight of what is set exactly afterwards
+constexpr double kAwayPx = 0.7;       // a smoother curve that leaves the points by more is not taken
+constexpr double kLoopAwayPx = 0.35;  // small loops would shrink
+constexpr double kHold = 1e8;         // weight of what is set exactly afterwards
 
 double penalty(double cutoffPx, double density) { return density * std::pow(cutoffPx / (2.0 * std::numbers::pi), 6); }
+
+double knotSpacing(double cutoffPx) { return std::max(kKnotPx, kKnotShare * cutoffPx); }
 
 /// The first three control points of a clamped quintic from its derivatives at the start; `u` are its first knots.
 std::array<Vec2, 3> controlsOf(const CurveEnd& end, double u6, double u7) {
@@ -184,19 +188,19 @@ Result<NurbsCurve> tightCurve(std::span<const Vec2> points, double pixelMm, cons
     return fail(ErrorCode::Numerical, "A line is too short to become a curve; leave out short lines.");
   }
   const double density = std::min(1.0, static_cast<double>(p.size()) / length);
-  const int spans = std::max(1, static_cast<int>(std::lround(length * density / kKnotPx)));
-  const int count = spans + 5;
-  const double h = length / spans;
-  std::vector<double> knots(6, 0.0);
-  for (int j = 1; j < spans; ++j) knots.push_back(j * h);
-  knots.insert(knots.end(), 6, length);
-  const std::vector<Fixed> fixed = fixedControls(p, knots, count, first, last);
-  const TightProblem problem(p, t, knots, count, fixed);
   std::vector<Vec2> controls;
+  std::vector<double> knots;
   for (const double cutoffPx : kCutoffsPx) {
+    const int spans = std::max(1, static_cast<int>(std::lround(length * density / knotSpacing(cutoffPx))));
+    std::vector<double> even(6, 0.0);
+    for (int j = 1; j < spans; ++j) even.push_back(length * j / spans);
+    even.insert(even.end(), 6, length);
+    const std::vector<Fixed> fixed = fixedControls(p, even, spans + 5, first, last);
+    const TightProblem problem(p, t, even, spans + 5, fixed);
     auto solved = problem.solve(penalty(cutoffPx, density));
     if (!solved) continue;
     controls = std::move(*solved);
+    knots = std::move(even);
     if (problem.pointsAway(controls) <= 1) break;
   }
   if (controls.empty()) return fail(ErrorCode::Numerical, "A sharp turn could not be rounded; mark its corner.");
@@ -218,8 +222,16 @@ Result<NurbsCurve> tightLoop(std::span<const Vec2> points, double pixelMm) {
   };
   if (!(length > 0.0) || !std::isfinite(length)) return nothing();
   const double density = std::min(1.0, static_cast<double>(p.size()) / length);
-  const auto loop =
-      fitUniformQuintic(fairKnots(length, kKnotPx / density, true), t, p, {}, penalty(kCutoffPx, density));
+  std::optional<UniformQuintic> loop;
+  for (const double cutoffPx : kCutoffsPx) {
+    const UniformKnots knots = fairKnots(length, knotSpacing(cutoffPx) / density, true);
+    auto fit = fitUniformQuintic(knots, t, p, {}, penalty(cutoffPx, density));
+    if (!fit) continue;
+    loop = std::move(*fit);
+    int away = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) away += (loop->at(t[i], 0)[0] - p[i]).norm() > kLoopAwayPx ? 1 : 0;
+    if (away <= 1) break;
+  }
   if (!loop) return nothing();
   auto curve = loop->toNurbs(pixelMm, pixelMm, Vec2::Zero(), Vec2::Zero());
   if (!curve) return curve;

@@ -17,8 +17,8 @@ using CurveEnd = std::array<Vec2, 3>;
 CurveEnd startOf(const NurbsCurve&);
 CurveEnd endOf(const NurbsCurve&);
 
-/// A quintic that follows points closely round a sharp turn: least squares on knots of 3 px with a penalty that holds
-/// back only the noise of single points. Meets `before` and `after` with two derivatives. Model frame, mm.
+/// A quintic that follows points closely round a sharp turn: least squares on knots of 3 px and more with a penalty
+/// that holds back only the noise of single points. Meets `before` and `after` with two derivatives. Model frame, mm.
 /// @return Numerical when there is no length to follow.
 Result<NurbsCurve> tightCurve(std::span<const Vec2> points, double pixelMm, const std::optional<CurveEnd>& before,
                               const std::optional<CurveEnd>& after);

@@ -95,6 +95,7 @@ std::vector<ConstructPiece> FairParts::stretches() const {
     for (int i = range.first; i <= range.last; ++i) {
       const std::size_t at = static_cast<std::size_t>(i) % n;
       if (piece_.sigmaPx.size() == n) piece.sigmaPx.push_back(piece_.sigmaPx[at]);
+      if (piece_.spreadPx.size() == n) piece.spreadPx.push_back(piece_.spreadPx[at]);
     }
     piece.startIsCorner = piece_.startIsCorner && range.first == 0;
     piece.endIsCorner = piece_.endIsCorner && range.last + 1 == static_cast<int>(piece_.points.size());

@@ -33,6 +33,12 @@ double ordinarySigma(const ConstructContour&);
 FairPiece prepareFairPiece(const ConstructPiece&, bool isStroke, double pixelMm, double ordinarySigmaPx,
                            const FairFitOptions&);
 
+/// [-] What merged strokes leave open about the line that was meant: a noise density of this part of the cube of half
+/// their breadth (hands stray over a way that goes with how far they stray), …
+inline constexpr double kWanderShare = 0.02;
+/// … at any one place this part of half their breadth.
+inline constexpr double kMeanShare = 0.07;
+
 /// Adapts the weights to the noise along the piece, and to what is left of it above the floor: a weight of 1 is a noise
 /// density of max(measured, floor).
 void weighByNoise(FairData&, const LocalNoise&, double measured, double floor);

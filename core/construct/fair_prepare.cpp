@@ -14,20 +14,33 @@ constexpr double kGuardShare = 0.1;       // of the length: short pieces keep mo
 constexpr double kShortestFairPx = 40.0;  // below, a low degree says all there is to say
 constexpr std::size_t kFewestBlocks = 5;
 constexpr int kGateReach = 5;
+constexpr double kCrossingPx = 25.0;  // Gaussian: as long as merged strokes may look like one where they cross
 // So that a wrong estimate of the noise does little harm; points that were not placed, in crossings mostly, still hold
 // the line together.
 constexpr double kLeastWeight = 1.0 / 16.0, kMostWeight = 16.0;
 
+/// Half the breadth of the strokes beside each point. Where they cross they only seem to agree.
+std::vector<float> smoothSpread(const std::vector<float>& spread, bool closed) {
+  std::vector<float> square;
+  for (const float s : spread) square.push_back(std::isfinite(s) ? s * s : 0.0f);
+  square = smoothValues(square, closed, kCrossingPx);
+  for (float& s : square) s = std::sqrt(std::max(0.0f, s));
+  return square;
+}
+
 /// Points that differ from their predecessor, in px about their mean, and what they weigh.
 void readPoints(FairPiece& piece, const ConstructPiece& in, double pixelMm, double ordinarySigmaPx) {
   std::vector<Vec2> px;
-  std::vector<double> weight;
+  std::vector<double> weight, spread;
+  std::vector<float> beside(in.points.size(), 0.0f);
+  if (in.spreadPx.size() == in.points.size()) beside = smoothSpread(in.spreadPx, in.closed);
   for (std::size_t i = 0; i < in.points.size(); ++i) {
     if (!in.points[i].allFinite()) continue;
     px.push_back(in.points[i] / pixelMm);
     const double sigma = i < in.sigmaPx.size() ? static_cast<double>(in.sigmaPx[i]) : 0.0;
     const double ratio = sigma > 0.0 && ordinarySigmaPx > 0.0 ? ordinarySigmaPx / sigma : 1.0;
     weight.push_back(std::clamp(ratio * ratio, kLeastWeight, kMostWeight));
+    spread.push_back(static_cast<double>(beside[i]));
   }
   if (px.empty()) return;
   Vec2 low = px.front(), high = px.front(), sum = Vec2::Zero();
@@ -44,10 +57,12 @@ void readPoints(FairPiece& piece, const ConstructPiece& in, double pixelMm, doub
     if (!points.empty() && (centred - points.back()).norm() <= same) continue;
     points.push_back(centred);
     piece.data.weight.push_back(weight[i]);
+    piece.data.spread.push_back(spread[i]);
   }
   while (in.closed && points.size() > 1 && (points.front() - points.back()).norm() <= same) {
     points.pop_back();
     piece.data.weight.pop_back();
+    piece.data.spread.pop_back();
   }
   piece.data.closed = in.closed;
   piece.data.use.assign(points.size(), 1);
@@ -91,6 +106,7 @@ void trimFreeEnds(FairPiece& piece) {
   cut(data.points);
   cut(data.use);
   cut(data.weight);
+  cut(data.spread);
 }
 
 }  // namespace
@@ -147,7 +163,7 @@ double ordinarySigma(const ConstructContour& contour) {
 void weighByNoise(FairData& data, const LocalNoise& noise, double measured, double floor) {
   const double s0 = std::max(measured, floor);
   for (std::size_t i = 0; i < data.weight.size(); ++i) {
-    const double there = measured * noise.at(data.t[i]) / data.weight[i];
+    const double there = measured * noise.at(data.t[i]) / data.weight[i] + kWanderShare * std::pow(data.spread[i], 3);
     data.weight[i] = s0 / std::max(there, floor);
   }
 }

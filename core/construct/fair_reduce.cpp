@@ -97,6 +97,7 @@ class Reduction {
     }
     least_ = kWrongWayKept / std::max((high - low).norm(), 1e-12);
     turns_ = countTurns(kappas_, least_);
+    if (!limits.distancePx.empty()) nearest_ = *std::min_element(limits.distancePx.begin(), limits.distancePx.end());
     findCourses();
   }
 
@@ -105,6 +106,7 @@ class Reduction {
     const int most = static_cast<int>(kLeastGain * n);
     int low = closed_ ? kFewestClosed : 1, high = most;  // what is still to be tried
     if (high < low || limits_.kappaSigma.size() != parameters_.size()) return std::nullopt;
+    if (limits_.distancePx.size() != parameters_.size()) return std::nullopt;
     std::optional<ReducedCurve> best;
     int spans = std::clamp(static_cast<int>(kFirstGuess * n), low, high);
     for (int trial = 0; trial < kTrials && low <= high; ++trial) {
@@ -174,8 +176,9 @@ class Reduction {
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
       rows.push_back(basis(5, knots, points, parameters_[i], 2));
       const bool end = !closed_ && (i == 0 || i + 1 == parameters_.size());
-      add(rowOf(rows.back(), 0), end ? kHoldWeight : 1.0, targets_[i]);
-      const double share = limits_.distancePx / std::max(kappaLimit(i), 1e-12);
+      const double place = nearest_ / limits_.distancePx[i];
+      add(rowOf(rows.back(), 0), end ? kHoldWeight : place * place, targets_[i]);
+      const double share = nearest_ / std::max(kappaLimit(i), 1e-12);
       add(rowOf(rows.back(), 2), share * share, bends_[i]);
     }
     BandCholesky cholesky;
@@ -200,7 +203,6 @@ class Reduction {
     MonotoneQp qp{BandMatrix(unknowns, closed_), Eigen::VectorXd::Zero(unknowns), {}, {}};
     std::vector<PlaneDerivatives> curve;
     std::vector<BandRow> places;
-    const double weight = 1.0 / (limits_.distancePx * limits_.distancePx);
     const auto add = [&](const BandRow& row, double w, double target) {
       qp.a.addOuter(row, w);
       addTo(qp.b, row, w * target);
@@ -216,6 +218,7 @@ class Reduction {
       const FrameStation station = frameStation(d, rows);
       const bool end = !closed_ && (i == 0 || i + 1 == parameters_.size());
       const Vec2 normal = leftNormal(d[1]).normalized();
+      const double weight = 1.0 / (limits_.distancePx[i] * limits_.distancePx[i]);
       add(rows[0], end ? kEndHold * weight : weight, (targets_[i] - d[0]).dot(normal));
       const double limit = std::max(kappaLimit(i), 1e-12);
       add(station.kappaRow, 1.0 / (limit * limit), kappas_[i] - station.kappa);
@@ -283,10 +286,12 @@ class Reduction {
         d[order] = Vec2(dot(row, fit.x), dot(row, fit.y));
       }
       kappa.push_back(kappaOf(d[1], d[2]));
-      fit.moved = std::max(fit.moved, std::abs((d[0] - targets_[i]).dot(normals_[i])));
+      const double moved = std::abs((d[0] - targets_[i]).dot(normals_[i]));
+      fit.moved = std::max(fit.moved, moved);
+      excess = std::max(excess, moved / limits_.distancePx[i]);
       excess = std::max(excess, std::abs(kappa.back() - kappas_[i]) / std::max(kappaLimit(i), 1e-300));
     }
-    fit.excess = std::max(excess, fit.moved / limits_.distancePx);
+    fit.excess = excess;
     fit.turns = countTurns(kappa, least_) == turns_;
   }
 
@@ -311,7 +316,7 @@ class Reduction {
   bool closed_;
   std::vector<double> parameters_, kappas_;
   std::vector<Vec2> targets_, normals_, bends_;
-  double least_ = 0.0;
+  double least_ = 0.0, nearest_ = 1.0;
   int turns_ = 0;
   std::vector<int> courses_;
 };
@@ -319,7 +324,8 @@ class Reduction {
 }  // namespace
 
 std::optional<ReducedCurve> withFewestPoints(const UniformQuintic& full, const ReduceLimits& limits) {
-  if (!(limits.distancePx > 0.0)) return std::nullopt;
+  const auto isPositive = [](double d) { return d > 0.0; };
+  if (!std::all_of(limits.distancePx.begin(), limits.distancePx.end(), isPositive)) return std::nullopt;
   return Reduction(full, limits).run();
 }
 

@@ -13,8 +13,8 @@ namespace batten {
 
 /// What a curve with fewer control points has to keep of the one that it stands for; px.
 struct ReduceLimits {
-  double distancePx = 0.0;             ///< Farthest that it may lie from the curve.
-  std::span<const double> kappaSigma;  ///< [1/px] at `checkStations(curve, perSpan)`: noise of the curvature.
+  std::span<const double> distancePx;  ///< > 0 at `checkStations(curve, perSpan)`: farthest from the curve …
+  std::span<const double> kappaSigma;  ///< [1/px] … and noise of the curvature there.
   int perSpan = 4;                     ///< Of these stations.
   double kappaShare = 0.5;             ///< Part of that noise by which the curvature may differ.
   Vec2 startShift = Vec2::Zero(), endShift = Vec2::Zero();  ///< As UniformQuintic::toNurbs; open curves.

@@ -256,6 +256,9 @@ Closeness closeness(const NurbsCurve& curve, const ConstructPiece& piece, double
       const Passing round = follow(polygon, p / pixelMm, other, 8);
       if (round.distance < d.distance) d = round, at = other;
     }
+    // Between merged strokes the line may lie anywhere.
+    const std::size_t i = result.distancePx.size();
+    if (piece.spreadPx.size() == n) d.distance = std::max(0.0, d.distance - static_cast<double>(piece.spreadPx[i]));
     result.distancePx.push_back(d.distance);
     const auto low = std::min(static_cast<std::size_t>(d.place), parameter.size() - 2);
     result.parameter.push_back(std::lerp(parameter[low], parameter[low + 1], d.place - static_cast<double>(low)));

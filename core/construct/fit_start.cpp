@@ -95,6 +95,7 @@ Result<ConstructContour> onFairFit(const ConstructContour& contour, const Constr
     piece.points = line.points();
     piece.refined.clear();
     piece.sigmaPx.clear();
+    piece.spreadPx.clear();
     piece.drawn.clear();
     for (Station& station : piece.stations) station = line.foot(station);
   }

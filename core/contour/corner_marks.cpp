@@ -171,6 +171,7 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
     piece.points.push_back(contour.points[at]);
     piece.refined.push_back(at < contour.refined.size() ? contour.refined[at] : std::uint8_t{0});
     if (contour.sigmaPx.size() == contour.points.size()) piece.sigmaPx.push_back(contour.sigmaPx[at]);
+    if (!contour.band.isEmpty()) piece.spreadPx.push_back(0.5f * (contour.band.left[at] + contour.band.right[at]));
   }
   const auto zoneOf = [&](const Cut* cut) { return cut->exact ? cut->zone : 0.5; };
   std::size_t head = 0, tail = 0;
@@ -185,24 +186,26 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   };
   cutEnds(piece.points);
   cutEnds(piece.refined);
-  const bool hasSigma = !piece.sigmaPx.empty();
-  if (hasSigma) cutEnds(piece.sigmaPx);
-  // Of a corner: what is known of the line next to it.
-  const auto sigmaOfCorner = [&](bool atEnd) {
-    return piece.sigmaPx.empty() ? kCornerSigmaPx : atEnd ? piece.sigmaPx.back() : piece.sigmaPx.front();
-  };
   if (start != nullptr) {
     piece.points.insert(piece.points.begin(), start->corner.positionPx);
-    if (hasSigma) piece.sigmaPx.insert(piece.sigmaPx.begin(), sigmaOfCorner(false));
     piece.refined.insert(piece.refined.begin(), start->exact || contour.kind == ContourKind::Pen ? 1 : 0);
     piece.startIsCorner = true;
   }
   if (end != nullptr) {
     piece.points.push_back(end->corner.positionPx);
-    if (hasSigma) piece.sigmaPx.push_back(sigmaOfCorner(true));
     piece.refined.push_back(end->exact || contour.kind == ContourKind::Pen ? 1 : 0);
     piece.endIsCorner = true;
   }
+  const auto cutValues = [&](std::vector<float>& values, float ofAlone) {
+    if (values.empty()) return;
+    cutEnds(values);
+    // Of a corner: what is known of the line next to it.
+    const float first = values.empty() ? ofAlone : values.front(), last = values.empty() ? ofAlone : values.back();
+    if (start != nullptr) values.insert(values.begin(), first);
+    if (end != nullptr) values.push_back(last);
+  };
+  cutValues(piece.sigmaPx, kCornerSigmaPx);
+  cutValues(piece.spreadPx, 0.0f);
   piece.lengthPx = polylineLength(piece.points, false);
   return piece;
 }

@@ -45,6 +45,7 @@ struct Piece {
   std::vector<Vec2> points;  ///< [px] ordered; where an end is a corner, the first or last point is exactly the corner.
   std::vector<std::uint8_t> refined;  ///< As in Contour, same size.
   std::vector<float> sigmaPx;         ///< As in Contour: same size or empty.
+  std::vector<float> spreadPx;  ///< [px] half the breadth of the strokes merged there: same size, or empty: none were.
   bool startIsCorner = false;
   bool endIsCorner = false;
   double lengthPx = 0.0;

@@ -32,6 +32,7 @@ ConstructPiece pieceInput(const Piece& piece, const PieceSegments& segments, con
   made.points = pointsToModel(piece.points, frame);
   made.refined = piece.refined;
   made.sigmaPx = piece.sigmaPx;
+  made.spreadPx = piece.spreadPx;
   for (const Station& s : segments.stations) made.stations.push_back(stationToModel(s, frame));
   made.closed = piece.closed;
   made.startIsCorner = piece.startIsCorner;

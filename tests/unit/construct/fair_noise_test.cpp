@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numbers>
 
@@ -174,6 +176,47 @@ TEST(FairFit, ChangesOfCurvatureHaveNoPlateaus) {
   }
   RecordProperty("flat", std::to_string(flat / all));
   EXPECT_LT(flat / all, 0.02);
+}
+
+/// The mean of strokes that were drawn over an arc: off it by waves that nobody meant.
+ConstructContour wanderingArc(float spreadPx, double waves = 1.0) {
+  const auto truth = test::curveOfCurvature(600.0, [](double s) { return 0.002 + 6e-6 * s; });
+  ConstructContour contour;
+  contour.isStroke = true;
+  contour.pieces.resize(1);
+  ConstructPiece& piece = contour.pieces[0];
+  piece.points = test::noisyPoints(truth, 0.03, 5);
+  for (std::size_t i = 0; i < piece.points.size(); ++i) {
+    const double s = static_cast<double>(i);
+    const double off = waves * (0.3 * std::sin(s / 11.0) + 0.2 * std::sin(s / 17.0 + 1.0));
+    piece.points[i] += off * truth.normals[std::min(truth.normals.size() - 1, 16 * i)];
+  }
+  piece.spreadPx.assign(piece.points.size(), spreadPx);
+  return contour;
+}
+
+TEST(FairNoise, WavesOfMergedStrokesAreNotDrawn) {
+  const auto wavy = fairFit(wanderingArc(0.0f), {}, {}), fair = fairFit(wanderingArc(5.0f), {}, {});
+  ASSERT_TRUE(wavy && fair);
+  EXPECT_GE(test::extremaOf(wavy->front().curve, false).size(), 8U);
+  EXPECT_EQ(test::extremaOf(fair->front().curve, false).size(), 0U);
+  EXPECT_LT(fair->front().curve.controlPointCount(), wavy->front().curve.controlPointCount() / 2);
+  const auto truth = test::curveOfCurvature(600.0, [](double s) { return 0.002 + 6e-6 * s; });
+  EXPECT_LT(test::rmsFrom(truth, fair->front().curve), 0.3);
+  const auto widest = [](const ConstructedPiece& p) {
+    return *std::max_element(p.report.bandSigma.begin(), p.report.bandSigma.end());
+  };
+  const auto calm = fairFit(wanderingArc(0.0f, 0.0), {}, {});
+  ASSERT_TRUE(calm);
+  EXPECT_GT(widest(fair->front()), 2.0 * widest(calm->front()));
+}
+
+TEST(FairNoise, StrokesThatWereNotMergedLeaveTheFitAsItWas) {
+  ConstructContour one = wanderingArc(0.0f), none = one;
+  none.pieces[0].spreadPx.clear();
+  const auto a = fairFit(one, {}, {}), b = fairFit(none, {}, {});
+  ASSERT_TRUE(a && b);
+  EXPECT_TRUE(a->front().curve == b->front().curve);
 }
 
 }  // namespace
