@@ -144,9 +144,10 @@ struct ConstructReport {
   Termination why = Termination::NotRun;
   std::string note;                   ///< One line for the user when a fallback was used; else empty.
   std::vector<ExtremumNote> extrema;  ///< Fair fit only.
-  std::vector<int> unmetWishes;       ///< Ids of wishes that found no extremum, or one that cannot go.
-  std::vector<double> bandS;          ///< [mm] arc lengths at which the band is given (fair fit only).
-  std::vector<double> bandSigma;      ///< [1/mm] standard deviation of the curvature there.
+  int extremaInTurns = 0;         ///< Fair fit: in turns too sharp for it, so that nothing is known of their certainty.
+  std::vector<int> unmetWishes;   ///< Ids of wishes that found no extremum, or one that cannot go.
+  std::vector<double> bandS;      ///< [mm] arc lengths at which the band is given (fair fit only).
+  std::vector<double> bandSigma;  ///< [1/mm] standard deviation of the curvature there.
   std::vector<SegmentNote> segments;  ///< Typical curves only.
   double noisePx = 0.0;               ///< [px] standard deviation of an edge point (fair fit only; 0 = not measured).
   int stationsAdded = 0;              ///< Nurbs, Bezier: set where the line turns too quickly for those given.

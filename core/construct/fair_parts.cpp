@@ -12,6 +12,7 @@
 #include "core/construct/fair_join.h"
 #include "core/construct/quintic_nurbs.h"
 #include "core/contour/regression_segments.h"
+#include "core/curve/curve_analysis.h"
 #include "core/curve/knot_operations.h"
 
 namespace batten {
@@ -63,6 +64,14 @@ Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, dou
   part.report.fullControlPoints = static_cast<int>(std::lround(share * part.report.fullControlPoints));
   part.curve = std::move(*curve);
   return part;
+}
+
+/// Curvature extrema of what follows the points closely, without a judgement of each.
+int extremaOf(const std::vector<NurbsCurve>& turns, double size, bool closed) {
+  constexpr double kProminence = 5e-3;
+  std::size_t count = 0;
+  for (const NurbsCurve& turn : turns) count += curvatureExtrema(turn, kProminence / size, closed).size();
+  return static_cast<int>(count);
 }
 
 std::string turnNote(std::size_t count) {
@@ -186,12 +195,15 @@ Result<ConstructedPiece> FairParts::withTurns() const {
     whole.curve = std::move(*curve);
     whole.report.why = Termination::Degenerate;
     whole.report.note = "Turns too sharply all along for the fair fit; a curve close to the points instead.";
+    whole.report.extremaInTurns = extremaOf({whole.curve}, extent(whole.curve), piece_.closed);
     return whole;
   }
-  std::vector<NurbsCurve> parts;
+  std::vector<NurbsCurve> parts, turns;
   const auto tight = [&](int first, int last, const std::optional<CurveEnd>& a, const std::optional<CurveEnd>& b) {
     auto curve = tightCurve(pointsOf({first, last}), pixelMm_, a, b);
-    if (curve) parts.push_back(*curve);
+    if (!curve) return curve;
+    parts.push_back(*curve);
+    turns.push_back(*curve);
     return curve;
   };
   const auto total = [&] {
@@ -243,6 +255,7 @@ Result<ConstructedPiece> FairParts::withTurns() const {
   if (!curve) return fail(curve.error());
   whole.curve = std::move(*curve);
   whole.report.noisePx = fits_[first].report.noisePx;
+  whole.report.extremaInTurns = extremaOf(turns, extent(whole.curve), false);
   whole.report.fullControlPoints = whole.curve.controlPointCount();
   for (const ConstructedPiece& fit : fits_) {
     if (fit.report.fullControlPoints == 0) continue;

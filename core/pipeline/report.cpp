@@ -74,6 +74,7 @@ Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
                                {"at_px", pointToJson(frame.pointToImage(e.point))},
                                {"chosen_by_user", e.wish.has_value()}});
   }
+  json["extrema_in_turns"] = r.extremaInTurns;
   json["unmet_choices"] = r.unmetWishes;
   return json;
 }

@@ -222,6 +222,12 @@ void CurvesPanel::refreshFigures() {
     rows.push_back({tr("Stations added"),
                     {{QString::number(added)}},
                     tr("Set between the given ones where the line turns too quickly for them.")});
+  if (const int turns = curve->construct.extremaInTurns; turns > 0)
+    rows.push_back(
+        {tr("Extrema in sharp turns"),
+         {{QString::number(turns)}},
+         tr("Where the line turns sharply and no corner is marked, the curve follows its points closely: such "
+            "extrema are not judged and cannot be taken out one by one.")});
   addFitRows(rows, *curve);
   figures_->setRows(std::move(rows));
   QString text = QString::fromStdString(curve->construct.note);

@@ -65,6 +65,10 @@ TEST(FairTurns, UnmarkedCornersStayOnTheirPoints) {
     const NurbsCurve& curve = fit->front().curve;
     EXPECT_LT(farthest(points, curve), 2.0) << closed;
     EXPECT_NEAR(lengthOf(curve) / static_cast<double>(points.size()), 1.0, 0.05) << closed;
+    // A rounded corner has at least the extremum of its tip; the straight sides have none.
+    EXPECT_GE(fit->front().report.extremaInTurns, closed ? 4 : 3);
+    EXPECT_TRUE(std::none_of(fit->front().report.extrema.begin(), fit->front().report.extrema.end(),
+                             [](const ExtremumNote& e) { return e.kept; }));
     EXPECT_NE(fit->front().report.note.find(closed ? "at 4 places" : "at 3 places"), std::string::npos)
         << fit->front().report.note;
   }
