@@ -2,8 +2,11 @@
 #include "core/document/export_builder.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "core/exchange/export_check.h"
 
@@ -36,6 +39,16 @@ bool isWholeClosed(const std::vector<const TracedCurve*>& run, const ContourPiec
   return run.front()->closed || (contourClosed && run.size() == all.size());
 }
 
+/// The median; absent for outlines and pen strokes.
+std::optional<double> strokeWidth(const Contour& line, const PageFrame& frame) {
+  std::vector<float> px = line.widthPx;
+  if (px.empty()) return std::nullopt;
+  const auto middle = px.begin() + static_cast<std::ptrdiff_t>(px.size() / 2);
+  std::nth_element(px.begin(), middle, px.end());
+  if (!(*middle > 0.0f) || !std::isfinite(*middle)) return std::nullopt;
+  return frame.lengthToModel(static_cast<double>(*middle));
+}
+
 }  // namespace
 
 ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe, const Scan& scan) {
@@ -56,12 +69,14 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
     byContour[output.pieces->pieces[i].contour].push_back(found == byPiece.end() ? nullptr : found->second);
   }
   for (const auto& [contour, pieces] : byContour) {
-    const bool closed = output.contours->contours[static_cast<std::size_t>(contour)].closed;
+    const Contour& line = output.contours->contours[static_cast<std::size_t>(contour)];
+    const bool closed = line.closed;
     for (const auto& run : runs(pieces, closed)) {
       ExportCurve& curve = document.curves.emplace_back();
       curve.id = "curve-" + std::to_string(document.curves.size());
       for (const TracedCurve* piece : run) curve.pieces.push_back({piece->faired});
       // A loop of the drawing whose curves do not meet, because a construction breaks them, is none.
+      curve.strokeWidthMm = strokeWidth(line, output.frame);
       curve.closed = isWholeClosed(run, pieces, closed) && isLoop(curve.pieces);
     }
   }

@@ -80,6 +80,7 @@ Result<ExportDocument> documentFromJson(const Json& json) {
     ExportCurve& curve = document.curves.emplace_back();
     curve.id = entry.at("id").get<std::string>();
     curve.closed = entry.at("closed").get<bool>();
+    if (entry.contains("stroke_width_mm")) curve.strokeWidthMm = entry.at("stroke_width_mm").get<double>();
     for (const Json& piece : entry.at("pieces")) {
       auto made = pieceFromJson(piece);
       if (!made) return damaged("curve " + curve.id + " is invalid (" + made.error().message + ")");
@@ -110,6 +111,7 @@ Result<std::string> writeCurveJson(const ExportDocument& document) {
     }
     Json& entry = curves.emplace_back(Json{{"id", curve.id}, {"closed", curve.closed}});
     if (curve.closed) entry["continuity"] = continuityOf(curve.pieces);
+    if (curve.strokeWidthMm) entry["stroke_width_mm"] = *curve.strokeWidthMm;
     entry["pieces"] = std::move(pieces);
   }
   return json.dump(1) + "\n";

@@ -20,6 +20,7 @@ struct ExportCurve {
   std::string id;       ///< "curve-1" …, unique.
   bool closed = false;  ///< Every piece ends where the next starts, the last one where the first does.
   std::vector<ExportPiece> pieces;
+  std::optional<double> strokeWidthMm = {};  ///< [mm] > 0, usual width of the stroke that it is the middle of.
 };
 struct ExportDocument {
   PageFrame frame;

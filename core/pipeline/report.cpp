@@ -193,15 +193,21 @@ Json notPlacedToJson(const Contour& c) {
   return list;
 }
 
-/// Median and largest of some lengths along a line.
+/// Median and largest of some lengths along a line, and at most 65 of them at equal steps from its start to its end.
 Json rangeToJson(std::vector<float> px, const PageFrame& frame) {
   if (px.empty()) return nullptr;
+  Json along = Json::array();
+  const std::size_t steps = std::min<std::size_t>(64, px.size() - 1);
+  for (std::size_t i = 0; i <= steps; ++i) {
+    along.push_back(number(static_cast<double>(px[steps == 0 ? 0 : i * (px.size() - 1) / steps])));
+  }
   std::sort(px.begin(), px.end());
   const double middle = static_cast<double>(px[px.size() / 2]), most = static_cast<double>(px.back());
   return {{"median_px", number(middle)},
           {"largest_px", number(most)},
           {"median_mm", number(frame.lengthToModel(middle))},
-          {"largest_mm", number(frame.lengthToModel(most))}};
+          {"largest_mm", number(frame.lengthToModel(most))},
+          {"along_px", std::move(along)}};
 }
 
 std::vector<float> halfSpread(const StrokeBand& band) {

@@ -35,6 +35,8 @@ TEST_F(ReportContours, NameWidthBridgesAndSpreadAndWhatWasNotPlaced) {
   EXPECT_EQ(contours[0]["kind"], "centreline");
   EXPECT_NEAR(contours[0]["stroke_width"]["median_px"].get<double>(), 5.0, 0.3);
   EXPECT_NEAR(contours[0]["stroke_width"]["median_mm"].get<double>(), 0.5, 0.03);
+  ASSERT_EQ(contours[0]["stroke_width"]["along_px"].size(), 65u);
+  EXPECT_NEAR(contours[0]["stroke_width"]["along_px"][10].get<double>(), 5.0, 0.6);
   EXPECT_NEAR(contours[0]["length_mm"].get<double>(), 28.0, 0.6);
   EXPECT_TRUE(contours[0]["area_px2"].is_null());
   EXPECT_TRUE(contours[0]["merged_half_spread"].is_null());

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "core/contour/crack_contours.h"
 #include "tests/support/contour_shapes.h"
+#include "tests/support/render_page.h"
 
 namespace batten {
 namespace {
@@ -29,10 +32,7 @@ Contour longestRefined(const GreyImage& grey, double threshold) {
 }
 
 // Signed distance outwards from a circle.
-Accuracy circleAccuracy(const Vec2& centre, double radius, const RenderSettings& s) {
-  const GreyImage grey =
-      renderShape([&](double x, double y) { return std::hypot(x - centre.x(), y - centre.y()) < radius; }, s);
-  const Contour c = longestRefined(grey, 0.5 * (s.paper + s.ink) + s.slope * centre.x());
+Accuracy accuracyOf(const Contour& c, const Vec2& centre, double radius) {
   Accuracy a;
   int n = 0;
   for (std::size_t i = 0; i < c.points.size(); ++i) {
@@ -47,6 +47,12 @@ Accuracy circleAccuracy(const Vec2& centre, double radius, const RenderSettings&
   a.rms = std::sqrt(a.rms / n);
   a.share = static_cast<double>(n) / static_cast<double>(c.points.size());
   return a;
+}
+
+Accuracy circleAccuracy(const Vec2& centre, double radius, const RenderSettings& s) {
+  const GreyImage grey =
+      renderShape([&](double x, double y) { return std::hypot(x - centre.x(), y - centre.y()) < radius; }, s);
+  return accuracyOf(longestRefined(grey, 0.5 * (s.paper + s.ink) + s.slope * centre.x()), centre, radius);
 }
 
 TEST(RefineOutline, DiscsAreUnbiasedWhateverTheirRadius) {
@@ -78,6 +84,30 @@ TEST(RefineOutline, NoiseLeavesSmallUnbiasedErrors) {
   printf("noise 5, contrast 130: bias %.4f rms %.4f\n", bias, std::sqrt(square));
   EXPECT_LE(std::abs(bias), 0.01);
   EXPECT_LE(std::sqrt(square), 0.08);
+}
+
+TEST(RefineOutline, JpegBlocksAndTextureDoNotMoveTheEdge) {
+  constexpr int kSize = 400, kCorners = 1024;
+  constexpr double kRadius = 140.0;
+  const Vec2 centre(200.3, 199.6);
+  std::vector<Vec2> circle;
+  for (int i = 0; i < kCorners; ++i) {
+    const double t = 2.0 * std::numbers::pi * i / kCorners;
+    circle.push_back(centre + kRadius * Vec2(std::cos(t), std::sin(t)));
+  }
+  for (const bool textured : {false, true}) {
+    test::PageStyle style = test::cleanPage();
+    style.blurPx = 0.8;
+    style.paperLeft = style.paperRight = 220.0;
+    style.texture = textured ? 6.0 : 0.0;
+    style.jpegQuality = textured ? 0 : 85;
+    const Scan page = test::renderPage(test::fillCoverage(circle, kSize, kSize), kSize, kSize, style);
+    const Accuracy a = accuracyOf(longestRefined(page.grey, 120.0), centre, kRadius);
+    printf("%s: bias %.4f rms %.4f\n", textured ? "texture" : "jpeg 85", a.bias, a.rms);
+    EXPECT_LE(std::abs(a.bias), 0.01) << textured;
+    EXPECT_LE(a.rms, 0.03) << textured;
+    EXPECT_GE(a.share, 0.98) << textured;
+  }
 }
 
 TEST(RefineOutline, GradationDoesNotMoveTheEdge) {

@@ -22,6 +22,7 @@ struct Scene {
     ContourSet contours;
     contours.contours.resize(2);
     contours.contours[0].closed = true;
+    contours.contours[1].widthPx = {9.0f, 4.0f, 5.0f};
     PieceSet pieces;
     for (int i = 0; i < 6; ++i) {
       Piece& piece = pieces.pieces.emplace_back();
@@ -60,6 +61,8 @@ TEST(ExportBuilder, GroupsThePiecesOfAContour) {
   EXPECT_EQ(firstAbscissas(document.curves[0]), (std::vector{0, 1, 2, 3}));
   EXPECT_FALSE(document.curves[1].closed);
   EXPECT_EQ(firstAbscissas(document.curves[1]), (std::vector{4, 5}));
+  EXPECT_FALSE(document.curves[0].strokeWidthMm.has_value());
+  EXPECT_EQ(document.curves[1].strokeWidthMm, 2.5);
   EXPECT_EQ(document.title, "car.png");
   EXPECT_EQ(document.dpi, 50.8);
   Recipe recipe;

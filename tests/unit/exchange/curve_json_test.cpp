@@ -13,7 +13,8 @@ namespace {
 using test::exportOfAllKinds;
 
 TEST(CurveJson, ReadsBackEveryCurveExactly) {
-  const ExportDocument document = exportOfAllKinds();
+  ExportDocument document = exportOfAllKinds();
+  document.curves.front().strokeWidthMm = 0.7;
   const auto text = writeCurveJson(document);
   ASSERT_TRUE(text) << text.error().message;
   const auto read = readCurveJson(*text);
@@ -25,6 +26,7 @@ TEST(CurveJson, ReadsBackEveryCurveExactly) {
   for (std::size_t i = 0; i < read->curves.size(); ++i) {
     EXPECT_EQ(read->curves[i].id, document.curves[i].id);
     EXPECT_EQ(read->curves[i].closed, document.curves[i].closed);
+    EXPECT_EQ(read->curves[i].strokeWidthMm, document.curves[i].strokeWidthMm);
     ASSERT_EQ(read->curves[i].pieces.size(), document.curves[i].pieces.size());
     for (std::size_t k = 0; k < read->curves[i].pieces.size(); ++k) {
       const NurbsCurve &a = read->curves[i].pieces[k].curve, &b = document.curves[i].pieces[k].curve;
