@@ -21,6 +21,7 @@ constexpr int kCornerNewtonSteps = 12;
 constexpr int kLocateRounds = 4;
 constexpr double kFreeLegsPx = 6.0;  // legs nearer to each other than this share their blur
 constexpr double kFarthestPixelMovePx = 3.0;
+constexpr double kFitOuterPx = 260.0;   // looked at on either side at most
 constexpr double kWidestZonePx = 14.0;  // beyond the rounded one
 
 struct Meeting {
@@ -125,9 +126,9 @@ OneSidedFit fitOneSide(const Contour& contour, int index, int side, double inner
   return result;
 }
 
-std::optional<Turning> turningAt(const Contour& contour, int index, double inner, double outer) {
-  const OneSidedFit before = fitOneSide(contour, index, -1, inner, outer);
-  const OneSidedFit after = fitOneSide(contour, index, 1, inner, outer);
+std::optional<Turning> turningAt(const Contour& contour, int index, double inner, double outer, int maxOrder) {
+  const OneSidedFit before = fitOneSide(contour, index, -1, inner, outer, maxOrder);
+  const OneSidedFit after = fitOneSide(contour, index, 1, inner, outer, maxOrder);
   if (before.reach <= 0.4 * (outer - inner) || after.reach <= 0.4 * (outer - inner)) return std::nullopt;
   Turning t;
   t.angleRad = turn(-before.fit.r1, after.fit.r1);
@@ -179,6 +180,35 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
   }
   if (grey != nullptr && contour.blurPx > 0.0) askPixels(*grey, contour.blurPx, legs, result);
   return result;
+}
+
+std::vector<CornerFix> locateCorners(const Contour& contour, std::span<const int> indices, const GreyImage* grey) {
+  std::vector<CornerFix> fixes;
+  const auto count = indices.size();
+  if (count == 0) return fixes;
+  const std::vector<double> arc = cumulativeLength(contour.points);
+  const double length = polylineLength(contour.points, contour.closed);
+  const auto s = [&](std::size_t i) { return arc[static_cast<std::size_t>(indices[i])]; };
+  for (std::size_t i = 0; i < count; ++i) {
+    double before = s(i), after = length - s(i);
+    if (contour.closed) {
+      before = i > 0 ? s(i) - s(i - 1) : s(i) + length - s(count - 1);
+      after = i + 1 < count ? s(i + 1) - s(i) : s(0) + length - s(i);
+      if (count == 1) before = after = 0.5 * length;
+    } else {
+      if (i > 0) before = s(i) - s(i - 1);
+      if (i + 1 < count) after = s(i + 1) - s(i);
+    }
+    const double zone = roundedZonePx(contour, indices[i]);
+    const auto outer = [&](double free, bool toCorner) {
+      return std::clamp(free - (toCorner ? zone : 0.0), 0.0, kFitOuterPx + 2.0 * (zone - 4.0));
+    };
+    const bool cornerBefore = contour.closed ? count > 1 : i > 0;
+    const bool cornerAfter = contour.closed ? count > 1 : i + 1 < count;
+    fixes.push_back(
+        locateCorner(contour, indices[i], zone, outer(before, cornerBefore), outer(after, cornerAfter), grey));
+  }
+  return fixes;
 }
 
 }  // namespace batten

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/contour/contour_set.h"
 #include "core/contour/polyline_tools.h"
@@ -23,7 +25,8 @@ struct Turning {
   double angleRad = 0.0;  ///< -pi..pi, positive to the left in the model frame (image: y down).
   double score = 0.0;     ///< |angle|, lowered where the fits do not describe the points or do not meet.
 };
-std::optional<Turning> turningAt(const Contour& contour, int index, double inner, double outer);
+/// @param maxOrder 1: the sides are straight, 2: parabolas.
+std::optional<Turning> turningAt(const Contour& contour, int index, double inner, double outer, int maxOrder = 2);
 
 /// [px] Farthest that a contour may end before the tip its sides lead to; less where they open wider.
 inline constexpr double kFarthestTipPx = 60.0;
@@ -38,6 +41,11 @@ struct CornerFix {
 };
 CornerFix locateCorner(const Contour& contour, int index, double inner, double outerBefore, double outerAfter,
                        const GreyImage* grey = nullptr);
+
+/// The same for the corners of a contour, given by their points in ascending order: no side is looked at beyond the
+/// next corner.
+std::vector<CornerFix> locateCorners(const Contour& contour, std::span<const int> indices,
+                                     const GreyImage* grey = nullptr);
 
 /// [px] Points nearer than this to a corner are rounded by blur (outlines) or by the other leg's ink (strokes).
 double roundedZonePx(const Contour& contour, int index);

@@ -14,7 +14,6 @@ namespace {
 constexpr double kLooksLikeCornerRad = 25.0 * std::numbers::pi / 180.0;
 constexpr double kTurnInnerPx = 3.0;   // the part next to a corner that blur has rounded
 constexpr double kTurnOuterPx = 16.0;  // about as far as a corner of a drawing stands free
-constexpr double kFitOuterPx = 260.0;
 constexpr double kSamePlacePx = 2.0;
 constexpr float kCornerSigmaPx = 0.1f;
 constexpr double kSnapOuterPx = 64.0;  // looked at on either side before the neighbours are known
@@ -110,36 +109,19 @@ Snap sharpestNear(const Contour& contour, const Vec2& mark, double snap) {
 // A corner while the pieces are cut.
 struct Cut {
   Corner corner;
-  double s = 0.0;     // [px] arc length of its contour point
   double zone = 4.0;  // [px] points nearer than this are left out
   bool exact = false;
 };
 
-// Arc length between neighbouring cuts on either side, so that no fit looks beyond the next corner.
-void locateCuts(const Contour& contour, double length, const GreyImage* grey, std::vector<Cut>& cuts) {
-  const auto count = cuts.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    double before = cuts[i].s, after = length - cuts[i].s;
-    if (contour.closed) {
-      before = i > 0 ? cuts[i].s - cuts[i - 1].s : cuts[i].s + length - cuts[count - 1].s;
-      after = i + 1 < count ? cuts[i + 1].s - cuts[i].s : cuts[0].s + length - cuts[i].s;
-      if (count == 1) before = after = 0.5 * length;
-    } else {
-      if (i > 0) before = cuts[i].s - cuts[i - 1].s;
-      if (i + 1 < count) after = cuts[i + 1].s - cuts[i].s;
-    }
-    const double zone = roundedZonePx(contour, cuts[i].corner.pointIndex);
-    const auto outer = [&](double free, bool toCorner) {
-      return std::clamp(free - (toCorner ? zone : 0.0), 0.0, kFitOuterPx + 2.0 * (zone - 4.0));
-    };
-    const bool cornerBefore = contour.closed ? count > 1 : i > 0;
-    const bool cornerAfter = contour.closed ? count > 1 : i + 1 < count;
-    const CornerFix fix = locateCorner(contour, cuts[i].corner.pointIndex, zone, outer(before, cornerBefore),
-                                       outer(after, cornerAfter), grey);
-    cuts[i].corner.positionPx = fix.position;
-    cuts[i].corner.turningAngleRad = fix.angleRad;
-    cuts[i].exact = fix.exact;
-    cuts[i].zone = fix.zonePx;
+void locateCuts(const Contour& contour, const GreyImage* grey, std::vector<Cut>& cuts) {
+  std::vector<int> places;
+  for (const Cut& cut : cuts) places.push_back(cut.corner.pointIndex);
+  const std::vector<CornerFix> fixes = locateCorners(contour, places, grey);
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    cuts[i].corner.positionPx = fixes[i].position;
+    cuts[i].corner.turningAngleRad = fixes[i].angleRad;
+    cuts[i].exact = fixes[i].exact;
+    cuts[i].zone = fixes[i].zonePx;
   }
 }
 
@@ -286,7 +268,6 @@ Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMar
   if (auto error = validate(params)) return fail(*error);
   PieceSet out;
   std::vector<std::vector<Cut>> cuts(set.contours.size());
-  std::vector<std::vector<double>> arc(set.contours.size());
   for (std::size_t m = 0; m < marks.size(); ++m) {
     auto corner = nearestContourPoint(set, marks[m].positionPx, params.snapDistancePx);
     if (!corner) {
@@ -295,11 +276,10 @@ Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMar
     }
     corner->mark = static_cast<int>(m);
     const auto c = static_cast<std::size_t>(corner->contour);
-    if (arc[c].empty()) arc[c] = cumulativeLength(set.contours[c].points);
     const bool known = std::any_of(cuts[c].begin(), cuts[c].end(), [&](const Cut& other) {
       return (other.corner.positionPx - corner->positionPx).norm() <= kSamePlacePx;
     });
-    if (!known) cuts[c].push_back({*corner, arc[c][static_cast<std::size_t>(corner->pointIndex)], false});
+    if (!known) cuts[c].push_back({*corner});
   }
   for (std::size_t c = 0; c < set.contours.size(); ++c) {
     std::sort(cuts[c].begin(), cuts[c].end(),
@@ -307,7 +287,7 @@ Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMar
     const Contour& contour = set.contours[c];
     // A pen stroke is exact already: its corner is the point that was drawn.
     if (params.exact && contour.kind != ContourKind::Pen && !cuts[c].empty()) {
-      locateCuts(contour, polylineLength(contour.points, contour.closed), grey, cuts[c]);
+      locateCuts(contour, grey, cuts[c]);
     }
     cutContour(set, static_cast<int>(c), cuts[c], out);
     for (const Cut& cut : cuts[c]) out.corners.push_back(cut.corner);

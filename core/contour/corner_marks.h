@@ -72,8 +72,17 @@ struct CornerSuggestion {
   Vec2 positionPx = Vec2::Zero();
   double turningAngleRad = 0.0;
 };
+/// A stretch of a contour that is known to turn sharply: its points first..last; of a closed contour `last` may pass
+/// the number of points.
+struct SharpTurn {
+  int contour = 0;
+  int first = 0, last = 0;
+};
 /// Places where two one-sided local parabolas, extrapolated to the point, differ in direction by at least
-/// `minAngleRad`; one suggestion per turn. `scalePx` is the length looked at on either side.
-std::vector<CornerSuggestion> suggestCorners(const ContourSet&, double minAngleRad, double scalePx);
+/// `minAngleRad`; one suggestion per turn. `scalePx` is the length looked at on either side, and more where the line is
+/// ragged. Of `turns` those are added where nothing else was found and the line is not ragged. The angle is that of the
+/// located corner, as a mark would give it; where none can be located, that of the place.
+std::vector<CornerSuggestion> suggestCorners(const ContourSet&, double minAngleRad, double scalePx,
+                                             std::span<const SharpTurn> turns = {});
 
 }  // namespace batten

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <span>
 
 #include "core/contour/corner_geometry.h"
 #include "core/contour/corner_marks.h"
@@ -9,12 +12,16 @@
 namespace batten {
 namespace {
 
+constexpr double kSure = 5.0;  // standard deviations
+
 struct Candidate {
-  int index;
-  double angle, score, s;
+  int index = 0;
+  double angle = 0.0, score = 0.0, s = 0.0;
+  double scale = 0.0;   // [px] looked at on either side
+  bool isTurn = false;  // given as one
 };
 
-// The angle between the chords on either side: cheap, and never much smaller than the angle of a corner.
+// The angle between the chords on either side, signed as Turning: cheap, and never much smaller than that of a corner.
 double chordAngle(const Contour& contour, int i, int reach) {
   const int n = static_cast<int>(contour.points.size());
   const int a = contour.closed ? wrapIndex(i - reach, n) : i - reach;
@@ -22,7 +29,7 @@ double chordAngle(const Contour& contour, int i, int reach) {
   if (a < 0 || b >= n) return 0.0;
   const Vec2 in = contour.points[static_cast<std::size_t>(i)] - contour.points[static_cast<std::size_t>(a)];
   const Vec2 out = contour.points[static_cast<std::size_t>(b)] - contour.points[static_cast<std::size_t>(i)];
-  return std::abs(std::atan2(cross(in, out), in.dot(out)));
+  return -std::atan2(cross(in, out), in.dot(out));
 }
 
 // [px] How rough the line is about every point: the median over 300 px of what parabolas of one scale leave over.
@@ -59,7 +66,7 @@ double angleNoise(double roughPx, double scale) {
 // On a clean line a corner is one however short its legs are. On a rough one it may be a dent, which has gone once more
 // of the line is looked at; a corner has not.
 bool isMoreThanADent(const Contour& contour, int i, const Turning& turning, double rough, double inner, double scale) {
-  constexpr double kCleanScore = 0.75, kSure = 5.0, kCoarser = 3.5, kStays = 0.7;
+  constexpr double kCleanScore = 0.75, kCoarser = 3.5, kStays = 0.7;
   const double angle = std::abs(turning.angleRad);
   if (turning.score >= kCleanScore * angle && angle >= kSure * angleNoise(rough, scale)) return true;
   const auto coarse = turningAt(contour, i, inner, inner + kCoarser * scale);
@@ -67,59 +74,169 @@ bool isMoreThanADent(const Contour& contour, int i, const Turning& turning, doub
          std::abs(coarse->angleRad) >= kSure * angleNoise(rough, kCoarser * scale);
 }
 
-std::vector<Candidate> candidatesOf(const Contour& contour, double minAngle, double scale) {
-  std::vector<Candidate> found;
+// Without the bristles of a ragged border: every point the mean of its neighbours. Kept point for point.
+Contour smoothed(const Contour& contour, double sigmaPx, double step) {
+  Contour out = contour;
   const int n = static_cast<int>(contour.points.size());
-  if (n < 8) return found;
-  const std::vector<double> s = cumulativeLength(contour.points);
-  const double step = std::max(0.1, s.back() / (n - 1));
-  const std::vector<double> rough = roughnessOf(contour, scale);
-  const int reach = std::clamp(static_cast<int>(0.6 * scale / step), 2, std::max(2, n / 3));
+  const double sigma = sigmaPx / step;
+  const int reach = std::min(static_cast<int>(3.0 * sigma), n / 2);
+  std::vector<double> weights;
+  for (int k = 0; k <= reach; ++k) weights.push_back(std::exp(-0.5 * k * k / (sigma * sigma)));
   for (int i = 0; i < n; ++i) {
-    if (chordAngle(contour, i, reach) < 0.6 * minAngle) continue;
-    const double inner = contour.kind == ContourKind::Outline ? std::min(3.0, 0.25 * scale) : roundedZonePx(contour, i);
-    const auto turning = turningAt(contour, i, inner, inner + scale);
-    if (!turning || std::abs(turning->angleRad) < minAngle) continue;
-    // The score is the angle discounted by misfit; half of it lost means that the legs are no legs.
-    if (turning->score < 0.5 * std::abs(turning->angleRad)) continue;
-    if (!isMoreThanADent(contour, i, *turning, rough[static_cast<std::size_t>(i)], inner, scale)) continue;
-    found.push_back({i, turning->angleRad, turning->score, s[static_cast<std::size_t>(i)]});
+    Vec2 sum = Vec2::Zero();
+    double total = 0.0;
+    for (int k = -reach; k <= reach; ++k) {
+      const int j = contour.closed ? wrapIndex(i + k, n) : i + k;
+      if (j < 0 || j >= n) continue;
+      const double weight = weights[static_cast<std::size_t>(std::abs(k))];
+      sum += weight * contour.points[static_cast<std::size_t>(j)];
+      total += weight;
+    }
+    out.points[static_cast<std::size_t>(i)] = sum / total;
   }
-  return found;
+  return out;
+}
+
+// Looks for the corners of one contour.
+class CornerSearch {
+ public:
+  CornerSearch(const Contour& contour, double minAngle, double scale)
+      : contour_(contour), minAngle_(minAngle), scale_(scale), s_(cumulativeLength(contour.points)) {
+    if (s_.size() < 8) return;
+    step_ = std::max(0.1, s_.back() / (static_cast<double>(s_.size()) - 1.0));
+    rough_ = roughnessOf(contour, scale);
+    for (std::size_t i = 0; i < rough_.size(); ++i) {
+      if (!isRagged(i)) continue;
+      smooth_ = smoothed(contour, kSmoothing * scale, step_);
+      break;
+    }
+  }
+
+  std::vector<Candidate> candidates() const {
+    std::vector<Candidate> found;
+    for (int i = 0; i < static_cast<int>(rough_.size()); ++i) {
+      const auto candidate = isRagged(static_cast<std::size_t>(i)) ? onRagged(i) : onClean(i);
+      if (candidate) found.push_back(*candidate);
+    }
+    return found;
+  }
+
+  // The sharpest point of a turn that is known to be one, unless it is one of the many of a ragged line.
+  std::optional<Candidate> sharpest(const SharpTurn& turn) const {
+    constexpr double kArmPx = 6.0, kChordShare = 0.9;
+    Candidate best;
+    const int n = static_cast<int>(rough_.size());
+    for (int k = turn.first; k <= turn.last && n > 0; ++k) {
+      const int i = wrapIndex(k, n);
+      const double angle = chordAngle(contour_, i, std::max(2, static_cast<int>(std::lround(kArmPx / step_))));
+      if (std::abs(angle) > std::abs(best.angle))
+        best = {i, angle, std::abs(angle), s_[static_cast<std::size_t>(i)], scale_, true};
+    }
+    if (!best.isTurn || std::abs(best.angle) < kChordShare * minAngle_) return std::nullopt;
+    if (isRagged(static_cast<std::size_t>(best.index))) return std::nullopt;
+    return best;
+  }
+
+ private:
+  // Of `scale_`: what dents and bristles are smoothed over, and what is left out and looked at beside a corner then.
+  static constexpr double kSmoothing = 0.6, kRaggedInner = 0.7, kRaggedScale = 2.0;
+
+  // Whether dents look like corners here.
+  bool isRagged(std::size_t i) const {
+    constexpr double kRagged = 1.5;
+    return kSure * angleNoise(rough_[i], scale_) > kRagged * minAngle_;
+  }
+
+  bool isStraight(const Contour& contour, int i, double scale) const {
+    const int n = static_cast<int>(contour.points.size());
+    const int reach = std::clamp(static_cast<int>(0.6 * scale / step_), 2, std::max(2, n / 3));
+    return std::abs(chordAngle(contour, i, reach)) < 0.6 * minAngle_;
+  }
+
+  std::optional<Candidate> onClean(int i) const {
+    // The score is the angle discounted by misfit; half of it lost means that the legs are no legs.
+    constexpr double kLeastScore = 0.5;
+    if (isStraight(contour_, i, scale_)) return std::nullopt;
+    const double inner =
+        contour_.kind == ContourKind::Outline ? std::min(3.0, 0.25 * scale_) : roundedZonePx(contour_, i);
+    const auto turning = turningAt(contour_, i, inner, inner + scale_);
+    if (!turning || std::abs(turning->angleRad) < minAngle_) return std::nullopt;
+    if (turning->score < kLeastScore * std::abs(turning->angleRad)) return std::nullopt;
+    const auto at = static_cast<std::size_t>(i);
+    if (!isMoreThanADent(contour_, i, *turning, rough_[at], inner, scale_)) return std::nullopt;
+    return Candidate{i, turning->angleRad, turning->score, s_[at], scale_, false};
+  }
+
+  // More of the line is looked at, without its bristles, and the legs are straight: what bends them counts as noise.
+  std::optional<Candidate> onRagged(int i) const {
+    constexpr double kLeastScore = 0.25;
+    const double scale = kRaggedScale * scale_;
+    if (isStraight(smooth_, i, scale)) return std::nullopt;
+    const double inner =
+        std::max(kRaggedInner * scale_, contour_.kind == ContourKind::Outline ? 0.0 : roundedZonePx(contour_, i));
+    const auto turning = turningAt(smooth_, i, inner, inner + scale, 1);
+    if (!turning || std::abs(turning->angleRad) < minAngle_) return std::nullopt;
+    if (turning->score < kLeastScore * std::abs(turning->angleRad)) return std::nullopt;
+    return Candidate{i, turning->angleRad, turning->score, s_[static_cast<std::size_t>(i)], scale, false};
+  }
+
+  const Contour& contour_;
+  double minAngle_, scale_, step_ = 1.0;
+  std::vector<double> s_, rough_;
+  Contour smooth_;
+};
+
+// In order along the contour: the turns that are known to be some, and the best of every other one.
+std::vector<Candidate> cornersOf(const Contour& contour, std::span<const SharpTurn> turns, double minAngle,
+                                 double scale) {
+  const CornerSearch search(contour, minAngle, scale);
+  std::vector<Candidate> candidates = search.candidates(), kept;
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  for (const SharpTurn& turn : turns) {
+    if (const auto sharpest = search.sharpest(turn)) kept.push_back(*sharpest);
+  }
+  const double length = polylineLength(contour.points, contour.closed);
+  for (const Candidate& candidate : candidates) {
+    const bool near = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
+      const double d = std::abs(candidate.s - other.s);
+      return std::min(d, contour.closed ? length - d : d) < std::max(candidate.scale, other.scale);
+    });
+    if (!near) kept.push_back(candidate);
+  }
+  std::sort(kept.begin(), kept.end(), [](const Candidate& a, const Candidate& b) { return a.index < b.index; });
+  return kept;
+}
+
+// Sides that lead elsewhere, past a neighbour that is none, locate nothing.
+bool isLocated(const CornerFix& fix, double seenRad) {
+  constexpr double kLeastShare = 0.5;
+  return fix.exact && fix.angleRad * seenRad > 0.0 && std::abs(fix.angleRad) >= kLeastShare * std::abs(seenRad);
 }
 
 }  // namespace
 
-std::vector<CornerSuggestion> suggestCorners(const ContourSet& set, double minAngleRad, double scalePx) {
+std::vector<CornerSuggestion> suggestCorners(const ContourSet& set, double minAngleRad, double scalePx,
+                                             std::span<const SharpTurn> turns) {
   std::vector<CornerSuggestion> suggestions;
   if (!(minAngleRad > 0.0) || !(scalePx > 0.0)) return suggestions;
   for (std::size_t c = 0; c < set.contours.size(); ++c) {
     const Contour& contour = set.contours[c];
-    std::vector<Candidate> candidates = candidatesOf(contour, minAngleRad, scalePx);
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-    const double length = polylineLength(contour.points, contour.closed);
-    std::vector<Candidate> kept;
-    for (const Candidate& candidate : candidates) {
-      const bool near = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
-        const double d = std::abs(candidate.s - other.s);
-        return std::min(d, contour.closed ? length - d : d) < scalePx;
-      });
-      if (!near) kept.push_back(candidate);
-    }
-    std::sort(kept.begin(), kept.end(), [](const Candidate& a, const Candidate& b) { return a.index < b.index; });
+    std::vector<SharpTurn> own;
+    std::copy_if(turns.begin(), turns.end(), std::back_inserter(own),
+                 [&](const SharpTurn& turn) { return turn.contour == static_cast<int>(c); });
+    const std::vector<Candidate> kept = cornersOf(contour, own, minAngleRad, scalePx);
+    std::vector<int> places;
+    for (const Candidate& k : kept) places.push_back(k.index);
+    const std::vector<CornerFix> fixes = locateCorners(contour, places);
     for (std::size_t i = 0; i < kept.size(); ++i) {
-      const Candidate& k = kept[i];
-      const double zone = roundedZonePx(contour, k.index);
-      // The legs end at the neighbouring corners.
-      const double behind = i > 0 ? k.s - kept[i - 1].s : k.s + (contour.closed ? length - kept.back().s : 0.0);
-      const double ahead =
-          i + 1 < kept.size() ? kept[i + 1].s - k.s : length - k.s + (contour.closed ? kept.front().s : 0.0);
-      const auto outer = [&](double free) {
-        return std::clamp((kept.size() > 1 ? free : 0.5 * length) - zone, 0.0, zone + 80.0);
-      };
-      const CornerFix fix = locateCorner(contour, k.index, zone, outer(behind), outer(ahead));
-      suggestions.push_back({static_cast<int>(c), k.index, fix.position, k.angle});
+      CornerSuggestion suggestion{static_cast<int>(c), kept[i].index, {}, kept[i].angle};
+      suggestion.positionPx = contour.points[static_cast<std::size_t>(kept[i].index)];
+      if (isLocated(fixes[i], kept[i].angle)) {
+        suggestion.positionPx = fixes[i].position;
+        suggestion.turningAngleRad = fixes[i].angleRad;
+      }
+      suggestions.push_back(suggestion);
     }
   }
   return suggestions;

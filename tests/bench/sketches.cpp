@@ -21,6 +21,7 @@
 #include "core/contour/corner_marks.h"
 #include "core/image/laplacian_edges.h"
 #include "core/image/scan_reader.h"
+#include "core/pipeline/corner_places.h"
 #include "core/pipeline/parameter_table.h"
 #include "core/pipeline/pipeline.h"
 #include "tests/bench/sketch_truth.h"
@@ -133,7 +134,8 @@ QImage faded(const GreyImage& grey, double scale) {
 std::vector<std::vector<test::CurvePoint>> cornerToCorner(const ContourSet& contours) {
   constexpr double kAngleRad = 0.61, kScalePx = 16.0;  // 35 degrees, as in the window
   std::vector<CornerMark> marks;
-  for (const CornerSuggestion& s : suggestCorners(contours, kAngleRad, kScalePx)) marks.push_back({s.positionPx, 0.0});
+  for (const CornerSuggestion& s : suggestCornersAndCuts(contours, kAngleRad, kScalePx))
+    marks.push_back({s.positionPx, 0.0});
   std::vector<std::vector<test::CurvePoint>> lines;
   const auto pieces = splitAtCorners(contours, marks, {});
   for (std::size_t i = 0; pieces && i < pieces->pieces.size(); ++i) {

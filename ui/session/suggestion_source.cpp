@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/pipeline/corner_places.h"
 #include "ui/session/editor_session.h"
 #include "ui/session/guarded.h"
 
@@ -25,7 +26,7 @@ void SuggestionSource::look(double angleDeg, double scalePx) {
   }
   worker_.start([contours, angleDeg, scalePx, source = QPointer<SuggestionSource>(this)](const CancelToken& token) {
     auto found = guarded<std::vector<CornerSuggestion>>(
-        [&] { return suggestCorners(*contours, angleDeg * std::numbers::pi / 180.0, scalePx); });
+        [&] { return suggestCornersAndCuts(*contours, angleDeg * std::numbers::pi / 180.0, scalePx); });
     if (token.isCancelled() || !found || !source) return;
     QMetaObject::invokeMethod(
         source.data(),

@@ -355,6 +355,39 @@ TEST(SuggestCorners, DentsOfARaggedEdgeAreNone) {
   EXPECT_GE(onSquares, 17);  // of 20, none elsewhere
 }
 
+// Bristles hide the corners of dry brush strokes from short legs; more of the line shows them.
+TEST(SuggestCorners, CornersOfAVeryRaggedEdgeAreFound) {
+  int onSquares = 0, elsewhere = 0;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    std::vector<Vec2> square;
+    for (int i = 0; i < 300; ++i) square.emplace_back(i, 0);
+    for (int i = 0; i < 300; ++i) square.emplace_back(300, i);
+    for (int i = 300; i > 0; --i) square.emplace_back(i, 300);
+    for (int i = 300; i > 0; --i) square.emplace_back(0, i);
+    for (const CornerSuggestion& s : suggestCorners(fromPoints(roughened(square, 1.0, seed), true), 35 * kDeg, 14.0)) {
+      const bool corner = std::min(std::abs(s.positionPx.x()), std::abs(s.positionPx.x() - 300)) < 6.0 &&
+                          std::min(std::abs(s.positionPx.y()), std::abs(s.positionPx.y() - 300)) < 6.0;
+      ++(corner ? onSquares : elsewhere);
+    }
+  }
+  EXPECT_GE(onSquares, 18);  // of 20
+  EXPECT_LE(elsewhere, 1);
+}
+
+TEST(SuggestCorners, SayTheAngleThatAMarkGives) {
+  const ContourSet set = traceShape(letterK().sampled(), 5.0, 3);
+  const auto suggestions = suggestCorners(set, 28 * kDeg, 16.0);
+  std::vector<CornerMark> marks;
+  for (const CornerSuggestion& s : suggestions) marks.push_back({s.positionPx});
+  const auto pieces = splitAtCorners(set, marks, {});
+  ASSERT_TRUE(pieces.has_value());
+  ASSERT_EQ(pieces->corners.size(), suggestions.size());
+  for (const Corner& corner : pieces->corners) {
+    const CornerSuggestion& s = suggestions[static_cast<std::size_t>(corner.mark)];
+    EXPECT_NEAR(s.turningAngleRad, corner.turningAngleRad, 1.5 * kDeg) << s.positionPx.transpose();
+  }
+}
+
 TEST(SuggestCorners, EveryCornerOfALetterOnce) {
   const CurvedPolygon shape = letterK();
   const ContourSet set = traceShape(shape.sampled(), 5.0, 3);

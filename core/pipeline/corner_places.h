@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/contour/corner_marks.h"
+
+namespace batten {
+
+/// The corners to suggest on the lines of a drawing: what `suggestCorners` finds, and every place where the fair fit
+/// has to cut a line because it turns too sharply. Image frame, px; arguments as there.
+std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet&, double minAngleRad, double scalePx);
+
+}  // namespace batten
