@@ -249,9 +249,10 @@ TEST_F(FairingWindow, TilesAndTableRecommendAlike) {
   }
 }
 
-TEST(TargetAdvice, NothingIsRecommendedThatAddsBumpsOrDoesNotMove) {
-  const auto isAdvised = [](int before, int after, double movedMm, bool withinBudget = true) {
+TEST(TargetAdvice, NothingIsRecommendedThatAddsBumpsDoesNotMoveOrIsUnlike) {
+  const auto isAdvised = [](int before, int after, double movedMm, bool withinBudget = true, double similarity = 0.99) {
     TargetOutcomes outcomes;
+    outcomes.targets.profiles[2].similarity = similarity;
     outcomes.faired[2].emplace();
     FairingReport& report = outcomes.faired[2]->report;
     report.extremaBefore = before;
@@ -262,7 +263,9 @@ TEST(TargetAdvice, NothingIsRecommendedThatAddsBumpsOrDoesNotMove) {
   };
   EXPECT_TRUE(isAdvised(4, 4, 0.05));
   EXPECT_TRUE(isAdvised(4, 2, 0.05));
-  EXPECT_TRUE(isAdvised(4, 2, 0.00001)) << "fewer bumps for nothing";
+  EXPECT_FALSE(isAdvised(4, 2, 0.00001)) << "bumps do not go without a move";
+  EXPECT_FALSE(isAdvised(602, 600, 0.001, true, -0.09));
+  EXPECT_TRUE(isAdvised(9, 0, 0.05, true, 0.42)) << "waves that go leave other radii behind";
   EXPECT_FALSE(isAdvised(4, 4, 0.00001));
   EXPECT_FALSE(isAdvised(4, 5, 0.05));
   EXPECT_FALSE(isAdvised(4, 2, 0.11));

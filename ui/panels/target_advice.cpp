@@ -6,6 +6,8 @@ namespace {
 
 /// Of the budget: a curve that moves less than this has not been faired.
 constexpr double kStill = 1e-3;
+/// A profile less like the sketch than this says nothing about it. Of a line with waves that go, S may be 0.4.
+constexpr double kLeastSimilarity = 0.2;
 
 }  // namespace
 
@@ -16,9 +18,10 @@ bool isWithinBudget(const TargetOutcomes& outcomes, int degree, double budgetMm)
 
 bool isAdvisable(const TargetOutcomes& outcomes, int degree, double budgetMm) {
   if (!isWithinBudget(outcomes, degree, budgetMm)) return false;
-  const FairingReport& report = outcomes.faired[static_cast<std::size_t>(degree - 1)]->report;
-  const bool moves = report.maxDeviationMm > kStill * budgetMm;
-  return report.extremaAfter < report.extremaBefore || (report.extremaAfter == report.extremaBefore && moves);
+  const auto at = static_cast<std::size_t>(degree - 1);
+  const FairingReport& report = outcomes.faired[at]->report;
+  return report.maxDeviationMm > kStill * budgetMm && report.extremaAfter <= report.extremaBefore &&
+         outcomes.targets.profiles[at].similarity >= kLeastSimilarity;
 }
 
 }  // namespace batten

@@ -8,7 +8,8 @@ namespace batten {
 /// Whether a target's curve can be advised, said alike wherever the six targets are shown. `degree` is 1 to 6.
 /// The target is met, and its curve stays within the budget.
 bool isWithinBudget(const TargetOutcomes&, int degree, double budgetMm);
-/// Within the budget, with fewer bumps than before; or with as many, and it moves the curve at all.
+/// Within the budget, without more bumps than before; it moves the curve at all, and its profile is like the sketch's
+/// (similarity S of 0.2 and more).
 bool isAdvisable(const TargetOutcomes&, int degree, double budgetMm);
 
 }  // namespace batten
