@@ -8,6 +8,7 @@
 #include "core/pipeline/recipe_file.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/curve_list.h"
+#include "ui/plots/plot_series.h"
 
 namespace batten {
 namespace {
@@ -148,6 +149,40 @@ TEST_F(Selection, TilesOfALineAreNotShownForOneOfAboutItsLength) {
   EXPECT_FALSE(wasShown);
   ASSERT_TRUE(waitUntil([&] { return session().targets() && !session().isTargeting(); }));
   EXPECT_NE(session().targets(), before);
+}
+
+TEST_F(Selection, AListedCurveThatTurnsSharplyWarnsUntilItsCornersAreMarked) {
+  openPage(test::zigzagPage());
+  window_->setStage(PanelStage::Curves);
+  const auto* list = window_->findChild<CurveList*>(QStringLiteral("curves.list"));
+  ASSERT_NE(list, nullptr);
+  ASSERT_EQ(list->count(), 1);
+  const QString tip = list->item(0)->toolTip();
+  EXPECT_TRUE(tip.contains(QStringLiteral("sharply at 2 places"))) << tip.toStdString();
+  EXPECT_TRUE(list->item(0)->data(Qt::AccessibleTextRole).toString().endsWith(tip));
+  changeMarks({200, 100});
+  changeMarks({400, 300});
+  ASSERT_TRUE(settle());
+  ASSERT_EQ(list->count(), 3);
+  for (int i = 0; i < list->count(); ++i) EXPECT_TRUE(list->item(i)->toolTip().isEmpty()) << i;
+}
+
+// A bend in a long line is less than a hundredth of its length, and so are the values next to its peak.
+TEST_F(Selection, ThePlotHoldsTheMarksOfNarrowPeaks) {
+  openPage(test::drawnPage({3200, 500}, [](QPainter& painter) {
+    QPainterPath path(QPointF(40, 60));
+    path.lineTo(1580, 60);
+    path.quadTo(1600, 60, 1618.5, 67.6);
+    path.lineTo(2500, 430);
+    painter.drawPath(path);
+  }));
+  ASSERT_NE(session().selected(), nullptr);
+  const PlotData data = plotData(session(), PlotTab::Curvature);
+  ASSERT_FALSE(data.marks.empty()) << session().selected()->construct.note;
+  for (const ExtremumMark& mark : data.marks) {
+    EXPECT_GT(mark.kappa, data.low);
+    EXPECT_LT(mark.kappa, data.high);
+  }
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kCurveRow = 26;
 constexpr int kEyeWidth = 26;
-enum Role { IncludedRole = Qt::UserRole, FiguresRole };
+constexpr int kIconSize = 14;
+enum Role { IncludedRole = Qt::UserRole, FiguresRole, WarnsRole };
 
 class CurveDelegate : public QStyledItemDelegate {
  public:
@@ -35,13 +36,23 @@ class CurveDelegate : public QStyledItemDelegate {
     if (option.state & QStyle::State_HasFocus) drawFocusRing(*painter, box, 5, theme);
     const bool included = index.data(IncludedRole).toBool();
     const QIcon eye = themedIcon(included ? QStringLiteral("eye") : QStringLiteral("eye-off"), option.palette);
-    eye.paint(painter, QRect(option.rect.left() + 6, option.rect.top() + (kCurveRow - 14) / 2, 14, 14));
+    eye.paint(painter, iconBox(option, 6));
     painter->setFont(uiFont(12));
     painter->setPen(included ? theme.text : theme.mute);
-    painter->drawText(box.adjusted(kEyeWidth, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, index.data().toString());
+    const QString name = index.data().toString();
+    painter->drawText(box.adjusted(kEyeWidth, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, name);
+    if (index.data(WarnsRole).toBool()) {
+      const int after = kEyeWidth + painter->fontMetrics().horizontalAdvance(name) + 6;
+      themedIcon(QStringLiteral("warning"), option.palette).paint(painter, iconBox(option, after));
+    }
     painter->setPen(theme.mute);
     painter->drawText(box.adjusted(0, 0, -6, 0), Qt::AlignVCenter | Qt::AlignRight, index.data(FiguresRole).toString());
     painter->restore();
+  }
+
+ private:
+  static QRect iconBox(const QStyleOptionViewItem& option, int x) {
+    return {option.rect.left() + x, option.rect.top() + (kCurveRow - kIconSize) / 2, kIconSize, kIconSize};
   }
 };
 
@@ -90,7 +101,11 @@ void CurveList::refresh() {
     item(i)->setText(name);
     item(i)->setData(IncludedRole, curve.included);
     item(i)->setData(FiguresRole, right);
-    item(i)->setData(Qt::AccessibleTextRole, name + QStringLiteral(", ") + right);
+    const QString warning = curve.included ? QString::fromStdString(curve.construct.note) : QString();
+    item(i)->setData(WarnsRole, !warning.isEmpty());
+    item(i)->setData(Qt::ToolTipRole, warning.isEmpty() ? QVariant() : warning);
+    const QString spoken = name + QStringLiteral(", ") + right;
+    item(i)->setData(Qt::AccessibleTextRole, warning.isEmpty() ? spoken : spoken + QStringLiteral(". ") + warning);
   }
   setCurrentRow(session_.selectedCurve());
   filling_ = false;

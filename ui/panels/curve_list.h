@@ -8,7 +8,7 @@
 namespace batten {
 
 /// All curves of the drawing: an eye that takes a curve in or leaves it out (Space does the same), its name, its
-/// figures.
+/// figures, and a sign where its construction has something to say, which the tool tip does.
 class CurveList : public QListWidget {
   Q_OBJECT
  public:

@@ -76,7 +76,8 @@ void addDrawn(PlotData& data, const EditorSession& session, const TracedCurve& c
   for (const ProfilePoint& p : asked.profile) data.handles.emplace_back(p.fraction * data.lengthMm, valueOf(p.kappa));
 }
 
-/// Range from the two curves alone: a target that shoots off must not flatten them.
+/// Range from the two curves alone: a target that shoots off must not flatten them. Of the curves themselves, single
+/// peaks may leave it, but not where a mark can be clicked.
 void fitRange(PlotData& data, double padding) {
   bool any = false;
   for (const PlotSeries& series : data.series) {
@@ -90,6 +91,11 @@ void fitRange(PlotData& data, double padding) {
     any = true;
   }
   if (!any) return;
+  for (const ExtremumMark& mark : data.marks) {
+    if (!std::isfinite(mark.kappa)) continue;
+    data.low = std::min(data.low, mark.kappa);
+    data.high = std::max(data.high, mark.kappa);
+  }
   if (data.logarithmic) {
     const double grow = std::max(1.15, std::pow(data.high / data.low, padding));
     data.low /= grow;
