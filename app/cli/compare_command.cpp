@@ -31,7 +31,10 @@ Result<std::vector<NamedShape>> shapesOf(const std::string& path) {
   }
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   const auto document = readCurveJson(text);
-  if (!document) return fail(ErrorCode::BadParameter, path + ": " + document.error().message);
+  if (!document) {
+    return fail(ErrorCode::BadParameter,
+                path + ": " + document.error().message + " Write it anew with batten-cli trace SCAN -o FILE.json.");
+  }
   std::vector<NamedShape> shapes;
   for (const ExportCurve& curve : document->curves) {
     for (std::size_t i = 0; i < curve.pieces.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "app/cli/stage_dump.h"
 #include "app/cli/suggest_command.h"
 #include "app/cli/trace_command.h"
+#include "app/cli/usage_error.h"
 
 namespace {
 
@@ -16,7 +17,8 @@ using namespace batten;
 using namespace batten::cli;
 
 constexpr const char* kFooter =
-    "Exit codes: 0 done; 2 wrong usage; 3 the scan cannot be read; 4 no curve found; 5 cannot write.\n"
+    "Exit codes: 0 done; 2 wrong usage, or curves that compare cannot read; 3 the scan cannot be read; 4 no curve "
+    "found; 5 cannot write.\n"
     "An error is one line on stderr. stdout holds only what programs can read.";
 
 std::string dumpHelp() {
@@ -101,7 +103,7 @@ int run(int argc, char** argv) {
       app.exit(e);
       return endOutput();
     }
-    return reportError({ErrorCode::BadParameter, std::string(e.what()) + ". Run batten-cli --help.", {}});
+    return reportError(usageError(app, e, argc, argv));
   }
   if (compare->parsed()) return runCompare(first, second);
   if (suggest->parsed()) return runSuggest(arguments);

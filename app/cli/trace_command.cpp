@@ -9,6 +9,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/construct_notes.h"
 #include "app/cli/exit_codes.h"
 #include "app/cli/quiet_stderr.h"
 #include "app/cli/stage_dump.h"
@@ -153,6 +154,7 @@ class Trace {
                      std::to_string(std::lround(at.y())) + ".");
     }
     for (const Error& failure : out_.constructed->failures) list.push_back(failure.message);
+    for (std::string& note : constructNotes(out_.faired->curves)) list.push_back(std::move(note));
     return list;
   }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pipeline/parameter_table.h"
+#include "core/base/edit_distance.h"
 
 #include <algorithm>
-#include <numeric>
 
+#include "core/base/edit_distance.h"
 #include "core/pipeline/parameter_builders.h"
 
 namespace batten {
@@ -14,22 +15,6 @@ std::vector<Parameter> buildTable() {
   table::appendImageParameters(table);
   table::appendCurveParameters(table);
   return table;
-}
-
-/// Number of single-letter changes that turn one word into the other.
-std::size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-    }
-  }
-  return row.back();
 }
 
 /// A name without its stage is often meant: "coefficient" for "filter.coefficient".
@@ -58,8 +43,10 @@ Result<void> setParameter(Recipe& recipe, std::string_view name, std::string_vie
   const auto nearest = std::min_element(table.begin(), table.end(), [&](const Parameter& a, const Parameter& b) {
     return nameDistance(name, a.name) < nameDistance(name, b.name);
   });
+  const std::string unknown = "There is no parameter \"" + std::string(name) + "\". ";
+  const bool isNear = isNearWord(name, nameDistance(name, nearest->name));
   return fail(ErrorCode::BadParameter,
-              "There is no parameter \"" + std::string(name) + "\". Did you mean " + nearest->name + "?");
+              unknown + (isNear ? "Did you mean " + nearest->name + "?" : "batten-cli parameters lists them all."));
 }
 
 std::string defaultValue(const Parameter& p) { return p.get(Recipe{}); }

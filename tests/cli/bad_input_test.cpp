@@ -87,7 +87,9 @@ TEST_F(BadInput, WithoutACurveReportAndDumpsStillShowWhy) {
 
 TEST_F(BadInput, WrongWordsGiveTwo) {
   const std::string start = "trace " + scene() + " -o " + file("o.svg") + " ";
-  expectError("", 2, "subcommand");
+  expectError("", 2, "Name a command: there are trace, suggest, parameters and compare.");
+  expectError("trase scan.png", 2, "There is no command trase. Did you mean trace?");
+  expectError("frobnicate", 2, "There is no command frobnicate. There are trace");
   expectError("trace", 2, "");
   expectError("paint", 2, "");
   expectError("trace " + file("scan.png"), 2, "-o");
@@ -97,7 +99,9 @@ TEST_F(BadInput, WrongWordsGiveTwo) {
   expectError(start + "-o " + file("o.svg"), 2, "twice");
   expectError(start + "--set filter.coefficient", 2, "value");
   expectError(start + "--set filter.coefficient=9", 2, "filter.coefficient");
-  expectError(start + "--set filter.coeficient=2", 2, "filter.coefficient");
+  expectError(start + "--set filter.coeficient=2", 2, "Did you mean filter.coefficient?");
+  expectError(start + "--set coefficient=2", 2, "Did you mean filter.coefficient?");
+  expectError(start + "--set foo.bar=2", 2, "There is no parameter \"foo.bar\". batten-cli parameters lists them all.");
   expectError(start + "--corner 12", 2, "X,Y");
   expectError(start + "--corner a,b", 2, "X,Y");
   expectError(start + "--dpi -3", 2, "dpi");

@@ -60,6 +60,28 @@ TEST_F(Trace, TheSampleGivesItsLinesWhole) {
       << "all but the belt line";
 }
 
+TEST_F(Trace, NotesNameTheCurvesThatTurnSharplyWithoutAMark) {
+  const std::vector<Vec2> corners{{100, 60}, {380, 80}, {360, 260}, {80, 240}};
+  const Scan scan = test::renderPage(test::fillCoverage(corners, 480, 320), 480, 320, test::scannedPage(3));
+  write("square.png", pngOf(scan.grey));
+  const std::string start = "trace " + file("square.png") + " -o " + file("a.json");
+  const auto notesOf = [&](const std::string& words) {
+    const auto done = run(words);
+    EXPECT_EQ(done.code, 0) << done.err;
+    std::vector<std::string> sharp;
+    const json said = json::parse(done.out);
+    for (const json& note : said["notes"]) {
+      if (note.get<std::string>().find("sharply") != std::string::npos) sharp.push_back(note);
+    }
+    return sharp;
+  };
+  EXPECT_EQ(notesOf(start),
+            std::vector<std::string>{"Curve 1 turns sharply where no corner is marked: add --corner there."});
+  EXPECT_EQ(notesOf(start + " --corner 100,60 --corner 360,260"),
+            std::vector<std::string>{"Curves 1 and 2 turn sharply where no corner is marked: add --corner there."});
+  EXPECT_TRUE(notesOf(start + " --corner 100,60 --corner 360,260 --corner 380,80 --corner 80,240").empty());
+}
+
 TEST_F(Trace, GivesTheSameBytesWithAnyNumberOfThreads) {
   const std::string start = "trace " + scene("car") + " --set fairing.mode=tolerance ";
   ASSERT_EQ(run(start + "--threads 1 -o " + file("a.svg") + " -o " + file("a.json")).code, 0);
