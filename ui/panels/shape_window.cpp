@@ -214,7 +214,7 @@ void ShapeWindow::refreshTable() {
       isAdvised     ? tr("✓ recommended: the degree that explains the curve with the fewest coefficients (smallest "
                              "AICc). S alone must rise with the degree and cannot choose.")
       : nearest > 0 ? tr("Closest shape: %1 (smallest AICc). It is not recommended, as it needs more than the budget, "
-                         "adds bumps or moves nothing.")
+                         "adds bumps, moves nothing or is unlike the curve.")
                           .arg(degreeName(nearest))
                     : QString());
 }
