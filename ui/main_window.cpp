@@ -209,7 +209,7 @@ void MainWindow::enterStage(PanelStage stage) {
   const QWidget* holder = focusWidget();
   if (holder && parts_->inspector->isAncestorOf(holder)) parts_->canvas->setFocus(Qt::OtherFocusReason);
   parts_->inspector->setCurrentIndex(static_cast<int>(stage));
-  parts_->status->setStageHint(batten::hint(stage));
+  parts_->status->setStageHint(batten::hint(stage, session_.hasScan()));
   // What this stage works on is shown while it is open and what hides it is not; what the user switches stays as he
   // left it.
   for (const Parts::StageLayer& one : parts_->stageLayers)
@@ -241,7 +241,7 @@ void MainWindow::enterStage(PanelStage stage) {
     case PanelStage::Edges:
       turn(true, {Layer::Edges, Layer::Curve, Layer::Fallback});
       turn(false, {Layer::Faired, Layer::Comb});
-      showMerges();
+      showStrokes(true);
       break;
     case PanelStage::Corners:
       turn(true, {Layer::Corners, Layer::Curve});

@@ -66,7 +66,7 @@ class MainWindow : public QMainWindow {
   void connectSession();
   void connectActions();
   void connectLayers();
-  void showMerges();
+  void showStrokes(bool isEntering);
   void showRoundings();
   void trigger(ActionId id);
   void newDrawing();

@@ -6,6 +6,7 @@
 #include <QSplitter>
 #include <QUndoStack>
 #include <algorithm>
+#include <utility>
 
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
@@ -186,15 +187,21 @@ void MainWindow::trigger(ActionId id) {
   }
 }
 
-// While edges are worked on and strokes are merged, the room within which they lay is shown, unless the user hides it.
-void MainWindow::showMerges() {
-  parts_->isMerging = session_.recipe().edges.mergeWidths > 0.0;
+// While edges are worked on, gaps that were bridged are shown, and of merged strokes the room within which they lay.
+// Only a new reason shows them: what the user hides stays so, of bridges also when the stage is left and entered again.
+void MainWindow::showStrokes(bool isEntering) {
+  using For = Parts::StrokesFor;
+  const auto& lines = session_.output().contours;
+  const bool isBridging = lines && bridgeCount(*lines) > 0 && !parts_->hidesBridges;
+  const For now = session_.recipe().edges.mergeWidths > 0.0 ? For::Merges : isBridging ? For::Bridges : For::Nothing;
+  const For before = std::exchange(parts_->strokesFor, now);
+  if (stage() != PanelStage::Edges || (now == before && !isEntering)) return;
   const auto is = [](const Parts::StageLayer& one) { return one.layer == Layer::Strokes; };
   const bool switched = std::any_of(parts_->stageLayers.begin(), parts_->stageLayers.end(), is);
-  if (parts_->isMerging && !view_.isVisible(Layer::Strokes)) {
+  if (now != For::Nothing && !view_.isVisible(Layer::Strokes)) {
     parts_->stageLayers.push_back({Layer::Strokes, false, true});
     view_.setVisible(Layer::Strokes, true);
-  } else if (!parts_->isMerging && switched) {
+  } else if (now == For::Nothing && switched) {
     std::erase_if(parts_->stageLayers, is);
     view_.setVisible(Layer::Strokes, false);
   }
@@ -215,9 +222,11 @@ void MainWindow::showRoundings() {
 
 void MainWindow::connectLayers() {
   connect(&session_, &EditorSession::recipeChanged, this, [this] {
-    const bool isMerging = session_.recipe().edges.mergeWidths > 0.0;
-    if (stage() == PanelStage::Edges && isMerging != parts_->isMerging) showMerges();
+    showStrokes(false);
     if (stage() == PanelStage::Corners) showRoundings();
+  });
+  connect(&session_, &EditorSession::stageReady, this, [this](StageId ready) {
+    if (ready == StageId::Contours) showStrokes(false);
   });
   const auto follow = [this] {
     for (const Layer layer : kLayers) action(showAction(layer))->setChecked(view_.isVisible(layer));
@@ -228,6 +237,7 @@ void MainWindow::connectLayers() {
   }
   connect(&view_, &ViewSettings::chosen, this, [this](Layer layer) {
     std::erase_if(parts_->stageLayers, [layer](const Parts::StageLayer& one) { return one.layer == layer; });
+    if (layer == Layer::Strokes && !view_.isVisible(layer)) parts_->hidesBridges = true;
   });
   for (const Tool tool : kTools)
     connect(action(toolAction(tool)), &QAction::triggered, this, [this, tool] {
@@ -240,7 +250,8 @@ void MainWindow::connectLayers() {
   connect(&view_, &ViewSettings::changed, this, follow);
   connect(&view_, &ViewSettings::toolChanged, this, [this](Tool tool) {
     action(toolAction(tool))->setChecked(true);
-    parts_->status->setStageHint(tool == usualTool(stage()) ? hint(stage()) : actionInfo(toolAction(tool)).help);
+    parts_->status->setStageHint(tool == usualTool(stage()) ? hint(stage(), session_.hasScan())
+                                                            : actionInfo(toolAction(tool)).help);
   });
   action(toolAction(view_.tool()))->setChecked(true);
   follow();

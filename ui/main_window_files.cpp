@@ -70,6 +70,7 @@ void MainWindow::scanOpened() {
   refreshTitle();
   p.errors->hide();
   p.problemOrigin.reset();
+  p.status->setStageHint(hint(stage(), true));
   if (!session_.openProblem().isEmpty())
     showProblem({ErrorCode::BadParameter, session_.openProblem().toStdString(), {}}, FailureOrigin::OpenRecipe);
   else if (p.leftWork)
@@ -156,6 +157,7 @@ bool MainWindow::offerLeftWork() {
   if (!p.leftWork) return false;
   const RecipeJournal::Left& left = *p.leftWork;
   p.problemOrigin.reset();
+  p.status->setStageHint(hint(stage(), true));
   p.remedy = [this] {
     if (!maybeDiscard()) return;
     const RecipeJournal::Left taken = *std::exchange(parts_->leftWork, std::nullopt);

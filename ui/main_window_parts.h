@@ -56,11 +56,13 @@ struct MainWindow::Parts {
     bool before, during;
   };
   enum class Height { Roomy, Low, Lowest } height = Height::Roomy;
-  QList<int> roomySizes;                       ///< Of the splitter, while the window is low.
-  std::vector<StageLayer> stageLayers;         ///< Switched by the present stage, switched back when it is left.
-  bool isMerging = false;                      ///< Strokes were merged when the recipe changed last.
-  std::function<void()> remedy, dismissal;     ///< Of the message shown.
-  std::optional<FailureOrigin> problemOrigin;  ///< Of the message shown.
+  QList<int> roomySizes;                ///< Of the splitter, while the window is low.
+  std::vector<StageLayer> stageLayers;  ///< Switched by the present stage, switched back when it is left.
+  enum class StrokesFor { Nothing, Bridges, Merges };
+  StrokesFor strokesFor = StrokesFor::Nothing;  ///< Why the layer of strokes was shown by itself last.
+  bool hidesBridges = false;                    ///< The user has hidden that layer: bridges do not show it any more.
+  std::function<void()> remedy, dismissal;      ///< Of the message shown.
+  std::optional<FailureOrigin> problemOrigin;   ///< Of the message shown.
   UnsavedQuestion unsavedQuestion;
   std::unique_ptr<RecipeJournal> journal;
   std::optional<RecipeJournal::Left> leftWork;  ///< Offered, not yet answered.

@@ -34,4 +34,10 @@ Vec2 placeOnInk(const Contour& c) {
   return c.band.left[at] >= c.band.right[at] ? places[1] : places[2];
 }
 
+int bridgeCount(const ContourSet& set) {
+  std::size_t count = 0;
+  for (const Contour& contour : set.contours) count += contour.bridges.size();
+  return static_cast<int>(count);
+}
+
 }  // namespace batten

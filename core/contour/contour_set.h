@@ -68,4 +68,7 @@ struct ContourSet {
   ContourReport report;
 };
 
+/// Gaps in the ink that the lines bridge.
+int bridgeCount(const ContourSet&);
+
 }  // namespace batten

@@ -194,16 +194,20 @@ void EdgesPanel::refresh() {
        {{grouped(report.droppedShort)}},
        tr("Left out because they are shorter than %1.")
            .arg(millimetres(session_.recipe().contours.minLengthPx * session_.output().frame.mmPerPx))}};
+  rows.push_back({tr("Gaps bridged"),
+                  {{grouped(bridgeCount(*set))}},
+                  tr("Gaps in the ink across which two ends were joined: dashes on the drawing.")});
   if (report.droppedMargins > 0)
     rows.push_back({tr("Margins of the scanner left out"), {{grouped(report.droppedMargins)}}, {}});
   if (report.droppedHoles > 0) rows.push_back({tr("Inner outlines left out"), {{grouped(report.droppedHoles)}}, {}});
   qint64 fallback = 0;
   for (const Contour& contour : set->contours)
     fallback += std::count(contour.refined.begin(), contour.refined.end(), std::uint8_t{0});
-  rows.push_back({tr("Points not placed"),
-                  {{grouped(fallback)}},
-                  tr("Places where the scan shows no clear edge: amber dots on the drawing. The line lies on the pixel "
-                     "border there.")});
+  rows.push_back(
+      {tr("Points not placed"),
+       {{grouped(fallback)}},
+       tr("Places not found on the grey values: amber dots on the drawing. An outline lies on the pixel border "
+          "there, a centre line on the skeleton of its ink, mostly where strokes meet.")});
   rows.push_back({tr("Placed on grey values"),
                   {{QStringLiteral("%1 %").arg(100 * report.refinedShare, 0, 'f', 0)}},
                   tr("Part of the points that lie on the scan's grey values, finer than a pixel.")});

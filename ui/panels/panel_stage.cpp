@@ -84,10 +84,11 @@ QString label(PanelStage stage) {
   return {};
 }
 
-QString hint(PanelStage stage) {
+QString hint(PanelStage stage, bool isOpen) {
   switch (stage) {
     case PanelStage::Scan:
-      return tr("Drop a drawing on the window to open it.");
+      return isOpen ? tr("Check the resolution: all lengths in mm follow from it. Then go on to the threshold.")
+                    : tr("Drop a drawing on the window to open it.");
     case PanelStage::Threshold:
       return tr("Click a region, then turn the wheel or drag to change its threshold.");
     case PanelStage::CleanUp:

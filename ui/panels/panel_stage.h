@@ -16,7 +16,7 @@ inline constexpr std::array kPanelStages = {PanelStage::Scan,    PanelStage::Thr
                                             PanelStage::Edges,   PanelStage::Corners,   PanelStage::Curves,
                                             PanelStage::Fairing, PanelStage::Export};
 QString label(PanelStage);
-QString hint(PanelStage);  ///< One line: what to do here.
+QString hint(PanelStage, bool isOpen);  ///< One line: what to do here, with a drawing open or without.
 /// "scan", "threshold", …: object names, help pages, settings.
 QString key(PanelStage);
 

@@ -194,8 +194,7 @@ void TargetTile::paintFigures(QPainter& painter, const QRectF& box) const {
   const QFontMetricsF metrics(painter.font());
   const QString similarity = QStringLiteral("S ") + similarityText(outcomes_->targets.profiles[index].similarity);
   const QString length = shortMillimetres(mm), needs = over ? tr("needs %1").arg(length) : length;
-  const QString extrema = tr("%1 extr.").arg(report.extremaAfter),
-                times = QStringLiteral("%1×").arg(report.extremaAfter);
+  const QString extrema = tr("%1 extr.").arg(report.extremaAfter);
   const auto fits = [&](std::initializer_list<QString> parts) {
     double width = 8.0 * static_cast<double>(parts.size() - 1);
     for (const QString& part : parts) width += metrics.horizontalAdvance(part);
@@ -203,13 +202,13 @@ void TargetTile::paintFigures(QPainter& painter, const QRectF& box) const {
   };
   // From the most said to the least: first the words go, which amber says too, then the similarity, which cannot
   // choose.
-  const bool withSimilarity = fits({similarity, length, times});
+  const bool withSimilarity = fits({similarity, length, extrema});
   const auto room = [&](const QString& middle, const QString& right) {
     return withSimilarity ? fits({similarity, middle, right}) : fits({middle, right});
   };
   const bool withWords = room(needs, extrema);
-  const QString number = withWords || (!withSimilarity && fits({needs, times})) ? needs : length;
-  const QString count = withWords || room(number, extrema) ? extrema : room(number, times) ? times : QString();
+  const QString number = withWords ? needs : length;
+  const QString count = room(number, extrema) ? extrema : QString();
   painter.setPen(report.extremaAfter > report.extremaBefore ? theme.amber : theme.mute);
   painter.drawText(box, Qt::AlignRight | Qt::AlignVCenter, count);
   painter.setPen(theme.mute);
