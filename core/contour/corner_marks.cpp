@@ -15,6 +15,7 @@ constexpr double kLooksLikeCornerRad = 25.0 * std::numbers::pi / 180.0;
 constexpr double kTurnInnerPx = 3.0;   // the part next to a corner that blur has rounded
 constexpr double kTurnOuterPx = 16.0;  // about as far as a corner of a drawing stands free
 constexpr double kSamePlacePx = 2.0;
+constexpr double kSliverPx = 12.0;  // a piece shorter than this has no points beyond the rounded zones of its corners
 constexpr float kCornerSigmaPx = 0.1f;
 constexpr double kSnapOuterPx = 64.0;  // looked at on either side before the neighbours are known
 
@@ -227,6 +228,22 @@ void cutContour(const ContourSet& set, int c, const std::vector<Cut>& cuts, Piec
   }
 }
 
+void noteCloseCorners(const Contour& contour, const std::vector<Cut>& cuts, PieceSet& out) {
+  if (cuts.size() < 2) return;
+  const double length = contour.closed ? polylineLength(contour.points, true) : 0.0;
+  const std::vector<double> arc = cumulativeLength(contour.points);
+  const auto at = [&arc](const Cut& cut) { return arc[static_cast<std::size_t>(cut.corner.pointIndex)]; };
+  // A closed line comes round to its first corner, which with two of them is looked at from both sides.
+  for (std::size_t i = 0; i < (contour.closed ? cuts.size() : cuts.size() - 1); ++i) {
+    const Cut &one = cuts[i], &next = cuts[(i + 1) % cuts.size()];
+    const double along = at(next) - at(one) + (i + 1 == cuts.size() ? length : 0.0);
+    const double apart = (next.corner.positionPx - one.corner.positionPx).norm();
+    if (along >= kSliverPx || apart >= kSliverPx) continue;
+    out.closeCorners.push_back(
+        {std::max(one.corner.mark, next.corner.mark), std::min(one.corner.mark, next.corner.mark), apart});
+  }
+}
+
 }  // namespace
 
 std::optional<Error> validate(const CornerParams& p) {
@@ -276,10 +293,14 @@ Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMar
     }
     corner->mark = static_cast<int>(m);
     const auto c = static_cast<std::size_t>(corner->contour);
-    const bool known = std::any_of(cuts[c].begin(), cuts[c].end(), [&](const Cut& other) {
+    const auto known = std::find_if(cuts[c].begin(), cuts[c].end(), [&](const Cut& other) {
       return (other.corner.positionPx - corner->positionPx).norm() <= kSamePlacePx;
     });
-    if (!known) cuts[c].push_back({*corner});
+    if (known == cuts[c].end()) {
+      cuts[c].push_back({*corner});
+    } else {
+      out.sameCorner.push_back({corner->mark, known->corner.mark, 0.0});
+    }
   }
   for (std::size_t c = 0; c < set.contours.size(); ++c) {
     std::sort(cuts[c].begin(), cuts[c].end(),
@@ -290,6 +311,7 @@ Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMar
       locateCuts(contour, grey, cuts[c]);
     }
     cutContour(set, static_cast<int>(c), cuts[c], out);
+    noteCloseCorners(contour, cuts[c], out);
     for (const Cut& cut : cuts[c]) out.corners.push_back(cut.corner);
   }
   return out;

@@ -51,10 +51,19 @@ struct Piece {
   double lengthPx = 0.0;
 };
 
+/// Two marks that have to do with each other, as indices.
+struct MarkPair {
+  int mark = 0, other = 0;  ///< `other` is the earlier one.
+  double apartPx = 0.0;     ///< [px] How far apart their corners lie.
+  bool operator==(const MarkPair&) const = default;
+};
+
 struct PieceSet {
-  std::vector<Piece> pieces;    ///< Contour by contour, in order of travel.
-  std::vector<Corner> corners;  ///< Sorted by contour, then along it.
-  std::vector<int> lostMarks;   ///< Indices of marks with no line within the snap distance; kept, shown in red.
+  std::vector<Piece> pieces;           ///< Contour by contour, in order of travel.
+  std::vector<Corner> corners;         ///< Sorted by contour, then along it.
+  std::vector<int> lostMarks;          ///< Indices of marks with no line within the snap distance; kept, shown in red.
+  std::vector<MarkPair> sameCorner;    ///< Marks that found the corner of an earlier one, and which: they count once.
+  std::vector<MarkPair> closeCorners;  ///< Neighbours so close that the piece between them is a sliver (under 12 px).
 };
 
 /// Cuts the contours at the marks (004 section 3.2). Two marks that snap to the same point count once.
@@ -84,5 +93,10 @@ struct SharpTurn {
 /// located corner, as a mark would give it; where none can be located, that of the place.
 std::vector<CornerSuggestion> suggestCorners(const ContourSet&, double minAngleRad, double scalePx,
                                              std::span<const SharpTurn> turns = {});
+
+/// The suggestions of which no two stand for one corner: a mark at each finds a corner, with this snap distance, that
+/// no mark at another one finds.
+std::vector<CornerSuggestion> oncePerCorner(const ContourSet&, const std::vector<CornerSuggestion>&,
+                                            double snapDistancePx);
 
 }  // namespace batten

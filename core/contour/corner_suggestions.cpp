@@ -242,4 +242,33 @@ std::vector<CornerSuggestion> suggestCorners(const ContourSet& set, double minAn
   return suggestions;
 }
 
+// A mark finds the sharpest turn within its reach, so that those at two suggestions may find one corner: the suggestion
+// nearer to it stays.
+std::vector<CornerSuggestion> oncePerCorner(const ContourSet& set, const std::vector<CornerSuggestion>& all,
+                                            double snapDistancePx) {
+  constexpr double kOneCornerPx = 2.0;
+  struct Found {
+    std::size_t suggestion;
+    Corner corner;
+  };
+  std::vector<Found> found;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (const auto corner = nearestContourPoint(set, all[i].positionPx, snapDistancePx)) found.push_back({i, *corner});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Found& a, const Found& b) { return a.corner.snapPx < b.corner.snapPx; });
+  std::vector<Found> kept;
+  for (const Found& one : found) {
+    const bool isTaken = std::any_of(kept.begin(), kept.end(), [&](const Found& other) {
+      return other.corner.contour == one.corner.contour &&
+             (other.corner.positionPx - one.corner.positionPx).norm() <= kOneCornerPx;
+    });
+    if (!isTaken) kept.push_back(one);
+  }
+  std::sort(kept.begin(), kept.end(), [](const Found& a, const Found& b) { return a.suggestion < b.suggestion; });
+  std::vector<CornerSuggestion> result;
+  for (const Found& one : kept) result.push_back(all[one.suggestion]);
+  return result;
+}
+
 }  // namespace batten

@@ -42,6 +42,7 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       session_(session),
       view_(view),
       marks_(new QListWidget(this)),
+      close_(note({}, this)),
       remove_(plainButton(tr("Remove"), QStringLiteral("corners.remove"), this)),
       removeAll_(plainButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)),
       rounding_(new NumberField(this)),
@@ -64,6 +65,8 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
   marks_->setObjectName(QStringLiteral("corners.list"));
   marks_->setAccessibleName(tr("Marked corners"));
   layout->addWidget(marks_);
+  close_->setObjectName(QStringLiteral("corners.close"));
+  layout->addWidget(close_);
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(remove_);
   buttons->addWidget(removeAll_);
@@ -99,7 +102,7 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
   connect(&session_, &EditorSession::cornerSelectionChanged, this, &CornersPanel::showSelected);
   connect(&session_.suggestions(), &SuggestionSource::changed, this, &CornersPanel::showSuggestions);
   connect(&session_, &EditorSession::scanOpened, this, &CornersPanel::refresh);
-  connect(&session_, &EditorSession::recipeChanged, this, &CornersPanel::refreshMarks);
+  connect(&session_, &EditorSession::recipeChanged, this, &CornersPanel::refresh);
   connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
     if (stage == StageId::Pieces) refreshMarks();
     if (stage == StageId::Contours) suggest();
@@ -205,10 +208,14 @@ void CornersPanel::refreshMarks() {
   for (std::size_t i = 0; i < marks.size(); ++i) {
     QString angle, what = place(marks[i].positionPx);
     bool lost = false;
+    std::optional<int> same;
     if (pieces) {
       const auto corner = std::find_if(pieces->corners.begin(), pieces->corners.end(),
                                        [&](const Corner& c) { return static_cast<std::size_t>(c.mark) == i; });
       if (corner != pieces->corners.end()) angle = QStringLiteral("   ") + degrees(corner->turningAngleRad);
+      for (const MarkPair& pair : pieces->sameCorner)
+        if (static_cast<std::size_t>(pair.mark) == i) same = pair.other;
+      if (same) angle = tr("   same corner as %1").arg(*same + 1);
       lost =
           std::find(pieces->lostMarks.begin(), pieces->lostMarks.end(), static_cast<int>(i)) != pieces->lostMarks.end();
     }
@@ -217,9 +224,18 @@ void CornersPanel::refreshMarks() {
     item->setFont(uiFont(12));
     if (lost) item->setForeground(theme.bad);
     item->setToolTip(
-        lost ? tr("No line within reach of this mark. It comes back when a line does; remove it if it is not wanted.")
-             : tr("Place of the mark, and how much the line turns there."));
+        same   ? tr("Both marks find one corner of the line. Remove one, or lower the corner reach if two are meant.")
+        : lost ? tr("No line within reach of this mark. It comes back when a line does; remove it if it is not wanted.")
+               : tr("Place of the mark, and how much the line turns there."));
   }
+  QStringList close;
+  for (const MarkPair& pair : pieces ? pieces->closeCorners : std::vector<MarkPair>{})
+    close += tr("Corners %1 and %2 are %3 px apart and leave a sliver of the line between them: remove one of them.")
+                 .arg(pair.other + 1)
+                 .arg(pair.mark + 1)
+                 .arg(pair.apartPx, 0, 'f', 0);
+  close_->setText(close.join(QLatin1Char('\n')));
+  close_->setVisible(!close.empty());
   marks_->setVisible(!marks.empty());
   fitHeight(marks_, 8);
   filling_ = false;

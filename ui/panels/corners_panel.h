@@ -48,6 +48,7 @@ class CornersPanel : public QWidget {
   EditorSession& session_;
   ViewSettings& view_;
   QListWidget* marks_;
+  QLabel* close_;  ///< Names corners that lie too close together.
   QPushButton* remove_;
   QPushButton* removeAll_;
   NumberField* rounding_;

@@ -14,30 +14,36 @@ SuggestionSource::SuggestionSource(EditorSession& session) : QObject(&session), 
 
 void SuggestionSource::look(double angleDeg, double scalePx) {
   const auto contours = session_.output().contours;
-  if (contours == of_ && angleDeg == angleDeg_ && scalePx == scalePx_) return;
+  const double snapPx = session_.recipe().corners.snapDistancePx;
+  if (contours == of_ && angleDeg == angleDeg_ && scalePx == scalePx_ && snapPx == snapPx_) return;
   of_ = contours;
   angleDeg_ = angleDeg;
   scalePx_ = scalePx;
+  snapPx_ = snapPx;
   if (!contours) {
     worker_.cancelAll();
     found_.clear();
     emit changed();
     return;
   }
-  worker_.start([contours, angleDeg, scalePx, source = QPointer<SuggestionSource>(this)](const CancelToken& token) {
-    auto found = guarded<std::vector<CornerSuggestion>>(
-        [&] { return suggestCornersAndCuts(*contours, angleDeg * std::numbers::pi / 180.0, scalePx); });
-    if (token.isCancelled() || !found || !source) return;
-    QMetaObject::invokeMethod(
-        source.data(),
-        [source, contours, angleDeg, scalePx, found = std::move(*found)] {
-          if (!source || contours != source->of_ || angleDeg != source->angleDeg_ || scalePx != source->scalePx_)
-            return;
-          source->found_ = found;
-          emit source->changed();
-        },
-        Qt::QueuedConnection);
-  });
+  worker_.start(
+      [contours, angleDeg, scalePx, snapPx, source = QPointer<SuggestionSource>(this)](const CancelToken& token) {
+        auto found = guarded<std::vector<CornerSuggestion>>([&] {
+          const double angle = angleDeg * std::numbers::pi / 180.0;
+          return oncePerCorner(*contours, suggestCornersAndCuts(*contours, angle, scalePx), snapPx);
+        });
+        if (token.isCancelled() || !found || !source) return;
+        QMetaObject::invokeMethod(
+            source.data(),
+            [source, contours, angleDeg, scalePx, snapPx, found = std::move(*found)] {
+              if (!source || contours != source->of_ || angleDeg != source->angleDeg_ || scalePx != source->scalePx_ ||
+                  snapPx != source->snapPx_)
+                return;
+              source->found_ = found;
+              emit source->changed();
+            },
+            Qt::QueuedConnection);
+      });
 }
 
 }  // namespace batten

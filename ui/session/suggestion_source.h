@@ -29,7 +29,7 @@ class SuggestionSource : public QObject {
  private:
   EditorSession& session_;
   std::shared_ptr<const ContourSet> of_;
-  double angleDeg_ = 0.0, scalePx_ = 0.0;
+  double angleDeg_ = 0.0, scalePx_ = 0.0, snapPx_ = 0.0;
   std::vector<CornerSuggestion> found_;
   BackgroundWorker worker_;
 };

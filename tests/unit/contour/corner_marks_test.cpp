@@ -265,6 +265,7 @@ TEST(CornerMarks, ClosedContours) {
   ASSERT_TRUE(one.has_value());
   EXPECT_EQ(one->lostMarks, std::vector<int>{2});
   ASSERT_EQ(one->corners.size(), 1u);  // the second mark found the same place
+  EXPECT_EQ(one->sameCorner, (std::vector<MarkPair>{{1, 0, 0.0}}));
   ASSERT_EQ(one->pieces.size(), 1u);
   EXPECT_FALSE(one->pieces[0].closed);
   EXPECT_EQ(one->pieces[0].points.front(), one->pieces[0].points.back());

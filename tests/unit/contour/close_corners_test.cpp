@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Corners so close together that marks may mean either.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/contour/corner_marks.h"
+
+namespace batten {
+namespace {
+
+/// A contour of exact points about a pixel apart through these corners.
+ContourSet contourThrough(const std::vector<Vec2>& corners, bool closed) {
+  Contour contour;
+  contour.closed = closed;
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < corners.size(); ++i) {
+    const Vec2 way = corners[(i + 1) % corners.size()] - corners[i];
+    const int count = static_cast<int>(std::lround(way.norm()));
+    for (int k = 0; k < count; ++k) contour.points.push_back(corners[i] + (static_cast<double>(k) / count) * way);
+  }
+  if (!closed) contour.points.push_back(corners.back());
+  contour.chain = contour.points;
+  contour.refined.assign(contour.points.size(), 1);
+  ContourSet set;
+  set.contours.push_back(contour);
+  return set;
+}
+
+// Two feet that nearly touch: a mark on a corner of the blunt one finds the tip of the other across the gap.
+TEST(SuggestCorners, AMarkAtEverySuggestionFindsACornerOfItsOwn) {
+  const ContourSet set =
+      contourThrough({{50, 50}, {250, 50}, {200, 200}, {104, 204}, {140, 120}, {80, 120}, {100, 207}, {60, 207}}, true);
+  const double angle = 35.0 * std::numbers::pi / 180.0, scale = 14.0;
+  const auto marksAt = [](const std::vector<CornerSuggestion>& suggestions) {
+    std::vector<CornerMark> marks;
+    for (const CornerSuggestion& s : suggestions) marks.push_back({s.positionPx});
+    return marks;
+  };
+  const auto all = suggestCorners(set, angle, scale), offered = oncePerCorner(set, all, 16.0);
+  const auto asked = splitAtCorners(set, marksAt(all), {});
+  ASSERT_FALSE(asked->sameCorner.empty()) << "else this drawing shows nothing";
+  const auto made = splitAtCorners(set, marksAt(offered), {});
+  EXPECT_EQ(made->corners.size(), offered.size());
+  EXPECT_EQ(made->corners.size(), asked->corners.size()) << "none is lost either";
+  EXPECT_TRUE(made->sameCorner.empty());
+  EXPECT_TRUE(made->lostMarks.empty());
+}
+
+TEST(CornerMarks, CornersThatLeaveASliverAreNamed) {
+  const ContourSet open = contourThrough({{0, 100}, {300, 100}}, false);
+  const auto pieces =
+      splitAtCorners(open, std::vector<CornerMark>{{Vec2(154, 101)}, {Vec2(50, 100)}, {Vec2(150, 100)}}, {});
+  ASSERT_EQ(pieces->corners.size(), 3u);
+  ASSERT_EQ(pieces->closeCorners.size(), 1u);
+  EXPECT_EQ(pieces->closeCorners[0].mark, 2);
+  EXPECT_EQ(pieces->closeCorners[0].other, 0);
+  EXPECT_NEAR(pieces->closeCorners[0].apartPx, 4.0, 0.6);
+  const ContourSet ring = contourThrough({{50, 50}, {350, 50}, {350, 250}, {50, 250}}, true);
+  const auto& points = ring.contours[0].points;
+  const auto two = splitAtCorners(ring, std::vector<CornerMark>{{points[160]}, {points[164]}}, {});
+  ASSERT_EQ(two->corners.size(), 2u);
+  EXPECT_EQ(two->closeCorners.size(), 1u);
+}
+
+}  // namespace
+}  // namespace batten
