@@ -237,7 +237,8 @@ void MainWindow::connectLayers() {
   }
   connect(&view_, &ViewSettings::chosen, this, [this](Layer layer) {
     std::erase_if(parts_->stageLayers, [layer](const Parts::StageLayer& one) { return one.layer == layer; });
-    if (layer == Layer::Strokes && !view_.isVisible(layer)) parts_->hidesBridges = true;
+    // Told before the layer is switched: what is visible now is being hidden.
+    if (layer == Layer::Strokes && view_.isVisible(layer)) parts_->hidesBridges = true;
   });
   for (const Tool tool : kTools)
     connect(action(toolAction(tool)), &QAction::triggered, this, [this, tool] {

@@ -138,6 +138,29 @@ class Trace {
     return std::move(svg->text);
   }
 
+  static std::string placeText(const Vec2& px) {
+    return std::to_string(std::lround(px.x())) + "," + std::to_string(std::lround(px.y()));
+  }
+
+  void addCornerNotes(std::vector<std::string>& list) const {
+    const auto& marks = plan_.recipe.cornerMarks;
+    const auto placeOf = [&](int mark) { return placeText(marks[static_cast<std::size_t>(mark)].positionPx); };
+    const auto numbers = [](const MarkPair& pair) {
+      return std::to_string(pair.other + 1) + " and " + std::to_string(pair.mark + 1);
+    };
+    for (const int mark : out_.pieces->lostMarks) {
+      list.push_back("No line lies near the corner " + placeOf(mark) + ".");
+    }
+    for (const MarkPair& pair : out_.pieces->sameCorner) {
+      list.push_back("Corners " + numbers(pair) + ", at " + placeOf(pair.other) + " and " + placeOf(pair.mark) +
+                     ", are one corner of the line: remove one, or lower corners.snap if two are meant.");
+    }
+    for (const MarkPair& pair : out_.pieces->closeCorners) {
+      list.push_back("Corners " + numbers(pair) + " are " + std::to_string(std::lround(pair.apartPx)) +
+                     " px apart and leave a sliver of the line between them: remove one of them.");
+    }
+  }
+
   /// What the user should know although the trace was made.
   std::vector<std::string> notes() const {
     std::vector<std::string> list;
@@ -148,10 +171,11 @@ class Trace {
       list.emplace_back("The clean-up took thin strokes away. Set filter.max_change to 8 or fewer filter.iterations.");
     }
     if (!out_.contours->report.note.empty()) list.push_back(out_.contours->report.note);
-    for (const int mark : out_.pieces->lostMarks) {
-      const Vec2& at = plan_.recipe.cornerMarks[static_cast<std::size_t>(mark)].positionPx;
-      list.push_back("No line lies near the corner " + std::to_string(std::lround(at.x())) + "," +
-                     std::to_string(std::lround(at.y())) + ".");
+    addCornerNotes(list);
+    for (const std::size_t choice : assignChoices(*out_.pieces, plan_.recipe.choices).waiting) {
+      const std::vector<Vec2>& anchors = plan_.recipe.choices[choice].anchorsPx;
+      list.push_back("No line lies where the choice at " + placeText(anchors[anchors.size() / 2]) +
+                     " was made; it is kept in the recipe.");
     }
     for (const Error& failure : out_.constructed->failures) list.push_back(failure.message);
     for (std::string& note : constructNotes(out_.faired->curves)) list.push_back(std::move(note));

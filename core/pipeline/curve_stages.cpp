@@ -100,13 +100,11 @@ class ContourBuilder {
         frame_(frame),
         context_(context),
         wishes_(assignExtremumChoices(pieces, recipe)) {
-    // Only choices with a method compete for a piece here: this stage is not run again when others change.
-    std::copy_if(recipe.choices.begin(), recipe.choices.end(), std::back_inserter(own_.choices),
-                 [](const PieceChoice& choice) { return choice.method.has_value(); });
-    if (!own_.choices.empty()) choices_ = assignChoices(pieces, own_);
+    own_ = choicesForMethods(recipe);
+    if (!own_.empty()) choices_ = assignChoices(pieces, own_).ofPiece;
     const auto isTypical = [](const PieceChoice& choice) { return choice.method == ConstructMethod::Typical; };
-    const bool someTypical = recipe.construct.method == ConstructMethod::Typical ||
-                             std::any_of(own_.choices.begin(), own_.choices.end(), isTypical);
+    const bool someTypical =
+        recipe.construct.method == ConstructMethod::Typical || std::any_of(own_.begin(), own_.end(), isTypical);
     divisions_ =
         someTypical ? assignSegmentPoints(pieces, recipe) : std::vector<std::vector<std::size_t>>(pieces.pieces.size());
   }
@@ -116,7 +114,7 @@ class ContourBuilder {
     if (choices_.empty()) return outcome;
     for (TracedCurve& curve : outcome.curves) {
       const auto& choice = choices_[static_cast<std::size_t>(curve.piece)];
-      if (choice) constructAsChosen(curve, *own_.choices[*choice].method);
+      if (choice && own_[*choice].method) constructAsChosen(curve, *own_[*choice].method);
     }
     return outcome;
   }
@@ -209,7 +207,7 @@ class ContourBuilder {
   const Recipe& recipe_;
   const PageFrame& frame_;
   const RunContext& context_;
-  Recipe own_;                                       ///< Holds the choices that have a method.
+  std::vector<PieceChoice> own_;                     ///< The choices that compete for the method.
   std::vector<std::optional<std::size_t>> choices_;  ///< Per piece, when there are such choices: which.
   std::vector<std::vector<std::size_t>> divisions_;  ///< Per piece, the segment points on it.
   std::vector<std::vector<std::size_t>> wishes_;

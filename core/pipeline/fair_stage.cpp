@@ -13,6 +13,9 @@ namespace {
 /// Share of the length below which a part of a split curve is none.
 constexpr double kLeastPart = 1e-3;
 
+/// [px] A place farther than this from a curve lies on another part of the line whose choice it shares.
+constexpr double kPlaceReachPx = 24.0;
+
 /// Places on the page as ascending shares of the curve's arc length.
 std::vector<double> fractionsOf(const std::vector<Vec2>& placesPx, const NurbsCurve& curve, const PageFrame& frame) {
   std::vector<double> fractions;
@@ -20,8 +23,9 @@ std::vector<double> fractionsOf(const std::vector<Vec2>& placesPx, const NurbsCu
   const ArcLength arc(curve);
   if (!(arc.total() > 0.0)) return fractions;
   for (const Vec2& place : placesPx) {
-    const double s = arc.at(closestPoint(curve, frame.pointToModel(place)).u);
-    fractions.push_back(std::clamp(s / arc.total(), 0.0, 1.0));
+    const auto closest = closestPoint(curve, frame.pointToModel(place));
+    if (closest.distance > kPlaceReachPx * frame.mmPerPx) continue;
+    fractions.push_back(std::clamp(arc.at(closest.u) / arc.total(), 0.0, 1.0));
   }
   std::sort(fractions.begin(), fractions.end());
   fractions.erase(std::unique(fractions.begin(), fractions.end()), fractions.end());
@@ -78,7 +82,7 @@ void fairOne(TracedCurve& curve, const Piece& piece, ContourKind kind, const Pag
 
 Result<FairedSet> fairAll(const ConstructedSet& constructed, const ContourSet& contours, const PieceSet& pieces,
                           const Recipe& recipe, const PageFrame& frame, const RunContext& context) {
-  const auto choices = assignChoices(pieces, recipe);
+  const auto choices = assignChoices(pieces, recipe.choices).ofPiece;
   FairedSet set{constructed.curves};
   const RunContext inner = itemContext(context, set.curves.size());
   forEachItem(context, set.curves.size(), [&](std::size_t i) {

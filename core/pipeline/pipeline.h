@@ -110,15 +110,27 @@ PageFrame frameFor(const Scan&, const Recipe&);
 /// True when neither the recipe nor the file states a resolution.
 bool isScaleAssumed(const Scan&, const Recipe&);
 
-/// The choice that belongs to a piece (nearest anchor within 24 px), or nullopt. `index` into recipe.choices.
-std::optional<std::size_t> choiceFor(const Piece&, const Recipe&);
-/// Owner of every choice when all pieces compete: each choice goes to the nearest piece alone, as runPipeline applies
-/// them. One entry per piece, an index into recipe.choices or nullopt.
-std::vector<std::optional<std::size_t>> assignChoices(const PieceSet&, const Recipe&);
+/// Which choices belong to which pieces.
+struct ChoiceOwners {
+  std::vector<std::optional<std::size_t>> ofPiece;  ///< One entry per piece: an index into the choices, or none.
+  std::vector<std::size_t> waiting;  ///< Choices that say something but find no line now: kept until it is back.
+};
+/// The choices of all pieces, as runPipeline applies them and the window edits them. A choice belongs to every piece of
+/// which more than half lies on the course of its anchors: within 8 px, where no other piece is nearer to the course,
+/// and not past its ends. So the parts of a line that was split share its choice, and a line beside it does not. A
+/// choice with a single anchor belongs to the nearest piece within 24 px. Of two choices for one piece the nearer one
+/// counts, the later one of those about as near.
+ChoiceOwners assignChoices(const PieceSet&, const std::vector<PieceChoice>&);
+/// The choice to be edited for one piece, index into `choices`: its own one, which is made where there is none. Where
+/// it shares one with other pieces it gets a copy, so that the others keep what they have.
+std::size_t makeOwnChoice(std::vector<PieceChoice>& choices, const PieceSet&, std::size_t piece);
 /// The extremum choices of every piece: each belongs to the nearest piece within 24 px. Indices into
 /// recipe.extremumChoices, one list per piece.
 std::vector<std::vector<std::size_t>> assignExtremumChoices(const PieceSet&, const Recipe&);
-/// A good anchor for a new choice: the point of the piece at half its points.
+/// The place that stands for a piece: its point at half its points.
 Vec2 anchorOf(const Piece&);
+/// The anchors of a choice for a piece: few places between which the line runs straight to 1.5 px, in order, rounded to
+/// 0.1 px. Of a closed line the first place is also the last.
+std::vector<Vec2> anchorsOf(const Piece&);
 
 }  // namespace batten

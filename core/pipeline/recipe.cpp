@@ -40,7 +40,7 @@ std::optional<Error> validatePlaces(const Recipe& recipe) {
     if (!isPlace(point.positionPx)) return badPlace("A segment point");
   }
   for (const PieceChoice& choice : recipe.choices) {
-    if (!isPlace(choice.anchorPx)) return badPlace("The anchor of a choice for a curve");
+    if (!arePlaces(choice.anchorsPx)) return badPlace("An anchor of a choice for a curve");
     if (!arePlaces(choice.keepPx)) return badPlace("An extremum kept by a choice for a curve");
     if (!arePlaces(choice.splitsPx)) return badPlace("A split in a choice for a curve");
   }

@@ -18,11 +18,11 @@
 
 namespace batten {
 
-/// A choice of the user about one curve, attached by position so that it survives changes upstream: it belongs to the
-/// piece whose points come nearest to the anchor (within 24 px).
+/// A choice of the user about one curve, attached by position so that it survives changes upstream: it belongs to every
+/// piece that lies on the course of its anchors (see assignChoices), so that a line that breaks up keeps it.
 struct PieceChoice {
-  Vec2 anchorPx = Vec2::Zero();
-  bool included = true;                 ///< False: left out of fairing results and export.
+  std::vector<Vec2> anchorsPx{};  ///< Along the line (see anchorsOf). A single one: the piece nearest to it, in 24 px.
+  bool included = true;           ///< False: left out of fairing results and export.
   std::optional<FairingMode> mode{};    ///< Own fairing mode; absent = the recipe's.
   std::optional<int> target{};          ///< Own target degree 0..6.
   std::optional<double> toleranceMm{};  ///< Own budget.
@@ -35,6 +35,8 @@ struct PieceChoice {
   std::optional<FairingMeans> means{};  ///< Own way to move, on Bézier paths.
   std::optional<EndHold> startHold{}, endHold{};
   std::optional<ConstructMethod> method{};  ///< Own way of construction.
+  /// Made for a part of a line that shares a choice: there it counts instead of that one, also where it says nothing.
+  bool isPart = false;
   bool operator==(const PieceChoice&) const = default;
 
   /// True when the piece is not faired by the recipe's settings alone.
@@ -59,7 +61,7 @@ struct PieceChoice {
   /// The common fairing with what is chosen here in its place; what is chosen by place on the drawing is not in it.
   FairingParams fairing(FairingParams common) const;
   /// True when the choice says nothing.
-  bool isEmpty() const { return included && !hasFairing() && splitsPx.empty() && !method; }
+  bool isEmpty() const { return included && !hasFairing() && splitsPx.empty() && !method && !isPart; }
 };
 
 /// The size of a drawing that has no scan: white paper. Resolution: the recipe's.

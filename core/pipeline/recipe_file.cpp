@@ -38,7 +38,15 @@ Json parameterToJson(const Parameter& p, const Recipe& recipe) {
 }
 
 Json choiceToJson(const PieceChoice& choice) {
-  Json json{{"anchor", {choice.anchorPx.x(), choice.anchorPx.y()}}, {"included", choice.included}};
+  Json json = Json::object();
+  // A single anchor in the form it always had.
+  if (choice.anchorsPx.size() == 1) {
+    json["anchor"] = {choice.anchorsPx[0].x(), choice.anchorsPx[0].y()};
+  } else {
+    for (const Vec2& p : choice.anchorsPx) json["anchors"].push_back({p.x(), p.y()});
+  }
+  json["included"] = choice.included;
+  if (choice.isPart) json["part"] = true;
   Recipe own;  // the table knows the words of choices
   own.fairing = choice.fairing(own.fairing);
   const auto word = [&](bool isOwn, const char* key, const char* parameter) {
@@ -217,9 +225,11 @@ Result<PieceChoice> readChoice(const Json& json) {
     if (name == "anchor") {
       const auto point = pointFromJson(value);
       if (!point) return refuse("The recipe is damaged: the anchor of a choice is not a pair of numbers [x, y].");
-      choice.anchorPx = *point;
+      choice.anchorsPx = {*point};
     } else if (name == "included" && value.is_boolean()) {
       choice.included = value.get<bool>();
+    } else if (name == "part" && value.is_boolean()) {
+      choice.isPart = value.get<bool>();
     } else if (const auto whole = integerFromJson(value); whole && name == "target") {
       choice.target = *whole;
     } else if (name == "tolerance" && value.is_number()) {
@@ -230,6 +240,8 @@ Result<PieceChoice> readChoice(const Json& json) {
       choice.keepExtrema = *whole;
     } else if (const auto pairs = pairsFromJson(value); pairs && name == "keep") {
       choice.keepPx = *pairs;
+    } else if (pairs && name == "anchors") {
+      choice.anchorsPx = *pairs;
     } else if (pairs && name == "splits") {
       choice.splitsPx = *pairs;
     } else if (pairs && name == "profile") {
@@ -239,7 +251,7 @@ Result<PieceChoice> readChoice(const Json& json) {
                     "\" in a choice, which this version of Batten does not know or cannot read.");
     }
   }
-  if (!json.contains("anchor")) return refuse("The recipe is damaged: a choice has no anchor.");
+  if (choice.anchorsPx.empty()) return refuse("The recipe is damaged: a choice has no anchor.");
   return choice;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "core/pipeline/curve_stages.h"
 #include "core/pipeline/parameter_table.h"
 
 namespace batten {
@@ -28,28 +29,30 @@ void add(HashBuilder& h, const std::vector<ProfilePoint>& profile) {
 }
 
 void add(HashBuilder& h, const PieceChoice& c) {
-  add(h, c.anchorPx);
-  h.integer(c.included).integer(c.mode ? static_cast<int>(*c.mode) : -1).integer(c.target.value_or(-1));
+  h.integer(c.isPart)
+      .integer(c.included)
+      .integer(c.mode ? static_cast<int>(*c.mode) : -1)
+      .integer(c.target.value_or(-1));
   add(h, c.toleranceMm);
   add(h, c.lowPassMm);
   h.integer(c.keepExtrema.value_or(-2));
   h.integer(c.spend ? static_cast<int>(*c.spend) : -1).integer(c.means ? static_cast<int>(*c.means) : -1);
   for (const auto& hold : {c.startHold, c.endHold})
     h.integer(hold.has_value()).integer(hold && hold->tangent).integer(hold && hold->curvature);
-  for (const auto* places : {&c.keepPx, &c.splitsPx}) {
+  for (const auto* places : {&c.anchorsPx, &c.keepPx, &c.splitsPx}) {
     addCount(h, *places);
     for (const Vec2& p : *places) add(h, p);
   }
   add(h, c.profile);
 }
 
-/// The choices with a method; no others compete for a curve's method.
-void addMethods(HashBuilder& h, const std::vector<PieceChoice>& choices) {
-  h.integer(std::count_if(choices.begin(), choices.end(), [](const PieceChoice& c) { return c.method.has_value(); }));
+void addMethods(HashBuilder& h, const Recipe& recipe) {
+  const std::vector<PieceChoice> choices = choicesForMethods(recipe);
+  addCount(h, choices);
   for (const PieceChoice& choice : choices) {
-    if (!choice.method) continue;
-    add(h, choice.anchorPx);
-    h.integer(static_cast<int>(*choice.method));
+    addCount(h, choice.anchorsPx);
+    for (const Vec2& p : choice.anchorsPx) add(h, p);
+    h.integer(choice.method ? static_cast<int>(*choice.method) : -1);
   }
 }
 
@@ -92,7 +95,7 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
       for (const CornerMark& mark : r.cornerMarks) add(h, mark.positionPx);
       break;
     case StageId::Curves:
-      addMethods(h, r.choices);
+      addMethods(h, r);
       h.number(frame.mmPerPx).integer(frame.heightPx);
       addCount(h, r.segmentPoints);
       for (const SegmentPoint& point : r.segmentPoints) add(h, point.positionPx);

@@ -239,5 +239,27 @@ TEST_F(Trace, HelpAndVersionSucceed) {
   EXPECT_NE(run("--help").out.find("Exit codes"), std::string::npos);
 }
 
+TEST_F(Trace, SaysWhatBecameOfMarksAndChoicesThatFoundNothing) {
+  const std::string scan = scene("ellipse");
+  const auto outline = test::truthShape("ellipse", 480, 320).outline();
+  std::size_t near = 0;
+  while ((outline[near] - outline[0]).norm() < 4.0) ++near;
+  const auto mark = [](const Vec2& at) { return " --corner " + std::to_string(at.x()) + "," + std::to_string(at.y()); };
+  const auto notes = [&](const std::string& words) {
+    const auto done = run("trace " + scan + words + " -o " + file("o.json"));
+    EXPECT_EQ(done.code, 0) << done.err;
+    return json::parse(done.out)["notes"].dump();
+  };
+  const std::string close = notes(mark(outline[0]) + mark(outline[near]));
+  EXPECT_NE(close.find("Corners 1 and 2 are 4 px apart"), std::string::npos) << close;
+  const std::string same = notes(mark(outline[0]) + mark(outline[0]));
+  EXPECT_NE(same.find("Corners 1 and 2"), std::string::npos) << same;
+  EXPECT_NE(same.find("one corner"), std::string::npos) << same;
+  write("gone.json", R"({"format":"batten-recipe","version":1,"choices":[)"
+                     R"({"anchors":[[4,10],[60,10]],"included":false}]})");
+  const std::string gone = notes(" --recipe " + file("gone.json"));
+  EXPECT_NE(gone.find("kept in the recipe"), std::string::npos) << gone;
+}
+
 }  // namespace
 }  // namespace batten

@@ -4,6 +4,7 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -20,6 +21,7 @@
 #include "ui/panels/pin_panel.h"
 #include "ui/panels/slider_track.h"
 #include "ui/session/pen_edits.h"
+#include "ui/session/piece_choice.h"
 
 namespace batten {
 namespace {
@@ -91,6 +93,8 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
       knots_(new KnotPanel(session, view, this)),
       figures_(new FigureTable(this)),
       note_(note({}, this)),
+      waiting_(note({}, this)),
+      forget_(linkButton(tr("Forget"), QStringLiteral("curves.forgetWaiting"), this)),
       segmentsNote_(note({}, this)),
       growing_(new GrowingControls(session.growing(), this)) {
   auto* layout = new QVBoxLayout(this);
@@ -105,6 +109,7 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
   layout->addWidget(growing_);
   layout->addWidget(caption(tr("Curves"), this));
   layout->addWidget(new CurveList(session, this));
+  addWaitingRow();
   layout->addWidget(caption(tr("Selected curve"), this));
   layout->addWidget(figures_);
   layout->addWidget(note_);
@@ -119,6 +124,17 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
     if (stage == StageId::Curves) refresh();
   });
   refresh();
+}
+
+void CurvesPanel::addWaitingRow() {
+  auto* row = new QHBoxLayout;
+  row->addWidget(waiting_, 1);
+  row->addWidget(forget_);
+  static_cast<QVBoxLayout*>(layout())->addLayout(row);
+  waiting_->setObjectName(QStringLiteral("curves.waiting"));
+  waiting_->setToolTip(tr("Something was chosen for a line that is not there now, as when a threshold took it away."));
+  forget_->setToolTip(tr("Takes these choices out of the recipe."));
+  connect(forget_, &QPushButton::clicked, this, [this] { forgetWaitingChoices(session_); });
 }
 
 void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const {
@@ -156,11 +172,17 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
   if (fallback > 0 && !strokeOf(session_, session_.selectedCurve()))
     rows.push_back({tr("Points not placed"),
                     {{tr("%1 of %2").arg(fallback).arg(refined.size())}},
-                    tr("Points where the scan shows no clear edge; they lie on the pixel border.")});
+                    tr("Points not found on the grey values. Those of an outline lie on the pixel border, those of a "
+                       "centre line on the skeleton of its ink, mostly where strokes meet.")});
 }
 
 void CurvesPanel::refresh() {
   refreshRows();
+  const auto waiting = static_cast<qint64>(session_.choiceOwners().waiting.size());
+  waiting_->setText(batten::counted(waiting, tr("1 choice has no line now. It is kept until its line comes back."),
+                                    tr("%1 choices have no line now. They are kept until their lines come back.")));
+  waiting_->setVisible(waiting > 0);
+  forget_->setVisible(waiting > 0);
   refreshFigures();
 }
 

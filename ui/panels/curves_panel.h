@@ -8,6 +8,7 @@
 #include "ui/session/view_settings.h"
 
 class QLabel;
+class QPushButton;
 
 namespace batten {
 
@@ -29,6 +30,8 @@ class CurvesPanel : public QWidget {
   void refresh();
   void refreshRows();
   void refreshFigures();
+  /// One line below the list: choices whose line is not there now.
+  void addWaitingRow();
   /// What the fair fit says of the selected curve: noise, spared control points, dropped extrema.
   void addFitRows(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const;
   EditorSession& session_;
@@ -37,6 +40,8 @@ class CurvesPanel : public QWidget {
   KnotPanel* knots_;
   FigureTable* figures_;
   QLabel* note_;
+  QLabel* waiting_;
+  QPushButton* forget_;
   QLabel* segmentsNote_;
   GrowingControls* growing_;
 };

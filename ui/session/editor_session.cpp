@@ -88,6 +88,14 @@ std::span<const TracedCurve> EditorSession::curves() const {
   return {};
 }
 
+const ChoiceOwners& EditorSession::choiceOwners() const {
+  if (known_.pieces != output_.pieces || known_.choices != recipe_.choices) {
+    known_ = {output_.pieces, recipe_.choices, {}};
+    if (output_.pieces) known_.owners = assignChoices(*output_.pieces, recipe_.choices);
+  }
+  return known_.owners;
+}
+
 const TracedCurve* EditorSession::selected() const {
   const auto all = curves();
   if (selectedCurve_ < 0 || static_cast<std::size_t>(selectedCurve_) >= all.size()) return nullptr;

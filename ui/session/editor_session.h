@@ -75,6 +75,8 @@ class EditorSession : public QObject {
   const PipelineOutput& output() const { return output_; }
   /// The curves to show, which selectedCurve() counts: the faired set, or the constructed one while there is none.
   std::span<const TracedCurve> curves() const;
+  /// Whose choice is whose in the present recipe: on the pieces shown, as the next run applies them.
+  const ChoiceOwners& choiceOwners() const;
   /// The selected one of curves(), or null.
   const TracedCurve* selected() const;
   /// The edges layer is only computed while someone looks at it (off at the start).
@@ -153,10 +155,18 @@ class EditorSession : public QObject {
   struct Runner;
   void keepCornerSelection(const std::vector<CornerMark>& after);
 
+  /// What choiceOwners() found last, and for what: asked for with every move of the mouse.
+  struct KnownOwners {
+    std::shared_ptr<const PieceSet> pieces;
+    std::vector<PieceChoice> choices;
+    ChoiceOwners owners;
+  };
+
   std::unique_ptr<Runner> runner_;
   std::shared_ptr<const Scan> scan_;
   Recipe recipe_;
   PipelineOutput output_;
+  mutable KnownOwners known_;
   QUndoStack undo_;
   int lastGesture_ = 0;
   int selectedCurve_ = -1, selectedCorner_ = -1;

@@ -6,13 +6,14 @@
 namespace batten {
 namespace {
 
-const Piece* pieceOf(const EditorSession& session, int curve) {
+/// The curve's piece, index into the piece set.
+std::optional<std::size_t> pieceOf(const EditorSession& session, int curve) {
   const auto curves = session.curves();
   const auto& pieces = session.output().pieces;
-  if (!pieces || curve < 0 || static_cast<std::size_t>(curve) >= curves.size()) return nullptr;
+  if (!pieces || curve < 0 || static_cast<std::size_t>(curve) >= curves.size()) return std::nullopt;
   const int piece = curves[static_cast<std::size_t>(curve)].piece;
-  if (piece < 0 || static_cast<std::size_t>(piece) >= pieces->pieces.size()) return nullptr;
-  return &pieces->pieces[static_cast<std::size_t>(piece)];
+  if (piece < 0 || static_cast<std::size_t>(piece) >= pieces->pieces.size()) return std::nullopt;
+  return static_cast<std::size_t>(piece);
 }
 
 QString tr(const char* text) { return QCoreApplication::translate("PieceChoice", text); }
@@ -20,9 +21,9 @@ QString tr(const char* text) { return QCoreApplication::translate("PieceChoice",
 }  // namespace
 
 const PieceChoice* choiceOf(const EditorSession& session, int curve) {
-  const Piece* piece = pieceOf(session, curve);
+  const auto piece = pieceOf(session, curve);
   if (!piece) return nullptr;
-  const auto index = choiceFor(*piece, session.recipe());
+  const auto index = session.choiceOwners().ofPiece[*piece];
   return index ? &session.recipe().choices[*index] : nullptr;
 }
 
@@ -33,21 +34,14 @@ bool hasOwnFairing(const EditorSession& session, int curve) {
 
 Recipe withChoice(const EditorSession& session, int curve, const std::function<void(PieceChoice&)>& edit) {
   Recipe after = session.recipe();
-  const Piece* piece = pieceOf(session, curve);
-  if (!piece) return after;
-  if (const auto index = choiceFor(*piece, after)) {
-    edit(after.choices[*index]);
-    return after;
-  }
-  PieceChoice choice;
-  choice.anchorPx = anchorOf(*piece);
-  edit(choice);
-  after.choices.push_back(choice);
+  if (const auto piece = pieceOf(session, curve))
+    edit(after.choices[makeOwnChoice(after.choices, *session.output().pieces, *piece)]);
   return after;
 }
 
 bool choosesForOneCurve(const EditorSession& session) {
-  return session.selectedCurve() >= 0 && session.curves().size() > 1 && pieceOf(session, session.selectedCurve());
+  return session.selectedCurve() >= 0 && session.curves().size() > 1 &&
+         pieceOf(session, session.selectedCurve()).has_value();
 }
 
 void chooseTarget(EditorSession& session, int degree) {
@@ -70,6 +64,14 @@ void chooseTarget(EditorSession& session, int degree) {
 void setIncluded(EditorSession& session, int curve, bool included) {
   session.change(included ? tr("Take curve in") : tr("Leave curve out"),
                  withChoice(session, curve, [included](PieceChoice& choice) { choice.included = included; }));
+}
+
+void forgetWaitingChoices(EditorSession& session) {
+  Recipe after = session.recipe();
+  const std::vector<std::size_t> waiting = session.choiceOwners().waiting;
+  for (auto choice = waiting.rbegin(); choice != waiting.rend(); ++choice)
+    after.choices.erase(after.choices.begin() + static_cast<std::ptrdiff_t>(*choice));
+  session.change(tr("Forget choices"), std::move(after));
 }
 
 }  // namespace batten

@@ -13,7 +13,8 @@ namespace batten {
 const PieceChoice* choiceOf(const EditorSession& session, int curve);
 /// True when the curve has a fairing choice of its own.
 bool hasOwnFairing(const EditorSession& session, int curve);
-/// The recipe with the curve's own choice edited; one is added where there was none.
+/// The recipe with the curve's own choice edited; one is added where there was none, or where the curve shares one with
+/// other parts of its line.
 Recipe withChoice(const EditorSession& session, int curve, const std::function<void(PieceChoice&)>& edit);
 
 /// Chooses a target: for the selected curve alone when the drawing has several, else for all.
@@ -22,5 +23,8 @@ void chooseTarget(EditorSession& session, int degree);
 bool choosesForOneCurve(const EditorSession& session);
 /// Leaves a curve out of fairing and export, or takes it in again.
 void setIncluded(EditorSession& session, int curve, bool included);
+
+/// Takes the choices that find no line now out of the recipe.
+void forgetWaitingChoices(EditorSession& session);
 
 }  // namespace batten

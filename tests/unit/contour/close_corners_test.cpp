@@ -29,8 +29,16 @@ ContourSet contourThrough(const std::vector<Vec2>& corners, bool closed) {
 
 // Two feet that nearly touch: a mark on a corner of the blunt one finds the tip of the other across the gap.
 TEST(SuggestCorners, AMarkAtEverySuggestionFindsACornerOfItsOwn) {
-  const ContourSet set =
-      contourThrough({{50, 50}, {250, 50}, {200, 200}, {104, 204}, {140, 120}, {80, 120}, {100, 207}, {60, 207}}, true);
+  const ContourSet set = contourThrough({{291.5, 310.4},
+                                         {272.8, 311.7},
+                                         {265.8, 295.4},
+                                         {261.7, 249.6},
+                                         {269.3, 307.7},
+                                         {250.8, 308.6},
+                                         {244.6, 292.3},
+                                         {249, 189},
+                                         {294, 183}},
+                                        true);
   const double angle = 35.0 * std::numbers::pi / 180.0, scale = 14.0;
   const auto marksAt = [](const std::vector<CornerSuggestion>& suggestions) {
     std::vector<CornerMark> marks;

@@ -85,7 +85,7 @@ TEST(PenDrawing, TheRecipeKeepsEveryPoint) {
   recipe.construct.removal = PointRemoval::Tolerance;
   recipe.construct.removalTolerancePx = 0.7;
   PieceChoice own;
-  own.anchorPx = {10.1, 20.2};
+  own.anchorsPx = {Vec2(10.1, 20.2)};
   own.method = ConstructMethod::Bezier;
   recipe.choices = {own};
   const auto read = recipeFromJson(recipeToJson(recipe));
@@ -132,7 +132,7 @@ TEST(PieceMethod, OneCurveCanBeConstructedInItsOwnWay) {
   recipe.construct.method = ConstructMethod::Nurbs;
   const auto alike = run(page, recipe, cache);
   PieceChoice own;
-  own.anchorPx = {190, 150};
+  own.anchorsPx = {Vec2(190, 150)};
   own.method = ConstructMethod::ControlPolygon;
   recipe.choices = {own};
   const auto mixed = run(page, recipe, cache);

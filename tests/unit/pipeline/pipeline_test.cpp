@@ -152,7 +152,7 @@ TEST(Pipeline, OwnChoicesActOnTheNearestPieceOnly) {
   ASSERT_FALSE(cut.error) << cut.error->message;
   ASSERT_EQ(cut.pieces->pieces.size(), 2u);
   PieceChoice choice;
-  choice.anchorPx = anchorOf(cut.pieces->pieces[1]) + Vec2(3.0, 0.0);
+  choice.anchorsPx = {anchorOf(cut.pieces->pieces[1]) + Vec2(3.0, 0.0)};
   choice.mode = FairingMode::Tolerance;
   choice.toleranceMm = 0.05;
   recipe.choices = {choice};
@@ -162,8 +162,9 @@ TEST(Pipeline, OwnChoicesActOnTheNearestPieceOnly) {
   EXPECT_EQ(out.faired->curves[1].fairingUsed.mode, FairingMode::Tolerance);
   EXPECT_EQ(out.faired->curves[1].fairingUsed.toleranceMm, 0.05);
   EXPECT_LE(out.faired->curves[1].fairing.maxDeviationMm, 0.05);
-  EXPECT_EQ(choiceFor(out.pieces->pieces[1], recipe), 0u);
-  EXPECT_EQ(choiceFor(out.pieces->pieces[0], recipe), std::nullopt);
+  const ChoiceOwners owners = assignChoices(*out.pieces, recipe.choices);
+  EXPECT_EQ(owners.ofPiece[1], 0u);
+  EXPECT_EQ(owners.ofPiece[0], std::nullopt);
   recipe.choices[0].included = false;
   const auto without = run(recipe, cache);
   EXPECT_TRUE(without.faired->curves[0].included);
@@ -176,9 +177,9 @@ TEST(Pipeline, TwoChoicesForOnePieceGiveTheSameFromTheCacheAndFromScratch) {
   const auto plain = run(recipe, warm);
   ASSERT_FALSE(plain.error);
   PieceChoice method, nearer;
-  method.anchorPx = anchorOf(plain.pieces->pieces[0]) + Vec2(0.0, 8.0);
+  method.anchorsPx = {anchorOf(plain.pieces->pieces[0]) + Vec2(0.0, 8.0)};
   method.method = ConstructMethod::Bezier;
-  nearer.anchorPx = anchorOf(plain.pieces->pieces[0]);
+  nearer.anchorsPx = {anchorOf(plain.pieces->pieces[0])};
   nearer.mode = FairingMode::Tolerance;
   recipe.choices = {method};
   ASSERT_FALSE(run(recipe, warm).error);
@@ -247,7 +248,7 @@ TEST(Pipeline, ChoicesOutliveAThresholdThatMovesAndComesBack) {
   const auto before = run(recipe, cache);
   ASSERT_FALSE(before.error);
   PieceChoice choice;
-  choice.anchorPx = anchorOf(before.pieces->pieces[0]);
+  choice.anchorsPx = {anchorOf(before.pieces->pieces[0])};
   choice.included = false;
   recipe.choices = {choice};
   recipe.extremumChoices = {{before.pieces->pieces[0].points[5], true}};

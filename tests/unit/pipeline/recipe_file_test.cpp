@@ -19,9 +19,9 @@ Recipe fullRecipe() {
   r.cornerMarks = {{Vec2(1.0 / 3.0, 2e-17)}, {Vec2(-4.5, 1e6 / 7.0)}};
   r.fairing.mode = FairingMode::Tolerance;
   r.fairing.endHold = {true, true};
-  r.choices = {{Vec2(10.1, 20.2), false, std::nullopt, std::nullopt, std::nullopt},
-               {Vec2(0.3, 0.7), true, FairingMode::Target, 4, 0.123},
-               {Vec2(3.0, 4.0),
+  r.choices = {{{Vec2(10.1, 20.2)}, false, std::nullopt, std::nullopt, std::nullopt},
+               {{Vec2(0.3, 0.7)}, true, FairingMode::Target, 4, 0.123},
+               {{Vec2(3.0, 4.0), Vec2(1.0 / 3.0, 5.0)},
                 true,
                 FairingMode::Monotone,
                 kDrawnTarget,
@@ -31,7 +31,7 @@ Recipe fullRecipe() {
                 {Vec2(1, 2)},
                 {Vec2(5, 6), Vec2(1.0 / 7.0, 8)},
                 {{0.0, 0.01}, {1.0 / 3.0, -0.02}, {1.0, 1e-9}}},
-               {.anchorPx = Vec2(7.0, 8.0),
+               {.anchorsPx = {Vec2(7.0, 8.0)},
                 .mode = FairingMode::None,
                 .target = std::nullopt,
                 .toleranceMm = std::nullopt,
@@ -39,7 +39,8 @@ Recipe fullRecipe() {
                 .means = FairingMeans::EdgeLengths,
                 .startHold = EndHold{true, false},
                 .endHold = EndHold{true, true},
-                .method = ConstructMethod::Bezier}};
+                .method = ConstructMethod::Bezier,
+                .isPart = true}};
   r.fairing.profile = {{0.0, 0.1}, {1.0, 0.2}};
   r.extremumChoices = {{Vec2(1.0 / 7.0, 300.5), true}, {Vec2(12.25, 1e-3), false}};
   r.regions = {rectangleRegion({1.0 / 3.0, 2.0}, {300.0, 4e2}), {{Vec2(0, 0), Vec2(10.1, 3.3), Vec2(-4, 9)}}};

@@ -36,7 +36,7 @@ TEST(StageKeys, EveryParameterChangesTheKeysFromItsStageOn) {
 
 TEST(StageKeys, EveryChoiceForACurveChangesItsFairing) {
   Recipe recipe;
-  recipe.choices = {{.anchorPx = Vec2(1.0, 2.0)}};
+  recipe.choices = {{.anchorsPx = {Vec2(1.0, 2.0)}}};
   const auto differs = [&](auto change) {
     Recipe after = recipe;
     change(after.choices.front());
@@ -55,6 +55,8 @@ TEST(StageKeys, EveryChoiceForACurveChangesItsFairing) {
   EXPECT_TRUE(differs([](PieceChoice& c) { c.startHold = EndHold{}; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.endHold = EndHold{}; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.included = false; }));
+  EXPECT_TRUE(differs([](PieceChoice& c) { c.anchorsPx.push_back(Vec2(3, 4)); }));
+  EXPECT_TRUE(differs([](PieceChoice& c) { c.isPart = true; }));
 }
 
 }  // namespace
