@@ -21,12 +21,8 @@ std::string named(const std::vector<std::size_t>& curves) {
   return text;
 }
 
-/// The note without its numbers: the same for all notes of one kind.
-std::string kindOf(std::string note) {
-  std::erase_if(note, [](char c) { return c >= '0' && c <= '9'; });
-  // "at 1 place: mark a corner" and "at 3 places: mark corners" are one kind.
-  return note.starts_with("Turns sharply at ") ? "Turns sharply" : note;
-}
+/// "at 1 place: mark a corner" and "at 3 places: mark corners" are one kind.
+std::string kindOf(const std::string& note) { return note.starts_with("Turns sharply at ") ? "Turns sharply" : note; }
 
 }  // namespace
 

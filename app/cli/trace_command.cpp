@@ -174,6 +174,7 @@ class Trace {
     addCornerNotes(list);
     for (const std::size_t choice : assignChoices(*out_.pieces, plan_.recipe.choices).waiting) {
       const std::vector<Vec2>& anchors = plan_.recipe.choices[choice].anchorsPx;
+      if (anchors.empty()) continue;
       list.push_back("No line lies where the choice at " + placeText(anchors[anchors.size() / 2]) +
                      " was made; it is kept in the recipe.");
     }

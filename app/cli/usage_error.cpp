@@ -46,6 +46,9 @@ Error wordTooMany(const std::string& command, const std::vector<std::string>& wo
 
 Error usageError(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {
   const auto parsed = app.get_subcommands();
+  if (parsed.empty() && argc > 1 && argv[1][0] == '-') {
+    return {ErrorCode::BadParameter, std::string("There is no option ") + argv[1] + ". Run batten-cli --help.", {}};
+  }
   if (parsed.empty()) {
     const auto* word = std::find_if(argv + 1, argv + argc, [](const char* w) { return w[0] != '-'; });
     const auto commands = app.get_subcommands([](const CLI::App*) { return true; });

@@ -45,6 +45,9 @@ Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, dou
     if (!rest || b > end - least) return rest;
     return split(*rest, b).map([](SplitCurve s) { return s.left; });
   };
+  const double seam = 1e-3 * (end - start);
+  if (closed && from > end - seam) from = start;
+  if (closed && to < start + seam) to = end;
   ConstructedPiece part{c, fit.report};
   part.report.extrema.clear();
   part.report.bandS.clear();

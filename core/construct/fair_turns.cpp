@@ -256,6 +256,7 @@ Closeness closeness(const NurbsCurve& curve, const ConstructPiece& piece, double
       const Passing round = follow(polygon, p / pixelMm, other, 8);
       if (round.distance < d.distance) d = round, at = other;
     }
+    result.offPx.push_back(d.distance);
     // Between merged strokes the line may lie anywhere.
     const std::size_t i = result.distancePx.size();
     if (piece.spreadPx.size() == n) d.distance = std::max(0.0, d.distance - static_cast<double>(piece.spreadPx[i]));
@@ -299,8 +300,12 @@ std::vector<PointRange> strayRanges(const Closeness& close, const ConstructPiece
   for (int i = 0; i < n; ++i) {
     if (!(middle(i) > kStrayPx)) continue;
     int a = i, b = i;
-    while (a > 0 && middle(a - 1) > kBackPx) --a;
-    while (b + 1 < n && middle(b + 1) > kBackPx) ++b;
+    const auto isOff = [&](int k) {
+      // What is cut out of a fit ends where the fit itself is back on the points.
+      return (whole ? close.offPx[static_cast<std::size_t>(k)] : middle(k)) > kBackPx;
+    };
+    while (a > 0 && isOff(a - 1)) --a;
+    while (b + 1 < n && isOff(b + 1)) ++b;
     i = b;
     if (!whole && course.length(b) - course.length(a) > kLongRunPx) {
       const auto first = angle.begin() + a, last = angle.begin() + b + 1;

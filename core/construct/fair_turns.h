@@ -26,7 +26,8 @@ std::vector<PointRange> between(const std::vector<PointRange>& turns, const Cons
 
 /// How far the points of a piece lie from a curve that should follow them in order.
 struct Closeness {
-  std::vector<double> distancePx;  ///< Per point …
+  std::vector<double> distancePx;  ///< Per point; between merged strokes only what lies outside them.
+  std::vector<double> offPx;       ///< Per point, all of it …
   std::vector<double> parameter;   ///< … and where on the curve.
   double lengthRatio = 1.0;        ///< Of the curve to the points.
   int far = 0;                     ///< Points more than 1.5 px off in a row of neighbours that are.

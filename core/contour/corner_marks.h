@@ -89,7 +89,8 @@ struct SharpTurn {
 };
 /// Places where two one-sided local parabolas, extrapolated to the point, differ in direction by at least
 /// `minAngleRad`; one suggestion per turn. `scalePx` is the length looked at on either side, and more where the line is
-/// ragged. Of `turns` those are added where nothing else was found and the line is not ragged. The angle is that of the
+/// ragged. `turns` of about `minAngleRad` and more stand before what is found near
+/// them, unless the line is ragged. The angle is that of the
 /// located corner, as a mark would give it; where none can be located, that of the place.
 std::vector<CornerSuggestion> suggestCorners(const ContourSet&, double minAngleRad, double scalePx,
                                              std::span<const SharpTurn> turns = {});

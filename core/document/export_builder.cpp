@@ -75,8 +75,8 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
       ExportCurve& curve = document.curves.emplace_back();
       curve.id = "curve-" + std::to_string(document.curves.size());
       for (const TracedCurve* piece : run) curve.pieces.push_back({piece->faired});
-      // A loop of the drawing whose curves do not meet, because a construction breaks them, is none.
       curve.strokeWidthMm = strokeWidth(line, output.frame);
+      // A loop of the drawing whose curves do not meet, because a construction breaks them, is none.
       curve.closed = isWholeClosed(run, pieces, closed) && isLoop(curve.pieces);
     }
   }

@@ -80,7 +80,10 @@ Result<ExportDocument> documentFromJson(const Json& json) {
     ExportCurve& curve = document.curves.emplace_back();
     curve.id = entry.at("id").get<std::string>();
     curve.closed = entry.at("closed").get<bool>();
-    if (entry.contains("stroke_width_mm")) curve.strokeWidthMm = entry.at("stroke_width_mm").get<double>();
+    if (entry.contains("stroke_width_mm")) {
+      curve.strokeWidthMm = entry.at("stroke_width_mm").get<double>();
+      if (!(*curve.strokeWidthMm > 0.0)) return damaged("a stroke width is not above 0");
+    }
     for (const Json& piece : entry.at("pieces")) {
       auto made = pieceFromJson(piece);
       if (!made) return damaged("curve " + curve.id + " is invalid (" + made.error().message + ")");

@@ -2,13 +2,21 @@
 #include "core/pipeline/corner_places.h"
 
 #include "core/construct/fair_turns.h"
+#include "core/contour/polyline_tools.h"
 
 namespace batten {
+namespace {
+
+constexpr double kSmallLoopPx = 70.0;  // round: radius 11 px
+
+}  // namespace
 
 std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet& set, double minAngleRad, double scalePx) {
   std::vector<SharpTurn> turns;
   for (std::size_t c = 0; c < set.contours.size(); ++c) {
     const Contour& contour = set.contours[c];
+    // What is as small as this and round is as sharp as a cut all over.
+    if (contour.closed && polylineLength(contour.points, true) < kSmallLoopPx) continue;
     ConstructPiece piece;
     piece.points = contour.points;
     piece.closed = contour.closed;

@@ -7,8 +7,9 @@
 
 namespace batten {
 
-/// The corners to suggest on the lines of a drawing: what `suggestCorners` finds, and every place where the fair fit
-/// has to cut a line because it turns too sharply. Image frame, px; arguments as there.
+/// The corners to suggest on the lines of a drawing: what `suggestCorners` finds, and where the fair fit has to
+/// cut a line from the start because it turns too sharply, by about the least angle or more. Image frame, px; arguments
+/// as there.
 std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet&, double minAngleRad, double scalePx);
 
 }  // namespace batten

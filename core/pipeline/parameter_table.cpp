@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pipeline/parameter_table.h"
-#include "core/base/edit_distance.h"
 
 #include <algorithm>
 

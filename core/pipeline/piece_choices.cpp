@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -16,9 +17,11 @@ namespace {
 
 /// [px] A choice farther than this from every line has lost its line.
 constexpr double kAnchorReachPx = 24.0;
-/// [px] A line on a course given by several anchors lies within this: no line of a drawing that is beside another one
-/// is nearer to it, while thresholds and filters move a line by less.
+/// [px] A line on a course given by several anchors lies within this: thresholds and filters move a line by less, and
+/// of lines that are nearer to each other, like the two borders of a thin stroke, the nearest one is taken.
 constexpr double kCourseReachPx = 8.0;
+/// [px] A point farther than this from where a course ends lies beyond it.
+constexpr double kPastEndPx = 1.0;
 /// [px] A choice that much nearer to a piece counts before a later one.
 constexpr double kAboutAsNearPx = 2.0;
 
@@ -56,8 +59,18 @@ std::vector<Claim> claimsOfPlace(const PieceSet& set, const std::vector<Vec2>& a
 /// Finds the pieces that lie on a course given by anchors.
 class CourseFinder {
  public:
-  explicit CourseFinder(const PieceSet& set) : set_(set) {
+  /// Only pieces near a course are looked at: most choices are few.
+  CourseFinder(const PieceSet& set, const std::vector<PieceChoice>& choices) : set_(set) {
+    std::vector<Eigen::AlignedBox2d> courses;
+    for (const PieceChoice& choice : choices) {
+      if (choice.anchorsPx.size() < 2) continue;
+      Eigen::AlignedBox2d& box = courses.emplace_back(boxOf(choice.anchorsPx));
+      box.min().array() -= kCourseReachPx;
+      box.max().array() += kCourseReachPx;
+    }
     for (std::size_t piece = 0; piece < set.pieces.size(); ++piece) {
+      const Eigen::AlignedBox2d box = boxOf(set.pieces[piece].points);
+      if (std::none_of(courses.begin(), courses.end(), [&](const auto& c) { return c.intersects(box); })) continue;
       for (const Vec2& p : set.pieces[piece].points) {
         cells_.add(p, places_.size());
         places_.push_back({p, piece});
@@ -85,7 +98,8 @@ class CourseFinder {
     std::map<std::size_t, Share> shares;
     for (const std::size_t place : touched) {
       const Foot foot = std::exchange(feet_[place], {});
-      const bool isPastAnEnd = !closed && (foot.at == 0 || foot.at + 1 == course.size());
+      const bool isAtAnEnd = foot.at == 0 || foot.at + 1 == course.size();
+      const bool isPastAnEnd = !closed && isAtAnEnd && foot.distance > kPastEndPx;
       if (isPastAnEnd || owners[foot.at] != places_[place].piece) continue;
       Share& share = shares[places_[place].piece];
       ++share.points;
@@ -93,7 +107,8 @@ class CourseFinder {
     }
     std::vector<Claim> claims;
     for (const auto& [piece, share] : shares) {
-      if (2 * share.points <= set_.pieces[piece].points.size()) continue;
+      // Half is enough: both points of the shortest pieces are corners that their neighbours have, too.
+      if (2 * share.points < set_.pieces[piece].points.size()) continue;
       claims.push_back({piece, share.distance / static_cast<double>(share.points)});
     }
     return claims;
@@ -114,6 +129,12 @@ class CourseFinder {
     double distance = 0.0;
   };
 
+  static Eigen::AlignedBox2d boxOf(const std::vector<Vec2>& points) {
+    Eigen::AlignedBox2d box;
+    for (const Vec2& p : points) box.extend(p);
+    return box;
+  }
+
   /// Points along the polyline of the anchors, closer together than those of a piece.
   static std::vector<Vec2> courseOf(const std::vector<Vec2>& anchors) {
     // Places that no line can have must not ask for endless points.
@@ -129,7 +150,7 @@ class CourseFinder {
   }
 
   const PieceSet& set_;
-  std::vector<Place> places_;  ///< All points of all pieces.
+  std::vector<Place> places_;  ///< All points of the pieces near a course.
   std::vector<Foot> feet_;     ///< One per place, cleared after use.
   PlaceCells<std::size_t> cells_{kCourseReachPx};
 };
@@ -143,7 +164,7 @@ ChoiceOwners assignChoices(const PieceSet& set, const std::vector<PieceChoice>& 
   std::optional<CourseFinder> finder;
   for (std::size_t choice = 0; choice < choices.size(); ++choice) {
     const std::vector<Vec2>& anchors = choices[choice].anchorsPx;
-    if (anchors.size() > 1 && !finder) finder.emplace(set);
+    if (anchors.size() > 1 && !finder) finder.emplace(set, choices);
     const std::vector<Claim> claims = anchors.size() > 1 ? finder->piecesOn(anchors) : claimsOfPlace(set, anchors);
     if (claims.empty() && !choices[choice].isEmpty()) owners.waiting.push_back(choice);
     for (const Claim& claim : claims) {

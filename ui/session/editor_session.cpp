@@ -89,7 +89,11 @@ std::span<const TracedCurve> EditorSession::curves() const {
 }
 
 const ChoiceOwners& EditorSession::choiceOwners() const {
-  if (known_.pieces != output_.pieces || known_.choices != recipe_.choices) {
+  // Whose a line is hangs on the anchors alone: a slider that changes a target every moment must not ask again.
+  const auto isAlike = [](const PieceChoice& a, const PieceChoice& b) {
+    return a.anchorsPx == b.anchorsPx && a.isEmpty() == b.isEmpty();
+  };
+  if (known_.pieces != output_.pieces || !std::ranges::equal(known_.choices, recipe_.choices, isAlike)) {
     known_ = {output_.pieces, recipe_.choices, {}};
     if (output_.pieces) known_.owners = assignChoices(*output_.pieces, recipe_.choices);
   }

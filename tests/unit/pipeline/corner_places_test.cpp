@@ -47,15 +47,21 @@ TEST(CornerPlaces, AskedForSharperPlacesTheFitsCutsComeOnlyWhereTheyAreThatSharp
   }
 }
 
-TEST(CornerPlaces, NoneOnSmoothLines) {
-  Contour circle;
-  circle.kind = ContourKind::Outline;
-  circle.closed = true;
-  for (int i = 0; i < 126; ++i) circle.points.emplace_back(50 + 20 * std::cos(i * 0.05), 50 + 20 * std::sin(i * 0.05));
-  circle.refined.assign(circle.points.size(), 1);
-  ContourSet set;
-  set.contours.push_back(circle);
-  EXPECT_TRUE(suggestCornersAndCuts(set, 35 * kDeg, 14.0).empty());
+TEST(CornerPlaces, NoneOnSmoothLinesAndDots) {
+  for (const double radius : {7.0, 9.0, 10.0, 20.0}) {
+    Contour circle;
+    circle.kind = ContourKind::Outline;
+    circle.closed = true;
+    const int count = static_cast<int>(2.0 * std::numbers::pi * radius);
+    for (int i = 0; i < count; ++i) {
+      const double t = 2.0 * std::numbers::pi * i / count;
+      circle.points.emplace_back(50 + radius * std::cos(t), 50 + radius * std::sin(t));
+    }
+    circle.refined.assign(circle.points.size(), 1);
+    ContourSet set;
+    set.contours.push_back(circle);
+    EXPECT_TRUE(suggestCornersAndCuts(set, 35 * kDeg, 14.0).empty()) << radius;
+  }
 }
 
 }  // namespace

@@ -51,6 +51,13 @@ TEST(PieceChoices, EveryPartOfALineThatSplitsKeepsItsChoice) {
   EXPECT_TRUE(assignChoices(parts, choices).waiting.empty());
 }
 
+TEST(PieceChoices, TheShortestPiecesOwnTheirChoice) {
+  for (const double length : {1.0, 2.0, 3.0, 4.0, 9.0}) {
+    const PieceSet set = setOf({wave(0, 40), wave(40, 40 + length), wave(40 + length, 200)});
+    EXPECT_EQ(ownersOf(set, withoutPiece(set, 1)), (Owners{std::nullopt, 0, std::nullopt})) << length;
+  }
+}
+
 TEST(PieceChoices, ALineTwelvePixelsAwayIsNotTaken) {
   for (const double away : {12.0, -12.0}) {
     const PieceSet both = setOf({wave(0, 1000, away), wave(0, 1000)});
