@@ -7,7 +7,7 @@
 #include <QPainter>
 #include <QPushButton>
 
-#include "ui/panels/panel_parts.h"
+#include "ui/panels/controls/panel_parts.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

@@ -12,7 +12,7 @@
 #include <QTextDocument>
 #include <QUrl>
 
-#include "ui/panels/panel_parts.h"
+#include "ui/panels/controls/panel_parts.h"
 #include "ui/theme/theme.h"
 
 #include <QPushButton>

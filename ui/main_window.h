@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "ui/commands/action_catalog.h"
-#include "ui/panels/panel_stage.h"
+#include "ui/panels/rail/panel_stage.h"
 #include "ui/session/editor_session.h"
 #include "ui/session/view_settings.h"
 #include "ui/theme/theme.h"

@@ -10,7 +10,7 @@
 
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
-#include "ui/panels/shape_window.h"
+#include "ui/panels/targets/shape_window.h"
 #include "ui/plots/curve_plots.h"
 #include "ui/session/piece_choice.h"
 #include "ui/session/region_edits.h"

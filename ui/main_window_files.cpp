@@ -9,10 +9,10 @@
 #include <QStandardPaths>
 
 #include "core/exchange/writers.h"
-#include "core/pipeline/recipe_file.h"
+#include "core/pipeline/recipe/recipe_file.h"
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
-#include "ui/panels/save_dialog.h"
+#include "ui/panels/controls/save_dialog.h"
 #include "ui/session/opened_scan.h"
 #include "ui/status_line.h"
 

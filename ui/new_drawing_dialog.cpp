@@ -10,9 +10,9 @@
 #include <cmath>
 
 #include "core/base/conventions.h"
-#include "ui/panels/number_field.h"
-#include "ui/panels/panel_parts.h"
-#include "ui/panels/segmented_control.h"
+#include "ui/panels/controls/number_field.h"
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/controls/segmented_control.h"
 
 namespace batten {
 namespace {

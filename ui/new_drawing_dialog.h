@@ -4,7 +4,7 @@
 #include <QDialog>
 #include <QSizeF>
 
-#include "core/pipeline/recipe.h"
+#include "core/pipeline/recipe/recipe.h"
 
 class QPushButton;
 

@@ -9,8 +9,8 @@
 #include <QPushButton>
 #include <cmath>
 
-#include "core/pipeline/pipeline.h"
-#include "ui/panels/panel_parts.h"
+#include "core/pipeline/run/pipeline.h"
+#include "ui/panels/controls/panel_parts.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

@@ -10,7 +10,7 @@
 #include <QPushButton>
 #include <QToolButton>
 
-#include "ui/panels/panel_parts.h"
+#include "ui/panels/controls/panel_parts.h"
 #include "ui/session/view_settings.h"
 #include "ui/theme/theme.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pipeline/pipeline.h"
+#include "core/pipeline/run/pipeline.h"
 
 namespace batten::cli {
 

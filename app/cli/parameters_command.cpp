@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/exit_codes.h"
-#include "core/pipeline/number_text.h"
-#include "core/pipeline/parameter_table.h"
+#include "core/base/number_text.h"
+#include "core/pipeline/recipe/parameter_table.h"
 
 namespace batten::cli {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include "core/curve/arc_length.h"
 
 namespace batten::cli {
 namespace {
@@ -40,7 +41,7 @@ Picture thresholdPicture(const GreyImage& scan, const RegionThresholds& threshol
   Picture picture = greyPicture(scan, [](int, int) { return 0.0; });
   for (int region = 0; region < kRegions; ++region) {
     const RegionBounds bounds = regionBounds(scan.width, scan.height, region);
-    const std::uint8_t level = toByte(thresholds.level[static_cast<std::size_t>(region)]);
+    const std::uint8_t level = toByte(thresholds.level[region]);
     for (int y = bounds.y0; y < bounds.y1; ++y) {
       for (int x = bounds.x0; x < bounds.x1; ++x) picture.set(x, y, {level, level, level});
     }

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/exchange/picture.h"
-#include "core/pipeline/pipeline.h"
+#include "core/pipeline/run/pipeline.h"
 
 namespace batten::cli {
 

@@ -8,7 +8,7 @@
 #include "app/cli/quiet_stderr.h"
 #include "app/cli/trace_plan.h"
 #include "core/image/scan_reader.h"
-#include "core/pipeline/merge_advice.h"
+#include "core/pipeline/run/merge_advice.h"
 
 namespace batten::cli {
 namespace {

@@ -16,10 +16,10 @@
 #include "app/cli/trace_plan.h"
 #include "core/base/conventions.h"
 #include "core/document/export_builder.h"
+#include "core/document/report.h"
 #include "core/exchange/writers.h"
 #include "core/image/scan_reader.h"
-#include "core/pipeline/recipe_file.h"
-#include "core/pipeline/report.h"
+#include "core/pipeline/recipe/recipe_file.h"
 
 namespace batten::cli {
 namespace {
@@ -144,7 +144,7 @@ class Trace {
 
   void addCornerNotes(std::vector<std::string>& list) const {
     const auto& marks = plan_.recipe.cornerMarks;
-    const auto placeOf = [&](int mark) { return placeText(marks[static_cast<std::size_t>(mark)].positionPx); };
+    const auto placeOf = [&](int mark) { return placeText(marks[mark].positionPx); };
     const auto numbers = [](const MarkPair& pair) {
       return std::to_string(pair.other + 1) + " and " + std::to_string(pair.mark + 1);
     };

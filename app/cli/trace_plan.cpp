@@ -7,9 +7,9 @@
 #include <iterator>
 
 #include "app/cli/stage_dump.h"
-#include "core/pipeline/number_text.h"
-#include "core/pipeline/parameter_table.h"
-#include "core/pipeline/recipe_file.h"
+#include "core/base/number_text.h"
+#include "core/pipeline/recipe/parameter_table.h"
+#include "core/pipeline/recipe/recipe_file.h"
 
 namespace batten::cli {
 namespace {

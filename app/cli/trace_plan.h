@@ -7,7 +7,7 @@
 
 #include "app/cli/trace_command.h"
 #include "core/base/result.h"
-#include "core/pipeline/recipe.h"
+#include "core/pipeline/recipe/recipe.h"
 
 namespace batten::cli {
 

@@ -36,7 +36,7 @@ void parallelFor(const RunContext& context, int count, int grain, const std::fun
   const int helpers = std::min(threadCount(context), blocks) - 1;
   {
     std::vector<std::jthread> pool;
-    pool.reserve(static_cast<std::size_t>(std::max(0, helpers)));
+    pool.reserve(std::max(0, helpers));
     for (int i = 0; i < helpers; ++i) pool.emplace_back(work);
     work();
   }

@@ -6,24 +6,16 @@
 #include <new>
 
 #include "core/base/parallel.h"
-#include "core/construct/bezier_chain.h"
-#include "core/construct/control_polygon.h"
-#include "core/construct/fair_fit.h"
+#include "core/construct/bezier/bezier_chain.h"
+#include "core/construct/fair/fair_fit.h"
 #include "core/construct/fit_start.h"
-#include "core/construct/quintic_nurbs.h"
-#include "core/construct/typical_curve.h"
+#include "core/construct/nurbs/quintic_nurbs.h"
+#include "core/construct/polygon/control_polygon.h"
+#include "core/construct/typical/typical_curve.h"
 
 namespace batten {
 
 namespace {
-
-std::optional<Error> outside(const char* field, double value, double low, double high) {
-  if (value >= low && value <= high) return std::nullopt;
-  return Error{ErrorCode::BadParameter,
-               std::string(field) + " is " + std::to_string(value) + "; it must lie between " + std::to_string(low) +
-                   " and " + std::to_string(high) + ".",
-               {}};
-}
 
 Result<ConstructedPiece> constructPiece(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
                                         const RunContext& context) {
@@ -73,25 +65,13 @@ Result<std::vector<ConstructedPiece>> constructFromFit(const ConstructContour& c
 
 }  // namespace
 
-std::optional<Error> validate(const ConstructParams& params) {
-  if (auto error = outside("construct.derivative_magnitude", params.derivativeMagnitude, 0.1, 3.0)) return error;
-  if (auto error = outside("construct.degree", params.degree, 2, 5)) return error;
-  if (auto error = outside("construct.removal_step", params.removalStepPx, 0.0, 200.0)) return error;
-  if (auto error = outside("construct.removal_tolerance", params.removalTolerancePx, 0.0, 50.0)) return error;
-  if (auto error = outside("construct.closeness", params.closenessPx, 0.0, 50.0)) return error;
-  if (auto error = outside("construct.lowpass", params.lowPass, 0.0, 8.0)) return error;
-  if (auto error = outside("construct.growing_stop", params.growingStopDeg, 0.2, 20.0)) return error;
-  if (auto error = outside("construct.reduce", params.reduceShare, 0.0, 1.0)) return error;
-  return outside("construct.keep_extrema", params.keepExtremaCost, 1.0, 1000.0);
-}
-
 Result<std::vector<ConstructedPiece>> construct(const ConstructContour& contour, const ConstructParams& params,
                                                 const RunContext& context) {
   if (auto error = validate(params)) return fail(std::move(*error));
   if (params.method == ConstructMethod::Fair) {
     FairFitOptions options;
-    options.keepExtremaCost = params.keepExtremaCost;
-    options.reduceShare = params.reduceShare;
+    options.extremumSignificance = params.extremumSignificance;
+    options.knotRemovalTolerance = params.knotRemovalTolerance;
     return fairFit(contour, options, context);
   }
   try {

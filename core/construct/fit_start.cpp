@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/construct/fair_fit.h"
-#include "core/curve/curve_analysis.h"
+#include "core/construct/fair/fair_fit.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/curvature.h"
 
 namespace batten {
 namespace {
@@ -84,8 +85,8 @@ class FittedLine {
 Result<ConstructContour> onFairFit(const ConstructContour& contour, const ConstructParams& params,
                                    const RunContext& context) {
   FairFitOptions options;
-  options.keepExtremaCost = params.keepExtremaCost;
-  options.reduceShare = 0.0;
+  options.extremumSignificance = params.extremumSignificance;
+  options.knotRemovalTolerance = 0.0;
   auto fits = fairFit(contour, options, context);
   if (!fits) return fail(std::move(fits.error()));
   ConstructContour onFit = contour;

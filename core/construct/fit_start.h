@@ -3,13 +3,14 @@
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
-#include "core/construct/construct.h"
+#include "core/construct/construct_params.h"
+#include "core/construct/pieces.h"
 
 namespace batten {
 
 /// The contour as its true and fair fit shows it: points every pixel along the fit, and every station moved onto it,
-/// in its direction: where its share of the length is known to that share, else to its foot point. Corners, wishes and
-/// divisions stay. All control points of the fit are kept (nothing is spared), since nobody sees them.
+/// in its direction: where its share of the length is known to that share, else to its foot point. Corners, constraints
+/// and breakpoints stay. All control points of the fit are kept (nothing is spared), since nobody sees them.
 /// @return what the fit says where it cannot be made.
 Result<ConstructContour> onFairFit(const ConstructContour&, const ConstructParams&, const RunContext&);
 

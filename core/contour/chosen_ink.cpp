@@ -24,7 +24,7 @@ int nearestPiece(const RunPieces& pieces, const Vec2& px) {
     const double distance = squaredDistance(*run, px);
     if (distance > least || (distance == least && piece >= 0)) continue;
     least = distance;
-    piece = pieces.piece[static_cast<std::size_t>(run - pieces.runs.begin())];
+    piece = pieces.piece[run - pieces.runs.begin()];
   }
   return piece;
 }
@@ -60,7 +60,7 @@ int ChosenInk::pieceAt(int x, int y) const {
   };
   const auto run = std::lower_bound(pieces_.runs.begin(), pieces_.runs.end(), std::pair(y, x), before);
   if (run == pieces_.runs.end() || run->y != y || run->x0 > x) return -1;
-  return pieces_.piece[static_cast<std::size_t>(run - pieces_.runs.begin())];
+  return pieces_.piece[run - pieces_.runs.begin()];
 }
 
 int ChosenInk::choiceAt(const Vec2& px) const {

@@ -41,7 +41,7 @@ struct Contour {
   std::vector<float> widthPx;  ///< [px] stroke width (centre lines); empty for outlines.
   StrokeBand band;             ///< The strokes that were merged into this line; empty where nothing was merged.
   std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.
-  std::optional<EdgeChoice> way;             ///< The user's choice about its ink that it follows.
+  std::optional<EdgeChoice> traceMode;       ///< The user's choice about its ink that it follows.
   double lengthPx = 0.0;                     ///< [px] length of the polyline through `points`.
   double areaPx = 0.0;                       ///< [px^2] absolute enclosed area (closed), else 0.
 };

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contour/polyline_tools.h"
+#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {

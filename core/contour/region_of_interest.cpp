@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/contour/polyline_tools.h"
 #include "core/image/run_pieces.h"
+#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {
@@ -45,7 +45,7 @@ Contour part(const Contour& whole, std::size_t first, std::size_t count) {
   cut.kind = whole.kind;
   cut.hole = whole.hole;
   cut.blurPx = whole.blurPx;
-  cut.way = whole.way;
+  cut.traceMode = whole.traceMode;
   const std::size_t n = whole.points.size();
   const auto take = [&](const auto& from, auto& to) {
     if (from.size() != n) return;

@@ -8,13 +8,13 @@
 #include <string>
 
 #include "core/base/parallel.h"
-#include "core/contour/centreline.h"
+#include "core/contour/centreline/centreline.h"
 #include "core/contour/chosen_ink.h"
-#include "core/contour/crack_contours.h"
-#include "core/contour/polyline_tools.h"
-#include "core/contour/soft_borders.h"
-#include "core/contour/soft_edges.h"
-#include "core/contour/subpixel_edges.h"
+#include "core/contour/outline/crack_contours.h"
+#include "core/contour/outline/soft_borders.h"
+#include "core/contour/outline/soft_edges.h"
+#include "core/contour/outline/subpixel_edges.h"
+#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {
@@ -52,7 +52,7 @@ void refineOutlines(ContourSet& set, const GreyImage& grey, const RunContext& co
   RunContext alone = context;
   alone.threads = 1;
   parallelFor(context, static_cast<int>(small.size()), 1, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) refineOutline(*small[static_cast<std::size_t>(i)], grey, alone);
+    for (int i = begin; i < end; ++i) refineOutline(*small[i], grey, alone);
   });
 }
 
@@ -137,12 +137,12 @@ void addNote(ContourSet& set, const std::string& what, const Vec2& px) {
 std::vector<bool> noteWays(ContourSet& set, const ChosenInk& chosen, std::span<const EdgeChoice> choices) {
   std::vector<bool> gaveLine(choices.size(), false);
   for (Contour& contour : set.contours) {
-    for (std::size_t i = 0; i < contour.chain.size() && !contour.way; ++i) {
+    for (std::size_t i = 0; i < contour.chain.size() && !contour.traceMode; ++i) {
       for (const Vec2& place : inkBeside(contour, i)) {
         const int choice = chosen.choiceAt(place);
         if (choice < 0) continue;
-        contour.way = choices[static_cast<std::size_t>(choice)];
-        gaveLine[static_cast<std::size_t>(choice)] = true;
+        contour.traceMode = choices[choice];
+        gaveLine[choice] = true;
       }
     }
   }
@@ -215,26 +215,6 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
 }
 
 }  // namespace
-
-std::optional<Error> validate(const EdgeParams& p) {
-  const auto bad = [](const char* message) { return Error{ErrorCode::BadParameter, message, {}}; };
-  if (!(p.strokeWidth >= 0.005 && p.strokeWidth <= 0.1)) return bad("edges.stroke_width must be 0.005 to 0.1.");
-  if (!(p.gapFactor >= 0.0 && p.gapFactor <= 20.0)) return bad("edges.gap must be 0 to 20 stroke widths.");
-  if (!(p.mergeWidths >= 0.0 && p.mergeWidths <= 20.0)) return bad("edges.merge must be 0 to 20 stroke widths.");
-  if (!(p.spurFactor >= 0.0 && p.spurFactor <= 5.0)) return bad("edges.spur must be 0 to 5 stroke widths.");
-  if (!(p.maxBendDeg >= 0.0 && p.maxBendDeg <= 90.0)) return bad("edges.bend must be 0 to 90 degrees.");
-  for (const EdgeChoice& choice : p.choices) {
-    if (auto error = validate(choice)) return error;
-  }
-  return std::nullopt;
-}
-
-std::optional<Error> validate(const ContourParams& p) {
-  const auto bad = [](const char* message) { return Error{ErrorCode::BadParameter, message, {}}; };
-  if (!(p.minLengthPx >= 0.0)) return bad("contours.min_length must be 0 px or more.");
-  if (p.maxCount < 1 || p.maxCount > 100000) return bad("contours.max_count must be 1 to 100000.");
-  return std::nullopt;
-}
 
 Result<ContourSet> traceContours(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
                                  const ContourParams& params, const RunContext& context) {

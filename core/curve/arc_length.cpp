@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/curve/arc_length.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/curvature.h"
 
 namespace batten {
 
@@ -118,9 +120,9 @@ double ArcLength::parameter(double s) const {
 
 std::vector<CurveSample> sampleByArcLength(const NurbsCurve& curve, int count) {
   const ArcLength length(curve);
-  std::vector<CurveSample> samples(static_cast<std::size_t>(count));
+  std::vector<CurveSample> samples(count);
   for (int i = 0; i < count; ++i) {
-    CurveSample& sample = samples[static_cast<std::size_t>(i)];
+    CurveSample& sample = samples[i];
     sample.s = i + 1 == count ? length.total() : length.total() * i / (count - 1);
     sample.u = i + 1 == count ? curve.end() : length.parameter(sample.s);
     const auto d = curve.derivatives(sample.u, 2);

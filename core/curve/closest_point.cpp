@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/curve/closest_point.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/curve/curve_analysis.h"
 #include "core/curve/span_polynomials.h"
+
+#include "core/curve/arc_length.h"
+#include "core/curve/curvature.h"
 
 namespace batten {
 
@@ -196,7 +200,7 @@ Deviation summary(std::span<const Vec2> points, std::vector<double> distances) {
   result.rms = std::sqrt(sum / count);
   const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.95 * count)) - 1;
   std::nth_element(distances.begin(), distances.begin() + rank, distances.end());
-  result.percentile95 = distances[static_cast<std::size_t>(rank)];
+  result.percentile95 = distances[rank];
   return result;
 }
 

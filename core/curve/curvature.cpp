@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/curve/curvature.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/arc_length.h"
 
 namespace batten {
 

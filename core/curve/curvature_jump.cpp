@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/curve/curvature_jump.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "core/curve/curve_analysis.h"
+#include <optional>
+#include <vector>
 #include "core/curve/knot_operations.h"
 
 namespace batten {

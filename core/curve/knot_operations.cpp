@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/nurbs_curve.h"
 
 namespace batten {
 
@@ -21,7 +21,7 @@ struct Parts {
   bool rational = false;
 
   int count() const { return static_cast<int>(points.size()); }
-  double knot(int i) const { return knots[static_cast<std::size_t>(i)]; }
+  double knot(int i) const { return knots[i]; }
 };
 
 Parts takeApart(const NurbsCurve& curve) {
@@ -52,18 +52,18 @@ Eigen::Vector3d blossom(const Parts& parts, int span, const double* arguments) {
   const int p = parts.degree;
   std::array<Eigen::Vector3d, 8> d;
   for (int j = 0; j <= p; ++j) {
-    d[static_cast<std::size_t>(j)] = parts.points[static_cast<std::size_t>(span - p + j)];
+    d[j] = parts.points[span - p + j];
   }
   for (int r = 1; r <= p; ++r) {
     for (int j = p; j >= r; --j) {
       const int i = span - p + j;
       const double low = parts.knot(i), high = parts.knot(i + p + 1 - r);
       const double a = (arguments[r - 1] - low) / (high - low);
-      auto& point = d[static_cast<std::size_t>(j)];
-      point = (1.0 - a) * d[static_cast<std::size_t>(j - 1)] + a * point;
+      auto& point = d[j];
+      point = (1.0 - a) * d[j - 1] + a * point;
     }
   }
-  return d[static_cast<std::size_t>(p)];
+  return d[p];
 }
 
 int spanAt(const Parts& parts, double u) {
@@ -77,15 +77,15 @@ int sourceSpan(const Parts& parts, const std::vector<double>& knots, int degree,
   const int count = static_cast<int>(knots.size()) - degree - 1;
   int best = -1;
   for (int k = std::max(degree, j - degree); k < std::min(count, j + 2 * degree + 1); ++k) {
-    if (!(knots[static_cast<std::size_t>(k)] < knots[static_cast<std::size_t>(k + 1)])) continue;
+    if (!(knots[k] < knots[k + 1])) continue;
     const auto distance = [&](int span) {
       const int outside = std::max({0, j - span, span - j - degree});
       return 100 * outside + std::abs(2 * (span - j) - degree);
     };
     if (best < 0 || distance(k) < distance(best)) best = k;
   }
-  if (best < 0) return spanAt(parts, knots[static_cast<std::size_t>(std::clamp(j, degree, count - 1))]);
-  return spanAt(parts, 0.5 * (knots[static_cast<std::size_t>(best)] + knots[static_cast<std::size_t>(best + 1)]));
+  if (best < 0) return spanAt(parts, knots[std::clamp(j, degree, count - 1)]);
+  return spanAt(parts, 0.5 * (knots[best] + knots[best + 1]));
 }
 
 /// The same curve over a knot vector that contains the old knots (within the domain).
@@ -102,10 +102,9 @@ Parts overKnots(const Parts& old, std::vector<double> knots) {
       if (std::equal(own, own + p + 2, old.knots.begin() + i)) same = i;
     }
     if (same) {
-      result.points.push_back(old.points[static_cast<std::size_t>(*same)]);
+      result.points.push_back(old.points[*same]);
     } else {
-      result.points.push_back(
-          blossom(old, sourceSpan(old, result.knots, p, j), &result.knots[static_cast<std::size_t>(j + 1)]));
+      result.points.push_back(blossom(old, sourceSpan(old, result.knots, p, j), &result.knots[j + 1]));
     }
   }
   return result;
@@ -151,12 +150,12 @@ Parts elevatedOnce(const Parts& old) {
   for (int j = 0; j < count; ++j) {
     // The polar form of degree q is the mean of those of degree p with one argument left out.
     const int span = sourceSpan(old, result.knots, q, j);
-    const double* arguments = &result.knots[static_cast<std::size_t>(j + 1)];
+    const double* arguments = &result.knots[j + 1];
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int omit = 0; omit < q; ++omit) {
       std::array<double, 8> rest{};
       for (int i = 0, k = 0; i < q; ++i) {
-        if (i != omit) rest[static_cast<std::size_t>(k++)] = arguments[i];
+        if (i != omit) rest[k++] = arguments[i];
       }
       sum += blossom(old, span, rest.data());
     }
@@ -291,7 +290,7 @@ Result<std::vector<BezierPiece>> bezierPieces(const NurbsCurve& curve) {
     BezierPiece piece{low, high, {}};
     for (int j = 0; j <= p; ++j) {
       std::array<double, 8> arguments{};
-      for (int i = 0; i < p; ++i) arguments[static_cast<std::size_t>(i)] = i < p - j ? low : high;
+      for (int i = 0; i < p; ++i) arguments[i] = i < p - j ? low : high;
       piece.controlPoints.emplace_back(blossom(parts, span, arguments.data()).head<2>());
     }
     if (!pieces.empty() && multiplicity(parts, low) <= p)

@@ -30,12 +30,12 @@ void basisValues(int degree, const double* knots, int span, double u, double* va
   std::array<double, kMaxDegree + 1> left, right;
   values[0] = 1.0;
   for (int j = 1; j <= degree; ++j) {
-    left[static_cast<std::size_t>(j)] = u - knots[span + 1 - j];
-    right[static_cast<std::size_t>(j)] = knots[span + j] - u;
+    left[j] = u - knots[span + 1 - j];
+    right[j] = knots[span + j] - u;
     double saved = 0.0;
     for (int r = 0; r < j; ++r) {
-      const double rightR = right[static_cast<std::size_t>(r + 1)];
-      const double leftR = left[static_cast<std::size_t>(j - r)];
+      const double rightR = right[r + 1];
+      const double leftR = left[j - r];
       // Written so that the shares at both borders of a span are exactly 0 and 1: clamped curves start on their first
       // point.
       const double part = values[r] * (leftR / (rightR + leftR));
@@ -69,13 +69,13 @@ void basisDerivatives(int degree, const double (&ndu)[kMaxDegree + 1][kMaxDegree
         a[next][k] = -a[now][k - 1] / ndu[pk + 1][r];
         d += a[next][k] * ndu[r][pk];
       }
-      row.values[static_cast<std::size_t>(k)][static_cast<std::size_t>(r)] = d;
+      row.values[k][r] = d;
       std::swap(now, next);
     }
   }
   double factor = degree;
   for (int k = 1; k <= order; ++k) {
-    for (int j = 0; j <= degree; ++j) row.values[static_cast<std::size_t>(k)][static_cast<std::size_t>(j)] *= factor;
+    for (int j = 0; j <= degree; ++j) row.values[k][j] *= factor;
     factor *= degree - k;
   }
 }
@@ -94,11 +94,11 @@ BasisRow basis(int degree, std::span<const double> knots, int controlPointCount,
   std::array<double, kMaxDegree + 1> left, right;
   ndu[0][0] = 1.0;
   for (int j = 1; j <= degree; ++j) {
-    left[static_cast<std::size_t>(j)] = u - knots[static_cast<std::size_t>(span + 1 - j)];
-    right[static_cast<std::size_t>(j)] = knots[static_cast<std::size_t>(span + j)] - u;
+    left[j] = u - knots[span + 1 - j];
+    right[j] = knots[span + j] - u;
     double saved = 0.0;
     for (int r = 0; r < j; ++r) {
-      const double rightR = right[static_cast<std::size_t>(r + 1)], leftR = left[static_cast<std::size_t>(j - r)];
+      const double rightR = right[r + 1], leftR = left[j - r];
       ndu[j][r] = rightR + leftR;
       const double part = ndu[r][j - 1] * (leftR / ndu[j][r]);
       ndu[r][j] = saved + (ndu[r][j - 1] - part);
@@ -106,7 +106,7 @@ BasisRow basis(int degree, std::span<const double> knots, int controlPointCount,
     }
     ndu[j][j] = saved;
   }
-  for (int j = 0; j <= degree; ++j) row.values[0][static_cast<std::size_t>(j)] = ndu[j][degree];
+  for (int j = 0; j <= degree; ++j) row.values[0][j] = ndu[j][degree];
   // Derivatives above the degree are zero, as the row already is.
   basisDerivatives(degree, ndu, std::min({order, degree, kMaxOrder}), row);
   return row;
@@ -128,7 +128,7 @@ std::optional<std::string> knotError(int degree, const std::vector<double>& knot
     const auto apart = static_cast<std::size_t>(degree) + 1;
     if (i >= apart && knots[i] == knots[i - apart]) return "A knot is repeated more than degree + 1 times.";
   }
-  const double length = knots[count] - knots[static_cast<std::size_t>(degree)];
+  const double length = knots[count] - knots[degree];
   if (!(length > 0.0) || !std::isfinite(length)) return "The curve has an empty domain.";
   return std::nullopt;
 }
@@ -167,7 +167,7 @@ std::span<const double> NurbsCurve::knots() const { return data_->knots; }
 std::span<const Vec2> NurbsCurve::controlPoints() const { return data_->controlPoints; }
 std::span<const double> NurbsCurve::weights() const { return data_->weights; }
 bool NurbsCurve::isRational() const { return !data_->weights.empty(); }
-double NurbsCurve::start() const { return data_->knots[static_cast<std::size_t>(data_->degree)]; }
+double NurbsCurve::start() const { return data_->knots[data_->degree]; }
 double NurbsCurve::end() const { return data_->knots[data_->controlPoints.size()]; }
 
 Vec2 NurbsCurve::point(double u) const {

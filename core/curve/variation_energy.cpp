@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/curvature.h"
 
 namespace batten {
 namespace {

@@ -62,14 +62,14 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
   std::map<int, ContourPieces> byContour;
   std::map<std::size_t, const TracedCurve*> byPiece;
   for (const TracedCurve& curve : output.faired->curves) {
-    if (curve.included && !curve.faired.isEmpty()) byPiece[static_cast<std::size_t>(curve.piece)] = &curve;
+    if (curve.included && !curve.faired.isEmpty()) byPiece[curve.piece] = &curve;
   }
   for (std::size_t i = 0; i < output.pieces->pieces.size(); ++i) {
     const auto found = byPiece.find(i);
     byContour[output.pieces->pieces[i].contour].push_back(found == byPiece.end() ? nullptr : found->second);
   }
   for (const auto& [contour, pieces] : byContour) {
-    const Contour& line = output.contours->contours[static_cast<std::size_t>(contour)];
+    const Contour& line = output.contours->contours[contour];
     const bool closed = line.closed;
     for (const auto& run : runs(pieces, closed)) {
       ExportCurve& curve = document.curves.emplace_back();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/exchange/export_model.h"
-#include "core/pipeline/pipeline.h"
+#include "core/pipeline/run/pipeline.h"
 
 namespace batten {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/curvature.h"
 
 namespace batten {
 namespace {

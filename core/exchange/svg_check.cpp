@@ -8,7 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "core/exchange/writers.h"
 
 namespace batten {

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/curvature.h"
 #include "core/fairing/similarity.h"
 
 namespace batten {
@@ -26,7 +27,7 @@ std::vector<double> laid(const std::vector<double>& values, const Way& way) {
   std::vector<double> result(values.size());
   for (int i = 0; i < count; ++i) {
     const int from = (way.reversed ? count - 1 - i + way.shift : i + way.shift) % count;
-    result[static_cast<std::size_t>(i)] = sign * values[static_cast<std::size_t>(from)];
+    result[i] = sign * values[from];
   }
   return result;
 }
@@ -47,8 +48,7 @@ ShapeProfile shapeProfile(const NurbsCurve& curve, bool closed) {
   const std::vector<CurveSample> samples = sampleByArcLength(curve, closed ? kShapeSamples + 1 : kShapeSamples);
   const double length = samples.back().s, largest = kLargestRadius * extent(curve);
   if (!(length > 0.0)) return profile;
-  for (int i = 0; i < kShapeSamples; ++i)
-    addSample(profile, samples[static_cast<std::size_t>(i)].kappa, length, largest);
+  for (int i = 0; i < kShapeSamples; ++i) addSample(profile, samples[i].kappa, length, largest);
   return profile;
 }
 

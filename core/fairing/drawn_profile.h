@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "core/base/result.h"
 #include "core/fairing/radius_target.h"
 
 namespace batten {

@@ -4,7 +4,8 @@
 #include <limits>
 #include <numbers>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "core/fairing/fairing_solvers.h"
 #include "core/fairing/line_blocks.h"
 #include "core/fairing/monotone_search.h"

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "core/base/parallel.h"
-#include "core/curve/curve_analysis.h"
+#include "core/curve/curvature.h"
 #include "core/fairing/fairing_solvers.h"
 #include "core/fairing/low_pass.h"
 #include "core/fairing/monotone_fairing.h"
@@ -140,15 +140,15 @@ Result<FairedCurve> modifyShape(const NurbsCurve& curve, bool closed, const Targ
 Result<FairedCurve> fairWithinTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                         const RunContext& context, const FairingLine& line) {
   return withSetup(curve, closed, params, [&](const FairingSetup& setup) {
-    return params.spend == FairingSpend::All ? fairWithinTolerance(setup, params.toleranceMm, context)
-                                             : fairAsNeeded(setup, params, line, context);
+    return params.tolerancePolicy == TolerancePolicy::All ? fairWithinTolerance(setup, params.toleranceMm, context)
+                                                          : fairAsNeeded(setup, params, line, context);
   });
 }
 
 std::vector<Result<TargetOutcomes>> fairAllTargets(std::span<const TargetsJob> jobs, const RunContext& context) {
   std::vector<TargetsRun> runs(jobs.size());
   parallelFor(context, static_cast<int>(jobs.size()), 1, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) runs[static_cast<std::size_t>(i)] = prepared(jobs[static_cast<std::size_t>(i)]);
+    for (int i = begin; i < end; ++i) runs[i] = prepared(jobs[i]);
   });
   std::vector<std::size_t> order(jobs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -201,7 +201,7 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
   if (degree == 0) {
     return unchanged(curve, closed, Termination::Degenerate, targets.profiles.front().problem);
   }
-  const TargetProfile& profile = targets.profiles[static_cast<std::size_t>(degree - 1)];
+  const TargetProfile& profile = targets.profiles[degree - 1];
   if (!profile.valid) return unchanged(curve, closed, Termination::Degenerate, profile.problem);
   auto faired = modifyShape(curve, closed, profile, params, context);
   // Whoever chooses a target gets it; nobody is given one that adds bumps.

@@ -25,7 +25,7 @@ enum class FairingMode {
 };
 
 /// How much of the tolerance the tolerance fairing uses.
-enum class FairingSpend {
+enum class TolerancePolicy {
   AsNeeded,  ///< Until no wave is left that the line does not prove; see fairWithinTolerance.
   All,       ///< All of it: as even as the tolerance allows, whatever was drawn.
 };
@@ -52,7 +52,7 @@ struct FairingParams {
   FairingMode mode = FairingMode::None;
   int target = 0;            ///< 0..7. Degree of the profile; 0 = the recommended one, 7 = the drawn one.
   double toleranceMm = 0.2;  ///< [mm] 0.001..20. Largest move of the curve from the sketched one; never exceeded.
-  FairingSpend spend = FairingSpend::AsNeeded;       ///< Tolerance mode.
+  TolerancePolicy tolerancePolicy = TolerancePolicy::AsNeeded;  ///< Tolerance mode.
   FairingMeans means = FairingMeans::ControlPoints;  ///< Target and low-pass modes; edge lengths only on Bezier paths.
   double lowPassMm =
       20.0;  ///< [mm] 0.1..10000. Low-pass: waves of the curvature of this length are halved, shorter ones go.
@@ -96,7 +96,7 @@ Result<FairedCurve> modifyShape(const NurbsCurve&, bool closed, const TargetProf
                                 const RunContext&);
 
 /// Smallest integral of (dkappa/ds)^2 with the deviation bounded by the tolerance.
-/// FairingSpend::All: nothing else counts, and the whole tolerance is spent.
+/// TolerancePolicy::All: nothing else counts, and the whole tolerance is spent.
 /// AsNeeded: the integral is weighed against the distance from the line's points. The weight is where the misfit of the
 /// points is that of their own noise (Mallows' Cp); then curvature extrema go, cheapest first, as long as the misfit
 /// rises by less than noise explains. Without points: the nearest curve with as few extrema as the whole tolerance

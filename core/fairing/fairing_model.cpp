@@ -17,8 +17,7 @@ constexpr double kConjugateTolerance = 1e-2;
 LocalRow positionRow(const Vec2& direction, const SpanRow& basis, int degree) {
   LocalRow row;
   row.fill(Vec2::Zero());
-  for (int j = 0; j <= degree; ++j)
-    row[static_cast<std::size_t>(j)] = basis.d[0][static_cast<std::size_t>(j)] * direction;
+  for (int j = 0; j <= degree; ++j) row[j] = basis.d[0][j] * direction;
   return row;
 }
 
@@ -65,7 +64,7 @@ FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& ob
     // A sample that is re-located loses what sliding along the curve would change.
     nonlocal_[i] = profile ? c.slope : c.bend;
     for (int j = 0; j <= degree; ++j) {
-      local[static_cast<std::size_t>(j)] -= nonlocal_[i] * basis.d[0][static_cast<std::size_t>(j)] * tangent;
+      local[j] -= nonlocal_[i] * basis.d[0][j] * tangent;
     }
     unknowns.reduce(span, local, &local_(0, i));
     unknowns.reduce(span, positionRow(normal, basis, degree), &normal_(0, i));
@@ -93,7 +92,7 @@ FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& ob
 }
 
 double FairingModel::dot(const Eigen::MatrixXd& rows, int sample, const Eigen::VectorXd& v) const {
-  const auto index = setup_->unknowns.indices(state_->arc.places[static_cast<std::size_t>(sample)].span);
+  const auto index = setup_->unknowns.indices(state_->arc.places[sample].span);
   const double* row = &rows(0, sample);
   double sum = 0.0;
   for (std::size_t k = 0; k < index.size(); ++k) sum += row[k] * v[index[k]];
@@ -101,7 +100,7 @@ double FairingModel::dot(const Eigen::MatrixXd& rows, int sample, const Eigen::V
 }
 
 void FairingModel::accumulate(const Eigen::MatrixXd& rows, int sample, double factor, Eigen::VectorXd& out) const {
-  const auto index = setup_->unknowns.indices(state_->arc.places[static_cast<std::size_t>(sample)].span);
+  const auto index = setup_->unknowns.indices(state_->arc.places[sample].span);
   const double* row = &rows(0, sample);
   for (std::size_t k = 0; k < index.size(); ++k) out[index[k]] += factor * row[k];
 }
@@ -112,7 +111,7 @@ void FairingModel::assemble() {
   mass_ = stiffness_;
   tangentFloor_ = kTangentFloor * dampingUnit_;
   for (int i = 0; i < setup_->sampleCount(); ++i) {
-    const auto index = unknowns.indices(state_->arc.places[static_cast<std::size_t>(i)].span);
+    const auto index = unknowns.indices(state_->arc.places[i].span);
     const double w2 = weight_[i] * weight_[i], f2 = corridorCurvature_[i] * across_[i] * across_[i];
     for (std::size_t b = 0; b < index.size(); ++b) {
       const auto col = static_cast<Eigen::Index>(b);
@@ -159,7 +158,7 @@ Eigen::VectorXd FairingModel::cumulativeTransposed(const Eigen::VectorXd& values
 Eigen::VectorXd FairingModel::applyTo(const Eigen::VectorXd& local, const Eigen::VectorXd& normal, double shift) const {
   const int count = setup_->sampleCount();
   Eigen::VectorXd bent(count), result(count);
-  for (int i = 0; i < count; ++i) bent[i] = state_->curvature[static_cast<std::size_t>(i)].kappa * normal[i];
+  for (int i = 0; i < count; ++i) bent[i] = state_->curvature[i].kappa * normal[i];
   double total = 0.0;
   const Eigen::VectorXd sums = cumulative(bent, total);
   const double lengthChange = -total;
@@ -183,7 +182,7 @@ void FairingModel::transposeTo(const Eigen::VectorXd& y, Eigen::VectorXd& local,
   }
   local = weight_.cwiseProduct(y);
   normal = cumulativeTransposed(slide, -length);
-  for (int i = 0; i < count; ++i) normal[i] *= state_->curvature[static_cast<std::size_t>(i)].kappa;
+  for (int i = 0; i < count; ++i) normal[i] *= state_->curvature[i].kappa;
 }
 
 Eigen::VectorXd FairingModel::apply(const Eigen::VectorXd& v) const {
@@ -227,9 +226,7 @@ Eigen::VectorXd FairingModel::applyNormalOf(const Eigen::VectorXd& v, double dam
   using Row = Eigen::Map<const Eigen::Matrix<double, Stride, 1>>;
   const int count = setup_->sampleCount();
   const Eigen::Index stride = setup_->unknowns.stride();
-  const auto indexOf = [&](int i) {
-    return setup_->unknowns.indices(state_->arc.places[static_cast<std::size_t>(i)].span);
-  };
+  const auto indexOf = [&](int i) { return setup_->unknowns.indices(state_->arc.places[i].span); };
   Eigen::VectorXd local(count), normal(count), tangent(count);
   Eigen::Matrix<double, Stride, 1> near = Eigen::Matrix<double, Stride, 1>::Zero(stride);
   for (int i = 0; i < count; ++i) {

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/fairing/banded_cholesky.h"
+#include "core/base/run_context.h"
+#include "core/curve/periodic_form.h"
+#include "core/curve/span_curve.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/periodic_form.h"
-#include "core/fairing/span_curve.h"
+#include "core/solve/banded_cholesky.h"
 
 namespace batten {
 
@@ -42,7 +43,7 @@ class Unknowns {
   int count() const { return count_; }
   int halfWidth() const { return halfWidth_; }
   int stride() const { return stride_; }  ///< Largest number of unknowns that a span depends on.
-  std::span<const int> indices(int span) const { return spans_[static_cast<std::size_t>(span)].index; }
+  std::span<const int> indices(int span) const { return spans_[span].index; }
   /// Local row over the control points of a span to values over indices(span).
   void reduce(int span, const LocalRow& local, double* values) const;
   /// Adds the displacement of the unknowns to the control points.

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/curvature.h"
 #include "core/fairing/fairing_problem.h"
 
 namespace batten {
@@ -121,9 +121,7 @@ double FairingSetup::sampleAt(const SpanPlace& place) const {
   if (!closed && next == 0) return 0.0;
   if (!closed && next == count) return count - 1;
   const double period = original.end() - original.start();
-  const auto parameterOf = [&](int i) {
-    return basis.parameter(start.places[static_cast<std::size_t>((i + count) % count)]);
-  };
+  const auto parameterOf = [&](int i) { return basis.parameter(start.places[(i + count) % count]); };
   const double from = parameterOf(next - 1) - (next == 0 ? period : 0.0);
   const double to = parameterOf(next) + (next == count ? period : 0.0);
   const double share = to > from ? std::clamp((u - from) / (to - from), 0.0, 1.0) : 0.0;

@@ -3,6 +3,8 @@
 
 #include <functional>
 
+#include "core/base/result.h"
+#include "core/base/run_context.h"
 #include "core/fairing/fairing_problem.h"
 
 namespace batten {
@@ -11,7 +13,7 @@ namespace batten {
 Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& profile, double toleranceMm,
                                 const RunContext& context);
 Result<FairedCurve> fairWithinTolerance(const FairingSetup& setup, double toleranceMm, const RunContext& context);
-/// Tolerance mode, FairingSpend::AsNeeded.
+/// Tolerance mode, TolerancePolicy::AsNeeded.
 Result<FairedCurve> fairAsNeeded(const FairingSetup& setup, const FairingParams& params, const FairingLine& line,
                                  const RunContext& context);
 

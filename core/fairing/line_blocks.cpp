@@ -29,10 +29,7 @@ std::vector<Foot> feetOf(const FairingSetup& setup, const std::vector<Vec2>& poi
   int hint = 0;
   for (const Vec2& p : points) {
     if (!p.allFinite()) continue;
-    const auto better = [&](int i, int j) {
-      return (samples[static_cast<std::size_t>(i)] - p).squaredNorm() <
-             (samples[static_cast<std::size_t>(j)] - p).squaredNorm();
-    };
+    const auto better = [&](int i, int j) { return (samples[i] - p).squaredNorm() < (samples[j] - p).squaredNorm(); };
     // Near where the last point was; anywhere, when that leads to the end of the stretch that was searched.
     constexpr int kNear = 6;
     const int low = std::max(0, hint - kNear), high = std::min(count - 1, hint + kNear);
@@ -41,7 +38,7 @@ std::vector<Foot> feetOf(const FairingSetup& setup, const std::vector<Vec2>& poi
     const bool atBorder = feet.empty() || (best == low && low > 0) || (best == high && high + 1 < count);
     for (int i = 0; atBorder && i < count; ++i) best = better(i, best) ? i : best;
     hint = best;
-    const SpanPlace place = footPoint(setup.reference, p, setup.start.places[static_cast<std::size_t>(best)]);
+    const SpanPlace place = footPoint(setup.reference, p, setup.start.places[best]);
     const Jet jet = setup.reference.at(place, 1);
     if (!(jet[1].norm() > 0.0)) continue;
     const Vec2 tangent = jet[1].normalized(), away = p - jet[0];
@@ -77,9 +74,9 @@ LineBlocks lineBlocks(const FairingSetup& setup, const FairingLine& line) {
   struct Sum {
     double sample = 0.0, distance = 0.0, count = 0.0;
   };
-  std::vector<Sum> sums(static_cast<std::size_t>(count));
+  std::vector<Sum> sums(count);
   for (const Foot& f : feet) {
-    Sum& sum = sums[static_cast<std::size_t>(std::clamp(static_cast<int>(f.sample / samples * count), 0, count - 1))];
+    Sum& sum = sums[std::clamp(static_cast<int>(f.sample / samples * count), 0, count - 1)];
     sum.sample += f.sample;
     sum.distance += f.distance;
     sum.count += 1.0;
@@ -92,7 +89,7 @@ LineBlocks lineBlocks(const FairingSetup& setup, const FairingLine& line) {
 }
 
 std::vector<double> LineBlocks::offsets(const FairingSetup& setup) const {
-  std::vector<double> result(static_cast<std::size_t>(setup.sampleCount()), 0.0);
+  std::vector<double> result(setup.sampleCount(), 0.0);
   if (blocks.empty()) return result;
   std::size_t next = 0;
   for (std::size_t i = 0; i < result.size(); ++i) {

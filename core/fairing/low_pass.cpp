@@ -26,7 +26,7 @@ TargetProfile smoothedProfile(const FairingSetup& setup, double wavelength) {
   profile.degree = 3;
   profile.valid = true;
   const int nodes = setup.closed ? count + 1 : count;
-  const auto at = [&](int i) { return smooth[static_cast<std::size_t>(setup.closed ? (i + count) % count : i)]; };
+  const auto at = [&](int i) { return smooth[setup.closed ? (i + count) % count : i]; };
   for (int i = 0; i < nodes; ++i) {
     const int before = setup.closed ? i - 1 : std::max(i - 1, 0),
               after = setup.closed ? i + 1 : std::min(i + 1, count - 1);
@@ -52,14 +52,14 @@ std::vector<double> lowPass(std::span<const double> values, double spacing, doub
   }
   const int reach = static_cast<int>(std::ceil(std::min(kReach * sigma, closed ? kReach * count : 1.0 * count)));
   std::vector<double> weight(static_cast<std::size_t>(reach) + 1);
-  for (int k = 0; k <= reach; ++k) weight[static_cast<std::size_t>(k)] = std::exp(-0.5 * (k / sigma) * (k / sigma));
+  for (int k = 0; k <= reach; ++k) weight[k] = std::exp(-0.5 * (k / sigma) * (k / sigma));
   for (int i = 0; i < count; ++i) {
     const int low = closed ? -reach : std::max(-reach, -i), high = closed ? reach : std::min(reach, count - 1 - i);
     double w0 = 0.0, w1 = 0.0, w2 = 0.0, y0 = 0.0, y1 = 0.0;
     for (int k = low; k <= high; ++k) {
-      const double w = weight[static_cast<std::size_t>(std::abs(k))], x = k / sigma;
+      const double w = weight[std::abs(k)], x = k / sigma;
       const int at = closed ? ((i + k) % count + count) % count : i + k;
-      const double y = values[static_cast<std::size_t>(at)];
+      const double y = values[at];
       w0 += w;
       w1 += w * x;
       w2 += w * x * x;
@@ -69,7 +69,7 @@ std::vector<double> lowPass(std::span<const double> values, double spacing, doub
     const double determinant = w0 * w2 - w1 * w1;
     const double line = (w2 * y0 - w1 * y1) / determinant, mean = y0 / w0;
     // Too few neighbours for a slope: their mean.
-    result[static_cast<std::size_t>(i)] = determinant > 1e-12 * w0 * w0 && std::isfinite(line) ? line : mean;
+    result[i] = determinant > 1e-12 * w0 * w0 && std::isfinite(line) ? line : mean;
   }
   return result;
 }

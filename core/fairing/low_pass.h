@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "core/base/result.h"
+#include "core/base/run_context.h"
 #include "core/fairing/fairing.h"
 
 namespace batten {

@@ -14,7 +14,7 @@ double shareWithin(const FairingCorridor& corridor, const FairingState& state, c
   if (!(corridor.barrier > 0.0)) return 1.0;
   double share = 1.0;
   for (Eigen::Index i = 0; i < change.size(); ++i) {
-    const double e = state.distance[static_cast<std::size_t>(i)], c = change[i];
+    const double e = state.distance[i], c = change[i];
     const double room = c > 0.0 ? corridor.bound - e : corridor.bound + e;
     if (std::abs(c) > 0.0) share = std::min(share, 0.95 * room / std::abs(c));
   }

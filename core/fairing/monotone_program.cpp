@@ -46,11 +46,9 @@ struct MonotoneSearch::Program::Quadratic {
   Eigen::Index size() const { return p.linear_.size(); }
   Eigen::Index rowCount() const { return static_cast<Eigen::Index>(p.rows_.size()); }
   const Eigen::VectorXd& linear() const { return p.linear_; }
-  double bound(Eigen::Index i) const { return p.bounds_[static_cast<std::size_t>(i)]; }
-  double dotRow(Eigen::Index i, const Eigen::VectorXd& v) const { return dot(p.rows_[static_cast<std::size_t>(i)], v); }
-  void addRow(Eigen::Index i, double factor, Eigen::VectorXd& out) const {
-    add(out, p.rows_[static_cast<std::size_t>(i)], factor);
-  }
+  double bound(Eigen::Index i) const { return p.bounds_[i]; }
+  double dotRow(Eigen::Index i, const Eigen::VectorXd& v) const { return dot(p.rows_[i], v); }
+  void addRow(Eigen::Index i, double factor, Eigen::VectorXd& out) const { add(out, p.rows_[i], factor); }
   Eigen::VectorXd multiply(const Eigen::VectorXd& v) const {
     Eigen::VectorXd out = Eigen::VectorXd::Zero(v.size());
     for (int j = 0; j < a.size(); ++j) {
@@ -64,8 +62,7 @@ struct MonotoneSearch::Program::Quadratic {
   }
   bool factorise(const Eigen::VectorXd& weights, Factor& factor) const {
     factor.matrix = a;
-    for (Eigen::Index i = 0; i < weights.size(); ++i)
-      addOuter(factor.matrix, p.rows_[static_cast<std::size_t>(i)], weights[i]);
+    for (Eigen::Index i = 0; i < weights.size(); ++i) addOuter(factor.matrix, p.rows_[i], weights[i]);
     const BandedMatrix plain = factor.matrix;
     if (factor.matrix.factorize()) return true;
     factor.matrix = plain;

@@ -21,7 +21,7 @@ class MonotoneSearch::Program {
 
   SparseRow localRow(int span, const LocalRow& local) const;
   /// Change of dkappa/ds at a place, and of its difference between two.
-  const SparseRow& slope(int place) const { return slopes_[static_cast<std::size_t>(place)]; }
+  const SparseRow& slope(int place) const { return slopes_[place]; }
   SparseRow difference(int from, int to) const;
   /// weight * (value + row . x)^2.
   void addSquare(const SparseRow& row, double value, double weight);

@@ -275,7 +275,7 @@ int MonotoneSearch::denseTurns(const std::vector<Vec2>& points) const {
   for (const SpanPlace& place : checkPlaces(setup_.basis, kPlacesPerSpan * kDenseFactor)) {
     kappa.push_back(curvatureJet(curve.at(place, 4)).kappa);
   }
-  return countTurns(kappa, flat_, setup_.closed);
+  return countExtrema(kappa, flat_, setup_.closed);
 }
 
 }  // namespace batten

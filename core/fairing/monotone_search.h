@@ -4,7 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/fairing/curvature_structure.h"
+#include "core/base/run_context.h"
+#include "core/curve/curvature_structure.h"
 #include "core/fairing/fairing_problem.h"
 
 namespace batten {

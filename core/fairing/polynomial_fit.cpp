@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "core/fairing/nonnegative_least_squares.h"
 #include "core/fairing/radius_target.h"
 #include "core/solve/dense_solve.h"
+#include "core/solve/nonnegative_least_squares.h"
 
 namespace batten {
 namespace {
@@ -147,7 +147,7 @@ std::vector<double> fitMonotoneBernstein(std::span<const double> f, std::span<co
   const Eigen::Index count = s.values.size();
   Eigen::MatrixXd e(count, degree + 2);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const double x = f[static_cast<std::size_t>(i)];
+    const double x = f[i];
     std::vector<double> b(static_cast<std::size_t>(degree) + 1, 0.0);
     b[0] = 1.0;
     for (int d = 1; d <= degree; ++d) {
@@ -160,7 +160,7 @@ std::vector<double> fitMonotoneBernstein(std::span<const double> f, std::span<co
     e(i, 1) = -1.0;
     double tail = 0.0;
     for (int k = degree; k >= 1; --k) {
-      tail += b[static_cast<std::size_t>(k)];
+      tail += b[k];
       e(i, k + 1) = increasing ? tail : -tail;
     }
   }

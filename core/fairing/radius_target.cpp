@@ -5,9 +5,10 @@
 #include <cmath>
 
 #include "core/base/conventions.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/span_curve.h"
 #include "core/fairing/polynomial_fit.h"
 #include "core/fairing/similarity.h"
-#include "core/fairing/span_curve.h"
 #include "core/fairing/split_profile.h"
 
 namespace batten {
@@ -39,7 +40,7 @@ void sampleCurvature(const NurbsCurve& curve, const TargetParams& params, Data& 
   const int spans = static_cast<int>(curve.breaks().size()) - 1;
   const int count = std::max(params.samples, kSamplesPerSpan * spans + 1);
   for (int i = 0; i < count; ++i) data.perimeter.push_back(static_cast<double>(i) / (count - 1));
-  data.kappa.assign(static_cast<std::size_t>(count), 0.0);
+  data.kappa.assign(count, 0.0);
   if (!curve.isRational() && curve.degree() >= 2 && curve.degree() <= kMaxFairingDegree) {
     const SpanBasis basis(curve.degree(), curve.knots(), curve.controlPointCount(), 0);
     const SpanCurve fast(basis, curve.controlPoints());
@@ -198,8 +199,8 @@ TargetSet fitTargets(const NurbsCurve& curve, const TargetParams& params, bool c
   TargetSet set;
   if (curve.isEmpty()) {
     for (int d = 1; d <= 6; ++d) {
-      set.profiles[static_cast<std::size_t>(d - 1)].degree = d;
-      set.profiles[static_cast<std::size_t>(d - 1)].problem = "There is no curve.";
+      set.profiles[d - 1].degree = d;
+      set.profiles[d - 1].problem = "There is no curve.";
     }
     return set;
   }

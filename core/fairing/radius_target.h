@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/curve/curve_analysis.h"
+#include "core/curve/curvature.h"
 
 namespace batten {
 

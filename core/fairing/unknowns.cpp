@@ -85,7 +85,7 @@ Unknowns::Unknowns(const SpanBasis& basis, const SpanCurve& curve, const EndHold
 void Unknowns::buildPeriodic(int points) {
   for (int j = 0; j < points; ++j) {
     const int folded = j < (points + 1) / 2 ? 2 * j : 2 * (points - 1 - j) + 1;
-    for (int c = 0; c < 2; ++c) coordinates_[static_cast<std::size_t>(2 * j + c)].push_back({2 * folded + c, 1.0});
+    for (int c = 0; c < 2; ++c) coordinates_[2 * j + c].push_back({2 * folded + c, 1.0});
   }
   count_ = 2 * points;
 }
@@ -97,7 +97,7 @@ void Unknowns::buildBlocks(const SpanBasis& basis, const SpanCurve& curve, const
     const auto block =
         std::find_if(blocks.begin(), blocks.end(), [&](const Block& b) { return j >= b.first && j <= b.last; });
     if (block == blocks.end()) {
-      for (int c = 0; c < 2; ++c) coordinates_[static_cast<std::size_t>(2 * j + c)].push_back({count_++, 1.0});
+      for (int c = 0; c < 2; ++c) coordinates_[2 * j + c].push_back({count_++, 1.0});
       continue;
     }
     if (j > block->first) continue;
@@ -105,7 +105,7 @@ void Unknowns::buildBlocks(const SpanBasis& basis, const SpanCurve& curve, const
     for (int i = 0; i < 2 * (block->last - block->first + 1); ++i) {
       for (int k = 0; k < columns; ++k) {
         const double factor = block->free(i, k);
-        if (factor != 0.0) coordinates_[static_cast<std::size_t>(2 * block->first + i)].push_back({count_ + k, factor});
+        if (factor != 0.0) coordinates_[2 * block->first + i].push_back({count_ + k, factor});
       }
     }
     count_ += columns;
@@ -113,25 +113,24 @@ void Unknowns::buildBlocks(const SpanBasis& basis, const SpanCurve& curve, const
 }
 
 void Unknowns::buildSpans(const SpanBasis& basis) {
-  spans_.resize(static_cast<std::size_t>(basis.spanCount()));
+  spans_.resize(basis.spanCount());
   for (int s = 0; s < basis.spanCount(); ++s) {
-    SpanMap& map = spans_[static_cast<std::size_t>(s)];
+    SpanMap& map = spans_[s];
     for (int j = 0; j <= degree_; ++j) {
       for (int c = 0; c < 2; ++c) {
-        for (const Part& part : coordinates_[static_cast<std::size_t>(2 * basis.point(s, j) + c)]) {
+        for (const Part& part : coordinates_[2 * basis.point(s, j) + c]) {
           map.index.push_back(part.index);
         }
       }
     }
     std::sort(map.index.begin(), map.index.end());
     map.index.erase(std::unique(map.index.begin(), map.index.end()), map.index.end());
-    map.slots.resize(static_cast<std::size_t>(2 * (degree_ + 1)));
+    map.slots.resize(2 * (degree_ + 1));
     for (int j = 0; j <= degree_; ++j) {
       for (int c = 0; c < 2; ++c) {
-        for (const Part& part : coordinates_[static_cast<std::size_t>(2 * basis.point(s, j) + c)]) {
+        for (const Part& part : coordinates_[2 * basis.point(s, j) + c]) {
           const auto at = std::lower_bound(map.index.begin(), map.index.end(), part.index);
-          map.slots[static_cast<std::size_t>(2 * j + c)].emplace_back(static_cast<int>(at - map.index.begin()),
-                                                                      part.factor);
+          map.slots[2 * j + c].emplace_back(static_cast<int>(at - map.index.begin()), part.factor);
         }
       }
     }
@@ -141,7 +140,7 @@ void Unknowns::buildSpans(const SpanBasis& basis) {
 }
 
 void Unknowns::reduce(int span, const LocalRow& local, double* values) const {
-  const SpanMap& map = spans_[static_cast<std::size_t>(span)];
+  const SpanMap& map = spans_[span];
   std::fill(values, values + map.index.size(), 0.0);
   for (std::size_t i = 0; i < map.slots.size(); ++i) {
     const double value = local[i / 2][static_cast<Eigen::Index>(i % 2)];

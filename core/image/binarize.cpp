@@ -7,9 +7,9 @@
 #include <new>
 #include <vector>
 
+#include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
 #include "core/image/faint_lines.h"
-#include "core/image/hot_loop.h"
 #include "core/image/plane.h"
 #include "core/image/region_surface.h"
 #include "core/image/run_pieces.h"
@@ -68,7 +68,7 @@ void fillPaperRow(const PaperBackground& paper, int y, int width, std::vector<fl
   std::fill_n(out, std::min(half, width), columns[0]);
   const float step = 1.0f / static_cast<float>(cell);
   for (int c = 0; c < paper.columns; ++c) {
-    const float left = columns[static_cast<std::size_t>(c)];
+    const float left = columns[c];
     const float right = columns[std::min(static_cast<std::size_t>(c) + 1, stride - 1)];
     const float slope = (right - left) * step;
     const int begin = c * cell + half, count = std::min(cell, width - begin);

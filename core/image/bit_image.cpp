@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "core/image/hot_loop.h"
+#include "core/base/hot_loop.h"
 
 namespace batten {
 namespace {

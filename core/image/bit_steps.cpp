@@ -19,18 +19,18 @@ void spreadRow(const std::uint64_t* in, std::uint64_t* out, int words) {
 
 /// One step inside a strip of rows; `square` over 8 neighbours, else over 4. The strip's ends are paper outside.
 void growStrip(const std::uint64_t* in, std::uint64_t* out, int words, int rows, std::uint64_t lastMask, bool square) {
-  std::vector<std::uint64_t> column(static_cast<std::size_t>(words));
+  std::vector<std::uint64_t> column(words);
   for (int y = 0; y < rows; ++y) {
     const std::uint64_t* middle = in + static_cast<std::ptrdiff_t>(y) * words;
     const std::uint64_t* above = y > 0 ? middle - words : middle;
     const std::uint64_t* below = y + 1 < rows ? middle + words : middle;
     std::uint64_t* row = out + static_cast<std::ptrdiff_t>(y) * words;
-    for (int i = 0; i < words; ++i) column[static_cast<std::size_t>(i)] = above[i] | middle[i] | below[i];
+    for (int i = 0; i < words; ++i) column[i] = above[i] | middle[i] | below[i];
     if (square) {
       spreadRow(column.data(), row, words);
     } else {
       spreadRow(middle, row, words);
-      for (int i = 0; i < words; ++i) row[i] |= column[static_cast<std::size_t>(i)];
+      for (int i = 0; i < words; ++i) row[i] |= column[i];
     }
     row[words - 1] &= lastMask;
   }

@@ -17,7 +17,7 @@ class ByteReader {
   std::uint64_t size() const { return bytes_.size(); }
   bool has(std::uint64_t offset, std::uint64_t count) const { return offset <= size() && count <= size() - offset; }
   std::uint32_t u8(std::uint64_t offset) const {
-    return has(offset, 1) ? std::to_integer<std::uint32_t>(bytes_[static_cast<std::size_t>(offset)]) : 0u;
+    return has(offset, 1) ? std::to_integer<std::uint32_t>(bytes_[offset]) : 0u;
   }
   std::uint32_t u16(std::uint64_t offset) const { return number(offset, 2); }
   std::uint32_t u24(std::uint64_t offset) const { return number(offset, 3); }
@@ -27,7 +27,7 @@ class ByteReader {
   }
   ByteReader part(std::uint64_t offset, std::uint64_t count, bool bigEndian) const {
     if (!has(offset, count)) return ByteReader({}, bigEndian);
-    return ByteReader(bytes_.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(count)), bigEndian);
+    return ByteReader(bytes_.subspan(offset, static_cast<std::size_t>(count)), bigEndian);
   }
   std::span<const std::byte> bytes() const { return bytes_; }
 

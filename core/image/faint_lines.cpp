@@ -45,7 +45,7 @@ std::vector<Piece> measure(const RunPieces& found, const BitImage& interior, con
   std::vector<Piece> pieces(found.runs.size());
   for (std::size_t i = 0; i < found.runs.size(); ++i) {
     const Run& run = found.runs[i];
-    Piece& piece = pieces[static_cast<std::size_t>(found.piece[i])];
+    Piece& piece = pieces[found.piece[i]];
     piece.area += run.x1 - run.x0;
     piece.interior += countBits(interior, run);
     piece.beside += countBits(beside, run);
@@ -83,7 +83,7 @@ BitImage addFaintLines(const FaintMasks& masks, const RunContext& context) {
   const std::vector<Piece> pieces = measure(found, interior, beside, wide);
   BitImage lines(open.width, open.height);
   for (std::size_t i = 0; i < found.runs.size(); ++i) {
-    if (pieces[static_cast<std::size_t>(found.piece[i])].isLine()) setBits(lines, found.runs[i]);
+    if (pieces[found.piece[i]].isLine()) setBits(lines, found.runs[i]);
   }
   // The soft side was left out: where a line runs into ink, it is let through.
   return either(either(masks.ink, lines), both(grown(lines, kSoftSidePx, context), masks.faint));

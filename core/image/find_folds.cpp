@@ -67,7 +67,7 @@ class FoldMaker {
   bool isShade(const FoldStepFit& fit, int reach) const {
     std::vector<double> ratios;
     for (int i = 0; i < strip_.rows; ++i) {
-      if (fit.shows[static_cast<std::size_t>(i)] == 0) continue;
+      if (fit.shows[i] == 0) continue;
       const double bright = strip_.mean(i, reach, reach + kFoldBandPx);
       ratios.push_back((bright - fit.at(i, strip_.rows)) / std::max(1.0, bright));
     }
@@ -94,7 +94,7 @@ class FoldMaker {
     }
     for (int k = 0; k < fold.stations; ++k) {
       fold.depth.push_back(smoothedDepth(raw, k));
-      appendProfile(profiles[static_cast<std::size_t>(k)], fold.depth.back(), fold.profile);
+      appendProfile(profiles[k], fold.depth.back(), fold.profile);
     }
     return fold;
   }
@@ -109,7 +109,7 @@ class FoldMaker {
     std::vector<float> bright;
     for (int i = 0; i < strip_.rows; ++i)
       bright.push_back(static_cast<float>(strip_.mean(i, fold.reach, fold.reach + kFoldBandPx)));
-    std::vector<std::vector<BandPixel>> pixels(static_cast<std::size_t>(fold.stations));
+    std::vector<std::vector<BandPixel>> pixels(fold.stations);
     for (int y = 0; y < image_.height; ++y) {
       const auto [x0, x1] = fold.bandOfRow(y, image_.width);
       for (int x = x0; x < x1; ++x) {
@@ -117,11 +117,10 @@ class FoldMaker {
         const double t = p.dot(course_.along), d = p.dot(course_.normal) - course_.bendAt(t);
         const auto row = static_cast<int>((t - course_.from) / strip_.stepPx);
         if (t < course_.from || row >= strip_.rows || std::fabs(d) > fold.reach + 0.5) continue;
-        if (fit.shows[static_cast<std::size_t>(row)] == 0) continue;
+        if (fit.shows[row] == 0) continue;
         const auto station = static_cast<std::size_t>(
             std::min<double>(fold.stations - 1, std::lround((t - course_.from) / fold.spacing)));
-        pixels[station].push_back(
-            {static_cast<float>(d), static_cast<float>(image_.level(x, y)) - bright[static_cast<std::size_t>(row)]});
+        pixels[station].push_back({static_cast<float>(d), static_cast<float>(image_.level(x, y)) - bright[row]});
       }
     }
     return pixels;
@@ -132,10 +131,10 @@ class FoldMaker {
                                         const PaperFold& fold) {
     constexpr std::size_t kFewest = 6;
     const int taps = fold.taps(), around = static_cast<int>(0.5 * kWindowPx / fold.spacing);
-    std::vector<std::vector<float>> values(static_cast<std::size_t>(taps));
-    std::vector<double> places(static_cast<std::size_t>(taps), 0.0);
+    std::vector<std::vector<float>> values(taps);
+    std::vector<double> places(taps, 0.0);
     for (int k = std::max(0, station - around); k <= std::min(fold.stations - 1, station + around); ++k) {
-      for (const BandPixel& pixel : pixels[static_cast<std::size_t>(k)]) {
+      for (const BandPixel& pixel : pixels[k]) {
         const double v = (static_cast<double>(pixel.d) + fold.reach) * PaperFold::kTapsPerPx;
         const auto bin = static_cast<std::size_t>(std::clamp<long>(std::lround(v), 0, taps - 1));
         values[bin].push_back(pixel.value);
@@ -173,7 +172,7 @@ class FoldMaker {
       const int at = k + i;
       if (at < 0 || at >= static_cast<int>(raw.size())) continue;
       const auto w = static_cast<float>(kHalf + 1 - std::abs(i));
-      sum += w * raw[static_cast<std::size_t>(at)];
+      sum += w * raw[at];
       weight += w;
     }
     return sum / weight;

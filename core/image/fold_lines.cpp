@@ -80,7 +80,7 @@ class Accumulator {
       const int middle = static_cast<int>(std::lround(angle * kAngles / (2.0 * std::numbers::pi)));
       for (int k = middle - kAngleSpread; k <= middle + kAngleSpread; ++k) {
         const int a = (k + 2 * kAngles) % kAngles;
-        const double rho = v.p.dot(normals[static_cast<std::size_t>(a)]);
+        const double rho = v.p.dot(normals[a]);
         ++at(a, static_cast<int>(std::floor(rho / kRhoStep)) + half_);
       }
     }
@@ -142,7 +142,7 @@ bool bendToCrests(const Plane& u, const std::vector<Voter>& voters, FoldCourse& 
     normal.diagonal() += Eigen::Vector4d(1e-9, 1e-9, 1e-2, 1e-2) * normal(0, 0);
     const Eigen::Vector4d bend = normal.ldlt().solve(right);
     if (!bend.allFinite()) return false;
-    for (int k = 0; k < 4; ++k) c.bend[static_cast<std::size_t>(k)] = bend[k];
+    for (int k = 0; k < 4; ++k) c.bend[k] = bend[k];
   }
   return true;
 }

@@ -34,7 +34,7 @@ bool medianProfile(const FoldStrip& strip, const FoldStepFit& fit, int begin, in
                    std::vector<float>& out) {
   std::vector<int> rows;
   for (int i = std::max(0, begin); i < std::min(end, strip.rows); ++i)
-    if (fit.shows[static_cast<std::size_t>(i)] != 0) rows.push_back(i);
+    if (fit.shows[i] != 0) rows.push_back(i);
   if (static_cast<int>(rows.size()) * 3 < end - begin || rows.empty()) return false;
   const int outer = std::min(strip.half, reach + kFoldBandPx);
   std::vector<float> bright, column;
@@ -84,13 +84,12 @@ std::vector<double> foldSlopesAcross(const FoldStrip& strip) {
 }
 
 std::vector<double> foldStepsOf(const FoldStrip& strip, int reach, const std::vector<double>& slopes) {
-  std::vector<double> steps(static_cast<std::size_t>(strip.rows));
+  std::vector<double> steps(strip.rows);
   const int outer = std::min(strip.half, reach + kFoldBandPx);
   for (int i = 0; i < strip.rows; ++i) {
     const auto at = static_cast<std::size_t>((static_cast<std::int64_t>(i) * static_cast<std::int64_t>(slopes.size())) /
                                              strip.rows);
-    steps[static_cast<std::size_t>(i)] =
-        strip.mean(i, reach, outer) - strip.mean(i, -outer, -reach) - slopes[at] * (reach + outer);
+    steps[i] = strip.mean(i, reach, outer) - strip.mean(i, -outer, -reach) - slopes[at] * (reach + outer);
   }
   return steps;
 }
@@ -108,8 +107,7 @@ std::optional<FoldStepFit> fitFoldStep(const std::vector<double>& steps) {
   }
   const auto isNear = [&](const FoldStepFit& fit, int i) {
     const double level = fit.at(i, rows);
-    return level > 0.0 && std::fabs(steps[static_cast<std::size_t>(i)] - level) <
-                              std::clamp(3.0 * noise, kAlike * level, kLooselyAlike * level);
+    return level > 0.0 && std::fabs(steps[i] - level) < std::clamp(3.0 * noise, kAlike * level, kLooselyAlike * level);
   };
   FoldStepFit best;
   int most = 0;
@@ -117,8 +115,8 @@ std::optional<FoldStepFit> fitFoldStep(const std::vector<double>& steps) {
     for (int b = a + 3; b < kParts; ++b) {
       FoldStepFit fit;
       const double width = static_cast<double>(rows) / kParts;
-      fit.slope = (medians[static_cast<std::size_t>(b)] - medians[static_cast<std::size_t>(a)]) / ((b - a) * width);
-      fit.middle = medians[static_cast<std::size_t>(a)] + fit.slope * (0.5 * rows - (a + 0.5) * width);
+      fit.slope = (medians[b] - medians[a]) / ((b - a) * width);
+      fit.middle = medians[a] + fit.slope * (0.5 * rows - (a + 0.5) * width);
       if (std::min(fit.at(0, rows), fit.at(rows, rows)) < 0.3 * fit.middle) continue;
       int count = 0;
       for (int i = 0; i < rows; ++i) count += isNear(fit, i) ? 1 : 0;
@@ -145,7 +143,7 @@ std::optional<int> foldReachOf(const FoldStrip& strip, const FoldStepFit& fit) {
   const int reach = strip.half - kFoldBandPx;
   if (!medianProfile(strip, fit, 0, strip.rows, reach, profile)) return std::nullopt;
   // The paper's own slope across: equal on both sides of the step.
-  const auto at = [&](int d) { return static_cast<double>(profile[static_cast<std::size_t>(d + reach)]); };
+  const auto at = [&](int d) { return static_cast<double>(profile[d + reach]); };
   const double slope = 0.5 * ((at(reach) - at(reach / 2)) + (at(-reach / 2) - at(-reach))) / (reach - reach / 2);
   const double dark = at(-reach) + slope * reach, bright = at(reach) - slope * reach, step = bright - dark;
   if (step <= 0.0) return std::nullopt;

@@ -3,8 +3,8 @@
 
 #include <new>
 
+#include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
-#include "core/image/hot_loop.h"
 #include "core/image/padded_bits.h"
 
 namespace batten {

@@ -27,7 +27,7 @@ double greyOfTone(double tone, const LogParams& params) {
 std::array<std::uint8_t, 256> toneTable(const LogParams& params) {
   std::array<std::uint8_t, 256> table{};
   for (int grey = 0; grey < 256; ++grey) {
-    table[static_cast<std::size_t>(grey)] = static_cast<std::uint8_t>(std::lround(logTone(grey, params)));
+    table[grey] = static_cast<std::uint8_t>(std::lround(logTone(grey, params)));
   }
   return table;
 }

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
 #include "core/image/bit_steps.h"
-#include "core/image/hot_loop.h"
 #include "core/image/padded_bits.h"
 #include "core/image/run_pieces.h"
 
@@ -92,10 +92,10 @@ void runStep(const PaddedBits& in, const RowFlags& inChanged, PaddedBits& out, R
   const int height = in.height();
   const int words = in.wordsPerRow();
   parallelFor(context, height, 2 * kRowsPerBlock, [&](int begin, int end) {
-    std::vector<std::uint64_t> before(static_cast<std::size_t>(words));
+    std::vector<std::uint64_t> before(words);
     for (int y = begin; y < end; ++y) {
-      const auto flag = [&](int row) { return inChanged[static_cast<std::size_t>(std::clamp(row, 0, height - 1))]; };
-      std::uint8_t& mark = outChanged[static_cast<std::size_t>(y)];
+      const auto flag = [&](int row) { return inChanged[std::clamp(row, 0, height - 1)]; };
+      std::uint8_t& mark = outChanged[y];
       mark = 0;
       if ((flag(y - 1) | flag(y) | flag(y + 1)) == 0) continue;
       std::uint64_t* row = out.row(y);

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
-#include "core/image/hot_loop.h"
 #include "core/image/region_surface.h"
 #include "core/image/region_thresholds.h"
 #include "core/image/run_pieces.h"
@@ -94,7 +94,7 @@ Plane gradientSquares(const Plane& u, const RegionNoise& noise, const RunContext
   Plane squares(u.width, u.height);
   const RegionSurface slopeX(noise.slopeX, u.width, u.height, true), slopeY(noise.slopeY, u.width, u.height, true);
   parallelFor(context, u.height, kRowsPerBlock, [&](int begin, int end) {
-    std::vector<float> mx(static_cast<std::size_t>(u.width)), my(mx.size());
+    std::vector<float> mx(u.width), my(mx.size());
     for (int y = begin; y < end; ++y) {
       float* row = squares.row(y);
       if (y == 0 || y == u.height - 1) {
@@ -113,19 +113,19 @@ Plane gradientSquares(const Plane& u, const RegionNoise& noise, const RunContext
 /// 98 % of the certain gradients are smaller than this; 0 without any.
 float strongGradient(const Plane& squares, const RegionSurface& spread, const RunContext& context) {
   const int blocks = (squares.height + kRowsPerBlock - 1) / kRowsPerBlock;
-  std::vector<std::array<int, kStrengthBins>> counts(static_cast<std::size_t>(blocks));
+  std::vector<std::array<int, kStrengthBins>> counts(blocks);
   parallelFor(context, squares.height, kRowsPerBlock, [&](int begin, int end) {
-    auto& mine = counts[static_cast<std::size_t>(begin / kRowsPerBlock)];
+    auto& mine = counts[begin / kRowsPerBlock];
     mine.fill(0);
-    std::vector<float> s(static_cast<std::size_t>(squares.width));
+    std::vector<float> s(squares.width);
     std::vector<std::uint8_t> flags(s.size());
     for (int y = begin; y < end; ++y) {
       spread.fillRow(y, s.data());
       flagAbove(squares.row(y), s.data(), 0.0f, kCertain, flags.data(), squares.width);
       for (int x = 0; x < squares.width; ++x) {
-        if (flags[static_cast<std::size_t>(x)] == 0) continue;
+        if (flags[x] == 0) continue;
         const int bin = static_cast<int>(std::sqrt(squares.row(y)[x]) * kBinsPerGrey);
-        ++mine[static_cast<std::size_t>(std::min(bin, kStrengthBins - 1))];
+        ++mine[std::min(bin, kStrengthBins - 1)];
       }
     }
   });
@@ -158,9 +158,9 @@ bool isCrest(const Plane& u, const Plane& squares, int x, int y) {
 std::vector<EdgePoint> findCrests(const Plane& u, const Plane& squares, const BitImage& area,
                                   const RunContext& context) {
   const int blocks = (u.height + kRowsPerBlock - 1) / kRowsPerBlock;
-  std::vector<std::vector<EdgePoint>> parts(static_cast<std::size_t>(blocks));
+  std::vector<std::vector<EdgePoint>> parts(blocks);
   parallelFor(context, u.height, kRowsPerBlock, [&](int begin, int end) {
-    auto& part = parts[static_cast<std::size_t>(begin / kRowsPerBlock)];
+    auto& part = parts[begin / kRowsPerBlock];
     for (int y = std::max(begin, 1); y < std::min(end, u.height - 1); ++y) {
       for (int i = 0; i < area.wordsPerRow; ++i) {
         for (std::uint64_t bits = area.row(y)[i]; bits != 0; bits &= bits - 1) {
@@ -190,7 +190,7 @@ PageEdges findPageEdges(const Plane& u, const RunContext& context) {
   if (context.isCancelled()) return edges;
   BitImage weak(u.width, u.height), certain(u.width, u.height);
   parallelFor(context, u.height, kRowsPerBlock, [&](int begin, int end) {
-    std::vector<float> s(static_cast<std::size_t>(u.width));
+    std::vector<float> s(u.width);
     std::vector<std::uint8_t> flags(s.size());
     for (int y = begin; y < end; ++y) {
       spread.fillRow(y, s.data());

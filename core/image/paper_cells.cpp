@@ -88,13 +88,12 @@ std::vector<float> integrateSteps(const Cells& cells, const std::vector<float>& 
     }
   }
   cv::dct(divergence, divergence);
-  std::vector<double> cosX(static_cast<std::size_t>(width));
-  for (int x = 0; x < width; ++x)
-    cosX[static_cast<std::size_t>(x)] = 2.0 - 2.0 * std::cos(std::numbers::pi * x / width);
+  std::vector<double> cosX(width);
+  for (int x = 0; x < width; ++x) cosX[x] = 2.0 - 2.0 * std::cos(std::numbers::pi * x / width);
   for (int y = 0; y < height; ++y) {
     const double cosY = 2.0 - 2.0 * std::cos(std::numbers::pi * y / height);
     for (int x = 0; x < width; ++x) {
-      const double eigenvalue = cosX[static_cast<std::size_t>(x)] + cosY;
+      const double eigenvalue = cosX[x] + cosY;
       divergence(y, x) = eigenvalue > 0.0 ? divergence(y, x) / eigenvalue : 0.0;
     }
   }
@@ -154,7 +153,7 @@ PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrin
   for (float& value : paper.grey) value += height;
 
   std::vector<float> offset(cells.mean.size()), weight(cells.mean.size());
-  std::vector<float> limits(static_cast<std::size_t>(cells.columns));
+  std::vector<float> limits(cells.columns);
   for (int round = 0; round < kRounds && !context.isCancelled(); ++round) {
     const std::vector<float> half = halfLevels(grey, edges, paper, shrink);
     RegionValues values{};
@@ -166,7 +165,7 @@ PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrin
       for (int x = 0; x < cells.columns; ++x) {
         const std::size_t i = cells.at(x, y);
         offset[i] = cells.mean[i] - paper.grey[i];
-        const bool bright = noEdges || offset[i] > limits[static_cast<std::size_t>(x)];
+        const bool bright = noEdges || offset[i] > limits[x];
         estimate.isPaper[i] = cells.isFree[i] != 0 && bright ? 1 : 0;
         weight[i] = estimate.isPaper[i] != 0 ? 1.0f : 0.0f;
       }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
-#include "core/image/hot_loop.h"
 
 namespace batten {
 namespace {
@@ -70,7 +70,7 @@ void PaperFold::addToRow(int y, float* row, int width) const {
 GreyImage withoutFolds(const GreyImage& image, const std::vector<PaperFold>& folds, const RunContext& context) {
   GreyImage out(image.width, image.height);
   parallelFor(context, image.height, kRowsPerBlock, [&](int begin, int end) {
-    std::vector<float> sum(static_cast<std::size_t>(image.width));
+    std::vector<float> sum(image.width);
     for (int y = begin; y < end; ++y) {
       std::fill(sum.begin(), sum.end(), 0.0f);
       for (const PaperFold& fold : folds) fold.addToRow(y, sum.data(), image.width);

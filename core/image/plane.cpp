@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
-#include "core/image/hot_loop.h"
 
 namespace batten {
 namespace {
@@ -80,7 +80,7 @@ void smoothAcross(const float* const* rows, float* out, int count, const std::ve
   const float* const* middle = rows + radius;
   acrossFirst(middle[-1], middle[0], middle[1], out, count, kernel[0], kernel[1]);
   for (int k = 2; k <= radius; ++k) {
-    acrossPair(middle[-k], middle[k], out, count, kernel[static_cast<std::size_t>(k)]);
+    acrossPair(middle[-k], middle[k], out, count, kernel[k]);
   }
 }
 

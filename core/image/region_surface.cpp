@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/image/hot_loop.h"
+#include "core/base/hot_loop.h"
 #include "core/image/region_thresholds.h"
 
 namespace batten {
@@ -36,7 +36,7 @@ void RegionSurface::fillRow(int y, float* out) const {
     const int row = slotOf(y, height_);
     for (int c = 0; c < kRegionsPerSide; ++c) {
       const RegionBounds bounds = regionBounds(width_, height_, row * kRegionsPerSide + c);
-      const auto value = static_cast<float>(values_[static_cast<std::size_t>(row * kRegionsPerSide + c)]);
+      const auto value = static_cast<float>(values_[row * kRegionsPerSide + c]);
       std::fill(out + bounds.x0, out + bounds.x1, value);
     }
     return;
@@ -45,8 +45,7 @@ void RegionSurface::fillRow(int y, float* out) const {
   const int top = std::min(static_cast<int>(v), kLast - 1);
   for (int c = 0; c < kRegionsPerSide; ++c) {
     const auto above = static_cast<std::size_t>(top * kRegionsPerSide + c);
-    columns[static_cast<std::size_t>(c)] =
-        values_[above] + (v - top) * (values_[above + kRegionsPerSide] - values_[above]);
+    columns[c] = values_[above] + (v - top) * (values_[above + kRegionsPerSide] - values_[above]);
   }
   const double pitch = static_cast<double>(width_) / kRegionsPerSide;
   // Pixel x has its centre at x + .5; the first pixel right of centre c is the first with x + .5 >= (c + .5) pitch.
@@ -56,7 +55,7 @@ void RegionSurface::fillRow(int y, float* out) const {
   std::fill(out, out + firstRightOf(0), static_cast<float>(columns[0]));
   for (int c = 0; c < kLast; ++c) {
     const int begin = firstRightOf(c), end = firstRightOf(c + 1);
-    const double left = columns[static_cast<std::size_t>(c)], right = columns[static_cast<std::size_t>(c) + 1];
+    const double left = columns[c], right = columns[c + 1];
     const double slope = (right - left) / pitch;
     const double start = left + slope * (begin + 0.5 - (c + 0.5) * pitch);
     fillLine(out + begin, end - begin, static_cast<float>(start), static_cast<float>(slope));

@@ -57,9 +57,9 @@ float smoothedAt(const Plane& plane, int x, int y, const std::vector<float>& ker
     const float* row = plane.row(std::clamp(y + j, 0, plane.height - 1));
     float line = 0.0f;
     for (int i = -radius; i <= radius; ++i) {
-      line += kernel[static_cast<std::size_t>(std::abs(i))] * row[std::clamp(x + i, 0, plane.width - 1)];
+      line += kernel[std::abs(i)] * row[std::clamp(x + i, 0, plane.width - 1)];
     }
-    sum += kernel[static_cast<std::size_t>(std::abs(j))] * line;
+    sum += kernel[std::abs(j)] * line;
   }
   return sum;
 }
@@ -75,12 +75,11 @@ Depths measureDepths(const Plane& grey, const PageEdges& edges, const PaperEstim
   Depths depths;
   const PaperBackground& paper = estimate.paper;
   const auto measure = [&](int count, std::vector<float>& out, const auto& placeOf) {
-    out.assign(static_cast<std::size_t>(count), 0.0f);
+    out.assign(count, 0.0f);
     parallelFor(context, count, kDepthsPerBlock, [&](int begin, int end) {
       for (int i = begin; i < end; ++i) {
         const auto [x, y] = placeOf(static_cast<std::size_t>(i));
-        out[static_cast<std::size_t>(i)] =
-            smoothedAt(grey, x, y, kernel) - static_cast<float>(paper.at((x + 0.5) * shrink, (y + 0.5) * shrink));
+        out[i] = smoothedAt(grey, x, y, kernel) - static_cast<float>(paper.at((x + 0.5) * shrink, (y + 0.5) * shrink));
       }
     });
   };

@@ -33,7 +33,7 @@ void appendRuns(const BitImage& image, int y, std::vector<Run>& runs) {
 }
 
 int findRoot(std::vector<int>& parent, int i) {
-  const auto at = [&](int k) -> int& { return parent[static_cast<std::size_t>(k)]; };
+  const auto at = [&](int k) -> int& { return parent[k]; };
   while (at(i) != i) {
     at(i) = at(at(i));
     i = at(i);
@@ -44,11 +44,11 @@ int findRoot(std::vector<int>& parent, int i) {
 /// Joins the runs of two neighbouring rows, given as index ranges, where they touch.
 void joinRows(const std::vector<Run>& runs, int a, int aEnd, int b, int bEnd, int slack, std::vector<int>& parent) {
   while (a < aEnd && b < bEnd) {
-    const Run& above = runs[static_cast<std::size_t>(a)];
-    const Run& below = runs[static_cast<std::size_t>(b)];
+    const Run& above = runs[a];
+    const Run& below = runs[b];
     if (above.x0 < below.x1 + slack && below.x0 < above.x1 + slack) {
       const int rootA = findRoot(parent, a), rootB = findRoot(parent, b);
-      parent[static_cast<std::size_t>(std::max(rootA, rootB))] = std::min(rootA, rootB);
+      parent[std::max(rootA, rootB)] = std::min(rootA, rootB);
     }
     if (above.x1 < below.x1) {
       ++a;
@@ -86,19 +86,19 @@ struct Strips {
 
 Strips gatherRuns(const BitImage& image, const RunContext& context) {
   const int strips = (image.height + kRowsPerStrip - 1) / kRowsPerStrip;
-  std::vector<std::vector<Run>> parts(static_cast<std::size_t>(strips));
+  std::vector<std::vector<Run>> parts(strips);
   Strips all;
   all.rowStart.assign(static_cast<std::size_t>(image.height) + 1, 0);
   parallelFor(context, image.height, kRowsPerStrip, [&](int begin, int end) {
-    std::vector<Run>& part = parts[static_cast<std::size_t>(begin / kRowsPerStrip)];
+    std::vector<Run>& part = parts[begin / kRowsPerStrip];
     for (int y = begin; y < end; ++y) {
       const std::size_t before = part.size();
       appendRuns(image, y, part);
-      all.rowStart[static_cast<std::size_t>(y) + 1] = static_cast<int>(part.size() - before);
+      all.rowStart[y + 1] = static_cast<int>(part.size() - before);
     }
   });
   for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y) all.rowStart[y + 1] += all.rowStart[y];
-  all.runs.reserve(static_cast<std::size_t>(all.rowStart.back()));
+  all.runs.reserve(all.rowStart.back());
   for (const auto& part : parts) all.runs.insert(all.runs.end(), part.begin(), part.end());
   return all;
 }
@@ -123,7 +123,7 @@ RunPieces findPieces(const BitImage& image, Connectivity connectivity, const Run
     for (int y = begin + 1; y < end; ++y) join(y);
   });
   for (int y = kRowsPerStrip; y < image.height; y += kRowsPerStrip) join(y);
-  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = parent[static_cast<std::size_t>(parent[i])];
+  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = parent[parent[i]];
   result.runs = std::move(all.runs);
   result.piece = std::move(parent);
   return result;
@@ -154,7 +154,7 @@ BitImage keepPieces(const BitImage& image, const PieceRule& rule, const RunConte
   std::vector<Piece> pieces(found.runs.size());
   for (std::size_t i = 0; i < found.runs.size(); ++i) {
     const Run& run = found.runs[i];
-    Piece& piece = pieces[static_cast<std::size_t>(found.piece[i])];
+    Piece& piece = pieces[found.piece[i]];
     piece.area += run.x1 - run.x0;
     piece.x0 = std::min(piece.x0, run.x0);
     piece.x1 = std::max(piece.x1, run.x1);
@@ -164,7 +164,7 @@ BitImage keepPieces(const BitImage& image, const PieceRule& rule, const RunConte
   }
   BitImage kept(image.width, image.height);
   for (std::size_t i = 0; i < found.runs.size(); ++i) {
-    const Piece& piece = pieces[static_cast<std::size_t>(found.piece[i])];
+    const Piece& piece = pieces[found.piece[i]];
     const bool large = std::hypot(piece.x1 - piece.x0, piece.y1 - piece.y0) >= rule.minDiagonal;
     if (!piece.seeded || piece.area < rule.minArea || !large) continue;
     setBits(kept.row(found.runs[i].y), found.runs[i].x0, found.runs[i].x1);
@@ -204,10 +204,10 @@ void fillHoles(BitImage& image, int area, const RunContext& context) {
   for (std::size_t i = 0; i < found.runs.size(); ++i) {
     const Run& run = found.runs[i];
     const bool open = openTowards(run, run.y - 1) || openTowards(run, run.y + 1);
-    size[static_cast<std::size_t>(found.piece[i])] += open ? area : run.x1 - run.x0;
+    size[found.piece[i]] += open ? area : run.x1 - run.x0;
   }
   for (std::size_t i = 0; i < found.runs.size(); ++i) {
-    if (size[static_cast<std::size_t>(found.piece[i])] >= area) continue;
+    if (size[found.piece[i]] >= area) continue;
     setBits(image.row(found.runs[i].y), found.runs[i].x0, found.runs[i].x1);
   }
 }

@@ -26,7 +26,7 @@ std::array<std::uint32_t, 256> crcTable() {
 bool crcFits(const ByteReader& file, std::uint64_t begin, std::uint64_t count) {
   static const std::array<std::uint32_t, 256> kTable = crcTable();
   std::uint32_t crc = 0xffffffffu;
-  for (const std::byte value : file.bytes().subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(count))) {
+  for (const std::byte value : file.bytes().subspan(begin, static_cast<std::size_t>(count))) {
     crc = kTable[(crc ^ std::to_integer<std::uint32_t>(value)) & 0xffu] ^ (crc >> 8);
   }
   return (crc ^ 0xffffffffu) == file.u32(begin + count);

@@ -45,7 +45,7 @@ Result<std::uint64_t> fileSize(const std::filesystem::path& path) {
 }
 
 Result<std::vector<std::byte>> readBytes(const std::filesystem::path& path, std::uint64_t count) {
-  std::vector<std::byte> bytes(static_cast<std::size_t>(count));
+  std::vector<std::byte> bytes(count);
   std::ifstream in(path, std::ios::binary);
   if (!in) return unreadable(path, "cannot be opened; check its permissions.");
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));

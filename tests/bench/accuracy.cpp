@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pipeline/parameter_table.h"
+#include "core/pipeline/recipe/parameter_table.h"
 #include "tests/bench/accuracy_measure.h"
 #include "tests/bench/accuracy_peers.h"
 #include "tests/support/render_page.h"

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <unordered_map>
+#include "core/curve/arc_length.h"
 
 namespace batten::test {
 namespace {
@@ -261,7 +262,7 @@ class Comparison {
       for (std::size_t i = begin; i < end; ++i) kappa.push_back(sign * curve.kappa[i]);
       const bool periodic = curve.closed && begin == 0 && end == n;
       for (const ProfileExtremum& e : extremaOf(kappa, prominence, periodic))
-        found_[static_cast<std::size_t>(piece)].push_back({feet[begin + e.index].s, e.isMaximum});
+        found_[piece].push_back({feet[begin + e.index].s, e.isMaximum});
       std::vector<double> s;
       for (std::size_t i = begin; i < end; ++i)
         s.push_back(i > begin ? s.back() + (curve.points[i] - curve.points[i - 1]).norm() : 0.0);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pipeline/pipeline.h"
+#include "core/pipeline/run/pipeline.h"
 #include "tests/support/svg_paths.h"
 #include "tests/support/truth_shapes.h"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/pipeline/parameter_table.h"
-#include "core/pipeline/pipeline.h"
+#include "core/pipeline/recipe/parameter_table.h"
+#include "core/pipeline/run/pipeline.h"
 #include "tests/support/dense_page.h"
 
 using namespace batten;

@@ -12,9 +12,12 @@
 #include <vector>
 
 #include "core/construct/construct.h"
-#include "core/curve/curve_analysis.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
+#include "core/curve/curvature_jump.h"
 #include "core/fairing/fairing.h"
-#include "core/pipeline/parameter_table.h"
+#include "core/pipeline/recipe/parameter_table.h"
 #include "tests/support/method_truths.h"
 #include "tests/support/truth_shapes.h"
 

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <set>
 
+#include "core/curve/curvature.h"
 #include "tests/support/svg_paths.h"
 
 namespace batten::test {
@@ -52,7 +53,7 @@ std::optional<SketchTruth> SketchTruth::beside(const std::filesystem::path& draw
   }
   truth.groups_ = static_cast<int>(numbers.size());
   truth.names_.resize(numbers.size());
-  for (const auto& [name, number] : numbers) truth.names_[static_cast<std::size_t>(number)] = name;
+  for (const auto& [name, number] : numbers) truth.names_[number] = name;
   if (truth.strokes_.empty()) return std::nullopt;
   truth.fillGrid();
   return truth;
@@ -80,8 +81,8 @@ std::map<int, SketchTruth::Crossed> SketchTruth::crossedAt(const CurvePoint& poi
         const auto found = cells_.find(cell);
         if (found == cells_.end()) continue;
         for (const Facet& f : found->second) {
-          const Vec2 a = strokes_[static_cast<std::size_t>(f.stroke)].points[f.first] - point.at;
-          const Vec2 b = strokes_[static_cast<std::size_t>(f.stroke)].points[f.first + 1] - point.at;
+          const Vec2 a = strokes_[f.stroke].points[f.first] - point.at;
+          const Vec2 b = strokes_[f.stroke].points[f.first + 1] - point.at;
           const double sa = a.dot(point.tangent), sb = b.dot(point.tangent);
           if ((sa > 0.0) == (sb > 0.0)) continue;
           // Strokes that cross the curve are other lines.
@@ -100,7 +101,7 @@ std::map<int, SketchTruth::Crossed> SketchTruth::crossedAt(const CurvePoint& poi
 std::optional<double> SketchTruth::offsetAt(const CurvePoint& point) const {
   std::map<int, std::pair<double, int>> mean;  // by group
   for (const auto& [stroke, crossed] : crossedAt(point, kReachPx)) {
-    auto& m = mean[strokes_[static_cast<std::size_t>(stroke)].group];
+    auto& m = mean[strokes_[stroke].group];
     m.first += crossed.offset;
     ++m.second;
   }
@@ -114,13 +115,10 @@ std::optional<double> SketchTruth::offsetAt(const CurvePoint& point) const {
 
 SketchTruth::Grouping SketchTruth::group(const std::vector<std::vector<CurvePoint>>& lines) const {
   const auto groups = static_cast<std::size_t>(groups_);
-  const auto groupOf = [&](int stroke) {
-    return static_cast<std::size_t>(strokes_[static_cast<std::size_t>(stroke)].group);
-  };
+  const auto groupOf = [&](int stroke) { return static_cast<std::size_t>(strokes_[stroke].group); };
   std::vector<double> length(groups, 0.0);
   for (const Stroke& s : strokes_)
-    for (std::size_t i = 0; i + 1 < s.points.size(); ++i)
-      length[static_cast<std::size_t>(s.group)] += (s.points[i + 1] - s.points[i]).norm();
+    for (std::size_t i = 0; i + 1 < s.points.size(); ++i) length[s.group] += (s.points[i + 1] - s.points[i]).norm();
   Grouping result;
   struct Share {
     double on = 0.0, covers = 0.0;

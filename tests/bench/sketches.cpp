@@ -18,12 +18,13 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "core/contour/corner_marks.h"
+#include "core/contour/corner/corner_marks.h"
+#include "core/curve/arc_length.h"
 #include "core/image/laplacian_edges.h"
 #include "core/image/scan_reader.h"
-#include "core/pipeline/corner_places.h"
-#include "core/pipeline/parameter_table.h"
-#include "core/pipeline/pipeline.h"
+#include "core/pipeline/recipe/parameter_table.h"
+#include "core/pipeline/run/corner_places.h"
+#include "core/pipeline/run/pipeline.h"
 #include "tests/bench/sketch_truth.h"
 
 using namespace batten;
@@ -83,8 +84,7 @@ Figures drawAndMeasure(const PipelineOutput& output, QImage& overlay, double sca
   int hue = 0;
   for (const TracedCurve& curve : output.faired->curves) {
     const int count = std::max(8, static_cast<int>(output.frame.lengthToImage(curve.sketchedFigures.lengthMm)));
-    const double reach =
-        kOnInkPx + halfWidthOf(output.contours->contours[static_cast<std::size_t>(curve.contour)]) + 0.5;
+    const double reach = kOnInkPx + halfWidthOf(output.contours->contours[curve.contour]) + 0.5;
     QPainterPath path;
     Vec2 last = Vec2::Zero();
     std::vector<test::CurvePoint> line;

@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "core/construct/quintic_nurbs.h"
+#include "core/construct/nurbs/quintic_nurbs.h"
 #include "core/curve/knot_operations.h"
 #include "core/fairing/fairing.h"
-#include "core/pipeline/pipeline.h"
+#include "core/pipeline/run/pipeline.h"
 #include "tests/support/render_page.h"
 
 using namespace batten;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/curve/curve_analysis.h"
-#include "core/pipeline/recipe_file.h"
+#include "core/curve/nurbs_curve.h"
+#include "core/pipeline/recipe/recipe_file.h"
 #include "tests/cli/program.h"
 
 namespace batten {

@@ -3,9 +3,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/curve/curve_analysis.h"
-#include "core/pipeline/parameter_table.h"
-#include "core/pipeline/stage_id.h"
+#include "core/curve/closest_point.h"
+#include "core/pipeline/recipe/parameter_table.h"
+#include "core/pipeline/recipe/stage_id.h"
 #include "tests/cli/program.h"
 
 namespace batten {

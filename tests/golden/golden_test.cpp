@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/pipeline/pipeline.h"
+#include "core/pipeline/run/pipeline.h"
 #include "tests/support/render_page.h"
 
 /// \file

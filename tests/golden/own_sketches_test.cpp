@@ -7,8 +7,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/curve/arc_length.h"
 #include "core/image/scan_reader.h"
-#include "core/pipeline/pipeline.h"
+#include "core/pipeline/run/pipeline.h"
 
 /// \file
 /// Traces every .png and .jpg in the folder BATTEN_SKETCHES as it is: no truth is known of a sketch of one's own, but

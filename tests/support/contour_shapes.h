@@ -50,8 +50,7 @@ inline GreyImage renderShape(const std::function<bool(double, double)>& inside, 
     for (int k = -reach; k <= reach; ++k) {
       const int xx = std::clamp(horizontal ? x + k : x, 0, s.width - 1);
       const int yy = std::clamp(horizontal ? y : y + k, 0, s.height - 1);
-      sum += kernel[static_cast<std::size_t>(k + reach)] *
-             from[static_cast<std::size_t>(yy) * w + static_cast<std::size_t>(xx)];
+      sum += kernel[k + reach] * from[static_cast<std::size_t>(yy) * w + static_cast<std::size_t>(xx)];
     }
     return sum;
   };

@@ -32,7 +32,7 @@ std::vector<float> unitGrain(int width, int height, std::uint32_t seed) {
         for (int k = -4; k <= 4; ++k) {
           const auto xx = static_cast<std::size_t>((x + k * dx + width) % width);
           const auto yy = static_cast<std::size_t>((y + k * dy + height) % height);
-          sum += kernel[static_cast<std::size_t>(k + 4)] * from[yy * w + xx];
+          sum += kernel[k + 4] * from[yy * w + xx];
         }
         to[static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x)] = sum;
       }
@@ -162,7 +162,7 @@ DenseScore scoreDense(const std::vector<std::vector<Vec2>>& truth, const std::ve
       const Near n = nearestLine(truth, found[f][k], directionAt(found[f], k), tolerancePx);
       lineOf.push_back(n.line);
       if (n.line < 0) continue;
-      auto& points = passing[static_cast<std::size_t>(n.line)];
+      auto& points = passing[n.line];
       for (std::size_t p = n.point > 1 ? n.point - 1 : 0; p < std::min(points.size(), n.point + 3); ++p)
         if (points[p].empty() || points[p].back() != static_cast<int>(f)) points[p].push_back(static_cast<int>(f));
       squares += n.distance * n.distance;

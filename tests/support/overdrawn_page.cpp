@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/contour/centreline.h"
+#include "core/contour/centreline/centreline.h"
 #include "tests/support/angles.h"
 #include "tests/support/render_page.h"
 #include "tests/support/truth_shapes.h"

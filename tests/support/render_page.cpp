@@ -39,15 +39,14 @@ void addEdge(std::vector<double>& cells, int width, int height, Vec2 a, Vec2 b) 
 void blurRows(std::vector<float>& image, int width, int height, const std::vector<double>& kernel, bool columns) {
   const int radius = static_cast<int>(kernel.size()) - 1, outer = columns ? width : height,
             inner = columns ? height : width;
-  std::vector<float> line(static_cast<std::size_t>(inner));
+  std::vector<float> line(inner);
   for (int o = 0; o < outer; ++o) {
     const auto index = [&](int i) { return columns ? at(o, i, width) : at(i, o, width); };
-    for (int i = 0; i < inner; ++i) line[static_cast<std::size_t>(i)] = image[index(i)];
+    for (int i = 0; i < inner; ++i) line[i] = image[index(i)];
     for (int i = 0; i < inner; ++i) {
-      double sum = kernel[0] * line[static_cast<std::size_t>(i)];
+      double sum = kernel[0] * line[i];
       for (int k = 1; k <= radius; ++k)
-        sum += kernel[static_cast<std::size_t>(k)] * (line[static_cast<std::size_t>(std::max(0, i - k))] +
-                                                      line[static_cast<std::size_t>(std::min(inner - 1, i + k))]);
+        sum += kernel[k] * (line[std::max(0, i - k)] + line[std::min(inner - 1, i + k)]);
       image[index(i)] = static_cast<float>(sum);
     }
   }

@@ -35,7 +35,7 @@ TruthPiece fromProfile(const Profile& profile, double length, const Vec2& a, con
   const Eigen::Matrix2d map = scale * Eigen::Rotation2Dd(turn).toRotationMatrix();
   TruthPiece piece;
   for (int i = 0; i <= steps; ++i) {
-    piece.points.push_back(a + map * raw[static_cast<std::size_t>(i)]);
+    piece.points.push_back(a + map * raw[i]);
     piece.kappa.push_back(profile(static_cast<double>(i) / steps) / length / scale);
   }
   piece.points.back() = b;

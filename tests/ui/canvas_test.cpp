@@ -11,10 +11,10 @@
 
 #include "tests/ui/rendered_scan.h"
 #include "ui/canvas/curve_canvas.h"
-#include "ui/canvas/curve_shapes.h"
 #include "ui/canvas/layers/raster_layer.h"
-#include "ui/canvas/tile_pyramid.h"
-#include "ui/canvas/view_transform.h"
+#include "ui/canvas/scene/curve_shapes.h"
+#include "ui/canvas/scene/tile_pyramid.h"
+#include "ui/canvas/scene/view_transform.h"
 
 namespace batten {
 namespace {
@@ -96,7 +96,7 @@ TEST(TilePyramid, EveryLevelShowsTheSameRamp) {
     sampleGrey(*pyramid, zoom, device, grey.data());
     for (int i = 2; i + 2 < device.width(); i += 7) {
       const double expected = 255.0 * ((i + 0.5) / zoom - 0.5) / 3000.0;
-      EXPECT_NEAR(grey[static_cast<std::size_t>(i)], expected, 2.6) << "zoom " << zoom << " at " << i;
+      EXPECT_NEAR(grey[i], expected, 2.6) << "zoom " << zoom << " at " << i;
     }
   }
 }
@@ -266,20 +266,19 @@ TEST_F(CanvasTest, DraggingARegionChangesItsThresholdInOneStep) {
   open(test::zigzagPage());
   view.setTool(Tool::Thresholds);
   const int region = 2 * 8 + 3;  // Columns of 80 px, rows of 50 px: x 240..320, y 100..150.
-  const double before = session().output().thresholds->level[static_cast<std::size_t>(region)];
+  const double before = session().output().thresholds->level[region];
   QTest::mousePress(canvas.get(), Qt::LeftButton, {}, at(280, 125));
   EXPECT_EQ(view.selectedRegion(), region);
   const QPoint from = at(280, 125);
   for (int i = 1; i <= 5; ++i) QTest::mouseMove(canvas.get(), from - QPoint(0, 4 * i));
   QTest::mouseRelease(canvas.get(), Qt::LeftButton, {}, from - QPoint(0, 20));
-  const auto own = session().recipe().threshold.grid[static_cast<std::size_t>(region)];
+  const auto own = session().recipe().threshold.grid[region];
   ASSERT_TRUE(own);
   EXPECT_NEAR(*own, std::min(255.0, before + 10.0), 0.5);
   EXPECT_EQ(session().undoStack()->count(), 1);
-  for (int r = 0; r < kRegions; ++r)
-    EXPECT_EQ(session().recipe().threshold.grid[static_cast<std::size_t>(r)].has_value(), r == region) << r;
+  for (int r = 0; r < kRegions; ++r) EXPECT_EQ(session().recipe().threshold.grid[r].has_value(), r == region) << r;
   QTest::mouseDClick(canvas.get(), Qt::LeftButton, {}, at(280, 125));
-  EXPECT_FALSE(session().recipe().threshold.grid[static_cast<std::size_t>(region)]) << "double click: automatic";
+  EXPECT_FALSE(session().recipe().threshold.grid[region]) << "double click: automatic";
 }
 
 TEST_F(CanvasTest, TheWheelChangesTheRegionInThatToolAndZoomsElsewhere) {

@@ -10,13 +10,13 @@
 #include <QTextBrowser>
 #include <cmath>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/closest_point.h"
 #include "core/curve/variation_energy.h"
-#include "core/pipeline/recipe_file.h"
+#include "core/pipeline/recipe/recipe_file.h"
 #include "tests/ui/window_fixture.h"
-#include "ui/panels/method_table.h"
-#include "ui/panels/panel_parts.h"
-#include "ui/panels/pin_panel.h"
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/stages/method_table.h"
+#include "ui/panels/stages/pin_panel.h"
 
 namespace batten {
 namespace {

@@ -11,9 +11,9 @@
 #include <cmath>
 
 #include "tests/ui/window_fixture.h"
-#include "ui/panels/panel_parts.h"
-#include "ui/panels/shape_window.h"
-#include "ui/panels/target_advice.h"
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/targets/shape_window.h"
+#include "ui/panels/targets/target_advice.h"
 #include "ui/plots/curve_plots.h"
 #include "ui/plots/plot_editing.h"
 
@@ -60,10 +60,10 @@ TEST_F(FairingWindow, EndsAndUseOfTheBudgetBelongToTheCurveWhileItIsMeant) {
   click("fairing.hold_start.tangent");
   click("fairing.hold_end.curvature");
   click("fairing.spend.all");
-  ASSERT_TRUE(waitUntil([this] { return used().spend == FairingSpend::All; }));
+  ASSERT_TRUE(waitUntil([this] { return used().tolerancePolicy == TolerancePolicy::All; }));
   const Recipe& recipe = session().recipe();
   EXPECT_EQ(recipe.fairing.startHold, EndHold{});
-  EXPECT_EQ(recipe.fairing.spend, FairingSpend::AsNeeded);
+  EXPECT_EQ(recipe.fairing.tolerancePolicy, TolerancePolicy::AsNeeded);
   EXPECT_EQ(used().startHold, (EndHold{true, false}));
   EXPECT_EQ(used().endHold, (EndHold{true, true}));
   EXPECT_EQ(session().curves()[1].fairingUsed.endHold, EndHold{});

@@ -10,11 +10,11 @@
 #include <cmath>
 
 #include "tests/ui/window_fixture.h"
-#include "ui/canvas/canvas_scene.h"
-#include "ui/canvas/comb_runs.h"
 #include "ui/canvas/layers/vector_layers.h"
-#include "ui/panels/number_field.h"
-#include "ui/panels/pin_panel.h"
+#include "ui/canvas/scene/canvas_scene.h"
+#include "ui/canvas/scene/comb_runs.h"
+#include "ui/panels/controls/number_field.h"
+#include "ui/panels/stages/pin_panel.h"
 #include "ui/session/growing_player.h"
 
 namespace batten {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tests/ui/window_fixture.h"
-#include "ui/panels/target_strip.h"
+#include "ui/panels/targets/target_strip.h"
 #include "ui/plots/curve_plots.h"
 
 namespace batten {
@@ -43,7 +43,7 @@ TEST_F(Layout, OnlyWhatTheBudgetAllowsIsRecommended) {
   ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr && !session().isTargeting(); }));
   const int degree = session().targets()->recommendedDegree;
   ASSERT_GT(degree, 0);
-  const auto& outcome = session().targets()->faired[static_cast<std::size_t>(degree - 1)];
+  const auto& outcome = session().targets()->faired[degree - 1];
   ASSERT_TRUE(outcome);
   auto* tile = find<QAbstractButton>(("target." + std::to_string(degree)).c_str());
   EXPECT_EQ(tile->accessibleName().contains(QStringLiteral("recommended")), outcome->report.withinBudget);

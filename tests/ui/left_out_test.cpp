@@ -36,8 +36,7 @@ class LeftOut : public test::WindowFixture {
     bool included = false;
     double nearest = 1e9;
     for (const TracedCurve& curve : session().curves()) {
-      const double away =
-          std::abs(anchorOf(session().output().pieces->pieces[static_cast<std::size_t>(curve.piece)]).y() - y);
+      const double away = std::abs(anchorOf(session().output().pieces->pieces[curve.piece]).y() - y);
       if (away < nearest) nearest = away, included = curve.included;
     }
     return included;
@@ -63,7 +62,7 @@ TEST_F(LeftOut, OfTwoLinesCloseTogetherTheOneThatIsClicked) {
   EXPECT_FALSE(isIncluded(112));
   for (int curve = 0; curve < 3; ++curve) {
     const PieceChoice* choice = choiceOf(session(), curve);
-    EXPECT_EQ(session().curves()[static_cast<std::size_t>(curve)].included, !choice || choice->included) << curve;
+    EXPECT_EQ(session().curves()[curve].included, !choice || choice->included) << curve;
   }
 }
 

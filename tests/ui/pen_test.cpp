@@ -12,11 +12,11 @@
 
 #include "core/document/export_builder.h"
 #include "core/exchange/writers.h"
-#include "core/pipeline/recipe_file.h"
+#include "core/pipeline/recipe/recipe_file.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/new_drawing_dialog.h"
-#include "ui/panels/knot_panel.h"
-#include "ui/panels/knot_strip.h"
+#include "ui/panels/stages/knot_panel.h"
+#include "ui/panels/stages/knot_strip.h"
 #include "ui/session/pen_edits.h"
 
 namespace batten {

@@ -5,9 +5,9 @@
 #include <QTest>
 #include <algorithm>
 
-#include "core/pipeline/recipe_file.h"
+#include "core/pipeline/recipe/recipe_file.h"
 #include "tests/ui/window_fixture.h"
-#include "ui/panels/curve_list.h"
+#include "ui/panels/stages/curve_list.h"
 #include "ui/plots/plot_series.h"
 
 namespace batten {
@@ -57,8 +57,7 @@ class Selection : public test::WindowFixture {
     const TracedCurve* curve = session().selected();
     if (!curve || !session().output().pieces) return 1e9;
     double best = 1e9;
-    for (const Vec2& p : session().output().pieces->pieces[static_cast<std::size_t>(curve->piece)].points)
-      best = std::min(best, (p - px).norm());
+    for (const Vec2& p : session().output().pieces->pieces[curve->piece].points) best = std::min(best, (p - px).norm());
     return best;
   }
   void clickEyeOfSelected() {

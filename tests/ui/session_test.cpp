@@ -10,7 +10,7 @@
 #include <set>
 #include <thread>
 
-#include "core/pipeline/recipe_file.h"
+#include "core/pipeline/recipe/recipe_file.h"
 #include "tests/ui/rendered_scan.h"
 #include "ui/commands/action_catalog.h"
 #include "ui/session/background_worker.h"
@@ -212,14 +212,13 @@ TEST(EditorSession, TheSelectionStaysWithItsPlace) {
   ASSERT_TRUE(open.isReady);
   ASSERT_GE(open.session.curves().size(), 2u);
   open.session.selectCurve(static_cast<int>(open.session.curves().size()) - 1);
-  const Vec2 middle =
-      anchorOf(open.session.output().pieces->pieces[static_cast<std::size_t>(open.session.selected()->piece)]);
+  const Vec2 middle = anchorOf(open.session.output().pieces->pieces[open.session.selected()->piece]);
   Recipe recipe = open.session.recipe();
   recipe.cornerMarks = {{Vec2(200, 100)}, {Vec2(400, 300)}};
   open.session.change("Corners", recipe);
   ASSERT_TRUE(open.settle());
   ASSERT_NE(open.session.selected(), nullptr);
-  const auto& piece = open.session.output().pieces->pieces[static_cast<std::size_t>(open.session.selected()->piece)];
+  const auto& piece = open.session.output().pieces->pieces[open.session.selected()->piece];
   double nearest = 1e9;
   for (const Vec2& point : piece.points) nearest = std::min(nearest, (point - middle).norm());
   EXPECT_LT(nearest, 2.0);

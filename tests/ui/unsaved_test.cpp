@@ -11,7 +11,7 @@
 #include <QMessageBox>
 #include <QMimeData>
 
-#include "core/pipeline/recipe_file.h"
+#include "core/pipeline/recipe/recipe_file.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/error_strip.h"
 #include "ui/new_drawing_dialog.h"

@@ -19,8 +19,8 @@
 #include <cmath>
 #include <set>
 
-#include "core/contour/corner_marks.h"
-#include "core/pipeline/parameter_table.h"
+#include "core/contour/corner/corner_marks.h"
+#include "core/pipeline/recipe/parameter_table.h"
 #include "tests/ui/rendered_scan.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/canvas/curve_canvas.h"

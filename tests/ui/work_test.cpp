@@ -11,8 +11,8 @@
 
 #include "tests/ui/window_fixture.h"
 #include "ui/error_strip.h"
-#include "ui/panels/method_table.h"
-#include "ui/panels/target_strip.h"
+#include "ui/panels/stages/method_table.h"
+#include "ui/panels/targets/target_strip.h"
 
 namespace batten {
 namespace {

@@ -4,7 +4,12 @@
 #include <cmath>
 
 #include "core/image/log_transform.h"
-#include "ui/canvas/layers/vector_layers.h"
+#include "ui/canvas/layers/chip_layer.h"
+#include "ui/canvas/layers/choice_layers.h"
+#include "ui/canvas/layers/comb_layer.h"
+#include "ui/canvas/layers/curve_layer.h"
+#include "ui/canvas/layers/growing_layer.h"
+#include "ui/canvas/layers/mark_layers.h"
 #include "ui/session/growing_player.h"
 #include "ui/session/suggestion_source.h"
 
@@ -124,7 +129,7 @@ void CurveCanvas::State::hoverChanged() {
   ghostDegree = session.hoveredTarget();
   const auto targets = session.targets();
   if (ghostDegree >= 1 && ghostDegree <= 6 && targets) {
-    const auto& outcome = targets->faired[static_cast<std::size_t>(ghostDegree - 1)];
+    const auto& outcome = targets->faired[ghostDegree - 1];
     if (outcome) ghost = sampledPath(outcome->curve, session.output().frame, 0.15 / zoomBracket(transform.zoom()));
   }
   canvas.update();

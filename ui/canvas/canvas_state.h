@@ -7,8 +7,8 @@
 #include <array>
 #include <tuple>
 
-#include "ui/canvas/canvas_scene.h"
 #include "ui/canvas/curve_canvas.h"
+#include "ui/canvas/scene/canvas_scene.h"
 #include "ui/canvas/screen_tiles.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/background_worker.h"
@@ -27,7 +27,7 @@ struct CurveCanvas::State : CanvasScene {
   void selectionChanged();
   void hoverChanged();
   void busyChanged(bool busy);
-  CanvasTool& tool() { return *tools[static_cast<std::size_t>(view.tool())]; }
+  CanvasTool& tool() { return *tools[indexOf(view.tool())]; }
 
   void paint(QPainter&);
   RasterContent rasterContent() const;

@@ -36,7 +36,7 @@ void ScreenTiles::paint(QPainter& painter, const ViewTransform& view, const Rast
     }
   parallelFor(RunContext{}, static_cast<int>(missing.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      const auto& [key, image] = missing[static_cast<std::size_t>(i)];
+      const auto& [key, image] = missing[i];
       renderRaster(content_, zoom_, QRect(key.first * kTile, key.second * kTile, kTile, kTile), *image);
     }
   });

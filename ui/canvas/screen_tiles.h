@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "ui/canvas/layers/raster_layer.h"
-#include "ui/canvas/view_transform.h"
+#include "ui/canvas/scene/view_transform.h"
 
 namespace batten {
 

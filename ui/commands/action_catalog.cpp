@@ -198,7 +198,7 @@ QAction* makeAction(ActionId id, QObject* parent) {
 std::optional<Layer> layerOf(ActionId id) {
   const auto index = offset(id, ActionId::ShowScan, ActionId::ShowFallback);
   if (!index) return std::nullopt;
-  return kLayers[static_cast<std::size_t>(*index)];
+  return kLayers[*index];
 }
 
 std::optional<Tool> toolOf(ActionId id) {

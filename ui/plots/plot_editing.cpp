@@ -102,7 +102,7 @@ bool PlotEditing::isOnTarget(const QPoint& position) const {
     if (series.role != PlotRole::ChosenTarget && series.role != PlotRole::DrawnTarget) continue;
     const auto at = std::lower_bound(series.s.begin(), series.s.end(), s);
     if (at == series.s.end()) continue;
-    const double y = plot_->yAxis->coordToPixel(series.value[static_cast<std::size_t>(at - series.s.begin())]);
+    const double y = plot_->yAxis->coordToPixel(series.value[at - series.s.begin()]);
     if (std::abs(y - position.y()) < kLineReachPx) return true;
   }
   return false;
@@ -129,7 +129,7 @@ bool PlotEditing::press(const QMouseEvent& event) {
     if (!isNear && isTargetDrawn(session_)) {
       const auto above = std::upper_bound(profile.begin(), profile.end(), f,
                                           [](double x, const ProfilePoint& p) { return x < p.fraction; });
-      const double sign = profile[static_cast<std::size_t>(index_)].kappa;
+      const double sign = profile[index_].kappa;
       index_ = static_cast<int>(profile.insert(above, {f, kappaAt(at.y(), sign)}) - profile.begin());
     }
     dragged_ = Dragged::Handle;

@@ -7,7 +7,9 @@
 #include <tuple>
 #include <utility>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "ui/session/fairing_edits.h"
 
 namespace batten {
@@ -156,7 +158,7 @@ void addDeviation(PlotData& data, const EditorSession& session, const TracedCurv
   PlotSeries points{PlotRole::Sketched, 0, {}, {}};
   const auto& pieces = session.output().pieces;
   if (pieces && curve.piece >= 0 && static_cast<std::size_t>(curve.piece) < pieces->pieces.size()) {
-    const auto& px = pieces->pieces[static_cast<std::size_t>(curve.piece)].points;
+    const auto& px = pieces->pieces[curve.piece].points;
     const std::size_t step = std::max<std::size_t>(1, px.size() / kDeviationSamples);
     for (std::size_t i = 0; i < px.size(); i += step) measure(session.output().frame.pointToModel(px[i]), points);
     sorted(points);

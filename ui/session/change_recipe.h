@@ -3,7 +3,7 @@
 
 #include <QUndoCommand>
 
-#include "core/pipeline/recipe.h"
+#include "core/pipeline/recipe/recipe.h"
 
 namespace batten {
 

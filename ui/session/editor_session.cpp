@@ -103,7 +103,7 @@ const ChoiceOwners& EditorSession::choiceOwners() const {
 const TracedCurve* EditorSession::selected() const {
   const auto all = curves();
   if (selectedCurve_ < 0 || static_cast<std::size_t>(selectedCurve_) >= all.size()) return nullptr;
-  return &all[static_cast<std::size_t>(selectedCurve_)];
+  return &all[selectedCurve_];
 }
 
 void EditorSession::setEdgesWanted(bool wanted) {
@@ -113,7 +113,7 @@ void EditorSession::setEdgesWanted(bool wanted) {
 }
 
 bool EditorSession::isStale(StageId stage) const {
-  return runner_->shownGeneration[static_cast<std::size_t>(stage)] != runner_->recipeGeneration;
+  return runner_->shownGeneration[indexOf(stage)] != runner_->recipeGeneration;
 }
 
 bool EditorSession::isBusy() const { return runner_->isRunning || runner_->isReading; }
@@ -149,7 +149,7 @@ void EditorSession::selectCurve(int index) {
   runner_->selectsItself = false;
   runner_->anchorPx.reset();
   if (index >= 0 && output_.pieces) {
-    const auto piece = static_cast<std::size_t>(curves()[static_cast<std::size_t>(index)].piece);
+    const auto piece = static_cast<std::size_t>(curves()[index].piece);
     if (piece < output_.pieces->pieces.size()) runner_->anchorPx = anchorOf(output_.pieces->pieces[piece]);
   }
   if (index == selectedCurve_) return;
@@ -172,7 +172,7 @@ void EditorSession::keepCornerSelection(const std::vector<CornerMark>& after) {
   const auto& before = recipe_.cornerMarks;
   // As many as before: the selected one may have moved. Else it is where it was, or it has gone.
   if (selectedCorner_ < 0 || after.size() == before.size()) return;
-  const Vec2 place = before[static_cast<std::size_t>(selectedCorner_)].positionPx;
+  const Vec2 place = before[selectedCorner_].positionPx;
   const auto found =
       std::find_if(after.begin(), after.end(), [&](const CornerMark& mark) { return mark.positionPx == place; });
   selectedCorner_ = found == after.end() ? -1 : static_cast<int>(found - after.begin());
@@ -198,13 +198,13 @@ void EditorSession::unpin() {
 const TracedCurve* EditorSession::pinnedOf(int curve) const {
   const auto all = curves();
   if (!pinned_ || !output_.pieces || curve < 0 || static_cast<std::size_t>(curve) >= all.size()) return nullptr;
-  const auto piece = static_cast<std::size_t>(all[static_cast<std::size_t>(curve)].piece);
+  const auto piece = static_cast<std::size_t>(all[curve].piece);
   if (piece >= output_.pieces->pieces.size()) return nullptr;
   const Vec2 anchor = anchorOf(output_.pieces->pieces[piece]);
   const TracedCurve* nearest = nullptr;
   double best = kSamePlacePx * kSamePlacePx;
   for (const TracedCurve& candidate : pinned_->faired->curves) {
-    for (const Vec2& p : pinned_->pieces->pieces[static_cast<std::size_t>(candidate.piece)].points) {
+    for (const Vec2& p : pinned_->pieces->pieces[candidate.piece].points) {
       if (const double d = (p - anchor).squaredNorm(); d < best) best = d, nearest = &candidate;
     }
   }

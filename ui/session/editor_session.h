@@ -10,8 +10,8 @@
 #include <optional>
 #include <span>
 
-#include "core/pipeline/pipeline.h"
-#include "core/pipeline/recipe.h"
+#include "core/pipeline/recipe/recipe.h"
+#include "core/pipeline/run/pipeline.h"
 
 namespace batten {
 

@@ -16,7 +16,7 @@ QString tr(const char* text) { return QCoreApplication::translate("ExtremumMarks
 const TracedCurve* curveAt(const EditorSession& session, int curve) {
   const auto curves = session.curves();
   if (curve < 0 || static_cast<std::size_t>(curve) >= curves.size()) return nullptr;
-  return &curves[static_cast<std::size_t>(curve)];
+  return &curves[curve];
 }
 
 /// The choice in the recipe that a note stands for. While a new run is on its way the numbers in the report are those
@@ -24,8 +24,9 @@ const TracedCurve* curveAt(const EditorSession& session, int curve) {
 std::optional<std::size_t> choiceOf(const EditorSession& session, const ExtremumNote& note) {
   const auto& choices = session.recipe().extremumChoices;
   if (!session.isStale(StageId::Curves)) {
-    if (!note.wish || *note.wish < 0 || static_cast<std::size_t>(*note.wish) >= choices.size()) return std::nullopt;
-    return static_cast<std::size_t>(*note.wish);
+    if (!note.constraint || *note.constraint < 0 || static_cast<std::size_t>(*note.constraint) >= choices.size())
+      return std::nullopt;
+    return static_cast<std::size_t>(*note.constraint);
   }
   const Vec2 px = session.output().frame.pointToImage(note.point);
   for (std::size_t i = 0; i < choices.size(); ++i)
@@ -85,7 +86,7 @@ std::vector<ExtremumMark> extremumMarks(const EditorSession& session, int curve)
 void toggleExtremum(EditorSession& session, int curve, int note) {
   const TracedCurve* traced = curveAt(session, curve);
   if (!traced || note < 0 || static_cast<std::size_t>(note) >= traced->construct.extrema.size()) return;
-  const ExtremumNote& extremum = traced->construct.extrema[static_cast<std::size_t>(note)];
+  const ExtremumNote& extremum = traced->construct.extrema[note];
   Recipe after = session.recipe();
   if (const auto choice = choiceOf(session, extremum)) {
     after.extremumChoices.erase(after.extremumChoices.begin() + static_cast<std::ptrdiff_t>(*choice));

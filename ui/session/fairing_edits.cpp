@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "core/fairing/low_pass.h"
 #include "ui/session/piece_choice.h"
 
@@ -80,8 +82,7 @@ void moveSplit(EditorSession& session, int index, double fraction, int gesture) 
   if (!isUsable(session)) return;
   const Vec2 place = placeAt(session, std::clamp(fraction, kLeastPart, 1.0 - kLeastPart));
   edit(session, tr("Move a split"), gesture, [&](PieceChoice& choice) {
-    if (index >= 0 && static_cast<std::size_t>(index) < choice.splitsPx.size())
-      choice.splitsPx[static_cast<std::size_t>(index)] = place;
+    if (index >= 0 && static_cast<std::size_t>(index) < choice.splitsPx.size()) choice.splitsPx[index] = place;
   });
 }
 
@@ -138,8 +139,7 @@ std::vector<ProfilePoint> profileToBeginWith(const EditorSession& session) {
   if (asked.target == kDrawnTarget && asked.profile.size() >= 2) return asked.profile;
   const auto targets = session.targets();
   const int degree = asked.target >= 1 && asked.target <= 6 ? asked.target : targets ? targets->recommendedDegree : 0;
-  const TargetProfile* target =
-      targets && degree > 0 ? &targets->targets.profiles[static_cast<std::size_t>(degree - 1)] : nullptr;
+  const TargetProfile* target = targets && degree > 0 ? &targets->targets.profiles[degree - 1] : nullptr;
   std::vector<double> sketch;
   const int count = curve.closed ? kClosedPoints : kOpenPoints;
   constexpr int kSamples = 400;

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/pipeline/segment_points.h"
+#include "core/pipeline/run/segment_points.h"
 #include "ui/session/background_worker.h"
 
 namespace batten {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/image/scan_reader.h"
-#include "core/pipeline/recipe_file.h"
+#include "core/pipeline/recipe/recipe_file.h"
 
 namespace batten {
 namespace {

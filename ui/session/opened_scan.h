@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/image/scan.h"
-#include "core/pipeline/recipe.h"
+#include "core/pipeline/recipe/recipe.h"
 
 namespace batten {
 

@@ -53,7 +53,7 @@ std::optional<std::size_t> strokeOf(const EditorSession& session, int curve) {
   const auto curves = session.curves();
   if (!first || session.isStale(StageId::Curves) || curve < 0 || static_cast<std::size_t>(curve) >= curves.size())
     return std::nullopt;
-  const auto contour = static_cast<std::size_t>(curves[static_cast<std::size_t>(curve)].contour);
+  const auto contour = static_cast<std::size_t>(curves[curve].contour);
   if (contour < *first) return std::nullopt;
   return contour - *first;
 }

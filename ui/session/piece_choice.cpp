@@ -11,7 +11,7 @@ std::optional<std::size_t> pieceOf(const EditorSession& session, int curve) {
   const auto curves = session.curves();
   const auto& pieces = session.output().pieces;
   if (!pieces || curve < 0 || static_cast<std::size_t>(curve) >= curves.size()) return std::nullopt;
-  const int piece = curves[static_cast<std::size_t>(curve)].piece;
+  const int piece = curves[curve].piece;
   if (piece < 0 || static_cast<std::size_t>(piece) >= pieces->pieces.size()) return std::nullopt;
   return static_cast<std::size_t>(piece);
 }

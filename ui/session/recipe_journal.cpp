@@ -11,7 +11,7 @@
 #include <string>
 
 #include "core/exchange/writers.h"
-#include "core/pipeline/recipe_file.h"
+#include "core/pipeline/recipe/recipe_file.h"
 
 namespace batten {
 namespace {

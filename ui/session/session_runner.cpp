@@ -15,8 +15,6 @@ namespace {
 /// Of its length: a curve that is longer or shorter by more is another one.
 constexpr double kOtherCurve = 0.2;
 
-std::size_t indexOf(StageId stage) { return static_cast<std::size_t>(stage); }
-
 /// Puts the outputs up to `last` of a run over the shown ones; later stages keep what they have.
 void mergeOutputs(PipelineOutput& shown, const PipelineOutput& run, StageId last) {
   const auto take = [last](StageId stage, auto& to, const auto& from) {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/contour/corner_marks.h"
+#include "core/contour/corner/corner_marks.h"
 #include "ui/session/background_worker.h"
 
 namespace batten {

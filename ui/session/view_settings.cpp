@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/conventions.h"
+#include "core/curve/closest_point.h"
 
 namespace batten {
 
@@ -49,11 +50,11 @@ QString label(Layer layer) {
 ViewSettings::ViewSettings(QObject* parent) : QObject(parent) {
   for (const Layer layer :
        {Layer::Scan, Layer::Curve, Layer::Faired, Layer::Comb, Layer::Corners, Layer::Extrema, Layer::Band})
-    visible_[static_cast<std::size_t>(layer)] = true;
+    visible_[indexOf(layer)] = true;
 }
 
 void ViewSettings::setVisible(Layer layer, bool visible) {
-  bool& now = visible_[static_cast<std::size_t>(layer)];
+  bool& now = visible_[indexOf(layer)];
   if (now == visible) return;
   now = visible;
   emit changed();

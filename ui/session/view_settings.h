@@ -4,6 +4,7 @@
 #include <QObject>
 #include <QString>
 #include <array>
+#include "core/curve/closest_point.h"
 
 namespace batten {
 
@@ -30,6 +31,8 @@ inline constexpr std::array kLayers = {Layer::Scan,    Layer::LogImage, Layer::P
                                        Layer::Edges,   Layer::Segments, Layer::Curve,   Layer::Faired,
                                        Layer::Comb,    Layer::Corners,  Layer::Regions, Layer::Deviation,
                                        Layer::Extrema, Layer::Band,     Layer::Strokes, Layer::Fallback};
+/// Its place in arrays with one entry a layer.
+constexpr std::size_t indexOf(Layer layer) { return static_cast<std::size_t>(layer); }
 QString label(Layer);  ///< "Scan", "Log picture", …
 
 /// What a press on the canvas does. Pan and zoom work in every tool.
@@ -46,12 +49,15 @@ enum class Tool {
 inline constexpr std::array kTools = {Tool::Select,   Tool::Thresholds, Tool::Corners,   Tool::Pen,
                                       Tool::Segments, Tool::Lines,      Tool::Rectangle, Tool::Lasso};
 
+/// Its place in arrays with one entry a tool.
+constexpr std::size_t indexOf(Tool tool) { return static_cast<std::size_t>(tool); }
+
 /// How the drawing is shown: never part of the recipe, never undone, kept between sessions.
 class ViewSettings : public QObject {
   Q_OBJECT
  public:
   explicit ViewSettings(QObject* parent = nullptr);
-  bool isVisible(Layer layer) const { return visible_[static_cast<std::size_t>(layer)]; }
+  bool isVisible(Layer layer) const { return visible_[indexOf(layer)]; }
   void setVisible(Layer, bool);
   /// The same by the user's hand: from then on no stage switches the layer.
   void choose(Layer layer, bool visible) {

@@ -49,7 +49,7 @@ TEST(ParallelFor, CoversEveryIndexOnceWhateverTheThreads) {
     parallelFor(context, 1003, 10, [&](int begin, int end) {
       EXPECT_EQ(begin % 10, 0);
       EXPECT_LE(end - begin, 10);
-      for (int i = begin; i < end; ++i) ++visits[static_cast<std::size_t>(i)];
+      for (int i = begin; i < end; ++i) ++visits[i];
     });
     EXPECT_EQ(std::set<int>(visits.begin(), visits.end()), std::set<int>{1});
   }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/bezier_chain.h"
+#include "core/construct/bezier/bezier_chain.h"
 
 #include <gtest/gtest.h>
 
-#include "core/construct/block_levenberg.h"
-#include "core/curve/curve_analysis.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
+#include "core/solve/block_levenberg.h"
 #include "tests/unit/construct/roof_line.h"
 #include "tests/unit/construct/stations_of.h"
 

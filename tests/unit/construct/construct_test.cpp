@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/closest_point.h"
 #include "tests/unit/construct/stations_of.h"
 
 namespace batten {
@@ -19,7 +19,7 @@ TEST(Construct, SaysWhichParameterIsWrong) {
   params.degree = 6;
   EXPECT_TRUE(validate(params));
   params = {};
-  params.keepExtremaCost = std::numeric_limits<double>::quiet_NaN();
+  params.extremumSignificance = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(validate(params));
   EXPECT_FALSE(construct({}, params, {}));
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/control_polygon.h"
+#include "core/construct/polygon/control_polygon.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/closest_point.h"
 #include "tests/support/known_answers.h"
 #include "tests/unit/construct/stations_of.h"
 
@@ -72,7 +72,7 @@ TEST(ControlPolygonCurve, PassesThroughSharpPointsHoweverCloseTheyAre) {
     EXPECT_EQ(made->curve.point(made->curve.start()), points.front());
     EXPECT_LT((made->curve.point(made->curve.end()) - points.back()).norm(), 1e-12);
     for (const int s : sharp) {
-      EXPECT_LT(closestPoint(made->curve, points[static_cast<std::size_t>(s)]).distance, 1e-9);
+      EXPECT_LT(closestPoint(made->curve, points[s]).distance, 1e-9);
     }
     // No break: the curve is nowhere two points at once.
     const auto& c = made->curve;
@@ -122,10 +122,10 @@ TEST(Thinned, KeepsEndsAndSharpPointsAndTheTolerance) {
     for (const int s : sharp) EXPECT_NE(std::find(kept.begin(), kept.end(), s), kept.end());
   }
   for (std::size_t k = 0; k + 1 < byTolerance.size(); ++k) {
-    const Vec2 a = points[static_cast<std::size_t>(byTolerance[k])];
-    const Vec2 chord = (points[static_cast<std::size_t>(byTolerance[k + 1])] - a).normalized();
+    const Vec2 a = points[byTolerance[k]];
+    const Vec2 chord = (points[byTolerance[k + 1]] - a).normalized();
     for (int i = byTolerance[k]; i <= byTolerance[k + 1]; ++i) {
-      EXPECT_LE(std::abs(cross(chord, points[static_cast<std::size_t>(i)] - a)), 0.5 + 1e-12);
+      EXPECT_LE(std::abs(cross(chord, points[i] - a)), 0.5 + 1e-12);
     }
   }
   EXPECT_TRUE(thinnedByStep({}, {}, 1.0).empty());
@@ -164,7 +164,7 @@ TEST(WithEnoughPoints, DoublesWhatIsMissingBetweenCloseCorners) {
   }
   const auto curve = controlPolygonCurve(points, sharp, 4, SharpKnots::Degree).value();
   for (const int s : sharp) {
-    EXPECT_LT(closestPoint(curve.curve, points[static_cast<std::size_t>(s)]).distance, 1e-9);
+    EXPECT_LT(closestPoint(curve.curve, points[s]).distance, 1e-9);
   }
   // Drawn harder: nearer to the doubled point than the three points of a parabola would bring it.
   EXPECT_LT(closestPoint(curve.curve, points[3]).distance, 0.5 * (8.0 - 4.0));

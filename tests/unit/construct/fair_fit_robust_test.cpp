@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "core/construct/fair_fit.h"
+#include "core/construct/fair/fair_fit.h"
 #include "tests/unit/construct/fair_shapes.h"
 
 namespace batten {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "core/construct/fair_fit.h"
+#include "core/construct/fair/fair_fit.h"
 #include "tests/unit/construct/fair_shapes.h"
 
 namespace batten {
@@ -59,8 +59,8 @@ TEST(FairFit, LongLinesAskMoreOfABump) {
     for (ConstructPiece& piece : contour.pieces) piece.points = {Vec2(0.0, 0.0), Vec2(0.05 * px, 0.0)};
     return costAsked(contour, {});
   };
-  EXPECT_DOUBLE_EQ(asked(300.0), FairFitOptions().keepExtremaCost);
-  EXPECT_DOUBLE_EQ(asked(2000.0), FairFitOptions().keepExtremaCost);
+  EXPECT_DOUBLE_EQ(asked(300.0), FairFitOptions().extremumSignificance);
+  EXPECT_DOUBLE_EQ(asked(2000.0), FairFitOptions().extremumSignificance);
   EXPECT_NEAR(10.0 * passes(asked(20000.0)) / passes(asked(2000.0)), 1.0, 0.15);
 }
 
@@ -70,7 +70,7 @@ Result<std::vector<ConstructedPiece>> fitWithAllPoints(std::vector<Vec2> points)
   contour.pieces.resize(1);
   contour.pieces[0].points = std::move(points);
   FairFitOptions options;
-  options.reduceShare = 0.0;
+  options.knotRemovalTolerance = 0.0;
   return fairFit(contour, options, {});
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/fair_fit.h"
+#include "core/construct/fair/fair_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/fair_noise.h"
+#include "core/construct/fair/fair_noise.h"
 
 #include <gtest/gtest.h>
 

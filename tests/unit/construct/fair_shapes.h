@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "core/construct/fair_fit.h"
+#include "core/construct/fair/fair_fit.h"
 #include "core/curve/nurbs_curve.h"
 
 namespace batten::test {
@@ -107,16 +107,14 @@ inline std::vector<FoundExtremum> extremaOf(const NurbsCurve& curve, bool closed
   int offset = 0;
   if (closed) {
     for (int i = 1; i < n; ++i) {
-      if (p.kappa[static_cast<std::size_t>(i)] < p.kappa[static_cast<std::size_t>(offset)]) offset = i;
+      if (p.kappa[i] < p.kappa[offset]) offset = i;
     }
   }
-  const auto at = [&](int i) { return p.kappa[static_cast<std::size_t>((i + offset) % n)]; };
+  const auto at = [&](int i) { return p.kappa[(i + offset) % n]; };
   const int steps = closed ? n : n - 1;
   double low = at(0), high = at(0);
   int lowAt = 0, highAt = 0, direction = 0;
-  const auto add = [&](int i, int type) {
-    found.push_back({p.s[static_cast<std::size_t>((i + offset) % n)] / p.s.back(), type});
-  };
+  const auto add = [&](int i, int type) { found.push_back({p.s[(i + offset) % n] / p.s.back(), type}); };
   for (int i = 1; i <= steps; ++i) {
     const double k = at(i);
     if (k > high) high = k, highAt = i;
@@ -131,7 +129,7 @@ inline std::vector<FoundExtremum> extremaOf(const NurbsCurve& curve, bool closed
       high = k, highAt = i;
     }
   }
-  if (closed && !found.empty()) found.push_back({p.s[static_cast<std::size_t>(offset)] / p.s.back(), -1});
+  if (closed && !found.empty()) found.push_back({p.s[offset] / p.s.back(), -1});
   return found;
 }
 

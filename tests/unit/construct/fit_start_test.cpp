@@ -5,7 +5,8 @@
 
 #include <random>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "tests/unit/construct/stations_of.h"
 
 namespace batten {

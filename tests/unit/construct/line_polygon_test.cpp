@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "core/construct/control_polygon.h"
-#include "core/curve/curve_analysis.h"
+#include "core/construct/polygon/control_polygon.h"
+#include "core/curve/closest_point.h"
 #include "core/curve/knot_operations.h"
 #include "tests/support/known_answers.h"
 #include "tests/unit/construct/stations_of.h"
@@ -83,7 +83,7 @@ TEST(LinePolygon, EveryDegreeKeepsTheElevenCornersOfTheK) {
     const auto made = polygonCurve(line, degree, SharpKnots::Degree).value();
     const auto uniform = polygonCurve(line, degree, SharpKnots::Uniform).value();
     for (const int s : k.sharp) {
-      EXPECT_LT(closestPoint(made.curve, k.points[static_cast<std::size_t>(s)]).distance, 1e-9) << degree;
+      EXPECT_LT(closestPoint(made.curve, k.points[s]).distance, 1e-9) << degree;
     }
     // Between sharp points the legs are straight, so the curve lies on the polygon; the uniform one cuts the corners.
     double farthest = 0.0;
@@ -122,8 +122,8 @@ TEST(LinePolygon, MultiplicityOfTheOrderBreaksTheCurveWhereThePaperDoes) {
   const auto whole = polygonCurve(linePolygon(contourOf(k), params), 2, SharpKnots::Order).value();
   int repeated = 0;
   for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
-    const Vec2& corner = k.points[static_cast<std::size_t>(k.sharp[i])];
-    const Vec2& before = k.points[static_cast<std::size_t>(k.sharp[i]) - 1];
+    const Vec2& corner = k.points[k.sharp[i]];
+    const Vec2& before = k.points[k.sharp[i] - 1];
     EXPECT_LT((pieces[i].curve.point(pieces[i].curve.end()) - before).norm(), 1e-12);
     EXPECT_LT((pieces[i + 1].curve.point(pieces[i + 1].curve.start()) - corner).norm(), 1e-12);
     EXPECT_FALSE(pieces[i].report.note.empty());
@@ -149,7 +149,7 @@ TEST(LinePolygon, RemovalCountsAndKeepsCorners) {
   for (const LinePolygon* line : {&some, &few}) {
     ASSERT_EQ(line->sharp.size(), 11u);
     for (std::size_t i = 0; i < 11; ++i) {
-      EXPECT_EQ(line->points[static_cast<std::size_t>(line->sharp[i])], k.points[static_cast<std::size_t>(k.sharp[i])]);
+      EXPECT_EQ(line->points[line->sharp[i]], k.points[k.sharp[i]]);
     }
   }
   // So few points between close corners: what is missing for the degree is added, and counted.
@@ -192,7 +192,7 @@ TEST(ConstructControlPolygon, APenStrokeUsesOnlyItsDrawnPoints) {
   EXPECT_EQ(made.report.pointsAfter, 5);
   ASSERT_EQ(made.curve.controlPointCount(), 5);
   for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_EQ(made.curve.controlPoints()[i], piece.points[static_cast<std::size_t>(piece.drawn[i])]);
+    EXPECT_EQ(made.curve.controlPoints()[i], piece.points[piece.drawn[i]]);
   }
 }
 

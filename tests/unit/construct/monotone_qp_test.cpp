@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/monotone_qp.h"
+#include "core/construct/fair/monotone_qp.h"
 
 #include <gtest/gtest.h>
 
@@ -75,9 +75,9 @@ double bruteForce(const Problem& p) {
     kkt.topLeftCorner(n, n) = p.a;
     right.head(n) = p.qp.b;
     for (int j = 0; j < k; ++j) {
-      kkt.block(n + j, 0, 1, n) = p.g.row(active[static_cast<std::size_t>(j)]);
-      kkt.block(0, n + j, n, 1) = p.g.row(active[static_cast<std::size_t>(j)]).transpose();
-      right[n + j] = p.h[active[static_cast<std::size_t>(j)]];
+      kkt.block(n + j, 0, 1, n) = p.g.row(active[j]);
+      kkt.block(0, n + j, n, 1) = p.g.row(active[j]).transpose();
+      right[n + j] = p.h[active[j]];
     }
     const Eigen::VectorXd x = kkt.fullPivLu().solve(right).head(n);
     if (((p.g * x - p.h).array() < -1e-7).any()) continue;

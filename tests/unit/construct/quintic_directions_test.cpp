@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/quintic_directions.h"
+#include "core/construct/nurbs/quintic_directions.h"
 
 #include <gtest/gtest.h>
 
-#include "core/construct/quintic_nurbs.h"
-#include "core/curve/curve_analysis.h"
+#include "core/construct/nurbs/quintic_nurbs.h"
+#include "core/curve/closest_point.h"
 #include "tests/support/known_answers.h"
 #include "tests/unit/construct/stations_of.h"
 

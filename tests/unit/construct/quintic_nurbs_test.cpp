@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/quintic_nurbs.h"
+#include "core/construct/nurbs/quintic_nurbs.h"
 
 #include <gtest/gtest.h>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
 #include "tests/support/known_answers.h"
 #include "tests/unit/construct/stations_of.h"

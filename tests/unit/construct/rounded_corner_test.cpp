@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/rounded_corner.h"
+#include "core/construct/typical/rounded_corner.h"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <array>
 
-#include "core/construct/closer_stations.h"
 #include "core/construct/construct.h"
-#include "core/contour/regression_segments.h"
-#include "core/curve/curve_analysis.h"
+#include "core/construct/stations/adaptive_stations.h"
+#include "core/contour/segment/regression_segments.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/closest_point.h"
 #include "tests/unit/construct/stations_of.h"
 
 namespace batten {
@@ -37,7 +38,7 @@ Result<std::vector<ConstructedPiece>> constructed(const ConstructPiece& piece, C
                                                   double closeness) {
   ConstructParams params;
   params.method = method;
-  params.closenessPx = closeness;
+  params.maxDeviationPx = closeness;
   ConstructContour contour;
   contour.pieces = {piece};
   return construct(contour, params, {});

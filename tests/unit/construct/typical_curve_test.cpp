@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/typical_curve.h"
+#include "core/construct/typical/typical_curve.h"
 
 #include <gtest/gtest.h>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "tests/support/known_answers.h"
 #include "tests/unit/construct/roof_line.h"
 #include "tests/unit/construct/stations_of.h"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/typical_path.h"
+#include "core/construct/typical/typical_path.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <random>
 
-#include "core/construct/typical_growing.h"
-#include "core/curve/curve_analysis.h"
+#include "core/construct/typical/typical_growing.h"
 #include "core/curve/knot_operations.h"
+#include "core/curve/nurbs_curve.h"
 #include "tests/support/known_answers.h"
 #include "tests/unit/construct/stations_of.h"
 
@@ -116,8 +116,7 @@ TEST(FitPath, ClosesExactlyAndMeetsPinnedEnds) {
     return std::pow(150.0 * 150.0 * c * c + 300.0 * 300.0 * s * s, 1.5) / (300.0 * 300.0 * 150.0 * 150.0);
   };
   for (int k = 0; k < 8; ++k) {
-    path.elements[static_cast<std::size_t>(k)].shape =
-        0.25 * std::log(kappa(k * std::numbers::pi / 4) / kappa((k + 1) * std::numbers::pi / 4));
+    path.elements[k].shape = 0.25 * std::log(kappa(k * std::numbers::pi / 4) / kappa((k + 1) * std::numbers::pi / 4));
   }
   const auto fit = fitPath(path, data, 60);
   ASSERT_TRUE(fit);
@@ -163,8 +162,8 @@ TypicalLine lineWithGap(double turnRad) {
 TEST(GrownPath, TurnsWithThePageAlsoWhereThereAreNoPoints) {
   const auto pathOn = [](double turnRad) {
     const TypicalLine line = lineWithGap(turnRad);
-    const std::vector<Vec2> divisions = {line.joints[9].point, line.joints[16].point};
-    return grownPath(line, divisions, {}, nullptr, {})->path;
+    const std::vector<Vec2> breakpoints = {line.joints[9].point, line.joints[16].point};
+    return grownPath(line, breakpoints, {}, nullptr, {})->path;
   };
   const TypicalPath upright = pathOn(0.0);
   // Also such that the middle of the gap runs along the axes of the page.

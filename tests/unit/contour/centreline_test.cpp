@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/centreline.h"
+#include "core/contour/centreline/centreline.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "core/contour/centreline_skeleton.h"
+#include "core/contour/centreline/skeleton.h"
 #include "tests/support/render_page.h"
 #include "tests/support/truth_shapes.h"
 
@@ -59,7 +59,7 @@ Page page(const std::vector<Polyline>& strokes, bool closed, double width, int w
   return result;
 }
 
-std::vector<Contour> strandsOf(const Page& p, const EdgeParams& params = {}) {
+std::vector<Contour> centrelinesOf(const Page& p, const EdgeParams& params = {}) {
   Result<ContourSet> set = centrelines(p.ink, p.grey, params, {});
   EXPECT_TRUE(set);
   std::vector<Contour> found = set ? set->contours : std::vector<Contour>{};
@@ -186,7 +186,7 @@ TEST(Centreline, StrokesOfAllShapesAreOneStrandOnTheirMiddle) {
   for (const test::TruthShape& shape : test::truthShapes(900, 600)) {
     const Polyline truth = shape.outline();
     const bool closed = shape.closed;
-    const auto found = strandsOf(page({truth}, closed, 5.0, 900, 600));
+    const auto found = centrelinesOf(page({truth}, closed, 5.0, 900, 600));
     ASSERT_EQ(found.size(), 1u) << shape.name;
     EXPECT_EQ(found[0].closed, closed) << shape.name;
     expectSound(found[0]);
@@ -203,7 +203,7 @@ TEST(Centreline, StrokesOfAllShapesAreOneStrandOnTheirMiddle) {
 TEST(Centreline, OpenEndsLieWhereThePenStopped) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const Polyline truth = strokeArc({200, 220}, 150.0, -2.6, -0.4);
-    const auto found = strandsOf(page({truth}, false, 5.0, 400, 300, seed));
+    const auto found = centrelinesOf(page({truth}, false, 5.0, 400, 300, seed));
     ASSERT_EQ(found.size(), 1u);
     EXPECT_FALSE(found[0].closed);
     const double forward =
@@ -219,11 +219,11 @@ TEST(Centreline, CrossingStrokesGoStraightThrough) {
     const double t = angle * std::numbers::pi / 180.0;
     const Vec2 d = 130.0 * Vec2(std::cos(t), std::sin(t)), c(200.3, 200.7);
     const std::vector<Polyline> strokes{strokeLine(c - Vec2(150, 0), c + Vec2(150, 0)), strokeLine(c - d, c + d)};
-    const auto found = strandsOf(page(strokes, false, 5.0, 400, 400));
+    const auto found = centrelinesOf(page(strokes, false, 5.0, 400, 400));
     ASSERT_EQ(found.size(), 2u) << angle;
     for (int k = 0; k < 2; ++k) {
-      expectSound(found[static_cast<std::size_t>(k)]);
-      const Fit f = fitTo(found[static_cast<std::size_t>(k)], strokes[static_cast<std::size_t>(k)], false, 4.0);
+      expectSound(found[k]);
+      const Fit f = fitTo(found[k], strokes[k], false, 4.0);
       printf("crossing %.0f: rms %.4f worst %.3f all %.3f\n", angle, f.rms, f.worst, f.allWorst);
       EXPECT_LE(f.rms, 0.06) << angle;
       EXPECT_LE(f.allWorst, 0.5) << angle;
@@ -233,7 +233,7 @@ TEST(Centreline, CrossingStrokesGoStraightThrough) {
 
 TEST(Centreline, ATeeIsTwoStrandsThatTouch) {
   const std::vector<Polyline> strokes{strokeLine({40, 100.4}, {360, 100.4}), strokeLine({200.6, 100.4}, {200.6, 280})};
-  const auto found = strandsOf(page(strokes, false, 5.0, 400, 320));
+  const auto found = centrelinesOf(page(strokes, false, 5.0, 400, 320));
   ASSERT_EQ(found.size(), 2u);
   EXPECT_LE(fitTo(found[0], strokes[0], false).allWorst, 0.3);
   EXPECT_LE(fitTo(found[1], strokes[1], false).allWorst, 0.5);
@@ -249,7 +249,7 @@ TEST(Centreline, AnAcuteCornerKeepsTheRing) {
     const Polyline side = strokeLine(corners[i], corners[(i + 1) % 3]);
     outline.insert(outline.end(), side.begin(), side.end() - 1);
   }
-  const auto found = strandsOf(page({outline}, true, 5.0, 400, 400));
+  const auto found = centrelinesOf(page({outline}, true, 5.0, 400, 400));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].closed);
 }
@@ -262,7 +262,7 @@ TEST(Centreline, ALineWithLugsStaysOnItsInk) {
   Polyline whole;
   for (int y = 40; y <= 360; ++y) whole.push_back({200.0 + 0.002 * (y - 40.0) * (y - 120.0), static_cast<double>(y)});
   const auto x = [](double y) { return 200.0 + 0.002 * (y - 40.0) * (y - 120.0); };
-  const auto found = strandsOf(page({whole, ring(x(125), 125), ring(x(190), 190)}, false, 4.0, 460, 400));
+  const auto found = centrelinesOf(page({whole, ring(x(125), 125), ring(x(190), 190)}, false, 4.0, 460, 400));
   ASSERT_FALSE(found.empty());
   EXPECT_LE(fitTo(found[0], whole, false).allWorst, 1.0);
   EXPECT_GT(found[0].lengthPx, 330.0);
@@ -276,29 +276,29 @@ TEST(Centreline, GapsAreBridgedAndSaid) {
     if (p.x() > 207.0) right.push_back(p);
   }
   const Page p = page({left, right}, false, 5.0, 400, 160);
-  const auto joined = strandsOf(p);
+  const auto joined = centrelinesOf(p);
   ASSERT_EQ(joined.size(), 1u);
   ASSERT_EQ(joined[0].bridges.size(), 1u);
   const auto [first, last] = joined[0].bridges[0];
   EXPECT_LE(first, last);
   for (int i = first; i <= last; ++i) {
-    EXPECT_EQ(joined[0].refined[static_cast<std::size_t>(i)], 0);
-    EXPECT_NEAR(joined[0].points[static_cast<std::size_t>(i)].x(), 198.5, 14.0);
+    EXPECT_EQ(joined[0].refined[i], 0);
+    EXPECT_NEAR(joined[0].points[i].x(), 198.5, 14.0);
   }
   EXPECT_LE(fitTo(joined[0], whole, false).allWorst, 0.5);
   EdgeParams none;
   none.gapFactor = 0.0;
-  EXPECT_EQ(strandsOf(p, none).size(), 2u);
+  EXPECT_EQ(centrelinesOf(p, none).size(), 2u);
 }
 
 TEST(Centreline, OverdrawnStrokesMergeOnlyWhenAsked) {
   std::vector<Polyline> strokes;
   for (const double y : {97.0, 104.0, 110.0}) strokes.push_back(strokeLine({40, y}, {360, y}));
   const Page p = page(strokes, false, 3.0, 400, 200);
-  EXPECT_EQ(strandsOf(p).size(), 3u);
+  EXPECT_EQ(centrelinesOf(p).size(), 3u);
   EdgeParams merge;
   merge.mergeWidths = 4.0;
-  const auto found = strandsOf(p, merge);
+  const auto found = centrelinesOf(p, merge);
   ASSERT_EQ(found.size(), 1u);
   for (const Vec2& q : found[0].points) {
     if (q.x() > 60 && q.x() < 340) {
@@ -314,7 +314,7 @@ TEST(Centreline, OverdrawnStrokesMergeOnlyWhenAsked) {
       EXPECT_NEAR(0.5f * (found[0].band.left[i] + found[0].band.right[i]), 6.5f, 0.9f);
     }
   }
-  for (const Contour& alone : strandsOf(p)) EXPECT_TRUE(alone.band.isEmpty());
+  for (const Contour& alone : centrelinesOf(p)) EXPECT_TRUE(alone.band.isEmpty());
 }
 
 TEST(Centreline, SameResultWithAnyNumberOfThreads) {

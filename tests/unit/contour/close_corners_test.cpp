@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/contour/corner_marks.h"
+#include "core/contour/corner/corner_marks.h"
 
 namespace batten {
 namespace {

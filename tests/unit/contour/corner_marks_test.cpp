@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/corner_marks.h"
+#include "core/contour/corner/corner_marks.h"
 
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ TEST(CornerMarks, CornersOfACurvedLetterAreFoundToATenthOfAPixel) {
     ASSERT_EQ(pieces->corners.size(), shape.corners.size());
     EXPECT_TRUE(pieces->lostMarks.empty());
     for (const Corner& corner : pieces->corners) {
-      const double e = (corner.positionPx - shape.corners[static_cast<std::size_t>(corner.mark)]).norm();
+      const double e = (corner.positionPx - shape.corners[corner.mark]).norm();
       if (e > 0.3)
         printf("seed %u corner %d error %.3f angle %.1f\n", seed, corner.mark, e, corner.turningAngleRad / kDeg);
       square += e * e;
@@ -327,11 +327,11 @@ std::vector<Vec2> roughened(const std::vector<Vec2>& points, double rough, unsig
     double sum = 0.0, square = 0.0;
     for (int k = -6; k <= 6; ++k) {
       const double weight = std::exp(-0.5 * k * k / 4.0);
-      sum += weight * white[static_cast<std::size_t>((i + k + n) % n)];
+      sum += weight * white[(i + k + n) % n];
       square += weight * weight;
     }
-    const Vec2 way = points[static_cast<std::size_t>((i + 1) % n)] - points[static_cast<std::size_t>((i + n - 1) % n)];
-    out[static_cast<std::size_t>(i)] += rough * sum / std::sqrt(square) * leftNormal(way.normalized());
+    const Vec2 way = points[(i + 1) % n] - points[(i + n - 1) % n];
+    out[i] += rough * sum / std::sqrt(square) * leftNormal(way.normalized());
   }
   return out;
 }
@@ -384,7 +384,7 @@ TEST(SuggestCorners, SayTheAngleThatAMarkGives) {
   ASSERT_TRUE(pieces.has_value());
   ASSERT_EQ(pieces->corners.size(), suggestions.size());
   for (const Corner& corner : pieces->corners) {
-    const CornerSuggestion& s = suggestions[static_cast<std::size_t>(corner.mark)];
+    const CornerSuggestion& s = suggestions[corner.mark];
     EXPECT_NEAR(s.turningAngleRad, corner.turningAngleRad, 1.5 * kDeg) << s.positionPx.transpose();
   }
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/corner_pixels.h"
+#include "core/contour/corner/corner_pixels.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "core/contour/corner_marks.h"
-#include "core/contour/crack_contours.h"
-#include "core/contour/subpixel_edges.h"
+#include "core/contour/corner/corner_marks.h"
+#include "core/contour/outline/crack_contours.h"
+#include "core/contour/outline/subpixel_edges.h"
 #include "tests/support/contour_shapes.h"
 
 namespace batten {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/corner_sides.h"
+#include "core/contour/corner/corner_sides.h"
 
 #include <gtest/gtest.h>
 

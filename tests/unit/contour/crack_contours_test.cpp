@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/crack_contours.h"
+#include "core/contour/outline/crack_contours.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,7 @@ namespace {
 BitImage fromText(const std::vector<std::string>& rows) {
   BitImage ink(static_cast<int>(rows.front().size()), static_cast<int>(rows.size()));
   for (int y = 0; y < ink.height; ++y) {
-    for (int x = 0; x < ink.width; ++x)
-      ink.set(x, y, rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] == '#');
+    for (int x = 0; x < ink.width; ++x) ink.set(x, y, rows[y][x] == '#');
   }
   return ink;
 }

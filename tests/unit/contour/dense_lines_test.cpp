@@ -7,11 +7,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/contour/centreline.h"
-#include "core/contour/centreline_grain.h"
-#include "core/contour/centreline_mask.h"
-#include "core/contour/centreline_skeleton.h"
-#include "core/contour/line_comb.h"
+#include "core/contour/centreline/centreline.h"
+#include "core/contour/centreline/graininess.h"
+#include "core/contour/centreline/oriented_line_filter.h"
+#include "core/contour/centreline/skeleton.h"
+#include "core/contour/centreline/stroke_mask.h"
 #include "tests/support/dense_page.h"
 #include "tests/support/render_page.h"
 
@@ -50,10 +50,10 @@ DenseLines foundOn(const DensePage& page) {
   return lines;
 }
 
-std::vector<Strand> rawStrands(const DensePage& page) {
+std::vector<StrokePath> rawStrokePaths(const DensePage& page) {
   BitImage skeleton = page.ink;
   EXPECT_TRUE(thinToSkeleton(skeleton, {}));
-  return findStrands(skeleton, page.ink, {}, {});
+  return findStrokePaths(skeleton, page.ink, {}, {});
 }
 
 double everywhere(double, double) { return 1.0; }
@@ -88,12 +88,12 @@ TEST(DenseLines, PenAndPencilOnOnePageAreToldApart) {
   test::grainCoverage(
       cover, kDenseWidth, kDenseHeight, [](double x, double) { return x > 240.0 ? 1.0 : 0.0; }, 2);
   const DensePage page = densePage(std::move(cover), 150.0, 2);
-  const std::vector<Strand> strands = rawStrands(page);
-  const GrainField grain(strands, page.grey, {});
+  const std::vector<StrokePath> paths = rawStrokePaths(page);
+  const GraininessMap grain(paths, page.grey, {});
   int pens = 0, pencils = 0;
-  for (std::size_t i = 0; i < strands.size(); ++i) {
-    const double x = strands[i].points[strands[i].points.size() / 2].at.x();
-    if (strands[i].length() < 20.0) continue;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const double x = paths[i].points[paths[i].points.size() / 2].at.x();
+    if (paths[i].length() < 20.0) continue;
     EXPECT_EQ(grain.isPencil(i), x > 240.0) << "near " << x << ": " << grain.grainOf(i);
     ++(x > 240.0 ? pencils : pens);
   }
@@ -115,14 +115,14 @@ TEST(DenseLines, ALineFromPenToPencilIsNotCut) {
   EXPECT_EQ(score.bridges, 0);
 }
 
-TEST(LineComb, GapsLieBetweenLinesAndNotWithinOne) {
+TEST(OrientedLines, GapsLieBetweenLinesAndNotWithinOne) {
   for (const bool pencil : {false, true}) {
     const DenseLines two = test::hatchLines({240, 180}, 30.0, 2, 9.0, 240.0, 0.0);
     std::vector<float> cover = test::coverageOf(two, 5.0, kDenseWidth, kDenseHeight);
     if (pencil) test::grainCoverage(cover, kDenseWidth, kDenseHeight, everywhere, 7);
     const DensePage page = densePage(std::move(cover), 150.0, 7);
-    const GrainField grain(rawStrands(page), page.grey, {});
-    const LineComb comb = combLines(closeInk(page.ink, 6.0), page.grey, grain, 5.0, {});
+    const GraininessMap grain(rawStrokePaths(page), page.grey, {});
+    const OrientedLines comb = filterOrientedLines(closeInk(page.ink, 6.0), page.grey, grain, 5.0, {});
     const Vec2 across(-std::sin(30.0 * std::numbers::pi / 180.0), std::cos(30.0 * std::numbers::pi / 180.0));
     int inGap = 0;
     for (int y = 0; y < kDenseHeight; ++y) {
@@ -140,8 +140,9 @@ TEST(LineComb, GapsLieBetweenLinesAndNotWithinOne) {
     std::vector<float> cover = test::coverageOf(one, width, kDenseWidth, kDenseHeight);
     test::grainCoverage(cover, kDenseWidth, kDenseHeight, everywhere, 7);
     const DensePage page = densePage(std::move(cover), 150.0, 7);
-    const GrainField grain(rawStrands(page), page.grey, {});
-    EXPECT_EQ(combLines(closeInk(page.ink, 0.75 * width + 1.0), page.grey, grain, width, {}).gaps.count(), 0) << width;
+    const GraininessMap grain(rawStrokePaths(page), page.grey, {});
+    EXPECT_EQ(filterOrientedLines(closeInk(page.ink, 0.75 * width + 1.0), page.grey, grain, width, {}).gaps.count(), 0)
+        << width;
   }
 }
 

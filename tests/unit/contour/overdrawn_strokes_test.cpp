@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pages of which it is known whether lines were drawn in several strokes, and which lines were meant.
-#include "core/contour/overdrawn_strokes.h"
+#include "core/contour/merge/overdrawn_strokes.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/contour/side_by_side.h"
+#include "core/contour/merge/parallel_strokes.h"
 #include "tests/support/angles.h"
 #include "tests/support/overdrawn_page.h"
 
@@ -177,7 +177,7 @@ TEST(OverdrawnStrokes, NoneInAHatching) {
 
 TEST(OverdrawnStrokes, NothingToLookAt) {
   EXPECT_EQ(findOverdrawnStrokes({}, 60.0, {}).distancePx, 0.0);
-  EXPECT_TRUE(findSideBySide({Contour{}, Contour{}}, 3.0, 60.0, {}).empty()) << "lines without points";
+  EXPECT_TRUE(findParallelStrokes({Contour{}, Contour{}}, 3.0, 60.0, {}).empty()) << "lines without points";
   const ContourSet set = traceOverdrawn(roundInArcs(6, 6.0, 1), 0.0);
   ASSERT_GT(findOverdrawnStrokes(set.contours, 60.0, {}).distancePx, 0.0);
   RunContext stopped;

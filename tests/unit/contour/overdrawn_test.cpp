@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "core/contour/polyline_tools.h"
+#include "core/polyline/polyline_tools.h"
 #include "tests/support/angles.h"
 #include "tests/support/overdrawn_page.h"
 

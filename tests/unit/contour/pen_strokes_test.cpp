@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "core/contour/corner_marks.h"
+#include "core/contour/corner/corner_marks.h"
 
 namespace batten {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/pixel_edge.h"
+#include "core/contour/subpixel/pixel_edge.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "core/contour/subpixel_edges.h"
+#include "core/contour/outline/subpixel_edges.h"
 #include "core/contour/trace_contours.h"
 #include "tests/support/angles.h"
 #include "tests/support/render_page.h"

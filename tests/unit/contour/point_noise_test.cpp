@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/point_noise.h"
+#include "core/contour/subpixel/point_noise.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "core/contour/centreline.h"
-#include "core/contour/crack_contours.h"
-#include "core/contour/subpixel_edges.h"
+#include "core/contour/centreline/centreline.h"
+#include "core/contour/outline/crack_contours.h"
+#include "core/contour/outline/subpixel_edges.h"
 #include "tests/support/contour_shapes.h"
 
 namespace batten {

@@ -93,8 +93,8 @@ TEST(RegionOfInterest, APartOverTheSeamIsOneLineWithItsBridge) {
   EXPECT_NEAR(kept.contours[0].lengthPx, 2.0 * std::numbers::pi / 3.0 * 100.0, 3.0);
   ASSERT_EQ(kept.contours[0].bridges.size(), 1u);
   const auto [first, last] = kept.contours[0].bridges[0];
-  EXPECT_EQ(kept.contours[0].points[static_cast<std::size_t>(first)], set.contours[0].points[3]);
-  EXPECT_EQ(kept.contours[0].points[static_cast<std::size_t>(last)], set.contours[0].points[8]);
+  EXPECT_EQ(kept.contours[0].points[first], set.contours[0].points[3]);
+  EXPECT_EQ(kept.contours[0].points[last], set.contours[0].points[8]);
 }
 
 TEST(RegionOfInterest, WhatIsWhollyInsideIsUntouchedAndNonsenseIsRefused) {

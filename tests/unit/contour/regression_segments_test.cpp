@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/regression_segments.h"
+#include "core/contour/segment/regression_segments.h"
 
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ TEST(Stations, LieOnACircleAtEqualArcLength) {
     const int m = static_cast<int>(result.stations.size());
     EXPECT_EQ(m, static_cast<int>(std::lround(radius * angle / 40.0)) + (closed ? 0 : 1));
     for (int j = 0; j < m; ++j) {
-      const Station& s = result.stations[static_cast<std::size_t>(j)];
+      const Station& s = result.stations[j];
       const double a = angle * j / (closed ? m : m - 1);
       EXPECT_NEAR((s.point - Vec2(300, 300)).norm(), radius, 0.05);
       EXPECT_LE((s.point - Vec2(300 + radius * std::cos(a), 300 + radius * std::sin(a))).norm(), 0.1) << j;

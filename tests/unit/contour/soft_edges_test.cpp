@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/soft_edges.h"
+#include "core/contour/outline/soft_edges.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "core/contour/crack_contours.h"
-#include "core/contour/edge_fade.h"
-#include "core/contour/subpixel_edges.h"
+#include "core/contour/outline/crack_contours.h"
+#include "core/contour/outline/edge_fade.h"
+#include "core/contour/outline/subpixel_edges.h"
 #include "tests/support/contour_shapes.h"
 
 namespace batten {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/stroke_merge.h"
+#include "core/contour/merge/stroke_merge.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "core/contour/polyline_tools.h"
+#include "core/polyline/polyline_tools.h"
 #include "tests/support/angles.h"
 
 namespace batten {
@@ -99,8 +99,7 @@ TEST(StrokeMerge, BridgesStayMarked) {
   ASSERT_EQ(merged[0].bridges.size(), 2u);
   std::vector<std::pair<double, double>> places;
   for (const auto& [first, last] : merged[0].bridges) {
-    places.push_back(std::minmax(merged[0].points[static_cast<std::size_t>(first)].x(),
-                                 merged[0].points[static_cast<std::size_t>(last)].x()));
+    places.push_back(std::minmax(merged[0].points[first].x(), merged[0].points[last].x()));
   }
   std::sort(places.begin(), places.end());
   EXPECT_NEAR(places[0].first, 60.0, 2.0);

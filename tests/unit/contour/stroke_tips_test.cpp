@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/contour/corner_marks.h"
+#include "core/contour/corner/corner_marks.h"
 #include "core/contour/trace_contours.h"
 #include "tests/support/angles.h"
 #include "tests/support/render_page.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/contour/subpixel_edges.h"
+#include "core/contour/outline/subpixel_edges.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/contour/crack_contours.h"
+#include "core/contour/outline/crack_contours.h"
 #include "tests/support/contour_shapes.h"
 #include "tests/support/render_page.h"
 

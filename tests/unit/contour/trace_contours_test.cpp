@@ -102,10 +102,10 @@ TEST(TraceContours, ChosenInkGoesItsOwnWay) {
       if (isRing) {
         EXPECT_EQ(c.kind, ContourKind::Outline);
         EXPECT_NEAR(c.lengthPx, 2 * M_PI * 51.5, 2.0);
-        ASSERT_TRUE(c.way);
-        EXPECT_EQ(*c.way, params.choices[2]);
+        ASSERT_TRUE(c.traceMode);
+        EXPECT_EQ(*c.traceMode, params.choices[2]);
       } else {
-        EXPECT_FALSE(c.way);
+        EXPECT_FALSE(c.traceMode);
         const bool isBig = (c.points[0] - Vec2(100, 100)).norm() < 70.0;
         const bool isOutline = c.kind == ContourKind::Outline;
         EXPECT_TRUE(mode == EdgeMode::Automatic ? !isBig || isOutline : isOutline == (mode == EdgeMode::Outline));
@@ -122,8 +122,9 @@ TEST(TraceContours, AChoiceSurvivesAsLongAsItsInkIsNear) {
     params.choices = {{{300, 80 + 51.5 + away}, EdgeMode::Centreline}};
     const auto set = traceContours(page.ink, page.grey, params, {}, {});
     ASSERT_TRUE(set.has_value());
-    const auto chosen = std::count_if(set->contours.begin(), set->contours.end(),
-                                      [](const Contour& c) { return c.kind == ContourKind::Centreline && c.way; });
+    const auto chosen = std::count_if(set->contours.begin(), set->contours.end(), [](const Contour& c) {
+      return c.kind == ContourKind::Centreline && c.traceMode;
+    });
     EXPECT_EQ(chosen, away < kInkReachPx ? 1 : 0) << away;
   }
   params.choices = {{{std::nan(""), 0.0}, EdgeMode::Outline}};
@@ -145,7 +146,7 @@ TEST(TraceContours, AMergedLineKnowsTheInkItIsMadeOf) {
   set = traceContours(page.ink, page.grey, params, {}, {});
   ASSERT_TRUE(set.has_value());
   ASSERT_EQ(set->contours.size(), 1u);
-  EXPECT_TRUE(set->contours[0].way);
+  EXPECT_TRUE(set->contours[0].traceMode);
   EXPECT_TRUE(set->report.note.empty()) << set->report.note;
 }
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/closest_point.h"
 
 namespace batten {
 namespace {

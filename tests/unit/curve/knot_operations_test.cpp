@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/curvature.h"
 #include "tests/unit/curve/curve_samples.h"
 
 namespace batten {

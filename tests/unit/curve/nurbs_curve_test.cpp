@@ -23,7 +23,7 @@ TEST(Basis, UniformQuinticMatchesTheKnownAnswer) {
       // At u = 1 the next span has begun; its five functions are those of the row shifted by one.
       const std::size_t shift = u == 1.0 ? 1 : 0;
       for (std::size_t j = 0; j + shift < 6; ++j) {
-        EXPECT_NEAR(row.values[static_cast<std::size_t>(order)][j], rows.at(i).at(j + shift).get<double>(), 1e-13);
+        EXPECT_NEAR(row.values[order][j], rows.at(i).at(j + shift).get<double>(), 1e-13);
       }
     }
   }
@@ -56,16 +56,15 @@ TEST(NurbsCurve, PointIsThePolarFormOfDeBoor) {
     const int p = curve.degree();
     for (const double u : test::parametersOf(curve)) {
       int span = p;
-      while (span + 1 < curve.controlPointCount() && curve.knots()[static_cast<std::size_t>(span + 1)] <= u) ++span;
+      while (span + 1 < curve.controlPointCount() && curve.knots()[span + 1] <= u) ++span;
       std::vector<Vec2> d;
-      for (int j = 0; j <= p; ++j) d.push_back(curve.controlPoints()[static_cast<std::size_t>(span - p + j)]);
+      for (int j = 0; j <= p; ++j) d.push_back(curve.controlPoints()[span - p + j]);
       for (int r = 1; r <= p; ++r) {
         for (int j = p; j >= r; --j) {
-          const double low = curve.knots()[static_cast<std::size_t>(span - p + j)];
-          const double high = curve.knots()[static_cast<std::size_t>(span + j + 1 - r)];
+          const double low = curve.knots()[span - p + j];
+          const double high = curve.knots()[span + j + 1 - r];
           const double a = (u - low) / (high - low);
-          d[static_cast<std::size_t>(j)] =
-              (1 - a) * d[static_cast<std::size_t>(j - 1)] + a * d[static_cast<std::size_t>(j)];
+          d[j] = (1 - a) * d[j - 1] + a * d[j];
         }
       }
       EXPECT_LT((curve.point(u) - d.back()).norm(), 1e-9);

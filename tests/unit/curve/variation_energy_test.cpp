@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/nurbs_curve.h"
 #include "tests/unit/curve/curve_samples.h"
 
 namespace batten {

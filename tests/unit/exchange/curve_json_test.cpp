@@ -55,8 +55,8 @@ TEST(CurveJson, HoldsTheContract) {
       const auto n = static_cast<int>(piece["control_points_mm"].size());
       ASSERT_EQ(static_cast<int>(knots.size()), n + degree + 1);
       ASSERT_EQ(piece["control_points_px"].size(), piece["control_points_mm"].size());
-      EXPECT_EQ(knots.front(), knots[static_cast<std::size_t>(degree)]);  // clamped
-      for (int i = 0; i < n; ++i) {  // px: y down from the upper edge; mm: y up from the lower one
+      EXPECT_EQ(knots.front(), knots[degree]);  // clamped
+      for (int i = 0; i < n; ++i) {             // px: y down from the upper edge; mm: y up from the lower one
         const double x = piece["control_points_px"][i][0], y = piece["control_points_px"][i][1];
         EXPECT_NEAR(x * 0.1, piece["control_points_mm"][i][0].get<double>(), 1e-12);
         EXPECT_NEAR(100.0 - y * 0.1, piece["control_points_mm"][i][1].get<double>(), 1e-12);

@@ -7,7 +7,7 @@
 #include <locale>
 #include <sstream>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/closest_point.h"
 #include "core/exchange/writers.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 

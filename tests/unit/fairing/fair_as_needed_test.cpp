@@ -5,18 +5,20 @@
 #include <numbers>
 #include <random>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "core/fairing/fairing.h"
 #include "tests/unit/fairing/fairing_curves.h"
 
 namespace batten {
 namespace {
 
-FairingParams tolerance(double mm, FairingSpend spend = FairingSpend::AsNeeded) {
+FairingParams tolerance(double mm, TolerancePolicy tolerancePolicy = TolerancePolicy::AsNeeded) {
   FairingParams params;
   params.mode = FairingMode::Tolerance;
   params.toleranceMm = mm;
-  params.spend = spend;
+  params.tolerancePolicy = spend;
   return params;
 }
 
@@ -83,7 +85,7 @@ TEST(FairAsNeeded, KeepsABumpThatThePointsProve) {
   }
   // One weight for bump and flat parts alike leaves a few waves in these: one a curve, of more than seven.
   EXPECT_LE(tooMany, 6);
-  const auto all = fair(sketch, false, tolerance(3.0, FairingSpend::All), {});
+  const auto all = fair(sketch, false, tolerance(3.0, TolerancePolicy::All), {});
   ASSERT_TRUE(all);
   EXPECT_LT(extremaOf(all->curve), bumps);
 }
@@ -91,7 +93,7 @@ TEST(FairAsNeeded, KeepsABumpThatThePointsProve) {
 TEST(FairAsNeeded, WithoutPointsMovesLessThanTheWholeToleranceForAsFewExtrema) {
   const NurbsCurve sketch = test::noisy(test::wave(300, 20, 40), 0.05, 7);
   const auto needed = fair(sketch, false, tolerance(1.0), {});
-  const auto all = fair(sketch, false, tolerance(1.0, FairingSpend::All), {});
+  const auto all = fair(sketch, false, tolerance(1.0, TolerancePolicy::All), {});
   ASSERT_TRUE(needed && all);
   EXPECT_LE(needed->report.extremaAfter, all->report.extremaAfter);
   EXPECT_LT(needed->report.extremaAfter, needed->report.extremaBefore);

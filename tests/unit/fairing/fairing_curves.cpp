@@ -13,7 +13,7 @@ NurbsCurve fitted(const std::function<Vec2(double)>& shape, int count, int degre
   for (int i = 0; i <= samples; ++i) {
     const double t = static_cast<double>(i) / samples, w = i == 0 || i == samples ? 1e4 : 1.0;
     const BasisRow row = basis(degree, knots, count, t, 0);
-    for (int j = 0; j <= degree; ++j) a(i, row.first + j) = w * row.values[0][static_cast<std::size_t>(j)];
+    for (int j = 0; j <= degree; ++j) a(i, row.first + j) = w * row.values[0][j];
     y.row(i) = w * shape(t).transpose();
   }
   const Eigen::MatrixXd q = a.colPivHouseholderQr().solve(y);

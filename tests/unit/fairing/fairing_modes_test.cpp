@@ -5,7 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "core/fairing/fairing.h"
 #include "tests/unit/fairing/fairing_curves.h"
 

@@ -5,8 +5,8 @@
 #include <functional>
 #include <random>
 
-#include "core/curve/curve_analysis.h"
-#include "core/fairing/curvature_structure.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/curvature_structure.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/low_pass.h"
 #include "tests/unit/fairing/fairing_curves.h"
@@ -130,7 +130,7 @@ TEST(SplitProfile, ClosedOnesGoOnOverTheSeam) {
   params.splits = {0.125, 0.375, 0.625, 0.875};
   for (const int degree : {1, 3, 6}) {
     const auto set = fitTargets(start, params, true);
-    const TargetProfile& profile = set.profiles[static_cast<std::size_t>(degree - 1)];
+    const TargetProfile& profile = set.profiles[degree - 1];
     ASSERT_TRUE(profile.valid) << profile.problem;
     EXPECT_NEAR(profile.curvatureAt(0.0), profile.curvatureAt(1.0), 1e-12);
     for (const double f : params.splits)
@@ -165,7 +165,7 @@ TEST(CurvatureStructure, FindsExtremaAndDropsTheSmallestFirst) {
     kappa.push_back(std::sin(2.0 * std::numbers::pi * x) + 0.05 * std::sin(40.0 * std::numbers::pi * x));
   }
   const auto levels = structureLevels(s, kappa, 100.0, false);
-  EXPECT_EQ(static_cast<int>(levels.front().structure.extrema.size()), countTurns(kappa, 1e-9, false));
+  EXPECT_EQ(static_cast<int>(levels.front().structure.extrema.size()), countExtrema(kappa, 1e-9, false));
   double estimate = 0.0;
   bool two = false;
   for (const StructureLevel& level : levels) {
@@ -182,7 +182,7 @@ TEST(CurvatureStructure, FindsExtremaAndDropsTheSmallestFirst) {
   }
   EXPECT_TRUE(two);
   EXPECT_TRUE(levels.back().structure.extrema.empty());
-  EXPECT_EQ(countTurns(kappa, 0.3, false), 2);
+  EXPECT_EQ(countExtrema(kappa, 0.3, false), 2);
 }
 
 TEST(CurvatureStructure, ClosedProfilesKeepFour) {
@@ -194,7 +194,7 @@ TEST(CurvatureStructure, ClosedProfilesKeepFour) {
   }
   const auto levels = structureLevels(s, kappa, 100.0, true);
   EXPECT_EQ(levels.back().structure.extrema.size(), 4u);
-  EXPECT_EQ(countTurns(kappa, 0.5, true), 4);
+  EXPECT_EQ(countExtrema(kappa, 0.5, true), 4);
   EXPECT_EQ(levels.front().structure.extrema.size() % 2, 0u);
 }
 

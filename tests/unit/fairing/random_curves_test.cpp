@@ -6,7 +6,8 @@
 #include <random>
 #include <string>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "core/fairing/fairing.h"
 #include "tests/unit/fairing/fairing_curves.h"
 

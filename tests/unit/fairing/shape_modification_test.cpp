@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "core/curve/curve_analysis.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_problem.h"
 #include "tests/support/known_answers.h"
@@ -30,8 +31,8 @@ TEST(CurvatureRow, MatchesTheKnownJacobian) {
     const LocalRow row = curvatureRow(fast.at(place, 4), basis.row(place, 3), 5);
     const auto known = test::toPoints(data.at("jacobian_fixed_t_dk_dq")[k]);
     for (int j = 0; j <= 5; ++j) {
-      const Vec2& wanted = known[static_cast<std::size_t>(basis.point(span, j))];
-      EXPECT_LT((row[static_cast<std::size_t>(j)] - wanted).norm(), 1e-12);
+      const Vec2& wanted = known[basis.point(span, j)];
+      EXPECT_LT((row[j] - wanted).norm(), 1e-12);
     }
   }
 }

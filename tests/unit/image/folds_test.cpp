@@ -175,8 +175,7 @@ TEST(Folds, RowsAndPlacesAgree) {
       std::fill(row.begin(), row.end(), 0.0f);
       fold.addToRow(y, row.data(), 200);
       for (int x = 0; x < 200; ++x)
-        worst = std::max(worst,
-                         std::fabs(static_cast<double>(row[static_cast<std::size_t>(x)]) - fold.at(x + 0.5, y + 0.5)));
+        worst = std::max(worst, std::fabs(static_cast<double>(row[x]) - fold.at(x + 0.5, y + 0.5)));
     }
     EXPECT_LT(worst, 1e-4) << deg;
   }

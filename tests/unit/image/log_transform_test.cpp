@@ -30,7 +30,7 @@ TEST(LogTransform, InverseReturnsTheGreyThatWasNotClipped) {
 
 TEST(LogTransform, OffShowsTheScan) {
   const auto table = toneTable({.enabled = false});
-  for (int i = 0; i < 256; ++i) EXPECT_EQ(table[static_cast<std::size_t>(i)], i);
+  for (int i = 0; i < 256; ++i) EXPECT_EQ(table[i], i);
 }
 
 TEST(LogTransform, RefusesFactorsOutOfRange) {

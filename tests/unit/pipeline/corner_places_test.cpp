@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/pipeline/corner_places.h"
+#include "core/pipeline/run/corner_places.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/pipeline/corner_rounding.h"
+#include "core/pipeline/run/corner_rounding.h"
 
 #include <gtest/gtest.h>
 
 #include "core/curve/knot_operations.h"
-#include "core/pipeline/recipe_file.h"
-#include "core/pipeline/segment_points.h"
+#include "core/pipeline/recipe/recipe_file.h"
+#include "core/pipeline/run/segment_points.h"
 
 namespace batten {
 namespace {
@@ -37,7 +37,7 @@ struct Angle {
     for (int i = 0; i < 2; ++i) {
       TracedCurve& curve = set.curves.emplace_back();
       curve.piece = i;
-      const auto& p = pieces.pieces[static_cast<std::size_t>(i)].points;
+      const auto& p = pieces.pieces[i].points;
       curve.sketched = curve.faired = line(p[0], p[1], degree);
     }
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/pipeline/merge_advice.h"
+#include "core/pipeline/run/merge_advice.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/pipeline/pipeline.h"
+#include "core/pipeline/run/pipeline.h"
 #include "tests/support/overdrawn_page.h"
 
 namespace batten {

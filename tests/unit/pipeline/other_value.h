@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "core/pipeline/number_text.h"
-#include "core/pipeline/parameter_table.h"
+#include "core/base/number_text.h"
+#include "core/pipeline/recipe/parameter_table.h"
 
 namespace batten::test {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/pipeline/parameter_table.h"
+#include "core/pipeline/recipe/parameter_table.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "core/pipeline/number_text.h"
+#include "core/base/number_text.h"
 #include "tests/unit/pipeline/other_value.h"
 
 namespace batten {

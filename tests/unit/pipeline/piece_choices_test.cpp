@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/pipeline/curve_stages.h"
-#include "core/pipeline/pipeline.h"
-#include "core/pipeline/recipe_file.h"
+#include "core/pipeline/recipe/recipe_file.h"
+#include "core/pipeline/run/curve_stages.h"
+#include "core/pipeline/run/pipeline.h"
 #include "tests/support/render_page.h"
 
 namespace batten {
@@ -161,7 +161,7 @@ Scan fadingPage() {
   std::vector<float> ink = coverage(100.0);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      if ((x > 200 && x < 240) || (x > 440 && x < 480)) ink[static_cast<std::size_t>(y * kWidth + x)] *= 0.25f;
+      if ((x > 200 && x < 240) || (x > 440 && x < 480)) ink[y * kWidth + x] *= 0.25f;
     }
   }
   const std::vector<float> other = coverage(200.0);
@@ -191,7 +191,7 @@ TEST(PieceChoices, ALineLeftOutStaysOutWhereAThresholdBreaksIt) {
     ASSERT_FALSE(out.error) << out.error->message;
     EXPECT_EQ(out.faired->curves.size(), level < 200.0 ? 4u : 2u) << level;
     for (const TracedCurve& curve : out.faired->curves) {
-      const Piece& piece = out.pieces->pieces[static_cast<std::size_t>(curve.piece)];
+      const Piece& piece = out.pieces->pieces[curve.piece];
       EXPECT_EQ(curve.included, anchorOf(piece).y() > 150.0) << level << ": " << anchorOf(piece).transpose();
     }
     EXPECT_TRUE(assignChoices(*out.pieces, recipe.choices).waiting.empty());

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/pipeline/pipeline.h"
+#include "core/pipeline/run/pipeline.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "core/pipeline/report.h"
+#include "core/document/report.h"
 #include "tests/support/render_page.h"
 #include "tests/unit/pipeline/ellipse_scan.h"
 
@@ -23,7 +23,7 @@ PipelineOutput run(const Recipe& recipe, StageCache& cache, int threads = 1, Sta
 /// First stage that did not come from the cache.
 std::optional<StageId> firstRerun(const PipelineOutput& out) {
   for (const StageId stage : kStages) {
-    if (!out.timing[static_cast<std::size_t>(stage)].fromCache) return stage;
+    if (!out.timing[stage].fromCache) return stage;
   }
   return std::nullopt;
 }
@@ -209,7 +209,7 @@ TEST(Pipeline, InkFollowedInItsOwnWayIsTracedAnew) {
   const auto own = run(recipe, cache);
   ASSERT_TRUE(own.contours);
   EXPECT_EQ(own.contours->contours[0].points, line.points);
-  EXPECT_EQ(own.contours->contours[0].way, recipe.edges.choices[0]);
+  EXPECT_EQ(own.contours->contours[0].traceMode, recipe.edges.choices[0]);
   recipe.edges.mode = EdgeMode::Automatic;
   recipe.edges.choices[0].mode = EdgeMode::Centreline;
   const auto kept = run(recipe, cache);

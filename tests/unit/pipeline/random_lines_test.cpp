@@ -7,10 +7,13 @@
 #include <random>
 #include <string>
 
-#include "core/curve/curve_analysis.h"
+#include "core/construct/construct.h"
+#include "core/construct/pieces.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
+#include "core/fairing/edge_length_fairing.h"
 #include "core/fairing/fairing.h"
-#include "core/pipeline/edge_length_fairing.h"
-#include "core/pipeline/parameter_table.h"
+#include "core/pipeline/recipe/parameter_table.h"
 
 namespace batten {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/pipeline/recipe_file.h"
+#include "core/pipeline/recipe/recipe_file.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "core/pipeline/parameter_table.h"
+#include "core/pipeline/recipe/parameter_table.h"
 
 namespace batten {
 namespace {
@@ -35,7 +35,7 @@ Recipe fullRecipe() {
                 .mode = FairingMode::None,
                 .target = std::nullopt,
                 .toleranceMm = std::nullopt,
-                .spend = FairingSpend::All,
+                .tolerancePolicy = TolerancePolicy::All,
                 .means = FairingMeans::EdgeLengths,
                 .startHold = EndHold{true, false},
                 .endHold = EndHold{true, true},

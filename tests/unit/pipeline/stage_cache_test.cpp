@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/pipeline/stage_cache.h"
+#include "core/pipeline/run/stage_cache.h"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 #include <vector>
 
-#include "core/pipeline/stage_id.h"
+#include "core/pipeline/recipe/stage_id.h"
 
 namespace batten {
 namespace {

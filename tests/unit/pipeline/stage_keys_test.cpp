@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/pipeline/stage_keys.h"
+#include "core/pipeline/run/stage_keys.h"
 
 #include <gtest/gtest.h>
 
-#include "core/pipeline/parameter_table.h"
+#include "core/pipeline/recipe/parameter_table.h"
 #include "tests/unit/pipeline/ellipse_scan.h"
 #include "tests/unit/pipeline/other_value.h"
 
@@ -50,7 +50,7 @@ TEST(StageKeys, EveryChoiceForACurveChangesItsFairing) {
   EXPECT_TRUE(differs([](PieceChoice& c) { c.keepPx = {Vec2(1, 1)}; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.splitsPx = {Vec2(1, 1)}; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.profile = {{0.0, 0.1}, {1.0, 0.2}}; }));
-  EXPECT_TRUE(differs([](PieceChoice& c) { c.spend = FairingSpend::AsNeeded; }));
+  EXPECT_TRUE(differs([](PieceChoice& c) { c.tolerancePolicy = TolerancePolicy::AsNeeded; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.means = FairingMeans::ControlPoints; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.startHold = EndHold{}; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.endHold = EndHold{}; }));

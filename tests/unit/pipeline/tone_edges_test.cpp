@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/curve/curve_analysis.h"
-#include "core/pipeline/pipeline.h"
+#include "core/curve/arc_length.h"
+#include "core/pipeline/run/pipeline.h"
 #include "tests/support/angles.h"
 #include "tests/support/stress_page.h"
 

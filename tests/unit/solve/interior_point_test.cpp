@@ -69,7 +69,7 @@ std::optional<Eigen::VectorXd> bruteForce(const DenseProgram& p) {
     kkt.topLeftCorner(p.size(), p.size()) = p.a;
     right.head(p.size()) = p.b;
     for (Eigen::Index k = 0; k < count; ++k) {
-      const int row = active[static_cast<std::size_t>(k)];
+      const int row = active[k];
       kkt.block(p.size() + k, 0, 1, p.size()) = p.g.row(row);
       kkt.block(0, p.size() + k, p.size(), 1) = p.g.row(row).transpose();
       right[p.size() + k] = p.h[row];

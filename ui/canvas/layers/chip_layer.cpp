@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/layers/chip_layer.h"
+
 #include <QCoreApplication>
 #include <QFontMetricsF>
 #include <QPen>
@@ -7,7 +9,6 @@
 #include <cmath>
 
 #include "core/base/conventions.h"
-#include "ui/canvas/layers/vector_layers.h"
 #include "ui/session/piece_choice.h"
 
 namespace batten {

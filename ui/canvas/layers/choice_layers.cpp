@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/layers/choice_layers.h"
+
 #include <QPen>
 #include <QPolygonF>
 #include <algorithm>
 #include <cmath>
 
-#include "ui/canvas/canvas_colors.h"
-#include "ui/canvas/layers/vector_layers.h"
+#include "ui/canvas/scene/canvas_colors.h"
 
 namespace batten {
 namespace {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/layers/comb_layer.h"
+
 #include <QPen>
 #include <QPolygonF>
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/conventions.h"
-#include "ui/canvas/canvas_colors.h"
-#include "ui/canvas/comb_runs.h"
-#include "ui/canvas/layers/vector_layers.h"
+#include "ui/canvas/scene/canvas_colors.h"
+#include "ui/canvas/scene/comb_runs.h"
 
 namespace batten {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/layers/curve_layer.h"
+
 #include <QPen>
 #include <algorithm>
 
-#include "ui/canvas/canvas_colors.h"
-#include "ui/canvas/layers/vector_layers.h"
+#include "ui/canvas/scene/canvas_colors.h"
 #include "ui/session/growing_player.h"
 
 namespace batten {
@@ -176,7 +177,7 @@ void paintStrokes(QPainter& painter, const CanvasScene& scene) {
     for (const auto& [first, last] : line.bridges) {
       QPainterPath bridge;
       for (int i = std::max(0, first); i <= last && i < static_cast<int>(line.points.size()); ++i) {
-        const Vec2& p = line.points[static_cast<std::size_t>(i)];
+        const Vec2& p = line.points[i];
         if (bridge.elementCount() == 0) bridge.moveTo(p.x(), p.y());
         bridge.lineTo(p.x(), p.y());
       }

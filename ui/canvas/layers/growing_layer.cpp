@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/layers/growing_layer.h"
+
 #include <QPen>
 
-#include "ui/canvas/canvas_colors.h"
-#include "ui/canvas/layers/vector_layers.h"
+#include "ui/canvas/scene/canvas_colors.h"
 #include "ui/session/growing_player.h"
 
 namespace batten {
@@ -44,13 +45,13 @@ void paintGrowing(QPainter& painter, const CanvasScene& scene) {
     painter.drawPolyline(line);
   };
   for (int i = 0; i < player.step(); ++i) {
-    const GrowingStep& step = (*player.steps())[static_cast<std::size_t>(i)];
+    const GrowingStep& step = (*player.steps())[i];
     if (step.kind != GrowingStep::Kind::Kept) continue;
     const QPolygonF line = outlineOf(step.curve, scene);
     stroke(line, colors::accent(), 2.2, Qt::SolidLine);
     paintJoint(painter, line);
   }
-  const GrowingStep& now = (*player.steps())[static_cast<std::size_t>(player.step())];
+  const GrowingStep& now = (*player.steps())[player.step()];
   const QPolygonF line = outlineOf(now.curve, scene);
   switch (now.kind) {
     case GrowingStep::Kind::Seed:

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/layers/mark_layers.h"
+
 #include <QPen>
 #include <cmath>
 
 #include "core/base/conventions.h"
-#include "ui/canvas/canvas_colors.h"
-#include "ui/canvas/layers/vector_layers.h"
+#include "ui/canvas/scene/canvas_colors.h"
 
 namespace batten {
 
@@ -28,7 +29,7 @@ void paintCorners(QPainter& painter, const CanvasScene& scene) {
       paintCornerSquare(painter, scene.transform.toWidget(corner.positionPx), 5.0, colors::corner(), false);
     for (const int lost : pieces->lostMarks) {
       if (lost < 0 || static_cast<std::size_t>(lost) >= marks.size()) continue;
-      const QPointF at = scene.transform.toWidget(marks[static_cast<std::size_t>(lost)].positionPx);
+      const QPointF at = scene.transform.toWidget(marks[lost].positionPx);
       paintCornerSquare(painter, at, 5.0, colors::lost(), false);
       painter.drawLine(at + QPointF(-5, -5), at + QPointF(5, 5));
       painter.drawLine(at + QPointF(-5, 5), at + QPointF(5, -5));
@@ -52,6 +53,20 @@ void paintRegionGrid(QPainter& painter, const CanvasScene& scene) {
                      scene.transform.toWidget({x, static_cast<double>(size.height())}));
     painter.drawLine(scene.transform.toWidget({0.0, y}),
                      scene.transform.toWidget({static_cast<double>(size.width()), y}));
+  }
+  painter.restore();
+}
+
+void paintSegmentPoints(QPainter& painter, const CanvasScene& scene) {
+  const auto& recipe = scene.session.recipe();
+  if (recipe.construct.method != ConstructMethod::Typical && scene.view.tool() != Tool::Segments) return;
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  for (const SegmentPoint& point : recipe.segmentPoints) {
+    const QPointF at = scene.transform.toWidget(point.positionPx);
+    painter.setPen(QPen(Qt::white, 1.6));
+    painter.setBrush(colors::segment());
+    painter.drawEllipse(at, 4.5, 4.5);
   }
   painter.restore();
 }

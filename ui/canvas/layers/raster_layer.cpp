@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "ui/canvas/canvas_colors.h"
+#include "ui/canvas/scene/canvas_colors.h"
 
 namespace batten {
 namespace {
@@ -33,9 +33,8 @@ Cover coverOf(int device, double zoom, int size) {
 
 void renderBits(const BitImage& bits, double zoom, const QRect& device, QRgb color, double opacity, double thinGain,
                 QImage& out) {
-  std::vector<Cover> columns(static_cast<std::size_t>(device.width()));
-  for (int i = 0; i < device.width(); ++i)
-    columns[static_cast<std::size_t>(i)] = coverOf(device.x() + i, zoom, bits.width);
+  std::vector<Cover> columns(device.width());
+  for (int i = 0; i < device.width(); ++i) columns[i] = coverOf(device.x() + i, zoom, bits.width);
   std::vector<int> ink(columns.size());
   for (int j = 0; j < device.height(); ++j) {
     const Cover rows = coverOf(device.y() + j, zoom, bits.height);

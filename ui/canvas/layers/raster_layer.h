@@ -9,7 +9,7 @@
 
 #include "core/image/bit_image.h"
 #include "core/image/region_thresholds.h"
-#include "ui/canvas/tile_pyramid.h"
+#include "ui/canvas/scene/tile_pyramid.h"
 
 namespace batten {
 

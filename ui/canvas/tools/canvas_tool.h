@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "ui/canvas/canvas_scene.h"
+#include "ui/canvas/scene/canvas_scene.h"
 
 class QKeyEvent;
 

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "ui/canvas/canvas_colors.h"
-#include "ui/canvas/layers/vector_layers.h"
+#include "ui/canvas/layers/chip_layer.h"
+#include "ui/canvas/layers/mark_layers.h"
+#include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/point_tool.h"
 #include "ui/session/suggestion_source.h"
 

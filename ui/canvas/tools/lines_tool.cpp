@@ -2,8 +2,8 @@
 #include <QCoreApplication>
 #include <QPen>
 
-#include "ui/canvas/canvas_colors.h"
-#include "ui/canvas/layers/vector_layers.h"
+#include "ui/canvas/layers/curve_layer.h"
+#include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/piece_choice.h"
 
@@ -49,7 +49,7 @@ class LinesTool final : public CanvasTool {
     if (!scene_.shapes) return;
     paintLeftOut(painter, scene_);
     if (over_ && static_cast<std::size_t>(*over_) < scene_.shapes->curves.size())
-      paintChoice(painter, scene_, scene_.shapes->curves[static_cast<std::size_t>(*over_)]);
+      paintChoice(painter, scene_, scene_.shapes->curves[*over_]);
   }
 
  private:

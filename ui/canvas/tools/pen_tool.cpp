@@ -4,7 +4,7 @@
 #include <QPainterPath>
 #include <QPen>
 
-#include "ui/canvas/canvas_colors.h"
+#include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/pen_edits.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/canvas/canvas_colors.h"
+#include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/region_edits.h"
 

@@ -2,8 +2,8 @@
 #include <QCoreApplication>
 #include <QPen>
 
-#include "ui/canvas/canvas_colors.h"
-#include "ui/canvas/layers/vector_layers.h"
+#include "ui/canvas/scene/canvas_colors.h"
+
 #include "ui/canvas/tools/point_tool.h"
 
 namespace batten {
@@ -67,19 +67,5 @@ class SegmentTool final : public PointTool {
 }  // namespace
 
 std::unique_ptr<CanvasTool> makeSegmentTool(CanvasScene& scene) { return std::make_unique<SegmentTool>(scene); }
-
-void paintSegmentPoints(QPainter& painter, const CanvasScene& scene) {
-  const auto& recipe = scene.session.recipe();
-  if (recipe.construct.method != ConstructMethod::Typical && scene.view.tool() != Tool::Segments) return;
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing);
-  for (const SegmentPoint& point : recipe.segmentPoints) {
-    const QPointF at = scene.transform.toWidget(point.positionPx);
-    painter.setPen(QPen(Qt::white, 1.6));
-    painter.setBrush(colors::segment());
-    painter.drawEllipse(at, 4.5, 4.5);
-  }
-  painter.restore();
-}
 
 }  // namespace batten

@@ -2,7 +2,7 @@
 #include <QCoreApplication>
 #include <QKeyEvent>
 
-#include "ui/canvas/layers/vector_layers.h"
+#include "ui/canvas/layers/chip_layer.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/pen_edits.h"
 

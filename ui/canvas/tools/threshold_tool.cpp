@@ -7,8 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "ui/canvas/canvas_colors.h"
-#include "ui/canvas/layers/vector_layers.h"
+#include "ui/canvas/layers/chip_layer.h"
+#include "ui/canvas/layers/mark_layers.h"
+#include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/grey_scale.h"
 
@@ -80,7 +81,7 @@ class ThresholdTool final : public CanvasTool {
     const int region = regionAt(event.px);
     if (region < 0) return;
     Recipe recipe = scene_.session.recipe();
-    for (const int r : chosen()) recipe.threshold.grid[static_cast<std::size_t>(r)].reset();
+    for (const int r : chosen()) recipe.threshold.grid[r].reset();
     scene_.session.change(tr("Automatic threshold"), recipe);
     base_.clear();
   }
@@ -108,7 +109,7 @@ class ThresholdTool final : public CanvasTool {
   bool key(QKeyEvent* event) override {
     if (event->key() != Qt::Key_Delete && event->key() != Qt::Key_Backspace) return false;
     Recipe recipe = scene_.session.recipe();
-    for (const int r : chosen()) recipe.threshold.grid[static_cast<std::size_t>(r)].reset();
+    for (const int r : chosen()) recipe.threshold.grid[r].reset();
     scene_.session.change(tr("Automatic threshold"), recipe);
     return true;
   }
@@ -205,8 +206,7 @@ class ThresholdTool final : public CanvasTool {
   void apply(const Levels& base, double levels, int gesture) {
     Recipe recipe = scene_.session.recipe();
     for (const auto& [region, from] : base)
-      recipe.threshold.grid[static_cast<std::size_t>(region)] =
-          std::clamp(std::round(2.0 * (from + levels)) / 2.0, 0.0, 255.0);
+      recipe.threshold.grid[region] = std::clamp(std::round(2.0 * (from + levels)) / 2.0, 0.0, 255.0);
     change(std::move(recipe), gesture);
   }
 

@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "core/construct/fair/fair_piece.h"
+#include "core/construct/fair/fair_structure.h"
+#include "core/construct/fair/knot_removal.h"
+#include "core/construct/fair/sharp_features.h"
+
+namespace batten {
+namespace {
+
+constexpr double kPinPrecisionPx = 1e-3;  // the rest of the way a linear shift does
+constexpr int kChecksPerSpan = 4, kFineChecksPerSpan = 8;
+constexpr int kRefinements = 3;
+constexpr double kWrongWay = 2e-3;      // [1/diagonal] curvature that may turn back unasked before the frame is refined
+constexpr double kLeastNoisePx = 0.02;  // systematic error of edges on perfect pages
+constexpr double kKappaShare = 2.0;     // of the share of the noise, for the curvature
+constexpr double kCornerReachPx = 16.0;  // an end may lie this far beyond the curve of the moment
+constexpr const char* kShortNote =
+    "Too short for the fair fit; a smooth curve of low degree through the points instead.";
+constexpr const char* kPlainNote = "The fair fit could not be solved here; a smoothed curve instead.";
+
+/// Values of a piecewise linear table at ascending arguments; runs on linearly beyond the ends.
+double lookUp(const std::vector<double>& from, const std::vector<double>& to, double x) {
+  auto i = static_cast<std::size_t>(std::upper_bound(from.begin(), from.end(), x) - from.begin());
+  i = std::clamp<std::size_t>(i, 1, from.size() - 1);
+  const double width = from[i] - from[i - 1];
+  const double part = width > 0.0 ? (x - from[i - 1]) / width : 0.0;
+  return to[i - 1] + part * (to[i] - to[i - 1]);
+}
+
+/// Back from px about the origin to mm, with the corner points to the last digit.
+Result<NurbsCurve> placed(const Result<NurbsCurve>& curve, const FairPiece& piece, const ConstructPiece& in,
+                          double pixelMm) {
+  if (!curve) return curve;
+  std::vector<Vec2> points(curve->controlPoints().begin(), curve->controlPoints().end());
+  for (Vec2& p : points) p += piece.origin * pixelMm;
+  if (piece.pins.start) points.front() = in.points.front();
+  if (piece.pins.end) points.back() = in.points.back();
+  return NurbsCurve::make(5, {curve->knots().begin(), curve->knots().end()}, std::move(points));
+}
+
+class Finish {
+ public:
+  Finish(FairPiece& piece, const ConstructPiece& in, double pixelMm, double s0, double cutoffPx, bool willBeCut,
+         const FairFitOptions& options, const RunContext& context)
+      : piece_(piece),
+        in_(in),
+        pixelMm_(pixelMm),
+        s0_(s0),
+        cutoffPx_(cutoffPx),
+        willBeCut_(willBeCut),
+        options_(options),
+        context_(context) {}
+
+  void run() {
+    if (!piece_.frame) return simple(kShortNote);
+    if (fair() || context_.isCancelled()) return;
+    const auto& base = piece_.frame->base;
+    Vec2 start = Vec2::Zero(), end = Vec2::Zero();
+    pinShifts(base, start, end);
+    auto curve = placed(base.toNurbs(pixelMm_, pixelMm_, start, end), piece_, in_, pixelMm_);
+    if (!curve) return simple(kPlainNote);
+    report_ = {};
+    noConstraintMet();
+    report_.why = Termination::Degenerate;
+    report_.note = kPlainNote;
+    piece_.result = ConstructedPiece{*curve, report_};
+  }
+
+ private:
+  void simple(const char* note) {
+    auto curve = placed(simpleCurve(piece_.data, piece_.pins, pixelMm_), piece_, in_, pixelMm_);
+    if (!curve) {
+      piece_.result = fail(curve.error());
+      return;
+    }
+    report_ = {};
+    noConstraintMet();
+    report_.why = Termination::Degenerate;
+    report_.note = note;
+    piece_.result = ConstructedPiece{*curve, report_};
+  }
+
+  /// True when a result was set.
+  bool fair() {
+    if (piece_.rough.size() == 0 || !moveFrame(piece_.rough)) return false;
+    auto local =
+        localPosterior(frame_, s0_, uniformPrior(frame_, s0_, cutoffPx_), options_.emRounds, options_.emWidthPx);
+    if (!local || context_.isCancelled()) return false;
+    if (willBeCut_ && in_.constraints.empty() && leavesItsPoints(local->mean)) return true;
+    double circleCost = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<PlacedConstraint> constraints = placedConstraints();
+    const bool keeps =
+        std::any_of(constraints.begin(), constraints.end(), [](const PlacedConstraint& w) { return w.keep; });
+    if (piece_.data.closed && !keeps && circle(local->objective(local->mean), circleCost)) return true;
+    auto found = findStructure(frame_, *local, options_.extremumSignificance, constraints, context_);
+    if (!found) return false;
+    report_.unmetConstraints = found->unmetConstraints;
+    if (!piece_.data.closed && found->structure.extrema.empty() && line(found->objective)) return true;
+
+    if (!moveFrame(found->c)) return false;
+    const auto final = localPosterior(frame_, s0_, std::move(local->tau2), 1, options_.emWidthPx);
+    if (!final) return false;
+    for (FairExtremum& e : found->structure.extrema) e.u = lookUp(oldParameters_, arcLengths_, e.u);
+    for (FairExtremum& e : found->dropped) e.u = lookUp(oldParameters_, arcLengths_, e.u);
+    return finishCurve(*final, *found, circleCost);
+  }
+
+  /// True, and a result was set, when the smoothing alone leaves the points: no structure brings it back.
+  bool leavesItsPoints(const Eigen::VectorXd& mean) {
+    const auto curve = offsetCurve(frame_.base, mean);
+    if (!curve) return false;
+    auto nurbs = placed(curve->toNurbs(pixelMm_, pixelMm_, Vec2::Zero(), Vec2::Zero()), piece_, in_, pixelMm_);
+    if (!nurbs || outlierRanges(pointDeviation(*nurbs, in_, pixelMm_), in_, pixelMm_, false).empty()) return false;
+    report_ = {};
+    report_.why = Termination::Degenerate;
+    report_.note = kPlainNote;
+    piece_.result = ConstructedPiece{std::move(*nurbs), report_};
+    return true;
+  }
+
+  /// New frame along base + d N, cut to where the piece begins and ends.
+  bool moveFrame(const Eigen::VectorXd& d) {
+    const UniformQuintic base = frame_.blocks.empty() ? piece_.frame->base : frame_.base;
+    FairData& data = piece_.data;
+    double from = 0.0, to = base.knots().length;
+    if (!data.closed) {
+      from = base.footPoint(data.points.front(), 0.0, kCornerReachPx);
+      to = base.footPoint(data.points.back(), to, kCornerReachPx);
+    }
+    if (!(to - from > 0.5 * base.knots().length)) return false;
+    auto moved = reframe(base, d, from, to);
+    if (!moved) return false;
+    for (double& t : data.t) t = lookUp(moved->oldParameters, moved->arcLengths, t);
+    oldParameters_ = std::move(moved->oldParameters);
+    arcLengths_ = std::move(moved->arcLengths);
+    frame_ = assembleFrame(moved->curve, data, options_, kChecksPerSpan);
+    return !frame_.blocks.empty();
+  }
+
+  /// The constraints by the parameter of the nearest point.
+  std::vector<PlacedConstraint> placedConstraints() const {
+    std::vector<PlacedConstraint> placed;
+    for (const ExtremumConstraint& constraint : in_.constraints) {
+      const Vec2 p = constraint.point / pixelMm_ - piece_.origin;
+      double least = std::numeric_limits<double>::infinity(), u = 0.0;
+      for (std::size_t i = 0; i < piece_.data.points.size(); ++i) {
+        const double distance = (piece_.data.points[i] - p).squaredNorm();
+        if (piece_.data.use[i] && distance < least) least = distance, u = piece_.data.t[i];
+      }
+      placed.push_back({u, constraint.keep, constraint.id});
+    }
+    return placed;
+  }
+
+  void noConstraintMet() {
+    for (const ExtremumConstraint& constraint : in_.constraints) report_.unmetConstraints.push_back(constraint.id);
+  }
+
+  bool circle(double objective, double& cost) {
+    const auto fit = fitCircle(blockMeans(frame_));
+    if (!fit) return false;
+    cost = fit->squares / s0_ - objective;
+    if (!(cost < 2.0 * options_.extremumSignificance)) return false;
+    const PlaneDerivatives start = frame_.base.at(0.0, 1);
+    const bool left = cross(start[0] - fit->centre, start[1]) > 0.0;
+    const UniformQuintic curve = circleCurve(*fit, start[0], left);
+    auto nurbs = placed(curve.toNurbs(pixelMm_, pixelMm_, Vec2::Zero(), Vec2::Zero()), piece_, in_, pixelMm_);
+    if (!nurbs) return false;
+    report_.why = Termination::Exact;
+    report_.isCircle = true;
+    noConstraintMet();
+    // Three parameters: the curvature -1/r varies as the radius does, r +- sqrt(S0 / length).
+    const double sigma = std::sqrt(s0_ / meanWeight() / frame_.base.knots().length) / (fit->radius * fit->radius);
+    for (const double s : {0.0, curve.knots().length}) {
+      report_.bandS.push_back(s * pixelMm_);
+      report_.bandSigma.push_back(sigma / pixelMm_);
+    }
+    for (std::size_t i = 0; i < piece_.data.points.size(); ++i) {
+      if (!piece_.data.use[i]) continue;
+      const double e = (piece_.data.points[i] - fit->centre).norm() - fit->radius;
+      addResidual(e, piece_.data.weight[i]);
+    }
+    piece_.result = ConstructedPiece{*nurbs, report_};
+    return true;
+  }
+
+  double meanWeight() const {
+    double sum = 0.0;
+    for (const FairBlock& block : frame_.blocks) sum += block.weight;
+    return std::max(1e-3, sum / static_cast<double>(frame_.blocks.size()));
+  }
+
+  void addResidual(double e, double weight) {
+    if (std::abs(e) * std::sqrt(weight) > 6.0 * std::sqrt(s0_)) return;
+    piece_.squares += e * e;
+    ++piece_.pointCount;
+  }
+
+  bool line(double objective) {
+    const auto fit = fitLine(blockMeans(frame_));
+    if (!fit || !(fit->squares / s0_ - objective < options_.extremumSignificance)) return false;
+    const auto& points = piece_.data.points;
+    auto curve = placed(lineCurve(*fit, points.front(), points.back(), piece_.pins, pixelMm_), piece_, in_, pixelMm_);
+    if (!curve) return false;
+    report_.why = Termination::Exact;
+    report_.isLine = true;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (piece_.data.use[i]) addResidual(cross(fit->direction, points[i] - fit->point), piece_.data.weight[i]);
+    }
+    // A parabola's curvature from data of density S0 over the length L: variance 720 S0 / L^5.
+    const double length = (points.back() - points.front()).norm();
+    const double sigma = std::sqrt(720.0 * s0_ / meanWeight() / std::pow(length, 5));
+    for (const double s : {0.0, length}) {
+      report_.bandS.push_back(s * pixelMm_);
+      report_.bandSigma.push_back(sigma / pixelMm_);
+    }
+    piece_.result = ConstructedPiece{*curve, report_};
+    return true;
+  }
+
+  /// What is left between the ends of a curve and the pins.
+  void pinShifts(const UniformQuintic& curve, Vec2& start, Vec2& end) const {
+    const FairPins& pins = piece_.pins;
+    if (pins.start) start = *pins.start - curve.at(0.0, 0)[0];
+    if (pins.end) end = *pins.end - curve.at(curve.knots().length, 0)[0];
+    if (pins.start && !pins.end) end = start;
+    if (pins.end && !pins.start) start = end;
+  }
+
+  void pinEnds(FairPosterior& posterior) const {
+    const UniformKnots& knots = frame_.base.knots();
+    const auto pin = [&](const Vec2& target, double u) {
+      const PlaneDerivatives d = frame_.base.at(u, 1);
+      const double offset = (target - d[0]).dot(leftNormal(d[1]).normalized());
+      const double weight = 1.0 / (kPinPrecisionPx * kPinPrecisionPx);
+      posterior.a.addOuter(knots.row(u, 0), weight);
+      addTo(posterior.b, knots.row(u, 0), weight * offset);
+    };
+    if (piece_.pins.start) pin(*piece_.pins.start, 0.0);
+    if (piece_.pins.end) pin(*piece_.pins.end, knots.length);
+  }
+
+  std::optional<UniformQuintic> structuredCurve(FairPosterior posterior, StructureResult& found) {
+    const Eigen::VectorXd start = posterior.mean;
+    pinEnds(posterior);
+    const double never = std::numeric_limits<double>::infinity();
+    found.structure.leastSlope.clear();
+    auto fit = fitStructure(frame_, posterior, found.structure, start, 1.0, 0.0, never);
+    if (!fit) return std::nullopt;
+    found.limited = found.limited || !fit->converged;
+    auto curve = offsetCurve(frame_.base, fit->c);
+    pinned_ = std::move(posterior);
+    last_ = std::move(fit);
+    return curve;
+  }
+
+  /// True if the curvature itself (the programs see it to first order) turns more often than the structure has extrema.
+  static bool turnsTooOften(const UniformQuintic& curve, const FairStructure& structure) {
+    const auto stations = checkStations(curve, kFineChecksPerSpan);
+    Vec2 low = curve.at(0.0, 0)[0], high = low;
+    for (const FrameStation& s : stations) {
+      const Vec2 p = curve.at(s.u, 0)[0];
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    const double least = kWrongWay / (high - low).norm();
+    std::vector<double> kappa;
+    for (const FrameStation& s : stations) kappa.push_back(s.kappa);
+    return countExtrema(kappa, least) > static_cast<int>(structure.extrema.size());
+  }
+
+  bool finishCurve(const FairPosterior& posterior, StructureResult& found, double circleCost) {
+    auto curve = structuredCurve(posterior, found);
+    for (int pass = 0; curve && pass < kRefinements && turnsTooOften(*curve, found.structure); ++pass) {
+      // About the curve itself, with its own knots, the linear constraints are exact but for a tiny remainder.
+      frame_ = assembleFrame(*curve, piece_.data, options_, kFineChecksPerSpan);
+      last_.reset();
+      const auto about = localPosterior(frame_, s0_, posterior.tau2, 0, options_.emWidthPx);
+      if (!about || context_.isCancelled()) break;
+      auto better = structuredCurve(*about, found);
+      if (!better) break;
+      curve = std::move(better);
+    }
+    if (!curve || context_.isCancelled()) return false;
+    if (last_) {
+      FairStructure structure = found.structure;
+      const StructureFit lifted = withoutPlateaus(frame_, pinned_, structure, *last_);
+      auto steady = structure.leastSlope.empty() ? std::nullopt : offsetCurve(frame_.base, lifted.c);
+      if (steady && !turnsTooOften(*steady, structure)) {
+        curve = std::move(steady);
+        found.structure = std::move(structure);
+      }
+    }
+    Vec2 start = Vec2::Zero(), end = Vec2::Zero();
+    pinShifts(*curve, start, end);
+    auto nurbs = placed(curve->toNurbs(pixelMm_, pixelMm_, start, end), piece_, in_, pixelMm_);
+    if (!nurbs) return false;
+    report_.fullControlPoints = nurbs->controlPointCount();
+    if (auto fewer = reduced(posterior, *curve, start, end)) nurbs = std::move(*fewer);
+    report_.why = found.limited ? Termination::IterationLimit : Termination::Converged;
+    noteExtrema(found, *curve, circleCost);
+    noteBand(posterior, *curve);
+    piece_.squares = frame_.squares;
+    piece_.pointCount = frame_.pointCount;
+    piece_.result = ConstructedPiece{*nurbs, report_};
+    return true;
+  }
+
+  /// The same curve with fewer control points, as far as the noise of the edge allows.
+  std::optional<Result<NurbsCurve>> reduced(const FairPosterior& posterior, const UniformQuintic& curve,
+                                            const Vec2& start, const Vec2& end) {
+    if (!(options_.knotRemovalTolerance > 0.0) || frame_.pointCount == 0 || context_.isCancelled()) return std::nullopt;
+    const auto stations = static_cast<std::size_t>(kChecksPerSpan * curve.knots().spans + (piece_.data.closed ? 0 : 1));
+    const std::size_t stride = std::max<std::size_t>(1, frame_.checks.size() / stations);
+    // By weight: the calm stretches of an uneven line say how far it may move.
+    const double calm = std::max(kLeastNoisePx, std::sqrt(frame_.weightedSquares / frame_.weights));
+    std::vector<double> sigma, distance;
+    for (std::size_t i = 0; i < frame_.checks.size(); i += stride) {
+      const FrameStation& s = frame_.checks[i];
+      sigma.push_back(std::sqrt(std::max(0.0, BandCholesky::quadratic(posterior.covariance, s.kappaRow))));
+      distance.push_back(options_.knotRemovalTolerance * std::max(calm, kMeanShare * spreadAt(s.u)));
+    }
+    ReduceLimits limits;
+    limits.distancePx = distance;
+    limits.kappaSigma = sigma;
+    limits.perSpan = kChecksPerSpan;
+    limits.kappaShare = kKappaShare * options_.knotRemovalTolerance;
+    limits.startShift = start;
+    limits.endShift = end;
+    const auto fewer = withFewestPoints(curve, limits);
+    if (!fewer) return std::nullopt;
+    std::vector<double> knots(fewer->curve.knots().begin(), fewer->curve.knots().end());
+    std::vector<Vec2> points(fewer->curve.controlPoints().begin(), fewer->curve.controlPoints().end());
+    for (double& k : knots) k *= pixelMm_;
+    for (Vec2& p : points) p *= pixelMm_;
+    auto nurbs = placed(NurbsCurve::make(5, std::move(knots), std::move(points)), piece_, in_, pixelMm_);
+    if (!nurbs) return std::nullopt;
+    report_.knotRemovalMovedPx = fewer->movedPx;
+    return nurbs;
+  }
+
+  /// Half the breadth of the strokes at a parameter. The points lie along the curve in order, nearly.
+  double spreadAt(double u) const {
+    const auto& t = piece_.data.t;
+    const auto at = std::lower_bound(t.begin(), t.end(), u);
+    return piece_.data.spread[std::min(static_cast<std::size_t>(at - t.begin()), t.size() - 1)];
+  }
+
+  void noteExtrema(const StructureResult& found, const UniformQuintic& curve, double circleCost) {
+    const auto note = [&](const FairExtremum& e, bool kept) {
+      const double cost = e.costKnown || !kept || !std::isfinite(circleCost) ? e.removalCost : circleCost;
+      const double u = std::clamp(e.u, 0.0, curve.knots().length);
+      ExtremumNote made{curve.arcLength(u) * pixelMm_, e.kappa / pixelMm_, e.maximum, kept, cost};
+      made.point = (curve.at(u, 0)[0] + piece_.origin) * pixelMm_;
+      if (e.constraint >= 0) made.constraint = e.constraint;
+      report_.extrema.push_back(made);
+    };
+    for (const FairExtremum& e : found.structure.extrema) note(e, true);
+    for (const FairExtremum& e : found.dropped) note(e, false);
+    std::sort(report_.extrema.begin(), report_.extrema.end(),
+              [](const ExtremumNote& a, const ExtremumNote& b) { return a.s < b.s; });
+  }
+
+  void noteBand(const FairPosterior& posterior, const UniformQuintic& curve) {
+    const auto stride = std::max<std::size_t>(
+        1, frame_.checks.size() / static_cast<std::size_t>(kChecksPerSpan * frame_.base.knots().spans));
+    for (std::size_t i = 0; i < frame_.checks.size(); i += stride) {
+      const FrameStation& s = frame_.checks[i];
+      const double variance = BandCholesky::quadratic(posterior.covariance, s.kappaRow);
+      report_.bandS.push_back(curve.arcLength(s.u) * pixelMm_);
+      report_.bandSigma.push_back(std::sqrt(std::max(0.0, variance)) / pixelMm_);
+    }
+  }
+
+  FairPiece& piece_;
+  const ConstructPiece& in_;
+  double pixelMm_, s0_, cutoffPx_;
+  bool willBeCut_;
+  const FairFitOptions& options_;
+  const RunContext& context_;
+  FairFrame frame_;
+  std::vector<double> oldParameters_, arcLengths_;  ///< Of the last change of frame.
+  FairPosterior pinned_;                            ///< With the ends on the pins, and the last fit by it about frame_.
+  std::optional<StructureFit> last_;
+  ConstructReport report_;
+};
+
+}  // namespace
+
+void finishFairPiece(FairPiece& piece, const ConstructPiece& in, double pixelMm, double s0, double cutoffPx,
+                     bool willBeCut, const FairFitOptions& options, const RunContext& context) {
+  Finish(piece, in, pixelMm, s0, cutoffPx, willBeCut, options, context).run();
+}
+
+}  // namespace batten

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/fair/fair_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <new>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/construct/fair/fair_piece.h"
+#include "core/construct/fair/smooth_sections.h"
+
+namespace batten {
+namespace {
+
+constexpr int kFitRounds = 6;              // of fits of a contour; stretches are cut where a round has failed
+constexpr double kUsualLengthPx = 2000.0;  // of a line; longer ones have more places where noise looks like a bump
+constexpr double kWhiteDensity = 0.045;    // [px^2 px] of ordinary edge points; where a contour is too short to tell
+
+/// Smooths every piece by its own cut-off and weighs its points by the noise that this leaves.
+void followNoise(std::vector<FairPiece>& pieces, const CutoffChoice& choice, double density, double s0,
+                 const FairFitOptions& options, const RunContext& context) {
+  std::vector<NoiseTrace> traces(pieces.size());
+  parallelFor(context, static_cast<int>(pieces.size()), 1, [&](int begin, int end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      FairPiece& piece = pieces[i];
+      if (!piece.frame || context.isCancelled()) continue;
+      const std::vector<double> prior = uniformPrior(*piece.frame, s0, CutoffTable::cutoffPx(choice.k[i]));
+      const auto smooth = localPosterior(*piece.frame, s0, prior, 0, options.emWidthPx);
+      if (!smooth) continue;
+      piece.rough = smooth->mean;
+      traces[i] = noiseTrace(*piece.frame, smooth->mean, s0);
+    }
+  });
+  const std::vector<LocalNoise> noise = localNoise(traces);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (pieces[i].frame) weighByNoise(pieces[i].data, noise[i], density, options.noiseDensityFloor);
+  }
+}
+
+Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour, bool willBeCut,
+                                                const FairFitOptions& options, const RunContext& context) {
+  const int count = static_cast<int>(contour.pieces.size());
+  std::vector<FairPiece> pieces(contour.pieces.size());
+  const double ordinary = ordinarySigma(contour);
+  parallelFor(context, count, 1, [&](int begin, int end) {
+    for (int i = begin; i < end && !context.isCancelled(); ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      pieces[at] = prepareFairPiece(contour.pieces[at], contour.isStroke, contour.pixelMm, ordinary, options);
+    }
+  });
+  if (context.isCancelled()) return cancelled();
+  std::vector<CutoffTable> tables;
+  for (const FairPiece& piece : pieces) tables.push_back(piece.table);
+  const CutoffChoice choice = chooseCutoffs(tables, options.effectiveDofWeight);
+  const bool measured = std::any_of(choice.k.begin(), choice.k.end(), [](int k) { return k >= 0; });
+  const double density = measured ? options.blockPx * choice.blockVariance : kWhiteDensity;
+  const double s0 = std::max(density, options.noiseDensityFloor);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (choice.k[i] < 0) pieces[i].frame.reset();
+  }
+  followNoise(pieces, choice, density, s0, options, context);
+  parallelFor(context, count, 1, [&](int begin, int end) {
+    for (int i = begin; i < end && !context.isCancelled(); ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const double cutoff = CutoffTable::cutoffPx(std::max(0, choice.k[at]));
+      finishFairPiece(pieces[at], contour.pieces[at], contour.pixelMm, s0, cutoff, willBeCut, options, context);
+    }
+  });
+  double squares = 0.0, points = 0.0;
+  std::vector<ConstructedPiece> out;
+  for (FairPiece& piece : pieces) {
+    if (context.isCancelled() || !piece.result) return cancelled();
+    if (!*piece.result) return fail(piece.result->error());
+    out.push_back(std::move(**piece.result));
+    squares += piece.squares;
+    points += piece.pointCount;
+  }
+  for (ConstructedPiece& piece : out) piece.report.noisePx = points > 0.0 ? std::sqrt(squares / points) : 0.0;
+  return out;
+}
+
+/// The stretches of all pieces fitted together, so that they share what is known of the noise; a stretch whose fit has
+/// left its points is cut and fitted again.
+Result<std::vector<ConstructedPiece>> fitParts(const ConstructContour& contour, const FairFitOptions& options,
+                                               const RunContext& context) {
+  std::vector<SmoothSections> parts;
+  for (const ConstructPiece& piece : contour.pieces) {
+    parts.emplace_back(piece, contour.isStroke, contour.pixelMm, options);
+  }
+  for (int round = 0; round < kFitRounds; ++round) {
+    ConstructContour stretches{{}, contour.isStroke, contour.pixelMm};
+    std::vector<std::size_t> counts;
+    for (const SmoothSections& part : parts) {
+      auto pieces = part.stretches();
+      counts.push_back(pieces.size());
+      std::move(pieces.begin(), pieces.end(), std::back_inserter(stretches.pieces));
+    }
+    auto fits = fitPieces(stretches, round + 1 < kFitRounds, options, context);
+    if (!fits) return fits;
+    bool again = false;
+    auto next = std::make_move_iterator(fits->begin());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const auto end = next + static_cast<std::ptrdiff_t>(counts[i]);
+      again = parts[i].check({next, end}, round + 1 == kFitRounds) || again;
+      next = end;
+    }
+    if (!again) break;
+  }
+  std::vector<ConstructedPiece> out;
+  for (const SmoothSections& part : parts) {
+    auto piece = part.joined(context);
+    if (context.isCancelled()) return cancelled();
+    if (!piece) return fail(piece.error());
+    out.push_back(std::move(*piece));
+  }
+  return out;
+}
+
+}  // namespace
+
+double costAsked(const ConstructContour& contour, const FairFitOptions& options) {
+  double length = 0.0;
+  for (const ConstructPiece& piece : contour.pieces) {
+    for (std::size_t i = 1; i < piece.points.size(); ++i) length += (piece.points[i] - piece.points[i - 1]).norm();
+  }
+  return options.extremumSignificance + 2.0 * std::log(std::max(1.0, length / (contour.pixelMm * kUsualLengthPx)));
+}
+
+Result<std::vector<ConstructedPiece>> fairFit(const ConstructContour& contour, const FairFitOptions& options,
+                                              const RunContext& context) {
+  if (!(contour.pixelMm > 0.0) || !std::isfinite(contour.pixelMm)) {
+    return fail(ErrorCode::BadParameter, "The size of a pixel must be above 0 mm.");
+  }
+  const double lengths[] = {options.knotSpacingPx, options.blockPx, options.noiseDensityFloor, options.emWidthPx,
+                            options.extremumSignificance};
+  for (const double x : lengths) {
+    if (!(x > 0.0) || !std::isfinite(x))
+      return fail(ErrorCode::BadParameter, "An option of the fair fit must be above 0.");
+  }
+  try {
+    FairFitOptions asked = options;
+    asked.extremumSignificance = costAsked(contour, options);
+    auto pieces = fitParts(contour, asked, context);
+    if (!pieces) return pieces;
+    for (ConstructedPiece& piece : *pieces)
+      for (ExtremumNote& note : piece.report.extrema) note.askedCost = asked.extremumSignificance;
+    return pieces;
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to fit the curve.");
+  }
+}
+
+}  // namespace batten

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/fair/fair_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace batten {
+namespace {
+
+constexpr double kPilotCutoffPx = 50.0;
+constexpr double kSmoothingSamples = 3.0;
+constexpr double kTwoNodes = 0.28867513459481287;  // of Gauss-Legendre, from the middle of a unit interval
+constexpr int kClosedSpansMin = 12;                // so that band entries of periodic inverses are all different places
+
+/// Gaussian smoothing by order; open ends are continued by reflection in the end point, which keeps it in place.
+std::vector<Vec2> smoothedByOrder(const std::vector<Vec2>& p, bool closed) {
+  const int n = static_cast<int>(p.size());
+  const int radius = static_cast<int>(3.0 * kSmoothingSamples);
+  std::vector<double> kernel;
+  double sum = 0.0;
+  for (int k = -radius; k <= radius; ++k) {
+    kernel.push_back(std::exp(-0.5 * k * k / (kSmoothingSamples * kSmoothingSamples)));
+    sum += kernel.back();
+  }
+  const auto get = [&](int i) -> Vec2 {
+    if (closed) return p[((i % n) + n) % n];
+    if (i < 0) return 2.0 * p.front() - p[std::min(-i, n - 1)];
+    if (i >= n) return 2.0 * p.back() - p[std::max(2 * (n - 1) - i, 0)];
+    return p[i];
+  };
+  std::vector<Vec2> out(p.size());
+  for (int i = 0; i < n; ++i) {
+    Vec2 mean = Vec2::Zero();
+    for (int k = -radius; k <= radius; ++k) mean += kernel[k + radius] * get(i + k);
+    out[i] = mean / sum;
+  }
+  return out;
+}
+
+Vec2 unitNormal(const Vec2& velocity) {
+  const double speed = velocity.norm();
+  return speed > 0.0 ? Vec2(leftNormal(velocity) / speed) : Vec2(0.0, 1.0);
+}
+
+FrameStation makeStation(const UniformQuintic& base, double u, bool bendOnly) {
+  const UniformKnots& knots = base.knots();
+  std::array<BandRow, 5> rows;
+  for (int order = 0; order < 5; ++order) {
+    if (order == 3 && bendOnly) continue;
+    rows[order] = knots.row(u, order);
+  }
+  FrameStation s = frameStation(base.at(u, 4), rows);
+  s.u = u;
+  return s;
+}
+
+void averageBlocks(FairFrame& frame, const FairData& data, const FairFitOptions& options, const std::vector<double>& e,
+                   double limit) {
+  const double length = frame.base.knots().length;
+  const double wished = std::max(options.blockPx, 1.5 / data.density);
+  const int count = std::max(1, static_cast<int>(std::lround(length / wished)));
+  frame.blockLength = length / count;
+  struct Sum {
+    double e = 0.0, t = 0.0, w = 0.0;
+    int n = 0;
+  };
+  std::vector<Sum> sums(count);
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const double w = data.weight[i];
+    if (!data.use[i] || std::abs(e[i]) * std::sqrt(w) > limit) continue;
+    auto& sum = sums[std::clamp(static_cast<int>(data.t[i] / frame.blockLength), 0, count - 1)];
+    sum.e += w * e[i];
+    sum.t += w * data.t[i];
+    sum.w += w;
+    ++sum.n;
+    frame.squares += e[i] * e[i];
+    ++frame.pointCount;
+    frame.weightedSquares += w * e[i] * e[i];
+    frame.weights += w;
+  }
+  const double expected = frame.blockLength * data.density;
+  const double least = std::min(2.0, 0.5 * expected);
+  for (const Sum& sum : sums) {
+    if (sum.n < std::max(least, 0.3 * expected) || sum.n == 0) continue;
+    FairBlock block;
+    block.u = sum.t / sum.w;
+    block.offset = sum.e / sum.w;
+    block.weight = std::min(1.0, sum.n / (0.6 * expected)) * sum.w / sum.n;
+    block.row = frame.base.knots().row(block.u, 0);
+    frame.blocks.push_back(block);
+  }
+}
+
+}  // namespace
+
+double robustSigma(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  for (double& v : values) v = std::abs(v);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return 1.4826 * *middle;
+}
+
+FrameStation frameStation(const PlaneDerivatives& d, const std::array<BandRow, 5>& b) {
+  FrameStation s;
+  const double w = std::max(d[1].squaredNorm(), 1e-12), v = std::sqrt(w);
+  const double w1 = 2.0 * d[1].dot(d[2]), w2 = 2.0 * (d[2].squaredNorm() + d[1].dot(d[3]));
+  const double c = cross(d[1], d[2]), c1 = cross(d[1], d[3]), c2 = cross(d[2], d[3]) + cross(d[1], d[4]);
+  const double w32 = 1.0 / (w * v);
+  s.kappa = c * w32;
+  const double kt = w32 * (c1 - 1.5 * c * w1 / w);
+  const double ktt = w32 * (c2 - 3.0 * c1 * w1 / w + 3.75 * c * w1 * w1 / (w * w) - 1.5 * c * w2 / w);
+  s.slope = kt / v;
+  s.bend = (ktt - 0.5 * kt * w1 / w) / w;
+  const double k = s.kappa, k1 = s.slope, k2 = s.bend;
+  s.bendRow.first = s.kappaRow.first = s.slopeRow.first = b[0].first;
+  for (std::size_t i = 0; i < 6; ++i) {
+    s.bendRow.v[i] =
+        b[4].v[i] + k * k * b[2].v[i] + 4.0 * k * k1 * b[1].v[i] + (2.0 * k1 * k1 + 2.0 * k * k2) * b[0].v[i];
+    s.kappaRow.v[i] = b[2].v[i] + k * k * b[0].v[i];
+    s.slopeRow.v[i] = b[3].v[i] + k * k * b[1].v[i] + 2.0 * k * k1 * b[0].v[i];
+  }
+  return s;
+}
+
+UniformKnots fairKnots(double length, double spacingPx, bool closed) {
+  const int spans = static_cast<int>(std::lround(length / spacingPx));
+  return {length, std::max(spans, closed ? kClosedSpansMin : 1), closed};
+}
+
+std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions& options) {
+  const std::vector<Vec2> smooth = smoothedByOrder(data.points, data.closed);
+  const std::size_t n = smooth.size();
+  std::vector<double>& t = data.t;
+  t.assign(n, 0.0);
+  for (std::size_t i = 1; i < n; ++i) t[i] = t[i - 1] + (smooth[i] - smooth[i - 1]).norm();
+  double length = t.back() + (data.closed ? (smooth.front() - smooth.back()).norm() : 0.0);
+  const double spacing = std::max(options.knotSpacingPx, 3.0 / data.density);
+  std::vector<double> weights(n), e(n);
+  for (std::size_t i = 0; i < n; ++i) weights[i] = data.use[i] ? data.weight[i] : 0.0;
+  std::optional<UniformQuintic> curve;
+  for (int pass = 0; pass < 4; ++pass) {
+    if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
+    const double lambda = data.density * std::pow(kPilotCutoffPx / (2.0 * std::numbers::pi), 6);
+    curve = fitUniformQuintic(fairKnots(length, spacing, data.closed), t, data.points, weights, lambda);
+    if (!curve) return std::nullopt;
+    std::vector<double> used;
+    for (std::size_t i = 0; i < n; ++i) {
+      t[i] = curve->footPoint(data.points[i], t[i], spacing);
+      const PlaneDerivatives d = curve->at(t[i], 1);
+      e[i] = (data.points[i] - d[0]).dot(unitNormal(d[1]));
+      if (data.use[i]) used.push_back(e[i] * std::sqrt(data.weight[i]));
+    }
+    const double reach = 6.0 * std::max(robustSigma(used), 0.02);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double x = std::min(1.0, std::abs(e[i]) * std::sqrt(data.weight[i]) / reach);
+      weights[i] = data.use[i] ? data.weight[i] * (1.0 - x * x) * (1.0 - x * x) : 0.0;
+    }
+    if (pass == 3) break;
+    for (double& u : t) {
+      const double turns = data.closed ? std::floor(u / length) : 0.0;
+      u = curve->arcLength(u - turns * length) + turns * curve->length();
+    }
+    const double origin = data.closed ? 0.0 : t.front();
+    length = data.closed ? curve->length() : t.back() - origin;
+    for (double& u : t) u -= origin;
+  }
+  return curve;
+}
+
+FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFitOptions& options, int checksPerSpan) {
+  FairFrame frame;
+  frame.base = base;
+  const UniformKnots& knots = base.knots();
+  std::vector<double> e(data.points.size()), used;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    if (!data.use[i]) continue;
+    double u = base.footPoint(data.points[i], data.t[i], 0.0);
+    if (data.closed) u -= knots.length * std::floor(u / knots.length);
+    data.t[i] = u;
+    const PlaneDerivatives d = base.at(u, 1);
+    e[i] = (data.points[i] - d[0]).dot(unitNormal(d[1]));
+    used.push_back(e[i] * std::sqrt(data.weight[i]));
+  }
+  averageBlocks(frame, data, options, e, 6.0 * std::max(robustSigma(std::move(used)), 0.02));
+  frame.h = BandMatrix(knots.coefficients(), knots.closed);
+  frame.g = Eigen::VectorXd::Zero(knots.coefficients());
+  for (const FairBlock& block : frame.blocks) {
+    frame.h.addOuter(block.row, frame.blockLength * block.weight);
+    addTo(frame.g, block.row, frame.blockLength * block.weight * block.offset);
+  }
+  frame.cell = knots.spacing() / 3.0;
+  for (int j = 0; j < 3 * knots.spans; ++j) frame.penalty.push_back(makeStation(base, (j + 0.5) * frame.cell, true));
+  if (checksPerSpan > 0) frame.checks = checkStations(base, checksPerSpan);
+  return frame;
+}
+
+std::vector<FrameStation> checkStations(const UniformQuintic& base, int perSpan) {
+  const UniformKnots& knots = base.knots();
+  const int count = perSpan * knots.spans + (knots.closed ? 0 : 1);
+  std::vector<FrameStation> stations;
+  stations.reserve(count);
+  for (int j = 0; j < count; ++j)
+    stations.push_back(makeStation(base, j * knots.length / (perSpan * knots.spans), false));
+  return stations;
+}
+
+OffsetPoint offsetPoint(const UniformQuintic& base, const Eigen::VectorXd& d, double u) {
+  const PlaneDerivatives p = base.at(u, 2);
+  const double speed = std::max(p[1].norm(), 1e-12);
+  const Vec2 normal = leftNormal(p[1]) / speed;
+  const double kappa = cross(p[1], p[2]) / (speed * speed * speed);
+  const double offset = dot(base.knots().row(u, 0), d);
+  const double rate = dot(base.knots().row(u, 1), d);
+  return {p[0] + offset * normal, p[1] * (1.0 - kappa * offset) + rate * normal};
+}
+
+std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorXd& d, double from, double to) {
+  const UniformKnots& knots = base.knots();
+  const int intervals = 8 * knots.spans;
+  Reframed out;
+  std::vector<Vec2> points;
+  const double step = (to - from) / intervals;
+  double length = 0.0;
+  for (int j = 0; j <= intervals; ++j) {
+    if (j > 0) {
+      // Two nodes: an interval is an eighth of a span.
+      const double a = offsetPoint(base, d, from + (j - 0.5 - kTwoNodes) * step).velocity.norm();
+      const double b = offsetPoint(base, d, from + (j - 0.5 + kTwoNodes) * step).velocity.norm();
+      length += 0.5 * (a + b) * step;
+    }
+    out.oldParameters.push_back(from + j * step);
+    out.arcLengths.push_back(length);
+    points.push_back(offsetPoint(base, d, from + j * step).point);
+  }
+  if (knots.closed) points.pop_back();
+  for (int pass = 0; pass < 2; ++pass) {
+    if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
+    const std::span<const double> s(out.arcLengths.data(), points.size());
+    auto curve = fitUniformQuintic({length, knots.spans, knots.closed}, s, points, {}, 0.0);
+    if (!curve) return std::nullopt;
+    out.curve = std::move(*curve);
+    if (pass == 1) break;
+    for (double& a : out.arcLengths) a = out.curve.arcLength(a);
+    length = out.curve.length();
+  }
+  return out;
+}
+
+std::optional<UniformQuintic> offsetCurve(const UniformQuintic& base, const Eigen::VectorXd& d) {
+  const UniformKnots& knots = base.knots();
+  const int samples = 8 * knots.spans + (knots.closed ? 0 : 1);
+  std::vector<double> parameters;
+  std::vector<Vec2> points;
+  for (int j = 0; j < samples; ++j) {
+    parameters.push_back(j * knots.length / (8.0 * knots.spans));
+    points.push_back(offsetPoint(base, d, parameters.back()).point);
+  }
+  return fitUniformQuintic(knots, parameters, points, {}, 0.0);
+}
+
+}  // namespace batten

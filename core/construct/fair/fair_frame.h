@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/base/vec2.h"
+#include "core/construct/fair/fair_fit.h"
+#include "core/curve/uniform_quintic.h"
+#include "core/solve/banded_matrix.h"
+
+namespace batten {
+
+/// The points of one piece on their way through the fair fit; px, relative to their centroid.
+struct FairData {
+  std::vector<Vec2> points;
+  std::vector<std::uint8_t> use;  ///< 0: gated out or too near a corner.
+  std::vector<double> weight;     ///< 1 / variance, 1 being that of an ordinary point of the contour; same size.
+  std::vector<double> spread;  ///< [px] half the breadth of the strokes that were merged there; 0: of one; same size.
+  std::vector<double> t;       ///< Parameters of the foot points on the curve of the moment.
+  bool closed = false;
+  double density = 1.0;  ///< [1/px] points per length, at most 1.
+};
+
+/// Curvature of the frame curve and how an offset d along its left normal changes it, to first order:
+/// kappa(d) = kp + d'' + kp^2 d and its two derivatives with respect to arc length.
+struct FrameStation {
+  double u = 0.0;
+  double kappa = 0.0, slope = 0.0, bend = 0.0;  ///< kp, kp', kp''.
+  BandRow kappaRow, slopeRow, bendRow;
+};
+
+/// The same from derivatives 0..4 of the curve, which runs at about unit speed, and the basis rows of these orders.
+FrameStation frameStation(const PlaneDerivatives&, const std::array<BandRow, 5>& rows);
+
+/// The mean of the points over some px of the line.
+struct FairBlock {
+  double u = 0.0, offset = 0.0;
+  double weight = 0.0;  ///< Of the mean: 1 for a block full of ordinary points.
+  BandRow row;
+};
+
+/// The linear problem for offsets from a curve.
+struct FairFrame {
+  UniformQuintic base;
+  double blockLength = 8.0, cell = 0.0;  ///< [px] length per block, per station of the penalty.
+  std::vector<FairBlock> blocks;
+  std::vector<FrameStation> penalty;  ///< Midpoints of thirds of spans.
+  std::vector<FrameStation> checks;   ///< Where signs are asked for; see checkStations.
+  BandMatrix h;                       ///< Data term.
+  Eigen::VectorXd g;
+  double squares = 0.0;  ///< Sum of squared residuals of the single points about the base curve.
+  int pointCount = 0;
+  double weightedSquares = 0.0, weights = 0.0;  ///< The same by weight; sum of the weights.
+};
+
+/// Uniform knots for a length: spacing as near to `spacingPx` as whole spans allow.
+UniformKnots fairKnots(double length, double spacingPx, bool closed);
+
+/// Rough curve through the points by their own order: penalised least squares with Tukey weights, four passes. Sets
+/// data.t.
+std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions&);
+
+/// Projects the points on the curve (updates data.t), averages them by their weights over blocks and sets up the rows.
+/// @param checksPerSpan check stations a span; 0 leaves them out.
+FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFitOptions&, int checksPerSpan);
+
+/// Stations at equal steps, `perSpan` a span; open: and the end.
+std::vector<FrameStation> checkStations(const UniformQuintic& base, int perSpan);
+
+/// The curve base + d N from parameter `from` to `to` as a spline of its own arc length, with as many spans.
+struct Reframed {
+  UniformQuintic curve;
+  std::vector<double> oldParameters, arcLengths;  ///< Corresponding, ascending.
+};
+std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorXd& d, double from, double to);
+/// base + d N with the same knots and parameter.
+std::optional<UniformQuintic> offsetCurve(const UniformQuintic& base, const Eigen::VectorXd& d);
+
+/// The position base + d N and its first derivative.
+struct OffsetPoint {
+  Vec2 point, velocity;
+};
+OffsetPoint offsetPoint(const UniformQuintic& base, const Eigen::VectorXd& d, double u);
+
+/// 1.4826 times the median of the absolute values: a robust standard deviation. 0 for nothing.
+double robustSigma(std::vector<double> values);
+
+}  // namespace batten

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/construct/fair/fair_frame.h"
+
+namespace batten {
+
+/// What the blocks of a piece say of the noise where they are: squares of second differences of neighbouring residuals,
+/// in units of what they are expected to be. A fit that misses a feature does so over many blocks and leaves second
+/// differences alone.
+struct NoiseTrace {
+  std::vector<double> u;       ///< Parameters, ascending.
+  std::vector<double> square;  ///< 1 where the noise is the pooled one.
+  double length = 0.0;         ///< [px] of the curve; closed ones go round.
+  bool closed = false;
+  double blockLength = 8.0;  ///< [px]
+};
+/// @param c offsets of the fit. @param s0 pooled noise density of weight 1.
+NoiseTrace noiseTrace(const FairFrame&, const Eigen::VectorXd& c, double s0);
+
+/// Variance along a piece over what its weights say, at ascending parameters.
+struct LocalNoise {
+  std::vector<double> u, factor;
+  double at(double u) const;  ///< 1 where nothing is known.
+};
+/// Local means of the traces (Gaussian, sigma 80 px, outliers held back), each shrunk towards what is usual on the
+/// contour by as much as means of so few blocks scatter anyway (James-Stein on logarithms): equal noise stays equal.
+/// Scaled so that the pooled noise keeps its meaning.
+std::vector<LocalNoise> localNoise(const std::vector<NoiseTrace>&);
+
+}  // namespace batten

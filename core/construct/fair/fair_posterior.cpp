@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/fair/fair_posterior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+namespace batten {
+namespace {
+
+constexpr double kLongestCutoffPx = 1400.0;
+constexpr double kOrdinaryBlocks = 4.0, kOrdinaryVariance = 1.25e-3;  // [px^2] of a mean over 8 px: .01 px^2 px
+constexpr int kMeasuredStep = 3;                                      // of the candidates for the cut-off
+
+double cutoffWeight(double cutoffPx) { return std::pow(cutoffPx / (2.0 * std::numbers::pi), 8); }
+
+/// Gaussian average along the piece; open ends: over what there is.
+std::vector<double> averagedAlong(const std::vector<double>& v, double sigma, bool closed) {
+  const int n = static_cast<int>(v.size());
+  const int radius = std::min(static_cast<int>(std::ceil(3.0 * sigma)), closed ? (n - 1) / 2 : n - 1);
+  std::vector<double> kernel(static_cast<std::size_t>(radius) + 1);
+  for (int k = 0; k <= radius; ++k) kernel[k] = std::exp(-0.5 * k * k / (sigma * sigma));
+  std::vector<double> out(v.size());
+  for (int i = 0; i < n; ++i) {
+    double sum = 0.0, weight = 0.0;
+    for (int k = -radius; k <= radius; ++k) {
+      int j = i + k;
+      if (closed) j = (j + n) % n;
+      if (j < 0 || j >= n) continue;
+      const double w = kernel[std::abs(k)];
+      sum += w * v[j];
+      weight += w;
+    }
+    out[i] = sum / weight;
+  }
+  return out;
+}
+
+bool assemble(FairPosterior& p, BandCholesky& cholesky, const FairFrame& frame, double s0) {
+  p.a = BandMatrix(frame.h.size(), frame.h.isCyclic());
+  p.a.add(frame.h, 1.0 / s0);
+  p.b = frame.g / s0;
+  p.constant = 0.0;
+  for (const FairBlock& block : frame.blocks) {
+    p.constant += frame.blockLength * block.weight * block.offset * block.offset / s0;
+  }
+  for (std::size_t j = 0; j < frame.penalty.size(); ++j) {
+    const FrameStation& station = frame.penalty[j];
+    const double w = frame.cell / p.tau2[j];
+    p.a.addOuter(station.bendRow, w);
+    addTo(p.b, station.bendRow, -w * station.bend);
+    p.constant += w * station.bend * station.bend;
+  }
+  if (!cholesky.factor(p.a)) {
+    for (int i = 0; i < p.a.size(); ++i) p.a.entry(i, 0) *= 1.0 + 1e-13;
+    if (!cholesky.factor(p.a)) return false;
+  }
+  p.mean = cholesky.solve(p.b);
+  p.covariance = cholesky.inverseBand();
+  return p.mean.allFinite();
+}
+
+/// Both figures are smooth in the logarithm of the cut-off: every third is measured, the others are interpolated
+/// (cubic, in logarithms).
+void fillBetween(CutoffTable& table) {
+  constexpr int kLast = CutoffTable::kCount - 1;
+  static_assert(kLast % kMeasuredStep == 0);
+  for (int k = 0; k < CutoffTable::kCount; ++k) {
+    if (k % kMeasuredStep == 0) continue;
+    const int first = std::clamp(k / kMeasuredStep - 1, 0, kLast / kMeasuredStep - 3) * kMeasuredStep;
+    double rss = 0.0, dof = 0.0;
+    bool valid = true;
+    for (int i = 0; i < 4; ++i) {
+      const auto node = static_cast<std::size_t>(first + i * kMeasuredStep);
+      valid = valid && table.valid[node] && table.rss[node] > 0.0;
+      if (!valid) break;
+      double weight = 1.0;
+      for (int j = 0; j < 4; ++j) {
+        const double place = first + j * kMeasuredStep;
+        if (j != i) weight *= (k - place) / (static_cast<double>(node) - place);
+      }
+      rss += weight * std::log(table.rss[node]);
+      dof += weight * std::log(table.dof[node]);
+    }
+    if (!valid) continue;
+    const auto at = static_cast<std::size_t>(k);
+    table.rss[at] = std::exp(rss);
+    table.dof[at] = std::exp(dof);
+    table.valid[at] = table.dof[at] < table.blocks;
+  }
+}
+
+}  // namespace
+
+double CutoffTable::cutoffPx(int k) { return 24.0 * std::pow(1.15, k); }
+
+CutoffTable cutoffTable(const FairFrame& frame) {
+  CutoffTable table;
+  table.blocks = static_cast<int>(frame.blocks.size());
+  BandMatrix q(frame.h.size(), frame.h.isCyclic());
+  Eigen::VectorXd toward = Eigen::VectorXd::Zero(frame.g.size());
+  for (const FrameStation& station : frame.penalty) {
+    q.addOuter(station.bendRow, frame.cell);
+    addTo(toward, station.bendRow, -frame.cell * station.bend);
+  }
+  BandCholesky cholesky;
+  for (int k = 0; k < CutoffTable::kCount; k += kMeasuredStep) {
+    const double lambda = cutoffWeight(CutoffTable::cutoffPx(k));
+    BandMatrix m = frame.h;
+    m.add(q, lambda);
+    if (!cholesky.factor(m)) continue;
+    const Eigen::VectorXd c = cholesky.solve(frame.g + lambda * toward);
+    const BandMatrix inverse = cholesky.inverseBand();
+    const auto at = static_cast<std::size_t>(k);
+    for (const FairBlock& block : frame.blocks) {
+      const double e = block.offset - dot(block.row, c);
+      table.rss[at] += block.weight * e * e;
+      table.dof[at] += frame.blockLength * block.weight * BandCholesky::quadratic(inverse, block.row);
+    }
+    table.valid[at] = std::isfinite(table.rss[at]) && table.dof[at] > 0.0 && table.dof[at] < table.blocks;
+  }
+  fillBetween(table);
+  return table;
+}
+
+CutoffChoice chooseCutoffs(const std::vector<CutoffTable>& tables, double gamma) {
+  CutoffChoice choice;
+  choice.k.assign(tables.size(), -1);
+  for (int round = 0; round < 3; ++round) {
+    double rss = 0.0, freedom = 0.0;
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      const CutoffTable& t = tables[i];
+      double best = 0.0;
+      choice.k[i] = -1;
+      for (int k = 0; k < CutoffTable::kCount; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        if (t.blocks == 0 || !t.valid[at]) continue;
+        const double left = t.blocks - t.dof[at];
+        const double score = round == 0                   ? t.rss[at] / (left * left)
+                             : choice.blockVariance > 0.0 ? t.rss[at] / choice.blockVariance + gamma * t.dof[at]
+                                                          : t.rss[at];
+        if (choice.k[i] < 0 || score < best) {
+          best = score;
+          choice.k[i] = k;
+        }
+      }
+      if (choice.k[i] < 0) continue;
+      rss += t.rss[choice.k[i]];
+      freedom += t.blocks - t.dof[choice.k[i]];
+    }
+    // What a few blocks say of the noise is a matter of luck: an ordinary scan counts as some more of them.
+    choice.blockVariance =
+        freedom > 0.0 ? (rss + kOrdinaryBlocks * kOrdinaryVariance) / (freedom + kOrdinaryBlocks) : 0.0;
+  }
+  return choice;
+}
+
+std::vector<double> uniformPrior(const FairFrame& frame, double s0, double cutoffPx) {
+  return std::vector<double>(frame.penalty.size(), s0 / cutoffWeight(cutoffPx));
+}
+
+std::optional<FairPosterior> localPosterior(const FairFrame& frame, double s0, std::vector<double> tau2, int rounds,
+                                            double widthPx) {
+  FairPosterior p;
+  p.tau2 = std::move(tau2);
+  p.s0 = s0;
+  BandCholesky cholesky;
+  const double least = s0 / cutoffWeight(kLongestCutoffPx);
+  for (int round = 0; round <= rounds; ++round) {
+    if (!assemble(p, cholesky, frame, s0)) return std::nullopt;
+    if (round == rounds) break;
+    std::vector<double> v;
+    for (const FrameStation& station : frame.penalty) {
+      const double bend = station.bend + dot(station.bendRow, p.mean);
+      const double variance = std::max(0.0, BandCholesky::quadratic(p.covariance, station.bendRow));
+      v.push_back(frame.cell * (bend * bend + variance));
+    }
+    p.tau2 = averagedAlong(v, widthPx / frame.cell, frame.h.isCyclic());
+    for (double& t : p.tau2) t = std::max(t, least);
+  }
+  return p;
+}
+
+}  // namespace batten

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/fair/fair_simple.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include "core/solve/dense_solve.h"
+
+namespace batten {
+namespace {
+
+constexpr double kStraightBelowPx = 12.0, kQuadraticBelowPx = 25.0;
+constexpr double kPinWeight = 1e8;
+
+Result<NurbsCurve> bezier(std::vector<Vec2> points, double length, double scale) {
+  while (points.size() < 6) {
+    const double n = static_cast<double>(points.size());
+    std::vector<Vec2> raised{points.front()};
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const double a = static_cast<double>(i) / n;
+      raised.push_back(a * points[i - 1] + (1.0 - a) * points[i]);
+    }
+    raised.push_back(points.back());
+    points = std::move(raised);
+  }
+  std::vector<double> knots(6, 0.0);
+  knots.insert(knots.end(), 6, length * scale);
+  for (Vec2& p : points) p *= scale;
+  return NurbsCurve::make(5, std::move(knots), std::move(points));
+}
+
+Result<NurbsCurve> openCurve(const FairData& data, const FairPins& pins, double scale, const std::vector<double>& t) {
+  const double length = t.back();
+  const int used = static_cast<int>(std::count(data.use.begin(), data.use.end(), 1));
+  const bool straight = length < kStraightBelowPx || used < 4;
+  const int degree = straight ? 1 : length < kQuadraticBelowPx || used < 8 ? 2 : 3;
+  const int n = degree + 1;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n), right = Eigen::MatrixXd::Zero(n, 2);
+  const auto add = [&](double u, const Vec2& p, double w) {
+    Eigen::VectorXd b(n);
+    constexpr double kChoose[4][4] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 1, 0}, {1, 3, 3, 1}};
+    for (int i = 0; i < n; ++i) b[i] = kChoose[degree][i] * std::pow(u, i) * std::pow(1.0 - u, degree - i);
+    normal += w * b * b.transpose();
+    right += w * b * p.transpose();
+  };
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    if (data.use[i]) add(t[i] / length, data.points[i], 1.0);
+  }
+  // A straight piece of few points joins its ends; otherwise only corners are exact.
+  const Vec2 first = pins.start.value_or(data.points.front()), last = pins.end.value_or(data.points.back());
+  if (pins.start || used < 4) add(0.0, first, kPinWeight);
+  if (pins.end || used < 4) add(1.0, last, kPinWeight);
+  const Eigen::MatrixXd solution = solveSymmetric(normal, right);
+  std::vector<Vec2> points;
+  for (int i = 0; i < n; ++i) points.emplace_back(solution(i, 0), solution(i, 1));
+  const bool sound = solution.allFinite() && (normal * solution - right).norm() <= 1e-6 * (1.0 + right.norm());
+  if (!sound) points = {first, last};
+  if (pins.start) points.front() = first;
+  if (pins.end) points.back() = last;
+  return bezier(std::move(points), length, scale);
+}
+
+}  // namespace
+
+WeightedPoints blockMeans(const FairFrame& frame) {
+  WeightedPoints means;
+  for (const FairBlock& block : frame.blocks) {
+    const PlaneDerivatives d = frame.base.at(block.u, 1);
+    means.points.push_back(d[0] + block.offset * leftNormal(d[1]).normalized());
+    means.weights.push_back(frame.blockLength * block.weight);
+  }
+  return means;
+}
+
+std::optional<CircleFit> fitCircle(const WeightedPoints& data) {
+  Vec2 mean = Vec2::Zero();
+  double total = 0.0;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    mean += data.weights[i] * data.points[i];
+    total += data.weights[i];
+  }
+  if (data.points.size() < 3 || !(total > 0.0)) return std::nullopt;
+  mean /= total;
+  // Kasa: |p|^2 = 2 c.p + (r^2 - |c|^2), a linear problem; a good start since the points surround the centre.
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const Vec2 p = data.points[i] - mean;
+    const Eigen::Vector3d row(2.0 * p.x(), 2.0 * p.y(), 1.0);
+    normal += data.weights[i] * row * row.transpose();
+    right += data.weights[i] * row * p.squaredNorm();
+  }
+  const Eigen::Vector3d algebraic = normal.fullPivLu().solve(right);
+  CircleFit fit{mean + algebraic.head<2>(), std::sqrt(std::max(0.0, algebraic[2] + algebraic.head<2>().squaredNorm())),
+                0.0};
+  for (int round = 0; round < 8; ++round) {
+    normal.setZero();
+    right.setZero();
+    fit.squares = 0.0;
+    for (std::size_t i = 0; i < data.points.size(); ++i) {
+      const Vec2 d = data.points[i] - fit.centre;
+      const double distance = d.norm();
+      if (!(distance > 0.0)) return std::nullopt;
+      const Eigen::Vector3d row(d.x() / distance, d.y() / distance, 1.0);
+      const double e = distance - fit.radius;
+      normal += data.weights[i] * row * row.transpose();
+      right += data.weights[i] * row * e;
+      fit.squares += data.weights[i] * e * e;
+    }
+    const Eigen::Vector3d step = normal.fullPivLu().solve(right);
+    if (!step.allFinite()) return std::nullopt;
+    fit.centre += step.head<2>();
+    fit.radius += step[2];
+    if (step.norm() < 1e-10 * std::abs(fit.radius)) break;
+  }
+  if (!(fit.radius > 0.0) || !std::isfinite(fit.squares) || !fit.centre.allFinite()) return std::nullopt;
+  return fit;
+}
+
+UniformQuintic circleCurve(const CircleFit& circle, const Vec2& first, bool left) {
+  const double length = 2.0 * std::numbers::pi * circle.radius;
+  constexpr int spans = 24;  // already far finer than any scan
+  const double turn = 2.0 * std::numbers::pi / spans;
+  const double radius = circle.radius * 120.0 / (66.0 + 52.0 * std::cos(turn) + 2.0 * std::cos(2.0 * turn));
+  const Vec2 out = first - circle.centre;
+  const double start = std::atan2(out.y(), out.x());
+  std::vector<Vec2> coefficients;
+  for (int i = 0; i < spans; ++i) {
+    const double angle = start + (left ? 1.0 : -1.0) * turn * (i - 2);  // the third of six is centred at the first knot
+    coefficients.push_back(circle.centre + radius * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  return UniformQuintic({length, spans, true}, std::move(coefficients));
+}
+
+std::optional<LineFit> fitLine(const WeightedPoints& data) {
+  LineFit fit;
+  double total = 0.0;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    fit.point += data.weights[i] * data.points[i];
+    total += data.weights[i];
+  }
+  if (!(total > 0.0)) return std::nullopt;
+  fit.point /= total;
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const Vec2 p = data.points[i] - fit.point;
+    spread += data.weights[i] * p * p.transpose();
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+  eigen.computeDirect(spread);
+  if (!(eigen.eigenvalues()[1] > 0.0)) return std::nullopt;
+  fit.direction = eigen.eigenvectors().col(1);
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const double e = cross(fit.direction, data.points[i] - fit.point);
+    fit.squares += data.weights[i] * e * e;
+  }
+  return fit;
+}
+
+Result<NurbsCurve> lineCurve(const LineFit& line, const Vec2& first, const Vec2& last, const FairPins& pins,
+                             double scale) {
+  const auto onLine = [&](const Vec2& p, const Vec2& through) -> Vec2 {
+    return through + (p - through).dot(line.direction) * line.direction;
+  };
+  const Vec2 a = pins.start ? *pins.start : onLine(first, pins.end.value_or(line.point));
+  const Vec2 b = pins.end ? *pins.end : onLine(last, pins.start.value_or(line.point));
+  return bezier({a, b}, (b - a).norm(), scale);
+}
+
+Result<NurbsCurve> simpleCurve(const FairData& data, const FairPins& pins, double scale) {
+  const auto nothing = [] {
+    return fail(ErrorCode::Numerical,
+                "A line is too short to become a curve; leave out short lines or erase the speck.");
+  };
+  if (data.points.size() < 2) return nothing();
+  std::vector<double> t(1, 0.0);
+  for (std::size_t i = 1; i < data.points.size(); ++i)
+    t.push_back(t.back() + (data.points[i] - data.points[i - 1]).norm());
+  if (!(t.back() > 0.0) || !std::isfinite(t.back())) return nothing();
+  if (!data.closed) return openCurve(data, pins, scale, t);
+  const double length = t.back() + (data.points.front() - data.points.back()).norm();
+  const double lambda = data.density * std::pow(length / (8.0 * std::numbers::pi), 6);
+  std::vector<double> weights(data.use.begin(), data.use.end());
+  const auto loop = fitUniformQuintic(fairKnots(length, 16.0, true), t, data.points, weights, lambda);
+  if (!loop) return nothing();
+  return loop->toNurbs(scale, scale, Vec2::Zero(), Vec2::Zero());
+}
+
+}  // namespace batten

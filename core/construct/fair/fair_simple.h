@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/vec2.h"
+#include "core/construct/fair/fair_frame.h"
+#include "core/curve/nurbs_curve.h"
+#include "core/curve/uniform_quintic.h"
+
+namespace batten {
+
+/// Exact ends of a piece, where it has them; same frame as the points.
+struct FairPins {
+  std::optional<Vec2> start, end;
+};
+
+/// Block means as weighted points.
+struct WeightedPoints {
+  std::vector<Vec2> points;
+  std::vector<double> weights;
+};
+WeightedPoints blockMeans(const FairFrame&);
+
+struct CircleFit {
+  Vec2 centre = Vec2::Zero();
+  double radius = 0.0;
+  double squares = 0.0;  ///< Weighted sum of squared distances.
+};
+/// Geometric least squares circle (Gauss-Newton from the algebraic one). Absent for points on a line.
+std::optional<CircleFit> fitCircle(const WeightedPoints&);
+/// The circle as a periodic uniform quintic of 24 spans; radius exact to 1e-8, curvature to 1e-5. Starts next to
+/// `first`, turns left if `left`.
+UniformQuintic circleCurve(const CircleFit&, const Vec2& first, bool left);
+
+struct LineFit {
+  Vec2 point = Vec2::Zero(), direction = Vec2::UnitX();
+  double squares = 0.0;
+};
+/// Total least squares line. Absent when all points are one.
+std::optional<LineFit> fitLine(const WeightedPoints&);
+/// The straight piece from the first to the last point: on the line, but through the pins. px in, scaled by `scale`.
+Result<NurbsCurve> lineCurve(const LineFit&, const Vec2& first, const Vec2& last, const FairPins&, double scale);
+
+/// For pieces too short for the fair fit: polynomial of low degree through the points in order (straight below 12 px),
+/// closed ones a smooth loop. Ends exactly at the pins. @return Numerical when the points are all one.
+Result<NurbsCurve> simpleCurve(const FairData&, const FairPins&, double scale);
+
+}  // namespace batten

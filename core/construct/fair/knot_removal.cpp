@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/fair/knot_removal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "core/construct/fair/fair_frame.h"
+#include "core/construct/fair/monotone_qp.h"
+#include "core/curve/knot_operations.h"
+#include "core/solve/banded_matrix.h"
+
+namespace batten {
+namespace {
+
+constexpr int kFewestClosed = 8;      // spans of a closed curve
+constexpr double kLeastGain = 0.85;   // of the spans: more are not worth another curve
+constexpr double kFirstGuess = 0.25;  // of the spans
+constexpr int kTrials = 6;
+constexpr double kCloseEnough = 0.06;  // of the spans: that many more or less are not worth a trial
+constexpr double kTurnExcess = 1.6, kHopeless = 20.0;
+constexpr double kStraightenBelow = 1.5;  // excess of a fit that is worth another solution
+constexpr int kFreeSpans = 1;             // of the full curve on either side of a turn
+constexpr double kEndHold = 1e4;          // relative weight of exact ends in the frame
+constexpr double kMonitorFloor = 0.2;     // of the mean density of knots
+constexpr double kWrongWayKept = 3e-3;    // [1/diagonal] curvature that may turn back
+constexpr double kHoldWeight = 1e8;       // weight of what is set exactly afterwards
+
+double kappaOf(const Vec2& first, const Vec2& second) {
+  const double w = std::max(first.squaredNorm(), 1e-12);
+  return cross(first, second) / (w * std::sqrt(w));
+}
+
+/// Parameters 0..length from 0..1 such that equal steps hold equal shares of the error of a quintic.
+class KnotPlacing {
+ public:
+  explicit KnotPlacing(const UniformQuintic& full) : h_(full.knots().spacing()) {
+    const int n = full.knots().spans;
+    const bool closed = full.knots().closed;
+    std::vector<Vec2> fifth;
+    for (int j = 0; j < n; ++j) fifth.push_back(full.at((j + 0.75) * h_, 4)[4] - full.at((j + 0.25) * h_, 4)[4]);
+    // The fifth derivative is constant in a span; its jumps at the knots stand for the sixth.
+    const auto jump = [&](int j) {
+      if (closed) j = ((j % n) + n) % n;
+      if (!closed) j = std::clamp(j, 1, std::max(1, n - 1));
+      const auto at = static_cast<std::size_t>(j), before = static_cast<std::size_t>((j + n - 1) % n);
+      return n > 1 ? (fifth[at] - fifth[before]).norm() : 0.0;
+    };
+    std::vector<double> density;
+    double mean = 0.0;
+    for (int j = 0; j < n; ++j) {
+      double sum = 0.0;
+      for (int k = -1; k <= 2; ++k) sum += jump(j + k);
+      density.push_back(std::pow(0.25 * sum, 1.0 / 6.0));
+      mean += density.back() / n;
+    }
+    cumulative_.assign(1, 0.0);
+    for (const double d : density)
+      cumulative_.push_back(cumulative_.back() + std::max(d, kMonitorFloor * mean) + 1e-300);
+  }
+
+  double at(double share) const {
+    const double wanted = share * cumulative_.back();
+    const auto next = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, wanted);
+    const double low = *(next - 1), high = *next;
+    const auto span = static_cast<double>(next - cumulative_.begin() - 1);
+    return h_ * (span + std::clamp((wanted - low) / (high - low), 0.0, 1.0));
+  }
+
+ private:
+  double h_;
+  std::vector<double> cumulative_;
+};
+
+class Reduction {
+ public:
+  Reduction(const UniformQuintic& full, const ReduceLimits& limits)
+      : full_(full), limits_(limits), placing_(full), closed_(full.knots().closed) {
+    const UniformKnots& knots = full.knots();
+    const int count = limits.perSpan * knots.spans + (closed_ ? 0 : 1);
+    for (int j = 0; j < count; ++j) {
+      const double u = j * knots.length / (limits.perSpan * knots.spans);
+      const PlaneDerivatives d = full.at(u, 2);
+      const double share = u / knots.length;
+      parameters_.push_back(u);
+      targets_.push_back(d[0] + (1.0 - share) * limits.startShift + share * limits.endShift);
+      normals_.push_back(leftNormal(d[1]).normalized());
+      kappas_.push_back(kappaOf(d[1], d[2]));
+      bends_.push_back(d[2]);
+    }
+    Vec2 low = targets_.front(), high = low;
+    for (const Vec2& p : targets_) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    least_ = kWrongWayKept / std::max((high - low).norm(), 1e-12);
+    turns_ = countExtrema(kappas_, least_);
+    if (!limits.distancePx.empty()) nearest_ = *std::min_element(limits.distancePx.begin(), limits.distancePx.end());
+    findCourses();
+  }
+
+  std::optional<ReducedCurve> run() {
+    const int n = full_.knots().spans;
+    const int most = static_cast<int>(kLeastGain * n);
+    int low = closed_ ? kFewestClosed : 1, high = most;  // what is still to be tried
+    if (high < low || limits_.kappaSigma.size() != parameters_.size()) return std::nullopt;
+    if (limits_.distancePx.size() != parameters_.size()) return std::nullopt;
+    std::optional<ReducedCurve> best;
+    int spans = std::clamp(static_cast<int>(kFirstGuess * n), low, high);
+    for (int trial = 0; trial < kTrials && low <= high; ++trial) {
+      if (best && high - low < kCloseEnough * high) break;
+      const Fit fit = tried(spans);
+      // The error of the curvature goes with the fourth power of the length of the spans.
+      const double wanted = spans * std::pow(std::clamp(fit.excess, 0.05, 20.0), 0.25);
+      if (fit.excess <= 1.0) {
+        best = made(fit, spans);
+        high = spans - 1;
+        spans = std::clamp(static_cast<int>(std::ceil(wanted)), low, std::max(low, high));
+      } else {
+        low = spans + 1;
+        spans = std::clamp(static_cast<int>(std::ceil(wanted)), low, std::max(low, high));
+      }
+    }
+    return best;
+  }
+
+ private:
+  /// Knots of a curve of `spans` spans: clamped, or running on periodically.
+  std::vector<double> knotsFor(int spans) const {
+    const double length = full_.knots().length;
+    std::vector<double> inner;
+    for (int i = 0; i <= spans; ++i)
+      inner.push_back(i == spans ? length : i == 0 ? 0.0 : placing_.at(double(i) / spans));
+    std::vector<double> knots;
+    for (int i = -5; i <= spans + 5; ++i) {
+      if (!closed_) {
+        knots.push_back(inner[std::clamp(i, 0, spans)]);
+      } else {
+        const int turn = i < 0 ? -1 : i >= spans ? 1 : 0;
+        knots.push_back(inner[i - turn * spans] + turn * length);
+      }
+    }
+    return knots;
+  }
+
+  static BandRow rowOf(const BasisRow& basis, std::size_t order) {
+    BandRow row;
+    row.first = basis.first;
+    for (std::size_t i = 0; i < 6; ++i) row.v[i] = basis.values[order][i];
+    return row;
+  }
+
+  struct Fit {
+    Eigen::VectorXd x, y;
+    double moved = 0.0;
+    double excess = kHopeless;  ///< Largest deviation in units of its limit; more than 1 when turns come or go.
+    bool turns = false;         ///< As often as the full curve.
+  };
+
+  /// Least squares on `spans` spans, of places and second derivatives, each in units of its limit.
+  Fit tried(int spans) const {
+    const std::vector<double> knots = knotsFor(spans);
+    const int points = spans + 5, unknowns = closed_ ? spans : points;
+    BandMatrix normal(unknowns, closed_);
+    Fit fit;
+    fit.x = fit.y = Eigen::VectorXd::Zero(unknowns);
+    std::vector<BasisRow> rows;
+    rows.reserve(parameters_.size());
+    const auto add = [&](const BandRow& row, double weight, const Vec2& target) {
+      normal.addOuter(row, weight);
+      addTo(fit.x, row, weight * target.x());
+      addTo(fit.y, row, weight * target.y());
+    };
+    for (std::size_t i = 0; i < parameters_.size(); ++i) {
+      rows.push_back(basis(5, knots, points, parameters_[i], 2));
+      const bool end = !closed_ && (i == 0 || i + 1 == parameters_.size());
+      const double place = nearest_ / limits_.distancePx[i];
+      add(rowOf(rows.back(), 0), end ? kHoldWeight : place * place, targets_[i]);
+      const double share = nearest_ / std::max(kappaLimit(i), 1e-12);
+      add(rowOf(rows.back(), 2), share * share, bends_[i]);
+    }
+    BandCholesky cholesky;
+    if (!cholesky.factor(normal)) return fit;
+    cholesky.solveInPlace(fit.x);
+    cholesky.solveInPlace(fit.y);
+    if (!fit.x.allFinite() || !fit.y.allFinite()) return fit;
+    measure(fit, rows);
+    if (!fit.turns && fit.excess <= kStraightenBelow) {
+      Fit monotone = fit;
+      if (makeMonotone(monotone, knots)) measure(monotone, rows);
+      if (monotone.turns) fit = std::move(monotone);
+    }
+    if (!fit.turns) fit.excess = std::max(fit.excess, kTurnExcess);
+    return fit;
+  }
+
+  /// Takes out the ripple that the fit has made: of all curves in the frame of this one that rise and fall where the
+  /// full one does, the one that is nearest in place and curvature.
+  bool makeMonotone(Fit& fit, const std::vector<double>& knots) const {
+    const int points = static_cast<int>(knots.size()) - 6, unknowns = static_cast<int>(fit.x.size());
+    MonotoneQp qp{BandMatrix(unknowns, closed_), Eigen::VectorXd::Zero(unknowns), {}, {}};
+    std::vector<PlaneDerivatives> curve;
+    std::vector<BandRow> places;
+    const auto add = [&](const BandRow& row, double w, double target) {
+      qp.a.addOuter(row, w);
+      addTo(qp.b, row, w * target);
+    };
+    for (std::size_t i = 0; i < parameters_.size(); ++i) {
+      const BasisRow basisRow = basis(5, knots, points, parameters_[i], 4);
+      std::array<BandRow, 5> rows;
+      PlaneDerivatives d;
+      for (std::size_t order = 0; order < 5; ++order) {
+        rows[order] = rowOf(basisRow, order);
+        d[order] = Vec2(dot(rows[order], fit.x), dot(rows[order], fit.y));
+      }
+      const FrameStation station = frameStation(d, rows);
+      const bool end = !closed_ && (i == 0 || i + 1 == parameters_.size());
+      const Vec2 normal = leftNormal(d[1]).normalized();
+      const double weight = 1.0 / (limits_.distancePx[i] * limits_.distancePx[i]);
+      add(rows[0], end ? kEndHold * weight : weight, (targets_[i] - d[0]).dot(normal));
+      const double limit = std::max(kappaLimit(i), 1e-12);
+      add(station.kappaRow, 1.0 / (limit * limit), kappas_[i] - station.kappa);
+      curve.push_back(d);
+      places.push_back(rows[0]);
+      if (courses_[i] == 0) continue;
+      BandRow row = station.slopeRow;
+      for (double& v : row.v) v *= courses_[i];
+      qp.rows.push_back(row);
+      qp.bounds.push_back(-courses_[i] * station.slope);
+    }
+    const MonotoneQpResult solved = solveMonotoneQp(qp);
+    if (solved.why == Termination::Degenerate || !solved.x.allFinite()) return false;
+    BandMatrix normal(unknowns, closed_);
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(unknowns), y = x;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const bool end = !closed_ && (i == 0 || i + 1 == places.size());
+      const double w = end ? kHoldWeight : 1.0;
+      const Vec2 p =
+          end ? targets_[i] : Vec2(curve[i][0] + dot(places[i], solved.x) * leftNormal(curve[i][1]).normalized());
+      normal.addOuter(places[i], w);
+      addTo(x, places[i], w * p.x());
+      addTo(y, places[i], w * p.y());
+    }
+    BandCholesky cholesky;
+    if (!cholesky.factor(normal)) return false;
+    cholesky.solveInPlace(x);
+    cholesky.solveInPlace(y);
+    if (!x.allFinite() || !y.allFinite()) return false;
+    fit.x = std::move(x);
+    fit.y = std::move(y);
+    return true;
+  }
+
+  /// Whether the curvature of the full curve rises (1) or falls (-1) at each station; 0 next to where it turns.
+  void findCourses() {
+    const int count = static_cast<int>(kappas_.size());
+    const std::vector<int> turns = turnsOf(kappas_, least_);
+    courses_.assign(kappas_.size(), 0);
+    const auto stretch = [&](int from, int to, bool isFirst, bool isLast) {
+      const auto &a = kappas_[from], &b = kappas_[to];
+      const int low = isFirst ? from : from + kFreeSpans * limits_.perSpan;
+      const int high = isLast ? to : to - kFreeSpans * limits_.perSpan;
+      for (int i = low; i <= high; ++i) courses_[i] = b > a ? 1 : -1;
+    };
+    int from = 0;
+    for (std::size_t k = 0; k <= turns.size(); ++k) {
+      const int to = k < turns.size() ? turns[k] : count - 1;
+      // Where a closed curve begins it may turn as well: its first and last stretch are left alone.
+      if (!closed_ || (k > 0 && k < turns.size())) stretch(from, to, k == 0, k == turns.size());
+      from = to;
+    }
+  }
+
+  double kappaLimit(std::size_t i) const { return limits_.kappaShare * limits_.kappaSigma[i]; }
+
+  void measure(Fit& fit, const std::vector<BasisRow>& rows) const {
+    fit.moved = 0.0;
+    std::vector<double> kappa;
+    double excess = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      std::array<Vec2, 3> d;
+      for (std::size_t order = 0; order < 3; ++order) {
+        const BandRow row = rowOf(rows[i], order);
+        d[order] = Vec2(dot(row, fit.x), dot(row, fit.y));
+      }
+      kappa.push_back(kappaOf(d[1], d[2]));
+      const double moved = std::abs((d[0] - targets_[i]).dot(normals_[i]));
+      fit.moved = std::max(fit.moved, moved);
+      excess = std::max(excess, moved / limits_.distancePx[i]);
+      excess = std::max(excess, std::abs(kappa.back() - kappas_[i]) / std::max(kappaLimit(i), 1e-300));
+    }
+    fit.excess = excess;
+    fit.turns = countExtrema(kappa, least_) == turns_;
+  }
+
+  std::optional<ReducedCurve> made(const Fit& fit, int spans) const {
+    const std::vector<double> knots = knotsFor(spans);
+    std::vector<Vec2> controls;
+    const auto count = static_cast<Eigen::Index>(knots.size()) - 6;
+    for (Eigen::Index i = 0; i < count; ++i) controls.emplace_back(fit.x[i % fit.x.size()], fit.y[i % fit.y.size()]);
+    if (!closed_) {
+      controls.front() = targets_.front();
+      controls.back() = targets_.back();
+    }
+    auto curve = NurbsCurve::make(5, knots, std::move(controls));
+    if (curve && closed_) curve = clamped(*curve);
+    if (!curve) return std::nullopt;
+    return ReducedCurve{std::move(*curve), fit.moved};
+  }
+
+  const UniformQuintic& full_;
+  const ReduceLimits& limits_;
+  KnotPlacing placing_;
+  bool closed_;
+  std::vector<double> parameters_, kappas_;
+  std::vector<Vec2> targets_, normals_, bends_;
+  double least_ = 0.0, nearest_ = 1.0;
+  int turns_ = 0;
+  std::vector<int> courses_;
+};
+
+}  // namespace
+
+std::optional<ReducedCurve> withFewestPoints(const UniformQuintic& full, const ReduceLimits& limits) {
+  const auto isPositive = [](double d) { return d > 0.0; };
+  if (!std::all_of(limits.distancePx.begin(), limits.distancePx.end(), isPositive)) return std::nullopt;
+  return Reduction(full, limits).run();
+}
+
+std::vector<int> turnsOf(std::span<const double> kappa, double least) {
+  std::vector<int> turns;
+  if (kappa.empty()) return turns;
+  std::size_t lowest = 0, highest = 0;
+  int direction = 0;
+  for (std::size_t i = 0; i < kappa.size(); ++i) {
+    if (kappa[i] < kappa[lowest]) lowest = i;
+    if (kappa[i] > kappa[highest]) highest = i;
+    if (direction >= 0 && kappa[highest] - kappa[i] > least) {
+      if (direction > 0) turns.push_back(static_cast<int>(highest));
+      direction = -1;
+      lowest = i;
+    } else if (direction <= 0 && kappa[i] - kappa[lowest] > least) {
+      if (direction < 0) turns.push_back(static_cast<int>(lowest));
+      direction = 1;
+      highest = i;
+    }
+  }
+  return turns;
+}
+
+int countExtrema(std::span<const double> kappa, double least) { return static_cast<int>(turnsOf(kappa, least).size()); }
+
+}  // namespace batten

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/vec2.h"
+#include "core/curve/nurbs_curve.h"
+#include "core/curve/uniform_quintic.h"
+
+namespace batten {
+
+/// What a curve with fewer control points has to keep of the one that it stands for; px.
+struct ReduceLimits {
+  std::span<const double> distancePx;  ///< > 0 at `checkStations(curve, perSpan)`: farthest from the curve …
+  std::span<const double> kappaSigma;  ///< [1/px] … and noise of the curvature there.
+  int perSpan = 4;                     ///< Of these stations.
+  double kappaShare = 0.5;             ///< Part of that noise by which the curvature may differ.
+  Vec2 startShift = Vec2::Zero(), endShift = Vec2::Zero();  ///< As UniformQuintic::toNurbs; open curves.
+};
+
+struct ReducedCurve {
+  NurbsCurve curve;      ///< px, clamped; ends exactly where the full curve, shifted, does; closed: periodic.
+  double movedPx = 0.0;  ///< Farthest that it lies from the full curve.
+};
+
+/// The quintic with the fewest spans that stays within the limits and whose curvature turns back as often as that of
+/// the full curve: least squares on knots that share out the sixth derivative evenly (de Boor, A Practical Guide to
+/// Splines, ch. XII), their number found by trial. Absent when nothing is gained.
+std::optional<ReducedCurve> withFewestPoints(const UniformQuintic& full, const ReduceLimits&);
+
+/// Where sampled curvature turns back by more than `least`: indices, ascending.
+std::vector<int> turnsOf(std::span<const double> kappa, double least);
+/// How often it does.
+int countExtrema(std::span<const double> kappa, double least);
+
+}  // namespace batten

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/fair/sharp_features.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "core/construct/fair/fair_piece.h"
+
+namespace batten {
+namespace {
+
+constexpr double kArmPx = 6.0;       // chords whose directions are compared
+constexpr double kSharpRad = 0.6;    // between the two chords: an arc of less than 10 px radius, or a corner
+constexpr double kMarginPx = 3.0;    // of line on either side that blur has rounded
+constexpr double kEndGuardPx = 5.0;  // an end has hooks of its own
+constexpr double kFarPx = 1.5, kVeryFarPx = 4.0, kStrayPx = 1.2, kBackPx = 0.5;
+constexpr double kFarShare = 0.02;
+constexpr double kLongestRatio = 1.15;
+constexpr double kLongRunPx = 30.0;
+
+/// The points of a piece in px with lengths along them; strays stand aside.
+struct Course {
+  std::vector<int> index;  ///< Of the points that are used.
+  std::vector<Vec2> p;     ///< Averages of three.
+  std::vector<double> s;   ///< From the first on.
+  double total = 0.0;      ///< Closed: all the way round.
+  bool closed = false;
+  int count() const { return static_cast<int>(p.size()); }
+  Vec2 at(int i) const { return p[((i % count()) + count()) % count()]; }
+  double length(int i) const {
+    const int n = count();
+    const int turns = static_cast<int>(std::floor(static_cast<double>(i) / n));
+    return s[i - turns * n] + turns * total;
+  }
+};
+
+Course courseOf(const ConstructPiece& piece, double pixelMm, double gatePx) {
+  FairData data;
+  data.closed = piece.closed;
+  std::vector<int> original;
+  for (std::size_t i = 0; i < piece.points.size(); ++i) {
+    if (!piece.points[i].allFinite()) continue;
+    data.points.push_back(piece.points[i] / pixelMm);
+    original.push_back(static_cast<int>(i));
+  }
+  data.use.assign(data.points.size(), 1);
+  if (gatePx > 0.0) gateStrays(data, gatePx, medianSpacing(data.points));
+  std::vector<Vec2> raw;
+  Course course;
+  course.closed = piece.closed;
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    if (!data.use[i]) continue;
+    raw.push_back(data.points[i]);
+    course.index.push_back(original[i]);
+  }
+  const std::size_t n = raw.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool end = !piece.closed && (i == 0 || i + 1 == n);
+    course.p.push_back(end ? raw[i] : Vec2((raw[(i + n - 1) % n] + raw[i] + raw[(i + 1) % n]) / 3.0));
+    course.s.push_back(i == 0 ? 0.0 : course.s.back() + (course.p[i] - course.p[i - 1]).norm());
+  }
+  if (n > 0) course.total = course.s.back() + (piece.closed ? (course.p.front() - course.p.back()).norm() : 0.0);
+  return course;
+}
+
+/// Angle between the chords of about kArmPx before and after every point; 0 next to open ends.
+std::vector<double> turning(const Course& course, double arm) {
+  const int n = course.count();
+  std::vector<double> angle(course.p.size(), 0.0);
+  if (n < 5 || course.total < 3.0 * arm) return angle;
+  int back = course.closed ? -n : 0, front = 0;
+  for (int i = 0; i < n; ++i) {
+    const double here = course.s[i];
+    while (back + 1 < i && here - course.length(back + 1) >= arm) ++back;
+    front = std::max(front, i + 1);
+    while ((course.closed || front < n) && course.length(front) - here < arm && front < i + n) ++front;
+    if (!course.closed && (here < arm || front >= n)) continue;
+    const Vec2 before = course.at(i) - course.at(back), after = course.at(front) - course.at(i);
+    angle[i] = std::abs(std::atan2(cross(before, after), before.dot(after)));
+  }
+  return angle;
+}
+
+/// Widens the places a..b of the course by a length on either side; as indices of the piece.
+PointRange widened(const Course& course, const ConstructPiece& piece, int a, int b, double margin) {
+  const int n = course.count();
+  const double from = course.length(a) - margin, to = course.length(b) + margin;
+  while ((course.closed ? a > b - n + 1 : a > 0) && course.length(a) > from) --a;
+  while ((course.closed ? b < a + n - 1 : b + 1 < n) && course.length(b) < to) ++b;
+  const int size = static_cast<int>(piece.points.size());
+  const auto original = [&](int i) {
+    const int turns = static_cast<int>(std::floor(static_cast<double>(i) / n));
+    return course.index[i - turns * n] + turns * size;
+  };
+  PointRange range{original(a), original(b)};
+  while (range.first < 0) range = {range.first + size, range.last + size};
+  return range;
+}
+
+double lengthBetween(const ConstructPiece& piece, int first, int last) {
+  const auto n = piece.points.size();
+  double length = 0.0;
+  for (int i = first; i < last; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    length += (piece.points[(at + 1) % n] - piece.points[at % n]).norm();
+  }
+  return length;
+}
+
+/// Where a polygon passes a point.
+struct Passing {
+  double distance = 0.0;
+  double place = 0.0;  ///< Index into the polygon.
+};
+
+/// The place of the polygon nearest to p near vertex `at`, which follows along.
+Passing follow(const std::vector<Vec2>& polygon, const Vec2& p, std::size_t& at, std::size_t reach) {
+  const std::size_t last = polygon.size() - 1;
+  const std::size_t low = at > reach / 2 ? at - reach / 2 : 0, high = std::min(last, at + reach);
+  double best = (polygon[at] - p).squaredNorm();
+  for (std::size_t i = low; i <= high; ++i) {
+    const double d = (polygon[i] - p).squaredNorm();
+    if (d < best) best = d, at = i;
+  }
+  double place = static_cast<double>(at);
+  for (const std::size_t i : {at, at + 1}) {
+    if (i == 0 || i > last) continue;
+    const Vec2 along = polygon[i] - polygon[i - 1];
+    const double square = along.squaredNorm();
+    if (!(square > 0.0)) continue;
+    const double x = std::clamp((p - polygon[i - 1]).dot(along) / square, 0.0, 1.0);
+    const double d = (p - polygon[i - 1] - x * along).squaredNorm();
+    if (d < best) best = d, place = static_cast<double>(i - 1) + x;
+  }
+  return {std::sqrt(best), place};
+}
+
+}  // namespace
+
+std::vector<PointRange> sharpTurns(const ConstructPiece& piece, bool isStroke, double pixelMm,
+                                   const FairFitOptions& options) {
+  const Course course = courseOf(piece, pixelMm, isStroke ? options.gateStrokePx : options.gateOutlinePx);
+  const int n = course.count();
+  std::vector<PointRange> turns;
+  if (n < 5) return turns;
+  const double arm = std::max(kArmPx, 3.0 * course.total / n);
+  const std::vector<double> angle = turning(course, arm);
+  const auto sharp = [&](int i) { return angle[i % n] > kSharpRad; };
+  int begin = 0;
+  if (piece.closed) {
+    while (begin < n && sharp(begin)) ++begin;
+    if (begin == n) return {{0, static_cast<int>(piece.points.size()) - 1}};
+  }
+  for (int i = begin; i < begin + n; ++i) {
+    if (!sharp(i)) continue;
+    int j = i;
+    while (j + 1 < begin + n && sharp(j + 1)) ++j;
+    const double from = course.length(i), to = course.length(j);
+    if (piece.closed || (from > kEndGuardPx && to < course.total - kEndGuardPx)) {
+      turns.push_back(widened(course, piece, i, j, kMarginPx));
+    }
+    i = j;
+  }
+  return turns;
+}
+
+std::vector<PointRange> united(std::vector<PointRange> ranges, const ConstructPiece& piece, double pixelMm,
+                               double leastBetweenPx) {
+  const int n = static_cast<int>(piece.points.size());
+  const double least = leastBetweenPx * pixelMm;
+  std::sort(ranges.begin(), ranges.end(), [](const PointRange& a, const PointRange& b) { return a.first < b.first; });
+  std::vector<PointRange> out;
+  for (const PointRange& r : ranges) {
+    if (!out.empty() && (r.first <= out.back().last || lengthBetween(piece, out.back().last, r.first) < least)) {
+      out.back().last = std::max(out.back().last, r.last);
+    } else {
+      out.push_back(r);
+    }
+  }
+  if (out.empty()) return out;
+  if (!piece.closed) {
+    if (lengthBetween(piece, 0, out.front().first) < least) out.front().first = 0;
+    if (lengthBetween(piece, out.back().last, n - 1) < least) out.back().last = n - 1;
+    return out;
+  }
+  while (out.size() > 1 && (out.front().first + n <= out.back().last ||
+                            lengthBetween(piece, out.back().last, out.front().first + n) < least)) {
+    out.back().last = std::max(out.back().last, out.front().last + n);
+    out.erase(out.begin());
+  }
+  if (out.size() == 1 && (out.front().last - out.front().first >= n - 1 ||
+                          lengthBetween(piece, out.front().last, out.front().first + n) < least)) {
+    out.front() = {0, n - 1};
+  }
+  return out;
+}
+
+std::vector<PointRange> between(const std::vector<PointRange>& turns, const ConstructPiece& piece) {
+  const int n = static_cast<int>(piece.points.size());
+  if (turns.empty()) return {{0, n - 1}};
+  std::vector<PointRange> out;
+  const auto add = [&](int first, int last) {
+    if (last > first) out.push_back({first, last});
+  };
+  if (!piece.closed) add(0, turns.front().first - 1);
+  for (std::size_t i = 0; i + 1 < turns.size(); ++i) add(turns[i].last + 1, turns[i + 1].first - 1);
+  if (piece.closed) {
+    add(turns.back().last + 1, turns.front().first + n - 1);
+  } else {
+    add(turns.back().last + 1, n - 1);
+  }
+  return out;
+}
+
+bool PointDeviation::good() const {
+  const auto share = static_cast<int>(kFarShare * static_cast<double>(distancePx.size()));
+  return veryFar == 0 && far <= share && lengthRatio < kLongestRatio;
+}
+
+PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& piece, double pixelMm) {
+  PointDeviation result;
+  std::vector<Vec2> polygon;
+  std::vector<double> parameter;
+  double length = 0.0, pointLength = 0.0;
+  const auto breaks = curve.breaks();
+  for (std::size_t j = 0; j + 1 < breaks.size(); ++j) {
+    const double width = breaks[j + 1] - breaks[j];
+    const int steps = std::clamp(static_cast<int>(width / pixelMm / 2.0), 2, 16);
+    for (int i = 0; i < steps; ++i) parameter.push_back(breaks[j] + width * i / steps);
+  }
+  parameter.push_back(breaks.back());
+  for (const double u : parameter) polygon.push_back(curve.point(u) / pixelMm);
+  for (std::size_t i = 1; i < polygon.size(); ++i) length += (polygon[i] - polygon[i - 1]).norm();
+  const std::size_t n = piece.points.size();
+  constexpr std::size_t kStride = 4;  // noise of single points makes no length
+  for (std::size_t i = kStride; i < n; i += kStride) {
+    pointLength += (piece.points[i] - piece.points[i - kStride]).norm() / pixelMm;
+  }
+  if (n > 0) pointLength += (piece.points[n - 1] - piece.points[(n - 1) / kStride * kStride]).norm() / pixelMm;
+  if (piece.closed && n > 0) pointLength += (piece.points.front() - piece.points.back()).norm() / pixelMm;
+  result.lengthRatio = length / (pointLength + 4.0);
+  std::size_t at = 0;
+  if (piece.closed && n > 0) {
+    follow(polygon, piece.points.front() / pixelMm, at, 2 * polygon.size());
+  }
+  double along = 0.0;
+  for (const Vec2& p : piece.points) {
+    Passing d = follow(polygon, p / pixelMm, at, 8);
+    if (d.distance > kBackPx) {
+      if (const Passing further = follow(polygon, p / pixelMm, at, 24); further.distance < d.distance) d = further;
+    }
+    if (piece.closed && (at < 2 || at + 2 >= polygon.size())) {
+      std::size_t other = at < 2 ? polygon.size() - 1 : 0;
+      const Passing round = follow(polygon, p / pixelMm, other, 8);
+      if (round.distance < d.distance) d = round, at = other;
+    }
+    result.offPx.push_back(d.distance);
+    // Between merged strokes the line may lie anywhere.
+    const std::size_t i = result.distancePx.size();
+    if (piece.spreadPx.size() == n) d.distance = std::max(0.0, d.distance - static_cast<double>(piece.spreadPx[i]));
+    result.distancePx.push_back(d.distance);
+    const auto low = std::min(static_cast<std::size_t>(d.place), parameter.size() - 2);
+    result.parameter.push_back(std::lerp(parameter[low], parameter[low + 1], d.place - static_cast<double>(low)));
+    along += d.distance;
+  }
+  if (!std::isfinite(along)) result.veryFar = static_cast<int>(n) + 1;
+  for (std::size_t i = 0; i < n; ++i) {  // one stray point is none of the curve's business
+    const auto near = [&](double limit) {
+      int count = 0;
+      for (std::size_t k = i > 2 ? i - 2 : 0; k <= std::min(n - 1, i + 2); ++k) count += result.distancePx[k] > limit;
+      return count >= 3;
+    };
+    if (result.distancePx[i] > kFarPx && near(kFarPx)) ++result.far;
+    if (result.distancePx[i] > kVeryFarPx && near(kVeryFarPx)) ++result.veryFar;
+  }
+  return result;
+}
+
+std::vector<PointRange> outlierRanges(const PointDeviation& close, const ConstructPiece& piece, double pixelMm,
+                                      bool whole) {
+  std::vector<PointRange> out;
+  const int n = static_cast<int>(piece.points.size());
+  if (n < 5) return out;
+  const bool strays =
+      std::any_of(close.distancePx.begin(), close.distancePx.end(), [](double d) { return !(d <= kStrayPx); });
+  if (!strays && close.lengthRatio < kLongestRatio) return out;
+  const Course course = courseOf(piece, pixelMm, 0.0);
+  const std::vector<double> angle = turning(course, std::max(kArmPx, 3.0 * course.total / n));
+  if (course.count() != n) return {{0, n - 1}};
+  const auto distance = [&](int i) { return close.distancePx[((i % n) + n) % n]; };
+  const auto middle = [&](int i) {
+    std::array<double, 5> d{};
+    for (int k = -2; k <= 2; ++k) {
+      d[k + 2] = distance(piece.closed ? i + k : std::clamp(i + k, 0, n - 1));
+    }
+    std::nth_element(d.begin(), d.begin() + 2, d.end());
+    return d[2];
+  };
+  for (int i = 0; i < n; ++i) {
+    if (!(middle(i) > kStrayPx)) continue;
+    int a = i, b = i;
+    const auto isOff = [&](int k) {
+      // What is cut out of a fit ends where the fit itself is back on the points.
+      return (whole ? close.offPx[k] : middle(k)) > kBackPx;
+    };
+    while (a > 0 && isOff(a - 1)) --a;
+    while (b + 1 < n && isOff(b + 1)) ++b;
+    i = b;
+    if (!whole && course.length(b) - course.length(a) > kLongRunPx) {
+      const auto first = angle.begin() + a, last = angle.begin() + b + 1;
+      a = b = static_cast<int>(std::max_element(first, last) - angle.begin());
+    }
+    out.push_back(widened(course, piece, a, b, 2.0 * kMarginPx));
+  }
+  if (out.empty() && close.lengthRatio >= kLongestRatio) out.push_back({0, n - 1});
+  return out;
+}
+
+}  // namespace batten

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/construct/fair/fair_fit.h"
+#include "core/construct/pieces.h"
+
+namespace batten {
+
+/// Points first..last of a piece. In closed pieces `last` may pass the number of points: indices count modulo.
+struct PointRange {
+  int first = 0, last = 0;
+};
+
+/// Stretches of a piece that turn more sharply than the fair fit can follow: corners that nobody has marked, tips and
+/// hairpins, with a little of the line on either side. In order, at most one turn of a closed piece long.
+std::vector<PointRange> sharpTurns(const ConstructPiece&, bool isStroke, double pixelMm, const FairFitOptions&);
+
+/// Sorts ranges and unites those that leave less than `leastBetweenPx` of line between them, or between them and an
+/// open end.
+std::vector<PointRange> united(std::vector<PointRange>, const ConstructPiece&, double pixelMm, double leastBetweenPx);
+
+/// The stretches between turns, in order (closed: beginning after the first turn); without turns the whole piece.
+std::vector<PointRange> between(const std::vector<PointRange>& turns, const ConstructPiece&);
+
+/// How far the points of a piece lie from a curve that should follow them in order.
+struct PointDeviation {
+  std::vector<double> distancePx;  ///< Per point; between merged strokes only what lies outside them.
+  std::vector<double> offPx;       ///< Per point, all of it …
+  std::vector<double> parameter;   ///< … and where on the curve.
+  double lengthRatio = 1.0;        ///< Of the curve to the points.
+  int far = 0;                     ///< Points more than 1.5 px off in a row of neighbours that are.
+  int veryFar = 0;                 ///< The same for 4 px.
+  /// Everywhere near enough, and no longer than the points allow.
+  bool good() const;
+};
+PointDeviation pointDeviation(const NurbsCurve&, const ConstructPiece&, double pixelMm);
+
+/// Where a curve has left the points: the ranges to treat as sharp turns so that the rest can be fitted. Long ones
+/// shrink to their sharpest place unless `whole`.
+std::vector<PointRange> outlierRanges(const PointDeviation&, const ConstructPiece&, double pixelMm, bool whole);
+
+}  // namespace batten

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/fair/smooth_sections.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/construct/fair/fair_join.h"
+#include "core/construct/nurbs/quintic_nurbs.h"
+#include "core/contour/segment/regression_segments.h"
+#include "core/curve/curvature.h"
+#include "core/curve/knot_operations.h"
+
+namespace batten {
+namespace {
+
+constexpr double kLeastSmoothPx = 24.0;  // between two turns; shorter stretches have no fairness to keep
+
+/// The notes of a part that begins at `offset` of the whole, for lengths from..to of the part.
+void append(ConstructReport& whole, const ConstructReport& part, double from, double to, double offset) {
+  for (ExtremumNote e : part.extrema) {
+    if (e.s < from || e.s > to) continue;
+    e.s += offset - from;
+    whole.extrema.push_back(e);
+  }
+  for (std::size_t i = 0; i < part.bandS.size(); ++i) {
+    if (part.bandS[i] < from || part.bandS[i] > to) continue;
+    whole.bandS.push_back(part.bandS[i] + offset - from);
+    whole.bandSigma.push_back(part.bandSigma[i]);
+  }
+  whole.knotRemovalMovedPx = std::max(whole.knotRemovalMovedPx, part.knotRemovalMovedPx);
+  if (part.why == Termination::IterationLimit) whole.why = Termination::IterationLimit;
+}
+
+/// What lies between two parameters of a fit; of a closed one through its seam where `to` comes before `from`.
+Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, double to, bool closed) {
+  const NurbsCurve& c = fit.curve;
+  const double start = c.start(), end = c.end(), least = 1e-9 * (end - start);
+  const auto between = [&](double a, double b) -> Result<NurbsCurve> {
+    auto rest = a > start + least ? split(c, a).map([](SplitCurve s) { return s.right; }) : Result<NurbsCurve>(c);
+    if (!rest || b > end - least) return rest;
+    return split(*rest, b).map([](SplitCurve s) { return s.left; });
+  };
+  const double seam = 1e-3 * (end - start);
+  if (closed && from > end - seam) from = start;
+  if (closed && to < start + seam) to = end;
+  ConstructedPiece part{c, fit.report};
+  part.report.extrema.clear();
+  part.report.bandS.clear();
+  part.report.bandSigma.clear();
+  auto curve = Result<NurbsCurve>(fail(ErrorCode::Numerical, "Nothing lies between."));
+  if (from + least < to) {
+    append(part.report, fit.report, from - start, to - start, 0.0);
+    curve = between(from, to);
+  } else if (closed && from + least < end && to > start + least) {
+    append(part.report, fit.report, from - start, end - start, 0.0);
+    append(part.report, fit.report, 0.0, to - start, end - from);
+    const auto before = between(from, end), after = between(start, to);
+    if (before && after) curve = joinSmoothly(std::array{*before, *after});
+  }
+  if (!curve) return fail(curve.error());
+  const double share = static_cast<double>(curve->controlPointCount()) / c.controlPointCount();
+  part.report.fullControlPoints = static_cast<int>(std::lround(share * part.report.fullControlPoints));
+  part.curve = std::move(*curve);
+  return part;
+}
+
+/// Curvature extrema of what follows the points closely, without a judgement of each.
+int extremaOf(const std::vector<NurbsCurve>& turns, double size, bool closed) {
+  constexpr double kProminence = 5e-3;
+  std::size_t count = 0;
+  for (const NurbsCurve& turn : turns) count += curvatureExtrema(turn, kProminence / size, closed).size();
+  return static_cast<int>(count);
+}
+
+std::string turnNote(std::size_t count) {
+  if (count == 1) return "Turns sharply at 1 place: mark a corner there for an exact fit.";
+  return "Turns sharply at " + std::to_string(count) + " places: mark corners there for an exact fit.";
+}
+
+}  // namespace
+
+SmoothSections::SmoothSections(const ConstructPiece& piece, bool isStroke, double pixelMm,
+                               const FairFitOptions& options)
+    : piece_(piece), pixelMm_(pixelMm) {
+  turns_ = united(sharpTurns(piece, isStroke, pixelMm, options), piece, pixelMm, kLeastSmoothPx);
+  smooth_ = between(turns_, piece);
+}
+
+std::vector<Vec2> SmoothSections::pointsOf(const PointRange& range) const {
+  std::vector<Vec2> points;
+  const std::size_t n = piece_.points.size();
+  for (int i = range.first; i <= range.last; ++i) points.push_back(piece_.points[static_cast<std::size_t>(i) % n]);
+  return points;
+}
+
+std::vector<ConstructPiece> SmoothSections::stretches() const {
+  if (turns_.empty()) return {piece_};
+  std::vector<ConstructPiece> pieces;
+  for (const PointRange& range : smooth_) {
+    ConstructPiece piece;
+    piece.points = pointsOf(range);
+    const std::size_t n = piece_.points.size();
+    for (int i = range.first; i <= range.last; ++i) {
+      const std::size_t at = static_cast<std::size_t>(i) % n;
+      if (piece_.sigmaPx.size() == n) piece.sigmaPx.push_back(piece_.sigmaPx[at]);
+      if (piece_.spreadPx.size() == n) piece.spreadPx.push_back(piece_.spreadPx[at]);
+    }
+    piece.startIsCorner = piece_.startIsCorner && range.first == 0;
+    piece.endIsCorner = piece_.endIsCorner && range.last + 1 == static_cast<int>(piece_.points.size());
+    pieces.push_back(std::move(piece));
+  }
+  for (const ExtremumConstraint& constraint : piece_.constraints) {  // to the stretch with the nearest point
+    ConstructPiece* owner = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (ConstructPiece& piece : pieces) {
+      for (const Vec2& p : piece.points) {
+        const double distance = (p - constraint.point).squaredNorm();
+        if (distance < least) least = distance, owner = &piece;
+      }
+    }
+    if (owner) owner->constraints.push_back(constraint);
+  }
+  return pieces;
+}
+
+bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound) {
+  fits_ = std::move(fits);
+  const auto pieces = stretches();
+  std::vector<PointRange> turns = turns_;
+  std::vector<Cut> cuts;
+  bool more = false;
+  for (std::size_t i = 0; i < fits_.size(); ++i) {
+    // Where the user took a bump out that was drawn, the curve leaves its points because he wants it.
+    const auto& constraints = pieces[i].constraints;
+    if (std::any_of(constraints.begin(), constraints.end(), [](const ExtremumConstraint& w) { return !w.keep; }))
+      continue;
+    const PointDeviation close = pointDeviation(fits_[i].curve, pieces[i], pixelMm_);
+    const int offset = smooth_[i].first;
+    const auto strays = outlierRanges(close, pieces[i], pixelMm_, lastRound);
+    for (PointRange r : strays) turns.push_back({r.first + offset, r.last + offset});
+    if (lastRound && !strays.empty()) cuts.push_back({i, close, strays});
+    more = more || !strays.empty();
+  }
+  if (!more) return false;
+  const int n = static_cast<int>(piece_.points.size());
+  for (PointRange& r : turns) {
+    if (r.first >= n) r = {r.first - n, r.last - n};
+  }
+  turns_ = united(std::move(turns), piece_, pixelMm_, kLeastSmoothPx);
+  if (lastRound) {
+    keepNear(cuts, pieces);
+  } else {
+    smooth_ = between(turns_, piece_);
+  }
+  return true;
+}
+
+void SmoothSections::keepNear(const std::vector<Cut>& cuts, const std::vector<ConstructPiece>& pieces) {
+  std::vector<ConstructedPiece> kept;
+  std::vector<PointRange> ranges;
+  auto cut = cuts.begin();
+  for (std::size_t i = 0; i < fits_.size(); ++i) {
+    if (cut == cuts.end() || cut->fit != i) {
+      kept.push_back(std::move(fits_[i]));
+      ranges.push_back(smooth_[i]);
+      continue;
+    }
+    const ConstructPiece& piece = pieces[i];
+    const auto strays = united(cut->strays, piece, pixelMm_, kLeastSmoothPx);
+    const std::vector<double>& at = cut->close.parameter;
+    const int n = static_cast<int>(at.size());
+    for (const PointRange& r : between(strays, piece)) {
+      const bool atStart = !piece.closed && r.first == 0, atEnd = !piece.closed && r.last == n - 1;
+      const double from = atStart ? fits_[i].curve.start() : at[r.first % n];
+      const double to = atEnd ? fits_[i].curve.end() : at[r.last % n];
+      auto part = stretchOf(fits_[i], from, to, piece.closed);
+      if (!part) continue;  // left to the tight curve
+      kept.push_back(std::move(*part));
+      ranges.push_back({r.first + smooth_[i].first, r.last + smooth_[i].first});
+    }
+    ++cut;
+  }
+  fits_ = std::move(kept);
+  smooth_ = std::move(ranges);
+}
+
+Result<ConstructedPiece> SmoothSections::withTurns() const {
+  const int n = static_cast<int>(piece_.points.size());
+  ConstructedPiece whole;
+  whole.report.why = Termination::Converged;
+  whole.report.note = turnNote(turns_.size());
+  if (smooth_.empty()) {
+    auto curve = piece_.closed ? tightLoop(piece_.points, pixelMm_) : cornerFill(piece_.points, pixelMm_, {}, {});
+    if (!curve) return fail(curve.error());
+    whole.curve = std::move(*curve);
+    whole.report.why = Termination::Degenerate;
+    whole.report.note = "Turns too sharply all along for the fair fit; a curve close to the points instead.";
+    whole.report.extremaInTurns = extremaOf({whole.curve}, extent(whole.curve), piece_.closed);
+    return whole;
+  }
+  std::vector<NurbsCurve> parts, turns;
+  const auto tight = [&](int first, int last, const std::optional<CurveEnd>& a, const std::optional<CurveEnd>& b) {
+    auto curve = cornerFill(pointsOf({first, last}), pixelMm_, a, b);
+    if (!curve) return curve;
+    parts.push_back(*curve);
+    turns.push_back(*curve);
+    return curve;
+  };
+  const auto total = [&] {
+    double sum = 0.0;
+    for (const NurbsCurve& part : parts) sum += part.end() - part.start();
+    return sum;
+  };
+  const auto place = [&](const NurbsCurve& curve, const ConstructReport& report, double from, double to) {
+    append(whole.report, report, from, to, total());
+    parts.push_back(curve);
+  };
+  const std::size_t count = smooth_.size();
+  std::size_t first = 0;
+  std::optional<SplitCurve> halves;
+  double cut = 0.0;
+  if (piece_.closed) {  // begins in the middle of the longest stretch, where all derivatives meet
+    for (std::size_t i = 1; i < count; ++i) {
+      if (smooth_[i].last - smooth_[i].first > smooth_[first].last - smooth_[first].first) first = i;
+    }
+    const NurbsCurve& longest = fits_[first].curve;
+    cut = 0.5 * (longest.end() - longest.start());
+    auto made = split(longest, longest.start() + cut);
+    if (!made) return fail(made.error());
+    halves = std::move(*made);
+    place(halves->right, fits_[first].report, cut, 2.0 * cut);
+  } else {
+    if (smooth_[0].first > 0) {
+      if (auto t = tight(0, smooth_[0].first - 1, {}, startOf(fits_[0].curve)); !t) return fail(t.error());
+    }
+    place(fits_[0].curve, fits_[0].report, 0.0, fits_[0].curve.end() - fits_[0].curve.start());
+  }
+  for (std::size_t k = 1; k < count + (piece_.closed ? 1 : 0); ++k) {
+    const std::size_t from = (first + k - 1) % count, to = (first + k) % count;
+    int next = smooth_[to].first;
+    while (next <= smooth_[from].last) next += n;
+    const auto turn = tight(smooth_[from].last + 1, next - 1, endOf(fits_[from].curve), startOf(fits_[to].curve));
+    if (!turn) return fail(turn.error());
+    if (piece_.closed && k == count) {
+      place(halves->left, fits_[first].report, 0.0, cut);
+    } else {
+      place(fits_[to].curve, fits_[to].report, 0.0, fits_[to].curve.end() - fits_[to].curve.start());
+    }
+  }
+  if (!piece_.closed && smooth_.back().last < n - 1) {
+    const auto turn = tight(smooth_.back().last + 1, n - 1, endOf(fits_.back().curve), {});
+    if (!turn) return fail(turn.error());
+  }
+  auto curve = joinSmoothly(parts);
+  if (!curve) return fail(curve.error());
+  whole.curve = std::move(*curve);
+  whole.report.noisePx = fits_[first].report.noisePx;
+  whole.report.extremaInTurns = extremaOf(turns, extent(whole.curve), false);
+  whole.report.fullControlPoints = whole.curve.controlPointCount();
+  for (const ConstructedPiece& fit : fits_) {
+    if (fit.report.fullControlPoints == 0) continue;
+    whole.report.fullControlPoints += fit.report.fullControlPoints - fit.curve.controlPointCount();
+  }
+  return whole;
+}
+
+Result<ConstructedPiece> SmoothSections::throughStations(const RunContext& context) const {
+  PieceSet set;
+  set.pieces.resize(1);
+  Piece& px = set.pieces[0];
+  for (const Vec2& p : piece_.points) px.points.push_back(p / pixelMm_);
+  px.closed = piece_.closed;
+  px.startIsCorner = piece_.startIsCorner;
+  px.endIsCorner = piece_.endIsCorner;
+  for (std::size_t i = 1; i < px.points.size(); ++i) px.lengthPx += (px.points[i] - px.points[i - 1]).norm();
+  px.refined.assign(px.points.size(), 1);
+  SegmentParams adaptive;
+  adaptive.mode = SegmentMode::Adaptive;
+  const auto segments = regressionSegments(set, adaptive);
+  if (!segments) return fail(segments.error());
+  ConstructPiece piece = piece_;
+  piece.stations = segments->pieces.at(0).stations;
+  for (Station& s : piece.stations) {
+    for (Vec2* p : {&s.point, &s.from, &s.to}) *p *= pixelMm_;
+  }
+  auto made = constructQuinticNurbs(piece, pixelMm_, ConstructParams{}, context);
+  if (!made) return made;
+  made->report.why = Termination::Degenerate;
+  made->report.note = "The fair fit did not stay on this line; a quintic through stations instead.";
+  return made;
+}
+
+/// Constraints whose extremum the parts did not hold, or could not let go.
+void SmoothSections::noteUnmet(ConstructReport& report) const {
+  report.unmetConstraints.clear();
+  for (const ExtremumConstraint& constraint : piece_.constraints) {
+    const bool met = std::any_of(report.extrema.begin(), report.extrema.end(), [&](const ExtremumNote& e) {
+      return e.constraint == constraint.id && e.kept == constraint.keep;
+    });
+    if (!met) report.unmetConstraints.push_back(constraint.id);
+  }
+}
+
+Result<ConstructedPiece> SmoothSections::joined(const RunContext& context) const {
+  if (turns_.empty()) return fits_.front();
+  auto whole = joinedParts(context);
+  if (whole) noteUnmet(whole->report);
+  return whole;
+}
+
+Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) const {
+  auto whole = withTurns();
+  const auto farness = [&](const PointDeviation& c) {
+    return c.far + 10 * c.veryFar + (c.lengthRatio > 1.15 ? 1000 : 0);
+  };
+  int far = -1;
+  if (whole) {
+    const PointDeviation close = pointDeviation(whole->curve, piece_, pixelMm_);
+    if (close.good()) return whole;
+    far = farness(close);
+  }
+  auto other = throughStations(context);
+  if (!other) return whole;
+  if (whole && farness(pointDeviation(other->curve, piece_, pixelMm_)) >= far) return whole;
+  return other;
+}
+
+}  // namespace batten

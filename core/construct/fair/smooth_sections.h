@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/construct/fair/sharp_features.h"
+#include "core/construct/pieces.h"
+
+namespace batten {
+
+/// A piece cut where it turns too sharply for the fair fit: smooth stretches, each fitted for itself, and tight turns.
+class SmoothSections {
+ public:
+  SmoothSections(const ConstructPiece& piece, bool isStroke, double pixelMm, const FairFitOptions&);
+
+  bool hasTurns() const { return !turns_.empty(); }
+  /// The smooth stretches as pieces of their own.
+  std::vector<ConstructPiece> stretches() const;
+  /// Takes the fits of stretches(); where one has left its points further turns are noted. True when there are.
+  bool check(std::vector<ConstructedPiece> fits, bool lastRound);
+  /// The whole: stretches and tight turns in one curve, with the reports together; what is not near its points is
+  /// replaced by a quintic through stations.
+  Result<ConstructedPiece> joined(const RunContext&) const;
+
+ private:
+  /// A fit that has left its points in the last round.
+  struct Cut {
+    std::size_t fit = 0;
+    PointDeviation close;
+    std::vector<PointRange> strays;
+  };
+  /// Of those fits only what is near the points; tight curves come between.
+  void keepNear(const std::vector<Cut>&, const std::vector<ConstructPiece>& pieces);
+  Result<ConstructedPiece> joinedParts(const RunContext&) const;
+  Result<ConstructedPiece> withTurns() const;
+  void noteUnmet(ConstructReport&) const;
+  Result<ConstructedPiece> throughStations(const RunContext&) const;
+  std::vector<Vec2> pointsOf(const PointRange&) const;
+
+  const ConstructPiece& piece_;
+  double pixelMm_;
+  std::vector<PointRange> turns_, smooth_;
+  std::vector<ConstructedPiece> fits_;
+};
+
+}  // namespace batten

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/nurbs/quintic_directions.h"
+
+#include <array>
+#include <cmath>
+
+#include "core/curve/nurbs_curve.h"
+#include "core/solve/banded_least_squares.h"
+
+namespace batten {
+
+namespace {
+
+constexpr int kDegree = 5;
+constexpr double kPinned = 1e7;
+
+/// x and y of a control point are neighbouring unknowns: the normal rows tie them together.
+class System {
+ public:
+  explicit System(int stations) : count_(stations + 4), system_(2 * count_, 2 * (kDegree + 1), false) {
+    for (int k = -kDegree; k <= stations - 1 + kDegree; ++k) knots_.push_back(k);
+  }
+
+  /// weight * (toward . R^(order)(u) - right) as one row.
+  void add(double u, int order, const Vec2& toward, double right, double weight) {
+    const BasisRow basisRow = basis(kDegree, knots_, count_, u, order);
+    std::array<double, 2 * (kDegree + 1)> row{};
+    for (std::size_t j = 0; j <= kDegree; ++j) {
+      const double value = weight * basisRow.values[order][j];
+      row[2 * j] = value * toward.x();
+      row[2 * j + 1] = value * toward.y();
+    }
+    system_.add(2 * basisRow.first, row, Vec2(weight * right, 0.0));
+  }
+
+  std::optional<std::vector<Vec2>> solve() const {
+    const auto flat = system_.solve();
+    if (!flat) return std::nullopt;
+    std::vector<Vec2> points;
+    for (std::size_t i = 0; i + 1 < flat->size(); i += 2) points.emplace_back((*flat)[i].x(), (*flat)[i + 1].x());
+    return points;
+  }
+
+ private:
+  int count_;
+  BandedLeastSquares system_;
+  std::vector<double> knots_;
+};
+
+}  // namespace
+
+Result<std::vector<Vec2>> solveQuinticDirections(std::span<const Vec2> points, std::span<const Vec2> directions,
+                                                 std::span<const double> magnitudes, const DirectionWeights& weights) {
+  const std::size_t m = points.size();
+  if (m < 4 || directions.size() != m || magnitudes.size() != m) {
+    return fail(ErrorCode::Numerical, "There are too few stations for a quintic curve: choose more segments.");
+  }
+  System system(static_cast<int>(m));
+  for (std::size_t i = 0; i < m; ++i) {
+    const double u = static_cast<double>(i);
+    const bool pinned = weights.pinEnds && (i == 0 || i + 1 == m);
+    system.add(u, 0, Vec2::UnitX(), points[i].x(), pinned ? kPinned : 1.0);
+    system.add(u, 0, Vec2::UnitY(), points[i].y(), pinned ? kPinned : 1.0);
+    system.add(u, 1, leftNormal(directions[i]), 0.0, 1.0);
+    system.add(u, 1, directions[i], magnitudes[i], weights.along);
+  }
+  // |R'''|^2 is of degree 4 in every span: three Gauss points are exact.
+  const double node = std::sqrt(0.6);
+  const std::array<std::pair<double, double>, 3> gauss = {{{-node, 5.0 / 18}, {0.0, 8.0 / 18}, {node, 5.0 / 18}}};
+  for (std::size_t i = 0; i + 1 < m; ++i) {
+    for (const auto& [x, w] : gauss) {
+      const double u = static_cast<double>(i) + 0.5 * (1.0 + x), weight = std::sqrt(weights.smoothness * w);
+      system.add(u, 3, Vec2::UnitX(), 0.0, weight);
+      system.add(u, 3, Vec2::UnitY(), 0.0, weight);
+    }
+  }
+  auto solution = system.solve();
+  if (!solution) return fail(ErrorCode::Numerical, "The equations of the curve have no single solution.");
+  return std::move(*solution);
+}
+
+}  // namespace batten

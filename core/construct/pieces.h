@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/termination.h"
+#include "core/base/vec2.h"
+#include "core/contour/segment/regression_segments.h"
+#include "core/curve/nurbs_curve.h"
+
+/// What goes into the constructions and what comes out of them.
+namespace batten {
+
+/// What the user wants of the curvature extremum nearest to a place (fair fit only).
+struct ExtremumConstraint {
+  Vec2 point = Vec2::Zero();  ///< [mm] model frame, on or near the line.
+  bool keep = true;           ///< False: to be removed.
+  int id = 0;                 ///< The caller's name for it; comes back in the report.
+};
+
+/// One piece as the constructions take it. Model frame, mm.
+struct ConstructPiece {
+  std::vector<Vec2>
+      points;  ///< Ordered edge points; the first and last are exactly the corners where there are corners.
+  std::vector<Station> stations;  ///< Regression segments, model frame.
+  bool closed = false;            ///< Smooth closed: the curve is periodic.
+  std::vector<int> drawn;         ///< Pen strokes: indices of the points that were drawn; empty = all are measured.
+  std::vector<std::uint8_t> refined = {};  ///< Per point: 0 = known to the pixel only; empty = all are better known.
+  std::vector<float> sigmaPx = {};         ///< [px] per point: standard deviation across the line; empty = all alike.
+  /// [px] per point: half the breadth of the strokes that were merged there; empty = none were. The line that was meant
+  /// may lie anywhere between them.
+  std::vector<float> spreadPx = {};
+  bool startIsCorner = false;
+  bool endIsCorner = false;
+  std::vector<Vec2> breakpoints;  ///< Places along the line where the user wants typical curves to meet.
+  std::vector<ExtremumConstraint> constraints = {};
+};
+/// All pieces of one contour: methods may pool what they have in common (noise).
+struct ConstructContour {
+  std::vector<ConstructPiece> pieces;
+  bool isStroke = false;  ///< Centre line of a stroke (else an outline).
+  double pixelMm = 1.0;   ///< [mm] size of a scan pixel: the scale of noise.
+};
+
+/// A curvature extremum that a construction considered.
+struct ExtremumNote {
+  double s = 0.0;      ///< [mm] arc length in the piece.
+  double kappa = 0.0;  ///< [1/mm]
+  bool maximum = true;
+  bool kept = true;
+  double removalCost = 0.0;            ///< [chi2] rise of the misfit when it is removed; large = certain.
+  double askedCost = 0.0;              ///< [chi2] what it had to be at least to be kept.
+  Vec2 point = Vec2::Zero();           ///< [mm] where it is on the curve (a dropped one: where it was seen).
+  std::optional<int> constraint = {};  ///< Id of the constraint that was attached to it.
+};
+
+/// One segment of a typical chain.
+struct SegmentNote {
+  bool typical = true;          ///< Else a quintic between two, at an inflection or a straight part.
+  Vec2 startMm = Vec2::Zero();  ///< Where it starts.
+  double lengthMm = 0.0;
+  double ratio = 1.0;                       ///< h
+  double turnRad = 0.0;                     ///< Change of direction, 2 phi.
+  double startKappa = 0.0, endKappa = 0.0;  ///< [1/mm]
+  bool monotone = false;                    ///< h <= cos(phi) or h >= 1 / cos(phi); typical segments only.
+};
+
+struct ConstructReport {
+  Termination why = Termination::NotRun;
+  std::string note;                   ///< One line for the user when a fallback was used; else empty.
+  std::vector<ExtremumNote> extrema;  ///< Fair fit only.
+  int extremaInTurns = 0;  ///< Fair fit: in turns too sharp for it, so that nothing is known of their certainty.
+  std::vector<int> unmetConstraints;  ///< Ids of constraints that found no extremum, or one that cannot go.
+  std::vector<double> bandS;          ///< [mm] arc lengths at which the band is given (fair fit only).
+  std::vector<double> bandSigma;      ///< [1/mm] standard deviation of the curvature there.
+  std::vector<SegmentNote> segments;  ///< Typical curves only.
+  double noisePx = 0.0;               ///< [px] standard deviation of an edge point (fair fit only; 0 = not measured).
+  int stationsAdded = 0;              ///< Nurbs, Bezier: set where the line turns too quickly for those given.
+  int pointsBefore = 0;               ///< Control polygon: points of the line (0 = not a control polygon) …
+  int pointsAfter = 0;                ///< … that are left after point removal …
+  int pointsAdded = 0;                ///< … and control points added between close corners.
+  int fullControlPoints = 0;          ///< Of the fair fit before control points were spared (0 = not done).
+  double knotRemovalMovedPx = 0.0;    ///< [px] farthest that sparing them moved the curve.
+  bool isCircle = false;              ///< Recognised as an exact circle.
+  bool isLine = false;                ///< Recognised as an exact line.
+};
+struct ConstructedPiece {
+  NurbsCurve curve;  ///< Degree 5 (control polygon: its own degree), clamped, model frame, domain in mm of chord or arc
+                     ///< length.
+  ConstructReport report;
+};
+
+}  // namespace batten

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/polygon/control_polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/construct/stations/piece_stations.h"
+#include "core/curve/knot_operations.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+
+namespace {
+
+double polygonLength(std::span<const Vec2> points) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  return length;
+}
+
+/// The stretch from corner to corner with as many points as a curve of the degree needs: the inner ones are taken twice
+/// or more, the middle ones first. The curve is drawn to them as to any others, only harder, and stays within the
+/// polygon's corners. The corners themselves are never doubled, as the curve would have no direction there; where
+/// nothing lies between them it is a straight line, and the missing points are spread along it.
+std::vector<Vec2> doubled(const std::vector<Vec2>& stretch, int needed) {
+  const int inner = static_cast<int>(stretch.size()) - 2, missing = needed - static_cast<int>(stretch.size());
+  std::vector<Vec2> result = {stretch.front()};
+  for (int i = 1; i <= missing && inner == 0; ++i) {
+    result.emplace_back(stretch.front() +
+                        (stretch.back() - stretch.front()) * (static_cast<double>(i) / (missing + 1)));
+  }
+  const int more = inner > 0 ? missing % inner : 0, firstMore = (inner - more) / 2;
+  for (int i = 0; i < inner; ++i) {
+    const int times = 1 + missing / inner + (i >= firstMore && i < firstMore + more ? 1 : 0);
+    result.insert(result.end(), static_cast<std::size_t>(times), stretch[i + 1]);
+  }
+  result.push_back(stretch.back());
+  return result;
+}
+
+/// Indices of the points that must stay: ends and sharp ones.
+std::vector<int> anchors(std::span<const Vec2> points, std::span<const int> sharp) {
+  const int last = static_cast<int>(points.size()) - 1;
+  std::vector<int> all = {0};
+  for (const int s : sharp) {
+    if (s > all.back() && s < last) all.push_back(s);
+  }
+  if (last > 0) all.push_back(last);
+  return all;
+}
+
+Result<NurbsCurve> scaledToLength(int degree, std::vector<double> knots, std::vector<Vec2> points, double length) {
+  auto curve = NurbsCurve::make(degree, std::move(knots), std::move(points));
+  if (!curve) return curve;
+  return reparametrized(*curve, 0.0, length);
+}
+
+Result<NurbsCurve> periodicPolygon(const std::vector<Vec2>& points, int degree) {
+  std::vector<Vec2> around = points;
+  for (int i = 0; i < degree; ++i) around.push_back(points[static_cast<std::size_t>(i) % points.size()]);
+  std::vector<double> knots;
+  for (int i = 0; i < static_cast<int>(around.size()) + degree + 1; ++i) knots.push_back(i - degree);
+  const double length = polygonLength(points) + (points.front() - points.back()).norm();
+  auto curve = scaledToLength(degree, std::move(knots), std::move(around), length);
+  if (!curve) return curve;
+  const Vec2 seam = curve->point(curve->start());
+  return clampedWithEnds(*curve, seam, seam);
+}
+
+/// The control points of a piece after removal.
+struct ThinnedPiece {
+  std::vector<Vec2> points;  ///< No two neighbours at one place; closed: the first is not repeated.
+  int before = 0;
+};
+
+ThinnedPiece thinnedPiece(const ConstructPiece& piece, double pixelMm, const ConstructParams& params) {
+  std::vector<Vec2> all;
+  const auto take = [&](const Vec2& p) {
+    if (p.allFinite() && (all.empty() || p != all.back())) all.push_back(p);
+  };
+  if (piece.drawn.empty()) {
+    for (const Vec2& p : piece.points) take(p);
+  } else {
+    for (const int i : piece.drawn) take(piece.points[i]);
+    // A stroke that a corner cuts ends there, drawn or not.
+    if (!piece.closed && !piece.points.empty()) take(piece.points.back());
+  }
+  ThinnedPiece result;
+  result.before = static_cast<int>(all.size());
+  const std::vector<int> kept = params.removal == PointRemoval::Step
+                                    ? thinnedByStep(all, {}, params.removalStepPx * pixelMm)
+                                    : thinnedByTolerance(all, {}, params.removalTolerancePx * pixelMm);
+  for (const int i : kept) result.points.push_back(all[i]);
+  if (piece.closed && result.points.size() > 1 && result.points.front() == result.points.back()) {
+    result.points.pop_back();
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<double> sharpKnotVector(int order, int controlPointCount, std::span<const int> sharp, SharpKnots kind) {
+  std::vector<double> knots;
+  const int total = controlPointCount + order;
+  if (kind == SharpKnots::Uniform) {
+    for (int i = 0; i < total; ++i) knots.push_back(i);
+    return knots;
+  }
+  knots.assign(order, 0.0);
+  double value = 1.0;
+  // The knot of 1-based index i belongs to the sharp point i (as printed) or i - 1 (a corner without a gap).
+  const int shift = kind == SharpKnots::Order ? 1 : 2;
+  const int times = kind == SharpKnots::Order ? order : order - 1;
+  while (static_cast<int>(knots.size()) < controlPointCount) {
+    const int index = static_cast<int>(knots.size()) + 1;
+    const bool isSharp = std::find(sharp.begin(), sharp.end(), index - shift) != sharp.end();
+    const int room = controlPointCount - static_cast<int>(knots.size());
+    knots.insert(knots.end(), static_cast<std::size_t>(isSharp ? std::min(times, room) : 1), value);
+    value += 1.0;
+  }
+  knots.insert(knots.end(), static_cast<std::size_t>(order), value);
+  return knots;
+}
+
+SharpPolygon withEnoughPoints(std::span<const Vec2> points, std::span<const int> sharp, int degree) {
+  SharpPolygon result;
+  if (points.empty()) return result;
+  const std::vector<int> keep = anchors(points, sharp);
+  result.points = {points.front()};
+  for (std::size_t k = 0; k + 1 < keep.size(); ++k) {
+    std::vector<Vec2> stretch(points.begin() + keep[k], points.begin() + keep[k + 1] + 1);
+    if (static_cast<int>(stretch.size()) < degree + 1) {
+      result.added += degree + 1 - static_cast<int>(stretch.size());
+      stretch = doubled(stretch, degree + 1);
+    }
+    result.points.insert(result.points.end(), stretch.begin() + 1, stretch.end());
+    if (k + 2 < keep.size()) result.sharp.push_back(static_cast<int>(result.points.size()) - 1);
+  }
+  return result;
+}
+
+Result<PolygonCurve> controlPolygonCurve(std::span<const Vec2> points, std::span<const int> sharp, int degree,
+                                         SharpKnots kind) {
+  const double length = polygonLength(points);
+  if (!(length > 0.0) || !std::isfinite(length) || degree < 1 || degree > 5) {
+    return fail(ErrorCode::Numerical, "A control polygon needs at least two distinct points.");
+  }
+  // As printed and uniform: no points are added between corners, only as many as any curve of the degree needs.
+  const bool spread = kind == SharpKnots::Degree;
+  SharpPolygon polygon = withEnoughPoints(points, spread ? sharp : std::span<const int>{}, degree);
+  if (!spread) polygon.sharp.assign(sharp.begin(), sharp.end());
+  PolygonCurve result;
+  result.knots = sharpKnotVector(degree + 1, static_cast<int>(polygon.points.size()), polygon.sharp, kind);
+  result.points = polygon.points;
+  result.sharp = polygon.sharp;
+  result.added = polygon.added;
+  auto curve = scaledToLength(degree, result.knots, std::move(polygon.points), length);
+  if (!curve) return fail(curve.error());
+  result.curve = std::move(*curve);
+  if (kind == SharpKnots::Order && !sharp.empty()) {
+    result.warning = "Knots of multiplicity = order break the curve just before each sharp point.";
+  } else if (polygon.added > 0) {
+    result.warning = "Between close sharp points " + std::to_string(polygon.added) + " control points were doubled.";
+  }
+  return result;
+}
+
+std::vector<int> thinnedByStep(std::span<const Vec2> points, std::span<const int> sharp, double step) {
+  if (points.empty()) return {};
+  if (!(step > 0.0)) {
+    std::vector<int> all(points.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  std::vector<double> length = {0.0};
+  for (std::size_t i = 1; i < points.size(); ++i) length.push_back(length.back() + (points[i] - points[i - 1]).norm());
+  const std::vector<int> keep = anchors(points, sharp);
+  std::vector<int> result = {0};
+  for (std::size_t k = 0; k + 1 < keep.size(); ++k) {
+    const double from = length[keep[k]], to = length[keep[k + 1]];
+    const double possible = std::floor((to - from) / step);
+    const int parts = static_cast<int>(std::clamp(possible, 1.0, static_cast<double>(points.size())));
+    for (int i = 1; i < parts; ++i) {
+      const double wanted = from + (to - from) * i / parts;
+      auto near = std::lower_bound(length.begin(), length.end(), wanted);
+      if (near != length.begin() && wanted - *(near - 1) < *near - wanted) --near;
+      const int index = static_cast<int>(near - length.begin());
+      if (index > result.back() && index < keep[k + 1]) result.push_back(index);
+    }
+    result.push_back(keep[k + 1]);
+  }
+  return result;
+}
+
+std::vector<int> thinnedByTolerance(std::span<const Vec2> points, std::span<const int> sharp, double tolerance) {
+  if (points.empty()) return {};
+  std::vector<bool> stays(points.size(), false);
+  const std::vector<int> keep = anchors(points, sharp);
+  for (const int k : keep) stays[k] = true;
+  std::vector<std::pair<int, int>> open;
+  for (std::size_t k = 0; k + 1 < keep.size(); ++k) open.emplace_back(keep[k], keep[k + 1]);
+  // Douglas and Peucker with a list of its own: long lines must not exhaust the call stack.
+  while (!open.empty()) {
+    const auto [from, to] = open.back();
+    open.pop_back();
+    int worst = -1;
+    double largest = tolerance;
+    for (int i = from + 1; i < to; ++i) {
+      const double d = awayFromSegment(points[i], points[from], points[to]).norm();
+      if (d > largest) {
+        largest = d;
+        worst = i;
+      }
+    }
+    if (worst < 0) continue;
+    stays[worst] = true;
+    open.emplace_back(from, worst);
+    open.emplace_back(worst, to);
+  }
+  std::vector<int> result;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (stays[i]) result.push_back(static_cast<int>(i));
+  }
+  return result;
+}
+
+LinePolygon linePolygon(const ConstructContour& contour, const ConstructParams& params) {
+  LinePolygon line;
+  if (contour.pieces.empty()) return line;
+  const ConstructPiece& first = contour.pieces.front();
+  const ConstructPiece& last = contour.pieces.back();
+  for (std::size_t i = 0; i < contour.pieces.size(); ++i) {
+    ThinnedPiece piece = thinnedPiece(contour.pieces[i], contour.pixelMm, params);
+    if (piece.points.empty()) continue;
+    line.before += piece.before;
+    const bool meets = !line.points.empty() && line.points.back() == piece.points.front();
+    if (meets) --line.before;
+    if (!line.points.empty()) line.sharp.push_back(static_cast<int>(line.points.size()) - (meets ? 1 : 0));
+    line.points.insert(line.points.end(), piece.points.begin() + (meets ? 1 : 0), piece.points.end());
+  }
+  line.closed = first.closed;
+  const bool ringOfPieces = !first.closed && first.startIsCorner && last.endIsCorner && line.points.size() > 2 &&
+                            line.points.front() == line.points.back();
+  if (ringOfPieces) {
+    line.closed = true;
+    line.points.pop_back();
+    --line.before;
+    line.sharp.insert(line.sharp.begin(), 0);
+  }
+  return line;
+}
+
+Result<PolygonCurve> polygonCurve(const LinePolygon& line, int degree, SharpKnots kind) {
+  if (!line.closed) return controlPolygonCurve(line.points, line.sharp, degree, kind);
+  if (kind != SharpKnots::Uniform && !line.sharp.empty()) {
+    const int shift = line.sharp.front();
+    std::vector<Vec2> points = line.points;
+    std::rotate(points.begin(), points.begin() + shift, points.end());
+    points.push_back(points.front());
+    std::vector<int> inner;
+    for (std::size_t i = 1; i < line.sharp.size(); ++i) inner.push_back(line.sharp[i] - shift);
+    return controlPolygonCurve(points, inner, degree, kind);
+  }
+  if (line.points.size() < 3 || degree < 1 || degree > 5) {
+    return fail(ErrorCode::Numerical, "A closed control polygon needs at least three points.");
+  }
+  auto curve = periodicPolygon(line.points, degree);
+  if (!curve) return fail(curve.error());
+  PolygonCurve result;
+  result.curve = std::move(*curve);
+  result.points = line.points;
+  for (std::size_t i = 0; i <= line.points.size(); ++i) result.knots.push_back(static_cast<double>(i));
+  return result;
+}
+
+Result<ConstructedPiece> constructControlPolygon(const ConstructPiece& piece, double pixelMm,
+                                                 const ConstructParams& params, const RunContext& context) {
+  if (context.isCancelled()) return cancelled();
+  ThinnedPiece thinned = thinnedPiece(piece, pixelMm, params);
+  std::vector<Vec2>& points = thinned.points;
+  ConstructedPiece result;
+  result.report.pointsBefore = thinned.before;
+  result.report.pointsAfter = static_cast<int>(points.size());
+  if (piece.closed && points.size() >= 3) {
+    auto curve = periodicPolygon(points, params.degree);
+    if (!curve) return fail(curve.error());
+    result.curve = std::move(*curve);
+  } else {
+    const bool breaks = params.knots == SharpKnots::Order && piece.endIsCorner && points.size() > 2;
+    if (breaks) points.pop_back();
+    auto made = controlPolygonCurve(points, {}, params.degree, SharpKnots::Degree);
+    if (!made || piece.closed) return straightPiece(piece, "Too few points for a control polygon.");
+    result.curve = std::move(made->curve);
+    result.report.pointsAdded = made->added;
+    if (made->added > 0) {
+      result.report.note = "Too few points for this degree: " + std::to_string(made->added) + " were doubled.";
+    }
+    if (breaks) result.report.note = "Multiplicity = order: the curve is broken just before its last corner.";
+  }
+  result.report.why = Termination::Exact;
+  return result;
+}
+
+}  // namespace batten

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/typical/typical_curve.h"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace batten {
+
+namespace {
+
+constexpr double kLargestTurn = std::numbers::pi / 2.0;
+
+Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// The real root of h^3 + c h^2 + h = k for k > 0 and |c| <= 1, where the left side increases.
+double ratioFor(double c, double k) {
+  double low = 0.0, high = 1.0;
+  while (high * (high * (high + c) + 1.0) < k) high *= 2.0;
+  double h = std::cbrt(k);
+  for (int i = 0; i < 100; ++i) {
+    const double f = h * (h * (h + c) + 1.0) - k;
+    (f > 0.0 ? high : low) = h;
+    double next = h - f / (h * (3.0 * h + 2.0 * c) + 1.0);
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - h) <= 1e-16 * h) break;
+    h = next;
+  }
+  return h;
+}
+
+bool possible(double phi, double kappa) {
+  return std::isfinite(phi) && std::isfinite(kappa) && phi * kappa > 0.0 && std::abs(phi) < kLargestTurn;
+}
+
+}  // namespace
+
+std::array<Vec2, 4> TypicalCurve::controlPoints() const {
+  std::array<Vec2, 4> points{start, start, start, start};
+  double length = edge;
+  for (std::size_t i = 1; i < 4; ++i) {
+    points[i] = points[i - 1] + length * direction(angleRad + static_cast<double>(i - 1) * turnRad);
+    length *= ratio;
+  }
+  return points;
+}
+
+double TypicalCurve::startCurvature() const { return 2.0 * ratio * std::sin(turnRad) / (3.0 * edge); }
+
+double TypicalCurve::endCurvature() const { return startCurvature() / (ratio * ratio * ratio * ratio); }
+
+Joint TypicalCurve::startJoint() const { return {start, direction(angleRad), startCurvature()}; }
+
+Joint TypicalCurve::endJoint() const {
+  return {controlPoints()[3], direction(angleRad + 2.0 * turnRad), endCurvature()};
+}
+
+bool TypicalCurve::isMonotone() const {
+  // A curve cut exactly at its extremum is monotone but for rounding.
+  constexpr double kRounding = 1e-12;
+  return ratio <= std::cos(turnRad) * (1.0 + kRounding) || ratio * std::cos(turnRad) >= 1.0 - kRounding;
+}
+
+TypicalCurve TypicalCurve::toParameter(double e) const {
+  const std::complex<double> z = 1.0 + e * (std::polar(ratio, turnRad) - 1.0);
+  TypicalCurve other = *this;
+  other.edge = e * edge;
+  other.ratio = std::abs(z);
+  other.turnRad = std::arg(z);
+  return other;
+}
+
+std::optional<TypicalCurve> typicalFromForm(const Vec2& start, double angleRad, double startCurvature, double size,
+                                            double changeOfAngleRad) {
+  const double phi = 0.5 * changeOfAngleRad;
+  if (!possible(phi, startCurvature) || !(size > 0.0) || !std::isfinite(size)) return std::nullopt;
+  const double h = ratioFor(std::cos(phi), 1.5 * size * startCurvature / std::sin(phi));
+  return TypicalCurve{start, angleRad, size / (1.0 + h * std::cos(phi) + h * h), h, phi};
+}
+
+std::optional<TypicalCurve> typicalFromCurvatures(const Vec2& start, double angleRad, double startCurvature,
+                                                  double endCurvature, double changeOfAngleRad) {
+  const double phi = 0.5 * changeOfAngleRad;
+  if (!possible(phi, startCurvature) || !possible(phi, endCurvature)) return std::nullopt;
+  const double h = std::pow(startCurvature / endCurvature, 0.25);
+  return TypicalCurve{start, angleRad, 2.0 * h * std::sin(phi) / (3.0 * startCurvature), h, phi};
+}
+
+}  // namespace batten

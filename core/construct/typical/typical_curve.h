@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/construct/construct_params.h"
+#include "core/construct/pieces.h"
+#include "core/curve/bezier_quintics.h"
+
+namespace batten {
+
+/// A typical curve (002): the cubic whose control polygon has edges l, h l, h^2 l, each turned by phi against the one
+/// before.
+struct TypicalCurve {
+  Vec2 start = Vec2::Zero();
+  double angleRad = 0.0;  ///< Direction of the first edge.
+  double edge = 0.0;      ///< l [mm] > 0
+  double ratio = 1.0;     ///< h > 0
+  double turnRad = 0.0;   ///< phi, positive to the left, |phi| < pi / 2.
+
+  std::array<Vec2, 4> controlPoints() const;
+  double startCurvature() const;  ///< 2 h sin(phi) / (3 l) [1/mm]
+  double endCurvature() const;    ///< startCurvature / h^4
+  Joint startJoint() const;
+  Joint endJoint() const;
+  /// The curvature has no extremum inside: h <= cos(phi) or h >= 1 / cos(phi).
+  bool isMonotone() const;
+  /// The same curve over the parameters 0..e: e > 1 extrapolates, e < 1 truncates. Exact: z = 1 + e (h e^(i phi) - 1).
+  TypicalCurve toParameter(double e) const;
+};
+
+/// From the form (002 section 3): curvature at the start, size dS = l (1 + h cos(phi) + h^2) and change of direction.
+/// h is the one real root of h^3 + cos(phi) h^2 + h = 3 dS kappa0 / (2 sin(phi)), phi = dW / 2.
+/// Absent where there is none: kappa0 = 0, no turn, opposite signs, or a turn of pi and more.
+std::optional<TypicalCurve> typicalFromForm(const Vec2& start, double angleRad, double startCurvature, double size,
+                                            double changeOfAngleRad);
+/// From the curvatures of both ends and the change of direction: h = (kappa0 / kappa1)^(1/4), l = 2 h sin(phi) / (3
+/// kappa0). Absent as above.
+std::optional<TypicalCurve> typicalFromCurvatures(const Vec2& start, double angleRad, double startCurvature,
+                                                  double endCurvature, double changeOfAngleRad);
+
+/// The construction of 002 for one piece: wherever the line bends one way, typical curves with common tangents and
+/// curvatures, every one with monotone curvature; at inflections and straight parts, which typical curves cannot draw,
+/// quintic Hermite pieces. Chain: fitted to the points as a whole, as few segments as they ask for. Growing: one after
+/// the other. Where `breakpoints` are given the segments meet there. G2 everywhere; degree 5, knots of multiplicity 4.
+Result<ConstructedPiece> constructTypical(const ConstructPiece&, double pixelMm, const ConstructParams&,
+                                          const RunContext&);
+
+}  // namespace batten

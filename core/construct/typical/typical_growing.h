@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/construct/typical/typical_chain.h"
+
+namespace batten {
+
+/// How a typical curve changes with phi while place, direction and curvature at its start and its size dS stay
+/// (002 Eq 7, 8).
+struct FormGradient {
+  double edgeByTurn = 0.0;        ///< dl / dphi
+  double ratioByTurn = 0.0;       ///< dh / dphi
+  Vec2 endByTurn = Vec2::Zero();  ///< dC(1) / dphi, in the frame of the curve itself.
+};
+FormGradient formGradient(const TypicalCurve&);
+
+/// What happened while a chain grew (002 figures 3 and 5). Model frame, mm.
+struct GrowingStep {
+  enum class Kind {
+    Seed,          ///< A first small curve fitted to the points, or what was left of the fit before.
+    Extrapolated,  ///< The curve run on, exactly.
+    Fitted,        ///< Bent until it meets the points again; start, direction, curvature and size stay.
+    Kept,          ///< The growing stopped: what stays of the last good fit.
+  };
+  Kind kind = Kind::Seed;
+  int segment = 0;  ///< Number of the segment, from 0.
+  TypicalCurve curve;
+  double deviationRad = 0.0;  ///< Between the normals of the curve's end and of the points there.
+  double distanceMm = 0.0;    ///< Largest mean distance of neighbouring points.
+  bool stops = false;         ///< Fitted: this fit is not good enough any more.
+};
+std::string_view name(GrowingStep::Kind);
+
+/// The growing process of 002 section 6 for one piece, with every step. Empty for lines that nowhere bend clearly.
+Result<std::vector<GrowingStep>> growingSteps(const ConstructPiece&, double pixelMm, const ConstructParams&,
+                                              const RunContext&);
+
+/// The grown path. Stable: only the first half of each fit stays, as the start of the next segment is only known as
+/// well as the fit before; `growingAsInPaper` keeps all. @param steps filled unless null.
+std::optional<FoundPath> grownPath(const TypicalLine&, std::span<const Vec2> breakpointsMm, const ConstructParams&,
+                                   std::vector<GrowingStep>* steps, const RunContext&);
+
+}  // namespace batten

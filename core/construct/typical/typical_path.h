@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/base/vec2.h"
+#include "core/construct/typical/typical_curve.h"
+#include "core/curve/bezier_quintics.h"
+
+namespace batten {
+
+/// \file
+/// A path of typical curves (002) and, where those cannot go, quintic Hermite pieces. What two neighbours share is a
+/// state: place, direction and curvature; so the path is G2 by construction. The unit is the caller's (px: noise is
+/// then about 1).
+
+/// Where |curvature| goes along a typical curve. Rising and Falling keep it monotone by construction: h <= cos(phi) or
+/// h >= 1 / cos(phi) whatever the unknowns are.
+enum class Trend { Free, Rising, Falling };
+
+struct PathState {
+  Vec2 point = Vec2::Zero();
+  double angleRad = 0.0;
+  double kappa = 0.0;
+
+  Joint joint() const;
+};
+
+/// One element of a path with its own unknowns.
+struct PathElement {
+  bool typical = true;
+  double side = 1.0;  ///< +1 turns left, -1 right.
+  Trend trend = Trend::Free;
+  double logTurn = 0.0;  ///< log |phi|
+  double shape = 0.0;    ///< Free: log h. Else the slack of the condition, before it is made positive.
+
+  double turn() const;  ///< |phi|
+  double logRatio() const;
+  /// d logRatio / d (logTurn, shape).
+  std::array<double, 2> logRatioSlopes() const;
+  void setLogRatio(double logRatio);
+  /// Holds the curvature monotone in the way it goes now; a curve with an extremum inside keeps its nearer border.
+  void setTrend(Trend);
+  bool isMonotone() const;
+};
+
+/// Elements and the states between them: states[e] is where element e starts. States behind typical curves follow from
+/// what is before them.
+struct TypicalPath {
+  std::vector<PathElement> elements;
+  std::vector<PathState> states;  ///< elements.size() + 1; closed: the last repeats the first.
+  bool closed = false;
+
+  bool isFree(std::size_t state) const;  ///< An unknown of its own.
+  bool endsTypical() const { return !elements.empty() && elements.back().typical; }
+  /// Computes the states that follow from others. False where the unknowns make no path.
+  bool update();
+  TypicalCurve typical(std::size_t e) const;
+  double hermiteLength(std::size_t e) const;
+  Quintic quintic(std::size_t e) const;
+  /// Divides an element at t in 0..1: exactly where it is typical, nearly where it is not.
+  void split(std::size_t e, double t);
+  /// One element in place of e and the next: typical, which turns as far, from curvature to curvature; or Hermite. Or a
+  /// typical one in place of a Hermite piece that bends one way. False, and nothing changed, where that makes no sense.
+  bool join(std::size_t e);
+  bool joinAsHermite(std::size_t e);
+  bool makeTypical(std::size_t e);
+};
+
+/// Length of the first derivative of a Hermite piece between two states: the arc length of a flat cubic over their
+/// chord.
+struct HermiteLength {
+  double length = 0.0;
+  std::array<double, 4> fromStart{}, fromEnd{};  ///< Derivatives by x, y, angle and curvature.
+};
+HermiteLength hermiteLength(const PathState& a, const PathState& b);
+
+/// Where on a path a point lies.
+struct PathFoot {
+  std::size_t element = 0;
+  double t = 0.0;
+  double distance = 0.0;  ///< Signed, positive to the left of the path.
+};
+
+/// What a fit is to meet.
+struct PathData {
+  std::vector<Vec2> points;                       ///< In order along the path.
+  Vec2 start = Vec2::Zero(), end = Vec2::Zero();  ///< Open: where the path is pinned.
+  /// A state with a place of its own along the line (set by the user), by index; the path may pass it sideways.
+  std::vector<std::optional<Vec2>> places;
+  double noise = 0.3;     ///< Standard deviation of a point.
+  double outlier = 0.0;   ///< Distance from which on a point counts less; 0 = never.
+  double fairness = 3.0;  ///< Weight of differences of log h of neighbours, per standard deviation.
+  /// Free states keep place, direction and curvature: about this far [units] may a piece move by each; 0 = they are
+  /// free, and the curvature of Hermite pieces is evened out instead.
+  double hold = 0.0;
+};
+
+struct PathFit {
+  double cost = 0.0;  ///< Sum of squared distances, outliers damped.
+  double rms = 0.0;   ///< Of the distances.
+  int unknowns = 0;
+  int iterations = 0;
+  bool converged = false;
+  std::vector<PathFoot> feet;  ///< One per point.
+};
+
+/// A path, and whether the fit that gave it, or every one of its fits, came to rest.
+struct FoundPath {
+  TypicalPath path;
+  bool converged = true;
+};
+
+/// Levenberg-Marquardt with analytic derivatives; closes or pins the path exactly at the end. The path becomes the best
+/// found, also when cancelled. Absent where the path or its start is impossible.
+std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxIterations,
+                               const RunContext& context = {});
+
+/// Feet of points in order, each searched from the one before.
+std::vector<PathFoot> pathFeet(const TypicalPath& path, const std::vector<Vec2>& points);
+
+}  // namespace batten

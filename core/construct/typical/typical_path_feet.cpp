@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "core/construct/typical/typical_path.h"
+#include "core/construct/typical/typical_path_geometry.h"
+
+namespace batten {
+
+namespace {
+
+/// Newton on the distance, from where the foot is; passes from element to element.
+PathFoot refined(const std::vector<PathGeometry>& geometry, const Vec2& p, PathFoot foot) {
+  for (int i = 0; i < 25; ++i) {
+    const auto d = geometry[foot.element].at(foot.t, 2);
+    const Vec2 away = d[0] - p;
+    const double speed = d[1].squaredNorm();
+    foot.distance = speed > 0.0 ? cross(d[1], p - d[0]) / std::sqrt(speed) : away.norm();
+    if (!(speed > 0.0)) break;
+    const double bend = std::max(speed + away.dot(d[2]), 0.2 * speed);
+    const double next = foot.t - std::clamp(away.dot(d[1]) / bend, -0.7, 0.7);
+    const bool forward = next > 1.0 && foot.element + 1 < geometry.size(), back = next < 0.0 && foot.element > 0;
+    if ((forward || back) && i < 20) {
+      foot.element += forward ? 1 : static_cast<std::size_t>(-1);
+      foot.t = forward ? 0.0 : 1.0;
+      continue;
+    }
+    const double t = std::clamp(next, foot.element > 0 ? 0.0 : -0.4, foot.element + 1 < geometry.size() ? 1.0 : 1.4);
+    const bool done = std::abs(t - foot.t) < 1e-9;
+    foot.t = t;
+    if (done) break;
+  }
+  return foot;
+}
+
+}  // namespace
+
+std::vector<PathGeometry> geometryOf(const TypicalPath& path) {
+  std::vector<PathGeometry> all;
+  all.reserve(path.elements.size());
+  for (std::size_t e = 0; e < path.elements.size(); ++e) all.emplace_back(path, e);
+  return all;
+}
+
+void followFeet(const std::vector<PathGeometry>& geometry, const std::vector<Vec2>& points,
+                std::vector<PathFoot>& feet) {
+  const bool fresh = feet.size() != points.size();
+  if (fresh) feet.assign(points.size(), {});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    feet[i] = refined(geometry, points[i], fresh && i > 0 ? feet[i - 1] : feet[i]);
+  }
+}
+
+std::vector<PathFoot> pathFeet(const TypicalPath& path, const std::vector<Vec2>& points) {
+  std::vector<PathFoot> feet;
+  followFeet(geometryOf(path), points, feet);
+  return feet;
+}
+
+}  // namespace batten

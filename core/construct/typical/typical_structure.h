@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+#include "core/base/run_context.h"
+#include "core/construct/typical/typical_path.h"
+
+namespace batten {
+
+/// Joints that bend one way, clearly: first and last index. Elsewhere the line is straight or turns over.
+struct JointRun {
+  std::size_t first = 0, last = 0;
+};
+std::vector<JointRun> bendingRuns(std::span<const Joint> joints);
+
+/// Where the curvature of a typical curve is largest, as its parameter; it may lie outside 0..1.
+double placeOfMaximum(const PathElement&);
+
+/// A first path along joints that roughly follow the line: typical curves wherever it clearly bends one way, Hermite
+/// pieces elsewhere. Lengths in the unit of noise (px). Closed: the last joint repeats the first.
+/// @param places joints where the user wants the path divided, by index in order; empty = divided as needed.
+TypicalPath roughTypicalPath(std::span<const Joint> joints, bool closed, std::span<const std::size_t> places);
+
+enum class PathSearch {
+  Full,      ///< Elements are divided where the points ask for it, extrema dropped that these do not prove, the rest
+             ///< joined.
+  Tidy,      ///< Grown: extrema dropped that the points do not prove, neighbours joined; nothing divided.
+  Simplify,  ///< The path has the right extrema and trends already: only joined where that costs nothing.
+  Keep,      ///< The elements are the user's: only fitted and made monotone.
+};
+
+/// The path with as few elements as the points ask for (Bayesian information), every typical curve monotone, and no
+/// extremum of curvature that the points do not prove. Absent where the path cannot be fitted.
+std::optional<PathFit> fitTypicalStructure(TypicalPath& path, PathData& data, PathSearch search,
+                                           const RunContext& context);
+
+}  // namespace batten

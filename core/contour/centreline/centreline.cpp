@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline/centreline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <opencv2/core.hpp>
+
+#include "core/contour/centreline/graininess.h"
+#include "core/contour/centreline/oriented_line_filter.h"
+#include "core/contour/centreline/refinement.h"
+#include "core/contour/centreline/skeleton.h"
+#include "core/contour/centreline/stroke_mask.h"
+#include "core/contour/centreline/stroke_paths.h"
+#include "core/contour/merge/stroke_merge.h"
+#include "core/image/bit_steps.h"
+
+namespace batten {
+namespace {
+
+constexpr double kShortestWidths = 3.0;  // [stroke widths] shorter stroke paths are blots
+
+std::vector<StrokePath> centrelinesOf(const BitImage& ink, const EdgeParams& params, const RunContext& context) {
+  BitImage skeleton = ink;
+  if (!thinToSkeleton(skeleton, context)) return {};
+  return findStrokePaths(skeleton, ink, params, context);
+}
+
+// [px] median over all points of the stroke paths chosen.
+template <class Chosen>
+double medianWidth(const std::vector<StrokePath>& paths, const Chosen& isChosen) {
+  std::vector<float> radii;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (!isChosen(i)) continue;
+    for (const StrokePathPoint& p : paths[i].points) radii.push_back(p.radius);
+  }
+  if (radii.empty()) return 1.0;
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return std::max(1.0, 2.0 * static_cast<double>(*middle));
+}
+
+// Ink that touches the border of the page nearly all along is the margin of the scanner or the edge of the sheet.
+bool isMargin(const Contour& c, const GreyImage& grey) {
+  constexpr double kTouchPx = 2.0, kMostly = 0.7;
+  std::size_t touching = 0;
+  for (std::size_t i = 0; i < c.points.size(); ++i) {
+    const Vec2& p = c.points[i];
+    const double toBorder = std::min({p.x(), p.y(), grey.width - p.x(), grey.height - p.y()});
+    if (toBorder <= 0.5 * c.widthPx[i] + kTouchPx) ++touching;
+  }
+  return static_cast<double>(touching) >= kMostly * static_cast<double>(c.points.size());
+}
+
+// Sets the pixels whose centres lie within a disc.
+void setDisc(BitImage& image, const Vec2& at, double radius) {
+  const int y0 = std::max(0, static_cast<int>(std::floor(at.y() - radius)));
+  const int y1 = std::min(image.height - 1, static_cast<int>(std::ceil(at.y() + radius)));
+  const int x0 = std::max(0, static_cast<int>(std::floor(at.x() - radius)));
+  const int x1 = std::min(image.width - 1, static_cast<int>(std::ceil(at.x() + radius)));
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      if ((Vec2(x + 0.5, y + 0.5) - at).squaredNorm() <= radius * radius) image.set(x, y, true);
+    }
+  }
+}
+
+// Covers the strokes that were, or were not, drawn with a pencil, and `margin` px around them.
+BitImage bandOf(const BitImage& like, const std::vector<StrokePath>& paths, const GraininessMap& grain, bool pencil,
+                double margin, const RunContext& context) {
+  constexpr std::size_t kCheckEvery = 64;
+  BitImage band(like.width, like.height);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (grain.isPencil(i) != pencil) continue;
+    const std::vector<StrokePathPoint>& points = paths[i].points;
+    std::size_t painted = 0;
+    for (std::size_t k = 0; k < points.size();) {
+      if (painted++ % kCheckEvery == 0 && context.isCancelled()) return band;
+      const double radius = static_cast<double>(points[k].radius) + margin;
+      setDisc(band, points[k].at, radius);
+      // Discs much nearer to each other than their radius cover nothing new; the last one is always painted.
+      const auto step = static_cast<std::size_t>(std::max(1.0, radius / 6.0));
+      k = k + 1 < points.size() ? std::min(k + step, points.size() - 1) : points.size();
+    }
+  }
+  return band;
+}
+
+// The specks of a pencil become one body each, pen strokes do not grow. Paper that runs on between two lines stays
+// paper, beside pens too: there a threshold closes it as well.
+BitImage bodiesOf(const BitImage& strokes, const GreyImage& grey, const std::vector<StrokePath>& paths,
+                  const GraininessMap& grain, const RunContext& context) {
+  const double width = medianWidth(paths, [&](std::size_t i) { return grain.isPencil(i); });
+  const double closing = 0.75 * width + 1.0;
+  BitImage body = closeInk(strokes, closing);
+  bool anyPen = false;
+  for (std::size_t i = 0; i < paths.size(); ++i) anyPen = anyPen || !grain.isPencil(i);
+  BitImage ownPens(strokes.width, strokes.height);
+  if (anyPen) {
+    ownPens = without(bandOf(strokes, paths, grain, false, closing, context),
+                      bandOf(strokes, paths, grain, true, closing, context));
+    body = either(without(std::move(body), ownPens), strokes);
+  }
+  if (context.isCancelled()) return strokes;
+  const OrientedLines comb = filterOrientedLines(without(body, ownPens), grey, grain, width, context);
+  return either(without(std::move(body), comb.gaps), without(comb.lines, ownPens));
+}
+
+// Every stroke path is placed by the rule that suits it.
+std::vector<Contour> placeStrokePaths(const std::vector<StrokePath>& paths, const GraininessMap* grain,
+                                      const GreyImage& grey, bool subpixel, const RunContext& context) {
+  RefineSettings pen, pencil;
+  pencil.rule = CentreRule::Centroid;
+  pencil.smoothShiftPx = 3.0;
+  if (!subpixel) pen.rule = CentreRule::None;
+  if (!subpixel || grain == nullptr) return refineStrokePaths(paths, grey, pen, context);
+  std::vector<Contour> contours(paths.size());
+  for (const bool isPencil : {false, true}) {
+    std::vector<StrokePath> some;
+    std::vector<std::size_t> number;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      if (grain->isPencil(i) != isPencil) continue;
+      some.push_back(paths[i]);
+      number.push_back(i);
+    }
+    if (some.empty()) continue;
+    std::vector<Contour> placed = refineStrokePaths(some, grey, isPencil ? pencil : pen, context);
+    for (std::size_t k = 0; k < placed.size(); ++k) contours[number[k]] = std::move(placed[k]);
+  }
+  return contours;
+}
+
+Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
+                                const RunContext& context) {
+  std::vector<StrokePath> paths = centrelinesOf(strokes, params, context);
+  if (context.isCancelled()) return cancelled();
+  const double width = medianWidth(paths, [](std::size_t) { return true; });
+  const GraininessMap grain(paths, grey, context);
+  BitImage bodies;
+  const BitImage* ink = &strokes;
+  bool anyPencil = false;
+  for (std::size_t i = 0; i < paths.size(); ++i) anyPencil = anyPencil || grain.isPencil(i);
+  if (anyPencil) {
+    bodies = bodiesOf(strokes, grey, paths, grain, context);
+    ink = &bodies;
+    if (context.isCancelled()) return cancelled();
+    paths = centrelinesOf(bodies, params, context);
+  }
+  bridgeGaps(paths, *ink, params, context);
+  if (context.isCancelled()) return cancelled();
+  ContourSet set;
+  set.report.found = static_cast<int>(paths.size());
+  std::erase_if(paths,
+                [](const StrokePath& s) { return s.points.size() < 3 || s.length() < kShortestWidths * s.widthPx(); });
+  set.report.droppedShort = set.report.found - static_cast<int>(paths.size());
+  if (anyPencil) {
+    const GraininessMap found(paths, grey, context);
+    set.contours = placeStrokePaths(paths, &found, grey, params.subpixel, context);
+  } else {
+    set.contours = placeStrokePaths(paths, nullptr, grey, params.subpixel, context);
+  }
+  if (context.isCancelled()) return cancelled();
+  std::erase_if(set.contours, [](const Contour& c) { return c.points.size() < 3; });
+  if (!set.contours.empty()) set.report.widthPx = width;
+  if (params.mergeWidths * width >= 1.0) {
+    // Between middles: the paper between two strokes is a width less.
+    set.contours = mergeStrokes(set.contours, (params.mergeWidths + 1.0) * width, context);
+    if (context.isCancelled()) return cancelled();
+  }
+  set.report.droppedMargins =
+      static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return isMargin(c, grey); }));
+  return set;
+}
+
+}  // namespace
+
+Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
+                               const RunContext& context) {
+  if (strokes.width <= 0 || strokes.height <= 0) return ContourSet{};
+  if (grey.width != strokes.width || grey.height != strokes.height) {
+    return fail(ErrorCode::BadParameter, "The mask and the scan differ in size.");
+  }
+  try {
+    return traceStrokes(strokes, grey, params, context);
+  } catch (const cv::Exception& e) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to find the centre lines.", e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to find the centre lines.");
+  }
+}
+
+}  // namespace batten

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/contour/contour_set.h"
+#include "core/contour/edge_params.h"
+#include "core/image/bit_image.h"
+#include "core/image/grey_image.h"
+
+namespace batten {
+
+/// Splits the ink into strokes and shapes: a component is a shape when more than half of its area survives an opening
+/// by a disc of the stroke-width limit (EdgeParams::strokeWidth * sqrt(width * height)), unless the page is followed in
+/// one way (EdgeParams::mode) or the user chose one for the component. Both masks have the size of `ink`.
+struct StrokeSplit {
+  BitImage strokes;
+  BitImage shapes;
+};
+Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams&, const RunContext&);
+
+/// Centre lines of all strokes of a mask: skeleton for the topology (spurs pruned, smooth stroke paths joined through
+/// crossings, gaps bridged, overdrawn strokes merged if asked), then the centre from the grey profile across the
+/// stroke.
+Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams&, const RunContext&);
+
+}  // namespace batten

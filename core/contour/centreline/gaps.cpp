@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "core/contour/centreline/stroke_paths.h"
+
+namespace batten {
+namespace {
+
+struct FreeEnd {
+  int path = 0, side = 0;  ///< side 0: the start.
+  Vec2 at = Vec2::Zero();
+  Vec2 out = Vec2::Zero();  ///< Unit direction in which the stroke would go on.
+  double width = 1.0;       ///< [px] of the skeleton's discs, which are half a pixel and more too small.
+  double inkWidth = 1.0;    ///< [px] across the ink.
+  int best = -1;
+  double bestCost = 0.0;
+};
+
+// Direction of a free end; the last pixels of a skeleton turn to a corner of the pen's end and are left out.
+Vec2 endDirection(const StrokePath& s, int side, double width) {
+  const auto n = static_cast<double>(s.points.size());
+  const auto at = [&](double k) {
+    const auto i = static_cast<std::size_t>(std::clamp(k, 0.0, n - 1.0));
+    return s.points[side == 0 ? i : s.points.size() - 1 - i].at;
+  };
+  const double near = std::min(0.5 * width + 1.0, 0.3 * n), far = near + std::max(4.0, 3.0 * width);
+  const Vec2 d = at(near) - at(far);
+  return d.norm() > 0.0 ? Vec2(d / d.norm()) : Vec2::Zero();
+}
+
+// [px] of ink on one side of a place.
+double inkTowards(const BitImage& ink, const Vec2& from, const Vec2& direction, double most) {
+  constexpr double kStepPx = 0.125;
+  double reach = 0.0;
+  for (; reach < most; reach += kStepPx) {
+    const Vec2 p = from + reach * direction;
+    if (!ink.at(static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())))) break;
+  }
+  return reach;
+}
+
+// [px] width of the ink across a stroke: the mean over the middle half of its chords, since each is whole pixels.
+double inkWidthOf(const StrokePath& s, const BitImage& ink) {
+  constexpr std::size_t kChords = 64, kReach = 4;
+  const std::size_t n = s.points.size();
+  std::vector<double> chords;
+  for (std::size_t k = 0; k < kChords && n > 2 * kReach; ++k) {
+    const std::size_t i = kReach + k * (n - 2 * kReach) / kChords;
+    if (s.points[i].part != StrokePart::Ink) continue;
+    const Vec2 along = s.points[i + kReach].at - s.points[i - kReach].at;
+    if (!(along.norm() > 0.0)) continue;
+    const Vec2 across = leftNormal(along.normalized());
+    const double most = 4.0 * static_cast<double>(s.points[i].radius) + 4.0;
+    chords.push_back(inkTowards(ink, s.points[i].at, across, most) + inkTowards(ink, s.points[i].at, -across, most));
+  }
+  if (chords.size() < 4) return s.widthPx();
+  std::sort(chords.begin(), chords.end());
+  const auto quarter = static_cast<std::ptrdiff_t>(chords.size() / 4);
+  const double sum = std::accumulate(chords.begin() + quarter, chords.end() - quarter, 0.0);
+  return std::max(1.0, sum / static_cast<double>(static_cast<std::ptrdiff_t>(chords.size()) - 2 * quarter));
+}
+
+std::vector<FreeEnd> freeEnds(const std::vector<StrokePath>& paths, const BitImage& ink) {
+  std::vector<FreeEnd> ends;
+  for (int i = 0; i < static_cast<int>(paths.size()); ++i) {
+    const StrokePath& s = paths[i];
+    if (s.closed || s.points.size() < 3) continue;
+    const double width = s.widthPx(), inkWidth = s.tip[0] || s.tip[1] ? inkWidthOf(s, ink) : width;
+    for (int side = 0; side < 2; ++side) {
+      if (!s.tip[side]) continue;
+      const Vec2 at = side == 0 ? s.points.front().at : s.points.back().at;
+      ends.push_back({i, side, at, endDirection(s, side, width), width, inkWidth});
+    }
+  }
+  std::sort(ends.begin(), ends.end(), [](const FreeEnd& a, const FreeEnd& b) {
+    return a.at.x() != b.at.x() ? a.at.x() < b.at.x() : (a.at.y() != b.at.y() ? a.at.y() < b.at.y() : a.side < b.side);
+  });
+  return ends;
+}
+
+// [px] of the straight way from one end to the other that is paper, between the last ink here and the first ink there:
+// the gap as it is seen. Skeletons end inside the ink, how far depends on the pen's shape.
+double paperBetween(const FreeEnd& a, const FreeEnd& b, const BitImage& ink) {
+  constexpr double kStepPx = 0.25;
+  const double length = (b.at - a.at).norm();
+  const int steps = static_cast<int>(length / kStepPx) + 1;
+  int first = -1, last = -1;
+  for (int i = 0; i <= steps; ++i) {
+    const Vec2 p = a.at + (b.at - a.at) * (static_cast<double>(i) / steps);
+    if (ink.at(static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())))) continue;
+    if (first < 0) first = i;
+    last = i;
+  }
+  return first < 0 ? 0.0 : length * (last - first + 1) / steps;
+}
+
+// Cost of joining two ends, < 0: do not. They must look at each other unless the gap is no longer than the pen is wide.
+double joinCost(const FreeEnd& a, const FreeEnd& b, const BitImage& ink, double gapFactor) {
+  const double width = 0.5 * (a.width + b.width);
+  const Vec2 d = b.at - a.at;
+  const double gap = d.norm(), longest = gapFactor * 0.5 * (a.inkWidth + b.inkWidth);
+  if (gap > longest + 2.0 * width + 2.0) return -1.0;
+  const double turn = std::acos(std::clamp(-a.out.dot(b.out), -1.0, 1.0));
+  const double deg = std::numbers::pi / 180.0, limit = std::cos(30.0 * deg) * gap;
+  const bool isFacing = gap <= 1.5 * width ? turn <= 60.0 * deg && d.dot(a.out) >= -0.5 * width
+                                           : d.dot(a.out) >= limit && -d.dot(b.out) >= limit;
+  // Half a pixel for the mask, whose pixels are whole.
+  if (!isFacing || paperBetween(a, b, ink) > longest + 0.5) return -1.0;
+  return gap + width * turn;
+}
+
+void join(std::vector<StrokePath>& paths, const FreeEnd& a, const FreeEnd& b) {
+  StrokePath& first = paths[a.path];
+  StrokePath& second = paths[b.path];
+  const auto radius = static_cast<float>(0.25 * (a.width + b.width));
+  std::vector<StrokePathPoint> bridge;
+  for (const Vec2& at : cubicBetween(a.at, a.out, b.at, -b.out)) bridge.push_back({at, radius, StrokePart::Bridge});
+  if (a.path == b.path) {
+    if (a.side == 0) std::reverse(bridge.begin(), bridge.end());
+    first.points.insert(first.points.end(), bridge.begin(), bridge.end());
+    first.closed = true;
+    return;
+  }
+  if (a.side == 0) {
+    std::reverse(first.points.begin(), first.points.end());
+    std::swap(first.tip[0], first.tip[1]);
+  }
+  if (b.side == 1) {
+    std::reverse(second.points.begin(), second.points.end());
+    std::swap(second.tip[0], second.tip[1]);
+  }
+  first.points.insert(first.points.end(), bridge.begin(), bridge.end());
+  first.points.insert(first.points.end(), second.points.begin(), second.points.end());
+  first.tip[1] = second.tip[1];
+  second = StrokePath{};
+}
+
+}  // namespace
+
+void bridgeGaps(std::vector<StrokePath>& paths, const BitImage& ink, const EdgeParams& params,
+                const RunContext& context) {
+  constexpr int kRounds = 4;
+  if (!(params.gapFactor > 0.0)) return;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<FreeEnd> ends = freeEnds(paths, ink);
+    double widest = 1.0;
+    for (const FreeEnd& e : ends) widest = std::max(widest, std::max(e.width, e.inkWidth));
+    const double farthest = (params.gapFactor + 2.0) * widest + 2.0;
+    const auto offer = [](FreeEnd& e, int other, double cost) {
+      if (e.best < 0 || cost < e.bestCost) {
+        e.best = other;
+        e.bestCost = cost;
+      }
+    };
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      if ((i & 255) == 0 && context.isCancelled()) return;
+      for (std::size_t j = i + 1; j < ends.size() && ends[j].at.x() - ends[i].at.x() <= farthest; ++j) {
+        FreeEnd &a = ends[i], &b = ends[j];
+        const bool tooShort = a.path == b.path && paths[a.path].length() < 6.0 * a.width + (a.at - b.at).norm();
+        const double cost = tooShort ? -1.0 : joinCost(a, b, ink, params.gapFactor);
+        if (cost < 0.0) continue;
+        offer(a, static_cast<int>(j), cost);
+        offer(b, static_cast<int>(i), cost);
+      }
+    }
+    bool joined = false;
+    std::vector<bool> moved(paths.size(), false);
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      const FreeEnd& a = ends[i];
+      if (a.best <= static_cast<int>(i) || ends[a.best].best != static_cast<int>(i)) continue;
+      const FreeEnd& b = ends[a.best];
+      // A stroke path is turned at most once a round, so that the sides noted above stay true.
+      const auto s = static_cast<std::size_t>(a.path), t = static_cast<std::size_t>(b.path);
+      if (moved[s] || moved[t]) {
+        joined = true;
+        continue;
+      }
+      moved[s] = moved[t] = joined = true;
+      join(paths, a, b);
+    }
+    if (!joined) break;
+  }
+  std::erase_if(paths, [](const StrokePath& s) { return s.points.empty(); });
+}
+
+}  // namespace batten

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline/graininess.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/contour/centreline/stroke_course.h"
+#include "core/contour/centreline/stroke_profile.h"
+#include "core/image/push_pull.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr int kWindow = 5;                       // median over 11
+constexpr double kMostPx = 60000.0;              // of all stroke paths; longer drawings are sampled more sparsely
+constexpr std::size_t kFewestSamples = 30;       // of a stroke path, at three px or more: one or two could not tell
+constexpr double kPathTellsPx = 90.0;            // a stroke path this long counts as much as its surroundings
+constexpr double kRegionTellsPx = 300.0;         // a region with so much line counts as much as the page
+constexpr int kLanes = 7;                        // the stroke, then three to either side
+constexpr double kBeside[3] = {1.5, 2.75, 4.0};  // [px] from the border: one of them misses the next line
+
+struct GrainSample {
+  Vec2 at = Vec2::Zero();
+  double ink = 0.0, paper = 0.0;  // [-] deviations as part of the depth
+  double depth = 0.0;             // [grey]
+  double px = 0.0;                // of the stroke path that it stands for
+};
+
+struct GrainSum {
+  double length = 0.0, ink = 0.0, paper = 0.0, depth = 0.0;
+  void add(const GrainSample& s) {
+    length += s.px;
+    ink += s.px * s.ink;
+    paper += s.px * s.paper;
+    depth += s.px * s.depth;
+  }
+};
+
+double grainFrom(double ink, double paper) { return std::sqrt(std::max(0.0, ink * ink - paper * paper)); }
+
+// Five taps of a small Gaussian, so that the noise of single pixels counts little.
+float softGrey(const GreyImage& grey, const Vec2& at) {
+  return 0.4f * sampleGrey(grey, at.x(), at.y()) +
+         0.15f * (sampleGrey(grey, at.x() - 1.0, at.y()) + sampleGrey(grey, at.x() + 1.0, at.y()) +
+                  sampleGrey(grey, at.x(), at.y() - 1.0) + sampleGrey(grey, at.x(), at.y() + 1.0));
+}
+
+std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& grey, std::size_t most) {
+  std::vector<GrainSample> samples;
+  if (path.points.size() < 25) return samples;
+  const std::size_t stride = std::min(most, std::max<std::size_t>(3, path.points.size() / kFewestSamples));
+  const StrokeCourse course = resample(path);
+  const auto n = course.base.size();
+  std::array<std::vector<float>, kLanes> lanes;
+  for (auto& lane : lanes) lane.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 normal = leftNormal(course.tangent[i]);
+    lanes[0][i] = softGrey(grey, course.base[i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double off = 0.5 * course.widthPx + kBeside[k];
+      lanes[1 + k][i] = softGrey(grey, course.base[i] + off * normal);
+      lanes[4 + k][i] = softGrey(grey, course.base[i] - off * normal);
+    }
+  }
+  for (std::size_t i = kWindow + 3; i + kWindow + 3 < n; i += stride) {
+    if (course.part[i] != StrokePart::Ink) continue;
+    std::array<float, kLanes> median{};
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      std::array<float, 2 * kWindow + 1> window{};
+      std::copy_n(lanes[k].begin() + static_cast<std::ptrdiff_t>(i - kWindow), window.size(), window.begin());
+      std::nth_element(window.begin(), window.begin() + kWindow, window.end());
+      median[k] = window[kWindow];
+    }
+    // Beside the stroke the brightest lane is paper; others may lie on the next line.
+    const auto left =
+        static_cast<std::size_t>(std::max_element(median.begin() + 1, median.begin() + 4) - median.begin());
+    const auto right = static_cast<std::size_t>(std::max_element(median.begin() + 4, median.end()) - median.begin());
+    const double depth = std::max(median[left], median[right]) - median[0];
+    if (!(depth > 2.0)) continue;
+    const auto off = [&](std::size_t k) { return static_cast<double>(std::abs(lanes[k][i] - median[k])); };
+    // 1.7: the smaller of two is less than either.
+    samples.push_back({course.base[i], off(0) / depth, 1.7 * std::min(off(left), off(right)) / depth, depth,
+                       static_cast<double>(stride)});
+  }
+  return samples;
+}
+
+// Values of the regions; those with little line lean on their neighbours.
+RegionValues filledRegions(const std::array<GrainSum, kRegions>& sums, double GrainSum::*what) {
+  std::vector<float> values(kRegions, 0.0f), weights(kRegions, 0.0f);
+  for (std::size_t r = 0; r < kRegions; ++r) {
+    if (!(sums[r].length > 0.0)) continue;
+    values[r] = static_cast<float>(sums[r].*what / sums[r].length);
+    weights[r] = static_cast<float>(sums[r].length / (sums[r].length + kRegionTellsPx));
+  }
+  const std::vector<float> filled = pushPull(values, weights, kRegionsPerSide, kRegionsPerSide);
+  RegionValues result{};
+  std::copy(filled.begin(), filled.end(), result.begin());
+  return result;
+}
+
+// Bilinear between the centres of the regions.
+double valueAt(const RegionValues& values, const Vec2& px, int width, int height) {
+  const double most = kRegionsPerSide - 1.0;
+  const double u = std::clamp(px.x() * kRegionsPerSide / width - 0.5, 0.0, most);
+  const double v = std::clamp(px.y() * kRegionsPerSide / height - 0.5, 0.0, most);
+  const int x = std::min(static_cast<int>(u), kRegionsPerSide - 2),
+            y = std::min(static_cast<int>(v), kRegionsPerSide - 2);
+  const auto at = [&](int dx, int dy) { return values[(y + dy) * kRegionsPerSide + x + dx]; };
+  return std::lerp(std::lerp(at(0, 0), at(1, 0), u - x), std::lerp(at(0, 1), at(1, 1), u - x), v - y);
+}
+
+}  // namespace
+
+GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyImage& grey, const RunContext& context)
+    : grains_(paths.size(), 0.0), width_(std::max(1, grey.width)), height_(std::max(1, grey.height)) {
+  double total = 0.0;
+  for (const StrokePath& s : paths) total += static_cast<double>(s.points.size());
+  const auto stride = static_cast<std::size_t>(3.0 * std::max(1.0, total / kMostPx));
+  std::vector<std::vector<GrainSample>> samples(paths.size());
+  parallelFor(context, static_cast<int>(paths.size()), 4, [&](int begin, int end) {
+    for (int i = begin; i < end && !context.isCancelled(); ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      samples[at] = samplesAlong(paths[at], grey, stride);
+    }
+  });
+  std::array<GrainSum, kRegions> regions{};
+  std::vector<GrainSum> own(paths.size());
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    for (const GrainSample& s : samples[i]) {
+      const int x = std::clamp(static_cast<int>(s.at.x()), 0, width_ - 1);
+      const int y = std::clamp(static_cast<int>(s.at.y()), 0, height_ - 1);
+      regions[regionOf(x, y, width_, height_)].add(s);
+      own[i].add(s);
+    }
+  }
+  ink_ = filledRegions(regions, &GrainSum::ink);
+  paper_ = filledRegions(regions, &GrainSum::paper);
+  depth_ = filledRegions(regions, &GrainSum::depth);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::vector<StrokePathPoint>& points = paths[i].points;
+    if (points.empty()) continue;
+    double ink = 0.0, paper = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < points.size(); k += 8, count += 1.0) {
+      ink += valueAt(ink_, points[k].at, width_, height_);
+      paper += valueAt(paper_, points[k].at, width_, height_);
+    }
+    const double weight = own[i].length + kPathTellsPx;
+    grains_[i] = grainFrom((own[i].ink + kPathTellsPx * ink / count) / weight,
+                           (own[i].paper + kPathTellsPx * paper / count) / weight);
+  }
+}
+
+double GraininessMap::deviationAt(const Vec2& px) const { return valueAt(ink_, px, width_, height_); }
+
+double GraininessMap::depthAt(const Vec2& px) const { return valueAt(depth_, px, width_, height_); }
+
+}  // namespace batten

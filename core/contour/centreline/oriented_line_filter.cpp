@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline/oriented_line_filter.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <vector>
+
+#include "core/base/hot_loop.h"
+#include "core/base/parallel.h"
+#include "core/image/bit_steps.h"
+#include "core/image/run_pieces.h"
+
+namespace batten {
+namespace {
+
+constexpr int kTile = 64;            // [px]
+constexpr double kFlankFrom = 0.75;  // [widths] from a gap's middle to the lines at its sides
+constexpr double kRidgeTo = 1.5;
+constexpr double kFlankTo = 2.0;
+constexpr double kGrainLengthPx = 3.0;  // [px] along which grain is alike
+constexpr double kClear = 2.0;          // [standard deviations]
+constexpr float kHalf = 1.4142135f;     // half as long a line tells less
+constexpr double kLeastShare = 0.1;     // of the strokes' depth
+constexpr double kWidestPx = 24.0;      // between wider strokes there is paper enough to be seen
+
+struct Step {
+  int x = 0, y = 0;
+};
+
+// One direction in which lines are followed.
+struct Direction {
+  std::vector<Step> ahead, back;  // of a line through 0
+  std::vector<Step> left, right;  // places at either side where the next line may be
+};
+
+struct Comb {
+  std::vector<Direction> directions;
+  std::size_t ridgeSides = 1;   // of the places at the sides: up to 1.5 widths
+  int halfPx = 8, reachPx = 0;  // of a line, of the places at its sides
+};
+
+Comb combFor(double widthPx) {
+  Comb comb;
+  comb.halfPx = static_cast<int>(std::lround(std::clamp(2.0 * widthPx, 8.0, 16.0)));
+  const int count = static_cast<int>(2.5 * comb.halfPx);  // the ends of neighbouring directions are a pixel apart
+  const double stepPx = std::max(0.5, 0.1 * widthPx);
+  for (int k = 0; k < count; ++k) {
+    const double a = std::numbers::pi * k / count;
+    const Vec2 t(std::cos(a), std::sin(a)), n(-t.y(), t.x());
+    Direction d;
+    const auto step = [](const Vec2& v) {
+      return Step{static_cast<int>(std::lround(v.x())), static_cast<int>(std::lround(v.y()))};
+    };
+    for (int i = 1; i <= comb.halfPx; ++i) {
+      d.ahead.push_back(step(i * t));
+      d.back.push_back(step(-i * t));
+    }
+    for (double off = kFlankFrom * widthPx; off <= kFlankTo * widthPx + 0.5 * stepPx; off += stepPx) {
+      for (const double side : {1.0, -1.0}) {
+        std::vector<Step>& places = side > 0.0 ? d.left : d.right;
+        const Step s = step(side * off * n);
+        if (!places.empty() && places.back().x == s.x && places.back().y == s.y) continue;
+        places.push_back(s);
+        if (off <= kRidgeTo * widthPx) comb.ridgeSides = std::max(comb.ridgeSides, places.size());
+        comb.reachPx = std::max({comb.reachPx, std::abs(s.x), std::abs(s.y)});
+      }
+    }
+    comb.directions.push_back(std::move(d));
+  }
+  return comb;
+}
+
+BATTEN_HOT_LOOP void addRow(const float* from, float* __restrict to, int count) {
+  for (int i = 0; i < count; ++i) to[i] += from[i];
+}
+
+// Brightness of one tile and what lies round it, and its means along lines.
+class Tile {
+ public:
+  Tile(const GreyImage& grey, int x0, int y0, const Comb& comb)
+      : margin_(comb.halfPx + comb.reachPx),
+        side_(kTile + 2 * margin_),
+        grey_(area()),
+        mean_(area()),
+        best_(area()),
+        ahead_(area()),
+        back_(area()) {
+    for (int y = 0; y < side_; ++y) {
+      const std::uint16_t* row = grey.row(std::clamp(y0 - margin_ + y, 0, grey.height - 1));
+      for (int x = 0; x < side_; ++x) {
+        grey_[index(x, y)] = static_cast<float>(row[std::clamp(x0 - margin_ + x, 0, grey.width - 1)]) *
+                             static_cast<float>(1.0 / GreyImage::kGreyUnit);
+      }
+    }
+    std::fill(best_.begin(), best_.end(), 255.0f);
+  }
+
+  void meanAlong(const Direction& d, int reach) {
+    const int from = margin_ - reach, count = kTile + 2 * reach;
+    const auto weight = 1.0f / static_cast<float>(d.ahead.size());
+    for (int y = from; y < from + count; ++y) {
+      float *ahead = ahead_.data() + index(from, y), *back = back_.data() + index(from, y);
+      std::fill_n(ahead, count, 0.0f);
+      std::fill_n(back, count, 0.0f);
+      for (const Step& s : d.ahead) addRow(grey_.data() + index(from + s.x, y + s.y), ahead, count);
+      for (const Step& s : d.back) addRow(grey_.data() + index(from + s.x, y + s.y), back, count);
+      float* mean = mean_.data() + index(from, y);
+      for (int i = 0; i < count; ++i) {
+        mean[i] = 0.5f * weight * (ahead[i] + back[i]);
+        ahead[i] = weight * std::max(ahead[i], back[i]);
+      }
+    }
+  }
+
+  // Darkest mean of all directions at every pixel.
+  void noteDarkest() {
+    for (int y = margin_; y < margin_ + kTile; ++y) {
+      for (int x = margin_; x < margin_ + kTile; ++x)
+        best_[index(x, y)] = std::min(best_[index(x, y)], mean_[index(x, y)]);
+    }
+  }
+
+  // Whether lines darker than `limit` lie at both sides of pixel (x, y) of the tile.
+  bool isFlanked(const Direction& d, float limit, int x, int y) const {
+    const auto isDark = [&](const Step& s) { return mean_[index(margin_ + x + s.x, margin_ + y + s.y)] < limit; };
+    return std::any_of(d.left.begin(), d.left.end(), isDark) && std::any_of(d.right.begin(), d.right.end(), isDark);
+  }
+  // [grey] How much darker than both its sides a line is at pixel (x, y), where it is fainter: ahead or behind.
+  float ridge(const Direction& d, std::size_t sides, int x, int y) const {
+    const auto brightest = [&](const std::vector<Step>& places) {
+      float most = 0.0f;
+      for (std::size_t k = 0; k < std::min(sides, places.size()); ++k)
+        most = std::max(most, mean_[index(margin_ + x + places[k].x, margin_ + y + places[k].y)]);
+      return most;
+    };
+    return std::min(brightest(d.left), brightest(d.right)) - ahead_[index(margin_ + x, margin_ + y)];
+  }
+  float best(int x, int y) const { return best_[index(margin_ + x, margin_ + y)]; }
+
+ private:
+  std::size_t area() const { return static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_); }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x);
+  }
+
+  int margin_, side_;
+  std::vector<float> grey_, mean_, best_, ahead_, back_;
+};
+
+struct Pixel {
+  int x, y;
+};
+
+std::vector<Pixel> bodyPixels(const BitImage& body, int x0, int y0) {
+  std::vector<Pixel> pixels;
+  for (int y = y0; y < std::min(body.height, y0 + kTile); ++y) {
+    for (std::uint64_t bits = body.row(y)[x0 / kTile]; bits != 0; bits &= bits - 1) {
+      pixels.push_back({std::countr_zero(bits), y - y0});
+    }
+  }
+  return pixels;
+}
+
+// [grey] What is clear in a tile. The deviation is a mean of absolute values; over a line it shrinks with the number of
+// grains.
+float clearAt(const GraininessMap& grain, const Comb& comb, const Vec2& middle) {
+  const double grains = std::max(1.0, (2.0 * comb.halfPx + 1.0) / kGrainLengthPx);
+  const double share = std::max(kLeastShare, kClear * 1.25 * grain.deviationAt(middle) / std::sqrt(grains));
+  return static_cast<float>(share * grain.depthAt(middle));
+}
+
+struct Search {
+  const GreyImage& grey;
+  const GraininessMap& grain;
+  const Comb& comb;
+
+  void gaps(const BitImage& where, int x0, int y0, BitImage& found) const {
+    std::vector<Pixel> pixels = bodyPixels(where, x0, y0);
+    if (pixels.empty()) return;
+    Tile tile(grey, x0, y0, comb);
+    const float clear = clearAt(grain, comb, middleOf(x0, y0));
+    for (const Direction& d : comb.directions) {
+      tile.meanAlong(d, 0);
+      tile.noteDarkest();
+    }
+    for (const Direction& d : comb.directions) {
+      tile.meanAlong(d, comb.reachPx);
+      std::erase_if(pixels, [&](const Pixel& p) {
+        if (!tile.isFlanked(d, tile.best(p.x, p.y) - clear, p.x, p.y)) return false;
+        found.set(x0 + p.x, y0 + p.y, true);
+        return true;
+      });
+    }
+  }
+
+  void lines(const BitImage& where, int x0, int y0, BitImage& found) const {
+    std::vector<Pixel> pixels = bodyPixels(where, x0, y0);
+    if (pixels.empty()) return;
+    Tile tile(grey, x0, y0, comb);
+    const Vec2 middle = middleOf(x0, y0);
+    const float least = std::max(kHalf * clearAt(grain, comb, middle), static_cast<float>(0.5 * grain.depthAt(middle)));
+    for (const Direction& d : comb.directions) {
+      tile.meanAlong(d, comb.reachPx);
+      std::erase_if(pixels, [&](const Pixel& p) {
+        if (!(tile.ridge(d, comb.ridgeSides, p.x, p.y) > least)) return false;
+        found.set(x0 + p.x, y0 + p.y, true);
+        return true;
+      });
+    }
+  }
+
+  static Vec2 middleOf(int x0, int y0) { return {x0 + 0.5 * kTile, y0 + 0.5 * kTile}; }
+};
+
+}  // namespace
+
+OrientedLines filterOrientedLines(const BitImage& body, const GreyImage& grey, const GraininessMap& grain,
+                                  double widthPx, const RunContext& context) {
+  OrientedLines found{BitImage(body.width, body.height), BitImage(body.width, body.height)};
+  if (widthPx > kWidestPx) return found;
+  const Comb comb = combFor(widthPx);
+  const Search search{grey, grain, comb};
+  const int columns = body.wordsPerRow, rows = (body.height + kTile - 1) / kTile;
+  const auto overTiles = [&](const auto& visit) {
+    parallelFor(context, columns * rows, 1, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) visit(i % columns * kTile, i / columns * kTile);
+    });
+  };
+  const BitImage near = grown(body, comb.halfPx, context);
+  overTiles([&](int x0, int y0) { search.gaps(near, x0, y0, found.gaps); });
+  if (context.isCancelled()) return found;
+  // A gap runs on as far as the lines that it was seen between.
+  found.gaps = keepPieces(found.gaps, {.minArea = 0, .minDiagonal = static_cast<double>(comb.halfPx)}, context);
+  // Lines alone are mended by closing and by bridging their gaps; it is near other lines that both go astray.
+  const BitImage beside = both(grown(found.gaps, 2 * comb.halfPx, context), near);
+  overTiles([&](int x0, int y0) { search.lines(beside, x0, y0, found.lines); });
+  found.gaps = without(std::move(found.gaps), found.lines);
+  return found;
+}
+
+}  // namespace batten

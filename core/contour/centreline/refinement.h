@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/contour/centreline/stroke_paths.h"
+#include "core/contour/contour_set.h"
+#include "core/image/grey_image.h"
+
+namespace batten {
+
+/// What of the profile across a stroke is taken for its centre.
+enum class CentreRule {
+  None,       ///< Skeleton positions, smoothed to even steps.
+  HalfLevel,  ///< Midpoint of the two half levels: ink.
+  Centroid,   ///< Centroid of darkness: grain and bundles of strokes, whose inner borders say nothing.
+};
+
+struct RefineSettings {
+  CentreRule rule = CentreRule::HalfLevel;
+  double smoothShiftPx = 0.0;  ///< [px] Gaussian over the shifts along the stroke path (Centroid).
+};
+
+/// StrokePaths to contours: points about 1 px apart, moved to the middle of the stroke on the grey values, laid
+/// smoothly through junctions, ended where the pen's disc was at the stroke's end. One contour per stroke path, same
+/// order. Not complete when the context is cancelled.
+std::vector<Contour> refineStrokePaths(const std::vector<StrokePath>& paths, const GreyImage& grey,
+                                       const RefineSettings& settings, const RunContext& context);
+
+}  // namespace batten

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline/skeleton.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/image/padded_bits.h"
+
+namespace batten {
+namespace {
+
+// Neighbours clockwise from north; even entries are 4-neighbours.
+constexpr int kAroundX[8] = {0, 1, 1, 1, 0, -1, -1, -1};
+constexpr int kAroundY[8] = {-1, -1, 0, 1, 1, 1, 0, -1};
+
+int neighbourhood(const BitImage& image, int x, int y) {
+  int bits = 0;
+  for (int k = 0; k < 8; ++k) bits |= static_cast<int>(image.at(x + kAroundX[k], y + kAroundY[k])) << k;
+  return bits;
+}
+
+// Guo and Hall's A1 for the 64 pixels of word `i` at once: the removable ones in sub-iteration `odd`.
+std::uint64_t removable(const std::uint64_t* above, const std::uint64_t* row, const std::uint64_t* below, int i,
+                        bool odd) {
+  const auto west = [i](const std::uint64_t* r) { return (r[i] << 1) | (r[i - 1] >> 63); };
+  const auto east = [i](const std::uint64_t* r) { return (r[i] >> 1) | (r[i + 1] << 63); };
+  const std::uint64_t n = above[i], ne = east(above), e = east(row), se = east(below);
+  const std::uint64_t s = below[i], sw = west(below), w = west(row), nw = west(above);
+  const std::uint64_t c0 = ~n & (ne | e), c1 = ~e & (se | s), c2 = ~s & (sw | w), c3 = ~w & (nw | n);
+  const std::uint64_t oneBranch = (c0 ^ c1 ^ c2 ^ c3) & ~((c0 & c1) | (c2 & c3));
+  const auto atLeastTwo = [](std::uint64_t a, std::uint64_t b, std::uint64_t c, std::uint64_t d) {
+    return (a & b) | (c & d) | ((a | b) & (c | d));
+  };
+  const std::uint64_t a0 = nw | n, a1 = ne | e, a2 = se | s, a3 = sw | w;
+  const std::uint64_t b0 = n | ne, b1 = e | se, b2 = s | sw, b3 = w | nw;
+  const std::uint64_t pairs =
+      atLeastTwo(a0, a1, a2, a3) & atLeastTwo(b0, b1, b2, b3) & ~(a0 & a1 & a2 & a3 & b0 & b1 & b2 & b3);
+  const std::uint64_t side = odd ? ~((n | ne | ~se) & e) : ~((s | sw | ~nw) & w);
+  return row[i] & oneBranch & pairs & side;
+}
+
+struct Word {
+  int y, i;
+};
+
+std::vector<SkeletonPixel> inkPixels(const BitImage& image) {
+  std::vector<SkeletonPixel> pixels;
+  for (int y = 0; y < image.height; ++y) {
+    for (int word = 0; word < image.wordsPerRow; ++word) {
+      for (std::uint64_t bits = image.row(y)[word]; bits != 0; bits &= bits - 1) {
+        pixels.push_back({word * 64 + std::countr_zero(bits), y});
+      }
+    }
+  }
+  return pixels;
+}
+
+// Smallest |dx| to a paper pixel in a row, at most `most` (paper lies beyond both ends of a row).
+int paperReach(const BitImage& ink, int x, int y, int most) {
+  if (y < 0 || y >= ink.height) return 0;
+  const std::uint64_t* row = ink.row(y);
+  const auto inkWord = [&](int i) { return i < 0 || i >= ink.wordsPerRow ? std::uint64_t{0} : row[i]; };
+  const auto from = [&](int start) {  // 64 pixels from `start` on, low bit first
+    const int i = start >> 6, shift = start & 63;
+    return shift == 0 ? inkWord(i) : (inkWord(i) >> shift) | (inkWord(i + 1) << (64 - shift));
+  };
+  for (int d = 0; d < most; d += 63) {
+    const int right = std::countr_one(from(x + d));
+    const int left = std::countl_one(from(x - d - 63));
+    const int nearest = std::min(right, left);
+    if (nearest < 64) return std::min(most, d + nearest);
+  }
+  return most;
+}
+
+// Directions in which a pixel is linked in the pixel graph.
+int links(const BitImage& image, const SkeletonPixel& p) {
+  const int bits = neighbourhood(image, p.x, p.y);
+  int result = bits & 0x55;
+  for (int k = 1; k < 8; k += 2) {
+    const bool shared = ((bits >> (k - 1)) & 1) || ((bits >> ((k + 1) & 7)) & 1);
+    if (((bits >> k) & 1) && !shared) result |= 1 << k;
+  }
+  return result;
+}
+
+class GraphWalker {
+ public:
+  explicit GraphWalker(const BitImage& skeleton)
+      : skeleton_(skeleton), walked_(skeleton.width, skeleton.height), pixels_(inkPixels(skeleton)) {}
+
+  std::vector<SkeletonChain> chains() {
+    for (const SkeletonPixel& p : pixels_) {
+      const int bits = links(skeleton_, p);
+      if (std::popcount(static_cast<unsigned>(bits)) == 2) continue;
+      walked_.set(p.x, p.y, true);
+      if (bits == 0) chains_.push_back({{p}, false, true, true});
+      for (int k = 0; k < 8; ++k) {
+        if ((bits >> k) & 1) walkFromNode(p, k);
+      }
+    }
+    for (const SkeletonPixel& p : pixels_) {
+      if (!walked_.at(p.x, p.y)) walkRing(p);
+    }
+    return std::move(chains_);
+  }
+
+ private:
+  bool isNode(const SkeletonPixel& p) const { return std::popcount(static_cast<unsigned>(links(skeleton_, p))) != 2; }
+  bool isEnd(const SkeletonPixel& p) const { return std::popcount(static_cast<unsigned>(links(skeleton_, p))) == 1; }
+
+  void walkFromNode(const SkeletonPixel& node, int direction) {
+    SkeletonChain chain;
+    chain.pixels.push_back(node);
+    SkeletonPixel at{node.x + kAroundX[direction], node.y + kAroundY[direction]};
+    int from = (direction + 4) & 7;
+    if (isNode(at)) {
+      // Two nodes side by side: one chain, kept by the upper-left one.
+      if (at.y < node.y || (at.y == node.y && at.x < node.x)) return;
+      chain.pixels.push_back(at);
+    } else {
+      if (walked_.at(at.x, at.y)) return;  // met from its other end
+      for (;;) {
+        chain.pixels.push_back(at);
+        if (isNode(at)) break;
+        walked_.set(at.x, at.y, true);
+        const int next = links(skeleton_, at) & ~(1 << from);
+        const int step = std::countr_zero(static_cast<unsigned>(next));
+        at = {at.x + kAroundX[step], at.y + kAroundY[step]};
+        from = (step + 4) & 7;
+      }
+    }
+    chain.freeStart = isEnd(node);
+    chain.freeEnd = isEnd(chain.pixels.back());
+    chains_.push_back(std::move(chain));
+  }
+
+  void walkRing(const SkeletonPixel& start) {
+    SkeletonChain chain;
+    chain.closed = true;
+    SkeletonPixel at = start;
+    int from = -1;
+    do {
+      chain.pixels.push_back(at);
+      walked_.set(at.x, at.y, true);
+      int next = links(skeleton_, at);
+      if (from >= 0) next &= ~(1 << from);
+      const int step = std::countr_zero(static_cast<unsigned>(next));
+      at = {at.x + kAroundX[step], at.y + kAroundY[step]};
+      from = (step + 4) & 7;
+    } while (at.x != start.x || at.y != start.y);
+    chains_.push_back(std::move(chain));
+  }
+
+  const BitImage& skeleton_;
+  BitImage walked_;
+  std::vector<SkeletonPixel> pixels_;
+  std::vector<SkeletonChain> chains_;
+};
+
+}  // namespace
+
+bool thinToSkeleton(BitImage& ink, const RunContext& context) {
+  if (ink.width <= 0 || ink.height <= 0) return true;
+  PaddedBits bits(ink, false);
+  const auto words = static_cast<std::size_t>(ink.wordsPerRow);
+  const auto stride = words + 2;
+  // Sub-iteration in which a word last lost a pixel; a word whose surroundings rested for a full round is left alone.
+  std::vector<int> touched(stride * (static_cast<std::size_t>(ink.height) + 2), 0);
+  const auto slot = [&](const Word& w) {
+    return touched.data() + static_cast<std::size_t>(w.y + 1) * stride + static_cast<std::size_t>(w.i + 1);
+  };
+  std::vector<Word> alive, hit;
+  std::vector<std::uint64_t> loss;
+  for (int y = 0; y < ink.height; ++y) {
+    for (int i = 0; i < ink.wordsPerRow; ++i) {
+      if (ink.row(y)[i] != 0) alive.push_back({y, i});
+    }
+  }
+  const auto jump = static_cast<std::ptrdiff_t>(stride);
+  for (int time = 1, quiet = 0; quiet < 2; ++time) {
+    if (context.isCancelled()) return false;
+    hit.clear();
+    loss.clear();
+    for (const Word& w : alive) {
+      const int* t = slot(w);
+      int latest = 0;
+      for (std::ptrdiff_t d = -jump; d <= jump; d += jump) latest = std::max({latest, t[d - 1], t[d], t[d + 1]});
+      if (time > 2 && latest < time - 2) continue;
+      const std::uint64_t gone = removable(bits.row(w.y - 1), bits.row(w.y), bits.row(w.y + 1), w.i, (time & 1) != 0);
+      if (gone == 0) continue;
+      hit.push_back(w);
+      loss.push_back(gone);
+    }
+    for (std::size_t k = 0; k < hit.size(); ++k) {
+      bits.row(hit[k].y)[hit[k].i] &= ~loss[k];
+      *slot(hit[k]) = time;
+    }
+    quiet = hit.empty() ? quiet + 1 : 0;
+    if ((time & 7) == 0) std::erase_if(alive, [&](const Word& w) { return bits.row(w.y)[w.i] == 0; });
+  }
+  ink = bits.toImage();
+  return true;
+}
+
+std::vector<SkeletonChain> skeletonChains(const BitImage& skeleton) { return GraphWalker(skeleton).chains(); }
+
+double inkRadius(const BitImage& ink, int x, int y) {
+  if (!ink.at(x, y)) return 0.0;
+  std::int64_t best = std::numeric_limits<std::int64_t>::max();
+  int reach = std::max(ink.width, ink.height);
+  for (int dy = 0; dy <= reach; ++dy) {
+    for (const int row : {y - dy, y + dy}) {
+      const std::int64_t dx = paperReach(ink, x, row, reach + 1);
+      best = std::min(best, dx * dx + static_cast<std::int64_t>(dy) * dy);
+    }
+    reach = static_cast<int>(std::sqrt(static_cast<double>(best)));
+  }
+  return std::sqrt(static_cast<double>(best));
+}
+
+}  // namespace batten

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/contour/centreline/stroke_paths.h"
+
+namespace batten {
+
+/// A stretch of skeleton between two nodes; its ends are numbered 2 * edge + side.
+struct SkeletonEdge {
+  std::vector<StrokePathPoint> points;
+  int node[2] = {-1, -1};
+  double length = 0.0;
+  bool alive = true;
+  bool ring = false;  ///< Closed by itself, at no node.
+};
+
+struct SkeletonNode {
+  Vec2 centre = Vec2::Zero();
+  double radius = 0.0;  ///< [px] of the largest disc of ink there; of all discs, where junctions were merged.
+  std::vector<int> ends;
+};
+
+/// Nodes and edges are numbered by int, with -1 for none.
+inline std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+
+/// The skeleton as a graph that gets simpler: junctions of several pixels are one node, spurs go, short links vanish.
+class SkeletonGraph {
+ public:
+  SkeletonGraph(const std::vector<SkeletonChain>& chains, const BitImage& ink);
+
+  /// Drops side branches that only a bump or a corner of the border caused. `factor` in stroke widths.
+  void pruneSpurs(double factor);
+  /// Makes one node of junctions that are nearer than their discs allow to tell apart (a crossing at a shallow angle).
+  void mergeJunctions();
+
+  const std::vector<SkeletonEdge>& edges() const { return edges_; }
+  const std::vector<SkeletonNode>& nodes() const { return nodes_; }
+  /// [px] median radius of the ink along the skeleton.
+  double medianRadius() const { return medianRadius_; }
+
+ private:
+  bool isSpur(int edge, double factor, int& tipSide) const;
+  bool closesCorner(int edge, int node) const;
+  double sharedLength(int link) const;
+  double meanRadius(int edge) const;
+  void removeEdge(int edge);
+  void splice(int node);
+  void appendEdge(int into, int from);
+  void reverse(int edge);
+  void markCorner(int edge, int side, const Vec2& centre, double reach);
+
+  std::vector<SkeletonEdge> edges_;
+  std::vector<SkeletonNode> nodes_;
+  double medianRadius_ = 0.5;
+};
+
+}  // namespace batten

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline/stroke_mask.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/contour/centreline/centreline.h"
+#include "core/contour/chosen_ink.h"
+#include "core/image/run_pieces.h"
+
+namespace batten {
+namespace {
+
+// The part of the page around the ink, with a margin; 255 = ink.
+struct Window {
+  cv::Mat mat;
+  int x0 = 0, y0 = 0;
+};
+
+Window windowAround(const BitImage& ink, int margin) {
+  int top = ink.height, bottom = -1, left = ink.wordsPerRow, right = -1;
+  for (int y = 0; y < ink.height; ++y) {
+    for (int i = 0; i < ink.wordsPerRow; ++i) {
+      if (ink.row(y)[i] == 0) continue;
+      top = std::min(top, y);
+      bottom = y;
+      left = std::min(left, i);
+      right = std::max(right, i);
+    }
+  }
+  Window w;
+  if (bottom < 0) return w;
+  w.x0 = left * 64 - margin;
+  w.y0 = top - margin;
+  w.mat = cv::Mat(bottom - top + 1 + 2 * margin, (right - left + 1) * 64 + 2 * margin, CV_8U, cv::Scalar(0));
+  for (int y = top; y <= bottom; ++y) {
+    std::uint8_t* row = w.mat.ptr<std::uint8_t>(y - w.y0);
+    for (int i = left; i <= right; ++i) {
+      for (std::uint64_t bits = ink.row(y)[i]; bits != 0; bits &= bits - 1) {
+        row[i * 64 + std::countr_zero(bits) - w.x0] = 255;
+      }
+    }
+  }
+  return w;
+}
+
+// Fills the holes of `ink` (255) that no disc of diameter `limitPx` fits into; `toInk` is the distance of paper from
+// ink.
+void fillNarrowHoles(cv::Mat& ink, double limitPx) {
+  cv::Mat paper = ink == 0, labels, toInk;
+  const int count = cv::connectedComponents(paper, labels, 4, CV_32S);
+  cv::distanceTransform(paper, toInk, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  std::vector<float> inscribed(count, 0.0f);
+  for (int y = 0; y < ink.rows; ++y) {
+    for (int x = 0; x < ink.cols; ++x) {
+      float& most = inscribed[labels.at<int>(y, x)];
+      most = std::max(most, toInk.at<float>(y, x));
+    }
+  }
+  inscribed[labels.at<int>(0, 0)] = 1e9f;  // the margin: not a hole
+  for (int y = 0; y < ink.rows; ++y) {
+    for (int x = 0; x < ink.cols; ++x) {
+      const float radius = inscribed[labels.at<int>(y, x)];
+      if (ink.at<std::uint8_t>(y, x) == 0 && 2.0 * radius - 1.0 < limitPx) ink.at<std::uint8_t>(y, x) = 255;
+    }
+  }
+}
+
+// Area and fat area of every component (keyed by its first run).
+struct Bulk {
+  std::int64_t area = 0, longRuns = 0, fat = 0, nearlyFat = 0;
+};
+
+// The fat parts of a page at a coarse scale: cells that an opening by the disc leaves.
+struct FatCells {
+  int factor = 1;
+  cv::Mat fat;
+};
+
+FatCells fatCells(const BitImage& ink, double limitPx) {
+  constexpr double kCellsPerLimit = 16.0;
+  FatCells cells;
+  cells.factor = std::max(1, static_cast<int>(limitPx / kCellsPerLimit));
+  const int f = cells.factor, columns = (ink.width + f - 1) / f, rows = (ink.height + f - 1) / f;
+  // One cell of paper all round: outside the page is paper.
+  cv::Mat coarse(rows + 2, columns + 2, CV_8U, cv::Scalar(0));
+  std::vector<int> sum(columns);
+  for (int j = 0; j < rows; ++j) {
+    std::fill(sum.begin(), sum.end(), 0);
+    for (int y = j * f; y < std::min(ink.height, (j + 1) * f); ++y) {
+      for (int i = 0; i < ink.wordsPerRow; ++i) {
+        for (std::uint64_t bits = ink.row(y)[i]; bits != 0; bits &= bits - 1) {
+          ++sum[(i * 64 + std::countr_zero(bits)) / f];
+        }
+      }
+    }
+    for (int i = 0; i < columns; ++i) {
+      if (2 * sum[i] >= f * f) coarse.at<std::uint8_t>(j + 1, i + 1) = 255;
+    }
+  }
+  cv::Mat inside, toCore;
+  cv::distanceTransform(coarse, inside, cv::DIST_L2, cv::DIST_MASK_5);
+  const double radius = 0.5 * limitPx / f;
+  const cv::Mat core = inside > radius;
+  if (cv::countNonZero(core) == 0) {
+    cells.fat = cv::Mat(rows, columns, CV_8U, cv::Scalar(0));
+    return cells;
+  }
+  cv::distanceTransform(core == 0, toCore, cv::DIST_L2, cv::DIST_MASK_5);
+  cells.fat = cv::Mat(toCore <= radius)(cv::Rect(1, 1, columns, rows)).clone();
+  return cells;
+}
+
+std::int64_t fatPart(const Run& run, const FatCells& cells) {
+  std::int64_t sum = 0;
+  const std::uint8_t* row = cells.fat.ptr<std::uint8_t>(run.y / cells.factor);
+  for (int x = run.x0; x < run.x1;) {
+    const int cell = x / cells.factor, next = std::min(run.x1, (cell + 1) * cells.factor);
+    if (row[cell] != 0) sum += next - x;
+    x = next;
+  }
+  return sum;
+}
+
+// Ink pixels in a column through (x, y), no more than `most` counted.
+int heightAt(const BitImage& ink, int x, int y, int most) {
+  int height = 1;
+  for (int yy = y - 1; height < most && ink.at(x, yy); --yy) ++height;
+  for (int yy = y + 1; height < most && ink.at(x, yy); ++yy) ++height;
+  return height;
+}
+
+void copyRun(const BitImage& from, const Run& run, BitImage& to) {
+  const int first = run.x0 >> 6, last = (run.x1 - 1) >> 6;
+  for (int i = first; i <= last; ++i) {
+    std::uint64_t mask = ~std::uint64_t{0};
+    if (i == first) mask &= ~std::uint64_t{0} << (run.x0 & 63);
+    if (i == last) mask &= ~std::uint64_t{0} >> (63 - ((run.x1 - 1) & 63));
+    to.row(run.y)[i] |= from.row(run.y)[i] & mask;
+  }
+}
+
+// A letter drawn with a broad nib is a shape, and so are its neighbours that are a little thinner: where a quarter of
+// the ink lies in shapes and three quarters near the limit, the latter are shapes as well.
+constexpr double kNearLimit = 0.6;
+
+std::vector<bool> shapesByWidth(const BitImage& ink, const RunPieces& pieces, double limitPx) {
+  std::vector<bool> shapes(pieces.runs.size(), false);
+  std::vector<Bulk> bulk(pieces.runs.size());
+  bool anyThick = false;
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    const Run& r = pieces.runs[i];
+    Bulk& b = bulk[pieces.piece[i]];
+    b.area += r.x1 - r.x0;
+    // The chords of a disc that are longer than .7 diameters make up 4/5 of it.
+    const int chord = static_cast<int>(0.7 * kNearLimit * limitPx);
+    if (r.x1 - r.x0 >= chord && heightAt(ink, (r.x0 + r.x1) / 2, r.y, chord) >= chord) b.longRuns += r.x1 - r.x0;
+  }
+  for (const Bulk& b : bulk) anyThick = anyThick || (b.area > 0 && b.longRuns >= 0.35 * static_cast<double>(b.area));
+  if (!anyThick) return shapes;
+  const FatCells fat = fatCells(ink, limitPx), nearly = fatCells(ink, kNearLimit * limitPx);
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    Bulk& b = bulk[pieces.piece[i]];
+    b.fat += fatPart(pieces.runs[i], fat);
+    b.nearlyFat += fatPart(pieces.runs[i], nearly);
+  }
+  std::int64_t all = 0, inShapes = 0, nearShapes = 0;
+  for (const Bulk& b : bulk) {
+    all += b.area;
+    if (2 * b.fat > b.area) inShapes += b.area;
+    if (2 * b.nearlyFat > b.area) nearShapes += b.area;
+  }
+  const bool vote = 4 * inShapes > all && 4 * nearShapes > 3 * all;
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    const Bulk& b = bulk[pieces.piece[i]];
+    shapes[i] = 2 * (vote ? b.nearlyFat : b.fat) > b.area;
+  }
+  return shapes;
+}
+
+StrokeSplit split(const BitImage& ink, const EdgeParams& params, const RunContext& context) {
+  StrokeSplit result{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height)};
+  const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
+  if (context.isCancelled()) return result;
+  std::vector<bool> shapes(pieces.runs.size(), params.mode == EdgeMode::Outline);
+  if (params.mode == EdgeMode::Automatic) {
+    const double side = std::sqrt(static_cast<double>(ink.width) * ink.height);
+    shapes = shapesByWidth(ink, pieces, params.strokeWidth * side);
+  }
+  const ChosenInk chosen(pieces, params.choices);
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    const int choice = params.choices.empty() ? -1 : chosen.choiceOf(pieces.piece[i]);
+    const EdgeMode own = choice < 0 ? EdgeMode::Automatic : params.choices[choice].mode;
+    const bool shape = own == EdgeMode::Automatic ? shapes[i] : own == EdgeMode::Outline;
+    copyRun(ink, pieces.runs[i], shape ? result.shapes : result.strokes);
+  }
+  return result;
+}
+
+}  // namespace
+
+BitImage closeInk(const BitImage& ink, double diameterPx) {
+  const double radius = 0.5 * diameterPx;
+  const Window window = windowAround(ink, static_cast<int>(std::ceil(radius)) + 2);
+  BitImage closed(ink.width, ink.height);
+  if (window.mat.empty()) return closed;
+  cv::Mat toInk, toPaper;
+  cv::distanceTransform(window.mat == 0, toInk, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  const cv::Mat dilated = toInk <= radius;
+  cv::distanceTransform(dilated, toPaper, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  cv::Mat body = (toPaper > radius) | window.mat;
+  fillNarrowHoles(body, diameterPx + 2.0);
+  for (int y = std::max(0, -window.y0); y < body.rows && y + window.y0 < ink.height; ++y) {
+    const std::uint8_t* row = body.ptr<std::uint8_t>(y);
+    for (int x = std::max(0, -window.x0); x < body.cols && x + window.x0 < ink.width; ++x) {
+      if (row[x] != 0) closed.set(x + window.x0, y + window.y0, true);
+    }
+  }
+  return closed;
+}
+
+Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams& params, const RunContext& context) {
+  if (ink.width <= 0 || ink.height <= 0) return StrokeSplit{ink, ink};
+  if (context.isCancelled()) return cancelled();
+  try {
+    StrokeSplit result = split(ink, params, context);
+    if (context.isCancelled()) return cancelled();
+    return result;
+  } catch (const cv::Exception& e) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to tell strokes from shapes.", e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to tell strokes from shapes.");
+  }
+}
+
+}  // namespace batten

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline/stroke_paths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/contour/centreline/skeleton_graph.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+double angleDeg(const Vec2& a, const Vec2& b) {
+  return std::atan2(std::abs(cross(a, b)), a.dot(b)) * 180.0 / std::numbers::pi;
+}
+
+// How one end of a edge meets its node.
+struct LegEnd {
+  int first = 0;  ///< Index from that end of the first point outside the junction's disc.
+  Vec2 at = Vec2::Zero();
+  Vec2 out = Vec2::Zero();  ///< Unit direction away from the node there.
+  int partner = -1;         ///< The end this one goes on with.
+};
+
+class StrokePathMaker {
+ public:
+  StrokePathMaker(const SkeletonGraph& graph, double maxBendDeg)
+      : graph_(graph), maxBendDeg_(maxBendDeg), ends_(2 * graph.edges().size()) {}
+
+  std::vector<StrokePath> make() {
+    for (const SkeletonNode& node : graph_.nodes()) {
+      for (const int end : node.ends) {
+        if (node.ends.size() > 1) measure(end, node);
+      }
+    }
+    for (const SkeletonNode& node : graph_.nodes()) pair(node);
+    std::vector<StrokePath> paths;
+    std::vector<bool> used(graph_.edges().size(), false);
+    for (int pass = 0; pass < 2; ++pass) {
+      for (int edge = 0; edge < static_cast<int>(graph_.edges().size()); ++edge) {
+        if (!graph_.edges()[idx(edge)].alive || used[idx(edge)]) continue;
+        for (int side = 0; side < 2; ++side) {
+          // First the stroke paths that begin somewhere, then the closed ones.
+          if (used[idx(edge)] || (pass == 0 && (leg_(edge).ring || ends_[idx(2 * edge + side)].partner >= 0))) continue;
+          paths.push_back(follow(2 * edge + side, used));
+        }
+      }
+    }
+    return paths;
+  }
+
+ private:
+  const SkeletonEdge& leg_(int i) const { return graph_.edges()[idx(i)]; }
+  const StrokePathPoint& point(int end, int k) const {
+    const auto& p = leg_(end / 2).points;
+    return p[end % 2 == 0 ? idx(k) : p.size() - 1 - idx(k)];
+  }
+
+  void measure(int end, const SkeletonNode& node) {
+    LegEnd& e = ends_[idx(end)];
+    const int n = static_cast<int>(leg_(end / 2).points.size());
+    const double trim = 1.1 * node.radius, reach = std::max(8.0, 8.0 * graph_.medianRadius());
+    while (e.first < n - 1 && (point(end, e.first).at - node.centre).norm() < trim) ++e.first;
+    // A edge that hardly leaves the disc keeps its far half.
+    if (e.first == n - 1) e.first = n / 2;
+    std::vector<double> s;
+    std::vector<Vec2> at;
+    double arc = 0.0;
+    for (int k = e.first; k < n && arc <= reach; ++k) {
+      if (k > e.first) arc += (point(end, k).at - point(end, k - 1).at).norm();
+      s.push_back(arc);
+      at.push_back(point(end, k).at);
+    }
+    const LocalQuadratic fit = fitLocalQuadratic(s, at, {}, arc >= 0.5 * reach ? 2 : 1);
+    Vec2 out = fit.order >= 1 ? fit.r1 : Vec2(point(end, e.first).at - node.centre);
+    if (!(out.norm() > 0.0)) out = Vec2::UnitX();
+    e.out = out / out.norm();
+    e.at = fit.order >= 1 ? fit.r0 : point(end, e.first).at;
+  }
+
+  double cost(int a, int b, double radius) const {
+    const LegEnd &p = ends_[idx(a)], &q = ends_[idx(b)];
+    const double bend = angleDeg(-p.out, q.out);
+    if (bend > maxBendDeg_) return -1.0;
+    const Vec2 d = q.at - p.at;
+    const double miss = 0.5 * (std::abs(cross(p.out, d)) + std::abs(cross(q.out, d)));
+    return bend + 20.0 * miss / std::max({2.0 * graph_.medianRadius(), 2.0 * radius, 1.0});
+  }
+
+  void pair(const SkeletonNode& node) {
+    if (node.ends.size() < 2) return;
+    struct Option {
+      double cost;
+      int a, b;
+    };
+    std::vector<Option> options;
+    for (std::size_t i = 0; i < node.ends.size(); ++i) {
+      for (std::size_t j = i + 1; j < node.ends.size(); ++j) {
+        const double c = cost(node.ends[i], node.ends[j], node.radius);
+        if (c >= 0.0) options.push_back({c, node.ends[i], node.ends[j]});
+      }
+    }
+    std::stable_sort(options.begin(), options.end(), [](const Option& x, const Option& y) { return x.cost < y.cost; });
+    for (const Option& o : options) {
+      if (ends_[idx(o.a)].partner >= 0 || ends_[idx(o.b)].partner >= 0) continue;
+      ends_[idx(o.a)].partner = o.b;
+      ends_[idx(o.b)].partner = o.a;
+    }
+  }
+
+  const SkeletonNode* junctionAt(int end) const {
+    const int node = leg_(end / 2).node[end % 2];
+    if (node < 0) return nullptr;
+    const SkeletonNode& n = graph_.nodes()[idx(node)];
+    return n.ends.size() > 1 ? &n : nullptr;
+  }
+
+  // The points of the edge entered at `end`, without those inside the discs at either side.
+  void appendEdge(int end, StrokePath& path) const {
+    const int n = static_cast<int>(leg_(end / 2).points.size());
+    const SkeletonNode* nodes[2] = {junctionAt(end), junctionAt(end ^ 1)};
+    int from = nodes[0] ? ends_[idx(end)].first : 0;
+    int to = nodes[1] ? n - 1 - ends_[idx(end ^ 1)].first : n - 1;
+    if (from > to) from = to = std::clamp((from + to) / 2, 0, n - 1);
+    for (int k = from; k <= to; ++k) {
+      StrokePathPoint p = point(end, k);
+      for (const SkeletonNode* node : nodes) {
+        if (node && (p.at - node->centre).norm() < node->radius + 2.0 * graph_.medianRadius()) {
+          p.part = StrokePart::Junction;
+        }
+      }
+      path.points.push_back(p);
+    }
+  }
+
+  // From the last point of the stroke path through the junction to the edge entered at `to`; `to` < 0: to the middle of
+  // the stroke it ends in.
+  void appendThrough(int from, int to, StrokePath& path) const {
+    const LegEnd& p = ends_[idx(from)];
+    const float radius = path.points.back().radius;
+    const SkeletonNode& node = *junctionAt(from);
+    const auto add = [&](const Vec2& at) { path.points.push_back({at, radius, StrokePart::Junction}); };
+    const Vec2 start = path.points.back().at;
+    if (to >= 0) {
+      const LegEnd& q = ends_[idx(to)];
+      for (const Vec2& at : cubicBetween(start, -p.out, point(to, q.first).at, q.out)) add(at);
+      return;
+    }
+    const double along = (node.centre - start).dot(-p.out);
+    const double length = std::clamp(along, 0.0, 2.0 * node.radius);
+    for (int k = 1; k <= static_cast<int>(length); ++k) add(start - static_cast<double>(k) * p.out);
+    if (length > std::floor(length) + 0.3) add(start - length * p.out);
+  }
+
+  StrokePath follow(int start, std::vector<bool>& used) const {
+    StrokePath path;
+    if (leg_(start / 2).ring) {
+      used[idx(start / 2)] = true;
+      path.closed = true;
+      path.points = leg_(start / 2).points;
+      return path;
+    }
+    if (ends_[idx(start)].partner < 0 && junctionAt(start)) {
+      path.tip[0] = false;
+      StrokePath lead;
+      lead.points.push_back(point(start, ends_[idx(start)].first));
+      appendThrough(start, -1, lead);
+      path.points.assign(lead.points.rbegin(), lead.points.rend() - 1);
+    }
+    for (int end = start;;) {
+      used[idx(end / 2)] = true;
+      appendEdge(end, path);
+      const int far = end ^ 1, next = ends_[idx(far)].partner;
+      if (next < 0) {
+        path.tip[1] = junctionAt(far) == nullptr;
+        if (!path.tip[1]) appendThrough(far, -1, path);
+        return path;
+      }
+      appendThrough(far, next, path);
+      if (used[idx(next / 2)]) {
+        path.closed = true;
+        return path;
+      }
+      end = next;
+    }
+  }
+
+  const SkeletonGraph& graph_;
+  double maxBendDeg_;
+  std::vector<LegEnd> ends_;
+};
+
+}  // namespace
+
+double StrokePath::length() const {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i].at - points[i - 1].at).norm();
+  if (closed && points.size() > 1) sum += (points.front().at - points.back().at).norm();
+  return sum;
+}
+
+double StrokePath::widthPx() const {
+  if (points.empty()) return 1.0;
+  std::vector<float> radii;
+  for (const StrokePathPoint& p : points) radii.push_back(p.radius);
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return std::max(1.0, 2.0 * static_cast<double>(*middle));
+}
+
+std::vector<Vec2> cubicBetween(const Vec2& from, const Vec2& fromDirection, const Vec2& to, const Vec2& toDirection) {
+  const Vec2 d = to - from;
+  const double length = d.norm();
+  const int steps = static_cast<int>(std::lround(length));
+  std::vector<Vec2> points;
+  // A direction that looks back would fold the line: go straight there.
+  const bool fair = fromDirection.dot(d) > 0.2 * length && toDirection.dot(d) > 0.2 * length;
+  for (int k = 1; k < steps; ++k) {
+    const double t = static_cast<double>(k) / steps, u = 1.0 - t;
+    if (fair) {
+      points.push_back(u * u * (1.0 + 2.0 * t) * from + t * t * (1.0 + 2.0 * u) * to +
+                       length * t * u * (u * fromDirection - t * toDirection));
+    } else {
+      points.push_back(u * from + t * to);
+    }
+  }
+  return points;
+}
+
+std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
+                                        const RunContext& context) {
+  SkeletonGraph graph(skeletonChains(skeleton), ink);
+  if (context.isCancelled()) return {};
+  graph.pruneSpurs(params.spurFactor);
+  graph.mergeJunctions();
+  if (context.isCancelled()) return {};
+  return StrokePathMaker(graph, params.maxBendDeg).make();
+}
+
+}  // namespace batten

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/base/vec2.h"
+#include "core/contour/centreline/skeleton.h"
+#include "core/contour/edge_params.h"
+
+namespace batten {
+
+/// How far a point of a stroke path may be trusted.
+enum class StrokePart : std::uint8_t {
+  Ink,       ///< The stroke alone.
+  Junction,  ///< Within the ink of another stroke: laid through from both sides.
+  Corner,    ///< Where the border of a sharp turn swallowed the middle.
+  Bridge,    ///< Laid over a gap in the ink.
+};
+
+struct StrokePathPoint {
+  Vec2 at = Vec2::Zero();  ///< [px]
+  float radius = 0.5f;     ///< [px] half the stroke's width.
+  StrokePart part = StrokePart::Ink;
+};
+
+/// One pen stroke as the hand went, on skeleton positions.
+struct StrokePath {
+  std::vector<StrokePathPoint> points;
+  bool closed = false;
+  bool tip[2] = {true, true};  ///< The start, the end is a free end of the ink; else it ends in another stroke.
+  double length() const;
+  double widthPx() const;  ///< Median.
+};
+
+/// The strokes of a skeleton: spurs pruned, junctions of one crossing merged, smooth edges led through (see
+/// EdgeParams). Deterministic order. Empty when cancelled.
+std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
+                                        const RunContext& context);
+
+/// Joins stroke paths over gaps: mutually nearest free ends that look at each other. How long a gap is
+/// (EdgeParams::gapFactor) is measured from ink to ink.
+void bridgeGaps(std::vector<StrokePath>& paths, const BitImage& ink, const EdgeParams& params,
+                const RunContext& context);
+
+/// Points about 1 px apart on a cubic that leaves `from` in direction `fromDirection` and arrives at `to` in
+/// direction `toDirection` (unit vectors), both ends excluded.
+std::vector<Vec2> cubicBetween(const Vec2& from, const Vec2& fromDirection, const Vec2& to, const Vec2& toDirection);
+
+}  // namespace batten

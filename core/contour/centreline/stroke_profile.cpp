@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline/stroke_profile.h"
+
+namespace batten {
+namespace {
+
+// Paper across the profile: a line through the level at either side.
+struct PaperLine {
+  double level = 255.0, slope = 0.0;
+  double reach = 0.0;  // samples to either side that belong to this stroke and its paper
+  double at(double k) const { return level + slope * k; }
+};
+
+// Mean of `count` samples from `first` on.
+double meanOf(std::span<const float> p, int first, int count) {
+  double sum = 0.0;
+  for (int k = first; k < first + count; ++k) sum += p[k];
+  return sum / count;
+}
+
+// The paper lies at the outer ends, unless another stroke does: then where the grey is brightest on the way there.
+PaperLine paperBeside(std::span<const float> p, int edge, double ink) {
+  const int n = static_cast<int>(p.size()), half = n / 2;
+  const int box = std::min(5, std::max(1, half - edge));
+  double level[2], place[2], reach = half;
+  for (int side = 0; side < 2; ++side) {
+    const auto mean = [&](int distance) {  // box that ends `distance` samples from the middle
+      return side == 0 ? meanOf(p, half - distance, box) : meanOf(p, half + distance - box + 1, box);
+    };
+    int best = half;
+    const double outer = mean(half);
+    double brightest = outer;
+    for (int d = half - 1; d >= edge + box; --d) {
+      const double m = mean(d);
+      if (m > brightest) {
+        brightest = m;
+        best = d;
+      }
+    }
+    const bool crowded = brightest - outer > 0.25 * (brightest - ink);
+    level[side] = crowded ? brightest : outer;
+    const double middle = (crowded ? best : half) - 0.5 * (box - 1);
+    place[side] = side == 0 ? half - middle : half + middle;
+    if (crowded) reach = std::min(reach, middle);
+  }
+  PaperLine line;
+  line.slope = (level[1] - level[0]) / (place[1] - place[0]);
+  line.level = level[0] - line.slope * place[0];
+  line.reach = reach;
+  return line;
+}
+
+}  // namespace
+
+StrokeCentre halfLevelCentre(std::span<const float> profile, double widthPx, std::span<float> scratch) {
+  StrokeCentre result;
+  const int n = static_cast<int>(profile.size()), half = n / 2;
+  // Gaussian of .5 px: two samples.
+  constexpr float kKernel[6] = {0.2021f, 0.1779f, 0.1212f, 0.0639f, 0.0261f, 0.00825f};
+  for (int k = 0; k < n; ++k) {
+    float sum = kKernel[0] * profile[k], weight = kKernel[0];
+    for (int d = 1; d < 6; ++d) {
+      if (k - d < 0 || k + d >= n) break;
+      sum += kKernel[d] * (profile[k - d] + profile[k + d]);
+      weight += 2.0f * kKernel[d];
+    }
+    scratch[k] = sum / weight;
+  }
+  const int core = static_cast<int>(std::lround(0.2 * widthPx / kStrokeStepPx));
+  const int first = std::max(0, half - core);
+  const double ink = meanOf(scratch, first, 2 * (half - first) + 1);
+  const int edge = std::min(half - 1, static_cast<int>(std::lround(0.5 * widthPx / kStrokeStepPx)));
+  const PaperLine paper = paperBeside(scratch, edge, ink);
+  const double contrast = paper.at(half) - ink;
+  if (!(contrast > 2.0)) return result;
+  // Depth below the half level, which follows the slope of the paper.
+  const auto depth = [&](int k) { return paper.at(k) - 0.5 * contrast - scratch[k]; };
+  if (!(depth(half) > 0.0)) return result;
+  double border[2] = {0.0, 0.0};
+  for (int side = 0; side < 2; ++side) {
+    const int d = side == 0 ? -1 : 1;
+    int k = half;
+    while (k + d >= 0 && k + d < n && depth(k + d) > 0.0) k += d;
+    if (k + d < 0 || k + d >= n) return result;
+    border[side] = (k - half + d * depth(k) / (depth(k) - depth(k + d))) * kStrokeStepPx;
+  }
+  result.centre = 0.5 * (border[0] + border[1]);
+  result.width = border[1] - border[0];
+  result.contrast = contrast;
+  result.ok = true;
+  result.paper = paper.at(half);
+  result.slope = paper.slope / kStrokeStepPx;
+  result.reach = paper.reach * kStrokeStepPx;
+  return result;
+}
+
+StrokeCentre centroidCentre(std::span<const float> profile, double reachPx) {
+  StrokeCentre result;
+  const int n = static_cast<int>(profile.size()), half = n / 2;
+  const int reach = std::min(half - 1, static_cast<int>(std::lround(reachPx / kStrokeStepPx)));
+  double darkest = 255.0;
+  for (int k = half - reach; k <= half + reach; ++k) {
+    darkest = std::min<double>(darkest, profile[k]);
+  }
+  const PaperLine paper = paperBeside(profile, reach, darkest);
+  double most = 0.0, sum = 0.0, moment = 0.0, square = 0.0;
+  for (int k = half - reach; k <= half + reach; ++k) {
+    most = std::max(most, paper.at(k) - profile[k]);
+  }
+  if (!(most > 2.0)) return result;
+  for (int k = half - reach; k <= half + reach; ++k) {
+    const double dark = std::max(0.0, paper.at(k) - profile[k] - 0.15 * most);
+    const double u = (k - half) * kStrokeStepPx;
+    sum += dark;
+    moment += dark * u;
+    square += dark * u * u;
+  }
+  if (!(sum > 0.0)) return result;
+  const double centre = moment / sum;
+  result.centre = centre;
+  result.width = std::sqrt(std::max(0.0, 12.0 * (square / sum - centre * centre)));
+  result.contrast = most;
+  result.ok = true;
+  return result;
+}
+
+}  // namespace batten

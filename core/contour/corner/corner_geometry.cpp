@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/corner/corner_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/contour/corner/corner_pixels.h"
+#include "core/contour/corner/corner_sides.h"
+
+namespace batten {
+namespace {
+
+constexpr double kUnrefinedWeight = 0.1;  // points known to the pixel only
+constexpr double kOutlineZonePx = 4.0;
+constexpr double kFarthestMeetPx = 6.0;  // of the meeting point from the contour
+constexpr double kEatenHalfPx = 4.0;    // half the width at which the tip of a shape is eaten away by blur and the mask
+constexpr double kFilledHalfPx = 3.0;   // half of a gap between two legs of a stroke that blur and the mask may fill
+constexpr double kSmallestSine = 0.08;  // of the angle between the sides; below, the meeting point is ill-conditioned
+constexpr int kCornerNewtonSteps = 12;
+constexpr int kLocateRounds = 4;
+constexpr double kFreeLegsPx = 6.0;  // legs nearer to each other than this share their blur
+constexpr double kFarthestPixelMovePx = 3.0;
+constexpr double kFitOuterPx = 260.0;   // looked at on either side at most
+constexpr double kWidestZonePx = 14.0;  // beyond the rounded one
+
+struct Meeting {
+  Vec2 position = Vec2::Zero();
+  double angle = 0.0;  // in the image frame
+  bool ok = false;
+};
+
+// Newton for a(s) = b(t), from s = t = 0.
+Meeting meet(const CornerSide& a, const CornerSide& b, double scale) {
+  Meeting m;
+  double s = 0.0, t = 0.0;
+  for (int step = 0; step < kCornerNewtonSteps; ++step) {
+    const Vec2 da = a.derivative(s), db = b.derivative(t);
+    const double det = -cross(da, db);
+    if (std::abs(det) < kSmallestSine * da.norm() * db.norm() || !(det != 0.0)) return m;
+    const Vec2 gap = b.at(t) - a.at(s);
+    // Solve da * ds - db * dt = gap.
+    const double ds = -cross(gap, db) / det;
+    const double dt = -cross(gap, da) / det;
+    s += std::clamp(ds, -scale, scale);
+    t += std::clamp(dt, -scale, scale);
+    if (std::abs(s) > 2.0 * scale || std::abs(t) > 2.0 * scale) return m;
+    if (std::abs(ds) + std::abs(dt) < 1e-9 * scale) break;
+  }
+  if ((a.at(s) - b.at(t)).norm() > 1e-3) return m;
+  m.position = 0.5 * (a.at(s) + b.at(t));
+  const Vec2 in = -a.derivative(s), out = b.derivative(t);
+  m.angle = std::atan2(cross(in, out), in.dot(out));
+  m.ok = m.position.allFinite();
+  return m;
+}
+
+double turn(const Vec2& in, const Vec2& out) { return -std::atan2(cross(in, out), in.dot(out)); }
+
+struct CornerLegs {
+  CornerSide before, after;
+};
+
+// Extends both sides until they meet; `inner` bounds how far.
+Meeting meetSides(const Contour& contour, int at, double inner, double outerBefore, double outerAfter, double& angle,
+                  CornerLegs& legs) {
+  legs.before = fitCornerSide(contour, at, -1, inner, outerBefore);
+  legs.after = fitCornerSide(contour, at, 1, inner, outerAfter);
+  if (legs.before.degree < 0 || legs.after.degree < 0) return {};
+  angle = turn(-legs.before.derivative(0.0), legs.after.derivative(0.0));
+  return meet(legs.before, legs.after, inner + 2.0 * kFarthestTipPx);
+}
+
+// Lets the pixels have their say, within reason.
+void askPixels(const GreyImage& grey, double blurPx, CornerLegs legs, CornerFix& fix) {
+  if (!fitCornerToPixels(grey, fix.position, blurPx, legs.before, legs.after)) return;
+  const Meeting m = meet(legs.before, legs.after, fix.zonePx + 2.0 * kFarthestTipPx);
+  if (!m.ok || (m.position - fix.position).norm() > kFarthestPixelMovePx) return;
+  fix.position = m.position;
+  fix.angleRad = -m.angle;
+}
+
+struct NearestPoint {
+  int index = 0;
+  double distance = 0.0;
+};
+
+NearestPoint nearestAlong(const Contour& contour, int at, const Vec2& position, int reach) {
+  const int n = static_cast<int>(contour.points.size());
+  NearestPoint best{at, (contour.points[at] - position).norm()};
+  for (int k = -reach; k <= reach; ++k) {
+    const int i = contour.closed ? wrapIndex(at + k, n) : at + k;
+    if (i < 0 || i >= n) continue;
+    const double d = (contour.points[i] - position).norm();
+    if (d < best.distance) best = {i, d};
+  }
+  return best;
+}
+
+}  // namespace
+
+OneSidedFit fitOneSide(const Contour& contour, int index, int side, double inner, double outer, int maxOrder) {
+  OneSidedFit result;
+  const int n = static_cast<int>(contour.points.size());
+  std::vector<double> s, weights;
+  std::vector<Vec2> points;
+  double arc = 0.0;
+  const int most = contour.closed ? n / 2 : n;
+  for (int k = 0; k < most; ++k) {
+    const int i = contour.closed ? wrapIndex(index + side * k, n) : index + side * k;
+    if (i < 0 || i >= n) break;
+    const auto at = static_cast<std::size_t>(i);
+    if (k > 0) {
+      const int j = contour.closed ? wrapIndex(i - side, n) : i - side;
+      arc += (contour.points[at] - contour.points[j]).norm();
+    }
+    if (arc > outer) break;
+    if (arc < inner) continue;
+    s.push_back(arc);
+    points.push_back(contour.points[at]);
+    weights.push_back(at < contour.refined.size() && contour.refined[at] == 0 ? kUnrefinedWeight : 1.0);
+  }
+  if (s.size() < 3) return result;
+  result.fit = fitLocalQuadratic(s, points, weights, maxOrder);
+  if (result.fit.order >= 1) result.reach = s.back() - s.front();
+  return result;
+}
+
+std::optional<Turning> turningAt(const Contour& contour, int index, double inner, double outer, int maxOrder) {
+  const OneSidedFit before = fitOneSide(contour, index, -1, inner, outer, maxOrder);
+  const OneSidedFit after = fitOneSide(contour, index, 1, inner, outer, maxOrder);
+  if (before.reach <= 0.4 * (outer - inner) || after.reach <= 0.4 * (outer - inner)) return std::nullopt;
+  Turning t;
+  t.angleRad = turn(-before.fit.r1, after.fit.r1);
+  // Where the index is off the corner one parabola swallows it: it fits badly there and the two do not meet.
+  const double misfit = std::max(before.fit.residualRms, after.fit.residualRms) / (0.02 * outer + 0.1);
+  const double gap = (before.fit.r0 - after.fit.r0).norm() / (0.15 * outer + 0.5);
+  t.score = std::abs(t.angleRad) / (1.0 + misfit * misfit + gap * gap);
+  return t;
+}
+
+double roundedZonePx(const Contour& contour, int index) {
+  if (contour.kind == ContourKind::Outline) return kOutlineZonePx;
+  const auto i = static_cast<std::size_t>(index);
+  return i < contour.widthPx.size() ? std::clamp(static_cast<double>(contour.widthPx[i]), 3.0, 60.0) : kOutlineZonePx;
+}
+
+CornerFix locateCorner(const Contour& contour, int index, double inner, double outerBefore, double outerAfter,
+                       const GreyImage* grey) {
+  CornerFix result;
+  CornerLegs legs;
+  result.position = contour.points[index];
+  result.zonePx = inner;
+  // Several times: the meeting point says which contour point is really nearest and so where the rounded zone lies, and
+  // the angle says how far the legs are near enough to blur into each other.
+  int at = index;
+  double zone = inner;
+  // Two legs of a stroke have one middle until they are a stroke's width apart.
+  const double eatenHalf = contour.kind == ContourKind::Outline ? kEatenHalfPx : 0.5 * inner + kFilledHalfPx;
+  const double blending = contour.kind == ContourKind::Outline ? kFreeLegsPx : inner + kFreeLegsPx;
+  for (int round = 0; round < kLocateRounds; ++round) {
+    const double shorter = std::min(outerBefore, outerAfter);
+    const double from = std::clamp(zone, inner, std::max(inner, 0.5 * shorter));
+    const Meeting m = meetSides(contour, at, from, outerBefore, outerAfter, result.angleRad, legs);
+    if (!m.ok) return result;
+    const double halfTip = std::max(0.03, 0.5 * (std::numbers::pi - std::abs(m.angle)));
+    const double farthest = std::clamp(eatenHalf / std::sin(halfTip), kFarthestMeetPx, kFarthestTipPx);
+    const NearestPoint nearest = nearestAlong(contour, at, m.position, static_cast<int>(farthest * 2.0) + 4);
+    if (nearest.distance > farthest) return result;
+    result.position = m.position;
+    result.angleRad = -m.angle;
+    result.exact = true;
+    result.zonePx = from;
+    // From the tip, where the contour may have ended before it.
+    const double free = blending / (2.0 * std::tan(std::min(halfTip, 1.5))) - nearest.distance;
+    const double wanted = std::clamp(free, inner, inner + kWidestZonePx);
+    if (nearest.index == at && std::abs(wanted - zone) < 0.5) break;
+    at = nearest.index;
+    zone = wanted;
+  }
+  if (grey != nullptr && contour.blurPx > 0.0) askPixels(*grey, contour.blurPx, legs, result);
+  return result;
+}
+
+std::vector<CornerFix> locateCorners(const Contour& contour, std::span<const int> indices, const GreyImage* grey) {
+  std::vector<CornerFix> fixes;
+  const auto count = indices.size();
+  if (count == 0) return fixes;
+  const std::vector<double> arc = cumulativeLength(contour.points);
+  const double length = polylineLength(contour.points, contour.closed);
+  const auto s = [&](std::size_t i) { return arc[indices[i]]; };
+  for (std::size_t i = 0; i < count; ++i) {
+    double before = s(i), after = length - s(i);
+    if (contour.closed) {
+      before = i > 0 ? s(i) - s(i - 1) : s(i) + length - s(count - 1);
+      after = i + 1 < count ? s(i + 1) - s(i) : s(0) + length - s(i);
+      if (count == 1) before = after = 0.5 * length;
+    } else {
+      if (i > 0) before = s(i) - s(i - 1);
+      if (i + 1 < count) after = s(i + 1) - s(i);
+    }
+    const double zone = roundedZonePx(contour, indices[i]);
+    const auto outer = [&](double free, bool toCorner) {
+      return std::clamp(free - (toCorner ? zone : 0.0), 0.0, kFitOuterPx + 2.0 * (zone - 4.0));
+    };
+    const bool cornerBefore = contour.closed ? count > 1 : i > 0;
+    const bool cornerAfter = contour.closed ? count > 1 : i + 1 < count;
+    fixes.push_back(
+        locateCorner(contour, indices[i], zone, outer(before, cornerBefore), outer(after, cornerAfter), grey));
+  }
+  return fixes;
+}
+
+}  // namespace batten

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/corner/corner_sides.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr double kBlockPx = 2.0;         // points are averaged over this much of the axis
+constexpr double kGuessedWeight = 0.02;  // points known to the pixel only, or guessed
+constexpr double kLeastSideWeight = 1.0 / 64.0, kMostSideWeight = 16.0;
+constexpr double kSteepest = 0.8;       // slope against the axis up to which a side is a function of x
+constexpr double kPriorDensity = 0.01;  // [px^2 px] noise of an edge in an ordinary scan, worth kPriorBlocks blocks
+constexpr double kPriorBlocks = 3.0;
+constexpr double kLeastDensity = 0.0006;  // [px^2 px] what the pixel grid leaves: .02 px over 16 px
+constexpr std::size_t kFewestBlocks = 3;
+constexpr std::size_t kMostGuessed = 40, kFewestKnown = 12;  // points
+// [px] Waves shorter than these are noise: what the side may be, from scribble to spline.
+constexpr double kShortestCutoffPx = 40.0, kLongestCutoffPx = 1100.0, kCutoffStep = 1.6;
+constexpr double kStartPx = 100.0, kStartSlope = 2.0;  // what a side may be at its far end, along its axis
+
+struct SideBlock {
+  double x = 0.0, y = 0.0;
+  double weight = 0.0;  // 1: full of ordinary points
+};
+
+double weightOf(const Contour& contour, std::size_t i) {
+  return i < contour.refined.size() && contour.refined[i] == 0 ? kGuessedWeight : 1.0;
+}
+
+// The points of one side, in order away from the corner.
+struct SidePoints {
+  std::vector<Vec2> at;
+  std::vector<double> weight, sigma;  // sigma: empty, or as Contour::sigmaPx
+};
+
+SidePoints collect(const Contour& contour, int index, int side, double inner, double outer) {
+  SidePoints points;
+  const int n = static_cast<int>(contour.points.size());
+  const int most = contour.closed ? n / 2 : n;
+  double arc = 0.0;
+  for (int k = 0; k < most; ++k) {
+    const int i = contour.closed ? wrapIndex(index + side * k, n) : index + side * k;
+    if (i < 0 || i >= n) break;
+    const auto at = static_cast<std::size_t>(i);
+    if (k > 0) {
+      const int j = contour.closed ? wrapIndex(i - side, n) : i - side;
+      arc += (contour.points[at] - contour.points[j]).norm();
+    }
+    if (arc > outer) break;
+    if (arc < inner) continue;
+    points.at.push_back(contour.points[at]);
+    points.weight.push_back(weightOf(contour, at));
+    if (contour.sigmaPx.size() == contour.points.size()) points.sigma.push_back(contour.sigmaPx[at]);
+  }
+  return points;
+}
+
+// Next to a corner the points may be guessed only, laid round the turn where the legs of a stroke are one body: they
+// say nothing of the side.
+void dropGuessed(SidePoints& points) {
+  std::size_t first = 0, known = 0;
+  while (first < points.at.size() && points.weight[first] < 1.0) ++first;
+  for (const double w : points.weight) known += w < 1.0 ? 0 : 1;
+  if (first > kMostGuessed || known < kFewestKnown) return;
+  points.at.erase(points.at.begin(), points.at.begin() + static_cast<std::ptrdiff_t>(first));
+  points.weight.erase(points.weight.begin(), points.weight.begin() + static_cast<std::ptrdiff_t>(first));
+  if (!points.sigma.empty())
+    points.sigma.erase(points.sigma.begin(), points.sigma.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+// Known points weigh by their own noise, against the median of the side.
+void weighByNoise(SidePoints& points) {
+  std::vector<double> known;
+  for (std::size_t i = 0; i < points.sigma.size(); ++i)
+    if (points.weight[i] >= 1.0) known.push_back(points.sigma[i]);
+  if (known.empty()) return;
+  const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+  std::nth_element(known.begin(), middle, known.end());
+  for (std::size_t i = 0; i < points.sigma.size(); ++i) {
+    if (points.weight[i] < 1.0) continue;
+    const double ratio = *middle / std::max(points.sigma[i], 1e-3);
+    points.weight[i] = std::clamp(ratio * ratio, kLeastSideWeight, kMostSideWeight);
+  }
+}
+
+// The axis: the direction of the first few points.
+Vec2 axisOf(const SidePoints& points) {
+  const std::size_t n = std::min<std::size_t>(points.at.size(), 12);
+  Vec2 mean = Vec2::Zero();
+  for (std::size_t i = 0; i < n; ++i) mean += points.at[i];
+  mean /= static_cast<double>(n);
+  Vec2 direction = Vec2::Zero();
+  for (std::size_t i = 0; i < n; ++i)
+    direction += (static_cast<double>(i) - 0.5 * static_cast<double>(n - 1)) * (points.at[i] - mean);
+  const double length = direction.norm();
+  return length > 0.0 ? Vec2(direction / length) : Vec2::Zero();
+}
+
+std::vector<SideBlock> blocksOf(const SidePoints& points, const CornerSide& frame) {
+  std::vector<SideBlock> blocks;
+  SideBlock sum;
+  double begin = 0.0, furthest = 0.0, count = 0.0;
+  const auto close = [&] {
+    if (sum.weight > 0.0) blocks.push_back({sum.x / sum.weight, sum.y / sum.weight, sum.weight});
+    sum = {};
+  };
+  for (std::size_t i = 0; i < points.at.size(); ++i) {
+    const Vec2 d = points.at[i] - frame.origin;
+    const double x = d.dot(frame.along), y = d.dot(frame.across);
+    if (i == 0) begin = furthest = x;
+    if (x < furthest - 2.0) break;  // turned back
+    furthest = std::max(furthest, x);
+    while (x >= begin + kBlockPx) {
+      close();
+      begin += kBlockPx;
+    }
+    sum.x += points.weight[i] * x;
+    sum.y += points.weight[i] * y;
+    sum.weight += points.weight[i];
+    count += 1.0;
+    const std::size_t n = blocks.size();
+    if (n >= 4 && std::abs(blocks[n - 1].y - blocks[n - 4].y) > kSteepest * (blocks[n - 1].x - blocks[n - 4].x)) break;
+  }
+  close();
+  for (SideBlock& b : blocks) b.weight *= static_cast<double>(blocks.size()) / count;
+  return blocks;
+}
+
+// [px^2 px] Density of the noise: variance of the mean over a length, times the length. From third differences, which
+// a smooth side leaves small, of the means of `group` blocks: neighbouring points of a centre line share their noise.
+// For blocks of weight 1.
+double noiseDensity(const std::vector<SideBlock>& blocks, std::size_t group) {
+  std::vector<double> mean, weight, square;
+  for (std::size_t i = 0; i + group <= blocks.size(); i += group) {
+    double sum = 0.0, weights = 0.0;
+    for (std::size_t k = i; k < i + group; ++k) {
+      sum += blocks[k].y / static_cast<double>(group);
+      weights += blocks[k].weight / static_cast<double>(group);
+    }
+    mean.push_back(sum);
+    weight.push_back(weights);
+  }
+  for (std::size_t i = 0; i + 3 < mean.size(); ++i) {
+    const double d = mean[i + 3] - 3.0 * mean[i + 2] + 3.0 * mean[i + 1] - mean[i];
+    const double w = (weight[i] + 9.0 * weight[i + 1] + 9.0 * weight[i + 2] + weight[i + 3]) / 20.0;
+    square.push_back(w * d * d / 20.0);
+  }
+  if (square.empty()) return kPriorDensity;
+  // The median of squares of a normal variable is .455 of its variance.
+  const auto middle = square.begin() + static_cast<std::ptrdiff_t>(square.size() / 2);
+  std::nth_element(square.begin(), middle, square.end());
+  const double count = static_cast<double>(square.size()) / 3.0;  // neighbours share blocks
+  const double measured = *middle / 0.455 * kBlockPx * static_cast<double>(group);
+  return std::max(kLeastDensity, (measured * count + kPriorDensity * kPriorBlocks) / (count + kPriorBlocks));
+}
+
+using State = Eigen::Vector4d;  // y and its derivatives 1 to 3 on the way towards the corner
+using Spread = Eigen::Matrix4d;
+
+// What a side may be: a line, an arc, or a course whose fourth derivative is white noise.
+struct Model {
+  enum class Kind { Line, Arc, Free } kind = Kind::Free;
+  double tau2 = 0.0;  // density of that noise
+};
+
+// The circle nearest to blocks (Kasa: algebraic least squares) as a function over the axis, which a parabola is not.
+class CircleBase {
+ public:
+  CircleBase() = default;
+  explicit CircleBase(std::span<const SideBlock> blocks) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    const double x0 = blocks.front().x, y0 = blocks.front().y;
+    for (const SideBlock& b : blocks) {
+      const double x = b.x - x0, y = b.y - y0;
+      const Eigen::Vector3d row(2.0 * x, 2.0 * y, 1.0);
+      normal += b.weight * row * row.transpose();
+      right += b.weight * (x * x + y * y) * row;
+    }
+    const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
+    if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 0.0)) return;
+    const Eigen::Vector3d c = solver.solve(right);
+    const double radius = std::sqrt(c[2] + c[0] * c[0] + c[1] * c[1]);
+    centreX_ = c[0] + x0;
+    centreY_ = c[1] + y0;
+    const double far = std::max(std::abs(blocks.front().x - centreX_), std::abs(blocks.back().x - centreX_));
+    if (!std::isfinite(radius) || radius > kFlattestPx || far > kWidestPart * radius) return;
+    radius_ = centreY_ > y0 ? -radius : radius;
+  }
+  // Height and its derivatives 1 to 3 with respect to x; 0 where there is no circle.
+  State at(double x) const {
+    if (!(radius_ != 0.0)) return State::Zero();
+    const double dx = x - centreX_, root = std::sqrt(radius_ * radius_ - dx * dx), sign = radius_ > 0.0 ? 1.0 : -1.0;
+    const double p = -dx / root, q = -(1.0 + p * p) / root, r = -3.0 * p * q / root;
+    return {centreY_ + sign * root, sign * p, sign * q, sign * r};
+  }
+
+ private:
+  static constexpr double kFlattestPx = 1e5, kWidestPart = 0.9;
+  double centreX_ = 0.0, centreY_ = 0.0, radius_ = 0.0;
+};
+
+// What of the derivatives is open where a model begins.
+State openOf(const State& start, Model::Kind kind) {
+  State spread = start;
+  if (kind != Model::Kind::Free) spread[3] = 0.0;
+  if (kind == Model::Kind::Line) spread[2] = 0.0;
+  return spread;
+}
+
+struct Followed {
+  State mean = State::Zero();
+  Spread spread = Spread::Zero();
+  double logLikelihood = 0.0;
+};
+
+// One step of length h towards the corner.
+void goTo(Followed& f, double h, double tau2) {
+  Spread go = Spread::Identity();
+  for (int i = 0; i < 4; ++i)
+    for (int j = i + 1; j < 4; ++j) go(i, j) = go(i, j - 1) * h / (j - i);
+  f.mean = go * f.mean;
+  f.spread = go * f.spread * go.transpose();
+  if (!(tau2 > 0.0)) return;
+  static constexpr double kRest[4] = {6.0, 2.0, 1.0, 1.0};
+  const double h2 = h * h, odd[7] = {h, h2, h2 * h, h2 * h2, h2 * h2 * h, h2 * h2 * h2, h2 * h2 * h2 * h};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) f.spread(i, j) += tau2 * odd[6 - i - j] / ((7 - i - j) * kRest[i] * kRest[j]);
+}
+
+void learn(Followed& f, const SideBlock& block, double perBlock) {
+  const double variance = f.spread(0, 0) + perBlock / block.weight;
+  const double miss = block.y - f.mean[0];
+  f.logLikelihood -= 0.5 * (miss * miss / variance + std::log(variance));
+  const State gain = f.spread.col(0) / variance;
+  f.mean += gain * miss;
+  f.spread -= gain * f.spread.row(0).eval();
+}
+
+// Through blocks from the farthest to the nearest.
+// @param sums if given, raised to the logarithm of the likelihood of the blocks from each one on.
+Followed follow(std::span<const SideBlock> blocks, const Model& model, const State& start, double perBlock,
+                std::vector<double>* sums) {
+  const CircleBase base = model.kind == Model::Kind::Arc ? CircleBase(blocks) : CircleBase();
+  const auto about = [&](SideBlock b) {
+    b.y -= base.at(b.x)[0];
+    return b;
+  };
+  Followed f;
+  f.mean[0] = about(blocks.back()).y;
+  f.spread = openOf(start, model.kind).cwiseAbs2().asDiagonal();
+  for (std::size_t k = blocks.size(); k-- > 0;) {
+    if (k + 1 < blocks.size()) goTo(f, blocks[k + 1].x - blocks[k].x, model.tau2);
+    learn(f, about(blocks[k]), perBlock);
+    if (sums) (*sums)[k] = std::max((*sums)[k], f.logLikelihood);
+  }
+  f.mean += State(1.0, -1.0, 1.0, -1.0).cwiseProduct(base.at(blocks.front().x));  // against x
+  return f;
+}
+
+// The mean over all that a side may be and over how far from the corner on it is that, each as likely as the points
+// make it. What lies beyond is a course of its own: a side may come round another corner.
+struct Extension {
+  Followed f;
+  std::size_t count = 0;  // blocks of the most likely one
+};
+
+Extension extend(const std::vector<SideBlock>& blocks, double density) {
+  std::vector<Model> models{{Model::Kind::Line}, {Model::Kind::Arc}};
+  for (double cutoff = kShortestCutoffPx; cutoff < kLongestCutoffPx; cutoff *= kCutoffStep)
+    models.push_back({Model::Kind::Free, density / std::pow(cutoff / (2.0 * std::numbers::pi), 8)});
+  const double oneOfFree = std::log(static_cast<double>(models.size() - 2));
+  const double perBlock = density / kBlockPx;
+  // What a side and its derivatives may be at its far end: it turns by a radian or two along its way, no more, because
+  // it stays a function of its axis.
+  const double length = std::max(kBlockPx, blocks.back().x - blocks.front().x);
+  const State start(kStartPx, kStartSlope, 2.0 / length, 4.0 / (length * length));
+  std::vector<double> beyond(blocks.size() + 1, -std::numeric_limits<double>::infinity());
+  beyond.back() = 0.0;
+  struct Choice {
+    Followed f;
+    double evidence;
+    std::size_t count;
+  };
+  std::vector<Choice> all;
+  for (std::size_t count = blocks.size(); count >= kFewestBlocks; count = count * 7 / 10) {
+    const bool whole = count == blocks.size();
+    for (const Model& model : models) {
+      const Followed f = follow(std::span(blocks).first(count), model, start, perBlock, whole ? &beyond : nullptr);
+      // A line, an arc and a free course are as likely before anything is known.
+      all.push_back({f, f.logLikelihood - (model.kind == Model::Kind::Free ? oneOfFree : 0.0), count});
+    }
+  }
+  double best = -std::numeric_limits<double>::infinity();
+  Extension result;
+  for (Choice& c : all) {
+    // A course may change anywhere; the stretches are spaced by ratios.
+    if (c.count < blocks.size())
+      c.evidence += beyond[c.count] + std::log(static_cast<double>(c.count) / static_cast<double>(blocks.size()));
+    if (c.evidence > best) best = c.evidence, result.count = c.count;
+  }
+  double total = 0.0;
+  for (const Choice& c : all) total += std::exp(c.evidence - best);
+  // At one place for all: the nearest block.
+  for (const Choice& c : all) result.f.mean += std::exp(c.evidence - best) / total * c.f.mean;
+  for (const Choice& c : all) {
+    const State off = c.f.mean - result.f.mean;
+    result.f.spread += std::exp(c.evidence - best) / total * (c.f.spread + off * off.transpose());
+  }
+  return result;
+}
+
+// The cubic that goes on from the last state, as a side; the state runs against x.
+void goOn(const Followed& f, double from, double to, CornerSide& side) {
+  side.degree = 3;
+  side.from = from;
+  side.to = std::max(to, from + 1.0);
+  const double half = 0.5 * (side.to - side.from);  // x - from = half (z + 1)
+  const double w[4] = {f.mean[0], -f.mean[1] * half, f.mean[2] / 2.0 * half * half,
+                       -f.mean[3] / 6.0 * half * half * half};
+  side.coefficient = {w[0] + w[1] + w[2] + w[3], w[1] + 2.0 * w[2] + 3.0 * w[3], w[2] + 3.0 * w[3], w[3], 0.0};
+  const State turned(1.0, -1.0, 1.0, -1.0);
+  Eigen::Map<Spread>(side.spread.data()) = turned.asDiagonal() * f.spread * turned.asDiagonal();
+  const State row(1.0, from, from * from / 2.0, from * from * from / 6.0);
+  side.sigmaPx = std::sqrt(std::max(0.0, row.dot(f.spread * row)));
+}
+
+}  // namespace
+
+Vec2 CornerSide::at(double x) const {
+  const double z = (2.0 * x - from - to) / (to - from);
+  double y = 0.0;
+  for (std::size_t k = coefficient.size(); k-- > 0;) y = y * z + coefficient[k];
+  return origin + x * along + y * across;
+}
+
+Vec2 CornerSide::derivative(double x) const {
+  const double z = (2.0 * x - from - to) / (to - from);
+  double slope = 0.0;
+  for (std::size_t k = coefficient.size(); k-- > 1;) slope = slope * z + static_cast<double>(k) * coefficient[k];
+  return along + 2.0 * slope / (to - from) * across;
+}
+
+CornerSide fitCornerSide(const Contour& contour, int index, int side, double inner, double outer) {
+  CornerSide best;
+  best.origin = contour.points[index];
+  SidePoints points = collect(contour, index, side, inner, outer);
+  dropGuessed(points);
+  weighByNoise(points);
+  if (points.at.size() < 3) return best;
+  best.along = axisOf(points);
+  best.across = Vec2(-best.along.y(), best.along.x());
+  if (!(best.along.norm() > 0.5)) return best;
+  const std::vector<SideBlock> blocks = blocksOf(points, best);
+  const double density = noiseDensity(blocks, contour.kind == ContourKind::Outline ? 2 : 4);
+  if (blocks.size() < kFewestBlocks) return best;
+  const Extension extension = extend(blocks, density);
+  goOn(extension.f, blocks.front().x, blocks[extension.count - 1].x, best);
+  return best;
+}
+
+}  // namespace batten

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <span>
+
+#include "core/contour/corner/corner_geometry.h"
+#include "core/contour/corner/corner_marks.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr double kSure = 5.0;  // standard deviations
+
+struct Candidate {
+  int index = 0;
+  double angle = 0.0, score = 0.0, s = 0.0;
+  double scale = 0.0;   // [px] looked at on either side
+  bool isTurn = false;  // given as one
+};
+
+// The angle between the chords on either side, signed as Turning: cheap, and never much smaller than that of a corner.
+double chordAngle(const Contour& contour, int i, int reach) {
+  const int n = static_cast<int>(contour.points.size());
+  const int a = contour.closed ? wrapIndex(i - reach, n) : i - reach;
+  const int b = contour.closed ? wrapIndex(i + reach, n) : i + reach;
+  if (a < 0 || b >= n) return 0.0;
+  const Vec2 in = contour.points[i] - contour.points[a];
+  const Vec2 out = contour.points[b] - contour.points[i];
+  return -std::atan2(cross(in, out), in.dot(out));
+}
+
+// [px] How rough the line is about every point: the median over 300 px of what parabolas of one scale leave over.
+std::vector<double> roughnessOf(const Contour& contour, double scale) {
+  constexpr int kStride = 6, kWindow = 25;
+  const int n = static_cast<int>(contour.points.size());
+  std::vector<double> residual;
+  for (int i = 0; i < n; i += kStride) {
+    const OneSidedFit fit = fitOneSide(contour, i, 1, 0.0, scale);
+    residual.push_back(fit.reach > 0.5 * scale ? fit.fit.residualRms : 0.0);
+  }
+  std::vector<double> rough(n), window;
+  const int count = static_cast<int>(residual.size());
+  for (int k = 0; k < count; ++k) {
+    window.clear();
+    for (int j = -kWindow; j <= kWindow; ++j) {
+      if (!contour.closed && (k + j < 0 || k + j >= count)) continue;
+      window.push_back(residual[wrapIndex(k + j, count)]);
+    }
+    const auto middle = window.begin() + static_cast<std::ptrdiff_t>(window.size() / 2);
+    std::nth_element(window.begin(), middle, window.end());
+    for (int i = k * kStride; i < std::min(n, (k + 1) * kStride); ++i) rough[i] = *middle;
+  }
+  return rough;
+}
+
+// [rad] Standard deviation of the angle between two parabolas of length `scale` on such a line, whose dents are about
+// `kDentPx` long: the slope at the end of a parabola has variance 192 S / L^3 for noise of density S.
+double angleNoise(double roughPx, double scale) {
+  constexpr double kDentPx = 8.0;
+  return roughPx * std::sqrt(2.0 * 192.0 * kDentPx / (scale * scale * scale));
+}
+
+// On a clean line a corner is one however short its legs are. On a rough one it may be a dent, which has gone once more
+// of the line is looked at; a corner has not.
+bool isMoreThanADent(const Contour& contour, int i, const Turning& turning, double rough, double inner, double scale) {
+  constexpr double kCleanScore = 0.75, kCoarser = 3.5, kStays = 0.7;
+  const double angle = std::abs(turning.angleRad);
+  if (turning.score >= kCleanScore * angle && angle >= kSure * angleNoise(rough, scale)) return true;
+  const auto coarse = turningAt(contour, i, inner, inner + kCoarser * scale);
+  return coarse && coarse->angleRad * turning.angleRad > 0.0 && std::abs(coarse->angleRad) >= kStays * angle &&
+         std::abs(coarse->angleRad) >= kSure * angleNoise(rough, kCoarser * scale);
+}
+
+// Without the bristles of a ragged border: every point the mean of its neighbours. Kept point for point.
+Contour smoothed(const Contour& contour, double sigmaPx, double step) {
+  Contour out = contour;
+  const int n = static_cast<int>(contour.points.size());
+  const double sigma = sigmaPx / step;
+  const int reach = std::min(static_cast<int>(3.0 * sigma), n / 2);
+  std::vector<double> weights;
+  for (int k = 0; k <= reach; ++k) weights.push_back(std::exp(-0.5 * k * k / (sigma * sigma)));
+  for (int i = 0; i < n; ++i) {
+    Vec2 sum = Vec2::Zero();
+    double total = 0.0;
+    for (int k = -reach; k <= reach; ++k) {
+      const int j = contour.closed ? wrapIndex(i + k, n) : i + k;
+      if (j < 0 || j >= n) continue;
+      const double weight = weights[std::abs(k)];
+      sum += weight * contour.points[j];
+      total += weight;
+    }
+    out.points[i] = sum / total;
+  }
+  return out;
+}
+
+// Looks for the corners of one contour.
+class CornerSearch {
+ public:
+  CornerSearch(const Contour& contour, double minAngle, double scale)
+      : contour_(contour), minAngle_(minAngle), scale_(scale), s_(cumulativeLength(contour.points)) {
+    if (s_.size() < 8) return;
+    step_ = std::max(0.1, s_.back() / (static_cast<double>(s_.size()) - 1.0));
+    rough_ = roughnessOf(contour, scale);
+    for (std::size_t i = 0; i < rough_.size(); ++i) {
+      if (!isRagged(i)) continue;
+      smooth_ = smoothed(contour, kSmoothing * scale, step_);
+      break;
+    }
+  }
+
+  std::vector<Candidate> candidates() const {
+    std::vector<Candidate> found;
+    for (int i = 0; i < static_cast<int>(rough_.size()); ++i) {
+      const auto candidate = isRagged(static_cast<std::size_t>(i)) ? onRagged(i) : onClean(i);
+      if (candidate) found.push_back(*candidate);
+    }
+    return found;
+  }
+
+  // The sharpest point of a turn that is known to be one, unless it is one of the many of a ragged line.
+  std::optional<Candidate> sharpest(const SharpTurn& turn) const {
+    constexpr double kArmPx = 6.0, kChordShare = 0.9;
+    Candidate best;
+    const int n = static_cast<int>(rough_.size());
+    for (int k = turn.first; k <= turn.last && n > 0; ++k) {
+      const int i = wrapIndex(k, n);
+      const double angle = chordAngle(contour_, i, std::max(2, static_cast<int>(std::lround(kArmPx / step_))));
+      if (std::abs(angle) > std::abs(best.angle)) best = {i, angle, std::abs(angle), s_[i], scale_, true};
+    }
+    if (!best.isTurn || std::abs(best.angle) < kChordShare * minAngle_) return std::nullopt;
+    if (isRagged(static_cast<std::size_t>(best.index))) return std::nullopt;
+    return best;
+  }
+
+ private:
+  // Of `scale_`: what dents and bristles are smoothed over, and what is left out and looked at beside a corner then.
+  static constexpr double kSmoothing = 0.6, kRaggedInner = 0.7, kRaggedScale = 2.0;
+
+  // Whether dents look like corners here.
+  bool isRagged(std::size_t i) const {
+    constexpr double kRagged = 1.5;
+    return kSure * angleNoise(rough_[i], scale_) > kRagged * minAngle_;
+  }
+
+  bool isStraight(const Contour& contour, int i, double scale) const {
+    const int n = static_cast<int>(contour.points.size());
+    const int reach = std::clamp(static_cast<int>(0.6 * scale / step_), 2, std::max(2, n / 3));
+    return std::abs(chordAngle(contour, i, reach)) < 0.6 * minAngle_;
+  }
+
+  std::optional<Candidate> onClean(int i) const {
+    // The score is the angle discounted by misfit; half of it lost means that the legs are no legs.
+    constexpr double kLeastScore = 0.5;
+    if (isStraight(contour_, i, scale_)) return std::nullopt;
+    const double inner =
+        contour_.kind == ContourKind::Outline ? std::min(3.0, 0.25 * scale_) : roundedZonePx(contour_, i);
+    const auto turning = turningAt(contour_, i, inner, inner + scale_);
+    if (!turning || std::abs(turning->angleRad) < minAngle_) return std::nullopt;
+    if (turning->score < kLeastScore * std::abs(turning->angleRad)) return std::nullopt;
+    const auto at = static_cast<std::size_t>(i);
+    if (!isMoreThanADent(contour_, i, *turning, rough_[at], inner, scale_)) return std::nullopt;
+    return Candidate{i, turning->angleRad, turning->score, s_[at], scale_, false};
+  }
+
+  // More of the line is looked at, without its bristles, and the legs are straight: what bends them counts as noise.
+  std::optional<Candidate> onRagged(int i) const {
+    constexpr double kLeastScore = 0.25;
+    const double scale = kRaggedScale * scale_;
+    if (isStraight(smooth_, i, scale)) return std::nullopt;
+    const double inner =
+        std::max(kRaggedInner * scale_, contour_.kind == ContourKind::Outline ? 0.0 : roundedZonePx(contour_, i));
+    const auto turning = turningAt(smooth_, i, inner, inner + scale, 1);
+    if (!turning || std::abs(turning->angleRad) < minAngle_) return std::nullopt;
+    if (turning->score < kLeastScore * std::abs(turning->angleRad)) return std::nullopt;
+    return Candidate{i, turning->angleRad, turning->score, s_[i], scale, false};
+  }
+
+  const Contour& contour_;
+  double minAngle_, scale_, step_ = 1.0;
+  std::vector<double> s_, rough_;
+  Contour smooth_;
+};
+
+// In order along the contour: the turns that are known to be some, and the best of every other one.
+std::vector<Candidate> cornersOf(const Contour& contour, std::span<const SharpTurn> turns, double minAngle,
+                                 double scale) {
+  const CornerSearch search(contour, minAngle, scale);
+  std::vector<Candidate> candidates = search.candidates(), kept;
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  for (const SharpTurn& turn : turns) {
+    if (const auto sharpest = search.sharpest(turn)) kept.push_back(*sharpest);
+  }
+  const double length = polylineLength(contour.points, contour.closed);
+  for (const Candidate& candidate : candidates) {
+    const bool near = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
+      const double d = std::abs(candidate.s - other.s);
+      return std::min(d, contour.closed ? length - d : d) < std::max(candidate.scale, other.scale);
+    });
+    if (!near) kept.push_back(candidate);
+  }
+  std::sort(kept.begin(), kept.end(), [](const Candidate& a, const Candidate& b) { return a.index < b.index; });
+  return kept;
+}
+
+// Sides that lead elsewhere, past a neighbour that is none, locate nothing.
+bool isLocated(const CornerFix& fix, double seenRad) {
+  constexpr double kLeastShare = 0.5;
+  return fix.exact && fix.angleRad * seenRad > 0.0 && std::abs(fix.angleRad) >= kLeastShare * std::abs(seenRad);
+}
+
+}  // namespace
+
+std::vector<CornerSuggestion> suggestCorners(const ContourSet& set, double minAngleRad, double scalePx,
+                                             std::span<const SharpTurn> turns) {
+  std::vector<CornerSuggestion> suggestions;
+  if (!(minAngleRad > 0.0) || !(scalePx > 0.0)) return suggestions;
+  for (std::size_t c = 0; c < set.contours.size(); ++c) {
+    const Contour& contour = set.contours[c];
+    std::vector<SharpTurn> own;
+    std::copy_if(turns.begin(), turns.end(), std::back_inserter(own),
+                 [&](const SharpTurn& turn) { return turn.contour == static_cast<int>(c); });
+    const std::vector<Candidate> kept = cornersOf(contour, own, minAngleRad, scalePx);
+    std::vector<int> places;
+    for (const Candidate& k : kept) places.push_back(k.index);
+    const std::vector<CornerFix> fixes = locateCorners(contour, places);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      CornerSuggestion suggestion{static_cast<int>(c), kept[i].index, {}, kept[i].angle};
+      suggestion.positionPx = contour.points[kept[i].index];
+      if (isLocated(fixes[i], kept[i].angle)) {
+        suggestion.positionPx = fixes[i].position;
+        suggestion.turningAngleRad = fixes[i].angleRad;
+      }
+      suggestions.push_back(suggestion);
+    }
+  }
+  return suggestions;
+}
+
+// A mark finds the sharpest turn within its reach, so that those at two suggestions may find one corner: the suggestion
+// nearer to it stays.
+std::vector<CornerSuggestion> oncePerCorner(const ContourSet& set, const std::vector<CornerSuggestion>& all,
+                                            double snapDistancePx) {
+  constexpr double kOneCornerPx = 2.0;
+  struct Found {
+    std::size_t suggestion;
+    Corner corner;
+  };
+  std::vector<Found> found;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (const auto corner = nearestContourPoint(set, all[i].positionPx, snapDistancePx)) found.push_back({i, *corner});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Found& a, const Found& b) { return a.corner.snapPx < b.corner.snapPx; });
+  std::vector<Found> kept;
+  for (const Found& one : found) {
+    const bool isTaken = std::any_of(kept.begin(), kept.end(), [&](const Found& other) {
+      return other.corner.contour == one.corner.contour &&
+             (other.corner.positionPx - one.corner.positionPx).norm() <= kOneCornerPx;
+    });
+    if (!isTaken) kept.push_back(one);
+  }
+  std::sort(kept.begin(), kept.end(), [](const Found& a, const Found& b) { return a.suggestion < b.suggestion; });
+  std::vector<CornerSuggestion> result;
+  for (const Found& one : kept) result.push_back(all[one.suggestion]);
+  return result;
+}
+
+}  // namespace batten

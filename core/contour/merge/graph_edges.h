@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/contour/merge/overlap_removal.h"
+
+namespace batten {
+
+/// A stretch of a mean line between two nodes; its ends are numbered 2 * edge + side.
+struct GraphEdge {
+  MeanLine line;
+  int node[2] = {-1, -1};  ///< -1: the line ends there.
+  double length = 0.0;     ///< [px]
+  bool alive = true;
+};
+
+/// Mean lines as a graph: edges, and for every node the ends that meet there.
+struct MeanGraph {
+  std::vector<GraphEdge> edges;
+  std::vector<std::vector<int>> nodes;
+  void add(MeanLine line, int from, int to);
+  void remove(int edge);
+};
+
+/// Cuts the pieces where others are attached; what is nearer than the distance along a piece is one node.
+MeanGraph graphOf(StrokePieces pieces, double distancePx);
+
+}  // namespace batten

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/merge/stroke_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/contour/merge/graph_edges.h"
+#include "core/contour/merge/stroke_lines.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr double kMaxBendDeg = 40.0;     // a line goes on where it bends no more
+constexpr double kEarlyBendDeg = 25.0;   // before the widest bundles are merged
+constexpr double kAloneBendDeg = 70.0;   // where nothing else meets
+constexpr double kSharedBendDeg = 25.0;  // of lines that share a way
+constexpr double kMissDeg = 20.0;        // what a miss by the distance costs
+constexpr double kShortDeg = 30.0;       // what going on with an overshoot costs
+constexpr double kFacingMiss = 0.6;      // of the way between ends: what they miss each other by
+constexpr double kMeet = 0.5;            // distances: ends as near as this meet before anything else
+constexpr double kSpur = 2.0;            // distances: shorter things are overshoots
+constexpr double kShared = 6.0;          // distances: two lines share no longer way
+// A single stroke is an overshoot for as many distances beyond where it leaves the others, for this part of the line
+// that it leaves, and at this angle: means are bent there.
+constexpr double kOvershoot = 7.0, kOvershootShare = 0.2, kOvershootBendDeg = 60.0;
+constexpr float kSingleWeight = 1.5f;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+class StrokeGraph {
+ public:
+  StrokeGraph(StrokePieces pieces, double distancePx, double widestPx)
+      : distance_(std::max(1.0, distancePx)),
+        widest_(std::max(distance_, widestPx)),
+        maxBendDeg_(distance_ < widest_ ? kEarlyBendDeg : kMaxBendDeg),
+        net_(graphOf(std::move(pieces), distance_)) {}
+
+  std::vector<MeanLine> lines(const RunContext& context) {
+    dropLoops();
+    meetFreeEnds();
+    for (int round = 0; round < 3; ++round) {
+      if (context.isCancelled()) return {};
+      dropSpurs();
+      spliceAll();
+    }
+    contractShared();
+    dropSpurs();
+    spliceAll();
+    if (context.isCancelled()) return {};
+    for (int n = 0; n < static_cast<int>(net_.nodes.size()); ++n) pairAt(n);
+    dropLeftOvers();
+    pairFacing();
+    std::vector<MeanLine> found = follow();
+    for (MeanLine& line : found) closeOverlap(line);
+    std::erase_if(found, [](const MeanLine& l) { return l.points.size() < 3; });
+    return found;
+  }
+
+ private:
+  EndTangent look(int end) const { return endTangent(net_.edges[at(end / 2)].line, end % 2, distance_); }
+
+  // Of going from one end of a edge to another; < 0: no.
+  double cost(int a, int b, double maxBendDeg) const {
+    const EndTangent p = look(a), q = look(b);
+    const double bend = turnDeg(-p.into, q.into);
+    if (bend > maxBendDeg) return -1.0;
+    const Vec2 d = q.at - p.at;
+    const double miss = 0.5 * (std::abs(cross(p.into, d)) + std::abs(cross(q.into, d)));
+    return bend + kMissDeg * miss / distance_;
+  }
+
+  bool isFree(int end) const { return net_.edges[at(end / 2)].node[end % 2] < 0; }
+  bool isSpur(int end) const { return isFree(end ^ 1) && net_.edges[at(end / 2)].length < kSpur * distance_; }
+
+  // A way from a node to itself that is no longer than a spur is nothing.
+  void dropLoops() {
+    for (int i = 0; i < static_cast<int>(net_.edges.size()); ++i) {
+      const GraphEdge& l = net_.edges[at(i)];
+      if (l.alive && l.node[0] >= 0 && l.node[0] == l.node[1] && l.length < 2.0 * kSpur * distance_) net_.remove(i);
+    }
+  }
+
+  // Overshoots go where others go on without them, the shortest first.
+  void dropSpurs() {
+    std::vector<int> order;
+    for (int i = 0; i < static_cast<int>(net_.edges.size()); ++i)
+      if (net_.edges[at(i)].alive && isFree(2 * i) != isFree(2 * i + 1)) order.push_back(i);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return net_.edges[at(a)].length < net_.edges[at(b)].length; });
+    for (const int edge : order) {
+      const int end = isFree(2 * edge) ? 2 * edge + 1 : 2 * edge;
+      if (!isSpur(end)) continue;
+      const std::vector<int>& ends = net_.nodes[at(net_.edges[at(edge)].node[end % 2])];
+      bool others = false;
+      for (const int a : ends)
+        for (const int b : ends)
+          others = others || (a < b && a / 2 != edge && b / 2 != edge && cost(a, b, maxBendDeg_) >= 0.0);
+      if (others) net_.remove(edge);
+    }
+  }
+
+  void spliceAll() {
+    for (int n = 0; n < static_cast<int>(net_.nodes.size()); ++n) splice(n);
+  }
+
+  static void turn(GraphEdge& edge) {
+    reverseLine(edge.line);
+    std::swap(edge.node[0], edge.node[1]);
+  }
+
+  // Two edges that meet alone and go on as one become one.
+  void splice(int node) {
+    std::vector<int>& ends = net_.nodes[at(node)];
+    if (ends.size() != 2 || ends[0] / 2 == ends[1] / 2) return;
+    const int a = ends[0], b = ends[1];
+    if (cost(a, b, distance_ < widest_ ? kEarlyBendDeg : kAloneBendDeg) < 0.0) return;
+    ends.clear();
+    GraphEdge first = net_.edges[at(a / 2)], second = net_.edges[at(b / 2)];
+    if (a % 2 == 0) turn(first);
+    if (b % 2 == 1) turn(second);
+    net_.remove(a / 2);
+    net_.remove(b / 2);
+    appendLine(first.line, second.line, kSpur * distance_);
+    net_.add(std::move(first.line), first.node[0], second.node[1]);
+  }
+
+  // Two lines that cross at a small angle run on one line for a while: the way between is taken out, and they go on as
+  // they came.
+  void contractShared() {
+    for (int i = 0; i < static_cast<int>(net_.edges.size()); ++i) {
+      const GraphEdge& l = net_.edges[at(i)];
+      if (!l.alive || l.node[0] < 0 || l.node[1] < 0 || l.node[0] == l.node[1] || l.length > kShared * distance_)
+        continue;
+      std::vector<int> one = net_.nodes[at(l.node[0])], two = net_.nodes[at(l.node[1])];
+      std::erase(one, 2 * i);
+      std::erase(two, 2 * i + 1);
+      if (one.size() != 2 || two.size() != 2) continue;
+      const auto together = [&](int a, int b) {
+        const double c = a / 2 == b / 2 ? -1.0 : cost(a, b, kSharedBendDeg);
+        return c < 0.0 ? std::numeric_limits<double>::infinity() : c;
+      };
+      const double straight = together(one[0], two[0]) + together(one[1], two[1]);
+      const double across = together(one[0], two[1]) + together(one[1], two[0]);
+      if (!(std::min(straight, across) < 2.0 * kSharedBendDeg)) continue;
+      const int from = l.node[0], to = l.node[1];
+      net_.remove(i);
+      for (const int end : net_.nodes[at(to)]) {
+        net_.edges[at(end / 2)].node[end % 2] = from;
+        net_.nodes[at(from)].push_back(end);
+      }
+      net_.nodes[at(to)].clear();
+    }
+  }
+
+  // The shorter what ends free beside longer things, the more it looks like an overshoot.
+  double overshootCost(int end, double longest) const {
+    if (!isFree(end ^ 1)) return 0.0;
+    const double most = std::max(kOvershoot * widest_, kOvershootShare * longest);
+    return kShortDeg * std::max(0.0, 1.0 - net_.edges[at(end / 2)].length / most);
+  }
+
+  void pairAt(int node) {
+    const std::vector<int>& ends = net_.nodes[at(node)];
+    struct Option {
+      double cost;
+      int a, b;
+    };
+    std::vector<Option> options;
+    double longest = 0.0;
+    for (const int end : ends) longest = std::max(longest, net_.edges[at(end / 2)].length);
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      for (std::size_t j = i + 1; j < ends.size(); ++j) {
+        double c = cost(ends[i], ends[j], maxBendDeg_);
+        if (c < 0.0) continue;
+        c += overshootCost(ends[i], longest) + overshootCost(ends[j], longest);
+        options.push_back({c, ends[i], ends[j]});
+      }
+    std::stable_sort(options.begin(), options.end(), [](const Option& x, const Option& y) { return x.cost < y.cost; });
+    partner_.resize(2 * net_.edges.size(), -1);
+    for (const Option& o : options) {
+      if (partner_[at(o.a)] >= 0 || partner_[at(o.b)] >= 0) continue;
+      partner_[at(o.a)] = o.b;
+      partner_[at(o.b)] = o.a;
+    }
+  }
+
+  // [px] of the line that goes through a edge.
+  double lineLength(int edge) const {
+    double sum = net_.edges[at(edge)].length;
+    for (const int side : {0, 1})
+      for (int end = partner_[at(2 * edge + side)]; end >= 0 && end / 2 != edge; end = partner_[at(end ^ 1)])
+        sum += net_.edges[at(end / 2)].length;
+    return sum;
+  }
+
+  // The outer half of a edge that ends free at `end` was drawn once.
+  bool isSingle(int end) const {
+    const std::vector<float>& weight = net_.edges[at(end / 2)].line.weight;
+    const std::size_t half = weight.size() / 2;
+    std::vector<float> outer(weight.begin(), weight.end());
+    if (end % 2 == 1) std::reverse(outer.begin(), outer.end());
+    outer.resize(std::max<std::size_t>(1, half));
+    std::nth_element(outer.begin(), outer.begin() + static_cast<std::ptrdiff_t>(outer.size() / 2), outer.end());
+    return outer[outer.size() / 2] < kSingleWeight;
+  }
+
+  // A single stroke that leaves a longer line smoothly and ends.
+  bool isOvershoot(int edge) const {
+    const GraphEdge& l = net_.edges[at(edge)];
+    const int end = l.node[0] >= 0 ? 2 * edge : 2 * edge + 1;
+    if (l.node[end % 2] < 0 || !isFree(end ^ 1) || partner_[at(end)] >= 0 || l.length > kOvershoot * distance_)
+      return false;
+    for (const int other : net_.nodes[at(l.node[end % 2])])
+      if (other / 2 != edge && partner_[at(other)] >= 0 && cost(end, other, kOvershootBendDeg) >= 0.0 &&
+          l.length <= kOvershootShare * lineLength(other / 2))
+        return isSingle(end ^ 1);
+    return false;
+  }
+
+  // What nothing goes on with: overshoots and ways between two lines that nearly touch.
+  void dropLeftOvers() {
+    partner_.resize(2 * net_.edges.size(), -1);
+    for (int i = 0; i < static_cast<int>(net_.edges.size()); ++i) {
+      const GraphEdge& l = net_.edges[at(i)];
+      if (!l.alive || (l.node[0] < 0 && l.node[1] < 0)) continue;
+      const bool alone = partner_[at(2 * i)] < 0 && partner_[at(2 * i + 1)] < 0;
+      if ((alone && l.length < kSpur * distance_) || isOvershoot(i)) net_.edges[at(i)].alive = false;
+    }
+  }
+
+  std::vector<MeanLine> follow() {
+    std::vector<MeanLine> found;
+    std::vector<bool> used(net_.edges.size(), false);
+    // First the lines that begin somewhere, then the closed ones.
+    for (int pass = 0; pass < 2; ++pass)
+      for (int edge = 0; edge < static_cast<int>(net_.edges.size()); ++edge)
+        for (int side = 0; side < 2; ++side)
+          if (net_.edges[at(edge)].alive && !used[at(edge)] && (pass == 1 || partner_[at(2 * edge + side)] < 0))
+            found.push_back(followFrom(2 * edge + side, used));
+    return found;
+  }
+
+  MeanLine followFrom(int start, std::vector<bool>& used) const {
+    MeanLine line;
+    for (int end = start;;) {
+      used[at(end / 2)] = true;
+      MeanLine next = net_.edges[at(end / 2)].line;
+      if (end % 2 == 1) reverseLine(next);
+      if (line.points.empty()) {
+        line = std::move(next);
+      } else {
+        appendLine(line, next, kSpur * distance_);
+      }
+      end = partner_[at(end ^ 1)];
+      if (end < 0) return line;
+      if (used[at(end / 2)]) {
+        closeLine(line, kSpur * distance_);
+        return line;
+      }
+    }
+  }
+
+  // A loop drawn beyond its start: what runs along the start goes, and the loop is closed.
+  void closeOverlap(MeanLine& line) const {
+    const int n = static_cast<int>(line.points.size());
+    const int apart = static_cast<int>(4.0 * distance_) + 30;
+    if (line.closed || n < 2 * apart) return;
+    int best = -1;
+    double nearest = std::max(4.0, 0.5 * distance_);
+    for (int i = n - 1; i >= std::max(apart, n / 2); --i) {
+      const double d = (line.points[at(i)] - line.points.front()).norm();
+      if (d >= nearest || line.tangent[at(i)].dot(line.tangent.front()) < 0.7) continue;
+      nearest = d;
+      best = i;
+    }
+    if (best < 0) return;
+    line = partOf(line, 0, best);
+    closeLine(line, kSpur * distance_);
+  }
+
+  std::vector<std::pair<int, int>> facing(const std::vector<int>& ends, double mostPx) const;
+
+  // Where a line only begins and another ends, they are one.
+  void meetFreeEnds() {
+    std::vector<int> ends;
+    for (int e = 0; e < 2 * static_cast<int>(net_.edges.size()); ++e)
+      if (net_.edges[at(e / 2)].alive && !net_.edges[at(e / 2)].line.closed && isFree(e)) ends.push_back(e);
+    for (const auto& [a, b] : facing(ends, kMeet * distance_)) {
+      net_.edges[at(a / 2)].node[a % 2] = net_.edges[at(b / 2)].node[b % 2] = static_cast<int>(net_.nodes.size());
+      net_.nodes.push_back({a, b});
+    }
+  }
+
+  void pairFacing() {
+    std::vector<int> ends;
+    for (int e = 0; e < 2 * static_cast<int>(net_.edges.size()); ++e)
+      if (net_.edges[at(e / 2)].alive && !net_.edges[at(e / 2)].line.closed && partner_[at(e)] < 0) ends.push_back(e);
+    for (const auto& [a, b] : facing(ends, distance_)) {
+      partner_[at(a)] = b;
+      partner_[at(b)] = a;
+    }
+  }
+
+  double distance_, widest_, maxBendDeg_;
+  MeanGraph net_;
+  std::vector<int> partner_;
+};
+
+// Ends that look at each other over no more than this way, each in one pair: the nearest first.
+std::vector<std::pair<int, int>> StrokeGraph::facing(const std::vector<int>& ends, double mostPx) const {
+  struct End {
+    int end;
+    Vec2 tip;
+    EndTangent look;
+  };
+  std::vector<End> all;
+  for (const int e : ends) {
+    const MeanLine& l = net_.edges[at(e / 2)].line;
+    all.push_back({e, e % 2 == 0 ? l.points.front() : l.points.back(), look(e)});
+  }
+  std::stable_sort(all.begin(), all.end(), [](const End& a, const End& b) { return a.tip.x() < b.tip.x(); });
+  struct Pair {
+    double cost;
+    int a, b;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = i + 1; k < all.size() && all[k].tip.x() - all[i].tip.x() <= mostPx; ++k) {
+      const End &a = all[i], &b = all[k];
+      if ((b.tip - a.tip).norm() > mostPx || turnDeg(-a.look.into, b.look.into) > maxBendDeg_) continue;
+      if (a.end / 2 == b.end / 2 && net_.edges[at(a.end / 2)].length < 4.0 * distance_ + 30.0) continue;
+      const Vec2 gap = b.look.at - a.look.at;
+      const double miss = 0.5 * (std::abs(cross(a.look.into, gap)) + std::abs(cross(b.look.into, gap)));
+      if (miss <= kFacingMiss * mostPx) pairs.push_back({gap.norm() + miss, a.end, b.end});
+    }
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.cost < b.cost; });
+  std::vector<std::pair<int, int>> chosen;
+  std::vector<bool> used(2 * net_.edges.size(), false);
+  for (const Pair& p : pairs) {
+    if (used[at(p.a)] || used[at(p.b)]) continue;
+    used[at(p.a)] = used[at(p.b)] = true;
+    chosen.emplace_back(p.a, p.b);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+std::vector<MeanLine> joinPieces(StrokePieces pieces, double distancePx, double widestPx, const RunContext& context) {
+  return StrokeGraph(std::move(pieces), distancePx, widestPx).lines(context);
+}
+
+}  // namespace batten

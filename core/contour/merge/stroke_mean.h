@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/contour/contour_set.h"
+
+namespace batten {
+
+/// A line on its way to the mean of the strokes beside it.
+struct MeanLine {
+  struct Source {
+    int line = 0, index = 0;
+  };
+  std::vector<Vec2> points;
+  std::vector<Vec2> tangent;   ///< Unit direction of travel.
+  std::vector<Source> source;  ///< The point of the line given that each came from.
+  std::vector<float> weight;   ///< Of the strokes that each stands for, about their number.
+  bool closed = false;
+  bool continues[2] = {false, false};  ///< Another line begins where this one starts, ends: no end of a stroke.
+};
+
+/// The lines as strokes of the hand: cut where they turn sharply, since at a crossing of bundles a line often turns
+/// from the one into the other. `turns` gets the places of the cuts.
+std::vector<MeanLine> strokesOf(const std::vector<Contour>& lines, double distancePx, std::vector<Vec2>& turns);
+
+/// Finds the ends at which another line goes on (MeanLine::continues): within this many px, about straight on.
+void findContinuations(std::vector<MeanLine>& strokes, double nearPx);
+
+/// Moves the points of the strokes to the weighted mean of the strokes that cross their normals within `distancePx`, in
+/// a few rounds. Weights fall towards the ends of a stroke, near the distance and with the angle between the strokes.
+/// Strokes that come near each other and part again, for less than half of the shorter one, are two lines and keep
+/// off each other. Not complete when cancelled. Same result with any number of threads.
+void moveToMean(std::vector<MeanLine>& strokes, double distancePx, const RunContext& context);
+
+/// Asks where strokes lay beside a line. Keeps its own copy of the strokes.
+class StrokesBeside {
+ public:
+  StrokesBeside(const std::vector<Contour>& lines, double distancePx);
+  ~StrokesBeside();
+  /// The outermost strokes within `distancePx` that run along the line, the line itself being one: 0 to a side where
+  /// none lies, and to both where they are no farther apart than one stroke scatters. Not complete when cancelled. Same
+  /// result with any number of threads.
+  StrokeBand band(const std::vector<Vec2>& points, bool closed, const RunContext& context) const;
+
+  /// Another stroke, or the stroke `line` itself on another way than through its point `index`, comes within
+  /// `distancePx`.
+  bool isNear(const Vec2& at, int line, int index) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace batten

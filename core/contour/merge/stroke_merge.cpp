@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/merge/stroke_merge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contour/merge/merged_contour.h"
+#include "core/contour/merge/overlap_removal.h"
+#include "core/contour/merge/stroke_graph.h"
+#include "core/contour/merge/stroke_mean.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+
+namespace {
+
+constexpr double kFirstWidths = 1.5;  // [stroke widths] strokes as near as this are one before others are looked at
+constexpr int kMostLevels = 5;
+constexpr double kSmoothing = 0.25;  // of the distance
+constexpr float kMerged = 1.05f;     // weight of more than one stroke
+
+// Merged lines are smoothed a little before they are merged further: where strokes begin and end they have small steps.
+// Lines of one stroke stay.
+void smoothMerged(MeanLine& line, double sigma) {
+  std::vector<float> merged;
+  for (const float w : line.weight) merged.push_back(w > kMerged ? 1.0f : 0.0f);
+  if (std::find(merged.begin(), merged.end(), 1.0f) == merged.end()) return;
+  const std::vector<float> share = smoothValues(merged, line.closed, sigma);
+  const std::vector<Vec2> smooth = smoothPolyline(line.points, line.closed, sigma);
+  for (std::size_t i = 0; i < smooth.size(); ++i)
+    if (share[i] > 1e-3f)
+      line.points[i] += std::min(1.0, 2.0 * static_cast<double>(share[i])) * (smooth[i] - line.points[i]);
+  line.tangent = directions(line.points, line.closed, 3);
+}
+
+std::vector<MeanLine> mergeWithin(std::vector<MeanLine> strokes, double distancePx, double widestPx,
+                                  const RunContext& context) {
+  moveToMean(strokes, distancePx, context);
+  if (context.isCancelled()) return {};
+  std::stable_sort(strokes.begin(), strokes.end(),
+                   [](const MeanLine& a, const MeanLine& b) { return a.points.size() > b.points.size(); });
+  StrokePieces pieces = removeOverlaps(std::move(strokes), distancePx, context);
+  if (context.isCancelled()) return {};
+  return joinPieces(std::move(pieces), distancePx, widestPx, context);
+}
+
+double penWidth(const std::vector<Contour>& lines) {
+  std::vector<float> widths;
+  for (const Contour& line : lines) widths.insert(widths.end(), line.widthPx.begin(), line.widthPx.end());
+  if (widths.empty()) return 1.0;
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  return std::max(1.0, static_cast<double>(*middle));
+}
+
+}  // namespace
+
+std::vector<Contour> mergeStrokes(const std::vector<Contour>& lines, double distancePx, const RunContext& context) {
+  const double width = penWidth(lines);
+  std::vector<Vec2> turns;
+  std::vector<MeanLine> means = strokesOf(lines, distancePx, turns);
+  // The nearest first: what then comes near another line and parts from it is seen in full.
+  int levels = 1;
+  while (levels < kMostLevels && std::ldexp(distancePx, -levels) >= kFirstWidths * width) ++levels;
+  for (int level = levels - 1; level >= 0; --level) {
+    const double within = std::ldexp(distancePx, -level);
+    means = mergeWithin(std::move(means), within, distancePx, context);
+    if (context.isCancelled()) return {};
+    if (level == 0) break;
+    for (MeanLine& line : means) smoothMerged(line, std::max(2.0, kSmoothing * within));
+    findContinuations(means, 0.5 * within);
+  }
+  meetAtTurns(means, turns, distancePx);
+  std::vector<Contour> merged;
+  const StrokesBeside strokes(lines, distancePx);
+  for (const MeanLine& line : means) {
+    merged.push_back(mergedContour(line, lines, strokes, distancePx, context));
+    if (context.isCancelled()) return {};
+  }
+  std::erase_if(merged, [](const Contour& c) { return c.points.size() < 3; });
+  return merged;
+}
+
+}  // namespace batten

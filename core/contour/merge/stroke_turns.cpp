@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "core/contour/merge/stroke_mean.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr double kSharpTurnRad = 0.87;    // 50 degrees
+constexpr double kTurnWidths = 1.5;       // stroke widths over which a turn is seen
+constexpr int kLeastTurnReach = 4;        // points
+constexpr double kContinuesWidths = 4.0;  // stroke widths to the next line
+constexpr double kContinuesCos = 0.8;     // 37 degrees
+
+// The end of a stroke and the direction in which it would go on.
+struct StrokeEnd {
+  int line = 0, side = 0;
+  Vec2 at = Vec2::Zero(), out = Vec2::Zero();
+};
+
+// Where a line turns sharply: the places of largest turn between chords of `reach` points.
+std::vector<int> sharpTurnsOf(const Contour& line, int reach) {
+  const int n = static_cast<int>(line.points.size());
+  std::vector<double> turn(line.points.size(), 0.0);
+  const auto p = [&](int i) -> const Vec2& { return line.points[wrapIndex(i, n)]; };
+  for (int i = line.closed ? 0 : reach; i < (line.closed ? n : n - reach); ++i) {
+    const Vec2 in = p(i) - p(i - reach), out = p(i + reach) - p(i);
+    turn[i] = std::atan2(std::abs(cross(in, out)), in.dot(out));
+  }
+  std::vector<int> found;
+  for (int i = 0; i < n; ++i) {
+    const double here = turn[i];
+    if (here < kSharpTurnRad) continue;
+    bool most = true;
+    for (int k = -2 * reach; k <= 2 * reach && most; ++k) {
+      if (k == 0 || (!line.closed && (i + k < 0 || i + k >= n))) continue;
+      const double there = turn[wrapIndex(i + k, n)];
+      most = there < here || (there == here && k > 0);
+    }
+    if (most) found.push_back(i);
+  }
+  return found;
+}
+
+double widthOf(const Contour& line) {
+  std::vector<float> widths = line.widthPx;
+  if (widths.empty()) return 1.0;
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  return static_cast<double>(*middle);
+}
+
+}  // namespace
+
+void findContinuations(std::vector<MeanLine>& strokes, double nearPx) {
+  std::vector<StrokeEnd> ends;
+  for (int l = 0; l < static_cast<int>(strokes.size()); ++l) {
+    MeanLine& s = strokes[l];
+    const std::size_t n = s.points.size();
+    s.continues[0] = s.continues[1] = false;
+    if (s.closed || n < 3) continue;
+    const std::size_t reach = std::min(n - 1, static_cast<std::size_t>(std::max(8.0, nearPx)));
+    const Vec2 start = s.points.front() - s.points[reach], end = s.points.back() - s.points[n - 1 - reach];
+    ends.push_back({l, 0, s.points.front(), start.norm() > 0.0 ? Vec2(start.normalized()) : Vec2::Zero()});
+    ends.push_back({l, 1, s.points.back(), end.norm() > 0.0 ? Vec2(end.normalized()) : Vec2::Zero()});
+  }
+  std::stable_sort(ends.begin(), ends.end(),
+                   [](const StrokeEnd& a, const StrokeEnd& b) { return a.at.x() < b.at.x(); });
+  const auto look = [&](const StrokeEnd& a, const StrokeEnd& b) {
+    const Vec2 d = b.at - a.at;
+    if (d.norm() <= nearPx && std::abs(cross(a.out, d)) <= 0.5 * nearPx) strokes[a.line].continues[a.side] = true;
+  };
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (std::size_t k = i + 1; k < ends.size() && ends[k].at.x() - ends[i].at.x() <= nearPx; ++k) {
+      if (ends[i].line == ends[k].line || -ends[i].out.dot(ends[k].out) < kContinuesCos) continue;
+      look(ends[i], ends[k]);
+      look(ends[k], ends[i]);
+    }
+}
+
+std::vector<MeanLine> strokesOf(const std::vector<Contour>& lines, double distancePx, std::vector<Vec2>& turns) {
+  const StrokesBeside others(lines, distancePx);
+  std::vector<MeanLine> strokes;
+  double width = 1.0;
+  for (int l = 0; l < static_cast<int>(lines.size()); ++l) {
+    const Contour& line = lines[l];
+    const int n = static_cast<int>(line.points.size());
+    width = std::max(width, widthOf(line));
+    const int reach = std::clamp(static_cast<int>(kTurnWidths * widthOf(line)), kLeastTurnReach,
+                                 std::max(kLeastTurnReach, static_cast<int>(0.5 * distancePx)));
+    std::vector<int> cuts = n > 4 * reach ? sharpTurnsOf(line, reach) : std::vector<int>{};
+    // Where no other stroke is near, it was the hand that turned.
+    std::erase_if(cuts, [&](int c) { return !others.isNear(line.points[c], l, c); });
+    for (const int c : cuts) turns.push_back(line.points[c]);
+    const auto add = [&](int from, int to, bool closed) {
+      MeanLine stroke;
+      stroke.closed = closed;
+      for (int i = from; i <= to; ++i) {
+        const int at = wrapIndex(i, n);
+        stroke.points.push_back(line.points[at]);
+        stroke.source.push_back({l, at});
+      }
+      stroke.tangent = directions(stroke.points, closed, 3);
+      stroke.weight.assign(stroke.points.size(), 1.0f);
+      strokes.push_back(std::move(stroke));
+    };
+    if (cuts.empty()) {
+      add(0, n - 1, line.closed);
+      continue;
+    }
+    if (!line.closed) add(0, cuts.front(), false);
+    for (std::size_t c = 0; c + 1 < cuts.size(); ++c) add(cuts[c], cuts[c + 1], false);
+    add(cuts.back(), line.closed ? n + cuts.front() : n - 1, false);
+  }
+  findContinuations(strokes, std::min(0.5 * distancePx, kContinuesWidths * width));
+  return strokes;
+}
+
+}  // namespace batten

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/segment/regression_segments.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/contour/segment/station_meter.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr int kFewestOpen = 4;
+constexpr int kFewestClosed = 6;
+constexpr int kMostStations = 2000;
+constexpr double kSmallestSpacingPx = 8.0;
+constexpr double kAdaptiveGrowth = 1.2;
+constexpr double kAveragedPx = 5.0;  // the tolerance speaks of the line, not of its noise
+
+void pinEnds(const Piece& piece, std::vector<FittedStation>& stations) {
+  const auto pin = [](FittedStation& s, const Vec2& corner) {
+    const Vec2 shift = corner - s.station.point;
+    s.station.point = corner;
+    s.station.from += shift;
+    s.station.to += shift;
+  };
+  if (piece.closed || stations.empty()) return;
+  if (piece.startIsCorner) pin(stations.front(), piece.points.front());
+  if (piece.endIsCorner) pin(stations.back(), piece.points.back());
+}
+
+std::vector<FittedStation> stationsOf(const MeasuredPiece& piece, int count) {
+  std::vector<FittedStation> stations;
+  const double spacing = piece.length() / (piece.closed() ? count : count - 1);
+  for (int j = 0; j < count; ++j) stations.push_back(makeStation(piece, j * spacing, spacing));
+  pinEnds(piece.piece(), stations);
+  return stations;
+}
+
+// Normal distance of a point from the parabola of the nearest station; the arc length places the foot.
+double parabolaDistance(const MeasuredPiece& piece, const std::vector<FittedStation>& stations, int i) {
+  const int n = static_cast<int>(stations.size());
+  const double spacing = piece.length() / (piece.closed() ? n : n - 1);
+  double s = piece.s(i);
+  int j = spacing > 0.0 ? static_cast<int>(std::lround(s / spacing)) : 0;
+  if (piece.closed() && j >= n) j -= n, s -= piece.length();
+  j = std::clamp(j, 0, n - 1);
+  const LocalQuadratic& fit = stations[j].fit;
+  const double u = s - stations[j].s;
+  const Vec2 tangent = fit.derivative(u);
+  const double speed = tangent.norm();
+  const Vec2 miss = piece.point(i) - fit.at(u);
+  return speed > 0.0 ? cross(tangent, miss) / speed : miss.norm();
+}
+
+struct ResidualSummary {
+  double rms = 0.0;
+  double largestAveraged = 0.0;
+};
+
+ResidualSummary residualsOf(const MeasuredPiece& piece, const std::vector<FittedStation>& stations) {
+  ResidualSummary summary;
+  double square = 0.0, blockSum = 0.0, blockFrom = 0.0;
+  int blockCount = 0;
+  for (int i = 0; i < piece.count(); ++i) {
+    const double e = parabolaDistance(piece, stations, i);
+    square += e * e;
+    if (piece.s(i) - blockFrom >= kAveragedPx && blockCount > 0) {
+      summary.largestAveraged = std::max(summary.largestAveraged, std::abs(blockSum / blockCount));
+      blockSum = 0.0;
+      blockCount = 0;
+      blockFrom = piece.s(i);
+    }
+    blockSum += e;
+    ++blockCount;
+  }
+  if (piece.count() > 0) summary.rms = std::sqrt(square / piece.count());
+  return summary;
+}
+
+PieceSegments toSegments(const MeasuredPiece& piece, const std::vector<FittedStation>& stations) {
+  PieceSegments result;
+  for (const FittedStation& s : stations) result.stations.push_back(s.station);
+  result.residualRmsPx = residualsOf(piece, stations).rms;
+  return result;
+}
+
+int stationCount(const MeasuredPiece& piece, const SegmentParams& params) {
+  const int fewest = piece.closed() ? kFewestClosed : kFewestOpen;
+  if (params.count > 0) return std::clamp(params.count, fewest, kMostStations);
+  const double spacings = std::min(piece.length() / params.spacingPx, static_cast<double>(kMostStations));
+  return std::clamp(static_cast<int>(std::lround(spacings)) + (piece.closed() ? 0 : 1), fewest, kMostStations);
+}
+
+PieceSegments adaptiveSegments(const MeasuredPiece& piece, const SegmentParams& params) {
+  const int fewest = piece.closed() ? kFewestClosed : kFewestOpen;
+  const double finest = std::min(piece.length() / kSmallestSpacingPx, static_cast<double>(kMostStations));
+  const int most = std::max(fewest, static_cast<int>(finest));
+  int count = fewest;
+  for (;;) {
+    const std::vector<FittedStation> stations = stationsOf(piece, count);
+    if (count >= most || residualsOf(piece, stations).largestAveraged <= params.tolerancePx) {
+      return toSegments(piece, stations);
+    }
+    count = std::min(most, std::max(count + 1, static_cast<int>(count * kAdaptiveGrowth)));
+  }
+}
+
+PieceSegments groupSegments(const Piece& piece, int groups) {
+  PieceSegments result;
+  const int n = static_cast<int>(piece.points.size());
+  const int k = std::clamp(groups, 1, std::max(1, n / 2));
+  const std::vector<int> bounds = groupBoundaries(n, k);
+  double square = 0.0;
+  for (int g = 0; g < k; ++g) {
+    const int from = bounds[g], to = bounds[g + 1];
+    const std::span<const Vec2> group(piece.points.data() + from, static_cast<std::size_t>(to - from));
+    const PcaLine line = pcaLine(group);
+    result.stations.push_back({line.centroid, line.direction, line.from, line.to});
+    square += line.residualRms * line.residualRms * (to - from);
+  }
+  result.residualRmsPx = std::sqrt(square / std::max(1, n));
+  return result;
+}
+
+PieceSegments segmentsOf(const Piece& piece, const SegmentParams& params) {
+  if (piece.points.empty()) return {};
+  const MeasuredPiece measured(piece);
+  if (piece.points.size() < 2 || !(measured.length() > 0.0)) {
+    return {{{piece.points.front(), Vec2::UnitX(), piece.points.front(), piece.points.front()}}, 0.0};
+  }
+  switch (params.mode) {
+    case SegmentMode::Stations:
+      return toSegments(measured, stationsOf(measured, stationCount(measured, params)));
+    case SegmentMode::Sturges:
+      return groupSegments(piece, sturgesGroups(static_cast<int>(piece.points.size())));
+    case SegmentMode::Count: {
+      const double wanted = std::min(measured.length() / params.spacingPx, static_cast<double>(kMostStations));
+      return groupSegments(
+          piece, params.count > 0 ? params.count : std::max(kFewestOpen, static_cast<int>(std::lround(wanted))));
+    }
+    case SegmentMode::Adaptive:
+      return adaptiveSegments(measured, params);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<Error> validate(const SegmentParams& p) {
+  const auto bad = [](const char* message) { return Error{ErrorCode::BadParameter, message, {}}; };
+  if (p.count != 0 && (p.count < 4 || p.count > kMostStations)) return bad("segments.count must be 0 or 4 to 2000.");
+  if (!(p.spacingPx >= 8.0 && p.spacingPx <= 400.0)) return bad("segments.spacing must be 8 to 400 px.");
+  if (!(p.tolerancePx >= 0.02 && p.tolerancePx <= 5.0)) return bad("segments.tolerance must be 0.02 to 5 px.");
+  return std::nullopt;
+}
+
+int sturgesGroups(int n) { return n < 1 ? 0 : static_cast<int>(std::bit_width(static_cast<unsigned>(n))); }
+
+std::vector<int> groupBoundaries(int n, int k) {
+  std::vector<int> bounds;
+  for (int i = 0; i <= k; ++i) bounds.push_back(static_cast<int>(static_cast<std::int64_t>(n) * i / std::max(1, k)));
+  return bounds;
+}
+
+Result<SegmentSet> regressionSegments(const PieceSet& pieces, const SegmentParams& params) {
+  if (auto error = validate(params)) return fail(*error);
+  SegmentSet set;
+  set.pieces.reserve(pieces.pieces.size());
+  for (const Piece& piece : pieces.pieces) set.pieces.push_back(segmentsOf(piece, params));
+  return set;
+}
+
+}  // namespace batten

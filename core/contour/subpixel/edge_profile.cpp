@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/subpixel/edge_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/parallel.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr int kSamplingGrain = 1024;  // points per block: about a millisecond
+// The part of the contrast by which the grey must turn back before another edge is believed in. Grain and noise of the
+// averaged profile stay well below it on anything that is a line at all.
+constexpr double kTurnBack = 0.2;
+
+void catmullRom(double f, double w[4]) {
+  w[0] = f * (-0.5 + f * (1.0 - 0.5 * f));
+  w[1] = 1.0 + f * f * (-2.5 + 1.5 * f);
+  w[2] = f * (0.5 + f * (2.0 - 1.5 * f));
+  w[3] = f * f * (-0.5 + 0.5 * f);
+}
+
+// Position of an extremum between samples by the parabola through three of them.
+double parabolicOffset(double left, double mid, double right) {
+  const double bend = left - 2.0 * mid + right;
+  if (!(std::abs(bend) > 0.0)) return 0.0;
+  return std::clamp(0.5 * (left - right) / bend, -0.5, 0.5);
+}
+
+// Walks from sample `from` in direction `step` while the grey keeps its trend (`sign` = -1 falling, +1 rising). Returns
+// the sample where it is most extreme before it turns back, or the last one; `turned` says which.
+int followTrend(const float* p, int from, int step, double sign, double turnBack, bool& turned) {
+  int best = from;
+  turned = false;
+  for (int k = from; k >= 0 && k < kProfileSamples; k += step) {
+    if (sign * p[k] > sign * p[best]) best = k;
+    if (sign * (p[best] - p[k]) > turnBack) {
+      turned = true;
+      return best;
+    }
+  }
+  return step > 0 ? kProfileSamples - 1 : 0;
+}
+
+}  // namespace
+
+double sampleCubic(const GreyImage& grey, const Vec2& at) {
+  const double x = at.x() - 0.5, y = at.y() - 0.5;
+  const double fx = std::floor(x), fy = std::floor(y);
+  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
+  double wx[4], wy[4];
+  catmullRom(x - fx, wx);
+  catmullRom(y - fy, wy);
+  double sum = 0.0;
+  if (ix >= 1 && iy >= 1 && ix + 2 < grey.width && iy + 2 < grey.height) {
+    for (int j = 0; j < 4; ++j) {
+      const std::uint16_t* p = grey.row(iy - 1 + j) + ix - 1;
+      sum += wy[j] * (wx[0] * p[0] + wx[1] * p[1] + wx[2] * p[2] + wx[3] * p[3]);
+    }
+  } else {
+    for (int j = 0; j < 4; ++j) {
+      const std::uint16_t* p = grey.row(std::clamp(iy - 1 + j, 0, grey.height - 1));
+      for (int i = 0; i < 4; ++i) sum += wy[j] * wx[i] * p[std::clamp(ix - 1 + i, 0, grey.width - 1)];
+    }
+  }
+  return sum / GreyImage::kGreyUnit;
+}
+
+double sampleLinear(const GreyImage& grey, const Vec2& at) {
+  const double x = std::clamp(at.x() - 0.5, 0.0, grey.width - 1.0);
+  const double y = std::clamp(at.y() - 0.5, 0.0, grey.height - 1.0);
+  const int ix = static_cast<int>(x), iy = static_cast<int>(y);
+  const int jx = std::min(ix + 1, grey.width - 1), jy = std::min(iy + 1, grey.height - 1);
+  const double fx = x - ix, fy = y - iy;
+  const std::uint16_t* a = grey.row(iy);
+  const std::uint16_t* b = grey.row(jy);
+  return ((1 - fy) * ((1 - fx) * a[ix] + fx * a[jx]) + fy * ((1 - fx) * b[ix] + fx * b[jx])) / GreyImage::kGreyUnit;
+}
+
+ProfileBand sampleProfiles(const GreyImage& grey, std::span<const Vec2> base, std::span<const Vec2> normal, bool cubic,
+                           const RunContext& context) {
+  ProfileBand band;
+  band.grey.resize(base.size() * kProfileSamples);
+  parallelFor(context, static_cast<int>(base.size()), kSamplingGrain, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      float* row = band.row(i);
+      for (int k = 0; k < kProfileSamples; ++k) {
+        const Vec2 at = base[index] + profileU(k) * normal[index];
+        row[k] = static_cast<float>(cubic ? sampleCubic(grey, at) : sampleLinear(grey, at));
+      }
+    }
+  });
+  return band;
+}
+
+ProfileBand averageAlong(const ProfileBand& band, bool closed, double sigma, const RunContext& context) {
+  ProfileBand out;
+  out.grey.resize(band.grey.size());
+  const int n = band.count();
+  const int half = std::max(1, static_cast<int>(std::ceil(3.0 * sigma)));
+  std::vector<float> weight(2 * half + 1);
+  for (int d = -half; d <= half; ++d) {
+    weight[d + half] = static_cast<float>(std::exp(-0.5 * (d / sigma) * (d / sigma)));
+  }
+  parallelFor(context, n, kSamplingGrain, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      float sum[kProfileSamples] = {};
+      float total = 0.0f;
+      for (int d = -half; d <= half; ++d) {
+        const int j = closed ? wrapIndex(i + d, n) : i + d;
+        if (j < 0 || j >= n) continue;
+        const float w = weight[d + half];
+        const float* row = band.row(j);
+        for (int k = 0; k < kProfileSamples; ++k) sum[k] += w * row[k];
+        total += w;
+      }
+      float* target = out.row(i);
+      for (int k = 0; k < kProfileSamples; ++k) target[k] = sum[k] / total;
+    }
+  });
+  return out;
+}
+
+EdgeRises edgeRises(std::span<const Vec2> chain, bool closed, const GreyImage& grey, std::array<double, 2> reachPx,
+                    double sigma, const RunContext& context) {
+  constexpr double kStairSigma = 4.0;  // points: the staircase of the cracks
+  const std::vector<Vec2> base = smoothPolyline(chain, closed, kStairSigma);
+  const std::vector<Vec2> along = directions(base, closed, 3);
+  EdgeRises rises{std::vector<float>(base.size()), std::vector<float>(base.size())};
+  parallelFor(context, static_cast<int>(base.size()), kSamplingGrain, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const Vec2 inward = leftNormal(along[i]);  // with y down: ink lies to the right of travel
+      const auto rise = [&](double u) {
+        return static_cast<float>(sampleLinear(grey, base[i] - u * inward) - sampleLinear(grey, base[i] + u * inward));
+      };
+      rises.inner[i] = rise(reachPx[0]);
+      rises.outer[i] = rise(reachPx[1]);
+    }
+  });
+  return {smoothValues(rises.inner, closed, sigma), smoothValues(rises.outer, closed, sigma)};
+}
+
+EdgeSpan findEdgeSpan(const float* p) {
+  EdgeSpan span;
+  const auto [low, high] = std::minmax_element(p, p + kProfileSamples);
+  // The steepest fall within 2 px of the chain; nearer ones win over slightly steeper ones.
+  int centre = kProfileHalf;
+  double steepest = 0.0;
+  for (int k = kProfileHalf - 4; k <= kProfileHalf + 4; ++k) {
+    const double fall = (p[k - 1] - p[k + 1]) * (1.0 - 0.15 * std::abs(profileU(k)));
+    if (fall > steepest) {
+      steepest = fall;
+      centre = k;
+    }
+  }
+  span.centre = profileU(centre);
+  if (!(steepest > 0.0)) return span;
+  const double turnBack = kTurnBack * (*high - *low);
+  bool inkTurned = false, paperTurned = false;
+  const int hi = followTrend(p, centre, 1, -1.0, turnBack, inkTurned);
+  const int lo = followTrend(p, centre, -1, 1.0, turnBack, paperTurned);
+  span.lo = profileU(lo);
+  span.hi = profileU(hi);
+  // A border seen twice lies as far beyond the middle as this edge lies before it.
+  if (inkTurned && hi > 0 && hi < kProfileSamples - 1) {
+    span.hi = profileU(hi) + kProfileStepPx * parabolicOffset(p[hi - 1], p[hi], p[hi + 1]);
+    span.inkTwin = 2.0 * (span.hi - span.centre);
+  }
+  if (paperTurned && lo > 0 && lo < kProfileSamples - 1) {
+    span.lo = profileU(lo) + kProfileStepPx * parabolicOffset(p[lo - 1], p[lo], p[lo + 1]);
+    span.paperTwin = 2.0 * (span.centre - span.lo);
+  }
+  float inkLevel = p[centre], paperLevel = p[centre];
+  for (int k = lo; k <= hi; ++k) {
+    inkLevel = std::min(inkLevel, p[k]);
+    paperLevel = std::max(paperLevel, p[k]);
+  }
+  span.contrast = paperLevel - inkLevel;
+  return span;
+}
+
+double halfLevelCrossing(const float* p, const EdgeSpan& span) {
+  double inkSum = 0.0, paperSum = 0.0;
+  int inkCount = 0, paperCount = 0;
+  const double inkFrom = span.centre + std::min(1.9, 0.6 * (span.hi - span.centre));
+  const double paperTo = span.centre - std::min(1.9, 0.6 * (span.centre - span.lo));
+  for (int k = 0; k < kProfileSamples; ++k) {
+    const double u = profileU(k);
+    if (u >= inkFrom && u <= span.hi + 0.25) {
+      inkSum += p[k];
+      ++inkCount;
+    } else if (u <= paperTo && u >= span.lo - 0.25) {
+      paperSum += p[k];
+      ++paperCount;
+    }
+  }
+  if (inkCount == 0 || paperCount == 0) return span.centre;
+  const double half = 0.5 * (inkSum / inkCount + paperSum / paperCount);
+  double best = span.centre;
+  double distance = 1e9;  // any crossing is nearer than that
+  for (int k = 0; k + 1 < kProfileSamples; ++k) {
+    if (!(p[k] >= half && p[k + 1] < half)) continue;
+    const double u = profileU(k) + kProfileStepPx * (p[k] - half) / (p[k] - p[k + 1]);
+    if (std::abs(u - span.centre) < distance) {
+      distance = std::abs(u - span.centre);
+      best = u;
+    }
+  }
+  return distance <= 1.5 ? best : span.centre;
+}
+
+const NormalTable& NormalTable::instance() {
+  static const NormalTable table;
+  return table;
+}
+
+NormalTable::NormalTable() {
+  for (std::size_t i = 0; i < cdf_.size(); ++i) {
+    const double x = static_cast<double>(i) / kPerUnit - kRange;
+    cdf_[i] = static_cast<float>(0.5 * std::erfc(-x / std::numbers::sqrt2));
+    pdf_[i] = static_cast<float>(std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi));
+  }
+}
+
+}  // namespace batten

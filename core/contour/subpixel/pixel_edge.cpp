@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/subpixel/pixel_edge.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <numbers>
+
+namespace batten {
+namespace {
+
+constexpr double kNarrowSide = 0.15;  // [px] a projected side below this counts as blur: else 1 / side loses digits
+
+double density(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi); }
+double distribution(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
+
+// First and second integral of the normal distribution of standard deviation s.
+double once(double x, double s) { return x * distribution(x / s) + s * density(x / s); }
+double twice(double x, double s) { return 0.5 * ((x * x + s * s) * distribution(x / s) + x * s * density(x / s)); }
+
+struct Answer {
+  double part, slope;
+};
+
+constexpr int kEdgeNewtonSteps = 4;
+constexpr double kLargestStepPx = 0.5, kSettledPx = 2e-3;
+
+PixelResponse::Value modelAt(const PixelResponse& response, const PixelEdge& edge, double distance) {
+  PixelResponse::Value value = response.at(distance, edge.direction);
+  if (edge.inkTwin > 0.0) value.part -= response.at(distance - edge.inkTwin, edge.direction).part;
+  if (edge.paperTwin > 0.0) value.part += response.at(-distance - edge.paperTwin, edge.direction).part;
+  return value;
+}
+
+// The square seen along the edge is a trapezium: two boxes of widths a >= b, one after the other.
+Answer answerOf(double d, double a, double b, double s) {
+  if (b < kNarrowSide) {
+    const double wide = std::hypot(s, b / std::sqrt(12.0));
+    const double hi = d + 0.5 * a, lo = d - 0.5 * a;
+    return {(once(hi, wide) - once(lo, wide)) / a, (distribution(hi / wide) - distribution(lo / wide)) / a};
+  }
+  const double outer = 0.5 * (a + b), inner = 0.5 * (a - b);
+  return {(twice(d + outer, s) - twice(d + inner, s) - twice(d - inner, s) + twice(d - outer, s)) / (a * b),
+          (once(d + outer, s) - once(d + inner, s) - once(d - inner, s) + once(d - outer, s)) / (a * b)};
+}
+
+}  // namespace
+
+PixelResponse::PixelResponse(double blur) : blur_(blur) {
+  reach_ = 0.5 + 2.5 * blur;
+  range_ = 1.0 + 4.0 * blur;
+  columns_ = 2 * static_cast<int>(std::ceil(range_ * kPerPx)) + 2;
+  range_ = 0.5 * (columns_ - 2) / kPerPx;
+  for (int row = 0; row < kDirections; ++row) {
+    const double angle = 0.25 * std::numbers::pi * row / (kDirections - 1);
+    const double a = std::cos(angle), b = std::sin(angle);
+    for (int k = 0; k < columns_; ++k) {
+      const Answer answer = answerOf(static_cast<double>(k) / kPerPx - range_, a, b, blur);
+      part_.push_back(static_cast<float>(answer.part));
+      slope_.push_back(static_cast<float>(answer.slope));
+    }
+  }
+}
+
+const PixelResponse& PixelResponse::forBlur(int index) {
+  static std::array<std::once_flag, kBlurs> made;
+  static std::array<std::unique_ptr<const PixelResponse>, kBlurs> tables;
+  const auto at = static_cast<std::size_t>(index);
+  std::call_once(made[at], [&] { tables[at].reset(new PixelResponse((index + 1) * kStepPx)); });
+  return *tables[at];
+}
+
+int PixelResponse::direction(const Vec2& normal) const {
+  const double x = std::abs(normal.x()), y = std::abs(normal.y());
+  const double angle = std::atan2(std::min(x, y), std::max(x, y));
+  return static_cast<int>(std::lround(angle / (0.25 * std::numbers::pi) * (kDirections - 1)));
+}
+
+PixelResponse::Value PixelResponse::at(double distance, int direction) const {
+  const double place = (distance + range_) * kPerPx;
+  if (!(place > 0.0)) return {0.0, 0.0};
+  if (place >= columns_ - 2) return {1.0, 0.0};
+  const auto k = static_cast<std::size_t>(place);
+  const double f = place - static_cast<double>(k);
+  const std::size_t i = static_cast<std::size_t>(direction) * static_cast<std::size_t>(columns_) + k;
+  return {part_[i] + f * (part_[i + 1] - part_[i]), slope_[i] + f * (slope_[i + 1] - slope_[i])};
+}
+
+void PixelWindow::read(const GreyImage& grey, const Vec2& base, const Vec2& normal, double lo, double hi) {
+  pixels.clear();
+  const Vec2 along(normal.y(), -normal.x());
+  const double middle = 0.5 * (lo + hi), half = 0.5 * (hi - lo);
+  const Vec2 centre = base + middle * normal;
+  const double height = std::abs(normal.y()) * half + std::abs(along.y()) * kHalfPx;
+  const int top = std::max(0, static_cast<int>(std::ceil(centre.y() - height - 0.5)));
+  const int bottom = std::min(grey.height - 1, static_cast<int>(std::floor(centre.y() + height - 0.5)));
+  for (int y = top; y <= bottom; ++y) {
+    // Where the row of pixel centres crosses the two strips |along| < kHalfPx and lo..hi.
+    const double dy = y + 0.5 - centre.y();
+    double from = -1e9, to = 1e9;
+    const auto cut = [&](double rate, double offset, double limit) {
+      if (std::abs(rate) < 1e-9) {
+        if (std::abs(offset) > limit) to = -1e9;
+        return;
+      }
+      const double a = (-limit - offset) / rate, b = (limit - offset) / rate;
+      from = std::max(from, std::min(a, b));
+      to = std::min(to, std::max(a, b));
+    };
+    cut(normal.x(), dy * normal.y(), half);
+    cut(along.x(), dy * along.y(), kHalfPx);
+    if (!(from <= to)) continue;
+    const int first = std::max(0, static_cast<int>(std::ceil(centre.x() + from - 0.5)));
+    const int last = std::min(grey.width - 1, static_cast<int>(std::floor(centre.x() + to - 0.5)));
+    const std::uint16_t* row = grey.row(y);
+    for (int x = first; x <= last; ++x) {
+      const double dx = x + 0.5 - centre.x();
+      const double s = dx * along.x() + dy * along.y();
+      pixels.push_back({dx * normal.x() + dy * normal.y() + middle, std::max(0.0, 1.0 - std::abs(s) / kHalfPx),
+                        row[x] / GreyImage::kGreyUnit});
+    }
+  }
+}
+
+double mostLikelyPosition(const PixelWindow& window, const PixelResponse& response, const PixelEdge& edge, double start,
+                          double gate, PointInformation* information) {
+  if (information) *information = {};
+  double position = start;
+  for (int step = 0; step < kEdgeNewtonSteps; ++step) {
+    double top = 0.0, bottom = 0.0, spread = 0.0, squares = 0.0, weights = 0.0;
+    for (const PixelWindow::Pixel& p : window.pixels) {
+      if (std::abs(p.distance - position) > response.reach()) continue;
+      const auto model = modelAt(response, edge, p.distance - position);
+      const double gradient = edge.contrast * model.slope;  // of the grey with respect to the position
+      const double left = p.grey - (edge.paper - edge.contrast * model.part), weighted = p.weight * gradient;
+      top += weighted * left;
+      bottom += weighted * gradient;
+      spread += weighted * weighted;
+      squares += p.weight * left * left;
+      weights += p.weight;
+    }
+    if (!(bottom > 0.0)) return start;
+    // Weighted least squares under white noise; one step more takes its part of the squares.
+    if (information) {
+      *information = {std::sqrt(spread) / bottom, std::max(0.0, squares - top * top / bottom),
+                      std::max(0.0, weights - spread / bottom)};
+    }
+    const double move = std::clamp(top / bottom, -kLargestStepPx, kLargestStepPx);
+    position = std::clamp(position + move, start - gate, start + gate);
+    if (std::abs(move) < kSettledPx) break;
+  }
+  return position;
+}
+
+double squaresLeft(const PixelWindow& window, const PixelResponse& response, const PixelEdge& edge, double position) {
+  double sum = 0.0;
+  for (const PixelWindow::Pixel& p : window.pixels) {
+    const double e = p.grey - (edge.paper - edge.contrast * modelAt(response, edge, p.distance - position).part);
+    sum += p.weight * e * e;
+  }
+  return sum;
+}
+
+}  // namespace batten

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/curve/nurbs_curve.h"
+
+namespace batten {
+
+/// Signed curvature at u in 1/unit, positive when the curve turns left in a frame with y up (conventions.h). Absent
+/// where the first derivative vanishes; never NaN.
+std::optional<double> curvature(const NurbsCurve&, double u);
+/// Derivative of the curvature with respect to arc length. Absent where the first derivative vanishes.
+std::optional<double> curvatureSlope(const NurbsCurve&, double u);
+
+struct CurvatureExtremumPoint {
+  double u = 0.0, s = 0.0, kappa = 0.0;
+  bool maximum = true;
+};
+/// Extrema of the signed curvature whose rise above both neighbouring extrema (or ends) exceeds `prominence` [1/unit].
+/// Suggested prominence: 5e-3 / diagonal of the bounding box. `periodic`: the end continues at the start.
+std::vector<CurvatureExtremumPoint> curvatureExtrema(const NurbsCurve&, double prominence, bool periodic);
+/// Parameters of sign changes of the curvature that reach beyond +-`threshold` [1/unit] on both sides.
+std::vector<double> inflections(const NurbsCurve&, double threshold, bool periodic);
+
+/// Diagonal of the bounding box of the control points; the scale that relative tolerances refer to. > 0 for made curves
+/// that are not a point.
+double extent(const NurbsCurve&);
+
+}  // namespace batten

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/curve/span_curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace batten {
+namespace {
+
+constexpr int kPartsPerSpan = 2;
+
+/// Legendre nodes of the speed on 0..1, and the polynomial of lowest degree through the speeds there.
+constexpr std::size_t kNodes = 7;
+using NodeValues = std::array<double, kNodes>;
+constexpr NodeValues kNodeAt = {0.0254460438286207, 0.1292344072003028, 0.2970774243113014, 0.5,
+                                0.7029225756886986, 0.8707655927996972, 0.9745539561713793};
+
+/// Row k: the coefficients of x^0, x^1, ... of the polynomial that is 1 at node k and 0 at the others.
+std::array<NodeValues, kNodes> lagrangePolynomials() {
+  std::array<NodeValues, kNodes> all{};
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    NodeValues& c = all[k];
+    c[0] = 1.0;
+    std::size_t degree = 0;
+    for (std::size_t j = 0; j < kNodes; ++j) {
+      if (j == k) continue;
+      const double scale = 1.0 / (kNodeAt[k] - kNodeAt[j]);
+      for (std::size_t i = ++degree; i > 0; --i) c[i] = scale * (c[i - 1] - kNodeAt[j] * c[i]);
+      c[0] *= -scale * kNodeAt[j];
+    }
+  }
+  return all;
+}
+
+/// The arc length over one part of a span, as the integral of the polynomial through the speeds at the nodes: for the
+/// whole part the Gauss-Legendre rule, within it as good as that polynomial. So a curve's samples cost no integrals.
+class PartLength {
+ public:
+  PartLength(const SpanCurve& curve, int part) {
+    static const std::array<NodeValues, kNodes> kLagrange = lagrangePolynomials();
+    const int span = part / kPartsPerSpan;
+    const double low = lowOf(part), width = curve.basis().width(span) / kPartsPerSpan;
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      const double v = width * curve.speed({span, low + kNodeAt[k] / kPartsPerSpan});
+      for (std::size_t i = 0; i < kNodes; ++i) slope_[i] += v * kLagrange[k][i];
+    }
+  }
+  static double lowOf(int part) { return static_cast<double>(part % kPartsPerSpan) / kPartsPerSpan; }
+
+  double whole() const { return at(1.0); }
+  /// The place 0..1 in the part at which its length has reached `wanted`, by safeguarded Newton.
+  double placeAt(double wanted, double whole) const {
+    double low = 0.0, high = 1.0, x = whole > 0.0 ? std::clamp(wanted / whole, 0.0, 1.0) : 0.0;
+    for (int step = 0; step < 60; ++step) {
+      const double miss = at(x) - wanted;
+      (miss > 0.0 ? high : low) = x;
+      const double v = slopeAt(x);
+      double next = v > 0.0 ? x - miss / v : -1.0;
+      if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+      const bool settled = std::abs(next - x) < 1e-15;
+      x = next;
+      if (settled) break;
+    }
+    return x;
+  }
+
+ private:
+  double slopeAt(double x) const {
+    double sum = slope_.back();
+    for (std::size_t i = kNodes - 1; i-- > 0;) sum = sum * x + slope_[i];
+    return sum;
+  }
+  double at(double x) const {
+    double sum = slope_.back() / kNodes;
+    for (std::size_t i = kNodes - 1; i-- > 0;) sum = sum * x + slope_[i] / static_cast<double>(i + 1);
+    return sum * x;
+  }
+  NodeValues slope_{};
+};
+
+}  // namespace
+
+SpanBasis::SpanBasis(int degree, std::span<const double> knots, int count, int wrap)
+    : degree_(degree), count_(count), wrap_(wrap) {
+  const auto p = static_cast<std::size_t>(degree), size = p + 1;
+  for (std::size_t k = p; k < static_cast<std::size_t>(count); ++k) {
+    const double a = knots[k], h = knots[k + 1] - a;
+    if (!(h > 0.0)) continue;
+    breaks_.push_back(a);
+    first_.push_back(static_cast<int>(k - p));
+    // Cox-de Boor on polynomials in tau = (t - a) / h; n[j][i] = coefficient of tau^i of the j-th function alive in the
+    // span.
+    std::vector<std::vector<double>> n(size, std::vector<double>(size, 0.0));
+    n[0][0] = 1.0;
+    for (std::size_t m = 1; m <= p; ++m) {
+      std::vector<std::vector<double>> next(size, std::vector<double>(size, 0.0));
+      for (std::size_t j = 0; j < m; ++j) {
+        const double left = knots[k - m + 1 + j], right = knots[k + 1 + j];
+        const double scale = 1.0 / (right - left);
+        for (std::size_t i = 0; i < m; ++i) {
+          const double v = n[j][i] * scale;
+          next[j + 1][i] += v * (a - left);
+          next[j + 1][i + 1] += v * h;
+          next[j][i] += v * (right - a);
+          next[j][i + 1] -= v * h;
+        }
+      }
+      n = std::move(next);
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+      for (std::size_t j = 0; j < size; ++j) coefficients_.push_back(n[j][i]);
+    }
+  }
+  breaks_.push_back(knots[count]);
+}
+
+SpanRow SpanBasis::row(const SpanPlace& place, int order) const {
+  SpanRow result;
+  const double h = width(place.span);
+  const std::size_t size = stride();
+  const double* c = &coefficients_[static_cast<std::size_t>(place.span) * size * size];
+  double scale = 1.0;
+  for (int d = 0; d <= std::min(order, degree_); ++d) {
+    auto& out = result.d[d];
+    double power = scale;
+    for (int k = d; k <= degree_; ++k) {
+      double factor = power;
+      for (int i = 0; i < d; ++i) factor *= k - i;
+      const double* line = c + static_cast<std::size_t>(k) * size;
+      for (std::size_t j = 0; j < size; ++j) out[j] += factor * line[j];
+      power *= place.tau;
+    }
+    scale /= h;
+  }
+  return result;
+}
+
+SpanCurve::SpanCurve(const SpanBasis& basis, std::span<const Vec2> points) : basis_(&basis) {
+  const int p = basis.degree();
+  coefficients_.assign(static_cast<std::size_t>(basis.spanCount()) * static_cast<std::size_t>(p + 1), Vec2::Zero());
+  for (int s = 0; s < basis.spanCount(); ++s) {
+    for (int k = 0; k <= p; ++k) {
+      Vec2& c =
+          coefficients_[static_cast<std::size_t>(s) * static_cast<std::size_t>(p + 1) + static_cast<std::size_t>(k)];
+      for (int j = 0; j <= p; ++j) {
+        c += basis.coefficient(s, k, j) * points[basis.point(s, j)];
+      }
+    }
+  }
+}
+
+Jet SpanCurve::at(const SpanPlace& place, int order) const {
+  const auto p = static_cast<std::size_t>(basis_->degree());
+  const Vec2* c = &coefficients_[static_cast<std::size_t>(place.span) * (p + 1)];
+  Jet jet;
+  jet.fill(Vec2::Zero());
+  jet[0] = c[p];
+  for (std::size_t k = p; k-- > 0;) {  // Horner for the Taylor coefficients at tau
+    for (int d = order; d >= 1; --d) {
+      jet[d] = jet[d] * place.tau + jet[d - 1];
+    }
+    jet[0] = jet[0] * place.tau + c[k];
+  }
+  const double inverse = 1.0 / basis_->width(place.span);
+  double factor = 1.0;
+  for (int d = 1; d <= order; ++d) {
+    factor *= d * inverse;
+    jet[d] *= factor;
+  }
+  return jet;
+}
+
+double SpanCurve::speed(const SpanPlace& place) const {
+  const auto p = static_cast<std::size_t>(basis_->degree());
+  const Vec2* c = &coefficients_[static_cast<std::size_t>(place.span) * (p + 1)];
+  Vec2 sum = static_cast<double>(p) * c[p];
+  for (std::size_t k = p - 1; k >= 1; --k) sum = sum * place.tau + static_cast<double>(k) * c[k];
+  return sum.norm() / basis_->width(place.span);
+}
+
+double SpanCurve::bendBound(int span) const {
+  const auto p = static_cast<std::size_t>(basis_->degree()), first = static_cast<std::size_t>(span) * (p + 1);
+  double bound = 0.0;
+  for (std::size_t k = 2; k <= p; ++k) bound += static_cast<double>(k * (k - 1)) * coefficients_[first + k].norm();
+  return bound;
+}
+
+double SpanCurve::bendBound(const SpanCurve& other, int span) const {
+  const auto p = static_cast<std::size_t>(basis_->degree()), first = static_cast<std::size_t>(span) * (p + 1);
+  double bound = 0.0;
+  for (std::size_t k = 2; k <= p; ++k) {
+    bound += static_cast<double>(k * (k - 1)) * (coefficients_[first + k] - other.coefficients_[first + k]).norm();
+  }
+  return bound;
+}
+
+std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool closed) {
+  const int parts = curve.basis().spanCount() * kPartsPerSpan;
+  std::vector<PartLength> lengths;
+  lengths.reserve(parts);
+  std::vector<double> cumulative{0.0};
+  for (int k = 0; k < parts; ++k) {
+    lengths.emplace_back(curve, k);
+    cumulative.push_back(cumulative.back() + lengths.back().whole());
+  }
+  EqualArc result;
+  result.length = cumulative.back();
+  if (!(result.length > 0.0) || !std::isfinite(result.length)) return std::nullopt;
+  result.places.reserve(count);
+  std::size_t k = 0;
+  for (int i = 0; i < count; ++i) {
+    const double target = result.length * i / (closed ? count : count - 1);
+    while (k + 1 < lengths.size() && cumulative[k + 1] <= target) ++k;
+    const int part = static_cast<int>(k);
+    const double x = i == 0 ? 0.0 : lengths[k].placeAt(target - cumulative[k], cumulative[k + 1] - cumulative[k]);
+    result.places.push_back({part / kPartsPerSpan, PartLength::lowOf(part) + x / kPartsPerSpan});
+  }
+  if (!closed) result.places.back() = {curve.basis().spanCount() - 1, 1.0};
+  return result;
+}
+
+SpanPlace footPoint(const SpanCurve& curve, const Vec2& point, SpanPlace start) {
+  const SpanBasis& basis = curve.basis();
+  SpanPlace place = start;
+  for (int step = 0; step < 8; ++step) {
+    const Jet jet = curve.at(place, 2);
+    const Vec2 gap = jet[0] - point;
+    const double speed2 = jet[1].squaredNorm();
+    if (!(speed2 > 0.0)) return place;
+    // Beyond the centre of curvature the second derivative of the distance turns negative: fall back to Gauss-Newton.
+    const double bend = speed2 + gap.dot(jet[2]);
+    double move = -gap.dot(jet[1]) / (bend > 0.2 * speed2 ? bend : speed2) / basis.width(place.span);
+    if (!std::isfinite(move)) return place;
+    move = std::clamp(move, -1.0, 1.0);
+    SpanPlace next{place.span, place.tau + move};
+    // The remainder of a move over a knot is rescaled to the next span's width.
+    while (next.tau < 0.0 || next.tau > 1.0) {
+      const bool back = next.tau < 0.0;
+      int span = next.span + (back ? -1 : 1);
+      if (span < 0 || span >= basis.spanCount()) {
+        if (!basis.isPeriodic()) {
+          next.tau = back ? 0.0 : 1.0;
+          break;
+        }
+        span = back ? basis.spanCount() - 1 : 0;
+      }
+      const double rest = (back ? -next.tau : next.tau - 1.0) * basis.width(next.span) / basis.width(span);
+      next = {span, back ? 1.0 - std::min(rest, 1.0) : std::min(rest, 1.0)};
+    }
+    const bool settled = std::abs(move) < 1e-10 || (next.span == place.span && std::abs(next.tau - place.tau) < 1e-12);
+    place = next;
+    if (settled) break;
+  }
+  return place;
+}
+
+}  // namespace batten

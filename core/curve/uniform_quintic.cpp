@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/curve/uniform_quintic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace batten {
+namespace {
+
+/// Powers of t (columns) in the six pieces of the uniform quintic B-spline (rows), times 120.
+constexpr double kPieces[6][6] = {{1, -5, 10, -10, 5, -1},    {26, -50, 20, 20, -20, 5}, {66, 0, -60, 0, 30, -10},
+                                  {26, 50, 20, -20, -20, 10}, {1, 5, 10, 10, 5, -5},     {0, 0, 0, 0, 0, 1}};
+
+/// Factor of t^(power - order) when t^power is derived `order` times.
+constexpr double fallingFactor(int power, int order) {
+  double f = 1.0;
+  for (int i = 0; i < order; ++i) f *= power - i;
+  return f;
+}
+
+/// The pieces derived 0..4 times: row, then coefficients of the powers left, highest last.
+constexpr auto kDerived = [] {
+  std::array<std::array<std::array<double, 6>, 6>, 5> table{};
+  for (int order = 0; order < 5; ++order) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      for (int power = order; power < 6; ++power) {
+        table[order][j][power - order] = fallingFactor(power, order) * kPieces[j][power];
+      }
+    }
+  }
+  return table;
+}();
+
+/// Powers of the Lagrange polynomials of the four Gauss nodes.
+constexpr auto kSpeedPowers = [] {
+  std::array<std::array<double, 4>, 4> table{};
+  for (std::size_t g = 0; g < 4; ++g) {
+    std::array<double, 4> p = {1.0, 0.0, 0.0, 0.0};
+    double scale = 1.0;
+    for (std::size_t other = 0; other < 4; ++other) {
+      if (other == g) continue;
+      for (std::size_t k = 3; k > 0; --k) p[k] = p[k - 1] - kGaussNodes[other] * p[k];
+      p[0] *= -kGaussNodes[other];
+      scale *= kGaussNodes[g] - kGaussNodes[other];
+    }
+    for (std::size_t k = 0; k < 4; ++k) table[g][k] = p[k] / scale;
+  }
+  return table;
+}();
+
+std::array<double, 6> pieceValues(double t, int order, double spacing) {
+  std::array<double, 6> values;
+  double scale = 1.0 / 120.0;
+  for (int i = 0; i < order; ++i) scale /= spacing;
+  const auto& table = kDerived[order];
+  for (std::size_t j = 0; j < 6; ++j) {
+    const auto& c = table[j];
+    values[j] = (c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))))) * scale;
+  }
+  return values;
+}
+
+}  // namespace
+
+int UniformKnots::span(double& u) const {
+  double place = u * spans / length;
+  if (closed && !(place >= 0.0 && place < spans)) place -= spans * std::floor(place / spans);
+  const int j = place > 0.0 ? std::min(static_cast<int>(std::min(place, 1e9)), spans - 1) : 0;
+  u = place - j;
+  return j;
+}
+
+BandRow UniformKnots::row(double u, int order) const {
+  const int j = span(u);
+  return {j, pieceValues(u, order, spacing())};
+}
+
+UniformQuintic::UniformQuintic(const UniformKnots& knots, std::vector<Vec2> coefficients)
+    : knots_(knots), coefficients_(std::move(coefficients)) {
+  perUnit_ = knots_.spans / knots_.length;
+  const auto count = static_cast<std::size_t>(knots_.coefficients());
+  polynomials_.resize(knots_.spans);
+  for (std::size_t j = 0; j < polynomials_.size(); ++j) {
+    for (std::size_t power = 0; power < 6; ++power) {
+      Vec2 sum = Vec2::Zero();
+      for (std::size_t i = 0; i < 6; ++i) sum += kPieces[i][power] * coefficients_[(j + i) % count];
+      polynomials_[j][power] = sum / 120.0;
+    }
+  }
+  spanLengths_.assign(1, 0.0);
+  const double h = knots_.spacing();
+  for (const auto& p : polynomials_) {
+    std::array<double, 4> speed{};
+    double sum = 0.0;
+    for (std::size_t g = 0; g < 4; ++g) {
+      const double u = kGaussNodes[g];
+      const Vec2 d = p[1] + u * (2 * p[2] + u * (3 * p[3] + u * (4 * p[4] + u * (5 * p[5]))));
+      const double v = d.norm() / h;
+      sum += kGaussWeights[g] * v;
+      for (std::size_t k = 0; k < 4; ++k) speed[k] += v * kSpeedPowers[g][k];
+    }
+    speeds_.push_back(speed);
+    spanLengths_.push_back(spanLengths_.back() + sum * h);
+  }
+}
+
+PlaneDerivatives UniformQuintic::at(double u, int order) const {
+  const double f = perUnit_;
+  std::size_t span = 0;
+  const double place = u * f;
+  if (place >= 0.0 && place < knots_.spans) {  // the usual case, without a division
+    span = static_cast<std::size_t>(place);
+    u = place - static_cast<double>(span);
+  } else {
+    span = static_cast<std::size_t>(knots_.span(u));
+  }
+  const auto& p = polynomials_[span];
+  PlaneDerivatives d{};
+  d[0] = p[0] + u * (p[1] + u * (p[2] + u * (p[3] + u * (p[4] + u * p[5]))));
+  if (order >= 1) d[1] = f * (p[1] + u * (2 * p[2] + u * (3 * p[3] + u * (4 * p[4] + u * (5 * p[5])))));
+  if (order >= 2) d[2] = f * f * (2 * p[2] + u * (6 * p[3] + u * (12 * p[4] + u * (20 * p[5]))));
+  if (order >= 3) d[3] = f * f * f * (6 * p[3] + u * (24 * p[4] + u * (60 * p[5])));
+  if (order >= 4) d[4] = f * f * f * f * (24 * p[4] + u * (120 * p[5]));
+  return d;
+}
+
+double UniformQuintic::arcLength(double u) const {
+  const double h = knots_.spacing();
+  double place = u;
+  int j = 0;
+  if (knots_.closed && u >= knots_.length) {
+    j = knots_.spans - 1;
+    place = u / h - j;
+  } else {
+    j = knots_.span(place);
+  }
+  if (place < 0.0 || place > 1.0) {  // the end polynomial runs on: the cubic would not
+    double sum = 0.0;
+    for (std::size_t g = 0; g < 4; ++g) sum += kGaussWeights[g] * at((j + kGaussNodes[g] * place) * h, 1)[1].norm();
+    return spanLengths_[j] + sum * place * h;
+  }
+  const auto& v = speeds_[j];
+  return spanLengths_[j] + h * place * (v[0] + place * (v[1] / 2.0 + place * (v[2] / 3.0 + place * (v[3] / 4.0))));
+}
+
+double UniformQuintic::footPoint(const Vec2& p, double start, double beyond) const {
+  const double h = knots_.spacing();
+  const double low = -beyond, high = knots_.length + beyond;
+  double t = knots_.closed ? start : std::clamp(start, low, high);
+  for (int round = 0; round < 12; ++round) {
+    const PlaneDerivatives d = at(t, 2);
+    const Vec2 off = p - d[0];
+    const double speed2 = d[1].squaredNorm();
+    const double slope = std::max(speed2 - off.dot(d[2]), 0.25 * speed2);
+    if (!(slope > 0.0)) break;
+    double next = t + std::clamp(off.dot(d[1]) / slope, -h, h);
+    if (!knots_.closed) next = std::clamp(next, low, high);
+    const double move = std::abs(next - t);
+    t = next;
+    if (move < 1e-3 * h) break;  // Newton: what is left is about the square
+  }
+  return t;
+}
+
+Result<NurbsCurve> UniformQuintic::toNurbs(double parameterScale, double pointScale, const Vec2& startShift,
+                                           const Vec2& endShift) const {
+  const int m = knots_.spans;
+  const auto count = static_cast<std::size_t>(knots_.coefficients());
+  std::vector<int> places(6, 0);  // clamped knots in units of the spacing
+  for (int j = 1; j < m; ++j) places.push_back(j);
+  places.insert(places.end(), 6, m);
+  std::vector<Vec2> points;
+  for (int i = 0; i < m + 5; ++i) {
+    // Blossom of the polynomial of a span under this control point at its five inner knots (de Boor with mixed
+    // arguments).
+    const int j = std::clamp(i - 2, 0, m - 1);
+    std::array<Vec2, 6> d;
+    for (int k = 0; k < 6; ++k) d[k] = coefficients_[static_cast<std::size_t>(j + k) % count];
+    for (int r = 1; r <= 5; ++r) {
+      const double u = places[i + r] - j;
+      for (int k = 5; k >= r; --k) {
+        const double alpha = (u - (k - 5)) / (6 - r);
+        const auto at = static_cast<std::size_t>(k);
+        d[at] = (1.0 - alpha) * d[at - 1] + alpha * d[at];
+      }
+    }
+    double greville = 0.0;
+    for (int r = 1; r <= 5; ++r) greville += places[i + r] / (5.0 * m);
+    points.push_back(pointScale * (d[5] + (1.0 - greville) * startShift + greville * endShift));
+  }
+  std::vector<double> clampedKnots;
+  for (const int place : places)
+    clampedKnots.push_back(place == m ? knots_.length * parameterScale : place * knots_.spacing() * parameterScale);
+  return NurbsCurve::make(5, std::move(clampedKnots), std::move(points));
+}
+
+std::optional<UniformQuintic> fitUniformQuintic(const UniformKnots& knots, std::span<const double> parameters,
+                                                std::span<const Vec2> points, std::span<const double> weights,
+                                                double lambda) {
+  const int n = knots.coefficients();
+  BandMatrix normal(n, knots.closed);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(n), y = Eigen::VectorXd::Zero(n);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double w = weights.empty() ? 1.0 : weights[i];
+    if (!(w > 0.0)) continue;
+    const BandRow row = knots.row(parameters[i], 0);
+    normal.addOuter(row, w);
+    addTo(x, row, w * points[i].x());
+    addTo(y, row, w * points[i].y());
+  }
+  if (lambda > 0.0) {
+    const double h = knots.spacing();
+    for (int j = 0; j < knots.spans; ++j) {  // |P'''|^2 is of degree 4: exact
+      for (std::size_t g = 0; g < 4; ++g) {
+        normal.addOuter(knots.row((j + kGaussNodes[g]) * h, 3), lambda * h * kGaussWeights[g]);
+      }
+    }
+  }
+  BandCholesky cholesky;
+  if (!cholesky.factor(normal)) return std::nullopt;
+  cholesky.solveInPlace(x);
+  cholesky.solveInPlace(y);
+  if (!x.allFinite() || !y.allFinite()) return std::nullopt;
+  std::vector<Vec2> coefficients;
+  coefficients.reserve(n);
+  for (int i = 0; i < n; ++i) coefficients.emplace_back(x[i], y[i]);
+  return UniformQuintic(knots, std::move(coefficients));
+}
+
+}  // namespace batten

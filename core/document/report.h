@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/pipeline/run/pipeline.h"
+
+namespace batten {
+
+/// What a report holds beside the outputs of the run.
+struct ReportExtras {
+  double readMilliseconds = 0.0;                       ///< Reading the scan.
+  std::vector<std::optional<TargetOutcomes>> targets;  ///< One per faired curve; absent = not computed.
+  std::vector<std::string> targetProblems;             ///< Why, where a curve's targets failed; same size or empty.
+  std::uint64_t peakMemoryBytes = 0;                   ///< 0 = unknown.
+};
+
+/// The report as JSON, "batten-report" version 1: image; per stage milliseconds and counts; per contour length, area,
+/// stroke width, spread of merged strokes, bridged gaps and where it was not placed; per curve length, control
+/// points, corners, deviations (px and mm), extrema, inflections, the six targets, the choice, and why each solver
+/// stopped; what failed; peak memory. Works on the outputs of a run that ended early, too.
+std::string reportToJson(const Scan&, const Recipe&, const PipelineOutput&, const ReportExtras&);
+
+}  // namespace batten

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "core/pipeline/recipe/parameter_builders.h"
+
+namespace batten::table {
+namespace {
+
+using Grid = std::array<std::optional<double>, kRegions>;
+
+std::string gridToText(const Grid& grid) {
+  if (std::none_of(grid.begin(), grid.end(), [](const auto& cell) { return cell.has_value(); })) return "auto";
+  std::string text;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    if (i != 0) text += ',';
+    text += grid[i] ? numberToText(*grid[i]) : "a";
+  }
+  return text;
+}
+
+Result<Grid> gridFromText(const std::string& name, std::string_view text) {
+  Grid grid{};
+  if (trimmed(text) == "auto") return grid;
+  std::size_t cell = 0;
+  for (std::string_view rest = text;; ++cell) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view entry = trimmed(rest.substr(0, comma));
+    if (cell >= grid.size()) {
+      return refuse(name, "…", "it must be \"auto\" or 64 entries separated by commas, and there are more");
+    }
+    if (entry != "a" && entry != "auto") {
+      const auto level = numberFromText(entry);
+      if (!level || *level < 0.0 || *level > 255.0) {
+        return refuse(name, entry,
+                      "entry " + std::to_string(cell + 1) + " must be \"a\" or a grey level from 0 to 255");
+      }
+      grid[cell] = *level;
+    }
+    if (comma == std::string_view::npos) break;
+    rest.remove_prefix(comma + 1);
+  }
+  if (cell + 1 != grid.size()) {
+    return refuse(name, text,
+                  "it must be \"auto\" or 64 entries separated by commas, and there are " + std::to_string(cell + 1));
+  }
+  return grid;
+}
+
+Parameter gridParameter() {
+  Parameter p =
+      described(StageId::Thresholds,
+                {"threshold.grid", "Region thresholds", "grey",
+                 "The 64 thresholds row by row from the top left: \"auto\", or 64 entries separated by commas, each a "
+                 "grey level or \"a\" for automatic. A larger level takes more of the picture as ink."},
+                ParameterType::Text);
+  p.get = [](const Recipe& r) { return gridToText(r.threshold.grid); };
+  p.set = [name = p.name](Recipe& r, std::string_view text) -> Result<void> {
+    auto grid = gridFromText(name, text);
+    if (!grid) return fail(std::move(grid).error());
+    r.threshold.grid = *grid;
+    return {};
+  };
+  return p;
+}
+
+void appendThresholds(std::vector<Parameter>& table) {
+  constexpr StageId kThresholds = StageId::Thresholds, kBinary = StageId::Binary;
+  table.push_back(boolean(
+      kThresholds,
+      {"log.enabled", "Log picture", "",
+       "Shows the scan through the log transform, which lifts faint lines out of dark paper. Display only."},
+      [](auto& r) -> auto& { return r.log.enabled; }));
+  table.back().isForDisplay = true;
+  table.push_back(real(
+      kThresholds,
+      {"log.factor", "Log factor", "",
+       "Slope of the log transform. Larger lifts the dark tones more and washes out the bright ones."},
+      {10.0, 150.0, 1.0, 1, true}, [](auto& r) -> auto& { return r.log.factor; }));
+  table.back().isForDisplay = true;
+  table.push_back(boolean(
+      kThresholds,
+      {"paper.flatten", "Flatten paper", "",
+       "Takes shading, shadows and gradations of the paper out before the thresholds look for ink."},
+      [](auto& r) -> auto& { return r.paper.flatten; }));
+  table.push_back(boolean(
+      kThresholds,
+      {"paper.folds", "Even out folds", "",
+       "Takes straight steps of the paper's grey that run from border to border out as well: folds, edges of shadows."},
+      [](auto& r) -> auto& { return r.paper.folds; }));
+  table.push_back(choice<ThresholdMode>(
+      kThresholds,
+      {"threshold.mode", "Thresholds", "",
+       "Whether regions you have not set find their own threshold or take the common level."},
+      {{"auto", "Automatic", ThresholdMode::Automatic}, {"manual", "Manual", ThresholdMode::Manual}},
+      [](auto& r) -> auto& { return r.threshold.mode; }));
+  table.push_back(gridParameter());
+  table.push_back(real(
+      kThresholds,
+      {"threshold.level", "Common level", "grey",
+       "Threshold of all regions in manual mode. Larger takes more of the picture as ink."},
+      {0.0, 255.0, 1.0, 1}, [](auto& r) -> auto& { return r.threshold.manualLevel; }));
+  table.push_back(real(
+      kThresholds,
+      {"threshold.strength", "Contrast asked", "",
+       "How much darker than paper ink must be in automatic mode. Larger keeps only the darker lines."},
+      {0.2, 3.0, 0.05, 2, true}, [](auto& r) -> auto& { return r.threshold.strength; }));
+  table.push_back(boolean(
+      kBinary,
+      {"threshold.interpolate", "Blend regions", "",
+       "Thresholds change smoothly from region to region, without seams. Off: blocks, as in the paper."},
+      [](auto& r) -> auto& { return r.threshold.interpolate; }));
+  Parameter reach = real(
+      kBinary,
+      {"threshold.reach", "Faint parts from", "",
+       "Thin faint lines count from this share of the contrast asked of ink. Smaller finds fainter "
+       "ones; 1 none; 0 automatic."},
+      {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.threshold.reach; });
+  reach.minimumWord = "auto";
+  table.push_back(std::move(reach));
+  table.push_back(integer(
+      kBinary,
+      {"threshold.speck_area", "Drop specks below", "px²",
+       "Pieces of ink with a smaller area are taken for dirt. Larger drops more; 0 keeps all."},
+      {0, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.threshold.speckArea; }));
+  table.push_back(integer(
+      kBinary,
+      {"threshold.hole_area", "Fill holes below", "px²",
+       "Holes in the ink with a smaller area are filled. Larger fills more; 0 keeps all."},
+      {0, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.threshold.holeArea; }));
+}
+
+void appendFilter(std::vector<Parameter>& table) {
+  constexpr StageId kFiltered = StageId::Filtered;
+  table.push_back(integer(
+      kFiltered,
+      {"filter.coefficient", "Neighbourhood coefficient", "",
+       "A pixel changes when more than this many of its 8 neighbours disagree. Larger keeps finer detail."},
+      {0, 4, 1}, [](auto& r) -> auto& { return r.filter.coefficient; }));
+  table.push_back(integer(
+      kFiltered,
+      {"filter.iterations", "Iterations", "",
+       "Rounds of erosion and dilation. More smooths more, until nothing changes; 0 leaves the mask as it is."},
+      {0, 100, 1}, [](auto& r) -> auto& { return r.filter.iterations; }));
+  table.push_back(choice<FilterOrder>(
+      kFiltered, {"filter.order", "Order", "", "Erosion first removes specks, dilation first closes gaps."},
+      {{"erosion-first", "Erosion first", FilterOrder::ErosionFirst},
+       {"dilation-first", "Dilation first", FilterOrder::DilationFirst}},
+      [](auto& r) -> auto& { return r.filter.order; }));
+  table.push_back(choice<FilterBorder>(
+      kFiltered,
+      {"filter.border", "Beyond the page", "",
+       "What lies outside the scan: paper, or the border repeated for cropped drawings.", true},
+      {{"paper", "Paper", FilterBorder::Paper}, {"replicate", "Border repeated", FilterBorder::Replicate}},
+      [](auto& r) -> auto& { return r.filter.border; }));
+  table.push_back(integer(
+      kFiltered,
+      {"filter.max_change", "Largest change", "px²",
+       "Connected changes of a larger area are undone: thin strokes, tips and narrow gaps stay. 0 = no limit, as in "
+       "the paper."},
+      {0, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.filter.maxChangePx; }));
+}
+
+}  // namespace
+
+void appendImageParameters(std::vector<Parameter>& table) {
+  appendThresholds(table);
+  appendFilter(table);
+}
+
+}  // namespace batten::table

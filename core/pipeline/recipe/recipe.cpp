@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/recipe/recipe.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace batten {
+namespace {
+
+/// Resolutions that a drawing can have: coarser or finer ones are typing errors.
+constexpr double kMinDpi = 1.0, kMaxDpi = 100000.0;
+
+std::optional<Error> bad(std::string message) { return Error{ErrorCode::BadParameter, std::move(message), {}}; }
+
+/// [px] No page is larger: a place farther out is a typing error or damage.
+constexpr double kFarthestPlacePx = 1e6;
+
+bool isPlace(const Vec2& p) { return std::abs(p.x()) <= kFarthestPlacePx && std::abs(p.y()) <= kFarthestPlacePx; }
+bool arePlaces(const std::vector<Vec2>& places) { return std::all_of(places.begin(), places.end(), isPlace); }
+
+std::optional<Error> badPlace(const std::string& what) {
+  return bad(what + " lies nowhere on a page: x and y must be numbers from -1000000 to 1000000 px.");
+}
+
+/// The first place of the recipe that no page can have.
+std::optional<Error> validatePlaces(const Recipe& recipe) {
+  for (const PenStroke& stroke : recipe.penStrokes) {
+    if (!arePlaces(stroke.points)) return badPlace("A point of a pen stroke");
+  }
+  for (const RegionOfInterest& region : recipe.regions) {
+    if (!arePlaces(region.cornersPx)) return badPlace("A corner of a region");
+  }
+  for (const EdgeChoice& choice : recipe.edges.choices) {
+    if (!isPlace(choice.positionPx)) return badPlace("A place of ink that is followed in its own way");
+  }
+  for (const CornerMark& mark : recipe.cornerMarks) {
+    if (!isPlace(mark.positionPx)) return badPlace("A corner mark");
+  }
+  for (const SegmentPoint& point : recipe.segmentPoints) {
+    if (!isPlace(point.positionPx)) return badPlace("A segment point");
+  }
+  for (const PieceChoice& choice : recipe.choices) {
+    if (!arePlaces(choice.anchorsPx)) return badPlace("An anchor of a choice for a curve");
+    if (!arePlaces(choice.keepPx)) return badPlace("An extremum kept by a choice for a curve");
+    if (!arePlaces(choice.splitsPx)) return badPlace("A split in a choice for a curve");
+  }
+  for (const ExtremumChoice& choice : recipe.extremumChoices) {
+    if (!isPlace(choice.positionPx)) return badPlace("A choice for a curvature extremum");
+  }
+  return std::nullopt;
+}
+
+bool isPageSide(int px) { return px >= 16 && px <= 20000; }
+
+std::optional<Error> validateChoice(const PieceChoice& choice) {
+  // The rest has the ranges of the common settings.
+  if (auto wrong = validate(choice.fairing({}))) return bad("The choice for a curve cannot be used. " + wrong->message);
+  return std::nullopt;
+}
+
+}  // namespace
+
+FairingParams PieceChoice::fairing(FairingParams common) const {
+  common.mode = mode.value_or(common.mode);
+  common.target = target.value_or(common.target);
+  common.toleranceMm = toleranceMm.value_or(common.toleranceMm);
+  common.lowPassMm = lowPassMm.value_or(common.lowPassMm);
+  common.keepExtrema = keepExtrema.value_or(common.keepExtrema);
+  common.tolerancePolicy = tolerancePolicy.value_or(common.tolerancePolicy);
+  common.means = means.value_or(common.means);
+  common.startHold = startHold.value_or(common.startHold);
+  common.endHold = endHold.value_or(common.endHold);
+  if (!profile.empty()) common.profile = profile;
+  return common;
+}
+
+std::optional<Error> validate(const Recipe& recipe) {
+  if (recipe.dpi && !(*recipe.dpi >= kMinDpi && *recipe.dpi <= kMaxDpi)) {
+    return bad("The resolution must be between 1 and 100000 dpi.");
+  }
+  if (auto e = validatePlaces(recipe)) return e;
+  if (auto e = validate(recipe.log)) return e;
+  if (auto e = validate(recipe.threshold)) return e;
+  if (auto e = validate(recipe.filter)) return e;
+  if (auto e = validate(recipe.edges)) return e;
+  if (auto e = validate(recipe.contours)) return e;
+  for (const PenStroke& stroke : recipe.penStrokes) {
+    if (auto e = validate(stroke)) return e;
+  }
+  if (recipe.page && !(isPageSide(recipe.page->widthPx) && isPageSide(recipe.page->heightPx))) {
+    return bad("A page without a scan must be 16 to 20000 px wide and high.");
+  }
+  for (const RegionOfInterest& region : recipe.regions) {
+    if (auto e = validate(region)) return e;
+  }
+  if (auto e = validate(recipe.corners)) return e;
+  for (const CornerMark& mark : recipe.cornerMarks) {
+    if (!(mark.roundMm >= 0.0 && mark.roundMm <= 500.0)) return bad("The rounding of a corner must be 0 to 500 mm.");
+  }
+  if (auto e = validate(recipe.segments)) return e;
+  if (auto e = validate(recipe.construct)) return e;
+  if (auto e = validate(recipe.fairing)) return e;
+  for (const PieceChoice& choice : recipe.choices) {
+    if (auto e = validateChoice(choice)) return e;
+  }
+  return std::nullopt;
+}
+
+}  // namespace batten

@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/recipe/recipe_file.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/base/number_text.h"
+#include "core/pipeline/recipe/parameter_table.h"
+
+namespace batten {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kFormat = "batten-recipe";
+constexpr int kVersion = 1;
+
+tl::unexpected<Error> refuse(std::string message, std::string detail = {}) {
+  return fail(ErrorCode::BadParameter, std::move(message), std::move(detail));
+}
+
+Json parameterToJson(const Parameter& p, const Recipe& recipe) {
+  const std::string text = p.get(recipe);
+  switch (p.type) {
+    case ParameterType::Boolean:
+      return text == "true";
+    case ParameterType::Integer:
+      return *integerFromText(text);
+    case ParameterType::Real:
+      return *numberFromText(text);
+    case ParameterType::Choice:
+    case ParameterType::Text:
+      break;
+  }
+  return text;
+}
+
+Json choiceToJson(const PieceChoice& choice) {
+  Json json = Json::object();
+  // A single anchor in the form it always had.
+  if (choice.anchorsPx.size() == 1) {
+    json["anchor"] = {choice.anchorsPx[0].x(), choice.anchorsPx[0].y()};
+  } else {
+    for (const Vec2& p : choice.anchorsPx) json["anchors"].push_back({p.x(), p.y()});
+  }
+  json["included"] = choice.included;
+  if (choice.isPart) json["part"] = true;
+  Recipe own;  // the table knows the words of choices
+  own.fairing = choice.fairing(own.fairing);
+  const auto word = [&](bool isOwn, const char* key, const char* parameter) {
+    if (isOwn) json[key] = findParameter(parameter)->get(own);
+  };
+  word(choice.mode.has_value(), "mode", "fairing.mode");
+  word(choice.tolerancePolicy.has_value(), "spend", "fairing.spend");
+  word(choice.means.has_value(), "moves", "fairing.moves");
+  word(choice.startHold.has_value(), "hold_start", "fairing.hold_start");
+  word(choice.endHold.has_value(), "hold_end", "fairing.hold_end");
+  if (choice.method) {
+    Recipe named;
+    named.construct.method = *choice.method;
+    json["method"] = findParameter("construct.method")->get(named);
+  }
+  if (choice.target) json["target"] = *choice.target;
+  if (choice.toleranceMm) json["tolerance"] = *choice.toleranceMm;
+  if (choice.lowPassMm) json["low_pass"] = *choice.lowPassMm;
+  if (choice.keepExtrema) json["keep_extrema"] = *choice.keepExtrema;
+  for (const auto& [name, places] : {std::pair("keep", &choice.keepPx), std::pair("splits", &choice.splitsPx)}) {
+    for (const Vec2& p : *places) json[name].push_back({p.x(), p.y()});
+  }
+  for (const ProfilePoint& p : choice.profile) json["profile"].push_back({p.fraction, p.kappa});
+  return json;
+}
+
+Json strokeToJson(const PenStroke& stroke) {
+  Json points = Json::array();
+  for (const Vec2& p : stroke.points) points.push_back({p.x(), p.y()});
+  return {{"closed", stroke.closed}, {"points", std::move(points)}};
+}
+
+/// A JSON value as the text that the table's setters take.
+std::optional<std::string> valueText(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+  if (value.is_number_integer()) return value.dump();
+  if (value.is_number()) return numberToText(value.get<double>());
+  return std::nullopt;
+}
+
+std::optional<Vec2> pointFromJson(const Json& json) {
+  if (!json.is_array() || json.size() != 2 || !json[0].is_number() || !json[1].is_number()) return std::nullopt;
+  const Vec2 p(json[0].get<double>(), json[1].get<double>());
+  return std::isfinite(p.x()) && std::isfinite(p.y()) ? std::optional(p) : std::nullopt;
+}
+
+/// A whole number that fits; one that does not is none, never what is left of it.
+std::optional<int> integerFromJson(const Json& json) {
+  return json.is_number_integer() ? integerFromText(json.dump()) : std::nullopt;
+}
+
+std::optional<std::vector<Vec2>> pairsFromJson(const Json& json) {
+  if (!json.is_array()) return std::nullopt;
+  std::vector<Vec2> pairs;
+  for (const Json& entry : json) {
+    const auto pair = pointFromJson(entry);
+    if (!pair) return std::nullopt;
+    pairs.push_back(*pair);
+  }
+  return pairs;
+}
+
+Result<void> readParameters(const Json& json, Recipe& recipe) {
+  if (!json.is_object()) return refuse("The recipe is damaged: \"parameters\" is not a list of names and values.");
+  for (const auto& [name, value] : json.items()) {
+    const auto text = valueText(value);
+    if (!text) return refuse("The recipe is damaged: the value of " + name + " is neither a number nor a text.");
+    if (auto set = setParameter(recipe, name, *text); !set) {
+      return refuse("The recipe cannot be used. " + set.error().message);
+    }
+  }
+  return {};
+}
+
+Result<void> readCorners(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"corners\" is not a list of positions.");
+  for (const Json& entry : json) {
+    // Sharp: [x, y]. Rounded: {"at": [x, y], "round": mm}.
+    const bool rounded = entry.is_object() && entry.size() == 2 && entry.contains("at") && entry.contains("round") &&
+                         entry["round"].is_number();
+    const auto point = pointFromJson(rounded ? entry["at"] : entry);
+    if (!point) return refuse("The recipe is damaged: a corner is not a pair of numbers [x, y].");
+    recipe.cornerMarks.push_back({*point, rounded ? entry["round"].get<double>() : 0.0});
+  }
+  return {};
+}
+
+Result<void> readStrokes(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"strokes\" is not a list.");
+  for (const Json& entry : json) {
+    if (!entry.is_object() || !entry.contains("points") || !entry["points"].is_array()) {
+      return refuse("The recipe is damaged: a pen stroke has no list of points.");
+    }
+    PenStroke stroke;
+    for (const auto& [name, value] : entry.items()) {
+      if (name == "points") continue;
+      if (name != "closed" || !value.is_boolean()) {
+        return refuse("The recipe holds \"" + name +
+                      "\" in a pen stroke, which this version of Batten does not know or cannot read.");
+      }
+      stroke.closed = value.get<bool>();
+    }
+    for (const Json& place : entry["points"]) {
+      const auto point = pointFromJson(place);
+      if (!point) return refuse("The recipe is damaged: a point of a pen stroke is not a pair of numbers [x, y].");
+      stroke.points.push_back(*point);
+    }
+    recipe.penStrokes.push_back(std::move(stroke));
+  }
+  return {};
+}
+
+Result<void> readSegmentPoints(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"segment_points\" is not a list of positions.");
+  for (const Json& entry : json) {
+    const auto point = pointFromJson(entry);
+    if (!point) return refuse("The recipe is damaged: a segment point is not a pair of numbers [x, y].");
+    recipe.segmentPoints.push_back({*point});
+  }
+  return {};
+}
+
+Result<void> readPage(const Json& json, Recipe& recipe) {
+  if (json.is_null()) return {};
+  const bool isPair = json.is_array() && json.size() == 2;
+  const auto width = isPair ? integerFromJson(json[0]) : std::nullopt;
+  const auto height = isPair ? integerFromJson(json[1]) : std::nullopt;
+  if (!width || !height) return refuse("The recipe is damaged: the size of the page is not a pair of whole numbers.");
+  recipe.page = BlankPage{*width, *height};
+  return {};
+}
+
+Json traceModesToJson(const Recipe& recipe) {
+  Json ways = Json::array();
+  for (const EdgeChoice& choice : recipe.edges.choices) {
+    Recipe named;
+    named.edges.mode = choice.mode;
+    const std::string word = findParameter("edges.mode")->get(named);
+    ways.push_back({{"at", {choice.positionPx.x(), choice.positionPx.y()}}, {"mode", word}});
+  }
+  return ways;
+}
+
+Json cornerToJson(const CornerMark& mark) {
+  const Json at = {mark.positionPx.x(), mark.positionPx.y()};
+  return mark.roundMm > 0.0 ? Json{{"at", at}, {"round", mark.roundMm}} : at;
+}
+
+/// A choice's own setting whose words the table knows; false where the name is none of these.
+Result<bool> readWord(const std::string& name, const Json& value, PieceChoice& choice) {
+  static const std::map<std::string, std::string> kParameters = {
+      {"mode", "fairing.mode"},         {"spend", "fairing.spend"},
+      {"moves", "fairing.moves"},       {"hold_start", "fairing.hold_start"},
+      {"hold_end", "fairing.hold_end"}, {"method", "construct.method"}};
+  const auto known = kParameters.find(name);
+  if (known == kParameters.end() || !value.is_string()) return false;
+  Recipe named;
+  if (auto set = setParameter(named, known->second, value.get<std::string>()); !set) return fail(set.error());
+  if (name == "mode") choice.mode = named.fairing.mode;
+  if (name == "spend") choice.tolerancePolicy = named.fairing.tolerancePolicy;
+  if (name == "moves") choice.means = named.fairing.means;
+  if (name == "hold_start") choice.startHold = named.fairing.startHold;
+  if (name == "hold_end") choice.endHold = named.fairing.endHold;
+  if (name == "method") choice.method = named.construct.method;
+  return true;
+}
+
+Result<PieceChoice> readChoice(const Json& json) {
+  PieceChoice choice;
+  if (!json.is_object()) return refuse("The recipe is damaged: an entry of \"choices\" is not an object.");
+  for (const auto& [name, value] : json.items()) {
+    const auto word = readWord(name, value, choice);
+    if (!word) return fail(word.error());
+    if (*word) continue;
+    if (name == "anchor") {
+      const auto point = pointFromJson(value);
+      if (!point) return refuse("The recipe is damaged: the anchor of a choice is not a pair of numbers [x, y].");
+      choice.anchorsPx = {*point};
+    } else if (name == "included" && value.is_boolean()) {
+      choice.included = value.get<bool>();
+    } else if (name == "part" && value.is_boolean()) {
+      choice.isPart = value.get<bool>();
+    } else if (const auto whole = integerFromJson(value); whole && name == "target") {
+      choice.target = *whole;
+    } else if (name == "tolerance" && value.is_number()) {
+      choice.toleranceMm = value.get<double>();
+    } else if (name == "low_pass" && value.is_number()) {
+      choice.lowPassMm = value.get<double>();
+    } else if (whole && name == "keep_extrema") {
+      choice.keepExtrema = *whole;
+    } else if (const auto pairs = pairsFromJson(value); pairs && name == "keep") {
+      choice.keepPx = *pairs;
+    } else if (pairs && name == "anchors") {
+      choice.anchorsPx = *pairs;
+    } else if (pairs && name == "splits") {
+      choice.splitsPx = *pairs;
+    } else if (pairs && name == "profile") {
+      for (const Vec2& p : *pairs) choice.profile.push_back({p.x(), p.y()});
+    } else {
+      return refuse("The recipe holds \"" + name +
+                    "\" in a choice, which this version of Batten does not know or cannot read.");
+    }
+  }
+  if (choice.anchorsPx.empty()) return refuse("The recipe is damaged: a choice has no anchor.");
+  return choice;
+}
+
+Result<void> readChoices(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"choices\" is not a list.");
+  for (const Json& entry : json) {
+    auto choice = readChoice(entry);
+    if (!choice) return fail(choice.error());
+    recipe.choices.push_back(*choice);
+  }
+  return {};
+}
+
+Result<void> readExtrema(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"extrema\" is not a list.");
+  for (const Json& entry : json) {
+    if (!entry.is_object() || entry.size() != 2 || !entry.contains("at") || !entry.contains("keep")) {
+      return refuse("The recipe is damaged: an entry of \"extrema\" does not hold just \"at\" and \"keep\".");
+    }
+    const auto point = pointFromJson(entry["at"]);
+    if (!point) return refuse("The recipe is damaged: the place of an extremum is not a pair of numbers [x, y].");
+    if (!entry["keep"].is_boolean())
+      return refuse("The recipe is damaged: \"keep\" of an extremum is not true or false.");
+    recipe.extremumChoices.push_back({*point, entry["keep"].get<bool>()});
+  }
+  return {};
+}
+
+Result<void> readRegions(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"regions\" is not a list.");
+  for (const Json& entry : json) {
+    RegionOfInterest region;
+    if (!entry.is_array()) return refuse("The recipe is damaged: a region is not a list of corners.");
+    for (const Json& corner : entry) {
+      const auto point = pointFromJson(corner);
+      if (!point) return refuse("The recipe is damaged: a corner of a region is not a pair of numbers [x, y].");
+      region.cornersPx.push_back(*point);
+    }
+    recipe.regions.push_back(std::move(region));
+  }
+  return {};
+}
+
+Result<void> readTraceModes(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"ways\" is not a list.");
+  for (const Json& entry : json) {
+    const bool isWhole = entry.is_object() && entry.size() == 2 && entry.contains("at") && entry.contains("mode");
+    const auto point = isWhole ? pointFromJson(entry["at"]) : std::nullopt;
+    Recipe named;
+    if (!point || !entry["mode"].is_string() || !setParameter(named, "edges.mode", entry["mode"].get<std::string>())) {
+      return refuse("The recipe is damaged: an entry of \"ways\" does not hold just a place \"at\" and a \"mode\".");
+    }
+    recipe.edges.choices.push_back({*point, named.edges.mode});
+  }
+  return {};
+}
+
+Result<void> checkHead(const Json& json) {
+  if (!json.is_object() || !json.contains("format") || json["format"] != kFormat) {
+    return refuse("This is not a Batten recipe. Choose a file that Batten saved as a recipe.");
+  }
+  if (!json.contains("version") || !json["version"].is_number_integer()) {
+    return refuse("The recipe is damaged: it does not state its version.");
+  }
+  const int version = integerFromJson(json["version"]).value_or(std::numeric_limits<int>::max());
+  if (version > kVersion) {
+    return refuse("The recipe is of version " + json["version"].dump() + "; this Batten reads up to version " +
+                  std::to_string(kVersion) + ". Use a newer Batten.");
+  }
+  if (version < 1) return refuse("The recipe is damaged: it states the version " + std::to_string(version) + ".");
+  return {};
+}
+
+Result<void> readEntry(const std::string& name, const Json& value, Recipe& recipe) {
+  if (name == "format" || name == "version") return {};
+  if (name == "parameters") return readParameters(value, recipe);
+  if (name == "corners") return readCorners(value, recipe);
+  if (name == "segment_points") return readSegmentPoints(value, recipe);
+  if (name == "choices") return readChoices(value, recipe);
+  if (name == "strokes") return readStrokes(value, recipe);
+  if (name == "page") return readPage(value, recipe);
+  if (name == "extrema") return readExtrema(value, recipe);
+  if (name == "regions") return readRegions(value, recipe);
+  if (name == "ways") return readTraceModes(value, recipe);
+  if (name != "dpi") {
+    return refuse("The recipe holds \"" + name + "\", which this version of Batten does not know.");
+  }
+  if (value.is_null()) return {};
+  if (!value.is_number()) return refuse("The recipe is damaged: its resolution is not a number.");
+  recipe.dpi = value.get<double>();
+  return {};
+}
+
+}  // namespace
+
+std::string recipeToJson(const Recipe& recipe) {
+  Json json{{"format", kFormat}, {"version", kVersion}};
+  json["dpi"] = recipe.dpi ? Json(*recipe.dpi) : Json(nullptr);
+  Json& parameters = json["parameters"] = Json::object();
+  for (const Parameter& p : parameterTable()) parameters[p.name] = parameterToJson(p, recipe);
+  Json& corners = json["corners"] = Json::array();
+  for (const CornerMark& mark : recipe.cornerMarks) corners.push_back(cornerToJson(mark));
+  if (!recipe.segmentPoints.empty()) {
+    Json& places = json["segment_points"] = Json::array();
+    for (const SegmentPoint& one : recipe.segmentPoints) places.push_back({one.positionPx.x(), one.positionPx.y()});
+  }
+  Json& choices = json["choices"] = Json::array();
+  for (const PieceChoice& choice : recipe.choices) choices.push_back(choiceToJson(choice));
+  // Only where there are any: recipes of drawings without them stay what they were.
+  if (!recipe.penStrokes.empty()) {
+    Json& strokes = json["strokes"] = Json::array();
+    for (const PenStroke& stroke : recipe.penStrokes) strokes.push_back(strokeToJson(stroke));
+  }
+  if (recipe.page) json["page"] = {recipe.page->widthPx, recipe.page->heightPx};
+  Json& extrema = json["extrema"] = Json::array();
+  for (const ExtremumChoice& choice : recipe.extremumChoices) {
+    extrema.push_back({{"at", {choice.positionPx.x(), choice.positionPx.y()}}, {"keep", choice.keep}});
+  }
+  Json& regions = json["regions"] = Json::array();
+  for (const RegionOfInterest& region : recipe.regions) {
+    Json& polygon = regions.emplace_back(Json::array());
+    for (const Vec2& p : region.cornersPx) polygon.push_back({p.x(), p.y()});
+  }
+  if (!recipe.edges.choices.empty()) json["ways"] = traceModesToJson(recipe);
+  return json.dump(1) + "\n";
+}
+
+Result<Recipe> recipeFromJson(std::string_view text) {
+  try {
+    const Json json = Json::parse(text);
+    if (auto head = checkHead(json); !head) return fail(head.error());
+    Recipe recipe;
+    for (const auto& [name, value] : json.items()) {
+      if (auto read = readEntry(name, value, recipe); !read) return fail(read.error());
+    }
+    if (auto wrong = validate(recipe)) return refuse("The recipe cannot be used. " + wrong->message, wrong->detail);
+    return recipe;
+  } catch (const Json::exception& e) {
+    return refuse("The recipe is damaged and cannot be read. Save it again, or start from the defaults.", e.what());
+  }
+}
+
+}  // namespace batten

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/run/corner_places.h"
+
+#include "core/construct/fair/sharp_features.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr double kSmallLoopPx = 70.0;  // round: radius 11 px
+
+}  // namespace
+
+std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet& set, double minAngleRad, double scalePx) {
+  std::vector<SharpTurn> turns;
+  for (std::size_t c = 0; c < set.contours.size(); ++c) {
+    const Contour& contour = set.contours[c];
+    // What is as small as this and round is as sharp as a cut all over.
+    if (contour.closed && polylineLength(contour.points, true) < kSmallLoopPx) continue;
+    ConstructPiece piece;
+    piece.points = contour.points;
+    piece.closed = contour.closed;
+    for (const PointRange& range : sharpTurns(piece, contour.kind == ContourKind::Centreline, 1.0, {})) {
+      turns.push_back({static_cast<int>(c), range.first, range.last});
+    }
+  }
+  return suggestCorners(set, minAngleRad, scalePx, turns);
+}
+
+}  // namespace batten

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/run/curve_stages.h"
+
+#include <algorithm>
+#include <iterator>
+#include <new>
+
+#include "core/construct/construct.h"
+#include "core/curve/arc_length.h"
+#include "core/pipeline/run/segment_points.h"
+#include "core/pipeline/run/stage_items.h"
+
+namespace batten {
+namespace {
+
+/// Prominence of a counted curvature extremum, in units of 1 / extent of the curve.
+constexpr double kExtremumProminence = 5e-3;
+
+Station stationToModel(const Station& s, const PageFrame& frame) {
+  return {frame.pointToModel(s.point), frame.vectorToModel(s.direction).normalized(), frame.pointToModel(s.from),
+          frame.pointToModel(s.to), s.along};
+}
+
+/// Where the user wants typical curves to meet on a piece.
+std::vector<Vec2> breakpointsOf(const std::vector<std::size_t>& points, const Recipe& recipe, const PageFrame& frame) {
+  std::vector<Vec2> places;
+  for (const std::size_t point : points) places.push_back(frame.pointToModel(recipe.segmentPoints[point].positionPx));
+  return places;
+}
+
+/// A piece with its stations in the model frame: what every method takes.
+ConstructPiece pieceInput(const Piece& piece, const PieceSegments& segments, const PageFrame& frame) {
+  ConstructPiece made;
+  made.points = pointsToModel(piece.points, frame);
+  made.refined = piece.refined;
+  made.sigmaPx = piece.sigmaPx;
+  made.spreadPx = piece.spreadPx;
+  for (const Station& s : segments.stations) made.stations.push_back(stationToModel(s, frame));
+  made.closed = piece.closed;
+  made.startIsCorner = piece.startIsCorner;
+  made.endIsCorner = piece.endIsCorner;
+  return made;
+}
+
+/// Of a pen stroke: which of the points were drawn, and not put in between.
+std::vector<int> drawnPoints(const Piece& piece) {
+  std::vector<int> drawn;
+  for (std::size_t i = 0; i < piece.refined.size(); ++i) {
+    if (piece.refined[i] != 0) drawn.push_back(static_cast<int>(i));
+  }
+  return drawn;
+}
+
+/// The pieces [first, last) of one contour.
+struct PieceRange {
+  std::size_t first, last;
+};
+
+std::vector<PieceRange> rangesByContour(const PieceSet& set) {
+  std::vector<PieceRange> ranges;
+  for (std::size_t i = 0; i < set.pieces.size(); ++i) {
+    if (ranges.empty() || set.pieces[ranges.back().first].contour != set.pieces[i].contour) ranges.push_back({i, i});
+    ranges.back().last = i + 1;
+  }
+  return ranges;
+}
+
+ConstructContour inputOf(const ContourSet& contours, const PieceSet& pieces, const SegmentSet& segments,
+                         PieceRange range, const PageFrame& frame) {
+  const Contour& contour = contours.contours[pieces.pieces[range.first].contour];
+  ConstructContour input;
+  input.isStroke = contour.kind == ContourKind::Centreline;
+  input.pixelMm = frame.mmPerPx;
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    input.pieces.push_back(pieceInput(pieces.pieces[i], segments.pieces[i], frame));
+    if (contour.kind == ContourKind::Pen) input.pieces.back().drawn = drawnPoints(pieces.pieces[i]);
+  }
+  return input;
+}
+
+/// Where the pieces of a line stand; empty if it has none.
+PieceRange rangeOf(const PieceSet& set, int contour) {
+  for (const PieceRange& range : rangesByContour(set)) {
+    if (set.pieces[range.first].contour == contour) return range;
+  }
+  return {0, 0};
+}
+
+struct ContourOutcome {
+  std::vector<TracedCurve> curves;
+  std::vector<Error> failures;
+};
+
+class ContourBuilder {
+ public:
+  ContourBuilder(const ContourSet& contours, const PieceSet& pieces, const SegmentSet& segments, const Recipe& recipe,
+                 const PageFrame& frame, const RunContext& context)
+      : contours_(contours),
+        pieces_(pieces),
+        segments_(segments),
+        recipe_(recipe),
+        frame_(frame),
+        context_(context),
+        constraints_(assignExtremumChoices(pieces, recipe)) {
+    own_ = choicesForMethods(recipe);
+    if (!own_.empty()) choices_ = assignChoices(pieces, own_).ofPiece;
+    const auto isTypical = [](const PieceChoice& choice) { return choice.method == ConstructMethod::Typical; };
+    const bool someTypical =
+        recipe.construct.method == ConstructMethod::Typical || std::any_of(own_.begin(), own_.end(), isTypical);
+    breakpoints_ =
+        someTypical ? assignSegmentPoints(pieces, recipe) : std::vector<std::vector<std::size_t>>(pieces.pieces.size());
+  }
+
+  ContourOutcome build(PieceRange range) const {
+    ContourOutcome outcome = buildAlike(range);
+    if (choices_.empty()) return outcome;
+    for (TracedCurve& curve : outcome.curves) {
+      const auto& choice = choices_[curve.piece];
+      if (choice && own_[*choice].method) constructAsChosen(curve, *own_[*choice].method);
+    }
+    return outcome;
+  }
+
+ private:
+  ContourOutcome buildAlike(PieceRange range) const {
+    ContourOutcome outcome;
+    if (auto all = constructRange(range, recipe_.construct)) {
+      for (std::size_t i = range.first; i < range.last; ++i) add(outcome, i, std::move((*all)[i - range.first]));
+      return outcome;
+    } else if (range.last - range.first == 1) {
+      outcome.failures.push_back(named(all.error(), range.first));
+      return outcome;
+    }
+    // One piece that cannot be constructed must not cost its neighbours.
+    for (std::size_t i = range.first; i < range.last && !context_.isCancelled(); ++i) {
+      if (auto one = constructRange({i, i + 1}, recipe_.construct)) {
+        add(outcome, i, std::move(one->front()));
+      } else {
+        outcome.failures.push_back(named(one.error(), i));
+      }
+    }
+    return outcome;
+  }
+
+  Result<std::vector<ConstructedPiece>> constructRange(PieceRange range, const ConstructParams& asked) const {
+    ConstructParams params = asked;
+    // Groups of points, as in the paper, and a number that the user set are taken as they are.
+    const SegmentParams& segments = recipe_.segments;
+    const bool grouped = segments.mode == SegmentMode::Sturges || segments.mode == SegmentMode::Count;
+    if (grouped || (segments.mode == SegmentMode::Stations && segments.count > 0)) params.maxDeviationPx = 0.0;
+    ConstructContour input = inputOf(contours_, pieces_, segments_, range, frame_);
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      input.pieces[i - range.first].breakpoints = breakpointsOf(breakpoints_[i], recipe_, frame_);
+      for (const std::size_t constraint : constraints_[i]) {
+        const ExtremumChoice& choice = recipe_.extremumChoices[constraint];
+        const Vec2 place = frame_.pointToModel(choice.positionPx);
+        input.pieces[i - range.first].constraints.push_back({place, choice.keep, static_cast<int>(constraint)});
+      }
+    }
+    auto result = construct(input, params, context_);
+    if (result && result->size() != input.pieces.size()) {
+      return fail(ErrorCode::Numerical, "The construction gave another number of curves than pieces.");
+    }
+    return result;
+  }
+
+  /// A piece with a method of its own.
+  void constructAsChosen(TracedCurve& curve, ConstructMethod method) const {
+    if (method == recipe_.construct.method) return;
+    ConstructParams params = recipe_.construct;
+    params.method = method;
+    const auto index = static_cast<std::size_t>(curve.piece);
+    auto own = constructRange({index, index + 1}, params);
+    if (own) {
+      take(curve, std::move(own->front()));
+    } else {
+      curve.construct.note = "Its own method gave no curve: " + own.error().message;
+    }
+  }
+
+  Error named(Error error, std::size_t piece) const {
+    const Vec2 at = anchorOf(pieces_.pieces[piece]);
+    error.message = "Line " + std::to_string(pieces_.pieces[piece].contour + 1) + " near (" +
+                    std::to_string(static_cast<int>(at.x())) + ", " + std::to_string(static_cast<int>(at.y())) +
+                    ") gave no curve: " + error.message;
+    return error;
+  }
+
+  void add(ContourOutcome& outcome, std::size_t index, ConstructedPiece made) const {
+    const Piece& piece = pieces_.pieces[index];
+    TracedCurve curve;
+    curve.contour = piece.contour;
+    curve.piece = static_cast<int>(index);
+    curve.closed = piece.closed;
+    take(curve, std::move(made));
+    outcome.curves.push_back(std::move(curve));
+  }
+
+  void take(TracedCurve& curve, ConstructedPiece made) const {
+    const Piece& piece = pieces_.pieces[curve.piece];
+    curve.sketched = made.curve;
+    curve.construct = std::move(made.report);
+    curve.sketchedFigures = figuresOf(made.curve, piece.closed, pointsToModel(piece.points, frame_));
+  }
+
+  const ContourSet& contours_;
+  const PieceSet& pieces_;
+  const SegmentSet& segments_;
+  const Recipe& recipe_;
+  const PageFrame& frame_;
+  const RunContext& context_;
+  std::vector<PieceChoice> own_;                       ///< The choices that compete for the method.
+  std::vector<std::optional<std::size_t>> choices_;    ///< Per piece, when there are such choices: which.
+  std::vector<std::vector<std::size_t>> breakpoints_;  ///< Per piece, the segment points on it.
+  std::vector<std::vector<std::size_t>> constraints_;
+};
+
+}  // namespace
+
+std::vector<Vec2> pointsToModel(const std::vector<Vec2>& points, const PageFrame& frame) {
+  std::vector<Vec2> result;
+  result.reserve(points.size());
+  for (const Vec2& p : points) result.push_back(frame.pointToModel(p));
+  return result;
+}
+
+CurveFigures figuresOf(const NurbsCurve& curve, bool closed, const std::vector<Vec2>& points) {
+  CurveFigures figures;
+  figures.lengthMm = ArcLength(curve).total();
+  figures.controlPoints = curve.controlPointCount();
+  figures.fromPoints = deviation(curve, points, true);
+  const double size = extent(curve);
+  if (size > 0.0) {
+    figures.extrema = static_cast<int>(curvatureExtrema(curve, kExtremumProminence / size, closed).size());
+    figures.inflections = static_cast<int>(inflections(curve, kExtremumProminence / size, closed).size());
+    figures.curvatureJump = largestCurvatureJump(curve, closed);
+  }
+  return figures;
+}
+
+ConstructPiece typicalPieceOf(const PieceSet& pieces, const SegmentSet& segments, const Recipe& recipe,
+                              const PageFrame& frame, std::size_t index) {
+  ConstructPiece made = pieceInput(pieces.pieces[index], segments.pieces[index], frame);
+  made.breakpoints = breakpointsOf(assignSegmentPoints(pieces, recipe)[index], recipe, frame);
+  return made;
+}
+
+Result<ConstructedSet> constructAll(const ContourSet& contours, const PieceSet& pieces, const SegmentSet& segments,
+                                    const Recipe& recipe, const PageFrame& frame, const RunContext& context) {
+  if (segments.pieces.size() != pieces.pieces.size()) {
+    return fail(ErrorCode::Numerical, "The segments do not belong to these pieces.");
+  }
+  const std::vector<PieceRange> ranges = rangesByContour(pieces);
+  const RunContext inner = itemContext(context, ranges.size());
+  const ContourBuilder builder(contours, pieces, segments, recipe, frame, inner);
+  std::vector<ContourOutcome> outcomes(ranges.size());
+  forEachItem(context, ranges.size(), [&](std::size_t i) { outcomes[i] = builder.build(ranges[i]); });
+  if (context.isCancelled()) return cancelled();
+
+  ConstructedSet set;
+  for (ContourOutcome& outcome : outcomes) {
+    std::move(outcome.curves.begin(), outcome.curves.end(), std::back_inserter(set.curves));
+    std::move(outcome.failures.begin(), outcome.failures.end(), std::back_inserter(set.failures));
+  }
+  if (!set.curves.empty()) return set;
+  return fail(ErrorCode::NoCurve,
+              set.failures.empty() ? "No line was left to make a curve of. Lower contours.min_length or the thresholds."
+                                   : "No curve could be made. " + set.failures.front().message);
+}
+
+ConstructContour lineInput(const PipelineOutput& out, int contour) {
+  if (!out.contours || !out.pieces || !out.segments) return {};
+  if (out.segments->pieces.size() != out.pieces->pieces.size()) return {};
+  const PieceRange range = rangeOf(*out.pieces, contour);
+  if (range.first == range.last || static_cast<std::size_t>(contour) >= out.contours->contours.size()) return {};
+  return inputOf(*out.contours, *out.pieces, *out.segments, range, out.frame);
+}
+
+Result<std::vector<TracedCurve>> constructLine(const PipelineOutput& out, const Recipe& recipe, int contour,
+                                               const RunContext& context) {
+  if (lineInput(out, contour).pieces.empty()) return fail(ErrorCode::NoCurve, "There is no such line.");
+  try {
+    Recipe alike = recipe;
+    alike.choices.clear();
+    const PieceRange range = rangeOf(*out.pieces, contour);
+    const ContourBuilder builder(*out.contours, *out.pieces, *out.segments, alike, out.frame, context);
+    ContourOutcome outcome = builder.build(range);
+    if (context.isCancelled()) return cancelled();
+    std::vector<TracedCurve> curves(range.last - range.first);
+    for (TracedCurve& curve : outcome.curves) {
+      const auto at = static_cast<std::size_t>(curve.piece) - range.first;
+      curves[at] = std::move(curve);
+    }
+    return curves;
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "There is not enough memory to construct this line.");
+  }
+}
+
+}  // namespace batten

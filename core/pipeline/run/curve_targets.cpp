@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <new>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/fairing/edge_length_fairing.h"
+#include "core/pipeline/run/pipeline.h"
+#include "core/pipeline/run/stage_items.h"
+
+namespace batten {
+namespace {
+
+/// A curve that is asked for, and the place of its answer.
+struct Asked {
+  const TracedCurve* curve = nullptr;
+  Result<TargetOutcomes>* outcomes = nullptr;
+};
+
+Result<TargetOutcomes> noMemory() {
+  return fail(ErrorCode::OutOfMemory,
+              "There is not enough memory for the six targets. Close other programs and try again.");
+}
+
+void moveControlPoints(const std::vector<Asked>& all, const RunContext& context) {
+  std::vector<TargetsJob> jobs;
+  for (const Asked& asked : all) jobs.push_back({asked.curve->sketched, asked.curve->closed, asked.curve->fairingUsed});
+  auto outcomes = fairAllTargets(jobs, context);
+  for (std::size_t i = 0; i < all.size(); ++i) *all[i].outcomes = std::move(outcomes[i]);
+}
+
+void moveEdgeLengths(const Asked& asked, std::size_t target, const RunContext& context) {
+  const TracedCurve& curve = *asked.curve;
+  TargetOutcomes& outcomes = **asked.outcomes;
+  try {
+    const TargetProfile& profile = outcomes.targets.profiles[target];
+    auto moved = fairByEdgeLengths(curve.sketched, curve.closed, profile, curve.fairingUsed, context);
+    if (moved)
+      outcomes.faired[target] = std::move(*moved);
+    else
+      outcomes.problems[target] = moved.error().message;
+  } catch (const std::bad_alloc&) {
+    outcomes.problems[target] = noMemory().error().message;
+  }
+}
+
+void moveEdgeLengths(const std::vector<Asked>& all, const RunContext& context) {
+  std::vector<Asked> fitted;
+  for (const Asked& asked : all) {
+    const FairingParams& params = asked.curve->fairingUsed;
+    if (const auto error = validate(params)) {
+      *asked.outcomes = fail(*error);
+      continue;
+    }
+    TargetOutcomes outcomes;
+    outcomes.targets = fitTargets(asked.curve->sketched, params.targets, asked.curve->closed);
+    outcomes.recommendedDegree = outcomes.targets.recommendedDegree;
+    *asked.outcomes = std::move(outcomes);
+    fitted.push_back(asked);
+  }
+  constexpr std::size_t kTargets = std::tuple_size_v<decltype(TargetOutcomes::faired)>;
+  const RunContext inner = itemContext(context, kTargets * fitted.size());
+  forEachItem(context, kTargets * fitted.size(),
+              [&](std::size_t i) { moveEdgeLengths(fitted[i / kTargets], i % kTargets, inner); });
+}
+
+/// What choosing each target gives, whatever the mode is now: what moves decides.
+void answer(const std::vector<Asked>& all, const RunContext& context) {
+  try {
+    std::vector<Asked> points, edges;
+    for (const Asked& asked : all)
+      (asked.curve->fairingUsed.means == FairingMeans::EdgeLengths ? edges : points).push_back(asked);
+    moveControlPoints(points, context);
+    moveEdgeLengths(edges, context);
+  } catch (const std::bad_alloc&) {
+    for (const Asked& asked : all) *asked.outcomes = noMemory();
+  }
+  if (!context.isCancelled()) return;
+  for (const Asked& asked : all) *asked.outcomes = cancelled();
+}
+
+}  // namespace
+
+Result<TargetOutcomes> targetsFor(const TracedCurve& curve, const RunContext& context) {
+  if (curve.sketched.isEmpty()) return fail(ErrorCode::NoCurve, "There is no curve to compare with the targets.");
+  Result<TargetOutcomes> outcomes = cancelled();
+  answer({{&curve, &outcomes}}, context);
+  return outcomes;
+}
+
+std::vector<Result<TargetOutcomes>> targetsForAll(std::span<const TracedCurve> curves, const RunContext& context) {
+  std::vector<Result<TargetOutcomes>> results(curves.size(), cancelled());
+  std::vector<Asked> all;
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    if (curves[i].included && !curves[i].sketched.isEmpty()) all.push_back({&curves[i], &results[i]});
+  answer(all, context);
+  return results;
+}
+
+}  // namespace batten

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/run/merge_advice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/number_text.h"
+#include "core/contour/merge/overdrawn_strokes.h"
+#include "core/pipeline/run/pipeline.h"
+#include "core/pipeline/run/stage_keys.h"
+
+namespace batten {
+namespace {
+
+constexpr double kMostWidths = 20.0, kStepWidths = 0.5;  // of edges.merge
+
+constexpr int kAllLines = 100000;  // contours.max_count at its largest
+
+// Every line counts, also those that the recipe leaves out for being too many.
+Recipe mergedBy(double mergeWidths, Recipe recipe) {
+  recipe.edges.mergeWidths = mergeWidths;
+  recipe.contours.maxCount = kAllLines;
+  return recipe;
+}
+
+int centrelinesOf(const ContourSet& set) {
+  return static_cast<int>(std::count_if(set.contours.begin(), set.contours.end(),
+                                        [](const Contour& c) { return c.kind == ContourKind::Centreline; }));
+}
+
+Result<std::shared_ptr<const ContourSet>> linesWith(double mergeWidths, const Scan& scan, const Recipe& recipe,
+                                                    StageCache& cache, const RunContext& context) {
+  PipelineRequest request;
+  request.upTo = StageId::Contours;
+  request.needEdges = false;
+  PipelineOutput output = runPipeline(scan, mergedBy(mergeWidths, recipe), cache, request, context);
+  if (context.isCancelled()) return cancelled();
+  if (output.error) return fail(std::move(*output.error));
+  return output.contours;
+}
+
+std::string counted(int count, const char* one, const char* many) {
+  return std::to_string(count) + ' ' + (count == 1 ? one : many);
+}
+
+}  // namespace
+
+Result<MergeAdvice> adviseMerge(const Scan& scan, const Recipe& recipe, StageCache& cache, const RunContext& context) {
+  const auto apart = linesWith(0.0, scan, recipe, cache, context);
+  if (!apart) return fail(apart.error());
+  MergeAdvice advice;
+  advice.strokes = advice.lines = centrelinesOf(**apart);
+  const double width = (*apart)->report.widthPx;
+  if (advice.strokes == 0 || !(width > 0.0)) return advice;
+  const OverdrawnStrokes strokes = findOverdrawnStrokes((*apart)->contours, (kMostWidths + 1.0) * width, context);
+  if (context.isCancelled()) return cancelled();
+  if (!(strokes.distancePx > 0.0)) return advice;
+  // The distance is between middles: a width more than the paper between.
+  const double widths = kStepWidths * std::round((strokes.distancePx / width - 1.0) / kStepWidths);
+  const double strength = std::clamp(widths, kStepWidths, kMostWidths);
+  const auto merged = linesWith(strength, scan, recipe, cache, context);
+  if (!merged) return fail(merged.error());
+  advice.share = strokes.share;
+  if (centrelinesOf(**merged) >= advice.strokes) return advice;
+  advice.widths = strength;
+  advice.lines = centrelinesOf(**merged);
+  return advice;
+}
+
+ContentHash mergeAdviceKey(const Scan& scan, const Recipe& recipe) {
+  return stageKeys(scan, mergedBy(0.0, recipe), {})[StageId::Contours];
+}
+
+std::string describe(const MergeAdvice& advice) {
+  if (advice.strokes == 0) return "No ink is followed along its middle: there are no strokes to merge.";
+  if (!(advice.widths > 0.0) && advice.share > 0.0)
+    return "Some strokes run over one another, but merging them would not make fewer lines.";
+  if (!(advice.widths > 0.0)) return "No overdrawn strokes were found: merging is not needed.";
+  return numberToText(advice.widths) + (advice.widths == 1.0 ? " stroke width: " : " stroke widths: ") +
+         counted(advice.strokes, "stroke becomes ", "strokes become ") + counted(advice.lines, "line.", "lines.");
+}
+
+}  // namespace batten

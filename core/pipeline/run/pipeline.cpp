@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/run/pipeline.h"
+
+#include <chrono>
+#include <new>
+
+#include "core/contour/trace_contours.h"
+#include "core/image/laplacian_edges.h"
+#include "core/pipeline/run/curve_stages.h"
+#include "core/pipeline/run/stage_keys.h"
+
+namespace batten {
+namespace {
+
+template <class T>
+std::size_t vectorBytes(const std::vector<T>& v) {
+  return v.capacity() * sizeof(T);
+}
+
+// Sizes for the cache's budget: the large parts exactly, the rest roughly.
+std::size_t bytesOf(const RegionThresholds& t) {
+  std::size_t bytes = sizeof(t) + vectorBytes(t.paper.grey);
+  for (const PaperFold& fold : t.paper.folds)
+    bytes += sizeof(fold) + vectorBytes(fold.depth) + vectorBytes(fold.profile);
+  return bytes;
+}
+std::size_t bytesOf(const BitImage& image) { return sizeof(image) + vectorBytes(image.words); }
+std::size_t bytesOf(const FilteredImage& image) { return bytesOf(image.ink); }
+std::size_t bytesOf(const ContourSet& set) {
+  std::size_t bytes = sizeof(set);
+  for (const Contour& c : set.contours) {
+    bytes += sizeof(c) + vectorBytes(c.points) + vectorBytes(c.chain) + vectorBytes(c.refined) +
+             vectorBytes(c.sigmaPx) + vectorBytes(c.widthPx) + vectorBytes(c.band.left) + vectorBytes(c.band.right);
+  }
+  return bytes;
+}
+std::size_t bytesOf(const PieceSet& set) {
+  std::size_t bytes = sizeof(set) + vectorBytes(set.corners);
+  for (const Piece& p : set.pieces)
+    bytes +=
+        sizeof(p) + vectorBytes(p.points) + vectorBytes(p.refined) + vectorBytes(p.sigmaPx) + vectorBytes(p.spreadPx);
+  return bytes;
+}
+std::size_t bytesOf(const SegmentSet& set) {
+  std::size_t bytes = sizeof(set);
+  for (const PieceSegments& p : set.pieces) bytes += sizeof(p) + vectorBytes(p.stations);
+  return bytes;
+}
+std::size_t bytesOf(const std::vector<TracedCurve>& curves) {
+  std::size_t bytes = 0;
+  for (const TracedCurve& c : curves) {
+    const auto points = static_cast<std::size_t>(c.sketched.isEmpty() ? 0 : c.sketched.controlPointCount());
+    bytes +=
+        sizeof(c) + 4 * points * sizeof(Vec2) + vectorBytes(c.construct.extrema) + 2 * vectorBytes(c.construct.bandS);
+  }
+  return bytes;
+}
+std::size_t bytesOf(const ConstructedSet& set) { return sizeof(set) + bytesOf(set.curves); }
+std::size_t bytesOf(const FairedSet& set) { return sizeof(set) + bytesOf(set.curves); }
+
+class Run {
+ public:
+  Run(const Scan& scan, const Recipe& recipe, StageCache& cache, const PipelineRequest& request,
+      const RunContext& context)
+      : scan_(scan), recipe_(recipe), cache_(cache), request_(request), context_(context) {}
+
+  PipelineOutput all() {
+    if (auto wrong = validate(recipe_)) {
+      out_.error = std::move(wrong);
+      return std::move(out_);
+    }
+    out_.frame = frameFor(scan_, recipe_);
+    keys_ = stageKeys(scan_, recipe_, out_.frame);
+    for (const StageId stage : kStages) {
+      if (stage > request_.upTo) break;
+      if (stage == StageId::Edges && !request_.needEdges) continue;
+      if (!one(stage)) break;
+      if (request_.stageReady) request_.stageReady(stage, out_);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  bool one(StageId stage) {
+    switch (stage) {
+      case StageId::Thresholds:
+        return step(stage, out_.thresholds,
+                    [&] { return findThresholds(scan_.grey, recipe_.paper, recipe_.threshold, context_); });
+      case StageId::Binary:
+        return step(stage, out_.binary,
+                    [&] { return binarize(scan_.grey, *out_.thresholds, recipe_.threshold, context_); });
+      case StageId::Filtered:
+        return step(stage, out_.filtered, [&] { return neighbourhoodFilter(*out_.binary, recipe_.filter, context_); });
+      case StageId::Edges:
+        return step(stage, out_.edges, [&] { return laplacianEdges(out_.filtered->ink, context_); });
+      case StageId::Contours:
+        return step(stage, out_.contours, [&] { return lines(); });
+      case StageId::Pieces:
+        return step(stage, out_.pieces, [&] {
+          const GreyImage& grey = recipe_.cornerMarks.empty() ? scan_.grey : flattenedScan();
+          return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, &grey);
+        });
+      case StageId::Segments:
+        return step(stage, out_.segments, [&] { return regressionSegments(*out_.pieces, recipe_.segments); });
+      case StageId::Curves:
+        return step(stage, out_.constructed, [&] {
+          return constructAll(*out_.contours, *out_.pieces, *out_.segments, recipe_, out_.frame, context_);
+        });
+      case StageId::Faired:
+        return step(stage, out_.faired, [&] {
+          return fairAll(*out_.constructed, *out_.contours, *out_.pieces, recipe_, out_.frame, context_);
+        });
+    }
+    return false;
+  }
+
+  /// The scan without its folds, made once a run.
+  const GreyImage& flattenedScan() {
+    const auto& folds = out_.thresholds->paper.folds;
+    if (folds.empty()) return scan_.grey;
+    if (!even_) even_ = withoutFolds(scan_.grey, folds, context_);
+    return *even_;
+  }
+
+  /// The lines of the page, or of the parts of it that the user wants.
+  Result<ContourSet> traceRegions() {
+    const GreyImage& grey = flattenedScan();
+    if (context_.isCancelled()) return cancelled();
+    const auto trace = [&](const BitImage& ink) {
+      return traceContours(ink, grey, recipe_.edges, recipe_.contours, context_);
+    };
+    if (recipe_.regions.empty()) return trace(out_.filtered->ink);
+    auto set = trace(inkTouching(out_.filtered->ink, recipe_.regions, context_));
+    if (set) set = keepInside(std::move(*set), recipe_.regions, recipe_.contours.minLengthPx);
+    const bool isEmpty = set ? set->contours.empty() : set.error().code == ErrorCode::NoCurve;
+    if (!isEmpty) return set;
+    return fail(ErrorCode::NoCurve, "No line lies inside the region: draw a larger one or clear it.");
+  }
+
+  /// The lines found on the scan, and behind them those drawn by hand. The found ones are kept by themselves, so that a
+  /// new stroke does not trace the page again.
+  Result<ContourSet> lines() {
+    if (recipe_.penStrokes.empty()) {
+      if (isBlank(scan_)) return fail(ErrorCode::NoCurve, "The page is empty. Draw a line with the pen.");
+      return traceRegions();
+    }
+    auto traced = cache_.find<ContourSet>(keys_.traced);
+    if (!traced) {
+      auto found = traceRegions();
+      if (context_.isCancelled()) return cancelled();
+      // On white paper, or beside a drawing that gives no line, the strokes are the drawing.
+      if (!found && found.error().code != ErrorCode::NoCurve) return found;
+      traced = std::make_shared<const ContourSet>(found ? std::move(*found) : ContourSet{});
+      if (found) cache_.store(keys_.traced, traced, bytesOf(*traced));
+    }
+    return withPenStrokes(*traced, recipe_.penStrokes);
+  }
+
+  /// Fills `slot` from the cache or by running `work`; false if the run ends here.
+  template <class T, class Work>
+  bool step(StageId stage, std::shared_ptr<const T>& slot, const Work& work) {
+    begin_ = Clock::now();
+    StageTiming& timing = out_.timing[indexOf(stage)];
+    timing.run = true;
+    try {
+      if (context_.isCancelled()) return stop(stage, {ErrorCode::Cancelled, "Cancelled.", {}});
+      slot = cache_.find<T>(keys_[stage]);
+      timing.fromCache = slot != nullptr;
+      if (!slot) {
+        Result<T> result = work();
+        // A stage that was interrupted may hand back what it had: never kept.
+        if (context_.isCancelled()) return stop(stage, {ErrorCode::Cancelled, "Cancelled.", {}});
+        if (!result) return stop(stage, std::move(result).error());
+        slot = std::make_shared<const T>(std::move(*result));
+        cache_.store(keys_[stage], slot, bytesOf(*slot));
+      }
+    } catch (const std::bad_alloc&) {
+      slot = nullptr;
+      return stop(stage, {ErrorCode::OutOfMemory,
+                          "There is not enough memory for the stage \"" + std::string(name(stage)) +
+                              "\". Close other programs, or scan at a lower resolution.",
+                          {}});
+    } catch (const std::exception& e) {
+      slot = nullptr;
+      return stop(stage, {ErrorCode::Numerical,
+                          "The stage \"" + std::string(name(stage)) +
+                              "\" failed on this drawing. Change its settings or report it.",
+                          e.what()});
+    }
+    takeTime(stage);
+    return true;
+  }
+
+  void takeTime(StageId stage) {
+    out_.timing[indexOf(stage)].milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin_).count();
+  }
+
+  bool stop(StageId stage, Error error) {
+    takeTime(stage);
+    out_.error = std::move(error);
+    out_.failedStage = stage;
+    return false;
+  }
+
+  const Scan& scan_;
+  const Recipe& recipe_;
+  StageCache& cache_;
+  const PipelineRequest& request_;
+  const RunContext& context_;
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_;  ///< Of the present stage.
+  StageKeys keys_;
+  PipelineOutput out_;
+  std::optional<GreyImage> even_;
+};
+
+}  // namespace
+
+PipelineOutput runPipeline(const Scan& scan, const Recipe& recipe, StageCache& cache, const PipelineRequest& request,
+                           const RunContext& context) {
+  return Run(scan, recipe, cache, request, context).all();
+}
+
+PageFrame frameFor(const Scan& scan, const Recipe& recipe) {
+  return pageFrame(scan, recipe.dpi ? recipe.dpi : scan.dpi);
+}
+
+bool isScaleAssumed(const Scan& scan, const Recipe& recipe) { return !recipe.dpi && !scan.dpi; }
+
+}  // namespace batten

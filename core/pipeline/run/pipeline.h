@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/page_frame.h"
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/construct/pieces.h"
+#include "core/contour/contour_set.h"
+#include "core/contour/corner/corner_marks.h"
+#include "core/contour/segment/regression_segments.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature_jump.h"
+#include "core/image/binarize.h"
+#include "core/image/scan.h"
+#include "core/pipeline/recipe/recipe.h"
+#include "core/pipeline/recipe/stage_id.h"
+#include "core/pipeline/run/stage_cache.h"
+
+namespace batten {
+
+/// Numbers that say how good a curve is. Model frame.
+struct CurveFigures {
+  double lengthMm = 0.0;
+  int controlPoints = 0;
+  Deviation fromPoints;  ///< [mm] edge points from the curve.
+  int extrema = 0;       ///< Curvature extrema of prominence >= 5e-3 / extent.
+  int inflections = 0;
+  double curvatureJump =
+      0.0;  ///< [-] Largest at a joint, relative to the largest curvature at joints (largestCurvatureJump).
+};
+
+/// One curve from corner to corner (or a smooth closed one), sketched and faired. Model frame, mm.
+struct TracedCurve {
+  int contour = 0;  ///< Index into the contour set.
+  int piece = 0;    ///< Index into the piece set.
+  bool closed = false;
+  bool included = true;  ///< The user's choice.
+  NurbsCurve sketched;
+  ConstructReport construct;
+  CurveFigures sketchedFigures;
+  NurbsCurve faired;  ///< Equal to `sketched` while the mode is None.
+  FairingReport fairing;
+  FairingParams fairingUsed;  ///< The recipe's parameters with the piece's own choices applied.
+  CurveFigures fairedFigures;
+};
+
+struct ConstructedSet {
+  std::vector<TracedCurve> curves;  ///< `faired` not filled yet.
+  std::vector<Error> failures;      ///< Pieces that gave no curve, with the reason.
+};
+struct FairedSet {
+  std::vector<TracedCurve> curves;
+};
+
+/// Milliseconds and whether the output came from the cache, per stage.
+struct StageTiming {
+  double milliseconds = 0.0;
+  bool fromCache = false;
+  bool run = false;
+};
+
+/// All outputs of one run; a null pointer means that the stage was not asked for or failed.
+struct PipelineOutput {
+  std::shared_ptr<const RegionThresholds> thresholds;
+  std::shared_ptr<const BitImage> binary;
+  std::shared_ptr<const FilteredImage> filtered;
+  std::shared_ptr<const BitImage> edges;
+  std::shared_ptr<const ContourSet> contours;
+  std::shared_ptr<const PieceSet> pieces;
+  std::shared_ptr<const SegmentSet> segments;
+  std::shared_ptr<const ConstructedSet> constructed;
+  std::shared_ptr<const FairedSet> faired;
+  PageFrame frame;
+  std::array<StageTiming, kStages.size()> timing;
+  std::optional<Error> error;  ///< Why the run ended early; outputs before it are valid.
+  std::optional<StageId> failedStage;
+};
+
+struct PipelineRequest {
+  StageId upTo = StageId::Faired;
+  /// Called after each stage, on the calling thread, with the outputs so far (what the live window shows first).
+  std::function<void(StageId, const PipelineOutput&)> stageReady;
+  bool needEdges = true;  ///< The edges layer is only made when someone looks at it.
+};
+
+/// Runs the stages in order, taking from `cache` what has not changed. Deterministic: the same scan and recipe give the
+/// same output with any number of threads and any state of the cache. Never throws for bad input; see
+/// PipelineOutput::error.
+PipelineOutput runPipeline(const Scan&, const Recipe&, StageCache&, const PipelineRequest&, const RunContext&);
+
+/// The six targets of one curve, as the strip and the report show them.
+Result<TargetOutcomes> targetsFor(const TracedCurve&, const RunContext&);
+
+/// The same for many curves at once, those left out excepted (their entry is Cancelled): one entry a curve.
+std::vector<Result<TargetOutcomes>> targetsForAll(std::span<const TracedCurve>, const RunContext&);
+/// What the constructions take of one line (contour): all its pieces, model frame. Empty if there is no such line.
+ConstructContour lineInput(const PipelineOutput&, int contour);
+/// One line constructed as `recipe.construct` says, to compare methods with; changes and caches nothing. `faired` stays
+/// empty. One entry per piece of the line in the order of the pieces; without a curve where its construction failed.
+Result<std::vector<TracedCurve>> constructLine(const PipelineOutput&, const Recipe& recipe, int contour,
+                                               const RunContext&);
+
+/// Frame of the scan at the recipe's, the file's or the assumed resolution.
+PageFrame frameFor(const Scan&, const Recipe&);
+/// True when neither the recipe nor the file states a resolution.
+bool isScaleAssumed(const Scan&, const Recipe&);
+
+/// Which choices belong to which pieces.
+struct ChoiceOwners {
+  std::vector<std::optional<std::size_t>> ofPiece;  ///< One entry per piece: an index into the choices, or none.
+  std::vector<std::size_t> waiting;  ///< Choices that say something but find no line now: kept until it is back.
+};
+/// The choices of all pieces, as runPipeline applies them and the window edits them. A choice belongs to every piece of
+/// which more than half lies on the course of its anchors: within 8 px, where no other piece is nearer to the course,
+/// and not past its ends. So the parts of a line that was split share its choice, and a line beside it does not. A
+/// choice with a single anchor belongs to the nearest piece within 24 px. Of two choices for one piece the nearer one
+/// counts, the later one of those about as near.
+ChoiceOwners assignChoices(const PieceSet&, const std::vector<PieceChoice>&);
+/// The choice to be edited for one piece, index into `choices`: its own one, which is made where there is none. Where
+/// it shares one with other pieces it gets a copy, so that the others keep what they have.
+std::size_t makeOwnChoice(std::vector<PieceChoice>& choices, const PieceSet&, std::size_t piece);
+/// The extremum choices of every piece: each belongs to the nearest piece within 24 px. Indices into
+/// recipe.extremumChoices, one list per piece.
+std::vector<std::vector<std::size_t>> assignExtremumChoices(const PieceSet&, const Recipe&);
+/// The place that stands for a piece: its point at half its points.
+Vec2 anchorOf(const Piece&);
+/// The anchors of a choice for a piece: few places between which the line runs straight to 1.5 px, in order, rounded to
+/// 0.1 px. Of a closed line the first place is also the last.
+std::vector<Vec2> anchorsOf(const Piece&);
+
+}  // namespace batten

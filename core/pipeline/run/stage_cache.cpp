@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/run/stage_cache.h"
+
+#include <utility>
+#include <vector>
+
+namespace batten {
+
+std::shared_ptr<const void> StageCache::findAny(const ContentHash& key) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = entries_.find(key);
+  if (found == entries_.end()) return nullptr;
+  ages_.splice(ages_.begin(), ages_, found->second.age);
+  return found->second.value;
+}
+
+void StageCache::store(const ContentHash& key, std::shared_ptr<const void> value, std::size_t bytes) {
+  // Dropped values are destroyed after the lock is released: freeing a page-sized picture takes a while.
+  std::vector<std::shared_ptr<const void>> dropped;
+  const std::scoped_lock lock(mutex_);
+  if (const auto old = entries_.find(key); old != entries_.end()) {
+    used_ -= old->second.bytes;
+    dropped.push_back(std::move(old->second.value));
+    ages_.erase(old->second.age);
+    entries_.erase(old);
+  }
+  if (bytes > budget_) return;
+  while (used_ + bytes > budget_) {
+    const auto oldest = entries_.find(ages_.back());
+    used_ -= oldest->second.bytes;
+    dropped.push_back(std::move(oldest->second.value));
+    entries_.erase(oldest);
+    ages_.pop_back();
+  }
+  ages_.push_front(key);
+  entries_.emplace(key, Entry{std::move(value), bytes, ages_.begin()});
+  used_ += bytes;
+}
+
+void StageCache::clear() {
+  std::map<ContentHash, Entry> dropped;
+  const std::scoped_lock lock(mutex_);
+  dropped.swap(entries_);
+  ages_.clear();
+  used_ = 0;
+}
+
+std::size_t StageCache::bytesUsed() const {
+  const std::scoped_lock lock(mutex_);
+  return used_;
+}
+
+}  // namespace batten

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/run/stage_keys.h"
+
+#include <algorithm>
+#include <span>
+
+#include "core/pipeline/recipe/parameter_table.h"
+#include "core/pipeline/run/curve_stages.h"
+
+namespace batten {
+namespace {
+
+/// To be raised for a stage whose algorithm gives other results than before.
+constexpr std::array<int, kStages.size()> kAlgorithmVersions = {1, 1, 1, 1, 1, 1, 1, 1, 1};
+
+void add(HashBuilder& h, const std::optional<double>& v) {
+  h.integer(v.has_value());
+  if (v) h.number(*v);
+}
+void add(HashBuilder& h, const Vec2& p) { h.number(p.x()).number(p.y()); }
+/// Before every list, so that what follows it cannot be taken for more of it.
+template <class T>
+void addCount(HashBuilder& h, const std::vector<T>& list) {
+  h.integer(static_cast<std::int64_t>(list.size()));
+}
+void add(HashBuilder& h, const std::vector<ProfilePoint>& profile) {
+  addCount(h, profile);
+  for (const ProfilePoint& p : profile) h.number(p.fraction).number(p.kappa);
+}
+
+void add(HashBuilder& h, const PieceChoice& c) {
+  h.integer(c.isPart)
+      .integer(c.included)
+      .integer(c.mode ? static_cast<int>(*c.mode) : -1)
+      .integer(c.target.value_or(-1));
+  add(h, c.toleranceMm);
+  add(h, c.lowPassMm);
+  h.integer(c.keepExtrema.value_or(-2));
+  h.integer(c.tolerancePolicy ? static_cast<int>(*c.tolerancePolicy) : -1)
+      .integer(c.means ? static_cast<int>(*c.means) : -1);
+  for (const auto& hold : {c.startHold, c.endHold})
+    h.integer(hold.has_value()).integer(hold && hold->tangent).integer(hold && hold->curvature);
+  for (const auto* places : {&c.anchorsPx, &c.keepPx, &c.splitsPx}) {
+    addCount(h, *places);
+    for (const Vec2& p : *places) add(h, p);
+  }
+  add(h, c.profile);
+}
+
+void addMethods(HashBuilder& h, const Recipe& recipe) {
+  const std::vector<PieceChoice> choices = choicesForMethods(recipe);
+  addCount(h, choices);
+  for (const PieceChoice& choice : choices) {
+    addCount(h, choice.anchorsPx);
+    for (const Vec2& p : choice.anchorsPx) add(h, p);
+    h.integer(choice.method ? static_cast<int>(*choice.method) : -1);
+  }
+}
+
+ContentHash scanKey(const Scan& scan) {
+  HashBuilder h;
+  h.integer(scan.grey.width).integer(scan.grey.height);
+  // A scan that was not read from a file has no file hash; its pixels identify it.
+  const bool hasFile =
+      std::any_of(scan.fileHash.bytes.begin(), scan.fileHash.bytes.end(), [](auto b) { return b != 0; });
+  return hasFile ? h.hash(scan.fileHash).finish() : h.bytes(std::as_bytes(std::span(scan.grey.pixels))).finish();
+}
+
+/// Adds to the digest what of the recipe a stage reads itself: its parameters, so that none can be forgotten, and the
+/// choices that no table lists.
+void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& frame) {
+  for (const Parameter& p : parameterTable()) {
+    if (p.stage == stage && !p.isForDisplay) h.text(p.name).text(p.get(r));
+  }
+  switch (stage) {
+    case StageId::Thresholds:
+    case StageId::Binary:
+    case StageId::Filtered:
+    case StageId::Edges:
+    case StageId::Segments:
+      break;
+    case StageId::Contours:
+      addCount(h, r.regions);
+      for (const RegionOfInterest& region : r.regions) {
+        addCount(h, region.cornersPx);
+        for (const Vec2& p : region.cornersPx) add(h, p);
+      }
+      addCount(h, r.edges.choices);
+      for (const EdgeChoice& choice : r.edges.choices) {
+        add(h, choice.positionPx);
+        h.integer(static_cast<int>(choice.mode));
+      }
+      break;  // the pen strokes come on top, see stageKeys
+    case StageId::Pieces:
+      addCount(h, r.cornerMarks);
+      for (const CornerMark& mark : r.cornerMarks) add(h, mark.positionPx);
+      break;
+    case StageId::Curves:
+      addMethods(h, r);
+      h.number(frame.mmPerPx).integer(frame.heightPx);
+      addCount(h, r.segmentPoints);
+      for (const SegmentPoint& point : r.segmentPoints) add(h, point.positionPx);
+      addCount(h, r.extremumChoices);
+      for (const ExtremumChoice& choice : r.extremumChoices) {
+        add(h, choice.positionPx);
+        h.integer(choice.keep);
+      }
+      break;
+    case StageId::Faired:
+      addCount(h, r.choices);
+      for (const PieceChoice& choice : r.choices) add(h, choice);
+      for (const CornerMark& mark : r.cornerMarks) h.number(mark.roundMm);
+      break;
+  }
+}
+
+ContentHash withStrokes(const ContentHash& traced, const Recipe& recipe) {
+  HashBuilder h;
+  h.text("pen strokes").hash(traced);
+  addCount(h, recipe.penStrokes);
+  for (const PenStroke& stroke : recipe.penStrokes) {
+    h.integer(stroke.closed);
+    addCount(h, stroke.points);
+    for (const Vec2& p : stroke.points) add(h, p);
+  }
+  return h.finish();
+}
+
+}  // namespace
+
+StageKeys stageKeys(const Scan& scan, const Recipe& recipe, const PageFrame& frame) {
+  StageKeys result;
+  const ContentHash first = scanKey(scan);
+  const ContentHash* input = &first;
+  for (std::size_t i = 0; i < kStages.size(); ++i) {
+    HashBuilder h;
+    h.text(name(kStages[i])).integer(kAlgorithmVersions[i]).hash(*input);
+    addOwn(h, kStages[i], recipe, frame);
+    result.keys[i] = h.finish();
+    if (kStages[i] == StageId::Contours) {
+      result.traced = result.keys[i];
+      if (!recipe.penStrokes.empty()) result.keys[i] = withStrokes(result.traced, recipe);
+    }
+    // The edges picture is only looked at; contours are made from the filtered mask.
+    if (kStages[i] != StageId::Edges) input = &result.keys[i];
+  }
+  return result;
+}
+
+}  // namespace batten

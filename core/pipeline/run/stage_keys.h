@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include "core/base/page_frame.h"
+#include "core/image/scan.h"
+#include "core/pipeline/recipe/recipe.h"
+#include "core/pipeline/recipe/stage_id.h"
+
+namespace batten {
+
+/// Key of every stage's output: digest of the stage, the version of its algorithm, the key of its input and what of the
+/// recipe it reads. Two runs with equal keys have equal outputs.
+///
+/// The log transform is in no key: thresholds are stored on the scan's own scale, so its slider changes what is shown
+/// and how numbers are entered, never a result.
+struct StageKeys {
+  std::array<ContentHash, kStages.size()> keys;
+  ContentHash traced;  ///< The lines of the scan alone, before the pen strokes: drawing one does not trace again.
+  const ContentHash& operator[](StageId stage) const { return keys[indexOf(stage)]; }
+};
+StageKeys stageKeys(const Scan&, const Recipe&, const PageFrame&);
+
+}  // namespace batten

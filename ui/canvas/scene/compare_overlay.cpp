@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/scene/compare_overlay.h"
+
+#include "core/construct/polygon/control_polygon.h"
+#include "ui/canvas/scene/curve_shapes.h"
+
+namespace batten {
+
+OverlaySource overlaySource(const EditorSession& session, bool uniform, double zoomBracket) {
+  const PipelineOutput& output = session.output();
+  OverlaySource source;
+  source.pinned = session.pinned();
+  source.frame = output.frame;
+  source.zoom = zoomBracket;
+  const ConstructParams& params = session.recipe().construct;
+  if (!uniform || params.method != ConstructMethod::ControlPolygon) return source;
+  source.contours = output.contours;
+  source.pieces = output.pieces;
+  source.segments = output.segments;
+  source.params = params;
+  return source;
+}
+
+std::shared_ptr<const CompareOverlay> buildOverlay(const OverlaySource& source, const RunContext& context) {
+  auto overlay = std::make_shared<CompareOverlay>();
+  const double tolerance = 0.15 / source.zoom;
+  if (source.pinned) {
+    for (const TracedCurve& curve : source.pinned->faired->curves) {
+      if (context.isCancelled()) return nullptr;
+      const NurbsCurve& shown = curve.faired.isEmpty() ? curve.sketched : curve.faired;
+      if (curve.included) overlay->pinned.addPath(sampledPath(shown, source.pinned->frame, tolerance));
+    }
+  }
+  if (!source.contours || !source.pieces || !source.segments) return overlay;
+  PipelineOutput output;
+  output.contours = source.contours;
+  output.pieces = source.pieces;
+  output.segments = source.segments;
+  output.frame = source.frame;
+  for (std::size_t i = 0; i < source.contours->contours.size(); ++i) {
+    if (context.isCancelled()) return nullptr;
+    const LinePolygon line = linePolygon(lineInput(output, static_cast<int>(i)), source.params);
+    if (const auto made = polygonCurve(line, source.params.degree, SharpKnots::Uniform)) {
+      overlay->uniform.addPath(sampledPath(made->curve, source.frame, tolerance));
+    }
+  }
+  return overlay;
+}
+
+}  // namespace batten

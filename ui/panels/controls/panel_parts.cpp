@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/controls/panel_parts.h"
+
+#include <QCoreApplication>
+#include <QHelpEvent>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QToolTip>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ui/theme/theme.h"
+
+namespace batten {
+namespace {
+constexpr int kRowHeight = 24;
+constexpr int kColumnWidth = 64;
+constexpr int kWideColumn = 72;  // where the heads of many columns would touch
+}  // namespace
+
+QLabel* heading(const QString& text, QWidget* parent) {
+  auto* label = new QLabel(text, parent);
+  label->setFont(uiFont(13, QFont::DemiBold));
+  return label;
+}
+
+QLabel* caption(const QString& text, QWidget* parent) {
+  auto* label = new QLabel(text.toUpper(), parent);
+  QFont font = uiFont(11, QFont::DemiBold);
+  font.setLetterSpacing(QFont::AbsoluteSpacing, 0.4);
+  label->setFont(font);
+  label->setForegroundRole(QPalette::PlaceholderText);
+  label->setContentsMargins(0, 6, 0, 0);
+  label->setAccessibleName(text);
+  return label;
+}
+
+QLabel* note(const QString& text, QWidget* parent) {
+  auto* label = new QLabel(text, parent);
+  label->setFont(uiFont(12));
+  label->setForegroundRole(QPalette::PlaceholderText);
+  label->setWordWrap(true);
+  return label;
+}
+
+QPushButton* plainButton(const QString& text, const QString& name, QWidget* parent) {
+  auto* button = new QPushButton(text, parent);
+  button->setObjectName(name);
+  button->setAccessibleName(text);
+  return button;
+}
+
+QPushButton* linkButton(const QString& text, const QString& name, QWidget* parent) {
+  auto* button = plainButton(text, name, parent);
+  button->setProperty("flat", true);
+  button->setCursor(Qt::PointingHandCursor);
+  return button;
+}
+
+FigureTable::FigureTable(QWidget* parent) : QWidget(parent) {
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+}
+
+void FigureTable::setHeader(const QString& first, const QStringList& columns) {
+  first_ = first;
+  columns_ = columns;
+  updateGeometry();
+}
+
+void FigureTable::setRows(std::vector<Row> rows) {
+  rows_ = std::move(rows);
+  QStringList spoken;
+  for (const Row& row : rows_) {
+    QString line = row.name;
+    for (const Cell& cell : row.cells) line += QLatin1Char(' ') + cell.text;
+    spoken << line;
+  }
+  setAccessibleDescription(spoken.join(QStringLiteral("; ")));
+  updateGeometry();
+  update();
+}
+
+QSize FigureTable::sizeHint() const {
+  return {240, kRowHeight * (static_cast<int>(rows_.size()) + (columns_.isEmpty() ? 0 : 1))};
+}
+
+void FigureTable::paintEvent(QPaintEvent*) {
+  const Theme& theme = themeOf(palette());
+  QPainter painter(this);
+  painter.setFont(uiFont(12));
+  int y = 0;
+  const auto columnRect = [&](int fromRight, int top, int columns) {
+    const int w = columns == 1 ? width() / 2 : columns > 3 ? kWideColumn : kColumnWidth;
+    return QRect(width() - (fromRight + 1) * w, top, w, kRowHeight);
+  };
+  const int shownColumns = static_cast<int>(columns_.size());
+  if (shownColumns > 0) {
+    painter.setPen(theme.mute);
+    painter.drawText(QRect(0, y, width(), kRowHeight), Qt::AlignVCenter | Qt::AlignLeft, first_);
+    for (int c = 0; c < shownColumns; ++c)
+      painter.drawText(columnRect(shownColumns - 1 - c, y, std::max(2, shownColumns)),
+                       Qt::AlignVCenter | Qt::AlignRight, columns_[c]);
+    y += kRowHeight;
+  }
+  for (const Row& row : rows_) {
+    painter.setPen(theme.text);
+    painter.drawText(QRect(0, y, width(), kRowHeight), Qt::AlignVCenter | Qt::AlignLeft, row.name);
+    const int count = static_cast<int>(row.cells.size());
+    for (int c = 0; c < count; ++c) {
+      const Cell& cell = row.cells[c];
+      painter.setPen(cell.warns ? theme.amber : theme.text);
+      painter.drawText(columnRect(count - 1 - c, y, std::max(count, shownColumns)), Qt::AlignVCenter | Qt::AlignRight,
+                       cell.text);
+    }
+    painter.fillRect(0, y + kRowHeight - 1, width(), 1, theme.line);
+    y += kRowHeight;
+  }
+}
+
+bool FigureTable::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip) {
+    const auto* help = static_cast<QHelpEvent*>(event);
+    const int index = help->pos().y() / kRowHeight - (columns_.isEmpty() ? 0 : 1);
+    const bool inside = index >= 0 && index < static_cast<int>(rows_.size());
+    QToolTip::showText(help->globalPos(), inside ? rows_[index].help : QString(), this);
+    return true;
+  }
+  return QWidget::event(event);
+}
+
+QString millimetres(double mm) {
+  const double size = std::abs(mm);
+  const int decimals = size >= 100 ? 1 : size >= 0.1 || size == 0 ? 2 : 3;
+  return QString::number(mm, 'f', decimals) + QStringLiteral(" mm");
+}
+
+QString shortMillimetres(double mm) {
+  const double size = std::abs(mm);
+  const int decimals = size >= 99.95 ? 0 : size >= 9.995 ? 1 : size >= 0.0995 ? 2 : 3;
+  return QString::number(mm, 'f', decimals) + QStringLiteral(" mm");
+}
+
+QString zoomText(double zoom) { return QStringLiteral("%1 %").arg(zoom * 100, 0, 'f', zoom < 0.0995 ? 1 : 0); }
+
+QString areaText(double mm2) {
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(std::max(mm2, 1e-4)))), 0, 4);
+  return QString::number(mm2, 'f', decimals) + QStringLiteral(" mm²");
+}
+
+QString grouped(qint64 count) {
+  QString digits = QString::number(count);
+  for (int at = static_cast<int>(digits.size()) - 3; at > (count < 0 ? 1 : 0); at -= 3)
+    digits.insert(at, QChar(0x2009));
+  return digits;
+}
+
+QString similarityText(double s) {
+  QString text = QString::number(s, 'f', 4);
+  if (text.startsWith(QLatin1String("0."))) text.remove(0, 1);
+  if (text.startsWith(QLatin1String("-0."))) text = QChar(0x2212) + text.mid(2, 3);
+  return text;
+}
+
+QString counted(qint64 count, const QString& one, const QString& many) {
+  return count == 1 ? one : many.arg(grouped(count));
+}
+
+QString degreeName(int degree) {
+  static const std::array<const char*, 6> kNames = {
+      QT_TRANSLATE_NOOP("Degree", "linear"),  QT_TRANSLATE_NOOP("Degree", "quadratic"),
+      QT_TRANSLATE_NOOP("Degree", "cubic"),   QT_TRANSLATE_NOOP("Degree", "quartic"),
+      QT_TRANSLATE_NOOP("Degree", "quintic"), QT_TRANSLATE_NOOP("Degree", "sextic")};
+  if (degree < 1 || degree > 6) return {};
+  return QCoreApplication::translate("Degree", kNames[degree - 1]);
+}
+
+}  // namespace batten

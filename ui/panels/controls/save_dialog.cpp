@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/controls/save_dialog.h"
+
+#include <QFileDialog>
+#include <QFileInfo>
+
+namespace batten {
+
+QString askSavePath(QWidget* parent, const SaveQuestion& question) {
+  const QFileInfo start(question.start);
+  QFileDialog dialog(parent, question.title, start.absolutePath(), question.filter);
+  dialog.setObjectName(QStringLiteral("saveDialog"));
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setFileMode(QFileDialog::AnyFile);
+  dialog.setDefaultSuffix(question.suffix);
+  dialog.selectFile(start.fileName());
+  if (dialog.exec() != QDialog::Accepted) return {};
+  // Some desktops' own dialogs leave the suffix to the program.
+  return withSuffix(dialog.selectedFiles().value(0), question.suffix);
+}
+
+QString withSuffix(const QString& path, const QString& suffix) {
+  if (path.isEmpty() || !QFileInfo(path).suffix().isEmpty()) return path;
+  return path + (path.endsWith(QLatin1Char('.')) ? QString() : QStringLiteral(".")) + suffix;
+}
+
+}  // namespace batten

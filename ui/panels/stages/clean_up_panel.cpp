@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/stages/clean_up_panel.h"
+
+#include <QCheckBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <functional>
+
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/controls/parameter_editor.h"
+#include "ui/panels/controls/segmented_control.h"
+#include "ui/panels/stages/line_trace_mode.h"
+#include "ui/panels/stages/merge_suggestion.h"
+#include "ui/panels/stages/pen_panel.h"
+#include "ui/session/region_edits.h"
+#include "ui/theme/theme.h"
+
+namespace batten {
+namespace {
+
+QVBoxLayout* panelLayout(QWidget* panel, const QString& title) {
+  auto* layout = new QVBoxLayout(panel);
+  layout->setContentsMargins(14, 12, 14, 12);
+  layout->setSpacing(8);
+  layout->addWidget(heading(title, panel));
+  return layout;
+}
+
+void follow(EditorSession& session, QWidget* panel, StageId stage, const std::function<void()>& refresh) {
+  QObject::connect(&session, &EditorSession::stageReady, panel, [stage, refresh](StageId ready) {
+    if (ready == stage) refresh();
+  });
+  QObject::connect(&session, &EditorSession::scanOpened, panel, refresh);
+  QObject::connect(&session, &EditorSession::runFinished, panel, refresh);
+}
+
+}  // namespace
+
+CleanUpPanel::CleanUpPanel(EditorSession& session, QWidget* parent)
+    : QWidget(parent), session_(session), figures_(new FigureTable(this)), warning_(note({}, this)) {
+  auto* layout = panelLayout(this, tr("Clean-up"));
+  layout->addWidget(new ParameterEditor(
+      session, {"filter.coefficient", "filter.iterations", "filter.max_change", "filter.order", "filter.border"},
+      this));
+  layout->addWidget(caption(tr("What it did"), this));
+  layout->addWidget(figures_);
+  layout->addWidget(warning_);
+  layout->addStretch();
+  follow(session, this, StageId::Filtered, [this] { refresh(); });
+  refresh();
+}
+
+void CleanUpPanel::refresh() {
+  const auto& filtered = session_.output().filtered;
+  if (!filtered) {
+    figures_->setRows({{tr("Ink"), {{QStringLiteral("–")}}, {}}});
+    warning_->hide();
+    return;
+  }
+  const FilterReport& report = filtered->report;
+  const auto share = [&](std::int64_t pixels) {
+    const double percent = report.inkBefore > 0 ? 100.0 * double(pixels) / double(report.inkBefore) : 0.0;
+    return QStringLiteral("%1 %").arg(percent, 0, 'f', 1);
+  };
+  QString rounds = QString::number(report.iterations);
+  if (report.why == Termination::FixedPoint) rounds = tr("%1, then no change").arg(report.iterations);
+  if (report.why == Termination::IterationLimit) rounds = tr("%1, still changing").arg(report.iterations);
+  if (report.why == Termination::NotRun) rounds = tr("none");
+  figures_->setRows(
+      {{tr("Ink before, px"), {{grouped(report.inkBefore)}}, tr("Pixels that count as ink after the threshold.")},
+       {tr("Ink after, px"), {{grouped(report.inkAfter)}}, tr("Pixels that count as ink after the clean-up.")},
+       {tr("Taken away"), {{share(report.inkLost), report.thinStrokesLost}}, tr("Ink that became paper.")},
+       {tr("Filled in"), {{share(report.inkGained)}}, tr("Paper that became ink.")},
+       {tr("Undone"),
+        {{share(report.undone)}},
+        tr("Changes larger than the largest change: thin strokes, tips, gaps.")},
+       {tr("Rounds"),
+        {{rounds}},
+        tr("A round is one erosion and one dilation; the filter stops when nothing changes.")}});
+  warning_->setVisible(report.thinStrokesLost);
+  warning_->setText(
+      tr("Much of the ink vanished: thin strokes do not survive this. Set a largest change, a larger coefficient or "
+         "fewer iterations."));
+}
+
+EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
+    : QWidget(parent),
+      session_(session),
+      view_(view),
+      tools_(new SegmentedControl({tr("Select"), tr("Lines"), tr("Rectangle"), tr("Lasso")}, this)),
+      regions_(note({}, this)),
+      clear_(linkButton(tr("Clear"), QStringLiteral("edges.clearRegions"), this)),
+      strokes_(new QCheckBox(tr("Show stroke widths, merges, bridges"), this)),
+      fallback_(new QCheckBox(tr("Show points that could not be placed"), this)),
+      figures_(new FigureTable(this)),
+      note_(note({}, this)) {
+  auto* layout = panelLayout(this, tr("Edges"));
+  auto* editor =
+      new ParameterEditor(session,
+                          {"edges.mode", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
+                           "edges.merge", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
+                          this);
+  editor->addBelow("edges.merge", new MergeSuggestion(session, editor));
+  tracing_ = {editor, new LineWay(session, this), caption(tr("Lines found"), this), figures_};
+  layout->addWidget(tracing_[0]);
+  layout->addWidget(tracing_[1]);
+  buildChoice();
+  layout->addWidget(tracing_[2]);
+  layout->addWidget(figures_);
+  layout->addWidget(note_);
+  layout->addWidget(new PenPanel(session, view, this));
+  layout->addStretch();
+  follow(session, this, StageId::Contours, [this] { refresh(); });
+  refresh();
+}
+
+void EdgesPanel::buildChoice() {
+  auto* layout = static_cast<QVBoxLayout*>(this->layout());
+  layout->addWidget(caption(tr("What is traced"), this));
+  tools_->setNames(QStringLiteral("edges.tool"), {QStringLiteral("select"), QStringLiteral("lines"),
+                                                  QStringLiteral("rectangle"), QStringLiteral("lasso")});
+  tools_->setToolTip(
+      tr("What a click on the drawing does: select a curve, leave a line out or take it in, or draw a region."));
+  layout->addWidget(tools_);
+  auto* row = new QHBoxLayout;
+  row->addWidget(regions_, 1);
+  row->addWidget(clear_);
+  layout->addLayout(row);
+  strokes_->setObjectName(QStringLiteral("edges.showStrokes"));
+  fallback_->setObjectName(QStringLiteral("edges.showFallback"));
+  layout->addWidget(strokes_);
+  layout->addWidget(fallback_);
+  static constexpr Tool kChoices[] = {Tool::Select, Tool::Lines, Tool::Rectangle, Tool::Lasso};
+  connect(tools_, &SegmentedControl::chosen, this, [this](int index) { view_.setTool(kChoices[index]); });
+  connect(clear_, &QPushButton::clicked, this, [this] { clearRegions(session_); });
+  connect(strokes_, &QCheckBox::clicked, this, [this](bool on) { view_.choose(Layer::Strokes, on); });
+  connect(fallback_, &QCheckBox::clicked, this, [this](bool on) { view_.choose(Layer::Fallback, on); });
+  connect(&view_, &ViewSettings::toolChanged, this, &EdgesPanel::refreshChoice);
+  connect(&view_, &ViewSettings::changed, this, &EdgesPanel::refreshChoice);
+  connect(&session_, &EditorSession::recipeChanged, this, &EdgesPanel::refreshChoice);
+  refreshChoice();
+}
+
+void EdgesPanel::refreshChoice() {
+  switch (view_.tool()) {
+    case Tool::Select:
+      tools_->setCurrent(0);
+      break;
+    case Tool::Lines:
+      tools_->setCurrent(1);
+      break;
+    case Tool::Rectangle:
+      tools_->setCurrent(2);
+      break;
+    case Tool::Lasso:
+      tools_->setCurrent(3);
+      break;
+    default:
+      tools_->setCurrent(-1);
+      break;
+  }
+  const auto count = static_cast<qint64>(session_.recipe().regions.size());
+  regions_->setText(count == 0 ? tr("The whole page is traced.")
+                               : counted(count, tr("Only 1 region is traced."), tr("Only %1 regions are traced.")));
+  clear_->setVisible(count > 0);
+  strokes_->setChecked(view_.isVisible(Layer::Strokes));
+  fallback_->setChecked(view_.isVisible(Layer::Fallback));
+}
+
+void EdgesPanel::refresh() {
+  // On an empty page there is nothing to follow: the pen alone is left.
+  for (QWidget* one : tracing_) one->setVisible(!session_.isBlankPage());
+  const auto& set = session_.output().contours;
+  if (!set) {
+    figures_->setRows({{tr("Kept"), {{QStringLiteral("–")}}, {}}});
+    note_->hide();
+    return;
+  }
+  qint64 strokes = 0, closed = 0;
+  for (const Contour& contour : set->contours) {
+    strokes += contour.kind == ContourKind::Centreline ? 1 : 0;
+    closed += contour.closed ? 1 : 0;
+  }
+  const ContourReport& report = set->report;
+  const qint64 kept = static_cast<qint64>(set->contours.size());
+  std::vector<FigureTable::Row> rows = {
+      {tr("Kept"), {{grouped(kept)}}, tr("Lines that go on to become curves.")},
+      {tr("of these strokes"), {{grouped(strokes)}}, tr("Followed along the middle of the pen stroke.")},
+      {tr("of these closed"), {{grouped(closed)}}, tr("Lines that return to their start.")},
+      {tr("Too short"),
+       {{grouped(report.droppedShort)}},
+       tr("Left out because they are shorter than %1.")
+           .arg(millimetres(session_.recipe().contours.minLengthPx * session_.output().frame.mmPerPx))}};
+  rows.push_back({tr("Gaps bridged"),
+                  {{grouped(bridgeCount(*set))}},
+                  tr("Gaps in the ink across which two ends were joined: dashes on the drawing.")});
+  if (report.droppedMargins > 0)
+    rows.push_back({tr("Margins of the scanner left out"), {{grouped(report.droppedMargins)}}, {}});
+  if (report.droppedHoles > 0) rows.push_back({tr("Inner outlines left out"), {{grouped(report.droppedHoles)}}, {}});
+  qint64 fallback = 0;
+  for (const Contour& contour : set->contours)
+    fallback += std::count(contour.refined.begin(), contour.refined.end(), std::uint8_t{0});
+  rows.push_back(
+      {tr("Points not placed"),
+       {{grouped(fallback)}},
+       tr("Places not found on the grey values: amber dots on the drawing. An outline lies on the pixel border "
+          "there, a centre line on the skeleton of its ink, mostly where strokes meet.")});
+  rows.push_back({tr("Placed on grey values"),
+                  {{QStringLiteral("%1 %").arg(100 * report.refinedShare, 0, 'f', 0)}},
+                  tr("Part of the points that lie on the scan's grey values, finer than a pixel.")});
+  figures_->setRows(std::move(rows));
+  note_->setText(QString::fromStdString(report.note));
+  note_->setVisible(!note_->text().isEmpty());
+}
+
+}  // namespace batten

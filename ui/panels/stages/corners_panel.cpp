@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/stages/corners_panel.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPushButton>
+#include <QShortcut>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "ui/panels/controls/number_field.h"
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/controls/parameter_editor.h"
+#include "ui/panels/controls/slider_track.h"
+#include "ui/session/suggestion_source.h"
+#include "ui/theme/theme.h"
+
+namespace batten {
+namespace {
+
+constexpr double kLowestAngleDeg = 10.0, kHighestAngleDeg = 150.0;
+constexpr double kLeastScalePx = 6.0, kLargestScalePx = 60.0;
+
+QString place(const Vec2& px) { return QStringLiteral("%1, %2").arg(px.x(), 0, 'f', 1).arg(px.y(), 0, 'f', 1); }
+
+QString degrees(double rad) { return QStringLiteral("%1°").arg(std::abs(rad) * 180.0 / std::numbers::pi, 0, 'f', 0); }
+
+void fitHeight(QListWidget* list, int most) {
+  const int row = list->count() > 0 ? std::max(22, list->sizeHintForRow(0)) : 22;
+  list->setFixedHeight(row * std::clamp(list->count(), 1, most) + 2);
+}
+
+}  // namespace
+
+CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
+    : QWidget(parent),
+      session_(session),
+      view_(view),
+      marks_(new QListWidget(this)),
+      close_(note({}, this)),
+      remove_(plainButton(tr("Remove"), QStringLiteral("corners.remove"), this)),
+      removeAll_(plainButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)),
+      rounding_(new NumberField(this)),
+      angle_(new NumberField(this)),
+      angleTrack_(new SliderTrack(this)),
+      scale_(new NumberField(this)),
+      scaleTrack_(new SliderTrack(this)),
+      suggested_(new QListWidget(this)),
+      suggestedNote_(note({}, this)),
+      take_(plainButton(tr("Mark"), QStringLiteral("corners.take"), this)),
+      takeAll_(plainButton(tr("Mark all"), QStringLiteral("corners.takeAll"), this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(14, 12, 14, 12);
+  layout->setSpacing(8);
+  layout->addWidget(heading(tr("Corners"), this));
+  layout->addWidget(
+      note(tr("Click a line where it turns sharply; click a corner to select it, and again to remove it."), this));
+  layout->addWidget(new ParameterEditor(session, {"corners.exact", "corners.snap"}, this));
+  layout->addWidget(caption(tr("Marked"), this));
+  marks_->setObjectName(QStringLiteral("corners.list"));
+  marks_->setAccessibleName(tr("Marked corners"));
+  layout->addWidget(marks_);
+  close_->setObjectName(QStringLiteral("corners.close"));
+  layout->addWidget(close_);
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(remove_);
+  buttons->addWidget(removeAll_);
+  buttons->addStretch();
+  layout->addLayout(buttons);
+  auto* rounding = new QHBoxLayout;
+  auto* roundingName = new QLabel(tr("Rounding"), this);
+  const QString roundingHelp =
+      tr("How far from the selected corner its rounding by two typical curves begins. 0 keeps it sharp.");
+  roundingName->setToolTip(roundingHelp);
+  rounding_->setToolTip(roundingHelp);
+  rounding_->edit()->setObjectName(QStringLiteral("corners.rounding"));
+  rounding_->setRange(0.0, 500.0);
+  rounding_->setDecimals(2);
+  rounding_->setStep(0.5);
+  rounding_->setUnit(QStringLiteral("mm"));
+  rounding_->setFixedWidth(92);
+  rounding_->edit()->setAccessibleName(tr("Rounding of the selected corner"));
+  rounding->addWidget(roundingName);
+  rounding->addStretch();
+  rounding->addWidget(rounding_);
+  layout->addLayout(rounding);
+  connect(rounding_, &NumberField::committed, this, &CornersPanel::roundSelected);
+  buildSuggestions();
+  layout->addStretch();
+  auto* del = new QShortcut(QKeySequence(Qt::Key_Delete), marks_, nullptr, nullptr, Qt::WidgetShortcut);
+  connect(del, &QShortcut::activated, this, &CornersPanel::removeSelected);
+  connect(remove_, &QPushButton::clicked, this, &CornersPanel::removeSelected);
+  connect(removeAll_, &QPushButton::clicked, this, &CornersPanel::removeAll);
+  connect(marks_, &QListWidget::currentRowChanged, this, [this](int row) {
+    if (!filling_) session_.selectCorner(row);
+  });
+  connect(&session_, &EditorSession::cornerSelectionChanged, this, &CornersPanel::showSelected);
+  connect(&session_.suggestions(), &SuggestionSource::changed, this, &CornersPanel::showSuggestions);
+  connect(&session_, &EditorSession::scanOpened, this, &CornersPanel::refresh);
+  connect(&session_, &EditorSession::recipeChanged, this, &CornersPanel::refresh);
+  connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
+    if (stage == StageId::Pieces) refreshMarks();
+    if (stage == StageId::Contours) suggest();
+  });
+  refresh();
+}
+
+void CornersPanel::addSlider(const QString& title, const QString& help, const SliderNames& names, NumberField* field,
+                             SliderTrack* track) {
+  auto* layout = static_cast<QVBoxLayout*>(this->layout());
+  auto* row = new QHBoxLayout;
+  auto* name = new QLabel(title, this);
+  name->setToolTip(help);
+  track->setToolTip(help);
+  track->setObjectName(names.object);
+  track->setAccessibleName(names.accessible);
+  track->setRange(static_cast<int>(names.least), static_cast<int>(names.most));
+  track->setSingleStep(1);
+  field->setRange(names.least, names.most);
+  field->setUnit(names.unit);
+  field->setStep(1);
+  field->setFixedWidth(76);
+  field->edit()->setAccessibleName(names.accessible);
+  row->addWidget(name);
+  row->addStretch();
+  row->addWidget(field);
+  layout->addLayout(row);
+  layout->addWidget(track);
+}
+
+void CornersPanel::buildSuggestions() {
+  auto* layout = static_cast<QVBoxLayout*>(this->layout());
+  layout->addWidget(caption(tr("Suggestions"), this));
+  addSlider(tr("Sharper than"),
+            tr("Suggests places where a line turns by more than this. Larger: fewer, sharper places."),
+            {QStringLiteral("corners.suggestAngle"), tr("Smallest angle of a suggested corner"), QStringLiteral("°"),
+             kLowestAngleDeg, kHighestAngleDeg},
+            angle_, angleTrack_);
+  addSlider(tr("Looked at over"),
+            tr("How much of the line on either side says that it turns. Larger: ragged edges count less, small corners "
+               "are missed."),
+            {QStringLiteral("corners.suggestScale"), tr("Length over which a turn is looked at"), QStringLiteral("px"),
+             kLeastScalePx, kLargestScalePx},
+            scale_, scaleTrack_);
+  layout->addWidget(suggestedNote_);
+  suggested_->setObjectName(QStringLiteral("corners.suggestions"));
+  suggested_->setAccessibleName(tr("Suggested corners"));
+  layout->addWidget(suggested_);
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(take_);
+  buttons->addWidget(takeAll_);
+  buttons->addStretch();
+  layout->addLayout(buttons);
+  const auto setAngle = [this](double degrees) { view_.setSuggestionAngleDeg(degrees); };
+  const auto setScale = [this](double px) { view_.setSuggestionScalePx(px); };
+  const auto show = [](NumberField* field, SliderTrack* track, double value) {
+    field->setValue(value);
+    const QSignalBlocker quiet(track);
+    track->setValue(static_cast<int>(std::lround(value)));
+    track->update();
+  };
+  const auto follow = [this, show] {
+    show(angle_, angleTrack_, view_.suggestionAngleDeg());
+    show(scale_, scaleTrack_, view_.suggestionScalePx());
+    suggest();
+  };
+  connect(&view_, &ViewSettings::changed, this, follow);
+  connect(angle_, &NumberField::committed, this, setAngle);
+  connect(angleTrack_, &QSlider::valueChanged, this, setAngle);
+  connect(scale_, &NumberField::committed, this, setScale);
+  connect(scaleTrack_, &QSlider::valueChanged, this, setScale);
+  connect(take_, &QPushButton::clicked, this, [this] {
+    const int at = suggested_->currentRow();
+    if (at >= 0 && at < static_cast<int>(suggestions_.size())) mark({suggestions_[at].positionPx});
+  });
+  connect(suggested_, &QListWidget::itemActivated, take_, &QPushButton::click);
+  connect(takeAll_, &QPushButton::clicked, this, [this] {
+    std::vector<Vec2> all;
+    for (const auto& suggestion : suggestions_) all.push_back(suggestion.positionPx);
+    mark(all);
+  });
+  connect(suggested_, &QListWidget::currentRowChanged, this, [this](int current) { take_->setEnabled(current >= 0); });
+  follow();
+}
+
+void CornersPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  suggest();
+}
+
+void CornersPanel::refresh() {
+  refreshMarks();
+  suggest();
+}
+
+void CornersPanel::refreshMarks() {
+  const Theme& theme = themeOf(palette());
+  const auto& marks = session_.recipe().cornerMarks;
+  const auto& pieces = session_.output().pieces;
+  filling_ = true;
+  marks_->clear();
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    QString angle, what = place(marks[i].positionPx);
+    bool lost = false;
+    std::optional<int> same;
+    if (pieces) {
+      const auto corner = std::find_if(pieces->corners.begin(), pieces->corners.end(),
+                                       [&](const Corner& c) { return static_cast<std::size_t>(c.mark) == i; });
+      if (corner != pieces->corners.end()) angle = QStringLiteral("   ") + degrees(corner->turningAngleRad);
+      for (const MarkPair& pair : pieces->sameCorner)
+        if (static_cast<std::size_t>(pair.mark) == i) same = pair.other;
+      if (same) angle = tr("   same corner as %1").arg(*same + 1);
+      lost =
+          std::find(pieces->lostMarks.begin(), pieces->lostMarks.end(), static_cast<int>(i)) != pieces->lostMarks.end();
+    }
+    auto* item =
+        new QListWidgetItem(tr("%1   px %2%3").arg(i + 1).arg(what, lost ? tr("   no line here") : angle), marks_);
+    item->setFont(uiFont(12));
+    if (lost) item->setForeground(theme.bad);
+    item->setToolTip(
+        same   ? tr("Both marks find one corner of the line. Remove one, or lower the corner reach if two are meant.")
+        : lost ? tr("No line within reach of this mark. It comes back when a line does; remove it if it is not wanted.")
+               : tr("Place of the mark, and how much the line turns there."));
+  }
+  QStringList close;
+  for (const MarkPair& pair : pieces ? pieces->closeCorners : std::vector<MarkPair>{})
+    close += tr("Corners %1 and %2 are %3 px apart and leave a sliver of the line between them: remove one of them.")
+                 .arg(pair.other + 1)
+                 .arg(pair.mark + 1)
+                 .arg(pair.apartPx, 0, 'f', 0);
+  close_->setText(close.join(QLatin1Char('\n')));
+  close_->setVisible(!close.empty());
+  marks_->setVisible(!marks.empty());
+  fitHeight(marks_, 8);
+  filling_ = false;
+  removeAll_->setEnabled(!marks.empty());
+  showSelected();
+  showSuggestions();
+}
+
+void CornersPanel::showSelected() {
+  filling_ = true;
+  marks_->setCurrentRow(session_.selectedCorner());
+  filling_ = false;
+  remove_->setEnabled(marks_->currentRow() >= 0);
+  showRounding();
+}
+
+void CornersPanel::suggest() {
+  if (isVisible() || !session_.output().contours)
+    session_.suggestions().look(view_.suggestionAngleDeg(), view_.suggestionScalePx());
+}
+
+bool CornersPanel::isMarked(const Vec2& positionPx) const {
+  const double reach = session_.recipe().corners.snapDistancePx;
+  const auto& marks = session_.recipe().cornerMarks;
+  return std::any_of(marks.begin(), marks.end(),
+                     [&](const CornerMark& mark) { return (mark.positionPx - positionPx).norm() <= reach; });
+}
+
+void CornersPanel::showSuggestions() {
+  suggestions_ = session_.suggestions().found();
+  std::erase_if(suggestions_, [this](const CornerSuggestion& s) { return isMarked(s.positionPx); });
+  suggested_->clear();
+  for (const auto& suggestion : suggestions_) {
+    auto* item = new QListWidgetItem(
+        QStringLiteral("px %1   %2").arg(place(suggestion.positionPx), degrees(suggestion.turningAngleRad)),
+        suggested_);
+    item->setFont(uiFont(12));
+  }
+  suggested_->setVisible(!suggestions_.empty());
+  fitHeight(suggested_, 6);
+  suggestedNote_->setText(suggestions_.empty()
+                              ? tr("No further place turns that sharply.")
+                              : counted(static_cast<qint64>(suggestions_.size()),
+                                        tr("1 place could be a corner. It is used only when you mark it."),
+                                        tr("%1 places could be corners. None is used until you mark it.")));
+  take_->setEnabled(suggested_->currentRow() >= 0);
+  takeAll_->setEnabled(!suggestions_.empty());
+}
+
+void CornersPanel::mark(const std::vector<Vec2>& positions) {
+  Recipe after = session_.recipe();
+  for (const Vec2& position : positions) after.cornerMarks.push_back({position});
+  session_.change(positions.size() == 1 ? tr("Mark corner") : tr("Mark suggested corners"), std::move(after));
+}
+
+void CornersPanel::showRounding() {
+  const int row = marks_->currentRow();
+  const auto& marks = session_.recipe().cornerMarks;
+  const bool isMark = row >= 0 && row < static_cast<int>(marks.size());
+  rounding_->setEnabled(isMark);
+  if (isMark) {
+    rounding_->setValue(marks[row].roundMm);
+  } else {
+    rounding_->setEmpty(QStringLiteral("–"));
+  }
+}
+
+void CornersPanel::roundSelected(double mm) {
+  const int row = marks_->currentRow();
+  Recipe after = session_.recipe();
+  if (row < 0 || row >= static_cast<int>(after.cornerMarks.size())) return;
+  after.cornerMarks[row].roundMm = mm;
+  session_.change(mm > 0.0 ? tr("Round corner") : tr("Sharpen corner"), std::move(after));
+}
+
+void CornersPanel::removeSelected() {
+  const int row = marks_->currentRow();
+  Recipe after = session_.recipe();
+  if (row < 0 || row >= static_cast<int>(after.cornerMarks.size())) return;
+  after.cornerMarks.erase(after.cornerMarks.begin() + row);
+  session_.change(tr("Remove corner"), std::move(after));
+}
+
+void CornersPanel::removeAll() {
+  Recipe after = session_.recipe();
+  after.cornerMarks.clear();
+  session_.change(tr("Remove all corners"), std::move(after));
+}
+
+}  // namespace batten

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/stages/curves_panel.h"
+
+#include <QGridLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "ui/panels/controls/number_field.h"
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/controls/parameter_editor.h"
+#include "ui/panels/controls/slider_track.h"
+#include "ui/panels/stages/curve_list.h"
+#include "ui/panels/stages/growing_controls.h"
+#include "ui/panels/stages/knot_panel.h"
+#include "ui/panels/stages/method_table.h"
+#include "ui/panels/stages/pin_panel.h"
+#include "ui/session/pen_edits.h"
+#include "ui/session/piece_choice.h"
+
+namespace batten {
+namespace {
+
+/// A slider with a field for something of the view; both follow `get`.
+void addViewRow(QGridLayout* grid, ViewSettings& view, QWidget* parent, const QString& label, const QString& name,
+                const QString& help, double low, double high, int decimals, const std::function<double()>& get,
+                const std::function<void(double)>& set) {
+  const int row = grid->rowCount();
+  auto* text = new QLabel(label, parent);
+  auto* field = new NumberField(parent);
+  auto* track = new SliderTrack(parent);
+  for (QWidget* widget : {static_cast<QWidget*>(text), static_cast<QWidget*>(field), static_cast<QWidget*>(track)})
+    widget->setToolTip(help);
+  field->setRange(low, high);
+  field->setDecimals(decimals);
+  field->setFixedWidth(76);
+  field->edit()->setObjectName(name + QStringLiteral(".field"));
+  field->edit()->setAccessibleName(label);
+  track->setObjectName(name);
+  track->setAccessibleName(label);
+  grid->addWidget(text, row, 0);
+  grid->addWidget(field, row, 1);
+  grid->addWidget(track, row + 1, 0, 1, 2);
+  const auto show = [=] {
+    field->setValue(get());
+    const QSignalBlocker quiet(track);
+    if (!track->isSliderDown())
+      track->setValue(
+          static_cast<int>(std::lround(std::log(get() / low) / std::log(high / low) * SliderTrack::kSteps)));
+    track->update();
+  };
+  QObject::connect(field, &NumberField::committed, parent, [set](double value) { set(value); });
+  QObject::connect(track, &QSlider::valueChanged, parent,
+                   [=](int position) { set(low * std::pow(high / low, double(position) / SliderTrack::kSteps)); });
+  QObject::connect(&view, &ViewSettings::changed, parent, show);
+  show();
+}
+
+}  // namespace
+
+CombControls::CombControls(ViewSettings& view, QWidget* parent) : QWidget(parent) {
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(8);
+  grid->setVerticalSpacing(4);
+  grid->setColumnStretch(0, 1);
+  addViewRow(
+      grid, view, this, tr("Comb height"), QStringLiteral("view.combScale"),
+      tr("Length of the quills of the curvature comb; 1 is automatic."), 0.05, 20.0, 2,
+      [&view] { return view.combScale(); }, [&view](double value) { view.setCombScale(value); });
+  addViewRow(
+      grid, view, this, tr("Comb density"), QStringLiteral("view.combDensity"), tr("Number of quills on a curve."), 20,
+      1000, 0, [&view] { return double(view.combDensity()); },
+      [&view](double value) { view.setCombDensity(static_cast<int>(std::lround(value))); });
+}
+
+CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
+    : QWidget(parent),
+      session_(session),
+      editor_(new ParameterEditor(
+          session,
+          {"construct.start", "construct.derivative_magnitude", "construct.keep_extrema", "construct.reduce",
+           "construct.lowpass", "construct.closeness", "construct.typical", "construct.growing_stop", "segments.mode",
+           "segments.count", "segments.spacing", "segments.tolerance", "construct.gradients",
+           "construct.magnitude_as_in_paper", "construct.growing_as_in_paper"},
+          this)),
+      methods_(new MethodTable(session, this)),
+      knots_(new KnotPanel(session, view, this)),
+      figures_(new FigureTable(this)),
+      note_(note({}, this)),
+      waiting_(note({}, this)),
+      forget_(linkButton(tr("Forget"), QStringLiteral("curves.forgetWaiting"), this)),
+      segmentsNote_(note({}, this)),
+      growing_(new GrowingControls(session.growing(), this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(14, 12, 14, 12);
+  layout->setSpacing(8);
+  layout->addWidget(heading(tr("Curves"), this));
+  layout->addWidget(methods_);
+  layout->addWidget(new PinPanel(session, this));
+  layout->addWidget(editor_);
+  layout->addWidget(knots_);
+  layout->addWidget(segmentsNote_);
+  layout->addWidget(growing_);
+  layout->addWidget(caption(tr("Curves"), this));
+  layout->addWidget(new CurveList(session, this));
+  addWaitingRow();
+  layout->addWidget(caption(tr("Selected curve"), this));
+  layout->addWidget(figures_);
+  layout->addWidget(note_);
+  layout->addWidget(caption(tr("Comb"), this));
+  layout->addWidget(new CombControls(view, this));
+  layout->addStretch();
+  connect(methods_, &MethodTable::helpAsked, this, &CurvesPanel::helpAsked);
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
+                            &EditorSession::runFinished})
+    connect(&session_, signal, this, &CurvesPanel::refresh);
+  connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
+    if (stage == StageId::Curves) refresh();
+  });
+  refresh();
+}
+
+void CurvesPanel::addWaitingRow() {
+  auto* row = new QHBoxLayout;
+  row->addWidget(waiting_, 1);
+  row->addWidget(forget_);
+  static_cast<QVBoxLayout*>(layout())->addLayout(row);
+  waiting_->setObjectName(QStringLiteral("curves.waiting"));
+  waiting_->setToolTip(tr("Something was chosen for a line that is not there now, as when a threshold took it away."));
+  forget_->setToolTip(tr("Takes these choices out of the recipe."));
+  connect(forget_, &QPushButton::clicked, this, [this] { forgetWaitingChoices(session_); });
+}
+
+void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const {
+  const ConstructReport& fit = curve.construct;
+  const double mmPerPx = session_.output().frame.mmPerPx;
+  const auto length = [mmPerPx](double px) {
+    return tr("%1 px · %2 µm").arg(px, 0, 'f', 3).arg(1000.0 * px * mmPerPx, 0, 'f', 1);
+  };
+  if (fit.isCircle || fit.isLine)
+    rows.insert(rows.begin(), {tr("Recognised"),
+                               {{fit.isCircle ? tr("exact circle") : tr("exact line")}},
+                               tr("The scan holds nothing that a perfect one would not, so it is one.")});
+  if (fit.noisePx > 0.0)
+    rows.push_back({tr("Noise of the edge"),
+                    {{length(fit.noisePx)}},
+                    tr("Standard deviation of the scan's edge points from the curve.")});
+  if (fit.fullControlPoints > curve.sketchedFigures.controlPoints) {
+    rows.push_back({tr("Before sparing"),
+                    {{tr("%1 points").arg(fit.fullControlPoints)}},
+                    tr("Control points of the fit before they were spared.")});
+    rows.push_back(
+        {tr("Moved by sparing"), {{length(fit.knotRemovalMovedPx)}}, tr("How far that moved the curve at most.")});
+  }
+  const auto dropped =
+      std::count_if(fit.extrema.begin(), fit.extrema.end(), [](const ExtremumNote& e) { return !e.kept; });
+  if (dropped > 0)
+    rows.push_back({tr("Dropped as noise"),
+                    {{tr("%1 extrema").arg(dropped)}},
+                    tr("Hollow marks on the curve: click one to keep it.")});
+  const auto& pieces = session_.output().pieces;
+  if (!pieces || curve.piece < 0 || static_cast<std::size_t>(curve.piece) >= pieces->pieces.size()) return;
+  const auto& refined = pieces->pieces[curve.piece].refined;
+  const auto fallback = std::count(refined.begin(), refined.end(), std::uint8_t{0});
+  // A line drawn by hand is where the hand drew it.
+  if (fallback > 0 && !strokeOf(session_, session_.selectedCurve()))
+    rows.push_back({tr("Points not placed"),
+                    {{tr("%1 of %2").arg(fallback).arg(refined.size())}},
+                    tr("Points not found on the grey values. Those of an outline lie on the pixel border, those of a "
+                       "centre line on the skeleton of its ink, mostly where strokes meet.")});
+}
+
+void CurvesPanel::refresh() {
+  refreshRows();
+  const auto waiting = static_cast<qint64>(session_.choiceOwners().waiting.size());
+  waiting_->setText(batten::counted(waiting, tr("1 choice has no line now. It is kept until its line comes back."),
+                                    tr("%1 choices have no line now. They are kept until their lines come back.")));
+  waiting_->setVisible(waiting > 0);
+  forget_->setVisible(waiting > 0);
+  refreshFigures();
+}
+
+void CurvesPanel::refreshRows() {
+  const ConstructMethod method = methods_->current();
+  const SegmentParams& segments = session_.recipe().segments;
+  const bool nurbs = method == ConstructMethod::Nurbs;
+  // The fit needs no start, and a chain of typical curves always begins at the fit.
+  editor_->setRowVisible("construct.start", method != ConstructMethod::Fair && method != ConstructMethod::Typical);
+  editor_->setRowVisible("construct.derivative_magnitude", nurbs);
+  editor_->setRowVisible("construct.magnitude_as_in_paper", nurbs);
+  editor_->setRowVisible("construct.gradients", nurbs);
+  const bool typical = method == ConstructMethod::Typical;
+  const bool grows = typical && session_.recipe().construct.typical == TypicalMode::Growing;
+  editor_->setRowVisible("construct.lowpass", method == ConstructMethod::Bezier);
+  const bool paperNurbs = nurbs && (session_.recipe().construct.magnitudeAsInPaper ||
+                                    session_.recipe().construct.gradients == GradientUse::Directions);
+  editor_->setRowVisible("construct.closeness", (nurbs && !paperNurbs) || method == ConstructMethod::Bezier);
+  editor_->setRowVisible("construct.typical", typical);
+  editor_->setRowVisible("construct.growing_stop", grows);
+  editor_->setRowVisible("construct.growing_as_in_paper", grows);
+  editor_->setRowVisible("construct.keep_extrema", method == ConstructMethod::Fair);
+  growing_->setVisible(grows);
+  const auto set = session_.recipe().segmentPoints.size();
+  segmentsNote_->setVisible(typical);
+  segmentsNote_->setText(set == 0 ? tr("To say where segments meet, press G and click the line.")
+                                  : counted(static_cast<qint64>(set),
+                                            tr("1 segment point set. G, then click it to remove it."),
+                                            tr("%1 segment points set. G, then click one to remove it.")));
+  editor_->setRowVisible("construct.reduce", method == ConstructMethod::Fair);
+  knots_->setVisible(method == ConstructMethod::ControlPolygon);
+  const bool segmented = method != ConstructMethod::Fair && method != ConstructMethod::ControlPolygon;
+  const bool counted = segments.mode == SegmentMode::Stations || segments.mode == SegmentMode::Count;
+  editor_->setRowVisible("segments.mode", segmented);
+  editor_->setRowVisible("segments.count", segmented && counted);
+  editor_->setRowVisible("segments.spacing", segmented && counted && segments.count == 0);
+  editor_->setRowVisible("segments.tolerance", segmented && segments.mode == SegmentMode::Adaptive);
+}
+
+void CurvesPanel::refreshFigures() {
+  const TracedCurve* curve = session_.selected();
+  note_->hide();
+  if (!curve) {
+    figures_->setRows({{tr("No curve selected"), {{QStringLiteral("–")}}, {}}});
+    return;
+  }
+  const CurveFigures& f = curve->sketchedFigures;
+  std::vector<FigureTable::Row> rows = {
+      {tr("Length"), {{millimetres(f.lengthMm)}}, tr("Arc length of the sketched curve.")},
+      {tr("Control points"), {{QString::number(f.controlPoints)}}, {}},
+      {tr("Largest deviation"), {{millimetres(f.fromPoints.max)}}, tr("Farthest edge point from the curve.")},
+      {tr("Mean deviation (rms)"), {{millimetres(f.fromPoints.rms)}}, {}},
+      {tr("95 % of points within"), {{millimetres(f.fromPoints.percentile95)}}, {}},
+      {tr("Curvature extrema"),
+       {{QString::number(f.extrema)}},
+       tr("Places where the curvature turns back: fewer is fairer.")},
+      {tr("Inflections"), {{QString::number(f.inflections)}}, tr("Places where the curve bends the other way.")}};
+  if (const int added = curve->construct.stationsAdded; added > 0)
+    rows.push_back({tr("Stations added"),
+                    {{QString::number(added)}},
+                    tr("Set between the given ones where the line turns too quickly for them.")});
+  if (const int turns = curve->construct.extremaInTurns; turns > 0)
+    rows.push_back(
+        {tr("Extrema in sharp turns"),
+         {{QString::number(turns)}},
+         tr("Where the line turns sharply and no corner is marked, the curve follows its points closely: such "
+            "extrema are not judged and cannot be taken out one by one.")});
+  addFitRows(rows, *curve);
+  figures_->setRows(std::move(rows));
+  QString text = QString::fromStdString(curve->construct.note);
+  const auto& made = curve->construct.segments;
+  const auto typicalCount = std::count_if(made.begin(), made.end(), [](const SegmentNote& n) { return n.typical; });
+  const auto monotoneCount =
+      std::count_if(made.begin(), made.end(), [](const SegmentNote& n) { return n.typical && n.monotone; });
+  if (!made.empty() && text.isEmpty()) {
+    text = tr("%1 typical curves, %2 of them monotone, and %3 transitions.")
+               .arg(typicalCount)
+               .arg(monotoneCount)
+               .arg(static_cast<qint64>(made.size()) - typicalCount);
+  }
+  if (const auto unmet = static_cast<qint64>(curve->construct.unmetConstraints.size())) {
+    if (!text.isEmpty()) text += QLatin1Char('\n');
+    text += batten::counted(unmet, tr("1 bump could not be kept or taken out as you wished."),
+                            tr("%1 bumps could not be kept or taken out as you wished."));
+  }
+  note_->setText(text);
+  note_->setVisible(!note_->text().isEmpty());
+}
+
+}  // namespace batten

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/session/editor_session.h"
+#include "ui/session/view_settings.h"
+
+class QLabel;
+class QPushButton;
+
+namespace batten {
+
+class KnotPanel;
+class MethodTable;
+class GrowingControls;
+class ParameterEditor;
+
+/// How lines become curves, the curves themselves, and the figures of the selected one.
+class CurvesPanel : public QWidget {
+  Q_OBJECT
+ public:
+  CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
+
+ signals:
+  void helpAsked(const QString& page);
+
+ private:
+  void refresh();
+  void refreshRows();
+  void refreshFigures();
+  /// One line below the list: choices whose line is not there now.
+  void addWaitingRow();
+  /// What the fair fit says of the selected curve: noise, spared control points, dropped extrema.
+  void addFitRows(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const;
+  EditorSession& session_;
+  ParameterEditor* editor_;
+  MethodTable* methods_;
+  KnotPanel* knots_;
+  FigureTable* figures_;
+  QLabel* note_;
+  QLabel* waiting_;
+  QPushButton* forget_;
+  QLabel* segmentsNote_;
+  GrowingControls* growing_;
+};
+
+/// Height and density of the curvature comb; a matter of view, not of the drawing.
+class CombControls : public QWidget {
+  Q_OBJECT
+ public:
+  explicit CombControls(ViewSettings& view, QWidget* parent = nullptr);
+};
+
+}  // namespace batten

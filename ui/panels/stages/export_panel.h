@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "ui/panels/stages/export_job.h"
+#include "ui/session/editor_session.h"
+
+class QLabel;
+class QLineEdit;
+class QPushButton;
+
+namespace batten {
+
+class BackgroundWorker;
+class NumberField;
+class SegmentedControl;
+
+/// Format, place and size of what is written; writing runs in the background and is read back.
+class ExportPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ExportPanel(EditorSession& session, QWidget* parent = nullptr);
+  ~ExportPanel() override;
+  /// Asks for the file to write.
+  void browse();
+
+ signals:
+  void exported(bool presentResult);  ///< True after a file holds the present result, false once that changes.
+  void failed(const batten::Error& error);
+
+ protected:
+  void showEvent(QShowEvent*) override;
+
+ private:
+  void buildForm();
+  void refresh();
+  void suggestName();
+  void setFormat(ExportFormat format);
+  void openedAnother();
+  QString suffix() const;
+  QString reasonToWait() const;
+  void saveSettings() const;
+  void start();
+  void finish(const Result<ExportOutcome>& outcome);
+  bool isReady() const;
+  const ExportSize& size();
+
+  EditorSession& session_;
+  SegmentedControl* format_;
+  QLineEdit* path_;
+  QPushButton* browse_;
+  QLabel* toleranceLabel_;
+  NumberField* tolerance_;
+  QLabel* formatNote_;
+  QLabel* size_;
+  QPushButton* export_;
+  QPushButton* again_;
+  QLabel* result_;
+  bool confirmReplace_ = false;
+  bool running_ = false;
+  QString lastWritten_;
+  std::shared_ptr<const FairedSet> sizeOf_;  ///< What size_ was measured of: only when it changes, and is seen.
+  ExportSize measured_;
+  Recipe writing_;
+  std::unique_ptr<BackgroundWorker> worker_;
+};
+
+}  // namespace batten

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/stages/fairing_panel.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "core/pipeline/recipe/parameter_table.h"
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/controls/parameter_editor.h"
+#include "ui/panels/controls/parameter_row.h"
+#include "ui/panels/controls/segmented_control.h"
+#include "ui/panels/stages/curve_list.h"
+#include "ui/panels/stages/ends_table.h"
+#include "ui/session/fairing_edits.h"
+#include "ui/session/piece_choice.h"
+
+namespace batten {
+namespace {
+
+/// Slider range of the budget: what a hand-drawn line can need. The field takes any allowed value.
+constexpr double kLeastBudgetMm = 0.01, kMostBudgetMm = 5.0;
+
+}  // namespace
+
+FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
+    : QWidget(parent),
+      session_(session),
+      scope_(new SegmentedControl({tr("All curves"), tr("Selected curve")}, this)),
+      mode_(new SegmentedControl({tr("None"), tr("Target"), tr("Smooth"), tr("Monotone"), tr("Low-pass")}, this)),
+      budget_(new ParameterRow(session, *findParameter("fairing.tolerance"), this)),
+      keep_(new ParameterRow(session, *findParameter("fairing.keep_extrema"), this)),
+      wavelength_(new ParameterRow(session, *findParameter("fairing.lowpass"), this)),
+      spend_(new ParameterRow(session, *findParameter("fairing.spend"), this)),
+      moves_(new ParameterRow(session, *findParameter("fairing.moves"), this)),
+      editor_(new ParameterEditor(session, {"fairing.samples", "fairing.quantity", "fairing.monotone"}, this)),
+      note_(note({}, this)),
+      raise_(linkButton(tr("Raise the budget"), QStringLiteral("fairing.raise"), this)),
+      useForAll_(linkButton(tr("Use this for all curves"), QStringLiteral("fairing.useForAll"), this)),
+      followAll_(linkButton(tr("Follow the common setting"), QStringLiteral("fairing.followAll"), this)),
+      split_(linkButton({}, QStringLiteral("fairing.split"), this)),
+      unsplit_(linkButton({}, QStringLiteral("fairing.unsplit"), this)),
+      draw_(linkButton(tr("Draw the target in the plot"), QStringLiteral("fairing.draw"), this)),
+      forget_(linkButton(tr("Back to the six targets"), QStringLiteral("fairing.forget"), this)),
+      figures_(new FigureTable(this)),
+      ends_(new EndsTable([this] { return shown(session_.recipe()); },
+                          [this](int end, EndHold hold) { setHold(end, hold); }, this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(14, 12, 14, 12);
+  layout->setSpacing(8);
+  layout->addWidget(heading(tr("Fairing"), this));
+  scope_->setNames(QStringLiteral("fairing.scope"), {QStringLiteral("all"), QStringLiteral("one")});
+  scope_->setToolTip(tr("Whether the settings below act on the whole drawing or on the selected curve alone."));
+  layout->addWidget(scope_);
+  mode_->setNames(QStringLiteral("fairing.mode"),
+                  {QStringLiteral("none"), QStringLiteral("target"), QStringLiteral("tolerance"),
+                   QStringLiteral("monotone"), QStringLiteral("lowpass")});
+  mode_->setToolTip(
+      tr("None: as sketched. Target: follow a profile of the curvature. Smooth within budget: the smallest change of "
+         "curvature that "
+         "the budget "
+         "allows. Monotone: curvature without a turn, or with few. Low-pass: without short waves."));
+  layout->addWidget(mode_);
+  buildBudget();
+  layout->addWidget(keep_);
+  layout->addWidget(wavelength_);
+  layout->addWidget(spend_);
+  layout->addWidget(moves_);
+  bindToScope(keep_, [](PieceChoice& choice, const FairingParams& params) { choice.keepExtrema = params.keepExtrema; });
+  bindToScope(wavelength_,
+              [](PieceChoice& choice, const FairingParams& params) { choice.lowPassMm = params.lowPassMm; });
+  bindToScope(spend_, [](PieceChoice& choice, const FairingParams& params) {
+    choice.tolerancePolicy = params.tolerancePolicy;
+  });
+  bindToScope(moves_, [](PieceChoice& choice, const FairingParams& params) { choice.means = params.means; });
+  wavelength_->setSliderRange(1.0, 300.0);
+  keep_->setSliderRange(-1.0, 12.0);
+  layout->addWidget(note_);
+  buildLinks();
+  layout->addWidget(raise_, 0, Qt::AlignLeft);
+  layout->addWidget(useForAll_, 0, Qt::AlignLeft);
+  layout->addWidget(followAll_, 0, Qt::AlignLeft);
+  layout->addWidget(caption(tr("Before and after"), this));
+  figures_->setHeader({}, {tr("sketched"), tr("faired")});
+  layout->addWidget(figures_);
+  layout->addWidget(caption(tr("Ends"), this));
+  layout->addWidget(ends_);
+  layout->addWidget(editor_);
+  layout->addWidget(caption(tr("Curves"), this));
+  layout->addWidget(new CurveList(session, this));
+  layout->addStretch();
+  connect(scope_, &SegmentedControl::chosen, this, [this](int index) {
+    oneCurve_ = index == 1;
+    budget_->sync();
+    refresh();
+  });
+  connect(mode_, &SegmentedControl::chosen, this, [this](int index) { setMode(static_cast<FairingMode>(index)); });
+  connect(useForAll_, &QPushButton::clicked, this, &FairingPanel::useForAll);
+  connect(followAll_, &QPushButton::clicked, this, &FairingPanel::followAll);
+  connect(raise_, &QPushButton::clicked, this, [this] {
+    if (const TracedCurve* curve = session_.selected()) {
+      Recipe after = session_.recipe();
+      // Rounded up to what the field shows, so that the target really fits.
+      const double needed = std::min(20.0, std::ceil(curve->fairing.neededMm * 1000.0) / 1000.0);
+      if (hasOwnFairing(session_, session_.selectedCurve()))
+        after = withChoice(session_, session_.selectedCurve(),
+                           [needed](PieceChoice& choice) { choice.toleranceMm = needed; });
+      else
+        after.fairing.toleranceMm = needed;
+      session_.change(tr("Deviation budget"), std::move(after));
+    }
+  });
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
+                            &EditorSession::runFinished, &EditorSession::targetsChanged})
+    connect(&session_, signal, this, &FairingPanel::refresh);
+  connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
+    if (stage == StageId::Pieces || stage == StageId::Curves || stage == StageId::Faired) refresh();
+  });
+  refresh();
+}
+
+void FairingPanel::buildBudget() {
+  budget_->setLabel(tr("Deviation budget"));
+  budget_->setSliderRange(kLeastBudgetMm, kMostBudgetMm);
+  bindToScope(budget_,
+              [](PieceChoice& choice, const FairingParams& params) { choice.toleranceMm = params.toleranceMm; });
+  static_cast<QVBoxLayout*>(layout())->addWidget(budget_);
+}
+
+void FairingPanel::bindToScope(ParameterRow* row,
+                               const std::function<void(PieceChoice&, const FairingParams&)>& store) {
+  const Parameter* parameter = &row->parameter();
+  row->setBinding({[this, parameter](const Recipe& recipe) {
+                     Recipe probe;
+                     probe.fairing = shown(recipe);
+                     return parameter->get(probe);
+                   },
+                   [this, parameter, store](Recipe& recipe, std::string_view text) -> Result<void> {
+                     if (!actsOnOne()) return parameter->set(recipe, text);
+                     Recipe probe;
+                     auto done = parameter->set(probe, text);
+                     if (!done) return done;
+                     recipe = withChoice(session_, session_.selectedCurve(),
+                                         [&](PieceChoice& choice) { store(choice, probe.fairing); });
+                     return {};
+                   }});
+}
+
+void FairingPanel::buildLinks() {
+  auto* column = static_cast<QVBoxLayout*>(layout());
+  for (QPushButton* link : {split_, unsplit_, draw_, forget_}) column->addWidget(link, 0, Qt::AlignLeft);
+  split_->setAccessibleName(tr("Split at the inflections"));
+  unsplit_->setAccessibleName(tr("Remove the splits"));
+  split_->setToolTip(tr("One polynomial is too stiff for a line that bends both ways: each part gets one of its own."));
+  draw_->setToolTip(tr("Turns the target into points that you drag in the curvature plot."));
+  auto* compare = linkButton(tr("Compare shapes…"), QStringLiteral("fairing.compare"), this);
+  compare->setToolTip(tr("How alike two curves are, and how fair this one is: the similarities in a table."));
+  column->addWidget(compare, 0, Qt::AlignLeft);
+  connect(compare, &QPushButton::clicked, this, &FairingPanel::comparisonAsked);
+  connect(split_, &QPushButton::clicked, this, [this] { splitAtInflections(session_); });
+  connect(unsplit_, &QPushButton::clicked, this, [this] { removeSplits(session_); });
+  connect(draw_, &QPushButton::clicked, this, [this] { drawTarget(session_, profileToBeginWith(session_), -1); });
+  connect(forget_, &QPushButton::clicked, this, [this] { forgetDrawnTarget(session_); });
+}
+
+void FairingPanel::refreshLinks(const FairingParams& params) {
+  keep_->setVisible(params.mode == FairingMode::Monotone);
+  wavelength_->setVisible(params.mode == FairingMode::LowPass);
+  spend_->setVisible(params.mode == FairingMode::Tolerance);
+  // Only a Bézier path has edges whose lengths can be moved alone.
+  const PieceChoice* choice = choiceOf(session_, session_.selectedCurve());
+  const ConstructMethod method = choice && choice->method ? *choice->method : session_.recipe().construct.method;
+  const bool followsProfile = params.mode == FairingMode::Target || params.mode == FairingMode::LowPass;
+  moves_->setVisible(followsProfile && method == ConstructMethod::Bezier);
+  for (ParameterRow* row : {keep_, wavelength_, spend_, moves_}) row->sync();
+  const bool isTarget = params.mode == FairingMode::Target && session_.selected();
+  const bool isDrawn = isTargetDrawn(session_);
+  draw_->setVisible(isTarget && !isDrawn);
+  forget_->setVisible(isDrawn);
+  const PieceChoice* own = choiceOf(session_, session_.selectedCurve());
+  const auto splits = own ? static_cast<qint64>(own->splitsPx.size()) : 0;
+  unsplit_->setText(counted(splits, tr("Remove the split"), tr("Remove the %1 splits")));
+  unsplit_->setVisible(isTarget && splits > 0);
+  const bool isOffered = isSplitOffered(session_);
+  if (isOffered) {
+    split_->setText(counted(static_cast<qint64>(inflectionsOf(session_).size()), tr("Split at the inflection"),
+                            tr("Split at the %1 inflections")));
+  }
+  split_->setVisible(isOffered);
+}
+
+FairingParams FairingPanel::shown(const Recipe& recipe) const {
+  const PieceChoice* choice = actsOnOne() ? choiceOf(session_, session_.selectedCurve()) : nullptr;
+  return choice ? choice->fairing(recipe.fairing) : recipe.fairing;
+}
+
+void FairingPanel::setMode(FairingMode mode) {
+  Recipe after = session_.recipe();
+  if (actsOnOne())
+    after = withChoice(session_, session_.selectedCurve(), [mode](PieceChoice& choice) { choice.mode = mode; });
+  else
+    after.fairing.mode = mode;
+  session_.change(tr("Fairing"), std::move(after));
+}
+
+void FairingPanel::setHold(int end, EndHold hold) {
+  Recipe after = session_.recipe();
+  if (actsOnOne())
+    after = withChoice(session_, session_.selectedCurve(),
+                       [end, hold](PieceChoice& choice) { (end == 0 ? choice.startHold : choice.endHold) = hold; });
+  else
+    (end == 0 ? after.fairing.startHold : after.fairing.endHold) = hold;
+  session_.change(end == 0 ? tr("Hold at start") : tr("Hold at end"), std::move(after));
+}
+
+void FairingPanel::useForAll() {
+  Recipe after = session_.recipe();
+  after.fairing = shown(after);
+  for (PieceChoice& choice : after.choices) choice.clearFairing();
+  std::erase_if(after.choices, [](const PieceChoice& choice) { return choice.isEmpty(); });
+  oneCurve_ = false;
+  session_.change(tr("Fairing of all curves"), std::move(after));
+}
+
+void FairingPanel::followAll() {
+  Recipe after = withChoice(session_, session_.selectedCurve(), [](PieceChoice& choice) { choice.clearFairing(); });
+  std::erase_if(after.choices, [](const PieceChoice& choice) { return choice.isEmpty(); });
+  oneCurve_ = false;
+  session_.change(tr("Follow the common fairing"), std::move(after));
+}
+
+void FairingPanel::refresh() {
+  const int selected = session_.selectedCurve();
+  const bool own = selected >= 0 && hasOwnFairing(session_, selected);
+  const bool several = session_.curves().size() > 1;
+  // A curve that has its own choice shows it; otherwise the choice of scope stays as the user left it.
+  if (own)
+    oneCurve_ = true;
+  else if (selected != lastSelected_ || selected < 0)
+    oneCurve_ = false;
+  lastSelected_ = selected;
+  scope_->setVisible(several);
+  scope_->setSegmentEnabled(1, selected >= 0);
+  scope_->setCurrent(oneCurve_ ? 1 : 0);
+  const FairingParams params = shown(session_.recipe());
+  mode_->setCurrent(static_cast<int>(params.mode));
+  budget_->sync();
+  budget_->setEnabled(params.mode != FairingMode::None);
+  ends_->refresh();
+  refreshLinks(params);
+  useForAll_->setVisible(several && own);
+  followAll_->setVisible(several && own);
+  refreshFigures();
+}
+
+void FairingPanel::refreshFigures() {
+  const TracedCurve* curve = session_.selected();
+  note_->hide();
+  raise_->hide();
+  const FigureTable::Cell none{QStringLiteral("–")};
+  if (!curve) {
+    figures_->setRows({{tr("No curve selected"), {none, none}, {}}});
+    return;
+  }
+  const bool faired = !curve->faired.isEmpty() && curve->fairingUsed.mode != FairingMode::None;
+  const CurveFigures &before = curve->sketchedFigures, &after = curve->fairedFigures;
+  const FairingReport& report = curve->fairing;
+  const bool over = faired && report.maxDeviationMm > curve->fairingUsed.toleranceMm * (1 + 1e-9);
+  const auto mm = [](double value) { return QString::number(value, 'f', value < 0.1 ? 3 : 2); };
+  std::vector<FigureTable::Row> rows = {
+      {tr("Curvature extrema"),
+       {{QString::number(before.extrema)}, faired ? FigureTable::Cell{QString::number(after.extrema)} : none},
+       tr("Places where the curvature turns back: fewer is fairer.")},
+      {tr("Moved at most, mm"),
+       {none, faired ? FigureTable::Cell{mm(report.maxDeviationMm), over} : none},
+       tr("Largest distance of the faired curve from the sketched one; never above the budget.")},
+      {tr("Off the line, mm"),
+       {{mm(before.fromPoints.max)}, faired ? FigureTable::Cell{mm(after.fromPoints.max)} : none},
+       tr("Largest distance of an edge point of the scan from the curve.")}};
+  const auto targets = session_.targets();
+  int degree = curve->fairingUsed.target;
+  if (targets && degree == 0) degree = targets->recommendedDegree;
+  if (targets && faired && curve->fairingUsed.mode == FairingMode::Target && degree >= 1 && degree <= 6) {
+    const TargetProfile& profile = targets->targets.profiles[degree - 1];
+    rows.push_back({tr("Similarity S"),
+                    {{similarityText(profile.similarity)}, none},
+                    tr("How much the radius of the sketched curve resembles the target; 1 is the same.")});
+    rows.push_back({tr("Monotone target"),
+                    {none, {profile.isMonotone ? tr("yes") : tr("no")}},
+                    tr("A monotone profile never turns back, so it brings no bump.")});
+  }
+  figures_->setRows(std::move(rows));
+  QString text = QString::fromStdString(report.note);
+  if (faired && !report.withinBudget) {
+    if (text.isEmpty()) text = tr("The budget stops the curve before it meets the target.");
+    raise_->setText(tr("Needs %1: raise the budget").arg(millimetres(report.neededMm)));
+    raise_->setVisible(report.neededMm > curve->fairingUsed.toleranceMm && report.neededMm <= 20.0);
+  }
+  note_->setText(text);
+  note_->setVisible(!text.isEmpty());
+}
+
+}  // namespace batten

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/stages/line_trace_mode.h"
+
+#include <QLabel>
+#include <QVBoxLayout>
+#include <array>
+
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/controls/segmented_control.h"
+#include "ui/session/trace_mode_edits.h"
+
+namespace batten {
+namespace {
+
+constexpr std::array kWays = {EdgeMode::Automatic, EdgeMode::Outline, EdgeMode::Centreline};
+
+}
+
+LineWay::LineWay(EditorSession& session, QWidget* parent)
+    : QWidget(parent),
+      session_(session),
+      ways_(new SegmentedControl({tr("As the page"), tr("Outline"), tr("Centre line")}, this)),
+      hint_(note(tr("Click a line to follow it in a way of its own."), this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(8);
+  layout->addWidget(caption(tr("Selected line"), this));
+  layout->addWidget(ways_);
+  layout->addWidget(hint_);
+  ways_->setNames(QStringLiteral("edges.way"),
+                  {QStringLiteral("page"), QStringLiteral("outline"), QStringLiteral("centreline")});
+  ways_->setToolTip(tr("How the ink of the selected line is followed, whatever holds for the page."));
+  connect(ways_, &SegmentedControl::chosen, this, [this](int index) {
+    chooseWay(session_, session_.selectedCurve(), kWays[index]);
+    refresh();
+  });
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
+                            &EditorSession::runFinished})
+    connect(&session_, signal, this, &LineWay::refresh);
+  refresh();
+}
+
+void LineWay::refresh() {
+  // Between new lines and their curves all stays as it is.
+  if (session_.isStale(StageId::Contours) != session_.isStale(StageId::Faired)) return;
+  const int curve = session_.selectedCurve();
+  const bool isTraced = tracedLineOf(session_, curve) != nullptr;
+  ways_->setVisible(isTraced);
+  hint_->setVisible(!isTraced);
+  if (!isTraced) return;
+  const EdgeMode way = traceModeOf(session_, curve);
+  for (std::size_t i = 0; i < kWays.size(); ++i) {
+    if (kWays[i] == way) ways_->setCurrent(static_cast<int>(i));
+  }
+}
+
+}  // namespace batten

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/stages/merge_suggestion.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPointer>
+#include <QPushButton>
+
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/session/guarded.h"
+
+namespace batten {
+namespace {
+
+// Holds the masks and lines of a page between the two traces; the session has its own cache beside this one.
+constexpr std::size_t kCacheBytes = std::size_t{64} << 20;
+
+}  // namespace
+
+MergeSuggestion::MergeSuggestion(EditorSession& session, QWidget* parent)
+    : QWidget(parent),
+      session_(session),
+      note_(note({}, this)),
+      ask_(linkButton(tr("Suggest"), QStringLiteral("edges.suggestMerge"), this)) {
+  note_->setObjectName(QStringLiteral("edges.suggestMerge.note"));
+  ask_->setAccessibleName(tr("Suggest how far to merge strokes"));
+  ask_->setToolTip(
+      tr("Looks whether lines were drawn in several strokes over one another, and if so sets how far to merge them."));
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(8);
+  row->addWidget(note_, 1);
+  row->addWidget(ask_, 0, Qt::AlignTop | Qt::AlignRight);
+  say({});
+  connect(ask_, &QPushButton::clicked, this, &MergeSuggestion::look);
+  connect(&session_, &EditorSession::stopped, this, &MergeSuggestion::stop);
+  connect(&session_, &EditorSession::recipeChanged, this, &MergeSuggestion::follow);
+  connect(&session_, &EditorSession::scanOpened, this, [this] {
+    stop();
+    said_.reset();
+    say({});
+  });
+}
+
+void MergeSuggestion::look() {
+  const auto scan = session_.scan();
+  if (!scan) return;
+  const Recipe recipe = session_.recipe();
+  const ContentHash key = mergeAdviceKey(*scan, recipe);
+  asked_ = key;
+  said_.reset();
+  say(tr("Looking at the strokes …"));
+  session_.setSideWork(this, true, false);
+  worker_.start([scan, recipe, key, panel = QPointer<MergeSuggestion>(this)](const CancelToken& token) {
+    RunContext context;
+    context.cancel = token;
+    const auto advice = guarded<MergeAdvice>([&] {
+      StageCache cache(kCacheBytes);
+      return adviseMerge(*scan, recipe, cache, context);
+    });
+    if (token.isCancelled() || !panel) return;
+    QMetaObject::invokeMethod(
+        panel.data(),
+        [panel, scan, key, advice] {
+          if (panel && panel->session_.scan() == scan && panel->asked_ == key) panel->take(advice);
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void MergeSuggestion::take(const Result<MergeAdvice>& advice) {
+  said_ = {*asked_, session_.recipe().edges.mergeWidths};
+  asked_.reset();
+  session_.setSideWork(this, false);
+  if (!advice) {
+    say(QString::fromStdString(advice.error().message));
+    return;
+  }
+  if (advice->widths > 0.0) {
+    said_->strength = advice->widths;
+    Recipe after = session_.recipe();
+    after.edges.mergeWidths = advice->widths;
+    if (!(after == session_.recipe())) session_.change(tr("Merge strokes as suggested"), std::move(after));
+  }
+  say(QString::fromStdString(describe(*advice)));
+}
+
+void MergeSuggestion::stop() {
+  if (!asked_) return;
+  asked_.reset();
+  worker_.cancelAll();
+  session_.setSideWork(this, false);
+  say({});
+}
+
+void MergeSuggestion::follow() {
+  const auto scan = session_.scan();
+  if (!scan || !(asked_ || said_)) return;
+  const ContentHash key = mergeAdviceKey(*scan, session_.recipe());
+  if (asked_) {
+    if (*asked_ != key) look();
+    return;
+  }
+  if (said_->key == key && said_->strength == session_.recipe().edges.mergeWidths) return;
+  said_.reset();
+  say({});
+}
+
+void MergeSuggestion::say(const QString& text) {
+  note_->setText(text.isEmpty() ? tr("Drawn in several strokes?") : text);
+}
+
+}  // namespace batten

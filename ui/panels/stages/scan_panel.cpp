@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/stages/scan_panel.h"
+
+#include <QFileInfo>
+#include <QGridLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPainter>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "core/base/conventions.h"
+#include "core/pipeline/run/pipeline.h"
+#include "ui/panels/controls/number_field.h"
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/controls/parameter_editor.h"
+#include "ui/theme/theme.h"
+
+namespace batten {
+
+ToneSwatch::ToneSwatch(QWidget* parent) : QWidget(parent) {
+  setFixedHeight(52);
+  setToolTip(tr("Grey tones of the scan, above, and how the log transform shows them, below."));
+  setAccessibleName(tr("Tones before and after the log transform"));
+}
+
+void ToneSwatch::show(const LogParams& params) {
+  params_ = params;
+  update();
+}
+
+void ToneSwatch::paintEvent(QPaintEvent*) {
+  const Theme& theme = themeOf(palette());
+  QPainter painter(this);
+  const auto tones = toneTable(params_);
+  const int label = 40;
+  painter.setFont(uiFont(11));
+  for (int band = 0; band < 2; ++band) {
+    const QRect box(label, band * 26 + 2, width() - label, 22);
+    painter.setPen(theme.mute);
+    painter.drawText(QRect(0, box.top(), label, box.height()), Qt::AlignVCenter | Qt::AlignLeft,
+                     band == 0 ? tr("Scan") : tr("Shown"));
+    QImage ramp(256, 1, QImage::Format_RGB32);
+    for (int grey = 0; grey < 256; ++grey) {
+      const int tone = band == 0 || !params_.enabled ? grey : tones[grey];
+      ramp.setPixel(grey, 0, qRgb(tone, tone, tone));
+    }
+    painter.setRenderHint(QPainter::SmoothPixmapTransform);
+    painter.drawImage(box, ramp);
+    painter.setPen(theme.line);
+    painter.drawRect(box.adjusted(0, 0, -1, -1));
+  }
+}
+
+ScanPanel::ScanPanel(EditorSession& session, QWidget* parent)
+    : QWidget(parent),
+      session_(session),
+      facts_(new FigureTable(this)),
+      dpi_(new NumberField(this)),
+      scaleNote_(note({}, this)),
+      fromFile_(linkButton(tr("Use the file's resolution"), QStringLiteral("scan.dpiFromFile"), this)),
+      swatch_(new ToneSwatch(this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(14, 12, 14, 12);
+  layout->setSpacing(8);
+  layout->addWidget(heading(tr("Scan"), this));
+  layout->addWidget(facts_);
+  layout->addWidget(caption(tr("Scale"), this));
+  auto* scale = new QGridLayout;
+  scale->setHorizontalSpacing(8);
+  scale->setColumnStretch(0, 1);
+  auto* name = new QLabel(tr("Resolution"), this);
+  const QString help = tr("How many pixels of the scan make an inch. All lengths in mm follow from it.");
+  name->setToolTip(help);
+  dpi_->setToolTip(help);
+  dpi_->setRange(10.0, 10000.0);
+  dpi_->setDecimals(0);
+  dpi_->setStep(1.0);
+  dpi_->setUnit(tr("dpi"));
+  dpi_->setFixedWidth(92);
+  dpi_->edit()->setObjectName(QStringLiteral("scan.dpi"));
+  dpi_->edit()->setAccessibleName(tr("Resolution in dpi"));
+  scale->addWidget(name, 0, 0);
+  scale->addWidget(dpi_, 0, 1);
+  layout->addLayout(scale);
+  layout->addWidget(scaleNote_);
+  layout->addWidget(fromFile_, 0, Qt::AlignLeft);
+  layout->addWidget(caption(tr("Tones"), this));
+  layout->addWidget(new ParameterEditor(session, {"log.enabled", "log.factor"}, this));
+  layout->addWidget(swatch_);
+  layout->addWidget(caption(tr("Paper"), this));
+  layout->addWidget(new ParameterEditor(session, {"paper.flatten", "paper.folds"}, this));
+  layout->addStretch();
+  connect(dpi_, &NumberField::committed, this, [this](double value) { setDpi(value); });
+  connect(fromFile_, &QPushButton::clicked, this, [this] { setDpi(std::nullopt); });
+  connect(&session_, &EditorSession::scanOpened, this, &ScanPanel::refresh);
+  connect(&session_, &EditorSession::recipeChanged, this, &ScanPanel::refresh);
+  refresh();
+}
+
+void ScanPanel::focusResolution() {
+  dpi_->edit()->setFocus(Qt::ShortcutFocusReason);
+  dpi_->edit()->selectAll();
+}
+
+void ScanPanel::setDpi(std::optional<double> dpi) {
+  Recipe after = session_.recipe();
+  after.dpi = dpi;
+  session_.change(tr("Resolution"), std::move(after));
+}
+
+void ScanPanel::refresh() {
+  swatch_->show(session_.recipe().log);
+  dpi_->setEnabled(session_.hasScan());
+  if (!session_.hasScan()) {
+    facts_->setRows({});
+    dpi_->setEmpty(QStringLiteral("–"));
+    scaleNote_->setText(tr("Open a scan: PNG, JPEG, TIFF, BMP, WebP or PNM."));
+    fromFile_->hide();
+    return;
+  }
+  const Scan& scan = *session_.scan();
+  const PageFrame frame = frameFor(scan, session_.recipe());
+  const QString size = QStringLiteral("%1 × %2").arg(grouped(frame.widthPx), grouped(frame.heightPx));
+  const QString paper = QStringLiteral("%1 × %2 mm")
+                            .arg(frame.widthPx * frame.mmPerPx, 0, 'f', 1)
+                            .arg(frame.heightPx * frame.mmPerPx, 0, 'f', 1);
+  const bool assumed = isScaleAssumed(scan, session_.recipe());
+  const QString depth = tr("%1, %2 bit").arg(QString::fromStdString(scan.info.format)).arg(scan.info.bitsPerChannel);
+  facts_->setRows(
+      {{tr("File"), {{depth}}, QString::fromStdString(scan.path)},
+       {tr("Size, px"), {{size}}, tr("Width and height of the upright picture.")},
+       {tr("Size, mm"), {{assumed ? tr("not known yet") : paper, assumed}}, tr("What the resolution makes of it.")}});
+  const auto own = session_.recipe().dpi;
+  if (own)
+    dpi_->setValue(*own);
+  else if (scan.dpi)
+    dpi_->setValue(*scan.dpi);
+  else
+    dpi_->setEmpty(QStringLiteral("–"));
+  fromFile_->setVisible(own.has_value());
+  fromFile_->setText(scan.dpi ? tr("Use the file's %1 dpi").arg(*scan.dpi, 0, 'f', 0) : tr("Forget this resolution"));
+  if (assumed)
+    scaleNote_->setText(
+        tr("The file states no resolution. Type the scanner's dpi, or lengths are only right up to a factor "
+           "(%1 dpi assumed).")
+            .arg(kAssumedDpi, 0, 'f', 0));
+  else
+    scaleNote_->setText(own ? tr("Set by you.") : tr("Stated by the file."));
+}
+
+}  // namespace batten

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/targets/shape_window.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QPainterPath>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/curve/curvature.h"
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/controls/segmented_control.h"
+#include "ui/panels/targets/target_advice.h"
+#include "ui/session/fairing_edits.h"
+#include "ui/theme/theme.h"
+
+namespace batten {
+namespace {
+
+QString number(double value, int decimals) {
+  return QString::number(value, 'f', decimals).replace(QLatin1Char('-'), QChar(0x2212));
+}
+
+}  // namespace
+
+ShapeWindow::ShapeWindow(EditorSession& session, QWidget* parent)
+    : QDialog(parent),
+      session_(session),
+      first_(new QComboBox(this)),
+      second_(new QComboBox(this)),
+      quantity_(new SegmentedControl({tr("Radius"), tr("Curvature")}, this)),
+      view_(new ShapeView(this)),
+      figures_(new FigureTable(this)),
+      table_(new FigureTable(this)),
+      way_(note({}, this)),
+      recommendation_(note({}, this)) {
+  recommendation_->setObjectName(QStringLiteral("shapes.recommendation"));
+  setObjectName(QStringLiteral("shapes"));
+  setWindowTitle(tr("Compare shapes"));
+  setMinimumWidth(548);
+  first_->setObjectName(QStringLiteral("shapes.first"));
+  second_->setObjectName(QStringLiteral("shapes.second"));
+  first_->setAccessibleName(tr("First curve"));
+  second_->setAccessibleName(tr("Second curve"));
+  quantity_->setNames(QStringLiteral("shapes.quantity"), {QStringLiteral("radius"), QStringLiteral("curvature")});
+  quantity_->setCurrent(0);
+  figures_->setObjectName(QStringLiteral("shapes.figures"));
+  table_->setObjectName(QStringLiteral("shapes.table"));
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(16, 14, 16, 16);
+  layout->setSpacing(8);
+  auto* choice = new QHBoxLayout;
+  choice->setSpacing(8);
+  choice->addWidget(first_, 1);
+  choice->addWidget(new QLabel(tr("and"), this));
+  choice->addWidget(second_, 1);
+  layout->addLayout(choice);
+  layout->addWidget(quantity_);
+  layout->addWidget(view_, 1);
+  layout->addWidget(way_);
+  layout->addWidget(figures_);
+  layout->addSpacing(6);
+  layout->addWidget(caption(tr("Fairness of the selected curve"), this));
+  layout->addWidget(table_);
+  layout->addWidget(recommendation_);
+  figures_->setHeader({}, {tr("radius"), tr("curvature")});
+  table_->setHeader(tr("profile"), {tr("S"), tr("r"), tr("off, %"), tr("needs, mm"), tr("extrema"), tr("AICc")});
+  connect(first_, &QComboBox::currentIndexChanged, this, &ShapeWindow::compare);
+  connect(second_, &QComboBox::currentIndexChanged, this, &ShapeWindow::compare);
+  connect(quantity_, &SegmentedControl::chosen, this, [this](int index) {
+    quantity_->setCurrent(index);
+    compare();
+  });
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
+                            &EditorSession::targetsChanged, &EditorSession::runFinished})
+    connect(&session_, signal, this, [this] {
+      if (isVisible()) refill();
+    });
+}
+
+void ShapeWindow::showEvent(QShowEvent* event) {
+  QDialog::showEvent(event);
+  refill();
+}
+
+std::vector<ShapeWindow::Entry> ShapeWindow::entries() const {
+  std::vector<Entry> all;
+  const auto curves = session_.curves();
+  for (int i = 0; i < static_cast<int>(curves.size()); ++i) {
+    const TracedCurve& curve = curves[i];
+    if (curve.sketched.isEmpty()) continue;
+    all.push_back({Entry::Kind::Sketched, i});
+    if (!curve.faired.isEmpty() && curve.fairingUsed.mode != FairingMode::None) all.push_back({Entry::Kind::Faired, i});
+  }
+  if (const auto targets = session_.targets(); targets && session_.selected()) {
+    for (const TargetProfile& profile : targets->targets.profiles)
+      if (profile.valid) all.push_back({Entry::Kind::Target, profile.degree});
+  }
+  return all;
+}
+
+QString ShapeWindow::nameOf(const Entry& entry) const {
+  switch (entry.kind) {
+    case Entry::Kind::Sketched:
+      return tr("Curve %1, sketched").arg(entry.number + 1);
+    case Entry::Kind::Faired:
+      return tr("Curve %1, faired").arg(entry.number + 1);
+    case Entry::Kind::Target:
+      return tr("Target %1, %2").arg(entry.number).arg(degreeName(entry.number));
+  }
+  return {};
+}
+
+ShapeProfile ShapeWindow::profileOf(const Entry& entry) const {
+  const TracedCurve* selected = session_.selected();
+  if (entry.kind == Entry::Kind::Target) {
+    const auto targets = session_.targets();
+    if (!targets || !selected) return {};
+    return shapeProfile(targets->targets.profiles[entry.number - 1], selected->closed,
+                        selected->sketchedFigures.lengthMm, extent(selected->sketched));
+  }
+  const auto curves = session_.curves();
+  if (entry.number < 0 || static_cast<std::size_t>(entry.number) >= curves.size()) return {};
+  const TracedCurve& curve = curves[entry.number];
+  return shapeProfile(entry.kind == Entry::Kind::Faired ? curve.faired : curve.sketched, curve.closed);
+}
+
+void ShapeWindow::refill() {
+  const auto chosen = [this](const QComboBox* box) {
+    const int index = box->currentIndex();
+    return index >= 0 && static_cast<std::size_t>(index) < entries_.size() ? std::optional(entries_[index])
+                                                                           : std::nullopt;
+  };
+  const auto first = chosen(first_), second = chosen(second_);
+  entries_ = entries();
+  const auto targets = session_.targets();
+  const Entry selected{Entry::Kind::Sketched, std::max(0, session_.selectedCurve())};
+  const Entry recommended{Entry::Kind::Target, targets ? targets->recommendedDegree : 0};
+  const auto fill = [this](QComboBox* box, const std::optional<Entry>& kept, const Entry& otherwise) {
+    const QSignalBlocker quiet(box);
+    box->clear();
+    for (const Entry& entry : entries_) box->addItem(nameOf(entry));
+    auto at = kept ? std::find(entries_.begin(), entries_.end(), *kept) : entries_.end();
+    if (at == entries_.end()) at = std::find(entries_.begin(), entries_.end(), otherwise);
+    box->setCurrentIndex(at == entries_.end() ? (entries_.empty() ? -1 : 0) : static_cast<int>(at - entries_.begin()));
+  };
+  fill(first_, first, selected);
+  fill(second_, second, recommended);
+  compare();
+  refreshTable();
+}
+
+void ShapeWindow::compare() {
+  const int a = first_->currentIndex(), b = second_->currentIndex();
+  if (a < 0 || b < 0 || static_cast<std::size_t>(std::max(a, b)) >= entries_.size()) {
+    view_->show({}, true);
+    figures_->setRows({{tr("No curve yet"), {{QStringLiteral("–")}, {QStringLiteral("–")}}, {}}});
+    return;
+  }
+  const ShapeComparison found = compareShapes(profileOf(entries_[a]), profileOf(entries_[b]));
+  view_->show(found, quantity_->current() != 1);
+  QStringList ways;
+  if (found.mirrored) ways << tr("mirrored");
+  if (found.reversed) ways << tr("run backwards");
+  if (found.shift > 0) ways << tr("begun elsewhere");
+  figures_->setRows(
+      {{tr("Similarity S"),
+        {{number(found.similarity, 4)}, {number(found.curvatureSimilarity, 4)}},
+        tr("1 is the same shape, whatever size, place and turn. Any two bends of one side come near 1: look at r "
+           "too.")},
+       {tr("Pearson r"),
+        {{number(found.pearson, 4)}, {number(found.curvaturePearson, 4)}},
+        tr("The same without what both have in common on the mean: 0 is no likeness, -1 the opposite course.")}});
+  way_->setText(
+      ways.isEmpty()
+          ? tr("Both as drawn, rescaled to one length and one mean size.")
+          : tr("Rescaled to one length and one mean size; the second curve %1.").arg(ways.join(QStringLiteral(", "))));
+}
+
+void ShapeWindow::refreshTable() {
+  const auto targets = session_.targets();
+  const int nearest = targets ? targets->recommendedDegree : 0;
+  const bool isAdvised = nearest > 0 && isAdvisable(*targets, nearest, fairingAsked(session_).toleranceMm);
+  std::vector<FigureTable::Row> rows;
+  for (int degree = 1; targets && degree <= 6; ++degree) {
+    const auto at = static_cast<std::size_t>(degree - 1);
+    const TargetProfile& p = targets->targets.profiles[at];
+    const QString none = QStringLiteral("–");
+    const auto& faired = targets->faired[at];
+    QString name = QStringLiteral("%1 %2").arg(degree).arg(degreeName(degree));
+    if (isAdvised && degree == nearest) name += QStringLiteral(" ✓");
+    const bool usable = p.valid && p.aicc < std::numeric_limits<double>::max();
+    rows.push_back({name,
+                    {{p.valid ? number(p.similarity, 5) : none},
+                     {p.valid ? number(p.pearson, 3) : none},
+                     {p.valid ? number(p.rmsPercent, 1) : none},
+                     {faired ? number(faired->report.neededMm, 3) : none, faired && !faired->report.withinBudget},
+                     {faired ? QString::number(faired->report.extremaAfter) : none},
+                     {usable ? number(p.aicc, 1) : none}},
+                    p.valid ? (p.isMonotone ? tr("Monotone profile.") : tr("This profile turns back."))
+                            : QString::fromStdString(p.problem)});
+  }
+  if (rows.empty()) rows.push_back({tr("No curve selected"), {}, {}});
+  table_->setRows(std::move(rows));
+  recommendation_->setText(
+      isAdvised     ? tr("✓ recommended: the degree that explains the curve with the fewest coefficients (smallest "
+                             "AICc). S alone must rise with the degree and cannot choose.")
+      : nearest > 0 ? tr("Closest shape: %1 (smallest AICc). It is not recommended, as it needs more than the budget, "
+                         "adds bumps, moves nothing or is unlike the curve.")
+                          .arg(degreeName(nearest))
+                    : QString());
+}
+
+void ShapeView::show(const ShapeComparison& comparison, bool radius) {
+  first_ = radius ? comparison.first.radius : comparison.first.curvature;
+  second_ = radius ? comparison.second.radius : comparison.second.curvature;
+  // S does not see the size of the values, so both are drawn at equal mean size.
+  const auto normalise = [](std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double v : values) sum += v * v;
+    const double size = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, values.size())));
+    for (double& v : values) v = size > 0 ? v / size : 0.0;
+  };
+  normalise(first_);
+  normalise(second_);
+  update();
+}
+
+void ShapeView::paintEvent(QPaintEvent*) {
+  const Theme& theme = themeOf(palette());
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QRectF box = QRectF(rect()).adjusted(1, 8, -1, -8);
+  painter.setPen(QPen(theme.line, 1));
+  painter.drawLine(QPointF(box.left(), box.bottom()), QPointF(box.right(), box.bottom()));
+  if (first_.size() < 2 || second_.size() != first_.size()) return;
+  double low = 0.0, high = 0.0;
+  for (const auto* values : {&first_, &second_}) {
+    std::vector<double> sorted = *values;
+    std::sort(sorted.begin(), sorted.end());
+    // One spike must not flatten the rest.
+    low = std::min(low, sorted[sorted.size() / 50]);
+    high = std::max(high, sorted[sorted.size() - 1 - sorted.size() / 50]);
+  }
+  const double size = std::max(high - low, 1e-12);
+  const auto yOf = [&](double v) { return box.bottom() - std::clamp((v - low) / size, -0.03, 1.03) * box.height(); };
+  if (low < 0) painter.drawLine(QPointF(box.left(), yOf(0)), QPointF(box.right(), yOf(0)));
+  const auto draw = [&](const std::vector<double>& values, const QPen& pen) {
+    QPainterPath path;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const QPointF at(box.left() + box.width() * static_cast<double>(i) / static_cast<double>(values.size() - 1),
+                       yOf(values[i]));
+      i == 0 ? path.moveTo(at) : path.lineTo(at);
+    }
+    painter.setPen(pen);
+    painter.drawPath(path);
+  };
+  draw(first_, QPen(theme.accent, 2));
+  draw(second_, QPen(theme.amber, 1.6, Qt::DashLine));
+}
+
+}  // namespace batten

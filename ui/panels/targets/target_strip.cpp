@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/targets/target_strip.h"
+
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QPainter>
+#include <QPainterPath>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/targets/target_advice.h"
+#include "ui/session/fairing_edits.h"
+#include "ui/session/piece_choice.h"
+#include "ui/theme/theme.h"
+
+namespace batten {
+namespace {
+
+/// The quantity that a tile draws: curvature, or the logarithm of the radius where the targets describe that.
+std::vector<double> drawn(const TargetOutcomes& outcomes, const TargetProfile* profile) {
+  const TargetSet& set = outcomes.targets;
+  std::vector<double> values(set.perimeter.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = profile ? profile->curvatureAt(set.perimeter[i]) : set.kappa[i];
+  return values;
+}
+
+QPainterPath pathOf(const TargetOutcomes& outcomes, const std::vector<double>& values, const QRectF& box, double low,
+                    double high) {
+  QPainterPath path;
+  bool pen = false;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) {
+      pen = false;
+      continue;
+    }
+    const double t = std::clamp((values[i] - low) / (high - low), -0.04, 1.04);
+    const QPointF at(box.left() + outcomes.targets.perimeter[i] * box.width(), box.bottom() - t * box.height());
+    pen ? path.lineTo(at) : path.moveTo(at);
+    pen = true;
+  }
+  return path;
+}
+
+}  // namespace
+
+TargetTile::TargetTile(int degree, QWidget* parent) : QAbstractButton(parent), degree_(degree) {
+  setObjectName(QStringLiteral("target.%1").arg(degree));
+  setFocusPolicy(Qt::StrongFocus);
+  setAttribute(Qt::WA_Hover);
+  setCursor(Qt::PointingHandCursor);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  setMaximumWidth(220);
+  setFixedHeight(97);
+}
+
+QString TargetTile::problem() const {
+  if (!outcomes_) return {};
+  const auto index = static_cast<std::size_t>(degree_ - 1);
+  const TargetProfile& profile = outcomes_->targets.profiles[index];
+  if (!profile.valid)
+    return profile.problem.empty() ? tr("does not fit this curve") : QString::fromStdString(profile.problem);
+  if (!outcomes_->faired[index])
+    return outcomes_->problems[index].empty() ? tr("could not be reached")
+                                              : QString::fromStdString(outcomes_->problems[index]);
+  return {};
+}
+
+void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double budgetMm, bool chosen, bool oneCurve,
+                      const QString& waiting) {
+  outcomes_ = std::move(outcomes);
+  waiting_ = outcomes_ ? QString() : waiting;
+  budgetMm_ = budgetMm;
+  chosen_ = chosen;
+  const QString name = tr("Target %1, %2").arg(degree_).arg(degreeName(degree_));
+  QString spoken = name, tip = name;
+  setEnabled(outcomes_ && outcomes_->targets.profiles[degree_ - 1].valid);
+  if (const QString why = problem(); !why.isEmpty()) {
+    spoken += QStringLiteral(": ") + why;
+    tip += QStringLiteral(": ") + why;
+  } else if (outcomes_) {
+    const auto& faired = *outcomes_->faired[degree_ - 1];
+    const auto& profile = outcomes_->targets.profiles[degree_ - 1];
+    spoken += tr(", moves the curve by %1, %2 extrema")
+                  .arg(millimetres(faired.report.maxDeviationMm))
+                  .arg(faired.report.extremaAfter);
+    tip += tr("\nS %1, moves the curve by at most %2, %3 left.")
+               .arg(similarityText(profile.similarity), millimetres(faired.report.maxDeviationMm),
+                    counted(faired.report.extremaAfter, tr("1 curvature extremum"), tr("%1 curvature extrema")));
+    if (const int more = faired.report.extremaAfter - faired.report.extremaBefore; more > 0)
+      tip += counted(more, tr("\nThat is 1 more than the sketch has."), tr("\nThat is %1 more than the sketch has."));
+    if (!faired.report.withinBudget) tip += tr("\nTo meet it fully needs %1.").arg(millimetres(faired.report.neededMm));
+    if (!profile.isMonotone) tip += tr("\nThis profile turns back: it is not monotone.");
+  }
+  tip += QLatin1Char('\n') + (oneCurve ? tr("Click or press %1: for the selected curve.").arg(degree_)
+                                       : tr("Click or press %1: for all curves.").arg(degree_));
+  if (outcomes_ && outcomes_->recommendedDegree == degree_)
+    spoken += isAdvisable(*outcomes_, degree_, budgetMm_) ? tr(", recommended") : tr(", simplest fit");
+  if (!outcomes_ && !waiting_.isEmpty()) spoken += QStringLiteral(", ") + waiting_;
+  if (chosen_) spoken += tr(", chosen");
+  setAccessibleName(spoken);
+  setToolTip(tip);
+  update();
+}
+
+void TargetTile::paintEvent(QPaintEvent*) {
+  const Theme& theme = themeOf(palette());
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QRectF box = QRectF(rect()).adjusted(1, 1, -1, -1);
+  const bool live = chosen_ && isEnabled();
+  painter.setBrush(theme.panel);
+  painter.setPen(QPen(live ? theme.accent : underMouse() && isEnabled() ? theme.mute : theme.line, live ? 2 : 1));
+  painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 7, 7);
+  if (hasFocus()) drawFocusRing(painter, QRectF(rect()), 8, theme);
+  const QRectF inner = box.adjusted(9, 6, -9, -5);
+  const QRectF title(inner.left(), inner.top(), inner.width(), 17);
+  paintTitle(painter, title);
+  const QRectF below(inner.left(), title.bottom() + 4, inner.width(), inner.bottom() - title.bottom() - 4);
+  const QString instead = outcomes_ ? problem() : waiting_;
+  if (!instead.isEmpty()) {
+    painter.setFont(uiFont(11));
+    painter.setPen(theme.mute);
+    painter.drawText(below, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, instead);
+  }
+  if (!outcomes_ || !instead.isEmpty()) return;
+  paintProfiles(painter, below.adjusted(0, 0, 0, -18));
+  paintFigures(painter, QRectF(inner.left(), inner.bottom() - 15, inner.width(), 15));
+}
+
+void TargetTile::paintTitle(QPainter& painter, const QRectF& title) const {
+  const Theme& theme = themeOf(palette());
+  const QString number = QString::number(degree_);
+  painter.setFont(uiFont(12, QFont::Bold));
+  painter.setPen(isEnabled() ? theme.text : theme.mute);
+  painter.drawText(title, Qt::AlignLeft | Qt::AlignVCenter, number);
+  const double numberWidth = painter.fontMetrics().horizontalAdvance(number) + 5;
+  // The shape nearest to the sketch is only advice where the budget allows it.
+  const bool isNearest = outcomes_ && outcomes_->recommendedDegree == degree_;
+  const bool isAdvised = isNearest && isAdvisable(*outcomes_, degree_, budgetMm_);
+  const QFontMetricsF metrics(uiFont(12)), small(uiFont(11));
+  const double nameWidth = metrics.horizontalAdvance(degreeName(degree_));
+  QString word = isAdvised ? tr("recommended") : isNearest ? tr("simplest fit") : QString();
+  const auto fits = [&](const QString& one) {
+    return numberWidth + nameWidth + 6 + small.horizontalAdvance(one) <= title.width();
+  };
+  if (!fits(word)) word = isAdvised ? QStringLiteral("✓") : tr("closest");
+  if (!fits(word) && !isAdvised) word.clear();
+  const double taken = word.isEmpty() ? 0.0 : small.horizontalAdvance(word) + 6;
+  painter.setFont(uiFont(12));
+  painter.drawText(title.adjusted(numberWidth, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter,
+                   metrics.elidedText(degreeName(degree_), Qt::ElideRight, title.width() - numberWidth - taken));
+  painter.setFont(uiFont(11));
+  painter.setPen(isAdvised ? theme.good : theme.mute);
+  painter.drawText(title, Qt::AlignRight | Qt::AlignVCenter, word);
+}
+
+void TargetTile::paintProfiles(QPainter& painter, const QRectF& box) const {
+  const Theme& theme = themeOf(palette());
+  const std::vector<double> sketched = drawn(*outcomes_, nullptr);
+  // Same axes in every tile: the range of the data without its two outermost percent, so one spike cannot flatten all.
+  std::vector<double> sorted;
+  std::copy_if(sketched.begin(), sketched.end(), std::back_inserter(sorted), [](double v) { return std::isfinite(v); });
+  if (sorted.size() < 2) return;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t cut = sorted.size() / 50;
+  double low = sorted[cut], high = sorted[sorted.size() - 1 - cut];
+  const double pad = std::max((high - low) * 0.12, std::abs(high) * 1e-3 + 1e-12);
+  low -= pad;
+  high += pad;
+  painter.save();
+  painter.setClipRect(box.adjusted(-2, -3, 2, 3));
+  painter.setBrush(Qt::NoBrush);
+  QColor grey = theme.mute;
+  grey.setAlphaF(0.65F);
+  painter.setPen(QPen(grey, 1));
+  painter.drawPath(pathOf(*outcomes_, sketched, box, low, high));
+  const TargetProfile& profile = outcomes_->targets.profiles[degree_ - 1];
+  painter.setPen(QPen(chosen_ ? theme.accent : theme.text, 1.6, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.drawPath(pathOf(*outcomes_, drawn(*outcomes_, &profile), box, low, high));
+  painter.restore();
+}
+
+void TargetTile::paintFigures(QPainter& painter, const QRectF& box) const {
+  const Theme& theme = themeOf(palette());
+  const auto index = static_cast<std::size_t>(degree_ - 1);
+  const FairingReport& report = outcomes_->faired[index]->report;
+  const bool over = !isWithinBudget(*outcomes_, degree_, budgetMm_);
+  // What meeting the target takes is the number that decides; the curve itself never leaves the budget.
+  const double mm = over ? std::max(report.neededMm, report.maxDeviationMm) : report.maxDeviationMm;
+  painter.setFont(uiFont(11));
+  const QFontMetricsF metrics(painter.font());
+  const QString similarity = QStringLiteral("S ") + similarityText(outcomes_->targets.profiles[index].similarity);
+  const QString length = shortMillimetres(mm), needs = over ? tr("needs %1").arg(length) : length;
+  const QString extrema = tr("%1 extr.").arg(report.extremaAfter);
+  const auto fits = [&](std::initializer_list<QString> parts) {
+    double width = 8.0 * static_cast<double>(parts.size() - 1);
+    for (const QString& part : parts) width += metrics.horizontalAdvance(part);
+    return width <= box.width();
+  };
+  // From the most said to the least: first the words go, which amber says too, then the similarity, which cannot
+  // choose.
+  const bool withSimilarity = fits({similarity, length, extrema});
+  const auto room = [&](const QString& middle, const QString& right) {
+    return withSimilarity ? fits({similarity, middle, right}) : fits({middle, right});
+  };
+  const bool withWords = room(needs, extrema);
+  const QString number = withWords ? needs : length;
+  const QString count = room(number, extrema) ? extrema : QString();
+  painter.setPen(report.extremaAfter > report.extremaBefore ? theme.amber : theme.mute);
+  painter.drawText(box, Qt::AlignRight | Qt::AlignVCenter, count);
+  painter.setPen(theme.mute);
+  if (withSimilarity) painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, similarity);
+  painter.setPen(over ? theme.amber : theme.mute);
+  const double shift = 0.5 * (metrics.horizontalAdvance(similarity) - metrics.horizontalAdvance(count));
+  if (withSimilarity)
+    painter.drawText(box.translated(shift, 0), Qt::AlignCenter, number);
+  else
+    painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, metrics.elidedText(number, Qt::ElideRight, box.width()));
+}
+
+void TargetTile::enterEvent(QEnterEvent*) {
+  if (isEnabled()) emit entered(degree_);
+}
+void TargetTile::leaveEvent(QEvent*) { emit left(); }
+void TargetTile::focusInEvent(QFocusEvent* event) {
+  QAbstractButton::focusInEvent(event);
+  // By Tab only: after a click the mouse is what hovers.
+  if (event->reason() == Qt::TabFocusReason || event->reason() == Qt::BacktabFocusReason) emit entered(degree_);
+}
+void TargetTile::focusOutEvent(QFocusEvent* event) {
+  QAbstractButton::focusOutEvent(event);
+  emit left();
+}
+void TargetTile::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) return click();
+  if (event->key() == Qt::Key_Left) return void(focusPreviousChild());
+  if (event->key() == Qt::Key_Right) return void(focusNextChild());
+  QAbstractButton::keyPressEvent(event);
+}
+
+TargetStrip::TargetStrip(EditorSession& session, QWidget* parent) : QWidget(parent), session_(session) {
+  setObjectName(QStringLiteral("targetStrip"));
+  setAccessibleName(tr("Six targets for the selected curve"));
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(8, 8, 8, 7);
+  layout->setSpacing(6);
+  for (int degree = 1; degree <= 6; ++degree) {
+    auto* tile = new TargetTile(degree, this);
+    tiles_[degree - 1] = tile;
+    layout->addWidget(tile, 1);
+    connect(tile, &QAbstractButton::clicked, this, [this, degree] { chooseTarget(session_, degree); });
+    connect(tile, &TargetTile::entered, this, [this](int hovered) {
+      session_.hoverTarget(hovered);
+      emit hint(tr("Hover a target to see its curve; click to apply it."));
+    });
+    connect(tile, &TargetTile::left, this, [this] {
+      session_.hoverTarget(0);
+      emit hint({});
+    });
+  }
+  layout->addStretch();
+  setFixedHeight(112);
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
+                            &EditorSession::targetsChanged, &EditorSession::runFinished})
+    connect(&session_, signal, this, &TargetStrip::refresh);
+  connect(&session_, &EditorSession::workingChanged, this, &TargetStrip::refresh);
+  refresh();
+}
+
+void TargetStrip::refresh() {
+  const TracedCurve* curve = session_.selected();
+  const auto targets = session_.targets();
+  int chosen = 0;
+  double budget = session_.recipe().fairing.toleranceMm;
+  if (curve) {
+    const FairingParams used = fairingAsked(session_);
+    budget = used.toleranceMm;
+    if (used.mode == FairingMode::Target && used.target != kDrawnTarget)
+      chosen = used.target > 0 ? used.target : targets ? targets->recommendedDegree : 0;
+  }
+  const QString waiting = !curve                   ? QString()
+                          : session_.isTargeting() ? tr("computing…")
+                          : session_.isStopped()   ? tr("stopped")
+                                                   : QString();
+  for (int degree = 1; degree <= 6; ++degree)
+    tiles_[degree - 1]->show(curve ? targets : nullptr, budget, degree == chosen, choosesForOneCurve(session_),
+                             waiting);
+}
+
+void TargetStrip::paintEvent(QPaintEvent*) {
+  const Theme& theme = themeOf(palette());
+  QPainter painter(this);
+  painter.fillRect(rect(), theme.background);
+  painter.fillRect(0, 0, width(), 1, theme.line);
+}
+
+}  // namespace batten
