@@ -13,7 +13,7 @@ enum class Termination {
   FixedPoint,        ///< Another iteration would change nothing.
   IterationLimit,    ///< The safety limit stopped it; the best state so far is returned.
   NoProgress,        ///< No step decreased the objective any more.
-  ToleranceLimited,  ///< The deviation budget, not the objective, stopped it.
+  ToleranceLimited,  ///< The tolerance, not the objective, stopped it.
   Degenerate,        ///< The input has too little shape (too few points, no length); a fallback was used.
 };
 

@@ -88,7 +88,7 @@ Json fairingToJson(const FairingReport& r) {
           {"objective_after", number(r.objectiveAfter)},
           {"max_deviation_mm", number(r.maxDeviationMm)},
           {"needed_mm", number(r.neededMm)},
-          {"within_budget", r.withinBudget},
+          {"within_budget", r.withinTolerance},
           {"noise_of_points_mm", number(r.noiseMm)},
           {"curvature_extrema_before", r.extremaBefore},
           {"curvature_extrema_after", r.extremaAfter}};

@@ -167,7 +167,7 @@ class EdgeLengthFairing {
     }
     if (!best) return std::nullopt;
     best->report.neededMm = needed;
-    best->report.withinBudget = inside == 1.0;
+    best->report.withinTolerance = inside == 1.0;
     best->report.why = inside == 1.0 ? Termination::Converged : Termination::ToleranceLimited;
     if (inside < 1.0) best->report.note = "The profile was followed as far as the tolerance allows.";
     best->report.objectiveBefore = misfit(curve_);

@@ -210,7 +210,7 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
                                  "Left as sketched: within the tolerance, the recommended target would add curvature "
                                  "extrema. Raise the tolerance or smooth without a target.");
     kept.report.neededMm = faired->report.neededMm;
-    kept.report.withinBudget = false;
+    kept.report.withinTolerance = false;
     return kept;
   }
   return faired;

@@ -19,7 +19,7 @@ namespace batten {
 enum class FairingMode {
   None,       ///< The sketched curve as constructed.
   Target,     ///< Towards one of the six profiles, or the drawn one.
-  Tolerance,  ///< Smallest integral of (dkappa/ds)^2 within the deviation budget.
+  Tolerance,  ///< Smallest integral of (dkappa/ds)^2 within the tolerance.
   Monotone,   ///< The nearest curve whose curvature is monotone between the extrema that are kept.
   LowPass,    ///< Towards the sketch's own curvature without its short waves.
 };
@@ -72,8 +72,8 @@ struct FairingReport {
   int iterations = 0;
   double objectiveBefore = 0.0, objectiveAfter = 0.0;  ///< Relative curvature misfit, or integral of (dkappa/ds)^2.
   double maxDeviationMm = 0.0;                         ///< From the sketched curve.
-  double neededMm = 0.0;     ///< Target mode: deviation that meeting the target fully would take.
-  bool withinBudget = true;  ///< Target mode: the target was met within the tolerance.
+  double neededMm = 0.0;        ///< Target mode: deviation that meeting the target fully would take.
+  bool withinTolerance = true;  ///< Target mode: the target was met within the tolerance.
   int extremaBefore = 0, extremaAfter = 0;
   double noiseMm = 0.0;  ///< Tolerance mode, as needed: standard deviation of a stretch of 8 px of the line's
                          ///< points; 0 = not known.

@@ -137,7 +137,7 @@ class MonotoneFairing {
     report.note = std::move(note);
     report.iterations = iterations_;
     report.neededMm = neededMm;
-    report.withinBudget = within;
+    report.withinTolerance = within;
     const FairingObjective even;
     const auto before = evaluate(setup_, even, {}, setup_.points, setup_.start.places);
     const auto after = evaluate(setup_, even, {}, points, setup_.start.places);

@@ -10,7 +10,7 @@ namespace batten {
 /// The nearest curve whose curvature is monotone, or monotone between the extrema that are kept (fairing.keepExtrema,
 /// keptAt): as the papers call a curve fair, and what their polynomials do not achieve. Extrema are dropped in the
 /// order of how little that moves the curve. What the tolerance does not permit is not done: then the fewest extrema
-/// above those asked for are kept, and the report's note, `neededMm` and `withinBudget` tell what would take more.
+/// above those asked for are kept, and the report's note, `neededMm` and `withinTolerance` tell what would take more.
 Result<FairedCurve> fairMonotone(const NurbsCurve&, bool closed, const FairingParams&, const RunContext&);
 
 }  // namespace batten

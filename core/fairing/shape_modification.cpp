@@ -153,9 +153,9 @@ Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& 
   const auto before = evaluate(setup, *objective, {}, setup.points, setup.start.places);
   report.objectiveBefore = before ? std::sqrt(before->misfit) : 0.0;
   report.neededMm = full->deviation;
-  report.withinBudget = full->deviation <= toleranceMm;
+  report.withinTolerance = full->deviation <= toleranceMm;
   std::vector<Vec2> points = setup.points;
-  if (report.withinBudget) {
+  if (report.withinTolerance) {
     points = full->run.state.points;
     report.why = full->run.why;
   } else {
@@ -170,7 +170,7 @@ Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& 
   if (context.isCancelled()) return cancelled();
   report.iterations = search.iterations();
   const double deviation = keepWithin(setup, toleranceMm, points);
-  if (!report.withinBudget && !rough && deviation < kStuckShare * toleranceMm) {
+  if (!report.withinTolerance && !rough && deviation < kStuckShare * toleranceMm) {
     BoundedRun bounded = minimiseWithin(setup, *objective, toleranceMm, points, context);
     if (context.isCancelled()) return cancelled();
     report.iterations += bounded.iterations;
@@ -181,7 +181,7 @@ Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& 
   }
   const auto after = evaluate(setup, *objective, {}, points, setup.start.places);
   report.objectiveAfter = after ? std::sqrt(after->misfit) : report.objectiveBefore;
-  if (!report.withinBudget && largestDeviation(setup, points) < kStuckShare * toleranceMm) {
+  if (!report.withinTolerance && largestDeviation(setup, points) < kStuckShare * toleranceMm) {
     // The corridor had room left: it was not what stopped the curve.
     report.why = Termination::NoProgress;
     report.note = rough ? "The profile lies far out of reach for this curve. Split it, or mark its corners."

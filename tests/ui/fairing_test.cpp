@@ -235,7 +235,7 @@ TEST_F(FairingWindow, TilesAndTableRecommendAlike) {
   ASSERT_GT(nearest, 0);
   const auto* tile = window_->findChild<QAbstractButton*>(QStringLiteral("target.%1").arg(nearest));
   const auto isTicked = [&] { return table->rows()[std::size_t(nearest - 1)].name.contains(QStringLiteral("✓")); };
-  // Of the largest budget and the least, one allows it and one does not.
+  // Of the largest tolerance and the least, one allows it and one does not.
   for (const bool allowed : {true, false}) {
     type(find<QLineEdit>("fairing.tolerance.field"), allowed ? QStringLiteral("20") : QStringLiteral("0.001"));
     ASSERT_TRUE(settle());
@@ -250,7 +250,8 @@ TEST_F(FairingWindow, TilesAndTableRecommendAlike) {
 }
 
 TEST(TargetAdvice, NothingIsRecommendedThatAddsBumpsDoesNotMoveOrIsUnlike) {
-  const auto isAdvised = [](int before, int after, double movedMm, bool withinBudget = true, double similarity = 0.99) {
+  const auto isAdvised = [](int before, int after, double movedMm, bool withinTolerance = true,
+                            double similarity = 0.99) {
     TargetOutcomes outcomes;
     outcomes.targets.profiles[2].similarity = similarity;
     outcomes.faired[2].emplace();
@@ -258,7 +259,7 @@ TEST(TargetAdvice, NothingIsRecommendedThatAddsBumpsDoesNotMoveOrIsUnlike) {
     report.extremaBefore = before;
     report.extremaAfter = after;
     report.maxDeviationMm = movedMm;
-    report.withinBudget = withinBudget;
+    report.withinTolerance = withinTolerance;
     return isAdvisable(outcomes, 3, 0.1);
   };
   EXPECT_TRUE(isAdvised(4, 4, 0.05));

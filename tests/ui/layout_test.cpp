@@ -46,8 +46,8 @@ TEST_F(Layout, OnlyWhatTheBudgetAllowsIsRecommended) {
   const auto& outcome = session().targets()->faired[degree - 1];
   ASSERT_TRUE(outcome);
   auto* tile = find<QAbstractButton>(("target." + std::to_string(degree)).c_str());
-  EXPECT_EQ(tile->accessibleName().contains(QStringLiteral("recommended")), outcome->report.withinBudget);
-  EXPECT_EQ(tile->accessibleName().contains(QStringLiteral("simplest fit")), !outcome->report.withinBudget);
+  EXPECT_EQ(tile->accessibleName().contains(QStringLiteral("recommended")), outcome->report.withinTolerance);
+  EXPECT_EQ(tile->accessibleName().contains(QStringLiteral("simplest fit")), !outcome->report.withinTolerance);
 }
 
 TEST_F(Layout, EveryPlotNamesItsQuantityAndComesBack) {

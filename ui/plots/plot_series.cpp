@@ -169,9 +169,9 @@ void addDeviation(PlotData& data, const EditorSession& session, const TracedCurv
   for (const CurveSample& sample : sampleByArcLength(curve.faired, kDeviationSamples)) measure(sample.point, faired);
   sorted(faired);
   data.series.push_back(std::move(faired));
-  const double budget = curve.fairingUsed.toleranceMm;
+  const double tolerance = curve.fairingUsed.toleranceMm;
   for (const double sign : {-1.0, 1.0})
-    data.series.push_back({PlotRole::Budget, 0, {0.0, data.lengthMm}, {sign * budget, sign * budget}});
+    data.series.push_back({PlotRole::Tolerance, 0, {0.0, data.lengthMm}, {sign * tolerance, sign * tolerance}});
 }
 
 }  // namespace

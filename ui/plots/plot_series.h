@@ -12,7 +12,7 @@ namespace batten {
 enum class PlotTab { Radius, Curvature, Derivative, Deviation };
 
 /// What a line of a plot stands for; the plot chooses pen and colour.
-enum class PlotRole { Sketched, Faired, Target, ChosenTarget, HoveredTarget, DrawnTarget, Budget, Joint };
+enum class PlotRole { Sketched, Faired, Target, ChosenTarget, HoveredTarget, DrawnTarget, Tolerance, Joint };
 
 struct PlotSeries {
   PlotRole role = PlotRole::Sketched;

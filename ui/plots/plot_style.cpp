@@ -27,7 +27,7 @@ QPen penOf(PlotRole role, const Theme& theme) {
       return dashed;
     case PlotRole::DrawnTarget:
       return {theme.amber, 2, Qt::DotLine, Qt::RoundCap};
-    case PlotRole::Budget:
+    case PlotRole::Tolerance:
       return {theme.amber, 1, Qt::DashLine};
     case PlotRole::Faired:
       return {theme.accent, 2};

@@ -123,7 +123,7 @@ bool isSplitOffered(const EditorSession& session) {
   const PieceChoice* own = choiceOf(session, session.selectedCurve());
   if (own && !own->splitsPx.empty()) return false;
   const FairingReport& report = session.selected()->fairing;
-  return !report.withinBudget && !inflectionsOf(session).empty();
+  return !report.withinTolerance && !inflectionsOf(session).empty();
 }
 
 bool isTargetDrawn(const EditorSession& session) {

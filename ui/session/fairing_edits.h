@@ -23,7 +23,8 @@ void removeSplits(EditorSession& session);
 /// Inflections of the selected sketched curve as shares of its length.
 std::vector<double> inflectionsOf(const EditorSession& session);
 void splitAtInflections(EditorSession& session);
-/// True where splitting would help: a target that needs more than the budget on a curve with inflections and no splits.
+/// True where splitting would help: a target that needs more than the tolerance on a curve with inflections and no
+/// splits.
 bool isSplitOffered(const EditorSession& session);
 
 /// Monotone: places of the extrema that the user chose to keep, as shares of the length. Empty: by number.

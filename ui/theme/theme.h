@@ -12,8 +12,8 @@ class QRectF;
 
 namespace batten {
 
-/// The colours of the window. One accent that means "selected or live"; amber only for "over budget" and "stale", green
-/// only for "done" and "recommended", red only for "failed".
+/// The colours of the window. One accent that means "selected or live"; amber only for "over tolerance" and "stale",
+/// green only for "done" and "recommended", red only for "failed".
 struct Theme {
   bool dark = false;
   QColor background, panel, line, text, mute, accent, onAccent, selection, hover, good, amber, bad;

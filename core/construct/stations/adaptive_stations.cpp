@@ -286,7 +286,8 @@ std::string maxDeviationNote(const StationSet& set) {
   std::array<char, 32> distance{};
   std::snprintf(distance.data(), distance.size(), "%.1f", set.missedPx);
   return std::string("The curve leaves the line by about ") + distance.data() +
-         " px, farther than \"Stay within\" asks. Where it turns sharply, mark a corner; else use the true and fair "
+         " px, farther than \"Maximum deviation\" asks. Where it turns sharply, mark a corner; else use the true and "
+         "fair "
          "fit.";
 }
 

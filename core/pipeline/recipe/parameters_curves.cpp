@@ -176,7 +176,7 @@ void appendConstruct(std::vector<Parameter>& table) {
       {0.0, 8.0, 0.25, 2}, [](auto& r) -> auto& { return r.construct.lowPass; }));
   table.push_back(real(
       kCurves,
-      {"construct.closeness", "Stay within", "px",
+      {"construct.closeness", "Maximum deviation", "px",
        "Quintic NURBS and Bézier path: where the curve would leave the line by more, stations are set closer. Larger: "
        "fewer, and calmer; 0, a set number of segments or Sturges' rule: only those given, as in the papers."},
       {0.0, 50.0, 0.1, 1}, [](auto& r) -> auto& { return r.construct.maxDeviationPx; }));
@@ -205,7 +205,7 @@ void appendConstruct(std::vector<Parameter>& table) {
   appendControlPolygon(table);
   table.push_back(real(
       kCurves,
-      {"construct.keep_extrema", "Keep bumps above", "",
+      {"construct.keep_extrema", "Extremum significance", "",
        "True and fair fit: a bump of the curvature must be this certain to be kept. Larger keeps fewer."},
       {1.0, 1000.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.construct.extremumSignificance; }));
   table.push_back(real(
@@ -252,7 +252,7 @@ void appendFairing(std::vector<Parameter>& table) {
        "without its short waves."},
       {{"none", "Off", FairingMode::None},
        {"target", "Target profile", FairingMode::Target},
-       {"tolerance", "Smooth within budget", FairingMode::Tolerance},
+       {"tolerance", "Smooth within the tolerance", FairingMode::Tolerance},
        {"monotone", "Monotone curvature", FairingMode::Monotone},
        {"lowpass", "Low-pass", FairingMode::LowPass}},
       [](auto& r) -> auto& { return r.fairing.mode; }));
@@ -277,7 +277,7 @@ void appendFairing(std::vector<Parameter>& table) {
       {0.001, 20.0, 0.01, 3, true}, [](auto& r) -> auto& { return r.fairing.toleranceMm; }));
   table.push_back(choice<TolerancePolicy>(
       kFaired,
-      {"fairing.spend", "Use the budget", "",
+      {"fairing.spend", "Use the tolerance", "",
        "Within tolerance: until no wave is left that the line does not prove, or all of it, whatever was drawn."},
       {{"needed", "As needed", TolerancePolicy::AsNeeded}, {"all", "All of it", TolerancePolicy::All}},
       [](auto& r) -> auto& { return r.fairing.tolerancePolicy; }));

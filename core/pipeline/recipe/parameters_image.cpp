@@ -101,7 +101,7 @@ void appendThresholds(std::vector<Parameter>& table) {
       {0.0, 255.0, 1.0, 1}, [](auto& r) -> auto& { return r.threshold.manualLevel; }));
   table.push_back(real(
       kThresholds,
-      {"threshold.strength", "Contrast asked", "",
+      {"threshold.strength", "Minimum ink contrast", "",
        "How much darker than paper ink must be in automatic mode. Larger keeps only the darker lines."},
       {0.2, 3.0, 0.05, 2, true}, [](auto& r) -> auto& { return r.threshold.strength; }));
   table.push_back(boolean(

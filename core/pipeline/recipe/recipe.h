@@ -25,13 +25,13 @@ struct PieceChoice {
   bool included = true;           ///< False: left out of fairing results and export.
   std::optional<FairingMode> mode{};    ///< Own fairing mode; absent = the recipe's.
   std::optional<int> target{};          ///< Own target degree 0..6.
-  std::optional<double> toleranceMm{};  ///< Own budget.
+  std::optional<double> toleranceMm{};  ///< Own tolerance.
   std::optional<double> lowPassMm{};    ///< Own wavelength of the low-pass.
   std::optional<int> keepExtrema{};     ///< Own number of extrema to keep.
   std::vector<Vec2> keepPx{};           ///< Extrema to keep, by place; not empty: counts instead of the number.
   std::vector<Vec2> splitsPx{};         ///< Where one target profile ends and the next begins.
   std::vector<ProfilePoint> profile{};  ///< Own drawn profile, from start to end of the piece.
-  std::optional<TolerancePolicy> tolerancePolicy{};  ///< Own use of the budget.
+  std::optional<TolerancePolicy> tolerancePolicy{};  ///< Own use of the tolerance.
   std::optional<FairingMeans> means{};               ///< Own way to move, on Bézier paths.
   std::optional<EndHold> startHold{}, endHold{};
   std::optional<ConstructMethod> method{};  ///< Own way of construction.

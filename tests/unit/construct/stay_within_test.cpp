@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// "Stay within" on lines that make it hard: turned ends, gaps between the points, sharp turns, noise.
+// "Maximum deviation" on lines that make it hard: turned ends, gaps between the points, sharp turns, noise.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -60,7 +60,7 @@ TEST(Monotone, ANoisyArcOfAnEllipseBecomesTrulyMonotone) {
     const auto faired = fair(start, false, monotone(2.0, 0), {});
     ASSERT_TRUE(faired) << faired.error().message;
     EXPECT_EQ(turnsOf(denseCurvature(faired->curve)), 0) << faired->report.note;
-    EXPECT_TRUE(faired->report.withinBudget);
+    EXPECT_TRUE(faired->report.withinTolerance);
     EXPECT_EQ(faired->report.why, Termination::Converged);
     EXPECT_LE(deviation(start, faired->curve).max, 2.0);
     // Nearest: hardly farther from the sketch than the truth is, which is monotone too.
@@ -93,7 +93,7 @@ TEST(Monotone, KeepsTheExtremaThatAreAskedFor) {
   // None is not to be had within the tolerance: said, with what it takes, and nothing is exceeded.
   const auto none = fair(start, false, monotone(1.0, 0), {});
   ASSERT_TRUE(none);
-  EXPECT_FALSE(none->report.withinBudget);
+  EXPECT_FALSE(none->report.withinTolerance);
   EXPECT_GE(none->report.extremaAfter, 1);
   EXPECT_FALSE(none->report.note.empty());
   EXPECT_LE(deviation(start, none->curve).max, 1.0);
@@ -108,7 +108,7 @@ TEST(Monotone, BySignificanceReachesTheNumberThatTheTruthHas) {
   // One period of a sine: the curvature is 0 at the ends and has one minimum and one maximum.
   EXPECT_EQ(turnsOf(denseCurvature(faired->curve)), 2);
   EXPECT_LE(deviation(start, faired->curve).max, 0.4);
-  EXPECT_TRUE(faired->report.withinBudget);
+  EXPECT_TRUE(faired->report.withinTolerance);
 }
 
 TEST(Monotone, KeepsExtremaByPlace) {

@@ -70,7 +70,7 @@ TEST(DrawnProfile, TheCurveFollowsIt) {
   params.profile = {{0.0, 0.006}, {1.0, 0.014}};
   const auto faired = fair(start, false, params, {});
   ASSERT_TRUE(faired) << faired.error().message;
-  EXPECT_TRUE(faired->report.withinBudget);
+  EXPECT_TRUE(faired->report.withinTolerance);
   const auto samples = sampleByArcLength(faired->curve, 101);
   const double scale = 120.0 / samples.back().s;  // profiles scale with the length
   for (const CurveSample& s : samples) EXPECT_NEAR(s.kappa, scale * (0.006 + 0.008 * s.s / samples.back().s), 2e-5);
@@ -114,7 +114,7 @@ TEST(SplitProfile, TwoRampsThatOnePolynomialCannotFollow) {
   params.target = 1;
   const auto faired = fair(test::noisy(start, 0.001, 3), false, params, {});
   ASSERT_TRUE(faired);
-  EXPECT_TRUE(faired->report.withinBudget) << faired->report.neededMm;
+  EXPECT_TRUE(faired->report.withinTolerance) << faired->report.neededMm;
   EXPECT_EQ(faired->report.extremaAfter, 1);
 }
 

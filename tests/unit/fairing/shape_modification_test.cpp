@@ -150,10 +150,10 @@ TEST(ModifyShape, NeverLeavesTheToleranceAndSaysWhy) {
     ASSERT_TRUE(faired) << faired.error().message;
     EXPECT_LE(deviation(faired->curve, start).max, tolerance);
     EXPECT_LE(deviation(start, faired->curve).max, tolerance);
-    EXPECT_EQ(faired->report.withinBudget, faired->report.neededMm <= tolerance);
-    EXPECT_EQ(faired->report.why == Termination::ToleranceLimited, !faired->report.withinBudget);
+    EXPECT_EQ(faired->report.withinTolerance, faired->report.neededMm <= tolerance);
+    EXPECT_EQ(faired->report.why == Termination::ToleranceLimited, !faired->report.withinTolerance);
     EXPECT_LE(faired->report.objectiveAfter, before * 1.001);
-    if (!faired->report.withinBudget) {
+    if (!faired->report.withinTolerance) {
       EXPECT_GT(faired->report.maxDeviationMm, 0.8 * tolerance);
     }
     before = faired->report.objectiveAfter;

@@ -23,7 +23,7 @@ PipelineOutput run(const Recipe& recipe, StageCache& cache, int threads = 1, Sta
 /// First stage that did not come from the cache.
 std::optional<StageId> firstRerun(const PipelineOutput& out) {
   for (const StageId stage : kStages) {
-    if (!out.timing[stage].fromCache) return stage;
+    if (!out.timing[indexOf(stage)].fromCache) return stage;
   }
   return std::nullopt;
 }

@@ -23,7 +23,7 @@ QPushButton* plainButton(const QString& text, const QString& name, QWidget* pare
 QPushButton* linkButton(const QString& text, const QString& name, QWidget* parent);  ///< Accent text without frame.
 
 /// Numbers in rows with hairlines: a name at the left, one or two columns at the right. Amber marks what is over
-/// budget.
+/// tolerance.
 class FigureTable : public QWidget {
   Q_OBJECT
  public:

@@ -110,7 +110,7 @@ QString hint(PanelStage stage, bool isOpen) {
 QString key(PanelStage stage) {
   static constexpr std::array kKeys = {"scan",    "threshold", "clean-up", "edges",
                                        "corners", "curves",    "fairing",  "export"};
-  return QString::fromLatin1(kKeys[stage]);
+  return QString::fromLatin1(kKeys[indexOf(stage)]);
 }
 
 StageState stateOf(PanelStage panel, const EditorSession& session) {

@@ -15,6 +15,8 @@ enum class PanelStage { Scan, Threshold, CleanUp, Edges, Corners, Curves, Fairin
 inline constexpr std::array kPanelStages = {PanelStage::Scan,    PanelStage::Threshold, PanelStage::CleanUp,
                                             PanelStage::Edges,   PanelStage::Corners,   PanelStage::Curves,
                                             PanelStage::Fairing, PanelStage::Export};
+/// Its place in arrays with one entry a panel.
+constexpr std::size_t indexOf(PanelStage stage) { return static_cast<std::size_t>(stage); }
 QString label(PanelStage);
 QString hint(PanelStage, bool isOpen);  ///< One line: what to do here, with a drawing open or without.
 /// "scan", "threshold", …: object names, help pages, settings.

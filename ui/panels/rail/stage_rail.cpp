@@ -99,7 +99,7 @@ StageRail::StageRail(EditorSession& session, QWidget* parent) : QWidget(parent),
 
 void StageRail::setCurrent(PanelStage stage) {
   current_ = stage;
-  buttons_[stage]->setChecked(true);
+  buttons_[indexOf(stage)]->setChecked(true);
 }
 
 void StageRail::setExported(bool exported) {
@@ -110,8 +110,8 @@ void StageRail::setExported(bool exported) {
 void StageRail::refresh() {
   for (const PanelStage stage : kPanelStages) {
     const bool written = stage == PanelStage::Export && exported_;
-    buttons_[stage]->show(written ? StageState::Done : stateOf(stage, session_),
-                          written ? QStringLiteral("✓") : tally(stage, session_));
+    buttons_[indexOf(stage)]->show(written ? StageState::Done : stateOf(stage, session_),
+                                   written ? QStringLiteral("✓") : tally(stage, session_));
   }
 }
 

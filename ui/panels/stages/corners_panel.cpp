@@ -141,7 +141,7 @@ void CornersPanel::buildSuggestions() {
             {QStringLiteral("corners.suggestAngle"), tr("Smallest angle of a suggested corner"), QStringLiteral("°"),
              kLowestAngleDeg, kHighestAngleDeg},
             angle_, angleTrack_);
-  addSlider(tr("Looked at over"),
+  addSlider(tr("Window length"),
             tr("How much of the line on either side says that it turns. Larger: ragged edges count less, small corners "
                "are missed."),
             {QStringLiteral("corners.suggestScale"), tr("Length over which a turn is looked at"), QStringLiteral("px"),

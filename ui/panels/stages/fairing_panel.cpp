@@ -21,8 +21,8 @@
 namespace batten {
 namespace {
 
-/// Slider range of the budget: what a hand-drawn line can need. The field takes any allowed value.
-constexpr double kLeastBudgetMm = 0.01, kMostBudgetMm = 5.0;
+/// Slider range of the tolerance: what a hand-drawn line can need. The field takes any allowed value.
+constexpr double kLeastToleranceMm = 0.01, kMostToleranceMm = 5.0;
 
 }  // namespace
 
@@ -31,14 +31,14 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       session_(session),
       scope_(new SegmentedControl({tr("All curves"), tr("Selected curve")}, this)),
       mode_(new SegmentedControl({tr("None"), tr("Target"), tr("Smooth"), tr("Monotone"), tr("Low-pass")}, this)),
-      budget_(new ParameterRow(session, *findParameter("fairing.tolerance"), this)),
+      tolerance_(new ParameterRow(session, *findParameter("fairing.tolerance"), this)),
       keep_(new ParameterRow(session, *findParameter("fairing.keep_extrema"), this)),
       wavelength_(new ParameterRow(session, *findParameter("fairing.lowpass"), this)),
       spend_(new ParameterRow(session, *findParameter("fairing.spend"), this)),
       moves_(new ParameterRow(session, *findParameter("fairing.moves"), this)),
       editor_(new ParameterEditor(session, {"fairing.samples", "fairing.quantity", "fairing.monotone"}, this)),
       note_(note({}, this)),
-      raise_(linkButton(tr("Raise the budget"), QStringLiteral("fairing.raise"), this)),
+      raise_(linkButton(tr("Raise the tolerance"), QStringLiteral("fairing.raise"), this)),
       useForAll_(linkButton(tr("Use this for all curves"), QStringLiteral("fairing.useForAll"), this)),
       followAll_(linkButton(tr("Follow the common setting"), QStringLiteral("fairing.followAll"), this)),
       split_(linkButton({}, QStringLiteral("fairing.split"), this)),
@@ -59,12 +59,13 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
                   {QStringLiteral("none"), QStringLiteral("target"), QStringLiteral("tolerance"),
                    QStringLiteral("monotone"), QStringLiteral("lowpass")});
   mode_->setToolTip(
-      tr("None: as sketched. Target: follow a profile of the curvature. Smooth within budget: the smallest change of "
+      tr("None: as sketched. Target: follow a profile of the curvature. Smooth within the tolerance: the smallest "
+         "change of "
          "curvature that "
-         "the budget "
+         "the tolerance "
          "allows. Monotone: curvature without a turn, or with few. Low-pass: without short waves."));
   layout->addWidget(mode_);
-  buildBudget();
+  buildTolerance();
   layout->addWidget(keep_);
   layout->addWidget(wavelength_);
   layout->addWidget(spend_);
@@ -94,7 +95,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   layout->addStretch();
   connect(scope_, &SegmentedControl::chosen, this, [this](int index) {
     oneCurve_ = index == 1;
-    budget_->sync();
+    tolerance_->sync();
     refresh();
   });
   connect(mode_, &SegmentedControl::chosen, this, [this](int index) { setMode(static_cast<FairingMode>(index)); });
@@ -110,7 +111,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
                            [needed](PieceChoice& choice) { choice.toleranceMm = needed; });
       else
         after.fairing.toleranceMm = needed;
-      session_.change(tr("Deviation budget"), std::move(after));
+      session_.change(tr("Tolerance"), std::move(after));
     }
   });
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
@@ -122,12 +123,12 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   refresh();
 }
 
-void FairingPanel::buildBudget() {
-  budget_->setLabel(tr("Deviation budget"));
-  budget_->setSliderRange(kLeastBudgetMm, kMostBudgetMm);
-  bindToScope(budget_,
+void FairingPanel::buildTolerance() {
+  tolerance_->setLabel(tr("Tolerance"));
+  tolerance_->setSliderRange(kLeastToleranceMm, kMostToleranceMm);
+  bindToScope(tolerance_,
               [](PieceChoice& choice, const FairingParams& params) { choice.toleranceMm = params.toleranceMm; });
-  static_cast<QVBoxLayout*>(layout())->addWidget(budget_);
+  static_cast<QVBoxLayout*>(layout())->addWidget(tolerance_);
 }
 
 void FairingPanel::bindToScope(ParameterRow* row,
@@ -247,8 +248,8 @@ void FairingPanel::refresh() {
   scope_->setCurrent(oneCurve_ ? 1 : 0);
   const FairingParams params = shown(session_.recipe());
   mode_->setCurrent(static_cast<int>(params.mode));
-  budget_->sync();
-  budget_->setEnabled(params.mode != FairingMode::None);
+  tolerance_->sync();
+  tolerance_->setEnabled(params.mode != FairingMode::None);
   ends_->refresh();
   refreshLinks(params);
   useForAll_->setVisible(several && own);
@@ -276,7 +277,7 @@ void FairingPanel::refreshFigures() {
        tr("Places where the curvature turns back: fewer is fairer.")},
       {tr("Moved at most, mm"),
        {none, faired ? FigureTable::Cell{mm(report.maxDeviationMm), over} : none},
-       tr("Largest distance of the faired curve from the sketched one; never above the budget.")},
+       tr("Largest distance of the faired curve from the sketched one; never above the tolerance.")},
       {tr("Off the line, mm"),
        {{mm(before.fromPoints.max)}, faired ? FigureTable::Cell{mm(after.fromPoints.max)} : none},
        tr("Largest distance of an edge point of the scan from the curve.")}};
@@ -294,9 +295,9 @@ void FairingPanel::refreshFigures() {
   }
   figures_->setRows(std::move(rows));
   QString text = QString::fromStdString(report.note);
-  if (faired && !report.withinBudget) {
-    if (text.isEmpty()) text = tr("The budget stops the curve before it meets the target.");
-    raise_->setText(tr("Needs %1: raise the budget").arg(millimetres(report.neededMm)));
+  if (faired && !report.withinTolerance) {
+    if (text.isEmpty()) text = tr("The tolerance stops the curve before it meets the target.");
+    raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(report.neededMm)));
     raise_->setVisible(report.neededMm > curve->fairingUsed.toleranceMm && report.neededMm <= 20.0);
   }
   note_->setText(text);

@@ -17,7 +17,7 @@ class ParameterEditor;
 class ParameterRow;
 class SegmentedControl;
 
-/// How curves are faired: for all of them or for the selected one alone; the deviation budget; before and after.
+/// How curves are faired: for all of them or for the selected one alone; the tolerance; before and after.
 class FairingPanel : public QWidget {
   Q_OBJECT
  public:
@@ -27,7 +27,7 @@ class FairingPanel : public QWidget {
   void comparisonAsked();  ///< The user wants to compare shapes.
 
  private:
-  void buildBudget();
+  void buildTolerance();
   void refresh();
   void refreshFigures();
   /// Settings that the controls show: the selected curve's own where they act on it alone.
@@ -44,7 +44,7 @@ class FairingPanel : public QWidget {
   EditorSession& session_;
   SegmentedControl* scope_;
   SegmentedControl* mode_;
-  ParameterRow* budget_;
+  ParameterRow* tolerance_;
   ParameterRow* keep_;
   ParameterRow* wavelength_;
   ParameterRow* spend_;

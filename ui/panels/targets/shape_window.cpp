@@ -200,7 +200,7 @@ void ShapeWindow::refreshTable() {
                     {{p.valid ? number(p.similarity, 5) : none},
                      {p.valid ? number(p.pearson, 3) : none},
                      {p.valid ? number(p.rmsPercent, 1) : none},
-                     {faired ? number(faired->report.neededMm, 3) : none, faired && !faired->report.withinBudget},
+                     {faired ? number(faired->report.neededMm, 3) : none, faired && !faired->report.withinTolerance},
                      {faired ? QString::number(faired->report.extremaAfter) : none},
                      {usable ? number(p.aicc, 1) : none}},
                     p.valid ? (p.isMonotone ? tr("Monotone profile.") : tr("This profile turns back."))
@@ -209,12 +209,13 @@ void ShapeWindow::refreshTable() {
   if (rows.empty()) rows.push_back({tr("No curve selected"), {}, {}});
   table_->setRows(std::move(rows));
   recommendation_->setText(
-      isAdvised     ? tr("✓ recommended: the degree that explains the curve with the fewest coefficients (smallest "
-                             "AICc). S alone must rise with the degree and cannot choose.")
-      : nearest > 0 ? tr("Closest shape: %1 (smallest AICc). It is not recommended, as it needs more than the budget, "
-                         "adds bumps, moves nothing or is unlike the curve.")
-                          .arg(degreeName(nearest))
-                    : QString());
+      isAdvised ? tr("✓ recommended: the degree that explains the curve with the fewest coefficients (smallest "
+                     "AICc). S alone must rise with the degree and cannot choose.")
+      : nearest > 0
+          ? tr("Closest shape: %1 (smallest AICc). It is not recommended, as it needs more than the tolerance, "
+               "adds bumps, moves nothing or is unlike the curve.")
+                .arg(degreeName(nearest))
+          : QString());
 }
 
 void ShapeView::show(const ShapeComparison& comparison, bool radius) {

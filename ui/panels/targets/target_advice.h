@@ -6,10 +6,10 @@
 namespace batten {
 
 /// Whether a target's curve can be advised, said alike wherever the six targets are shown. `degree` is 1 to 6.
-/// The target is met, and its curve stays within the budget.
-bool isWithinBudget(const TargetOutcomes&, int degree, double budgetMm);
-/// Within the budget, without more bumps than before; it moves the curve at all, and its profile is like the sketch's
-/// (similarity S of 0.2 and more).
-bool isAdvisable(const TargetOutcomes&, int degree, double budgetMm);
+/// The target is met, and its curve stays within the tolerance.
+bool isWithinTolerance(const TargetOutcomes&, int degree, double toleranceMm);
+/// Within the tolerance, without more bumps than before; it moves the curve at all, and its profile is like the
+/// sketch's (similarity S of 0.2 and more).
+bool isAdvisable(const TargetOutcomes&, int degree, double toleranceMm);
 
 }  // namespace batten

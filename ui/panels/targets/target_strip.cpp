@@ -68,11 +68,11 @@ QString TargetTile::problem() const {
   return {};
 }
 
-void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double budgetMm, bool chosen, bool oneCurve,
+void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double toleranceMm, bool chosen, bool oneCurve,
                       const QString& waiting) {
   outcomes_ = std::move(outcomes);
   waiting_ = outcomes_ ? QString() : waiting;
-  budgetMm_ = budgetMm;
+  toleranceMm_ = toleranceMm;
   chosen_ = chosen;
   const QString name = tr("Target %1, %2").arg(degree_).arg(degreeName(degree_));
   QString spoken = name, tip = name;
@@ -91,13 +91,14 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double bud
                     counted(faired.report.extremaAfter, tr("1 curvature extremum"), tr("%1 curvature extrema")));
     if (const int more = faired.report.extremaAfter - faired.report.extremaBefore; more > 0)
       tip += counted(more, tr("\nThat is 1 more than the sketch has."), tr("\nThat is %1 more than the sketch has."));
-    if (!faired.report.withinBudget) tip += tr("\nTo meet it fully needs %1.").arg(millimetres(faired.report.neededMm));
+    if (!faired.report.withinTolerance)
+      tip += tr("\nTo meet it fully needs %1.").arg(millimetres(faired.report.neededMm));
     if (!profile.isMonotone) tip += tr("\nThis profile turns back: it is not monotone.");
   }
   tip += QLatin1Char('\n') + (oneCurve ? tr("Click or press %1: for the selected curve.").arg(degree_)
                                        : tr("Click or press %1: for all curves.").arg(degree_));
   if (outcomes_ && outcomes_->recommendedDegree == degree_)
-    spoken += isAdvisable(*outcomes_, degree_, budgetMm_) ? tr(", recommended") : tr(", simplest fit");
+    spoken += isAdvisable(*outcomes_, degree_, toleranceMm_) ? tr(", recommended") : tr(", simplest fit");
   if (!outcomes_ && !waiting_.isEmpty()) spoken += QStringLiteral(", ") + waiting_;
   if (chosen_) spoken += tr(", chosen");
   setAccessibleName(spoken);
@@ -137,9 +138,9 @@ void TargetTile::paintTitle(QPainter& painter, const QRectF& title) const {
   painter.setPen(isEnabled() ? theme.text : theme.mute);
   painter.drawText(title, Qt::AlignLeft | Qt::AlignVCenter, number);
   const double numberWidth = painter.fontMetrics().horizontalAdvance(number) + 5;
-  // The shape nearest to the sketch is only advice where the budget allows it.
+  // The shape nearest to the sketch is only advice where the tolerance allows it.
   const bool isNearest = outcomes_ && outcomes_->recommendedDegree == degree_;
-  const bool isAdvised = isNearest && isAdvisable(*outcomes_, degree_, budgetMm_);
+  const bool isAdvised = isNearest && isAdvisable(*outcomes_, degree_, toleranceMm_);
   const QFontMetricsF metrics(uiFont(12)), small(uiFont(11));
   const double nameWidth = metrics.horizontalAdvance(degreeName(degree_));
   QString word = isAdvised ? tr("recommended") : isNearest ? tr("simplest fit") : QString();
@@ -187,8 +188,8 @@ void TargetTile::paintFigures(QPainter& painter, const QRectF& box) const {
   const Theme& theme = themeOf(palette());
   const auto index = static_cast<std::size_t>(degree_ - 1);
   const FairingReport& report = outcomes_->faired[index]->report;
-  const bool over = !isWithinBudget(*outcomes_, degree_, budgetMm_);
-  // What meeting the target takes is the number that decides; the curve itself never leaves the budget.
+  const bool over = !isWithinTolerance(*outcomes_, degree_, toleranceMm_);
+  // What meeting the target takes is the number that decides; the curve itself never leaves the tolerance.
   const double mm = over ? std::max(report.neededMm, report.maxDeviationMm) : report.maxDeviationMm;
   painter.setFont(uiFont(11));
   const QFontMetricsF metrics(painter.font());
@@ -274,10 +275,10 @@ void TargetStrip::refresh() {
   const TracedCurve* curve = session_.selected();
   const auto targets = session_.targets();
   int chosen = 0;
-  double budget = session_.recipe().fairing.toleranceMm;
+  double tolerance = session_.recipe().fairing.toleranceMm;
   if (curve) {
     const FairingParams used = fairingAsked(session_);
-    budget = used.toleranceMm;
+    tolerance = used.toleranceMm;
     if (used.mode == FairingMode::Target && used.target != kDrawnTarget)
       chosen = used.target > 0 ? used.target : targets ? targets->recommendedDegree : 0;
   }
@@ -286,7 +287,7 @@ void TargetStrip::refresh() {
                           : session_.isStopped()   ? tr("stopped")
                                                    : QString();
   for (int degree = 1; degree <= 6; ++degree)
-    tiles_[degree - 1]->show(curve ? targets : nullptr, budget, degree == chosen, choosesForOneCurve(session_),
+    tiles_[degree - 1]->show(curve ? targets : nullptr, tolerance, degree == chosen, choosesForOneCurve(session_),
                              waiting);
 }
 

@@ -15,9 +15,9 @@ class TargetTile : public QAbstractButton {
   Q_OBJECT
  public:
   TargetTile(int degree, QWidget* parent);
-  /// @param budgetMm deviations above it are amber.
+  /// @param toleranceMm deviations above it are amber.
   /// @param waiting what an empty tile says.
-  void show(std::shared_ptr<const TargetOutcomes> outcomes, double budgetMm, bool chosen, bool oneCurve,
+  void show(std::shared_ptr<const TargetOutcomes> outcomes, double toleranceMm, bool chosen, bool oneCurve,
             const QString& waiting);
   QSize sizeHint() const override { return {156, 97}; }
   QSize minimumSizeHint() const override { return {96, 97}; }
@@ -42,7 +42,7 @@ class TargetTile : public QAbstractButton {
   int degree_;
   std::shared_ptr<const TargetOutcomes> outcomes_;
   QString waiting_;
-  double budgetMm_ = 0.0;
+  double toleranceMm_ = 0.0;
   bool chosen_ = false;
 };
 
