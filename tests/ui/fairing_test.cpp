@@ -47,7 +47,7 @@ class FairingWindow : public test::WindowFixture {
   }
 };
 
-TEST_F(FairingWindow, EndsAndUseOfTheBudgetBelongToTheCurveWhileItIsMeant) {
+TEST_F(FairingWindow, EndsAndUseOfTheToleranceBelongToTheCurveWhileItIsMeant) {
   ASSERT_NO_FATAL_FAILURE(openPage(test::drawnPage({640, 400}, [](QPainter& painter) {
     painter.drawArc(QRectF(80, 60, 480, 240), 20 * 16, 140 * 16);
     painter.drawArc(QRectF(80, 160, 480, 240), 20 * 16, 140 * 16);

@@ -34,11 +34,11 @@ TEST_F(Layout, InALowWindowTheDrawingComesFirst) {
   EXPECT_TRUE(waitUntil([&] { return plots->isVisible() && plots->height() == roomy; }, 5000)) << plots->height();
 }
 
-TEST_F(Layout, OnlyWhatTheBudgetAllowsIsRecommended) {
+TEST_F(Layout, OnlyWhatTheToleranceAllowsIsRecommended) {
   openPage(test::zigzagPage());
   Recipe recipe = session().recipe();
   recipe.fairing.toleranceMm = 0.01;
-  session().change(QStringLiteral("Budget"), recipe);
+  session().change(QStringLiteral("Tolerance"), recipe);
   ASSERT_TRUE(settle());
   ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr && !session().isTargeting(); }));
   const int degree = session().targets()->recommendedDegree;

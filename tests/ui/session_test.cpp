@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <QCoreApplication>
+#include <QElapsedTimer>
 #include <QFile>
 #include <QPointer>
 #include <QSignalSpy>
@@ -187,17 +188,17 @@ TEST(EditorSession, ClosesWhileItWorks) {
   session->openScan(path);
   ASSERT_TRUE(waitUntil([&] { return session->hasScan(); }));
   EXPECT_TRUE(session->isBusy());
-  int told = 0;
-  QObject::connect(session.get(), &EditorSession::stageReady, qApp, [&told] { ++told; });
+  // Another session, opened afterwards, gets all its stages while the abandoned run ends: nothing of the first one is
+  // posted to an object that is gone (address sanitizer), and nothing waits for it.
   const QPointer<EditorSession> watched = session.get();
-  const auto before = told;
+  QElapsedTimer closing;
+  closing.start();
   session.reset();
   EXPECT_TRUE(watched.isNull());
-  for (int i = 0; i < 20; ++i) {
-    QCoreApplication::processEvents();
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  EXPECT_EQ(told, before) << "no result arrives at a session that is gone";
+  EXPECT_LT(closing.elapsed(), 2000) << "closing waits at most for the step that runs";
+  OpenSession next(test::zigzagPage());
+  ASSERT_TRUE(next.isReady);
+  EXPECT_FALSE(next.session.isStale(StageId::Faired));
 }
 
 TEST(EditorSession, TheSelectionStaysWithItsPlace) {

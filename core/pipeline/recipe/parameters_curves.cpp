@@ -250,10 +250,10 @@ void appendFairing(std::vector<Parameter>& table) {
       {"fairing.mode", "Fairing", "",
        "Off; towards a curvature profile; as even as the tolerance allows; curvature monotone between few extrema; or "
        "without its short waves."},
-      {{"none", "Off", FairingMode::None},
-       {"target", "Target profile", FairingMode::Target},
-       {"tolerance", "Smooth within the tolerance", FairingMode::Tolerance},
-       {"monotone", "Monotone curvature", FairingMode::Monotone},
+      {{"none", "None", FairingMode::None},
+       {"target", "Target", FairingMode::Target},
+       {"tolerance", "Smooth", FairingMode::Tolerance},
+       {"monotone", "Monotone", FairingMode::Monotone},
        {"lowpass", "Low-pass", FairingMode::LowPass}},
       [](auto& r) -> auto& { return r.fairing.mode; }));
   table.push_back(choice<int>(

@@ -11,7 +11,6 @@ namespace batten {
 namespace {
 
 /// To be raised for a stage whose algorithm gives other results than before.
-constexpr std::array<int, kStages.size()> kAlgorithmVersions = {1, 1, 1, 1, 1, 1, 1, 1, 1};
 
 void add(HashBuilder& h, const std::optional<double>& v) {
   h.integer(v.has_value());
@@ -134,7 +133,7 @@ StageKeys stageKeys(const Scan& scan, const Recipe& recipe, const PageFrame& fra
   const ContentHash* input = &first;
   for (std::size_t i = 0; i < kStages.size(); ++i) {
     HashBuilder h;
-    h.text(name(kStages[i])).integer(kAlgorithmVersions[i]).hash(*input);
+    h.text(name(kStages[i])).hash(*input);
     addOwn(h, kStages[i], recipe, frame);
     result.keys[i] = h.finish();
     if (kStages[i] == StageId::Contours) {

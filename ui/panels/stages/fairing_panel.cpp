@@ -24,13 +24,41 @@ namespace {
 /// Slider range of the tolerance: what a hand-drawn line can need. The field takes any allowed value.
 constexpr double kLeastToleranceMm = 0.01, kMostToleranceMm = 5.0;
 
+const Parameter& modeParameter() { return *findParameter("fairing.mode"); }
+
+QStringList labelsOf(const Parameter& parameter) {
+  QStringList labels;
+  for (const std::string& label : parameter.choiceLabels) labels << FairingPanel::tr(label.c_str());
+  return labels;
+}
+
+QStringList wordsOf(const Parameter& parameter) {
+  QStringList words;
+  for (const std::string& word : parameter.choices) words << QString::fromStdString(word);
+  return words;
+}
+
+/// The mode that the segment stands for, by its word in the parameter table.
+FairingMode modeAt(int segment) {
+  Recipe recipe;
+  modeParameter().set(recipe, modeParameter().choices.at(static_cast<std::size_t>(segment)));
+  return recipe.fairing.mode;
+}
+
+int segmentOf(FairingMode mode) {
+  Recipe recipe;
+  recipe.fairing.mode = mode;
+  const auto& words = modeParameter().choices;
+  return static_cast<int>(std::find(words.begin(), words.end(), modeParameter().get(recipe)) - words.begin());
+}
+
 }  // namespace
 
 FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
       scope_(new SegmentedControl({tr("All curves"), tr("Selected curve")}, this)),
-      mode_(new SegmentedControl({tr("None"), tr("Target"), tr("Smooth"), tr("Monotone"), tr("Low-pass")}, this)),
+      mode_(new SegmentedControl(labelsOf(modeParameter()), this)),
       tolerance_(new ParameterRow(session, *findParameter("fairing.tolerance"), this)),
       keep_(new ParameterRow(session, *findParameter("fairing.keep_extrema"), this)),
       wavelength_(new ParameterRow(session, *findParameter("fairing.lowpass"), this)),
@@ -55,15 +83,10 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   scope_->setNames(QStringLiteral("fairing.scope"), {QStringLiteral("all"), QStringLiteral("one")});
   scope_->setToolTip(tr("Whether the settings below act on the whole drawing or on the selected curve alone."));
   layout->addWidget(scope_);
-  mode_->setNames(QStringLiteral("fairing.mode"),
-                  {QStringLiteral("none"), QStringLiteral("target"), QStringLiteral("tolerance"),
-                   QStringLiteral("monotone"), QStringLiteral("lowpass")});
+  mode_->setNames(QStringLiteral("fairing.mode"), wordsOf(modeParameter()));
   mode_->setToolTip(
-      tr("None: as sketched. Target: follow a profile of the curvature. Smooth within the tolerance: the smallest "
-         "change of "
-         "curvature that "
-         "the tolerance "
-         "allows. Monotone: curvature without a turn, or with few. Low-pass: without short waves."));
+      tr("None: as sketched. Target: follow a profile of the curvature. Smooth: the smallest change of curvature that "
+         "the tolerance allows. Monotone: curvature without a turn, or with few. Low-pass: without short waves."));
   layout->addWidget(mode_);
   buildTolerance();
   layout->addWidget(keep_);
@@ -98,7 +121,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
     tolerance_->sync();
     refresh();
   });
-  connect(mode_, &SegmentedControl::chosen, this, [this](int index) { setMode(static_cast<FairingMode>(index)); });
+  connect(mode_, &SegmentedControl::chosen, this, [this](int index) { setMode(modeAt(index)); });
   connect(useForAll_, &QPushButton::clicked, this, &FairingPanel::useForAll);
   connect(followAll_, &QPushButton::clicked, this, &FairingPanel::followAll);
   connect(raise_, &QPushButton::clicked, this, [this] {
@@ -247,7 +270,7 @@ void FairingPanel::refresh() {
   scope_->setSegmentEnabled(1, selected >= 0);
   scope_->setCurrent(oneCurve_ ? 1 : 0);
   const FairingParams params = shown(session_.recipe());
-  mode_->setCurrent(static_cast<int>(params.mode));
+  mode_->setCurrent(segmentOf(params.mode));
   tolerance_->sync();
   tolerance_->setEnabled(params.mode != FairingMode::None);
   ends_->refresh();
