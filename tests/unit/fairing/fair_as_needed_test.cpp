@@ -18,7 +18,7 @@ FairingParams tolerance(double mm, TolerancePolicy tolerancePolicy = TolerancePo
   FairingParams params;
   params.mode = FairingMode::Tolerance;
   params.toleranceMm = mm;
-  params.tolerancePolicy = spend;
+  params.tolerancePolicy = tolerancePolicy;
   return params;
 }
 
