@@ -68,13 +68,13 @@ TEST(PenDrawing, StrokesComeBehindTheLinesOfTheScanWithoutTracingAgain) {
   EXPECT_EQ(after.contours->contours[0].points, before.contours->contours[0].points);
   EXPECT_EQ(after.contours->contours[1].kind, ContourKind::Pen);
   EXPECT_EQ(after.faired->curves[0].sketched, before.faired->curves[0].sketched);
-  EXPECT_TRUE(after.timing[StageId::Filtered].fromCache);
+  EXPECT_TRUE(after.timing[indexOf(StageId::Filtered)].fromCache);
   // Another cache, the same result; and without the strokes all is as it was.
   StageCache fresh;
   EXPECT_EQ(run(test::ellipseScan(), recipe, fresh).faired->curves[2].sketched, after.faired->curves[2].sketched);
   EXPECT_EQ(run(test::ellipseScan(), {}, cache).contours->contours.size(), before.contours->contours.size());
   recipe.penStrokes[0].points[30].y() += 1.0;
-  EXPECT_FALSE(run(test::ellipseScan(), recipe, cache).timing[StageId::Contours].fromCache);
+  EXPECT_FALSE(run(test::ellipseScan(), recipe, cache).timing[indexOf(StageId::Contours)].fromCache);
 }
 
 TEST(PenDrawing, TheRecipeKeepsEveryPoint) {
@@ -139,7 +139,7 @@ TEST(PieceMethod, OneCurveCanBeConstructedInItsOwnWay) {
   ASSERT_FALSE(mixed.error);
   EXPECT_EQ(mixed.faired->curves[0].sketched.degree(), recipe.construct.degree);
   EXPECT_EQ(mixed.faired->curves[1].sketched, alike.faired->curves[1].sketched);
-  EXPECT_TRUE(mixed.timing[StageId::Segments].fromCache);
+  EXPECT_TRUE(mixed.timing[indexOf(StageId::Segments)].fromCache);
   // The same by trying the method on the line alone.
   Recipe other;
   other.construct.method = ConstructMethod::ControlPolygon;
