@@ -68,7 +68,7 @@ Result<MergeAdvice> adviseMerge(const Scan& scan, const Recipe& recipe, StageCac
 }
 
 ContentHash mergeAdviceKey(const Scan& scan, const Recipe& recipe) {
-  return stageKeys(scan, mergedBy(0.0, recipe), {})[indexOf(StageId::Contours)];
+  return stageKeys(scan, mergedBy(0.0, recipe), {})[StageId::Contours];
 }
 
 std::string describe(const MergeAdvice& advice) {

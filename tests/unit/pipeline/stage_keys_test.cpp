@@ -40,7 +40,7 @@ TEST(StageKeys, EveryChoiceForACurveChangesItsFairing) {
   const auto differs = [&](auto change) {
     Recipe after = recipe;
     change(after.choices.front());
-    return keysOf(after)[indexOf(StageId::Faired)] != keysOf(recipe)[indexOf(StageId::Faired)];
+    return keysOf(after)[StageId::Faired] != keysOf(recipe)[StageId::Faired];
   };
   EXPECT_TRUE(differs([](PieceChoice& c) { c.mode = FairingMode::None; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.target = 0; }));
