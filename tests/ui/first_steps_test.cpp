@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "tests/ui/window_fixture.h"
-#include "ui/canvas/layers/vector_layers.h"
+#include "ui/canvas/layers/chip_layer.h"
 #include "ui/canvas/scene/canvas_scene.h"
 #include "ui/canvas/scene/comb_runs.h"
 #include "ui/panels/controls/number_field.h"
