@@ -139,9 +139,7 @@ TEST_F(Unsaved, TheBoxOnTheScreenSavesAndCloses) {
   const QString target = folder_.filePath(QStringLiteral("kept.json"));
   inDialog(
       [&](QWidget& dialog) {
-        QTimer::singleShot(0, [&, target] {
-          saveAs(target, [target] { EXPECT_TRUE(test::waitUntil([&] { return QFile::exists(target); })); });
-        });
+        QTimer::singleShot(0, [this, target] { saveAsOnceItIsThere(target); });
         press("Save")(dialog);
       },
       [this] { EXPECT_TRUE(window_->close()); });

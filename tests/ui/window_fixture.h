@@ -67,6 +67,19 @@ class WindowFixture : public testing::Test {
         },
         open);
   }
+  /// The same for a dialog that somebody else opens, soon.
+  void saveAsOnceItIsThere(const QString& path) {
+    bool isTyped = false;
+    inDialog(
+        [&](QWidget& dialog) {
+          auto* edit = dialog.findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
+          ASSERT_NE(edit, nullptr);
+          isTyped = true;
+          edit->setText(path);
+          QTest::keyClick(edit, Qt::Key_Return);
+        },
+        [&] { EXPECT_TRUE(waitUntil([&] { return isTyped; })); });
+  }
   void openPage(const QImage& page) {
     path_ = folder_.filePath(QStringLiteral("page.png"));
     ASSERT_TRUE(page.save(path_));
