@@ -8,7 +8,7 @@
 #include <QPushButton>
 #include <QStandardPaths>
 
-#include "core/exchange/writers.h"
+#include "core/exchange/save_atomically.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"

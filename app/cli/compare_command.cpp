@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/cli/exit_codes.h"
-#include "core/exchange/writers.h"
+#include "core/exchange/curve_json.h"
 #include "core/fairing/curve_comparison.h"
 
 namespace batten::cli {

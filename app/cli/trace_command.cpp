@@ -17,9 +17,13 @@
 #include "core/base/conventions.h"
 #include "core/document/export_builder.h"
 #include "core/document/report.h"
-#include "core/exchange/writers.h"
+#include "core/exchange/curve_json.h"
+#include "core/exchange/save_atomically.h"
+#include "core/exchange/svg_writer.h"
 #include "core/image/scan_reader.h"
 #include "core/pipeline/recipe/recipe_file.h"
+#include "core/pipeline/run/curve_targets.h"
+#include "core/pipeline/run/piece_choices.h"
 
 namespace batten::cli {
 namespace {

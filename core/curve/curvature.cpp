@@ -177,6 +177,11 @@ std::vector<CurvatureExtremumPoint> curvatureExtrema(const NurbsCurve& curve, do
   return extrema;
 }
 
+int countedExtrema(const NurbsCurve& curve, bool periodic) {
+  const double size = extent(curve);
+  return size > 0.0 ? static_cast<int>(curvatureExtrema(curve, kExtremumProminence / size, periodic).size()) : 0;
+}
+
 std::vector<double> inflections(const NurbsCurve& curve, double threshold, bool periodic) {
   const Profile profile(curve);
   std::vector<double> result;

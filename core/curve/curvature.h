@@ -14,13 +14,19 @@ std::optional<double> curvature(const NurbsCurve&, double u);
 /// Derivative of the curvature with respect to arc length. Absent where the first derivative vanishes.
 std::optional<double> curvatureSlope(const NurbsCurve&, double u);
 
+/// [1/extent] A smaller rise of the curvature is seen by no eye and in no reflection: extrema, inflections and their
+/// counts everywhere take this over the extent of the curve.
+inline constexpr double kExtremumProminence = 5e-3;
+
 struct CurvatureExtremumPoint {
   double u = 0.0, s = 0.0, kappa = 0.0;
   bool maximum = true;
 };
 /// Extrema of the signed curvature whose rise above both neighbouring extrema (or ends) exceeds `prominence` [1/unit].
-/// Suggested prominence: 5e-3 / diagonal of the bounding box. `periodic`: the end continues at the start.
+/// Usual prominence: kExtremumProminence / extent. `periodic`: the end continues at the start.
 std::vector<CurvatureExtremumPoint> curvatureExtrema(const NurbsCurve&, double prominence, bool periodic);
+/// Number of extrema of the usual prominence; 0 for a point.
+int countedExtrema(const NurbsCurve&, bool periodic);
 /// Parameters of sign changes of the curvature that reach beyond +-`threshold` [1/unit] on both sides.
 std::vector<double> inflections(const NurbsCurve&, double threshold, bool periodic);
 

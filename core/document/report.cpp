@@ -8,6 +8,8 @@
 
 #include "core/construct/pieces.h"
 #include "core/fairing/curve_comparison.h"
+#include "core/fairing/fairing.h"
+#include "core/fairing/fairing_report.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/polyline/polyline_tools.h"
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/fairing/fairing.h"
 #include "core/pipeline/run/pipeline.h"
 
 namespace batten {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/curve_json.h"
+
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "core/curve/knot_operations.h"
 #include "core/exchange/export_check.h"
-#include "core/exchange/writers.h"
 
 namespace batten {
 namespace {

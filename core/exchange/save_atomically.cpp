@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/save_atomically.h"
+
 #include <QFileDevice>
 #include <QSaveFile>
 #include <QString>
 #include <cerrno>
 #include <system_error>
-
-#include "core/exchange/writers.h"
 
 namespace batten {
 namespace {

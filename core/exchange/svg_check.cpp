@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/svg_check.h"
+
 #include <QByteArray>
 #include <QXmlStreamReader>
 #include <algorithm>
@@ -10,7 +12,6 @@
 
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
-#include "core/exchange/writers.h"
 
 namespace batten {
 namespace {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/svg_writer.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -7,7 +9,6 @@
 
 #include "core/exchange/cubic_path.h"
 #include "core/exchange/export_check.h"
-#include "core/exchange/writers.h"
 
 namespace batten {
 namespace {

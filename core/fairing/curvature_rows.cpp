@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
+#include "core/fairing/curvature_rows.h"
 
-#include "core/fairing/fairing_problem.h"
+#include <cmath>
 
 namespace batten {
 

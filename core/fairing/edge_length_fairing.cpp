@@ -10,7 +10,10 @@
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
 #include "core/fairing/edge_lengths.h"
+#include "core/fairing/fairing.h"
+#include "core/fairing/fairing_report.h"
 #include "core/fairing/low_pass.h"
+#include "core/fairing/shape_modification.h"
 
 namespace batten {
 namespace {
@@ -24,7 +27,6 @@ constexpr double kUsedShare = 0.97;
 /// Room for what lies between the places where the deviation is measured.
 constexpr double kRoom = 0.999;
 constexpr int kFewPlaces = 100, kManyPlaces = 2000, kPlacesPerPiece = 64;
-constexpr double kProminence = 5e-3;
 
 /// The pieces of a path; empty for any other curve.
 std::vector<Quintic> quinticsOf(const NurbsCurve& curve) {
@@ -87,7 +89,7 @@ class EdgeLengthFairing {
       if (context_.isCancelled()) return cancelled();
       if (found && found->report.objectiveAfter < best.report.objectiveAfter) best = *found;
     }
-    const double scale = kProminence / std::max(extent(curve_), 1e-300);
+    const double scale = kExtremumProminence / std::max(extent(curve_), 1e-300);
     best.report.extremaBefore = static_cast<int>(curvatureExtrema(curve_, scale, closed_).size());
     best.report.extremaAfter = static_cast<int>(curvatureExtrema(best.curve, scale, closed_).size());
     best.report.iterations = iterations_;

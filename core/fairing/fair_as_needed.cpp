@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fairing/fair_as_needed.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,9 +8,13 @@
 
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
-#include "core/fairing/fairing_solvers.h"
+#include "core/fairing/fairing_line.h"
+#include "core/fairing/fairing_report.h"
+#include "core/fairing/fairing_state.h"
 #include "core/fairing/line_blocks.h"
+#include "core/fairing/minimise.h"
 #include "core/fairing/monotone_search.h"
+#include "core/fairing/tolerance_fairing.h"
 
 namespace batten {
 namespace {
@@ -77,7 +83,7 @@ class NeededFairing {
   int extremaOf(const std::vector<Vec2>& points) const {
     const auto curve = toCurve(setup_, points);
     if (!curve || !(setup_.extent > 0.0)) return std::numeric_limits<int>::max();
-    return static_cast<int>(curvatureExtrema(*curve, kProminence / setup_.extent, setup_.closed).size());
+    return static_cast<int>(curvatureExtrema(*curve, kExtremumProminence / setup_.extent, setup_.closed).size());
   }
   bool isWithin(const std::vector<Vec2>& points) const {
     return largestDeviation(setup_, points, true) <= kRoom * params_.toleranceMm;

@@ -2,23 +2,21 @@
 #include "core/fairing/fairing.h"
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <numeric>
 
 #include "core/base/parallel.h"
-#include "core/curve/curvature.h"
-#include "core/fairing/fairing_solvers.h"
+#include "core/fairing/fair_as_needed.h"
+#include "core/fairing/fairing_line.h"
+#include "core/fairing/fairing_report.h"
+#include "core/fairing/fairing_setup.h"
 #include "core/fairing/low_pass.h"
 #include "core/fairing/monotone_fairing.h"
+#include "core/fairing/shape_modification.h"
+#include "core/fairing/tolerance_fairing.h"
 
 namespace batten {
 namespace {
-
-int extremaOf(const NurbsCurve& curve, bool closed) {
-  const double size = extent(curve);
-  return size > 0.0 ? static_cast<int>(curvatureExtrema(curve, kProminence / size, closed).size()) : 0;
-}
 
 /// The targets of one curve, on the way.
 struct TargetsRun {
@@ -65,77 +63,6 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
 }
 
 }  // namespace
-
-Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
-                              const std::function<Result<FairedCurve>(const FairingSetup&)>& body) {
-  if (const auto error = validate(params)) return fail(*error);
-  try {
-    const auto setup = makeSetup(curve, closed, params);
-    if (setup) return body(**setup);
-    if (setup.error().code != ErrorCode::Numerical) return fail(setup.error());
-    return unchanged(curve, closed, Termination::Degenerate, setup.error().message);
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "Not enough memory to make the curve fair.");
-  }
-}
-
-std::optional<Error> validate(const FairingParams& params) {
-  if (!(params.toleranceMm >= 0.001 && params.toleranceMm <= 20.0)) {
-    return Error{
-        ErrorCode::BadParameter,
-        "The fairing tolerance must lie between 0.001 and 20 mm, not at " + std::to_string(params.toleranceMm) + ".",
-        {}};
-  }
-  if (params.target < 0 || params.target > kDrawnTarget) {
-    return Error{ErrorCode::BadParameter,
-                 "The fairing target must be 1 to 6, 0 for the recommended one or 7 for the drawn one, not " +
-                     std::to_string(params.target) + ".",
-                 {}};
-  }
-  if (!(params.lowPassMm >= 0.1 && params.lowPassMm <= 10000.0)) {
-    return Error{ErrorCode::BadParameter,
-                 "The wavelength of the low-pass must lie between 0.1 and 10000 mm, not at " +
-                     std::to_string(params.lowPassMm) + ".",
-                 {}};
-  }
-  if (params.keepExtrema < kKeepSignificant || params.keepExtrema > 99) {
-    return Error{ErrorCode::BadParameter,
-                 "The number of extrema to keep must be 0 to 99, or -1 for as few as possible, not " +
-                     std::to_string(params.keepExtrema) + ".",
-                 {}};
-  }
-  for (const double at : params.keptAt) {
-    if (!(at >= 0.0 && at <= 1.0))
-      return Error{ErrorCode::BadParameter, "An extremum to keep lies beside the curve.", {}};
-  }
-  if (auto wrong = validateProfile(params.profile)) return wrong;
-  return validate(params.targets);
-}
-
-FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std::string note) {
-  FairedCurve result;
-  result.curve = curve;
-  result.report.why = why;
-  result.report.note = std::move(note);
-  if (!curve.isEmpty()) result.report.extremaBefore = result.report.extremaAfter = extremaOf(curve, closed);
-  return result;
-}
-
-Result<FairedCurve> finished(const FairingSetup& setup, std::vector<Vec2> points, double toleranceMm,
-                             FairingReport report) {
-  report.maxDeviationMm = keepWithin(setup, toleranceMm, points);
-  auto curve = toCurve(setup, points);
-  if (!curve) return fail(curve.error());
-  report.extremaBefore = extremaOf(setup.original, setup.closed);
-  report.extremaAfter = extremaOf(*curve, setup.closed);
-  return FairedCurve{std::move(*curve), std::move(report)};
-}
-
-Result<FairedCurve> modifyShape(const NurbsCurve& curve, bool closed, const TargetProfile& profile,
-                                const FairingParams& params, const RunContext& context) {
-  return withSetup(curve, closed, params,
-                   [&](const FairingSetup& setup) { return modifyShape(setup, profile, params.toleranceMm, context); });
-}
 
 Result<FairedCurve> fairWithinTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                         const RunContext& context, const FairingLine& line) {

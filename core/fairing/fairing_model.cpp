@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fairing/fairing_model.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "core/fairing/fairing_problem.h"
 
 namespace batten {
 namespace {

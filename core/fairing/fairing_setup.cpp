@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fairing/fairing_setup.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/curve/curvature.h"
-#include "core/fairing/fairing_problem.h"
+#include "core/fairing/fairing_report.h"
 
 namespace batten {
 namespace {
 
 constexpr int kSamplesPerSpan = 4;
 constexpr int kChecksPerSpan = 12, kMostChecks = 400;
+/// Part of the tolerance that is kept for what lies between the places where the deviation is measured.
+constexpr double kMeasured = 0.999;
 constexpr double kUnseenShare = 0.01;  // of the largest distance, between the places where it is measured
 constexpr double kMostTurn = 0.5;      // [rad] of the curve from place to place
 
@@ -152,50 +156,41 @@ double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& poin
   return bothWays ? std::max(there, largestDistance(setup.reference, curve)) : there;
 }
 
-std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObjective& objective,
-                                     const FairingCorridor& corridor, std::vector<Vec2> points,
-                                     const std::vector<SpanPlace>& feet) {
-  FairingState state;
-  state.points = std::move(points);
-  state.curve = SpanCurve(setup.basis, state.points);
-  const int count = setup.sampleCount();
-  auto arc = equalArcPlaces(state.curve, count, setup.closed);
-  if (!arc) return std::nullopt;
-  state.arc = std::move(*arc);
-  const auto size = static_cast<std::size_t>(count);
-  state.jets.resize(size);
-  state.curvature.resize(size);
-  state.feet.resize(size);
-  state.distance.resize(size);
-  state.normal.resize(size);
-  state.residual.resize(count);
-  const double length = state.arc.length, domain = setup.original.end() - setup.original.start();
-  const bool profile = !objective.wanted.empty();
-  for (int i = 0; i < count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    state.jets[at] = state.curve.at(state.arc.places[at], 4);
-    const Jet& jet = state.jets[at];
-    if (!(jet[1].norm() > kCuspShare * length / domain)) return std::nullopt;
-    state.curvature[at] = curvatureJet(jet);
-    state.feet[at] = footPoint(setup.reference, jet[0], feet[at]);
-    const Jet foot = setup.reference.at(state.feet[at], 1);
-    state.normal[at] = foot[1].norm() > 0.0 ? leftNormal(foot[1].normalized()) : Vec2(Vec2::Zero());
-    const double e = state.distance[at] = (jet[0] - foot[0]).dot(state.normal[at]);
-    state.residual[i] = profile ? (state.curvature[at].kappa - setup.start.length / length * objective.wanted[at]) /
-                                      objective.reference / std::sqrt(count)
-                                : state.curvature[at].slope * std::sqrt(length / count) / objective.reference;
-    const double miss = e - setup.offsetAt(state.feet[at]);
-    state.total += corridor.weight * corridor.weight * miss * miss / count;
-    if (corridor.barrier > 0.0) {
-      const double share = e / corridor.bound;
-      if (!(std::abs(share) < 1.0)) return std::nullopt;
-      state.total -= corridor.barrier / count * std::log1p(-share * share);
-    }
+Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
+                              const std::function<Result<FairedCurve>(const FairingSetup&)>& body) {
+  if (const auto error = validate(params)) return fail(*error);
+  try {
+    const auto setup = makeSetup(curve, closed, params);
+    if (setup) return body(**setup);
+    if (setup.error().code != ErrorCode::Numerical) return fail(setup.error());
+    return unchanged(curve, closed, Termination::Degenerate, setup.error().message);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to make the curve fair.");
   }
-  state.misfit = state.residual.squaredNorm();
-  state.total += state.misfit;
-  if (!std::isfinite(state.total)) return std::nullopt;
-  return state;
+}
+
+double keepWithin(const FairingSetup& setup, double toleranceMm, std::vector<Vec2>& points) {
+  const std::vector<Vec2> goal = points;
+  double share = 1.0;
+  // The deviation is all but proportional to the share, so that this ends after one or two rounds.
+  for (int round = 0; round < 60; ++round) {
+    const double deviation = largestDeviation(setup, points, true);
+    if (deviation <= kMeasured * toleranceMm) return deviation;
+    share *= std::clamp(0.9995 * kMeasured * toleranceMm / deviation, 0.01, 0.9995);
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = setup.points[i] + share * (goal[i] - setup.points[i]);
+  }
+  points = setup.points;
+  return 0.0;
+}
+
+Result<FairedCurve> finished(const FairingSetup& setup, std::vector<Vec2> points, double toleranceMm,
+                             FairingReport report) {
+  report.maxDeviationMm = keepWithin(setup, toleranceMm, points);
+  auto curve = toCurve(setup, points);
+  if (!curve) return fail(curve.error());
+  report.extremaBefore = countedExtrema(setup.original, setup.closed);
+  report.extremaAfter = countedExtrema(*curve, setup.closed);
+  return FairedCurve{std::move(*curve), std::move(report)};
 }
 
 }  // namespace batten

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fairing/fairing_line.h"
+
 namespace batten {
 namespace {
 

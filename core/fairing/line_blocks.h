@@ -3,7 +3,9 @@
 
 #include <vector>
 
-#include "core/fairing/fairing_problem.h"
+#include "core/fairing/fairing_line.h"
+#include "core/fairing/fairing_setup.h"
+#include "core/fairing/fairing_state.h"
 
 namespace batten {
 

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/fairing/fairing_solvers.h"
+#include "core/fairing/fairing_report.h"
+#include "core/fairing/fairing_setup.h"
+#include "core/fairing/shape_modification.h"
 
 namespace batten {
 namespace {

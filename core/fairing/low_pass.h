@@ -6,7 +6,10 @@
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
-#include "core/fairing/fairing.h"
+#include "core/curve/nurbs_curve.h"
+#include "core/fairing/fairing_params.h"
+#include "core/fairing/fairing_report.h"
+#include "core/fairing/radius_target.h"
 
 namespace batten {
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fairing/minimise.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "core/fairing/fairing_problem.h"
+#include "core/fairing/fairing_model.h"
 
 namespace batten {
 namespace {

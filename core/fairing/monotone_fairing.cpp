@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <optional>
 
-#include "core/fairing/fairing_solvers.h"
+#include "core/fairing/fairing_report.h"
+#include "core/fairing/fairing_setup.h"
+#include "core/fairing/fairing_state.h"
 #include "core/fairing/monotone_search.h"
 
 namespace batten {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/solve/banded_cholesky.h"
 #include "core/solve/interior_point.h"
 
 namespace batten {

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/fairing/fairing_state.h"
 #include "core/fairing/monotone_program.h"
 
 namespace batten {

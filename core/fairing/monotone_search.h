@@ -6,7 +6,7 @@
 
 #include "core/base/run_context.h"
 #include "core/curve/curvature_structure.h"
-#include "core/fairing/fairing_problem.h"
+#include "core/fairing/fairing_setup.h"
 
 namespace batten {
 

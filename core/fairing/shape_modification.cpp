@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fairing/shape_modification.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "core/fairing/fairing_solvers.h"
+#include "core/fairing/fairing_report.h"
+#include "core/fairing/fairing_state.h"
+#include "core/fairing/minimise.h"
+#include "core/fairing/tolerance_fairing.h"
 
 namespace batten {
 namespace {
@@ -13,8 +18,6 @@ constexpr int kSearchSteps = 9;
 constexpr double kUsedShare = 0.95;
 /// A search that leaves more of it unused got stuck in the noise of a rough start; the barrier then takes over.
 constexpr double kStuckShare = 0.8;
-/// Part of the tolerance that is kept for what lies between the places where the deviation is measured.
-constexpr double kMeasured = 0.999;
 /// A reference curvature below this (times extent) would weigh a straight line's rounding as shape.
 constexpr double kSmallestReference = 1e-3;
 constexpr FairingLimits kFull{40, 1e-4}, kWarm{8, 1e-3}, kPolish{12, 1e-5};
@@ -121,20 +124,6 @@ Result<FairingObjective> objectiveOf(const FairingSetup& setup, const TargetProf
 
 }  // namespace
 
-double keepWithin(const FairingSetup& setup, double toleranceMm, std::vector<Vec2>& points) {
-  const std::vector<Vec2> goal = points;
-  double share = 1.0;
-  // The deviation is all but proportional to the share, so that this ends after one or two rounds.
-  for (int round = 0; round < 60; ++round) {
-    const double deviation = largestDeviation(setup, points, true);
-    if (deviation <= kMeasured * toleranceMm) return deviation;
-    share *= std::clamp(0.9995 * kMeasured * toleranceMm / deviation, 0.01, 0.9995);
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = setup.points[i] + share * (goal[i] - setup.points[i]);
-  }
-  points = setup.points;
-  return 0.0;
-}
-
 Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& profile, double toleranceMm,
                                 const RunContext& context) {
   const auto objective = objectiveOf(setup, profile);
@@ -188,6 +177,12 @@ Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& 
                         : "The curve is too rough to follow the profile further. Fair it by tolerance first.";
   }
   return finished(setup, std::move(points), toleranceMm, std::move(report));
+}
+
+Result<FairedCurve> modifyShape(const NurbsCurve& curve, bool closed, const TargetProfile& profile,
+                                const FairingParams& params, const RunContext& context) {
+  return withSetup(curve, closed, params,
+                   [&](const FairingSetup& setup) { return modifyShape(setup, profile, params.toleranceMm, context); });
 }
 
 }  // namespace batten

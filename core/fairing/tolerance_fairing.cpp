@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fairing/tolerance_fairing.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "core/fairing/fairing_solvers.h"
+#include "core/fairing/fairing_report.h"
+#include "core/fairing/minimise.h"
 
 namespace batten {
 namespace {

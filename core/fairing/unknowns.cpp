@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fairing/unknowns.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "core/fairing/fairing_problem.h"
 #include "core/solve/dense_solve.h"
 
 namespace batten {

@@ -5,6 +5,7 @@
 
 #include "core/base/parallel.h"
 #include "core/image/push_pull.h"
+#include "core/image/region_values.h"
 
 namespace batten {
 namespace {

@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/image/region_surface.h"
 #include "core/image/region_thresholds.h"
+#include "core/image/region_values.h"
 #include "core/image/run_pieces.h"
 
 namespace batten {

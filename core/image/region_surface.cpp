@@ -6,6 +6,7 @@
 
 #include "core/base/hot_loop.h"
 #include "core/image/region_thresholds.h"
+#include "core/image/region_values.h"
 
 namespace batten {
 namespace {

@@ -207,7 +207,39 @@ void applyUser(const GreyImage& image, const ThresholdParams& params, RegionThre
   }
 }
 
+std::optional<Error> outOfRange(const char* message) { return Error{ErrorCode::BadParameter, message, {}}; }
+bool within(double value, double low, double high) { return value >= low && value <= high; }
+
 }  // namespace
+
+std::optional<Error> validate(const ThresholdParams& params) {
+  if (!within(params.manualLevel, 0.0, 255.0)) return outOfRange("The threshold must lie between 0 and 255.");
+  if (!within(params.strength, 0.2, 3.0)) return outOfRange("The threshold strength must lie between 0.2 and 3.");
+  if (!within(params.reach, 0.0, 1.0)) return outOfRange("The threshold reach must lie between 0 and 1.");
+  if (params.speckArea < 0) return outOfRange("The speck area must not be negative.");
+  if (params.holeArea < 0) return outOfRange("The hole area must not be negative.");
+  for (const auto& level : params.grid) {
+    if (level && !within(*level, 0.0, 255.0)) return outOfRange("A region's threshold must lie between 0 and 255.");
+  }
+  return std::nullopt;
+}
+
+double PaperBackground::at(double xPx, double yPx) const {
+  if (isEmpty()) return 255.0;
+  const double u = std::clamp(xPx / cellPx - 0.5, 0.0, columns - 1.0);
+  const double v = std::clamp(yPx / cellPx - 0.5, 0.0, rows - 1.0);
+  const int x0 = static_cast<int>(u), y0 = static_cast<int>(v);
+  const int x1 = std::min(x0 + 1, columns - 1), y1 = std::min(y0 + 1, rows - 1);
+  const auto cell = [&](int x, int y) {
+    return static_cast<double>(
+        grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)]);
+  };
+  const double above = cell(x0, y0) + (u - x0) * (cell(x1, y0) - cell(x0, y0));
+  const double below = cell(x0, y1) + (u - x0) * (cell(x1, y1) - cell(x0, y1));
+  double level = above + (v - y0) * (below - above);
+  for (const PaperFold& fold : folds) level += fold.at(xPx, yPx);
+  return level;
+}
 
 Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParams& paper, const ThresholdParams& params,
                                         const RunContext& context) {

@@ -76,13 +76,4 @@ struct RegionThresholds {
 Result<RegionThresholds> findThresholds(const GreyImage&, const PaperParams&, const ThresholdParams&,
                                         const RunContext&);
 
-/// Histogram of the grey levels of one region, 256 bins, for the inspector. @pre 0 <= region < 64.
-std::array<std::uint32_t, 256> regionHistogram(const GreyImage&, int region);
-
-/// Bounds [x0, x1) x [y0, y1) of a region in px: floor(i * size / 8).
-struct RegionBounds {
-  int x0, y0, x1, y1;
-};
-RegionBounds regionBounds(int width, int height, int region);
-
 }  // namespace batten

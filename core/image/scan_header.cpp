@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/conventions.h"
+#include "core/image/scan_header_exif.h"
 
 namespace batten {
 namespace {

@@ -25,14 +25,10 @@ std::optional<ScanHeader> readScanHeader(const ByteReader& file);
 
 /// The parts of readScanHeader; each expects that the first bytes are those of its format.
 ScanHeader readPngHeader(const ByteReader& file);
-ScanHeader readJpegHeader(const ByteReader& file);
-ScanHeader readTiffHeader(const ByteReader& file);
 ScanHeader readBmpHeader(const ByteReader& file);
 ScanHeader readWebpHeader(const ByteReader& file);
 ScanHeader readPnmHeader(const ByteReader& file);
 
-/// Resolution and orientation of a TIFF structure (also that inside EXIF).
-void readTiffTags(const ByteReader& tiff, ScanHeader& header);
 /// Dots per inch if both axes agree and the number is one that scanners and cameras write.
 std::optional<double> plausibleDpi(double xDpi, double yDpi);
 

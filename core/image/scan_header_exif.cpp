@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/scan_header_exif.h"
+
 #include <algorithm>
 
 #include "core/base/conventions.h"

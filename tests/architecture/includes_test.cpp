@@ -190,6 +190,14 @@ TEST(Architecture, AHeaderIsTheFirstIncludeOfItsSource) {
   EXPECT_GT(pairs, 50);
 }
 
+TEST(Architecture, ASourceOfTheEngineHasTheHeaderOfItsName) {
+  // What a source file offers stands where its name says, and not in the header of a neighbour.
+  for (const fs::path& file : sources()) {
+    if (file.extension() != ".cpp" || !pathOf(file).starts_with("core/")) continue;
+    EXPECT_TRUE(fs::exists(fs::path(file).replace_extension(".h"))) << pathOf(file) << " has no header of its name";
+  }
+}
+
 TEST(Architecture, RoomsHaveNoCycle) {
   std::map<std::string, std::set<std::string>> arrows;
   for (const auto& [name, room] : rooms()) arrows[name] = room.rooms;

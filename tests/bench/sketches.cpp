@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/contour/corner/corner_marks.h"
+#include "core/contour/corner/corner_suggestions.h"
 #include "core/curve/arc_length.h"
 #include "core/image/laplacian_edges.h"
 #include "core/image/scan_reader.h"

@@ -13,7 +13,6 @@
 #include <string>
 
 #include "core/exchange/picture.h"
-#include "core/exchange/writers.h"
 #include "tests/support/render_page.h"
 
 namespace batten::test {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/pipeline/run/curve_targets.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/support/render_page.h"
 

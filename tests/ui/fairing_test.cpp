@@ -10,6 +10,8 @@
 #include <QTest>
 #include <cmath>
 
+#include "core/fairing/fairing.h"
+#include "core/fairing/fairing_report.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/targets/shape_window.h"

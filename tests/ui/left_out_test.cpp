@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QTest>
 
+#include "core/pipeline/run/piece_choices.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/session/piece_choice.h"
 #include "ui/status_line.h"

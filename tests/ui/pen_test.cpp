@@ -11,7 +11,9 @@
 #include <filesystem>
 
 #include "core/document/export_builder.h"
-#include "core/exchange/writers.h"
+#include "core/exchange/curve_json.h"
+#include "core/exchange/save_atomically.h"
+#include "core/exchange/svg_writer.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/new_drawing_dialog.h"

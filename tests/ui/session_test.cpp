@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/pipeline/recipe/recipe_file.h"
+#include "core/pipeline/run/piece_choices.h"
 #include "tests/ui/rendered_scan.h"
 #include "ui/commands/action_catalog.h"
 #include "ui/session/background_worker.h"

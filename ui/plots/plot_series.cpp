@@ -10,6 +10,7 @@
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
+#include "core/fairing/fairing.h"
 #include "ui/session/fairing_edits.h"
 
 namespace batten {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/pipeline/run/piece_choices.h"
 #include "ui/session/change_recipe.h"
 #include "ui/session/growing_player.h"
 #include "ui/session/session_runner.h"

@@ -10,7 +10,9 @@
 #include <optional>
 #include <span>
 
+#include "core/fairing/fairing.h"
 #include "core/pipeline/recipe/recipe.h"
+#include "core/pipeline/run/piece_choices.h"
 #include "core/pipeline/run/pipeline.h"
 
 namespace batten {

@@ -8,6 +8,7 @@
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
+#include "core/fairing/fairing_report.h"
 #include "core/fairing/low_pass.h"
 #include "ui/session/piece_choice.h"
 
@@ -15,8 +16,6 @@ namespace batten {
 namespace {
 
 constexpr int kOpenPoints = 7, kClosedPoints = 8;
-/// Extrema and inflections of a smaller rise (times extent) are not counted, as in the figures.
-constexpr double kProminence = 5e-3;
 /// A split nearer to an end than this share of the length would part nothing.
 constexpr double kLeastPart = 5e-3;
 
@@ -103,7 +102,7 @@ std::vector<double> inflectionsOf(const EditorSession& session) {
   if (!(size > 0.0)) return result;
   const TracedCurve& curve = *session.selected();
   const ArcLength arc(curve.sketched);
-  for (const double u : inflections(curve.sketched, kProminence / size, curve.closed)) {
+  for (const double u : inflections(curve.sketched, kExtremumProminence / size, curve.closed)) {
     const double fraction = arc.at(u) / arc.total();
     if (fraction > kLeastPart && fraction < 1.0 - kLeastPart) result.push_back(fraction);
   }

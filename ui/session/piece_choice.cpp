@@ -3,6 +3,8 @@
 
 #include <QCoreApplication>
 
+#include "core/pipeline/run/piece_choices.h"
+
 namespace batten {
 namespace {
 

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/exchange/writers.h"
+#include "core/exchange/save_atomically.h"
 #include "core/pipeline/recipe/recipe_file.h"
 
 namespace batten {

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/base/conventions.h"
+#include "core/fairing/fairing.h"
+#include "core/pipeline/run/curve_targets.h"
 #include "ui/session/guarded.h"
 
 namespace batten {

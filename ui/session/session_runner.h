@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/fairing/fairing.h"
 #include "ui/session/background_worker.h"
 #include "ui/session/editor_session.h"
 #include "ui/session/opened_scan.h"

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/contour/corner/corner_suggestions.h"
 #include "core/pipeline/run/corner_places.h"
 #include "ui/session/editor_session.h"
 #include "ui/session/guarded.h"

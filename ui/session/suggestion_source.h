@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/contour/corner/corner_marks.h"
+#include "core/contour/corner/corner_suggestions.h"
 #include "ui/session/background_worker.h"
 
 namespace batten {

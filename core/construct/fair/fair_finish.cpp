@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/fair/fair_finish.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -7,9 +9,13 @@
 #include <utility>
 
 #include "core/construct/fair/fair_piece.h"
+#include "core/construct/fair/fair_plateaus.h"
+#include "core/construct/fair/fair_prepare.h"
 #include "core/construct/fair/fair_structure.h"
+#include "core/construct/fair/fair_structure_search.h"
 #include "core/construct/fair/knot_removal.h"
 #include "core/construct/fair/sharp_features.h"
+#include "core/fairing/fairing.h"
 
 namespace batten {
 namespace {

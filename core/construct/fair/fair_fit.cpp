@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/construct/fair/fair_finish.h"
 #include "core/construct/fair/fair_piece.h"
+#include "core/construct/fair/fair_prepare.h"
 #include "core/construct/fair/smooth_sections.h"
 
 namespace batten {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/fair/fair_plateaus.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

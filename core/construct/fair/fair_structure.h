@@ -38,23 +38,6 @@ struct FairStructure {
   std::vector<double> leastSlope = {};
 };
 
-struct StructureResult {
-  FairStructure structure;
-  std::vector<FairExtremum> dropped;  ///< Of the local extrema worth a test.
-  std::vector<int> unmetConstraints;  ///< Constraints that found no extremum, or one that cannot go.
-  Eigen::VectorXd c;                  ///< Offsets under the structure.
-  double objective = 0.0;             ///< Penalised chi2 of c.
-  double kappaSigma = 0.0;            ///< [1/px] median standard deviation of the curvature.
-  bool limited = false;               ///< A quadratic program did not converge.
-};
-
-/// Drops curvature extrema, cheapest first, as long as the penalised chi2 rises by less than `keepCost` each. A
-/// constraint belongs to the nearest extremum that was kept or dropped after a test: a kept one is never dropped, a
-/// removed one goes whatever it costs, with its cheaper neighbour where it is not the only one at an end (closed curves
-/// keep four). Absent when cancelled or when the first program cannot be solved.
-std::optional<StructureResult> findStructure(const FairFrame&, const FairPosterior&, double keepCost,
-                                             const std::vector<PlacedConstraint>&, const RunContext&);
-
 /// Sets the half widths of the windows from the distances between extrema and their stretches.
 void setWindows(FairStructure&, const UniformKnots&);
 
@@ -71,12 +54,6 @@ struct StructureFit {
 /// @param abortRise stops as soon as the rise is proven to exceed this.
 std::optional<StructureFit> fitStructure(const FairFrame&, const FairPosterior&, FairStructure&,
                                          const Eigen::VectorXd& start, double from, double to, double abortRise);
-
-/// Where the constraints of a structure act the curvature of `fit` is a staircase of plateaus. Asks every stretch for a
-/// part of its mean slope all along, as far as that raises the penalised chi2 of the stretch by no more than noise is
-/// (a line that was drawn with an arc in it keeps its arc), and solves again. Sets structure.leastSlope. Returns `fit`
-/// where nothing can be had.
-StructureFit withoutPlateaus(const FairFrame&, const FairPosterior&, FairStructure&, StructureFit fit);
 
 /// Local extrema of the curvature under offsets c, with their stretches. Sets `rising`.
 FairStructure localExtrema(const FairFrame&, const Eigen::VectorXd& c);

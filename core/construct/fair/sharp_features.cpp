@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "core/construct/fair/fair_piece.h"
+#include "core/construct/fair/fair_prepare.h"
 
 namespace batten {
 namespace {

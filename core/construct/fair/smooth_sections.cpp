@@ -71,9 +71,8 @@ Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, dou
 
 /// Curvature extrema of what follows the points closely, without a judgement of each.
 int extremaOf(const std::vector<NurbsCurve>& turns, double size, bool closed) {
-  constexpr double kProminence = 5e-3;
   std::size_t count = 0;
-  for (const NurbsCurve& turn : turns) count += curvatureExtrema(turn, kProminence / size, closed).size();
+  for (const NurbsCurve& turn : turns) count += curvatureExtrema(turn, kExtremumProminence / size, closed).size();
   return static_cast<int>(count);
 }
 

@@ -10,6 +10,8 @@
 #include "core/construct/fair/fair_fit.h"
 #include "core/construct/stations/piece_stations.h"
 #include "core/construct/typical/typical_growing.h"
+#include "core/construct/typical/typical_path_fit.h"
+#include "core/construct/typical/typical_rough_path.h"
 #include "core/construct/typical/typical_structure.h"
 #include "core/construct/typical/typical_tiling.h"
 #include "core/curve/arc_length.h"
@@ -298,20 +300,14 @@ struct Candidate {
   }
 };
 
-int extremaOf(const NurbsCurve& curve, bool closed) {
-  constexpr double kProminence = 5e-3;
-  const double size = extent(curve);
-  return size > 0.0 ? static_cast<int>(curvatureExtrema(curve, kProminence / size, closed).size()) : 0;
-}
-
 Candidate fittedCandidate(TypicalPath path, PathData data, PathSearch search, const TypicalLine& line,
                           const RunContext& context) {
   const auto fit = fitTypicalStructure(path, data, search, context);
   if (!isOnLine(fit, data) || hasSliver(path) || (path.closed && !isClosed(path))) return {};
   const auto curve = pathCurve(path, line);
   if (!curve || isAstray(*curve, line)) return {};
-  const int known = line.fair ? extremaOf(*line.fair, line.closed) : 0;
-  const int more = std::max(0, extremaOf(*curve, line.closed) - known);
+  const int known = line.fair ? countedExtrema(*line.fair, line.closed) : 0;
+  const int more = std::max(0, countedExtrema(*curve, line.closed) - known);
   return {FoundPath{std::move(path), fit->converged}, more, fit->rms};
 }
 
@@ -345,7 +341,7 @@ std::optional<FoundPath> grownAndTidied(const TypicalLine& line, std::span<const
   Candidate tidy = fittedCandidate(grown->path, dataOf(line), PathSearch::Tidy, line, context);
   const auto curve = pathCurve(grown->path, line);
   const bool stays = curve && !isAstray(*curve, line);
-  return !tidy.path || (stays && extremaOf(*curve, line.closed) < tidy.falseExtrema) ? grown : tidy.path;
+  return !tidy.path || (stays && countedExtrema(*curve, line.closed) < tidy.falseExtrema) ? grown : tidy.path;
 }
 
 /// The Bezier path of a piece, with the reason why it took the place of the chain.

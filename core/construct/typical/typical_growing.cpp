@@ -6,6 +6,8 @@
 #include <complex>
 
 #include "core/construct/typical/typical_grower.h"
+#include "core/construct/typical/typical_path_fit.h"
+#include "core/construct/typical/typical_rough_path.h"
 #include "core/construct/typical/typical_structure.h"
 
 namespace batten {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/typical/typical_path_feet.h"
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/typical/typical_path_fit.h"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -6,6 +8,7 @@
 #include <numbers>
 
 #include "core/construct/typical/typical_path.h"
+#include "core/construct/typical/typical_path_feet.h"
 #include "core/construct/typical/typical_path_geometry.h"
 #include "core/construct/typical/typical_path_unknowns.h"
 

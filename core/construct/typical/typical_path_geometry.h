@@ -64,8 +64,5 @@ class PathGeometry {
 
 /// All elements of a path, made ready.
 std::vector<PathGeometry> geometryOf(const TypicalPath& path);
-/// Feet of points in order, each searched from where it was, or at first from the one before.
-void followFeet(const std::vector<PathGeometry>& geometry, const std::vector<Vec2>& points,
-                std::vector<PathFoot>& feet);
 
 }  // namespace batten

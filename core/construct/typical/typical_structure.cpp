@@ -7,6 +7,9 @@
 #include <numbers>
 #include <set>
 
+#include "core/construct/typical/typical_path_feet.h"
+#include "core/construct/typical/typical_path_fit.h"
+
 namespace batten {
 
 namespace {

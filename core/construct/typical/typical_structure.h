@@ -5,22 +5,12 @@
 
 #include "core/base/run_context.h"
 #include "core/construct/typical/typical_path.h"
+#include "core/construct/typical/typical_path_fit.h"
 
 namespace batten {
 
-/// Joints that bend one way, clearly: first and last index. Elsewhere the line is straight or turns over.
-struct JointRun {
-  std::size_t first = 0, last = 0;
-};
-std::vector<JointRun> bendingRuns(std::span<const Joint> joints);
-
 /// Where the curvature of a typical curve is largest, as its parameter; it may lie outside 0..1.
 double placeOfMaximum(const PathElement&);
-
-/// A first path along joints that roughly follow the line: typical curves wherever it clearly bends one way, Hermite
-/// pieces elsewhere. Lengths in the unit of noise (px). Closed: the last joint repeats the first.
-/// @param places joints where the user wants the path divided, by index in order; empty = divided as needed.
-TypicalPath roughTypicalPath(std::span<const Joint> joints, bool closed, std::span<const std::size_t> places);
 
 enum class PathSearch {
   Full,      ///< Elements are divided where the points ask for it, extrema dropped that these do not prove, the rest

@@ -6,6 +6,7 @@
 #include <new>
 #include <opencv2/core.hpp>
 
+#include "core/contour/centreline/gaps.h"
 #include "core/contour/centreline/graininess.h"
 #include "core/contour/centreline/oriented_line_filter.h"
 #include "core/contour/centreline/refinement.h"

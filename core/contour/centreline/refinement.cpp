@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/contour/centreline/pixel_placement.h"
 #include "core/contour/centreline/stroke_course.h"
+#include "core/contour/centreline/stroke_ends.h"
 #include "core/contour/centreline/stroke_profile.h"
 #include "core/polyline/polyline_tools.h"
 

@@ -50,8 +50,5 @@ void rejectImplausibleShifts(StrokeCourse& course, bool checkWidth);
 void moveCourse(StrokeCourse& course, bool again);
 /// Replaces the points within junctions by a cubic that goes on from both sides.
 void layThroughJunctions(StrokeCourse& course);
-/// Puts the free ends where the middle of the pen was, half a width before the end of the ink.
-void placeEnds(StrokeCourse& course, const GreyImage& grey);
-Contour contourOf(const StrokeCourse& course);
 
 }  // namespace batten

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline/stroke_ends.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -39,11 +39,6 @@ struct StrokePath {
 std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
                                         const RunContext& context);
 
-/// Joins stroke paths over gaps: mutually nearest free ends that look at each other. How long a gap is
-/// (EdgeParams::gapFactor) is measured from ink to ink.
-void bridgeGaps(std::vector<StrokePath>& paths, const BitImage& ink, const EdgeParams& params,
-                const RunContext& context);
-
 /// Points about 1 px apart on a cubic that leaves `from` in direction `fromDirection` and arrives at `to` in
 /// direction `toDirection` (unit vectors), both ends excluded.
 std::vector<Vec2> cubicBetween(const Vec2& from, const Vec2& fromDirection, const Vec2& to, const Vec2& toDirection);

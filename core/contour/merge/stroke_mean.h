@@ -22,13 +22,6 @@ struct MeanLine {
   bool continues[2] = {false, false};  ///< Another line begins where this one starts, ends: no end of a stroke.
 };
 
-/// The lines as strokes of the hand: cut where they turn sharply, since at a crossing of bundles a line often turns
-/// from the one into the other. `turns` gets the places of the cuts.
-std::vector<MeanLine> strokesOf(const std::vector<Contour>& lines, double distancePx, std::vector<Vec2>& turns);
-
-/// Finds the ends at which another line goes on (MeanLine::continues): within this many px, about straight on.
-void findContinuations(std::vector<MeanLine>& strokes, double nearPx);
-
 /// Moves the points of the strokes to the weighted mean of the strokes that cross their normals within `distancePx`, in
 /// a few rounds. Weights fall towards the ends of a stroke, near the distance and with the angle between the strokes.
 /// Strokes that come near each other and part again, for less than half of the shorter one, are two lines and keep

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/merge/stroke_turns.h"
+
 #include <algorithm>
 #include <cmath>
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/contour/segment/pca_line.h"
 #include "core/contour/segment/station_meter.h"
 #include "core/polyline/polyline_tools.h"
 

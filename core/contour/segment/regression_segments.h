@@ -54,15 +54,6 @@ int sturgesGroups(int n);
 /// Group boundaries floor(n * i / k), i = 0..k.
 std::vector<int> groupBoundaries(int n, int k);
 
-/// Principal axis of a group of points (000 III): centroid, unit direction pointing from the first to the last point,
-/// and the stretch between the extreme projections. Population covariance. @pre at least 2 points that differ.
-struct PcaLine {
-  Vec2 centroid, direction, from, to;
-  double residualRms = 0.0;
-  double eigenvalueMajor = 0.0, eigenvalueMinor = 0.0;
-};
-PcaLine pcaLine(std::span<const Vec2> points);
-
 /// Regression segments of every piece. Ends at corners are kept exactly.
 Result<SegmentSet> regressionSegments(const PieceSet&, const SegmentParams&);
 

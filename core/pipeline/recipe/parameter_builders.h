@@ -139,8 +139,4 @@ Parameter choice(StageId stage, Words words, std::vector<Word<T>> all, Field fie
   return p;
 }
 
-/// The two halves of the table; parameter_table.cpp puts them together.
-void appendImageParameters(std::vector<Parameter>& table);
-void appendCurveParameters(std::vector<Parameter>& table);
-
 }  // namespace batten::table

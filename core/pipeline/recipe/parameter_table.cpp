@@ -5,6 +5,8 @@
 
 #include "core/base/edit_distance.h"
 #include "core/pipeline/recipe/parameter_builders.h"
+#include "core/pipeline/recipe/parameters_curves.h"
+#include "core/pipeline/recipe/parameters_image.h"
 
 namespace batten {
 namespace {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/recipe/parameters_curves.h"
+
 #include "core/pipeline/recipe/parameter_builders.h"
 #include "core/pipeline/recipe/profile_text.h"
 

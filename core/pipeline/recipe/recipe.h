@@ -11,7 +11,7 @@
 #include "core/contour/pen_strokes.h"
 #include "core/contour/region_of_interest.h"
 #include "core/contour/segment/regression_segments.h"
-#include "core/fairing/fairing.h"
+#include "core/fairing/fairing_params.h"
 #include "core/image/log_transform.h"
 #include "core/image/neighbourhood_filter.h"
 #include "core/image/region_thresholds.h"

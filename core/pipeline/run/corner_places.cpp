@@ -2,6 +2,7 @@
 #include "core/pipeline/run/corner_places.h"
 
 #include "core/construct/fair/sharp_features.h"
+#include "core/contour/corner/corner_suggestions.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/contour/corner/corner_marks.h"
+#include "core/contour/corner/corner_suggestions.h"
 
 namespace batten {
 

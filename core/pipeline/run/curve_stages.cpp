@@ -7,14 +7,12 @@
 
 #include "core/construct/construct.h"
 #include "core/curve/arc_length.h"
+#include "core/pipeline/run/piece_choices.h"
 #include "core/pipeline/run/segment_points.h"
 #include "core/pipeline/run/stage_items.h"
 
 namespace batten {
 namespace {
-
-/// Prominence of a counted curvature extremum, in units of 1 / extent of the curve.
-constexpr double kExtremumProminence = 5e-3;
 
 Station stationToModel(const Station& s, const PageFrame& frame) {
   return {frame.pointToModel(s.point), frame.vectorToModel(s.direction).normalized(), frame.pointToModel(s.from),

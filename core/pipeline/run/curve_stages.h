@@ -16,19 +16,10 @@ CurveFigures figuresOf(const NurbsCurve&, bool closed, const std::vector<Vec2>& 
 /// One piece in the model frame, as typical chains take it (they do not ask which points of a stroke were drawn).
 ConstructPiece typicalPieceOf(const PieceSet&, const SegmentSet&, const Recipe&, const PageFrame&, std::size_t piece);
 
-/// The choices that compete for a curve's method: those with one, and those made for a part of a line. No others, so
-/// that the curves are not constructed again when those change.
-std::vector<PieceChoice> choicesForMethods(const Recipe&);
-
 /// Curves of all pieces: image px become model mm here and nowhere else. Contours are constructed side by side; a
 /// contour that fails as a whole is tried piece by piece, and what then fails is listed.
 /// @return NoCurve, with the first reason, if no piece gave a curve.
 Result<ConstructedSet> constructAll(const ContourSet&, const PieceSet&, const SegmentSet&, const Recipe&,
                                     const PageFrame&, const RunContext&);
-
-/// Fairs every included curve by the recipe or its own choice. A curve that cannot be faired keeps its sketched shape
-/// and its report says why.
-Result<FairedSet> fairAll(const ConstructedSet&, const ContourSet&, const PieceSet&, const Recipe&, const PageFrame&,
-                          const RunContext&);
 
 }  // namespace batten

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/run/curve_targets.h"
+
 #include <new>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "core/fairing/edge_length_fairing.h"
+#include "core/fairing/fairing.h"
 #include "core/pipeline/run/pipeline.h"
 #include "core/pipeline/run/stage_items.h"
 

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/run/fair_stage.h"
+
 #include <algorithm>
 #include <new>
 
 #include "core/curve/arc_length.h"
 #include "core/fairing/edge_length_fairing.h"
+#include "core/fairing/fairing.h"
+#include "core/fairing/fairing_line.h"
 #include "core/pipeline/run/corner_rounding.h"
 #include "core/pipeline/run/curve_stages.h"
+#include "core/pipeline/run/piece_choices.h"
 #include "core/pipeline/run/stage_items.h"
 
 namespace batten {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/run/piece_choices.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -7,6 +7,7 @@
 #include "core/contour/trace_contours.h"
 #include "core/image/laplacian_edges.h"
 #include "core/pipeline/run/curve_stages.h"
+#include "core/pipeline/run/fair_stage.h"
 #include "core/pipeline/run/stage_keys.h"
 
 namespace batten {

@@ -6,6 +6,7 @@
 
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/run/curve_stages.h"
+#include "core/pipeline/run/piece_choices.h"
 
 namespace batten {
 namespace {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/construct/typical/typical_growing.h"
+#include "core/construct/typical/typical_path_fit.h"
 #include "core/curve/knot_operations.h"
 #include "core/curve/nurbs_curve.h"
 #include "tests/support/known_answers.h"

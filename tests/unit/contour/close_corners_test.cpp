@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/contour/corner/corner_marks.h"
+#include "core/contour/corner/corner_suggestions.h"
 
 namespace batten {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contour/segment/regression_segments.h"
+#include "core/contour/segment/pca_line.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "core/exchange/picture.h"
-#include "core/exchange/writers.h"
+#include "core/exchange/save_atomically.h"
 
 namespace batten {
 namespace {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "core/exchange/writers.h"
+#include "core/exchange/svg_check.h"
+#include "core/exchange/svg_writer.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
 namespace batten {

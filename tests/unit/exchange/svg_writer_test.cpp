@@ -8,7 +8,9 @@
 #include <sstream>
 
 #include "core/curve/closest_point.h"
-#include "core/exchange/writers.h"
+#include "core/exchange/curve_json.h"
+#include "core/exchange/svg_check.h"
+#include "core/exchange/svg_writer.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
 namespace batten {

@@ -12,7 +12,9 @@
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/curve/curvature_jump.h"
+#include "core/fairing/fairing.h"
 #include "core/pipeline/recipe/parameter_table.h"
+#include "core/pipeline/run/curve_targets.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/support/method_truths.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pipeline/run/corner_places.h"
+#include "core/contour/corner/corner_suggestions.h"
 
 #include <gtest/gtest.h>
 

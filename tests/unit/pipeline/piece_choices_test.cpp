@@ -7,6 +7,7 @@
 
 #include "core/pipeline/recipe/recipe_file.h"
 #include "core/pipeline/run/curve_stages.h"
+#include "core/pipeline/run/piece_choices.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/support/render_page.h"
 

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/document/report.h"
+#include "core/pipeline/run/curve_targets.h"
+#include "core/pipeline/run/piece_choices.h"
 #include "tests/support/render_page.h"
 #include "tests/unit/pipeline/ellipse_scan.h"
 

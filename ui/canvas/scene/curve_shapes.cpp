@@ -64,7 +64,7 @@ CombMark markAt(const CurveComb& comb, double s, double kappa, bool isInflection
 void addMarks(CurveComb& comb, const NurbsCurve& curve, bool closed) {
   const double size = extent(curve);
   if (!(size > 0.0)) return;
-  const double prominence = 5e-3 / size;
+  const double prominence = kExtremumProminence / size;
   for (const auto& extremum : curvatureExtrema(curve, prominence, closed))
     comb.marks.push_back(markAt(comb, extremum.s, extremum.kappa, false));
   const auto turns = inflections(curve, prominence, closed);

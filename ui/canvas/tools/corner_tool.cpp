@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/contour/corner/corner_suggestions.h"
 #include "ui/canvas/layers/chip_layer.h"
 #include "ui/canvas/layers/mark_layers.h"
 #include "ui/canvas/scene/canvas_colors.h"

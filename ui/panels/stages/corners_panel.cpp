@@ -13,6 +13,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/contour/corner/corner_suggestions.h"
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"

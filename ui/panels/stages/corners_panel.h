@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/contour/corner/corner_suggestions.h"
 #include "ui/session/editor_session.h"
 #include "ui/session/view_settings.h"
 

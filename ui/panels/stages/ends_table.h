@@ -5,7 +5,7 @@
 #include <array>
 #include <functional>
 
-#include "core/fairing/fairing.h"
+#include "core/fairing/fairing_params.h"
 
 class QAbstractButton;
 

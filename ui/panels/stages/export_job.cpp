@@ -8,7 +8,10 @@
 #include <new>
 
 #include "core/document/export_builder.h"
-#include "core/exchange/writers.h"
+#include "core/exchange/curve_json.h"
+#include "core/exchange/save_atomically.h"
+#include "core/exchange/svg_check.h"
+#include "core/exchange/svg_writer.h"
 
 namespace batten {
 namespace {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fairing/fairing_report.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"

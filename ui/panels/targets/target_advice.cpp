@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/targets/target_advice.h"
 
+#include "core/fairing/fairing.h"
+#include "core/fairing/fairing_report.h"
+
 namespace batten {
 namespace {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/fairing/fairing.h"
 #include "ui/session/editor_session.h"
 
 namespace batten {

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/fairing/fairing.h"
+#include "core/fairing/fairing_report.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/targets/target_advice.h"
 #include "ui/session/fairing_edits.h"

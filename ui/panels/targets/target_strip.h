@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 
+#include "core/fairing/fairing.h"
 #include "ui/session/editor_session.h"
 
 namespace batten {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/construct/fair/fair_piece.h"
+
+namespace batten {
+
+/// [px] Median of the standard deviations that the points of a contour came with; 0: they came with none.
+double ordinarySigma(const ConstructContour&);
+
+/// Points in px, cleaned and gated; pilot, first frame and the table of cut-offs.
+FairPiece prepareFairPiece(const ConstructPiece&, bool isStroke, double pixelMm, double ordinarySigmaPx,
+                           const FairFitOptions&);
+
+/// [-] What merged strokes leave open about the line that was meant: a noise density of this part of the cube of half
+/// their breadth (hands stray over a way that goes with how far they stray), …
+inline constexpr double kWanderShare = 0.02;
+/// … at any one place this part of half their breadth.
+inline constexpr double kMeanShare = 0.07;
+
+/// Adapts the weights to the noise along the piece, and to what is left of it above the floor: a weight of 1 is a noise
+/// density of max(measured, floor).
+void weighByNoise(FairData&, const LocalNoise&, double measured, double floor);
+
+/// Median distance of neighbours; 1 for a single point.
+double medianSpacing(const std::vector<Vec2>& points);
+
+/// Marks points as not to be used that lie far from where their neighbours on both sides are (medians, so that strays
+/// cannot vote).
+void gateStrays(FairData&, double gatePx, double spacing);
+
+}  // namespace batten

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "core/base/result.h"
+#include "core/exchange/export_model.h"
+
+namespace batten {
+
+struct SvgOptions {
+  double toleranceMm = 0.002;  ///< [mm] > 0. Largest distance of the cubics from the exact curves.
+  double strokeWidthMm = 0.1;  ///< [mm] > 0.
+};
+struct SvgText {
+  std::string text;
+  double largestErrorMm = 0.0;  ///< Measured, not the bound asked for.
+  int cubics = 0;
+};
+/// SVG in mm (width and height in mm, 1 user unit = 1 mm, y down), one <path> per curve of the drawing, cubics within
+/// the tolerance of the exact quintics, the error stated in <desc>, the exact B-splines in <metadata>.
+/// @return NoCurve if there is nothing to write.
+Result<SvgText> writeSvg(const ExportDocument&, const SvgOptions&);
+
+}  // namespace batten

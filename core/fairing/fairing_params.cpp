@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fairing/fairing_params.h"
+
+#include <string>
+
+namespace batten {
+
+std::optional<Error> validate(const FairingParams& params) {
+  if (!(params.toleranceMm >= 0.001 && params.toleranceMm <= 20.0)) {
+    return Error{
+        ErrorCode::BadParameter,
+        "The fairing tolerance must lie between 0.001 and 20 mm, not at " + std::to_string(params.toleranceMm) + ".",
+        {}};
+  }
+  if (params.target < 0 || params.target > kDrawnTarget) {
+    return Error{ErrorCode::BadParameter,
+                 "The fairing target must be 1 to 6, 0 for the recommended one or 7 for the drawn one, not " +
+                     std::to_string(params.target) + ".",
+                 {}};
+  }
+  if (!(params.lowPassMm >= 0.1 && params.lowPassMm <= 10000.0)) {
+    return Error{ErrorCode::BadParameter,
+                 "The wavelength of the low-pass must lie between 0.1 and 10000 mm, not at " +
+                     std::to_string(params.lowPassMm) + ".",
+                 {}};
+  }
+  if (params.keepExtrema < kKeepSignificant || params.keepExtrema > 99) {
+    return Error{ErrorCode::BadParameter,
+                 "The number of extrema to keep must be 0 to 99, or -1 for as few as possible, not " +
+                     std::to_string(params.keepExtrema) + ".",
+                 {}};
+  }
+  for (const double at : params.keptAt) {
+    if (!(at >= 0.0 && at <= 1.0))
+      return Error{ErrorCode::BadParameter, "An extremum to keep lies beside the curve.", {}};
+  }
+  if (auto wrong = validateProfile(params.profile)) return wrong;
+  return validate(params.targets);
+}
+
+}  // namespace batten

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/fairing/drawn_profile.h"
+#include "core/fairing/radius_target.h"
+
+namespace batten {
+
+enum class FairingMode {
+  None,       ///< The sketched curve as constructed.
+  Target,     ///< Towards one of the six profiles, or the drawn one.
+  Tolerance,  ///< Smallest integral of (dkappa/ds)^2 within the tolerance.
+  Monotone,   ///< The nearest curve whose curvature is monotone between the extrema that are kept.
+  LowPass,    ///< Towards the sketch's own curvature without its short waves.
+};
+
+/// How much of the tolerance the tolerance fairing uses.
+enum class TolerancePolicy {
+  AsNeeded,  ///< Until no wave is left that the line does not prove; see fairWithinTolerance.
+  All,       ///< All of it: as even as the tolerance allows, whatever was drawn.
+};
+
+/// What a target or low-passed profile moves.
+enum class FairingMeans {
+  ControlPoints,  ///< All control points (000, 003).
+  EdgeLengths,    ///< Bezier path: the lengths of the edges of each piece's polygon, not their directions (001).
+};
+
+/// FairingParams::target: the profile that the user has drawn.
+inline constexpr int kDrawnTarget = 7;
+/// FairingParams::keepExtrema: as few as the tolerance allows.
+inline constexpr int kKeepSignificant = -1;
+
+/// What is held at an end of an open curve beside its position, which always is.
+struct EndHold {
+  bool tangent = false;
+  bool curvature = false;  ///< Includes the tangent: a held curvature on a turned end would join nothing.
+  bool operator==(const EndHold&) const = default;
+};
+
+struct FairingParams {
+  FairingMode mode = FairingMode::None;
+  int target = 0;            ///< 0..7. Degree of the profile; 0 = the recommended one, 7 = the drawn one.
+  double toleranceMm = 0.2;  ///< [mm] 0.001..20. Largest move of the curve from the sketched one; never exceeded.
+  TolerancePolicy tolerancePolicy = TolerancePolicy::AsNeeded;  ///< Tolerance mode.
+  FairingMeans means = FairingMeans::ControlPoints;  ///< Target and low-pass modes; edge lengths only on Bezier paths.
+  double lowPassMm =
+      20.0;  ///< [mm] 0.1..10000. Low-pass: waves of the curvature of this length are halved, shorter ones go.
+  int keepExtrema =
+      kKeepSignificant;        ///< Monotone: -1..99. Curvature extrema that may stay; -1 = those that must, see above.
+  std::vector<double> keptAt;  ///< Monotone: arc length fractions 0..1 of the extrema to keep; not empty: counts alone.
+  std::vector<ProfilePoint> profile;  ///< Target 7: the drawn curvature.
+  EndHold startHold, endHold;
+  TargetParams targets;
+  bool operator==(const FairingParams&) const = default;
+};
+std::optional<Error> validate(const FairingParams&);
+
+}  // namespace batten

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/curve/periodic_form.h"
+#include "core/curve/span_curve.h"
+#include "core/fairing/fairing_params.h"
+#include "core/fairing/fairing_report.h"
+#include "core/fairing/unknowns.h"
+
+namespace batten {
+
+/// What all fairings of one curve share. Never changes once made; owned by a shared_ptr because curves refer to
+/// `basis`.
+struct FairingSetup {
+  NurbsCurve original;
+  bool closed = false;
+  PeriodicForm periodic;  ///< Closed curves only.
+  SpanBasis basis;
+  std::vector<Vec2> points;  ///< Control points of the sketched curve (each once).
+  SpanCurve reference;       ///< The sketched curve.
+  EqualArc start;            ///< Sample places on it.
+  Unknowns unknowns;
+  double extent = 0.0;
+  /// Signed distance of the line's own points from the sketched curve, at its samples (in the mean of those nearby);
+  /// empty when the line is not known: the sketched curve then stands for it.
+  std::vector<double> offsets;
+  /// That distance at a place of the sketched curve.
+  double offsetAt(const SpanPlace& foot) const;
+  /// Where a place of the sketched curve lies among its samples: 0 at the first, 1 at the second, …
+  double sampleAt(const SpanPlace& place) const;
+  int sampleCount() const { return static_cast<int>(start.places.size()); }
+  double fraction(int sample) const {
+    return static_cast<double>(sample) / (closed ? sampleCount() : sampleCount() - 1);
+  }
+};
+/// @return BadParameter for rational curves and degrees outside 3..7; Numerical for a curve without length.
+Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, bool closed,
+                                                      const FairingParams& params);
+
+/// The faired curve over the knots of the sketched one.
+Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& points);
+
+/// Largest distance of the curve from the sketched one: foot points at 12 places a span or, where the two swing
+/// apart quickly, so many that no more than 1 % can hide between them.
+/// `bothWays` also measures the sketched curve's distance from the curve.
+double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays = false);
+
+/// Runs `body` on the curve's setup. Curves that cannot be made fair stay as they are when the reason lies in their
+/// shape.
+Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
+                              const std::function<Result<FairedCurve>(const FairingSetup&)>& body);
+
+/// The share of the way from the sketched curve to `points` that stays within the tolerance, measured both ways on the
+/// whole curve; `points` are moved there. @return the largest deviation.
+double keepWithin(const FairingSetup& setup, double toleranceMm, std::vector<Vec2>& points);
+
+/// Fills in what the report says of the curves: deviation, extrema.
+Result<FairedCurve> finished(const FairingSetup& setup, std::vector<Vec2> points, double toleranceMm,
+                             FairingReport report);
+
+}  // namespace batten
