@@ -15,7 +15,7 @@ constexpr std::array<double, 5> kGaussFiveNodes = {-0.9061798459386640, -0.53846
                                                    0.9061798459386640};
 constexpr std::array<double, 5> kGaussFiveWeights = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
                                                      0.4786286704993665, 0.2369268850561891};
-constexpr int kPartsPerSpan = 4;
+constexpr int kEnergyPartsPerSpan = 4;
 
 }  // namespace
 
@@ -24,8 +24,8 @@ double variationEnergy(const NurbsCurve& curve) {
   const std::vector<double> breaks = curve.breaks();
   double energy = 0.0, length = 0.0;
   for (std::size_t span = 0; span + 1 < breaks.size(); ++span) {
-    const double part = (breaks[span + 1] - breaks[span]) / kPartsPerSpan;
-    for (int k = 0; k < kPartsPerSpan; ++k) {
+    const double part = (breaks[span + 1] - breaks[span]) / kEnergyPartsPerSpan;
+    for (int k = 0; k < kEnergyPartsPerSpan; ++k) {
       const double middle = breaks[span] + (k + 0.5) * part;
       for (std::size_t g = 0; g < kGaussFiveNodes.size(); ++g) {
         const double u = middle + 0.5 * part * kGaussFiveNodes[g];
