@@ -36,7 +36,7 @@ constexpr double kSearched = 16.0;
 constexpr double kLeastDensity = 0.0064;
 constexpr FairingLimits kLimits{15, 1e-4};
 /// Room for what lies between the places where the deviation is measured.
-constexpr double kRoom = 0.998;
+constexpr double kFairRoom = 0.998;
 
 class NeededFairing {
  public:
@@ -86,7 +86,7 @@ class NeededFairing {
     return static_cast<int>(curvatureExtrema(*curve, kExtremumProminence / setup_.extent, setup_.closed).size());
   }
   bool isWithin(const std::vector<Vec2>& points) const {
-    return largestDeviation(setup_, points, true) <= kRoom * params_.toleranceMm;
+    return largestDeviation(setup_, points, true) <= kFairRoom * params_.toleranceMm;
   }
   double shortestWave() const {
     const double span = setup_.start.length / setup_.basis.spanCount();
