@@ -25,7 +25,7 @@ constexpr int kSamples = 801;
 constexpr int kBisections = 12;
 constexpr double kUsedShare = 0.97;
 /// Room for what lies between the places where the deviation is measured.
-constexpr double kRoom = 0.999;
+constexpr double kToleranceShare = 0.999;
 constexpr int kFewPlaces = 100, kManyPlaces = 2000, kPlacesPerPiece = 64;
 
 /// The pieces of a path; empty for any other curve.
@@ -135,7 +135,7 @@ class EdgeLengthFairing {
   /// of them first: what is too far away there is too far away.
   double moved(const NurbsCurve& curve) const {
     const double seen = movedAt(curve, kFewPlaces);
-    if (!(seen <= kRoom * params_.toleranceMm)) return seen;
+    if (!(seen <= kToleranceShare * params_.toleranceMm)) return seen;
     return movedAt(curve, std::max(kManyPlaces, kPlacesPerPiece * static_cast<int>(path_.size())));
   }
 
@@ -158,7 +158,7 @@ class EdgeLengthFairing {
       auto curve = attempt(share, pin);
       const double away = curve ? moved(*curve) : 1e300;
       if (i == 0) needed = curve ? away : 0.0;
-      if (!(away <= kRoom * params_.toleranceMm)) {
+      if (!(away <= kToleranceShare * params_.toleranceMm)) {
         outside = share;
         continue;
       }
