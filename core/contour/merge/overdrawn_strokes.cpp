@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/statistics.h"
 #include "core/contour/merge/parallel_strokes.h"
 
 namespace batten {
@@ -79,9 +80,8 @@ double singleWidth(const std::vector<Contour>& strokes) {
   std::vector<float> widths;
   for (const Contour& c : strokes) widths.insert(widths.end(), c.widthPx.begin(), c.widthPx.end());
   if (widths.empty()) return 1.0;
-  const auto thin = widths.begin() + static_cast<std::ptrdiff_t>(kThinShare * static_cast<double>(widths.size()));
-  std::nth_element(widths.begin(), thin, widths.end());
-  return std::max(1.0, static_cast<double>(*thin));
+  const auto rank = static_cast<std::ptrdiff_t>(kThinShare * static_cast<double>(widths.size()));
+  return std::max(1.0, static_cast<double>(elementOfRank(widths, rank)));
 }
 
 // Of all places on the strokes, those beside a stroke of the same line; one between two such strokes counts once.
