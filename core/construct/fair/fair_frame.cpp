@@ -6,13 +6,16 @@
 #include <cstddef>
 #include <numbers>
 
+#include "core/base/statistics.h"
+#include "core/solve/gauss_legendre.h"
+
 namespace batten {
 namespace {
 
 constexpr double kPilotCutoffPx = 50.0;
 constexpr double kSmoothingSamples = 3.0;
-constexpr double kTwoNodes = 0.28867513459481287;  // of Gauss-Legendre, from the middle of a unit interval
-constexpr int kClosedSpansMin = 12;                // so that band entries of periodic inverses are all different places
+constexpr auto kTwoPoints = gaussLegendre<2>(-1.0, 0.0);  // of an interval that ends at 0
+constexpr int kClosedSpansMin = 12;  // so that band entries of periodic inverses are all different places
 
 /// Gaussian smoothing by order; open ends are continued by reflection in the end point, which keeps it in place.
 std::vector<Vec2> smoothedByOrder(const std::vector<Vec2>& p, bool closed) {
@@ -94,14 +97,6 @@ void averageBlocks(FairFrame& frame, const FairData& data, const FairFitOptions&
 }
 
 }  // namespace
-
-double robustSigma(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  for (double& v : values) v = std::abs(v);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return 1.4826 * *middle;
-}
 
 FrameStation frameStation(const PlaneDerivatives& d, const std::array<BandRow, 5>& b) {
   FrameStation s;
@@ -227,9 +222,9 @@ std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorX
   for (int j = 0; j <= intervals; ++j) {
     if (j > 0) {
       // Two nodes: an interval is an eighth of a span.
-      const double a = offsetPoint(base, d, from + (j - 0.5 - kTwoNodes) * step).velocity.norm();
-      const double b = offsetPoint(base, d, from + (j - 0.5 + kTwoNodes) * step).velocity.norm();
-      length += 0.5 * (a + b) * step;
+      for (std::size_t g = 0; g < 2; ++g)
+        length +=
+            kTwoPoints.weight[g] * step * offsetPoint(base, d, from + (j + kTwoPoints.node[g]) * step).velocity.norm();
     }
     out.oldParameters.push_back(from + j * step);
     out.arcLengths.push_back(length);

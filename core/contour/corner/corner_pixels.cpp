@@ -8,7 +8,9 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/statistics.h"
 #include "core/contour/subpixel/pixel_edge.h"
+#include "core/solve/gauss_legendre.h"
 
 namespace batten {
 namespace {
@@ -87,12 +89,6 @@ class Wedge {
   bool ink_ = true;  // the wedge below 180 degrees is ink
 };
 
-double medianOf(std::vector<double>& v) {
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
-
 struct WedgePixel {
   Vec2 at;
   double grey;
@@ -129,13 +125,13 @@ bool readScene(const GreyImage& grey, const Vec2& corner, const Wedge& wedge, Co
     }
   }
   if (scene.pixels.size() < kFewestPixels || std::min(tones[0].size(), tones[1].size()) < kFewestTones) return false;
-  scene.paper = medianOf(tones[0]);
-  const double ink = medianOf(tones[1]);
+  scene.paper = upperMedian(tones[0]);
+  const double ink = upperMedian(tones[1]);
   scene.contrast = scene.paper - ink;
   std::vector<double> off;
   for (const double g : tones[0]) off.push_back(std::abs(g - scene.paper));
   for (const double g : tones[1]) off.push_back(std::abs(g - ink));
-  const double noise = 1.4826 * medianOf(off);
+  const double noise = robustSigma(off);
   const double error = scene.contrast * (kWedgeError + kSpotError * kPixelVariance / (wedge.blur() * wedge.blur()));
   scene.variance = noise * noise + error * error;
   return scene.contrast > std::max(kLeastCornerContrast, noise);
@@ -159,20 +155,14 @@ void addCubic(CornerSide& side, const Eigen::Vector4d& d) {
 }  // namespace
 
 double bothBelow(double h, double k, double correlation) {
-  // Gauss-Legendre with ten nodes on either half of the way from no correlation.
-  static constexpr double kNode[5] = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244, 0.8650633666889845,
-                                      0.9739065285171717};
-  static constexpr double kWeight[5] = {0.2955242247147529, 0.2692667193099963, 0.2190863625159821, 0.1494513491505806,
-                                        0.0666713443086881};
+  // Ten points on either half of the way from no correlation.
+  static constexpr auto kRule = gaussLegendre<10>();
   const double end = std::asin(correlation);
   double sum = 0.0;
   for (const double middle : {0.25, 0.75}) {
-    for (int i = 0; i < 5; ++i) {
-      for (const double side : {-1.0, 1.0}) {
-        const double angle = end * (middle + 0.25 * side * kNode[i]);
-        const double s = std::sin(angle), c2 = 1.0 - s * s;
-        sum += kWeight[i] * std::exp(-0.5 * (h * h + k * k - 2.0 * h * k * s) / c2);
-      }
+    for (std::size_t i = 0; i < kRule.node.size(); ++i) {
+      const double s = std::sin(end * (middle + 0.25 * kRule.node[i])), c2 = 1.0 - s * s;
+      sum += kRule.weight[i] * std::exp(-0.5 * (h * h + k * k - 2.0 * h * k * s) / c2);
     }
   }
   return std::clamp(below(h) * below(k) + 0.25 * end * sum / (2.0 * std::numbers::pi), 0.0, 1.0);
