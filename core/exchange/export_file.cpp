@@ -22,7 +22,10 @@
 #include "core/exchange/pdf_writer.h"
 #include "core/exchange/polynomial_writer.h"
 #include "core/exchange/read_back.h"
-#include "core/exchange/writers.h"
+#include "core/exchange/curve_json.h"
+#include "core/exchange/save_atomically.h"
+#include "core/exchange/svg_check.h"
+#include "core/exchange/svg_writer.h"
 
 namespace batten {
 namespace {

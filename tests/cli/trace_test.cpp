@@ -57,7 +57,7 @@ TEST_F(Trace, WritesSeveralFormatsInOneRunAndChecksEach) {
   for (const json& check : said["checks"])
     EXPECT_NE(check.get<std::string>().find("read back, largest difference"), std::string::npos) << check;
   const std::string dxf = test::readFile(file("a b.dxf"));
-  EXPECT_NE(dxf.find("$INSUNITS\r\n 70\r\n1\r\n"), std::string::npos) << dxf.substr(0, 300);
+  EXPECT_NE(dxf.find("$INSUNITS\n 70\n1\n"), std::string::npos) << dxf.substr(0, 300);
   EXPECT_NE(said["checks"][2].get<std::string>().find("within"), std::string::npos) << "the laser's cubics approximate";
   EXPECT_NE(test::readFile(file("a b.csv")).find("s_in,x_in,y_in"), std::string::npos);
 }

@@ -13,7 +13,7 @@
 #include "core/exchange/cubic_path.h"
 #include "core/exchange/export_file.h"
 #include "core/exchange/pdf_writer.h"
-#include "core/exchange/writers.h"
+#include "core/exchange/svg_writer.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
 namespace batten {
