@@ -2,15 +2,12 @@
 #include "app/cli/compare_command.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "app/cli/exit_codes.h"
-#include "core/exchange/curve_json.h"
+#include "core/exchange/curve_file.h"
 #include "core/fairing/curve_comparison.h"
 
 namespace batten::cli {
@@ -24,16 +21,10 @@ struct NamedShape {
 };
 
 Result<std::vector<NamedShape>> shapesOf(const std::string& path) {
-  std::error_code code;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || !std::filesystem::is_regular_file(path, code)) {
-    return fail(ErrorCode::BadParameter, "The curves " + path + " cannot be read. Check the name.");
-  }
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const auto document = readCurveJson(text);
+  const auto document = readCurveFile(path);
   if (!document) {
-    return fail(ErrorCode::BadParameter,
-                path + ": " + document.error().message + " Write it anew with batten-cli trace SCAN -o FILE.json.");
+    return fail(document.error().code,
+                document.error().message + " Write it anew with batten-cli trace SCAN -o FILE.json.");
   }
   std::vector<NamedShape> shapes;
   for (const ExportCurve& curve : document->curves) {

@@ -9,7 +9,9 @@
 #include "app/cli/stage_dump.h"
 #include "app/cli/suggest_command.h"
 #include "app/cli/trace_command.h"
+#include "app/cli/trace_plan.h"
 #include "app/cli/usage_error.h"
+#include "core/exchange/export_settings.h"
 
 namespace {
 
@@ -51,11 +53,23 @@ void addDrawing(CLI::App& app, TraceArguments& a, const char* scanHelp, const ch
 
 void addTrace(CLI::App& app, TraceArguments& a) {
   CLI::App* trace = app.add_subcommand("trace", "Turn a scan into fair curves");
-  trace->footer("Prints one line of JSON: the scan, how many curves, the files written, and notes.");
+  trace->footer(
+      "Prints one line of JSON: the scan, how many curves, the files written, how each compares with the curves, and "
+      "notes.");
   addDrawing(*trace, a, "The scan: PNG, JPEG, TIFF, BMP, WebP, PGM or PBM; none for a recipe drawn on an empty page",
              "Start from this recipe; --set, --corner and --dpi come on top");
-  addRepeated(*trace, "-o,--output", a.outputs, "OUT.svg|OUT.json",
-              "Write the curves; the extension chooses the format; may be repeated");
+  addRepeated(*trace, "-o,--output", a.outputs, "OUT",
+              "Write the curves; the ending chooses the format (" + allEndings() + "); may be repeated");
+  trace->add_option("--preset", a.preset, "Write what this receiver reads best: " + presetNames())->type_name("NAME");
+  trace->add_option("--unit", a.unit, "Unit of DXF, IGES, STEP and CSV: mm or in")->type_name("UNIT");
+  trace->add_option("--scale", a.scale, "Write the curves this many times as large")->type_name("N");
+  trace->add_option("--tolerance", a.tolerance, "Largest distance of what is approximated from the exact curves, mm")
+      ->type_name("MM");
+  trace->add_option("--curves", a.curves, "Write only these curves, by their numbers in the report: 1,3-5")
+      ->type_name("LIST");
+  trace->add_option("--which", a.which, "Which curves to write: faired, sketched or both")->type_name("KIND");
+  trace->add_flag("--joined", a.joined, "DXF, IGES, STEP: curves that follow each other become one");
+  trace->add_flag("--splines-only", a.splinesOnly, "DXF, IGES, STEP: lines, arcs and circles as splines, too");
   addRepeated(*trace, "--corner", a.corners, "X,Y[,MM]",
               "Sharp corner near this place, px from the upper left; with MM rounded by that size; may be repeated");
   addRepeated(*trace, "--segment-point", a.segmentPoints, "X,Y",
@@ -94,8 +108,8 @@ int run(int argc, char** argv) {
       app.add_subcommand("compare", "How alike the curves of two files are, whatever their size and place");
   compare->footer(
       "Prints one line of JSON: similarity S and Pearson's r of the radii over the perimeter for every pair.");
-  compare->add_option("first", first, "Curves as JSON, written by trace")->type_name("A.json")->required();
-  compare->add_option("second", second, "Curves to compare them with")->type_name("B.json")->required();
+  compare->add_option("first", first, "Curves: JSON or SVG written by trace, DXF, IGES or STEP")->type_name("A")->required();
+  compare->add_option("second", second, "Curves to compare them with")->type_name("B")->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

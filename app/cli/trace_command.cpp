@@ -17,9 +17,8 @@
 #include "core/base/conventions.h"
 #include "core/document/export_builder.h"
 #include "core/document/report.h"
-#include "core/exchange/curve_json.h"
+#include "core/exchange/export_file.h"
 #include "core/exchange/save_atomically.h"
-#include "core/exchange/svg_writer.h"
 #include "core/image/scan_reader.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "core/pipeline/run/curve_targets.h"
@@ -73,6 +72,7 @@ class Trace {
     nlohmann::ordered_json json{{"scan", arguments_.scan}, {"curves", curves_}, {"pieces", out_.faired->curves.size()}};
     json["milliseconds"] = millisecondsSince(begin_);
     json["files"] = files_;
+    json["checks"] = checks_;
     json["notes"] = notes();
     return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   }
@@ -126,20 +126,20 @@ class Trace {
   }
 
   Result<void> writeCurves() {
-    const ExportDocument document = exportDocument(out_, plan_.recipe, scan_);
+    ExportDocument document = exportDocument(out_, plan_.recipe, scan_, plan_.which);
+    if (!plan_.curves.empty()) {
+      auto chosen = chosenCurves(document, plan_.curves);
+      if (!chosen) return fail(chosen.error());
+      document = std::move(*chosen);
+    }
     curves_ = document.curves.size();
     for (const auto& output : plan_.outputs) {
-      auto text = output.format == TracePlan::Format::Svg ? svgText(document) : writeCurveJson(document);
-      if (!text) return fail(text.error());
-      if (auto saved = save(output.path, *text); !saved) return saved;
+      const auto report = exportToFile(document, output.settings, output.path, context_);
+      if (!report) return fail(report.error());
+      files_.push_back(output.path.string());
+      checks_.push_back(output.path.filename().string() + ": " + sentenceOf(*report));
     }
     return {};
-  }
-
-  static Result<std::string> svgText(const ExportDocument& document) {
-    auto svg = writeSvg(document, {});
-    if (!svg) return fail(svg.error());
-    return std::move(svg->text);
   }
 
   static std::string placeText(const Vec2& px) {
@@ -195,7 +195,7 @@ class Trace {
   double readMilliseconds_ = 0.0;
   PipelineOutput out_;
   std::size_t curves_ = 0;
-  std::vector<std::string> files_;
+  std::vector<std::string> files_, checks_;
 };
 
 }  // namespace

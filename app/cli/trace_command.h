@@ -10,7 +10,15 @@ namespace batten::cli {
 /// The words of `batten-cli trace`, as typed.
 struct TraceArguments {
   std::string scan;                        ///< Empty: the recipe's own empty page
-  std::vector<std::string> outputs;        ///< -o: .svg or .json
+  std::vector<std::string> outputs;        ///< -o: the ending chooses the format
+  std::string preset;                      ///< --preset
+  std::string unit;                        ///< --unit mm|in
+  std::optional<double> scale;             ///< --scale
+  std::optional<double> tolerance;         ///< --tolerance [mm]
+  std::string curves;                      ///< --curves 1,3-5; empty: all
+  std::string which;                       ///< --which faired|sketched|both; empty: faired
+  bool joined = false;                     ///< --joined
+  bool splinesOnly = false;                ///< --splines-only
   std::string recipe;                      ///< --recipe
   std::vector<std::string> settings;       ///< --set stage.parameter=value
   std::vector<std::string> corners;        ///< --corner X,Y or X,Y,MM

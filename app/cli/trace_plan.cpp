@@ -101,11 +101,48 @@ Result<void> applyRegion(const std::string& region, Recipe& recipe) {
   return {};
 }
 
-Result<TracePlan::Output> outputOf(const std::string& path) {
-  const std::string extension = extensionOf(path);
-  if (extension == ".svg") return TracePlan::Output{path, TracePlan::Format::Svg};
-  if (extension == ".json") return TracePlan::Output{path, TracePlan::Format::CurveJson};
-  return wrong("The output " + path + " must end in .svg or .json.");
+/// The settings of an output: those of the preset if it is for this format, then what is said beside it.
+Result<TracePlan::Output> outputOf(const std::string& path, const TraceArguments& arguments) {
+  const auto format = formatOf(path);
+  if (!format) return wrong("The output " + path + " must end in one of " + allEndings() + ".");
+  ExportSettings settings;
+  if (!arguments.preset.empty()) {
+    const ExportPreset* preset = findPreset(arguments.preset);
+    if (preset == nullptr)
+      return wrong("There is no preset \"" + arguments.preset + "\". Presets: " + presetNames() + ".");
+    if (preset->settings.format == *format) settings = preset->settings;
+  }
+  settings.format = *format;
+  if (arguments.unit == "in") settings.unit = LengthUnit::Inch;
+  if (arguments.scale) settings.scale = *arguments.scale;
+  if (arguments.tolerance) settings.toleranceMm = arguments.tolerance;
+  settings.joined = settings.joined || arguments.joined;
+  settings.splinesOnly = settings.splinesOnly || arguments.splinesOnly;
+  if (auto problem = validate(settings)) return fail(std::move(*problem));
+  return TracePlan::Output{path, settings};
+}
+
+/// A preset that none of the outputs is for is a mistake, as is an unknown word.
+Result<void> planExport(const TraceArguments& arguments, TracePlan& plan) {
+  if (!arguments.unit.empty() && arguments.unit != "mm" && arguments.unit != "in")
+    return wrong("--unit takes mm or in, not \"" + arguments.unit + "\".");
+  if (arguments.which == "sketched") plan.which = ExportedCurves::Sketched;
+  if (arguments.which == "both") plan.which = ExportedCurves::Both;
+  if (!arguments.which.empty() && arguments.which != "faired" && plan.which == ExportedCurves::Faired)
+    return wrong("--which takes faired, sketched or both, not \"" + arguments.which + "\".");
+  plan.curves = arguments.curves;
+  for (const std::string& path : arguments.outputs) {
+    auto output = outputOf(path, arguments);
+    if (!output) return fail(output.error());
+    plan.outputs.push_back(std::move(*output));
+  }
+  const ExportPreset* preset = findPreset(arguments.preset);
+  const auto isFor = [&](const auto& output) { return output.settings.format == preset->settings.format; };
+  if (preset != nullptr && std::none_of(plan.outputs.begin(), plan.outputs.end(), isFor)) {
+    return wrong("The preset " + arguments.preset + " is for files that end in " +
+                 endingsOf(preset->settings.format)[0] + ", and no output does.");
+  }
+  return {};
 }
 
 Result<TracePlan::Dump> dumpOf(const std::string& dump) {
@@ -142,7 +179,7 @@ Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan
   if (!arguments.report.empty()) targets.emplace_back(arguments.report);
   const std::size_t withoutRecipe = targets.size();
   if (!arguments.saveRecipe.empty()) targets.emplace_back(arguments.saveRecipe);
-  if (targets.empty()) return wrong("Nothing would be written. Add -o OUT.svg or -o OUT.json.");
+  if (targets.empty()) return wrong("Nothing would be written. Add -o OUT.svg, -o OUT.dxf or another.");
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const std::string name = targets[i].string();
     if (!arguments.scan.empty() && isSameFile(targets[i], arguments.scan)) {
@@ -191,13 +228,15 @@ Result<Recipe> recipeOf(const TraceArguments& arguments) {
   return recipe;
 }
 
+std::string presetNames() {
+  std::string names;
+  for (const ExportPreset& preset : exportPresets()) names.append(names.empty() ? "" : ", ").append(preset.id);
+  return names;
+}
+
 Result<TracePlan> planTrace(const TraceArguments& arguments) {
   TracePlan plan;
-  for (const std::string& path : arguments.outputs) {
-    auto output = outputOf(path);
-    if (!output) return fail(output.error());
-    plan.outputs.push_back(std::move(*output));
-  }
+  if (auto planned = planExport(arguments, plan); !planned) return fail(planned.error());
   for (const std::string& dump : arguments.dumps) {
     auto parsed = dumpOf(dump);
     if (!parsed) return fail(parsed.error());

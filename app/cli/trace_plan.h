@@ -7,16 +7,17 @@
 
 #include "app/cli/trace_command.h"
 #include "core/base/result.h"
+#include "core/document/export_builder.h"
+#include "core/exchange/export_settings.h"
 #include "core/pipeline/recipe/recipe.h"
 
 namespace batten::cli {
 
 /// A checked request: everything that can be wrong in the words alone has been refused before any work is done.
 struct TracePlan {
-  enum class Format { Svg, CurveJson };
   struct Output {
     std::filesystem::path path;
-    Format format = Format::Svg;
+    ExportSettings settings;
   };
   struct Dump {
     std::string stage;
@@ -24,12 +25,17 @@ struct TracePlan {
   };
   Recipe recipe;
   std::vector<Output> outputs;
+  std::string curves;  ///< Numbers of the curves to write; empty: all.
+  ExportedCurves which = ExportedCurves::Faired;
   std::vector<Dump> dumps;
 };
 
 /// The recipe that the words ask for: recipe file first, then --set in the order given, then corners, regions and
 /// resolution. @return BadParameter with what to do.
 Result<Recipe> recipeOf(const TraceArguments&);
+
+/// The words --preset takes, in one line.
+std::string presetNames();
 
 /// The recipe and what is to be written. @return BadParameter with what to do.
 Result<TracePlan> planTrace(const TraceArguments&);

@@ -17,6 +17,9 @@ namespace {
 /// All pieces of one contour in order of travel; null where there is no curve to export.
 using ContourPieces = std::vector<const TracedCurve*>;
 
+constexpr const char* kFairedLayer = "Faired";
+constexpr const char* kSketchedLayer = "Sketched";
+
 /// Runs of pieces that follow each other. A closed contour may be entered anywhere: it starts after a gap, so that no
 /// run is cut at the contour's own start.
 std::vector<std::vector<const TracedCurve*>> runs(const ContourPieces& pieces, bool closed) {
@@ -49,37 +52,49 @@ std::optional<double> strokeWidth(const Contour& line, const PageFrame& frame) {
   return frame.lengthToModel(static_cast<double>(middle));
 }
 
+const NurbsCurve& shapeOf(const TracedCurve& curve, bool sketched) { return sketched ? curve.sketched : curve.faired; }
+
+/// Adds the lines of a run in one of their two kinds.
+void addCurves(const PipelineOutput& output, bool sketched, ExportDocument& document) {
+  std::map<int, ContourPieces> byContour;
+  std::map<std::size_t, const TracedCurve*> byPiece;
+  for (const TracedCurve& curve : output.faired->curves) {
+    if (curve.included && !shapeOf(curve, sketched).isEmpty()) byPiece[static_cast<std::size_t>(curve.piece)] = &curve;
+  }
+  for (std::size_t i = 0; i < output.pieces->pieces.size(); ++i) {
+    const auto found = byPiece.find(i);
+    byContour[output.pieces->pieces[i].contour].push_back(found == byPiece.end() ? nullptr : found->second);
+  }
+  int count = 0;
+  for (const auto& [contour, pieces] : byContour) {
+    const Contour& line = output.contours->contours[static_cast<std::size_t>(contour)];
+    for (const auto& run : runs(pieces, line.closed)) {
+      ExportCurve& curve = document.curves.emplace_back();
+      curve.id = "curve-" + std::to_string(++count) + (sketched ? "-sketched" : "");
+      curve.layer = sketched ? kSketchedLayer : kFairedLayer;
+      for (const TracedCurve* piece : run) {
+        const int number = static_cast<int>(piece - output.faired->curves.data()) + 1;
+        curve.pieces.push_back({shapeOf(*piece, sketched), "Curve " + std::to_string(number), number});
+      }
+      curve.strokeWidthMm = strokeWidth(line, output.frame);
+      // A loop of the drawing whose curves do not meet, because a construction breaks them, is none.
+      curve.closed = isWholeClosed(run, pieces, line.closed) && isLoop(curve.pieces);
+    }
+  }
+}
+
 }  // namespace
 
-ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe, const Scan& scan) {
+ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe, const Scan& scan,
+                              ExportedCurves which) {
   ExportDocument document;
   document.frame = output.frame;
   document.dpi = recipe.dpi ? recipe.dpi : scan.dpi;
   document.imageSha256 = scan.fileHash.hex();
   document.title = std::filesystem::path(scan.path).filename().string();
   if (!output.faired || !output.pieces || !output.contours) return document;
-
-  std::map<int, ContourPieces> byContour;
-  std::map<std::size_t, const TracedCurve*> byPiece;
-  for (const TracedCurve& curve : output.faired->curves) {
-    if (curve.included && !curve.faired.isEmpty()) byPiece[curve.piece] = &curve;
-  }
-  for (std::size_t i = 0; i < output.pieces->pieces.size(); ++i) {
-    const auto found = byPiece.find(i);
-    byContour[output.pieces->pieces[i].contour].push_back(found == byPiece.end() ? nullptr : found->second);
-  }
-  for (const auto& [contour, pieces] : byContour) {
-    const Contour& line = output.contours->contours[contour];
-    const bool closed = line.closed;
-    for (const auto& run : runs(pieces, closed)) {
-      ExportCurve& curve = document.curves.emplace_back();
-      curve.id = "curve-" + std::to_string(document.curves.size());
-      for (const TracedCurve* piece : run) curve.pieces.push_back({piece->faired});
-      curve.strokeWidthMm = strokeWidth(line, output.frame);
-      // A loop of the drawing whose curves do not meet, because a construction breaks them, is none.
-      curve.closed = isWholeClosed(run, pieces, closed) && isLoop(curve.pieces);
-    }
-  }
+  if (which != ExportedCurves::Faired) addCurves(output, true, document);
+  if (which != ExportedCurves::Sketched) addCurves(output, false, document);
   return document;
 }
 

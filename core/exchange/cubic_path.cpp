@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/exchange/cubic_path.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "core/curve/arc_length.h"
+#include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
 
 namespace batten {
@@ -14,6 +18,10 @@ constexpr int kRounds = 4;     ///< Fits of the handles, each with better parame
 constexpr int kMaxDepth = 24;  ///< Halvings; 1/2^24 of a piece is far below any tolerance.
 constexpr double kMaxTurn =
     1.75;  ///< [rad] A cubic that turns more than 100 degrees fits badly and looks wrong in editors.
+
+constexpr int kCurvatureRounds = 12;          ///< Steps towards the curvatures at both ends.
+constexpr double kMaxCurvatureError = 0.008;  ///< At the end of a cubic; two that meet may jump by twice as much.
+constexpr double kLeastCurvature = 0.05;      ///< [1/length of the curve] What a curvature error is measured against.
 
 constexpr double kJump = 4.0;  ///< [grid] Parts of a curve that end and start farther apart than by rounding.
 
@@ -26,6 +34,17 @@ Vec2 at(const Cubic& c, double t) {
 Vec2 slope(const Cubic& c, double t) {
   const double s = 1.0 - t;
   return 3 * s * s * (c[1] - c[0]) + 6 * s * t * (c[2] - c[1]) + 3 * t * t * (c[3] - c[2]);
+}
+
+/// Curvatures at both ends of a cubic; absent where a handle has no length.
+using EndCurvatures = std::array<std::optional<double>, 2>;
+EndCurvatures endCurvatures(const Cubic& c) {
+  const Vec2 first = c[1] - c[0], middle = c[2] - c[1], last = c[3] - c[2];
+  const double a = first.norm(), b = last.norm();
+  EndCurvatures kappa;
+  if (a > 0.0) kappa[0] = cross(first / a, middle) / (1.5 * a * a);
+  if (b > 0.0) kappa[1] = cross(middle, last / b) / (1.5 * b * b);
+  return kappa;
 }
 
 /// Distance of p from the cubic near t; improves t. Gauss-Newton on the foot point, which is enough near the curve.
@@ -47,8 +66,11 @@ class Approximation {
   Approximation(const NurbsCurve& curve, double tolerance, double grid, CubicPath& path)
       : curve_(curve), tolerance_(tolerance), grid_(grid), path_(path) {}
 
-  /// Adds the curve to the last run, or begins one where it starts elsewhere.
-  void add() {
+  /// Adds the curve, which has one curvature at every place, to the last run, or begins one where it starts elsewhere.
+  /// Curvatures less than kLeastCurvature / `wholeLength` count as that much.
+  void add(double wholeLength) {
+    least_ = kLeastCurvature / wholeLength;
+    before_.reset();
     const Vec2 start = rounded(curve_.point(curve_.start()));
     if (path_.runs.empty() || (path_.runs.back().end() - start).norm() > kJump * grid_)
       path_.runs.push_back({start, {}});
@@ -69,6 +91,47 @@ class Approximation {
     const Vec2 step =
         u == from ? Vec2(curve_.point(near) - curve_.point(u)) : Vec2(curve_.point(u) - curve_.point(near));
     return step.norm() > 0.0 ? Vec2(step.normalized()) : Vec2(Vec2::Zero());
+  }
+
+  std::optional<double> exactCurvature(double u) const { return curvature(curve_, u); }
+  double weight(double kappa) const { return std::max(std::abs(kappa), least_); }
+
+  /// How much a cubic's curvatures at its ends are off, relative; 0 where the curve has none.
+  double curvatureError(const Cubic& c, const EndCurvatures& exact) const {
+    const EndCurvatures own = endCurvatures(c);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < 2; ++i)
+      if (exact[i]) worst = std::max(worst, own[i] ? std::abs(*own[i] - *exact[i]) / weight(*exact[i]) : 1.0);
+    return worst;
+  }
+
+  /// Changes the lengths of the handles until the curvatures at the ends are those of the curve: two equations of
+  /// second degree for two lengths (de Boor, Hollig, Sabin, High accuracy geometric Hermite interpolation, 1987), which
+  /// nearly coincide along an arc, so that a damped step is taken. Leaves the cubic alone if that leads nowhere.
+  void matchCurvatures(Cubic& c, const EndCurvatures& exact) const {
+    if (!exact[0] || !exact[1]) return;
+    const double chord = (c[3] - c[0]).norm();
+    Eigen::Vector2d length((c[1] - c[0]).norm(), (c[3] - c[2]).norm());
+    if (!(chord > 0.0) || !(length.minCoeff() > 0.0)) return;
+    const Vec2 d0 = (c[1] - c[0]) / length[0], d1 = (c[3] - c[2]) / length[1], across = c[3] - c[0];
+    const double turn = cross(d0, d1), lift0 = cross(d0, across), lift1 = cross(across, d1);
+    for (int round = 0; round < kCurvatureRounds; ++round) {
+      const double a = length[0], b = length[1];
+      const double k0 = (lift0 - b * turn) / (1.5 * a * a), k1 = (lift1 - a * turn) / (1.5 * b * b);
+      const double w0 = weight(*exact[0]), w1 = weight(*exact[1]);
+      const Eigen::Vector2d off((k0 - *exact[0]) / w0, (k1 - *exact[1]) / w1);
+      if (off.cwiseAbs().maxCoeff() < 1e-12) break;
+      Eigen::Matrix2d slope;  // per relative change of a length
+      slope << -2.0 * k0 / w0, -turn * b / (1.5 * a * a * w0), -turn * a / (1.5 * b * b * w1), -2.0 * k1 / w1;
+      const Eigen::Matrix2d normal =
+          slope.transpose() * slope + 1e-9 * slope.squaredNorm() * Eigen::Matrix2d::Identity();
+      const Eigen::Vector2d step = -(normal.inverse() * (slope.transpose() * off));
+      if (!step.allFinite()) return;
+      length.array() *= step.array().max(-0.3).min(0.3).exp();
+    }
+    if (!(length.minCoeff() > 0.05 * chord && length.maxCoeff() < 3.0 * chord)) return;
+    c[1] = c[0] + length[0] * d0;
+    c[2] = c[3] - length[1] * d1;
   }
 
   double turning() const {
@@ -160,13 +223,14 @@ class Approximation {
     sample(from, to);
     const bool mayHalve = depth < kMaxDepth && middle > from && middle < to;
     if (!(mayHalve && turning() > kMaxTurn)) {
+      const EndCurvatures exact = {exactCurvature(from), exactCurvature(to)};
       Cubic c = fitted(from, to, start, end);
+      matchCurvatures(c, exact);
       c[1] = rounded(c[1]);
       c[2] = rounded(c[2]);
-      const double measured = error(c, from, to);
-      if (measured <= tolerance_ || !mayHalve) {
-        path_.runs.back().cubics.push_back({c[1], c[2], c[3]});
-        path_.largestError = std::max(path_.largestError, measured);
+      const double measured = curvatureError(c, exact) <= kMaxCurvatureError || !mayHalve ? error(c, from, to) : -1.0;
+      if ((measured >= 0.0 && measured <= tolerance_) || !mayHalve) {
+        take(c, exact[0], measured);
         return;
       }
     }
@@ -174,21 +238,32 @@ class Approximation {
     recurse(middle, to, depth + 1);
   }
 
+  void take(const Cubic& c, const std::optional<double>& exactAtStart, double measured) {
+    path_.runs.back().cubics.push_back({c[1], c[2], c[3]});
+    path_.largestError = std::max(path_.largestError, measured);
+    const EndCurvatures own = endCurvatures(c);
+    if (before_ && own[0] && exactAtStart)
+      path_.largestJump = std::max(path_.largestJump, std::abs(*before_ - *own[0]) / weight(*exactAtStart));
+    before_ = own[1];
+  }
+
   const NurbsCurve& curve_;
   double tolerance_, grid_;
   CubicPath& path_;
+  double least_ = 0.0;            ///< Curvature below which a difference does not count.
+  std::optional<double> before_;  ///< Curvature at the end of the cubic taken last.
   std::vector<Vec2> points_;
   std::vector<double> parameters_;
 };
 
-/// The curve cut where it may have a corner, so that within a part both one-sided tangents agree.
+/// The curve cut where its curvature may jump, so that within a part both sides of a knot agree.
 Result<std::vector<NurbsCurve>> smoothParts(const NurbsCurve& curve) {
   std::vector<NurbsCurve> parts;
   NurbsCurve rest = curve;
   const std::vector<double> breaks = curve.breaks();
   for (std::size_t i = 1; i + 1 < breaks.size(); ++i) {
     const auto knots = curve.knots();
-    if (std::count(knots.begin(), knots.end(), breaks[i]) < curve.degree()) continue;
+    if (std::count(knots.begin(), knots.end(), breaks[i]) < curve.degree() - 1) continue;
     auto cut = split(rest, breaks[i]);
     if (!cut) return fail(cut.error());
     parts.push_back(cut->left);
@@ -204,7 +279,8 @@ Result<CubicPath> cubicPath(const NurbsCurve& curve, double tolerance, double gr
   auto parts = smoothParts(curve);
   if (!parts) return fail(parts.error());
   CubicPath path;
-  for (const NurbsCurve& part : *parts) Approximation(part, tolerance, grid, path).add();
+  const double length = ArcLength(curve).total();
+  for (const NurbsCurve& part : *parts) Approximation(part, tolerance, grid, path).add(length);
   return path;
 }
 

@@ -13,6 +13,8 @@ namespace batten {
 /// What an export holds, independent of the format. Model frame, mm.
 struct ExportPiece {
   NurbsCurve curve;
+  std::string name = {};           ///< As the window calls it; empty: named after its line.
+  std::optional<int> number = {};  ///< As the window counts it, from 1.
 };
 /// All pieces of one line of the drawing, in order of travel; neighbouring pieces meet at corners, but for
 /// curves that a construction breaks there.
@@ -21,6 +23,8 @@ struct ExportCurve {
   bool closed = false;  ///< Every piece ends where the next starts, the last one where the first does.
   std::vector<ExportPiece> pieces;
   std::optional<double> strokeWidthMm = {};  ///< [mm] > 0, usual width of the stroke that it is the middle of.
+  std::string name = {};                     ///< Of the user's; empty: its id is its name.
+  std::string layer = "Faired";              ///< Layer of CAD files and of SVG. Not empty.
 };
 struct ExportDocument {
   PageFrame frame;

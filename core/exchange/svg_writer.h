@@ -16,9 +16,11 @@ struct SvgText {
   std::string text;
   double largestErrorMm = 0.0;  ///< Measured, not the bound asked for.
   int cubics = 0;
+  double largestJump = 0.0;  ///< Of the curvature where cubics meet, measured and relative: see cubic_path.h.
 };
-/// SVG in mm (width and height in mm, 1 user unit = 1 mm, y down), one <path> per curve of the drawing, cubics within
-/// the tolerance of the exact quintics, the error stated in <desc>, the exact B-splines in <metadata>.
+/// SVG in mm (width and height in mm, 1 user unit = 1 mm, y down), one <path> per curve of the drawing, a
+/// <g> per layer, cubics within the tolerance of the exact curves and with their curvatures at every joint, both errors
+/// stated in <desc>, the exact B-splines in <metadata>.
 /// @return NoCurve if there is nothing to write.
 Result<SvgText> writeSvg(const ExportDocument&, const SvgOptions&);
 

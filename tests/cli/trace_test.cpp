@@ -44,6 +44,39 @@ TEST_F(Trace, WritesSvgJsonReportAndSummary) {
   EXPECT_EQ(report["image"]["sha256"], document->imageSha256);
 }
 
+TEST_F(Trace, WritesSeveralFormatsInOneRunAndChecksEach) {
+  const std::string scan = scene();
+  std::string words = "trace " + scan + " --dpi 300 --unit in --preset laser";
+  for (const char* ending : {".svg", ".json", ".dxf", ".igs", ".step", ".pdf", ".csv", ".poly.csv"})
+    words += " -o " + file(std::string("a b") + ending);
+  const auto done = run(words);
+  ASSERT_EQ(done.code, 0) << done.err;
+  const json said = json::parse(done.out);
+  EXPECT_EQ(said["files"].size(), 8u);
+  ASSERT_EQ(said["checks"].size(), 8u);
+  for (const json& check : said["checks"])
+    EXPECT_NE(check.get<std::string>().find("read back, largest difference"), std::string::npos) << check;
+  const std::string dxf = test::readFile(file("a b.dxf"));
+  EXPECT_NE(dxf.find("$INSUNITS\n 70\n1\n"), std::string::npos) << dxf.substr(0, 300);
+  EXPECT_NE(said["checks"][2].get<std::string>().find("within"), std::string::npos) << "the laser's cubics approximate";
+  EXPECT_NE(test::readFile(file("a b.csv")).find("s_in,x_in,y_in"), std::string::npos);
+}
+
+TEST_F(Trace, RefusesWordsOfAnExportThatMakeNoSense) {
+  const std::string scan = scene();
+  const std::string start = "trace " + scan + " --dpi 300 ";
+  expectError(start + "-o " + file("a.dwg"), 2, "must end in one of .svg");
+  expectError(start + "--preset paper -o " + file("a.dxf"), 2, "Presets: alias");
+  expectError(start + "--preset laser -o " + file("a.svg"), 2, "end in .dxf");
+  expectError(start + "--unit cm -o " + file("a.dxf"), 2, "mm or in");
+  expectError(start + "--scale 0 -o " + file("a.dxf"), 2, "larger than 0");
+  expectError(start + "--tolerance 0 -o " + file("a.svg"), 2, "at least 0.000001 mm");
+  expectError(start + "--curves 7 -o " + file("a.svg"), 2, "no curve 7");
+  expectError(start + "--curves x -o " + file("a.svg"), 2, "by their numbers");
+  expectError(start + "--which all -o " + file("a.svg"), 2, "faired, sketched or both");
+  EXPECT_FALSE(std::filesystem::exists(file("a.svg")));
+}
+
 /// What a first-time user sees: every line of the drawing whole, cut at its nine corners and nowhere else.
 TEST_F(Trace, TheSampleGivesItsLinesWhole) {
   const std::string sample = BATTEN_SAMPLE;

@@ -184,7 +184,7 @@ TEST_F(Pen, ADrawingIsSavedOpenedAgainAndTracedAlikeByItsRecipe) {
   ASSERT_TRUE(settle());
   for (const bool svg : {false, true}) {
     window_->action(ActionId::Export)->trigger();
-    QTest::mouseClick(find<QAbstractButton>(svg ? "export.format.svg" : "export.format.json"), Qt::LeftButton);
+    ASSERT_NO_FATAL_FAILURE(chooseReceiver(svg ? "illustrator" : "archive"));
     const QString target = folder_.filePath(svg ? QStringLiteral("d.svg") : QStringLiteral("d.json"));
     type(find<QLineEdit>("export.path"), target);
     ASSERT_TRUE(waitUntil([&] { return find<QAbstractButton>("export.run")->isEnabled(); }));

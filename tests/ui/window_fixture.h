@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QComboBox>
 #include <QFile>
 #include <QLineEdit>
 #include <QSettings>
@@ -87,6 +88,16 @@ class WindowFixture : public testing::Test {
     ASSERT_TRUE(settle());
     ASSERT_FALSE(session().output().error) << session().output().error->message;
     ASSERT_FALSE(session().curves().empty());
+  }
+  /// Chooses who an export is for, by the keyboard.
+  void chooseReceiver(const char* id) {
+    auto* box = find<QComboBox>("export.preset");
+    const int wanted = box->findData(QString::fromLatin1(id));
+    ASSERT_GE(wanted, 0) << id;
+    box->setFocus();
+    QTest::keyClick(box, Qt::Key_Home);
+    for (int i = 0; i < wanted; ++i) QTest::keyClick(box, Qt::Key_Down);
+    ASSERT_EQ(box->currentIndex(), wanted);
   }
   void openFile(const QString& path) {
     QSignalSpy opened(&session(), &EditorSession::scanOpened);

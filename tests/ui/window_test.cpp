@@ -141,7 +141,7 @@ TEST_F(Window, TheWholeWalkEndsInTheCurvesThatTheRecipeGives) {
 
   window_->action(ActionId::Export)->trigger();
   EXPECT_EQ(window_->stage(), PanelStage::Export);
-  QTest::mouseClick(find<QAbstractButton>("export.format.json"), Qt::LeftButton);
+  ASSERT_NO_FATAL_FAILURE(chooseReceiver("archive"));
   const QString target = folder_.filePath(QStringLiteral("curves.json"));
   type(find<QLineEdit>("export.path"), target);
   QTest::mouseClick(find<QAbstractButton>("export.run"), Qt::LeftButton);

@@ -116,9 +116,10 @@ TEST_F(Work, TheExportOfANewDrawingIsNamedAfterIt) {
   ASSERT_TRUE(test::ellipsePage().save(other));
   ASSERT_NO_FATAL_FAILURE(openFile(other));
   EXPECT_EQ(path->text(), folder_.filePath(QStringLiteral("out/wing.svg"))) << "the folder stays, the name does not";
-  QTest::mouseClick(find<QAbstractButton>("export.format.json"), Qt::LeftButton);
+  ASSERT_NO_FATAL_FAILURE(chooseReceiver("archive"));
   ASSERT_NO_FATAL_FAILURE(openWindow());
-  EXPECT_TRUE(find<QAbstractButton>("export.format.json")->isChecked()) << "the format comes back";
+  EXPECT_EQ(find<QComboBox>("export.preset")->currentData().toString(), QStringLiteral("archive"))
+      << "the format comes back";
   ASSERT_NO_FATAL_FAILURE(openFile(other));
   EXPECT_EQ(find<QLineEdit>("export.path")->text(), folder_.filePath(QStringLiteral("out/wing.json")));
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/curve/knot_operations.h"
+#include "core/exchange/cad_shape.h"
 #include "core/exchange/export_model.h"
 
 namespace batten::test {
@@ -71,6 +72,48 @@ inline ExportDocument exportOfAllKinds() {
   const Vec2 a(80, 10), b(110, 15), c(92, 40);
   document.curves.push_back({"curve-6", true, {{edge(a, b)}, {edge(b, c)}, {edge(c, a)}}});
   return document;
+}
+
+/// The test set with curves of every degree from 1 to 7, an exact arc and an exact circle beside it.
+inline ExportDocument exportOfAllDegrees() {
+  ExportDocument document = exportOfAllKinds();
+  for (int degree = 1; degree <= 7; ++degree) {
+    std::vector<Vec2> points;
+    for (int i = 0; i <= degree + 2; ++i)
+      points.emplace_back(10 + 9 * i, 60 + 5 * degree + (i % 2 == 0 ? 0 : 3) + i * i);
+    std::vector<double> knots(static_cast<std::size_t>(degree) + 1, 0.0);
+    knots.insert(knots.end(), {11.0, 27.0});
+    knots.insert(knots.end(), static_cast<std::size_t>(degree) + 1, 40.0);
+    document.curves.push_back({"degree-" + std::to_string(degree), false, {{made(degree, knots, points)}}});
+  }
+  document.curves.push_back({"arc", false, {{curveOf(CadArc{{60, 70}, 12.5, 0.4, 2.1}).value()}}});
+  document.curves.push_back({"circle", true, {{curveOf(CadArc{{90, 80}, 7.25, 1.0, 2 * M_PI}).value()}}});
+  return document;
+}
+
+/// B-spline by its definition (Cox and de Boor's recursion), so that no evaluation of the program judges itself.
+inline double basisByDefinition(const std::vector<double>& knots, std::size_t i, int degree, double u) {
+  const double end = knots.back();
+  if (degree == 0) return (u >= knots[i] && u < knots[i + 1]) || (u == end && knots[i] < end && knots[i + 1] == end);
+  const auto p = static_cast<std::size_t>(degree);
+  double sum = 0.0;
+  if (knots[i + p] > knots[i])
+    sum += (u - knots[i]) / (knots[i + p] - knots[i]) * basisByDefinition(knots, i, degree - 1, u);
+  if (knots[i + p + 1] > knots[i + 1])
+    sum += (knots[i + p + 1] - u) / (knots[i + p + 1] - knots[i + 1]) * basisByDefinition(knots, i + 1, degree - 1, u);
+  return sum;
+}
+inline Vec2 splineByDefinition(int degree, const std::vector<double>& knots, const std::vector<Vec2>& points,
+                               const std::vector<double>& weights, double fraction) {
+  const double u = knots.front() + (knots.back() - knots.front()) * fraction;
+  Vec2 sum = Vec2::Zero();
+  double weight = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double b = basisByDefinition(knots, i, degree, u) * (weights.empty() ? 1.0 : weights[i]);
+    sum += b * points[i];
+    weight += b;
+  }
+  return sum / weight;
 }
 
 }  // namespace batten::test

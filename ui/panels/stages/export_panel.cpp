@@ -11,40 +11,49 @@
 #include <QPushButton>
 #include <QSettings>
 #include <QVBoxLayout>
+#include <filesystem>
 
 #include "core/pipeline/run/pipeline.h"
-#include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/path_edit.h"
 #include "ui/panels/controls/save_dialog.h"
-#include "ui/panels/controls/segmented_control.h"
+#include "ui/panels/stages/export_options.h"
 #include "ui/session/background_worker.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
 namespace {
 
-const QString kFormatKey = QStringLiteral("export/format"), kToleranceKey = QStringLiteral("export/accuracy"),
-              kFolderKey = QStringLiteral("export/folder");
+const QString kFolderKey = QStringLiteral("export/folder");
+
+/// A name without the ending of an export, if it has one.
+QString withoutEnding(const QString& name) {
+  if (const auto format = formatOf(std::filesystem::path(name.toStdU16String()))) {
+    for (const char* ending : endingsOf(*format))
+      if (name.endsWith(QLatin1String(ending), Qt::CaseInsensitive)) return name.chopped(qsizetype(qstrlen(ending)));
+  }
+  return name;
+}
 
 }  // namespace
 
 ExportPanel::ExportPanel(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
-      format_(new SegmentedControl({tr("SVG"), tr("Curve JSON")}, this)),
+      options_(new ExportOptions(this)),
       path_(new PathEdit(this)),
       browse_(plainButton(tr("Choose…"), QStringLiteral("export.browse"), this)),
-      toleranceLabel_(new QLabel(tr("Accuracy of the cubics"), this)),
-      tolerance_(new NumberField(this)),
-      formatNote_(note({}, this)),
       size_(note({}, this)),
       export_(plainButton(tr("Export"), QStringLiteral("export.run"), this)),
       again_(linkButton(tr("Compute again"), QStringLiteral("export.again"), this)),
       result_(note({}, this)),
       worker_(std::make_unique<BackgroundWorker>()) {
   buildForm();
-  connect(format_, &SegmentedControl::chosen, this, [this](int index) { setFormat(static_cast<ExportFormat>(index)); });
+  connect(options_, &ExportOptions::formatChanged, this, [this] {
+    confirmReplace_ = false;
+    suggestName();
+  });
+  connect(options_, &ExportOptions::changed, this, &ExportPanel::refresh);
   connect(path_, &QLineEdit::textEdited, this, [this] {
     confirmReplace_ = false;
     refresh();
@@ -52,7 +61,6 @@ ExportPanel::ExportPanel(EditorSession& session, QWidget* parent)
   connect(browse_, &QPushButton::clicked, this, &ExportPanel::browse);
   connect(export_, &QPushButton::clicked, this, &ExportPanel::start);
   connect(again_, &QPushButton::clicked, &session_, &EditorSession::computeAgain);
-  connect(tolerance_, &NumberField::committed, this, &ExportPanel::saveSettings);
   connect(&session_, &EditorSession::scanOpened, this, &ExportPanel::openedAnother);
   connect(&session_, &EditorSession::recipeChanged, this, [this] {
     confirmReplace_ = false;
@@ -63,9 +71,7 @@ ExportPanel::ExportPanel(EditorSession& session, QWidget* parent)
   connect(&session_, &EditorSession::runFinished, this, &ExportPanel::refresh);
   connect(&session_, &EditorSession::busyChanged, this, &ExportPanel::refresh);
   connect(&session_, &EditorSession::workingChanged, this, &ExportPanel::refresh);
-  QSettings settings;
-  tolerance_->setValue(settings.value(kToleranceKey, ExportRequest{}.toleranceMm).toDouble());
-  setFormat(settings.value(kFormatKey).toString() == QLatin1String("json") ? ExportFormat::Json : ExportFormat::Svg);
+  suggestName();
 }
 
 ExportPanel::~ExportPanel() = default;
@@ -75,25 +81,7 @@ void ExportPanel::buildForm() {
   layout->setContentsMargins(14, 12, 14, 12);
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Export"), this));
-  format_->setNames(QStringLiteral("export.format"), {QStringLiteral("svg"), QStringLiteral("json")});
-  layout->addWidget(format_);
-  layout->addWidget(formatNote_);
-  auto* accuracy = new QHBoxLayout;
-  const QString help = tr("SVG knows only cubic curves; they keep this close to the exact ones. Smaller: more cubics.");
-  toleranceLabel_->setToolTip(help);
-  tolerance_->setToolTip(help);
-  tolerance_->setRange(0.0001, 1.0);
-  tolerance_->setDecimals(4);
-  tolerance_->setStep(0.001);
-  tolerance_->setUnit(tr("mm"));
-  tolerance_->setFixedWidth(92);
-  tolerance_->setValue(ExportRequest{}.toleranceMm);
-  tolerance_->edit()->setObjectName(QStringLiteral("export.tolerance"));
-  tolerance_->edit()->setAccessibleName(toleranceLabel_->text());
-  accuracy->addWidget(toleranceLabel_);
-  accuracy->addStretch();
-  accuracy->addWidget(tolerance_);
-  layout->addLayout(accuracy);
+  layout->addWidget(options_);
   layout->addWidget(caption(tr("File"), this));
   auto* file = new QHBoxLayout;
   file->setSpacing(8);
@@ -110,27 +98,6 @@ void ExportPanel::buildForm() {
   result_->setObjectName(QStringLiteral("export.result"));
   layout->addWidget(result_);
   layout->addStretch();
-}
-
-void ExportPanel::setFormat(ExportFormat format) {
-  format_->setCurrent(static_cast<int>(format));
-  const bool svg = format == ExportFormat::Svg;
-  formatNote_->setText(
-      svg ? tr("A drawing in mm for illustration and cutting programs. The exact curves are kept in its metadata.")
-          : tr("Degree, knots and control points of every curve, in mm and px, without any loss."));
-  toleranceLabel_->setVisible(svg);
-  tolerance_->setVisible(svg);
-  confirmReplace_ = false;
-  suggestName();
-  saveSettings();
-}
-
-QString ExportPanel::suffix() const { return format_->current() == 0 ? QStringLiteral("svg") : QStringLiteral("json"); }
-
-void ExportPanel::saveSettings() const {
-  QSettings settings;
-  settings.setValue(kFormatKey, suffix());
-  settings.setValue(kToleranceKey, tolerance_->value());
 }
 
 void ExportPanel::openedAnother() {
@@ -150,10 +117,10 @@ void ExportPanel::showEvent(QShowEvent* event) {
 }
 
 void ExportPanel::suggestName() {
-  const QString suffix = this->suffix();
+  const QString suffix = options_->suffix();
   if (!path_->text().isEmpty() && path_->isModified()) {
     const QFileInfo now(path_->text());
-    path_->setText(now.path() + QLatin1Char('/') + now.completeBaseName() + QLatin1Char('.') + suffix);
+    path_->setText(now.path() + QLatin1Char('/') + withoutEnding(now.fileName()) + QLatin1Char('.') + suffix);
     path_->setModified(true);
   } else if (session_.hasScan()) {
     const QFileInfo scan(session_.scanPath());
@@ -169,9 +136,7 @@ void ExportPanel::suggestName() {
 }
 
 void ExportPanel::browse() {
-  const bool svg = format_->current() == 0;
-  const QString chosen =
-      askSavePath(this, {tr("Export"), path_->text(), svg ? tr("SVG (*.svg)") : tr("Curve JSON (*.json)"), suffix()});
+  const QString chosen = askSavePath(this, {tr("Export"), path_->text(), options_->filter(), options_->suffix()});
   if (chosen.isEmpty()) return;
   path_->setText(chosen);
   path_->setModified(true);
@@ -186,14 +151,16 @@ bool ExportPanel::isReady() const {
 }
 
 const ExportSize& ExportPanel::size() {
-  if (sizeOf_ != session_.output().faired) {
+  if (sizeOf_ != session_.output().faired || sizeWhich_ != options_->which()) {
     sizeOf_ = session_.output().faired;
-    measured_ = exportSize(session_.output());
+    sizeWhich_ = options_->which();
+    measured_ = exportSize(session_.output(), sizeWhich_);
   }
   return measured_;
 }
 
 QString ExportPanel::reasonToWait() const {
+  if (const QString missing = options_->obstacle(); !missing.isEmpty()) return missing;
   if (!session_.hasScan()) return tr("Open a scan first.");
   if (session_.isBusy()) return tr("Still computing.");
   if (session_.isStale(StageId::Faired) || !session_.output().faired) {
@@ -208,21 +175,37 @@ void ExportPanel::refresh() {
   // Measured and looked for on the disk only while someone reads it.
   if (!isVisible()) return;
   const ExportSize size = session_.hasScan() ? this->size() : ExportSize{};
-  export_->setEnabled(isReady() && size.curves > 0 && !path_->text().trimmed().isEmpty());
+  export_->setEnabled(isReady() && options_->obstacle().isEmpty() && size.curves > 0 &&
+                      !path_->text().trimmed().isEmpty());
   const bool exists = QFileInfo::exists(path_->text()) && path_->text() != lastWritten_ && confirmReplace_;
   export_->setText(running_ ? tr("Writing…") : exists ? tr("Replace the file") : tr("Export"));
   if (const QString reason = reasonToWait(); !reason.isEmpty()) return size_->setText(reason);
   if (size.curves == 0) return size_->setText(tr("There is no curve to export yet."));
-  QString text = tr("Will import as %1 × %2 mm").arg(size.widthMm, 0, 'f', 1).arg(size.heightMm, 0, 'f', 1);
+  const ExportSettings settings = options_->settings();
+  const double width = size.widthMm * settings.scale, height = size.heightMm * settings.scale;
+  QString text = tr("Will import as %1 × %2 mm").arg(width, 0, 'f', 1).arg(height, 0, 'f', 1);
+  if (settings.unit == LengthUnit::Inch) {
+    const double inch = millimetresPer(LengthUnit::Inch);
+    text += tr(" (%1 × %2 in)").arg(width / inch, 0, 'f', 3).arg(height / inch, 0, 'f', 3);
+  }
   text += QStringLiteral(", ") + counted(size.curves, tr("1 curve."), tr("%1 curves."));
   if (isScaleAssumed(*session_.scan(), session_.recipe()))
     text += tr(" The scale is not known: set the resolution in the Scan stage.");
   size_->setText(text);
 }
 
+/// What was typed, with the ending of the format: that of another one is replaced.
+QString ExportPanel::wantedPath() const {
+  const QString typed = QFileInfo(path_->text().trimmed()).absoluteFilePath();
+  const auto format = formatOf(std::filesystem::path(typed.toStdU16String()));
+  if (format && *format != options_->settings().format)
+    return withoutEnding(typed) + QLatin1Char('.') + options_->suffix();
+  return withSuffix(typed, options_->suffix());
+}
+
 void ExportPanel::start() {
   if (!isReady() || running_) return;
-  const QString path = withSuffix(QFileInfo(path_->text().trimmed()).absoluteFilePath(), suffix());
+  const QString path = wantedPath();
   if (path != path_->text()) {
     path_->setText(path);
     path_->setModified(true);
@@ -232,17 +215,18 @@ void ExportPanel::start() {
     result_->setText(tr("%1 exists. Press again to replace it.").arg(QFileInfo(path).fileName()));
     return refresh();
   }
-  ExportRequest request{session_.output(),   session_.recipe(),
-                        session_.scan(),     static_cast<ExportFormat>(format_->current()),
-                        tolerance_->value(), std::filesystem::path(path.toStdU16String())};
+  ExportRequest request{session_.output(),    session_.recipe(), session_.scan(),
+                        options_->settings(), options_->which(), std::filesystem::path(path.toStdU16String())};
   running_ = true;
   writing_ = session_.recipe();
   if (path_->isModified()) QSettings().setValue(kFolderKey, QFileInfo(path).absolutePath());
   result_->clear();
   refresh();
   worker_->start(
-      [request = std::move(request), panel = QPointer<ExportPanel>(this)](const CancelToken&) {
-        const auto outcome = runExport(request);
+      [request = std::move(request), panel = QPointer<ExportPanel>(this)](const CancelToken& cancel) {
+        RunContext context;
+        context.cancel = cancel;
+        const auto outcome = runExport(request, context);
         if (!panel) return;
         QMetaObject::invokeMethod(
             panel.data(),
@@ -254,25 +238,17 @@ void ExportPanel::start() {
       BackgroundWorker::Running::Finish);
 }
 
-void ExportPanel::finish(const Result<ExportOutcome>& outcome) {
+void ExportPanel::finish(const Result<ExportReport>& report) {
   running_ = false;
   confirmReplace_ = false;
-  if (!outcome) {
+  if (!report) {
     refresh();
-    emit failed(outcome.error());
+    emit failed(report.error());
     return;
   }
-  lastWritten_ = QString::fromStdU16String(outcome->path.u16string());
-  const QString name = QFileInfo(lastWritten_).fileName();
-  QString curves = counted(outcome->curves, tr("1 curve"), tr("%1 curves"));
-  if (outcome->lines != outcome->curves)
-    curves += QLatin1Char(' ') + counted(outcome->lines, tr("in 1 line"), tr("in %1 lines"));
-  const QString largest = QString::number(outcome->largestDifferenceMm, 'g', 2);
-  if (outcome->cubics > 0)
-    result_->setText(tr("Wrote %1 to %2 as %3 cubics, largest difference from the exact curves %4 mm.")
-                         .arg(curves, name, grouped(outcome->cubics), largest));
-  else
-    result_->setText(tr("Wrote %1 to %2, read back, largest difference %3 mm.").arg(curves, name, largest));
+  lastWritten_ = QString::fromStdU16String(report->path.u16string());
+  result_->setText(
+      tr("Wrote %1: %2.").arg(QFileInfo(lastWritten_).fileName(), QString::fromStdString(sentenceOf(*report))));
   refresh();
   // A change made meanwhile is not in the file.
   emit exported(writing_ == session_.recipe());

@@ -14,8 +14,7 @@ class QPushButton;
 namespace batten {
 
 class BackgroundWorker;
-class NumberField;
-class SegmentedControl;
+class ExportOptions;
 
 /// Format, place and size of what is written; writing runs in the background and is read back.
 class ExportPanel : public QWidget {
@@ -37,23 +36,18 @@ class ExportPanel : public QWidget {
   void buildForm();
   void refresh();
   void suggestName();
-  void setFormat(ExportFormat format);
   void openedAnother();
-  QString suffix() const;
+  QString wantedPath() const;
   QString reasonToWait() const;
-  void saveSettings() const;
   void start();
-  void finish(const Result<ExportOutcome>& outcome);
+  void finish(const Result<ExportReport>& report);
   bool isReady() const;
   const ExportSize& size();
 
   EditorSession& session_;
-  SegmentedControl* format_;
+  ExportOptions* options_;
   QLineEdit* path_;
   QPushButton* browse_;
-  QLabel* toleranceLabel_;
-  NumberField* tolerance_;
-  QLabel* formatNote_;
   QLabel* size_;
   QPushButton* export_;
   QPushButton* again_;
@@ -62,6 +56,7 @@ class ExportPanel : public QWidget {
   bool running_ = false;
   QString lastWritten_;
   std::shared_ptr<const FairedSet> sizeOf_;  ///< What size_ was measured of: only when it changes, and is seen.
+  ExportedCurves sizeWhich_ = ExportedCurves::Faired;
   ExportSize measured_;
   Recipe writing_;
   std::unique_ptr<BackgroundWorker> worker_;

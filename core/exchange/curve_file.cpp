@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/curve_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "core/exchange/dxf_reader.h"
+#include "core/exchange/export_settings.h"
+#include "core/exchange/occt/iges.h"
+#include "core/exchange/occt/step_reader.h"
+#include "core/exchange/svg_reader.h"
+#include "core/exchange/curve_json.h"
+
+namespace batten {
+namespace {
+
+constexpr double kPageMm = 0.1;  ///< [mm] A pixel of the page of a CAD file.
+constexpr double kMostMm = 1e5;  ///< [mm] Curves beyond that are damage.
+
+Result<ExportDocument> documentOf(const CadDrawing& drawing) {
+  if (drawing.entities.empty()) return fail(ErrorCode::NoCurve, "There is no curve in it.");
+  ExportDocument document;
+  const Eigen::Matrix2d linear = drawing.mmPerUnit.value_or(1.0) * Eigen::Matrix2d::Identity();
+  Vec2 far = Vec2::Ones();
+  for (const CadEntity& entity : drawing.entities) {
+    const auto curve = curveOf(entity.shape);
+    if (!curve) return fail(curve.error());
+    ExportCurve& line = document.curves.emplace_back();
+    line.id = "curve-" + std::to_string(document.curves.size());
+    line.name = entity.name;
+    if (!entity.layer.empty()) line.layer = entity.layer;
+    line.pieces.push_back({curve->mapped(linear, Vec2::Zero())});
+    for (const Vec2& p : line.pieces[0].curve.controlPoints()) far = far.cwiseMax(p.cwiseAbs());
+  }
+  if (!(far.maxCoeff() < kMostMm))
+    return fail(ErrorCode::BadParameter, "Its curves are farther than 100 m from the origin. Is its unit right?");
+  document.frame = {static_cast<int>(std::ceil((far.x() + 1.0) / kPageMm)),
+                    static_cast<int>(std::ceil((far.y() + 1.0) / kPageMm)), kPageMm};
+  return document;
+}
+
+Result<ExportDocument> contentOf(const std::string& bytes, ExportFormat format) {
+  if (format == ExportFormat::Json) return readCurveJson(bytes);
+  if (format == ExportFormat::Svg) return readSvg(bytes);
+  const auto drawing = format == ExportFormat::Dxf    ? readDxf(bytes)
+                       : format == ExportFormat::Iges ? readIges(bytes)
+                                                      : readStep(bytes);
+  if (!drawing) return fail(drawing.error());
+  return documentOf(*drawing);
+}
+
+}  // namespace
+
+Result<ExportDocument> readCurveFile(const std::filesystem::path& path) {
+  std::error_code code;
+  std::ifstream file(path, std::ios::binary);
+  if (!file || !std::filesystem::is_regular_file(path, code))
+    return fail(ErrorCode::BadParameter, "The curves " + path.string() + " cannot be read. Check the name.");
+  const auto format = formatOf(path).value_or(ExportFormat::Json);
+  if (format == ExportFormat::Pdf || format == ExportFormat::Csv || format == ExportFormat::Polynomials) {
+    return fail(ErrorCode::BadParameter, "Curves are not read from " + path.filename().string() +
+                                             ". Take a .json, .svg, .dxf, .igs or .step file.");
+  }
+  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  auto document = contentOf(bytes, format);
+  if (!document) {
+    return fail(document.error().code, path.string() + ": " + document.error().message, document.error().detail);
+  }
+  return document;
+}
+
+}  // namespace batten

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/export_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "core/curve/curvature.h"
+#include "core/exchange/cad_drawing.h"
+#include "core/exchange/csv_writer.h"
+#include "core/exchange/drawing_figures.h"
+#include "core/exchange/dxf_reader.h"
+#include "core/exchange/dxf_writer.h"
+#include "core/exchange/export_check.h"
+#include "core/exchange/occt/iges.h"
+#include "core/exchange/occt/step_reader.h"
+#include "core/exchange/occt/step_writer.h"
+#include "core/exchange/pdf_writer.h"
+#include "core/exchange/polynomial_writer.h"
+#include "core/exchange/read_back.h"
+#include "core/exchange/curve_json.h"
+#include "core/exchange/save_atomically.h"
+#include "core/exchange/svg_check.h"
+#include "core/exchange/svg_writer.h"
+
+namespace batten {
+namespace {
+
+constexpr double kExactMm = 1e-9;     ///< [mm at 1 m] What an exact file may differ, per size of the largest curve.
+constexpr double kSizeOfExact = 1e3;  ///< [mm] Larger curves may differ by more, as their numbers do.
+constexpr double kReadMargin = 1.05;  ///< An approximation is measured at other places when it is read back.
+
+struct Check {
+  std::string bytes;
+  double difference = 0.0;  ///< [mm]
+  double allowed = 0.0;     ///< [mm]
+};
+
+double exactTolerance(const ExportDocument& document) {
+  double size = kSizeOfExact;
+  for (const ExportCurve& line : document.curves) {
+    for (const ExportPiece& piece : line.pieces) {
+      size = std::max(size, extent(piece.curve));
+      for (const Vec2& p : piece.curve.controlPoints()) size = std::max(size, p.cwiseAbs().maxCoeff());
+    }
+  }
+  return kExactMm * size / kSizeOfExact;
+}
+
+double toleranceOf(const ExportSettings& settings) { return settings.toleranceMm.value_or(defaultTolerance(settings)); }
+
+Result<std::string> cadBytes(const CadDrawing& drawing, const ExportSettings& settings, const std::string& title) {
+  if (settings.format == ExportFormat::Iges) return writeIges(drawing, title);
+  if (settings.format == ExportFormat::Step) return writeStep(drawing, figuresOf(drawing), title);
+  return writeDxf(drawing, settings.dxf);
+}
+
+Result<CadDrawing> cadBack(const std::string& bytes, ExportFormat format) {
+  if (format == ExportFormat::Iges) return readIges(bytes);
+  if (format == ExportFormat::Step) return readStep(bytes);
+  return readDxf(bytes);
+}
+
+Result<Check> cadFile(const ExportDocument& document, const ExportSettings& settings, const RunContext& context,
+                      ExportReport& report) {
+  auto made = cadExport(document, settings, context);
+  if (!made) return fail(made.error());
+  auto bytes = cadBytes(made->drawing, settings, document.title);
+  if (!bytes) return fail(bytes.error());
+  if (context.isCancelled()) return cancelled();
+  const auto back = cadBack(*bytes, settings.format);
+  if (!back)
+    return fail(ErrorCode::CannotWrite, "The file that was written cannot be read back.", back.error().message);
+  const auto difference = largestDifference(made->drawing, *back);
+  if (!difference) return fail(difference.error());
+  report.entities = static_cast<int>(made->drawing.entities.size());
+  for (const CadEntity& entity : made->drawing.entities)
+    if (const auto* line = std::get_if<CadPolyline>(&entity.shape))
+      report.vertices += static_cast<int>(line->vertices.size());
+  report.doubles = made->doubles;
+  const bool isApproximation = isApproximate(settings);
+  if (isApproximation || made->largestErrorMm > kExactMm) report.largestErrorMm = made->largestErrorMm;
+  if (isApproximation && report.vertices == 0) report.largestJump = made->largestJump;
+  return Check{std::move(*bytes), *difference, exactTolerance(document)};
+}
+
+Result<Check> svgFile(const ExportDocument& document, const ExportSettings& settings, ExportReport& report) {
+  auto svg = writeSvg(document, {toleranceOf(settings), settings.strokeWidthMm});
+  if (!svg) return fail(svg.error());
+  const auto back = checkSvg(svg->text, document);
+  if (!back) return fail(back.error());
+  report.entities = back->curves;
+  report.cubics = back->cubics;
+  report.largestErrorMm = std::max(svg->largestErrorMm, back->largestErrorMm);
+  report.largestJump = svg->largestJump;
+  return Check{std::move(svg->text), back->largestErrorMm, kReadMargin * toleranceOf(settings)};
+}
+
+Result<Check> pdfFile(const ExportDocument& document, const ExportSettings& settings, ExportReport& report) {
+  auto pdf = writePdf(document, settings);
+  if (!pdf) return fail(pdf.error());
+  const auto difference = checkPdf(pdf->bytes, document);
+  if (!difference) return fail(difference.error());
+  report.entities = report.lines;
+  report.cubics = pdf->cubics;
+  report.largestErrorMm = std::max(pdf->largestErrorMm, *difference);
+  report.largestJump = pdf->largestJump;
+  return Check{std::move(pdf->bytes), *difference, kReadMargin * toleranceOf(settings)};
+}
+
+/// Largest distance of corresponding control points and knots; the same structure is demanded.
+Result<double> difference(const ExportDocument& a, const ExportDocument& b) {
+  if (a.curves.size() != b.curves.size()) return readsBackOtherwise("other curves");
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.curves.size(); ++i) {
+    if (a.curves[i].pieces.size() != b.curves[i].pieces.size()) return readsBackOtherwise("other curves");
+    for (std::size_t j = 0; j < a.curves[i].pieces.size(); ++j) {
+      const NurbsCurve &p = a.curves[i].pieces[j].curve, &q = b.curves[i].pieces[j].curve;
+      if (p.degree() != q.degree() || p.controlPointCount() != q.controlPointCount())
+        return readsBackOtherwise("other curves");
+      for (std::size_t k = 0; k < p.controlPoints().size(); ++k)
+        largest = std::max(largest, (p.controlPoints()[k] - q.controlPoints()[k]).norm());
+      for (std::size_t k = 0; k < p.knots().size(); ++k)
+        largest = std::max(largest, std::abs(p.knots()[k] - q.knots()[k]));
+    }
+  }
+  return largest;
+}
+
+Result<Check> jsonFile(const ExportDocument& document, ExportReport& report) {
+  auto json = writeCurveJson(document);
+  if (!json) return fail(json.error());
+  const auto back = readCurveJson(*json);
+  if (!back) return fail(back.error());
+  const auto largest = difference(document, *back);
+  if (!largest) return fail(largest.error());
+  report.entities = report.curves;
+  return Check{std::move(*json), *largest, exactTolerance(document)};
+}
+
+template <class Write, class Read>
+Result<Check> tableFile(const ExportDocument& document, const ExportSettings& settings, ExportReport& report,
+                        const Write& write, const Read& read) {
+  auto text = write(document, settings);
+  if (!text) return fail(text.error());
+  const auto largest = read(*text, document, settings);
+  if (!largest) return fail(largest.error());
+  report.entities = report.curves;
+  return Check{std::move(*text), *largest, exactTolerance(document)};
+}
+
+Result<Check> checkedFile(const ExportDocument& document, const ExportSettings& settings, const RunContext& context,
+                          ExportReport& report) {
+  switch (settings.format) {
+    case ExportFormat::Svg:
+      return svgFile(scaled(document, settings.scale), settings, report);
+    case ExportFormat::Pdf:
+      return pdfFile(scaled(document, settings.scale), settings, report);
+    case ExportFormat::Json:
+      return jsonFile(scaled(document, settings.scale), report);
+    case ExportFormat::Csv:
+      return tableFile(document, settings, report, writeCsv, checkCsv);
+    case ExportFormat::Polynomials:
+      return tableFile(document, settings, report, writePolynomials, checkPolynomials);
+    default:
+      return cadFile(document, settings, context, report);
+  }
+}
+
+std::string shortNumber(double value) {
+  std::array<char, 32> buffer;
+  std::snprintf(buffer.data(), buffer.size(), "%.2g", value);
+  std::string text = buffer.data();
+  std::replace(text.begin(), text.end(), ',', '.');  // whatever the language
+  return text;
+}
+
+std::string countOf(int count, const char* one) { return std::to_string(count) + " " + one + (count == 1 ? "" : "s"); }
+
+/// The numbers of a list like "1,3-5"; nothing if it is none.
+std::optional<std::set<int>> numbersOf(const std::string& list) {
+  std::set<int> numbers;
+  std::size_t at = 0;
+  const auto number = [&]() -> std::optional<int> {
+    int value = 0;
+    const std::size_t begin = at;
+    while (at < list.size() && list[at] >= '0' && list[at] <= '9' && value < 1'000'000)
+      value = 10 * value + (list[at++] - '0');
+    return at > begin && value > 0 ? std::optional(value) : std::nullopt;
+  };
+  while (true) {
+    const auto first = number();
+    if (!first) return std::nullopt;
+    auto last = first;
+    if (at < list.size() && list[at] == '-') {
+      ++at;
+      last = number();
+      if (!last || *last < *first) return std::nullopt;
+    }
+    for (int i = *first; i <= *last; ++i) numbers.insert(i);
+    if (at == list.size()) return numbers;
+    if (list[at++] != ',') return std::nullopt;
+  }
+}
+
+}  // namespace
+
+Result<ExportedFile> exportedFile(const ExportDocument& document, const ExportSettings& settings,
+                                  const RunContext& context) {
+  if (auto problem = exportProblem(document)) return fail(std::move(*problem));
+  if (auto problem = validate(settings)) return fail(std::move(*problem));
+  ExportedFile file;
+  file.report.format = settings.format;
+  file.report.lines = static_cast<int>(document.curves.size());
+  for (const ExportCurve& line : document.curves) file.report.curves += static_cast<int>(line.pieces.size());
+  auto check = checkedFile(document, settings, context, file.report);
+  if (!check) return fail(check.error());
+  if (!(check->difference <= check->allowed)) {
+    return fail(
+        ErrorCode::CannotWrite,
+        "What was written differs by " + shortNumber(check->difference) +
+            " mm when it is read back, more than this format allows. Nothing was saved; choose another format.");
+  }
+  file.report.largestDifferenceMm = check->difference;
+  file.bytes = std::move(check->bytes);
+  return file;
+}
+
+Result<ExportReport> exportToFile(const ExportDocument& document, const ExportSettings& settings,
+                                  const std::filesystem::path& path, const RunContext& context) {
+  auto file = exportedFile(document, settings, context);
+  if (!file) return fail(file.error());
+  if (context.isCancelled()) return cancelled();
+  if (auto saved = saveAtomically(path, file->bytes); !saved) return fail(saved.error());
+  std::ifstream in(path, std::ios::binary);
+  const std::string back{std::istreambuf_iterator<char>(in), {}};
+  if (back != file->bytes)
+    return fail(ErrorCode::CannotWrite,
+                "The file " + path.string() + " does not hold what was written. Is the disk full?");
+  file->report.path = path;
+  return std::move(file->report);
+}
+
+std::string sentenceOf(const ExportReport& report) {
+  std::string text = countOf(report.curves, "curve");
+  if (report.vertices > 0) text += " as " + std::to_string(report.vertices) + " vertices";
+  if (report.cubics > 0) text += " as " + countOf(report.cubics, "cubic");
+  if (report.largestErrorMm) text += ", within " + shortNumber(*report.largestErrorMm) + " mm of the exact ones";
+  if (report.largestJump) text += ", curvature jumps by " + shortNumber(100.0 * *report.largestJump) + " % at most";
+  text += ", read back, largest difference " + shortNumber(report.largestDifferenceMm) + " mm";
+  if (report.doubles > 0) text += "; " + countOf(report.doubles, "curve") + " on top of another left out";
+  return text;
+}
+
+Result<ExportDocument> chosenCurves(const ExportDocument& document, const std::string& list) {
+  const auto numbers = numbersOf(list);
+  if (!numbers) {
+    return fail(ErrorCode::BadParameter, "Curves are chosen by their numbers, as in 1,3-5, not \"" + list + "\".");
+  }
+  ExportDocument result = document;
+  result.curves.clear();
+  int number = 0;
+  std::set<int> missing = *numbers;
+  for (const ExportCurve& line : document.curves) {
+    std::vector<ExportPiece> run;
+    int runs = 0;
+    const auto endRun = [&] {
+      if (run.empty()) return;
+      ExportCurve& part = result.curves.emplace_back(line);
+      part.closed = line.closed && run.size() == line.pieces.size();
+      if (runs++ > 0) part.id += "-" + std::to_string(runs);
+      part.pieces = std::move(run);
+      run.clear();
+    };
+    for (const ExportPiece& piece : line.pieces) {
+      number = piece.number.value_or(number + 1);
+      missing.erase(number);
+      if (numbers->contains(number))
+        run.push_back(piece);
+      else
+        endRun();
+    }
+    endRun();
+  }
+  if (!missing.empty()) {
+    return fail(ErrorCode::BadParameter, "There is no curve " + std::to_string(*missing.begin()) +
+                                             " to export. The report and the window number them.");
+  }
+  return result;
+}
+
+}  // namespace batten

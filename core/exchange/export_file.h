@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/base/run_context.h"
+#include "core/exchange/export_model.h"
+#include "core/exchange/export_settings.h"
+
+namespace batten {
+
+/// What was written, and how the file compares with the curves.
+struct ExportReport {
+  std::filesystem::path path;
+  ExportFormat format = ExportFormat::Svg;
+  int lines = 0;                         ///< Of the drawing.
+  int curves = 0;                        ///< Their pieces from corner to corner.
+  int entities = 0;                      ///< Of the file: splines, lines, arcs, polylines, paths, rows of polynomials.
+  int vertices = 0;                      ///< Of polylines.
+  int cubics = 0;                        ///< Of paths.
+  int doubles = 0;                       ///< Curves left out because they lie on another one.
+  std::optional<double> largestErrorMm;  ///< What the approximation costs, measured; absent for exact files.
+  std::optional<double> largestJump;     ///< Of the curvature where cubics meet, relative (see cubic_path.h).
+  double largestDifferenceMm = 0.0;      ///< Of what was read back from what was to be written.
+};
+
+/// The bytes of an export, checked: they were read back, and hold what they should.
+struct ExportedFile {
+  std::string bytes;
+  ExportReport report;  ///< Without a path.
+};
+
+/// Writes the document as the settings say, into memory, and reads it back: exact formats must hold the curves to 1e-9
+/// of their size, approximating ones within their tolerance, else nothing is returned.
+/// @return NoCurve for an empty document, CannotWrite if the file reads back as something else, Cancelled.
+Result<ExportedFile> exportedFile(const ExportDocument&, const ExportSettings&, const RunContext& = {});
+
+/// The same into a file, written whole or not at all; then the file is read and must hold the bytes that were checked.
+/// What stood there before stays if anything fails before the file is put in place.
+Result<ExportReport> exportToFile(const ExportDocument&, const ExportSettings&, const std::filesystem::path&,
+                                  const RunContext& = {});
+
+/// The report in one sentence: "4 curves, read back, largest difference 3e-12 mm".
+std::string sentenceOf(const ExportReport&);
+
+/// The curves of a document that are named in a list like "1,3-5": by the numbers of
+/// their pieces; pieces without one are counted from 1 through all lines, in order. @return BadParameter for a list
+/// that makes no sense or a number that no curve has.
+Result<ExportDocument> chosenCurves(const ExportDocument&, const std::string& list);
+
+}  // namespace batten

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace batten {
+
+/// Numbers and texts as files hold them, whatever the program's language.
+
+/// Fixed notation with at most `decimals` decimals, without trailing zeros, never an exponent nor a minus zero.
+std::string fixedNumber(double value, int decimals);
+/// The shortest text that reads back to exactly the same number.
+std::string exactNumber(double value);
+/// Text for XML: markup escaped; control characters, which XML forbids, become spaces.
+std::string xmlText(const std::string& text);
+/// A field of a CSV: in quotes where it holds a comma, a quote or a line end.
+std::string csvField(const std::string& text);
+/// The fields of one line of a CSV, quotes taken off.
+std::vector<std::string> csvFields(std::string_view line);
+/// All numbers of a text; blanks and commas part them.
+std::vector<double> numbersIn(std::string_view text);
+
+}  // namespace batten

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/polynomial_writer.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/base/number_text.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/knot_operations.h"
+#include "core/exchange/cad_drawing.h"
+#include "core/exchange/export_check.h"
+#include "core/exchange/file_text.h"
+#include "core/exchange/read_back.h"
+
+namespace batten {
+namespace {
+
+constexpr std::size_t kBefore = 5;  ///< Columns before the coefficients.
+constexpr int kPolynomialPlaces = 200;
+
+/// The piece at the size and in the unit of the file, over its arc length.
+Result<NurbsCurve> overArcLength(const NurbsCurve& curve, const ExportSettings& settings) {
+  const double size = settings.scale / millimetresPer(settings.unit);
+  const NurbsCurve scaled = curve.mapped(size * Eigen::Matrix2d::Identity(), Vec2::Zero());
+  return reparametrized(scaled, 0.0, ArcLength(scaled).total());
+}
+
+/// Coefficients of the powers of t = u - start: the k-th forward differences of the control points times the binomial
+/// coefficients, over the k-th power of the width (Piegl & Tiller, The NURBS Book, 1.3).
+std::vector<Vec2> coefficientsOf(const BezierPiece& piece) {
+  std::vector<Vec2> difference = piece.controlPoints, coefficients;
+  const std::size_t degree = difference.size() - 1;
+  double factor = 1.0;
+  for (std::size_t k = 0; k <= degree; ++k) {
+    coefficients.push_back(factor * difference[0]);
+    for (std::size_t i = 0; i + k < degree; ++i) difference[i] = difference[i + 1] - difference[i];
+    factor *= static_cast<double>(degree - k) / static_cast<double>(k + 1) / (piece.end - piece.start);
+  }
+  return coefficients;
+}
+
+int highestDegree(const ExportDocument& document) {
+  int degree = 1;
+  for (const ExportCurve& line : document.curves)
+    for (const ExportPiece& piece : line.pieces) degree = std::max(degree, piece.curve.degree());
+  return degree;
+}
+
+std::string header(const std::string& unit, int degree) {
+  std::string text = "# x = x0 + x1 t + x2 t^2 + ..., t = u - u_start, y alike; lengths in " + unit +
+                     ", x to the right, y up, from the lower left corner of the page.\ncurve,piece,span,u_start,u_end";
+  for (const char* axis : {"x", "y"})
+    for (int k = 0; k <= degree; ++k) text.append(",").append(axis).append(std::to_string(k));
+  return text + "\n";
+}
+
+std::string row(const std::string& begin, const BezierPiece& piece, int degree) {
+  const std::vector<Vec2> coefficients = coefficientsOf(piece);
+  std::string text = begin + "," + exactNumber(piece.start) + "," + exactNumber(piece.end);
+  for (const int axis : {0, 1}) {
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(degree); ++k) {
+      text += ",";
+      if (k < coefficients.size()) text += exactNumber(coefficients[k][axis]);
+    }
+  }
+  return text + "\n";
+}
+
+/// One row as it was read.
+struct ReadSpan {
+  double start = 0.0, end = 0.0;
+  std::vector<Vec2> coefficients;
+
+  Vec2 at(double u) const {
+    Vec2 value = Vec2::Zero();
+    for (auto it = coefficients.rbegin(); it != coefficients.rend(); ++it) value = value * (u - start) + *it;
+    return value;
+  }
+};
+
+std::optional<ReadSpan> spanOf(const std::vector<std::string>& fields) {
+  if (fields.size() < kBefore + 4 || (fields.size() - kBefore) % 2 != 0) return std::nullopt;
+  const std::size_t count = (fields.size() - kBefore) / 2;
+  const auto start = numberFromText(fields[3]), end = numberFromText(fields[4]);
+  if (!start || !end) return std::nullopt;
+  ReadSpan span{*start, *end, {}};
+  for (std::size_t k = 0; k < count && !fields[kBefore + k].empty(); ++k) {
+    const auto x = numberFromText(fields[kBefore + k]), y = numberFromText(fields[kBefore + count + k]);
+    if (!x || !y) return std::nullopt;
+    span.coefficients.emplace_back(*x, *y);
+  }
+  return span;
+}
+
+}  // namespace
+
+Result<std::string> writePolynomials(const ExportDocument& document, const ExportSettings& settings) {
+  if (auto problem = exportProblem(document)) return fail(std::move(*problem));
+  if (auto problem = validate(settings)) return fail(std::move(*problem));
+  const int degree = highestDegree(document);
+  std::string text = header(nameOf(settings.unit), degree);
+  for (const ExportCurve& line : document.curves) {
+    for (std::size_t i = 0; i < line.pieces.size(); ++i) {
+      const std::string name = entityName(line, i);
+      if (line.pieces[i].curve.isRational())
+        return fail(ErrorCode::BadParameter, "The curve " + name + " is rational, so it has no polynomials. Use CSV.");
+      const auto curve = overArcLength(line.pieces[i].curve, settings);
+      if (!curve) return fail(curve.error());
+      const auto spans = bezierPieces(*curve);
+      if (!spans) return fail(spans.error());
+      const std::string begin = csvField(line.name.empty() ? line.id : line.name) + "," + csvField(name) + ",";
+      for (std::size_t k = 0; k < spans->size(); ++k) text += row(begin + std::to_string(k + 1), (*spans)[k], degree);
+    }
+  }
+  return text;
+}
+
+Result<double> checkPolynomials(std::string_view text, const ExportDocument& document, const ExportSettings& settings) {
+  std::vector<ReadSpan> spans;
+  bool sawNames = false;
+  while (!text.empty()) {
+    const auto end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (line.empty() || line.front() == '#') continue;
+    if (!std::exchange(sawNames, true)) continue;
+    auto span = spanOf(csvFields(line));
+    if (!span) return readsBackOtherwise("a row that is no polynomial");
+    spans.push_back(std::move(*span));
+  }
+  std::size_t first = 0;
+  double most = 0.0;
+  for (const ExportCurve& line : document.curves) {
+    for (const ExportPiece& piece : line.pieces) {
+      const auto curve = overArcLength(piece.curve, settings);
+      if (!curve) return fail(curve.error());
+      const std::size_t count = curve->breaks().size() - 1;
+      if (first + count > spans.size()) return readsBackOtherwise("too few rows");
+      std::size_t k = first;
+      for (int i = 0; i <= kPolynomialPlaces; ++i) {
+        const double u = curve->start() + (curve->end() - curve->start()) * i / kPolynomialPlaces;
+        while (k + 1 < first + count && u >= spans[k].end) ++k;
+        most = std::max(most, (spans[k].at(u) - curve->point(u)).norm());
+      }
+      first += count;
+    }
+  }
+  if (first != spans.size()) return readsBackOtherwise("too many rows");
+  return most * millimetresPer(settings.unit);
+}
+
+}  // namespace batten
