@@ -18,6 +18,7 @@
 #include "ui/panels/controls/path_edit.h"
 #include "ui/panels/controls/save_dialog.h"
 #include "ui/panels/controls/segmented_control.h"
+#include "ui/panels/controls/setting_name.h"
 #include "ui/session/background_worker.h"
 #include "ui/theme/theme.h"
 
@@ -76,6 +77,7 @@ void ExportPanel::buildForm() {
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Export"), this));
   format_->setNames(QStringLiteral("export.format"), {QStringLiteral("svg"), QStringLiteral("json")});
+  setSettingName(format_, tr("Export format"));
   layout->addWidget(format_);
   layout->addWidget(formatNote_);
   auto* accuracy = new QHBoxLayout;
@@ -158,7 +160,8 @@ void ExportPanel::suggestName() {
   } else if (session_.hasScan()) {
     const QFileInfo scan(session_.scanPath());
     QString folder = QSettings().value(kFolderKey).toString();
-    if (folder.isEmpty() && !session_.isBlankPage()) folder = scan.absolutePath();
+    if (folder.isEmpty() && !session_.isBlankPage() && !isOfProgram(scan.absoluteFilePath()))
+      folder = scan.absolutePath();
     if (folder.isEmpty() || !QFileInfo(folder).isWritable()) folder = QDir::homePath();
     const QString name = session_.isBlankPage() ? QStringLiteral("drawing") : scan.completeBaseName();
     path_->setText(folder + QLatin1Char('/') + name + QLatin1Char('.') + suffix);
