@@ -17,6 +17,7 @@
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
 #include "ui/new_drawing_dialog.h"
+#include "ui/panels/controls/number_field.h"
 #include "ui/panels/rail/stage_rail.h"
 #include "ui/panels/rail/tool_list.h"
 #include "ui/panels/stages/clean_up_panel.h"
@@ -29,6 +30,7 @@
 #include "ui/panels/targets/shape_window.h"
 #include "ui/panels/targets/target_strip.h"
 #include "ui/plots/curve_plots.h"
+#include "ui/setting_finder.h"
 #include "ui/status_line.h"
 #include "ui/top_bar.h"
 
@@ -59,12 +61,13 @@ MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
   QList<QAction*> tools;
   for (const Tool tool : kTools) tools.append(action(toolAction(tool)));
   parts_->rail->layout()->addWidget(new ToolList(tools, parts_->rail));
-  parts_->status = new StatusLine(session_, whole);
   auto* row = new QHBoxLayout;
   row->setSpacing(0);
   row->addWidget(parts_->rail);
   row->addWidget(makeCentre(), 1);
   row->addWidget(makeInspector());
+  // Made in the order in which Tab walks them.
+  parts_->status = new StatusLine(session_, whole);
   column->addWidget(parts_->topBar);
   column->addWidget(parts_->errors);
   column->addLayout(row, 1);
@@ -104,7 +107,7 @@ QWidget* MainWindow::makeCentre() {
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
   p.strip = new TargetStrip(session_, lower);
-  p.plots = new CurvePlots(session_, lower);
+  p.plots = new CurvePlots(session_, view_, lower);
   layout->addWidget(p.strip);
   layout->addWidget(p.plots, 1);
   p.lower = lower;
@@ -112,8 +115,10 @@ QWidget* MainWindow::makeCentre() {
   p.splitter->addWidget(lower);
   p.splitter->setStretchFactor(0, 1);
   p.splitter->setStretchFactor(1, 0);
-  p.splitter->setCollapsible(0, false);
-  p.splitter->setSizes({540, 288});
+  p.splitter->setChildrenCollapsible(false);
+  connect(p.splitter, &QSplitter::splitterMoved, this, [this] {
+    if (parts_->plots->isVisible()) parts_->lowerPx = parts_->lower->height();
+  });
   return p.splitter;
 }
 
@@ -121,6 +126,8 @@ QWidget* MainWindow::makeInspector() {
   Parts& p = *parts_;
   p.inspector = new QStackedWidget(this);
   p.inspector->setObjectName(QStringLiteral("inspector"));
+  p.settings = new SettingFinder(this);
+  connect(p.settings, &SettingFinder::stageAsked, this, &MainWindow::setStage);
   p.scanPanel = new ScanPanel(session_);
   p.exportPanel = new ExportPanel(session_);
   auto* curves = new CurvesPanel(session_, view_);
@@ -144,6 +151,10 @@ QWidget* MainWindow::makeInspector() {
     scroll->setFrameShape(QFrame::NoFrame);
     scroll->setFocusPolicy(Qt::NoFocus);
     p.inspector->addWidget(scroll);
+    p.settings->add(stage, scroll);
+    // Keys typed after Enter are the drawing's.
+    for (auto* field : panel->findChildren<NumberField*>())
+      connect(field, &NumberField::entered, p.canvas, [this] { parts_->canvas->setFocus(Qt::OtherFocusReason); });
   }
   auto* frame = new HairlineFrame(this);
   auto* layout = new QVBoxLayout(frame);
@@ -261,6 +272,8 @@ void MainWindow::enterStage(PanelStage stage) {
       break;
   }
   view_.setTool(usualTool(stage));
+  parts_->showsLowerHere = false;
+  fitLower();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
@@ -284,7 +297,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
   QMainWindow::resizeEvent(event);
-  fitPlots();
+  fitLowerSoon();
 }
 
 // What had the keyboard has gone: it goes back to the drawing, whose keys are the tools', not into the next number.
@@ -293,20 +306,6 @@ bool MainWindow::focusNextPrevChild(bool next) {
   if (!holder || (holder->isVisible() && holder->isEnabled())) return QMainWindow::focusNextPrevChild(next);
   parts_->canvas->setFocus(Qt::OtherFocusReason);
   return true;
-}
-
-void MainWindow::fitPlots() {
-  constexpr int kLowWindow = 760, kLowestWindow = 680, kLowPlots = 120;
-  using Height = Parts::Height;
-  Parts& p = *parts_;
-  const Height now = height() < kLowestWindow ? Height::Lowest : height() < kLowWindow ? Height::Low : Height::Roomy;
-  if (now == p.height) return;
-  if (p.height == Height::Roomy) p.roomySizes = p.splitter->sizes();
-  p.height = now;
-  p.plots->setVisible(now != Height::Lowest);
-  if (now == Height::Roomy) return p.splitter->setSizes(p.roomySizes);
-  const int lower = p.strip->height() + (now == Height::Low ? kLowPlots : 0);
-  p.splitter->setSizes({std::max(1, p.splitter->height() - lower), lower});
 }
 
 void MainWindow::changeEvent(QEvent* event) {

@@ -72,8 +72,11 @@ class MainWindow : public QMainWindow {
   void newDrawing();
   void chooseScan();
   void chooseRecipe();
-  /// False when it was not saved after all.
+  /// Both false when it was not saved after all. The first asks for a place only while there is none.
   bool saveRecipe();
+  bool saveRecipeAs();
+  bool saveRecipeTo(const QString& path);
+  QString proposedRecipePath() const;
   void readRecipe(const QString& path);
   void useRecipe(const QString& path, const Result<Recipe>& recipe);
   /// True when nothing unsaved is left that would be lost.
@@ -82,6 +85,8 @@ class MainWindow : public QMainWindow {
   void checkRecent(std::function<void()> then);
   QString drawingName() const;
   void findAction();
+  void walkCurves(int step);
+  void stepBack(bool isUndo);
   void showHelp(const QString& page);
   void showShapes();
   void showProblem(const Error& error, FailureOrigin origin);
@@ -94,8 +99,12 @@ class MainWindow : public QMainWindow {
   /// Where file dialogs open: at the drawing, else where the last one was.
   QString startFolder() const;
   void enterStage(PanelStage stage);
-  /// In a low window the drawing comes first: the plots shrink, then fold.
-  void fitPlots();
+  /// Targets and plots, in main_window_lower.cpp: shown where curves are judged; in a low window the strip shrinks,
+  /// then the plots fold.
+  void fitLower();
+  void fitLowerSoon();  ///< Once the parts of the window have their sizes.
+  void foldLower(bool shown);
+  bool isLowerWanted() const;
   void loadSettings();
   void saveSettings();
 

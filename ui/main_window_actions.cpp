@@ -10,10 +10,12 @@
 
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
+#include "ui/panels/rail/stage_of_change.h"
 #include "ui/panels/targets/shape_window.h"
 #include "ui/plots/curve_plots.h"
 #include "ui/session/piece_choice.h"
 #include "ui/session/region_edits.h"
+#include "ui/setting_finder.h"
 #include "ui/status_line.h"
 #include "ui/top_bar.h"
 
@@ -51,19 +53,24 @@ void MainWindow::makeActions() {
     QString text;
   } plots[] = {{PlotTab::Radius, tr("Plot: radius")},
                {PlotTab::Curvature, tr("Plot: curvature")},
-               {PlotTab::Derivative, tr("Plot: derivative")},
+               {PlotTab::CurvatureSlope, tr("Plot: curvature slope")},
+               {PlotTab::Speed, tr("Plot: parameter speed")},
                {PlotTab::Deviation, tr("Plot: deviation")}};
   for (const auto& plot : plots)
     connect(own(plot.text, {}, tr("Show this plot of the selected curve."), {}), &QAction::triggered, this,
             [this, tab = plot.tab] { parts_->plots->setTab(tab); });
+  connect(
+      own(tr("Plot: reverse"), QStringLiteral("reverse-plot"), tr("Turn the plot of the selected curve round."), {}),
+      &QAction::triggered, this, [this] { parts_->plots->setTurned(!parts_->plots->isTurned()); });
   connect(own(tr("Compare shapes"), QStringLiteral("compare-shapes"),
               tr("How alike two curves are, whatever their size and place."), {}),
           &QAction::triggered, this, &MainWindow::showShapes);
-  parts_->foldAction = own(tr("Targets and plots"), QStringLiteral("fold-plots"),
-                           tr("Show or fold away what lies below the drawing."), QKeySequence(QStringLiteral("P")));
+  parts_->foldAction =
+      own(tr("Targets and plots"), QStringLiteral("fold-plots"),
+          tr("Show or fold away the six targets and the plot. They open with the stages Curves and Fairing."),
+          QKeySequence(QStringLiteral("P")));
   parts_->foldAction->setCheckable(true);
-  parts_->foldAction->setChecked(true);
-  connect(parts_->foldAction, &QAction::toggled, this, [this](bool shown) { parts_->lower->setVisible(shown); });
+  connect(parts_->foldAction, &QAction::triggered, this, &MainWindow::foldLower);
   connect(own(tr("Help on this stage"), QStringLiteral("help-stage"), tr("What this stage does, in plain words."),
               QKeySequence(Qt::Key_F1)),
           &QAction::triggered, this, [this] { showHelp(key(stage())); });
@@ -106,7 +113,7 @@ void MainWindow::makeMenus() {
         sub->addSeparator();
       sub->addAction(action(info.id));
       if (info.id == ActionId::OpenScan) sub->addMenu(p.recentMenu);
-      if (info.id == ActionId::SaveRecipe) sub->addSeparator();
+      if (info.id == ActionId::SaveRecipeAs) sub->addSeparator();
       if (layerOf(info.id)) p.layersMenu->addAction(action(info.id));
     }
     if (menu == ActionMenu::Fairing) sub->addAction(ownNamed(QStringLiteral("compare-shapes")));
@@ -157,14 +164,20 @@ void MainWindow::trigger(ActionId id) {
       return chooseRecipe();
     case ActionId::SaveRecipe:
       return void(saveRecipe());
+    case ActionId::SaveRecipeAs:
+      return void(saveRecipeAs());
     case ActionId::Export:
       return setStage(PanelStage::Export);
     case ActionId::Quit:
       return void(close());
     case ActionId::Undo:
-      return session_.undoStack()->undo();
+      return stepBack(true);
     case ActionId::Redo:
-      return session_.undoStack()->redo();
+      return stepBack(false);
+    case ActionId::NextCurve:
+      return walkCurves(1);
+    case ActionId::PreviousCurve:
+      return walkCurves(-1);
     case ActionId::CancelWork:
       parts_->errors->hide();
       return session_.cancel();
@@ -267,11 +280,12 @@ void MainWindow::refreshActions() {
   describe(action(ActionId::Undo), tr("Undo"), undo.undoText(), undo.canUndo());
   describe(action(ActionId::Redo), tr("Redo"), undo.redoText(), undo.canRedo());
   const bool has = session_.hasScan();
-  for (const ActionId id : {ActionId::ToolPen, ActionId::SaveRecipe, ActionId::Export, ActionId::ZoomFit,
-                            ActionId::ZoomActual, ActionId::ZoomIn, ActionId::ZoomOut})
+  for (const ActionId id : {ActionId::ToolPen, ActionId::SaveRecipe, ActionId::SaveRecipeAs, ActionId::Export,
+                            ActionId::ZoomFit, ActionId::ZoomActual, ActionId::ZoomIn, ActionId::ZoomOut})
     action(id)->setEnabled(has);
   action(ActionId::ClearRegions)->setEnabled(!session_.recipe().regions.empty());
   const bool curves = !session_.curves().empty();
+  for (const ActionId id : {ActionId::NextCurve, ActionId::PreviousCurve}) action(id)->setEnabled(curves);
   action(ActionId::Pin)->setEnabled(curves || session_.pinned());
   action(ActionId::Pin)->setChecked(session_.pinned() != nullptr);
   for (int degree = 1; degree <= 6; ++degree)
@@ -284,7 +298,28 @@ void MainWindow::findAction() {
   QList<QAction*> all;
   for (const ActionInfo& info : actionCatalog())
     if (!info.isHeld && info.id != ActionId::FindAction) all.append(action(info.id));
-  parts_->finder->open(all + parts_->ownActions);
+  parts_->finder->open(all + parts_->ownActions + parts_->settings->actions());
+}
+
+void MainWindow::walkCurves(int step) {
+  const int count = static_cast<int>(session_.curves().size()), now = session_.selectedCurve();
+  if (count == 0) return;
+  // None selected: the first, or the last.
+  session_.selectCurve(now < 0 ? (step > 0 ? 0 : count - 1) : (now + step + count) % count);
+}
+
+// What a step changed may lie in another stage, where nobody looks: it is named, and one press away.
+void MainWindow::stepBack(bool isUndo) {
+  QUndoStack& stack = *session_.undoStack();
+  const QString what = isUndo ? stack.undoText() : stack.redoText();
+  const Recipe before = session_.recipe();
+  isUndo ? stack.undo() : stack.redo();
+  const auto changed = stageOfChange(before, session_.recipe());
+  if (!changed) return;
+  if (*changed == stage())
+    return parts_->status->showMessage((isUndo ? tr("Undone: %1.") : tr("Done again: %1.")).arg(what));
+  const QString text = isUndo ? tr("Undone in %1: %2.") : tr("Done again in %1: %2.");
+  parts_->status->showMessage(text.arg(label(*changed), what), tr("Show"), [this, to = *changed] { setStage(to); });
 }
 
 void MainWindow::showHelp(const QString& page) {

@@ -6,13 +6,16 @@
 #include <QLocale>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QSettings>
 #include <QStandardPaths>
+#include <utility>
 
 #include "core/exchange/save_atomically.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
 #include "ui/panels/controls/save_dialog.h"
+#include "ui/session/judged_view.h"
 #include "ui/session/opened_scan.h"
 #include "ui/status_line.h"
 
@@ -20,6 +23,13 @@ namespace batten {
 namespace {
 
 std::filesystem::path nativePath(const QString& path) { return {path.toStdU16String()}; }
+
+const QString kSaveFolderKey = QStringLiteral("recipe/folder");
+
+bool isPlaceToSave(const QString& folder) {
+  const QFileInfo info(folder);
+  return !folder.isEmpty() && info.isDir() && info.isWritable();
+}
 
 bool isRecipeFile(const QString& path) { return path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive); }
 
@@ -57,15 +67,25 @@ bool MainWindow::maybeDiscard() {
 
 void MainWindow::openPath(const QString& path) {
   if (isRecipeFile(path)) return readRecipe(path);
-  if (maybeDiscard()) session_.openScan(path);
+  if (!maybeDiscard()) return;
+  parts_->pageRecipe.clear();
+  session_.openScan(path);
 }
 
 void MainWindow::beginDrawing(const Recipe& recipe) {
-  if (maybeDiscard()) session_.newDrawing(recipe);
+  if (!maybeDiscard()) return;
+  parts_->pageRecipe.clear();
+  session_.newDrawing(recipe);
 }
 
 void MainWindow::scanOpened() {
   Parts& p = *parts_;
+  p.recipePath = std::exchange(p.pageRecipe, {});
+  if (session_.openedWithRecipe())
+    p.recipePath = QString::fromStdU16String(recipeBeside(nativePath(session_.scanPath())).u16string());
+  // Nobody changes what came with the program: the first time Ctrl+S asks where.
+  if (isOfProgram(p.recipePath)) p.recipePath.clear();
+  forgetDrawing(view_);
   if (!session_.isBlankPage()) rememberFile(session_.scanPath());
   refreshTitle();
   p.errors->hide();
@@ -91,9 +111,11 @@ void MainWindow::scanOpened() {
 }
 
 QString MainWindow::startFolder() const {
-  if (session_.hasScan() && !session_.isBlankPage()) return QFileInfo(session_.scanPath()).absolutePath();
-  const QStringList recent = recentFiles();
-  return recent.isEmpty() ? QDir::homePath() : QFileInfo(recent.first()).absolutePath();
+  QStringList known = recentFiles();
+  if (session_.hasScan() && !session_.isBlankPage()) known.prepend(session_.scanPath());
+  for (const QString& path : known)
+    if (!isOfProgram(path)) return QFileInfo(path).absolutePath();
+  return QDir::homePath();
 }
 
 void MainWindow::chooseScan() {
@@ -120,7 +142,9 @@ void MainWindow::readRecipe(const QString& path) {
 void MainWindow::useRecipe(const QString& path, const Result<Recipe>& recipe) {
   if (!recipe) return showProblem(recipe.error(), FailureOrigin::OpenRecipe);
   if (recipe->page) {
-    beginDrawing(*recipe);
+    if (!maybeDiscard()) return;
+    parts_->pageRecipe = QFileInfo(path).absoluteFilePath();
+    session_.newDrawing(*recipe);
     return rememberFile(path);
   }
   if (!session_.hasScan())
@@ -132,19 +156,38 @@ void MainWindow::useRecipe(const QString& path, const Result<Recipe>& recipe) {
 }
 
 bool MainWindow::saveRecipe() {
-  const QString start = session_.isBlankPage()
-                            ? startFolder() + QStringLiteral("/drawing.recipe.json")
-                            : QString::fromStdU16String(recipeBeside(nativePath(session_.scanPath())).u16string());
-  const QString path = askSavePath(this, {tr("Save recipe"), start, tr("Recipes (*.json)"), QStringLiteral("json")});
-  if (path.isEmpty()) return false;
+  return parts_->recipePath.isEmpty() ? saveRecipeAs() : saveRecipeTo(parts_->recipePath);
+}
+
+bool MainWindow::saveRecipeAs() {
+  const SaveQuestion question{tr("Save recipe"), proposedRecipePath(), tr("Recipes (*.json)"), QStringLiteral("json")};
+  const QString path = askSavePath(this, question);
+  return !path.isEmpty() && saveRecipeTo(path);
+}
+
+bool MainWindow::saveRecipeTo(const QString& path) {
   if (const auto saved = saveAtomically(nativePath(path), recipeToJson(session_.recipe())); !saved) {
     showProblem(saved.error(), FailureOrigin::SaveRecipe);
     return false;
   }
+  parts_->recipePath = QFileInfo(path).absoluteFilePath();
+  QSettings().setValue(kSaveFolderKey, QFileInfo(path).absolutePath());
   session_.markSaved();
   if (session_.isBlankPage()) rememberFile(path);
+  refreshTitle();
   parts_->status->showMessage(tr("Saved the recipe to %1.").arg(QFileInfo(path).fileName()));
   return true;
+}
+
+// Where it lies now; else beside the scan, where it is found by itself; else where the last one was saved.
+QString MainWindow::proposedRecipePath() const {
+  if (!parts_->recipePath.isEmpty()) return parts_->recipePath;
+  const QString last = QSettings().value(kSaveFolderKey).toString();
+  const QString folder = isPlaceToSave(last) ? last : QDir::homePath();
+  if (session_.isBlankPage()) return folder + QStringLiteral("/drawing.recipe.json");
+  const QFileInfo beside(QString::fromStdU16String(recipeBeside(nativePath(session_.scanPath())).u16string()));
+  if (!isOfProgram(session_.scanPath()) && isPlaceToSave(beside.absolutePath())) return beside.absoluteFilePath();
+  return folder + QLatin1Char('/') + beside.fileName();
 }
 
 QString MainWindow::journalFolder() {
@@ -163,6 +206,7 @@ bool MainWindow::offerLeftWork() {
     const RecipeJournal::Left taken = *std::exchange(parts_->leftWork, std::nullopt);
     parts_->journal->takeOver(taken);
     parts_->errors->hide();
+    parts_->pageRecipe.clear();
     session_.restore(taken.scanPath, taken.recipe);
   };
   p.dismissal = [this] {

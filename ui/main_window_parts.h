@@ -22,6 +22,7 @@ class CurveCanvas;
 class CurvePlots;
 class ExportPanel;
 class ScanPanel;
+class SettingFinder;
 class ShapeWindow;
 class StageRail;
 class StatusLine;
@@ -55,8 +56,13 @@ struct MainWindow::Parts {
     Layer layer;
     bool before, during;
   };
-  enum class Height { Roomy, Low, Lowest } height = Height::Roomy;
-  QList<int> roomySizes;                ///< Of the splitter, while the window is low.
+  bool isFitting = false;       ///< fitLower() is on its way.
+  int lowerPx = 380;            ///< Height of targets and plots in a roomy window, as the user drew it.
+  bool showsLower = true;       ///< Whether they are shown in the stages that they belong to.
+  bool showsLowerHere = false;  ///< Brought up by hand in another stage, until it is left.
+  SettingFinder* settings = nullptr;
+  QString recipePath;  ///< Where the recipe was read from or saved last; empty: nowhere yet.
+  QString pageRecipe;  ///< The file of the drawing that is being opened, when it is one without a scan.
   std::vector<StageLayer> stageLayers;  ///< Switched by the present stage, switched back when it is left.
   enum class StrokesFor { Nothing, Bridges, Merges };
   StrokesFor strokesFor = StrokesFor::Nothing;  ///< Why the layer of strokes was shown by itself last.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QAction>
+#include <QDir>
 #include <QFileInfo>
+#include <QFontMetrics>
 #include <QGuiApplication>
 #include <QMenu>
 #include <QScreen>
 #include <QSettings>
-#include <QSplitter>
 #include <algorithm>
 
 #include "ui/main_window_parts.h"
@@ -16,8 +17,18 @@
 namespace batten {
 namespace {
 constexpr int kRecentFiles = 10;
-const QString kAngleKey = QStringLiteral("suggestion-angle"), kScaleKey = QStringLiteral("suggestion-scale"),
-              kPlotKey = QStringLiteral("window/plot");
+const QString kLowerKey = QStringLiteral("window/lower-height"), kPlotKey = QStringLiteral("window/plot");
+
+/// "coupe.png  –  ~/scans": the folder tells two files of one name apart.
+QString recentText(const QString& path) {
+  const QFileInfo file(path);
+  QString folder = file.absolutePath();
+  if (const QString home = QDir::homePath(); folder == home || folder.startsWith(home + QLatin1Char('/')))
+    folder.replace(0, home.size(), QLatin1Char('~'));
+  const QString shown = QFontMetrics(uiFont(13)).elidedText(folder, Qt::ElideMiddle, 320);
+  return QString(file.fileName() + QStringLiteral("  –  ") + shown).replace(QLatin1Char('&'), QStringLiteral("&&"));
+}
+
 }  // namespace
 
 ThemeChoice MainWindow::storedTheme() {
@@ -58,7 +69,7 @@ void MainWindow::refreshRecent() {
   checkRecent({});  // For the next time; the menu opens at once.
   for (const QString& path : recentFiles()) {
     if (parts_->goneFiles.contains(path)) continue;
-    QAction* entry = menu->addAction(QFileInfo(path).fileName());
+    QAction* entry = menu->addAction(recentText(path));
     entry->setToolTip(path);
     entry->setStatusTip(path);
     connect(entry, &QAction::triggered, this, [this, path] { openPath(path); });
@@ -68,13 +79,15 @@ void MainWindow::refreshRecent() {
 }
 
 QString MainWindow::drawingName() const {
-  if (session_.isBlankPage()) return tr("New drawing");
+  // A drawing without a scan is called as the file that holds it.
+  if (session_.isBlankPage())
+    return parts_->recipePath.isEmpty() ? tr("New drawing") : QFileInfo(parts_->recipePath).fileName();
   return session_.hasScan() ? QFileInfo(session_.scanPath()).fileName() : tr("No scan");
 }
 
 void MainWindow::refreshTitle() {
   const bool unsaved = session_.hasUnsavedChanges();
-  parts_->topBar->setTitle(drawingName(), unsaved, session_.scanPath());
+  parts_->topBar->setTitle(drawingName(), unsaved, session_.isBlankPage() ? parts_->recipePath : session_.scanPath());
   setWindowTitle(session_.hasScan() ? drawingName() + QStringLiteral("[*] – Batten") : QStringLiteral("Batten"));
   setWindowModified(unsaved);
 }
@@ -95,7 +108,7 @@ std::pair<QString, std::function<void()>> MainWindow::remedyFor(const Error& err
       if (!session_.hasScan()) return {tr("Open…"), [this] { chooseScan(); }};
       return {tr("Open recipe…"), [this] { chooseRecipe(); }};
     case FailureOrigin::SaveRecipe:
-      return {tr("Save elsewhere…"), [this] { saveRecipe(); }};
+      return {tr("Save elsewhere…"), [this] { saveRecipeAs(); }};
     case FailureOrigin::Export:
       if (error.code == ErrorCode::NoCurve) return {tr("Show the curves"), stageOf(PanelStage::Curves)};
       return {tr("Choose a place…"), [this] {
@@ -133,18 +146,15 @@ void MainWindow::loadSettings() {
     if (!visible && QGuiApplication::primaryScreen())
       move(QGuiApplication::primaryScreen()->availableGeometry().topLeft());
   }
-  if (const QByteArray split = settings.value(QStringLiteral("window/splitter")).toByteArray(); !split.isEmpty())
-    parts_->splitter->restoreState(split);
-  parts_->foldAction->setChecked(settings.value(QStringLiteral("window/plots"), true).toBool());
+  parts_->lowerPx = settings.value(kLowerKey, parts_->lowerPx).toInt();
+  parts_->showsLower = settings.value(QStringLiteral("window/plots"), true).toBool();
   settings.beginGroup(QStringLiteral("view"));
   for (const Layer layer : kLayers)
     view_.setVisible(layer, settings.value(action(showAction(layer))->objectName(), view_.isVisible(layer)).toBool());
   view_.setCombScale(settings.value(QStringLiteral("comb-scale"), view_.combScale()).toDouble());
   view_.setCombDensity(settings.value(QStringLiteral("comb-density"), view_.combDensity()).toInt());
-  view_.setSuggestionAngleDeg(settings.value(kAngleKey, view_.suggestionAngleDeg()).toDouble());
-  view_.setSuggestionScalePx(settings.value(kScaleKey, view_.suggestionScalePx()).toDouble());
   settings.endGroup();
-  parts_->plots->setTab(static_cast<PlotTab>(std::clamp(settings.value(kPlotKey, 0).toInt(), 0, 3)));
+  parts_->plots->setTab(static_cast<PlotTab>(std::clamp(settings.value(kPlotKey, 0).toInt(), 0, kPlotTabs - 1)));
   const ThemeChoice choice = storedTheme();
   parts_->mainMenu->findChild<QAction*>(QStringLiteral("theme-%1").arg(static_cast<int>(choice)))->setChecked(true);
 }
@@ -152,9 +162,8 @@ void MainWindow::loadSettings() {
 void MainWindow::saveSettings() {
   QSettings settings;
   settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
-  if (parts_->height == Parts::Height::Roomy)
-    settings.setValue(QStringLiteral("window/splitter"), parts_->splitter->saveState());
-  settings.setValue(QStringLiteral("window/plots"), parts_->foldAction->isChecked());
+  settings.setValue(kLowerKey, parts_->lowerPx);
+  settings.setValue(QStringLiteral("window/plots"), parts_->showsLower);
   settings.beginGroup(QStringLiteral("view"));
   for (const Layer layer : kLayers) {
     const auto& switched = parts_->stageLayers;
@@ -165,8 +174,6 @@ void MainWindow::saveSettings() {
   }
   settings.setValue(QStringLiteral("comb-scale"), view_.combScale());
   settings.setValue(QStringLiteral("comb-density"), view_.combDensity());
-  settings.setValue(kAngleKey, view_.suggestionAngleDeg());
-  settings.setValue(kScaleKey, view_.suggestionScalePx());
   settings.endGroup();
   settings.setValue(kPlotKey, static_cast<int>(parts_->plots->tab()));
 }

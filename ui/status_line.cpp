@@ -8,6 +8,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <cmath>
+#include <utility>
 
 #include "core/pipeline/run/pipeline.h"
 #include "ui/panels/controls/panel_parts.h"
@@ -34,7 +35,8 @@ StatusLine::StatusLine(EditorSession& session, QWidget* parent)
       setScale_(linkButton(tr("no scale: set it"), QStringLiteral("status.setScale"), this)),
       progress_(new QProgressBar(this)),
       cancel_(linkButton(tr("Cancel"), QStringLiteral("status.cancel"), this)),
-      again_(linkButton(tr("Compute again"), QStringLiteral("status.again"), this)) {
+      again_(linkButton(tr("Compute again"), QStringLiteral("status.again"), this)),
+      act_(linkButton({}, QStringLiteral("status.act"), this)) {
   setObjectName(QStringLiteral("statusLine"));
   setFixedHeight(30);
   auto* layout = new QHBoxLayout(this);
@@ -58,6 +60,13 @@ StatusLine::StatusLine(EditorSession& session, QWidget* parent)
   hint_ = add("status.hint", {}, 1);
   hint_->setAlignment(Qt::AlignCenter);
   hint_->setMinimumWidth(40);
+  layout->addWidget(act_);
+  act_->setFont(uiFont(12));
+  act_->hide();
+  connect(act_, &QPushButton::clicked, this, [this] {
+    if (const auto action = std::exchange(action_, {})) action();
+    act_->hide();
+  });
   progress_->setFixedWidth(96);
   progress_->setRange(0, 100);
   progress_->setTextVisible(false);
@@ -70,11 +79,12 @@ StatusLine::StatusLine(EditorSession& session, QWidget* parent)
   setScale_->setFont(uiFont(12));
   cancel_->setFont(uiFont(12));
   again_->setFont(uiFont(12));
-  again_->setToolTip(tr("Go on with the computation that was stopped.  (F5)"));
+  again_->setToolTip(tr("Go on with the computation that was stopped.  (Ctrl+R)"));
   messageTimer_.setSingleShot(true);
   messageTimer_.setInterval(kMessageMs);
   connect(&messageTimer_, &QTimer::timeout, this, [this] {
     message_.clear();
+    action_ = {};
     refreshHint();
   });
   connect(setScale_, &QPushButton::clicked, this, &StatusLine::scaleAsked);
@@ -111,19 +121,24 @@ void StatusLine::setHint(const QString& text) {
   refreshHint();
 }
 
-void StatusLine::showMessage(const QString& text) {
+void StatusLine::showMessage(const QString& text, const QString& actionText, std::function<void()> action) {
   message_ = text;
+  action_ = std::move(action);
+  act_->setText(actionText);
+  act_->setAccessibleName(actionText);
   messageTimer_.start();
   refreshHint();
 }
 
 void StatusLine::refreshHint() {
+  act_->setVisible(action_ != nullptr);
   hint_->setText(!message_.isEmpty() ? message_ : placeHint_.isEmpty() ? stageHint_ : placeHint_);
 }
 
 void StatusLine::setStageHint(const QString& text) {
   stageHint_ = text;
   message_.clear();
+  action_ = {};
   refreshHint();
 }
 

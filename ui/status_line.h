@@ -3,6 +3,7 @@
 
 #include <QTimer>
 #include <QWidget>
+#include <functional>
 #include <optional>
 
 #include "core/base/vec2.h"
@@ -24,8 +25,8 @@ class StatusLine : public QWidget {
   void setHint(const QString& text);
   /// What stands there while nothing under the mouse has a hint of its own.
   void setStageHint(const QString& text);
-  /// Says what has happened, for five seconds or until the stage changes.
-  void showMessage(const QString& text);
+  /// Says what has happened, for five seconds or until the stage changes; with an action, beside a button that does it.
+  void showMessage(const QString& text, const QString& actionText = {}, std::function<void()> action = {});
 
  signals:
   void scaleAsked();  ///< "no scale: set it" was pressed.
@@ -43,7 +44,8 @@ class StatusLine : public QWidget {
   QLabel *millimetres_, *pixels_, *scale_, *zoom_, *hint_, *work_;
   QPushButton* setScale_;
   QProgressBar* progress_;
-  QPushButton *cancel_, *again_;
+  QPushButton *cancel_, *again_, *act_;
+  std::function<void()> action_;
 };
 
 }  // namespace batten

@@ -138,7 +138,7 @@ TEST_F(Choices, TheCurvaturePlotTakesTheSameClicks) {
   const auto marks = extremumMarks(session(), session().selectedCurve());
   ASSERT_NE(kept(marks), nullptr);
   auto* plot = plots->findChild<QWidget*>(QStringLiteral("plot"));
-  const QPoint place = plots->markPlace(kept(marks)->note).toPoint();
+  const QPoint place = plots->markPlace(*kept(marks)->note).toPoint();
   ASSERT_TRUE(plot->rect().contains(place));
   QTest::mouseMove(plot, place);
   // With a window system the mouse arrives when the event does.

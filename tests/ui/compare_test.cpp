@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
-#include <QCheckBox>
 #include <QFile>
 #include <QFileInfo>
+#include <QLabel>
 #include <QMenu>
 #include <QMimeData>
 #include <QTextBrowser>
@@ -17,6 +17,7 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/stages/method_table.h"
 #include "ui/panels/stages/pin_panel.h"
+#include "ui/session/curve_names.h"
 
 namespace batten {
 namespace {
@@ -52,20 +53,35 @@ TEST_F(Compare, OneCurveCanHaveAMethodOfItsOwn) {
   window_->setStage(PanelStage::Curves);
   ASSERT_EQ(session().curves().size(), 3u);
   session().selectCurve(1);
-  auto* own = find<QCheckBox>("construct.method.own");
-  ASSERT_TRUE(own->isVisible());
-  QTest::mouseClick(own, Qt::LeftButton, {}, QPoint(8, own->height() / 2));
-  QTest::mouseClick(find<QAbstractButton>("construct.method.control-polygon"), Qt::LeftButton);
+  const auto click = [this](const char* name) { QTest::mouseClick(find<QAbstractButton>(name), Qt::LeftButton); };
+  auto* table = find<MethodTable>("construct.method.row");
+  // The figures are the selected curve's, and so is the click.
+  EXPECT_TRUE(find<QAbstractButton>("construct.scope.one")->isChecked());
+  EXPECT_TRUE(find<QLabel>("construct.method.whose")->text().contains(curveName(session(), 1)));
+  ASSERT_TRUE(waitUntil([&] { return table->figures(ConstructMethod::ControlPolygon).has_value(); }));
+  const CurveFigures foretold = *table->figures(ConstructMethod::ControlPolygon);
+  const NurbsCurve first = session().curves()[0].sketched;
+  click("construct.method.control-polygon");
   ASSERT_TRUE(settle());
   EXPECT_EQ(session().recipe().construct.method, ConstructMethod::Fair);
   EXPECT_EQ(session().curves()[1].sketched.degree(), session().recipe().construct.degree);
+  EXPECT_EQ(session().curves()[1].sketchedFigures.controlPoints, foretold.controlPoints);
+  EXPECT_EQ(session().curves()[1].sketchedFigures.fromPoints.rms, foretold.fromPoints.rms);
+  EXPECT_TRUE(session().curves()[0].sketched == first);
+  EXPECT_TRUE(find<QAbstractButton>("construct.method.control-polygon")->isChecked());
   session().selectCurve(0);
-  EXPECT_FALSE(own->isChecked());
+  EXPECT_TRUE(find<QAbstractButton>("construct.method.fair")->isChecked());
   session().selectCurve(1);
-  EXPECT_TRUE(own->isChecked());
-  QTest::mouseClick(own, Qt::LeftButton, {}, QPoint(8, own->height() / 2));
+  click("construct.method.fair");
   ASSERT_TRUE(settle());
-  EXPECT_FALSE(session().recipe().choices.at(0).method);
+  EXPECT_TRUE(session().recipe().choices.empty()) << "as all others: nothing of its own is left";
+  // Said to be for all, it is for all, also for those that had one of their own.
+  click("construct.method.bezier");
+  click("construct.scope.all");
+  click("construct.method.nurbs");
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(session().recipe().construct.method, ConstructMethod::Nurbs);
+  EXPECT_TRUE(session().recipe().choices.empty());
 }
 
 TEST_F(Compare, APinnedResultStaysAndIsSetBesideThePresentOne) {
@@ -87,6 +103,7 @@ TEST_F(Compare, APinnedResultStaysAndIsSetBesideThePresentOne) {
     return figures->isVisible() && figures->rows().size() == 6 && figures->rows()[2].cells[1].text == points;
   }));
   EXPECT_EQ(figures->rows()[2].cells[0].text, QString::number(before.sketchedFigures.controlPoints));
+  EXPECT_EQ(figures->rows()[3].cells[1].text, QString::number(session().selected()->sketchedFigures.extrema));
   const Comparison c = compare(before, *session().selected());
   EXPECT_EQ(c.pinned.energy, variationEnergy(before.sketched));
   EXPECT_GE(c.apartMm, deviation(before.sketched, session().selected()->sketched).rms);
@@ -150,7 +167,7 @@ TEST_F(Compare, AFileDroppedOnTheWindowIsOpened) {
   EXPECT_EQ(session().curves().size(), 1u);
 }
 
-TEST_F(Compare, TabWalksTheCurvesAndArrowsMoveTheSelectedCorner) {
+TEST_F(Compare, CurvesAreWalkedByTheirOwnKeysAndArrowsMoveTheSelectedCorner) {
   openPage(test::zigzagPage());
   window_->setStage(PanelStage::Corners);
   clickCanvas({200, 100});
@@ -170,10 +187,14 @@ TEST_F(Compare, TabWalksTheCurvesAndArrowsMoveTheSelectedCorner) {
   session().selectCurve(0);
   window_->activateWindow();
   canvas->setFocus();
-  QTest::keyClick(canvas, Qt::Key_Tab);
+  QTest::keyClick(canvas, Qt::Key_N);
   EXPECT_EQ(session().selectedCurve(), 1);
-  QTest::keyClick(canvas, Qt::Key_Backtab);
+  QTest::keyClick(canvas, Qt::Key_N, Qt::ShiftModifier);
   EXPECT_EQ(session().selectedCurve(), 0);
+  // Tab leaves the drawing at once, however many curves there are.
+  QTest::keyClick(canvas, Qt::Key_Tab);
+  EXPECT_EQ(session().selectedCurve(), 0);
+  EXPECT_FALSE(canvas->hasFocus());
 }
 
 }  // namespace

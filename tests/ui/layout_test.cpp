@@ -3,8 +3,10 @@
 
 #include <QAbstractButton>
 #include <QLabel>
-#include <QSlider>
+#include <QTest>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/targets/target_strip.h"
@@ -19,13 +21,16 @@ class Layout : public test::WindowFixture {};
 
 TEST_F(Layout, InALowWindowTheDrawingComesFirst) {
   openPage(test::ellipsePage());
+  window_->setStage(PanelStage::Fairing);
   auto* plots = find<QWidget>("plots");
   auto* canvas = find<CurveCanvas>("canvas");
+  ASSERT_TRUE(waitUntil([&] { return plots->isVisible() && plots->height() > 240; }, 5000)) << plots->height();
   const int roomy = plots->height();
-  EXPECT_TRUE(plots->isVisible());
   window_->resize(1000, 700);
   ASSERT_TRUE(waitUntil([&] { return window_->height() <= 700 && plots->height() < roomy; }, 5000));
   EXPECT_TRUE(plots->isVisible());
+  EXPECT_GE(find<QWidget>("plot")->height(), 200);
+  EXPECT_GT(canvas->height(), 200);
   window_->resize(960, 600);
   ASSERT_TRUE(waitUntil([&] { return !plots->isVisible(); }, 5000));
   EXPECT_GT(canvas->height(), 360);
@@ -54,19 +59,110 @@ TEST_F(Layout, EveryPlotNamesItsQuantityAndComesBack) {
   openPage(test::ellipsePage());
   auto* plots = window_->findChild<CurvePlots*>();
   auto* quantity = find<QLabel>("plot.quantity");
-  for (const PlotTab tab : {PlotTab::Radius, PlotTab::Derivative, PlotTab::Deviation, PlotTab::Curvature}) {
+  for (const PlotTab tab :
+       {PlotTab::Radius, PlotTab::Speed, PlotTab::CurvatureSlope, PlotTab::Deviation, PlotTab::Curvature}) {
     plots->setTab(tab);
     EXPECT_TRUE(quantity->text().contains(QStringLiteral("mm"))) << quantity->text().toStdString();
   }
-  window_->view().setSuggestionAngleDeg(61);
-  find<QSlider>("corners.suggestScale")->setValue(23);
-  EXPECT_EQ(window_->view().suggestionScalePx(), 23);
   window_->close();
   openWindow();
   EXPECT_EQ(window_->findChild<CurvePlots*>()->tab(), PlotTab::Curvature);
-  EXPECT_EQ(window_->view().suggestionAngleDeg(), 61);
-  EXPECT_EQ(find<QSlider>("corners.suggestAngle")->value(), 61);
-  EXPECT_EQ(find<QSlider>("corners.suggestScale")->value(), 23);
+}
+
+TEST_F(Layout, TargetsAndPlotsAreShownWhereCurvesAreJudged) {
+  openPage(test::ellipsePage());
+  auto* strip = find<QWidget>("targetStrip");
+  auto* plot = find<QWidget>("plot");
+  for (const QSize size : {QSize(1366, 720), QSize(1440, 900)}) {
+    window_->resize(size);
+    for (const PanelStage stage : kPanelStages) {
+      window_->setStage(stage);
+      const bool isJudging = stage == PanelStage::Curves || stage == PanelStage::Fairing;
+      EXPECT_EQ(strip->isVisible(), isJudging) << label(stage).toStdString();
+      EXPECT_EQ(plot->isVisible(), isJudging) << label(stage).toStdString();
+      if (isJudging) EXPECT_TRUE(waitUntil([&] { return plot->height() >= 200; }, 3000)) << plot->height();
+    }
+  }
+}
+
+TEST_F(Layout, PFoldsTargetsAndPlotsAndBringsThemUpAnywhere) {
+  openPage(test::ellipsePage());
+  auto* strip = find<QWidget>("targetStrip");
+  auto* canvas = find<CurveCanvas>("canvas");
+  const auto press = [&] {
+    canvas->setFocus();
+    QTest::keyClick(canvas, Qt::Key_P);
+  };
+  window_->setStage(PanelStage::Fairing);
+  press();
+  EXPECT_FALSE(strip->isVisible());
+  window_->setStage(PanelStage::Curves);
+  EXPECT_FALSE(strip->isVisible()) << "folded for both";
+  window_->setStage(PanelStage::Threshold);
+  press();
+  EXPECT_TRUE(strip->isVisible()) << "asked for, they come in any stage";
+  window_->setStage(PanelStage::Corners);
+  EXPECT_FALSE(strip->isVisible());
+  window_->setStage(PanelStage::Fairing);
+  press();
+  EXPECT_TRUE(strip->isVisible());
+}
+
+TEST_F(Layout, TheLinesOfTheSixTargetsCarryTheirNumbers) {
+  openPage(test::ellipsePage());
+  window_->setStage(PanelStage::Fairing);
+  ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr && !session().isTargeting(); }));
+  window_->findChild<CurvePlots*>()->setTab(PlotTab::Curvature);
+  int valid = 0;
+  for (int degree = 1; degree <= 6; ++degree) {
+    const bool isValid = session().targets()->targets.profiles[static_cast<std::size_t>(degree - 1)].valid;
+    valid += isValid ? 1 : 0;
+    const auto* text = window_->findChild<QObject*>(QStringLiteral("plot.target.%1").arg(degree));
+    EXPECT_EQ(text != nullptr, isValid) << degree;
+  }
+  EXPECT_GT(valid, 3);
+}
+
+TEST_F(Layout, ButtonsStayWhereTheyAreWhileListsGrow) {
+  openPage(test::zigzagPage());
+  window_->setStage(PanelStage::Corners);
+  std::vector<QWidget*> buttons;
+  for (const char* name : {"corners.remove", "corners.removeAll", "corners.take", "corners.takeAll"})
+    buttons.push_back(find<QWidget>(name));
+  const auto places = [&] {
+    QCoreApplication::processEvents();
+    std::vector<QPoint> all;
+    for (const QWidget* button : buttons) all.push_back(button->mapTo(window_.get(), QPoint(0, 0)));
+    return all;
+  };
+  auto* takeAll = find<QAbstractButton>("corners.takeAll");
+  ASSERT_TRUE(waitUntil([&] { return takeAll->isEnabled(); }));
+  const auto before = places();
+  QTest::mouseClick(takeAll, Qt::LeftButton);
+  ASSERT_TRUE(settle());
+  ASSERT_EQ(session().recipe().cornerMarks.size(), 2u);
+  EXPECT_EQ(places(), before);
+  clickCanvas({300, 200});
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(places(), before);
+}
+
+TEST_F(Layout, NothingLiesOverTheRegionsWhileTheyAreWorkedOn) {
+  // A page that fills the view, so that its first region lies in its corner.
+  openPage(test::zigzagPage({640, 500}));
+  window_->setStage(PanelStage::Threshold);
+  auto* canvas = find<CurveCanvas>("canvas");
+  ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr; }));
+  const auto corners = [&] {
+    const QImage all = canvas->grab().toImage();
+    return std::pair(all.copy(0, 0, 300, 60), all.copy(0, all.height() - 60, 300, 60));
+  };
+  const auto with = corners();
+  session().selectCurve(-1);
+  const auto without = corners();
+  EXPECT_EQ(with.first, without.first) << "nothing is said of a curve that is not drawn";
+  window_->setStage(PanelStage::Scan);
+  EXPECT_NE(corners().second, without.second) << "the page's chip is back elsewhere";
 }
 
 }  // namespace

@@ -331,7 +331,8 @@ TEST_F(Window, PlotsHoldFiniteNumbersOverTheWholeLength) {
   ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr; }));
   session().selectCurve(0);
   const double length = session().selected()->sketchedFigures.lengthMm;
-  for (const PlotTab tab : {PlotTab::Radius, PlotTab::Curvature, PlotTab::Derivative, PlotTab::Deviation}) {
+  for (const PlotTab tab :
+       {PlotTab::Radius, PlotTab::Curvature, PlotTab::CurvatureSlope, PlotTab::Speed, PlotTab::Deviation}) {
     const PlotData data = plotData(session(), tab);
     ASSERT_FALSE(data.isEmpty());
     EXPECT_NEAR(data.lengthMm, length, 1e-3 * length);

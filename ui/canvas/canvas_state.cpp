@@ -11,6 +11,7 @@
 #include "ui/canvas/layers/growing_layer.h"
 #include "ui/canvas/layers/mark_layers.h"
 #include "ui/session/growing_player.h"
+#include "ui/session/judged_view.h"
 #include "ui/session/suggestion_source.h"
 
 namespace batten {
@@ -102,12 +103,14 @@ void CurveCanvas::State::recipeChanged() {
   canvas.update();
 }
 
-void CurveCanvas::State::refreshExtrema() { extrema = extremumMarks(session, session.selectedCurve()); }
+void CurveCanvas::State::refreshExtrema() { extrema = extremumMarks(session, session.selectedCurve(), judgedIn(view)); }
 
 void CurveCanvas::State::viewChanged() {
   session.setEdgesWanted(view.isVisible(Layer::Edges));
   requestSuggestions();
+  requestCombs();
   requestOverlay();
+  refreshExtrema();
   canvas.update();
 }
 
@@ -178,18 +181,20 @@ void CurveCanvas::State::requestShapes() {
 void CurveCanvas::State::requestCombs() {
   const CurveSource from = source();
   const int selected = session.selectedCurve();
-  if (from == combsFor && selected == combsSelected) return;
+  const Judged judged = judgedIn(view);
+  if (from == combsFor && selected == combsSelected && judged == combsJudged) return;
   combsFor = from;
   combsSelected = selected;
-  combing.start([this, from, selected](const CancelToken& token) {
+  combsJudged = judged;
+  combing.start([this, from, selected, judged](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
-    auto built = buildCombs(from, selected, context);
+    auto built = buildCombs(from, selected, judged, context);
     if (!built) return;
     QMetaObject::invokeMethod(
         &inbox,
         [this, built] {
-          if (!(built->source == source())) return;
+          if (!(built->source == source()) || built->judged != judgedIn(view)) return;
           combs = built;
           canvas.update();
         },
@@ -198,7 +203,7 @@ void CurveCanvas::State::requestCombs() {
 }
 
 void CurveCanvas::State::requestOverlay() {
-  const OverlaySource from = overlaySource(session, view.showsUniformKnots(), zoomBracket(transform.zoom()));
+  const OverlaySource from = overlaySource(session, view, zoomBracket(transform.zoom()));
   if (from == overlayFor) return;
   overlayFor = from;
   if (!from.pinned && !from.contours) {
@@ -332,6 +337,7 @@ void CurveCanvas::State::paint(QPainter& painter) {
   }
   if (!view.isScanOnly()) {
     paintRegions(painter, *this);
+    if (areCombsShown()) paintDirection(painter, *this);
     if (areExtremaShown()) paintExtrema(painter, *this);
     if (view.isVisible(Layer::Corners)) paintCorners(painter, *this);
     if (view.isVisible(Layer::Regions) && view.tool() != Tool::Thresholds) paintRegionGrid(painter, *this);

@@ -89,6 +89,7 @@ struct CurveCanvas::State : CanvasScene {
   CurveSource shapesFor, combsFor;
   double shapesZoom = 0.0;
   int combsSelected = -2;
+  Judged combsJudged = Judged::Result;
   OverlaySource overlayFor;
 };
 

@@ -224,14 +224,8 @@ void CurveCanvas::tabletEvent(QTabletEvent* event) {
 }
 
 bool CurveCanvas::focusNextPrevChild(bool next) {
-  if (const auto walked = state_->tool().tab(next)) return *walked || QWidget::focusNextPrevChild(next);
-  // Tab walks the curves and leaves the drawing behind the last one.
-  const int count = static_cast<int>(state_->session.curves().size());
-  const int now = state_->session.selectedCurve();
-  const int wanted = now < 0 ? (next ? 0 : count - 1) : now + (next ? 1 : -1);
-  if (count == 0 || wanted < 0 || wanted >= count) return QWidget::focusNextPrevChild(next);
-  state_->session.selectCurve(wanted);
-  return true;
+  // Marks are walked by Tab, curves are not: there may be hundreds before the panels.
+  return state_->tool().tab(next).value_or(false) || QWidget::focusNextPrevChild(next);
 }
 
 void CurveCanvas::keyPressEvent(QKeyEvent* event) {

@@ -27,8 +27,10 @@ std::vector<ActionInfo> fileActions() {
       {OpenScan, "open-scan", menu, tr("Open scan…"), keys({"Ctrl+O"}), tr("Open a scanned or photographed drawing.")},
       {OpenRecipe, "open-recipe", menu, tr("Open recipe…"), keys({"Ctrl+Shift+O"}),
        tr("Use saved settings, corners and choices on this drawing, or open a saved pen drawing.")},
-      {SaveRecipe, "save-recipe", menu, tr("Save recipe…"), keys({"Ctrl+S"}),
-       tr("Save all settings, corners and choices, for this program or batten-cli.")},
+      {SaveRecipe, "save-recipe", menu, tr("Save recipe"), keys({"Ctrl+S"}),
+       tr("Save all settings, corners and choices where they were saved before; the first time asks where.")},
+      {SaveRecipeAs, "save-recipe-as", menu, tr("Save recipe as…"), keys({"Ctrl+Shift+S"}),
+       tr("Save all settings, corners and choices under another name, for this program or batten-cli.")},
       {Export, "export", menu, tr("Export…"), keys({"Ctrl+E"}),
        tr("Write the curves as SVG or curve JSON, with their size in mm.")},
       {Quit, "quit", menu, tr("Quit"), keys({"Ctrl+Q"}), tr("Close the program.")},
@@ -44,10 +46,13 @@ std::vector<ActionInfo> editActions() {
        tr("Make the change that was taken back again.")},
       {CancelWork, "cancel", menu, tr("Stop working"), keys({"Esc"}),
        tr("Stop the running computation; what is ready stays.")},
-      {ComputeAgain, "compute-again", menu, tr("Compute again"), keys({"F5"}),
+      {ComputeAgain, "compute-again", menu, tr("Compute again"), keys({"Ctrl+R"}),
        tr("Go on with a computation that was stopped.")},
+      {NextCurve, "next-curve", menu, tr("Next curve"), keys({"N"}), tr("Select the next curve of the list.")},
+      {PreviousCurve, "previous-curve", menu, tr("Previous curve"), keys({"Shift+N"}),
+       tr("Select the curve before in the list.")},
       {FindAction, "find-action", menu, tr("Find an action…"), keys({"Ctrl+Shift+P"}),
-       tr("Search everything the program can do by name.")},
+       tr("Search all actions and settings by name.")},
   };
 }
 

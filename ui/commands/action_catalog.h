@@ -65,6 +65,9 @@ enum class ActionId {
   Target4,
   Target5,
   Target6,
+  SaveRecipeAs,
+  NextCurve,
+  PreviousCurve,
 };
 
 enum class ActionMenu { File, Edit, View, Tools, Fairing };

@@ -3,47 +3,53 @@
 
 #include <qcustomplot.h>
 
-#include <QButtonGroup>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPainter>
 #include <QTimer>
-#include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
 #include "ui/plots/plot_editing.h"
+#include "ui/plots/plot_head.h"
 #include "ui/plots/plot_style.h"
+#include "ui/plots/target_labels.h"
+#include "ui/session/judged_view.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
 namespace {
-constexpr double kMarkReachPx = 9.0;  // how near the mouse has to be to a mark
-}
+constexpr double kMarkReachPx = 9.0;      // how near the mouse has to be to a mark
+constexpr int kLeastPlotPx = 200;         // lower, and neither curve nor targets can be read
+constexpr int kLeftPx = 54, kTopPx = 18;  // margins of the axes
+}  // namespace
 
 struct CurvePlots::State {
-  explicit State(EditorSession& s) : session(s) {}
+  State(EditorSession& s, const ViewSettings& v) : session(s), view(v) {}
   EditorSession& session;
+  const ViewSettings& view;
   PlotTab tab = PlotTab::Radius;
   PlotData data;
   std::optional<DataKey> dataKey;
-  QButtonGroup* tabs = nullptr;
-  QLabel* value = nullptr;
+  PlotHead* head = nullptr;
   QLabel *empty = nullptr, *quantity = nullptr;
   QCustomPlot* plot = nullptr;
   QCPItemStraightLine* cursor = nullptr;
+  std::unique_ptr<TargetLabels> labels;
   QSharedPointer<QCPAxisTicker> linearTicker;
+  QSharedPointer<LengthTicker> lengthTicker;
   QSharedPointer<RoundLogTicker> logTicker;
   PlotEditing* editing = nullptr;
   bool isPending = false;
+  bool isTurned = false;  ///< By the user, against the way the curve lies on the drawing.
   double shownLength = -1.0;
   PlotTab shownTab = PlotTab::Radius;
   int shownCurve = -2;
+  Judged shownJudged = Judged::Result;
 };
 
-CurvePlots::CurvePlots(EditorSession& session, QWidget* parent)
-    : QWidget(parent), state_(std::make_unique<State>(session)) {
+CurvePlots::CurvePlots(EditorSession& session, const ViewSettings& view, QWidget* parent)
+    : QWidget(parent), state_(std::make_unique<State>(session, view)) {
   setObjectName(QStringLiteral("plots"));
   build();
   applyTheme();
@@ -55,77 +61,44 @@ CurvePlots::CurvePlots(EditorSession& session, QWidget* parent)
     if (stage == StageId::Curves || stage == StageId::Faired) refreshSoon();
   });
   connect(&session, &EditorSession::cursorChanged, this, &CurvePlots::showCursor);
+  connect(&view, &ViewSettings::changed, this, [this] {
+    if (judgedIn(state_->view) != state_->shownJudged) refreshSoon();
+  });
+  connect(&session, &EditorSession::selectionChanged, this, [this] { state_->isTurned = false; });
   refresh();
 }
 
 CurvePlots::~CurvePlots() = default;
-
-QLayout* CurvePlots::makeHead() {
-  State& d = *state_;
-  auto* head = new QHBoxLayout;
-  head->setContentsMargins(4, 2, 14, 0);
-  head->setSpacing(2);
-  d.tabs = new QButtonGroup(this);
-  const struct {
-    QString text, name, help;
-  } tabs[] = {
-      {tr("Radius over arc length"), QStringLiteral("plot.radius"),
-       tr("Radius of curvature in mm, logarithmic; straight stretches are cut off at the top.")},
-      {tr("Curvature"), QStringLiteral("plot.curvature"),
-       tr("Signed curvature, 1/mm: positive where the curve turns left. The band is what the scan leaves open.")},
-      {tr("Derivative"), QStringLiteral("plot.derivative"),
-       tr("Magnitude of the first derivative: even is good parametrisation.")},
-      {tr("Deviation"), QStringLiteral("plot.deviation"),
-       tr("Distance of the scan's edge points and of the faired curve from the sketched curve, in mm.")}};
-  for (int i = 0; i < 4; ++i) {
-    auto* button = new QToolButton(this);
-    button->setText(tabs[i].text);
-    button->setObjectName(tabs[i].name);
-    button->setToolTip(tabs[i].help);
-    button->setAccessibleName(tabs[i].text);
-    button->setCheckable(true);
-    button->setProperty("tab", true);
-    button->setFocusPolicy(Qt::TabFocus);
-    // Wide enough for the bold state, so that the row does not jump.
-    button->setMinimumWidth(QFontMetrics(uiFont(12, QFont::DemiBold)).horizontalAdvance(tabs[i].text) + 16);
-    d.tabs->addButton(button, i);
-    head->addWidget(button);
-  }
-  d.tabs->button(0)->setChecked(true);
-  connect(d.tabs, &QButtonGroup::idClicked, this, [this](int id) { setTab(static_cast<PlotTab>(id)); });
-  head->addStretch();
-  d.value = new QLabel(this);
-  d.value->setFont(uiFont(12));
-  d.value->setForegroundRole(QPalette::PlaceholderText);
-  head->addWidget(d.value);
-  return head;
-}
 
 void CurvePlots::build() {
   State& d = *state_;
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 1, 0, 0);
   layout->setSpacing(0);
-  layout->addLayout(makeHead());
+  d.head = new PlotHead(this);
+  layout->addWidget(d.head);
+  connect(d.head, &PlotHead::chosen, this, &CurvePlots::setTab);
+  connect(d.head, &PlotHead::reverseAsked, this, &CurvePlots::setTurned);
   d.plot = new QCustomPlot(this);
   d.plot->setObjectName(QStringLiteral("plot"));
   d.plot->setAccessibleName(tr("Plot over arc length of the selected curve"));
-  d.plot->setMinimumHeight(60);
+  d.plot->setMinimumHeight(kLeastPlotPx);
   d.plot->setAntialiasedElements(QCP::aeAll);
   d.plot->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
   d.plot->axisRect()->setRangeDrag(Qt::Horizontal);
   d.plot->axisRect()->setRangeZoom(Qt::Horizontal);
   d.plot->axisRect()->setAutoMargins(QCP::msNone);
-  d.plot->axisRect()->setMargins(QMargins(54, 6, 16, 22));
+  d.plot->axisRect()->setMargins(QMargins(kLeftPx, kTopPx, 16, 22));
   d.plot->setMouseTracking(true);
   d.plot->installEventFilter(this);
   // Installed last, so asked first.
   d.editing = new PlotEditing(d.session, d.plot, this);
   connect(d.editing, &PlotEditing::wholeAsked, this, &CurvePlots::resetView);
-  d.linearTicker = QSharedPointer<QCPAxisTicker>::create();
-  d.linearTicker->setTickCount(4);
+  d.linearTicker = QSharedPointer<PlainTicker>::create();
+  d.lengthTicker = QSharedPointer<LengthTicker>::create();
+  d.labels = std::make_unique<TargetLabels>(d.plot);
   d.logTicker = QSharedPointer<RoundLogTicker>::create();
-  d.plot->xAxis->setTicker(QSharedPointer<LengthTicker>::create());
+  d.plot->xAxis->setTicker(d.lengthTicker);
   d.cursor = new QCPItemStraightLine(d.plot);
   d.cursor->setVisible(false);
   d.cursor->setLayer(QStringLiteral("overlay"));
@@ -138,13 +111,10 @@ void CurvePlots::build() {
     label->move(place);
     return label;
   };
-  d.empty = overlay(tr("Select a curve to see its curvature."), 12, {54, 8});
-  d.quantity = overlay({}, 11, {56, 3});
+  d.empty = overlay(tr("Select a curve to see its curvature."), 12, {kLeftPx, kTopPx + 2});
+  // In the margin over the axis, where neither curves nor numbers pass.
+  d.quantity = overlay({}, 11, {kLeftPx, 1});
   d.quantity->setObjectName(QStringLiteral("plot.quantity"));
-  // Curves and grid pass behind the name of the axis.
-  d.quantity->setAutoFillBackground(true);
-  d.quantity->setBackgroundRole(QPalette::Base);
-  d.quantity->setContentsMargins(2, 0, 4, 0);
   connect(d.plot->xAxis, QOverload<const QCPRange&>::of(&QCPAxis::rangeChanged), this, [this](const QCPRange& range) {
     const double length = state_->data.lengthMm;
     if (!(length > 0)) return;
@@ -152,7 +122,8 @@ void CurvePlots::build() {
     const double size = std::clamp(kept.size(), length * 1e-3, length);
     kept.lower = std::clamp(kept.lower, 0.0, length - size);
     kept.upper = kept.lower + size;
-    if (kept != range) state_->plot->xAxis->setRange(kept);
+    if (kept != range) return state_->plot->xAxis->setRange(kept);
+    state_->labels->place();
   });
 }
 
@@ -160,9 +131,18 @@ PlotTab CurvePlots::tab() const { return state_->tab; }
 
 void CurvePlots::setTab(PlotTab tab) {
   state_->tab = tab;
-  state_->tabs->button(static_cast<int>(tab))->setChecked(true);
+  state_->head->setTab(tab);
   refresh();
 }
+
+void CurvePlots::setTurned(bool turned) {
+  state_->isTurned = turned;
+  refresh();
+}
+
+bool CurvePlots::isTurned() const { return state_->isTurned; }
+
+bool CurvePlots::runsLeft() const { return state_->plot->xAxis->rangeReversed(); }
 
 void CurvePlots::applyTheme() {
   State& d = *state_;
@@ -212,9 +192,16 @@ void CurvePlots::refresh() {
   State& d = *state_;
   const Theme& theme = themeOf(palette());
   // Measuring deviations takes hundreds of nearest points; they only change with the curve.
-  const DataKey key{d.session.output().faired, d.session.output().pieces, d.session.selectedCurve(), d.tab};
-  if (d.tab != PlotTab::Deviation || !d.dataKey || !(*d.dataKey == key)) d.data = plotData(d.session, d.tab);
+  const DataKey key{d.session.output().faired, d.session.output().pieces, d.session.selectedCurve(), d.tab,
+                    judgedIn(d.view)};
+  if (d.tab != PlotTab::Deviation || !d.dataKey || !(*d.dataKey == key))
+    d.data = plotData(d.session, d.tab, key.judged);
   d.dataKey = key;
+  d.shownJudged = key.judged;
+  const bool runsLeft = d.data.runsLeft != d.isTurned;
+  d.plot->xAxis->setRangeReversed(runsLeft);
+  d.lengthTicker->setReversed(runsLeft);
+  d.head->setReversed(d.isTurned);
   d.plot->clearGraphs();
   d.empty->setVisible(d.data.isEmpty());
   d.empty->setText(d.session.curves().empty() ? tr("No curve yet.") : tr("Select a curve to see its curvature."));
@@ -223,17 +210,19 @@ void CurvePlots::refresh() {
   d.plot->yAxis->setVisible(!d.data.isEmpty());
   d.plot->yAxis->setScaleType(d.data.logarithmic ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
   d.plot->yAxis->setTicker(d.data.logarithmic ? QSharedPointer<QCPAxisTicker>(d.logTicker) : d.linearTicker);
-  d.plot->yAxis->setNumberFormat(QStringLiteral("g"));
-  d.plot->yAxis->setNumberPrecision(3);
   d.quantity->setVisible(!d.data.isEmpty());
   d.quantity->setText(quantityText(d.tab));
   d.quantity->adjustSize();
   addBand();
+  // A curve that is judged alone is drawn as the one that counts.
+  const bool isAlone =
+      d.tab != PlotTab::Deviation && std::none_of(d.data.series.begin(), d.data.series.end(),
+                                                  [](const auto& one) { return one.role == PlotRole::Faired; });
   for (const PlotSeries& series : d.data.series) {
     QCPGraph* graph = d.plot->addGraph();
     graph->setData(QVector<double>(series.s.begin(), series.s.end()),
                    QVector<double>(series.value.begin(), series.value.end()), true);
-    graph->setPen(penOf(series.role, theme));
+    graph->setPen(penOf(isAlone && series.role == PlotRole::Sketched ? PlotRole::Faired : series.role, theme));
     if (series.role == PlotRole::Joint) {
       graph->setLineStyle(QCPGraph::lsNone);
       graph->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, theme.text, theme.panel, 5.0));
@@ -256,6 +245,7 @@ void CurvePlots::refresh() {
     d.plot->yAxis->setRange(d.data.low, d.data.high);
   else
     resetView();
+  d.labels->show(d.data);
   showCursor();
 }
 
@@ -331,11 +321,11 @@ void CurvePlots::showCursor() {
   State& d = *state_;
   const auto s = d.session.cursor();
   d.cursor->setVisible(s.has_value() && !d.data.isEmpty());
-  d.value->clear();
+  QString text;
   if (s && !d.data.isEmpty()) {
     d.cursor->point1->setCoords(*s, d.data.low);
     d.cursor->point2->setCoords(*s, d.data.high);
-    QString text = tr("s %1 mm").arg(*s, 0, 'f', 1);
+    text = tr("s %1 mm").arg(*s, 0, 'f', 1);
     for (const PlotRole role : {PlotRole::Faired, PlotRole::Sketched}) {
       const auto series = std::find_if(d.data.series.begin(), d.data.series.end(),
                                        [role](const PlotSeries& one) { return one.role == role; });
@@ -350,8 +340,11 @@ void CurvePlots::showCursor() {
         case PlotTab::Curvature:
           text += tr(" · κ %1 /mm").arg(number);
           break;
-        case PlotTab::Derivative:
-          text += tr(" · |R'| %1").arg(number);
+        case PlotTab::CurvatureSlope:
+          text += tr(" · dκ/ds %1 /mm²").arg(number);
+          break;
+        case PlotTab::Speed:
+          text += tr(" · |R′| %1").arg(number);
           break;
         case PlotTab::Deviation:
           text += tr(" · %1 mm").arg(number);
@@ -359,8 +352,8 @@ void CurvePlots::showCursor() {
       }
       break;
     }
-    d.value->setText(text);
   }
+  d.head->setValue(text);
   d.plot->replot(QCustomPlot::rpQueuedReplot);
 }
 
@@ -374,7 +367,7 @@ bool CurvePlots::eventFilter(QObject* watched, QEvent* event) {
       const ExtremumMark* mark = markAt(mouse->position());
       d.plot->setToolTip(mark ? mark->text : QString());
       const QString editing = d.editing->hintAt(mouse->position().toPoint());
-      if (mark || editing.isEmpty()) d.plot->setCursor(mark ? Qt::PointingHandCursor : Qt::ArrowCursor);
+      if (mark || editing.isEmpty()) d.plot->setCursor(mark && mark->note ? Qt::PointingHandCursor : Qt::ArrowCursor);
       const QString otherwise =
           tr("The cursor is the same place on the drawing. Wheel zooms, drag pans, double click shows all, right click "
              "edits the target.");
@@ -383,8 +376,8 @@ bool CurvePlots::eventFilter(QObject* watched, QEvent* event) {
     if (event->type() == QEvent::MouseButtonPress) {
       const auto* mouse = static_cast<QMouseEvent*>(event);
       const ExtremumMark* mark = mouse->button() == Qt::LeftButton ? markAt(mouse->position()) : nullptr;
-      if (mark) {
-        toggleExtremum(d.session, d.session.selectedCurve(), mark->note);
+      if (mark && mark->note) {
+        toggleExtremum(d.session, d.session.selectedCurve(), *mark->note);
         return true;
       }
     }

@@ -6,18 +6,25 @@
 #include <utility>
 
 #include "ui/plots/plot_series.h"
+#include "ui/session/view_settings.h"
 
 namespace batten {
 
-/// The plots under the canvas: radius, curvature, first derivative and deviation over arc length of the selected curve.
-/// The cursor is linked with the canvas both ways; the wheel zooms, a drag pans, a double click shows all.
+/// The plots under the canvas: radius, curvature and its slope, speed of the parameter and deviation over arc length of
+/// the selected curve, the one that the view judges. They run as the curve lies on the drawing, from left to right. The
+/// cursor is linked with the canvas both ways; the wheel zooms, a drag pans, a double click shows all.
 class CurvePlots : public QWidget {
   Q_OBJECT
  public:
-  explicit CurvePlots(EditorSession& session, QWidget* parent = nullptr);
+  CurvePlots(EditorSession& session, const ViewSettings& view, QWidget* parent = nullptr);
   ~CurvePlots() override;
   PlotTab tab() const;
   void setTab(PlotTab tab);
+  /// Turns the plot of the selected curve round; another selection starts as its curve lies.
+  void setTurned(bool turned);
+  bool isTurned() const;
+  /// True while lengths count from right to left.
+  bool runsLeft() const;
   /// Where a mark of the curvature plot is in the plot widget, for tests; outside when there is none.
   QPointF markPlace(int note) const;
   /// The stretch of the curve that the plot shows, as lengths along it [mm].
@@ -33,7 +40,6 @@ class CurvePlots : public QWidget {
   void paintEvent(QPaintEvent*) override;
 
  private:
-  QLayout* makeHead();
   void build();
   void refreshSoon();
   void refresh();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -18,9 +19,13 @@ namespace {
 
 constexpr int kSamples = 400;
 constexpr int kDeviationSamples = 160;
+/// Of the mean: how far up and down the plot of the speed reaches at least.
+constexpr double kLeastSpeedRange = 0.05;
+/// Of the extent: ends that are nearer to each other than this from left to right lie above each other.
+constexpr double kUpright = 0.1;
 
 bool isFaired(const TracedCurve& curve) {
-  return !curve.faired.isEmpty() && curve.fairingUsed.mode != FairingMode::None;
+  return !curve.faired.isEmpty() && (curve.fairingUsed.mode != FairingMode::None || isChanged(curve));
 }
 
 void add(PlotData& data, PlotRole role, const std::vector<CurveSample>& samples, double scale, const auto& valueOf) {
@@ -140,7 +145,7 @@ void addJoints(PlotData& data, const NurbsCurve& curve, double scale, const auto
   if (!joints.s.empty()) data.series.push_back(std::move(joints));
 }
 
-void addDeviation(PlotData& data, const EditorSession& session, const TracedCurve& curve, double scale) {
+void addDeviation(PlotData& data, const EditorSession& session, const TracedCurve& curve, double scale, Judged judged) {
   // Signed distance of the scan's edge points and of the faired curve from the sketched one, positive to the left.
   const ArcLength arc(curve.sketched);
   const auto measure = [&](const Vec2& p, PlotSeries& series) {
@@ -165,7 +170,7 @@ void addDeviation(PlotData& data, const EditorSession& session, const TracedCurv
     sorted(points);
   }
   if (points.s.size() > 1) data.series.push_back(std::move(points));
-  if (!isFaired(curve)) return;
+  if (judged != Judged::Result || !isFaired(curve)) return;
   PlotSeries faired{PlotRole::Faired, 0, {}, {}};
   for (const CurveSample& sample : sampleByArcLength(curve.faired, kDeviationSamples)) measure(sample.point, faired);
   sorted(faired);
@@ -173,6 +178,14 @@ void addDeviation(PlotData& data, const EditorSession& session, const TracedCurv
   const double tolerance = curve.fairingUsed.toleranceMm;
   for (const double sign : {-1.0, 1.0})
     data.series.push_back({PlotRole::Tolerance, 0, {0.0, data.lengthMm}, {sign * tolerance, sign * tolerance}});
+}
+
+bool runsLeft(const TracedCurve& curve, const PageFrame& frame) {
+  if (curve.closed) return false;
+  const Vec2 from = frame.pointToImage(curve.sketched.point(curve.sketched.start()));
+  const Vec2 way = frame.pointToImage(curve.sketched.point(curve.sketched.end())) - from;
+  const bool isUpright = std::abs(way.x()) < kUpright * frame.lengthToImage(extent(curve.sketched));
+  return isUpright ? way.y() < 0.0 : way.x() < 0.0;
 }
 
 }  // namespace
@@ -184,13 +197,13 @@ double clampedRadius(double kappa, double smallest, double largest) {
   return std::max(smallest, 1.0 / size);
 }
 
-PlotData plotData(const EditorSession& session, PlotTab tab) {
+PlotData plotData(const EditorSession& session, PlotTab tab, Judged judged) {
   PlotData data;
   const TracedCurve* curve = session.selected();
   if (!curve || curve->sketched.isEmpty()) return data;
   const std::vector<CurveSample> sketched = sampleByArcLength(curve->sketched, kSamples);
   std::vector<CurveSample> faired;
-  if (isFaired(*curve)) faired = sampleByArcLength(curve->faired, kSamples);
+  if (judged == Judged::Result && isFaired(*curve)) faired = sampleByArcLength(curve->faired, kSamples);
   // One axis for both: arc length of the curve that counts; the other is stretched by less than a hair.
   const double sketchedLength = sketched.back().s;
   data.lengthMm = faired.empty() ? sketchedLength : faired.back().s;
@@ -219,20 +232,37 @@ PlotData plotData(const EditorSession& session, PlotTab tab) {
       addBand(data, *curve, sketched, scale);
       addBoth([](const CurveSample& sample) { return sample.kappa; });
       addJoints(data, shown, shownScale, [](const NurbsCurve& of, double u) { return curvature(of, u); });
-      data.marks = extremumMarks(session, session.selectedCurve());
-      for (ExtremumMark& mark : data.marks) mark.s *= scale;
+      data.marks = extremumMarks(session, session.selectedCurve(), judged);
+      for (ExtremumMark& mark : data.marks) mark.s *= mark.note ? scale : 1.0;
       break;
-    case PlotTab::Derivative:
+    case PlotTab::CurvatureSlope: {
+      const auto slopeOf = [](const NurbsCurve& of) {
+        return [&of](const CurveSample& sample) {
+          return curvatureSlope(of, sample.u).value_or(std::numeric_limits<double>::quiet_NaN());
+        };
+      };
+      add(data, PlotRole::Sketched, sketched, scale, slopeOf(curve->sketched));
+      add(data, PlotRole::Faired, faired, 1.0, slopeOf(curve->faired));
+      break;
+    }
+    case PlotTab::Speed:
       add(data, PlotRole::Sketched, sketched, scale, [](const CurveSample& sample) { return sample.speed; });
       add(data, PlotRole::Faired, faired, 1.0, [](const CurveSample& sample) { return sample.speed; });
       addJoints(data, shown, shownScale,
                 [](const NurbsCurve& of, double u) { return std::optional(of.derivatives(u, 1)[1].norm()); });
       break;
     case PlotTab::Deviation:
-      addDeviation(data, session, *curve, scale);
+      addDeviation(data, session, *curve, scale, judged);
       break;
   }
+  data.runsLeft = runsLeft(*curve, session.output().frame);
   fitRange(data, tab == PlotTab::Radius ? 0.06 : 0.12);
+  // Nearly even must look even, and not like its last digits.
+  if (tab == PlotTab::Speed) {
+    const double middle = 0.5 * (data.low + data.high), least = kLeastSpeedRange * std::abs(middle);
+    data.low = std::min(data.low, middle - least);
+    data.high = std::max(data.high, middle + least);
+  }
   return data;
 }
 

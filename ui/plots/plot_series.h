@@ -6,10 +6,13 @@
 
 #include "ui/session/editor_session.h"
 #include "ui/session/extremum_marks.h"
+#include "ui/session/judged_curve.h"
 
 namespace batten {
 
-enum class PlotTab { Radius, Curvature, Derivative, Deviation };
+/// In an order of its own, as the settings keep the number.
+enum class PlotTab { Radius, Curvature, Speed, Deviation, CurvatureSlope };
+inline constexpr int kPlotTabs = 5;
 
 /// What a line of a plot stands for; the plot chooses pen and colour.
 enum class PlotRole { Sketched, Faired, Target, ChosenTarget, HoveredTarget, DrawnTarget, Tolerance, Joint };
@@ -25,17 +28,19 @@ struct PlotData {
   double lengthMm = 0.0;
   std::vector<PlotSeries> series;
   std::vector<double> bandS, bandLow, bandHigh;    ///< Curvature: +-2 sigma of the sketched curve.
-  std::vector<ExtremumMark> marks;                 ///< Curvature: the extrema of the fair fit; s as on the axis.
+  std::vector<ExtremumMark> marks;                 ///< Curvature: the extrema of the judged curve; s as on the axis.
   std::vector<std::pair<double, double>> handles;  ///< Points of the drawn target: s, value.
   std::vector<double> kept;                        ///< s of the extrema that monotone fairing is to keep.
   std::vector<double> splits;                      ///< s of the splits, in the order of the recipe.
   bool logarithmic = false;
+  bool runsLeft = false;         ///< The curve begins farther right on the page (or below) than it ends.
   double low = 0.0, high = 1.0;  ///< Range of the values that is shown at first.
   bool isEmpty() const { return series.empty(); }
 };
 
 /// The plot of the session's selected curve. Model frame, mm.
-PlotData plotData(const EditorSession& session, PlotTab tab);
+/// @param judged Sketched: the constructed curve alone; Result: what fairing made of it, over the sketched one in grey.
+PlotData plotData(const EditorSession& session, PlotTab tab, Judged judged = Judged::Result);
 
 /// Radius limited to what a plot can show: straight stretches end as a flat line at `largest`, never as infinity.
 double clampedRadius(double kappa, double smallest, double largest);

@@ -2,6 +2,7 @@
 #include "ui/plots/plot_style.h"
 
 #include <QCoreApplication>
+#include <algorithm>
 #include <cmath>
 
 namespace batten {
@@ -46,8 +47,10 @@ QString quantityText(PlotTab tab) {
       return tr("R, mm");
     case PlotTab::Curvature:
       return tr("κ, 1/mm");
-    case PlotTab::Derivative:
-      return tr("|R'|, mm");
+    case PlotTab::CurvatureSlope:
+      return tr("dκ/ds, 1/mm²");
+    case PlotTab::Speed:
+      return tr("|R′(u)|, mm per unit of u");
     case PlotTab::Deviation:
       return tr("off the sketched curve, mm");
   }
@@ -85,6 +88,24 @@ QString RoundLogTicker::getTickLabel(double tick, const QLocale&, QChar, int) {
       .remove(QStringLiteral(".0"));
 }
 
+double PlainTicker::getTickStep(const QCPRange& range) {
+  step_ = QCPAxisTicker::getTickStep(range);
+  return step_;
+}
+
+QString PlainTicker::getTickLabel(double tick, const QLocale&, QChar, int) {
+  if (std::abs(tick) < 1e-6 * step_) return QStringLiteral("0");
+  const int decimals = static_cast<int>(std::ceil(-std::log10(step_) - 1e-9));
+  // What would be all zeros is written with its power.
+  if (decimals > 4 || std::abs(tick) >= 1e6) {
+    const int digits = 1 + static_cast<int>(std::ceil(std::log10(std::abs(tick) / step_) - 1e-9));
+    return QString::number(tick, 'e', std::clamp(digits - 1, 0, 4))
+        .replace(QStringLiteral("e-0"), QStringLiteral("e-"))
+        .replace(QLatin1Char('-'), QChar(0x2212));
+  }
+  return QString::number(tick, 'f', std::max(0, decimals)).replace(QLatin1Char('-'), QChar(0x2212));
+}
+
 QVector<double> LengthTicker::createTickVector(double, const QCPRange& range) {
   shown_ = range;
   return {range.lower, 0.5 * (range.lower + range.upper), range.upper};
@@ -94,7 +115,9 @@ QString LengthTicker::getTickLabel(double tick, const QLocale&, QChar, int) {
   const double size = shown_.size();
   const int decimals = size >= 20.0 ? 0 : size >= 2.0 ? 1 : 2;
   const QString number = QString::number(tick, 'f', tick == 0.0 ? 0 : decimals);
-  return std::abs(tick - shown_.center()) < 1e-6 * size ? number + QStringLiteral(" mm") : number;
+  if (std::abs(tick - shown_.center()) > 1e-6 * size) return number;
+  const QString length = number + QStringLiteral(" mm");
+  return reversed_ ? QStringLiteral("← ") + length : length + QStringLiteral(" →");
 }
 
 }  // namespace batten

@@ -16,6 +16,7 @@ struct DataKey {
   std::shared_ptr<const PieceSet> pieces;
   int curve;
   PlotTab tab;
+  Judged judged;
   bool operator==(const DataKey&) const = default;
 };
 
@@ -31,8 +32,24 @@ class RoundLogTicker : public QCPAxisTicker {
   QString getTickLabel(double tick, const QLocale&, QChar, int) override;
 };
 
-/// Begin, middle and end of the shown length, the middle with its unit.
+/// Ticks of a linear axis with just the digits that tell neighbours apart.
+class PlainTicker : public QCPAxisTicker {
+ public:
+  PlainTicker() { setTickCount(4); }
+
+ protected:
+  double getTickStep(const QCPRange& range) override;
+  QString getTickLabel(double tick, const QLocale&, QChar, int) override;
+
+ private:
+  double step_ = 1.0;
+};
+
+/// Begin, middle and end of the shown length, the middle with its unit and an arrow in the direction of travel.
 class LengthTicker : public QCPAxisTicker {
+ public:
+  void setReversed(bool reversed) { reversed_ = reversed; }
+
  protected:
   QVector<double> createTickVector(double tickStep, const QCPRange& range) override;
   QVector<double> createSubTickVector(int, const QVector<double>&) override { return {}; }
@@ -40,6 +57,7 @@ class LengthTicker : public QCPAxisTicker {
 
  private:
   QCPRange shown_;
+  bool reversed_ = false;
 };
 
 }  // namespace batten

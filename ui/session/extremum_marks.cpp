@@ -5,11 +5,15 @@
 #include <cmath>
 #include <utility>
 
+#include "core/curve/curvature.h"
+
 namespace batten {
 namespace {
 
 constexpr double kCertainFactor = 5.0;  // of the cost that an extremum must have to be kept
 constexpr double kSamePlacePx = 1.0;
+/// Extrema of a smaller rise (times extent) are not counted, as in the figures.
+constexpr double kProminence = 5e-3;
 
 QString tr(const char* text) { return QCoreApplication::translate("ExtremumMarks", text); }
 
@@ -60,12 +64,29 @@ QString textOf(const ExtremumMark& mark, const ExtremumNote& note) {
   return text + (note.kept ? tr(". Click to take it out.") : tr(". Click to keep it."));
 }
 
+std::vector<ExtremumMark> marksOfFaired(const EditorSession& session, const TracedCurve& curve) {
+  std::vector<ExtremumMark> marks;
+  const double size = extent(curve.faired);
+  if (!(size > 0.0)) return marks;
+  for (const CurvatureExtremumPoint& one : curvatureExtrema(curve.faired, kProminence / size, curve.closed)) {
+    ExtremumMark mark;
+    mark.px = session.output().frame.pointToImage(curve.faired.point(one.u));
+    mark.s = one.s;
+    mark.kappa = one.kappa;
+    const bool isPeak = one.maximum == (one.kappa > 0.0);
+    mark.text = (isPeak ? tr("The faired curve bends most here.") : tr("The faired curve bends least here."));
+    marks.push_back(std::move(mark));
+  }
+  return marks;
+}
+
 }  // namespace
 
-std::vector<ExtremumMark> extremumMarks(const EditorSession& session, int curve) {
-  std::vector<ExtremumMark> marks;
+std::vector<ExtremumMark> extremumMarks(const EditorSession& session, int curve, Judged judged) {
   const TracedCurve* traced = curveAt(session, curve);
-  if (!traced) return marks;
+  if (!traced) return {};
+  if (judged == Judged::Result && isChanged(*traced)) return marksOfFaired(session, *traced);
+  std::vector<ExtremumMark> marks;
   for (std::size_t i = 0; i < traced->construct.extrema.size(); ++i) {
     const ExtremumNote& note = traced->construct.extrema[i];
     if (!note.point.allFinite() || !std::isfinite(note.kappa)) continue;

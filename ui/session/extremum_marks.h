@@ -5,14 +5,16 @@
 #include <vector>
 
 #include "ui/session/editor_session.h"
+#include "ui/session/judged_curve.h"
 
 namespace batten {
 
-/// A curvature extremum of the true and fair fit as canvas and plot show it.
+/// A curvature extremum as canvas and plot show it.
 struct ExtremumMark {
-  int note = 0;  ///< Index into the curve's ConstructReport::extrema.
+  /// Index into the curve's ConstructReport::extrema; none: of the faired curve, where a click changes nothing.
+  std::optional<int> note;
   Vec2 px = Vec2::Zero();
-  double s = 0.0;      ///< [mm] along the sketched curve.
+  double s = 0.0;      ///< [mm] along the judged curve.
   double kappa = 0.0;  ///< [1/mm]
   bool isKept = true;
   bool isCertain = true;             ///< Far beyond what noise can make.
@@ -20,8 +22,9 @@ struct ExtremumMark {
   QString text;                      ///< What it is, how certain, and what a click does.
 };
 
-/// The extrema of one of session.curves(); empty for other methods than the fair fit.
-std::vector<ExtremumMark> extremumMarks(const EditorSession& session, int curve);
+/// The extrema of one of session.curves(). Of the sketched curve: those that the fair fit found, with its judgement;
+/// empty for other methods. Of the result where fairing changed it: its own, as many as its figures count.
+std::vector<ExtremumMark> extremumMarks(const EditorSession& session, int curve, Judged judged = Judged::Sketched);
 
 /// A click on a mark: keeps a dropped extremum, takes a kept one out; where the user has chosen already, the program
 /// decides again. Undoable.

@@ -53,7 +53,7 @@ std::vector<double> fractionsOf(const EditorSession& session, std::vector<Vec2> 
 }  // namespace
 
 FairingParams fairingAsked(const EditorSession& session) {
-  const PieceChoice* own = choiceOf(session, session.selectedCurve());
+  const auto own = choiceAlong(session, session.selectedCurve());
   return own ? own->fairing(session.recipe().fairing) : session.recipe().fairing;
 }
 

@@ -3,6 +3,7 @@
 
 #include <QCoreApplication>
 
+#include "core/pipeline/run/choice_course.h"
 #include "core/pipeline/run/piece_choices.h"
 
 namespace batten {
@@ -27,6 +28,12 @@ const PieceChoice* choiceOf(const EditorSession& session, int curve) {
   if (!piece) return nullptr;
   const auto index = session.choiceOwners().ofPiece[*piece];
   return index ? &session.recipe().choices[*index] : nullptr;
+}
+
+std::optional<PieceChoice> choiceAlong(const EditorSession& session, int curve) {
+  const PieceChoice* choice = choiceOf(session, curve);
+  if (!choice) return std::nullopt;
+  return alongPiece(*choice, session.output().pieces->pieces[*pieceOf(session, curve)]);
 }
 
 bool hasOwnFairing(const EditorSession& session, int curve) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "ui/session/editor_session.h"
 
@@ -11,6 +12,8 @@ namespace batten {
 
 /// The own choice of a curve, or null when it follows the recipe.
 const PieceChoice* choiceOf(const EditorSession& session, int curve);
+/// The same as the curve has it: turned to its direction (see alongPiece); none when it follows the recipe.
+std::optional<PieceChoice> choiceAlong(const EditorSession& session, int curve);
 /// True when the curve has a fairing choice of its own.
 bool hasOwnFairing(const EditorSession& session, int curve);
 /// The recipe with the curve's own choice edited; one is added where there was none, or where the curve shares one with

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pipeline/run/curve_stages.h"
+#include "core/pipeline/run/piece_construction.h"
 
 #include <algorithm>
 #include <iterator>
@@ -108,6 +109,8 @@ class ContourBuilder {
     breakpoints_ =
         someTypical ? assignSegmentPoints(pieces, recipe) : std::vector<std::vector<std::size_t>>(pieces.pieces.size());
   }
+
+  ContourOutcome buildAlone(std::size_t piece) const { return buildAlike({piece, piece + 1}); }
 
   ContourOutcome build(PieceRange range) const {
     ContourOutcome outcome = buildAlike(range);
@@ -290,6 +293,26 @@ Result<std::vector<TracedCurve>> constructLine(const PipelineOutput& out, const 
       curves[at] = std::move(curve);
     }
     return curves;
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "There is not enough memory to construct this line.");
+  }
+}
+
+Result<TracedCurve> constructPiece(const PipelineOutput& out, const Recipe& recipe, int piece,
+                                   const RunContext& context) {
+  if (!out.pieces || !out.segments || !out.contours || piece < 0 ||
+      static_cast<std::size_t>(piece) >= out.pieces->pieces.size())
+    return fail(ErrorCode::NoCurve, "There is no such line.");
+  try {
+    Recipe alike = recipe;
+    alike.choices.clear();
+    const ContourBuilder builder(*out.contours, *out.pieces, *out.segments, alike, out.frame, context);
+    ContourOutcome outcome = builder.buildAlone(static_cast<std::size_t>(piece));
+    if (context.isCancelled()) return cancelled();
+    if (outcome.curves.empty())
+      return fail(outcome.failures.empty() ? Error{ErrorCode::NoCurve, "The line gave no curve.", {}}
+                                           : outcome.failures.front());
+    return std::move(outcome.curves.front());
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "There is not enough memory to construct this line.");
   }

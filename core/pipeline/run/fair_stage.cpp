@@ -8,6 +8,7 @@
 #include "core/fairing/edge_length_fairing.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_line.h"
+#include "core/pipeline/run/choice_course.h"
 #include "core/pipeline/run/corner_rounding.h"
 #include "core/pipeline/run/curve_stages.h"
 #include "core/pipeline/run/piece_choices.h"
@@ -38,11 +39,11 @@ std::vector<double> fractionsOf(const std::vector<Vec2>& placesPx, const NurbsCu
   return fractions;
 }
 
-FairingParams paramsFor(const std::optional<std::size_t>& choice, const Recipe& recipe, const NurbsCurve& curve,
-                        const PageFrame& frame) {
+FairingParams paramsFor(const std::optional<std::size_t>& choice, const Recipe& recipe, const Piece& piece,
+                        const NurbsCurve& curve, const PageFrame& frame) {
   FairingParams params = recipe.fairing;
   if (!choice) return params;
-  const PieceChoice& own = recipe.choices[*choice];
+  const PieceChoice own = alongPiece(recipe.choices[*choice], piece);
   params = own.fairing(std::move(params));
   params.keptAt = fractionsOf(own.keepPx, curve, frame);
   params.targets.splits = fractionsOf(own.splitsPx, curve, frame);
@@ -95,7 +96,7 @@ Result<FairedSet> fairAll(const ConstructedSet& constructed, const ContourSet& c
     TracedCurve& curve = set.curves[i];
     const auto piece = static_cast<std::size_t>(curve.piece);
     curve.included = !choices[piece] || recipe.choices[*choices[piece]].included;
-    curve.fairingUsed = paramsFor(choices[piece], recipe, curve.sketched, frame);
+    curve.fairingUsed = paramsFor(choices[piece], recipe, pieces.pieces[piece], curve.sketched, frame);
     const ContourKind kind = contours.contours[curve.contour].kind;
     fairOne(curve, pieces.pieces[piece], kind, frame, inner);
   });

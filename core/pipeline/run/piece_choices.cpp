@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/construct/polygon/control_polygon.h"
+#include "core/pipeline/run/choice_course.h"
 #include "core/pipeline/run/curve_stages.h"
 #include "core/polyline/point_grid.h"
 #include "core/polyline/polyline_tools.h"
@@ -181,11 +182,14 @@ ChoiceOwners assignChoices(const PieceSet& set, const std::vector<PieceChoice>& 
 std::size_t makeOwnChoice(std::vector<PieceChoice>& choices, const PieceSet& set, std::size_t piece) {
   const auto owners = assignChoices(set, choices).ofPiece;
   const std::optional<std::size_t> found = owners[piece];
-  PieceChoice own = found ? choices[*found] : PieceChoice{};
+  // Edited is what the piece has: said along the line as it runs now.
+  PieceChoice own = found ? alongPiece(choices[*found], set.pieces[piece]) : PieceChoice{};
   const bool isShared = found && std::count(owners.begin(), owners.end(), found) > 1;
   if (found && !isShared) {
-    // Of a recipe that knew single anchors only.
-    if (own.anchorsPx.size() == 1) choices[*found].anchorsPx = anchorsOf(set.pieces[piece]);
+    const bool isTurned = !(own == choices[*found]);
+    // One of a recipe that knew single anchors only has no course yet.
+    if (isTurned || own.anchorsPx.size() == 1) own.anchorsPx = anchorsOf(set.pieces[piece]);
+    choices[*found] = std::move(own);
     return *found;
   }
   own.anchorsPx = anchorsOf(set.pieces[piece]);

@@ -9,6 +9,8 @@
 #include <cmath>
 
 #include "core/base/conventions.h"
+#include "ui/session/curve_names.h"
+#include "ui/session/judged_view.h"
 #include "ui/session/piece_choice.h"
 
 namespace batten {
@@ -90,13 +92,13 @@ QString curveText(const CanvasScene& scene) {
   const TracedCurve* curve = scene.session.selected();
   if (curve == nullptr || curve->sketched.isEmpty()) return {};
   // Of the curve that is drawn.
-  const bool faired = !curve->faired.isEmpty() && scene.view.isVisible(Layer::Faired);
-  const NurbsCurve& shown = faired ? curve->faired : curve->sketched;
-  const CurveFigures& figures =
-      faired && curve->fairedFigures.lengthMm > 0.0 ? curve->fairedFigures : curve->sketchedFigures;
-  QStringList parts{tr("Curve %1").arg(scene.session.selectedCurve() + 1)};
+  const Judged judged = judgedIn(scene.view);
+  const NurbsCurve& shown = judgedCurve(*curve, judged);
+  const CurveFigures& figures = judgedFigures(*curve, judged);
+  QStringList parts{curveName(scene.session, scene.session.selectedCurve())};
   if (const QString method = methodText(scene, *curve, shown.degree()); !method.isEmpty()) parts << method;
   parts << tr("%1 control points").arg(shown.controlPointCount()) << tr("%1 mm").arg(number(figures.lengthMm, 1));
+  if (judged == Judged::Result && isLeftAsDrawn(*curve)) parts << tr("left as drawn by fairing");
   return parts.join(QStringLiteral(" · "));
 }
 
@@ -143,9 +145,11 @@ QString workText(const CanvasScene& scene) {
 }
 
 void paintChips(QPainter& painter, const CanvasScene& scene) {
-  paintChip(painter, scene, curveText(scene), ChipPlace::TopLeft);
+  // Nothing is said of a curve that is not drawn, and nothing lies over the regions while they are worked on.
+  const bool isCurveDrawn = scene.view.isVisible(Layer::Curve) || scene.view.isVisible(Layer::Faired);
+  if (isCurveDrawn) paintChip(painter, scene, curveText(scene), ChipPlace::TopLeft);
   paintChip(painter, scene, workText(scene), ChipPlace::TopRight);
-  paintChip(painter, scene, pageText(scene), ChipPlace::BottomLeft);
+  if (scene.view.tool() != Tool::Thresholds) paintChip(painter, scene, pageText(scene), ChipPlace::BottomLeft);
   paintChip(painter, scene, cursorText(scene), ChipPlace::BottomRight);
 }
 

@@ -10,6 +10,8 @@ namespace batten {
 
 void paintCombs(QPainter&, const CanvasScene&);
 void paintDeviation(QPainter&, const CanvasScene&);
+/// An arrow where the selected curve begins: the way in which its length is counted.
+void paintDirection(QPainter&, const CanvasScene&);
 /// The place that canvas and plots have in common.
 void paintCursor(QPainter&, const CanvasScene&);
 

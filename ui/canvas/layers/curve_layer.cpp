@@ -6,9 +6,13 @@
 
 #include "ui/canvas/scene/canvas_colors.h"
 #include "ui/session/growing_player.h"
+#include "ui/session/judged_view.h"
 
 namespace batten {
 namespace {
+
+/// Around a line that lies on ink.
+const QColor kCasing(255, 255, 255, 185);
 
 /// Paints in image px with pens whose width is given in widget px.
 class ImagePainter {
@@ -97,8 +101,9 @@ QPainterPath ribbon(const Contour& line, const CoverAt& coverAt) {
   return path;
 }
 
-bool fairedIsShown(const CanvasScene& scene, const CurveShape& shape) {
-  return scene.view.isVisible(Layer::Faired) && !shape.faired.isEmpty();
+/// Blue is what the drawing comes to: the results where they are shown, the found lines where they are not.
+bool isResultShown(const CanvasScene& scene) {
+  return judgedIn(scene.view) == Judged::Result && scene.shapes->source.faired;
 }
 
 }  // namespace
@@ -119,30 +124,35 @@ void paintSketched(QPainter& painter, const CanvasScene& scene) {
     if (!image.sees(shape.bounds)) continue;
     const bool isSelected = static_cast<int>(i) == selected;
     if (!shape.isIncluded) {
-      image.stroke(shape.sketched, colors::sketchedFaint(), 1.0, Qt::DotLine);
+      image.stroke(shape.sketched, kCasing, 2.6);
+      image.stroke(shape.sketched, colors::sketched(), 1.0, Qt::DotLine);
       continue;
     }
-    if (isSelected && !fairedIsShown(scene, shape)) {
-      image.stroke(shape.sketched, colors::halo(), 7.0);
-      // What grows is drawn over it.
-      const bool isWatched = scene.session.growing().isOpen();
-      image.stroke(shape.sketched, isWatched ? colors::sketchedFaint() : colors::accent(), 1.8);
-    } else {
+    if (isResultShown(scene)) {
       image.stroke(shape.sketched, colors::sketched(), isSelected ? 1.8 : 1.4);
+      continue;
     }
+    if (isSelected) image.stroke(shape.sketched, colors::halo(), 8.0);
+    // A pale border keeps the line apart from the ink that it follows: what was traced and what was missed is seen.
+    image.stroke(shape.sketched, kCasing, isSelected ? 4.4 : 3.6);
+    // What grows is drawn over it.
+    const bool isWatched = isSelected && scene.session.growing().isOpen();
+    image.stroke(shape.sketched, isWatched ? colors::sketchedFaint() : colors::accent(), isSelected ? 2.2 : 1.5);
   }
 }
 
 void paintFaired(QPainter& painter, const CanvasScene& scene) {
-  if (!scene.shapes) return;
+  if (!scene.shapes || !isResultShown(scene)) return;
   ImagePainter image(painter, scene);
   const int selected = scene.session.selectedCurve();
   for (std::size_t i = 0; i < scene.shapes->curves.size(); ++i) {
     const CurveShape& shape = scene.shapes->curves[i];
-    if (shape.faired.isEmpty() || !shape.isIncluded || !image.sees(shape.bounds)) continue;
+    if (!shape.isIncluded || !image.sees(shape.bounds)) continue;
     const bool isSelected = static_cast<int>(i) == selected;
-    if (isSelected) image.stroke(shape.faired, colors::halo(), 7.0);
-    image.stroke(shape.faired, colors::accent(), isSelected ? 2.2 : 1.5);
+    // One that fairing left as it was is a result like the others.
+    const QPainterPath& result = shape.faired.isEmpty() ? shape.sketched : shape.faired;
+    if (isSelected) image.stroke(result, colors::halo(), 7.0);
+    image.stroke(result, colors::accent(), isSelected ? 2.2 : 1.5);
   }
 }
 

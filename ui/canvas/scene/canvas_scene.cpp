@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/canvas/scene/canvas_scene.h"
 #include "ui/session/growing_player.h"
+#include "ui/session/judged_view.h"
 
 namespace batten {
 
@@ -28,14 +29,14 @@ std::optional<int> CanvasScene::curveNear(const Vec2& px) const {
       found = static_cast<int>(i);
     };
     if (sketched) look(shape.sketched);
-    if (faired) look(shape.faired);
+    if (faired) look(shape.faired.isEmpty() ? shape.sketched : shape.faired);
   }
   return found;
 }
 
 bool CanvasScene::areExtremaShown() const {
-  return view.isVisible(Layer::Extrema) && view.isVisible(Layer::Curve) && !view.isScanOnly() &&
-         !session.growing().isOpen();
+  const bool isCurveShown = view.isVisible(Layer::Curve) || judgedIn(view) == Judged::Result;
+  return view.isVisible(Layer::Extrema) && isCurveShown && !view.isScanOnly() && !session.growing().isOpen();
 }
 
 bool CanvasScene::areCombsShown() const { return view.isVisible(Layer::Comb) && !session.growing().isOpen(); }

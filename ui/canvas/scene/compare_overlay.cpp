@@ -3,17 +3,19 @@
 
 #include "core/construct/polygon/control_polygon.h"
 #include "ui/canvas/scene/curve_shapes.h"
+#include "ui/session/judged_view.h"
 
 namespace batten {
 
-OverlaySource overlaySource(const EditorSession& session, bool uniform, double zoomBracket) {
+OverlaySource overlaySource(const EditorSession& session, const ViewSettings& view, double zoomBracket) {
   const PipelineOutput& output = session.output();
   OverlaySource source;
   source.pinned = session.pinned();
   source.frame = output.frame;
   source.zoom = zoomBracket;
+  source.judged = judgedIn(view);
   const ConstructParams& params = session.recipe().construct;
-  if (!uniform || params.method != ConstructMethod::ControlPolygon) return source;
+  if (!view.showsUniformKnots() || params.method != ConstructMethod::ControlPolygon) return source;
   source.contours = output.contours;
   source.pieces = output.pieces;
   source.segments = output.segments;
@@ -27,8 +29,8 @@ std::shared_ptr<const CompareOverlay> buildOverlay(const OverlaySource& source, 
   if (source.pinned) {
     for (const TracedCurve& curve : source.pinned->faired->curves) {
       if (context.isCancelled()) return nullptr;
-      const NurbsCurve& shown = curve.faired.isEmpty() ? curve.sketched : curve.faired;
-      if (curve.included) overlay->pinned.addPath(sampledPath(shown, source.pinned->frame, tolerance));
+      if (curve.included)
+        overlay->pinned.addPath(sampledPath(judgedCurve(curve, source.judged), source.pinned->frame, tolerance));
     }
   }
   if (!source.contours || !source.pieces || !source.segments) return overlay;

@@ -6,6 +6,8 @@
 
 #include "core/base/run_context.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/judged_curve.h"
+#include "ui/session/view_settings.h"
 
 namespace batten {
 
@@ -23,12 +25,12 @@ struct OverlaySource {
   std::shared_ptr<const SegmentSet> segments;
   PageFrame frame;
   ConstructParams params;
-  double zoom = 0.0;  ///< Fine enough for zooms up to this.
+  Judged judged = Judged::Result;  ///< What of the pinned result is set beside the present one.
+  double zoom = 0.0;               ///< Fine enough for zooms up to this.
   bool operator==(const OverlaySource&) const = default;
 };
 
-/// @param uniform whether the curves with uniform knots are wanted.
-OverlaySource overlaySource(const EditorSession&, bool uniform, double zoomBracket);
+OverlaySource overlaySource(const EditorSession&, const ViewSettings&, double zoomBracket);
 /// Null when cancelled.
 std::shared_ptr<const CompareOverlay> buildOverlay(const OverlaySource&, const RunContext&);
 

@@ -73,11 +73,11 @@ void addMarks(CurveComb& comb, const NurbsCurve& curve, bool closed) {
   for (const double u : turns) comb.marks.push_back(markAt(comb, lengths.at(u), 0.0, true));
 }
 
-CurveComb combOf(const TracedCurve& traced, int index, bool isSelected, const PageFrame& frame) {
+CurveComb combOf(const TracedCurve& traced, int index, bool isSelected, Judged judged, const PageFrame& frame) {
   CurveComb comb;
   comb.index = index;
-  comb.isFaired = !traced.faired.isEmpty() && !(traced.faired == traced.sketched);
-  const NurbsCurve& shown = comb.isFaired ? traced.faired : traced.sketched;
+  comb.isFaired = judged == Judged::Result && isChanged(traced);
+  const NurbsCurve& shown = judgedCurve(traced, judged);
   comb.points = combPoints(shown, frame);
   if (comb.points.empty()) return comb;
   if (!comb.isFaired) addNoise(comb.points, traced.construct);
@@ -146,8 +146,7 @@ std::shared_ptr<const CurveShapes> buildShapes(const CurveSource& source, double
       CurveShape& shape = shapes->curves[i];
       shape.isIncluded = traced.included;
       shape.sketched = sampledPath(traced.sketched, source.frame, tolerance);
-      if (!traced.faired.isEmpty() && !(traced.faired == traced.sketched))
-        shape.faired = sampledPath(traced.faired, source.frame, tolerance);
+      if (isChanged(traced)) shape.faired = sampledPath(traced.faired, source.frame, tolerance);
       shape.bounds = shape.sketched.controlPointRect().united(shape.faired.controlPointRect());
     }
   });
@@ -155,17 +154,19 @@ std::shared_ptr<const CurveShapes> buildShapes(const CurveSource& source, double
   return shapes;
 }
 
-std::shared_ptr<const CurveCombs> buildCombs(const CurveSource& source, int selected, const RunContext& context) {
+std::shared_ptr<const CurveCombs> buildCombs(const CurveSource& source, int selected, Judged judged,
+                                             const RunContext& context) {
   auto combs = std::make_shared<CurveCombs>();
   combs->source = source;
   combs->selected = selected;
+  combs->judged = judged;
   const auto& curves = source.curves();
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const int index = static_cast<int>(i);
     if (curves[i].sketched.isEmpty() || (index != selected && (curves.size() > kFewCurves || !curves[i].included)))
       continue;
     if (context.isCancelled()) return nullptr;
-    combs->combs.push_back(combOf(curves[i], index, index == selected, source.frame));
+    combs->combs.push_back(combOf(curves[i], index, index == selected, judged, source.frame));
   }
   return combs;
 }

@@ -8,6 +8,7 @@
 
 #include "core/base/run_context.h"
 #include "core/pipeline/run/pipeline.h"
+#include "ui/session/judged_curve.h"
 
 namespace batten {
 
@@ -58,7 +59,7 @@ struct Whisker {
   double mm = 0.0;
   double s = 0.0;  ///< [mm] on the faired curve.
 };
-/// What is drawn and read along one curve: equal steps of arc length of the shown (faired if there is one) curve.
+/// What is drawn and read along one curve: equal steps of arc length of the judged curve.
 struct CurveComb {
   int index = -1;
   bool isFaired = false;
@@ -66,7 +67,7 @@ struct CurveComb {
   double extentPx = 0.0;
   double robustKappa = 0.0;  ///< [1/mm] 95 % of |kappa|.
   std::vector<CombPoint> points;
-  std::vector<CombPoint> sketched;  ///< Of the sketched curve, when it differs.
+  std::vector<CombPoint> sketched;  ///< Of the sketched curve, when a faired one is judged.
   std::vector<CombMark> marks;
   std::vector<Whisker> whiskers;  ///< Selected curve only.
   CombPoint at(double s) const;   ///< Interpolated; @pre points not empty.
@@ -74,11 +75,12 @@ struct CurveComb {
 struct CurveCombs {
   CurveSource source;
   int selected = -1;
+  Judged judged = Judged::Result;  ///< Whose combs they are.
   std::vector<CurveComb> combs;
   const CurveComb* of(int index) const;
 };
 /// Combs of the selected curve, or of all when there are few. Null when cancelled.
-std::shared_ptr<const CurveCombs> buildCombs(const CurveSource&, int selected, const RunContext&);
+std::shared_ptr<const CurveCombs> buildCombs(const CurveSource&, int selected, Judged, const RunContext&);
 
 /// Nearest place of a polyline.
 struct NearPoint {

@@ -5,6 +5,7 @@
 #include "ui/canvas/layers/curve_layer.h"
 #include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
+#include "ui/session/curve_names.h"
 #include "ui/session/piece_choice.h"
 
 namespace batten {
@@ -55,8 +56,9 @@ class LinesTool final : public CanvasTool {
  private:
   QString hintFor(std::optional<int> curve) const {
     if (!curve) return tr("Click a line to leave it out, or to take it in again.");
-    return isIncluded(*curve) ? tr("Click to leave curve %1 out of fairing and export.").arg(*curve + 1)
-                              : tr("Click to take curve %1 in again.").arg(*curve + 1);
+    return isIncluded(*curve)
+               ? tr("Click to leave %1 out of fairing and export.").arg(curveName(scene_.session, *curve))
+               : tr("Click to take %1 in again.").arg(curveName(scene_.session, *curve));
   }
   bool isIncluded(int curve) const {
     const PieceChoice* choice = choiceOf(scene_.session, curve);

@@ -4,6 +4,8 @@
 
 #include "ui/canvas/layers/chip_layer.h"
 #include "ui/canvas/tools/canvas_tool.h"
+#include "ui/session/curve_names.h"
+#include "ui/session/judged_view.h"
 #include "ui/session/pen_edits.h"
 
 namespace batten {
@@ -14,8 +16,8 @@ class SelectTool final : public CanvasTool {
   using CanvasTool::CanvasTool;
 
   void press(const ToolEvent& event) override {
-    if (const ExtremumMark* mark = scene_.extremumNear(event.px)) {
-      const int note = mark->note;
+    if (const ExtremumMark* mark = scene_.extremumNear(event.px); mark && mark->note) {
+      const int note = *mark->note;
       over_.reset();
       return toggleExtremum(scene_.session, scene_.session.selectedCurve(), note);
     }
@@ -26,13 +28,11 @@ class SelectTool final : public CanvasTool {
     if (isPressed) return;
     const ExtremumMark* mark = scene_.extremumNear(event.px);
     const auto over = mark ? std::optional(*mark) : std::nullopt;
-    if (over.has_value() != over_.has_value() || (over && over->note != over_->note)) scene_.repaint();
+    if (over.has_value() != over_.has_value() || (over && over->px != over_->px)) scene_.repaint();
     over_ = over;
     const auto curve = scene_.curveNear(event.px);
     isOver_ = curve.has_value() && *curve != scene_.session.selectedCurve();
-    scene_.hint(over_     ? over_->text
-                : isOver_ ? QCoreApplication::translate("CurveCanvas", "Click to select curve %1.").arg(*curve + 1)
-                          : QString());
+    scene_.hint(over_ ? over_->text : isOver_ ? hintFor(*curve) : QString());
   }
 
   bool key(QKeyEvent* event) override {
@@ -51,9 +51,20 @@ class SelectTool final : public CanvasTool {
     isOver_ = false;
     over_.reset();
   }
-  Qt::CursorShape cursorShape() const override { return isOver_ || over_ ? Qt::PointingHandCursor : Qt::ArrowCursor; }
+  Qt::CursorShape cursorShape() const override {
+    return isOver_ || (over_ && over_->note) ? Qt::PointingHandCursor : Qt::ArrowCursor;
+  }
 
  private:
+  QString hintFor(int curve) const {
+    const QString text =
+        QCoreApplication::translate("CurveCanvas", "Click to select %1.").arg(curveName(scene_.session, curve));
+    // A line that fairing has not moved is told from one that was forgotten.
+    if (judgedIn(scene_.view) != Judged::Result) return text;
+    return (text + QLatin1Char(' ') + whyLeftAsDrawn(scene_.session.curves()[static_cast<std::size_t>(curve)]))
+        .trimmed();
+  }
+
   bool isOver_ = false;
   std::optional<ExtremumMark> over_;  ///< The mark under the mouse.
 };

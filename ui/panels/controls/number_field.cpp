@@ -30,6 +30,10 @@ NumberField::NumberField(QWidget* parent) : QFrame(parent), edit_(new QLineEdit(
   setFixedHeight(24);
   setFocusProxy(edit_);
   connect(edit_, &QLineEdit::editingFinished, this, &NumberField::commit);
+  connect(edit_, &QLineEdit::returnPressed, this, [this] {
+    commit();
+    if (!property("wrong").toBool()) emit entered();
+  });
   connect(edit_, &QLineEdit::textEdited, this, [this] { show("wrong", false); });
 }
 

@@ -12,6 +12,7 @@ class QLineEdit;
 namespace batten {
 
 /// A number with its unit that can be typed; arrow keys step it. Takes a point or a comma; shows what cannot be read.
+/// Enter ends the typing; whoever owns the window may take the keyboard then.
 class NumberField : public QFrame {
   Q_OBJECT
  public:
@@ -34,6 +35,8 @@ class NumberField : public QFrame {
  signals:
   /// The user gave another value (bounded to the range).
   void committed(double value);
+  /// Enter was pressed on a number that can be read: the field is done with, and the keys that follow are not for it.
+  void entered();
 
  protected:
   bool eventFilter(QObject*, QEvent*) override;

@@ -38,6 +38,7 @@ ParameterEditor::ParameterEditor(EditorSession& session, const std::vector<std::
   more->setCheckable(true);
   more->setArrowType(Qt::RightArrow);
   more->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  folded_ = folded;
   layout_->addWidget(more);
   layout_->addWidget(folded);
   folded->hide();
@@ -51,6 +52,10 @@ ParameterRow* ParameterEditor::row(std::string_view name) const {
   for (auto* row : rows_)
     if (row->parameter().name == name) return row;
   return nullptr;
+}
+
+void ParameterEditor::unfold(const QWidget* row) {
+  if (folded_ && folded_->isAncestorOf(row)) more_->setChecked(true);
 }
 
 void ParameterEditor::addBelow(std::string_view name, QWidget* widget) {

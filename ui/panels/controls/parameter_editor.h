@@ -24,10 +24,13 @@ class ParameterEditor : public QWidget {
   /// Puts a control of its own right below the row of a parameter that is not folded.
   void addBelow(std::string_view name, QWidget* widget);
   void setRowVisible(std::string_view name, bool visible);
+  /// Opens "More" if a row lies under it.
+  void unfold(const QWidget* row);
 
  private:
   QVBoxLayout* layout_;
   QToolButton* more_ = nullptr;
+  QWidget* folded_ = nullptr;
   std::vector<ParameterRow*> rows_;
 };
 

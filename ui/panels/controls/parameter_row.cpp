@@ -195,6 +195,18 @@ void ParameterRow::setLabel(const QString& label) {
   if (check_) check_->setText(label);
 }
 
+QString ParameterRow::title() const {
+  const QString shown = check_ ? check_->text() : name_->text();
+  return shown.isEmpty() ? text(parameter_.label) : shown;
+}
+
+QWidget* ParameterRow::control() const {
+  if (field_) return field_->edit();
+  for (QWidget* one : {static_cast<QWidget*>(check_), static_cast<QWidget*>(segments_), static_cast<QWidget*>(combo_)})
+    if (one) return one;
+  return text_;
+}
+
 void ParameterRow::setUnit(const QString& unit) {
   if (field_) field_->setUnit(unit);
 }

@@ -38,6 +38,9 @@ class ParameterRow : public QWidget {
   void setSliderRange(double minimum, double maximum);
   void sync();
   const Parameter& parameter() const { return parameter_; }
+  /// What the row is called, and the widget in it that takes the keyboard.
+  QString title() const;
+  QWidget* control() const;
 
  protected:
   bool eventFilter(QObject*, QEvent*) override;

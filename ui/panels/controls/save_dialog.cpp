@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/controls/save_dialog.h"
 
+#include <QCoreApplication>
 #include <QFileDialog>
 #include <QFileInfo>
 
@@ -17,6 +18,12 @@ QString askSavePath(QWidget* parent, const SaveQuestion& question) {
   if (dialog.exec() != QDialog::Accepted) return {};
   // Some desktops' own dialogs leave the suffix to the program.
   return withSuffix(dialog.selectedFiles().value(0), question.suffix);
+}
+
+bool isOfProgram(const QString& path) {
+  const QString own =
+      QFileInfo(QCoreApplication::applicationDirPath() + QStringLiteral("/../share/batten")).canonicalFilePath();
+  return !own.isEmpty() && QFileInfo(path).canonicalFilePath().startsWith(own + QLatin1Char('/'));
 }
 
 QString withSuffix(const QString& path, const QString& suffix) {

@@ -19,6 +19,9 @@ struct SaveQuestion {
 /// what is replaced is what was asked about.
 QString askSavePath(QWidget* parent, const SaveQuestion&);
 
+/// True for what came with the program, as its sample: no place to save anything beside.
+bool isOfProgram(const QString& path);
+
 /// A typed path by the same rule.
 QString withSuffix(const QString& path, const QString& suffix);
 

@@ -14,6 +14,7 @@
 #include <numbers>
 
 #include "core/contour/corner/corner_suggestions.h"
+#include "ui/panels/controls/hint_list.h"
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
@@ -25,16 +26,12 @@ namespace batten {
 namespace {
 
 constexpr double kLowestAngleDeg = 10.0, kHighestAngleDeg = 150.0;
+constexpr int kRows = 6;  // of the lists
 constexpr double kLeastScalePx = 6.0, kLargestScalePx = 60.0;
 
 QString place(const Vec2& px) { return QStringLiteral("%1, %2").arg(px.x(), 0, 'f', 1).arg(px.y(), 0, 'f', 1); }
 
 QString degrees(double rad) { return QStringLiteral("%1°").arg(std::abs(rad) * 180.0 / std::numbers::pi, 0, 'f', 0); }
-
-void fitHeight(QListWidget* list, int most) {
-  const int row = list->count() > 0 ? std::max(22, list->sizeHintForRow(0)) : 22;
-  list->setFixedHeight(row * std::clamp(list->count(), 1, most) + 2);
-}
 
 }  // namespace
 
@@ -42,7 +39,7 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
     : QWidget(parent),
       session_(session),
       view_(view),
-      marks_(new QListWidget(this)),
+      marks_(new HintList(tr("No corner is marked yet."), kRows, this)),
       close_(note({}, this)),
       remove_(plainButton(tr("Remove"), QStringLiteral("corners.remove"), this)),
       removeAll_(plainButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)),
@@ -51,7 +48,7 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       angleTrack_(new SliderTrack(this)),
       scale_(new NumberField(this)),
       scaleTrack_(new SliderTrack(this)),
-      suggested_(new QListWidget(this)),
+      suggested_(new HintList(tr("No further place turns that sharply."), kRows, this)),
       suggestedNote_(note({}, this)),
       take_(plainButton(tr("Mark"), QStringLiteral("corners.take"), this)),
       takeAll_(plainButton(tr("Mark all"), QStringLiteral("corners.takeAll"), this)) {
@@ -63,11 +60,7 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       note(tr("Click a line where it turns sharply; click a corner to select it, and again to remove it."), this));
   layout->addWidget(new ParameterEditor(session, {"corners.exact", "corners.snap"}, this));
   layout->addWidget(caption(tr("Marked"), this));
-  marks_->setObjectName(QStringLiteral("corners.list"));
-  marks_->setAccessibleName(tr("Marked corners"));
-  layout->addWidget(marks_);
-  close_->setObjectName(QStringLiteral("corners.close"));
-  layout->addWidget(close_);
+  // Buttons stand above what grows.
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(remove_);
   buttons->addWidget(removeAll_);
@@ -90,8 +83,13 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
   rounding->addStretch();
   rounding->addWidget(rounding_);
   layout->addLayout(rounding);
+  marks_->setObjectName(QStringLiteral("corners.list"));
+  marks_->setAccessibleName(tr("Marked corners"));
+  layout->addWidget(marks_);
   connect(rounding_, &NumberField::committed, this, &CornersPanel::roundSelected);
   buildSuggestions();
+  close_->setObjectName(QStringLiteral("corners.close"));
+  layout->addWidget(close_);
   layout->addStretch();
   auto* del = new QShortcut(QKeySequence(Qt::Key_Delete), marks_, nullptr, nullptr, Qt::WidgetShortcut);
   connect(del, &QShortcut::activated, this, &CornersPanel::removeSelected);
@@ -149,14 +147,16 @@ void CornersPanel::buildSuggestions() {
              kLeastScalePx, kLargestScalePx},
             scale_, scaleTrack_);
   layout->addWidget(suggestedNote_);
-  suggested_->setObjectName(QStringLiteral("corners.suggestions"));
-  suggested_->setAccessibleName(tr("Suggested corners"));
-  layout->addWidget(suggested_);
+  suggestedNote_->setMinimumHeight(2 * suggestedNote_->fontMetrics().lineSpacing());
+  suggestedNote_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(take_);
   buttons->addWidget(takeAll_);
   buttons->addStretch();
   layout->addLayout(buttons);
+  suggested_->setObjectName(QStringLiteral("corners.suggestions"));
+  suggested_->setAccessibleName(tr("Suggested corners"));
+  layout->addWidget(suggested_);
   const auto setAngle = [this](double degrees) { view_.setSuggestionAngleDeg(degrees); };
   const auto setScale = [this](double px) { view_.setSuggestionScalePx(px); };
   const auto show = [](NumberField* field, SliderTrack* track, double value) {
@@ -236,8 +236,6 @@ void CornersPanel::refreshMarks() {
                  .arg(pair.apartPx, 0, 'f', 0);
   close_->setText(close.join(QLatin1Char('\n')));
   close_->setVisible(!close.empty());
-  marks_->setVisible(!marks.empty());
-  fitHeight(marks_, 8);
   filling_ = false;
   removeAll_->setEnabled(!marks.empty());
   showSelected();
@@ -274,8 +272,6 @@ void CornersPanel::showSuggestions() {
         suggested_);
     item->setFont(uiFont(12));
   }
-  suggested_->setVisible(!suggestions_.empty());
-  fitHeight(suggested_, 6);
   suggestedNote_->setText(suggestions_.empty()
                               ? tr("No further place turns that sharply.")
                               : counted(static_cast<qint64>(suggestions_.size()),

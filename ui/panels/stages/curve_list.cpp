@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "ui/panels/controls/panel_parts.h"
+#include "ui/session/curve_names.h"
 #include "ui/session/piece_choice.h"
 #include "ui/theme/theme.h"
 
@@ -58,7 +59,8 @@ class CurveDelegate : public QStyledItemDelegate {
 
 }  // namespace
 
-CurveList::CurveList(EditorSession& session, QWidget* parent) : QListWidget(parent), session_(session) {
+CurveList::CurveList(EditorSession& session, Judged judged, QWidget* parent)
+    : QListWidget(parent), session_(session), judged_(judged) {
   setObjectName(QStringLiteral("curves.list"));
   setAccessibleName(tr("Curves"));
   setItemDelegate(new CurveDelegate(this));
@@ -87,25 +89,29 @@ void CurveList::refresh() {
   while (count() > static_cast<int>(curves.size())) delete takeItem(count() - 1);
   while (count() < static_cast<int>(curves.size())) addItem(QString());
   for (int i = 0; i < count(); ++i) {
-    const TracedCurve& curve = curves[i];
-    const bool faired = curve.included && !curve.faired.isEmpty() && curve.fairingUsed.mode != FairingMode::None;
-    const CurveFigures& figures = faired ? curve.fairedFigures : curve.sketchedFigures;
+    const TracedCurve& curve = curves[static_cast<std::size_t>(i)];
+    const CurveFigures& figures = judgedFigures(curve, curve.included ? judged_ : Judged::Sketched);
+    const QString whyStill = judged_ == Judged::Result ? whyLeftAsDrawn(curve) : QString();
     const QString shape = curve.construct.isCircle ? tr(", circle")
                           : curve.construct.isLine ? tr(", line")
                           : curve.closed           ? tr(", closed")
                                                    : QString();
-    const QString name = tr("Curve %1").arg(i + 1) + shape;
-    const QString right = curve.included
+    const QString name = curveName(session_, i) + shape;
+    const QString right = !curve.included ? tr("left out")
+                          : whyStill.isEmpty()
                               ? tr("%1 pts · %2").arg(figures.controlPoints).arg(millimetres(figures.lengthMm))
-                              : tr("left out");
+                              : tr("as drawn · %1").arg(millimetres(figures.lengthMm));
     item(i)->setText(name);
     item(i)->setData(IncludedRole, curve.included);
     item(i)->setData(FiguresRole, right);
     const QString warning = curve.included ? QString::fromStdString(curve.construct.note) : QString();
     item(i)->setData(WarnsRole, !warning.isEmpty());
-    item(i)->setData(Qt::ToolTipRole, warning.isEmpty() ? QVariant() : warning);
-    const QString spoken = name + QStringLiteral(", ") + right;
-    item(i)->setData(Qt::AccessibleTextRole, warning.isEmpty() ? spoken : spoken + QStringLiteral(". ") + warning);
+    QStringList said;
+    for (const QString& one : {whyStill, warning})
+      if (!one.isEmpty()) said << one;
+    item(i)->setData(Qt::ToolTipRole, said.isEmpty() ? QVariant() : said.join(QLatin1Char('\n')));
+    item(i)->setData(Qt::AccessibleTextRole,
+                     (QStringList{name + QStringLiteral(", ") + right} + said).join(QStringLiteral(". ")));
   }
   setCurrentRow(session_.selectedCurve());
   filling_ = false;

@@ -4,15 +4,18 @@
 #include <QListWidget>
 
 #include "ui/session/editor_session.h"
+#include "ui/session/judged_curve.h"
 
 namespace batten {
 
 /// All curves of the drawing: an eye that takes a curve in or leaves it out (Space does the same), its name, its
-/// figures, and a sign where its construction has something to say, which the tool tip does.
+/// figures, and a sign where its construction has something to say, which the tool tip does. Of results it says which
+/// ones fairing left as drawn, and why.
 class CurveList : public QListWidget {
   Q_OBJECT
  public:
-  explicit CurveList(EditorSession& session, QWidget* parent = nullptr);
+  /// @param judged whose figures stand beside the names.
+  CurveList(EditorSession& session, Judged judged, QWidget* parent = nullptr);
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override { return {120, 30}; }
 
@@ -23,6 +26,7 @@ class CurveList : public QListWidget {
  private:
   void refresh();
   EditorSession& session_;
+  Judged judged_;
   bool filling_ = false;
 };
 

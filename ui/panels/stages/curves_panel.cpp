@@ -108,7 +108,7 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
   layout->addWidget(segmentsNote_);
   layout->addWidget(growing_);
   layout->addWidget(caption(tr("Curves"), this));
-  layout->addWidget(new CurveList(session, this));
+  layout->addWidget(new CurveList(session, Judged::Sketched, this));
   addWaitingRow();
   layout->addWidget(caption(tr("Selected curve"), this));
   layout->addWidget(figures_);

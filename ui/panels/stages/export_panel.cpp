@@ -125,7 +125,8 @@ void ExportPanel::suggestName() {
   } else if (session_.hasScan()) {
     const QFileInfo scan(session_.scanPath());
     QString folder = QSettings().value(kFolderKey).toString();
-    if (folder.isEmpty() && !session_.isBlankPage()) folder = scan.absolutePath();
+    if (folder.isEmpty() && !session_.isBlankPage() && !isOfProgram(scan.absoluteFilePath()))
+      folder = scan.absolutePath();
     if (folder.isEmpty() || !QFileInfo(folder).isWritable()) folder = QDir::homePath();
     const QString name = session_.isBlankPage() ? QStringLiteral("drawing") : scan.completeBaseName();
     path_->setText(folder + QLatin1Char('/') + name + QLatin1Char('.') + suffix);

@@ -14,9 +14,11 @@
 #include "ui/panels/controls/parameter_editor.h"
 #include "ui/panels/controls/parameter_row.h"
 #include "ui/panels/controls/segmented_control.h"
+#include "ui/panels/controls/setting_name.h"
 #include "ui/panels/stages/curve_list.h"
 #include "ui/panels/stages/ends_table.h"
 #include "ui/session/fairing_edits.h"
+#include "ui/session/judged_curve.h"
 #include "ui/session/piece_choice.h"
 
 namespace batten {
@@ -88,6 +90,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   mode_->setToolTip(
       tr("None: as sketched. Target: follow a profile of the curvature. Smooth: the smallest change of curvature that "
          "the tolerance allows. Monotone: curvature without a turn, or with few. Low-pass: without short waves."));
+  setSettingName(mode_, tr("Way of fairing"));
   layout->addWidget(mode_);
   buildTolerance();
   layout->addWidget(keep_);
@@ -115,7 +118,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   layout->addWidget(ends_);
   layout->addWidget(editor_);
   layout->addWidget(caption(tr("Curves"), this));
-  layout->addWidget(new CurveList(session, this));
+  layout->addWidget(new CurveList(session, Judged::Result, this));
   layout->addStretch();
   connect(scope_, &SegmentedControl::chosen, this, [this](int index) {
     oneCurve_ = index == 1;
@@ -218,7 +221,7 @@ void FairingPanel::refreshLinks(const FairingParams& params) {
 }
 
 FairingParams FairingPanel::shown(const Recipe& recipe) const {
-  const PieceChoice* choice = actsOnOne() ? choiceOf(session_, session_.selectedCurve()) : nullptr;
+  const auto choice = actsOnOne() ? choiceAlong(session_, session_.selectedCurve()) : std::nullopt;
   return choice ? choice->fairing(recipe.fairing) : recipe.fairing;
 }
 
@@ -318,7 +321,7 @@ void FairingPanel::refreshFigures() {
                     tr("A monotone profile never turns back, so it brings no bump.")});
   }
   figures_->setRows(std::move(rows));
-  QString text = QString::fromStdString(report.note);
+  QString text = isLeftAsDrawn(*curve) ? whyLeftAsDrawn(*curve) : QString::fromStdString(report.note);
   if (faired && !report.withinTolerance) {
     if (text.isEmpty()) text = tr("The tolerance stops the curve before it meets the target.");
     raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(report.neededMm)));

@@ -2,7 +2,6 @@
 #include "ui/panels/stages/method_table.h"
 
 #include <QAbstractButton>
-#include <QCheckBox>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPainter>
@@ -11,8 +10,12 @@
 #include <QVBoxLayout>
 
 #include "core/pipeline/recipe/parameter_table.h"
+#include "core/pipeline/run/piece_construction.h"
 #include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/controls/segmented_control.h"
+#include "ui/panels/controls/setting_name.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/curve_names.h"
 #include "ui/session/guarded.h"
 #include "ui/session/piece_choice.h"
 #include "ui/theme/theme.h"
@@ -148,9 +151,11 @@ QString helpPage(ConstructMethod method) {
 MethodTable::MethodTable(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
-      own_(new QCheckBox(tr("Only for the selected curve"), this)),
+      scope_(new SegmentedControl({tr("Selected curve"), tr("All curves")}, this)),
+      whose_(note({}, this)),
       worker_(std::make_unique<BackgroundWorker>()) {
   setObjectName(QStringLiteral("construct.method.row"));
+  setSettingName(this, tr("Method of construction"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
@@ -169,18 +174,16 @@ MethodTable::MethodTable(EditorSession& session, QWidget* parent)
     layout->addWidget(row);
     connect(row, &QAbstractButton::clicked, this, [this, method] { choose(method); });
   }
-  own_->setObjectName(QStringLiteral("construct.method.own"));
-  own_->setToolTip(tr("Gives the selected curve a method of its own; the other curves keep theirs."));
+  scope_->setNames(QStringLiteral("construct.scope"), {QStringLiteral("one"), QStringLiteral("all")});
+  scope_->setToolTip(tr("Whether a click on a method changes the selected curve alone or the whole drawing."));
+  scope_->setCurrent(0);
+  whose_->setObjectName(QStringLiteral("construct.method.whose"));
+  layout->addSpacing(6);
+  layout->addWidget(whose_);
   layout->addSpacing(4);
-  layout->addWidget(own_);
+  layout->addWidget(scope_);
   connect(help, &QPushButton::clicked, this, [this] { emit helpAsked(helpPage(current())); });
-  connect(own_, &QCheckBox::clicked, this, [this](bool own) {
-    const auto edit = [own, method = current()](PieceChoice& choice) {
-      choice.method = own ? std::optional(method) : std::nullopt;
-    };
-    session_.change(own ? tr("Own method") : tr("Common method"), withChoice(session_, session_.selectedCurve(), edit));
-    refresh();
-  });
+  connect(scope_, &SegmentedControl::chosen, this, &MethodTable::refresh);
   connect(&session_, &EditorSession::stopped, this, &MethodTable::stop);
   connect(&session_, &EditorSession::workingChanged, this, &MethodTable::refresh);
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
@@ -202,15 +205,22 @@ std::optional<CurveFigures> MethodTable::figures(ConstructMethod method) const {
   return std::nullopt;
 }
 
+bool MethodTable::actsOnAll() const {
+  return session_.curves().size() < 2 || session_.selected() == nullptr || scope_->current() == 1;
+}
+
 void MethodTable::choose(ConstructMethod method) {
   const int curve = session_.selectedCurve();
-  const PieceChoice* choice = choiceOf(session_, curve);
-  // A curve that already goes its own way keeps doing so; else the choice is for the whole drawing.
   Recipe after = session_.recipe();
-  if (choice && choice->method)
-    after = withChoice(session_, curve, [method](PieceChoice& own) { own.method = method; });
-  else
+  if (actsOnAll()) {
     after.construct.method = method;
+    for (PieceChoice& choice : after.choices) choice.method.reset();
+  } else {
+    const bool isCommon = method == after.construct.method;
+    after = withChoice(session_, curve,
+                       [&](PieceChoice& own) { own.method = isCommon ? std::nullopt : std::optional(method); });
+  }
+  std::erase_if(after.choices, [](const PieceChoice& choice) { return choice.isEmpty(); });
   session_.change(tr("Method: %1").arg(label(method)), std::move(after));
   refresh();
 }
@@ -223,11 +233,24 @@ void MethodTable::showEvent(QShowEvent* event) {
 void MethodTable::refresh() {
   const ConstructMethod now = current();
   for (std::size_t i = 0; i < kMethods.size(); ++i) rows_[i]->setChecked(kMethods[i] == now);
-  const PieceChoice* choice = choiceOf(session_, session_.selectedCurve());
-  own_->setVisible(session_.curves().size() > 1);
-  own_->setEnabled(session_.selected() != nullptr);
-  own_->setChecked(choice && choice->method);
+  const bool several = session_.curves().size() > 1, isSelected = session_.selected() != nullptr;
+  scope_->setVisible(several);
+  scope_->setSegmentEnabled(0, isSelected);
+  whose_->setVisible(several && isSelected);
+  whose_->setText(tr("The figures are those of %1.").arg(curveName(session_, session_.selectedCurve())));
   if (isVisible()) compute();
+}
+
+/// The curve that a click on the recipe's method would give.
+Result<TracedCurve> MethodTable::constructedAs(const PipelineOutput& output, const Recipe& recipe, const Source& source,
+                                               const RunContext& context) {
+  if (source.alongside && *source.alongside != recipe.construct.method)
+    return constructPiece(output, recipe, source.piece, context);
+  auto line = constructLine(output, recipe, source.contour, context);
+  if (!line) return fail(line.error());
+  for (TracedCurve& each : *line)
+    if (each.piece == source.piece && !each.sketched.isEmpty()) return std::move(each);
+  return fail(ErrorCode::NoCurve, "The line gave no curve.");
 }
 
 void MethodTable::compute() {
@@ -238,7 +261,9 @@ void MethodTable::compute() {
   const Recipe& chosen = session_.recipe();
   Source source{output.pieces,          output.segments, chosen.construct, chosen.segmentPoints,
                 chosen.extremumChoices, curve->contour,  curve->piece,     output.frame.mmPerPx};
-  source.params.method = ConstructMethod::Fair;  // whichever is chosen, all are compared
+  // Whichever is chosen, all are compared: as the whole line would become, or this piece of it alone.
+  source.params.method = ConstructMethod::Fair;
+  if (!actsOnAll()) source.alongside = chosen.construct.method;
   if (source_ && *source_ == source) return;
   source_ = source;
   for (std::size_t i = 0; i < kMethods.size(); ++i) {
@@ -256,14 +281,11 @@ void MethodTable::compute() {
           recipe.construct.method = kMethods[i];
           std::optional<CurveFigures> figures;
           QString instead;
-          if (const auto made = guarded<std::vector<TracedCurve>>(
-                  [&] { return constructLine(output, recipe, source.contour, context); })) {
-            for (const TracedCurve& each : *made) {
-              if (each.piece != source.piece || each.sketched.isEmpty()) continue;
-              figures = each.sketchedFigures;
-              const bool other = kMethods[i] == ConstructMethod::Typical && each.construct.segments.empty();
-              instead = other ? QString::fromStdString(each.construct.note) : QString();
-            }
+          const auto made = guarded<TracedCurve>([&] { return constructedAs(output, recipe, source, context); });
+          if (made && !made->sketched.isEmpty()) {
+            figures = made->sketchedFigures;
+            const bool other = kMethods[i] == ConstructMethod::Typical && made->construct.segments.empty();
+            instead = other ? QString::fromStdString(made->construct.note) : QString();
           }
           if (token.isCancelled()) return;
           QMetaObject::invokeMethod(

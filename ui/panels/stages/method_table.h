@@ -9,12 +9,13 @@
 
 #include "ui/session/editor_session.h"
 
-class QCheckBox;
+class QLabel;
 
 namespace batten {
 
 class BackgroundWorker;
 class MethodRow;
+class SegmentedControl;
 
 inline constexpr std::array kMethods = {ConstructMethod::Fair, ConstructMethod::Nurbs, ConstructMethod::Bezier,
                                         ConstructMethod::Typical, ConstructMethod::ControlPolygon};
@@ -23,7 +24,7 @@ QString word(ConstructMethod);      ///< "fair", "nurbs", … as files write it.
 QString helpPage(ConstructMethod);  ///< "fair-fit", "quintic-nurbs", …: a file of resources/help.
 
 /// The ways to make a curve of a line, each with what it gives for the selected curve, computed in the background while
-/// the table is seen. A click chooses the way: for all curves, or with "only for this curve" for the selected one.
+/// the table is seen. A click chooses the way for the curve whose figures these are; for all curves when that is set.
 class MethodTable : public QWidget {
   Q_OBJECT
  public:
@@ -43,12 +44,14 @@ class MethodTable : public QWidget {
   void refresh();
   void compute();
   void choose(ConstructMethod);
+  bool actsOnAll() const;
   void show(int method, const std::optional<CurveFigures>& figures, const QString& instead);
   void stop();
 
   EditorSession& session_;
   std::vector<MethodRow*> rows_;
-  QCheckBox* own_;
+  SegmentedControl* scope_;
+  QLabel* whose_;  ///< Names the curve that the figures are of.
   std::array<std::optional<CurveFigures>, kMethods.size()> figures_;
   struct Source {
     std::shared_ptr<const PieceSet> pieces;
@@ -58,8 +61,10 @@ class MethodTable : public QWidget {
     std::vector<ExtremumChoice> extremumChoices;
     int contour = -1, piece = -1;
     double mmPerPx = 0.0;
+    std::optional<ConstructMethod> alongside{};  ///< The common method, when the curve gets one of its own.
     bool operator==(const Source&) const = default;
   };
+  static Result<TracedCurve> constructedAs(const PipelineOutput&, const Recipe&, const Source&, const RunContext&);
   std::optional<Source> source_;
   std::unique_ptr<BackgroundWorker> worker_;
 };

@@ -34,14 +34,14 @@ PenPanel::PenPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
   draw_->setCheckable(true);
   draw_->setToolTip(tr("Drag to draw a line; end where it began to close it  (D)"));
   layout->addWidget(draw_, 0, Qt::AlignLeft);
-  list_->setObjectName(QStringLiteral("pen.list"));
-  list_->setAccessibleName(tr("Lines drawn by hand"));
-  layout->addWidget(list_);
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(remove_);
   buttons->addWidget(removeAll_);
   buttons->addStretch();
   layout->addLayout(buttons);
+  list_->setObjectName(QStringLiteral("pen.list"));
+  list_->setAccessibleName(tr("Lines drawn by hand"));
+  layout->addWidget(list_);
   auto* del = new QShortcut(QKeySequence(Qt::Key_Delete), list_, nullptr, nullptr, Qt::WidgetShortcut);
   connect(del, &QShortcut::activated, this, &PenPanel::removeSelected);
   connect(remove_, &QPushButton::clicked, this, &PenPanel::removeSelected);
@@ -74,8 +74,7 @@ void PenPanel::refresh() {
   const int row = list_->count() > 0 ? std::max(22, list_->sizeHintForRow(0)) : 22;
   list_->setFixedHeight(row * std::clamp(list_->count(), 1, 8) + 2);
   list_->setVisible(!strokes.empty());
-  remove_->setVisible(!strokes.empty());
-  removeAll_->setVisible(!strokes.empty());
+  removeAll_->setEnabled(!strokes.empty());
   remove_->setEnabled(list_->currentRow() >= 0);
   draw_->setEnabled(session_.hasScan());
   draw_->setChecked(view_.tool() == Tool::Pen);

@@ -19,13 +19,17 @@ namespace batten {
 namespace {
 
 ComparedFigures figuresOf(const TracedCurve& curve) {
-  const bool faired = !curve.faired.isEmpty();
-  const CurveFigures& f = faired ? curve.fairedFigures : curve.sketchedFigures;
-  return {f.fromPoints.rms, f.fromPoints.max, f.controlPoints, f.extrema,
-          variationEnergy(faired ? curve.faired : curve.sketched)};
+  const CurveFigures& f = curve.sketchedFigures;
+  return {f.fromPoints.rms, f.fromPoints.max, f.controlPoints, f.extrema, variationEnergy(curve.sketched)};
 }
 
-QString fairingText(FairingMode mode) { return mode == FairingMode::None ? QString() : PinPanel::tr(", faired"); }
+/// How a pinned curve was made: in its own way or the common one.
+ConstructMethod methodOf(const PinnedResult& pinned, const TracedCurve& curve) {
+  const auto owners = assignChoices(*pinned.pieces, pinned.recipe.choices).ofPiece;
+  const auto own = owners[static_cast<std::size_t>(curve.piece)];
+  return own ? pinned.recipe.choices[*own].method.value_or(pinned.recipe.construct.method)
+             : pinned.recipe.construct.method;
+}
 
 }  // namespace
 
@@ -44,8 +48,7 @@ QString unevennessText(double energy) {
 
 Comparison compare(const TracedCurve& pinned, const TracedCurve& now) {
   Comparison result{figuresOf(pinned), figuresOf(now), 0.0};
-  const NurbsCurve& a = now.faired.isEmpty() ? now.sketched : now.faired;
-  const NurbsCurve& b = pinned.faired.isEmpty() ? pinned.sketched : pinned.faired;
+  const NurbsCurve &a = now.sketched, &b = pinned.sketched;
   result.apartMm = std::max(deviation(a, b).max, deviation(b, a).max);
   return result;
 }
@@ -98,7 +101,7 @@ void PinPanel::refresh() {
   what_->setText(
       !pinned ? tr("Pin a result, then change the method or a setting: the pinned one stays as a thin violet line.")
       : before || !now
-          ? tr("Pinned: %1%2").arg(label(pinned->recipe.construct.method), fairingText(pinned->recipe.fairing.mode))
+          ? tr("Pinned: %1").arg(label(before ? methodOf(*pinned, *before) : pinned->recipe.construct.method))
           : tr("The pinned result has no curve here."));
   const int request = ++request_;
   if (!now || !before || !isVisible()) return;

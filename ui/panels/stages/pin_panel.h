@@ -24,7 +24,8 @@ struct Comparison {
   ComparedFigures pinned, now;
   double apartMm = 0.0;  ///< Largest distance between the two curves.
 };
-/// Both curves as shown: faired where they are. @pre both hold a curve.
+/// Both curves as constructed, so that ways of construction are compared and not what fairing makes of them. @pre both
+/// hold a curve.
 Comparison compare(const TracedCurve& pinned, const TracedCurve& now);
 
 /// ComparedFigures::energy in few digits: "0.5", "1234", "2.79 · 10⁷".

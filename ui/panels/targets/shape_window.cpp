@@ -17,6 +17,7 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/segmented_control.h"
 #include "ui/panels/targets/target_advice.h"
+#include "ui/session/curve_names.h"
 #include "ui/session/fairing_edits.h"
 #include "ui/theme/theme.h"
 
@@ -108,9 +109,9 @@ std::vector<ShapeWindow::Entry> ShapeWindow::entries() const {
 QString ShapeWindow::nameOf(const Entry& entry) const {
   switch (entry.kind) {
     case Entry::Kind::Sketched:
-      return tr("Curve %1, sketched").arg(entry.number + 1);
+      return tr("%1, sketched").arg(curveName(session_, entry.number));
     case Entry::Kind::Faired:
-      return tr("Curve %1, faired").arg(entry.number + 1);
+      return tr("%1, faired").arg(curveName(session_, entry.number));
     case Entry::Kind::Target:
       return tr("Target %1, %2").arg(entry.number).arg(degreeName(entry.number));
   }

@@ -20,6 +20,8 @@
 namespace batten {
 namespace {
 
+constexpr double kStepPx = 1.0;  // between the points of a line
+
 /// The quantity that a tile draws: curvature, or the logarithm of the radius where the targets describe that.
 std::vector<double> drawn(const TargetOutcomes& outcomes, const TargetProfile* profile) {
   const TargetSet& set = outcomes.targets;
@@ -40,6 +42,11 @@ QPainterPath pathOf(const TargetOutcomes& outcomes, const std::vector<double>& v
     }
     const double t = std::clamp((values[i] - low) / (high - low), -0.04, 1.04);
     const QPointF at(box.left() + outcomes.targets.perimeter[i] * box.width(), box.bottom() - t * box.height());
+    // Steps far below a pixel make the pen leave specks beside the line.
+    const bool isLast = i + 1 == values.size();
+    if (pen && !isLast &&
+        std::hypot(at.x() - path.currentPosition().x(), at.y() - path.currentPosition().y()) < kStepPx)
+      continue;
     pen ? path.lineTo(at) : path.moveTo(at);
     pen = true;
   }
@@ -55,7 +62,7 @@ TargetTile::TargetTile(int degree, QWidget* parent) : QAbstractButton(parent), d
   setCursor(Qt::PointingHandCursor);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   setMaximumWidth(220);
-  setFixedHeight(97);
+  setFixedHeight(kHeight);
 }
 
 QString TargetTile::problem() const {
@@ -265,12 +272,18 @@ TargetStrip::TargetStrip(EditorSession& session, QWidget* parent) : QWidget(pare
     });
   }
   layout->addStretch();
-  setFixedHeight(112);
+  setLow(false);
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
                             &EditorSession::targetsChanged, &EditorSession::runFinished})
     connect(&session_, signal, this, &TargetStrip::refresh);
   connect(&session_, &EditorSession::workingChanged, this, &TargetStrip::refresh);
   refresh();
+}
+
+void TargetStrip::setLow(bool low) {
+  const int tile = low ? TargetTile::kLowHeight : TargetTile::kHeight;
+  for (TargetTile* one : tiles_) one->setFixedHeight(tile);
+  setFixedHeight(tile + 15);
 }
 
 void TargetStrip::refresh() {

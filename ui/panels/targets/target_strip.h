@@ -20,8 +20,9 @@ class TargetTile : public QAbstractButton {
   /// @param waiting what an empty tile says.
   void show(std::shared_ptr<const TargetOutcomes> outcomes, double toleranceMm, bool chosen, bool oneCurve,
             const QString& waiting);
-  QSize sizeHint() const override { return {156, 97}; }
-  QSize minimumSizeHint() const override { return {96, 97}; }
+  static constexpr int kHeight = 97, kLowHeight = 77;
+  QSize sizeHint() const override { return {156, kHeight}; }
+  QSize minimumSizeHint() const override { return {96, kLowHeight}; }
 
  signals:
   void entered(int degree);
@@ -52,6 +53,8 @@ class TargetStrip : public QWidget {
   Q_OBJECT
  public:
   explicit TargetStrip(EditorSession& session, QWidget* parent = nullptr);
+  /// Lower tiles, for low windows.
+  void setLow(bool low);
 
  signals:
   void hint(const QString& text);

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where work is saved, what the window is then called, and how it is found again.
+#include <gtest/gtest.h>
+
+#include <QAction>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QLabel>
+#include <QMenu>
+
+#include "core/pipeline/recipe/recipe_file.h"
+#include "tests/ui/window_fixture.h"
+#include "ui/new_drawing_dialog.h"
+
+namespace batten {
+namespace {
+
+using test::waitUntil;
+
+class Saving : public test::WindowFixture {
+ protected:
+  void save() { window_->action(ActionId::SaveRecipe)->trigger(); }
+  Recipe saved(const QString& path) {
+    const auto recipe = recipeFromJson(read(path).toStdString());
+    EXPECT_TRUE(recipe) << path.toStdString();
+    return recipe.value_or(Recipe{});
+  }
+  /// The folder and the name that the dialog proposes.
+  QFileInfo proposed(const std::function<void()>& open) {
+    QString path;
+    inDialog(
+        [&](QWidget& dialog) {
+          auto* files = qobject_cast<QFileDialog*>(&dialog);
+          ASSERT_NE(files, nullptr);
+          path = files->directory().filePath(dialog.findChild<QLineEdit*>(QStringLiteral("fileNameEdit"))->text());
+          files->reject();
+        },
+        open);
+    return QFileInfo(path);
+  }
+  QString titleOf() { return find<QLabel>("documentTitle")->text(); }
+};
+
+TEST_F(Saving, TheFirstTimeAsksAndThenItSavesInPlace) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+  ASSERT_NO_FATAL_FAILURE(changeSomething());
+  const QString target = folder_.filePath(QStringLiteral("mine.recipe.json"));
+  saveAs(target, [this] { save(); });
+  EXPECT_EQ(saved(target), session().recipe());
+  ASSERT_NO_FATAL_FAILURE(changeSomething());
+  save();  // no dialog: it would never return here
+  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
+  EXPECT_EQ(saved(target), session().recipe());
+  EXPECT_FALSE(session().hasUnsavedChanges());
+  // Elsewhere only when asked.
+  const QString other = folder_.filePath(QStringLiteral("other.json"));
+  ASSERT_NO_FATAL_FAILURE(changeSomething());
+  saveAs(other, [this] { window_->action(ActionId::SaveRecipeAs)->trigger(); });
+  EXPECT_EQ(saved(other), session().recipe());
+  EXPECT_NE(saved(target), session().recipe());
+}
+
+TEST_F(Saving, WhatWasOpenedWithItsRecipeIsSavedThere) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+  const QString beside = folder_.filePath(QStringLiteral("page.recipe.json"));
+  saveAs(beside, [this] { save(); });
+  ASSERT_NO_FATAL_FAILURE(openWindow());
+  ASSERT_NO_FATAL_FAILURE(openFile(path_));
+  ASSERT_NO_FATAL_FAILURE(changeSomething());
+  save();
+  EXPECT_EQ(saved(beside), session().recipe());
+}
+
+TEST_F(Saving, ADrawingOnAnEmptyPageTakesTheNameOfItsFile) {
+  window_->beginDrawing(NewDrawingDialog::recipeFor({100, 80}, 127.0));
+  ASSERT_TRUE(waitUntil([this] { return session().hasScan() && !session().isBusy(); }));
+  EXPECT_TRUE(titleOf().startsWith(QStringLiteral("New drawing")));
+  const QString target = folder_.filePath(QStringLiteral("boat.json"));
+  saveAs(target, [this] { save(); });
+  EXPECT_TRUE(titleOf().startsWith(QStringLiteral("boat.json"))) << titleOf().toStdString();
+  EXPECT_TRUE(window_->windowTitle().startsWith(QStringLiteral("boat.json")));
+  // Another one is new again; opened anew it is called as its file.
+  window_->beginDrawing(NewDrawingDialog::recipeFor({100, 80}, 127.0));
+  ASSERT_TRUE(waitUntil([this] { return titleOf().startsWith(QStringLiteral("New drawing")); }));
+  window_->openPath(target);
+  EXPECT_TRUE(waitUntil([this] { return titleOf().startsWith(QStringLiteral("boat.json")); }, 5000));
+}
+
+TEST_F(Saving, TheFolderIsRememberedAndTheProgramsOwnIsNotProposed) {
+  QDir(folder_.path()).mkdir(QStringLiteral("work"));
+  const QString work = folder_.filePath(QStringLiteral("work"));
+  window_->beginDrawing(NewDrawingDialog::recipeFor({100, 80}, 127.0));
+  ASSERT_TRUE(waitUntil([this] { return session().hasScan() && !session().isBusy(); }));
+  saveAs(work + QStringLiteral("/first.json"), [this] { save(); });
+  ASSERT_NO_FATAL_FAILURE(openWindow());
+  ASSERT_NO_FATAL_FAILURE(openFile(QStringLiteral(BATTEN_SAMPLE)));
+  ASSERT_NO_FATAL_FAILURE(changeSomething());
+  const QFileInfo forSample = proposed([this] { save(); });
+  EXPECT_EQ(forSample.dir(), QDir(work)) << forSample.filePath().toStdString();
+  EXPECT_EQ(forSample.fileName(), QStringLiteral("coupe-side.recipe.json"));
+  window_->beginDrawing(NewDrawingDialog::recipeFor({100, 80}, 127.0));
+  ASSERT_TRUE(waitUntil([this] { return session().isBlankPage() && !session().isBusy(); }));
+  EXPECT_EQ(proposed([this] { save(); }).dir(), QDir(work));
+}
+
+TEST_F(Saving, RecentFilesOfOneNameAreToldApartByTheirFolders) {
+  for (const char* name : {"one", "two"}) {
+    QDir(folder_.path()).mkdir(QString::fromLatin1(name));
+    const QString path = folder_.filePath(QString::fromLatin1(name) + QStringLiteral("/page.png"));
+    ASSERT_TRUE(test::ellipsePage().save(path));
+    ASSERT_NO_FATAL_FAILURE(openFile(path));
+  }
+  auto* menu = find<QMenu>("recentMenu");
+  emit menu->aboutToShow();
+  ASSERT_GE(menu->actions().size(), 2);
+  const QString first = menu->actions()[0]->text(), second = menu->actions()[1]->text();
+  EXPECT_TRUE(first.startsWith(QStringLiteral("page.png")));
+  EXPECT_TRUE(first.endsWith(QStringLiteral("two"))) << first.toStdString();
+  EXPECT_TRUE(second.endsWith(QStringLiteral("one"))) << second.toStdString();
+}
+
+}  // namespace
+}  // namespace batten

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QPointer>
+#include <vector>
+
+#include "ui/plots/plot_series.h"
+
+class QCPItemText;
+class QCustomPlot;
+
+namespace batten {
+
+/// The numbers of the six targets on their lines in a plot, each where its line is inside the plot and clear of the
+/// other numbers. They follow the stretch that is shown.
+class TargetLabels {
+ public:
+  explicit TargetLabels(QCustomPlot* plot) : plot_(plot) {}
+  /// New lines. @pre the axes have their ranges.
+  void show(const PlotData& data);
+  /// The axes show another stretch.
+  void place();
+
+ private:
+  QCustomPlot* plot_;
+  std::vector<PlotSeries> lines_;
+  std::vector<QPointer<QCPItemText>> texts_;
+};
+
+}  // namespace batten
