@@ -2,14 +2,14 @@
 #include "app/cli/compare_command.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
+#include <cstdint>
 #include <iostream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "app/cli/exit_codes.h"
+#include "core/base/regular_file.h"
+#include "core/base/shown_text.h"
 #include "core/exchange/curve_json.h"
 #include "core/fairing/curve_comparison.h"
 
@@ -18,19 +18,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::uint64_t kLargestCurveBytes = 64 << 20;
+
 struct NamedShape {
   std::string name;
   ShapeProfile profile;
 };
 
 Result<std::vector<NamedShape>> shapesOf(const std::string& path) {
-  std::error_code code;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || !std::filesystem::is_regular_file(path, code)) {
-    return fail(ErrorCode::BadParameter, "The curves " + path + " cannot be read. Check the name.");
+  const auto text = readWhole(path, kLargestCurveBytes);
+  if (!text) {
+    return fail(ErrorCode::BadParameter,
+                "The curves " + path + " cannot be read: the file " + describe(text.error()) + ". Check the name.");
   }
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const auto document = readCurveJson(text);
+  const auto document = readCurveJson(*text);
   if (!document) {
     return fail(ErrorCode::BadParameter,
                 path + ": " + document.error().message + " Write it anew with batten-cli trace SCAN -o FILE.json.");
@@ -74,7 +75,7 @@ int runCompare(const std::string& first, const std::string& second) {
     return x.at("similarity").get<double>() > y.at("similarity").get<double>();
   });
   const Json result{{"first", first}, {"second", second}, {"pairs", pairs}};
-  std::cout << result.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+  std::cout << withoutControls(result.dump(-1, ' ', false, Json::error_handler_t::replace)) << '\n';
   return endOutput();
 }
 

@@ -25,11 +25,15 @@ struct TracePlan {
   Recipe recipe;
   std::vector<Output> outputs;
   std::vector<Dump> dumps;
+  int threads = 0;  ///< At most; 0 = all.
 };
 
 /// The recipe that the words ask for: recipe file first, then --set in the order given, then corners, regions and
 /// resolution. @return BadParameter with what to do.
 Result<Recipe> recipeOf(const TraceArguments&);
+
+/// --threads. @return BadParameter with what to do.
+Result<int> threadsOf(const TraceArguments&);
 
 /// The recipe and what is to be written. @return BadParameter with what to do.
 Result<TracePlan> planTrace(const TraceArguments&);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/base/shown_text.h"
 #include "core/exchange/cubic_path.h"
 #include "core/exchange/export_check.h"
 
@@ -35,10 +36,10 @@ std::string exact(double value) {
   return {buffer.data(), end};
 }
 
-/// Text for XML: markup escaped; control characters, which XML forbids, become spaces.
+/// Text for XML: markup escaped, and nothing that XML forbids.
 std::string escaped(const std::string& text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : shownText(text)) {
     switch (c) {
       case '&':
         result += "&amp;";
@@ -53,7 +54,7 @@ std::string escaped(const std::string& text) {
         result += "&quot;";
         break;
       default:
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        result += c;
     }
   }
   return result;

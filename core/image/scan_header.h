@@ -17,6 +17,7 @@ struct ScanHeader {
   bool supported = true;            ///< False: a kind of picture that cannot be read (floating point, 32 bit).
   std::uint64_t orientationAt = 0;  ///< TIFF: where the orientation is written; 0 = nowhere.
   bool bigEndian = true;
+  std::uint64_t tilePixels = 0;  ///< [px] TIFF: of one tile, which may be larger than the picture; 0 = no tiles.
   SampleMeaning meaning;
 };
 

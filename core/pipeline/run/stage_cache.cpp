@@ -2,7 +2,6 @@
 #include "core/pipeline/run/stage_cache.h"
 
 #include <utility>
-#include <vector>
 
 namespace batten {
 
@@ -37,12 +36,15 @@ void StageCache::store(const ContentHash& key, std::shared_ptr<const void> value
   used_ += bytes;
 }
 
-void StageCache::clear() {
-  std::map<ContentHash, Entry> dropped;
+std::vector<std::shared_ptr<const void>> StageCache::takeAll() {
   const std::scoped_lock lock(mutex_);
-  dropped.swap(entries_);
+  std::vector<std::shared_ptr<const void>> all;
+  all.reserve(entries_.size());
+  for (auto& [key, entry] : entries_) all.push_back(std::move(entry.value));
+  entries_.clear();
   ages_.clear();
   used_ = 0;
+  return all;
 }
 
 std::size_t StageCache::bytesUsed() const {

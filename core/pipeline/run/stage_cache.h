@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include "core/base/content_hash.h"
 
@@ -24,7 +25,8 @@ class StageCache {
   }
   /// Stores an output that takes about `bytes`; one larger than the budget is not kept.
   void store(const ContentHash& key, std::shared_ptr<const void> value, std::size_t bytes);
-  void clear();
+  /// Empties the cache at once. What it held goes with the list, whenever its holder can spare the time.
+  [[nodiscard]] std::vector<std::shared_ptr<const void>> takeAll();
   std::size_t bytesUsed() const;
 
  private:
