@@ -50,7 +50,8 @@ QString RecipeJournal::newFile() const {
 
 void RecipeJournal::write() {
   const bool isHeld = lock_ && lock_->hold();
-  if (!session_.hasUnsavedChanges() || (isHeld && written_ && *written_ == session_.recipe())) return;
+  if (!session_.hasUnsavedChanges()) return;
+  if (isHeld && written_ && *written_ == session_.recipe() && QFile::exists(file_)) return;
   if (!isHeld) {
     // The file may be somebody else's by now, or is not there yet.
     QDir().mkpath(folder_);
