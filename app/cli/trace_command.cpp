@@ -171,8 +171,8 @@ class Trace {
     std::vector<std::string> list;
     if (isScaleAssumed(scan_, plan_.recipe))
       list.emplace_back("The scan states no resolution; 96 dpi was assumed. Set --dpi.");
-    if (scan_.info.pages > 1) {
-      list.push_back("The file holds " + std::to_string(scan_.info.pages) +
+    if (const int pages = countPages(arguments_.scan); pages > 1) {
+      list.push_back("The file holds " + std::to_string(pages) +
                      " pages; only the first was traced. Save the others as files of their own.");
     }
     if (!out_.thresholds->note.empty() && !isBlank(scan_)) list.push_back(out_.thresholds->note);

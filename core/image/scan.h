@@ -19,7 +19,6 @@ struct ScanInfo {
   int bitsPerChannel = 8;     ///< 1, 2, 4, 8 or 16.
   int exifOrientation = 1;    ///< 1..8; 1 = upright.
   std::optional<double> dpi;  ///< Resolution stated by the file, if any and plausible.
-  int pages = 1;              ///< Pictures in the file, thumbnails not counted; the first is read.
 };
 
 /// A scan as the program works on it: upright, grey, alpha laid over white.

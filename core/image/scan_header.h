@@ -19,6 +19,7 @@ struct ScanHeader {
   bool bigEndian = true;
   std::uint64_t tilePixels = 0;  ///< [px] TIFF: of one tile, which may be larger than the picture; 0 = no tiles.
   SampleMeaning meaning;
+  int pages = 1;  ///< TIFF: pictures in the file, thumbnails not counted; the first is read.
 };
 
 /// Reads the header of whichever format the bytes are; empty when they are none of those that can be read.

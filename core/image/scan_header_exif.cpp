@@ -206,7 +206,7 @@ ScanHeader readTiffHeader(const ByteReader& file) {
     }
   }
   header.tilePixels = tileWidth * tileHeight;  // 32 bit each
-  header.info.pages = tiffPages(tiff);
+  header.pages = tiffPages(tiff);
   readTiffTags(tiff, header);
   if (hasAlpha && header.info.channels == 2) header.supported = false;  // the decoder would drop the alpha
   header.complete = header.complete && blocksInside(tiff, offsets, sizes);

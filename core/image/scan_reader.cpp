@@ -203,6 +203,23 @@ Result<ScanInfo> probeScan(const std::filesystem::path& path) {
   }
 }
 
+int countPages(const std::filesystem::path& path) {
+  try {
+    const auto file = opened(path);
+    if (!file) return 1;
+    auto header = probe(path, *file);
+    if (!header || header->info.format != "TIFF" || file->size() > kLargestFile) return 1;
+    // Directories may lie anywhere in the file.
+    const auto bytes = readBytes(path, *file, file->size());
+    if (bytes) header = headerOf(path, *bytes);
+    return header ? header->pages : 1;
+  } catch (const std::bad_alloc&) {
+    return 1;
+  } catch (const std::filesystem::filesystem_error&) {
+    return 1;
+  }
+}
+
 Result<Scan> readScan(const std::filesystem::path& path, const ScanLimits& limits, const RunContext& context) {
   try {
     const auto file = opened(path);

@@ -107,12 +107,16 @@ void EditorSession::Runner::dropOldDrawing() {
     std::shared_ptr<const Scan> scan;
     PipelineOutput output;
     std::shared_ptr<const PinnedResult> pinned;
-    std::vector<std::shared_ptr<const void>> stages;
   };
   auto old = std::make_shared<Old>(
-      Old{std::move(session.scan_), std::exchange(session.output_, {}), std::move(session.pinned_), cache.takeAll()});
+      Old{std::move(session.scan_), std::exchange(session.output_, {}), std::move(session.pinned_)});
   // Up to a gigabyte goes back to the system: not while the window waits.
-  janitor.start([old = std::move(old)](const CancelToken&) mutable { old.reset(); }, BackgroundWorker::Running::Finish);
+  janitor.start(
+      [this, old = std::move(old)](const CancelToken&) mutable {
+        cache.clear();
+        old.reset();
+      },
+      BackgroundWorker::Running::Finish);
 }
 
 void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bool isRestored) {

@@ -2,6 +2,7 @@
 #include "core/pipeline/run/stage_cache.h"
 
 #include <utility>
+#include <vector>
 
 namespace batten {
 
@@ -36,15 +37,12 @@ void StageCache::store(const ContentHash& key, std::shared_ptr<const void> value
   used_ += bytes;
 }
 
-std::vector<std::shared_ptr<const void>> StageCache::takeAll() {
+void StageCache::clear() {
+  std::map<ContentHash, Entry> dropped;
   const std::scoped_lock lock(mutex_);
-  std::vector<std::shared_ptr<const void>> all;
-  all.reserve(entries_.size());
-  for (auto& [key, entry] : entries_) all.push_back(std::move(entry.value));
-  entries_.clear();
+  dropped.swap(entries_);
   ages_.clear();
   used_ = 0;
-  return all;
 }
 
 std::size_t StageCache::bytesUsed() const {

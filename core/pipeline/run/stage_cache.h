@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <vector>
 
 #include "core/base/content_hash.h"
 
@@ -25,8 +24,7 @@ class StageCache {
   }
   /// Stores an output that takes about `bytes`; one larger than the budget is not kept.
   void store(const ContentHash& key, std::shared_ptr<const void> value, std::size_t bytes);
-  /// Empties the cache at once. What it held goes with the list, whenever its holder can spare the time.
-  [[nodiscard]] std::vector<std::shared_ptr<const void>> takeAll();
+  void clear();
   std::size_t bytesUsed() const;
 
  private:
