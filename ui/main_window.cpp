@@ -75,6 +75,7 @@ MainWindow::MainWindow() : parts_(std::make_unique<Parts>()) {
   setCentralWidget(whole);
   parts_->finder = new CommandPalette(whole);
   parts_->journal = std::make_unique<RecipeJournal>(session_, journalFolder());
+  parts_->opening = std::make_unique<OpeningGuard>(session_);
   connectSession();
   connectActions();
   connectLayers();

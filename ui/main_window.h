@@ -82,6 +82,7 @@ class MainWindow : public QMainWindow {
   /// True when nothing unsaved is left that would be lost.
   bool maybeDiscard();
   void scanOpened();
+  void tellNotOpened(const QString& path);
   void checkRecent(std::function<void()> then);
   QString drawingName() const;
   void findAction();

@@ -14,6 +14,7 @@
 #include "core/pipeline/recipe/recipe_file.h"
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
+#include "ui/opening_guard.h"
 #include "ui/panels/controls/save_dialog.h"
 #include "ui/session/judged_view.h"
 #include "ui/session/opened_scan.h"
@@ -228,10 +229,27 @@ void MainWindow::openAtStart(const QString& sample) {
   }
   checkRecent([this, sample] {
     if (session_.hasScan() || session_.isBusy()) return;  // The user was faster.
-    for (const QString& path : recentFiles())
-      if (!parts_->goneFiles.contains(path)) return openPath(path);
+    for (const QString& path : recentFiles()) {
+      if (parts_->goneFiles.contains(path)) continue;
+      if (OpeningGuard::hasFailed(path)) return tellNotOpened(path);
+      parts_->opening->begin(path);
+      return openPath(path);
+    }
     if (!sample.isEmpty()) openPath(sample);
   });
+}
+
+void MainWindow::tellNotOpened(const QString& path) {
+  parts_->problemOrigin.reset();
+  parts_->dismissal = {};
+  parts_->remedy = [this, path] {
+    parts_->errors->hide();
+    openPath(path);
+  };
+  parts_->errors->show(
+      tr("Batten ended while it opened %1, so that it stays closed now.").arg(QFileInfo(path).fileName()),
+      tr("Open it all the same"));
+  refreshActions();
 }
 
 }  // namespace batten

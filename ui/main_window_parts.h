@@ -10,6 +10,7 @@
 #include "ui/error_strip.h"
 #include "ui/help_window.h"
 #include "ui/main_window.h"
+#include "ui/opening_guard.h"
 #include "ui/session/background_worker.h"
 #include "ui/session/recipe_journal.h"
 
@@ -71,6 +72,7 @@ struct MainWindow::Parts {
   std::optional<FailureOrigin> problemOrigin;   ///< Of the message shown.
   UnsavedQuestion unsavedQuestion;
   std::unique_ptr<RecipeJournal> journal;
+  std::unique_ptr<OpeningGuard> opening;
   std::optional<RecipeJournal::Left> leftWork;  ///< Offered, not yet answered.
   QString sample;                               ///< Opened when the offer at the start is discarded.
   QStringList goneFiles;                        ///< Recent files that were not there when last looked for.

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "app/cli/exit_codes.h"
+#include "core/base/regular_file.h"
+#include "core/base/shown_text.h"
 #include "core/exchange/curve_file.h"
 #include "core/fairing/curve_comparison.h"
 
@@ -65,7 +67,7 @@ int runCompare(const std::string& first, const std::string& second) {
     return x.at("similarity").get<double>() > y.at("similarity").get<double>();
   });
   const Json result{{"first", first}, {"second", second}, {"pairs", pairs}};
-  std::cout << result.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+  std::cout << withoutControls(result.dump(-1, ' ', false, Json::error_handler_t::replace)) << '\n';
   return endOutput();
 }
 

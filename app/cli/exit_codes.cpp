@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/exit_codes.h"
 
-#include <algorithm>
 #include <iostream>
+
+#include "core/base/shown_text.h"
 
 namespace batten::cli {
 namespace {
@@ -27,10 +28,8 @@ int codeOf(ErrorCode code) {
 }  // namespace
 
 int reportError(const Error& error) {
-  std::string line = error.message;
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  std::cerr << "batten-cli: " << line << std::endl;
+  // Names that messages hold may hold anything: the terminal gets one line of text.
+  std::cerr << "batten-cli: " << shownText(error.message) << std::endl;
   return codeOf(error.code);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <iostream>
 #include <new>
 
@@ -46,9 +47,10 @@ void addDrawing(CLI::App& app, TraceArguments& a, const char* scanHelp, const ch
               "Follow the middle of the ink near this place, px from the upper left; may be repeated");
   addRepeated(app, "--roi", a.regions, "X,Y,WIDTH,HEIGHT",
               "Trace only what lies in this rectangle, px from the upper left; may be repeated");
-  app.add_option("--threads", a.threads, "Use at most this many threads; 0 = all. Never changes the result")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+  app.add_option_function<std::string>(
+         "--threads", [&a](const std::string& text) { a.threads = text; },
+         "Use at most this many threads, 0 to 1024; 0 = all. Never changes the result")
+      ->type_name("N");
 }
 
 void addTrace(CLI::App& app, TraceArguments& a) {
@@ -74,8 +76,14 @@ void addTrace(CLI::App& app, TraceArguments& a) {
               "Sharp corner near this place, px from the upper left; with MM rounded by that size; may be repeated");
   addRepeated(*trace, "--segment-point", a.segmentPoints, "X,Y",
               "Typical curves meet near this place of a line, px from the upper left; may be repeated");
-  trace->add_option("--dpi", a.dpi, "Resolution of the scan, overrides what the file states")->type_name("N");
+  trace
+      ->add_option_function<std::string>(
+          "--dpi", [&a](const std::string& text) { a.dpi = text; },
+          "Resolution of the scan, 1 to 100000, overrides what the file states")
+      ->type_name("N");
   trace->add_option("--report", a.report, "Write figures of every stage and curve")->type_name("REPORT.json");
+  trace->add_flag("--report-targets", a.reportTargets,
+                  "Have the report say what each of the six targets would make of every curve, too; takes far longer");
   addRepeated(*trace, "--dump", a.dumps, "STAGE=FILE.png", dumpHelp());
   trace->add_option("--save-recipe", a.saveRecipe, "Write all settings used, for --recipe and the window")
       ->type_name("R.json");
@@ -108,7 +116,9 @@ int run(int argc, char** argv) {
       app.add_subcommand("compare", "How alike the curves of two files are, whatever their size and place");
   compare->footer(
       "Prints one line of JSON: similarity S and Pearson's r of the radii over the perimeter for every pair.");
-  compare->add_option("first", first, "Curves: JSON or SVG written by trace, DXF, IGES or STEP")->type_name("A")->required();
+  compare->add_option("first", first, "Curves: JSON or SVG written by trace, DXF, IGES or STEP")
+      ->type_name("A")
+      ->required();
   compare->add_option("second", second, "Curves to compare them with")->type_name("B")->required();
   try {
     app.parse(argc, argv);
@@ -127,6 +137,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file that grows beyond what is allowed is a failed write, with a message, and not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -7,6 +7,7 @@
 #include "app/cli/exit_codes.h"
 #include "app/cli/quiet_stderr.h"
 #include "app/cli/trace_plan.h"
+#include "core/base/shown_text.h"
 #include "core/image/scan_reader.h"
 #include "core/pipeline/run/merge_advice.h"
 
@@ -18,7 +19,9 @@ Result<MergeAdvice> adviceFor(const TraceArguments& arguments) {
   const auto recipe = recipeOf(arguments);
   if (!recipe) return fail(recipe.error());
   RunContext context;
-  context.threads = arguments.threads;
+  const auto threads = threadsOf(arguments);
+  if (!threads) return fail(threads.error());
+  context.threads = *threads;
   auto scan = [&] {
     const QuietStderr quiet;
     return readScan(arguments.scan, {}, context);
@@ -36,7 +39,7 @@ int runSuggest(const TraceArguments& arguments) {
   nlohmann::ordered_json json{{"scan", arguments.scan},           {"edges.merge", advice->widths},
                               {"strokes", advice->strokes},       {"lines", advice->lines},
                               {"overdrawn_share", advice->share}, {"reason", describe(*advice)}};
-  std::cout << json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+  std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';
   return endOutput();
 }
 

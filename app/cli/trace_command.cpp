@@ -9,12 +9,13 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/construct_notes.h"
+#include "app/cli/curve_notes.h"
 #include "app/cli/exit_codes.h"
 #include "app/cli/quiet_stderr.h"
 #include "app/cli/stage_dump.h"
 #include "app/cli/trace_plan.h"
 #include "core/base/conventions.h"
+#include "core/base/shown_text.h"
 #include "core/document/export_builder.h"
 #include "core/document/report.h"
 #include "core/exchange/export_file.h"
@@ -43,7 +44,7 @@ std::uint64_t peakMemoryBytes() {
 class Trace {
  public:
   Trace(const TraceArguments& arguments, TracePlan plan) : arguments_(arguments), plan_(std::move(plan)) {
-    context_.threads = arguments.threads;
+    context_.threads = plan_.threads;
   }
 
   Result<void> run() {
@@ -74,7 +75,7 @@ class Trace {
     json["files"] = files_;
     json["checks"] = checks_;
     json["notes"] = notes();
-    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   }
 
  private:
@@ -110,7 +111,7 @@ class Trace {
     if (arguments_.report.empty()) return {};
     ReportExtras extras;
     extras.readMilliseconds = readMilliseconds_;
-    if (out_.faired) {
+    if (out_.faired && arguments_.reportTargets) {
       const auto& curves = out_.faired->curves;
       extras.targets.resize(curves.size());
       extras.targetProblems.resize(curves.size());
@@ -170,6 +171,10 @@ class Trace {
     std::vector<std::string> list;
     if (isScaleAssumed(scan_, plan_.recipe))
       list.emplace_back("The scan states no resolution; 96 dpi was assumed. Set --dpi.");
+    if (const int pages = countPages(arguments_.scan); pages > 1) {
+      list.push_back("The file holds " + std::to_string(pages) +
+                     " pages; only the first was traced. Save the others as files of their own.");
+    }
     if (!out_.thresholds->note.empty() && !isBlank(scan_)) list.push_back(out_.thresholds->note);
     if (out_.filtered && out_.filtered->report.thinStrokesLost) {
       list.emplace_back("The clean-up took thin strokes away. Set filter.max_change to 8 or fewer filter.iterations.");
@@ -183,7 +188,7 @@ class Trace {
                      " was made; it is kept in the recipe.");
     }
     for (const Error& failure : out_.constructed->failures) list.push_back(failure.message);
-    for (std::string& note : constructNotes(out_.faired->curves)) list.push_back(std::move(note));
+    for (std::string& note : curveNotes(out_.faired->curves)) list.push_back(std::move(note));
     return list;
   }
 

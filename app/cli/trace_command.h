@@ -26,11 +26,12 @@ struct TraceArguments {
   std::vector<std::string> outlines;       ///< --outline X,Y
   std::vector<std::string> centrelines;    ///< --centreline X,Y
   std::vector<std::string> regions;        ///< --roi X,Y,WIDTH,HEIGHT
-  std::optional<double> dpi;               ///< --dpi
+  std::optional<std::string> dpi;          ///< --dpi
   std::string report;                      ///< --report
+  bool reportTargets = false;              ///< --report-targets
   std::vector<std::string> dumps;          ///< --dump STAGE=FILE.png
   std::string saveRecipe;                  ///< --save-recipe
-  int threads = 0;                         ///< --threads, 0 = all
+  std::optional<std::string> threads;      ///< --threads
 };
 
 /// Traces a scan and writes what was asked for; one line of JSON on stdout when done. Returns the exit code.

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 
 #include "app/cli/stage_dump.h"
 #include "core/base/number_text.h"
+#include "core/base/regular_file.h"
+#include "core/exchange/save_atomically.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/recipe/recipe_file.h"
 
@@ -27,12 +27,9 @@ std::string extensionOf(const fs::path& path) {
 
 Result<Recipe> readRecipe(const std::string& path) {
   if (path.empty()) return Recipe{};
-  std::error_code code;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || !fs::is_regular_file(path, code))
-    return wrong("The recipe " + path + " cannot be read. Check its name.");
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  return recipeFromJson(text);
+  const auto text = readWhole(path, kLargestRecipeBytes);
+  if (!text) return wrong("The recipe " + path + " cannot be read: it " + describe(text.error()) + ". Check its name.");
+  return recipeFromJson(*text);
 }
 
 Result<void> applySetting(const std::string& setting, Recipe& recipe) {
@@ -159,9 +156,11 @@ Result<TracePlan::Dump> dumpOf(const std::string& dump) {
   return TracePlan::Dump{stage, path};
 }
 
-/// Whether two names mean one file, be it by way of links or of folders named differently.
-bool isSameFile(const fs::path& a, const fs::path& b) {
+/// Whether two names mean one file, be it by way of links or of folders named differently. Of links that lead to no
+/// file yet what would be written counts.
+bool isSameFile(const fs::path& first, const fs::path& second) {
   std::error_code code;
+  const fs::path a = saveTarget(first).value_or(first), b = saveTarget(second).value_or(second);
   if (fs::equivalent(a, b, code)) return true;
   const auto plain = [](const fs::path& path) {
     std::error_code wrong;
@@ -220,7 +219,10 @@ Result<Recipe> recipeOf(const TraceArguments& arguments) {
   for (const std::string& region : arguments.regions) {
     if (auto set = applyRegion(region, *recipe); !set) return fail(set.error());
   }
-  if (arguments.dpi) recipe->dpi = arguments.dpi;
+  if (arguments.dpi) {
+    recipe->dpi = numberFromText(*arguments.dpi);
+    if (!recipe->dpi) return wrong("--dpi takes a number from 1 to 100000, not \"" + *arguments.dpi + "\".");
+  }
   if (arguments.scan.empty() && !recipe->page) {
     return wrong("No scan is named. Only a recipe that was drawn on an empty page needs none.");
   }
@@ -234,9 +236,22 @@ std::string presetNames() {
   return names;
 }
 
+Result<int> threadsOf(const TraceArguments& arguments) {
+  constexpr int kMostThreads = 1024;
+  if (!arguments.threads) return 0;
+  const auto threads = integerFromText(*arguments.threads);
+  if (threads && *threads >= 0 && *threads <= kMostThreads) return *threads;
+  return wrong("--threads takes a whole number from 0 to 1024, not \"" + *arguments.threads + "\".");
+}
+
 Result<TracePlan> planTrace(const TraceArguments& arguments) {
   TracePlan plan;
   if (auto planned = planExport(arguments, plan); !planned) return fail(planned.error());
+  const auto threads = threadsOf(arguments);
+  if (!threads) return fail(threads.error());
+  plan.threads = *threads;
+  if (arguments.reportTargets && arguments.report.empty())
+    return wrong("--report-targets needs a report to write to: add --report REPORT.json.");
   for (const std::string& dump : arguments.dumps) {
     auto parsed = dumpOf(dump);
     if (!parsed) return fail(parsed.error());

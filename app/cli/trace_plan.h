@@ -28,6 +28,7 @@ struct TracePlan {
   std::string curves;  ///< Numbers of the curves to write; empty: all.
   ExportedCurves which = ExportedCurves::Faired;
   std::vector<Dump> dumps;
+  int threads = 0;  ///< At most; 0 = all.
 };
 
 /// The recipe that the words ask for: recipe file first, then --set in the order given, then corners, regions and
@@ -36,6 +37,8 @@ Result<Recipe> recipeOf(const TraceArguments&);
 
 /// The words --preset takes, in one line.
 std::string presetNames();
+/// --threads. @return BadParameter with what to do.
+Result<int> threadsOf(const TraceArguments&);
 
 /// The recipe and what is to be written. @return BadParameter with what to do.
 Result<TracePlan> planTrace(const TraceArguments&);

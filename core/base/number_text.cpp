@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/number_text.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -15,6 +16,23 @@ std::string numberToText(double value) {
   const auto format = plain ? std::chars_format::fixed : std::chars_format::general;
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, format).ptr;
   return {buffer.data(), end};
+}
+
+std::string roundedText(double value, int decimals) {
+  if (!std::isfinite(value)) return std::isnan(value) ? "no number" : value > 0.0 ? "infinity" : "-infinity";
+  std::array<char, 400> buffer;  // the largest double has 309 digits
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, decimals).ptr;
+  std::string text(buffer.data(), end);
+  if (text.find('.') != std::string::npos) text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+std::string significantText(double value, int digits) {
+  if (value == 0.0 || !std::isfinite(value)) return roundedText(value, 0);
+  const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  return roundedText(value, std::max(0, digits - 1 - magnitude));
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -9,6 +9,11 @@ namespace batten {
 
 /// The shortest text that reads back to exactly the same number; C locale whatever the program's locale is.
 std::string numberToText(double value);
+/// A number for a message: rounded to so many digits behind the point, without zeros that end it; C locale. "7",
+/// "0.25".
+std::string roundedText(double value, int decimals);
+/// The same, rounded to so many digits that count: "0.00123", "9.36", "1200".
+std::string significantText(double value, int digits);
 /// A whole text as a finite number, C locale, blanks at the ends allowed; nullopt for anything else.
 std::optional<double> numberFromText(std::string_view text);
 /// Same for whole numbers.

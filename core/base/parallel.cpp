@@ -5,6 +5,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -37,7 +38,11 @@ void parallelFor(const RunContext& context, int count, int grain, const std::fun
   {
     std::vector<std::jthread> pool;
     pool.reserve(std::max(0, helpers));
-    for (int i = 0; i < helpers; ++i) pool.emplace_back(work);
+    try {
+      for (int i = 0; i < helpers; ++i) pool.emplace_back(work);
+    } catch (const std::system_error&) {
+      // The system gives no more threads: those there are do the work, this one at the least.
+    }
     work();
   }
   if (failure) std::rethrow_exception(failure);

@@ -3,14 +3,16 @@
 
 #include <string>
 
+#include "core/base/number_text.h"
+
 namespace batten {
 namespace {
 
 std::optional<Error> outside(const char* field, double value, double low, double high) {
   if (value >= low && value <= high) return std::nullopt;
   return Error{ErrorCode::BadParameter,
-               std::string(field) + " is " + std::to_string(value) + "; it must lie between " + std::to_string(low) +
-                   " and " + std::to_string(high) + ".",
+               std::string(field) + " is " + numberToText(value) + "; it must lie between " + numberToText(low) +
+                   " and " + numberToText(high) + ".",
                {}};
 }
 

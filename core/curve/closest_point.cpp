@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include "core/curve/span_polynomials.h"
+#include <optional>
+#include <utility>
 
 #include "core/base/statistics.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
+#include "core/curve/sample_tree.h"
+#include "core/curve/span_polynomials.h"
 
 namespace batten {
 
@@ -67,12 +69,18 @@ class StartTable {
       }
     }
     add(curve.end(), polynomials.at(curve.end())[0], true);
+    for (std::size_t i = 0; i < size(); ++i) {
+      const double before = i == 0 ? 0.0 : (places_[i].point - places_[i - 1].point).norm();
+      const double after = i + 1 == size() ? 0.0 : (places_[i + 1].point - places_[i].point).norm();
+      places_[i].reach = 1.5 * std::max(before, after);
+    }
+    tree_.emplace(std::move(places_));
   }
   std::size_t size() const { return u.size(); }
+  const SampleTree& tree() const { return *tree_; }
 
   SpanPolynomials polynomials;
   std::vector<double> u;
-  std::vector<Vec2> points;
   std::vector<char> isKnot;
 
  private:
@@ -82,7 +90,7 @@ class StartTable {
 
   void add(double at, const Vec2& point, bool knot) {
     u.push_back(at);
-    points.push_back(point);
+    places_.push_back({point, 0.0});
     isKnot.push_back(knot ? 1 : 0);
   }
   void addBetween(double low, const std::array<Vec2, 3>& a, double high, const std::array<Vec2, 3>& b, int depth) {
@@ -95,15 +103,16 @@ class StartTable {
     add(middle, m[0], false);
     addBetween(middle, m, high, b, depth - 1);
   }
+
+  std::vector<CurvePlace> places_;  ///< Until the tree takes them.
+  std::optional<SampleTree> tree_;
 };
 
 ClosestPoint closestWith(const StartTable& table, const Vec2& p) {
   const SpanPolynomials& curve = table.polynomials;
+  const std::vector<CurvePlace>& places = table.tree().places();
   const std::size_t n = table.size();
-  std::vector<double> distances(n);
-  for (std::size_t i = 0; i < n; ++i) distances[i] = (table.points[i] - p).norm();
-  const std::size_t nearest =
-      static_cast<std::size_t>(std::min_element(distances.begin(), distances.end()) - distances.begin());
+  const auto distanceOf = [&](std::size_t i) { return (places[i].point - p).norm(); };
   const auto refine = [&](std::size_t i) {
     const double low = table.u[i == 0 ? 0 : i - 1], here = table.u[i], high = table.u[std::min(i + 1, n - 1)];
     ClosestPoint found = descend(curve, p, here, low, high);
@@ -115,19 +124,21 @@ ClosestPoint closestWith(const StartTable& table, const Vec2& p) {
     }
     return found;
   };
+  const std::size_t nearest = table.tree().nearest(p);
   ClosestPoint best = refine(nearest);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (i == nearest) continue;
-    const double before = i == 0 ? 0.0 : (table.points[i] - table.points[i - 1]).norm();
-    const double after = i + 1 == n ? 0.0 : (table.points[i + 1] - table.points[i]).norm();
-    // Behind a corner another side begins, however the distance changes before it.
-    const bool lowest = table.isKnot[i] != 0 || ((i == 0 || distances[i] <= distances[i - 1]) &&
-                                                 (i + 1 == n || distances[i] <= distances[i + 1]));
-    // Within one sample step the distance changes by no more than the arc to the neighbour.
-    if (!lowest || distances[i] - 1.5 * std::max(before, after) > best.distance) continue;
-    const ClosestPoint other = refine(i);
-    if (other.distance < best.distance) best = other;
-  }
+  // Within one sample step the distance changes by no more than the arc to the neighbour.
+  table.tree().within(
+      p, [&] { return best.distance; },
+      [&](std::size_t i) {
+        if (i == nearest) return;
+        // Behind a corner another side begins, however the distance changes before it.
+        const double here = distanceOf(i);
+        const bool lowest = table.isKnot[i] != 0 ||
+                            ((i == 0 || here <= distanceOf(i - 1)) && (i + 1 == n || here <= distanceOf(i + 1)));
+        if (!lowest) return;
+        const ClosestPoint other = refine(i);
+        if (other.distance < best.distance) best = other;
+      });
   return best;
 }
 

@@ -3,18 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <cstdint>
 #include <iterator>
 
+#include "core/base/regular_file.h"
+#include "core/base/shown_text.h"
+#include "core/exchange/curve_json.h"
 #include "core/exchange/dxf_reader.h"
 #include "core/exchange/export_settings.h"
 #include "core/exchange/occt/iges.h"
 #include "core/exchange/occt/step_reader.h"
 #include "core/exchange/svg_reader.h"
-#include "core/exchange/curve_json.h"
 
 namespace batten {
 namespace {
+
+/// No drawing is near this; a file that is would take the memory of the machine.
+constexpr std::uint64_t kLargestCurveBytes = 64 << 20;
 
 constexpr double kPageMm = 0.1;  ///< [mm] A pixel of the page of a CAD file.
 constexpr double kMostMm = 1e5;  ///< [mm] Curves beyond that are damage.
@@ -54,19 +59,19 @@ Result<ExportDocument> contentOf(const std::string& bytes, ExportFormat format) 
 }  // namespace
 
 Result<ExportDocument> readCurveFile(const std::filesystem::path& path) {
-  std::error_code code;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || !std::filesystem::is_regular_file(path, code))
-    return fail(ErrorCode::BadParameter, "The curves " + path.string() + " cannot be read. Check the name.");
   const auto format = formatOf(path).value_or(ExportFormat::Json);
   if (format == ExportFormat::Pdf || format == ExportFormat::Csv || format == ExportFormat::Polynomials) {
-    return fail(ErrorCode::BadParameter, "Curves are not read from " + path.filename().string() +
+    return fail(ErrorCode::BadParameter, "Curves are not read from " + shownName(path.filename()) +
                                              ". Take a .json, .svg, .dxf, .igs or .step file.");
   }
-  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  auto document = contentOf(bytes, format);
+  const auto bytes = readWhole(path, kLargestCurveBytes);
+  if (!bytes) {
+    return fail(ErrorCode::BadParameter, "The curves " + shownName(path) + " cannot be read: the file " +
+                                             describe(bytes.error()) + ". Check the name.");
+  }
+  auto document = contentOf(*bytes, format);
   if (!document) {
-    return fail(document.error().code, path.string() + ": " + document.error().message, document.error().detail);
+    return fail(document.error().code, shownName(path) + ": " + document.error().message, document.error().detail);
   }
   return document;
 }

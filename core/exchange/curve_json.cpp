@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "core/base/json_text.h"
 #include "core/curve/knot_operations.h"
 #include "core/exchange/export_check.h"
 
@@ -121,9 +122,16 @@ Result<std::string> writeCurveJson(const ExportDocument& document) {
   return json.dump(1) + "\n";
 }
 
-Result<ExportDocument> readCurveJson(std::string_view text) {
+Result<ExportDocument> readCurveJson(std::string_view text, const RunContext& context) {
+  const auto json = parseJson(text, context);
+  if (!json && json.error().code == ErrorCode::Cancelled) return cancelled();
+  if (!json) {
+    auto error = damaged(json.error().message);
+    error.value().detail = json.error().detail;
+    return error;
+  }
   try {
-    return documentFromJson(Json::parse(text));
+    return documentFromJson(*json);
   } catch (const Json::exception& e) {
     auto error = damaged("it is not complete, or not what Batten writes");
     error.value().detail = e.what();

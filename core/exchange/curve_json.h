@@ -5,13 +5,15 @@
 #include <string_view>
 
 #include "core/base/result.h"
+#include "core/base/run_context.h"
 #include "core/exchange/export_model.h"
 
 namespace batten {
 
 /// Curve JSON, "batten-curves" version 1 (see README); numbers with 17 significant digits.
 Result<std::string> writeCurveJson(const ExportDocument&);
-/// Reads curve JSON back (the self-check after an export, and tests).
-Result<ExportDocument> readCurveJson(std::string_view text);
+/// Reads curve JSON back: for the self-check after an export, and to compare curves. Damage and attacks end early
+/// (json_text.h); a cancel is heard.
+Result<ExportDocument> readCurveJson(std::string_view text, const RunContext& context = {});
 
 }  // namespace batten

@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 
+#include "core/base/shown_text.h"
+
 namespace batten {
 
 std::string fixedNumber(double value, int decimals) {
@@ -24,7 +26,7 @@ std::string exactNumber(double value) {
 
 std::string xmlText(const std::string& text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : shownText(text)) {
     switch (c) {
       case '&':
         result += "&amp;";
@@ -39,7 +41,7 @@ std::string xmlText(const std::string& text) {
         result += "&quot;";
         break;
       default:
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        result += c;
     }
   }
   return result;

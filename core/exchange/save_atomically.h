@@ -2,14 +2,21 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "core/base/result.h"
 
 namespace batten {
 
-/// Writes all bytes or nothing: to a temporary file beside the target, then renames. CannotWrite says why and what to
-/// do.
+/// Writes all bytes or nothing: to a file beside the target, which takes its name once the disk has it. The name is the
+/// path's bytes, whatever they spell. A link is followed, the file that it leads to is replaced and keeps its
+/// permissions. What a program left in that folder that was ended while it saved is removed.
+/// @return CannotWrite says why and what to do.
 Result<void> saveAtomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// The path that saveAtomically would write: `path`, with links that end it followed, be there a file or not. Nothing
+/// if they lead in a circle.
+std::optional<std::filesystem::path> saveTarget(const std::filesystem::path& path);
 
 }  // namespace batten

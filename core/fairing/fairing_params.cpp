@@ -3,13 +3,15 @@
 
 #include <string>
 
+#include "core/base/number_text.h"
+
 namespace batten {
 
 std::optional<Error> validate(const FairingParams& params) {
   if (!(params.toleranceMm >= 0.001 && params.toleranceMm <= 20.0)) {
     return Error{
         ErrorCode::BadParameter,
-        "The fairing tolerance must lie between 0.001 and 20 mm, not at " + std::to_string(params.toleranceMm) + ".",
+        "The fairing tolerance must lie between 0.001 and 20 mm, not at " + numberToText(params.toleranceMm) + ".",
         {}};
   }
   if (params.target < 0 || params.target > kDrawnTarget) {
@@ -21,7 +23,7 @@ std::optional<Error> validate(const FairingParams& params) {
   if (!(params.lowPassMm >= 0.1 && params.lowPassMm <= 10000.0)) {
     return Error{ErrorCode::BadParameter,
                  "The wavelength of the low-pass must lie between 0.1 and 10000 mm, not at " +
-                     std::to_string(params.lowPassMm) + ".",
+                     numberToText(params.lowPassMm) + ".",
                  {}};
   }
   if (params.keepExtrema < kKeepSignificant || params.keepExtrema > 99) {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
+#include "core/base/number_text.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/fairing_setup.h"
 #include "core/fairing/fairing_state.h"
@@ -20,11 +20,7 @@ constexpr double kBoundShare = 0.985, kKeptShare = 0.999;
 /// A nearest curve (in the mean) that lies farther off than so many tolerances is not tried with the bound.
 constexpr double kWorthBounding = 6.0;
 
-std::string millimetres(double mm) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", mm);
-  return std::string(text) + " mm";
-}
+std::string millimetres(double mm) { return significantText(mm, 3) + " mm"; }
 
 std::string extremaText(int count) {
   if (count == 0) return "monotone curvature";

@@ -31,7 +31,8 @@ constexpr double kLeastContrastPerNoise = 4.0;
 constexpr double kLeastContrast = 1.5;  // [grey]
 constexpr double kDustShare = 0.25;     // of the page's contrast: regions of dust alone do not get below
 constexpr double kCertainShare = 1.25;
-constexpr double kNever = -1000.0;  // [grey] darker than anything
+constexpr double kLeastPaperShare = 0.1;  // of the cells; a drawing leaves far more, dense hatching all over none
+constexpr double kNever = -1000.0;        // [grey] darker than anything
 constexpr std::size_t kNoiseSamples = 20000;
 constexpr int kDepthsPerBlock = 1024;
 
@@ -137,8 +138,9 @@ void fillContrast(const Plane& grey, const PageEdges& edges, const Depths& depth
   }
 }
 
-void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, double strength, RegionThresholds& out,
-                         const RunContext& context) {
+/// @return the share of the page where paper shows between the lines, 0..1.
+double flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, double strength,
+                           RegionThresholds& out, const RunContext& context) {
   const int cellPx = kCellPx * std::max(1, shrink / 2);
   PaperEstimate estimate = estimatePaper(grey, edges, shrink, cellPx, context);
   Depths depths;
@@ -159,6 +161,21 @@ void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, 
                                                       : "Nothing stands out of the paper.";
     out.contrast.fill(kNever);
   }
+  const auto cells = static_cast<double>(std::max<std::size_t>(1, estimate.isPaper.size()));
+  return static_cast<double>(std::count(estimate.isPaper.begin(), estimate.isPaper.end(), 1)) / cells;
+}
+
+/// Where lines stand so close that hardly a cell of paper shows between them, the paper cannot be measured from it:
+/// then the two greys of every region tell ink from paper, if they are clearly two, as without flattening. Noise alone
+/// has one.
+void thresholdsWithoutPaper(const Plane& smoothed, double strength, RegionThresholds& out, const RunContext& context) {
+  RegionThresholds split;
+  split.smoothingPx = kSmoothings.front();
+  otsuThresholds(smoothed, strength, split, context);
+  if (!split.foundLine) return;
+  split.note =
+      "The lines stand too close for the paper between them to be measured; each region is split by its two greys.";
+  out = std::move(split);
 }
 
 Plane statisticsPlane(const Plane& grey, int shrink, const RunContext& context) {
@@ -255,7 +272,9 @@ Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParam
       if (paper.folds) folds = findFolds(image, smoothed, edges, shrink, context);
       if (context.isCancelled()) return cancelled();
       if (folds.empty()) {
-        flattenedThresholds(grey, edges, shrink, params.strength, out, context);
+        const double paperShare = flattenedThresholds(grey, edges, shrink, params.strength, out, context);
+        if (!out.foundLine && paperShare < kLeastPaperShare)
+          thresholdsWithoutPaper(smoothed, params.strength, out, context);
       } else {
         thresholdsBesideFolds(image, std::move(folds), shrink, params.strength, out, context);
       }

@@ -17,7 +17,9 @@ struct ScanHeader {
   bool supported = true;            ///< False: a kind of picture that cannot be read (floating point, 32 bit).
   std::uint64_t orientationAt = 0;  ///< TIFF: where the orientation is written; 0 = nowhere.
   bool bigEndian = true;
+  std::uint64_t tilePixels = 0;  ///< [px] TIFF: of one tile, which may be larger than the picture; 0 = no tiles.
   SampleMeaning meaning;
+  int pages = 1;  ///< TIFF: pictures in the file, thumbnails not counted; the first is read.
 };
 
 /// Reads the header of whichever format the bytes are; empty when they are none of those that can be read.

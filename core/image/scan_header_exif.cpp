@@ -2,6 +2,7 @@
 #include "core/image/scan_header_exif.h"
 
 #include <algorithm>
+#include <set>
 
 #include "core/base/conventions.h"
 #include "core/image/scan_header.h"
@@ -58,6 +59,27 @@ bool blocksInside(const ByteReader& tiff, const Tag& offsets, const Tag& sizes) 
     if (!tiff.has(valueOf(tiff, offsets, i), valueOf(tiff, sizes, i))) return false;
   }
   return true;
+}
+
+/// Directories of a file, those of thumbnails and masks not counted. A chain that leads back into itself ends there.
+int tiffPages(const ByteReader& tiff) {
+  constexpr std::size_t kMostPages = 10000;
+  constexpr std::uint64_t kIsReduced = 1, kIsMask = 4;  // bits of NewSubfileType
+  std::set<std::uint64_t> seen;
+  int pages = 0;
+  for (std::uint64_t directory = tiff.u32(4); directory >= 8 && tiff.has(directory, 2) && seen.size() < kMostPages;) {
+    if (!seen.insert(directory).second) break;
+    const std::uint64_t entries = tiff.u16(directory);
+    if (!tiff.has(directory, 2 + entries * 12)) break;
+    std::uint64_t kind = 0;
+    for (std::uint64_t i = 0; i < entries; ++i) {
+      const std::uint64_t entry = directory + 2 + i * 12;
+      if (tiff.u16(entry) == 254) kind = valueOf(tiff, readTag(tiff, entry));
+    }
+    if ((kind & (kIsReduced | kIsMask)) == 0) ++pages;
+    directory = tiff.u32(directory + 2 + entries * 12);
+  }
+  return std::max(1, pages);
 }
 
 bool isFrame(std::uint32_t marker) {
@@ -134,6 +156,7 @@ ScanHeader readTiffHeader(const ByteReader& file) {
   header.info.bitsPerChannel = 1;
   header.meaning.isTiff = true;
   Tag offsets, sizes;
+  std::uint64_t tileWidth = 0, tileHeight = 0;
   bool hasAlpha = false;
   header.complete = directory >= 8 && tiff.has(directory, 2 + entries * 12);
   for (std::uint64_t i = 0; i < entries && header.complete; ++i) {
@@ -157,6 +180,12 @@ ScanHeader readTiffHeader(const ByteReader& file) {
       case 277:
         header.info.channels = std::max(header.info.channels, value);
         break;
+      case 322:
+        tileWidth = valueOf(tiff, tag);
+        break;
+      case 323:
+        tileHeight = valueOf(tiff, tag);
+        break;
       case 273:
       case 324:
         offsets = tag;
@@ -176,6 +205,8 @@ ScanHeader readTiffHeader(const ByteReader& file) {
         break;
     }
   }
+  header.tilePixels = tileWidth * tileHeight;  // 32 bit each
+  header.pages = tiffPages(tiff);
   readTiffTags(tiff, header);
   if (hasAlpha && header.info.channels == 2) header.supported = false;  // the decoder would drop the alpha
   header.complete = header.complete && blocksInside(tiff, offsets, sizes);

@@ -2,15 +2,16 @@
 #include "core/image/scan_reader.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <new>
 #include <opencv2/core.hpp>
 #include <string>
-#include <system_error>
 #include <vector>
 
+#include "core/base/number_text.h"
+#include "core/base/regular_file.h"
+#include "core/base/shown_text.h"
 #include "core/image/scan_grey.h"
 #include "core/image/scan_header.h"
 
@@ -20,37 +21,46 @@ namespace {
 constexpr std::uint64_t kLargestFile = std::numeric_limits<int>::max();  // the decoder counts bytes by int
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 30;            // the decoder's own limit
 constexpr double kShareOfFreeMemory = 0.8;                               // the later stages need some too
+/// [px] Tiles may be larger than the picture, as pictures of any size are cut into the same tiles; a bigger one of a
+/// small picture is damage, or is meant to take memory.
+constexpr std::uint64_t kMostTilePixels = std::uint64_t{1} << 22;
+constexpr std::uint64_t kMostTilesWorth = 4;
 constexpr std::uint64_t kProbeBytes = 1 << 20;  // headers lie within; EXIF blocks take up to 64 kB
 
 tl::unexpected<Error> unreadable(const std::filesystem::path& path, const std::string& what, std::string detail = {}) {
   std::string message(1, '"');
-  for (const char c : path.string()) message.push_back(c == '\n' || c == '\r' ? '?' : c);  // stays one line
-  message.append("\" ").append(what);
+  message.append(shownName(path)).append("\" ").append(what);
   return fail(ErrorCode::UnreadableScan, std::move(message), std::move(detail));
 }
 
-/// Size of the file, or why it cannot be one.
-Result<std::uint64_t> fileSize(const std::filesystem::path& path) {
-  std::error_code code;
-  const auto status = std::filesystem::status(path, code);
-  if (status.type() == std::filesystem::file_type::not_found) {
-    return unreadable(path, "does not exist; check the path.");
+tl::unexpected<Error> unreadable(const std::filesystem::path& path, FileProblem problem) {
+  switch (problem) {
+    case FileProblem::Missing:
+      return unreadable(path, "does not exist; check the path.");
+    case FileProblem::Folder:
+      return unreadable(path, "is a directory; choose an image file in it.");
+    case FileProblem::NotOrdinary:
+      return unreadable(path, "is not a file; choose an image file.");
+    case FileProblem::NotAllowed:
+      return unreadable(path, "cannot be opened; check its permissions.");
+    case FileProblem::TooLarge:
+    case FileProblem::Broken:
+      break;
   }
-  if (std::filesystem::is_directory(status)) return unreadable(path, "is a directory; choose an image file in it.");
-  if (!std::filesystem::is_regular_file(status)) return unreadable(path, "is not a file; choose an image file.");
-  const std::uintmax_t size = std::filesystem::file_size(path, code);
-  if (code) return unreadable(path, "cannot be read; check its permissions.", code.message());
-  if (size == 0) return unreadable(path, "is empty (0 bytes); scan or copy it again.");
-  return size;
+  return unreadable(path, "could not be read to its end; copy it again.");
 }
 
-Result<std::vector<std::byte>> readBytes(const std::filesystem::path& path, std::uint64_t count) {
+Result<RegularFile> opened(const std::filesystem::path& path) {
+  auto file = RegularFile::open(path);
+  if (!file) return unreadable(path, file.error());
+  if (file->size() == 0) return unreadable(path, "is empty (0 bytes); scan or copy it again.");
+  return std::move(*file);
+}
+
+Result<std::vector<std::byte>> readBytes(const std::filesystem::path& path, const RegularFile& file,
+                                         std::uint64_t count) {
   std::vector<std::byte> bytes(count);
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return unreadable(path, "cannot be opened; check its permissions.");
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
-  if (static_cast<std::uint64_t>(in.gcount()) != count)
-    return unreadable(path, "could not be read to its end; copy it again.");
+  if (const auto read = file.read(bytes); !read) return unreadable(path, read.error());
   return bytes;
 }
 
@@ -64,12 +74,13 @@ Result<ScanHeader> headerOf(const std::filesystem::path& path, const std::vector
 }
 
 /// TIFF directories may lie at the end of the file; then the whole is read.
-Result<ScanHeader> probe(const std::filesystem::path& path, std::uint64_t size) {
-  auto bytes = readBytes(path, std::min(size, kProbeBytes));
+Result<ScanHeader> probe(const std::filesystem::path& path, const RegularFile& file) {
+  const std::uint64_t size = file.size();
+  auto bytes = readBytes(path, file, std::min(size, kProbeBytes));
   if (!bytes) return fail(bytes.error());
   auto header = headerOf(path, *bytes);
   if (header && size > kProbeBytes && (header->info.width <= 0 || header->info.height <= 0)) {
-    bytes = readBytes(path, size);
+    bytes = readBytes(path, file, size);
     if (!bytes) return fail(bytes.error());
     header = headerOf(path, *bytes);
   }
@@ -90,6 +101,11 @@ std::optional<std::uint64_t> freeMemory() {
   return std::nullopt;
 }
 
+/// The decoder holds one tile at a time, of four channels.
+std::uint64_t tileBytes(const ScanHeader& header) {
+  return header.tilePixels * (header.info.bitsPerChannel > 8 ? 8 : 4);
+}
+
 /// What reading takes at its peak: the file, the decoded picture, its grey, and a turned copy.
 std::uint64_t memoryNeeded(const ScanHeader& header, std::uint64_t fileBytes) {
   const std::uint64_t pixels =
@@ -99,14 +115,10 @@ std::uint64_t memoryNeeded(const ScanHeader& header, std::uint64_t fileBytes) {
   const std::uint64_t sample = header.info.bitsPerChannel > 8 ? 2 : 1;
   const std::uint64_t decoded = pixels * channels * sample + (header.progressive ? pixels * channels * 2 : 0);
   const std::uint64_t grey = pixels * 2;
-  return fileBytes + grey + std::max(decoded, header.info.exifOrientation > 1 ? grey : 0);
+  return fileBytes + grey + std::max(decoded + tileBytes(header), header.info.exifOrientation > 1 ? grey : 0);
 }
 
-std::string gigabytes(std::uint64_t bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f GB", static_cast<double>(bytes) / 1e9);
-  return text;
-}
+std::string gigabytes(std::uint64_t bytes) { return roundedText(static_cast<double>(bytes) / 1e9, 2) + " GB"; }
 
 std::optional<Error> checkSize(const std::filesystem::path& path, const ScanHeader& header, std::uint64_t fileBytes,
                                const ScanLimits& limits) {
@@ -125,6 +137,11 @@ std::optional<Error> checkSize(const std::filesystem::path& path, const ScanHead
   }
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(header.info.width) * static_cast<std::uint64_t>(header.info.height);
+  if (header.tilePixels > std::max(kMostTilePixels, kMostTilesWorth * pixels)) {
+    return unreadable(path,
+                      "is damaged: it states tiles far larger than its picture. Scan it again or export it as PNG.")
+        .value();
+  }
   if (pixels > kMostPixels || fileBytes > kLargestFile) {
     return unreadable(path, "is too large: " + size + " (" + gigabytes(fileBytes) +
                                 " file) is more than can be read. Scan at a lower resolution or crop.")
@@ -141,8 +158,8 @@ void clearTiffOrientation(std::vector<std::byte>& bytes, const ScanHeader& heade
   bytes[at + 1] = std::byte{static_cast<unsigned char>(header.bigEndian ? 1 : 0)};
 }
 
-Result<Scan> readChecked(const std::filesystem::path& path, std::uint64_t size, const RunContext& context) {
-  auto bytes = readBytes(path, size);
+Result<Scan> readChecked(const std::filesystem::path& path, const RegularFile& file, const RunContext& context) {
+  auto bytes = readBytes(path, file, file.size());
   if (!bytes) return fail(bytes.error());
   const auto header = headerOf(path, *bytes);
   if (!header) return fail(header.error());
@@ -174,9 +191,9 @@ Result<Scan> readChecked(const std::filesystem::path& path, std::uint64_t size, 
 
 Result<ScanInfo> probeScan(const std::filesystem::path& path) {
   try {
-    const auto size = fileSize(path);
-    if (!size) return fail(size.error());
-    auto header = probe(path, *size);
+    const auto file = opened(path);
+    if (!file) return fail(file.error());
+    auto header = probe(path, *file);
     if (!header) return fail(header.error());
     return header->info;
   } catch (const std::bad_alloc&) {
@@ -186,14 +203,31 @@ Result<ScanInfo> probeScan(const std::filesystem::path& path) {
   }
 }
 
+int countPages(const std::filesystem::path& path) {
+  try {
+    const auto file = opened(path);
+    if (!file) return 1;
+    auto header = probe(path, *file);
+    if (!header || header->info.format != "TIFF" || file->size() > kLargestFile) return 1;
+    // Directories may lie anywhere in the file.
+    const auto bytes = readBytes(path, *file, file->size());
+    if (bytes) header = headerOf(path, *bytes);
+    return header ? header->pages : 1;
+  } catch (const std::bad_alloc&) {
+    return 1;
+  } catch (const std::filesystem::filesystem_error&) {
+    return 1;
+  }
+}
+
 Result<Scan> readScan(const std::filesystem::path& path, const ScanLimits& limits, const RunContext& context) {
   try {
-    const auto size = fileSize(path);
-    if (!size) return fail(size.error());
-    const auto header = probe(path, *size);
+    const auto file = opened(path);
+    if (!file) return fail(file.error());
+    const auto header = probe(path, *file);
     if (!header) return fail(header.error());
-    if (const auto error = checkSize(path, *header, *size, limits)) return fail(*error);
-    return readChecked(path, *size, context);
+    if (const auto error = checkSize(path, *header, file->size(), limits)) return fail(*error);
+    return readChecked(path, *file, context);
   } catch (const std::bad_alloc&) {
     return unreadable(path, "needs more memory than there is. Scan at a lower resolution or crop.");
   } catch (const cv::Exception& exception) {

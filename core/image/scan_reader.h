@@ -16,6 +16,10 @@ namespace batten {
 /// these.
 Result<ScanInfo> probeScan(const std::filesystem::path& path);
 
+/// How many pictures the file holds, thumbnails not counted: a TIFF may be a stack of pages, of which readScan reads
+/// the first. 1 where that cannot be known.
+int countPages(const std::filesystem::path& path);
+
 struct ScanLimits {
   /// [bytes] Memory that reading may take; absent means what the machine has free.
   std::optional<std::uint64_t> memoryBytes;

@@ -20,8 +20,8 @@ struct OpenedScan {
 /// Where a recipe is saved by itself and looked for: "drawing.recipe.json" beside "drawing.png".
 std::filesystem::path recipeBeside(const std::filesystem::path& scan);
 
-/// Reads a recipe; a file far larger than any recipe is refused unread.
-Result<Recipe> readRecipeFile(const std::filesystem::path& path);
+/// Reads a recipe. What is no ordinary file, or far larger than any recipe, is refused unread.
+Result<Recipe> readRecipeFile(const std::filesystem::path& path, const RunContext& context = {});
 
 /// Reads both. A damaged recipe does not keep the scan from opening.
 Result<OpenedScan> openWithRecipe(const std::filesystem::path& scan, const RunContext&);

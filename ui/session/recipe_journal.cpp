@@ -4,41 +4,35 @@
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
-#include <QJsonDocument>
-#include <QJsonObject>
 #include <QUuid>
 #include <filesystem>
 #include <string>
+#include <utility>
 
+#include "core/base/regular_file.h"
+#include "core/document/unsaved_work.h"
 #include "core/exchange/save_atomically.h"
-#include "core/pipeline/recipe/recipe_file.h"
 
 namespace batten {
 namespace {
 
-constexpr qint64 kLargestBytes = 64 << 20;
+constexpr std::uint64_t kLargestBytes = std::uint64_t{64} << 20;
 
-std::unique_ptr<QLockFile> lockOf(const QString& file) {
-  auto lock = std::make_unique<QLockFile>(file + QStringLiteral(".lock"));
-  lock->setStaleLockTime(0);  // However long it runs: only a program that has gone gives its file up.
-  return lock;
-}
+std::filesystem::path nativePath(const QString& path) { return {path.toStdU16String()}; }
 
 std::optional<RecipeJournal::Left> readJournal(const QString& path) {
-  QFile file(path);
-  if (file.size() > kLargestBytes || !file.open(QIODevice::ReadOnly)) return std::nullopt;
-  const QJsonObject object = QJsonDocument::fromJson(file.readAll()).object();
-  auto recipe = recipeFromJson(object[QStringLiteral("recipe")].toString().toStdString());
-  const QString scan = object[QStringLiteral("scan")].toString();
-  if (!recipe || (scan.isEmpty() && !recipe->page)) return std::nullopt;
-  return RecipeJournal::Left{path, scan, QFileInfo(path).lastModified(), std::move(*recipe)};
+  const auto text = readWhole(nativePath(path), kLargestBytes);
+  if (!text) return std::nullopt;
+  auto work = unsavedWorkFromJson(*text);
+  if (!work) return std::nullopt;
+  return RecipeJournal::Left{path, QString::fromStdString(work->scanPath), QFileInfo(path).lastModified(),
+                             std::move(work->recipe)};
 }
 
 }  // namespace
 
 RecipeJournal::RecipeJournal(EditorSession& session, const QString& folder)
-    : session_(session), folder_(folder), worker_(std::make_unique<BackgroundWorker>()) {
-  file_ = QDir(folder).filePath(QUuid::createUuid().toString(QUuid::WithoutBraces) + QStringLiteral(".journal"));
+    : session_(session), folder_(folder), file_(newFile()), worker_(std::make_unique<BackgroundWorker>()) {
   timer_.setInterval(kIntervalMs);
   connect(&timer_, &QTimer::timeout, this, &RecipeJournal::write);
   connect(session.undoStack(), &QUndoStack::cleanChanged, this, [this](bool clean) { clean ? forget() : write(); });
@@ -47,32 +41,46 @@ RecipeJournal::RecipeJournal(EditorSession& session, const QString& folder)
 
 RecipeJournal::~RecipeJournal() {
   worker_.reset();  // What it still writes comes first.
-  QFile::remove(file_);
+  if (lock_ && lock_->hold()) QFile::remove(file_);
+}
+
+QString RecipeJournal::newFile() const {
+  return QDir(folder_).filePath(QUuid::createUuid().toString(QUuid::WithoutBraces) + QStringLiteral(".journal"));
 }
 
 void RecipeJournal::write() {
-  if (!session_.hasUnsavedChanges() || (written_ && *written_ == session_.recipe())) return;
-  written_ = session_.recipe();
-  if (!lock_) {
+  const bool isHeld = lock_ && lock_->hold();
+  if (!session_.hasUnsavedChanges()) return;
+  if (isHeld && written_ && *written_ == session_.recipe() && QFile::exists(file_)) return;
+  if (!isHeld) {
+    // The file may be somebody else's by now, or is not there yet.
     QDir().mkpath(folder_);
-    lock_ = lockOf(file_);
-    lock_->tryLock(0);
+    if (lock_) file_ = newFile();
+    lock_ = std::make_unique<JournalLock>(nativePath(file_));
+    written_.reset();
+    ++generation_;
+    if (!lock_->hold()) return;  // A folder that takes no lock takes no journal: the next tick tries again.
   }
   worker_->start(
-      [recipe = *written_, scan = session_.scanPath(), file = file_](const CancelToken&) {
-        QJsonObject object;
-        object[QStringLiteral("scan")] = scan;
-        object[QStringLiteral("recipe")] = QString::fromStdString(recipeToJson(recipe));
-        const QByteArray bytes = QJsonDocument(object).toJson(QJsonDocument::Compact);
-        // Should it fail there is nothing to tell: the drawing is where it was.
-        (void)saveAtomically(std::filesystem::path(file.toStdU16String()),
-                             std::string_view(bytes.constData(), static_cast<std::size_t>(bytes.size())));
+      [this, generation = generation_, recipe = session_.recipe(), scan = session_.scanPath(),
+       file = file_](const CancelToken&) {
+        const std::string bytes = unsavedWorkToJson({scan.toStdString(), recipe});
+        // Should it fail there is nothing to tell: the drawing is where it was, and the next tick tries again.
+        if (!saveAtomically(nativePath(file), bytes)) return;
+        QMetaObject::invokeMethod(
+            this, [this, generation, recipe] { written(generation, recipe); }, Qt::QueuedConnection);
       },
       BackgroundWorker::Running::Finish);
 }
 
+void RecipeJournal::written(int generation, const Recipe& recipe) {
+  if (generation == generation_) written_ = recipe;
+}
+
 void RecipeJournal::forget() {
   written_.reset();
+  ++generation_;
+  if (!lock_ || !lock_->hold()) return;  // Nothing was written, or it is no longer this session's.
   worker_->start([file = file_](const CancelToken&) { QFile::remove(file); }, BackgroundWorker::Running::Finish);
 }
 
@@ -82,8 +90,8 @@ std::optional<RecipeJournal::Left> RecipeJournal::left() {
   for (const QFileInfo& info : files) {
     const QString path = info.absoluteFilePath();
     if (path == QFileInfo(file_).absoluteFilePath()) continue;
-    auto lock = lockOf(path);
-    if (!lock->tryLock(0)) continue;
+    auto lock = std::make_unique<JournalLock>(nativePath(path));
+    if (!lock->hold()) continue;
     if (auto left = readJournal(path)) {
       leftLock_ = std::move(lock);
       return left;
@@ -93,14 +101,16 @@ std::optional<RecipeJournal::Left> RecipeJournal::left() {
 }
 
 void RecipeJournal::takeOver(const Left& left) {
+  if (!leftLock_ || !leftLock_->hold()) return;  // Another window was faster: this one keeps a file of its own.
   if (file_ != left.file) forget();
   file_ = left.file;
   lock_ = std::move(leftLock_);
   written_.reset();
+  ++generation_;
 }
 
 void RecipeJournal::discard(const Left& left) {
-  QFile::remove(left.file);
+  if (leftLock_ && leftLock_->hold()) QFile::remove(left.file);
   leftLock_.reset();
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <QDateTime>
-#include <QLockFile>
 #include <QObject>
 #include <QString>
 #include <QTimer>
@@ -11,12 +10,14 @@
 
 #include "ui/session/background_worker.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/journal_lock.h"
 
 namespace batten {
 
 /// Keeps unsaved work on disk, so that a crash loses at most half a minute of it. A file of its own while the session
 /// has unsaved changes, written in the background, gone once they are saved, discarded or the program ends as it
-/// should. What a program left that did not end so is offered by left(). Belongs to the GUI thread.
+/// should. A write that fails is tried again at the next tick. What a program left that did not end so is offered by
+/// left(); a lock, renewed at every tick, keeps live work from being taken for that. Belongs to the GUI thread.
 class RecipeJournal : public QObject {
   Q_OBJECT
  public:
@@ -43,13 +44,16 @@ class RecipeJournal : public QObject {
 
  private:
   void write();
+  void written(int generation, const Recipe& recipe);
   void forget();
+  QString newFile() const;
 
   EditorSession& session_;
   QString folder_, file_;
-  std::unique_ptr<QLockFile> lock_, leftLock_;
+  std::unique_ptr<JournalLock> lock_, leftLock_;
   QTimer timer_;
-  std::optional<Recipe> written_;
+  std::optional<Recipe> written_;  ///< What is on disk, as far as known.
+  int generation_ = 0;             ///< Of the file: what an older write reports is of no use any more.
   std::unique_ptr<BackgroundWorker> worker_;
 };
 

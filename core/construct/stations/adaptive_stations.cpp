@@ -2,13 +2,12 @@
 #include "core/construct/stations/adaptive_stations.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <span>
 
+#include "core/base/number_text.h"
 #include "core/base/statistics.h"
 #include "core/contour/segment/station_meter.h"
 #include "core/polyline/polyline_tools.h"
@@ -281,12 +280,9 @@ StationSet adaptiveStations(const ConstructPiece& piece, StationSet start, doubl
 
 std::string maxDeviationNote(const StationSet& set) {
   if (!(set.missedPx > 0.0)) return {};
-  std::array<char, 32> distance{};
-  std::snprintf(distance.data(), distance.size(), "%.1f", set.missedPx);
-  return std::string("The curve leaves the line by about ") + distance.data() +
+  return "The curve leaves the line by about " + roundedText(set.missedPx, 1) +
          " px, farther than \"Maximum deviation\" asks. Where it turns sharply, mark a corner; else use the true and "
-         "fair "
-         "fit.";
+         "fair fit.";
 }
 
 }  // namespace batten

@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/base/json_text.h"
 #include "core/base/number_text.h"
 #include "core/pipeline/recipe/parameter_table.h"
 
@@ -379,12 +380,18 @@ std::string recipeToJson(const Recipe& recipe) {
   return json.dump(1) + "\n";
 }
 
-Result<Recipe> recipeFromJson(std::string_view text) {
+Result<Recipe> recipeFromJson(std::string_view text, const RunContext& context) {
+  const auto json = parseJson(text, context);
+  if (!json && json.error().code == ErrorCode::Cancelled) return cancelled();
+  if (!json) {
+    return refuse("The recipe is damaged: " + json.error().message + ". Save it again, or start from the defaults.",
+                  json.error().detail);
+  }
   try {
-    const Json json = Json::parse(text);
-    if (auto head = checkHead(json); !head) return fail(head.error());
+    if (auto head = checkHead(*json); !head) return fail(head.error());
     Recipe recipe;
-    for (const auto& [name, value] : json.items()) {
+    for (const auto& [name, value] : json->items()) {
+      if (context.isCancelled()) return cancelled();
       if (auto read = readEntry(name, value, recipe); !read) return fail(read.error());
     }
     if (auto wrong = validate(recipe)) return refuse("The recipe cannot be used. " + wrong->message, wrong->detail);

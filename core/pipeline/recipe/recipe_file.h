@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "core/base/result.h"
+#include "core/base/run_context.h"
 #include "core/pipeline/recipe/recipe.h"
 
 namespace batten {
@@ -16,7 +18,10 @@ namespace batten {
 /// parameters are written, defaults too, so that a recipe keeps its meaning when a default changes.
 std::string recipeToJson(const Recipe&);
 /// Reads it back exactly. Missing parameters take their default; unknown ones, a wrong format or a newer version are
-/// refused with a message that names them.
-Result<Recipe> recipeFromJson(std::string_view json);
+/// refused with a message that names them. Damage and attacks end early (json_text.h); a cancel is heard.
+Result<Recipe> recipeFromJson(std::string_view json, const RunContext& context = {});
+
+/// [bytes] Recipes hold some kilobytes, pen drawings some megabytes; what is larger is something else.
+inline constexpr std::uint64_t kLargestRecipeBytes = std::uint64_t{64} << 20;
 
 }  // namespace batten

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <fstream>
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <vector>
 
 #include "core/base/content_hash.h"
 #include "core/base/page_frame.h"
@@ -53,6 +58,32 @@ TEST(ParallelFor, CoversEveryIndexOnceWhateverTheThreads) {
     });
     EXPECT_EQ(std::set<int>(visits.begin(), visits.end()), std::set<int>{1});
   }
+}
+
+TEST(ParallelFor, DoesWithoutThreadsThatCannotBeStarted) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these take address space as they please
+  // In a process of its own, which may take no more than a few stacks beyond what it has.
+  const pid_t child = fork();
+  if (child == 0) {
+    std::ifstream statm("/proc/self/statm");
+    rlim_t pages = 0;
+    statm >> pages;
+    const rlim_t bytes = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{24} << 20);
+    const rlimit limit{bytes, bytes};
+    setrlimit(RLIMIT_AS, &limit);
+    RunContext context;
+    context.threads = 64;
+    std::vector<int> seen(1000, 0);
+    parallelFor(context, 1000, 1, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) ++seen[static_cast<std::size_t>(i)];
+    });
+    _exit(seen == std::vector<int>(1000, 1) ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status)) << "ended by a signal";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+#endif
 }
 
 TEST(ParallelFor, RethrowsAndHandlesNothingToDo) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
@@ -54,6 +56,34 @@ TEST(Deviation, IsNotLostWhereTheFirstPointHasTwoSides) {
   double largest = 0.0;
   for (const Vec2& p : points) largest = std::max(largest, bruteForce(curve, p));
   for (const bool ordered : {false, true}) EXPECT_NEAR(deviation(curve, points, ordered).max, largest, 1e-3);
+}
+
+/// An Archimedean spiral of this many turns, one unit apart, and points along it, each a little beside it.
+NurbsCurve spiral(int turns, std::vector<Vec2>& beside) {
+  std::vector<Vec2> points;
+  const int count = 24 * turns;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2.0 * 3.14159265358979323846 * i / 24.0, radius = 1.0 + i / 24.0;
+    points.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    beside.emplace_back((radius + 0.2) * std::cos(angle + 0.1), (radius + 0.2) * std::sin(angle + 0.1));
+  }
+  std::vector<double> knots(4, 0.0);
+  for (int i = 1; i < count - 3; ++i) knots.push_back(i);
+  knots.insert(knots.end(), 4, count - 3);
+  return NurbsCurve::make(3, knots, points).value();
+}
+
+TEST(Deviation, OfALongWindingLineTakesNoTimeWithTheSquareOfItsLength) {
+  const auto secondsFor = [](int turns) {
+    std::vector<Vec2> beside;
+    const NurbsCurve curve = spiral(turns, beside);
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_LT(deviation(curve, beside, false).max, 1.0);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  secondsFor(5);
+  const double one = std::min(secondsFor(10), secondsFor(10)), many = std::min(secondsFor(160), secondsFor(160));
+  EXPECT_LT(many, 6.0 * 16.0 * one) << "16 times the points and the length; 256 times if each looked at all of it";
 }
 
 }  // namespace

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/save_atomically.h"
+
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -9,7 +14,6 @@
 #include <iterator>
 
 #include "core/exchange/picture.h"
-#include "core/exchange/save_atomically.h"
 
 namespace batten {
 namespace {
@@ -68,6 +72,65 @@ TEST_F(SaveAtomically, ADiskThatTakesNoMoreKeepsTheOldFile) {
   EXPECT_EQ(result.error().code, ErrorCode::CannotWrite);
   EXPECT_EQ(read(file), "old");
   EXPECT_EQ(filesInFolder(), 1u);
+}
+
+TEST_F(SaveAtomically, ANameIsItsBytes) {
+  // Three names that a program which takes them for UTF-8 cannot tell apart.
+  for (const char* name : {"\xff.svg", "\xfe.svg", "\xef\xbf\xbd.svg"})
+    ASSERT_TRUE(saveAtomically(folder_ / name, name));
+  for (const char* name : {"\xff.svg", "\xfe.svg", "\xef\xbf\xbd.svg"}) EXPECT_EQ(read(folder_ / name), name);
+  EXPECT_EQ(filesInFolder(), 3u);
+  fs::create_directory(folder_ / "Entw\xfcrfe");
+  ASSERT_TRUE(saveAtomically(folder_ / "Entw\xfcrfe" / "a.svg", "x"));
+  EXPECT_EQ(read(folder_ / "Entw\xfcrfe" / "a.svg"), "x");
+  const auto wrong = saveAtomically(folder_ / "\x1b[31m\xff" / "a.svg", "x");
+  ASSERT_FALSE(wrong);
+  EXPECT_NE(wrong.error().message.find("/?[31m?/a.svg"), std::string::npos) << wrong.error().message;
+}
+
+TEST_F(SaveAtomically, FollowsLinksButNotRoundInACircle) {
+  const fs::path file = folder_ / "real.svg";
+  ASSERT_TRUE(saveAtomically(file, "old"));
+  fs::create_directory(folder_ / "sub");
+  fs::create_symlink("../real.svg", folder_ / "sub" / "near");
+  fs::create_symlink(folder_ / "sub" / "near", folder_ / "far");
+  ASSERT_TRUE(saveAtomically(folder_ / "far", "new"));
+  EXPECT_EQ(read(file), "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "far"));
+  EXPECT_EQ(saveTarget(folder_ / "far")->lexically_normal(), file);
+  fs::create_symlink("not yet", folder_ / "dangling");
+  ASSERT_TRUE(saveAtomically(folder_ / "dangling", "made"));
+  EXPECT_EQ(read(folder_ / "not yet"), "made");
+  fs::create_symlink("b", folder_ / "a");
+  fs::create_symlink("a", folder_ / "b");
+  EXPECT_FALSE(saveTarget(folder_ / "a"));
+  const auto round = saveAtomically(folder_ / "a", "x");
+  ASSERT_FALSE(round);
+  EXPECT_NE(round.error().message.find("circle"), std::string::npos) << round.error().message;
+  EXPECT_TRUE(fs::is_symlink(folder_ / "a"));
+}
+
+TEST_F(SaveAtomically, KeepsThePermissionsOfWhatItReplaces) {
+  const fs::path file = folder_ / "a.svg";
+  ASSERT_TRUE(saveAtomically(file, "old"));
+  ASSERT_EQ(chmod(file.c_str(), 0640), 0);
+  ASSERT_TRUE(saveAtomically(file, "new"));
+  EXPECT_EQ(fs::status(file).permissions(), fs::perms(0640));
+}
+
+TEST_F(SaveAtomically, WhatAnEndedProgramLeftGoesAndWhatARunningOneWritesStays) {
+  const fs::path left = folder_ / ".batten-0123456789abcdef.saving", held = folder_ / ".batten-fedcba9876543210.saving";
+  const fs::path foreign = folder_ / ".batten-notes.saving";
+  for (const fs::path& path : {left, held, foreign}) std::ofstream(path) << "half";
+  const int running = open(held.c_str(), O_RDONLY);
+  ASSERT_EQ(flock(running, LOCK_EX), 0);
+  ASSERT_TRUE(saveAtomically(folder_ / "a.svg", "x"));
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(held));
+  EXPECT_TRUE(fs::exists(foreign));
+  close(running);
+  ASSERT_TRUE(saveAtomically(folder_ / "a.svg", "x"));
+  EXPECT_FALSE(fs::exists(held));
 }
 
 TEST(Picture, DrawsLinesAndEncodesPng) {

@@ -368,5 +368,60 @@ TEST_F(ScanReader, StopsWhenCancelled) {
   EXPECT_EQ(scan.error().code, ErrorCode::Cancelled);
 }
 
+/// Grey TIFF of one tile, uncompressed, whose tags state any size of picture and tile.
+std::string tiledTiff(std::uint32_t width, std::uint32_t height, std::uint32_t tileWidth, std::uint32_t tileHeight,
+                      const std::string& data) {
+  const auto entry = [](std::uint32_t tag, std::uint32_t value) {
+    return little(tag, 2) + little(4, 2) + little(1, 4) + little(value, 4);
+  };
+  const std::uint32_t start = 8 + 2 + 10 * 12 + 4;
+  return "II" + little(42, 2) + little(8, 4) + little(10, 2) + entry(256, width) + entry(257, height) + entry(258, 8) +
+         entry(259, 1) + entry(262, 1) + entry(277, 1) + entry(322, tileWidth) + entry(323, tileHeight) +
+         entry(324, start) + entry(325, static_cast<std::uint32_t>(data.size())) + little(0, 4) + data;
+}
+
+TEST_F(ScanReader, TilesFarLargerThanThePictureAreRefusedBeforeTheyTakeMemory) {
+  for (const auto& [w, h] : {std::pair{32752u, 32752u}, {1u << 20, 4096u}, {0xfffffff0u, 0xfffffff0u}}) {
+    EXPECT_THAT(refusal(write("bomb.tif", tiledTiff(60, 40, w, h, std::string(64, '\0')))), HasSubstr("tiles"));
+  }
+  // A tile may well be larger than a small picture.
+  std::string pixels(256 * 256, '\xff');
+  pixels[0] = 10;
+  const auto scan = readScan(write("tile.tif", tiledTiff(60, 40, 256, 256, pixels)), {}, {});
+  ASSERT_TRUE(scan) << scan.error().message;
+  EXPECT_EQ(scan->grey.width, 60);
+  EXPECT_EQ(levels(scan->grey)[0], 10);
+  // And counts as memory.
+  EXPECT_THAT(refusal(folder_ / "tile.tif", {.memoryBytes = 200'000}), HasSubstr("memory"));
+}
+
+/// The picture of tiff() with a second directory behind it, of that kind (NewSubfileType).
+std::string tiffOfTwo(std::uint32_t kind) {
+  std::string file = tiff(1);
+  const std::size_t next = 8 + 2 + 13 * 12;  // where the first directory names the next one
+  file.replace(next, 4, little(static_cast<std::uint32_t>(file.size()), 4));
+  const auto entry = [](std::uint32_t tag, std::uint32_t value) {
+    return little(tag, 2) + little(4, 2) + little(1, 4) + little(value, 4);
+  };
+  return file + little(3, 2) + entry(254, kind) + entry(256, 3) + entry(257, 2) + little(0, 4);
+}
+
+TEST_F(ScanReader, CountsThePagesOfATiff) {
+  const auto pagesOf = [&](const std::string& bytes) {
+    const auto path = write("pages.tif", bytes);
+    EXPECT_TRUE(readScan(path, {}, {}));
+    return countPages(path);
+  };
+  EXPECT_EQ(pagesOf(tiff(1)), 1);
+  EXPECT_EQ(pagesOf(tiffOfTwo(0)), 2);
+  EXPECT_EQ(pagesOf(tiffOfTwo(2)), 2) << "a page of several";
+  EXPECT_EQ(pagesOf(tiffOfTwo(1)), 1) << "a thumbnail";
+  // A directory that names itself as the next one.
+  std::string round = tiff(1);
+  round.replace(8 + 2 + 13 * 12, 4, little(8, 4));
+  EXPECT_EQ(pagesOf(round), 1);
+  EXPECT_EQ(countPages(folder_ / "none.tif"), 1);
+}
+
 }  // namespace
 }  // namespace batten

@@ -96,6 +96,41 @@ TEST(Thresholds, FlatPagesHoldNothing) {
   }
 }
 
+/// Lines 2.5 px wide all over the page, `spacing` px from middle to middle, at 45 degrees; with gradation and noise.
+Page hatchedPage(int width, int height, double spacing, double fall, double noise) {
+  Page page{GreyImage(width, height), BitImage(width, height), BitImage(width, height)};
+  std::mt19937 random(7);
+  std::normal_distribution<double> grain(0.0, 1.0);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double across = std::remainder((x - y) / std::sqrt(2.0), spacing);
+      const double distance = std::fabs(across) - 1.25;
+      const double cover = 0.5 * std::erfc(distance / (std::sqrt(2.0) * 0.8));
+      const double level = 235.0 - fall * x / width - 200.0 * cover + noise * grain(random);
+      page.grey.row(y)[x] = static_cast<std::uint16_t>(std::lround(std::clamp(level, 0.0, 255.0) * 257.0));
+      page.truth.set(x, y, distance < 0.0);
+      page.nearEdge.set(x, y, std::fabs(distance) < 0.8);
+    }
+  }
+  return page;
+}
+
+TEST(Thresholds, FindLinesSoCloseThatNoPaperShowsBetweenThem) {
+  for (const double spacing : {6.4, 8.0, 10.0}) {
+    for (const double noise : {0.0, 5.0}) {
+      const Page page = hatchedPage(600, 400, spacing, 20.0, noise);
+      EXPECT_LT(wrongPixels(page, mask(page.grey, {}, {})), 600 * 400 / 200) << spacing << " px, noise " << noise;
+    }
+  }
+  // As dense, but no lines: noise of a sensor and of single pixels.
+  std::mt19937 random(3);
+  std::normal_distribution<double> grain(128.0, 60.0);
+  GreyImage page(600, 400);
+  for (std::uint16_t& pixel : page.pixels)
+    pixel = static_cast<std::uint16_t>(std::lround(std::clamp(grain(random), 0.0, 255.0) * 257.0));
+  EXPECT_EQ(mask(page, {}, {}).count(), 0);
+}
+
 TEST(Thresholds, TinyPicturesDoNotFail) {
   for (const int width : {1, 2, 3, 7, 9}) {
     for (const int height : {1, 2, 5, 8}) {

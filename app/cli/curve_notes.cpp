@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/construct_notes.h"
+#include "app/cli/curve_notes.h"
 
 #include <algorithm>
 #include <utility>
@@ -21,27 +21,41 @@ std::string named(const std::vector<std::size_t>& curves) {
   return text;
 }
 
+/// Curves of which the same is to be said.
+struct Kind {
+  std::string kind, note;
+  std::vector<std::size_t> curves;
+};
+
+void add(std::vector<Kind>& kinds, const std::string& kind, const std::string& note, std::size_t curve) {
+  if (note.empty()) return;
+  auto same = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.kind == kind; });
+  if (same == kinds.end()) same = kinds.insert(kinds.end(), Kind{kind, note, {}});
+  same->curves.push_back(curve);
+}
+
 /// "at 1 place: mark a corner" and "at 3 places: mark corners" are one kind.
 std::string kindOf(const std::string& note) { return note.starts_with("Turns sharply at ") ? "Turns sharply" : note; }
 
+/// What fairing refused, or did in part; what a target would have taken beyond the tolerance differs for every curve.
+std::string fairingNote(const FairingReport& report) {
+  if (report.note.empty() && !report.withinTolerance) return "Only part of what was asked lies within the tolerance.";
+  return report.note;
+}
+
 }  // namespace
 
-std::vector<std::string> constructNotes(std::span<const TracedCurve> curves) {
-  struct Kind {
-    std::string kind, note;
-    std::vector<std::size_t> curves;
-  };
-  std::vector<Kind> kinds;
+std::vector<std::string> curveNotes(std::span<const TracedCurve> curves) {
+  std::vector<Kind> constructed, faired;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    const std::string& note = curves[i].construct.note;
-    if (note.empty() || !curves[i].included) continue;
-    const std::string kind = kindOf(note);
-    auto same = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.kind == kind; });
-    if (same == kinds.end()) same = kinds.insert(kinds.end(), Kind{kind, note, {}});
-    same->curves.push_back(i + 1);
+    const TracedCurve& curve = curves[i];
+    if (!curve.included) continue;
+    add(constructed, kindOf(curve.construct.note), curve.construct.note, i + 1);
+    const std::string note = fairingNote(curve.fairing);
+    add(faired, note, note, i + 1);
   }
   std::vector<std::string> lines;
-  for (const Kind& k : kinds) {
+  for (const Kind& k : constructed) {
     if (k.kind == "Turns sharply") {
       lines.push_back(named(k.curves) + (k.curves.size() == 1 ? " turns" : " turn") +
                       " sharply where no corner is marked: add --corner there.");
@@ -49,6 +63,7 @@ std::vector<std::string> constructNotes(std::span<const TracedCurve> curves) {
       lines.push_back(named(k.curves) + ": " + k.note);
     }
   }
+  for (const Kind& k : faired) lines.push_back(named(k.curves) + ", fairing: " + k.note);
   return lines;
 }
 

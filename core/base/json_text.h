@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <string_view>
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+
+namespace batten {
+
+/// What a JSON text may ask of its reader; files of ours stay far below. Beyond these a text is damage, or an attack on
+/// the stack (depth), the memory (bytes) or the time (keys: an object is searched from its start).
+struct JsonLimits {
+  std::size_t bytes = std::size_t{64} << 20;  ///< of the whole text
+  std::size_t depth = 64;                     ///< arrays and objects within one another
+  std::size_t keys = 1000;                    ///< of one object
+};
+
+/// The one door through which JSON comes in, whatever file or place it lies in. Takes time in proportion to the text;
+/// hears a cancel while it parses. An object that holds one key twice is refused: nobody could say which one counts.
+/// @return BadParameter; its message is the end of a sentence: "it is nested more than 64 levels deep". Cancelled.
+Result<nlohmann::ordered_json> parseJson(std::string_view text, const RunContext& context = {},
+                                         const JsonLimits& limits = {});
+
+}  // namespace batten

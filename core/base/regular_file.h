@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <tl/expected.hpp>
+
+namespace batten {
+
+/// Why a file cannot be read as a whole.
+enum class FileProblem {
+  Missing,
+  Folder,
+  NotOrdinary,  ///< A pipe, a device or a socket: reading it may wait for ever or never end.
+  NotAllowed,
+  TooLarge,
+  Broken,  ///< It opens, but its bytes do not come.
+};
+/// "does not exist", "is a folder" …: what follows the file's name in a message.
+std::string describe(FileProblem);
+
+/// An ordinary file, open for reading. What it is is asked of the open file and not of its name, so that nothing else
+/// can take the name in between; opening never waits.
+class RegularFile {
+ public:
+  static tl::expected<RegularFile, FileProblem> open(const std::filesystem::path&);
+  RegularFile(RegularFile&&) noexcept;
+  RegularFile& operator=(RegularFile&&) noexcept;
+  ~RegularFile();
+
+  std::uint64_t size() const { return size_; }  ///< [bytes] When it was opened.
+  /// Fills `bytes` from the start of the file. @return Broken if there are fewer.
+  tl::expected<void, FileProblem> read(std::span<std::byte> bytes) const;
+
+ private:
+  RegularFile(int descriptor, std::uint64_t size) : descriptor_(descriptor), size_(size) {}
+  int descriptor_;  ///< -1: moved from.
+  std::uint64_t size_;
+};
+
+/// All bytes of an ordinary file of at most `mostBytes`.
+tl::expected<std::string, FileProblem> readWhole(const std::filesystem::path&, std::uint64_t mostBytes);
+
+}  // namespace batten

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/base/shown_text.h"
+
+#include <array>
+#include <cstdint>
+
+namespace batten {
+namespace {
+
+struct Character {
+  std::uint32_t code = 0;
+  std::size_t bytes = 0;  ///< 0: none begins here.
+};
+
+/// The character at the start of non-empty `text`, if its bytes are well-formed UTF-8 (RFC 3629).
+Character firstOf(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
+  const std::uint32_t first = byte(0);
+  if (first < 0x80) return {first, 1};
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || text.size() < length) return {};
+  std::uint32_t code = first & (0x7fu >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0u) != 0x80u) return {};
+    code = code << 6 | (byte(i) & 0x3fu);
+  }
+  constexpr std::array<std::uint32_t, 5> kLeast = {0, 0, 0x80, 0x800, 0x10000};
+  const bool isSurrogate = code >= 0xd800 && code <= 0xdfff;
+  if (code < kLeast[length] || code > 0x10ffff || isSurrogate) return {};
+  return {code, length};
+}
+
+bool isControl(std::uint32_t code) { return code < 0x20 || (code >= 0x7f && code <= 0x9f); }
+
+bool isShown(std::uint32_t code) {
+  const bool isLineMark = code == 0x2028 || code == 0x2029;
+  const bool turnsDirection = (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
+  const bool isNoCharacter = (code & 0xfffeu) == 0xfffe || (code >= 0xfdd0 && code <= 0xfdef);
+  return !isControl(code) && !isLineMark && !turnsDirection && !isNoCharacter;
+}
+
+}  // namespace
+
+std::string shownText(std::string_view bytes) {
+  std::string shown;
+  shown.reserve(bytes.size());
+  while (!bytes.empty()) {
+    const Character c = firstOf(bytes);
+    const std::size_t length = c.bytes == 0 ? 1 : c.bytes;
+    if (c.bytes != 0 && isShown(c.code))
+      shown.append(bytes.substr(0, length));
+    else
+      shown.push_back('?');
+    bytes.remove_prefix(length);
+  }
+  return shown;
+}
+
+std::string withoutControls(std::string_view json) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  std::string safe;
+  safe.reserve(json.size());
+  while (!json.empty()) {
+    const Character c = firstOf(json);
+    const std::size_t length = c.bytes == 0 ? 1 : c.bytes;
+    if (c.bytes != 0 && c.code >= 0x7f && c.code <= 0x9f)
+      safe.append("\\u00").append(1, kHex[c.code >> 4]).append(1, kHex[c.code & 0xfu]);
+    else
+      safe.append(json.substr(0, length));
+    json.remove_prefix(length);
+  }
+  return safe;
+}
+
+}  // namespace batten

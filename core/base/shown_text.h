@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace batten {
+
+/// Bytes of a name or a file as text that a terminal, a window and XML can show: valid UTF-8, one line. What is neither
+/// a character nor visible - broken UTF-8, control characters (C0, DEL, C1), line and direction marks, noncharacters -
+/// becomes a question mark, one per byte or character.
+std::string shownText(std::string_view bytes);
+inline std::string shownName(const std::filesystem::path& path) { return shownText(std::string_view(path.native())); }
+
+/// JSON text as a terminal may see it: DEL and C1, which JSON allows within strings, written as \u007f … \u009f. The
+/// value stays the same.
+std::string withoutControls(std::string_view json);
+
+}  // namespace batten

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/base/vec2.h"
+
+namespace batten {
+
+/// A point of a curve, and how far the curve may go from it before the next one.
+struct CurvePlace {
+  Vec2 point = Vec2::Zero();
+  double reach = 0.0;  ///< [unit of the curve] >= 0
+};
+
+/// Places in the order of a curve, in boxes of boxes of neighbours: which ones are near a point is known without
+/// looking at all of them. The answers are those of a search through all, to the last bit.
+class SampleTree {
+ public:
+  /// @pre at least one place, all finite.
+  explicit SampleTree(std::vector<CurvePlace> places);
+
+  const std::vector<CurvePlace>& places() const { return places_; }
+  /// The first of the nearest places, whatever their reach.
+  std::size_t nearest(const Vec2& p) const;
+
+  /// Calls `visit(index)` in ascending order for the places that are no farther than `bound()` beyond their reach:
+  /// those with |point - p| - reach <= bound(). The bound is asked again for every place and may shrink meanwhile.
+  template <class Bound, class Visit>
+  void within(const Vec2& p, const Bound& bound, const Visit& visit) const {
+    for (std::size_t node = 0; node < nodes_.size();) {
+      const Node& box = nodes_[node];
+      if (distanceTo(box, p) - box.reach > bound()) {
+        node = box.behind;
+        continue;
+      }
+      if (box.isLeaf) {
+        for (std::size_t i = box.first; i < box.last; ++i)
+          if ((places_[i].point - p).norm() - places_[i].reach <= bound()) visit(i);
+      }
+      ++node;
+    }
+  }
+
+ private:
+  struct Node {
+    Vec2 low, high;
+    double reach = 0.0;       ///< The largest inside.
+    std::size_t first, last;  ///< Places first..last - 1.
+    std::size_t behind;       ///< The node behind this one and all below it.
+    bool isLeaf = false;
+  };
+
+  void build(std::size_t first, std::size_t last);
+  /// From the box, a little less than exact, so that rounding hides no place.
+  static double distanceTo(const Node& box, const Vec2& p);
+
+  std::vector<CurvePlace> places_;
+  std::vector<Node> nodes_;  ///< Each before those below it, the first half before the second.
+};
+
+}  // namespace batten

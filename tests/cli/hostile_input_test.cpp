@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Input that was made to hang, to crash or to take all memory, and names that are no text.
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+namespace batten {
+namespace {
+
+using json = nlohmann::json;
+using test::Outcome;
+
+class HostileInput : public test::Program {
+ protected:
+  /// One line of error with this exit code, within seconds.
+  void expectRefused(const std::string& words, int code, const std::string& says) const {
+    const auto begin = std::chrono::steady_clock::now();
+    expectError(words, code, says);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20)) << words;
+  }
+  std::size_t filesInFolder() const {
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()));
+  }
+};
+
+TEST_F(HostileInput, NestedJsonIsRefused) {
+  const std::string deep = std::string(80'000, '[') + std::string(80'000, ']');
+  write("recipe.json", R"({"format":"batten-recipe","version":)" + deep + "}");
+  write("curves.json", R"({"format":"batten-curves","version":)" + deep + "}");
+  const std::string start = "trace " + scene() + " -o " + file("o.svg") + " --recipe ";
+  expectRefused(start + file("recipe.json"), 2, "nested more than 64 levels deep");
+  expectRefused("compare " + file("curves.json") + " " + file("curves.json"), 2, "nested more than 64 levels deep");
+  write("open.json", std::string(5'000'000, '['));
+  expectRefused(start + file("open.json"), 2, "nested more than 64 levels deep");
+}
+
+TEST_F(HostileInput, ManyNamesTakeNoTime) {
+  std::string text = R"({"format":"batten-recipe","version":1)";
+  for (int i = 0; i < 200'000; ++i) text += ",\"k" + std::to_string(i) + "\":0";
+  write("keys.json", text + "}");
+  expectRefused("trace " + scene() + " -o " + file("o.svg") + " --recipe " + file("keys.json"), 2, "1000 names");
+}
+
+TEST_F(HostileInput, OnlyOrdinaryFilesAreRead) {
+  namespace fs = std::filesystem;
+  const std::string start = "trace " + scene() + " -o " + file("o.svg");
+  ASSERT_EQ(mkfifo(file("pipe").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", file("endless"));
+  fs::create_symlink(file("pipe"), file("to-pipe"));
+  for (const std::string name : {file("pipe"), file("to-pipe"), file("endless"), std::string("/dev/zero")}) {
+    expectRefused(start + " --recipe " + name, 2, "is not an ordinary file");
+    expectRefused("compare " + name + " " + name, 2, "is not an ordinary file");
+    expectRefused("trace " + name + " -o " + file("p.svg"), 3, "is not a file");
+  }
+  expectRefused(start + " --recipe " + folder_.string(), 2, "is a folder");
+  std::ofstream(file("large.json")).close();
+  fs::resize_file(file("large.json"), std::uintmax_t{1} << 40);
+  expectRefused(start + " --recipe " + file("large.json"), 2, "is too large");
+  expectRefused("compare " + file("large.json") + " " + file("large.json"), 2, "is too large");
+}
+
+TEST_F(HostileInput, NamesAreBytes) {
+  const std::string scan = scene();
+  // Two outputs whose names differ in bytes that are no UTF-8 alone.
+  const Outcome two = run("trace " + scan + " -o '" + file("\xff.svg") + "' -o '" + file("\xfe.svg") + "'");
+  ASSERT_EQ(two.code, 0) << two.err;
+  EXPECT_NE(test::readFile(file("\xff.svg")), "");
+  EXPECT_NE(test::readFile(file("\xfe.svg")), "");
+  EXPECT_EQ(json::parse(two.out)["files"].size(), 2u);
+  // A scan whose name is what a lossy reading would make of another name.
+  const std::string lossy = file("\xef\xbf\xbd.png"), bytes = test::readFile(scan);
+  write("\xef\xbf\xbd.png", bytes);
+  ASSERT_EQ(run("trace '" + lossy + "' --dump 'log=" + file("\xff.png") + "'").code, 0);
+  EXPECT_EQ(test::readFile(lossy), bytes);
+  // A plain name in a folder whose name is Latin-1.
+  std::filesystem::create_directory(file("Entw\xfcrfe"));
+  const Outcome inside = run("trace " + scan + " -o '" + file("Entw\xfcrfe/o.svg") + "'");
+  EXPECT_EQ(inside.code, 0) << inside.err;
+  EXPECT_NE(test::readFile(file("Entw\xfcrfe/o.svg")), "");
+}
+
+TEST_F(HostileInput, ControlCharactersOfANameStayInTheName) {
+  const std::string name = file("a\x1b[31m\xc2\x9b\x7f\n.png");
+  write(std::filesystem::path(name).filename().string(), test::readFile(scene()));
+  const auto isClean = [](const std::string& text) {
+    return text.find('\x1b') == std::string::npos && text.find("\xc2\x9b") == std::string::npos &&
+           text.find('\x7f') == std::string::npos;
+  };
+  const Outcome done = run("trace '" + name + "' -o " + file("o.svg"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_TRUE(isClean(done.out)) << done.out;
+  EXPECT_EQ(json::parse(done.out)["scan"], name) << "escaped, not lost";
+  const std::string svg = test::readFile(file("o.svg"));
+  EXPECT_TRUE(isClean(svg));
+  EXPECT_NE(svg.find("<title>a?[31m???.png</title>"), std::string::npos) << svg.substr(0, 600);
+  const Outcome missing = run("trace '" + name + "x' -o " + file("o.svg"));
+  EXPECT_EQ(missing.code, 3);
+  EXPECT_TRUE(isClean(missing.err)) << missing.err;
+}
+
+TEST_F(HostileInput, OutputsThatAreOneFileByLinksAreRefused) {
+  namespace fs = std::filesystem;
+  const std::string scan = scene();
+  fs::create_symlink("real.svg", file("one.svg"));
+  fs::create_symlink("real.svg", file("two.svg"));  // neither leads to a file yet
+  expectRefused("trace " + scan + " -o " + file("one.svg") + " -o " + file("two.svg"), 2, "twice");
+  fs::create_symlink("b.svg", file("a.svg"));
+  fs::create_symlink("a.svg", file("b.svg"));
+  expectRefused("trace " + scan + " -o " + file("a.svg"), 5, "circle");
+  EXPECT_TRUE(fs::is_symlink(file("a.svg")));
+}
+
+TEST_F(HostileInput, AFileThatGrowsTooLargeGivesFiveAndKeepsTheOldOne) {
+  const std::string scan = scene();
+  write("o.json", "old");
+  const std::string limited = "ulimit -f 1; '" BATTEN_CLI "' trace " + scan + " -o " + file("o.json");
+  const int status = std::system(("sh -c \"" + limited + "\" >/dev/null 2>'" + file("err.txt") + "'").c_str());
+  ASSERT_TRUE(WIFEXITED(status)) << "ended by a signal";
+  EXPECT_EQ(WEXITSTATUS(status), 5) << test::readFile(file("err.txt"));
+  EXPECT_NE(test::readFile(file("err.txt")).find("larger than is allowed"), std::string::npos);
+  EXPECT_EQ(test::readFile(file("o.json")), "old");
+  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".batten-")) << entry.path();
+}
+
+TEST_F(HostileInput, AFailingDiskGivesFive) {
+  const std::string scan = scene();
+  write("o.svg", "old");
+  const std::string words =
+      "LD_PRELOAD='" BATTEN_FAILING_SYNC "' '" BATTEN_CLI "' trace " + scan + " -o " + file("o.svg");
+  const int status = std::system((words + " >/dev/null 2>'" + file("err.txt") + "'").c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 5) << test::readFile(file("err.txt"));
+  EXPECT_NE(test::readFile(file("err.txt")).find("disk or its connection failed"), std::string::npos);
+  EXPECT_EQ(test::readFile(file("o.svg")), "old");
+}
+
+TEST_F(HostileInput, WhatAnEndedProgramLeftIsCleanedAway) {
+  write(".batten-0123456789abcdef.saving", "half a file");
+  ASSERT_EQ(run("trace " + scene() + " -o " + file("o.svg")).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(file(".batten-0123456789abcdef.saving")));
+}
+
+TEST_F(HostileInput, NumbersAreNumbersAndRangesAreTaken) {
+  const std::string start = "trace " + scene() + " -o " + file("o.svg") + " ";
+  for (const char* dpi : {"0x60", "\"\"", "\" \"", "1e", "300dpi", "3,5", "nan", "inf", "0x1p3"})
+    expectRefused(start + "--dpi " + dpi, 2, "--dpi takes a number from 1 to 100000");
+  for (const char* dpi : {"0", "0.99", "100001", "-3"})
+    expectRefused(start + "--dpi=" + dpi, 2, "between 1 and 100000 dpi");
+  for (const char* dpi : {"1", "100000", "+300", "3e2"}) EXPECT_EQ(run(start + "--dpi " + dpi).code, 0) << dpi;
+  for (const char* threads : {"0x2", "\"\"", "1.5", "-1", "1025", "two"})
+    expectRefused(start + "--threads=" + threads, 2, "--threads takes a whole number from 0 to 1024");
+  for (const char* threads : {"0", "1", "1024"}) EXPECT_EQ(run(start + "--threads " + threads).code, 0) << threads;
+}
+
+TEST_F(HostileInput, GoesOnWithTheThreadsThereAre) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return;  // they take more memory than is left here
+#endif
+  const std::string scan = scene();
+  ASSERT_EQ(run("trace " + scan + " -o " + file("all.json")).code, 0);
+  // Room for the program, and for some of sixty-four stacks.
+  const std::string words = "ulimit -v 600000; '" BATTEN_CLI "' trace " + scan + " --threads 64 -o " + file("few.json");
+  const int status = std::system(("sh -c \"" + words + "\" >/dev/null 2>'" + file("err.txt") + "'").c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0) << test::readFile(file("err.txt"));
+  EXPECT_EQ(test::readFile(file("few.json")), test::readFile(file("all.json")));
+}
+
+TEST_F(HostileInput, SaysWhatFairingRefusedOrLeft) {
+  // A profile of constant curvature is out of reach for half an ellipse within a hundredth of a millimetre.
+  const Outcome done = run("trace " + scene() + " -o " + file("o.svg") +
+                           " --set fairing.mode=target --set fairing.target=1 --set fairing.tolerance=0.01");
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("Curve 1, fairing: "), std::string::npos) << done.out;
+  const Outcome plain = run("trace " + scene() + " -o " + file("o.svg"));
+  EXPECT_EQ(plain.out.find("fairing: "), std::string::npos) << plain.out;
+}
+
+TEST_F(HostileInput, TargetsAreInTheReportOnlyWhenAskedFor) {
+  const std::string start = "trace " + scene() + " -o " + file("o.svg") + " --report " + file("r.json");
+  ASSERT_EQ(run(start).code, 0);
+  EXPECT_FALSE(json::parse(test::readFile(file("r.json")))["curves"][0].contains("targets"));
+  ASSERT_EQ(run(start + " --report-targets").code, 0);
+  EXPECT_EQ(json::parse(test::readFile(file("r.json")))["curves"][0]["targets"].size(), 6u);
+  expectRefused("trace " + file("scan.png") + " -o " + file("o.svg") + " --report-targets", 2, "--report");
+}
+
+}  // namespace
+}  // namespace batten

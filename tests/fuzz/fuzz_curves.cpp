@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Any bytes as curve JSON: refused with a reason, or curves that are written as JSON and SVG without a fault.
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "core/exchange/curve_json.h"
+#include "core/exchange/svg_check.h"
+#include "core/exchange/svg_writer.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto document = batten::readCurveJson({reinterpret_cast<const char*>(data), size});
+  if (!document) {
+    if (document.error().message.empty()) std::abort();
+    return 0;
+  }
+  const auto json = batten::writeCurveJson(*document);
+  if (json && !batten::readCurveJson(*json)) std::abort();
+  // Curves may be too wild for cubics; they must not be written wrong.
+  const auto svg = batten::writeSvg(*document, {});
+  if (svg) (void)batten::checkSvg(svg->text, *document);
+  return 0;
+}

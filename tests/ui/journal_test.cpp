@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <QDir>
+#include <QFile>
+#include <QTest>
+
+#include "core/document/unsaved_work.h"
+#include "tests/ui/window_fixture.h"
+#include "ui/new_drawing_dialog.h"
+#include "ui/session/journal_lock.h"
+#include "ui/session/recipe_journal.h"
+
+namespace batten {
+namespace {
+
+using test::waitUntil;
+
+/// A session with unsaved work on an empty page, and a journal that ticks fast, in a folder of its own.
+class Journal : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(folder_.isValid());
+    session_.newDrawing(NewDrawingDialog::recipeFor({100, 80}, 127.0));
+    ASSERT_TRUE(waitUntil([&] { return session_.hasScan() && !session_.isBusy(); }));
+  }
+  QString folder() const { return folder_.filePath(QStringLiteral("journals")); }
+  void draw(double y) {
+    Recipe recipe = session_.recipe();
+    recipe.penStrokes.push_back({{Vec2(10, y), Vec2(60, y + 5)}, false});
+    session_.change(QStringLiteral("Draw"), recipe);
+    ASSERT_TRUE(waitUntil([&] { return !session_.isBusy(); }));
+  }
+  static std::size_t strokesIn(const QString& path) {
+    QFile file(path);
+    if (!file.open(QIODevice::ReadOnly)) return 0;
+    const auto work = unsavedWorkFromJson(file.readAll().toStdString());
+    return work ? work->recipe.penStrokes.size() : 0;
+  }
+  /// What a second window finds to offer.
+  std::optional<RecipeJournal::Left> leftToAnother() {
+    EditorSession another;
+    RecipeJournal journal(another, folder());
+    return journal.left();
+  }
+
+  QTemporaryDir folder_;
+  EditorSession session_;
+};
+
+TEST_F(Journal, AWriteThatFailsIsTriedAgain) {
+  // A file where the folder is to be: nothing can be written there.
+  QFile obstacle(folder());
+  ASSERT_TRUE(obstacle.open(QIODevice::WriteOnly));
+  obstacle.close();
+  RecipeJournal journal(session_, folder());
+  journal.setIntervalMs(20);
+  ASSERT_NO_FATAL_FAILURE(draw(20));
+  QTest::qWait(100);
+  EXPECT_FALSE(QFile::exists(journal.file()));
+  // No change follows: the next tick alone writes what is there.
+  ASSERT_TRUE(QFile::remove(folder()));
+  EXPECT_TRUE(waitUntil([&] { return strokesIn(journal.file()) == 1; }, 5000));
+}
+
+TEST_F(Journal, AFileThatIsLostIsWrittenAnewWithItsLock) {
+  RecipeJournal journal(session_, folder());
+  journal.setIntervalMs(20);
+  ASSERT_NO_FATAL_FAILURE(draw(20));
+  ASSERT_TRUE(waitUntil([&] { return strokesIn(journal.file()) == 1; }, 5000));
+  // Somebody cleans the folder up.
+  ASSERT_TRUE(QDir(folder()).removeRecursively());
+  EXPECT_TRUE(waitUntil([&] { return strokesIn(journal.file()) == 1; }, 5000));
+  EXPECT_FALSE(leftToAnother());
+}
+
+TEST_F(Journal, LiveWorkIsNeitherOfferedNorDiscardedWhenTheLockFileGoes) {
+  RecipeJournal journal(session_, folder());
+  journal.setIntervalMs(20);
+  ASSERT_NO_FATAL_FAILURE(draw(20));
+  ASSERT_TRUE(waitUntil([&] { return strokesIn(journal.file()) == 1; }, 5000));
+  EXPECT_FALSE(leftToAnother()) << "it is held";
+  // The lock's file alone is cleaned away: it is renewed at the next tick.
+  const QString lock = journal.file() + QStringLiteral(".lock");
+  ASSERT_TRUE(QFile::remove(lock));
+  ASSERT_TRUE(waitUntil([&] { return QFile::exists(lock); }, 5000));
+  EXPECT_FALSE(leftToAnother());
+  EXPECT_EQ(strokesIn(journal.file()), 1u);
+}
+
+TEST_F(Journal, ASessionWhoseFileAnotherHoldsGoesOnInAFileOfItsOwn) {
+  RecipeJournal journal(session_, folder());
+  journal.setIntervalMs(20);
+  ASSERT_NO_FATAL_FAILURE(draw(20));
+  ASSERT_TRUE(waitUntil([&] { return strokesIn(journal.file()) == 1; }, 5000));
+  const QString first = journal.file();
+  // Between a clean-up and the next tick another window was faster.
+  ASSERT_TRUE(QFile::remove(first + QStringLiteral(".lock")));
+  JournalLock other(std::filesystem::path(first.toStdU16String()));
+  ASSERT_TRUE(other.hold());
+  ASSERT_NO_FATAL_FAILURE(draw(40));
+  EXPECT_TRUE(waitUntil([&] { return journal.file() != first && strokesIn(journal.file()) == 2; }, 5000));
+  EXPECT_EQ(strokesIn(first), 1u) << "the other one's now";
+}
+
+TEST_F(Journal, HostileFilesInTheFolderAreNoWork) {
+  ASSERT_TRUE(QDir().mkpath(folder()));
+  QFile deep(folder() + QStringLiteral("/deep.journal"));
+  ASSERT_TRUE(deep.open(QIODevice::WriteOnly));
+  deep.write(QByteArray(500'000, '['));
+  deep.close();
+  ASSERT_TRUE(QFile::link(QStringLiteral("/dev/zero"), folder() + QStringLiteral("/endless.journal")));
+  EXPECT_FALSE(leftToAnother());
+}
+
+}  // namespace
+}  // namespace batten

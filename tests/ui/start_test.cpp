@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <QAbstractButton>
+#include <QDir>
+#include <QSettings>
+
+#include "tests/ui/window_fixture.h"
+#include "ui/error_strip.h"
+#include "ui/opening_guard.h"
+
+namespace batten {
+namespace {
+
+using test::waitUntil;
+
+class Start : public test::WindowFixture {
+ protected:
+  void SetUp() override {
+    QDir(MainWindow::journalFolder()).removeRecursively();
+    ASSERT_NO_FATAL_FAILURE(WindowFixture::SetUp());
+  }
+  /// The number of a program that has gone.
+  static qint64 goneProgram() {
+    const pid_t child = fork();
+    if (child == 0) _exit(0);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return child;
+  }
+  bool isOpen() { return session().hasScan() && session().scanPath() == path_ && !session().isBusy(); }
+};
+
+TEST_F(Start, AFileOnWhichTheLastStartEndedIsNotOpenedByItself) {
+  ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
+  ASSERT_NO_FATAL_FAILURE(openWindow());
+  window_->openAtStart({});
+  ASSERT_TRUE(waitUntil([this] { return isOpen(); })) << "the last file opens at the start";
+  ASSERT_FALSE(OpeningGuard::hasFailed(path_)) << "and is marked no longer once it is there";
+  // What a start leaves behind that ends while it opens the file.
+  QSettings settings;
+  settings.setValue(QStringLiteral("opening/path"), path_);
+  settings.setValue(QStringLiteral("opening/program"), goneProgram());
+  settings.sync();
+  ASSERT_NO_FATAL_FAILURE(openWindow());
+  window_->openAtStart({});
+  auto* strip = window_->findChild<ErrorStrip*>();
+  ASSERT_TRUE(waitUntil([&] { return strip->isVisible(); }));
+  EXPECT_FALSE(session().hasScan());
+  EXPECT_FALSE(session().isBusy());
+  QAbstractButton* open = nullptr;
+  for (auto* button : strip->findChildren<QAbstractButton*>())
+    if (button->isVisible() && button->text() == QStringLiteral("Open it all the same")) open = button;
+  ASSERT_NE(open, nullptr);
+  QTest::mouseClick(open, Qt::LeftButton);
+  ASSERT_TRUE(waitUntil([this] { return isOpen(); }));
+  EXPECT_FALSE(strip->isVisible());
+  EXPECT_FALSE(OpeningGuard::hasFailed(path_)) << "it did no harm";
+}
+
+TEST_F(Start, AFileThatAnotherWindowIsOpeningHasNotFailed) {
+  const QString path = folder_.filePath(QStringLiteral("a.png"));
+  QSettings settings;
+  settings.setValue(QStringLiteral("opening/path"), path);
+  settings.setValue(QStringLiteral("opening/program"), static_cast<qint64>(getppid()));
+  settings.sync();
+  EXPECT_FALSE(OpeningGuard::hasFailed(path));
+}
+
+}  // namespace
+}  // namespace batten

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/base/json_text.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+namespace batten {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string nested(int depth, const std::string& inner = "") {
+  return std::string(static_cast<std::size_t>(depth), '[') + inner + std::string(static_cast<std::size_t>(depth), ']');
+}
+
+std::string withKeys(int count) {
+  std::string text = "{";
+  for (int i = 0; i < count; ++i) text += (i == 0 ? "\"k" : ",\"k") + std::to_string(i) + "\":" + std::to_string(i);
+  return text + "}";
+}
+
+std::string problemOf(const std::string& text) {
+  const auto json = parseJson(text);
+  return json ? "" : json.error().message;
+}
+
+TEST(JsonText, ReadsWhatTheLibraryReads) {
+  for (const std::string text :
+       {"null", "true", "-7", "18446744073709551615", "0.1", "1e300", "\"ä\\n\\u20ac\"", "[]", "{}",
+        R"({"z":1,"a":[1,2.5,{"x":[[]],"":null}],"m":{"n":{}}})", " [ 1 , [ 2 , 3 ] , { \"b\" : false } ] "}) {
+    const auto json = parseJson(text);
+    ASSERT_TRUE(json) << text << json.error().message;
+    EXPECT_EQ(*json, Json::parse(text)) << text;
+    EXPECT_EQ(json->dump(), Json::parse(text).dump()) << text;  // in the same order
+  }
+  for (const std::string text :
+       {"", "[", "{\"a\":}", "[1,]", "{\"a\" 1}", "nul", "[1] 2", "\"\xff\"", "1e999", "{1:2}"})
+    EXPECT_FALSE(parseJson(text)) << text;
+}
+
+TEST(JsonText, DepthIsLimited) {
+  EXPECT_EQ(problemOf(nested(64)), "");
+  EXPECT_NE(problemOf(nested(65)).find("64 levels"), std::string::npos);
+  // Refused on the way down: neither the time nor the stack knows how deep it goes on.
+  for (const int depth : {80'000, 5'000'000}) EXPECT_NE(problemOf(nested(depth)).find("64 levels"), std::string::npos);
+  std::string objects;
+  for (int i = 0; i < 100'000; ++i) objects += "{\"a\":";
+  EXPECT_NE(problemOf(objects).find("64 levels"), std::string::npos);
+}
+
+TEST(JsonText, SizeAndNamesAreLimited) {
+  EXPECT_EQ(problemOf(withKeys(1000)), "");
+  EXPECT_NE(problemOf(withKeys(1001)).find("more than 1000 names"), std::string::npos);
+  EXPECT_NE(problemOf(R"({"a":1,"b":2,"a":3})").find("\"a\" twice"), std::string::npos);
+  EXPECT_EQ(problemOf(R"([{"a":1},{"a":2},{"a":{"a":3}}])"), "");
+  const auto tooLong = parseJson("[1,2,3,4,5]", {}, {.bytes = 10});
+  ASSERT_FALSE(tooLong);
+  EXPECT_EQ(tooLong.error().code, ErrorCode::BadParameter);
+}
+
+TEST(JsonText, TakesTimeInProportionToTheText) {
+  const auto secondsFor = [](int objects) {
+    std::string text = "[";
+    const std::string one = withKeys(1000);
+    for (int i = 0; i < objects; ++i) text += (i == 0 ? "" : ",") + one;
+    text += "]";
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_TRUE(parseJson(text));
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / objects;
+  };
+  secondsFor(10);
+  const double few = std::min(secondsFor(20), secondsFor(20)), many = std::min(secondsFor(200), secondsFor(200));
+  EXPECT_LT(many, 4.0 * few);
+}
+
+TEST(JsonText, HearsACancel) {
+  std::string text = "[0";
+  for (int i = 0; i < 8'000'000; ++i) text += ",0";
+  RunContext context;
+  std::jthread canceller([token = context.cancel] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    token.cancel();
+  });
+  const auto json = parseJson(text + "]", context);
+  ASSERT_FALSE(json);
+  EXPECT_EQ(json.error().code, ErrorCode::Cancelled);
+}
+
+}  // namespace
+}  // namespace batten

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/opening_guard.h"
+
+#include <QCoreApplication>
+#include <QSettings>
+#include <cerrno>
+#include <csignal>
+
+#include "ui/session/editor_session.h"
+
+namespace batten {
+namespace {
+
+const QString kPathKey = QStringLiteral("opening/path"), kProgramKey = QStringLiteral("opening/program");
+
+bool isRunning(qint64 program) {
+  return program > 0 && (kill(static_cast<pid_t>(program), 0) == 0 || errno == EPERM) &&
+         program != QCoreApplication::applicationPid();
+}
+
+}  // namespace
+
+OpeningGuard::OpeningGuard(EditorSession& session, QObject* parent) : QObject(parent) {
+  connect(&session, &EditorSession::runFinished, this, [this, &session] {
+    // Also when it was opened by hand in the end: it does no harm now.
+    if (hasFailed(session.scanPath())) path_ = session.scanPath();
+    end();
+  });
+  connect(&session, &EditorSession::failed, this, [this] { end(); });
+}
+
+OpeningGuard::~OpeningGuard() { end(); }
+
+void OpeningGuard::begin(const QString& path) {
+  path_ = path;
+  QSettings settings;
+  settings.setValue(kPathKey, path);
+  settings.setValue(kProgramKey, QCoreApplication::applicationPid());
+  settings.sync();  // Now: there may be no later.
+}
+
+bool OpeningGuard::hasFailed(const QString& path) {
+  const QSettings settings;
+  return !path.isEmpty() && settings.value(kPathKey).toString() == path &&
+         !isRunning(settings.value(kProgramKey).toLongLong());
+}
+
+void OpeningGuard::end() {
+  if (path_.isEmpty()) return;
+  path_.clear();
+  QSettings settings;
+  settings.remove(QStringLiteral("opening"));
+  settings.sync();
+}
+
+}  // namespace batten
