@@ -5,6 +5,7 @@
 
 #include "app/cli/compare_command.h"
 #include "app/cli/exit_codes.h"
+#include "app/cli/options_command.h"
 #include "app/cli/parameters_command.h"
 #include "app/cli/stage_dump.h"
 #include "app/cli/suggest_command.h"
@@ -89,6 +90,8 @@ int run(int argc, char** argv) {
   CLI::App* parameters =
       app.add_subcommand("parameters", "List every parameter: name, unit, range, default, what it does");
   parameters->add_flag("--json", asJson, "As JSON");
+  // For packaging: what manual pages and completion are made from. No group: no user needs to see it.
+  const CLI::App* options = app.add_subcommand("options", "Commands and options as JSON")->group("");
   std::string first, second;
   CLI::App* compare =
       app.add_subcommand("compare", "How alike the curves of two files are, whatever their size and place");
@@ -105,6 +108,7 @@ int run(int argc, char** argv) {
     }
     return reportError(usageError(app, e, argc, argv));
   }
+  if (options->parsed()) return runOptions(app);
   if (compare->parsed()) return runCompare(first, second);
   if (suggest->parsed()) return runSuggest(arguments);
   return parameters->parsed() ? runParameters(asJson) : runTrace(arguments);
