@@ -11,6 +11,7 @@ run_packages=(qt6-qpa-plugins libqt6svg6 fonts-inter)
 test_packages=(xvfb xauth openbox)
 # What packaging/check needs on top.
 check_packages=(clang-tidy python3)
+package_packages=(lintian mmdebstrap binutils desktop-file-utils appstream shared-mime-info xdg-utils man-db zsh xdotool)
 
 # install_missing PACKAGE...: installs what is not there yet, asks nothing, and does nothing when all is there.
 install_missing() {

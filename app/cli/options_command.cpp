@@ -32,8 +32,7 @@ Json commandJson(const CLI::App& command, const std::string& name) {
   for (const CLI::Option* option : command.get_options()) {
     if (!option->get_group().empty()) options.push_back(optionJson(*option));
   }
-  return {
-      {"name", name}, {"help", command.get_description()}, {"footer", command.get_footer()}, {"options", options}};
+  return {{"name", name}, {"help", command.get_description()}, {"footer", command.get_footer()}, {"options", options}};
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <vector>
 
+#include "core/base/platform.h"
 #include "core/image/scan_grey.h"
 #include "core/image/scan_header.h"
 
@@ -79,17 +80,6 @@ Result<ScanHeader> probe(const std::filesystem::path& path, std::uint64_t size) 
   return header;
 }
 
-std::optional<std::uint64_t> freeMemory() {
-  std::ifstream in("/proc/meminfo");
-  std::string key, unit;
-  std::uint64_t kilobytes = 0;
-  while (in >> key >> kilobytes) {
-    if (key == "MemAvailable:") return kilobytes * 1024;
-    std::getline(in, unit);
-  }
-  return std::nullopt;
-}
-
 /// What reading takes at its peak: the file, the decoded picture, its grey, and a turned copy.
 std::uint64_t memoryNeeded(const ScanHeader& header, std::uint64_t fileBytes) {
   const std::uint64_t pixels =
@@ -114,7 +104,7 @@ std::optional<Error> checkSize(const std::filesystem::path& path, const ScanHead
   const std::uint64_t needed = memoryNeeded(header, fileBytes);
   std::optional<std::uint64_t> available = limits.memoryBytes;
   if (!available) {
-    if (const auto free = freeMemory()) {
+    if (const auto free = availableMemoryBytes()) {
       available = static_cast<std::uint64_t>(kShareOfFreeMemory * static_cast<double>(*free));
     }
   }
