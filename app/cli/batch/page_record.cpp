@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/batch/page_record.h"
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 
 #include "core/base/content_hash.h"
 #include "core/exchange/writers.h"
@@ -43,6 +45,8 @@ std::string resultLine(const BatchPage& page, const PageResult& result) {
 }
 
 std::optional<std::string> fileHash(const std::string& name) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(name, code)) return std::nullopt;  // a pipe would never end
   std::ifstream file(name, std::ios::binary);
   if (!file) return std::nullopt;
   HashBuilder hash;
