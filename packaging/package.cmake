@@ -3,7 +3,7 @@
 # programs load, on Windows and macOS archives with the libraries inside (not tried by us: we have neither system).
 set(CPACK_PACKAGE_NAME batten)
 set(CPACK_PACKAGE_VENDOR "The Batten developers")
-set(BATTEN_MAINTAINER "The Batten developers <batten@packages.debian.org>" CACHE STRING "Who answers for a package")
+set(BATTEN_MAINTAINER "The Batten developers <maintainers@batten.invalid>" CACHE STRING "Who answers for a package")
 set(CPACK_PACKAGE_CONTACT "${BATTEN_MAINTAINER}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "turn scanned sketches into fair curves")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)

@@ -100,7 +100,7 @@ CLI::App* addBatch(CLI::App& app, BatchArguments& a) {
   batch
       ->add_option("--existing", a.existing,
                    "Outputs that are there: leave unchanged pages, make all anew, or do nothing")
-      ->check(CLI::IsMember({"skip", "overwrite", "abort"}))
+      ->check(CLI::IsMember({"skip", "overwrite", "abort"}).description(""))
       ->type_name("skip|overwrite|abort");
   batch->add_flag("--resume", a.resume, "Go on where an earlier call ended, whatever --existing says");
   batch->add_option("--page-timeout", a.pageTimeoutSeconds, "A page that takes longer fails, s")

@@ -11,9 +11,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What stands in place of an option's value: the name it was given, without the brackets of a choice.
+/// What stands in place of an option's value: the name it was given, without the range that a check adds to it.
 std::string valueOf(const CLI::Option& option) {
-  return option.get_type_size_max() == 0 ? std::string() : option.get_type_name();
+  if (option.get_type_size_max() == 0) return {};
+  const std::string name = option.get_type_name();
+  return name.substr(0, name.find(':'));
 }
 
 Json optionJson(const CLI::Option& option) {

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/cli/exit_codes.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
 #include "core/image/scan_reader.h"
@@ -95,26 +96,39 @@ void BatchRun::startMore() {
 /// Settles the next page without a call, or starts its call; false if it has to wait for memory.
 bool BatchRun::takeNext() {
   const BatchPage& page = pages_[next_];
-  const auto key = pageKey(page);  // none: the call says what is wrong with the scan or the recipe
-  if (settings_.existing == Existing::Skip) {
-    const auto record = readRecord(page);
-    if (record && key && isUnchanged(page, *record, *key)) {
-      report(next_++, {PageStatus::Unchanged, 0, record->note, record->figures, *key, record->seconds});
+  if (lookedAt_ != next_) {
+    const auto key = pageKey(page);  // none: the call says what is wrong with the scan or the recipe
+    if (auto known = resultWithoutCall(page, key)) {
+      report(next_++, *known);
       return true;
     }
-    if (!record && anyOutputExists(page)) {
-      report(next_++, {PageStatus::Failed,
-                       0,
-                       "An output is there that no batch has written. Move it away, or use --existing overwrite.",
-                       {},
-                       {},
-                       0.0});
-      return true;
-    }
+    lookedAt_ = next_;
+    nextKey_ = key.value_or(std::string());
   }
   if (!running_.empty() && !isRoomFor(page)) return false;
-  start(next_++, key.value_or(std::string()));
+  start(next_++, nextKey_);
   return true;
+}
+
+/// What becomes of a page for which nothing needs to be done, or nothing may be.
+std::optional<PageResult> BatchRun::resultWithoutCall(const BatchPage& page,
+                                                      const std::optional<std::string>& key) const {
+  if (settings_.existing != Existing::Skip) return std::nullopt;
+  const auto record = readRecord(page);
+  PageResult result;
+  if (record && key && isUnchanged(page, *record, *key)) {
+    result.status = PageStatus::Unchanged;
+    result.exitCode = record->isEmpty ? kNoCurve : kDone;
+    result.error = record->note;
+    result.figures = record->figures;
+    result.key = *key;
+    result.seconds = record->seconds;
+    return result;
+  }
+  if (record || !anyOutputExists(page)) return std::nullopt;
+  result.exitCode = kCannotWrite;
+  result.error = "An output is there that no batch has written. Move it away, or use --existing overwrite.";
+  return result;
 }
 
 bool BatchRun::isRoomFor(const BatchPage& page) const {

@@ -57,6 +57,7 @@ class BatchRun {
   struct Running;
   void startMore();
   bool takeNext();
+  std::optional<PageResult> resultWithoutCall(const BatchPage& page, const std::optional<std::string>& key) const;
   void start(std::size_t index, const std::string& key);
   void settle(std::size_t index, PageResult result);
   void report(std::size_t index, const PageResult& result);
@@ -69,6 +70,8 @@ class BatchRun {
   const std::vector<BatchPage>& pages_;
   ResultLines& lines_;
   std::size_t next_ = 0;
+  std::optional<std::size_t> lookedAt_;  ///< The page that waits for memory: its key is known.
+  std::string nextKey_;
   std::list<std::unique_ptr<Running>> running_;
   BatchCounts counts_;
   std::map<std::size_t, std::string> failed_;
