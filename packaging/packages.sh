@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sourced by run and test: every Debian 12 package that building, running or testing needs, and how they get installed.
+# Sourced by run, test and check: every Debian 12 package that building, running or testing needs, and how they get installed.
 
 build_packages=(
   build-essential cmake ninja-build ccache git
@@ -11,6 +11,9 @@ build_packages=(
 run_packages=(qt6-qpa-plugins libqt6svg6 fonts-inter)
 test_packages=(xvfb xauth openbox python3-ezdxf qpdf poppler-utils)
 judge_packages=(freecad gdal-bin librsvg2-bin npm)  # of the scripts in tests/heavy
+# What packaging/check needs on top.
+check_packages=(clang-tidy python3)
+package_packages=(lintian mmdebstrap binutils desktop-file-utils appstream shared-mime-info xdg-utils man-db zsh xdotool)
 
 # install_missing PACKAGE...: installs what is not there yet, asks nothing, and does nothing when all is there.
 install_missing() {

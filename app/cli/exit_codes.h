@@ -12,6 +12,8 @@ enum ExitCode : int {
   kUnreadableScan = 3,
   kNoCurve = 4,
   kCannotWrite = 5,
+  kPagesFailed = 6,  ///< Of a batch: at least one page failed, all others have ended.
+  kStopped = 7,      ///< A batch ended before its last page: SIGINT, or too many failures.
 };
 
 /// Prints the error as one line on stderr and gives the exit code that belongs to it.

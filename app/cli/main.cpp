@@ -4,8 +4,10 @@
 #include <iostream>
 #include <new>
 
+#include "app/cli/batch/batch_command.h"
 #include "app/cli/compare_command.h"
 #include "app/cli/exit_codes.h"
+#include "app/cli/options_command.h"
 #include "app/cli/parameters_command.h"
 #include "app/cli/stage_dump.h"
 #include "app/cli/suggest_command.h"
@@ -21,7 +23,7 @@ using namespace batten::cli;
 
 constexpr const char* kFooter =
     "Exit codes: 0 done; 2 wrong usage, or curves that compare cannot read; 3 the scan cannot be read; 4 no curve "
-    "found; 5 cannot write.\n"
+    "found; 5 cannot write; of a batch: 6 pages have failed, 7 stopped before its end.\n"
     "An error is one line on stderr. stdout holds only what programs can read.";
 
 std::string dumpHelp() {
@@ -99,6 +101,46 @@ CLI::App* addSuggest(CLI::App& app, TraceArguments& a) {
   return suggest;
 }
 
+CLI::App* addBatch(CLI::App& app, BatchArguments& a) {
+  CLI::App* batch = app.add_subcommand("batch", "Trace many scans, and go on where an earlier call ended");
+  batch->footer(
+      "Prints one line of JSON for each page as it ends. A page is left when its scan, recipe, settings and the "
+      "program "
+      "are as before; NAME.batch.json beside its first output NAME knows. A page without a curve is an answer, not a "
+      "failure. Ctrl+C ends after the running pages; the same command goes on.");
+  batch->add_option("inputs", a.inputs, "A manifest (NAME.jsonl, or - for stdin), or scans, folders and patterns")
+      ->type_name("INPUT")
+      ->required();
+  batch->add_option("--to", a.to, "Where the curves of scans, folders and patterns go")->type_name("FOLDER");
+  batch->add_option("--formats", a.formats, "What is written of each of them (svg,json)")->type_name("LIST");
+  batch->add_option("--recipe", a.recipe, "Recipe of the pages that have none of their own")->type_name("R.json");
+  addRepeated(*batch, "--set", a.settings, "NAME=VALUE", "Set a parameter of every page; may be repeated");
+  batch->add_option("--dpi", a.dpi, "Resolution of the pages that state none in the manifest")->type_name("N");
+  batch->add_option("--jobs", a.jobs, "Pages at once; 0 = as many as processors")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024));
+  batch
+      ->add_option("--existing", a.existing,
+                   "Outputs that are there: leave unchanged pages, make all anew, or do nothing")
+      ->check(CLI::IsMember({"skip", "overwrite", "abort"}).description(""))
+      ->type_name("skip|overwrite|abort");
+  batch->add_flag("--resume", a.resume, "Go on where an earlier call ended, whatever --existing says");
+  batch->add_option("--page-timeout", a.pageTimeoutSeconds, "A page that takes longer fails, s")
+      ->type_name("S")
+      ->check(CLI::Range(0.001, 1e6));
+  batch
+      ->add_option("--max-failures", a.maxFailures, "Start no more pages once a larger share of all has failed, 0 to 1")
+      ->type_name("RATE")
+      ->check(CLI::Range(0.0, 1.0));
+  batch->add_option("--results", a.results, "Add the lines to this file instead of stdout, each page's once")
+      ->type_name("FILE.jsonl");
+  batch->add_option("--failures", a.failures, "Write the pages that failed as a manifest")->type_name("FILE.jsonl");
+  batch->add_option("--sheet", a.sheet, "Write an overview of all pages for the browser")->type_name("FILE.html");
+  batch->add_option("--write-manifest", a.writeManifest, "Write the pages as a manifest, and trace nothing")
+      ->type_name("FILE.jsonl");
+  return batch;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Batten: from a designer's sketch to fair curves", "batten-cli");
   app.set_version_flag("--version", std::string("batten-cli ") + BATTEN_VERSION);
@@ -107,10 +149,14 @@ int run(int argc, char** argv) {
   TraceArguments arguments;
   addTrace(app, arguments);
   const CLI::App* suggest = addSuggest(app, arguments);
+  BatchArguments many;
+  const CLI::App* batch = addBatch(app, many);
   bool asJson = false;
   CLI::App* parameters =
       app.add_subcommand("parameters", "List every parameter: name, unit, range, default, what it does");
   parameters->add_flag("--json", asJson, "As JSON");
+  // For packaging: what manual pages and completion are made from. No group: no user needs to see it.
+  const CLI::App* options = app.add_subcommand("options", "Commands and options as JSON")->group("");
   std::string first, second;
   CLI::App* compare =
       app.add_subcommand("compare", "How alike the curves of two files are, whatever their size and place");
@@ -129,8 +175,10 @@ int run(int argc, char** argv) {
     }
     return reportError(usageError(app, e, argc, argv));
   }
+  if (options->parsed()) return runOptions(app);
   if (compare->parsed()) return runCompare(first, second);
   if (suggest->parsed()) return runSuggest(arguments);
+  if (batch->parsed()) return runBatch(many, argv[0]);
   return parameters->parsed() ? runParameters(asJson) : runTrace(arguments);
 }
 

@@ -47,6 +47,7 @@ nlohmann::ordered_json toJson(const Parameter& p) {
     json["logarithmic"] = p.logarithmic;
   }
   if (!p.choices.empty()) json["choices"] = p.choices;
+  json["range"] = rangeOf(p);
   json["default"] = defaultValue(p);
   json["stage"] = name(p.stage);
   json["expert"] = p.expert;

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/exit_codes.h"
-#include "app/cli/quiet_stderr.h"
 #include "app/cli/trace_plan.h"
+#include "core/base/platform.h"
 #include "core/base/shown_text.h"
 #include "core/image/scan_reader.h"
 #include "core/pipeline/run/merge_advice.h"

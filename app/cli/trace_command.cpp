@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/trace_command.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -11,10 +9,10 @@
 
 #include "app/cli/curve_notes.h"
 #include "app/cli/exit_codes.h"
-#include "app/cli/quiet_stderr.h"
 #include "app/cli/stage_dump.h"
 #include "app/cli/trace_plan.h"
 #include "core/base/conventions.h"
+#include "core/base/platform.h"
 #include "core/base/shown_text.h"
 #include "core/document/export_builder.h"
 #include "core/document/report.h"
@@ -32,12 +30,6 @@ using Clock = std::chrono::steady_clock;
 
 double millisecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-std::uint64_t peakMemoryBytes() {
-  rusage usage{};
-  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
 /// One trace from the plan to the files. Each step returns an error or nothing; the first error ends the command.
@@ -72,6 +64,8 @@ class Trace {
   std::string summary() const {
     nlohmann::ordered_json json{{"scan", arguments_.scan}, {"curves", curves_}, {"pieces", out_.faired->curves.size()}};
     json["milliseconds"] = millisecondsSince(begin_);
+    json["processor_milliseconds"] = 1000.0 * processorSeconds();
+    json["peak_memory_bytes"] = peakMemoryBytes();
     json["files"] = files_;
     json["checks"] = checks_;
     json["notes"] = notes();

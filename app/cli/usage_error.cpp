@@ -11,7 +11,7 @@ namespace batten::cli {
 namespace {
 
 Error wrongCommand(const CLI::App& app, const std::string& word) {
-  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  const auto commands = app.get_subcommands([](const CLI::App* c) { return !c->get_group().empty(); });
   std::string all, near;
   for (std::size_t i = 0; i < commands.size(); ++i) {
     const std::string name = commands[i]->get_name();

@@ -2,6 +2,8 @@
 #include <QApplication>
 #include <QDir>
 #include <QFileInfo>
+#include <cstdio>
+#include <string_view>
 
 #include "ui/main_window.h"
 
@@ -14,13 +16,23 @@ QString samplePath() {
   return QFileInfo::exists(path) ? QDir::cleanPath(path) : QString();
 }
 
+/// What can be said without a window, and so without a display; true if that was all that was asked.
+bool answeredInWords(int argc, char** argv) {
+  const std::string_view word = argc > 1 ? argv[1] : "";
+  if (word == "--version") return std::puts("batten " BATTEN_VERSION) >= 0;
+  if (word != "--help" && word != "-h") return false;
+  return std::puts("batten [SCAN | RECIPE]   opens a scan, or a recipe that was drawn on an empty page") >= 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (answeredInWords(argc, argv)) return 0;
   QApplication application(argc, argv);
   QCoreApplication::setOrganizationName(QStringLiteral("Batten"));
   QCoreApplication::setApplicationName(QStringLiteral("batten"));
-  QCoreApplication::setApplicationVersion(QStringLiteral("0.1.0"));
+  QCoreApplication::setApplicationVersion(QStringLiteral(BATTEN_VERSION));
+  QGuiApplication::setDesktopFileName(QStringLiteral("org.batten.Batten"));
   QGuiApplication::setApplicationDisplayName(QStringLiteral("Batten"));
 
   batten::MainWindow window;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/number_text.h"
+#include "core/base/platform.h"
 #include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
 #include "core/image/scan_grey.h"
@@ -90,17 +91,6 @@ Result<ScanHeader> probe(const std::filesystem::path& path, const RegularFile& f
   return header;
 }
 
-std::optional<std::uint64_t> freeMemory() {
-  std::ifstream in("/proc/meminfo");
-  std::string key, unit;
-  std::uint64_t kilobytes = 0;
-  while (in >> key >> kilobytes) {
-    if (key == "MemAvailable:") return kilobytes * 1024;
-    std::getline(in, unit);
-  }
-  return std::nullopt;
-}
-
 /// The decoder holds one tile at a time, of four channels.
 std::uint64_t tileBytes(const ScanHeader& header) {
   return header.tilePixels * (header.info.bitsPerChannel > 8 ? 8 : 4);
@@ -126,7 +116,7 @@ std::optional<Error> checkSize(const std::filesystem::path& path, const ScanHead
   const std::uint64_t needed = memoryNeeded(header, fileBytes);
   std::optional<std::uint64_t> available = limits.memoryBytes;
   if (!available) {
-    if (const auto free = freeMemory()) {
+    if (const auto free = availableMemoryBytes()) {
       available = static_cast<std::uint64_t>(kShareOfFreeMemory * static_cast<double>(*free));
     }
   }

@@ -27,6 +27,10 @@ const test::ArrowTable& rooms() {
   return table;
 }
 
+bool isOfTheSystem(const std::string& header) {
+  return header.starts_with("sys/") || header == "unistd.h" || header == "fcntl.h";
+}
+
 /// The family a header belongs to: empty for the standard library and the system, "unknown" for what no rule names.
 std::string libraryOf(const std::string& header) {
   static const std::set<std::string> widgets = {"QApplication", "QMainWindow", "QDialog", "QMessageBox",
@@ -50,7 +54,7 @@ std::string libraryOf(const std::string& header) {
   if (header.size() > 1 && header[0] == 'Q' &&
       (std::isupper(static_cast<unsigned char>(header[1])) != 0 || header[1] == 't'))
     return "qt-core";
-  if (header.starts_with("sys/") || header == "unistd.h" || header == "fcntl.h") return "";  // the system
+  if (isOfTheSystem(header)) return "";
   const bool isStandard = std::all_of(header.begin(), header.end(), [](unsigned char c) {
     return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_';
   });
@@ -229,6 +233,19 @@ TEST(Architecture, NoUmbrellaHeadersAndNoOutputFromTheEngine) {
       EXPECT_FALSE(std::regex_search(text, output)) << relative << " prints";
     }
   }
+}
+
+TEST(Architecture, OneFileCallsTheSystem) {
+  // So that another system than this one is a matter of that file.
+  bool isFound = false;
+  for (const fs::path& file : sources()) {
+    for (const std::string& header : includesOf(slurp(file))) {
+      if (!isOfTheSystem(header)) continue;
+      EXPECT_EQ(pathOf(file), "core/base/platform.cpp") << "includes <" << header << ">";
+      isFound = true;
+    }
+  }
+  EXPECT_TRUE(isFound);
 }
 
 TEST(Architecture, EverySourceNamesItsLicence) {

@@ -87,7 +87,7 @@ TEST_F(BadInput, WithoutACurveReportAndDumpsStillShowWhy) {
 
 TEST_F(BadInput, WrongWordsGiveTwo) {
   const std::string start = "trace " + scene() + " -o " + file("o.svg") + " ";
-  expectError("", 2, "Name a command: there are trace, suggest, parameters and compare.");
+  expectError("", 2, "Name a command: there are trace, suggest, batch, parameters and compare.");
   expectError("trase scan.png", 2, "There is no command trase. Did you mean trace?");
   expectError("frobnicate", 2, "There is no command frobnicate. There are trace");
   expectError("trace", 2, "");

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/batch/batch_command.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <thread>
+
+#include "app/cli/batch/batch_run.h"
+#include "app/cli/batch/contact_sheet.h"
+#include "app/cli/exit_codes.h"
+#include "core/exchange/writers.h"
+
+namespace batten::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+tl::unexpected<Error> wrong(std::string message) { return fail(ErrorCode::BadParameter, std::move(message)); }
+
+bool isManifest(const std::string& input) { return input == "-" || input.ends_with(".jsonl"); }
+
+Result<std::string> textOf(const std::string& input) {
+  if (input == "-") return std::string{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
+  std::error_code code;
+  std::ifstream file(input, std::ios::binary);
+  if (!file || !fs::is_regular_file(input, code)) {
+    return wrong("The manifest " + input + " cannot be read. Check its name.");
+  }
+  return std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+Result<std::vector<std::string>> extensionsOf(const std::string& formats) {
+  std::vector<std::string> extensions;
+  for (std::size_t from = 0; from <= formats.size();) {
+    const auto comma = std::min(formats.find(',', from), formats.size());
+    const std::string one = formats.substr(from, comma - from);
+    if (one.empty() || !std::all_of(one.begin(), one.end(), [](unsigned char c) { return std::isalnum(c) != 0; })) {
+      return wrong("--formats takes extensions with commas between them, such as svg,json, not \"" + formats + "\".");
+    }
+    if (std::find(extensions.begin(), extensions.end(), one) == extensions.end()) extensions.push_back(one);
+    from = comma + 1;
+  }
+  return extensions;
+}
+
+/// The pages that the words name; folders for outputs of scans are made.
+Result<std::vector<BatchPage>> pagesFor(const BatchArguments& arguments) {
+  const PageDefaults defaults{arguments.recipe, arguments.settings, arguments.dpi};
+  const auto manifests = std::count_if(arguments.inputs.begin(), arguments.inputs.end(), isManifest);
+  if (manifests > 0) {
+    if (arguments.inputs.size() > 1) return wrong("Name one manifest, or scans and folders, not both.");
+    if (!arguments.to.empty()) return wrong("A manifest names its outputs itself: leave --to out.");
+    const auto text = textOf(arguments.inputs.front());
+    if (!text) return fail(text.error());
+    return readManifest(*text, defaults);
+  }
+  if (arguments.to.empty()) return wrong("Say where the curves go: --to FOLDER.");
+  const auto extensions = extensionsOf(arguments.formats);
+  if (!extensions) return fail(extensions.error());
+  auto pages = pagesOf(arguments.inputs, arguments.to, *extensions, defaults);
+  if (!pages) return pages;
+  std::set<fs::path> folders;
+  for (const BatchPage& page : *pages) folders.insert(fs::path(page.outputs.front()).parent_path());
+  for (const fs::path& folder : folders) {
+    std::error_code code;
+    if (!folder.empty()) fs::create_directories(folder, code);
+    if (code)
+      return fail(ErrorCode::CannotWrite, "Cannot make the folder " + folder.string() + ": " + code.message() + ".");
+  }
+  return pages;
+}
+
+Result<BatchSettings> settingsOf(const BatchArguments& arguments) {
+  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  BatchSettings settings;
+  settings.jobs = arguments.jobs > 0 ? arguments.jobs : processors;
+  settings.threads = std::max(1, processors / settings.jobs);
+  settings.pageTimeoutSeconds = arguments.pageTimeoutSeconds;
+  settings.maxFailures = arguments.maxFailures;
+  if (arguments.resume || arguments.existing == "skip") {
+    settings.existing = Existing::Skip;
+  } else {
+    settings.existing = arguments.existing == "abort" ? Existing::Abort : Existing::Overwrite;
+  }
+  return settings;
+}
+
+/// With --existing abort nothing is begun where an output is there.
+Result<void> checkExisting(const BatchSettings& settings, const std::vector<BatchPage>& pages) {
+  if (settings.existing != Existing::Abort) return {};
+  for (const BatchPage& page : pages) {
+    for (const std::string& output : page.outputs) {
+      std::error_code code;
+      if (fs::exists(output, code)) {
+        return fail(ErrorCode::CannotWrite,
+                    output + " is there already, and --existing abort was asked for. Nothing was done.");
+      }
+    }
+  }
+  return {};
+}
+
+std::string manifestOf(const std::vector<BatchPage>& pages) {
+  std::string text;
+  for (const BatchPage& page : pages) text += manifestLine(page) + "\n";
+  return text;
+}
+
+std::string failedOf(const std::vector<BatchPage>& pages, const std::map<std::size_t, std::string>& failed) {
+  std::string text;
+  for (const auto& [index, error] : failed) text += manifestLine(pages[index]) + "\n";
+  return text;
+}
+
+/// What is left to do when the pages have ended. @return the exit code.
+int finish(const BatchArguments& arguments, const std::vector<BatchPage>& pages, const BatchRun& run) {
+  if (!arguments.failures.empty()) {
+    if (auto saved = saveAtomically(arguments.failures, failedOf(pages, run.failed())); !saved)
+      return reportError(saved.error());
+  }
+  if (!arguments.sheet.empty()) {
+    if (auto sheet = writeContactSheet(pages, run.failed(), arguments.sheet); !sheet) return reportError(sheet.error());
+  }
+  if (!run.whyStopped().empty()) {
+    std::cerr << "batten-cli: " << run.whyStopped() << std::endl;
+    return kStopped;
+  }
+  if (run.counts().failed == 0) return kDone;
+  std::cerr << "batten-cli: " << run.counts().failed << " of " << pages.size()
+            << (run.counts().failed == 1 ? " pages has failed" : " pages have failed")
+            << "; the lines with \"status\":\"failed\" say why." << std::endl;
+  return kPagesFailed;
+}
+
+}  // namespace
+
+int runBatch(const BatchArguments& arguments, char* program) {
+  const auto pages = pagesFor(arguments);
+  if (!pages) return reportError(pages.error());
+  if (!arguments.writeManifest.empty()) {
+    const auto saved = saveAtomically(arguments.writeManifest, manifestOf(*pages));
+    return saved ? kDone : reportError(saved.error());
+  }
+  const auto settings = settingsOf(arguments);
+  if (!settings) return reportError(settings.error());
+  if (auto checked = checkExisting(*settings, *pages); !checked) return reportError(checked.error());
+  auto lines = ResultLines::open(arguments.results);
+  if (!lines) return reportError(lines.error());
+  int count = 1;
+  char* words[] = {program, nullptr};
+  const QCoreApplication application(count, words);
+  BatchRun run(*settings, *pages, *lines);
+  run.run();
+  return finish(arguments, *pages, run);
+}
+
+}  // namespace batten::cli

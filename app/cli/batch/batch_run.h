@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QElapsedTimer>
+#include <QTimer>
+#include <cstdint>
+#include <list>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/batch/page_call.h"
+#include "app/cli/batch/result_lines.h"
+
+namespace batten::cli {
+
+/// What becomes of a page whose outputs are there.
+enum class Existing {
+  Skip,       ///< Unchanged pages are left; changed ones are made anew. A file that no batch wrote is not touched.
+  Overwrite,  ///< Every page is made anew.
+  Abort,      ///< Nothing is done if any output is there.
+};
+
+struct BatchSettings {
+  int jobs = 1;     ///< >= 1. Pages at once.
+  int threads = 1;  ///< >= 1. Threads of each page.
+  Existing existing = Existing::Skip;
+  std::optional<double> pageTimeoutSeconds;  ///< [s] > 0
+  double maxFailures = 1.0;                  ///< 0..1. Share of all pages; once more have failed, no page is started.
+};
+
+struct BatchCounts {
+  int done = 0, empty = 0, unchanged = 0, failed = 0;
+  int ended() const { return done + empty + unchanged + failed; }
+};
+
+/// Runs over the pages in their order, several at once, each in a process of its own. SIGINT or SIGTERM: no page is
+/// started any more and the running ones end; a second time ends them as well. A page is started beside others only
+/// while free memory holds it.
+class BatchRun {
+ public:
+  BatchRun(const BatchSettings& settings, const std::vector<BatchPage>& pages, ResultLines& lines);
+  ~BatchRun();
+
+  /// Returns when the last page has ended, or no more are to be started. Needs a QCoreApplication.
+  void run();
+
+  const BatchCounts& counts() const { return counts_; }
+  /// Why it ended before the last page; empty if it did not.
+  const std::string& whyStopped() const { return whyStopped_; }
+  /// What went wrong with the pages that failed, by their index.
+  const std::map<std::size_t, std::string>& failed() const { return failed_; }
+
+ private:
+  struct Running;
+  void startMore();
+  bool takeNext();
+  std::optional<PageResult> resultWithoutCall(const BatchPage& page, const std::optional<std::string>& key) const;
+  void start(std::size_t index, const std::string& key);
+  void settle(std::size_t index, PageResult result);
+  void report(std::size_t index, const PageResult& result);
+  bool isRoomFor(const BatchPage& page) const;
+  void hearSignals();
+  void showProgress();
+  void stop(const std::string& why);
+
+  const BatchSettings& settings_;
+  const std::vector<BatchPage>& pages_;
+  ResultLines& lines_;
+  std::size_t next_ = 0;
+  std::optional<std::size_t> lookedAt_;  ///< The page that waits for memory: its key is known.
+  std::string nextKey_;
+  std::list<std::unique_ptr<Running>> running_;
+  BatchCounts counts_;
+  std::map<std::size_t, std::string> failed_;
+  std::string whyStopped_;
+  int signalsHeard_ = 0;
+  bool showsProgress_ = false;
+  double shownAtSeconds_ = 0.0;  ///< [s] When progress was shown last.
+  QElapsedTimer clock_;
+  QTimer tick_;
+};
+
+}  // namespace batten::cli

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/batch/drawn_lines.h"
+
+#include <QByteArray>
+#include <QXmlStreamReader>
+#include <cctype>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+
+#include "core/curve/arc_length.h"
+#include "core/exchange/writers.h"
+
+namespace batten::cli {
+namespace {
+
+constexpr int kSamplesPerPiece = 64;  // a piece from corner to corner, on a picture of a few hundred pixels
+constexpr int kSamplesPerCubic = 4;
+
+DrawnLines linesOfJson(const std::string& text) {
+  DrawnLines drawn;
+  const auto document = readCurveJson(text);
+  if (!document) return drawn;
+  const PageFrame& frame = document->frame;
+  if (frame.widthPx <= 0 || frame.heightPx <= 0) return drawn;
+  drawn.aspect = static_cast<double>(frame.widthPx) / frame.heightPx;
+  for (const ExportCurve& curve : document->curves) {
+    for (const ExportPiece& piece : curve.pieces) {
+      std::vector<Vec2> line;
+      for (const CurveSample& sample : sampleByArcLength(piece.curve, kSamplesPerPiece)) {
+        const Vec2 px = frame.pointToImage(sample.point);
+        line.emplace_back(px.x() / frame.widthPx, px.y() / frame.heightPx);
+      }
+      drawn.lines.push_back(std::move(line));
+    }
+  }
+  return drawn;
+}
+
+/// The numbers of a text; blanks and commas part them.
+std::vector<double> numbersOf(const QByteArray& text) {
+  std::vector<double> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (at < end) {
+    double value = 0.0;
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error == std::errc()) numbers.push_back(value);
+    at = next > at ? next : at + 1;
+  }
+  return numbers;
+}
+
+/// The polylines of a path of absolute moves, lines and cubics, as our writer makes them.
+void addPath(const QByteArray& path, const std::vector<double>& box, DrawnLines& drawn) {
+  Vec2 pen(0.0, 0.0);
+  const auto toPage = [&](const Vec2& p) { return Vec2((p.x() - box[0]) / box[2], (p.y() - box[1]) / box[3]); };
+  for (qsizetype at = 0; at < path.size();) {
+    const char command = path[at++];
+    qsizetype end = at;
+    while (end < path.size() && std::isalpha(static_cast<unsigned char>(path[end])) == 0) ++end;
+    const std::vector<double> n = numbersOf(path.mid(at, end - at));
+    at = end;
+    if (command == 'M' && n.size() >= 2) drawn.lines.push_back({toPage({n[0], n[1]})});
+    if (drawn.lines.empty()) continue;
+    std::vector<Vec2>& line = drawn.lines.back();
+    if (command == 'C') {
+      for (std::size_t i = 0; i + 6 <= n.size(); i += 6) {
+        const Vec2 a(n[i], n[i + 1]), b(n[i + 2], n[i + 3]), end3(n[i + 4], n[i + 5]);
+        for (int k = 1; k <= kSamplesPerCubic; ++k) {
+          const double t = static_cast<double>(k) / kSamplesPerCubic, s = 1.0 - t;
+          line.push_back(toPage(s * s * s * pen + 3.0 * s * s * t * a + 3.0 * s * t * t * b + t * t * t * end3));
+        }
+        pen = end3;
+      }
+    } else if (command == 'L' || command == 'M') {
+      for (std::size_t i = command == 'M' ? 2 : 0; i + 2 <= n.size(); i += 2) line.push_back(toPage({n[i], n[i + 1]}));
+      if (n.size() >= 2) pen = Vec2(n[n.size() - 2], n[n.size() - 1]);
+    } else if (command == 'Z') {
+      line.push_back(Vec2(line.front()));
+    }
+  }
+}
+
+DrawnLines linesOfSvg(const std::string& text) {
+  DrawnLines drawn;
+  std::vector<double> box;
+  QXmlStreamReader xml(QByteArray::fromStdString(text));
+  while (!xml.atEnd()) {
+    if (xml.readNext() != QXmlStreamReader::StartElement) continue;
+    if (xml.name() == QLatin1String("svg")) {
+      box = numbersOf(xml.attributes().value(QLatin1String("viewBox")).toLatin1());
+      if (box.size() != 4 || !(box[2] > 0.0) || !(box[3] > 0.0)) return {};
+      drawn.aspect = box[2] / box[3];
+    } else if (xml.name() == QLatin1String("path") && box.size() == 4) {
+      addPath(xml.attributes().value(QLatin1String("d")).toLatin1(), box, drawn);
+    }
+  }
+  return drawn;
+}
+
+}  // namespace
+
+DrawnLines drawnLines(const std::string& output) {
+  std::ifstream file(output, std::ios::binary);
+  if (!file) return {};
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (output.ends_with(".json")) return linesOfJson(text);
+  return output.ends_with(".svg") ? linesOfSvg(text) : DrawnLines{};
+}
+
+}  // namespace batten::cli

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/batch/page_call.h"
+
+#include <QCoreApplication>
+
+#include "app/cli/exit_codes.h"
+#include "core/base/number_text.h"
+#include "core/base/platform.h"
+
+namespace batten::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The last line of what a call wrote to stderr, without the program's name before it.
+std::string lastLine(const QByteArray& text) {
+  const QByteArray whole = text.trimmed();
+  QByteArray line = whole.mid(whole.lastIndexOf('\n') + 1);
+  if (line.startsWith("batten-cli: ")) line = line.mid(12);
+  return line.toStdString();
+}
+
+}  // namespace
+
+PageCall::PageCall(const BatchPage& page, int threads, std::optional<double> timeoutSeconds, Ended ended)
+    : timeoutSeconds_(timeoutSeconds.value_or(0.0)), ended_(std::move(ended)) {
+  QStringList words;
+  for (const std::string& word : traceWords(page, threads)) words.push_back(QString::fromStdString(word));
+#if defined(Q_OS_UNIX)
+  process_.setChildProcessModifier([] { becomeDependentChild(); });
+#endif
+  process_.setStandardInputFile(QProcess::nullDevice());
+  QObject::connect(&process_, &QProcess::finished, &process_, [this] { finish(); });
+  QObject::connect(&process_, &QProcess::errorOccurred, &process_, [this](QProcess::ProcessError error) {
+    // Every other error is followed by finished().
+    if (error == QProcess::FailedToStart) QTimer::singleShot(0, &process_, [this] { finish(); });
+  });
+  timer_.setSingleShot(true);
+  QObject::connect(&timer_, &QTimer::timeout, &process_, [this] {
+    isTooSlow_ = true;
+    process_.kill();
+  });
+  clock_.start();
+  process_.start(QCoreApplication::applicationFilePath(), words);
+  if (timeoutSeconds) timer_.start(static_cast<int>(1000.0 * *timeoutSeconds));
+}
+
+PageCall::~PageCall() {
+  process_.disconnect();
+  if (process_.state() == QProcess::NotRunning) return;
+  process_.kill();
+  process_.waitForFinished();
+}
+
+std::uint64_t PageCall::memoryBytes() const { return residentMemoryBytes(process_.processId()); }
+
+void PageCall::finish() {
+  if (hasEnded_) return;
+  hasEnded_ = true;
+  timer_.stop();
+  ended_(result());
+}
+
+PageResult PageCall::result() {
+  PageResult result;
+  result.seconds = 1e-3 * static_cast<double>(clock_.elapsed());
+  if (process_.error() == QProcess::FailedToStart) {
+    result.error = "The program cannot be started again: " + process_.errorString().toStdString();
+    return result;
+  }
+  if (isTooSlow_) {
+    result.error = "It took longer than " + numberToText(timeoutSeconds_) + " s. Raise --page-timeout.";
+    return result;
+  }
+  if (process_.exitStatus() != QProcess::NormalExit) {
+    result.error = "The call was ended from outside or crashed (signal " + std::to_string(process_.exitCode()) + ").";
+    return result;
+  }
+  result.exitCode = process_.exitCode();
+  result.error = lastLine(process_.readAllStandardError());
+  if (result.exitCode == kNoCurve) result.status = PageStatus::Empty;
+  if (result.exitCode != kDone) return result;
+  Json said = Json::parse(process_.readAllStandardOutput().toStdString(), nullptr, false);
+  if (!said.is_object()) {
+    result.error = "The call said nothing that can be understood.";
+    return result;
+  }
+  for (const char* key : {"scan", "files"}) said.erase(key);  // the line has them from the manifest
+  result.status = PageStatus::Done;
+  result.error.clear();
+  result.figures = std::move(said);
+  return result;
+}
+
+}  // namespace batten::cli

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QElapsedTimer>
+#include <QProcess>
+#include <QTimer>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "app/cli/batch/page_record.h"
+
+namespace batten::cli {
+
+/// One page, traced by a call of this program in a process of its own: a page that crashes, hangs or takes all memory
+/// takes none of the others with it, and its outputs are those of the call alone, byte for byte.
+class PageCall {
+ public:
+  using Ended = std::function<void(const PageResult&)>;
+
+  /// Starts the call. `ended` hears of its end once, from the event loop; it must not destroy this object.
+  /// @param timeoutSeconds after which the call is ended as failed; nullopt: never.
+  PageCall(const BatchPage& page, int threads, std::optional<double> timeoutSeconds, Ended ended);
+  ~PageCall();
+
+  /// [bytes] What the call holds now; 0 if unknown.
+  std::uint64_t memoryBytes() const;
+
+ private:
+  void finish();
+  PageResult result();
+
+  double timeoutSeconds_ = 0.0;
+  bool isTooSlow_ = false, hasEnded_ = false;
+  Ended ended_;
+  QElapsedTimer clock_;
+  QTimer timer_;
+  QProcess process_;
+};
+
+}  // namespace batten::cli

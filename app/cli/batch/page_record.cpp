@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/batch/page_record.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <span>
+
+#include "core/base/content_hash.h"
+#include "core/exchange/writers.h"
+
+namespace batten::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kReadAtOnce = std::size_t{1} << 20;  // [bytes]
+
+const char* nameOf(PageStatus status) {
+  switch (status) {
+    case PageStatus::Done:
+      return "done";
+    case PageStatus::Empty:
+      return "empty";
+    case PageStatus::Unchanged:
+      return "unchanged";
+    case PageStatus::Failed:
+      break;
+  }
+  return "failed";
+}
+
+std::string lineOf(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+}  // namespace
+
+std::string resultLine(const BatchPage& page, const PageResult& result) {
+  Json json{{"line", page.line},       {"scan", page.scan},
+            {"outputs", page.outputs}, {"status", nameOf(result.status)},
+            {"exit", result.exitCode}, {"seconds", result.seconds}};
+  if (!result.error.empty()) json["error"] = result.error;
+  for (const auto& [key, value] : result.figures.items()) json[key] = value;
+  if (!result.key.empty()) json["key"] = result.key;
+  return lineOf(json);
+}
+
+std::optional<std::string> fileHash(const std::string& name) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(name, code)) return std::nullopt;  // a pipe would never end
+  std::ifstream file(name, std::ios::binary);
+  if (!file) return std::nullopt;
+  HashBuilder hash;
+  std::vector<char> bytes(kReadAtOnce);
+  while (file) {
+    file.read(bytes.data(), std::ssize(bytes));
+    hash.bytes(std::as_bytes(std::span(bytes.data(), static_cast<std::size_t>(file.gcount()))));
+  }
+  if (file.bad()) return std::nullopt;
+  return hash.finish().hex();
+}
+
+std::optional<std::string> pageKey(const BatchPage& page) {
+  HashBuilder key;
+  key.text("batten-cli batch").text(BATTEN_VERSION);
+  for (const std::string& name : {page.scan, page.recipe}) {
+    const auto hash = name.empty() ? std::optional<std::string>("none") : fileHash(name);
+    if (!hash) return std::nullopt;
+    key.text(*hash);
+  }
+  key.integer(std::ssize(page.settings));
+  for (const std::string& setting : page.settings) key.text(setting);
+  key.number(page.dpi.value_or(0.0)).integer(page.page.value_or(0));
+  for (const std::string& output : page.outputs) key.text(output);
+  return key.finish().hex();
+}
+
+std::string recordName(const BatchPage& page) { return page.outputs.front() + ".batch.json"; }
+
+std::optional<PageRecord> readRecord(const BatchPage& page) {
+  std::ifstream file(recordName(page), std::ios::binary);
+  if (!file) return std::nullopt;
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object() || json.value("format", "") != "batten-batch-page" || json.value("version", 0) != 1) {
+    return std::nullopt;
+  }
+  try {
+    PageRecord record;
+    record.key = json.at("key").get<std::string>();
+    record.isEnded = json.at("ended").get<bool>();
+    record.isEmpty = json.at("empty").get<bool>();
+    record.seconds = json.at("seconds").get<double>();
+    record.note = json.at("note").get<std::string>();
+    record.outputHashes = json.at("outputs_sha256").get<std::vector<std::string>>();
+    record.figures = json.at("figures");
+    return record;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
+Result<void> writeRecord(const BatchPage& page, const PageRecord& record) {
+  const Json json{{"format", "batten-batch-page"},
+                  {"version", 1},
+                  {"program", BATTEN_VERSION},
+                  {"key", record.key},
+                  {"ended", record.isEnded},
+                  {"empty", record.isEmpty},
+                  {"seconds", record.seconds},
+                  {"note", record.note},
+                  {"outputs_sha256", record.outputHashes},
+                  {"figures", record.figures}};
+  return saveAtomically(recordName(page), lineOf(json) + "\n");
+}
+
+bool isUnchanged(const BatchPage& page, const PageRecord& record, const std::string& key) {
+  if (!record.isEnded || record.key != key) return false;
+  if (record.isEmpty) return true;
+  if (record.outputHashes.size() != page.outputs.size()) return false;
+  for (std::size_t i = 0; i < page.outputs.size(); ++i) {
+    if (fileHash(page.outputs[i]) != record.outputHashes[i]) return false;
+  }
+  return true;
+}
+
+}  // namespace batten::cli

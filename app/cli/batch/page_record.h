@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "app/cli/batch/manifest.h"
+#include "core/base/result.h"
+
+namespace batten::cli {
+
+/// What became of a page, and how it is called in what the program prints.
+enum class PageStatus {
+  Done,       ///< "done": its curves are written.
+  Empty,      ///< "empty": there is no curve on it. An answer, not a failure.
+  Unchanged,  ///< "unchanged": scan, recipe, settings and program are those of an earlier call; nothing was done.
+  Failed,     ///< "failed": the error says why.
+};
+
+/// One line of the results: what is known of a page when it has ended.
+struct PageResult {
+  PageStatus status = PageStatus::Failed;
+  int exitCode = 0;                ///< As of `batten-cli trace` alone.
+  std::string error;               ///< Of a failed or empty page: what the call says.
+  nlohmann::ordered_json figures;  ///< Of a page that is done: curves, pieces, times, memory, notes; else empty.
+  std::string key;                 ///< See pageKey.
+  double seconds = 0.0;            ///< [s] From the start of the call to its end.
+};
+
+/// {"line", "scan", "outputs", "status", "exit", …}: one line of JSON without a line break.
+std::string resultLine(const BatchPage&, const PageResult&);
+
+/// What the outputs depend on, as 64 hexadecimal digits: the bytes of scan and recipe, settings, resolution, page,
+/// names of the outputs, and the program's version. nullopt if the scan or the recipe cannot be read.
+std::optional<std::string> pageKey(const BatchPage&);
+
+/// What is kept of a page beside its outputs, as NAME.batch.json beside its first output NAME: with it, a page that is
+/// unchanged is known, and one that was cut off is told from a file that someone else put there.
+struct PageRecord {
+  std::string key;
+  bool isEnded = false;  ///< False: it was begun, and the program was stopped before its end.
+  bool isEmpty = false;
+  double seconds = 0.0;
+  std::string note;                       ///< Of an empty page: what the call says.
+  std::vector<std::string> outputHashes;  ///< SHA-256 of each output, in the order of the page's.
+  nlohmann::ordered_json figures;
+};
+
+std::string recordName(const BatchPage&);
+/// nullopt if there is none or it cannot be understood: the page then counts as never begun.
+std::optional<PageRecord> readRecord(const BatchPage&);
+Result<void> writeRecord(const BatchPage&, const PageRecord&);
+
+/// SHA-256 of a file's bytes; nullopt if it cannot be read.
+std::optional<std::string> fileHash(const std::string& name);
+
+/// Whether a record says that nothing needs to be done: it is of this key, ended, and the outputs are as they were
+/// written.
+bool isUnchanged(const BatchPage&, const PageRecord&, const std::string& key);
+
+}  // namespace batten::cli

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Run by CPack on the installed tree before it is packed: what Debian's policy asks of a package beside the program's own
+# files, and one date for all files, so that two builds give the same package byte for byte.
+set(tree ${CPACK_TEMPORARY_INSTALL_DIRECTORY})
+set(doc ${tree}/usr/share/doc/batten)
+
+# The change log in Debian's form, made from CHANGELOG.md.
+execute_process(COMMAND date -R -u -d "${CPACK_BATTEN_DATE}" OUTPUT_VARIABLE stamp OUTPUT_STRIP_TRAILING_WHITESPACE
+  COMMAND_ERROR_IS_FATAL ANY)
+file(STRINGS ${CPACK_BATTEN_SOURCE}/CHANGELOG.md lines)
+set(log "")
+set(end "")
+foreach(line IN LISTS lines)
+  if(line MATCHES "^## ([0-9.]+) \\(([0-9-]+)\\)$")
+    execute_process(COMMAND date -R -u -d "${CMAKE_MATCH_2}" OUTPUT_VARIABLE stamp OUTPUT_STRIP_TRAILING_WHITESPACE
+      COMMAND_ERROR_IS_FATAL ANY)
+    string(APPEND log "${end}batten (${CMAKE_MATCH_1}) unstable; urgency=medium\n\n")
+    set(end "\n -- ${CPACK_BATTEN_CONTACT}  ${stamp}\n\n")
+  elseif(line MATCHES "^- (.*)$")
+    string(APPEND log "  * ${CMAKE_MATCH_1}\n")
+  elseif(line MATCHES "^  +(.*)$" AND NOT end STREQUAL "")
+    string(APPEND log "    ${CMAKE_MATCH_1}\n")
+  endif()
+endforeach()
+file(WRITE ${doc}/changelog "${log}${end}")
+execute_process(COMMAND gzip --force --no-name --best ${doc}/changelog COMMAND_ERROR_IS_FATAL ANY)
+
+file(WRITE ${doc}/copyright "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
+Upstream-Name: Batten
+
+Files: *
+Copyright: The Batten developers
+License: GPL-3+
+
+License: GPL-3+
+ This program is free software: you can redistribute it and/or modify it under the terms of the GNU General Public
+ License as published by the Free Software Foundation, either version 3 of the License, or (at your option) any later
+ version.
+ .
+ This program comes without any warranty; without even the implied warranty of merchantability or fitness for a
+ particular purpose. See the GNU General Public License for more details.
+ .
+ On Debian systems, the complete text of the GNU General Public License version 3 can be found in
+ /usr/share/common-licenses/GPL-3.
+")
+execute_process(COMMAND chmod -R u=rwX,go=rX ${tree} COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND find ${tree} -exec touch --no-dereference --date "${CPACK_BATTEN_DATE}T00:00:00Z" {} +
+  COMMAND_ERROR_IS_FATAL ANY)

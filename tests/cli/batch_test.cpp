@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <signal.h>
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "tests/cli/program.h"
+
+namespace batten {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+/// Pages of an archive in the test's folder, and the lines that the program says of them.
+class Batch : public test::Program {
+ protected:
+  /// A rendered shape as NAME.png.
+  void drawPage(const std::string& name, const std::string& shape = "ellipse") const {
+    const auto truth = test::truthShape(shape, 480, 320);
+    const Scan scan = test::renderPage(test::fillCoverage(truth.outline(), 480, 320), 480, 320, test::scannedPage(3));
+    write(name + ".png", pngOf(scan.grey));
+  }
+  std::string line(const std::string& name, const json& more = json::object()) const {
+    json page{{"scan", file(name + ".png")}, {"outputs", {file(name + ".svg"), file(name + ".json")}}, {"dpi", 254}};
+    page.update(more);
+    return page.dump() + "\n";
+  }
+  static std::vector<json> linesOf(const std::string& text) {
+    std::vector<json> lines;
+    for (std::size_t from = 0; from < text.size();) {
+      const auto end = text.find('\n', from);
+      EXPECT_NE(end, std::string::npos) << "a torn line: " << text.substr(from);
+      if (end == std::string::npos) break;
+      lines.push_back(json::parse(text.substr(from, end - from)));
+      from = end + 1;
+    }
+    return lines;
+  }
+  /// "NAME status" of each line, by the order of names.
+  static std::multiset<std::string> statusesOf(const std::string& text) {
+    std::multiset<std::string> statuses;
+    for (const json& one : linesOf(text)) {
+      statuses.insert(fs::path(one["scan"].get<std::string>()).stem().string() + " " +
+                      one["status"].get<std::string>());
+    }
+    return statuses;
+  }
+  std::set<std::string> filesIn(const fs::path& folder) const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+    for (const char* own : {"out.txt", "err.txt"}) names.erase(own);
+    return names;
+  }
+  using Statuses = std::multiset<std::string>;
+};
+
+TEST_F(Batch, GivesWhatSingleCallsGiveAndLeavesUnchangedPages) {
+  drawPage("a");
+  drawPage("b", "car");
+  write("pages.jsonl",
+        line("a") + "\n" + line("b", {{"set", {{"fairing.mode", "tolerance"}, {"fairing.tolerance", 0.2}}}}));
+  const auto done = run("batch " + file("pages.jsonl") + " --jobs 2");
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(done.err, "");
+  EXPECT_EQ(statusesOf(done.out), (Statuses{"a done", "b done"}));
+  for (const json& one : linesOf(done.out)) {
+    EXPECT_EQ(one["line"], one["scan"] == file("a.png") ? 1 : 3) << "blank lines count";
+    EXPECT_EQ(one["exit"], 0);
+    EXPECT_EQ(one["curves"], 1);
+    EXPECT_GT(one["seconds"].get<double>(), 0.0);
+    EXPECT_GT(one["peak_memory_bytes"].get<double>(), 1e6);
+  }
+  ASSERT_EQ(
+      run("trace " + file("a.png") + " --dpi 254 -o " + file("single-a.svg") + " -o " + file("single-a.json")).code, 0);
+  ASSERT_EQ(run("trace " + file("b.png") + " --dpi 254 --set fairing.mode=tolerance --set fairing.tolerance=0.2 -o " +
+                file("single-b.svg") + " -o " + file("single-b.json"))
+                .code,
+            0);
+  for (const char* name : {"a.svg", "a.json", "b.svg", "b.json"}) {
+    EXPECT_EQ(test::readFile(file(name)), test::readFile(file(std::string("single-") + name))) << name;
+  }
+  const auto written = fs::last_write_time(file("a.svg"));
+  const auto again = run("batch - <" + file("pages.jsonl"));
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(statusesOf(again.out), (Statuses{"a unchanged", "b unchanged"}));
+  EXPECT_EQ(fs::last_write_time(file("a.svg")), written);
+  for (const json& one : linesOf(again.out)) EXPECT_EQ(one["curves"], 1) << "as known from before";
+}
+
+TEST_F(Batch, WhatHasChangedIsMadeAnew) {
+  for (const char* name : {"a", "b", "c", "d", "e"}) drawPage(name);
+  write("r.json", R"({"format":"batten-recipe","version":1,"parameters":{"fairing.mode":"tolerance"}})");
+  const std::string same = line("a") + line("b", {{"recipe", file("r.json")}});
+  write("pages.jsonl", same + line("c") + line("d") + line("e"));
+  ASSERT_EQ(run("batch " + file("pages.jsonl")).code, 0);
+  write("r.json", R"({"format":"batten-recipe","version":1,"parameters":{"fairing.mode":"none"}})");
+  drawPage("c", "car");
+  write("d.svg", "damaged");
+  write("pages.jsonl", same + line("c") + line("d") + line("e", {{"dpi", 300}}));
+  const auto done = run("batch " + file("pages.jsonl"));
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(statusesOf(done.out), (Statuses{"a unchanged", "b done", "c done", "d done", "e done"}));
+  EXPECT_NE(test::readFile(file("d.svg")), "damaged");
+}
+
+TEST_F(Batch, FailuresAreToldApartAndHoldNothingUp) {
+  drawPage("good");
+  drawPage("nowhere");
+  write("empty.png", pngOf(GreyImage(200, 150, 65535)));
+  write("damaged.png", "This is a letter, not a picture.\n");
+  json nowhere = json::parse(line("nowhere"));
+  nowhere["outputs"] = {file("no/such/o.svg")};
+  write("pages.jsonl", line("damaged") + line("empty") + nowhere.dump() + "\n" + line("missing") + line("good"));
+  const auto done = run("batch " + file("pages.jsonl") + " --failures " + file("failed.jsonl"));
+  EXPECT_EQ(done.code, 6);
+  EXPECT_EQ(done.err, "batten-cli: 3 of 5 pages have failed; the lines with \"status\":\"failed\" say why.\n");
+  EXPECT_EQ(statusesOf(done.out),
+            (Statuses{"damaged failed", "empty empty", "nowhere failed", "missing failed", "good done"}));
+  for (const json& one : linesOf(done.out)) {
+    if (one["status"] == "done") continue;
+    const auto single =
+        run("trace " + one["scan"].get<std::string>() + " --dpi 254 -o " + one["outputs"][0].get<std::string>());
+    EXPECT_EQ(one["exit"], single.code) << one;
+    EXPECT_EQ("batten-cli: " + one["error"].get<std::string>() + "\n", single.err);
+  }
+  EXPECT_FALSE(fs::exists(file("damaged.svg.batch.json"))) << "nothing was made, so nothing is kept";
+  const std::string failed = test::readFile(file("failed.jsonl"));
+  EXPECT_EQ(std::count(failed.begin(), failed.end(), '\n'), 3);
+  // The pages that failed are a manifest; mended, they are done.
+  drawPage("damaged");
+  drawPage("missing");
+  fs::create_directories(file("no/such"));
+  const auto mended = run("batch " + file("failed.jsonl"));
+  EXPECT_EQ(mended.code, 0) << mended.err;
+  EXPECT_EQ(statusesOf(mended.out), (Statuses{"damaged done", "nowhere done", "missing done"}));
+  // All that was asked for is known by now, the empty page too.
+  EXPECT_EQ(run("batch " + file("pages.jsonl") + " --max-failures 0").code, 0);
+}
+
+TEST_F(Batch, TooManyFailuresOrTooMuchTimeEndIt) {
+  for (const char* name : {"a", "b", "c", "d"}) write(std::string(name) + ".png", "no picture");
+  drawPage("e");
+  write("pages.jsonl", line("a") + line("b") + line("c") + line("d") + line("e"));
+  const auto few = run("batch " + file("pages.jsonl") + " --jobs 1 --max-failures 0.2");
+  EXPECT_EQ(few.code, 7);
+  EXPECT_NE(few.err.find("2 of 5 pages have failed"), std::string::npos) << few.err;
+  EXPECT_EQ(statusesOf(few.out), (Statuses{"a failed", "b failed"}));
+  write("slow.jsonl", line("e"));
+  const auto slow = run("batch " + file("slow.jsonl") + " --page-timeout 0.001");
+  EXPECT_EQ(slow.code, 6);
+  EXPECT_NE(slow.out.find("longer than 0.001 s"), std::string::npos) << slow.out;
+  EXPECT_FALSE(fs::exists(file("e.svg")));
+}
+
+TEST_F(Batch, FilesOfOthersAreNotTouchedUnlessAsked) {
+  drawPage("a");
+  write("a.svg", "mine");
+  write("pages.jsonl", line("a"));
+  const auto kept = run("batch " + file("pages.jsonl"));
+  EXPECT_EQ(kept.code, 6);
+  EXPECT_NE(kept.out.find("--existing overwrite"), std::string::npos) << kept.out;
+  expectError("batch " + file("pages.jsonl") + " --existing abort", 5, "is there already");
+  EXPECT_EQ(test::readFile(file("a.svg")), "mine");
+  EXPECT_EQ(run("batch " + file("pages.jsonl") + " --existing overwrite").code, 0);
+  EXPECT_NE(test::readFile(file("a.svg")), "mine");
+  EXPECT_EQ(statusesOf(run("batch " + file("pages.jsonl") + " --existing overwrite").out), Statuses{"a done"});
+  EXPECT_EQ(statusesOf(run("batch " + file("pages.jsonl") + " --existing overwrite --resume").out),
+            Statuses{"a unchanged"});
+}
+
+TEST_F(Batch, WrongManifestsAreRefusedWithTheirLine) {
+  drawPage("a");
+  const auto refused = [&](const std::string& text, const std::string& says) {
+    write("pages.jsonl", line("a") + text);
+    expectError("batch " + file("pages.jsonl"), 2, says);
+  };
+  refused("{\"scan\":", "Line 2 of the manifest: it is no JSON object");
+  refused("[1,2]", "it is no JSON object");
+  refused("{\"outputs\":[\"x.svg\"]}", "\"scan\" is missing");
+  refused("{\"scan\":\"x.png\"}", "\"outputs\" is missing");
+  refused("{\"scan\":\"x.png\",\"outputs\":[]}", "\"outputs\" takes");
+  refused("{\"scan\":\"x.png\",\"outputs\":\"x.svg\"}", "\"outputs\" takes");
+  refused("{\"scan\":\"x.png\",\"outputs\":[\"x.svg\"],\"recpe\":\"r\"}", "there is no \"recpe\"");
+  refused("{\"scan\":\"x.png\",\"outputs\":[\"x.svg\"],\"dpi\":\"300\"}", "\"dpi\" takes a number");
+  refused("{\"scan\":\"x.png\",\"outputs\":[\"x.svg\"],\"page\":0}", "\"page\" takes");
+  refused("{\"scan\":\"x.png\",\"outputs\":[\"x.svg\"],\"set\":{\"a\":[]}}", "\"set\" takes");
+  refused("{\"scan\":\"x.png\",\"outputs\":[\"" + file("./a.svg") + "\"]}", "is written by line 1 as well");
+  refused("{\"scan\":\"x.png\",\"outputs\":[\"" + file("a.png") + "\"]}", "is a scan or a recipe");
+  write("pages.jsonl", "\n");
+  expectError("batch " + file("pages.jsonl"), 2, "holds no page");
+  expectError("batch " + file("none.jsonl"), 2, "cannot be read");
+  expectError("batch " + file("none") + " --to " + file("out"), 2, "There is no scan in");
+  expectError("batch " + file("a.png"), 2, "--to FOLDER");
+  expectError("batch " + file("a.png") + " --to " + file("out") + " --formats svg,", 2, "--formats");
+  expectError("batch " + file("pages.jsonl") + " " + file("a.png"), 2, "one manifest");
+  EXPECT_FALSE(fs::exists(file("a.svg")));
+}
+
+TEST_F(Batch, FoldersAndPatternsBecomeAManifest) {
+  for (const char* folder : {"in/deep", "out"}) fs::create_directories(file(folder));
+  for (const char* name : {"in/b", "in/a", "in/deep/a", "in/other"}) drawPage(name);
+  fs::copy_file(file("in/a.png"), file("in/a.bmp"));  // told by its bytes, not by its name
+  write("in/notes.txt", "no scan");
+  write("in/b.recipe.json", R"({"format":"batten-recipe","version":1,"dpi":200})");
+  ASSERT_EQ(run("batch " + file("in") + " --to " + file("out") + " --write-manifest " + file("m.jsonl")).code, 0);
+  std::map<std::string, json> pages;
+  for (const json& one : linesOf(test::readFile(file("m.jsonl")))) pages[one["scan"]] = one;
+  ASSERT_EQ(pages.size(), 5u);
+  EXPECT_EQ(pages[file("in/deep/a.png")]["outputs"], (json{file("out/deep/a.svg"), file("out/deep/a.json")}));
+  EXPECT_EQ(pages[file("in/a.png")]["outputs"][0], file("out/a.png.svg")) << "a.bmp would write the same";
+  EXPECT_EQ(pages[file("in/b.png")]["recipe"], file("in/b.recipe.json"));
+  EXPECT_FALSE(pages[file("in/other.png")].contains("recipe"));
+  // A pattern, with what is common to all pages; the folder of the outputs is none of the scans'.
+  const auto done = run("batch '" + file("in/[ab].png") + "' '" + file("in/?.png") + "' --to " + file("in/curves") +
+                        " --formats svg --dpi 254");
+  EXPECT_EQ(done.code, 2) << "no scan is named [ab].png: " << done.out;
+  const auto two = run("batch '" + file("in/?.png") + "' --to " + file("in/curves") + " --formats svg --dpi 254");
+  EXPECT_EQ(two.code, 0) << two.err;
+  EXPECT_EQ(filesIn(file("in/curves")),
+            (std::set<std::string>{"a.svg", "a.svg.batch.json", "b.svg", "b.svg.batch.json"}));
+  EXPECT_NE(test::readFile(file("in/curves/b.svg")).find("width=\"48mm\""), std::string::npos);
+}
+
+/// Starts the program beside the test.
+class Running {
+ public:
+  explicit Running(const std::vector<std::string>& words) {
+    std::vector<char*> pointers;
+    words_ = words;
+    words_.insert(words_.begin(), BATTEN_CLI);
+    for (std::string& word : words_) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    id_ = fork();
+    if (id_ == 0) {
+      execv(pointers.front(), pointers.data());
+      _exit(127);
+    }
+  }
+  void send(int signal) const { kill(id_, signal); }
+  int wait() const {
+    int status = 0;
+    waitpid(id_, &status, 0);
+    return status;
+  }
+
+ private:
+  std::vector<std::string> words_;
+  pid_t id_ = -1;
+};
+
+bool waitUntil(const std::function<bool()>& done) {
+  for (int i = 0; i < 6000; ++i) {
+    if (done()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+std::ptrdiff_t linesIn(const std::string& file) {
+  const std::string text = test::readFile(file);
+  return std::count(text.begin(), text.end(), '\n');
+}
+
+TEST_F(Batch, AKillLosesNoPageAndTellsNoneTwice) {
+  std::string pages;
+  std::set<std::string> expected{"pages.jsonl", "results.jsonl"};
+  for (int i = 0; i < 6; ++i) {
+    const std::string name = "p" + std::to_string(i);
+    drawPage(name, i % 2 == 0 ? "ellipse" : "car");
+    pages += line(name);
+    for (const char* end : {".png", ".svg", ".json", ".svg.batch.json"}) expected.insert(name + end);
+  }
+  write("pages.jsonl", pages);
+  const std::vector<std::string> words{"batch", file("pages.jsonl"), "--jobs", "2", "--results", file("results.jsonl")};
+  for (std::ptrdiff_t after : {1, 3}) {
+    const Running program(words);
+    ASSERT_TRUE(waitUntil([&] { return linesIn(file("results.jsonl")) >= after; }));
+    program.send(SIGKILL);
+    program.wait();
+  }
+  const std::string before = test::readFile(file("results.jsonl"));
+  const Running program(words);
+  const int status = program.wait();
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  const std::string results = test::readFile(file("results.jsonl"));
+  EXPECT_TRUE(results.starts_with(before)) << "lines are added only";
+  std::multiset<std::string> scans;
+  for (const json& one : linesOf(results)) scans.insert(one["scan"].get<std::string>());
+  EXPECT_EQ(scans.size(), 6u);
+  EXPECT_EQ(std::set<std::string>(scans.begin(), scans.end()).size(), 6u);
+  EXPECT_EQ(filesIn(folder_), expected) << "no half file is left";
+  for (int i = 0; i < 6; ++i) {
+    const std::string name = "p" + std::to_string(i);
+    ASSERT_EQ(run("trace " + file(name + ".png") + " --dpi 254 -o " + file("single.json")).code, 0);
+    EXPECT_EQ(test::readFile(file(name + ".json")), test::readFile(file("single.json"))) << name;
+  }
+}
+
+TEST_F(Batch, AnInterruptEndsAfterTheRunningPages) {
+  std::string pages;
+  for (int i = 0; i < 8; ++i) {
+    drawPage("p" + std::to_string(i));
+    pages += line("p" + std::to_string(i));
+  }
+  write("pages.jsonl", pages);
+  const std::vector<std::string> words{"batch", file("pages.jsonl"), "--jobs", "1", "--results", file("results.jsonl")};
+  const Running program(words);
+  ASSERT_TRUE(waitUntil([&] { return linesIn(file("results.jsonl")) >= 2; }));
+  program.send(SIGINT);
+  const int status = program.wait();
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+  const auto ended = linesOf(test::readFile(file("results.jsonl")));
+  EXPECT_LT(ended.size(), 8u);
+  for (const json& one : ended) EXPECT_EQ(one["status"], "done") << "the running page was not cut off";
+  EXPECT_EQ(run("batch " + file("pages.jsonl") + " --results " + file("results.jsonl")).code, 0);
+  EXPECT_EQ(linesIn(file("results.jsonl")), 8);
+}
+
+TEST_F(Batch, LinesThatWereLostOrTornComeBack) {
+  drawPage("a");
+  drawPage("b");
+  write("pages.jsonl", line("a") + line("b"));
+  const std::string words = "batch " + file("pages.jsonl") + " --jobs 1 --results " + file("results.jsonl");
+  ASSERT_EQ(run(words).code, 0);
+  const std::string whole = test::readFile(file("results.jsonl"));
+  write("results.jsonl", whole.substr(0, whole.size() - 20));  // as on a disk that was full
+  ASSERT_EQ(run(words).code, 0);
+  const std::string again = test::readFile(file("results.jsonl"));
+  EXPECT_EQ(std::count(again.begin(), again.end(), '\n'), 3);
+  const json last = json::parse(again.substr(again.rfind('\n', again.size() - 2) + 1));
+  EXPECT_EQ(last["scan"], file("b.png"));
+  EXPECT_EQ(last["status"], "unchanged");
+  EXPECT_EQ(last["curves"], 1);
+  ASSERT_EQ(run(words).code, 0);
+  EXPECT_EQ(test::readFile(file("results.jsonl")), again) << "nothing is told twice";
+}
+
+TEST_F(Batch, TheContactSheetShowsEveryPage) {
+  fs::create_directories(file("with blank & sign"));
+  drawPage("a");
+  drawPage("with blank & sign/b", "car");
+  write("empty.png", pngOf(GreyImage(200, 150, 65535)));
+  write("damaged.png", "no picture");
+  json second = json::parse(line("with blank & sign/b"));
+  second["outputs"] = {file("with blank & sign/b.svg")};
+  write("pages.jsonl", line("a") + second.dump() + "\n" + line("empty") + line("damaged"));
+  EXPECT_EQ(run("batch " + file("pages.jsonl") + " --sheet " + file("sheet.html")).code, 6);
+  const std::string html = test::readFile(file("sheet.html"));
+  const auto count = [&](const std::string& what) {
+    int found = 0;
+    for (auto at = html.find(what); at != std::string::npos; at = html.find(what, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_EQ(count("<figure class=\"done\">"), 2);
+  EXPECT_EQ(count("<figure class=\"empty\">"), 1);
+  EXPECT_EQ(count("<figure class=\"failed\">"), 1);
+  EXPECT_EQ(count("<svg "), 2) << "curves of a .json and of an .svg";
+  EXPECT_EQ(count("<img "), 3);
+  EXPECT_NE(html.find("href=\"with%20blank%20%26%20sign/b.svg\""), std::string::npos);
+  EXPECT_NE(html.find("2 done, 1 without a curve, 1 failed"), std::string::npos);
+  EXPECT_EQ(filesIn(file("sheet_files")).size(), 3u);
+  // The curve of the picture lies where that of the output does: its points are within the shape's box.
+  const auto path = html.find("<path d=\"M");
+  ASSERT_NE(path, std::string::npos);
+  double x = 0.0, y = 0.0;
+  ASSERT_EQ(std::sscanf(html.c_str() + path, "<path d=\"M%lf %lf", &x, &y), 2);
+  const auto truth = test::truthShape("ellipse", 480, 320).outline();
+  double nearest = 1e9;
+  for (const Vec2& p : truth) nearest = std::min(nearest, (Vec2(x * 0.48, y * 0.48) - p).norm());
+  EXPECT_LT(nearest, 0.5) << "px";
+}
+
+TEST_F(Batch, AStdoutThatTakesNothingEndsIt) {
+  for (const char* name : {"a", "b", "c", "d"}) drawPage(name);
+  write("pages.jsonl", line("a") + line("b") + line("c") + line("d"));
+  const auto done = runInto(">/dev/full", "batch " + file("pages.jsonl") + " --jobs 1");
+  EXPECT_EQ(done.code, 7);
+  EXPECT_NE(done.err.find("stdout"), std::string::npos) << done.err;
+  EXPECT_FALSE(fs::exists(file("d.svg")));
+}
+
+}  // namespace
+}  // namespace batten

@@ -1,0 +1,279 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs an archive by each of the four ways, killed twice, and holds it against single calls: batch.py FOLDER COUNT
+
+Needs BATTEN_CLI. Ends with 1 at the first difference. A way that cannot start here is named and passed over.
+"""
+import collections
+import json
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+RECIPES = os.path.join(HERE, "..", "..", "resources", "batch")
+CLI = os.environ["BATTEN_CLI"]
+TIMEOUT = float(os.environ.get("BATTEN_BATCH_TIMEOUT", "20"))
+OPTIONS = "--page-timeout %g" % TIMEOUT
+folder, count = os.path.abspath(sys.argv[1]), int(sys.argv[2])
+
+
+def fail(text):
+    sys.exit("FAILED: " + text)
+
+
+def pages_of(place):
+    with open(os.path.join(place, "pages.jsonl")) as file:
+        return [json.loads(line) for line in file]
+
+
+def results_of(place, name):
+    path = os.path.join(place, name)
+    if not os.path.exists(path):
+        return []
+    with open(path) as file:
+        return [json.loads(line) for line in file if line.endswith("\n")]
+
+
+def single_calls(place):
+    """What each page gives alone: {scan: (status, error)}; the outputs stay in `place`."""
+    told = {}
+    for page in pages_of(place):
+        words = [CLI, "trace", page["scan"], "--dpi", str(page["dpi"]), "--threads", "1"]
+        for name, value in page.get("set", {}).items():
+            words += ["--set", "%s=%s" % (name, value)]
+        for output in page["outputs"]:
+            words += ["-o", output]
+        try:
+            done = subprocess.run(words, cwd=place, capture_output=True, text=True, timeout=TIMEOUT)
+            status = {0: "done", 4: "empty"}.get(done.returncode, "failed")
+            told[page["scan"]] = (status, done.stderr.strip().removeprefix("batten-cli: "))
+        except subprocess.TimeoutExpired:
+            told[page["scan"]] = ("failed", "It took longer than %g s. Raise --page-timeout." % TIMEOUT)
+    return told
+
+
+def start(words, place, **more):
+    return subprocess.Popen(words, cwd=place, stdout=subprocess.DEVNULL, stderr=open(os.path.join(place, "log"), "ab"),
+                            stdin=subprocess.DEVNULL, env=dict(os.environ, BATTEN_OPTIONS=OPTIONS), **more)
+
+
+def kill_when(process, place, results, lines):
+    """kill -9 once so many pages have been told of; True if it came in time."""
+    while process.poll() is None:
+        if len(results_of(place, results)) >= lines:
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            return True
+        time.sleep(0.02)
+    return False
+
+
+def run_killed_twice(words, place, results, before_restart=None):
+    kills = 0
+    for share in (0.3, 0.6):
+        kills += kill_when(start(words, place), place, results, int(share * count))
+        if before_restart:
+            before_restart(place)
+    start(words, place).wait()
+    if kills != 2:
+        fail("%s ended before it was killed twice" % words[0])
+
+
+def by_batch(place):
+    run_killed_twice([CLI, "batch", "pages.jsonl", "--jobs", "2", "--results", "pages.jsonl.results", *OPTIONS.split()], place,
+                     "pages.jsonl.results")
+
+
+def by_parallel(place):
+    run_killed_twice([os.path.join(RECIPES, "run-parallel"), "pages.jsonl", "2"], place, "pages.jsonl.results")
+
+
+def by_snakemake(place):
+    words = ["snakemake", "--snakefile", os.path.join(RECIPES, "Snakefile"), "--config", "manifest=pages.jsonl", "batten=" + CLI,
+             "--cores", "2", "--keep-going", "--retries", "1", "--rerun-incomplete", "--quiet"]
+
+    def unlock(place):
+        start(words + ["--unlock"], place).wait()
+
+    run_killed_twice(words, place, "pages.jsonl.results", unlock)
+
+
+class Slurm:
+    """A controller and a node of our own on loopback, with accounts of neither; ended with this object."""
+
+    def __init__(self, place):
+        self.place = os.path.join(place, "slurm")
+        os.makedirs(self.place)
+        self.processes = []
+        host = socket.gethostname().split(".")[0]
+        munge = os.path.join(self.place, "munge")
+        os.makedirs(munge, mode=0o700)
+        key = os.path.join(munge, "key")
+        with open(key, "wb") as out:
+            out.write(os.urandom(128))
+        os.chmod(key, 0o400)
+        self.socket = os.path.join(munge, "socket")
+        os.chmod(munge, 0o755)
+        self.run(["munged", "--foreground", "--force", "--socket=" + self.socket, "--key-file=" + key,
+                  "--log-file=" + os.path.join(munge, "log"), "--pid-file=" + os.path.join(munge, "pid"),
+                  "--seed-file=" + os.path.join(munge, "seed")])
+        self.config = os.path.join(self.place, "slurm.conf")
+        with open(self.config, "w") as out:
+            out.write("""ClusterName=batten
+SlurmctldHost=%(host)s(127.0.0.1)
+SlurmUser=root
+SlurmdUser=root
+AuthType=auth/munge
+AuthInfo=socket=%(socket)s
+CryptoType=crypto/munge
+SlurmctldPort=16817
+SlurmdPort=16818
+StateSaveLocation=%(place)s/state
+SlurmdSpoolDir=%(place)s/spool
+SlurmctldPidFile=%(place)s/ctld.pid
+SlurmdPidFile=%(place)s/d.pid
+SlurmctldLogFile=%(place)s/ctld.log
+SlurmdLogFile=%(place)s/d.log
+ProctrackType=proctrack/pgid
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+AccountingStorageType=accounting_storage/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+ReturnToService=2
+MpiDefault=none
+SwitchType=switch/none
+NodeName=%(host)s NodeAddr=127.0.0.1 CPUs=%(cpus)d State=UNKNOWN
+PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+""" % {"host": host, "socket": self.socket, "place": self.place, "cpus": os.cpu_count()})
+        os.makedirs(os.path.join(self.place, "state"))
+        os.makedirs(os.path.join(self.place, "spool"))
+        time.sleep(1)
+        self.run(["slurmctld", "-D", "-f", self.config])
+        self.run(["slurmd", "-D", "-f", self.config, "-N", host])
+        self.environment = dict(os.environ, SLURM_CONF=self.config, BATTEN_OPTIONS=OPTIONS)
+
+    def run(self, words):
+        log = open(os.path.join(self.place, words[0] + ".out"), "wb")
+        self.processes.append(subprocess.Popen(words, stdout=log, stderr=log, stdin=subprocess.DEVNULL,
+                                               env=dict(os.environ, SLURM_CONF=getattr(self, "config", ""))))
+
+    def ask(self, *words):
+        return subprocess.run(words, env=self.environment, capture_output=True, text=True)
+
+    def is_up(self):
+        for _ in range(100):
+            if "idle" in self.ask("sinfo", "-h", "-o", "%T").stdout:
+                return True
+            if any(p.poll() is not None for p in self.processes):
+                return False
+            time.sleep(0.3)
+        return False
+
+    def end(self):
+        for process in reversed(self.processes):
+            process.terminate()
+            try:
+                process.wait(10)
+            except subprocess.TimeoutExpired:
+                process.kill()
+
+
+def by_slurm(place):
+    slurm = Slurm(place)
+    try:
+        if not slurm.is_up():
+            return "Slurm cannot start here: " + slurm.ask("sinfo").stderr.strip()
+        lines = max(1, count // 20)
+        words = ["sbatch", "--parsable", "--array=0-%d" % ((count - 1) // lines), "--chdir=" + place,
+                 os.path.join(RECIPES, "slurm-array"), "pages.jsonl", str(lines)]
+        for share in (0.3, 0.6, None):
+            submitted = slurm.ask(*words)
+            if submitted.returncode != 0:
+                return "Slurm takes no job: " + submitted.stderr.strip()
+            job = submitted.stdout.strip()
+            while slurm.ask("squeue", "-h", "-j", job).stdout.strip():
+                if share and len(results_of(place, "pages.jsonl.results")) >= share * count:
+                    slurm.ask("scancel", "--signal=KILL", "--full", job)
+                    slurm.ask("scancel", job)
+                    while slurm.ask("squeue", "-h", "-j", job).stdout.strip():
+                        time.sleep(0.1)
+                    break
+                time.sleep(0.1)
+        return None
+    finally:
+        slurm.end()
+
+
+def check(way, place, reference, told):
+    lines = results_of(place, "pages.jsonl.results")
+    finished = collections.Counter(one["scan"] for one in lines if one["status"] != "failed")
+    last = {one["scan"]: one for one in lines}
+    if set(last) != set(told):
+        fail("%s: not every page is told of: %s" % (way, sorted(set(told) ^ set(last))[:5]))
+    for scan, times in finished.items():
+        if times != 1:
+            fail("%s: %s is told of %d times" % (way, scan, times))
+    for page in pages_of(place):
+        scan = page["scan"]
+        status, error = told[scan]
+        now = "done" if last[scan]["status"] == "unchanged" and status == "done" else last[scan]["status"]
+        now = "empty" if now == "unchanged" and status == "empty" else now
+        if now != status or (status != "done" and last[scan].get("error") != error):
+            fail("%s: %s is %s (%s), alone it is %s (%s)" % (way, scan, now, last[scan].get("error"), status, error))
+        for output in page["outputs"]:
+            a, b = os.path.join(reference, output), os.path.join(place, output)
+            if status == "done" and open(a, "rb").read() != open(b, "rb").read():
+                fail("%s: %s differs from that of a single call" % (way, output))
+            if status != "done" and os.path.exists(b):
+                fail("%s: %s is there, but the page is %s" % (way, output, status))
+    known = {name for page in pages_of(place) for output in page["outputs"] for name in (output, page["outputs"][0] + ".batch.json")}
+    stray = [name for name in os.listdir(os.path.join(place, "curves")) if os.path.join("curves", name) not in known]
+    if stray:
+        fail("%s: stray files: %s" % (way, stray[:5]))
+    return max(one.get("peak_memory_bytes", 0) for one in lines) / 1e6
+
+
+def copy_of(source, name):
+    place = os.path.join(folder, name)
+    shutil.copytree(source, place)
+    return place
+
+
+def main():
+    source = os.path.join(folder, "source")
+    subprocess.run([sys.executable, os.path.join(HERE, "make_pages.py"), source, str(count)], check=True)
+    single = copy_of(source, "single")
+    begin = time.time()
+    told = single_calls(single)
+    alone = time.time() - begin
+    kinds = collections.Counter(status for status, _ in told.values())
+    print("%d pages: %s" % (count, ", ".join("%d %s" % (n, kind) for kind, n in sorted(kinds.items()))))
+    row = "%-34s %8s %10s %8s"
+    print(row % ("", "seconds", "pages/min", "peak MB"))
+    print(row % ("single calls in a loop", "%.1f" % alone, "%.1f" % (60 * count / alone), ""), flush=True)
+    for jobs in (1, 2):
+        place = copy_of(source, "jobs%d" % jobs)
+        begin = time.time()
+        start([CLI, "batch", "pages.jsonl", "--jobs", str(jobs), "--results", "pages.jsonl.results", *OPTIONS.split()], place).wait()
+        seconds = time.time() - begin
+        peak = check("batch", place, single, told)
+        print(row % ("batch, %d at once (%.2f x)" % (jobs, alone / seconds), "%.1f" % seconds, "%.1f" % (60 * count / seconds),
+                     "%.0f" % peak), flush=True)
+    for name, way in (("batch", by_batch), ("parallel", by_parallel), ("slurm", by_slurm), ("snakemake", by_snakemake)):
+        place = copy_of(source, name + "-killed")
+        begin = time.time()
+        why = way(place)
+        seconds = time.time() - begin
+        if why:
+            print("%s: passed over. %s" % (name, why), flush=True)
+            continue
+        peak = check(name, place, single, told)
+        print(row % (name + ", killed by -9 twice", "%.1f" % seconds, "%.1f" % (60 * count / seconds), "%.0f" % peak), flush=True)
+
+
+main()
