@@ -53,13 +53,13 @@ class Course {
 };
 
 /// How a piece runs on a course: from `start`, forwards or backwards, over `covered` of it.
-struct Run {
+struct CourseStretch {
   double start = 0.0, covered = 1.0;
   bool isReversed = false;
   bool isWhole() const { return start == 0.0 && covered == 1.0 && !isReversed; }
 };
 
-Run runOf(const Course& course, const Piece& piece) {
+CourseStretch runOf(const Course& course, const Piece& piece) {
   std::vector<double> shares;
   const std::size_t count = std::min(kPlaces, piece.points.size());
   for (std::size_t i = 0; i < count; ++i)
@@ -73,7 +73,7 @@ Run runOf(const Course& course, const Piece& piece) {
     forwards += step > 0.0 ? 1.0 : step < 0.0 ? -1.0 : 0.0;
     way += step;
   }
-  Run run;
+  CourseStretch run;
   run.isReversed = forwards != 0.0 ? forwards < 0.0 : way < 0.0;
   if (course.isClosed()) {
     run.start = shares.front();
@@ -91,7 +91,7 @@ Run runOf(const Course& course, const Piece& piece) {
 }
 
 /// The drawn profile as the piece runs.
-std::vector<ProfilePoint> turned(const std::vector<ProfilePoint>& profile, const Run& run, bool closedCourse) {
+std::vector<ProfilePoint> turned(const std::vector<ProfilePoint>& profile, const CourseStretch& run, bool closedCourse) {
   const double side = run.isReversed ? -1.0 : 1.0;
   const auto courseShare = [&](double t) {
     const double share = run.start + side * t * run.covered;
@@ -125,7 +125,7 @@ PieceChoice alongPiece(PieceChoice choice, const Piece& piece) {
   if (choice.anchorsPx.size() < 2 || piece.points.size() < 2) return choice;
   const Course course(choice.anchorsPx);
   if (course.isPoint()) return choice;
-  const Run run = runOf(course, piece);
+  const CourseStretch run = runOf(course, piece);
   if (run.isWhole() || !(run.covered > 0.0)) return choice;
   if (run.isReversed) std::swap(choice.startHold, choice.endHold);
   if (choice.profile.empty()) return choice;

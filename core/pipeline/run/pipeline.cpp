@@ -56,13 +56,13 @@ std::size_t bytesOf(const std::vector<TracedCurve>& curves) {
 std::size_t bytesOf(const ConstructedSet& set) { return sizeof(set) + bytesOf(set.curves); }
 std::size_t bytesOf(const FairedSet& set) { return sizeof(set) + bytesOf(set.curves); }
 
-class Run {
+class PipelineRun {
  public:
-  Run(const Scan& scan, const Recipe& recipe, StageCache& cache, const PipelineRequest& request,
+  PipelineRun(const Scan& scan, const Recipe& recipe, StageCache& cache, const PipelineRequest& request,
       const RunContext& context)
       : scan_(scan), recipe_(recipe), cache_(cache), request_(request), context_(context) {}
 
-  PipelineOutput all() {
+  PipelineOutput runStages() {
     if (auto wrong = validate(recipe_)) {
       out_.error = std::move(wrong);
       return std::move(out_);
@@ -216,7 +216,7 @@ class Run {
 
 PipelineOutput runPipeline(const Scan& scan, const Recipe& recipe, StageCache& cache, const PipelineRequest& request,
                            const RunContext& context) {
-  return Run(scan, recipe, cache, request, context).all();
+  return PipelineRun(scan, recipe, cache, request, context).runStages();
 }
 
 PageFrame frameFor(const Scan& scan, const Recipe& recipe) {
