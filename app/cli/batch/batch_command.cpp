@@ -15,7 +15,7 @@
 #include "app/cli/batch/batch_run.h"
 #include "app/cli/batch/contact_sheet.h"
 #include "app/cli/exit_codes.h"
-#include "core/exchange/writers.h"
+#include "core/exchange/save_atomically.h"
 
 namespace batten::cli {
 namespace {

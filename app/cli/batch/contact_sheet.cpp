@@ -14,7 +14,7 @@
 #include "app/cli/batch/page_record.h"
 #include "core/base/parallel.h"
 #include "core/base/platform.h"
-#include "core/exchange/writers.h"
+#include "core/exchange/save_atomically.h"
 #include "core/image/scan_reader.h"
 
 namespace batten::cli {

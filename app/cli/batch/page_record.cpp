@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/base/content_hash.h"
-#include "core/exchange/writers.h"
+#include "core/exchange/save_atomically.h"
 
 namespace batten::cli {
 namespace {

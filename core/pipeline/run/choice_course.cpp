@@ -91,7 +91,8 @@ CourseStretch runOf(const Course& course, const Piece& piece) {
 }
 
 /// The drawn profile as the piece runs.
-std::vector<ProfilePoint> turned(const std::vector<ProfilePoint>& profile, const CourseStretch& run, bool closedCourse) {
+std::vector<ProfilePoint> turned(const std::vector<ProfilePoint>& profile, const CourseStretch& run,
+                                 bool closedCourse) {
   const double side = run.isReversed ? -1.0 : 1.0;
   const auto courseShare = [&](double t) {
     const double share = run.start + side * t * run.covered;
