@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-tl::unexpected<Error> wrong(std::string message) { return fail(ErrorCode::BadParameter, std::move(message)); }
+tl::unexpected<Error> wrongLine(std::string message) { return fail(ErrorCode::BadParameter, std::move(message)); }
 
 /// One name for one file, without asking the disk: a manifest may have a hundred thousand lines.
 std::string plainName(const std::string& name) {
@@ -73,17 +73,17 @@ Result<BatchPage> pageOf(std::string_view text, int line, const PageDefaults& de
   const std::string where = "Line " + std::to_string(line) + " of the manifest: ";
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object())
-    return wrong(where + "it is no JSON object. Write {\"scan\": \"a.png\", \"outputs\": [\"a.svg\"]}.");
+    return wrongLine(where + "it is no JSON object. Write {\"scan\": \"a.png\", \"outputs\": [\"a.svg\"]}.");
   BatchPage page;
   page.line = line;
   page.recipe = defaults.recipe;
   page.settings = defaults.settings;
   page.dpi = defaults.dpi;
   for (const auto& [key, value] : json.items()) {
-    if (const auto problem = takeEntry(key, value, page)) return wrong(where + *problem + ".");
+    if (const auto problem = takeEntry(key, value, page)) return wrongLine(where + *problem + ".");
   }
-  if (page.scan.empty()) return wrong(where + "\"scan\" is missing.");
-  if (page.outputs.empty()) return wrong(where + "\"outputs\" is missing.");
+  if (page.scan.empty()) return wrongLine(where + "\"scan\" is missing.");
+  if (page.outputs.empty()) return wrongLine(where + "\"outputs\" is missing.");
   return page;
 }
 
@@ -99,10 +99,10 @@ Result<void> checkFiles(const std::vector<BatchPage>& pages) {
     const std::string where = "Line " + std::to_string(page.line) + " of the manifest: ";
     for (const std::string& output : page.outputs) {
       const std::string name = plainName(output);
-      if (read.contains(name)) return wrong(where + output + " is a scan or a recipe. Give the output another name.");
+      if (read.contains(name)) return wrongLine(where + output + " is a scan or a recipe. Give the output another name.");
       const auto [before, isNew] = written.emplace(name, page.line);
       if (!isNew) {
-        return wrong(where + output + " is written by line " + std::to_string(before->second) +
+        return wrongLine(where + output + " is written by line " + std::to_string(before->second) +
                      " as well. Give every output its own name.");
       }
     }
@@ -165,7 +165,7 @@ Result<std::vector<FoundScan>> scansOf(const std::string& input, const std::stri
     found.push_back({path, {}});
   }
   if (found.empty()) {
-    return wrong("There is no scan in " + input +
+    return wrongLine("There is no scan in " + input +
                  ". Name scans, a folder of them, a pattern, a manifest that ends in .jsonl, or - for stdin.");
   }
   std::sort(found.begin(), found.end(), [](const FoundScan& a, const FoundScan& b) { return a.scan < b.scan; });
@@ -187,7 +187,7 @@ Result<std::vector<BatchPage>> readManifest(std::string_view text, const PageDef
     if (!page) return fail(page.error());
     pages.push_back(std::move(*page));
   }
-  if (pages.empty()) return wrong("The manifest holds no page. Write one JSON object a line.");
+  if (pages.empty()) return wrongLine("The manifest holds no page. Write one JSON object a line.");
   if (auto checked = checkFiles(pages); !checked) return fail(checked.error());
   return pages;
 }
