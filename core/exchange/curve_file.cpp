@@ -6,12 +6,10 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/exchange/curve_json.h"
 #include "core/exchange/dxf_reader.h"
 #include "core/exchange/export_settings.h"
-#include "core/exchange/occt/iges.h"
-#include "core/exchange/occt/step_reader.h"
 #include "core/exchange/svg_reader.h"
-#include "core/exchange/curve_json.h"
 
 namespace batten {
 namespace {
@@ -44,9 +42,7 @@ Result<ExportDocument> documentOf(const CadDrawing& drawing) {
 Result<ExportDocument> contentOf(const std::string& bytes, ExportFormat format) {
   if (format == ExportFormat::Json) return readCurveJson(bytes);
   if (format == ExportFormat::Svg) return readSvg(bytes);
-  const auto drawing = format == ExportFormat::Dxf    ? readDxf(bytes)
-                       : format == ExportFormat::Iges ? readIges(bytes)
-                                                      : readStep(bytes);
+  const auto drawing = readDxf(bytes);
   if (!drawing) return fail(drawing.error());
   return documentOf(*drawing);
 }
@@ -59,9 +55,9 @@ Result<ExportDocument> readCurveFile(const std::filesystem::path& path) {
   if (!file || !std::filesystem::is_regular_file(path, code))
     return fail(ErrorCode::BadParameter, "The curves " + path.string() + " cannot be read. Check the name.");
   const auto format = formatOf(path).value_or(ExportFormat::Json);
-  if (format == ExportFormat::Pdf || format == ExportFormat::Csv || format == ExportFormat::Polynomials) {
-    return fail(ErrorCode::BadParameter, "Curves are not read from " + path.filename().string() +
-                                             ". Take a .json, .svg, .dxf, .igs or .step file.");
+  if (format != ExportFormat::Json && format != ExportFormat::Svg && format != ExportFormat::Dxf) {
+    return fail(ErrorCode::BadParameter,
+                "Curves are not read from " + path.filename().string() + ". Take a .json, .svg or .dxf file.");
   }
   const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   auto document = contentOf(bytes, format);
