@@ -162,9 +162,7 @@ int run(int argc, char** argv) {
       app.add_subcommand("compare", "How alike the curves of two files are, whatever their size and place");
   compare->footer(
       "Prints one line of JSON: similarity S and Pearson's r of the radii over the perimeter for every pair.");
-  compare->add_option("first", first, "Curves: JSON or SVG written by trace, DXF, IGES or STEP")
-      ->type_name("A")
-      ->required();
+  compare->add_option("first", first, "Curves: JSON or SVG written by trace, or DXF")->type_name("A")->required();
   compare->add_option("second", second, "Curves to compare them with")->type_name("B")->required();
   try {
     app.parse(argc, argv);

@@ -11,8 +11,6 @@
 #include "core/exchange/curve_json.h"
 #include "core/exchange/dxf_reader.h"
 #include "core/exchange/export_settings.h"
-#include "core/exchange/occt/iges.h"
-#include "core/exchange/occt/step_reader.h"
 #include "core/exchange/svg_reader.h"
 
 namespace batten {
@@ -49,9 +47,7 @@ Result<ExportDocument> documentOf(const CadDrawing& drawing) {
 Result<ExportDocument> contentOf(const std::string& bytes, ExportFormat format) {
   if (format == ExportFormat::Json) return readCurveJson(bytes);
   if (format == ExportFormat::Svg) return readSvg(bytes);
-  const auto drawing = format == ExportFormat::Dxf    ? readDxf(bytes)
-                       : format == ExportFormat::Iges ? readIges(bytes)
-                                                      : readStep(bytes);
+  const auto drawing = readDxf(bytes);
   if (!drawing) return fail(drawing.error());
   return documentOf(*drawing);
 }
@@ -60,9 +56,9 @@ Result<ExportDocument> contentOf(const std::string& bytes, ExportFormat format) 
 
 Result<ExportDocument> readCurveFile(const std::filesystem::path& path) {
   const auto format = formatOf(path).value_or(ExportFormat::Json);
-  if (format == ExportFormat::Pdf || format == ExportFormat::Csv || format == ExportFormat::Polynomials) {
-    return fail(ErrorCode::BadParameter, "Curves are not read from " + shownName(path.filename()) +
-                                             ". Take a .json, .svg, .dxf, .igs or .step file.");
+  if (format != ExportFormat::Json && format != ExportFormat::Svg && format != ExportFormat::Dxf) {
+    return fail(ErrorCode::BadParameter,
+                "Curves are not read from " + shownName(path.filename()) + ". Take a .json, .svg or .dxf file.");
   }
   const auto bytes = readWhole(path, kLargestCurveBytes);
   if (!bytes) {

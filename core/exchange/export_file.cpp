@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -173,10 +173,9 @@ Result<Check> checkedFile(const ExportDocument& document, const ExportSettings& 
 
 std::string shortNumber(double value) {
   std::array<char, 32> buffer;
-  std::snprintf(buffer.data(), buffer.size(), "%.2g", value);
-  std::string text = buffer.data();
-  std::replace(text.begin(), text.end(), ',', '.');  // whatever the language
-  return text;
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, 2).ptr;
+  return {buffer.data(), end};
 }
 
 std::string countOf(int count, const char* one) { return std::to_string(count) + " " + one + (count == 1 ? "" : "s"); }

@@ -26,9 +26,9 @@ TEST_F(Compare, TheSameShapeAtAnotherScaleIsTheSameAndAnotherShapeIsNot) {
 
 TEST_F(Compare, ReadsEveryFormatThatHoldsTheCurvesThemselves) {
   const std::string words = "trace " + scene() + " --dpi 254 --unit in -o " + file("a.json") + " -o " + file("a.svg") +
-                            " -o " + file("a.dxf") + " -o " + file("a.igs") + " -o " + file("a.step");
+                            " -o " + file("a.dxf");
   ASSERT_EQ(run(words).code, 0);
-  for (const char* other : {"a.svg", "a.dxf", "a.igs", "a.step"}) {
+  for (const char* other : {"a.svg", "a.dxf"}) {
     const auto done = run("compare " + file("a.json") + " " + file(other));
     ASSERT_EQ(done.code, 0) << other << done.err;
     EXPECT_GT(json::parse(done.out)["pairs"][0]["similarity"].get<double>(), 0.999999) << other;

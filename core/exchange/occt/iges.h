@@ -14,8 +14,8 @@ namespace batten {
 /// @return BadParameter without Open CASCADE; CannotWrite if it does not take the drawing. @pre no polylines.
 Result<std::string> writeIges(const CadDrawing&, const std::string& title);
 
-/// Reads the entities 126, 110 and 100 of an IGES file, whoever wrote it, in the order of the file, z left out; the
-/// others that are curves are counted in `left`.
+/// What writeIges() wrote, in the order of the file, z left out; other curves are counted in `left`. Not for files of
+/// others: the library crashes on damaged ones.
 Result<CadDrawing> readIges(std::string_view bytes);
 
 }  // namespace batten

@@ -8,7 +8,8 @@
 
 namespace batten {
 
-/// Reads the curves of the geometric sets of a STEP file, z left out; the others of the sets are counted in `left`.
+/// What writeStep() wrote: the curves of the geometric sets, z left out; others of the sets are counted in `left`. Not
+/// for files of others: the library crashes on damaged ones.
 Result<CadDrawing> readStep(std::string_view bytes);
 
 }  // namespace batten

@@ -82,7 +82,9 @@ FoundFile parseIges(const std::string& text) {
     if (line.size() < 80) continue;
     if (line[72] == 'G') global += line.substr(0, 72);
     if (line[72] == 'P') parameters += trimmed(line.substr(0, 64));
-    if (line[72] == 'P') EXPECT_EQ(std::stoi(line.substr(73)), ++records);
+    if (line[72] == 'P') {
+      EXPECT_EQ(std::stoi(line.substr(73)), ++records);
+    }
   }
   const std::vector<std::string> g = splitAt(global, ',');
   file.unit = g.size() > 15 ? trimmed(g[14]) : "";

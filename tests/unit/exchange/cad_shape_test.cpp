@@ -37,7 +37,9 @@ TEST(CadShape, FindsArcsAndCirclesEitherWayRound) {
       EXPECT_NEAR(arc.radius, 12.5, 1e-11);
       EXPECT_NEAR(arc.sweepRad, sweep, 1e-11);
       EXPECT_LT((arc.centre - Vec2(30, -20)).norm(), 1e-11);
-      if (sweep < 6.0) EXPECT_LT((pointAt(arc, 0.0) - pointAt(CadArc{{30, -20}, 12.5, 0.7, sweep}, 0.0)).norm(), 1e-11);
+      if (sweep < 6.0) {
+        EXPECT_LT((pointAt(arc, 0.0) - pointAt(CadArc{{30, -20}, 12.5, 0.7, sweep}, 0.0)).norm(), 1e-11);
+      }
     }
   }
 }

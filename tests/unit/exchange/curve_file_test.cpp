@@ -38,7 +38,7 @@ class CurveFile : public testing::Test {
 
 TEST_F(CurveFile, ReadsWhatIsExportedInMillimetresWhateverTheUnit) {
   const ExportDocument document = test::exportOfAllKinds();
-  for (const char* ending : {".json", ".svg", ".dxf", ".igs", ".step"}) {
+  for (const char* ending : {".json", ".svg", ".dxf"}) {
     for (const LengthUnit unit : {LengthUnit::Millimetre, LengthUnit::Inch}) {
       const auto read = readCurveFile(written(document, ending, unit));
       ASSERT_TRUE(read) << ending << read.error().message;
@@ -100,7 +100,9 @@ TEST_F(CurveFile, DamagedSvgsAreRefusedWithAReason) {
     std::string text = whole;
     for (int flips = 0; flips < 10; ++flips) text[random() % text.size()] ^= static_cast<char>(1 << (random() % 7));
     const auto read = readSvg(text);
-    if (!read) EXPECT_FALSE(read.error().message.empty());
+    if (!read) {
+      EXPECT_FALSE(read.error().message.empty());
+    }
   }
   for (const char* text : {"", "<svg", "<svg viewBox=\"0 0 1 1\"/>", "<svg><curves mm-per-px=\"nan\"/></svg>"})
     EXPECT_FALSE(readSvg(text)) << text;

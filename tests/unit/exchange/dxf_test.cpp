@@ -157,7 +157,9 @@ TEST(Dxf, CncPolylinesKeepTheChordTolerance) {
           EXPECT_LE(closestPoint(*polyline, p).distance, 0.0101) << document.curves[i].id;
         }
     }
-    if (arcs) EXPECT_LT(vertices, chords / 2) << "arcs save vertices";
+    if (arcs) {
+      EXPECT_LT(vertices, chords / 2) << "arcs save vertices";
+    }
     chords = vertices;
   }
 }
@@ -225,7 +227,9 @@ TEST(DxfReader, SurvivesDamage) {
     std::string text = whole;
     for (int flips = 0; flips < 20; ++flips) text[random() % text.size()] ^= static_cast<char>(1 << (random() % 8));
     const auto drawing = readDxf(text);
-    if (!drawing) EXPECT_FALSE(drawing.error().message.empty());
+    if (!drawing) {
+      EXPECT_FALSE(drawing.error().message.empty());
+    }
   }
   for (const char* text : {"", "0", "hello", "0\nSECTION\n", "0\nEOF\n", "99999999999999999999\nx\n",
                            "0\nSECTION\n2\nENTITIES\n0\nSPLINE\n71\n2000000000\n72\n2000000000\n0\nENDSEC\n",

@@ -64,7 +64,9 @@ TEST(Ezdxf, SeesEveryCurveToABillionthOfAMillimetre) {
       for (const ExportPiece& piece : line.pieces) {
         const SeenEntity& entity = file.entities[next++];
         ASSERT_EQ(entity.places.size(), 201u) << entity.kind;
-        if (entity.kind == "SPLINE") EXPECT_EQ(entity.degree, piece.curve.degree()) << line.id;
+        if (entity.kind == "SPLINE") {
+          EXPECT_EQ(entity.degree, piece.curve.degree()) << line.id;
+        }
         for (std::size_t i = 0; i <= 200; ++i) {
           const Vec2 mm = millimetresPer(unit) * entity.places[i];
           const double u =

@@ -8,6 +8,7 @@
 #include "core/fairing/curvature_rows.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_model.h"
+#include "core/fairing/minimise.h"
 #include "core/fairing/shape_modification.h"
 #include "tests/support/known_answers.h"
 #include "tests/unit/fairing/fairing_curves.h"

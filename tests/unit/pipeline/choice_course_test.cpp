@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/pipeline/run/piece_choices.h"
 #include "core/pipeline/run/pipeline.h"
 
 namespace batten {
