@@ -80,7 +80,9 @@ TEST_F(Layout, TargetsAndPlotsAreShownWhereCurvesAreJudged) {
       const bool isJudging = stage == PanelStage::Curves || stage == PanelStage::Fairing;
       EXPECT_EQ(strip->isVisible(), isJudging) << label(stage).toStdString();
       EXPECT_EQ(plot->isVisible(), isJudging) << label(stage).toStdString();
-      if (isJudging) EXPECT_TRUE(waitUntil([&] { return plot->height() >= 200; }, 3000)) << plot->height();
+      if (isJudging) {
+        EXPECT_TRUE(waitUntil([&] { return plot->height() >= 200; }, 3000)) << plot->height();
+      }
     }
   }
 }
