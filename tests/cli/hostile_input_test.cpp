@@ -52,7 +52,7 @@ TEST_F(HostileInput, OnlyOrdinaryFilesAreRead) {
   ASSERT_EQ(mkfifo(file("pipe").c_str(), 0600), 0);
   fs::create_symlink("/dev/zero", file("endless"));
   fs::create_symlink(file("pipe"), file("to-pipe"));
-  for (const std::string name : {file("pipe"), file("to-pipe"), file("endless"), std::string("/dev/zero")}) {
+  for (const std::string& name : {file("pipe"), file("to-pipe"), file("endless"), std::string("/dev/zero")}) {
     expectRefused(start + " --recipe " + name, 2, "is not an ordinary file");
     expectRefused("compare " + name + " " + name, 2, "is not an ordinary file");
     expectRefused("trace " + name + " -o " + file("p.svg"), 3, "is not a file");
