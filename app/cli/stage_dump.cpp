@@ -72,7 +72,7 @@ std::vector<PictureLine> linesOf(StageId stage, const PipelineOutput& out, doubl
   std::vector<PictureLine> lines;
   const auto colour = [&] { return kCycle[lines.size() % kCycle.size()]; };
   if (stage == StageId::Contours) {
-    for (const Contour& c : out.contours->contours) lines.push_back({c.points, c.closed, colour(), width});
+    for (const Contour& c : out.contours->contours) lines.push_back({positionsOf(c.points), c.closed, colour(), width});
   } else if (stage == StageId::Pieces) {
     for (const Piece& p : out.pieces->pieces) lines.push_back({p.points, p.closed, colour(), width});
     for (const Corner& c : out.pieces->corners) lines.push_back(circleAt(c.positionPx, 5.0 * width, width));

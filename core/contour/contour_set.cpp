@@ -4,20 +4,58 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/polyline/polyline_tools.h"
+
 namespace batten {
 
+std::vector<ContourPoint> contourPoints(std::span<const Vec2> positionsPx, bool refined) {
+  std::vector<ContourPoint> points;
+  points.reserve(positionsPx.size());
+  for (const Vec2& at : positionsPx) points.push_back({.at = at, .unrefined = at, .refined = refined});
+  return points;
+}
+
+std::vector<Vec2> positionsOf(std::span<const ContourPoint> points) {
+  std::vector<Vec2> at;
+  at.reserve(points.size());
+  for (const ContourPoint& p : points) at.push_back(p.at);
+  return at;
+}
+
+std::vector<Vec2> unrefinedPositionsOf(std::span<const ContourPoint> points) {
+  std::vector<Vec2> at;
+  at.reserve(points.size());
+  for (const ContourPoint& p : points) at.push_back(p.unrefined);
+  return at;
+}
+
+std::vector<float> strokeWidthsOf(std::span<const ContourPoint> points) {
+  std::vector<float> widthsPx;
+  widthsPx.reserve(points.size());
+  for (const ContourPoint& p : points)
+    if (p.widthPx) widthsPx.push_back(*p.widthPx);
+  return widthsPx;
+}
+
+void measureContour(Contour& c) {
+  const std::vector<Vec2> at = positionsOf(c.points);
+  c.lengthPx = polylineLength(at, c.closed);
+  c.areaPx = c.closed ? polygonArea(at) : 0.0;
+}
+
 std::vector<Vec2> inkBeside(const Contour& c, std::size_t point) {
-  if (c.band.left.size() != c.chain.size() || c.chain.size() < 2) return {c.chain[point]};
-  const std::size_t before = point > 0 ? point - 1 : 0, after = std::min(point + 1, c.chain.size() - 1);
-  const Vec2 along = c.chain[after] - c.chain[before];
-  if (!(along.norm() > 0.0)) return {c.chain[point]};
+  const ContourPoint& here = c.points[point];
+  if (!here.band || c.points.size() < 2) return {here.unrefined};
+  const std::size_t before = point > 0 ? point - 1 : 0, after = std::min(point + 1, c.points.size() - 1);
+  const Vec2 along = c.points[after].unrefined - c.points[before].unrefined;
+  if (!(along.norm() > 0.0)) return {here.unrefined};
   const Vec2 left = leftNormal(along.normalized());
-  return {c.chain[point], c.chain[point] + static_cast<double>(c.band.left[point]) * left,
-          c.chain[point] - static_cast<double>(c.band.right[point]) * left};
+  return {here.unrefined, here.unrefined + static_cast<double>(here.band->left) * left,
+          here.unrefined - static_cast<double>(here.band->right) * left};
 }
 
 Vec2 placeOnInk(const Contour& c) {
-  const int n = static_cast<int>(c.chain.size()), middle = n / 2;
+  const int n = static_cast<int>(c.points.size()), middle = n / 2;
   const auto isBridge = [&](int i) {
     return std::any_of(c.bridges.begin(), c.bridges.end(),
                        [i](const auto& range) { return range.first <= i && i <= range.second; });
@@ -31,7 +69,8 @@ Vec2 placeOnInk(const Contour& c) {
   const auto at = static_cast<std::size_t>(best);
   const std::vector<Vec2> places = inkBeside(c, at);
   if (places.size() == 1) return places[0];
-  return c.band.left[at] >= c.band.right[at] ? places[1] : places[2];
+  const StrokeBand band = c.points[at].band.value_or(StrokeBand{});
+  return band.left >= band.right ? places[1] : places[2];
 }
 
 int bridgeCount(const ContourSet& set) {

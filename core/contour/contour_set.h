@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/vec2.h"
@@ -17,39 +18,58 @@ enum class ContourKind {
   Pen,         ///< Drawn in the program (pen_strokes.h), not found on the scan.
 };
 
-/// How far the strokes that were merged into a line lie beside its points, at most within a few points of each.
+/// How far the strokes that were merged into a line lie beside one of its points, at most within a few points of it.
 /// [px, never negative]
 struct StrokeBand {
-  std::vector<float> left;   ///< To the side of leftNormal(direction of travel).
-  std::vector<float> right;  ///< To the other side. Same size.
-  bool isEmpty() const { return left.empty(); }
+  float left = 0.0f;   ///< To the side of leftNormal(direction of travel).
+  float right = 0.0f;  ///< To the other side.
+  bool operator==(const StrokeBand&) const = default;
+};
+
+/// A point of a line. What is not measured there is absent; along one line a value is there at every point or at none.
+struct ContourPoint {
+  Vec2 at = Vec2::Zero();         ///< [px] sub-pixel position where refined, else that of the crack or the skeleton.
+  Vec2 unrefined = Vec2::Zero();  ///< [px] of the crack or the skeleton.
+  bool refined = false;           ///< Placed on the raw grey values. Pen: drawn, not laid between drawn points.
+  /// [px] > 0. Standard deviation of the point across the line, as the grey values around it tell. Absent: not measured
+  /// (pen, pencil, merged strokes).
+  std::optional<float> sigmaPx = {};
+  std::optional<float> widthPx = {};  ///< [px] stroke width (centre lines); absent on outlines.
+  std::optional<StrokeBand> band =
+      {};  ///< The strokes that were merged into the line; absent where nothing was merged.
+  bool operator==(const ContourPoint& p) const {
+    return at == p.at && unrefined == p.unrefined && refined == p.refined && sigmaPx == p.sigmaPx &&
+           widthPx == p.widthPx && band == p.band;
+  }
 };
 
 /// One line of the drawing, ordered, about one point a pixel. Image frame, px.
 struct Contour {
   ContourKind kind = ContourKind::Outline;
-  bool closed = false;       ///< The last point is followed by the first; the first is not repeated at the end.
-  bool hole = false;         ///< An inner border (outline mode with internal contours on).
-  std::vector<Vec2> points;  ///< [px] sub-pixel positions where refined, else crack or skeleton positions.
-  std::vector<Vec2> chain;   ///< [px] unrefined positions, same size as `points`.
-  std::vector<std::uint8_t>
-      refined;  ///< 1 = placed on the raw grey values; 0 = fell back. Pen: 1 = drawn, 0 = between. Same size.
-  /// [px] > 0. Standard deviations of the points across the line, as the grey values around them tell; same size, or
-  /// empty: not measured (pen, pencil, merged strokes).
-  std::vector<float> sigmaPx;
-  double blurPx = 0.0;         ///< [px] standard deviation of the light's blur along an outline; 0: not measured.
-  std::vector<float> widthPx;  ///< [px] stroke width (centre lines); empty for outlines.
-  StrokeBand band;             ///< The strokes that were merged into this line; empty where nothing was merged.
+  bool closed = false;  ///< The last point is followed by the first; the first is not repeated at the end.
+  bool hole = false;    ///< An inner border (outline mode with internal contours on).
+  std::vector<ContourPoint> points;
+  double blurPx = 0.0;  ///< [px] standard deviation of the light's blur along an outline; 0: not measured.
   std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.
   std::optional<EdgeChoice> traceMode;       ///< The user's choice about its ink that it follows.
   double lengthPx = 0.0;                     ///< [px] length of the polyline through `points`.
   double areaPx = 0.0;                       ///< [px^2] absolute enclosed area (closed), else 0.
 };
 
+/// Points that lie where they were found: refined and unrefined position are the same.
+std::vector<ContourPoint> contourPoints(std::span<const Vec2> positionsPx, bool refined);
+/// Copies of the positions, for the functions of core/polyline. [px]
+std::vector<Vec2> positionsOf(std::span<const ContourPoint>);
+std::vector<Vec2> unrefinedPositionsOf(std::span<const ContourPoint>);
+/// [px] The stroke widths that are known; none on outlines.
+std::vector<float> strokeWidthsOf(std::span<const ContourPoint>);
+/// Sets length and area from the positions of the points.
+void measureContour(Contour&);
+
 /// Where the ink lies that a point of a line was made of: the point itself, and of merged strokes the outermost ones.
 /// [px, unrefined]
 std::vector<Vec2> inkBeside(const Contour&, std::size_t point);
-/// A place on or near the ink of a line, about in its middle; not over a gap. [px] @pre the chain is not empty.
+/// A place on or near the ink of a line, about in its middle; not over a gap. [px] @pre the line has a point.
 Vec2 placeOnInk(const Contour&);
 
 struct ContourReport {

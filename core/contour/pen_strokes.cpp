@@ -46,18 +46,18 @@ Contour penContour(const PenStroke& stroke) {
   if (stroke.closed) contour.areaPx = polygonArea(drawn);
   const double step = std::max(kStepPx, contour.lengthPx / kMostSteps);
   const std::size_t legs = stroke.closed ? drawn.size() : drawn.size() - 1;
+  const auto add = [&](const Vec2& at, bool isDrawn) {
+    contour.points.push_back({.at = at, .unrefined = at, .refined = isDrawn});
+  };
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    contour.points.push_back(drawn[i]);
-    contour.refined.push_back(1);
+    add(drawn[i], true);
     if (i >= legs) break;
     const Vec2& next = drawn[(i + 1) % drawn.size()];
     const int parts = static_cast<int>(std::ceil((next - drawn[i]).norm() / step));
     for (int k = 1; k < parts; ++k) {
-      contour.points.emplace_back(drawn[i] + (next - drawn[i]) * (static_cast<double>(k) / parts));
-      contour.refined.push_back(0);
+      add(drawn[i] + (next - drawn[i]) * (static_cast<double>(k) / parts), false);
     }
   }
-  contour.chain = contour.points;
   return contour;
 }
 

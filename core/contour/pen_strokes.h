@@ -21,7 +21,7 @@ struct PenStroke {
 std::optional<Error> validate(const PenStroke&);
 
 /// The stroke as a line of the drawing. Straight between the drawn points, about one point a pixel as in every contour;
-/// `refined` is 1 at the points that were drawn. Points drawn twice in a row count once. @pre the stroke is valid.
+/// `refined` is set at the points that were drawn. Points drawn twice in a row count once. @pre the stroke is valid.
 Contour penContour(const PenStroke&);
 
 /// `set` with the strokes behind its own lines, in the order in which they were drawn. @pre all strokes are valid.

@@ -47,17 +47,7 @@ Contour part(const Contour& whole, std::size_t first, std::size_t count) {
   cut.blurPx = whole.blurPx;
   cut.traceMode = whole.traceMode;
   const std::size_t n = whole.points.size();
-  const auto take = [&](const auto& from, auto& to) {
-    if (from.size() != n) return;
-    for (std::size_t i = 0; i < count; ++i) to.push_back(from[(first + i) % n]);
-  };
-  take(whole.points, cut.points);
-  take(whole.chain, cut.chain);
-  take(whole.refined, cut.refined);
-  take(whole.sigmaPx, cut.sigmaPx);
-  take(whole.widthPx, cut.widthPx);
-  take(whole.band.left, cut.band.left);
-  take(whole.band.right, cut.band.right);
+  for (std::size_t i = 0; i < count; ++i) cut.points.push_back(whole.points[(first + i) % n]);
   const int last = static_cast<int>(count) - 1, size = static_cast<int>(n);
   for (const auto& [from, to] : whole.bridges) {
     for (const int turn : {-size, 0}) {  // a part may run over the end of a closed line
@@ -65,7 +55,7 @@ Contour part(const Contour& whole, std::size_t first, std::size_t count) {
       if (b >= 0 && a <= last) cut.bridges.emplace_back(std::max(a, 0), std::min(b, last));
     }
   }
-  cut.lengthPx = polylineLength(cut.points, false);
+  measureContour(cut);
   return cut;
 }
 
@@ -73,7 +63,7 @@ void addParts(std::vector<Contour>& kept, Contour&& line, std::span<const Region
   const std::size_t n = line.points.size();
   std::vector<std::uint8_t> inside(n);
   std::size_t count = 0;
-  for (std::size_t i = 0; i < n; ++i) count += inside[i] = isInside(regions, line.points[i]) ? 1 : 0;
+  for (std::size_t i = 0; i < n; ++i) count += inside[i] = isInside(regions, line.points[i].at) ? 1 : 0;
   if (count == n) {
     kept.push_back(std::move(line));
     return;

@@ -24,8 +24,8 @@ constexpr std::size_t kLongContour = 4000;  // points: from here on one contour 
 // Longest first; ties by the topmost, then leftmost start, so that the numbering of curves never depends on chance.
 bool before(const Contour& a, const Contour& b) {
   if (a.lengthPx != b.lengthPx) return a.lengthPx > b.lengthPx;
-  const Vec2 p = a.chain.empty() ? Vec2::Zero().eval() : a.chain.front();
-  const Vec2 q = b.chain.empty() ? Vec2::Zero().eval() : b.chain.front();
+  const Vec2 p = a.points.empty() ? Vec2::Zero().eval() : a.points.front().unrefined;
+  const Vec2 q = b.points.empty() ? Vec2::Zero().eval() : b.points.front().unrefined;
   return p.y() != q.y() ? p.y() < q.y() : p.x() < q.x();
 }
 
@@ -43,7 +43,7 @@ void refineOutlines(ContourSet& set, const GreyImage& grey, const RunContext& co
   std::vector<Contour*> small;
   for (Contour& contour : set.contours) {
     if (contour.kind != ContourKind::Outline) continue;
-    if (contour.chain.size() >= kLongContour) {
+    if (contour.points.size() >= kLongContour) {
       refineOutline(contour, grey, context);
     } else {
       small.push_back(&contour);
@@ -80,8 +80,8 @@ void dropSoftBorders(ContourSet& set, const GreyImage& grey, const ContourParams
 void countRefined(ContourSet& set) {
   std::size_t points = 0, refined = 0;
   for (const Contour& contour : set.contours) {
-    points += contour.refined.size();
-    refined += static_cast<std::size_t>(std::count(contour.refined.begin(), contour.refined.end(), std::uint8_t{1}));
+    points += contour.points.size();
+    for (const ContourPoint& p : contour.points) refined += p.refined ? 1 : 0;
   }
   set.report.refinedShare = points > 0 ? static_cast<double>(refined) / static_cast<double>(points) : 0.0;
 }
@@ -137,7 +137,7 @@ void addNote(ContourSet& set, const std::string& what, const Vec2& px) {
 std::vector<bool> noteWays(ContourSet& set, const ChosenInk& chosen, std::span<const EdgeChoice> choices) {
   std::vector<bool> gaveLine(choices.size(), false);
   for (Contour& contour : set.contours) {
-    for (std::size_t i = 0; i < contour.chain.size() && !contour.traceMode; ++i) {
+    for (std::size_t i = 0; i < contour.points.size() && !contour.traceMode; ++i) {
       for (const Vec2& place : inkBeside(contour, i)) {
         const int choice = chosen.choiceAt(place);
         if (choice < 0) continue;

@@ -41,7 +41,7 @@ bool isWholeClosed(const std::vector<const TracedCurve*>& run, const ContourPiec
 
 /// The median; absent for outlines and pen strokes.
 std::optional<double> strokeWidth(const Contour& line, const PageFrame& frame) {
-  std::vector<float> px = line.widthPx;
+  std::vector<float> px = strokeWidthsOf(line.points);
   if (px.empty()) return std::nullopt;
   const auto middle = px.begin() + static_cast<std::ptrdiff_t>(px.size() / 2);
   std::nth_element(px.begin(), middle, px.end());

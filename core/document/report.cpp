@@ -176,20 +176,20 @@ Json curveToJson(const PipelineOutput& out, const ReportExtras& extras, std::siz
 
 /// Where a line was not measured as elsewhere: points first..last of it.
 Json stretchToJson(const Contour& c, int first, int last) {
-  const auto a = c.points.begin() + first, b = c.points.begin() + last + 1;
-  return {{"from_px", pointToJson(*a)},
-          {"to_px", pointToJson(*(b - 1))},
+  const std::vector<Vec2> at = positionsOf({c.points.begin() + first, c.points.begin() + last + 1});
+  return {{"from_px", pointToJson(at.front())},
+          {"to_px", pointToJson(at.back())},
           {"points", last - first + 1},
-          {"length_px", number(polylineLength({a, b}, false))}};
+          {"length_px", number(polylineLength(at, false))}};
 }
 
 Json notPlacedToJson(const Contour& c) {
   Json list = Json::array();
-  const int n = static_cast<int>(std::min(c.refined.size(), c.points.size()));
+  const int n = static_cast<int>(c.points.size());
   for (int i = 0; i < n; ++i) {
-    if (c.refined[i] != 0) continue;
+    if (c.points[i].refined) continue;
     int last = i;
-    while (last + 1 < n && c.refined[last + 1] == 0) ++last;
+    while (last + 1 < n && !c.points[last + 1].refined) ++last;
     list.push_back(stretchToJson(c, i, last));
     i = last;
   }
@@ -213,9 +213,10 @@ Json rangeToJson(std::vector<float> px, const PageFrame& frame) {
           {"along_px", std::move(along)}};
 }
 
-std::vector<float> halfSpread(const StrokeBand& band) {
+std::vector<float> halfSpread(const Contour& c) {
   std::vector<float> half;
-  for (std::size_t i = 0; i < band.left.size(); ++i) half.push_back(0.5f * (band.left[i] + band.right[i]));
+  for (const ContourPoint& p : c.points)
+    if (p.band) half.push_back(0.5f * (p.band->left + p.band->right));
   return half;
 }
 
@@ -230,8 +231,8 @@ Json contourToJson(const Contour& c, std::size_t index, const PageFrame& frame) 
             {"length_mm", number(frame.lengthToModel(c.lengthPx))},
             {"area_px2", c.closed ? number(c.areaPx) : Json(nullptr)},
             {"area_mm2", c.closed ? number(c.areaPx * mm2) : Json(nullptr)},
-            {"stroke_width", rangeToJson(c.widthPx, frame)},
-            {"merged_half_spread", rangeToJson(halfSpread(c.band), frame)},
+            {"stroke_width", rangeToJson(strokeWidthsOf(c.points), frame)},
+            {"merged_half_spread", rangeToJson(halfSpread(c), frame)},
             {"bridges", Json::array()},
             {"not_placed", c.kind == ContourKind::Pen ? Json::array() : notPlacedToJson(c)}};
   const int n = static_cast<int>(c.points.size());

@@ -50,8 +50,8 @@ Lines tracedOn(const Scan& scan, const Recipe& recipe) {
   Lines lines;
   if (!out.contours) return lines;
   for (const Contour& c : out.contours->contours) {
-    lines.push_back(c.points);
-    if (c.closed && !c.points.empty()) lines.back().push_back(c.points.front());
+    lines.push_back(positionsOf(c.points));
+    if (c.closed && !c.points.empty()) lines.back().push_back(c.points.front().at);
   }
   return lines;
 }

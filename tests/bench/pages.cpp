@@ -26,8 +26,8 @@ std::vector<std::vector<Vec2>> linesOf(const PipelineOutput& out) {
   std::vector<std::vector<Vec2>> lines;
   if (!out.contours) return lines;
   for (const Contour& c : out.contours->contours) {
-    lines.push_back(c.points);
-    if (c.closed && !c.points.empty()) lines.back().push_back(c.points.front());
+    lines.push_back(positionsOf(c.points));
+    if (c.closed && !c.points.empty()) lines.back().push_back(c.points.front().at);
   }
   return lines;
 }

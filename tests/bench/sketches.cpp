@@ -47,7 +47,7 @@ cv::Mat distanceToInk(const BitImage& ink) {
 
 /// Half the stroke that a curve runs along; 0 on the border of ink.
 double halfWidthOf(const Contour& contour) {
-  std::vector<float> widths = contour.widthPx;
+  std::vector<float> widths = strokeWidthsOf(contour.points);
   if (widths.empty()) return 0.0;
   const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
   std::nth_element(widths.begin(), middle, widths.end());

@@ -220,7 +220,7 @@ TEST_F(Choices, ARectangleAndALassoTraceWhatLiesInside) {
   ASSERT_TRUE(settle());
   ASSERT_EQ(session().curves().size(), 1u);
   ASSERT_TRUE(session().output().contours);
-  for (const Vec2& p : session().output().contours->contours[0].points) EXPECT_LT(p.x(), 321.5);
+  for (const ContourPoint& p : session().output().contours->contours[0].points) EXPECT_LT(p.at.x(), 321.5);
   EXPECT_TRUE(window_->action(ActionId::ClearRegions)->isEnabled());
 
   window_->action(ActionId::ToolLasso)->trigger();

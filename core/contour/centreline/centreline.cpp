@@ -45,10 +45,10 @@ double medianWidth(const std::vector<StrokePath>& paths, const Chosen& isChosen)
 bool isMargin(const Contour& c, const GreyImage& grey) {
   constexpr double kTouchPx = 2.0, kMostly = 0.7;
   std::size_t touching = 0;
-  for (std::size_t i = 0; i < c.points.size(); ++i) {
-    const Vec2& p = c.points[i];
+  for (const ContourPoint& point : c.points) {
+    const Vec2& p = point.at;
     const double toBorder = std::min({p.x(), p.y(), grey.width - p.x(), grey.height - p.y()});
-    if (toBorder <= 0.5 * c.widthPx[i] + kTouchPx) ++touching;
+    if (toBorder <= 0.5 * point.widthPx.value_or(0.0f) + kTouchPx) ++touching;
   }
   return static_cast<double>(touching) >= kMostly * static_cast<double>(c.points.size());
 }

@@ -177,20 +177,23 @@ void placeEnds(StrokeCourse& c, const GreyImage& grey) {
 
 namespace {
 
-// Points that only the half levels of their profile have placed are known half as well as those next to them.
-std::vector<float> sigmasOf(std::vector<PointInformation> information, const std::vector<std::uint8_t>& measured,
-                            bool closed) {
+// Standard deviations of the points. Those that only the half levels of their profile have placed are known half as well
+// as those next to them.
+void addSigmas(Contour& contour, std::vector<PointInformation> information) {
   const auto known = std::find_if(information.begin(), information.end(),
                                   [](const PointInformation& point) { return point.gain > 0.0; });
   double gain = known == information.end() ? 0.0 : known->gain;
+  std::vector<std::uint8_t> placed(contour.points.size());
   for (std::size_t i = 0; i < information.size(); ++i) {
+    placed[i] = contour.points[i].refined ? 1 : 0;
     if (information[i].gain > 0.0) {
       gain = information[i].gain;
-    } else if (measured[i]) {
+    } else if (contour.points[i].refined) {
       information[i].gain = 2.0 * gain;
     }
   }
-  return pointSigmas(information, measured, closed);
+  const std::vector<float> sigma = pointSigmas(information, placed, contour.closed);
+  for (std::size_t i = 0; i < sigma.size(); ++i) contour.points[i].sigmaPx = sigma[i];
 }
 
 }  // namespace
@@ -204,26 +207,23 @@ Contour contourOf(const StrokeCourse& c) {
   for (std::size_t i = 0; i < c.base.size(); ++i) {
     if (!contour.points.empty()) {
       // Never back: where a tight turn folded the course, its points go.
-      const Vec2 step = c.base[i] - contour.points.back();
+      const Vec2 step = c.base[i] - contour.points.back().at;
       if (step.norm() < 0.35 || step.dot(c.tangent[i]) < 0.0) continue;
     }
-    contour.points.push_back(c.base[i]);
-    contour.chain.push_back(c.chain[i]);
-    contour.refined.push_back(c.measured[i]);
-    contour.widthPx.push_back(std::max(0.1f, c.measuredWidth[i]));
+    contour.points.push_back({.at = c.base[i],
+                              .unrefined = c.chain[i],
+                              .refined = c.measured[i] != 0,
+                              .widthPx = std::max(0.1f, c.measuredWidth[i])});
     part.push_back(c.part[i]);
     if (i < c.information.size()) information.push_back(c.information[i]);
   }
   while (contour.closed && contour.points.size() > 3 &&
-         (contour.points.front() - contour.points.back()).norm() < 0.35) {
+         (contour.points.front().at - contour.points.back().at).norm() < 0.35) {
     contour.points.pop_back();
-    contour.chain.pop_back();
-    contour.refined.pop_back();
-    contour.widthPx.pop_back();
     part.pop_back();
     if (!information.empty()) information.pop_back();
   }
-  if (!information.empty()) contour.sigmaPx = sigmasOf(std::move(information), contour.refined, contour.closed);
+  if (!information.empty()) addSigmas(contour, std::move(information));
   const int n = static_cast<int>(part.size());
   for (int i = 0; i < n; ++i) {
     if (part[i] != StrokePart::Bridge) continue;
@@ -232,8 +232,7 @@ Contour contourOf(const StrokeCourse& c) {
     contour.bridges.emplace_back(i, last);
     i = last;
   }
-  contour.lengthPx = polylineLength(contour.points, contour.closed);
-  contour.areaPx = contour.closed ? polygonArea(contour.points) : 0.0;
+  measureContour(contour);
   return contour;
 }
 

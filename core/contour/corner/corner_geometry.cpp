@@ -87,11 +87,11 @@ struct NearestPoint {
 
 NearestPoint nearestAlong(const Contour& contour, int at, const Vec2& position, int reach) {
   const int n = static_cast<int>(contour.points.size());
-  NearestPoint best{at, (contour.points[at] - position).norm()};
+  NearestPoint best{at, (contour.points[at].at - position).norm()};
   for (int k = -reach; k <= reach; ++k) {
     const int i = contour.closed ? wrapIndex(at + k, n) : at + k;
     if (i < 0 || i >= n) continue;
-    const double d = (contour.points[i] - position).norm();
+    const double d = (contour.points[i].at - position).norm();
     if (d < best.distance) best = {i, d};
   }
   return best;
@@ -109,16 +109,16 @@ OneSidedFit fitOneSide(const Contour& contour, int index, int side, double inner
   for (int k = 0; k < most; ++k) {
     const int i = contour.closed ? wrapIndex(index + side * k, n) : index + side * k;
     if (i < 0 || i >= n) break;
-    const auto at = static_cast<std::size_t>(i);
+    const ContourPoint& p = contour.points[i];
     if (k > 0) {
       const int j = contour.closed ? wrapIndex(i - side, n) : i - side;
-      arc += (contour.points[at] - contour.points[j]).norm();
+      arc += (p.at - contour.points[j].at).norm();
     }
     if (arc > outer) break;
     if (arc < inner) continue;
     s.push_back(arc);
-    points.push_back(contour.points[at]);
-    weights.push_back(at < contour.refined.size() && contour.refined[at] == 0 ? kUnrefinedWeight : 1.0);
+    points.push_back(p.at);
+    weights.push_back(p.refined ? 1.0 : kUnrefinedWeight);
   }
   if (s.size() < 3) return result;
   result.fit = fitLocalQuadratic(s, points, weights, maxOrder);
@@ -141,15 +141,15 @@ std::optional<Turning> turningAt(const Contour& contour, int index, double inner
 
 double roundedZonePx(const Contour& contour, int index) {
   if (contour.kind == ContourKind::Outline) return kOutlineZonePx;
-  const auto i = static_cast<std::size_t>(index);
-  return i < contour.widthPx.size() ? std::clamp(static_cast<double>(contour.widthPx[i]), 3.0, 60.0) : kOutlineZonePx;
+  const std::optional<float> widthPx = contour.points[index].widthPx;
+  return widthPx ? std::clamp(static_cast<double>(*widthPx), 3.0, 60.0) : kOutlineZonePx;
 }
 
 CornerFix locateCorner(const Contour& contour, int index, double inner, double outerBefore, double outerAfter,
                        const GreyImage* grey) {
   CornerFix result;
   CornerLegs legs;
-  result.position = contour.points[index];
+  result.position = contour.points[index].at;
   result.zonePx = inner;
   // Several times: the meeting point says which contour point is really nearest and so where the rounded zone lies, and
   // the angle says how far the legs are near enough to blur into each other.
@@ -186,8 +186,9 @@ std::vector<CornerFix> locateCorners(const Contour& contour, std::span<const int
   std::vector<CornerFix> fixes;
   const auto count = indices.size();
   if (count == 0) return fixes;
-  const std::vector<double> arc = cumulativeLength(contour.points);
-  const double length = polylineLength(contour.points, contour.closed);
+  const std::vector<Vec2> points = positionsOf(contour.points);
+  const std::vector<double> arc = cumulativeLength(points);
+  const double length = polylineLength(points, contour.closed);
   const auto s = [&](std::size_t i) { return arc[indices[i]]; };
   for (std::size_t i = 0; i < count; ++i) {
     double before = s(i), after = length - s(i);

@@ -33,8 +33,8 @@ Nearest nearestOf(const ContourSet& set, const Vec2& at, double limit) {
     // The sharp point of a pen stroke is one of the points that were drawn (004 section 3.2), none in between.
     const bool onlyDrawn = set.contours[c].kind == ContourKind::Pen;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (onlyDrawn && set.contours[c].refined[i] == 0) continue;
-      const double d = (points[i] - at).squaredNorm();
+      if (onlyDrawn && !points[i].refined) continue;
+      const double d = (points[i].at - at).squaredNorm();
       if (d < best.squared || (best.contour < 0 && d == best.squared)) {
         best = {static_cast<int>(c), static_cast<int>(i), d};
       }
@@ -64,7 +64,7 @@ void considerTurns(const Contour& contour, const Vec2& mark, double snap, int fi
   std::vector<Turn> turns;
   for (int k = first; k <= last; ++k) {
     const int i = contour.closed ? wrapIndex(k, n) : k;
-    if ((contour.points[i] - mark).norm() > snap + kFarthestTipPx) continue;
+    if ((contour.points[i].at - mark).norm() > snap + kFarthestTipPx) continue;
     const double inner = contour.kind == ContourKind::Outline ? kTurnInnerPx : roundedZonePx(contour, i);
     const auto turning = turningAt(contour, i, inner, kTurnOuterPx + 2.0 * (inner - kTurnInnerPx));
     if (!turning || std::abs(turning->angleRad) < kLooksLikeCornerRad) continue;
@@ -73,7 +73,7 @@ void considerTurns(const Contour& contour, const Vec2& mark, double snap, int fi
   std::stable_sort(turns.begin(), turns.end(), [](const Turn& a, const Turn& b) { return a.score > b.score; });
   std::vector<Vec2> taken;
   for (const Turn& turn : turns) {
-    const Vec2& at = contour.points[turn.index];
+    const Vec2& at = contour.points[turn.index].at;
     if (std::any_of(taken.begin(), taken.end(), [&](const Vec2& t) { return (t - at).norm() < kOneTurnPx; })) continue;
     taken.push_back(at);
     const CornerFix fix =
@@ -89,11 +89,11 @@ Snap sharpestNear(const Contour& contour, const Vec2& mark, double snap) {
   Snap best;
   const int n = static_cast<int>(contour.points.size());
   const double reach = snap + kFarthestTipPx;
-  const auto near = [&](int i) { return (contour.points[i] - mark).squaredNorm() <= reach * reach; };
+  const auto near = [&](int i) { return (contour.points[i].at - mark).squaredNorm() <= reach * reach; };
   for (int i = 0; i < n; ++i) {
     if (!near(i)) {
       // Points lie less than 2 px apart, so those skipped cannot be near. A mark may be any distance away.
-      const double away = (contour.points[i] - mark).norm() - reach;
+      const double away = (contour.points[i].at - mark).norm() - reach;
       i += static_cast<int>(std::clamp(std::floor(0.5 * away) - 1.0, 0.0, static_cast<double>(n)));
       continue;
     }
@@ -148,11 +148,11 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   Piece piece;
   piece.contour = contourIndex;
   for (int i = from; i <= to; ++i) {
-    const auto at = static_cast<std::size_t>(wrapIndex(i, n));
-    piece.points.push_back(contour.points[at]);
-    piece.refined.push_back(at < contour.refined.size() ? contour.refined[at] : std::uint8_t{0});
-    if (contour.sigmaPx.size() == contour.points.size()) piece.sigmaPx.push_back(contour.sigmaPx[at]);
-    if (!contour.band.isEmpty()) piece.spreadPx.push_back(0.5f * (contour.band.left[at] + contour.band.right[at]));
+    const ContourPoint& p = contour.points[wrapIndex(i, n)];
+    piece.points.push_back(p.at);
+    piece.refined.push_back(p.refined ? 1 : 0);
+    if (p.sigmaPx) piece.sigmaPx.push_back(*p.sigmaPx);
+    if (p.band) piece.spreadPx.push_back(0.5f * (p.band->left + p.band->right));
   }
   const auto zoneOf = [&](const Cut* cut) { return cut->exact ? cut->zone : 0.5; };
   std::size_t head = 0, tail = 0;
@@ -199,7 +199,7 @@ void cutContour(const ContourSet& set, int c, const std::vector<Cut>& cuts, Piec
   if (cuts.empty()) {
     pieces.push_back(makePiece(set, c, 0, n - 1, nullptr, nullptr));
     pieces.back().closed = contour.closed;
-    pieces.back().lengthPx = polylineLength(contour.points, contour.closed);
+    pieces.back().lengthPx = polylineLength(pieces.back().points, contour.closed);
   } else if (contour.closed) {
     for (std::size_t i = 0; i < cuts.size(); ++i) {
       const Cut& next = cuts[(i + 1) % cuts.size()];
@@ -228,8 +228,9 @@ void cutContour(const ContourSet& set, int c, const std::vector<Cut>& cuts, Piec
 
 void noteCloseCorners(const Contour& contour, const std::vector<Cut>& cuts, PieceSet& out) {
   if (cuts.size() < 2) return;
-  const double length = contour.closed ? polylineLength(contour.points, true) : 0.0;
-  const std::vector<double> arc = cumulativeLength(contour.points);
+  const std::vector<Vec2> points = positionsOf(contour.points);
+  const double length = contour.closed ? polylineLength(points, true) : 0.0;
+  const std::vector<double> arc = cumulativeLength(points);
   const auto at = [&arc](const Cut& cut) { return arc[cut.corner.pointIndex]; };
   // A closed line comes round to its first corner, which with two of them is looked at from both sides.
   for (std::size_t i = 0; i < (contour.closed ? cuts.size() : cuts.size() - 1); ++i) {
@@ -270,7 +271,7 @@ std::optional<Corner> nearestContourPoint(const ContourSet& set, const Vec2& pos
   const Contour& contour = set.contours[corner.contour];
   corner.pointIndex = best.index;
   corner.snapPx = best.distance;
-  corner.positionPx = contour.points[best.index];
+  corner.positionPx = contour.points[best.index].at;
   if (const auto turning = turningAt(contour, best.index, kTurnInnerPx, kTurnOuterPx)) {
     corner.turningAngleRad = turning->angleRad;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,15 +33,13 @@ struct SideBlock {
   double weight = 0.0;  // 1: full of ordinary points
 };
 
-double weightOf(const Contour& contour, std::size_t i) {
-  return i < contour.refined.size() && contour.refined[i] == 0 ? kGuessedWeight : 1.0;
-}
 
-// The points of one side, in order away from the corner.
-struct SidePoints {
-  std::vector<Vec2> at;
-  std::vector<double> weight, sigma;  // sigma: empty, or as Contour::sigmaPx
+struct SidePoint {
+  Vec2 at = Vec2::Zero();
+  double weight = 1.0;
+  std::optional<float> sigmaPx;  // as in ContourPoint
 };
+using SidePoints = std::vector<SidePoint>;  // of one side, in order away from the corner
 
 SidePoints collect(const Contour& contour, int index, int side, double inner, double outer) {
   SidePoints points;
@@ -50,16 +49,14 @@ SidePoints collect(const Contour& contour, int index, int side, double inner, do
   for (int k = 0; k < most; ++k) {
     const int i = contour.closed ? wrapIndex(index + side * k, n) : index + side * k;
     if (i < 0 || i >= n) break;
-    const auto at = static_cast<std::size_t>(i);
+    const ContourPoint& p = contour.points[i];
     if (k > 0) {
       const int j = contour.closed ? wrapIndex(i - side, n) : i - side;
-      arc += (contour.points[at] - contour.points[j]).norm();
+      arc += (p.at - contour.points[j].at).norm();
     }
     if (arc > outer) break;
     if (arc < inner) continue;
-    points.at.push_back(contour.points[at]);
-    points.weight.push_back(weightOf(contour, at));
-    if (contour.sigmaPx.size() == contour.points.size()) points.sigma.push_back(contour.sigmaPx[at]);
+    points.push_back({p.at, p.refined ? 1.0 : kGuessedWeight, p.sigmaPx});
   }
   return points;
 }
@@ -68,39 +65,36 @@ SidePoints collect(const Contour& contour, int index, int side, double inner, do
 // say nothing of the side.
 void dropGuessed(SidePoints& points) {
   std::size_t first = 0, known = 0;
-  while (first < points.at.size() && points.weight[first] < 1.0) ++first;
-  for (const double w : points.weight) known += w < 1.0 ? 0 : 1;
+  while (first < points.size() && points[first].weight < 1.0) ++first;
+  for (const SidePoint& p : points) known += p.weight < 1.0 ? 0 : 1;
   if (first > kMostGuessed || known < kFewestKnown) return;
-  points.at.erase(points.at.begin(), points.at.begin() + static_cast<std::ptrdiff_t>(first));
-  points.weight.erase(points.weight.begin(), points.weight.begin() + static_cast<std::ptrdiff_t>(first));
-  if (!points.sigma.empty())
-    points.sigma.erase(points.sigma.begin(), points.sigma.begin() + static_cast<std::ptrdiff_t>(first));
+  points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
 // Known points weigh by their own noise, against the median of the side.
 void weighByNoise(SidePoints& points) {
   std::vector<double> known;
-  for (std::size_t i = 0; i < points.sigma.size(); ++i)
-    if (points.weight[i] >= 1.0) known.push_back(points.sigma[i]);
+  for (const SidePoint& p : points)
+    if (p.sigmaPx && p.weight >= 1.0) known.push_back(*p.sigmaPx);
   if (known.empty()) return;
   const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
   std::nth_element(known.begin(), middle, known.end());
-  for (std::size_t i = 0; i < points.sigma.size(); ++i) {
-    if (points.weight[i] < 1.0) continue;
-    const double ratio = *middle / std::max(points.sigma[i], 1e-3);
-    points.weight[i] = std::clamp(ratio * ratio, kLeastSideWeight, kMostSideWeight);
+  for (SidePoint& p : points) {
+    if (!p.sigmaPx || p.weight < 1.0) continue;
+    const double ratio = *middle / std::max<double>(*p.sigmaPx, 1e-3);
+    p.weight = std::clamp(ratio * ratio, kLeastSideWeight, kMostSideWeight);
   }
 }
 
 // The axis: the direction of the first few points.
 Vec2 axisOf(const SidePoints& points) {
-  const std::size_t n = std::min<std::size_t>(points.at.size(), 12);
+  const std::size_t n = std::min<std::size_t>(points.size(), 12);
   Vec2 mean = Vec2::Zero();
-  for (std::size_t i = 0; i < n; ++i) mean += points.at[i];
+  for (std::size_t i = 0; i < n; ++i) mean += points[i].at;
   mean /= static_cast<double>(n);
   Vec2 direction = Vec2::Zero();
   for (std::size_t i = 0; i < n; ++i)
-    direction += (static_cast<double>(i) - 0.5 * static_cast<double>(n - 1)) * (points.at[i] - mean);
+    direction += (static_cast<double>(i) - 0.5 * static_cast<double>(n - 1)) * (points[i].at - mean);
   const double length = direction.norm();
   return length > 0.0 ? Vec2(direction / length) : Vec2::Zero();
 }
@@ -113,19 +107,19 @@ std::vector<SideBlock> blocksOf(const SidePoints& points, const CornerSide& fram
     if (sum.weight > 0.0) blocks.push_back({sum.x / sum.weight, sum.y / sum.weight, sum.weight});
     sum = {};
   };
-  for (std::size_t i = 0; i < points.at.size(); ++i) {
-    const Vec2 d = points.at[i] - frame.origin;
+  for (const SidePoint& p : points) {
+    const Vec2 d = p.at - frame.origin;
     const double x = d.dot(frame.along), y = d.dot(frame.across);
-    if (i == 0) begin = furthest = x;
+    if (&p == &points.front()) begin = furthest = x;
     if (x < furthest - 2.0) break;  // turned back
     furthest = std::max(furthest, x);
     while (x >= begin + kBlockPx) {
       close();
       begin += kBlockPx;
     }
-    sum.x += points.weight[i] * x;
-    sum.y += points.weight[i] * y;
-    sum.weight += points.weight[i];
+    sum.x += p.weight * x;
+    sum.y += p.weight * y;
+    sum.weight += p.weight;
     count += 1.0;
     const std::size_t n = blocks.size();
     if (n >= 4 && std::abs(blocks[n - 1].y - blocks[n - 4].y) > kSteepest * (blocks[n - 1].x - blocks[n - 4].x)) break;
@@ -352,11 +346,11 @@ Vec2 CornerSide::derivative(double x) const {
 
 CornerSide fitCornerSide(const Contour& contour, int index, int side, double inner, double outer) {
   CornerSide best;
-  best.origin = contour.points[index];
+  best.origin = contour.points[index].at;
   SidePoints points = collect(contour, index, side, inner, outer);
   dropGuessed(points);
   weighByNoise(points);
-  if (points.at.size() < 3) return best;
+  if (points.size() < 3) return best;
   best.along = axisOf(points);
   best.across = Vec2(-best.along.y(), best.along.x());
   if (!(best.along.norm() > 0.5)) return best;

@@ -29,8 +29,8 @@ double chordAngle(const Contour& contour, int i, int reach) {
   const int a = contour.closed ? wrapIndex(i - reach, n) : i - reach;
   const int b = contour.closed ? wrapIndex(i + reach, n) : i + reach;
   if (a < 0 || b >= n) return 0.0;
-  const Vec2 in = contour.points[i] - contour.points[a];
-  const Vec2 out = contour.points[b] - contour.points[i];
+  const Vec2 in = contour.points[i].at - contour.points[a].at;
+  const Vec2 out = contour.points[b].at - contour.points[i].at;
   return -std::atan2(cross(in, out), in.dot(out));
 }
 
@@ -91,10 +91,10 @@ Contour smoothed(const Contour& contour, double sigmaPx, double step) {
       const int j = contour.closed ? wrapIndex(i + k, n) : i + k;
       if (j < 0 || j >= n) continue;
       const double weight = weights[std::abs(k)];
-      sum += weight * contour.points[j];
+      sum += weight * contour.points[j].at;
       total += weight;
     }
-    out.points[i] = sum / total;
+    out.points[i].at = sum / total;
   }
   return out;
 }
@@ -103,7 +103,7 @@ Contour smoothed(const Contour& contour, double sigmaPx, double step) {
 class CornerSearch {
  public:
   CornerSearch(const Contour& contour, double minAngle, double scale)
-      : contour_(contour), minAngle_(minAngle), scale_(scale), s_(cumulativeLength(contour.points)) {
+      : contour_(contour), minAngle_(minAngle), scale_(scale), s_(cumulativeLength(positionsOf(contour.points))) {
     if (s_.size() < 8) return;
     step_ = std::max(0.1, s_.back() / (static_cast<double>(s_.size()) - 1.0));
     rough_ = roughnessOf(contour, scale);
@@ -197,7 +197,7 @@ std::vector<Candidate> cornersOf(const Contour& contour, std::span<const SharpTu
   for (const SharpTurn& turn : turns) {
     if (const auto sharpest = search.sharpest(turn)) kept.push_back(*sharpest);
   }
-  const double length = polylineLength(contour.points, contour.closed);
+  const double length = polylineLength(positionsOf(contour.points), contour.closed);
   for (const Candidate& candidate : candidates) {
     const bool near = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
       const double d = std::abs(candidate.s - other.s);
@@ -232,7 +232,7 @@ std::vector<CornerSuggestion> suggestCorners(const ContourSet& set, double minAn
     const std::vector<CornerFix> fixes = locateCorners(contour, places);
     for (std::size_t i = 0; i < kept.size(); ++i) {
       CornerSuggestion suggestion{static_cast<int>(c), kept[i].index, {}, kept[i].angle};
-      suggestion.positionPx = contour.points[kept[i].index];
+      suggestion.positionPx = contour.points[kept[i].index].at;
       if (isLocated(fixes[i], kept[i].angle)) {
         suggestion.positionPx = fixes[i].position;
         suggestion.turningAngleRad = fixes[i].angleRad;

@@ -18,33 +18,32 @@ constexpr int kMostStep = 4;            // points: neighbours on the mean lie no
 constexpr double kRoomSmoothing = 4.0;  // points
 constexpr double kBandSmoothing = 1.5;  // points: little, as every stroke is to stay inside
 
+// The place, width and band between two points, at `part` of the way.
+ContourPoint pointBetween(const ContourPoint& a, const ContourPoint& b, double part) {
+  const auto t = static_cast<float>(part);
+  ContourPoint p;
+  p.at = a.at + part * (b.at - a.at);
+  if (a.widthPx && b.widthPx) p.widthPx = std::lerp(*a.widthPx, *b.widthPx, t);
+  if (a.band && b.band)
+    p.band = {std::lerp(a.band->left, b.band->left, t), std::lerp(a.band->right, b.band->right, t)};
+  return p;
+}
+
 // Adds points where there is less than about one a pixel: where strokes were joined or the line was stretched.
 void fillGaps(Contour& c) {
   const std::size_t n = c.points.size();
-  Contour even;
-  const auto add = [&](std::size_t i, std::size_t next, double part) {
-    const auto between = [&](const std::vector<float>& from, std::vector<float>& to) {
-      if (from.size() == n) to.push_back(std::lerp(from[i], from[next], static_cast<float>(part)));
-    };
-    even.points.push_back(c.points[i] + part * (c.points[next] - c.points[i]));
-    between(c.widthPx, even.widthPx);
-    between(c.band.left, even.band.left);
-    between(c.band.right, even.band.right);
-  };
+  std::vector<ContourPoint> even;
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t next = i + 1 < n ? i + 1 : c.closed ? 0 : i;
-    const double gap = (c.points[next] - c.points[i]).norm();
+    const ContourPoint &here = c.points[i], &next = c.points[i + 1 < n ? i + 1 : c.closed ? 0 : i];
+    const double gap = (next.at - here.at).norm();
     const int spans = gap > kGapPx ? static_cast<int>(std::lround(gap)) : 1;
     for (int k = 0; k < spans; ++k) {
-      add(i, next, static_cast<double>(k) / spans);
-      const bool given = gap < kJointPx && c.refined[next] != 0;
-      even.refined.push_back(k == 0 ? c.refined[i] : given ? c.refined[i] : std::uint8_t{0});
+      even.push_back(pointBetween(here, next, static_cast<double>(k) / spans));
+      const bool given = gap < kJointPx && next.refined;
+      even.back().refined = (k == 0 || given) && here.refined;
     }
   }
-  c.points = std::move(even.points);
-  c.refined = std::move(even.refined);
-  c.widthPx = std::move(even.widthPx);
-  c.band = std::move(even.band);
+  c.points = std::move(even);
 }
 
 // The points of a line on which each comes after the one before.
@@ -53,17 +52,12 @@ Contour orderedPoints(const MeanLine& line, const std::vector<Contour>& lines) {
   c.kind = ContourKind::Centreline;
   c.closed = line.closed;
   for (std::size_t i = 0; i < line.points.size(); ++i) {
-    if (!c.points.empty() && (line.points[i] - c.points.back()).dot(line.tangent[i]) < 0.2) continue;  // never back
-    const Contour& from = lines[line.source[i].line];
-    const auto at = static_cast<std::size_t>(line.source[i].index);
-    c.points.push_back(line.points[i]);
-    c.refined.push_back(from.refined[at]);
-    c.widthPx.push_back(from.widthPx[at]);
+    if (!c.points.empty() && (line.points[i] - c.points.back().at).dot(line.tangent[i]) < 0.2) continue;  // never back
+    const ContourPoint& from = lines[line.source[i].line].points[line.source[i].index];
+    c.points.push_back({.at = line.points[i], .refined = from.refined, .widthPx = from.widthPx});
   }
-  while (c.closed && c.points.size() > 3 && (c.points.front() - c.points.back()).norm() < 0.35) {
+  while (c.closed && c.points.size() > 3 && (c.points.front().at - c.points.back().at).norm() < 0.35) {
     c.points.pop_back();
-    c.refined.pop_back();
-    c.widthPx.pop_back();
   }
   return c;
 }
@@ -81,15 +75,30 @@ std::vector<float> widened(const std::vector<float>& v, bool closed) {
   return smoothValues(most, closed, kBandSmoothing);
 }
 
-// Where the strokes lie after the points have moved from where they were `before`.
-StrokeBand movedBand(StrokeBand band, const std::vector<Vec2>& before, const Contour& c) {
-  const std::vector<Vec2> tangent = directions(before, c.closed, 3);
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    const auto across = static_cast<float>((c.points[i] - before[i]).dot(leftNormal(tangent[i])));
-    band.left[i] = std::max(0.0f, band.left[i] - across);
-    band.right[i] = std::max(0.0f, band.right[i] + across);
+// A function of numbers along a line, applied to either side of a band.
+template <class Function>
+std::vector<StrokeBand> onBothSides(const std::vector<StrokeBand>& band, const Function& function) {
+  std::vector<float> left, right;
+  for (const StrokeBand& b : band) {
+    left.push_back(b.left);
+    right.push_back(b.right);
   }
-  return {widened(band.left, c.closed), widened(band.right, c.closed)};
+  left = function(left);
+  right = function(right);
+  std::vector<StrokeBand> made;
+  for (std::size_t i = 0; i < band.size(); ++i) made.push_back({left[i], right[i]});
+  return made;
+}
+
+// Where the strokes lie after the points of a line have moved.
+std::vector<StrokeBand> movedBand(std::vector<StrokeBand> band, const std::vector<Vec2>& from,
+                                  const std::vector<Vec2>& to, bool closed) {
+  const std::vector<Vec2> tangent = directions(from, closed, 3);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const auto across = static_cast<float>((to[i] - from[i]).dot(leftNormal(tangent[i])));
+    band[i] = {std::max(0.0f, band[i].left - across), std::max(0.0f, band[i].right + across)};
+  }
+  return onBothSides(band, [closed](const std::vector<float>& v) { return widened(v, closed); });
 }
 
 bool isBridged(const Contour& stroke, int index) {
@@ -105,7 +114,7 @@ std::vector<std::pair<int, int>> bridgesOf(const Contour& c, const MeanLine& lin
     if (!isBridged(lines[line.source[i].line], line.source[i].index)) continue;
     int nearest = 0;
     for (int k = 1; k < static_cast<int>(c.points.size()); ++k) {
-      const auto distance = [&](int j) { return (c.points[j] - line.points[i]).squaredNorm(); };
+      const auto distance = [&](int j) { return (c.points[j].at - line.points[i]).squaredNorm(); };
       if (distance(k) < distance(nearest)) nearest = k;
     }
     // Neighbours on the mean are about a pixel apart: a jump begins another bridge.
@@ -125,18 +134,20 @@ Contour mergedContour(const MeanLine& line, const std::vector<Contour>& lines, c
                       double distancePx, const RunContext& context) {
   Contour c = orderedPoints(line, lines);
   fillGaps(c);
-  StrokeBand band = strokes.band(c.points, c.closed, context);
-  const std::vector<Vec2> before = c.points;
-  fairWithinBand(
-      c.points, c.closed,
-      {smoothValues(band.left, c.closed, kRoomSmoothing), smoothValues(band.right, c.closed, kRoomSmoothing)},
-      kLongestWaver * distancePx);
-  c.band = movedBand(std::move(band), before, c);
+  const std::vector<Vec2> before = positionsOf(c.points);
+  std::vector<StrokeBand> band = strokes.band(before, c.closed, context);
+  const std::vector<StrokeBand> room = onBothSides(
+      band, [&](const std::vector<float>& v) { return smoothValues(v, c.closed, kRoomSmoothing); });
+  const std::vector<Vec2> fair = fairWithinBand(before, c.closed, room, kLongestWaver * distancePx);
+  band = movedBand(std::move(band), before, fair, c.closed);
+  for (std::size_t i = 0; i < fair.size(); ++i) {
+    c.points[i].at = fair[i];
+    c.points[i].band = band[i];
+  }
   fillGaps(c);
   c.bridges = bridgesOf(c, line, lines);
-  c.chain = c.points;
-  c.lengthPx = polylineLength(c.points, c.closed);
-  c.areaPx = c.closed ? polygonArea(c.points) : 0.0;
+  for (ContourPoint& p : c.points) p.unrefined = p.at;
+  measureContour(c);
   return c;
 }
 

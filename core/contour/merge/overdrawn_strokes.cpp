@@ -77,7 +77,10 @@ class MergeBalance {
 // [px] Strokes that run into one another are wider than the pen: the width of the thinner ones.
 double singleWidth(const std::vector<Contour>& strokes) {
   std::vector<float> widths;
-  for (const Contour& c : strokes) widths.insert(widths.end(), c.widthPx.begin(), c.widthPx.end());
+  for (const Contour& c : strokes) {
+    const std::vector<float> own = strokeWidthsOf(c.points);
+    widths.insert(widths.end(), own.begin(), own.end());
+  }
   if (widths.empty()) return 1.0;
   const auto thin = widths.begin() + static_cast<std::ptrdiff_t>(kThinShare * static_cast<double>(widths.size()));
   std::nth_element(widths.begin(), thin, widths.end());

@@ -48,8 +48,9 @@ class SideFinder {
     for (int l = 0; l < static_cast<int>(lines.size()); ++l) {
       if (context.isCancelled()) return;
       const Contour& c = lines[l];
-      lines_.push_back({c.points, directions(c.points, c.closed, 3), c.closed, {false, false}});
-      for (int i = 0; i < static_cast<int>(c.points.size()); ++i) cells_.add(c.points[i], {l, i, 0.0});
+      const std::vector<Vec2> points = positionsOf(c.points);
+      lines_.push_back({points, directions(points, c.closed, 3), c.closed, {false, false}});
+      for (int i = 0; i < static_cast<int>(points.size()); ++i) cells_.add(points[i], {l, i, 0.0});
     }
     for (int l = 0; l < static_cast<int>(lines_.size()) && !context.isCancelled(); ++l) {
       if (at(l).closed || at(l).points.empty()) continue;

@@ -231,8 +231,8 @@ struct StrokesBeside::Parts {
 StrokesBeside::StrokesBeside(const std::vector<Contour>& lines, double distancePx) : parts_(std::make_unique<Parts>()) {
   for (const Contour& line : lines) {
     MeanLine stroke;
-    stroke.points = line.points;
-    stroke.tangent = directions(line.points, line.closed, 3);
+    stroke.points = positionsOf(line.points);
+    stroke.tangent = directions(stroke.points, line.closed, 3);
     stroke.closed = line.closed;
     parts_->lines.push_back(std::move(stroke));
   }
@@ -255,10 +255,11 @@ bool StrokesBeside::isNear(const Vec2& at, int line, int index) const {
   return near;
 }
 
-StrokeBand StrokesBeside::band(const std::vector<Vec2>& points, bool closed, const RunContext& context) const {
+std::vector<StrokeBand> StrokesBeside::band(const std::vector<Vec2>& points, bool closed,
+                                            const RunContext& context) const {
   constexpr double kAlongPx = 1.5, kOneStrokePx = 1.0;
   const std::vector<Vec2> tangent = directions(points, closed, 3);
-  StrokeBand band{std::vector<float>(points.size()), std::vector<float>(points.size())};
+  std::vector<StrokeBand> band(points.size());
   const auto measure = [&](std::size_t i) {
     const Vec2 n = leftNormal(tangent[i]);
     double low = 0.0, high = 0.0;
@@ -274,8 +275,7 @@ StrokeBand StrokesBeside::band(const std::vector<Vec2>& points, bool closed, con
     });
     // The points of one stroke scatter by less.
     if (high - low <= kOneStrokePx) return;
-    band.left[i] = static_cast<float>(high);
-    band.right[i] = static_cast<float>(-low);
+    band[i] = {static_cast<float>(high), static_cast<float>(-low)};
   };
   parallelFor(context, static_cast<int>(points.size()), kMeansPerBlock, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) measure(static_cast<std::size_t>(i));

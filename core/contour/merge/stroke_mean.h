@@ -36,7 +36,8 @@ class StrokesBeside {
   /// The outermost strokes within `distancePx` that run along the line, the line itself being one: 0 to a side where
   /// none lies, and to both where they are no farther apart than one stroke scatters. Not complete when cancelled. Same
   /// result with any number of threads.
-  StrokeBand band(const std::vector<Vec2>& points, bool closed, const RunContext& context) const;
+  /// @return one band a point.
+  std::vector<StrokeBand> band(const std::vector<Vec2>& points, bool closed, const RunContext& context) const;
 
   /// Another stroke, or the stroke `line` itself on another way than through its point `index`, comes within
   /// `distancePx`.

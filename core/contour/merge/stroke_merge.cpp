@@ -47,7 +47,10 @@ std::vector<MeanLine> mergeWithin(std::vector<MeanLine> strokes, double distance
 
 double penWidth(const std::vector<Contour>& lines) {
   std::vector<float> widths;
-  for (const Contour& line : lines) widths.insert(widths.end(), line.widthPx.begin(), line.widthPx.end());
+  for (const Contour& line : lines) {
+    const std::vector<float> own = strokeWidthsOf(line.points);
+    widths.insert(widths.end(), own.begin(), own.end());
+  }
   if (widths.empty()) return 1.0;
   const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
   std::nth_element(widths.begin(), middle, widths.end());

@@ -76,7 +76,8 @@ void addRoomBeyond(Nodes& nodes, bool closed) {
   }
 }
 
-Nodes nodesOf(const std::vector<Vec2>& points, bool closed, const StrokeBand& band, const std::vector<Vec2>& tangent) {
+Nodes nodesOf(const std::vector<Vec2>& points, bool closed, const std::vector<StrokeBand>& band,
+              const std::vector<Vec2>& tangent) {
   Nodes nodes;
   nodes.s = cumulativeLength(points);
   const double length = polylineLength(points, closed);
@@ -92,8 +93,8 @@ Nodes nodesOf(const std::vector<Vec2>& points, bool closed, const StrokeBand& ba
     const double part = gap > 0.0 ? std::clamp((s - nodes.s[i]) / gap, 0.0, 1.0) : 0.0;
     nodes.at.push_back(points[i] + part * (points[next] - points[i]));
     nodes.normal.push_back(leftNormal(tangent[i]));
-    nodes.left.push_back(kBandShare * static_cast<double>(std::max(band.left[i], band.left[next])));
-    nodes.right.push_back(kBandShare * static_cast<double>(std::max(band.right[i], band.right[next])));
+    nodes.left.push_back(kBandShare * static_cast<double>(std::max(band[i].left, band[next].left)));
+    nodes.right.push_back(kBandShare * static_cast<double>(std::max(band[i].right, band[next].right)));
   }
   addRoomBeyond(nodes, closed);
   return nodes;
@@ -164,15 +165,17 @@ std::vector<Vec2> shifts(const Nodes& nodes, bool closed, double longestPx) {
 
 }  // namespace
 
-void fairWithinBand(std::vector<Vec2>& points, bool closed, const StrokeBand& band, double longestPx) {
-  const std::size_t n = points.size();
-  if (n < 2 || band.left.size() != n || band.right.size() != n) return;
+std::vector<Vec2> fairWithinBand(const std::vector<Vec2>& before, bool closed, const std::vector<StrokeBand>& band,
+                                 double longestPx) {
+  const std::size_t n = before.size();
+  if (n < 2 || band.size() != n) return before;
   float widest = 0.0f;
-  for (std::size_t i = 0; i < n; ++i) widest = std::max(widest, 0.5f * (band.left[i] + band.right[i]));
-  if (widest < static_cast<float>(kLeastBandPx)) return;
-  const std::vector<Vec2> before = points, tangent = directions(points, closed, 3);
+  for (const StrokeBand& b : band) widest = std::max(widest, 0.5f * (b.left + b.right));
+  if (widest < static_cast<float>(kLeastBandPx)) return before;
+  std::vector<Vec2> points = before;
+  const std::vector<Vec2> tangent = directions(points, closed, 3);
   const Nodes nodes = nodesOf(points, closed, band, tangent);
-  if (nodes.at.empty()) return;
+  if (nodes.at.empty()) return before;
   const std::vector<Vec2> shift = shifts(nodes, closed, longestPx);
   for (std::size_t i = 0; i < n; ++i) points[i] += pointBetween(shift, closed, nodes.s[i] / nodes.step);
   // What is shorter than the nodes are apart.
@@ -188,6 +191,7 @@ void fairWithinBand(std::vector<Vec2>& points, bool closed, const StrokeBand& ba
     points[i] += std::min(1.0, room.larger() / kSmoothRoomPx) * (smooth[i] - points[i]);
     points[i] = before[i] + within(points[i] - before[i], leftNormal(tangent[i]), room);
   }
+  return points;
 }
 
 }  // namespace batten

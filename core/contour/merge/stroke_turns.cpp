@@ -26,7 +26,7 @@ struct StrokeEnd {
 std::vector<int> sharpTurnsOf(const Contour& line, int reach) {
   const int n = static_cast<int>(line.points.size());
   std::vector<double> turn(line.points.size(), 0.0);
-  const auto p = [&](int i) -> const Vec2& { return line.points[wrapIndex(i, n)]; };
+  const auto p = [&](int i) -> const Vec2& { return line.points[wrapIndex(i, n)].at; };
   for (int i = line.closed ? 0 : reach; i < (line.closed ? n : n - reach); ++i) {
     const Vec2 in = p(i) - p(i - reach), out = p(i + reach) - p(i);
     turn[i] = std::atan2(std::abs(cross(in, out)), in.dot(out));
@@ -47,7 +47,7 @@ std::vector<int> sharpTurnsOf(const Contour& line, int reach) {
 }
 
 double widthOf(const Contour& line) {
-  std::vector<float> widths = line.widthPx;
+  std::vector<float> widths = strokeWidthsOf(line.points);
   if (widths.empty()) return 1.0;
   const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
   std::nth_element(widths.begin(), middle, widths.end());
@@ -94,14 +94,14 @@ std::vector<MeanLine> strokesOf(const std::vector<Contour>& lines, double distan
                                  std::max(kLeastTurnReach, static_cast<int>(0.5 * distancePx)));
     std::vector<int> cuts = n > 4 * reach ? sharpTurnsOf(line, reach) : std::vector<int>{};
     // Where no other stroke is near, it was the hand that turned.
-    std::erase_if(cuts, [&](int c) { return !others.isNear(line.points[c], l, c); });
-    for (const int c : cuts) turns.push_back(line.points[c]);
+    std::erase_if(cuts, [&](int c) { return !others.isNear(line.points[c].at, l, c); });
+    for (const int c : cuts) turns.push_back(line.points[c].at);
     const auto add = [&](int from, int to, bool closed) {
       MeanLine stroke;
       stroke.closed = closed;
       for (int i = from; i <= to; ++i) {
         const int at = wrapIndex(i, n);
-        stroke.points.push_back(line.points[at]);
+        stroke.points.push_back(line.points[at].at);
         stroke.source.push_back({l, at});
       }
       stroke.tangent = directions(stroke.points, closed, 3);

@@ -80,9 +80,7 @@ Contour toContour(const Border& border) {
   contour.kind = ContourKind::Outline;
   contour.closed = true;
   contour.hole = border.signedArea < 0;
-  contour.chain = border.midpoints;
-  contour.points = border.midpoints;
-  contour.refined.assign(border.midpoints.size(), 0);
+  contour.points = contourPoints(border.midpoints, false);
   contour.lengthPx = border.length();
   // Each of the four more outer than inner corners costs an eighth of a pixel when midpoints are joined.
   contour.areaPx = std::abs(static_cast<double>(border.signedArea) - 0.5);

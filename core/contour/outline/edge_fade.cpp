@@ -89,7 +89,7 @@ struct FadeBand {
 FadeBand measureFade(const Contour& c, const GreyImage& grey, double blur, const RunContext& context) {
   const auto n = c.points.size();
   FadeBand band{std::vector<float>(n, 0.0f), std::vector<float>(n, 0.0f)};
-  const std::vector<Vec2> along = directions(smoothPolyline(c.points, c.closed, 2.0), c.closed, 2);
+  const std::vector<Vec2> along = directions(smoothPolyline(positionsOf(c.points), c.closed, 2.0), c.closed, 2);
   const double from = std::max(kFadeFromPx, kFadeFromBlurs * blur), to = from + kFadeLeverPx;
   const double carried = normalCdf(to / blur) - normalCdf(from / blur);
   const auto onPage = [&](const Vec2& p) {
@@ -98,8 +98,8 @@ FadeBand measureFade(const Contour& c, const GreyImage& grey, double blur, const
   parallelFor(context, static_cast<int>(n), kFadesPerBlock, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      const Vec2 inward = leftNormal(along[i]), &p = c.points[i];  // with y down: ink lies to the right of travel
-      if (!c.refined[i] || !onPage(p + to * inward) || !onPage(p - to * inward)) continue;
+      const Vec2 inward = leftNormal(along[i]), &p = c.points[i].at;  // with y down: ink lies to the right of travel
+      if (!c.points[i].refined || !onPage(p + to * inward) || !onPage(p - to * inward)) continue;
       const auto level = [&](double u) { return sampleLinear(grey, p + u * inward); };
       const double inkNear = level(from), inkFar = level(to), paperNear = level(-from), paperFar = level(-to);
       const double seen = paperNear - inkNear;
@@ -127,11 +127,11 @@ void undoFade(Contour& c, const GreyImage& grey, const RunContext& context) {
   band.fade = smoothValues(band.fade, c.closed, kFadeSigma);
   band.weight = smoothValues(band.weight, c.closed, kFadeSigma);
   const double perSlope = shiftPerSlope(blur);
-  const std::vector<Vec2> along = directions(smoothPolyline(c.points, c.closed, 2.0), c.closed, 2);
+  const std::vector<Vec2> along = directions(smoothPolyline(positionsOf(c.points), c.closed, 2.0), c.closed, 2);
   for (std::size_t i = 0; i < n; ++i) {
-    if (!c.refined[i] || band.weight[i] < kLeastKnown) continue;
+    if (!c.points[i].refined || band.weight[i] < kLeastKnown) continue;
     const double shift = perSlope * static_cast<double>(band.fade[i] / band.weight[i]);
-    c.points[i] -= std::clamp(shift, -kLargestFadePx, kLargestFadePx) * leftNormal(along[i]);
+    c.points[i].at -= std::clamp(shift, -kLargestFadePx, kLargestFadePx) * leftNormal(along[i]);
   }
 }
 

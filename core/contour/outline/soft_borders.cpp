@@ -37,19 +37,20 @@ void flipShortRuns(std::vector<std::uint8_t>& soft, bool closed, std::uint8_t wh
 std::vector<std::uint8_t> softPoints(const Contour& c, const GreyImage& grey, const RunContext& context) {
   const auto n = c.points.size();
   std::vector<std::uint8_t> soft(n, 0);
-  const auto [nearRise, farRise] = edgeRises(c.chain, c.closed, grey, {kNearPx, kFarPx}, kAlongSigma, context);
+  const auto [nearRise, farRise] = edgeRises(unrefinedPositionsOf(c.points), c.closed, grey, {kNearPx, kFarPx}, kAlongSigma, context);
   if (context.isCancelled()) return soft;
   const auto onBorder = [&](const Vec2& p) {
     return p.x() < kFarPx || p.y() < kFarPx || p.x() > grey.width - kFarPx || p.y() > grey.height - kFarPx;
   };
-  for (std::size_t i = 0; i < n; ++i) soft[i] = !onBorder(c.chain[i]) && farRise[i] > kSoftRatio * nearRise[i] ? 1 : 0;
+  for (std::size_t i = 0; i < n; ++i)
+    soft[i] = !onBorder(c.points[i].unrefined) && farRise[i] > kSoftRatio * nearRise[i] ? 1 : 0;
   flipShortRuns(soft, c.closed, 1, kShortestSoft / 3);
   flipShortRuns(soft, c.closed, 0, kShortestSharp);
   flipShortRuns(soft, c.closed, 1, kShortestSoft);
   if (std::find(soft.begin(), soft.end(), std::uint8_t{1}) == soft.end()) return soft;
   // A tone that fades somewhere is cut off by the page, not bordered by it.
   for (std::size_t i = 0; i < n; ++i)
-    if (onBorder(c.chain[i])) soft[i] = 1;
+    if (onBorder(c.points[i].unrefined)) soft[i] = 1;
   flipShortRuns(soft, c.closed, 0, kShortestSharp);
   return soft;
 }
@@ -61,14 +62,8 @@ Contour stretchOf(const Contour& c, int from, int to) {
   part.hole = c.hole;
   part.blurPx = c.blurPx;
   part.traceMode = c.traceMode;
-  for (int k = from; k <= to; ++k) {
-    const auto i = static_cast<std::size_t>(wrapIndex(k, n));
-    part.points.push_back(c.points[i]);
-    part.chain.push_back(c.chain[i]);
-    part.refined.push_back(c.refined[i]);
-    if (!c.sigmaPx.empty()) part.sigmaPx.push_back(c.sigmaPx[i]);
-  }
-  part.lengthPx = polylineLength(part.points, false);
+  for (int k = from; k <= to; ++k) part.points.push_back(c.points[wrapIndex(k, n)]);
+  measureContour(part);
   return part;
 }
 

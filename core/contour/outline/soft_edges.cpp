@@ -43,7 +43,8 @@ Contour shrunk(const Contour& contour, int scale) {
   small.kind = contour.kind;
   small.closed = contour.closed;
   small.hole = contour.hole;
-  const std::vector<Vec2> smooth = smoothPolyline(contour.chain, contour.closed, kCrackSigma * scale);
+  const std::vector<Vec2> smooth =
+      smoothPolyline(unrefinedPositionsOf(contour.points), contour.closed, kCrackSigma * scale);
   const auto n = smooth.size();
   const std::size_t count = std::max<std::size_t>(2, n / static_cast<std::size_t>(scale));
   const double step = contour.closed ? static_cast<double>(n) / static_cast<double>(count)
@@ -53,7 +54,8 @@ Contour shrunk(const Contour& contour, int scale) {
     const auto i = static_cast<std::size_t>(at);
     const std::size_t next = contour.closed ? (i + 1) % n : std::min(i + 1, n - 1);
     const double f = at - static_cast<double>(i);
-    small.chain.push_back(((1.0 - f) * smooth[i] + f * smooth[next]) / scale);
+    const Vec2 place = ((1.0 - f) * smooth[i] + f * smooth[next]) / scale;
+    small.points.push_back({.at = place, .unrefined = place});
   }
   return small;
 }
@@ -63,7 +65,8 @@ Contour shrunk(const Contour& contour, int scale) {
 std::vector<float> softness(const Contour& contour, const GreyImage& grey, double blurPx, const RunContext& context) {
   constexpr double kInnerPx = 3.0, kLeastShare = 0.9, kMeasureSigma = 8.0, kBlendSigma = 4.0;
   const double reach = std::max(2.0 * kInnerPx, 2.5 * blurPx);
-  const auto [inner, outer] = edgeRises(contour.chain, contour.closed, grey, {kInnerPx, reach}, kMeasureSigma, context);
+  const auto [inner, outer] = edgeRises(unrefinedPositionsOf(contour.points), contour.closed, grey, {kInnerPx, reach},
+                                        kMeasureSigma, context);
   std::vector<float> soft(inner.size());
   for (std::size_t i = 0; i < soft.size(); ++i)
     soft[i] = inner[i] < static_cast<float>(kLeastShare) * outer[i] ? 1.0f : 0.0f;
@@ -72,7 +75,8 @@ std::vector<float> softness(const Contour& contour, const GreyImage& grey, doubl
 
 /// Takes what was found on a copy that is `scale` times smaller, where the edge is soft and was found there.
 void enlarge(Contour& contour, const Contour& small, int scale, const std::vector<float>& soft) {
-  const auto n = contour.chain.size(), m = small.points.size();
+  const auto n = contour.points.size(), m = small.points.size();
+  const std::vector<Vec2> smallAt = positionsOf(small.points);
   const double step = contour.closed ? static_cast<double>(m) / static_cast<double>(n)
                                      : static_cast<double>(m - 1) / static_cast<double>(n - 1);
   for (std::size_t i = 0; i < n; ++i) {
@@ -80,31 +84,33 @@ void enlarge(Contour& contour, const Contour& small, int scale, const std::vecto
     const auto k = static_cast<std::size_t>(at);
     const std::size_t next = contour.closed ? (k + 1) % m : std::min(k + 1, m - 1);
     const double f = at - static_cast<double>(k);
-    if (!small.refined[k] || !small.refined[next]) continue;
+    const ContourPoint &before = small.points[k], &after = small.points[next];
+    ContourPoint& p = contour.points[i];
+    if (!before.refined || !after.refined || !before.sigmaPx || !after.sigmaPx || !p.sigmaPx) continue;
     const double share = static_cast<double>(soft[i]);
-    const Vec2 found = scale * pointBetween(small.points, contour.closed, at);
+    const Vec2 found = scale * pointBetween(smallAt, contour.closed, at);
     const double sigma =
-        scale * std::lerp(static_cast<double>(small.sigmaPx[k]), static_cast<double>(small.sigmaPx[next]), f);
-    contour.points[i] += share * (found - contour.points[i]);
-    contour.sigmaPx[i] = static_cast<float>(std::lerp(static_cast<double>(contour.sigmaPx[i]), sigma, share));
-    if (share > 0.5) contour.refined[i] = 1;
+        scale * std::lerp(static_cast<double>(*before.sigmaPx), static_cast<double>(*after.sigmaPx), f);
+    p.at += share * (found - p.at);
+    p.sigmaPx = static_cast<float>(std::lerp(static_cast<double>(*p.sigmaPx), sigma, share));
+    if (share > 0.5) p.refined = true;
   }
   contour.blurPx = scale * small.blurPx;
-  contour.lengthPx = polylineLength(contour.points, contour.closed);
-  contour.areaPx = contour.closed ? polygonArea(contour.points) : 0.0;
+  measureContour(contour);
 }
 
 double refinedShare(const Contour& c) {
-  const auto refined = std::count(c.refined.begin(), c.refined.end(), std::uint8_t{1});
-  return static_cast<double>(refined) / static_cast<double>(c.refined.size());
+  const auto refined =
+      std::count_if(c.points.begin(), c.points.end(), [](const ContourPoint& p) { return p.refined; });
+  return static_cast<double>(refined) / static_cast<double>(c.points.size());
 }
 
 /// Takes what this copy shows, if it shows an edge; true where a smaller one might show it better.
 bool refineOn(Contour& contour, const GreyImage& scan, const GreyImage& grey, int scale, const RunContext& context) {
-  if (contour.chain.size() < static_cast<std::size_t>(kFewestPoints * scale)) return false;
+  if (contour.points.size() < static_cast<std::size_t>(kFewestPoints * scale)) return false;
   Contour small = shrunk(contour, scale);
   refineOutline(small, grey, context);
-  if (context.isCancelled() || small.sigmaPx.size() != small.points.size()) return false;
+  if (context.isCancelled() || !small.points.front().sigmaPx) return false;
   if (small.blurPx < kLeastBlurPx) return false;
   if (refinedShare(small) < kLeastRefined * refinedShare(contour)) return false;
   undoFade(small, grey, context);
@@ -116,7 +122,7 @@ bool refineOn(Contour& contour, const GreyImage& scan, const GreyImage& grey, in
 
 /// Cheap against placing it once more: most scans are a little blurred, few are soft.
 bool isSoftSomewhere(const Contour& contour, const GreyImage& grey, const RunContext& context) {
-  if (contour.blurPx < kSoftBlurPx || contour.sigmaPx.empty()) return false;
+  if (contour.blurPx < kSoftBlurPx || contour.points.empty() || !contour.points.front().sigmaPx) return false;
   const std::vector<float> soft = softness(contour, grey, contour.blurPx, context);
   return std::count_if(soft.begin(), soft.end(), [](float s) { return s > 0.5f; }) >= kFewestPoints;
 }

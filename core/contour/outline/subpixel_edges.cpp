@@ -33,7 +33,7 @@ std::vector<Vec2> normalsOf(const std::vector<Vec2>& points, bool closed) {
 
 // First pass: half level on lightly averaged profiles, good to about 0.1 px.
 std::vector<Vec2> halfLevelPass(const Contour& contour, const GreyImage& grey, const RunContext& context) {
-  const std::vector<Vec2> base = smoothPolyline(contour.chain, contour.closed, kChainSigma);
+  const std::vector<Vec2> base = smoothPolyline(unrefinedPositionsOf(contour.points), contour.closed, kChainSigma);
   const std::vector<Vec2> normal = normalsOf(base, contour.closed);
   const ProfileBand band =
       averageAlong(sampleProfiles(grey, base, normal, false, context), contour.closed, 1.0, context);
@@ -41,9 +41,10 @@ std::vector<Vec2> halfLevelPass(const Contour& contour, const GreyImage& grey, c
   forEdgePoints(context, base.size(), [&](std::size_t i) {
     const float* profile = band.row(static_cast<int>(i));
     const EdgeSpan span = findEdgeSpan(profile);
-    if (span.contrast < kLeastEdgeContrast || onPageBorder(contour.chain[i], grey)) return;
+    const Vec2& crack = contour.points[i].unrefined;
+    if (span.contrast < kLeastEdgeContrast || onPageBorder(crack, grey)) return;
     const Vec2 found = base[i] + halfLevelCrossing(profile, span) * normal[i];
-    if ((found - contour.chain[i]).norm() <= kEdgeGatePx + 0.5) points[i] = found;
+    if ((found - crack).norm() <= kEdgeGatePx + 0.5) points[i] = found;
   });
   return points;
 }
@@ -118,18 +119,17 @@ double pixelPass(const GreyImage& grey, const std::vector<Vec2>& base, const std
 // Points must advance along the line: a step backwards is replaced by the way between its neighbours.
 void removeReversals(Contour& contour, const std::vector<Vec2>& normal) {
   const int n = static_cast<int>(contour.points.size());
-  const auto at = [&](int i) {
-    return static_cast<std::size_t>(contour.closed ? wrapIndex(i, n) : std::clamp(i, 0, n - 1));
-  };
+  const auto index = [&](int i) { return contour.closed ? wrapIndex(i, n) : std::clamp(i, 0, n - 1); };
+  const auto point = [&](int i) -> ContourPoint& { return contour.points[index(i)]; };
   for (int round = 0; round < 3; ++round) {
     bool clean = true;
     for (int i = 0; i < n; ++i) {
-      const Vec2 tangent = -leftNormal(normal[at(i)]);  // turned back by 90 degrees
-      if ((contour.points[at(i + 1)] - contour.points[at(i)]).dot(tangent) > 0.0) continue;
-      const Vec2 from = contour.points[at(i - 1)], to = contour.points[at(i + 2)];
-      contour.points[at(i)] = from + (to - from) / 3.0;
-      contour.points[at(i + 1)] = from + (to - from) * (2.0 / 3.0);
-      contour.refined[at(i)] = contour.refined[at(i + 1)] = 0;
+      const Vec2 tangent = -leftNormal(normal[index(i)]);  // turned back by 90 degrees
+      if ((point(i + 1).at - point(i).at).dot(tangent) > 0.0) continue;
+      const Vec2 from = point(i - 1).at, to = point(i + 2).at;
+      point(i).at = from + (to - from) / 3.0;
+      point(i + 1).at = from + (to - from) * (2.0 / 3.0);
+      point(i).refined = point(i + 1).refined = false;
       clean = false;
     }
     if (clean) return;
@@ -139,9 +139,11 @@ void removeReversals(Contour& contour, const std::vector<Vec2>& normal) {
 }  // namespace
 
 void refineOutline(Contour& contour, const GreyImage& grey, const RunContext& context) {
-  const auto n = contour.chain.size();
-  contour.points = contour.chain;
-  contour.refined.assign(n, 0);
+  const auto n = contour.points.size();
+  for (ContourPoint& p : contour.points) {
+    p.at = p.unrefined;
+    p.refined = false;
+  }
   if (n < kSmallestRing || grey.width < 4 || grey.height < 4) return;
   const std::vector<Vec2> base = smoothPolyline(halfLevelPass(contour, grey, context), contour.closed, kBaseSigma);
   const std::vector<Vec2> normal = normalsOf(base, contour.closed);
@@ -154,20 +156,23 @@ void refineOutline(Contour& contour, const GreyImage& grey, const RunContext& co
   std::vector<Vec2> found(n);
   for (std::size_t i = 0; i < n; ++i) found[i] = base[i] + m.position[i] * normal[i];
   undoCurvatureShift(found, normal, contour.closed, blur);
-  const std::vector<Vec2> fallback = smoothPolyline(contour.chain, contour.closed, 1.5);
+  const std::vector<Vec2> fallback = smoothPolyline(unrefinedPositionsOf(contour.points), contour.closed, 1.5);
   for (std::size_t i = 0; i < n; ++i) {
-    if (onPageBorder(contour.chain[i], grey)) continue;
+    ContourPoint& p = contour.points[i];
+    if (onPageBorder(p.unrefined, grey)) continue;
     const double contrast = m.paper[i] - m.ink[i];
     const bool edge = m.span[i].contrast > 0.0 && contrast >= std::max(kLeastEdgeContrast, m.noise) &&
-                      std::abs(m.position[i]) <= kLargestMovePx && (found[i] - contour.chain[i]).norm() <= kEdgeGatePx;
-    contour.points[i] = edge ? found[i] : fallback[i];
-    contour.refined[i] = edge ? 1 : 0;
+                      std::abs(m.position[i]) <= kLargestMovePx && (found[i] - p.unrefined).norm() <= kEdgeGatePx;
+    p.at = edge ? found[i] : fallback[i];
+    p.refined = edge;
   }
   removeReversals(contour, normal);
   contour.blurPx = std::sqrt(std::max(1e-6, blur * blur - kPixelVariance - PixelWindow::kVariance));
-  contour.sigmaPx = pointSigmas(m.information, contour.refined, contour.closed);
-  contour.lengthPx = polylineLength(contour.points, contour.closed);
-  contour.areaPx = contour.closed ? polygonArea(contour.points) : 0.0;
+  std::vector<std::uint8_t> placed(n);
+  for (std::size_t i = 0; i < n; ++i) placed[i] = contour.points[i].refined ? 1 : 0;
+  const std::vector<float> sigma = pointSigmas(m.information, placed, contour.closed);
+  for (std::size_t i = 0; i < n; ++i) contour.points[i].sigmaPx = sigma[i];
+  measureContour(contour);
 }
 
 }  // namespace batten

@@ -16,10 +16,10 @@ std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet& set, doubl
   std::vector<SharpTurn> turns;
   for (std::size_t c = 0; c < set.contours.size(); ++c) {
     const Contour& contour = set.contours[c];
-    // What is as small as this and round is as sharp as a cut all over.
-    if (contour.closed && polylineLength(contour.points, true) < kSmallLoopPx) continue;
     ConstructPiece piece;
-    piece.points = contour.points;
+    piece.points = positionsOf(contour.points);
+    // What is as small as this and round is as sharp as a cut all over.
+    if (contour.closed && polylineLength(piece.points, true) < kSmallLoopPx) continue;
     piece.closed = contour.closed;
     for (const PointRange& range : sharpTurns(piece, contour.kind == ContourKind::Centreline, 1.0, {})) {
       turns.push_back({static_cast<int>(c), range.first, range.last});

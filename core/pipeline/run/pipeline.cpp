@@ -29,10 +29,7 @@ std::size_t bytesOf(const BitImage& image) { return sizeof(image) + vectorBytes(
 std::size_t bytesOf(const FilteredImage& image) { return bytesOf(image.ink); }
 std::size_t bytesOf(const ContourSet& set) {
   std::size_t bytes = sizeof(set);
-  for (const Contour& c : set.contours) {
-    bytes += sizeof(c) + vectorBytes(c.points) + vectorBytes(c.chain) + vectorBytes(c.refined) +
-             vectorBytes(c.sigmaPx) + vectorBytes(c.widthPx) + vectorBytes(c.band.left) + vectorBytes(c.band.right);
-  }
+  for (const Contour& c : set.contours) bytes += sizeof(c) + vectorBytes(c.points);
   return bytes;
 }
 std::size_t bytesOf(const PieceSet& set) {

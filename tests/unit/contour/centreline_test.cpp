@@ -71,15 +71,14 @@ void expectSound(const Contour& c) {
   const std::size_t n = c.points.size();
   ASSERT_GE(n, 3u);
   EXPECT_EQ(c.kind, ContourKind::Centreline);
-  EXPECT_EQ(c.chain.size(), n);
-  EXPECT_EQ(c.refined.size(), n);
-  EXPECT_EQ(c.widthPx.size(), n);
+  EXPECT_EQ(strokeWidthsOf(c.points).size(), n);
   for (std::size_t i = 1; i < n; ++i) {
-    const double step = (c.points[i] - c.points[i - 1]).norm();
+    const double step = (c.points[i].at - c.points[i - 1].at).norm();
     EXPECT_GT(step, 0.3) << "at " << i;
     EXPECT_LT(step, 2.0) << "at " << i;
-    const Vec2 ahead = i + 1 < n ? Vec2(c.points[i + 1] - c.points[i]) : Vec2(c.points[i] - c.points[i - 1]);
-    EXPECT_GT(ahead.dot(c.points[i] - c.points[i - 1]), 0.0) << "at " << i;
+    const Vec2 ahead =
+        i + 1 < n ? Vec2(c.points[i + 1].at - c.points[i].at) : Vec2(c.points[i].at - c.points[i - 1].at);
+    EXPECT_GT(ahead.dot(c.points[i].at - c.points[i - 1].at), 0.0) << "at " << i;
   }
 }
 
@@ -96,18 +95,18 @@ Fit fitTo(const Contour& c, const Polyline& truth, bool closed, double skipEnds 
     const std::size_t count = truth.size();
     for (std::size_t k = 0; k < (closed ? count : count - 1); ++k) {
       const Vec2 a = truth[k], d = truth[(k + 1) % count] - a;
-      if ((a - c.points[i]).squaredNorm() > 100.0 || d.squaredNorm() <= 0.0) continue;
-      const double t = std::clamp((c.points[i] - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
-      const Vec2 miss = c.points[i] - a - t * d;
+      if ((a - c.points[i].at).squaredNorm() > 100.0 || d.squaredNorm() <= 0.0) continue;
+      const double t = std::clamp((c.points[i].at - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
+      const Vec2 miss = c.points[i].at - a - t * d;
       if (miss.norm() < best) {
         best = miss.norm();
         sign = cross(d, miss) >= 0.0 ? 1.0 : -1.0;
       }
     }
-    if (!closed && std::min((c.points[i] - truth.front()).norm(), (c.points[i] - truth.back()).norm()) < skipEnds)
+    if (!closed && std::min((c.points[i].at - truth.front()).norm(), (c.points[i].at - truth.back()).norm()) < skipEnds)
       continue;
     f.allWorst = std::max(f.allWorst, best);
-    if (!c.refined[i]) continue;
+    if (!c.points[i].refined) continue;
     f.bias += sign * best;
     f.rms += best * best;
     f.worst = std::max(f.worst, best);
@@ -196,7 +195,7 @@ TEST(Centreline, StrokesOfAllShapesAreOneStrandOnTheirMiddle) {
     EXPECT_LE(std::abs(f.bias), 0.02) << shape.name;
     EXPECT_LE(f.rms, shape.corners.empty() ? 0.04 : 0.08) << shape.name;
     EXPECT_GE(f.share, 0.9) << shape.name;
-    EXPECT_NEAR(found[0].widthPx[found[0].widthPx.size() / 2], 5.0f, 0.4f) << shape.name;
+    EXPECT_NEAR(found[0].points[found[0].points.size() / 2].widthPx.value(), 5.0f, 0.4f) << shape.name;
   }
 }
 
@@ -206,10 +205,10 @@ TEST(Centreline, OpenEndsLieWhereThePenStopped) {
     const auto found = centrelinesOf(page({truth}, false, 5.0, 400, 300, seed));
     ASSERT_EQ(found.size(), 1u);
     EXPECT_FALSE(found[0].closed);
-    const double forward =
-        std::max((found[0].points.front() - truth.front()).norm(), (found[0].points.back() - truth.back()).norm());
-    const double backward =
-        std::max((found[0].points.front() - truth.back()).norm(), (found[0].points.back() - truth.front()).norm());
+    const double forward = std::max((found[0].points.front().at - truth.front()).norm(),
+                                    (found[0].points.back().at - truth.back()).norm());
+    const double backward = std::max((found[0].points.front().at - truth.back()).norm(),
+                                     (found[0].points.back().at - truth.front()).norm());
     EXPECT_LE(std::min(forward, backward), 0.6);
   }
 }
@@ -238,7 +237,7 @@ TEST(Centreline, ATeeIsTwoStrandsThatTouch) {
   EXPECT_LE(fitTo(found[0], strokes[0], false).allWorst, 0.3);
   EXPECT_LE(fitTo(found[1], strokes[1], false).allWorst, 0.5);
   const Contour& stem = found[1];
-  const double top = std::min(stem.points.front().y(), stem.points.back().y());
+  const double top = std::min(stem.points.front().at.y(), stem.points.back().at.y());
   EXPECT_NEAR(top, 100.4, 2.5);
 }
 
@@ -282,8 +281,8 @@ TEST(Centreline, GapsAreBridgedAndSaid) {
   const auto [first, last] = joined[0].bridges[0];
   EXPECT_LE(first, last);
   for (int i = first; i <= last; ++i) {
-    EXPECT_EQ(joined[0].refined[i], 0);
-    EXPECT_NEAR(joined[0].points[i].x(), 198.5, 14.0);
+    EXPECT_EQ(joined[0].points[i].refined, 0);
+    EXPECT_NEAR(joined[0].points[i].at.x(), 198.5, 14.0);
   }
   EXPECT_LE(fitTo(joined[0], whole, false).allWorst, 0.5);
   EdgeParams none;
@@ -300,21 +299,19 @@ TEST(Centreline, OverdrawnStrokesMergeOnlyWhenAsked) {
   merge.mergeWidths = 4.0;
   const auto found = centrelinesOf(p, merge);
   ASSERT_EQ(found.size(), 1u);
-  for (const Vec2& q : found[0].points) {
+  for (const Vec2& q : positionsOf(found[0].points)) {
     if (q.x() > 60 && q.x() < 340) {
       EXPECT_NEAR(q.y(), 103.67, 0.4);
     }
   }
   // The strokes' middles are 13 px apart.
-  ASSERT_EQ(found[0].band.left.size(), found[0].points.size());
-  ASSERT_EQ(found[0].band.right.size(), found[0].points.size());
   for (std::size_t i = 0; i < found[0].points.size(); ++i) {
-    if (found[0].points[i].x() > 60 && found[0].points[i].x() < 340) {
+    if (found[0].points[i].at.x() > 60 && found[0].points[i].at.x() < 340) {
       // Borders are ragged by half a pixel.
-      EXPECT_NEAR(0.5f * (found[0].band.left[i] + found[0].band.right[i]), 6.5f, 0.9f);
+      EXPECT_NEAR(0.5f * (found[0].points[i].band.value().left + found[0].points[i].band.value().right), 6.5f, 0.9f);
     }
   }
-  for (const Contour& alone : centrelinesOf(p)) EXPECT_TRUE(alone.band.isEmpty());
+  for (const Contour& alone : centrelinesOf(p)) EXPECT_FALSE(alone.points.front().band);
 }
 
 TEST(Centreline, SameResultWithAnyNumberOfThreads) {
@@ -328,7 +325,7 @@ TEST(Centreline, SameResultWithAnyNumberOfThreads) {
   for (std::size_t i = 0; i < a->contours.size(); ++i) {
     ASSERT_EQ(a->contours[i].points.size(), b->contours[i].points.size());
     for (std::size_t k = 0; k < a->contours[i].points.size(); ++k) {
-      EXPECT_EQ(a->contours[i].points[k], b->contours[i].points[k]);
+      EXPECT_EQ(a->contours[i].points[k].at, b->contours[i].points[k].at);
     }
   }
 }

@@ -15,14 +15,14 @@ namespace {
 ContourSet contourThrough(const std::vector<Vec2>& corners, bool closed) {
   Contour contour;
   contour.closed = closed;
+  std::vector<Vec2> points;
   for (std::size_t i = 0; i + (closed ? 0 : 1) < corners.size(); ++i) {
     const Vec2 way = corners[(i + 1) % corners.size()] - corners[i];
     const int count = static_cast<int>(std::lround(way.norm()));
-    for (int k = 0; k < count; ++k) contour.points.push_back(corners[i] + (static_cast<double>(k) / count) * way);
+    for (int k = 0; k < count; ++k) points.push_back(corners[i] + (static_cast<double>(k) / count) * way);
   }
-  if (!closed) contour.points.push_back(corners.back());
-  contour.chain = contour.points;
-  contour.refined.assign(contour.points.size(), 1);
+  if (!closed) points.push_back(corners.back());
+  contour.points = contourPoints(points, true);
   ContourSet set;
   set.contours.push_back(contour);
   return set;
@@ -66,7 +66,7 @@ TEST(CornerMarks, CornersThatLeaveASliverAreNamed) {
   EXPECT_EQ(pieces->closeCorners[0].other, 0);
   EXPECT_NEAR(pieces->closeCorners[0].apartPx, 4.0, 0.6);
   const ContourSet ring = contourThrough({{50, 50}, {350, 50}, {350, 250}, {50, 250}}, true);
-  const auto& points = ring.contours[0].points;
+  const std::vector<Vec2> points = positionsOf(ring.contours[0].points);
   const auto two = splitAtCorners(ring, std::vector<CornerMark>{{points[160]}, {points[164]}}, {});
   ASSERT_EQ(two->corners.size(), 2u);
   EXPECT_EQ(two->closeCorners.size(), 1u);

@@ -58,8 +58,7 @@ ContourSet fromPoints(std::vector<Vec2> points, bool closed, double noise = 0.0,
   Contour c;
   c.closed = closed;
   for (Vec2& p : points) p += noise * Vec2(gauss(random), gauss(random));
-  c.chain = c.points = std::move(points);
-  c.refined.assign(c.points.size(), 1);
+  c.points = contourPoints(points, true);
   ContourSet set;
   set.contours.push_back(c);
   return set;
@@ -195,8 +194,7 @@ TEST(CornerMarks, ShallowCornersOfLongSides) {
       for (int i = 0; i <= 250; ++i) points.push_back(corner + i * out + (0.5 * i * i / 400.0) * leftNormal(out));
       for (Vec2& p : points) p += 0.07 * Vec2(gauss(random), gauss(random));
       Contour c;
-      c.chain = c.points = std::move(points);
-      c.refined.assign(c.points.size(), 1);
+      c.points = contourPoints(points, true);
       ContourSet set;
       set.contours.push_back(c);
       const std::vector<CornerMark> marks{{corner + Vec2(-5, 6)}};
@@ -259,7 +257,7 @@ TEST(CornerMarks, ClosedContours) {
   ASSERT_TRUE(smooth.has_value());
   ASSERT_EQ(smooth->pieces.size(), 1u);
   EXPECT_TRUE(smooth->pieces[0].closed);
-  EXPECT_EQ(smooth->pieces[0].points, set.contours[0].points);
+  EXPECT_EQ(smooth->pieces[0].points, positionsOf(set.contours[0].points));
   EXPECT_NEAR(smooth->pieces[0].lengthPx, 2 * std::numbers::pi * 60, 0.05);
   const std::vector<CornerMark> marks{{Vec2(212, 150)}, {Vec2(211, 150)}, {Vec2(400, 400)}};
   const auto one = splitAtCorners(set, marks, {});

@@ -14,14 +14,14 @@ namespace {
 Contour sideOf(const std::function<double(double)>& y, double length, double noise, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> gauss(0.0, 1.0);
-  Contour c;
+  std::vector<Vec2> points;
   for (double x = 0.0; x <= length;) {
-    c.points.emplace_back(x, y(x) + noise * gauss(random));
+    points.emplace_back(x, y(x) + noise * gauss(random));
     const double slope = (y(x + 1e-3) - y(x)) / 1e-3;
     x += 1.0 / std::sqrt(1.0 + slope * slope);
   }
-  c.chain = c.points;
-  c.refined.assign(c.points.size(), 1);
+  Contour c;
+  c.points = contourPoints(points, true);
   return c;
 }
 
@@ -78,8 +78,7 @@ TEST(CornerSides, TooFewPointsGiveNoFit) {
   EXPECT_EQ(fitCornerSide(contour, 0, 1, 2.0, 60.0).degree, -1);
   EXPECT_EQ(fitCornerSide(contour, 0, -1, 0.0, 60.0).degree, -1);
   Contour still;
-  still.points.assign(20, Vec2(3, 3));
-  still.refined.assign(20, 1);
+  still.points = contourPoints(std::vector<Vec2>(20, Vec2(3, 3)), true);
   EXPECT_EQ(fitCornerSide(still, 5, 1, 0.0, 60.0).degree, -1);
 }
 

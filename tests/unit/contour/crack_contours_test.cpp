@@ -48,13 +48,14 @@ void expectAreaIsInk(const BitImage& ink, const ContourSet& set) {
   double sum = 0.0;
   std::size_t cracks = 0;
   for (const Contour& c : set.contours) {
-    const double area = signedArea(c.chain);
+    const double area = signedArea(unrefinedPositionsOf(c.points));
     EXPECT_EQ(c.hole, area < 0.0);
     EXPECT_NEAR(c.areaPx, std::abs(area), 1e-9 * (1.0 + std::abs(area)));
     sum += area + (c.hole ? -0.5 : 0.5);
-    cracks += c.chain.size();
+    cracks += c.points.size();
     double length = 0.0;
-    for (std::size_t i = 0; i < c.chain.size(); ++i) length += (c.chain[(i + 1) % c.chain.size()] - c.chain[i]).norm();
+    for (std::size_t i = 0; i < c.points.size(); ++i)
+      length += (c.points[(i + 1) % c.points.size()].unrefined - c.points[i].unrefined).norm();
     EXPECT_NEAR(c.lengthPx, length, 1e-9 * length);
   }
   EXPECT_NEAR(sum, static_cast<double>(ink.count()), 1e-6);
@@ -66,7 +67,7 @@ TEST(CrackContours, SinglePixelIsADiamondClockwiseOnTheScreen) {
   const ContourSet set = trace(ink);
   ASSERT_EQ(set.contours.size(), 1u);
   const std::vector<Vec2> expected{{1, 1.5}, {1.5, 1}, {2, 1.5}, {1.5, 2}};
-  EXPECT_EQ(set.contours[0].chain, expected);
+  EXPECT_EQ(unrefinedPositionsOf(set.contours[0].points), expected);
   EXPECT_GT(signedArea(expected), 0.0);  // y down: positive is clockwise on the screen, ink on the right of travel
   expectAreaIsInk(ink, set);
 }
@@ -87,7 +88,7 @@ TEST(CrackContours, DiagonalTouchIsOnePiece) {
   const BitImage ink = fromText({"#.", ".#"});
   const ContourSet set = trace(ink);
   ASSERT_EQ(set.contours.size(), 1u);
-  EXPECT_EQ(set.contours[0].chain.size(), 8u);
+  EXPECT_EQ(set.contours[0].points.size(), 8u);
   expectAreaIsInk(ink, set);
   EXPECT_EQ(trace(fromText({".#", "#."})).contours.size(), 1u);
 }
@@ -103,7 +104,7 @@ TEST(CrackContours, InkAtThePageBorderIsClosedAlongIt) {
   const BitImage ink = fromText({"##", "##"});
   const ContourSet set = trace(ink);
   ASSERT_EQ(set.contours.size(), 1u);
-  EXPECT_EQ(set.contours[0].chain.size(), 8u);
+  EXPECT_EQ(set.contours[0].points.size(), 8u);
   expectAreaIsInk(ink, set);
 }
 
@@ -137,12 +138,13 @@ TEST(CrackContours, ConsecutivePointsAreNeighboursAndInkLiesOnTheRight) {
     for (int x = 0; x < 60; ++x) ink.set(x, y, random() % 2 == 0);
   }
   for (const Contour& c : trace(ink).contours) {
-    for (std::size_t i = 0; i < c.chain.size(); ++i) {
-      const Vec2 step = c.chain[(i + 1) % c.chain.size()] - c.chain[i];
+    for (std::size_t i = 0; i < c.points.size(); ++i) {
+      const Vec2 step = c.points[(i + 1) % c.points.size()].unrefined - c.points[i].unrefined;
       EXPECT_LE(step.norm(), 1.0 + 1e-12);
       // On a straight step the pixel on the right of travel (y down: x' = -y, y' = x) is ink, the left one paper.
       if (step.norm() < 0.99) continue;
-      const Vec2 right = c.chain[i] + 0.5 * leftNormal(step) + 0.0 * step, left = c.chain[i] - 0.5 * leftNormal(step);
+      const Vec2 right = c.points[i].unrefined + 0.5 * leftNormal(step) + 0.0 * step,
+                 left = c.points[i].unrefined - 0.5 * leftNormal(step);
       EXPECT_TRUE(ink.at(static_cast<int>(std::floor(right.x())), static_cast<int>(std::floor(right.y()))));
       EXPECT_FALSE(ink.at(static_cast<int>(std::floor(left.x())), static_cast<int>(std::floor(left.y()))));
     }

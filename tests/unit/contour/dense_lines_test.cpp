@@ -46,7 +46,7 @@ DenseLines foundOn(const DensePage& page) {
   const auto set = centrelines(page.ink, page.grey, {}, {});
   EXPECT_TRUE(set);
   if (!set) return lines;
-  for (const Contour& c : set->contours) lines.push_back(c.points);
+  for (const Contour& c : set->contours) lines.push_back(positionsOf(c.points));
   return lines;
 }
 

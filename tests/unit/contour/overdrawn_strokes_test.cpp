@@ -49,7 +49,8 @@ bool areMeant(const std::vector<Contour>& found, const std::vector<MeantLine>& m
   return std::all_of(meant.begin(), meant.end(), [&](const MeantLine& line) {
     return std::count_if(found.begin(), found.end(), [&](const Contour& c) {
              int near = 0;
-             for (int i = 0; i <= 100; ++i) near += nearestTo(line(i / 100.0), c.points) <= withinPx ? 1 : 0;
+             for (int i = 0; i <= 100; ++i)
+               near += nearestTo(line(i / 100.0), positionsOf(c.points)) <= withinPx ? 1 : 0;
              return near >= 94;
            }) == 1;
   });

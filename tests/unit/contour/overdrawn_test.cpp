@@ -40,7 +40,7 @@ double shareOn(const Contour& found, const MeantLine& line, double withinPx) {
   std::vector<Vec2> samples;
   for (int i = -40; i <= 1040; ++i) samples.push_back(line(i / 1000.0));
   int near = 0;
-  for (const Vec2& p : found.points) near += distanceTo(p, samples) <= withinPx ? 1 : 0;
+  for (const Vec2& p : positionsOf(found.points)) near += distanceTo(p, samples) <= withinPx ? 1 : 0;
   return near / static_cast<double>(found.points.size());
 }
 
@@ -50,10 +50,12 @@ void expectMeant(const std::vector<Contour>& found, const std::vector<MeantLine>
   for (std::size_t m = 0; m < meant.size(); ++m) {
     int matches = 0;
     for (const Contour& c : found)
-      matches += coveredShare(meant[m], c.points, withinPx) >= 0.95 && shareOn(c, meant[m], withinPx) >= 0.95 ? 1 : 0;
+      matches +=
+          coveredShare(meant[m], positionsOf(c.points), withinPx) >= 0.95 && shareOn(c, meant[m], withinPx) >= 0.95 ? 1
+                                                                                                                    : 0;
     std::string shares;
     for (const Contour& c : found)
-      shares += "  covers " + std::to_string(coveredShare(meant[m], c.points, withinPx)) + ", on it " +
+      shares += "  covers " + std::to_string(coveredShare(meant[m], positionsOf(c.points), withinPx)) + ", on it " +
                 std::to_string(shareOn(c, meant[m], withinPx));
     EXPECT_EQ(matches, 1) << "line " << m << shares;
   }
@@ -86,7 +88,7 @@ TEST(Overdrawn, ABeanOfManyStrokesIsOneRing) {
     const auto found = mergedLines(strokes, 28.0);
     ASSERT_EQ(found.size(), 1u) << seed;
     EXPECT_TRUE(found[0].closed);
-    EXPECT_GE(coveredShare(beanAt, found[0].points, 9.0), 0.99);
+    EXPECT_GE(coveredShare(beanAt, positionsOf(found[0].points), 9.0), 0.99);
     EXPECT_NEAR(found[0].lengthPx, polylineLength(strokeAlong(beanAt, 0.0, 1.0, 0.0, 0.0, 0.0), true), 40.0);
   }
 }
@@ -104,7 +106,7 @@ TEST(Overdrawn, ABeanDrawnRoundAndRoundIsOneRing) {
     const auto found = mergedLines({stroke}, 28.0);
     ASSERT_EQ(found.size(), 1u) << rounds;
     EXPECT_TRUE(found[0].closed) << rounds;
-    EXPECT_GE(coveredShare(beanAt, found[0].points, 9.0), 0.99) << rounds;
+    EXPECT_GE(coveredShare(beanAt, positionsOf(found[0].points), 9.0), 0.99) << rounds;
   }
 }
 
@@ -181,7 +183,7 @@ TEST(Overdrawn, TheMeanIsFairWhereStrokesBegin) {
   const auto found = mergedLines(strokes, 22.0);
   ASSERT_EQ(found.size(), 1u);
   double steepest = 0.0, turning = 0.0, last = 0.0;
-  const auto& p = found[0].points;
+  const std::vector<Vec2> p = positionsOf(found[0].points);
   constexpr std::size_t kStep = 20;
   for (std::size_t i = kStep; i < p.size(); i += kStep) {
     const Vec2 way = p[i] - p[i - kStep];

@@ -20,7 +20,7 @@ Contour besideLine(std::vector<Vec2> points, bool closed = false) {
   c.kind = ContourKind::Centreline;
   c.closed = closed;
   c.lengthPx = polylineLength(points, closed);
-  c.points = c.chain = std::move(points);
+  c.points = contourPoints(points, true);
   return c;
 }
 

@@ -68,7 +68,7 @@ TEST(RefineOutline, EdgesWithoutBlurAreFreeOfTheBeatOfTheGrid) {
     ASSERT_TRUE(set.has_value());
     double square2 = 0.0, worst = 0.0;
     int count = 0;
-    for (const Vec2& p : set->contours.front().points) {
+    for (const Vec2& p : positionsOf(set->contours.front().points)) {
       const double u = std::abs((p - centre).dot(along)), v = std::abs((p - centre).dot(across));
       if (std::min(u, v) > 98.0) continue;  // near a corner
       const double e = std::max(u, v) - 110.0;
@@ -100,7 +100,7 @@ TEST(Centreline, StrokesWithoutBlurAreFreeOfTheBeatOfTheGrid) {
     ASSERT_TRUE(set.has_value());
     double worst = 0.0, square = 0.0;
     int count = 0;
-    for (const Vec2& p : set->contours.front().points) {
+    for (const Vec2& p : positionsOf(set->contours.front().points)) {
       if (std::abs((p - centre).dot(along)) > 135.0) continue;
       const double e = (p - centre).dot(across);
       square += e * e;

@@ -37,15 +37,15 @@ struct Halves {
   double missed[2] = {0.0, 0.0}, said[2] = {0.0, 0.0};
   int count[2] = {0, 0};
   void add(const Contour& c, double radius) {
-    ASSERT_EQ(c.sigmaPx.size(), c.points.size());
     for (std::size_t i = 0; i < c.points.size(); ++i) {
-      if (!c.refined[i]) continue;
-      const double across = c.points[i].x() - kCentre.x();
+      ASSERT_TRUE(c.points[i].sigmaPx);
+      if (!c.points[i].refined) continue;
+      const double across = c.points[i].at.x() - kCentre.x();
       if (std::abs(across) < 0.4 * radius) continue;
       const int side = across > 0.0 ? 1 : 0;
-      const double e = (c.points[i] - kCentre).norm() - radius;
+      const double e = (c.points[i].at - kCentre).norm() - radius;
       missed[side] += e * e;
-      said[side] += static_cast<double>(c.sigmaPx[i]) * c.sigmaPx[i];
+      said[side] += static_cast<double>(c.points[i].sigmaPx.value()) * c.points[i].sigmaPx.value();
       ++count[side];
     }
   }
@@ -99,10 +99,10 @@ TEST(PointSigmas, StayWithTheirPointsWhereEndsAreMoved) {
     ASSERT_TRUE(set.has_value());
     ASSERT_EQ(set->contours.size(), 1U);
     const Contour& c = set->contours.front();
-    ASSERT_EQ(c.sigmaPx.size(), c.points.size());
     for (std::size_t i = 0; i < c.points.size(); ++i) {
-      if (c.points[i].x() > 30.0 && c.points[i].x() < 70.0) left += c.sigmaPx[i];
-      if (c.points[i].x() > 130.0 && c.points[i].x() < 170.0) right += c.sigmaPx[i];
+      ASSERT_TRUE(c.points[i].sigmaPx);
+      if (c.points[i].at.x() > 30.0 && c.points[i].at.x() < 70.0) left += c.points[i].sigmaPx.value();
+      if (c.points[i].at.x() > 130.0 && c.points[i].at.x() < 170.0) right += c.points[i].sigmaPx.value();
     }
   }
   // The noise is 7 at the right and 3 at the left, on the mean.

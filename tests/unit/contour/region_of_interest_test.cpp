@@ -16,10 +16,9 @@ Contour circle(const Vec2& centre, double radius) {
   const int n = static_cast<int>(std::lround(2.0 * std::numbers::pi * radius));
   for (int i = 0; i < n; ++i) {
     const double t = 2.0 * std::numbers::pi * i / n;
-    c.points.push_back(centre + radius * Vec2(std::cos(t), std::sin(t)));
-    c.chain.push_back(c.points.back() + Vec2(0.1, 0.0));
-    c.refined.push_back(static_cast<std::uint8_t>(i % 3 != 0));
-    c.widthPx.push_back(static_cast<float>(i));
+    const Vec2 at = centre + radius * Vec2(std::cos(t), std::sin(t));
+    c.points.push_back(
+        {.at = at, .unrefined = at + Vec2(0.1, 0.0), .refined = i % 3 != 0, .widthPx = static_cast<float>(i)});
   }
   c.lengthPx = 2.0 * std::numbers::pi * radius;
   return c;
@@ -69,16 +68,12 @@ TEST(RegionOfInterest, LinesEndWhereTheyLeave) {
   EXPECT_FALSE(half.closed);
   EXPECT_NEAR(half.lengthPx, std::numbers::pi * 100.0, 3.0);
   EXPECT_NEAR(kept.contours[1].lengthPx, std::numbers::pi * 30.0, 3.0);
-  ASSERT_EQ(half.points.size(), half.chain.size());
-  ASSERT_EQ(half.points.size(), half.refined.size());
-  ASSERT_EQ(half.points.size(), half.widthPx.size());
   for (std::size_t i = 0; i < half.points.size(); ++i) {
-    EXPECT_LT(half.points[i].x(), 200.0);
-    const auto original = static_cast<std::size_t>(half.widthPx[i]);
+    EXPECT_LT(half.points[i].at.x(), 200.0);
+    const auto original = static_cast<std::size_t>(half.points[i].widthPx.value());
     EXPECT_EQ(half.points[i], set.contours[0].points[original]) << "what belongs to a point stays with it";
-    EXPECT_EQ(half.refined[i], set.contours[0].refined[original]);
-    const Vec2 before = half.points[i > 0 ? i - 1 : 0];
-    EXPECT_LT((half.points[i] - before).norm(), 1.5) << "in order, without a jump";
+    const Vec2 before = half.points[i > 0 ? i - 1 : 0].at;
+    EXPECT_LT((half.points[i].at - before).norm(), 1.5) << "in order, without a jump";
   }
   EXPECT_TRUE(half.bridges.empty()) << "both bridges lie on the other half";
 }
@@ -93,8 +88,8 @@ TEST(RegionOfInterest, APartOverTheSeamIsOneLineWithItsBridge) {
   EXPECT_NEAR(kept.contours[0].lengthPx, 2.0 * std::numbers::pi / 3.0 * 100.0, 3.0);
   ASSERT_EQ(kept.contours[0].bridges.size(), 1u);
   const auto [first, last] = kept.contours[0].bridges[0];
-  EXPECT_EQ(kept.contours[0].points[first], set.contours[0].points[3]);
-  EXPECT_EQ(kept.contours[0].points[last], set.contours[0].points[8]);
+  EXPECT_EQ(kept.contours[0].points[first].at, set.contours[0].points[3].at);
+  EXPECT_EQ(kept.contours[0].points[last].at, set.contours[0].points[8].at);
 }
 
 TEST(RegionOfInterest, WhatIsWhollyInsideIsUntouchedAndNonsenseIsRefused) {
@@ -104,7 +99,7 @@ TEST(RegionOfInterest, WhatIsWhollyInsideIsUntouchedAndNonsenseIsRefused) {
   const ContourSet kept = keepInside(set, regions, 40.0);
   ASSERT_EQ(kept.contours.size(), 1u);
   EXPECT_TRUE(kept.contours[0].closed);
-  EXPECT_EQ(kept.contours[0].points, set.contours[0].points);
+  EXPECT_TRUE(kept.contours[0].points == set.contours[0].points);
   EXPECT_FALSE(validate(regions[0]));
   EXPECT_TRUE(validate(RegionOfInterest{{Vec2(0, 0), Vec2(1, 1)}}));
   EXPECT_TRUE(validate(rectangleRegion({5, 5}, {5, 90}))) << "no area";

@@ -20,10 +20,9 @@ Contour strokeOf(std::vector<Vec2> points, bool closed = false) {
   Contour c;
   c.kind = ContourKind::Centreline;
   c.closed = closed;
-  c.chain = c.points = std::move(points);
-  c.refined.assign(c.points.size(), 1);
-  c.widthPx.assign(c.points.size(), 3.0f);
-  c.lengthPx = polylineLength(c.points, closed);
+  c.points = contourPoints(points, true);
+  for (ContourPoint& p : c.points) p.widthPx = 3.0f;
+  c.lengthPx = polylineLength(points, closed);
   return c;
 }
 
@@ -50,11 +49,11 @@ TEST(StrokeMerge, StrokesSideBySideBecomeTheirMean) {
   const auto merged = mergeStrokes(strokes, 12.0, {});
   ASSERT_EQ(merged.size(), 1u);
   for (std::size_t i = 0; i < merged[0].points.size(); ++i) {
-    if (merged[0].points[i].x() < 70 || merged[0].points[i].x() > 330) continue;
-    EXPECT_NEAR(merged[0].points[i].y(), 311.0 / 3.0, 0.25);
-    const double y = merged[0].points[i].y();
+    if (merged[0].points[i].at.x() < 70 || merged[0].points[i].at.x() > 330) continue;
+    EXPECT_NEAR(merged[0].points[i].at.y(), 311.0 / 3.0, 0.25);
+    const double y = merged[0].points[i].at.y();
     // Which side is left depends on the way the line runs.
-    const auto [low, high] = std::minmax(merged[0].band.left[i], merged[0].band.right[i]);
+    const auto [low, high] = std::minmax(merged[0].points[i].band.value().left, merged[0].points[i].band.value().right);
     EXPECT_NEAR(low, 110.0 - y, 0.3);
     EXPECT_NEAR(high, y - 97.0, 0.3);
   }
@@ -66,7 +65,7 @@ TEST(StrokeMerge, OverlappingStrokesAreOneSmoothLine) {
   const auto merged = mergeStrokes(strokes, 12.0, {});
   ASSERT_EQ(merged.size(), 1u);
   EXPECT_NEAR(merged[0].lengthPx, 400.0, 4.0);
-  for (const Vec2& p : merged[0].points) {
+  for (const Vec2& p : positionsOf(merged[0].points)) {
     EXPECT_GE(p.y(), 99.9);
     EXPECT_LE(p.y(), 106.1);
     if (p.x() < 120) {
@@ -78,7 +77,7 @@ TEST(StrokeMerge, OverlappingStrokesAreOneSmoothLine) {
   }
   // From the one stroke to the mean and from there to the other: two slopes, each begun and ended by one bend.
   std::vector<double> angle;
-  for (const Vec2& d : directions(merged[0].points, false, 6)) angle.push_back(std::atan(d.y() / d.x()));
+  for (const Vec2& d : directions(positionsOf(merged[0].points), false, 6)) angle.push_back(std::atan(d.y() / d.x()));
   double turning = 0.0, steepest = 0.0;
   for (std::size_t i = 0; i < angle.size(); ++i) {
     if (i > 0) turning += std::abs(angle[i] - angle[i - 1]);
@@ -99,7 +98,7 @@ TEST(StrokeMerge, BridgesStayMarked) {
   ASSERT_EQ(merged[0].bridges.size(), 2u);
   std::vector<std::pair<double, double>> places;
   for (const auto& [first, last] : merged[0].bridges) {
-    places.push_back(std::minmax(merged[0].points[first].x(), merged[0].points[last].x()));
+    places.push_back(std::minmax(merged[0].points[first].at.x(), merged[0].points[last].at.x()));
   }
   std::sort(places.begin(), places.end());
   EXPECT_NEAR(places[0].first, 60.0, 2.0);
@@ -115,9 +114,9 @@ TEST(StrokeMerge, ALoopOfSeveralStrokesIsClosed) {
   ASSERT_EQ(merged.size(), 1u);
   EXPECT_TRUE(merged[0].closed);
   for (std::size_t i = 0; i < merged[0].points.size(); ++i) {
-    EXPECT_NEAR((merged[0].points[i] - c).norm(), 122.0, 2.6);
-    EXPECT_LE(std::max(merged[0].band.left[i], merged[0].band.right[i]), 4.3f);
-    EXPECT_GE(std::min(merged[0].band.left[i], merged[0].band.right[i]), 0.0f);
+    EXPECT_NEAR((merged[0].points[i].at - c).norm(), 122.0, 2.6);
+    EXPECT_LE(std::max(merged[0].points[i].band.value().left, merged[0].points[i].band.value().right), 4.3f);
+    EXPECT_GE(std::min(merged[0].points[i].band.value().left, merged[0].points[i].band.value().right), 0.0f);
   }
 }
 
@@ -134,7 +133,7 @@ TEST(StrokeMerge, TheLineStaysBetweenStrokesThatLieUnevenly) {
                                        wave(99.6, amplitude, 0, 600), wave(110.0, 0.0, 100, 500)};
     const auto merged = mergeStrokes(strokes, 15.0, {});
     ASSERT_EQ(merged.size(), 1u);
-    for (const Vec2& p : merged[0].points) {
+    for (const Vec2& p : positionsOf(merged[0].points)) {
       if (p.x() < 100 || p.x() > 500) continue;
       const double waver = amplitude * std::sin(0.15 * p.x());
       EXPECT_GE(p.y(), std::min(99.6 + waver, 110.0) - 0.3) << p.x();
@@ -152,21 +151,25 @@ TEST(StrokeMerge, TheBandHoldsEveryStroke) {
     const auto merged = mergeStrokes(strokes, 15.0, {});
     ASSERT_EQ(merged.size(), 1u);
     const Contour& c = merged[0];
-    const std::vector<Vec2> tangent = directions(c.points, c.closed, 3);
+    const std::vector<Vec2> tangent = directions(positionsOf(c.points), c.closed, 3);
     for (const Contour& stroke : strokes) {
-      for (const Vec2& p : stroke.points) {
+      for (const Vec2& p : positionsOf(stroke.points)) {
         std::size_t at = 0;
         for (std::size_t i = 0; i < c.points.size(); ++i)
-          if ((c.points[i] - p).norm() < (c.points[at] - p).norm()) at = i;
+          if ((c.points[i].at - p).norm() < (c.points[at].at - p).norm()) at = i;
         if (at < 20 || at + 20 >= c.points.size()) continue;
-        const double offset = (p - c.points[at]).dot(leftNormal(tangent[at]));
-        EXPECT_LE(offset, c.band.left[at] + 0.6) << p.transpose();
-        EXPECT_GE(offset, -c.band.right[at] - 0.6) << p.transpose();
+        const double offset = (p - c.points[at].at).dot(leftNormal(tangent[at]));
+        EXPECT_LE(offset, c.points[at].band.value().left + 0.6) << p.transpose();
+        EXPECT_GE(offset, -c.points[at].band.value().right - 0.6) << p.transpose();
       }
     }
     // Nor is it wider than the strokes lie apart.
-    const auto most = [](const std::vector<float>& v) { return *std::max_element(v.begin(), v.end()); };
-    EXPECT_LE(most(c.band.left) + most(c.band.right), 22.0f);
+    float left = 0.0f, right = 0.0f;
+    for (const ContourPoint& p : c.points) {
+      left = std::max(left, p.band.value().left);
+      right = std::max(right, p.band.value().right);
+    }
+    EXPECT_LE(left + right, 22.0f);
   }
 }
 
@@ -183,7 +186,7 @@ TEST(StrokeMerge, CornersStaySharp) {
     const auto merged = mergeStrokes(strokes, apart + 6.0, {});
     ASSERT_FALSE(merged.empty());
     double missed = std::numeric_limits<double>::infinity();
-    for (const Vec2& p : merged[0].points) missed = std::min(missed, (p - Vec2(200.0, 0.0)).norm());
+    for (const Vec2& p : positionsOf(merged[0].points)) missed = std::min(missed, (p - Vec2(200.0, 0.0)).norm());
     EXPECT_LE(missed, 0.5 * apart + 0.5);
   }
 }
@@ -213,11 +216,11 @@ TEST(StrokeMerge, AJoinedLineHasAPointAPixel) {
     }
     for (const Contour& c : mergeStrokes(strokes, distance, {})) {
       closed += c.closed ? 1 : 0;
-      ASSERT_EQ(c.refined.size(), c.points.size());
-      ASSERT_EQ(c.widthPx.size(), c.points.size());
+      ASSERT_EQ(strokeWidthsOf(c.points).size(), c.points.size());
       for (std::size_t i = c.closed ? 0 : 1; i < c.points.size(); ++i) {
-        const Vec2& before = c.points[i > 0 ? i - 1 : c.points.size() - 1];
-        EXPECT_LE((c.points[i] - before).norm(), 1.8) << "trial " << trial << " point " << i << " closed " << c.closed;
+        const Vec2& before = c.points[i > 0 ? i - 1 : c.points.size() - 1].at;
+        EXPECT_LE((c.points[i].at - before).norm(), 1.8)
+            << "trial " << trial << " point " << i << " closed " << c.closed;
       }
     }
   }
@@ -230,12 +233,10 @@ TEST(StrokeMerge, CrossingsAndLonelyLinesStayAsTheyAre) {
   const auto merged = mergeStrokes(lines, 20.0, {});
   ASSERT_EQ(merged.size(), lines.size());
   for (const Contour& c : merged) {
-    const bool known = std::any_of(lines.begin(), lines.end(), [&](const Contour& l) { return l.points == c.points; });
+    const bool known = std::any_of(lines.begin(), lines.end(),
+                                   [&](const Contour& l) { return positionsOf(l.points) == positionsOf(c.points); });
     EXPECT_TRUE(known);
-    ASSERT_EQ(c.band.left.size(), c.points.size());
-    ASSERT_EQ(c.band.right.size(), c.points.size());
-    for (const float b : c.band.left) EXPECT_EQ(b, 0.0f);
-    for (const float b : c.band.right) EXPECT_EQ(b, 0.0f);
+    for (const ContourPoint& p : c.points) EXPECT_TRUE(p.band == StrokeBand{});
   }
 }
 
@@ -267,10 +268,8 @@ TEST(StrokeMerge, SameResultWithAnyNumberOfThreads) {
   const auto a = mergeStrokes(strokes, 9.0, one), b = mergeStrokes(strokes, 9.0, five);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].points, b[i].points);
-    EXPECT_EQ(a[i].band.left, b[i].band.left);
-    EXPECT_EQ(a[i].band.right, b[i].band.right);
-    for (const Vec2& p : a[i].points) EXPECT_TRUE(p.allFinite());
+    EXPECT_TRUE(a[i].points == b[i].points);
+    for (const ContourPoint& p : a[i].points) EXPECT_TRUE(p.at.allFinite());
   }
 }
 

@@ -36,8 +36,8 @@ Accuracy accuracyOf(const Contour& c, const Vec2& centre, double radius) {
   Accuracy a;
   int n = 0;
   for (std::size_t i = 0; i < c.points.size(); ++i) {
-    if (!c.refined[i]) continue;
-    const double e = (c.points[i] - centre).norm() - radius;
+    if (!c.points[i].refined) continue;
+    const double e = (c.points[i].at - centre).norm() - radius;
     a.bias += e;
     a.rms += e * e;
     a.worst = std::max(a.worst, std::abs(e));
@@ -133,9 +133,10 @@ TEST(RefineOutline, NeighbouringInkDoesNotDragTheEdge) {
   ASSERT_EQ(set->contours.size(), 2u);
   for (Contour& c : set->contours) {
     refineOutline(c, grey, {});
-    const double radius = (c.chain[0] - centre).norm() < 60.0 ? 50.0 : 70.0;
+    const double radius = (c.points[0].unrefined - centre).norm() < 60.0 ? 50.0 : 70.0;
     double bias = 0.0;
-    for (const Vec2& p : c.points) bias += ((p - centre).norm() - radius) / static_cast<double>(c.points.size());
+    for (const Vec2& p : positionsOf(c.points))
+      bias += ((p - centre).norm() - radius) / static_cast<double>(c.points.size());
     printf("gap 4 px, radius %.0f: bias %.4f\n", radius, bias);
     EXPECT_LE(std::abs(bias), 0.07) << radius;  // the true paper is nowhere to be seen in the gap
   }
@@ -150,23 +151,22 @@ TEST(RefineOutline, PointsKeepTheirNumberAndAdvance) {
   auto set = crackContours(test::thresholdMask(grey, 135.0), false, 40.0, {});
   ASSERT_FALSE(set->contours.empty());
   Contour& c = set->contours[0];
-  const auto chain = c.chain;
+  const std::vector<Vec2> chain = unrefinedPositionsOf(c.points);
   refineOutline(c, grey, {});
   ASSERT_EQ(c.points.size(), chain.size());
-  EXPECT_EQ(c.refined.size(), chain.size());
-  EXPECT_EQ(c.chain, chain);
+  EXPECT_EQ(unrefinedPositionsOf(c.points), chain);
   for (std::size_t i = 0; i < c.points.size(); ++i) {
-    EXPECT_LE((c.points[i] - chain[i]).norm(), 2.0);
-    const Vec2 step = c.points[(i + 1) % c.points.size()] - c.points[i];
-    const Vec2 next = c.points[(i + 2) % c.points.size()] - c.points[(i + 1) % c.points.size()];
+    EXPECT_LE((c.points[i].at - chain[i]).norm(), 2.0);
+    const Vec2 step = c.points[(i + 1) % c.points.size()].at - c.points[i].at;
+    const Vec2 next = c.points[(i + 2) % c.points.size()].at - c.points[(i + 1) % c.points.size()].at;
     EXPECT_GT(step.norm(), 0.0);
     double tip = 1e9;
-    for (const Vec2& corner : star) tip = std::min(tip, (c.points[i] - corner).norm());
+    for (const Vec2& corner : star) tip = std::min(tip, (c.points[i].at - corner).norm());
     if (tip > 6.0) {
       EXPECT_GT(step.dot(next), 0.0);
     }
-    if (c.refined[i]) {
-      EXPECT_LE(test::distanceToPolyline(star, c.points[i]), 1.2) << tip;
+    if (c.points[i].refined) {
+      EXPECT_LE(test::distanceToPolyline(star, c.points[i].at), 1.2) << tip;
     }
   }
 }
@@ -179,12 +179,12 @@ TEST(RefineOutline, PageBorderIsNoEdge) {
   const Contour c = longestRefined(grey, 135.0);
   int onBorder = 0;
   for (std::size_t i = 0; i < c.points.size(); ++i) {
-    if (c.chain[i].x() <= 0.0 || c.chain[i].y() <= 0.0 || c.chain[i].y() >= 60.0) {
+    if (c.points[i].unrefined.x() <= 0.0 || c.points[i].unrefined.y() <= 0.0 || c.points[i].unrefined.y() >= 60.0) {
       ++onBorder;
-      EXPECT_EQ(c.refined[i], 0);
-    } else if (std::abs(c.chain[i].y() - 30.0) < 20.0) {
-      EXPECT_EQ(c.refined[i], 1);
-      EXPECT_NEAR(c.points[i].x(), 30.5, 0.04) << c.chain[i].transpose();
+      EXPECT_EQ(c.points[i].refined, 0);
+    } else if (std::abs(c.points[i].unrefined.y() - 30.0) < 20.0) {
+      EXPECT_EQ(c.points[i].refined, 1);
+      EXPECT_NEAR(c.points[i].at.x(), 30.5, 0.04) << c.points[i].unrefined.transpose();
     }
   }
   EXPECT_EQ(onBorder, 60 + 30 + 30);
@@ -200,8 +200,8 @@ TEST(RefineOutline, FlatGreyFallsBackToTheCrack) {
   Contour& c = set->contours[0];
   refineOutline(c, grey, {});
   for (std::size_t i = 0; i < c.points.size(); ++i) {
-    EXPECT_EQ(c.refined[i], 0);
-    EXPECT_LE((c.points[i] - c.chain[i]).norm(), 1.0);
+    EXPECT_EQ(c.points[i].refined, 0);
+    EXPECT_LE((c.points[i].at - c.points[i].unrefined).norm(), 1.0);
   }
 }
 
@@ -211,9 +211,10 @@ TEST(RefineOutline, TinyContoursAreLeftAlone) {
   refineOutline(c, grey, {});
   EXPECT_TRUE(c.points.empty());
   c.closed = true;
-  c.chain = {{1, 1.5}, {1.5, 1}, {2, 1.5}};
+  const std::vector<Vec2> ring{{1, 1.5}, {1.5, 1}, {2, 1.5}};
+  c.points = contourPoints(ring, true);
   refineOutline(c, grey, {});
-  EXPECT_EQ(c.points, c.chain);
+  EXPECT_EQ(positionsOf(c.points), ring);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct Scene {
     ContourSet contours;
     contours.contours.resize(2);
     contours.contours[0].closed = true;
-    contours.contours[1].widthPx = {9.0f, 4.0f, 5.0f};
+    for (const float width : {9.0f, 4.0f, 5.0f}) contours.contours[1].points.push_back({.widthPx = width});
     PieceSet pieces;
     for (int i = 0; i < 6; ++i) {
       Piece& piece = pieces.pieces.emplace_back();

@@ -16,13 +16,14 @@ constexpr double kDeg = std::numbers::pi / 180.0;
 ContourSet lineThrough(const std::vector<Vec2>& corners) {
   Contour contour;
   contour.kind = ContourKind::Outline;
+  std::vector<Vec2> points;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     const Vec2 way = corners[i + 1] - corners[i];
     const int steps = static_cast<int>(way.norm());
-    for (int k = 0; k < steps; ++k) contour.points.push_back(corners[i] + way * k / steps);
+    for (int k = 0; k < steps; ++k) points.push_back(corners[i] + way * k / steps);
   }
-  contour.points.push_back(corners.back());
-  contour.refined.assign(contour.points.size(), 1);
+  points.push_back(corners.back());
+  contour.points = contourPoints(points, true);
   ContourSet set;
   set.contours.push_back(std::move(contour));
   return set;
@@ -54,11 +55,12 @@ TEST(CornerPlaces, NoneOnSmoothLinesAndDots) {
     circle.kind = ContourKind::Outline;
     circle.closed = true;
     const int count = static_cast<int>(2.0 * std::numbers::pi * radius);
+    std::vector<Vec2> points;
     for (int i = 0; i < count; ++i) {
       const double t = 2.0 * std::numbers::pi * i / count;
-      circle.points.emplace_back(50 + radius * std::cos(t), 50 + radius * std::sin(t));
+      points.emplace_back(50 + radius * std::cos(t), 50 + radius * std::sin(t));
     }
-    circle.refined.assign(circle.points.size(), 1);
+    circle.points = contourPoints(points, true);
     ContourSet set;
     set.contours.push_back(circle);
     EXPECT_TRUE(suggestCornersAndCuts(set, 35 * kDeg, 14.0).empty()) << radius;

@@ -207,10 +207,10 @@ TEST(Pipeline, InkFollowedInItsOwnWayIsTracedAnew) {
   Recipe recipe;
   recipe.edges.mode = EdgeMode::Centreline;
   ASSERT_FALSE(run(recipe, cache).contours) << "a blot has no middle";
-  recipe.edges.choices = {{line.chain[10], EdgeMode::Outline}};
+  recipe.edges.choices = {{line.points[10].unrefined, EdgeMode::Outline}};
   const auto own = run(recipe, cache);
   ASSERT_TRUE(own.contours);
-  EXPECT_EQ(own.contours->contours[0].points, line.points);
+  EXPECT_TRUE(own.contours->contours[0].points == line.points);
   EXPECT_EQ(own.contours->contours[0].traceMode, recipe.edges.choices[0]);
   recipe.edges.mode = EdgeMode::Automatic;
   recipe.edges.choices[0].mode = EdgeMode::Centreline;
@@ -236,7 +236,7 @@ TEST(Pipeline, ARegionTracesOnlyWhatLiesInside) {
   ASSERT_EQ(half.contours->contours.size(), 1u);
   EXPECT_FALSE(half.contours->contours[0].closed);
   EXPECT_NEAR(half.contours->contours[0].lengthPx / whole.contours->contours[0].lengthPx, 0.5, 0.05);
-  for (const Vec2& p : half.contours->contours[0].points) EXPECT_LT(p.x(), 200.0);
+  for (const ContourPoint& p : half.contours->contours[0].points) EXPECT_LT(p.at.x(), 200.0);
   recipe.regions = {rectangleRegion({0, 0}, {4, 4})};
   const auto none = run(recipe, cache);
   ASSERT_TRUE(none.error);

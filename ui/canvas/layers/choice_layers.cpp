@@ -62,9 +62,8 @@ void paintFallback(QPainter& painter, const CanvasScene& scene) {
   const QRectF seen = scene.transform.visibleImage();
   QPolygonF dots;
   for (const Contour& contour : contours->contours)
-    for (std::size_t i = 0; i < contour.points.size() && i < contour.refined.size(); ++i)
-      if (contour.refined[i] == 0 && sees(seen, contour.points[i], 2.0))
-        dots.append(scene.transform.toWidget(contour.points[i]));
+    for (const ContourPoint& p : contour.points)
+      if (!p.refined && sees(seen, p.at, 2.0)) dots.append(scene.transform.toWidget(p.at));
   painter.drawPoints(dots);
   painter.restore();
 }

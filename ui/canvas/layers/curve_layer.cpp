@@ -49,29 +49,36 @@ class ImagePainter {
   QRectF seen_;
 };
 
-QRectF boundsOf(const std::vector<Vec2>& points) {
+QRectF boundsOf(const std::vector<ContourPoint>& points) {
   if (points.empty()) return {};
-  Vec2 low = points.front(), high = low;
-  for (const Vec2& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
+  Vec2 low = points.front().at, high = low;
+  for (const ContourPoint& p : points) {
+    low = low.cwiseMin(p.at);
+    high = high.cwiseMax(p.at);
   }
   return QRectF(QPointF(low.x(), low.y()), QPointF(high.x(), high.y()));
 }
 
-/// The ground within share * left and share * right of a line.
-QPainterPath ribbon(const Contour& line, const std::vector<float>& toLeft, const std::vector<float>& toRight,
-                    double share) {
-  const std::size_t n = std::min({line.points.size(), toLeft.size(), toRight.size()});
+/// What a line covers to its left and right at a point; nothing where that is not known. [px]
+std::optional<StrokeBand> widthAt(const ContourPoint& p) {
+  if (!p.widthPx) return std::nullopt;
+  return StrokeBand{0.5f * *p.widthPx, 0.5f * *p.widthPx};
+}
+
+/// The ground that a line covers, by `coverAt` of its points.
+template <class CoverAt>
+QPainterPath ribbon(const Contour& line, const CoverAt& coverAt) {
+  const std::size_t n = line.points.size();
   QPolygonF left, right;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t before = i > 0 ? i - 1 : line.closed ? n - 1 : 0;
     const std::size_t after = i + 1 < n ? i + 1 : line.closed ? 0 : n - 1;
-    const Vec2 along = line.points[after] - line.points[before];
-    if (!(along.norm() > 0.0)) continue;
-    const Vec2 out = share * leftNormal(along) / along.norm();
-    const Vec2 a = line.points[i] + static_cast<double>(toLeft[i]) * out;
-    const Vec2 b = line.points[i] - static_cast<double>(toRight[i]) * out;
+    const Vec2 along = line.points[after].at - line.points[before].at;
+    const std::optional<StrokeBand> cover = coverAt(line.points[i]);
+    if (!cover || !(along.norm() > 0.0)) continue;
+    const Vec2 out = leftNormal(along) / along.norm();
+    const Vec2 a = line.points[i].at + static_cast<double>(cover->left) * out;
+    const Vec2 b = line.points[i].at - static_cast<double>(cover->right) * out;
     left.append(QPointF(a.x(), a.y()));
     right.append(QPointF(b.x(), b.y()));
   }
@@ -168,16 +175,12 @@ void paintStrokes(QPainter& painter, const CanvasScene& scene) {
   ImagePainter image(painter, scene);
   for (const Contour& line : contours->contours) {
     if (!image.sees(boundsOf(line.points))) continue;
-    if (!line.band.isEmpty()) {
-      image.fill(ribbon(line, line.band.left, line.band.right, 1.0), QColor(200, 112, 0, 70));
-    }
-    if (!line.widthPx.empty()) {
-      image.fill(ribbon(line, line.widthPx, line.widthPx, 0.5), QColor(20, 130, 80, 60));
-    }
+    image.fill(ribbon(line, [](const ContourPoint& p) { return p.band; }), QColor(200, 112, 0, 70));
+    image.fill(ribbon(line, widthAt), QColor(20, 130, 80, 60));
     for (const auto& [first, last] : line.bridges) {
       QPainterPath bridge;
       for (int i = std::max(0, first); i <= last && i < static_cast<int>(line.points.size()); ++i) {
-        const Vec2& p = line.points[i];
+        const Vec2& p = line.points[i].at;
         if (bridge.elementCount() == 0) bridge.moveTo(p.x(), p.y());
         bridge.lineTo(p.x(), p.y());
       }

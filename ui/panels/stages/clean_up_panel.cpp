@@ -202,7 +202,8 @@ void EdgesPanel::refresh() {
   if (report.droppedHoles > 0) rows.push_back({tr("Inner outlines left out"), {{grouped(report.droppedHoles)}}, {}});
   qint64 fallback = 0;
   for (const Contour& contour : set->contours)
-    fallback += std::count(contour.refined.begin(), contour.refined.end(), std::uint8_t{0});
+    fallback +=
+        std::count_if(contour.points.begin(), contour.points.end(), [](const ContourPoint& p) { return !p.refined; });
   rows.push_back(
       {tr("Points not placed"),
        {{grouped(fallback)}},
