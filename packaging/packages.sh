@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sourced by run and test: every Debian 12 package that building, running or testing needs, and how they get installed.
+# Sourced by run, test and check: every Debian 12 package that building, running or testing needs, and how they get installed.
 
 build_packages=(
   build-essential cmake ninja-build ccache git
@@ -9,6 +9,8 @@ build_packages=(
 )
 run_packages=(qt6-qpa-plugins libqt6svg6 fonts-inter)
 test_packages=(xvfb xauth openbox)
+# What packaging/check needs on top.
+check_packages=(clang-tidy python3)
 
 # install_missing PACKAGE...: installs what is not there yet, asks nothing, and does nothing when all is there.
 install_missing() {
