@@ -9,6 +9,7 @@
 #include "core/construct/bezier/bezier_chain.h"
 #include "core/construct/fair/fair_fit.h"
 #include "core/construct/fit_start.h"
+#include "core/construct/light/light_pieces.h"
 #include "core/construct/nurbs/quintic_nurbs.h"
 #include "core/construct/polygon/control_polygon.h"
 #include "core/construct/typical/typical_curve.h"
@@ -72,7 +73,14 @@ Result<std::vector<ConstructedPiece>> construct(const ConstructContour& contour,
     FairFitOptions options;
     options.extremumSignificance = params.extremumSignificance;
     options.knotRemovalTolerance = params.knotRemovalTolerance;
-    return fairFit(contour, options, context);
+    auto made = fairFit(contour, options, context);
+    if (!made || !params.light) return made;
+    try {
+      if (auto light = makePiecesLight(*made, contour, params, context); !light) return fail(light.error());
+    } catch (const std::bad_alloc&) {
+      return fail(ErrorCode::OutOfMemory, "There is not enough memory to make the curves light.");
+    }
+    return made;
   }
   try {
     if (params.start == ConstructStart::Fit && params.method != ConstructMethod::Typical) {

@@ -68,29 +68,42 @@ struct SegmentNote {
   bool monotone = false;                    ///< h <= cos(phi) or h >= 1 / cos(phi); typical segments only.
 };
 
+/// What making a curve light has won (construct.light).
+struct LightNote {
+  bool found = false;    ///< False: nothing lighter holds the tolerance and the extrema; the curve is the dense one.
+  bool exact = false;    ///< An exact line, arc or circle.
+  int points = 0;        ///< Control points, each counted once; exact lines 2, arcs and circles 3.
+  int pointsBefore = 0;  ///< The same of the dense curve.
+  double movedPx = 0.0;  ///< [px] largest distance of the two.
+};
+
 struct ConstructReport {
   Termination why = Termination::NotRun;
   std::string note;                   ///< One line for the user when a fallback was used; else empty.
   std::vector<ExtremumNote> extrema;  ///< Fair fit only.
   int extremaInTurns = 0;  ///< Fair fit: in turns too sharp for it, so that nothing is known of their certainty.
-  std::vector<int> unmetConstraints;  ///< Ids of constraints that found no extremum, or one that cannot go.
-  std::vector<double> bandS;          ///< [mm] arc lengths at which the band is given (fair fit only).
-  std::vector<double> bandSigma;      ///< [1/mm] standard deviation of the curvature there.
-  std::vector<SegmentNote> segments;  ///< Typical curves only.
-  double noisePx = 0.0;               ///< [px] standard deviation of an edge point (fair fit only; 0 = not measured).
-  int stationsAdded = 0;              ///< Nurbs, Bezier: set where the line turns too quickly for those given.
-  int pointsBefore = 0;               ///< Control polygon: points of the line (0 = not a control polygon) …
-  int pointsAfter = 0;                ///< … that are left after point removal …
-  int pointsAdded = 0;                ///< … and control points added between close corners.
-  int fullControlPoints = 0;          ///< Of the fair fit before control points were spared (0 = not done).
-  double knotRemovalMovedPx = 0.0;    ///< [px] farthest that sparing them moved the curve.
-  bool isCircle = false;              ///< Recognised as an exact circle.
-  bool isLine = false;                ///< Recognised as an exact line.
+  std::vector<int> unmetConstraints;    ///< Ids of constraints that found no extremum, or one that cannot go.
+  std::vector<double> bandS;            ///< [mm] arc lengths at which the band is given (fair fit only).
+  std::vector<double> bandSigma;        ///< [1/mm] standard deviation of the curvature there.
+  std::vector<SegmentNote> segments;    ///< Typical curves only.
+  double noisePx = 0.0;                 ///< [px] standard deviation of an edge point (fair fit only; 0 = not measured).
+  int stationsAdded = 0;                ///< Nurbs, Bezier: set where the line turns too quickly for those given.
+  int pointsBefore = 0;                 ///< Control polygon: points of the line (0 = not a control polygon) …
+  int pointsAfter = 0;                  ///< … that are left after point removal …
+  int pointsAdded = 0;                  ///< … and control points added between close corners.
+  int fullControlPoints = 0;            ///< Of the fair fit before control points were spared (0 = not done).
+  double knotRemovalMovedPx = 0.0;      ///< [px] farthest that sparing them moved the curve.
+  std::optional<LightNote> light = {};  ///< Fair fit, where light curves were asked for.
+  bool isCircle = false;                ///< Recognised as an exact circle.
+  bool isLine = false;                  ///< Recognised as an exact line.
 };
 struct ConstructedPiece {
-  NurbsCurve curve;  ///< Degree 5 (control polygon: its own degree), clamped, model frame, domain in mm of chord or arc
-                     ///< length.
+  /// Clamped, model frame, domain in mm of chord or arc length. Degree 5, but for light curves (1 to 7; arcs are
+  /// rational quadratics) and control polygons (their own degree).
+  NurbsCurve curve;
   ConstructReport report;
+  NurbsCurve dense =
+      {};  ///< What `curve` was made light of, degree 5: what fairing starts from. Empty: `curve` itself.
 };
 
 }  // namespace batten

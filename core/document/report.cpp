@@ -54,6 +54,13 @@ Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
             {"is_circle", r.isCircle},
             {"is_line", r.isLine},
             {"extrema", Json::array()}};
+  if (r.light) {
+    json["light"] = {{"found", r.light->found},
+                     {"exact", r.light->exact},
+                     {"control_points", r.light->points},
+                     {"control_points_before", r.light->pointsBefore},
+                     {"moved_px", number(r.light->movedPx)}};
+  }
   if (r.pointsBefore > 0) {
     json["polygon_points"] = {{"before", r.pointsBefore}, {"after", r.pointsAfter}, {"added", r.pointsAdded}};
   }

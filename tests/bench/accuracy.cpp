@@ -11,7 +11,9 @@
 // those whose sides open by 40 degrees or more, and for the sharper ones. --corners lists each of them. Flat:
 // percentage of the stretches between extrema along which the curvature hardly changes (by less than a twentieth of the
 // mean of its stretch), after the same for the truth. Clean pages have no seed. On varying ones the noise grows sixfold
-// from left to right while the contrast falls to a third. The goals are those of 1200 x 800.
+// from left to right while the contrast falls to a third. The goals are those of 1200 x 800. Everything is run twice,
+// with construct.light=false and true, unless --set says which; points of light curves: each once, exact lines 2, exact
+// arcs and circles 3.
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +43,7 @@ struct Options {
   std::vector<std::string> shapes, cases = {"clean", "scan", "dark"}, kinds = {"outline", "stroke"},
                                    sizes = {"1200x800", "2480x3508"};
   Recipe recipe;
+  std::vector<bool> light = {false, true};  ///< The dense curves' block, and that of the light ones.
 };
 
 std::vector<std::string> splitAtCommas(const std::string& text) {
@@ -87,6 +90,7 @@ Options parse(int argc, char** argv) {
       options.sizes = splitAtCommas(value);
     } else if (word == "--set") {
       set(options.recipe, value);
+      if (value.starts_with("construct.light=")) options.light = {options.recipe.construct.light};
     } else {
       std::fprintf(stderr, "unknown option %s\n", word.c_str());
       std::exit(2);
@@ -315,9 +319,14 @@ int main(int argc, char** argv) {
   if (bench.options.peerSeeds > 0)
     for (const Peer& peer : bench.others)
       if (!peer.missing.empty()) std::printf("%s: %s\n", peer.name.c_str(), peer.missing.c_str());
-  for (const std::string& size : bench.options.sizes)
-    for (const std::string& kind : bench.options.kinds)
-      for (const std::string& name : bench.options.cases) bench.runCase(kind, name, size);
+  for (const bool light : bench.options.light) {
+    std::printf(light ? "\nLight curves, construct.light=true\n" : "Dense curves, construct.light=false\n");
+    bench.options.recipe.construct.light = light;
+    for (const std::string& size : bench.options.sizes)
+      for (const std::string& kind : bench.options.kinds)
+        for (const std::string& name : bench.options.cases) bench.runCase(kind, name, size);
+    bench.options.peerSeeds = 0;  // once is enough
+  }
   std::filesystem::remove_all(bench.folder);
   return 0;
 }

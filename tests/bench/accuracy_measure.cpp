@@ -386,7 +386,9 @@ TraceResult traceShape(const TruthShape& shape, const Scan& scan, Recipe recipe,
   const bool faired = recipe.fairing.mode != FairingMode::None;
   for (const TracedCurve& curve : output.faired->curves) {
     result.curves.push_back(sampledCurve(curve, faired, output.frame));
-    result.controlPoints += (faired ? curve.faired : curve.sketched).controlPointCount();
+    const bool counted = !faired && curve.construct.light;
+    result.controlPoints +=
+        counted ? curve.construct.light->points : (faired ? curve.faired : curve.sketched).controlPointCount();
   }
   if (output.pieces)
     for (const Corner& corner : output.pieces->corners) result.corners.push_back(corner.positionPx);

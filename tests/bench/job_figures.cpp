@@ -25,6 +25,7 @@ void addFaired(std::vector<JobFigure>& figures, const std::string& scene, const 
   for (const auto& [mode, name] : {std::pair{FairingMode::Tolerance, "faired within the tolerance"},
                                    {FairingMode::Target, "faired towards the recommended target"}}) {
     Recipe recipe;
+    recipe.construct.light = false;
     recipe.fairing.mode = mode;
     const Accuracy faired = compareWithTruth(shape, traceShape(shape, scan, recipe, kClickPx));
     const std::string what = ", " + std::string(name);
@@ -45,7 +46,9 @@ std::vector<JobFigure> mainJob(std::uint32_t seed) {
           stroke ? strokeCoverage(outline, true, kStrokePx, kWidth, kHeight) : fillCoverage(outline, kWidth, kHeight);
       const Scan scan = renderPage(coverage, kWidth, kHeight, gradatedPage(seed));
       const std::string scene = std::string(name) + (stroke ? ", line" : ", filled");
-      const TraceResult traced = traceShape(shape, scan, {}, kClickPx);
+      Recipe dense;
+      dense.construct.light = false;
+      const TraceResult traced = traceShape(shape, scan, dense, kClickPx);
       const Accuracy accuracy = compareWithTruth(shape, traced);
       const double rms = accuracy.found ? accuracy.rmsPx : std::numeric_limits<double>::infinity();
       figures.push_back({scene, "rms from the truth, px", rms, kMostRmsPx});

@@ -210,6 +210,18 @@ void appendConstruct(std::vector<Parameter>& table) {
       {"construct.keep_extrema", "Extremum significance", "",
        "True and fair fit: a bump of the curvature must be this certain to be kept. Larger keeps fewer."},
       {1.0, 1000.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.construct.extremumSignificance; }));
+  table.push_back(boolean(
+      kCurves,
+      {"construct.light", "Light curves", "",
+       "True and fair fit: the fewest control points that keep the curve and the extrema of its curvature; lines, arcs "
+       "and circles exact. Off: the dense curve of the fit itself."},
+      [](auto& r) -> auto& { return r.construct.light; }));
+  table.push_back(real(
+      kCurves,
+      {"construct.light_tolerance", "Light within", "px",
+       "Light curves: farthest that they lie from the dense curve. Larger: fewer control points, and smaller extrema "
+       "go."},
+      {0.005, 50.0, 0.05, 3, true}, [](auto& r) -> auto& { return r.construct.lightTolerancePx; }));
   table.push_back(real(
       kCurves,
       {"construct.reduce", "Fewer control points", "× noise",

@@ -33,11 +33,12 @@ Result<NurbsCurve> asCurve(const TypicalCurve& arc, double start) {
   return NurbsCurve::make(kDegree, std::move(knots), {quintic.begin(), quintic.end()});
 }
 
-/// Two curves end to start as one of degree 5.
+/// Two curves end to start as one, of degree 5 or that of the higher one.
 Result<NurbsCurve> together(const NurbsCurve& first, const NurbsCurve& second) {
   std::vector<NurbsCurve> both;
+  const int degree = std::max({kDegree, first.degree(), second.degree()});
   for (const NurbsCurve& one : {first, second}) {
-    auto raised = one.degree() < kDegree ? elevated(one, kDegree) : Result<NurbsCurve>(one);
+    auto raised = one.degree() < degree ? elevated(one, degree) : Result<NurbsCurve>(one);
     if (!raised) return raised;
     both.push_back(std::move(*raised));
   }

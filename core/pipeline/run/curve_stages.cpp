@@ -200,6 +200,7 @@ class ContourBuilder {
   void take(TracedCurve& curve, ConstructedPiece made) const {
     const Piece& piece = pieces_.pieces[curve.piece];
     curve.sketched = made.curve;
+    curve.dense = made.dense;
     curve.construct = std::move(made.report);
     curve.sketchedFigures = figuresOf(made.curve, piece.closed, pointsToModel(piece.points, frame_));
   }

@@ -27,7 +27,8 @@ Result<TargetOutcomes> noMemory() {
 
 void moveControlPoints(const std::vector<Asked>& all, const RunContext& context) {
   std::vector<TargetsJob> jobs;
-  for (const Asked& asked : all) jobs.push_back({asked.curve->sketched, asked.curve->closed, asked.curve->fairingUsed});
+  for (const Asked& asked : all)
+    jobs.push_back({asked.curve->fairingStart(), asked.curve->closed, asked.curve->fairingUsed});
   auto outcomes = fairAllTargets(jobs, context);
   for (std::size_t i = 0; i < all.size(); ++i) *all[i].outcomes = std::move(outcomes[i]);
 }
@@ -37,7 +38,7 @@ void moveEdgeLengths(const Asked& asked, std::size_t target, const RunContext& c
   TargetOutcomes& outcomes = **asked.outcomes;
   try {
     const TargetProfile& profile = outcomes.targets.profiles[target];
-    auto moved = fairByEdgeLengths(curve.sketched, curve.closed, profile, curve.fairingUsed, context);
+    auto moved = fairByEdgeLengths(curve.fairingStart(), curve.closed, profile, curve.fairingUsed, context);
     if (moved)
       outcomes.faired[target] = std::move(*moved);
     else
@@ -56,7 +57,7 @@ void moveEdgeLengths(const std::vector<Asked>& all, const RunContext& context) {
       continue;
     }
     TargetOutcomes outcomes;
-    outcomes.targets = fitTargets(asked.curve->sketched, params.targets, asked.curve->closed);
+    outcomes.targets = fitTargets(asked.curve->fairingStart(), params.targets, asked.curve->closed);
     outcomes.recommendedDegree = outcomes.targets.recommendedDegree;
     *asked.outcomes = std::move(outcomes);
     fitted.push_back(asked);

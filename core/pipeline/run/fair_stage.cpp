@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <new>
 
+#include "core/construct/light/light_pieces.h"
 #include "core/curve/arc_length.h"
 #include "core/fairing/edge_length_fairing.h"
 #include "core/fairing/fairing.h"
@@ -67,14 +68,66 @@ FairingLine lineOf(const Piece& piece, ContourKind kind, const PageFrame& frame)
   return line;
 }
 
-void fairOne(TracedCurve& curve, const Piece& piece, ContourKind kind, const PageFrame& frame,
+LightHold asLightHold(const EndHold& hold) {
+  return hold.curvature ? LightHold::Curvature : hold.tangent ? LightHold::Tangent : LightHold::Position;
+}
+
+/// Fairs the dense curve of one line, and makes the faired one light where the sketched one was to be.
+class LineFairing {
+ public:
+  LineFairing(const TracedCurve& curve, FairingLine line, LightOptions light, const RunContext& context)
+      : curve_(curve), line_(std::move(line)), light_(light), context_(context) {
+    light_.start = asLightHold(curve.fairingUsed.startHold);
+    light_.end = asLightHold(curve.fairingUsed.endHold);
+  }
+
+  Result<FairedCurve> run() const {
+    auto faired = fairedWithin(curve_.fairingUsed);
+    if (!faired || !curve_.construct.light || curve_.fairingUsed.mode == FairingMode::None) return faired;
+    if (auto light = madeLight(*faired)) return *light;
+    // The light curve would have left the tolerance, all of which the fairing took: it leaves some of it to the light
+    // one.
+    FairingParams closer = curve_.fairingUsed;
+    closer.toleranceMm -= light_.tolerance;
+    if (closer.toleranceMm < kFairingShare * curve_.fairingUsed.toleranceMm || context_.isCancelled()) return faired;
+    if (const auto again = fairedWithin(closer)) {
+      if (auto light = madeLight(*again)) return *light;
+    }
+    return faired;
+  }
+
+ private:
+  static constexpr double kFairingShare = 0.5;  // of the tolerance, is left to the fairing
+
+  Result<FairedCurve> fairedWithin(const FairingParams& params) const {
+    return movesEdgeLengths(params) ? fairByEdgeLengths(curve_.sketched, curve_.closed, params, context_)
+                                    : fair(curve_.fairingStart(), curve_.closed, params, context_, line_);
+  }
+
+  /// The faired curve as a light one that holds the fairing's tolerance; none when there is none.
+  std::optional<FairedCurve> madeLight(const FairedCurve& faired) const {
+    auto light = makeLight(faired.curve, curve_.closed, light_, context_);
+    if (!light || light->report.kind == LightKind::Dense) return std::nullopt;
+    const double moved = deviation(light->curve, curve_.fairingStart()).max;
+    if (moved > std::max(curve_.fairingUsed.toleranceMm, faired.report.maxDeviationMm)) return std::nullopt;
+    FairedCurve result{std::move(light->curve), faired.report};
+    result.report.maxDeviationMm = moved;
+    return result;
+  }
+
+  const TracedCurve& curve_;
+  const FairingLine line_;
+  LightOptions light_;
+  const RunContext& context_;
+};
+
+void fairOne(TracedCurve& curve, const Piece& piece, ContourKind kind, const Recipe& recipe, const PageFrame& frame,
              const RunContext& context) {
   curve.faired = curve.sketched;
   curve.fairedFigures = curve.sketchedFigures;
   if (!curve.included || curve.fairingUsed.mode == FairingMode::None) return;
-  auto result = movesEdgeLengths(curve.fairingUsed)
-                    ? fairByEdgeLengths(curve.sketched, curve.closed, curve.fairingUsed, context)
-                    : fair(curve.sketched, curve.closed, curve.fairingUsed, context, lineOf(piece, kind, frame));
+  const LightOptions light = lightOptions(recipe.construct, frame.mmPerPx);
+  auto result = LineFairing(curve, lineOf(piece, kind, frame), light, context).run();
   if (!result) {
     curve.fairing.why = Termination::Degenerate;
     curve.fairing.note = "Left as sketched: " + result.error().message;
@@ -96,9 +149,9 @@ Result<FairedSet> fairAll(const ConstructedSet& constructed, const ContourSet& c
     TracedCurve& curve = set.curves[i];
     const auto piece = static_cast<std::size_t>(curve.piece);
     curve.included = !choices[piece] || recipe.choices[*choices[piece]].included;
-    curve.fairingUsed = paramsFor(choices[piece], recipe, pieces.pieces[piece], curve.sketched, frame);
+    curve.fairingUsed = paramsFor(choices[piece], recipe, pieces.pieces[piece], curve.fairingStart(), frame);
     const ContourKind kind = contours.contours[curve.contour].kind;
-    fairOne(curve, pieces.pieces[piece], kind, frame, inner);
+    fairOne(curve, pieces.pieces[piece], kind, recipe, frame, inner);
   });
   if (context.isCancelled()) return cancelled();
   roundCorners(set, pieces, recipe, frame);

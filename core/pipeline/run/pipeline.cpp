@@ -47,7 +47,8 @@ std::size_t bytesOf(const SegmentSet& set) {
 std::size_t bytesOf(const std::vector<TracedCurve>& curves) {
   std::size_t bytes = 0;
   for (const TracedCurve& c : curves) {
-    const auto points = static_cast<std::size_t>(c.sketched.isEmpty() ? 0 : c.sketched.controlPointCount());
+    const NurbsCurve& largest = c.fairingStart();
+    const auto points = static_cast<std::size_t>(largest.isEmpty() ? 0 : largest.controlPointCount());
     bytes +=
         sizeof(c) + 4 * points * sizeof(Vec2) + vectorBytes(c.construct.extrema) + 2 * vectorBytes(c.construct.bandS);
   }

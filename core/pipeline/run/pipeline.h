@@ -44,12 +44,16 @@ struct TracedCurve {
   bool closed = false;
   bool included = true;  ///< The user's choice.
   NurbsCurve sketched;
+  NurbsCurve dense;  ///< What `sketched` was made light of; empty: `sketched` itself.
   ConstructReport construct;
   CurveFigures sketchedFigures;
   NurbsCurve faired;  ///< Equal to `sketched` while the mode is None.
   FairingReport fairing;
   FairingParams fairingUsed;  ///< The recipe's parameters with the piece's own choices applied.
   CurveFigures fairedFigures;
+
+  /// What fairing and its targets start from.
+  const NurbsCurve& fairingStart() const { return dense.isEmpty() ? sketched : dense; }
 };
 
 struct ConstructedSet {

@@ -82,13 +82,14 @@ CombControls::CombControls(ViewSettings& view, QWidget* parent) : QWidget(parent
 CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
     : QWidget(parent),
       session_(session),
-      editor_(new ParameterEditor(
-          session,
-          {"construct.start", "construct.derivative_magnitude", "construct.keep_extrema", "construct.reduce",
-           "construct.lowpass", "construct.closeness", "construct.typical", "construct.growing_stop", "segments.mode",
-           "segments.count", "segments.spacing", "segments.tolerance", "construct.gradients",
-           "construct.magnitude_as_in_paper", "construct.growing_as_in_paper"},
-          this)),
+      editor_(
+          new ParameterEditor(session,
+                              {"construct.start", "construct.derivative_magnitude", "construct.keep_extrema",
+                               "construct.light", "construct.light_tolerance", "construct.reduce", "construct.lowpass",
+                               "construct.closeness", "construct.typical", "construct.growing_stop", "segments.mode",
+                               "segments.count", "segments.spacing", "segments.tolerance", "construct.gradients",
+                               "construct.magnitude_as_in_paper", "construct.growing_as_in_paper"},
+                              this)),
       methods_(new MethodTable(session, this)),
       knots_(new KnotPanel(session, view, this)),
       figures_(new FigureTable(this)),
@@ -158,6 +159,14 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
     rows.push_back(
         {tr("Moved by sparing"), {{length(fit.knotRemovalMovedPx)}}, tr("How far that moved the curve at most.")});
   }
+  if (fit.light) {
+    rows.push_back({tr("Made light"),
+                    {{fit.light->found ? tr("%1 of %2 points").arg(fit.light->points).arg(fit.light->pointsBefore)
+                                       : tr("nothing lighter")}},
+                    tr("Control points of the light curve, each counted once, and of the dense curve of the fit.")});
+    if (fit.light->found)
+      rows.push_back({tr("Moved by that"), {{length(fit.light->movedPx)}}, tr("How far the two lie apart at most.")});
+  }
   const auto dropped =
       std::count_if(fit.extrema.begin(), fit.extrema.end(), [](const ExtremumNote& e) { return !e.kept; });
   if (dropped > 0)
@@ -212,7 +221,10 @@ void CurvesPanel::refreshRows() {
                                   : counted(static_cast<qint64>(set),
                                             tr("1 segment point set. G, then click it to remove it."),
                                             tr("%1 segment points set. G, then click one to remove it.")));
-  editor_->setRowVisible("construct.reduce", method == ConstructMethod::Fair);
+  const bool light = session_.recipe().construct.light;
+  editor_->setRowVisible("construct.light", method == ConstructMethod::Fair);
+  editor_->setRowVisible("construct.light_tolerance", method == ConstructMethod::Fair && light);
+  editor_->setRowVisible("construct.reduce", method == ConstructMethod::Fair && !light);
   knots_->setVisible(method == ConstructMethod::ControlPolygon);
   const bool segmented = method != ConstructMethod::Fair && method != ConstructMethod::ControlPolygon;
   const bool counted = segments.mode == SegmentMode::Stations || segments.mode == SegmentMode::Count;

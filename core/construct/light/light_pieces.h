@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/construct/construct_params.h"
+#include "core/construct/light/light_curve.h"
+#include "core/construct/pieces.h"
+
+namespace batten {
+
+/// What ConstructParams asks of a light curve in the model frame, with pixels of this size.
+LightOptions lightOptions(const ConstructParams&, double pixelMm);
+
+/// What is told of a light curve.
+LightNote lightNote(const LightReport&, double pixelMm);
+
+/// Makes the curves of pieces light: each keeps the dense one beside it (ConstructedPiece::dense) and says in its
+/// report what was won. A curve for which nothing lighter was found stays as it is, and says so.
+Result<void> makePiecesLight(std::vector<ConstructedPiece>& made, const ConstructContour&, const ConstructParams&,
+                             const RunContext&);
+
+}  // namespace batten

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "core/curve/closest_point.h"
+#include "core/pipeline/run/pipeline.h"
+#include "tests/unit/pipeline/ellipse_scan.h"
+
+namespace batten {
+namespace {
+
+PipelineOutput traced(bool light, FairingMode mode, double toleranceMm = 0.2) {
+  Recipe recipe;
+  recipe.construct.light = light;
+  recipe.fairing.mode = mode;
+  recipe.fairing.toleranceMm = toleranceMm;
+  StageCache cache;
+  return runPipeline(test::ellipseScan(), recipe, cache, {}, {});
+}
+
+/// Largest distance of many places of one curve from the other.
+double apart(const NurbsCurve& a, const NurbsCurve& b) {
+  double worst = 0.0;
+  for (int i = 0; i <= 400; ++i) {
+    worst = std::max(worst, closestPoint(b, a.point(a.start() + (a.end() - a.start()) * i / 400.0)).distance);
+  }
+  return worst;
+}
+
+TEST(LightCurves, StandForTheDenseOneThatFairingStartsFrom) {
+  const auto dense = traced(false, FairingMode::None), light = traced(true, FairingMode::None);
+  ASSERT_FALSE(dense.error || light.error);
+  const TracedCurve &before = dense.faired->curves.front(), &after = light.faired->curves.front();
+  EXPECT_FALSE(before.construct.light);
+  EXPECT_TRUE(before.dense.isEmpty());
+  EXPECT_EQ(before.fairingStart(), before.sketched);
+  ASSERT_TRUE(after.construct.light);
+  EXPECT_TRUE(after.construct.light->found);
+  EXPECT_EQ(after.dense, before.sketched) << "the fit itself is the same";
+  EXPECT_EQ(after.fairingStart(), before.sketched);
+  EXPECT_EQ(after.faired, after.sketched);
+  EXPECT_LT(after.construct.light->points, before.sketched.controlPointCount() / 2);
+  EXPECT_LE(after.sketchedFigures.extrema, before.sketchedFigures.extrema);
+  const double tolerance = ConstructParams{}.lightTolerancePx * light.frame.mmPerPx;
+  EXPECT_LE(apart(after.sketched, before.sketched), 1.02 * tolerance);
+  EXPECT_LE(apart(before.sketched, after.sketched), 1.02 * tolerance);
+}
+
+TEST(LightCurves, KeepTheToleranceOfTheFairing) {
+  for (const FairingMode mode : {FairingMode::Tolerance, FairingMode::Target, FairingMode::Monotone}) {
+    const double toleranceMm = 0.15;
+    const auto out = traced(true, mode, toleranceMm);
+    ASSERT_FALSE(out.error);
+    const TracedCurve& curve = out.faired->curves.front();
+    EXPECT_LE(apart(curve.faired, curve.fairingStart()), 1.001 * toleranceMm);
+    EXPECT_NEAR(apart(curve.faired, curve.fairingStart()), curve.fairing.maxDeviationMm, 0.02 * toleranceMm);
+    const auto dense = traced(false, mode, toleranceMm);
+    EXPECT_LE(curve.fairedFigures.extrema, dense.faired->curves.front().fairedFigures.extrema);
+    EXPECT_LE(curve.faired.controlPointCount(), dense.faired->curves.front().faired.controlPointCount());
+  }
+}
+
+TEST(LightCurves, AreOfTheTrueAndFairFitOnly) {
+  Recipe recipe;
+  recipe.construct.light = true;
+  recipe.construct.method = ConstructMethod::Nurbs;
+  StageCache cache;
+  const auto out = runPipeline(test::ellipseScan(), recipe, cache, {}, {});
+  ASSERT_FALSE(out.error);
+  EXPECT_TRUE(out.faired->curves.front().dense.isEmpty());
+  EXPECT_FALSE(out.faired->curves.front().construct.light);
+  EXPECT_EQ(out.faired->curves.front().sketched.degree(), 5);
+}
+
+}  // namespace
+}  // namespace batten
