@@ -7,6 +7,7 @@
 
 #include "core/curve/span_polynomials.h"
 
+#include "core/base/statistics.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
 
@@ -199,8 +200,7 @@ Deviation summary(std::span<const Vec2> points, std::vector<double> distances) {
   const double count = static_cast<double>(distances.size());
   result.rms = std::sqrt(sum / count);
   const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.95 * count)) - 1;
-  std::nth_element(distances.begin(), distances.begin() + rank, distances.end());
-  result.percentile95 = distances[rank];
+  result.percentile95 = elementOfRank(distances, rank);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "core/base/statistics.h"
 #include "core/exchange/export_check.h"
 
 namespace batten {
@@ -43,10 +44,9 @@ bool isWholeClosed(const std::vector<const TracedCurve*>& run, const ContourPiec
 std::optional<double> strokeWidth(const Contour& line, const PageFrame& frame) {
   std::vector<float> px = strokeWidthsOf(line.points);
   if (px.empty()) return std::nullopt;
-  const auto middle = px.begin() + static_cast<std::ptrdiff_t>(px.size() / 2);
-  std::nth_element(px.begin(), middle, px.end());
-  if (!(*middle > 0.0f) || !std::isfinite(*middle)) return std::nullopt;
-  return frame.lengthToModel(static_cast<double>(*middle));
+  const float middle = upperMedian(px);
+  if (!(middle > 0.0f) || !std::isfinite(middle)) return std::nullopt;
+  return frame.lengthToModel(static_cast<double>(middle));
 }
 
 }  // namespace

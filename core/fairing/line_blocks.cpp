@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/statistics.h"
 #include "core/fairing/fairing_line.h"
 
 namespace batten {
@@ -54,9 +55,7 @@ void dropOutliers(std::vector<Foot>& feet, double pixelMm) {
   std::vector<double> sizes;
   for (const Foot& f : feet) sizes.push_back(std::abs(f.distance));
   if (sizes.empty()) return;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  const double most = kOutlier * std::max(1.4826 * *middle, 0.02 * pixelMm);
+  const double most = kOutlier * std::max(robustSigma(sizes), 0.02 * pixelMm);
   std::erase_if(feet, [&](const Foot& f) { return std::abs(f.distance) > most; });
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/parallel.h"
+#include "core/base/statistics.h"
 #include "core/image/fold_lines.h"
 #include "core/image/fold_step.h"
 
@@ -38,7 +39,7 @@ bool mayStep(const Plane& u, const FoldCourse& c) {
     steps.push_back(bright - dark - static_cast<float>(2.0 * kNear) * slope);
   }
   std::vector<float> sorted = steps;
-  const float middle = foldQuantile(sorted, 0.5);
+  const float middle = lowerQuantile(sorted, 0.5);
   const auto shown = std::count_if(steps.begin(), steps.end(), [&](float step) { return step > 0.3f * middle; });
   return static_cast<double>(middle) > 0.5 * kLeastFoldStep && 2 * shown > kPlaces;
 }
@@ -71,7 +72,7 @@ class FoldMaker {
       const double bright = strip_.mean(i, reach, reach + kFoldBandPx);
       ratios.push_back((bright - fit.at(i, strip_.rows)) / std::max(1.0, bright));
     }
-    return !ratios.empty() && foldQuantile(ratios, 0.5) > kDarkestShade;
+    return !ratios.empty() && lowerQuantile(ratios, 0.5) > kDarkestShade;
   }
 
   PaperFold profiled(const FoldStepFit& fit, int reach) const {
@@ -144,7 +145,7 @@ class FoldMaker {
     std::vector<std::pair<double, float>> knots;
     for (std::size_t bin = 0; bin < values.size(); ++bin) {
       if (values[bin].size() < kFewest) continue;
-      knots.emplace_back(places[bin] / static_cast<double>(values[bin].size()), foldQuantile(values[bin], 0.5));
+      knots.emplace_back(places[bin] / static_cast<double>(values[bin].size()), lowerQuantile(values[bin], 0.5));
     }
     if (static_cast<int>(knots.size()) * 3 < taps) return {};
     std::vector<float> profile;

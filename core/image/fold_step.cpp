@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "core/base/statistics.h"
+
 namespace batten {
 namespace {
 
@@ -26,7 +28,7 @@ float foldGreyAt(const GreyImage& image, const Vec2& p) {
 double noiseOf(const std::vector<double>& steps) {
   std::vector<double> jumps;
   for (std::size_t i = 1; i < steps.size(); ++i) jumps.push_back(std::fabs(steps[i] - steps[i - 1]));
-  return jumps.empty() ? 0.0 : 1.05 * foldQuantile(jumps, 0.5);
+  return jumps.empty() ? 0.0 : 1.05 * lowerQuantile(jumps, 0.5);
 }
 
 /// Median over rows [begin, end) that show the step of the grey at d less the brighter paper, in `out` (2 reach + 1).
@@ -43,7 +45,7 @@ bool medianProfile(const FoldStrip& strip, const FoldStepFit& fit, int begin, in
   for (int d = -reach; d <= reach; ++d) {
     column.clear();
     for (std::size_t k = 0; k < rows.size(); ++k) column.push_back(strip.row(rows[k])[d + strip.half] - bright[k]);
-    out.push_back(foldQuantile(column, 0.5));
+    out.push_back(lowerQuantile(column, 0.5));
   }
   return true;
 }
@@ -78,7 +80,7 @@ std::vector<double> foldSlopesAcross(const FoldStrip& strip) {
   for (int i = 0; i < strip.rows; ++i) {
     std::vector<double> window(each.begin() + std::max(0, i - reach),
                                each.begin() + std::min(strip.rows, i + reach + 1));
-    slopes.push_back(foldQuantile(window, 0.5));
+    slopes.push_back(lowerQuantile(window, 0.5));
   }
   return slopes;
 }
@@ -103,7 +105,7 @@ std::optional<FoldStepFit> fitFoldStep(const std::vector<double>& steps) {
   std::vector<double> medians;
   for (int part = 0; part < kParts; ++part) {
     std::vector<double> piece(steps.begin() + part * rows / kParts, steps.begin() + (part + 1) * rows / kParts);
-    medians.push_back(foldQuantile(piece, 0.5));
+    medians.push_back(lowerQuantile(piece, 0.5));
   }
   const auto isNear = [&](const FoldStepFit& fit, int i) {
     const double level = fit.at(i, rows);
@@ -158,7 +160,7 @@ std::optional<int> foldReachOf(const FoldStrip& strip, const FoldStepFit& fit) {
     outside.push_back(left(d));
     outside.push_back(left(-d));
   }
-  const double tolerance = std::max({0.03 * step, 0.5, 6.0 * foldQuantile(outside, 0.5)});
+  const double tolerance = std::max({0.03 * step, 0.5, 6.0 * lowerQuantile(outside, 0.5)});
   int last = 3;
   for (int d = 2; d < reach; ++d) {
     if (left(d) > tolerance || left(-d) > tolerance) last = std::max(last, d);

@@ -34,14 +34,6 @@ struct FoldStrip {
 /// One row every `stepPx`. Where a row of the strip leaves the page its values repeat the border.
 FoldStrip foldStripAlong(const GreyImage& image, const FoldCourse& course, int half, double stepPx);
 
-/// @pre values is not empty; they are reordered.
-template <class Value>
-Value foldQuantile(std::vector<Value>& values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 /// A step that changes linearly along the course, and which rows of the strip show it.
 struct FoldStepFit {
   double middle = 0.0, slope = 0.0;  ///< [grey], [grey per row]

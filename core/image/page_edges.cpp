@@ -7,6 +7,7 @@
 
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
+#include "core/base/statistics.h"
 #include "core/image/region_surface.h"
 #include "core/image/region_thresholds.h"
 #include "core/image/region_values.h"
@@ -25,20 +26,9 @@ struct RegionNoise {
   RegionValues slopeX{}, slopeY{}, spread{};
 };
 
-float medianOf(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 float spreadAround(std::vector<float>& values, float centre) {
   for (float& value : values) value = std::fabs(value - centre);
-  return 1.4826f * medianOf(values);
-}
-
-double medianOfRegions(RegionValues values) {
-  std::nth_element(values.begin(), values.begin() + kRegions / 2, values.end());
-  return values[kRegions / 2];
+  return static_cast<float>(kSigmaPerMad) * upperMedian(values);
 }
 
 RegionNoise measureNoise(const Plane& u, const RunContext& context) {
@@ -54,12 +44,12 @@ RegionNoise measureNoise(const Plane& u, const RunContext& context) {
     }
     if (gx.empty()) return;
     const auto r = static_cast<std::size_t>(region);
-    const float mx = medianOf(gx), my = medianOf(gy);
+    const float mx = upperMedian(gx), my = upperMedian(gy);
     noise.slopeX[r] = mx;
     noise.slopeY[r] = my;
     noise.spread[r] = 0.5 * (spreadAround(gx, mx) + spreadAround(gy, my));
   });
-  const double median = medianOfRegions(noise.spread);
+  const double median = upperMedian(RegionValues(noise.spread));
   const double slopeLimit = std::max(0.5, 3.0 * median + 0.02);
   for (std::size_t r = 0; r < kRegions; ++r) {
     noise.spread[r] = std::max(0.15, std::clamp(noise.spread[r], 0.5 * median, 1.5 * median));

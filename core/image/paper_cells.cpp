@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/base/parallel.h"
+#include "core/base/statistics.h"
 #include "core/image/neighbourhood_filter.h"
 #include "core/image/push_pull.h"
 #include "core/image/region_surface.h"
@@ -146,9 +147,7 @@ PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrin
   }
   float height = cells.mean.empty() ? 255.0f : *std::max_element(cells.mean.begin(), cells.mean.end());
   if (!gaps.empty()) {
-    const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() * 7 / 10);
-    std::nth_element(gaps.begin(), middle, gaps.end());
-    height = *middle;
+    height = elementOfRank(gaps, static_cast<std::ptrdiff_t>(gaps.size() * 7 / 10));
   }
   for (float& value : paper.grey) value += height;
 

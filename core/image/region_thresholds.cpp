@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/base/statistics.h"
 #include "core/image/find_folds.h"
 #include "core/image/otsu_thresholds.h"
 #include "core/image/page_edges.h"
@@ -105,12 +106,7 @@ Depths measureDepths(const Plane& grey, const PageEdges& edges, const PaperEstim
   }
   std::vector<float> samples;
   measure(static_cast<int>(places.size()), samples, [&](std::size_t i) { return places[i]; });
-  for (float& sample : samples) sample = std::fabs(sample);
-  if (!samples.empty()) {
-    const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
-    std::nth_element(samples.begin(), middle, samples.end());
-    depths.noise = 1.4826 * static_cast<double>(*middle);
-  }
+  if (!samples.empty()) depths.noise = robustSigma(samples);
   return depths;
 }
 

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "core/base/statistics.h"
+
 namespace batten {
 namespace {
 
@@ -94,14 +96,6 @@ void averageBlocks(FairFrame& frame, const FairData& data, const FairFitOptions&
 }
 
 }  // namespace
-
-double robustSigma(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  for (double& v : values) v = std::abs(v);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return 1.4826 * *middle;
-}
 
 FrameStation frameStation(const PlaneDerivatives& d, const std::array<BandRow, 5>& b) {
   FrameStation s;

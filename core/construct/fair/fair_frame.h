@@ -85,7 +85,4 @@ struct OffsetPoint {
 };
 OffsetPoint offsetPoint(const UniformQuintic& base, const Eigen::VectorXd& d, double u);
 
-/// 1.4826 times the median of the absolute values: a robust standard deviation. 0 for nothing.
-double robustSigma(std::vector<double> values);
-
 }  // namespace batten

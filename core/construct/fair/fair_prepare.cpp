@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/statistics.h"
 #include "core/construct/fair/fair_piece.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -72,12 +73,13 @@ void readPoints(FairPiece& piece, const ConstructPiece& in, double pixelMm, doub
   if (in.endIsCorner && !in.closed) piece.pins.end = points.back();
 }
 
-Vec2 median(std::vector<Vec2> p) {
-  const auto middle = static_cast<std::ptrdiff_t>(p.size() / 2);
-  std::nth_element(p.begin(), p.begin() + middle, p.end(), [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
-  const double x = p[middle].x();
-  std::nth_element(p.begin(), p.begin() + middle, p.end(), [](const Vec2& a, const Vec2& b) { return a.y() < b.y(); });
-  return {x, p[middle].y()};
+Vec2 median(const std::vector<Vec2>& p) {
+  std::vector<double> x, y;
+  for (const Vec2& one : p) {
+    x.push_back(one.x());
+    y.push_back(one.y());
+  }
+  return {upperMedian(x), upperMedian(y)};
 }
 
 /// Leaves out the points next to corners, where blur has rounded the line.
@@ -117,9 +119,7 @@ double medianSpacing(const std::vector<Vec2>& points) {
   std::vector<double> gaps;
   for (std::size_t i = 1; i < points.size(); ++i) gaps.push_back((points[i] - points[i - 1]).norm());
   if (gaps.empty()) return 1.0;
-  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  return *middle;
+  return upperMedian(gaps);
 }
 
 void gateStrays(FairData& data, double gatePx, double spacing) {
@@ -157,9 +157,7 @@ double ordinarySigma(const ConstructContour& contour) {
     }
   }
   if (sigma.empty()) return 0.0;
-  const auto middle = sigma.begin() + static_cast<std::ptrdiff_t>(sigma.size() / 2);
-  std::nth_element(sigma.begin(), middle, sigma.end());
-  return *middle;
+  return upperMedian(sigma);
 }
 
 void weighByNoise(FairData& data, const LocalNoise& noise, double measured, double floor) {

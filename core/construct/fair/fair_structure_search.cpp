@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "core/base/statistics.h"
 #include "core/construct/fair/fair_structure.h"
 
 namespace batten {
@@ -37,9 +38,7 @@ class Search {
     for (const FrameStation& s : frame.checks) {
       sigma.push_back(std::sqrt(std::max(0.0, BandCholesky::quadratic(posterior.covariance, s.kappaRow))));
     }
-    const auto middle = sigma.begin() + static_cast<std::ptrdiff_t>(sigma.size() / 2);
-    std::nth_element(sigma.begin(), middle, sigma.end());
-    result_.kappaSigma = *middle;
+    result_.kappaSigma = upperMedian(sigma);
     isFactored_ = factors_.factor(posterior.a);
   }
 

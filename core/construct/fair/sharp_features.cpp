@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/statistics.h"
 #include "core/construct/fair/fair_piece.h"
 #include "core/construct/fair/fair_prepare.h"
 
@@ -296,8 +297,7 @@ std::vector<PointRange> outlierRanges(const PointDeviation& close, const Constru
     for (int k = -2; k <= 2; ++k) {
       d[k + 2] = distance(piece.closed ? i + k : std::clamp(i + k, 0, n - 1));
     }
-    std::nth_element(d.begin(), d.begin() + 2, d.end());
-    return d[2];
+    return upperMedian(d);
   };
   for (int i = 0; i < n; ++i) {
     if (!(middle(i) > kStrayPx)) continue;

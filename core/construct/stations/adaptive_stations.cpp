@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "core/base/statistics.h"
 #include "core/contour/segment/station_meter.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -35,10 +36,7 @@ double noiseOf(const MeasuredPiece& piece) {
     const Vec2 chord = piece.point(i + 3) - piece.point(i), inner = piece.point(i + 2) - piece.point(i + 1);
     if (chord.norm() > 0.0) sizes.push_back(std::abs(cross(chord.normalized(), chord - 3.0 * inner)));
   }
-  if (sizes.empty()) return 0.0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return 1.4826 * *middle / std::sqrt(20.0);
+  return robustSigma(sizes) / std::sqrt(20.0);
 }
 
 /// Signed distance of a point from the nearest of some polylines.

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/base/statistics.h"
 #include "core/construct/typical/typical_path_feet.h"
 #include "core/construct/typical/typical_path_fit.h"
 
@@ -90,8 +91,7 @@ class StructureSearch {
     std::vector<double> sizes;
     for (const PathFoot& foot : fit_.feet) sizes.push_back(std::abs(foot.distance));
     if (sizes.empty()) return;
-    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
-    const double typical = 1.4826 * sizes[sizes.size() / 2];
+    const double typical = robustSigma(sizes);
     data_.noise = std::max(typical, 0.05);
     data_.outlier = 5.0 * std::max(typical, 0.1);
   }

@@ -6,6 +6,7 @@
 #include <new>
 #include <opencv2/core.hpp>
 
+#include "core/base/statistics.h"
 #include "core/contour/centreline/gaps.h"
 #include "core/contour/centreline/graininess.h"
 #include "core/contour/centreline/oriented_line_filter.h"
@@ -36,9 +37,7 @@ double medianWidth(const std::vector<StrokePath>& paths, const Chosen& isChosen)
     for (const StrokePathPoint& p : paths[i].points) radii.push_back(p.radius);
   }
   if (radii.empty()) return 1.0;
-  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-  std::nth_element(radii.begin(), middle, radii.end());
-  return std::max(1.0, 2.0 * static_cast<double>(*middle));
+  return std::max(1.0, 2.0 * static_cast<double>(upperMedian(radii)));
 }
 
 // Ink that touches the border of the page nearly all along is the margin of the scanner or the edge of the sheet.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/base/statistics.h"
 #include "core/contour/centreline/stroke_course.h"
 #include "core/contour/centreline/stroke_profile.h"
 #include "core/image/push_pull.h"
@@ -71,8 +72,7 @@ std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& g
     for (std::size_t k = 0; k < kLanes; ++k) {
       std::array<float, 2 * kWindow + 1> window{};
       std::copy_n(lanes[k].begin() + static_cast<std::ptrdiff_t>(i - kWindow), window.size(), window.begin());
-      std::nth_element(window.begin(), window.begin() + kWindow, window.end());
-      median[k] = window[kWindow];
+      median[k] = upperMedian(window);
     }
     // Beside the stroke the brightest lane is paper; others may lie on the next line.
     const auto left =

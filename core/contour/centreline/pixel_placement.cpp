@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/parallel.h"
+#include "core/base/statistics.h"
 #include "core/contour/subpixel/curvature_shift.h"
 #include "core/contour/subpixel/pixel_edge.h"
 #include "core/polyline/polyline_tools.h"
@@ -212,9 +213,7 @@ int pageBlur(const std::vector<StrokeCourse>& courses, const std::vector<Placer>
     });
     std::erase_if(squares, [](double sum) { return sum < 0.0; });
     if (squares.size() < some.size() / 2 || squares.empty()) return 1e300;  // does not describe these strokes
-    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-    std::nth_element(squares.begin(), middle, squares.end());
-    return *middle;
+    return upperMedian(squares);
   };
   constexpr int kStart = 12;  // .65 px
   int best = kStart;

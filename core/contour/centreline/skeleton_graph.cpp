@@ -7,6 +7,8 @@
 #include <queue>
 #include <unordered_map>
 
+#include "core/base/statistics.h"
+
 namespace batten {
 namespace {
 
@@ -115,11 +117,7 @@ SkeletonGraph::SkeletonGraph(const std::vector<SkeletonChain>& chains, const Bit
     }
     edges_.push_back(std::move(edge));
   }
-  if (!radii.empty()) {
-    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::nth_element(radii.begin(), middle, radii.end());
-    medianRadius_ = *middle;
-  }
+  if (!radii.empty()) medianRadius_ = upperMedian(radii);
   for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) splice(i);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/statistics.h"
 #include "core/contour/centreline/stroke_profile.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -41,9 +42,7 @@ void resample(const std::vector<Vec2>& at, const std::vector<StrokePathPoint>& p
 
 float medianOf(std::vector<float> values) {
   if (values.empty()) return 0.0f;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return upperMedian(values);
 }
 
 // Values without a measurement are laid straight between those that have one.
@@ -109,10 +108,8 @@ StrokeCourse resample(const StrokePath& path) {
   course.measured.assign(n, 0);
   course.tone.assign(n, {});
   std::vector<float> radius = course.radius;
-  const auto high = radius.begin() + static_cast<std::ptrdiff_t>(radius.size() * 9 / 10);
-  std::nth_element(radius.begin(), high, radius.end());
-  course.profileHalf =
-      static_cast<int>(std::lround((std::max<double>(*high, 0.5 * course.widthPx) + 3.5) / kStrokeStepPx));
+  const double high = elementOfRank(radius, static_cast<std::ptrdiff_t>(radius.size() * 9 / 10));
+  course.profileHalf = static_cast<int>(std::lround((std::max(high, 0.5 * course.widthPx) + 3.5) / kStrokeStepPx));
   return course;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/statistics.h"
 #include "core/contour/centreline/stroke_course.h"
 #include "core/contour/centreline/stroke_profile.h"
 #include "core/polyline/polyline_tools.h"
@@ -34,8 +35,7 @@ std::optional<double> inkEnd(const EndCourse& end, double widthPx, double inside
   }
   std::vector<float> inner(level.begin(),
                            level.begin() + std::clamp(static_cast<int>(0.5 * inside / kStrokeStepPx), 1, samples));
-  std::nth_element(inner.begin(), inner.begin() + static_cast<std::ptrdiff_t>(inner.size() / 2), inner.end());
-  const float ink = inner[inner.size() / 2];
+  const float ink = upperMedian(inner);
   const float paper = *std::max_element(level.begin(), level.end());
   const float middle = 0.5f * (ink + paper);
   if (!(paper - ink > 4.0f)) return std::nullopt;

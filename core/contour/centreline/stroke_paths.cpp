@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/statistics.h"
 #include "core/contour/centreline/skeleton_graph.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -204,9 +205,7 @@ double StrokePath::widthPx() const {
   if (points.empty()) return 1.0;
   std::vector<float> radii;
   for (const StrokePathPoint& p : points) radii.push_back(p.radius);
-  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-  std::nth_element(radii.begin(), middle, radii.end());
-  return std::max(1.0, 2.0 * static_cast<double>(*middle));
+  return std::max(1.0, 2.0 * static_cast<double>(upperMedian(radii)));
 }
 
 std::vector<Vec2> cubicBetween(const Vec2& from, const Vec2& fromDirection, const Vec2& to, const Vec2& toDirection) {

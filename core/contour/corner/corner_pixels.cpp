@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/statistics.h"
 #include "core/contour/subpixel/pixel_edge.h"
 
 namespace batten {
@@ -87,12 +88,6 @@ class Wedge {
   bool ink_ = true;  // the wedge below 180 degrees is ink
 };
 
-double medianOf(std::vector<double>& v) {
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
-
 struct WedgePixel {
   Vec2 at;
   double grey;
@@ -129,13 +124,13 @@ bool readScene(const GreyImage& grey, const Vec2& corner, const Wedge& wedge, Co
     }
   }
   if (scene.pixels.size() < kFewestPixels || std::min(tones[0].size(), tones[1].size()) < kFewestTones) return false;
-  scene.paper = medianOf(tones[0]);
-  const double ink = medianOf(tones[1]);
+  scene.paper = upperMedian(tones[0]);
+  const double ink = upperMedian(tones[1]);
   scene.contrast = scene.paper - ink;
   std::vector<double> off;
   for (const double g : tones[0]) off.push_back(std::abs(g - scene.paper));
   for (const double g : tones[1]) off.push_back(std::abs(g - ink));
-  const double noise = 1.4826 * medianOf(off);
+  const double noise = robustSigma(off);
   const double error = scene.contrast * (kWedgeError + kSpotError * kPixelVariance / (wedge.blur() * wedge.blur()));
   scene.variance = noise * noise + error * error;
   return scene.contrast > std::max(kLeastCornerContrast, noise);

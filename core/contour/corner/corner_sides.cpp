@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/statistics.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -77,11 +78,10 @@ void weighByNoise(SidePoints& points) {
   for (const SidePoint& p : points)
     if (p.sigmaPx && p.weight >= 1.0) known.push_back(*p.sigmaPx);
   if (known.empty()) return;
-  const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
-  std::nth_element(known.begin(), middle, known.end());
+  const double middle = upperMedian(known);
   for (SidePoint& p : points) {
     if (!p.sigmaPx || p.weight < 1.0) continue;
-    const double ratio = *middle / std::max<double>(*p.sigmaPx, 1e-3);
+    const double ratio = middle / std::max<double>(*p.sigmaPx, 1e-3);
     p.weight = std::clamp(ratio * ratio, kLeastSideWeight, kMostSideWeight);
   }
 }
@@ -150,10 +150,9 @@ double noiseDensity(const std::vector<SideBlock>& blocks, std::size_t group) {
   }
   if (square.empty()) return kPriorDensity;
   // The median of squares of a normal variable is .455 of its variance.
-  const auto middle = square.begin() + static_cast<std::ptrdiff_t>(square.size() / 2);
-  std::nth_element(square.begin(), middle, square.end());
+  const auto middle = upperMedian(square);
   const double count = static_cast<double>(square.size()) / 3.0;  // neighbours share blocks
-  const double measured = *middle / 0.455 * kBlockPx * static_cast<double>(group);
+  const double measured = middle / 0.455 * kBlockPx * static_cast<double>(group);
   return std::max(kLeastDensity, (measured * count + kPriorDensity * kPriorBlocks) / (count + kPriorBlocks));
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "core/base/statistics.h"
 #include "core/contour/corner/corner_geometry.h"
 #include "core/contour/corner/corner_marks.h"
 #include "core/polyline/polyline_tools.h"
@@ -51,9 +52,8 @@ std::vector<double> roughnessOf(const Contour& contour, double scale) {
       if (!contour.closed && (k + j < 0 || k + j >= count)) continue;
       window.push_back(residual[wrapIndex(k + j, count)]);
     }
-    const auto middle = window.begin() + static_cast<std::ptrdiff_t>(window.size() / 2);
-    std::nth_element(window.begin(), middle, window.end());
-    for (int i = k * kStride; i < std::min(n, (k + 1) * kStride); ++i) rough[i] = *middle;
+    const auto middle = upperMedian(window);
+    for (int i = k * kStride; i < std::min(n, (k + 1) * kStride); ++i) rough[i] = middle;
   }
   return rough;
 }

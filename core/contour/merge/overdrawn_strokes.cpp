@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/statistics.h"
 #include "core/contour/merge/parallel_strokes.h"
 
 namespace batten {
@@ -82,9 +83,8 @@ double singleWidth(const std::vector<Contour>& strokes) {
     widths.insert(widths.end(), own.begin(), own.end());
   }
   if (widths.empty()) return 1.0;
-  const auto thin = widths.begin() + static_cast<std::ptrdiff_t>(kThinShare * static_cast<double>(widths.size()));
-  std::nth_element(widths.begin(), thin, widths.end());
-  return std::max(1.0, static_cast<double>(*thin));
+  const auto rank = static_cast<std::ptrdiff_t>(kThinShare * static_cast<double>(widths.size()));
+  return std::max(1.0, static_cast<double>(elementOfRank(widths, rank)));
 }
 
 // Of all places on the strokes, those beside a stroke of the same line; one between two such strokes counts once.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/statistics.h"
 #include "core/contour/merge/graph_edges.h"
 #include "core/contour/merge/stroke_lines.h"
 #include "core/polyline/polyline_tools.h"
@@ -203,8 +204,7 @@ class StrokeGraph {
     std::vector<float> outer(weight.begin(), weight.end());
     if (end % 2 == 1) std::reverse(outer.begin(), outer.end());
     outer.resize(std::max<std::size_t>(1, half));
-    std::nth_element(outer.begin(), outer.begin() + static_cast<std::ptrdiff_t>(outer.size() / 2), outer.end());
-    return outer[outer.size() / 2] < kSingleWeight;
+    return upperMedian(outer) < kSingleWeight;
   }
 
   // A single stroke that leaves a longer line smoothly and ends.

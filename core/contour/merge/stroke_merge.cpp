@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/statistics.h"
 #include "core/contour/merge/merged_contour.h"
 #include "core/contour/merge/overlap_removal.h"
 #include "core/contour/merge/stroke_graph.h"
@@ -52,9 +53,7 @@ double penWidth(const std::vector<Contour>& lines) {
     widths.insert(widths.end(), own.begin(), own.end());
   }
   if (widths.empty()) return 1.0;
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  return std::max(1.0, static_cast<double>(*middle));
+  return std::max(1.0, static_cast<double>(upperMedian(widths)));
 }
 
 }  // namespace

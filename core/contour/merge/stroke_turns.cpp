@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/statistics.h"
 #include "core/contour/merge/stroke_mean.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -48,10 +49,7 @@ std::vector<int> sharpTurnsOf(const Contour& line, int reach) {
 
 double widthOf(const Contour& line) {
   std::vector<float> widths = strokeWidthsOf(line.points);
-  if (widths.empty()) return 1.0;
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  return static_cast<double>(*middle);
+  return widths.empty() ? 1.0 : static_cast<double>(upperMedian(widths));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/statistics.h"
 #include "core/contour/subpixel/pixel_edge.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -156,9 +157,7 @@ void updateBlur(const ProfileBand& band, MatchedEdges& m) {
   }
   if (residuals.empty()) return;
   if (bottom > 0.0) m.blur = std::clamp(m.blur + std::clamp(top / bottom, -0.4, 0.4), 0.45, 2.5);
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  m.noise = 1.4826 * *middle;
+  m.noise = robustSigma(residuals);
 }
 
 void fitAll(const ProfileBand& band, const std::vector<double>& start, MatchedEdges& m, std::size_t stride,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/statistics.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -49,12 +50,11 @@ std::vector<float> noiseAlong(const std::vector<PointInformation>& points, const
     float median = -1.0f;
     if (!ratios.empty()) {
       const auto count = static_cast<double>(ratios.size());
-      const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-      std::nth_element(ratios.begin(), middle, ratios.end());
+      const auto middle = upperMedian(ratios);
       // Of a chi2 the median is (1 - 2 / (9 f))^3 of the mean (Wilson and Hilferty); weights that fall off along the
       // edge make half as many degrees of freedom again.
       const double share = 1.0 - 2.0 / (9.0 * 1.5 * std::max(1.0, freedom / count));
-      median = static_cast<float>(*middle / (share * share * share));
+      median = static_cast<float>(middle / (share * share * share));
     }
     for (int k = i; k < std::min(n, i + kNoiseStride); ++k) variance[k] = median;
   }
