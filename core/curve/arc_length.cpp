@@ -6,16 +6,13 @@
 #include <cmath>
 
 #include "core/curve/curvature.h"
+#include "core/solve/gauss_legendre.h"
 
 namespace batten {
 
 namespace {
 
-/// Gauss-Legendre, 10 points on [-1, 1]; the positive half.
-constexpr std::array<double, 5> kGaussTenNodes = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244,
-                                                  0.8650633666889845, 0.9739065285171717};
-constexpr std::array<double, 5> kGaussTenWeights = {0.2955242247147529, 0.2692667193099964, 0.2190863625159820,
-                                                    0.1494513491505806, 0.0666713443086881};
+constexpr auto kTenPoints = gaussLegendre<10>();
 constexpr double kRelativeChange = 1e-11;
 constexpr int kMaxDepth = 30;
 
@@ -24,10 +21,8 @@ double speed(const SpanPolynomials& curve, double u) { return curve.at(u)[1].nor
 double gauss(const SpanPolynomials& curve, double from, double to) {
   const double mid = 0.5 * (from + to), half = 0.5 * (to - from);
   double sum = 0.0;
-  for (std::size_t i = 0; i < kGaussTenNodes.size(); ++i) {
-    sum += kGaussTenWeights[i] *
-           (speed(curve, mid - half * kGaussTenNodes[i]) + speed(curve, mid + half * kGaussTenNodes[i]));
-  }
+  for (std::size_t i = 0; i < kTenPoints.node.size(); ++i)
+    sum += kTenPoints.weight[i] * speed(curve, mid + half * kTenPoints.node[i]);
   return sum * half;
 }
 

@@ -4,40 +4,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/solve/gauss_legendre.h"
+
 namespace batten {
 namespace {
 
 constexpr int kPartsPerSpan = 2;
 
-/// Legendre nodes of the speed on 0..1, and the polynomial of lowest degree through the speeds there.
+/// Places where the speed is taken on 0..1.
 constexpr std::size_t kNodes = 7;
 using NodeValues = std::array<double, kNodes>;
-constexpr NodeValues kNodeAt = {0.0254460438286207, 0.1292344072003028, 0.2970774243113014, 0.5,
-                                0.7029225756886986, 0.8707655927996972, 0.9745539561713793};
-
-/// Row k: the coefficients of x^0, x^1, ... of the polynomial that is 1 at node k and 0 at the others.
-std::array<NodeValues, kNodes> lagrangePolynomials() {
-  std::array<NodeValues, kNodes> all{};
-  for (std::size_t k = 0; k < kNodes; ++k) {
-    NodeValues& c = all[k];
-    c[0] = 1.0;
-    std::size_t degree = 0;
-    for (std::size_t j = 0; j < kNodes; ++j) {
-      if (j == k) continue;
-      const double scale = 1.0 / (kNodeAt[k] - kNodeAt[j]);
-      for (std::size_t i = ++degree; i > 0; --i) c[i] = scale * (c[i - 1] - kNodeAt[j] * c[i]);
-      c[0] *= -scale * kNodeAt[j];
-    }
-  }
-  return all;
-}
+constexpr NodeValues kNodeAt = gaussLegendre<kNodes>(0.0, 1.0).node;
 
 /// The arc length over one part of a span, as the integral of the polynomial through the speeds at the nodes: for the
 /// whole part the Gauss-Legendre rule, within it as good as that polynomial. So a curve's samples cost no integrals.
 class PartLength {
  public:
   PartLength(const SpanCurve& curve, int part) {
-    static const std::array<NodeValues, kNodes> kLagrange = lagrangePolynomials();
+    static constexpr auto kLagrange = lagrangePolynomials(kNodeAt);
     const int span = part / kPartsPerSpan;
     const double low = lowOf(part), width = curve.basis().width(span) / kPartsPerSpan;
     for (std::size_t k = 0; k < kNodes; ++k) {

@@ -33,22 +33,8 @@ constexpr auto kDerived = [] {
   return table;
 }();
 
-/// Powers of the Lagrange polynomials of the four Gauss nodes.
-constexpr auto kSpeedPowers = [] {
-  std::array<std::array<double, 4>, 4> table{};
-  for (std::size_t g = 0; g < 4; ++g) {
-    std::array<double, 4> p = {1.0, 0.0, 0.0, 0.0};
-    double scale = 1.0;
-    for (std::size_t other = 0; other < 4; ++other) {
-      if (other == g) continue;
-      for (std::size_t k = 3; k > 0; --k) p[k] = p[k - 1] - kGaussNodes[other] * p[k];
-      p[0] *= -kGaussNodes[other];
-      scale *= kGaussNodes[g] - kGaussNodes[other];
-    }
-    for (std::size_t k = 0; k < 4; ++k) table[g][k] = p[k] / scale;
-  }
-  return table;
-}();
+/// The polynomials that are 1 at one node of the rule of a span and 0 at the others.
+constexpr auto kSpeedPowers = lagrangePolynomials(kSpanRule.node);
 
 std::array<double, 6> pieceValues(double t, int order, double spacing) {
   std::array<double, 6> values;
@@ -95,10 +81,10 @@ UniformQuintic::UniformQuintic(const UniformKnots& knots, std::vector<Vec2> coef
     std::array<double, 4> speed{};
     double sum = 0.0;
     for (std::size_t g = 0; g < 4; ++g) {
-      const double u = kGaussNodes[g];
+      const double u = kSpanRule.node[g];
       const Vec2 d = p[1] + u * (2 * p[2] + u * (3 * p[3] + u * (4 * p[4] + u * (5 * p[5]))));
       const double v = d.norm() / h;
-      sum += kGaussWeights[g] * v;
+      sum += kSpanRule.weight[g] * v;
       for (std::size_t k = 0; k < 4; ++k) speed[k] += v * kSpeedPowers[g][k];
     }
     speeds_.push_back(speed);
@@ -138,7 +124,8 @@ double UniformQuintic::arcLength(double u) const {
   }
   if (place < 0.0 || place > 1.0) {  // the end polynomial runs on: the cubic would not
     double sum = 0.0;
-    for (std::size_t g = 0; g < 4; ++g) sum += kGaussWeights[g] * at((j + kGaussNodes[g] * place) * h, 1)[1].norm();
+    for (std::size_t g = 0; g < 4; ++g)
+      sum += kSpanRule.weight[g] * at((j + kSpanRule.node[g] * place) * h, 1)[1].norm();
     return spanLengths_[j] + sum * place * h;
   }
   const auto& v = speeds_[j];
@@ -214,7 +201,7 @@ std::optional<UniformQuintic> fitUniformQuintic(const UniformKnots& knots, std::
     const double h = knots.spacing();
     for (int j = 0; j < knots.spans; ++j) {  // |P'''|^2 is of degree 4: exact
       for (std::size_t g = 0; g < 4; ++g) {
-        normal.addOuter(knots.row((j + kGaussNodes[g]) * h, 3), lambda * h * kGaussWeights[g]);
+        normal.addOuter(knots.row((j + kSpanRule.node[g]) * h, 3), lambda * h * kSpanRule.weight[g]);
       }
     }
   }

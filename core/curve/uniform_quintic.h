@@ -10,6 +10,7 @@
 #include "core/base/vec2.h"
 #include "core/curve/nurbs_curve.h"
 #include "core/solve/banded_matrix.h"
+#include "core/solve/gauss_legendre.h"
 
 namespace batten {
 
@@ -69,10 +70,7 @@ std::optional<UniformQuintic> fitUniformQuintic(const UniformKnots& knots, std::
                                                 std::span<const Vec2> points, std::span<const double> weights,
                                                 double lambda);
 
-/// Nodes and weights of 4-point Gauss-Legendre on [0, 1].
-inline constexpr std::array<double, 4> kGaussNodes = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
-                                                      0.9305681557970263};
-inline constexpr std::array<double, 4> kGaussWeights = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
-                                                        0.1739274225687269};
+/// The rule that integrates over a span, 0..1.
+inline constexpr auto kSpanRule = gaussLegendre<4>(0.0, 1.0);
 
 }  // namespace batten

@@ -7,14 +7,15 @@
 #include <numbers>
 
 #include "core/base/statistics.h"
+#include "core/solve/gauss_legendre.h"
 
 namespace batten {
 namespace {
 
 constexpr double kPilotCutoffPx = 50.0;
 constexpr double kSmoothingSamples = 3.0;
-constexpr double kTwoNodes = 0.28867513459481287;  // of Gauss-Legendre, from the middle of a unit interval
-constexpr int kClosedSpansMin = 12;                // so that band entries of periodic inverses are all different places
+constexpr auto kTwoPoints = gaussLegendre<2>(-1.0, 0.0);  // of an interval that ends at 0
+constexpr int kClosedSpansMin = 12;  // so that band entries of periodic inverses are all different places
 
 /// Gaussian smoothing by order; open ends are continued by reflection in the end point, which keeps it in place.
 std::vector<Vec2> smoothedByOrder(const std::vector<Vec2>& p, bool closed) {
@@ -221,9 +222,9 @@ std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorX
   for (int j = 0; j <= intervals; ++j) {
     if (j > 0) {
       // Two nodes: an interval is an eighth of a span.
-      const double a = offsetPoint(base, d, from + (j - 0.5 - kTwoNodes) * step).velocity.norm();
-      const double b = offsetPoint(base, d, from + (j - 0.5 + kTwoNodes) * step).velocity.norm();
-      length += 0.5 * (a + b) * step;
+      for (std::size_t g = 0; g < 2; ++g)
+        length +=
+            kTwoPoints.weight[g] * step * offsetPoint(base, d, from + (j + kTwoPoints.node[g]) * step).velocity.norm();
     }
     out.oldParameters.push_back(from + j * step);
     out.arcLengths.push_back(length);

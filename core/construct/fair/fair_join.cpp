@@ -84,7 +84,7 @@ class TightProblem {
     const double h = knots.back() / spans;
     for (int j = 0; j < spans; ++j) {
       for (std::size_t g = 0; g < 4; ++g) {
-        bend_.addOuter(bandRow(knots, count, (j + kGaussNodes[g]) * h, 3), h * kGaussWeights[g]);
+        bend_.addOuter(bandRow(knots, count, (j + kSpanRule.node[g]) * h, 3), h * kSpanRule.weight[g]);
       }
     }
   }

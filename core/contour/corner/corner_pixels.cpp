@@ -10,6 +10,7 @@
 
 #include "core/base/statistics.h"
 #include "core/contour/subpixel/pixel_edge.h"
+#include "core/solve/gauss_legendre.h"
 
 namespace batten {
 namespace {
@@ -154,20 +155,14 @@ void addCubic(CornerSide& side, const Eigen::Vector4d& d) {
 }  // namespace
 
 double bothBelow(double h, double k, double correlation) {
-  // Gauss-Legendre with ten nodes on either half of the way from no correlation.
-  static constexpr double kNode[5] = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244, 0.8650633666889845,
-                                      0.9739065285171717};
-  static constexpr double kWeight[5] = {0.2955242247147529, 0.2692667193099963, 0.2190863625159821, 0.1494513491505806,
-                                        0.0666713443086881};
+  // Ten points on either half of the way from no correlation.
+  static constexpr auto kRule = gaussLegendre<10>();
   const double end = std::asin(correlation);
   double sum = 0.0;
   for (const double middle : {0.25, 0.75}) {
-    for (int i = 0; i < 5; ++i) {
-      for (const double side : {-1.0, 1.0}) {
-        const double angle = end * (middle + 0.25 * side * kNode[i]);
-        const double s = std::sin(angle), c2 = 1.0 - s * s;
-        sum += kWeight[i] * std::exp(-0.5 * (h * h + k * k - 2.0 * h * k * s) / c2);
-      }
+    for (std::size_t i = 0; i < kRule.node.size(); ++i) {
+      const double s = std::sin(end * (middle + 0.25 * kRule.node[i])), c2 = 1.0 - s * s;
+      sum += kRule.weight[i] * std::exp(-0.5 * (h * h + k * k - 2.0 * h * k * s) / c2);
     }
   }
   return std::clamp(below(h) * below(k) + 0.25 * end * sum / (2.0 * std::numbers::pi), 0.0, 1.0);
