@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/solve/banded_cholesky.h"
+
 namespace batten {
 namespace {
 
@@ -187,7 +189,7 @@ std::optional<UniformQuintic> fitUniformQuintic(const UniformKnots& knots, std::
                                                 std::span<const Vec2> points, std::span<const double> weights,
                                                 double lambda) {
   const int n = knots.coefficients();
-  BandMatrix normal(n, knots.closed);
+  BandedMatrix normal(n, BandRow::kHalfWidth, knots.closed);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n), y = Eigen::VectorXd::Zero(n);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double w = weights.empty() ? 1.0 : weights[i];
@@ -205,7 +207,7 @@ std::optional<UniformQuintic> fitUniformQuintic(const UniformKnots& knots, std::
       }
     }
   }
-  BandCholesky cholesky;
+  BandedCholesky cholesky;
   if (!cholesky.factor(normal)) return std::nullopt;
   cholesky.solveInPlace(x);
   cholesky.solveInPlace(y);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/solve/banded_cholesky.h"
+
 namespace batten {
 namespace {
 
@@ -107,7 +109,7 @@ void FairingModel::accumulate(const Eigen::MatrixXd& rows, int sample, double fa
 
 void FairingModel::assemble() {
   const Unknowns& unknowns = setup_->unknowns;
-  stiffness_ = BandedMatrix(unknowns.count(), unknowns.halfWidth());
+  stiffness_ = BandedMatrix(unknowns.count(), unknowns.halfWidth(), false);
   mass_ = stiffness_;
   tangentFloor_ = kTangentFloor * dampingUnit_;
   for (int i = 0; i < setup_->sampleCount(); ++i) {
@@ -117,8 +119,8 @@ void FairingModel::assemble() {
       const auto col = static_cast<Eigen::Index>(b);
       const double l = w2 * local_(col, i), f = f2 * normal_(col, i), n = dampingUnit_ * normal_(col, i),
                    t = dampingUnit_ * tangent_(col, i);
-      double* stiff = &stiffness_.at(index[b], index[b]);
-      double* mass = &mass_.at(index[b], index[b]);
+      double* stiff = &stiffness_.entry(index[b], 0);
+      double* mass = &mass_.entry(index[b], 0);
       for (std::size_t a = b; a < index.size(); ++a) {
         const auto row = static_cast<Eigen::Index>(a);
         const int below = index[a] - index[b];
@@ -254,11 +256,12 @@ Eigen::VectorXd FairingModel::applyNormalOf(const Eigen::VectorXd& v, double dam
 }
 
 std::optional<Eigen::VectorXd> FairingModel::step(double damping) const {
-  BandedMatrix factor = stiffness_;
-  factor.add(mass_, damping);
-  if (!factor.factorize()) return std::nullopt;
+  BandedMatrix damped = stiffness_;
+  damped.add(mass_, damping);
+  BandedCholesky factor;
+  if (!factor.factor(damped, 0.0)) return std::nullopt;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(gradient_.size()), r = -gradient_, z = r;
-  factor.solve(z);
+  factor.solveInPlace(z);
   Eigen::VectorXd p = z;
   double rz = r.dot(z);
   const double goal = kConjugateTolerance * kConjugateTolerance * rz;
@@ -270,7 +273,7 @@ std::optional<Eigen::VectorXd> FairingModel::step(double damping) const {
     x += alpha * p;
     r -= alpha * q;
     z = r;
-    factor.solve(z);
+    factor.solveInPlace(z);
     const double next = r.dot(z);
     p = z + next / rz * p;
     rz = next;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/fairing/fairing_state.h"
-#include "core/solve/banded_cholesky.h"
+#include "core/solve/banded_matrix.h"
 
 namespace batten {
 

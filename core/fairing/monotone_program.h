@@ -5,14 +5,9 @@
 #include <vector>
 
 #include "core/fairing/monotone_search.h"
+#include "core/solve/banded_program.h"
 
 namespace batten {
-
-/// A row over few unknowns, ascending.
-struct SparseRow {
-  std::vector<int> index;
-  std::vector<double> value;
-};
 
 /// One quadratic program of the search: squares and bounds over the free coordinates of the control points.
 class MonotoneSearch::Program {
@@ -35,13 +30,10 @@ class MonotoneSearch::Program {
     SparseRow row;
     double weight;
   };
-  struct Quadratic;
   const FairingSetup& setup_;
   std::vector<SparseRow> slopes_;
   std::vector<Square> squares_;
-  std::vector<SparseRow> rows_;
-  std::vector<double> bounds_;
-  Eigen::VectorXd linear_;
+  BandedProgram<SparseRow> program_;  ///< `a` is made when all squares are known.
   double constant_ = 0.0;
 };
 

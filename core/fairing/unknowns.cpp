@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/solve/banded_matrix.h"
 #include "core/solve/dense_solve.h"
 
 namespace batten {
@@ -85,7 +86,7 @@ Unknowns::Unknowns(const SpanBasis& basis, const SpanCurve& curve, const EndHold
 
 void Unknowns::buildPeriodic(int points) {
   for (int j = 0; j < points; ++j) {
-    const int folded = j < (points + 1) / 2 ? 2 * j : 2 * (points - 1 - j) + 1;
+    const int folded = foldedPlace(j, points);
     for (int c = 0; c < 2; ++c) coordinates_[2 * j + c].push_back({2 * folded + c, 1.0});
   }
   count_ = 2 * points;

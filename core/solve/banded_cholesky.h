@@ -4,34 +4,36 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/solve/banded_matrix.h"
+
 namespace batten {
 
-/// A symmetric banded matrix, of which the lower half is stored: entry (i, j), j <= i <= j + halfWidth.
-class BandedMatrix {
+/// L D L' factors of a positive definite BandedMatrix; linear cost. Cyclic matrices are folded (see foldedPlace), which
+/// makes them open with twice the half width.
+class BandedCholesky {
  public:
-  BandedMatrix() = default;
-  BandedMatrix(int size, int halfWidth)
-      : size_(size),
-        halfWidth_(halfWidth),
-        data_(static_cast<std::size_t>(size) * static_cast<std::size_t>(halfWidth + 1), 0.0) {}
-  int size() const { return size_; }
-  int halfWidth() const { return halfWidth_; }
-  double& at(int i, int j) { return data_[offset(i, j)]; }
-  double at(int i, int j) const { return data_[offset(i, j)]; }
-  /// this += factor * other, of the same shape.
-  void add(const BandedMatrix& other, double factor);
-
-  /// Cholesky in place. False when the matrix is not positive definite to rounding; the content is then void.
-  bool factorize();
-  /// Solves with the factor in place.
-  void solve(Eigen::VectorXd& x) const;
+  /// @param leastPivot share of its diagonal entry that a pivot must exceed: by default what rounding leaves of a
+  /// singular matrix; 0 takes whatever is positive.
+  /// @return false if the matrix is not positive definite in this sense; the object is then useless.
+  bool factor(const BandedMatrix&, double leastPivot = 1e-15);
+  void solveInPlace(Eigen::VectorXd& x) const;
+  Eigen::VectorXd solve(Eigen::VectorXd b) const {
+    solveInPlace(b);
+    return b;
+  }
+  /// The entries of the inverse within the band, as values (never to be added): Takahashi, Fagan & Chin (1973).
+  /// Cyclic: @pre size > 2 halfWidth.
+  BandedMatrix inverseBand() const;
+  /// row A^-1 row', from the band of the inverse.
+  static double quadratic(const BandedMatrix& inverseBand, const BandRow& row);
 
  private:
-  std::size_t offset(int i, int j) const {
-    return static_cast<std::size_t>(j) * static_cast<std::size_t>(halfWidth_ + 1) + static_cast<std::size_t>(i - j);
-  }
-  int size_ = 0, halfWidth_ = 0;
-  std::vector<double> data_;
+  int place(int index) const { return cyclic_ ? foldedPlace(index, size_) : index; }
+
+  int size_ = 0, halfWidth_ = 0;  ///< Of the matrix.
+  int band_ = 0;                  ///< Half width of the factor.
+  bool cyclic_ = false;
+  std::vector<double> lower_;  ///< Row r: L(r, r-band..r-1), then D(r).
 };
 
 }  // namespace batten

@@ -13,12 +13,6 @@ BandedLeastSquares::BandedLeastSquares(int unknowns, int width, bool cyclic)
   work_.assign(unknowns_ + 2 * band_, 0.0);
 }
 
-int BandedLeastSquares::place(int column) const {
-  if (!cyclic_) return column;
-  const int i = column % unknowns_;
-  return 2 * i < unknowns_ ? 2 * i : 2 * (unknowns_ - 1 - i) + 1;
-}
-
 void BandedLeastSquares::add(int first, std::span<const double> values, const Vec2& right) {
   int low = unknowns_, high = -1;
   for (std::size_t j = 0; j < values.size(); ++j) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/vec2.h"
+#include "core/solve/banded_matrix.h"
 
 namespace batten {
 
@@ -15,7 +16,7 @@ class BandedLeastSquares {
  public:
   /// @param unknowns number of columns; @param width largest distance between first and last column of a row, plus one.
   /// @param cyclic column numbers are taken modulo `unknowns` (periodic splines). The columns are then folded
-  /// (0, n-1, 1, n-2, ...), which keeps a band of twice the width.
+  /// (see foldedPlace), which keeps a band of twice the width.
   BandedLeastSquares(int unknowns, int width, bool cyclic);
 
   /// Adds the equation sum values[j] * x[first + j] = right.
@@ -24,7 +25,7 @@ class BandedLeastSquares {
   std::optional<std::vector<Vec2>> solve() const;
 
  private:
-  int place(int column) const;
+  int place(int column) const { return cyclic_ ? foldedPlace(column % unknowns_, unknowns_) : column; }
   double& factor(int row, int offset) {
     return factor_[static_cast<std::size_t>(row) * static_cast<std::size_t>(band_) + static_cast<std::size_t>(offset)];
   }

@@ -16,6 +16,7 @@
 #include "core/construct/fair/knot_removal.h"
 #include "core/construct/fair/sharp_features.h"
 #include "core/fairing/fairing.h"
+#include "core/solve/banded_cholesky.h"
 
 namespace batten {
 namespace {
@@ -330,7 +331,7 @@ class Finish {
     std::vector<double> sigma, distance;
     for (std::size_t i = 0; i < frame_.checks.size(); i += stride) {
       const FrameStation& s = frame_.checks[i];
-      sigma.push_back(std::sqrt(std::max(0.0, BandCholesky::quadratic(posterior.covariance, s.kappaRow))));
+      sigma.push_back(std::sqrt(std::max(0.0, BandedCholesky::quadratic(posterior.covariance, s.kappaRow))));
       distance.push_back(options_.knotRemovalTolerance * std::max(calm, kMeanShare * spreadAt(s.u)));
     }
     ReduceLimits limits;
@@ -379,7 +380,7 @@ class Finish {
         1, frame_.checks.size() / static_cast<std::size_t>(kChecksPerSpan * frame_.base.knots().spans));
     for (std::size_t i = 0; i < frame_.checks.size(); i += stride) {
       const FrameStation& s = frame_.checks[i];
-      const double variance = BandCholesky::quadratic(posterior.covariance, s.kappaRow);
+      const double variance = BandedCholesky::quadratic(posterior.covariance, s.kappaRow);
       report_.bandS.push_back(curve.arcLength(s.u) * pixelMm_);
       report_.bandSigma.push_back(std::sqrt(std::max(0.0, variance)) / pixelMm_);
     }

@@ -180,7 +180,7 @@ FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFi
     used.push_back(e[i] * std::sqrt(data.weight[i]));
   }
   averageBlocks(frame, data, options, e, 6.0 * std::max(robustSigma(std::move(used)), 0.02));
-  frame.h = BandMatrix(knots.coefficients(), knots.closed);
+  frame.h = BandedMatrix(knots.coefficients(), BandRow::kHalfWidth, knots.closed);
   frame.g = Eigen::VectorXd::Zero(knots.coefficients());
   for (const FairBlock& block : frame.blocks) {
     frame.h.addOuter(block.row, frame.blockLength * block.weight);

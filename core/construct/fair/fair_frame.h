@@ -49,7 +49,7 @@ struct FairFrame {
   std::vector<FairBlock> blocks;
   std::vector<FrameStation> penalty;  ///< Midpoints of thirds of spans.
   std::vector<FrameStation> checks;   ///< Where signs are asked for; see checkStations.
-  BandMatrix h;                       ///< Data term.
+  BandedMatrix h;                     ///< Data term.
   Eigen::VectorXd g;
   double squares = 0.0;  ///< Sum of squared residuals of the single points about the base curve.
   int pointCount = 0;

@@ -11,6 +11,7 @@
 #include "core/construct/fair/fair_frame.h"
 #include "core/curve/knot_operations.h"
 #include "core/curve/uniform_quintic.h"
+#include "core/solve/banded_cholesky.h"
 #include "core/solve/banded_matrix.h"
 
 namespace batten {
@@ -75,7 +76,11 @@ class TightProblem {
  public:
   TightProblem(const std::vector<Vec2>& points, const std::vector<double>& t, const std::vector<double>& knots,
                int count, const std::vector<Fixed>& fixed)
-      : points_(points), fixed_(fixed), count_(count), data_(count, false), bend_(count, false) {
+      : points_(points),
+        fixed_(fixed),
+        count_(count),
+        data_(count, BandRow::kHalfWidth, false),
+        bend_(count, BandRow::kHalfWidth, false) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       rows_.push_back(bandRow(knots, count, t[i], 0));
       data_.addOuter(rows_.back(), 1.0);
@@ -90,7 +95,7 @@ class TightProblem {
   }
 
   std::optional<std::vector<Vec2>> solve(double lambda) const {
-    BandMatrix a = data_;
+    BandedMatrix a = data_;
     a.add(bend_, lambda);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(count_), y = Eigen::VectorXd::Zero(count_);
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -103,7 +108,7 @@ class TightProblem {
       x[f.index] += hold * f.point.x();
       y[f.index] += hold * f.point.y();
     }
-    BandCholesky cholesky;
+    BandedCholesky cholesky;
     if (!cholesky.factor(a)) return std::nullopt;
     cholesky.solveInPlace(x);
     cholesky.solveInPlace(y);
@@ -129,7 +134,7 @@ class TightProblem {
   const std::vector<Vec2>& points_;
   const std::vector<Fixed>& fixed_;
   int count_;
-  BandMatrix data_, bend_;
+  BandedMatrix data_, bend_;
   std::vector<BandRow> rows_;
 };
 

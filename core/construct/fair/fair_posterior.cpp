@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/solve/banded_cholesky.h"
+
 namespace batten {
 namespace {
 
@@ -38,8 +40,8 @@ std::vector<double> averagedAlong(const std::vector<double>& v, double sigma, bo
   return out;
 }
 
-bool assemble(FairPosterior& p, BandCholesky& cholesky, const FairFrame& frame, double s0) {
-  p.a = BandMatrix(frame.h.size(), frame.h.isCyclic());
+bool assemble(FairPosterior& p, BandedCholesky& cholesky, const FairFrame& frame, double s0) {
+  p.a = BandedMatrix(frame.h.size(), BandRow::kHalfWidth, frame.h.isCyclic());
   p.a.add(frame.h, 1.0 / s0);
   p.b = frame.g / s0;
   p.constant = 0.0;
@@ -99,25 +101,25 @@ double CutoffTable::cutoffPx(int k) { return 24.0 * std::pow(1.15, k); }
 CutoffTable cutoffTable(const FairFrame& frame) {
   CutoffTable table;
   table.blocks = static_cast<int>(frame.blocks.size());
-  BandMatrix q(frame.h.size(), frame.h.isCyclic());
+  BandedMatrix q(frame.h.size(), BandRow::kHalfWidth, frame.h.isCyclic());
   Eigen::VectorXd toward = Eigen::VectorXd::Zero(frame.g.size());
   for (const FrameStation& station : frame.penalty) {
     q.addOuter(station.bendRow, frame.cell);
     addTo(toward, station.bendRow, -frame.cell * station.bend);
   }
-  BandCholesky cholesky;
+  BandedCholesky cholesky;
   for (int k = 0; k < CutoffTable::kCount; k += kMeasuredStep) {
     const double lambda = cutoffWeight(CutoffTable::cutoffPx(k));
-    BandMatrix m = frame.h;
+    BandedMatrix m = frame.h;
     m.add(q, lambda);
     if (!cholesky.factor(m)) continue;
     const Eigen::VectorXd c = cholesky.solve(frame.g + lambda * toward);
-    const BandMatrix inverse = cholesky.inverseBand();
+    const BandedMatrix inverse = cholesky.inverseBand();
     const auto at = static_cast<std::size_t>(k);
     for (const FairBlock& block : frame.blocks) {
       const double e = block.offset - dot(block.row, c);
       table.rss[at] += block.weight * e * e;
-      table.dof[at] += frame.blockLength * block.weight * BandCholesky::quadratic(inverse, block.row);
+      table.dof[at] += frame.blockLength * block.weight * BandedCholesky::quadratic(inverse, block.row);
     }
     table.valid[at] = std::isfinite(table.rss[at]) && table.dof[at] > 0.0 && table.dof[at] < table.blocks;
   }
@@ -166,7 +168,7 @@ std::optional<FairPosterior> localPosterior(const FairFrame& frame, double s0, s
   FairPosterior p;
   p.tau2 = std::move(tau2);
   p.s0 = s0;
-  BandCholesky cholesky;
+  BandedCholesky cholesky;
   const double least = s0 / cutoffWeight(kLongestCutoffPx);
   for (int round = 0; round <= rounds; ++round) {
     if (!assemble(p, cholesky, frame, s0)) return std::nullopt;
@@ -174,7 +176,7 @@ std::optional<FairPosterior> localPosterior(const FairFrame& frame, double s0, s
     std::vector<double> v;
     for (const FrameStation& station : frame.penalty) {
       const double bend = station.bend + dot(station.bendRow, p.mean);
-      const double variance = std::max(0.0, BandCholesky::quadratic(p.covariance, station.bendRow));
+      const double variance = std::max(0.0, BandedCholesky::quadratic(p.covariance, station.bendRow));
       v.push_back(frame.cell * (bend * bend + variance));
     }
     p.tau2 = averagedAlong(v, widthPx / frame.cell, frame.h.isCyclic());

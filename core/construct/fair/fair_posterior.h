@@ -12,11 +12,11 @@ namespace batten {
 /// The offsets of a frame under noise density s0 and a prior for kappa'': J(c) = c'Ac - 2b'c + constant is the
 /// penalised chi2.
 struct FairPosterior {
-  BandMatrix a;
+  BandedMatrix a;
   Eigen::VectorXd b;
   double constant = 0.0;
   double s0 = 1.0;           ///< [px^2 px] noise density of weight 1.
-  BandMatrix covariance;     ///< A^-1 within the band.
+  BandedMatrix covariance;   ///< A^-1 within the band.
   Eigen::VectorXd mean;      ///< Unconstrained minimum.
   std::vector<double> tau2;  ///< [1/px^6 px] prior density of kappa'' per station of the penalty.
   double objective(const Eigen::VectorXd& c) const { return c.dot(a * c) - 2.0 * b.dot(c) + constant; }

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <limits>
 
-#include "core/construct/fair/monotone_qp.h"
+#include "core/solve/banded_program.h"
 
 namespace batten {
 namespace {
@@ -77,7 +77,7 @@ bool followExtrema(const Stations& stations, FairStructure& structure, const Eig
 }
 
 /// Adds the sign constraint of one station: bending one way inside a window, rising or falling outside.
-void addConstraint(MonotoneQp& qp, const FrameStation& station, const FairStructure& structure,
+void addConstraint(BandedProgram<BandRow>& qp, const FrameStation& station, const FairStructure& structure,
                    const UniformKnots& knots, int firstColumn, int columns) {
   const auto& extrema = structure.extrema;
   if (extrema.empty() && knots.closed) return;
@@ -148,9 +148,9 @@ Part choosePart(const UniformKnots& knots, double from, double to) {
   return {((first % n) + n) % n, last - first, false};
 }
 
-MonotoneQp makeProgram(const FairFrame& frame, const FairPosterior& posterior, const Part& part,
-                       const Eigen::VectorXd& start) {
-  MonotoneQp qp;
+BandedProgram<BandRow> makeProgram(const FairFrame& frame, const FairPosterior& posterior, const Part& part,
+                                   const Eigen::VectorXd& start) {
+  BandedProgram<BandRow> qp;
   if (part.whole) {
     qp.a = posterior.a;
     qp.b = posterior.b;
@@ -163,7 +163,7 @@ MonotoneQp makeProgram(const FairFrame& frame, const FairPosterior& posterior, c
   for (int i = 0; i < part.count; ++i) {
     const int at = (part.first + i) % n;
     double b = posterior.b[at];
-    for (int k = 1; k <= BandMatrix::kHalf; ++k) {
+    for (int k = 1; k <= BandRow::kHalfWidth; ++k) {
       if (i + k >= part.count && (closed || at + k < n)) b -= posterior.a.entry(at, k) * start[(at + k) % n];
       if (i - k < 0 && (closed || at - k >= 0)) {
         const int left = (at - k + n) % n;
@@ -228,18 +228,20 @@ std::optional<StructureFit> fitStructure(const FairFrame& frame, const FairPoste
                                          double abortRise) {
   const UniformKnots& knots = frame.base.knots();
   const Part part = choosePart(knots, from, to);
-  MonotoneQp qp = makeProgram(frame, posterior, part, start);
+  BandedProgram<BandRow> qp = makeProgram(frame, posterior, part, start);
   Eigen::VectorXd local(part.count);
   for (int i = 0; i < part.count; ++i) local[i] = start[(part.first + i) % knots.coefficients()];
   const double reference = local.dot(qp.a * local) - 2.0 * qp.b.dot(local);
   StructureFit fit;
+  InteriorPointLimits limits;
+  limits.abortAbove = reference + abortRise;
   const int rounds = structure.leastSlope.empty() ? kRounds : 1;  // slopes are asked for once all is in place
   for (int round = 0; round < rounds; ++round) {
     setWindows(structure, knots);
     qp.rows.clear();
     qp.bounds.clear();
     for (const FrameStation& s : frame.checks) addConstraint(qp, s, structure, knots, part.first, part.count);
-    const MonotoneQpResult result = solveMonotoneQp(qp, reference + abortRise);
+    const InteriorPointResult result = solveProgram(qp, limits);
     fit.rise = result.objective - reference;
     if (result.why == Termination::ToleranceLimited) {
       fit.aborted = true;

@@ -11,6 +11,7 @@
 
 #include "core/base/statistics.h"
 #include "core/construct/fair/fair_structure.h"
+#include "core/solve/banded_cholesky.h"
 
 namespace batten {
 namespace {
@@ -36,7 +37,7 @@ class Search {
     closed_ = frame.base.knots().closed;
     std::vector<double> sigma;
     for (const FrameStation& s : frame.checks) {
-      sigma.push_back(std::sqrt(std::max(0.0, BandCholesky::quadratic(posterior.covariance, s.kappaRow))));
+      sigma.push_back(std::sqrt(std::max(0.0, BandedCholesky::quadratic(posterior.covariance, s.kappaRow))));
     }
     result_.kappaSigma = upperMedian(sigma);
     isFactored_ = factors_.factor(posterior.a);
@@ -343,7 +344,7 @@ class Search {
   const std::vector<PlacedConstraint>& constraints_;
   const RunContext& context_;
   bool closed_ = false;
-  BandCholesky factors_;  ///< Of the posterior.
+  BandedCholesky factors_;  ///< Of the posterior.
   bool isFactored_ = false;
   StructureResult result_;
   std::set<std::pair<int, int>> tested_;

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "core/construct/fair/fair_frame.h"
-#include "core/construct/fair/monotone_qp.h"
 #include "core/curve/knot_operations.h"
+#include "core/solve/banded_cholesky.h"
 #include "core/solve/banded_matrix.h"
+#include "core/solve/banded_program.h"
 
 namespace batten {
 namespace {
@@ -163,7 +164,7 @@ class Reduction {
   Fit tried(int spans) const {
     const std::vector<double> knots = knotsFor(spans);
     const int points = spans + 5, unknowns = closed_ ? spans : points;
-    BandMatrix normal(unknowns, closed_);
+    BandedMatrix normal(unknowns, BandRow::kHalfWidth, closed_);
     Fit fit;
     fit.x = fit.y = Eigen::VectorXd::Zero(unknowns);
     std::vector<BasisRow> rows;
@@ -181,7 +182,7 @@ class Reduction {
       const double share = nearest_ / std::max(kappaLimit(i), 1e-12);
       add(rowOf(rows.back(), 2), share * share, bends_[i]);
     }
-    BandCholesky cholesky;
+    BandedCholesky cholesky;
     if (!cholesky.factor(normal)) return fit;
     cholesky.solveInPlace(fit.x);
     cholesky.solveInPlace(fit.y);
@@ -200,7 +201,8 @@ class Reduction {
   /// full one does, the one that is nearest in place and curvature.
   bool makeMonotone(Fit& fit, const std::vector<double>& knots) const {
     const int points = static_cast<int>(knots.size()) - 6, unknowns = static_cast<int>(fit.x.size());
-    MonotoneQp qp{BandMatrix(unknowns, closed_), Eigen::VectorXd::Zero(unknowns), {}, {}};
+    BandedProgram<BandRow> qp{
+        BandedMatrix(unknowns, BandRow::kHalfWidth, closed_), Eigen::VectorXd::Zero(unknowns), {}, {}};
     std::vector<PlaneDerivatives> curve;
     std::vector<BandRow> places;
     const auto add = [&](const BandRow& row, double w, double target) {
@@ -230,9 +232,9 @@ class Reduction {
       qp.rows.push_back(row);
       qp.bounds.push_back(-courses_[i] * station.slope);
     }
-    const MonotoneQpResult solved = solveMonotoneQp(qp);
+    const InteriorPointResult solved = solveProgram(qp);
     if (solved.why == Termination::Degenerate || !solved.x.allFinite()) return false;
-    BandMatrix normal(unknowns, closed_);
+    BandedMatrix normal(unknowns, BandRow::kHalfWidth, closed_);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(unknowns), y = x;
     for (std::size_t i = 0; i < places.size(); ++i) {
       const bool end = !closed_ && (i == 0 || i + 1 == places.size());
@@ -243,7 +245,7 @@ class Reduction {
       addTo(x, places[i], w * p.x());
       addTo(y, places[i], w * p.y());
     }
-    BandCholesky cholesky;
+    BandedCholesky cholesky;
     if (!cholesky.factor(normal)) return false;
     cholesky.solveInPlace(x);
     cholesky.solveInPlace(y);

@@ -4,20 +4,21 @@
 #include <Eigen/Dense>
 #include <random>
 
+#include "core/solve/banded_cholesky.h"
 #include "core/solve/banded_matrix.h"
 
 namespace batten {
 namespace {
 
 struct Both {
-  BandMatrix band;
+  BandedMatrix band;
   Eigen::MatrixXd dense;
 };
 
 Both randomSystem(int n, bool cyclic, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, 1.0);
-  Both m{BandMatrix(n, cyclic), Eigen::MatrixXd::Zero(n, n)};
+  Both m{BandedMatrix(n, BandRow::kHalfWidth, cyclic), Eigen::MatrixXd::Zero(n, n)};
   for (int i = 0; i < n; ++i) m.dense(i, i) = m.band.entry(i, 0) = 0.5;
   for (int first = 0; first < (cyclic ? n : n - 5); ++first) {
     for (int repeat = 0; repeat < 3; ++repeat) {
@@ -42,7 +43,7 @@ TEST_P(Banded, AgreesWithTheDenseMatrix) {
   const Both m = randomSystem(n, cyclic, 7);
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, -1.0, 2.0).array().sin();
   EXPECT_LT((m.band * x - m.dense * x).norm(), 1e-12 * m.dense.norm());
-  BandCholesky cholesky;
+  BandedCholesky cholesky;
   ASSERT_TRUE(cholesky.factor(m.band));
   const Eigen::VectorXd solved = cholesky.solve(x);
   const Eigen::VectorXd reference = m.dense.ldlt().solve(x);
@@ -55,9 +56,9 @@ class BandedInverse : public Banded {};
 TEST_P(BandedInverse, WithinTheBandEqualsTheDenseInverse) {
   const auto [n, cyclic] = GetParam();
   const Both m = randomSystem(n, cyclic, 8);
-  BandCholesky cholesky;
+  BandedCholesky cholesky;
   ASSERT_TRUE(cholesky.factor(m.band));
-  const BandMatrix inverse = cholesky.inverseBand();
+  const BandedMatrix inverse = cholesky.inverseBand();
   const Eigen::MatrixXd reference = m.dense.inverse();
   for (int i = 0; i < n; ++i) {
     for (int k = 0; k <= 5 && (cyclic || i + k < n); ++k) {
@@ -67,7 +68,7 @@ TEST_P(BandedInverse, WithinTheBandEqualsTheDenseInverse) {
   BandRow row{cyclic ? n - 2 : n - 6, {1.0, -2.0, 0.5, 3.0, -1.0, 0.25}};
   Eigen::VectorXd full = Eigen::VectorXd::Zero(n);
   addTo(full, row, 1.0);
-  EXPECT_NEAR(BandCholesky::quadratic(inverse, row), full.dot(reference * full), 1e-8 * reference.norm());
+  EXPECT_NEAR(BandedCholesky::quadratic(inverse, row), full.dot(reference * full), 1e-8 * reference.norm());
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Banded,
@@ -80,14 +81,14 @@ INSTANTIATE_TEST_SUITE_P(Sizes, BandedInverse,
                                          std::pair{11, true}, std::pair{12, true}, std::pair{41, true}));
 
 TEST(BandedMatrix, RefusesWhatIsNotPositiveDefinite) {
-  BandMatrix m(8, false);
+  BandedMatrix m(8, BandRow::kHalfWidth, false);
   for (int i = 0; i < 8; ++i) m.entry(i, 0) = i == 5 ? -1.0 : 1.0;
-  EXPECT_FALSE(BandCholesky().factor(m));
+  EXPECT_FALSE(BandedCholesky().factor(m));
 }
 
 TEST(BandedMatrix, BlockIsTheOpenPartOfACyclicMatrix) {
   const Both m = randomSystem(30, true, 9);
-  const BandMatrix part = m.band.block(24, 12);
+  const BandedMatrix part = m.band.block(24, 12);
   for (int i = 0; i < 12; ++i) {
     for (int k = 0; k <= 5 && i + k < 12; ++k) {
       EXPECT_DOUBLE_EQ(part.entry(i, k), m.band.entry((24 + i) % 30, k));

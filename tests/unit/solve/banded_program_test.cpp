@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/construct/fair/monotone_qp.h"
+#include "core/solve/banded_program.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace batten {
 namespace {
 
 struct Problem {
-  MonotoneQp qp;
+  BandedProgram<BandRow> qp;
   Eigen::MatrixXd a, g;
   Eigen::VectorXd h;
 };
@@ -21,7 +21,7 @@ Problem randomProblem(int n, bool cyclic, int constraints, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, 1.0);
   Problem p;
-  p.qp.a = BandMatrix(n, cyclic);
+  p.qp.a = BandedMatrix(n, BandRow::kHalfWidth, cyclic);
   p.a = Eigen::MatrixXd::Zero(n, n);
   const auto randomRow = [&](int first) {
     BandRow row;
@@ -59,6 +59,12 @@ Problem randomProblem(int n, bool cyclic, int constraints, std::uint32_t seed) {
   return p;
 }
 
+InteriorPointLimits abortAbove(double objective) {
+  InteriorPointLimits limits;
+  limits.abortAbove = objective;
+  return limits;
+}
+
 /// The optimum over all active sets: for each, the equality-constrained minimum, kept if feasible. Slow and sure.
 double bruteForce(const Problem& p) {
   const int n = static_cast<int>(p.a.rows()), m = static_cast<int>(p.g.rows());
@@ -86,11 +92,11 @@ double bruteForce(const Problem& p) {
   return best;
 }
 
-TEST(MonotoneQp, ReachesTheBestActiveSet) {
+TEST(BandedProgram, ReachesTheBestActiveSet) {
   for (std::uint32_t seed = 1; seed <= 12; ++seed) {
     const Problem p = randomProblem(seed % 2 ? 9 : 12, seed % 3 == 0, 7, seed);
     const double best = bruteForce(p);
-    const MonotoneQpResult result = solveMonotoneQp(p.qp);
+    const InteriorPointResult result = solveProgram(p.qp);
     ASSERT_EQ(result.why, Termination::Converged) << seed;
     EXPECT_LE(result.iterations, 25) << seed;
     EXPECT_NEAR(result.objective, best, 5e-3) << seed;
@@ -100,34 +106,49 @@ TEST(MonotoneQp, ReachesTheBestActiveSet) {
   }
 }
 
-TEST(MonotoneQp, WithoutConstraintsItIsTheLinearSolution) {
+TEST(BandedProgram, WithoutConstraintsItIsTheLinearSolution) {
   Problem p = randomProblem(15, false, 0, 3);
-  const MonotoneQpResult result = solveMonotoneQp(p.qp);
+  const InteriorPointResult result = solveProgram(p.qp);
   EXPECT_EQ(result.why, Termination::Exact);
   const Eigen::VectorXd reference = p.a.ldlt().solve(p.qp.b);
   EXPECT_LT((result.x - reference).norm(), 1e-9 * reference.norm());
 }
 
-TEST(MonotoneQp, StopsOnceTheObjectiveIsProvenTooLarge) {
+TEST(BandedProgram, StopsOnceTheObjectiveIsProvenTooLarge) {
   const Problem p = randomProblem(12, false, 7, 5);
   const double best = bruteForce(p);
   const double free = -p.qp.b.dot(p.a.ldlt().solve(p.qp.b));
   ASSERT_GT(best, free);
-  const MonotoneQpResult cut = solveMonotoneQp(p.qp, free + 0.2 * (best - free));
+  const InteriorPointResult cut = solveProgram(p.qp, abortAbove(free + 0.2 * (best - free)));
   EXPECT_EQ(cut.why, Termination::ToleranceLimited);
   EXPECT_GT(cut.lowerBound, free + 0.2 * (best - free));
   EXPECT_LE(cut.lowerBound, best + 1e-6);
-  EXPECT_EQ(solveMonotoneQp(p.qp, best + 1.0).why, Termination::Converged);
+  EXPECT_EQ(solveProgram(p.qp, abortAbove(best + 1.0)).why, Termination::Converged);
 }
 
-TEST(MonotoneQp, AnImpossibleProgramEndsWithoutNumbersThatAreNone) {
+TEST(BandedProgram, AnImpossibleProgramEndsWithoutNumbersThatAreNone) {
   Problem p = randomProblem(12, false, 1, 6);
   p.qp.rows.push_back(p.qp.rows[0]);
   for (double& v : p.qp.rows.back().v) v = -v;
   p.qp.bounds.push_back(-p.qp.bounds[0] + 5.0);  // a x >= h and -a x >= 5 - h
-  const MonotoneQpResult result = solveMonotoneQp(p.qp, 1e6);
+  const InteriorPointResult result = solveProgram(p.qp, abortAbove(1e6));
   EXPECT_NE(result.why, Termination::Converged);
   EXPECT_TRUE(result.x.allFinite());
+}
+
+TEST(BandedProgram, SparseRowsGiveWhatTheSameRowsOfABandGive) {
+  const Problem p = randomProblem(14, false, 9, 11);
+  BandedProgram<SparseRow> sparse{p.qp.a, p.qp.b, {}, p.qp.bounds};
+  for (const BandRow& row : p.qp.rows) {
+    SparseRow& same = sparse.rows.emplace_back();
+    for (int k = 0; k < 6; ++k) {
+      same.index.push_back(row.first + k);
+      same.value.push_back(row.v[static_cast<std::size_t>(k)]);
+    }
+  }
+  const InteriorPointResult a = solveProgram(p.qp), b = solveProgram(sparse);
+  EXPECT_EQ(b.why, Termination::Converged);
+  EXPECT_LT((a.x - b.x).norm(), 1e-9 * a.x.norm());
 }
 
 }  // namespace
