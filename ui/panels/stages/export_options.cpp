@@ -22,7 +22,7 @@ const QString kPresetKey = QStringLiteral("export/preset"), kUnitKey = QStringLi
               kWhichKey = QStringLiteral("export/which"), kJoinedKey = QStringLiteral("export/joined"),
               kToleranceKey = QStringLiteral("export/accuracy");
 constexpr const char* kFirstPreset = "illustrator";
-constexpr int kFieldWidth = 92;
+constexpr int kFieldWidth = 92, kPresetLetters = 16;
 
 bool hasUnit(ExportFormat format) {
   return format != ExportFormat::Svg && format != ExportFormat::Pdf && format != ExportFormat::Json;
@@ -106,6 +106,9 @@ void ExportOptions::build() {
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);
   presets_->setObjectName(QStringLiteral("export.preset"));
+  // The longest name of all must not make the inspector wider.
+  presets_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  presets_->setMinimumContentsLength(kPresetLetters);
   for (const ExportPreset& preset : exportPresets())
     presets_->addItem(tr("%1 (%2)").arg(QString::fromUtf8(preset.label), nameOfFormat(preset.settings.format)),
                       QString::fromLatin1(preset.id));
