@@ -19,7 +19,7 @@ constexpr double kRoomSmoothing = 4.0;  // points
 constexpr double kBandSmoothing = 1.5;  // points: little, as every stroke is to stay inside
 
 // The place, width and band between two points, at `part` of the way.
-ContourPoint pointBetween(const ContourPoint& a, const ContourPoint& b, double part) {
+ContourPoint contourPointBetween(const ContourPoint& a, const ContourPoint& b, double part) {
   const auto t = static_cast<float>(part);
   ContourPoint p;
   p.at = a.at + part * (b.at - a.at);
@@ -38,7 +38,7 @@ void fillGaps(Contour& c) {
     const double gap = (next.at - here.at).norm();
     const int spans = gap > kGapPx ? static_cast<int>(std::lround(gap)) : 1;
     for (int k = 0; k < spans; ++k) {
-      even.push_back(pointBetween(here, next, static_cast<double>(k) / spans));
+      even.push_back(contourPointBetween(here, next, static_cast<double>(k) / spans));
       const bool given = gap < kJointPx && next.refined;
       even.back().refined = (k == 0 || given) && here.refined;
     }
