@@ -6,8 +6,9 @@
 
 namespace batten {
 
-/// What only the operating system knows or does. No other file of core, ui and app calls it by anything but standard
-/// C++ and Qt, so that another system is a matter of this one. Where a system has no answer, there is none.
+/// What only the operating system knows or does. Beside the files that open, lock and save files safely, no file of
+/// core, ui and app calls it by anything but standard C++ and Qt, so that another system is a matter of these. Where a
+/// system has no answer, there is none.
 
 /// [bytes] Memory that can be taken without swapping: what the machine has free, and no more than the control group of
 /// the process (a container, a Slurm job) leaves.

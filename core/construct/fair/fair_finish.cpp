@@ -15,7 +15,6 @@
 #include "core/construct/fair/fair_structure_search.h"
 #include "core/construct/fair/knot_removal.h"
 #include "core/construct/fair/sharp_features.h"
-#include "core/fairing/fairing.h"
 #include "core/solve/banded_cholesky.h"
 
 namespace batten {
