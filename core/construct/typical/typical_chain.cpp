@@ -11,6 +11,7 @@
 #include "core/construct/stations/piece_stations.h"
 #include "core/construct/typical/typical_growing.h"
 #include "core/construct/typical/typical_path_fit.h"
+#include "core/construct/typical/typical_path_geometry.h"
 #include "core/construct/typical/typical_rough_path.h"
 #include "core/construct/typical/typical_structure.h"
 #include "core/construct/typical/typical_tiling.h"
@@ -29,8 +30,6 @@ constexpr double kLostRmsPx = 3.0;
 /// Distance of the joints along a fair fit, and the shortest one that is taken as a guide.
 constexpr double kHoldPx = 0.01, kAgreePx = 0.05;
 constexpr double kJointPx = 40.0, kLeastFairPx = 40.0;
-
-double angleBetween(const Vec2& a, const Vec2& b) { return std::atan2(cross(a, b), a.dot(b)); }
 
 /// A closed line is opened after the station whose segment bends least: curvature is least at a joint, never inside a
 /// typical curve.

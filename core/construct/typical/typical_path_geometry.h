@@ -8,6 +8,9 @@
 
 namespace batten {
 
+/// [rad] -pi..pi from one direction to another.
+inline double angleBetween(const Vec2& a, const Vec2& b) { return std::atan2(cross(a, b), a.dot(b)); }
+
 /// One element of a path made ready for many evaluations.
 class PathGeometry {
  public:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/construct/typical/typical_path_geometry.h"
 #include "core/construct/typical/typical_structure.h"
 #include "core/solve/dense_solve.h"
 
@@ -19,8 +20,6 @@ constexpr double kClearSagitta = 0.05;
 constexpr double kFirstTurn = 0.7;
 /// Joints between two nodes of a stretch without typical curves.
 constexpr std::size_t kJointsPerHermite = 12;
-
-double angleBetween(const Vec2& a, const Vec2& b) { return std::atan2(cross(a, b), a.dot(b)); }
 
 class RoughPath {
  public:
