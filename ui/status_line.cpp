@@ -39,6 +39,7 @@ StatusLine::StatusLine(EditorSession& session, QWidget* parent)
       act_(linkButton({}, QStringLiteral("status.act"), this)) {
   setObjectName(QStringLiteral("statusLine"));
   setFixedHeight(30);
+  act_->setAccessibleName(tr("Show what has changed"));
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(14, 1, 14, 0);
   layout->setSpacing(20);

@@ -22,6 +22,18 @@ constexpr std::uint64_t kLargestCurveBytes = 64 << 20;
 constexpr double kPageMm = 0.1;  ///< [mm] A pixel of the page of a CAD file.
 constexpr double kMostMm = 1e5;  ///< [mm] Curves beyond that are damage.
 
+/// A CAD file keeps a smooth loop as a curve whose ends meet in place and direction.
+bool isLoop(const NurbsCurve& curve) {
+  constexpr double kSamePlace = 1e-9, kSameDirection = 1e-6;  // of the size; radians
+  const auto& points = curve.controlPoints();
+  if (points.size() < 4) return false;
+  double size = 0.0;
+  for (const Vec2& p : points) size = std::max(size, (p - points.front()).norm());
+  const Vec2 out = points[1] - points.front(), in = points.back() - points[points.size() - 2];
+  return (points.back() - points.front()).norm() <= kSamePlace * size &&
+         std::abs(cross(in, out)) <= kSameDirection * in.norm() * out.norm() && in.dot(out) > 0.0;
+}
+
 Result<ExportDocument> documentOf(const CadDrawing& drawing) {
   if (drawing.entities.empty()) return fail(ErrorCode::NoCurve, "There is no curve in it.");
   ExportDocument document;
@@ -35,6 +47,7 @@ Result<ExportDocument> documentOf(const CadDrawing& drawing) {
     line.name = entity.name;
     if (!entity.layer.empty()) line.layer = entity.layer;
     line.pieces.push_back({curve->mapped(linear, Vec2::Zero())});
+    line.closed = isLoop(line.pieces[0].curve);
     for (const Vec2& p : line.pieces[0].curve.controlPoints()) far = far.cwiseMax(p.cwiseAbs());
   }
   if (!(far.maxCoeff() < kMostMm))

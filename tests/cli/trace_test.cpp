@@ -48,7 +48,7 @@ TEST_F(Trace, WritesSeveralFormatsInOneRunAndChecksEach) {
   const std::string scan = scene();
   std::string words = "trace " + scan + " --dpi 300 --unit in --preset laser";
   for (const char* ending : {".svg", ".json", ".dxf", ".igs", ".step", ".pdf", ".csv", ".poly.csv"})
-    words += " -o " + file(std::string("a b") + ending);
+    words += " -o '" + file(std::string("a b") + ending) + "'";
   const auto done = run(words);
   ASSERT_EQ(done.code, 0) << done.err;
   const json said = json::parse(done.out);
