@@ -11,9 +11,8 @@ namespace batten {
 namespace {
 
 constexpr int kFewestPlaces = 400, kPlacesPerSpan = 40;
-constexpr double kLeastSpeed = 0.1;        // of the mean
-constexpr double kLightProminence = 5e-3;  // times 1 / extent
-constexpr double kJump = 3.0;              // steps of the curve that its foot may run on at once, and two samples
+constexpr double kLeastSpeed = 0.1;  // of the mean
+constexpr double kJump = 3.0;        // steps of the curve that its foot may run on at once, and two samples
 
 struct CheckedPlace {
   Vec2 point;
@@ -84,7 +83,7 @@ std::optional<double> worstOffset(const std::vector<CheckedPlace>& places, const
 
 }  // namespace
 
-double lightProminence(const LightReference& reference) { return kLightProminence / reference.diagonal(); }
+double lightProminence(const LightReference& reference) { return kExtremumProminence / reference.diagonal(); }
 
 LightVerdict checkLight(const NurbsCurve& curve, const LightReference& reference, const LightBounds& bounds) {
   LightVerdict verdict;
@@ -99,7 +98,7 @@ LightVerdict checkLight(const NurbsCurve& curve, const LightReference& reference
   if (!worst) return verdict;
   verdict.worst = *worst;
   if (*worst > bounds.tolerance) return verdict;
-  const double prominence = kLightProminence / std::max(extent(curve), reference.diagonal());
+  const double prominence = kExtremumProminence / std::max(extent(curve), reference.diagonal());
   verdict.extrema = static_cast<int>(curvatureExtrema(curve, prominence, closed).size());
   verdict.inflections = static_cast<int>(inflections(curve, prominence, closed).size());
   verdict.holds = verdict.extrema <= bounds.extrema && verdict.inflections <= bounds.inflections;
