@@ -76,7 +76,7 @@ struct ConstructParams {
   /// 0 keeps them all.
   double knotRemovalTolerance = 0.25;
   /// Fair fit: the fewest control points that hold the tolerance below and keep the extrema of the curvature.
-  bool light = true;
+  bool light = false;
   /// [px] 0.005..50. Light curves: farthest that a light curve lies from the dense one.
   double lightTolerancePx = 0.05;
   bool operator==(const ConstructParams&) const = default;
