@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/construct/light/light_reference.h"
+#include "core/curve/nurbs_curve.h"
+
+namespace batten {
+
+/// What a light curve must hold, looked at densely: at least 400 places, and every curvature extremum wherever it lies.
+struct LightBounds {
+  double tolerance = 0.0;
+  int extrema = 0;      ///< At the most, of prominence 5e-3 / extent.
+  int inflections = 0;  ///< At the most.
+};
+struct LightVerdict {
+  bool holds = false;
+  double worst = 0.0;                ///< Largest distance of the two curves.
+  int extrema = 0, inflections = 0;  ///< Counted only when the distance holds.
+};
+/// Distance both ways (the feet must run over all of the reference in order), extrema and inflections, and that the
+/// speed nowhere falls below a tenth of its mean.
+LightVerdict checkLight(const NurbsCurve&, const LightReference&, const LightBounds&);
+
+/// Prominence with which the extrema of both curves are counted.
+double lightProminence(const LightReference&);
+
+}  // namespace batten

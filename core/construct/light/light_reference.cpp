@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/light/light_reference.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace batten {
+namespace {
+
+constexpr double kCornerCosine = 0.94;  // cosine of 20 degrees: more between two samples is a corner
+constexpr int kFewestSteps = 4;         // in a span of the curve
+constexpr int kMostSamples = 40000;     // of a curve: longer ones get larger steps
+constexpr int kFewestSamples = 48;
+constexpr double kSlopeWindow = 0.01;  // of the length, over which the slope of the curvature is looked at
+
+std::optional<LightSample> lightSampleAt(const NurbsCurve& curve, double u) {
+  const std::array<Vec2, 5> d = curve.derivatives(u, 3);
+  const double v = d[1].norm();
+  if (!(v * (curve.end() - curve.start()) > 1e-9 * (d[0].norm() + d[1].norm()))) return std::nullopt;
+  LightSample sample;
+  sample.point = d[0];
+  sample.tangent = d[1] / v;
+  sample.kappa = cross(d[1], d[2]) / (v * v * v);
+  sample.slope = (cross(d[1], d[3]) / (v * v * v) - 3.0 * sample.kappa * d[1].dot(d[2]) / (v * v)) / v;
+  if (!std::isfinite(sample.kappa) || !std::isfinite(sample.slope)) return std::nullopt;
+  return sample;
+}
+
+/// Length of a span, by a polygon through it: only to choose the number of steps.
+double roughLength(const NurbsCurve& curve, double from, double to) {
+  constexpr int kChords = 8;
+  double length = 0.0;
+  Vec2 last = curve.point(from);
+  for (int i = 1; i <= kChords; ++i) {
+    const Vec2 next = curve.point(from + (to - from) * i / kChords);
+    length += (next - last).norm();
+    last = next;
+  }
+  return length;
+}
+
+}  // namespace
+
+std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool closed, double step) {
+  LightReference made;
+  made.closed_ = closed;
+  const std::vector<double> breaks = curve.breaks();
+  std::vector<double> lengths;
+  double total = 0.0;
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    lengths.push_back(roughLength(curve, breaks[i], breaks[i + 1]));
+    total += lengths.back();
+  }
+  if (!(total > 0.0) || !std::isfinite(total)) return std::nullopt;
+  const double asked = std::clamp(step, total / kMostSamples, total / kFewestSamples);
+  std::vector<LightSample>& samples = made.samples_;
+  samples.reserve(static_cast<std::size_t>(total / asked) + kFewestSteps * breaks.size() + 1);
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const int steps = std::max(kFewestSteps, static_cast<int>(std::ceil(lengths[i] / asked)));
+    const bool last = i + 2 == breaks.size();
+    for (int k = 0; k < steps + (last ? 1 : 0); ++k) {
+      const auto next = lightSampleAt(curve, breaks[i] + (breaks[i + 1] - breaks[i]) * k / steps);
+      if (!next) return std::nullopt;
+      if (!samples.empty()) {
+        const LightSample& before = samples.back();
+        if (before.tangent.dot(next->tangent) < kCornerCosine) return std::nullopt;
+        // Chord and sagitta: exact to the fourth order of the step.
+        const double chord = (next->point - before.point).norm();
+        const double bend = 0.5 * (before.kappa + next->kappa) * chord;
+        samples.push_back(*next);
+        samples.back().s = before.s + chord * (1.0 + bend * bend / 24.0);
+      } else {
+        samples.push_back(*next);
+      }
+    }
+  }
+  made.length_ = samples.back().s;
+  if (closed) {
+    if (samples.front().tangent.dot(samples.back().tangent) < kCornerCosine) return std::nullopt;
+    samples.pop_back();
+    made.beginWhereSteepest();
+  }
+  Eigen::AlignedBox2d box;
+  for (const LightSample& sample : samples) {
+    box.extend(sample.point);
+    made.kappaMax_ = std::max(made.kappaMax_, std::abs(sample.kappa));
+  }
+  made.diagonal_ = box.diagonal().norm();
+  return made.diagonal_ > 0.0 ? std::optional(std::move(made)) : std::nullopt;
+}
+
+void LightReference::beginWhereSteepest() {
+  const int n = size();
+  const int half = std::max(1, static_cast<int>(0.5 * kSlopeWindow * n));
+  const auto slopeOf = [&](int i) { return samples_[static_cast<std::size_t>((i % n + n) % n)].slope; };
+  double sum = 0.0;
+  for (int i = -half; i <= half; ++i) sum += slopeOf(i);
+  int best = 0;
+  double largest = std::abs(sum);
+  for (int i = 1; i < n; ++i) {
+    sum += slopeOf(i + half) - slopeOf(i - half - 1);
+    if (std::abs(sum) > largest) {
+      largest = std::abs(sum);
+      best = i;
+    }
+  }
+  const double shift = samples_[static_cast<std::size_t>(best)].s;
+  std::rotate(samples_.begin(), samples_.begin() + best, samples_.end());
+  for (LightSample& sample : samples_) {
+    sample.s -= shift;
+    if (sample.s < 0.0) sample.s += length_;
+  }
+  samples_.front().s = 0.0;
+}
+
+LightFoot LightReference::foot(const Vec2& place, int hint) const {
+  const int n = size();
+  const auto wrapped = [&](int i) { return closed_ ? (i % n + n) % n : i; };
+  const auto inside = [&](int i) { return closed_ || (i >= 0 && i < n); };
+  int index = hint;
+  double best = (at(index).point - place).squaredNorm();
+  for (const int way : {1, -1}) {
+    int moved = 0;
+    while (moved < n && inside(index + way)) {
+      const int next = wrapped(index + way);
+      const double squared = (at(next).point - place).squaredNorm();
+      if (squared >= best) break;
+      best = squared;
+      index = next;
+      ++moved;
+    }
+    if (moved > 0) break;
+  }
+  const LightSample& sample = at(index);
+  const Vec2 away = place - sample.point, normal = leftNormal(sample.tangent);
+  LightFoot foot;
+  foot.index = index;
+  foot.along = away.dot(sample.tangent);
+  foot.offset = away.dot(normal) - 0.5 * sample.kappa * foot.along * foot.along;
+  foot.normal = (normal - sample.kappa * foot.along * sample.tangent).normalized();
+  return foot;
+}
+
+int LightReference::indexAt(double s) const {
+  if (closed_) s -= length_ * std::floor(s / length_);
+  const auto above = std::lower_bound(samples_.begin(), samples_.end(), s,
+                                      [](const LightSample& sample, double value) { return sample.s < value; });
+  const int i = static_cast<int>(above - samples_.begin());
+  if (i == 0) return 0;
+  if (i == size()) return closed_ && length_ - s < s - samples_.back().s ? 0 : size() - 1;
+  return at(i).s - s < s - at(i - 1).s ? i : i - 1;
+}
+
+Vec2 LightReference::pointAt(double s) const {
+  const LightSample& sample = at(indexAt(s));
+  double along = closed_ ? s - length_ * std::floor(s / length_) - sample.s : std::clamp(s, 0.0, length_) - sample.s;
+  if (closed_ && along > 0.5 * length_) along -= length_;
+  return sample.point + along * sample.tangent + 0.5 * sample.kappa * along * along * leftNormal(sample.tangent);
+}
+
+}  // namespace batten

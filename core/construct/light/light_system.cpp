@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/light/light_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace batten {
+namespace {
+
+constexpr double kWallAt = 0.96;          // of the reach: the places of a fit miss part of the largest offset
+constexpr double kSignFactor = 3.0;       // of every row of signs
+constexpr double kSignLimit = 50.0;       // rows grow like their root beyond
+constexpr double kEvenWeight = 0.02;      // of the speed's relative difference from its mean
+constexpr double kRidge = 1e-4;           // of the logarithms of the span lengths
+constexpr double kHeldEnds = 3.0;         // of held ends in the second phase
+constexpr double kDifferenceStep = 1e-6;  // of a span length, for the derivative of the Bezier points
+
+int placesPerSpan(int spans) { return spans == 1 ? 28 : spans == 2 ? 16 : 10; }
+
+}  // namespace
+
+LightSystem::LightSystem(const LightReference& reference, const LightAsk& ask, const LightShape& start)
+    : reference_(reference), ask_(ask) {
+  const int spans = start.spans();
+  perSpan_ = placesPerSpan(spans);
+  table_ = placeTable(start.degree, perSpan_);
+  ends_[0] = bernsteinPlace(start.degree, 0.0);
+  ends_[1] = bernsteinPlace(start.degree, 1.0);
+  places_.resize(static_cast<std::size_t>(spans * perSpan_));
+  rising_.resize(places_.size());
+  falling_.resize(places_.size());
+  firstLength_ = 2 * static_cast<Eigen::Index>(start.points.size());
+  unknowns_ = firstLength_ + (spans > 1 ? spans : 0);
+  // Starts lie where equal shares of the length and the domain meet.
+  const std::vector<double> lengths = start.lengths();
+  double total = 0.0, from = 0.0;
+  for (const double l : lengths) total += l;
+  for (int span = 0; span < spans; ++span) {
+    const double share = lengths[static_cast<std::size_t>(span)] / total;
+    for (int k = 0; k < perSpan_; ++k) {
+      const auto i = static_cast<std::size_t>(span * perSpan_ + k);
+      places_[i].hint =
+          reference.indexAt((from + share * table_.places[static_cast<std::size_t>(k)].at) * reference.length());
+    }
+    from += share;
+  }
+}
+
+void LightSystem::placesOf(const LightShape& shape, int span) {
+  std::array<Vec2, kSpanPoints> bezier;
+  const auto points = shape.pointsOf(span);
+  bezierOfSpan(shape.degree, shape.knotsOf(span, lengths_), points, bezier);
+  const double length = lengths_[static_cast<std::size_t>(span)];
+  double speeds = 0.0;
+  const auto first = static_cast<std::size_t>(span * perSpan_);
+  for (int k = 0; k < perSpan_; ++k) {
+    Place& place = places_[first + static_cast<std::size_t>(k)];
+    const PlaceTable::Place& table = table_.places[static_cast<std::size_t>(k)];
+    double scale = 1.0;
+    for (std::size_t order = 0; order < 4; ++order) {
+      Vec2 sum = Vec2::Zero();
+      for (std::size_t j = 0; j <= static_cast<std::size_t>(shape.degree); ++j) sum += table.rows[order][j] * bezier[j];
+      place.state.d[order] = scale * sum;
+      scale /= length;
+    }
+    completePlace(place.state);
+    speeds += place.state.speed;
+  }
+  const double scale = speeds / perSpan_ * length / (2.0 * std::numbers::pi);
+  for (int k = 0; k < perSpan_; ++k) places_[first + static_cast<std::size_t>(k)].scale = scale;
+}
+
+void LightSystem::findFeet() {
+  for (Place& place : places_) {
+    place.foot = reference_.foot(place.state.d[0], place.hint);
+    place.hint = place.foot.index;
+  }
+}
+
+void LightSystem::chooseSigns() {
+  if (ask_.firstSign == 0) return;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const Place& place = places_[i];
+    const double weight = place.state.speed * place.scale * place.scale;
+    const double up = std::max(0.0, place.state.slope), down = std::max(0.0, -place.state.slope);
+    rising_[i] = weight * up * up;
+    falling_[i] = weight * down * down;
+  }
+  const auto& signs = switches_.choose(rising_, falling_, ask_.firstSign, ask_.changes);
+  for (std::size_t i = 0; i < places_.size(); ++i) places_[i].slopeSign = signs[i];
+}
+
+void LightSystem::chooseKappaSigns() {
+  if (ask_.firstKappaSign == 0) return;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const Place& place = places_[i];
+    const double weight = place.state.speed * place.scale;
+    const double left = std::max(0.0, place.state.kappa), right = std::max(0.0, -place.state.kappa);
+    rising_[i] = weight * left * left;
+    falling_[i] = weight * right * right;
+  }
+  const auto& signs = kappaSwitches_.choose(rising_, falling_, ask_.firstKappaSign, ask_.inflections,
+                                            SwitchPlaces::Changes::AtMost, reference_.isClosed());
+  for (std::size_t i = 0; i < places_.size(); ++i) places_[i].kappaSign = signs[i];
+}
+
+namespace {
+
+struct SignRow {
+  double residual = 0.0, weight = 0.0;  ///< Unweighted residual (>= 0); the derivative counts `weight` times.
+};
+/// What is missing to the right sign; beyond a limit it grows like its root only (Huber).
+SignRow signRow(double amount, double margin) {
+  const double missing = margin - amount;
+  if (!(missing > 0.0)) return {};
+  return {missing, missing > kSignLimit ? kSignLimit / missing : 1.0};
+}
+double squareOf(const SignRow& row) {
+  if (row.residual <= kSignLimit) return row.residual * row.residual;
+  return kSignLimit * (2.0 * row.residual - kSignLimit);
+}
+
+}  // namespace
+
+double LightSystem::rowsOf(const Place& place, const LightWeights& weights, Cost& cost) const {
+  const double e = place.foot.offset / ask_.tolerance, l = place.scale;
+  cost.worst = std::max(cost.worst, std::abs(place.foot.offset));
+  const double beyond = std::max(0.0, std::abs(e) - kWallAt * ask_.reach);
+  const double uneven = place.state.speed / meanSpeed_ - 1.0;
+  double sum = weights.offset * weights.offset * e * e + weights.wall * weights.wall * beyond * beyond +
+               kEvenWeight * kEvenWeight * uneven * uneven;
+  const auto sign = [&](int wanted, double amount) {
+    if (wanted == 0) return;
+    const SignRow row = signRow(wanted * amount, ask_.signMargin);
+    cost.wrongSign = std::max(cost.wrongSign, kSignFactor * row.residual);
+    sum += weights.signs * weights.signs * kSignFactor * kSignFactor * squareOf(row);
+  };
+  sign(place.slopeSign, place.state.slope * l * l * l / ask_.tolerance);
+  sign(place.kappaSign, place.state.kappa * l * l / ask_.tolerance);
+  return sum;
+}
+
+PlaceState LightSystem::endState(const LightShape& shape, bool atEnd) const {
+  const int span = atEnd ? shape.spans() - 1 : 0;
+  std::array<Vec2, kSpanPoints> bezier;
+  const auto points = shape.pointsOf(span);
+  bezierOfSpan(shape.degree, shape.knotsOf(span, lengths_), points, bezier);
+  PlaceState state;
+  double scale = 1.0;
+  for (std::size_t order = 0; order < 4; ++order) {
+    Vec2 sum = Vec2::Zero();
+    for (std::size_t j = 0; j <= static_cast<std::size_t>(shape.degree); ++j) {
+      sum += ends_[atEnd ? 1 : 0].rows[order][j] * bezier[j];
+    }
+    state.d[order] = scale * sum;
+    scale /= lengths_[static_cast<std::size_t>(span)];
+  }
+  completePlace(state);
+  return state;
+}
+
+double LightSystem::endRows(const LightShape& shape, const LightWeights& weights, Cost& cost) {
+  double sum = 0.0;
+  for (const bool atEnd : {false, true}) {
+    const LightHold hold = holdAt(atEnd);
+    if (shape.closed || hold == LightHold::Position) continue;
+    const PlaceState state = endState(shape, atEnd);
+    const LightSample& wanted = atEnd ? reference_.samples().back() : reference_.samples().front();
+    const double l = (atEnd ? places_.back() : places_.front()).scale;
+    const auto row = [&](double residual) {
+      cost.ends = std::max(cost.ends, kHeldEnds * std::abs(residual));
+      sum += weights.ends * weights.ends * residual * residual;
+    };
+    row(state.d[1].dot(leftNormal(wanted.tangent)) / state.speed * l / ask_.tolerance);
+    if (hold == LightHold::Curvature) row((state.kappa - wanted.kappa) * l * l / ask_.tolerance);
+  }
+  return sum;
+}
+
+LightSystem::Cost LightSystem::evaluate(const LightShape& shape, const LightWeights& weights) {
+  lengths_ = shape.lengths();
+  for (int span = 0; span < shape.spans(); ++span) placesOf(shape, span);
+  meanSpeed_ = 0.0;
+  for (const Place& place : places_) meanSpeed_ += place.state.speed / static_cast<double>(places_.size());
+  Cost cost;
+  if (!(meanSpeed_ > 0.0) || !std::isfinite(meanSpeed_)) {
+    cost.sound = false;
+    return cost;
+  }
+  findFeet();
+  chooseSigns();
+  chooseKappaSigns();
+  for (const Place& place : places_) cost.squares += rowsOf(place, weights, cost);
+  cost.squares /= static_cast<double>(places_.size());
+  cost.squares += endRows(shape, weights, cost);
+  if (shape.spans() > 1) {
+    for (const double q : shape.logLengths) cost.squares += kRidge * q * q;
+  }
+  cost.sound = std::isfinite(cost.squares) && std::isfinite(cost.worst);
+  return cost;
+}
+
+void LightSystem::addPlace(SpanSystem& local, const Place& place, const LightWeights& weights) const {
+  const double tau = ask_.tolerance, l = place.scale;
+  const auto index = static_cast<std::size_t>((&place - places_.data()) % perSpan_);
+  const SpanSystem::Derivatives d = local.at(table_.places[index], place.state);
+  const double e = place.foot.offset / tau, beyond = std::max(0.0, std::abs(e) - kWallAt * ask_.reach);
+  const double wall = beyond > 0.0 ? weights.wall * weights.wall : 0.0, offset = weights.offset * weights.offset;
+  const DerivativeGradients across{place.foot.normal / tau, Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
+  local.add(local.rowOf(d, across), local.share * (offset + wall),
+            local.share * (offset * e + wall * std::copysign(beyond, e)));
+  const auto sign = [&](int wanted, double amount, double factor, const DerivativeGradients& gradients) {
+    const SignRow row = signRow(wanted * amount, ask_.signMargin);
+    if (row.weight == 0.0) return;
+    const double weight = local.share * row.weight * std::pow(weights.signs * kSignFactor, 2);
+    DerivativeGradients scaled;
+    for (std::size_t k = 0; k < 4; ++k) scaled[k] = -wanted * factor * gradients[k];
+    local.add(local.rowOf(d, scaled), weight, weight * row.residual);
+  };
+  if (weights.signs > 0.0) {
+    const double slopeFactor = l * l * l / tau, kappaFactor = l * l / tau;
+    if (place.slopeSign != 0 && place.slopeSign * place.state.slope * slopeFactor < ask_.signMargin) {
+      sign(place.slopeSign, place.state.slope * slopeFactor, slopeFactor, slopeGradient(place.state));
+    }
+    if (place.kappaSign != 0 && place.kappaSign * place.state.kappa * kappaFactor < ask_.signMargin) {
+      sign(place.kappaSign, place.state.kappa * kappaFactor, kappaFactor, kappaGradient(place.state));
+    }
+  }
+  DerivativeGradients speed = speedGradient(place.state);
+  speed[1] /= meanSpeed_;
+  const double even = local.share * kEvenWeight * kEvenWeight;
+  local.add(local.rowOf(d, speed), even, even * (place.state.speed / meanSpeed_ - 1.0));
+}
+
+void LightSystem::addEnds(SpanSystem& local, const LightShape& shape, const LightWeights& weights, int span) const {
+  for (const bool atEnd : {false, true}) {
+    if (shape.closed || span != (atEnd ? shape.spans() - 1 : 0) || holdAt(atEnd) == LightHold::Position) continue;
+    const PlaceState state = endState(shape, atEnd);
+    const LightSample& wanted = atEnd ? reference_.samples().back() : reference_.samples().front();
+    const SpanSystem::Derivatives d = local.at(ends_[atEnd ? 1 : 0], state);
+    const double l = (atEnd ? places_.back() : places_.front()).scale, weight = weights.ends * weights.ends;
+    const auto row = [&](double residual, double factor, DerivativeGradients gradients) {
+      for (Vec2& g : gradients) g *= factor;
+      local.add(local.rowOf(d, gradients), weight, weight * residual * factor);
+    };
+    const Vec2 across = leftNormal(wanted.tangent);
+    row(state.d[1].dot(across) / state.speed, l / ask_.tolerance, tangentGradient(state, across));
+    if (holdAt(atEnd) == LightHold::Curvature) {
+      row(state.kappa - wanted.kappa, l * l / ask_.tolerance, kappaGradient(state));
+    }
+  }
+}
+
+void LightSystem::differentiate(SpanSystem& local, const LightShape& shape, int span) {
+  const int degree = shape.degree, spans = shape.spans();
+  local.degree = degree;
+  local.length = lengths_[static_cast<std::size_t>(span)];
+  local.share = 1.0 / static_cast<double>(places_.size());
+  std::array<SpanSystem::PointRow, kSpanPoints> unit;
+  for (std::size_t j = 0; j < kSpanPoints; ++j) {
+    unit[j].setZero();
+    unit[j][static_cast<Eigen::Index>(j)] = 1.0;
+  }
+  bezierOfSpan(degree, shape.knotsOf(span, lengths_), unit, local.matrix);
+  if (spans > 1) {
+    const auto points = shape.pointsOf(span);
+    std::array<Vec2, kSpanPoints> here, there;
+    bezierOfSpan(degree, shape.knotsOf(span, lengths_), points, here);
+    const bool all = shape.closed && spans < kLengthsOfSpan;
+    for (int k = all ? 0 : -kLengthReach; k <= (all ? spans - 1 : kLengthReach); ++k) {
+      const int other = shape.closed ? ((span + k) % spans + spans) % spans : span + k;
+      if (other < 0 || other >= spans) continue;
+      double& length = lengths_[static_cast<std::size_t>(other)];
+      const double before = length;
+      length = before * (1.0 + kDifferenceStep);
+      bezierOfSpan(degree, shape.knotsOf(span, lengths_), points, there);
+      length = before;
+      const auto at = static_cast<std::size_t>(local.lengthCount);
+      for (std::size_t j = 0; j <= static_cast<std::size_t>(degree); ++j) {
+        local.byLength[at][j] = (there[j] - here[j]) / kDifferenceStep;
+      }
+      if (other == span) local.ownLength = local.lengthCount;
+      local.lengthIndex[at] = other;
+      ++local.lengthCount;
+    }
+  }
+  local.begin();
+}
+
+void LightSystem::scatter(const SpanSystem& local, const LightShape& shape, int span, Eigen::MatrixXd& matrix,
+                          Eigen::VectorXd& gradient) const {
+  std::array<Eigen::Index, static_cast<std::size_t>(SpanSystem::kMost)> target{};
+  for (int j = 0; j <= shape.degree; ++j) {
+    const std::size_t point = shape.pointOf(span, j);
+    const bool pinned = !shape.closed && (point == 0 || point + 1 == shape.points.size());
+    const auto at = static_cast<std::size_t>(2 * j);
+    target[at] = pinned ? -1 : 2 * static_cast<Eigen::Index>(point);
+    target[at + 1] = pinned ? -1 : target[at] + 1;
+  }
+  for (int i = 0; i < local.lengthCount; ++i) {
+    target[static_cast<std::size_t>(2 * (shape.degree + 1) + i)] =
+        firstLength_ + local.lengthIndex[static_cast<std::size_t>(i)];
+  }
+  for (Eigen::Index c = 0; c < local.used; ++c) {
+    const Eigen::Index column = target[static_cast<std::size_t>(c)];
+    if (column < 0) continue;
+    gradient[column] += local.gradient[c];
+    for (Eigen::Index r = 0; r < local.used; ++r) {
+      const Eigen::Index row = target[static_cast<std::size_t>(r)];
+      if (row >= column) matrix(row, column) += local.squares(r, c);
+    }
+  }
+}
+
+void LightSystem::addSpan(const LightShape& shape, const LightWeights& weights, int span, Eigen::MatrixXd& matrix,
+                          Eigen::VectorXd& gradient) {
+  SpanSystem local;
+  differentiate(local, shape, span);
+  for (int k = 0; k < perSpan_; ++k) addPlace(local, places_[static_cast<std::size_t>(span * perSpan_ + k)], weights);
+  addEnds(local, shape, weights, span);
+  scatter(local, shape, span, matrix, gradient);
+}
+
+void LightSystem::gauss(const LightShape& shape, const LightWeights& weights, Eigen::MatrixXd& matrix,
+                        Eigen::VectorXd& gradient) {
+  matrix.setZero();
+  gradient.setZero();
+  for (int span = 0; span < shape.spans(); ++span) addSpan(shape, weights, span, matrix, gradient);
+  if (!shape.closed) {
+    for (const Eigen::Index i : {Eigen::Index{0}, Eigen::Index{1}, firstLength_ - 2, firstLength_ - 1}) {
+      matrix(i, i) = 1.0;
+    }
+  }
+  for (Eigen::Index i = firstLength_; i < unknowns_; ++i) {
+    matrix(i, i) += kRidge;
+    gradient[i] += kRidge * shape.logLengths[static_cast<std::size_t>(i - firstLength_)];
+  }
+}
+
+}  // namespace batten
