@@ -18,7 +18,7 @@ using Trace = test::Program;
 
 TEST_F(Trace, WritesSvgJsonReportAndSummary) {
   const auto done = run("trace " + scene() + " --dpi 254 -o " + file("o.svg") + " -o " + file("o.json") + " --report " +
-                        file("r.json"));
+                        file("r.json") + " --report-targets");
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(done.err, "");
   const json summary = json::parse(done.out);
