@@ -5,21 +5,36 @@ set(tree ${CPACK_TEMPORARY_INSTALL_DIRECTORY})
 set(doc ${tree}/usr/share/doc/batten)
 
 # The change log in Debian's form, made from CHANGELOG.md.
-execute_process(COMMAND date -R -u -d "${CPACK_BATTEN_DATE}" OUTPUT_VARIABLE stamp OUTPUT_STRIP_TRAILING_WHITESPACE
-  COMMAND_ERROR_IS_FATAL ANY)
 file(STRINGS ${CPACK_BATTEN_SOURCE}/CHANGELOG.md lines)
 set(log "")
 set(end "")
+
+# Adds words to the log, in lines of no more than 78 characters.
+function(add_item first text)
+  set(line "${first}")
+  string(REPLACE " " ";" words "${text}")
+  foreach(word IN LISTS words)
+    string(LENGTH "${line} ${word}" length)
+    if(length GREATER 78)
+      string(APPEND log "${line}\n")
+      set(line "   ")
+    endif()
+    string(APPEND line " ${word}")
+  endforeach()
+  set(log "${log}${line}\n" PARENT_SCOPE)
+endfunction()
+
 foreach(line IN LISTS lines)
   if(line MATCHES "^## ([0-9.]+) \\(([0-9-]+)\\)$")
+    set(version ${CMAKE_MATCH_1})
     execute_process(COMMAND date -R -u -d "${CMAKE_MATCH_2}" OUTPUT_VARIABLE stamp OUTPUT_STRIP_TRAILING_WHITESPACE
       COMMAND_ERROR_IS_FATAL ANY)
-    string(APPEND log "${end}batten (${CMAKE_MATCH_1}) unstable; urgency=medium\n\n")
+    string(APPEND log "${end}batten (${version}) unstable; urgency=medium\n\n")
     set(end "\n -- ${CPACK_BATTEN_CONTACT}  ${stamp}\n\n")
   elseif(line MATCHES "^- (.*)$")
-    string(APPEND log "  * ${CMAKE_MATCH_1}\n")
+    add_item("  *" "${CMAKE_MATCH_1}")
   elseif(line MATCHES "^  +(.*)$" AND NOT end STREQUAL "")
-    string(APPEND log "    ${CMAKE_MATCH_1}\n")
+    add_item("   " "${CMAKE_MATCH_1}")
   endif()
 endforeach()
 file(WRITE ${doc}/changelog "${log}${end}")
@@ -29,7 +44,7 @@ file(WRITE ${doc}/copyright "Format: https://www.debian.org/doc/packaging-manual
 Upstream-Name: Batten
 
 Files: *
-Copyright: The Batten developers
+Copyright: 2026 The Batten developers
 License: GPL-3+
 
 License: GPL-3+

@@ -4,6 +4,7 @@
 include(GNUInstallDirs)
 set(id org.batten.Batten)
 set(pages ${CMAKE_BINARY_DIR}/packaging)
+set(doc ${CMAKE_INSTALL_DATADIR}/doc/batten)
 
 install(TARGETS batten-cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 if(BATTEN_GUI)
@@ -13,12 +14,12 @@ install(FILES ${CMAKE_BINARY_DIR}/share/batten/samples/coupe-side.png
   ${CMAKE_BINARY_DIR}/share/batten/samples/coupe-side.recipe.json
   DESTINATION ${CMAKE_INSTALL_DATADIR}/batten/samples)
 install(DIRECTORY resources/batch/ DESTINATION ${CMAKE_INSTALL_DATADIR}/batten/batch USE_SOURCE_PERMISSIONS)
-install(DIRECTORY resources/help/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/help FILES_MATCHING PATTERN "*.md"
+install(DIRECTORY resources/help/ DESTINATION ${doc}/help FILES_MATCHING PATTERN "*.md"
   PATTERN about.md EXCLUDE)
 if(BATTEN_GUI)
-  install(FILES ${CMAKE_BINARY_DIR}/resources/help/about.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/help)
+  install(FILES ${CMAKE_BINARY_DIR}/resources/help/about.md DESTINATION ${doc}/help)
 endif()
-install(FILES README.md ${pages}/batten.spdx DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md ${pages}/batten.spdx DESTINATION ${doc})
 
 if(WIN32 OR APPLE)
   # The libraries of Qt go along with the program. Not tried by us: we have neither system.

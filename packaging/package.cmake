@@ -30,17 +30,14 @@ else()
   set(CPACK_DEBIAN_PACKAGE_DEPENDS "qt6-qpa-plugins, libqt6svg6")
   set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "fonts-inter")
   set(CPACK_DEBIAN_PACKAGE_SUGGESTS "parallel, slurm-client, snakemake")
-  if(NOT PROJECT_HOMEPAGE_URL MATCHES "\\.invalid")
-    set(CPACK_DEBIAN_PACKAGE_HOMEPAGE ${PROJECT_HOMEPAGE_URL})
-  endif()
-  set(CPACK_DEBIAN_PACKAGE_DESCRIPTION " Batten follows the lines of a scanned or photographed drawing and turns them into
- fair curves: quintic B-splines whose curvature changes the way a designer
- wants, without bumps. It finds pencil lines on shaded, folded and dirty paper,
- shows curvature while a curve is made fair, and writes SVG in millimetres or
- exact curves as JSON.
- .
- The package holds the window program batten and the command line program
- batten-cli, which also runs over an archive of drawings.")
+  set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Batten follows the lines of a scanned or photographed drawing and turns
+them into fair curves: quintic B-splines whose curvature changes the way a
+designer wants, without bumps. It finds pencil lines on shaded, folded and
+dirty paper, shows curvature while a curve is made fair, and writes SVG in
+millimetres or exact curves as JSON.
+
+The package holds the window program batten and the command line program
+batten-cli, which also runs over an archive of drawings.")
   set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/packaging/finish_tree.cmake)
   set(CPACK_BATTEN_DATE ${BATTEN_RELEASE_DATE})
   set(CPACK_BATTEN_SOURCE ${PROJECT_SOURCE_DIR})

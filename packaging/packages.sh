@@ -13,7 +13,7 @@ test_packages=(xvfb xauth openbox python3-ezdxf qpdf poppler-utils)
 judge_packages=(freecad gdal-bin librsvg2-bin npm)  # of the scripts in tests/heavy
 # What packaging/check needs on top.
 check_packages=(clang-tidy python3)
-package_packages=(lintian mmdebstrap binutils desktop-file-utils appstream shared-mime-info xdg-utils man-db zsh xdotool)
+package_packages=(lintian mmdebstrap binutils desktop-file-utils appstream shared-mime-info libglib2.0-bin man-db zsh xdotool)
 
 # install_missing PACKAGE...: installs what is not there yet, asks nothing, and does nothing when all is there.
 install_missing() {

@@ -31,8 +31,8 @@ constexpr double kLeastContrastPerNoise = 4.0;
 constexpr double kLeastContrast = 1.5;  // [grey]
 constexpr double kDustShare = 0.25;     // of the page's contrast: regions of dust alone do not get below
 constexpr double kCertainShare = 1.25;
-constexpr double kLeastPaperShare = 0.1;  // of the cells; a drawing leaves far more, dense hatching all over none
-constexpr double kNever = -1000.0;        // [grey] darker than anything
+constexpr double kNever = -1000.0;  // [grey] darker than anything
+constexpr const char* kBrighterLines = "The lines are brighter than the paper; invert the scan.";
 constexpr std::size_t kNoiseSamples = 20000;
 constexpr int kDepthsPerBlock = 1024;
 
@@ -138,9 +138,8 @@ void fillContrast(const Plane& grey, const PageEdges& edges, const Depths& depth
   }
 }
 
-/// @return the share of the page where paper shows between the lines, 0..1.
-double flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, double strength,
-                           RegionThresholds& out, const RunContext& context) {
+void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, double strength, RegionThresholds& out,
+                         const RunContext& context) {
   const int cellPx = kCellPx * std::max(1, shrink / 2);
   PaperEstimate estimate = estimatePaper(grey, edges, shrink, cellPx, context);
   Depths depths;
@@ -157,22 +156,19 @@ double flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink
   if (out.foundLine) {
     fillContrast(grey, edges, depths, strength, out);
   } else {
-    out.note = enough && depths.mean > kLeastContrast ? "The lines are brighter than the paper; invert the scan."
-                                                      : "Nothing stands out of the paper.";
+    out.note = enough && depths.mean > kLeastContrast ? kBrighterLines : "Nothing stands out of the paper.";
     out.contrast.fill(kNever);
   }
-  const auto cells = static_cast<double>(std::max<std::size_t>(1, estimate.isPaper.size()));
-  return static_cast<double>(std::count(estimate.isPaper.begin(), estimate.isPaper.end(), 1)) / cells;
 }
 
-/// Where lines stand so close that hardly a cell of paper shows between them, the paper cannot be measured from it:
-/// then the two greys of every region tell ink from paper, if they are clearly two, as without flattening. Noise alone
-/// has one.
+/// Where lines stand so close all over the page that hardly any paper shows between them, neither the paper nor its
+/// noise can be measured: then the two greys of every region tell ink from paper, as without flattening, if most
+/// regions have two clearly different ones. Noise has one, and a shadow or a margin parts few regions.
 void thresholdsWithoutPaper(const Plane& smoothed, double strength, RegionThresholds& out, const RunContext& context) {
   RegionThresholds split;
   split.smoothingPx = kSmoothings.front();
   otsuThresholds(smoothed, strength, split, context);
-  if (!split.foundLine) return;
+  if (2 * std::count(split.measured.begin(), split.measured.end(), true) < kRegions) return;
   split.note =
       "The lines stand too close for the paper between them to be measured; each region is split by its two greys.";
   out = std::move(split);
@@ -272,12 +268,11 @@ Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParam
       if (paper.folds) folds = findFolds(image, smoothed, edges, shrink, context);
       if (context.isCancelled()) return cancelled();
       if (folds.empty()) {
-        const double paperShare = flattenedThresholds(grey, edges, shrink, params.strength, out, context);
-        if (!out.foundLine && paperShare < kLeastPaperShare)
-          thresholdsWithoutPaper(smoothed, params.strength, out, context);
+        flattenedThresholds(grey, edges, shrink, params.strength, out, context);
       } else {
         thresholdsBesideFolds(image, std::move(folds), shrink, params.strength, out, context);
       }
+      if (!out.foundLine && out.note != kBrighterLines) thresholdsWithoutPaper(smoothed, params.strength, out, context);
     } else {
       out.smoothingPx = kSmoothings.front();
       otsuThresholds(smoothed, params.strength, out, context);

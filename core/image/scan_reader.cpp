@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/number_text.h"
 #include "core/base/platform.h"
 #include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
@@ -108,11 +107,24 @@ std::uint64_t memoryNeeded(const ScanHeader& header, std::uint64_t fileBytes) {
   return fileBytes + grey + std::max(decoded + tileBytes(header), header.info.exifOrientation > 1 ? grey : 0);
 }
 
-std::string gigabytes(std::uint64_t bytes) { return roundedText(static_cast<double>(bytes) / 1e9, 2) + " GB"; }
+/// With two digits behind the point, whatever the locale.
+std::string gigabytes(std::uint64_t bytes) {
+  constexpr std::uint64_t kHundredth = 10'000'000;
+  const std::uint64_t hundredths = (bytes + kHundredth / 2) / kHundredth;
+  const std::string digits = std::to_string(hundredths % 100);
+  return std::to_string(hundredths / 100) + (digits.size() == 1 ? ".0" : ".") + digits + " GB";
+}
 
 std::optional<Error> checkSize(const std::filesystem::path& path, const ScanHeader& header, std::uint64_t fileBytes,
                                const ScanLimits& limits) {
   const std::string size = std::to_string(header.info.width) + " x " + std::to_string(header.info.height) + " px";
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(header.info.width) * static_cast<std::uint64_t>(header.info.height);
+  if (header.tilePixels > std::max(kMostTilePixels, kMostTilesWorth * pixels)) {
+    return unreadable(path,
+                      "is damaged: it states tiles far larger than its picture. Scan it again or export it as PNG.")
+        .value();
+  }
   const std::uint64_t needed = memoryNeeded(header, fileBytes);
   std::optional<std::uint64_t> available = limits.memoryBytes;
   if (!available) {
@@ -123,13 +135,6 @@ std::optional<Error> checkSize(const std::filesystem::path& path, const ScanHead
   if (available && needed > *available) {
     return unreadable(path, "is too large: " + size + " need " + gigabytes(needed) + " of memory, " +
                                 gigabytes(*available) + " are free. Scan at a lower resolution or crop.")
-        .value();
-  }
-  const std::uint64_t pixels =
-      static_cast<std::uint64_t>(header.info.width) * static_cast<std::uint64_t>(header.info.height);
-  if (header.tilePixels > std::max(kMostTilePixels, kMostTilesWorth * pixels)) {
-    return unreadable(path,
-                      "is damaged: it states tiles far larger than its picture. Scan it again or export it as PNG.")
         .value();
   }
   if (pixels > kMostPixels || fileBytes > kLargestFile) {

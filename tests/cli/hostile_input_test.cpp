@@ -154,7 +154,7 @@ TEST_F(HostileInput, NumbersAreNumbersAndRangesAreTaken) {
     expectRefused(start + "--dpi=" + dpi, 2, "between 1 and 100000 dpi");
   for (const char* dpi : {"1", "100000", "+300", "3e2"}) EXPECT_EQ(run(start + "--dpi " + dpi).code, 0) << dpi;
   for (const char* threads : {"0x2", "\"\"", "1.5", "-1", "1025", "two"})
-    expectRefused(start + "--threads=" + threads, 2, "--threads takes a whole number from 0 to 1024");
+    expectRefused(start + "--threads " + threads, 2, "--threads takes a whole number from 0 to 1024");
   for (const char* threads : {"0", "1", "1024"}) EXPECT_EQ(run(start + "--threads " + threads).code, 0) << threads;
 }
 

