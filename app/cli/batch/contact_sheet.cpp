@@ -87,13 +87,14 @@ struct Card {
 
 QByteArray figuresOf(const PageRecord& record) {
   const auto number = [&](const char* key) {
-    return record.figures.is_object() ? record.figures.value(key, 0.0) : 0.0;
+    const bool isThere = record.figures.is_object() && record.figures.contains(key) && record.figures[key].is_number();
+    return isThere ? record.figures[key].get<double>() : 0.0;
   };
   QByteArray text = QByteArray::number(static_cast<int>(number("curves"))) + " curves in " +
                     QByteArray::number(static_cast<int>(number("pieces"))) + " pieces; " +
                     QByteArray::number(record.seconds, 'f', 1) + " s, " +
                     QByteArray::number(1e-6 * number("peak_memory_bytes"), 'f', 0) + " MB";
-  if (record.figures.is_object() && record.figures.contains("notes")) {
+  if (record.figures.is_object() && record.figures.contains("notes") && record.figures["notes"].is_array()) {
     for (const auto& note : record.figures["notes"]) {
       if (note.is_string()) text += "<br>" + escaped(note.get<std::string>());
     }

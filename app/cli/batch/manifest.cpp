@@ -59,10 +59,7 @@ std::optional<std::string> takeEntry(const std::string& key, const Json& value, 
     if (!value.is_number()) return "\"dpi\" takes a number";
     page.dpi = value.get<double>();
   } else if (key == "page") {
-    if (!value.is_number_integer() || value.get<std::int64_t>() < 1 || value.get<std::int64_t>() > 1000000) {
-      return "\"page\" takes a number from 1";
-    }
-    page.page = value.get<int>();
+    if (value != 1) return "\"page\" takes 1 only: further pages of a file are not read";
   } else {
     return "there is no \"" + key + "\": a line has scan, outputs, recipe, set, dpi and page";
   }
@@ -99,11 +96,12 @@ Result<void> checkFiles(const std::vector<BatchPage>& pages) {
     const std::string where = "Line " + std::to_string(page.line) + " of the manifest: ";
     for (const std::string& output : page.outputs) {
       const std::string name = plainName(output);
-      if (read.contains(name)) return wrongLine(where + output + " is a scan or a recipe. Give the output another name.");
+      if (read.contains(name))
+        return wrongLine(where + output + " is a scan or a recipe. Give the output another name.");
       const auto [before, isNew] = written.emplace(name, page.line);
       if (!isNew) {
         return wrongLine(where + output + " is written by line " + std::to_string(before->second) +
-                     " as well. Give every output its own name.");
+                         " as well. Give every output its own name.");
       }
     }
   }
@@ -166,7 +164,7 @@ Result<std::vector<FoundScan>> scansOf(const std::string& input, const std::stri
   }
   if (found.empty()) {
     return wrongLine("There is no scan in " + input +
-                 ". Name scans, a folder of them, a pattern, a manifest that ends in .jsonl, or - for stdin.");
+                     ". Name scans, a folder of them, a pattern, a manifest that ends in .jsonl, or - for stdin.");
   }
   std::sort(found.begin(), found.end(), [](const FoundScan& a, const FoundScan& b) { return a.scan < b.scan; });
   return found;
@@ -197,7 +195,6 @@ std::string manifestLine(const BatchPage& page) {
   if (!page.recipe.empty()) json["recipe"] = page.recipe;
   if (!page.settings.empty()) json["set"] = page.settings;
   if (page.dpi) json["dpi"] = *page.dpi;
-  if (page.page) json["page"] = *page.page;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -238,7 +235,6 @@ std::vector<std::string> traceWords(const BatchPage& page, int threads) {
   if (!page.recipe.empty()) words.insert(words.end(), {"--recipe", page.recipe});
   for (const std::string& setting : page.settings) words.insert(words.end(), {"--set", setting});
   if (page.dpi) words.insert(words.end(), {"--dpi", numberToText(*page.dpi)});
-  if (page.page) words.insert(words.end(), {"--page", std::to_string(*page.page)});
   words.insert(words.end(), {"--threads", std::to_string(threads)});
   return words;
 }

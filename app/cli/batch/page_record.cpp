@@ -69,7 +69,7 @@ std::optional<std::string> pageKey(const BatchPage& page) {
   }
   key.integer(std::ssize(page.settings));
   for (const std::string& setting : page.settings) key.text(setting);
-  key.number(page.dpi.value_or(0.0)).integer(page.page.value_or(0));
+  key.number(page.dpi.value_or(0.0));
   for (const std::string& output : page.outputs) key.text(output);
   return key.finish().hex();
 }
@@ -81,10 +81,8 @@ std::optional<PageRecord> readRecord(const BatchPage& page) {
   if (!file) return std::nullopt;
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object() || json.value("format", "") != "batten-batch-page" || json.value("version", 0) != 1) {
-    return std::nullopt;
-  }
   try {
+    if (json.at("format") != "batten-batch-page" || json.at("version") != 1) return std::nullopt;
     PageRecord record;
     record.key = json.at("key").get<std::string>();
     record.isEnded = json.at("ended").get<bool>();

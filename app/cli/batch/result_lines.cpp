@@ -19,9 +19,8 @@ Result<ResultLines> ResultLines::open(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
     for (std::string line; std::getline(in, line); isTorn = in.eof()) {
       const auto json = nlohmann::json::parse(line, nullptr, false);
-      if (!json.is_object()) continue;
-      const std::string status = json.value("status", "");
-      if (status != "failed" && json.contains("key")) lines.known_.insert(json.value("key", ""));
+      if (!json.is_object() || !json.contains("key") || !json["key"].is_string()) continue;
+      if (json.contains("status") && json["status"] != "failed") lines.known_.insert(json["key"].get<std::string>());
     }
     lines.file_.reset(std::fopen(file.c_str(), "ab"));
   } else {
