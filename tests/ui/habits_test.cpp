@@ -112,6 +112,10 @@ TEST_F(Habits, EveryStageKnowsItsChanges) {
 TEST_F(Habits, TheFinderFindsSettingsAndLeadsToThem) {
   ASSERT_NO_FATAL_FAILURE(openPage(test::zigzagPage()));
   window_->activateWindow();
+  Recipe fairs = session().recipe();
+  fairs.fairing.mode = FairingMode::Tolerance;  // without a fairing its tolerance means nothing, and is greyed
+  session().change(QStringLiteral("Fairing"), fairs);
+  ASSERT_TRUE(settle());
   ASSERT_NO_FATAL_FAILURE(findAndPress(QStringLiteral("tolerance (fairing)")));
   EXPECT_EQ(window_->stage(), PanelStage::Fairing);
   EXPECT_EQ(window_->focusWidget(), find<QLineEdit>("fairing.tolerance.field"));
