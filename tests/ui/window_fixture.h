@@ -123,6 +123,7 @@ class WindowFixture : public testing::Test {
     return found;
   }
   void clickCanvas(const Vec2& imagePx) {
+    QCoreApplication::processEvents();  // a change of the stage may have given the canvas another size
     auto* canvas = find<CurveCanvas>("canvas");
     const QPoint at = canvas->toWidget(imagePx).toPoint();
     QTest::mouseMove(canvas, at);

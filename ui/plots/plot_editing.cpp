@@ -96,6 +96,11 @@ int PlotEditing::splitAt(const QPoint& position) const {
   return best;
 }
 
+bool PlotEditing::isOverAxes(const QPoint& position) const {
+  constexpr int kAround = static_cast<int>(kReachPx);
+  return plot_->axisRect()->rect().adjusted(-kAround, -kAround, kAround, kAround).contains(position);
+}
+
 bool PlotEditing::isOnTarget(const QPoint& position) const {
   const double s = plot_->xAxis->pixelToCoord(position.x());
   for (const PlotSeries& series : data_.series) {
@@ -110,7 +115,7 @@ bool PlotEditing::isOnTarget(const QPoint& position) const {
 
 bool PlotEditing::press(const QMouseEvent& event) {
   const QPoint at = event.position().toPoint();
-  if (event.button() != Qt::LeftButton || !plot_->axisRect()->rect().adjusted(-8, -8, 8, 8).contains(at)) return false;
+  if (event.button() != Qt::LeftButton || !isOverAxes(at)) return false;
   if (index_ = handleAt(at); index_ >= 0) {
     dragged_ = Dragged::Handle;
   } else if (index_ = splitAt(at); index_ >= 0) {
@@ -161,7 +166,7 @@ void PlotEditing::drag(const QPoint& position) {
 }
 
 QString PlotEditing::hintAt(const QPoint& position) const {
-  if (!isEditable()) return {};
+  if (!isEditable() || !isOverAxes(position)) return {};
   if (handleAt(position) >= 0) return tr("Drag the point to shape the target; right-click removes it.");
   if (splitAt(position) >= 0) return tr("Drag the split along the curve; right-click removes it.");
   if (isOnTarget(position)) return tr("Drag the target to draw your own.");

@@ -41,6 +41,8 @@ class PlotEditing : public QObject {
   double kappaAt(int y, double signOf) const;
   int handleAt(const QPoint& position) const;
   int splitAt(const QPoint& position) const;
+  /// Within reach of the area between the axes: where a press can take hold of something.
+  bool isOverAxes(const QPoint& position) const;
   bool isOnTarget(const QPoint& position) const;
 
   EditorSession& session_;
