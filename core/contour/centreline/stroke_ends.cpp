@@ -177,8 +177,8 @@ void placeEnds(StrokeCourse& c, const GreyImage& grey) {
 
 namespace {
 
-// Standard deviations of the points. Those that only the half levels of their profile have placed are known half as well
-// as those next to them.
+// Standard deviations of the points. Those that only the half levels of their profile have placed are known half as
+// well as those next to them.
 void addSigmas(Contour& contour, std::vector<PointInformation> information) {
   const auto known = std::find_if(information.begin(), information.end(),
                                   [](const PointInformation& point) { return point.gain > 0.0; });

@@ -16,8 +16,4 @@ namespace batten {
 /// when cancelled.
 std::vector<MeanLine> joinPieces(StrokePieces pieces, double distancePx, double widestPx, const RunContext& context);
 
-/// The two ends nearest to each sharp turn (strokesOf()), no farther from it than the distance, meet where their lines
-/// do.
-void meetAtTurns(std::vector<MeanLine>& lines, const std::vector<Vec2>& turns, double distancePx);
-
 }  // namespace batten
