@@ -17,6 +17,9 @@ constexpr double kSameEnd = 0.03;
 /// Places of a piece at which it is compared with the course: enough for a vote that no crossing of the line upsets.
 constexpr std::size_t kPlaces = 65;
 constexpr double kRounding = 1e-9;  // of shares
+/// A point nearer to the begin of a closed line than this share lies on it: anchors are spaced, so shares are a little
+/// off, and a point just before the begin would bend the profile there.
+constexpr double kSeam = 5e-3;
 
 double fractionOf(double share) { return share - std::floor(share); }
 
@@ -105,7 +108,8 @@ std::vector<ProfilePoint> turned(const std::vector<ProfilePoint>& profile, const
   const double least = isPart ? kSameEnd : -kRounding, most = isPart ? 1.0 - kSameEnd : 1.0 + kRounding;
   for (const ProfilePoint& p : profile) {
     const double way = side * (p.fraction - run.start);
-    const double t = (closedCourse ? fractionOf(way) : way) / run.covered;
+    double t = (closedCourse ? fractionOf(way) : way) / run.covered;
+    if (closedCourse && !isPart && std::min(t, 1.0 - t) < kSeam) t = 0.0;
     if (t >= least && t <= most) points.push_back({std::clamp(t, 0.0, 1.0), side * p.kappa});
   }
   std::sort(points.begin(), points.end(),
