@@ -5,16 +5,19 @@
 # Usage: tests/heavy/exports.sh [FOLDER]   (the files stay there, for trying them in a CAD)
 set -u
 cd "$(dirname "$0")/../.."
+. packaging/packages.sh
 cli=build/release/bin/batten-cli
-[ -x "$cli" ] || { echo "exports: build batten-cli first"; exit 1; }
+scan=build/release/share/batten/samples/coupe-side.png
+mkdir -p build
+build batten-cli sample_sketch >build/exports.log 2>&1 || { tail -5 build/exports.log; exit 1; }
+(install_missing "${judge_packages[@]}") >build/exports.log 2>&1 ||
+  { echo "exports: cannot install ${judge_packages[*]}"; exit 77; }
 folder=${1:-}
 if [ -z "$folder" ]; then
   folder=$(mktemp -d)
   trap 'rm -rf "$folder"' EXIT
 fi
 mkdir -p "$folder"
-scan=build/release/share/batten/samples/coupe-side.png
-[ -f "$scan" ] || { echo "exports: build the target sample_sketch first"; exit 1; }
 recipe=${scan%.png}.recipe.json
 
 for unit in mm in; do
