@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <QAbstractItemView>
 #include <QApplication>
 #include <QComboBox>
 #include <QFile>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QTest>
@@ -63,6 +65,9 @@ class WindowFixture : public testing::Test {
         [&](QWidget& dialog) {
           auto* edit = dialog.findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
           ASSERT_NE(edit, nullptr);
+          // A file that is selected in the list would be meant, whatever is typed.
+          for (auto* view : dialog.findChildren<QAbstractItemView*>())
+            if (view->selectionModel() != nullptr) view->clearSelection();
           edit->setText(path);
           QTest::keyClick(edit, Qt::Key_Return);
         },
