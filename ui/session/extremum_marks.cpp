@@ -12,9 +12,6 @@ namespace {
 
 constexpr double kCertainFactor = 5.0;  // of the cost that an extremum must have to be kept
 constexpr double kSamePlacePx = 1.0;
-/// Extrema of a smaller rise (times extent) are not counted, as in the figures.
-constexpr double kProminence = 5e-3;
-
 QString tr(const char* text) { return QCoreApplication::translate("ExtremumMarks", text); }
 
 const TracedCurve* curveAt(const EditorSession& session, int curve) {
@@ -68,7 +65,7 @@ std::vector<ExtremumMark> marksOfFaired(const EditorSession& session, const Trac
   std::vector<ExtremumMark> marks;
   const double size = extent(curve.faired);
   if (!(size > 0.0)) return marks;
-  for (const CurvatureExtremumPoint& one : curvatureExtrema(curve.faired, kProminence / size, curve.closed)) {
+  for (const CurvatureExtremumPoint& one : curvatureExtrema(curve.faired, kExtremumProminence / size, curve.closed)) {
     ExtremumMark mark;
     mark.px = session.output().frame.pointToImage(curve.faired.point(one.u));
     mark.s = one.s;
