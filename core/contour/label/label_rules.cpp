@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/label/label_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+namespace batten {
+namespace {
+
+constexpr double kUneven = 0.15;      // share of its area that one width may leave unexplained
+constexpr double kShortWidths = 8.0;  // a thick strand shorter than this among thin ones is a bar
+constexpr double kOwnPen = 10.0;      // widths of strands that show the pen of a piece
+constexpr double kLimbWidths = 12.0;  // shorter strands that hang on a shape may be its limbs
+constexpr double kSamePen = 1.5;      // ratio of widths
+
+bool isExplained(const Strand& s) { return s.elongation() >= kStrokeWidths && s.unevenness <= kUneven; }
+double coreOf(double width) { return kCoreWidths * width + 1.0; }
+
+// Half of the length lies at widths up to this; 0 for none.
+double weightedMedian(std::vector<std::pair<double, double>> widthAndLength) {
+  std::sort(widthAndLength.begin(), widthAndLength.end());
+  double all = 0.0, sum = 0.0;
+  for (const auto& [width, length] : widthAndLength) all += length;
+  for (const auto& [width, length] : widthAndLength) {
+    sum += length;
+    if (2.0 * sum >= all) return width;
+  }
+  return 0.0;
+}
+
+int runAt(const RunPieces& pieces, int x, int y) {
+  const auto before = [](const Run& run, const std::pair<int, int>& yx) {
+    return run.y != yx.first ? run.y < yx.first : run.x1 <= yx.second;
+  };
+  return static_cast<int>(std::lower_bound(pieces.runs.begin(), pieces.runs.end(), std::pair(y, x), before) -
+                          pieces.runs.begin());
+}
+
+std::vector<LabelledPiece> boxesOf(const RunPieces& runs, std::unordered_map<int, int>& number) {
+  std::vector<LabelledPiece> pieces;
+  for (std::size_t i = 0; i < runs.runs.size(); ++i) {
+    const Run& r = runs.runs[i];
+    const auto [it, isNew] = number.try_emplace(runs.piece[i], static_cast<int>(pieces.size()));
+    if (isNew) {
+      pieces.emplace_back();
+      pieces.back().firstRun = runs.piece[i];
+      pieces.back().x0 = r.x0;
+      pieces.back().y0 = r.y;
+    }
+    LabelledPiece& piece = pieces[it->second];
+    piece.areaPx += r.x1 - r.x0;
+    piece.x0 = std::min(piece.x0, r.x0);
+    piece.x1 = std::max(piece.x1, r.x1);
+    piece.y1 = r.y + 1;
+  }
+  return pieces;
+}
+
+double penOf(const LabelledPiece& piece, const StrandGraph& graph, double pagePen) {
+  std::vector<std::pair<double, double>> own;
+  for (const int number : piece.strands) {
+    const Strand& s = graph.strands()[number];
+    if (s.elongation() >= kStrokeWidths) own.emplace_back(*s.widthPx, s.lengthPx);
+  }
+  const double pen = weightedMedian(own);
+  if (pen <= 0.0) return std::max(1.0, pagePen);
+  return piece.strokesPx >= kOwnPen * pen || pagePen <= 0.0 ? pen : std::min(pen, pagePen);
+}
+
+// Labels in one pass over the strands of a page; see labelStrands.
+class Labeller {
+ public:
+  Labeller(StrandGraph& graph, const PiecesOfPage& page) : graph_(graph), page_(page), penOf_(graph.strands().size()) {
+    for (const LabelledPiece& piece : page.pieces) {
+      for (const int strand : piece.strands) penOf_[strand] = piece.penPx;
+    }
+  }
+
+  void label() {
+    for (std::size_t i = 0; i < penOf_.size(); ++i) {
+      Strand& s = graph_.strands()[i];
+      const bool isBar = s.widthPx && *s.widthPx >= kCoreWidths * penOf_[i] && s.elongation() < kShortWidths;
+      explained_.push_back(isExplained(s) && !isBar);
+      const bool wide = s.largestWidthPx > coreOf(penOf_[i]);
+      s.label = !explained_.back() && wide ? InkLabel::Shape : InkLabel::Stroke;
+    }
+    labelJunctions();
+    labelPixels();
+    while (absorbLimbs()) {
+    }
+    for (const LabelledPiece& piece : page_.pieces) {
+      if (piece.isBlot) labelWhole(piece);
+    }
+    labelWithinJunctions();
+  }
+
+ private:
+  void labelJunctions() {
+    for (StrandNode& node : graph_.nodes()) {
+      if (!node.isJunction()) continue;
+      double pen = 0.0;
+      for (const int end : node.ends) {
+        const int strand = graph_.chains()[end / 2].strand;
+        pen = std::max(pen, penOf_[strand]);
+        if (explained_[strand]) pen = std::max(pen, *graph_.strands()[strand].widthPx);
+      }
+      if (node.widthPx() > coreOf(pen)) node.label = InkLabel::Shape;
+    }
+  }
+
+  void labelPixels() {
+    for (StrandChain& chain : graph_.chains()) {
+      if (!chain.isAlive) continue;
+      const Strand& s = graph_.strands()[chain.strand];
+      for (StrandPixel& p : chain.pixels) {
+        if (p.inJunction) continue;
+        // Where a line runs into a solid it ends at the first pixel that is too wide for it.
+        const bool runsIn = explained_[chain.strand] && p.widthPx() > coreOf(*s.widthPx);
+        if (runsIn || s.label == InkLabel::Shape) p.label = InkLabel::Shape;
+      }
+    }
+  }
+
+  bool hangsOnShape(const Strand& strand) const {
+    for (const int number : strand.chains) {
+      const StrandChain& chain = graph_.chains()[number];
+      for (const int node : chain.node) {
+        if (node >= 0 && graph_.nodes()[node].label == InkLabel::Shape) return true;
+      }
+      for (const StrandPixel& p : chain.pixels) {
+        if (!p.inJunction && p.label == InkLabel::Shape) return true;
+      }
+    }
+    return false;
+  }
+
+  // A leg of an animal, a serif: of even width, but no line that a pen drew. Lines of that width elsewhere say otherwise.
+  bool absorbLimbs() {
+    std::vector<int> limbs;
+    std::vector<std::pair<double, double>> lines;  // width and length of what a pen drew, by width
+    for (int i = 0; i < static_cast<int>(explained_.size()); ++i) {
+      const Strand& s = graph_.strands()[i];
+      if (!explained_[i] || s.label == InkLabel::Shape) continue;
+      if (s.elongation() < kLimbWidths && hangsOnShape(s)) {
+        limbs.push_back(i);
+      } else {
+        lines.emplace_back(*s.widthPx, s.lengthPx);
+      }
+    }
+    bool any = false;
+    for (const int limb : limbs) {
+      const double width = *graph_.strands()[limb].widthPx;
+      double length = 0.0;
+      for (const auto& [w, l] : lines) {
+        const double ratio = std::max(w, width) / std::min(w, width);
+        if (ratio <= kSamePen + 1.0 / std::min(w, width)) length += l;
+      }
+      if (length >= kOwnPen * width) continue;
+      labelWhole(limb);
+      any = true;
+    }
+    return any;
+  }
+
+  void labelWhole(int strand) {
+    graph_.strands()[strand].label = InkLabel::Shape;
+    for (const int number : graph_.strands()[strand].chains) {
+      for (StrandPixel& p : graph_.chains()[number].pixels) p.label = InkLabel::Shape;
+      for (const int node : graph_.chains()[number].node) {
+        if (node >= 0) joinShape(graph_.nodes()[node]);
+      }
+    }
+  }
+  void labelWhole(const LabelledPiece& piece) {
+    for (const int strand : piece.strands) labelWhole(strand);
+  }
+  // A junction is a shape where all strands that meet there are.
+  void joinShape(StrandNode& node) {
+    for (const int end : node.ends) {
+      if (graph_.strands()[graph_.chains()[end / 2].strand].label != InkLabel::Shape) return;
+    }
+    node.label = InkLabel::Shape;
+  }
+
+  // What lies within the disc of a junction goes with it.
+  void labelWithinJunctions() {
+    for (StrandChain& chain : graph_.chains()) {
+      if (!chain.isAlive) continue;
+      for (const int number : chain.node) {
+        if (number < 0 || graph_.nodes()[number].label != InkLabel::Shape) continue;
+        const StrandNode& node = graph_.nodes()[number];
+        for (StrandPixel& p : chain.pixels) {
+          if (p.inJunction && (p.centre() - node.centre).norm() < node.radius) p.label = InkLabel::Shape;
+        }
+      }
+    }
+    for (StrandNode& node : graph_.nodes()) {
+      if (node.label != InkLabel::Shape) continue;
+      for (StrandPixel& p : node.pixels) p.label = InkLabel::Shape;
+    }
+  }
+
+  StrandGraph& graph_;
+  const PiecesOfPage& page_;
+  std::vector<double> penOf_;  ///< Of each strand.
+  std::vector<bool> explained_;
+};
+
+}  // namespace
+
+PiecesOfPage measurePieces(const StrandGraph& graph, const RunPieces& runs) {
+  PiecesOfPage page;
+  std::unordered_map<int, int> number;
+  page.pieces = boxesOf(runs, number);
+  std::vector<std::pair<double, double>> widthAndLength;
+  for (int i = 0; i < static_cast<int>(graph.strands().size()); ++i) {
+    const Strand& s = graph.strands()[i];
+    const StrandPixel& first = graph.chains()[s.chains.front()].pixels.front();
+    LabelledPiece& piece = page.pieces[number.at(runs.piece[runAt(runs, first.x, first.y)])];
+    piece.strands.push_back(i);
+    for (const int chain : s.chains) {
+      for (const StrandPixel& p : graph.chains()[chain].pixels) {
+        piece.largestRadiusPx = std::max(piece.largestRadiusPx, static_cast<double>(p.radius));
+      }
+    }
+    if (s.elongation() < kStrokeWidths) continue;
+    piece.strokesPx += s.lengthPx;
+    widthAndLength.emplace_back(*s.widthPx, s.lengthPx);
+  }
+  page.pagePenPx = weightedMedian(std::move(widthAndLength));
+  for (LabelledPiece& piece : page.pieces) {
+    piece.isBlot = piece.strokesPx <= 0.0;
+    piece.penPx = penOf(piece, graph, page.pagePenPx);
+  }
+  return page;
+}
+
+void labelStrands(StrandGraph& graph, const PiecesOfPage& page) { Labeller(graph, page).label(); }
+
+}  // namespace batten
