@@ -86,6 +86,9 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   trace->add_option("--report", a.report, "Write figures of every stage and curve")->type_name("REPORT.json");
   trace->add_flag("--report-targets", a.reportTargets,
                   "Have the report say what each of the six targets would make of every curve, too; takes far longer");
+  trace->add_flag("--explain", a.explain,
+                  "Say how much of the ink the curves explain and how much of their length has no ink under it, in the "
+                  "line printed and in the report; after the curves are written");
   addRepeated(*trace, "--dump", a.dumps, "STAGE=FILE.png", dumpHelp());
   trace->add_option("--save-recipe", a.saveRecipe, "Write all settings used, for --recipe and the window")
       ->type_name("R.json");

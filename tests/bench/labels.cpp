@@ -3,13 +3,20 @@
 // label, how many objects do, and how long it takes.
 //
 //   bench_labels [SEEDS] [FIRST_SEED] [FOLDER_FOR_PICTURES]
+//   bench_labels DRAWINGS FOLDER_FOR_PICTURES
+//
+// The second form paints the labels of the drawings of a folder (strokes blue, shapes orange), to be looked at.
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/contour/label/ink_labels.h"
+#include "core/image/scan_reader.h"
+#include "core/pipeline/run/pipeline.h"
 #include "tests/support/label_page.h"
 
 using namespace batten;
@@ -28,9 +35,39 @@ void savePicture(const std::string& path, const InkLabels& labels) {
   cv::imwrite(path, picture);
 }
 
+int paintDrawings(const std::filesystem::path& folder, const std::filesystem::path& pictures) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string ending = entry.path().extension().string();
+    if (ending == ".png" || ending == ".jpg" || ending == ".tif" || ending == ".pgm") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::filesystem::create_directories(pictures);
+  for (const auto& file : files) {
+    const auto scan = readScan(file, {}, {});
+    if (!scan) continue;
+    StageCache cache;
+    PipelineRequest request;
+    request.upTo = StageId::Filtered;
+    const PipelineOutput out = runPipeline(*scan, {}, cache, request, {});
+    if (!out.filtered) continue;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto labels = labelInk(out.filtered->ink, {});
+    const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    if (!labels) continue;
+    const double shapes = static_cast<double>(labels->shapes.count()),
+                 strokes = static_cast<double>(labels->strokes.count());
+    std::printf("%-30s pen %5.2f px  shapes %5.1f %%  %7.0f ms\n", file.filename().c_str(), labels->penPx,
+                100.0 * shapes / std::max(1.0, shapes + strokes), ms);
+    savePicture((pictures / (file.stem().string() + "-labels.png")).string(), *labels);
+  }
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 2 && std::filesystem::is_directory(argv[1])) return paintDrawings(argv[1], argv[2]);
   const int seeds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 3;
   const unsigned first = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 10u;
   std::printf("%-8s %9s %9s %9s %9s %9s\n", "page", "balanced", "strokes", "shapes", "objects", "ms");
@@ -56,7 +93,8 @@ int main(int argc, char** argv) {
       if (argc > 3) savePicture(std::string(argv[3]) + "/" + scene.name + "-" + std::to_string(seed) + ".png", *labels);
     }
     mean += balanced / static_cast<double>(scenes.size());
-    std::printf("%-8s %9.3f %9.3f %9.3f %9.3f %9.1f\n", scene.name.c_str(), balanced, strokes, shapes, objects, ms / seeds);
+    std::printf("%-8s %9.3f %9.3f %9.3f %9.3f %9.1f\n", scene.name.c_str(), balanced, strokes, shapes, objects,
+                ms / seeds);
   }
   std::printf("%-8s %9.3f\n", "mean", mean);
   return 0;

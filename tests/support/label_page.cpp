@@ -72,8 +72,9 @@ std::vector<std::vector<Vec2>> solid(Random& random, const Vec2& centre, double 
     }
   }
   std::vector<std::vector<Vec2>> outlines = {outline};
-  if (hole) outlines.push_back(circle(centre + 0.15 * radius * Vec2(uniform(random, -1, 1), uniform(random, -1, 1)),
-                                      uniform(random, 0.2, 0.3) * radius));
+  if (hole)
+    outlines.push_back(circle(centre + 0.15 * radius * Vec2(uniform(random, -1, 1), uniform(random, -1, 1)),
+                              uniform(random, 0.2, 0.3) * radius));
   return outlines;
 }
 
@@ -101,7 +102,8 @@ LabelPage mixedPage(unsigned seed) {
           const Vec2 out(std::cos(t), std::sin(t));
           page.begin(false);
           page.line(cubic(centre + 0.8 * radius * out, centre + 1.2 * radius * out,
-                          centre + 1.5 * radius * out + 15.0 * leftNormal(out), centre + 132.0 * out), pen);
+                          centre + 1.5 * radius * out + 15.0 * leftNormal(out), centre + 132.0 * out),
+                    pen);
         }
         break;
       }
@@ -150,7 +152,8 @@ LabelPage solidPage(unsigned seed) {
   const double pen = uniform(random, 2.5, 6.0);
   std::vector<Vec2> centres;
   for (int i = 0; i < 6; ++i) {
-    centres.push_back({180.0 + 400.0 * (i % 3) + uniform(random, -40, 40), 220.0 + 440.0 * (i / 3) + uniform(random, -50, 50)});
+    centres.push_back(
+        {180.0 + 400.0 * (i % 3) + uniform(random, -40, 40), 220.0 + 440.0 * (i / 3) + uniform(random, -50, 50)});
     page.begin(true);
     page.area(solid(random, centres.back(), uniform(random, 45.0, 95.0), i % 2 == 0));
   }
@@ -159,7 +162,9 @@ LabelPage solidPage(unsigned seed) {
     page.begin(false);
     const Vec2 side = uniform(random, -0.3, 0.3) * leftNormal(d);
     // From within one solid to within the other, clear of holes in their middles.
-    page.line(cubic(centres[a] + 0.12 * d, centres[a] + 0.35 * d + side, centres[b] - 0.35 * d + side, centres[b] - 0.12 * d), pen);
+    page.line(
+        cubic(centres[a] + 0.12 * d, centres[a] + 0.35 * d + side, centres[b] - 0.35 * d + side, centres[b] - 0.12 * d),
+        pen);
   };
   for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {0, 3}, {3, 4}, {4, 5}, {2, 5}, {1, 4}}) join(a, b);
   page.begin(false);
@@ -335,7 +340,8 @@ LabelPage::Score LabelPage::score(const BitImage& ink, const BitImage& shapes) c
   Count kind[2];
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
-      const Pixel& p = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+      const Pixel& p =
+          pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
       if (!ink.at(x, y) || p.object < 0) continue;
       const int right = shapes.at(x, y) == p.isShape ? 1 : 0;
       for (Count* c : {&object[p.object], &kind[p.isShape ? 1 : 0]}) {

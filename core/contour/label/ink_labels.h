@@ -9,9 +9,9 @@ namespace batten {
 
 /// The ink of a page, told apart: every pixel of ink is in one of the two. All pictures have the size of the ink.
 struct InkLabels {
-  BitImage strokes;   ///< Lines of a pen, to be followed along their middle.
-  BitImage shapes;    ///< Filled areas, dots and broad lettering, to be followed along their border.
-  BitImage skeleton;  ///< Of all the ink.
+  BitImage strokes;    ///< Lines of a pen, to be followed along their middle.
+  BitImage shapes;     ///< Filled areas, dots and broad lettering, to be followed along their border.
+  BitImage skeleton;   ///< Of all the ink.
   double penPx = 0.0;  ///< [px] length-weighted median width of what may be strokes; 0 = nothing may.
 };
 

@@ -9,14 +9,14 @@
 namespace batten {
 namespace {
 
-constexpr double kUneven = 0.15;      // share of its area that one width may leave unexplained
+constexpr double kUneven = 0.15;  // share of its area that one width may leave unexplained
+constexpr double kBarWidths = 2.5;
 constexpr double kShortWidths = 8.0;  // a thick strand shorter than this among thin ones is a bar
 constexpr double kOwnPen = 10.0;      // widths of strands that show the pen of a piece
 constexpr double kLimbWidths = 12.0;  // shorter strands that hang on a shape may be its limbs
 constexpr double kSamePen = 1.5;      // ratio of widths
 
 bool isExplained(const Strand& s) { return s.elongation() >= kStrokeWidths && s.unevenness <= kUneven; }
-double coreOf(double width) { return kCoreWidths * width + 1.0; }
 
 // Half of the length lies at widths up to this; 0 for none.
 double weightedMedian(std::vector<std::pair<double, double>> widthAndLength) {
@@ -58,11 +58,14 @@ std::vector<LabelledPiece> boxesOf(const RunPieces& runs, std::unordered_map<int
   return pieces;
 }
 
-double penOf(const LabelledPiece& piece, const StrandGraph& graph, double pagePen) {
+enum class PenWeight { Length, Elongation };
+
+double penOf(const LabelledPiece& piece, const StrandGraph& graph, double pagePen, PenWeight weight) {
   std::vector<std::pair<double, double>> own;
   for (const int number : piece.strands) {
     const Strand& s = graph.strands()[number];
-    if (s.elongation() >= kStrokeWidths) own.emplace_back(*s.widthPx, s.lengthPx);
+    if (s.elongation() < kStrokeWidths) continue;
+    own.emplace_back(*s.widthPx, weight == PenWeight::Length ? s.lengthPx : s.elongation());
   }
   const double pen = weightedMedian(own);
   if (pen <= 0.0) return std::max(1.0, pagePen);
@@ -80,11 +83,14 @@ class Labeller {
 
   void label() {
     for (std::size_t i = 0; i < penOf_.size(); ++i) {
-      Strand& s = graph_.strands()[i];
-      const bool isBar = s.widthPx && *s.widthPx >= kCoreWidths * penOf_[i] && s.elongation() < kShortWidths;
+      const Strand& s = graph_.strands()[i];
+      const bool isBar = s.widthPx && *s.widthPx >= kBarWidths * penOf_[i] && s.elongation() < kShortWidths;
       explained_.push_back(isExplained(s) && !isBar);
-      const bool wide = s.largestWidthPx > coreOf(penOf_[i]);
-      s.label = !explained_.back() && wide ? InkLabel::Shape : InkLabel::Stroke;
+    }
+    for (std::size_t i = 0; i < penOf_.size(); ++i) {
+      Strand& s = graph_.strands()[i];
+      const bool wide = s.largestWidthPx > coreWidth(widestStrokeAt(static_cast<int>(i)));
+      s.label = !explained_[i] && wide ? InkLabel::Shape : InkLabel::Stroke;
     }
     labelJunctions();
     labelPixels();
@@ -97,16 +103,31 @@ class Labeller {
   }
 
  private:
+  // [px] of the pen of a junction's piece, or of the widest stroke that meets there.
+  double widestStrokeAt(const StrandNode& node) const {
+    double width = 0.0;
+    for (const int end : node.ends) {
+      const int strand = graph_.chains()[end / 2].strand;
+      width = std::max(width, explained_[strand] ? *graph_.strands()[strand].widthPx : penOf_[strand]);
+    }
+    return width;
+  }
+  double widestStrokeAt(int strand) const {
+    double width = penOf_[strand];
+    for (const int number : graph_.strands()[strand].chains) {
+      for (const int node : graph_.chains()[number].node) {
+        if (node >= 0 && graph_.nodes()[node].isJunction())
+          width = std::max(width, widestStrokeAt(graph_.nodes()[node]));
+      }
+    }
+    return width;
+  }
+
   void labelJunctions() {
     for (StrandNode& node : graph_.nodes()) {
       if (!node.isJunction()) continue;
-      double pen = 0.0;
-      for (const int end : node.ends) {
-        const int strand = graph_.chains()[end / 2].strand;
-        pen = std::max(pen, penOf_[strand]);
-        if (explained_[strand]) pen = std::max(pen, *graph_.strands()[strand].widthPx);
-      }
-      if (node.widthPx() > coreOf(pen)) node.label = InkLabel::Shape;
+      const double pen = std::max(penOf_[graph_.chains()[node.ends.front() / 2].strand], widestStrokeAt(node));
+      if (node.widthPx() > coreWidth(pen)) node.label = InkLabel::Shape;
     }
   }
 
@@ -117,7 +138,7 @@ class Labeller {
       for (StrandPixel& p : chain.pixels) {
         if (p.inJunction) continue;
         // Where a line runs into a solid it ends at the first pixel that is too wide for it.
-        const bool runsIn = explained_[chain.strand] && p.widthPx() > coreOf(*s.widthPx);
+        const bool runsIn = explained_[chain.strand] && p.widthPx() > coreWidth(*s.widthPx);
         if (runsIn || s.label == InkLabel::Shape) p.label = InkLabel::Shape;
       }
     }
@@ -136,7 +157,8 @@ class Labeller {
     return false;
   }
 
-  // A leg of an animal, a serif: of even width, but no line that a pen drew. Lines of that width elsewhere say otherwise.
+  // A leg of an animal, a serif: of even width, but no line that a pen drew. Lines of that width elsewhere say
+  // otherwise.
   bool absorbLimbs() {
     std::vector<int> limbs;
     std::vector<std::pair<double, double>> lines;  // width and length of what a pen drew, by width
@@ -214,7 +236,7 @@ PiecesOfPage measurePieces(const StrandGraph& graph, const RunPieces& runs) {
   PiecesOfPage page;
   std::unordered_map<int, int> number;
   page.pieces = boxesOf(runs, number);
-  std::vector<std::pair<double, double>> widthAndLength;
+  std::vector<std::pair<double, double>> byLength, byElongation;
   for (int i = 0; i < static_cast<int>(graph.strands().size()); ++i) {
     const Strand& s = graph.strands()[i];
     const StrandPixel& first = graph.chains()[s.chains.front()].pixels.front();
@@ -227,12 +249,15 @@ PiecesOfPage measurePieces(const StrandGraph& graph, const RunPieces& runs) {
     }
     if (s.elongation() < kStrokeWidths) continue;
     piece.strokesPx += s.lengthPx;
-    widthAndLength.emplace_back(*s.widthPx, s.lengthPx);
+    byLength.emplace_back(*s.widthPx, s.lengthPx);
+    byElongation.emplace_back(*s.widthPx, s.elongation());
   }
-  page.pagePenPx = weightedMedian(std::move(widthAndLength));
+  page.pagePenPx = weightedMedian(std::move(byElongation));
+  const double mainPen = weightedMedian(std::move(byLength));
   for (LabelledPiece& piece : page.pieces) {
     piece.isBlot = piece.strokesPx <= 0.0;
-    piece.penPx = penOf(piece, graph, page.pagePenPx);
+    piece.penPx = penOf(piece, graph, page.pagePenPx, PenWeight::Elongation);
+    piece.mainPenPx = penOf(piece, graph, mainPen, PenWeight::Length);
   }
   return page;
 }

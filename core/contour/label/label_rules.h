@@ -18,16 +18,15 @@ struct LabelledPiece {
   double largestRadiusPx = 0.0;        ///< Along its skeleton.
   double strokesPx = 0.0;              ///< Length of its strands that are at least kStrokeWidths long.
   double penPx = 1.0;                  ///< Width of the pen that is taken for its strokes.
+  double mainPenPx = 1.0;              ///< The same, but by length: the width that most of the ink has.
   bool isBlot = false;                 ///< No strand is long enough to have a direction.
 };
 
 /// Ink shorter than this many of its widths has no direction.
 inline constexpr double kStrokeWidths = 3.0;
-/// Two strokes of one width, crossing at any angle, hold no disc wider than this many widths, and a pixel.
-inline constexpr double kCoreWidths = 2.5;
 
-/// The pieces of ink with their strands and pens. `pagePenPx`: length-weighted median width of all strands long enough;
-/// 0 = there is none.
+/// The pieces of ink with their strands and pens. `pagePenPx`: median width of all strands long enough, weighed by
+/// their lengths in widths; 0 = there is none.
 struct PiecesOfPage {
   std::vector<LabelledPiece> pieces;
   double pagePenPx = 0.0;
@@ -35,7 +34,7 @@ struct PiecesOfPage {
 PiecesOfPage measurePieces(const StrandGraph&, const RunPieces&);
 
 /// Labels strands, junctions and skeleton pixels. A strand is a stroke when one pen width explains it along at least
-/// kStrokeWidths widths; what no stroke explains and is wider than kCoreWidths of the strokes joined to it is a shape.
+/// kStrokeWidths widths; what no stroke explains and is wider than coreWidth of the strokes joined to it is a shape.
 /// Short limbs of a shape are strokes only where the page shows that a pen of their width was used.
 void labelStrands(StrandGraph&, const PiecesOfPage&);
 

@@ -9,11 +9,12 @@
 namespace batten {
 namespace {
 
-constexpr double kLetterOfPage = 0.25;    // [page diagonals] larger pieces are no letters
-constexpr double kLetterRadii = 4.0;      // smaller pieces, against their largest disc, are dots
-constexpr double kLetterLength = 25.0;    // [pen widths] what a letter is drawn with, at most
-constexpr double kBroadUnevenness = 0.09;  // mean that one pen leaves unexplained in an alphabet
-constexpr double kLeastBroadPx = 4.5;     // below it the grid of pixels is as large as the contrast of a nib
+constexpr double kLetterOfPage = 0.25;  // [page diagonals] larger pieces are no letters
+constexpr double kLetterRadii = 4.0;    // smaller pieces, against their largest disc, are dots
+constexpr double kLetterLength = 25.0;  // [pen widths] what a letter is drawn with, at most
+constexpr double kBroadUnevenness =
+    0.1;                               // mean that one pen leaves unexplained in an alphabet; less by a pixel's share
+constexpr double kLeastBroadPx = 4.5;  // below it the grid of pixels is as large as the contrast of a nib
 constexpr int kLeastVoters = 5;
 
 // What the vote looks at in one piece.
@@ -31,8 +32,8 @@ double unevennessOf(const LabelledPiece& piece, const StrandGraph& graph) {
     for (const int chain : graph.strands()[strand].chains) {
       for (const StrandPixel& p : graph.chains()[chain].pixels) {
         if (p.inJunction) continue;
-        off += std::max(0.0, std::abs(p.widthPx() - piece.penPx) - 1.0);
-        all += std::max(p.widthPx(), piece.penPx);
+        off += std::max(0.0, std::abs(p.widthPx() - piece.mainPenPx) - 1.0);
+        all += std::max(p.widthPx(), piece.mainPenPx);
       }
     }
   }
@@ -41,15 +42,15 @@ double unevennessOf(const LabelledPiece& piece, const StrandGraph& graph) {
 
 std::optional<Voter> voterOf(const LabelledPiece& piece, const StrandGraph& graph, double pageDiagonalPx) {
   const double w = piece.x1 - piece.x0, h = piece.y1 - piece.y0, diagonal = std::hypot(w, h);
-  const double size = std::min(w, h) >= 5.0 * piece.penPx ? std::sqrt(2.0) * std::min(w, h) : diagonal;
+  const double size = std::min(w, h) >= 5.0 * piece.mainPenPx ? std::sqrt(2.0) * std::min(w, h) : diagonal;
   if (size >= kLetterOfPage * pageDiagonalPx || size <= kLetterRadii * piece.largestRadiusPx || piece.strands.empty())
     return {};
   Voter v;
   v.widthBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, piece.largestRadiusPx))));
   v.sizeBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, size))));
   v.area = static_cast<double>(piece.areaPx);
-  v.penPx = piece.penPx;
-  for (const int strand : piece.strands) v.widthsLong += graph.strands()[strand].lengthPx / piece.penPx;
+  v.penPx = piece.mainPenPx;
+  for (const int strand : piece.strands) v.widthsLong += graph.strands()[strand].lengthPx / piece.mainPenPx;
   // Of joined letters, what one letter has.
   v.uneven = v.widthsLong * size / diagonal < kLetterLength ? unevennessOf(piece, graph) : 0.0;
   return v;
@@ -76,7 +77,9 @@ struct Tally {
 
 std::optional<InkLabel> decide(const Voter& voter, const Tally& t) {
   if (t.voters < kLeastVoters || t.area <= 0.0) return {};
-  if (t.uneven >= kBroadUnevenness * t.area && t.pen >= kLeastBroadPx * t.area) return InkLabel::Shape;
+  // A pixel of every width counts as even (unevennessOf).
+  const double limit = kBroadUnevenness * (1.0 - t.area / t.pen);
+  if (t.uneven >= limit * t.area && t.pen >= kLeastBroadPx * t.area) return InkLabel::Shape;
   if (2.0 * t.shape > t.area) return InkLabel::Shape;
   if (t.shape < 0.4 * t.area && voter.widthsLong < kLetterLength) return InkLabel::Stroke;
   return {};

@@ -19,6 +19,7 @@ constexpr double kStraightDeg = 45.0;  // legs that bend more are no single stro
 constexpr double kWidthRatio = 1.6;    // nor those whose widths differ more, and a pixel
 constexpr double kDegPerOctave = 40.0;
 constexpr double kLevelPx = 1.0;  // of a width, that the grid of pixels explains
+constexpr double kCoreWidths = 2.5;
 
 StrandPixel measured(const SkeletonPixel& p, const BitImage& ink) {
   return {p.x, p.y, static_cast<float>(inkRadius(ink, p.x, p.y))};
@@ -46,9 +47,7 @@ class NodeNumbers {
       node_[i] = r == i ? count_++ : node_[r];
     }
   }
-  static bool isLink(const SkeletonChain& c) {
-    return !c.closed && c.pixels.size() == 2 && !c.freeStart && !c.freeEnd;
-  }
+  static bool isLink(const SkeletonChain& c) { return !c.closed && c.pixels.size() == 2 && !c.freeStart && !c.freeEnd; }
   int count() const { return count_; }
   int nodeOf(const SkeletonPixel& p) const { return node_[number_.at(keyOf(p))]; }
   const std::vector<SkeletonPixel>& pixels() const { return pixels_; }
@@ -76,6 +75,33 @@ double lengthOf(const StrandChain& chain) {
   double sum = 0.0;
   for (std::size_t i = 1; i < chain.pixels.size(); ++i) sum += stepLength(chain.pixels[i - 1], chain.pixels[i]);
   return sum;
+}
+
+// Where lines run into solids along a chain: for each, the first pixel that is too wide for the line. What widens on
+// the way there is marked, so that it does not count for the line's width. In order, none at the ends.
+std::vector<int> rimsOf(std::vector<StrandPixel>& p) {
+  std::vector<int> rims;
+  const int n = static_cast<int>(p.size());
+  for (const int step : {1, -1}) {
+    for (int i = step > 0 ? 0 : n - 1; i >= 0 && i < n; i += step) {
+      if (p[i].inJunction) continue;
+      const double width = std::max(1.0, p[i].widthPx()), reach = 2.0 * width + 2.0;
+      double way = 0.0;
+      int k = i + step;
+      for (; k >= 0 && k < n && way <= reach; k += step) {
+        way += stepLength(p[k], p[k - step]);
+        if (p[k].widthPx() > coreWidth(width)) break;
+      }
+      if (k < 0 || k >= n || way > reach) continue;
+      for (int m = k - step; m != i; m -= step) p[m].inJunction = true;
+      const int cut = step > 0 ? k : k + 1;
+      if (cut > 0 && cut < n) rims.push_back(cut);
+      i = k;
+    }
+  }
+  std::sort(rims.begin(), rims.end());
+  rims.erase(std::unique(rims.begin(), rims.end()), rims.end());
+  return rims;
 }
 
 // How a chain leaves a junction.
@@ -115,6 +141,8 @@ std::optional<double> costOfPassing(const Leg& a, const Leg& b) {
 
 }  // namespace
 
+double coreWidth(double strokeWidthPx) { return kCoreWidths * strokeWidthPx + 1.0; }
+
 StrandGraph::StrandGraph(const BitImage& skeleton, const BitImage& ink, const RunContext& context) {
   const std::vector<SkeletonChain> found = skeletonChains(skeleton);
   if (context.isCancelled()) return;
@@ -123,6 +151,7 @@ StrandGraph::StrandGraph(const BitImage& skeleton, const BitImage& ink, const Ru
   if (context.isCancelled()) return;
   dropSpurs();
   markJunctions();
+  cutAtRims();
   pairLegs();
   makeStrands();
 }
@@ -165,7 +194,7 @@ void StrandGraph::makeChains(const std::vector<SkeletonChain>& found, const BitI
 
 bool StrandGraph::isFreeEnd(int end) const {
   const int node = chains_[end / 2].node[end % 2];
-  return node >= 0 && !nodes_[node].isJunction();
+  return node >= 0 && !nodes_[node].isJunction() && !nodes_[node].isRim;
 }
 
 void StrandGraph::removeChain(int chain) {
@@ -243,6 +272,48 @@ void StrandGraph::markJunctions() {
       }
     }
   }
+}
+
+// The width of a line that runs into a solid grows to that of the solid within two of its own; a limb swells slowly.
+// The chain is cut where it has grown.
+void StrandGraph::cutAtRims() {
+  const int count = static_cast<int>(chains_.size());
+  for (int number = 0; number < count; ++number) {
+    if (!chains_[number].isAlive || chains_[number].isRing) continue;
+    const std::vector<int> cuts = rimsOf(chains_[number].pixels);
+    int at = number;
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+      const int offset = k == 0 ? 0 : cuts[k - 1];
+      at = cutChain(at, cuts[k] - offset);
+    }
+  }
+}
+
+// The pixels from `index` on become a chain of their own, which is returned.
+int StrandGraph::cutChain(int chain, int index) {
+  const int number = static_cast<int>(chains_.size());
+  StrandChain rest;
+  StrandChain& first = chains_[chain];
+  rest.pixels.assign(first.pixels.begin() + index, first.pixels.end());
+  first.pixels.erase(first.pixels.begin() + index, first.pixels.end());
+  rest.node[1] = first.node[1];
+  for (int& end : nodes_[rest.node[1]].ends) {
+    if (end == 2 * chain + 1) end = 2 * number + 1;
+  }
+  const auto addRim = [&](const StrandPixel& p, int end) {
+    StrandNode rim;
+    rim.pixels = {p};
+    rim.centre = p.centre();
+    rim.radius = static_cast<double>(p.radius);
+    rim.isRim = true;
+    rim.ends = {end};
+    nodes_.push_back(std::move(rim));
+    return static_cast<int>(nodes_.size()) - 1;
+  };
+  first.node[1] = addRim(first.pixels.back(), 2 * chain + 1);
+  rest.node[0] = addRim(rest.pixels.front(), 2 * number);
+  chains_.push_back(std::move(rest));
+  return number;
 }
 
 void StrandGraph::pairLegs() {

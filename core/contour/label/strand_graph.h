@@ -38,12 +38,14 @@ struct StrandChain {
   int strand = -1;
 };
 
-/// A free end (one chain) or a junction of the skeleton (more); touching junction pixels are one node.
+/// A free end (one chain) or a junction of the skeleton (more); touching junction pixels are one node. The rim, where a
+/// line runs into a solid, is a node of each of its two chains.
 struct StrandNode {
   std::vector<StrandPixel> pixels;
   Vec2 centre = Vec2::Zero();  ///< [px]
   double radius = 0.0;         ///< [px] of the largest disc of ink at one of its pixels.
   InkLabel label = InkLabel::Stroke;
+  bool isRim = false;
   std::vector<int> ends;
   bool isJunction() const { return ends.size() > 1; }
   /// [px] of the ink at the junction.
@@ -62,8 +64,11 @@ struct Strand {
   double elongation() const { return widthPx ? lengthPx / *widthPx : 0.0; }
 };
 
-/// The skeleton of a page as strands: spurs dropped, junction discs cut out, legs of junctions paired by direction and
-/// width. Deterministic.
+/// [px] Ink wider than this is no stroke of this width, nor a crossing of two: at any angle they hold no larger disc.
+double coreWidth(double strokeWidthPx);
+
+/// The skeleton of a page as strands: spurs dropped, junction discs cut out, chains cut where a line runs into a solid,
+/// legs of junctions paired by direction and width. Deterministic.
 class StrandGraph {
  public:
   /// @param skeleton of `ink` (thinToSkeleton). Unfinished when the context is cancelled.
@@ -87,6 +92,8 @@ class StrandGraph {
   void reverse(int chain);
   void splice(int node);
   void markJunctions();
+  void cutAtRims();
+  int cutChain(int chain, int index);
   void pairLegs();
   void makeStrands();
   void measureStrand(Strand&) const;
