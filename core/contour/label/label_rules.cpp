@@ -89,13 +89,13 @@ class Labeller {
     }
     for (std::size_t i = 0; i < penOf_.size(); ++i) {
       Strand& s = graph_.strands()[i];
-      const bool wide = s.largestWidthPx > coreWidth(widestStrokeAt(static_cast<int>(i)));
-      s.label = !explained_[i] && wide ? InkLabel::Shape : InkLabel::Stroke;
+      // Where strokes lie over one another an unexplained strand swells; a solid is wide along most of its length.
+      const bool isWide = s.widthPx && *s.widthPx > coreWidth(widestStrokeAt(static_cast<int>(i)));
+      s.label = !explained_[i] && isWide ? InkLabel::Shape : InkLabel::Stroke;
     }
     labelJunctions();
     labelPixels();
-    while (absorbLimbs()) {
-    }
+    absorbLimbs();
     for (const LabelledPiece& piece : page_.pieces) {
       if (piece.isBlot) labelWhole(piece);
     }
@@ -136,54 +136,59 @@ class Labeller {
       if (!chain.isAlive) continue;
       const Strand& s = graph_.strands()[chain.strand];
       for (StrandPixel& p : chain.pixels) {
-        if (p.inJunction) continue;
-        // Where a line runs into a solid it ends at the first pixel that is too wide for it.
-        const bool runsIn = explained_[chain.strand] && p.widthPx() > coreWidth(*s.widthPx);
-        if (runsIn || s.label == InkLabel::Shape) p.label = InkLabel::Shape;
+        if (!p.inJunction) p.label = s.label;
       }
     }
   }
 
-  bool hangsOnShape(const Strand& strand) const {
-    for (const int number : strand.chains) {
-      const StrandChain& chain = graph_.chains()[number];
-      for (const int node : chain.node) {
-        if (node >= 0 && graph_.nodes()[node].label == InkLabel::Shape) return true;
-      }
-      for (const StrandPixel& p : chain.pixels) {
-        if (!p.inJunction && p.label == InkLabel::Shape) return true;
-      }
+  // Lines of this width that a pen drew: they do not hang on a shape, or are too long to be a limb of it.
+  struct Line {
+    double widthPx = 0.0, lengthPx = 0.0;
+  };
+
+  bool isShape(int strand) const { return graph_.strands()[strand].label == InkLabel::Shape; }
+
+  // More of the piece is shape than stroke.
+  bool isSolid(const LabelledPiece& piece) const {
+    double strokes = 0.0;
+    for (const int strand : piece.strands) {
+      const Strand& s = graph_.strands()[strand];
+      if (!isShape(strand) && s.widthPx) strokes += s.lengthPx * *s.widthPx;
     }
-    return false;
+    return 2.0 * strokes < static_cast<double>(piece.areaPx);
   }
 
   // A leg of an animal, a serif: of even width, but no line that a pen drew. Lines of that width elsewhere say
   // otherwise.
-  bool absorbLimbs() {
+  void absorbLimbs() {
     std::vector<int> limbs;
-    std::vector<std::pair<double, double>> lines;  // width and length of what a pen drew, by width
-    for (int i = 0; i < static_cast<int>(explained_.size()); ++i) {
-      const Strand& s = graph_.strands()[i];
-      if (!explained_[i] || s.label == InkLabel::Shape) continue;
-      if (s.elongation() < kLimbWidths && hangsOnShape(s)) {
-        limbs.push_back(i);
-      } else {
-        lines.emplace_back(*s.widthPx, s.lengthPx);
+    std::vector<Line> lines;
+    for (const LabelledPiece& piece : page_.pieces) {
+      const bool solid = isSolid(piece);
+      for (const int strand : piece.strands) {
+        const Strand& s = graph_.strands()[strand];
+        if (isShape(strand) || !s.widthPx) continue;
+        if (solid && s.elongation() < kLimbWidths) {
+          limbs.push_back(strand);
+        } else if (explained_[strand]) {
+          lines.push_back({*s.widthPx, s.lengthPx});
+        }
       }
     }
-    bool any = false;
     for (const int limb : limbs) {
       const double width = *graph_.strands()[limb].widthPx;
       double length = 0.0;
-      for (const auto& [w, l] : lines) {
-        const double ratio = std::max(w, width) / std::min(w, width);
-        if (ratio <= kSamePen + 1.0 / std::min(w, width)) length += l;
+      for (const Line& line : lines) {
+        const double ratio = std::max(line.widthPx, width) / std::min(line.widthPx, width);
+        if (ratio <= kSamePen + 1.0 / std::min(line.widthPx, width)) length += line.lengthPx;
       }
-      if (length >= kOwnPen * width) continue;
-      labelWhole(limb);
-      any = true;
+      if (length < kOwnPen * width) labelWhole(limb);
     }
-    return any;
+    for (const LabelledPiece& piece : page_.pieces) {
+      const bool anyLine = std::any_of(piece.strands.begin(), piece.strands.end(),
+                                       [&](int strand) { return explained_[strand] && !isShape(strand); });
+      if (!anyLine && isSolid(piece)) labelWhole(piece);
+    }
   }
 
   void labelWhole(int strand) {

@@ -11,9 +11,10 @@ namespace {
 
 constexpr double kLetterOfPage = 0.25;  // [page diagonals] larger pieces are no letters
 constexpr double kLetterRadii = 4.0;    // smaller pieces, against their largest disc, are dots
-constexpr double kLetterLength = 25.0;  // [pen widths] what a letter is drawn with, at most
+constexpr double kLetterLength = 40.0;  // [pen widths] four or five lines of a letter, each of at most ten
 constexpr double kBroadUnevenness =
-    0.1;                               // mean that one pen leaves unexplained in an alphabet; less by a pixel's share
+    0.1;  // mean that one pen leaves unexplained in an alphabet; less by a pixel's share
+constexpr double kHairWidths = 0.5;
 constexpr double kLeastBroadPx = 4.5;  // below it the grid of pixels is as large as the contrast of a nib
 constexpr int kLeastVoters = 5;
 
@@ -50,7 +51,11 @@ std::optional<Voter> voterOf(const LabelledPiece& piece, const StrandGraph& grap
   v.sizeBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, size))));
   v.area = static_cast<double>(piece.areaPx);
   v.penPx = piece.mainPenPx;
-  for (const int strand : piece.strands) v.widthsLong += graph.strands()[strand].lengthPx / piece.mainPenPx;
+  for (const int number : piece.strands) {
+    // Hairs of a brush and of rough borders are no lines of a letter.
+    const Strand& s = graph.strands()[number];
+    if (s.widthPx && *s.widthPx >= kHairWidths * piece.mainPenPx) v.widthsLong += s.lengthPx / piece.mainPenPx;
+  }
   // Of joined letters, what one letter has.
   v.uneven = v.widthsLong * size / diagonal < kLetterLength ? unevennessOf(piece, graph) : 0.0;
   return v;

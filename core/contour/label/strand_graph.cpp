@@ -385,7 +385,6 @@ void StrandGraph::measureStrand(Strand& strand) const {
     }
   }
   if (widths.empty()) return;
-  strand.largestWidthPx = *std::max_element(widths.begin(), widths.end());
   double off = 0.0, all = 0.0;
   const double width = std::max(1.0, upperMedian(widths));
   for (const double w : widths) {

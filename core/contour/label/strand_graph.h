@@ -58,7 +58,6 @@ struct Strand {
   double lengthPx = 0.0;  ///< Of the pen's way; a passage through a junction counts as one or two widths at most.
   std::optional<double> widthPx;  ///< Median outside junctions; absent: it has no pixel there.
   double unevenness = 0.0;        ///< 1 - (area shared with the same strand at one width / area of both); 0..1.
-  double largestWidthPx = 0.0;    ///< Outside junctions.
   InkLabel label = InkLabel::Stroke;
   /// Length in widths; 0 where there is no width.
   double elongation() const { return widthPx ? lengthPx / *widthPx : 0.0; }
