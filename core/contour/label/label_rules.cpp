@@ -18,18 +18,6 @@ constexpr double kSamePen = 1.5;      // ratio of widths
 
 bool isExplained(const Strand& s) { return s.elongation() >= kStrokeWidths && s.unevenness <= kUneven; }
 
-// Half of the length lies at widths up to this; 0 for none.
-double weightedMedian(std::vector<std::pair<double, double>> widthAndLength) {
-  std::sort(widthAndLength.begin(), widthAndLength.end());
-  double all = 0.0, sum = 0.0;
-  for (const auto& [width, length] : widthAndLength) all += length;
-  for (const auto& [width, length] : widthAndLength) {
-    sum += length;
-    if (2.0 * sum >= all) return width;
-  }
-  return 0.0;
-}
-
 int runAt(const RunPieces& pieces, int x, int y) {
   const auto before = [](const Run& run, const std::pair<int, int>& yx) {
     return run.y != yx.first ? run.y < yx.first : run.x1 <= yx.second;
@@ -236,6 +224,17 @@ class Labeller {
 };
 
 }  // namespace
+
+double weightedMedian(std::vector<std::pair<double, double>> valueAndWeight) {
+  std::sort(valueAndWeight.begin(), valueAndWeight.end());
+  double all = 0.0, sum = 0.0;
+  for (const auto& [value, weight] : valueAndWeight) all += weight;
+  for (const auto& [value, weight] : valueAndWeight) {
+    sum += weight;
+    if (2.0 * sum >= all) return value;
+  }
+  return 0.0;
+}
 
 PiecesOfPage measurePieces(const StrandGraph& graph, const RunPieces& runs) {
   PiecesOfPage page;

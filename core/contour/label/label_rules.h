@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "core/base/run_context.h"
@@ -31,6 +32,9 @@ struct PiecesOfPage {
   std::vector<LabelledPiece> pieces;
   double pagePenPx = 0.0;
 };
+/// The least value that half of the weight lies at or below; 0 for none.
+double weightedMedian(std::vector<std::pair<double, double>> valueAndWeight);
+
 PiecesOfPage measurePieces(const StrandGraph&, const RunPieces&);
 
 /// Labels strands, junctions and skeleton pixels. A strand is a stroke when one pen width explains it along at least

@@ -13,7 +13,7 @@ constexpr double kLetterOfPage = 0.25;  // [page diagonals] larger pieces are no
 constexpr double kLetterRadii = 4.0;    // smaller pieces, against their largest disc, are dots
 constexpr double kLetterLength = 40.0;  // [pen widths] four or five lines of a letter, each of at most ten
 constexpr double kBroadUnevenness =
-    0.1;  // mean that one pen leaves unexplained in an alphabet; less by a pixel's share
+    0.1;  // median that one pen leaves unexplained in an alphabet; less by a pixel's share
 constexpr double kHairWidths = 0.5;
 constexpr double kLeastBroadPx = 4.5;  // below it the grid of pixels is as large as the contrast of a nib
 constexpr int kLeastVoters = 5;
@@ -63,18 +63,19 @@ std::optional<Voter> voterOf(const LabelledPiece& piece, const StrandGraph& grap
 
 struct Tally {
   int voters = 0;
-  double area = 0.0, uneven = 0.0, pen = 0.0, shape = 0.0;
+  double area = 0.0, pen = 0.0, shape = 0.0;
+  std::vector<std::pair<double, double>> uneven;  // and the area
   void add(const Voter& v) {
     ++voters;
     area += v.area;
-    uneven += v.area * v.uneven;
+    uneven.emplace_back(v.uneven, v.area);
     pen += v.area * v.penPx;
     shape += v.isMostlyShape ? v.area : 0.0;
   }
   void add(const Tally& t) {
     voters += t.voters;
     area += t.area;
-    uneven += t.uneven;
+    uneven.insert(uneven.end(), t.uneven.begin(), t.uneven.end());
     pen += t.pen;
     shape += t.shape;
   }
@@ -84,7 +85,7 @@ std::optional<InkLabel> decide(const Voter& voter, const Tally& t) {
   if (t.voters < kLeastVoters || t.area <= 0.0) return {};
   // A pixel of every width counts as even (unevennessOf).
   const double limit = kBroadUnevenness * (1.0 - t.area / t.pen);
-  if (t.uneven >= limit * t.area && t.pen >= kLeastBroadPx * t.area) return InkLabel::Shape;
+  if (weightedMedian(t.uneven) >= limit && t.pen >= kLeastBroadPx * t.area) return InkLabel::Shape;
   if (2.0 * t.shape > t.area) return InkLabel::Shape;
   if (t.shape < 0.4 * t.area && voter.widthsLong < kLetterLength) return InkLabel::Stroke;
   return {};

@@ -42,7 +42,8 @@ struct Drawing {
       if (out.frame.pointToImage(c.faired.controlPoints().front()).y() > 100) continue;
       std::vector<Vec2> points(c.faired.controlPoints().begin(), c.faired.controlPoints().end());
       for (Vec2& p : points) p.y() -= out.frame.lengthToModel(px);
-      c.faired = NurbsCurve::make(c.faired.degree(), c.faired.knots(), points).value();
+      c.faired =
+          NurbsCurve::make(c.faired.degree(), {c.faired.knots().begin(), c.faired.knots().end()}, points).value();
     }
     out.faired = std::make_shared<FairedSet>(moved);
   }
