@@ -69,6 +69,7 @@ void BatchRun::run() {
   signalsCaught = 0;
   const auto before = std::signal(SIGINT, catchSignal);
   const auto beforeTerm = std::signal(SIGTERM, catchSignal);
+  tieChildrenToThisProcess();
   clock_.start();
   tick_.start(kTickMs);
   QEventLoop loop;
