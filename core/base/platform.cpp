@@ -43,34 +43,48 @@ std::optional<std::uint64_t> machineMemory() {
   return std::nullopt;
 }
 
-/// What the control group leaves (version 2 of the hierarchy), the tightest of its parents among them. What the group
-/// keeps of files counts as free: the kernel gives it up when asked.
+/// A hierarchy of control groups: how /proc/self/cgroup names it, where it lies, and its files.
+struct GroupHierarchy {
+  const char *mark, *root, *limit, *used, *fileCache;
+};
+constexpr GroupHierarchy kHierarchies[] = {
+    {"0::", "/sys/fs/cgroup", "memory.max", "memory.current", "inactive_file"},
+    {":memory:", "/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"}};
+
+/// [bytes] What one group leaves; nullopt if it sets no limit. What it keeps of files counts as free: the kernel gives
+/// that up when asked.
+std::optional<std::uint64_t> leftInGroup(const GroupHierarchy& kind, const std::string& folder) {
+  const auto limit = numberIn(folder + kind.limit), used = numberIn(folder + kind.used);
+  if (!limit || !used) return std::nullopt;
+  std::uint64_t files = 0;
+  std::ifstream figures(folder + "memory.stat");
+  std::string key;
+  for (std::uint64_t value = 0; figures >> key >> value;) {
+    if (key == kind.fileCache) files = value;
+  }
+  const std::uint64_t held = *used - std::min(*used, files);
+  return *limit - std::min(*limit, held);
+}
+
+/// What the control group of this process leaves (version 1 or 2), the tightest of its parents among them.
 std::optional<std::uint64_t> groupMemory() {
-  std::ifstream in("/proc/self/cgroup");
-  std::string line, group;
-  while (std::getline(in, line)) {
-    if (line.starts_with("0::")) group = line.substr(3);
-  }
-  if (group.empty() || group.front() != '/') return std::nullopt;
   std::optional<std::uint64_t> least;
-  while (true) {
-    const std::string folder = "/sys/fs/cgroup" + group + (group.back() == '/' ? "" : "/");
-    const auto limit = numberIn(folder + "memory.max"), used = numberIn(folder + "memory.current");
-    if (limit && used) {
-      std::uint64_t files = 0;
-      std::ifstream figures(folder + "memory.stat");
-      std::string key;
-      for (std::uint64_t value = 0; figures >> key >> value;) {
-        if (key == "inactive_file") files = value;
+  std::ifstream in("/proc/self/cgroup");
+  for (std::string line; std::getline(in, line);) {
+    for (const GroupHierarchy& kind : kHierarchies) {
+      const auto mark = line.find(kind.mark);
+      if (mark == std::string::npos || (mark > 0 && kind.mark[0] != ':')) continue;
+      std::string group = line.substr(mark + std::char_traits<char>::length(kind.mark));
+      while (!group.empty() && group.front() == '/') {
+        if (const auto left = leftInGroup(kind, kind.root + group + (group.back() == '/' ? "" : "/")))
+          least = least ? std::min(*least, *left) : left;
+        if (group.size() == 1) break;
+        const auto slash = group.rfind('/');
+        group = slash == 0 ? "/" : group.substr(0, slash);
       }
-      const std::uint64_t held = *used - std::min(*used, files);
-      const std::uint64_t left = *limit - std::min(*limit, held);
-      least = least ? std::min(*least, left) : left;
     }
-    const auto slash = group.rfind('/');
-    if (group.size() <= 1 || slash == std::string::npos) return least;
-    group = slash == 0 ? "/" : group.substr(0, slash);
   }
+  return least;
 }
 
 }  // namespace
