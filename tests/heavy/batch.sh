@@ -11,7 +11,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 . packaging/packages.sh
 mkdir -p build/check
-install_missing "${build_packages[@]}" python3 parallel snakemake slurmctld slurmd slurm-client munge
+install_missing "${build_packages[@]}" python3 "${batch_packages[@]}"
 if [ -z "${BATTEN_CLI:-}" ]; then
   build batten-cli >build/check/batch-build.log 2>&1 || { tail -20 build/check/batch-build.log; exit 1; }
   export BATTEN_CLI=$PWD/build/release/bin/batten-cli
