@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <iostream>
 #include <new>
 
@@ -14,6 +13,7 @@
 #include "app/cli/trace_command.h"
 #include "app/cli/trace_plan.h"
 #include "app/cli/usage_error.h"
+#include "core/base/platform.h"
 #include "core/exchange/export_settings.h"
 
 namespace {
@@ -187,7 +187,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   // A file that grows beyond what is allowed is a failed write, with a message, and not the end of the program.
-  std::signal(SIGXFSZ, SIG_IGN);
+  batten::reportLargeFilesAsErrors();
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {
