@@ -87,7 +87,7 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
   if (curve.isRational()) {
     return fail(ErrorCode::BadParameter, "Curves with weights cannot be made fair: set all weights to 1.");
   }
-  if (curve.degree() < 3 || curve.degree() > kMaxFairingDegree) {
+  if (curve.degree() < 3 || curve.degree() > kMaxDegree) {
     return fail(ErrorCode::BadParameter, "Only curves of degree 3 to 7 can be made fair.");
   }
   auto setup = std::make_shared<FairingSetup>();
