@@ -18,12 +18,11 @@
 #include "ui/panels/controls/save_dialog.h"
 #include "ui/session/judged_view.h"
 #include "ui/session/opened_scan.h"
+#include "ui/session/path_text.h"
 #include "ui/status_line.h"
 
 namespace batten {
 namespace {
-
-std::filesystem::path nativePath(const QString& path) { return {path.toStdU16String()}; }
 
 const QString kSaveFolderKey = QStringLiteral("recipe/folder");
 
@@ -82,8 +81,7 @@ void MainWindow::beginDrawing(const Recipe& recipe) {
 void MainWindow::scanOpened() {
   Parts& p = *parts_;
   p.recipePath = std::exchange(p.pageRecipe, {});
-  if (session_.openedWithRecipe())
-    p.recipePath = QString::fromStdU16String(recipeBeside(nativePath(session_.scanPath())).u16string());
+  if (session_.openedWithRecipe()) p.recipePath = pathText(recipeBeside(nativePath(session_.scanPath())));
   // Nobody changes what came with the program: the first time Ctrl+S asks where.
   if (isOfProgram(p.recipePath)) p.recipePath.clear();
   forgetDrawing(view_);
@@ -115,7 +113,7 @@ QString MainWindow::startFolder() const {
   QStringList known = recentFiles();
   if (session_.hasScan() && !session_.isBlankPage()) known.prepend(session_.scanPath());
   for (const QString& path : known)
-    if (!isOfProgram(path)) return QFileInfo(path).absolutePath();
+    if (!isOfProgram(path) && isUnicodePath(path)) return QFileInfo(path).absolutePath();
   return QDir::homePath();
 }
 
@@ -123,12 +121,12 @@ void MainWindow::chooseScan() {
   const QString path = QFileDialog::getOpenFileName(
       this, tr("Open scan"), startFolder(),
       tr("Scans (*.png *.jpg *.jpeg *.tif *.tiff *.bmp *.webp *.pgm *.pbm *.ppm *.pnm);;All files (*)"));
-  if (!path.isEmpty()) openPath(path);
+  if (!path.isEmpty()) openPath(chosenPath(path));
 }
 
 void MainWindow::chooseRecipe() {
   const QString path = QFileDialog::getOpenFileName(this, tr("Open recipe"), startFolder(), tr("Recipes (*.json)"));
-  if (!path.isEmpty()) readRecipe(path);
+  if (!path.isEmpty()) readRecipe(chosenPath(path));
 }
 
 void MainWindow::readRecipe(const QString& path) {
@@ -144,7 +142,7 @@ void MainWindow::useRecipe(const QString& path, const Result<Recipe>& recipe) {
   if (!recipe) return showProblem(recipe.error(), FailureOrigin::OpenRecipe);
   if (recipe->page) {
     if (!maybeDiscard()) return;
-    parts_->pageRecipe = QFileInfo(path).absoluteFilePath();
+    parts_->pageRecipe = absolutePath(path);
     session_.newDrawing(*recipe);
     return rememberFile(path);
   }
@@ -167,16 +165,16 @@ bool MainWindow::saveRecipeAs() {
 }
 
 bool MainWindow::saveRecipeTo(const QString& path) {
-  if (const auto saved = saveAtomically(nativePath(path), recipeToJson(session_.recipe())); !saved) {
+  if (const auto saved = saveAtomically(nativePath(path), recipeToJson(session_.recipeToSave())); !saved) {
     showProblem(saved.error(), FailureOrigin::SaveRecipe);
     return false;
   }
-  parts_->recipePath = QFileInfo(path).absoluteFilePath();
-  QSettings().setValue(kSaveFolderKey, QFileInfo(path).absolutePath());
+  parts_->recipePath = absolutePath(path);
+  if (isUnicodePath(path)) QSettings().setValue(kSaveFolderKey, folderOf(path));
   session_.markSaved();
   if (session_.isBlankPage()) rememberFile(path);
   refreshTitle();
-  parts_->status->showMessage(tr("Saved the recipe to %1.").arg(QFileInfo(path).fileName()));
+  parts_->status->showMessage(tr("Saved the recipe to %1.").arg(shownFileName(path)));
   return true;
 }
 
@@ -186,9 +184,9 @@ QString MainWindow::proposedRecipePath() const {
   const QString last = QSettings().value(kSaveFolderKey).toString();
   const QString folder = isPlaceToSave(last) ? last : QDir::homePath();
   if (session_.isBlankPage()) return folder + QStringLiteral("/drawing.recipe.json");
-  const QFileInfo beside(QString::fromStdU16String(recipeBeside(nativePath(session_.scanPath())).u16string()));
-  if (!isOfProgram(session_.scanPath()) && isPlaceToSave(beside.absolutePath())) return beside.absoluteFilePath();
-  return folder + QLatin1Char('/') + beside.fileName();
+  const QString beside = absolutePath(pathText(recipeBeside(nativePath(session_.scanPath()))));
+  if (!isOfProgram(session_.scanPath()) && isUnicodePath(beside) && isPlaceToSave(folderOf(beside))) return beside;
+  return folder + QLatin1Char('/') + proposedFileName(beside);
 }
 
 QString MainWindow::journalFolder() {
@@ -214,7 +212,7 @@ bool MainWindow::offerLeftWork() {
     if (const auto dropped = std::exchange(parts_->leftWork, std::nullopt)) parts_->journal->discard(*dropped);
     if (const QString sample = std::exchange(parts_->sample, {}); !sample.isEmpty()) openAtStart(sample);
   };
-  const QString name = left.scanPath.isEmpty() ? tr("a new drawing") : QFileInfo(left.scanPath).fileName();
+  const QString name = left.scanPath.isEmpty() ? tr("a new drawing") : shownFileName(left.scanPath);
   p.errors->show(tr("Batten did not end as it should. Unsaved work on %1 from %2 was kept.")
                      .arg(name, QLocale().toString(left.when, QLocale::ShortFormat)),
                  tr("Restore it"), tr("Discard it"));
@@ -246,9 +244,8 @@ void MainWindow::tellNotOpened(const QString& path) {
     parts_->errors->hide();
     openPath(path);
   };
-  parts_->errors->show(
-      tr("Batten ended while it opened %1, so that it stays closed now.").arg(QFileInfo(path).fileName()),
-      tr("Open it all the same"));
+  parts_->errors->show(tr("Batten ended while it opened %1, so that it stays closed now.").arg(shownFileName(path)),
+                       tr("Open it all the same"));
   refreshActions();
 }
 
