@@ -32,7 +32,7 @@ install_missing() {
   local log
   log=$(mktemp)
   if ! { "${root[@]}" apt-get update -qq &&
-         "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"; } \
+         "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=600 install -y -qq --no-install-recommends "${missing[@]}"; } \
        >"$log" 2>&1; then
     tail -20 "$log" >&2
     echo "The packages could not be installed; the lines above say why." >&2
