@@ -6,7 +6,7 @@ build_packages=(
   qt6-base-dev qt6-base-dev-tools libgl1-mesa-dev libqcustomplot-dev
   libopencv-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libexpected-dev libssl-dev
   libgtest-dev libgmock-dev libbenchmark-dev
-  libdxflib-dev libocct-data-exchange-dev
+  libdxflib-dev libocct-data-exchange-dev libpoppler-qt6-dev
 )
 run_packages=(qt6-qpa-plugins libqt6svg6 fonts-inter)
 test_packages=(xvfb xauth openbox python3-ezdxf qpdf poppler-utils)

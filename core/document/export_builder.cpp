@@ -92,6 +92,7 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
   document.dpi = recipe.dpi ? recipe.dpi : scan.dpi;
   document.imageSha256 = scan.fileHash.hex();
   document.title = std::filesystem::path(scan.path).filename().string();
+  if (document.title.empty() && !recipe.imports.empty()) document.title = recipe.imports.front().source;
   if (!output.faired || !output.pieces || !output.contours) return document;
   if (which != ExportedCurves::Faired) addCurves(output, true, document);
   if (which != ExportedCurves::Sketched) addCurves(output, false, document);

@@ -271,7 +271,7 @@ Result<ExportDocument> chosenCurves(const ExportDocument& document, const std::s
       if (run.empty()) return;
       ExportCurve& part = result.curves.emplace_back(line);
       part.closed = line.closed && run.size() == line.pieces.size();
-      if (runs++ > 0) part.id += "-" + std::to_string(runs);
+      if (runs++ > 0) part.id.append("-").append(std::to_string(runs));
       part.pieces = std::move(run);
       run.clear();
     };

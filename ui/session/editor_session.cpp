@@ -42,7 +42,9 @@ EditorSession::~EditorSession() {
   runner_->targeting.cancelAll();
 }
 
-void EditorSession::openScan(const QString& path) { runner_->read(path, std::nullopt); }
+void EditorSession::openScan(const QString& path, const std::optional<PageChoice>& page) {
+  runner_->read(path, page, std::nullopt);
+}
 
 void EditorSession::newDrawing(const Recipe& recipe) { runner_->begin(recipe, false); }
 
@@ -50,7 +52,7 @@ void EditorSession::restore(const QString& path, const Recipe& recipe) {
   if (path.isEmpty())
     runner_->begin(recipe, true);
   else
-    runner_->read(path, recipe);
+    runner_->read(path, std::nullopt, recipe);
 }
 
 bool EditorSession::wasRestored() const { return runner_->wasRestored; }

@@ -8,6 +8,7 @@
 #include "core/image/laplacian_edges.h"
 #include "core/pipeline/run/curve_stages.h"
 #include "core/pipeline/run/fair_stage.h"
+#include "core/pipeline/run/imported_lines.h"
 #include "core/pipeline/run/stage_keys.h"
 
 namespace batten {
@@ -60,7 +61,7 @@ std::size_t bytesOf(const FairedSet& set) { return sizeof(set) + bytesOf(set.cur
 class PipelineRun {
  public:
   PipelineRun(const Scan& scan, const Recipe& recipe, StageCache& cache, const PipelineRequest& request,
-      const RunContext& context)
+              const RunContext& context)
       : scan_(scan), recipe_(recipe), cache_(cache), request_(request), context_(context) {}
 
   PipelineOutput runStages() {
@@ -136,11 +137,12 @@ class PipelineRun {
     return fail(ErrorCode::NoCurve, "No line lies inside the region: draw a larger one or clear it.");
   }
 
-  /// The lines found on the scan, and behind them those drawn by hand. The found ones are kept by themselves, so that a
-  /// new stroke does not trace the page again.
+  /// The lines found on the scan, and behind them those of other programs and those drawn by hand. The found ones are
+  /// kept by themselves, so that a new stroke does not trace the page again.
   Result<ContourSet> lines() {
-    if (recipe_.penStrokes.empty()) {
-      if (isBlank(scan_)) return fail(ErrorCode::NoCurve, "The page is empty. Draw a line with the pen.");
+    if (recipe_.penStrokes.empty() && recipe_.imports.empty()) {
+      if (isBlank(scan_))
+        return fail(ErrorCode::NoCurve, "The page is empty. Draw a line with the pen, or import curves.");
       return traceRegions();
     }
     auto traced = cache_.find<ContourSet>(keys_.traced);
@@ -152,7 +154,7 @@ class PipelineRun {
       traced = std::make_shared<const ContourSet>(found ? std::move(*found) : ContourSet{});
       if (found) cache_.store(keys_.traced, traced, bytesOf(*traced));
     }
-    return withPenStrokes(*traced, recipe_.penStrokes);
+    return withPenStrokes(withImports(*traced, recipe_.imports, out_.frame), recipe_.penStrokes);
   }
 
   /// Fills `slot` from the cache or by running `work`; false if the run ends here.
@@ -221,7 +223,12 @@ PipelineOutput runPipeline(const Scan& scan, const Recipe& recipe, StageCache& c
 }
 
 PageFrame frameFor(const Scan& scan, const Recipe& recipe) {
-  return pageFrame(scan, recipe.dpi ? recipe.dpi : scan.dpi);
+  PageFrame frame = pageFrame(scan, recipe.dpi ? recipe.dpi : scan.dpi);
+  if (recipe.page) {
+    frame.leftMm = recipe.page->leftMm;
+    frame.bottomMm = recipe.page->bottomMm;
+  }
+  return frame;
 }
 
 bool isScaleAssumed(const Scan& scan, const Recipe& recipe) { return !recipe.dpi && !scan.dpi; }
