@@ -10,7 +10,7 @@ build_packages=(
 )
 run_packages=(qt6-qpa-plugins libqt6svg6 fonts-inter)
 test_packages=(xvfb xauth openbox python3-ezdxf qpdf poppler-utils)
-judge_packages=(freecad gdal-bin librsvg2-bin npm)  # of the scripts in tests/heavy
+judge_packages=(freecad gdal-bin librsvg2-bin inkscape)  # of the scripts in tests/heavy; npm, too, where there is none
 # What packaging/check needs on top.
 check_packages=(clang-tidy python3)
 package_packages=(lintian mmdebstrap binutils desktop-file-utils appstream shared-mime-info libglib2.0-bin man-db zsh xdotool)

@@ -94,6 +94,12 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   trace->add_option("--which", a.which, "Which curves to write: faired, sketched or both")->type_name("KIND");
   trace->add_flag("--joined", a.joined, "DXF, IGES, STEP: curves that follow each other become one");
   trace->add_flag("--splines-only", a.splinesOnly, "DXF, IGES, STEP: lines, arcs and circles as splines, too");
+  trace
+      ->add_option("--flavour", a.flavour,
+                   "IGES, STEP: curves as they are (exact), each polynomial piece by itself (bezier), or of degree 3 "
+                   "within the tolerance (cubic)")
+      ->type_name("KIND");
+  trace->add_flag("--chords", a.chords, "DXF for cnc: chords only, no arcs");
   addRepeated(*trace, "--corner", a.corners, "X,Y[,MM]",
               "Sharp corner near this place, px from the upper left; with MM rounded by that size; may be repeated");
   addRepeated(*trace, "--segment-point", a.segmentPoints, "X,Y",

@@ -19,6 +19,8 @@ struct TraceArguments {
   std::string which;                       ///< --which faired|sketched|both; empty: faired
   bool joined = false;                     ///< --joined
   bool splinesOnly = false;                ///< --splines-only
+  std::string flavour;                     ///< --flavour exact|bezier|cubic; empty: the preset's, else exact
+  bool chords = false;                     ///< --chords
   std::string recipe;                      ///< --recipe
   std::vector<std::string> settings;       ///< --set stage.parameter=value
   std::vector<std::string> corners;        ///< --corner X,Y or X,Y,MM

@@ -147,6 +147,10 @@ Result<TracePlan::Output> outputOf(const std::string& path, const TraceArguments
   if (arguments.tolerance) settings.toleranceMm = arguments.tolerance;
   settings.joined = settings.joined || arguments.joined;
   settings.splinesOnly = settings.splinesOnly || arguments.splinesOnly;
+  if (arguments.flavour == "exact") settings.flavour = CurveFlavour::Exact;
+  if (arguments.flavour == "bezier") settings.flavour = CurveFlavour::BezierSegments;
+  if (arguments.flavour == "cubic") settings.flavour = CurveFlavour::Cubic;
+  if (arguments.chords) settings.arcs = false;
   if (auto problem = validate(settings)) return fail(std::move(*problem));
   return TracePlan::Output{path, settings};
 }
@@ -159,6 +163,9 @@ Result<void> planExport(const TraceArguments& arguments, TracePlan& plan) {
   if (arguments.which == "both") plan.which = ExportedCurves::Both;
   if (!arguments.which.empty() && arguments.which != "faired" && plan.which == ExportedCurves::Faired)
     return wrong("--which takes faired, sketched or both, not \"" + arguments.which + "\".");
+  const std::string& flavour = arguments.flavour;
+  if (!flavour.empty() && flavour != "exact" && flavour != "bezier" && flavour != "cubic")
+    return wrong("--flavour takes exact, bezier or cubic, not \"" + flavour + "\".");
   plan.curves = arguments.curves;
   for (const std::string& path : arguments.outputs) {
     auto output = outputOf(path, arguments);

@@ -10,6 +10,7 @@
 
 #include "core/base/statistics.h"
 #include "core/exchange/export_check.h"
+#include "core/pipeline/run/imported_lines.h"
 
 namespace batten {
 namespace {
@@ -54,8 +55,16 @@ std::optional<double> strokeWidth(const Contour& line, const PageFrame& frame) {
 
 const NurbsCurve& shapeOf(const TracedCurve& curve, bool sketched) { return sketched ? curve.sketched : curve.faired; }
 
+/// A line that had a name where it came from keeps it.
+void takeName(const std::string& name, ExportCurve& curve) {
+  if (name.empty()) return;
+  curve.name = name;
+  for (std::size_t i = 0; i < curve.pieces.size(); ++i)
+    curve.pieces[i].name = curve.pieces.size() == 1 ? name : name + " " + std::to_string(i + 1);
+}
+
 /// Adds the lines of a run in one of their two kinds.
-void addCurves(const PipelineOutput& output, bool sketched, ExportDocument& document) {
+void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched, ExportDocument& document) {
   std::map<int, ContourPieces> byContour;
   std::map<std::size_t, const TracedCurve*> byPiece;
   for (const TracedCurve& curve : output.faired->curves) {
@@ -76,6 +85,7 @@ void addCurves(const PipelineOutput& output, bool sketched, ExportDocument& docu
         const int number = static_cast<int>(piece - output.faired->curves.data()) + 1;
         curve.pieces.push_back({shapeOf(*piece, sketched), "Curve " + std::to_string(number), number});
       }
+      if (const ImportedLine* imported = importedLineOf(line, recipe.imports)) takeName(imported->name, curve);
       curve.strokeWidthMm = strokeWidth(line, output.frame);
       // A loop of the drawing whose curves do not meet, because a construction breaks them, is none.
       curve.closed = isWholeClosed(run, pieces, line.closed) && isLoop(curve.pieces);
@@ -94,8 +104,8 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
   document.title = std::filesystem::path(scan.path).filename().string();
   if (document.title.empty() && !recipe.imports.empty()) document.title = recipe.imports.front().source;
   if (!output.faired || !output.pieces || !output.contours) return document;
-  if (which != ExportedCurves::Faired) addCurves(output, true, document);
-  if (which != ExportedCurves::Sketched) addCurves(output, false, document);
+  if (which != ExportedCurves::Faired) addCurves(output, recipe, true, document);
+  if (which != ExportedCurves::Sketched) addCurves(output, recipe, false, document);
   return document;
 }
 

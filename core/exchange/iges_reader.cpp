@@ -191,8 +191,8 @@ class IgesReader {
  public:
   IgesReader(IgesRecords records, const RunContext& context) : records_(std::move(records)), context_(context) {
     // Each line belongs to one entry; matrices are read once.
-    constexpr std::size_t kColumns = 64, kOfAll = 4;
-    budget_ = kOfAll * kColumns * records_.data.size() + kColumns;
+    constexpr std::size_t kLineBytes = 64, kOfAll = 4;
+    budget_ = kOfAll * kLineBytes * records_.data.size() + kLineBytes;
   }
 
   Result<CadDrawing> read() {

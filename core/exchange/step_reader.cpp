@@ -265,7 +265,9 @@ class StepReader {
         }
       }
       if (!isCurve(type) && type != "COMPOSITE_CURVE_SEGMENT" && type != "PCURVE") continue;
-      for (const StepValue& value : *data_.record(id, type)) {
+      const auto values = data_.record(id, type);
+      for (std::size_t i = 0; values && i < values->size(); ++i) {
+        const StepValue& value = (*values)[i];
         if (const auto part = StepData::idOf(value)) used.insert(*part);
       }
     }

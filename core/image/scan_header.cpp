@@ -5,14 +5,11 @@
 #include <array>
 #include <cmath>
 
-#include "core/base/conventions.h"
 #include "core/image/scan_header_exif.h"
 #include "core/image/scan_header_jp2.h"
 
 namespace batten {
 namespace {
-
-constexpr double kMetresPerInch = kMillimetresPerInch / 1000.0;
 
 std::array<std::uint32_t, 256> crcTable() {
   std::array<std::uint32_t, 256> table{};

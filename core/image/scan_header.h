@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/base/conventions.h"
 #include "core/image/byte_reader.h"
 #include "core/image/scan.h"
 #include "core/image/scan_grey.h"
 
 namespace batten {
+
+inline constexpr double kMetresPerInch = kMillimetresPerInch / 1000.0;
 
 struct ScanHeader {
   ScanInfo info;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/base/conventions.h"
 
 namespace batten {
 namespace {
@@ -15,7 +14,6 @@ using namespace std::string_view_literals;
 constexpr auto kJp2Begin = "\0\0\0\x0cjP  \r\n\x87\n"sv;
 constexpr auto kCodestreamBegin = "\xff\x4f\xff\x51"sv;  // start of codestream, size
 constexpr std::uint32_t kStartOfTilePart = 0xff90, kEndOfCodestream = 0xffd9;
-constexpr double kMetresPerInch = kMillimetresPerInch / 1000.0;
 
 /// A box of the file: its type, and where its content lies.
 struct Box {

@@ -7,6 +7,7 @@
 
 #include "core/contour/pen_strokes.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
 
 namespace batten {
