@@ -35,6 +35,7 @@ struct TraceArguments {
   std::string page;                        ///< --page N|all; empty: the recipe's, else the first
   std::string report;                      ///< --report
   bool reportTargets = false;              ///< --report-targets
+  bool explain = false;                    ///< --explain
   std::vector<std::string> dumps;          ///< --dump STAGE=FILE.png
   std::string saveRecipe;                  ///< --save-recipe
   std::optional<std::string> threads;      ///< --threads
