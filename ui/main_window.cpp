@@ -30,6 +30,7 @@
 #include "ui/panels/targets/shape_window.h"
 #include "ui/panels/targets/target_strip.h"
 #include "ui/plots/curve_plots.h"
+#include "ui/session/path_text.h"
 #include "ui/setting_finder.h"
 #include "ui/status_line.h"
 #include "ui/top_bar.h"
@@ -287,7 +288,7 @@ void MainWindow::dropEvent(QDropEvent* event) {
   const auto urls = event->mimeData()->urls();
   if (urls.isEmpty() || !urls.first().isLocalFile()) return;
   event->acceptProposedAction();
-  openPath(urls.first().toLocalFile());
+  openPath(pathText(urls.first()));
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

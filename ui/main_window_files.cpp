@@ -28,12 +28,11 @@
 #include "ui/panels/stages/scan_panel.h"
 #include "ui/session/judged_view.h"
 #include "ui/session/opened_scan.h"
+#include "ui/session/path_text.h"
 #include "ui/status_line.h"
 
 namespace batten {
 namespace {
-
-std::filesystem::path nativePath(const QString& path) { return {path.toStdU16String()}; }
 
 const QString kSaveFolderKey = QStringLiteral("recipe/folder");
 
@@ -94,8 +93,7 @@ void MainWindow::scanOpened() {
   Parts& p = *parts_;
   p.recipePath = std::exchange(p.pageRecipe, {});
   if (session_.openedWithRecipe())
-    p.recipePath = QString::fromStdU16String(
-        recipeBeside(nativePath(session_.scanPath()), session_.recipe().scanPage.number).u16string());
+    p.recipePath = pathText(recipeBeside(nativePath(session_.scanPath()), session_.recipe().scanPage.number));
   // Nobody changes what came with the program: the first time Ctrl+S asks where.
   if (isOfProgram(p.recipePath)) p.recipePath.clear();
   forgetDrawing(view_);
@@ -129,7 +127,7 @@ QString MainWindow::startFolder() const {
   QStringList known = recentFiles();
   if (session_.hasScan() && !session_.isBlankPage()) known.prepend(session_.scanPath());
   for (const QString& path : known)
-    if (!isOfProgram(path)) return QFileInfo(path).absolutePath();
+    if (!isOfProgram(path) && isUnicodePath(path)) return QFileInfo(path).absolutePath();
   return QDir::homePath();
 }
 
@@ -138,12 +136,12 @@ void MainWindow::chooseScan() {
       this, tr("Open scan"), startFolder(),
       tr("Scans (*.png *.jpg *.jpeg *.tif *.tiff *.pdf *.jp2 *.j2k *.bmp *.webp *.pgm *.pbm *.ppm *.pnm);;"
          "Curves and points (*.dxf *.igs *.iges *.stp *.step *.svg *.csv *.txt *.json);;All files (*)"));
-  if (!path.isEmpty()) openPath(path);
+  if (!path.isEmpty()) openPath(chosenPath(path));
 }
 
 void MainWindow::chooseRecipe() {
   const QString path = QFileDialog::getOpenFileName(this, tr("Open recipe"), startFolder(), tr("Recipes (*.json)"));
-  if (!path.isEmpty()) readRecipe(path);
+  if (!path.isEmpty()) readRecipe(chosenPath(path));
 }
 
 void MainWindow::readRecipe(const QString& path) {
@@ -168,7 +166,7 @@ void MainWindow::useRecipe(const QString& path, const Result<Recipe>& recipe) {
   if (!recipe) return showProblem(recipe.error(), FailureOrigin::OpenRecipe);
   if (recipe->page) {
     if (!maybeDiscard()) return;
-    parts_->pageRecipe = QFileInfo(path).absoluteFilePath();
+    parts_->pageRecipe = absolutePath(path);
     session_.newDrawing(*recipe);
     return rememberFile(path);
   }
@@ -186,7 +184,7 @@ void MainWindow::chooseImport() {
   const QString path = QFileDialog::getOpenFileName(
       this, tr("Import curves"), startFolder(),
       tr("Curves and points (*.dxf *.igs *.iges *.stp *.step *.svg *.csv *.txt *.json);;All files (*)"));
-  if (!path.isEmpty()) readImport(path, true);
+  if (!path.isEmpty()) readImport(chosenPath(path), true);
 }
 
 void MainWindow::readImport(const QString& path, bool intoDrawing) {
@@ -233,7 +231,7 @@ void MainWindow::openPage(const PageChoice& page) {
 void MainWindow::pasteScan() {
   const QMimeData* data = QGuiApplication::clipboard()->mimeData();
   if (data != nullptr && data->hasUrls() && data->urls().first().isLocalFile())
-    return openPath(data->urls().first().toLocalFile());
+    return openPath(pathText(data->urls().first()));
   const QImage picture = data != nullptr && data->hasImage() ? qvariant_cast<QImage>(data->imageData()) : QImage();
   if (picture.isNull()) return parts_->status->showMessage(tr("The clipboard holds no picture."));
   const QString folder = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + QStringLiteral("/pasted");
@@ -264,16 +262,16 @@ bool MainWindow::saveRecipeAs() {
 }
 
 bool MainWindow::saveRecipeTo(const QString& path) {
-  if (const auto saved = saveAtomically(nativePath(path), recipeToJson(session_.recipe())); !saved) {
+  if (const auto saved = saveAtomically(nativePath(path), recipeToJson(session_.recipeToSave())); !saved) {
     showProblem(saved.error(), FailureOrigin::SaveRecipe);
     return false;
   }
-  parts_->recipePath = QFileInfo(path).absoluteFilePath();
-  QSettings().setValue(kSaveFolderKey, QFileInfo(path).absolutePath());
+  parts_->recipePath = absolutePath(path);
+  if (isUnicodePath(path)) QSettings().setValue(kSaveFolderKey, folderOf(path));
   session_.markSaved();
   if (session_.isBlankPage()) rememberFile(path);
   refreshTitle();
-  parts_->status->showMessage(tr("Saved the recipe to %1.").arg(QFileInfo(path).fileName()));
+  parts_->status->showMessage(tr("Saved the recipe to %1.").arg(shownFileName(path)));
   return true;
 }
 
@@ -283,10 +281,10 @@ QString MainWindow::proposedRecipePath() const {
   const QString last = QSettings().value(kSaveFolderKey).toString();
   const QString folder = isPlaceToSave(last) ? last : QDir::homePath();
   if (session_.isBlankPage()) return folder + QStringLiteral("/drawing.recipe.json");
-  const QFileInfo beside(QString::fromStdU16String(
-      recipeBeside(nativePath(session_.scanPath()), session_.recipe().scanPage.number).u16string()));
-  if (!isOfProgram(session_.scanPath()) && isPlaceToSave(beside.absolutePath())) return beside.absoluteFilePath();
-  return folder + QLatin1Char('/') + beside.fileName();
+  const QString beside =
+      absolutePath(pathText(recipeBeside(nativePath(session_.scanPath()), session_.recipe().scanPage.number)));
+  if (!isOfProgram(session_.scanPath()) && isUnicodePath(beside) && isPlaceToSave(folderOf(beside))) return beside;
+  return folder + QLatin1Char('/') + proposedFileName(beside);
 }
 
 QString MainWindow::journalFolder() {
@@ -312,7 +310,7 @@ bool MainWindow::offerLeftWork() {
     if (const auto dropped = std::exchange(parts_->leftWork, std::nullopt)) parts_->journal->discard(*dropped);
     if (const QString sample = std::exchange(parts_->sample, {}); !sample.isEmpty()) openAtStart(sample);
   };
-  const QString name = left.scanPath.isEmpty() ? tr("a new drawing") : QFileInfo(left.scanPath).fileName();
+  const QString name = left.scanPath.isEmpty() ? tr("a new drawing") : shownFileName(left.scanPath);
   p.errors->show(tr("Batten did not end as it should. Unsaved work on %1 from %2 was kept.")
                      .arg(name, QLocale().toString(left.when, QLocale::ShortFormat)),
                  tr("Restore it"), tr("Discard it"));
@@ -344,9 +342,8 @@ void MainWindow::tellNotOpened(const QString& path) {
     parts_->errors->hide();
     openPath(path);
   };
-  parts_->errors->show(
-      tr("Batten ended while it opened %1, so that it stays closed now.").arg(QFileInfo(path).fileName()),
-      tr("Open it all the same"));
+  parts_->errors->show(tr("Batten ended while it opened %1, so that it stays closed now.").arg(shownFileName(path)),
+                       tr("Open it all the same"));
   refreshActions();
 }
 

@@ -69,7 +69,9 @@ class Trace {
     if (auto written = writeDumps(); !written) return written;
     if (auto written = writeReport(); !written) return written;
     if (!arguments_.saveRecipe.empty()) {
-      if (auto saved = save(arguments_.saveRecipe, recipeToJson(plan_.recipe)); !saved) return saved;
+      Recipe used = plan_.recipe;
+      if (out_.numbers) used.curveNumbers = out_.numbers->known;
+      if (auto saved = save(arguments_.saveRecipe, recipeToJson(used)); !saved) return saved;
     }
     if (out_.error) return fail(*out_.error);
     return {};
@@ -211,7 +213,7 @@ class Trace {
                      " was made; it is kept in the recipe.");
     }
     for (const Error& failure : out_.constructed->failures) list.push_back(failure.message);
-    for (std::string& note : curveNotes(out_.faired->curves)) list.push_back(std::move(note));
+    for (std::string& note : curveNotes(out_)) list.push_back(std::move(note));
     return list;
   }
 

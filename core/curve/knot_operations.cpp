@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/curve/blossom.h"
 #include "core/curve/nurbs_curve.h"
 
 namespace batten {
@@ -46,30 +47,12 @@ Result<NurbsCurve> assemble(Parts parts) {
   return NurbsCurve::make(parts.degree, std::move(parts.knots), std::move(points), std::move(weights));
 }
 
-/// The polar form (blossom) of the polynomial piece over [knots[span], knots[span + 1]] at `degree` arguments:
-/// de Boor's algorithm with an argument of its own for each step. Exact for any arguments; symmetric in them.
-Eigen::Vector3d blossom(const Parts& parts, int span, const double* arguments) {
-  const int p = parts.degree;
-  std::array<Eigen::Vector3d, 8> d;
-  for (int j = 0; j <= p; ++j) {
-    d[j] = parts.points[span - p + j];
-  }
-  for (int r = 1; r <= p; ++r) {
-    for (int j = p; j >= r; --j) {
-      const int i = span - p + j;
-      const double low = parts.knot(i), high = parts.knot(i + p + 1 - r);
-      const double a = (arguments[r - 1] - low) / (high - low);
-      auto& point = d[j];
-      point = (1.0 - a) * d[j - 1] + a * point;
-    }
-  }
-  return d[p];
+Eigen::Vector3d blossomOf(const Parts& parts, int span, const double* arguments) {
+  return blossom(
+      parts.degree, [&](int i) { return parts.knots[i]; }, [&](int i) { return parts.points[i]; }, span, arguments);
 }
 
-int spanAt(const Parts& parts, double u) {
-  const auto first = parts.knots.begin() + parts.degree, last = parts.knots.begin() + parts.count();
-  return static_cast<int>(std::upper_bound(first, last, u) - parts.knots.begin()) - 1;
-}
+int spanAt(const Parts& parts, double u) { return spanOf(parts.degree, parts.knots, parts.count(), u); }
 
 /// Span of the old curve to take control point j of a new knot vector from: the middle of its support, where the polar
 /// form needs to reach least far.
@@ -104,7 +87,7 @@ Parts overKnots(const Parts& old, std::vector<double> knots) {
     if (same) {
       result.points.push_back(old.points[*same]);
     } else {
-      result.points.push_back(blossom(old, sourceSpan(old, result.knots, p, j), &result.knots[j + 1]));
+      result.points.push_back(blossomOf(old, sourceSpan(old, result.knots, p, j), &result.knots[j + 1]));
     }
   }
   return result;
@@ -157,7 +140,7 @@ Parts elevatedOnce(const Parts& old) {
       for (int i = 0, k = 0; i < q; ++i) {
         if (i != omit) rest[k++] = arguments[i];
       }
-      sum += blossom(old, span, rest.data());
+      sum += blossomOf(old, span, rest.data());
     }
     result.points.push_back(sum / q);
   }
@@ -291,7 +274,7 @@ Result<std::vector<BezierPiece>> bezierPieces(const NurbsCurve& curve) {
     for (int j = 0; j <= p; ++j) {
       std::array<double, 8> arguments{};
       for (int i = 0; i < p; ++i) arguments[i] = i < p - j ? low : high;
-      piece.controlPoints.emplace_back(blossom(parts, span, arguments.data()).head<2>());
+      piece.controlPoints.emplace_back(blossomOf(parts, span, arguments.data()).head<2>());
     }
     if (!pieces.empty() && multiplicity(parts, low) <= p)
       piece.controlPoints.front() = pieces.back().controlPoints.back();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/curve/foot_step.h"
 #include "core/solve/gauss_legendre.h"
 
 namespace batten {
@@ -96,6 +97,13 @@ SpanBasis::SpanBasis(int degree, std::span<const double> knots, int count, int w
     }
   }
   breaks_.push_back(knots[count]);
+}
+
+SpanPlace SpanBasis::place(double u) const {
+  const double inside = std::clamp(u, breaks_.front(), breaks_.back());
+  const auto above = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, inside);
+  const int span = static_cast<int>(above - breaks_.begin()) - 1;
+  return {span, (inside - begin(span)) / width(span)};
 }
 
 SpanRow SpanBasis::row(const SpanPlace& place, int order) const {
@@ -208,12 +216,7 @@ SpanPlace footPoint(const SpanCurve& curve, const Vec2& point, SpanPlace start) 
   SpanPlace place = start;
   for (int step = 0; step < 8; ++step) {
     const Jet jet = curve.at(place, 2);
-    const Vec2 gap = jet[0] - point;
-    const double speed2 = jet[1].squaredNorm();
-    if (!(speed2 > 0.0)) return place;
-    // Beyond the centre of curvature the second derivative of the distance turns negative: fall back to Gauss-Newton.
-    const double bend = speed2 + gap.dot(jet[2]);
-    double move = -gap.dot(jet[1]) / (bend > 0.2 * speed2 ? bend : speed2) / basis.width(place.span);
+    double move = footStep(jet[0] - point, jet[1], jet[2]) / basis.width(place.span);
     if (!std::isfinite(move)) return place;
     move = std::clamp(move, -1.0, 1.0);
     SpanPlace next{place.span, place.tau + move};

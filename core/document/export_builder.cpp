@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -74,18 +75,19 @@ void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched
     const auto found = byPiece.find(i);
     byContour[output.pieces->pieces[i].contour].push_back(found == byPiece.end() ? nullptr : found->second);
   }
-  int count = 0;
   for (const auto& [contour, pieces] : byContour) {
     const Contour& line = output.contours->contours[static_cast<std::size_t>(contour)];
     for (const auto& run : runs(pieces, line.closed)) {
       ExportCurve& curve = document.curves.emplace_back();
-      curve.id = "curve-" + std::to_string(++count) + (sketched ? "-sketched" : "");
       curve.layer = sketched ? kSketchedLayer : kFairedLayer;
+      int lowest = std::numeric_limits<int>::max();
       for (const TracedCurve* piece : run) {
-        const int number = static_cast<int>(piece - output.faired->curves.data()) + 1;
-        curve.pieces.push_back({shapeOf(*piece, sketched), "Curve " + std::to_string(number), number});
+        const int number = curveNumber(output, *piece);
+        lowest = std::min(lowest, number);
+        curve.pieces.push_back({shapeOf(*piece, sketched), curveName(number), number});
       }
       if (const ImportedLine* imported = importedLineOf(line, recipe.imports)) takeName(imported->name, curve);
+      curve.id = "curve-" + std::to_string(lowest) + (sketched ? "-sketched" : "");
       curve.strokeWidthMm = strokeWidth(line, output.frame);
       // A loop of the drawing whose curves do not meet, because a construction breaks them, is none.
       curve.closed = isWholeClosed(run, pieces, line.closed) && isLoop(curve.pieces);

@@ -161,7 +161,9 @@ Json cornersToJson(const PipelineOutput& out, const TracedCurve& c) {
 
 Json curveToJson(const PipelineOutput& out, const ReportExtras& extras, std::size_t index) {
   const TracedCurve& c = out.faired->curves[index];
-  Json json{{"index", static_cast<int>(index)}, {"contour", c.contour + 1}, {"piece", c.piece}, {"closed", c.closed}};
+  const int known = curveNumber(out, c);
+  Json json{{"index", static_cast<int>(index)}, {"name", curveName(known)}, {"number", known},
+            {"contour", c.contour + 1},         {"piece", c.piece},         {"closed", c.closed}};
   json["kind"] = kindName(out.contours->contours[c.contour].kind);
   json["corners_px"] = cornersToJson(out, c);
   const auto& refined = out.pieces->pieces[c.piece].refined;
@@ -269,10 +271,13 @@ void addComparisons(const PipelineOutput& out, Json& curves) {
       other = j;
     }
     if (!best) continue;
-    curves[i]["most_alike"] = {
-        {"index", static_cast<int>(other)}, {"similarity", number(best->similarity)},
-        {"pearson", number(best->pearson)}, {"curvature_similarity", number(best->curvatureSimilarity)},
-        {"mirrored", best->mirrored},       {"reversed", best->reversed}};
+    curves[i]["most_alike"] = {{"index", static_cast<int>(other)},
+                               {"name", curveName(curveNumber(out, all[other]))},
+                               {"similarity", number(best->similarity)},
+                               {"pearson", number(best->pearson)},
+                               {"curvature_similarity", number(best->curvatureSimilarity)},
+                               {"mirrored", best->mirrored},
+                               {"reversed", best->reversed}};
   }
 }
 

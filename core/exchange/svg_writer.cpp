@@ -98,9 +98,8 @@ Result<std::string> layers(const ExportDocument& document, const SvgOptions& opt
     if (i == 0 || curve.layer != document.curves[i - 1].layer) {
       if (i > 0) text += "  </g>\n";
       ++count;
-      text += "  <g id=\"curves";
-      if (count > 1) text.append("-").append(std::to_string(count));
-      text += "\" inkscape:groupmode=\"layer\" inkscape:label=\"" + xmlText(curve.layer) +
+      text += "  <g id=\"curves" + (count == 1 ? std::string() : std::string("-").append(std::to_string(count))) +
+              "\" inkscape:groupmode=\"layer\" inkscape:label=\"" + xmlText(curve.layer) +
               "\" fill=\"none\" stroke=\"" + (count == 1 ? "#000000" : "#b00020") + "\"\n     stroke-width=\"" +
               fixed(options.strokeWidthMm) + "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
     }

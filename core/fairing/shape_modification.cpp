@@ -3,186 +3,179 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "core/curve/curvature.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/fairing_state.h"
-#include "core/fairing/minimise.h"
+#include "core/fairing/target_steps.h"
 #include "core/fairing/tolerance_fairing.h"
 
 namespace batten {
 namespace {
 
-constexpr double kSmallestWeight = 1e-3, kLargestWeight = 1e5;
-constexpr int kSearchSteps = 9;
-/// The search for the weight ends when the deviation uses this share of the tolerance.
+/// Steps between two of TargetSteps, to use as much of the tolerance as this.
+constexpr int kSearchSteps = 5;
 constexpr double kUsedShare = 0.95;
 /// A search that leaves more of it unused got stuck in the noise of a rough start; the barrier then takes over.
 constexpr double kStuckShare = 0.8;
-/// A reference curvature below this (times extent) would weigh a straight line's rounding as shape.
-constexpr double kSmallestReference = 1e-3;
-constexpr FairingLimits kFull{40, 1e-4}, kWarm{8, 1e-3}, kPolish{12, 1e-5};
-/// A long wavy curve whose target is plainly out of reach is not worth the last per cent of what the tolerance allows:
-/// from so many samples on, a target farther off than so many tolerances after the first iterations is followed with
-/// less effort.
-constexpr int kLongCurve = 600;
-constexpr double kOutOfReach = 10.0;
-constexpr FairingLimits kProbe{12, 1e-3}, kRest{28, 1e-4}, kRough{4, 1e-2};
-constexpr int kRoughSteps = 5;
+/// Room for what lies between the places where the deviation is measured.
+constexpr double kMeasured = 0.999;
 
-/// One weight of the search: solution and its deviation.
-struct Trial {
-  double weight = 0.0, deviation = 0.0;
-  FairingRun run;
-};
+constexpr const char* kNothingWon =
+    "Left as sketched: within the tolerance, this target would add curvature extrema. Raise the tolerance, split the "
+    "profile, or smooth without a target.";
 
-class WeightSearch {
+/// Of all curves within the tolerance the one with the fewest extrema, of these the one nearest to the target.
+class ShapeModification {
  public:
-  WeightSearch(const FairingSetup& setup, const FairingObjective& objective, double toleranceMm,
-               const RunContext& context)
-      : setup_(setup), objective_(objective), toleranceMm_(toleranceMm), context_(context) {}
+  ShapeModification(const FairingSetup& setup, const FairingObjective& objective, double toleranceMm,
+                    const RunContext& context)
+      : setup_(setup),
+        objective_(objective),
+        toleranceMm_(toleranceMm),
+        context_(context),
+        steps_(setup, objective, context),
+        asked_(extremaAsked(setup, objective)) {}
 
-  /// Solves at a weight from the given control points. Absent when even the start cannot be evaluated.
-  std::optional<Trial> solve(double weight, const std::vector<Vec2>& points, const std::vector<SpanPlace>& feet,
-                             double damping, const FairingLimits& limits) {
-    const FairingCorridor corridor{weight / toleranceMm_, 0.0, 0.0};
-    auto state = evaluate(setup_, objective_, corridor, points, feet);
-    if (!state) return std::nullopt;
-    Trial trial;
-    trial.weight = weight;
-    trial.run = minimise(setup_, objective_, corridor, std::move(*state), damping, limits, context_);
-    trial.deviation = largestDeviation(setup_, trial.run.state.points);
-    iterations_ += trial.run.iterations;
-    return trial;
-  }
-  std::optional<Trial> solveFromStart(double weight, const FairingLimits& limits) {
-    return solve(weight, setup_.points, setup_.start.places, 1e-3, limits);
-  }
-  std::optional<Trial> solveFrom(const Trial& near, double weight, const FairingLimits& limits) {
-    return solve(weight, near.run.state.points, near.run.state.feet, std::min(1e-3, near.run.damping), limits);
-  }
-
-  /// The smallest weight that keeps within the tolerance, between `wide` (which does not) and infinity.
-  std::optional<Trial> search(Trial wide, bool rough) {
-    const FairingLimits limits = rough ? kRough : kWarm;
-    const double usedShare = rough ? kStuckShare : kUsedShare;
-    const int steps = rough ? kRoughSteps : kSearchSteps;
-    double guess = std::clamp(kSmallestWeight * wide.deviation / toleranceMm_ * 10.0, 1e-2, 1.0);
-    std::optional<Trial> inside;
-    while (!inside && guess <= kLargestWeight && !context_.isCancelled()) {
-      const bool near = wide.deviation < 5.0 * toleranceMm_;
-      auto trial = near ? solveFrom(wide, guess, limits) : solveFromStart(guess, limits);
-      if (!trial) return std::nullopt;
-      if (trial->deviation <= toleranceMm_) {
-        inside = std::move(trial);
-      } else {
-        const double factor = std::clamp(2.0 * std::pow(trial->deviation / toleranceMm_, 1.5), 3.0, 100.0);
-        guess *= factor;
-        wide = std::move(*trial);
-      }
+  Result<FairedCurve> run() {
+    if (context_.isCancelled()) return cancelled();
+    if (steps_.all().empty()) {
+      return unchanged(setup_.original, setup_.closed, Termination::Degenerate,
+                       "The curve has a cusp and was left alone.");
     }
-    for (int step = 0; inside && step < steps && !context_.isCancelled(); ++step) {
-      if (inside->deviation >= usedShare * toleranceMm_ || inside->weight < 1.02 * wide.weight) break;
-      const double a = std::log(wide.weight), b = std::log(inside->weight);
-      const double da = std::log(wide.deviation / toleranceMm_);
-      const double db = std::log(std::max(inside->deviation / toleranceMm_, 1e-9)) - std::log(0.5 * (1.0 + usedShare));
-      const double share = std::clamp(da / std::max(da - db, 1e-12), 0.1, 0.9);
-      auto trial = solveFrom(*inside, std::exp(a + share * (b - a)), limits);
-      if (!trial) break;
-      (trial->deviation <= toleranceMm_ ? *inside : wide) = std::move(*trial);
+    const auto before = evaluate(setup_, objective_, {}, setup_.points, setup_.start.places);
+    const TargetStep& full = steps_.all().front();
+    best_.points = setup_.points;
+    best_.misfit = before ? before->misfit : full.misfit;
+    best_.extrema = countedExtrema(setup_.original, setup_.closed);
+    best_.why = Termination::FixedPoint;
+    report_.objectiveBefore = std::sqrt(best_.misfit);
+    report_.neededMm = full.deviationMm;
+    report_.withinTolerance = isWithin(full);
+    for (const TargetStep& step : steps_.all()) {
+      if (isWithin(step)) take(step);
     }
-    return inside;
+    if (best_.why == Termination::FixedPoint || best_.weight > full.weight) useTolerance();
+    if (context_.isCancelled()) return cancelled();
+    return done();
   }
-  int iterations() const { return iterations_; }
 
  private:
+  bool isWithin(const TargetStep& step) const { return step.deviationMm <= kMeasured * toleranceMm_; }
+  /// Extrema that the target itself has are no fault.
+  int rank(const TargetStep& step) const { return std::max(step.extrema, asked_); }
+
+  void take(const TargetStep& step) {
+    if (rank(step) < rank(best_) || (rank(step) == rank(best_) && step.misfit < best_.misfit)) best_ = step;
+  }
+  void takeOfSameRank(const TargetStep& step) {
+    if (isWithin(step) && rank(step) == rank(best_)) take(step);
+  }
+
+  /// Between the last step that leaves the tolerance and the first that keeps it.
+  void useTolerance() {
+    const TargetStep *outside = nullptr, *inside = nullptr;
+    for (const TargetStep& step : steps_.all()) {
+      if (isWithin(step)) {
+        inside = &step;
+        break;
+      }
+      outside = &step;
+    }
+    if (!outside) return;
+    TargetStep wide = *outside;
+    std::optional<TargetStep> near;
+    if (inside) near = *inside;
+    for (int i = 0; i < (steps_.isRough() ? 2 : kSearchSteps) && !context_.isCancelled(); ++i) {
+      if (near && (near->deviationMm >= kUsedShare * toleranceMm_ || near->weight < 1.02 * wide.weight)) break;
+      auto step = steps_.between(near ? *near : wide, near ? weightBetween(wide, *near) : 4.0 * wide.weight);
+      if (!step) break;
+      takeOfSameRank(*step);
+      if (isWithin(*step)) {
+        near = std::move(step);
+      } else {
+        wide = std::move(*step);
+      }
+    }
+    if (best_.why == Termination::FixedPoint || context_.isCancelled()) return;
+    if (const auto polished = steps_.polished(best_)) takeOfSameRank(*polished);
+    if (!steps_.isRough() && best_.deviationMm < kStuckShare * toleranceMm_) useBarrier();
+  }
+
+  double weightBetween(const TargetStep& wide, const TargetStep& near) const {
+    const double a = std::log(wide.weight), b = std::log(near.weight);
+    const double da = std::log(wide.deviationMm / toleranceMm_);
+    const double db = std::log(std::max(near.deviationMm / toleranceMm_, 1e-9)) - std::log(0.5 * (1.0 + kUsedShare));
+    return std::exp(a + std::clamp(da / std::max(da - db, 1e-12), 0.1, 0.9) * (b - a));
+  }
+
+  void useBarrier() {
+    BoundedRun bounded = minimiseWithin(setup_, objective_, toleranceMm_, best_.points, context_);
+    if (context_.isCancelled()) return;
+    report_.iterations += bounded.iterations;
+    TargetStep step = best_;
+    step.points = std::move(bounded.points);
+    step.deviationMm = keepWithin(setup_, toleranceMm_, step.points);
+    const auto state = evaluate(setup_, objective_, {}, step.points, setup_.start.places);
+    const auto curve = toCurve(setup_, step.points);
+    if (!state || !curve) return;
+    step.misfit = state->misfit;
+    step.extrema = countedExtrema(*curve, setup_.closed);
+    takeOfSameRank(step);
+  }
+
+  Result<FairedCurve> done() {
+    report_.iterations += steps_.iterations();
+    report_.objectiveAfter = std::sqrt(best_.misfit);
+    report_.why = report_.withinTolerance ? best_.why : Termination::ToleranceLimited;
+    const bool adds = std::none_of(steps_.all().begin(), steps_.all().end(), [this](const TargetStep& step) {
+      return isWithin(step) && rank(step) <= rank(best_);
+    });
+    if (best_.why == Termination::FixedPoint && adds) {
+      report_.why = Termination::ToleranceLimited;
+      report_.withinTolerance = false;
+      report_.note = kNothingWon;
+    } else if (!report_.withinTolerance) {
+      report_.note = "The profile was followed as far as the tolerance allows.";
+      if (best_.deviationMm < kStuckShare * toleranceMm_) {
+        // The corridor had room left: it was not what stopped the curve.
+        report_.why = Termination::NoProgress;
+        report_.note = steps_.isRough()
+                           ? "The profile lies far out of reach for this curve. Split it, or mark its corners."
+                           : "The curve follows the profile only so far without more curvature extrema. Fair it by "
+                             "tolerance first, or raise the tolerance.";
+      }
+    } else if (best_.weight > steps_.all().front().weight && best_.extrema < steps_.all().front().extrema) {
+      report_.note = "The profile was followed as far as no curvature extremum is added.";
+    }
+    return finished(setup_, std::move(best_.points), toleranceMm_, std::move(report_));
+  }
+
   const FairingSetup& setup_;
   const FairingObjective& objective_;
   double toleranceMm_;
   const RunContext& context_;
-  int iterations_ = 0;
+  TargetSteps steps_;
+  int asked_;
+  TargetStep best_;
+  FairingReport report_;
 };
-
-Result<FairingObjective> objectiveOf(const FairingSetup& setup, const TargetProfile& profile) {
-  if (!profile.valid) return fail(ErrorCode::BadParameter, profile.problem.empty() ? "No target." : profile.problem);
-  FairingObjective objective;
-  double sum = 0.0;
-  bool positive = false, negative = false;
-  for (int i = 0; i < setup.sampleCount(); ++i) {
-    const double value = profile.value(setup.fraction(i)), kappa = profile.curvatureAt(setup.fraction(i));
-    positive = positive || value > 0.0;
-    negative = negative || !(value > 0.0);
-    if (!std::isfinite(kappa)) return fail(ErrorCode::Numerical, "The target is not finite.");
-    objective.wanted.push_back(kappa);
-    sum += kappa * kappa;
-  }
-  if (profile.quantity == TargetQuantity::Radius && positive && negative) {
-    return fail(ErrorCode::Numerical, "The radius profile passes through zero: no curve can follow it.");
-  }
-  objective.reference = std::max(std::sqrt(sum / setup.sampleCount()), kSmallestReference / setup.extent);
-  return objective;
-}
 
 }  // namespace
 
 Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& profile, double toleranceMm,
                                 const RunContext& context) {
-  const auto objective = objectiveOf(setup, profile);
+  const auto objective = targetObjective(setup, profile);
   if (!objective) return fail(objective.error());
-  FairingReport report;
-  WeightSearch search(setup, *objective, toleranceMm, context);
-  const bool isLong = setup.sampleCount() > kLongCurve;
-  auto full = search.solveFromStart(kSmallestWeight, isLong ? kProbe : kFull);
-  const bool rough = isLong && full && full->deviation > kOutOfReach * toleranceMm;
-  if (isLong && full && !rough && full->run.why == Termination::IterationLimit && !context.isCancelled()) {
-    full = search.solveFrom(*full, kSmallestWeight, kRest);
-  }
-  if (context.isCancelled()) return cancelled();
-  if (!full)
-    return unchanged(setup.original, setup.closed, Termination::Degenerate, "The curve has a cusp and was left alone.");
-  const auto before = evaluate(setup, *objective, {}, setup.points, setup.start.places);
-  report.objectiveBefore = before ? std::sqrt(before->misfit) : 0.0;
-  report.neededMm = full->deviation;
-  report.withinTolerance = full->deviation <= toleranceMm;
-  std::vector<Vec2> points = setup.points;
-  if (report.withinTolerance) {
-    points = full->run.state.points;
-    report.why = full->run.why;
-  } else {
-    report.why = Termination::ToleranceLimited;
-    report.note = "The profile was followed as far as the tolerance allows.";
-    if (auto inside = search.search(std::move(*full), rough)) {
-      points = inside->run.state.points;
-      if (auto polished = rough ? std::nullopt : search.solveFrom(*inside, inside->weight, kPolish))
-        points = polished->run.state.points;
-    }
-  }
-  if (context.isCancelled()) return cancelled();
-  report.iterations = search.iterations();
-  const double deviation = keepWithin(setup, toleranceMm, points);
-  if (!report.withinTolerance && !rough && deviation < kStuckShare * toleranceMm) {
-    BoundedRun bounded = minimiseWithin(setup, *objective, toleranceMm, points, context);
-    if (context.isCancelled()) return cancelled();
-    report.iterations += bounded.iterations;
-    keepWithin(setup, toleranceMm, bounded.points);
-    const auto old = evaluate(setup, *objective, {}, points, setup.start.places);
-    const auto now = evaluate(setup, *objective, {}, bounded.points, setup.start.places);
-    if (now && (!old || now->misfit < old->misfit)) points = std::move(bounded.points);
-  }
-  const auto after = evaluate(setup, *objective, {}, points, setup.start.places);
-  report.objectiveAfter = after ? std::sqrt(after->misfit) : report.objectiveBefore;
-  if (!report.withinTolerance && largestDeviation(setup, points) < kStuckShare * toleranceMm) {
-    // The corridor had room left: it was not what stopped the curve.
-    report.why = Termination::NoProgress;
-    report.note = rough ? "The profile lies far out of reach for this curve. Split it, or mark its corners."
-                        : "The curve is too rough to follow the profile further. Fair it by tolerance first.";
-  }
-  return finished(setup, std::move(points), toleranceMm, std::move(report));
+  return ShapeModification(setup, *objective, toleranceMm, context).run();
 }
 
 Result<FairedCurve> modifyShape(const NurbsCurve& curve, bool closed, const TargetProfile& profile,
                                 const FairingParams& params, const RunContext& context) {
-  return withSetup(curve, closed, params,
-                   [&](const FairingSetup& setup) { return modifyShape(setup, profile, params.toleranceMm, context); });
+  return withSetup(curve, closed, params, [&](const std::shared_ptr<const FairingSetup>& setup) {
+    return modifyShape(*setup, profile, params.toleranceMm, context);
+  });
 }
 
 }  // namespace batten

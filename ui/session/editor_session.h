@@ -17,6 +17,7 @@
 
 namespace batten {
 
+struct CoarseResult;
 class GrowingPlayer;
 class SuggestionSource;
 /// A result set aside to compare later ones with. All parts belong together.
@@ -65,8 +66,11 @@ class EditorSession : public QObject {
   QString openProblem() const;
 
   const Recipe& recipe() const { return recipe_; }
+  /// The recipe with the numbers given to curves so far: what files keep. recipe() is without them, as they are no
+  /// change that could be undone.
+  Recipe recipeToSave() const;
   /// Changes the recipe by an undoable command. Changes with one `gesture` (>= 0) merge into one undo step; -1 never
-  /// merges.
+  /// merges. Numbers of curves in `after`, as a recipe from a file has them, count from now on.
   void change(const QString& what, Recipe after, int gesture = -1);
   /// A fresh gesture number for a drag.
   int newGesture() { return ++lastGesture_; }
@@ -78,6 +82,10 @@ class EditorSession : public QObject {
   const PipelineOutput& output() const { return output_; }
   /// The curves to show, which selectedCurve() counts: the faired set, or the constructed one while there is none.
   std::span<const TracedCurve> curves() const;
+  /// Of large pages: what a quick run on a smaller page has found, for as long as it is newer than what output() holds.
+  /// To be looked at; everything else goes by output(). Curves are only there while curves() is empty. Null otherwise.
+  std::shared_ptr<const CoarseResult> coarseInk() const;
+  std::shared_ptr<const CoarseResult> coarseCurves() const;
   /// Whose choice is whose in the present recipe: on the pieces shown, as the next run applies them.
   const ChoiceOwners& choiceOwners() const;
   /// The selected one of curves(), or null.
@@ -140,6 +148,7 @@ class EditorSession : public QObject {
   void scanOpened();
   void recipeChanged();
   void stageReady(batten::StageId stage);
+  void coarseReady();  ///< coarseInk() or coarseCurves() is there, or newer.
   void runFinished();  ///< The newest run ended (done, failed or cancelled).
   void busyChanged(bool busy);
   void workingChanged(bool working);
@@ -169,6 +178,7 @@ class EditorSession : public QObject {
   std::shared_ptr<const Scan> scan_;
   Recipe recipe_;
   PipelineOutput output_;
+  std::shared_ptr<const CoarseResult> coarse_;
   mutable KnownOwners known_;
   QUndoStack undo_;
   int lastGesture_ = 0;

@@ -14,7 +14,7 @@ namespace batten {
 
 std::filesystem::path recipeBeside(const std::filesystem::path& scan, int page) {
   std::filesystem::path recipe = scan;
-  if (page > 1) recipe.replace_filename(recipe.stem().concat("-p" + std::to_string(page)));
+  if (page > 1) return recipe.replace_filename(recipe.stem().concat("-p" + std::to_string(page) + ".recipe.json"));
   return recipe.replace_extension(".recipe.json");
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/construct/fair/fair_frame.h"
 #include "core/curve/knot_operations.h"
+#include "core/curve/turning_points.h"
 #include "core/solve/banded_cholesky.h"
 #include "core/solve/banded_matrix.h"
 #include "core/solve/banded_program.h"
@@ -333,22 +334,7 @@ std::optional<ReducedCurve> withFewestPoints(const UniformQuintic& full, const R
 
 std::vector<int> turnsOf(std::span<const double> kappa, double least) {
   std::vector<int> turns;
-  if (kappa.empty()) return turns;
-  std::size_t lowest = 0, highest = 0;
-  int direction = 0;
-  for (std::size_t i = 0; i < kappa.size(); ++i) {
-    if (kappa[i] < kappa[lowest]) lowest = i;
-    if (kappa[i] > kappa[highest]) highest = i;
-    if (direction >= 0 && kappa[highest] - kappa[i] > least) {
-      if (direction > 0) turns.push_back(static_cast<int>(highest));
-      direction = -1;
-      lowest = i;
-    } else if (direction <= 0 && kappa[i] - kappa[lowest] > least) {
-      if (direction < 0) turns.push_back(static_cast<int>(lowest));
-      direction = 1;
-      highest = i;
-    }
-  }
+  for (const TurningPoint& turning : turningPoints(kappa, least, TurningStart::AtEnd)) turns.push_back(turning.index);
   return turns;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <complex>
 
-#include "core/solve/block_levenberg.h"
+#include "core/solve/residual_blocks.h"
 
 namespace batten {
 
@@ -102,7 +102,7 @@ std::optional<RoundedCorner> withCurvatures(const Frame& f, double kappa1, doubl
                       }};
   for (const double first : {-0.2, -0.7, -1.2}) {
     const auto solved = minimiseBlocks(Eigen::Vector2d(first, 0.0), Eigen::Vector2d::Ones(), std::array{block}, {});
-    if (!(solved.after < 1e-22)) continue;
+    if (!(solved.run.cost < 1e-22)) continue;
     const Shape s = shapeOf(std::span(solved.x.data(), 2));
     auto corner = assemble(f, s.edge1, s.h1, s.phi1, s.edge2, s.h2, s.phi2);
     if (!corner) continue;

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/curve/closest_point.h"
-#include "core/solve/block_levenberg.h"
+#include "core/solve/residual_blocks.h"
 #include "core/solve/dense_solve.h"
 
 namespace batten {
@@ -153,7 +153,7 @@ class Grower {
         }};
     const auto solved = minimiseBlocks(Eigen::Vector3d::Zero(), Eigen::Vector3d(0.1, 1.0, 1.0), std::array{block}, {});
     if (const auto better = curveOf(std::span(solved.x.data(), 3))) c = *better;
-    return solved.why != Termination::IterationLimit;
+    return solved.run.why != Termination::IterationLimit;
   }
 
   static std::optional<TypicalCurve> continued(const TypicalCurve& before, double size) {

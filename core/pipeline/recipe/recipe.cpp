@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <utility>
 
 namespace batten {
 namespace {
@@ -46,6 +49,25 @@ std::optional<Error> validatePlaces(const Recipe& recipe) {
   }
   for (const ExtremumChoice& choice : recipe.extremumChoices) {
     if (!isPlace(choice.positionPx)) return badPlace("A choice for a curvature extremum");
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> validateNumbers(const CurveNumbers& numbers) {
+  // Far more than any drawing comes to; counting on from here still fits an int.
+  constexpr int kMostNumbered = 1'000'000'000;
+  if (!(numbers.lastGiven >= 0 && numbers.lastGiven <= kMostNumbered)) {
+    return bad("The last number given to a curve must be 0 to 1000000000.");
+  }
+  std::set<int> given;
+  for (const NumberedCurve& curve : numbers.curves) {
+    if (!(curve.number >= 1 && curve.number <= kMostNumbered && given.insert(curve.number).second)) {
+      return bad("Curves are numbered from 1 to 1000000000, each number once.");
+    }
+    if (curve.placesPx.empty() || curve.placesPx.size() > kMostPlacesOfCurve) {
+      return bad("A numbered curve must have 1 to " + std::to_string(kMostPlacesOfCurve) + " places.");
+    }
+    if (!arePlaces(curve.placesPx)) return badPlace("A place of a numbered curve");
   }
   return std::nullopt;
 }
@@ -112,6 +134,7 @@ std::optional<Error> validate(const Recipe& recipe) {
   for (const PieceChoice& choice : recipe.choices) {
     if (auto e = validateChoice(choice)) return e;
   }
+  if (auto e = validateNumbers(recipe.curveNumbers)) return e;
   return std::nullopt;
 }
 

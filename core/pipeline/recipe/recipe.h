@@ -17,6 +17,7 @@
 #include "core/image/neighbourhood_filter.h"
 #include "core/image/region_thresholds.h"
 #include "core/image/scan.h"
+#include "core/pipeline/recipe/curve_numbers.h"
 
 namespace batten {
 
@@ -111,6 +112,7 @@ struct Recipe {
   FairingParams fairing;
   std::vector<PieceChoice> choices;
   std::vector<ExtremumChoice> extremumChoices;
+  CurveNumbers curveNumbers;  ///< What the curves are called; changes no curve.
   bool operator==(const Recipe&) const = default;
 };
 

@@ -203,6 +203,15 @@ Result<void> readScanPage(const Json& json, Recipe& recipe) {
   return {};
 }
 
+Json numbersToJson(const CurveNumbers& numbers) {
+  Json curves = Json::array();
+  for (const NumberedCurve& curve : numbers.curves) {
+    Json& places = curves.emplace_back(Json{{"number", curve.number}, {"places", Json::array()}})["places"];
+    for (const Vec2& p : curve.placesPx) places.push_back({p.x(), p.y()});
+  }
+  return {{"last", numbers.lastGiven}, {"known", std::move(curves)}};
+}
+
 Json traceModesToJson(const Recipe& recipe) {
   Json ways = Json::array();
   for (const EdgeChoice& choice : recipe.edges.choices) {
@@ -332,6 +341,26 @@ Result<void> readTraceModes(const Json& json, Recipe& recipe) {
   return {};
 }
 
+Result<void> readNumbers(const Json& json, Recipe& recipe) {
+  const auto damaged = [] {
+    return refuse(
+        "The recipe is damaged: \"curves\" does not hold just the \"last\" number and the numbers and places "
+        "\"known\". Without \"curves\" it can be used; its curves are numbered anew then.");
+  };
+  const bool isWhole = json.is_object() && json.size() == 2 && json.contains("last") && json.contains("known");
+  const auto last = isWhole ? integerFromJson(json["last"]) : std::nullopt;
+  if (!last || !json["known"].is_array()) return damaged();
+  recipe.curveNumbers.lastGiven = *last;
+  for (const Json& entry : json["known"]) {
+    const bool isOne = entry.is_object() && entry.size() == 2 && entry.contains("number") && entry.contains("places");
+    const auto number = isOne ? integerFromJson(entry["number"]) : std::nullopt;
+    auto places = number ? pairsFromJson(entry["places"]) : std::nullopt;
+    if (!places) return damaged();
+    recipe.curveNumbers.curves.push_back({*number, std::move(*places)});
+  }
+  return {};
+}
+
 Result<void> checkHead(const Json& json) {
   if (!json.is_object() || !json.contains("format") || json["format"] != kFormat) {
     return refuse("This is not a Batten recipe. Choose a file that Batten saved as a recipe.");
@@ -366,6 +395,7 @@ Result<void> readEntry(const std::string& name, const Json& value, Recipe& recip
   if (name == "extrema") return readExtrema(value, recipe);
   if (name == "regions") return readRegions(value, recipe);
   if (name == "ways") return readTraceModes(value, recipe);
+  if (name == "curves") return readNumbers(value, recipe);
   if (name != "dpi") {
     return refuse("The recipe holds \"" + name + "\", which this version of Batten does not know.");
   }
@@ -413,6 +443,7 @@ std::string recipeToJson(const Recipe& recipe) {
     for (const Vec2& p : region.cornersPx) polygon.push_back({p.x(), p.y()});
   }
   if (!recipe.edges.choices.empty()) json["ways"] = traceModesToJson(recipe);
+  if (recipe.curveNumbers.lastGiven > 0) json["curves"] = numbersToJson(recipe.curveNumbers);
   return json.dump(1) + "\n";
 }
 

@@ -40,6 +40,11 @@ std::size_t bytesOf(const PieceSet& set) {
         sizeof(p) + vectorBytes(p.points) + vectorBytes(p.refined) + vectorBytes(p.sigmaPx) + vectorBytes(p.spreadPx);
   return bytes;
 }
+std::size_t bytesOf(const PieceNumbers& numbers) {
+  std::size_t bytes = sizeof(numbers) + vectorBytes(numbers.ofPiece) + vectorBytes(numbers.known.curves);
+  for (const NumberedCurve& curve : numbers.known.curves) bytes += vectorBytes(curve.placesPx);
+  return bytes;
+}
 std::size_t bytesOf(const SegmentSet& set) {
   std::size_t bytes = sizeof(set);
   for (const PieceSegments& p : set.pieces) bytes += sizeof(p) + vectorBytes(p.stations);
@@ -96,10 +101,12 @@ class PipelineRun {
       case StageId::Contours:
         return step(stage, out_.contours, [&] { return lines(); });
       case StageId::Pieces:
-        return step(stage, out_.pieces, [&] {
-          const GreyImage& grey = recipe_.cornerMarks.empty() ? scan_.grey : flattenedScan();
-          return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, &grey);
-        });
+        return step(stage, out_.pieces,
+                    [&] {
+                      const GreyImage& grey = recipe_.cornerMarks.empty() ? scan_.grey : flattenedScan();
+                      return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, &grey);
+                    }) &&
+               numberPiecesOnce();
       case StageId::Segments:
         return step(stage, out_.segments, [&] { return regressionSegments(*out_.pieces, recipe_.segments); });
       case StageId::Curves:
@@ -112,6 +119,21 @@ class PipelineRun {
         });
     }
     return false;
+  }
+
+  /// What the pieces are called; kept for the runs that change only later stages.
+  bool numberPiecesOnce() {
+    HashBuilder h;
+    h.text("curve numbers").hash(keys_[StageId::Pieces]).integer(recipe_.curveNumbers.lastGiven);
+    for (const NumberedCurve& curve : recipe_.curveNumbers.curves) {
+      h.integer(curve.number).integer(std::ssize(curve.placesPx));
+      for (const Vec2& p : curve.placesPx) h.number(p.x()).number(p.y());
+    }
+    const bool made = fill(StageId::Pieces, h.finish(), out_.numbers, [&]() -> Result<PieceNumbers> {
+      return numberPieces(*out_.pieces, recipe_.curveNumbers, context_);
+    });
+    if (made) takeTime(StageId::Pieces);
+    return made;
   }
 
   /// The scan without its folds, made once a run.
@@ -163,17 +185,26 @@ class PipelineRun {
     begin_ = Clock::now();
     StageTiming& timing = out_.timing[indexOf(stage)];
     timing.run = true;
+    slot = cache_.find<T>(keys_[stage]);
+    timing.fromCache = slot != nullptr;
+    if (!fill(stage, keys_[stage], slot, work)) return false;
+    takeTime(stage);
+    return true;
+  }
+
+  /// As step(), for one of the outputs of a stage.
+  template <class T, class Work>
+  bool fill(StageId stage, const ContentHash& key, std::shared_ptr<const T>& slot, const Work& work) {
     try {
       if (context_.isCancelled()) return stop(stage, {ErrorCode::Cancelled, "Cancelled.", {}});
-      slot = cache_.find<T>(keys_[stage]);
-      timing.fromCache = slot != nullptr;
+      if (!slot) slot = cache_.find<T>(key);
       if (!slot) {
         Result<T> result = work();
         // A stage that was interrupted may hand back what it had: never kept.
         if (context_.isCancelled()) return stop(stage, {ErrorCode::Cancelled, "Cancelled.", {}});
         if (!result) return stop(stage, std::move(result).error());
         slot = std::make_shared<const T>(std::move(*result));
-        cache_.store(keys_[stage], slot, bytesOf(*slot));
+        cache_.store(key, slot, bytesOf(*slot));
       }
     } catch (const std::bad_alloc&) {
       slot = nullptr;
@@ -188,7 +219,6 @@ class PipelineRun {
                               "\" failed on this drawing. Change its settings or report it.",
                           e.what()});
     }
-    takeTime(stage);
     return true;
   }
 
@@ -220,6 +250,12 @@ class PipelineRun {
 PipelineOutput runPipeline(const Scan& scan, const Recipe& recipe, StageCache& cache, const PipelineRequest& request,
                            const RunContext& context) {
   return PipelineRun(scan, recipe, cache, request, context).runStages();
+}
+
+int curveNumber(const PipelineOutput& output, const TracedCurve& curve) {
+  // Curves of an older run may be shown beside the pieces of a newer one, for a moment.
+  const bool isKnown = output.numbers && curve.piece >= 0 && curve.piece < std::ssize(output.numbers->ofPiece);
+  return isKnown ? output.numbers->ofPiece[curve.piece] : curve.piece + 1;
 }
 
 PageFrame frameFor(const Scan& scan, const Recipe& recipe) {

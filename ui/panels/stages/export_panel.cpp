@@ -19,6 +19,7 @@
 #include "ui/panels/controls/save_dialog.h"
 #include "ui/panels/stages/export_options.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/path_text.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -28,7 +29,7 @@ const QString kFolderKey = QStringLiteral("export/folder");
 
 /// A name without the ending of an export, if it has one.
 QString withoutEnding(const QString& name) {
-  if (const auto format = formatOf(std::filesystem::path(name.toStdU16String()))) {
+  if (const auto format = formatOf(nativePath(name))) {
     for (const char* ending : endingsOf(*format))
       if (name.endsWith(QLatin1String(ending), Qt::CaseInsensitive)) return name.chopped(qsizetype(qstrlen(ending)));
   }
@@ -123,12 +124,12 @@ void ExportPanel::suggestName() {
     path_->setText(now.path() + QLatin1Char('/') + withoutEnding(now.fileName()) + QLatin1Char('.') + suffix);
     path_->setModified(true);
   } else if (session_.hasScan()) {
-    const QFileInfo scan(session_.scanPath());
+    const QString scan = session_.scanPath();
     QString folder = QSettings().value(kFolderKey).toString();
-    if (folder.isEmpty() && !session_.isBlankPage() && !isOfProgram(scan.absoluteFilePath()))
-      folder = scan.absolutePath();
-    if (folder.isEmpty() || !QFileInfo(folder).isWritable()) folder = QDir::homePath();
-    const QString name = session_.isBlankPage() ? QStringLiteral("drawing") : scan.completeBaseName();
+    if (folder.isEmpty() && !session_.isBlankPage() && !isOfProgram(scan)) folder = folderOf(scan);
+    if (folder.isEmpty() || !isUnicodePath(folder) || !QFileInfo(folder).isWritable()) folder = QDir::homePath();
+    const QString name =
+        session_.isBlankPage() ? QStringLiteral("drawing") : QFileInfo(proposedFileName(scan)).completeBaseName();
     path_->setText(folder + QLatin1Char('/') + name + QLatin1Char('.') + suffix);
     path_->setCursorPosition(static_cast<int>(path_->text().size()));
   }
@@ -198,7 +199,7 @@ void ExportPanel::refresh() {
 /// What was typed, with the ending of the format: that of another one is replaced.
 QString ExportPanel::wantedPath() const {
   const QString typed = QFileInfo(path_->text().trimmed()).absoluteFilePath();
-  const auto format = formatOf(std::filesystem::path(typed.toStdU16String()));
+  const auto format = formatOf(nativePath(typed));
   if (format && *format != options_->settings().format)
     return withoutEnding(typed) + QLatin1Char('.') + options_->suffix();
   return withSuffix(typed, options_->suffix());
@@ -217,7 +218,7 @@ void ExportPanel::start() {
     return refresh();
   }
   ExportRequest request{session_.output(),    session_.recipe(), session_.scan(),
-                        options_->settings(), options_->which(), std::filesystem::path(path.toStdU16String())};
+                        options_->settings(), options_->which(), nativePath(path)};
   running_ = true;
   writing_ = session_.recipe();
   if (path_->isModified()) QSettings().setValue(kFolderKey, QFileInfo(path).absolutePath());
@@ -247,7 +248,7 @@ void ExportPanel::finish(const Result<ExportReport>& report) {
     emit failed(report.error());
     return;
   }
-  lastWritten_ = QString::fromStdU16String(report->path.u16string());
+  lastWritten_ = pathText(report->path);
   result_->setText(
       tr("Wrote %1: %2.").arg(QFileInfo(lastWritten_).fileName(), QString::fromStdString(sentenceOf(*report))));
   refresh();
