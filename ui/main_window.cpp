@@ -131,6 +131,7 @@ QWidget* MainWindow::makeInspector() {
   p.settings = new SettingFinder(this);
   connect(p.settings, &SettingFinder::stageAsked, this, &MainWindow::setStage);
   p.scanPanel = new ScanPanel(session_);
+  connect(p.scanPanel, &ScanPanel::pageChosen, this, &MainWindow::openPage);
   p.exportPanel = new ExportPanel(session_);
   auto* curves = new CurvesPanel(session_, view_);
   connect(curves, &CurvesPanel::helpAsked, this, &MainWindow::showHelp);

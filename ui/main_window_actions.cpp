@@ -160,6 +160,10 @@ void MainWindow::trigger(ActionId id) {
       return session_.pinned() ? session_.unpin() : session_.pin();
     case ActionId::OpenScan:
       return chooseScan();
+    case ActionId::ImportCurves:
+      return chooseImport();
+    case ActionId::PasteScan:
+      return pasteScan();
     case ActionId::OpenRecipe:
       return chooseRecipe();
     case ActionId::SaveRecipe:

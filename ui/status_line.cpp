@@ -168,7 +168,8 @@ void StatusLine::refreshWork() {
     return;
   }
   progress_->setValue(0);
-  const bool isBeginning = session_.isBlankPage() && session_.recipe().penStrokes.empty();
+  const bool isBeginning =
+      session_.isBlankPage() && session_.recipe().penStrokes.empty() && session_.recipe().imports.empty();
   if (!session_.hasScan() || isBeginning) return work_->clear();
   const double ms = session_.lastRunMilliseconds();
   const bool whole = !session_.isStale(StageId::Faired) && session_.output().faired;

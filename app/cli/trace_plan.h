@@ -28,8 +28,12 @@ struct TracePlan {
   std::string curves;  ///< Numbers of the curves to write; empty: all.
   ExportedCurves which = ExportedCurves::Faired;
   std::vector<Dump> dumps;
-  int threads = 0;  ///< At most; 0 = all.
+  int threads = 0;                 ///< At most; 0 = all.
+  std::vector<std::string> notes;  ///< What to know of what was imported.
 };
+
+/// The words with a scan that is a file of curves or points among the imports.
+TraceArguments withCurvesAsImport(TraceArguments);
 
 /// The recipe that the words ask for: recipe file first, then --set in the order given, then corners, regions and
 /// resolution. @return BadParameter with what to do.
@@ -39,6 +43,13 @@ Result<Recipe> recipeOf(const TraceArguments&);
 std::string presetNames();
 /// --threads. @return BadParameter with what to do.
 Result<int> threadsOf(const TraceArguments&);
+
+/// The words for one page of a file of which all pages are asked for: the names of what is written get "-p1" ….
+TraceArguments argumentsForPage(TraceArguments, int page);
+
+/// Puts the lines of --import into the recipe of the plan: on the page of a scan, or null: on a page of their own.
+/// @return BadParameter with what to do.
+Result<void> importInto(const TraceArguments&, const PageFrame* frame, TracePlan&);
 
 /// The recipe and what is to be written. @return BadParameter with what to do.
 Result<TracePlan> planTrace(const TraceArguments&);

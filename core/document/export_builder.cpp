@@ -11,6 +11,7 @@
 
 #include "core/base/statistics.h"
 #include "core/exchange/export_check.h"
+#include "core/pipeline/run/imported_lines.h"
 
 namespace batten {
 namespace {
@@ -55,8 +56,16 @@ std::optional<double> strokeWidth(const Contour& line, const PageFrame& frame) {
 
 const NurbsCurve& shapeOf(const TracedCurve& curve, bool sketched) { return sketched ? curve.sketched : curve.faired; }
 
+/// A line that had a name where it came from keeps it.
+void takeName(const std::string& name, ExportCurve& curve) {
+  if (name.empty()) return;
+  curve.name = name;
+  for (std::size_t i = 0; i < curve.pieces.size(); ++i)
+    curve.pieces[i].name = curve.pieces.size() == 1 ? name : name + " " + std::to_string(i + 1);
+}
+
 /// Adds the lines of a run in one of their two kinds.
-void addCurves(const PipelineOutput& output, bool sketched, ExportDocument& document) {
+void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched, ExportDocument& document) {
   std::map<int, ContourPieces> byContour;
   std::map<std::size_t, const TracedCurve*> byPiece;
   for (const TracedCurve& curve : output.faired->curves) {
@@ -77,6 +86,7 @@ void addCurves(const PipelineOutput& output, bool sketched, ExportDocument& docu
         lowest = std::min(lowest, number);
         curve.pieces.push_back({shapeOf(*piece, sketched), curveName(number), number});
       }
+      if (const ImportedLine* imported = importedLineOf(line, recipe.imports)) takeName(imported->name, curve);
       curve.id = "curve-" + std::to_string(lowest) + (sketched ? "-sketched" : "");
       curve.strokeWidthMm = strokeWidth(line, output.frame);
       // A loop of the drawing whose curves do not meet, because a construction breaks them, is none.
@@ -94,9 +104,10 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
   document.dpi = recipe.dpi ? recipe.dpi : scan.dpi;
   document.imageSha256 = scan.fileHash.hex();
   document.title = std::filesystem::path(scan.path).filename().string();
+  if (document.title.empty() && !recipe.imports.empty()) document.title = recipe.imports.front().source;
   if (!output.faired || !output.pieces || !output.contours) return document;
-  if (which != ExportedCurves::Faired) addCurves(output, true, document);
-  if (which != ExportedCurves::Sketched) addCurves(output, false, document);
+  if (which != ExportedCurves::Faired) addCurves(output, recipe, true, document);
+  if (which != ExportedCurves::Sketched) addCurves(output, recipe, false, document);
   return document;
 }
 

@@ -147,6 +147,7 @@ Json choiceToJson(const TracedCurve& c) {
 
 const char* kindName(ContourKind kind) {
   if (kind == ContourKind::Pen) return "pen";
+  if (kind == ContourKind::Imported) return "imported";
   return kind == ContourKind::Centreline ? "centreline" : "outline";
 }
 
@@ -242,7 +243,7 @@ Json contourToJson(const Contour& c, std::size_t index, const PageFrame& frame) 
             {"stroke_width", rangeToJson(strokeWidthsOf(c.points), frame)},
             {"merged_half_spread", rangeToJson(halfSpread(c), frame)},
             {"bridges", Json::array()},
-            {"not_placed", c.kind == ContourKind::Pen ? Json::array() : notPlacedToJson(c)}};
+            {"not_placed", isDrawn(c.kind) ? Json::array() : notPlacedToJson(c)}};
   const int n = static_cast<int>(c.points.size());
   for (const auto& [first, last] : c.bridges) {
     if (first >= 0 && first <= last && last < n) json["bridges"].push_back(stretchToJson(c, first, last));

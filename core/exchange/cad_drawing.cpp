@@ -249,6 +249,8 @@ Result<CadExport> cadExport(const ExportDocument& document, const ExportSettings
 ExportDocument scaled(const ExportDocument& document, double scale) {
   ExportDocument result = document;
   result.frame.mmPerPx *= scale;
+  result.frame.leftMm *= scale;
+  result.frame.bottomMm *= scale;
   if (result.dpi) *result.dpi /= scale;
   const Eigen::Matrix2d linear = scale * Eigen::Matrix2d::Identity();
   for (ExportCurve& curve : result.curves) {

@@ -68,6 +68,8 @@ enum class ActionId {
   SaveRecipeAs,
   NextCurve,
   PreviousCurve,
+  ImportCurves,
+  PasteScan,
 };
 
 enum class ActionMenu { File, Edit, View, Tools, Fairing };

@@ -43,7 +43,9 @@ EditorSession::~EditorSession() {
   runner_->coarse.cancel();
 }
 
-void EditorSession::openScan(const QString& path) { runner_->read(path, std::nullopt); }
+void EditorSession::openScan(const QString& path, const std::optional<PageChoice>& page) {
+  runner_->read(path, page, std::nullopt);
+}
 
 void EditorSession::newDrawing(const Recipe& recipe) { runner_->begin(recipe, false); }
 
@@ -51,7 +53,7 @@ void EditorSession::restore(const QString& path, const Recipe& recipe) {
   if (path.isEmpty())
     runner_->begin(recipe, true);
   else
-    runner_->read(path, recipe);
+    runner_->read(path, std::nullopt, recipe);
 }
 
 bool EditorSession::wasRestored() const { return runner_->wasRestored; }

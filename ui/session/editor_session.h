@@ -42,7 +42,8 @@ class EditorSession : public QObject {
 
   /// Reads a scan in the background, with the recipe that was saved beside it; scanOpened or failed follows. An open
   /// drawing stays until the new one is there.
-  void openScan(const QString& path);
+  /// @param page of a file of several; absent: that of the recipe, else the first.
+  void openScan(const QString& path, const std::optional<PageChoice>& page = {});
   /// Begins a drawing without a scan, on white paper of the size recipe.page, with this recipe. The paper is made in
   /// the background, scanOpened or failed follows; the undo stack is empty. @pre recipe.page
   void newDrawing(const Recipe& recipe);

@@ -73,11 +73,12 @@ void EditorSession::Runner::open(const QString& scanPath, bool isRestored, ScanJ
   updateBusy();
 }
 
-void EditorSession::Runner::read(const QString& scanPath, const std::optional<Recipe>& restored) {
-  open(scanPath, restored.has_value(), [scanPath, restored](const CancelToken& token) {
+void EditorSession::Runner::read(const QString& scanPath, const std::optional<PageChoice>& page,
+                                 const std::optional<Recipe>& restored) {
+  open(scanPath, restored.has_value(), [scanPath, page, restored](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
-    auto opened = openWithRecipe(nativePath(scanPath), context);
+    auto opened = openWithRecipe(nativePath(scanPath), restored ? std::optional(restored->scanPage) : page, context);
     if (opened && restored) {
       opened->recipe = *restored;
       opened->problem.clear();
@@ -281,7 +282,8 @@ void EditorSession::Runner::applyEnd(const std::shared_ptr<const Scan>& scan, st
     // Only of runs that no newer one has overtaken: a drag does not use up a number for every line it comes past.
     if (output.numbers) numbers = output.numbers->known;
     // An empty page is not a failure, it is a beginning.
-    const bool isBeginning = session.isBlankPage() && session.recipe_.penStrokes.empty();
+    const bool isBeginning =
+        session.isBlankPage() && session.recipe_.penStrokes.empty() && session.recipe_.imports.empty();
     if (output.error && !isBeginning)
       fail(*output.error, FailureOrigin::Run);
     else

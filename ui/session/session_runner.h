@@ -22,7 +22,7 @@ namespace batten {
 struct EditorSession::Runner {
   explicit Runner(EditorSession&);
 
-  void read(const QString& path, const std::optional<Recipe>& restored);
+  void read(const QString& path, const std::optional<PageChoice>& page, const std::optional<Recipe>& restored);
   void begin(const Recipe&, bool isRestored);
   void run();
   void computeTargets();

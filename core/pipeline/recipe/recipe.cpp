@@ -72,6 +72,8 @@ std::optional<Error> validateNumbers(const CurveNumbers& numbers) {
   return std::nullopt;
 }
 
+constexpr double kFarthestPageMm = 1e5;
+
 bool isPageSide(int px) { return px >= 16 && px <= 20000; }
 
 std::optional<Error> validateChoice(const PieceChoice& choice) {
@@ -100,6 +102,7 @@ std::optional<Error> validate(const Recipe& recipe) {
   if (recipe.dpi && !(*recipe.dpi >= kMinDpi && *recipe.dpi <= kMaxDpi)) {
     return bad("The resolution must be between 1 and 100000 dpi.");
   }
+  if (auto e = validate(recipe.scanPage)) return e;
   if (auto e = validatePlaces(recipe)) return e;
   if (auto e = validate(recipe.log)) return e;
   if (auto e = validate(recipe.threshold)) return e;
@@ -112,6 +115,12 @@ std::optional<Error> validate(const Recipe& recipe) {
   if (recipe.page && !(isPageSide(recipe.page->widthPx) && isPageSide(recipe.page->heightPx))) {
     return bad("A page without a scan must be 16 to 20000 px wide and high.");
   }
+  for (const ImportedFile& file : recipe.imports) {
+    if (auto e = validate(file)) return e;
+  }
+  if (recipe.page &&
+      !(std::abs(recipe.page->leftMm) <= kFarthestPageMm && std::abs(recipe.page->bottomMm) <= kFarthestPageMm))
+    return bad("A page without a scan must lie within 100 m of the origin.");
   for (const RegionOfInterest& region : recipe.regions) {
     if (auto e = validate(region)) return e;
   }

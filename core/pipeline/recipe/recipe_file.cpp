@@ -8,6 +8,7 @@
 
 #include "core/base/json_text.h"
 #include "core/base/number_text.h"
+#include "core/pipeline/recipe/imports_json.h"
 #include "core/pipeline/recipe/parameter_table.h"
 
 namespace batten {
@@ -173,11 +174,32 @@ Result<void> readSegmentPoints(const Json& json, Recipe& recipe) {
 
 Result<void> readPage(const Json& json, Recipe& recipe) {
   if (json.is_null()) return {};
-  const bool isPair = json.is_array() && json.size() == 2;
+  const bool isPlaced = json.is_array() && json.size() == 4 && json[2].is_number() && json[3].is_number();
+  const bool isPair = isPlaced || (json.is_array() && json.size() == 2);
   const auto width = isPair ? integerFromJson(json[0]) : std::nullopt;
   const auto height = isPair ? integerFromJson(json[1]) : std::nullopt;
   if (!width || !height) return refuse("The recipe is damaged: the size of the page is not a pair of whole numbers.");
   recipe.page = BlankPage{*width, *height};
+  if (isPlaced) {
+    recipe.page->leftMm = json[2].get<double>();
+    recipe.page->bottomMm = json[3].get<double>();
+  }
+  return {};
+}
+
+Result<void> readScanPage(const Json& json, Recipe& recipe) {
+  if (!json.is_object()) return refuse("The recipe is damaged: \"scan_page\" is not an object.");
+  for (const auto& [name, value] : json.items()) {
+    const auto number = integerFromJson(value);
+    if (name == "number" && number) {
+      recipe.scanPage.number = *number;
+    } else if (name == "pdf_dpi" && value.is_number()) {
+      recipe.scanPage.pdfDpi = value.get<double>();
+    } else {
+      return refuse("The recipe holds \"" + name +
+                    "\" in its scan_page, which this version of Batten does not know or cannot read.");
+    }
+  }
   return {};
 }
 
@@ -363,6 +385,13 @@ Result<void> readEntry(const std::string& name, const Json& value, Recipe& recip
   if (name == "choices") return readChoices(value, recipe);
   if (name == "strokes") return readStrokes(value, recipe);
   if (name == "page") return readPage(value, recipe);
+  if (name == "imports") {
+    auto imports = importsFromJson(value);
+    if (!imports) return fail(imports.error());
+    recipe.imports = std::move(*imports);
+    return {};
+  }
+  if (name == "scan_page") return readScanPage(value, recipe);
   if (name == "extrema") return readExtrema(value, recipe);
   if (name == "regions") return readRegions(value, recipe);
   if (name == "ways") return readTraceModes(value, recipe);
@@ -396,7 +425,14 @@ std::string recipeToJson(const Recipe& recipe) {
     Json& strokes = json["strokes"] = Json::array();
     for (const PenStroke& stroke : recipe.penStrokes) strokes.push_back(strokeToJson(stroke));
   }
-  if (recipe.page) json["page"] = {recipe.page->widthPx, recipe.page->heightPx};
+  if (recipe.scanPage != PageChoice{})
+    json["scan_page"] = {{"number", recipe.scanPage.number}, {"pdf_dpi", recipe.scanPage.pdfDpi}};
+  if (!recipe.imports.empty()) json["imports"] = importsToJson(recipe.imports);
+  if (const auto& page = recipe.page) {
+    json["page"] = {page->widthPx, page->heightPx};
+    if (page->leftMm != 0.0 || page->bottomMm != 0.0)
+      json["page"].insert(json["page"].end(), {page->leftMm, page->bottomMm});
+  }
   Json& extrema = json["extrema"] = Json::array();
   for (const ExtremumChoice& choice : recipe.extremumChoices) {
     extrema.push_back({{"at", {choice.positionPx.x(), choice.positionPx.y()}}, {"keep", choice.keep}});

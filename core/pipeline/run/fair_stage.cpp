@@ -53,11 +53,11 @@ FairingParams paramsFor(const std::optional<std::size_t>& choice, const Recipe& 
   return params;
 }
 
-/// What the fairing may know of the line. A drawn stroke has no noise to be told from what was meant.
+/// What the fairing may know of the line. A drawn or imported line has no noise to be told from what was meant.
 FairingLine lineOf(const Piece& piece, ContourKind kind, const PageFrame& frame) {
   FairingLine line;
   line.pixelMm = frame.mmPerPx;
-  if (kind == ContourKind::Pen) return line;
+  if (isDrawn(kind)) return line;
   // Blur rounds the edge near a corner, and the width of a stroke its middle: as in the fair fit.
   const double reach = kind == ContourKind::Centreline ? 8.0 : 4.0;
   for (const Vec2& p : piece.points) {

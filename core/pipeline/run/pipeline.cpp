@@ -8,6 +8,7 @@
 #include "core/image/laplacian_edges.h"
 #include "core/pipeline/run/curve_stages.h"
 #include "core/pipeline/run/fair_stage.h"
+#include "core/pipeline/run/imported_lines.h"
 #include "core/pipeline/run/stage_keys.h"
 
 namespace batten {
@@ -158,11 +159,12 @@ class PipelineRun {
     return fail(ErrorCode::NoCurve, "No line lies inside the region: draw a larger one or clear it.");
   }
 
-  /// The lines found on the scan, and behind them those drawn by hand. The found ones are kept by themselves, so that a
-  /// new stroke does not trace the page again.
+  /// The lines found on the scan, and behind them those of other programs and those drawn by hand. The found ones are
+  /// kept by themselves, so that a new stroke does not trace the page again.
   Result<ContourSet> lines() {
-    if (recipe_.penStrokes.empty()) {
-      if (isBlank(scan_)) return fail(ErrorCode::NoCurve, "The page is empty. Draw a line with the pen.");
+    if (recipe_.penStrokes.empty() && recipe_.imports.empty()) {
+      if (isBlank(scan_))
+        return fail(ErrorCode::NoCurve, "The page is empty. Draw a line with the pen, or import curves.");
       return traceRegions();
     }
     auto traced = cache_.find<ContourSet>(keys_.traced);
@@ -174,7 +176,7 @@ class PipelineRun {
       traced = std::make_shared<const ContourSet>(found ? std::move(*found) : ContourSet{});
       if (found) cache_.store(keys_.traced, traced, bytesOf(*traced));
     }
-    return withPenStrokes(*traced, recipe_.penStrokes);
+    return withPenStrokes(withImports(*traced, recipe_.imports, out_.frame), recipe_.penStrokes);
   }
 
   /// Fills `slot` from the cache or by running `work`; false if the run ends here.
@@ -257,7 +259,12 @@ int curveNumber(const PipelineOutput& output, const TracedCurve& curve) {
 }
 
 PageFrame frameFor(const Scan& scan, const Recipe& recipe) {
-  return pageFrame(scan, recipe.dpi ? recipe.dpi : scan.dpi);
+  PageFrame frame = pageFrame(scan, recipe.dpi ? recipe.dpi : scan.dpi);
+  if (recipe.page) {
+    frame.leftMm = recipe.page->leftMm;
+    frame.bottomMm = recipe.page->bottomMm;
+  }
+  return frame;
 }
 
 bool isScaleAssumed(const Scan& scan, const Recipe& recipe) { return !recipe.dpi && !scan.dpi; }

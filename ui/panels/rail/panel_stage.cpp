@@ -118,7 +118,7 @@ StageState stateOf(PanelStage panel, const EditorSession& session) {
   if (panel == PanelStage::Scan) return StageState::Done;
   const PipelineOutput& out = session.output();
   // An empty page has not failed, it has not begun.
-  if (session.isBlankPage() && session.recipe().penStrokes.empty()) return StageState::Open;
+  if (session.isBlankPage() && session.recipe().penStrokes.empty() && session.recipe().imports.empty()) return StageState::Open;
   if (out.failedStage && panelOf(*out.failedStage) == panel) return StageState::Failed;
   const StageId stage = *pipelineStage(panel);
   if (panel == PanelStage::Export || !hasOutput(stage, out)) return StageState::Open;

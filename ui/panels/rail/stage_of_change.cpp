@@ -11,7 +11,7 @@ std::optional<PanelStage> stageOfChange(const Recipe& a, const Recipe& b) {
   if (a.dpi != b.dpi || !(a.log == b.log) || !(a.paper == b.paper)) return PanelStage::Scan;
   if (!(a.threshold == b.threshold)) return PanelStage::Threshold;
   if (!(a.filter == b.filter)) return PanelStage::CleanUp;
-  const bool isOfEdges = a.edges == b.edges && a.contours == b.contours && a.penStrokes == b.penStrokes &&
+  const bool isOfEdges = a.edges == b.edges && a.contours == b.contours && a.penStrokes == b.penStrokes && a.imports == b.imports &&
                          a.page == b.page && a.regions == b.regions;
   if (!isOfEdges) return PanelStage::Edges;
   if (!(a.corners == b.corners) || a.cornerMarks != b.cornerMarks) return PanelStage::Corners;

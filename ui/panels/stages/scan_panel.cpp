@@ -56,6 +56,10 @@ ScanPanel::ScanPanel(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
       facts_(new FigureTable(this)),
+      pageName_(new QLabel(tr("Page"), this)),
+      page_(new NumberField(this)),
+      pdfName_(new QLabel(tr("Drawn at"), this)),
+      pdfDpi_(new NumberField(this)),
       dpi_(new NumberField(this)),
       scaleNote_(note({}, this)),
       fromFile_(linkButton(tr("Use the file's resolution"), QStringLiteral("scan.dpiFromFile"), this)),
@@ -65,6 +69,27 @@ ScanPanel::ScanPanel(EditorSession& session, QWidget* parent)
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Scan"), this));
   layout->addWidget(facts_);
+  auto* pages = new QGridLayout;
+  pages->setHorizontalSpacing(8);
+  pages->setColumnStretch(0, 1);
+  const auto addField = [&](QLabel* title, NumberField* field, int row, const QString& what, const QString& called) {
+    title->setToolTip(what);
+    field->setToolTip(what);
+    field->setDecimals(0);
+    field->setStep(1.0);
+    field->setFixedWidth(92);
+    field->edit()->setObjectName(called);
+    field->edit()->setAccessibleName(what);
+    pages->addWidget(title, row, 0);
+    pages->addWidget(field, row, 1);
+  };
+  addField(pageName_, page_, 0, tr("Which page of the file is open. Each page is a drawing with a recipe of its own."),
+           QStringLiteral("scan.page"));
+  addField(pdfName_, pdfDpi_, 1, tr("How finely the page of the PDF is drawn. Its size in mm stays."),
+           QStringLiteral("scan.pdfDpi"));
+  pdfDpi_->setRange(20.0, 4800.0);
+  pdfDpi_->setUnit(tr("dpi"));
+  layout->addLayout(pages);
   layout->addWidget(caption(tr("Scale"), this));
   auto* scale = new QGridLayout;
   scale->setHorizontalSpacing(8);
@@ -92,6 +117,16 @@ ScanPanel::ScanPanel(EditorSession& session, QWidget* parent)
   layout->addWidget(new ParameterEditor(session, {"paper.flatten", "paper.folds"}, this));
   layout->addStretch();
   connect(dpi_, &NumberField::committed, this, [this](double value) { setDpi(value); });
+  connect(page_, &NumberField::committed, this, [this](double value) {
+    PageChoice choice = session_.recipe().scanPage;
+    choice.number = static_cast<int>(value);
+    if (choice != session_.recipe().scanPage) emit pageChosen(choice);
+  });
+  connect(pdfDpi_, &NumberField::committed, this, [this](double value) {
+    PageChoice choice = session_.recipe().scanPage;
+    choice.pdfDpi = value;
+    if (choice != session_.recipe().scanPage) emit pageChosen(choice);
+  });
   connect(fromFile_, &QPushButton::clicked, this, [this] { setDpi(std::nullopt); });
   connect(&session_, &EditorSession::scanOpened, this, &ScanPanel::refresh);
   connect(&session_, &EditorSession::recipeChanged, this, &ScanPanel::refresh);
@@ -109,13 +144,28 @@ void ScanPanel::setDpi(std::optional<double> dpi) {
   session_.change(tr("Resolution"), std::move(after));
 }
 
+void ScanPanel::refreshPage(const Scan* scan) {
+  const bool hasPages = scan != nullptr && scan->pages > 1, isPdf = scan != nullptr && scan->info.format == "PDF";
+  pageName_->setVisible(hasPages);
+  page_->setVisible(hasPages);
+  pdfName_->setVisible(isPdf);
+  pdfDpi_->setVisible(isPdf);
+  if (hasPages) {
+    pageName_->setText(tr("Page of %1").arg(scan->pages));
+    page_->setRange(1.0, static_cast<double>(scan->pages));
+    page_->setValue(static_cast<double>(scan->page.number));
+  }
+  if (isPdf) pdfDpi_->setValue(scan->page.pdfDpi);
+}
+
 void ScanPanel::refresh() {
   swatch_->show(session_.recipe().log);
+  refreshPage(session_.scan().get());
   dpi_->setEnabled(session_.hasScan());
   if (!session_.hasScan()) {
     facts_->setRows({});
     dpi_->setEmpty(QStringLiteral("–"));
-    scaleNote_->setText(tr("Open a scan: PNG, JPEG, TIFF, BMP, WebP or PNM."));
+    scaleNote_->setText(tr("Open a scan: PNG, JPEG, TIFF, PDF, JPEG 2000, BMP, WebP or PNM."));
     fromFile_->hide();
     return;
   }
