@@ -20,7 +20,7 @@ namespace batten {
 namespace {
 
 /// Steps between two of TargetSteps, to use as much of the tolerance as this.
-constexpr int kSearchSteps = 5, kRoundSteps = 3;
+constexpr int kSearchSteps = 4, kRoundSteps = 4;
 constexpr double kUsedShare = 0.95;
 /// [mm] Tolerances that are used up whatever the tolerance is, if it is no smaller.
 constexpr std::array kRoundTolerances = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01};
@@ -146,7 +146,7 @@ class ShapeModification {
     for (const Course& course : courses_) {
       if (rank(best_) <= asked_ || context_.isCancelled()) return;
       const Sides sides = sidesOf(course, toleranceMm);
-      if (!sides.outside || !sides.inside) continue;
+      if (!sides.outside) continue;
       for (const TargetStep& step : between(course, sides, toleranceMm, kRoundSteps)) take(step, &course);
     }
   }
