@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/solve/dense_solve.h"
@@ -13,9 +15,9 @@ namespace batten {
 namespace {
 
 constexpr int kCoarseDegree = 5;
-/// Numbers of spans, each about 1.4 times the one before.
-constexpr std::array kOpenSpans = {1, 2, 3, 4, 6, 8, 11, 16, 22, 32, 45, 64, 90};
-constexpr std::array kClosedSpans = {5, 6, 8, 11, 16, 22, 32, 45, 64, 90};
+/// Numbers of spans, each about 1.6 times the one before.
+constexpr std::array kOpenSpans = {1, 2, 3, 5, 8, 13, 21, 34, 55, 89};
+constexpr std::array kClosedSpans = {5, 6, 8, 13, 21, 34, 55, 89};
 /// Share of the sketched curve's spans that a start may have: more would win nothing over the curve itself.
 constexpr double kMostSpans = 0.75;
 
@@ -117,14 +119,25 @@ void holdEnd(const FairingSetup& sketch, const SpanBasis& basis, bool atEnd, con
   points[first + 2 * sign] += (asked.kappa - has.kappa) * has.speed * has.speed / share * leftNormal(tangent);
 }
 
-std::shared_ptr<const FairingSetup> coarseSetup(const std::shared_ptr<const FairingSetup>& sketch,
-                                                const FairingParams& params, int spans) {
+}  // namespace
+
+std::shared_ptr<const FairingSetup> coarseSetup(const std::shared_ptr<const FairingSetup>& sketch, int spans) {
+  const int holds = (sketch->startHold.curvature ? 2
+                     : sketch->startHold.tangent ? 1
+                                                 : 0) +
+                    (sketch->endHold.curvature ? 2
+                     : sketch->endHold.tangent ? 1
+                                               : 0);
+  if (spans > kMostSpans * sketch->basis.spanCount()) return nullptr;
+  if (!sketch->closed && spans + kCoarseDegree < 4 + holds) return nullptr;
   auto setup = std::make_shared<FairingSetup>();
   const std::vector<double> breaks = breaksFor(*sketch, spans);
   for (std::size_t i = 1; i < breaks.size(); ++i) {
     if (!(breaks[i] - breaks[i - 1] > 1e-3 / spans)) return nullptr;
   }
   setup->sketch = sketch;
+  setup->startHold = sketch->startHold;
+  setup->endHold = sketch->endHold;
   setup->closed = sketch->closed;
   setup->extent = sketch->extent;
   setup->reference = sketch->reference;
@@ -140,8 +153,8 @@ std::shared_ptr<const FairingSetup> coarseSetup(const std::shared_ptr<const Fair
   auto points = nearestPoints(*sketch, setup->basis);
   if (!points) return nullptr;
   if (!sketch->closed) {
-    holdEnd(*sketch, setup->basis, false, params.startHold, *points);
-    holdEnd(*sketch, setup->basis, true, params.endHold, *points);
+    holdEnd(*sketch, setup->basis, false, sketch->startHold, *points);
+    holdEnd(*sketch, setup->basis, true, sketch->endHold, *points);
     clampedPoints = *points;
   }
   setup->points = std::move(*points);
@@ -152,26 +165,15 @@ std::shared_ptr<const FairingSetup> coarseSetup(const std::shared_ptr<const Fair
   }
   if (!original) return nullptr;
   setup->original = std::move(*original);
-  setup->unknowns = Unknowns(setup->basis, SpanCurve(setup->basis, setup->points), params.startHold, params.endHold);
+  setup->unknowns = Unknowns(setup->basis, SpanCurve(setup->basis, setup->points), sketch->startHold, sketch->endHold);
   return setup;
 }
 
-}  // namespace
-
-std::vector<std::shared_ptr<const FairingSetup>> coarseSetups(const std::shared_ptr<const FairingSetup>& sketch,
-                                                              const FairingParams& params) {
+std::vector<std::shared_ptr<const FairingSetup>> coarseSetups(const std::shared_ptr<const FairingSetup>& sketch) {
   std::vector<std::shared_ptr<const FairingSetup>> setups;
   const std::span<const int> counts = sketch->closed ? std::span<const int>(kClosedSpans) : kOpenSpans;
-  const int holds = (params.startHold.curvature ? 2
-                     : params.startHold.tangent ? 1
-                                                : 0) +
-                    (params.endHold.curvature ? 2
-                     : params.endHold.tangent ? 1
-                                              : 0);
   for (const int spans : counts) {
-    if (spans > kMostSpans * sketch->basis.spanCount()) break;
-    if (!sketch->closed && spans + kCoarseDegree < 4 + holds) continue;
-    if (auto setup = coarseSetup(sketch, params, spans)) setups.push_back(std::move(setup));
+    if (auto setup = coarseSetup(sketch, spans)) setups.push_back(std::move(setup));
   }
   return setups;
 }

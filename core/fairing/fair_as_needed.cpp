@@ -32,6 +32,8 @@ constexpr double kExtremumCost = 20.0, kFurtherCost = 4.0;
 constexpr double kDoubtful = 4.0, kLeastMove = 0.3;
 /// What the search for a simpler structure takes for a large move, in the same unit.
 constexpr double kSearched = 16.0;
+/// A smoothed curve that leaves the sketch by more, in the same unit, has gone astray.
+constexpr double kFarthest = 30.0;
 /// [px^3] Density of the systematic error of edge points: less noise than this is not believed.
 constexpr double kLeastDensity = 0.0064;
 constexpr FairingLimits kLimits{15, 1e-4};
@@ -92,7 +94,7 @@ class NeededFairing {
   }
 
   Result<FairedCurve> withoutLine() {
-    StructureCandidates candidates(sketched_, params_, context_);
+    StructureCandidates candidates(sketched_, context_);
     if (!candidates.isValid()) return done({setup_.points, extremaOf(setup_.points), 0.0, 0.0});
     const StructureCandidate best = candidates.fewest(kFairRoom * params_.toleranceMm);
     if (context_.isCancelled()) return cancelled();
@@ -145,19 +147,19 @@ class NeededFairing {
         if (count - degrees < 6.0) continue;
         noise_ = std::max(misfit / (count - degrees), leastNoise_);
       }
-      const double score = misfit / noise_ + kDegreeCost * degrees;
-      found.push_back({state->points, 0, 0.0, score});
-      if (score < found[best].score) best = found.size() - 1;
-      if (score > found[best].score + 3.0 * kExtremumCost) break;
+      const double score = misfit / noise_ + kDegreeCost * degrees,
+                   away = largestDeviation(setup_, state->points, true);
+      if (away <= kFarthest * std::sqrt(noise_)) {
+        found.push_back({state->points, 0, away, score});
+        if (score < found[best].score) best = found.size() - 1;
+        if (score > found[best].score + 3.0 * kExtremumCost) break;
+      }
       points = std::move(state->points);
       feet = std::move(state->feet);
     }
     report_.noiseMm = std::sqrt(noise_);
     if (!found.empty()) found.resize(best + 1);
-    for (Smoothed& one : found) {
-      one.extrema = extremaOf(one.points);
-      one.deviationMm = largestDeviation(setup_, one.points, true);
-    }
+    for (Smoothed& one : found) one.extrema = extremaOf(one.points);
     return found;
   }
 

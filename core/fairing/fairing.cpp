@@ -51,7 +51,7 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
       outcomes.faired[at] = unchanged(job.curve, job.closed, Termination::Degenerate, run.problem);
       return;
     }
-    auto faired = modifyShape(*run.setup, outcomes.targets.profiles[at], job.params.toleranceMm, context);
+    auto faired = modifyShape(run.setup, outcomes.targets.profiles[at], job.params.toleranceMm, context);
     if (faired) {
       outcomes.faired[at] = std::move(*faired);
     } else {

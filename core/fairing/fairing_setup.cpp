@@ -141,6 +141,8 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
     return fail(ErrorCode::Numerical, "The curve has no length.");
   }
   setup->start = std::move(*start);
+  setup->startHold = params.startHold;
+  setup->endHold = params.endHold;
   setup->unknowns = Unknowns(setup->basis, setup->reference, params.startHold, params.endHold);
   return std::shared_ptr<const FairingSetup>(std::move(setup));
 }

@@ -27,6 +27,7 @@ struct FairingSetup {
   SpanCurve reference;       ///< The sketched curve.
   EqualArc start;            ///< Sample places on it.
   Unknowns unknowns;
+  EndHold startHold, endHold;
   double extent = 0.0;
   /// Signed distance of the line's own points from the sketched curve, at its samples (in the mean of those nearby);
   /// empty when the line is not known: the sketched curve then stands for it.

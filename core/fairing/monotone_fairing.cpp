@@ -31,7 +31,7 @@ class MonotoneFairing {
  public:
   MonotoneFairing(const std::shared_ptr<const FairingSetup>& setup, const FairingParams& params,
                   const RunContext& context)
-      : setup_(*setup), params_(params), context_(context), candidates_(setup, params, context) {}
+      : setup_(*setup), params_(params), context_(context), candidates_(setup, context) {}
 
   Result<FairedCurve> run() {
     if (!candidates_.isValid()) {

@@ -2,10 +2,15 @@
 #include "core/fairing/shape_modification.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "core/curve/curvature.h"
+#include "core/fairing/coarse_setups.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/fairing_state.h"
 #include "core/fairing/target_steps.h"
@@ -15,8 +20,10 @@ namespace batten {
 namespace {
 
 /// Steps between two of TargetSteps, to use as much of the tolerance as this.
-constexpr int kSearchSteps = 5;
+constexpr int kSearchSteps = 4, kRoundSteps = 4;
 constexpr double kUsedShare = 0.95;
+/// [mm] Tolerances that are used up whatever the tolerance is, if it is no smaller.
+constexpr std::array kRoundTolerances = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01};
 /// A search that leaves more of it unused got stuck in the noise of a rough start; the barrier then takes over.
 constexpr double kStuckShare = 0.8;
 /// Room for what lies between the places where the deviation is measured.
@@ -26,155 +33,236 @@ constexpr const char* kNothingWon =
     "Left as sketched: within the tolerance, this target would add curvature extrema. Raise the tolerance, split the "
     "profile, or smooth without a target.";
 
+/// A sketch of so many extrema trembles, when over these spans it has less than half of them. Fewer and fewer of them
+/// are tried, until a few extrema are left.
+constexpr int kTrembles = 6;
+constexpr std::array kCalmSpans = {13, 5, 3};
+
+std::vector<std::shared_ptr<const FairingSetup>> calmSetups(const std::shared_ptr<const FairingSetup>& sketch) {
+  std::vector<std::shared_ptr<const FairingSetup>> result;
+  int extrema = countedExtrema(sketch->original, sketch->closed);
+  for (const int spans : kCalmSpans) {
+    if (extrema < kTrembles) break;
+    auto calm = coarseSetup(sketch, spans);
+    const int left = calm ? countedExtrema(calm->original, calm->closed) : extrema;
+    if (2 * left >= extrema) continue;
+    result.push_back(std::move(calm));
+    extrema = left;
+  }
+  return result;
+}
+
 /// Of all curves within the tolerance the one with the fewest extrema, of these the one nearest to the target.
 class ShapeModification {
  public:
-  ShapeModification(const FairingSetup& setup, const FairingObjective& objective, double toleranceMm,
-                    const RunContext& context)
-      : setup_(setup),
+  ShapeModification(const std::shared_ptr<const FairingSetup>& setup, const FairingObjective& objective,
+                    double toleranceMm, const RunContext& context, bool asksForExtrema)
+      : sketch_(*setup),
         objective_(objective),
         toleranceMm_(toleranceMm),
         context_(context),
-        steps_(setup, objective, context),
-        asked_(extremaAsked(setup, objective)) {}
+        calm_(calmSetups(setup)),
+        asked_(asksForExtrema ? extremaAsked(*setup, objective) : 0) {
+    std::vector<const FairingSetup*> all{setup.get()};
+    for (const auto& calm : calm_) all.push_back(calm.get());
+    for (const FairingSetup* over : all) {
+      Course course{over, TargetSteps(*over, objective, context)};
+      if (!course.steps.all().empty()) courses_.push_back(std::move(course));
+    }
+  }
 
   Result<FairedCurve> run() {
     if (context_.isCancelled()) return cancelled();
-    if (steps_.all().empty()) {
-      return unchanged(setup_.original, setup_.closed, Termination::Degenerate,
+    const auto before = evaluate(sketch_, objective_, {}, sketch_.points, sketch_.start.places);
+    if (courses_.empty() || !before) {
+      return unchanged(sketch_.original, sketch_.closed, Termination::Degenerate,
                        "The curve has a cusp and was left alone.");
     }
-    const auto before = evaluate(setup_, objective_, {}, setup_.points, setup_.start.places);
-    const TargetStep& full = steps_.all().front();
-    best_.points = setup_.points;
-    best_.misfit = before ? before->misfit : full.misfit;
-    best_.extrema = countedExtrema(setup_.original, setup_.closed);
-    best_.why = Termination::FixedPoint;
+    best_.points = sketch_.points;
+    best_.misfit = before->misfit;
+    best_.extrema = countedExtrema(sketch_.original, sketch_.closed);
     report_.objectiveBefore = std::sqrt(best_.misfit);
-    report_.neededMm = full.deviationMm;
-    report_.withinTolerance = isWithin(full);
-    for (const TargetStep& step : steps_.all()) {
-      if (isWithin(step)) take(step);
+    double nearest = std::numeric_limits<double>::max();
+    for (const Course& course : courses_) {
+      const TargetStep& full = course.steps.all().front();
+      if (full.misfit < nearest) report_.neededMm = full.deviationMm;
+      nearest = std::min(nearest, full.misfit);
+      for (const TargetStep& step : course.steps.all()) {
+        if (isWithin(step)) take(step, &course);
+      }
     }
-    if (best_.why == Termination::FixedPoint || best_.weight > full.weight) useTolerance();
+    report_.withinTolerance = report_.neededMm <= kMeasured * toleranceMm_;
+    for (const double tolerance : kRoundTolerances) {
+      if (tolerance <= toleranceMm_) useRound(tolerance);
+    }
+    for (const Course& course : courses_) {
+      if (!course_ || (course_ == &course && best_.weight > course.steps.all().front().weight)) useTolerance(course);
+    }
     if (context_.isCancelled()) return cancelled();
     return done();
   }
 
  private:
+  /// The steps over one knot vector.
+  struct Course {
+    const FairingSetup* setup;
+    TargetSteps steps;
+  };
+
   bool isWithin(const TargetStep& step) const { return step.deviationMm <= kMeasured * toleranceMm_; }
   /// Extrema that the target itself has are no fault.
   int rank(const TargetStep& step) const { return std::max(step.extrema, asked_); }
 
-  void take(const TargetStep& step) {
-    if (rank(step) < rank(best_) || (rank(step) == rank(best_) && step.misfit < best_.misfit)) best_ = step;
-  }
-  void takeOfSameRank(const TargetStep& step) {
-    if (isWithin(step) && rank(step) == rank(best_)) take(step);
+  void take(const TargetStep& step, const Course* course) {
+    const bool better = rank(step) < rank(best_) || (rank(step) == rank(best_) && step.misfit < best_.misfit);
+    if (!better) return;
+    best_ = step;
+    course_ = course;
   }
 
-  /// Between the last step that leaves the tolerance and the first that keeps it.
-  void useTolerance() {
+  /// What only this tolerance has found must not win extrema that a larger one would not find again.
+  void takeOfSameRank(const TargetStep& step, const Course* course) {
+    if (rank(step) == rank(best_)) take(step, course);
+  }
+
+  /// The steps on both sides of a tolerance: the last that leaves it, and the first that keeps it.
+  struct Sides {
     const TargetStep *outside = nullptr, *inside = nullptr;
-    for (const TargetStep& step : steps_.all()) {
-      if (isWithin(step)) {
-        inside = &step;
+  };
+  Sides sidesOf(const Course& course, double toleranceMm) const {
+    Sides sides;
+    for (const TargetStep& step : course.steps.all()) {
+      if (step.deviationMm <= kMeasured * toleranceMm) {
+        sides.inside = &step;
         break;
       }
-      outside = &step;
+      sides.outside = &step;
     }
-    if (!outside) return;
-    TargetStep wide = *outside;
+    return sides;
+  }
+
+  /// A curve that uses up a round tolerance: what it wins, larger tolerances find too.
+  void useRound(double toleranceMm) {
+    for (const Course& course : courses_) {
+      if (rank(best_) <= asked_ || context_.isCancelled()) return;
+      const Sides sides = sidesOf(course, toleranceMm);
+      if (!sides.outside) continue;
+      for (const TargetStep& step : between(course, sides, toleranceMm, kRoundSteps)) take(step, &course);
+    }
+  }
+
+  /// Steps that use more and more of a tolerance.
+  std::vector<TargetStep> between(const Course& course, const Sides& sides, double toleranceMm, int most) const {
+    std::vector<TargetStep> found;
+    TargetStep wide = *sides.outside;
     std::optional<TargetStep> near;
-    if (inside) near = *inside;
-    for (int i = 0; i < (steps_.isRough() ? 2 : kSearchSteps) && !context_.isCancelled(); ++i) {
-      if (near && (near->deviationMm >= kUsedShare * toleranceMm_ || near->weight < 1.02 * wide.weight)) break;
-      auto step = steps_.between(near ? *near : wide, near ? weightBetween(wide, *near) : 4.0 * wide.weight);
+    if (sides.inside) near = *sides.inside;
+    for (int i = 0; i < most && !context_.isCancelled(); ++i) {
+      if (near && (near->deviationMm >= kUsedShare * toleranceMm || near->weight < 1.02 * wide.weight)) break;
+      const double weight = near ? weightBetween(wide, *near, toleranceMm) : 4.0 * wide.weight;
+      auto step = course.steps.between(near ? *near : wide, weight);
       if (!step) break;
-      takeOfSameRank(*step);
-      if (isWithin(*step)) {
+      if (step->deviationMm <= kMeasured * toleranceMm) {
+        found.push_back(*step);
         near = std::move(step);
       } else {
         wide = std::move(*step);
       }
     }
-    if (best_.why == Termination::FixedPoint || context_.isCancelled()) return;
-    if (const auto polished = steps_.polished(best_)) takeOfSameRank(*polished);
-    if (!steps_.isRough() && best_.deviationMm < kStuckShare * toleranceMm_) useBarrier();
+    return found;
   }
 
-  double weightBetween(const TargetStep& wide, const TargetStep& near) const {
+  void useTolerance(const Course& course) {
+    const Sides sides = sidesOf(course, toleranceMm_);
+    if (!sides.outside) return;
+    for (const TargetStep& step : between(course, sides, toleranceMm_, course.steps.isRough() ? 2 : kSearchSteps))
+      takeOfSameRank(step, &course);
+    if (course_ != &course || context_.isCancelled()) return;
+    const auto polished = course.steps.polished(best_);
+    if (polished && isWithin(*polished)) takeOfSameRank(*polished, &course);
+    if (course.setup == &sketch_ && !course.steps.isRough() && best_.deviationMm < kStuckShare * toleranceMm_)
+      useBarrier(course);
+  }
+
+  static double weightBetween(const TargetStep& wide, const TargetStep& near, double toleranceMm) {
     const double a = std::log(wide.weight), b = std::log(near.weight);
-    const double da = std::log(wide.deviationMm / toleranceMm_);
-    const double db = std::log(std::max(near.deviationMm / toleranceMm_, 1e-9)) - std::log(0.5 * (1.0 + kUsedShare));
+    const double da = std::log(wide.deviationMm / toleranceMm);
+    const double db = std::log(std::max(near.deviationMm / toleranceMm, 1e-9)) - std::log(0.5 * (1.0 + kUsedShare));
     return std::exp(a + std::clamp(da / std::max(da - db, 1e-12), 0.1, 0.9) * (b - a));
   }
 
-  void useBarrier() {
-    BoundedRun bounded = minimiseWithin(setup_, objective_, toleranceMm_, best_.points, context_);
+  void useBarrier(const Course& course) {
+    BoundedRun bounded = minimiseWithin(sketch_, objective_, toleranceMm_, best_.points, context_);
     if (context_.isCancelled()) return;
     report_.iterations += bounded.iterations;
     TargetStep step = best_;
     step.points = std::move(bounded.points);
-    step.deviationMm = keepWithin(setup_, toleranceMm_, step.points);
-    const auto state = evaluate(setup_, objective_, {}, step.points, setup_.start.places);
-    const auto curve = toCurve(setup_, step.points);
+    step.deviationMm = keepWithin(sketch_, toleranceMm_, step.points);
+    const auto state = evaluate(sketch_, objective_, {}, step.points, sketch_.start.places);
+    const auto curve = toCurve(sketch_, step.points);
     if (!state || !curve) return;
     step.misfit = state->misfit;
-    step.extrema = countedExtrema(*curve, setup_.closed);
-    takeOfSameRank(step);
+    step.extrema = countedExtrema(*curve, sketch_.closed);
+    takeOfSameRank(step, &course);
   }
 
-  Result<FairedCurve> done() {
-    report_.iterations += steps_.iterations();
-    report_.objectiveAfter = std::sqrt(best_.misfit);
-    report_.why = report_.withinTolerance ? best_.why : Termination::ToleranceLimited;
-    const bool adds = std::none_of(steps_.all().begin(), steps_.all().end(), [this](const TargetStep& step) {
-      return isWithin(step) && rank(step) <= rank(best_);
-    });
-    if (best_.why == Termination::FixedPoint && adds) {
+  void explain() {
+    const auto adds = [this](const TargetStep& step) { return isWithin(step) && rank(step) > rank(best_); };
+    const auto& own = courses_.front().steps;
+    report_.why = course_ ? best_.why : Termination::FixedPoint;
+    if (!course_ && (!report_.withinTolerance || std::any_of(own.all().begin(), own.all().end(), adds))) {
       report_.why = Termination::ToleranceLimited;
       report_.withinTolerance = false;
       report_.note = kNothingWon;
     } else if (!report_.withinTolerance) {
+      report_.why = Termination::ToleranceLimited;
       report_.note = "The profile was followed as far as the tolerance allows.";
-      if (best_.deviationMm < kStuckShare * toleranceMm_) {
-        // The corridor had room left: it was not what stopped the curve.
-        report_.why = Termination::NoProgress;
-        report_.note = steps_.isRough()
-                           ? "The profile lies far out of reach for this curve. Split it, or mark its corners."
-                           : "The curve follows the profile only so far without more curvature extrema. Fair it by "
-                             "tolerance first, or raise the tolerance.";
-      }
-    } else if (best_.weight > steps_.all().front().weight && best_.extrema < steps_.all().front().extrema) {
-      report_.note = "The profile was followed as far as no curvature extremum is added.";
+      if (best_.deviationMm >= kStuckShare * toleranceMm_) return;
+      // The corridor had room left: it was not what stopped the curve.
+      report_.note = own.isRough() ? "The profile lies far out of reach for this curve. Split it, or mark its corners."
+                                   : "The profile was followed as far as no curvature extremum is added.";
     }
-    return finished(setup_, std::move(best_.points), toleranceMm_, std::move(report_));
   }
 
-  const FairingSetup& setup_;
+  Result<FairedCurve> done() {
+    for (const Course& course : courses_) report_.iterations += course.steps.iterations();
+    report_.objectiveAfter = std::sqrt(best_.misfit);
+    explain();
+    if (!course_ || course_->setup == &sketch_)
+      return finished(sketch_, std::move(best_.points), toleranceMm_, std::move(report_));
+    auto curve = toCurve(*course_->setup, best_.points);
+    if (!curve) return fail(curve.error());
+    report_.maxDeviationMm = best_.deviationMm;
+    report_.extremaBefore = countedExtrema(sketch_.original, sketch_.closed);
+    report_.extremaAfter = best_.extrema;
+    return FairedCurve{std::move(*curve), std::move(report_)};
+  }
+
+  const FairingSetup& sketch_;
   const FairingObjective& objective_;
   double toleranceMm_;
   const RunContext& context_;
-  TargetSteps steps_;
+  std::vector<std::shared_ptr<const FairingSetup>> calm_;
+  std::vector<Course> courses_;
   int asked_;
   TargetStep best_;
+  const Course* course_ = nullptr;  ///< To which the best one belongs; null: the sketch is the best.
   FairingReport report_;
 };
 
 }  // namespace
 
-Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& profile, double toleranceMm,
-                                const RunContext& context) {
-  const auto objective = targetObjective(setup, profile);
+Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
+                                double toleranceMm, const RunContext& context, bool asksForExtrema) {
+  const auto objective = targetObjective(*setup, profile);
   if (!objective) return fail(objective.error());
-  return ShapeModification(setup, *objective, toleranceMm, context).run();
+  return ShapeModification(setup, *objective, toleranceMm, context, asksForExtrema).run();
 }
 
 Result<FairedCurve> modifyShape(const NurbsCurve& curve, bool closed, const TargetProfile& profile,
                                 const FairingParams& params, const RunContext& context) {
   return withSetup(curve, closed, params, [&](const std::shared_ptr<const FairingSetup>& setup) {
-    return modifyShape(*setup, profile, params.toleranceMm, context);
+    return modifyShape(setup, profile, params.toleranceMm, context);
   });
 }
 

@@ -2,6 +2,7 @@
 #include "core/fairing/structure_candidates.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "core/curve/curvature.h"
@@ -13,14 +14,16 @@ namespace {
 
 /// [extents] Moves that the search is scaled for.
 constexpr double kLeastMove = 1e-3;
-/// A start over fewer knots that lies so many tolerances off is not looked at; nor is a structure whose estimated move,
-/// good to a factor of a few, is as large.
-constexpr double kWorthTrying = 4.0;
+/// A start over fewer knots that lies so many tolerances off is not looked at.
+constexpr double kWorthOpening = 2.0;
+/// A structure whose estimated move, good to a factor of a few, is so many tolerances is not tried; over all knots of
+/// the sketch, where it takes longest and finds least, not beyond one.
+constexpr double kWorthTrying = 3.0, kWorthTryingOnSketch = 1.0;
 /// A nearest curve (in the mean) that lies farther off than so many tolerances is not tried with bounds.
-constexpr double kWorthBounding = 6.0;
+constexpr double kWorthBounding = 3.0;
 /// Bounds on the distance, each this share of what the one before reached.
 constexpr double kTighter = 0.75;
-constexpr int kMostBounds = 6;
+constexpr int kMostBounds = 4;
 /// The distance is bounded at the samples: some of it is left for what lies between them.
 constexpr double kBoundShare = 0.985;
 /// Over more spans than this not every structure is tried, but every one with about a sixth fewer extrema.
@@ -49,10 +52,9 @@ Result<FairedCurve> asFaired(const FairingSetup& sketch, const StructureCandidat
   return FairedCurve{std::move(*curve), std::move(report)};
 }
 
-StructureCandidates::StructureCandidates(std::shared_ptr<const FairingSetup> sketch, const FairingParams& params,
-                                         const RunContext& context)
+StructureCandidates::StructureCandidates(std::shared_ptr<const FairingSetup> sketch, const RunContext& context)
     : sketch_(std::move(sketch)), context_(context) {
-  for (auto& setup : coarseSetups(sketch_, params)) bases_.push_back({std::move(setup), nullptr, {}, {}});
+  for (auto& setup : coarseSetups(sketch_)) bases_.push_back({std::move(setup), nullptr, {}, {}});
   bases_.push_back({sketch_, nullptr, {}, {}});
   if (open(bases_.size() - 1).levels.empty()) bases_.clear();
 }
@@ -75,7 +77,9 @@ StructureCandidates::Basis& StructureCandidates::open(std::size_t at) {
 std::optional<StructureCandidate> StructureCandidates::candidate(const Basis& basis, std::vector<Vec2> points) const {
   const auto curve = toCurve(*basis.setup, points);
   if (!curve) return std::nullopt;
-  StructureCandidate result{basis.setup, std::move(points), countedExtrema(*curve, sketch_->closed), 0.0};
+  StructureCandidate result{
+      basis.setup, {}, countedExtrema(*curve, sketch_->closed), 0.0, basis.search->denseTurns(points)};
+  result.points = std::move(points);
   if (basis.setup != sketch_ || result.points != sketch_->points)
     result.deviationMm = largestDeviation(*basis.setup, result.points, true);
   return result;
@@ -122,21 +126,21 @@ std::optional<StructureCandidate> StructureCandidates::closer(const Basis& basis
 
 StructureCandidate StructureCandidates::fewest(double toleranceMm) {
   StructureCandidate best = open(bases_.size() - 1).start;
+  const int sketched = best.extrema;
   const auto offer = [&](StructureCandidate found) {
-    if (found.deviationMm > toleranceMm) return;
-    const bool better =
-        found.extrema < best.extrema || (found.extrema == best.extrema && best.extrema < bases_.back().start.extrema &&
-                                         found.deviationMm < best.deviationMm);
-    if (better) best = std::move(found);
+    if (found.deviationMm > toleranceMm || (found.extrema == sketched && best.extrema == sketched)) return;
+    const auto key = [](const StructureCandidate& c) { return std::tuple(c.extrema, c.turns, c.deviationMm); };
+    if (key(found) < key(best)) best = std::move(found);
   };
   for (std::size_t at = 0; at < bases_.size() && !context_.isCancelled(); ++at) {
     Basis& basis = open(at);
-    if (basis.levels.empty() || basis.start.deviationMm > kWorthTrying * toleranceMm) continue;
+    if (basis.levels.empty() || basis.start.deviationMm > kWorthOpening * toleranceMm) continue;
+    const double worth = (basis.setup == sketch_ ? kWorthTryingOnSketch : kWorthTrying) * toleranceMm;
     offer(basis.start);
     for (const std::size_t level : levelsToTry(basis)) {
       const StructureLevel& tried = basis.levels[level];
       if (context_.isCancelled() || sizeOf(tried.structure) > best.extrema) break;
-      if (tried.estimateMm > kWorthTrying * toleranceMm) continue;
+      if (tried.estimateMm > worth) continue;
       auto found = solved(basis, tried.structure, tried.estimateMm, toleranceMm);
       if (!found || found->deviationMm > toleranceMm) continue;
       offer(std::move(*found));

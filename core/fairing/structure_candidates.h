@@ -19,6 +19,7 @@ struct StructureCandidate {
   std::vector<Vec2> points;
   int extrema = 0;           ///< Of the usual prominence.
   double deviationMm = 0.0;  ///< From the sketched curve, both ways.
+  int turns = 0;             ///< Of the curvature, however small.
 };
 
 /// The candidate as a result: objective, extrema and deviation are filled in.
@@ -30,7 +31,7 @@ Result<FairedCurve> asFaired(const FairingSetup& sketch, const StructureCandidat
 /// found within a larger one too, and what a number of extrema needs is one number.
 class StructureCandidates {
  public:
-  StructureCandidates(std::shared_ptr<const FairingSetup> sketch, const FairingParams&, const RunContext&);
+  StructureCandidates(std::shared_ptr<const FairingSetup> sketch, const RunContext&);
 
   /// False for a curve with a cusp: there is nothing but the sketch.
   bool isValid() const { return !bases_.empty(); }

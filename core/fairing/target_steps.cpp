@@ -11,14 +11,14 @@
 namespace batten {
 namespace {
 
-/// Weight of the distance, in 1/extent: hardly any at first, then so many times more from step to step until the curve
-/// hardly leaves the sketch.
+/// Weight of the distance, in 1/extent: at last hardly any.
 constexpr double kSmallestWeight = 0.5, kWeightStep = 4.0, kRoughWeightStep = 16.0;
-constexpr int kMostSteps = 14;
-constexpr double kHardlyMoved = 5e-5;  // extents
+/// [extents] At first the curve leaves the sketch by about this.
+constexpr double kHardlyMoved = 1e-4;
+constexpr int kMostSteps = 16;
 /// A reference curvature below this (times extent) would weigh a straight line's rounding as shape.
 constexpr double kSmallestReference = 1e-3;
-constexpr FairingLimits kFull{40, 1e-4}, kWarm{8, 1e-3}, kPolish{12, 1e-5};
+constexpr FairingLimits kFull{40, 1e-4}, kWarm{6, 1e-3}, kPolish{12, 1e-5};
 /// A long wavy curve whose target is plainly out of reach is not worth the last per cent: from so many samples on, a
 /// target farther off than this share of the extent after the first iterations is followed with less effort.
 constexpr int kLongCurve = 600;
@@ -53,19 +53,27 @@ int extremaAsked(const FairingSetup& setup, const FairingObjective& objective) {
 
 TargetSteps::TargetSteps(const FairingSetup& setup, const FairingObjective& objective, const RunContext& context)
     : setup_(setup), objective_(objective), context_(context) {
-  const TargetStep sketch{0.0, setup.points, setup.start.places, 1e-3, 0.0, 0.0, 0, Termination::NotRun};
+  TargetStep from{0.0, setup.points, setup.start.places, 1e-3, 0.0, 0.0, 0, Termination::NotRun};
+  const auto start = evaluate(setup, objective, {}, setup.points, setup.start.places);
+  if (!start) return;
   const bool isLong = setup.sampleCount() > kLongCurve;
   const double smallest = kSmallestWeight / setup.extent;
-  auto step = solve(smallest, sketch, isLong ? kProbe : kFull);
-  rough_ = isLong && step && step->deviationMm > kOutOfReach * setup.extent;
-  if (isLong && step && !rough_ && step->why == Termination::IterationLimit) step = solve(smallest, *step, kRest);
-  while (step && !context.isCancelled()) {
+  const double largest = std::max(smallest, std::sqrt(start->misfit) / (kHardlyMoved * setup.extent));
+  const double wanted = std::log(largest / smallest) / std::log(isLong ? kRoughWeightStep : kWeightStep);
+  const int count = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSteps);
+  // From the sketch to the target: each step starts from the one before, which lies near.
+  for (int i = count; i >= 0 && !context.isCancelled(); --i) {
+    const FairingLimits limits = i > 0 ? (isLong ? kRough : kWarm) : isLong ? kProbe : kFull;
+    auto step = solve(smallest * std::pow(largest / smallest, static_cast<double>(i) / count), from, limits);
+    if (!step) break;
+    from = *step;
     steps_.push_back(std::move(*step));
-    const TargetStep& last = steps_.back();
-    if (static_cast<int>(steps_.size()) >= kMostSteps || last.deviationMm < kHardlyMoved * setup.extent) break;
-    step = solve(last.weight * (rough_ ? kRoughWeightStep : kWeightStep), last, rough_ ? kRough : kWarm);
   }
+  std::reverse(steps_.begin(), steps_.end());
   if (context.isCancelled()) steps_.clear();
+  rough_ = isLong && !steps_.empty() && steps_.front().deviationMm > kOutOfReach * setup.extent;
+  if (!isLong || rough_ || steps_.empty() || steps_.front().why != Termination::IterationLimit) return;
+  if (auto step = solve(smallest, steps_.front(), kRest)) steps_.front() = std::move(*step);
 }
 
 std::optional<TargetStep> TargetSteps::solve(double weight, const TargetStep& from, const FairingLimits& limits) const {

@@ -102,7 +102,7 @@ Result<FairedCurve> fairWithinTolerance(const std::shared_ptr<const FairingSetup
     report.why = Termination::FixedPoint;
     return finished(*setup, setup->points, params.toleranceMm, std::move(report));
   }
-  StructureCandidates candidates(setup, params, context);
+  StructureCandidates candidates(setup, context);
   const StructureCandidate sketch{setup, setup->points, countedExtrema(setup->original, setup->closed), 0.0};
   SmoothestCurve smoothest{candidates.isValid() ? candidates.fewest(kRoom * params.toleranceMm) : sketch,
                            params.toleranceMm, context};

@@ -6,6 +6,7 @@
 
 #include "core/construct/light/light_pieces.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/curvature.h"
 #include "core/fairing/edge_length_fairing.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_line.h"
@@ -110,7 +111,10 @@ class LineFairing {
     if (!light || light->report.kind == LightKind::Dense) return std::nullopt;
     const double moved = deviation(light->curve, curve_.fairingStart()).max;
     if (moved > std::max(curve_.fairingUsed.toleranceMm, faired.report.maxDeviationMm)) return std::nullopt;
+    const int extrema = countedExtrema(light->curve, curve_.closed);
+    if (extrema > faired.report.extremaAfter) return std::nullopt;
     FairedCurve result{std::move(light->curve), faired.report};
+    result.report.extremaAfter = extrema;
     result.report.maxDeviationMm = moved;
     return result;
   }
