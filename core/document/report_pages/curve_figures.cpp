@@ -169,8 +169,8 @@ Result<Figure> drawingFigure(const std::vector<const TracedCurve*>& curves, cons
     const CurveSample middle = sampleByArcLength(shape, 3)[1];
     const Vec2 at(middle.point.x() - corner.x(), corner.y() - middle.point.y());
     const Vec2 aside(-middle.tangent.y(), -middle.tangent.x());
-    figure.texts.push_back({at + kNumberOffsetMm * aside, std::to_string(numbers[i]), FigureText::Anchor::Middle,
-                            Ink::Mute, 2.4});
+    figure.texts.push_back(
+        {at + kNumberOffsetMm * aside, std::to_string(numbers[i]), FigureText::Anchor::Middle, Ink::Mute, 2.4});
   }
   return figure;
 }
@@ -193,7 +193,8 @@ Figure combFigure(const TracedCurve& curve, double widthMm, double heightMm) {
   for (const CurveSample& sample : samples) whole.add(tipOf(sample));
   const Vec2 size = whole.size();
   const double room = 3.0;
-  const double scale = std::min((widthMm - 2 * room) / std::max(size.x(), 1e-9), (heightMm - 2 * room) / std::max(size.y(), 1e-9));
+  const double scale =
+      std::min((widthMm - 2 * room) / std::max(size.x(), 1e-9), (heightMm - 2 * room) / std::max(size.y(), 1e-9));
   const Vec2 middle = 0.5 * (whole.low + whole.high);
   const auto place = [&](const Vec2& p) {
     return Vec2(0.5 * widthMm + scale * (p.x() - middle.x()), 0.5 * heightMm - scale * (p.y() - middle.y()));
@@ -224,8 +225,7 @@ Figure radiusFigure(const TracedCurve& curve, const std::optional<TargetProfile>
   figure.widthMm = widthMm;
   figure.heightMm = heightMm;
   if (!(lengthMm > 0.0) || !(size > 0.0)) return figure;
-  std::vector<RadiusSeries> all = {
-      seriesOf(curve.sketched, size, hasFaired ? Ink::Sketched : Ink::Faired, lengthMm)};
+  std::vector<RadiusSeries> all = {seriesOf(curve.sketched, size, hasFaired ? Ink::Sketched : Ink::Faired, lengthMm)};
   if (hasFaired) all.push_back(seriesOf(curve.faired, size, Ink::Faired, lengthMm));
   RadiusAxes axes{widthMm, heightMm, lengthMm, kMostRadius * size, kLeastRadius * size};
   for (const RadiusSeries& series : all) {

@@ -27,8 +27,8 @@ Result<Figure> drawingFigure(const std::vector<const TracedCurve*>&, const std::
 /// their length proportional to the curvature.
 Figure combFigure(const TracedCurve&, double widthMm, double heightMm);
 
-/// Radius of curvature over arc length, logarithmic: sketched, faired, and the target, dashed. Straighter stretches than
-/// 20 times the size of the curve lie on the upper border.
+/// Radius of curvature over arc length, logarithmic: sketched, faired, and the target, dashed. Straighter stretches
+/// than 20 times the size of the curve lie on the upper border.
 Figure radiusFigure(const TracedCurve&, const std::optional<TargetProfile>&, double widthMm, double heightMm);
 
 }  // namespace batten

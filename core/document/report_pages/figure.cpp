@@ -42,8 +42,8 @@ void addScaleBar(Figure& figure, const Vec2& at, double lengthMm) {
     figure.strokes.push_back(
         {{foot, foot - Vec2(0, isEnd ? kEndTickMm : kTickMm)}, false, false, Ink::Text, kBarWidthMm});
   }
-  figure.texts.push_back({at + Vec2(lengthMm + 2.0, 0), numberToText(lengthMm) + " mm", FigureText::Anchor::Start,
-                          Ink::Text, 2.8});
+  figure.texts.push_back(
+      {at + Vec2(lengthMm + 2.0, 0), numberToText(lengthMm) + " mm", FigureText::Anchor::Start, Ink::Text, 2.8});
 }
 
 double roundStep(double range, int most) {
