@@ -3,9 +3,8 @@
 
 #include <QCoreApplication>
 #include <QSettings>
-#include <cerrno>
-#include <csignal>
 
+#include "core/base/platform.h"
 #include "ui/session/editor_session.h"
 
 namespace batten {
@@ -13,10 +12,7 @@ namespace {
 
 const QString kPathKey = QStringLiteral("opening/path"), kProgramKey = QStringLiteral("opening/program");
 
-bool isRunning(qint64 program) {
-  return program > 0 && (kill(static_cast<pid_t>(program), 0) == 0 || errno == EPERM) &&
-         program != QCoreApplication::applicationPid();
-}
+bool isRunning(qint64 program) { return isProcessRunning(program) && program != QCoreApplication::applicationPid(); }
 
 }  // namespace
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <iostream>
 #include <new>
 
@@ -14,6 +13,7 @@
 #include "app/cli/trace_command.h"
 #include "app/cli/trace_plan.h"
 #include "app/cli/usage_error.h"
+#include "core/base/platform.h"
 #include "core/exchange/export_settings.h"
 
 namespace {
@@ -88,6 +88,9 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   trace->add_option("--report", a.report, "Write figures of every stage and curve")->type_name("REPORT.json");
   trace->add_flag("--report-targets", a.reportTargets,
                   "Have the report say what each of the six targets would make of every curve, too; takes far longer");
+  trace->add_flag("--explain", a.explain,
+                  "Say how much of the ink the curves explain and how much of their length has no ink under it, in the "
+                  "line printed and in the report; after the curves are written");
   addRepeated(*trace, "--dump", a.dumps, "STAGE=FILE.png", dumpHelp());
   trace->add_option("--save-recipe", a.saveRecipe, "Write all settings used, for --recipe and the window")
       ->type_name("R.json");
@@ -186,7 +189,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   // A file that grows beyond what is allowed is a failed write, with a message, and not the end of the program.
-  std::signal(SIGXFSZ, SIG_IGN);
+  batten::reportLargeFilesAsErrors();
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {

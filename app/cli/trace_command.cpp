@@ -15,6 +15,7 @@
 #include "core/base/conventions.h"
 #include "core/base/platform.h"
 #include "core/base/shown_text.h"
+#include "core/document/explain/explanation.h"
 #include "core/document/export_builder.h"
 #include "core/document/report.h"
 #include "core/exchange/export_file.h"
@@ -28,6 +29,10 @@ namespace batten::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+nlohmann::ordered_json explanationFigures(const Explanation& e) {
+  return {{"explained", e.explained}, {"missed", e.missed}, {"invented", e.invented}};
+}
 
 double millisecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
@@ -52,6 +57,11 @@ class Trace {
     StageCache nothingKept(0);
     out_ = runPipeline(scan_, plan_.recipe, nothingKept, request, context_);
 
+    // The curves first: nothing else is to delay them.
+    if (!out_.error) {
+      if (auto written = writeCurves(); !written) return written;
+      if (auto explained = explainCurves(); !explained) return explained;
+    }
     // Without a curve the pictures and the report are still wanted: they show why.
     if (auto written = writeDumps(); !written) return written;
     if (auto written = writeReport(); !written) return written;
@@ -59,7 +69,7 @@ class Trace {
       if (auto saved = save(arguments_.saveRecipe, recipeToJson(plan_.recipe)); !saved) return saved;
     }
     if (out_.error) return fail(*out_.error);
-    return writeCurves();
+    return {};
   }
 
   std::string summary() const {
@@ -69,6 +79,7 @@ class Trace {
     json["peak_memory_bytes"] = peakMemoryBytes();
     json["files"] = files_;
     json["checks"] = checks_;
+    if (explanation_) json["explanation"] = explanationFigures(*explanation_);
     json["notes"] = notes();
     return withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   }
@@ -102,6 +113,14 @@ class Trace {
     return {};
   }
 
+  Result<void> explainCurves() {
+    if (!arguments_.explain) return {};
+    auto explanation = explainPage(scan_, plan_.recipe, out_, context_);
+    if (!explanation) return fail(explanation.error());
+    explanation_ = std::move(*explanation);
+    return {};
+  }
+
   Result<void> writeReport() {
     if (arguments_.report.empty()) return {};
     ReportExtras extras;
@@ -117,6 +136,7 @@ class Trace {
         if (targets[i]) extras.targets[i] = std::move(*targets[i]);
       }
     }
+    extras.explanation = explanation_;
     extras.peakMemoryBytes = peakMemoryBytes();
     return save(arguments_.report, reportToJson(scan_, plan_.recipe, out_, extras));
   }
@@ -177,6 +197,7 @@ class Trace {
       list.emplace_back("The clean-up took thin strokes away. Set filter.max_change to 8 or fewer filter.iterations.");
     }
     if (!out_.contours->report.note.empty()) list.push_back(out_.contours->report.note);
+    if (explanation_ && !explanation_->note.empty()) list.push_back(explanation_->note);
     addCornerNotes(list);
     for (const std::size_t choice : assignChoices(*out_.pieces, plan_.recipe.choices).waiting) {
       const std::vector<Vec2>& anchors = plan_.recipe.choices[choice].anchorsPx;
@@ -196,6 +217,7 @@ class Trace {
   Scan scan_;
   double readMilliseconds_ = 0.0;
   PipelineOutput out_;
+  std::optional<Explanation> explanation_;
   std::size_t curves_ = 0;
   std::vector<std::string> files_, checks_;
 };

@@ -30,6 +30,7 @@ struct TraceArguments {
   std::optional<std::string> dpi;          ///< --dpi
   std::string report;                      ///< --report
   bool reportTargets = false;              ///< --report-targets
+  bool explain = false;                    ///< --explain
   std::vector<std::string> dumps;          ///< --dump STAGE=FILE.png
   std::string saveRecipe;                  ///< --save-recipe
   std::optional<std::string> threads;      ///< --threads

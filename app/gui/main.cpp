@@ -2,10 +2,10 @@
 #include <QApplication>
 #include <QDir>
 #include <QFileInfo>
-#include <csignal>
 #include <cstdio>
 #include <string_view>
 
+#include "core/base/platform.h"
 #include "ui/main_window.h"
 
 namespace {
@@ -30,7 +30,7 @@ bool answeredInWords(int argc, char** argv) {
 int main(int argc, char** argv) {
   if (answeredInWords(argc, argv)) return 0;
   // A file that grows beyond what is allowed is a failed write, with a message, and not the end of the work.
-  std::signal(SIGXFSZ, SIG_IGN);
+  batten::reportLargeFilesAsErrors();
   QApplication application(argc, argv);
   QCoreApplication::setOrganizationName(QStringLiteral("Batten"));
   QCoreApplication::setApplicationName(QStringLiteral("batten"));

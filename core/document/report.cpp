@@ -50,7 +50,6 @@ Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
             {"control_points_before_sparing", r.fullControlPoints},
             {"moved_by_sparing_px", number(r.knotRemovalMovedPx)},
             {"moved_by_sparing_um", number(1000.0 * frame.lengthToModel(r.knotRemovalMovedPx))},
-
             {"is_circle", r.isCircle},
             {"is_line", r.isLine},
             {"extrema", Json::array()}};
@@ -276,6 +275,15 @@ void addComparisons(const PipelineOutput& out, Json& curves) {
   }
 }
 
+Json explanationToJson(const Explanation& e) {
+  Json stretches = Json::array();
+  for (const InventedStretch& s : e.inventions) {
+    stretches.push_back({{"curve", s.curve}, {"from_px", pointToJson(s.fromPx)}, {"length_px", number(s.lengthPx)}});
+  }
+  return {{"reference_ink_px", e.referencePx}, {"explained", number(e.explained)}, {"missed", number(e.missed)},
+          {"curves_px", number(e.curvesPx)},   {"invented", number(e.invented)},   {"inventions", stretches}};
+}
+
 std::size_t stationCount(const SegmentSet& set) {
   std::size_t count = 0;
   for (const PieceSegments& p : set.pieces) count += p.stations.size();
@@ -363,6 +371,7 @@ std::string reportToJson(const Scan& scan, const Recipe& recipe, const PipelineO
   json["mm_per_px"] = number(out.frame.mmPerPx);
   json["read_milliseconds"] = number(extras.readMilliseconds);
   json["stages"] = stagesToJson(out);
+  if (extras.explanation) json["explanation"] = explanationToJson(*extras.explanation);
   Json& contours = json["contours"] = Json::array();
   for (std::size_t i = 0; out.contours && i < out.contours->contours.size(); ++i)
     contours.push_back(contourToJson(out.contours->contours[i], i, out.frame));

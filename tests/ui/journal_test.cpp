@@ -5,10 +5,10 @@
 #include <QFile>
 #include <QTest>
 
+#include "core/base/platform.h"
 #include "core/document/unsaved_work.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/new_drawing_dialog.h"
-#include "ui/session/journal_lock.h"
 #include "ui/session/recipe_journal.h"
 
 namespace batten {
@@ -96,7 +96,7 @@ TEST_F(Journal, ASessionWhoseFileAnotherHoldsGoesOnInAFileOfItsOwn) {
   const QString first = journal.file();
   // Between a clean-up and the next tick another window was faster.
   ASSERT_TRUE(QFile::remove(first + QStringLiteral(".lock")));
-  JournalLock other(std::filesystem::path(first.toStdU16String()));
+  LockFile other(std::filesystem::path((first + QStringLiteral(".lock")).toStdU16String()));
   ASSERT_TRUE(other.hold());
   ASSERT_NO_FATAL_FAILURE(draw(40));
   EXPECT_TRUE(waitUntil([&] { return journal.file() != first && strokesIn(journal.file()) == 2; }, 5000));

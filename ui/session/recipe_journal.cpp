@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/platform.h"
 #include "core/base/regular_file.h"
 #include "core/document/unsaved_work.h"
 #include "core/exchange/save_atomically.h"
@@ -19,6 +20,10 @@ namespace {
 constexpr std::uint64_t kLargestBytes = std::uint64_t{64} << 20;
 
 std::filesystem::path nativePath(const QString& path) { return {path.toStdU16String()}; }
+
+std::unique_ptr<LockFile> lockOf(const QString& journal) {
+  return std::make_unique<LockFile>(nativePath(journal + QStringLiteral(".lock")));
+}
 
 std::optional<RecipeJournal::Left> readJournal(const QString& path) {
   const auto text = readWhole(nativePath(path), kLargestBytes);
@@ -56,7 +61,7 @@ void RecipeJournal::write() {
     // The file may be somebody else's by now, or is not there yet.
     QDir().mkpath(folder_);
     if (lock_) file_ = newFile();
-    lock_ = std::make_unique<JournalLock>(nativePath(file_));
+    lock_ = lockOf(file_);
     written_.reset();
     ++generation_;
     if (!lock_->hold()) return;  // A folder that takes no lock takes no journal: the next tick tries again.
@@ -90,7 +95,7 @@ std::optional<RecipeJournal::Left> RecipeJournal::left() {
   for (const QFileInfo& info : files) {
     const QString path = info.absoluteFilePath();
     if (path == QFileInfo(file_).absoluteFilePath()) continue;
-    auto lock = std::make_unique<JournalLock>(nativePath(path));
+    auto lock = lockOf(path);
     if (!lock->hold()) continue;
     if (auto left = readJournal(path)) {
       leftLock_ = std::move(lock);

@@ -20,7 +20,9 @@
 namespace batten {
 namespace {
 
-constexpr double kShortestWidths = 3.0;  // [stroke widths] shorter stroke paths are blots
+constexpr double kShortestWidths = 3.0;     // [stroke widths] shorter stroke paths are blots
+constexpr double kClosingWidths = 0.75;     // [stroke widths] between the specks of a pencil there is less, and a pixel
+constexpr double kPencilSmoothingPx = 3.0;  // of the middles along a pencil stroke, whose grain moves every one
 
 std::vector<StrokePath> centrelinesOf(const BitImage& ink, const EdgeParams& params, const RunContext& context) {
   BitImage skeleton = ink;
@@ -32,7 +34,7 @@ std::vector<StrokePath> centrelinesOf(const BitImage& ink, const EdgeParams& par
 template <class Chosen>
 double medianWidth(const std::vector<StrokePath>& paths, const Chosen& isChosen) {
   std::vector<float> radii;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
+  for (int i = 0; i < std::ssize(paths); ++i) {
     if (!isChosen(i)) continue;
     for (const StrokePathPoint& p : paths[i].points) radii.push_back(p.radius);
   }
@@ -43,7 +45,7 @@ double medianWidth(const std::vector<StrokePath>& paths, const Chosen& isChosen)
 // Ink that touches the border of the page nearly all along is the margin of the scanner or the edge of the sheet.
 bool isMargin(const Contour& c, const GreyImage& grey) {
   constexpr double kTouchPx = 2.0, kMostly = 0.7;
-  std::size_t touching = 0;
+  int touching = 0;
   for (const ContourPoint& point : c.points) {
     const Vec2& p = point.at;
     const double toBorder = std::min({p.x(), p.y(), grey.width - p.x(), grey.height - p.y()});
@@ -66,44 +68,45 @@ void setDisc(BitImage& image, const Vec2& at, double radius) {
 }
 
 // Covers the strokes that were, or were not, drawn with a pencil, and `margin` px around them.
-BitImage bandOf(const BitImage& like, const std::vector<StrokePath>& paths, const GraininessMap& grain, bool pencil,
-                double margin, const RunContext& context) {
-  constexpr std::size_t kCheckEvery = 64;
-  BitImage band(like.width, like.height);
-  for (std::size_t i = 0; i < paths.size(); ++i) {
+BitImage coverOf(const BitImage& like, const std::vector<StrokePath>& paths, const GraininessMap& grain, bool pencil,
+                 double margin, const RunContext& context) {
+  constexpr int kDiscsPerLook = 64;        // between two looks at the cancel token
+  constexpr double kDiscsPerRadius = 6.0;  // discs nearer to each other cover nothing new
+  BitImage cover(like.width, like.height);
+  for (int i = 0; i < std::ssize(paths); ++i) {
     if (grain.isPencil(i) != pencil) continue;
     const std::vector<StrokePathPoint>& points = paths[i].points;
-    std::size_t painted = 0;
-    for (std::size_t k = 0; k < points.size();) {
-      if (painted++ % kCheckEvery == 0 && context.isCancelled()) return band;
+    const int n = static_cast<int>(points.size());
+    int painted = 0;
+    for (int k = 0; k < n;) {
+      if (painted++ % kDiscsPerLook == 0 && context.isCancelled()) return cover;
       const double radius = static_cast<double>(points[k].radius) + margin;
-      setDisc(band, points[k].at, radius);
-      // Discs much nearer to each other than their radius cover nothing new; the last one is always painted.
-      const auto step = static_cast<std::size_t>(std::max(1.0, radius / 6.0));
-      k = k + 1 < points.size() ? std::min(k + step, points.size() - 1) : points.size();
+      setDisc(cover, points[k].at, radius);
+      // The last one is always painted.
+      k = k + 1 < n ? std::min(k + static_cast<int>(std::max(1.0, radius / kDiscsPerRadius)), n - 1) : n;
     }
   }
-  return band;
+  return cover;
 }
 
 // The specks of a pencil become one body each, pen strokes do not grow. Paper that runs on between two lines stays
 // paper, beside pens too: there a threshold closes it as well.
 BitImage bodiesOf(const BitImage& strokes, const GreyImage& grey, const std::vector<StrokePath>& paths,
                   const GraininessMap& grain, const RunContext& context) {
-  const double width = medianWidth(paths, [&](std::size_t i) { return grain.isPencil(i); });
-  const double closing = 0.75 * width + 1.0;
+  const double width = medianWidth(paths, [&](int i) { return grain.isPencil(i); });
+  const double closing = kClosingWidths * width + 1.0;
   BitImage body = closeInk(strokes, closing);
   bool anyPen = false;
-  for (std::size_t i = 0; i < paths.size(); ++i) anyPen = anyPen || !grain.isPencil(i);
+  for (int i = 0; i < std::ssize(paths); ++i) anyPen = anyPen || !grain.isPencil(i);
   BitImage ownPens(strokes.width, strokes.height);
   if (anyPen) {
-    ownPens = without(bandOf(strokes, paths, grain, false, closing, context),
-                      bandOf(strokes, paths, grain, true, closing, context));
+    ownPens = without(coverOf(strokes, paths, grain, false, closing, context),
+                      coverOf(strokes, paths, grain, true, closing, context));
     body = either(without(std::move(body), ownPens), strokes);
   }
   if (context.isCancelled()) return strokes;
-  const OrientedLines comb = filterOrientedLines(without(body, ownPens), grey, grain, width, context);
-  return either(without(std::move(body), comb.gaps), without(comb.lines, ownPens));
+  const OrientedLines found = filterOrientedLines(without(body, ownPens), grey, grain, width, context);
+  return either(without(std::move(body), found.gaps), without(found.lines, ownPens));
 }
 
 // Every stroke path is placed by the rule that suits it.
@@ -111,21 +114,21 @@ std::vector<Contour> placeStrokePaths(const std::vector<StrokePath>& paths, cons
                                       const GreyImage& grey, bool subpixel, const RunContext& context) {
   RefineSettings pen, pencil;
   pencil.rule = CentreRule::Centroid;
-  pencil.smoothShiftPx = 3.0;
+  pencil.smoothShiftPx = kPencilSmoothingPx;
   if (!subpixel) pen.rule = CentreRule::None;
   if (!subpixel || grain == nullptr) return refineStrokePaths(paths, grey, pen, context);
   std::vector<Contour> contours(paths.size());
   for (const bool isPencil : {false, true}) {
     std::vector<StrokePath> some;
-    std::vector<std::size_t> number;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
+    std::vector<int> number;
+    for (int i = 0; i < std::ssize(paths); ++i) {
       if (grain->isPencil(i) != isPencil) continue;
       some.push_back(paths[i]);
       number.push_back(i);
     }
     if (some.empty()) continue;
     std::vector<Contour> placed = refineStrokePaths(some, grey, isPencil ? pencil : pen, context);
-    for (std::size_t k = 0; k < placed.size(); ++k) contours[number[k]] = std::move(placed[k]);
+    for (int k = 0; k < std::ssize(placed); ++k) contours[number[k]] = std::move(placed[k]);
   }
   return contours;
 }
@@ -134,12 +137,12 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
                                 const RunContext& context) {
   std::vector<StrokePath> paths = centrelinesOf(strokes, params, context);
   if (context.isCancelled()) return cancelled();
-  const double width = medianWidth(paths, [](std::size_t) { return true; });
+  const double width = medianWidth(paths, [](int) { return true; });
   const GraininessMap grain(paths, grey, context);
   BitImage bodies;
   const BitImage* ink = &strokes;
   bool anyPencil = false;
-  for (std::size_t i = 0; i < paths.size(); ++i) anyPencil = anyPencil || grain.isPencil(i);
+  for (int i = 0; i < std::ssize(paths); ++i) anyPencil = anyPencil || grain.isPencil(i);
   if (anyPencil) {
     bodies = bodiesOf(strokes, grey, paths, grain, context);
     ink = &bodies;

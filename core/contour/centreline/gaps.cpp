@@ -3,32 +3,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "core/contour/centreline/stroke_paths.h"
 
 namespace batten {
 namespace {
 
+// A skeleton ends before its ink does, by up to a width and a pixel; there are two of them to a gap.
+constexpr double kSkeletonShort = 2.0;  // [stroke widths]
+constexpr double kSkeletonShortPx = 2.0;
+constexpr double kFacingDeg = 30.0;        // between the direction of an end and the way to the other
+constexpr double kShortGapWidths = 1.5;    // [stroke widths] over so short a gap that way says little:
+constexpr double kShortGapTurnDeg = 60.0;  // the directions of the two ends decide,
+constexpr double kShortGapBack = 0.5;      // [stroke widths] and they may lie a little beside each other
+constexpr double kLeastRingWidths = 6.0;   // [stroke widths] round a ring that one stroke path makes
+constexpr double kDirectionWidths = 3.0;   // [stroke widths] over which the direction of an end is taken,
+constexpr double kLeastDirectionPx = 4.0;  // and of thin strokes
+constexpr double kMostOfPath = 0.3;        // of its points: what of a short one is left out at its end
+constexpr int kBridgeRounds = 4;           // an end whose best partner is taken may find another
+constexpr int kEndsPerLook = 256;          // between two looks at the cancel token
+
 struct FreeEnd {
   int path = 0, side = 0;  ///< side 0: the start.
   Vec2 at = Vec2::Zero();
-  Vec2 out = Vec2::Zero();  ///< Unit direction in which the stroke would go on.
-  double width = 1.0;       ///< [px] of the skeleton's discs, which are half a pixel and more too small.
-  double inkWidth = 1.0;    ///< [px] across the ink.
-  int best = -1;
+  Vec2 out = Vec2::Zero();       ///< Unit direction in which the stroke would go on.
+  double width = 1.0;            ///< [px] of the skeleton's discs, which are half a pixel and more too small.
+  double inkWidth = 1.0;         ///< [px] across the ink.
+  std::optional<int> best = {};  ///< The free end that it costs least to join.
   double bestCost = 0.0;
 };
 
 // Direction of a free end; the last pixels of a skeleton turn to a corner of the pen's end and are left out.
 Vec2 endDirection(const StrokePath& s, int side, double width) {
-  const auto n = static_cast<double>(s.points.size());
+  const int n = static_cast<int>(s.points.size());
   const auto at = [&](double k) {
-    const auto i = static_cast<std::size_t>(std::clamp(k, 0.0, n - 1.0));
-    return s.points[side == 0 ? i : s.points.size() - 1 - i].at;
+    const int i = static_cast<int>(std::clamp(k, 0.0, n - 1.0));
+    return s.points[side == 0 ? i : n - 1 - i].at;
   };
-  const double near = std::min(0.5 * width + 1.0, 0.3 * n), far = near + std::max(4.0, 3.0 * width);
+  const double near = std::min(0.5 * width + 1.0, kMostOfPath * n);
+  const double far = near + std::max(kLeastDirectionPx, kDirectionWidths * width);
   const Vec2 d = at(near) - at(far);
   return d.norm() > 0.0 ? Vec2(d / d.norm()) : Vec2::Zero();
 }
@@ -46,11 +63,11 @@ double inkTowards(const BitImage& ink, const Vec2& from, const Vec2& direction, 
 
 // [px] width of the ink across a stroke: the mean over the middle half of its chords, since each is whole pixels.
 double inkWidthOf(const StrokePath& s, const BitImage& ink) {
-  constexpr std::size_t kChords = 64, kReach = 4;
-  const std::size_t n = s.points.size();
+  constexpr int kChords = 64, kReach = 4, kFewestChords = 4;
+  const int n = static_cast<int>(s.points.size());
   std::vector<double> chords;
-  for (std::size_t k = 0; k < kChords && n > 2 * kReach; ++k) {
-    const std::size_t i = kReach + k * (n - 2 * kReach) / kChords;
+  for (int k = 0; k < kChords && n > 2 * kReach; ++k) {
+    const int i = kReach + static_cast<int>(static_cast<std::int64_t>(k) * (n - 2 * kReach) / kChords);
     if (s.points[i].part != StrokePart::Ink) continue;
     const Vec2 along = s.points[i + kReach].at - s.points[i - kReach].at;
     if (!(along.norm() > 0.0)) continue;
@@ -58,11 +75,11 @@ double inkWidthOf(const StrokePath& s, const BitImage& ink) {
     const double most = 4.0 * static_cast<double>(s.points[i].radius) + 4.0;
     chords.push_back(inkTowards(ink, s.points[i].at, across, most) + inkTowards(ink, s.points[i].at, -across, most));
   }
-  if (chords.size() < 4) return s.widthPx();
+  if (std::ssize(chords) < kFewestChords) return s.widthPx();
   std::sort(chords.begin(), chords.end());
-  const auto quarter = static_cast<std::ptrdiff_t>(chords.size() / 4);
+  const auto quarter = std::ssize(chords) / 4;
   const double sum = std::accumulate(chords.begin() + quarter, chords.end() - quarter, 0.0);
-  return std::max(1.0, sum / static_cast<double>(static_cast<std::ptrdiff_t>(chords.size()) - 2 * quarter));
+  return std::max(1.0, sum / static_cast<double>(std::ssize(chords) - 2 * quarter));
 }
 
 std::vector<FreeEnd> freeEnds(const std::vector<StrokePath>& paths, const BitImage& ink) {
@@ -89,28 +106,31 @@ double paperBetween(const FreeEnd& a, const FreeEnd& b, const BitImage& ink) {
   constexpr double kStepPx = 0.25;
   const double length = (b.at - a.at).norm();
   const int steps = static_cast<int>(length / kStepPx) + 1;
-  int first = -1, last = -1;
+  std::optional<int> first;
+  int last = 0;
   for (int i = 0; i <= steps; ++i) {
     const Vec2 p = a.at + (b.at - a.at) * (static_cast<double>(i) / steps);
     if (ink.at(static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())))) continue;
-    if (first < 0) first = i;
+    if (!first) first = i;
     last = i;
   }
-  return first < 0 ? 0.0 : length * (last - first + 1) / steps;
+  return first ? length * (last - *first + 1) / steps : 0.0;
 }
 
-// Cost of joining two ends, < 0: do not. They must look at each other unless the gap is no longer than the pen is wide.
-double joinCost(const FreeEnd& a, const FreeEnd& b, const BitImage& ink, double gapFactor) {
+// Cost of joining two ends; nothing where they do not belong together. They must face each other unless the gap is no
+// longer than the pen is wide.
+std::optional<double> joinCost(const FreeEnd& a, const FreeEnd& b, const BitImage& ink, double gapFactor) {
   const double width = 0.5 * (a.width + b.width);
   const Vec2 d = b.at - a.at;
   const double gap = d.norm(), longest = gapFactor * 0.5 * (a.inkWidth + b.inkWidth);
-  if (gap > longest + 2.0 * width + 2.0) return -1.0;
+  if (gap > longest + kSkeletonShort * width + kSkeletonShortPx) return std::nullopt;
   const double turn = std::acos(std::clamp(-a.out.dot(b.out), -1.0, 1.0));
-  const double deg = std::numbers::pi / 180.0, limit = std::cos(30.0 * deg) * gap;
-  const bool isFacing = gap <= 1.5 * width ? turn <= 60.0 * deg && d.dot(a.out) >= -0.5 * width
-                                           : d.dot(a.out) >= limit && -d.dot(b.out) >= limit;
+  const double deg = std::numbers::pi / 180.0, limit = std::cos(kFacingDeg * deg) * gap;
+  const bool isFacing = gap <= kShortGapWidths * width
+                            ? turn <= kShortGapTurnDeg * deg && d.dot(a.out) >= -kShortGapBack * width
+                            : d.dot(a.out) >= limit && -d.dot(b.out) >= limit;
   // Half a pixel for the mask, whose pixels are whole.
-  if (!isFacing || paperBetween(a, b, ink) > longest + 0.5) return -1.0;
+  if (!isFacing || paperBetween(a, b, ink) > longest + 0.5) return std::nullopt;
   return gap + width * turn;
 }
 
@@ -144,43 +164,42 @@ void join(std::vector<StrokePath>& paths, const FreeEnd& a, const FreeEnd& b) {
 
 void bridgeGaps(std::vector<StrokePath>& paths, const BitImage& ink, const EdgeParams& params,
                 const RunContext& context) {
-  constexpr int kRounds = 4;
   if (!(params.gapFactor > 0.0)) return;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kBridgeRounds; ++round) {
     std::vector<FreeEnd> ends = freeEnds(paths, ink);
     double widest = 1.0;
     for (const FreeEnd& e : ends) widest = std::max(widest, std::max(e.width, e.inkWidth));
-    const double farthest = (params.gapFactor + 2.0) * widest + 2.0;
+    const double farthest = (params.gapFactor + kSkeletonShort) * widest + kSkeletonShortPx;
     const auto offer = [](FreeEnd& e, int other, double cost) {
-      if (e.best < 0 || cost < e.bestCost) {
+      if (!e.best || cost < e.bestCost) {
         e.best = other;
         e.bestCost = cost;
       }
     };
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      if ((i & 255) == 0 && context.isCancelled()) return;
-      for (std::size_t j = i + 1; j < ends.size() && ends[j].at.x() - ends[i].at.x() <= farthest; ++j) {
+    for (int i = 0; i < std::ssize(ends); ++i) {
+      if (i % kEndsPerLook == 0 && context.isCancelled()) return;
+      for (int j = i + 1; j < std::ssize(ends) && ends[j].at.x() - ends[i].at.x() <= farthest; ++j) {
         FreeEnd &a = ends[i], &b = ends[j];
-        const bool tooShort = a.path == b.path && paths[a.path].length() < 6.0 * a.width + (a.at - b.at).norm();
-        const double cost = tooShort ? -1.0 : joinCost(a, b, ink, params.gapFactor);
-        if (cost < 0.0) continue;
-        offer(a, static_cast<int>(j), cost);
-        offer(b, static_cast<int>(i), cost);
+        const bool tooShort =
+            a.path == b.path && paths[a.path].length() < kLeastRingWidths * a.width + (a.at - b.at).norm();
+        const auto cost = tooShort ? std::nullopt : joinCost(a, b, ink, params.gapFactor);
+        if (!cost) continue;
+        offer(a, j, *cost);
+        offer(b, i, *cost);
       }
     }
     bool joined = false;
     std::vector<bool> moved(paths.size(), false);
-    for (std::size_t i = 0; i < ends.size(); ++i) {
+    for (int i = 0; i < std::ssize(ends); ++i) {
       const FreeEnd& a = ends[i];
-      if (a.best <= static_cast<int>(i) || ends[a.best].best != static_cast<int>(i)) continue;
-      const FreeEnd& b = ends[a.best];
+      if (!a.best || *a.best <= i || ends[*a.best].best != i) continue;
+      const FreeEnd& b = ends[*a.best];
       // A stroke path is turned at most once a round, so that the sides noted above stay true.
-      const auto s = static_cast<std::size_t>(a.path), t = static_cast<std::size_t>(b.path);
-      if (moved[s] || moved[t]) {
+      if (moved[a.path] || moved[b.path]) {
         joined = true;
         continue;
       }
-      moved[s] = moved[t] = joined = true;
+      moved[a.path] = moved[b.path] = joined = true;
       join(paths, a, b);
     }
     if (!joined) break;

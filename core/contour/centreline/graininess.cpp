@@ -17,11 +17,18 @@ namespace {
 
 constexpr int kWindow = 5;                       // median over 11
 constexpr double kMostPx = 60000.0;              // of all stroke paths; longer drawings are sampled more sparsely
-constexpr std::size_t kFewestSamples = 30;       // of a stroke path, at three px or more: one or two could not tell
+constexpr int kFewestSamples = 30;               // of a stroke path, at three px or more: one or two could not tell
 constexpr double kPathTellsPx = 90.0;            // a stroke path this long counts as much as its surroundings
 constexpr double kRegionTellsPx = 300.0;         // a region with so much line counts as much as the page
 constexpr int kLanes = 7;                        // the stroke, then three to either side
 constexpr double kBeside[3] = {1.5, 2.75, 4.0};  // [px] from the border: one of them misses the next line
+
+constexpr int kEndPoints = 3;                  // at either end, besides the window, where ink fades
+constexpr std::size_t kFewestPathPoints = 25;  // a shorter stroke path has too few samples between its ends
+constexpr int kLeastStride = 3;                // points: neighbouring samples share pixels
+constexpr int kGrainEvery = 8;                 // points: regions are far larger
+constexpr double kLeastDepth = 2.0;            // [grey]
+constexpr double kSmallerOfTwo = 1.7;          // mean of |x| over that of the smaller of two, for normal deviates
 
 struct GrainSample {
   Vec2 at = Vec2::Zero();
@@ -49,41 +56,40 @@ float softGrey(const GreyImage& grey, const Vec2& at) {
                   sampleGrey(grey, at.x(), at.y() - 1.0) + sampleGrey(grey, at.x(), at.y() + 1.0));
 }
 
-std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& grey, std::size_t most) {
+std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& grey, int most) {
   std::vector<GrainSample> samples;
-  if (path.points.size() < 25) return samples;
-  const std::size_t stride = std::min(most, std::max<std::size_t>(3, path.points.size() / kFewestSamples));
+  if (path.points.size() < kFewestPathPoints) return samples;
+  const int stride = std::min(most, std::max(kLeastStride, static_cast<int>(path.points.size()) / kFewestSamples));
   const StrokeCourse course = resample(path);
-  const auto n = course.base.size();
+  const int n = course.count();
   std::array<std::vector<float>, kLanes> lanes;
   for (auto& lane : lanes) lane.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec2 normal = leftNormal(course.tangent[i]);
-    lanes[0][i] = softGrey(grey, course.base[i]);
-    for (std::size_t k = 0; k < 3; ++k) {
+  for (int i = 0; i < n; ++i) {
+    const CoursePoint& p = course.points[i];
+    const Vec2 normal = leftNormal(p.tangent);
+    lanes[0][i] = softGrey(grey, p.base);
+    for (int k = 0; k < 3; ++k) {
       const double off = 0.5 * course.widthPx + kBeside[k];
-      lanes[1 + k][i] = softGrey(grey, course.base[i] + off * normal);
-      lanes[4 + k][i] = softGrey(grey, course.base[i] - off * normal);
+      lanes[1 + k][i] = softGrey(grey, p.base + off * normal);
+      lanes[4 + k][i] = softGrey(grey, p.base - off * normal);
     }
   }
-  for (std::size_t i = kWindow + 3; i + kWindow + 3 < n; i += stride) {
-    if (course.part[i] != StrokePart::Ink) continue;
+  for (int i = kWindow + kEndPoints; i + kWindow + kEndPoints < n; i += stride) {
+    if (course.points[i].part != StrokePart::Ink) continue;
     std::array<float, kLanes> median{};
-    for (std::size_t k = 0; k < kLanes; ++k) {
+    for (int k = 0; k < kLanes; ++k) {
       std::array<float, 2 * kWindow + 1> window{};
-      std::copy_n(lanes[k].begin() + static_cast<std::ptrdiff_t>(i - kWindow), window.size(), window.begin());
+      std::copy_n(lanes[k].begin() + (i - kWindow), window.size(), window.begin());
       median[k] = upperMedian(window);
     }
     // Beside the stroke the brightest lane is paper; others may lie on the next line.
-    const auto left =
-        static_cast<std::size_t>(std::max_element(median.begin() + 1, median.begin() + 4) - median.begin());
-    const auto right = static_cast<std::size_t>(std::max_element(median.begin() + 4, median.end()) - median.begin());
+    const auto left = std::max_element(median.begin() + 1, median.begin() + 4) - median.begin();
+    const auto right = std::max_element(median.begin() + 4, median.end()) - median.begin();
     const double depth = std::max(median[left], median[right]) - median[0];
-    if (!(depth > 2.0)) continue;
-    const auto off = [&](std::size_t k) { return static_cast<double>(std::abs(lanes[k][i] - median[k])); };
-    // 1.7: the smaller of two is less than either.
-    samples.push_back({course.base[i], off(0) / depth, 1.7 * std::min(off(left), off(right)) / depth, depth,
-                       static_cast<double>(stride)});
+    if (!(depth > kLeastDepth)) continue;
+    const auto off = [&](std::ptrdiff_t k) { return static_cast<double>(std::abs(lanes[k][i] - median[k])); };
+    samples.push_back({course.points[i].base, off(0) / depth, kSmallerOfTwo * std::min(off(left), off(right)) / depth,
+                       depth, static_cast<double>(stride)});
   }
   return samples;
 }
@@ -91,7 +97,7 @@ std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& g
 // Values of the regions; those with little line lean on their neighbours.
 RegionValues filledRegions(const std::array<GrainSum, kRegions>& sums, double GrainSum::*what) {
   std::vector<float> values(kRegions, 0.0f), weights(kRegions, 0.0f);
-  for (std::size_t r = 0; r < kRegions; ++r) {
+  for (int r = 0; r < kRegions; ++r) {
     if (!(sums[r].length > 0.0)) continue;
     values[r] = static_cast<float>(sums[r].*what / sums[r].length);
     weights[r] = static_cast<float>(sums[r].length / (sums[r].length + kRegionTellsPx));
@@ -119,17 +125,16 @@ GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyIma
     : grains_(paths.size(), 0.0), width_(std::max(1, grey.width)), height_(std::max(1, grey.height)) {
   double total = 0.0;
   for (const StrokePath& s : paths) total += static_cast<double>(s.points.size());
-  const auto stride = static_cast<std::size_t>(3.0 * std::max(1.0, total / kMostPx));
+  const int stride = static_cast<int>(kLeastStride * std::max(1.0, total / kMostPx));
   std::vector<std::vector<GrainSample>> samples(paths.size());
   parallelFor(context, static_cast<int>(paths.size()), 4, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      samples[at] = samplesAlong(paths[at], grey, stride);
+      samples[i] = samplesAlong(paths[i], grey, stride);
     }
   });
   std::array<GrainSum, kRegions> regions{};
   std::vector<GrainSum> own(paths.size());
-  for (std::size_t i = 0; i < paths.size(); ++i) {
+  for (int i = 0; i < std::ssize(paths); ++i) {
     for (const GrainSample& s : samples[i]) {
       const int x = std::clamp(static_cast<int>(s.at.x()), 0, width_ - 1);
       const int y = std::clamp(static_cast<int>(s.at.y()), 0, height_ - 1);
@@ -140,11 +145,11 @@ GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyIma
   ink_ = filledRegions(regions, &GrainSum::ink);
   paper_ = filledRegions(regions, &GrainSum::paper);
   depth_ = filledRegions(regions, &GrainSum::depth);
-  for (std::size_t i = 0; i < paths.size(); ++i) {
+  for (int i = 0; i < std::ssize(paths); ++i) {
     const std::vector<StrokePathPoint>& points = paths[i].points;
     if (points.empty()) continue;
     double ink = 0.0, paper = 0.0, count = 0.0;
-    for (std::size_t k = 0; k < points.size(); k += 8, count += 1.0) {
+    for (int k = 0; k < std::ssize(points); k += kGrainEvery, count += 1.0) {
       ink += valueAt(ink_, points[k].at, width_, height_);
       paper += valueAt(paper_, points[k].at, width_, height_);
     }

@@ -18,9 +18,9 @@ class GraininessMap {
   GraininessMap(const std::vector<StrokePath>& paths, const GreyImage& grey, const RunContext& context);
 
   /// [-] Grain of a stroke path: its own as far as it is long enough to tell, for the rest that of its surroundings.
-  double grainOf(std::size_t path) const { return grains_[path]; }
+  double grainOf(int path) const { return grains_[path]; }
   /// Whether a stroke path was drawn with a pencil.
-  bool isPencil(std::size_t path) const { return grains_[path] > kPencil; }
+  bool isPencil(int path) const { return grains_[path] > kPencil; }
   /// [-] Mean deviation along the strokes round a place, grain and noise of the scan together, as part of the depth.
   double deviationAt(const Vec2& px) const;
   /// [grey] by which the strokes round a place are darker than their paper.

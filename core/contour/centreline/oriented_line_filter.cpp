@@ -18,13 +18,18 @@ namespace {
 
 constexpr int kTile = 64;            // [px]
 constexpr double kFlankFrom = 0.75;  // [widths] from a gap's middle to the lines at its sides
-constexpr double kRidgeTo = 1.5;
-constexpr double kFlankTo = 2.0;
-constexpr double kGrainLengthPx = 3.0;  // [px] along which grain is alike
-constexpr double kClear = 2.0;          // [standard deviations]
-constexpr float kHalf = 1.4142135f;     // half as long a line tells less
-constexpr double kLeastShare = 0.1;     // of the strokes' depth
-constexpr double kWidestPx = 24.0;      // between wider strokes there is paper enough to be seen
+constexpr double kRidgeTo = 1.5;     // [widths] from a line's middle to the paper at its sides
+constexpr double kFlankTo = 2.0;     // [widths]
+constexpr double kHalfWidths = 2.0, kShortestHalfPx = 8.0, kLongestHalfPx = 16.0;  // half the length of the means
+constexpr double kDirectionsPerPx = 2.5;  // of half a line: the ends of neighbouring directions are a pixel apart
+constexpr double kSideStepWidths = 0.1, kLeastSideStepPx = 0.5;  // between the places at a side
+constexpr double kAbsoluteToSigma = 1.25;  // standard deviation over mean absolute value, of a normal variable
+constexpr double kLineDepth = 0.5;         // of the strokes' depth: a fainter ridge is no line
+constexpr double kGrainLengthPx = 3.0;     // [px] along which grain is alike
+constexpr double kClear = 2.0;             // [standard deviations]
+constexpr float kHalf = 1.4142135f;        // half as long a line tells less
+constexpr double kLeastShare = 0.1;        // of the strokes' depth
+constexpr double kWidestPx = 24.0;         // between wider strokes there is paper enough to be seen
 
 struct Step {
   int x = 0, y = 0;
@@ -36,17 +41,17 @@ struct Direction {
   std::vector<Step> left, right;  // places at either side where the next line may be
 };
 
-struct Comb {
+struct LineFilter {
   std::vector<Direction> directions;
-  std::size_t ridgeSides = 1;   // of the places at the sides: up to 1.5 widths
+  int ridgeSides = 1;           // of the places at the sides: up to 1.5 widths
   int halfPx = 8, reachPx = 0;  // of a line, of the places at its sides
 };
 
-Comb combFor(double widthPx) {
-  Comb comb;
-  comb.halfPx = static_cast<int>(std::lround(std::clamp(2.0 * widthPx, 8.0, 16.0)));
-  const int count = static_cast<int>(2.5 * comb.halfPx);  // the ends of neighbouring directions are a pixel apart
-  const double stepPx = std::max(0.5, 0.1 * widthPx);
+LineFilter filterFor(double widthPx) {
+  LineFilter filter;
+  filter.halfPx = static_cast<int>(std::lround(std::clamp(kHalfWidths * widthPx, kShortestHalfPx, kLongestHalfPx)));
+  const int count = static_cast<int>(kDirectionsPerPx * filter.halfPx);
+  const double stepPx = std::max(kLeastSideStepPx, kSideStepWidths * widthPx);
   for (int k = 0; k < count; ++k) {
     const double a = std::numbers::pi * k / count;
     const Vec2 t(std::cos(a), std::sin(a)), n(-t.y(), t.x());
@@ -54,7 +59,7 @@ Comb combFor(double widthPx) {
     const auto step = [](const Vec2& v) {
       return Step{static_cast<int>(std::lround(v.x())), static_cast<int>(std::lround(v.y()))};
     };
-    for (int i = 1; i <= comb.halfPx; ++i) {
+    for (int i = 1; i <= filter.halfPx; ++i) {
       d.ahead.push_back(step(i * t));
       d.back.push_back(step(-i * t));
     }
@@ -64,13 +69,13 @@ Comb combFor(double widthPx) {
         const Step s = step(side * off * n);
         if (!places.empty() && places.back().x == s.x && places.back().y == s.y) continue;
         places.push_back(s);
-        if (off <= kRidgeTo * widthPx) comb.ridgeSides = std::max(comb.ridgeSides, places.size());
-        comb.reachPx = std::max({comb.reachPx, std::abs(s.x), std::abs(s.y)});
+        if (off <= kRidgeTo * widthPx) filter.ridgeSides = std::max(filter.ridgeSides, static_cast<int>(places.size()));
+        filter.reachPx = std::max({filter.reachPx, std::abs(s.x), std::abs(s.y)});
       }
     }
-    comb.directions.push_back(std::move(d));
+    filter.directions.push_back(std::move(d));
   }
-  return comb;
+  return filter;
 }
 
 BATTEN_HOT_LOOP void addRow(const float* from, float* __restrict to, int count) {
@@ -80,8 +85,8 @@ BATTEN_HOT_LOOP void addRow(const float* from, float* __restrict to, int count) 
 // Brightness of one tile and what lies round it, and its means along lines.
 class Tile {
  public:
-  Tile(const GreyImage& grey, int x0, int y0, const Comb& comb)
-      : margin_(comb.halfPx + comb.reachPx),
+  Tile(const GreyImage& grey, int x0, int y0, const LineFilter& filter)
+      : margin_(filter.halfPx + filter.reachPx),
         side_(kTile + 2 * margin_),
         grey_(area()),
         mean_(area()),
@@ -129,10 +134,10 @@ class Tile {
     return std::any_of(d.left.begin(), d.left.end(), isDark) && std::any_of(d.right.begin(), d.right.end(), isDark);
   }
   // [grey] How much darker than both its sides a line is at pixel (x, y), where it is fainter: ahead or behind.
-  float ridge(const Direction& d, std::size_t sides, int x, int y) const {
+  float ridge(const Direction& d, int sides, int x, int y) const {
     const auto brightest = [&](const std::vector<Step>& places) {
       float most = 0.0f;
-      for (std::size_t k = 0; k < std::min(sides, places.size()); ++k)
+      for (int k = 0; k < std::min(sides, static_cast<int>(places.size())); ++k)
         most = std::max(most, mean_[index(margin_ + x + places[k].x, margin_ + y + places[k].y)]);
       return most;
     };
@@ -141,10 +146,8 @@ class Tile {
   float best(int x, int y) const { return best_[index(margin_ + x, margin_ + y)]; }
 
  private:
-  std::size_t area() const { return static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_); }
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x);
-  }
+  int area() const { return side_ * side_; }  // a tile and what lies round it: some 10^4 pixels
+  int index(int x, int y) const { return y * side_ + x; }
 
   int margin_, side_;
   std::vector<float> grey_, mean_, best_, ahead_, back_;
@@ -166,28 +169,29 @@ std::vector<Pixel> bodyPixels(const BitImage& body, int x0, int y0) {
 
 // [grey] What is clear in a tile. The deviation is a mean of absolute values; over a line it shrinks with the number of
 // grains.
-float clearAt(const GraininessMap& grain, const Comb& comb, const Vec2& middle) {
-  const double grains = std::max(1.0, (2.0 * comb.halfPx + 1.0) / kGrainLengthPx);
-  const double share = std::max(kLeastShare, kClear * 1.25 * grain.deviationAt(middle) / std::sqrt(grains));
+float clearAt(const GraininessMap& grain, const LineFilter& filter, const Vec2& middle) {
+  const double grains = std::max(1.0, (2.0 * filter.halfPx + 1.0) / kGrainLengthPx);
+  const double share = std::max(kLeastShare, kClear * kAbsoluteToSigma * grain.deviationAt(middle) / std::sqrt(grains));
   return static_cast<float>(share * grain.depthAt(middle));
 }
 
-struct Search {
+// Looks for gaps and lines, tile by tile.
+struct LineSearch {
   const GreyImage& grey;
   const GraininessMap& grain;
-  const Comb& comb;
+  const LineFilter& filter;
 
   void gaps(const BitImage& where, int x0, int y0, BitImage& found) const {
     std::vector<Pixel> pixels = bodyPixels(where, x0, y0);
     if (pixels.empty()) return;
-    Tile tile(grey, x0, y0, comb);
-    const float clear = clearAt(grain, comb, middleOf(x0, y0));
-    for (const Direction& d : comb.directions) {
+    Tile tile(grey, x0, y0, filter);
+    const float clear = clearAt(grain, filter, middleOf(x0, y0));
+    for (const Direction& d : filter.directions) {
       tile.meanAlong(d, 0);
       tile.noteDarkest();
     }
-    for (const Direction& d : comb.directions) {
-      tile.meanAlong(d, comb.reachPx);
+    for (const Direction& d : filter.directions) {
+      tile.meanAlong(d, filter.reachPx);
       std::erase_if(pixels, [&](const Pixel& p) {
         if (!tile.isFlanked(d, tile.best(p.x, p.y) - clear, p.x, p.y)) return false;
         found.set(x0 + p.x, y0 + p.y, true);
@@ -199,13 +203,14 @@ struct Search {
   void lines(const BitImage& where, int x0, int y0, BitImage& found) const {
     std::vector<Pixel> pixels = bodyPixels(where, x0, y0);
     if (pixels.empty()) return;
-    Tile tile(grey, x0, y0, comb);
+    Tile tile(grey, x0, y0, filter);
     const Vec2 middle = middleOf(x0, y0);
-    const float least = std::max(kHalf * clearAt(grain, comb, middle), static_cast<float>(0.5 * grain.depthAt(middle)));
-    for (const Direction& d : comb.directions) {
-      tile.meanAlong(d, comb.reachPx);
+    const float least =
+        std::max(kHalf * clearAt(grain, filter, middle), static_cast<float>(kLineDepth * grain.depthAt(middle)));
+    for (const Direction& d : filter.directions) {
+      tile.meanAlong(d, filter.reachPx);
       std::erase_if(pixels, [&](const Pixel& p) {
-        if (!(tile.ridge(d, comb.ridgeSides, p.x, p.y) > least)) return false;
+        if (!(tile.ridge(d, filter.ridgeSides, p.x, p.y) > least)) return false;
         found.set(x0 + p.x, y0 + p.y, true);
         return true;
       });
@@ -221,21 +226,21 @@ OrientedLines filterOrientedLines(const BitImage& body, const GreyImage& grey, c
                                   double widthPx, const RunContext& context) {
   OrientedLines found{BitImage(body.width, body.height), BitImage(body.width, body.height)};
   if (widthPx > kWidestPx) return found;
-  const Comb comb = combFor(widthPx);
-  const Search search{grey, grain, comb};
+  const LineFilter filter = filterFor(widthPx);
+  const LineSearch search{grey, grain, filter};
   const int columns = body.wordsPerRow, rows = (body.height + kTile - 1) / kTile;
   const auto overTiles = [&](const auto& visit) {
     parallelFor(context, columns * rows, 1, [&](int begin, int end) {
       for (int i = begin; i < end; ++i) visit(i % columns * kTile, i / columns * kTile);
     });
   };
-  const BitImage near = grown(body, comb.halfPx, context);
+  const BitImage near = grown(body, filter.halfPx, context);
   overTiles([&](int x0, int y0) { search.gaps(near, x0, y0, found.gaps); });
   if (context.isCancelled()) return found;
   // A gap runs on as far as the lines that it was seen between.
-  found.gaps = keepPieces(found.gaps, {.minArea = 0, .minDiagonal = static_cast<double>(comb.halfPx)}, context);
+  found.gaps = keepPieces(found.gaps, {.minArea = 0, .minDiagonal = static_cast<double>(filter.halfPx)}, context);
   // Lines alone are mended by closing and by bridging their gaps; it is near other lines that both go astray.
-  const BitImage beside = both(grown(found.gaps, 2 * comb.halfPx, context), near);
+  const BitImage beside = both(grown(found.gaps, 2 * filter.halfPx, context), near);
   overTiles([&](int x0, int y0) { search.lines(beside, x0, y0, found.lines); });
   found.gaps = without(std::move(found.gaps), found.lines);
   return found;

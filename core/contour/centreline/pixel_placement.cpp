@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/base/parallel.h"
@@ -18,11 +19,19 @@ constexpr double kToneSigma = 6.0;         // points: ink and paper change slowl
 constexpr double kFarthestPx = 0.3;        // from the half levels
 constexpr double kSmallestContrast = 4.0;  // [grey]
 constexpr double kProfileVariance = 0.42;  // [px^2] of the smoothing that a profile's middle has seen: .5 px, bilinear
-constexpr std::size_t kBlurPoints = 400;   // that vote for the blur
-constexpr std::size_t kGainPoints = 60;    // of a stroke that vote for its darkness
-constexpr int kGrain = 64;                 // points worked on together; the result does not depend on it
+constexpr int kBlurPoints = 400;           // that vote for the blur
+constexpr int kBlurEvery = 5;              // points: neighbours share their pixels
+constexpr int kStartBlur = 12;             // index of .65 px, the usual blur of a scanner
+constexpr int kGainPoints = 60;            // of a stroke that vote for its darkness
+constexpr double kLargestGainChange = 1.25;
+constexpr int kPointsPerBlock = 64;  // worked on together; the result does not depend on it
 constexpr int kStrokeNewtonSteps = 4;
 constexpr double kLargestStepPx = 0.25, kSettledPx = 2e-3;
+constexpr double kLeastDeterminant = 1e-3;  // of the product of its diagonal: the two borders cannot be told apart
+constexpr double kNarrowestPx = 0.2;        // a stroke between borders nearer than this is none
+constexpr double kWidthOffShare = 0.3, kWidthOffPx = 0.3;  // from the width along the stroke: another stroke
+constexpr double kCoreWidths = 0.2;     // [stroke widths] about the middle, where profiles measure the darkness
+constexpr double kLeastCorePart = 0.2;  // of the darkness that is left there: thinner strokes say too little
 
 struct Stroke {
   double middle = 0.0, width = 1.0;  // [px]
@@ -42,9 +51,9 @@ double fullContrast(double measured, double width, const PixelResponse& response
   const PixelResponse& wide =
       PixelResponse::forBlur(blurIndex(std::sqrt(response.blur() * response.blur() + kProfileVariance)));
   double part = 0.0;
-  for (const double u : {-0.2 * width, 0.0, 0.2 * width})
+  for (const double u : {-kCoreWidths * width, 0.0, kCoreWidths * width})
     part += (wide.at(u + 0.5 * width, direction).part - wide.at(u - 0.5 * width, direction).part) / 3.0;
-  return measured / std::max(0.2, part);
+  return measured / std::max(kLeastCorePart, part);
 }
 
 double inkPart(const PixelResponse& response, const StrokeModel& m, const Stroke& s, double distance) {
@@ -91,10 +100,17 @@ struct BorderSums {
   }
 };
 
+/// A stroke, and how well the pixels tell where its middle lies.
+struct PlacedStroke {
+  Stroke stroke;
+  PointInformation information;
+};
+
 /// Newton steps for both borders.
-std::optional<Stroke> mostLikely(const PixelWindow& window, const PixelResponse& response, const StrokeModel& m,
-                                 double width, PointInformation* information) {
+std::optional<PlacedStroke> mostLikely(const PixelWindow& window, const PixelResponse& response, const StrokeModel& m,
+                                       double width) {
   double low = -0.5 * width, high = 0.5 * width;
+  PointInformation information;
   for (int step = 0; step < kStrokeNewtonSteps; ++step) {
     BorderSums sums;
     for (const PixelWindow::Pixel& p : window.pixels) {
@@ -103,120 +119,134 @@ std::optional<Stroke> mostLikely(const PixelWindow& window, const PixelResponse&
       sums.add(p, e, m.contrast * in.slope, -m.contrast * out.slope);
     }
     const double det = sums.det();
-    if (!(det > 1e-3 * sums.ll * sums.hh)) return std::nullopt;
-    if (information) *information = sums.information();
+    if (!(det > kLeastDeterminant * sums.ll * sums.hh)) return std::nullopt;
+    information = sums.information();
     const double moveLow = std::clamp((sums.hh * sums.l - sums.lh * sums.h) / det, -kLargestStepPx, kLargestStepPx);
     const double moveHigh = std::clamp((sums.ll * sums.h - sums.lh * sums.l) / det, -kLargestStepPx, kLargestStepPx);
     low += moveLow;
     high += moveHigh;
-    if (!(high - low > 0.2)) return std::nullopt;
+    if (!(high - low > kNarrowestPx)) return std::nullopt;
     if (std::abs(moveLow) + std::abs(moveHigh) < kSettledPx) break;
   }
-  return Stroke{0.5 * (low + high), high - low};
+  return PlacedStroke{{0.5 * (low + high), high - low}, information};
 }
 
-/// Tones and widths as they are along the stroke, without the noise of single profiles.
-struct Smoothed {
-  std::vector<float> contrast, paper, slope, width;
+/// Tone and width at a point as they are along the stroke, without the noise of single profiles.
+struct SmoothTone {
+  float contrast = 0.0f, paper = 0.0f, slope = 0.0f, width = 0.0f;
 };
 
-Smoothed smoothed(const StrokeCourse& c) {
-  const std::size_t n = c.base.size();
-  std::vector<float> weight(n), contrast(n), paper(n), slope(n), width(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!c.measured[i] || c.tone[i].contrast <= 0.0f) continue;
+std::vector<SmoothTone> smoothTones(const StrokeCourse& c) {
+  std::vector<float> weight(c.count());
+  std::vector<SmoothTone> tones(c.count());
+  for (int i = 0; i < c.count(); ++i) {
+    const CoursePoint& p = c.points[i];
+    if (!p.measured || !p.tone) continue;
     weight[i] = 1.0f;
-    contrast[i] = c.tone[i].contrast;
-    paper[i] = c.tone[i].paper;
-    slope[i] = c.tone[i].slope;
-    width[i] = c.measuredWidth[i];
+    tones[i] = {p.tone->contrast, p.tone->paper, p.tone->slope, p.measuredWidth};
   }
   const std::vector<float> sum = smoothValues(weight, c.closed, kToneSigma);
-  const auto mean = [&](const std::vector<float>& v) {
-    std::vector<float> out = smoothValues(v, c.closed, kToneSigma);
-    for (std::size_t i = 0; i < n; ++i) out[i] = sum[i] > 0.0f ? out[i] / sum[i] : 0.0f;
-    return out;
-  };
-  return {mean(contrast), mean(paper), mean(slope), mean(width)};
+  for (float SmoothTone::*value : {&SmoothTone::contrast, &SmoothTone::paper, &SmoothTone::slope, &SmoothTone::width}) {
+    std::vector<float> mean;
+    for (const SmoothTone& t : tones) mean.push_back(t.*value);
+    mean = smoothValues(mean, c.closed, kToneSigma);
+    for (int i = 0; i < c.count(); ++i) tones[i].*value = sum[i] > 0.0f ? mean[i] / sum[i] : 0.0f;
+  }
+  return tones;
 }
 
 class Placer {
  public:
-  Placer(const StrokeCourse& course, const GreyImage& grey) : c_(course), grey_(grey), s_(smoothed(course)) {}
+  Placer(const StrokeCourse& course, const GreyImage& grey) : c_(course), grey_(grey), tones_(smoothTones(course)) {}
 
-  bool canPlace(std::size_t i) const {
-    return c_.measured[i] && c_.part[i] == StrokePart::Ink && s_.contrast[i] > kSmallestContrast;
+  bool canPlace(int i) const {
+    const CoursePoint& p = c_.points[i];
+    return p.measured && p.tone && p.part == StrokePart::Ink && tones_[i].contrast > kSmallestContrast;
   }
   /// Measures by how much the darkness that profiles show differs from that of the pixels' own model.
   void tune(const PixelResponse& response, PixelWindow& window) {
-    const std::size_t stride = std::max<std::size_t>(1, c_.base.size() / kGainPoints);
+    const int stride = std::max(1, c_.count() / kGainPoints);
     double top = 0.0, bottom = 0.0;
-    for (std::size_t i = 0; i < c_.base.size(); i += stride) {
+    for (int i = 0; i < c_.count(); i += stride) {
       if (!canPlace(i)) continue;
-      const auto stroke = place(i, response, window);
-      if (!stroke) continue;
+      const auto placed = place(i, response, window);
+      if (!placed) continue;
       const StrokeModel m = modelAt(i, response);
       for (const PixelWindow::Pixel& p : window.pixels) {
-        const double model = m.contrast * inkPart(response, m, *stroke, p.distance);
+        const double model = m.contrast * inkPart(response, m, placed->stroke, p.distance);
         top += p.weight * model * (m.paper + m.slope * p.distance - p.grey);
         bottom += p.weight * model * model;
       }
     }
-    if (bottom > 0.0) gain_ *= std::clamp(top / bottom, 0.8, 1.25);
+    if (bottom > 0.0) gain_ *= std::clamp(top / bottom, 1.0 / kLargestGainChange, kLargestGainChange);
   }
-  /// The stroke at point i and, where asked for, what the model leaves there and how well the pixels tell.
-  std::optional<Stroke> place(std::size_t i, const PixelResponse& response, PixelWindow& window, double* left = nullptr,
-                              PointInformation* information = nullptr) const {
-    const Vec2 normal = leftNormal(c_.tangent[i]);
-    const double width = s_.width[i];
-    const double reach = std::min(0.5 * width + response.reach() + kFarthestPx, static_cast<double>(c_.tone[i].reach));
-    window.read(grey_, c_.base[i], normal, -reach, reach);
-    const StrokeModel m = modelAt(i, response);
-    const auto stroke = mostLikely(window, response, m, width, information);
-    if (!stroke || std::abs(stroke->middle) > kFarthestPx || std::abs(stroke->width - width) > 0.3 * width + 0.3)
+  /// The stroke at point i. `window` then holds the pixels that it was found from.
+  std::optional<PlacedStroke> place(int i, const PixelResponse& response, PixelWindow& window) const {
+    const CoursePoint& p = c_.points[i];
+    const double width = tones_[i].width;
+    const double reach = std::min(0.5 * width + response.reach() + kFarthestPx, static_cast<double>(p.tone->reach));
+    window.read(grey_, p.base, leftNormal(p.tangent), -reach, reach);
+    const auto placed = mostLikely(window, response, modelAt(i, response), width);
+    if (!placed || std::abs(placed->stroke.middle) > kFarthestPx ||
+        std::abs(placed->stroke.width - width) > kWidthOffShare * width + kWidthOffPx)
       return std::nullopt;
-    if (left) *left = squaresLeft(window, response, m, *stroke);
-    return stroke;
+    return placed;
+  }
+  /// [grey^2] What the model leaves of the pixels at point i; nothing where it does not describe them.
+  std::optional<double> squaresAt(int i, const PixelResponse& response, PixelWindow& window) const {
+    const auto placed = place(i, response, window);
+    if (!placed) return std::nullopt;
+    return squaresLeft(window, response, modelAt(i, response), placed->stroke);
   }
 
  private:
-  StrokeModel modelAt(std::size_t i, const PixelResponse& response) const {
-    StrokeModel m{s_.paper[i], s_.slope[i], 0.0, response.direction(leftNormal(c_.tangent[i]))};
-    m.contrast = gain_ * fullContrast(s_.contrast[i], s_.width[i], response, m.direction);
+  StrokeModel modelAt(int i, const PixelResponse& response) const {
+    const SmoothTone& tone = tones_[i];
+    StrokeModel m{tone.paper, tone.slope, 0.0, response.direction(leftNormal(c_.points[i].tangent))};
+    m.contrast = gain_ * fullContrast(tone.contrast, tone.width, response, m.direction);
     return m;
   }
 
   const StrokeCourse& c_;
   const GreyImage& grey_;
-  Smoothed s_;
+  std::vector<SmoothTone> tones_;
   double gain_ = 1.0;
 };
 
 /// A point of one of the courses.
-struct Place {
-  std::size_t course, point;
+struct CoursePlace {
+  int course, point;
 };
 
-int pageBlur(const std::vector<StrokeCourse>& courses, const std::vector<Placer>& placers, const RunContext& context) {
-  std::vector<Place> all, some;
-  for (std::size_t c = 0; c < courses.size(); ++c)
-    for (std::size_t i = 0; i < courses[c].base.size(); i += 5)
+/// Up to about `kBlurPoints` of the points that can be placed, from all over the page.
+std::vector<CoursePlace> sampleOf(const std::vector<StrokeCourse>& courses, const std::vector<Placer>& placers) {
+  std::vector<CoursePlace> all, some;
+  for (int c = 0; c < std::ssize(courses); ++c)
+    for (int i = 0; i < courses[c].count(); i += kBlurEvery)
       if (placers[c].canPlace(i)) all.push_back({c, i});
-  const std::size_t stride = std::max<std::size_t>(1, all.size() / kBlurPoints);
-  for (std::size_t k = 0; k < all.size(); k += stride) some.push_back(all[k]);
+  const int stride = std::max(1, static_cast<int>(all.size()) / kBlurPoints);
+  for (int k = 0; k < std::ssize(all); k += stride) some.push_back(all[k]);
+  return some;
+}
+
+/// Index of the blur that leaves least of the pixels' grey unexplained.
+int pageBlur(const std::vector<StrokeCourse>& courses, const std::vector<Placer>& placers, const RunContext& context) {
+  const std::vector<CoursePlace> some = sampleOf(courses, placers);
   const auto left = [&](int index) {
-    std::vector<double> squares(some.size(), -1.0);
-    parallelFor(context, static_cast<int>(some.size()), kGrain, [&](int begin, int end) {
+    std::vector<std::optional<double>> squares(some.size());
+    parallelFor(context, static_cast<int>(some.size()), kPointsPerBlock, [&](int begin, int end) {
       PixelWindow window;
-      for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
-        placers[some[k].course].place(some[k].point, PixelResponse::forBlur(index), window, &squares[k]);
+      for (int k = begin; k < end; ++k)
+        squares[k] = placers[some[k].course].squaresAt(some[k].point, PixelResponse::forBlur(index), window);
     });
-    std::erase_if(squares, [](double sum) { return sum < 0.0; });
-    if (squares.size() < some.size() / 2 || squares.empty()) return 1e300;  // does not describe these strokes
-    return upperMedian(squares);
+    std::vector<double> known;
+    for (const auto& sum : squares)
+      if (sum) known.push_back(*sum);
+    // A blur that half of the strokes are not described by is none of theirs.
+    if (known.size() < some.size() / 2 || known.empty()) return std::numeric_limits<double>::max();
+    return upperMedian(known);
   };
-  constexpr int kStart = 12;  // .65 px
-  int best = kStart;
+  int best = kStartBlur;
   double least = left(best);
   // Downhill in ever shorter strides: what is left has one minimum.
   for (const int far : {6, 2, 1}) {
@@ -232,23 +262,21 @@ int pageBlur(const std::vector<StrokeCourse>& courses, const std::vector<Placer>
   return best;
 }
 
-void placeOne(StrokeCourse& c, const Placer& placer, std::size_t i, const PixelResponse& response,
-              PixelWindow& window) {
-  if (!placer.canPlace(i)) return;
-  PointInformation information;
-  const auto stroke = placer.place(i, response, window, nullptr, &information);
-  if (!stroke) return;
-  c.information[i] = information;
-  c.shift[i] = static_cast<float>(stroke->middle);
-  c.measuredWidth[i] = static_cast<float>(stroke->width);
+void placePoint(CoursePoint& p, const PlacedStroke& placed) {
+  p.information = placed.information;
+  p.shift = static_cast<float>(placed.stroke.middle);
+  p.measuredWidth = static_cast<float>(placed.stroke.width);
 }
 
 void moveBase(StrokeCourse& c, double blur) {
-  std::vector<Vec2> normal;
-  for (const Vec2& t : c.tangent) normal.push_back(leftNormal(t));
-  for (std::size_t i = 0; i < c.base.size(); ++i) c.base[i] += static_cast<double>(c.shift[i]) * normal[i];
-  std::fill(c.shift.begin(), c.shift.end(), 0.0f);
-  undoCurvatureShift(c.base, normal, c.closed, blur);
+  std::vector<Vec2> base, normal;
+  for (CoursePoint& p : c.points) {
+    normal.push_back(leftNormal(p.tangent));
+    base.push_back(p.base + static_cast<double>(p.shift) * normal.back());
+    p.shift = 0.0f;
+  }
+  undoCurvatureShift(base, normal, c.closed, blur);
+  setValues(c, &CoursePoint::base, base);
 }
 
 }  // namespace
@@ -257,26 +285,32 @@ void placeOnPixels(std::vector<StrokeCourse>& courses, const GreyImage& grey, co
   std::vector<Placer> placers;
   for (const StrokeCourse& c : courses) placers.emplace_back(c, grey);
   const PixelResponse& response = PixelResponse::forBlur(pageBlur(courses, placers, context));
-  const auto each = [&](std::size_t count, int grain, const auto& body) {
-    parallelFor(context, static_cast<int>(count), grain, [&](int begin, int end) {
+  const auto each = [&](std::ptrdiff_t count, int perBlock, const auto& body) {
+    parallelFor(context, static_cast<int>(count), perBlock, [&](int begin, int end) {
       PixelWindow window;
-      for (int k = begin; k < end; ++k) body(static_cast<std::size_t>(k), window);
+      for (int k = begin; k < end; ++k) body(k, window);
     });
   };
-  each(courses.size(), 1, [&](std::size_t k, PixelWindow& window) {
+  each(std::ssize(courses), 1, [&](int k, PixelWindow& window) {
     placers[k].tune(response, window);
     placers[k].tune(response, window);
   });
   // A page is often one long line: the points are shared among the threads, not the lines.
-  std::vector<Place> places;
-  for (StrokeCourse& c : courses) c.information.assign(c.base.size(), {});
-  for (std::size_t c = 0; c < courses.size(); ++c)
-    for (std::size_t i = 0; i < courses[c].base.size(); ++i) places.push_back({c, i});
-  each(places.size(), kGrain, [&](std::size_t k, PixelWindow& window) {
-    placeOne(courses[places[k].course], placers[places[k].course], places[k].point, response, window);
+  std::vector<CoursePlace> places;
+  for (int c = 0; c < std::ssize(courses); ++c)
+    for (int i = 0; i < courses[c].count(); ++i) places.push_back({c, i});
+  each(std::ssize(places), kPointsPerBlock, [&](int k, PixelWindow& window) {
+    const auto [course, i] = places[k];
+    CoursePoint& p = courses[course].points[i];
+    p.information.reset();
+    if (!placers[course].canPlace(i)) return;
+    if (const auto placed = placers[course].place(i, response, window)) placePoint(p, *placed);
   });
   const double blur = std::sqrt(response.blur() * response.blur() + kPixelVariance + PixelWindow::kVariance);
-  each(courses.size(), 1, [&](std::size_t k, PixelWindow&) { moveBase(courses[k], blur); });
+  each(std::ssize(courses), 1, [&](int k, PixelWindow&) {
+    moveBase(courses[k], blur);
+    courses[k].wasPlacedOnPixels = true;
+  });
 }
 
 }  // namespace batten

@@ -16,11 +16,13 @@
 namespace batten {
 namespace {
 
-constexpr int kBlock = 512;     // points refined together
-constexpr int kAlongHalf = 6;   // profiles averaged to either side
-constexpr double kAlong = 2.0;  // [points] Gaussian over neighbouring profiles
+constexpr int kCoursePointsPerBlock = 512;  // refined together; the result does not depend on it
+constexpr int kAlongHalf = 6;               // profiles averaged to either side
+constexpr double kAlong = 2.0;              // [points] Gaussian over neighbouring profiles
+constexpr double kBesideInkPx = 1.5;        // of which the mask may have lost a border
 
-struct Block {
+// Points of a course.
+struct CourseBlock {
   int course, begin, end;
 };
 
@@ -36,20 +38,20 @@ std::array<float, kAlongHalf + 1> alongKernel() {
 // with the stroke: no bias on curved strokes.
 void measureBlock(StrokeCourse& course, int begin, int end, const GreyImage& grey, CentreRule rule) {
   static const std::array<float, kAlongHalf + 1> kKernel = alongKernel();
-  const int n = static_cast<int>(course.base.size());
+  const int n = course.count();
   const int half = course.profileHalf, samples = 2 * half + 1;
-  const auto width = static_cast<std::size_t>(samples);
   const int rows = end - begin + 2 * kAlongHalf;
-  std::vector<float> band(static_cast<std::size_t>(rows) * width), mean(width), scratch(width);
+  std::vector<float> profiles(static_cast<std::ptrdiff_t>(rows) * samples), mean(samples), scratch(samples);
   std::vector<char> there(rows, 0);
+  const auto rowOf = [&](int r) { return profiles.data() + static_cast<std::ptrdiff_t>(r) * samples; };
   for (int r = 0; r < rows; ++r) {
     int i = begin - kAlongHalf + r;
     if (course.closed) i = wrapIndex(i, n);
     if (i < 0 || i >= n) continue;
     there[r] = 1;
-    const Vec2& at = course.base[i];
-    const Vec2 normal = leftNormal(course.tangent[i]);
-    float* out = band.data() + static_cast<std::size_t>(r) * width;
+    const Vec2& at = course.points[i].base;
+    const Vec2 normal = leftNormal(course.points[i].tangent);
+    float* out = rowOf(r);
     for (int k = 0; k < samples; ++k) {
       const double u = (k - half) * kStrokeStepPx;
       out[k] = sampleGrey(grey, at.x() + u * normal.x(), at.y() + u * normal.y());
@@ -66,31 +68,34 @@ void measureBlock(StrokeCourse& course, int begin, int end, const GreyImage& gre
     }
     for (int d = -reach; d <= reach; ++d) {
       const float w = kKernel[std::abs(d)];
-      const float* row = band.data() + static_cast<std::size_t>(here + d) * width;
-      for (std::size_t k = 0; k < width; ++k) mean[k] += w * row[k];
+      const float* row = rowOf(here + d);
+      for (int k = 0; k < samples; ++k) mean[k] += w * row[k];
       weight += w;
     }
     for (float& m : mean) m /= weight;
-    const auto at = static_cast<std::size_t>(i);
-    const StrokeCentre c = rule == CentreRule::Centroid ? centroidCentre(mean, course.radius[at] + 1.5)
-                                                        : halfLevelCentre(mean, course.widthPx, scratch);
-    course.shift[at] = static_cast<float>(c.centre);
-    course.measuredWidth[at] = static_cast<float>(c.width);
-    course.measured[at] = c.ok ? 1 : 0;
-    course.tone[at] = {static_cast<float>(c.contrast), static_cast<float>(c.paper), static_cast<float>(c.slope),
-                       static_cast<float>(c.reach)};
+    CoursePoint& p = course.points[i];
+    const std::optional<StrokeCentre> c = rule == CentreRule::Centroid ? centroidCentre(mean, p.radius + kBesideInkPx)
+                                                                       : halfLevelCentre(mean, course.widthPx, scratch);
+    p.measured = c.has_value();
+    p.shift = c ? static_cast<float>(c->centre) : 0.0f;
+    p.measuredWidth = c ? static_cast<float>(c->width) : 0.0f;
+    p.tone.reset();
+    if (!c) continue;
+    p.tone = {static_cast<float>(c->contrast), static_cast<float>(c->paper), static_cast<float>(c->slope),
+              static_cast<float>(c->reach)};
   }
 }
 
 void measureAll(std::vector<StrokeCourse>& courses, const GreyImage& grey, CentreRule rule, const RunContext& context) {
-  std::vector<Block> blocks;
+  std::vector<CourseBlock> blocks;
   for (int c = 0; c < static_cast<int>(courses.size()); ++c) {
-    const int n = static_cast<int>(courses[c].base.size());
-    for (int begin = 0; begin < n; begin += kBlock) blocks.push_back({c, begin, std::min(n, begin + kBlock)});
+    const int n = courses[c].count();
+    for (int begin = 0; begin < n; begin += kCoursePointsPerBlock)
+      blocks.push_back({c, begin, std::min(n, begin + kCoursePointsPerBlock)});
   }
   parallelFor(context, static_cast<int>(blocks.size()), 1, [&](int begin, int end) {
     for (int b = begin; b < end; ++b) {
-      const Block& block = blocks[b];
+      const CourseBlock& block = blocks[b];
       measureBlock(courses[block.course], block.begin, block.end, grey, rule);
     }
   });
@@ -99,7 +104,7 @@ void measureAll(std::vector<StrokeCourse>& courses, const GreyImage& grey, Centr
 template <class Body>
 void forCourses(std::vector<StrokeCourse>& courses, const RunContext& context, const Body& body) {
   parallelFor(context, static_cast<int>(courses.size()), 1, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) body(static_cast<std::size_t>(i));
+    for (int i = begin; i < end; ++i) body(i);
   });
 }
 
@@ -109,14 +114,15 @@ std::vector<Contour> refineStrokePaths(const std::vector<StrokePath>& paths, con
                                        const RefineSettings& settings, const RunContext& context) {
   constexpr int kRounds = 2;
   std::vector<StrokeCourse> courses(paths.size());
-  forCourses(courses, context, [&](std::size_t i) { courses[i] = resample(paths[i]); });
+  forCourses(courses, context, [&](int i) { courses[i] = resample(paths[i]); });
   if (settings.rule != CentreRule::None) {
     for (int round = 0; round < kRounds && !context.isCancelled(); ++round) {
       measureAll(courses, grey, settings.rule, context);
-      forCourses(courses, context, [&](std::size_t i) {
+      forCourses(courses, context, [&](int i) {
         rejectImplausibleShifts(courses[i], settings.rule == CentreRule::HalfLevel);
         if (settings.smoothShiftPx > 0.0) {
-          courses[i].shift = smoothValues(courses[i].shift, courses[i].closed, settings.smoothShiftPx);
+          setValues(courses[i], &CoursePoint::shift,
+                    smoothValues(valuesOf(courses[i], &CoursePoint::shift), courses[i].closed, settings.smoothShiftPx));
         }
         moveCourse(courses[i], round + 1 < kRounds);
       });
@@ -124,7 +130,7 @@ std::vector<Contour> refineStrokePaths(const std::vector<StrokePath>& paths, con
   }
   if (settings.rule == CentreRule::HalfLevel) placeOnPixels(courses, grey, context);
   std::vector<Contour> contours(paths.size());
-  forCourses(courses, context, [&](std::size_t i) {
+  forCourses(courses, context, [&](int i) {
     layThroughJunctions(courses[i]);
     if (settings.rule != CentreRule::None) placeEnds(courses[i], grey);
     contours[i] = contourOf(courses[i]);

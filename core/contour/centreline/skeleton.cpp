@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "core/image/padded_bits.h"
 
@@ -142,12 +143,12 @@ class GraphWalker {
     SkeletonChain chain;
     chain.closed = true;
     SkeletonPixel at = start;
-    int from = -1;
+    std::optional<int> from;
     do {
       chain.pixels.push_back(at);
       walked_.set(at.x, at.y, true);
       int next = links(skeleton_, at);
-      if (from >= 0) next &= ~(1 << from);
+      if (from) next &= ~(1 << *from);
       const int step = std::countr_zero(static_cast<unsigned>(next));
       at = {at.x + kAroundX[step], at.y + kAroundY[step]};
       from = (step + 4) & 7;
@@ -166,40 +167,38 @@ class GraphWalker {
 bool thinToSkeleton(BitImage& ink, const RunContext& context) {
   if (ink.width <= 0 || ink.height <= 0) return true;
   PaddedBits bits(ink, false);
-  const auto words = static_cast<std::size_t>(ink.wordsPerRow);
-  const auto stride = words + 2;
+  const std::ptrdiff_t stride = ink.wordsPerRow + 2;
   // Sub-iteration in which a word last lost a pixel; a word whose surroundings rested for a full round is left alone.
-  std::vector<int> touched(stride * (static_cast<std::size_t>(ink.height) + 2), 0);
-  const auto slot = [&](const Word& w) {
-    return touched.data() + static_cast<std::size_t>(w.y + 1) * stride + static_cast<std::size_t>(w.i + 1);
+  std::vector<int> touched(stride * (ink.height + 2), 0);
+  const auto slot = [&](const Word& w) { return touched.data() + (w.y + 1) * stride + (w.i + 1); };
+  struct Loss {
+    Word word;
+    std::uint64_t pixels;
   };
-  std::vector<Word> alive, hit;
-  std::vector<std::uint64_t> loss;
+  std::vector<Word> alive;
+  std::vector<Loss> lost;
   for (int y = 0; y < ink.height; ++y) {
     for (int i = 0; i < ink.wordsPerRow; ++i) {
       if (ink.row(y)[i] != 0) alive.push_back({y, i});
     }
   }
-  const auto jump = static_cast<std::ptrdiff_t>(stride);
   for (int time = 1, quiet = 0; quiet < 2; ++time) {
     if (context.isCancelled()) return false;
-    hit.clear();
-    loss.clear();
+    lost.clear();
     for (const Word& w : alive) {
       const int* t = slot(w);
       int latest = 0;
-      for (std::ptrdiff_t d = -jump; d <= jump; d += jump) latest = std::max({latest, t[d - 1], t[d], t[d + 1]});
+      for (std::ptrdiff_t d = -stride; d <= stride; d += stride) latest = std::max({latest, t[d - 1], t[d], t[d + 1]});
       if (time > 2 && latest < time - 2) continue;
       const std::uint64_t gone = removable(bits.row(w.y - 1), bits.row(w.y), bits.row(w.y + 1), w.i, (time & 1) != 0);
       if (gone == 0) continue;
-      hit.push_back(w);
-      loss.push_back(gone);
+      lost.push_back({w, gone});
     }
-    for (std::size_t k = 0; k < hit.size(); ++k) {
-      bits.row(hit[k].y)[hit[k].i] &= ~loss[k];
-      *slot(hit[k]) = time;
+    for (const Loss& loss : lost) {
+      bits.row(loss.word.y)[loss.word.i] &= ~loss.pixels;
+      *slot(loss.word) = time;
     }
-    quiet = hit.empty() ? quiet + 1 : 0;
+    quiet = lost.empty() ? quiet + 1 : 0;
     if ((time & 7) == 0) std::erase_if(alive, [&](const Word& w) { return bits.row(w.y)[w.i] == 0; });
   }
   ink = bits.toImage();

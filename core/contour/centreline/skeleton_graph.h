@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "core/contour/centreline/stroke_paths.h"
@@ -11,7 +12,7 @@ namespace batten {
 /// A stretch of skeleton between two nodes; its ends are numbered 2 * edge + side.
 struct SkeletonEdge {
   std::vector<StrokePathPoint> points;
-  int node[2] = {-1, -1};
+  std::array<std::optional<int>, 2> node;  ///< At the start and the end; none on rings.
   double length = 0.0;
   bool alive = true;
   bool ring = false;  ///< Closed by itself, at no node.
@@ -22,9 +23,6 @@ struct SkeletonNode {
   double radius = 0.0;  ///< [px] of the largest disc of ink there; of all discs, where junctions were merged.
   std::vector<int> ends;
 };
-
-/// Nodes and edges are numbered by int, with -1 for none.
-inline std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
 /// The skeleton as a graph that gets simpler: junctions of several pixels are one node, spurs go, short links vanish.
 class SkeletonGraph {
@@ -42,7 +40,9 @@ class SkeletonGraph {
   double medianRadius() const { return medianRadius_; }
 
  private:
-  bool isSpur(int edge, double factor, int& tipSide) const;
+  int edgeCount() const { return static_cast<int>(edges_.size()); }
+  int nodeCount() const { return static_cast<int>(nodes_.size()); }
+  std::optional<int> spurTip(int edge, double factor) const;
   bool closesCorner(int edge, int node) const;
   double sharedLength(int link) const;
   double meanRadius(int edge) const;

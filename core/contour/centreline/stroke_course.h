@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "core/contour/centreline/stroke_paths.h"
@@ -11,36 +12,57 @@
 
 namespace batten {
 
-/// A stroke path on its way to a contour: even steps of about 1 px, everything per point in vectors of one size.
-struct StrokeCourse {
-  std::vector<Vec2> chain;    ///< [px] skeleton positions, evened.
-  std::vector<Vec2> base;     ///< [px] where the profiles stand.
-  std::vector<Vec2> tangent;  ///< Unit direction of travel at `base`.
-  std::vector<float> radius;  ///< [px] of the ink in the mask.
-  std::vector<StrokePart> part;
-  std::vector<float> shift;  ///< [px] from `base` to the middle of the stroke, along the left normal.
-  std::vector<float> measuredWidth;
-  std::vector<std::uint8_t> measured;
-  struct Tone {
-    float contrast = 0.0f;               ///< [grey] paper minus the middle of the stroke.
-    float paper = 255.0f, slope = 0.0f;  ///< [grey, grey/px] at `base` and along the left normal.
-    float reach = 0.0f;                  ///< [px] no other ink nearer than this.
-  };
-  std::vector<Tone> tone;                     ///< Where measured, as the profile of the last round had it.
-  std::vector<PointInformation> information;  ///< Of those placed on the pixels themselves; empty: none were.
-  bool closed = false;
-  bool tip[2] = {false, false};
-  double widthPx = 1.0;  ///< Median.
-  int profileHalf = 0;   ///< [samples]
+/// The grey values across a stroke at one of its points, as the profile of the last round had them.
+struct StrokeTone {
+  float contrast = 0.0f;               ///< [grey] paper minus the middle of the stroke.
+  float paper = 255.0f, slope = 0.0f;  ///< [grey, grey/px] at `base` and along the left normal.
+  float reach = 0.0f;                  ///< [px] no other ink nearer than this.
 };
+
+/// A point of a stroke path on its way to a contour.
+struct CoursePoint {
+  Vec2 chain = Vec2::Zero();    ///< [px] skeleton position, evened.
+  Vec2 base = Vec2::Zero();     ///< [px] where the profile stands.
+  Vec2 tangent = Vec2::Zero();  ///< Unit direction of travel at `base`.
+  float radius = 0.0f;          ///< [px] of the ink in the mask.
+  StrokePart part = StrokePart::Ink;
+  float shift = 0.0f;          ///< [px] from `base` to the middle of the stroke, along the left normal.
+  float measuredWidth = 1.0f;  ///< [px]
+  bool measured = false;
+  std::optional<StrokeTone> tone = {};               ///< Absent where no stroke was seen.
+  std::optional<PointInformation> information = {};  ///< Absent where the pixels themselves did not place the point.
+};
+
+/// A stroke path on its way to a contour: even steps of about 1 px.
+struct StrokeCourse {
+  std::vector<CoursePoint> points;
+  bool closed = false;
+  std::array<bool, 2> tip = {false, false};  ///< The start, the end is a free end of the ink.
+  double widthPx = 1.0;                      ///< Median.
+  int profileHalf = 0;                       ///< [samples]
+  bool wasPlacedOnPixels = false;            ///< placeOnPixels() has run.
+  int count() const { return static_cast<int>(points.size()); }
+};
+/// One value of every point, for the functions of core/polyline, and back.
+template <class T>
+std::vector<T> valuesOf(const StrokeCourse& course, T CoursePoint::*value) {
+  std::vector<T> values;
+  values.reserve(course.points.size());
+  for (const CoursePoint& p : course.points) values.push_back(p.*value);
+  return values;
+}
+template <class T>
+void setValues(StrokeCourse& course, T CoursePoint::*value, const std::vector<T>& values) {
+  for (int i = 0; i < course.count(); ++i) course.points[i].*value = values[i];
+}
 
 /// Position, direction of travel and bend (second derivative, 1/px) at point `border` by a parabola through the points
 /// from there on to side +1 or -1, at most `reach` px and not into a junction.
 struct CourseApproach {
   Vec2 at = Vec2::Zero(), direction = Vec2::Zero(), bend = Vec2::Zero();
-  bool ok = false;
 };
-CourseApproach approachAt(const StrokeCourse& course, int border, int side, double reach);
+/// Nothing where fewer than three points of the stroke are left there.
+std::optional<CourseApproach> approachAt(const StrokeCourse& course, int border, int side, double reach);
 
 /// Even, smooth positions of a stroke path, ready to be measured.
 StrokeCourse resample(const StrokePath& path);

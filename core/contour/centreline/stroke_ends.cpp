@@ -13,6 +13,21 @@
 namespace batten {
 namespace {
 
+constexpr int kFewestEndPoints = 8;        // of a stroke whose ends can be told from its middle
+constexpr double kFarthestEatenPx = 30.0;  // what the mask may have lost of a thin stroke, besides two widths
+constexpr int kLeastBackPoints = 4;        // over which the direction of an end is taken
+constexpr double kHookWidths = 0.5;        // [stroke widths] the end of a skeleton turns to a corner of the ink there
+constexpr double kSameContrast = 0.6;      // of the stroke's contrast: less is another stroke, or paper
+constexpr double kSameWider = 1.4, kSameNarrower = 0.6;  // of its width
+constexpr double kLargestSidestepPx = 0.75;              // from one pixel to the next
+constexpr double kLargestTurnRad = 0.5;                  // 30 degrees
+constexpr double kRoundEndWidths = 0.06;    // [stroke widths] the half level over the middle half of a round end lies
+                                            // so much before its tip
+constexpr double kSkeletonOffWidths = 0.6;  // [stroke widths]
+constexpr float kEndContrast = 4.0f;        // [grey]
+constexpr double kLeastStepPx = 0.35;       // between neighbours on a contour, of about 1 px
+constexpr float kLeastWidthPx = 0.1f;
+
 // The course near its end, going on beyond it as a parabola; s = 0 at the anchor, growing outwards.
 struct EndCourse {
   Vec2 at = Vec2::Zero(), out = Vec2::Zero(), bend = Vec2::Zero();
@@ -38,7 +53,7 @@ std::optional<double> inkEnd(const EndCourse& end, double widthPx, double inside
   const float ink = upperMedian(inner);
   const float paper = *std::max_element(level.begin(), level.end());
   const float middle = 0.5f * (ink + paper);
-  if (!(paper - ink > 4.0f)) return std::nullopt;
+  if (!(paper - ink > kEndContrast)) return std::nullopt;
   for (int k = 0; k + 1 < samples; ++k) {
     const float a = level[k], b = level[k + 1];
     if (a < middle && b >= middle) return (k + (middle - a) / (b - a)) * kStrokeStepPx;
@@ -46,44 +61,30 @@ std::optional<double> inkEnd(const EndCourse& end, double widthPx, double inside
   return std::nullopt;
 }
 
-template <class T>
-void resizeTail(std::vector<T>& v, std::size_t keep, std::size_t total) {
-  v.resize(keep);
-  const T last = v.back();
-  v.resize(total, last);
-}
-
-// Keeps `keep` points and appends `tail`.
-void replaceTail(StrokeCourse& c, std::size_t keep, const std::vector<Vec2>& tail) {
-  const std::size_t total = keep + tail.size();
-  const std::vector<Vec2> chain = c.chain;
-  resizeTail(c.chain, keep, total);
-  resizeTail(c.base, keep, total);
-  resizeTail(c.tangent, keep, total);
-  resizeTail(c.radius, keep, total);
-  resizeTail(c.part, keep, total);
-  resizeTail(c.shift, keep, total);
-  resizeTail(c.measuredWidth, keep, total);
-  resizeTail(c.measured, keep, total);
-  if (!c.information.empty()) {
-    c.information.resize(keep);
-    c.information.resize(total);  // nothing is known of the new ones
-  }
-  for (std::size_t i = 0; i < tail.size(); ++i) {
-    c.base[keep + i] = tail[i];
-    c.chain[keep + i] = keep + i < chain.size() ? chain[keep + i] : tail[i];
-    c.measured[keep + i] = 1;
+// Keeps `keep` points and appends `tail`; what is not known of the new points is as at the last one kept.
+void replaceTail(StrokeCourse& c, int keep, const std::vector<Vec2>& tail) {
+  const std::vector<Vec2> chain = valuesOf(c, &CoursePoint::chain);
+  c.points.resize(keep);
+  CoursePoint added = c.points.back();
+  added.measured = true;
+  added.information.reset();
+  for (const Vec2& at : tail) {
+    const int i = c.count();
+    added.base = at;
+    added.chain = i < std::ssize(chain) ? chain[i] : at;
+    c.points.push_back(added);
   }
 }
 
 // Profile at a place, averaged over 3 px along the direction.
-StrokeCentre centreAt(const StrokeCourse& c, const Vec2& at, const Vec2& direction, const GreyImage& grey) {
-  const auto samples = static_cast<std::size_t>(2 * c.profileHalf + 1);
+std::optional<StrokeCentre> centreAt(const StrokeCourse& c, const Vec2& at, const Vec2& direction,
+                                     const GreyImage& grey) {
+  const int samples = 2 * c.profileHalf + 1;
   std::vector<float> mean(samples, 0.0f), scratch(samples);
   const Vec2 normal = leftNormal(direction);
   for (int d = -1; d <= 1; ++d) {
-    for (std::size_t k = 0; k < samples; ++k) {
-      const double u = (static_cast<int>(k) - c.profileHalf) * kStrokeStepPx;
+    for (int k = 0; k < samples; ++k) {
+      const double u = (k - c.profileHalf) * kStrokeStepPx;
       const Vec2 p = at + d * direction + u * normal;
       mean[k] += sampleGrey(grey, p.x(), p.y()) / 3.0f;
     }
@@ -94,76 +95,88 @@ StrokeCentre centreAt(const StrokeCourse& c, const Vec2& at, const Vec2& directi
 // Smoothing a mask eats the ends of thin strokes: follows the ink on the grey values from the end of the skeleton on,
 // as long as it stays this stroke (about its width and darkness, no turn).
 void followInk(StrokeCourse& c, const GreyImage& grey) {
-  const double w = c.widthPx, farthest = 30.0 + 2.0 * w;
-  const int back = std::max(4, static_cast<int>(std::lround(w)));
-  const int n = static_cast<int>(c.base.size());
-  const int hook = std::min(n - back - 2, static_cast<int>(std::ceil(0.5 * w)));
+  const double w = c.widthPx, farthest = kFarthestEatenPx + 2.0 * w;
+  const int back = std::max(kLeastBackPoints, static_cast<int>(std::lround(w)));
+  const int n = c.count();
+  const int hook = std::min(n - back - 2, static_cast<int>(std::ceil(kHookWidths * w)));
   if (hook < 1) return;
-  std::vector<Vec2> path(c.base.end() - hook - back - 1, c.base.end() - hook);
-  const auto direction = [&] {
-    return Vec2((path.back() - path[path.size() - 1 - static_cast<std::size_t>(back)]).normalized());
-  };
-  const StrokeCentre here = centreAt(c, path.back(), direction(), grey);
-  if (!here.ok) return;
-  const std::size_t known = path.size();
-  while (static_cast<double>(path.size() - known) < farthest) {
+  std::vector<Vec2> path;
+  for (int i = n - hook - back - 1; i < n - hook; ++i) path.push_back(c.points[i].base);
+  const auto direction = [&] { return Vec2((path.back() - path[std::ssize(path) - 1 - back]).normalized()); };
+  const std::optional<StrokeCentre> here = centreAt(c, path.back(), direction(), grey);
+  if (!here) return;
+  const auto known = std::ssize(path);
+  while (static_cast<double>(std::ssize(path) - known) < farthest) {
     const Vec2 d = direction(), at = path.back() + d;
-    const StrokeCentre next = centreAt(c, at, d, grey);
-    const bool same = next.ok && next.contrast > 0.6 * here.contrast && next.width < 1.4 * here.width + 0.5 &&
-                      next.width > 0.6 * here.width && std::abs(next.centre) < 0.75;
+    const std::optional<StrokeCentre> next = centreAt(c, at, d, grey);
+    const bool same = next && next->contrast > kSameContrast * here->contrast &&
+                      next->width < kSameWider * here->width + 0.5 && next->width > kSameNarrower * here->width &&
+                      std::abs(next->centre) < kLargestSidestepPx;
     if (!same) break;
-    path.push_back(at + 0.5 * next.centre * leftNormal(d));
+    path.push_back(at + 0.5 * next->centre * leftNormal(d));
   }
-  if (static_cast<double>(path.size() - known) < hook + 1.0) return;
-  replaceTail(c, static_cast<std::size_t>(n - hook), {path.begin() + static_cast<std::ptrdiff_t>(known), path.end()});
+  if (static_cast<double>(std::ssize(path) - known) < hook + 1.0) return;
+  replaceTail(c, n - hook, {path.begin() + known, path.end()});
 }
 
 void turnRound(StrokeCourse& c) {
-  std::reverse(c.chain.begin(), c.chain.end());
-  std::reverse(c.base.begin(), c.base.end());
-  std::reverse(c.tangent.begin(), c.tangent.end());
-  for (Vec2& t : c.tangent) t = -t;
-  std::reverse(c.radius.begin(), c.radius.end());
-  std::reverse(c.part.begin(), c.part.end());
-  std::reverse(c.shift.begin(), c.shift.end());
-  std::reverse(c.measuredWidth.begin(), c.measuredWidth.end());
-  std::reverse(c.measured.begin(), c.measured.end());
-  std::reverse(c.information.begin(), c.information.end());
+  std::reverse(c.points.begin(), c.points.end());
+  for (CoursePoint& p : c.points) p.tangent = -p.tangent;
   std::swap(c.tip[0], c.tip[1]);
 }
 
 // Ends the course half a pen's width before the end of the ink.
 void placeLastPoint(StrokeCourse& c, const GreyImage& grey) {
-  const int n = static_cast<int>(c.base.size());
+  const int n = c.count();
   const double w = c.widthPx;
   // From a place about a width inside, where the direction is still that of the stroke.
   const int inside = std::min(n / 2, static_cast<int>(std::lround(w + 3.0)));
   const int anchor = n - 1 - inside;
-  const CourseApproach a = approachAt(c, anchor, -1, std::max(8.0, 4.0 * w));
-  if (!a.ok) return;
-  EndCourse end{a.at, a.direction, a.bend};
+  const auto a = approachAt(c, anchor, -1, std::max(8.0, 4.0 * w));
+  if (!a) return;
+  EndCourse end{a->at, a->direction, a->bend};
   // No turn of more than about 30 degrees is read from a parabola beyond its points.
-  const double most = 0.5 / (inside + w);
+  const double most = kLargestTurnRad / (inside + w);
   if (end.bend.norm() > most) end.bend *= most / end.bend.norm();
   const std::optional<double> tip = inkEnd(end, w, inside, grey);
   if (!tip) return;
-  const double stop = std::max(0.0, *tip + 0.06 * w - 0.5 * w);
+  const double stop = std::max(0.0, *tip + kRoundEndWidths * w - 0.5 * w);
   // A skeleton ends within a pixel or two of the pen's last place; farther off, the parabola has left the stroke.
-  if (std::abs(stop - inside) > 0.6 * w + 2.0) return;
+  if (std::abs(stop - inside) > kSkeletonOffWidths * w + 2.0) return;
   // The last half width of a skeleton turns to one corner of the pen's end.
-  const int kept =
-      std::clamp(std::min(static_cast<int>(stop - 0.5), inside - static_cast<int>(std::ceil(0.5 * w))), 0, inside);
-  const Vec2 offset = c.base[anchor + kept] - end.position(kept);
+  const int kept = std::clamp(
+      std::min(static_cast<int>(stop - 0.5), inside - static_cast<int>(std::ceil(kHookWidths * w))), 0, inside);
+  const Vec2 offset = c.points[anchor + kept].base - end.position(kept);
   const int count = std::max(0, static_cast<int>(std::lround(stop - kept)));
   std::vector<Vec2> tail;
   for (int k = 1; k <= count; ++k) tail.push_back(end.position(kept + (stop - kept) * k / count) + offset);
-  replaceTail(c, static_cast<std::size_t>(anchor + kept + 1), tail);
+  replaceTail(c, anchor + kept + 1, tail);
+}
+
+// Standard deviations of the points. Those that only the half levels of their profile have placed are known half as
+// well as those next to them.
+void addSigmas(Contour& contour, std::vector<std::optional<PointInformation>> information) {
+  const auto known = std::find_if(information.begin(), information.end(), [](const auto& i) { return i.has_value(); });
+  std::optional<double> gain;
+  if (known != information.end()) gain = (*known)->gain;
+  for (int i = 0; i < std::ssize(information); ++i) {
+    std::optional<PointInformation>& here = information[i];
+    const bool isPlaced = contour.points[i].refined;
+    if (here) {
+      gain = here->gain;
+    } else if (isPlaced && gain) {
+      here = {.gain = 2.0 * *gain};
+    }
+    if (!isPlaced) here.reset();
+  }
+  const std::vector<float> sigma = pointSigmas(information, contour.closed);
+  for (int i = 0; i < std::ssize(sigma); ++i) contour.points[i].sigmaPx = sigma[i];
 }
 
 }  // namespace
 
 void placeEnds(StrokeCourse& c, const GreyImage& grey) {
-  if (c.closed || c.base.size() < 8) return;
+  if (c.closed || c.count() < kFewestEndPoints) return;
   const auto place = [&] {
     followInk(c, grey);
     placeLastPoint(c, grey);
@@ -175,60 +188,36 @@ void placeEnds(StrokeCourse& c, const GreyImage& grey) {
   turnRound(c);
 }
 
-namespace {
-
-// Standard deviations of the points. Those that only the half levels of their profile have placed are known half as
-// well as those next to them.
-void addSigmas(Contour& contour, std::vector<PointInformation> information) {
-  const auto known = std::find_if(information.begin(), information.end(),
-                                  [](const PointInformation& point) { return point.gain > 0.0; });
-  double gain = known == information.end() ? 0.0 : known->gain;
-  std::vector<std::uint8_t> placed(contour.points.size());
-  for (std::size_t i = 0; i < information.size(); ++i) {
-    placed[i] = contour.points[i].refined ? 1 : 0;
-    if (information[i].gain > 0.0) {
-      gain = information[i].gain;
-    } else if (contour.points[i].refined) {
-      information[i].gain = 2.0 * gain;
-    }
-  }
-  const std::vector<float> sigma = pointSigmas(information, placed, contour.closed);
-  for (std::size_t i = 0; i < sigma.size(); ++i) contour.points[i].sigmaPx = sigma[i];
-}
-
-}  // namespace
-
 Contour contourOf(const StrokeCourse& c) {
   Contour contour;
   contour.kind = ContourKind::Centreline;
   contour.closed = c.closed;
-  std::vector<StrokePart> part;
-  std::vector<PointInformation> information;
-  for (std::size_t i = 0; i < c.base.size(); ++i) {
-    if (!contour.points.empty()) {
+  std::vector<CoursePoint> kept;
+  for (const CoursePoint& p : c.points) {
+    if (!kept.empty()) {
       // Never back: where a tight turn folded the course, its points go.
-      const Vec2 step = c.base[i] - contour.points.back().at;
-      if (step.norm() < 0.35 || step.dot(c.tangent[i]) < 0.0) continue;
+      const Vec2 step = p.base - kept.back().base;
+      if (step.norm() < kLeastStepPx || step.dot(p.tangent) < 0.0) continue;
     }
-    contour.points.push_back({.at = c.base[i],
-                              .unrefined = c.chain[i],
-                              .refined = c.measured[i] != 0,
-                              .widthPx = std::max(0.1f, c.measuredWidth[i])});
-    part.push_back(c.part[i]);
-    if (i < c.information.size()) information.push_back(c.information[i]);
+    kept.push_back(p);
   }
-  while (contour.closed && contour.points.size() > 3 &&
-         (contour.points.front().at - contour.points.back().at).norm() < 0.35) {
-    contour.points.pop_back();
-    part.pop_back();
-    if (!information.empty()) information.pop_back();
+  while (contour.closed && kept.size() > 3 && (kept.front().base - kept.back().base).norm() < kLeastStepPx) {
+    kept.pop_back();
   }
-  if (!information.empty()) addSigmas(contour, std::move(information));
-  const int n = static_cast<int>(part.size());
+  std::vector<std::optional<PointInformation>> information;
+  for (const CoursePoint& p : kept) {
+    contour.points.push_back({.at = p.base,
+                              .unrefined = p.chain,
+                              .refined = p.measured,
+                              .widthPx = std::max(kLeastWidthPx, p.measuredWidth)});
+    information.push_back(p.information);
+  }
+  if (c.wasPlacedOnPixels) addSigmas(contour, std::move(information));
+  const int n = static_cast<int>(kept.size());
   for (int i = 0; i < n; ++i) {
-    if (part[i] != StrokePart::Bridge) continue;
+    if (kept[i].part != StrokePart::Bridge) continue;
     int last = i;
-    while (last + 1 < n && part[last + 1] == StrokePart::Bridge) ++last;
+    while (last + 1 < n && kept[last + 1].part == StrokePart::Bridge) ++last;
     contour.bridges.emplace_back(i, last);
     i = last;
   }

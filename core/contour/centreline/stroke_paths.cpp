@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/base/statistics.h"
 #include "core/contour/centreline/skeleton_graph.h"
@@ -12,16 +13,23 @@
 namespace batten {
 namespace {
 
+constexpr double kTrimRadii = 1.1;         // [radii of the junction] beyond its disc a stroke has its own middle
+constexpr double kTangentRadii = 8.0;      // [half stroke widths] over which the direction of an end is taken,
+constexpr double kLeastTangentPx = 8.0;    // and of thin strokes
+constexpr double kMissPerWidthDeg = 20.0;  // what a stroke that goes on a width aside costs, against a bend
+constexpr double kLeastLastStepPx = 0.3;   // a shorter last step is left out
+constexpr double kForwardCos = 0.2;        // 78 degrees: a direction that points away by more looks back
+
 double angleDeg(const Vec2& a, const Vec2& b) {
   return std::atan2(std::abs(cross(a, b)), a.dot(b)) * 180.0 / std::numbers::pi;
 }
 
-// How one end of a edge meets its node.
-struct LegEnd {
+// How one end of an edge meets its node.
+struct MeetingEnd {
   int first = 0;  ///< Index from that end of the first point outside the junction's disc.
   Vec2 at = Vec2::Zero();
-  Vec2 out = Vec2::Zero();  ///< Unit direction away from the node there.
-  int partner = -1;         ///< The end this one goes on with.
+  Vec2 out = Vec2::Zero();     ///< Unit direction away from the node there.
+  std::optional<int> partner;  ///< The end this one goes on with.
 };
 
 class StrokePathMaker {
@@ -39,11 +47,11 @@ class StrokePathMaker {
     std::vector<StrokePath> paths;
     std::vector<bool> used(graph_.edges().size(), false);
     for (int pass = 0; pass < 2; ++pass) {
-      for (int edge = 0; edge < static_cast<int>(graph_.edges().size()); ++edge) {
-        if (!graph_.edges()[idx(edge)].alive || used[idx(edge)]) continue;
+      for (int edge = 0; edge < std::ssize(graph_.edges()); ++edge) {
+        if (!graph_.edges()[edge].alive || used[edge]) continue;
         for (int side = 0; side < 2; ++side) {
           // First the stroke paths that begin somewhere, then the closed ones.
-          if (used[idx(edge)] || (pass == 0 && (leg_(edge).ring || ends_[idx(2 * edge + side)].partner >= 0))) continue;
+          if (used[edge] || (pass == 0 && (edge_(edge).ring || ends_[2 * edge + side].partner))) continue;
           paths.push_back(follow(2 * edge + side, used));
         }
       }
@@ -52,18 +60,19 @@ class StrokePathMaker {
   }
 
  private:
-  const SkeletonEdge& leg_(int i) const { return graph_.edges()[idx(i)]; }
+  const SkeletonEdge& edge_(int i) const { return graph_.edges()[i]; }
   const StrokePathPoint& point(int end, int k) const {
-    const auto& p = leg_(end / 2).points;
-    return p[end % 2 == 0 ? idx(k) : p.size() - 1 - idx(k)];
+    const auto& p = edge_(end / 2).points;
+    return p[end % 2 == 0 ? k : std::ssize(p) - 1 - k];
   }
 
   void measure(int end, const SkeletonNode& node) {
-    LegEnd& e = ends_[idx(end)];
-    const int n = static_cast<int>(leg_(end / 2).points.size());
-    const double trim = 1.1 * node.radius, reach = std::max(8.0, 8.0 * graph_.medianRadius());
+    MeetingEnd& e = ends_[end];
+    const int n = static_cast<int>(edge_(end / 2).points.size());
+    const double trim = kTrimRadii * node.radius;
+    const double reach = std::max(kLeastTangentPx, kTangentRadii * graph_.medianRadius());
     while (e.first < n - 1 && (point(end, e.first).at - node.centre).norm() < trim) ++e.first;
-    // A edge that hardly leaves the disc keeps its far half.
+    // An edge that hardly leaves the disc keeps its far half.
     if (e.first == n - 1) e.first = n / 2;
     std::vector<double> s;
     std::vector<Vec2> at;
@@ -80,13 +89,14 @@ class StrokePathMaker {
     e.at = fit.order >= 1 ? fit.r0 : point(end, e.first).at;
   }
 
-  double cost(int a, int b, double radius) const {
-    const LegEnd &p = ends_[idx(a)], &q = ends_[idx(b)];
+  // [deg] Of going from one end to another; nothing where a stroke does not.
+  std::optional<double> cost(int a, int b, double radius) const {
+    const MeetingEnd &p = ends_[a], &q = ends_[b];
     const double bend = angleDeg(-p.out, q.out);
-    if (bend > maxBendDeg_) return -1.0;
+    if (bend > maxBendDeg_) return std::nullopt;
     const Vec2 d = q.at - p.at;
     const double miss = 0.5 * (std::abs(cross(p.out, d)) + std::abs(cross(q.out, d)));
-    return bend + 20.0 * miss / std::max({2.0 * graph_.medianRadius(), 2.0 * radius, 1.0});
+    return bend + kMissPerWidthDeg * miss / std::max({2.0 * graph_.medianRadius(), 2.0 * radius, 1.0});
   }
 
   void pair(const SkeletonNode& node) {
@@ -96,33 +106,33 @@ class StrokePathMaker {
       int a, b;
     };
     std::vector<Option> options;
-    for (std::size_t i = 0; i < node.ends.size(); ++i) {
-      for (std::size_t j = i + 1; j < node.ends.size(); ++j) {
-        const double c = cost(node.ends[i], node.ends[j], node.radius);
-        if (c >= 0.0) options.push_back({c, node.ends[i], node.ends[j]});
+    for (int i = 0; i < std::ssize(node.ends); ++i) {
+      for (int j = i + 1; j < std::ssize(node.ends); ++j) {
+        if (const auto c = cost(node.ends[i], node.ends[j], node.radius))
+          options.push_back({*c, node.ends[i], node.ends[j]});
       }
     }
     std::stable_sort(options.begin(), options.end(), [](const Option& x, const Option& y) { return x.cost < y.cost; });
     for (const Option& o : options) {
-      if (ends_[idx(o.a)].partner >= 0 || ends_[idx(o.b)].partner >= 0) continue;
-      ends_[idx(o.a)].partner = o.b;
-      ends_[idx(o.b)].partner = o.a;
+      if (ends_[o.a].partner || ends_[o.b].partner) continue;
+      ends_[o.a].partner = o.b;
+      ends_[o.b].partner = o.a;
     }
   }
 
   const SkeletonNode* junctionAt(int end) const {
-    const int node = leg_(end / 2).node[end % 2];
-    if (node < 0) return nullptr;
-    const SkeletonNode& n = graph_.nodes()[idx(node)];
+    const std::optional<int> node = edge_(end / 2).node[end % 2];
+    if (!node) return nullptr;
+    const SkeletonNode& n = graph_.nodes()[*node];
     return n.ends.size() > 1 ? &n : nullptr;
   }
 
   // The points of the edge entered at `end`, without those inside the discs at either side.
   void appendEdge(int end, StrokePath& path) const {
-    const int n = static_cast<int>(leg_(end / 2).points.size());
+    const int n = static_cast<int>(edge_(end / 2).points.size());
     const SkeletonNode* nodes[2] = {junctionAt(end), junctionAt(end ^ 1)};
-    int from = nodes[0] ? ends_[idx(end)].first : 0;
-    int to = nodes[1] ? n - 1 - ends_[idx(end ^ 1)].first : n - 1;
+    int from = nodes[0] ? ends_[end].first : 0;
+    int to = nodes[1] ? n - 1 - ends_[end ^ 1].first : n - 1;
     if (from > to) from = to = std::clamp((from + to) / 2, 0, n - 1);
     for (int k = from; k <= to; ++k) {
       StrokePathPoint p = point(end, k);
@@ -135,68 +145,69 @@ class StrokePathMaker {
     }
   }
 
-  // From the last point of the stroke path through the junction to the edge entered at `to`; `to` < 0: to the middle of
-  // the stroke it ends in.
-  void appendThrough(int from, int to, StrokePath& path) const {
-    const LegEnd& p = ends_[idx(from)];
+  // From the last point of the stroke path through the junction to the edge entered at `to`, or, without one, to the
+  // middle of the stroke it ends in.
+  void appendThrough(int from, std::optional<int> to, StrokePath& path) const {
+    const MeetingEnd& p = ends_[from];
     const float radius = path.points.back().radius;
     const SkeletonNode& node = *junctionAt(from);
     const auto add = [&](const Vec2& at) { path.points.push_back({at, radius, StrokePart::Junction}); };
     const Vec2 start = path.points.back().at;
-    if (to >= 0) {
-      const LegEnd& q = ends_[idx(to)];
-      for (const Vec2& at : cubicBetween(start, -p.out, point(to, q.first).at, q.out)) add(at);
+    if (to) {
+      const MeetingEnd& q = ends_[*to];
+      for (const Vec2& at : cubicBetween(start, -p.out, point(*to, q.first).at, q.out)) add(at);
       return;
     }
     const double along = (node.centre - start).dot(-p.out);
     const double length = std::clamp(along, 0.0, 2.0 * node.radius);
     for (int k = 1; k <= static_cast<int>(length); ++k) add(start - static_cast<double>(k) * p.out);
-    if (length > std::floor(length) + 0.3) add(start - length * p.out);
+    if (length > std::floor(length) + kLeastLastStepPx) add(start - length * p.out);
   }
 
   StrokePath follow(int start, std::vector<bool>& used) const {
     StrokePath path;
-    if (leg_(start / 2).ring) {
-      used[idx(start / 2)] = true;
+    if (edge_(start / 2).ring) {
+      used[start / 2] = true;
       path.closed = true;
-      path.points = leg_(start / 2).points;
+      path.points = edge_(start / 2).points;
       return path;
     }
-    if (ends_[idx(start)].partner < 0 && junctionAt(start)) {
+    if (!ends_[start].partner && junctionAt(start)) {
       path.tip[0] = false;
       StrokePath lead;
-      lead.points.push_back(point(start, ends_[idx(start)].first));
-      appendThrough(start, -1, lead);
+      lead.points.push_back(point(start, ends_[start].first));
+      appendThrough(start, std::nullopt, lead);
       path.points.assign(lead.points.rbegin(), lead.points.rend() - 1);
     }
     for (int end = start;;) {
-      used[idx(end / 2)] = true;
+      used[end / 2] = true;
       appendEdge(end, path);
-      const int far = end ^ 1, next = ends_[idx(far)].partner;
-      if (next < 0) {
+      const int far = end ^ 1;
+      const std::optional<int> next = ends_[far].partner;
+      if (!next) {
         path.tip[1] = junctionAt(far) == nullptr;
-        if (!path.tip[1]) appendThrough(far, -1, path);
+        if (!path.tip[1]) appendThrough(far, std::nullopt, path);
         return path;
       }
       appendThrough(far, next, path);
-      if (used[idx(next / 2)]) {
+      if (used[*next / 2]) {
         path.closed = true;
         return path;
       }
-      end = next;
+      end = *next;
     }
   }
 
   const SkeletonGraph& graph_;
   double maxBendDeg_;
-  std::vector<LegEnd> ends_;
+  std::vector<MeetingEnd> ends_;
 };
 
 }  // namespace
 
 double StrokePath::length() const {
   double sum = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i].at - points[i - 1].at).norm();
+  for (int i = 1; i < std::ssize(points); ++i) sum += (points[i].at - points[i - 1].at).norm();
   if (closed && points.size() > 1) sum += (points.front().at - points.back().at).norm();
   return sum;
 }
@@ -214,7 +225,7 @@ std::vector<Vec2> cubicBetween(const Vec2& from, const Vec2& fromDirection, cons
   const int steps = static_cast<int>(std::lround(length));
   std::vector<Vec2> points;
   // A direction that looks back would fold the line: go straight there.
-  const bool fair = fromDirection.dot(d) > 0.2 * length && toDirection.dot(d) > 0.2 * length;
+  const bool fair = fromDirection.dot(d) > kForwardCos * length && toDirection.dot(d) > kForwardCos * length;
   for (int k = 1; k < steps; ++k) {
     const double t = static_cast<double>(k) / steps, u = 1.0 - t;
     if (fair) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -29,7 +30,8 @@ struct StrokePathPoint {
 struct StrokePath {
   std::vector<StrokePathPoint> points;
   bool closed = false;
-  bool tip[2] = {true, true};  ///< The start, the end is a free end of the ink; else it ends in another stroke.
+  std::array<bool, 2> tip = {true,
+                             true};  ///< The start, the end is a free end of the ink; else it ends in another stroke.
   double length() const;
   double widthPx() const;  ///< Median.
 };

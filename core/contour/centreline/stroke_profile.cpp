@@ -4,6 +4,12 @@
 namespace batten {
 namespace {
 
+constexpr double kLeastStrokeContrast = 2.0;  // [grey] less is noise of the scan
+constexpr int kPaperSamples = 5;              // over which the paper beside a stroke is averaged, 1.25 px
+constexpr double kCrowdedShare = 0.25;        // of the contrast: if the outer end is so much darker, ink lies there
+constexpr double kCoreShare = 0.2;            // of the width to either side of the middle, where the ink is full
+constexpr double kPaperShare = 0.15;          // of the darkest: what is fainter counts as paper
+
 // Paper across the profile: a line through the level at either side.
 struct PaperLine {
   double level = 255.0, slope = 0.0;
@@ -21,7 +27,7 @@ double meanOf(std::span<const float> p, int first, int count) {
 // The paper lies at the outer ends, unless another stroke does: then where the grey is brightest on the way there.
 PaperLine paperBeside(std::span<const float> p, int edge, double ink) {
   const int n = static_cast<int>(p.size()), half = n / 2;
-  const int box = std::min(5, std::max(1, half - edge));
+  const int box = std::min(kPaperSamples, std::max(1, half - edge));
   double level[2], place[2], reach = half;
   for (int side = 0; side < 2; ++side) {
     const auto mean = [&](int distance) {  // box that ends `distance` samples from the middle
@@ -37,7 +43,7 @@ PaperLine paperBeside(std::span<const float> p, int edge, double ink) {
         best = d;
       }
     }
-    const bool crowded = brightest - outer > 0.25 * (brightest - ink);
+    const bool crowded = brightest - outer > kCrowdedShare * (brightest - ink);
     level[side] = crowded ? brightest : outer;
     const double middle = (crowded ? best : half) - 0.5 * (box - 1);
     place[side] = side == 0 ? half - middle : half + middle;
@@ -52,7 +58,7 @@ PaperLine paperBeside(std::span<const float> p, int edge, double ink) {
 
 }  // namespace
 
-StrokeCentre halfLevelCentre(std::span<const float> profile, double widthPx, std::span<float> scratch) {
+std::optional<StrokeCentre> halfLevelCentre(std::span<const float> profile, double widthPx, std::span<float> scratch) {
   StrokeCentre result;
   const int n = static_cast<int>(profile.size()), half = n / 2;
   // Gaussian of .5 px: two samples.
@@ -66,35 +72,34 @@ StrokeCentre halfLevelCentre(std::span<const float> profile, double widthPx, std
     }
     scratch[k] = sum / weight;
   }
-  const int core = static_cast<int>(std::lround(0.2 * widthPx / kStrokeStepPx));
+  const int core = static_cast<int>(std::lround(kCoreShare * widthPx / kStrokeStepPx));
   const int first = std::max(0, half - core);
   const double ink = meanOf(scratch, first, 2 * (half - first) + 1);
   const int edge = std::min(half - 1, static_cast<int>(std::lround(0.5 * widthPx / kStrokeStepPx)));
   const PaperLine paper = paperBeside(scratch, edge, ink);
   const double contrast = paper.at(half) - ink;
-  if (!(contrast > 2.0)) return result;
+  if (!(contrast > 2.0)) return std::nullopt;
   // Depth below the half level, which follows the slope of the paper.
   const auto depth = [&](int k) { return paper.at(k) - 0.5 * contrast - scratch[k]; };
-  if (!(depth(half) > 0.0)) return result;
+  if (!(depth(half) > 0.0)) return std::nullopt;
   double border[2] = {0.0, 0.0};
   for (int side = 0; side < 2; ++side) {
     const int d = side == 0 ? -1 : 1;
     int k = half;
     while (k + d >= 0 && k + d < n && depth(k + d) > 0.0) k += d;
-    if (k + d < 0 || k + d >= n) return result;
+    if (k + d < 0 || k + d >= n) return std::nullopt;
     border[side] = (k - half + d * depth(k) / (depth(k) - depth(k + d))) * kStrokeStepPx;
   }
   result.centre = 0.5 * (border[0] + border[1]);
   result.width = border[1] - border[0];
   result.contrast = contrast;
-  result.ok = true;
   result.paper = paper.at(half);
   result.slope = paper.slope / kStrokeStepPx;
   result.reach = paper.reach * kStrokeStepPx;
   return result;
 }
 
-StrokeCentre centroidCentre(std::span<const float> profile, double reachPx) {
+std::optional<StrokeCentre> centroidCentre(std::span<const float> profile, double reachPx) {
   StrokeCentre result;
   const int n = static_cast<int>(profile.size()), half = n / 2;
   const int reach = std::min(half - 1, static_cast<int>(std::lround(reachPx / kStrokeStepPx)));
@@ -107,20 +112,19 @@ StrokeCentre centroidCentre(std::span<const float> profile, double reachPx) {
   for (int k = half - reach; k <= half + reach; ++k) {
     most = std::max(most, paper.at(k) - profile[k]);
   }
-  if (!(most > 2.0)) return result;
+  if (!(most > kLeastStrokeContrast)) return std::nullopt;
   for (int k = half - reach; k <= half + reach; ++k) {
-    const double dark = std::max(0.0, paper.at(k) - profile[k] - 0.15 * most);
+    const double dark = std::max(0.0, paper.at(k) - profile[k] - kPaperShare * most);
     const double u = (k - half) * kStrokeStepPx;
     sum += dark;
     moment += dark * u;
     square += dark * u * u;
   }
-  if (!(sum > 0.0)) return result;
+  if (!(sum > 0.0)) return std::nullopt;
   const double centre = moment / sum;
   result.centre = centre;
   result.width = std::sqrt(std::max(0.0, 12.0 * (square / sum - centre * centre)));
   result.contrast = most;
-  result.ok = true;
   return result;
 }
 

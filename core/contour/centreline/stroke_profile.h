@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,19 +30,19 @@ inline float sampleGrey(const GreyImage& grey, double x, double y) {
 }
 
 struct StrokeCentre {
-  double centre = 0.0;    ///< [px] along the profile, 0 = its middle.
-  double width = 0.0;     ///< [px] between the half levels.
-  double contrast = 0.0;  ///< [grey] paper minus the middle of the stroke.
-  bool ok = false;
+  double centre = 0.0;                ///< [px] along the profile, 0 = its middle.
+  double width = 0.0;                 ///< [px] between the half levels.
+  double contrast = 0.0;              ///< [grey] paper minus the middle of the stroke.
   double paper = 255.0, slope = 0.0;  ///< [grey, grey/px] of the paper, a line along the profile.
   double reach = 0.0;                 ///< [px] no other ink nearer than this to the middle of the profile.
 };
 
-/// Half-level midpoint of a dark ridge in a profile of 2 * half + 1 samples. `widthPx` is about the stroke's width.
-/// `scratch` holds as many values.
-StrokeCentre halfLevelCentre(std::span<const float> profile, double widthPx, std::span<float> scratch);
+/// Half-level midpoint of a dark ridge in a profile of 2 * half + 1 samples; nothing where there is none. `widthPx` is
+/// about the stroke's width. `scratch` holds as many values.
+std::optional<StrokeCentre> halfLevelCentre(std::span<const float> profile, double widthPx, std::span<float> scratch);
 
-/// Centroid of darkness over |u| <= reachPx; what is less than 15 % of the darkest counts as paper.
-StrokeCentre centroidCentre(std::span<const float> profile, double reachPx);
+/// Centroid of darkness over |u| <= reachPx; what is less than 15 % of the darkest counts as paper. Nothing
+/// where all is paper.
+std::optional<StrokeCentre> centroidCentre(std::span<const float> profile, double reachPx);
 
 }  // namespace batten

@@ -34,7 +34,6 @@ struct SideBlock {
   double weight = 0.0;  // 1: full of ordinary points
 };
 
-
 struct SidePoint {
   Vec2 at = Vec2::Zero();
   double weight = 1.0;

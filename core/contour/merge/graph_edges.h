@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "core/contour/merge/overlap_removal.h"
@@ -11,8 +12,8 @@ namespace batten {
 /// A stretch of a mean line between two nodes; its ends are numbered 2 * edge + side.
 struct GraphEdge {
   MeanLine line;
-  int node[2] = {-1, -1};  ///< -1: the line ends there.
-  double length = 0.0;     ///< [px]
+  std::array<std::optional<int>, 2> node;  ///< At the start and the end; none: the line ends there.
+  double length = 0.0;                     ///< [px]
   bool alive = true;
 };
 
@@ -20,7 +21,7 @@ struct GraphEdge {
 struct MeanGraph {
   std::vector<GraphEdge> edges;
   std::vector<std::vector<int>> nodes;
-  void add(MeanLine line, int from, int to);
+  void add(MeanLine line, std::optional<int> from, std::optional<int> to);
   void remove(int edge);
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/contour/merge/stroke_smoothing.h"
@@ -11,12 +12,14 @@
 namespace batten {
 namespace {
 
-constexpr double kLongestWaver = 6.0;   // distances: what the mean does over a longer way was drawn
-constexpr double kGapPx = 1.5;          // points farther apart than this get others between them
-constexpr double kJointPx = 3.0;        // farther apart: no stroke was there
-constexpr int kMostStep = 4;            // points: neighbours on the mean lie no farther apart on the line
-constexpr double kRoomSmoothing = 4.0;  // points
-constexpr double kBandSmoothing = 1.5;  // points: little, as every stroke is to stay inside
+constexpr double kLongestWaver = 6.0;    // distances: what the mean does over a longer way was drawn
+constexpr double kGapPx = 1.5;           // points farther apart than this get others between them
+constexpr double kJointPx = 3.0;         // farther apart: no stroke was there
+constexpr int kMostStep = 4;             // points: neighbours on the mean lie no farther apart on the line
+constexpr double kLeastAdvancePx = 0.2;  // along the line, from point to point
+constexpr double kLeastSeamPx = 0.35;    // between the last and the first point of a ring
+constexpr double kRoomSmoothing = 4.0;   // points
+constexpr double kBandSmoothing = 1.5;   // points: little, as every stroke is to stay inside
 
 // The place, width and band between two points, at `part` of the way.
 ContourPoint contourPointBetween(const ContourPoint& a, const ContourPoint& b, double part) {
@@ -24,16 +27,15 @@ ContourPoint contourPointBetween(const ContourPoint& a, const ContourPoint& b, d
   ContourPoint p;
   p.at = a.at + part * (b.at - a.at);
   if (a.widthPx && b.widthPx) p.widthPx = std::lerp(*a.widthPx, *b.widthPx, t);
-  if (a.band && b.band)
-    p.band = {std::lerp(a.band->left, b.band->left, t), std::lerp(a.band->right, b.band->right, t)};
+  if (a.band && b.band) p.band = {std::lerp(a.band->left, b.band->left, t), std::lerp(a.band->right, b.band->right, t)};
   return p;
 }
 
 // Adds points where there is less than about one a pixel: where strokes were joined or the line was stretched.
 void fillGaps(Contour& c) {
-  const std::size_t n = c.points.size();
+  const int n = static_cast<int>(c.points.size());
   std::vector<ContourPoint> even;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (int i = 0; i < n; ++i) {
     const ContourPoint &here = c.points[i], &next = c.points[i + 1 < n ? i + 1 : c.closed ? 0 : i];
     const double gap = (next.at - here.at).norm();
     const int spans = gap > kGapPx ? static_cast<int>(std::lround(gap)) : 1;
@@ -51,12 +53,12 @@ Contour orderedPoints(const MeanLine& line, const std::vector<Contour>& lines) {
   Contour c;
   c.kind = ContourKind::Centreline;
   c.closed = line.closed;
-  for (std::size_t i = 0; i < line.points.size(); ++i) {
-    if (!c.points.empty() && (line.points[i] - c.points.back().at).dot(line.tangent[i]) < 0.2) continue;  // never back
-    const ContourPoint& from = lines[line.source[i].line].points[line.source[i].index];
-    c.points.push_back({.at = line.points[i], .refined = from.refined, .widthPx = from.widthPx});
+  for (const MeanPoint& p : line.points) {
+    if (!c.points.empty() && (p.at - c.points.back().at).dot(p.tangent) < kLeastAdvancePx) continue;  // never back
+    const ContourPoint& from = lines[p.source.line].points[p.source.index];
+    c.points.push_back({.at = p.at, .refined = from.refined, .widthPx = from.widthPx});
   }
-  while (c.closed && c.points.size() > 3 && (c.points.front().at - c.points.back().at).norm() < 0.35) {
+  while (c.closed && c.points.size() > 3 && (c.points.front().at - c.points.back().at).norm() < kLeastSeamPx) {
     c.points.pop_back();
   }
   return c;
@@ -69,8 +71,7 @@ std::vector<float> widened(const std::vector<float>& v, bool closed) {
   for (int i = 0; i < n; ++i)
     for (int k = i - reach; k <= i + reach; ++k) {
       if (!closed && (k < 0 || k >= n)) continue;
-      const auto at = static_cast<std::size_t>(i);
-      most[at] = std::max(most[at], v[wrapIndex(k, n)]);
+      most[i] = std::max(most[i], v[wrapIndex(k, n)]);
     }
   return smoothValues(most, closed, kBandSmoothing);
 }
@@ -86,7 +87,7 @@ std::vector<StrokeBand> onBothSides(const std::vector<StrokeBand>& band, const F
   left = function(left);
   right = function(right);
   std::vector<StrokeBand> made;
-  for (std::size_t i = 0; i < band.size(); ++i) made.push_back({left[i], right[i]});
+  for (int i = 0; i < std::ssize(band); ++i) made.push_back({left[i], right[i]});
   return made;
 }
 
@@ -94,7 +95,7 @@ std::vector<StrokeBand> onBothSides(const std::vector<StrokeBand>& band, const F
 std::vector<StrokeBand> movedBand(std::vector<StrokeBand> band, const std::vector<Vec2>& from,
                                   const std::vector<Vec2>& to, bool closed) {
   const std::vector<Vec2> tangent = directions(from, closed, 3);
-  for (std::size_t i = 0; i < from.size(); ++i) {
+  for (int i = 0; i < std::ssize(from); ++i) {
     const auto across = static_cast<float>((to[i] - from[i]).dot(leftNormal(tangent[i])));
     band[i] = {std::max(0.0f, band[i].left - across), std::max(0.0f, band[i].right + across)};
   }
@@ -109,21 +110,21 @@ bool isBridged(const Contour& stroke, int index) {
 // The stretches of a merged line for which the strokes only bridge a gap in the ink.
 std::vector<std::pair<int, int>> bridgesOf(const Contour& c, const MeanLine& line, const std::vector<Contour>& lines) {
   std::vector<std::pair<int, int>> bridges;
-  int at = -1;
-  for (std::size_t i = 0; i < line.points.size(); ++i) {
-    if (!isBridged(lines[line.source[i].line], line.source[i].index)) continue;
+  std::optional<int> before;
+  for (const MeanPoint& p : line.points) {
+    if (!isBridged(lines[p.source.line], p.source.index)) continue;
     int nearest = 0;
-    for (int k = 1; k < static_cast<int>(c.points.size()); ++k) {
-      const auto distance = [&](int j) { return (c.points[j].at - line.points[i]).squaredNorm(); };
+    for (int k = 1; k < std::ssize(c.points); ++k) {
+      const auto distance = [&](int j) { return (c.points[j].at - p.at).squaredNorm(); };
       if (distance(k) < distance(nearest)) nearest = k;
     }
     // Neighbours on the mean are about a pixel apart: a jump begins another bridge.
-    if (at >= 0 && std::abs(nearest - at) <= kMostStep) {
+    if (before && std::abs(nearest - *before) <= kMostStep) {
       bridges.back() = {std::min(bridges.back().first, nearest), std::max(bridges.back().second, nearest)};
     } else {
       bridges.emplace_back(nearest, nearest);
     }
-    at = nearest;
+    before = nearest;
   }
   return bridges;
 }
@@ -136,11 +137,11 @@ Contour mergedContour(const MeanLine& line, const std::vector<Contour>& lines, c
   fillGaps(c);
   const std::vector<Vec2> before = positionsOf(c.points);
   std::vector<StrokeBand> band = strokes.band(before, c.closed, context);
-  const std::vector<StrokeBand> room = onBothSides(
-      band, [&](const std::vector<float>& v) { return smoothValues(v, c.closed, kRoomSmoothing); });
+  const std::vector<StrokeBand> room =
+      onBothSides(band, [&](const std::vector<float>& v) { return smoothValues(v, c.closed, kRoomSmoothing); });
   const std::vector<Vec2> fair = fairWithinBand(before, c.closed, room, kLongestWaver * distancePx);
   band = movedBand(std::move(band), before, fair, c.closed);
-  for (std::size_t i = 0; i < fair.size(); ++i) {
+  for (int i = 0; i < std::ssize(fair); ++i) {
     c.points[i].at = fair[i];
     c.points[i].band = band[i];
   }

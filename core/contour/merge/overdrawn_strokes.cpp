@@ -65,7 +65,7 @@ class MergeBalance {
   };
   static void sumUp(std::vector<Part>& parts) {
     std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.distance < b.distance; });
-    for (std::size_t i = 1; i < parts.size(); ++i) parts[i].length += parts[i - 1].length;
+    for (int i = 1; i < std::ssize(parts); ++i) parts[i].length += parts[i - 1].length;
   }
   static double upTo(const std::vector<Part>& parts, double distance) {
     const auto after = std::upper_bound(parts.begin(), parts.end(), distance,
@@ -94,17 +94,17 @@ double shareWithin(double distance, const std::vector<Contour>& strokes, const s
   for (const ParallelStretch& s : stretches) {
     if (context.isCancelled()) return 0.0;
     if (s.widestPx > distance || judge(s).verdict != Verdict::OneLine) continue;
-    const auto line = static_cast<std::size_t>(s.line);
-    if (beside[line].empty()) beside[line].resize(strokes[line].points.size(), false);
-    const auto points = beside[line].size(), step = static_cast<std::size_t>(s.stepPx);
-    const std::size_t steps = (points + step - 1) / step;
-    for (std::size_t k = 0; k < s.apartPx.size(); ++k) {
-      const std::size_t from = (static_cast<std::size_t>(s.firstStep) + k) % steps * step;
-      for (std::size_t i = from; i < std::min(from + step, points); ++i) beside[line][i] = true;
+    std::vector<bool>& own = beside[s.line];
+    if (own.empty()) own.resize(strokes[s.line].points.size(), false);
+    const int points = static_cast<int>(own.size()), step = static_cast<int>(s.stepPx);
+    const int steps = (points + step - 1) / step;
+    for (int k = 0; k < std::ssize(s.apartPx); ++k) {
+      const int from = (s.firstStep + k) % steps * step;
+      for (int i = from; i < std::min(from + step, points); ++i) own[i] = true;
     }
   }
   double such = 0.0, all = 0.0;
-  for (std::size_t l = 0; l < strokes.size(); ++l) {
+  for (int l = 0; l < std::ssize(strokes); ++l) {
     such += static_cast<double>(std::count(beside[l].begin(), beside[l].end(), true));
     all += static_cast<double>(strokes[l].points.size());
   }
@@ -113,34 +113,35 @@ double shareWithin(double distance, const std::vector<Contour>& strokes, const s
 
 }  // namespace
 
-OverdrawnStrokes findOverdrawnStrokes(const std::vector<Contour>& lines, double reachPx, const RunContext& context) {
+std::optional<OverdrawnStrokes> findOverdrawnStrokes(const std::vector<Contour>& lines, double reachPx,
+                                                     const RunContext& context) {
   std::vector<Contour> strokes;
   double length = 0.0;
   for (const Contour& c : lines) {
-    if (context.isCancelled()) return {};
+    if (context.isCancelled()) return std::nullopt;
     if (c.kind != ContourKind::Centreline || c.points.size() < 3) continue;
     strokes.push_back(c);
     length += c.lengthPx;
   }
-  if (strokes.empty() || !(length > 0.0)) return {};
+  if (strokes.empty() || !(length > 0.0)) return std::nullopt;
   const double width = singleWidth(strokes);
   const std::vector<ParallelStretch> stretches = findParallelStrokes(strokes, width, reachPx, context);
-  if (context.isCancelled()) return {};
+  if (context.isCancelled()) return std::nullopt;
   const MergeBalance balance(stretches, touchingPx(width), context);
-  if (context.isCancelled()) return {};
+  if (context.isCancelled()) return std::nullopt;
   double best = 0.0, nearest = 0.0;
   for (double d = touchingPx(width); d <= reachPx; d *= kLadder) {
     if (balance.at(d) <= best) continue;
     best = balance.at(d);
     nearest = d;
   }
-  if (balance.meeting(nearest) < kLeastOverdrawn * length || best < kLeastOverdrawn * length) return {};
+  if (balance.meeting(nearest) < kLeastOverdrawn * length || best < kLeastOverdrawn * length) return std::nullopt;
   double farthest = nearest;
   const double most = std::min(nearest / kFullWeight, reachPx);
   while (farthest * kLadder <= most && balance.at(farthest * kLadder) >= kNearlyBest * best) farthest *= kLadder;
   const double share = shareWithin(nearest, strokes, stretches, context);
-  if (context.isCancelled()) return {};
-  return {std::sqrt(nearest * farthest), share};
+  if (context.isCancelled()) return std::nullopt;
+  return OverdrawnStrokes{std::sqrt(nearest * farthest), share};
 }
 
 }  // namespace batten

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/base/run_context.h"
@@ -8,20 +9,21 @@
 
 namespace batten {
 
-/// Whether lines were drawn in several strokes over one another, and within which distance such strokes lie.
+/// Lines that were drawn in several strokes over one another.
 struct OverdrawnStrokes {
-  double distancePx = 0.0;  ///< [px] Between middles, for mergeStrokes(); 0: no such strokes.
+  double distancePx = 0.0;  ///< [px] Between middles, for mergeStrokes().
   double share = 0.0;       ///< [-] 0..1 of the length of all lines: what lies beside a stroke of the same line.
 };
 
-/// Judges by how lines that run side by side begin and end to do so (side_by_side.h). Strokes of one line cross or join
-/// at a small angle, part a little and come together again, or one ends while the other goes on; two lines part for
-/// good, run round beside each other, or end level. For every distance the length of lines that would rightly become
-/// one stands against the length that would wrongly do so; the distance lies in the middle of where that is best.
-/// Lines that never touch another at a small angle are not taken for overdrawn, whatever their distance.
+/// Judges by how lines that run side by side begin and end to do so (parallel_strokes.h). Strokes of one line cross or
+/// join at a small angle, part a little and come together again, or one ends while the other goes on; two lines part
+/// for good, run round beside each other, or end level. For every distance the length of lines that would rightly
+/// become one stands against the length that would wrongly do so; the distance lies in the middle of where that is
+/// best. Lines that never touch another at a small angle are not taken for overdrawn, whatever their distance.
 /// @param lines centre lines that were not merged; others are passed over.
 /// @param reachPx [px] > 0, the largest distance looked at.
-/// Nothing found when cancelled. Same result with any number of threads.
-OverdrawnStrokes findOverdrawnStrokes(const std::vector<Contour>& lines, double reachPx, const RunContext& context);
+/// @return nothing where there are no such strokes, or when cancelled. Same result with any number of threads.
+std::optional<OverdrawnStrokes> findOverdrawnStrokes(const std::vector<Contour>& lines, double reachPx,
+                                                     const RunContext& context);
 
 }  // namespace batten

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <optional>
 #include <utility>
 
@@ -13,31 +14,45 @@
 namespace batten {
 namespace {
 
-constexpr double kOnLinePx = 1.6;     // a point this near to another line lies on it, or this part of
-constexpr double kOnLine = 0.15;      // the distance within which strokes are one
-constexpr double kSameWay = 0.8;      // cosine between lines that are one
-constexpr int kShortestRun = 12;      // points: lying on a line for less is crossing it
-constexpr int kShortestGap = 4;       // points: not lying on a line for less is noise
-constexpr double kOwnWay = 4.0;       // distances along a line before it can lie on itself
+constexpr double kOnLinePx = 1.6;       // a point this near to another line lies on it, or this part of
+constexpr double kOnLine = 0.15;        // the distance within which strokes are one
+constexpr double kSameDirection = 0.8;  // 37 degrees: the cosine between lines that are one
+constexpr int kShortestOn = 12;         // points: lying on a line for less is crossing it
+constexpr int kShortestGap = 4;         // points: not lying on a line for less is noise
+constexpr double kOwnLength = 4.0;      // distances along a line, and 30 points, before it can lie on itself
+constexpr int kOwnPoints = 30;
+constexpr int kTipPoints = 8;         // over which the direction of an end is taken
+constexpr int kPointsPerLook = 4096;  // between two looks at the cancel token
+constexpr double kMostOnLinePx = 4.0;
 constexpr double kTouch = 0.25;       // distances: an end as near as this touches
 constexpr double kShort = 2.0;        // distances: such strokes need not touch
 constexpr double kBesideSlack = 0.1;  // part of a stretch that may be farther away than beside
 
-struct CoverPlace {
+// A point of a piece.
+struct PiecePlace {
   int piece = 0, index = 0;
+  auto operator<=>(const PiecePlace&) const = default;
+};
+
+// A point that another lies on or beside: of a piece, or of the line itself, which is none yet.
+struct CoverPlace {
+  std::optional<int> piece;
+  int index = 0;
+  auto operator<=>(const CoverPlace&) const = default;
 };
 
 // How one point lies to the lines before it.
 struct PointCover {
-  bool on = false, beside = false;
-  CoverPlace place;  // the nearest point in the same direction
+  bool on = false;
+  std::optional<CoverPlace> beside;  // the nearest point in the same direction
 };
 
 class PieceMaker {
  public:
   explicit PieceMaker(double distancePx)
       : distance_(std::max(1.0, distancePx)),
-        onLine_(std::clamp(kOnLine * distancePx, kOnLinePx, 4.0)),
+        onLine_(std::clamp(kOnLine * distancePx, kOnLinePx, kMostOnLinePx)),
+        ownLength_(static_cast<int>(kOwnLength * distance_) + kOwnPoints),
         index_(std::max(distance_, onLine_)) {}
 
   void add(MeanLine line, const RunContext& context) {
@@ -47,7 +62,7 @@ class PieceMaker {
       const auto first = std::find_if(covers.begin(), covers.end(), [](const PointCover& c) { return c.on; });
       if (first == covers.end()) return keepWhole(std::move(line));
       // A ring that partly lies on other lines becomes an open line that begins there.
-      turnTo(line, static_cast<int>(first - covers.begin()));
+      startAt(line, static_cast<int>(first - covers.begin()));
       line.closed = false;
       covers = coverage(line, context);
       if (context.isCancelled()) return;
@@ -62,42 +77,40 @@ class PieceMaker {
 
  private:
   std::vector<PointCover> coverage(const MeanLine& line, const RunContext& context) const {
-    const int n = static_cast<int>(line.points.size());
-    const int ownWay = static_cast<int>(kOwnWay * distance_) + 30;
+    const int n = line.count();
     std::vector<PointCover> covers(line.points.size());
-    PointGrid<CoverPlace> own(std::max(distance_, onLine_));
+    PointGrid<int> own(std::max(distance_, onLine_));
     for (int i = 0; i < n; ++i) {
-      if ((i & 4095) == 0 && context.isCancelled()) break;
-      const auto at = static_cast<std::size_t>(i);
-      PointCover& c = covers[at];
+      if (i % kPointsPerLook == 0 && context.isCancelled()) break;
+      const MeanPoint& here = line.points[i];
+      PointCover& c = covers[i];
       double nearest = distance_;
-      const auto look = [&](const Vec2& p, const Vec2& t, CoverPlace place) {
-        const double d = (p - line.points[at]).norm();
-        if (d > nearest || std::abs(t.dot(line.tangent[at])) < kSameWay) return;
+      const auto look = [&](const MeanPoint& there, const CoverPlace& place) {
+        const double d = (there.at - here.at).norm();
+        if (d > nearest || std::abs(there.tangent.dot(here.tangent)) < kSameDirection) return;
         // The same from any order of the cells.
-        if (d == nearest && c.beside && std::pair(place.piece, place.index) > std::pair(c.place.piece, c.place.index))
-          return;
+        if (d == nearest && c.beside && place > *c.beside) return;
         nearest = d;
-        c = {d <= onLine_, true, place};
+        c = {d <= onLine_, place};
       };
-      index_.around(line.points[at], [&](const CoverPlace& p) {
-        const MeanLine& piece = result_.pieces[p.piece];
-        look(piece.points[p.index], piece.tangent[p.index], p);
+      index_.around(here.at, [&](const PiecePlace& p) {
+        look(result_.pieces[p.piece].points[p.index], {p.piece, p.index});
       });
-      own.around(line.points[at], [&](const CoverPlace& p) {
-        const int apart = i - p.index;
-        if (apart < ownWay || (line.closed && n - apart < ownWay)) return;
-        look(line.points[p.index], line.tangent[p.index], p);
+      own.around(here.at, [&](int index) {
+        const int apart = i - index;
+        if (apart < ownLength_ || (line.closed && n - apart < ownLength_)) return;
+        look(line.points[index], {std::nullopt, index});
       });
-      if (!c.on) own.add(line.points[at], {-1, i});
+      if (!c.on) own.add(here.at, i);
     }
-    flipRuns(covers, false, kShortestGap, false);
-    flipRuns(covers, true, kShortestRun, true);
+    flipStretches(covers, false, kShortestGap, false);
+    flipStretches(covers, true, kShortestOn, true);
     absorbBeside(covers);
     return covers;
   }
 
-  static void flipRuns(std::vector<PointCover>& covers, bool what, int shorter, bool onlyInside) {
+  // Stretches that lie on lines, or do not, as `what` says, and are shorter than this count as what is around them.
+  static void flipStretches(std::vector<PointCover>& covers, bool what, int shorter, bool onlyInside) {
     const int n = static_cast<int>(covers.size());
     for (int i = 0; i < n; ++i) {
       if (covers[i].on != what) continue;
@@ -128,7 +141,7 @@ class PieceMaker {
 
   void index(int piece) {
     const MeanLine& line = result_.pieces[piece];
-    for (std::size_t i = 0; i < line.points.size(); ++i) index_.add(line.points[i], {piece, static_cast<int>(i)});
+    for (int i = 0; i < line.count(); ++i) index_.add(line.points[i].at, {piece, i});
   }
 
   void keepWhole(MeanLine line) {
@@ -136,37 +149,37 @@ class PieceMaker {
     index(static_cast<int>(result_.pieces.size()) - 1);
   }
 
+  using Kept = std::vector<std::optional<PiecePlace>>;  // by point of the line: where it went
+
   // The place on what was kept that the point `i` lies on; the line's own points have become pieces by then.
-  static std::optional<CoverPlace> placeOf(const std::vector<PointCover>& covers, const std::vector<CoverPlace>& kept,
-                                           int i) {
-    for (int k : {i, i - 1, i + 1, i - 2, i + 2}) {
-      if (k < 0 || k >= static_cast<int>(covers.size())) continue;
-      const PointCover& c = covers[k];
-      if (!c.beside) continue;
-      const CoverPlace place = c.place.piece >= 0 ? c.place : kept[c.place.index];
-      if (place.piece >= 0) return place;
+  static std::optional<PiecePlace> placeOf(const std::vector<PointCover>& covers, const Kept& kept, int i) {
+    for (const int k : {i, i - 1, i + 1, i - 2, i + 2}) {
+      if (k < 0 || k >= std::ssize(covers) || !covers[k].beside) continue;
+      const CoverPlace& place = *covers[k].beside;
+      if (place.piece) return PiecePlace{*place.piece, place.index};
+      if (kept[place.index]) return kept[place.index];
     }
     return std::nullopt;
   }
 
   void keepUncovered(const MeanLine& line, const std::vector<PointCover>& covers) {
-    const int n = static_cast<int>(line.points.size());
-    std::vector<CoverPlace> kept(line.points.size(), {-1, 0});
-    std::vector<std::pair<int, int>> runs;
-    const auto before = static_cast<int>(result_.pieces.size());
+    const int n = line.count();
+    Kept kept(line.points.size());
+    std::vector<std::pair<int, int>> stretches;
+    const int before = static_cast<int>(result_.pieces.size());
     for (int i = 0; i < n; ++i) {
       if (covers[i].on) continue;
       int end = i;
       while (end + 1 < n && !covers[end + 1].on) ++end;
       if (end - i >= 2) {
-        for (int k = i; k <= end; ++k) kept[k] = {static_cast<int>(result_.pieces.size()), k - i};
+        for (int k = i; k <= end; ++k) kept[k] = PiecePlace{static_cast<int>(result_.pieces.size()), k - i};
         result_.pieces.push_back(partOf(line, i, end));
-        runs.emplace_back(i, end);
+        stretches.emplace_back(i, end);
       }
       i = end;
     }
-    for (int r = 0; r < static_cast<int>(runs.size()); ++r) {
-      const auto [from, to] = runs[r];
+    for (int r = 0; r < std::ssize(stretches); ++r) {
+      const auto [from, to] = stretches[r];
       const auto attach = [&](int side, int beyond) {
         if (beyond < 0 || beyond >= n) return;
         if (const auto place = placeOf(covers, kept, beyond))
@@ -178,40 +191,45 @@ class PieceMaker {
     }
   }
 
+  // The nearest place that an end of a piece lies on, about in its direction.
+  std::optional<PiecePlace> placeUnder(int piece, int side, double nearPx) const {
+    const MeanLine& own = result_.pieces[piece];
+    const int n = own.count(), end = side == 0 ? 0 : n - 1;
+    const int inside = side == 0 ? std::min(n - 1, kTipPoints) : std::max(0, n - 1 - kTipPoints);
+    const Vec2& tip = own.points[end].at;
+    const Vec2 out = tip - own.points[inside].at;
+    std::optional<PiecePlace> best;
+    double nearest = nearPx;
+    index_.around(tip, [&](const PiecePlace& place) {
+      if (place.piece == piece && std::abs(place.index - end) < ownLength_) return;
+      const MeanPoint& other = result_.pieces[place.piece].points[place.index];
+      const double d = (other.at - tip).norm();
+      if (d > nearest || std::abs(other.tangent.dot(out)) < kSameDirection * out.norm()) return;
+      if (d == nearest && best && place > *best) return;
+      nearest = d;
+      best = place;
+    });
+    return best;
+  }
+
   // A line that begins or ends in another, about in its direction, goes on along it.
   void attachEnds() {
     const double nearPx = std::max(onLine_, kTouch * distance_);
     std::vector<std::array<bool, 2>> attached(result_.pieces.size(), {false, false});
     for (const StrokePieces::Attachment& a : result_.attachments) attached[a.piece][a.side] = true;
-    const int ownWay = static_cast<int>(kOwnWay * distance_) + 30;
-    for (int p = 0; p < static_cast<int>(result_.pieces.size()); ++p) {
-      const MeanLine& piece = result_.pieces[p];
-      const int n = static_cast<int>(piece.points.size());
+    for (int p = 0; p < std::ssize(result_.pieces); ++p) {
       for (const int side : {0, 1}) {
-        if (piece.closed || attached[p][side]) continue;
-        const int end = side == 0 ? 0 : n - 1, inside = side == 0 ? std::min(n - 1, 8) : std::max(0, n - 9);
-        const Vec2& tip = piece.points[end];
-        const Vec2 way = tip - piece.points[inside];
-        std::optional<CoverPlace> best;
-        double nearest = nearPx;
-        index_.around(tip, [&](const CoverPlace& place) {
-          if (place.piece == p && std::abs(place.index - end) < ownWay) return;
-          const MeanLine& other = result_.pieces[place.piece];
-          const auto k = static_cast<std::size_t>(place.index);
-          const double d = (other.points[k] - tip).norm();
-          if (d > nearest || std::abs(other.tangent[k].dot(way)) < kSameWay * way.norm()) return;
-          if (d == nearest && best && std::pair(place.piece, place.index) > std::pair(best->piece, best->index)) return;
-          nearest = d;
-          best = place;
-        });
-        if (best) result_.attachments.push_back({p, side, best->piece, best->index});
+        if (result_.pieces[p].closed || attached[p][side]) continue;
+        if (const auto place = placeUnder(p, side, nearPx))
+          result_.attachments.push_back({p, side, place->piece, place->index});
       }
     }
   }
 
-  double distance_, onLine_;
+  double distance_, onLine_;  // [px]
+  int ownLength_;             // points
   StrokePieces result_;
-  PointGrid<CoverPlace> index_;
+  PointGrid<PiecePlace> index_;
 };
 
 }  // namespace

@@ -2,8 +2,11 @@
 #include "core/contour/merge/parallel_strokes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstddef>
+#include <compare>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -23,18 +26,36 @@ constexpr double kNearWidths = 3.0;    // or so near
 constexpr double kFoldBack = 2.0;      // times the way about a turn
 constexpr double kGapWidths = 3.0;     // along a line: so short a gap beside it is none
 constexpr double kLevelDistances = 2;  // distances between two lines: ends as near along them are level
+constexpr double kLeastCellPx = 3.0;   // of the grid of points
+constexpr double kOwnApart = 3.0,
+                 kOwnWidths = 4.0;    // distances and widths along a line before it can lie beside itself
+constexpr double kLeastApart = 0.1;   // widths: nearer is the same line
+constexpr double kAsideWidths = 3.0;  // to either side of the place ahead
+constexpr int kSideTangentReach = 3;  // points to either side
 constexpr int kSidesPerBlock = 128;
+constexpr int kSidesPerLook = 16;  // between two looks at the cancel token
 
-struct LineSide {
-  std::vector<Vec2> points, tangent;
-  bool closed = false;
-  bool isFree[2] = {false, false};  // the start, the end touches nothing
+struct LinePoint {
+  Vec2 at = Vec2::Zero(), tangent = Vec2::Zero();
 };
 
+struct DirectedLine {
+  std::vector<LinePoint> points;
+  bool closed = false;
+  std::array<bool, 2> isFree = {false, false};  // the start, the end touches nothing
+  int count() const { return static_cast<int>(points.size()); }
+};
+
+// A point of one of the lines.
 struct LinePlace {
-  int line = -1, index = 0;
-  double apart = 0.0;
-  bool exists() const { return line >= 0; }
+  int line = 0, index = 0;
+  auto operator<=>(const LinePlace&) const = default;
+};
+
+// The nearest line beside a place.
+struct Neighbour {
+  LinePlace place;
+  double apart = 0.0;  // [px]
 };
 
 class SideFinder {
@@ -42,50 +63,41 @@ class SideFinder {
   SideFinder(const std::vector<Contour>& lines, double widthPx, double reachPx, const RunContext& context)
       : width_(widthPx),
         reach_(reachPx),
-        cell_(std::max(3.0, touchingPx(widthPx))),
+        cell_(std::max(kLeastCellPx, touchingPx(widthPx))),
         stride_(std::max(1, static_cast<int>(std::lround(0.5 * widthPx)))),
         cells_(cell_) {
-    for (int l = 0; l < static_cast<int>(lines.size()); ++l) {
+    for (int l = 0; l < std::ssize(lines); ++l) {
       if (context.isCancelled()) return;
-      const Contour& c = lines[l];
-      const std::vector<Vec2> points = positionsOf(c.points);
-      lines_.push_back({points, directions(points, c.closed, 3), c.closed, {false, false}});
-      for (int i = 0; i < static_cast<int>(points.size()); ++i) cells_.add(points[i], {l, i, 0.0});
+      addLine(lines[l], l);
     }
-    for (int l = 0; l < static_cast<int>(lines_.size()) && !context.isCancelled(); ++l) {
-      if (at(l).closed || at(l).points.empty()) continue;
-      for (const int side : {0, 1}) at(l).isFree[side] = touchesNothing(l, side);
+    for (int l = 0; l < std::ssize(lines_) && !context.isCancelled(); ++l) {
+      if (lines_[l].closed || lines_[l].points.empty()) continue;
+      for (const int side : {0, 1}) lines_[l].isFree[side] = touchesNothing(l, side);
     }
   }
 
-  std::vector<ParallelStretch> all(const RunContext& context) const {
-    struct Sample {
-      int line, index;
-    };
-    std::vector<Sample> samples;
-    std::vector<std::size_t> first;
-    for (int l = 0; l < static_cast<int>(lines_.size()); ++l) {
-      first.push_back(samples.size());
-      for (int i = 0; i < static_cast<int>(at(l).points.size()); i += stride_) samples.push_back({l, i});
+  // The stretches of all lines, on both sides.
+  std::vector<ParallelStretch> find(const RunContext& context) const {
+    std::vector<LinePlace> samples;
+    std::vector<int> first;
+    for (int l = 0; l < std::ssize(lines_); ++l) {
+      first.push_back(static_cast<int>(samples.size()));
+      for (int i = 0; i < lines_[l].count(); i += stride_) samples.push_back({l, i});
     }
-    first.push_back(samples.size());
+    first.push_back(static_cast<int>(samples.size()));
     std::vector<ParallelStretch> found;
     for (const double sign : {1.0, -1.0}) {
-      std::vector<LinePlace> nearest(samples.size());
+      Neighbours nearest(samples.size());
       parallelFor(context, static_cast<int>(samples.size()), kSidesPerBlock, [&](int begin, int end) {
         for (int k = begin; k < end; ++k) {
-          if ((k & 15) == 0 && context.isCancelled()) return;
-          const auto i = static_cast<std::size_t>(k);
-          nearest[i] = beside(samples[i].line, samples[i].index, sign);
+          if (k % kSidesPerLook == 0 && context.isCancelled()) return;
+          nearest[k] = beside(samples[k], sign);
         }
       });
       if (context.isCancelled()) return {};
-      for (std::size_t l = 0; l + 1 < first.size(); ++l) {
+      for (int l = 0; l + 1 < std::ssize(first); ++l) {
         if (context.isCancelled()) return {};
-        stretches(static_cast<int>(l),
-                  {nearest.begin() + static_cast<std::ptrdiff_t>(first[l]),
-                   nearest.begin() + static_cast<std::ptrdiff_t>(first[l + 1])},
-                  found);
+        addStretches(l, {nearest.begin() + first[l], nearest.begin() + first[l + 1]}, found);
       }
     }
     std::stable_sort(found.begin(), found.end(),
@@ -94,25 +106,34 @@ class SideFinder {
   }
 
  private:
-  using Places = std::vector<LinePlace>;
-  const LineSide& at(int line) const { return lines_[line]; }
-  LineSide& at(int line) { return lines_[line]; }
-  static const LinePlace& of(const Places& p, int k) { return p[k]; }
+  using Neighbours = std::vector<std::optional<Neighbour>>;  // one a sample
+
+  void addLine(const Contour& line, int number) {
+    const std::vector<Vec2> at = positionsOf(line.points), tangent = directions(at, line.closed, kSideTangentReach);
+    DirectedLine& made = lines_.emplace_back();
+    made.closed = line.closed;
+    for (int i = 0; i < std::ssize(at); ++i) {
+      made.points.push_back({at[i], tangent[i]});
+      cells_.add(at[i], {number, i});
+    }
+  }
+
+  const LinePoint& pointAt(const LinePlace& p) const { return lines_[p.line].points[p.index]; }
 
   // Places of one line that are so near along it that they are no neighbours.
-  bool isSamePlace(const LineSide& line, int a, int b, double apart) const {
+  bool isSamePlace(const DirectedLine& line, int a, int b, double apart) const {
     int along = std::abs(a - b);
-    if (line.closed) along = std::min(along, static_cast<int>(line.points.size()) - along);
-    return along < 3.0 * apart + 4.0 * width_;
+    if (line.closed) along = std::min(along, line.count() - along);
+    return along < kOwnApart * apart + kOwnWidths * width_;
   }
 
   bool touchesNothing(int l, int side) const {
-    const LineSide& line = at(l);
-    const int end = side == 0 ? 0 : static_cast<int>(line.points.size()) - 1;
-    const Vec2& tip = line.points[end];
+    const DirectedLine& line = lines_[l];
+    const int end = side == 0 ? 0 : line.count() - 1;
+    const Vec2& tip = line.points[end].at;
     bool touches = false;
     cells_.around(tip, [&](const LinePlace& p) {
-      const double d = (at(p.line).points[p.index] - tip).norm();
+      const double d = (pointAt(p).at - tip).norm();
       if (d >= touchingPx(width_) || (p.line == l && isSamePlace(line, p.index, end, d))) return;
       touches = true;
     });
@@ -120,24 +141,23 @@ class SideFinder {
   }
 
   // The nearest line of about the same direction on one side of a point.
-  LinePlace beside(int l, int i, double sign) const {
-    const LineSide& here = at(l);
-    const Vec2 &from = here.points[i], &t = here.tangent[i];
+  std::optional<Neighbour> beside(const LinePlace& of, double sign) const {
+    const Vec2 &from = pointAt(of).at, &t = pointAt(of).tangent;
     const Vec2 normal = sign * leftNormal(t);
-    LinePlace best{-1, 0, reach_};
-    for (double r = 0.0; r <= best.apart + cell_; r += cell_)
+    std::optional<Neighbour> best;
+    double nearest = reach_;
+    for (double r = 0.0; r <= nearest + cell_; r += cell_)
       cells_.around(from + r * normal, [&](const LinePlace& p) {
-        const LineSide& other = at(p.line);
-        const auto k = static_cast<std::size_t>(p.index);
-        const Vec2 d = other.points[k] - from;
+        const LinePoint& other = pointAt(p);
+        const Vec2 d = other.at - from;
         const double apart = d.dot(normal);
-        if (std::abs(d.dot(t)) > kOnNormalPx || apart <= 0.1 * width_ || apart > best.apart) return;
-        if (std::abs(other.tangent[k].dot(t)) < kAlikeCos) return;
-        if (p.line == l && isSamePlace(here, p.index, i, apart)) return;
+        if (std::abs(d.dot(t)) > kOnNormalPx || apart <= kLeastApart * width_ || apart > nearest) return;
+        if (std::abs(other.tangent.dot(t)) < kAlikeCos) return;
+        if (p.line == of.line && isSamePlace(lines_[of.line], p.index, of.index, apart)) return;
         // The same from any order of the cells.
-        if (apart == best.apart && best.exists() && std::pair(p.line, p.index) > std::pair(best.line, best.index))
-          return;
-        best = {p.line, p.index, apart};
+        if (apart == nearest && best && p > best->place) return;
+        nearest = apart;
+        best = {p, apart};
       });
     return best;
   }
@@ -145,43 +165,48 @@ class SideFinder {
   // Ink ahead of a place, about in this direction.
   bool continues(const Vec2& from, const Vec2& direction) const {
     const Vec2 ahead = from + kAheadWidths * width_ * direction, across = leftNormal(direction);
-    const double aside = 3.0 * width_;
+    const double aside = kAsideWidths * width_;
     bool found = false;
     for (double r = -aside; r <= aside && !found; r += width_)
       cells_.around(ahead + r * across, [&](const LinePlace& p) {
-        const auto k = static_cast<std::size_t>(p.index);
-        const Vec2 d = at(p.line).points[k] - ahead;
+        const LinePoint& other = pointAt(p);
+        const Vec2 d = other.at - ahead;
         found = found || (std::abs(d.dot(direction)) <= 1.0 && std::abs(d.dot(across)) <= aside &&
-                          std::abs(at(p.line).tangent[k].dot(direction)) >= kAlikeCos);
+                          std::abs(other.tangent.dot(direction)) >= kAlikeCos);
       });
     return found;
   }
 
-  // How many samples on a stretch goes on, 0: it does not. Short gaps, where lines cross or ink is shared, belong to
-  // it; the distance changes by less than a pen's width.
-  int continuesBy(const Places& places, bool closed, int k, int direction) const {
-    const int count = static_cast<int>(places.size());
+  // Samples that a short gap holds at most.
+  int gapSamples(int count) const {
     const int most = std::max(1, static_cast<int>(std::lround(kGapWidths * width_ / stride_)));
-    for (int by = 1; by <= std::min(most, count - 1); ++by) {
+    return std::min(most, count - 1);
+  }
+
+  // How many samples farther on a stretch goes on; nothing where it ends. Short gaps, where lines cross or ink is
+  // shared, belong to it; the distance changes by less than a pen's width.
+  std::optional<int> continuesBy(const Neighbours& at, bool closed, int k, int direction) const {
+    const int count = static_cast<int>(at.size());
+    for (int by = 1; by <= gapSamples(count); ++by) {
       const int next = closed ? wrapIndex(k + direction * by, count) : k + direction * by;
-      if (next < 0 || next >= count) return 0;
-      if (of(places, next).exists() && std::abs(of(places, next).apart - of(places, k).apart) <= width_) return by;
+      if (next < 0 || next >= count) return std::nullopt;
+      if (at[next] && std::abs(at[next]->apart - at[k]->apart) <= width_) return by;
     }
-    return 0;
+    return std::nullopt;
   }
 
   // The stretches on one side of a line.
-  void stretches(int l, const Places& places, std::vector<ParallelStretch>& found) const {
-    const int count = static_cast<int>(places.size());
-    const bool closed = at(l).closed;
+  void addStretches(int l, const Neighbours& at, std::vector<ParallelStretch>& found) const {
+    const int count = static_cast<int>(at.size());
+    const bool closed = lines_[l].closed;
     int start = 0;
     if (closed)
-      while (start < count && (!of(places, start).exists() || continuesBy(places, true, start, -1) > 0)) ++start;
+      while (start < count && (!at[start] || continuesBy(at, true, start, -1))) ++start;
     const bool isRing = start == count;
     if (isRing) start = 0;
     for (int k = start; k < start + count;) {
       const int first = k;
-      if (!of(places, wrapIndex(first, count)).exists()) {
+      if (!at[wrapIndex(first, count)]) {
         ++k;
         continue;
       }
@@ -191,17 +216,17 @@ class SideFinder {
       s.firstStep = wrapIndex(first, count);
       int last = first;
       while (true) {
-        const double apart = of(places, wrapIndex(last, count)).apart;
-        const int by = continuesBy(places, closed, wrapIndex(last, count), 1);
-        const bool isLast = by == 0 || last + by >= start + count;
-        s.apartPx.insert(s.apartPx.end(), static_cast<std::size_t>(isLast ? 1 : by), apart);
+        const double apart = at[wrapIndex(last, count)]->apart;
+        const auto by = continuesBy(at, closed, wrapIndex(last, count), 1);
+        const bool isLast = !by || last + *by >= start + count;
+        for (int i = 0; i < (isLast ? 1 : *by); ++i) s.apartPx.push_back(apart);
         if (isLast) break;
-        last += by;
+        last += *by;
       }
       s.widestPx = *std::max_element(s.apartPx.begin(), s.apartPx.end());
       if (!isRing || last - first < count - 1) {
-        s.begin = endOf(l, places, wrapIndex(first, count), -1, s);
-        s.end = endOf(l, places, wrapIndex(last, count), 1, s);
+        s.begin = endOf(l, at, wrapIndex(first, count), -1, s);
+        s.end = endOf(l, at, wrapIndex(last, count), 1, s);
       }
       found.push_back(std::move(s));
       k = last + 1;
@@ -209,13 +234,12 @@ class SideFinder {
   }
 
   // Another line comes between within a short gap.
-  bool comesBetween(const Places& places, bool closed, int k, int direction) const {
-    const int count = static_cast<int>(places.size());
-    const int most = std::max(1, static_cast<int>(std::lround(kGapWidths * width_ / stride_)));
-    for (int by = 1; by <= std::min(most, count - 1); ++by) {
+  bool comesBetween(const Neighbours& at, bool closed, int k, int direction) const {
+    const int count = static_cast<int>(at.size());
+    for (int by = 1; by <= gapSamples(count); ++by) {
       const int next = closed ? wrapIndex(k + direction * by, count) : k + direction * by;
       if (next < 0 || next >= count) return false;
-      if (of(places, next).exists()) return of(places, next).apart < of(places, k).apart;
+      if (at[next]) return at[next]->apart < at[k]->apart;
     }
     return false;
   }
@@ -232,22 +256,28 @@ class SideFinder {
     return slope > 0.0 && apart <= slope * kMeetShare * s.lengthPx();
   }
 
-  SideEnd endOf(int l, const Places& places, int k, int direction, const ParallelStretch& s) const {
+  // [points] How much of a line is left from a point on; a ring has no end.
+  static double leftOf(const DirectedLine& line, int index, bool toEnd) {
+    if (line.closed) return std::numeric_limits<double>::infinity();
+    return toEnd ? line.count() - 1 - index : index;
+  }
+
+  // How the stretch ends at sample k. @pre a line lies beside it there.
+  SideEnd endOf(int l, const Neighbours& at, int k, int direction, const ParallelStretch& s) const {
     const int i = k * stride_;
-    const LinePlace& here = of(places, k);
-    const LineSide &own = at(l), &other = at(here.line);
-    const Vec2& tangent = own.tangent[i];
-    if (touches(s, direction)) return continues(own.points[i], direction * tangent) ? SideEnd::Meets : SideEnd::Tip;
+    const LinePlace& there = at[k]->place;
+    const double apart = at[k]->apart;
+    const DirectedLine &own = lines_[l], &other = lines_[there.line];
+    const Vec2 &position = own.points[i].at, &tangent = own.points[i].tangent;
+    if (touches(s, direction)) return continues(position, direction * tangent) ? SideEnd::Meets : SideEnd::Tip;
     // It turns back and runs beside itself.
-    if (here.line == l && isSamePlace(own, here.index, i, kFoldBack * here.apart)) return SideEnd::Tip;
-    if (comesBetween(places, own.closed, k, direction)) return SideEnd::Between;
+    if (there.line == l && isSamePlace(own, there.index, i, kFoldBack * apart)) return SideEnd::Tip;
+    if (comesBetween(at, own.closed, k, direction)) return SideEnd::Between;
     // How far each of them goes on.
-    const int points = static_cast<int>(own.points.size()), others = static_cast<int>(other.points.size());
-    const bool sameWay = other.tangent[here.index].dot(tangent) > 0.0;
-    const bool toEnd = direction > 0, otherToEnd = sameWay == toEnd;
-    const double ownLeft = own.closed ? 1e9 : toEnd ? points - 1 - i : i;
-    const double otherLeft = other.closed ? 1e9 : otherToEnd ? others - 1 - here.index : here.index;
-    const double atEnd = 2.0 * stride_ + width_ + 1.0, level = kLevelDistances * here.apart;
+    const bool sameDirection = pointAt(there).tangent.dot(tangent) > 0.0;
+    const bool toEnd = direction > 0, otherToEnd = sameDirection == toEnd;
+    const double ownLeft = leftOf(own, i, toEnd), otherLeft = leftOf(other, there.index, otherToEnd);
+    const double atEnd = 2.0 * stride_ + width_ + 1.0, level = kLevelDistances * apart;
     const bool ownFree = own.isFree[toEnd ? 1 : 0], otherFree = other.isFree[otherToEnd ? 1 : 0];
     if (ownLeft <= atEnd) {
       if (!ownFree || (otherLeft <= level && !otherFree)) return SideEnd::Cut;
@@ -262,7 +292,7 @@ class SideFinder {
 
   double width_, reach_, cell_;
   int stride_;
-  std::vector<LineSide> lines_;
+  std::vector<DirectedLine> lines_;
   PointGrid<LinePlace> cells_;
 };
 
@@ -271,7 +301,7 @@ class SideFinder {
 std::vector<ParallelStretch> findParallelStrokes(const std::vector<Contour>& lines, double widthPx, double reachPx,
                                                  const RunContext& context) {
   if (!(widthPx > 0.0) || !(reachPx > 0.0)) return {};
-  return SideFinder(lines, widthPx, reachPx, context).all(context);
+  return SideFinder(lines, widthPx, reachPx, context).find(context);
 }
 
 }  // namespace batten

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/base/statistics.h"
@@ -27,9 +28,12 @@ constexpr double kShared = 6.0;          // distances: two lines share no longer
 // A single stroke is an overshoot for as many distances beyond where it leaves the others, for this part of the line
 // that it leaves, and at this angle: means are bent there.
 constexpr double kOvershoot = 7.0, kOvershootShare = 0.2, kOvershootBendDeg = 60.0;
-constexpr float kSingleWeight = 1.5f;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr float kSingleWeight = 1.5f;  // strokes: between one and two
+constexpr double kLoopDistances = 4.0,
+                 kLoopPoints = 30.0;  // distances and points along a line before it can meet itself
+constexpr double kLeastOverlapPx = 4.0;
+constexpr double kOverlapCos = 0.7;  // 45 degrees: a loop drawn beyond its start runs in its direction
+constexpr int kSpurRounds = 3;       // a spur may show only once another has gone
 
 class StrokeGraph {
  public:
@@ -37,12 +41,12 @@ class StrokeGraph {
       : distance_(std::max(1.0, distancePx)),
         widest_(std::max(distance_, widestPx)),
         maxBendDeg_(distance_ < widest_ ? kEarlyBendDeg : kMaxBendDeg),
-        net_(graphOf(std::move(pieces), distance_)) {}
+        graph_(graphOf(std::move(pieces), distance_)) {}
 
   std::vector<MeanLine> lines(const RunContext& context) {
     dropLoops();
     meetFreeEnds();
-    for (int round = 0; round < 3; ++round) {
+    for (int round = 0; round < kSpurRounds; ++round) {
       if (context.isCancelled()) return {};
       dropSpurs();
       spliceAll();
@@ -51,7 +55,7 @@ class StrokeGraph {
     dropSpurs();
     spliceAll();
     if (context.isCancelled()) return {};
-    for (int n = 0; n < static_cast<int>(net_.nodes.size()); ++n) pairAt(n);
+    for (int n = 0; n < std::ssize(graph_.nodes); ++n) pairAt(n);
     dropLeftOvers();
     pairFacing();
     std::vector<MeanLine> found = follow();
@@ -61,98 +65,98 @@ class StrokeGraph {
   }
 
  private:
-  EndTangent look(int end) const { return endTangent(net_.edges[at(end / 2)].line, end % 2, distance_); }
+  int edgeCount() const { return static_cast<int>(graph_.edges.size()); }
+  EndTangent look(int end) const { return endTangent(graph_.edges[end / 2].line, end % 2, distance_); }
 
-  // Of going from one end of a edge to another; < 0: no.
-  double cost(int a, int b, double maxBendDeg) const {
+  // [deg] Of going from one end of an edge to another; nothing where a line does not go on so.
+  std::optional<double> cost(int a, int b, double maxBendDeg) const {
     const EndTangent p = look(a), q = look(b);
     const double bend = turnDeg(-p.into, q.into);
-    if (bend > maxBendDeg) return -1.0;
+    if (bend > maxBendDeg) return std::nullopt;
     const Vec2 d = q.at - p.at;
     const double miss = 0.5 * (std::abs(cross(p.into, d)) + std::abs(cross(q.into, d)));
     return bend + kMissDeg * miss / distance_;
   }
 
-  bool isFree(int end) const { return net_.edges[at(end / 2)].node[end % 2] < 0; }
-  bool isSpur(int end) const { return isFree(end ^ 1) && net_.edges[at(end / 2)].length < kSpur * distance_; }
+  bool isFree(int end) const { return !graph_.edges[end / 2].node[end % 2]; }
+  bool isSpur(int end) const { return isFree(end ^ 1) && graph_.edges[end / 2].length < kSpur * distance_; }
 
   // A way from a node to itself that is no longer than a spur is nothing.
   void dropLoops() {
-    for (int i = 0; i < static_cast<int>(net_.edges.size()); ++i) {
-      const GraphEdge& l = net_.edges[at(i)];
-      if (l.alive && l.node[0] >= 0 && l.node[0] == l.node[1] && l.length < 2.0 * kSpur * distance_) net_.remove(i);
+    for (int i = 0; i < edgeCount(); ++i) {
+      const GraphEdge& l = graph_.edges[i];
+      if (l.alive && l.node[0] && l.node[0] == l.node[1] && l.length < 2.0 * kSpur * distance_) graph_.remove(i);
     }
   }
 
   // Overshoots go where others go on without them, the shortest first.
   void dropSpurs() {
     std::vector<int> order;
-    for (int i = 0; i < static_cast<int>(net_.edges.size()); ++i)
-      if (net_.edges[at(i)].alive && isFree(2 * i) != isFree(2 * i + 1)) order.push_back(i);
+    for (int i = 0; i < edgeCount(); ++i)
+      if (graph_.edges[i].alive && isFree(2 * i) != isFree(2 * i + 1)) order.push_back(i);
     std::stable_sort(order.begin(), order.end(),
-                     [&](int a, int b) { return net_.edges[at(a)].length < net_.edges[at(b)].length; });
+                     [&](int a, int b) { return graph_.edges[a].length < graph_.edges[b].length; });
     for (const int edge : order) {
       const int end = isFree(2 * edge) ? 2 * edge + 1 : 2 * edge;
       if (!isSpur(end)) continue;
-      const std::vector<int>& ends = net_.nodes[at(net_.edges[at(edge)].node[end % 2])];
+      const std::vector<int>& ends = graph_.nodes[*graph_.edges[edge].node[end % 2]];
       bool others = false;
       for (const int a : ends)
         for (const int b : ends)
-          others = others || (a < b && a / 2 != edge && b / 2 != edge && cost(a, b, maxBendDeg_) >= 0.0);
-      if (others) net_.remove(edge);
+          others = others || (a < b && a / 2 != edge && b / 2 != edge && cost(a, b, maxBendDeg_));
+      if (others) graph_.remove(edge);
     }
   }
 
   void spliceAll() {
-    for (int n = 0; n < static_cast<int>(net_.nodes.size()); ++n) splice(n);
+    for (int n = 0; n < std::ssize(graph_.nodes); ++n) splice(n);
   }
 
-  static void turn(GraphEdge& edge) {
+  static void reverse(GraphEdge& edge) {
     reverseLine(edge.line);
     std::swap(edge.node[0], edge.node[1]);
   }
 
   // Two edges that meet alone and go on as one become one.
   void splice(int node) {
-    std::vector<int>& ends = net_.nodes[at(node)];
+    std::vector<int>& ends = graph_.nodes[node];
     if (ends.size() != 2 || ends[0] / 2 == ends[1] / 2) return;
     const int a = ends[0], b = ends[1];
-    if (cost(a, b, distance_ < widest_ ? kEarlyBendDeg : kAloneBendDeg) < 0.0) return;
+    if (!cost(a, b, distance_ < widest_ ? kEarlyBendDeg : kAloneBendDeg)) return;
     ends.clear();
-    GraphEdge first = net_.edges[at(a / 2)], second = net_.edges[at(b / 2)];
-    if (a % 2 == 0) turn(first);
-    if (b % 2 == 1) turn(second);
-    net_.remove(a / 2);
-    net_.remove(b / 2);
+    GraphEdge first = graph_.edges[a / 2], second = graph_.edges[b / 2];
+    if (a % 2 == 0) reverse(first);
+    if (b % 2 == 1) reverse(second);
+    graph_.remove(a / 2);
+    graph_.remove(b / 2);
     appendLine(first.line, second.line, kSpur * distance_);
-    net_.add(std::move(first.line), first.node[0], second.node[1]);
+    graph_.add(std::move(first.line), first.node[0], second.node[1]);
   }
 
   // Two lines that cross at a small angle run on one line for a while: the way between is taken out, and they go on as
   // they came.
   void contractShared() {
-    for (int i = 0; i < static_cast<int>(net_.edges.size()); ++i) {
-      const GraphEdge& l = net_.edges[at(i)];
-      if (!l.alive || l.node[0] < 0 || l.node[1] < 0 || l.node[0] == l.node[1] || l.length > kShared * distance_)
-        continue;
-      std::vector<int> one = net_.nodes[at(l.node[0])], two = net_.nodes[at(l.node[1])];
+    for (int i = 0; i < edgeCount(); ++i) {
+      const GraphEdge& l = graph_.edges[i];
+      if (!l.alive || !l.node[0] || !l.node[1] || l.node[0] == l.node[1] || l.length > kShared * distance_) continue;
+      std::vector<int> one = graph_.nodes[*l.node[0]], two = graph_.nodes[*l.node[1]];
       std::erase(one, 2 * i);
       std::erase(two, 2 * i + 1);
       if (one.size() != 2 || two.size() != 2) continue;
       const auto together = [&](int a, int b) {
-        const double c = a / 2 == b / 2 ? -1.0 : cost(a, b, kSharedBendDeg);
-        return c < 0.0 ? std::numeric_limits<double>::infinity() : c;
+        const auto c = a / 2 == b / 2 ? std::nullopt : cost(a, b, kSharedBendDeg);
+        return c.value_or(std::numeric_limits<double>::infinity());
       };
       const double straight = together(one[0], two[0]) + together(one[1], two[1]);
       const double across = together(one[0], two[1]) + together(one[1], two[0]);
       if (!(std::min(straight, across) < 2.0 * kSharedBendDeg)) continue;
-      const int from = l.node[0], to = l.node[1];
-      net_.remove(i);
-      for (const int end : net_.nodes[at(to)]) {
-        net_.edges[at(end / 2)].node[end % 2] = from;
-        net_.nodes[at(from)].push_back(end);
+      const int from = *l.node[0], to = *l.node[1];
+      graph_.remove(i);
+      for (const int end : graph_.nodes[to]) {
+        graph_.edges[end / 2].node[end % 2] = from;
+        graph_.nodes[from].push_back(end);
       }
-      net_.nodes[at(to)].clear();
+      graph_.nodes[to].clear();
     }
   }
 
@@ -160,61 +164,58 @@ class StrokeGraph {
   double overshootCost(int end, double longest) const {
     if (!isFree(end ^ 1)) return 0.0;
     const double most = std::max(kOvershoot * widest_, kOvershootShare * longest);
-    return kShortDeg * std::max(0.0, 1.0 - net_.edges[at(end / 2)].length / most);
+    return kShortDeg * std::max(0.0, 1.0 - graph_.edges[end / 2].length / most);
   }
 
   void pairAt(int node) {
-    const std::vector<int>& ends = net_.nodes[at(node)];
+    const std::vector<int>& ends = graph_.nodes[node];
     struct Option {
       double cost;
       int a, b;
     };
     std::vector<Option> options;
     double longest = 0.0;
-    for (const int end : ends) longest = std::max(longest, net_.edges[at(end / 2)].length);
-    for (std::size_t i = 0; i < ends.size(); ++i)
-      for (std::size_t j = i + 1; j < ends.size(); ++j) {
-        double c = cost(ends[i], ends[j], maxBendDeg_);
-        if (c < 0.0) continue;
-        c += overshootCost(ends[i], longest) + overshootCost(ends[j], longest);
-        options.push_back({c, ends[i], ends[j]});
+    for (const int end : ends) longest = std::max(longest, graph_.edges[end / 2].length);
+    for (int i = 0; i < std::ssize(ends); ++i)
+      for (int j = i + 1; j < std::ssize(ends); ++j) {
+        const auto c = cost(ends[i], ends[j], maxBendDeg_);
+        if (!c) continue;
+        options.push_back({*c + (overshootCost(ends[i], longest) + overshootCost(ends[j], longest)), ends[i], ends[j]});
       }
     std::stable_sort(options.begin(), options.end(), [](const Option& x, const Option& y) { return x.cost < y.cost; });
-    partner_.resize(2 * net_.edges.size(), -1);
+    partner_.resize(2 * graph_.edges.size());
     for (const Option& o : options) {
-      if (partner_[at(o.a)] >= 0 || partner_[at(o.b)] >= 0) continue;
-      partner_[at(o.a)] = o.b;
-      partner_[at(o.b)] = o.a;
+      if (partner_[o.a] || partner_[o.b]) continue;
+      partner_[o.a] = o.b;
+      partner_[o.b] = o.a;
     }
   }
 
-  // [px] of the line that goes through a edge.
+  // [px] of the line that goes through an edge.
   double lineLength(int edge) const {
-    double sum = net_.edges[at(edge)].length;
+    double sum = graph_.edges[edge].length;
     for (const int side : {0, 1})
-      for (int end = partner_[at(2 * edge + side)]; end >= 0 && end / 2 != edge; end = partner_[at(end ^ 1)])
-        sum += net_.edges[at(end / 2)].length;
+      for (auto end = partner_[2 * edge + side]; end && *end / 2 != edge; end = partner_[*end ^ 1])
+        sum += graph_.edges[*end / 2].length;
     return sum;
   }
 
-  // The outer half of a edge that ends free at `end` was drawn once.
+  // The outer half of an edge that ends free at `end` was drawn once.
   bool isSingle(int end) const {
-    const std::vector<float>& weight = net_.edges[at(end / 2)].line.weight;
-    const std::size_t half = weight.size() / 2;
-    std::vector<float> outer(weight.begin(), weight.end());
-    if (end % 2 == 1) std::reverse(outer.begin(), outer.end());
-    outer.resize(std::max<std::size_t>(1, half));
+    const std::vector<MeanPoint>& points = graph_.edges[end / 2].line.points;
+    const int count = static_cast<int>(points.size()), half = std::max(1, count / 2);
+    std::vector<float> outer;
+    for (int k = 0; k < half; ++k) outer.push_back(points[end % 2 == 0 ? k : count - 1 - k].weight);
     return upperMedian(outer) < kSingleWeight;
   }
 
   // A single stroke that leaves a longer line smoothly and ends.
   bool isOvershoot(int edge) const {
-    const GraphEdge& l = net_.edges[at(edge)];
-    const int end = l.node[0] >= 0 ? 2 * edge : 2 * edge + 1;
-    if (l.node[end % 2] < 0 || !isFree(end ^ 1) || partner_[at(end)] >= 0 || l.length > kOvershoot * distance_)
-      return false;
-    for (const int other : net_.nodes[at(l.node[end % 2])])
-      if (other / 2 != edge && partner_[at(other)] >= 0 && cost(end, other, kOvershootBendDeg) >= 0.0 &&
+    const GraphEdge& l = graph_.edges[edge];
+    const int end = l.node[0] ? 2 * edge : 2 * edge + 1;
+    if (isFree(end) || !isFree(end ^ 1) || partner_[end] || l.length > kOvershoot * distance_) return false;
+    for (const int other : graph_.nodes[*l.node[end % 2]])
+      if (other / 2 != edge && partner_[other] && cost(end, other, kOvershootBendDeg) &&
           l.length <= kOvershootShare * lineLength(other / 2))
         return isSingle(end ^ 1);
     return false;
@@ -222,23 +223,23 @@ class StrokeGraph {
 
   // What nothing goes on with: overshoots and ways between two lines that nearly touch.
   void dropLeftOvers() {
-    partner_.resize(2 * net_.edges.size(), -1);
-    for (int i = 0; i < static_cast<int>(net_.edges.size()); ++i) {
-      const GraphEdge& l = net_.edges[at(i)];
-      if (!l.alive || (l.node[0] < 0 && l.node[1] < 0)) continue;
-      const bool alone = partner_[at(2 * i)] < 0 && partner_[at(2 * i + 1)] < 0;
-      if ((alone && l.length < kSpur * distance_) || isOvershoot(i)) net_.edges[at(i)].alive = false;
+    partner_.resize(2 * graph_.edges.size());
+    for (int i = 0; i < edgeCount(); ++i) {
+      const GraphEdge& l = graph_.edges[i];
+      if (!l.alive || (!l.node[0] && !l.node[1])) continue;
+      const bool alone = !partner_[2 * i] && !partner_[2 * i + 1];
+      if ((alone && l.length < kSpur * distance_) || isOvershoot(i)) graph_.edges[i].alive = false;
     }
   }
 
   std::vector<MeanLine> follow() {
     std::vector<MeanLine> found;
-    std::vector<bool> used(net_.edges.size(), false);
+    std::vector<bool> used(graph_.edges.size(), false);
     // First the lines that begin somewhere, then the closed ones.
     for (int pass = 0; pass < 2; ++pass)
-      for (int edge = 0; edge < static_cast<int>(net_.edges.size()); ++edge)
+      for (int edge = 0; edge < edgeCount(); ++edge)
         for (int side = 0; side < 2; ++side)
-          if (net_.edges[at(edge)].alive && !used[at(edge)] && (pass == 1 || partner_[at(2 * edge + side)] < 0))
+          if (graph_.edges[edge].alive && !used[edge] && (pass == 1 || !partner_[2 * edge + side]))
             found.push_back(followFrom(2 * edge + side, used));
     return found;
   }
@@ -246,17 +247,18 @@ class StrokeGraph {
   MeanLine followFrom(int start, std::vector<bool>& used) const {
     MeanLine line;
     for (int end = start;;) {
-      used[at(end / 2)] = true;
-      MeanLine next = net_.edges[at(end / 2)].line;
-      if (end % 2 == 1) reverseLine(next);
+      used[end / 2] = true;
+      MeanLine more = graph_.edges[end / 2].line;
+      if (end % 2 == 1) reverseLine(more);
       if (line.points.empty()) {
-        line = std::move(next);
+        line = std::move(more);
       } else {
-        appendLine(line, next, kSpur * distance_);
+        appendLine(line, more, kSpur * distance_);
       }
-      end = partner_[at(end ^ 1)];
-      if (end < 0) return line;
-      if (used[at(end / 2)]) {
+      const auto next = partner_[end ^ 1];
+      if (!next) return line;
+      end = *next;
+      if (used[end / 2]) {
         closeLine(line, kSpur * distance_);
         return line;
       }
@@ -265,19 +267,20 @@ class StrokeGraph {
 
   // A loop drawn beyond its start: what runs along the start goes, and the loop is closed.
   void closeOverlap(MeanLine& line) const {
-    const int n = static_cast<int>(line.points.size());
-    const int apart = static_cast<int>(4.0 * distance_) + 30;
+    const int n = line.count();
+    const int apart = static_cast<int>(kLoopDistances * distance_ + kLoopPoints);
     if (line.closed || n < 2 * apart) return;
-    int best = -1;
-    double nearest = std::max(4.0, 0.5 * distance_);
+    const MeanPoint& start = line.points.front();
+    std::optional<int> best;
+    double nearest = std::max(kLeastOverlapPx, kMeet * distance_);
     for (int i = n - 1; i >= std::max(apart, n / 2); --i) {
-      const double d = (line.points[at(i)] - line.points.front()).norm();
-      if (d >= nearest || line.tangent[at(i)].dot(line.tangent.front()) < 0.7) continue;
+      const double d = (line.points[i].at - start.at).norm();
+      if (d >= nearest || line.points[i].tangent.dot(start.tangent) < kOverlapCos) continue;
       nearest = d;
       best = i;
     }
-    if (best < 0) return;
-    line = partOf(line, 0, best);
+    if (!best) return;
+    line = partOf(line, 0, *best);
     closeLine(line, kSpur * distance_);
   }
 
@@ -286,27 +289,27 @@ class StrokeGraph {
   // Where a line only begins and another ends, they are one.
   void meetFreeEnds() {
     std::vector<int> ends;
-    for (int e = 0; e < 2 * static_cast<int>(net_.edges.size()); ++e)
-      if (net_.edges[at(e / 2)].alive && !net_.edges[at(e / 2)].line.closed && isFree(e)) ends.push_back(e);
+    for (int e = 0; e < 2 * edgeCount(); ++e)
+      if (graph_.edges[e / 2].alive && !graph_.edges[e / 2].line.closed && isFree(e)) ends.push_back(e);
     for (const auto& [a, b] : facing(ends, kMeet * distance_)) {
-      net_.edges[at(a / 2)].node[a % 2] = net_.edges[at(b / 2)].node[b % 2] = static_cast<int>(net_.nodes.size());
-      net_.nodes.push_back({a, b});
+      graph_.edges[a / 2].node[a % 2] = graph_.edges[b / 2].node[b % 2] = static_cast<int>(graph_.nodes.size());
+      graph_.nodes.push_back({a, b});
     }
   }
 
   void pairFacing() {
     std::vector<int> ends;
-    for (int e = 0; e < 2 * static_cast<int>(net_.edges.size()); ++e)
-      if (net_.edges[at(e / 2)].alive && !net_.edges[at(e / 2)].line.closed && partner_[at(e)] < 0) ends.push_back(e);
+    for (int e = 0; e < 2 * edgeCount(); ++e)
+      if (graph_.edges[e / 2].alive && !graph_.edges[e / 2].line.closed && !partner_[e]) ends.push_back(e);
     for (const auto& [a, b] : facing(ends, distance_)) {
-      partner_[at(a)] = b;
-      partner_[at(b)] = a;
+      partner_[a] = b;
+      partner_[b] = a;
     }
   }
 
   double distance_, widest_, maxBendDeg_;
-  MeanGraph net_;
-  std::vector<int> partner_;
+  MeanGraph graph_;
+  std::vector<std::optional<int>> partner_;  // by end: the end that a line goes on at
 };
 
 // Ends that look at each other over no more than this way, each in one pair: the nearest first.
@@ -318,8 +321,8 @@ std::vector<std::pair<int, int>> StrokeGraph::facing(const std::vector<int>& end
   };
   std::vector<End> all;
   for (const int e : ends) {
-    const MeanLine& l = net_.edges[at(e / 2)].line;
-    all.push_back({e, e % 2 == 0 ? l.points.front() : l.points.back(), look(e)});
+    const MeanLine& l = graph_.edges[e / 2].line;
+    all.push_back({e, (e % 2 == 0 ? l.points.front() : l.points.back()).at, look(e)});
   }
   std::stable_sort(all.begin(), all.end(), [](const End& a, const End& b) { return a.tip.x() < b.tip.x(); });
   struct Pair {
@@ -327,21 +330,21 @@ std::vector<std::pair<int, int>> StrokeGraph::facing(const std::vector<int>& end
     int a, b;
   };
   std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (std::size_t k = i + 1; k < all.size() && all[k].tip.x() - all[i].tip.x() <= mostPx; ++k) {
+  for (int i = 0; i < std::ssize(all); ++i)
+    for (int k = i + 1; k < std::ssize(all) && all[k].tip.x() - all[i].tip.x() <= mostPx; ++k) {
       const End &a = all[i], &b = all[k];
       if ((b.tip - a.tip).norm() > mostPx || turnDeg(-a.look.into, b.look.into) > maxBendDeg_) continue;
-      if (a.end / 2 == b.end / 2 && net_.edges[at(a.end / 2)].length < 4.0 * distance_ + 30.0) continue;
+      if (a.end / 2 == b.end / 2 && graph_.edges[a.end / 2].length < kLoopDistances * distance_ + kLoopPoints) continue;
       const Vec2 gap = b.look.at - a.look.at;
       const double miss = 0.5 * (std::abs(cross(a.look.into, gap)) + std::abs(cross(b.look.into, gap)));
       if (miss <= kFacingMiss * mostPx) pairs.push_back({gap.norm() + miss, a.end, b.end});
     }
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.cost < b.cost; });
   std::vector<std::pair<int, int>> chosen;
-  std::vector<bool> used(2 * net_.edges.size(), false);
+  std::vector<bool> used(2 * graph_.edges.size(), false);
   for (const Pair& p : pairs) {
-    if (used[at(p.a)] || used[at(p.b)]) continue;
-    used[at(p.a)] = used[at(p.b)] = true;
+    if (used[p.a] || used[p.b]) continue;
+    used[p.a] = used[p.b] = true;
     chosen.emplace_back(p.a, p.b);
   }
   return chosen;

@@ -13,42 +13,40 @@ namespace {
 
 constexpr double kLook = 1.5;  // distances over which an end is looked at
 constexpr double kLeastLookPx = 12.0;
-constexpr double kSeamSmoothing = 3.0;  // points
-constexpr int kSeamReach = 12;          // points on either side
-
-void dropLast(MeanLine& line) {
-  line.points.pop_back();
-  line.tangent.pop_back();
-  line.source.pop_back();
-  line.weight.pop_back();
-}
+constexpr double kSeamSmoothing = 3.0;           // points
+constexpr int kSeamReach = 12;                   // points on either side
+constexpr double kBentEnd = 0.5;                 // distances: means are bent so far from their ends,
+constexpr double kBentShare = 0.25;              // or for this part of a short one
+constexpr int kLongEnough = 8, kBeforeBend = 5;  // points: of a line with so many the direction is read before its end
+constexpr double kMeetingSine = 0.3;             // 17 degrees: at a smaller angle the place of meeting is uncertain
 
 // The two parts of a line meet before `joint` to within a few pixels: a little smoothing there.
-void smoothSeam(std::vector<Vec2>& points, int joint) {
-  const auto from = points.begin() + std::max(0, joint - kSeamReach),
-             to = points.begin() + std::min(static_cast<int>(points.size()), joint + kSeamReach);
-  std::ranges::copy(smoothPolyline(std::vector<Vec2>(from, to), false, kSeamSmoothing), from);
+void smoothSeam(MeanLine& line, int joint) {
+  const int from = std::max(0, joint - kSeamReach), to = std::min(line.count(), joint + kSeamReach);
+  std::vector<Vec2> seam;
+  for (int i = from; i < to; ++i) seam.push_back(line.points[i].at);
+  seam = smoothPolyline(seam, false, kSeamSmoothing);
+  for (int i = from; i < to; ++i) line.points[i].at = seam[i - from];
 }
 
 // Cuts off what lies beyond the start of what follows.
 void giveIn(MeanLine& line, const Vec2& start, const Vec2& direction, double mostPx) {
   double given = 0.0;
-  while (line.points.size() > 3 && given < mostPx && (start - line.points.back()).dot(direction) < 1.0) {
-    given += (line.points.back() - line.points[line.points.size() - 2]).norm();
-    dropLast(line);
+  while (line.points.size() > 3 && given < mostPx && (start - line.points.back().at).dot(direction) < 1.0) {
+    given += (line.points.back().at - line.points[line.count() - 2].at).norm();
+    line.points.pop_back();
   }
 }
 
 // The line ends at a place near its end: what goes beyond is cut off.
 void endLineAt(MeanLine& line, int side, const Vec2& place) {
   if (side == 0) reverseLine(line);
-  const std::size_t n = line.tangent.size();
-  const Vec2 out = line.tangent[n > 8 ? n - 5 : n - 1];
-  while (line.points.size() > 3 && (place - line.points.back()).dot(out) < 0.5) dropLast(line);
-  line.points.push_back(place);
-  line.tangent.push_back(line.tangent.back());
-  line.source.push_back(line.source.back());
-  line.weight.push_back(line.weight.back());
+  const int n = line.count();
+  const Vec2 out = line.points[n > kLongEnough ? n - kBeforeBend : n - 1].tangent;
+  while (line.points.size() > 3 && (place - line.points.back().at).dot(out) < 0.5) line.points.pop_back();
+  MeanPoint last = line.points.back();
+  last.at = place;
+  line.points.push_back(last);
   if (side == 0) reverseLine(line);
 }
 
@@ -60,68 +58,50 @@ double turnDeg(const Vec2& a, const Vec2& b) {
 
 void reverseLine(MeanLine& line) {
   std::reverse(line.points.begin(), line.points.end());
-  std::reverse(line.tangent.begin(), line.tangent.end());
-  for (Vec2& t : line.tangent) t = -t;
-  std::reverse(line.source.begin(), line.source.end());
-  std::reverse(line.weight.begin(), line.weight.end());
+  for (MeanPoint& p : line.points) p.tangent = -p.tangent;
 }
 
 MeanLine partOf(const MeanLine& line, int from, int to) {
-  const auto cut = [&](const auto& v) { return std::decay_t<decltype(v)>(v.begin() + from, v.begin() + to + 1); };
-  MeanLine p;
-  p.points = cut(line.points);
-  p.tangent = cut(line.tangent);
-  p.source = cut(line.source);
-  p.weight = cut(line.weight);
-  return p;
+  MeanLine part;
+  part.points.assign(line.points.begin() + from, line.points.begin() + to + 1);
+  return part;
 }
 
-void turnTo(MeanLine& line, int first) {
-  const auto turn = [first](auto& v) { std::rotate(v.begin(), v.begin() + first, v.end()); };
-  turn(line.points);
-  turn(line.tangent);
-  turn(line.source);
-  turn(line.weight);
+void startAt(MeanLine& ring, int first) {
+  std::rotate(ring.points.begin(), ring.points.begin() + first, ring.points.end());
 }
 
 void appendLine(MeanLine& line, const MeanLine& more, double mostPx) {
-  giveIn(line, more.points.front(), more.tangent.front(), mostPx);
-  const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  const int joint = static_cast<int>(line.points.size());
-  add(line.points, more.points);
-  add(line.tangent, more.tangent);
-  add(line.source, more.source);
-  add(line.weight, more.weight);
-  smoothSeam(line.points, joint);
+  giveIn(line, more.points.front().at, more.points.front().tangent, mostPx);
+  const int joint = line.count();
+  line.points.insert(line.points.end(), more.points.begin(), more.points.end());
+  smoothSeam(line, joint);
 }
 
 void closeLine(MeanLine& line, double mostPx) {
-  giveIn(line, line.points.front(), line.tangent.front(), mostPx);
+  giveIn(line, line.points.front().at, line.points.front().tangent, mostPx);
   line.closed = true;
-  // Half a turn brings the seam where there are points on both sides.
-  const auto n = static_cast<int>(line.points.size());
-  turnTo(line, n / 2);
-  smoothSeam(line.points, n - n / 2);
+  // Half way round, so that the seam lies where there are points on both sides.
+  const int n = line.count();
+  startAt(line, n / 2);
+  smoothSeam(line, n - n / 2);
 }
 
 EndTangent endTangent(const MeanLine& line, int side, double distancePx) {
-  const int n = static_cast<int>(line.points.size());
-  const int skip = static_cast<int>(std::min(0.5 * distancePx, 0.25 * n));
+  const int n = line.count();
+  const int skip = static_cast<int>(std::min(kBentEnd * distancePx, kBentShare * n));
   const double reach = std::max(kLeastLookPx, std::min(kLook * distancePx, 0.5 * n));
+  const auto point = [&](int k) -> const MeanPoint& { return line.points[side == 0 ? k : n - 1 - k]; };
   std::vector<double> s;
-  std::vector<Vec2> p;
+  std::vector<Vec2> at;
   for (int k = skip; k < n && k - skip <= reach; ++k) {
     s.push_back(k);
-    p.push_back(line.points[side == 0 ? k : n - 1 - k]);
+    at.push_back(point(k).at);
   }
-  const LocalQuadratic fit = fitLocalQuadratic(s, p, {}, static_cast<double>(p.size()) >= 0.5 * reach ? 2 : 1);
-  EndTangent e;
-  if (fit.order < 1 || !(fit.r1.norm() > 0.0)) {
-    e.at = side == 0 ? line.points.front() : line.points.back();
-    e.into = side == 0 ? line.tangent.front() : Vec2(-line.tangent.back());
-    return e;
-  }
-  return {fit.r0, fit.r1.normalized()};
+  const LocalQuadratic fit = fitLocalQuadratic(s, at, {}, static_cast<double>(at.size()) >= 0.5 * reach ? 2 : 1);
+  if (fit.order >= 1 && fit.r1.norm() > 0.0) return {fit.r0, fit.r1.normalized()};
+  const MeanPoint& end = point(0);
+  return {end.at, side == 0 ? end.tangent : Vec2(-end.tangent)};
 }
 
 void meetAtTurns(std::vector<MeanLine>& lines, const std::vector<Vec2>& turns, double distancePx) {
@@ -130,7 +110,7 @@ void meetAtTurns(std::vector<MeanLine>& lines, const std::vector<Vec2>& turns, d
     for (int e = 0; e < 2 * static_cast<int>(lines.size()); ++e) {
       const MeanLine& l = lines[e / 2];
       if (l.closed || l.points.size() < 3) continue;
-      const double d = ((e % 2 == 0 ? l.points.front() : l.points.back()) - turn).norm();
+      const double d = ((e % 2 == 0 ? l.points.front() : l.points.back()).at - turn).norm();
       if (d <= distancePx) near.emplace_back(d, e);
     }
     if (near.size() < 2) continue;
@@ -140,7 +120,7 @@ void meetAtTurns(std::vector<MeanLine>& lines, const std::vector<Vec2>& turns, d
     // Where the lines would meet; at a small angle, or if they would have to go far for it, halfway.
     const double sine = cross(p.into, q.into);
     Vec2 corner = 0.5 * (p.at + q.at);
-    if (std::abs(sine) > 0.3) {
+    if (std::abs(sine) > kMeetingSine) {
       const Vec2 meet = p.at + cross(Vec2(q.at - p.at), q.into) / sine * p.into;
       if ((meet - p.at).norm() <= distancePx && (meet - q.at).norm() <= distancePx) corner = meet;
     }

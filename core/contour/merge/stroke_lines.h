@@ -12,7 +12,7 @@ void reverseLine(MeanLine& line);
 /// The open line from point `from` to point `to`.
 MeanLine partOf(const MeanLine& line, int from, int to);
 /// A ring begins at another of its points.
-void turnTo(MeanLine& line, int first);
+void startAt(MeanLine& ring, int first);
 /// `more` goes on from the end of `line`; where both cover the same way, `line` gives in, by `mostPx` or a little more.
 void appendLine(MeanLine& line, const MeanLine& more, double mostPx);
 /// The end of the line goes on at its beginning; what covers the same way twice goes, as in appendLine().

@@ -14,9 +14,18 @@ namespace {
 
 constexpr int kMeanRounds = 3;
 constexpr int kMeansPerBlock = 256;
+constexpr int kPointsPerCheck = 1024;   // looked at between two looks at the cancel token
 constexpr double kParallelCos = 0.985;  // 10 degrees: fully one line
 constexpr double kCrossingCos = 0.906;  // 25 degrees: another line
 constexpr double kLeastWeight = 0.02;   // at the very end of a stroke: alone it still is the line
+
+constexpr double kBesidePx = 0.8;      // along a line, whose points are about 1 px apart: so near lies on the normal
+constexpr double kFadingShare = 0.3;   // of the distance, in which the weight of a stroke falls to nothing
+constexpr double kEndDistances = 2.0;  // distances before the end of a stroke from which on its weight falls
+constexpr double kOwnWayDistances = 4.0, kOwnWayPoints = 10.0;  // along a line before it can lie beside itself
+constexpr int kMeanTangentReach = 3;                            // points to either side
+constexpr double kMeanSmoothing = 0.5;                          // of the distance: a mean changes over about as much
+constexpr double kLeastMeanSigma = 3.0, kMostMeanSigma = 8.0;   // points
 
 constexpr double kNearContactGap = 2.0;  // distances: nearer stretches beside a stroke are one
 constexpr double kSameShare = 0.5;       // of the shorter stroke: beside each other for longer they are one line
@@ -27,13 +36,12 @@ double smoothStep(double x) {
 }
 
 // All points in cells as wide as the distance.
-using Cells = PointGrid<MeanLine::Source>;
+using Cells = PointGrid<MeanPoint::Source>;
 
 Cells cellsOf(const std::vector<MeanLine>& lines, double sizePx) {
   Cells cells(sizePx);
   for (int l = 0; l < static_cast<int>(lines.size()); ++l) {
-    const auto& points = lines[l].points;
-    for (std::size_t i = 0; i < points.size(); ++i) cells.add(points[i], {l, static_cast<int>(i)});
+    for (int i = 0; i < lines[l].count(); ++i) cells.add(lines[l].points[i].at, {l, i});
   }
   return cells;
 }
@@ -50,32 +58,44 @@ struct Crossing {
   double offset = 0.0, weight = 0.0;
 };
 
+// How far a point moves, and the weight of all strokes there.
+struct MeanShift {
+  float shift = 0.0f, weight = 0.0f;
+};
+
+// Points of one line that are so near along it that they are no neighbours beside it.
+bool isSamePlace(const MeanLine& line, int a, int b, double distance) {
+  int apart = std::abs(a - b);
+  if (line.closed) apart = std::min(apart, line.count() - apart);
+  return apart < kOwnWayDistances * distance + kOwnWayPoints;
+}
+
 class MeanRound {
  public:
-  MeanRound(const std::vector<MeanLine>& lines, double distance, const NearContacts& kisses)
-      : lines_(lines), distance_(distance), cells_(cellsOf(lines, distance)), kisses_(kisses) {}
+  MeanRound(const std::vector<MeanLine>& lines, double distance, const NearContacts& contacts)
+      : lines_(lines), distance_(distance), cells_(cellsOf(lines, distance)), contacts_(contacts) {}
 
   // The strokes beside a point, in a fixed order, so that sums come out the same whatever the order of the cells.
-  void find(std::size_t line, std::size_t index, std::vector<Crossing>& crossings) const {
+  void find(int line, int index, std::vector<Crossing>& crossings) const {
     const MeanLine& here = lines_[line];
-    const Vec2 &at = here.points[index], &t = here.tangent[index];
+    const Vec2 &at = here.points[index].at, &t = here.points[index].tangent;
     const Vec2 n = leftNormal(t);
     crossings.clear();
-    cells_.around(at, [&](const MeanLine::Source& place) {
+    cells_.around(at, [&](const MeanPoint::Source& place) {
       const MeanLine& other = lines_[place.line];
-      const auto k = static_cast<std::size_t>(place.index);
-      const Vec2 d = other.points[k] - at;
+      const MeanPoint& there = other.points[place.index];
+      const Vec2 d = there.at - at;
       const double along = d.dot(t);
-      if (std::abs(along) > 0.8) return;
-      if (place.line == static_cast<int>(line) && isNear(here, index, k)) return;
-      const Vec2& to = other.tangent[k];
+      if (std::abs(along) > kBesidePx) return;
+      if (place.line == line && isNear(here, index, place.index)) return;
+      const Vec2& to = there.tangent;
       const double cosine = std::abs(to.dot(t));
       if (cosine < kCrossingCos) return;
       const double offset = d.dot(n) - along * to.dot(n) / to.dot(t);
       if (std::abs(offset) >= distance_ || isNearContact(line, index, place.line)) return;
-      const double weight = static_cast<double>(other.weight[k]) * endWeight(other, k) *
+      const double weight = static_cast<double>(there.weight) * endWeight(other, place.index) *
                             smoothStep((cosine - kCrossingCos) / (kParallelCos - kCrossingCos)) *
-                            smoothStep((1.0 - std::abs(offset) / distance_) / 0.3);
+                            smoothStep((1.0 - std::abs(offset) / distance_) / kFadingShare);
       const Crossing found{place.line, place.index, offset, weight};
       for (Crossing& c : crossings) {
         if (c.line != place.line) continue;
@@ -88,9 +108,9 @@ class MeanRound {
   }
 
   // How far the point moves along its left normal, and the weight of all strokes there.
-  std::pair<float, float> shift(std::size_t line, std::size_t index, std::vector<Crossing>& crossings) const {
+  MeanShift shift(int line, int index, std::vector<Crossing>& crossings) const {
     find(line, index, crossings);
-    const double own = static_cast<double>(lines_[line].weight[index]);
+    const double own = static_cast<double>(lines_[line].points[index].weight);
     double sum = 0.0, weights = own * std::max(kLeastWeight, endWeight(lines_[line], index)), all = own;
     for (const Crossing& c : crossings) {
       sum += c.weight * c.offset;
@@ -101,35 +121,28 @@ class MeanRound {
   }
 
  private:
-  bool isNear(const MeanLine& line, std::size_t a, std::size_t b) const {
-    const auto n = line.points.size();
-    std::size_t apart = a > b ? a - b : b - a;
-    if (line.closed) apart = std::min(apart, n - apart);
-    return static_cast<double>(apart) < 4.0 * distance_ + 10.0;
-  }
+  bool isNear(const MeanLine& line, int a, int b) const { return isSamePlace(line, a, b, distance_); }
 
-  bool isNearContact(std::size_t line, std::size_t index, int other) const {
-    if (kisses_.empty()) return false;
-    const auto i = static_cast<int>(index);
-    return std::any_of(kisses_[line].begin(), kisses_[line].end(),
-                       [&](const NearContact& k) { return k.other == other && i >= k.from && i <= k.to; });
+  bool isNearContact(int line, int index, int other) const {
+    if (contacts_.empty()) return false;
+    return std::any_of(contacts_[line].begin(), contacts_[line].end(),
+                       [&](const NearContact& k) { return k.other == other && index >= k.from && index <= k.to; });
   }
 
   // 0 at an open end, 1 from two distances (or a third of the stroke) on.
-  double endWeight(const MeanLine& line, std::size_t index) const {
+  double endWeight(const MeanLine& line, int index) const {
     if (line.closed) return 1.0;
-    const auto n = line.points.size();
-    std::size_t points = n;
-    if (!line.continues[0]) points = std::min(points, index);
-    if (!line.continues[1]) points = std::min(points, n - 1 - index);
-    const auto toEnd = static_cast<double>(points);
-    return smoothStep(toEnd / std::max(1.0, std::min(2.0 * distance_, static_cast<double>(n) / 3.0)));
+    const int n = line.count();
+    int toEnd = n;
+    if (!line.continues[0]) toEnd = std::min(toEnd, index);
+    if (!line.continues[1]) toEnd = std::min(toEnd, n - 1 - index);
+    return smoothStep(toEnd / std::max(1.0, std::min(kEndDistances * distance_, n / 3.0)));
   }
 
   const std::vector<MeanLine>& lines_;
   double distance_;
   Cells cells_;
-  const NearContacts& kisses_;
+  const NearContacts& contacts_;
 };
 
 // A stretch of a stroke beside another.
@@ -148,9 +161,9 @@ NearContacts findNearContacts(const std::vector<MeanLine>& strokes, double dista
     std::vector<Crossing> crossings;
     for (int l = begin; l < end && !context.isCancelled(); ++l) {
       auto& mine = stretches[l];
-      for (int i = 0; i < static_cast<int>(strokes[l].points.size()); ++i) {
-        if ((i & 1023) == 0 && context.isCancelled()) return;
-        round.find(static_cast<std::size_t>(l), static_cast<std::size_t>(i), crossings);
+      for (int i = 0; i < strokes[l].count(); ++i) {
+        if (i % kPointsPerCheck == 0 && context.isCancelled()) return;
+        round.find(l, i, crossings);
         for (const Crossing& c : crossings) {
           const auto open = std::find_if(mine.rbegin(), mine.rend(), [&](const Beside& b) {
             return b.other == c.line && i - b.to <= gap && std::abs(c.index - b.otherTo) <= 2 * gap;
@@ -165,58 +178,67 @@ NearContacts findNearContacts(const std::vector<MeanLine>& strokes, double dista
       }
     }
   });
-  NearContacts kisses(strokes.size());
-  if (context.isCancelled()) return kisses;
-  for (std::size_t l = 0; l < strokes.size(); ++l) {
+  NearContacts contacts(strokes.size());
+  if (context.isCancelled()) return contacts;
+  for (int l = 0; l < std::ssize(strokes); ++l) {
     for (const Beside& b : stretches[l]) {
       const MeanLine &a = strokes[l], &o = strokes[b.other];
-      const int n = static_cast<int>(a.points.size()), m = static_cast<int>(o.points.size());
+      const int n = a.count(), m = o.count();
       const auto ends = [&](int i, int k) {
         return (!a.closed && std::min(i, n - 1 - i) <= nearEnd) || (!o.closed && std::min(k, m - 1 - k) <= nearEnd);
       };
       if (ends(b.from, b.otherFrom) || ends(b.to, b.otherTo)) continue;
       if (b.to - b.from >= static_cast<int>(kSameShare * std::min(n, m))) continue;
-      kisses[l].push_back({b.from, b.to, b.other});
-      kisses[b.other].push_back(
-          {std::min(b.otherFrom, b.otherTo), std::max(b.otherFrom, b.otherTo), static_cast<int>(l)});
+      contacts[l].push_back({b.from, b.to, b.other});
+      contacts[b.other].push_back({std::min(b.otherFrom, b.otherTo), std::max(b.otherFrom, b.otherTo), l});
     }
   }
-  return kisses;
+  return contacts;
 }
 
 }  // namespace
 
+std::vector<Vec2> positionsOf(const MeanLine& line) {
+  std::vector<Vec2> at;
+  at.reserve(line.points.size());
+  for (const MeanPoint& p : line.points) at.push_back(p.at);
+  return at;
+}
+
+void setPositions(MeanLine& line, const std::vector<Vec2>& positionsPx) {
+  const std::vector<Vec2> tangent = directions(positionsPx, line.closed, kMeanTangentReach);
+  for (int i = 0; i < line.count(); ++i) {
+    line.points[i].at = positionsPx[i];
+    line.points[i].tangent = tangent[i];
+  }
+}
+
 void moveToMean(std::vector<MeanLine>& means, double distancePx, const RunContext& context) {
-  std::vector<MeanLine::Source> all;
-  for (int l = 0; l < static_cast<int>(means.size()); ++l)
-    for (int i = 0; i < static_cast<int>(means[l].points.size()); ++i) all.push_back({l, i});
-  const NearContacts kisses = findNearContacts(means, std::max(1.0, distancePx), context);
+  std::vector<MeanPoint::Source> all;
+  for (int l = 0; l < std::ssize(means); ++l)
+    for (int i = 0; i < means[l].count(); ++i) all.push_back({l, i});
+  const NearContacts contacts = findNearContacts(means, std::max(1.0, distancePx), context);
   // [points] A mean changes over about the distance of the strokes.
-  const double smoothing = std::clamp(0.5 * distancePx, 3.0, 8.0);
+  const double smoothing = std::clamp(kMeanSmoothing * distancePx, kLeastMeanSigma, kMostMeanSigma);
   for (int round = 0; round < kMeanRounds && !context.isCancelled(); ++round) {
-    const MeanRound measure(means, std::max(1.0, distancePx), kisses);
-    std::vector<std::pair<float, float>> shift(all.size());
+    const MeanRound measure(means, std::max(1.0, distancePx), contacts);
+    std::vector<MeanShift> shift(all.size());
     parallelFor(context, static_cast<int>(all.size()), kMeansPerBlock, [&](int begin, int end) {
       std::vector<Crossing> crossings;
-      for (int i = begin; i < end; ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        shift[at] =
-            measure.shift(static_cast<std::size_t>(all[at].line), static_cast<std::size_t>(all[at].index), crossings);
-      }
+      for (int i = begin; i < end; ++i) shift[i] = measure.shift(all[i].line, all[i].index, crossings);
     });
     if (context.isCancelled()) break;
-    std::size_t first = 0;
+    int first = 0;
     for (MeanLine& m : means) {
-      const auto n = m.points.size();
+      const int n = m.count();
       std::vector<float> own;
-      for (std::size_t i = 0; i < n; ++i) own.push_back(shift[first + i].first);
+      for (int i = 0; i < n; ++i) own.push_back(shift[first + i].shift);
       const std::vector<float> smooth = smoothValues(own, m.closed, smoothing);
-      for (std::size_t i = 0; i < n; ++i) {
-        m.points[i] += static_cast<double>(smooth[i]) * leftNormal(m.tangent[i]);
-      }
-      m.tangent = directions(m.points, m.closed, 3);
+      std::vector<Vec2> moved = positionsOf(m);
+      for (int i = 0; i < n; ++i) moved[i] += static_cast<double>(smooth[i]) * leftNormal(m.points[i].tangent);
+      setPositions(m, moved);
       if (round + 1 == kMeanRounds)
-        for (std::size_t i = 0; i < n; ++i) m.weight[i] = shift[first + i].second;
+        for (int i = 0; i < n; ++i) m.points[i].weight = shift[first + i].weight;
       first += n;
     }
   }
@@ -231,9 +253,9 @@ struct StrokesBeside::Parts {
 StrokesBeside::StrokesBeside(const std::vector<Contour>& lines, double distancePx) : parts_(std::make_unique<Parts>()) {
   for (const Contour& line : lines) {
     MeanLine stroke;
-    stroke.points = positionsOf(line.points);
-    stroke.tangent = directions(stroke.points, line.closed, 3);
     stroke.closed = line.closed;
+    stroke.points.resize(line.points.size());
+    setPositions(stroke, positionsOf(line.points));
     parts_->lines.push_back(std::move(stroke));
   }
   parts_->distance = std::max(1.0, distancePx);
@@ -244,13 +266,10 @@ StrokesBeside::~StrokesBeside() = default;
 
 bool StrokesBeside::isNear(const Vec2& at, int line, int index) const {
   bool near = false;
-  parts_->cells->around(at, [&](const MeanLine::Source& place) {
+  parts_->cells->around(at, [&](const MeanPoint::Source& place) {
     const MeanLine& other = parts_->lines[place.line];
-    const auto n = static_cast<int>(other.points.size());
-    int apart = std::abs(place.index - index);
-    if (other.closed) apart = std::min(apart, n - apart);
-    if (place.line == line && apart < 4.0 * parts_->distance + 10.0) return;
-    near = near || (other.points[place.index] - at).norm() <= parts_->distance;
+    if (place.line == line && isSamePlace(other, place.index, index, parts_->distance)) return;
+    near = near || (other.points[place.index].at - at).norm() <= parts_->distance;
   });
   return near;
 }
@@ -258,18 +277,17 @@ bool StrokesBeside::isNear(const Vec2& at, int line, int index) const {
 std::vector<StrokeBand> StrokesBeside::band(const std::vector<Vec2>& points, bool closed,
                                             const RunContext& context) const {
   constexpr double kAlongPx = 1.5, kOneStrokePx = 1.0;
-  const std::vector<Vec2> tangent = directions(points, closed, 3);
+  const std::vector<Vec2> tangent = directions(points, closed, kMeanTangentReach);
   std::vector<StrokeBand> band(points.size());
-  const auto measure = [&](std::size_t i) {
+  const auto measure = [&](int i) {
     const Vec2 n = leftNormal(tangent[i]);
     double low = 0.0, high = 0.0;
-    parts_->cells->around(points[i], [&](const MeanLine::Source& place) {
-      const MeanLine& other = parts_->lines[place.line];
-      const auto k = static_cast<std::size_t>(place.index);
-      const Vec2 d = other.points[k] - points[i];
+    parts_->cells->around(points[i], [&](const MeanPoint::Source& place) {
+      const MeanPoint& there = parts_->lines[place.line].points[place.index];
+      const Vec2 d = there.at - points[i];
       const double offset = d.dot(n);
       if (std::abs(d.dot(tangent[i])) > kAlongPx || std::abs(offset) >= parts_->distance) return;
-      if (std::abs(other.tangent[k].dot(tangent[i])) < kCrossingCos) return;
+      if (std::abs(there.tangent.dot(tangent[i])) < kCrossingCos) return;
       low = std::min(low, offset);
       high = std::max(high, offset);
     });
@@ -278,7 +296,7 @@ std::vector<StrokeBand> StrokesBeside::band(const std::vector<Vec2>& points, boo
     band[i] = {static_cast<float>(high), static_cast<float>(-low)};
   };
   parallelFor(context, static_cast<int>(points.size()), kMeansPerBlock, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) measure(static_cast<std::size_t>(i));
+    for (int i = begin; i < end; ++i) measure(i);
   });
   return band;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -9,18 +10,29 @@
 
 namespace batten {
 
-/// A line on its way to the mean of the strokes beside it.
-struct MeanLine {
+/// A point of a line on its way to the mean of the strokes beside it.
+struct MeanPoint {
   struct Source {
     int line = 0, index = 0;
   };
-  std::vector<Vec2> points;
-  std::vector<Vec2> tangent;   ///< Unit direction of travel.
-  std::vector<Source> source;  ///< The point of the line given that each came from.
-  std::vector<float> weight;   ///< Of the strokes that each stands for, about their number.
-  bool closed = false;
-  bool continues[2] = {false, false};  ///< Another line begins where this one starts, ends: no end of a stroke.
+  Vec2 at = Vec2::Zero();       ///< [px]
+  Vec2 tangent = Vec2::Zero();  ///< Unit direction of travel.
+  Source source;                ///< The point of the line given that it came from.
+  float weight = 1.0f;          ///< Of the strokes that it stands for, about their number.
 };
+
+/// A line on its way to the mean of the strokes beside it.
+struct MeanLine {
+  std::vector<MeanPoint> points;
+  bool closed = false;
+  std::array<bool, 2> continues = {false,
+                                   false};  ///< Another line begins where this one starts, ends: no stroke's end.
+  int count() const { return static_cast<int>(points.size()); }
+};
+/// Copies of the positions, for the functions of core/polyline. [px]
+std::vector<Vec2> positionsOf(const MeanLine&);
+/// Moves the points there and takes the directions of travel anew. @pre as many as the line has.
+void setPositions(MeanLine&, const std::vector<Vec2>& positionsPx);
 
 /// Moves the points of the strokes to the weighted mean of the strokes that cross their normals within `distancePx`, in
 /// a few rounds. Weights fall towards the ends of a stroke, near the distance and with the angle between the strokes.

@@ -19,21 +19,23 @@ namespace {
 
 constexpr double kFirstWidths = 1.5;  // [stroke widths] strokes as near as this are one before others are looked at
 constexpr int kMostLevels = 5;
-constexpr double kSmoothing = 0.25;  // of the distance
-constexpr float kMerged = 1.05f;     // weight of more than one stroke
+constexpr double kSmoothing = 0.25;      // of the distance
+constexpr double kLeastSmoothing = 2.0;  // points
+constexpr float kLeastShare = 1e-3f;     // of merged points in the window of the smoothing: less moves nothing
+constexpr float kMerged = 1.05f;         // weight of more than one stroke
 
 // Merged lines are smoothed a little before they are merged further: where strokes begin and end they have small steps.
 // Lines of one stroke stay.
 void smoothMerged(MeanLine& line, double sigma) {
   std::vector<float> merged;
-  for (const float w : line.weight) merged.push_back(w > kMerged ? 1.0f : 0.0f);
+  for (const MeanPoint& p : line.points) merged.push_back(p.weight > kMerged ? 1.0f : 0.0f);
   if (std::find(merged.begin(), merged.end(), 1.0f) == merged.end()) return;
   const std::vector<float> share = smoothValues(merged, line.closed, sigma);
-  const std::vector<Vec2> smooth = smoothPolyline(line.points, line.closed, sigma);
-  for (std::size_t i = 0; i < smooth.size(); ++i)
-    if (share[i] > 1e-3f)
-      line.points[i] += std::min(1.0, 2.0 * static_cast<double>(share[i])) * (smooth[i] - line.points[i]);
-  line.tangent = directions(line.points, line.closed, 3);
+  std::vector<Vec2> at = positionsOf(line);
+  const std::vector<Vec2> smooth = smoothPolyline(at, line.closed, sigma);
+  for (int i = 0; i < std::ssize(smooth); ++i)
+    if (share[i] > kLeastShare) at[i] += std::min(1.0, 2.0 * static_cast<double>(share[i])) * (smooth[i] - at[i]);
+  setPositions(line, at);
 }
 
 std::vector<MeanLine> mergeWithin(std::vector<MeanLine> strokes, double distancePx, double widestPx,
@@ -61,8 +63,8 @@ double penWidth(const std::vector<Contour>& lines) {
 
 std::vector<Contour> mergeStrokes(const std::vector<Contour>& lines, double distancePx, const RunContext& context) {
   const double width = penWidth(lines);
-  std::vector<Vec2> turns;
-  std::vector<MeanLine> means = strokesOf(lines, distancePx, turns);
+  HandStrokes drawn = strokesOf(lines, distancePx);
+  std::vector<MeanLine> means = std::move(drawn.strokes);
   // The nearest first: what then comes near another line and parts from it is seen in full.
   int levels = 1;
   while (levels < kMostLevels && std::ldexp(distancePx, -levels) >= kFirstWidths * width) ++levels;
@@ -71,10 +73,10 @@ std::vector<Contour> mergeStrokes(const std::vector<Contour>& lines, double dist
     means = mergeWithin(std::move(means), within, distancePx, context);
     if (context.isCancelled()) return {};
     if (level == 0) break;
-    for (MeanLine& line : means) smoothMerged(line, std::max(2.0, kSmoothing * within));
+    for (MeanLine& line : means) smoothMerged(line, std::max(kLeastSmoothing, kSmoothing * within));
     findContinuations(means, 0.5 * within);
   }
-  meetAtTurns(means, turns, distancePx);
+  meetAtTurns(means, drawn.turns, distancePx);
   std::vector<Contour> merged;
   const StrokesBeside strokes(lines, distancePx);
   for (const MeanLine& line : means) {

@@ -4,8 +4,8 @@
 #include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
+#include <optional>
 
 #include "core/polyline/polyline_tools.h"
 
@@ -21,16 +21,16 @@ constexpr double kLeastBandPx = 0.5;   // strokes nearer to each other need no f
 constexpr double kSmoothRoomPx = 0.5;  // from here on the line is smoothed between the nodes, too
 constexpr double kOver = 0.01;         // of the room: so little beyond it is cut off
 constexpr double kLeastStiffer = 2.0, kMostStiffer = 100.0;
-constexpr int kRounds = 24;
+constexpr double kFirmest = 1e6;            // weight of a node that is held, against third differences
+constexpr double kShortestWaveSteps = 6.0;  // nodes: shorter waves cannot be told
+constexpr int kNormalReach = 3;             // points to either side
+constexpr int kFairingRounds = 24;
 constexpr int kFewestNodes = 8;
 
 // Every value becomes the largest that is left of its neighbours' when they fall by `fall` a step.
 void spread(std::vector<double>& v, bool closed, double fall) {
   const int n = static_cast<int>(v.size()), steps = closed ? 2 * n : n;
-  const auto pass = [&](int i, int neighbour) {
-    const auto to = static_cast<std::size_t>(i % n), from = static_cast<std::size_t>(neighbour % n);
-    v[to] = std::max(v[to], v[from] - fall);
-  };
+  const auto pass = [&](int i, int neighbour) { v[i % n] = std::max(v[i % n], v[neighbour % n] - fall); };
   for (int k = 1; k < steps; ++k) pass(k, k - 1);
   for (int k = steps - 1; k-- > 0;) pass(k, k + 1);
 }
@@ -51,53 +51,55 @@ Vec2 within(const Vec2& move, const Vec2& normal, const Room& room) {
   return across * normal + along;
 }
 
-// Positions at even steps along the line, and the room there.
+// A position at even steps along the line, and the room there.
+struct Node {
+  Vec2 at = Vec2::Zero(), normal = Vec2::Zero();
+  Room room;
+};
 struct Nodes {
-  std::vector<double> s;  // of the points
-  double step = 0.0;
-  std::vector<Vec2> at, normal;
-  std::vector<double> left, right;
-  Room room(std::size_t k) const { return {left[k], right[k]}; }
+  double step = 0.0;  // [px]
+  std::vector<Node> nodes;
+  int count() const { return static_cast<int>(nodes.size()); }
 };
 
 // Beyond the end of a stroke there is room still, and less the farther away: the line need not turn to it at once.
-void addRoomBeyond(Nodes& nodes, bool closed) {
-  std::vector<double> left = nodes.left, right = nodes.right;
-  for (std::size_t k = 0; k < left.size(); ++k) {
-    const double most = kBeyond * (left[k] + right[k]);
-    left[k] = std::min(left[k], most);
-    right[k] = std::min(right[k], most);
+void addRoomBeyond(Nodes& line, bool closed) {
+  std::vector<double> left, right;
+  for (const Node& node : line.nodes) {
+    const double most = kBeyond * (node.room.left + node.room.right);
+    left.push_back(std::min(node.room.left, most));
+    right.push_back(std::min(node.room.right, most));
   }
-  spread(left, closed, kFade * nodes.step);
-  spread(right, closed, kFade * nodes.step);
-  for (std::size_t k = 0; k < left.size(); ++k) {
-    nodes.left[k] = std::max(nodes.left[k], left[k]);
-    nodes.right[k] = std::max(nodes.right[k], right[k]);
+  spread(left, closed, kFade * line.step);
+  spread(right, closed, kFade * line.step);
+  for (int k = 0; k < line.count(); ++k) {
+    Room& room = line.nodes[k].room;
+    room = {std::max(room.left, left[k]), std::max(room.right, right[k])};
   }
 }
 
+// @param s arc length of the points.
 Nodes nodesOf(const std::vector<Vec2>& points, bool closed, const std::vector<StrokeBand>& band,
-              const std::vector<Vec2>& tangent) {
-  Nodes nodes;
-  nodes.s = cumulativeLength(points);
+              const std::vector<Vec2>& tangent, const std::vector<double>& s) {
+  Nodes made;
   const double length = polylineLength(points, closed);
   const int spans = static_cast<int>(std::lround(length / kNodePx));
-  if (spans < kFewestNodes) return nodes;
-  nodes.step = length / spans;
-  std::size_t i = 0;
+  if (spans < kFewestNodes) return made;
+  made.step = length / spans;
+  const int n = static_cast<int>(points.size());
+  int i = 0;
   for (int k = 0; k < spans + (closed ? 0 : 1); ++k) {
-    const double s = k * nodes.step;
-    while (i + 1 < points.size() && nodes.s[i + 1] <= s) ++i;
-    const std::size_t next = i + 1 < points.size() ? i + 1 : (closed ? 0 : i);
+    const double want = k * made.step;
+    while (i + 1 < n && s[i + 1] <= want) ++i;
+    const int next = i + 1 < n ? i + 1 : (closed ? 0 : i);
     const double gap = (points[next] - points[i]).norm();
-    const double part = gap > 0.0 ? std::clamp((s - nodes.s[i]) / gap, 0.0, 1.0) : 0.0;
-    nodes.at.push_back(points[i] + part * (points[next] - points[i]));
-    nodes.normal.push_back(leftNormal(tangent[i]));
-    nodes.left.push_back(kBandShare * static_cast<double>(std::max(band[i].left, band[next].left)));
-    nodes.right.push_back(kBandShare * static_cast<double>(std::max(band[i].right, band[next].right)));
+    const double part = gap > 0.0 ? std::clamp((want - s[i]) / gap, 0.0, 1.0) : 0.0;
+    const Room room{kBandShare * static_cast<double>(std::max(band[i].left, band[next].left)),
+                    kBandShare * static_cast<double>(std::max(band[i].right, band[next].right))};
+    made.nodes.push_back({points[i] + part * (points[next] - points[i]), leftNormal(tangent[i]), room});
   }
-  addRoomBeyond(nodes, closed);
-  return nodes;
+  addRoomBeyond(made, closed);
+  return made;
 }
 
 // Nodes of least third differences with these weights on where they were.
@@ -112,24 +114,24 @@ class ThirdDifferences {
     roughness_.resize(count, count);
     roughness_.setFromTriplets(entries.begin(), entries.end());
   }
-  bool solve(const std::vector<Vec2>& target, const std::vector<double>& weight, std::vector<Vec2>& out) {
-    const auto n = static_cast<Eigen::Index>(target.size());
+  // Nothing where the system cannot be solved.
+  std::optional<std::vector<Vec2>> solve(const std::vector<Vec2>& target, const std::vector<double>& weight) {
+    const Eigen::Index n = std::ssize(target);
     Eigen::SparseMatrix<double> a = roughness_;
     Eigen::MatrixX2d right(n, 2);
     for (Eigen::Index k = 0; k < n; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      a.coeffRef(k, k) += weight[at];
-      right.row(k) = weight[at] * target[at].transpose();
+      a.coeffRef(k, k) += weight[k];
+      right.row(k) = weight[k] * target[k].transpose();
     }
     if (!analysed_) solver_.analyzePattern(a);
     analysed_ = true;
     solver_.factorize(a);
-    if (solver_.info() != Eigen::Success) return false;
+    if (solver_.info() != Eigen::Success) return std::nullopt;
     const Eigen::MatrixX2d x = solver_.solve(right);
-    if (!x.allFinite()) return false;
-    out.resize(target.size());
-    for (Eigen::Index k = 0; k < n; ++k) out[k] = x.row(k).transpose();
-    return true;
+    if (!x.allFinite()) return std::nullopt;
+    std::vector<Vec2> solution(target.size());
+    for (Eigen::Index k = 0; k < n; ++k) solution[k] = x.row(k).transpose();
+    return solution;
   }
 
  private:
@@ -139,24 +141,27 @@ class ThirdDifferences {
 };
 
 // How the nodes move: they are held ever more firmly where the line would leave its room.
-std::vector<Vec2> shifts(const Nodes& nodes, bool closed, double longestPx) {
-  const std::size_t n = nodes.at.size();
-  const double longest = std::max(longestPx, 6.0 * nodes.step);
-  std::vector<double> weight(n, std::pow(2.0 * std::numbers::pi * nodes.step / longest, 6));
-  std::vector<Vec2> shift(n, Vec2::Zero()), held = nodes.at, fair;
-  ThirdDifferences system(static_cast<int>(n), closed);
-  for (int round = 0; round < kRounds; ++round) {
-    if (!system.solve(held, weight, fair)) break;
+std::vector<Vec2> shifts(const Nodes& line, bool closed, double longestPx) {
+  const int n = line.count();
+  const double longest = std::max(longestPx, kShortestWaveSteps * line.step);
+  std::vector<double> weight(n, std::pow(2.0 * std::numbers::pi * line.step / longest, 6));
+  std::vector<Vec2> shift(n, Vec2::Zero()), held;
+  for (const Node& node : line.nodes) held.push_back(node.at);
+  ThirdDifferences system(n, closed);
+  for (int round = 0; round < kFairingRounds; ++round) {
+    const auto fair = system.solve(held, weight);
+    if (!fair) break;
     bool outside = false;
-    for (std::size_t k = 0; k < n; ++k) {
-      const Vec2 wanted = fair[k] - nodes.at[k];
-      shift[k] = within(wanted, nodes.normal[k], nodes.room(k));
-      const double room = std::max(nodes.room(k).larger(), kLeastRoomPx);
+    for (int k = 0; k < n; ++k) {
+      const Node& node = line.nodes[k];
+      const Vec2 wanted = (*fair)[k] - node.at;
+      shift[k] = within(wanted, node.normal, node.room);
+      const double room = std::max(node.room.larger(), kLeastRoomPx);
       const double beyond = (wanted - shift[k]).norm(), over = beyond / room;
       if (beyond <= std::max(kLeastRoomPx, kOver * room)) continue;
       outside = true;
-      held[k] = nodes.at[k] + shift[k];
-      weight[k] = std::min(1e6, weight[k] * std::clamp((1.0 + over) * (1.0 + over), kLeastStiffer, kMostStiffer));
+      held[k] = node.at + shift[k];
+      weight[k] = std::min(kFirmest, weight[k] * std::clamp((1.0 + over) * (1.0 + over), kLeastStiffer, kMostStiffer));
     }
     if (!outside) break;
   }
@@ -167,25 +172,26 @@ std::vector<Vec2> shifts(const Nodes& nodes, bool closed, double longestPx) {
 
 std::vector<Vec2> fairWithinBand(const std::vector<Vec2>& before, bool closed, const std::vector<StrokeBand>& band,
                                  double longestPx) {
-  const std::size_t n = before.size();
-  if (n < 2 || band.size() != n) return before;
+  const int n = static_cast<int>(before.size());
+  if (n < 2 || std::ssize(band) != n) return before;
   float widest = 0.0f;
   for (const StrokeBand& b : band) widest = std::max(widest, 0.5f * (b.left + b.right));
   if (widest < static_cast<float>(kLeastBandPx)) return before;
   std::vector<Vec2> points = before;
-  const std::vector<Vec2> tangent = directions(points, closed, 3);
-  const Nodes nodes = nodesOf(points, closed, band, tangent);
-  if (nodes.at.empty()) return before;
-  const std::vector<Vec2> shift = shifts(nodes, closed, longestPx);
-  for (std::size_t i = 0; i < n; ++i) points[i] += pointBetween(shift, closed, nodes.s[i] / nodes.step);
+  const std::vector<Vec2> tangent = directions(points, closed, kNormalReach);
+  const std::vector<double> s = cumulativeLength(points);
+  const Nodes line = nodesOf(points, closed, band, tangent, s);
+  if (line.nodes.empty()) return before;
+  const std::vector<Vec2> shift = shifts(line, closed, longestPx);
+  for (int i = 0; i < n; ++i) points[i] += pointBetween(shift, closed, s[i] / line.step);
   // What is shorter than the nodes are apart.
   const std::vector<Vec2> smooth = smoothPolyline(points, closed, kNodePx);
-  const int last = static_cast<int>(nodes.at.size()) - 1;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double place = nodes.s[i] / nodes.step;
+  const int last = line.count() - 1;
+  for (int i = 0; i < n; ++i) {
+    const double place = s[i] / line.step;
     const int k = std::clamp(static_cast<int>(place), 0, last);
     const int after = closed ? wrapIndex(k + 1, last + 1) : std::min(k + 1, last);
-    const Room here = nodes.room(static_cast<std::size_t>(k)), next = nodes.room(static_cast<std::size_t>(after));
+    const Room &here = line.nodes[k].room, &next = line.nodes[after].room;
     const double part = std::clamp(place - k, 0.0, 1.0);
     const Room room{std::lerp(here.left, next.left, part), std::lerp(here.right, next.right, part)};
     points[i] += std::min(1.0, room.larger() / kSmoothRoomPx) * (smooth[i] - points[i]);

@@ -16,6 +16,7 @@ constexpr double kTurnWidths = 1.5;       // stroke widths over which a turn is 
 constexpr int kLeastTurnReach = 4;        // points
 constexpr double kContinuesWidths = 4.0;  // stroke widths to the next line
 constexpr double kContinuesCos = 0.8;     // 37 degrees
+constexpr double kLeastEndReach = 8.0;    // points over which the direction of an end is taken
 
 // The end of a stroke and the direction in which it would go on.
 struct StrokeEnd {
@@ -56,15 +57,16 @@ double widthOf(const Contour& line) {
 
 void findContinuations(std::vector<MeanLine>& strokes, double nearPx) {
   std::vector<StrokeEnd> ends;
-  for (int l = 0; l < static_cast<int>(strokes.size()); ++l) {
+  for (int l = 0; l < std::ssize(strokes); ++l) {
     MeanLine& s = strokes[l];
-    const std::size_t n = s.points.size();
-    s.continues[0] = s.continues[1] = false;
+    const int n = s.count();
+    s.continues = {false, false};
     if (s.closed || n < 3) continue;
-    const std::size_t reach = std::min(n - 1, static_cast<std::size_t>(std::max(8.0, nearPx)));
-    const Vec2 start = s.points.front() - s.points[reach], end = s.points.back() - s.points[n - 1 - reach];
-    ends.push_back({l, 0, s.points.front(), start.norm() > 0.0 ? Vec2(start.normalized()) : Vec2::Zero()});
-    ends.push_back({l, 1, s.points.back(), end.norm() > 0.0 ? Vec2(end.normalized()) : Vec2::Zero()});
+    const int reach = std::min(n - 1, static_cast<int>(std::max(kLeastEndReach, nearPx)));
+    const Vec2 first = s.points.front().at, last = s.points.back().at;
+    const Vec2 start = first - s.points[reach].at, end = last - s.points[n - 1 - reach].at;
+    ends.push_back({l, 0, first, start.norm() > 0.0 ? Vec2(start.normalized()) : Vec2::Zero()});
+    ends.push_back({l, 1, last, end.norm() > 0.0 ? Vec2(end.normalized()) : Vec2::Zero()});
   }
   std::stable_sort(ends.begin(), ends.end(),
                    [](const StrokeEnd& a, const StrokeEnd& b) { return a.at.x() < b.at.x(); });
@@ -72,19 +74,19 @@ void findContinuations(std::vector<MeanLine>& strokes, double nearPx) {
     const Vec2 d = b.at - a.at;
     if (d.norm() <= nearPx && std::abs(cross(a.out, d)) <= 0.5 * nearPx) strokes[a.line].continues[a.side] = true;
   };
-  for (std::size_t i = 0; i < ends.size(); ++i)
-    for (std::size_t k = i + 1; k < ends.size() && ends[k].at.x() - ends[i].at.x() <= nearPx; ++k) {
+  for (int i = 0; i < std::ssize(ends); ++i)
+    for (int k = i + 1; k < std::ssize(ends) && ends[k].at.x() - ends[i].at.x() <= nearPx; ++k) {
       if (ends[i].line == ends[k].line || -ends[i].out.dot(ends[k].out) < kContinuesCos) continue;
       look(ends[i], ends[k]);
       look(ends[k], ends[i]);
     }
 }
 
-std::vector<MeanLine> strokesOf(const std::vector<Contour>& lines, double distancePx, std::vector<Vec2>& turns) {
+HandStrokes strokesOf(const std::vector<Contour>& lines, double distancePx) {
   const StrokesBeside others(lines, distancePx);
-  std::vector<MeanLine> strokes;
+  HandStrokes found;
   double width = 1.0;
-  for (int l = 0; l < static_cast<int>(lines.size()); ++l) {
+  for (int l = 0; l < std::ssize(lines); ++l) {
     const Contour& line = lines[l];
     const int n = static_cast<int>(line.points.size());
     width = std::max(width, widthOf(line));
@@ -93,29 +95,29 @@ std::vector<MeanLine> strokesOf(const std::vector<Contour>& lines, double distan
     std::vector<int> cuts = n > 4 * reach ? sharpTurnsOf(line, reach) : std::vector<int>{};
     // Where no other stroke is near, it was the hand that turned.
     std::erase_if(cuts, [&](int c) { return !others.isNear(line.points[c].at, l, c); });
-    for (const int c : cuts) turns.push_back(line.points[c].at);
+    for (const int c : cuts) found.turns.push_back(line.points[c].at);
     const auto add = [&](int from, int to, bool closed) {
       MeanLine stroke;
       stroke.closed = closed;
+      std::vector<Vec2> at;
       for (int i = from; i <= to; ++i) {
-        const int at = wrapIndex(i, n);
-        stroke.points.push_back(line.points[at].at);
-        stroke.source.push_back({l, at});
+        const int index = wrapIndex(i, n);
+        at.push_back(line.points[index].at);
+        stroke.points.push_back({.source = {l, index}});
       }
-      stroke.tangent = directions(stroke.points, closed, 3);
-      stroke.weight.assign(stroke.points.size(), 1.0f);
-      strokes.push_back(std::move(stroke));
+      setPositions(stroke, at);
+      found.strokes.push_back(std::move(stroke));
     };
     if (cuts.empty()) {
       add(0, n - 1, line.closed);
       continue;
     }
     if (!line.closed) add(0, cuts.front(), false);
-    for (std::size_t c = 0; c + 1 < cuts.size(); ++c) add(cuts[c], cuts[c + 1], false);
+    for (int c = 0; c + 1 < std::ssize(cuts); ++c) add(cuts[c], cuts[c + 1], false);
     add(cuts.back(), line.closed ? n + cuts.front() : n - 1, false);
   }
-  findContinuations(strokes, std::min(0.5 * distancePx, kContinuesWidths * width));
-  return strokes;
+  findContinuations(found.strokes, std::min(0.5 * distancePx, kContinuesWidths * width));
+  return found;
 }
 
 }  // namespace batten

@@ -7,9 +7,14 @@
 
 namespace batten {
 
-/// The lines as strokes of the hand: cut where they turn sharply, since at a crossing of bundles a line often turns
-/// from the one into the other. `turns` gets the places of the cuts.
-std::vector<MeanLine> strokesOf(const std::vector<Contour>& lines, double distancePx, std::vector<Vec2>& turns);
+/// Lines as strokes of the hand.
+struct HandStrokes {
+  std::vector<MeanLine> strokes;
+  std::vector<Vec2> turns;  ///< [px] where lines were cut.
+};
+/// Cuts the lines where they turn sharply, since at a crossing of bundles a line often turns from the one into the
+/// other.
+HandStrokes strokesOf(const std::vector<Contour>& lines, double distancePx);
 
 /// Finds the ends at which another line goes on (MeanLine::continues): within this many px, about straight on.
 void findContinuations(std::vector<MeanLine>& strokes, double nearPx);

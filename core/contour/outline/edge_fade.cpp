@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/base/parallel.h"
 #include "core/contour/subpixel/edge_profile.h"
@@ -20,17 +21,14 @@ constexpr double kFaintestFade = 4.0;  // [grey]
 constexpr double kLargestFadePx = 0.5;
 constexpr float kLeastKnown = 0.05f;  // of the points around
 constexpr int kFadesPerBlock = 512;
+constexpr double kFadeBaseSigma = 2.0;  // points: noise of the points across the line
+constexpr int kFadeDirectionReach = 2;  // points to either side
 
-double normalCdf(double x) {
-  double cdf, pdf;
-  NormalTable::instance().eval(x, cdf, pdf);
-  return cdf;
-}
+double normalCdf(double x) { return NormalTable::instance().at(x).cdf; }
 
 /// A ramp that begins at 0, blurred by 1.
 double softRamp(double x) {
-  double cdf, pdf;
-  NormalTable::instance().eval(x, cdf, pdf);
+  const auto [cdf, pdf] = NormalTable::instance().at(x);
   return x * cdf + pdf;
 }
 
@@ -62,8 +60,7 @@ double fitRound(const FadingProfile& p, double position) {
   const double level = paper / paperCount + contrast * meanPaper;
   double top = 0.0, bottom = 0.0;
   for (int k = 0; k < kProfileSamples; ++k) {
-    double cdf, pdf;
-    NormalTable::instance().eval((profileU(k) - position) / p.blur, cdf, pdf);
+    const auto [cdf, pdf] = NormalTable::instance().at((profileU(k) - position) / p.blur);
     const double gradient = contrast * pdf / p.blur;
     top += gradient * (p.at(profileU(k)) - (level - contrast * cdf));
     bottom += gradient * gradient;
@@ -81,23 +78,24 @@ double shiftPerSlope(double blur) {
   return position / kSmallSlope;
 }
 
-/// The slopes beyond the edge, ink side less paper side, as a part of the contrast [1/px]; weight 0: not known.
-struct FadeBand {
-  std::vector<float> fade, weight;
-};
+std::vector<Vec2> fadeDirections(const Contour& c) {
+  return directions(smoothPolyline(positionsOf(c.points), c.closed, kFadeBaseSigma), c.closed, kFadeDirectionReach);
+}
 
-FadeBand measureFade(const Contour& c, const GreyImage& grey, double blur, const RunContext& context) {
-  const auto n = c.points.size();
-  FadeBand band{std::vector<float>(n, 0.0f), std::vector<float>(n, 0.0f)};
-  const std::vector<Vec2> along = directions(smoothPolyline(positionsOf(c.points), c.closed, 2.0), c.closed, 2);
+/// [1/px] The slopes beyond the edge at every point, ink side less paper side, as a part of the contrast; nothing where
+/// they cannot be seen.
+std::vector<std::optional<float>> measureFade(const Contour& c, const GreyImage& grey, double blur,
+                                              const RunContext& context) {
+  const int n = static_cast<int>(c.points.size());
+  std::vector<std::optional<float>> fade(n);
+  const std::vector<Vec2> along = fadeDirections(c);
   const double from = std::max(kFadeFromPx, kFadeFromBlurs * blur), to = from + kFadeLeverPx;
   const double carried = normalCdf(to / blur) - normalCdf(from / blur);
   const auto onPage = [&](const Vec2& p) {
     return p.x() >= 0.0 && p.y() >= 0.0 && p.x() <= grey.width && p.y() <= grey.height;
   };
-  parallelFor(context, static_cast<int>(n), kFadesPerBlock, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) {
-      const auto i = static_cast<std::size_t>(k);
+  parallelFor(context, n, kFadesPerBlock, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
       const Vec2 inward = leftNormal(along[i]), &p = c.points[i].at;  // with y down: ink lies to the right of travel
       if (!c.points[i].refined || !onPage(p + to * inward) || !onPage(p - to * inward)) continue;
       const auto level = [&](double u) { return sampleLinear(grey, p + u * inward); };
@@ -109,28 +107,32 @@ FadeBand measureFade(const Contour& c, const GreyImage& grey, double blur, const
       if (std::max(std::abs(ink), std::abs(paper)) * kFadeLeverPx > kLargestFade * seen) continue;
       const double contrast = seen + (ink + paper) * from;
       if (contrast < kFaintestFade) continue;
-      band.fade[i] = static_cast<float>((ink - paper) / contrast);
-      band.weight[i] = 1.0f;
+      fade[i] = static_cast<float>((ink - paper) / contrast);
     }
   });
-  return band;
+  return fade;
 }
 
 }  // namespace
 
 void undoFade(Contour& c, const GreyImage& grey, const RunContext& context) {
-  const auto n = c.points.size();
+  const int n = static_cast<int>(c.points.size());
   if (n < 2 || !(c.blurPx > 0.0)) return;
   const double blur = std::sqrt(c.blurPx * c.blurPx + kPixelVariance + PixelWindow::kVariance);
-  FadeBand band = measureFade(c, grey, blur, context);
+  const std::vector<std::optional<float>> measured = measureFade(c, grey, blur, context);
   if (context.isCancelled()) return;
-  band.fade = smoothValues(band.fade, c.closed, kFadeSigma);
-  band.weight = smoothValues(band.weight, c.closed, kFadeSigma);
+  std::vector<float> fade, weight;
+  for (const auto& value : measured) {
+    fade.push_back(value.value_or(0.0f));
+    weight.push_back(value ? 1.0f : 0.0f);
+  }
+  fade = smoothValues(fade, c.closed, kFadeSigma);
+  weight = smoothValues(weight, c.closed, kFadeSigma);
   const double perSlope = shiftPerSlope(blur);
-  const std::vector<Vec2> along = directions(smoothPolyline(positionsOf(c.points), c.closed, 2.0), c.closed, 2);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!c.points[i].refined || band.weight[i] < kLeastKnown) continue;
-    const double shift = perSlope * static_cast<double>(band.fade[i] / band.weight[i]);
+  const std::vector<Vec2> along = fadeDirections(c);
+  for (int i = 0; i < n; ++i) {
+    if (!c.points[i].refined || weight[i] < kLeastKnown) continue;
+    const double shift = perSlope * static_cast<double>(fade[i] / weight[i]);
     c.points[i].at -= std::clamp(shift, -kLargestFadePx, kLargestFadePx) * leftNormal(along[i]);
   }
 }

@@ -15,9 +15,11 @@ constexpr double kSoftRatio = 2.2;      // of the rises; a ramp has 3.7, an edge
 constexpr double kAlongSigma = 6.0;     // points: noise along the border
 constexpr int kShortestSoft = 30;       // points
 constexpr int kShortestSharp = 20;      // points: between soft stretches
+constexpr int kRaggedShare = 3;         // of the shortest soft stretch: shorter ones do not bridge sharp ones
 constexpr double kNearlyAllSoft = 0.9;  // no edge to tell from
 
-void flipShortRuns(std::vector<std::uint8_t>& soft, bool closed, std::uint8_t what, int shorter) {
+// Stretches that are soft, or sharp, as `what` says, and shorter than this become as what is around them.
+void flipShortStretches(std::vector<std::uint8_t>& soft, bool closed, std::uint8_t what, int shorter) {
   const int n = static_cast<int>(soft.size());
   const auto at = [&](int i) -> std::uint8_t& { return soft[wrapIndex(i, n)]; };
   int start = 0;
@@ -35,23 +37,24 @@ void flipShortRuns(std::vector<std::uint8_t>& soft, bool closed, std::uint8_t wh
 }
 
 std::vector<std::uint8_t> softPoints(const Contour& c, const GreyImage& grey, const RunContext& context) {
-  const auto n = c.points.size();
+  const int n = static_cast<int>(c.points.size());
   std::vector<std::uint8_t> soft(n, 0);
-  const auto [nearRise, farRise] = edgeRises(unrefinedPositionsOf(c.points), c.closed, grey, {kNearPx, kFarPx}, kAlongSigma, context);
+  const std::vector<EdgeRise> rises =
+      edgeRises(unrefinedPositionsOf(c.points), c.closed, grey, {kNearPx, kFarPx}, kAlongSigma, context);
   if (context.isCancelled()) return soft;
   const auto onBorder = [&](const Vec2& p) {
     return p.x() < kFarPx || p.y() < kFarPx || p.x() > grey.width - kFarPx || p.y() > grey.height - kFarPx;
   };
-  for (std::size_t i = 0; i < n; ++i)
-    soft[i] = !onBorder(c.points[i].unrefined) && farRise[i] > kSoftRatio * nearRise[i] ? 1 : 0;
-  flipShortRuns(soft, c.closed, 1, kShortestSoft / 3);
-  flipShortRuns(soft, c.closed, 0, kShortestSharp);
-  flipShortRuns(soft, c.closed, 1, kShortestSoft);
+  for (int i = 0; i < n; ++i)
+    soft[i] = !onBorder(c.points[i].unrefined) && rises[i].outer > kSoftRatio * rises[i].inner ? 1 : 0;
+  flipShortStretches(soft, c.closed, 1, kShortestSoft / kRaggedShare);
+  flipShortStretches(soft, c.closed, 0, kShortestSharp);
+  flipShortStretches(soft, c.closed, 1, kShortestSoft);
   if (std::find(soft.begin(), soft.end(), std::uint8_t{1}) == soft.end()) return soft;
   // A tone that fades somewhere is cut off by the page, not bordered by it.
-  for (std::size_t i = 0; i < n; ++i)
+  for (int i = 0; i < n; ++i)
     if (onBorder(c.points[i].unrefined)) soft[i] = 1;
-  flipShortRuns(soft, c.closed, 0, kShortestSharp);
+  flipShortStretches(soft, c.closed, 0, kShortestSharp);
   return soft;
 }
 

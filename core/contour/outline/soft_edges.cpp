@@ -20,6 +20,7 @@ constexpr int kFewestPoints = 40;      // on a smaller copy
 constexpr double kLeastRefined = 0.8;  // of what was placed before, else the smaller copy shows no edge there
 constexpr double kCrackSigma = 1.0;    // points of the smaller copy: the staircase of the cracks
 constexpr int kSmallestPage = 64;      // px
+constexpr double kBeforeSeam = 1e-9;   // points: just before a closed line comes round
 
 /// Means of 2 x 2 pixels.
 GreyImage halved(const GreyImage& grey, const RunContext& context) {
@@ -45,15 +46,14 @@ Contour shrunk(const Contour& contour, int scale) {
   small.hole = contour.hole;
   const std::vector<Vec2> smooth =
       smoothPolyline(unrefinedPositionsOf(contour.points), contour.closed, kCrackSigma * scale);
-  const auto n = smooth.size();
-  const std::size_t count = std::max<std::size_t>(2, n / static_cast<std::size_t>(scale));
-  const double step = contour.closed ? static_cast<double>(n) / static_cast<double>(count)
-                                     : static_cast<double>(n - 1) / static_cast<double>(count - 1);
-  for (std::size_t k = 0; k < count; ++k) {
-    const double at = std::min(static_cast<double>(k) * step, static_cast<double>(n - 1));
-    const auto i = static_cast<std::size_t>(at);
-    const std::size_t next = contour.closed ? (i + 1) % n : std::min(i + 1, n - 1);
-    const double f = at - static_cast<double>(i);
+  const int n = static_cast<int>(smooth.size()), count = std::max(2, n / scale);
+  const double step =
+      contour.closed ? static_cast<double>(n) / count : static_cast<double>(n - 1) / static_cast<double>(count - 1);
+  for (int k = 0; k < count; ++k) {
+    const double at = std::min(k * step, static_cast<double>(n - 1));
+    const int i = static_cast<int>(at);
+    const int next = contour.closed ? (i + 1) % n : std::min(i + 1, n - 1);
+    const double f = at - i;
     const Vec2 place = ((1.0 - f) * smooth[i] + f * smooth[next]) / scale;
     small.points.push_back({.at = place, .unrefined = place});
   }
@@ -63,27 +63,27 @@ Contour shrunk(const Contour& contour, int scale) {
 /// 0..1 per point: where the grey goes on changing beyond 3 px to each side of the line, so that the scan itself shows
 /// too little of the edge. Outlines are soft in parts: a tone against a mask is sharp there and fades elsewhere.
 std::vector<float> softness(const Contour& contour, const GreyImage& grey, double blurPx, const RunContext& context) {
-  constexpr double kInnerPx = 3.0, kLeastShare = 0.9, kMeasureSigma = 8.0, kBlendSigma = 4.0;
-  const double reach = std::max(2.0 * kInnerPx, 2.5 * blurPx);
-  const auto [inner, outer] = edgeRises(unrefinedPositionsOf(contour.points), contour.closed, grey, {kInnerPx, reach},
-                                        kMeasureSigma, context);
-  std::vector<float> soft(inner.size());
-  for (std::size_t i = 0; i < soft.size(); ++i)
-    soft[i] = inner[i] < static_cast<float>(kLeastShare) * outer[i] ? 1.0f : 0.0f;
+  constexpr double kInnerPx = 3.0, kOuterBlurs = 2.5, kLeastShare = 0.9, kMeasureSigma = 8.0, kBlendSigma = 4.0;
+  const double reach = std::max(2.0 * kInnerPx, kOuterBlurs * blurPx);
+  const std::vector<EdgeRise> rises =
+      edgeRises(unrefinedPositionsOf(contour.points), contour.closed, grey, {kInnerPx, reach}, kMeasureSigma, context);
+  std::vector<float> soft;
+  for (const EdgeRise& rise : rises)
+    soft.push_back(rise.inner < static_cast<float>(kLeastShare) * rise.outer ? 1.0f : 0.0f);
   return smoothValues(soft, contour.closed, kBlendSigma);
 }
 
 /// Takes what was found on a copy that is `scale` times smaller, where the edge is soft and was found there.
 void enlarge(Contour& contour, const Contour& small, int scale, const std::vector<float>& soft) {
-  const auto n = contour.points.size(), m = small.points.size();
+  const int n = static_cast<int>(contour.points.size()), m = static_cast<int>(small.points.size());
   const std::vector<Vec2> smallAt = positionsOf(small.points);
-  const double step = contour.closed ? static_cast<double>(m) / static_cast<double>(n)
-                                     : static_cast<double>(m - 1) / static_cast<double>(n - 1);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double at = std::min(static_cast<double>(i) * step, static_cast<double>(m) - (contour.closed ? 1e-9 : 1.0));
-    const auto k = static_cast<std::size_t>(at);
-    const std::size_t next = contour.closed ? (k + 1) % m : std::min(k + 1, m - 1);
-    const double f = at - static_cast<double>(k);
+  const double step =
+      contour.closed ? static_cast<double>(m) / n : static_cast<double>(m - 1) / static_cast<double>(n - 1);
+  for (int i = 0; i < n; ++i) {
+    const double at = std::min(i * step, static_cast<double>(m) - (contour.closed ? kBeforeSeam : 1.0));
+    const int k = static_cast<int>(at);
+    const int next = contour.closed ? (k + 1) % m : std::min(k + 1, m - 1);
+    const double f = at - k;
     const ContourPoint &before = small.points[k], &after = small.points[next];
     ContourPoint& p = contour.points[i];
     if (!before.refined || !after.refined || !before.sigmaPx || !after.sigmaPx || !p.sigmaPx) continue;
@@ -100,14 +100,13 @@ void enlarge(Contour& contour, const Contour& small, int scale, const std::vecto
 }
 
 double refinedShare(const Contour& c) {
-  const auto refined =
-      std::count_if(c.points.begin(), c.points.end(), [](const ContourPoint& p) { return p.refined; });
+  const auto refined = std::count_if(c.points.begin(), c.points.end(), [](const ContourPoint& p) { return p.refined; });
   return static_cast<double>(refined) / static_cast<double>(c.points.size());
 }
 
 /// Takes what this copy shows, if it shows an edge; true where a smaller one might show it better.
 bool refineOn(Contour& contour, const GreyImage& scan, const GreyImage& grey, int scale, const RunContext& context) {
-  if (contour.points.size() < static_cast<std::size_t>(kFewestPoints * scale)) return false;
+  if (std::ssize(contour.points) < kFewestPoints * scale) return false;
   Contour small = shrunk(contour, scale);
   refineOutline(small, grey, context);
   if (context.isCancelled() || !small.points.front().sigmaPx) return false;
@@ -144,13 +143,12 @@ void refineSoftOutlines(ContourSet& set, const GreyImage& grey, const RunContext
     alone.threads = 1;
     parallelFor(context, static_cast<int>(soft.size()), 1, [&](int begin, int end) {
       for (int i = begin; i < end && !context.isCancelled(); ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        isSoft[at] = refineOn(*soft[at], grey, copy, scale, alone) ? 1 : 0;
+        isSoft[i] = refineOn(*soft[i], grey, copy, scale, alone) ? 1 : 0;
       }
     });
     if (context.isCancelled()) return;
     std::vector<Contour*> next;
-    for (std::size_t i = 0; i < soft.size(); ++i)
+    for (int i = 0; i < std::ssize(soft); ++i)
       if (isSoft[i]) next.push_back(soft[i]);
     soft = std::move(next);
   }

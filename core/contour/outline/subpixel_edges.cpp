@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/base/parallel.h"
 #include "core/contour/subpixel/curvature_shift.h"
@@ -15,17 +16,25 @@
 namespace batten {
 namespace {
 
+constexpr int kSmallestSide = 4;        // px of a page: a cubic interpolation takes as many
 constexpr int kSmallestRing = 12;       // points; below that no direction can be trusted
 constexpr double kChainSigma = 3.0;     // points: takes the staircase out of the crack chain
 constexpr double kBaseSigma = 2.0;      // points: the base of the second pass keeps more of the corners
 constexpr double kLargestMovePx = 2.0;  // from the base of the second pass
+constexpr double kFallbackSigma = 1.5;  // points: of points without an edge, which stay near their crack
+constexpr int kNormalReachPoints = 2;   // to either side
+constexpr int kPixelBlurPoints = 300;   // that vote for the blur of the pixel pass
+constexpr double kPixelGatePx = 0.5;    // as far as the pixels may move what the profiles found
+constexpr double kMostSquares = 1e9;    // [grey^2] of one point: no vote counts for more
+constexpr int kReversalRounds = 3;
+constexpr double kLeastVariance = 1e-6;  // [px^2] of the light's blur
 
 bool onPageBorder(const Vec2& crack, const GreyImage& grey) {
   return crack.x() <= 0.0 || crack.y() <= 0.0 || crack.x() >= grey.width || crack.y() >= grey.height;
 }
 
 std::vector<Vec2> normalsOf(const std::vector<Vec2>& points, bool closed) {
-  std::vector<Vec2> normal = directions(points, closed, 2);
+  std::vector<Vec2> normal = directions(points, closed, kNormalReachPoints);
   // Ink lies on the right of travel on the screen, which with y down is the "left" normal of conventions with y up.
   for (Vec2& d : normal) d = leftNormal(d);
   return normal;
@@ -38,8 +47,8 @@ std::vector<Vec2> halfLevelPass(const Contour& contour, const GreyImage& grey, c
   const ProfileBand band =
       averageAlong(sampleProfiles(grey, base, normal, false, context), contour.closed, 1.0, context);
   std::vector<Vec2> points = base;
-  forEdgePoints(context, base.size(), [&](std::size_t i) {
-    const float* profile = band.row(static_cast<int>(i));
+  forEdgePoints(context, static_cast<int>(base.size()), [&](int i) {
+    const float* profile = band.row(i);
     const EdgeSpan span = findEdgeSpan(profile);
     const Vec2& crack = contour.points[i].unrefined;
     if (span.contrast < kLeastEdgeContrast || onPageBorder(crack, grey)) return;
@@ -49,37 +58,42 @@ std::vector<Vec2> halfLevelPass(const Contour& contour, const GreyImage& grey, c
   return points;
 }
 
-constexpr int kPixelBlurPoints = 300;  // that vote for the blur of the pixel pass
+// Where the profiles of an outline stand: unit normals towards the ink.
+struct OutlineFrame {
+  std::vector<Vec2> base, normal;
+  int count() const { return static_cast<int>(base.size()); }
+};
 
-PixelEdge pixelEdge(const MatchedEdges& m, std::size_t i, const PixelResponse& response, const Vec2& normal) {
-  return {m.paper[i], static_cast<double>(m.paper[i]) - m.ink[i], m.span[i].inkTwin, m.span[i].paperTwin,
+PixelEdge pixelEdge(const MatchedEdge& edge, const PixelResponse& response, const Vec2& normal) {
+  return {edge.paper,
+          static_cast<double>(edge.paper) - edge.ink,
+          {edge.span.inkTwin, edge.span.paperTwin},
           response.direction(normal)};
 }
 
-bool readWindow(const GreyImage& grey, const Vec2& base, const Vec2& normal, const MatchedEdges& m, std::size_t i,
-                double reach, PixelWindow& window) {
-  const EdgeSpan& span = m.span[i];
-  if (span.contrast <= 0.0 || m.paper[i] - m.ink[i] < kLeastEdgeContrast) return false;
-  window.read(grey, base, normal, std::max(span.lo - 0.25, m.position[i] - reach),
-              std::min(span.hi + 0.25, m.position[i] + reach));
+// The pixels about the place of an edge, up to `reach` px before and behind it; false where there is none.
+bool readWindow(const GreyImage& grey, const OutlineFrame& frame, int i, const MatchedEdge& edge, double reach,
+                PixelWindow& window) {
+  const EdgeSpan& span = edge.span;
+  if (!span.hasEdge() || edge.contrast() < kLeastEdgeContrast) return false;
+  window.read(grey, frame.base[i], frame.normal[i], std::max(span.lo - kHalfStepPx, edge.position - reach),
+              std::min(span.hi + kHalfStepPx, edge.position + reach));
   return !window.pixels.empty();
 }
 
-// The blur of the light, without that of the pixels themselves, which explains a sample of the points best.
-int pixelBlur(const GreyImage& grey, const std::vector<Vec2>& base, const std::vector<Vec2>& normal,
-              const MatchedEdges& m) {
-  const std::size_t stride = std::max<std::size_t>(1, base.size() / kPixelBlurPoints);
+// Index of the blur of the light, without that of the pixels themselves, which explains a sample of the points best.
+int pixelBlur(const GreyImage& grey, const OutlineFrame& frame, const MatchedEdges& m) {
+  const int stride = std::max(1, frame.count() / kPixelBlurPoints);
+  const double widest = PixelResponse::forBlur(PixelResponse::kBlurs - 1).reach();
   const auto left = [&](int index) {
     const PixelResponse& response = PixelResponse::forBlur(index);
     PixelWindow window;
     double sum = 0.0;
-    for (std::size_t i = 0; i < base.size(); i += stride) {
-      if (!readWindow(grey, base[i], normal[i], m, i, PixelResponse::forBlur(PixelResponse::kBlurs - 1).reach(),
-                      window))
-        continue;
-      const PixelEdge edge = pixelEdge(m, i, response, normal[i]);
-      sum += std::min(
-          squaresLeft(window, response, edge, mostLikelyPosition(window, response, edge, m.position[i], 0.5)), 1e9);
+    for (int i = 0; i < frame.count(); i += stride) {
+      if (!readWindow(grey, frame, i, m.edges[i], widest, window)) continue;
+      const PixelEdge edge = pixelEdge(m.edges[i], response, frame.normal[i]);
+      const EdgePosition found = mostLikelyPosition(window, response, edge, m.edges[i].position, kPixelGatePx);
+      sum += std::min(squaresLeft(window, response, edge, found.position), kMostSquares);
     }
     return sum;
   };
@@ -100,17 +114,17 @@ int pixelBlur(const GreyImage& grey, const std::vector<Vec2>& base, const std::v
 
 // Last pass, on the raw pixels, which know nothing of the phase between profile and grid; it also finds how well each
 // point is known. Returns the blur used.
-double pixelPass(const GreyImage& grey, const std::vector<Vec2>& base, const std::vector<Vec2>& normal, MatchedEdges& m,
-                 const RunContext& context) {
-  const PixelResponse& response = PixelResponse::forBlur(pixelBlur(grey, base, normal, m));
-  m.information.resize(base.size());
-  parallelFor(context, static_cast<int>(base.size()), kEdgesPerBlock, [&](int begin, int end) {
+double pixelPass(const GreyImage& grey, const OutlineFrame& frame, MatchedEdges& m, const RunContext& context) {
+  const PixelResponse& response = PixelResponse::forBlur(pixelBlur(grey, frame, m));
+  parallelFor(context, frame.count(), kEdgesPerBlock, [&](int begin, int end) {
     PixelWindow window;
-    for (int k = begin; k < end; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      if (!readWindow(grey, base[i], normal[i], m, i, response.reach() + 0.5, window)) continue;
-      m.position[i] = mostLikelyPosition(window, response, pixelEdge(m, i, response, normal[i]), m.position[i], 0.5,
-                                         &m.information[i]);
+    for (int i = begin; i < end; ++i) {
+      MatchedEdge& edge = m.edges[i];
+      if (!readWindow(grey, frame, i, edge, response.reach() + kPixelGatePx, window)) continue;
+      const PixelEdge model = pixelEdge(edge, response, frame.normal[i]);
+      const EdgePosition found = mostLikelyPosition(window, response, model, edge.position, kPixelGatePx);
+      edge.position = found.position;
+      edge.information = found.information;
     }
   });
   return std::sqrt(response.blur() * response.blur() + kPixelVariance + PixelWindow::kVariance);
@@ -121,7 +135,7 @@ void removeReversals(Contour& contour, const std::vector<Vec2>& normal) {
   const int n = static_cast<int>(contour.points.size());
   const auto index = [&](int i) { return contour.closed ? wrapIndex(i, n) : std::clamp(i, 0, n - 1); };
   const auto point = [&](int i) -> ContourPoint& { return contour.points[index(i)]; };
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < kReversalRounds; ++round) {
     bool clean = true;
     for (int i = 0; i < n; ++i) {
       const Vec2 tangent = -leftNormal(normal[index(i)]);  // turned back by 90 degrees
@@ -139,39 +153,41 @@ void removeReversals(Contour& contour, const std::vector<Vec2>& normal) {
 }  // namespace
 
 void refineOutline(Contour& contour, const GreyImage& grey, const RunContext& context) {
-  const auto n = contour.points.size();
+  const int n = static_cast<int>(contour.points.size());
   for (ContourPoint& p : contour.points) {
     p.at = p.unrefined;
     p.refined = false;
   }
-  if (n < kSmallestRing || grey.width < 4 || grey.height < 4) return;
-  const std::vector<Vec2> base = smoothPolyline(halfLevelPass(contour, grey, context), contour.closed, kBaseSigma);
-  const std::vector<Vec2> normal = normalsOf(base, contour.closed);
+  if (n < kSmallestRing || grey.width < kSmallestSide || grey.height < kSmallestSide) return;
+  OutlineFrame frame;
+  frame.base = smoothPolyline(halfLevelPass(contour, grey, context), contour.closed, kBaseSigma);
+  frame.normal = normalsOf(frame.base, contour.closed);
   if (context.isCancelled()) return;
-  const ProfileBand band = sampleProfiles(grey, base, normal, true, context);
+  const ProfileBand band = sampleProfiles(grey, frame.base, frame.normal, true, context);
   if (context.isCancelled()) return;
   MatchedEdges m = matchEdges(band, contour.closed, context);
   if (context.isCancelled()) return;
-  const double blur = pixelPass(grey, base, normal, m, context);
+  const double blur = pixelPass(grey, frame, m, context);
   std::vector<Vec2> found(n);
-  for (std::size_t i = 0; i < n; ++i) found[i] = base[i] + m.position[i] * normal[i];
-  undoCurvatureShift(found, normal, contour.closed, blur);
-  const std::vector<Vec2> fallback = smoothPolyline(unrefinedPositionsOf(contour.points), contour.closed, 1.5);
-  for (std::size_t i = 0; i < n; ++i) {
+  for (int i = 0; i < n; ++i) found[i] = frame.base[i] + m.edges[i].position * frame.normal[i];
+  undoCurvatureShift(found, frame.normal, contour.closed, blur);
+  const std::vector<Vec2> fallback =
+      smoothPolyline(unrefinedPositionsOf(contour.points), contour.closed, kFallbackSigma);
+  for (int i = 0; i < n; ++i) {
     ContourPoint& p = contour.points[i];
     if (onPageBorder(p.unrefined, grey)) continue;
-    const double contrast = m.paper[i] - m.ink[i];
-    const bool edge = m.span[i].contrast > 0.0 && contrast >= std::max(kLeastEdgeContrast, m.noise) &&
-                      std::abs(m.position[i]) <= kLargestMovePx && (found[i] - p.unrefined).norm() <= kEdgeGatePx;
-    p.at = edge ? found[i] : fallback[i];
-    p.refined = edge;
+    const MatchedEdge& edge = m.edges[i];
+    p.refined = edge.span.hasEdge() && edge.contrast() >= std::max(kLeastEdgeContrast, m.noise) &&
+                std::abs(edge.position) <= kLargestMovePx && (found[i] - p.unrefined).norm() <= kEdgeGatePx;
+    p.at = p.refined ? found[i] : fallback[i];
   }
-  removeReversals(contour, normal);
-  contour.blurPx = std::sqrt(std::max(1e-6, blur * blur - kPixelVariance - PixelWindow::kVariance));
-  std::vector<std::uint8_t> placed(n);
-  for (std::size_t i = 0; i < n; ++i) placed[i] = contour.points[i].refined ? 1 : 0;
-  const std::vector<float> sigma = pointSigmas(m.information, placed, contour.closed);
-  for (std::size_t i = 0; i < n; ++i) contour.points[i].sigmaPx = sigma[i];
+  removeReversals(contour, frame.normal);
+  contour.blurPx = std::sqrt(std::max(kLeastVariance, blur * blur - kPixelVariance - PixelWindow::kVariance));
+  std::vector<std::optional<PointInformation>> information(n);
+  for (int i = 0; i < n; ++i)
+    if (contour.points[i].refined) information[i] = m.edges[i].information;
+  const std::vector<float> sigma = pointSigmas(information, contour.closed);
+  for (int i = 0; i < n; ++i) contour.points[i].sigmaPx = sigma[i];
   measureContour(contour);
 }
 

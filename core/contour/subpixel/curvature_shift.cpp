@@ -9,7 +9,9 @@
 namespace batten {
 namespace {
 
-constexpr int kBendHalf = 6;  // points: half window of the curvature filter
+constexpr int kBendHalf = 6;       // points: half window of the curvature filter
+constexpr int kFewestWindows = 6;  // half windows: what three windows side by side take
+constexpr double kTightest = 0.2;  // [1/px] an arc of 5 px is the tightest that the window can tell
 
 double smallestMagnitude(double a, double b, double c) {
   if ((a > 0.0) != (b > 0.0) || (b > 0.0) != (c > 0.0)) return 0.0;
@@ -21,12 +23,12 @@ double smallestMagnitude(double a, double b, double c) {
 
 void undoCurvatureShift(std::vector<Vec2>& points, const std::vector<Vec2>& normal, bool closed, double blur) {
   const int n = static_cast<int>(points.size());
-  if (n < 6 * kBendHalf) return;
+  if (n < kFewestWindows * kBendHalf) return;
   double meanSquare = 0.0, norm = 0.0;
   for (int j = -kBendHalf; j <= kBendHalf; ++j) meanSquare += j * j;
   meanSquare /= 2 * kBendHalf + 1;
   for (int j = -kBendHalf; j <= kBendHalf; ++j) norm += (j * j - meanSquare) * (j * j - meanSquare);
-  const auto at = [&](int i) { return static_cast<std::size_t>(closed ? wrapIndex(i, n) : std::clamp(i, 0, n - 1)); };
+  const auto at = [&](int i) { return closed ? wrapIndex(i, n) : std::clamp(i, 0, n - 1); };
   std::vector<Vec2> bend(points.size());
   for (int i = 0; i < n; ++i) {
     Vec2 sum = Vec2::Zero();
@@ -40,7 +42,7 @@ void undoCurvatureShift(std::vector<Vec2>& points, const std::vector<Vec2>& norm
     const double kappa =
         smallestMagnitude(bend[at(i)].dot(unit), bend[at(i - kBendHalf)].dot(normal[at(i - kBendHalf)]),
                           bend[at(i + kBendHalf)].dot(normal[at(i + kBendHalf)]));
-    shift[at(i)] = -0.5 * blur * blur * std::clamp(kappa, -0.2, 0.2);
+    shift[at(i)] = -0.5 * blur * blur * std::clamp(kappa, -kTightest, kTightest);
   }
   for (int i = 0; i < n; ++i) points[at(i)] += shift[at(i)] * normal[at(i)];
 }

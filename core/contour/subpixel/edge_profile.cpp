@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <numbers>
 
 #include "core/base/parallel.h"
@@ -15,6 +17,10 @@ constexpr int kSamplingGrain = 1024;  // points per block: about a millisecond
 // The part of the contrast by which the grey must turn back before another edge is believed in. Grain and noise of the
 // averaged profile stay well below it on anything that is a line at all.
 constexpr double kTurnBack = 0.2;
+constexpr int kSearchSamples = 4;            // to either side of the chain, 2 px: the mask is no farther off
+constexpr double kFartherWorse = 0.15;       // [1/px] of the steepness: a nearer edge wins over a slightly steeper one
+constexpr double kFarthestCrossingPx = 1.5;  // of the half level from where the grey falls steepest
+constexpr int kDirectionReach = 3;           // points to either side
 
 void catmullRom(double f, double w[4]) {
   w[0] = f * (-0.5 + f * (1.0 - 0.5 * f));
@@ -30,19 +36,20 @@ double parabolicOffset(double left, double mid, double right) {
   return std::clamp(0.5 * (left - right) / bend, -0.5, 0.5);
 }
 
-// Walks from sample `from` in direction `step` while the grey keeps its trend (`sign` = -1 falling, +1 rising). Returns
-// the sample where it is most extreme before it turns back, or the last one; `turned` says which.
-int followTrend(const float* p, int from, int step, double sign, double turnBack, bool& turned) {
+// How far the grey keeps its trend.
+struct Trend {
+  int last = 0;         // the sample where it is most extreme, before it turns back
+  bool turned = false;  // or else the last sample there is
+};
+
+// Walks from sample `from` in direction `step` while the grey keeps its trend (`sign` = -1 falling, +1 rising).
+Trend followTrend(const float* p, int from, int step, double sign, double turnBack) {
   int best = from;
-  turned = false;
   for (int k = from; k >= 0 && k < kProfileSamples; k += step) {
     if (sign * p[k] > sign * p[best]) best = k;
-    if (sign * (p[best] - p[k]) > turnBack) {
-      turned = true;
-      return best;
-    }
+    if (sign * (p[best] - p[k]) > turnBack) return {best, true};
   }
-  return step > 0 ? kProfileSamples - 1 : 0;
+  return {step > 0 ? kProfileSamples - 1 : 0, false};
 }
 
 }  // namespace
@@ -86,10 +93,9 @@ ProfileBand sampleProfiles(const GreyImage& grey, std::span<const Vec2> base, st
   band.grey.resize(base.size() * kProfileSamples);
   parallelFor(context, static_cast<int>(base.size()), kSamplingGrain, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      const auto index = static_cast<std::size_t>(i);
       float* row = band.row(i);
       for (int k = 0; k < kProfileSamples; ++k) {
-        const Vec2 at = base[index] + profileU(k) * normal[index];
+        const Vec2 at = base[i] + profileU(k) * normal[i];
         row[k] = static_cast<float>(cubic ? sampleCubic(grey, at) : sampleLinear(grey, at));
       }
     }
@@ -125,24 +131,27 @@ ProfileBand averageAlong(const ProfileBand& band, bool closed, double sigma, con
   return out;
 }
 
-EdgeRises edgeRises(std::span<const Vec2> chain, bool closed, const GreyImage& grey, std::array<double, 2> reachPx,
-                    double sigma, const RunContext& context) {
+std::vector<EdgeRise> edgeRises(std::span<const Vec2> chain, bool closed, const GreyImage& grey,
+                                std::array<double, 2> reachPx, double sigma, const RunContext& context) {
   constexpr double kStairSigma = 4.0;  // points: the staircase of the cracks
   const std::vector<Vec2> base = smoothPolyline(chain, closed, kStairSigma);
-  const std::vector<Vec2> along = directions(base, closed, 3);
-  EdgeRises rises{std::vector<float>(base.size()), std::vector<float>(base.size())};
+  const std::vector<Vec2> along = directions(base, closed, kDirectionReach);
+  std::vector<float> inner(base.size()), outer(base.size());
   parallelFor(context, static_cast<int>(base.size()), kSamplingGrain, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) {
-      const auto i = static_cast<std::size_t>(k);
+    for (int i = begin; i < end; ++i) {
       const Vec2 inward = leftNormal(along[i]);  // with y down: ink lies to the right of travel
       const auto rise = [&](double u) {
         return static_cast<float>(sampleLinear(grey, base[i] - u * inward) - sampleLinear(grey, base[i] + u * inward));
       };
-      rises.inner[i] = rise(reachPx[0]);
-      rises.outer[i] = rise(reachPx[1]);
+      inner[i] = rise(reachPx[0]);
+      outer[i] = rise(reachPx[1]);
     }
   });
-  return {smoothValues(rises.inner, closed, sigma), smoothValues(rises.outer, closed, sigma)};
+  inner = smoothValues(inner, closed, sigma);
+  outer = smoothValues(outer, closed, sigma);
+  std::vector<EdgeRise> rises(base.size());
+  for (int i = 0; i < std::ssize(rises); ++i) rises[i] = {inner[i], outer[i]};
+  return rises;
 }
 
 EdgeSpan findEdgeSpan(const float* p) {
@@ -151,8 +160,8 @@ EdgeSpan findEdgeSpan(const float* p) {
   // The steepest fall within 2 px of the chain; nearer ones win over slightly steeper ones.
   int centre = kProfileHalf;
   double steepest = 0.0;
-  for (int k = kProfileHalf - 4; k <= kProfileHalf + 4; ++k) {
-    const double fall = (p[k - 1] - p[k + 1]) * (1.0 - 0.15 * std::abs(profileU(k)));
+  for (int k = kProfileHalf - kSearchSamples; k <= kProfileHalf + kSearchSamples; ++k) {
+    const double fall = (p[k - 1] - p[k + 1]) * (1.0 - kFartherWorse * std::abs(profileU(k)));
     if (fall > steepest) {
       steepest = fall;
       centre = k;
@@ -161,19 +170,18 @@ EdgeSpan findEdgeSpan(const float* p) {
   span.centre = profileU(centre);
   if (!(steepest > 0.0)) return span;
   const double turnBack = kTurnBack * (*high - *low);
-  bool inkTurned = false, paperTurned = false;
-  const int hi = followTrend(p, centre, 1, -1.0, turnBack, inkTurned);
-  const int lo = followTrend(p, centre, -1, 1.0, turnBack, paperTurned);
+  const auto [hi, inkTurned] = followTrend(p, centre, 1, -1.0, turnBack);
+  const auto [lo, paperTurned] = followTrend(p, centre, -1, 1.0, turnBack);
   span.lo = profileU(lo);
   span.hi = profileU(hi);
   // A border seen twice lies as far beyond the middle as this edge lies before it.
   if (inkTurned && hi > 0 && hi < kProfileSamples - 1) {
     span.hi = profileU(hi) + kProfileStepPx * parabolicOffset(p[hi - 1], p[hi], p[hi + 1]);
-    span.inkTwin = 2.0 * (span.hi - span.centre);
+    if (span.hi > span.centre) span.inkTwin = 2.0 * (span.hi - span.centre);
   }
   if (paperTurned && lo > 0 && lo < kProfileSamples - 1) {
     span.lo = profileU(lo) + kProfileStepPx * parabolicOffset(p[lo - 1], p[lo], p[lo + 1]);
-    span.paperTwin = 2.0 * (span.centre - span.lo);
+    if (span.lo < span.centre) span.paperTwin = 2.0 * (span.centre - span.lo);
   }
   float inkLevel = p[centre], paperLevel = p[centre];
   for (int k = lo; k <= hi; ++k) {
@@ -187,14 +195,14 @@ EdgeSpan findEdgeSpan(const float* p) {
 double halfLevelCrossing(const float* p, const EdgeSpan& span) {
   double inkSum = 0.0, paperSum = 0.0;
   int inkCount = 0, paperCount = 0;
-  const double inkFrom = span.centre + std::min(1.9, 0.6 * (span.hi - span.centre));
-  const double paperTo = span.centre - std::min(1.9, 0.6 * (span.centre - span.lo));
+  const double inkFrom = span.centre + std::min(kSideFromPx, kSideShare * (span.hi - span.centre));
+  const double paperTo = span.centre - std::min(kSideFromPx, kSideShare * (span.centre - span.lo));
   for (int k = 0; k < kProfileSamples; ++k) {
     const double u = profileU(k);
-    if (u >= inkFrom && u <= span.hi + 0.25) {
+    if (u >= inkFrom && u <= span.hi + kHalfStepPx) {
       inkSum += p[k];
       ++inkCount;
-    } else if (u <= paperTo && u >= span.lo - 0.25) {
+    } else if (u <= paperTo && u >= span.lo - kHalfStepPx) {
       paperSum += p[k];
       ++paperCount;
     }
@@ -202,7 +210,7 @@ double halfLevelCrossing(const float* p, const EdgeSpan& span) {
   if (inkCount == 0 || paperCount == 0) return span.centre;
   const double half = 0.5 * (inkSum / inkCount + paperSum / paperCount);
   double best = span.centre;
-  double distance = 1e9;  // any crossing is nearer than that
+  double distance = std::numeric_limits<double>::infinity();
   for (int k = 0; k + 1 < kProfileSamples; ++k) {
     if (!(p[k] >= half && p[k + 1] < half)) continue;
     const double u = profileU(k) + kProfileStepPx * (p[k] - half) / (p[k] - p[k + 1]);
@@ -211,7 +219,7 @@ double halfLevelCrossing(const float* p, const EdgeSpan& span) {
       best = u;
     }
   }
-  return distance <= 1.5 ? best : span.centre;
+  return distance <= kFarthestCrossingPx ? best : span.centre;
 }
 
 const NormalTable& NormalTable::instance() {
@@ -220,7 +228,7 @@ const NormalTable& NormalTable::instance() {
 }
 
 NormalTable::NormalTable() {
-  for (std::size_t i = 0; i < cdf_.size(); ++i) {
+  for (int i = 0; i < std::ssize(cdf_); ++i) {
     const double x = static_cast<double>(i) / kPerUnit - kRange;
     cdf_[i] = static_cast<float>(0.5 * std::erfc(-x / std::numbers::sqrt2));
     pdf_[i] = static_cast<float>(std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi));

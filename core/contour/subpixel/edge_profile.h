@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,7 +17,9 @@ namespace batten {
 inline constexpr int kProfileHalf = 8;
 inline constexpr int kProfileSamples = 2 * kProfileHalf + 1;
 inline constexpr double kProfileStepPx = 0.5;
-inline constexpr double kSideFromPx = 1.9;  ///< The levels of ink and paper are taken beyond this distance.
+inline constexpr double kHalfStepPx = 0.5 * kProfileStepPx;
+inline constexpr double kSideFromPx = 1.9;  ///< The levels of ink and paper are taken beyond this distance,
+inline constexpr double kSideShare = 0.6;   ///< or beyond this part of a side that is not as long.
 inline constexpr double profileU(int k) { return (k - kProfileHalf) * kProfileStepPx; }
 
 /// Grey level 0..255 at an image position, by cubic convolution (Catmull-Rom; reproduces parabolas, so it adds no blur
@@ -24,12 +28,12 @@ double sampleCubic(const GreyImage& grey, const Vec2& at);
 /// The same by bilinear interpolation: cheaper, adds about 1/6 px^2 of blur.
 double sampleLinear(const GreyImage& grey, const Vec2& at);
 
-/// One profile per point, row by row, kProfileSamples each.
+/// Profiles across a line, one a point, row by row, kProfileSamples each.
 struct ProfileBand {
   std::vector<float> grey;
   int count() const { return static_cast<int>(grey.size()) / kProfileSamples; }
-  const float* row(int i) const { return grey.data() + static_cast<std::size_t>(i) * kProfileSamples; }
-  float* row(int i) { return grey.data() + static_cast<std::size_t>(i) * kProfileSamples; }
+  const float* row(std::ptrdiff_t i) const { return grey.data() + i * kProfileSamples; }
+  float* row(std::ptrdiff_t i) { return grey.data() + i * kProfileSamples; }
 };
 
 /// Samples the profiles at `base` along `normal` (unit, towards the ink).
@@ -38,13 +42,29 @@ ProfileBand sampleProfiles(const GreyImage& grey, std::span<const Vec2> base, st
 /// Averages neighbouring profiles along the line (Gaussian, sigma in points), in the frame of the line.
 ProfileBand averageAlong(const ProfileBand& band, bool closed, double sigma, const RunContext& context);
 
+/// Other borders in sight of an edge, in any unit of length; absent: none in sight.
+struct EdgeTwins {
+  std::optional<double> ink = {};    ///< Width of the ink, to its far border.
+  std::optional<double> paper = {};  ///< Width of the paper gap, to the next piece of ink.
+};
+
 /// What a profile says about its surroundings.
 struct EdgeSpan {
-  double centre = 0.0;        ///< [px] where the grey falls steepest towards the ink, to half a sample.
-  double lo = 0.0, hi = 0.0;  ///< [px] the profile belongs to this edge within lo..hi.
-  double inkTwin = 0.0;       ///< [px] width of the ink if its far border is in sight, else 0.
-  double paperTwin = 0.0;     ///< [px] width of the paper gap if another piece of ink is in sight, else 0.
-  double contrast = 0.0;      ///< [grey] paper minus ink within lo..hi; <= 0: no edge.
+  double centre = 0.0;                   ///< [px] where the grey falls steepest towards the ink, to half a sample.
+  double lo = 0.0, hi = 0.0;             ///< [px] the profile belongs to this edge within lo..hi.
+  std::optional<double> inkTwin = {};    ///< [px] as EdgeTwins.
+  std::optional<double> paperTwin = {};  ///< [px]
+  double contrast = 0.0;                 ///< [grey] paper minus ink within lo..hi.
+  bool hasEdge() const { return contrast > 0.0; }
+  /// Whether a sample belongs to this edge.
+  bool holds(double u) const { return u >= lo - kHalfStepPx && u <= hi + kHalfStepPx; }
+  /// The twins in units of `unitPx`.
+  EdgeTwins twinsIn(double unitPx) const {
+    EdgeTwins twins;
+    if (inkTwin) twins.ink = *inkTwin / unitPx;
+    if (paperTwin) twins.paper = *paperTwin / unitPx;
+    return twins;
+  }
 };
 /// Finds the edge nearest to u = 0 and how far it reaches until another edge turns the grey back.
 EdgeSpan findEdgeSpan(const float* profile);
@@ -54,28 +74,26 @@ double halfLevelCrossing(const float* profile, const EdgeSpan& span);
 
 /// How much the grey falls from paper to ink between u = -reach and u = reach of each point of an outline, for two
 /// reaches [px], averaged along it (sigma in points). An edge that goes on rising further out is soft.
-struct EdgeRises {
-  std::vector<float> inner, outer;
+struct EdgeRise {
+  float inner = 0.0f, outer = 0.0f;  ///< [grey]
 };
-EdgeRises edgeRises(std::span<const Vec2> chain, bool closed, const GreyImage& grey, std::array<double, 2> reachPx,
-                    double sigma, const RunContext& context);
+std::vector<EdgeRise> edgeRises(std::span<const Vec2> chain, bool closed, const GreyImage& grey,
+                                std::array<double, 2> reachPx, double sigma, const RunContext& context);
 
 /// Standard normal distribution and density from a table (error < 2e-5), so that millions of evaluations stay cheap.
 class NormalTable {
  public:
   static const NormalTable& instance();
+  struct Value {
+    double cdf = 0.0, pdf = 0.0;
+  };
   /// Phi(x) and phi(x).
-  void eval(double x, double& cdf, double& pdf) const {
-    if (x <= -kRange || x >= kRange) {
-      cdf = x > 0.0 ? 1.0 : 0.0;
-      pdf = 0.0;
-      return;
-    }
+  Value at(double x) const {
+    if (x <= -kRange || x >= kRange) return {x > 0.0 ? 1.0 : 0.0, 0.0};
     const double position = (x + kRange) * kPerUnit;
-    const auto i = static_cast<std::size_t>(position);
-    const double f = position - static_cast<double>(i);
-    cdf = cdf_[i] + f * (cdf_[i + 1] - cdf_[i]);
-    pdf = pdf_[i] + f * (pdf_[i + 1] - pdf_[i]);
+    const int i = static_cast<int>(position);
+    const double f = position - i;
+    return {cdf_[i] + f * (cdf_[i + 1] - cdf_[i]), pdf_[i] + f * (pdf_[i + 1] - pdf_[i])};
   }
 
  private:

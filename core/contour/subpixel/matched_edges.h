@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -15,21 +15,28 @@ inline constexpr double kEdgeGatePx = 1.5;         ///< [px] Farthest that an ed
 inline constexpr double kLeastEdgeContrast = 2.0;  ///< [grey]
 inline constexpr int kEdgesPerBlock = 512;         ///< Worked on together; the result does not depend on it.
 
-/// Edges that were matched with the model of a blurred border, one entry per point.
+/// An edge that was matched with the model of a blurred border, at one point of a line.
+struct MatchedEdge {
+  EdgeSpan span;
+  double position = 0.0;           ///< [px] along the normal from the base.
+  float ink = 0.0f, paper = 0.0f;  ///< [grey] side levels, smoothed along the line.
+  /// What the pixels around it tell of its place; absent where they were not asked.
+  std::optional<PointInformation> information = {};
+  double contrast() const { return paper - ink; }
+};
+/// One edge a point.
 struct MatchedEdges {
-  std::vector<EdgeSpan> span;
-  std::vector<double> position;   ///< [px] along the normal from the base
-  std::vector<float> ink, paper;  ///< [grey] side levels, smoothed along the line
-  double blur = 1.1;              ///< [px] standard deviation of the edge's own blur
-  double noise = 0.0;             ///< [grey] robust standard deviation of the residuals
-  std::vector<PointInformation> information;
+  std::vector<MatchedEdge> edges;
+  double blur = 1.1;   ///< [px] standard deviation of the edge's own blur.
+  double noise = 0.0;  ///< [grey] robust standard deviation of the residuals.
+  int count() const { return static_cast<int>(edges.size()); }
 };
 
 /// Calls body(i) for all points, in parallel; it writes only what belongs to its own point.
 template <class Body>
-void forEdgePoints(const RunContext& context, std::size_t count, const Body& body) {
-  parallelFor(context, static_cast<int>(count), kEdgesPerBlock, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) body(static_cast<std::size_t>(i));
+void forEdgePoints(const RunContext& context, int count, const Body& body) {
+  parallelFor(context, count, kEdgesPerBlock, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) body(i);
   });
 }
 

@@ -29,8 +29,9 @@ constexpr double kLargestStepPx = 0.5, kSettledPx = 2e-3;
 
 PixelResponse::Value modelAt(const PixelResponse& response, const PixelEdge& edge, double distance) {
   PixelResponse::Value value = response.at(distance, edge.direction);
-  if (edge.inkTwin > 0.0) value.part -= response.at(distance - edge.inkTwin, edge.direction).part;
-  if (edge.paperTwin > 0.0) value.part += response.at(-distance - edge.paperTwin, edge.direction).part;
+  const auto& [ink, paper] = edge.twins;
+  if (ink) value.part -= response.at(distance - *ink, edge.direction).part;
+  if (paper) value.part += response.at(-distance - *paper, edge.direction).part;
   return value;
 }
 
@@ -67,9 +68,8 @@ PixelResponse::PixelResponse(double blur) : blur_(blur) {
 const PixelResponse& PixelResponse::forBlur(int index) {
   static std::array<std::once_flag, kBlurs> made;
   static std::array<std::unique_ptr<const PixelResponse>, kBlurs> tables;
-  const auto at = static_cast<std::size_t>(index);
-  std::call_once(made[at], [&] { tables[at].reset(new PixelResponse((index + 1) * kStepPx)); });
-  return *tables[at];
+  std::call_once(made[index], [&] { tables[index].reset(new PixelResponse((index + 1) * kStepPx)); });
+  return *tables[index];
 }
 
 int PixelResponse::direction(const Vec2& normal) const {
@@ -82,9 +82,9 @@ PixelResponse::Value PixelResponse::at(double distance, int direction) const {
   const double place = (distance + range_) * kPerPx;
   if (!(place > 0.0)) return {0.0, 0.0};
   if (place >= columns_ - 2) return {1.0, 0.0};
-  const auto k = static_cast<std::size_t>(place);
-  const double f = place - static_cast<double>(k);
-  const std::size_t i = static_cast<std::size_t>(direction) * static_cast<std::size_t>(columns_) + k;
+  const int k = static_cast<int>(place);
+  const double f = place - k;
+  const int i = direction * columns_ + k;
   return {part_[i] + f * (part_[i + 1] - part_[i]), slope_[i] + f * (slope_[i + 1] - slope_[i])};
 }
 
@@ -124,10 +124,10 @@ void PixelWindow::read(const GreyImage& grey, const Vec2& base, const Vec2& norm
   }
 }
 
-double mostLikelyPosition(const PixelWindow& window, const PixelResponse& response, const PixelEdge& edge, double start,
-                          double gate, PointInformation* information) {
-  if (information) *information = {};
-  double position = start;
+EdgePosition mostLikelyPosition(const PixelWindow& window, const PixelResponse& response, const PixelEdge& edge,
+                                double start, double gate) {
+  EdgePosition found{start, std::nullopt};
+  double& position = found.position;
   for (int step = 0; step < kEdgeNewtonSteps; ++step) {
     double top = 0.0, bottom = 0.0, spread = 0.0, squares = 0.0, weights = 0.0;
     for (const PixelWindow::Pixel& p : window.pixels) {
@@ -141,17 +141,15 @@ double mostLikelyPosition(const PixelWindow& window, const PixelResponse& respon
       squares += p.weight * left * left;
       weights += p.weight;
     }
-    if (!(bottom > 0.0)) return start;
+    if (!(bottom > 0.0)) return {start, found.information};
     // Weighted least squares under white noise; one step more takes its part of the squares.
-    if (information) {
-      *information = {std::sqrt(spread) / bottom, std::max(0.0, squares - top * top / bottom),
-                      std::max(0.0, weights - spread / bottom)};
-    }
+    found.information = {std::sqrt(spread) / bottom, std::max(0.0, squares - top * top / bottom),
+                         std::max(0.0, weights - spread / bottom)};
     const double move = std::clamp(top / bottom, -kLargestStepPx, kLargestStepPx);
     position = std::clamp(position + move, start - gate, start + gate);
     if (std::abs(move) < kSettledPx) break;
   }
-  return position;
+  return found;
 }
 
 double squaresLeft(const PixelWindow& window, const PixelResponse& response, const PixelEdge& edge, double position) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/base/vec2.h"
+#include "core/contour/subpixel/edge_profile.h"
 #include "core/contour/subpixel/point_noise.h"
 #include "core/image/grey_image.h"
 
@@ -58,16 +60,19 @@ struct PixelWindow {
 
 /// A straight edge, and the borders of the same ink or gap that are in sight.
 struct PixelEdge {
-  double paper = 255.0, contrast = 0.0;   ///< [grey] of the paper, and how much darker the ink is.
-  double inkTwin = 0.0, paperTwin = 0.0;  ///< [px] width of the ink, of the gap; 0: not in sight.
-  int direction = 0;                      ///< Of PixelResponse.
+  double paper = 255.0, contrast = 0.0;  ///< [grey] of the paper, and how much darker the ink is.
+  EdgeTwins twins = {};                  ///< [px]
+  int direction = 0;                     ///< Of PixelResponse.
 };
 
+/// A position that the pixels told.
+struct EdgePosition {
+  double position = 0.0;                             ///< [px] along the normal.
+  std::optional<PointInformation> information = {};  ///< How well the pixels tell; absent where they say nothing.
+};
 /// The position along the normal that the pixels make most likely under white noise: Newton steps from `start`, at most
 /// `gate` px away from it. `start` when the pixels say nothing.
-/// @param information if given, set to how well the pixels tell.
-double mostLikelyPosition(const PixelWindow&, const PixelResponse&, const PixelEdge&, double start, double gate,
-                          PointInformation* information = nullptr);
+EdgePosition mostLikelyPosition(const PixelWindow&, const PixelResponse&, const PixelEdge&, double start, double gate);
 /// [grey^2] weighted sum of the squares that the model leaves.
 double squaresLeft(const PixelWindow&, const PixelResponse&, const PixelEdge&, double position);
 

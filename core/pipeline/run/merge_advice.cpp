@@ -52,15 +52,16 @@ Result<MergeAdvice> adviseMerge(const Scan& scan, const Recipe& recipe, StageCac
   advice.strokes = advice.lines = centrelinesOf(**apart);
   const double width = (*apart)->report.widthPx;
   if (advice.strokes == 0 || !(width > 0.0)) return advice;
-  const OverdrawnStrokes strokes = findOverdrawnStrokes((*apart)->contours, (kMostWidths + 1.0) * width, context);
+  const std::optional<OverdrawnStrokes> strokes =
+      findOverdrawnStrokes((*apart)->contours, (kMostWidths + 1.0) * width, context);
   if (context.isCancelled()) return cancelled();
-  if (!(strokes.distancePx > 0.0)) return advice;
+  if (!strokes) return advice;
   // The distance is between middles: a width more than the paper between.
-  const double widths = kStepWidths * std::round((strokes.distancePx / width - 1.0) / kStepWidths);
+  const double widths = kStepWidths * std::round((strokes->distancePx / width - 1.0) / kStepWidths);
   const double strength = std::clamp(widths, kStepWidths, kMostWidths);
   const auto merged = linesWith(strength, scan, recipe, cache, context);
   if (!merged) return fail(merged.error());
-  advice.share = strokes.share;
+  advice.share = strokes->share;
   if (centrelinesOf(**merged) >= advice.strokes) return advice;
   advice.widths = strength;
   advice.lines = centrelinesOf(**merged);

@@ -31,8 +31,10 @@ Suggested suggested(const std::vector<PenPath>& strokes) {
   const ContourSet set = traceOverdrawn(strokes, 0.0);
   EXPECT_FALSE(set.contours.empty());
   EXPECT_GT(set.report.widthPx, 1.0);
-  const OverdrawnStrokes found = findOverdrawnStrokes(set.contours, 21.0 * set.report.widthPx, {});
-  EXPECT_EQ(found.distancePx > 0.0, found.share > 0.0);
+  const auto overdrawn = findOverdrawnStrokes(set.contours, 21.0 * set.report.widthPx, {});
+  const OverdrawnStrokes found = overdrawn.value_or(OverdrawnStrokes{});
+  EXPECT_EQ(overdrawn.has_value(), found.distancePx > 0.0);
+  EXPECT_EQ(overdrawn.has_value(), found.share > 0.0);
   EXPECT_LE(found.share, 1.0);
   return {std::max(0.0, found.distancePx / set.report.widthPx - 1.0), found.share};
 }
@@ -177,25 +179,25 @@ TEST(OverdrawnStrokes, NoneInAHatching) {
 }
 
 TEST(OverdrawnStrokes, NothingToLookAt) {
-  EXPECT_EQ(findOverdrawnStrokes({}, 60.0, {}).distancePx, 0.0);
+  EXPECT_FALSE(findOverdrawnStrokes({}, 60.0, {}));
   EXPECT_TRUE(findParallelStrokes({Contour{}, Contour{}}, 3.0, 60.0, {}).empty()) << "lines without points";
   const ContourSet set = traceOverdrawn(roundInArcs(6, 6.0, 1), 0.0);
-  ASSERT_GT(findOverdrawnStrokes(set.contours, 60.0, {}).distancePx, 0.0);
+  ASSERT_TRUE(findOverdrawnStrokes(set.contours, 60.0, {}));
   RunContext stopped;
   stopped.cancel.cancel();
-  EXPECT_EQ(findOverdrawnStrokes(set.contours, 60.0, stopped).distancePx, 0.0);
+  EXPECT_FALSE(findOverdrawnStrokes(set.contours, 60.0, stopped));
   ContourSet outlines = set;
   for (Contour& c : outlines.contours) c.kind = ContourKind::Outline;
-  EXPECT_EQ(findOverdrawnStrokes(outlines.contours, 60.0, {}).distancePx, 0.0);
+  EXPECT_FALSE(findOverdrawnStrokes(outlines.contours, 60.0, {}));
   RunContext one, four;
   one.threads = 1;
   four.threads = 4;
-  const OverdrawnStrokes a = findOverdrawnStrokes(set.contours, 80.0, one);
-  const OverdrawnStrokes b = findOverdrawnStrokes(set.contours, 80.0, four);
-  ASSERT_GT(a.distancePx, 0.0);
-  EXPECT_GT(a.share, 0.5) << "a ring of arcs that overlap";
-  EXPECT_EQ(a.distancePx, b.distancePx);
-  EXPECT_EQ(a.share, b.share);
+  const auto a = findOverdrawnStrokes(set.contours, 80.0, one);
+  const auto b = findOverdrawnStrokes(set.contours, 80.0, four);
+  ASSERT_TRUE(a && b);
+  EXPECT_GT(a->share, 0.5) << "a ring of arcs that overlap";
+  EXPECT_EQ(a->distancePx, b->distancePx);
+  EXPECT_EQ(a->share, b->share);
 }
 
 }  // namespace

@@ -112,23 +112,22 @@ TEST(PointSigmas, StayWithTheirPointsWhereEndsAreMoved) {
 
 TEST(PointSigmas, AreNotBestWhereNothingIsKnown) {
   for (const std::size_t from : {std::size_t{0}, std::size_t{70}, std::size_t{140}}) {
-    std::vector<PointInformation> points(200, PointInformation{0.01, 40.0, 10.0});  // noise of 2
-    for (std::size_t i = from; i < from + 60; ++i) points[i] = {0.02, 0.0, 0.0};    // half as well known
-    const std::vector<float> sigma = pointSigmas(points, std::vector<std::uint8_t>(200, 1), false);
+    std::vector<std::optional<PointInformation>> points(200, PointInformation{0.01, 40.0, 10.0});  // noise of 2
+    for (std::size_t i = from; i < from + 60; ++i) points[i] = PointInformation{0.02, 0.0, 0.0};   // half as well known
+    const std::vector<float> sigma = pointSigmas(points, false);
     const double expected = std::hypot(0.04, 0.01);
     for (std::size_t i = from; i < from + 60; ++i) EXPECT_NEAR(sigma[i], expected, 0.1 * expected) << from << " " << i;
   }
-  const std::vector<PointInformation> none(50, PointInformation{0.02, 0.0, 0.0});
-  for (const float s : pointSigmas(none, std::vector<std::uint8_t>(50, 1), false)) EXPECT_GT(s, 0.3f);
+  const std::vector<std::optional<PointInformation>> none(50, PointInformation{0.02, 0.0, 0.0});
+  for (const float s : pointSigmas(none, false)) EXPECT_GT(s, 0.3f);
 }
 
 TEST(PointSigmas, HoldBackSurprisesAndPointsThatWereNotPlaced) {
-  std::vector<PointInformation> points(200, PointInformation{0.01, 40.0, 10.0});  // noise of 2
-  std::vector<std::uint8_t> placed(200, 1);
-  points[100].squares = 4e5;  // a hundred times the noise
-  placed[30] = 0;
-  points[40].gain = 0.0;
-  const std::vector<float> sigma = pointSigmas(points, placed, false);
+  std::vector<std::optional<PointInformation>> points(200, PointInformation{0.01, 40.0, 10.0});  // noise of 2
+  points[100]->squares = 4e5;  // a hundred times the noise
+  points[30].reset();
+  points[40].reset();
+  const std::vector<float> sigma = pointSigmas(points, false);
   const double expected = std::hypot(0.02, 0.01);
   EXPECT_NEAR(sigma[0], expected, 0.05 * expected);
   EXPECT_NEAR(sigma[99], expected, 0.05 * expected);
