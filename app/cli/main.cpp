@@ -77,7 +77,8 @@ void addTrace(CLI::App& app, TraceArguments& a) {
        "Which page of a TIFF or PDF, from 1; all: every page, with -p1, -p2 … behind the names of what is written",
        "N|all"});
   addRepeated(*trace, "-o,--output", a.outputs, "OUT",
-              "Write the curves; the ending chooses the format (" + allEndings() + "); may be repeated");
+              "Write the curves; the ending chooses the format (" + allEndings() +
+                  "); .report.pdf and .report.html hold a report to print; may be repeated");
   addRepeated(*trace, "--import", a.imports, "FILE",
               "Take lines over from a file of curves or points (" + importEndings() + "); may be repeated");
   trace
@@ -85,6 +86,7 @@ void addTrace(CLI::App& app, TraceArguments& a) {
                    "Unit of their numbers instead of what the files state: mm, cm, m or in")
       ->type_name("UNIT");
   trace->add_option("--preset", a.preset, "Write what this receiver reads best: " + presetNames())->type_name("NAME");
+  trace->add_option("--paper", a.paper, "Paper of a .report.pdf: a4 or letter")->type_name("SIZE");
   trace->add_option("--unit", a.unit, "Unit of DXF, IGES, STEP and CSV: mm or in")->type_name("UNIT");
   trace->add_option("--scale", a.scale, "Write the curves this many times as large")->type_name("N");
   trace->add_option("--tolerance", a.tolerance, "Largest distance of what is approximated from the exact curves, mm")
