@@ -63,8 +63,10 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   addDrawing(*trace, a, "The scan: PNG, JPEG, TIFF, BMP, WebP, PGM or PBM; none for a recipe drawn on an empty page",
              "Start from this recipe; --set, --corner and --dpi come on top");
   addRepeated(*trace, "-o,--output", a.outputs, "OUT",
-              "Write the curves; the ending chooses the format (" + allEndings() + "); may be repeated");
+              "Write the curves; the ending chooses the format (" + allEndings() +
+                  "); .report.pdf and .report.html hold a report to print; may be repeated");
   trace->add_option("--preset", a.preset, "Write what this receiver reads best: " + presetNames())->type_name("NAME");
+  trace->add_option("--paper", a.paper, "Paper of a .report.pdf: a4 or letter")->type_name("SIZE");
   trace->add_option("--unit", a.unit, "Unit of DXF, IGES, STEP and CSV: mm or in")->type_name("UNIT");
   trace->add_option("--scale", a.scale, "Write the curves this many times as large")->type_name("N");
   trace->add_option("--tolerance", a.tolerance, "Largest distance of what is approximated from the exact curves, mm")

@@ -9,6 +9,7 @@
 
 #include "app/cli/curve_notes.h"
 #include "app/cli/exit_codes.h"
+#include "app/cli/report_output.h"
 #include "app/cli/stage_dump.h"
 #include "app/cli/trace_plan.h"
 #include "core/base/conventions.h"
@@ -134,6 +135,8 @@ class Trace {
       files_.push_back(output.path.string());
       checks_.push_back(output.path.filename().string() + ": " + sentenceOf(*report));
     }
+    if (auto written = writeReportPages(plan_.reports, scan_, plan_.recipe, out_, context_); !written) return written;
+    for (const auto& report : plan_.reports) files_.push_back(report.path.string());
     return {};
   }
 

@@ -15,6 +15,7 @@ struct TraceArguments {
   std::string unit;                        ///< --unit mm|in
   std::optional<double> scale;             ///< --scale
   std::optional<double> tolerance;         ///< --tolerance [mm]
+  std::string paper;                       ///< --paper a4|letter; empty: a4
   std::string curves;                      ///< --curves 1,3-5; empty: all
   std::string which;                       ///< --which faired|sketched|both; empty: faired
   bool joined = false;                     ///< --joined

@@ -101,7 +101,9 @@ Result<void> applyRegion(const std::string& region, Recipe& recipe) {
 /// The settings of an output: those of the preset if it is for this format, then what is said beside it.
 Result<TracePlan::Output> outputOf(const std::string& path, const TraceArguments& arguments) {
   const auto format = formatOf(path);
-  if (!format) return wrong("The output " + path + " must end in one of " + allEndings() + ".");
+  if (!format) {
+    return wrong("The output " + path + " must end in one of " + allEndings() + ", .report.pdf, .report.html.");
+  }
   ExportSettings settings;
   if (!arguments.preset.empty()) {
     const ExportPreset* preset = findPreset(arguments.preset);
@@ -128,7 +130,13 @@ Result<void> planExport(const TraceArguments& arguments, TracePlan& plan) {
   if (!arguments.which.empty() && arguments.which != "faired" && plan.which == ExportedCurves::Faired)
     return wrong("--which takes faired, sketched or both, not \"" + arguments.which + "\".");
   plan.curves = arguments.curves;
+  if (!arguments.paper.empty() && arguments.paper != "a4" && arguments.paper != "letter")
+    return wrong("--paper takes a4 or letter, not \"" + arguments.paper + "\".");
   for (const std::string& path : arguments.outputs) {
+    if (const auto report = reportFormatOf(path)) {
+      plan.reports.push_back({path, *report, arguments.paper == "letter" ? ReportPaper::Letter : ReportPaper::A4});
+      continue;
+    }
     auto output = outputOf(path, arguments);
     if (!output) return fail(output.error());
     plan.outputs.push_back(std::move(*output));
@@ -174,6 +182,7 @@ bool isSameFile(const fs::path& first, const fs::path& second) {
 Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan) {
   std::vector<fs::path> targets;
   for (const auto& output : plan.outputs) targets.push_back(output.path);
+  for (const auto& report : plan.reports) targets.push_back(report.path);
   for (const auto& dump : plan.dumps) targets.push_back(dump.path);
   if (!arguments.report.empty()) targets.emplace_back(arguments.report);
   const std::size_t withoutRecipe = targets.size();

@@ -8,6 +8,7 @@
 #include "app/cli/trace_command.h"
 #include "core/base/result.h"
 #include "core/document/export_builder.h"
+#include "core/document/report_pages/report_file.h"
 #include "core/exchange/export_settings.h"
 #include "core/pipeline/recipe/recipe.h"
 
@@ -19,12 +20,18 @@ struct TracePlan {
     std::filesystem::path path;
     ExportSettings settings;
   };
+  struct ReportPages {
+    std::filesystem::path path;
+    ReportFormat format = ReportFormat::Pdf;
+    ReportPaper paper = ReportPaper::A4;
+  };
   struct Dump {
     std::string stage;
     std::filesystem::path path;
   };
   Recipe recipe;
   std::vector<Output> outputs;
+  std::vector<ReportPages> reports;
   std::string curves;  ///< Numbers of the curves to write; empty: all.
   ExportedCurves which = ExportedCurves::Faired;
   std::vector<Dump> dumps;
