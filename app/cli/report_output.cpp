@@ -15,8 +15,11 @@ Result<void> writeReportPages(const std::vector<TracePlan::ReportPages>& reports
   static char program[] = "batten-cli", option[] = "-platform", platform[] = "offscreen";
   std::array<char*, 4> words = {program, option, platform, nullptr};
   int count = 3;
+  // What it says of the machine, as of a missing folder of the desktop, is no error of the trace.
+  const auto before = qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
   std::unique_ptr<QGuiApplication> fonts;
   if (QCoreApplication::instance() == nullptr) fonts = std::make_unique<QGuiApplication>(count, words.data());
+  qInstallMessageHandler(before);
   const ReportOrigin origin{std::string("Batten ") + BATTEN_VERSION,
                             QDate::currentDate().toString(Qt::ISODate).toStdString()};
   const auto content = reportContent(scan, recipe, output, origin, context);

@@ -19,6 +19,7 @@ struct TraceArguments {
   std::string curves;                      ///< --curves 1,3-5; empty: all
   std::string which;                       ///< --which faired|sketched|both; empty: faired
   bool joined = false;                     ///< --joined
+  bool apart = false;                      ///< --apart
   bool splinesOnly = false;                ///< --splines-only
   std::string recipe;                      ///< --recipe
   std::vector<std::string> settings;       ///< --set stage.parameter=value
@@ -28,6 +29,9 @@ struct TraceArguments {
   std::vector<std::string> centrelines;    ///< --centreline X,Y
   std::vector<std::string> regions;        ///< --roi X,Y,WIDTH,HEIGHT
   std::optional<std::string> dpi;          ///< --dpi
+  std::string knownLength;                 ///< --known-length X,Y,X,Y,LENGTH
+  std::vector<std::string> directions;     ///< --direction X,Y,X,Y
+  std::vector<std::string> starts;         ///< --start X,Y
   std::string report;                      ///< --report
   bool reportTargets = false;              ///< --report-targets
   std::vector<std::string> dumps;          ///< --dump STAGE=FILE.png

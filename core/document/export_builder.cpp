@@ -10,6 +10,7 @@
 
 #include "core/base/statistics.h"
 #include "core/exchange/export_check.h"
+#include "core/pipeline/run/direction_owners.h"
 
 namespace batten {
 namespace {
@@ -55,7 +56,8 @@ std::optional<double> strokeWidth(const Contour& line, const PageFrame& frame) {
 const NurbsCurve& shapeOf(const TracedCurve& curve, bool sketched) { return sketched ? curve.sketched : curve.faired; }
 
 /// Adds the lines of a run in one of their two kinds.
-void addCurves(const PipelineOutput& output, bool sketched, ExportDocument& document) {
+void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched, ExportDocument& document) {
+  const DirectionOwners owners = assignDirections(*output.pieces, recipe);
   std::map<int, ContourPieces> byContour;
   std::map<std::size_t, const TracedCurve*> byPiece;
   for (const TracedCurve& curve : output.faired->curves) {
@@ -74,8 +76,13 @@ void addCurves(const PipelineOutput& output, bool sketched, ExportDocument& docu
       curve.layer = sketched ? kSketchedLayer : kFairedLayer;
       for (const TracedCurve* piece : run) {
         const int number = static_cast<int>(piece - output.faired->curves.data()) + 1;
-        curve.pieces.push_back({shapeOf(*piece, sketched), "Curve " + std::to_string(number), number});
+        ExportPiece& own = curve.pieces.emplace_back(
+            ExportPiece{shapeOf(*piece, sketched), "Curve " + std::to_string(number), number});
+        if (const auto& wanted = owners.ofPiece[static_cast<std::size_t>(piece->piece)])
+          own.direction = PieceDirection{static_cast<int>(wanted->mark), wanted->isTurned};
       }
+      if (const auto start = owners.startOfContour.find(contour); start != owners.startOfContour.end())
+        curve.startMm = output.frame.pointToModel(recipe.starts[start->second].positionPx);
       curve.strokeWidthMm = strokeWidth(line, output.frame);
       // A loop of the drawing whose curves do not meet, because a construction breaks them, is none.
       curve.closed = isWholeClosed(run, pieces, line.closed) && isLoop(curve.pieces);
@@ -93,8 +100,8 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
   document.imageSha256 = scan.fileHash.hex();
   document.title = std::filesystem::path(scan.path).filename().string();
   if (!output.faired || !output.pieces || !output.contours) return document;
-  if (which != ExportedCurves::Faired) addCurves(output, true, document);
-  if (which != ExportedCurves::Sketched) addCurves(output, false, document);
+  if (which != ExportedCurves::Faired) addCurves(output, recipe, true, document);
+  if (which != ExportedCurves::Sketched) addCurves(output, recipe, false, document);
   return document;
 }
 

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/curve/curvature.h"
+#include "core/exchange/arrangement.h"
 #include "core/exchange/cad_drawing.h"
 #include "core/exchange/csv_writer.h"
 #include "core/exchange/curve_json.h"
@@ -81,7 +82,6 @@ Result<Check> cadFile(const ExportDocument& document, const ExportSettings& sett
   for (const CadEntity& entity : made->drawing.entities)
     if (const auto* line = std::get_if<CadPolyline>(&entity.shape))
       report.vertices += static_cast<int>(line->vertices.size());
-  report.doubles = made->doubles;
   const bool isApproximation = isApproximate(settings);
   if (isApproximation || made->largestErrorMm > kExactMm) report.largestErrorMm = made->largestErrorMm;
   if (isApproximation && report.vertices == 0) report.largestJump = made->largestJump;
@@ -208,11 +208,15 @@ std::optional<std::set<int>> numbersOf(const std::string& list) {
 
 }  // namespace
 
-Result<ExportedFile> exportedFile(const ExportDocument& document, const ExportSettings& settings,
+Result<ExportedFile> exportedFile(const ExportDocument& given, const ExportSettings& settings,
                                   const RunContext& context) {
-  if (auto problem = exportProblem(document)) return fail(std::move(*problem));
+  if (auto problem = exportProblem(given)) return fail(std::move(*problem));
   if (auto problem = validate(settings)) return fail(std::move(*problem));
+  const auto made = arranged(given, isJoined(settings), context);
+  if (!made) return fail(made.error());
+  const ExportDocument& document = made->document;
   ExportedFile file;
+  file.report.doubles = made->doubles;
   file.report.format = settings.format;
   file.report.lines = static_cast<int>(document.curves.size());
   for (const ExportCurve& line : document.curves) file.report.curves += static_cast<int>(line.pieces.size());

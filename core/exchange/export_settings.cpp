@@ -81,6 +81,12 @@ double defaultTolerance(const ExportSettings& settings) {
   return kCubicTolerance;
 }
 
+bool isJoined(const ExportSettings& settings) {
+  const bool isCad = settings.format == ExportFormat::Dxf || settings.format == ExportFormat::Iges ||
+                     settings.format == ExportFormat::Step;
+  return settings.joined.value_or(!isCad);
+}
+
 double millimetresPer(LengthUnit unit) { return unit == LengthUnit::Inch ? kMillimetresPerInch : 1.0; }
 const char* nameOf(LengthUnit unit) { return unit == LengthUnit::Inch ? "in" : "mm"; }
 

@@ -28,8 +28,9 @@ enum class LengthUnit { Millimetre, Inch };
 struct ExportSettings {
   ExportFormat format = ExportFormat::Svg;
   LengthUnit unit = LengthUnit::Millimetre;
-  double scale = 1.0;        ///< [-] > 0. The file's curves are this many times as large as the drawing's.
-  bool joined = false;       ///< Pieces that follow each other become one curve, with their corners inside.
+  double scale = 1.0;  ///< [-] > 0. The file's curves are this many times as large as the drawing's.
+  /// Pieces that follow each other become one curve, with their corners inside; absent: as isJoined() says.
+  std::optional<bool> joined;
   bool splinesOnly = false;  ///< Lines, arcs and circles as splines, too.
   bool simpleKnots = false;  ///< DXF Cad: no knot inside a curve more than once; curves are cut where there is one.
   bool arcs = false;         ///< DXF Cnc: arcs (bulges) instead of chords where they save vertices.
@@ -44,6 +45,9 @@ struct ExportSettings {
 double defaultTolerance(const ExportSettings&);
 /// Whether the file holds something else than the curves themselves, so that the tolerance matters.
 bool isApproximate(const ExportSettings&);
+
+/// Whether pieces stay together: as the settings say, else in all but DXF, IGES and STEP.
+bool isJoined(const ExportSettings&);
 
 double millimetresPer(LengthUnit);
 const char* nameOf(LengthUnit);  ///< "mm" or "in".

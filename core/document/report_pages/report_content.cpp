@@ -15,9 +15,18 @@
 namespace batten {
 namespace {
 
-constexpr double kCombWidthMm = 84.0, kPlotWidthMm = 96.0, kFigureHeightMm = 58.0;
+constexpr double kCombWidthMm = 84.0, kPlotWidthMm = 96.0, kFigureHeightMm = 50.0;
 
 std::string mm(double value) { return std::isfinite(value) ? significantText(value, 3) : "-"; }
+
+/// Two digits, with a power of ten where zeros would hide them: "6.8", "4.7e8".
+std::string energyText(double value) {
+  constexpr double kLeastPlain = 0.01, kMostPlain = 1e4;
+  if (!std::isfinite(value)) return "-";
+  if (value == 0.0 || (value >= kLeastPlain && value < kMostPlain)) return significantText(value, 2);
+  const double power = std::floor(std::log10(value));
+  return significantText(value / std::pow(10.0, power), 2) + "e" + std::to_string(static_cast<int>(power));
+}
 
 /// "12 > 9" where fairing changed it, else the number.
 std::string beforeAndAfter(const std::string& before, const std::string& after) {
@@ -25,9 +34,8 @@ std::string beforeAndAfter(const std::string& before, const std::string& after) 
 }
 
 std::vector<std::string> columnNames() {
-  return {"Length, mm",    "Control points",     "Extrema",      "Inflections",
-          "Variation",     "From points, rms",   "95 %",         "largest, mm",
-          "Moved, mm",     "Tolerance, mm"};
+  return {"Length, mm", "Control points", "Extrema",     "Inflections", "Variation",
+          "Rms, mm",    "95 %, mm",       "Largest, mm", "Moved, mm",   "Tolerance, mm"};
 }
 
 std::vector<std::string> cellsOf(const TracedCurve& curve) {
@@ -39,7 +47,7 @@ std::vector<std::string> cellsOf(const TracedCurve& curve) {
           count(before.controlPoints, after.controlPoints),
           count(before.extrema, after.extrema),
           count(before.inflections, after.inflections),
-          beforeAndAfter(mm(variationEnergy(curve.sketched)), mm(variationEnergy(shape))),
+          beforeAndAfter(energyText(variationEnergy(curve.sketched)), energyText(variationEnergy(shape))),
           mm(after.fromPoints.rms),
           mm(after.fromPoints.percentile95),
           mm(after.fromPoints.max),

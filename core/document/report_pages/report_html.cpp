@@ -103,15 +103,16 @@ std::string reportHtml(const ReportContent& content) {
   std::string text =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\">\n<title>" +
-      xmlText(content.title) + "</title>\n<style>\n" + kStyle + "</style></head><body>\n<h1>" +
-      xmlText(content.title) + "</h1>\n" + factTable(content.facts);
+      xmlText(content.title) + "</title>\n<style>\n" + kStyle + "</style></head><body>\n<h1>" + xmlText(content.title) +
+      "</h1>\n" + factTable(content.facts);
   text += "<h2>Drawing, 1:1</h2>\n<p class=\"mute\">Measure the bar: printed at 100 % it is 100 mm long. " +
           keyText(Ink::Sketched, "sketched") + keyText(Ink::Faired, "faired") + "</p>\n<div class=\"wide\">" +
           svgText(withBar(content.drawing), "Drawing") + "</div>\n";
-  text += "<h2>Fairness and deviations</h2>\n<p class=\"mute\">An arrow leads from the sketched to the faired curve. "
-          "Variation is the integral of the squared slope of the curvature, times the cube of the length; deviations "
-          "are distances of the scan's edge points.</p>\n" +
-          fairnessTable(content);
+  text +=
+      "<h2>Fairness and deviations</h2>\n<p class=\"mute\">An arrow leads from the sketched to the faired curve. "
+      "Variation is the integral of the squared slope of the curvature, times the cube of the length; rms, 95 % "
+      "and largest are distances of the scan's edge points from the curve; moved is what fairing did.</p>\n" +
+      fairnessTable(content);
   text += "<h2>Curves</h2>\n<p class=\"mute\">Curvature comb, and radius over arc length. " +
           keyText(Ink::Sketched, "sketched") + keyText(Ink::Faired, "faired") + keyText(Ink::Target, "target") +
           "</p>\n";

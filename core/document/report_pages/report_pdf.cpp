@@ -57,8 +57,9 @@ class Pages {
       y_ += drawing.heightMm + 0.7 * kBarRoomMm;
       bar(y_);
       y_ += kTextMm;
-    } else if (auto done = sheets(paper); !done) {
-      return done;
+    } else {
+      overview(paper, bottom() - y_ - 14.0);
+      if (auto done = sheets(paper); !done) return done;
     }
     if (auto done = table(); !done) return done;
     if (auto done = curves(); !done) return done;
@@ -101,8 +102,8 @@ class Pages {
     for (const auto& fact : list) {
       need(kRowMm);
       page_.text({kMarginMm, y_ + kTextMm}, fact.name, kTextMm, Ink::Mute);
-      const double below = page_.paragraph({kMarginMm + kFactNameMm, y_ + 0.2}, width() - kFactNameMm, fact.value,
-                                           kTextMm, Ink::Text);
+      const double below =
+          page_.paragraph({kMarginMm + kFactNameMm, y_ + 0.2}, width() - kFactNameMm, fact.value, kTextMm, Ink::Text);
       y_ = std::max(y_ + kRowMm, below + 1.0);
     }
   }
@@ -115,6 +116,15 @@ class Pages {
                             Ink::Mute,
                             kSmallMm});
     page_.figure(figure, {kMarginMm, y});
+  }
+
+  /// The whole drawing on the first page, where it does not fit in its true size.
+  void overview(const Vec2& paper, double roomMm) {
+    const Figure& drawing = content_.drawing;
+    const double scale = std::min((paper.x() - 2 * kMarginMm) / drawing.widthMm, roomMm / drawing.heightMm);
+    y_ += kTextMm;
+    title("Drawing, reduced to " + significantText(100.0 * scale, 3) + " %");
+    page_.figure(drawing, {0.5 * (paper.x() - scale * drawing.widthMm), y_}, scale);
   }
 
   Result<void> sheets(const Vec2& upright) {
@@ -177,8 +187,8 @@ class Pages {
     double most = y_;
     for (std::size_t i = 0; i < content_.columns.size(); ++i) {
       const double left = kMarginMm + kNameWidthMm + static_cast<double>(i) * columnWidth();
-      most = std::max(most, page_.paragraph({left, y_}, columnWidth() - 1.5, content_.columns[i], kSmallMm - 0.1,
-                                            Ink::Mute));
+      most = std::max(most,
+                      page_.paragraph({left, y_}, columnWidth() - 1.5, content_.columns[i], kSmallMm - 0.1, Ink::Mute));
     }
     y_ = most + 0.8;
     page_.line({kMarginMm, y_}, {kMarginMm + width(), y_}, Ink::Mute, 0.15);
@@ -190,8 +200,8 @@ class Pages {
     title("Fairness and deviations");
     y_ = page_.paragraph({kMarginMm, y_}, width(),
                          "An arrow leads from the sketched to the faired curve. Variation is the integral of the "
-                         "squared slope of the curvature, times the cube of the length. Deviations are distances of "
-                         "the scan's edge points from the curve.",
+                         "squared slope of the curvature, times the cube of the length. Rms, 95 % and largest are "
+                         "distances of the scan's edge points from the curve; moved is what fairing did.",
                          kSmallMm, Ink::Mute) +
          2.0;
     tableHead();

@@ -15,6 +15,8 @@
 #include "core/image/log_transform.h"
 #include "core/image/neighbourhood_filter.h"
 #include "core/image/region_thresholds.h"
+#include "core/pipeline/recipe/direction_marks.h"
+#include "core/pipeline/recipe/scale_line.h"
 
 namespace batten {
 
@@ -88,7 +90,8 @@ struct ExtremumChoice {
 
 /// Everything the user decided: all parameters and all edits, one comparable value. Result = f(scan, recipe).
 struct Recipe {
-  std::optional<double> dpi;  ///< The user's own resolution; absent = the file's, else the assumed one.
+  std::optional<double> dpi;           ///< The user's own resolution; absent = the file's, else the assumed one.
+  std::optional<ScaleLine> scaleLine;  ///< Where `dpi` comes from, if it was measured on the drawing.
   LogParams log;
   PaperParams paper;
   ThresholdParams threshold;
@@ -106,6 +109,8 @@ struct Recipe {
   FairingParams fairing;
   std::vector<PieceChoice> choices;
   std::vector<ExtremumChoice> extremumChoices;
+  std::vector<DirectionMark> directions;  ///< Of exported curves; the later of two for one curve counts.
+  std::vector<StartMark> starts;          ///< Likewise.
   bool operator==(const Recipe&) const = default;
 };
 

@@ -9,6 +9,7 @@
 #include "core/base/json_text.h"
 #include "core/base/number_text.h"
 #include "core/pipeline/recipe/parameter_table.h"
+#include "core/pipeline/recipe/placed_marks_file.h"
 
 namespace batten {
 namespace {
@@ -337,6 +338,7 @@ Result<void> readEntry(const std::string& name, const Json& value, Recipe& recip
   if (name == "extrema") return readExtrema(value, recipe);
   if (name == "regions") return readRegions(value, recipe);
   if (name == "ways") return readTraceModes(value, recipe);
+  if (const auto mark = readPlacedMark(name, value, recipe); !mark || *mark) return mark.map([](bool) {});
   if (name != "dpi") {
     return refuse("The recipe holds \"" + name + "\", which this version of Batten does not know.");
   }
@@ -377,6 +379,7 @@ std::string recipeToJson(const Recipe& recipe) {
     for (const Vec2& p : region.cornersPx) polygon.push_back({p.x(), p.y()});
   }
   if (!recipe.edges.choices.empty()) json["ways"] = traceModesToJson(recipe);
+  addPlacedMarks(recipe, json);
   return json.dump(1) + "\n";
 }
 
@@ -394,6 +397,8 @@ Result<Recipe> recipeFromJson(std::string_view text, const RunContext& context) 
       if (context.isCancelled()) return cancelled();
       if (auto read = readEntry(name, value, recipe); !read) return fail(read.error());
     }
+    // The line says the resolution, whatever was written beside it.
+    if (recipe.scaleLine && resolutionOf(*recipe.scaleLine)) recipe.dpi = resolutionOf(*recipe.scaleLine);
     if (auto wrong = validate(recipe)) return refuse("The recipe cannot be used. " + wrong->message, wrong->detail);
     return recipe;
   } catch (const Json::exception& e) {

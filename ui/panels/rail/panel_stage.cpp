@@ -102,7 +102,7 @@ QString hint(PanelStage stage, bool isOpen) {
     case PanelStage::Fairing:
       return tr("Hover a target to see its curve; click to apply it.");
     case PanelStage::Export:
-      return tr("Curves whose eye is closed are left out.");
+      return tr("Choose who is to read the file, then export. F shows and turns directions; L leaves lines out.");
   }
   return {};
 }
