@@ -105,7 +105,7 @@ Result<Check> pdfFile(const ExportDocument& document, const ExportSettings& sett
   if (!pdf) return fail(pdf.error());
   const auto difference = checkPdf(pdf->bytes, document);
   if (!difference) return fail(difference.error());
-  report.entities = report.lines;
+  report.entities = static_cast<int>(document.curves.size());
   report.cubics = pdf->cubics;
   report.largestErrorMm = std::max(pdf->largestErrorMm, *difference);
   report.largestJump = pdf->largestJump;
@@ -218,7 +218,7 @@ Result<ExportedFile> exportedFile(const ExportDocument& given, const ExportSetti
   ExportedFile file;
   file.report.doubles = made->doubles;
   file.report.format = settings.format;
-  file.report.lines = static_cast<int>(document.curves.size());
+  file.report.lines = static_cast<int>(given.curves.size());
   for (const ExportCurve& line : document.curves) file.report.curves += static_cast<int>(line.pieces.size());
   auto check = checkedFile(document, settings, context, file.report);
   if (!check) return fail(check.error());
