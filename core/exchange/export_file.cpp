@@ -24,6 +24,8 @@
 #include "core/exchange/pdf_writer.h"
 #include "core/exchange/polynomial_writer.h"
 #include "core/exchange/read_back.h"
+#include "core/exchange/rhino_reader.h"
+#include "core/exchange/rhino_writer.h"
 #include "core/exchange/save_atomically.h"
 #include "core/exchange/svg_check.h"
 #include "core/exchange/svg_writer.h"
@@ -56,6 +58,7 @@ double toleranceOf(const ExportSettings& settings) { return settings.toleranceMm
 
 Result<std::string> cadBytes(const CadDrawing& drawing, const ExportSettings& settings, const std::string& title) {
   if (settings.format == ExportFormat::Iges) return writeIges(drawing, title);
+  if (settings.format == ExportFormat::Rhino) return writeRhino(drawing);
   if (settings.format == ExportFormat::Step) return writeStep(drawing, figuresOf(drawing), title);
   return writeDxf(drawing, settings.dxf);
 }
@@ -63,6 +66,7 @@ Result<std::string> cadBytes(const CadDrawing& drawing, const ExportSettings& se
 Result<CadDrawing> cadBack(const std::string& bytes, ExportFormat format) {
   if (format == ExportFormat::Iges) return readIges(bytes);
   if (format == ExportFormat::Step) return readStep(bytes);
+  if (format == ExportFormat::Rhino) return readRhino(bytes);
   return readDxf(bytes);
 }
 
@@ -70,6 +74,11 @@ Result<Check> cadFile(const ExportDocument& document, const ExportSettings& sett
                       ExportReport& report) {
   auto made = cadExport(document, settings, context);
   if (!made) return fail(made.error());
+  if (settings.format == ExportFormat::Rhino) {
+    auto curves = curvesOnly(made->drawing);
+    if (!curves) return fail(curves.error());
+    made->drawing = std::move(*curves);
+  }
   auto bytes = cadBytes(made->drawing, settings, document.title);
   if (!bytes) return fail(bytes.error());
   if (context.isCancelled()) return cancelled();

@@ -12,7 +12,7 @@
 namespace batten {
 
 /// The files that hold curves. The order is the order in which they are offered.
-enum class ExportFormat { Svg, Json, Dxf, Iges, Step, Pdf, Csv, Polynomials };
+enum class ExportFormat { Svg, Json, Dxf, Iges, Step, Pdf, Csv, Polynomials, Rhino };
 
 /// Who reads a DXF. Cad: every curve as one SPLINE of its own degree, exact. Laser: one cubic SPLINE per Bezier piece,
 /// which programs draw that know no other. Cnc: R12 polylines, which every machine reads.
@@ -22,7 +22,7 @@ enum class DxfProfile { Cad, Laser, Cnc };
 /// exact. Cubic: one curve of degree 3 within the tolerance, for receivers that take no higher degree.
 enum class CurveFlavour { Exact, BezierSegments, Cubic };
 
-/// The unit of the numbers of a DXF, IGES, STEP, CSV or list of polynomials. SVG, PDF and JSON are in mm always.
+/// The unit of the numbers of a DXF, IGES, STEP, 3DM, CSV or list of polynomials. SVG, PDF and JSON are in mm always.
 enum class LengthUnit { Millimetre, Inch };
 
 struct ExportSettings {
@@ -46,7 +46,7 @@ double defaultTolerance(const ExportSettings&);
 /// Whether the file holds something else than the curves themselves, so that the tolerance matters.
 bool isApproximate(const ExportSettings&);
 
-/// Whether pieces stay together: as the settings say, else in all but DXF, IGES and STEP.
+/// Whether pieces stay together: as the settings say, else in all but DXF, IGES, STEP and 3DM.
 bool isJoined(const ExportSettings&);
 
 double millimetresPer(LengthUnit);

@@ -48,7 +48,7 @@ ExportSettings settingsOf(ExportFormat format) {
 TEST_F(ExportFile, WritesEveryFormatAndStatesTheDifference) {
   for (const ExportFormat format :
        {ExportFormat::Svg, ExportFormat::Json, ExportFormat::Dxf, ExportFormat::Iges, ExportFormat::Step,
-        ExportFormat::Pdf, ExportFormat::Csv, ExportFormat::Polynomials}) {
+        ExportFormat::Pdf, ExportFormat::Csv, ExportFormat::Polynomials, ExportFormat::Rhino}) {
     const fs::path path = folder_ / ("süße kurve" + std::string(endingsOf(format)[0]));
     EXPECT_EQ(formatOf(path), format);
     const auto report = exportToFile(exportOfAllKinds(), settingsOf(format), path);

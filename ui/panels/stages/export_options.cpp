@@ -41,6 +41,8 @@ QString nameOfFormat(ExportFormat format) {
       return QStringLiteral("STEP");
     case ExportFormat::Pdf:
       return QStringLiteral("PDF");
+    case ExportFormat::Rhino:
+      return QStringLiteral("3DM");
     default:
       return QStringLiteral("CSV");
   }
