@@ -130,7 +130,7 @@ QWidget* MainWindow::makeInspector() {
   p.inspector->setObjectName(QStringLiteral("inspector"));
   p.settings = new SettingFinder(this);
   connect(p.settings, &SettingFinder::stageAsked, this, &MainWindow::setStage);
-  p.scanPanel = new ScanPanel(session_);
+  p.scanPanel = new ScanPanel(session_, view_);
   connect(p.scanPanel, &ScanPanel::pageChosen, this, &MainWindow::openPage);
   p.exportPanel = new ExportPanel(session_);
   auto* curves = new CurvesPanel(session_, view_);
@@ -182,6 +182,8 @@ void MainWindow::connectSession() {
   });
   connect(p.exportPanel, &ExportPanel::failed, this,
           [this](const Error& error) { showProblem(error, FailureOrigin::Export); });
+  connect(p.exportPanel, &ExportPanel::said, this,
+          [this](const QString& text) { parts_->status->showMessage(text, {}, {}); });
   connect(p.exportPanel, &ExportPanel::exported, p.rail, &StageRail::setExported);
   connect(p.errors, &ErrorStrip::actionPressed, this, [this] {
     if (const auto remedy = parts_->remedy) remedy();

@@ -94,7 +94,8 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   trace->add_option("--curves", a.curves, "Write only these curves, by their numbers in the report: 1,3-5")
       ->type_name("LIST");
   trace->add_option("--which", a.which, "Which curves to write: faired, sketched or both")->type_name("KIND");
-  trace->add_flag("--joined", a.joined, "DXF, IGES, STEP: curves that follow each other become one");
+  trace->add_flag("--joined", a.joined, "Curves that follow each other are written as one, also in DXF, IGES and STEP");
+  trace->add_flag("--apart", a.apart, "Every curve is written by itself, also in SVG, PDF and the others");
   trace->add_flag("--splines-only", a.splinesOnly, "DXF, IGES, STEP: lines, arcs and circles as splines, too");
   trace
       ->add_option("--flavour", a.flavour,
@@ -112,6 +113,14 @@ void addTrace(CLI::App& app, TraceArguments& a) {
           "Resolution of the scan, 1 to 100000, overrides what the file states; of a PDF how finely its page is drawn "
           "(300)")
       ->type_name("N");
+  trace
+      ->add_option("--known-length", a.knownLength,
+                   "Resolution by two places, px from the upper left, and their distance: 100mm, 10cm or 4in")
+      ->type_name("X,Y,X,Y,LENGTH");
+  addRepeated(*trace, "--direction", a.directions, "X,Y,X,Y",
+              "The curve near the first place is written so that it runs towards the second, px; may be repeated");
+  addRepeated(*trace, "--start", a.starts, "X,Y",
+              "The closed line near this place is written so that it begins there, px; may be repeated");
   trace->add_option("--report", a.report, "Write figures of every stage and curve")->type_name("REPORT.json");
   trace->add_flag("--report-targets", a.reportTargets,
                   "Have the report say what each of the six targets would make of every curve, too; takes far longer");

@@ -19,6 +19,7 @@ struct TraceArguments {
   std::string curves;                      ///< --curves 1,3-5; empty: all
   std::string which;                       ///< --which faired|sketched|both; empty: faired
   bool joined = false;                     ///< --joined
+  bool apart = false;                      ///< --apart
   bool splinesOnly = false;                ///< --splines-only
   std::string flavour;                     ///< --flavour exact|bezier|cubic; empty: the preset's, else exact
   bool chords = false;                     ///< --chords
@@ -34,6 +35,9 @@ struct TraceArguments {
   std::string importUnit;                  ///< --import-unit mm|cm|m|in
   bool isOneOfAll = false;                 ///< One of the pages of --page all
   std::string page;                        ///< --page N|all; empty: the recipe's, else the first
+  std::string knownLength;                 ///< --known-length X,Y,X,Y,LENGTH
+  std::vector<std::string> directions;     ///< --direction X,Y,X,Y
+  std::vector<std::string> starts;         ///< --start X,Y
   std::string report;                      ///< --report
   bool reportTargets = false;              ///< --report-targets
   bool explain = false;                    ///< --explain

@@ -45,7 +45,7 @@ Result<void> applyPage(const TraceArguments& arguments, Recipe& recipe) {
     if (!arguments.scan.empty() && isPdfFile(arguments.scan)) {
       recipe.scanPage.pdfDpi = *dpi;
     } else {
-      recipe.dpi = dpi;
+      setResolution(recipe, dpi);
     }
   }
   if (arguments.page.empty()) return {};
@@ -102,6 +102,59 @@ Result<void> applySegmentPoint(const std::string& point, Recipe& recipe) {
   return {};
 }
 
+/// "100mm", "10 cm", "4in", "100" (mm) as millimetres.
+std::optional<double> lengthOf(std::string_view text) {
+  constexpr double kMillimetresPerCentimetre = 10.0;
+  double unit = 1.0;
+  for (const auto& [word, mm] :
+       {std::pair{"mm", 1.0}, {"cm", kMillimetresPerCentimetre}, {"in", kMillimetresPerInch}}) {
+    if (!text.ends_with(word)) continue;
+    text.remove_suffix(2);
+    unit = mm;
+    break;
+  }
+  const auto value = numberFromText(text);
+  return value ? std::optional(*value * unit) : std::nullopt;
+}
+
+Result<void> applyKnownLength(const std::string& line, Recipe& recipe) {
+  const auto comma = line.rfind(',');
+  const auto places = numbersOf(std::string_view(line).substr(0, comma));
+  const auto length = comma == std::string::npos ? std::nullopt : lengthOf(std::string_view(line).substr(comma + 1));
+  const bool isWhole = places && places->size() == 4 && length;
+  const ScaleLine scale =
+      isWhole ? ScaleLine{Vec2((*places)[0], (*places)[1]), Vec2((*places)[2], (*places)[3]), *length} : ScaleLine{};
+  if (!isWhole || !resolutionOf(scale)) {
+    return wrong(
+        "--known-length takes X,Y,X,Y,LENGTH: two places in px from the upper left corner and their distance, "
+        "as 100mm, 10cm or 4in, not \"" +
+        line + "\".");
+  }
+  setScaleLine(recipe, scale);
+  return {};
+}
+
+Result<void> applyDirection(const std::string& direction, Recipe& recipe) {
+  const auto values = numbersOf(direction);
+  if (!values || values->size() != 4) {
+    return wrong(
+        "--direction takes X,Y,X,Y in px from the upper left corner, a place of a curve and one that it is to "
+        "run towards, not \"" +
+        direction + "\".");
+  }
+  recipe.directions.push_back({Vec2((*values)[0], (*values)[1]), Vec2((*values)[2], (*values)[3])});
+  return {};
+}
+
+Result<void> applyStart(const std::string& place, Recipe& recipe) {
+  const auto values = numbersOf(place);
+  if (!values || values->size() != 2) {
+    return wrong("--start takes X,Y in px from the upper left corner, not \"" + place + "\".");
+  }
+  recipe.starts.push_back({Vec2((*values)[0], (*values)[1])});
+  return {};
+}
+
 Result<void> applyWay(const std::string& place, EdgeMode mode, Recipe& recipe) {
   const auto values = numbersOf(place);
   if (!values || values->size() != 2) {
@@ -147,7 +200,8 @@ Result<TracePlan::Output> outputOf(const std::string& path, const TraceArguments
   if (arguments.unit == "in") settings.unit = LengthUnit::Inch;
   if (arguments.scale) settings.scale = *arguments.scale;
   if (arguments.tolerance) settings.toleranceMm = arguments.tolerance;
-  settings.joined = settings.joined || arguments.joined;
+  if (arguments.joined) settings.joined = true;
+  if (arguments.apart) settings.joined = false;
   settings.splinesOnly = settings.splinesOnly || arguments.splinesOnly;
   if (arguments.flavour == "exact") settings.flavour = CurveFlavour::Exact;
   if (arguments.flavour == "bezier") settings.flavour = CurveFlavour::BezierSegments;
@@ -168,6 +222,8 @@ Result<void> planExport(const TraceArguments& arguments, TracePlan& plan) {
   const std::string& flavour = arguments.flavour;
   if (!flavour.empty() && flavour != "exact" && flavour != "bezier" && flavour != "cubic")
     return wrong("--flavour takes exact, bezier or cubic, not \"" + flavour + "\".");
+  if (arguments.joined && arguments.apart)
+    return wrong("--joined and --apart contradict each other. Give one of them.");
   plan.curves = arguments.curves;
   if (!arguments.paper.empty() && arguments.paper != "a4" && arguments.paper != "letter")
     return wrong("--paper takes a4 or letter, not \"" + arguments.paper + "\".");
@@ -302,6 +358,17 @@ Result<Recipe> recipeOf(const TraceArguments& arguments) {
     if (auto set = applyRegion(region, *recipe); !set) return fail(set.error());
   }
   if (auto set = applyPage(arguments, *recipe); !set) return fail(set.error());
+  for (const std::string& direction : arguments.directions) {
+    if (auto set = applyDirection(direction, *recipe); !set) return fail(set.error());
+  }
+  for (const std::string& start : arguments.starts) {
+    if (auto set = applyStart(start, *recipe); !set) return fail(set.error());
+  }
+  if (arguments.dpi && !arguments.knownLength.empty())
+    return wrong("--dpi and --known-length both say the resolution. Give one of them.");
+  if (!arguments.knownLength.empty()) {
+    if (auto set = applyKnownLength(arguments.knownLength, *recipe); !set) return fail(set.error());
+  }
   if (arguments.scan.empty() && !recipe->page && arguments.imports.empty()) {
     return wrong("No scan is named. Only a recipe that was drawn on an empty page needs none.");
   }

@@ -11,6 +11,7 @@
 
 #include "core/base/statistics.h"
 #include "core/exchange/export_check.h"
+#include "core/pipeline/run/direction_owners.h"
 #include "core/pipeline/run/imported_lines.h"
 
 namespace batten {
@@ -66,6 +67,7 @@ void takeName(const std::string& name, ExportCurve& curve) {
 
 /// Adds the lines of a run in one of their two kinds.
 void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched, ExportDocument& document) {
+  const DirectionOwners owners = assignDirections(*output.pieces, recipe);
   std::map<int, ContourPieces> byContour;
   std::map<std::size_t, const TracedCurve*> byPiece;
   for (const TracedCurve& curve : output.faired->curves) {
@@ -84,10 +86,14 @@ void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched
       for (const TracedCurve* piece : run) {
         const int number = curveNumber(output, *piece);
         lowest = std::min(lowest, number);
-        curve.pieces.push_back({shapeOf(*piece, sketched), curveName(number), number});
+        ExportPiece& own = curve.pieces.emplace_back(ExportPiece{shapeOf(*piece, sketched), curveName(number), number});
+        if (const auto& wanted = owners.ofPiece[static_cast<std::size_t>(piece->piece)])
+          own.direction = PieceDirection{static_cast<int>(wanted->mark), wanted->isTurned};
       }
       if (const ImportedLine* imported = importedLineOf(line, recipe.imports)) takeName(imported->name, curve);
       curve.id = "curve-" + std::to_string(lowest) + (sketched ? "-sketched" : "");
+      if (const auto start = owners.startOfContour.find(contour); start != owners.startOfContour.end())
+        curve.startMm = output.frame.pointToModel(recipe.starts[start->second].positionPx);
       curve.strokeWidthMm = strokeWidth(line, output.frame);
       // A loop of the drawing whose curves do not meet, because a construction breaks them, is none.
       curve.closed = isWholeClosed(run, pieces, line.closed) && isLoop(curve.pieces);

@@ -159,5 +159,48 @@ TEST_F(Report, WordsAreCheckedFirst) {
   EXPECT_FALSE(std::filesystem::exists(file("no")));
 }
 
+TEST_F(Report, TheScaleCanBeMeasured) {
+  const auto done = run("trace " + scene() + " --known-length 0,0,480,0,12cm -o " + file("a.svg") + " --save-recipe " +
+                        file("r.json"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(test::readFile(file("a.svg")).find("width=\"120mm\" height=\"80mm\""), std::string::npos);
+  const json recipe = json::parse(test::readFile(file("r.json")));
+  EXPECT_EQ(recipe["scale"]["mm"], 120.0);
+  EXPECT_NEAR(recipe["dpi"].get<double>(), 101.6, 1e-9);
+  ASSERT_EQ(run("trace " + scene() + " --recipe " + file("r.json") + " -o " + file("b.svg")).code, 0);
+  EXPECT_EQ(test::readFile(file("a.svg")), test::readFile(file("b.svg")));
+  expectError("trace " + scene() + " --known-length 0,0,480,0,0mm -o " + file("a.svg"), 2, "--known-length takes");
+  expectError("trace " + scene() + " --known-length 0,0,10,0,1in --dpi 3 -o " + file("a.svg"), 2, "Give one of them");
+}
+
+TEST_F(Report, DirectionAndStartAreTheUsers) {
+  const auto pieceOf = [&](const std::string& words) {
+    const auto done = run("trace " + scene() + " --dpi 254 " + words + " -o " + file("o.json"));
+    EXPECT_EQ(done.code, 0) << done.err;
+    return readCurveJson(test::readFile(file("o.json")))->curves.at(0).pieces.at(0).curve;
+  };
+  const NurbsCurve plain = pieceOf("");
+  const double quarter = 0.75 * plain.start() + 0.25 * plain.end();
+  const Vec2 mm = plain.point(quarter);
+  const std::string place = std::to_string(mm.x() * 10.0) + "," + std::to_string(320.0 - mm.y() * 10.0);
+  const NurbsCurve begun = pieceOf("--start " + place);
+  EXPECT_LT((begun.point(begun.start()) - mm).norm(), 0.05);
+  // Along the curve nothing changes; against it the curve is turned.
+  const Vec2 way = plain.derivatives(quarter, 1)[1].normalized();
+  const auto towards = [&](double sign) {
+    return "--direction " + place + "," + std::to_string(mm.x() * 10.0 + sign * 40.0 * way.x()) + "," +
+           std::to_string(320.0 - mm.y() * 10.0 - sign * 40.0 * way.y());
+  };
+  EXPECT_TRUE(pieceOf(towards(1.0)) == plain);
+  const NurbsCurve turned = pieceOf(towards(-1.0));
+  EXPECT_LT((turned.point(turned.start() + 0.1 * (turned.end() - turned.start())) -
+             plain.point(plain.end() - 0.1 * (plain.end() - plain.start())))
+                .norm(),
+            1e-9);
+  expectError("trace " + scene() + " --direction 1,2 -o " + file("o.json"), 2, "--direction takes X,Y,X,Y");
+  expectError("trace " + scene() + " --start 1 -o " + file("o.json"), 2, "--start takes X,Y");
+  expectError("trace " + scene() + " --joined --apart -o " + file("o.json"), 2, "contradict");
+}
+
 }  // namespace
 }  // namespace batten

@@ -27,7 +27,8 @@ CurveCanvas::State::State(CurveCanvas& owner, EditorSession& s, ViewSettings& v)
     : CanvasScene(s, v), canvas(owner), tools{makeSelectTool(*this),        makeThresholdTool(*this),
                                               makeCornerTool(*this),        makePenTool(*this),
                                               makeSegmentTool(*this),       makeLinesTool(*this),
-                                              makeRegionTool(*this, false), makeRegionTool(*this, true)} {
+                                              makeRegionTool(*this, false), makeRegionTool(*this, true),
+                                              makeScaleTool(*this),         makeDirectionTool(*this)} {
   repaint = [this] { canvas.update(); };
   hint = [this](const QString& text) {
     if (text == lastHint) return;

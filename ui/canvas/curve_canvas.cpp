@@ -56,6 +56,7 @@ CurveCanvas::CurveCanvas(EditorSession& session, ViewSettings& view, QWidget* pa
   connect(&session, &EditorSession::busyChanged, this, [state](bool busy) { state->busyChanged(busy); });
   connect(&view, &ViewSettings::changed, this, [state] { state->viewChanged(); });
   connect(&view, &ViewSettings::selectedRegionChanged, this, qOverload<>(&QWidget::update));
+  connect(&view, &ViewSettings::measureChanged, this, qOverload<>(&QWidget::update));
   connect(&view, &ViewSettings::toolChanged, this, [state] {
     for (const auto& tool : state->tools) tool->reset();
     state->hint({});

@@ -36,7 +36,9 @@ std::vector<ActionInfo> fileActions() {
       {SaveRecipeAs, "save-recipe-as", menu, tr("Save recipe as…"), keys({"Ctrl+Shift+S"}),
        tr("Save all settings, corners and choices under another name, for this program or batten-cli.")},
       {Export, "export", menu, tr("Export…"), keys({"Ctrl+E"}),
-       tr("Write the curves as SVG or curve JSON, with their size in mm.")},
+       tr("Write the curves to CAD, drawing programs, cutters or spreadsheets, in true size.")},
+      {CopySvg, "copy-svg", menu, tr("Copy curves as SVG"), keys({"Ctrl+Shift+C"}),
+       tr("Put the curves on the clipboard, to be pasted into a drawing program.")},
       {Quit, "quit", menu, tr("Quit"), keys({"Ctrl+Q"}), tr("Close the program.")},
   };
 }
@@ -122,6 +124,13 @@ std::vector<ActionInfo> toolActions() {
        tr("Drag a rectangle: only what lies inside is traced. Further regions add to it."), true},
       {ToolLasso, "tool-lasso", menu, tr("Lasso"), keys({"Shift+R"}),
        tr("Draw round what is to be traced. Further regions add to it."), true},
+      {ToolScale, "tool-scale", menu, tr("Measure scale"), keys({"M"}),
+       tr("Drag along something whose length is known, then type its length in the Scan stage."), true},
+      {ToolDirection, "tool-direction", menu, tr("Directions"), keys({"F"}),
+       tr("Click a curve to export it the other way round; drag the ring of a closed one to where it is to begin."),
+       true},
+      {TurnDirection, "turn-direction", menu, tr("Turn direction of curve"), keys({"Shift+F"}),
+       tr("Export the selected curve the other way round.")},
       {ClearRegions, "clear-regions", menu, tr("Clear regions"), keys({"Ctrl+Shift+R"}),
        tr("Trace the whole page again.")},
   };
@@ -228,6 +237,10 @@ std::optional<Tool> toolOf(ActionId id) {
       return Tool::Rectangle;
     case ActionId::ToolLasso:
       return Tool::Lasso;
+    case ActionId::ToolScale:
+      return Tool::Scale;
+    case ActionId::ToolDirection:
+      return Tool::Direction;
     default:
       return std::nullopt;
   }
@@ -262,6 +275,10 @@ ActionId toolAction(Tool tool) {
       return ActionId::ToolRectangle;
     case Tool::Lasso:
       return ActionId::ToolLasso;
+    case Tool::Scale:
+      return ActionId::ToolScale;
+    case Tool::Direction:
+      return ActionId::ToolDirection;
   }
   return ActionId::ToolSelect;
 }

@@ -58,6 +58,8 @@ enum class ActionId {
   ToolLines,
   ToolRectangle,
   ToolLasso,
+  ToolScale,
+  ToolDirection,
   ClearRegions,
   Target1,
   Target2,
@@ -70,6 +72,8 @@ enum class ActionId {
   PreviousCurve,
   ImportCurves,
   PasteScan,
+  CopySvg,
+  TurnDirection,
 };
 
 enum class ActionMenu { File, Edit, View, Tools, Fairing };

@@ -50,6 +50,16 @@ std::optional<Error> validatePlaces(const Recipe& recipe) {
   for (const ExtremumChoice& choice : recipe.extremumChoices) {
     if (!isPlace(choice.positionPx)) return badPlace("A choice for a curvature extremum");
   }
+  for (const DirectionMark& mark : recipe.directions) {
+    if (!isPlace(mark.positionPx) || !isPlace(mark.towardsPx)) return badPlace("A direction of a curve");
+    if (mark.positionPx == mark.towardsPx) return bad("A direction of a curve must lead from one place to another.");
+  }
+  for (const StartMark& mark : recipe.starts) {
+    if (!isPlace(mark.positionPx)) return badPlace("The start of a curve");
+  }
+  if (recipe.scaleLine && !(isPlace(recipe.scaleLine->fromPx) && isPlace(recipe.scaleLine->toPx))) {
+    return badPlace("The line by which the scale is measured");
+  }
   return std::nullopt;
 }
 
@@ -104,6 +114,9 @@ std::optional<Error> validate(const Recipe& recipe) {
   }
   if (auto e = validate(recipe.scanPage)) return e;
   if (auto e = validatePlaces(recipe)) return e;
+  if (recipe.scaleLine && !resolutionOf(*recipe.scaleLine)) {
+    return bad("The line by which the scale is measured must have a length on the page and one in mm above 0.");
+  }
   if (auto e = validate(recipe.log)) return e;
   if (auto e = validate(recipe.threshold)) return e;
   if (auto e = validate(recipe.filter)) return e;

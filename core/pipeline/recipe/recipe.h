@@ -18,6 +18,8 @@
 #include "core/image/region_thresholds.h"
 #include "core/image/scan.h"
 #include "core/pipeline/recipe/curve_numbers.h"
+#include "core/pipeline/recipe/direction_marks.h"
+#include "core/pipeline/recipe/scale_line.h"
 
 namespace batten {
 
@@ -92,8 +94,9 @@ struct ExtremumChoice {
 
 /// Everything the user decided: all parameters and all edits, one comparable value. Result = f(scan, recipe).
 struct Recipe {
-  std::optional<double> dpi;  ///< The user's own resolution; absent = the file's, else the assumed one.
-  PageChoice scanPage;        ///< Which page of the scan's file it is for.
+  std::optional<double> dpi;           ///< The user's own resolution; absent = the file's, else the assumed one.
+  std::optional<ScaleLine> scaleLine;  ///< Where `dpi` comes from, if it was measured on the drawing.
+  PageChoice scanPage;                 ///< Which page of the scan's file it is for.
   LogParams log;
   PaperParams paper;
   ThresholdParams threshold;
@@ -112,7 +115,9 @@ struct Recipe {
   FairingParams fairing;
   std::vector<PieceChoice> choices;
   std::vector<ExtremumChoice> extremumChoices;
-  CurveNumbers curveNumbers;  ///< What the curves are called; changes no curve.
+  CurveNumbers curveNumbers;              ///< What the curves are called; changes no curve.
+  std::vector<DirectionMark> directions;  ///< Of exported curves; the later of two for one curve counts.
+  std::vector<StartMark> starts;          ///< Likewise.
   bool operator==(const Recipe&) const = default;
 };
 

@@ -10,6 +10,7 @@
 #include "core/base/number_text.h"
 #include "core/pipeline/recipe/imports_json.h"
 #include "core/pipeline/recipe/parameter_table.h"
+#include "core/pipeline/recipe/placed_marks_file.h"
 
 namespace batten {
 namespace {
@@ -396,6 +397,7 @@ Result<void> readEntry(const std::string& name, const Json& value, Recipe& recip
   if (name == "regions") return readRegions(value, recipe);
   if (name == "ways") return readTraceModes(value, recipe);
   if (name == "curves") return readNumbers(value, recipe);
+  if (const auto mark = readPlacedMark(name, value, recipe); !mark || *mark) return mark.map([](bool) {});
   if (name != "dpi") {
     return refuse("The recipe holds \"" + name + "\", which this version of Batten does not know.");
   }
@@ -444,6 +446,7 @@ std::string recipeToJson(const Recipe& recipe) {
   }
   if (!recipe.edges.choices.empty()) json["ways"] = traceModesToJson(recipe);
   if (recipe.curveNumbers.lastGiven > 0) json["curves"] = numbersToJson(recipe.curveNumbers);
+  addPlacedMarks(recipe, json);
   return json.dump(1) + "\n";
 }
 
@@ -461,6 +464,8 @@ Result<Recipe> recipeFromJson(std::string_view text, const RunContext& context) 
       if (context.isCancelled()) return cancelled();
       if (auto read = readEntry(name, value, recipe); !read) return fail(read.error());
     }
+    // The line says the resolution, whatever was written beside it.
+    if (recipe.scaleLine && resolutionOf(*recipe.scaleLine)) recipe.dpi = resolutionOf(*recipe.scaleLine);
     if (auto wrong = validate(recipe)) return refuse("The recipe cannot be used. " + wrong->message, wrong->detail);
     return recipe;
   } catch (const Json::exception& e) {

@@ -14,6 +14,7 @@
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
+#include "ui/panels/stages/scale_controls.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -52,7 +53,7 @@ void ToneSwatch::paintEvent(QPaintEvent*) {
   }
 }
 
-ScanPanel::ScanPanel(EditorSession& session, QWidget* parent)
+ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
     : QWidget(parent),
       session_(session),
       facts_(new FigureTable(this)),
@@ -110,6 +111,7 @@ ScanPanel::ScanPanel(EditorSession& session, QWidget* parent)
   layout->addLayout(scale);
   layout->addWidget(scaleNote_);
   layout->addWidget(fromFile_, 0, Qt::AlignLeft);
+  layout->addWidget(new ScaleControls(session, view, this));
   layout->addWidget(caption(tr("Tones"), this));
   layout->addWidget(new ParameterEditor(session, {"log.enabled", "log.factor"}, this));
   layout->addWidget(swatch_);
@@ -140,7 +142,7 @@ void ScanPanel::focusResolution() {
 
 void ScanPanel::setDpi(std::optional<double> dpi) {
   Recipe after = session_.recipe();
-  after.dpi = dpi;
+  setResolution(after, dpi);
   session_.change(tr("Resolution"), std::move(after));
 }
 
@@ -196,7 +198,9 @@ void ScanPanel::refresh() {
            "(%1 dpi assumed).")
             .arg(kAssumedDpi, 0, 'f', 0));
   else
-    scaleNote_->setText(own ? tr("Set by you.") : tr("Stated by the file."));
+    scaleNote_->setText(session_.recipe().scaleLine ? tr("Measured on the drawing.")
+                        : own                       ? tr("Set by you.")
+                                                    : tr("Stated by the file."));
 }
 
 }  // namespace batten

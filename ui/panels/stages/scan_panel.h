@@ -34,7 +34,7 @@ class ToneSwatch : public QWidget {
 class ScanPanel : public QWidget {
   Q_OBJECT
  public:
-  explicit ScanPanel(EditorSession& session, QWidget* parent = nullptr);
+  ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
   /// Puts the keyboard into the resolution field ("no scale: set it").
   void focusResolution();
   /// Shows what is open again, after a choice that was not followed.
