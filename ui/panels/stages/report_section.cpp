@@ -19,6 +19,7 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/save_dialog.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/path_text.h"
 
 namespace batten {
 namespace {
@@ -105,8 +106,7 @@ void ReportSection::write(const QString& path) {
        self = QPointer<ReportSection>(this)](const CancelToken& cancel) {
         RunContext context;
         context.cancel = cancel;
-        const auto outcome =
-            writeReport(output, recipe, *scan, kind, std::filesystem::path(path.toStdU16String()), context);
+        const auto outcome = writeReport(output, recipe, *scan, kind, nativePath(path), context);
         if (!self) return;
         QMetaObject::invokeMethod(
             self.data(),
