@@ -58,17 +58,17 @@ int spanAt(const Parts& parts, double u) { return spanOf(parts.degree, parts.kno
 /// form needs to reach least far.
 int sourceSpan(const Parts& parts, const std::vector<double>& knots, int degree, int j) {
   const int count = static_cast<int>(knots.size()) - degree - 1;
-  int best = -1;
+  std::optional<int> best;
   for (int k = std::max(degree, j - degree); k < std::min(count, j + 2 * degree + 1); ++k) {
     if (!(knots[k] < knots[k + 1])) continue;
     const auto distance = [&](int span) {
       const int outside = std::max({0, j - span, span - j - degree});
       return 100 * outside + std::abs(2 * (span - j) - degree);
     };
-    if (best < 0 || distance(k) < distance(best)) best = k;
+    if (!best || distance(k) < distance(*best)) best = k;
   }
-  if (best < 0) return spanAt(parts, knots[std::clamp(j, degree, count - 1)]);
-  return spanAt(parts, 0.5 * (knots[best] + knots[best + 1]));
+  if (!best) return spanAt(parts, knots[std::clamp(j, degree, count - 1)]);
+  return spanAt(parts, 0.5 * (knots[*best] + knots[*best + 1]));
 }
 
 /// The same curve over a knot vector that contains the old knots (within the domain).
@@ -161,7 +161,7 @@ Result<NurbsCurve> insertKnot(const NurbsCurve& curve, double u, int times) {
   }
   if (times == 0) return curve;
   std::vector<double> knots = parts.knots;
-  knots.insert(std::upper_bound(knots.begin(), knots.end(), at), static_cast<std::size_t>(times), at);
+  knots.insert(std::upper_bound(knots.begin(), knots.end(), at), times, at);
   return assemble(overKnots(parts, std::move(knots)));
 }
 
@@ -176,7 +176,7 @@ Result<SplitCurve> split(const NurbsCurve& curve, double u) {
   const int p = parts.degree;
   const int missing = std::max(0, p - multiplicity(parts, at));
   std::vector<double> knots = parts.knots;
-  knots.insert(std::upper_bound(knots.begin(), knots.end(), at), static_cast<std::size_t>(missing), at);
+  knots.insert(std::upper_bound(knots.begin(), knots.end(), at), missing, at);
   parts = overKnots(parts, std::move(knots));
   const auto [first, last] = std::equal_range(parts.knots.begin(), parts.knots.end(), at);
   const std::size_t order = static_cast<std::size_t>(p) + 1;

@@ -199,7 +199,7 @@ std::array<Vec2, 5> NurbsCurve::derivatives(double u, int order) const {
   std::array<Vec2, 5> result;
   result.fill(Vec2::Zero());
   std::array<double, 5> weight{};
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k) {
+  for (int k = 0; k <= top; ++k) {
     for (std::size_t j = 0; j < terms; ++j) {
       const double n = row.values[k][j] * (d.weights.empty() ? 1.0 : d.weights[first + j]);
       result[k] += n * d.controlPoints[first + j];
@@ -209,7 +209,7 @@ std::array<Vec2, 5> NurbsCurve::derivatives(double u, int order) const {
   if (d.weights.empty()) return result;
   // Quotient rule, A4.2: each order from the numerator's and the lower ones.
   constexpr double binomial[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k) {
+  for (int k = 0; k <= top; ++k) {
     for (std::size_t i = 1; i <= k; ++i) result[k] -= binomial[k][i] * weight[i] * result[k - i];
     result[k] /= weight[0];
   }

@@ -129,11 +129,10 @@ SpanRow SpanBasis::row(const SpanPlace& place, int order) const {
 
 SpanCurve::SpanCurve(const SpanBasis& basis, std::span<const Vec2> points) : basis_(&basis) {
   const int p = basis.degree();
-  coefficients_.assign(static_cast<std::size_t>(basis.spanCount()) * static_cast<std::size_t>(p + 1), Vec2::Zero());
+  coefficients_.assign(std::ptrdiff_t{basis.spanCount()} * (p + 1), Vec2::Zero());
   for (int s = 0; s < basis.spanCount(); ++s) {
     for (int k = 0; k <= p; ++k) {
-      Vec2& c =
-          coefficients_[static_cast<std::size_t>(s) * static_cast<std::size_t>(p + 1) + static_cast<std::size_t>(k)];
+      Vec2& c = coefficients_[std::ptrdiff_t{s} * (p + 1) + k];
       for (int j = 0; j <= p; ++j) {
         c += basis.coefficient(s, k, j) * points[basis.point(s, j)];
       }

@@ -12,8 +12,8 @@
 namespace batten {
 namespace {
 
-constexpr int kFirstSteps = 12;    // of the first phase
-constexpr double kHopeless = 2.5;  // tolerances off at the end of the first phase
+constexpr int kFirstSteps = 12;         // of the first phase
+constexpr double kHopelessStart = 2.5;  // tolerances off at the end of the first phase
 constexpr LevenbergOptions kLightSteps{
     .success = 1.0 / 0.3, .failure = 6.0, .leastDamping = 1e-9, .mostDamping = 1e8, .smallDecrease = 0.002};
 constexpr double kLongestLogStep = 0.5;  // of a span length's logarithm
@@ -39,7 +39,7 @@ class LightProblem final : public LevenbergProblem {
     if (ask_.firstPhase) {
       weights_ = kFirst;
       const Phase first = phase(kFirstSteps);
-      if (first.ended != Ended::Slow || fit_.worst > kHopeless * ask_.tolerance) return fit_;
+      if (first.ended != Ended::Slow || fit_.worst > kHopelessStart * ask_.tolerance) return fit_;
     }
     weights_ = kSecond;
     weights_.signs = ask_.signs;

@@ -27,7 +27,7 @@ std::vector<Vec2> doubled(const std::vector<Vec2>& stretch, int needed) {
   const int more = inner > 0 ? missing % inner : 0, firstMore = (inner - more) / 2;
   for (int i = 0; i < inner; ++i) {
     const int times = 1 + missing / inner + (i >= firstMore && i < firstMore + more ? 1 : 0);
-    result.insert(result.end(), static_cast<std::size_t>(times), stretch[i + 1]);
+    result.insert(result.end(), times, stretch[i + 1]);
   }
   result.push_back(stretch.back());
   return result;
@@ -102,7 +102,7 @@ std::vector<double> sharpKnotVector(int order, int controlPointCount, std::span<
     knots.insert(knots.end(), static_cast<std::size_t>(isSharp ? std::min(times, room) : 1), value);
     value += 1.0;
   }
-  knots.insert(knots.end(), static_cast<std::size_t>(order), value);
+  knots.insert(knots.end(), order, value);
   return knots;
 }
 
