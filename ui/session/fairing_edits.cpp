@@ -173,8 +173,22 @@ void chooseSpanTarget(EditorSession& session, int degree) {
   // The middle of the span stays in it when its ends move a little.
   const double middle = 0.5 * (span.from + span.to);
   const SpanChoice chosen{placeAt(session, middle > 1.0 ? middle - 1.0 : middle), degree};
+  // What the whole curve follows, its other spans go on following.
+  const FairingParams asked = fairingAsked(session);
+  std::vector<SpanChoice> others;
+  const bool isWhole = asked.mode == FairingMode::Target && asked.target >= 1 && asked.target <= 6;
+  if (isWhole && curve.fairingUsed.spanTargets.empty()) {
+    std::vector<double> borders = splits;
+    if (!curve.closed) borders.insert(borders.begin(), 0.0), borders.push_back(1.0);
+    if (curve.closed) borders.push_back(splits.front() + 1.0);
+    for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
+      const double at = 0.5 * (borders[i] + borders[i + 1]);
+      others.push_back({placeAt(session, at > 1.0 ? at - 1.0 : at), asked.target});
+    }
+  }
   edit(session, tr("Target %1 of a span").arg(degree), -1, [&](PieceChoice& choice) {
     choice.mode = FairingMode::Target;
+    if (choice.spanTargets.empty()) choice.spanTargets = others;
     if (choice.target == kDrawnTarget || session.recipe().fairing.target == kDrawnTarget) choice.target = 0;
     std::erase_if(choice.spanTargets, isThere);
     choice.spanTargets.push_back(chosen);

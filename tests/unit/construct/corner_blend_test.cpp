@@ -72,8 +72,9 @@ TEST(CornerBlend, TheCurvatureRisesOnceAndFallsOnce) {
         EXPECT_LT(back, 0.02 * bend[peak]) << turn << " " << kappa << " " << (contact == BlendContact::G3);
         EXPECT_NEAR(blend->smallestRadiusMm, 1.0 / bend[peak], 0.01 / bend[peak]);
         // Nearly as round as the circle between two straight sides as long as the shorter one.
-        if (kappa == 0.0 && contact == BlendContact::G2)
+        if (kappa == 0.0 && contact == BlendContact::G2) {
           EXPECT_GT(blend->smallestRadiusMm, 0.45 * 10.0 / std::tan(0.5 * turn));
+        }
       }
     }
   }

@@ -14,7 +14,7 @@
 namespace batten {
 namespace {
 
-constexpr double kTickPx = 7.0, kTickGapPx = 3.0, kSpanWidthPx = 5.0;
+constexpr double kTickPx = 7.0, kTickGapPx = 3.0, kSpanWidthPx = 11.0;
 /// Points of the pointed span as drawn.
 constexpr int kSpanPoints = 160;
 
@@ -70,7 +70,7 @@ void paintSpans(QPainter& painter, const CanvasScene& scene) {
   painter.setBrush(Qt::NoBrush);
   if (pointed) {
     QColor color = colors::target();
-    color.setAlpha(120);
+    color.setAlpha(80);
     painter.setPen(QPen(color, kSpanWidthPx, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin));
     painter.drawPath(spans.path(spanBetween(splits, *pointed, selected->closed)));
   }

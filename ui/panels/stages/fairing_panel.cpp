@@ -314,6 +314,7 @@ void FairingPanel::refreshFigures() {
   const auto targets = session_.targets();
   int degree = curve->fairingUsed.target;
   if (targets && degree == 0) degree = targets->recommendedDegree;
+  if (session_.pointedSpan()) degree = chosenSpanTarget(session_);
   if (targets && faired && curve->fairingUsed.mode == FairingMode::Target && degree >= 1 && degree <= 6) {
     const TargetProfile& profile = targets->targets.profiles[degree - 1];
     rows.push_back({tr("Similarity S"),
