@@ -2,6 +2,7 @@
 #include "ui/session/judged_curve.h"
 
 namespace batten {
+
 const NurbsCurve& judgedCurve(const TracedCurve& curve, Judged judged) {
   return judged == Judged::Result && isChanged(curve) ? curve.faired : curve.sketched;
 }
