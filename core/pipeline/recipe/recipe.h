@@ -42,9 +42,9 @@ struct PieceChoice {
   std::optional<int> keepExtrema{};       ///< Own number of extrema to keep.
   std::vector<Vec2> keepPx{};             ///< Extrema to keep, by place; not empty: counts instead of the number.
   std::vector<Vec2> splitsPx{};           ///< Where one target profile ends and the next begins.
+  std::vector<ProfilePoint> profile{};    ///< Own drawn profile, from start to end of the piece.
   std::optional<TargetSpans> spans{};     ///< Own spans of the targets, where they are not split by hand.
   std::vector<SpanChoice> spanTargets{};  ///< Target mode: only these spans are moved.
-  std::vector<ProfilePoint> profile{};    ///< Own drawn profile, from start to end of the piece.
   std::optional<TolerancePolicy> tolerancePolicy{};  ///< Own use of the tolerance.
   std::optional<FairingMeans> means{};               ///< Own way to move, on Bézier paths.
   std::optional<EndHold> startHold{}, endHold{};
