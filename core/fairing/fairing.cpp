@@ -26,6 +26,7 @@ struct TargetsRun {
   std::shared_ptr<const FairingSetup> setup;  ///< Null: the curve cannot be made fair, `problem` says why.
   std::string problem;
   std::vector<TargetLevel> levels;
+  std::array<bool, 6> isMet{};
   Result<TargetOutcomes> outcomes = cancelled();
 };
 
@@ -71,6 +72,7 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
     }
     auto faired = fairOverLevels(run.setup, run.levels, static_cast<int>(at) + 1, tolerance, context);
     if (faired) {
+      run.isMet[at] = faired->isMet();
       faired->faired = againstSketch(*run.setup, std::move(faired->faired));
       outcomes.targets.profiles[at] = run.levels[faired->level].targets.profiles[at];
       outcomes.faired[at] = std::move(faired->faired);
@@ -83,12 +85,9 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
 }
 
 /// The lowest degree that is met, where one is.
-void recommend(TargetOutcomes& outcomes) {
-  for (int degree = 6; degree >= 1; --degree) {
-    const auto& faired = outcomes.faired[static_cast<std::size_t>(degree) - 1];
-    if (faired && faired->report.withinTolerance && faired->report.extremaAfter <= faired->report.extremaBefore)
-      outcomes.recommendedDegree = degree;
-  }
+void recommend(TargetsRun& run) {
+  const auto met = std::find(run.isMet.begin(), run.isMet.end(), true);
+  if (met != run.isMet.end()) run.outcomes->recommendedDegree = static_cast<int>(met - run.isMet.begin()) + 1;
 }
 
 }  // namespace
@@ -121,7 +120,7 @@ std::vector<Result<TargetOutcomes>> fairAllTargets(std::span<const TargetsJob> j
   std::vector<Result<TargetOutcomes>> results;
   for (TargetsRun& run : runs) {
     if (context.isCancelled()) run.outcomes = cancelled();
-    if (run.outcomes) recommend(*run.outcomes);
+    if (run.outcomes) recommend(run);
     results.push_back(std::move(run.outcomes));
   }
   return results;

@@ -21,6 +21,8 @@ constexpr double kUnseenShare = 0.01;  // of the largest distance, between the p
 constexpr double kSamePeriodic = 1e-8;
 /// What may lie between the places where a distance is measured.
 constexpr double kUnseenSeam = 1.01;
+/// The same of a curve over fewer knots, whose places are not those of the sketched one.
+constexpr double kUnseenOverFewerKnots = 1.015;
 constexpr double kMostTurn = 0.5;  // [rad] of the curve from place to place
 
 /// Largest distance of `count` + 1 equally spaced points of a span of `from` from their feet on `to`, a curve of
@@ -58,6 +60,15 @@ int checksFor(const SpanCurve& from, const SpanCurve& to, int span, double large
   return count < kMostChecks ? std::max(static_cast<int>(count), kChecksPerSpan) : kMostChecks;
 }
 
+/// So many places of a span that the curve turns little from one to the next.
+int turnsFor(const SpanCurve& from, int span, int least) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kChecksPerSpan; ++i)
+    slowest = std::min(slowest, from.speed({span, static_cast<double>(i) / kChecksPerSpan}));
+  const double turned = std::ceil(from.bendBound(span) / (kMostTurn * slowest * from.basis().width(span)));
+  return turned < kMostChecks ? std::max(static_cast<int>(turned), least) : kMostChecks;
+}
+
 /// Of two curves over one basis.
 double largestDistance(const SpanCurve& from, const SpanCurve& to) {
   const auto same = [](const SpanPlace& place) { return place; };
@@ -79,7 +90,7 @@ double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve&
   const int checks = kChecksPerSpan * std::max(1, (sketched + spans - 1) / spans);
   double largest = 0.0;
   for (int span = 0; span < spans; ++span) {
-    largest = std::max(largest, largestInSpan(curve, setup.reference, span, checks,
+    largest = std::max(largest, largestInSpan(curve, setup.reference, span, turnsFor(curve, span, checks),
                                               [&](const SpanPlace& place) { return setup.sketchedPlace(place); }));
   }
   const auto shareOf = [&](const SpanPlace& place) {
@@ -92,10 +103,11 @@ double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve&
     return SpanPlace{span, std::clamp((u - setup.basis.begin(span)) / setup.basis.width(span), 0.0, 1.0)};
   };
   for (int span = 0; bothWays && span < sketched; ++span) {
-    largest = std::max(largest, largestInSpan(setup.reference, curve, span, kChecksPerSpan,
-                                              [&](const SpanPlace& place) { return placeAt(shareOf(place)); }));
+    largest =
+        std::max(largest, largestInSpan(setup.reference, curve, span, turnsFor(setup.reference, span, kChecksPerSpan),
+                                        [&](const SpanPlace& place) { return placeAt(shareOf(place)); }));
   }
-  return std::isfinite(largest) ? largest : std::numeric_limits<double>::max();
+  return std::isfinite(largest) ? kUnseenOverFewerKnots * largest : std::numeric_limits<double>::max();
 }
 
 /// How far a periodic form is from the curve that it was made of; 0 where they differ by rounding only.

@@ -62,15 +62,13 @@ class ShapeModification {
         objective_(objective),
         toleranceMm_(toleranceMm),
         context_(context),
-        calm_(calmSetups(setup)),
         asked_(asked == ExtremaAsked::None ? 0 : extremaAsked(*setup, objective)) {
     if (asked == ExtremaAsked::UpToSketch) asked_ = std::min(asked_, countedExtrema(setup->original, setup->closed));
-    std::vector<const FairingSetup*> all{setup.get()};
-    for (const auto& calm : calm_) all.push_back(calm.get());
-    for (const FairingSetup* over : all) {
-      Course course{over, TargetSteps(*over, objective, context)};
-      if (!course.steps.all().empty()) courses_.push_back(std::move(course));
-    }
+    open(setup.get());
+    // Where the target is met without tremor, there is none to be passed over.
+    if (!courses_.empty() && courses_.front().steps.all().front().extrema <= asked_) return;
+    calm_ = calmSetups(setup);
+    for (const auto& calm : calm_) open(calm.get());
   }
 
   Result<FairedCurve> run() {
@@ -111,6 +109,10 @@ class ShapeModification {
     TargetSteps steps;
   };
 
+  void open(const FairingSetup* over) {
+    Course course{over, TargetSteps(*over, objective_, context_)};
+    if (!course.steps.all().empty()) courses_.push_back(std::move(course));
+  }
   bool isWithin(const TargetStep& step) const { return step.deviationMm <= kTargetRoom * toleranceMm_; }
   /// Extrema that the target itself has are no fault.
   int rank(const TargetStep& step) const { return std::max(step.extrema, asked_); }
@@ -148,7 +150,8 @@ class ShapeModification {
     for (const Course& course : courses_) {
       if (rank(best_) <= asked_ || context_.isCancelled()) return;
       const Sides sides = sidesOf(course, toleranceMm);
-      if (!sides.outside) continue;
+      // Between two steps the extrema are those of the one or the other, or nearly so.
+      if (!sides.outside || rank(*sides.outside) >= rank(best_)) continue;
       for (const TargetStep& step : between(course, sides, toleranceMm, kRoundSteps)) take(step, &course);
     }
   }

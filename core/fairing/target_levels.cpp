@@ -39,7 +39,7 @@ std::vector<TargetLevel> targetLevels(const NurbsCurve& curve, bool closed, cons
 }
 
 Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& setup,
-                                    const std::vector<TargetLevel>& levels, int degree, double toleranceMm,
+                                    std::span<const TargetLevel> levels, int degree, double toleranceMm,
                                     const RunContext& context) {
   std::optional<LevelOutcome> best;
   for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -51,7 +51,8 @@ Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& s
     if (!faired) return fail(faired.error());
     if (!best || faired->report.extremaAfter < best->faired.report.extremaAfter)
       best = LevelOutcome{i, std::move(*faired)};
-    if (best->isMet()) break;
+    if (best->faired.report.withinTolerance && best->faired.report.extremaAfter <= best->faired.report.extremaBefore)
+      break;
   }
   return std::move(*best);
 }
@@ -69,16 +70,20 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
     if (!profile.valid) return unchanged(curve, closed, Termination::Degenerate, profile.problem);
   }
   return withSetup(curve, closed, params, [&](const auto& setup, const FairingParams& within) -> Result<FairedCurve> {
-    std::optional<FairedCurve> nearest;
-    for (int degree = 1; degree <= 6; ++degree) {
-      if (params.target > 0 && degree != params.target) continue;
-      if (!first.profiles[static_cast<std::size_t>(degree) - 1].valid) continue;
-      auto outcome = fairOverLevels(setup, levels, degree, within.toleranceMm, context);
+    const auto toDegree = [&](int degree, std::span<const TargetLevel> over) -> Result<LevelOutcome> {
+      return fairOverLevels(setup, over, degree, within.toleranceMm, context);
+    };
+    int degree = params.target;
+    for (int tried = 1; tried <= 6 && degree == 0; ++tried) {
+      if (!first.profiles[static_cast<std::size_t>(tried) - 1].valid) continue;
+      auto outcome = toDegree(tried, std::span(levels).first(1));
       if (!outcome) return fail(outcome.error());
-      if (outcome->isMet() || degree == params.target) return std::move(outcome->faired);
-      if (degree == first.recommendedDegree) nearest = std::move(outcome->faired);
+      if (outcome->isMet()) return std::move(outcome->faired);
     }
-    return std::move(*nearest);
+    if (degree == 0) degree = first.recommendedDegree;
+    auto outcome = toDegree(degree, levels);
+    if (!outcome) return fail(outcome.error());
+    return std::move(outcome->faired);
   });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/base/result.h"
@@ -27,14 +28,14 @@ std::vector<TargetLevel> targetLevels(const NurbsCurve&, bool closed, const Fair
 struct LevelOutcome {
   std::size_t level = 0;  ///< Which of the levels gave it.
   FairedCurve faired;
-  /// The target was met within the tolerance without a curvature extremum more.
+  /// The target of the first level was met within the tolerance without a curvature extremum more.
   bool isMet() const {
-    return faired.report.withinTolerance && faired.report.extremaAfter <= faired.report.extremaBefore;
+    return level == 0 && faired.report.withinTolerance && faired.report.extremaAfter <= faired.report.extremaBefore;
   }
 };
 
 /// The first level whose target is met; where none is, the one whose curve has the fewest extrema.
-Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>&, const std::vector<TargetLevel>&,
+Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>&, std::span<const TargetLevel>,
                                     int degree, double toleranceMm, const RunContext&);
 
 /// Target mode, the drawn profile excepted.

@@ -91,7 +91,9 @@ std::optional<Rounding> byTypicalCurves(const BlendEnd& before, const BlendEnd& 
 std::optional<Rounding> byBlend(const BlendEnd& before, const BlendEnd& behind, BlendContact contact) {
   const auto blend = blendCorner(before, behind, contact);
   if (!blend) return std::nullopt;
-  const auto halves = split(blend->curve, 0.5 * (blend->curve.start() + blend->curve.end()));
+  const auto curve = reparametrized(blend->curve, 0.0, ArcLength(blend->curve).total());
+  if (!curve) return std::nullopt;
+  const auto halves = split(*curve, 0.5 * (curve->start() + curve->end()));
   if (!halves) return std::nullopt;
   return Rounding{halves->left, halves->right, blend->smallestRadiusMm};
 }

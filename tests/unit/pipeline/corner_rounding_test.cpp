@@ -112,7 +112,17 @@ Angle bent(double radius1, double radius2, const CornerMark& mark) {
 }
 
 double radiusOf(const Angle& angle) {
-  return std::min(smallestRadius(angle.set.curves[0].faired), smallestRadius(angle.set.curves[1].faired));
+  constexpr int kPlaces = 2000;
+  double largest = 0.0;
+  for (const TracedCurve& one : angle.set.curves) {
+    const auto breaks = one.faired.breaks();
+    for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
+      for (int i = 0; i < kPlaces; ++i) {
+        const double u = breaks[k] + (breaks[k + 1] - breaks[k]) * (i + 0.5) / kPlaces;
+        largest = std::max(largest, std::abs(curvature(one.faired, u).value()));
+      }
+  }
+  return 1.0 / largest;
 }
 
 TEST(RoundCorners, ALargerSizeIsNeverSharper) {
@@ -148,7 +158,7 @@ TEST(RoundCorners, MeetTheirSidesAsSmoothlyAsAsked) {
     const NurbsCurve& curve = angle.set.curves[0].faired;
     // The rounding begins at the last knot inside.
     const auto breaks = curve.breaks();
-    const double u = breaks[breaks.size() - 2], h = 1e-7 * (curve.end() - curve.start());
+    const double u = breaks[breaks.size() - 2], h = 1e-10 * (curve.end() - curve.start());
     const BlendEnd left = blendEndAt(curve, u - h), right = blendEndAt(curve, u + h);
     EXPECT_LT((left.point - right.point).norm(), 1e-5);
     EXPECT_NEAR(left.kappa, right.kappa, 1e-5);
