@@ -31,12 +31,12 @@ bool before(const Contour& a, const Contour& b) {
 
 void sortAndCut(ContourSet& set, const ContourParams& params) {
   std::sort(set.contours.begin(), set.contours.end(), before);
-  const auto most = static_cast<std::size_t>(params.maxCount);
-  if (set.contours.size() <= most) return;
+  if (std::ssize(set.contours) <= params.maxCount) return;
   if (!set.report.note.empty()) set.report.note += ' ';
-  set.report.note += "Only the " + std::to_string(most) + " longest of " + std::to_string(set.contours.size()) +
+  set.report.note += "Only the " + std::to_string(params.maxCount) + " longest of " +
+                     std::to_string(set.contours.size()) +
                      " lines are kept: raise the largest number of lines to see the rest.";
-  set.contours.resize(most);
+  set.contours.resize(params.maxCount);
 }
 
 void refineOutlines(ContourSet& set, const GreyImage& grey, const RunContext& context) {
@@ -134,15 +134,15 @@ void addNote(ContourSet& set, const std::string& what, const Vec2& px) {
 }
 
 // Notes on every line which choice of the user its ink follows; true for every choice that gave a line.
-std::vector<bool> noteWays(ContourSet& set, const ChosenInk& chosen, std::span<const EdgeChoice> choices) {
+std::vector<bool> noteChoices(ContourSet& set, const ChosenInk& chosen, std::span<const EdgeChoice> choices) {
   std::vector<bool> gaveLine(choices.size(), false);
   for (Contour& contour : set.contours) {
-    for (std::size_t i = 0; i < contour.points.size() && !contour.traceMode; ++i) {
+    for (int i = 0; i < std::ssize(contour.points) && !contour.traceMode; ++i) {
       for (const Vec2& place : inkBeside(contour, i)) {
-        const int choice = chosen.choiceAt(place);
-        if (choice < 0) continue;
-        contour.traceMode = choices[choice];
-        gaveLine[choice] = true;
+        const auto choice = chosen.choiceAt(place);
+        if (!choice) continue;
+        contour.traceMode = choices[*choice];
+        gaveLine[*choice] = true;
       }
     }
   }
@@ -159,24 +159,23 @@ Result<void> followChoices(ContourSet& set, const BitImage& ink, const EdgeParam
   const ChosenInk chosen(pieces, edges.choices);
   for (const EdgeChoice& choice : chosen.withoutInk())
     addNote(set, "No ink to follow in its own way lies", choice.positionPx);
-  const std::vector<bool> gaveLine = noteWays(set, chosen, edges.choices);
+  const std::vector<bool> gaveLine = noteChoices(set, chosen, edges.choices);
   BitImage blots(ink.width, ink.height);
   std::vector<bool> isNoted(edges.choices.size(), false);
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    const int index = chosen.choiceOf(pieces.piece[i]);
-    if (index < 0) continue;
-    const auto at = static_cast<std::size_t>(index);
-    const EdgeChoice& choice = edges.choices[at];
-    if (gaveLine[at] || choice.mode != EdgeMode::Centreline) continue;
+  for (int i = 0; i < std::ssize(pieces.runs); ++i) {
+    const auto at = chosen.choiceOf(pieces.piece[i]);
+    if (!at) continue;
+    const EdgeChoice& choice = edges.choices[*at];
+    if (gaveLine[*at] || choice.mode != EdgeMode::Centreline) continue;
     setBits(blots, pieces.runs[i]);
-    if (!isNoted[at])
+    if (!isNoted[*at])
       addNote(set, "Too short and wide for a centre line, followed along its outline: the ink", choice.positionPx);
-    isNoted[at] = true;
+    isNoted[*at] = true;
   }
   if (std::find(isNoted.begin(), isNoted.end(), true) == isNoted.end()) return {};
   Result<ContourSet> outlines = crackContours(blots, edges.internal, params.minLengthPx, context);
   if (!outlines) return fail(outlines.error());
-  noteWays(*outlines, chosen, edges.choices);
+  noteChoices(*outlines, chosen, edges.choices);
   append(set, std::move(*outlines));
   return {};
 }

@@ -11,17 +11,17 @@
 namespace batten {
 
 /// Splits the ink into strokes and shapes: a component is a shape when more than half of its area survives an opening
-/// by a disc of the stroke-width limit (EdgeParams::strokeWidth * sqrt(width * height)), unless the page is followed in
-/// one way (EdgeParams::mode) or the user chose one for the component. Both masks have the size of `ink`.
+/// by a disc of the stroke-width limit (EdgeParams::strokeWidth * sqrt(width * height)), unless EdgeParams::mode or the
+/// user decides otherwise. Both masks have the size of `ink`.
 struct StrokeSplit {
   BitImage strokes;
   BitImage shapes;
 };
 Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams&, const RunContext&);
 
-/// Centre lines of all strokes of a mask: skeleton for the topology (spurs pruned, smooth stroke paths joined through
-/// crossings, gaps bridged, overdrawn strokes merged if asked), then the centre from the grey profile across the
-/// stroke.
+/// Centre lines of all strokes of a mask. The skeleton gives the topology: spurs are pruned, strokes continue through
+/// crossings, gaps are bridged and, if asked, overdrawn strokes are merged. The grey profile across the stroke then
+/// gives the positions.
 Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams&, const RunContext&);
 
 }  // namespace batten

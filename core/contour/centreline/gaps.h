@@ -7,8 +7,8 @@
 
 namespace batten {
 
-/// Joins stroke paths over gaps: mutually nearest free ends that look at each other. How long a gap is
-/// (EdgeParams::gapFactor) is measured from ink to ink.
+/// Bridges the gaps between stroke ends: joins free ends that face each other and are each other's best partner. The
+/// length of a gap (EdgeParams::gapFactor) is measured from ink to ink.
 void bridgeGaps(std::vector<StrokePath>& paths, const BitImage& ink, const EdgeParams& params,
                 const RunContext& context);
 

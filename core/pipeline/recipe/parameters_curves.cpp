@@ -12,13 +12,13 @@ void appendEdges(std::vector<Parameter>& table) {
   table.push_back(choice<EdgeMode>(
       kContours,
       {"edges.mode", "Follow", "",
-       "What becomes a line: the middle of strokes, the outline of shapes, or each as it suits."},
+       "What is traced: the middle of strokes, the outline of shapes, or whichever suits each piece of ink."},
       {{"auto", "Automatic", EdgeMode::Automatic},
        {"outline", "Outline", EdgeMode::Outline},
        {"centreline", "Centre line", EdgeMode::Centreline}},
       [](auto& r) -> auto& { return r.edges.mode; }));
   table.push_back(boolean(
-      kContours, {"edges.internal", "Inner outlines", "", "Follows the borders of holes inside the ink too."},
+      kContours, {"edges.internal", "Inner outlines", "", "Also traces the borders of holes in the ink."},
       [](auto& r) -> auto& { return r.edges.internal; }));
   table.push_back(boolean(
       kContours,
@@ -56,7 +56,7 @@ void appendEdges(std::vector<Parameter>& table) {
       {"contours.min_length", "Shortest line", "px", "Shorter lines are left out. Larger keeps fewer lines."},
       {0.0, 100000.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.contours.minLengthPx; }));
   table.push_back(integer(
-      kContours, {"contours.max_count", "Most lines", "", "Only this many lines are kept, the longest first.", true},
+      kContours, {"contours.max_count", "Most lines", "", "Largest number of lines; the longest are kept.", true},
       {1, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.contours.maxCount; }));
 }
 
@@ -64,12 +64,12 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
   table.push_back(real(
       StageId::Pieces,
       {"corners.snap", "Corner reach", "px",
-       "A corner mark holds the nearest line within this distance. Larger reaches farther."},
+       "Largest distance of a corner mark from its line. Larger reaches farther."},
       {1.0, 200.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.corners.snapDistancePx; }));
   table.push_back(boolean(
       StageId::Pieces,
       {"corners.exact", "Exact corners", "",
-       "Puts the corner where its two lines, carried on, meet. Off: at the nearest point of the line."},
+       "Puts the corner where its two sides meet when extended. Off: at the nearest point of the line."},
       [](auto& r) -> auto& { return r.corners.exact; }));
   constexpr StageId kSegments = StageId::Segments;
   table.push_back(choice<SegmentMode>(
@@ -84,7 +84,7 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
   Parameter count = integer(
       kSegments,
       {"segments.count", "Number of segments", "",
-       "Segments of every line: auto (0) takes it from the length, else at least 4. More follows the line closer."},
+       "Segments per line; auto (0) derives the number from the length, otherwise at least 4. More follow the line closer."},
       {0, 2000, 1}, [](auto& r) -> auto& { return r.segments.count; });
   count.set = [inRange = count.set, name = count.name](Recipe& r, std::string_view text) -> Result<void> {
     const auto value = integerFromText(text);
@@ -97,7 +97,7 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
   table.push_back(real(
       kSegments,
       {"segments.spacing", "Spacing", "px",
-       "Distance of the stations along the line. Larger: fewer control points and a calmer curve."},
+       "Distance of the stations along the line. Larger: fewer control points and a smoother curve."},
       {8.0, 400.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.segments.spacingPx; }));
   table.push_back(real(
       kSegments,
@@ -138,7 +138,7 @@ void appendConstruct(std::vector<Parameter>& table) {
   table.push_back(choice<ConstructMethod>(
       kCurves,
       {"construct.method", "Method", "",
-       "How the line becomes a curve: our fit of the line itself, or one of the papers' ways."},
+       "How a line becomes a curve: the fit to its points, or a method of the papers."},
       {{"fair", "True and fair fit", ConstructMethod::Fair},
        {"nurbs", "Quintic NURBS", ConstructMethod::Nurbs},
        {"bezier", "Bézier path", ConstructMethod::Bezier},
@@ -174,7 +174,7 @@ void appendConstruct(std::vector<Parameter>& table) {
   table.push_back(real(
       kCurves,
       {"construct.lowpass", "Low pass", "stations",
-       "Bézier path: length over which its curvature is evened out. 0 is the path as in the paper; larger is calmer."},
+       "Bézier path: length over which its curvature is smoothed. 0 is the path as in the paper; larger is smoother."},
       {0.0, 8.0, 0.25, 2}, [](auto& r) -> auto& { return r.construct.lowPass; }));
   table.push_back(real(
       kCurves,
@@ -208,7 +208,7 @@ void appendConstruct(std::vector<Parameter>& table) {
   table.push_back(real(
       kCurves,
       {"construct.keep_extrema", "Extremum significance", "",
-       "True and fair fit: a bump of the curvature must be this certain to be kept. Larger keeps fewer."},
+       "True and fair fit: least significance of an extremum of curvature that is kept. Larger keeps fewer."},
       {1.0, 1000.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.construct.extremumSignificance; }));
   table.push_back(boolean(
       kCurves,

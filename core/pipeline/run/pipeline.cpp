@@ -60,7 +60,7 @@ std::size_t bytesOf(const FairedSet& set) { return sizeof(set) + bytesOf(set.cur
 class PipelineRun {
  public:
   PipelineRun(const Scan& scan, const Recipe& recipe, StageCache& cache, const PipelineRequest& request,
-      const RunContext& context)
+              const RunContext& context)
       : scan_(scan), recipe_(recipe), cache_(cache), request_(request), context_(context) {}
 
   PipelineOutput runStages() {
@@ -97,10 +97,10 @@ class PipelineRun {
       case StageId::Pieces:
         return step(stage, out_.pieces, [&] {
           const GreyImage& grey = recipe_.cornerMarks.empty() ? scan_.grey : flattenedScan();
-          return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, &grey);
+          return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, context_, &grey);
         });
       case StageId::Segments:
-        return step(stage, out_.segments, [&] { return regressionSegments(*out_.pieces, recipe_.segments); });
+        return step(stage, out_.segments, [&] { return regressionSegments(*out_.pieces, recipe_.segments, context_); });
       case StageId::Curves:
         return step(stage, out_.constructed, [&] {
           return constructAll(*out_.contours, *out_.pieces, *out_.segments, recipe_, out_.frame, context_);
@@ -152,7 +152,8 @@ class PipelineRun {
       traced = std::make_shared<const ContourSet>(found ? std::move(*found) : ContourSet{});
       if (found) cache_.store(keys_.traced, traced, bytesOf(*traced));
     }
-    return withPenStrokes(*traced, recipe_.penStrokes);
+    return withPenStrokes(*traced, recipe_.penStrokes,
+                          {static_cast<double>(scan_.grey.width), static_cast<double>(scan_.grey.height)});
   }
 
   /// Fills `slot` from the cache or by running `work`; false if the run ends here.
