@@ -6,6 +6,7 @@
 
 #include "core/base/platform.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/path_text.h"
 
 namespace batten {
 namespace {
@@ -30,14 +31,14 @@ OpeningGuard::~OpeningGuard() { end(); }
 void OpeningGuard::begin(const QString& path) {
   path_ = path;
   QSettings settings;
-  settings.setValue(kPathKey, path);
+  settings.setValue(kPathKey, storedPath(path));
   settings.setValue(kProgramKey, QCoreApplication::applicationPid());
   settings.sync();  // Now: there may be no later.
 }
 
 bool OpeningGuard::hasFailed(const QString& path) {
   const QSettings settings;
-  return !path.isEmpty() && settings.value(kPathKey).toString() == path &&
+  return !path.isEmpty() && settings.value(kPathKey).toString() == storedPath(path) &&
          !isRunning(settings.value(kProgramKey).toLongLong());
 }
 

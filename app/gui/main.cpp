@@ -3,10 +3,12 @@
 #include <QDir>
 #include <QFileInfo>
 #include <cstdio>
+#include <filesystem>
 #include <string_view>
 
 #include "core/base/platform.h"
 #include "ui/main_window.h"
+#include "ui/session/path_text.h"
 
 namespace {
 
@@ -40,10 +42,10 @@ int main(int argc, char** argv) {
 
   batten::MainWindow window;
   window.show();
-  const QStringList arguments = QCoreApplication::arguments().mid(1);
-  if (!arguments.isEmpty()) {
+  // Qt has taken its own arguments out; the rest are bytes, as the system has them.
+  if (argc > 1) {
     window.offerLeftWork();
-    window.openPath(QFileInfo(arguments.first()).absoluteFilePath());
+    window.openPath(batten::absolutePath(batten::pathText(std::filesystem::path(argv[1]))));
   } else {
     window.openAtStart(samplePath());  // The sample opens finished, by the recipe beside it: one learns by changing it.
   }

@@ -50,7 +50,6 @@ Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
             {"control_points_before_sparing", r.fullControlPoints},
             {"moved_by_sparing_px", number(r.knotRemovalMovedPx)},
             {"moved_by_sparing_um", number(1000.0 * frame.lengthToModel(r.knotRemovalMovedPx))},
-
             {"is_circle", r.isCircle},
             {"is_line", r.isLine},
             {"extrema", Json::array()}};
@@ -148,6 +147,7 @@ Json choiceToJson(const TracedCurve& c) {
 
 const char* kindName(ContourKind kind) {
   if (kind == ContourKind::Pen) return "pen";
+  if (kind == ContourKind::Imported) return "imported";
   return kind == ContourKind::Centreline ? "centreline" : "outline";
 }
 
@@ -161,7 +161,9 @@ Json cornersToJson(const PipelineOutput& out, const TracedCurve& c) {
 
 Json curveToJson(const PipelineOutput& out, const ReportExtras& extras, std::size_t index) {
   const TracedCurve& c = out.faired->curves[index];
-  Json json{{"index", static_cast<int>(index)}, {"contour", c.contour + 1}, {"piece", c.piece}, {"closed", c.closed}};
+  const int known = curveNumber(out, c);
+  Json json{{"index", static_cast<int>(index)}, {"name", curveName(known)}, {"number", known},
+            {"contour", c.contour + 1},         {"piece", c.piece},         {"closed", c.closed}};
   json["kind"] = kindName(out.contours->contours[c.contour].kind);
   json["corners_px"] = cornersToJson(out, c);
   const auto& refined = out.pieces->pieces[c.piece].refined;
@@ -241,7 +243,7 @@ Json contourToJson(const Contour& c, std::size_t index, const PageFrame& frame) 
             {"stroke_width", rangeToJson(strokeWidthsOf(c.points), frame)},
             {"merged_half_spread", rangeToJson(halfSpread(c), frame)},
             {"bridges", Json::array()},
-            {"not_placed", c.kind == ContourKind::Pen ? Json::array() : notPlacedToJson(c)}};
+            {"not_placed", isDrawn(c.kind) ? Json::array() : notPlacedToJson(c)}};
   const int n = static_cast<int>(c.points.size());
   for (const auto& [first, last] : c.bridges) {
     if (first >= 0 && first <= last && last < n) json["bridges"].push_back(stretchToJson(c, first, last));
@@ -269,11 +271,23 @@ void addComparisons(const PipelineOutput& out, Json& curves) {
       other = j;
     }
     if (!best) continue;
-    curves[i]["most_alike"] = {
-        {"index", static_cast<int>(other)}, {"similarity", number(best->similarity)},
-        {"pearson", number(best->pearson)}, {"curvature_similarity", number(best->curvatureSimilarity)},
-        {"mirrored", best->mirrored},       {"reversed", best->reversed}};
+    curves[i]["most_alike"] = {{"index", static_cast<int>(other)},
+                               {"name", curveName(curveNumber(out, all[other]))},
+                               {"similarity", number(best->similarity)},
+                               {"pearson", number(best->pearson)},
+                               {"curvature_similarity", number(best->curvatureSimilarity)},
+                               {"mirrored", best->mirrored},
+                               {"reversed", best->reversed}};
   }
+}
+
+Json explanationToJson(const Explanation& e) {
+  Json stretches = Json::array();
+  for (const InventedStretch& s : e.inventions) {
+    stretches.push_back({{"curve", s.curve}, {"from_px", pointToJson(s.fromPx)}, {"length_px", number(s.lengthPx)}});
+  }
+  return {{"reference_ink_px", e.referencePx}, {"explained", number(e.explained)}, {"missed", number(e.missed)},
+          {"curves_px", number(e.curvesPx)},   {"invented", number(e.invented)},   {"inventions", stretches}};
 }
 
 std::size_t stationCount(const SegmentSet& set) {
@@ -363,6 +377,7 @@ std::string reportToJson(const Scan& scan, const Recipe& recipe, const PipelineO
   json["mm_per_px"] = number(out.frame.mmPerPx);
   json["read_milliseconds"] = number(extras.readMilliseconds);
   json["stages"] = stagesToJson(out);
+  if (extras.explanation) json["explanation"] = explanationToJson(*extras.explanation);
   Json& contours = json["contours"] = Json::array();
   for (std::size_t i = 0; out.contours && i < out.contours->contours.size(); ++i)
     contours.push_back(contourToJson(out.contours->contours[i], i, out.frame));

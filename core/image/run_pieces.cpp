@@ -131,6 +131,17 @@ RunPieces findPieces(const BitImage& image, Connectivity connectivity, const Run
 
 void setBits(BitImage& image, const Run& run) { setBits(image.row(run.y), run.x0, run.x1); }
 
+void clearBits(BitImage& image, const Run& run) {
+  std::uint64_t* row = image.row(run.y);
+  const int first = run.x0 >> 6, last = (run.x1 - 1) >> 6;
+  for (int i = first; i <= last; ++i) {
+    std::uint64_t word = ~std::uint64_t{0};
+    if (i == first) word &= ~std::uint64_t{0} << (run.x0 & 63);
+    if (i == last) word &= ~std::uint64_t{0} >> (63 - ((run.x1 - 1) & 63));
+    row[i] &= ~word;
+  }
+}
+
 int countBits(const BitImage& image, const Run& run) {
   const std::uint64_t* row = image.row(run.y);
   const int first = run.x0 >> 6, last = (run.x1 - 1) >> 6;

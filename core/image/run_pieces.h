@@ -25,6 +25,8 @@ RunPieces findPieces(const BitImage& image, Connectivity connectivity, const Run
 
 /// Sets the pixels of a run.
 void setBits(BitImage& image, const Run& run);
+/// Clears the pixels of a run.
+void clearBits(BitImage& image, const Run& run);
 /// How many pixels of the run are set.
 int countBits(const BitImage& image, const Run& run);
 

@@ -63,6 +63,7 @@ std::string libraryOf(const std::string& header) {
   if (header == "qcustomplot.h") return "qcustomplot";
   if (header.starts_with("dxflib/")) return "dxflib";
   if (header.ends_with(".hxx")) return "occt";
+  if (header.starts_with("poppler")) return "poppler";
   if (widgets.contains(header) || header.find("Widget") != std::string::npos || header.starts_with("QtWidgets"))
     return "qt-widgets";
   if (gui.contains(header) || header.starts_with("QtGui")) return "qt-gui";

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Traces every drawing of a folder with the default recipe and prints, per drawing, how much of the curves lies on ink,
-// how much of the ink has a curve, and how many curves and control points there are; where a file of the same name with
-// the ending .svg says how the drawing was made, also how far the curves are from it. Writes the curves over the scan.
+// Traces every drawing of a folder with the default recipe and prints, per drawing, how much of the ink the curves
+// explain, how much of their length has no ink under it, how many curves and control points there are, and the time;
+// where a file of the same name with the ending .svg says how the drawing was made, also how far the curves are from
+// it. Into OVERLAY_FOLDER it writes the curves over the scan, with missed ink in blue, and a page index.html to look
+// at.
 //
 //   bench_sketches FOLDER [OVERLAY_FOLDER] [--groups] [stage.parameter=value …]
 //
-// --groups says for every meant line that was not found as one line which lines were found on it.
+// --groups says for every meant line that was not found as one line which lines were found on it, and for every
+// drawing where curves have no ink under them.
 
 #include <QColor>
 #include <QImage>
@@ -15,13 +18,13 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/imgproc.hpp>
+#include <fstream>
 #include <vector>
 
 #include "core/contour/corner/corner_marks.h"
 #include "core/contour/corner/corner_suggestions.h"
 #include "core/curve/arc_length.h"
-#include "core/image/laplacian_edges.h"
+#include "core/document/explain/explanation.h"
 #include "core/image/scan_reader.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/run/corner_places.h"
@@ -33,69 +36,35 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kOnInkPx = 2.0;
-
-/// Distance of every pixel's centre to the nearest ink pixel's centre.
-cv::Mat distanceToInk(const BitImage& ink) {
-  cv::Mat paper(ink.height, ink.width, CV_8U);
-  for (int y = 0; y < ink.height; ++y)
-    for (int x = 0; x < ink.width; ++x) paper.at<unsigned char>(y, x) = ink.at(x, y) ? 0 : 255;
-  cv::Mat distance;
-  cv::distanceTransform(paper, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  return distance;
-}
-
-/// Half the stroke that a curve runs along; 0 on the border of ink.
-double halfWidthOf(const Contour& contour) {
-  std::vector<float> widths = strokeWidthsOf(contour.points);
-  if (widths.empty()) return 0.0;
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  return 0.5 * static_cast<double>(*middle);
-}
-
-/// Share of the border of the ink, as thresholds find it, that lies within `reached`.
-double shareReached(const BitImage& ink, const cv::Mat& reached) {
-  const auto edges = laplacianEdges(ink, {});
-  double in = 0.0, all = 0.0;
-  for (int y = 0; edges && y < edges->height; ++y) {
-    for (int x = 0; x < edges->width; ++x) {
-      if (!edges->at(x, y)) continue;
-      all += 1.0;
-      in += reached.at<unsigned char>(y, x) != 0 ? 1.0 : 0.0;
-    }
-  }
-  return all > 0.0 ? in / all : 0.0;
-}
-
 struct Figures {
   int curves = 0, controlPoints = 0, failures = 0, extrema = 0;
-  double lengthPx = 0.0, onInk = 0.0, traced = 0.0, worstRmsPx = 0.0;
+  double worstRmsPx = 0.0;
   std::vector<test::CurvePoint> points;
   std::vector<std::vector<test::CurvePoint>> lines;
 };
+
+// Missed ink in blue, below the curves.
+void paintMissed(const BitImage& missed, QImage& overlay, double scale) {
+  for (int y = 0; y < overlay.height(); ++y) {
+    for (int x = 0; x < overlay.width(); ++x) {
+      if (missed.at(static_cast<int>(x / scale), static_cast<int>(y / scale)))
+        overlay.setPixel(x, y, qRgb(60, 110, 255));
+    }
+  }
+}
 
 Figures drawAndMeasure(const PipelineOutput& output, QImage& overlay, double scale) {
   Figures figures;
   QPainter painter(&overlay);
   painter.setRenderHint(QPainter::Antialiasing);
-  const cv::Mat distance = distanceToInk(*output.binary);
-  cv::Mat reached = cv::Mat::zeros(distance.size(), CV_8U);
-  double on = 0.0, all = 0.0;
   int hue = 0;
   for (const TracedCurve& curve : output.faired->curves) {
     const int count = std::max(8, static_cast<int>(output.frame.lengthToImage(curve.sketchedFigures.lengthMm)));
-    const double reach = kOnInkPx + halfWidthOf(output.contours->contours[curve.contour]) + 0.5;
     QPainterPath path;
     Vec2 last = Vec2::Zero();
     std::vector<test::CurvePoint> line;
     for (const CurveSample& sample : sampleByArcLength(curve.faired, count)) {
       const Vec2 p = output.frame.pointToImage(sample.point);
-      const int x = std::clamp(static_cast<int>(p.x()), 0, distance.cols - 1),
-                y = std::clamp(static_cast<int>(p.y()), 0, distance.rows - 1);
-      on += distance.at<float>(y, x) <= kOnInkPx ? 1.0 : 0.0;
-      all += 1.0;
-      cv::circle(reached, {x, y}, static_cast<int>(std::ceil(reach)), 255, cv::FILLED);
       const QPointF q(p.x() * scale, p.y() * scale);
       if (path.elementCount() > 0 && p != last) line.push_back({0.5 * (p + last), (p - last).normalized()});
       last = p;
@@ -109,14 +78,11 @@ Figures drawAndMeasure(const PipelineOutput& output, QImage& overlay, double sca
     ++figures.curves;
     figures.controlPoints += curve.faired.controlPointCount();
     figures.extrema += curve.fairedFigures.extrema;
-    figures.lengthPx += count;
     figures.worstRmsPx = std::max(figures.worstRmsPx, output.frame.lengthToImage(curve.fairedFigures.fromPoints.rms));
   }
   painter.setPen(QPen(QColor(220, 60, 20), 2));
   for (const Corner& corner : output.pieces->corners)
     painter.drawRect(QRectF(corner.positionPx.x() * scale - 4, corner.positionPx.y() * scale - 4, 8, 8));
-  figures.onInk = all > 0 ? on / all : 0.0;
-  figures.traced = shareReached(*output.binary, reached);
   return figures;
 }
 
@@ -158,11 +124,40 @@ void printGrouping(const char* what, const test::SketchTruth& truth,
   for (std::size_t i = 0; detailed && i < g.unmatched.size(); ++i) std::printf("      %s\n", g.unmatched[i].c_str());
 }
 
-void trace(const fs::path& file, const Recipe& recipe, const fs::path& overlays, bool detailed) {
+// One drawing of the table.
+struct Row {
+  std::string file;
+  Explanation explanation;
+  int curves = 0, controlPoints = 0;
+  double seconds = 0.0;
+};
+
+void writePage(const fs::path& folder, const std::vector<Row>& rows) {
+  std::ofstream html(folder / "index.html");
+  html << "<!DOCTYPE html><meta charset=utf-8><title>Curves over their drawings</title>\n"
+          "<style>body{font-family:sans-serif}td,th{padding:2px 10px;text-align:right}td:first-child{text-align:left}"
+          "img{max-width:100%;border:1px solid #ccc}</style>\n<table><tr><th>drawing<th>explained %<th>missed %"
+          "<th>invented %<th>curves<th>control points<th>seconds</tr>\n";
+  const auto name = [](const Row& row) { return QString::fromStdString(row.file).toHtmlEscaped().toStdString(); };
+  for (const Row& row : rows) {
+    char text[200];
+    std::snprintf(text, sizeof text, "<td>%.1f<td>%.1f<td>%.2f<td>%d<td>%d<td>%.1f</tr>\n",
+                  100.0 * row.explanation.explained, 100.0 * row.explanation.missed, 100.0 * row.explanation.invented,
+                  row.curves, row.controlPoints, row.seconds);
+    html << "<tr><td><a href=\"#" << name(row) << "\">" << name(row) << "</a>" << text;
+  }
+  html << "</table>\n";
+  for (const Row& row : rows) {
+    html << "<h2 id=\"" << name(row) << "\">" << name(row) << "</h2>\n<img loading=lazy src=\""
+         << fs::path(name(row)).stem().string() << "-overlay.png\">\n";
+  }
+}
+
+std::optional<Row> trace(const fs::path& file, const Recipe& recipe, const fs::path& overlays, bool detailed) {
   const auto scan = readScan(file, {}, {});
   if (!scan) {
     std::printf("%-30s %s\n", file.filename().c_str(), scan.error().message.c_str());
-    return;
+    return {};
   }
   StageCache cache;
   const auto begin = std::chrono::steady_clock::now();
@@ -170,17 +165,28 @@ void trace(const fs::path& file, const Recipe& recipe, const fs::path& overlays,
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   if (!output.faired) {
     std::printf("%-30s %s\n", file.filename().c_str(), output.error ? output.error->message.c_str() : "no result");
-    return;
+    return {};
+  }
+  const auto explanation = explainPage(*scan, recipe, output, {});
+  if (!explanation) {
+    std::printf("%-30s %s\n", file.filename().c_str(), explanation.error().message.c_str());
+    return {};
   }
   const double scale = std::clamp(1500.0 / scan->grey.width, 0.4, 3.0);
   QImage overlay = faded(scan->grey, scale);
+  paintMissed(explanation->missedInk, overlay, scale);
   Figures f = drawAndMeasure(output, overlay, scale);
   f.failures = static_cast<int>(output.constructed->failures.size());
   std::printf(
-      "%-30s %5d curves %6d points %5d extrema %8.0f px  on ink %5.1f %%  ink traced %5.1f %%  worst rms %.2f px  %d "
-      "failed  %7.0f ms\n",
-      file.filename().c_str(), f.curves, f.controlPoints, f.extrema, f.lengthPx, 100.0 * f.onInk, 100.0 * f.traced,
-      f.worstRmsPx, f.failures, ms);
+      "%-30s explained %5.1f %%  missed %5.1f %%  invented %5.2f %%  %5d curves %6d points %5d extrema  worst rms %.2f "
+      "px  %d failed  %7.0f ms\n",
+      file.filename().c_str(), 100.0 * explanation->explained, 100.0 * explanation->missed,
+      100.0 * explanation->invented, f.curves, f.controlPoints, f.extrema, f.worstRmsPx, f.failures, ms);
+  if (detailed) {
+    for (const InventedStretch& s : explanation->inventions)
+      std::printf("      invented %6.1f px of curve %d from (%.0f, %.0f)\n", s.lengthPx, s.curve + 1, s.fromPx.x(),
+                  s.fromPx.y());
+  }
   if (const auto truth = test::SketchTruth::beside(file, scan->grey.width, scan->grey.height)) {
     const test::SketchTruth::Figures t = truth->compare(f.points);
     std::printf(
@@ -192,6 +198,7 @@ void trace(const fs::path& file, const Recipe& recipe, const fs::path& overlays,
   std::fflush(stdout);
   if (!overlays.empty())
     overlay.save(QString::fromStdString((overlays / (file.stem().string() + "-overlay.png")).string()));
+  return Row{file.filename().string(), *explanation, f.curves, f.controlPoints, 0.001 * ms};
 }
 
 }  // namespace
@@ -230,6 +237,16 @@ int main(int argc, char** argv) {
     if (ending == ".png" || ending == ".jpg" || ending == ".tif" || ending == ".pgm") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
-  for (const fs::path& file : files) trace(file, recipe, overlays, detailed);
+  std::vector<Row> rows;
+  for (const fs::path& file : files) {
+    if (auto row = trace(file, recipe, overlays, detailed)) rows.push_back(std::move(*row));
+  }
+  double explained = 0.0, invented = 0.0;
+  for (const Row& row : rows) {
+    explained += row.explanation.explained / static_cast<double>(rows.size());
+    invented += row.explanation.invented / static_cast<double>(rows.size());
+  }
+  std::printf("%-30s explained %5.1f %%  invented %5.2f %%\n", "mean", 100.0 * explained, 100.0 * invented);
+  if (!overlays.empty()) writePage(overlays, rows);
   return 0;
 }

@@ -226,6 +226,67 @@ def by_slurm(place):
         slurm.end()
 
 
+class MemoryGroup:
+    """A control group that holds at most so many bytes; `why` says why there is none."""
+
+    def __init__(self, limit):
+        self.why, self.folder = None, None
+        for root, name in (("/sys/fs/cgroup/memory", "memory.limit_in_bytes"), ("/sys/fs/cgroup", "memory.max")):
+            if not os.path.exists(os.path.join(root, "cgroup.procs")):
+                continue
+            folder = os.path.join(root, "batten-test-%d" % os.getpid())
+            try:
+                os.mkdir(folder)
+                self.folder = folder
+                with open(os.path.join(folder, name), "w") as out:
+                    out.write(str(limit))
+                return
+            except OSError as error:
+                self.why = str(error)
+        self.why = self.why or "no hierarchy of control groups"
+
+    def enter(self):
+        with open(os.path.join(self.folder, "cgroup.procs"), "w") as out:
+            out.write(str(os.getpid()))
+
+    def end(self):
+        if self.folder:
+            os.rmdir(self.folder)
+
+
+def most_at_once(place, jobs, **more):
+    """How many pages a batch has had running at once."""
+    process = start([CLI, "batch", "pages.jsonl", "--jobs", str(jobs), "--results", "pages.jsonl.results", *OPTIONS.split()], place, **more)
+    most = 0
+    while process.poll() is None:
+        try:
+            with open("/proc/%d/task/%d/children" % (process.pid, process.pid)) as file:
+                most = max(most, len(file.read().split()))
+        except OSError:
+            pass
+        time.sleep(0.02)
+    return most
+
+
+def by_little_memory(source, single, told):
+    """Six jobs where memory holds the batch and no more than two or three pages beside it: none is started for which there is none."""
+    free = copy_of(source, "memory-free")
+    unlimited = most_at_once(free, 6)
+    group = MemoryGroup(160 << 20)
+    try:
+        if group.why:
+            print("memory: passed over. No control group can be made: " + group.why)
+            return
+        place = copy_of(source, "memory")
+        most = most_at_once(place, 6, preexec_fn=group.enter)
+        check("memory", place, single, told)
+    finally:
+        group.end()
+    print("6 jobs: %d pages at once; where 160 MB are allowed: %d" % (unlimited, most))
+    if unlimited != 6 or most > 3:
+        fail("memory: %d pages at once, of 6 jobs" % most)
+
+
 def check(way, place, reference, told):
     lines = results_of(place, "pages.jsonl.results")
     finished = collections.Counter(one["scan"] for one in lines if one["status"] != "failed")
@@ -305,6 +366,8 @@ def main():
             continue
         peak = check(name, place, single, told)
         show(name + ", killed by -9 twice", seconds, None, peak)
+    if not WAYS or "memory" in WAYS:
+        by_little_memory(source, single, told)
     print("load of the machine meanwhile: %.1f on %d processors" % (os.getloadavg()[2], os.cpu_count()))
 
 

@@ -3,7 +3,8 @@
 
 #include <QDir>
 #include <QFile>
-#include <QTest>
+#include <QSignalSpy>
+#include <QTimer>
 
 #include "core/base/platform.h"
 #include "core/document/unsaved_work.h"
@@ -56,7 +57,10 @@ TEST_F(Journal, AWriteThatFailsIsTriedAgain) {
   RecipeJournal journal(session_, folder());
   journal.setIntervalMs(20);
   ASSERT_NO_FATAL_FAILURE(draw(20));
-  QTest::qWait(100);
+  auto* clock = journal.findChild<QTimer*>();
+  ASSERT_NE(clock, nullptr);
+  QSignalSpy ticks(clock, &QTimer::timeout);
+  ASSERT_TRUE(waitUntil([&] { return ticks.count() >= 3; }, 5000));
   EXPECT_FALSE(QFile::exists(journal.file()));
   // No change follows: the next tick alone writes what is there.
   ASSERT_TRUE(QFile::remove(folder()));

@@ -13,13 +13,12 @@
 #include "core/base/regular_file.h"
 #include "core/document/unsaved_work.h"
 #include "core/exchange/save_atomically.h"
+#include "ui/session/path_text.h"
 
 namespace batten {
 namespace {
 
 constexpr std::uint64_t kLargestBytes = std::uint64_t{64} << 20;
-
-std::filesystem::path nativePath(const QString& path) { return {path.toStdU16String()}; }
 
 std::unique_ptr<LockFile> lockOf(const QString& journal) {
   return std::make_unique<LockFile>(nativePath(journal + QStringLiteral(".lock")));
@@ -30,8 +29,8 @@ std::optional<RecipeJournal::Left> readJournal(const QString& path) {
   if (!text) return std::nullopt;
   auto work = unsavedWorkFromJson(*text);
   if (!work) return std::nullopt;
-  return RecipeJournal::Left{path, QString::fromStdString(work->scanPath), QFileInfo(path).lastModified(),
-                             std::move(work->recipe)};
+  return RecipeJournal::Left{path, pathFromStored(QString::fromStdString(work->scanPath)),
+                             QFileInfo(path).lastModified(), std::move(work->recipe)};
 }
 
 }  // namespace
@@ -56,7 +55,7 @@ QString RecipeJournal::newFile() const {
 void RecipeJournal::write() {
   const bool isHeld = lock_ && lock_->hold();
   if (!session_.hasUnsavedChanges()) return;
-  if (isHeld && written_ && *written_ == session_.recipe() && QFile::exists(file_)) return;
+  if (isHeld && written_ && *written_ == session_.recipeToSave() && QFile::exists(file_)) return;
   if (!isHeld) {
     // The file may be somebody else's by now, or is not there yet.
     QDir().mkpath(folder_);
@@ -67,7 +66,7 @@ void RecipeJournal::write() {
     if (!lock_->hold()) return;  // A folder that takes no lock takes no journal: the next tick tries again.
   }
   worker_->start(
-      [this, generation = generation_, recipe = session_.recipe(), scan = session_.scanPath(),
+      [this, generation = generation_, recipe = session_.recipeToSave(), scan = storedPath(session_.scanPath()),
        file = file_](const CancelToken&) {
         const std::string bytes = unsavedWorkToJson({scan.toStdString(), recipe});
         // Should it fail there is nothing to tell: the drawing is where it was, and the next tick tries again.

@@ -52,7 +52,7 @@ class RecipeJournal : public QObject {
   EditorSession& session_;
   QString folder_, file_;
   std::unique_ptr<LockFile> lock_, leftLock_;  ///< Of the journal at X: "X.lock".
-  QTimer timer_;
+  QTimer timer_{this};
   std::optional<Recipe> written_;  ///< What is on disk, as far as known.
   int generation_ = 0;             ///< Of the file: what an older write reports is of no use any more.
   std::unique_ptr<BackgroundWorker> worker_;

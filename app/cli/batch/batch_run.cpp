@@ -33,7 +33,7 @@ constexpr std::uint64_t kBytesPerPixel = 40;
 
 /// [bytes] What tracing the page will take at its peak, from the size that the scan states.
 std::uint64_t memoryNeeded(const BatchPage& page) {
-  const auto info = probeScan(page.scan);
+  const auto info = probeScan(page.scan, {page.page, page.dpi.value_or(PageChoice{}.pdfDpi)});
   if (!info) return kBytesOfACall;
   return kBytesOfACall +
          kBytesPerPixel * static_cast<std::uint64_t>(info->width) * static_cast<std::uint64_t>(info->height);

@@ -57,7 +57,7 @@ QByteArray linkTo(const std::string& file, const fs::path& folder) {
 QImage smallPicture(const BatchPage& page) {
   RunContext context;
   context.threads = 1;
-  const auto scan = readScan(page.scan, {}, context);
+  const auto scan = readScan(page.scan, {.page = {page.page, PageChoice{}.pdfDpi}}, context);
   if (!scan) return {};
   const GreyImage& grey = scan->grey;
   const int step =

@@ -62,7 +62,7 @@ std::optional<CornerFinder::Snapped> CornerFinder::nearest(const std::vector<Con
   for (const ContourPlace& p : near) {
     const Contour& contour = contourOf(p);
     // The sharp point of a pen stroke is one of the points that were drawn (004 section 3.2), none in between.
-    if (contour.kind == ContourKind::Pen && !contour.points[p.index].refined) continue;
+    if (isDrawn(contour.kind) && !contour.points[p.index].refined) continue;
     const double d = (at(p) - mark).squaredNorm();
     if (d > least || (best && d == least)) continue;
     best = p;
@@ -120,7 +120,7 @@ std::optional<CornerFinder::Snapped> CornerFinder::sharpest(const std::vector<Co
     auto end = first + 1;
     while (end != near.end() && end->contour == first->contour && end->index == (end - 1)->index + 1) ++end;
     std::vector<Turn> turns;
-    if (contourOf(*first).kind != ContourKind::Pen) {
+    if (!isDrawn(contourOf(*first).kind)) {
       for (auto p = first; p != end; ++p)
         if (const auto score = turnScore(*p)) turns.push_back({*p, *score});
     }
@@ -136,9 +136,9 @@ std::optional<Corner> CornerFinder::find(const Vec2& mark) {
   const std::vector<ContourPlace> near = placesNear(mark);
   std::optional<Snapped> best = sharpest(near, mark);
   const std::optional<Snapped> point = nearest(near, mark);
-  const bool isOnPen = point && contourOf(point->place).kind == ContourKind::Pen;
+  const bool isOnDrawn = point && isDrawn(contourOf(point->place).kind);
   // A drawn point means itself: it need not be the sharpest place around.
-  if (!best || (isOnPen && point->distance < best->distance)) best = point;
+  if (!best || (isOnDrawn && point->distance < best->distance)) best = point;
   if (!best) return std::nullopt;
   Corner corner;
   corner.contour = best->place.contour;

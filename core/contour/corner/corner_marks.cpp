@@ -24,7 +24,8 @@ constexpr int kManyMarks = 16;          // from here on sorting the points of th
 // A corner while the pieces are cut.
 struct PlacedCorner {
   Corner corner;
-  double zone = 4.0;  // [px] points nearer than this are left out
+  double zone = 4.0;     // [px] points nearer than this are left out
+  bool isMarked = true;  // else it is a joint of the line itself
   bool exact = false;
 };
 
@@ -65,6 +66,8 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   const int n = static_cast<int>(contour.points.size());
   Piece piece;
   piece.contour = contourIndex;
+  piece.firstPoint = from;
+  piece.lastPoint = to;
   for (int i = from; i <= to; ++i) {
     const ContourPoint& p = contour.points[wrapIndex(i, n)];
     piece.points.push_back(p.at);
@@ -75,9 +78,8 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   const auto zoneOf = [&](const PlacedCorner* placed) { return placed->exact ? placed->zone : kGuessedZonePx; };
   int head = 0, tail = 0;
   if (start != nullptr)
-    head = pointsToDrop(piece, contour.kind == ContourKind::Pen, false, start->corner.positionPx, zoneOf(start));
-  if (end != nullptr)
-    tail = pointsToDrop(piece, contour.kind == ContourKind::Pen, true, end->corner.positionPx, zoneOf(end));
+    head = pointsToDrop(piece, isDrawn(contour.kind), false, start->corner.positionPx, zoneOf(start));
+  if (end != nullptr) tail = pointsToDrop(piece, isDrawn(contour.kind), true, end->corner.positionPx, zoneOf(end));
   if (head + tail >= std::ssize(piece.points)) head = static_cast<int>(piece.points.size()), tail = 0;
   const auto cutEnds = [&](auto& values) {
     values.erase(values.end() - tail, values.end());
@@ -87,12 +89,12 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   cutEnds(piece.refined);
   if (start != nullptr) {
     piece.points.insert(piece.points.begin(), start->corner.positionPx);
-    piece.refined.insert(piece.refined.begin(), start->exact || contour.kind == ContourKind::Pen ? 1 : 0);
+    piece.refined.insert(piece.refined.begin(), start->exact || isDrawn(contour.kind) ? 1 : 0);
     piece.startIsCorner = true;
   }
   if (end != nullptr) {
     piece.points.push_back(end->corner.positionPx);
-    piece.refined.push_back(end->exact || contour.kind == ContourKind::Pen ? 1 : 0);
+    piece.refined.push_back(end->exact || isDrawn(contour.kind) ? 1 : 0);
     piece.endIsCorner = true;
   }
   const auto cutValues = [&](std::vector<float>& values, float ofAlone) {
@@ -161,20 +163,26 @@ std::vector<MarkPair> closeCornersOf(const Contour& contour, const std::vector<P
   return close;
 }
 
-// The corners that marks found on one contour. Those within kSamePlacePx are one.
-class CornersFound {
+// The corners of one contour: those that marks found, and its joints. Those within kSamePlacePx are one.
+class ContourCorners {
  public:
   /// The mark that found the corner before; nothing: it is new.
   std::optional<int> add(const Corner& corner) {
-    std::optional<int> known;
-    near_.around(corner.positionPx, [&](int i) {
-      const bool isHere = (corners_[i].corner.positionPx - corner.positionPx).norm() <= kSamePlacePx;
-      if (isHere && (!known || i < *known)) known = i;
-    });
-    if (known) return corners_[*known].corner.mark;
+    if (const auto known = firstAt(corner.positionPx)) return corners_[*known].corner.mark;
     near_.add(corner.positionPx, static_cast<int>(corners_.size()));
-    corners_.push_back({corner});
+    corners_.push_back({.corner = corner});
     return std::nullopt;
+  }
+  /// Of an imported line. A mark beside a joint means the joint.
+  void addJoint(const Corner& joint) {
+    const auto known = firstAt(joint.positionPx);
+    near_.add(joint.positionPx, known.value_or(static_cast<int>(corners_.size())));
+    if (known) {
+      corners_[*known].corner.pointIndex = joint.pointIndex;
+      corners_[*known].corner.positionPx = joint.positionPx;
+    } else {
+      corners_.push_back({.corner = joint, .isMarked = false});
+    }
   }
   /// In the order of travel.
   std::vector<PlacedCorner> sorted() && {
@@ -184,14 +192,24 @@ class CornersFound {
   }
 
  private:
+  /// The corner at a place that was added first.
+  std::optional<int> firstAt(const Vec2& place) const {
+    std::optional<int> first;
+    near_.around(place, [&](int i) {
+      const bool isHere = (corners_[i].corner.positionPx - place).norm() <= kSamePlacePx;
+      if (isHere && (!first || i < *first)) first = i;
+    });
+    return first;
+  }
+
   PointGrid<int> near_{kSamePlacePx};
   std::vector<PlacedCorner> corners_;
 };
 
 // By contour; notes on `out` what became of the marks. Not complete when cancelled.
-std::vector<CornersFound> findCorners(const ContourSet& set, std::span<const CornerMark> marks, double snapDistancePx,
-                                      const RunContext& context, PieceSet& out) {
-  std::vector<CornersFound> found(set.contours.size());
+std::vector<ContourCorners> findCorners(const ContourSet& set, std::span<const CornerMark> marks, double snapDistancePx,
+                                        const RunContext& context, PieceSet& out) {
+  std::vector<ContourCorners> found(set.contours.size());
   CornerFinder finder(set, snapDistancePx);
   if (std::ssize(marks) >= kManyMarks) finder.sortPoints();
   for (int m = 0; m < std::ssize(marks); ++m) {
@@ -205,6 +223,16 @@ std::vector<CornersFound> findCorners(const ContourSet& set, std::span<const Cor
     if (const auto before = found[corner->contour].add(*corner)) out.sameCorner.push_back({m, *before, 0.0});
   }
   return found;
+}
+
+void addJoints(const Contour& contour, int index, ContourCorners& corners) {
+  for (const int joint : contour.joints) {
+    Corner corner;
+    corner.contour = index;
+    corner.pointIndex = joint;
+    corner.positionPx = contour.points[joint].at;
+    corners.addJoint(corner);
+  }
 }
 
 }  // namespace
@@ -222,15 +250,17 @@ Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMar
                                 const RunContext& context, const GreyImage* grey) {
   if (auto error = validate(params)) return fail(*error);
   PieceSet out;
-  std::vector<CornersFound> found = findCorners(set, marks, params.snapDistancePx, context, out);
+  std::vector<ContourCorners> found = findCorners(set, marks, params.snapDistancePx, context, out);
   for (int c = 0; c < std::ssize(set.contours); ++c) {
     if (context.isCancelled()) return cancelled();
     const Contour& contour = set.contours[c];
+    addJoints(contour, c, found[c]);
     std::vector<PlacedCorner> corners = std::move(found[c]).sorted();
     // A pen stroke is exact already: its corner is the point that was drawn.
-    if (params.exact && contour.kind != ContourKind::Pen && !corners.empty()) locate(contour, grey, context, corners);
+    if (params.exact && !isDrawn(contour.kind) && !corners.empty()) locate(contour, grey, context, corners);
     if (context.isCancelled()) return cancelled();
     std::ranges::move(piecesOf(set, c, corners), std::back_inserter(out.pieces));
+    std::erase_if(corners, [](const PlacedCorner& placed) { return !placed.isMarked; });
     std::ranges::copy(closeCornersOf(contour, corners), std::back_inserter(out.closeCorners));
     for (const PlacedCorner& placed : corners) out.corners.push_back(placed.corner);
   }

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/label/ink_labels.h"
+
+#include <bit>
+#include <cmath>
+#include <new>
+#include <unordered_map>
+
+#include "core/contour/centreline/skeleton.h"
+#include "core/contour/label/label_rules.h"
+#include "core/contour/label/label_vote.h"
+#include "core/contour/label/strand_graph.h"
+#include "core/image/bit_disc.h"
+#include "core/image/bit_steps.h"
+
+namespace batten {
+namespace {
+
+constexpr std::size_t kDiscsPerCheck = 256;
+
+// Discs of ink about skeleton pixels; those that lie within the one painted before are passed over.
+class DiscPainter {
+ public:
+  explicit DiscPainter(BitImage& image) : image_(image) {}
+  void paint(const StrandPixel& p) {
+    const double radius = static_cast<double>(p.radius);
+    if ((p.centre() - last_).norm() + radius <= lastRadius_) return;
+    constexpr double kLess = 1e-3;  // [px] the nearest centre of paper lies on the circle
+    setDisc(image_, p.centre(), radius - kLess);
+    last_ = p.centre();
+    lastRadius_ = radius;
+  }
+
+ private:
+  BitImage& image_;
+  Vec2 last_ = Vec2::Zero();
+  double lastRadius_ = -1.0;
+};
+
+void paintLabels(const StrandGraph& graph, InkLabels& labels, const RunContext& context) {
+  DiscPainter shapes(labels.shapes), strokes(labels.strokes);
+  std::size_t painted = 0;
+  const auto paint = [&](const std::vector<StrandPixel>& pixels) {
+    for (const StrandPixel& p : pixels) {
+      if (painted++ % kDiscsPerCheck == 0 && context.isCancelled()) return;
+      (p.label == InkLabel::Shape ? shapes : strokes).paint(p);
+    }
+  };
+  for (const StrandChain& chain : graph.chains()) paint(chain.pixels);
+  for (const StrandNode& node : graph.nodes()) {
+    if (node.isJunction()) paint(node.pixels);
+  }
+  labels.strokes = without(std::move(labels.strokes), labels.shapes);
+}
+
+// Ink of neither goes to the nearer of the two, step by step through the ink. What nothing reaches is a blot.
+void shareRest(const BitImage& ink, InkLabels& labels, const RunContext& context) {
+  std::vector<SkeletonPixel> front, next;
+  const auto touches = [](const BitImage& image, int x, int y) {
+    return image.at(x - 1, y) || image.at(x + 1, y) || image.at(x, y - 1) || image.at(x, y + 1);
+  };
+  BitImage rest = without(without(ink, labels.shapes), labels.strokes);
+  for (int y = 0; y < ink.height; ++y) {
+    const std::uint64_t* row = rest.row(y);
+    for (int i = 0; i < rest.wordsPerRow; ++i) {
+      for (std::uint64_t bits = row[i]; bits != 0; bits &= bits - 1) {
+        const int x = i * 64 + std::countr_zero(bits);
+        if (touches(labels.shapes, x, y) || touches(labels.strokes, x, y)) front.push_back({x, y});
+      }
+    }
+  }
+  while (!front.empty() && !context.isCancelled()) {
+    std::vector<bool> isShape;
+    for (const SkeletonPixel& p : front) isShape.push_back(touches(labels.shapes, p.x, p.y));
+    for (std::size_t i = 0; i < front.size(); ++i) {
+      (isShape[i] ? labels.shapes : labels.strokes).set(front[i].x, front[i].y, true);
+      rest.set(front[i].x, front[i].y, false);
+    }
+    next.clear();
+    for (const SkeletonPixel& p : front) {
+      for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+        if (!rest.at(p.x + dx, p.y + dy)) continue;
+        rest.set(p.x + dx, p.y + dy, false);
+        next.push_back({p.x + dx, p.y + dy});
+      }
+    }
+    front.swap(next);
+  }
+  labels.shapes = either(std::move(labels.shapes), rest);
+}
+
+void applyVotes(const RunPieces& runs, const PiecesOfPage& page, const std::vector<PieceVote>& votes,
+                InkLabels& labels) {
+  std::unordered_map<int, InkLabel> decided;
+  for (std::size_t i = 0; i < votes.size(); ++i) {
+    if (votes[i].decision) decided.emplace(page.pieces[i].firstRun, *votes[i].decision);
+  }
+  for (std::size_t i = 0; i < runs.runs.size(); ++i) {
+    const auto found = decided.find(runs.piece[i]);
+    if (found == decided.end()) continue;
+    const bool isShape = found->second == InkLabel::Shape;
+    setBits(isShape ? labels.shapes : labels.strokes, runs.runs[i]);
+    clearBits(isShape ? labels.strokes : labels.shapes, runs.runs[i]);
+  }
+}
+
+Result<InkLabels> label(const BitImage& ink, const RunContext& context) {
+  InkLabels labels{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height), ink, 0.0};
+  if (!thinToSkeleton(labels.skeleton, context)) return cancelled();
+  StrandGraph graph(labels.skeleton, ink, context);
+  const RunPieces runs = findPieces(ink, Connectivity::Eight, context);
+  if (context.isCancelled()) return cancelled();
+  const PiecesOfPage page = measurePieces(graph, runs);
+  labels.penPx = page.pagePenPx;
+  labelStrands(graph, page);
+  paintLabels(graph, labels, context);
+  shareRest(ink, labels, context);
+  if (context.isCancelled()) return cancelled();
+  std::unordered_map<int, std::int64_t> shapeArea;
+  for (std::size_t i = 0; i < runs.runs.size(); ++i) shapeArea[runs.piece[i]] += countBits(labels.shapes, runs.runs[i]);
+  std::vector<PieceVote> votes;
+  for (const LabelledPiece& piece : page.pieces)
+    votes.push_back({2 * shapeArea[piece.firstRun] > piece.areaPx, std::nullopt});
+  voteAmongAlike(votes, graph, page, std::hypot(ink.width, ink.height));
+  applyVotes(runs, page, votes, labels);
+  return labels;
+}
+
+}  // namespace
+
+Result<InkLabels> labelInk(const BitImage& ink, const RunContext& context) {
+  if (ink.width <= 0 || ink.height <= 0) return InkLabels{};
+  try {
+    return label(ink, context);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to tell strokes from shapes.");
+  }
+}
+
+}  // namespace batten

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/label/label_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+namespace batten {
+namespace {
+
+constexpr double kUneven = 0.15;  // share of its area that one width may leave unexplained
+constexpr double kBarWidths = 2.5;
+constexpr double kShortWidths = 8.0;  // a thick strand shorter than this among thin ones is a bar
+constexpr double kOwnPen = 10.0;      // widths of strands that show the pen of a piece
+constexpr double kLimbWidths = 12.0;  // shorter strands that hang on a shape may be its limbs
+constexpr double kSamePen = 1.5;      // ratio of widths
+
+bool isExplained(const Strand& s) { return s.elongation() >= kStrokeWidths && s.unevenness <= kUneven; }
+
+int runAt(const RunPieces& pieces, int x, int y) {
+  const auto before = [](const Run& run, const std::pair<int, int>& yx) {
+    return run.y != yx.first ? run.y < yx.first : run.x1 <= yx.second;
+  };
+  return static_cast<int>(std::lower_bound(pieces.runs.begin(), pieces.runs.end(), std::pair(y, x), before) -
+                          pieces.runs.begin());
+}
+
+std::vector<LabelledPiece> boxesOf(const RunPieces& runs, std::unordered_map<int, int>& number) {
+  std::vector<LabelledPiece> pieces;
+  for (std::size_t i = 0; i < runs.runs.size(); ++i) {
+    const Run& r = runs.runs[i];
+    const auto [it, isNew] = number.try_emplace(runs.piece[i], static_cast<int>(pieces.size()));
+    if (isNew) {
+      pieces.emplace_back();
+      pieces.back().firstRun = runs.piece[i];
+      pieces.back().x0 = r.x0;
+      pieces.back().y0 = r.y;
+    }
+    LabelledPiece& piece = pieces[it->second];
+    piece.areaPx += r.x1 - r.x0;
+    piece.x0 = std::min(piece.x0, r.x0);
+    piece.x1 = std::max(piece.x1, r.x1);
+    piece.y1 = r.y + 1;
+  }
+  return pieces;
+}
+
+enum class PenWeight { Length, Elongation };
+
+double penOf(const LabelledPiece& piece, const StrandGraph& graph, double pagePen, PenWeight weight) {
+  std::vector<std::pair<double, double>> own;
+  for (const int number : piece.strands) {
+    const Strand& s = graph.strands()[number];
+    if (s.elongation() < kStrokeWidths) continue;
+    own.emplace_back(*s.widthPx, weight == PenWeight::Length ? s.lengthPx : s.elongation());
+  }
+  const double pen = weightedMedian(own);
+  if (pen <= 0.0) return std::max(1.0, pagePen);
+  return piece.strokesPx >= kOwnPen * pen || pagePen <= 0.0 ? pen : std::min(pen, pagePen);
+}
+
+// Labels in one pass over the strands of a page; see labelStrands.
+class Labeller {
+ public:
+  Labeller(StrandGraph& graph, const PiecesOfPage& page) : graph_(graph), page_(page), penOf_(graph.strands().size()) {
+    for (const LabelledPiece& piece : page.pieces) {
+      for (const int strand : piece.strands) penOf_[strand] = piece.penPx;
+    }
+  }
+
+  void label() {
+    for (std::size_t i = 0; i < penOf_.size(); ++i) {
+      const Strand& s = graph_.strands()[i];
+      const bool isBar = s.widthPx && *s.widthPx >= kBarWidths * penOf_[i] && s.elongation() < kShortWidths;
+      explained_.push_back(isExplained(s) && !isBar);
+    }
+    for (std::size_t i = 0; i < penOf_.size(); ++i) {
+      Strand& s = graph_.strands()[i];
+      // Where strokes lie over one another an unexplained strand swells; a solid is wide along most of its length.
+      const bool isWide = s.widthPx && *s.widthPx > coreWidth(widestStrokeAt(static_cast<int>(i)));
+      s.label = !explained_[i] && isWide ? InkLabel::Shape : InkLabel::Stroke;
+    }
+    labelJunctions();
+    labelPixels();
+    absorbLimbs();
+    for (const LabelledPiece& piece : page_.pieces) {
+      if (piece.isBlot) labelWhole(piece);
+    }
+    labelWithinJunctions();
+  }
+
+ private:
+  // [px] of the pen of a junction's piece, or of the widest stroke that meets there.
+  double widestStrokeAt(const StrandNode& node) const {
+    double width = 0.0;
+    for (const int end : node.ends) {
+      const int strand = graph_.chains()[end / 2].strand;
+      width = std::max(width, explained_[strand] ? *graph_.strands()[strand].widthPx : penOf_[strand]);
+    }
+    return width;
+  }
+  double widestStrokeAt(int strand) const {
+    double width = penOf_[strand];
+    for (const int number : graph_.strands()[strand].chains) {
+      for (const int node : graph_.chains()[number].node) {
+        if (node >= 0 && graph_.nodes()[node].isJunction())
+          width = std::max(width, widestStrokeAt(graph_.nodes()[node]));
+      }
+    }
+    return width;
+  }
+
+  void labelJunctions() {
+    for (StrandNode& node : graph_.nodes()) {
+      if (!node.isJunction()) continue;
+      const double pen = std::max(penOf_[graph_.chains()[node.ends.front() / 2].strand], widestStrokeAt(node));
+      if (node.widthPx() > coreWidth(pen)) node.label = InkLabel::Shape;
+    }
+  }
+
+  void labelPixels() {
+    for (StrandChain& chain : graph_.chains()) {
+      if (!chain.isAlive) continue;
+      const Strand& s = graph_.strands()[chain.strand];
+      for (StrandPixel& p : chain.pixels) {
+        if (!p.inJunction) p.label = s.label;
+      }
+    }
+  }
+
+  // Lines of this width that a pen drew: they do not hang on a shape, or are too long to be a limb of it.
+  struct Line {
+    double widthPx = 0.0, lengthPx = 0.0;
+  };
+
+  bool isShape(int strand) const { return graph_.strands()[strand].label == InkLabel::Shape; }
+
+  // More of the piece is shape than stroke.
+  bool isSolid(const LabelledPiece& piece) const {
+    double strokes = 0.0;
+    for (const int strand : piece.strands) {
+      const Strand& s = graph_.strands()[strand];
+      if (!isShape(strand) && s.widthPx) strokes += s.lengthPx * *s.widthPx;
+    }
+    return 2.0 * strokes < static_cast<double>(piece.areaPx);
+  }
+
+  // A leg of an animal, a serif: of even width, but no line that a pen drew. Lines of that width elsewhere say
+  // otherwise.
+  void absorbLimbs() {
+    std::vector<int> limbs;
+    std::vector<Line> lines;
+    for (const LabelledPiece& piece : page_.pieces) {
+      const bool solid = isSolid(piece);
+      for (const int strand : piece.strands) {
+        const Strand& s = graph_.strands()[strand];
+        if (isShape(strand) || !s.widthPx) continue;
+        if (solid && s.elongation() < kLimbWidths) {
+          limbs.push_back(strand);
+        } else if (explained_[strand]) {
+          lines.push_back({*s.widthPx, s.lengthPx});
+        }
+      }
+    }
+    for (const int limb : limbs) {
+      const double width = *graph_.strands()[limb].widthPx;
+      double length = 0.0;
+      for (const Line& line : lines) {
+        const double ratio = std::max(line.widthPx, width) / std::min(line.widthPx, width);
+        if (ratio <= kSamePen + 1.0 / std::min(line.widthPx, width)) length += line.lengthPx;
+      }
+      if (length < kOwnPen * width) labelWhole(limb);
+    }
+    for (const LabelledPiece& piece : page_.pieces) {
+      const bool anyLine = std::any_of(piece.strands.begin(), piece.strands.end(),
+                                       [&](int strand) { return explained_[strand] && !isShape(strand); });
+      if (!anyLine && isSolid(piece)) labelWhole(piece);
+    }
+  }
+
+  void labelWhole(int strand) {
+    graph_.strands()[strand].label = InkLabel::Shape;
+    for (const int number : graph_.strands()[strand].chains) {
+      for (StrandPixel& p : graph_.chains()[number].pixels) p.label = InkLabel::Shape;
+      for (const int node : graph_.chains()[number].node) {
+        if (node >= 0) joinShape(graph_.nodes()[node]);
+      }
+    }
+  }
+  void labelWhole(const LabelledPiece& piece) {
+    for (const int strand : piece.strands) labelWhole(strand);
+  }
+  // A junction is a shape where all strands that meet there are.
+  void joinShape(StrandNode& node) {
+    for (const int end : node.ends) {
+      if (graph_.strands()[graph_.chains()[end / 2].strand].label != InkLabel::Shape) return;
+    }
+    node.label = InkLabel::Shape;
+  }
+
+  // What lies within the disc of a junction goes with it.
+  void labelWithinJunctions() {
+    for (StrandChain& chain : graph_.chains()) {
+      if (!chain.isAlive) continue;
+      for (const int number : chain.node) {
+        if (number < 0 || graph_.nodes()[number].label != InkLabel::Shape) continue;
+        const StrandNode& node = graph_.nodes()[number];
+        for (StrandPixel& p : chain.pixels) {
+          if (p.inJunction && (p.centre() - node.centre).norm() < node.radius) p.label = InkLabel::Shape;
+        }
+      }
+    }
+    for (StrandNode& node : graph_.nodes()) {
+      if (node.label != InkLabel::Shape) continue;
+      for (StrandPixel& p : node.pixels) p.label = InkLabel::Shape;
+    }
+  }
+
+  StrandGraph& graph_;
+  const PiecesOfPage& page_;
+  std::vector<double> penOf_;  ///< Of each strand.
+  std::vector<bool> explained_;
+};
+
+}  // namespace
+
+double weightedMedian(std::vector<std::pair<double, double>> valueAndWeight) {
+  std::sort(valueAndWeight.begin(), valueAndWeight.end());
+  double all = 0.0, sum = 0.0;
+  for (const auto& [value, weight] : valueAndWeight) all += weight;
+  for (const auto& [value, weight] : valueAndWeight) {
+    sum += weight;
+    if (2.0 * sum >= all) return value;
+  }
+  return 0.0;
+}
+
+PiecesOfPage measurePieces(const StrandGraph& graph, const RunPieces& runs) {
+  PiecesOfPage page;
+  std::unordered_map<int, int> number;
+  page.pieces = boxesOf(runs, number);
+  std::vector<std::pair<double, double>> byLength, byElongation;
+  for (int i = 0; i < static_cast<int>(graph.strands().size()); ++i) {
+    const Strand& s = graph.strands()[i];
+    const StrandPixel& first = graph.chains()[s.chains.front()].pixels.front();
+    LabelledPiece& piece = page.pieces[number.at(runs.piece[runAt(runs, first.x, first.y)])];
+    piece.strands.push_back(i);
+    for (const int chain : s.chains) {
+      for (const StrandPixel& p : graph.chains()[chain].pixels) {
+        piece.largestRadiusPx = std::max(piece.largestRadiusPx, static_cast<double>(p.radius));
+      }
+    }
+    if (s.elongation() < kStrokeWidths) continue;
+    piece.strokesPx += s.lengthPx;
+    byLength.emplace_back(*s.widthPx, s.lengthPx);
+    byElongation.emplace_back(*s.widthPx, s.elongation());
+  }
+  page.pagePenPx = weightedMedian(std::move(byElongation));
+  const double mainPen = weightedMedian(std::move(byLength));
+  for (LabelledPiece& piece : page.pieces) {
+    piece.isBlot = piece.strokesPx <= 0.0;
+    piece.penPx = penOf(piece, graph, page.pagePenPx, PenWeight::Elongation);
+    piece.mainPenPx = penOf(piece, graph, mainPen, PenWeight::Length);
+  }
+  return page;
+}
+
+void labelStrands(StrandGraph& graph, const PiecesOfPage& page) { Labeller(graph, page).label(); }
+
+}  // namespace batten

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/label/label_vote.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace batten {
+namespace {
+
+constexpr double kLetterOfPage = 0.25;  // [page diagonals] larger pieces are no letters
+constexpr double kLetterRadii = 4.0;    // smaller pieces, against their largest disc, are dots
+constexpr double kLetterLength = 40.0;  // [pen widths] four or five lines of a letter, each of at most ten
+constexpr double kBroadUnevenness = 0.075;  // median that one pen leaves unexplained in an alphabet
+constexpr double kHairWidths = 0.5;
+constexpr double kLeastBroadPx = 4.5;  // below it the grid of pixels is as large as the contrast of a nib
+constexpr int kLeastVoters = 5;
+
+// What the vote looks at in one piece.
+struct Voter {
+  std::size_t piece = 0;
+  int widthBin = 0, sizeBin = 0;  // half octaves
+  double area = 0.0, uneven = 0.0, penPx = 0.0, widthsLong = 0.0;
+  bool isMostlyShape = false;
+};
+
+// Area that one width, the pen's, leaves unexplained in the whole piece, of all.
+double unevennessOf(const LabelledPiece& piece, const StrandGraph& graph) {
+  double off = 0.0, all = 0.0;
+  for (const int strand : piece.strands) {
+    for (const int chain : graph.strands()[strand].chains) {
+      for (const StrandPixel& p : graph.chains()[chain].pixels) {
+        if (p.inJunction) continue;
+        off += std::max(0.0, std::abs(p.widthPx() - piece.mainPenPx) - 1.0);
+        all += std::max(p.widthPx(), piece.mainPenPx);
+      }
+    }
+  }
+  return all > 0.0 ? off / all : 0.0;
+}
+
+std::optional<Voter> voterOf(const LabelledPiece& piece, const StrandGraph& graph, double pageDiagonalPx) {
+  const double w = piece.x1 - piece.x0, h = piece.y1 - piece.y0, diagonal = std::hypot(w, h);
+  const double size = std::min(w, h) >= 5.0 * piece.mainPenPx ? std::sqrt(2.0) * std::min(w, h) : diagonal;
+  if (size >= kLetterOfPage * pageDiagonalPx || size <= kLetterRadii * piece.largestRadiusPx || piece.strands.empty())
+    return {};
+  Voter v;
+  v.widthBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, piece.largestRadiusPx))));
+  v.sizeBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, size))));
+  v.area = static_cast<double>(piece.areaPx);
+  v.penPx = piece.mainPenPx;
+  for (const int number : piece.strands) {
+    // Hairs of a brush and of rough borders are no lines of a letter.
+    const Strand& s = graph.strands()[number];
+    if (s.widthPx && *s.widthPx >= kHairWidths * piece.mainPenPx) v.widthsLong += s.lengthPx / piece.mainPenPx;
+  }
+  // Of joined letters, what one letter has.
+  v.uneven = v.widthsLong * size / diagonal < kLetterLength ? unevennessOf(piece, graph) : 0.0;
+  return v;
+}
+
+struct Tally {
+  int voters = 0;
+  double area = 0.0, pen = 0.0, shape = 0.0;
+  std::vector<std::pair<double, double>> uneven;  // and the area
+  void add(const Voter& v) {
+    ++voters;
+    area += v.area;
+    uneven.emplace_back(v.uneven, v.area);
+    pen += v.area * v.penPx;
+    shape += v.isMostlyShape ? v.area : 0.0;
+  }
+  void add(const Tally& t) {
+    voters += t.voters;
+    area += t.area;
+    uneven.insert(uneven.end(), t.uneven.begin(), t.uneven.end());
+    pen += t.pen;
+    shape += t.shape;
+  }
+};
+
+std::optional<InkLabel> decide(const Voter& voter, const Tally& t) {
+  if (t.voters < kLeastVoters || t.area <= 0.0) return {};
+  // A pixel of every width counts as even (unevennessOf).
+  const double limit = kBroadUnevenness * (1.0 - t.area / t.pen);
+  if (weightedMedian(t.uneven) >= limit && t.pen >= kLeastBroadPx * t.area) return InkLabel::Shape;
+  if (2.0 * t.shape > t.area) return InkLabel::Shape;
+  if (t.shape < 0.4 * t.area && voter.widthsLong < kLetterLength) return InkLabel::Stroke;
+  return {};
+}
+
+}  // namespace
+
+void voteAmongAlike(std::vector<PieceVote>& votes, const StrandGraph& graph, const PiecesOfPage& page,
+                    double pageDiagonalPx) {
+  std::vector<Voter> voters;
+  std::map<std::pair<int, int>, Tally> bins;
+  for (std::size_t i = 0; i < votes.size(); ++i) {
+    std::optional<Voter> voter = voterOf(page.pieces[i], graph, pageDiagonalPx);
+    if (!voter) continue;
+    voter->piece = i;
+    voter->isMostlyShape = votes[i].isMostlyShape;
+    bins[{voter->widthBin, voter->sizeBin}].add(*voter);
+    voters.push_back(*voter);
+  }
+  for (const Voter& v : voters) {
+    Tally near;  // half an octave of width and one of size about the voter
+    for (int w = v.widthBin - 1; w <= v.widthBin + 1; ++w) {
+      for (int s = v.sizeBin - 2; s <= v.sizeBin + 2; ++s) {
+        if (const auto bin = bins.find({w, s}); bin != bins.end()) near.add(bin->second);
+      }
+    }
+    votes[v.piece].decision = decide(v, near);
+  }
+}
+
+}  // namespace batten

@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/label/strand_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <unordered_map>
+
+#include "core/base/statistics.h"
+
+namespace batten {
+namespace {
+
+// A square end of a stroke makes a spur that sticks out .41 radii; nothing that is drawn is dropped.
+constexpr double kSpurRadii = 1.6;
+constexpr int kSpurRounds = 3;
+constexpr double kStraightDeg = 45.0;  // legs that bend more are no single stroke
+constexpr double kWidthRatio = 1.6;    // nor those whose widths differ more, and a pixel
+constexpr double kDegPerOctave = 40.0;
+constexpr double kLevelPx = 1.0;  // of a width, that the grid of pixels explains
+constexpr double kCoreWidths = 2.5;
+
+StrandPixel measured(const SkeletonPixel& p, const BitImage& ink) {
+  return {p.x, p.y, static_cast<float>(inkRadius(ink, p.x, p.y))};
+}
+
+// Numbers for the pixels at the ends of chains; those joined by a chain of two pixels, both no free ends, are one node.
+class StrandNodes {
+ public:
+  explicit StrandNodes(const std::vector<SkeletonChain>& chains) {
+    for (const SkeletonChain& c : chains) {
+      if (c.closed) continue;
+      add(c.pixels.front());
+      add(c.pixels.back());
+    }
+    parent_.resize(pixels_.size());
+    std::iota(parent_.begin(), parent_.end(), 0);
+    for (const SkeletonChain& c : chains) {
+      if (!isLink(c)) continue;
+      const int a = root(number_.at(keyOf(c.pixels.front()))), b = root(number_.at(keyOf(c.pixels.back())));
+      parent_[std::max(a, b)] = std::min(a, b);
+    }
+    node_.assign(pixels_.size(), -1);
+    for (int i = 0; i < static_cast<int>(pixels_.size()); ++i) {
+      const int r = root(i);
+      node_[i] = r == i ? count_++ : node_[r];
+    }
+  }
+  static bool isLink(const SkeletonChain& c) { return !c.closed && c.pixels.size() == 2 && !c.freeStart && !c.freeEnd; }
+  int count() const { return count_; }
+  int nodeOf(const SkeletonPixel& p) const { return node_[number_.at(keyOf(p))]; }
+  const std::vector<SkeletonPixel>& pixels() const { return pixels_; }
+
+ private:
+  static std::int64_t keyOf(const SkeletonPixel& p) {
+    return (static_cast<std::int64_t>(p.y) << 32) | static_cast<std::int64_t>(p.x);
+  }
+  void add(const SkeletonPixel& p) {
+    if (number_.try_emplace(keyOf(p), static_cast<int>(pixels_.size())).second) pixels_.push_back(p);
+  }
+  int root(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  std::unordered_map<std::int64_t, int> number_;
+  std::vector<SkeletonPixel> pixels_;
+  std::vector<int> parent_, node_;
+  int count_ = 0;
+};
+
+double stepLength(const StrandPixel& a, const StrandPixel& b) { return (a.centre() - b.centre()).norm(); }
+
+double lengthOf(const StrandChain& chain) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < chain.pixels.size(); ++i) sum += stepLength(chain.pixels[i - 1], chain.pixels[i]);
+  return sum;
+}
+
+// Where lines run into solids along a chain: for each, the first pixel that is too wide for the line. What widens on
+// the way there is marked, so that it does not count for the line's width. In order, none at the ends.
+std::vector<int> rimsOf(std::vector<StrandPixel>& p) {
+  std::vector<int> rims;
+  const int n = static_cast<int>(p.size());
+  for (const int step : {1, -1}) {
+    for (int i = step > 0 ? 0 : n - 1; i >= 0 && i < n; i += step) {
+      if (p[i].inJunction) continue;
+      const double width = std::max(1.0, p[i].widthPx()), reach = 2.0 * width + 2.0;
+      double way = 0.0;
+      int k = i + step;
+      for (; k >= 0 && k < n && way <= reach; k += step) {
+        way += stepLength(p[k], p[k - step]);
+        if (p[k].widthPx() > coreWidth(width)) break;
+      }
+      if (k < 0 || k >= n || way > reach) continue;
+      for (int m = k - step; m != i; m -= step) p[m].inJunction = true;
+      const int cut = step > 0 ? k : k + 1;
+      if (cut > 0 && cut < n) rims.push_back(cut);
+      i = k;
+    }
+  }
+  std::sort(rims.begin(), rims.end());
+  rims.erase(std::unique(rims.begin(), rims.end()), rims.end());
+  return rims;
+}
+
+// How a chain leaves a junction.
+struct Leg {
+  int end = 0;
+  Vec2 out = Vec2::Zero();  ///< Unit direction from the junction.
+  double widthPx = 1.0;
+};
+
+Leg legAt(const StrandChain& chain, int end, const StrandNode& node) {
+  const int n = static_cast<int>(chain.pixels.size());
+  const auto at = [&](int k) -> const StrandPixel& { return chain.pixels[end % 2 == 0 ? k : n - 1 - k]; };
+  int first = 0;
+  while (first < n - 1 && (at(first).centre() - node.centre).norm() < node.radius) ++first;
+  const double from = (at(first).centre() - node.centre).norm();
+  const double reach = std::max(4.0, 2.0 * at(first).widthPx());
+  Vec2 sum = Vec2::Zero();
+  std::vector<double> widths;
+  for (int k = first; k < n && (at(k).centre() - node.centre).norm() <= from + reach; ++k) {
+    sum += at(k).centre() - node.centre;
+    widths.push_back(at(k).widthPx());
+  }
+  Leg leg;
+  leg.end = end;
+  if (sum.norm() > 0.0) leg.out = sum.normalized();
+  if (!widths.empty()) leg.widthPx = std::max(1.0, upperMedian(widths));
+  return leg;
+}
+
+// Cost of going on from one leg to another; absent: no pen does.
+std::optional<double> costOfPassing(const Leg& a, const Leg& b) {
+  const double bend = std::atan2(std::abs(cross(a.out, b.out)), -a.out.dot(b.out)) * 180.0 / std::numbers::pi;
+  const double octaves = std::abs(std::log2(a.widthPx / b.widthPx));
+  if (bend > kStraightDeg || octaves > std::log2(kWidthRatio) + 1.0 / std::min(a.widthPx, b.widthPx)) return {};
+  return bend + kDegPerOctave * octaves;
+}
+
+}  // namespace
+
+double coreWidth(double strokeWidthPx) { return kCoreWidths * strokeWidthPx + 1.0; }
+
+StrandGraph::StrandGraph(const BitImage& skeleton, const BitImage& ink, const RunContext& context) {
+  const std::vector<SkeletonChain> found = skeletonChains(skeleton);
+  if (context.isCancelled()) return;
+  makeNodes(found, ink);
+  makeChains(found, ink, context);
+  if (context.isCancelled()) return;
+  dropSpurs();
+  markJunctions();
+  cutAtRims();
+  pairLegs();
+  makeStrands();
+}
+
+void StrandGraph::makeNodes(const std::vector<SkeletonChain>& found, const BitImage& ink) {
+  const StrandNodes numbers(found);
+  nodes_.resize(numbers.count());
+  for (const SkeletonPixel& p : numbers.pixels()) {
+    StrandNode& node = nodes_[numbers.nodeOf(p)];
+    node.pixels.push_back(measured(p, ink));
+    node.centre += node.pixels.back().centre();
+    node.radius = std::max(node.radius, static_cast<double>(node.pixels.back().radius));
+  }
+  for (StrandNode& node : nodes_) node.centre /= static_cast<double>(node.pixels.size());
+  for (const SkeletonChain& c : found) {
+    if (StrandNodes::isLink(c)) continue;
+    StrandChain chain;
+    chain.isRing = c.closed;
+    if (!c.closed) chain.node = {numbers.nodeOf(c.pixels.front()), numbers.nodeOf(c.pixels.back())};
+    const int number = static_cast<int>(chains_.size());
+    for (int side = 0; side < 2 && !c.closed; ++side) {
+      // A single pixel has one end only.
+      if (side == 1 && c.pixels.size() < 2) continue;
+      nodes_[chain.node[side]].ends.push_back(2 * number + side);
+    }
+    chains_.push_back(std::move(chain));
+  }
+}
+
+void StrandGraph::makeChains(const std::vector<SkeletonChain>& found, const BitImage& ink, const RunContext& context) {
+  std::size_t number = 0;
+  for (const SkeletonChain& c : found) {
+    if (StrandNodes::isLink(c)) continue;
+    if (context.isCancelled()) return;
+    StrandChain& chain = chains_[number++];
+    for (const SkeletonPixel& p : c.pixels) chain.pixels.push_back(measured(p, ink));
+  }
+  for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) splice(i);
+}
+
+bool StrandGraph::isFreeEnd(int end) const {
+  const int node = chains_[end / 2].node[end % 2];
+  return node >= 0 && !nodes_[node].isJunction() && !nodes_[node].isRim;
+}
+
+void StrandGraph::removeChain(int chain) {
+  for (int side = 0; side < 2; ++side) {
+    const int node = chains_[chain].node[side];
+    if (node >= 0) std::erase(nodes_[node].ends, 2 * chain + side);
+  }
+  chains_[chain] = StrandChain{};
+  chains_[chain].isAlive = false;
+}
+
+void StrandGraph::reverse(int chain) {
+  StrandChain& c = chains_[chain];
+  std::reverse(c.pixels.begin(), c.pixels.end());
+  std::swap(c.node[0], c.node[1]);
+  // Both ends may lie at one node: all are renamed at once.
+  std::vector<int> touched = {c.node[0]};
+  if (c.node[1] != c.node[0]) touched.push_back(c.node[1]);
+  for (const int node : touched) {
+    for (int& end : nodes_[node].ends) {
+      if (end / 2 == chain) end ^= 1;
+    }
+  }
+}
+
+// A node with two chains is none: they are one.
+void StrandGraph::splice(int node) {
+  StrandNode& n = nodes_[node];
+  if (n.ends.size() != 2) return;
+  const int a = n.ends[0] / 2, b = n.ends[1] / 2;
+  if (a == b) {
+    chains_[a].isRing = true;
+    chains_[a].node = {-1, -1};
+    n.ends.clear();
+    return;
+  }
+  if (n.ends[0] % 2 == 0) reverse(a);
+  if (n.ends[1] % 2 == 1) reverse(b);
+  StrandChain& from = chains_[b];
+  chains_[a].pixels.insert(chains_[a].pixels.end(), from.pixels.begin(), from.pixels.end());
+  chains_[a].node[1] = from.node[1];
+  n.ends.clear();
+  for (int& end : nodes_[from.node[1]].ends) {
+    if (end == 2 * b + 1) end = 2 * a + 1;
+  }
+  from = StrandChain{};
+  from.isAlive = false;
+}
+
+void StrandGraph::dropSpurs() {
+  for (int round = 0; round < kSpurRounds; ++round) {
+    std::vector<int> spurs;
+    for (int i = 0; i < static_cast<int>(chains_.size()); ++i) {
+      const StrandChain& c = chains_[i];
+      if (!c.isAlive || c.isRing) continue;
+      const bool free[2] = {isFreeEnd(2 * i), isFreeEnd(2 * i + 1)};
+      if (free[0] == free[1]) continue;
+      const double junction = nodes_[c.node[free[0] ? 1 : 0]].radius;
+      const double tip = static_cast<double>((free[0] ? c.pixels.front() : c.pixels.back()).radius);
+      if (lengthOf(c) + tip <= kSpurRadii * junction + 1.0) spurs.push_back(i);
+    }
+    for (const int spur : spurs) removeChain(spur);
+    for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) splice(i);
+    if (spurs.empty()) break;
+  }
+}
+
+void StrandGraph::markJunctions() {
+  for (StrandChain& chain : chains_) {
+    for (const int number : chain.node) {
+      if (!chain.isAlive || number < 0 || !nodes_[number].isJunction()) continue;
+      const StrandNode& node = nodes_[number];
+      for (StrandPixel& p : chain.pixels) {
+        p.inJunction = p.inJunction || (p.centre() - node.centre).norm() < node.radius;
+      }
+    }
+  }
+}
+
+// The width of a line that runs into a solid grows to that of the solid within two of its own; a limb swells slowly.
+// The chain is cut where it has grown.
+void StrandGraph::cutAtRims() {
+  const int count = static_cast<int>(chains_.size());
+  for (int number = 0; number < count; ++number) {
+    if (!chains_[number].isAlive || chains_[number].isRing) continue;
+    const std::vector<int> cuts = rimsOf(chains_[number].pixels);
+    int at = number;
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+      const int offset = k == 0 ? 0 : cuts[k - 1];
+      at = cutChain(at, cuts[k] - offset);
+    }
+  }
+}
+
+// The pixels from `index` on become a chain of their own, which is returned.
+int StrandGraph::cutChain(int chain, int index) {
+  const int number = static_cast<int>(chains_.size());
+  StrandChain rest;
+  StrandChain& first = chains_[chain];
+  rest.pixels.assign(first.pixels.begin() + index, first.pixels.end());
+  first.pixels.erase(first.pixels.begin() + index, first.pixels.end());
+  rest.node[1] = first.node[1];
+  for (int& end : nodes_[rest.node[1]].ends) {
+    if (end == 2 * chain + 1) end = 2 * number + 1;
+  }
+  const auto addRim = [&](const StrandPixel& p, int end) {
+    StrandNode rim;
+    rim.pixels = {p};
+    rim.centre = p.centre();
+    rim.radius = static_cast<double>(p.radius);
+    rim.isRim = true;
+    rim.ends = {end};
+    nodes_.push_back(std::move(rim));
+    return static_cast<int>(nodes_.size()) - 1;
+  };
+  first.node[1] = addRim(first.pixels.back(), 2 * chain + 1);
+  rest.node[0] = addRim(rest.pixels.front(), 2 * number);
+  chains_.push_back(std::move(rest));
+  return number;
+}
+
+void StrandGraph::pairLegs() {
+  struct Option {
+    double cost;
+    int a, b;
+  };
+  partner_.assign(2 * chains_.size(), -1);
+  for (const StrandNode& node : nodes_) {
+    if (!node.isJunction()) continue;
+    std::vector<Leg> legs;
+    for (const int end : node.ends) legs.push_back(legAt(chains_[end / 2], end, node));
+    std::vector<Option> options;
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+      for (std::size_t j = i + 1; j < legs.size(); ++j) {
+        if (const auto cost = costOfPassing(legs[i], legs[j])) options.push_back({*cost, legs[i].end, legs[j].end});
+      }
+    }
+    std::stable_sort(options.begin(), options.end(), [](const Option& a, const Option& b) { return a.cost < b.cost; });
+    for (const Option& o : options) {
+      if (partner_[o.a] >= 0 || partner_[o.b] >= 0) continue;
+      partner_[o.a] = o.b;
+      partner_[o.b] = o.a;
+    }
+  }
+}
+
+void StrandGraph::makeStrands() {
+  for (int first = 0; first < static_cast<int>(chains_.size()); ++first) {
+    if (!chains_[first].isAlive || chains_[first].strand >= 0) continue;
+    Strand strand;
+    std::vector<int> open = {first};
+    chains_[first].strand = static_cast<int>(strands_.size());
+    while (!open.empty()) {
+      const int chain = open.back();
+      open.pop_back();
+      strand.chains.push_back(chain);
+      for (int side = 0; side < 2; ++side) {
+        const int next = partner_[2 * chain + side] / 2;
+        if (partner_[2 * chain + side] < 0 || chains_[next].strand >= 0) continue;
+        chains_[next].strand = chains_[first].strand;
+        open.push_back(next);
+      }
+    }
+    measureStrand(strand);
+    strands_.push_back(std::move(strand));
+  }
+}
+
+void StrandGraph::measureStrand(Strand& strand) const {
+  std::vector<double> widths;
+  double ends = 0.0;
+  std::vector<double> passages;  // radii of the junctions led through, each from both sides
+  for (const int number : strand.chains) {
+    const StrandChain& chain = chains_[number];
+    const auto& p = chain.pixels;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (!p[i].inJunction) widths.push_back(p[i].widthPx());
+      if (i > 0 && !p[i].inJunction && !p[i - 1].inJunction) strand.lengthPx += stepLength(p[i - 1], p[i]);
+    }
+    if (chain.isRing) {
+      strand.lengthPx += stepLength(p.back(), p.front());
+      continue;
+    }
+    for (int side = 0; side < 2; ++side) {
+      const int end = 2 * number + side;
+      if (isFreeEnd(end)) ends += static_cast<double>((side == 0 ? p.front() : p.back()).radius);
+      if (partner_[end] >= 0) passages.push_back(nodes_[chain.node[side]].radius);
+    }
+  }
+  if (widths.empty()) return;
+  double off = 0.0, all = 0.0;
+  const double width = std::max(1.0, upperMedian(widths));
+  for (const double w : widths) {
+    off += std::max(0.0, std::abs(w - width) - kLevelPx);
+    all += std::max(w, width);
+  }
+  strand.widthPx = width;
+  strand.unevenness = off / all;
+  strand.lengthPx += ends;
+  // Way through a blob is no length. Each passage was met twice.
+  for (const double radius : passages) strand.lengthPx += std::min(radius, width);
+}
+
+}  // namespace batten

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/base/vec2.h"
+#include "core/contour/centreline/skeleton.h"
+#include "core/image/bit_image.h"
+
+namespace batten {
+
+/// How a piece of ink is followed.
+enum class InkLabel {
+  Stroke,  ///< Along its middle.
+  Shape,   ///< Along its border.
+};
+
+/// A skeleton pixel with its room in the ink.
+struct StrandPixel {
+  int x = 0, y = 0;
+  float radius = 0.0f;      ///< [px] from its centre to the nearest centre of a paper pixel.
+  bool inJunction = false;  ///< Within the disc of a junction: there it tells no width and no length.
+  InkLabel label = InkLabel::Stroke;
+  Vec2 centre() const { return {x + 0.5, y + 0.5}; }
+  /// [px] of the ink here: what the two distances overshoot on a grid of pixels is taken off.
+  double widthPx() const { return 2.0 * static_cast<double>(radius) - 0.7; }
+};
+
+/// A stretch of skeleton between two nodes. Its ends are numbered 2 * chain + side.
+struct StrandChain {
+  std::vector<StrandPixel> pixels;
+  std::array<int, 2> node = {-1, -1};  ///< -1: the chain is a ring.
+  bool isAlive = true;
+  bool isRing = false;
+  int strand = -1;
+};
+
+/// A free end (one chain) or a junction of the skeleton (more); touching junction pixels are one node. The rim, where a
+/// line runs into a solid, is a node of each of its two chains.
+struct StrandNode {
+  std::vector<StrandPixel> pixels;
+  Vec2 centre = Vec2::Zero();  ///< [px]
+  double radius = 0.0;         ///< [px] of the largest disc of ink at one of its pixels.
+  InkLabel label = InkLabel::Stroke;
+  bool isRim = false;
+  std::vector<int> ends;
+  bool isJunction() const { return ends.size() > 1; }
+  /// [px] of the ink at the junction.
+  double widthPx() const { return 2.0 * radius - 0.7; }
+};
+
+/// Chains joined straight through junctions: what one movement of a pen may have drawn.
+struct Strand {
+  std::vector<int> chains;
+  double lengthPx = 0.0;  ///< Of the pen's way; a passage through a junction counts as one or two widths at most.
+  std::optional<double> widthPx;  ///< Median outside junctions; absent: it has no pixel there.
+  double unevenness = 0.0;        ///< 1 - (area shared with the same strand at one width / area of both); 0..1.
+  InkLabel label = InkLabel::Stroke;
+  /// Length in widths; 0 where there is no width.
+  double elongation() const { return widthPx ? lengthPx / *widthPx : 0.0; }
+};
+
+/// [px] Ink wider than this is no stroke of this width, nor a crossing of two: at any angle they hold no larger disc.
+double coreWidth(double strokeWidthPx);
+
+/// The skeleton of a page as strands: spurs dropped, junction discs cut out, chains cut where a line runs into a solid,
+/// legs of junctions paired by direction and width. Deterministic.
+class StrandGraph {
+ public:
+  /// @param skeleton of `ink` (thinToSkeleton). Unfinished when the context is cancelled.
+  StrandGraph(const BitImage& skeleton, const BitImage& ink, const RunContext&);
+
+  // Labels are set from outside (label_rules.h); nothing else is to be changed.
+  std::vector<StrandChain>& chains() { return chains_; }
+  std::vector<StrandNode>& nodes() { return nodes_; }
+  std::vector<Strand>& strands() { return strands_; }
+  const std::vector<StrandChain>& chains() const { return chains_; }
+  const std::vector<StrandNode>& nodes() const { return nodes_; }
+  const std::vector<Strand>& strands() const { return strands_; }
+  /// The end that a chain's end goes on with through its junction; -1 = none.
+  int partner(int end) const { return partner_[end]; }
+
+ private:
+  void makeNodes(const std::vector<SkeletonChain>& found, const BitImage& ink);
+  void makeChains(const std::vector<SkeletonChain>& found, const BitImage& ink, const RunContext&);
+  void dropSpurs();
+  void removeChain(int chain);
+  void reverse(int chain);
+  void splice(int node);
+  void markJunctions();
+  void cutAtRims();
+  int cutChain(int chain, int index);
+  void pairLegs();
+  void makeStrands();
+  void measureStrand(Strand&) const;
+  bool isFreeEnd(int end) const;
+
+  std::vector<StrandChain> chains_;
+  std::vector<StrandNode> nodes_;
+  std::vector<Strand> strands_;
+  std::vector<int> partner_;
+};
+
+}  // namespace batten

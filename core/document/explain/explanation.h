@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/base/vec2.h"
+#include "core/image/bit_image.h"
+#include "core/pipeline/run/pipeline.h"
+
+namespace batten {
+
+/// A stretch of a curve that has no ink under it.
+struct InventedStretch {
+  int curve = 0;  ///< Index into FairedSet::curves.
+  Vec2 fromPx = Vec2::Zero(), toPx = Vec2::Zero();
+  double lengthPx = 0.0;
+};
+
+/// How well the curves of a run explain the ink of the page.
+struct Explanation {
+  /// Ink that the page holds at a low contrast which no setting of the drawing changes, in the regions traced. [px]
+  std::int64_t referencePx = 0;
+  double explained = 1.0;  ///< Share of the reference ink within reach of the curves drawn anew. 0..1
+  double missed = 0.0;     ///< The rest of it.
+  double curvesPx = 0.0;   ///< Length of all curves found on the scan.
+  double invented = 0.0;   ///< Share of that length out of reach of any reference ink, but for declared bridges. 0..1
+  std::vector<InventedStretch> inventions;  ///< The longest, longest first, at most kMostInventions.
+  BitImage missedInk;                       ///< Reference ink that no curve explains.
+  std::string note;                         ///< What is below a limit, for the user; else empty.
+};
+inline constexpr std::size_t kMostInventions = 20;
+
+/// Redraws the page from its curves and compares: centre lines with their widths, borders filled where what they
+/// enclose is ink. Reach: the larger of 2 px and half the width of the line. Lines drawn with the pen explain ink but
+/// cannot be invented. Made after the curves and changes nothing of the run.
+/// @return Cancelled; OutOfMemory; what findThresholds says.
+Result<Explanation> explainPage(const Scan&, const Recipe&, const PipelineOutput&, const RunContext&);
+
+}  // namespace batten

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/label/ink_labels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/image/bit_steps.h"
+#include "tests/support/label_page.h"
+
+namespace batten {
+namespace {
+
+InkLabels labelsOf(const BitImage& ink) {
+  const auto labels = labelInk(ink, {});
+  EXPECT_TRUE(labels);
+  return labels ? *labels : InkLabels{};
+}
+
+double shareOfShapes(const InkLabels& labels) {
+  const double shapes = static_cast<double>(labels.shapes.count());
+  return shapes / (shapes + static_cast<double>(labels.strokes.count()));
+}
+
+std::vector<Vec2> segment(const Vec2& a, const Vec2& b) { return {a, b}; }
+
+TEST(InkLabels, EveryPixelOfInkHasOneLabel) {
+  const BitImage ink = test::labelScenes()[0].make(3).ink(3);
+  const InkLabels labels = labelsOf(ink);
+  EXPECT_EQ(both(labels.strokes, labels.shapes).count(), 0);
+  EXPECT_EQ(either(labels.strokes, labels.shapes), ink);
+  EXPECT_EQ(without(labels.skeleton, ink).count(), 0);
+}
+
+TEST(InkLabels, ASolidAndTheLineAttachedToItAreTwoLabelsOfOnePiece) {
+  test::LabelPage page(400, 300);
+  page.begin(true);
+  page.area({test::circle({120, 150}, 50)});
+  page.begin(false);
+  page.line(segment({140, 150}, {380, 150}), 4.0);
+  const BitImage ink = page.ink(1);
+  const InkLabels labels = labelsOf(ink);
+  const auto score = page.score(ink, labels.shapes);
+  EXPECT_GT(score.shapes, 0.98);
+  EXPECT_GT(score.strokes, 0.97);
+  // The line begins where it leaves the solid.
+  EXPECT_TRUE(labels.shapes.at(166, 150));
+  EXPECT_TRUE(labels.strokes.at(175, 150));
+}
+
+TEST(InkLabels, CrossingsOfTwoWidthsAreStrokes) {
+  test::LabelPage page(400, 400);
+  page.begin(false);
+  page.line(segment({20, 60}, {380, 330}), 9.0);
+  page.line(segment({30, 350}, {370, 40}), 3.0);
+  page.line(segment({200, 20}, {210, 380}), 3.0);
+  EXPECT_LT(shareOfShapes(labelsOf(page.ink(2))), 0.001);
+}
+
+TEST(InkLabels, ATaperedStrokeIsAStroke) {
+  test::LabelPage page(400, 200);
+  page.begin(false);
+  page.line(segment({20, 100}, {380, 110}), 1.6, 8.0);
+  EXPECT_LT(shareOfShapes(labelsOf(page.ink(3))), 0.001);
+}
+
+TEST(InkLabels, DotsBesideLinesAreShapes) {
+  test::LabelPage page(400, 200);
+  page.begin(false);
+  page.line(segment({20, 60}, {380, 60}), 4.0);
+  for (int i = 0; i < 5; ++i) {
+    page.begin(true);
+    page.area({test::circle({60.0 + 60.0 * i, 140}, 4.0)});
+  }
+  const BitImage ink = page.ink(4);
+  const auto score = page.score(ink, labelsOf(ink).shapes);
+  EXPECT_EQ(score.objects, 1.0);
+}
+
+// Legs of even width, but nothing on the page says that a pen of that width was used.
+TEST(InkLabels, TheLimbsOfASilhouetteBelongToIt) {
+  test::LabelPage page(500, 400);
+  page.begin(true);
+  page.area({test::circle({250, 130}, 100)});
+  for (const double x : {180.0, 220.0, 280.0, 320.0}) page.line(segment({x, 180}, {x, 370}), 24.0, 18.0);
+  EXPECT_GT(shareOfShapes(labelsOf(page.ink(5))), 0.999);
+}
+
+TEST(InkLabels, AnAlphabetGetsOneTreatment) {
+  for (const test::LabelScene& scene : test::labelScenes()) {
+    if (scene.name != "mono M" && scene.name != "nib M" && scene.name != "nib L" && scene.name != "mono L") continue;
+    const test::LabelPage page = scene.make(21);
+    const BitImage ink = page.ink(21);
+    EXPECT_GT(page.score(ink, labelsOf(ink).shapes).balanced(), 0.97) << scene.name;
+  }
+}
+
+TEST(InkLabels, MixedPagesAreToldApart) {
+  for (const test::LabelScene& scene : test::labelScenes()) {
+    if (scene.name != "mixed" && scene.name != "solid" && scene.name != "cross" && scene.name != "taper") continue;
+    const test::LabelPage page = scene.make(31);
+    const BitImage ink = page.ink(31);
+    EXPECT_GT(page.score(ink, labelsOf(ink).shapes).balanced(), 0.95) << scene.name;
+  }
+}
+
+TEST(InkLabels, APageTurnedByAQuarterHasTheSameShapes) {
+  const BitImage ink = test::labelScenes()[1].make(7).ink(7);
+  BitImage turned(ink.height, ink.width);
+  for (int y = 0; y < ink.height; ++y) {
+    for (int x = 0; x < ink.width; ++x) {
+      if (ink.at(x, y)) turned.set(ink.height - 1 - y, x, true);
+    }
+  }
+  EXPECT_NEAR(shareOfShapes(labelsOf(turned)), shareOfShapes(labelsOf(ink)), 0.01);
+}
+
+TEST(InkLabels, NothingAndAllInkAreNoTrouble) {
+  EXPECT_EQ(labelsOf(BitImage(70, 50)).shapes.count(), 0);
+  BitImage full(70, 50);
+  for (int y = 0; y < 50; ++y) {
+    for (int x = 0; x < 70; ++x) full.set(x, y, true);
+  }
+  EXPECT_EQ(labelsOf(full).shapes.count(), 70 * 50);
+  BitImage dot(70, 50);
+  dot.set(30, 30, true);
+  EXPECT_EQ(labelsOf(dot).shapes.count(), 1);
+}
+
+TEST(InkLabels, ACancelledRunSaysSo) {
+  RunContext context;
+  context.cancel.cancel();
+  const auto labels = labelInk(test::labelScenes()[0].make(1).ink(1), context);
+  ASSERT_FALSE(labels);
+  EXPECT_EQ(labels.error().code, ErrorCode::Cancelled);
+}
+
+}  // namespace
+}  // namespace batten

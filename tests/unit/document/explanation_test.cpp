@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/document/explain/explanation.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/document/report.h"
+#include "tests/support/label_page.h"
+#include "tests/support/render_page.h"
+
+namespace batten {
+namespace {
+
+/// A page with two lines, a solid and nothing else.
+struct Drawing {
+  Scan scan;
+  Recipe recipe;
+  PipelineOutput out;
+
+  Drawing() {
+    test::LabelPage page(500, 400);
+    page.begin(false);
+    page.line({{40, 60}, {460, 80}}, 5.0);
+    page.line({{40, 330}, {460, 350}}, 5.0);
+    page.begin(true);
+    page.area({test::circle({250, 200}, 60)});
+    scan = test::renderPage(std::vector<float>(500 * 400, 0.0f), 500, 400, test::cleanPage());
+    scan.grey = page.grey(1);
+    StageCache cache;
+    out = runPipeline(scan, recipe, cache, {}, {});
+  }
+  Explanation explain() const {
+    const auto explanation = explainPage(scan, recipe, out, {});
+    EXPECT_TRUE(explanation);
+    return explanation ? *explanation : Explanation{};
+  }
+  /// Moves every point of the straight curve nearest to the top by this many px down.
+  void shiftTopLine(double px) {
+    FairedSet moved = *out.faired;
+    for (TracedCurve& c : moved.curves) {
+      if (out.frame.pointToImage(c.faired.controlPoints().front()).y() > 100) continue;
+      std::vector<Vec2> points(c.faired.controlPoints().begin(), c.faired.controlPoints().end());
+      for (Vec2& p : points) p.y() -= out.frame.lengthToModel(px);
+      c.faired =
+          NurbsCurve::make(c.faired.degree(), {c.faired.knots().begin(), c.faired.knots().end()}, points).value();
+    }
+    out.faired = std::make_shared<FairedSet>(moved);
+  }
+  void exclude(bool top) {
+    FairedSet some = *out.faired;
+    for (TracedCurve& c : some.curves) {
+      const double y = out.frame.pointToImage(c.faired.controlPoints().front()).y();
+      c.included = top ? y > 100 : y > 100 && y < 300;
+    }
+    out.faired = std::make_shared<FairedSet>(some);
+  }
+};
+
+TEST(Explanation, CurvesOnTheirInkExplainItAll) {
+  const Drawing drawing;
+  ASSERT_TRUE(drawing.out.faired);
+  const Explanation e = drawing.explain();
+  EXPECT_GT(e.explained, 0.995);
+  EXPECT_NEAR(e.explained + e.missed, 1.0, 1e-12);
+  EXPECT_EQ(e.invented, 0.0);
+  EXPECT_TRUE(e.inventions.empty());
+  EXPECT_TRUE(e.note.empty()) << e.note;
+  EXPECT_NEAR(e.curvesPx, 2 * 420.0 + 2 * 60.0 * 3.1416, 15.0);
+}
+
+TEST(Explanation, InkWithoutACurveIsMissed) {
+  Drawing drawing;
+  const auto all = static_cast<double>(drawing.explain().referencePx);
+  drawing.exclude(true);
+  const Explanation e = drawing.explain();
+  // A line of 5 px, which is up to 2 px wider at low contrast.
+  EXPECT_GT(e.missed, 421.0 * 5.0 / all);
+  EXPECT_LT(e.missed, 425.0 * 7.0 / all);
+  EXPECT_EQ(e.missedInk.count(), std::llround(e.missed * all));
+  EXPECT_TRUE(e.missedInk.at(250, 70));
+  EXPECT_FALSE(e.missedInk.at(250, 200));
+  EXPECT_FALSE(e.note.empty());
+}
+
+TEST(Explanation, ACurveBesideItsInkIsInvented) {
+  Drawing drawing;
+  drawing.shiftTopLine(4.0);  // half the width of the line is still ink
+  EXPECT_EQ(drawing.explain().invented, 0.0);
+  drawing.shiftTopLine(10.0);
+  const Explanation e = drawing.explain();
+  EXPECT_NEAR(e.invented, 420.0 / e.curvesPx, 0.02);
+  ASSERT_EQ(e.inventions.size(), 1u);
+  EXPECT_NEAR(e.inventions[0].lengthPx, 420.0, 15.0);
+  EXPECT_FALSE(e.note.empty());
+}
+
+TEST(Explanation, ADeclaredBridgeIsNotInvented) {
+  Drawing drawing;
+  drawing.shiftTopLine(14.0);
+  ContourSet lines = *drawing.out.contours;
+  for (Contour& c : lines.contours) {
+    if (c.points.front().at.y() > 100) continue;
+    for (ContourPoint& p : c.points) p.at.y() += 14.0;
+    c.bridges = {{0, static_cast<int>(c.points.size()) - 1}};
+  }
+  drawing.out.contours = std::make_shared<ContourSet>(lines);
+  EXPECT_LT(drawing.explain().invented, 0.01);
+}
+
+TEST(Explanation, AnOutlineAroundPaperExplainsItsBorderOnly) {
+  Drawing drawing;
+  test::LabelPage page(500, 400);
+  page.begin(true);
+  page.area({test::circle({250, 200}, 120), test::circle({250, 200}, 90)});
+  drawing.scan.grey = page.grey(2);
+  drawing.recipe.edges.mode = EdgeMode::Outline;
+  StageCache cache;
+  drawing.out = runPipeline(drawing.scan, drawing.recipe, cache, {}, {});
+  // The outer border alone: the fill would hold more paper than ink.
+  FairedSet outer = *drawing.out.faired;
+  for (TracedCurve& c : outer.curves) c.included = !drawing.out.contours->contours[c.contour].hole;
+  drawing.out.faired = std::make_shared<FairedSet>(outer);
+  EXPECT_LT(drawing.explain().explained, 0.2);
+}
+
+TEST(Explanation, StandsInTheReportWhereAsked) {
+  const Drawing drawing;
+  ReportExtras extras;
+  EXPECT_FALSE(nlohmann::json::parse(reportToJson(drawing.scan, {}, drawing.out, extras)).contains("explanation"));
+  extras.explanation = drawing.explain();
+  const auto json = nlohmann::json::parse(reportToJson(drawing.scan, {}, drawing.out, extras));
+  EXPECT_GT(json["explanation"]["explained"].get<double>(), 0.99);
+  EXPECT_EQ(json["explanation"]["invented"].get<double>(), 0.0);
+}
+
+TEST(Explanation, ACancelledRunSaysSo) {
+  const Drawing drawing;
+  RunContext context;
+  context.cancel.cancel();
+  const auto e = explainPage(drawing.scan, drawing.recipe, drawing.out, context);
+  ASSERT_FALSE(e);
+  EXPECT_EQ(e.error().code, ErrorCode::Cancelled);
+}
+
+}  // namespace
+}  // namespace batten
