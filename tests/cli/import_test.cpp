@@ -106,14 +106,15 @@ TEST_F(CommandLinePages, EveryPageOfAStackIsTracedWhenAsked) {
   ASSERT_EQ(first.code, 0) << first.err;
   EXPECT_THAT(first.out, HasSubstr("The file holds 2 pages; page 1 was traced"));
   ASSERT_EQ(run("trace " + stack + " --dpi 254 --page 2 -o " + file("two.json")).code, 0);
-  const auto all = run("trace " + stack + " --dpi 254 --page all -o " + file("o.json") + " -o " + file("o.poly.csv") +
-                       " --report " + file("rep.json") + " --save-recipe " + file("r.recipe.json"));
+  const auto all =
+      run("trace " + stack + " --dpi 254 --page all -o " + file("o.json") + " -o " + file("o.poly.csv") + " -o " +
+          file("o.report.html") + " --report " + file("rep.json") + " --save-recipe " + file("r.recipe.json"));
   ASSERT_EQ(all.code, 0) << all.err;
   EXPECT_EQ(std::count(all.out.begin(), all.out.end(), '\n'), 2);
   EXPECT_EQ(test::readFile(file("o-p1.json")), test::readFile(file("o.json")));
   EXPECT_EQ(test::readFile(file("o-p2.json")), test::readFile(file("two.json")));
   EXPECT_NE(test::readFile(file("o-p1.json")), test::readFile(file("o-p2.json")));
-  for (const char* name : {"o-p2.poly.csv", "rep-p1.json", "r-p2.recipe.json"})
+  for (const char* name : {"o-p2.poly.csv", "o-p1.report.html", "rep-p1.json", "r-p2.recipe.json"})
     EXPECT_TRUE(std::filesystem::exists(file(name))) << name;
   const auto recipe = recipeFromJson(test::readFile(file("r-p2.recipe.json")));
   ASSERT_TRUE(recipe);

@@ -85,8 +85,8 @@ drawn() {
   local which
   for which in test sample; do
     rsvg-convert -f pdf -o "$folder/$which-by-rsvg.pdf" "$folder/$which.svg" &&
-      pdftocairo -svg "$folder/$which-by-rsvg.pdf" "$folder/$which-by-rsvg.svg" &&
-      pdftocairo -svg "$folder/$which.pdf" "$folder/$which-by-poppler.svg" || return 1
+      pdftocairo -svg -noshrink -nocenter "$folder/$which-by-rsvg.pdf" "$folder/$which-by-rsvg.svg" &&
+      pdftocairo -svg -noshrink -nocenter "$folder/$which.pdf" "$folder/$which-by-poppler.svg" || return 1
   done
   judged paths && judged size
 }

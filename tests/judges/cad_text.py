@@ -89,8 +89,9 @@ def iges_curves(path):
         lines = file.read().splitlines()
     assert all(len(entry) == 80 for entry in lines), "records of 80 columns"
     section = {letter: [entry for entry in lines if entry[72] == letter] for letter in "SGDPT"}
-    head = iges_fields("".join(entry[:72] for entry in section["G"]).replace("1H,,1H;,", "", 1))
-    mm = {"1": MM_PER_INCH, "2": 1.0}[head[11]]
+    head = "".join(entry[:72] for entry in section["G"])
+    assert head.startswith((",,", "1H,,1H;,")), "the usual delimiters"
+    mm = {"1": MM_PER_INCH, "2": 1.0}[iges_fields(head.replace("1H,,1H;,", ",,", 1))[13]]
     curves = []
     directory = ["".join(section["D"][i:i + 2]) for i in range(0, len(section["D"]), 2)]
     for entry in directory:

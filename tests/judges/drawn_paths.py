@@ -74,19 +74,24 @@ def paths_of(path):
     return found
 
 
+def width_of(path):
+    """In user units."""
+    root = xml.parse(path).getroot()
+    return float(root.get("viewBox").split()[2])
+
+
 def at(c, t):
     s = 1 - t
     w = (s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t)
     return sum(w[i] * c[i][0] for i in range(4)), sum(w[i] * c[i][1] for i in range(4))
 
 
-def distance_to_cubic(p, c, best):
-    """Distance if it is below `best`, else something not smaller."""
-    low = [min(q[k] for q in c) for k in (0, 1)]
-    high = [max(q[k] for q in c) for k in (0, 1)]
-    outside = math.hypot(*(max(low[k] - p[k], 0.0, p[k] - high[k]) for k in (0, 1)))
-    if outside >= best:
-        return best
+def outside(p, c):
+    """Distance from the box of a cubic's points; the cubic is no nearer."""
+    return math.hypot(*(max(min(q[k] for q in c) - p[k], 0.0, p[k] - max(q[k] for q in c)) for k in (0, 1)))
+
+
+def distance_to_cubic(p, c):
     steps = 12
     near = min(range(steps + 1), key=lambda i: math.dist(p, at(c, i / steps)))
     a, b = max(0.0, (near - 1) / steps), min(1.0, (near + 1) / steps)
@@ -104,8 +109,10 @@ def farthest(places, cubics):
     worst = 0.0
     for p in places:
         best = math.inf
-        for c in cubics:
-            best = min(best, distance_to_cubic(p, c, best))
+        for least, c in sorted((outside(p, c), c) for c in cubics):
+            if least >= best:
+                break
+            best = min(best, distance_to_cubic(p, c))
         worst = max(worst, best)
     return worst
 

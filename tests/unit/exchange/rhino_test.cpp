@@ -172,9 +172,10 @@ TEST(RhinoFile, DamageIsNoticed) {
   // A bit that turns in a curve is told by its check sum.
   const std::string id("\xdd\xd4\xd7\x4e\x47\xe9\xd3\x11\xbf\xe5\x00\x10\x83\x01\x22\xf0", 16);
   for (auto at = whole.find(id); at != std::string::npos; at = whole.find(id, at + 1)) {
-    for (const std::size_t behind : {30u, 120u, 200u}) {
+    const std::size_t data = at + 28, length = numberAt(whole, at + 24);
+    for (std::size_t behind = 0; behind < length; behind += 5) {
       std::string other = whole;
-      other[at + behind] = static_cast<char>(other[at + behind] ^ 4);
+      other[data + behind] = static_cast<char>(other[data + behind] ^ 4);
       EXPECT_FALSE(readRhino(other)) << at << " " << behind;
     }
   }
