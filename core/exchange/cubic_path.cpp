@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/curve/arc_length.h"
@@ -13,12 +14,14 @@
 namespace batten {
 namespace {
 
-constexpr int kSamples = 32;   ///< Places per cubic at which the error is measured and handles are fitted.
-constexpr int kRounds = 4;     ///< Fits of the handles, each with better parameters.
-constexpr int kMaxDepth = 24;  ///< Halvings; 1/2^24 of a piece is far below any tolerance.
+constexpr int kSamples = 32;       ///< Places per cubic at which the error is measured and handles are fitted.
+constexpr double kSettled = 1e-6;  ///< [share of the piece] A step to the foot point so small is the last one.
+constexpr int kRounds = 4;         ///< Fits of the handles, each with better parameters.
+constexpr int kMaxDepth = 24;      ///< Halvings; 1/2^24 of a piece is far below any tolerance.
 constexpr double kMaxTurn =
     1.75;  ///< [rad] A cubic that turns more than 100 degrees fits badly and looks wrong in editors.
 
+constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
 constexpr int kCurvatureRounds = 12;          ///< Steps towards the curvatures at both ends.
 constexpr double kMaxCurvatureError = 0.008;  ///< At the end of a cubic; two that meet may jump by twice as much.
 constexpr double kLeastCurvature = 0.05;      ///< [1/length of the curve] What a curvature error is measured against.
@@ -202,16 +205,19 @@ class Approximation {
     return c;
   }
 
-  /// Largest distance between cubic and curve over [from, to]: from the curve's samples to the cubic, and back.
-  double error(const Cubic& c, double from, double to) {
+  /// Largest distance between cubic and curve over [from, to]: from the curve's samples to the cubic, and back; once it
+  /// is more than `enough`, any such distance.
+  double error(const Cubic& c, double from, double to, double enough) {
     double worst = 0.0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       double t = parameters_[i];
       worst = std::max(worst, footDistance(c, points_[i], t));
+      if (worst > enough) return worst;
     }
     for (int i = 1; i < 2 * kSamples; ++i) {
       const Vec2 p = at(c, i / (2.0 * kSamples));
       worst = std::max(worst, distanceFromCurve(p, from, to));
+      if (worst > enough) return worst;
     }
     return worst;
   }
@@ -224,10 +230,14 @@ class Approximation {
     double best = (*nearest - p).norm();
     for (int i = 0; i < 8; ++i) {
       const auto d = curve_.derivatives(u, 1);
+      best = std::min(best, (d[0] - p).norm());
       const double square = d[1].squaredNorm();
       if (square == 0.0) break;
-      u = std::clamp(u + (p - d[0]).dot(d[1]) / square, from, to);
-      best = std::min(best, (curve_.point(u) - p).norm());
+      const double next = std::clamp(u + (p - d[0]).dot(d[1]) / square, from, to);
+      // Gauss-Newton: what is left is of second order, and the distance changes by the square of that.
+      const bool settled = std::abs(next - u) <= kSettled * (to - from);
+      u = next;
+      if (settled) break;
     }
     return best;
   }
@@ -245,7 +255,7 @@ class Approximation {
       c[1] = rounded(c[1]);
       c[2] = rounded(c[2]);
       const bool isKept = curvatureError(c, exact) <= kMaxCurvatureError || isTooShortForGrid(c, exact) || !mayHalve;
-      const double measured = isKept ? error(c, from, to) : -1.0;
+      const double measured = isKept ? error(c, from, to, mayHalve ? tolerance_ : kAnyDistance) : -1.0;
       if ((measured >= 0.0 && measured <= tolerance_) || !mayHalve) {
         take(c, exact[0], measured);
         return;
