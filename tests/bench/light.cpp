@@ -46,6 +46,14 @@ std::optional<NurbsCurve> denseCurve(const TruthPiece& piece, bool closed) {
 struct Sum {
   int points = 0, before = 0, extrema = 0, asked = 0, dense = 0;
   double worst = 0.0, ms = 0.0, slowest = 0.0;
+  int iterations = 0, tries = 0, sections = 0, denseSections = 0;
+  std::vector<double> each;  ///< [ms] of every curve.
+
+  double medianMs() const {
+    std::vector<double> sorted = each;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted.empty() ? 0.0 : sorted[sorted.size() / 2];
+  }
 };
 
 void add(Sum& sum, const NurbsCurve& curve, bool closed, double tolerance, double step) {
@@ -64,6 +72,11 @@ void add(Sum& sum, const NurbsCurve& curve, bool closed, double tolerance, doubl
   sum.dense += r.kind == LightKind::Dense ? 1 : 0;
   sum.worst = std::max(sum.worst, r.worst);
   sum.ms += ms;
+  sum.each.push_back(ms);
+  sum.iterations += r.iterations;
+  sum.tries += r.tries;
+  sum.sections += r.sections;
+  sum.denseSections += r.sectionsDense;
   sum.slowest = std::max(sum.slowest, ms);
 }
 
@@ -102,9 +115,11 @@ void printDrawing(const std::filesystem::path& path) {
       add(sum, curve.sketched, curve.closed, tolerancePx * out.frame.mmPerPx, 0.5 * out.frame.mmPerPx);
     }
     std::printf(
-        "%-34s %5.2f px: %6d -> %5d points, %5d of %5d extrema, %3d of %3zu stay dense, %8.0f ms, slowest %6.0f\n",
+        "%-30s %5.2f px: %6d -> %5d points, %5d of %5d extrema, %3d of %3zu stay dense, of %d sections %d; ms: %8.0f, "
+        "median %5.2f, slowest %5.0f; %d tries, %d iterations\n",
         path.filename().string().c_str(), tolerancePx, sum.before, sum.points, sum.extrema, sum.asked, sum.dense,
-        out.constructed->curves.size(), sum.ms, sum.slowest);
+        out.constructed->curves.size(), sum.sections, sum.denseSections, sum.ms, sum.medianMs(), sum.slowest, sum.tries,
+        sum.iterations);
     std::fflush(stdout);
   }
 }

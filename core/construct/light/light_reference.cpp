@@ -10,6 +10,8 @@ namespace batten {
 namespace {
 
 constexpr double kCornerCosine = 0.94;  // cosine of 20 degrees: more between two samples is a corner
+constexpr double kTurnCosine = 0.985;   // cosine of 10 degrees: more between two samples asks for one between
+constexpr int kMostHalvings = 6;        // of one step
 constexpr int kFewestSteps = 4;         // in a span of the curve
 constexpr int kMostSamples = 40000;     // of a curve: longer ones get larger steps
 constexpr int kFewestSamples = 48;
@@ -20,6 +22,7 @@ std::optional<LightSample> lightSampleAt(const NurbsCurve& curve, double u) {
   const double v = d[1].norm();
   if (!(v * (curve.end() - curve.start()) > 1e-9 * (d[0].norm() + d[1].norm()))) return std::nullopt;
   LightSample sample;
+  sample.u = u;
   sample.point = d[0];
   sample.tangent = d[1] / v;
   sample.kappa = cross(d[1], d[2]) / (v * v * v);
@@ -43,7 +46,37 @@ double roughLength(const NurbsCurve& curve, double from, double to) {
 
 }  // namespace
 
-std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool closed, double step) {
+bool LightReference::add(const NurbsCurve& curve, const LightSample& next, int depth) {
+  if (!samples_.empty()) {
+    const LightSample before = samples_.back();
+    if (before.tangent.dot(next.tangent) < kTurnCosine && depth < kMostHalvings) {
+      const auto between = lightSampleAt(curve, 0.5 * (before.u + next.u));
+      if (!between || !add(curve, *between, depth + 1)) return false;
+      return add(curve, next, depth + 1);
+    }
+    if (before.tangent.dot(next.tangent) < kCornerCosine) return false;
+    // Chord and sagitta: exact to the fourth order of the step.
+    const double chord = (next.point - before.point).norm();
+    const double bend = 0.5 * (before.kappa + next.kappa) * chord;
+    samples_.push_back(next);
+    samples_.back().s = before.s + chord * (1.0 + bend * bend / 24.0);
+  } else {
+    samples_.push_back(next);
+  }
+  return true;
+}
+
+bool LightReference::addSpan(const NurbsCurve& curve, double from, double to, int steps) {
+  const bool last = !(to < curve.end());
+  for (int k = 0; k < steps + (last ? 1 : 0); ++k) {
+    const auto next = lightSampleAt(curve, from + (to - from) * k / steps);
+    if (!next || !add(curve, *next, 0)) return false;
+  }
+  return true;
+}
+
+std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool closed, double step,
+                                                   std::optional<double> diagonal) {
   LightReference made;
   made.closed_ = closed;
   const std::vector<double> breaks = curve.breaks();
@@ -59,22 +92,7 @@ std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool
   samples.reserve(static_cast<std::size_t>(total / asked) + kFewestSteps * breaks.size() + 1);
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     const int steps = std::max(kFewestSteps, static_cast<int>(std::ceil(lengths[i] / asked)));
-    const bool last = i + 2 == breaks.size();
-    for (int k = 0; k < steps + (last ? 1 : 0); ++k) {
-      const auto next = lightSampleAt(curve, breaks[i] + (breaks[i + 1] - breaks[i]) * k / steps);
-      if (!next) return std::nullopt;
-      if (!samples.empty()) {
-        const LightSample& before = samples.back();
-        if (before.tangent.dot(next->tangent) < kCornerCosine) return std::nullopt;
-        // Chord and sagitta: exact to the fourth order of the step.
-        const double chord = (next->point - before.point).norm();
-        const double bend = 0.5 * (before.kappa + next->kappa) * chord;
-        samples.push_back(*next);
-        samples.back().s = before.s + chord * (1.0 + bend * bend / 24.0);
-      } else {
-        samples.push_back(*next);
-      }
-    }
+    if (!made.addSpan(curve, breaks[i], breaks[i + 1], steps)) return std::nullopt;
   }
   made.length_ = samples.back().s;
   if (closed) {
@@ -87,7 +105,7 @@ std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool
     box.extend(sample.point);
     made.kappaMax_ = std::max(made.kappaMax_, std::abs(sample.kappa));
   }
-  made.diagonal_ = box.diagonal().norm();
+  made.diagonal_ = diagonal.value_or(box.diagonal().norm());
   return made.diagonal_ > 0.0 ? std::optional(std::move(made)) : std::nullopt;
 }
 
