@@ -117,7 +117,7 @@ std::vector<MadeSection> lightenSection(const Section& section, double diagonal,
   LightOptions held = options;
   held.start = section.start;
   held.end = section.end;
-  LightCurve one = searchLight(section.dense, *reference, held, true, context);
+  LightCurve one = searchLight(section.dense, *reference, held, {LightForms::Quintic}, context);
   const int fewer = extremaPerSection / 2;
   if (one.report.kind != LightKind::Dense || fewer == 0 || same.report.points < kWorthCutting)
     return {{std::move(same), std::move(one)}};

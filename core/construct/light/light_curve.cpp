@@ -35,7 +35,7 @@ LightCurve lightest(const NurbsCurve& dense, bool closed, const LightOptions& op
   const LightSections sections = lightSections(dense, *reference, options);
   LightCurve found;
   if (sections.extrema <= kMostInOneSpline) {
-    found = searchLight(dense, *reference, options, false, context);
+    found = searchLight(dense, *reference, options, LightTask{}, context);
     if (found.report.kind != LightKind::Dense || context.isCancelled()) return found;
   } else {
     found = sameCurve(dense, LightObstacle::Effort);

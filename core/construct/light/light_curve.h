@@ -27,7 +27,7 @@ enum class LightKind {
   Arc,     ///< Exactly an arc or a circle (rational).
   Span,    ///< One polynomial span of degree 2..7.
   Spline,  ///< Quintic with simple knots (C4).
-  Chain,   ///< Quintic of sections that meet with one curvature (G2).
+  Chain,   ///< Quintic of sections that meet with one curvature (G2), or simplified sections between corners.
 };
 
 /// Why a curve, or sections of it, stayed dense.
@@ -50,6 +50,7 @@ struct LightReport {
   int tries = 0;
   int sections = 1, sectionsDense = 0;  ///< Of a chain; those that nothing lighter was found for are as they were.
   LightObstacle obstacle = LightObstacle::None;
+  int corners = 0;                     ///< Sharp ones that simplifiedCurve set between sections.
   std::vector<RankedExtremum> ranked;  ///< All extrema of the dense curve with their removal deviations.
 };
 

@@ -100,13 +100,48 @@ std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool
     samples.pop_back();
     made.beginWhereSteepest();
   }
+  return made.finish(diagonal) ? std::optional(std::move(made)) : std::nullopt;
+}
+
+bool LightReference::finish(std::optional<double> diagonal) {
   Eigen::AlignedBox2d box;
-  for (const LightSample& sample : samples) {
+  for (const LightSample& sample : samples_) {
     box.extend(sample.point);
-    made.kappaMax_ = std::max(made.kappaMax_, std::abs(sample.kappa));
+    kappaMax_ = std::max(kappaMax_, std::abs(sample.kappa));
   }
-  made.diagonal_ = diagonal.value_or(box.diagonal().norm());
-  return made.diagonal_ > 0.0 ? std::optional(std::move(made)) : std::nullopt;
+  diagonal_ = diagonal.value_or(box.diagonal().norm());
+  return diagonal_ > 0.0;
+}
+
+std::optional<LightReference> LightReference::through(const std::vector<Vec2>& points, bool closed) {
+  LightReference made;
+  made.closed_ = closed;
+  const int n = static_cast<int>(points.size());
+  const auto at = [&](int i) -> const Vec2& { return points[closed ? (i % n + n) % n : std::clamp(i, 0, n - 1)]; };
+  made.samples_.resize(points.size());
+  for (int i = 0; i < n; ++i) {
+    LightSample& sample = made.samples_[i];
+    sample.point = at(i);
+    const Vec2 in = at(i) - at(i - 1), out = at(i + 1) - at(i), way = at(i + 1) - at(i - 1);
+    if (!(way.norm() > 0.0)) return std::nullopt;
+    sample.tangent = way.normalized();
+    const double length = 0.5 * (in.norm() + out.norm());
+    if (in.norm() > 0.0 && out.norm() > 0.0) sample.kappa = std::atan2(cross(in, out), in.dot(out)) / length;
+    sample.s = i == 0 ? 0.0 : made.samples_[i - 1].s + in.norm();
+    sample.u = sample.s;
+  }
+  if (!closed) {  // an end has no turn of its own
+    made.samples_.front().kappa = made.samples_[1].kappa;
+    made.samples_.back().kappa = made.samples_[points.size() - 2].kappa;
+  }
+  const auto kappaAt = [&](int i) { return made.samples_[closed ? (i % n + n) % n : std::clamp(i, 0, n - 1)].kappa; };
+  for (int i = 0; i < n; ++i) {
+    made.samples_[i].slope = (kappaAt(i + 1) - kappaAt(i - 1)) / (at(i + 1) - at(i - 1)).norm();
+  }
+  made.length_ = made.samples_.back().s + (closed ? (points.front() - points.back()).norm() : 0.0);
+  if (!(made.length_ > 0.0)) return std::nullopt;
+  if (closed) made.beginWhereSteepest();
+  return made.finish({}) ? std::optional(std::move(made)) : std::nullopt;
 }
 
 void LightReference::beginWhereSteepest() {

@@ -37,6 +37,9 @@ class LightReference {
   /// @param diagonal of the whole that the curve is a section of; absent: its own.
   static std::optional<LightReference> make(const NurbsCurve&, bool closed, double step,
                                             std::optional<double> diagonal = {});
+  /// Of a smooth line of points at about even steps, with its direction and curvature by differences; a closed one does
+  /// not repeat its first point. Absent when it has no length. @pre at least 5 points.
+  static std::optional<LightReference> through(const std::vector<Vec2>& points, bool closed);
 
   const std::vector<LightSample>& samples() const { return samples_; }
   int size() const { return static_cast<int>(samples_.size()); }
@@ -55,6 +58,7 @@ class LightReference {
 
  private:
   LightReference() = default;
+  bool finish(std::optional<double> diagonal);
   bool addSpan(const NurbsCurve&, double from, double to, int steps);
   bool add(const NurbsCurve&, const LightSample& next, int depth);
   void beginWhereSteepest();

@@ -26,9 +26,13 @@ constexpr int kQuintic = 5;
 
 class LightSearch {
  public:
-  LightSearch(const NurbsCurve& dense, const LightReference& reference, const LightOptions& options, bool quintic,
-              const RunContext& context)
-      : dense_(dense), reference_(reference), options_(options), quintic_(quintic), context_(context) {
+  LightSearch(const NurbsCurve& dense, const LightReference& reference, const LightOptions& options,
+              const LightTask& task, const RunContext& context)
+      : dense_(dense), reference_(reference), options_(options), task_(task), context_(context) {
+    if (!task.keepStructure) {
+      bounds_ = {options.tolerance, std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
+      return;
+    }
     result_.report.ranked = rankedExtrema(reference, kRankedProminence / reference.diagonal());
     auto kept = significantExtrema(result_.report.ranked, options.significance * options.tolerance);
     changes_ = static_cast<int>(kept.size());
@@ -50,7 +54,7 @@ class LightSearch {
   LightCurve run() {
     result_.report.pointsBefore = free(dense_.controlPointCount(), dense_.degree());
     result_.report.extremaAsked = changes_;
-    if (!quintic_ && exact()) return std::move(result_);
+    if (task_.forms != LightForms::Quintic && exact()) return std::move(result_);
     if (!rising() && !spare_.curve.isEmpty()) result_ = withEffort(std::move(spare_));
     if (result_.curve.isEmpty()) {
       result_ = withEffort(std::move(result_));
@@ -70,6 +74,7 @@ class LightSearch {
   bool exact() {
     const auto line = exactLine(reference_, options_.tolerance);
     if (line && isHeld(*line)) return take(*line, LightKind::Line, 2);
+    if (task_.forms == LightForms::UpToQuintic) return false;
     const auto arc = exactArc(reference_, options_.tolerance);
     return arc && isHeld(*arc) && take(*arc, LightKind::Arc, 3);
   }
@@ -83,8 +88,8 @@ class LightSearch {
   bool rising() {
     const int changes = changes_ + (changes_ > 0 ? 3 : 0);
     int fewest = reference_.isClosed() ? std::max(kFewestClosedPoints, changes_) : std::max(kFewestOpenPoints, changes);
-    if (quintic_) fewest = std::max(fewest, kQuintic + 1);
-    const int most = result_.report.pointsBefore - 1;
+    if (task_.forms == LightForms::Quintic) fewest = std::max(fewest, kQuintic + 1);
+    const int most = task_.mostPoints.value_or(result_.report.pointsBefore - 1);
     mostWork_ = kWorkPerPoint * (most - fewest + 1);
     int failed = fewest - 1;
     for (int count = fewest; count <= most && mayGoOn(); count = nextCount(count, most)) {
@@ -124,7 +129,9 @@ class LightSearch {
     const bool closed = reference_.isClosed();
     leastOff_ = std::numeric_limits<double>::infinity();
     const int degree = count - 1;
-    if (!closed && (quintic_ ? degree == kQuintic : degree <= kMostSpanDegree && degree >= 2)) {
+    const int lowest = task_.forms == LightForms::Quintic ? kQuintic : 2;
+    const int highest = task_.forms == LightForms::All ? kMostSpanDegree : kQuintic;
+    if (!closed && degree >= lowest && degree <= highest) {
       if (fit(degree, 1, BreakStart::Even, true)) return true;
       if (leastOff_ < kHopeless && fit(degree, 1, BreakStart::Even, false)) return true;
     }
@@ -142,7 +149,7 @@ class LightSearch {
     ask.firstSign = firstSign_;
     ask.changes = changes_;
     ask.firstKappaSign = firstKappaSign_;
-    ask.inflections = bounds_.inflections;
+    ask.inflections = firstKappaSign_ == 0 ? 0 : bounds_.inflections;
     ask.start = options_.start;
     ask.end = options_.end;
     ask.firstPhase = firstPhase;
@@ -180,7 +187,8 @@ class LightSearch {
   /// A curve that lost an extremum is kept for the case that none has them all.
   bool take(const NurbsCurve& curve, const LightVerdict& verdict, LightKind kind, int points) {
     if (!verdict.holds) return false;
-    const bool all = verdict.extrema == changes_ || kind == LightKind::Line || kind == LightKind::Arc;
+    const bool all =
+        !task_.keepStructure || verdict.extrema == changes_ || kind == LightKind::Line || kind == LightKind::Arc;
     if (!all && !spare_.curve.isEmpty()) return false;
     LightCurve& target = all ? result_ : spare_;
     if (!all) target.report = result_.report;
@@ -198,7 +206,7 @@ class LightSearch {
   const NurbsCurve& dense_;
   const LightReference& reference_;
   const LightOptions& options_;
-  const bool quintic_;
+  const LightTask& task_;
   const RunContext& context_;
   int changes_ = 0, firstSign_ = 0, firstKappaSign_ = 0;
   LightBounds bounds_;
@@ -211,8 +219,8 @@ class LightSearch {
 }  // namespace
 
 LightCurve searchLight(const NurbsCurve& dense, const LightReference& reference, const LightOptions& options,
-                       bool quintic, const RunContext& context) {
-  return LightSearch(dense, reference, options, quintic, context).run();
+                       const LightTask& task, const RunContext& context) {
+  return LightSearch(dense, reference, options, task, context).run();
 }
 
 }  // namespace batten

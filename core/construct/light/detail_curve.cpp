@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/light/detail_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/construct/light/detail_line.h"
+#include "core/construct/light/light_search.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
+#include "core/curve/knot_operations.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr double kStepsPerScale = 12.0;
+constexpr double kLeftOut = 1.2;     // scales beside a corner, where ink is rounded
+constexpr double kSmoothedBy = 0.4;  // scales
+constexpr double kFitShare = 0.9;    // of the tolerance; the rest is for the smoothing
+constexpr double kClearNotch =
+    60.0 * std::numbers::pi / 180.0;  // a corner that does not turn at large must turn by this
+constexpr int kFewestSamples = 16;
+constexpr int kMostPoints = 60;
+constexpr double kSamplesPerPoint = 4.0;
+constexpr int kMeasuredEvery = 3;  // samples of the line
+
+/// Points at even steps along a polyline, both ends included.
+std::vector<Vec2> evenly(const std::vector<Vec2>& line, double step) {
+  const std::vector<double> s = cumulativeLength(line);
+  const int steps = std::max(kFewestSamples, static_cast<int>(std::lround(s.back() / step)));
+  std::vector<Vec2> points;
+  std::size_t at = 0;
+  for (int k = 0; k <= steps; ++k) {
+    const double wanted = s.back() * k / steps;
+    while (at + 2 < s.size() && s[at + 1] < wanted) ++at;
+    const double width = s[at + 1] - s[at], f = width > 0.0 ? std::clamp((wanted - s[at]) / width, 0.0, 1.0) : 0.0;
+    points.push_back(line[at] + f * (line[at + 1] - line[at]));
+  }
+  return points;
+}
+
+/// The line from one corner, or its start, to the next, or its end.
+struct Stretch {
+  std::optional<Vec2> from, to;  ///< The corners.
+  int first = 0, last = 0;       ///< Samples; the last may pass the number of those of a closed line.
+};
+
+std::vector<Stretch> stretchesOf(const EvenLine& line, const std::vector<ScaleCorner>& corners) {
+  std::vector<Stretch> stretches;
+  const int n = line.size();
+  if (line.closed) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const ScaleCorner &a = corners[i], &b = corners[(i + 1) % corners.size()];
+      stretches.push_back({a.vertex, b.vertex, a.sample, i + 1 < corners.size() ? b.sample : b.sample + n});
+    }
+    return stretches;
+  }
+  Stretch now{{}, {}, 0, 0};
+  for (const ScaleCorner& corner : corners) {
+    now.to = corner.vertex;
+    now.last = corner.sample;
+    stretches.push_back(now);
+    now = {corner.vertex, {}, corner.sample, 0};
+  }
+  now.last = n - 1;
+  stretches.push_back(now);
+  return stretches;
+}
+
+std::vector<Vec2> pointsOf(const Stretch& stretch, const EvenLine& line, double scale) {
+  const int away = static_cast<int>(std::lround(kLeftOut * scale / line.step));
+  std::vector<Vec2> points;
+  if (stretch.from) points.push_back(*stretch.from);
+  const int first = stretch.first + (stretch.from ? away : 0), last = stretch.last - (stretch.to ? away : 0);
+  for (int i = first; i <= last; ++i) points.push_back(line.points[static_cast<std::size_t>(i % line.size())]);
+  if (stretch.to) points.push_back(*stretch.to);
+  return points;
+}
+
+LightCurve fitOf(const NurbsCurve& dense, const std::vector<Vec2>& points, bool closed, const LightOptions& options,
+                 const RunContext& context) {
+  const auto reference = LightReference::through(points, closed);
+  if (!reference) return {};
+  LightTask task;
+  task.forms = closed ? LightForms::All : LightForms::UpToQuintic;
+  task.keepStructure = false;
+  task.mostPoints = std::min(kMostPoints, static_cast<int>(static_cast<double>(points.size()) / kSamplesPerPoint));
+  LightOptions within = options;
+  within.tolerance = kFitShare * options.tolerance;
+  within.start = within.end = LightHold::Position;
+  return searchLight(dense, *reference, within, task, context);
+}
+
+/// All of one degree, end to start.
+std::optional<NurbsCurve> joinedAtCorners(const std::vector<LightCurve>& parts, double tolerance) {
+  int degree = 1;
+  for (const LightCurve& part : parts) degree = std::max(degree, part.curve.degree());
+  std::vector<NurbsCurve> curves;
+  for (const LightCurve& part : parts) {
+    auto raised = part.curve.degree() < degree ? elevated(part.curve, degree) : Result<NurbsCurve>(part.curve);
+    if (!raised) return std::nullopt;
+    curves.push_back(std::move(*raised));
+  }
+  if (curves.size() == 1) return curves.front();
+  auto joined = joinAtCorners(curves, tolerance);
+  return joined ? std::optional(std::move(*joined)) : std::nullopt;
+}
+
+double farthest(const EvenLine& line, const NurbsCurve& curve) {
+  double worst = 0.0;
+  for (int i = 0; i < line.size(); i += kMeasuredEvery) {
+    worst = std::max(worst, closestPoint(curve, line.points[static_cast<std::size_t>(i)]).distance);
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, const LightOptions& options,
+                                          const RunContext& context) {
+  const double scale = options.tolerance;
+  const EvenLine line = evenLine(dense, closed, std::max(options.step, scale / kStepsPerScale));
+  std::vector<ScaleCorner> corners = cornersAtScale(line, scale);
+  std::erase_if(corners, [](const ScaleCorner& c) { return !c.hard && std::abs(c.turnRad) < kClearNotch; });
+  const bool loop = closed && corners.empty();
+  const double sigma = kSmoothedBy * scale / line.step;
+  std::vector<std::vector<Vec2>> stretches;
+  if (loop) {
+    stretches.push_back(smoothPolyline(line.points, true, sigma));
+  } else {
+    for (const Stretch& stretch : stretchesOf(line, corners)) {
+      auto points = pointsOf(stretch, line, scale);
+      if (points.size() < 2) return std::nullopt;
+      stretches.push_back(smoothPolyline(evenly(points, line.step), false, sigma));
+    }
+  }
+  std::vector<LightCurve> parts(stretches.size());
+  parallelFor(context, static_cast<int>(parts.size()), 1, [&](int begin, int end) {
+    for (int i = begin; i < end && !context.isCancelled(); ++i) {
+      parts[i] = fitOf(dense, stretches[i], loop, options, context);
+    }
+  });
+  if (context.isCancelled()) return std::nullopt;
+  LightCurve whole;
+  for (const LightCurve& part : parts) {
+    if (part.curve.isEmpty() || part.report.kind == LightKind::Dense) return std::nullopt;
+    whole.report.iterations += part.report.iterations;
+    whole.report.tries += part.report.tries;
+    whole.report.points += part.report.points - 1;
+  }
+  whole.report.points += closed ? (loop ? 1 : 0) : 1;
+  auto joined = joinedAtCorners(parts, scale);
+  if (!joined) return std::nullopt;
+  whole.curve = std::move(*joined);
+  whole.report.kind = parts.size() == 1 ? parts.front().report.kind : LightKind::Chain;
+  whole.report.sections = static_cast<int>(parts.size());
+  whole.report.corners = static_cast<int>(corners.size());
+  whole.report.pointsBefore = dense.controlPointCount() - (closed ? dense.degree() : 0);
+  whole.report.worst = farthest(line, whole.curve);
+  whole.report.extrema = countedExtrema(whole.curve, closed);
+  return whole;
+}
+
+}  // namespace batten
