@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -25,7 +26,9 @@ constexpr double kFitShare = 0.9;    // of the tolerance; the rest is for the sm
 constexpr double kClearNotch =
     60.0 * std::numbers::pi / 180.0;  // a corner that does not turn at large must turn by this
 constexpr int kFewestSamples = 16;
-constexpr int kMostPoints = 60;
+constexpr int kFewestTried = 9, kMostPoints = 60;
+constexpr double kChordReach = 3.0;  // tolerances
+constexpr int kMostCuts = 4;         // of a stretch, one within the other
 constexpr double kSamplesPerPoint = 4.0;
 constexpr int kMeasuredEvery = 3;  // samples of the line
 
@@ -89,11 +92,62 @@ LightCurve fitOf(const NurbsCurve& dense, const std::vector<Vec2>& points, bool 
   LightTask task;
   task.forms = closed ? LightForms::All : LightForms::UpToQuintic;
   task.keepStructure = false;
-  task.mostPoints = std::min(kMostPoints, static_cast<int>(static_cast<double>(points.size()) / kSamplesPerPoint));
+  task.mostPoints =
+      std::clamp(static_cast<int>(static_cast<double>(points.size()) / kSamplesPerPoint), kFewestTried, kMostPoints);
   LightOptions within = options;
   within.tolerance = kFitShare * options.tolerance;
   within.start = within.end = LightHold::Position;
   return searchLight(dense, *reference, within, task, context);
+}
+
+/// Where a stretch is farthest from its chord.
+std::size_t farthestFromChord(const std::vector<Vec2>& points) {
+  const Vec2 first = points.front(), chord = points.back() - first;
+  const double length = chord.norm();
+  std::size_t at = points.size() / 2;
+  double most = 0.0;
+  for (std::size_t i = kFewestSamples / 2; i + kFewestSamples / 2 < points.size(); ++i) {
+    const Vec2 away = points[i] - first;
+    const double distance = length > 0.0 ? std::abs(cross(chord, away)) / length : away.norm();
+    if (distance > most) {
+      most = distance;
+      at = i;
+    }
+  }
+  return at;
+}
+
+/// What is left of a spike or a notch: a straight line, if no point lies farther from it than that.
+std::optional<LightCurve> chordOf(const std::vector<Vec2>& points, double most) {
+  const Vec2 first = points.front(), chord = points.back() - first;
+  const double length = chord.norm();
+  if (!(length > 0.0)) return std::nullopt;
+  for (const Vec2& p : points) {
+    if (awayFromSegment(p, first, points.back()).norm() > most) return std::nullopt;
+  }
+  auto line = NurbsCurve::make(1, {0.0, 0.0, length, length}, {first, points.back()});
+  if (!line) return std::nullopt;
+  LightCurve curve{std::move(*line), {}};
+  curve.report.kind = LightKind::Line;
+  curve.report.points = 2;
+  return curve;
+}
+
+/// The curves of a stretch: one, or where none is found those of two parts of it, which meet in a corner.
+std::vector<LightCurve> fitsOf(const NurbsCurve& dense, const std::vector<Vec2>& points, bool closed,
+                               const LightOptions& options, int cuts, const RunContext& context) {
+  LightCurve one = fitOf(dense, points, closed, options, context);
+  const bool found = !one.curve.isEmpty() && one.report.kind != LightKind::Dense;
+  if (found || closed || context.isCancelled()) return {one};
+  if (cuts == 0 || points.size() < 2 * kFewestSamples) {
+    if (auto chord = chordOf(points, kChordReach * options.tolerance)) return {*chord};
+    return {one};
+  }
+  const auto at = points.begin() + static_cast<std::ptrdiff_t>(farthestFromChord(points));
+  auto parts = fitsOf(dense, {points.begin(), at + 1}, false, options, cuts - 1, context);
+  auto rest = fitsOf(dense, {at, points.end()}, false, options, cuts - 1, context);
+  std::move(rest.begin(), rest.end(), std::back_inserter(parts));
+  return parts;
 }
 
 /// All of one degree, end to start.
@@ -139,13 +193,16 @@ std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, 
       stretches.push_back(smoothPolyline(evenly(points, line.step), false, sigma));
     }
   }
-  std::vector<LightCurve> parts(stretches.size());
-  parallelFor(context, static_cast<int>(parts.size()), 1, [&](int begin, int end) {
+  std::vector<std::vector<LightCurve>> fits(stretches.size());
+  parallelFor(context, static_cast<int>(fits.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
-      parts[i] = fitOf(dense, stretches[i], loop, options, context);
+      fits[i] = fitsOf(dense, stretches[i], loop, options, kMostCuts, context);
     }
   });
   if (context.isCancelled()) return std::nullopt;
+  std::vector<LightCurve> parts;
+  for (auto& some : fits) std::move(some.begin(), some.end(), std::back_inserter(parts));
+  const int cuts = static_cast<int>(parts.size() - stretches.size());
   LightCurve whole;
   for (const LightCurve& part : parts) {
     if (part.curve.isEmpty() || part.report.kind == LightKind::Dense) return std::nullopt;
@@ -159,7 +216,7 @@ std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, 
   whole.curve = std::move(*joined);
   whole.report.kind = parts.size() == 1 ? parts.front().report.kind : LightKind::Chain;
   whole.report.sections = static_cast<int>(parts.size());
-  whole.report.corners = static_cast<int>(corners.size());
+  whole.report.corners = static_cast<int>(corners.size()) + cuts;
   whole.report.pointsBefore = dense.controlPointCount() - (closed ? dense.degree() : 0);
   whole.report.worst = farthest(line, whole.curve);
   whole.report.extrema = countedExtrema(whole.curve, closed);
