@@ -25,7 +25,7 @@ constexpr double kSmoothedBy = 0.4;  // scales
 constexpr double kFitShare = 0.9;    // of the tolerance; the rest is for the smoothing
 constexpr double kClearNotch =
     60.0 * std::numbers::pi / 180.0;  // a corner that does not turn at large must turn by this
-constexpr int kFewestSamples = 16;
+constexpr int kFewestStretchSamples = 16;
 constexpr int kFewestTried = 9, kMostPoints = 60;
 constexpr double kChordReach = 3.0;  // tolerances
 constexpr int kMostCuts = 4;         // of a stretch, one within the other
@@ -35,7 +35,7 @@ constexpr int kMeasuredEvery = 3;  // samples of the line
 /// Points at even steps along a polyline, both ends included.
 std::vector<Vec2> evenly(const std::vector<Vec2>& line, double step) {
   const std::vector<double> s = cumulativeLength(line);
-  const int steps = std::max(kFewestSamples, static_cast<int>(std::lround(s.back() / step)));
+  const int steps = std::max(kFewestStretchSamples, static_cast<int>(std::lround(s.back() / step)));
   std::vector<Vec2> points;
   std::size_t at = 0;
   for (int k = 0; k <= steps; ++k) {
@@ -106,7 +106,7 @@ std::size_t farthestFromChord(const std::vector<Vec2>& points) {
   const double length = chord.norm();
   std::size_t at = points.size() / 2;
   double most = 0.0;
-  for (std::size_t i = kFewestSamples / 2; i + kFewestSamples / 2 < points.size(); ++i) {
+  for (std::size_t i = kFewestStretchSamples / 2; i + kFewestStretchSamples / 2 < points.size(); ++i) {
     const Vec2 away = points[i] - first;
     const double distance = length > 0.0 ? std::abs(cross(chord, away)) / length : away.norm();
     if (distance > most) {
@@ -139,7 +139,7 @@ std::vector<LightCurve> fitsOf(const NurbsCurve& dense, const std::vector<Vec2>&
   LightCurve one = fitOf(dense, points, closed, options, context);
   const bool found = !one.curve.isEmpty() && one.report.kind != LightKind::Dense;
   if (found || closed || context.isCancelled()) return {one};
-  if (cuts == 0 || points.size() < 2 * kFewestSamples) {
+  if (cuts == 0 || points.size() < 2 * kFewestStretchSamples) {
     if (auto chord = chordOf(points, kChordReach * options.tolerance)) return {*chord};
     return {one};
   }
@@ -178,7 +178,9 @@ double farthest(const EvenLine& line, const NurbsCurve& curve) {
 std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, const LightOptions& options,
                                           const RunContext& context) {
   const double scale = options.tolerance;
-  const EvenLine line = evenLine(dense, closed, std::max(options.step, scale / kStepsPerScale));
+  const EvenLine whole = evenLine(dense, closed, std::max(options.step, scale / kStepsPerScale));
+  EvenLine line = whole;
+  const int necks = cutNecks(line, scale);
   std::vector<ScaleCorner> corners = cornersAtScale(line, scale);
   std::erase_if(corners, [](const ScaleCorner& c) { return !c.hard && std::abs(c.turnRad) < kClearNotch; });
   const bool loop = closed && corners.empty();
@@ -203,24 +205,25 @@ std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, 
   std::vector<LightCurve> parts;
   for (auto& some : fits) std::move(some.begin(), some.end(), std::back_inserter(parts));
   const int cuts = static_cast<int>(parts.size() - stretches.size());
-  LightCurve whole;
+  LightCurve simple;
   for (const LightCurve& part : parts) {
     if (part.curve.isEmpty() || part.report.kind == LightKind::Dense) return std::nullopt;
-    whole.report.iterations += part.report.iterations;
-    whole.report.tries += part.report.tries;
-    whole.report.points += part.report.points - 1;
+    simple.report.iterations += part.report.iterations;
+    simple.report.tries += part.report.tries;
+    simple.report.points += part.report.points - 1;
   }
-  whole.report.points += closed ? (loop ? 1 : 0) : 1;
+  simple.report.points += closed ? (loop ? 1 : 0) : 1;
   auto joined = joinedAtCorners(parts, scale);
   if (!joined) return std::nullopt;
-  whole.curve = std::move(*joined);
-  whole.report.kind = parts.size() == 1 ? parts.front().report.kind : LightKind::Chain;
-  whole.report.sections = static_cast<int>(parts.size());
-  whole.report.corners = static_cast<int>(corners.size()) + cuts;
-  whole.report.pointsBefore = dense.controlPointCount() - (closed ? dense.degree() : 0);
-  whole.report.worst = farthest(line, whole.curve);
-  whole.report.extrema = countedExtrema(whole.curve, closed);
-  return whole;
+  simple.curve = std::move(*joined);
+  simple.report.kind = parts.size() == 1 ? parts.front().report.kind : LightKind::Chain;
+  simple.report.sections = static_cast<int>(parts.size());
+  simple.report.necks = necks;
+  simple.report.corners = static_cast<int>(corners.size()) + cuts;
+  simple.report.pointsBefore = dense.controlPointCount() - (closed ? dense.degree() : 0);
+  simple.report.worst = farthest(line, simple.curve);
+  simple.report.extrema = countedExtrema(simple.curve, closed);
+  return simple;
 }
 
 }  // namespace batten

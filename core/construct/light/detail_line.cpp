@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -11,18 +13,19 @@
 namespace batten {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kCornerRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kSmoothing = 0.5;  // scales, standard deviation
 constexpr double kHalfTurn = 2.0;   // scales to either side, over which a corner turns
 constexpr double kFlank = 3.0;      // scales beyond, that bend less
-constexpr double kLeastTurn = 25.0 * kRadPerDeg;
+constexpr double kLeastCornerTurn = 25.0 * kCornerRadPerDeg;
 constexpr double kFlankShare = 0.45;                     // of the corner's turn per length
 constexpr double kVertexNear = 1.0, kVertexReach = 1.6;  // scales from the line
-constexpr double kTip = 110.0 * kRadPerDeg;              // turns beyond have no vertex near the line
+constexpr double kTip = 110.0 * kCornerRadPerDeg;        // turns beyond have no vertex near the line
 constexpr double kApart = 3.4;                           // scales between two corners of one sense
-constexpr double kHardTurn = 40.0 * kRadPerDeg, kHardChords = 48.0 * kRadPerDeg;
+constexpr double kHardTurn = 40.0 * kCornerRadPerDeg, kHardChords = 48.0 * kCornerRadPerDeg;
 constexpr double kChordFrom = 1.2, kChordTo = 7.2;  // scales
-constexpr int kFewestPlaces = 24;
+constexpr int kFewestLinePlaces = 24;
+constexpr double kMouth = 0.8, kLongestNeck = 16.0;  // scales
 
 class CornerSearch {
  public:
@@ -46,7 +49,7 @@ class CornerSearch {
     for (int i = 0; i < n; ++i) {
       if (!line_.closed && (i < half / 2 || n - 1 - i < half / 2)) continue;
       const double turn = turnAt(i);
-      if (std::abs(turn) < kLeastTurn) continue;
+      if (std::abs(turn) < kLeastCornerTurn) continue;
       if (std::abs(turnAt(i - 1)) > std::abs(turn) || std::abs(turnAt(i + 1)) >= std::abs(turn)) continue;
       if (auto corner = cornerAt(i, turn)) candidates.push_back(*corner);
     }
@@ -138,6 +141,23 @@ class CornerSearch {
   double round_ = 0.0;             // turn of a closed line
 };
 
+/// Through points whose last is the end, or of a closed line the first again.
+EvenLine evenPolyline(const std::vector<Vec2>& fine, bool closed, double step) {
+  const std::vector<double> s = cumulativeLength(fine);
+  EvenLine line;
+  line.closed = closed;
+  const int steps = std::max(kFewestLinePlaces, static_cast<int>(std::lround(s.back() / step)));
+  line.step = s.back() / steps;
+  std::size_t at = 0;
+  for (int k = 0; k < steps + (closed ? 0 : 1); ++k) {
+    const double wanted = line.step * k;
+    while (at + 2 < s.size() && s[at + 1] < wanted) ++at;
+    const double width = s[at + 1] - s[at], f = width > 0.0 ? std::clamp((wanted - s[at]) / width, 0.0, 1.0) : 0.0;
+    line.points.push_back(fine[at] + f * (fine[at + 1] - fine[at]));
+  }
+  return line;
+}
+
 }  // namespace
 
 EvenLine evenLine(const NurbsCurve& curve, bool closed, double step) {
@@ -157,23 +177,48 @@ EvenLine evenLine(const NurbsCurve& curve, bool closed, double step) {
     for (int k = 0; k < count; ++k) fine.push_back(curve.point(breaks[i] + width * k / count));
   }
   fine.push_back(curve.point(curve.end()));
-  const std::vector<double> s = cumulativeLength(fine);
-  EvenLine line;
-  line.closed = closed;
-  const int steps = std::max(kFewestPlaces, static_cast<int>(std::lround(s.back() / step)));
-  line.step = s.back() / steps;
-  std::size_t at = 0;
-  for (int k = 0; k < steps + (closed ? 0 : 1); ++k) {
-    const double wanted = line.step * k;
-    while (at + 2 < s.size() && s[at + 1] < wanted) ++at;
-    const double width = s[at + 1] - s[at], f = width > 0.0 ? std::clamp((wanted - s[at]) / width, 0.0, 1.0) : 0.0;
-    line.points.push_back(fine[at] + f * (fine[at + 1] - fine[at]));
+  return evenPolyline(fine, closed, step);
+}
+
+int cutNecks(EvenLine& line, double scale) {
+  const int n = line.size();
+  const int longest = std::min(static_cast<int>(kLongestNeck * scale / line.step), line.closed ? n / 2 : n - 1);
+  struct Neck {
+    int first, length;
+  };
+  std::vector<Neck> necks;
+  for (int i = 0; i < n; ++i) {
+    Neck found{i, 0};
+    for (int length = static_cast<int>(2.0 * scale / line.step); length <= longest; ++length) {
+      if (!line.closed && i + length >= n) break;
+      const double mouth = (line.points[static_cast<std::size_t>((i + length) % n)] - line.points[i]).norm();
+      if (mouth < kMouth * scale && length * line.step > 3.0 * mouth + 2.0 * scale) found.length = length;
+    }
+    if (found.length > 0) necks.push_back(found);
   }
-  return line;
+  std::stable_sort(necks.begin(), necks.end(), [](const Neck& a, const Neck& b) { return a.length > b.length; });
+  std::vector<bool> cut(line.points.size(), false);
+  int count = 0;
+  for (const Neck& neck : necks) {
+    const auto place = [&](int k) { return static_cast<std::size_t>((neck.first + k) % n); };
+    bool isFree = true;
+    for (int k = 0; k <= neck.length && isFree; ++k) isFree = !cut[place(k)];
+    if (!isFree) continue;
+    for (int k = 1; k < neck.length; ++k) cut[place(k)] = true;
+    ++count;
+  }
+  if (count == 0) return 0;
+  std::vector<Vec2> left;
+  for (std::size_t i = 0; i < cut.size(); ++i) {
+    if (!cut[i]) left.push_back(line.points[i]);
+  }
+  if (line.closed) left.push_back(left.front());
+  line = evenPolyline(left, line.closed, line.step);
+  return count;
 }
 
 std::vector<ScaleCorner> cornersAtScale(const EvenLine& line, double scale) {
-  if (line.size() < kFewestPlaces || !(scale > 0.0)) return {};
+  if (line.size() < kFewestLinePlaces || !(scale > 0.0)) return {};
   return CornerSearch(line, scale).find();
 }
 

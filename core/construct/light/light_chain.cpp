@@ -18,7 +18,7 @@ constexpr int kQuinticChain = 5;
 constexpr double kSectionProminence = 2e-3;   // times 1 / diagonal: extrema that have a removal deviation
 constexpr int kJoinedOn = 3;                  // multiplicity of knots where a tight turn was joined on
 constexpr double kFewestSamplesOfCut = 12.0;  // of the reference, between two cuts
-constexpr int kRounds = 4;
+constexpr int kChainRounds = 4;
 constexpr int kWorthCutting = 12;      // control points of a section
 constexpr double kSameTangent = 1e-6;  // sine of the angle at a joint
 constexpr double kMostStretch = 4.0;   // of one domain at a joint
@@ -302,7 +302,7 @@ std::optional<LightCurve> lightChain(const NurbsCurve& dense, const LightReferen
   for (auto& some : madeOf) std::move(some.begin(), some.end(), std::back_inserter(made));
   if (context.isCancelled()) return std::nullopt;
   const Counts most = countsOf(dense, extent(dense), closed);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kChainRounds; ++round) {
     auto chain = assembled(made, dense);
     if (!chain) return std::nullopt;
     const Counts counts = countsOf(chain->curve, std::max(extent(chain->curve), extent(dense)), closed);

@@ -51,6 +51,7 @@ struct LightReport {
   int sections = 1, sectionsDense = 0;  ///< Of a chain; those that nothing lighter was found for are as they were.
   LightObstacle obstacle = LightObstacle::None;
   int corners = 0;                     ///< Sharp ones that simplifiedCurve set between sections.
+  int necks = 0;                       ///< Spikes and inlets that it cut off.
   std::vector<RankedExtremum> ranked;  ///< All extrema of the dense curve with their removal deviations.
 };
 

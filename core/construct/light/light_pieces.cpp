@@ -59,6 +59,11 @@ void lighten(ConstructedPiece& piece, bool closed, const LightOptions& options, 
   if (!light) return;  // cancelled, or nothing that a light curve could stand for
   piece.report.light = lightNote(light->report, pixelMm);
   piece.report.light->tolerancePx = options.tolerance / pixelMm;
+  if (light->report.necks > 0 && piece.report.note.empty()) {
+    piece.report.note = light->report.necks == 1 ? "A spike or inlet thinner than the detail is left out."
+                                                 : std::to_string(light->report.necks) +
+                                                       " spikes and inlets thinner than the detail are left out.";
+  }
   if (light->report.kind == LightKind::Dense) return;
   piece.dense = std::exchange(piece.curve, std::move(light->curve));
   piece.report.isLine = piece.report.isLine || light->report.kind == LightKind::Line;

@@ -22,7 +22,7 @@ constexpr double kWorkPerPoint = 60.0;  // iterations times spans, about 0.01 ms
 constexpr int kCheckRounds = 4;         // of one fit, while the strict check finds a little missing
 constexpr double kNearly = 1.3;         // tolerances: more than a little
 constexpr double kHopeless = 5.0;       // tolerances after the first phase: no other start will do
-constexpr int kQuintic = 5;
+constexpr int kLightQuintic = 5;
 
 class LightSearch {
  public:
@@ -88,7 +88,7 @@ class LightSearch {
   bool rising() {
     const int changes = changes_ + (changes_ > 0 ? 3 : 0);
     int fewest = reference_.isClosed() ? std::max(kFewestClosedPoints, changes_) : std::max(kFewestOpenPoints, changes);
-    if (task_.forms == LightForms::Quintic) fewest = std::max(fewest, kQuintic + 1);
+    if (task_.forms == LightForms::Quintic) fewest = std::max(fewest, kLightQuintic + 1);
     const int most = task_.mostPoints.value_or(result_.report.pointsBefore - 1);
     mostWork_ = kWorkPerPoint * (most - fewest + 1);
     int failed = fewest - 1;
@@ -129,16 +129,16 @@ class LightSearch {
     const bool closed = reference_.isClosed();
     leastOff_ = std::numeric_limits<double>::infinity();
     const int degree = count - 1;
-    const int lowest = task_.forms == LightForms::Quintic ? kQuintic : 2;
-    const int highest = task_.forms == LightForms::All ? kMostSpanDegree : kQuintic;
+    const int lowest = task_.forms == LightForms::Quintic ? kLightQuintic : 2;
+    const int highest = task_.forms == LightForms::All ? kMostSpanDegree : kLightQuintic;
     if (!closed && degree >= lowest && degree <= highest) {
       if (fit(degree, 1, BreakStart::Even, true)) return true;
       if (leastOff_ < kHopeless && fit(degree, 1, BreakStart::Even, false)) return true;
     }
-    const int spans = closed ? count : count - kQuintic;
+    const int spans = closed ? count : count - kLightQuintic;
     if (spans < 2) return false;
-    if (fit(kQuintic, spans, BreakStart::ByShape, true)) return true;
-    return leastOff_ < kHopeless && fit(kQuintic, spans, BreakStart::Even, true);
+    if (fit(kLightQuintic, spans, BreakStart::ByShape, true)) return true;
+    return leastOff_ < kHopeless && fit(kLightQuintic, spans, BreakStart::Even, true);
   }
 
   bool fit(int degree, int spans, BreakStart breaks, bool firstPhase) {
