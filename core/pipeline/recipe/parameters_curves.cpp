@@ -224,6 +224,13 @@ void appendConstruct(std::vector<Parameter>& table) {
       {0.005, 50.0, 0.05, 3, true}, [](auto& r) -> auto& { return r.construct.lightTolerancePx; }));
   table.push_back(real(
       kCurves,
+      {"construct.detail", "Detail", "",
+       "Light curves: 0 is true to the ink; larger leaves out ever larger bumps, up to a quarter of the width of the "
+       "ink, "
+       "and keeps sharp corners: what was meant."},
+      {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.construct.detail; }));
+  table.push_back(real(
+      kCurves,
       {"construct.reduce", "Fewer control points", "× noise",
        "True and fair fit: how far the curve may move, as a part of the noise of the scan's edge, to need fewer "
        "control points. Larger: fewer points; 0 keeps all."},
