@@ -54,23 +54,13 @@ int ChosenInk::choiceOf(int piece) const {
   return -1;
 }
 
-int ChosenInk::pieceAt(int x, int y) const {
-  const auto before = [](const Run& run, const std::pair<int, int>& yx) {
-    return run.y != yx.first ? run.y < yx.first : run.x1 <= yx.second;
-  };
-  const auto run = std::lower_bound(pieces_.runs.begin(), pieces_.runs.end(), std::pair(y, x), before);
-  if (run == pieces_.runs.end() || run->y != y || run->x0 > x) return -1;
-  return pieces_.piece[run - pieces_.runs.begin()];
-}
-
 int ChosenInk::choiceAt(const Vec2& px) const {
   if (chosen_.empty()) return -1;
   const int x = static_cast<int>(std::floor(px.x())), y = static_cast<int>(std::floor(px.y()));
   constexpr std::array<std::pair<int, int>, 9> kNear = {
       {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
   for (const auto& [dx, dy] : kNear) {
-    const int piece = pieceAt(x + dx, y + dy);
-    if (piece >= 0) return choiceOf(piece);
+    if (const auto piece = pieceAt(pieces_, x + dx, y + dy)) return choiceOf(*piece);
   }
   return -1;
 }

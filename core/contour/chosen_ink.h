@@ -10,7 +10,7 @@
 
 namespace batten {
 
-/// Which choice each piece of ink follows.
+/// Which choice each piece of ink follows; pieces are the regions of one kind (ink_split.h).
 class ChosenInk {
  public:
   ChosenInk(const RunPieces& pieces, std::span<const EdgeChoice> choices);
@@ -22,7 +22,6 @@ class ChosenInk {
   const std::vector<EdgeChoice>& withoutInk() const { return withoutInk_; }
 
  private:
-  int pieceAt(int x, int y) const;
   const RunPieces& pieces_;
   std::vector<std::pair<int, int>> chosen_;  ///< Piece and choice.
   std::vector<EdgeChoice> withoutInk_;

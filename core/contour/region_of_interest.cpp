@@ -124,10 +124,13 @@ BitImage inkTouching(const BitImage& ink, std::span<const RegionOfInterest> regi
   return keepPieces(ink, {.seeds = &mask}, context);
 }
 
-ContourSet keepInside(ContourSet set, std::span<const RegionOfInterest> regions, double minLengthPx) {
+ContourSet keepInside(ContourSet set, std::span<const RegionOfInterest> regions, const ContourParams& params) {
   std::vector<Contour> kept;
   for (Contour& line : set.contours) addParts(kept, std::move(line), regions);
-  std::erase_if(kept, [&](const Contour& c) { return c.lengthPx < minLengthPx; });
+  const double pen = set.report.widthPx;
+  std::erase_if(kept, [&](const Contour& c) {
+    return c.lengthPx < (c.kind == ContourKind::Outline ? leastOutlinePx(params, pen) : leastLinePx(params, c));
+  });
   std::stable_sort(kept.begin(), kept.end(),
                    [](const Contour& a, const Contour& b) { return a.lengthPx > b.lengthPx; });
   set.contours = std::move(kept);

@@ -10,7 +10,9 @@
 #include "core/base/parallel.h"
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/chosen_ink.h"
+#include "core/contour/ink_split.h"
 #include "core/contour/outline/crack_contours.h"
+#include "core/contour/outline/implied_borders.h"
 #include "core/contour/outline/soft_borders.h"
 #include "core/contour/outline/soft_edges.h"
 #include "core/contour/outline/subpixel_edges.h"
@@ -29,13 +31,17 @@ bool before(const Contour& a, const Contour& b) {
   return p.y() != q.y() ? p.y() < q.y() : p.x() < q.x();
 }
 
+void addSentence(ContourSet& set, const std::string& sentence) {
+  if (!set.report.note.empty()) set.report.note += ' ';
+  set.report.note += sentence;
+}
+
 void sortAndCut(ContourSet& set, const ContourParams& params) {
   std::sort(set.contours.begin(), set.contours.end(), before);
   const auto most = static_cast<std::size_t>(params.maxCount);
-  if (set.contours.size() <= most) return;
-  if (!set.report.note.empty()) set.report.note += ' ';
-  set.report.note += "Only the " + std::to_string(most) + " longest of " + std::to_string(set.contours.size()) +
-                     " lines are kept: raise the largest number of lines to see the rest.";
+  if (params.maxCount == 0 || set.contours.size() <= most) return;
+  addSentence(set, "Only the " + std::to_string(most) + " longest of " + std::to_string(set.contours.size()) +
+                       " lines are kept: raise the largest number of lines to see the rest.");
   set.contours.resize(most);
 }
 
@@ -69,7 +75,7 @@ void dropSoftBorders(ContourSet& set, const GreyImage& grey, const ContourParams
     const bool cut = parts.size() != 1 || parts[0].closed != contour.closed;
     if (cut) {
       const std::size_t all = parts.size();
-      std::erase_if(parts, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
+      std::erase_if(parts, [&](const Contour& c) { return c.lengthPx < leastOutlinePx(params, 0.0); });
       set.report.droppedShort += static_cast<int>(all - parts.size());
     }
     std::move(parts.begin(), parts.end(), std::back_inserter(kept));
@@ -96,41 +102,50 @@ void append(ContourSet& to, ContourSet&& from) {
   std::move(from.contours.begin(), from.contours.end(), std::back_inserter(to.contours));
 }
 
-// The lines of the page before sub-pixel placement of the outlines; centre lines come placed.
+// The borders of shapes. Holes belong to shapes; on a page that is followed by outlines only, they are the inner
+// borders of its lines.
+Result<ContourSet> outlinesOf(const InkSplit& split, const EdgeParams& edges, const ContourParams& params,
+                              const RunContext& context) {
+  const bool holes = edges.internal == InnerOutlines::On ||
+                     (edges.internal == InnerOutlines::Automatic && edges.mode == EdgeMode::Automatic);
+  Result<ContourSet> set = crackContours(split.shapes, holes, leastOutlinePx(params, split.penPx), context);
+  if (!set) return set;
+  for (Contour& outline : set->contours) implyBorders(outline, split.strokes);
+  return set;
+}
+
+// The lines of the page before sub-pixel placement of the outlines; centre lines come placed. `regions`: what a choice
+// of the user holds for.
 Result<ContourSet> findLines(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
-                             const ContourParams& params, const RunContext& context) {
+                             const ContourParams& params, RunPieces& regions, const RunContext& context) {
   if (edges.mode == EdgeMode::Outline && edges.choices.empty()) {
-    return crackContours(ink, edges.internal, params.minLengthPx, context);
+    return crackContours(ink, edges.internal == InnerOutlines::On, leastOutlinePx(params, 0.0), context);
   }
-  StrokeSplit split;
-  if (edges.mode == EdgeMode::Centreline && edges.choices.empty()) {
-    split.strokes = ink;
-  } else {
-    Result<StrokeSplit> found = splitStrokes(ink, edges, context);
-    if (!found) return fail(found.error());
-    split = std::move(*found);
-  }
+  Result<InkSplit> found = splitInk(ink, grey, edges, context);
+  if (!found) return fail(found.error());
+  InkSplit& split = *found;
   context.report(0.2);
   ContourSet set;
-  if (!split.shapes.words.empty()) {
-    Result<ContourSet> outlines = crackContours(split.shapes, edges.internal, params.minLengthPx, context);
+  const bool anyShape = split.shapes.count() > 0;
+  if (anyShape) {
+    Result<ContourSet> outlines = outlinesOf(split, edges, params, context);
     if (!outlines) return outlines;
     append(set, std::move(*outlines));
   }
   context.report(0.3);
-  Result<ContourSet> lines = centrelines(split.strokes, grey, edges, context);
+  Result<ContourSet> lines = centrelines(split.strokes, grey, edges, context, anyShape ? &split.shapes : nullptr);
   if (!lines) return lines;
   const std::size_t all = lines->contours.size();
-  std::erase_if(lines->contours, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
+  std::erase_if(lines->contours, [&](const Contour& c) { return c.lengthPx < leastLinePx(params, c); });
   lines->report.droppedShort += static_cast<int>(all - lines->contours.size());
   append(set, std::move(*lines));
+  regions = std::move(split.regions);
   return set;
 }
 
 void addNote(ContourSet& set, const std::string& what, const Vec2& px) {
-  if (!set.report.note.empty()) set.report.note += ' ';
-  set.report.note +=
-      what + " near (" + std::to_string(std::lround(px.x())) + ", " + std::to_string(std::lround(px.y())) + ").";
+  addSentence(
+      set, what + " near (" + std::to_string(std::lround(px.x())) + ", " + std::to_string(std::lround(px.y())) + ").");
 }
 
 // Notes on every line which choice of the user its ink follows; true for every choice that gave a line.
@@ -152,10 +167,8 @@ std::vector<bool> noteWays(ContourSet& set, const ChosenInk& chosen, std::span<c
 // Ink that was chosen to be followed along its middle, but is a blot that has none, keeps its outline: a line that
 // vanished could not be clicked again.
 Result<void> followChoices(ContourSet& set, const BitImage& ink, const EdgeParams& edges, const ContourParams& params,
-                           const RunContext& context) {
+                           const RunPieces& pieces, const RunContext& context) {
   if (edges.choices.empty()) return {};
-  const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
-  if (context.isCancelled()) return cancelled();
   const ChosenInk chosen(pieces, edges.choices);
   for (const EdgeChoice& choice : chosen.withoutInk())
     addNote(set, "No ink to follow in its own way lies", choice.positionPx);
@@ -174,31 +187,35 @@ Result<void> followChoices(ContourSet& set, const BitImage& ink, const EdgeParam
     isNoted[at] = true;
   }
   if (std::find(isNoted.begin(), isNoted.end(), true) == isNoted.end()) return {};
-  Result<ContourSet> outlines = crackContours(blots, edges.internal, params.minLengthPx, context);
+  Result<ContourSet> outlines = crackContours(blots, edges.internal == InnerOutlines::On, params.minLengthPx, context);
   if (!outlines) return fail(outlines.error());
   noteWays(*outlines, chosen, edges.choices);
   append(set, std::move(*outlines));
   return {};
 }
 
-std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
-  const std::string length = std::to_string(static_cast<long>(std::lround(std::min(params.minLengthPx, 1e9))));
+std::string noLineMessage(const ContourSet& set) {
   if (set.report.found == 0) {
     return "No line was found: raise the thresholds, or check that the drawing is darker than the paper.";
   }
-  return "No line of " + length + " px or longer was found: lower the smallest length or raise the thresholds.";
+  return "No line is long enough: lower the smallest length or raise the thresholds.";
 }
 
 Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
                             const ContourParams& params, const RunContext& context) {
-  Result<ContourSet> set = findLines(ink, grey, edges, params, context);
+  RunPieces regions;
+  Result<ContourSet> set = findLines(ink, grey, edges, params, regions, context);
   if (!set) return set;
-  if (auto followed = followChoices(*set, ink, edges, params, context); !followed) return fail(followed.error());
+  if (auto followed = followChoices(*set, ink, edges, params, regions, context); !followed)
+    return fail(followed.error());
   if (context.isCancelled()) return cancelled();
   if (set->contours.empty()) {
     return fail(
-        ErrorCode::NoCurve, noLineMessage(*set, params),
+        ErrorCode::NoCurve, noLineMessage(*set),
         std::to_string(set->report.found) + " found, " + std::to_string(set->report.droppedShort) + " too short");
+  }
+  if (edges.strokeWidth != EdgeParams{}.strokeWidth) {
+    addSentence(*set, "edges.stroke_width has no effect: strokes and shapes are told apart region by region.");
   }
   sortAndCut(*set, params);
   context.report(0.6);

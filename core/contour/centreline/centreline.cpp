@@ -15,6 +15,7 @@
 #include "core/contour/centreline/stroke_mask.h"
 #include "core/contour/centreline/stroke_paths.h"
 #include "core/contour/merge/stroke_merge.h"
+#include "core/image/bit_disc.h"
 #include "core/image/bit_steps.h"
 
 namespace batten {
@@ -24,10 +25,27 @@ constexpr double kShortestWidths = 3.0;     // [stroke widths] shorter stroke pa
 constexpr double kClosingWidths = 0.75;     // [stroke widths] between the specks of a pencil there is less, and a pixel
 constexpr double kPencilSmoothingPx = 3.0;  // of the middles along a pencil stroke, whose grain moves every one
 
-std::vector<StrokePath> centrelinesOf(const BitImage& ink, const EdgeParams& params, const RunContext& context) {
-  BitImage skeleton = ink;
+constexpr double kAtRimPx = 2.0;  // a skeleton that was cut at a rim ends nearer to the shape
+
+// A stroke that runs into a shape has no free end there.
+void endAtRims(std::vector<StrokePath>& paths, const BitImage& shapes) {
+  for (StrokePath& path : paths) {
+    if (path.closed || path.points.empty()) continue;
+    if (anyInDisc(shapes, path.points.front().at, kAtRimPx)) path.tip[0] = false;
+    if (anyInDisc(shapes, path.points.back().at, kAtRimPx)) path.tip[1] = false;
+  }
+}
+
+// The skeleton of all ink is cut at the rims of the shapes, so that it runs straight up to them.
+std::vector<StrokePath> centrelinesOf(const BitImage& ink, const BitImage* shapes, const EdgeParams& params,
+                                      const RunContext& context) {
+  const BitImage all = shapes != nullptr ? either(ink, *shapes) : ink;
+  BitImage skeleton = all;
   if (!thinToSkeleton(skeleton, context)) return {};
-  return findStrokePaths(skeleton, ink, params, context);
+  if (shapes == nullptr) return findStrokePaths(skeleton, all, params, context);
+  std::vector<StrokePath> paths = findStrokePaths(without(std::move(skeleton), *shapes), all, params, context);
+  endAtRims(paths, *shapes);
+  return paths;
 }
 
 // [px] median over all points of the stroke paths chosen.
@@ -52,19 +70,6 @@ bool isMargin(const Contour& c, const GreyImage& grey) {
     if (toBorder <= 0.5 * point.widthPx.value_or(0.0f) + kTouchPx) ++touching;
   }
   return static_cast<double>(touching) >= kMostly * static_cast<double>(c.points.size());
-}
-
-// Sets the pixels whose centres lie within a disc.
-void setDisc(BitImage& image, const Vec2& at, double radius) {
-  const int y0 = std::max(0, static_cast<int>(std::floor(at.y() - radius)));
-  const int y1 = std::min(image.height - 1, static_cast<int>(std::ceil(at.y() + radius)));
-  const int x0 = std::max(0, static_cast<int>(std::floor(at.x() - radius)));
-  const int x1 = std::min(image.width - 1, static_cast<int>(std::ceil(at.x() + radius)));
-  for (int y = y0; y <= y1; ++y) {
-    for (int x = x0; x <= x1; ++x) {
-      if ((Vec2(x + 0.5, y + 0.5) - at).squaredNorm() <= radius * radius) image.set(x, y, true);
-    }
-  }
 }
 
 // Covers the strokes that were, or were not, drawn with a pencil, and `margin` px around them.
@@ -134,8 +139,8 @@ std::vector<Contour> placeStrokePaths(const std::vector<StrokePath>& paths, cons
 }
 
 Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
-                                const RunContext& context) {
-  std::vector<StrokePath> paths = centrelinesOf(strokes, params, context);
+                                const RunContext& context, const BitImage* shapes) {
+  std::vector<StrokePath> paths = centrelinesOf(strokes, shapes, params, context);
   if (context.isCancelled()) return cancelled();
   const double width = medianWidth(paths, [](int) { return true; });
   const GraininessMap grain(paths, grey, context);
@@ -145,9 +150,10 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   for (int i = 0; i < std::ssize(paths); ++i) anyPencil = anyPencil || grain.isPencil(i);
   if (anyPencil) {
     bodies = bodiesOf(strokes, grey, paths, grain, context);
+    if (shapes != nullptr) bodies = without(std::move(bodies), *shapes);
     ink = &bodies;
     if (context.isCancelled()) return cancelled();
-    paths = centrelinesOf(bodies, params, context);
+    paths = centrelinesOf(bodies, shapes, params, context);
   }
   bridgeGaps(paths, *ink, params, context);
   if (context.isCancelled()) return cancelled();
@@ -178,13 +184,13 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
 }  // namespace
 
 Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
-                               const RunContext& context) {
+                               const RunContext& context, const BitImage* shapes) {
   if (strokes.width <= 0 || strokes.height <= 0) return ContourSet{};
   if (grey.width != strokes.width || grey.height != strokes.height) {
     return fail(ErrorCode::BadParameter, "The mask and the scan differ in size.");
   }
   try {
-    return traceStrokes(strokes, grey, params, context);
+    return traceStrokes(strokes, grey, params, context, shapes);
   } catch (const cv::Exception& e) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to find the centre lines.", e.what());
   } catch (const std::bad_alloc&) {

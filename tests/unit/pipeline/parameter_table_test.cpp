@@ -44,6 +44,7 @@ TEST(ParameterTable, HoldsThePromisedNames) {
                            "edges.mode",
                            "edges.internal",
                            "edges.subpixel",
+                           "contours.min_widths",
                            "contours.min_length",
                            "segments.mode",
                            "segments.count",
