@@ -9,6 +9,7 @@
 #include "core/base/statistics.h"
 #include "core/contour/centreline/gaps.h"
 #include "core/contour/centreline/graininess.h"
+#include "core/contour/centreline/on_ink.h"
 #include "core/contour/centreline/oriented_line_filter.h"
 #include "core/contour/centreline/refinement.h"
 #include "core/contour/centreline/skeleton.h"
@@ -138,6 +139,11 @@ std::vector<Contour> placeStrokePaths(const std::vector<StrokePath>& paths, cons
   return contours;
 }
 
+// A line of which the grey values show no point is none.
+bool isSeen(const Contour& c) {
+  return std::any_of(c.points.begin(), c.points.end(), [](const ContourPoint& p) { return p.refined; });
+}
+
 Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
                                 const RunContext& context, const BitImage* shapes) {
   std::vector<StrokePath> paths = centrelinesOf(strokes, shapes, params, context);
@@ -155,7 +161,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
     if (context.isCancelled()) return cancelled();
     paths = centrelinesOf(bodies, shapes, params, context);
   }
-  bridgeGaps(paths, *ink, params, context);
+  bridgeGaps(paths, *ink, grey, params, context);
   if (context.isCancelled()) return cancelled();
   ContourSet set;
   set.report.found = static_cast<int>(paths.size());
@@ -169,7 +175,10 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
     set.contours = placeStrokePaths(paths, nullptr, grey, params.subpixel, context);
   }
   if (context.isCancelled()) return cancelled();
-  std::erase_if(set.contours, [](const Contour& c) { return c.points.size() < 3; });
+  const std::size_t placed = set.contours.size();
+  std::erase_if(set.contours, [&](const Contour& c) { return c.points.size() < 3 || (params.subpixel && !isSeen(c)); });
+  set.report.droppedShort += static_cast<int>(placed - set.contours.size());
+  set.contours = keepOnInk(std::move(set.contours), shapes != nullptr ? either(*ink, *shapes) : *ink);
   if (!set.contours.empty()) set.report.widthPx = width;
   if (params.mergeWidths * width >= 1.0) {
     // Between middles: the paper between two strokes is a width less.
