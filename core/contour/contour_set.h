@@ -50,12 +50,10 @@ struct Contour {
   bool hole = false;    ///< An inner border (outline mode with internal contours on).
   std::vector<ContourPoint> points;
   double blurPx = 0.0;  ///< [px] standard deviation of the light's blur along an outline; 0: not measured.
-  /// Index ranges [first, last] laid where the line shows no ink of its own: over a gap, or where a stroke runs into a
-  /// shape along the shape's border.
-  std::vector<std::pair<int, int>> bridges;
-  std::optional<EdgeChoice> traceMode;  ///< The user's choice about its ink that it follows.
-  double lengthPx = 0.0;                ///< [px] length of the polyline through `points`.
-  double areaPx = 0.0;                  ///< [px^2] absolute enclosed area (closed), else 0.
+  std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.
+  std::optional<EdgeChoice> traceMode;       ///< The user's choice about its ink that it follows.
+  double lengthPx = 0.0;                     ///< [px] length of the polyline through `points`.
+  double areaPx = 0.0;                       ///< [px^2] absolute enclosed area (closed), else 0.
 };
 
 /// Points that lie where they were found: refined and unrefined position are the same.

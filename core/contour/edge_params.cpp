@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contour/edge_params.h"
 
-#include <algorithm>
-
-#include "core/base/statistics.h"
-
 namespace batten {
 
 std::optional<Error> validate(const EdgeParams& p) {
@@ -23,22 +19,8 @@ std::optional<Error> validate(const EdgeParams& p) {
 std::optional<Error> validate(const ContourParams& p) {
   const auto bad = [](const char* message) { return Error{ErrorCode::BadParameter, message, {}}; };
   if (!(p.minLengthPx >= 0.0)) return bad("contours.min_length must be 0 px or more.");
-  if (!(p.minWidths >= 0.0 && p.minWidths <= 1000.0))
-    return bad("contours.min_widths must be 0 to 1000 stroke widths.");
-  if (p.maxCount < 0 || p.maxCount > 100000) return bad("contours.max_count must be 0, for no limit, to 100000.");
+  if (p.maxCount < 1 || p.maxCount > 100000) return bad("contours.max_count must be 1 to 100000.");
   return std::nullopt;
-}
-
-double leastLinePx(const ContourParams& p, const Contour& line) {
-  std::vector<float> widths = strokeWidthsOf(line.points);
-  const double width = widths.empty() ? 0.0 : static_cast<double>(upperMedian(widths));
-  return std::max(p.minLengthPx, p.minWidths * width);
-}
-
-double leastOutlinePx(const ContourParams& p, double penPx) {
-  constexpr double kLeastPx = 40.0;
-  if (p.minLengthPx > 0.0) return p.minLengthPx;
-  return penPx > 0.0 ? p.minWidths * penPx : (p.minWidths > 0.0 ? kLeastPx : 0.0);
 }
 
 }  // namespace batten

@@ -124,13 +124,10 @@ BitImage inkTouching(const BitImage& ink, std::span<const RegionOfInterest> regi
   return keepPieces(ink, {.seeds = &mask}, context);
 }
 
-ContourSet keepInside(ContourSet set, std::span<const RegionOfInterest> regions, const ContourParams& params) {
+ContourSet keepInside(ContourSet set, std::span<const RegionOfInterest> regions, double minLengthPx) {
   std::vector<Contour> kept;
   for (Contour& line : set.contours) addParts(kept, std::move(line), regions);
-  const double pen = set.report.widthPx;
-  std::erase_if(kept, [&](const Contour& c) {
-    return c.lengthPx < (c.kind == ContourKind::Outline ? leastOutlinePx(params, pen) : leastLinePx(params, c));
-  });
+  std::erase_if(kept, [&](const Contour& c) { return c.lengthPx < minLengthPx; });
   std::stable_sort(kept.begin(), kept.end(),
                    [](const Contour& a, const Contour& b) { return a.lengthPx > b.lengthPx; });
   set.contours = std::move(kept);

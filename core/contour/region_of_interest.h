@@ -8,7 +8,6 @@
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
-#include "core/contour/edge_params.h"
 #include "core/image/bit_image.h"
 
 namespace batten {
@@ -30,7 +29,7 @@ bool isInside(std::span<const RegionOfInterest>, const Vec2& px);
 BitImage inkTouching(const BitImage& ink, std::span<const RegionOfInterest>, const RunContext&);
 
 /// The parts of lines that lie inside: a line that crosses a border ends there, a closed one becomes open. Parts
-/// shorter than ContourParams allows are dropped; longest first as before.
-ContourSet keepInside(ContourSet, std::span<const RegionOfInterest>, const ContourParams&);
+/// shorter than `minLengthPx` are dropped; longest first as before.
+ContourSet keepInside(ContourSet, std::span<const RegionOfInterest>, double minLengthPx);
 
 }  // namespace batten

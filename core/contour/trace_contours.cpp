@@ -39,7 +39,7 @@ void addSentence(ContourSet& set, const std::string& sentence) {
 void sortAndCut(ContourSet& set, const ContourParams& params) {
   std::sort(set.contours.begin(), set.contours.end(), before);
   const auto most = static_cast<std::size_t>(params.maxCount);
-  if (params.maxCount == 0 || set.contours.size() <= most) return;
+  if (set.contours.size() <= most) return;
   addSentence(set, "Only the " + std::to_string(most) + " longest of " + std::to_string(set.contours.size()) +
                        " lines are kept: raise the largest number of lines to see the rest.");
   set.contours.resize(most);
@@ -75,7 +75,7 @@ void dropSoftBorders(ContourSet& set, const GreyImage& grey, const ContourParams
     const bool cut = parts.size() != 1 || parts[0].closed != contour.closed;
     if (cut) {
       const std::size_t all = parts.size();
-      std::erase_if(parts, [&](const Contour& c) { return c.lengthPx < leastOutlinePx(params, 0.0); });
+      std::erase_if(parts, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
       set.report.droppedShort += static_cast<int>(all - parts.size());
     }
     std::move(parts.begin(), parts.end(), std::back_inserter(kept));
@@ -106,9 +106,8 @@ void append(ContourSet& to, ContourSet&& from) {
 // borders of its lines.
 Result<ContourSet> outlinesOf(const InkSplit& split, const EdgeParams& edges, const ContourParams& params,
                               const RunContext& context) {
-  const bool holes = edges.internal == InnerOutlines::On ||
-                     (edges.internal == InnerOutlines::Automatic && edges.mode == EdgeMode::Automatic);
-  Result<ContourSet> set = crackContours(split.shapes, holes, leastOutlinePx(params, split.penPx), context);
+  const bool holes = edges.internal || edges.mode == EdgeMode::Automatic;
+  Result<ContourSet> set = crackContours(split.shapes, holes, params.minLengthPx, context);
   if (!set) return set;
   for (Contour& outline : set->contours) implyBorders(outline, split.strokes);
   return set;
@@ -119,7 +118,7 @@ Result<ContourSet> outlinesOf(const InkSplit& split, const EdgeParams& edges, co
 Result<ContourSet> findLines(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
                              const ContourParams& params, RunPieces& regions, const RunContext& context) {
   if (edges.mode == EdgeMode::Outline && edges.choices.empty()) {
-    return crackContours(ink, edges.internal == InnerOutlines::On, leastOutlinePx(params, 0.0), context);
+    return crackContours(ink, edges.internal, params.minLengthPx, context);
   }
   Result<InkSplit> found = splitInk(ink, grey, edges, context);
   if (!found) return fail(found.error());
@@ -136,7 +135,7 @@ Result<ContourSet> findLines(const BitImage& ink, const GreyImage& grey, const E
   Result<ContourSet> lines = centrelines(split.strokes, grey, edges, context, anyShape ? &split.shapes : nullptr);
   if (!lines) return lines;
   const std::size_t all = lines->contours.size();
-  std::erase_if(lines->contours, [&](const Contour& c) { return c.lengthPx < leastLinePx(params, c); });
+  std::erase_if(lines->contours, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
   lines->report.droppedShort += static_cast<int>(all - lines->contours.size());
   append(set, std::move(*lines));
   regions = std::move(split.regions);
@@ -187,7 +186,7 @@ Result<void> followChoices(ContourSet& set, const BitImage& ink, const EdgeParam
     isNoted[at] = true;
   }
   if (std::find(isNoted.begin(), isNoted.end(), true) == isNoted.end()) return {};
-  Result<ContourSet> outlines = crackContours(blots, edges.internal == InnerOutlines::On, params.minLengthPx, context);
+  Result<ContourSet> outlines = crackContours(blots, edges.internal, params.minLengthPx, context);
   if (!outlines) return fail(outlines.error());
   noteWays(*outlines, chosen, edges.choices);
   append(set, std::move(*outlines));

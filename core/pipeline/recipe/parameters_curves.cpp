@@ -17,20 +17,11 @@ void appendEdges(std::vector<Parameter>& table) {
        {"outline", "Outline", EdgeMode::Outline},
        {"centreline", "Centre line", EdgeMode::Centreline}},
       [](auto& r) -> auto& { return r.edges.mode; }));
-  Parameter internal = choice<InnerOutlines>(
+  table.push_back(boolean(
       kContours,
       {"edges.internal", "Inner outlines", "",
-       "Follows the borders of holes inside the ink too. Automatic: of shapes, unless all is followed by outlines."},
-      {{"auto", "Automatic", InnerOutlines::Automatic},
-       {"on", "On", InnerOutlines::On},
-       {"off", "Off", InnerOutlines::Off}},
-      [](auto& r) -> auto& { return r.edges.internal; });
-  // It was a switch: recipes and scripts may say so.
-  internal.set = [set = internal.set](Recipe& r, std::string_view text) {
-    const std::string_view word = trimmed(text);
-    return set(r, word == "true" ? "on" : word == "false" ? "off" : text);
-  };
-  table.push_back(std::move(internal));
+       "Outline: follows the borders of holes inside the ink too. Automatic follows those of shapes always."},
+      [](auto& r) -> auto& { return r.edges.internal; }));
   table.push_back(boolean(
       kContours,
       {"edges.subpixel", "Sub-pixel placing", "",
@@ -63,19 +54,11 @@ void appendEdges(std::vector<Parameter>& table) {
       {0.0, 90.0, 1.0, 0}, [](auto& r) -> auto& { return r.edges.maxBendDeg; }));
   table.push_back(real(
       kContours,
-      {"contours.min_widths", "Shortest line", "stroke widths",
-       "Lines shorter than this many of their widths are left out. Larger keeps fewer lines."},
-      {0.0, 1000.0, 0.5, 1}, [](auto& r) -> auto& { return r.contours.minWidths; }));
-  table.push_back(real(
-      kContours,
-      {"contours.min_length", "Shortest line in px", "px",
-       "Lines shorter than this are left out, too. Larger keeps fewer lines."},
+      {"contours.min_length", "Shortest line", "px", "Shorter lines are left out. Larger keeps fewer lines."},
       {0.0, 100000.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.contours.minLengthPx; }));
   table.push_back(integer(
-      kContours,
-      {"contours.max_count", "Most lines", "", "Only this many lines are kept, the longest first; 0 is no limit.",
-       true},
-      {0, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.contours.maxCount; }));
+      kContours, {"contours.max_count", "Most lines", "", "Only this many lines are kept, the longest first.", true},
+      {1, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.contours.maxCount; }));
 }
 
 void appendCornersAndSegments(std::vector<Parameter>& table) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMostWidths = 20.0, kStepWidths = 0.5;  // of edges.merge
 
-constexpr int kAllLines = 0;  // contours.max_count without a limit
+constexpr int kAllLines = 100000;  // contours.max_count at its largest
 
 // Every line counts, also those that the recipe leaves out for being too many.
 Recipe mergedBy(double mergeWidths, Recipe recipe) {

@@ -130,7 +130,7 @@ class PipelineRun {
     };
     if (recipe_.regions.empty()) return trace(out_.filtered->ink);
     auto set = trace(inkTouching(out_.filtered->ink, recipe_.regions, context_));
-    if (set) set = keepInside(std::move(*set), recipe_.regions, recipe_.contours);
+    if (set) set = keepInside(std::move(*set), recipe_.regions, recipe_.contours.minLengthPx);
     const bool isEmpty = set ? set->contours.empty() : set.error().code == ErrorCode::NoCurve;
     if (!isEmpty) return set;
     return fail(ErrorCode::NoCurve, "No line lies inside the region: draw a larger one or clear it.");

@@ -62,7 +62,7 @@ TEST(RegionOfInterest, LinesEndWhereTheyLeave) {
   set.contours = {circle({200, 200}, 100), circle({200, 200}, 30), circle({900, 900}, 50)};
   set.contours[0].bridges = {{10, 20}, {600, 610}};
   const std::vector<RegionOfInterest> regions{rectangleRegion({0, 0}, {200, 1000})};
-  const ContourSet kept = keepInside(set, regions, {.minWidths = 0.0, .minLengthPx = 40.0});
+  const ContourSet kept = keepInside(set, regions, 40.0);
   ASSERT_EQ(kept.contours.size(), 2u) << "halves of two circles; the third lies outside";
   const Contour& half = kept.contours[0];
   EXPECT_FALSE(half.closed);
@@ -83,7 +83,7 @@ TEST(RegionOfInterest, APartOverTheSeamIsOneLineWithItsBridge) {
   set.contours = {circle({200, 200}, 100)};  // the seam is at (300, 200)
   set.contours[0].bridges = {{3, 8}};
   const std::vector<RegionOfInterest> regions{rectangleRegion({250, 0}, {400, 400})};
-  const ContourSet kept = keepInside(set, regions, {.minWidths = 0.0});
+  const ContourSet kept = keepInside(set, regions, 0.0);
   ASSERT_EQ(kept.contours.size(), 1u);
   EXPECT_NEAR(kept.contours[0].lengthPx, 2.0 * std::numbers::pi / 3.0 * 100.0, 3.0);
   ASSERT_EQ(kept.contours[0].bridges.size(), 1u);
@@ -96,7 +96,7 @@ TEST(RegionOfInterest, WhatIsWhollyInsideIsUntouchedAndNonsenseIsRefused) {
   ContourSet set;
   set.contours = {circle({200, 200}, 100)};
   const std::vector<RegionOfInterest> regions{rectangleRegion({0, 0}, {400, 400})};
-  const ContourSet kept = keepInside(set, regions, {.minWidths = 0.0, .minLengthPx = 40.0});
+  const ContourSet kept = keepInside(set, regions, 40.0);
   ASSERT_EQ(kept.contours.size(), 1u);
   EXPECT_TRUE(kept.contours[0].closed);
   EXPECT_TRUE(kept.contours[0].points == set.contours[0].points);

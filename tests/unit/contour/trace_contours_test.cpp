@@ -77,7 +77,7 @@ TEST(TraceContours, ModesOverrideTheChoice) {
   for (const Contour& c : lines->contours) EXPECT_EQ(c.kind, ContourKind::Centreline);
   EXPECT_EQ(outlines->report.droppedHoles, 1);
   EdgeParams inner = withMode(EdgeMode::Outline);
-  inner.internal = InnerOutlines::On;
+  inner.internal = true;
   const auto both = traceContours(page.ink, page.grey, inner, {}, {});
   ASSERT_TRUE(both.has_value());
   EXPECT_EQ(both->contours.size(), outlines->contours.size() + 1);
@@ -283,7 +283,7 @@ TEST(TraceContours, BadInputIsRefused) {
   edges.mergeWidths = 21.0;
   EXPECT_FALSE(traceContours(page.ink, page.grey, edges, {}, {}).has_value());
   ContourParams params;
-  params.maxCount = -1;
+  params.maxCount = 0;
   EXPECT_FALSE(traceContours(page.ink, page.grey, {}, params, {}).has_value());
 }
 

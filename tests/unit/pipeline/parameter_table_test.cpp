@@ -44,7 +44,6 @@ TEST(ParameterTable, HoldsThePromisedNames) {
                            "edges.mode",
                            "edges.internal",
                            "edges.subpixel",
-                           "contours.min_widths",
                            "contours.min_length",
                            "segments.mode",
                            "segments.count",

@@ -100,7 +100,7 @@ EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* pare
   auto* layout = panelLayout(this, tr("Edges"));
   auto* editor =
       new ParameterEditor(session,
-                          {"edges.mode", "contours.min_widths", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
+                          {"edges.mode", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
                            "edges.merge", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
                           this);
   editor->addBelow("edges.merge", new MergeSuggestion(session, editor));
