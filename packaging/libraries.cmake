@@ -8,6 +8,7 @@ set(BATTEN_LIBRARIES
   "OpenCV|${OpenCV_VERSION}|Apache-2.0|https://opencv.org|reading scans|libopencv_"
   "dxflib||GPL-2.0-or-later|https://www.ribbonsoft.com/en/what-is-dxflib|DXF|libdxflib"
   "Open CASCADE||LGPL-2.1-only WITH OCCT-exception-1.0|https://dev.opencascade.org|IGES and STEP|libTK"
+  "Poppler||GPL-2.0-or-later|https://poppler.freedesktop.org|pages of PDF|libpoppler"
   "OpenSSL|${OPENSSL_VERSION}|Apache-2.0|https://www.openssl.org|SHA-256|libcrypto"
   "Eigen|${Eigen3_VERSION}|MPL-2.0|https://eigen.tuxfamily.org|linear algebra|-"
   "expected|${tl-expected_VERSION}|CC0-1.0|https://github.com/TartanLlama/expected|results that may fail|-"

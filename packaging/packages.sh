@@ -6,13 +6,14 @@ build_packages=(
   qt6-base-dev qt6-base-dev-tools libgl1-mesa-dev libqcustomplot-dev
   libopencv-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libexpected-dev libssl-dev
   libgtest-dev libgmock-dev libbenchmark-dev
-  libdxflib-dev libocct-data-exchange-dev
+  libdxflib-dev libocct-data-exchange-dev libpoppler-qt6-dev
 )
 run_packages=(qt6-qpa-plugins libqt6svg6 fonts-inter)
 test_packages=(xvfb xauth openbox python3-ezdxf qpdf poppler-utils)
-judge_packages=(freecad gdal-bin librsvg2-bin npm)  # of the scripts in tests/heavy
+judge_packages=(freecad gdal-bin librsvg2-bin inkscape)  # of the scripts in tests/heavy; npm, too, where there is none
 # What packaging/check needs on top.
 check_packages=(clang-tidy python3)
+batch_packages=(parallel snakemake slurmctld slurmd slurm-client munge)  # the ways over several machines
 package_packages=(lintian mmdebstrap binutils desktop-file-utils appstream shared-mime-info libglib2.0-bin man-db zsh xdotool)
 
 # install_missing PACKAGE...: installs what is not there yet, asks nothing, and does nothing when all is there.
@@ -31,7 +32,7 @@ install_missing() {
   local log
   log=$(mktemp)
   if ! { "${root[@]}" apt-get update -qq &&
-         "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"; } \
+         "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=600 install -y -qq --no-install-recommends "${missing[@]}"; } \
        >"$log" 2>&1; then
     tail -20 "$log" >&2
     echo "The packages could not be installed; the lines above say why." >&2

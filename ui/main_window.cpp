@@ -30,6 +30,7 @@
 #include "ui/panels/targets/shape_window.h"
 #include "ui/panels/targets/target_strip.h"
 #include "ui/plots/curve_plots.h"
+#include "ui/session/path_text.h"
 #include "ui/setting_finder.h"
 #include "ui/status_line.h"
 #include "ui/top_bar.h"
@@ -129,7 +130,8 @@ QWidget* MainWindow::makeInspector() {
   p.inspector->setObjectName(QStringLiteral("inspector"));
   p.settings = new SettingFinder(this);
   connect(p.settings, &SettingFinder::stageAsked, this, &MainWindow::setStage);
-  p.scanPanel = new ScanPanel(session_);
+  p.scanPanel = new ScanPanel(session_, view_);
+  connect(p.scanPanel, &ScanPanel::pageChosen, this, &MainWindow::openPage);
   p.exportPanel = new ExportPanel(session_);
   auto* curves = new CurvesPanel(session_, view_);
   connect(curves, &CurvesPanel::helpAsked, this, &MainWindow::showHelp);
@@ -180,6 +182,8 @@ void MainWindow::connectSession() {
   });
   connect(p.exportPanel, &ExportPanel::failed, this,
           [this](const Error& error) { showProblem(error, FailureOrigin::Export); });
+  connect(p.exportPanel, &ExportPanel::said, this,
+          [this](const QString& text) { parts_->status->showMessage(text, {}, {}); });
   connect(p.exportPanel, &ExportPanel::exported, p.rail, &StageRail::setExported);
   connect(p.errors, &ErrorStrip::actionPressed, this, [this] {
     if (const auto remedy = parts_->remedy) remedy();
@@ -286,7 +290,7 @@ void MainWindow::dropEvent(QDropEvent* event) {
   const auto urls = event->mimeData()->urls();
   if (urls.isEmpty() || !urls.first().isLocalFile()) return;
   event->acceptProposedAction();
-  openPath(urls.first().toLocalFile());
+  openPath(pathText(urls.first()));
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -15,6 +15,8 @@ class QMenu;
 
 namespace batten {
 
+struct ImportReport;
+
 /// What is to become of unsaved work that is in the way.
 enum class UnsavedAnswer { Save, Discard, Cancel };
 
@@ -78,6 +80,12 @@ class MainWindow : public QMainWindow {
   bool saveRecipeTo(const QString& path);
   QString proposedRecipePath() const;
   void readRecipe(const QString& path);
+  void chooseImport();
+  /// Takes the lines of a file over: into the open drawing, or as a drawing of their own.
+  void readImport(const QString& path, bool intoDrawing);
+  void useImport(const ImportReport& report, bool intoDrawing);
+  void openPage(const PageChoice& page);
+  void pasteScan();
   void useRecipe(const QString& path, const Result<Recipe>& recipe);
   /// True when nothing unsaved is left that would be lost.
   bool maybeDiscard();

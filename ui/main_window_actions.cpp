@@ -11,8 +11,10 @@
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
 #include "ui/panels/rail/stage_of_change.h"
+#include "ui/panels/stages/export_panel.h"
 #include "ui/panels/targets/shape_window.h"
 #include "ui/plots/curve_plots.h"
+#include "ui/session/direction_edits.h"
 #include "ui/session/piece_choice.h"
 #include "ui/session/region_edits.h"
 #include "ui/setting_finder.h"
@@ -160,6 +162,10 @@ void MainWindow::trigger(ActionId id) {
       return session_.pinned() ? session_.unpin() : session_.pin();
     case ActionId::OpenScan:
       return chooseScan();
+    case ActionId::ImportCurves:
+      return chooseImport();
+    case ActionId::PasteScan:
+      return pasteScan();
     case ActionId::OpenRecipe:
       return chooseRecipe();
     case ActionId::SaveRecipe:
@@ -168,6 +174,10 @@ void MainWindow::trigger(ActionId id) {
       return void(saveRecipeAs());
     case ActionId::Export:
       return setStage(PanelStage::Export);
+    case ActionId::CopySvg:
+      return parts_->exportPanel->copy();
+    case ActionId::TurnDirection:
+      return turnCurve(session_, session_.selectedCurve());
     case ActionId::Quit:
       return void(close());
     case ActionId::Undo:
@@ -257,6 +267,9 @@ void MainWindow::connectLayers() {
     connect(action(toolAction(tool)), &QAction::triggered, this, [this, tool] {
       // What the pen draws, and which line is meant, can only be seen where curves are shown.
       if (tool == Tool::Pen && !view_.isVisible(Layer::Curve)) setStage(PanelStage::Edges);
+      if (tool == Tool::Scale) setStage(PanelStage::Scan);
+      if (tool == Tool::Direction && !view_.isVisible(Layer::Curve) && !view_.isVisible(Layer::Faired))
+        setStage(PanelStage::Export);
       if (tool == Tool::Lines && !view_.isVisible(Layer::Curve) && !view_.isVisible(Layer::Faired))
         setStage(PanelStage::Curves);
       view_.setTool(tool);
@@ -280,12 +293,15 @@ void MainWindow::refreshActions() {
   describe(action(ActionId::Undo), tr("Undo"), undo.undoText(), undo.canUndo());
   describe(action(ActionId::Redo), tr("Redo"), undo.redoText(), undo.canRedo());
   const bool has = session_.hasScan();
-  for (const ActionId id : {ActionId::ToolPen, ActionId::SaveRecipe, ActionId::SaveRecipeAs, ActionId::Export,
-                            ActionId::ZoomFit, ActionId::ZoomActual, ActionId::ZoomIn, ActionId::ZoomOut})
+  for (const ActionId id :
+       {ActionId::ToolPen, ActionId::ToolScale, ActionId::SaveRecipe, ActionId::SaveRecipeAs, ActionId::Export,
+        ActionId::ZoomFit, ActionId::ZoomActual, ActionId::ZoomIn, ActionId::ZoomOut})
     action(id)->setEnabled(has);
   action(ActionId::ClearRegions)->setEnabled(!session_.recipe().regions.empty());
   const bool curves = !session_.curves().empty();
-  for (const ActionId id : {ActionId::NextCurve, ActionId::PreviousCurve}) action(id)->setEnabled(curves);
+  for (const ActionId id : {ActionId::NextCurve, ActionId::PreviousCurve, ActionId::CopySvg, ActionId::ToolDirection})
+    action(id)->setEnabled(curves);
+  action(ActionId::TurnDirection)->setEnabled(session_.selected() != nullptr);
   action(ActionId::Pin)->setEnabled(curves || session_.pinned());
   action(ActionId::Pin)->setChecked(session_.pinned() != nullptr);
   for (int degree = 1; degree <= 6; ++degree)

@@ -1,29 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QAbstractButton>
+#include <QClipboard>
+#include <QDateTime>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QGuiApplication>
+#include <QImage>
 #include <QLocale>
 #include <QMessageBox>
+#include <QMimeData>
 #include <QPushButton>
 #include <QSettings>
 #include <QStandardPaths>
+#include <QUrl>
+#include <memory>
 #include <utility>
 
+#include "core/document/import_curves.h"
+#include "core/exchange/import_file.h"
 #include "core/exchange/save_atomically.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
 #include "ui/opening_guard.h"
 #include "ui/panels/controls/save_dialog.h"
+#include "ui/panels/stages/scan_panel.h"
 #include "ui/session/judged_view.h"
 #include "ui/session/opened_scan.h"
+#include "ui/session/path_text.h"
 #include "ui/status_line.h"
 
 namespace batten {
 namespace {
-
-std::filesystem::path nativePath(const QString& path) { return {path.toStdU16String()}; }
 
 const QString kSaveFolderKey = QStringLiteral("recipe/folder");
 
@@ -68,6 +77,7 @@ bool MainWindow::maybeDiscard() {
 
 void MainWindow::openPath(const QString& path) {
   if (isRecipeFile(path)) return readRecipe(path);
+  if (isImportName(nativePath(path))) return readImport(path, false);
   if (!maybeDiscard()) return;
   parts_->pageRecipe.clear();
   session_.openScan(path);
@@ -83,7 +93,7 @@ void MainWindow::scanOpened() {
   Parts& p = *parts_;
   p.recipePath = std::exchange(p.pageRecipe, {});
   if (session_.openedWithRecipe())
-    p.recipePath = QString::fromStdU16String(recipeBeside(nativePath(session_.scanPath())).u16string());
+    p.recipePath = pathText(recipeBeside(nativePath(session_.scanPath()), session_.recipe().scanPage.number));
   // Nobody changes what came with the program: the first time Ctrl+S asks where.
   if (isOfProgram(p.recipePath)) p.recipePath.clear();
   forgetDrawing(view_);
@@ -96,7 +106,9 @@ void MainWindow::scanOpened() {
     showProblem({ErrorCode::BadParameter, session_.openProblem().toStdString(), {}}, FailureOrigin::OpenRecipe);
   else if (p.leftWork)
     offerLeftWork();
-  if (session_.isBlankPage()) {
+  if (session_.isBlankPage() && !session_.recipe().imports.empty()) {
+    setStage(PanelStage::Fairing);
+  } else if (session_.isBlankPage()) {
     setStage(PanelStage::Edges);
     view_.setTool(Tool::Pen);
     p.status->setStageHint(tr("Drag on the page to draw a line; end where it began to close it."));
@@ -115,26 +127,36 @@ QString MainWindow::startFolder() const {
   QStringList known = recentFiles();
   if (session_.hasScan() && !session_.isBlankPage()) known.prepend(session_.scanPath());
   for (const QString& path : known)
-    if (!isOfProgram(path)) return QFileInfo(path).absolutePath();
+    if (!isOfProgram(path) && isUnicodePath(path)) return QFileInfo(path).absolutePath();
   return QDir::homePath();
 }
 
 void MainWindow::chooseScan() {
   const QString path = QFileDialog::getOpenFileName(
       this, tr("Open scan"), startFolder(),
-      tr("Scans (*.png *.jpg *.jpeg *.tif *.tiff *.bmp *.webp *.pgm *.pbm *.ppm *.pnm);;All files (*)"));
-  if (!path.isEmpty()) openPath(path);
+      tr("Scans (*.png *.jpg *.jpeg *.tif *.tiff *.pdf *.jp2 *.j2k *.bmp *.webp *.pgm *.pbm *.ppm *.pnm);;"
+         "Curves and points (*.dxf *.igs *.iges *.stp *.step *.svg *.csv *.txt *.json);;All files (*)"));
+  if (!path.isEmpty()) openPath(chosenPath(path));
 }
 
 void MainWindow::chooseRecipe() {
   const QString path = QFileDialog::getOpenFileName(this, tr("Open recipe"), startFolder(), tr("Recipes (*.json)"));
-  if (!path.isEmpty()) readRecipe(path);
+  if (!path.isEmpty()) readRecipe(chosenPath(path));
 }
 
 void MainWindow::readRecipe(const QString& path) {
   parts_->recipeReader->start([this, path](const CancelToken& token) {
     const auto recipe = readRecipeFile(nativePath(path));
     if (token.isCancelled()) return;
+    if (!recipe && isImportName(nativePath(path))) {
+      // JSON may hold curves or points as well.
+      if (const auto read = readImportFile(nativePath(path)); read && !token.isCancelled()) {
+        const auto report = std::make_shared<const ImportReport>(*read);
+        QMetaObject::invokeMethod(
+            this, [this, report] { useImport(*report, false); }, Qt::QueuedConnection);
+        return;
+      }
+    }
     QMetaObject::invokeMethod(
         this, [this, path, recipe] { useRecipe(path, recipe); }, Qt::QueuedConnection);
   });
@@ -144,7 +166,7 @@ void MainWindow::useRecipe(const QString& path, const Result<Recipe>& recipe) {
   if (!recipe) return showProblem(recipe.error(), FailureOrigin::OpenRecipe);
   if (recipe->page) {
     if (!maybeDiscard()) return;
-    parts_->pageRecipe = QFileInfo(path).absoluteFilePath();
+    parts_->pageRecipe = absolutePath(path);
     session_.newDrawing(*recipe);
     return rememberFile(path);
   }
@@ -153,7 +175,80 @@ void MainWindow::useRecipe(const QString& path, const Result<Recipe>& recipe) {
                         tr("A recipe needs a drawing: open a scan first, then this recipe.").toStdString(),
                         {}},
                        FailureOrigin::OpenRecipe);
-  session_.change(tr("Open recipe"), *recipe);
+  Recipe after = *recipe;
+  after.scanPage = session_.recipe().scanPage;  // it is used on the page that is open
+  session_.change(tr("Open recipe"), std::move(after));
+}
+
+void MainWindow::chooseImport() {
+  const QString path = QFileDialog::getOpenFileName(
+      this, tr("Import curves"), startFolder(),
+      tr("Curves and points (*.dxf *.igs *.iges *.stp *.step *.svg *.csv *.txt *.json);;All files (*)"));
+  if (!path.isEmpty()) readImport(chosenPath(path), true);
+}
+
+void MainWindow::readImport(const QString& path, bool intoDrawing) {
+  parts_->recipeReader->start([this, path, intoDrawing](const CancelToken& token) {
+    RunContext context;
+    context.cancel = token;
+    const auto read = std::make_shared<const Result<ImportReport>>(readImportFile(nativePath(path), {}, context));
+    if (token.isCancelled()) return;
+    QMetaObject::invokeMethod(
+        this,
+        [this, read, intoDrawing] {
+          if (*read) return useImport(**read, intoDrawing);
+          showProblem(read->error(), FailureOrigin::OpenScan);
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void MainWindow::useImport(const ImportReport& report, bool intoDrawing) {
+  QStringList said;
+  for (const std::string& note : report.notes) said += QString::fromStdString(note);
+  const QString source = QString::fromStdString(report.file.source);
+  if (!intoDrawing || !session_.hasScan()) {
+    if (!maybeDiscard()) return;
+    parts_->pageRecipe.clear();
+    session_.newDrawing(drawingOf(report.file));
+  } else {
+    AddedImport added = withImport(session_.recipe(), report.file, frameFor(*session_.scan(), session_.recipe()));
+    if (added.moved) said += tr("The lines lay beside the page; they were put on its middle.");
+    session_.change(tr("Import %1").arg(source), std::move(added.recipe));
+  }
+  const int count = static_cast<int>(report.file.lines.size());
+  said.prepend(count == 1 ? tr("Imported one line of %1.").arg(source)
+                          : tr("Imported %1 lines of %2.").arg(count).arg(source));
+  parts_->status->showMessage(said.join(QLatin1Char(' ')));
+}
+
+void MainWindow::openPage(const PageChoice& page) {
+  if (!maybeDiscard()) return parts_->scanPanel->refresh();
+  session_.openScan(session_.scanPath(), page);
+}
+
+// A recipe needs its scan: the picture becomes a file of the user's own data, and opens as any other.
+void MainWindow::pasteScan() {
+  const QMimeData* data = QGuiApplication::clipboard()->mimeData();
+  if (data != nullptr && data->hasUrls() && data->urls().first().isLocalFile())
+    return openPath(pathText(data->urls().first()));
+  const QImage picture = data != nullptr && data->hasImage() ? qvariant_cast<QImage>(data->imageData()) : QImage();
+  if (picture.isNull()) return parts_->status->showMessage(tr("The clipboard holds no picture."));
+  const QString folder = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + QStringLiteral("/pasted");
+  const QString name = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd HH.mm.ss.zzz"));
+  const QString path = folder + QStringLiteral("/Pasted %1.png").arg(name);
+  parts_->recipeReader->start([this, folder, path, picture](const CancelToken& token) {
+    const bool isSaved = QDir().mkpath(folder) && picture.save(path, "PNG");
+    if (token.isCancelled()) return;
+    QMetaObject::invokeMethod(
+        this,
+        [this, path, isSaved] {
+          if (isSaved) return openPath(path);
+          showProblem({ErrorCode::CannotWrite, tr("The picture cannot be kept in %1.").arg(path).toStdString(), {}},
+                      FailureOrigin::OpenScan);
+        },
+        Qt::QueuedConnection);
+  });
 }
 
 bool MainWindow::saveRecipe() {
@@ -167,16 +262,16 @@ bool MainWindow::saveRecipeAs() {
 }
 
 bool MainWindow::saveRecipeTo(const QString& path) {
-  if (const auto saved = saveAtomically(nativePath(path), recipeToJson(session_.recipe())); !saved) {
+  if (const auto saved = saveAtomically(nativePath(path), recipeToJson(session_.recipeToSave())); !saved) {
     showProblem(saved.error(), FailureOrigin::SaveRecipe);
     return false;
   }
-  parts_->recipePath = QFileInfo(path).absoluteFilePath();
-  QSettings().setValue(kSaveFolderKey, QFileInfo(path).absolutePath());
+  parts_->recipePath = absolutePath(path);
+  if (isUnicodePath(path)) QSettings().setValue(kSaveFolderKey, folderOf(path));
   session_.markSaved();
   if (session_.isBlankPage()) rememberFile(path);
   refreshTitle();
-  parts_->status->showMessage(tr("Saved the recipe to %1.").arg(QFileInfo(path).fileName()));
+  parts_->status->showMessage(tr("Saved the recipe to %1.").arg(shownFileName(path)));
   return true;
 }
 
@@ -186,9 +281,10 @@ QString MainWindow::proposedRecipePath() const {
   const QString last = QSettings().value(kSaveFolderKey).toString();
   const QString folder = isPlaceToSave(last) ? last : QDir::homePath();
   if (session_.isBlankPage()) return folder + QStringLiteral("/drawing.recipe.json");
-  const QFileInfo beside(QString::fromStdU16String(recipeBeside(nativePath(session_.scanPath())).u16string()));
-  if (!isOfProgram(session_.scanPath()) && isPlaceToSave(beside.absolutePath())) return beside.absoluteFilePath();
-  return folder + QLatin1Char('/') + beside.fileName();
+  const QString beside =
+      absolutePath(pathText(recipeBeside(nativePath(session_.scanPath()), session_.recipe().scanPage.number)));
+  if (!isOfProgram(session_.scanPath()) && isUnicodePath(beside) && isPlaceToSave(folderOf(beside))) return beside;
+  return folder + QLatin1Char('/') + proposedFileName(beside);
 }
 
 QString MainWindow::journalFolder() {
@@ -214,7 +310,7 @@ bool MainWindow::offerLeftWork() {
     if (const auto dropped = std::exchange(parts_->leftWork, std::nullopt)) parts_->journal->discard(*dropped);
     if (const QString sample = std::exchange(parts_->sample, {}); !sample.isEmpty()) openAtStart(sample);
   };
-  const QString name = left.scanPath.isEmpty() ? tr("a new drawing") : QFileInfo(left.scanPath).fileName();
+  const QString name = left.scanPath.isEmpty() ? tr("a new drawing") : shownFileName(left.scanPath);
   p.errors->show(tr("Batten did not end as it should. Unsaved work on %1 from %2 was kept.")
                      .arg(name, QLocale().toString(left.when, QLocale::ShortFormat)),
                  tr("Restore it"), tr("Discard it"));
@@ -246,9 +342,8 @@ void MainWindow::tellNotOpened(const QString& path) {
     parts_->errors->hide();
     openPath(path);
   };
-  parts_->errors->show(
-      tr("Batten ended while it opened %1, so that it stays closed now.").arg(QFileInfo(path).fileName()),
-      tr("Open it all the same"));
+  parts_->errors->show(tr("Batten ended while it opened %1, so that it stays closed now.").arg(shownFileName(path)),
+                       tr("Open it all the same"));
   refreshActions();
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QAction>
 #include <QDir>
-#include <QFileInfo>
 #include <QFontMetrics>
 #include <QGuiApplication>
 #include <QMenu>
@@ -12,6 +11,7 @@
 #include "ui/main_window_parts.h"
 #include "ui/panels/stages/export_panel.h"
 #include "ui/plots/curve_plots.h"
+#include "ui/session/path_text.h"
 #include "ui/top_bar.h"
 
 namespace batten {
@@ -21,12 +21,11 @@ const QString kLowerKey = QStringLiteral("window/lower-height"), kPlotKey = QStr
 
 /// "coupe.png  –  ~/scans": the folder tells two files of one name apart.
 QString recentText(const QString& path) {
-  const QFileInfo file(path);
-  QString folder = file.absolutePath();
+  QString folder = shownPath(folderOf(path));
   if (const QString home = QDir::homePath(); folder == home || folder.startsWith(home + QLatin1Char('/')))
     folder.replace(0, home.size(), QLatin1Char('~'));
   const QString shown = QFontMetrics(uiFont(13)).elidedText(folder, Qt::ElideMiddle, 320);
-  return QString(file.fileName() + QStringLiteral("  –  ") + shown).replace(QLatin1Char('&'), QStringLiteral("&&"));
+  return QString(shownFileName(path) + QStringLiteral("  –  ") + shown).replace(QLatin1Char('&'), QStringLiteral("&&"));
 }
 
 }  // namespace
@@ -35,14 +34,18 @@ ThemeChoice MainWindow::storedTheme() {
   return static_cast<ThemeChoice>(std::clamp(QSettings().value(QStringLiteral("theme"), 0).toInt(), 0, 2));
 }
 
-QStringList MainWindow::recentFiles() { return QSettings().value(QStringLiteral("recent")).toStringList(); }
+QStringList MainWindow::recentFiles() {
+  QStringList files = QSettings().value(QStringLiteral("recent")).toStringList();
+  for (QString& path : files) path = pathFromStored(path);
+  return files;
+}
 
 void MainWindow::checkRecent(std::function<void()> then) {
   // A drive that has gone to sleep or away answers after seconds.
   parts_->recentChecker->start([this, files = recentFiles(), then = std::move(then)](const CancelToken&) {
     QStringList gone;
     for (const QString& path : files)
-      if (!QFileInfo::exists(path)) gone.append(path);
+      if (!pathExists(path)) gone.append(path);
     QMetaObject::invokeMethod(
         this,
         [this, gone, then] {
@@ -55,11 +58,13 @@ void MainWindow::checkRecent(std::function<void()> then) {
 
 void MainWindow::rememberFile(const QString& path) {
   QStringList files = recentFiles();
-  const QString full = QFileInfo(path).absoluteFilePath();
+  const QString full = absolutePath(path);
   files.removeAll(full);
   files.prepend(full);
   while (files.size() > kRecentFiles) files.removeLast();
-  QSettings().setValue(QStringLiteral("recent"), files);
+  QStringList stored;
+  for (const QString& file : files) stored.append(storedPath(file));
+  QSettings().setValue(QStringLiteral("recent"), stored);
   parts_->goneFiles.removeAll(full);
 }
 
@@ -70,8 +75,8 @@ void MainWindow::refreshRecent() {
   for (const QString& path : recentFiles()) {
     if (parts_->goneFiles.contains(path)) continue;
     QAction* entry = menu->addAction(recentText(path));
-    entry->setToolTip(path);
-    entry->setStatusTip(path);
+    entry->setToolTip(shownPath(path));
+    entry->setStatusTip(shownPath(path));
     connect(entry, &QAction::triggered, this, [this, path] { openPath(path); });
   }
   menu->setToolTipsVisible(true);
@@ -81,13 +86,14 @@ void MainWindow::refreshRecent() {
 QString MainWindow::drawingName() const {
   // A drawing without a scan is called as the file that holds it.
   if (session_.isBlankPage())
-    return parts_->recipePath.isEmpty() ? tr("New drawing") : QFileInfo(parts_->recipePath).fileName();
-  return session_.hasScan() ? QFileInfo(session_.scanPath()).fileName() : tr("No scan");
+    return parts_->recipePath.isEmpty() ? tr("New drawing") : shownFileName(parts_->recipePath);
+  return session_.hasScan() ? shownFileName(session_.scanPath()) : tr("No scan");
 }
 
 void MainWindow::refreshTitle() {
   const bool unsaved = session_.hasUnsavedChanges();
-  parts_->topBar->setTitle(drawingName(), unsaved, session_.isBlankPage() ? parts_->recipePath : session_.scanPath());
+  parts_->topBar->setTitle(drawingName(), unsaved,
+                           shownPath(session_.isBlankPage() ? parts_->recipePath : session_.scanPath()));
   setWindowTitle(session_.hasScan() ? drawingName() + QStringLiteral("[*] – Batten") : QStringLiteral("Batten"));
   setWindowModified(unsaved);
 }

@@ -3,20 +3,17 @@
 
 #include <QCoreApplication>
 #include <QSettings>
-#include <cerrno>
-#include <csignal>
 
+#include "core/base/platform.h"
 #include "ui/session/editor_session.h"
+#include "ui/session/path_text.h"
 
 namespace batten {
 namespace {
 
 const QString kPathKey = QStringLiteral("opening/path"), kProgramKey = QStringLiteral("opening/program");
 
-bool isRunning(qint64 program) {
-  return program > 0 && (kill(static_cast<pid_t>(program), 0) == 0 || errno == EPERM) &&
-         program != QCoreApplication::applicationPid();
-}
+bool isRunning(qint64 program) { return isProcessRunning(program) && program != QCoreApplication::applicationPid(); }
 
 }  // namespace
 
@@ -34,14 +31,14 @@ OpeningGuard::~OpeningGuard() { end(); }
 void OpeningGuard::begin(const QString& path) {
   path_ = path;
   QSettings settings;
-  settings.setValue(kPathKey, path);
+  settings.setValue(kPathKey, storedPath(path));
   settings.setValue(kProgramKey, QCoreApplication::applicationPid());
   settings.sync();  // Now: there may be no later.
 }
 
 bool OpeningGuard::hasFailed(const QString& path) {
   const QSettings settings;
-  return !path.isEmpty() && settings.value(kPathKey).toString() == path &&
+  return !path.isEmpty() && settings.value(kPathKey).toString() == storedPath(path) &&
          !isRunning(settings.value(kProgramKey).toLongLong());
 }
 

@@ -154,8 +154,14 @@ void StatusLine::refreshScale() {
   scale_->setVisible(!assumed);
   setScale_->setVisible(assumed);
   if (assumed) return;
-  scale_->setText(tr("%1 dpi").arg(own ? *own : session_.scan()->dpi.value_or(0.0), 0, 'f', 0));
-  scale_->setToolTip(own ? tr("Resolution set by you") : tr("Resolution from the file"));
+  const PageFrame frame = frameFor(*session_.scan(), session_.recipe());
+  scale_->setText(tr("%1 dpi · %2 × %3 mm")
+                      .arg(own ? *own : session_.scan()->dpi.value_or(0.0), 0, 'f', 0)
+                      .arg(frame.lengthToModel(frame.widthPx), 0, 'f', 1)
+                      .arg(frame.lengthToModel(frame.heightPx), 0, 'f', 1));
+  scale_->setToolTip(session_.recipe().scaleLine ? tr("Resolution measured on the drawing, and the size of the page")
+                     : own                       ? tr("Resolution set by you, and the size of the page")
+                                                 : tr("Resolution from the file, and the size of the page"));
 }
 
 void StatusLine::refreshWork() {
@@ -168,7 +174,8 @@ void StatusLine::refreshWork() {
     return;
   }
   progress_->setValue(0);
-  const bool isBeginning = session_.isBlankPage() && session_.recipe().penStrokes.empty();
+  const bool isBeginning =
+      session_.isBlankPage() && session_.recipe().penStrokes.empty() && session_.recipe().imports.empty();
   if (!session_.hasScan() || isBeginning) return work_->clear();
   const double ms = session_.lastRunMilliseconds();
   const bool whole = !session_.isStale(StageId::Faired) && session_.output().faired;

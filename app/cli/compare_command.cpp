@@ -33,7 +33,8 @@ Result<std::vector<NamedShape>> shapesOf(const std::string& path) {
     for (std::size_t i = 0; i < curve.pieces.size(); ++i) {
       const bool closed = curve.closed && curve.pieces.size() == 1;
       std::string name = curve.id;
-      if (curve.pieces.size() > 1) name.append("/").append(std::to_string(i + 1));
+      if (curve.pieces.size() > 1)
+        name = curve.pieces[i].name.empty() ? name + "/" + std::to_string(i + 1) : curve.pieces[i].name;
       ShapeProfile profile = shapeProfile(curve.pieces[i].curve, closed);
       if (!profile.radius.empty()) shapes.push_back({std::move(name), std::move(profile)});
     }

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kMostNamed = 12;
 
 /// "Curve 3", "Curves 1, 4 and 7", "Curves 1, 2, 3 and 40 more".
-std::string named(const std::vector<std::size_t>& curves) {
+std::string named(const std::vector<int>& curves) {
   const std::size_t shown = curves.size() <= kMostNamed ? curves.size() : kMostNamed - 1;
   std::string text = curves.size() == 1 ? "Curve " : "Curves ";
   for (std::size_t i = 0; i < shown; ++i) {
@@ -24,10 +24,10 @@ std::string named(const std::vector<std::size_t>& curves) {
 /// Curves of which the same is to be said.
 struct Kind {
   std::string kind, note;
-  std::vector<std::size_t> curves;
+  std::vector<int> curves;
 };
 
-void add(std::vector<Kind>& kinds, const std::string& kind, const std::string& note, std::size_t curve) {
+void add(std::vector<Kind>& kinds, const std::string& kind, const std::string& note, int curve) {
   if (note.empty()) return;
   auto same = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.kind == kind; });
   if (same == kinds.end()) same = kinds.insert(kinds.end(), Kind{kind, note, {}});
@@ -45,14 +45,14 @@ std::string fairingNote(const FairingReport& report) {
 
 }  // namespace
 
-std::vector<std::string> curveNotes(std::span<const TracedCurve> curves) {
+std::vector<std::string> curveNotes(const PipelineOutput& output) {
   std::vector<Kind> constructed, faired;
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    const TracedCurve& curve = curves[i];
+  for (const TracedCurve& curve : output.faired->curves) {
     if (!curve.included) continue;
-    add(constructed, kindOf(curve.construct.note), curve.construct.note, i + 1);
+    const int number = curveNumber(output, curve);
+    add(constructed, kindOf(curve.construct.note), curve.construct.note, number);
     const std::string note = fairingNote(curve.fairing);
-    add(faired, note, note, i + 1);
+    add(faired, note, note, number);
   }
   std::vector<std::string> lines;
   for (const Kind& k : constructed) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <iostream>
 #include <new>
 
@@ -14,7 +13,9 @@
 #include "app/cli/trace_command.h"
 #include "app/cli/trace_plan.h"
 #include "app/cli/usage_error.h"
+#include "core/base/platform.h"
 #include "core/exchange/export_settings.h"
+#include "core/exchange/import_file.h"
 
 namespace {
 
@@ -38,10 +39,18 @@ void addRepeated(CLI::App& app, const char* names, std::vector<std::string>& val
   app.add_option(names, values, help)->type_name(what)->allow_extra_args(false);
 }
 
+/// How a command speaks of its drawing.
+struct DrawingHelp {
+  std::string scan, recipe, page, pages;
+};
+
+constexpr const char* kScanKinds = "PNG, JPEG, TIFF, PDF, JPEG 2000, BMP, WebP, PGM or PBM";
+
 /// What the drawing is and what is followed on it.
-void addDrawing(CLI::App& app, TraceArguments& a, const char* scanHelp, const char* recipeHelp) {
-  app.add_option("scan", a.scan, scanHelp)->type_name("SCAN");
-  app.add_option("--recipe", a.recipe, recipeHelp)->type_name("R.json");
+void addDrawing(CLI::App& app, TraceArguments& a, const DrawingHelp& help) {
+  app.add_option("scan", a.scan, help.scan)->type_name("SCAN");
+  app.add_option("--recipe", a.recipe, help.recipe)->type_name("R.json");
+  app.add_option("--page", a.page, help.page)->type_name(help.pages);
   addRepeated(app, "--set", a.settings, "NAME=VALUE", "Set a parameter (see batten-cli parameters); may be repeated");
   addRepeated(app, "--outline", a.outlines, "X,Y",
               "Follow the border of the ink near this place, px from the upper left; may be repeated");
@@ -60,11 +69,24 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   trace->footer(
       "Prints one line of JSON: the scan, how many curves, the files written, how each compares with the curves, and "
       "notes.");
-  addDrawing(*trace, a, "The scan: PNG, JPEG, TIFF, BMP, WebP, PGM or PBM; none for a recipe drawn on an empty page",
-             "Start from this recipe; --set, --corner and --dpi come on top");
+  addDrawing(
+      *trace, a,
+      {std::string("The scan: ") + kScanKinds +
+           "; or curves and points to make fair; none for a recipe drawn on an empty page",
+       "Start from this recipe; --set, --corner and --dpi come on top",
+       "Which page of a TIFF or PDF, from 1; all: every page, with -p1, -p2 … behind the names of what is written",
+       "N|all"});
   addRepeated(*trace, "-o,--output", a.outputs, "OUT",
-              "Write the curves; the ending chooses the format (" + allEndings() + "); may be repeated");
+              "Write the curves; the ending chooses the format (" + allEndings() +
+                  "); .report.pdf and .report.html hold a report to print; may be repeated");
+  addRepeated(*trace, "--import", a.imports, "FILE",
+              "Take lines over from a file of curves or points (" + importEndings() + "); may be repeated");
+  trace
+      ->add_option("--import-unit", a.importUnit,
+                   "Unit of their numbers instead of what the files state: mm, cm, m or in")
+      ->type_name("UNIT");
   trace->add_option("--preset", a.preset, "Write what this receiver reads best: " + presetNames())->type_name("NAME");
+  trace->add_option("--paper", a.paper, "Paper of a .report.pdf: a4 or letter")->type_name("SIZE");
   trace->add_option("--unit", a.unit, "Unit of DXF, IGES, STEP and CSV: mm or in")->type_name("UNIT");
   trace->add_option("--scale", a.scale, "Write the curves this many times as large")->type_name("N");
   trace->add_option("--tolerance", a.tolerance, "Largest distance of what is approximated from the exact curves, mm")
@@ -72,8 +94,15 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   trace->add_option("--curves", a.curves, "Write only these curves, by their numbers in the report: 1,3-5")
       ->type_name("LIST");
   trace->add_option("--which", a.which, "Which curves to write: faired, sketched or both")->type_name("KIND");
-  trace->add_flag("--joined", a.joined, "DXF, IGES, STEP: curves that follow each other become one");
+  trace->add_flag("--joined", a.joined, "Curves that follow each other are written as one, also in DXF, IGES and STEP");
+  trace->add_flag("--apart", a.apart, "Every curve is written by itself, also in SVG, PDF and the others");
   trace->add_flag("--splines-only", a.splinesOnly, "DXF, IGES, STEP: lines, arcs and circles as splines, too");
+  trace
+      ->add_option("--flavour", a.flavour,
+                   "IGES, STEP: curves as they are (exact), each polynomial piece by itself (bezier), or of degree 3 "
+                   "within the tolerance (cubic)")
+      ->type_name("KIND");
+  trace->add_flag("--chords", a.chords, "DXF for cnc: chords only, no arcs");
   addRepeated(*trace, "--corner", a.corners, "X,Y[,MM]",
               "Sharp corner near this place, px from the upper left; with MM rounded by that size; may be repeated");
   addRepeated(*trace, "--segment-point", a.segmentPoints, "X,Y",
@@ -81,8 +110,17 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   trace
       ->add_option_function<std::string>(
           "--dpi", [&a](const std::string& text) { a.dpi = text; },
-          "Resolution of the scan, 1 to 100000, overrides what the file states")
+          "Resolution of the scan, 1 to 100000, overrides what the file states; of a PDF how finely its page is drawn "
+          "(300)")
       ->type_name("N");
+  trace
+      ->add_option("--known-length", a.knownLength,
+                   "Resolution by two places, px from the upper left, and their distance: 100mm, 10cm or 4in")
+      ->type_name("X,Y,X,Y,LENGTH");
+  addRepeated(*trace, "--direction", a.directions, "X,Y,X,Y",
+              "The curve near the first place is written so that it runs towards the second, px; may be repeated");
+  addRepeated(*trace, "--start", a.starts, "X,Y",
+              "The closed line near this place is written so that it begins there, px; may be repeated");
   trace->add_option("--report", a.report, "Write figures of every stage and curve")->type_name("REPORT.json");
   trace->add_flag("--report-targets", a.reportTargets,
                   "Have the report say what each of the six targets would make of every curve, too; takes far longer");
@@ -99,8 +137,9 @@ CLI::App* addSuggest(CLI::App& app, TraceArguments& a) {
   suggest->footer(
       "Prints one line of JSON: a value for edges.merge (0: nothing to merge), how many strokes become how many "
       "lines, and the reason. Changes nothing.");
-  addDrawing(*suggest, a, "The scan: PNG, JPEG, TIFF, BMP, WebP, PGM or PBM",
-             "Start from this recipe; --set and the places given come on top");
+  addDrawing(*suggest, a,
+             {std::string("The scan: ") + kScanKinds, "Start from this recipe; --set and the places given come on top",
+              "Which page of a TIFF or PDF, from 1", "N"});
   return suggest;
 }
 
@@ -187,7 +226,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   // A file that grows beyond what is allowed is a failed write, with a message, and not the end of the program.
-  std::signal(SIGXFSZ, SIG_IGN);
+  batten::reportLargeFilesAsErrors();
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {

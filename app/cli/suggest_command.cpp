@@ -24,7 +24,7 @@ Result<MergeAdvice> adviceFor(const TraceArguments& arguments) {
   context.threads = *threads;
   auto scan = [&] {
     const QuietStderr quiet;
-    return readScan(arguments.scan, {}, context);
+    return readScan(arguments.scan, {.page = recipe->scanPage}, context);
   }();
   if (!scan) return fail(scan.error());
   StageCache cache;

@@ -9,6 +9,7 @@
 
 #include "app/cli/curve_notes.h"
 #include "app/cli/exit_codes.h"
+#include "app/cli/report_output.h"
 #include "app/cli/stage_dump.h"
 #include "app/cli/trace_plan.h"
 #include "core/base/conventions.h"
@@ -49,6 +50,10 @@ class Trace {
     if (!scan) return fail(scan.error());
     scan_ = std::move(*scan);
     readMilliseconds_ = millisecondsSince(begin_);
+    if (!arguments_.scan.empty()) {
+      const PageFrame frame = frameFor(scan_, plan_.recipe);
+      if (auto imported = importInto(arguments_, &frame, plan_); !imported) return imported;
+    }
 
     PipelineRequest request;
     const auto isOfEdges = [](const auto& dump) { return dump.stage == "edges"; };
@@ -65,14 +70,20 @@ class Trace {
     if (auto written = writeDumps(); !written) return written;
     if (auto written = writeReport(); !written) return written;
     if (!arguments_.saveRecipe.empty()) {
-      if (auto saved = save(arguments_.saveRecipe, recipeToJson(plan_.recipe)); !saved) return saved;
+      Recipe used = plan_.recipe;
+      if (out_.numbers) used.curveNumbers = out_.numbers->known;
+      if (auto saved = save(arguments_.saveRecipe, recipeToJson(used)); !saved) return saved;
     }
     if (out_.error) return fail(*out_.error);
     return {};
   }
 
   std::string summary() const {
-    nlohmann::ordered_json json{{"scan", arguments_.scan}, {"curves", curves_}, {"pieces", out_.faired->curves.size()}};
+    nlohmann::ordered_json json{{"scan", arguments_.scan}};
+    if (!arguments_.imports.empty()) json["imports"] = arguments_.imports;
+    if (scan_.pages > 1) json["page"] = scan_.page.number;
+    json["curves"] = curves_;
+    json["pieces"] = out_.faired->curves.size();
     json["milliseconds"] = millisecondsSince(begin_);
     json["processor_milliseconds"] = 1000.0 * processorSeconds();
     json["peak_memory_bytes"] = peakMemoryBytes();
@@ -88,7 +99,7 @@ class Trace {
   Result<Scan> readDrawing() const {
     if (!arguments_.scan.empty()) {
       const QuietStderr quiet;
-      return readScan(arguments_.scan, {}, context_);
+      return readScan(arguments_.scan, {.page = plan_.recipe.scanPage}, context_);
     }
     const BlankPage& page = *plan_.recipe.page;
     return blankScan(page.widthPx, page.heightPx, plan_.recipe.dpi.value_or(kAssumedDpi));
@@ -154,6 +165,8 @@ class Trace {
       files_.push_back(output.path.string());
       checks_.push_back(output.path.filename().string() + ": " + sentenceOf(*report));
     }
+    if (auto written = writeReportPages(plan_.reports, scan_, plan_.recipe, out_, context_); !written) return written;
+    for (const auto& report : plan_.reports) files_.push_back(report.path.string());
     return {};
   }
 
@@ -182,12 +195,12 @@ class Trace {
 
   /// What the user should know although the trace was made.
   std::vector<std::string> notes() const {
-    std::vector<std::string> list;
+    std::vector<std::string> list = plan_.notes;
     if (isScaleAssumed(scan_, plan_.recipe))
       list.emplace_back("The scan states no resolution; 96 dpi was assumed. Set --dpi.");
-    if (const int pages = countPages(arguments_.scan); pages > 1) {
-      list.push_back("The file holds " + std::to_string(pages) +
-                     " pages; only the first was traced. Save the others as files of their own.");
+    if (scan_.pages > 1 && !arguments_.isOneOfAll) {
+      list.push_back("The file holds " + std::to_string(scan_.pages) + " pages; page " +
+                     std::to_string(scan_.page.number) + " was traced. Take others by --page N, or all by --page all.");
     }
     if (!out_.thresholds->note.empty() && !isBlank(scan_)) list.push_back(out_.thresholds->note);
     if (out_.filtered && out_.filtered->report.thinStrokesLost) {
@@ -203,7 +216,7 @@ class Trace {
                      " was made; it is kept in the recipe.");
     }
     for (const Error& failure : out_.constructed->failures) list.push_back(failure.message);
-    for (std::string& note : curveNotes(out_.faired->curves)) list.push_back(std::move(note));
+    for (std::string& note : curveNotes(out_)) list.push_back(std::move(note));
     return list;
   }
 
@@ -221,13 +234,37 @@ class Trace {
 
 }  // namespace
 
-int runTrace(const TraceArguments& arguments) {
+namespace {
+
+int traceOne(const TraceArguments& arguments) {
   auto plan = planTrace(arguments);
   if (!plan) return reportError(plan.error());
   Trace trace(arguments, std::move(*plan));
   if (auto done = trace.run(); !done) return reportError(done.error());
   std::cout << trace.summary() << '\n';
   return endOutput();
+}
+
+}  // namespace
+
+int runTrace(const TraceArguments& given) {
+  const TraceArguments arguments = withCurvesAsImport(given);
+  if (arguments.page != "all") return traceOne(arguments);
+  if (arguments.scan.empty())
+    return reportError({ErrorCode::BadParameter, "--page needs a scan: name the file whose page it is.", {}});
+  int code = kDone;
+  const int pages = [&] {
+    const QuietStderr quiet;
+    return countPages(arguments.scan);
+  }();
+  for (int page = 1; page <= pages; ++page) {
+    TraceArguments one = argumentsForPage(arguments, page);
+    one.isOneOfAll = true;
+    // Words that are wrong are so for all pages.
+    if (auto plan = planTrace(one); !plan) return reportError(plan.error());
+    if (const int ended = traceOne(one); code == kDone) code = ended;
+  }
+  return code;
 }
 
 }  // namespace batten::cli

@@ -15,10 +15,14 @@ struct TraceArguments {
   std::string unit;                        ///< --unit mm|in
   std::optional<double> scale;             ///< --scale
   std::optional<double> tolerance;         ///< --tolerance [mm]
+  std::string paper;                       ///< --paper a4|letter; empty: a4
   std::string curves;                      ///< --curves 1,3-5; empty: all
   std::string which;                       ///< --which faired|sketched|both; empty: faired
   bool joined = false;                     ///< --joined
+  bool apart = false;                      ///< --apart
   bool splinesOnly = false;                ///< --splines-only
+  std::string flavour;                     ///< --flavour exact|bezier|cubic; empty: the preset's, else exact
+  bool chords = false;                     ///< --chords
   std::string recipe;                      ///< --recipe
   std::vector<std::string> settings;       ///< --set stage.parameter=value
   std::vector<std::string> corners;        ///< --corner X,Y or X,Y,MM
@@ -27,6 +31,13 @@ struct TraceArguments {
   std::vector<std::string> centrelines;    ///< --centreline X,Y
   std::vector<std::string> regions;        ///< --roi X,Y,WIDTH,HEIGHT
   std::optional<std::string> dpi;          ///< --dpi
+  std::vector<std::string> imports;        ///< --import FILE; a scan that is a file of curves counts as one
+  std::string importUnit;                  ///< --import-unit mm|cm|m|in
+  bool isOneOfAll = false;                 ///< One of the pages of --page all
+  std::string page;                        ///< --page N|all; empty: the recipe's, else the first
+  std::string knownLength;                 ///< --known-length X,Y,X,Y,LENGTH
+  std::vector<std::string> directions;     ///< --direction X,Y,X,Y
+  std::vector<std::string> starts;         ///< --start X,Y
   std::string report;                      ///< --report
   bool reportTargets = false;              ///< --report-targets
   bool explain = false;                    ///< --explain
@@ -35,7 +46,9 @@ struct TraceArguments {
   std::optional<std::string> threads;      ///< --threads
 };
 
-/// Traces a scan and writes what was asked for; one line of JSON on stdout when done. Returns the exit code.
+/// Traces a scan and writes what was asked for; one line of JSON on stdout when done. Returns the exit code. Of all
+/// pages of a file there is a line for each; one that fails is told on stderr and does not keep the others, and the
+/// exit code is that of the first one that failed.
 int runTrace(const TraceArguments&);
 
 }  // namespace batten::cli

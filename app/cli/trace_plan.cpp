@@ -3,11 +3,17 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "app/cli/stage_dump.h"
+#include "core/base/conventions.h"
 #include "core/base/number_text.h"
 #include "core/base/regular_file.h"
+#include "core/document/import_curves.h"
+#include "core/exchange/import_file.h"
+#include "core/exchange/point_file.h"
 #include "core/exchange/save_atomically.h"
+#include "core/image/pdf_scan.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/recipe/recipe_file.h"
 
@@ -23,6 +29,32 @@ std::string extensionOf(const fs::path& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   return extension;
+}
+
+/// Whether the file begins as a PDF does: of those --dpi is how finely they are drawn.
+bool isPdfFile(const std::string& path) {
+  const auto file = RegularFile::open(path);
+  return file && isPdf(*file);
+}
+
+/// --dpi and --page.
+Result<void> applyPage(const TraceArguments& arguments, Recipe& recipe) {
+  if (arguments.dpi) {
+    const auto dpi = numberFromText(*arguments.dpi);
+    if (!dpi) return wrong("--dpi takes a number from 1 to 100000, not \"" + *arguments.dpi + "\".");
+    if (!arguments.scan.empty() && isPdfFile(arguments.scan)) {
+      recipe.scanPage.pdfDpi = *dpi;
+    } else {
+      setResolution(recipe, dpi);
+    }
+  }
+  if (arguments.page.empty()) return {};
+  const auto page = integerFromText(arguments.page);
+  if (!page || *page < 1)
+    return wrong("--page takes the number of a page, from 1, or all, not \"" + arguments.page + "\".");
+  if (arguments.scan.empty()) return wrong("--page needs a scan: name the file whose page it is.");
+  recipe.scanPage.number = *page;
+  return {};
 }
 
 Result<Recipe> readRecipe(const std::string& path) {
@@ -70,6 +102,59 @@ Result<void> applySegmentPoint(const std::string& point, Recipe& recipe) {
   return {};
 }
 
+/// "100mm", "10 cm", "4in", "100" (mm) as millimetres.
+std::optional<double> lengthOf(std::string_view text) {
+  constexpr double kMillimetresPerCentimetre = 10.0;
+  double unit = 1.0;
+  for (const auto& [word, mm] :
+       {std::pair{"mm", 1.0}, {"cm", kMillimetresPerCentimetre}, {"in", kMillimetresPerInch}}) {
+    if (!text.ends_with(word)) continue;
+    text.remove_suffix(2);
+    unit = mm;
+    break;
+  }
+  const auto value = numberFromText(text);
+  return value ? std::optional(*value * unit) : std::nullopt;
+}
+
+Result<void> applyKnownLength(const std::string& line, Recipe& recipe) {
+  const auto comma = line.rfind(',');
+  const auto places = numbersOf(std::string_view(line).substr(0, comma));
+  const auto length = comma == std::string::npos ? std::nullopt : lengthOf(std::string_view(line).substr(comma + 1));
+  const bool isWhole = places && places->size() == 4 && length;
+  const ScaleLine scale =
+      isWhole ? ScaleLine{Vec2((*places)[0], (*places)[1]), Vec2((*places)[2], (*places)[3]), *length} : ScaleLine{};
+  if (!isWhole || !resolutionOf(scale)) {
+    return wrong(
+        "--known-length takes X,Y,X,Y,LENGTH: two places in px from the upper left corner and their distance, "
+        "as 100mm, 10cm or 4in, not \"" +
+        line + "\".");
+  }
+  setScaleLine(recipe, scale);
+  return {};
+}
+
+Result<void> applyDirection(const std::string& direction, Recipe& recipe) {
+  const auto values = numbersOf(direction);
+  if (!values || values->size() != 4) {
+    return wrong(
+        "--direction takes X,Y,X,Y in px from the upper left corner, a place of a curve and one that it is to "
+        "run towards, not \"" +
+        direction + "\".");
+  }
+  recipe.directions.push_back({Vec2((*values)[0], (*values)[1]), Vec2((*values)[2], (*values)[3])});
+  return {};
+}
+
+Result<void> applyStart(const std::string& place, Recipe& recipe) {
+  const auto values = numbersOf(place);
+  if (!values || values->size() != 2) {
+    return wrong("--start takes X,Y in px from the upper left corner, not \"" + place + "\".");
+  }
+  recipe.starts.push_back({Vec2((*values)[0], (*values)[1])});
+  return {};
+}
+
 Result<void> applyWay(const std::string& place, EdgeMode mode, Recipe& recipe) {
   const auto values = numbersOf(place);
   if (!values || values->size() != 2) {
@@ -101,7 +186,9 @@ Result<void> applyRegion(const std::string& region, Recipe& recipe) {
 /// The settings of an output: those of the preset if it is for this format, then what is said beside it.
 Result<TracePlan::Output> outputOf(const std::string& path, const TraceArguments& arguments) {
   const auto format = formatOf(path);
-  if (!format) return wrong("The output " + path + " must end in one of " + allEndings() + ".");
+  if (!format) {
+    return wrong("The output " + path + " must end in one of " + allEndings() + ", .report.pdf, .report.html.");
+  }
   ExportSettings settings;
   if (!arguments.preset.empty()) {
     const ExportPreset* preset = findPreset(arguments.preset);
@@ -113,8 +200,13 @@ Result<TracePlan::Output> outputOf(const std::string& path, const TraceArguments
   if (arguments.unit == "in") settings.unit = LengthUnit::Inch;
   if (arguments.scale) settings.scale = *arguments.scale;
   if (arguments.tolerance) settings.toleranceMm = arguments.tolerance;
-  settings.joined = settings.joined || arguments.joined;
+  if (arguments.joined) settings.joined = true;
+  if (arguments.apart) settings.joined = false;
   settings.splinesOnly = settings.splinesOnly || arguments.splinesOnly;
+  if (arguments.flavour == "exact") settings.flavour = CurveFlavour::Exact;
+  if (arguments.flavour == "bezier") settings.flavour = CurveFlavour::BezierSegments;
+  if (arguments.flavour == "cubic") settings.flavour = CurveFlavour::Cubic;
+  if (arguments.chords) settings.arcs = false;
   if (auto problem = validate(settings)) return fail(std::move(*problem));
   return TracePlan::Output{path, settings};
 }
@@ -127,8 +219,19 @@ Result<void> planExport(const TraceArguments& arguments, TracePlan& plan) {
   if (arguments.which == "both") plan.which = ExportedCurves::Both;
   if (!arguments.which.empty() && arguments.which != "faired" && plan.which == ExportedCurves::Faired)
     return wrong("--which takes faired, sketched or both, not \"" + arguments.which + "\".");
+  const std::string& flavour = arguments.flavour;
+  if (!flavour.empty() && flavour != "exact" && flavour != "bezier" && flavour != "cubic")
+    return wrong("--flavour takes exact, bezier or cubic, not \"" + flavour + "\".");
+  if (arguments.joined && arguments.apart)
+    return wrong("--joined and --apart contradict each other. Give one of them.");
   plan.curves = arguments.curves;
+  if (!arguments.paper.empty() && arguments.paper != "a4" && arguments.paper != "letter")
+    return wrong("--paper takes a4 or letter, not \"" + arguments.paper + "\".");
   for (const std::string& path : arguments.outputs) {
+    if (const auto report = reportFormatOf(path)) {
+      plan.reports.push_back({path, *report, arguments.paper == "letter" ? ReportPaper::Letter : ReportPaper::A4});
+      continue;
+    }
     auto output = outputOf(path, arguments);
     if (!output) return fail(output.error());
     plan.outputs.push_back(std::move(*output));
@@ -174,6 +277,7 @@ bool isSameFile(const fs::path& first, const fs::path& second) {
 Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan) {
   std::vector<fs::path> targets;
   for (const auto& output : plan.outputs) targets.push_back(output.path);
+  for (const auto& report : plan.reports) targets.push_back(report.path);
   for (const auto& dump : plan.dumps) targets.push_back(dump.path);
   if (!arguments.report.empty()) targets.emplace_back(arguments.report);
   const std::size_t withoutRecipe = targets.size();
@@ -187,6 +291,10 @@ Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan
     if (i < withoutRecipe && !arguments.recipe.empty() && isSameFile(targets[i], arguments.recipe)) {
       return wrong("The file " + name + " is the recipe itself. Give the output another name.");
     }
+    for (const std::string& import : arguments.imports) {
+      if (isSameFile(targets[i], import))
+        return wrong("The file " + name + " is imported. Give the output another name.");
+    }
     for (std::size_t k = 0; k < i; ++k) {
       if (isSameFile(targets[i], targets[k])) {
         return wrong("The file " + name + " is named twice. Give every output its own name.");
@@ -196,7 +304,37 @@ Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan
   return {};
 }
 
+/// "drawing-p2.svg" of "drawing.svg"; endings of two parts stay whole.
+std::string withPage(const std::string& name, int page) {
+  if (name.empty()) return name;
+  const fs::path path(name);
+  std::string file = path.filename().string(), ending = path.extension().string();
+  for (const char* whole : {".poly.csv", ".recipe.json"}) {
+    if (file.size() > std::string_view(whole).size() && file.ends_with(whole)) ending = whole;
+  }
+  file.insert(file.size() - ending.size(), "-p" + std::to_string(page));
+  return (path.parent_path() / file).string();
+}
+
 }  // namespace
+
+TraceArguments withCurvesAsImport(TraceArguments arguments) {
+  if (arguments.scan.empty() || !isImportName(arguments.scan)) return arguments;
+  arguments.imports.insert(arguments.imports.begin(), std::exchange(arguments.scan, {}));
+  return arguments;
+}
+
+TraceArguments argumentsForPage(TraceArguments arguments, int page) {
+  arguments.page = std::to_string(page);
+  for (std::string& output : arguments.outputs) output = withPage(output, page);
+  arguments.report = withPage(arguments.report, page);
+  arguments.saveRecipe = withPage(arguments.saveRecipe, page);
+  for (std::string& dump : arguments.dumps) {
+    const auto equals = dump.find('=');
+    if (equals != std::string::npos) dump = dump.substr(0, equals + 1) + withPage(dump.substr(equals + 1), page);
+  }
+  return arguments;
+}
 
 Result<Recipe> recipeOf(const TraceArguments& arguments) {
   auto recipe = readRecipe(arguments.recipe);
@@ -219,11 +357,19 @@ Result<Recipe> recipeOf(const TraceArguments& arguments) {
   for (const std::string& region : arguments.regions) {
     if (auto set = applyRegion(region, *recipe); !set) return fail(set.error());
   }
-  if (arguments.dpi) {
-    recipe->dpi = numberFromText(*arguments.dpi);
-    if (!recipe->dpi) return wrong("--dpi takes a number from 1 to 100000, not \"" + *arguments.dpi + "\".");
+  if (auto set = applyPage(arguments, *recipe); !set) return fail(set.error());
+  for (const std::string& direction : arguments.directions) {
+    if (auto set = applyDirection(direction, *recipe); !set) return fail(set.error());
   }
-  if (arguments.scan.empty() && !recipe->page) {
+  for (const std::string& start : arguments.starts) {
+    if (auto set = applyStart(start, *recipe); !set) return fail(set.error());
+  }
+  if (arguments.dpi && !arguments.knownLength.empty())
+    return wrong("--dpi and --known-length both say the resolution. Give one of them.");
+  if (!arguments.knownLength.empty()) {
+    if (auto set = applyKnownLength(arguments.knownLength, *recipe); !set) return fail(set.error());
+  }
+  if (arguments.scan.empty() && !recipe->page && arguments.imports.empty()) {
     return wrong("No scan is named. Only a recipe that was drawn on an empty page needs none.");
   }
   if (auto problem = validate(*recipe)) return fail(std::move(*problem));
@@ -244,6 +390,45 @@ Result<int> threadsOf(const TraceArguments& arguments) {
   return wrong("--threads takes a whole number from 0 to 1024, not \"" + *arguments.threads + "\".");
 }
 
+namespace {
+
+/// Of the empty page of a recipe.
+PageFrame frameOfPage(const Recipe& recipe) {
+  const BlankPage& page = *recipe.page;
+  return {page.widthPx, page.heightPx, kMillimetresPerInch / recipe.dpi.value_or(kAssumedDpi), page.leftMm,
+          page.bottomMm};
+}
+
+}  // namespace
+
+Result<void> importInto(const TraceArguments& arguments, const PageFrame* frame, TracePlan& plan) {
+  std::optional<double> unit;
+  if (!arguments.importUnit.empty()) {
+    unit = millimetresOfUnit(arguments.importUnit);
+    if (!unit) return wrong("--import-unit takes mm, cm, m or in, not \"" + arguments.importUnit + "\".");
+    if (arguments.imports.empty()) return wrong("--import-unit needs a file: add --import FILE.");
+  }
+  for (const std::string& name : arguments.imports) {
+    auto read = readImportFile(name, unit);
+    if (!read) return fail(read.error());
+    plan.notes.insert(plan.notes.end(), read->notes.begin(), read->notes.end());
+    if (frame == nullptr && !plan.recipe.page) {
+      Recipe drawing = drawingOf(std::move(read->file));
+      plan.recipe.page = drawing.page;
+      plan.recipe.imports.push_back(std::move(drawing.imports.front()));
+      if (!plan.recipe.dpi) plan.recipe.dpi = drawing.dpi;
+      continue;
+    }
+    const PageFrame page = frame != nullptr ? *frame : frameOfPage(plan.recipe);
+    auto added = withImport(std::move(plan.recipe), std::move(read->file), page);
+    plan.recipe = std::move(added.recipe);
+    if (added.moved && frame != nullptr)
+      plan.notes.push_back("The lines of " + name + " lie beside the page; they were put on its middle.");
+  }
+  if (auto problem = validate(plan.recipe)) return fail(std::move(*problem));
+  return {};
+}
+
 Result<TracePlan> planTrace(const TraceArguments& arguments) {
   TracePlan plan;
   if (auto planned = planExport(arguments, plan); !planned) return fail(planned.error());
@@ -261,6 +446,10 @@ Result<TracePlan> planTrace(const TraceArguments& arguments) {
   auto recipe = recipeOf(arguments);
   if (!recipe) return fail(recipe.error());
   plan.recipe = std::move(*recipe);
+  // Beside a scan they wait for its page.
+  if (arguments.scan.empty()) {
+    if (auto imported = importInto(arguments, nullptr, plan); !imported) return fail(imported.error());
+  }
   return plan;
 }
 

@@ -8,6 +8,7 @@
 #include "app/cli/trace_command.h"
 #include "core/base/result.h"
 #include "core/document/export_builder.h"
+#include "core/document/report_pages/report_file.h"
 #include "core/exchange/export_settings.h"
 #include "core/pipeline/recipe/recipe.h"
 
@@ -19,17 +20,27 @@ struct TracePlan {
     std::filesystem::path path;
     ExportSettings settings;
   };
+  struct ReportPages {
+    std::filesystem::path path;
+    ReportFormat format = ReportFormat::Pdf;
+    ReportPaper paper = ReportPaper::A4;
+  };
   struct Dump {
     std::string stage;
     std::filesystem::path path;
   };
   Recipe recipe;
   std::vector<Output> outputs;
+  std::vector<ReportPages> reports;
   std::string curves;  ///< Numbers of the curves to write; empty: all.
   ExportedCurves which = ExportedCurves::Faired;
   std::vector<Dump> dumps;
-  int threads = 0;  ///< At most; 0 = all.
+  int threads = 0;                 ///< At most; 0 = all.
+  std::vector<std::string> notes;  ///< What to know of what was imported.
 };
+
+/// The words with a scan that is a file of curves or points among the imports.
+TraceArguments withCurvesAsImport(TraceArguments);
 
 /// The recipe that the words ask for: recipe file first, then --set in the order given, then corners, regions and
 /// resolution. @return BadParameter with what to do.
@@ -39,6 +50,13 @@ Result<Recipe> recipeOf(const TraceArguments&);
 std::string presetNames();
 /// --threads. @return BadParameter with what to do.
 Result<int> threadsOf(const TraceArguments&);
+
+/// The words for one page of a file of which all pages are asked for: the names of what is written get "-p1" ….
+TraceArguments argumentsForPage(TraceArguments, int page);
+
+/// Puts the lines of --import into the recipe of the plan: on the page of a scan, or null: on a page of their own.
+/// @return BadParameter with what to do.
+Result<void> importInto(const TraceArguments&, const PageFrame* frame, TracePlan&);
 
 /// The recipe and what is to be written. @return BadParameter with what to do.
 Result<TracePlan> planTrace(const TraceArguments&);

@@ -2,11 +2,13 @@
 #include <QApplication>
 #include <QDir>
 #include <QFileInfo>
-#include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <string_view>
 
+#include "core/base/platform.h"
 #include "ui/main_window.h"
+#include "ui/session/path_text.h"
 
 namespace {
 
@@ -30,7 +32,7 @@ bool answeredInWords(int argc, char** argv) {
 int main(int argc, char** argv) {
   if (answeredInWords(argc, argv)) return 0;
   // A file that grows beyond what is allowed is a failed write, with a message, and not the end of the work.
-  std::signal(SIGXFSZ, SIG_IGN);
+  batten::reportLargeFilesAsErrors();
   QApplication application(argc, argv);
   QCoreApplication::setOrganizationName(QStringLiteral("Batten"));
   QCoreApplication::setApplicationName(QStringLiteral("batten"));
@@ -40,10 +42,10 @@ int main(int argc, char** argv) {
 
   batten::MainWindow window;
   window.show();
-  const QStringList arguments = QCoreApplication::arguments().mid(1);
-  if (!arguments.isEmpty()) {
+  // Qt has taken its own arguments out; the rest are bytes, as the system has them.
+  if (argc > 1) {
     window.offerLeftWork();
-    window.openPath(QFileInfo(arguments.first()).absoluteFilePath());
+    window.openPath(batten::absolutePath(batten::pathText(std::filesystem::path(argv[1]))));
   } else {
     window.openAtStart(samplePath());  // The sample opens finished, by the recipe beside it: one learns by changing it.
   }

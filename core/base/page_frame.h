@@ -10,9 +10,16 @@ struct PageFrame {
   int widthPx = 0;
   int heightPx = 0;
   double mmPerPx = 1.0;  ///< [mm] > 0.
+  /// [mm] The lower left corner of the page in the model frame. Scans have it at the origin; a page made for curves of
+  /// another program lies where these are.
+  double leftMm = 0.0, bottomMm = 0.0;
 
-  Vec2 pointToModel(const Vec2& px) const { return {px.x() * mmPerPx, (heightPx - px.y()) * mmPerPx}; }
-  Vec2 pointToImage(const Vec2& mm) const { return {mm.x() / mmPerPx, heightPx - mm.y() / mmPerPx}; }
+  Vec2 pointToModel(const Vec2& px) const {
+    return {leftMm + px.x() * mmPerPx, bottomMm + (heightPx - px.y()) * mmPerPx};
+  }
+  Vec2 pointToImage(const Vec2& mm) const {
+    return {(mm.x() - leftMm) / mmPerPx, heightPx - (mm.y() - bottomMm) / mmPerPx};
+  }
   /// Directions and displacements: the origin plays no part. Unit vectors are to be normalised by the caller.
   Vec2 vectorToModel(const Vec2& px) const { return {px.x() * mmPerPx, -px.y() * mmPerPx}; }
   Vec2 vectorToImage(const Vec2& mm) const { return {mm.x() / mmPerPx, -mm.y() / mmPerPx}; }

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/platform.h"
 
-#if defined(__unix__) || defined(__APPLE__)
+#if !defined(_WIN32)
+
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
-#define BATTEN_POSIX 1
-#endif
 #if defined(__linux__)
 #include <sys/prctl.h>
 #endif
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <utility>
 
 namespace batten {
 namespace {
@@ -40,34 +43,48 @@ std::optional<std::uint64_t> machineMemory() {
   return std::nullopt;
 }
 
-/// What the control group leaves (version 2 of the hierarchy), the tightest of its parents among them. What the group
-/// keeps of files counts as free: the kernel gives it up when asked.
+/// A hierarchy of control groups: how /proc/self/cgroup names it, where it lies, and its files.
+struct GroupHierarchy {
+  const char *mark, *root, *limit, *used, *fileCache;
+};
+constexpr GroupHierarchy kHierarchies[] = {
+    {"0::", "/sys/fs/cgroup", "memory.max", "memory.current", "inactive_file"},
+    {":memory:", "/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"}};
+
+/// [bytes] What one group leaves; nullopt if it sets no limit. What it keeps of files counts as free: the kernel gives
+/// that up when asked.
+std::optional<std::uint64_t> leftInGroup(const GroupHierarchy& kind, const std::string& folder) {
+  const auto limit = numberIn(folder + kind.limit), used = numberIn(folder + kind.used);
+  if (!limit || !used) return std::nullopt;
+  std::uint64_t files = 0;
+  std::ifstream figures(folder + "memory.stat");
+  std::string key;
+  for (std::uint64_t value = 0; figures >> key >> value;) {
+    if (key == kind.fileCache) files = value;
+  }
+  const std::uint64_t held = *used - std::min(*used, files);
+  return *limit - std::min(*limit, held);
+}
+
+/// What the control group of this process leaves (version 1 or 2), the tightest of its parents among them.
 std::optional<std::uint64_t> groupMemory() {
-  std::ifstream in("/proc/self/cgroup");
-  std::string line, group;
-  while (std::getline(in, line)) {
-    if (line.starts_with("0::")) group = line.substr(3);
-  }
-  if (group.empty() || group.front() != '/') return std::nullopt;
   std::optional<std::uint64_t> least;
-  while (true) {
-    const std::string folder = "/sys/fs/cgroup" + group + (group.back() == '/' ? "" : "/");
-    const auto limit = numberIn(folder + "memory.max"), used = numberIn(folder + "memory.current");
-    if (limit && used) {
-      std::uint64_t files = 0;
-      std::ifstream figures(folder + "memory.stat");
-      std::string key;
-      for (std::uint64_t value = 0; figures >> key >> value;) {
-        if (key == "inactive_file") files = value;
+  std::ifstream in("/proc/self/cgroup");
+  for (std::string line; std::getline(in, line);) {
+    for (const GroupHierarchy& kind : kHierarchies) {
+      const auto mark = line.find(kind.mark);
+      if (mark == std::string::npos || (mark > 0 && kind.mark[0] != ':')) continue;
+      std::string group = line.substr(mark + std::char_traits<char>::length(kind.mark));
+      while (!group.empty() && group.front() == '/') {
+        if (const auto left = leftInGroup(kind, kind.root + group + (group.back() == '/' ? "" : "/")))
+          least = least ? std::min(*least, *left) : left;
+        if (group.size() == 1) break;
+        const auto slash = group.rfind('/');
+        group = slash == 0 ? "/" : group.substr(0, slash);
       }
-      const std::uint64_t held = *used - std::min(*used, files);
-      const std::uint64_t left = *limit - std::min(*limit, held);
-      least = least ? std::min(*least, left) : left;
     }
-    const auto slash = group.rfind('/');
-    if (group.size() <= 1 || slash == std::string::npos) return least;
-    group = slash == 0 ? "/" : group.substr(0, slash);
   }
+  return least;
 }
 
 }  // namespace
@@ -79,17 +96,11 @@ std::optional<std::uint64_t> availableMemoryBytes() {
 }
 
 std::uint64_t residentMemoryBytes(std::int64_t processId) {
-#if defined(BATTEN_POSIX)
   std::ifstream in("/proc/" + std::to_string(processId) + "/statm");
   std::uint64_t whole = 0, resident = 0;
   if (in >> whole >> resident) return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-#else
-  static_cast<void>(processId);
-#endif
   return 0;
 }
-
-#if defined(BATTEN_POSIX)
 
 std::uint64_t peakMemoryBytes() {
   rusage usage{};
@@ -99,6 +110,10 @@ std::uint64_t peakMemoryBytes() {
 #else
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 #endif
+}
+
+bool isProcessRunning(std::int64_t processId) {
+  return processId > 0 && (::kill(static_cast<pid_t>(processId), 0) == 0 || errno == EPERM);
 }
 
 double processorSeconds() {
@@ -111,6 +126,10 @@ double processorSeconds() {
 }
 
 bool stderrIsTerminal() { return isatty(STDERR_FILENO) == 1; }
+
+void reportLargeFilesAsErrors() { std::signal(SIGXFSZ, SIG_IGN); }
+
+void tieChildrenToThisProcess() {}  // each ties itself
 
 void becomeDependentChild() {
   std::signal(SIGINT, SIG_IGN);  // is kept over exec
@@ -140,15 +159,169 @@ QuietStderr::~QuietStderr() {
   close(*kept_);
 }
 
+struct SystemFile {
+  int descriptor;
+};
+
+void CloseSystemFile::operator()(SystemFile* file) const {
+  ::close(file->descriptor);
+  delete file;
+}
+
+namespace {
+
+std::error_code systemError() { return {errno, std::generic_category()}; }
+
+/// Takes what open() gave; null where it failed, which errno tells.
+OpenFile owned(int descriptor) { return OpenFile(descriptor < 0 ? nullptr : new SystemFile{descriptor}); }
+
+FileKind kindOf(mode_t mode) {
+  if (S_ISREG(mode)) return FileKind::Ordinary;
+  return S_ISDIR(mode) ? FileKind::Folder : FileKind::Other;
+}
+
+/// Whether the path, no link, still names the open file.
+bool isNamed(const SystemFile& file, const std::filesystem::path& path) {
+  struct stat held {
+  }, named{};
+  return ::fstat(file.descriptor, &held) == 0 && ::lstat(path.c_str(), &named) == 0 && held.st_dev == named.st_dev &&
+         held.st_ino == named.st_ino;
+}
+
+#if defined(__linux__)
+constexpr int kFolderForNames = O_PATH | O_DIRECTORY | O_CLOEXEC;  // one that may be searched, but not listed, will do
 #else
-
-std::uint64_t peakMemoryBytes() { return 0; }
-double processorSeconds() { return 0.0; }
-bool stderrIsTerminal() { return false; }
-void becomeDependentChild() {}
-QuietStderr::QuietStderr() = default;
-QuietStderr::~QuietStderr() = default;
-
+constexpr int kFolderForNames = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
 #endif
 
+std::error_code reachDisk(int descriptor) {
+#if defined(__APPLE__)
+  const bool isSafe = ::fsync(descriptor) == 0;
+#else
+  const bool isSafe = ::fdatasync(descriptor) == 0;
+#endif
+  // Some file systems know no such call: they say so, and that is no failure.
+  return isSafe || errno == EINVAL || errno == ENOSYS || errno == EROFS ? std::error_code() : systemError();
+}
+
+}  // namespace
+
+tl::expected<ReadableFile, std::error_code> ReadableFile::open(const std::filesystem::path& path) {
+  struct stat info {};
+  // Opening alone may do something to a device, rewind a tape for one: such names are left alone.
+  if (::stat(path.c_str(), &info) != 0) return tl::unexpected(systemError());
+  if (kindOf(info.st_mode) != FileKind::Ordinary) return ReadableFile(nullptr, kindOf(info.st_mode), 0);
+  // Should a pipe have taken the name since, this returns at once.
+  OpenFile file = owned(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+  if (!file || ::fstat(file->descriptor, &info) != 0) return tl::unexpected(systemError());
+  if (kindOf(info.st_mode) != FileKind::Ordinary) return ReadableFile(nullptr, kindOf(info.st_mode), 0);
+  return ReadableFile(std::move(file), FileKind::Ordinary, static_cast<std::uint64_t>(info.st_size));
+}
+
+std::error_code ReadableFile::read(std::span<std::byte> bytes) const {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t got = ::pread(file_->descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return systemError();
+    if (got == 0) return std::make_error_code(std::errc::io_error);
+    done += static_cast<std::size_t>(got);
+  }
+  return {};
+}
+
+ReplacingFile::ReplacingFile(OpenFile folder, OpenFile file, std::filesystem::path target, std::string name)
+    : folder_(std::move(folder)), file_(std::move(file)), target_(std::move(target)), name_(std::move(name)) {}
+
+ReplacingFile::ReplacingFile(ReplacingFile&& other) noexcept
+    : folder_(std::move(other.folder_)),
+      file_(std::move(other.file_)),
+      target_(std::move(other.target_)),
+      name_(std::exchange(other.name_, {})) {}
+
+ReplacingFile::~ReplacingFile() {
+  if (!name_.empty()) ::unlinkat(folder_->descriptor, name_.c_str(), 0);
+}
+
+tl::expected<ReplacingFile, std::error_code> ReplacingFile::create(const std::filesystem::path& target,
+                                                                   const std::string& name) {
+  const auto failed = [] { return tl::unexpected(systemError()); };
+  const std::filesystem::path parent = target.has_parent_path() ? target.parent_path() : ".";
+  OpenFile folder = owned(::open(parent.c_str(), kFolderForNames));
+  if (!folder) return failed();
+  const std::string last = target.filename().native();
+  struct stat before {};
+  const bool replaces = ::fstatat(folder->descriptor, last.c_str(), &before, 0) == 0;
+  // A file that may not be written is not replaced either, though its folder would allow it.
+  if (replaces && ::faccessat(folder->descriptor, last.c_str(), W_OK, AT_EACCESS) != 0) return failed();
+  constexpr int kFresh = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+  OpenFile file = owned(::openat(folder->descriptor, name.c_str(), kFresh, 0666));
+  if (!file) return failed();
+  // Between these two calls another program may have taken the file for a leftover.
+  const bool isHeld = ::flock(file->descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+  struct stat now {};
+  if (!isHeld || ::fstat(file->descriptor, &now) != 0 || now.st_nlink == 0)
+    return tl::unexpected(std::make_error_code(std::errc::file_exists));
+  if (replaces) (void)::fchmod(file->descriptor, before.st_mode & 0777);  // foreign disks know no such bits
+  return ReplacingFile(std::move(folder), std::move(file), target, name);
+}
+
+std::error_code ReplacingFile::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(file_->descriptor, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && errno == EDQUOT) return std::make_error_code(std::errc::no_space_on_device);
+    if (count < 0) return systemError();
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return {};
+}
+
+std::error_code ReplacingFile::takePlace() {
+  // A disk that is told of the name before it has the bytes leaves an empty file where a whole one was, should the
+  // power fail.
+  if (const auto error = reachDisk(file_->descriptor)) return error;
+  const std::string last = target_.filename().native();
+  if (::renameat(folder_->descriptor, name_.c_str(), folder_->descriptor, last.c_str()) != 0) return systemError();
+  name_.clear();
+  return {};
+}
+
+void removeLeftover(const std::filesystem::path& path) {
+  const OpenFile file = owned(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC));
+  struct stat info {};
+  if (!file || ::fstat(file->descriptor, &info) != 0 || !S_ISREG(info.st_mode) || info.st_uid != ::geteuid()) return;
+  // Whoever saves holds a lock on its file, which ends with its program, so that a free one has no owner.
+  if (::flock(file->descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(path.c_str());
+}
+
+LockFile::LockFile(std::filesystem::path path) : path_(std::move(path)) {}
+
+LockFile::~LockFile() { release(); }
+
+bool LockFile::hold() {
+  if (file_ && isNamed(*file_, path_)) {
+    (void)::futimens(file_->descriptor, nullptr);  // What looks unused for days is cleaned away on some machines.
+    return true;
+  }
+  release();
+  constexpr int kAttempts = 10;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    OpenFile file = owned(::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600));
+    if (!file || ::flock(file->descriptor, LOCK_EX | LOCK_NB) != 0) return false;
+    // Its last holder may have removed the file between the two calls: then this is a lock on nothing.
+    if (!isNamed(*file, path_)) continue;
+    file_ = std::move(file);
+    return true;
+  }
+  return false;
+}
+
+void LockFile::release() {
+  if (file_ && isNamed(*file_, path_)) ::unlink(path_.c_str());
+  file_.reset();
+}
+
 }  // namespace batten
+
+#endif

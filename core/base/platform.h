@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <tl/expected.hpp>
 
 namespace batten {
 
-/// What only the operating system knows or does. Beside the files that open, lock and save files safely, no file of
-/// core, ui and app calls it by anything but standard C++ and Qt, so that another system is a matter of these. Where a
-/// system has no answer, there is none.
+/// What only the operating system knows or does. platform.cpp does it by POSIX, platform_windows.cpp by Windows; no
+/// other file of core, ui and app calls a system by anything but standard C++ and Qt, so that another system is a
+/// matter of one file. Where a system has no answer, there is none.
 
 /// [bytes] Memory that can be taken without swapping: what the machine has free, and no more than the control group of
 /// the process (a container, a Slurm job) leaves.
@@ -20,14 +28,25 @@ std::uint64_t peakMemoryBytes();
 /// [bytes] The memory that a process holds now; 0 if unknown.
 std::uint64_t residentMemoryBytes(std::int64_t processId);
 
+/// Whether there is a process of this number, whoever's it is.
+bool isProcessRunning(std::int64_t processId);
+
 /// [s] Processor time that this process has used so far, all threads together; 0 if unknown.
 double processorSeconds();
 
 /// Whether a person looks at what goes to stderr.
 bool stderrIsTerminal();
 
-/// To be called in a child process before its program starts: Ctrl+C in the terminal is the parent's to hear, and the
-/// child does not outlive a parent that is killed. Calls nothing that may not be called after fork().
+/// A file that would become larger than is allowed here fails as a full disk does, and does not end the program.
+void reportLargeFilesAsErrors();
+
+/// To be called once, before children are started: they do not outlive this process, however it ends, where the system
+/// ties them to their parent. See becomeDependentChild for where each child ties itself.
+void tieChildrenToThisProcess();
+
+/// To be called in a child process before its program starts, where there is such a moment: Ctrl+C in the terminal is
+/// the parent's to hear, and the child does not outlive a parent that is killed. Calls nothing that may not be called
+/// after fork().
 void becomeDependentChild();
 
 /// While it lives, nothing reaches stderr: image libraries print complaints of their own there, and an error of this
@@ -41,6 +60,82 @@ class QuietStderr {
 
  private:
   std::optional<int> kept_;  ///< The real stderr.
+};
+
+/// What the system keeps open for one of the classes below; closed with it. Each system has its own.
+struct SystemFile;
+struct CloseSystemFile {
+  void operator()(SystemFile*) const;
+};
+using OpenFile = std::unique_ptr<SystemFile, CloseSystemFile>;
+
+enum class FileKind { Ordinary, Folder, Other };
+
+/// A file that is open for reading. Opening never waits, whatever has the name, and does nothing to a device.
+class ReadableFile {
+ public:
+  static tl::expected<ReadableFile, std::error_code> open(const std::filesystem::path&);
+
+  FileKind kind() const { return kind_; }
+  std::uint64_t size() const { return size_; }  ///< [bytes] Of an ordinary file, when it was opened; else 0.
+  /// Fills `bytes` from the start of the file. @return std::errc::io_error if there are fewer.
+  std::error_code read(std::span<std::byte> bytes) const;
+
+ private:
+  ReadableFile(OpenFile file, FileKind kind, std::uint64_t size) : file_(std::move(file)), kind_(kind), size_(size) {}
+  OpenFile file_;  ///< Null for what is no ordinary file.
+  FileKind kind_;
+  std::uint64_t size_;
+};
+
+/// A file that takes the place of another, or of none, once it is whole. While it is written no other program takes it
+/// for a leftover (removeLeftover); it goes with this object unless it has taken the place. The folder is the one that
+/// had its name at the beginning, even if it is renamed meanwhile, where the system allows that at all.
+class ReplacingFile {
+ public:
+  /// Beside `target`, no link, under the name `name`. It gets the permissions of a file that it will replace.
+  /// @return std::errc::file_exists: take another name; any other: the folder takes no file, or the target may not be
+  /// written.
+  static tl::expected<ReplacingFile, std::error_code> create(const std::filesystem::path& target,
+                                                             const std::string& name);
+  ReplacingFile(ReplacingFile&&) noexcept;
+  ReplacingFile& operator=(ReplacingFile&&) = delete;
+  ~ReplacingFile();
+
+  /// Adds to the file. A full disk is std::errc::no_space_on_device, be it the disk's size or the user's share of it.
+  std::error_code write(std::string_view bytes);
+  /// Waits for the disk to have the bytes, then gives the file the target's name. To be called once.
+  std::error_code takePlace();
+
+ private:
+  ReplacingFile(OpenFile folder, OpenFile file, std::filesystem::path target, std::string name);
+  OpenFile folder_, file_;
+  std::filesystem::path target_;
+  std::string name_;  ///< Empty: it has taken the place, or was moved from.
+};
+
+/// Removes an ordinary file of this user that a ReplacingFile has left whose program was ended; leaves one that is
+/// still written, and whatever else has that name.
+void removeLeftover(const std::filesystem::path&);
+
+/// A file that says that a program runs. The system gives the lock back when its holder ends, however it ends.
+class LockFile {
+ public:
+  /// Holds nothing yet.
+  explicit LockFile(std::filesystem::path path);
+  LockFile(const LockFile&) = delete;
+  LockFile& operator=(const LockFile&) = delete;
+  /// Gives the lock back and removes the file.
+  ~LockFile();
+
+  /// Takes the lock, renews the time of its file, or takes it anew where somebody has removed the file. False while
+  /// another holder has it or the folder takes no files.
+  bool hold();
+
+ private:
+  void release();
+  std::filesystem::path path_;
+  OpenFile file_;  ///< Null: not held.
 };
 
 }  // namespace batten

@@ -1,39 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/regular_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
-#include <utility>
+#include <system_error>
 
 namespace batten {
 namespace {
 
 using Problem = tl::unexpected<FileProblem>;
 
-tl::expected<void, FileProblem> ordinary(mode_t mode) {
-  if (S_ISREG(mode)) return {};
-  return Problem(S_ISDIR(mode) ? FileProblem::Folder : FileProblem::NotOrdinary);
-}
-
-FileProblem openingProblem(int error) {
-  switch (error) {
-    case EACCES:
-    case EPERM:
-      return FileProblem::NotAllowed;
-    case ENOENT:
-    case ENOTDIR:
-    case ELOOP:
-    case ENAMETOOLONG:
-      return FileProblem::Missing;
-    case ENXIO:  // a socket
-      return FileProblem::NotOrdinary;
-    default:
-      return FileProblem::Broken;
+FileProblem openingProblem(std::error_code error) {
+  if (error == std::errc::permission_denied || error == std::errc::operation_not_permitted)
+    return FileProblem::NotAllowed;
+  for (const std::errc missing : {std::errc::no_such_file_or_directory, std::errc::not_a_directory,
+                                  std::errc::too_many_symbolic_link_levels, std::errc::filename_too_long}) {
+    if (error == missing) return FileProblem::Missing;
   }
+  // A socket that took the name meanwhile.
+  return error == std::errc::no_such_device_or_address ? FileProblem::NotOrdinary : FileProblem::Broken;
 }
 
 }  // namespace
@@ -57,41 +40,15 @@ std::string describe(FileProblem problem) {
 }
 
 tl::expected<RegularFile, FileProblem> RegularFile::open(const std::filesystem::path& path) {
-  struct stat info {};
-  // Opening alone may do something to a device, rewind a tape for one: such names are left alone.
-  if (::stat(path.c_str(), &info) != 0) return Problem(openingProblem(errno));
-  if (const auto checked = ordinary(info.st_mode); !checked) return Problem(checked.error());
-  // Should a pipe have taken the name since, this returns at once.
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
-  if (descriptor < 0) return Problem(openingProblem(errno));
-  RegularFile file(descriptor, 0);
-  if (::fstat(descriptor, &info) != 0) return Problem(FileProblem::Broken);
-  if (const auto checked = ordinary(info.st_mode); !checked) return Problem(checked.error());
-  file.size_ = static_cast<std::uint64_t>(info.st_size);
-  return file;
-}
-
-RegularFile::RegularFile(RegularFile&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_) {}
-
-RegularFile& RegularFile::operator=(RegularFile&& other) noexcept {
-  std::swap(descriptor_, other.descriptor_);
-  std::swap(size_, other.size_);
-  return *this;
-}
-
-RegularFile::~RegularFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  auto file = ReadableFile::open(path);
+  if (!file) return Problem(openingProblem(file.error()));
+  if (file->kind() == FileKind::Folder) return Problem(FileProblem::Folder);
+  if (file->kind() != FileKind::Ordinary) return Problem(FileProblem::NotOrdinary);
+  return RegularFile(std::move(*file));
 }
 
 tl::expected<void, FileProblem> RegularFile::read(std::span<std::byte> bytes) const {
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t got = ::pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return Problem(FileProblem::Broken);
-    done += static_cast<std::size_t>(got);
-  }
+  if (file_.read(bytes)) return Problem(FileProblem::Broken);
   return {};
 }
 

@@ -7,6 +7,9 @@
 #include <span>
 #include <string>
 #include <tl/expected.hpp>
+#include <utility>
+
+#include "core/base/platform.h"
 
 namespace batten {
 
@@ -27,18 +30,14 @@ std::string describe(FileProblem);
 class RegularFile {
  public:
   static tl::expected<RegularFile, FileProblem> open(const std::filesystem::path&);
-  RegularFile(RegularFile&&) noexcept;
-  RegularFile& operator=(RegularFile&&) noexcept;
-  ~RegularFile();
 
-  std::uint64_t size() const { return size_; }  ///< [bytes] When it was opened.
+  std::uint64_t size() const { return file_.size(); }  ///< [bytes] When it was opened.
   /// Fills `bytes` from the start of the file. @return Broken if there are fewer.
   tl::expected<void, FileProblem> read(std::span<std::byte> bytes) const;
 
  private:
-  RegularFile(int descriptor, std::uint64_t size) : descriptor_(descriptor), size_(size) {}
-  int descriptor_;  ///< -1: moved from.
-  std::uint64_t size_;
+  explicit RegularFile(ReadableFile file) : file_(std::move(file)) {}
+  ReadableFile file_;
 };
 
 /// All bytes of an ordinary file of at most `mostBytes`.

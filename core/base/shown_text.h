@@ -11,7 +11,7 @@ namespace batten {
 /// a character nor visible - broken UTF-8, control characters (C0, DEL, C1), line and direction marks, noncharacters -
 /// becomes a question mark, one per byte or character.
 std::string shownText(std::string_view bytes);
-inline std::string shownName(const std::filesystem::path& path) { return shownText(std::string_view(path.native())); }
+inline std::string shownName(const std::filesystem::path& path) { return shownText(path.string()); }
 
 /// JSON text as a terminal may see it: DEL and C1, which JSON allows within strings, written as \u007f … \u009f. The
 /// value stays the same.

@@ -39,8 +39,7 @@ Result<std::vector<ConstructedPiece>> constructEach(const ConstructContour& cont
   std::vector<Result<ConstructedPiece>> made(contour.pieces.size(), cancelled());
   parallelFor(context, static_cast<int>(made.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      made[at] = constructPiece(contour.pieces[at], contour.pixelMm, params, context);
+      made[i] = constructPiece(contour.pieces[i], contour.pixelMm, params, context);
     }
   });
   if (context.isCancelled()) return cancelled();

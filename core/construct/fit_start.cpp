@@ -7,6 +7,7 @@
 #include "core/construct/fair/fair_fit.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
+#include "core/curve/foot_step.h"
 
 namespace batten {
 namespace {
@@ -65,9 +66,8 @@ class FittedLine {
       const double u = parameter(s);
       const auto here = curve_.derivatives(u, 1);
       if (!(here[1].norm() > 0.0)) return s;
-      const Vec2 away = point - here[0], tangent = here[1].normalized();
-      const double bend = 1.0 - curvature(curve_, u).value_or(0.0) * leftNormal(tangent).dot(away);
-      s += std::clamp(away.dot(tangent) / std::max(0.2, bend), -reach, reach);
+      const Vec2 tangent = here[1].normalized(), bend = curvature(curve_, u).value_or(0.0) * leftNormal(tangent);
+      s += std::clamp(footStep(here[0] - point, tangent, bend), -reach, reach);
       if (!closed_) s = std::clamp(s, 0.0, total_);
     }
     return s;

@@ -16,7 +16,11 @@ enum class ContourKind {
   Outline,     ///< The border between ink and paper, ink on the right of travel on the screen for outer borders.
   Centreline,  ///< The middle of a pen or pencil stroke.
   Pen,         ///< Drawn in the program (pen_strokes.h), not found on the scan.
+  Imported,    ///< Made by another program (core/curve/imported_line.h).
 };
+
+/// Whether the points of such a line mean themselves: none was measured on a scan.
+constexpr bool isDrawn(ContourKind kind) { return kind == ContourKind::Pen || kind == ContourKind::Imported; }
 
 /// How far the strokes that were merged into a line lie beside one of its points, at most within a few points of it.
 /// [px, never negative]
@@ -52,6 +56,8 @@ struct Contour {
   double blurPx = 0.0;  ///< [px] standard deviation of the light's blur along an outline; 0: not measured.
   std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.
   std::optional<EdgeChoice> traceMode;       ///< The user's choice about its ink that it follows.
+  std::vector<int> joints;                   ///< Imported: points that are corners whatever the user marks, ascending.
+  std::optional<int> imported;               ///< Imported: which line of the recipe's, counted through all its files.
   double lengthPx = 0.0;                     ///< [px] length of the polyline through `points`.
   double areaPx = 0.0;                       ///< [px^2] absolute enclosed area (closed), else 0.
 };

@@ -10,6 +10,7 @@
 #include "core/base/statistics.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
+#include "core/curve/foot_step.h"
 #include "core/curve/sample_tree.h"
 #include "core/curve/span_polynomials.h"
 
@@ -24,13 +25,7 @@ ClosestPoint descend(const SpanPolynomials& curve, const Vec2& p, double start, 
   double squared = (d[0] - p).squaredNorm();
   const double smallest = 1e-13 * (curve.end() - curve.start());
   for (int iteration = 0; iteration < 30; ++iteration) {
-    const Vec2 offset = d[0] - p;
-    const double speed2 = d[1].squaredNorm();
-    const double gradient = offset.dot(d[1]);
-    double hessian = speed2 + offset.dot(d[2]);
-    if (hessian < 0.1 * speed2) hessian = speed2;
-    if (!(hessian > 0.0)) break;
-    double step = std::clamp(u - gradient / hessian, low, high) - u;
+    double step = std::clamp(u + footStep(d[0] - p, d[1], d[2]), low, high) - u;
     bool moved = false;
     while (std::abs(step) > smallest) {
       const auto trial = curve.at(u + step);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/curve/arc_length.h"
+#include "core/curve/turning_points.h"
 
 namespace batten {
 
@@ -151,23 +152,12 @@ std::vector<CurvatureExtremumPoint> curvatureExtrema(const NurbsCurve& curve, do
   if (profile.points.empty()) return extrema;
   // All around from the highest value: the walk then ends as it began and no extremum can hide at the seam.
   const auto points = ordered(profile, indexOfMax(profile.points, [](double kappa) { return kappa; }), periodic);
-  // A turn counts once the curvature has come back from it by the prominence. Until the first such move there is no
-  // direction (an end is no extremum); around a closed curve the walk starts on a maximum.
-  int direction = 0;
-  Profile::Point low = points.front(), high = points.front();
-  const auto keep = [&](const Profile::Point& p, bool maximum) { extrema.push_back({p.u, 0.0, p.kappa, maximum}); };
-  for (const Profile::Point& p : points) {
-    if (p.kappa > high.kappa) high = p;
-    if (p.kappa < low.kappa) low = p;
-    if (direction >= 0 && high.kappa - p.kappa > prominence) {
-      if (direction > 0 || periodic) keep(high, true);
-      direction = -1;
-      low = p;
-    } else if (direction <= 0 && p.kappa - low.kappa > prominence) {
-      if (direction < 0) keep(low, false);
-      direction = 1;
-      high = p;
-    }
+  std::vector<double> kappas;
+  for (const Profile::Point& p : points) kappas.push_back(p.kappa);
+  const TurningStart start = periodic ? TurningStart::OnMaximum : TurningStart::AtEnd;
+  for (const TurningPoint& turning : turningPoints(kappas, prominence, start)) {
+    const Profile::Point& p = points[turning.index];
+    extrema.push_back({p.u, 0.0, p.kappa, turning.maximum});
   }
   std::sort(extrema.begin(), extrema.end(), [](const auto& a, const auto& b) { return a.u < b.u; });
   if (!extrema.empty()) {

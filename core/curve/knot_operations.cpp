@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/curve/blossom.h"
 #include "core/curve/nurbs_curve.h"
 
 namespace batten {
@@ -46,46 +47,28 @@ Result<NurbsCurve> assemble(Parts parts) {
   return NurbsCurve::make(parts.degree, std::move(parts.knots), std::move(points), std::move(weights));
 }
 
-/// The polar form (blossom) of the polynomial piece over [knots[span], knots[span + 1]] at `degree` arguments:
-/// de Boor's algorithm with an argument of its own for each step. Exact for any arguments; symmetric in them.
-Eigen::Vector3d blossom(const Parts& parts, int span, const double* arguments) {
-  const int p = parts.degree;
-  std::array<Eigen::Vector3d, 8> d;
-  for (int j = 0; j <= p; ++j) {
-    d[j] = parts.points[span - p + j];
-  }
-  for (int r = 1; r <= p; ++r) {
-    for (int j = p; j >= r; --j) {
-      const int i = span - p + j;
-      const double low = parts.knot(i), high = parts.knot(i + p + 1 - r);
-      const double a = (arguments[r - 1] - low) / (high - low);
-      auto& point = d[j];
-      point = (1.0 - a) * d[j - 1] + a * point;
-    }
-  }
-  return d[p];
+Eigen::Vector3d blossomOf(const Parts& parts, int span, const double* arguments) {
+  return blossom(
+      parts.degree, [&](int i) { return parts.knots[i]; }, [&](int i) { return parts.points[i]; }, span, arguments);
 }
 
-int spanAt(const Parts& parts, double u) {
-  const auto first = parts.knots.begin() + parts.degree, last = parts.knots.begin() + parts.count();
-  return static_cast<int>(std::upper_bound(first, last, u) - parts.knots.begin()) - 1;
-}
+int spanAt(const Parts& parts, double u) { return spanOf(parts.degree, parts.knots, parts.count(), u); }
 
 /// Span of the old curve to take control point j of a new knot vector from: the middle of its support, where the polar
 /// form needs to reach least far.
 int sourceSpan(const Parts& parts, const std::vector<double>& knots, int degree, int j) {
   const int count = static_cast<int>(knots.size()) - degree - 1;
-  int best = -1;
+  std::optional<int> best;
   for (int k = std::max(degree, j - degree); k < std::min(count, j + 2 * degree + 1); ++k) {
     if (!(knots[k] < knots[k + 1])) continue;
     const auto distance = [&](int span) {
       const int outside = std::max({0, j - span, span - j - degree});
       return 100 * outside + std::abs(2 * (span - j) - degree);
     };
-    if (best < 0 || distance(k) < distance(best)) best = k;
+    if (!best || distance(k) < distance(*best)) best = k;
   }
-  if (best < 0) return spanAt(parts, knots[std::clamp(j, degree, count - 1)]);
-  return spanAt(parts, 0.5 * (knots[best] + knots[best + 1]));
+  if (!best) return spanAt(parts, knots[std::clamp(j, degree, count - 1)]);
+  return spanAt(parts, 0.5 * (knots[*best] + knots[*best + 1]));
 }
 
 /// The same curve over a knot vector that contains the old knots (within the domain).
@@ -104,7 +87,7 @@ Parts overKnots(const Parts& old, std::vector<double> knots) {
     if (same) {
       result.points.push_back(old.points[*same]);
     } else {
-      result.points.push_back(blossom(old, sourceSpan(old, result.knots, p, j), &result.knots[j + 1]));
+      result.points.push_back(blossomOf(old, sourceSpan(old, result.knots, p, j), &result.knots[j + 1]));
     }
   }
   return result;
@@ -157,7 +140,7 @@ Parts elevatedOnce(const Parts& old) {
       for (int i = 0, k = 0; i < q; ++i) {
         if (i != omit) rest[k++] = arguments[i];
       }
-      sum += blossom(old, span, rest.data());
+      sum += blossomOf(old, span, rest.data());
     }
     result.points.push_back(sum / q);
   }
@@ -178,7 +161,7 @@ Result<NurbsCurve> insertKnot(const NurbsCurve& curve, double u, int times) {
   }
   if (times == 0) return curve;
   std::vector<double> knots = parts.knots;
-  knots.insert(std::upper_bound(knots.begin(), knots.end(), at), static_cast<std::size_t>(times), at);
+  knots.insert(std::upper_bound(knots.begin(), knots.end(), at), times, at);
   return assemble(overKnots(parts, std::move(knots)));
 }
 
@@ -193,7 +176,7 @@ Result<SplitCurve> split(const NurbsCurve& curve, double u) {
   const int p = parts.degree;
   const int missing = std::max(0, p - multiplicity(parts, at));
   std::vector<double> knots = parts.knots;
-  knots.insert(std::upper_bound(knots.begin(), knots.end(), at), static_cast<std::size_t>(missing), at);
+  knots.insert(std::upper_bound(knots.begin(), knots.end(), at), missing, at);
   parts = overKnots(parts, std::move(knots));
   const auto [first, last] = std::equal_range(parts.knots.begin(), parts.knots.end(), at);
   const std::size_t order = static_cast<std::size_t>(p) + 1;
@@ -291,7 +274,7 @@ Result<std::vector<BezierPiece>> bezierPieces(const NurbsCurve& curve) {
     for (int j = 0; j <= p; ++j) {
       std::array<double, 8> arguments{};
       for (int i = 0; i < p; ++i) arguments[i] = i < p - j ? low : high;
-      piece.controlPoints.emplace_back(blossom(parts, span, arguments.data()).head<2>());
+      piece.controlPoints.emplace_back(blossomOf(parts, span, arguments.data()).head<2>());
     }
     if (!pieces.empty() && multiplicity(parts, low) <= p)
       piece.controlPoints.front() = pieces.back().controlPoints.back();

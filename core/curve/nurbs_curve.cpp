@@ -11,39 +11,37 @@ namespace batten {
 
 namespace {
 
-constexpr int kMaxDegree = 7;
 constexpr int kMaxOrder = 4;
 
-/// Index s with knots[s] <= u < knots[s + 1], within the domain; the last non-empty span for u at the end.
-int findSpan(int degree, std::span<const double> knots, int controlPointCount, double u) {
-  const auto first = knots.begin() + degree;
-  const auto last = knots.begin() + controlPointCount;
-  if (u >= *last) {
-    // The end belongs to the span before it: the first knot that equals the end, minus one.
-    return static_cast<int>(std::lower_bound(first, last, *last) - knots.begin()) - 1;
-  }
-  return static_cast<int>(std::upper_bound(first, last, u) - knots.begin()) - 1;
-}
-
-/// Values of the degree + 1 basis functions of a span, Piegl & Tiller A2.2. `values` holds 8 numbers.
-void basisValues(int degree, const double* knots, int span, double u, double* values) {
+/// Values of the degree + 1 basis functions of a span, Piegl & Tiller A2.2. `values` holds 8 numbers. Tells
+/// `difference` (row, column, knot difference) and `column` (number, its values) what the derivatives need.
+template <class Difference, class Column>
+void basisTriangle(int degree, const double* knots, int span, double u, double* values, const Difference& difference,
+                   const Column& column) {
   std::array<double, kMaxDegree + 1> left, right;
   values[0] = 1.0;
+  column(0, values);
   for (int j = 1; j <= degree; ++j) {
     left[j] = u - knots[span + 1 - j];
     right[j] = knots[span + j] - u;
     double saved = 0.0;
     for (int r = 0; r < j; ++r) {
-      const double rightR = right[r + 1];
-      const double leftR = left[j - r];
+      const double leftR = left[j - r], whole = right[r + 1] + leftR;
+      difference(j, r, whole);
       // Written so that the shares at both borders of a span are exactly 0 and 1: clamped curves start on their first
       // point.
-      const double part = values[r] * (leftR / (rightR + leftR));
+      const double part = values[r] * (leftR / whole);
       values[r] = saved + (values[r] - part);
       saved = part;
     }
     values[j] = saved;
+    column(j, values);
   }
+}
+
+void basisValues(int degree, const double* knots, int span, double u, double* values) {
+  basisTriangle(
+      degree, knots, span, u, values, [](int, int, double) {}, [](int, const double*) {});
 }
 
 /// Derivatives of the basis functions from the triangle of knot differences and values, Piegl & Tiller A2.3.
@@ -82,31 +80,31 @@ void basisDerivatives(int degree, const double (&ndu)[kMaxDegree + 1][kMaxDegree
 
 }  // namespace
 
+int spanOf(int degree, std::span<const double> knots, int controlPointCount, double u) {
+  const auto first = knots.begin() + degree;
+  const auto last = knots.begin() + controlPointCount;
+  if (u >= *last) {
+    // The end belongs to the span before it: the first knot that equals the end, minus one.
+    return static_cast<int>(std::lower_bound(first, last, *last) - knots.begin()) - 1;
+  }
+  return static_cast<int>(std::upper_bound(first, last, std::max(u, *first)) - knots.begin()) - 1;
+}
+
 BasisRow basis(int degree, std::span<const double> knots, int controlPointCount, double u, int order) {
   BasisRow row;
-  const int span = findSpan(degree, knots, controlPointCount, u);
+  const int span = spanOf(degree, knots, controlPointCount, u);
   row.first = span - degree;
+  std::array<double, kMaxDegree + 1>& values = row.values[0];
   if (order <= 0) {
-    basisValues(degree, knots.data(), span, u, row.values[0].data());
+    basisValues(degree, knots.data(), span, u, values.data());
     return row;
   }
   double ndu[kMaxDegree + 1][kMaxDegree + 1];
-  std::array<double, kMaxDegree + 1> left, right;
-  ndu[0][0] = 1.0;
-  for (int j = 1; j <= degree; ++j) {
-    left[j] = u - knots[span + 1 - j];
-    right[j] = knots[span + j] - u;
-    double saved = 0.0;
-    for (int r = 0; r < j; ++r) {
-      const double rightR = right[r + 1], leftR = left[j - r];
-      ndu[j][r] = rightR + leftR;
-      const double part = ndu[r][j - 1] * (leftR / ndu[j][r]);
-      ndu[r][j] = saved + (ndu[r][j - 1] - part);
-      saved = part;
-    }
-    ndu[j][j] = saved;
-  }
-  for (int j = 0; j <= degree; ++j) row.values[0][j] = ndu[j][degree];
+  basisTriangle(
+      degree, knots.data(), span, u, values.data(), [&](int j, int r, double whole) { ndu[j][r] = whole; },
+      [&](int j, const double* column) {
+        for (int r = 0; r <= j; ++r) ndu[r][j] = column[r];
+      });
   // Derivatives above the degree are zero, as the row already is.
   basisDerivatives(degree, ndu, std::min({order, degree, kMaxOrder}), row);
   return row;
@@ -173,7 +171,7 @@ double NurbsCurve::end() const { return data_->knots[data_->controlPoints.size()
 Vec2 NurbsCurve::point(double u) const {
   const Data& d = *data_;
   const double clampedU = std::clamp(u, start(), end());
-  const int span = findSpan(d.degree, d.knots, controlPointCount(), clampedU);
+  const int span = spanOf(d.degree, d.knots, controlPointCount(), clampedU);
   std::array<double, kMaxDegree + 1> n;
   basisValues(d.degree, d.knots.data(), span, clampedU, n.data());
   const auto first = static_cast<std::size_t>(span - d.degree);
@@ -201,7 +199,7 @@ std::array<Vec2, 5> NurbsCurve::derivatives(double u, int order) const {
   std::array<Vec2, 5> result;
   result.fill(Vec2::Zero());
   std::array<double, 5> weight{};
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k) {
+  for (int k = 0; k <= top; ++k) {
     for (std::size_t j = 0; j < terms; ++j) {
       const double n = row.values[k][j] * (d.weights.empty() ? 1.0 : d.weights[first + j]);
       result[k] += n * d.controlPoints[first + j];
@@ -211,7 +209,7 @@ std::array<Vec2, 5> NurbsCurve::derivatives(double u, int order) const {
   if (d.weights.empty()) return result;
   // Quotient rule, A4.2: each order from the numerator's and the lower ones.
   constexpr double binomial[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k) {
+  for (int k = 0; k <= top; ++k) {
     for (std::size_t i = 1; i <= k; ++i) result[k] -= binomial[k][i] * weight[i] * result[k - i];
     result[k] /= weight[0];
   }

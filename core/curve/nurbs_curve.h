@@ -11,6 +11,9 @@
 
 namespace batten {
 
+/// Of curves in this program; what is evaluated lies in arrays of this size + 1.
+inline constexpr int kMaxDegree = 7;
+
 /// A NURBS curve of the plane. Immutable: a curve that exists is valid (degree >= 1, non-decreasing finite knots,
 /// number of knots = control points + degree + 1, no knot of multiplicity above degree + 1, positive domain, positive
 /// weights). The domain is [knots[degree], knots[n]] with n = number of control points. Copies share their data.
@@ -52,6 +55,10 @@ class NurbsCurve {
   struct Data;
   std::shared_ptr<const Data> data_;
 };
+
+/// Index s of the span of u: knots[s] <= u < knots[s + 1] within the domain, which u is clamped to; at its end the last
+/// span that is not empty.
+int spanOf(int degree, std::span<const double> knots, int controlPointCount, double u);
 
 /// Values and derivatives 0..order of the degree+1 basis functions that are not zero in the span of u:
 /// values[d][j], first = index of the control point of j = 0. Piegl & Tiller A2.3.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/curve/foot_step.h"
 #include "core/solve/gauss_legendre.h"
 
 namespace batten {
@@ -98,6 +99,13 @@ SpanBasis::SpanBasis(int degree, std::span<const double> knots, int count, int w
   breaks_.push_back(knots[count]);
 }
 
+SpanPlace SpanBasis::place(double u) const {
+  const double inside = std::clamp(u, breaks_.front(), breaks_.back());
+  const auto above = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, inside);
+  const int span = static_cast<int>(above - breaks_.begin()) - 1;
+  return {span, (inside - begin(span)) / width(span)};
+}
+
 SpanRow SpanBasis::row(const SpanPlace& place, int order) const {
   SpanRow result;
   const double h = width(place.span);
@@ -121,11 +129,10 @@ SpanRow SpanBasis::row(const SpanPlace& place, int order) const {
 
 SpanCurve::SpanCurve(const SpanBasis& basis, std::span<const Vec2> points) : basis_(&basis) {
   const int p = basis.degree();
-  coefficients_.assign(static_cast<std::size_t>(basis.spanCount()) * static_cast<std::size_t>(p + 1), Vec2::Zero());
+  coefficients_.assign(std::ptrdiff_t{basis.spanCount()} * (p + 1), Vec2::Zero());
   for (int s = 0; s < basis.spanCount(); ++s) {
     for (int k = 0; k <= p; ++k) {
-      Vec2& c =
-          coefficients_[static_cast<std::size_t>(s) * static_cast<std::size_t>(p + 1) + static_cast<std::size_t>(k)];
+      Vec2& c = coefficients_[std::ptrdiff_t{s} * (p + 1) + k];
       for (int j = 0; j <= p; ++j) {
         c += basis.coefficient(s, k, j) * points[basis.point(s, j)];
       }
@@ -208,12 +215,7 @@ SpanPlace footPoint(const SpanCurve& curve, const Vec2& point, SpanPlace start) 
   SpanPlace place = start;
   for (int step = 0; step < 8; ++step) {
     const Jet jet = curve.at(place, 2);
-    const Vec2 gap = jet[0] - point;
-    const double speed2 = jet[1].squaredNorm();
-    if (!(speed2 > 0.0)) return place;
-    // Beyond the centre of curvature the second derivative of the distance turns negative: fall back to Gauss-Newton.
-    const double bend = speed2 + gap.dot(jet[2]);
-    double move = -gap.dot(jet[1]) / (bend > 0.2 * speed2 ? bend : speed2) / basis.width(place.span);
+    double move = footStep(jet[0] - point, jet[1], jet[2]) / basis.width(place.span);
     if (!std::isfinite(move)) return place;
     move = std::clamp(move, -1.0, 1.0);
     SpanPlace next{place.span, place.tau + move};

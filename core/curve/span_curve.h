@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "core/base/vec2.h"
+#include "core/curve/nurbs_curve.h"
 
 namespace batten {
-
-inline constexpr int kMaxFairingDegree = 7;
 
 /// A place on a piecewise polynomial curve: span number and position 0..1 within it.
 struct SpanPlace {
@@ -20,7 +19,7 @@ struct SpanPlace {
 
 /// Values and derivatives 0..4 with respect to the parameter of the degree + 1 basis functions of a span.
 struct SpanRow {
-  std::array<std::array<double, kMaxFairingDegree + 1>, 5> d{};
+  std::array<std::array<double, kMaxDegree + 1>, 5> d{};
 };
 
 /// The B-spline basis of a knot vector as polynomials per span, computed once: fairing evaluates the same basis some
@@ -28,7 +27,7 @@ struct SpanRow {
 class SpanBasis {
  public:
   SpanBasis() = default;
-  /// @pre a valid knot vector for `count` control points, 1 <= degree <= kMaxFairingDegree.
+  /// @pre a valid knot vector for `count` control points, 1 <= degree <= kMaxDegree.
   SpanBasis(int degree, std::span<const double> knots, int count, int wrap);
 
   int degree() const { return degree_; }
@@ -36,6 +35,8 @@ class SpanBasis {
   int pointCount() const { return wrap_ > 0 ? wrap_ : count_; }
   double begin(int span) const { return breaks_[span]; }
   double width(int span) const { return breaks_[span + 1] - breaks_[span]; }
+  /// Where the parameter u lies, clamped to the domain; a knot belongs to the span that begins there.
+  SpanPlace place(double u) const;
   double parameter(const SpanPlace& place) const { return begin(place.span) + place.tau * width(place.span); }
   bool isPeriodic() const { return wrap_ > 0; }
   /// Control point that belongs to basis function j = 0..degree of a span.

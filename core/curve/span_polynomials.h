@@ -2,15 +2,16 @@
 #pragma once
 
 #include <array>
-#include <vector>
+#include <memory>
 
 #include "core/base/vec2.h"
 #include "core/curve/nurbs_curve.h"
+#include "core/curve/span_curve.h"
 
 namespace batten {
 
-/// The polynomials of a curve's spans, for whoever evaluates one curve many times: several times as fast as its
-/// B-spline basis, equal to it up to rounding. A rational curve has none; it is evaluated as it is.
+/// A curve by the polynomials of its spans, for whoever evaluates it many times: several times as fast as its B-spline
+/// basis, equal to it up to rounding. A rational curve has none; it is evaluated as it is.
 class SpanPolynomials {
  public:
   explicit SpanPolynomials(const NurbsCurve&);
@@ -21,9 +22,8 @@ class SpanPolynomials {
 
  private:
   NurbsCurve curve_;
-  int degree_ = 0;
-  std::vector<double> breaks_;      ///< Of the spans; empty for a rational curve.
-  std::vector<Vec2> coefficients_;  ///< Degree + 1 of each span, of the powers of its local parameter 0..1.
+  std::shared_ptr<const SpanBasis> basis_;  ///< Null for a rational curve. Shared: `spans_` points to it.
+  SpanCurve spans_;
 };
 
 }  // namespace batten

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/curve/blossom.h"
+#include "core/curve/foot_step.h"
 #include "core/solve/banded_cholesky.h"
 
 namespace batten {
@@ -140,11 +142,7 @@ double UniformQuintic::footPoint(const Vec2& p, double start, double beyond) con
   double t = knots_.closed ? start : std::clamp(start, low, high);
   for (int round = 0; round < 12; ++round) {
     const PlaneDerivatives d = at(t, 2);
-    const Vec2 off = p - d[0];
-    const double speed2 = d[1].squaredNorm();
-    const double slope = std::max(speed2 - off.dot(d[2]), 0.25 * speed2);
-    if (!(slope > 0.0)) break;
-    double next = t + std::clamp(off.dot(d[1]) / slope, -h, h);
+    double next = t + std::clamp(footStep(d[0] - p, d[1], d[2]), -h, h);
     if (!knots_.closed) next = std::clamp(next, low, high);
     const double move = std::abs(next - t);
     t = next;
@@ -155,29 +153,22 @@ double UniformQuintic::footPoint(const Vec2& p, double start, double beyond) con
 
 Result<NurbsCurve> UniformQuintic::toNurbs(double parameterScale, double pointScale, const Vec2& startShift,
                                            const Vec2& endShift) const {
-  const int m = knots_.spans;
-  const auto count = static_cast<std::size_t>(knots_.coefficients());
+  const int m = knots_.spans, count = knots_.coefficients();
   std::vector<int> places(6, 0);  // clamped knots in units of the spacing
   for (int j = 1; j < m; ++j) places.push_back(j);
   places.insert(places.end(), 6, m);
   std::vector<Vec2> points;
   for (int i = 0; i < m + 5; ++i) {
-    // Blossom of the polynomial of a span under this control point at its five inner knots (de Boor with mixed
-    // arguments).
+    // Blossom of the polynomial of a span under this control point at its five inner knots.
     const int j = std::clamp(i - 2, 0, m - 1);
-    std::array<Vec2, 6> d;
-    for (int k = 0; k < 6; ++k) d[k] = coefficients_[static_cast<std::size_t>(j + k) % count];
-    for (int r = 1; r <= 5; ++r) {
-      const double u = places[i + r] - j;
-      for (int k = 5; k >= r; --k) {
-        const double alpha = (u - (k - 5)) / (6 - r);
-        const auto at = static_cast<std::size_t>(k);
-        d[at] = (1.0 - alpha) * d[at - 1] + alpha * d[at];
-      }
-    }
+    std::array<double, 5> arguments;
+    for (int r = 1; r <= 5; ++r) arguments[r - 1] = places[i + r] - j;
+    const auto knot = [](int k) { return static_cast<double>(k - 5); };
+    const Vec2 point = blossom(
+        5, knot, [&](int k) { return coefficients_[(j + k) % count]; }, 5, arguments.data());
     double greville = 0.0;
     for (int r = 1; r <= 5; ++r) greville += places[i + r] / (5.0 * m);
-    points.push_back(pointScale * (d[5] + (1.0 - greville) * startShift + greville * endShift));
+    points.push_back(pointScale * (point + (1.0 - greville) * startShift + greville * endShift));
   }
   std::vector<double> clampedKnots;
   for (const int place : places)

@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 
 #include "core/base/statistics.h"
 #include "core/exchange/export_check.h"
+#include "core/pipeline/run/direction_owners.h"
+#include "core/pipeline/run/imported_lines.h"
 
 namespace batten {
 namespace {
@@ -54,8 +57,17 @@ std::optional<double> strokeWidth(const Contour& line, const PageFrame& frame) {
 
 const NurbsCurve& shapeOf(const TracedCurve& curve, bool sketched) { return sketched ? curve.sketched : curve.faired; }
 
+/// A line that had a name where it came from keeps it.
+void takeName(const std::string& name, ExportCurve& curve) {
+  if (name.empty()) return;
+  curve.name = name;
+  for (std::size_t i = 0; i < curve.pieces.size(); ++i)
+    curve.pieces[i].name = curve.pieces.size() == 1 ? name : name + " " + std::to_string(i + 1);
+}
+
 /// Adds the lines of a run in one of their two kinds.
-void addCurves(const PipelineOutput& output, bool sketched, ExportDocument& document) {
+void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched, ExportDocument& document) {
+  const DirectionOwners owners = assignDirections(*output.pieces, recipe);
   std::map<int, ContourPieces> byContour;
   std::map<std::size_t, const TracedCurve*> byPiece;
   for (const TracedCurve& curve : output.faired->curves) {
@@ -65,17 +77,23 @@ void addCurves(const PipelineOutput& output, bool sketched, ExportDocument& docu
     const auto found = byPiece.find(i);
     byContour[output.pieces->pieces[i].contour].push_back(found == byPiece.end() ? nullptr : found->second);
   }
-  int count = 0;
   for (const auto& [contour, pieces] : byContour) {
     const Contour& line = output.contours->contours[static_cast<std::size_t>(contour)];
     for (const auto& run : runs(pieces, line.closed)) {
       ExportCurve& curve = document.curves.emplace_back();
-      curve.id = "curve-" + std::to_string(++count) + (sketched ? "-sketched" : "");
       curve.layer = sketched ? kSketchedLayer : kFairedLayer;
+      int lowest = std::numeric_limits<int>::max();
       for (const TracedCurve* piece : run) {
-        const int number = static_cast<int>(piece - output.faired->curves.data()) + 1;
-        curve.pieces.push_back({shapeOf(*piece, sketched), "Curve " + std::to_string(number), number});
+        const int number = curveNumber(output, *piece);
+        lowest = std::min(lowest, number);
+        ExportPiece& own = curve.pieces.emplace_back(ExportPiece{shapeOf(*piece, sketched), curveName(number), number});
+        if (const auto& wanted = owners.ofPiece[static_cast<std::size_t>(piece->piece)])
+          own.direction = PieceDirection{static_cast<int>(wanted->mark), wanted->isTurned};
       }
+      if (const ImportedLine* imported = importedLineOf(line, recipe.imports)) takeName(imported->name, curve);
+      curve.id = "curve-" + std::to_string(lowest) + (sketched ? "-sketched" : "");
+      if (const auto start = owners.startOfContour.find(contour); start != owners.startOfContour.end())
+        curve.startMm = output.frame.pointToModel(recipe.starts[start->second].positionPx);
       curve.strokeWidthMm = strokeWidth(line, output.frame);
       // A loop of the drawing whose curves do not meet, because a construction breaks them, is none.
       curve.closed = isWholeClosed(run, pieces, line.closed) && isLoop(curve.pieces);
@@ -92,9 +110,10 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
   document.dpi = recipe.dpi ? recipe.dpi : scan.dpi;
   document.imageSha256 = scan.fileHash.hex();
   document.title = std::filesystem::path(scan.path).filename().string();
+  if (document.title.empty() && !recipe.imports.empty()) document.title = recipe.imports.front().source;
   if (!output.faired || !output.pieces || !output.contours) return document;
-  if (which != ExportedCurves::Faired) addCurves(output, true, document);
-  if (which != ExportedCurves::Sketched) addCurves(output, false, document);
+  if (which != ExportedCurves::Faired) addCurves(output, recipe, true, document);
+  if (which != ExportedCurves::Sketched) addCurves(output, recipe, false, document);
   return document;
 }
 

@@ -10,10 +10,10 @@ namespace batten {
 enum class ExportedCurves { Faired, Sketched, Both };
 
 /// What an export of the present result holds: the faired curves the user has not excluded, grouped by contour into
-/// curves "curve-1" …. Pieces that follow each other form one curve; where a piece is missing (excluded or failed) the
-/// line is interrupted and becomes several open curves. Empty curves if the run gave no faired curve.
+/// paths. Pieces that follow each other form one path, "curve-3" if Curve 3 has the lowest number among them; where a piece is missing (excluded or failed) the
+/// line is interrupted and becomes several open paths. Empty curves if the run gave no faired curve.
 /// Sketched curves come before faired ones, on a layer of their own, with ids that end in "-sketched"; a piece that was
-/// not faired is one of both kinds. Pieces are named as the window numbers them.
+/// not faired is one of both kinds. Pieces are named and numbered as in the window and the report.
 ExportDocument exportDocument(const PipelineOutput&, const Recipe&, const Scan&,
                               ExportedCurves which = ExportedCurves::Faired);
 

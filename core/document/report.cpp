@@ -147,6 +147,7 @@ Json choiceToJson(const TracedCurve& c) {
 
 const char* kindName(ContourKind kind) {
   if (kind == ContourKind::Pen) return "pen";
+  if (kind == ContourKind::Imported) return "imported";
   return kind == ContourKind::Centreline ? "centreline" : "outline";
 }
 
@@ -160,7 +161,9 @@ Json cornersToJson(const PipelineOutput& out, const TracedCurve& c) {
 
 Json curveToJson(const PipelineOutput& out, const ReportExtras& extras, std::size_t index) {
   const TracedCurve& c = out.faired->curves[index];
-  Json json{{"index", static_cast<int>(index)}, {"contour", c.contour + 1}, {"piece", c.piece}, {"closed", c.closed}};
+  const int known = curveNumber(out, c);
+  Json json{{"index", static_cast<int>(index)}, {"name", curveName(known)}, {"number", known},
+            {"contour", c.contour + 1},         {"piece", c.piece},         {"closed", c.closed}};
   json["kind"] = kindName(out.contours->contours[c.contour].kind);
   json["corners_px"] = cornersToJson(out, c);
   const auto& refined = out.pieces->pieces[c.piece].refined;
@@ -240,7 +243,7 @@ Json contourToJson(const Contour& c, std::size_t index, const PageFrame& frame) 
             {"stroke_width", rangeToJson(strokeWidthsOf(c.points), frame)},
             {"merged_half_spread", rangeToJson(halfSpread(c), frame)},
             {"bridges", Json::array()},
-            {"not_placed", c.kind == ContourKind::Pen ? Json::array() : notPlacedToJson(c)}};
+            {"not_placed", isDrawn(c.kind) ? Json::array() : notPlacedToJson(c)}};
   const int n = static_cast<int>(c.points.size());
   for (const auto& [first, last] : c.bridges) {
     if (first >= 0 && first <= last && last < n) json["bridges"].push_back(stretchToJson(c, first, last));
@@ -268,10 +271,13 @@ void addComparisons(const PipelineOutput& out, Json& curves) {
       other = j;
     }
     if (!best) continue;
-    curves[i]["most_alike"] = {
-        {"index", static_cast<int>(other)}, {"similarity", number(best->similarity)},
-        {"pearson", number(best->pearson)}, {"curvature_similarity", number(best->curvatureSimilarity)},
-        {"mirrored", best->mirrored},       {"reversed", best->reversed}};
+    curves[i]["most_alike"] = {{"index", static_cast<int>(other)},
+                               {"name", curveName(curveNumber(out, all[other]))},
+                               {"similarity", number(best->similarity)},
+                               {"pearson", number(best->pearson)},
+                               {"curvature_similarity", number(best->curvatureSimilarity)},
+                               {"mirrored", best->mirrored},
+                               {"reversed", best->reversed}};
   }
 }
 

@@ -22,10 +22,10 @@ struct ReportExtras {
 };
 
 /// The report as JSON, "batten-report" version 1: image; per stage milliseconds and counts; per contour length, area,
-/// stroke width, spread of merged strokes, bridged gaps and where it was not placed; per curve length, control
-/// points, corners, deviations (px and mm), extrema, inflections, the six targets, the choice, and why each solver
-/// stopped; how well the curves explain the ink, where asked; what failed; peak memory. Works on the outputs of a run
-/// that ended early, too.
+/// stroke width, spread of merged strokes, bridged gaps and where it was not placed; per curve its name and number (as
+/// in the window and in files; `index` and `piece` count from 0), length, control points, corners, deviations (px and
+/// mm), extrema, inflections, the six targets, the choice, and why each solver stopped; how well the
+/// curves explain the ink, where asked; what failed; peak memory. Works on the outputs of a run that ended early, too.
 std::string reportToJson(const Scan&, const Recipe&, const PipelineOutput&, const ReportExtras&);
 
 }  // namespace batten

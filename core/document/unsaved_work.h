@@ -11,7 +11,7 @@ namespace batten {
 
 /// What a journal keeps of a drawing with unsaved changes.
 struct UnsavedWork {
-  std::string scanPath;  ///< UTF-8; empty: a drawing on an empty page.
+  std::string scanPath;  ///< UTF-8, as the window stores paths; empty: a drawing on an empty page.
   Recipe recipe;
 };
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
@@ -16,7 +15,6 @@ namespace batten {
 namespace {
 
 constexpr double kGrid = 1e-10;    ///< [unit of the file] To which the handles of cubics are rounded.
-constexpr double kOnTop = 1e-7;    ///< Of the size of a curve: nearer ones lie on top of each other.
 constexpr double kMeeting = 1e-6;  ///< Of the size of a curve: gap of pieces that are joined (see doMeet).
 
 /// Pieces to be written as one, with the name of the first.
@@ -24,33 +22,6 @@ struct Chain {
   std::vector<NurbsCurve> curves;
   std::string name, layer;
   bool closed = false;
-};
-
-/// Tells whether a curve lies on one that came before, by places along it.
-class SeenCurves {
- public:
-  bool isNew(const NurbsCurve& curve) {
-    Places own{};
-    const auto samples = sampleByArcLength(curve, static_cast<int>(own.size()));
-    for (std::size_t i = 0; i < own.size(); ++i) own[i] = samples[i].point;
-    const double near = kOnTop * extent(curve), key = own[own.size() / 2].x();
-    for (auto it = seen_.lower_bound(key - near); it != seen_.end() && it->first <= key + near; ++it)
-      if (isSame(it->second, own, near)) return false;
-    seen_.emplace(key, own);
-    return true;
-  }
-
- private:
-  using Places = std::array<Vec2, 9>;
-  static bool isSame(const Places& a, const Places& b, double near) {
-    bool forwards = true, backwards = true;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      forwards = forwards && (a[i] - b[i]).norm() <= near;
-      backwards = backwards && (a[i] - b[b.size() - 1 - i]).norm() <= near;
-    }
-    return forwards || backwards;
-  }
-  std::multimap<double, Places> seen_;
 };
 
 /// The parts of a curve between the knots inside it that are repeated more than `most` times.
@@ -204,25 +175,20 @@ class Builder {
 };
 
 /// The pieces of a line as they are to be written: alone, or joined wherever one goes on where the last one ends.
-std::vector<Chain> chainsOf(const ExportCurve& line, const ExportSettings& settings, SeenCurves& seen, int& doubles) {
+std::vector<Chain> chainsOf(const ExportCurve& line, const ExportSettings& settings) {
   const double size = settings.scale / millimetresPer(settings.unit);
   const Eigen::Matrix2d linear = size * Eigen::Matrix2d::Identity();
+  const bool joined = isJoined(settings);
   std::vector<Chain> chains;
-  std::optional<std::size_t> last;
   for (std::size_t i = 0; i < line.pieces.size(); ++i) {
     NurbsCurve curve = line.pieces[i].curve.mapped(linear, Vec2::Zero());
-    if (!seen.isNew(curve)) {
-      ++doubles;
-      continue;
-    }
-    const bool goesOn = settings.joined && last && *last + 1 == i && doMeet(chains.back().curves.back(), curve);
+    const bool goesOn = joined && !chains.empty() && doMeet(chains.back().curves.back(), curve);
     if (!goesOn) {
-      const bool alone = settings.joined || line.pieces.size() == 1;
+      const bool alone = joined || line.pieces.size() == 1;
       const std::string name = alone && !line.name.empty() ? line.name : entityName(line, i);
       chains.push_back({{}, name, line.layer, false});
     }
     chains.back().curves.push_back(std::move(curve));
-    last = i;
   }
   for (Chain& chain : chains) chain.closed = doMeet(chain.curves.back(), chain.curves.front());
   return chains;
@@ -236,12 +202,13 @@ Result<CadExport> cadExport(const ExportDocument& document, const ExportSettings
   CadExport result;
   result.drawing.mmPerUnit = millimetresPer(settings.unit);
   Builder builder(settings, result);
-  SeenCurves seen;
+  std::size_t done = 0;
   for (const ExportCurve& line : document.curves) {
-    for (const Chain& chain : chainsOf(line, settings, seen, result.doubles)) {
+    for (const Chain& chain : chainsOf(line, settings)) {
       if (context.isCancelled()) return cancelled();
       if (auto added = builder.add(chain); !added) return fail(added.error());
     }
+    context.report(static_cast<double>(++done) / static_cast<double>(document.curves.size()));
   }
   return result;
 }
@@ -249,6 +216,8 @@ Result<CadExport> cadExport(const ExportDocument& document, const ExportSettings
 ExportDocument scaled(const ExportDocument& document, double scale) {
   ExportDocument result = document;
   result.frame.mmPerPx *= scale;
+  result.frame.leftMm *= scale;
+  result.frame.bottomMm *= scale;
   if (result.dpi) *result.dpi /= scale;
   const Eigen::Matrix2d linear = scale * Eigen::Matrix2d::Identity();
   for (ExportCurve& curve : result.curves) {

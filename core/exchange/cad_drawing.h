@@ -16,12 +16,10 @@ struct CadExport {
   CadDrawing drawing;           ///< Lengths in the unit of the settings.
   double largestErrorMm = 0.0;  ///< Measured distance of the entities from the exact curves, at the size written.
   double largestJump = 0.0;     ///< Cubics: the largest jump of the curvature where two meet, see cubic_path.h.
-  int doubles = 0;              ///< Curves that lay on another one and were left out.
 };
 
 /// Scales the curves, joins them or cuts them, and makes entities of them as the settings say, one after the other in
-/// the order of the document. Parameters of curves are their arc length. A line that lies on another one, forwards or
-/// backwards, is written once.
+/// the order of the document. Parameters of curves are their arc length.
 /// @return NoCurve if there is nothing to write; BadParameter for settings that make no sense.
 Result<CadExport> cadExport(const ExportDocument&, const ExportSettings&, const RunContext& = {});
 

@@ -12,7 +12,6 @@
 namespace batten {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr int kCompared = 200;  ///< Places at which two shapes are compared.
 /// Of the size of a curve: farther off it is no line or arc. Circles found in a scan are splines exact to 1e-8.
 constexpr double kExact = 2e-8;
@@ -75,9 +74,9 @@ std::optional<CadShape> arcOf(const NurbsCurve& curve, double size) {
     turned += step;
   }
   const bool whole = (places.back() - places.front()).norm() <= kExact * size;
-  if (std::abs(turned) > kTurn * (1.0 + kExact)) return std::nullopt;
+  if (std::abs(turned) > kFullTurnRad * (1.0 + kExact)) return std::nullopt;
   const Vec2 first = (turned > 0.0 ? places.front() : places.back()) - *centre;
-  return CadArc{*centre, radius, std::atan2(first.y(), first.x()), whole ? kTurn : std::abs(turned)};
+  return CadArc{*centre, radius, std::atan2(first.y(), first.x()), whole ? kFullTurnRad : std::abs(turned)};
 }
 
 /// The edge of a polyline that begins at vertex i: a line, or an arc and whether it is run through backwards.
@@ -165,7 +164,7 @@ double arcDifference(const CadArc& a, const CadArc& b) {
 
 }  // namespace
 
-bool isCircle(const CadArc& arc) { return arc.sweepRad >= kTurn * (1.0 - 1e-9); }
+bool isCircle(const CadArc& arc) { return arc.sweepRad >= kFullTurnRad * (1.0 - 1e-9); }
 
 Vec2 pointAt(const CadShape& shape, double fraction) {
   if (const auto* line = std::get_if<CadLine>(&shape)) return line->from + fraction * (line->to - line->from);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
@@ -10,6 +11,8 @@
 #include "core/curve/nurbs_curve.h"
 
 namespace batten {
+
+inline constexpr double kFullTurnRad = 2.0 * std::numbers::pi;
 
 /// What CAD files are made of: each alternative is an entity of DXF, IGES and STEP. Lengths in the unit of the file,
 /// y up, angles counter-clockwise from x.

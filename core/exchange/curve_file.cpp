@@ -2,6 +2,7 @@
 #include "core/exchange/curve_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -11,6 +12,8 @@
 #include "core/exchange/curve_json.h"
 #include "core/exchange/dxf_reader.h"
 #include "core/exchange/export_settings.h"
+#include "core/exchange/iges_reader.h"
+#include "core/exchange/step_reader.h"
 #include "core/exchange/svg_reader.h"
 
 namespace batten {
@@ -60,7 +63,9 @@ Result<ExportDocument> documentOf(const CadDrawing& drawing) {
 Result<ExportDocument> contentOf(const std::string& bytes, ExportFormat format) {
   if (format == ExportFormat::Json) return readCurveJson(bytes);
   if (format == ExportFormat::Svg) return readSvg(bytes);
-  const auto drawing = readDxf(bytes);
+  const auto drawing = format == ExportFormat::Iges   ? parseIges(bytes)
+                       : format == ExportFormat::Step ? parseStep(bytes)
+                                                      : readDxf(bytes);
   if (!drawing) return fail(drawing.error());
   return documentOf(*drawing);
 }
@@ -69,9 +74,11 @@ Result<ExportDocument> contentOf(const std::string& bytes, ExportFormat format) 
 
 Result<ExportDocument> readCurveFile(const std::filesystem::path& path) {
   const auto format = formatOf(path).value_or(ExportFormat::Json);
-  if (format != ExportFormat::Json && format != ExportFormat::Svg && format != ExportFormat::Dxf) {
-    return fail(ErrorCode::BadParameter,
-                "Curves are not read from " + shownName(path.filename()) + ". Take a .json, .svg or .dxf file.");
+  constexpr std::array kRead = {ExportFormat::Json, ExportFormat::Svg, ExportFormat::Dxf, ExportFormat::Iges,
+                                ExportFormat::Step};
+  if (std::find(kRead.begin(), kRead.end(), format) == kRead.end()) {
+    return fail(ErrorCode::BadParameter, "Curves are not read from " + shownName(path.filename()) +
+                                             ". Take a .json, .svg, .dxf, .igs or .step file.");
   }
   const auto bytes = readWhole(path, kLargestCurveBytes);
   if (!bytes) {

@@ -8,9 +8,9 @@
 
 namespace batten {
 
-/// Reads the curves of a file, whoever wrote it: curve JSON, SVG of Batten's own, DXF; the ending says which. Lengths
-/// in mm, of a file without a unit as if it were mm. Every entity of a DXF is a line of its own, and the page ends a
-/// millimetre beyond the curves.
+/// Reads the curves of a file, whoever wrote it: curve JSON, SVG of Batten's own, DXF, IGES, STEP; the ending says
+/// which. Lengths in mm, of a file without a unit as if it were mm. Every entity of a CAD file is a line of its own,
+/// and the page ends a millimetre beyond the curves.
 /// @return BadParameter with what to do if it cannot be read, NoCurve if it holds no curve.
 Result<ExportDocument> readCurveFile(const std::filesystem::path&);
 

@@ -29,7 +29,11 @@ Result<Json> pieceToJson(const ExportPiece& piece, const PageFrame& frame) {
   const NurbsCurve& curve = *made;
   std::vector<Vec2> px;
   for (const Vec2& p : curve.controlPoints()) px.push_back(frame.pointToImage(p));
-  Json json{{"degree", curve.degree()}, {"knots", Json::array()}};
+  Json json = Json::object();
+  if (!piece.name.empty()) json["name"] = piece.name;
+  if (piece.number) json["number"] = *piece.number;
+  json["degree"] = curve.degree();
+  json["knots"] = Json::array();
   for (const double knot : curve.knots()) json["knots"].push_back(knot);
   json["control_points_px"] = pointsToJson(px);
   json["control_points_mm"] = pointsToJson(curve.controlPoints());
@@ -89,7 +93,9 @@ Result<ExportDocument> documentFromJson(const Json& json) {
     for (const Json& piece : entry.at("pieces")) {
       auto made = pieceFromJson(piece);
       if (!made) return damaged("curve " + curve.id + " is invalid (" + made.error().message + ")");
-      curve.pieces.push_back({std::move(*made)});
+      ExportPiece& known = curve.pieces.emplace_back(ExportPiece{std::move(*made)});
+      if (piece.contains("name")) known.name = piece.at("name").get<std::string>();
+      if (piece.contains("number")) known.number = integerOf(piece.at("number"));
     }
   }
   if (auto problem = exportProblem(document)) return damaged(problem->message);

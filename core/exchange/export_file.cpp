@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/curve/curvature.h"
+#include "core/exchange/arrangement.h"
 #include "core/exchange/cad_drawing.h"
 #include "core/exchange/csv_writer.h"
 #include "core/exchange/curve_json.h"
@@ -23,6 +24,8 @@
 #include "core/exchange/pdf_writer.h"
 #include "core/exchange/polynomial_writer.h"
 #include "core/exchange/read_back.h"
+#include "core/exchange/rhino_reader.h"
+#include "core/exchange/rhino_writer.h"
 #include "core/exchange/save_atomically.h"
 #include "core/exchange/svg_check.h"
 #include "core/exchange/svg_writer.h"
@@ -55,6 +58,7 @@ double toleranceOf(const ExportSettings& settings) { return settings.toleranceMm
 
 Result<std::string> cadBytes(const CadDrawing& drawing, const ExportSettings& settings, const std::string& title) {
   if (settings.format == ExportFormat::Iges) return writeIges(drawing, title);
+  if (settings.format == ExportFormat::Rhino) return writeRhino(drawing);
   if (settings.format == ExportFormat::Step) return writeStep(drawing, figuresOf(drawing), title);
   return writeDxf(drawing, settings.dxf);
 }
@@ -62,6 +66,7 @@ Result<std::string> cadBytes(const CadDrawing& drawing, const ExportSettings& se
 Result<CadDrawing> cadBack(const std::string& bytes, ExportFormat format) {
   if (format == ExportFormat::Iges) return readIges(bytes);
   if (format == ExportFormat::Step) return readStep(bytes);
+  if (format == ExportFormat::Rhino) return readRhino(bytes);
   return readDxf(bytes);
 }
 
@@ -69,6 +74,11 @@ Result<Check> cadFile(const ExportDocument& document, const ExportSettings& sett
                       ExportReport& report) {
   auto made = cadExport(document, settings, context);
   if (!made) return fail(made.error());
+  if (settings.format == ExportFormat::Rhino) {
+    auto curves = curvesOnly(made->drawing);
+    if (!curves) return fail(curves.error());
+    made->drawing = std::move(*curves);
+  }
   auto bytes = cadBytes(made->drawing, settings, document.title);
   if (!bytes) return fail(bytes.error());
   if (context.isCancelled()) return cancelled();
@@ -81,7 +91,6 @@ Result<Check> cadFile(const ExportDocument& document, const ExportSettings& sett
   for (const CadEntity& entity : made->drawing.entities)
     if (const auto* line = std::get_if<CadPolyline>(&entity.shape))
       report.vertices += static_cast<int>(line->vertices.size());
-  report.doubles = made->doubles;
   const bool isApproximation = isApproximate(settings);
   if (isApproximation || made->largestErrorMm > kExactMm) report.largestErrorMm = made->largestErrorMm;
   if (isApproximation && report.vertices == 0) report.largestJump = made->largestJump;
@@ -105,7 +114,7 @@ Result<Check> pdfFile(const ExportDocument& document, const ExportSettings& sett
   if (!pdf) return fail(pdf.error());
   const auto difference = checkPdf(pdf->bytes, document);
   if (!difference) return fail(difference.error());
-  report.entities = report.lines;
+  report.entities = static_cast<int>(document.curves.size());
   report.cubics = pdf->cubics;
   report.largestErrorMm = std::max(pdf->largestErrorMm, *difference);
   report.largestJump = pdf->largestJump;
@@ -208,13 +217,17 @@ std::optional<std::set<int>> numbersOf(const std::string& list) {
 
 }  // namespace
 
-Result<ExportedFile> exportedFile(const ExportDocument& document, const ExportSettings& settings,
+Result<ExportedFile> exportedFile(const ExportDocument& given, const ExportSettings& settings,
                                   const RunContext& context) {
-  if (auto problem = exportProblem(document)) return fail(std::move(*problem));
+  if (auto problem = exportProblem(given)) return fail(std::move(*problem));
   if (auto problem = validate(settings)) return fail(std::move(*problem));
+  const auto made = arranged(given, isJoined(settings), context);
+  if (!made) return fail(made.error());
+  const ExportDocument& document = made->document;
   ExportedFile file;
+  file.report.doubles = made->doubles;
   file.report.format = settings.format;
-  file.report.lines = static_cast<int>(document.curves.size());
+  file.report.lines = static_cast<int>(given.curves.size());
   for (const ExportCurve& line : document.curves) file.report.curves += static_cast<int>(line.pieces.size());
   auto check = checkedFile(document, settings, context, file.report);
   if (!check) return fail(check.error());
@@ -271,7 +284,7 @@ Result<ExportDocument> chosenCurves(const ExportDocument& document, const std::s
       if (run.empty()) return;
       ExportCurve& part = result.curves.emplace_back(line);
       part.closed = line.closed && run.size() == line.pieces.size();
-      if (runs++ > 0) part.id += "-" + std::to_string(runs);
+      if (runs++ > 0) part.id.append("-").append(std::to_string(runs));
       part.pieces = std::move(run);
       run.clear();
     };

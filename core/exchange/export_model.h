@@ -11,10 +11,16 @@
 namespace batten {
 
 /// What an export holds, independent of the format. Model frame, mm.
+/// What the user said about the way a curve is to run.
+struct PieceDirection {
+  int mark = 0;           ///< Of those in the recipe; the later one of a line counts.
+  bool isTurned = false;  ///< The other way than the curve here.
+};
 struct ExportPiece {
   NurbsCurve curve;
-  std::string name = {};           ///< As the window calls it; empty: named after its line.
-  std::optional<int> number = {};  ///< As the window counts it, from 1.
+  std::string name = {};                         ///< As the window calls it; empty: named after its line.
+  std::optional<int> number = {};                ///< As the window counts it, from 1.
+  std::optional<PieceDirection> direction = {};  ///< Wanted; see arrangement.h.
 };
 /// All pieces of one line of the drawing, in order of travel; neighbouring pieces meet at corners, but for
 /// curves that a construction breaks there.
@@ -25,6 +31,7 @@ struct ExportCurve {
   std::optional<double> strokeWidthMm = {};  ///< [mm] > 0, usual width of the stroke that it is the middle of.
   std::string name = {};                     ///< Of the user's; empty: its id is its name.
   std::string layer = "Faired";              ///< Layer of CAD files and of SVG. Not empty.
+  std::optional<Vec2> startMm = {};          ///< Where a closed one is wanted to begin; see arrangement.h.
 };
 struct ExportDocument {
   PageFrame frame;

@@ -24,10 +24,12 @@ constexpr const char* kStep[] = {".stp", ".step"};
 constexpr const char* kPdf[] = {".pdf"};
 constexpr const char* kCsv[] = {".csv"};
 constexpr const char* kPolynomials[] = {".poly.csv"};
+constexpr const char* kRhino[] = {".3dm"};
 
 /// Polynomials come before CSV: their ending ends in the other's.
-constexpr std::array kFormats = {ExportFormat::Svg,  ExportFormat::Json, ExportFormat::Dxf,         ExportFormat::Iges,
-                                 ExportFormat::Step, ExportFormat::Pdf,  ExportFormat::Polynomials, ExportFormat::Csv};
+constexpr std::array kFormats = {ExportFormat::Svg,  ExportFormat::Json,        ExportFormat::Dxf,
+                                 ExportFormat::Iges, ExportFormat::Step,        ExportFormat::Rhino,
+                                 ExportFormat::Pdf,  ExportFormat::Polynomials, ExportFormat::Csv};
 
 ExportSettings dxf(DxfProfile profile) {
   ExportSettings settings;
@@ -81,6 +83,12 @@ double defaultTolerance(const ExportSettings& settings) {
   return kCubicTolerance;
 }
 
+bool isJoined(const ExportSettings& settings) {
+  const bool isCad = settings.format == ExportFormat::Dxf || settings.format == ExportFormat::Iges ||
+                     settings.format == ExportFormat::Step || settings.format == ExportFormat::Rhino;
+  return settings.joined.value_or(!isCad);
+}
+
 double millimetresPer(LengthUnit unit) { return unit == LengthUnit::Inch ? kMillimetresPerInch : 1.0; }
 const char* nameOf(LengthUnit unit) { return unit == LengthUnit::Inch ? "in" : "mm"; }
 
@@ -102,6 +110,8 @@ Endings endingsOf(ExportFormat format) {
       return kCsv;
     case ExportFormat::Polynomials:
       return kPolynomials;
+    case ExportFormat::Rhino:
+      return kRhino;
   }
   return kSvg;
 }
@@ -129,6 +139,8 @@ std::span<const ExportPreset> exportPresets() {
   static const std::array presets = {
       ExportPreset{"alias", "Alias", "IGES in mm, every curve exact, of its own degree.", cad(ExportFormat::Iges)},
       ExportPreset{"rhino", "Rhino", "STEP in mm, every curve exact, lines and arcs as such.", cad(ExportFormat::Step)},
+      ExportPreset{"3dm", "Rhino, its own format", "3DM in mm, every curve exact, with names and layers.",
+                   cad(ExportFormat::Rhino)},
       ExportPreset{"fusion", "Fusion", "DXF in mm, every curve one exact spline.", dxf(DxfProfile::Cad)},
       ExportPreset{"catia", "CATIA", "STEP in mm with validation properties, by which CATIA checks what it read.",
                    cad(ExportFormat::Step)},

@@ -12,7 +12,7 @@
 namespace batten {
 
 /// The files that hold curves. The order is the order in which they are offered.
-enum class ExportFormat { Svg, Json, Dxf, Iges, Step, Pdf, Csv, Polynomials };
+enum class ExportFormat { Svg, Json, Dxf, Iges, Step, Pdf, Csv, Polynomials, Rhino };
 
 /// Who reads a DXF. Cad: every curve as one SPLINE of its own degree, exact. Laser: one cubic SPLINE per Bezier piece,
 /// which programs draw that know no other. Cnc: R12 polylines, which every machine reads.
@@ -22,14 +22,15 @@ enum class DxfProfile { Cad, Laser, Cnc };
 /// exact. Cubic: one curve of degree 3 within the tolerance, for receivers that take no higher degree.
 enum class CurveFlavour { Exact, BezierSegments, Cubic };
 
-/// The unit of the numbers of a DXF, IGES, STEP, CSV or list of polynomials. SVG, PDF and JSON are in mm always.
+/// The unit of the numbers of a DXF, IGES, STEP, 3DM, CSV or list of polynomials. SVG, PDF and JSON are in mm always.
 enum class LengthUnit { Millimetre, Inch };
 
 struct ExportSettings {
   ExportFormat format = ExportFormat::Svg;
   LengthUnit unit = LengthUnit::Millimetre;
-  double scale = 1.0;        ///< [-] > 0. The file's curves are this many times as large as the drawing's.
-  bool joined = false;       ///< Pieces that follow each other become one curve, with their corners inside.
+  double scale = 1.0;  ///< [-] > 0. The file's curves are this many times as large as the drawing's.
+  /// Pieces that follow each other become one curve, with their corners inside; absent: as isJoined() says.
+  std::optional<bool> joined;
   bool splinesOnly = false;  ///< Lines, arcs and circles as splines, too.
   bool simpleKnots = false;  ///< DXF Cad: no knot inside a curve more than once; curves are cut where there is one.
   bool arcs = false;         ///< DXF Cnc: arcs (bulges) instead of chords where they save vertices.
@@ -44,6 +45,9 @@ struct ExportSettings {
 double defaultTolerance(const ExportSettings&);
 /// Whether the file holds something else than the curves themselves, so that the tolerance matters.
 bool isApproximate(const ExportSettings&);
+
+/// Whether pieces stay together: as the settings say, else in all but DXF, IGES, STEP and 3DM.
+bool isJoined(const ExportSettings&);
 
 double millimetresPer(LengthUnit);
 const char* nameOf(LengthUnit);  ///< "mm" or "in".

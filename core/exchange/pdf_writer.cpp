@@ -123,6 +123,8 @@ Result<PdfText> writePdf(const ExportDocument& document, const ExportSettings& s
   const double width = document.frame.lengthToModel(document.frame.widthPx) * kPointsPerMm;
   const double height = document.frame.lengthToModel(document.frame.heightPx) * kPointsPerMm;
   const double unit = std::max(1.0, std::ceil(std::max(width, height) / kLargestPagePt));
+  const double left = document.frame.leftMm * kPointsPerMm / unit;
+  const double bottom = document.frame.bottomMm * kPointsPerMm / unit;
   PdfText pdf;
   const auto page = pageOf(document, settings, unit, pdf);
   if (!page) return fail(page.error());
@@ -137,8 +139,9 @@ Result<PdfText> writePdf(const ExportDocument& document, const ExportSettings& s
   std::vector<std::string> objects = {
       "<< /Type /Catalog /Pages 2 0 R /OCProperties << /OCGs [ " + list + "] /D << /Order [ " + list + "] >> >> >>",
       "<< /Type /Pages /Kids [ 3 0 R ] /Count 1 >>",
-      "<< /Type /Page /Parent 2 0 R /MediaBox [ 0 0 " + pdfNumber(width / unit) + " " + pdfNumber(height / unit) +
-          " ]" + (unit > 1.0 ? " /UserUnit " + pdfNumber(unit) : std::string()) +
+      "<< /Type /Page /Parent 2 0 R /MediaBox [ " + pdfNumber(left) + " " + pdfNumber(bottom) + " " +
+          pdfNumber(left + width / unit) + " " + pdfNumber(bottom + height / unit) + " ]" +
+          (unit > 1.0 ? " /UserUnit " + pdfNumber(unit) : std::string()) +
           " /Contents 4 0 R /Resources << /Properties << " + names + ">> >> >>",
       "<< /Length " + std::to_string(page->content.size()) + " >>\nstream\n" + page->content + "\nendstream"};
   for (const std::string& layer : page->layers) objects.push_back("<< /Type /OCG /Name " + pdfText(layer) + " >>");

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/exchange/save_atomically.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <optional>
 #include <random>
 #include <system_error>
-#include <utility>
 
+#include "core/base/platform.h"
 #include "core/base/shown_text.h"
 
 namespace batten {
@@ -29,30 +22,28 @@ tl::unexpected<Error> cannotWrite(const fs::path& path, const std::string& why, 
   return fail(ErrorCode::CannotWrite, "Cannot write " + shownName(path) + ": " + why, std::move(detail));
 }
 
-std::string reason(int systemError) {
-  switch (systemError) {
-    case ENOSPC:
-    case EDQUOT:
-      return "the disk is full. Free some space or choose another place.";
-    case EFBIG:
-      return "the file would become larger than is allowed here. Choose another place.";
-    case EACCES:
-    case EPERM:
-      return "there is no permission to write there. Choose another place.";
-    case EROFS:
-      return "the disk is write-protected. Choose another place.";
-    case ENAMETOOLONG:
-      return "the name is too long. Choose a shorter one.";
-    case EMFILE:
-    case ENFILE:
-      return "too many files are open. Close other programs and try again.";
-    default:
-      return "the disk or its connection failed. Choose another place.";
+std::string reason(std::error_code error) {
+  static constexpr struct {
+    std::errc cause;
+    const char* words;
+  } kReasons[] = {
+      {std::errc::no_space_on_device, "the disk is full. Free some space or choose another place."},
+      {std::errc::file_too_large, "the file would become larger than is allowed here. Choose another place."},
+      {std::errc::permission_denied, "there is no permission to write there. Choose another place."},
+      {std::errc::operation_not_permitted, "there is no permission to write there. Choose another place."},
+      {std::errc::read_only_file_system, "the disk is write-protected. Choose another place."},
+      {std::errc::filename_too_long, "the name is too long. Choose a shorter one."},
+      {std::errc::too_many_files_open, "too many files are open. Close other programs and try again."},
+      {std::errc::too_many_files_open_in_system, "too many files are open. Close other programs and try again."},
+  };
+  for (const auto& one : kReasons) {
+    if (error == one.cause) return one.words;
   }
+  return "the disk or its connection failed. Choose another place.";
 }
 
-tl::unexpected<Error> failedCall(const fs::path& path, int systemError) {
-  return cannotWrite(path, reason(systemError), std::generic_category().message(systemError));
+tl::unexpected<Error> failedCall(const fs::path& path, std::error_code error) {
+  return cannotWrite(path, reason(error), error.message());
 }
 
 /// What stands in the way before anything is written; nullopt if nothing is known to.
@@ -69,22 +60,6 @@ std::optional<std::string> obstacle(const fs::path& path) {
   return std::nullopt;
 }
 
-/// An open file or folder, closed at the end.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  int get() const { return number_; }
-  bool isOpen() const { return number_ >= 0; }
-
- private:
-  int number_;
-};
-
 /// A name for a file that is being written, and whether a name is one: short, whatever the target is called.
 std::string savingName() {
   constexpr std::string_view kHex = "0123456789abcdef";
@@ -100,86 +75,27 @@ bool isSavingName(std::string_view name) {
          name.substr(kPrefix.size(), kDigits).find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-/// Removes what programs left in the folder that were ended while they saved. Whoever saves holds a lock on its file,
-/// which ends with its program, so that a free one has no owner. What cannot be removed stays.
+/// Removes what programs left in the folder that were ended while they saved. What cannot be removed stays.
 void removeLeftovers(const fs::path& folder) {
   std::error_code code;
   for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
     const fs::path& path = entry->path();
-    if (!isSavingName(path.filename().native())) continue;
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC));
-    struct stat info {};
-    if (!file.isOpen() || ::fstat(file.get(), &info) != 0 || !S_ISREG(info.st_mode) || info.st_uid != ::geteuid())
-      continue;
-    if (::flock(file.get(), LOCK_EX | LOCK_NB) == 0) ::unlink(path.c_str());
+    if (isSavingName(path.filename().string())) removeLeftover(path);
   }
 }
 
-/// The file that becomes the target once it is whole; gone with this object unless it did.
-class Saving {
- public:
-  explicit Saving(const fs::path& target)
-      : target_(target),
-        folder_(
-            ::open(target.has_parent_path() ? target.parent_path().c_str() : ".", O_PATH | O_DIRECTORY | O_CLOEXEC)) {}
-  Saving(const Saving&) = delete;
-  Saving& operator=(const Saving&) = delete;
-  ~Saving() {
-    if (!name_.empty()) ::unlinkat(folder_.get(), name_.c_str(), 0);
+/// An empty file beside the target, under a name that nothing has.
+tl::expected<ReplacingFile, std::error_code> fileBeside(const fs::path& target) {
+  constexpr int kAttempts = 100;
+  std::error_code error;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    auto file = ReplacingFile::create(target, savingName());
+    if (file) return file;
+    error = file.error();
+    if (error != std::errc::file_exists) break;
   }
-
-  /// Each returns 0 or the system's error.
-  int write(std::string_view bytes) {
-    if (const int error = create(); error != 0) return error;
-    while (!bytes.empty()) {
-      const ssize_t count = ::write(file_->get(), bytes.data(), bytes.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) return errno;
-      bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
-    // A disk that is told of the name before it has the bytes leaves an empty file where a whole one was, should the
-    // power fail. Some file systems know no such call: they say so, and that is no failure.
-    const bool isSafe = ::fdatasync(file_->get()) == 0 || errno == EINVAL || errno == ENOSYS || errno == EROFS;
-    return isSafe ? 0 : errno;
-  }
-  int rename() {
-    if (::renameat(folder_.get(), name_.c_str(), folder_.get(), target_.filename().c_str()) != 0) return errno;
-    name_.clear();
-    return 0;
-  }
-
- private:
-  int create() {
-    if (!folder_.isOpen()) return errno;
-    struct stat before {};
-    const bool replaces = ::fstatat(folder_.get(), target_.filename().c_str(), &before, 0) == 0;
-    // A file that may not be written is not replaced either, though its folder would allow it.
-    if (replaces && ::faccessat(folder_.get(), target_.filename().c_str(), W_OK, AT_EACCESS) != 0) return errno;
-    constexpr int kAttempts = 100;
-    for (int attempt = 0; attempt < kAttempts; ++attempt) {
-      std::string name = savingName();
-      const int number =
-          ::openat(folder_.get(), name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-      if (number < 0 && errno == EEXIST) continue;
-      if (number < 0) return errno;
-      Descriptor file(number);
-      // Between these two calls another program may have taken the file for a leftover.
-      const bool isHeld = ::flock(number, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
-      struct stat now {};
-      if (!isHeld || ::fstat(number, &now) != 0 || now.st_nlink == 0) continue;
-      name_ = std::move(name);
-      file_.emplace(std::move(file));
-      if (replaces) (void)::fchmod(number, before.st_mode & 0777);  // foreign disks know no such bits
-      return 0;
-    }
-    return EBUSY;
-  }
-
-  fs::path target_;
-  Descriptor folder_;
-  std::optional<Descriptor> file_;
-  std::string name_;
-};
+  return tl::unexpected(error);
+}
 
 }  // namespace
 
@@ -200,9 +116,10 @@ Result<void> saveAtomically(const fs::path& path, std::string_view bytes) {
   if (!target) return cannotWrite(path, "its links lead in a circle. Choose another name.");
   if (const auto why = obstacle(*target)) return cannotWrite(path, *why);
   removeLeftovers(target->has_parent_path() ? target->parent_path() : fs::path("."));
-  Saving saving(*target);
-  if (const int error = saving.write(bytes); error != 0) return failedCall(path, error);
-  if (const int error = saving.rename(); error != 0) return failedCall(path, error);
+  auto file = fileBeside(*target);
+  if (!file) return failedCall(path, file.error());
+  if (const auto error = file->write(bytes)) return failedCall(path, error);
+  if (const auto error = file->takePlace()) return failedCall(path, error);
   return {};
 }
 

@@ -72,7 +72,9 @@ Result<ReadPath> pathOf(const QByteArray& data, const PageFrame& frame) {
     while (end < data.size() && std::isalpha(static_cast<unsigned char>(data[end])) == 0) ++end;
     const std::vector<double> n = numbersIn(data.mid(at, end - at).toStdString());
     at = end;
-    const auto model = [&](std::size_t i) { return Vec2(n[i], frame.lengthToModel(frame.heightPx) - n[i + 1]); };
+    const auto model = [&](std::size_t i) {
+      return Vec2(frame.leftMm + n[i], frame.bottomMm + frame.lengthToModel(frame.heightPx) - n[i + 1]);
+    };
     if (command == 'M' && n.size() == 2) {
       pen = model(0);
     } else if (command == 'C' && n.size() == 6) {

@@ -52,6 +52,10 @@ Result<void> take(const Element& element, std::vector<double>& page, ExportDocum
     const auto scale = element.number("mm-per-px");
     if (!scale || !(*scale > 0.0)) return unreadable("its metadata states no scale");
     document.frame.mmPerPx = *scale;
+    if (const auto origin = element.numbers("origin-mm"); origin.size() == 2) {
+      document.frame.leftMm = origin[0];
+      document.frame.bottomMm = origin[1];
+    }
     document.imageSha256 = element.text("image-sha256");
   } else if (element.is("curve")) {
     ExportCurve& curve = document.curves.emplace_back();

@@ -33,7 +33,8 @@ void appendRun(std::string& data, const CubicRun& run) {
 Result<std::string> pathData(const ExportCurve& curve, const PageFrame& frame, double toleranceMm, SvgText& svg) {
   Eigen::Matrix2d flip;
   flip << 1.0, 0.0, 0.0, -1.0;
-  const auto outline = cubicOutline(curve, flip, {0.0, frame.lengthToModel(frame.heightPx)}, toleranceMm, kGridMm);
+  const auto outline = cubicOutline(curve, flip, {-frame.leftMm, frame.bottomMm + frame.lengthToModel(frame.heightPx)},
+                                    toleranceMm, kGridMm);
   if (!outline) return fail(outline.error());
   svg.cubics += outline->cubics;
   svg.largestErrorMm = std::max(svg.largestErrorMm, outline->largestError);
@@ -49,6 +50,10 @@ Result<std::string> pathData(const ExportCurve& curve, const PageFrame& frame, d
 std::string metadata(const ExportDocument& document) {
   std::string text =
       "  <metadata>\n    <batten:curves version=\"1\" unit=\"mm\" axes=\"x right, y up from the lower edge\"";
+  if (document.frame.leftMm != 0.0 || document.frame.bottomMm != 0.0) {
+    text.append(" origin-mm=\"").append(exactNumber(document.frame.leftMm));
+    text.append(",").append(exactNumber(document.frame.bottomMm)).append("\"");
+  }
   text.append(" mm-per-px=\"").append(exactNumber(document.frame.mmPerPx));
   text.append("\" image-sha256=\"").append(xmlText(document.imageSha256)).append("\">\n");
   for (const ExportCurve& curve : document.curves) {
@@ -93,7 +98,7 @@ Result<std::string> layers(const ExportDocument& document, const SvgOptions& opt
     if (i == 0 || curve.layer != document.curves[i - 1].layer) {
       if (i > 0) text += "  </g>\n";
       ++count;
-      text += "  <g id=\"curves" + (count == 1 ? std::string() : "-" + std::to_string(count)) +
+      text += "  <g id=\"curves" + (count == 1 ? std::string() : std::string("-").append(std::to_string(count))) +
               "\" inkscape:groupmode=\"layer\" inkscape:label=\"" + xmlText(curve.layer) +
               "\" fill=\"none\" stroke=\"" + (count == 1 ? "#000000" : "#b00020") + "\"\n     stroke-width=\"" +
               fixed(options.strokeWidthMm) + "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";

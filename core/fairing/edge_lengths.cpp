@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/solve/block_levenberg.h"
+#include "core/solve/residual_blocks.h"
 
 namespace batten {
 
@@ -84,7 +84,7 @@ bool turnsOver(const Edges& edges) {
 }
 
 /// One piece towards its wanted values at the samples.
-LevenbergResult solvePiece(const Quintic& q, const Edges& edges, std::span<const double> wanted, double scale, bool pin,
+BlockSolution solvePiece(const Quintic& q, const Edges& edges, std::span<const double> wanted, double scale, bool pin,
                            const RunContext& context) {
   const auto n = static_cast<int>(wanted.size());
   const double share = 1.0 / std::sqrt(static_cast<double>(n)), size = (q[5] - q[0]).norm() + edges.lengths[0];
@@ -152,8 +152,8 @@ EdgeLengthResult followCurvature(std::span<const Quintic> path, const SpecifiedC
     const auto edges = edgesOf(q);
     if (edges && !turnsOver(*edges)) {
       const auto solved = solvePiece(q, *edges, values[k], scale, options.pinEnds, context);
-      result.iterations += solved.iterations;
-      if (solved.why != Termination::Converged) result.why = solved.why;
+      result.iterations += solved.run.iterations;
+      if (solved.run.why != Termination::Converged) result.why = solved.run.why;
       if (solved.x.allFinite()) q = withLengths(q[0], *edges, std::span(solved.x.data(), 5));
       if (options.pinEnds) q = endedAt(end, q, *edges);
       shift += q[5] - end;

@@ -14,7 +14,7 @@
 #include "core/fairing/line_blocks.h"
 #include "core/fairing/minimise.h"
 #include "core/fairing/monotone_search.h"
-#include "core/fairing/tolerance_fairing.h"
+#include "core/fairing/structure_candidates.h"
 
 namespace batten {
 namespace {
@@ -32,6 +32,8 @@ constexpr double kExtremumCost = 20.0, kFurtherCost = 4.0;
 constexpr double kDoubtful = 4.0, kLeastMove = 0.3;
 /// What the search for a simpler structure takes for a large move, in the same unit.
 constexpr double kSearched = 16.0;
+/// A smoothed curve that leaves the sketch by more, in the same unit, has gone astray.
+constexpr double kFarthest = 30.0;
 /// [px^3] Density of the systematic error of edge points: less noise than this is not believed.
 constexpr double kLeastDensity = 0.0064;
 constexpr FairingLimits kLimits{15, 1e-4};
@@ -40,9 +42,9 @@ constexpr double kFairRoom = 0.998;
 
 class NeededFairing {
  public:
-  NeededFairing(const FairingSetup& sketched, const FairingParams& params, const FairingLine& line,
-                const RunContext& context)
-      : setup_(sketched), params_(params), context_(context) {
+  NeededFairing(const std::shared_ptr<const FairingSetup>& sketched, const FairingParams& params,
+                const FairingLine& line, const RunContext& context)
+      : sketched_(sketched), setup_(*sketched), params_(params), context_(context) {
     // The copy has a reference of its own: that of the original belongs to the original's basis.
     setup_.reference = SpanCurve(setup_.basis, setup_.points);
     blocks_ = lineBlocks(setup_, line);
@@ -58,35 +60,53 @@ class NeededFairing {
     }
     report_.objectiveBefore = start->misfit;
     if (!(start->misfit * std::pow(setup_.start.length, 3.0) > 1e-12))
-      return done(setup_.points, Termination::FixedPoint);
+      return done({setup_.points, extremaOf(setup_.points), 0.0, 0.0});
     objective_.reference = std::sqrt(start->misfit);
-    const bool known = !setup_.offsets.empty();
-    const auto smooth = known ? smoothestWithinNoise() : nearestOfFewestExtrema();
+    std::vector<Smoothed> found;
+    if (!setup_.offsets.empty()) found = smoothedByNoise();
     if (context_.isCancelled()) return cancelled();
-    if (!smooth) return fairWithinTolerance(setup_, params_.toleranceMm, context_);
-    std::vector<Vec2> points = known ? withoutDoubtfulExtrema(*smooth) : *smooth;
+    if (found.empty()) return withoutLine();
+    auto simpler = withoutDoubtfulExtrema(found.back());
     if (context_.isCancelled()) return cancelled();
-    // A sketch that is fairer than that, as the true and fair fit is, needs nothing.
-    if (extremaOf(points) > extremaOf(setup_.points)) return done(setup_.points, Termination::FixedPoint);
-    return done(std::move(points), Termination::Converged);
+    if (simpler) found.push_back(std::move(*simpler));
+    // A sketch that is fairer than all of them, as the true and fair fit is, needs nothing.
+    Smoothed best{setup_.points, extremaOf(setup_.points), 0.0, 0.0};
+    for (Smoothed& one : found) {
+      if (one.deviationMm <= kFairRoom * params_.toleranceMm && one.extrema <= best.extrema) best = std::move(one);
+    }
+    return done(std::move(best));
   }
 
  private:
-  Result<FairedCurve> done(std::vector<Vec2> points, Termination why) {
-    report_.why = why;
+  /// A curve that the line's noise allows.
+  struct Smoothed {
+    std::vector<Vec2> points;
+    int extrema = 0;
+    double deviationMm = 0.0, score = 0.0;
+  };
+
+  Result<FairedCurve> done(Smoothed best) {
+    report_.why = best.points == setup_.points ? Termination::FixedPoint : Termination::Converged;
     FairingObjective plain;
-    const auto after = evaluate(setup_, plain, {}, points, setup_.start.places);
+    const auto after = evaluate(setup_, plain, {}, best.points, setup_.start.places);
     report_.objectiveAfter = after ? after->misfit : report_.objectiveBefore;
-    return finished(setup_, std::move(points), params_.toleranceMm, report_);
+    return finished(setup_, std::move(best.points), params_.toleranceMm, report_);
+  }
+
+  Result<FairedCurve> withoutLine() {
+    StructureCandidates candidates(sketched_, context_);
+    if (!candidates.isValid()) return done({setup_.points, extremaOf(setup_.points), 0.0, 0.0});
+    const StructureCandidate best = candidates.fewest(kFairRoom * params_.toleranceMm);
+    if (context_.isCancelled()) return cancelled();
+    report_.why = best.deviationMm > 0.0 ? Termination::Converged : Termination::FixedPoint;
+    report_.iterations += candidates.iterations();
+    return asFaired(setup_, best, report_);
   }
 
   int extremaOf(const std::vector<Vec2>& points) const {
     const auto curve = toCurve(setup_, points);
     if (!curve || !(setup_.extent > 0.0)) return std::numeric_limits<int>::max();
-    return static_cast<int>(curvatureExtrema(*curve, kExtremumProminence / setup_.extent, setup_.closed).size());
-  }
-  bool isWithin(const std::vector<Vec2>& points) const {
-    return largestDeviation(setup_, points, true) <= kFairRoom * params_.toleranceMm;
+    return countedExtrema(*curve, setup_.closed);
   }
   double shortestWave() const {
     const double span = setup_.start.length / setup_.basis.spanCount();
@@ -112,9 +132,10 @@ class NeededFairing {
     return std::min(3.0 + 2.0 * std::numbers::pi * setup_.start.length / (3.0 * wave), 1.0 * setup_.basis.pointCount());
   }
 
-  std::optional<std::vector<Vec2>> smoothestWithinNoise() {
-    std::optional<std::vector<Vec2>> best;
-    double bestScore = 0.0;
+  /// The smoothed curves from the shortest wave to the one that the noise explains best, which comes last.
+  std::vector<Smoothed> smoothedByNoise() {
+    std::vector<Smoothed> found;
+    std::size_t best = 0;
     const double count = static_cast<double>(blocks_.blocks.size());
     std::vector<Vec2> points = setup_.points;
     std::vector<SpanPlace> feet = setup_.start.places;
@@ -126,36 +147,20 @@ class NeededFairing {
         if (count - degrees < 6.0) continue;
         noise_ = std::max(misfit / (count - degrees), leastNoise_);
       }
-      const double score = misfit / noise_ + kDegreeCost * degrees;
-      if ((!best || score < bestScore) && isWithin(state->points)) {
-        best = state->points;
-        bestScore = score;
+      const double score = misfit / noise_ + kDegreeCost * degrees,
+                   away = largestDeviation(setup_, state->points, true);
+      if (away <= kFarthest * std::sqrt(noise_)) {
+        found.push_back({state->points, 0, away, score});
+        if (score < found[best].score) best = found.size() - 1;
+        if (score > found[best].score + 3.0 * kExtremumCost) break;
       }
-      if (best && score > bestScore + 3.0 * kExtremumCost) break;
       points = std::move(state->points);
       feet = std::move(state->feet);
     }
     report_.noiseMm = std::sqrt(noise_);
-    return best;
-  }
-
-  /// Without the line's points: no more extrema than when the whole tolerance is spent, as near to the sketch as that
-  /// goes.
-  std::optional<std::vector<Vec2>> nearestOfFewestExtrema() {
-    const auto all = fairWithinTolerance(setup_, params_.toleranceMm, context_);
-    if (!all) return std::nullopt;
-    const int fewest = all->report.extremaAfter;
-    if (extremaOf(setup_.points) <= fewest) return setup_.points;
-    std::vector<Vec2> points = setup_.points;
-    std::vector<SpanPlace> feet = setup_.start.places;
-    for (double wave = shortestWave(); wave < 4.0 * setup_.start.length && !context_.isCancelled(); wave *= kWaveStep) {
-      auto state = smoothed(wave, points, feet);
-      if (!state || !isWithin(state->points)) return std::nullopt;
-      if (extremaOf(state->points) <= fewest) return state->points;
-      points = std::move(state->points);
-      feet = std::move(state->feet);
-    }
-    return std::nullopt;
+    if (!found.empty()) found.resize(best + 1);
+    for (Smoothed& one : found) one.extrema = extremaOf(one.points);
+    return found;
   }
 
   /// The misfit of the line's points in units of their noise.
@@ -164,24 +169,25 @@ class NeededFairing {
     return state ? blocks_.misfit(setup_, *state) / noise_ : std::numeric_limits<double>::infinity();
   }
 
-  std::vector<Vec2> withoutDoubtfulExtrema(std::vector<Vec2> points) {
-    const auto curve = toCurve(setup_, points);
-    if (!curve) return points;
+  std::optional<Smoothed> withoutDoubtfulExtrema(const Smoothed& start) {
+    const auto curve = toCurve(setup_, start.points);
+    if (!curve) return std::nullopt;
     const auto smooth = makeSetup(*curve, setup_.closed, params_);
-    if (!smooth || (*smooth)->points.size() != points.size()) return points;
-    const MonotoneSearch search(**smooth, std::min(params_.toleranceMm, kSearched * std::sqrt(noise_)), context_);
-    if (search.arcLength().empty()) return points;
+    if (!smooth || (*smooth)->points.size() != start.points.size()) return std::nullopt;
+    const MonotoneSearch search(**smooth, kSearched * std::sqrt(noise_), context_);
+    if (search.arcLength().empty()) return std::nullopt;
     const auto levels = structureLevels(search.arcLength(), search.curvature(), (*smooth)->start.length, setup_.closed);
-    const double before = misfitOf(points);
+    const double before = misfitOf(start.points);
     // The estimates scale the problem: a vanishing one would make it stiff.
     const double least = kLeastMove * std::sqrt(noise_);
+    std::optional<Smoothed> simpler;
     const auto attempt = [&](std::size_t level) {
-      auto trial = search.solve(levels[level].structure, (*smooth)->points, std::max(levels[level].estimateMm, least),
-                                0.0, params_.toleranceMm);
+      auto trial =
+          search.solve(levels[level].structure, (*smooth)->points, std::max(levels[level].estimateMm, least), 0.0, 0.0);
       report_.iterations += trial.iterations;
       const double allowed = kExtremumCost + kFurtherCost * static_cast<double>(level - 1);
-      const bool taken = trial.found && isWithin(trial.points) && misfitOf(trial.points) < before + allowed;
-      if (taken) points = std::move(trial.points);
+      const bool taken = trial.found && misfitOf(trial.points) < before + allowed;
+      if (taken) simpler = Smoothed{std::move(trial.points), 0, 0.0, 0.0};
       return taken;
     };
     // From the simplest structure that noise could explain to more complicated ones, until one is near enough; then
@@ -196,9 +202,13 @@ class NeededFairing {
     for (level = reached + 1; reached > 0 && level < levels.size() && !context_.isCancelled(); ++level) {
       if (!attempt(level)) break;
     }
-    return points;
+    if (!simpler) return std::nullopt;
+    simpler->extrema = extremaOf(simpler->points);
+    simpler->deviationMm = largestDeviation(setup_, simpler->points, true);
+    return simpler;
   }
 
+  std::shared_ptr<const FairingSetup> sketched_;
   FairingSetup setup_;
   const FairingParams& params_;
   const RunContext& context_;
@@ -210,8 +220,8 @@ class NeededFairing {
 
 }  // namespace
 
-Result<FairedCurve> fairAsNeeded(const FairingSetup& setup, const FairingParams& params, const FairingLine& line,
-                                 const RunContext& context) {
+Result<FairedCurve> fairAsNeeded(const std::shared_ptr<const FairingSetup>& setup, const FairingParams& params,
+                                 const FairingLine& line, const RunContext& context) {
   return NeededFairing(setup, params, line, context).run();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/base/result.h"
@@ -14,9 +15,9 @@ namespace batten {
 
 /// TolerancePolicy::AsNeeded: the integral is weighed against the distance from the line's points. The weight is where
 /// the misfit of the points is that of their own noise (Mallows' Cp); then curvature extrema go, cheapest first, as
-/// long as the misfit rises by less than noise explains. Without points: the nearest curve with as few extrema as the
-/// whole tolerance would give.
-Result<FairedCurve> fairAsNeeded(const FairingSetup& setup, const FairingParams& params, const FairingLine& line,
-                                 const RunContext& context);
+/// long as the misfit rises by less than noise explains. The curve gets no more extrema than the sketch. Without
+/// points: the nearest curve found with the fewest extrema within the tolerance (StructureCandidates).
+Result<FairedCurve> fairAsNeeded(const std::shared_ptr<const FairingSetup>& setup, const FairingParams& params,
+                                 const FairingLine& line, const RunContext& context);
 
 }  // namespace batten

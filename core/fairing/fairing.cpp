@@ -51,7 +51,7 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
       outcomes.faired[at] = unchanged(job.curve, job.closed, Termination::Degenerate, run.problem);
       return;
     }
-    auto faired = modifyShape(*run.setup, outcomes.targets.profiles[at], job.params.toleranceMm, context);
+    auto faired = modifyShape(run.setup, outcomes.targets.profiles[at], job.params.toleranceMm, context);
     if (faired) {
       outcomes.faired[at] = std::move(*faired);
     } else {
@@ -66,8 +66,8 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
 
 Result<FairedCurve> fairWithinTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                         const RunContext& context, const FairingLine& line) {
-  return withSetup(curve, closed, params, [&](const FairingSetup& setup) {
-    return params.tolerancePolicy == TolerancePolicy::All ? fairWithinTolerance(setup, params.toleranceMm, context)
+  return withSetup(curve, closed, params, [&](const std::shared_ptr<const FairingSetup>& setup) {
+    return params.tolerancePolicy == TolerancePolicy::All ? fairWithinTolerance(setup, params, context)
                                                           : fairAsNeeded(setup, params, line, context);
   });
 }
@@ -130,17 +130,7 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
   }
   const TargetProfile& profile = targets.profiles[degree - 1];
   if (!profile.valid) return unchanged(curve, closed, Termination::Degenerate, profile.problem);
-  auto faired = modifyShape(curve, closed, profile, params, context);
-  // Whoever chooses a target gets it; nobody is given one that adds bumps.
-  if (params.target == 0 && faired && faired->report.extremaAfter > faired->report.extremaBefore) {
-    FairedCurve kept = unchanged(curve, closed, Termination::ToleranceLimited,
-                                 "Left as sketched: within the tolerance, the recommended target would add curvature "
-                                 "extrema. Raise the tolerance or smooth without a target.");
-    kept.report.neededMm = faired->report.neededMm;
-    kept.report.withinTolerance = false;
-    return kept;
-  }
-  return faired;
+  return modifyShape(curve, closed, profile, params, context);
 }
 
 }  // namespace batten

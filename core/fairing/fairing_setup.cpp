@@ -19,13 +19,14 @@ constexpr double kUnseenShare = 0.01;  // of the largest distance, between the p
 constexpr double kMostTurn = 0.5;      // [rad] of the curve from place to place
 
 /// Largest distance of `count` + 1 equally spaced points of a span of `from` from their feet on `to`, a curve of
-/// similar course and the same basis; peaks between them by a parabola.
-double largestInSpan(const SpanCurve& from, const SpanCurve& to, int span, int count) {
+/// similar course; peaks between them by a parabola. `hint` says where on `to` a foot is looked for.
+template <class Hint>
+double largestInSpan(const SpanCurve& from, const SpanCurve& to, int span, int count, const Hint& hint) {
   double largest = 0.0, before = 0.0, here = 0.0;
   for (int i = 0; i <= count; ++i) {
     const SpanPlace place{span, static_cast<double>(i) / count};
     const Vec2 point = from.at(place, 0)[0];
-    const double next = (to.at(footPoint(to, point, place), 0)[0] - point).norm();
+    const double next = (to.at(footPoint(to, point, hint(place)), 0)[0] - point).norm();
     if (!std::isfinite(next)) return std::numeric_limits<double>::infinity();
     largest = std::max(largest, next);
     const double bend = before - 2.0 * here + next;
@@ -52,14 +53,42 @@ int checksFor(const SpanCurve& from, const SpanCurve& to, int span, double large
   return count < kMostChecks ? std::max(static_cast<int>(count), kChecksPerSpan) : kMostChecks;
 }
 
+/// Of two curves over one basis.
 double largestDistance(const SpanCurve& from, const SpanCurve& to) {
+  const auto same = [](const SpanPlace& place) { return place; };
   double largest = 0.0;
   const int spans = from.basis().spanCount();
-  for (int span = 0; span < spans; ++span) largest = std::max(largest, largestInSpan(from, to, span, kChecksPerSpan));
+  for (int span = 0; span < spans; ++span)
+    largest = std::max(largest, largestInSpan(from, to, span, kChecksPerSpan, same));
   if (!std::isfinite(largest)) return std::numeric_limits<double>::max();
   for (int span = 0; span < spans && largest > 0.0; ++span) {
     const int checks = checksFor(from, to, span, largest);
-    if (checks > kChecksPerSpan) largest = std::max(largest, largestInSpan(from, to, span, checks));
+    if (checks > kChecksPerSpan) largest = std::max(largest, largestInSpan(from, to, span, checks, same));
+  }
+  return std::isfinite(largest) ? largest : std::numeric_limits<double>::max();
+}
+
+/// Of a curve over fewer knots and the sketched one.
+double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve& curve, bool bothWays) {
+  const int spans = setup.basis.spanCount(), sketched = setup.reference.basis().spanCount();
+  const int checks = kChecksPerSpan * std::max(1, (sketched + spans - 1) / spans);
+  double largest = 0.0;
+  for (int span = 0; span < spans; ++span) {
+    largest = std::max(largest, largestInSpan(curve, setup.reference, span, checks,
+                                              [&](const SpanPlace& place) { return setup.sketchedPlace(place); }));
+  }
+  const auto shareOf = [&](const SpanPlace& place) {
+    return setup.sketch->sampleAt(place) / (setup.closed ? setup.sampleCount() : setup.sampleCount() - 1);
+  };
+  const auto placeAt = [&](double share) {
+    const double u = setup.original.start() + share * (setup.original.end() - setup.original.start());
+    int span = 0;
+    while (span + 1 < spans && setup.basis.begin(span + 1) <= u) ++span;
+    return SpanPlace{span, std::clamp((u - setup.basis.begin(span)) / setup.basis.width(span), 0.0, 1.0)};
+  };
+  for (int span = 0; bothWays && span < sketched; ++span) {
+    largest = std::max(largest, largestInSpan(setup.reference, curve, span, kChecksPerSpan,
+                                              [&](const SpanPlace& place) { return placeAt(shareOf(place)); }));
   }
   return std::isfinite(largest) ? largest : std::numeric_limits<double>::max();
 }
@@ -87,7 +116,7 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
   if (curve.isRational()) {
     return fail(ErrorCode::BadParameter, "Curves with weights cannot be made fair: set all weights to 1.");
   }
-  if (curve.degree() < 3 || curve.degree() > kMaxFairingDegree) {
+  if (curve.degree() < 3 || curve.degree() > kMaxDegree) {
     return fail(ErrorCode::BadParameter, "Only curves of degree 3 to 7 can be made fair.");
   }
   auto setup = std::make_shared<FairingSetup>();
@@ -112,11 +141,21 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
     return fail(ErrorCode::Numerical, "The curve has no length.");
   }
   setup->start = std::move(*start);
+  setup->startHold = params.startHold;
+  setup->endHold = params.endHold;
   setup->unknowns = Unknowns(setup->basis, setup->reference, params.startHold, params.endHold);
   return std::shared_ptr<const FairingSetup>(std::move(setup));
 }
 
+SpanPlace FairingSetup::sketchedPlace(const SpanPlace& place) const {
+  if (!sketch) return place;
+  const double share = (basis.parameter(place) - original.start()) / (original.end() - original.start());
+  const int count = sampleCount(), sample = static_cast<int>(std::lround(share * (closed ? count : count - 1)));
+  return start.places[closed ? sample % count : std::clamp(sample, 0, count - 1)];
+}
+
 double FairingSetup::sampleAt(const SpanPlace& place) const {
+  if (sketch) return sketch->sampleAt(place);
   const double u = basis.parameter(place);
   const auto above =
       std::upper_bound(start.places.begin(), start.places.end(), u,
@@ -152,16 +191,18 @@ Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& p
 
 double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays) {
   const SpanCurve curve(setup.basis, points);
+  if (setup.sketch) return largestDistanceOverFewerKnots(setup, curve, bothWays);
   const double there = largestDistance(curve, setup.reference);
   return bothWays ? std::max(there, largestDistance(setup.reference, curve)) : there;
 }
 
-Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
-                              const std::function<Result<FairedCurve>(const FairingSetup&)>& body) {
+Result<FairedCurve> withSetup(
+    const NurbsCurve& curve, bool closed, const FairingParams& params,
+    const std::function<Result<FairedCurve>(const std::shared_ptr<const FairingSetup>&)>& body) {
   if (const auto error = validate(params)) return fail(*error);
   try {
     const auto setup = makeSetup(curve, closed, params);
-    if (setup) return body(**setup);
+    if (setup) return body(*setup);
     if (setup.error().code != ErrorCode::Numerical) return fail(setup.error());
     return unchanged(curve, closed, Termination::Degenerate, setup.error().message);
   } catch (const std::bad_alloc&) {
@@ -188,7 +229,7 @@ Result<FairedCurve> finished(const FairingSetup& setup, std::vector<Vec2> points
   report.maxDeviationMm = keepWithin(setup, toleranceMm, points);
   auto curve = toCurve(setup, points);
   if (!curve) return fail(curve.error());
-  report.extremaBefore = countedExtrema(setup.original, setup.closed);
+  report.extremaBefore = countedExtrema(setup.sketchedCurve(), setup.closed);
   report.extremaAfter = countedExtrema(*curve, setup.closed);
   return FairedCurve{std::move(*curve), std::move(report)};
 }

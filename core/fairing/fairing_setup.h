@@ -17,14 +17,17 @@ namespace batten {
 /// What all fairings of one curve share. Never changes once made; owned by a shared_ptr because curves refer to
 /// `basis`.
 struct FairingSetup {
-  NurbsCurve original;
+  NurbsCurve original;  ///< The curve to begin with: the sketched one, or the one nearest to it over fewer knots.
+  /// Set for a start over fewer knots: the setup of the sketched curve, to whose basis `reference` then belongs.
+  std::shared_ptr<const FairingSetup> sketch;
   bool closed = false;
   PeriodicForm periodic;  ///< Closed curves only.
   SpanBasis basis;
-  std::vector<Vec2> points;  ///< Control points of the sketched curve (each once).
+  std::vector<Vec2> points;  ///< Control points of the curve to begin with (each once).
   SpanCurve reference;       ///< The sketched curve.
   EqualArc start;            ///< Sample places on it.
   Unknowns unknowns;
+  EndHold startHold, endHold;
   double extent = 0.0;
   /// Signed distance of the line's own points from the sketched curve, at its samples (in the mean of those nearby);
   /// empty when the line is not known: the sketched curve then stands for it.
@@ -33,6 +36,9 @@ struct FairingSetup {
   double offsetAt(const SpanPlace& foot) const;
   /// Where a place of the sketched curve lies among its samples: 0 at the first, 1 at the second, …
   double sampleAt(const SpanPlace& place) const;
+  /// About where on the sketched curve a place of `basis` lies: there itself, or at the same share of the length.
+  SpanPlace sketchedPlace(const SpanPlace& place) const;
+  const NurbsCurve& sketchedCurve() const { return sketch ? sketch->original : original; }
   int sampleCount() const { return static_cast<int>(start.places.size()); }
   double fraction(int sample) const {
     return static_cast<double>(sample) / (closed ? sampleCount() : sampleCount() - 1);
@@ -46,14 +52,15 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
 Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& points);
 
 /// Largest distance of the curve from the sketched one: foot points at 12 places a span or, where the two swing
-/// apart quickly, so many that no more than 1 % can hide between them.
+/// apart quickly, so many that no more than 1 % can hide between them; over fewer knots, at 12 places a sketched span.
 /// `bothWays` also measures the sketched curve's distance from the curve.
 double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays = false);
 
 /// Runs `body` on the curve's setup. Curves that cannot be made fair stay as they are when the reason lies in their
 /// shape.
-Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
-                              const std::function<Result<FairedCurve>(const FairingSetup&)>& body);
+Result<FairedCurve> withSetup(
+    const NurbsCurve& curve, bool closed, const FairingParams& params,
+    const std::function<Result<FairedCurve>(const std::shared_ptr<const FairingSetup>&)>& body);
 
 /// The share of the way from the sketched curve to `points` that stays within the tolerance, measured both ways on the
 /// whole curve; `points` are moved there. @return the largest deviation.

@@ -84,8 +84,8 @@ Result<TargetProfile> lowPassedProfile(const NurbsCurve& curve, bool closed, con
 
 Result<FairedCurve> fairByLowPass(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                   const RunContext& context) {
-  return withSetup(curve, closed, params, [&](const FairingSetup& setup) {
-    return modifyShape(setup, smoothedProfile(setup, params.lowPassMm), params.toleranceMm, context);
+  return withSetup(curve, closed, params, [&](const std::shared_ptr<const FairingSetup>& setup) {
+    return modifyShape(setup, smoothedProfile(*setup, params.lowPassMm), params.toleranceMm, context, false);
   });
 }
 

@@ -3,13 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "core/fairing/fairing_model.h"
+#include "core/solve/levenberg_marquardt.h"
 
 namespace batten {
 namespace {
 
-constexpr double kSmallestDamping = 1e-9, kLargestDamping = 1e12;
+constexpr double kNoMisfit = 1e-24;  // a millionth of a millionth of the reference, squared
+constexpr LevenbergOptions kFairingSteps{.success = 8.0,
+                                         .failure = 8.0,
+                                         .leastDamping = 1e-9,
+                                         .mostDamping = 1e12,
+                                         .smallSteps = 1,
+                                         .smallStepsDamped = 4,
+                                         .negligible = kNoMisfit};
 
 /// The largest share of a step that keeps every sample's distance within the bound of the barrier, by the linear model.
 double shareWithin(const FairingCorridor& corridor, const FairingState& state, const Eigen::VectorXd& change) {
@@ -23,46 +34,49 @@ double shareWithin(const FairingCorridor& corridor, const FairingState& state, c
   return share;
 }
 
+class FairingProblem final : public LevenbergProblem {
+ public:
+  FairingProblem(const FairingSetup& setup, const FairingObjective& objective, const FairingCorridor& corridor,
+                 FairingState start)
+      : setup_(setup), objective_(objective), corridor_(corridor), state_(std::move(start)) {}
+
+  double linearise() override {
+    model_.emplace(setup_, objective_, corridor_, state_);
+    return state_.total;
+  }
+  double tryStep(double damping) override {
+    const auto step = model_->step(damping);
+    if (!step) return std::numeric_limits<double>::infinity();
+    const double share = shareWithin(corridor_, state_, model_->distances(*step));
+    std::vector<Vec2> points = state_.points;
+    setup_.unknowns.move(share * *step, points);
+    trial_ = evaluate(setup_, objective_, corridor_, std::move(points), state_.feet);
+    return trial_ ? trial_->total : std::numeric_limits<double>::infinity();
+  }
+  void accept() override { state_ = std::move(*trial_); }
+  FairingState& state() { return state_; }
+
+ private:
+  const FairingSetup& setup_;
+  const FairingObjective& objective_;
+  const FairingCorridor& corridor_;
+  FairingState state_;
+  std::optional<FairingState> trial_;
+  std::optional<FairingModel> model_;
+};
+
 }  // namespace
 
 FairingRun minimise(const FairingSetup& setup, const FairingObjective& objective, const FairingCorridor& corridor,
                     FairingState start, double damping, const FairingLimits& limits, const RunContext& context) {
-  FairingRun run;
-  run.state = std::move(start);
-  run.damping = damping;
-  int small = 0;
-  for (; run.iterations < limits.iterations && !context.isCancelled(); ++run.iterations) {
-    const FairingModel model(setup, objective, corridor, run.state);
-    std::optional<FairingState> better;
-    while (!better && run.damping < kLargestDamping && !context.isCancelled()) {
-      const auto step = model.step(run.damping);
-      if (step) {
-        const double share = shareWithin(corridor, run.state, model.distances(*step));
-        std::vector<Vec2> points = run.state.points;
-        setup.unknowns.move(share * *step, points);
-        auto next = evaluate(setup, objective, corridor, std::move(points), run.state.feet);
-        if (next && next->total < run.state.total) better = std::move(next);
-      }
-      if (!better) run.damping *= 8.0;
-    }
-    if (!better) {
-      run.why = small > 0 || run.state.misfit <= 1e-24 ? Termination::Converged : Termination::NoProgress;
-      return run;
-    }
-    const double decrease = run.state.total - better->total;
-    small = decrease <= limits.relativeDecrease * run.state.total ? small + 1 : 0;
-    const double before = run.state.total;
-    run.state = std::move(*better);
-    run.damping = std::max(kSmallestDamping, run.damping / 8.0);
-    // A heavily damped step is short by itself and proves nothing.
-    if (small >= 1 && (run.damping < 1e-2 || small >= 4)) {
-      run.why = Termination::Converged;
-      ++run.iterations;
-      return run;
-    }
-    if (!(before > 1e-24)) break;
-  }
-  return run;
+  FairingProblem problem(setup, objective, corridor, std::move(start));
+  LevenbergOptions options = kFairingSteps;
+  options.iterations = limits.iterations;
+  options.smallDecrease = limits.relativeDecrease;
+  options.damping = damping;
+  const LevenbergRun run = levenbergMarquardt(problem, options, context);
+  const bool settled = run.why == Termination::NoProgress && problem.state().misfit <= kNoMisfit;
+  return {std::move(problem.state()), settled ? Termination::Converged : run.why, run.iterations, run.damping};
 }
 
 }  // namespace batten

@@ -25,9 +25,9 @@ constexpr double kLateShare = 0.6;
 /// The least slope that is asked for, in units of the range of the curvature over the length, and its growth where the
 /// curvature still turned between the places.
 constexpr double kMargin = 1e-3, kMarginGrowth = 2.5;
-/// Share of the tolerance that the last step may move the curve.
+/// Share of the least move that the last step may move the curve.
 constexpr double kSettled = 5e-3;
-/// No step moves a control point by more than this, in the larger of the tolerance and the estimated move.
+/// No step moves a control point by more than this, in the larger of the least and the estimated move.
 constexpr double kLongestStep = 1.0;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -59,10 +59,15 @@ struct MonotoneSearch::State {
   bool valid = false;
 };
 
-MonotoneSearch::MonotoneSearch(const FairingSetup& setup, double toleranceMm, const RunContext& context)
-    : setup_(setup), toleranceMm_(toleranceMm), context_(context), places_(checkPlaces(setup.basis, kPlacesPerSpan)) {
+MonotoneSearch::MonotoneSearch(const FairingSetup& setup, double leastMoveMm, const RunContext& context)
+    : setup_(setup),
+      leastMoveMm_(leastMoveMm),
+      context_(context),
+      places_(checkPlaces(setup.basis, kPlacesPerSpan)),
+      start_(setup.basis, setup.points) {
+  for (const SpanPlace& place : places_) sketched_.push_back(setup.sketchedPlace(place));
   wave_ = kWaveSpans * setup.start.length / setup.basis.spanCount();
-  const State state = evaluate(setup.points, places_);
+  const State state = evaluate(setup.points, sketched_);
   if (!state.valid) return;
   double s = 0.0, low = 0.0, high = 0.0;
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -93,7 +98,7 @@ MonotoneSearch::State MonotoneSearch::evaluate(const std::vector<Vec2>& points,
     state.jets.push_back(jet);
     state.curvature.push_back(curvatureJet(jet));
     const SpanPlace foot = footPoint(setup_.reference, jet[0], feet[at(i)]);
-    const Jet base = setup_.reference.at(foot, 1), same = setup_.reference.at(places_[at(i)], 1);
+    const Jet base = setup_.reference.at(foot, 1), same = start_.at(places_[at(i)], 0);
     const Vec2 tangent = base[1].norm() > 0.0 ? Vec2(base[1].normalized()) : Vec2(Vec2::UnitX());
     state.feet.push_back(foot);
     state.tangent.push_back(tangent);
@@ -224,10 +229,10 @@ MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, cons
                                               double estimateMm, double boundMm, double giveUpMm) const {
   Outcome outcome;
   outcome.points = start;
-  State state = evaluate(start, places_);
+  State state = evaluate(start, sketched_);
   if (!state.valid) return outcome;
   const auto [low, high] = std::minmax_element(kappa_.begin(), kappa_.end());
-  Scales scales{std::max(0.05 * toleranceMm_, 0.1 * estimateMm), kMargin * (*high - *low) / setup_.start.length,
+  Scales scales{std::max(0.05 * leastMoveMm_, 0.1 * estimateMm), kMargin * (*high - *low) / setup_.start.length,
                 boundMm};
   for (; outcome.iterations < kIterations && !context_.isCancelled(); ++outcome.iterations) {
     Program program(setup_, places_, state.jets);
@@ -242,7 +247,7 @@ MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, cons
     setup_.unknowns.move(*step, points);
     for (std::size_t i = 0; i < points.size(); ++i) moved = std::max(moved, (points[i] - state.points[i]).norm());
     // The linear model of the curvature holds for small moves only.
-    const double longest = kLongestStep * std::max(toleranceMm_, estimateMm);
+    const double longest = kLongestStep * std::max(leastMoveMm_, estimateMm);
     if (const double share = std::min(longest / moved, outcome.iterations < kFreeIterations ? 1.0 : kLateShare);
         share < 1.0) {
       for (std::size_t i = 0; i < points.size(); ++i)
@@ -257,7 +262,7 @@ MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, cons
       outcome.found = false;
       break;
     }
-    const bool settled = moved < kSettled * std::max(toleranceMm_, estimateMm);
+    const bool settled = moved < kSettled * std::max(leastMoveMm_, estimateMm);
     if (denseTurns(state.points) == static_cast<int>(structure.extrema.size())) {
       outcome.found = true;
       outcome.points = state.points;

@@ -6,6 +6,7 @@
 
 #include "core/base/run_context.h"
 #include "core/curve/curvature_structure.h"
+#include "core/curve/span_curve.h"
 #include "core/fairing/fairing_setup.h"
 
 namespace batten {
@@ -16,7 +17,8 @@ namespace batten {
 /// the result from becoming a staircase where the constraints act.
 class MonotoneSearch {
  public:
-  MonotoneSearch(const FairingSetup& setup, double toleranceMm, const RunContext& context);
+  /// @param leastMoveMm > 0: the problem is scaled for moves of this size and more.
+  MonotoneSearch(const FairingSetup& setup, double leastMoveMm, const RunContext& context);
 
   /// Arc length and curvature of the sketch at the places where constraints act; empty for a curve with a cusp.
   const std::vector<double>& arcLength() const { return s_; }
@@ -57,9 +59,10 @@ class MonotoneSearch {
   int wrapped(int sample) const;
 
   const FairingSetup& setup_;
-  double toleranceMm_;
+  double leastMoveMm_;
   const RunContext& context_;
-  std::vector<SpanPlace> places_;
+  std::vector<SpanPlace> places_, sketched_;  ///< The places, and about where on the sketch they lie.
+  SpanCurve start_;                           ///< The curve to begin with.
   std::vector<double> s_, kappa_;
   double wave_ = 1.0;  ///< [mm] cut-off of the term against staircases.
   double flat_ = 0.0;  ///< [1/mm] what counts as no change of curvature.

@@ -41,7 +41,7 @@ void sampleCurvature(const NurbsCurve& curve, const TargetParams& params, Data& 
   const int count = std::max(params.samples, kSamplesPerSpan * spans + 1);
   for (int i = 0; i < count; ++i) data.perimeter.push_back(static_cast<double>(i) / (count - 1));
   data.kappa.assign(count, 0.0);
-  if (!curve.isRational() && curve.degree() >= 2 && curve.degree() <= kMaxFairingDegree) {
+  if (!curve.isRational() && curve.degree() >= 2 && curve.degree() <= kMaxDegree) {
     const SpanBasis basis(curve.degree(), curve.knots(), curve.controlPointCount(), 0);
     const SpanCurve fast(basis, curve.controlPoints());
     if (const auto places = equalArcPlaces(fast, count, false)) {

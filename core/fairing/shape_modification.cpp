@@ -2,187 +2,268 @@
 #include "core/fairing/shape_modification.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
 
+#include "core/curve/curvature.h"
+#include "core/fairing/coarse_setups.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/fairing_state.h"
-#include "core/fairing/minimise.h"
+#include "core/fairing/target_steps.h"
 #include "core/fairing/tolerance_fairing.h"
 
 namespace batten {
 namespace {
 
-constexpr double kSmallestWeight = 1e-3, kLargestWeight = 1e5;
-constexpr int kSearchSteps = 9;
-/// The search for the weight ends when the deviation uses this share of the tolerance.
+/// Steps between two of TargetSteps, to use as much of the tolerance as this.
+constexpr int kSearchSteps = 4, kRoundSteps = 4;
 constexpr double kUsedShare = 0.95;
+/// [mm] Tolerances that are used up whatever the tolerance is, if it is no smaller.
+constexpr std::array kRoundTolerances = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01};
 /// A search that leaves more of it unused got stuck in the noise of a rough start; the barrier then takes over.
 constexpr double kStuckShare = 0.8;
-/// A reference curvature below this (times extent) would weigh a straight line's rounding as shape.
-constexpr double kSmallestReference = 1e-3;
-constexpr FairingLimits kFull{40, 1e-4}, kWarm{8, 1e-3}, kPolish{12, 1e-5};
-/// A long wavy curve whose target is plainly out of reach is not worth the last per cent of what the tolerance allows:
-/// from so many samples on, a target farther off than so many tolerances after the first iterations is followed with
-/// less effort.
-constexpr int kLongCurve = 600;
-constexpr double kOutOfReach = 10.0;
-constexpr FairingLimits kProbe{12, 1e-3}, kRest{28, 1e-4}, kRough{4, 1e-2};
-constexpr int kRoughSteps = 5;
+/// Room for what lies between the places where the deviation is measured.
+constexpr double kMeasured = 0.999;
 
-/// One weight of the search: solution and its deviation.
-struct Trial {
-  double weight = 0.0, deviation = 0.0;
-  FairingRun run;
-};
+constexpr const char* kNothingWon =
+    "Left as sketched: within the tolerance, this target would add curvature extrema. Raise the tolerance, split the "
+    "profile, or smooth without a target.";
 
-class WeightSearch {
+/// A sketch of so many extrema trembles, when over these spans it has less than half of them. Fewer and fewer of them
+/// are tried, until a few extrema are left.
+constexpr int kTrembles = 6;
+constexpr std::array kCalmSpans = {13, 5, 3};
+
+std::vector<std::shared_ptr<const FairingSetup>> calmSetups(const std::shared_ptr<const FairingSetup>& sketch) {
+  std::vector<std::shared_ptr<const FairingSetup>> result;
+  int extrema = countedExtrema(sketch->original, sketch->closed);
+  for (const int spans : kCalmSpans) {
+    if (extrema < kTrembles) break;
+    auto calm = coarseSetup(sketch, spans);
+    const int left = calm ? countedExtrema(calm->original, calm->closed) : extrema;
+    if (2 * left >= extrema) continue;
+    result.push_back(std::move(calm));
+    extrema = left;
+  }
+  return result;
+}
+
+/// Of all curves within the tolerance the one with the fewest extrema, of these the one nearest to the target.
+class ShapeModification {
  public:
-  WeightSearch(const FairingSetup& setup, const FairingObjective& objective, double toleranceMm,
-               const RunContext& context)
-      : setup_(setup), objective_(objective), toleranceMm_(toleranceMm), context_(context) {}
-
-  /// Solves at a weight from the given control points. Absent when even the start cannot be evaluated.
-  std::optional<Trial> solve(double weight, const std::vector<Vec2>& points, const std::vector<SpanPlace>& feet,
-                             double damping, const FairingLimits& limits) {
-    const FairingCorridor corridor{weight / toleranceMm_, 0.0, 0.0};
-    auto state = evaluate(setup_, objective_, corridor, points, feet);
-    if (!state) return std::nullopt;
-    Trial trial;
-    trial.weight = weight;
-    trial.run = minimise(setup_, objective_, corridor, std::move(*state), damping, limits, context_);
-    trial.deviation = largestDeviation(setup_, trial.run.state.points);
-    iterations_ += trial.run.iterations;
-    return trial;
-  }
-  std::optional<Trial> solveFromStart(double weight, const FairingLimits& limits) {
-    return solve(weight, setup_.points, setup_.start.places, 1e-3, limits);
-  }
-  std::optional<Trial> solveFrom(const Trial& near, double weight, const FairingLimits& limits) {
-    return solve(weight, near.run.state.points, near.run.state.feet, std::min(1e-3, near.run.damping), limits);
+  ShapeModification(const std::shared_ptr<const FairingSetup>& setup, const FairingObjective& objective,
+                    double toleranceMm, const RunContext& context, bool asksForExtrema)
+      : sketch_(*setup),
+        objective_(objective),
+        toleranceMm_(toleranceMm),
+        context_(context),
+        calm_(calmSetups(setup)),
+        asked_(asksForExtrema ? extremaAsked(*setup, objective) : 0) {
+    std::vector<const FairingSetup*> all{setup.get()};
+    for (const auto& calm : calm_) all.push_back(calm.get());
+    for (const FairingSetup* over : all) {
+      Course course{over, TargetSteps(*over, objective, context)};
+      if (!course.steps.all().empty()) courses_.push_back(std::move(course));
+    }
   }
 
-  /// The smallest weight that keeps within the tolerance, between `wide` (which does not) and infinity.
-  std::optional<Trial> search(Trial wide, bool rough) {
-    const FairingLimits limits = rough ? kRough : kWarm;
-    const double usedShare = rough ? kStuckShare : kUsedShare;
-    const int steps = rough ? kRoughSteps : kSearchSteps;
-    double guess = std::clamp(kSmallestWeight * wide.deviation / toleranceMm_ * 10.0, 1e-2, 1.0);
-    std::optional<Trial> inside;
-    while (!inside && guess <= kLargestWeight && !context_.isCancelled()) {
-      const bool near = wide.deviation < 5.0 * toleranceMm_;
-      auto trial = near ? solveFrom(wide, guess, limits) : solveFromStart(guess, limits);
-      if (!trial) return std::nullopt;
-      if (trial->deviation <= toleranceMm_) {
-        inside = std::move(trial);
-      } else {
-        const double factor = std::clamp(2.0 * std::pow(trial->deviation / toleranceMm_, 1.5), 3.0, 100.0);
-        guess *= factor;
-        wide = std::move(*trial);
+  Result<FairedCurve> run() {
+    if (context_.isCancelled()) return cancelled();
+    const auto before = evaluate(sketch_, objective_, {}, sketch_.points, sketch_.start.places);
+    if (courses_.empty() || !before) {
+      return unchanged(sketch_.original, sketch_.closed, Termination::Degenerate,
+                       "The curve has a cusp and was left alone.");
+    }
+    best_.points = sketch_.points;
+    best_.misfit = before->misfit;
+    best_.extrema = countedExtrema(sketch_.original, sketch_.closed);
+    report_.objectiveBefore = std::sqrt(best_.misfit);
+    double nearest = std::numeric_limits<double>::max();
+    for (const Course& course : courses_) {
+      const TargetStep& full = course.steps.all().front();
+      if (full.misfit < nearest) report_.neededMm = full.deviationMm;
+      nearest = std::min(nearest, full.misfit);
+      for (const TargetStep& step : course.steps.all()) {
+        if (isWithin(step)) take(step, &course);
       }
     }
-    for (int step = 0; inside && step < steps && !context_.isCancelled(); ++step) {
-      if (inside->deviation >= usedShare * toleranceMm_ || inside->weight < 1.02 * wide.weight) break;
-      const double a = std::log(wide.weight), b = std::log(inside->weight);
-      const double da = std::log(wide.deviation / toleranceMm_);
-      const double db = std::log(std::max(inside->deviation / toleranceMm_, 1e-9)) - std::log(0.5 * (1.0 + usedShare));
-      const double share = std::clamp(da / std::max(da - db, 1e-12), 0.1, 0.9);
-      auto trial = solveFrom(*inside, std::exp(a + share * (b - a)), limits);
-      if (!trial) break;
-      (trial->deviation <= toleranceMm_ ? *inside : wide) = std::move(*trial);
+    report_.withinTolerance = report_.neededMm <= kMeasured * toleranceMm_;
+    for (const double tolerance : kRoundTolerances) {
+      if (tolerance <= toleranceMm_) useRound(tolerance);
     }
-    return inside;
+    for (const Course& course : courses_) {
+      if (!course_ || (course_ == &course && best_.weight > course.steps.all().front().weight)) useTolerance(course);
+    }
+    if (context_.isCancelled()) return cancelled();
+    return done();
   }
-  int iterations() const { return iterations_; }
 
  private:
-  const FairingSetup& setup_;
+  /// The steps over one knot vector.
+  struct Course {
+    const FairingSetup* setup;
+    TargetSteps steps;
+  };
+
+  bool isWithin(const TargetStep& step) const { return step.deviationMm <= kMeasured * toleranceMm_; }
+  /// Extrema that the target itself has are no fault.
+  int rank(const TargetStep& step) const { return std::max(step.extrema, asked_); }
+
+  void take(const TargetStep& step, const Course* course) {
+    const bool better = rank(step) < rank(best_) || (rank(step) == rank(best_) && step.misfit < best_.misfit);
+    if (!better) return;
+    best_ = step;
+    course_ = course;
+  }
+
+  /// What only this tolerance has found must not win extrema that a larger one would not find again.
+  void takeOfSameRank(const TargetStep& step, const Course* course) {
+    if (rank(step) == rank(best_)) take(step, course);
+  }
+
+  /// The steps on both sides of a tolerance: the last that leaves it, and the first that keeps it.
+  struct Sides {
+    const TargetStep *outside = nullptr, *inside = nullptr;
+  };
+  Sides sidesOf(const Course& course, double toleranceMm) const {
+    Sides sides;
+    for (const TargetStep& step : course.steps.all()) {
+      if (step.deviationMm <= kMeasured * toleranceMm) {
+        sides.inside = &step;
+        break;
+      }
+      sides.outside = &step;
+    }
+    return sides;
+  }
+
+  /// A curve that uses up a round tolerance: what it wins, larger tolerances find too.
+  void useRound(double toleranceMm) {
+    for (const Course& course : courses_) {
+      if (rank(best_) <= asked_ || context_.isCancelled()) return;
+      const Sides sides = sidesOf(course, toleranceMm);
+      if (!sides.outside) continue;
+      for (const TargetStep& step : between(course, sides, toleranceMm, kRoundSteps)) take(step, &course);
+    }
+  }
+
+  /// Steps that use more and more of a tolerance.
+  std::vector<TargetStep> between(const Course& course, const Sides& sides, double toleranceMm, int most) const {
+    std::vector<TargetStep> found;
+    TargetStep wide = *sides.outside;
+    std::optional<TargetStep> near;
+    if (sides.inside) near = *sides.inside;
+    for (int i = 0; i < most && !context_.isCancelled(); ++i) {
+      if (near && (near->deviationMm >= kUsedShare * toleranceMm || near->weight < 1.02 * wide.weight)) break;
+      const double weight = near ? weightBetween(wide, *near, toleranceMm) : 4.0 * wide.weight;
+      auto step = course.steps.between(near ? *near : wide, weight);
+      if (!step) break;
+      if (step->deviationMm <= kMeasured * toleranceMm) {
+        found.push_back(*step);
+        near = std::move(step);
+      } else {
+        wide = std::move(*step);
+      }
+    }
+    return found;
+  }
+
+  void useTolerance(const Course& course) {
+    const Sides sides = sidesOf(course, toleranceMm_);
+    if (!sides.outside) return;
+    for (const TargetStep& step : between(course, sides, toleranceMm_, course.steps.isRough() ? 2 : kSearchSteps))
+      takeOfSameRank(step, &course);
+    if (course_ != &course || context_.isCancelled()) return;
+    const auto polished = course.steps.polished(best_);
+    if (polished && isWithin(*polished)) takeOfSameRank(*polished, &course);
+    if (course.setup == &sketch_ && !course.steps.isRough() && best_.deviationMm < kStuckShare * toleranceMm_)
+      useBarrier(course);
+  }
+
+  static double weightBetween(const TargetStep& wide, const TargetStep& near, double toleranceMm) {
+    const double a = std::log(wide.weight), b = std::log(near.weight);
+    const double da = std::log(wide.deviationMm / toleranceMm);
+    const double db = std::log(std::max(near.deviationMm / toleranceMm, 1e-9)) - std::log(0.5 * (1.0 + kUsedShare));
+    return std::exp(a + std::clamp(da / std::max(da - db, 1e-12), 0.1, 0.9) * (b - a));
+  }
+
+  void useBarrier(const Course& course) {
+    BoundedRun bounded = minimiseWithin(sketch_, objective_, toleranceMm_, best_.points, context_);
+    if (context_.isCancelled()) return;
+    report_.iterations += bounded.iterations;
+    TargetStep step = best_;
+    step.points = std::move(bounded.points);
+    step.deviationMm = keepWithin(sketch_, toleranceMm_, step.points);
+    const auto state = evaluate(sketch_, objective_, {}, step.points, sketch_.start.places);
+    const auto curve = toCurve(sketch_, step.points);
+    if (!state || !curve) return;
+    step.misfit = state->misfit;
+    step.extrema = countedExtrema(*curve, sketch_.closed);
+    takeOfSameRank(step, &course);
+  }
+
+  void explain() {
+    const auto adds = [this](const TargetStep& step) { return isWithin(step) && rank(step) > rank(best_); };
+    const auto& own = courses_.front().steps;
+    report_.why = course_ ? best_.why : Termination::FixedPoint;
+    if (!course_ && (!report_.withinTolerance || std::any_of(own.all().begin(), own.all().end(), adds))) {
+      report_.why = Termination::ToleranceLimited;
+      report_.withinTolerance = false;
+      report_.note = kNothingWon;
+    } else if (!report_.withinTolerance) {
+      report_.why = Termination::ToleranceLimited;
+      report_.note = "The profile was followed as far as the tolerance allows.";
+      if (best_.deviationMm >= kStuckShare * toleranceMm_) return;
+      // The corridor had room left: it was not what stopped the curve.
+      report_.note = own.isRough() ? "The profile lies far out of reach for this curve. Split it, or mark its corners."
+                                   : "The profile was followed as far as no curvature extremum is added.";
+    }
+  }
+
+  Result<FairedCurve> done() {
+    for (const Course& course : courses_) report_.iterations += course.steps.iterations();
+    report_.objectiveAfter = std::sqrt(best_.misfit);
+    explain();
+    if (!course_ || course_->setup == &sketch_)
+      return finished(sketch_, std::move(best_.points), toleranceMm_, std::move(report_));
+    auto curve = toCurve(*course_->setup, best_.points);
+    if (!curve) return fail(curve.error());
+    report_.maxDeviationMm = best_.deviationMm;
+    report_.extremaBefore = countedExtrema(sketch_.original, sketch_.closed);
+    report_.extremaAfter = best_.extrema;
+    return FairedCurve{std::move(*curve), std::move(report_)};
+  }
+
+  const FairingSetup& sketch_;
   const FairingObjective& objective_;
   double toleranceMm_;
   const RunContext& context_;
-  int iterations_ = 0;
+  std::vector<std::shared_ptr<const FairingSetup>> calm_;
+  std::vector<Course> courses_;
+  int asked_;
+  TargetStep best_;
+  const Course* course_ = nullptr;  ///< To which the best one belongs; null: the sketch is the best.
+  FairingReport report_;
 };
-
-Result<FairingObjective> objectiveOf(const FairingSetup& setup, const TargetProfile& profile) {
-  if (!profile.valid) return fail(ErrorCode::BadParameter, profile.problem.empty() ? "No target." : profile.problem);
-  FairingObjective objective;
-  double sum = 0.0;
-  bool positive = false, negative = false;
-  for (int i = 0; i < setup.sampleCount(); ++i) {
-    const double value = profile.value(setup.fraction(i)), kappa = profile.curvatureAt(setup.fraction(i));
-    positive = positive || value > 0.0;
-    negative = negative || !(value > 0.0);
-    if (!std::isfinite(kappa)) return fail(ErrorCode::Numerical, "The target is not finite.");
-    objective.wanted.push_back(kappa);
-    sum += kappa * kappa;
-  }
-  if (profile.quantity == TargetQuantity::Radius && positive && negative) {
-    return fail(ErrorCode::Numerical, "The radius profile passes through zero: no curve can follow it.");
-  }
-  objective.reference = std::max(std::sqrt(sum / setup.sampleCount()), kSmallestReference / setup.extent);
-  return objective;
-}
 
 }  // namespace
 
-Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& profile, double toleranceMm,
-                                const RunContext& context) {
-  const auto objective = objectiveOf(setup, profile);
+Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
+                                double toleranceMm, const RunContext& context, bool asksForExtrema) {
+  const auto objective = targetObjective(*setup, profile);
   if (!objective) return fail(objective.error());
-  FairingReport report;
-  WeightSearch search(setup, *objective, toleranceMm, context);
-  const bool isLong = setup.sampleCount() > kLongCurve;
-  auto full = search.solveFromStart(kSmallestWeight, isLong ? kProbe : kFull);
-  const bool rough = isLong && full && full->deviation > kOutOfReach * toleranceMm;
-  if (isLong && full && !rough && full->run.why == Termination::IterationLimit && !context.isCancelled()) {
-    full = search.solveFrom(*full, kSmallestWeight, kRest);
-  }
-  if (context.isCancelled()) return cancelled();
-  if (!full)
-    return unchanged(setup.original, setup.closed, Termination::Degenerate, "The curve has a cusp and was left alone.");
-  const auto before = evaluate(setup, *objective, {}, setup.points, setup.start.places);
-  report.objectiveBefore = before ? std::sqrt(before->misfit) : 0.0;
-  report.neededMm = full->deviation;
-  report.withinTolerance = full->deviation <= toleranceMm;
-  std::vector<Vec2> points = setup.points;
-  if (report.withinTolerance) {
-    points = full->run.state.points;
-    report.why = full->run.why;
-  } else {
-    report.why = Termination::ToleranceLimited;
-    report.note = "The profile was followed as far as the tolerance allows.";
-    if (auto inside = search.search(std::move(*full), rough)) {
-      points = inside->run.state.points;
-      if (auto polished = rough ? std::nullopt : search.solveFrom(*inside, inside->weight, kPolish))
-        points = polished->run.state.points;
-    }
-  }
-  if (context.isCancelled()) return cancelled();
-  report.iterations = search.iterations();
-  const double deviation = keepWithin(setup, toleranceMm, points);
-  if (!report.withinTolerance && !rough && deviation < kStuckShare * toleranceMm) {
-    BoundedRun bounded = minimiseWithin(setup, *objective, toleranceMm, points, context);
-    if (context.isCancelled()) return cancelled();
-    report.iterations += bounded.iterations;
-    keepWithin(setup, toleranceMm, bounded.points);
-    const auto old = evaluate(setup, *objective, {}, points, setup.start.places);
-    const auto now = evaluate(setup, *objective, {}, bounded.points, setup.start.places);
-    if (now && (!old || now->misfit < old->misfit)) points = std::move(bounded.points);
-  }
-  const auto after = evaluate(setup, *objective, {}, points, setup.start.places);
-  report.objectiveAfter = after ? std::sqrt(after->misfit) : report.objectiveBefore;
-  if (!report.withinTolerance && largestDeviation(setup, points) < kStuckShare * toleranceMm) {
-    // The corridor had room left: it was not what stopped the curve.
-    report.why = Termination::NoProgress;
-    report.note = rough ? "The profile lies far out of reach for this curve. Split it, or mark its corners."
-                        : "The curve is too rough to follow the profile further. Fair it by tolerance first.";
-  }
-  return finished(setup, std::move(points), toleranceMm, std::move(report));
+  return ShapeModification(setup, *objective, toleranceMm, context, asksForExtrema).run();
 }
 
 Result<FairedCurve> modifyShape(const NurbsCurve& curve, bool closed, const TargetProfile& profile,
                                 const FairingParams& params, const RunContext& context) {
-  return withSetup(curve, closed, params,
-                   [&](const FairingSetup& setup) { return modifyShape(setup, profile, params.toleranceMm, context); });
+  return withSetup(curve, closed, params, [&](const std::shared_ptr<const FairingSetup>& setup) {
+    return modifyShape(setup, profile, params.toleranceMm, context);
+  });
 }
 
 }  // namespace batten

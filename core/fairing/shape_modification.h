@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
+
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/fairing/fairing_report.h"
@@ -10,13 +12,17 @@
 namespace batten {
 
 /// Moves the control points until the curvature follows the profile as far as the tolerance allows (000 VII, 003
-/// section 4): Levenberg-Marquardt with the end points pinned in a null-space basis, fidelity weight by bisection.
-/// Periodic curves stay periodic (`closed`). Knots stay as they are. Never returns a curve that leaves the tolerance.
+/// section 4): Levenberg-Marquardt with the end points pinned in a null-space basis, at fidelity weights that do not
+/// depend on the tolerance (TargetSteps). Periodic curves stay periodic (`closed`). Knots stay as they are, but for a
+/// sketch that trembles: the tremor of many knots stops it, so it is followed over a few knots too. Of the curves
+/// within the tolerance the one with the fewest curvature extrema is taken, of these the nearest to the profile; none
+/// has more than the sketch, or the profile. Never returns a curve that leaves the tolerance.
 Result<FairedCurve> modifyShape(const NurbsCurve&, bool closed, const TargetProfile&, const FairingParams&,
                                 const RunContext&);
 
 /// The same on a setup that several fairings share.
-Result<FairedCurve> modifyShape(const FairingSetup& setup, const TargetProfile& profile, double toleranceMm,
-                                const RunContext& context);
+/// @param asksForExtrema the curve may have as many extrema as the profile; off: as few as can be.
+Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
+                                double toleranceMm, const RunContext& context, bool asksForExtrema = true);
 
 }  // namespace batten

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
+#include "core/curve/curvature.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/minimise.h"
+#include "core/fairing/structure_candidates.h"
 
 namespace batten {
 namespace {
@@ -18,6 +22,42 @@ constexpr int kMaxIterations = 120;
 constexpr double kRoom = 0.998;
 /// L^3 times the integral of (dkappa/ds)^2 below which nothing is left to improve.
 constexpr double kPerfect = 1e-12;
+
+double unevennessOf(const StructureCandidate& curve) {
+  const auto state = evaluate(*curve.setup, {}, {}, curve.points, curve.setup->start.places);
+  return state ? state->misfit : std::numeric_limits<double>::infinity();
+}
+
+/// The most even of the curves with the fewest extrema.
+struct SmoothestCurve {
+  StructureCandidate best;
+  double toleranceMm;
+  const RunContext& context;
+  Termination why = Termination::FixedPoint;
+  int iterations = 0;
+
+  /// Offers what the objective reaches from a curve.
+  void offerFrom(StructureCandidate from) {
+    const double unevenness = unevennessOf(best), reference = unevennessOf(from);
+    if (!std::isfinite(reference)) return;
+    FairingObjective objective;
+    objective.reference = std::sqrt(reference);
+    const bool isSketch = !from.setup->sketch;
+    const FairingSetup& setup = *from.setup;
+    BoundedRun run = minimiseWithin(setup, objective, toleranceMm, from.points, context);
+    iterations += run.iterations;
+    from.points = std::move(run.points);
+    from.deviationMm =
+        isSketch ? keepWithin(setup, toleranceMm, from.points) : largestDeviation(setup, from.points, true);
+    const auto curve = toCurve(setup, from.points);
+    if (!curve || from.deviationMm > kRoom * toleranceMm * 1.001) return;
+    from.extrema = countedExtrema(*curve, setup.closed);
+    if (from.extrema != best.extrema || !(unevennessOf(from) < unevenness)) return;
+    why = run.why;
+    if (from.deviationMm > 0.9 * toleranceMm && why != Termination::IterationLimit) why = Termination::ToleranceLimited;
+    best = std::move(from);
+  }
+};
 
 }  // namespace
 
@@ -48,36 +88,31 @@ BoundedRun minimiseWithin(const FairingSetup& setup, const FairingObjective& obj
   return result;
 }
 
-Result<FairedCurve> fairWithinTolerance(const FairingSetup& setup, double toleranceMm, const RunContext& context) {
-  FairingObjective objective;
-  auto state = evaluate(setup, objective, {}, setup.points, setup.start.places);
+Result<FairedCurve> fairWithinTolerance(const std::shared_ptr<const FairingSetup>& setup, const FairingParams& params,
+                                        const RunContext& context) {
+  const auto state = evaluate(*setup, {}, {}, setup->points, setup->start.places);
   if (!state) {
-    return unchanged(setup.original, setup.closed, Termination::Degenerate, "The curve has a cusp and was left alone.");
+    return unchanged(setup->original, setup->closed, Termination::Degenerate,
+                     "The curve has a cusp and was left alone.");
   }
-  FairingReport report;
-  report.objectiveBefore = report.objectiveAfter = state->misfit;
-  const double length = setup.start.length;
+  const double length = setup->start.length;
   if (!(state->misfit * length * length * length > kPerfect)) {
-    return finished(setup, setup.points, toleranceMm, [&] {
-      report.why = Termination::FixedPoint;
-      return report;
-    }());
+    FairingReport report;
+    report.objectiveBefore = report.objectiveAfter = state->misfit;
+    report.why = Termination::FixedPoint;
+    return finished(*setup, setup->points, params.toleranceMm, std::move(report));
   }
-  objective.reference = std::sqrt(state->misfit);
-  const BoundedRun run = minimiseWithin(setup, objective, toleranceMm, setup.points, context);
+  StructureCandidates candidates(setup, context);
+  const StructureCandidate sketch{setup, setup->points, countedExtrema(setup->original, setup->closed), 0.0};
+  SmoothestCurve smoothest{candidates.isValid() ? candidates.fewest(kRoom * params.toleranceMm) : sketch,
+                           params.toleranceMm, context};
+  if (smoothest.best.setup != setup || smoothest.best.deviationMm > 0.0) smoothest.offerFrom(smoothest.best);
+  smoothest.offerFrom(sketch);
   if (context.isCancelled()) return cancelled();
-  report.iterations = run.iterations;
-  report.why = run.why;
-  std::vector<Vec2> points = run.points;
-  const double deviation = keepWithin(setup, toleranceMm, points);
-  const auto after = evaluate(setup, objective, {}, points, setup.start.places);
-  if (after) report.objectiveAfter = after->misfit * report.objectiveBefore;
-  if (report.objectiveAfter > report.objectiveBefore) points = setup.points;
-  report.objectiveAfter = std::min(report.objectiveAfter, report.objectiveBefore);
-  if (deviation > 0.9 * toleranceMm && report.why != Termination::IterationLimit) {
-    report.why = Termination::ToleranceLimited;
-  }
-  return finished(setup, std::move(points), toleranceMm, std::move(report));
+  FairingReport report;
+  report.why = smoothest.why;
+  report.iterations = smoothest.iterations + candidates.iterations();
+  return asFaired(*setup, smoothest.best, std::move(report));
 }
 
 }  // namespace batten

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/base/result.h"
@@ -12,8 +13,9 @@
 namespace batten {
 
 /// TolerancePolicy::All: the smallest integral of (dkappa/ds)^2 with the deviation bounded by the tolerance, all of
-/// which is spent.
-Result<FairedCurve> fairWithinTolerance(const FairingSetup& setup, double toleranceMm, const RunContext& context);
+/// which is spent, among the curves with the fewest extrema within it (StructureCandidates).
+Result<FairedCurve> fairWithinTolerance(const std::shared_ptr<const FairingSetup>& setup, const FairingParams& params,
+                                        const RunContext& context);
 
 /// The smallest misfit with every sample's distance from the sketch bounded, by a logarithmic barrier (interior point)
 /// from control points inside the bound. Slower than one weight, but sure to use the whole corridor.

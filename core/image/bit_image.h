@@ -16,18 +16,10 @@ struct BitImage {
   std::vector<std::uint64_t> words;
 
   BitImage() = default;
-  BitImage(int w, int h)
-      : width(w),
-        height(h),
-        wordsPerRow((w + 63) / 64),
-        words(static_cast<std::size_t>(wordsPerRow) * static_cast<std::size_t>(h), 0) {}
+  BitImage(int w, int h) : width(w), height(h), wordsPerRow((w + 63) / 64), words(std::ptrdiff_t{wordsPerRow} * h, 0) {}
 
-  std::uint64_t* row(int y) {
-    return words.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(wordsPerRow);
-  }
-  const std::uint64_t* row(int y) const {
-    return words.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(wordsPerRow);
-  }
+  std::uint64_t* row(int y) { return words.data() + std::ptrdiff_t{y} * wordsPerRow; }
+  const std::uint64_t* row(int y) const { return words.data() + std::ptrdiff_t{y} * wordsPerRow; }
   /// False outside the picture: outside the page is paper.
   bool at(int x, int y) const {
     if (x < 0 || y < 0 || x >= width || y >= height) return false;

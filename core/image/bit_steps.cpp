@@ -44,7 +44,7 @@ BitImage octagon(const BitImage& image, int steps, bool inverse, const RunContex
   const std::uint64_t flip = inverse ? ~std::uint64_t{0} : 0, lastMask = image.lastWordMask();
   parallelFor(context, image.height, 2 * kRowsPerBlock, [&](int begin, int end) {
     const int first = std::max(0, begin - steps), rows = std::min(image.height, end + steps) - first;
-    const auto size = static_cast<std::size_t>(words) * static_cast<std::size_t>(rows);
+    const auto size = std::ptrdiff_t{words} * rows;
     std::vector<std::uint64_t> now(image.row(first), image.row(first) + size), next(size);
     for (std::uint64_t& word : now) word ^= flip;
     for (std::size_t i = 1; i <= static_cast<std::size_t>(rows); ++i) {

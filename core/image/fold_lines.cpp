@@ -72,7 +72,7 @@ class Accumulator {
   Accumulator(const Plane& u, const std::vector<Voter>& voters)
       : half_(static_cast<int>(0.5 * std::hypot(u.width, u.height) / kRhoStep) + 2),
         columns_(2 * half_ + 1),
-        counts_(static_cast<std::size_t>(kAngles) * static_cast<std::size_t>(columns_), 0) {
+        counts_(std::ptrdiff_t{kAngles} * columns_, 0) {
     std::vector<Vec2> normals;
     for (int a = 0; a < kAngles; ++a) normals.emplace_back(std::cos(angleOf(a)), std::sin(angleOf(a)));
     for (const Voter& v : voters) {
@@ -109,12 +109,8 @@ class Accumulator {
   double rhoOf(const Peak& p) const { return (p.column - half_ + 1) * kRhoStep; }
 
  private:
-  std::uint16_t get(int a, int c) const {
-    return counts_[static_cast<std::size_t>(a) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c)];
-  }
-  std::uint16_t& at(int a, int c) {
-    return counts_[static_cast<std::size_t>(a) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(c)];
-  }
+  std::uint16_t get(int a, int c) const { return counts_[std::ptrdiff_t{a} * columns_ + c]; }
+  std::uint16_t& at(int a, int c) { return counts_[std::ptrdiff_t{a} * columns_ + c]; }
   int half_, columns_;
   std::vector<std::uint16_t> counts_;
 };

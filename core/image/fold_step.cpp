@@ -57,7 +57,7 @@ FoldStrip foldStripAlong(const GreyImage& image, const FoldCourse& course, int h
   strip.half = half;
   strip.stepPx = stepPx;
   strip.rows = std::max(0, static_cast<int>((course.to - course.from) / stepPx));
-  strip.grey.resize(static_cast<std::size_t>(strip.rows) * static_cast<std::size_t>(2 * half + 1));
+  strip.grey.resize(std::ptrdiff_t{strip.rows} * (2 * half + 1));
   auto out = strip.grey.begin();
   for (int i = 0; i < strip.rows; ++i) {
     const double t = course.from + (i + 0.5) * stepPx;

@@ -20,9 +20,7 @@ struct FoldStrip {
   int half = 0, rows = 0;
   double stepPx = 2.0;
   std::vector<float> grey;
-  const float* row(int i) const {
-    return grey.data() + static_cast<std::size_t>(i) * static_cast<std::size_t>(2 * half + 1);
-  }
+  const float* row(int i) const { return grey.data() + std::ptrdiff_t{i} * (2 * half + 1); }
   /// Mean over d in [from, to] of row i.
   double mean(int i, int from, int to) const {
     double sum = 0.0;

@@ -18,13 +18,10 @@ struct GreyImage {
   std::vector<std::uint16_t> pixels;  ///< Row by row, no padding.
 
   GreyImage() = default;
-  GreyImage(int w, int h, std::uint16_t fill = 0xffff)
-      : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
+  GreyImage(int w, int h, std::uint16_t fill = 0xffff) : width(w), height(h), pixels(std::ptrdiff_t{w} * h, fill) {}
 
-  std::uint16_t* row(int y) { return pixels.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width); }
-  const std::uint16_t* row(int y) const {
-    return pixels.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-  }
+  std::uint16_t* row(int y) { return pixels.data() + std::ptrdiff_t{y} * width; }
+  const std::uint16_t* row(int y) const { return pixels.data() + std::ptrdiff_t{y} * width; }
   /// Grey level 0..255 of a pixel. @pre inside the picture.
   double level(int x, int y) const { return row(y)[x] / kGreyUnit; }
   bool operator==(const GreyImage&) const = default;

@@ -52,14 +52,13 @@ void otsuThresholds(const Plane& smoothed, double strength, RegionThresholds& ou
     std::array<int, 256> counts{};
     for (int y = b.y0; y < b.y1; ++y) {
       for (int x = b.x0; x < b.x1; ++x) {
-        ++counts[static_cast<std::size_t>(std::clamp(smoothed.row(y)[x] + 0.5f, 0.0f, 255.0f))];
+        ++counts[std::clamp(smoothed.row(y)[x] + 0.5f, 0.0f, 255.0f)];
       }
     }
     const Split split = otsu(counts);
     if (split.gap <= kMinClassGap || split.separation <= kMinSeparation) return;
-    const auto r = static_cast<std::size_t>(region);
-    value[r] = static_cast<float>(split.bright - strength * (split.bright - split.level));
-    weight[r] = 1.0f;
+    value[region] = static_cast<float>(split.bright - strength * (split.bright - split.level));
+    weight[region] = 1.0f;
   });
   const std::vector<float> filled = pushPull(value, weight, kRegionsPerSide, kRegionsPerSide);
   out.foundLine = false;

@@ -43,11 +43,10 @@ RegionNoise measureNoise(const Plane& u, const RunContext& context) {
       }
     }
     if (gx.empty()) return;
-    const auto r = static_cast<std::size_t>(region);
     const float mx = upperMedian(gx), my = upperMedian(gy);
-    noise.slopeX[r] = mx;
-    noise.slopeY[r] = my;
-    noise.spread[r] = 0.5 * (spreadAround(gx, mx) + spreadAround(gy, my));
+    noise.slopeX[region] = mx;
+    noise.slopeY[region] = my;
+    noise.spread[region] = 0.5 * (spreadAround(gx, mx) + spreadAround(gy, my));
   });
   const double median = upperMedian(RegionValues(noise.spread));
   const double slopeLimit = std::max(0.5, 3.0 * median + 0.02);

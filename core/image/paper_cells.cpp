@@ -22,9 +22,7 @@ struct Cells {
   int columns = 0, rows = 0;
   std::vector<float> mean;
   std::vector<std::uint8_t> isFree;
-  std::size_t at(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
-  }
+  std::size_t at(int x, int y) const { return std::ptrdiff_t{y} * columns + x; }
 };
 
 /// @param size side of a cell on the plane; divides 64.
@@ -32,7 +30,7 @@ Cells measureCells(const Plane& grey, const BitImage& edges, int size, const Run
   Cells cells;
   cells.columns = (grey.width + size - 1) / size;
   cells.rows = (grey.height + size - 1) / size;
-  const std::size_t count = static_cast<std::size_t>(cells.columns) * static_cast<std::size_t>(cells.rows);
+  const std::size_t count = std::ptrdiff_t{cells.columns} * cells.rows;
   cells.mean.assign(count, 0.0f);
   cells.isFree.assign(count, 1);
   const std::uint64_t mask = (std::uint64_t{1} << size) - 1;

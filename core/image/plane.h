@@ -17,12 +17,9 @@ struct Plane {
   std::unique_ptr<float[]> data;
 
   Plane() = default;
-  Plane(int w, int h)
-      : width(w),
-        height(h),
-        data(std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(w) * static_cast<std::size_t>(h))) {}
-  float* row(int y) { return data.get() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width); }
-  const float* row(int y) const { return data.get() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width); }
+  Plane(int w, int h) : width(w), height(h), data(std::make_unique_for_overwrite<float[]>(std::ptrdiff_t{w} * h)) {}
+  float* row(int y) { return data.get() + std::ptrdiff_t{y} * width; }
+  const float* row(int y) const { return data.get() + std::ptrdiff_t{y} * width; }
 };
 
 /// Half of a symmetric kernel: tap 0 is the middle. The whole sums to 1.

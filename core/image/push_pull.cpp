@@ -11,14 +11,12 @@ namespace {
 struct Level {
   int columns, rows;
   std::vector<float> value, weight;
-  std::size_t at(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
-  }
+  std::size_t at(int x, int y) const { return std::ptrdiff_t{y} * columns + x; }
 };
 
 Level coarser(const Level& fine) {
   Level coarse{(fine.columns + 1) / 2, (fine.rows + 1) / 2, {}, {}};
-  const std::size_t count = static_cast<std::size_t>(coarse.columns) * static_cast<std::size_t>(coarse.rows);
+  const std::size_t count = std::ptrdiff_t{coarse.columns} * coarse.rows;
   coarse.value.assign(count, 0.0f);
   coarse.weight.assign(count, 0.0f);
   for (int y = 0; y < coarse.rows; ++y) {

@@ -195,23 +195,22 @@ void thresholdsBesideFolds(const GreyImage& image, std::vector<PaperFold> folds,
 /// Puts the user's own values where set, and the acting contrast everywhere.
 void applyUser(const GreyImage& image, const ThresholdParams& params, RegionThresholds& out) {
   for (int region = 0; region < kRegions; ++region) {
-    const auto r = static_cast<std::size_t>(region);
     const double x = (region % kRegionsPerSide + 0.5) * image.width / kRegionsPerSide;
     const double y = (region / kRegionsPerSide + 0.5) * image.height / kRegionsPerSide;
     const double paper = out.paper.at(x, y);
-    if (!out.paper.isEmpty()) out.automatic[r] = std::clamp(paper + out.contrast[r], 0.0, 255.0);
-    out.level[r] = out.automatic[r];
-    std::optional<double> own = params.grid[r];
+    if (!out.paper.isEmpty()) out.automatic[region] = std::clamp(paper + out.contrast[region], 0.0, 255.0);
+    out.level[region] = out.automatic[region];
+    std::optional<double> own = params.grid[region];
     if (!own && params.mode == ThresholdMode::Manual) own = params.manualLevel;
     if (own) {
-      out.level[r] = *own;
-      out.contrast[r] = *own - paper;
-      out.certain[r] = out.contrast[r];
+      out.level[region] = *own;
+      out.contrast[region] = *own - paper;
+      out.certain[region] = out.contrast[region];
     } else if (out.paper.isEmpty()) {
-      out.contrast[r] = out.foundLine ? out.automatic[r] - paper : kNever;
-      out.certain[r] = out.contrast[r];
+      out.contrast[region] = out.foundLine ? out.automatic[region] - paper : kNever;
+      out.certain[region] = out.contrast[region];
     } else {
-      out.certain[r] = kCertainShare * out.contrast[r];
+      out.certain[region] = kCertainShare * out.contrast[region];
     }
   }
 }
@@ -239,10 +238,7 @@ double PaperBackground::at(double xPx, double yPx) const {
   const double v = std::clamp(yPx / cellPx - 0.5, 0.0, rows - 1.0);
   const int x0 = static_cast<int>(u), y0 = static_cast<int>(v);
   const int x1 = std::min(x0 + 1, columns - 1), y1 = std::min(y0 + 1, rows - 1);
-  const auto cell = [&](int x, int y) {
-    return static_cast<double>(
-        grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)]);
-  };
+  const auto cell = [&](int x, int y) { return static_cast<double>(grey[std::ptrdiff_t{y} * columns + x]); };
   const double above = cell(x0, y0) + (u - x0) * (cell(x1, y0) - cell(x0, y0));
   const double below = cell(x0, y1) + (u - x0) * (cell(x1, y1) - cell(x0, y1));
   double level = above + (v - y0) * (below - above);

@@ -6,13 +6,22 @@
 
 #include "core/base/content_hash.h"
 #include "core/base/page_frame.h"
+#include "core/base/result.h"
 #include "core/image/grey_image.h"
 
 namespace batten {
 
+/// Which page of a file is read, and how finely a page is drawn that has no pixels of its own.
+struct PageChoice {
+  int number = 1;         ///< 1.. of a TIFF or PDF; other files have one page.
+  double pdfDpi = 300.0;  ///< [dpi] 20..4800. Of the pages of a PDF.
+  bool operator==(const PageChoice&) const = default;
+};
+std::optional<Error> validate(const PageChoice&);
+
 /// What is known of an image file from its header alone, before any large allocation.
 struct ScanInfo {
-  std::string format;         ///< "PNG", "JPEG", "TIFF", "BMP", "WebP", "PNM".
+  std::string format;         ///< "PNG", "JPEG", "TIFF", "BMP", "WebP", "PNM", "JPEG 2000", "PDF".
   int width = 0;              ///< [px] as stored, before the EXIF rotation.
   int height = 0;             ///< [px]
   int channels = 1;           ///< As stored, alpha included.
@@ -26,6 +35,8 @@ struct Scan {
   GreyImage grey;
   ScanInfo info;
   std::optional<double> dpi;  ///< From the file; absent means unknown.
+  PageChoice page;            ///< What of the file it is.
+  int pages = 1;              ///< Of the file, thumbnails not counted.
   ContentHash fileHash;       ///< SHA-256 of the file's bytes, as sha256sum prints it.
   std::string path;           ///< As given by the user; for messages only.
 };

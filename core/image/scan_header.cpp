@@ -5,13 +5,11 @@
 #include <array>
 #include <cmath>
 
-#include "core/base/conventions.h"
 #include "core/image/scan_header_exif.h"
+#include "core/image/scan_header_jp2.h"
 
 namespace batten {
 namespace {
-
-constexpr double kMetresPerInch = kMillimetresPerInch / 1000.0;
 
 std::array<std::uint32_t, 256> crcTable() {
   std::array<std::uint32_t, 256> table{};
@@ -171,15 +169,16 @@ ScanHeader readPnmHeader(const ByteReader& file) {
   return header;
 }
 
-std::optional<ScanHeader> readScanHeader(const ByteReader& file) {
+std::optional<ScanHeader> readScanHeader(const ByteReader& file, int page) {
   if (file.matches(0, "\x89PNG\r\n\x1a\n")) return readPngHeader(file);
   if (file.matches(0, "\xff\xd8\xff")) return readJpegHeader(file);
   if (file.matches(0, std::string_view("II*\0", 4)) || file.matches(0, std::string_view("MM\0*", 4))) {
-    return readTiffHeader(file);
+    return readTiffHeader(file, page);
   }
   if (file.matches(0, "BM") && file.part(0, file.size(), false).u32(14) <= 124 && file.size() > 26) {
     return readBmpHeader(file);
   }
+  if (isJpeg2000(file)) return readJpeg2000Header(file);
   if (file.matches(0, "RIFF") && file.matches(8, "WEBP")) return readWebpHeader(file);
   if (file.u8(0) == 'P' && file.u8(1) >= '1' && file.u8(1) <= '6' && file.u8(2) <= ' ' && file.size() > 6) {
     return readPnmHeader(file);

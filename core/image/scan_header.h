@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/base/conventions.h"
 #include "core/image/byte_reader.h"
 #include "core/image/scan.h"
 #include "core/image/scan_grey.h"
 
 namespace batten {
+
+inline constexpr double kMetresPerInch = kMillimetresPerInch / 1000.0;
 
 struct ScanHeader {
   ScanInfo info;
@@ -19,11 +22,14 @@ struct ScanHeader {
   bool bigEndian = true;
   std::uint64_t tilePixels = 0;  ///< [px] TIFF: of one tile, which may be larger than the picture; 0 = no tiles.
   SampleMeaning meaning;
-  int pages = 1;  ///< TIFF: pictures in the file, thumbnails not counted; the first is read.
+  int pages = 1;                  ///< TIFF: pictures in the file, thumbnails not counted.
+  std::uint64_t directoryAt = 0;  ///< TIFF: where the directory of the page lies; 0 = it is not there.
+  std::uint64_t workBytes = 0;    ///< [bytes] JPEG 2000: what its decoder takes beside the picture.
 };
 
 /// Reads the header of whichever format the bytes are; empty when they are none of those that can be read.
-std::optional<ScanHeader> readScanHeader(const ByteReader& file);
+/// @param page of a TIFF, from 1; beyond the last one the header has no size.
+std::optional<ScanHeader> readScanHeader(const ByteReader& file, int page = 1);
 
 /// The parts of readScanHeader; each expects that the first bytes are those of its format.
 ScanHeader readPngHeader(const ByteReader& file);

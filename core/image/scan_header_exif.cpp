@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <vector>
 
 #include "core/base/conventions.h"
 #include "core/image/scan_header.h"
@@ -61,12 +62,13 @@ bool blocksInside(const ByteReader& tiff, const Tag& offsets, const Tag& sizes) 
   return true;
 }
 
-/// Directories of a file, those of thumbnails and masks not counted. A chain that leads back into itself ends there.
-int tiffPages(const ByteReader& tiff) {
+/// Where the directories of a file lie, those of thumbnails and masks left out. A chain that leads back into itself
+/// ends there.
+std::vector<std::uint64_t> tiffPages(const ByteReader& tiff) {
   constexpr std::size_t kMostPages = 10000;
   constexpr std::uint64_t kIsReduced = 1, kIsMask = 4;  // bits of NewSubfileType
   std::set<std::uint64_t> seen;
-  int pages = 0;
+  std::vector<std::uint64_t> pages;
   for (std::uint64_t directory = tiff.u32(4); directory >= 8 && tiff.has(directory, 2) && seen.size() < kMostPages;) {
     if (!seen.insert(directory).second) break;
     const std::uint64_t entries = tiff.u16(directory);
@@ -76,10 +78,11 @@ int tiffPages(const ByteReader& tiff) {
       const std::uint64_t entry = directory + 2 + i * 12;
       if (tiff.u16(entry) == 254) kind = valueOf(tiff, readTag(tiff, entry));
     }
-    if ((kind & (kIsReduced | kIsMask)) == 0) ++pages;
+    if ((kind & (kIsReduced | kIsMask)) == 0) pages.push_back(directory);
     directory = tiff.u32(directory + 2 + entries * 12);
   }
-  return std::max(1, pages);
+  if (pages.empty()) pages.push_back(tiff.u32(4));
+  return pages;
 }
 
 bool isFrame(std::uint32_t marker) {
@@ -114,8 +117,9 @@ void readJpegSegment(const ByteReader& file, std::uint32_t marker, std::uint64_t
 
 }  // namespace
 
-void readTiffTags(const ByteReader& tiff, ScanHeader& header) {
-  const std::uint64_t directory = tiff.u32(4);
+void readTiffTags(const ByteReader& tiff, ScanHeader& header) { readTiffTags(tiff, tiff.u32(4), header); }
+
+void readTiffTags(const ByteReader& tiff, std::uint64_t directory, ScanHeader& header) {
   const std::uint64_t entries = tiff.u16(directory);
   double xResolution = 0.0, yResolution = 0.0, perInch = 1.0;
   for (std::uint64_t i = 0; i < entries && tiff.has(directory + 2 + i * 12, 12); ++i) {
@@ -146,12 +150,15 @@ void readTiffTags(const ByteReader& tiff, ScanHeader& header) {
   if (const auto dpi = plausibleDpi(xResolution * perInch, yResolution * perInch)) header.info.dpi = dpi;
 }
 
-ScanHeader readTiffHeader(const ByteReader& file) {
+ScanHeader readTiffHeader(const ByteReader& file, int page) {
   ScanHeader header;
   header.info.format = "TIFF";
   header.bigEndian = file.matches(0, "MM");
   const ByteReader tiff = file.part(0, file.size(), header.bigEndian);
-  const std::uint64_t directory = tiff.u32(4);
+  const std::vector<std::uint64_t> pages = tiffPages(tiff);
+  header.pages = static_cast<int>(pages.size());
+  if (page < 1 || page > header.pages) return header;
+  const std::uint64_t directory = header.directoryAt = pages[static_cast<std::size_t>(page) - 1];
   const std::uint64_t entries = tiff.u16(directory);
   header.info.bitsPerChannel = 1;
   header.meaning.isTiff = true;
@@ -206,8 +213,7 @@ ScanHeader readTiffHeader(const ByteReader& file) {
     }
   }
   header.tilePixels = tileWidth * tileHeight;  // 32 bit each
-  header.pages = tiffPages(tiff);
-  readTiffTags(tiff, header);
+  readTiffTags(tiff, directory, header);
   if (hasAlpha && header.info.channels == 2) header.supported = false;  // the decoder would drop the alpha
   header.complete = header.complete && blocksInside(tiff, offsets, sizes);
   return header;

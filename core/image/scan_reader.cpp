@@ -2,88 +2,52 @@
 #include "core/image/scan_reader.h"
 
 #include <algorithm>
-#include <fstream>
-#include <limits>
 #include <new>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
-#include "core/base/platform.h"
 #include "core/base/regular_file.h"
-#include "core/base/shown_text.h"
+#include "core/image/pdf_scan.h"
+#include "core/image/scan_file.h"
 #include "core/image/scan_grey.h"
 #include "core/image/scan_header.h"
 
 namespace batten {
 namespace {
 
-constexpr std::uint64_t kLargestFile = std::numeric_limits<int>::max();  // the decoder counts bytes by int
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 30;            // the decoder's own limit
-constexpr double kShareOfFreeMemory = 0.8;                               // the later stages need some too
 /// [px] Tiles may be larger than the picture, as pictures of any size are cut into the same tiles; a bigger one of a
 /// small picture is damage, or is meant to take memory.
 constexpr std::uint64_t kMostTilePixels = std::uint64_t{1} << 22;
 constexpr std::uint64_t kMostTilesWorth = 4;
 constexpr std::uint64_t kProbeBytes = 1 << 20;  // headers lie within; EXIF blocks take up to 64 kB
 
-tl::unexpected<Error> unreadable(const std::filesystem::path& path, const std::string& what, std::string detail = {}) {
-  std::string message(1, '"');
-  message.append(shownName(path)).append("\" ").append(what);
-  return fail(ErrorCode::UnreadableScan, std::move(message), std::move(detail));
-}
-
-tl::unexpected<Error> unreadable(const std::filesystem::path& path, FileProblem problem) {
-  switch (problem) {
-    case FileProblem::Missing:
-      return unreadable(path, "does not exist; check the path.");
-    case FileProblem::Folder:
-      return unreadable(path, "is a directory; choose an image file in it.");
-    case FileProblem::NotOrdinary:
-      return unreadable(path, "is not a file; choose an image file.");
-    case FileProblem::NotAllowed:
-      return unreadable(path, "cannot be opened; check its permissions.");
-    case FileProblem::TooLarge:
-    case FileProblem::Broken:
-      break;
-  }
-  return unreadable(path, "could not be read to its end; copy it again.");
-}
-
-Result<RegularFile> opened(const std::filesystem::path& path) {
-  auto file = RegularFile::open(path);
-  if (!file) return unreadable(path, file.error());
-  if (file->size() == 0) return unreadable(path, "is empty (0 bytes); scan or copy it again.");
-  return std::move(*file);
-}
-
-Result<std::vector<std::byte>> readBytes(const std::filesystem::path& path, const RegularFile& file,
-                                         std::uint64_t count) {
-  std::vector<std::byte> bytes(count);
-  if (const auto read = file.read(bytes); !read) return unreadable(path, read.error());
-  return bytes;
-}
-
-Result<ScanHeader> headerOf(const std::filesystem::path& path, const std::vector<std::byte>& bytes) {
-  const auto header = readScanHeader(ByteReader(bytes));
+Result<ScanHeader> headerOf(const std::filesystem::path& path, const std::vector<std::byte>& bytes, int page) {
+  const auto header = readScanHeader(ByteReader(bytes), page);
   if (!header) {
     return unreadable(path,
-                      "is not a PNG, JPEG, TIFF, BMP, WebP or PNM image, whatever its name says; export it as PNG.");
+                      "is not a PNG, JPEG, TIFF, PDF, JPEG 2000, BMP, WebP or PNM image, whatever its name says; "
+                      "export it as PNG.");
   }
   return *header;
 }
 
+bool hasPage(const ScanHeader& header, int page) {
+  return page >= 1 && page <= header.pages && (header.info.format != "TIFF" || header.directoryAt != 0);
+}
+
 /// TIFF directories may lie at the end of the file; then the whole is read.
-Result<ScanHeader> probe(const std::filesystem::path& path, const RegularFile& file) {
+Result<ScanHeader> probe(const std::filesystem::path& path, const RegularFile& file, int page) {
   const std::uint64_t size = file.size();
   auto bytes = readBytes(path, file, std::min(size, kProbeBytes));
   if (!bytes) return fail(bytes.error());
-  auto header = headerOf(path, *bytes);
+  auto header = headerOf(path, *bytes, page);
   if (header && size > kProbeBytes && (header->info.width <= 0 || header->info.height <= 0)) {
     bytes = readBytes(path, file, size);
     if (!bytes) return fail(bytes.error());
-    header = headerOf(path, *bytes);
+    header = headerOf(path, *bytes, page);
   }
+  if (header && !hasPage(*header, page)) return fail(noSuchPage(path, page, header->pages));
   if (header && (header->info.width <= 0 || header->info.height <= 0)) {
     return unreadable(path, "states no picture size; it is damaged or truncated. Scan or copy it again.");
   }
@@ -102,22 +66,14 @@ std::uint64_t memoryNeeded(const ScanHeader& header, std::uint64_t fileBytes) {
   std::uint64_t channels = static_cast<std::uint64_t>(std::max(1, header.info.channels));
   if (channels == 2) channels = 4;  // grey with alpha is decoded as colour with alpha
   const std::uint64_t sample = header.info.bitsPerChannel > 8 ? 2 : 1;
-  const std::uint64_t decoded = pixels * channels * sample + (header.progressive ? pixels * channels * 2 : 0);
+  const std::uint64_t decoded =
+      pixels * channels * sample + (header.progressive ? pixels * channels * 2 : 0) + header.workBytes;
   const std::uint64_t grey = pixels * 2;
   return fileBytes + grey + std::max(decoded + tileBytes(header), header.info.exifOrientation > 1 ? grey : 0);
 }
 
-/// With two digits behind the point, whatever the locale.
-std::string gigabytes(std::uint64_t bytes) {
-  constexpr std::uint64_t kHundredth = 10'000'000;
-  const std::uint64_t hundredths = (bytes + kHundredth / 2) / kHundredth;
-  const std::string digits = std::to_string(hundredths % 100);
-  return std::to_string(hundredths / 100) + (digits.size() == 1 ? ".0" : ".") + digits + " GB";
-}
-
 std::optional<Error> checkSize(const std::filesystem::path& path, const ScanHeader& header, std::uint64_t fileBytes,
-                               const ScanLimits& limits) {
-  const std::string size = std::to_string(header.info.width) + " x " + std::to_string(header.info.height) + " px";
+                               const ScanRequest& request) {
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(header.info.width) * static_cast<std::uint64_t>(header.info.height);
   if (header.tilePixels > std::max(kMostTilePixels, kMostTilesWorth * pixels)) {
@@ -125,24 +81,17 @@ std::optional<Error> checkSize(const std::filesystem::path& path, const ScanHead
                       "is damaged: it states tiles far larger than its picture. Scan it again or export it as PNG.")
         .value();
   }
-  const std::uint64_t needed = memoryNeeded(header, fileBytes);
-  std::optional<std::uint64_t> available = limits.memoryBytes;
-  if (!available) {
-    if (const auto free = availableMemoryBytes()) {
-      available = static_cast<std::uint64_t>(kShareOfFreeMemory * static_cast<double>(*free));
-    }
+  return checkCost(path, {header.info.width, header.info.height, memoryNeeded(header, fileBytes), fileBytes},
+                   request.memoryBytes, "Scan at a lower resolution or crop.");
+}
+
+/// The decoder reads the first page: the chosen one becomes it.
+void selectTiffPage(std::vector<std::byte>& bytes, const ScanHeader& header) {
+  if (header.info.format != "TIFF" || bytes.size() < 8) return;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t shift = 8 * (header.bigEndian ? 3 - i : i);
+    bytes[4 + i] = static_cast<std::byte>(header.directoryAt >> shift & 0xffu);
   }
-  if (available && needed > *available) {
-    return unreadable(path, "is too large: " + size + " need " + gigabytes(needed) + " of memory, " +
-                                gigabytes(*available) + " are free. Scan at a lower resolution or crop.")
-        .value();
-  }
-  if (pixels > kMostPixels || fileBytes > kLargestFile) {
-    return unreadable(path, "is too large: " + size + " (" + gigabytes(fileBytes) +
-                                " file) is more than can be read. Scan at a lower resolution or crop.")
-        .value();
-  }
-  return std::nullopt;
 }
 
 /// The decoder would turn TIFFs by itself, and only some of them: it is told that there is nothing to turn.
@@ -153,11 +102,13 @@ void clearTiffOrientation(std::vector<std::byte>& bytes, const ScanHeader& heade
   bytes[at + 1] = std::byte{static_cast<unsigned char>(header.bigEndian ? 1 : 0)};
 }
 
-Result<Scan> readChecked(const std::filesystem::path& path, const RegularFile& file, const RunContext& context) {
+Result<Scan> readChecked(const std::filesystem::path& path, const RegularFile& file, const PageChoice& page,
+                         const RunContext& context) {
   auto bytes = readBytes(path, file, file.size());
   if (!bytes) return fail(bytes.error());
-  const auto header = headerOf(path, *bytes);
+  const auto header = headerOf(path, *bytes, page.number);
   if (!header) return fail(header.error());
+  if (!hasPage(*header, page.number)) return fail(noSuchPage(path, page.number, header->pages));
   if (!header->complete)
     return unreadable(path, "is truncated or damaged: part of the picture is missing. Scan or copy it again.");
   if (!header->supported) {
@@ -168,8 +119,11 @@ Result<Scan> readChecked(const std::filesystem::path& path, const RegularFile& f
   scan.info = header->info;
   scan.dpi = header->info.dpi;
   scan.path = path.string();
+  scan.page = page;
+  scan.pages = header->pages;
   scan.fileHash = sha256(*bytes);
   if (context.isCancelled()) return cancelled();
+  selectTiffPage(*bytes, *header);
   clearTiffOrientation(*bytes, *header);
   auto grey = decodeGrey(*bytes, header->meaning, context);
   if (context.isCancelled()) return cancelled();
@@ -184,11 +138,12 @@ Result<Scan> readChecked(const std::filesystem::path& path, const RegularFile& f
 
 }  // namespace
 
-Result<ScanInfo> probeScan(const std::filesystem::path& path) {
+Result<ScanInfo> probeScan(const std::filesystem::path& path, const PageChoice& page) {
   try {
-    const auto file = opened(path);
+    const auto file = openedScan(path);
     if (!file) return fail(file.error());
-    auto header = probe(path, *file);
+    if (isPdf(*file)) return probePdf(path, *file, page);
+    auto header = probe(path, *file, page.number);
     if (!header) return fail(header.error());
     return header->info;
   } catch (const std::bad_alloc&) {
@@ -200,13 +155,14 @@ Result<ScanInfo> probeScan(const std::filesystem::path& path) {
 
 int countPages(const std::filesystem::path& path) {
   try {
-    const auto file = opened(path);
-    if (!file) return 1;
-    auto header = probe(path, *file);
-    if (!header || header->info.format != "TIFF" || file->size() > kLargestFile) return 1;
+    const auto file = openedScan(path);
+    if (!file || file->size() > kLargestScanBytes) return 1;
+    if (isPdf(*file)) return countPdfPages(path, *file);
+    auto header = probe(path, *file, 1);
+    if (!header || header->info.format != "TIFF") return 1;
     // Directories may lie anywhere in the file.
     const auto bytes = readBytes(path, *file, file->size());
-    if (bytes) header = headerOf(path, *bytes);
+    if (bytes) header = headerOf(path, *bytes, 1);
     return header ? header->pages : 1;
   } catch (const std::bad_alloc&) {
     return 1;
@@ -215,14 +171,16 @@ int countPages(const std::filesystem::path& path) {
   }
 }
 
-Result<Scan> readScan(const std::filesystem::path& path, const ScanLimits& limits, const RunContext& context) {
+Result<Scan> readScan(const std::filesystem::path& path, const ScanRequest& request, const RunContext& context) {
   try {
-    const auto file = opened(path);
+    if (auto wrong = validate(request.page)) return fail(std::move(*wrong));
+    const auto file = openedScan(path);
     if (!file) return fail(file.error());
-    const auto header = probe(path, *file);
+    if (isPdf(*file)) return readPdfScan(path, *file, {request.page, request.memoryBytes}, context);
+    const auto header = probe(path, *file, request.page.number);
     if (!header) return fail(header.error());
-    if (const auto error = checkSize(path, *header, file->size(), limits)) return fail(*error);
-    return readChecked(path, *file, context);
+    if (const auto error = checkSize(path, *header, file->size(), request)) return fail(*error);
+    return readChecked(path, *file, request.page, context);
   } catch (const std::bad_alloc&) {
     return unreadable(path, "needs more memory than there is. Scan at a lower resolution or crop.");
   } catch (const cv::Exception& exception) {

@@ -8,7 +8,7 @@ namespace batten {
 
 BandedLeastSquares::BandedLeastSquares(int unknowns, int width, bool cyclic)
     : unknowns_(unknowns), band_(std::min(unknowns, cyclic ? 2 * width : width)), cyclic_(cyclic) {
-  factor_.assign(static_cast<std::size_t>(unknowns_) * static_cast<std::size_t>(band_), 0.0);
+  factor_.assign(std::ptrdiff_t{unknowns_} * band_, 0.0);
   right_.assign(unknowns_, Vec2::Zero());
   work_.assign(unknowns_ + 2 * band_, 0.0);
 }

@@ -26,12 +26,8 @@ class BandedLeastSquares {
 
  private:
   int place(int column) const { return cyclic_ ? foldedPlace(column % unknowns_, unknowns_) : column; }
-  double& factor(int row, int offset) {
-    return factor_[static_cast<std::size_t>(row) * static_cast<std::size_t>(band_) + static_cast<std::size_t>(offset)];
-  }
-  double factor(int row, int offset) const {
-    return factor_[static_cast<std::size_t>(row) * static_cast<std::size_t>(band_) + static_cast<std::size_t>(offset)];
-  }
+  double& factor(int row, int offset) { return factor_[std::ptrdiff_t{row} * band_ + offset]; }
+  double factor(int row, int offset) const { return factor_[std::ptrdiff_t{row} * band_ + offset]; }
 
   int unknowns_, band_;
   bool cyclic_;

@@ -41,10 +41,7 @@ class BandedMatrix {
  public:
   BandedMatrix() = default;
   BandedMatrix(int size, int halfWidth, bool cyclic)
-      : size_(size),
-        halfWidth_(halfWidth),
-        cyclic_(cyclic),
-        data_(static_cast<std::size_t>(size) * static_cast<std::size_t>(halfWidth + 1)) {}
+      : size_(size), halfWidth_(halfWidth), cyclic_(cyclic), data_(std::ptrdiff_t{size} * (halfWidth + 1)) {}
 
   int size() const { return size_; }
   int halfWidth() const { return halfWidth_; }
@@ -64,9 +61,7 @@ class BandedMatrix {
   BandedMatrix block(int first, int count) const;
 
  private:
-  std::size_t offset(int i, int k) const {
-    return static_cast<std::size_t>(i) * static_cast<std::size_t>(halfWidth_ + 1) + static_cast<std::size_t>(k);
-  }
+  std::size_t offset(int i, int k) const { return std::ptrdiff_t{i} * (halfWidth_ + 1) + k; }
   int size_ = 0, halfWidth_ = 0;
   bool cyclic_ = false;
   std::vector<double> data_;

@@ -87,7 +87,7 @@ void printShapes() {
 }
 
 void printDrawing(const std::filesystem::path& path) {
-  const auto scan = readScan(path, ScanLimits{}, RunContext{});
+  const auto scan = readScan(path, ScanRequest{}, RunContext{});
   if (!scan) return;
   Recipe recipe;
   recipe.construct.light = false;

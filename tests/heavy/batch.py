@@ -6,6 +6,7 @@ Needs BATTEN_CLI. Ends with 1 at the first difference. A way that cannot start h
 import collections
 import json
 import os
+import resource
 import shutil
 import signal
 import socket
@@ -18,6 +19,7 @@ RECIPES = os.path.join(HERE, "..", "..", "resources", "batch")
 CLI = os.environ["BATTEN_CLI"]
 TIMEOUT = float(os.environ.get("BATTEN_BATCH_TIMEOUT", "20"))
 OPTIONS = "--page-timeout %g" % TIMEOUT
+WAYS = os.environ.get("BATTEN_BATCH_WAYS", "").split()
 folder, count = os.path.abspath(sys.argv[1]), int(sys.argv[2])
 
 
@@ -38,8 +40,14 @@ def results_of(place, name):
         return [json.loads(line) for line in file if line.endswith("\n")]
 
 
+def processor_seconds():
+    """Of all processes that this one started and that have ended."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
 def single_calls(place):
-    """What each page gives alone: {scan: (status, error)}; the outputs stay in `place`."""
+    """What each page gives alone: {scan: (status, error)} and the most MB that a call held; the outputs stay in `place`."""
     told = {}
     for page in pages_of(place):
         words = [CLI, "trace", page["scan"], "--dpi", str(page["dpi"]), "--threads", "1"]
@@ -53,7 +61,16 @@ def single_calls(place):
             told[page["scan"]] = (status, done.stderr.strip().removeprefix("batten-cli: "))
         except subprocess.TimeoutExpired:
             told[page["scan"]] = ("failed", "It took longer than %g s. Raise --page-timeout." % TIMEOUT)
-    return told
+    return told, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024 / 1e6
+
+
+def expected_kinds():
+    """The pages that make_pages.py makes so: ten empty, five damaged, one too long and one not to be written, of 200."""
+    slow, unwritable = count // 2, count // 3
+    damaged = [i for i in range(count) if i % 40 == 13 and i not in (slow, unwritable)]
+    empty = [i for i in range(count) if i % 20 == 7 and i not in (slow, unwritable) and i not in damaged]
+    failed = len(damaged) + 2
+    return {"done": count - len(empty) - failed, "empty": len(empty), "failed": failed}
 
 
 def start(words, place, **more):
@@ -209,6 +226,67 @@ def by_slurm(place):
         slurm.end()
 
 
+class MemoryGroup:
+    """A control group that holds at most so many bytes; `why` says why there is none."""
+
+    def __init__(self, limit):
+        self.why, self.folder = None, None
+        for root, name in (("/sys/fs/cgroup/memory", "memory.limit_in_bytes"), ("/sys/fs/cgroup", "memory.max")):
+            if not os.path.exists(os.path.join(root, "cgroup.procs")):
+                continue
+            folder = os.path.join(root, "batten-test-%d" % os.getpid())
+            try:
+                os.mkdir(folder)
+                self.folder = folder
+                with open(os.path.join(folder, name), "w") as out:
+                    out.write(str(limit))
+                return
+            except OSError as error:
+                self.why = str(error)
+        self.why = self.why or "no hierarchy of control groups"
+
+    def enter(self):
+        with open(os.path.join(self.folder, "cgroup.procs"), "w") as out:
+            out.write(str(os.getpid()))
+
+    def end(self):
+        if self.folder:
+            os.rmdir(self.folder)
+
+
+def most_at_once(place, jobs, **more):
+    """How many pages a batch has had running at once."""
+    process = start([CLI, "batch", "pages.jsonl", "--jobs", str(jobs), "--results", "pages.jsonl.results", *OPTIONS.split()], place, **more)
+    most = 0
+    while process.poll() is None:
+        try:
+            with open("/proc/%d/task/%d/children" % (process.pid, process.pid)) as file:
+                most = max(most, len(file.read().split()))
+        except OSError:
+            pass
+        time.sleep(0.02)
+    return most
+
+
+def by_little_memory(source, single, told):
+    """Six jobs where memory holds the batch and no more than two or three pages beside it: none is started for which there is none."""
+    free = copy_of(source, "memory-free")
+    unlimited = most_at_once(free, 6)
+    group = MemoryGroup(160 << 20)
+    try:
+        if group.why:
+            print("memory: passed over. No control group can be made: " + group.why)
+            return
+        place = copy_of(source, "memory")
+        most = most_at_once(place, 6, preexec_fn=group.enter)
+        check("memory", place, single, told)
+    finally:
+        group.end()
+    print("6 jobs: %d pages at once; where 160 MB are allowed: %d" % (unlimited, most))
+    if unlimited != 6 or most > 3:
+        fail("memory: %d pages at once, of 6 jobs" % most)
+
+
 def check(way, place, reference, told):
     lines = results_of(place, "pages.jsonl.results")
     finished = collections.Counter(one["scan"] for one in lines if one["status"] != "failed")
@@ -240,31 +318,45 @@ def check(way, place, reference, told):
 
 def copy_of(source, name):
     place = os.path.join(folder, name)
-    shutil.copytree(source, place)
+    shutil.copytree(source, place, copy_function=os.link)  # the scans; nothing writes to them
     return place
+
+
+ROW = "%-30s %8s %10s %8s %10s %8s"
+
+
+def show(name, seconds, processor=None, peak=None):
+    print(ROW % (name, "%.1f" % seconds, "%.1f" % (60 * count / seconds), "" if processor is None else "%.1f" % processor,
+                 "" if processor is None else "%.3f" % (processor / count), "" if peak is None else "%.0f" % peak), flush=True)
 
 
 def main():
     source = os.path.join(folder, "source")
     subprocess.run([sys.executable, os.path.join(HERE, "make_pages.py"), source, str(count)], check=True)
     single = copy_of(source, "single")
-    begin = time.time()
-    told = single_calls(single)
-    alone = time.time() - begin
+    begin, before = time.time(), processor_seconds()
+    told, peak = single_calls(single)
+    alone, work = time.time() - begin, processor_seconds() - before
     kinds = collections.Counter(status for status, _ in told.values())
-    print("%d pages: %s" % (count, ", ".join("%d %s" % (n, kind) for kind, n in sorted(kinds.items()))))
-    row = "%-34s %8s %10s %8s"
-    print(row % ("", "seconds", "pages/min", "peak MB"))
-    print(row % ("single calls in a loop", "%.1f" % alone, "%.1f" % (60 * count / alone), ""), flush=True)
+    print("%d pages: %s; the page that takes too long is ended after %g s" %
+          (count, ", ".join("%d %s" % (n, kind) for kind, n in sorted(kinds.items())), TIMEOUT))
+    if dict(kinds) != {kind: n for kind, n in expected_kinds().items() if n}:
+        fail("single calls: expected were %s" % expected_kinds())
+    written = [os.path.getsize(os.path.join(single, name)) for page in pages_of(single) for name in page["outputs"]
+               if os.path.exists(os.path.join(single, name))]
+    print("outputs: %.0f kB for each page that is done" % (sum(written) / kinds["done"] / 1e3))
+    print(ROW % ("", "seconds", "pages/min", "CPU s", "CPU s/page", "peak MB"))
+    show("single calls in a loop", alone, work, peak)
     for jobs in (1, 2):
         place = copy_of(source, "jobs%d" % jobs)
-        begin = time.time()
+        begin, before = time.time(), processor_seconds()
         start([CLI, "batch", "pages.jsonl", "--jobs", str(jobs), "--results", "pages.jsonl.results", *OPTIONS.split()], place).wait()
-        seconds = time.time() - begin
+        seconds, work = time.time() - begin, processor_seconds() - before
         peak = check("batch", place, single, told)
-        print(row % ("batch, %d at once (%.2f x)" % (jobs, alone / seconds), "%.1f" % seconds, "%.1f" % (60 * count / seconds),
-                     "%.0f" % peak), flush=True)
+        show("batch, %d at once (%.2f x)" % (jobs, alone / seconds), seconds, work, peak)
     for name, way in (("batch", by_batch), ("parallel", by_parallel), ("slurm", by_slurm), ("snakemake", by_snakemake)):
+        if WAYS and name not in WAYS:
+            continue
         place = copy_of(source, name + "-killed")
         begin = time.time()
         why = way(place)
@@ -273,7 +365,10 @@ def main():
             print("%s: passed over. %s" % (name, why), flush=True)
             continue
         peak = check(name, place, single, told)
-        print(row % (name + ", killed by -9 twice", "%.1f" % seconds, "%.1f" % (60 * count / seconds), "%.0f" % peak), flush=True)
+        show(name + ", killed by -9 twice", seconds, None, peak)
+    if not WAYS or "memory" in WAYS:
+        by_little_memory(source, single, told)
+    print("load of the machine meanwhile: %.1f on %d processors" % (os.getloadavg()[2], os.cpu_count()))
 
 
 main()

@@ -4,12 +4,17 @@
 
 #include <QAbstractButton>
 #include <QAction>
+#include <QClipboard>
 #include <QComboBox>
 #include <QLabel>
+#include <QMimeData>
+#include <QProgressBar>
+#include <QUndoStack>
 
 #include "core/exchange/dxf_reader.h"
 #include "tests/ui/rendered_scan.h"
 #include "tests/ui/window_fixture.h"
+#include "ui/panels/stages/export_preview.h"
 
 namespace batten {
 namespace {
@@ -57,6 +62,125 @@ TEST_F(Export, ADxfInInchesIsReadBackAndItsSizeShown) {
   ASSERT_TRUE(drawing) << drawing.error().message;
   EXPECT_EQ(drawing->mmPerUnit, 25.4);
   EXPECT_FALSE(drawing->entities.empty());
+}
+
+TEST_F(Export, ThePreviewShowsWhatWillBeWritten) {
+  openPage(test::zigzagPage());
+  for (const Vec2& corner : {Vec2(200, 100), Vec2(400, 300)}) {
+    Recipe recipe = session().recipe();
+    recipe.cornerMarks.push_back({corner});
+    session().change(QStringLiteral("Corner"), recipe);
+  }
+  ASSERT_TRUE(settle());
+  window_->action(ActionId::Export)->trigger();
+  ASSERT_NO_FATAL_FAILURE(chooseReceiver("illustrator"));
+  auto* preview = find<ExportPreview>("export.preview");
+  ASSERT_TRUE(waitUntil([&] { return preview->content().curves.size() == 1; })) << "a line is one path";
+  auto* joined = find<QAbstractButton>("export.joined");
+  QTest::mouseClick(joined, Qt::LeftButton, {}, {8, joined->height() / 2});
+  ASSERT_TRUE(waitUntil([&] { return preview->content().curves.size() == 3; }));
+  EXPECT_TRUE(find<QLabel>("export.held")->text().startsWith(QStringLiteral("3 curves")));
+  EXPECT_NEAR(preview->content().box.width(), 520 * 25.4 / 300, 1.0);
+  // A click selects, and the selected curve is turned round.
+  const PreviewCurve first = preview->content().curves[0];
+  QTest::mouseClick(preview, Qt::LeftButton, {}, preview->toWidget(first.points[20]).toPoint());
+  ASSERT_EQ(session().selectedCurve(), *first.number - 1);
+  QTest::mouseClick(find<QAbstractButton>("export.turn"), Qt::LeftButton);
+  ASSERT_TRUE(waitUntil([&] {
+    const auto& curves = preview->content().curves;
+    return curves.size() == 3 && QLineF(curves[0].points.front(), first.points.back()).length() < 1e-6;
+  })) << "it begins where it ended";
+  window_->action(ActionId::Undo)->trigger();
+  ASSERT_TRUE(waitUntil([&] {
+    const auto& curves = preview->content().curves;
+    return curves.size() == 3 && QLineF(curves[0].points.front(), first.points.front()).length() < 1e-6;
+  }));
+}
+
+TEST_F(Export, DirectionsAndStartsAreSetOnTheDrawing) {
+  openPage(test::ellipsePage());
+  window_->action(ActionId::Export)->trigger();
+  window_->action(ActionId::ToolDirection)->trigger();
+  ASSERT_EQ(session().curves().size(), 1u);
+  const PageFrame frame = session().output().frame;
+  const NurbsCurve shape = session().curves()[0].faired;
+  const auto placeAt = [&](double share) {
+    return frame.pointToImage(shape.point(shape.start() + share * (shape.end() - shape.start())));
+  };
+  ASSERT_TRUE(waitUntil([&] {
+    clickCanvas(placeAt(0.3));
+    return session().recipe().directions.size() == 1;
+  })) << "once the curves are drawn";
+  // The ring moves, as one step.
+  auto* canvas = find<CurveCanvas>("canvas");
+  const int steps = session().undoStack()->index();
+  const auto widget = [&](const Vec2& px) { return canvas->toWidget(px).toPoint(); };
+  QTest::mousePress(canvas, Qt::LeftButton, {}, widget(placeAt(0.0)));
+  QTest::mouseMove(canvas, widget(placeAt(0.2)));
+  QTest::mouseMove(canvas, widget(placeAt(0.4)));
+  QTest::mouseRelease(canvas, Qt::LeftButton, {}, widget(placeAt(0.4)));
+  ASSERT_EQ(session().recipe().starts.size(), 1u);
+  EXPECT_LT((session().recipe().starts[0].positionPx - placeAt(0.4)).norm(), 4.0);
+  EXPECT_EQ(session().undoStack()->index(), steps + 1);
+  auto* preview = find<ExportPreview>("export.preview");
+  ASSERT_TRUE(waitUntil([&] {
+    if (preview->content().curves.size() != 1) return false;
+    const QPointF start = preview->content().curves[0].points.front();
+    return (frame.pointToImage({start.x(), -start.y()}) - placeAt(0.4)).norm() < 4.0;
+  }));
+}
+
+TEST_F(Export, CurvesAreCopiedAsSvg) {
+  openPage(test::ellipsePage());
+  window_->action(ActionId::Export)->trigger();
+  QApplication::clipboard()->clear();
+  QTest::mouseClick(find<QAbstractButton>("export.copy"), Qt::LeftButton);
+  ASSERT_TRUE(
+      waitUntil([] { return QApplication::clipboard()->mimeData()->hasFormat(QStringLiteral("image/svg+xml")); }));
+  const QByteArray svg = QApplication::clipboard()->mimeData()->data(QStringLiteral("image/svg+xml"));
+  EXPECT_TRUE(svg.contains("<path ")) << svg.left(300).toStdString();
+  EXPECT_TRUE(find<QLabel>("export.result")->text().contains(QStringLiteral("read back")));
+}
+
+TEST_F(Export, EscapeStopsItAndNothingIsWritten) {
+  openPage(test::ellipsePage());
+  window_->action(ActionId::Export)->trigger();
+  ASSERT_NO_FATAL_FAILURE(chooseReceiver("laser"));
+  const QString target = folder_.filePath(QStringLiteral("stopped.dxf"));
+  auto* path = find<QLineEdit>("export.path");
+  auto* result = find<QLabel>("export.result");
+  path->selectAll();
+  path->insert(target);
+  // It may be done before the key is heard; then it is tried again with another file.
+  bool wasStopped = false;
+  for (int attempt = 0; attempt < 50 && !wasStopped; ++attempt) {
+    QFile::remove(target);
+    result->clear();
+    find<QAbstractButton>("export.run")->click();
+    window_->action(ActionId::CancelWork)->trigger();
+    ASSERT_TRUE(waitUntil([&] { return !result->text().isEmpty(); }));
+    wasStopped = result->text().startsWith(QStringLiteral("Stopped"));
+    if (wasStopped) {
+      EXPECT_FALSE(QFile::exists(target));
+    }
+  }
+  EXPECT_TRUE(wasStopped);
+  EXPECT_FALSE(find<QProgressBar>("export.progress")->isVisible());
+}
+
+TEST_F(Export, AReportIsWrittenFromThePanel) {
+  openPage(test::ellipsePage());
+  window_->action(ActionId::Export)->trigger();
+  auto* button = find<QAbstractButton>("report.write");
+  ASSERT_TRUE(waitUntil([&] { return button->isEnabled(); }));
+  for (const char* name : {"r.report.pdf", "r.report.html"}) {
+    const QString target = folder_.filePath(QLatin1String(name));
+    find<QComboBox>("report.kind")->setCurrentIndex(target.endsWith(QStringLiteral("pdf")) ? 0 : 2);
+    saveAs(target, [&] { QTest::mouseClick(button, Qt::LeftButton); });
+    ASSERT_TRUE(waitUntil([&] { return QFile::exists(target) && button->isEnabled(); }));
+    const QByteArray bytes = read(target);
+    EXPECT_TRUE(bytes.startsWith(target.endsWith(QStringLiteral("pdf")) ? "%PDF-" : "<!DOCTYPE html>"));
+  }
 }
 
 }  // namespace

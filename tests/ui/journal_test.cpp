@@ -3,12 +3,13 @@
 
 #include <QDir>
 #include <QFile>
-#include <QTest>
+#include <QSignalSpy>
+#include <QTimer>
 
+#include "core/base/platform.h"
 #include "core/document/unsaved_work.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/new_drawing_dialog.h"
-#include "ui/session/journal_lock.h"
 #include "ui/session/recipe_journal.h"
 
 namespace batten {
@@ -56,7 +57,10 @@ TEST_F(Journal, AWriteThatFailsIsTriedAgain) {
   RecipeJournal journal(session_, folder());
   journal.setIntervalMs(20);
   ASSERT_NO_FATAL_FAILURE(draw(20));
-  QTest::qWait(100);
+  auto* clock = journal.findChild<QTimer*>();
+  ASSERT_NE(clock, nullptr);
+  QSignalSpy ticks(clock, &QTimer::timeout);
+  ASSERT_TRUE(waitUntil([&] { return ticks.count() >= 3; }, 5000));
   EXPECT_FALSE(QFile::exists(journal.file()));
   // No change follows: the next tick alone writes what is there.
   ASSERT_TRUE(QFile::remove(folder()));
@@ -96,7 +100,7 @@ TEST_F(Journal, ASessionWhoseFileAnotherHoldsGoesOnInAFileOfItsOwn) {
   const QString first = journal.file();
   // Between a clean-up and the next tick another window was faster.
   ASSERT_TRUE(QFile::remove(first + QStringLiteral(".lock")));
-  JournalLock other(std::filesystem::path(first.toStdU16String()));
+  LockFile other(std::filesystem::path((first + QStringLiteral(".lock")).toStdU16String()));
   ASSERT_TRUE(other.hold());
   ASSERT_NO_FATAL_FAILURE(draw(40));
   EXPECT_TRUE(waitUntil([&] { return journal.file() != first && strokesIn(journal.file()) == 2; }, 5000));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include <QApplication>
 #include <QStandardPaths>
+
+#include "tests/ui/pause_meter.h"
 
 int main(int argc, char** argv) {
   // Without a window system the tests run all the same.
@@ -11,7 +12,7 @@ int main(int argc, char** argv) {
     qputenv("QT_QPA_PLATFORM", "offscreen");
   testing::InitGoogleTest(&argc, argv);
   QStandardPaths::setTestModeEnabled(true);
-  QApplication app(argc, argv);
+  batten::test::TestApplication app(argc, argv);
   QApplication::setApplicationName(QStringLiteral("batten-tests"));
   QApplication::setOrganizationName(QStringLiteral("batten-tests"));
   return RUN_ALL_TESTS();

@@ -16,6 +16,7 @@
 #include "tests/ui/rendered_scan.h"
 #include "ui/commands/action_catalog.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/discarded_values.h"
 
 namespace batten {
 namespace {
@@ -271,6 +272,119 @@ TEST(ActionCatalog, HasEveryActionOnceWithTextAndHelp) {
   for (const Layer layer : kLayers) EXPECT_EQ(layerOf(showAction(layer)), layer);
   EXPECT_EQ(targetOf(ActionId::Target4), 4);
   EXPECT_FALSE(targetOf(ActionId::Undo));
+}
+
+int numberAt(const EditorSession& session, const Vec2& px) {
+  const auto curves = session.curves();
+  int number = 0;
+  double nearest = 8.0;
+  for (const TracedCurve& curve : curves) {
+    for (const Vec2& p : session.output().pieces->pieces[curve.piece].points) {
+      if ((p - px).norm() >= nearest) continue;
+      nearest = (p - px).norm();
+      number = curveNumber(session.output(), curve);
+    }
+  }
+  return number;
+}
+
+TEST(EditorSession, CurvesKeepTheirNumbersThroughEditsUndoAndTheFile) {
+  OpenSession open(test::drawnPage({640, 400}, [](QPainter& painter) {
+    painter.drawLine(QPointF(60, 80), QPointF(560, 90));
+    painter.drawLine(QPointF(60, 180), QPointF(560, 190));
+    painter.drawLine(QPointF(60, 280), QPointF(560, 330));
+  }));
+  ASSERT_TRUE(open.isReady);
+  EditorSession& session = open.session;
+  const Vec2 upper(300, 84.8), middle(300, 184.8), left(100, 284), right(500, 324);
+  const int one = numberAt(session, upper), two = numberAt(session, middle), three = numberAt(session, left);
+  EXPECT_EQ((std::set{one, two, three}), (std::set{1, 2, 3}));
+  const Recipe start = session.recipe();
+
+  // Only the lower half of the page: the line above the others is gone, and the numbers do not move up.
+  Recipe changed = start;
+  changed.regions = {rectangleRegion({0, 130}, {640, 400})};
+  session.change(QStringLiteral("Region"), changed);
+  ASSERT_TRUE(open.settle());
+  EXPECT_EQ(session.curves().size(), 2u);
+  EXPECT_EQ(numberAt(session, middle), two);
+  EXPECT_EQ(numberAt(session, left), three);
+
+  // A corner divides the lower line: its longer part keeps the number, the other is a new one.
+  changed.cornerMarks = {{Vec2(160, 290)}};
+  session.change(QStringLiteral("Corner"), changed);
+  ASSERT_TRUE(open.settle());
+  EXPECT_EQ(numberAt(session, right), three);
+  EXPECT_EQ(numberAt(session, left), 4);
+  EXPECT_EQ(session.recipe(), changed) << "numbers are no change that could be undone";
+
+  session.undoStack()->undo();
+  session.undoStack()->undo();
+  ASSERT_TRUE(open.settle());
+  EXPECT_EQ(numberAt(session, upper), one);
+  EXPECT_EQ(numberAt(session, left), three);
+  EXPECT_EQ(session.recipeToSave().curveNumbers.lastGiven, 4);
+
+  // A line drawn now does not get the number that the part had.
+  changed = start;
+  changed.penStrokes = {{{Vec2(60, 360), Vec2(200, 362), Vec2(400, 364)}}};
+  session.change(QStringLiteral("Line"), changed);
+  ASSERT_TRUE(open.settle());
+  EXPECT_EQ(numberAt(session, Vec2(200, 362)), 5);
+
+  // From the file, without the line above: as before.
+  QFile file(open.folder.filePath(QStringLiteral("page.recipe.json")));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  Recipe saved = session.recipeToSave();
+  saved.regions = {rectangleRegion({0, 130}, {640, 400})};
+  file.write(QByteArray::fromStdString(recipeToJson(saved)));
+  file.close();
+  EditorSession again;
+  again.openScan(open.path());
+  ASSERT_TRUE(waitUntil([&] { return again.hasScan() && !again.isBusy(); }));
+  EXPECT_EQ(numberAt(again, middle), two);
+  EXPECT_EQ(numberAt(again, left), three);
+  EXPECT_EQ(numberAt(again, Vec2(200, 362)), 5);
+  again.change(QStringLiteral("Region"), [&] {
+    Recipe recipe = again.recipe();
+    recipe.regions.clear();
+    return recipe;
+  }());
+  ASSERT_TRUE(waitUntil([&] { return !again.isBusy(); }));
+  EXPECT_EQ(numberAt(again, upper), one) << "a line that comes back is called as before";
+}
+
+TEST(DiscardedValues, FreeOnlyWhatTheyGotHoweverLate) {
+  // The worker is held up by a value that takes long to free, as a large page is, until the next drawing has stored.
+  struct Slow {
+    std::shared_ptr<std::atomic<bool>> mayGo;
+    ~Slow() {
+      while (mayGo && !*mayGo) std::this_thread::yield();
+    }
+  };
+  StageCache cache;
+  const auto key = [](int i) { return HashBuilder().integer(i).finish(); };
+  const auto mayGo = std::make_shared<std::atomic<bool>>(false);
+  const auto old = std::make_shared<const int>(1);
+  std::weak_ptr<const int> watched = old;
+  {
+    DiscardedValues discarded;
+    const auto slow = std::make_shared<Slow>();
+    slow->mayGo = mayGo;
+    discarded.discard(slow);
+    cache.store(key(1), old, 8);
+    struct Old {
+      std::vector<std::shared_ptr<const void>> stages;
+    };
+    discarded.discard(std::make_shared<const Old>(Old{cache.release()}));
+    cache.store(key(2), std::make_shared<const int>(2), 8);
+    *mayGo = true;
+    EXPECT_TRUE(waitUntil([&] { return !discarded.isBusy(); }));
+  }
+  EXPECT_EQ(cache.find<int>(key(1)), nullptr);
+  ASSERT_NE(cache.find<int>(key(2)), nullptr) << "the next drawing's stages stay";
+  EXPECT_EQ(*cache.find<int>(key(2)), 2);
+  EXPECT_EQ(watched.use_count(), 1) << "only this test still holds it";
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "ui/canvas/layers/curve_layer.h"
 #include "ui/canvas/layers/growing_layer.h"
 #include "ui/canvas/layers/mark_layers.h"
+#include "ui/session/coarse_runner.h"
 #include "ui/session/growing_player.h"
 #include "ui/session/judged_view.h"
 #include "ui/session/suggestion_source.h"
@@ -26,7 +27,8 @@ CurveCanvas::State::State(CurveCanvas& owner, EditorSession& s, ViewSettings& v)
     : CanvasScene(s, v), canvas(owner), tools{makeSelectTool(*this),        makeThresholdTool(*this),
                                               makeCornerTool(*this),        makePenTool(*this),
                                               makeSegmentTool(*this),       makeLinesTool(*this),
-                                              makeRegionTool(*this, false), makeRegionTool(*this, true)} {
+                                              makeRegionTool(*this, false), makeRegionTool(*this, true),
+                                              makeScaleTool(*this),         makeDirectionTool(*this)} {
   repaint = [this] { canvas.update(); };
   hint = [this](const QString& text) {
     if (text == lastHint) return;
@@ -97,6 +99,11 @@ void CurveCanvas::State::stageReady(StageId stage) {
   canvas.update();
 }
 
+void CurveCanvas::State::coarseReady() {
+  requestShapes();
+  canvas.update();
+}
+
 void CurveCanvas::State::recipeChanged() {
   refreshExtrema();
   tool().recipeChanged();
@@ -148,8 +155,13 @@ void CurveCanvas::State::busyChanged(bool busy) {
 }
 
 CurveSource CurveCanvas::State::source() const {
-  const PipelineOutput& output = session.output();
   CurveSource from;
+  if (const auto coarse = session.coarseCurves()) {
+    from.faired = coarse->faired;
+    from.frame = coarse->frame;
+    return from;
+  }
+  const PipelineOutput& output = session.output();
   from.faired = output.faired;
   if (!from.faired) from.constructed = output.constructed;
   from.frame = output.frame;
@@ -247,10 +259,13 @@ RasterContent CurveCanvas::State::rasterContent() const {
   if (view.isVisible(Layer::Paper) && output.thresholds && !output.thresholds->paper.isEmpty())
     content.paper = std::shared_ptr<const PaperBackground>(output.thresholds, &output.thresholds->paper);
   if (view.isVisible(Layer::Mask)) {
-    if (output.filtered && !view.showsMaskUncleaned())
-      content.mask = std::shared_ptr<const BitImage>(output.filtered, &output.filtered->ink);
+    const auto coarse = session.coarseInk();
+    if (coarse) content.maskFactor = coarse->factor;
+    const auto& filtered = coarse ? coarse->filtered : output.filtered;
+    if (filtered && !view.showsMaskUncleaned())
+      content.mask = std::shared_ptr<const BitImage>(filtered, &filtered->ink);
     else
-      content.mask = output.binary;
+      content.mask = coarse ? coarse->binary : output.binary;
   }
   if (view.isVisible(Layer::Edges)) content.edges = output.edges;
   return content;

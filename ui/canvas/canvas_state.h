@@ -21,6 +21,7 @@ struct CurveCanvas::State : CanvasScene {
 
   void scanOpened();
   void stageReady(StageId);
+  void coarseReady();
   void recipeChanged();
   void viewChanged();
   void transformChanged();

@@ -42,6 +42,7 @@ CurveCanvas::CurveCanvas(EditorSession& session, ViewSettings& view, QWidget* pa
   State* state = state_.get();
   connect(&session, &EditorSession::scanOpened, this, [state] { state->scanOpened(); });
   connect(&session, &EditorSession::stageReady, this, [state](StageId stage) { state->stageReady(stage); });
+  connect(&session, &EditorSession::coarseReady, this, [state] { state->coarseReady(); });
   connect(&session, &EditorSession::recipeChanged, this, [state] { state->recipeChanged(); });
   connect(&session, &EditorSession::selectionChanged, this, [state] { state->selectionChanged(); });
   connect(&session, &EditorSession::targetsChanged, this, [state] { state->hoverChanged(); });
@@ -55,6 +56,7 @@ CurveCanvas::CurveCanvas(EditorSession& session, ViewSettings& view, QWidget* pa
   connect(&session, &EditorSession::busyChanged, this, [state](bool busy) { state->busyChanged(busy); });
   connect(&view, &ViewSettings::changed, this, [state] { state->viewChanged(); });
   connect(&view, &ViewSettings::selectedRegionChanged, this, qOverload<>(&QWidget::update));
+  connect(&view, &ViewSettings::measureChanged, this, qOverload<>(&QWidget::update));
   connect(&view, &ViewSettings::toolChanged, this, [state] {
     for (const auto& tool : state->tools) tool->reset();
     state->hint({});

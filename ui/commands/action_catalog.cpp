@@ -25,6 +25,10 @@ std::vector<ActionInfo> fileActions() {
       {NewDrawing, "new-drawing", menu, tr("New drawing…"), keys({"Ctrl+N"}),
        tr("Begin on an empty page and draw with the pen.")},
       {OpenScan, "open-scan", menu, tr("Open scan…"), keys({"Ctrl+O"}), tr("Open a scanned or photographed drawing.")},
+      {ImportCurves, "import-curves", menu, tr("Import curves…"), keys({"Ctrl+Shift+I"}),
+       tr("Take curves or points of another program over into this drawing: DXF, IGES, STEP, SVG, CSV, JSON.")},
+      {PasteScan, "paste-scan", menu, tr("Paste scan"), keys({"Ctrl+V"}),
+       tr("Open the picture on the clipboard as a scan.")},
       {OpenRecipe, "open-recipe", menu, tr("Open recipe…"), keys({"Ctrl+Shift+O"}),
        tr("Use saved settings, corners and choices on this drawing, or open a saved pen drawing.")},
       {SaveRecipe, "save-recipe", menu, tr("Save recipe"), keys({"Ctrl+S"}),
@@ -32,7 +36,9 @@ std::vector<ActionInfo> fileActions() {
       {SaveRecipeAs, "save-recipe-as", menu, tr("Save recipe as…"), keys({"Ctrl+Shift+S"}),
        tr("Save all settings, corners and choices under another name, for this program or batten-cli.")},
       {Export, "export", menu, tr("Export…"), keys({"Ctrl+E"}),
-       tr("Write the curves as SVG or curve JSON, with their size in mm.")},
+       tr("Write the curves to CAD, drawing programs, cutters or spreadsheets, in true size.")},
+      {CopySvg, "copy-svg", menu, tr("Copy curves as SVG"), keys({"Ctrl+Shift+C"}),
+       tr("Put the curves on the clipboard, to be pasted into a drawing program.")},
       {Quit, "quit", menu, tr("Quit"), keys({"Ctrl+Q"}), tr("Close the program.")},
   };
 }
@@ -118,6 +124,13 @@ std::vector<ActionInfo> toolActions() {
        tr("Drag a rectangle: only what lies inside is traced. Further regions add to it."), true},
       {ToolLasso, "tool-lasso", menu, tr("Lasso"), keys({"Shift+R"}),
        tr("Draw round what is to be traced. Further regions add to it."), true},
+      {ToolScale, "tool-scale", menu, tr("Measure scale"), keys({"M"}),
+       tr("Drag along something whose length is known, then type its length in the Scan stage."), true},
+      {ToolDirection, "tool-direction", menu, tr("Directions"), keys({"F"}),
+       tr("Click a curve to export it the other way round; drag the ring of a closed one to where it is to begin."),
+       true},
+      {TurnDirection, "turn-direction", menu, tr("Turn direction of curve"), keys({"Shift+F"}),
+       tr("Export the selected curve the other way round.")},
       {ClearRegions, "clear-regions", menu, tr("Clear regions"), keys({"Ctrl+Shift+R"}),
        tr("Trace the whole page again.")},
   };
@@ -224,6 +237,10 @@ std::optional<Tool> toolOf(ActionId id) {
       return Tool::Rectangle;
     case ActionId::ToolLasso:
       return Tool::Lasso;
+    case ActionId::ToolScale:
+      return Tool::Scale;
+    case ActionId::ToolDirection:
+      return Tool::Direction;
     default:
       return std::nullopt;
   }
@@ -258,6 +275,10 @@ ActionId toolAction(Tool tool) {
       return ActionId::ToolRectangle;
     case Tool::Lasso:
       return ActionId::ToolLasso;
+    case Tool::Scale:
+      return ActionId::ToolScale;
+    case Tool::Direction:
+      return ActionId::ToolDirection;
   }
   return ActionId::ToolSelect;
 }

@@ -58,6 +58,8 @@ enum class ActionId {
   ToolLines,
   ToolRectangle,
   ToolLasso,
+  ToolScale,
+  ToolDirection,
   ClearRegions,
   Target1,
   Target2,
@@ -68,6 +70,10 @@ enum class ActionId {
   SaveRecipeAs,
   NextCurve,
   PreviousCurve,
+  ImportCurves,
+  PasteScan,
+  CopySvg,
+  TurnDirection,
 };
 
 enum class ActionMenu { File, Edit, View, Tools, Fairing };

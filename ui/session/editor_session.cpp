@@ -40,9 +40,12 @@ EditorSession::~EditorSession() {
   runner_->pipeline.cancelAll();
   runner_->reader.cancelAll();
   runner_->targeting.cancelAll();
+  runner_->coarse.cancel();
 }
 
-void EditorSession::openScan(const QString& path) { runner_->read(path, std::nullopt); }
+void EditorSession::openScan(const QString& path, const std::optional<PageChoice>& page) {
+  runner_->read(path, page, std::nullopt);
+}
 
 void EditorSession::newDrawing(const Recipe& recipe) { runner_->begin(recipe, false); }
 
@@ -50,7 +53,7 @@ void EditorSession::restore(const QString& path, const Recipe& recipe) {
   if (path.isEmpty())
     runner_->begin(recipe, true);
   else
-    runner_->read(path, recipe);
+    runner_->read(path, std::nullopt, recipe);
 }
 
 bool EditorSession::wasRestored() const { return runner_->wasRestored; }
@@ -61,8 +64,23 @@ bool EditorSession::openedWithRecipe() const { return runner_->openedWithRecipe;
 
 QString EditorSession::openProblem() const { return runner_->openProblem; }
 
+Recipe EditorSession::recipeToSave() const {
+  Recipe recipe = recipe_;
+  recipe.curveNumbers = runner_->numbers;
+  return recipe;
+}
+
 void EditorSession::change(const QString& what, Recipe after, int gesture) {
-  if (after == recipe_) return;
+  CurveNumbers numbers = std::exchange(after.curveNumbers, {});
+  const bool bringsNumbers = numbers != CurveNumbers{};
+  if (bringsNumbers) {
+    numbers.lastGiven = std::max(numbers.lastGiven, runner_->numbers.lastGiven);
+    runner_->numbers = std::move(numbers);
+  }
+  if (after == recipe_) {
+    if (bringsNumbers) runner_->run();
+    return;
+  }
   undo_.push(new ChangeRecipe(*this, what, recipe_, std::move(after), gesture));
 }
 
@@ -87,6 +105,14 @@ std::span<const TracedCurve> EditorSession::curves() const {
   if (output_.faired) return output_.faired->curves;
   if (output_.constructed) return output_.constructed->curves;
   return {};
+}
+
+std::shared_ptr<const CoarseResult> EditorSession::coarseInk() const {
+  return coarse_ && coarse_->generation > runner_->shownGeneration[indexOf(StageId::Filtered)] ? coarse_ : nullptr;
+}
+
+std::shared_ptr<const CoarseResult> EditorSession::coarseCurves() const {
+  return coarse_ && coarse_->faired && curves().empty() ? coarse_ : nullptr;
 }
 
 const ChoiceOwners& EditorSession::choiceOwners() const {
@@ -134,7 +160,8 @@ void EditorSession::computeAgain() {
 }
 
 bool EditorSession::hasRunningJobs() const {
-  return runner_->reader.isRunning() || runner_->pipeline.isRunning() || runner_->targeting.isRunning();
+  return runner_->reader.isRunning() || runner_->pipeline.isRunning() || runner_->targeting.isRunning() ||
+         runner_->coarse.isRunning();
 }
 
 void EditorSession::setSideWork(const QObject* panel, bool busy, bool isShown) {

@@ -17,6 +17,7 @@
 
 namespace batten {
 
+struct CoarseResult;
 class GrowingPlayer;
 class SuggestionSource;
 /// A result set aside to compare later ones with. All parts belong together.
@@ -41,7 +42,8 @@ class EditorSession : public QObject {
 
   /// Reads a scan in the background, with the recipe that was saved beside it; scanOpened or failed follows. An open
   /// drawing stays until the new one is there.
-  void openScan(const QString& path);
+  /// @param page of a file of several; absent: that of the recipe, else the first.
+  void openScan(const QString& path, const std::optional<PageChoice>& page = {});
   /// Begins a drawing without a scan, on white paper of the size recipe.page, with this recipe. The paper is made in
   /// the background, scanOpened or failed follows; the undo stack is empty. @pre recipe.page
   void newDrawing(const Recipe& recipe);
@@ -64,8 +66,11 @@ class EditorSession : public QObject {
   QString openProblem() const;
 
   const Recipe& recipe() const { return recipe_; }
+  /// The recipe with the numbers given to curves so far: what files keep. recipe() is without them, as they are no
+  /// change that could be undone.
+  Recipe recipeToSave() const;
   /// Changes the recipe by an undoable command. Changes with one `gesture` (>= 0) merge into one undo step; -1 never
-  /// merges.
+  /// merges. Numbers of curves in `after`, as a recipe from a file has them, count from now on.
   void change(const QString& what, Recipe after, int gesture = -1);
   /// A fresh gesture number for a drag.
   int newGesture() { return ++lastGesture_; }
@@ -77,6 +82,10 @@ class EditorSession : public QObject {
   const PipelineOutput& output() const { return output_; }
   /// The curves to show, which selectedCurve() counts: the faired set, or the constructed one while there is none.
   std::span<const TracedCurve> curves() const;
+  /// Of large pages: what a quick run on a smaller page has found, for as long as it is newer than what output() holds.
+  /// To be looked at; everything else goes by output(). Curves are only there while curves() is empty. Null otherwise.
+  std::shared_ptr<const CoarseResult> coarseInk() const;
+  std::shared_ptr<const CoarseResult> coarseCurves() const;
   /// Whose choice is whose in the present recipe: on the pieces shown, as the next run applies them.
   const ChoiceOwners& choiceOwners() const;
   /// The selected one of curves(), or null.
@@ -139,6 +148,7 @@ class EditorSession : public QObject {
   void scanOpened();
   void recipeChanged();
   void stageReady(batten::StageId stage);
+  void coarseReady();  ///< coarseInk() or coarseCurves() is there, or newer.
   void runFinished();  ///< The newest run ended (done, failed or cancelled).
   void busyChanged(bool busy);
   void workingChanged(bool working);
@@ -168,6 +178,7 @@ class EditorSession : public QObject {
   std::shared_ptr<const Scan> scan_;
   Recipe recipe_;
   PipelineOutput output_;
+  std::shared_ptr<const CoarseResult> coarse_;
   mutable KnownOwners known_;
   QUndoStack undo_;
   int lastGesture_ = 0;

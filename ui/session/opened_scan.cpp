@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/session/opened_scan.h"
 
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -11,8 +12,9 @@
 
 namespace batten {
 
-std::filesystem::path recipeBeside(const std::filesystem::path& scan) {
+std::filesystem::path recipeBeside(const std::filesystem::path& scan, int page) {
   std::filesystem::path recipe = scan;
+  if (page > 1) return recipe.replace_filename(recipe.stem().concat("-p" + std::to_string(page) + ".recipe.json"));
   return recipe.replace_extension(".recipe.json");
 }
 
@@ -26,21 +28,25 @@ Result<Recipe> readRecipeFile(const std::filesystem::path& path, const RunContex
   return recipe;
 }
 
-Result<OpenedScan> openWithRecipe(const std::filesystem::path& path, const RunContext& context) {
-  auto scan = readScan(path, ScanLimits{}, context);
-  if (!scan) return fail(std::move(scan).error());
-  OpenedScan opened{std::move(*scan), Recipe{}, false, {}};
-  const std::filesystem::path beside = recipeBeside(path);
+Result<OpenedScan> openWithRecipe(const std::filesystem::path& path, const std::optional<PageChoice>& page,
+                                  const RunContext& context) {
+  OpenedScan opened;
+  const std::filesystem::path beside = recipeBeside(path, page ? page->number : 1);
   std::error_code ignored;
-  if (!std::filesystem::exists(beside, ignored)) return opened;
-  auto recipe = readRecipeFile(beside, context);
-  if (!recipe && recipe.error().code == ErrorCode::Cancelled) return cancelled();
-  if (recipe) {
-    opened.recipe = std::move(*recipe);
-    opened.hasRecipe = true;
-  } else {
-    opened.problem = recipe.error().message + " The drawing opened without it.";
+  if (std::filesystem::exists(beside, ignored)) {
+    auto recipe = readRecipeFile(beside, context);
+    if (!recipe && recipe.error().code == ErrorCode::Cancelled) return cancelled();
+    if (recipe) {
+      opened.recipe = std::move(*recipe);
+      opened.hasRecipe = true;
+    } else {
+      opened.problem = recipe.error().message + " The drawing opened without it.";
+    }
   }
+  if (page) opened.recipe.scanPage = *page;
+  auto scan = readScan(path, {.page = opened.recipe.scanPage}, context);
+  if (!scan) return fail(std::move(scan).error());
+  opened.scan = std::move(*scan);
   return opened;
 }
 

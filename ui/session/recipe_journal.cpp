@@ -9,24 +9,28 @@
 #include <string>
 #include <utility>
 
+#include "core/base/platform.h"
 #include "core/base/regular_file.h"
 #include "core/document/unsaved_work.h"
 #include "core/exchange/save_atomically.h"
+#include "ui/session/path_text.h"
 
 namespace batten {
 namespace {
 
 constexpr std::uint64_t kLargestBytes = std::uint64_t{64} << 20;
 
-std::filesystem::path nativePath(const QString& path) { return {path.toStdU16String()}; }
+std::unique_ptr<LockFile> lockOf(const QString& journal) {
+  return std::make_unique<LockFile>(nativePath(journal + QStringLiteral(".lock")));
+}
 
 std::optional<RecipeJournal::Left> readJournal(const QString& path) {
   const auto text = readWhole(nativePath(path), kLargestBytes);
   if (!text) return std::nullopt;
   auto work = unsavedWorkFromJson(*text);
   if (!work) return std::nullopt;
-  return RecipeJournal::Left{path, QString::fromStdString(work->scanPath), QFileInfo(path).lastModified(),
-                             std::move(work->recipe)};
+  return RecipeJournal::Left{path, pathFromStored(QString::fromStdString(work->scanPath)),
+                             QFileInfo(path).lastModified(), std::move(work->recipe)};
 }
 
 }  // namespace
@@ -51,18 +55,18 @@ QString RecipeJournal::newFile() const {
 void RecipeJournal::write() {
   const bool isHeld = lock_ && lock_->hold();
   if (!session_.hasUnsavedChanges()) return;
-  if (isHeld && written_ && *written_ == session_.recipe() && QFile::exists(file_)) return;
+  if (isHeld && written_ && *written_ == session_.recipeToSave() && QFile::exists(file_)) return;
   if (!isHeld) {
     // The file may be somebody else's by now, or is not there yet.
     QDir().mkpath(folder_);
     if (lock_) file_ = newFile();
-    lock_ = std::make_unique<JournalLock>(nativePath(file_));
+    lock_ = lockOf(file_);
     written_.reset();
     ++generation_;
     if (!lock_->hold()) return;  // A folder that takes no lock takes no journal: the next tick tries again.
   }
   worker_->start(
-      [this, generation = generation_, recipe = session_.recipe(), scan = session_.scanPath(),
+      [this, generation = generation_, recipe = session_.recipeToSave(), scan = storedPath(session_.scanPath()),
        file = file_](const CancelToken&) {
         const std::string bytes = unsavedWorkToJson({scan.toStdString(), recipe});
         // Should it fail there is nothing to tell: the drawing is where it was, and the next tick tries again.
@@ -90,7 +94,7 @@ std::optional<RecipeJournal::Left> RecipeJournal::left() {
   for (const QFileInfo& info : files) {
     const QString path = info.absoluteFilePath();
     if (path == QFileInfo(file_).absoluteFilePath()) continue;
-    auto lock = std::make_unique<JournalLock>(nativePath(path));
+    auto lock = lockOf(path);
     if (!lock->hold()) continue;
     if (auto left = readJournal(path)) {
       leftLock_ = std::move(lock);

@@ -10,9 +10,10 @@
 
 #include "ui/session/background_worker.h"
 #include "ui/session/editor_session.h"
-#include "ui/session/journal_lock.h"
 
 namespace batten {
+
+class LockFile;
 
 /// Keeps unsaved work on disk, so that a crash loses at most half a minute of it. A file of its own while the session
 /// has unsaved changes, written in the background, gone once they are saved, discarded or the program ends as it
@@ -50,8 +51,8 @@ class RecipeJournal : public QObject {
 
   EditorSession& session_;
   QString folder_, file_;
-  std::unique_ptr<JournalLock> lock_, leftLock_;
-  QTimer timer_;
+  std::unique_ptr<LockFile> lock_, leftLock_;  ///< Of the journal at X: "X.lock".
+  QTimer timer_{this};
   std::optional<Recipe> written_;  ///< What is on disk, as far as known.
   int generation_ = 0;             ///< Of the file: what an older write reports is of no use any more.
   std::unique_ptr<BackgroundWorker> worker_;

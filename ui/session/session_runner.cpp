@@ -9,7 +9,9 @@
 #include "core/base/conventions.h"
 #include "core/fairing/fairing.h"
 #include "core/pipeline/run/curve_targets.h"
+#include "core/pipeline/run/stage_keys.h"
 #include "ui/session/guarded.h"
+#include "ui/session/path_text.h"
 
 namespace batten {
 namespace {
@@ -37,6 +39,8 @@ void mergeOutputs(PipelineOutput& shown, const PipelineOutput& run, StageId last
     if (last < StageId::Faired) shown.faired.reset();
     shown.frame = run.frame;
   }
+  // The numbers belong to the curves shown: curves of the run before keep theirs until the new ones are there.
+  if (last == StageId::Faired || (run.numbers && !shown.faired)) shown.numbers = run.numbers;
   shown.timing = run.timing;
   shown.error = run.error;
   shown.failedStage = run.failedStage;
@@ -50,7 +54,8 @@ double squaredDistance(const Piece& piece, const Vec2& place) {
 
 }  // namespace
 
-EditorSession::Runner::Runner(EditorSession& owner) : session(owner) {
+EditorSession::Runner::Runner(EditorSession& owner)
+    : session(owner), coarse(inbox, [this](const auto& scan, auto result) { applyCoarse(scan, std::move(result)); }) {
   clock.start();
   grace.setSingleShot(true);
   QObject::connect(&grace, &QTimer::timeout, &inbox, [this] { stopOvertaken(); });
@@ -68,11 +73,12 @@ void EditorSession::Runner::open(const QString& scanPath, bool isRestored, ScanJ
   updateBusy();
 }
 
-void EditorSession::Runner::read(const QString& scanPath, const std::optional<Recipe>& restored) {
-  open(scanPath, restored.has_value(), [scanPath, restored](const CancelToken& token) {
+void EditorSession::Runner::read(const QString& scanPath, const std::optional<PageChoice>& page,
+                                 const std::optional<Recipe>& restored) {
+  open(scanPath, restored.has_value(), [scanPath, page, restored](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
-    auto opened = openWithRecipe(std::filesystem::path(scanPath.toStdU16String()), context);
+    auto opened = openWithRecipe(nativePath(scanPath), restored ? std::optional(restored->scanPage) : page, context);
     if (opened && restored) {
       opened->recipe = *restored;
       opened->problem.clear();
@@ -107,21 +113,17 @@ void EditorSession::Runner::dropOldDrawing() {
     std::shared_ptr<const Scan> scan;
     PipelineOutput output;
     std::shared_ptr<const PinnedResult> pinned;
+    std::vector<std::shared_ptr<const void>> stages;
   };
-  auto old = std::make_shared<Old>(
-      Old{std::move(session.scan_), std::exchange(session.output_, {}), std::move(session.pinned_)});
-  // Up to a gigabyte goes back to the system: not while the window waits.
-  janitor.start(
-      [this, old = std::move(old)](const CancelToken&) mutable {
-        cache.clear();
-        old.reset();
-      },
-      BackgroundWorker::Running::Finish);
+  // The stages are handed over: the cache belongs to the next drawing from here on.
+  discarded.discard(std::make_shared<const Old>(
+      Old{std::move(session.scan_), std::exchange(session.output_, {}), std::move(session.pinned_), cache.release()}));
 }
 
 void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bool isRestored) {
   pipeline.cancelAll();
   targeting.cancelAll();
+  coarse.cancel();
   ++newestTargets;
   isTargeting = isStopped = false;
   dropOldDrawing();
@@ -131,10 +133,13 @@ void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bo
   wasRestored = isRestored;
   openProblem = QString::fromStdString(opened.problem).simplified();
   session.recipe_ = std::move(opened.recipe);
+  numbers = std::exchange(session.recipe_.curveNumbers, {});
   session.output_.frame = frameFor(*session.scan_, session.recipe_);
   session.pinned_.reset();
   session.selectedCurve_ = session.selectedCorner_ = -1;
   session.targets_.reset();
+  session.coarse_.reset();
+  shownInkKey = {};
   session.cursorMm_.reset();
   session.hoveredTarget_ = 0;
   targetsCurve.reset();
@@ -163,7 +168,7 @@ void EditorSession::Runner::run() {
   const qint64 started = startedMs.load();
   const bool spare = started >= 0 && clock.elapsed() - started < kGraceMs;
   overtaken.push_back(newestToken);
-  auto job = [this, runId, generation = recipeGeneration, scan = session.scan_, recipe = session.recipe_,
+  auto job = [this, runId, generation = recipeGeneration, scan = session.scan_, recipe = session.recipeToSave(),
               edges = edgesWanted](const CancelToken& token) {
     const qint64 begin = clock.elapsed();
     startedMs = begin;
@@ -210,6 +215,21 @@ void EditorSession::Runner::run() {
   else if (!grace.isActive())
     grace.start(static_cast<int>(kGraceMs - (clock.elapsed() - started)));
   updateBusy();
+  runCoarse();
+}
+
+void EditorSession::Runner::runCoarse() {
+  inkKey = stageKeys(*session.scan_, session.recipe_, session.output_.frame)[StageId::Filtered];
+  const bool hasCurves = !session.curves().empty();
+  if (hasCurves && inkKey == shownInkKey) return;
+  coarse.start({session.scan_, session.recipe_, recipeGeneration, !hasCurves});
+}
+
+void EditorSession::Runner::applyCoarse(const std::shared_ptr<const Scan>& scan,
+                                        std::shared_ptr<const CoarseResult> result) {
+  if (scan != session.scan_ || result->generation <= shownGeneration[indexOf(StageId::Faired)]) return;
+  session.coarse_ = std::move(result);
+  emit session.coarseReady();
 }
 
 void EditorSession::Runner::stopOvertaken() {
@@ -229,8 +249,14 @@ void EditorSession::Runner::applyStage(const std::shared_ptr<const Scan>& scan, 
   mergeOutputs(session.output_, soFar, stage);
   for (const StageId done : kStages)
     if (done <= stage) shownGeneration[indexOf(done)] = generation;
+  if (generation == recipeGeneration && stage == StageId::Filtered) shownInkKey = inkKey;
+  if (stage == StageId::Faired) dropCoarse(generation);
   if (stage == StageId::Faired || (stage == StageId::Curves && !session.output_.faired)) curvesChanged();
   emit session.stageReady(stage);
+}
+
+void EditorSession::Runner::dropCoarse(std::uint64_t generation) {
+  if (session.coarse_ && session.coarse_->generation <= generation) session.coarse_.reset();
 }
 
 void EditorSession::Runner::applyEnd(const std::shared_ptr<const Scan>& scan, std::uint64_t generation,
@@ -241,6 +267,7 @@ void EditorSession::Runner::applyEnd(const std::shared_ptr<const Scan>& scan, st
     session.lastRunMs_ = milliseconds;
     mergeOutputs(session.output_, output, StageId::Faired);
     shownGeneration.fill(generation);
+    dropCoarse(generation);
     if (output.error) {
       // What lies beyond the failure does not belong to this recipe: show none rather than the old.
       curvesChanged();
@@ -252,8 +279,11 @@ void EditorSession::Runner::applyEnd(const std::shared_ptr<const Scan>& scan, st
   isRunning = false;
   overtaken.clear();
   if (!wasCancelled) {
+    // Only of runs that no newer one has overtaken: a drag does not use up a number for every line it comes past.
+    if (output.numbers) numbers = output.numbers->known;
     // An empty page is not a failure, it is a beginning.
-    const bool isBeginning = session.isBlankPage() && session.recipe_.penStrokes.empty();
+    const bool isBeginning =
+        session.isBlankPage() && session.recipe_.penStrokes.empty() && session.recipe_.imports.empty();
     if (output.error && !isBeginning)
       fail(*output.error, FailureOrigin::Run);
     else
@@ -358,6 +388,7 @@ void EditorSession::Runner::applyTargets(std::uint64_t id, std::shared_ptr<const
 
 void EditorSession::Runner::stopAll() {
   pipeline.cancelAll();
+  coarse.cancel();
   reader.cancelAll();
   targeting.cancelAll();
   overtaken.clear();

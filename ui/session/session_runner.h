@@ -10,6 +10,8 @@
 
 #include "core/fairing/fairing.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/coarse_runner.h"
+#include "ui/session/discarded_values.h"
 #include "ui/session/editor_session.h"
 #include "ui/session/opened_scan.h"
 
@@ -20,7 +22,7 @@ namespace batten {
 struct EditorSession::Runner {
   explicit Runner(EditorSession&);
 
-  void read(const QString& path, const std::optional<Recipe>& restored);
+  void read(const QString& path, const std::optional<PageChoice>& page, const std::optional<Recipe>& restored);
   void begin(const Recipe&, bool isRestored);
   void run();
   void computeTargets();
@@ -33,6 +35,7 @@ struct EditorSession::Runner {
   QObject inbox;
   StageCache cache;
   QString path, openProblem;
+  CurveNumbers numbers;  ///< Apart from the recipe, as no undo takes them back.
   bool openedWithRecipe = false, wasRestored = false;
 
   std::uint64_t recipeGeneration = 1;                           ///< Counts changes of recipe or scan.
@@ -56,7 +59,10 @@ struct EditorSession::Runner {
   std::vector<CancelToken> overtaken;
 
   /// Last, so that they are stopped and joined before anything they use goes away.
-  BackgroundWorker reader, pipeline, targeting, janitor;
+  CoarseRunner coarse;
+  ContentHash inkKey, shownInkKey;  ///< Of the ink asked for and of the one shown, to know whether it changes.
+  DiscardedValues discarded;
+  BackgroundWorker reader, pipeline, targeting;
 
  private:
   struct Job;
@@ -71,6 +77,9 @@ struct EditorSession::Runner {
                 const PipelineOutput&, double milliseconds);
   void applyTargets(std::uint64_t id, std::shared_ptr<const TargetOutcomes> outcomes, double lengthMm);
   void stopOvertaken();
+  void runCoarse();
+  void dropCoarse(std::uint64_t generation);
+  void applyCoarse(const std::shared_ptr<const Scan>&, std::shared_ptr<const CoarseResult>);
   void curvesChanged();
 };
 

@@ -22,7 +22,7 @@ const Contour* tracedLineOf(const EditorSession& session, int curve) {
   const int contour = curves[curve].contour;
   if (contour < 0 || static_cast<std::size_t>(contour) >= set->contours.size()) return nullptr;
   const Contour& line = set->contours[contour];
-  return line.kind == ContourKind::Pen || line.points.empty() ? nullptr : &line;
+  return isDrawn(line.kind) || line.points.empty() ? nullptr : &line;
 }
 
 EdgeMode traceModeOf(const EditorSession& session, int curve) {

@@ -116,6 +116,12 @@ void ViewSettings::setShowsMaskUncleaned(bool shows) {
   emit changed();
 }
 
+void ViewSettings::setMeasure(std::optional<Measure> measure) {
+  if (!measure && !measure_) return;
+  measure_ = measure;
+  emit measureChanged();
+}
+
 void ViewSettings::setScanOnly(bool scanOnly) {
   if (scanOnly_ == scanOnly) return;
   scanOnly_ = scanOnly;

@@ -4,6 +4,9 @@
 #include <QObject>
 #include <QString>
 #include <array>
+#include <optional>
+
+#include "core/base/vec2.h"
 #include "core/curve/closest_point.h"
 
 namespace batten {
@@ -45,9 +48,11 @@ enum class Tool {
   Lines,       ///< Click leaves a line out or takes it in again.
   Rectangle,   ///< Drag draws a rectangle: only what lies inside the regions is traced.
   Lasso,       ///< The same drawn freely.
+  Scale,       ///< Drag measures a known length; the Scan panel asks how long it is.
+  Direction,   ///< Click turns the direction in which a curve is exported; drag of its ring moves the start.
 };
-inline constexpr std::array kTools = {Tool::Select,   Tool::Thresholds, Tool::Corners,   Tool::Pen,
-                                      Tool::Segments, Tool::Lines,      Tool::Rectangle, Tool::Lasso};
+inline constexpr std::array kTools = {Tool::Select, Tool::Thresholds, Tool::Corners, Tool::Pen,   Tool::Segments,
+                                      Tool::Lines,  Tool::Rectangle,  Tool::Lasso,   Tool::Scale, Tool::Direction};
 
 /// Its place in arrays with one entry a tool.
 constexpr std::size_t indexOf(Tool tool) { return static_cast<std::size_t>(tool); }
@@ -84,6 +89,12 @@ class ViewSettings : public QObject {
   void setShowsUniformKnots(bool);
   bool showsMaskUncleaned() const { return maskUncleaned_; }  ///< While thresholds are set: the ink as they find it.
   void setShowsMaskUncleaned(bool);
+  /// Two places of the page between which the user has measured, whose distance is not told yet [px].
+  struct Measure {
+    Vec2 fromPx = Vec2::Zero(), toPx = Vec2::Zero();
+  };
+  const std::optional<Measure>& measure() const { return measure_; }
+  void setMeasure(std::optional<Measure>);
   bool isScanOnly() const { return scanOnly_; }  ///< While the compare key is held.
   void setScanOnly(bool);
 
@@ -92,6 +103,7 @@ class ViewSettings : public QObject {
   void chosen(batten::Layer layer);
   void toolChanged(batten::Tool tool);
   void selectedRegionChanged(int region);
+  void measureChanged();
 
  private:
   std::array<bool, kLayers.size()> visible_{};
@@ -101,6 +113,7 @@ class ViewSettings : public QObject {
   int selectedRegion_ = -1;
   double suggestionAngleDeg_ = 35.0;
   double suggestionScalePx_ = 14.0;
+  std::optional<Measure> measure_;
   bool scanOnly_ = false, showsUniform_ = false, maskUncleaned_ = false;
 };
 

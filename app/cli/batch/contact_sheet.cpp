@@ -30,7 +30,7 @@ constexpr const char* kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>Batten: contact sheet</title><style>
 body{font:14px/1.4 Inter,system-ui,sans-serif;margin:16px;background:#f4f5f7;color:#1c1f23}
-main{display:grid;grid-template-columns:repeat(auto-fill,minmax(240px,1fr));gap:12px}
+main{display:grid;grid-template-columns:repeat(auto-fill,minmax(240px,1fr));gap:12px;margin-top:10px}
 figure{margin:0;padding:8px;background:#fff;border-radius:6px;border-top:4px solid #2c9a4b}
 figure.empty{border-color:#c98a00}figure.failed{border-color:#c62b2b}
 .picture{display:block;position:relative;background:#e8eaed}
@@ -57,7 +57,7 @@ QByteArray linkTo(const std::string& file, const fs::path& folder) {
 QImage smallPicture(const BatchPage& page) {
   RunContext context;
   context.threads = 1;
-  const auto scan = readScan(page.scan, {}, context);
+  const auto scan = readScan(page.scan, {.page = {page.page, PageChoice{}.pdfDpi}}, context);
   if (!scan) return {};
   const GreyImage& grey = scan->grey;
   const int step =
@@ -85,13 +85,16 @@ struct Card {
   QByteArray figures;
 };
 
+/// "1 curve", "2 curves"
+QByteArray counted(int count, const char* what) { return QByteArray::number(count) + what + (count == 1 ? "" : "s"); }
+
 QByteArray figuresOf(const PageRecord& record) {
   const auto number = [&](const char* key) {
     const bool isThere = record.figures.is_object() && record.figures.contains(key) && record.figures[key].is_number();
     return isThere ? record.figures[key].get<double>() : 0.0;
   };
-  QByteArray text = QByteArray::number(static_cast<int>(number("curves"))) + " curves in " +
-                    QByteArray::number(static_cast<int>(number("pieces"))) + " pieces; " +
+  QByteArray text = counted(static_cast<int>(number("curves")), " curve") + " in " +
+                    counted(static_cast<int>(number("pieces")), " piece") + "; " +
                     QByteArray::number(record.seconds, 'f', 1) + " s, " +
                     QByteArray::number(1e-6 * number("peak_memory_bytes"), 'f', 0) + " MB";
   if (record.figures.is_object() && record.figures.contains("notes") && record.figures["notes"].is_array()) {

@@ -59,7 +59,9 @@ std::optional<std::string> takeEntry(const std::string& key, const Json& value, 
     if (!value.is_number()) return "\"dpi\" takes a number";
     page.dpi = value.get<double>();
   } else if (key == "page") {
-    if (value != 1) return "\"page\" takes 1 only: further pages of a file are not read";
+    const auto number = value.is_number_integer() ? integerFromText(value.dump()) : std::nullopt;
+    if (!number || *number < 1) return "\"page\" takes the number of a page of the scan, from 1";
+    page.page = *number;
   } else {
     return "there is no \"" + key + "\": a line has scan, outputs, recipe, set, dpi and page";
   }
@@ -109,8 +111,8 @@ Result<void> checkFiles(const std::vector<BatchPage>& pages) {
 }
 
 bool isScanName(const fs::path& path) {
-  static const std::set<std::string> known = {".png",  ".jpg", ".jpeg", ".tif", ".tiff", ".bmp",
-                                              ".webp", ".pgm", ".pbm",  ".ppm", ".pnm"};
+  static const std::set<std::string> known = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".pdf",
+                                              ".jp2", ".j2k", ".webp", ".pgm", ".pbm",  ".ppm", ".pnm"};
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -195,6 +197,7 @@ std::string manifestLine(const BatchPage& page) {
   if (!page.recipe.empty()) json["recipe"] = page.recipe;
   if (!page.settings.empty()) json["set"] = page.settings;
   if (page.dpi) json["dpi"] = *page.dpi;
+  if (page.page != 1) json["page"] = page.page;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -235,6 +238,7 @@ std::vector<std::string> traceWords(const BatchPage& page, int threads) {
   if (!page.recipe.empty()) words.insert(words.end(), {"--recipe", page.recipe});
   for (const std::string& setting : page.settings) words.insert(words.end(), {"--set", setting});
   if (page.dpi) words.insert(words.end(), {"--dpi", numberToText(*page.dpi)});
+  if (page.page != 1) words.insert(words.end(), {"--page", std::to_string(page.page)});
   words.insert(words.end(), {"--threads", std::to_string(threads)});
   return words;
 }

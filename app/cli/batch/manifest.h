@@ -18,6 +18,7 @@ struct BatchPage {
   std::string recipe;                 ///< Empty: none.
   std::vector<std::string> settings;  ///< "stage.parameter=value"
   std::optional<double> dpi;
+  int page = 1;  ///< Of the scan's file, from 1.
   int line = 0;  ///< In the manifest, counted from 1.
 };
 
@@ -30,7 +31,7 @@ struct PageDefaults {
 
 /// Reads a manifest: one JSON object a line, {"scan": NAME, "outputs": [NAME…], "recipe": NAME, "set": {NAME: VALUE…}
 /// or
-/// ["NAME=VALUE"…], "dpi": NUMBER, "page": 1}; the first two are needed. Blank lines are passed over.
+/// ["NAME=VALUE"…], "dpi": NUMBER, "page": NUMBER}; the first two are needed. Blank lines are passed over.
 /// @return BadParameter that names the line: no JSON, an unknown key, a wrong type, an output of two pages, an output
 /// that is a scan or a recipe of the manifest.
 Result<std::vector<BatchPage>> readManifest(std::string_view text, const PageDefaults&);

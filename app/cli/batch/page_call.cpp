@@ -26,8 +26,12 @@ PageCall::PageCall(const BatchPage& page, int threads, std::optional<double> tim
     : timeoutSeconds_(timeoutSeconds.value_or(0.0)), ended_(std::move(ended)) {
   QStringList words;
   for (const std::string& word : traceWords(page, threads)) words.push_back(QString::fromStdString(word));
-#if defined(Q_OS_UNIX)
+#if defined(Q_OS_UNIX)  // of Qt's own two calls each system has one
   process_.setChildProcessModifier([] { becomeDependentChild(); });
+#elif defined(Q_OS_WIN)
+  constexpr unsigned long kOwnProcessGroup = 0x200;  // CREATE_NEW_PROCESS_GROUP: Ctrl+C does not reach the child
+  process_.setCreateProcessArgumentsModifier(
+      [](QProcess::CreateProcessArguments* arguments) { arguments->flags |= kOwnProcessGroup; });
 #endif
   process_.setStandardInputFile(QProcess::nullDevice());
   QObject::connect(&process_, &QProcess::finished, &process_, [this] { finish(); });

@@ -69,7 +69,7 @@ std::optional<std::string> pageKey(const BatchPage& page) {
   }
   key.integer(std::ssize(page.settings));
   for (const std::string& setting : page.settings) key.text(setting);
-  key.number(page.dpi.value_or(0.0));
+  key.number(page.dpi.value_or(0.0)).integer(page.page);
   for (const std::string& output : page.outputs) key.text(output);
   return key.finish().hex();
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/construct/stations/piece_stations.h"
-#include "core/solve/block_levenberg.h"
+#include "core/solve/residual_blocks.h"
 
 namespace batten {
 
@@ -260,9 +260,9 @@ FairedJoints fairedJoints(const StationSet& set, bool closed, double pixelMm, do
   const Chain chain(jointsOf(bezierPath(stations, closed), stations, closed), lengths, set.share, closed, unit);
   const auto blocks = chain.blocks(targets);
   const auto unknowns = static_cast<Eigen::Index>(3 * chain.count());
-  const LevenbergResult solved =
+  const BlockSolution solved =
       minimiseBlocks(Eigen::VectorXd::Zero(unknowns), Eigen::VectorXd::Ones(unknowns), blocks, context);
-  return {chain.joints(solved.x), lengths, solved.why};
+  return {chain.joints(solved.x), lengths, solved.run.why};
 }
 
 StationSet bezierStations(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,

@@ -51,16 +51,16 @@ Result<NurbsCurve> placed(const Result<NurbsCurve>& curve, const FairPiece& piec
   return NurbsCurve::make(5, {curve->knots().begin(), curve->knots().end()}, std::move(points));
 }
 
-class Finish {
+class FinishedFit {
  public:
-  Finish(FairPiece& piece, const ConstructPiece& in, double pixelMm, double s0, double cutoffPx, bool willBeCut,
-         const FairFitOptions& options, const RunContext& context)
+  FinishedFit(FairPiece& piece, const ConstructPiece& in, const FinishScale& scale, const FairFitOptions& options,
+              const RunContext& context)
       : piece_(piece),
         in_(in),
-        pixelMm_(pixelMm),
-        s0_(s0),
-        cutoffPx_(cutoffPx),
-        willBeCut_(willBeCut),
+        pixelMm_(scale.pixelMm),
+        s0_(scale.s0),
+        cutoffPx_(scale.cutoffPx),
+        willBeCut_(scale.willBeCut),
         options_(options),
         context_(context) {}
 
@@ -68,8 +68,7 @@ class Finish {
     if (!piece_.frame) return simple(kShortNote);
     if (fair() || context_.isCancelled()) return;
     const auto& base = piece_.frame->base;
-    Vec2 start = Vec2::Zero(), end = Vec2::Zero();
-    pinShifts(base, start, end);
+    const auto [start, end] = pinShifts(base);
     auto curve = placed(base.toNurbs(pixelMm_, pixelMm_, start, end), piece_, in_, pixelMm_);
     if (!curve) return simple(kPlainNote);
     report_ = {};
@@ -232,12 +231,17 @@ class Finish {
   }
 
   /// What is left between the ends of a curve and the pins.
-  void pinShifts(const UniformQuintic& curve, Vec2& start, Vec2& end) const {
+  struct EndShifts {
+    Vec2 start = Vec2::Zero(), end = Vec2::Zero();
+  };
+  EndShifts pinShifts(const UniformQuintic& curve) const {
     const FairPins& pins = piece_.pins;
-    if (pins.start) start = *pins.start - curve.at(0.0, 0)[0];
-    if (pins.end) end = *pins.end - curve.at(curve.knots().length, 0)[0];
-    if (pins.start && !pins.end) end = start;
-    if (pins.end && !pins.start) start = end;
+    EndShifts shifts;
+    if (pins.start) shifts.start = *pins.start - curve.at(0.0, 0)[0];
+    if (pins.end) shifts.end = *pins.end - curve.at(curve.knots().length, 0)[0];
+    if (pins.start && !pins.end) shifts.end = shifts.start;
+    if (pins.end && !pins.start) shifts.start = shifts.end;
+    return shifts;
   }
 
   void pinEnds(FairPosterior& posterior) const {
@@ -258,7 +262,7 @@ class Finish {
     pinEnds(posterior);
     const double never = std::numeric_limits<double>::infinity();
     found.structure.leastSlope.clear();
-    auto fit = fitStructure(frame_, posterior, found.structure, start, 1.0, 0.0, never);
+    auto fit = fitStructure(frame_, posterior, found.structure, start, {}, never);
     if (!fit) return std::nullopt;
     found.limited = found.limited || !fit->converged;
     auto curve = offsetCurve(frame_.base, fit->c);
@@ -304,12 +308,11 @@ class Finish {
         found.structure = std::move(structure);
       }
     }
-    Vec2 start = Vec2::Zero(), end = Vec2::Zero();
-    pinShifts(*curve, start, end);
+    const auto [start, end] = pinShifts(*curve);
     auto nurbs = placed(curve->toNurbs(pixelMm_, pixelMm_, start, end), piece_, in_, pixelMm_);
     if (!nurbs) return false;
     report_.fullControlPoints = nurbs->controlPointCount();
-    if (auto fewer = reduced(posterior, *curve, start, end)) nurbs = std::move(*fewer);
+    if (auto fewer = withFewerKnots(posterior, *curve, start, end)) nurbs = std::move(*fewer);
     report_.why = found.limited ? Termination::IterationLimit : Termination::Converged;
     noteExtrema(found, *curve, circleCost);
     noteBand(posterior, *curve);
@@ -320,8 +323,8 @@ class Finish {
   }
 
   /// The same curve with fewer control points, as far as the noise of the edge allows.
-  std::optional<Result<NurbsCurve>> reduced(const FairPosterior& posterior, const UniformQuintic& curve,
-                                            const Vec2& start, const Vec2& end) {
+  std::optional<Result<NurbsCurve>> withFewerKnots(const FairPosterior& posterior, const UniformQuintic& curve,
+                                                   const Vec2& start, const Vec2& end) {
     if (!(options_.knotRemovalTolerance > 0.0) || frame_.pointCount == 0 || context_.isCancelled()) return std::nullopt;
     const auto stations = static_cast<std::size_t>(kChecksPerSpan * curve.knots().spans + (piece_.data.closed ? 0 : 1));
     const std::size_t stride = std::max<std::size_t>(1, frame_.checks.size() / stations);
@@ -333,14 +336,14 @@ class Finish {
       sigma.push_back(std::sqrt(std::max(0.0, BandedCholesky::quadratic(posterior.covariance, s.kappaRow))));
       distance.push_back(options_.knotRemovalTolerance * std::max(calm, kMeanShare * spreadAt(s.u)));
     }
-    ReduceLimits limits;
+    KnotRemovalLimits limits;
     limits.distancePx = distance;
     limits.kappaSigma = sigma;
     limits.perSpan = kChecksPerSpan;
     limits.kappaShare = kKappaShare * options_.knotRemovalTolerance;
     limits.startShift = start;
     limits.endShift = end;
-    const auto fewer = withFewestPoints(curve, limits);
+    const auto fewer = withFewestKnots(curve, limits);
     if (!fewer) return std::nullopt;
     std::vector<double> knots(fewer->curve.knots().begin(), fewer->curve.knots().end());
     std::vector<Vec2> points(fewer->curve.controlPoints().begin(), fewer->curve.controlPoints().end());
@@ -365,7 +368,7 @@ class Finish {
       const double u = std::clamp(e.u, 0.0, curve.knots().length);
       ExtremumNote made{curve.arcLength(u) * pixelMm_, e.kappa / pixelMm_, e.maximum, kept, cost};
       made.point = (curve.at(u, 0)[0] + piece_.origin) * pixelMm_;
-      if (e.constraint >= 0) made.constraint = e.constraint;
+      made.constraint = e.constraint;
       report_.extrema.push_back(made);
     };
     for (const FairExtremum& e : found.structure.extrema) note(e, true);
@@ -400,9 +403,9 @@ class Finish {
 
 }  // namespace
 
-void finishFairPiece(FairPiece& piece, const ConstructPiece& in, double pixelMm, double s0, double cutoffPx,
-                     bool willBeCut, const FairFitOptions& options, const RunContext& context) {
-  Finish(piece, in, pixelMm, s0, cutoffPx, willBeCut, options, context).run();
+void finishFairPiece(FairPiece& piece, const ConstructPiece& in, const FinishScale& scale,
+                     const FairFitOptions& options, const RunContext& context) {
+  FinishedFit(piece, in, scale, options, context).run();
 }
 
 }  // namespace batten

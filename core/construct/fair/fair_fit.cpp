@@ -29,7 +29,7 @@ void followNoise(std::vector<FairPiece>& pieces, const CutoffChoice& choice, dou
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       FairPiece& piece = pieces[i];
       if (!piece.frame || context.isCancelled()) continue;
-      const std::vector<double> prior = uniformPrior(*piece.frame, s0, CutoffTable::cutoffPx(choice.k[i]));
+      const std::vector<double> prior = uniformPrior(*piece.frame, s0, CutoffTable::cutoffPx(*choice.k[i]));
       const auto smooth = localPosterior(*piece.frame, s0, prior, 0, options.emWidthPx);
       if (!smooth) continue;
       piece.rough = smooth->mean;
@@ -49,26 +49,24 @@ Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour,
   const double ordinary = ordinarySigma(contour);
   parallelFor(context, count, 1, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      pieces[at] = prepareFairPiece(contour.pieces[at], contour.isStroke, contour.pixelMm, ordinary, options);
+      pieces[i] = prepareFairPiece(contour.pieces[i], contour.isStroke, contour.pixelMm, ordinary, options);
     }
   });
   if (context.isCancelled()) return cancelled();
   std::vector<CutoffTable> tables;
   for (const FairPiece& piece : pieces) tables.push_back(piece.table);
   const CutoffChoice choice = chooseCutoffs(tables, options.effectiveDofWeight);
-  const bool measured = std::any_of(choice.k.begin(), choice.k.end(), [](int k) { return k >= 0; });
+  const bool measured = std::any_of(choice.k.begin(), choice.k.end(), [](const auto& k) { return k.has_value(); });
   const double density = measured ? options.blockPx * choice.blockVariance : kWhiteDensity;
   const double s0 = std::max(density, options.noiseDensityFloor);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (choice.k[i] < 0) pieces[i].frame.reset();
+    if (!choice.k[i]) pieces[i].frame.reset();
   }
   followNoise(pieces, choice, density, s0, options, context);
   parallelFor(context, count, 1, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const double cutoff = CutoffTable::cutoffPx(std::max(0, choice.k[at]));
-      finishFairPiece(pieces[at], contour.pieces[at], contour.pixelMm, s0, cutoff, willBeCut, options, context);
+      const FinishScale scale{contour.pixelMm, s0, CutoffTable::cutoffPx(choice.k[i].value_or(0)), willBeCut};
+      finishFairPiece(pieces[i], contour.pieces[i], scale, options, context);
     }
   });
   double squares = 0.0, points = 0.0;

@@ -105,7 +105,7 @@ StructureFit withoutPlateaus(const FairFrame& frame, const FairPosterior& poster
     if (std::none_of(slopes.begin(), slopes.end(), [](double s) { return s > 0.0; })) break;
     wanted = structure;
     wanted.leastSlope = slopes;
-    auto lifted = fitStructure(frame, posterior, wanted, fit.c, 1.0, 0.0, never);
+    auto lifted = fitStructure(frame, posterior, wanted, fit.c, {}, never);
     if (!lifted || !lifted->converged) break;
     const std::vector<double> after = costByStretch(frame, posterior, structure, lifted->c);
     bool paid = false;

@@ -87,10 +87,9 @@ void fillBetween(CutoffTable& table) {
       dof += weight * std::log(table.dof[node]);
     }
     if (!valid) continue;
-    const auto at = static_cast<std::size_t>(k);
-    table.rss[at] = std::exp(rss);
-    table.dof[at] = std::exp(dof);
-    table.valid[at] = table.dof[at] < table.blocks;
+    table.rss[k] = std::exp(rss);
+    table.dof[k] = std::exp(dof);
+    table.valid[k] = table.dof[k] < table.blocks;
   }
 }
 
@@ -115,13 +114,12 @@ CutoffTable cutoffTable(const FairFrame& frame) {
     if (!cholesky.factor(m)) continue;
     const Eigen::VectorXd c = cholesky.solve(frame.g + lambda * toward);
     const BandedMatrix inverse = cholesky.inverseBand();
-    const auto at = static_cast<std::size_t>(k);
     for (const FairBlock& block : frame.blocks) {
       const double e = block.offset - dot(block.row, c);
-      table.rss[at] += block.weight * e * e;
-      table.dof[at] += frame.blockLength * block.weight * BandedCholesky::quadratic(inverse, block.row);
+      table.rss[k] += block.weight * e * e;
+      table.dof[k] += frame.blockLength * block.weight * BandedCholesky::quadratic(inverse, block.row);
     }
-    table.valid[at] = std::isfinite(table.rss[at]) && table.dof[at] > 0.0 && table.dof[at] < table.blocks;
+    table.valid[k] = std::isfinite(table.rss[k]) && table.dof[k] > 0.0 && table.dof[k] < table.blocks;
   }
   fillBetween(table);
   return table;
@@ -129,28 +127,27 @@ CutoffTable cutoffTable(const FairFrame& frame) {
 
 CutoffChoice chooseCutoffs(const std::vector<CutoffTable>& tables, double gamma) {
   CutoffChoice choice;
-  choice.k.assign(tables.size(), -1);
+  choice.k.resize(tables.size());
   for (int round = 0; round < 3; ++round) {
     double rss = 0.0, freedom = 0.0;
     for (std::size_t i = 0; i < tables.size(); ++i) {
       const CutoffTable& t = tables[i];
       double best = 0.0;
-      choice.k[i] = -1;
+      choice.k[i].reset();
       for (int k = 0; k < CutoffTable::kCount; ++k) {
-        const auto at = static_cast<std::size_t>(k);
-        if (t.blocks == 0 || !t.valid[at]) continue;
-        const double left = t.blocks - t.dof[at];
-        const double score = round == 0                   ? t.rss[at] / (left * left)
-                             : choice.blockVariance > 0.0 ? t.rss[at] / choice.blockVariance + gamma * t.dof[at]
-                                                          : t.rss[at];
-        if (choice.k[i] < 0 || score < best) {
+        if (t.blocks == 0 || !t.valid[k]) continue;
+        const double left = t.blocks - t.dof[k];
+        const double score = round == 0                   ? t.rss[k] / (left * left)
+                             : choice.blockVariance > 0.0 ? t.rss[k] / choice.blockVariance + gamma * t.dof[k]
+                                                          : t.rss[k];
+        if (!choice.k[i] || score < best) {
           best = score;
           choice.k[i] = k;
         }
       }
-      if (choice.k[i] < 0) continue;
-      rss += t.rss[choice.k[i]];
-      freedom += t.blocks - t.dof[choice.k[i]];
+      if (!choice.k[i]) continue;
+      rss += t.rss[*choice.k[i]];
+      freedom += t.blocks - t.dof[*choice.k[i]];
     }
     // What a few blocks say of the noise is a matter of luck: an ordinary scan counts as some more of them.
     choice.blockVariance =

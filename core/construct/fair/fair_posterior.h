@@ -36,7 +36,7 @@ CutoffTable cutoffTable(const FairFrame&);
 /// Cut-offs per piece and the pooled variance of a block mean: GCV first, then twice argmin rss / sigma^2 + gamma dof.
 /// The variance counts four blocks of an ordinary scan besides, so that a short contour cannot be quiet by luck.
 struct CutoffChoice {
-  std::vector<int> k;  ///< Per table; -1: no candidate.
+  std::vector<std::optional<int>> k;  ///< Per table; absent: no candidate.
   double blockVariance = 0.0;
 };
 CutoffChoice chooseCutoffs(const std::vector<CutoffTable>&, double gamma);

@@ -134,12 +134,12 @@ struct Part {
   bool whole = true;
 };
 
-Part choosePart(const UniformKnots& knots, double from, double to) {
+Part choosePart(const UniformKnots& knots, const std::optional<StructureStretch>& stretch) {
   const int n = knots.coefficients();
   Part part{0, n, true};
-  if (from > to) return part;
-  int first = static_cast<int>(std::floor((from - kLocalReachPx) / knots.spacing()));
-  int last = static_cast<int>(std::ceil((to + kLocalReachPx) / knots.spacing())) + 6;
+  if (!stretch) return part;
+  int first = static_cast<int>(std::floor((stretch->from - kLocalReachPx) / knots.spacing()));
+  int last = static_cast<int>(std::ceil((stretch->to + kLocalReachPx) / knots.spacing())) + 6;
   if (!knots.closed) {
     first = std::max(first, 0);
     last = std::min(last, n);
@@ -224,10 +224,10 @@ void setWindows(FairStructure& structure, const UniformKnots& knots) {
 }
 
 std::optional<StructureFit> fitStructure(const FairFrame& frame, const FairPosterior& posterior,
-                                         FairStructure& structure, const Eigen::VectorXd& start, double from, double to,
-                                         double abortRise) {
+                                         FairStructure& structure, const Eigen::VectorXd& start,
+                                         const std::optional<StructureStretch>& stretch, double abortRise) {
   const UniformKnots& knots = frame.base.knots();
-  const Part part = choosePart(knots, from, to);
+  const Part part = choosePart(knots, stretch);
   BandedProgram<BandRow> qp = makeProgram(frame, posterior, part, start);
   Eigen::VectorXd local(part.count);
   for (int i = 0; i < part.count; ++i) local[i] = start[(part.first + i) % knots.coefficients()];

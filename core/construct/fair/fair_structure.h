@@ -19,7 +19,7 @@ struct FairExtremum {
   int id = 0;
   double removalCost = 0.0;  ///< [chi2] known so far; a lower bound when its quadratic program was cut short.
   bool costKnown = false;
-  int constraint = -1;  ///< Id of the user's constraint for it, -1 = none.
+  std::optional<int> constraint;  ///< Id of the user's constraint for it.
 };
 
 /// The user's constraint for the extremum nearest to a parameter of the frame.
@@ -49,11 +49,16 @@ struct StructureFit {
   bool aborted = false;
   bool converged = true;
 };
+/// A stretch of a piece [px]; closed: `to` may lie beyond the seam.
+struct StructureStretch {
+  double from = 0.0, to = 0.0;
+};
 /// @param start     offsets that the rise refers to and that hold outside the part that is solved for.
-/// @param from,to   px; in long pieces only this part and 640 px on either side are solved for (from > to: all).
+/// @param stretch   in long pieces only this and 640 px on either side are solved for; absent: all.
 /// @param abortRise stops as soon as the rise is proven to exceed this.
 std::optional<StructureFit> fitStructure(const FairFrame&, const FairPosterior&, FairStructure&,
-                                         const Eigen::VectorXd& start, double from, double to, double abortRise);
+                                         const Eigen::VectorXd& start, const std::optional<StructureStretch>& stretch,
+                                         double abortRise);
 
 /// Local extrema of the curvature under offsets c, with their stretches. Sets `rising`.
 FairStructure localExtrema(const FairFrame&, const Eigen::VectorXd& c);

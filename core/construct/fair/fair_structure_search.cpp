@@ -61,7 +61,7 @@ class Search {
     result_.c.resize(0);
     tested_.clear();
     simplify();
-    auto fit = fitStructure(frame_, posterior_, result_.structure, posterior_.mean, 1.0, 0.0, kNever);
+    auto fit = fitStructure(frame_, posterior_, result_.structure, posterior_.mean, {}, kNever);
     if (!fit) return false;
     result_.c = fit->c;
     result_.limited = !fit->converged;
@@ -149,7 +149,7 @@ class Search {
     for (const StructureCandidate& c : candidates(result_.c)) {
       if (!touches(c, id) || isHeld(c)) continue;
       FairStructure rest = without(result_.structure, c);
-      auto fit = fitStructure(frame_, posterior_, rest, result_.c, 1.0, 0.0, kNever);
+      auto fit = fitStructure(frame_, posterior_, rest, result_.c, {}, kNever);
       if (!fit || fit->aborted || (best && best->rise <= fit->rise)) continue;
       best = std::move(fit);
       how = c;
@@ -244,7 +244,7 @@ class Search {
     const double from = e[c.index].u;
     double to = c.kind == StructureCandidate::Kind::Pair ? e[(c.index + 1) % e.size()].u : from;
     if (to < from) to += frame_.base.knots().length;
-    return fitStructure(frame_, posterior_, rest, result_.c, from, to, kAbortFactor * keepCost_);
+    return fitStructure(frame_, posterior_, rest, result_.c, StructureStretch{from, to}, kAbortFactor * keepCost_);
   }
 
   /// A rise of the objective that the removal costs at least, from one inequality that it asks for: where the curvature

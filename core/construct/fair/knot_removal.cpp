@@ -9,6 +9,7 @@
 
 #include "core/construct/fair/fair_frame.h"
 #include "core/curve/knot_operations.h"
+#include "core/curve/turning_points.h"
 #include "core/solve/banded_cholesky.h"
 #include "core/solve/banded_matrix.h"
 #include "core/solve/banded_program.h"
@@ -21,7 +22,7 @@ constexpr double kLeastGain = 0.85;   // of the spans: more are not worth anothe
 constexpr double kFirstGuess = 0.25;  // of the spans
 constexpr int kTrials = 6;
 constexpr double kCloseEnough = 0.06;  // of the spans: that many more or less are not worth a trial
-constexpr double kTurnExcess = 1.6, kHopeless = 20.0;
+constexpr double kTurnExcess = 1.6, kNoFit = 20.0;
 constexpr double kStraightenBelow = 1.5;  // excess of a fit that is worth another solution
 constexpr int kFreeSpans = 1;             // of the full curve on either side of a turn
 constexpr double kEndHold = 1e4;          // relative weight of exact ends in the frame
@@ -75,9 +76,9 @@ class KnotPlacing {
   std::vector<double> cumulative_;
 };
 
-class Reduction {
+class KnotRemoval {
  public:
-  Reduction(const UniformQuintic& full, const ReduceLimits& limits)
+  KnotRemoval(const UniformQuintic& full, const KnotRemovalLimits& limits)
       : full_(full), limits_(limits), placing_(full), closed_(full.knots().closed) {
     const UniformKnots& knots = full.knots();
     const int count = limits.perSpan * knots.spans + (closed_ ? 0 : 1);
@@ -102,13 +103,13 @@ class Reduction {
     findCourses();
   }
 
-  std::optional<ReducedCurve> run() {
+  std::optional<KnotRemovalResult> run() {
     const int n = full_.knots().spans;
     const int most = static_cast<int>(kLeastGain * n);
     int low = closed_ ? kFewestClosed : 1, high = most;  // what is still to be tried
     if (high < low || limits_.kappaSigma.size() != parameters_.size()) return std::nullopt;
     if (limits_.distancePx.size() != parameters_.size()) return std::nullopt;
-    std::optional<ReducedCurve> best;
+    std::optional<KnotRemovalResult> best;
     int spans = std::clamp(static_cast<int>(kFirstGuess * n), low, high);
     for (int trial = 0; trial < kTrials && low <= high; ++trial) {
       if (best && high - low < kCloseEnough * high) break;
@@ -156,8 +157,8 @@ class Reduction {
   struct Fit {
     Eigen::VectorXd x, y;
     double moved = 0.0;
-    double excess = kHopeless;  ///< Largest deviation in units of its limit; more than 1 when turns come or go.
-    bool turns = false;         ///< As often as the full curve.
+    double excess = kNoFit;  ///< Largest deviation in units of its limit; more than 1 when turns come or go.
+    bool turns = false;      ///< As often as the full curve.
   };
 
   /// Least squares on `spans` spans, of places and second derivatives, each in units of its limit.
@@ -297,7 +298,7 @@ class Reduction {
     fit.turns = countExtrema(kappa, least_) == turns_;
   }
 
-  std::optional<ReducedCurve> made(const Fit& fit, int spans) const {
+  std::optional<KnotRemovalResult> made(const Fit& fit, int spans) const {
     const std::vector<double> knots = knotsFor(spans);
     std::vector<Vec2> controls;
     const auto count = static_cast<Eigen::Index>(knots.size()) - 6;
@@ -309,11 +310,11 @@ class Reduction {
     auto curve = NurbsCurve::make(5, knots, std::move(controls));
     if (curve && closed_) curve = clamped(*curve);
     if (!curve) return std::nullopt;
-    return ReducedCurve{std::move(*curve), fit.moved};
+    return KnotRemovalResult{std::move(*curve), fit.moved};
   }
 
   const UniformQuintic& full_;
-  const ReduceLimits& limits_;
+  const KnotRemovalLimits& limits_;
   KnotPlacing placing_;
   bool closed_;
   std::vector<double> parameters_, kappas_;
@@ -325,30 +326,15 @@ class Reduction {
 
 }  // namespace
 
-std::optional<ReducedCurve> withFewestPoints(const UniformQuintic& full, const ReduceLimits& limits) {
+std::optional<KnotRemovalResult> withFewestKnots(const UniformQuintic& full, const KnotRemovalLimits& limits) {
   const auto isPositive = [](double d) { return d > 0.0; };
   if (!std::all_of(limits.distancePx.begin(), limits.distancePx.end(), isPositive)) return std::nullopt;
-  return Reduction(full, limits).run();
+  return KnotRemoval(full, limits).run();
 }
 
 std::vector<int> turnsOf(std::span<const double> kappa, double least) {
   std::vector<int> turns;
-  if (kappa.empty()) return turns;
-  std::size_t lowest = 0, highest = 0;
-  int direction = 0;
-  for (std::size_t i = 0; i < kappa.size(); ++i) {
-    if (kappa[i] < kappa[lowest]) lowest = i;
-    if (kappa[i] > kappa[highest]) highest = i;
-    if (direction >= 0 && kappa[highest] - kappa[i] > least) {
-      if (direction > 0) turns.push_back(static_cast<int>(highest));
-      direction = -1;
-      lowest = i;
-    } else if (direction <= 0 && kappa[i] - kappa[lowest] > least) {
-      if (direction < 0) turns.push_back(static_cast<int>(lowest));
-      direction = 1;
-      highest = i;
-    }
-  }
+  for (const TurningPoint& turning : turningPoints(kappa, least, TurningStart::AtEnd)) turns.push_back(turning.index);
   return turns;
 }
 

@@ -12,7 +12,7 @@
 namespace batten {
 
 /// What a curve with fewer control points has to keep of the one that it stands for; px.
-struct ReduceLimits {
+struct KnotRemovalLimits {
   std::span<const double> distancePx;  ///< > 0 at `checkStations(curve, perSpan)`: farthest from the curve …
   std::span<const double> kappaSigma;  ///< [1/px] … and noise of the curvature there.
   int perSpan = 4;                     ///< Of these stations.
@@ -20,7 +20,7 @@ struct ReduceLimits {
   Vec2 startShift = Vec2::Zero(), endShift = Vec2::Zero();  ///< As UniformQuintic::toNurbs; open curves.
 };
 
-struct ReducedCurve {
+struct KnotRemovalResult {
   NurbsCurve curve;      ///< px, clamped; ends exactly where the full curve, shifted, does; closed: periodic.
   double movedPx = 0.0;  ///< Farthest that it lies from the full curve.
 };
@@ -28,7 +28,7 @@ struct ReducedCurve {
 /// The quintic with the fewest spans that stays within the limits and whose curvature turns back as often as that of
 /// the full curve: least squares on knots that share out the sixth derivative evenly (de Boor, A Practical Guide to
 /// Splines, ch. XII), their number found by trial. Absent when nothing is gained.
-std::optional<ReducedCurve> withFewestPoints(const UniformQuintic& full, const ReduceLimits&);
+std::optional<KnotRemovalResult> withFewestKnots(const UniformQuintic& full, const KnotRemovalLimits&);
 
 /// Where sampled curvature turns back by more than `least`: indices, ascending.
 std::vector<int> turnsOf(std::span<const double> kappa, double least);

@@ -317,7 +317,7 @@ Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) 
   const auto farness = [&](const PointDeviation& c) {
     return c.far + 10 * c.veryFar + (c.lengthRatio > 1.15 ? 1000 : 0);
   };
-  int far = -1;
+  std::optional<int> far;
   if (whole) {
     const PointDeviation close = pointDeviation(whole->curve, piece_, pixelMm_);
     if (close.good()) return whole;
@@ -325,7 +325,7 @@ Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) 
   }
   auto other = throughStations(context);
   if (!other) return whole;
-  if (whole && farness(pointDeviation(other->curve, piece_, pixelMm_)) >= far) return whole;
+  if (far && farness(pointDeviation(other->curve, piece_, pixelMm_)) >= *far) return whole;
   return other;
 }
 

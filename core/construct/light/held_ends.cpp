@@ -38,7 +38,7 @@ std::optional<NurbsCurve> held(const NurbsCurve& curve, const LightSample& wante
   // The curvature is linear in the third point's place across the tangent.
   const BasisRow row = basis(curve.degree(), curve.knots(), count, u, 2);
   const int index = static_cast<int>(at(2)) - row.first;
-  const double share = row.values[2][static_cast<std::size_t>(index)], v2 = d[1].squaredNorm();
+  const double share = row.values[2][index], v2 = d[1].squaredNorm();
   const double kappa = cross(d[1], d[2]) / (v2 * std::sqrt(v2));
   if (!(share > 0.0) || !std::isfinite(kappa)) return std::nullopt;
   points[at(2)] += (wanted.kappa - kappa) * v2 / share * leftNormal(wanted.tangent);

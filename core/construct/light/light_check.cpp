@@ -24,7 +24,7 @@ std::vector<CheckedPlace> placesOf(const NurbsCurve& curve, bool closed) {
   const int spans = static_cast<int>(breaks.size()) - 1;
   const int perSpan = std::max(kPlacesPerSpan, (kFewestPlaces + spans - 1) / spans);
   std::vector<CheckedPlace> places;
-  places.reserve(static_cast<std::size_t>(perSpan * spans + 1));
+  places.reserve(perSpan * spans + 1);
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     for (int k = 0; k < perSpan; ++k) {
       const auto d = curve.derivatives(breaks[i] + (breaks[i + 1] - breaks[i]) * k / perSpan, 1);

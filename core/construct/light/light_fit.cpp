@@ -4,16 +4,18 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/construct/light/light_system.h"
+#include "core/solve/levenberg_marquardt.h"
 
 namespace batten {
 namespace {
 
-constexpr int kFirstSteps = 12;       // of the first phase
-constexpr double kSmallGain = 0.002;  // of the cost: two such steps in a row end a phase
-constexpr double kHopeless = 2.5;     // tolerances off at the end of the first phase
-constexpr double kStartDamping = 1e-3, kDampingDown = 0.3, kDampingUp = 6.0, kMostDamping = 1e8;
+constexpr int kFirstSteps = 12;         // of the first phase
+constexpr double kHopelessStart = 2.5;  // tolerances off at the end of the first phase
+constexpr LevenbergOptions kLightSteps{
+    .success = 1.0 / 0.3, .failure = 6.0, .leastDamping = 1e-9, .mostDamping = 1e8, .smallDecrease = 0.002};
 constexpr double kLongestLogStep = 0.5;  // of a span length's logarithm
 constexpr double kMostLogLength = 2.2;
 constexpr double kRowsReached = 0.02;  // of signs and ends
@@ -21,9 +23,9 @@ constexpr double kSignGrowth = 3.0, kMostSignWeight = 30.0;
 constexpr LightWeights kFirst{1.0, 0.0, 0.0, 0.3};
 constexpr LightWeights kSecond{0.15, 12.0, 1.0, 3.0};
 
-class Levenberg {
+class LightProblem final : public LevenbergProblem {
  public:
-  Levenberg(const LightReference& reference, LightShape start, const LightAsk& ask, const RunContext& context)
+  LightProblem(const LightReference& reference, LightShape start, const LightAsk& ask, const RunContext& context)
       : context_(context), ask_(ask), system_(reference, ask, start) {
     fit_.shape = std::move(start);
     const Eigen::Index n = system_.unknowns();
@@ -33,17 +35,17 @@ class Levenberg {
     step_.resize(n);
   }
 
-  LightFit run() {
+  LightFit solve() {
     if (ask_.firstPhase) {
       weights_ = kFirst;
-      const Ended ended = phase(kFirstSteps);
-      if (ended != Ended::Slow || fit_.worst > kHopeless * ask_.tolerance) return fit_;
+      const Phase first = phase(kFirstSteps);
+      if (first.ended != Ended::Slow || fit_.worst > kHopelessStart * ask_.tolerance) return fit_;
     }
     weights_ = kSecond;
     weights_.signs = ask_.signs;
     int left = ask_.mostSteps;
-    while (phase(left) == Ended::Slow) {
-      left -= stepsInPhase_;
+    for (Phase now = phase(left); now.ended == Ended::Slow; now = phase(left)) {
+      left -= now.steps;
       const bool signsWrong = cost_.wrongSign >= kRowsReached || cost_.ends >= kRowsReached;
       if (!signsWrong || weights_.signs >= kMostSignWeight || left <= 0) break;
       weights_.signs = std::min(kMostSignWeight, kSignGrowth * weights_.signs);
@@ -51,55 +53,49 @@ class Levenberg {
     return fit_;
   }
 
- private:
-  enum class Ended { Reached, Slow, Failed };
-
-  bool isReached() const {
+  double linearise() override {
+    system_.gauss(fit_.shape, weights_, matrix_, gradient_);
+    return cost_.squares;
+  }
+  double tryStep(double damping) override {
+    damped_ = matrix_;
+    damped_.diagonal() += damping * matrix_.diagonal();
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(damped_);
+    if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+    step_ = -gradient_;
+    factor.solveInPlace(step_);
+    trial_ = moved();
+    trialCost_ = system_.evaluate(trial_, weights_);
+    return trialCost_.sound ? trialCost_.squares : std::numeric_limits<double>::infinity();
+  }
+  void accept() override {
+    cost_ = trialCost_;
+    fit_.worst = cost_.worst;
+    fit_.shape = std::move(trial_);
+  }
+  bool isReached() const override {
     return cost_.worst <= ask_.reach * ask_.tolerance && cost_.wrongSign < kRowsReached && cost_.ends < kRowsReached;
   }
 
-  Ended phase(int steps) {
-    cost_ = system_.evaluate(fit_.shape, weights_);
-    if (!cost_.sound) return Ended::Failed;
-    fit_.worst = cost_.worst;
-    double damping = kStartDamping;
-    int slow = 0;
-    stepsInPhase_ = 0;
-    while (!(fit_.reached = isReached())) {
-      if (stepsInPhase_ >= steps || slow >= 2) return Ended::Slow;
-      if (context_.isCancelled()) return Ended::Failed;
-      ++stepsInPhase_;
-      ++fit_.iterations;
-      const double before = cost_.squares;
-      if (!improve(damping)) return Ended::Slow;
-      slow = before - cost_.squares < kSmallGain * before ? slow + 1 : 0;
-    }
-    return Ended::Reached;
-  }
+ private:
+  enum class Ended { Reached, Slow, Failed };
+  struct Phase {
+    Ended ended;
+    int steps;
+  };
 
-  /// One step that lowers the cost; false when none does.
-  bool improve(double& damping) {
-    system_.gauss(fit_.shape, weights_, matrix_, gradient_);
-    while (damping < kMostDamping) {
-      damped_ = matrix_;
-      damped_.diagonal() += damping * matrix_.diagonal();
-      const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(damped_);
-      if (factor.info() == Eigen::Success) {
-        step_ = -gradient_;
-        factor.solveInPlace(step_);
-        LightShape trial = moved();
-        const LightSystem::Cost cost = system_.evaluate(trial, weights_);
-        if (cost.sound && cost.squares < cost_.squares) {
-          cost_ = cost;
-          fit_.worst = cost.worst;
-          fit_.shape = std::move(trial);
-          damping = std::max(1e-9, damping * kDampingDown);
-          return true;
-        }
-      }
-      damping *= kDampingUp;
-    }
-    return false;
+  Phase phase(int steps) {
+    cost_ = system_.evaluate(fit_.shape, weights_);
+    if (!cost_.sound) return {Ended::Failed, 0};
+    fit_.worst = cost_.worst;
+    fit_.reached = isReached();
+    if (fit_.reached) return {Ended::Reached, 0};
+    LevenbergOptions options = kLightSteps;
+    options.iterations = steps;
+    const LevenbergRun run = levenbergMarquardt(*this, options, context_);
+    fit_.iterations += run.iterations;
+    fit_.reached = run.why == Termination::FixedPoint;
+    return {fit_.reached ? Ended::Reached : context_.isCancelled() ? Ended::Failed : Ended::Slow, run.iterations};
   }
 
   LightShape moved() const {
@@ -122,9 +118,9 @@ class Levenberg {
   const LightAsk ask_;
   LightSystem system_;
   LightWeights weights_;
-  LightSystem::Cost cost_;
+  LightSystem::Cost cost_, trialCost_;
   LightFit fit_;
-  int stepsInPhase_ = 0;
+  LightShape trial_;
   Eigen::MatrixXd matrix_, damped_;
   Eigen::VectorXd gradient_, step_;
 };
@@ -132,7 +128,7 @@ class Levenberg {
 }  // namespace
 
 LightFit fitLight(const LightReference& reference, LightShape start, const LightAsk& ask, const RunContext& context) {
-  return Levenberg(reference, std::move(start), ask, context).run();
+  return LightProblem(reference, std::move(start), ask, context).solve();
 }
 
 }  // namespace batten

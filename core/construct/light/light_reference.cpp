@@ -94,7 +94,7 @@ std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool
 void LightReference::beginWhereSteepest() {
   const int n = size();
   const int half = std::max(1, static_cast<int>(0.5 * kSlopeWindow * n));
-  const auto slopeOf = [&](int i) { return samples_[static_cast<std::size_t>((i % n + n) % n)].slope; };
+  const auto slopeOf = [&](int i) { return samples_[(i % n + n) % n].slope; };
   double sum = 0.0;
   for (int i = -half; i <= half; ++i) sum += slopeOf(i);
   int best = 0;
@@ -106,7 +106,7 @@ void LightReference::beginWhereSteepest() {
       best = i;
     }
   }
-  const double shift = samples_[static_cast<std::size_t>(best)].s;
+  const double shift = samples_[best].s;
   std::rotate(samples_.begin(), samples_.begin() + best, samples_.end());
   for (LightSample& sample : samples_) {
     sample.s -= shift;

@@ -36,7 +36,7 @@ class LightReference {
 
   const std::vector<LightSample>& samples() const { return samples_; }
   int size() const { return static_cast<int>(samples_.size()); }
-  const LightSample& at(int i) const { return samples_[static_cast<std::size_t>(i)]; }
+  const LightSample& at(int i) const { return samples_[i]; }
   bool isClosed() const { return closed_; }
   double length() const { return length_; }
   double diagonal() const { return diagonal_; }      ///< Of the bounding box of the samples.

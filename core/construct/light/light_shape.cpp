@@ -35,8 +35,8 @@ std::vector<double> breakDensity(const LightReference& reference) {
       length = reference.at(after).s - reference.at(before).s;
     }
     const double second = (reference.at(after).slope - reference.at(before).slope) / length;
-    density[static_cast<std::size_t>(i)] = std::pow(std::abs(second), 0.2);
-    mean += density[static_cast<std::size_t>(i)] / n;
+    density[i] = std::pow(std::abs(second), 0.2);
+    mean += density[i] / n;
   }
   for (double& d : density) d += kEvenShare * mean + (mean > 0.0 ? 0.0 : 1.0);
   return density;
@@ -48,7 +48,7 @@ std::vector<double> logLengthsByShape(const LightReference& reference, int spans
   std::vector<double> cumulated{0.0};
   for (int i = 0; i < n; ++i) {
     const double next = i + 1 < n ? reference.at(i + 1).s : reference.length();
-    cumulated.push_back(cumulated.back() + density[static_cast<std::size_t>(i)] * (next - reference.at(i).s));
+    cumulated.push_back(cumulated.back() + density[i] * (next - reference.at(i).s));
   }
   std::vector<double> logs;
   double last = 0.0;
@@ -73,7 +73,7 @@ using PointValues = Eigen::Array<double, static_cast<int>(kSpanPoints), 1>;
 PointValues valuesAt(int degree, const std::array<PointValues, kSpanPoints>& matrix, double at) {
   const PlaceTable::Place place = bernsteinPlace(degree, at);
   PointValues values = PointValues::Zero();
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(degree); ++k) values += place.rows[0][k] * matrix[k];
+  for (int k = 0; k <= degree; ++k) values += place.rows[0][k] * matrix[k];
   return values;
 }
 
@@ -95,7 +95,7 @@ Normal normalOf(const LightShape& shape, const LightReference& reference) {
     unit[j][static_cast<Eigen::Index>(j)] = 1.0;
   }
   for (int span = 0; span < shape.spans(); ++span) {
-    const double share = lengths[static_cast<std::size_t>(span)] / total;
+    const double share = lengths[span] / total;
     bezierOfSpan(shape.degree, shape.knotsOf(span, lengths), unit, matrix);
     for (int k = 0; k < kStartSamplesPerSpan; ++k) {
       const double at = (k + 0.5) / kStartSamplesPerSpan;
@@ -126,8 +126,8 @@ SpanKnots LightShape::knotsOf(int span, const std::vector<double>& lengths) cons
   SpanKnots knots{};
   const int n = spans();
   const auto lengthOf = [&](int i) {
-    if (closed) return lengths[static_cast<std::size_t>((i % n + n) % n)];
-    return i < 0 || i >= n ? 0.0 : lengths[static_cast<std::size_t>(i)];
+    if (closed) return lengths[(i % n + n) % n];
+    return i < 0 || i >= n ? 0.0 : lengths[i];
   };
   const auto start = static_cast<std::size_t>(degree - 1);
   for (int k = 1; k < degree; ++k) {
@@ -144,7 +144,7 @@ SpanKnots LightShape::knotsOf(int span, const std::vector<double>& lengths) cons
 std::array<Vec2, kSpanPoints> LightShape::pointsOf(int span) const {
   std::array<Vec2, kSpanPoints> result;
   result.fill(Vec2::Zero());
-  for (int j = 0; j <= degree; ++j) result[static_cast<std::size_t>(j)] = points[pointOf(span, j)];
+  for (int j = 0; j <= degree; ++j) result[j] = points[pointOf(span, j)];
   return result;
 }
 
@@ -154,20 +154,20 @@ std::optional<NurbsCurve> LightShape::toNurbs(double length) const {
   for (const double step : steps) total += step;
   const int n = spans();
   std::vector<double> breaks{0.0};
-  for (int i = 0; i < n; ++i) breaks.push_back(breaks.back() + steps[static_cast<std::size_t>(i)] / total * length);
+  for (int i = 0; i < n; ++i) breaks.push_back(breaks.back() + steps[i] / total * length);
   breaks.back() = length;
   std::vector<double> knots;
   std::vector<Vec2> all = points;
   if (closed) {
     for (int i = -degree; i <= n + degree; ++i) {
       const int turns = static_cast<int>(std::floor(static_cast<double>(i) / n));
-      knots.push_back(breaks[static_cast<std::size_t>(i - turns * n)] + turns * length);
+      knots.push_back(breaks[i - turns * n] + turns * length);
     }
     for (int j = 0; j < degree; ++j) all.push_back(points[static_cast<std::size_t>(j) % points.size()]);
   } else {
     knots.assign(static_cast<std::size_t>(degree), 0.0);
     knots.insert(knots.end(), breaks.begin(), breaks.end());
-    knots.insert(knots.end(), static_cast<std::size_t>(degree), length);
+    knots.insert(knots.end(), degree, length);
   }
   auto curve = NurbsCurve::make(degree, std::move(knots), std::move(all));
   if (curve && closed) curve = clamped(*curve);

@@ -27,7 +27,7 @@ LightSystem::LightSystem(const LightReference& reference, const LightAsk& ask, c
   table_ = placeTable(start.degree, perSpan_);
   ends_[0] = bernsteinPlace(start.degree, 0.0);
   ends_[1] = bernsteinPlace(start.degree, 1.0);
-  places_.resize(static_cast<std::size_t>(spans * perSpan_));
+  places_.resize(spans * perSpan_);
   rising_.resize(places_.size());
   falling_.resize(places_.size());
   firstLength_ = 2 * static_cast<Eigen::Index>(start.points.size());
@@ -37,11 +37,10 @@ LightSystem::LightSystem(const LightReference& reference, const LightAsk& ask, c
   double total = 0.0, from = 0.0;
   for (const double l : lengths) total += l;
   for (int span = 0; span < spans; ++span) {
-    const double share = lengths[static_cast<std::size_t>(span)] / total;
+    const double share = lengths[span] / total;
     for (int k = 0; k < perSpan_; ++k) {
       const auto i = static_cast<std::size_t>(span * perSpan_ + k);
-      places_[i].hint =
-          reference.indexAt((from + share * table_.places[static_cast<std::size_t>(k)].at) * reference.length());
+      places_[i].hint = reference.indexAt((from + share * table_.places[k].at) * reference.length());
     }
     from += share;
   }
@@ -51,16 +50,16 @@ void LightSystem::placesOf(const LightShape& shape, int span) {
   std::array<Vec2, kSpanPoints> bezier;
   const auto points = shape.pointsOf(span);
   bezierOfSpan(shape.degree, shape.knotsOf(span, lengths_), points, bezier);
-  const double length = lengths_[static_cast<std::size_t>(span)];
+  const double length = lengths_[span];
   double speeds = 0.0;
   const auto first = static_cast<std::size_t>(span * perSpan_);
   for (int k = 0; k < perSpan_; ++k) {
     Place& place = places_[first + static_cast<std::size_t>(k)];
-    const PlaceTable::Place& table = table_.places[static_cast<std::size_t>(k)];
+    const PlaceTable::Place& table = table_.places[k];
     double scale = 1.0;
     for (std::size_t order = 0; order < 4; ++order) {
       Vec2 sum = Vec2::Zero();
-      for (std::size_t j = 0; j <= static_cast<std::size_t>(shape.degree); ++j) sum += table.rows[order][j] * bezier[j];
+      for (int j = 0; j <= shape.degree; ++j) sum += table.rows[order][j] * bezier[j];
       place.state.d[order] = scale * sum;
       scale /= length;
     }
@@ -150,11 +149,11 @@ PlaceState LightSystem::endState(const LightShape& shape, bool atEnd) const {
   double scale = 1.0;
   for (std::size_t order = 0; order < 4; ++order) {
     Vec2 sum = Vec2::Zero();
-    for (std::size_t j = 0; j <= static_cast<std::size_t>(shape.degree); ++j) {
+    for (int j = 0; j <= shape.degree; ++j) {
       sum += ends_[atEnd ? 1 : 0].rows[order][j] * bezier[j];
     }
     state.d[order] = scale * sum;
-    scale /= lengths_[static_cast<std::size_t>(span)];
+    scale /= lengths_[span];
   }
   completePlace(state);
   return state;
@@ -255,7 +254,7 @@ void LightSystem::addEnds(SpanSystem& local, const LightShape& shape, const Ligh
 void LightSystem::differentiate(SpanSystem& local, const LightShape& shape, int span) {
   const int degree = shape.degree, spans = shape.spans();
   local.degree = degree;
-  local.length = lengths_[static_cast<std::size_t>(span)];
+  local.length = lengths_[span];
   local.share = 1.0 / static_cast<double>(places_.size());
   std::array<SpanSystem::PointRow, kSpanPoints> unit;
   for (std::size_t j = 0; j < kSpanPoints; ++j) {
@@ -271,13 +270,13 @@ void LightSystem::differentiate(SpanSystem& local, const LightShape& shape, int 
     for (int k = all ? 0 : -kLengthReach; k <= (all ? spans - 1 : kLengthReach); ++k) {
       const int other = shape.closed ? ((span + k) % spans + spans) % spans : span + k;
       if (other < 0 || other >= spans) continue;
-      double& length = lengths_[static_cast<std::size_t>(other)];
+      double& length = lengths_[other];
       const double before = length;
       length = before * (1.0 + kDifferenceStep);
       bezierOfSpan(degree, shape.knotsOf(span, lengths_), points, there);
       length = before;
       const auto at = static_cast<std::size_t>(local.lengthCount);
-      for (std::size_t j = 0; j <= static_cast<std::size_t>(degree); ++j) {
+      for (int j = 0; j <= degree; ++j) {
         local.byLength[at][j] = (there[j] - here[j]) / kDifferenceStep;
       }
       if (other == span) local.ownLength = local.lengthCount;
@@ -299,15 +298,14 @@ void LightSystem::scatter(const SpanSystem& local, const LightShape& shape, int 
     target[at + 1] = pinned ? -1 : target[at] + 1;
   }
   for (int i = 0; i < local.lengthCount; ++i) {
-    target[static_cast<std::size_t>(2 * (shape.degree + 1) + i)] =
-        firstLength_ + local.lengthIndex[static_cast<std::size_t>(i)];
+    target[2 * (shape.degree + 1) + i] = firstLength_ + local.lengthIndex[i];
   }
   for (Eigen::Index c = 0; c < local.used; ++c) {
-    const Eigen::Index column = target[static_cast<std::size_t>(c)];
+    const Eigen::Index column = target[c];
     if (column < 0) continue;
     gradient[column] += local.gradient[c];
     for (Eigen::Index r = 0; r < local.used; ++r) {
-      const Eigen::Index row = target[static_cast<std::size_t>(r)];
+      const Eigen::Index row = target[r];
       if (row >= column) matrix(row, column) += local.squares(r, c);
     }
   }
@@ -317,7 +315,7 @@ void LightSystem::addSpan(const LightShape& shape, const LightWeights& weights, 
                           Eigen::VectorXd& gradient) {
   SpanSystem local;
   differentiate(local, shape, span);
-  for (int k = 0; k < perSpan_; ++k) addPlace(local, places_[static_cast<std::size_t>(span * perSpan_ + k)], weights);
+  for (int k = 0; k < perSpan_; ++k) addPlace(local, places_[span * perSpan_ + k], weights);
   addEnds(local, shape, weights, span);
   scatter(local, shape, span, matrix, gradient);
 }
@@ -334,7 +332,7 @@ void LightSystem::gauss(const LightShape& shape, const LightWeights& weights, Ei
   }
   for (Eigen::Index i = firstLength_; i < unknowns_; ++i) {
     matrix(i, i) += kRidge;
-    gradient[i] += kRidge * shape.logLengths[static_cast<std::size_t>(i - firstLength_)];
+    gradient[i] += kRidge * shape.logLengths[i - firstLength_];
   }
 }
 

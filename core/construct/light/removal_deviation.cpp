@@ -6,40 +6,28 @@
 #include <limits>
 #include <numbers>
 
+#include "core/curve/turning_points.h"
+
 namespace batten {
 namespace {
 
 constexpr std::size_t kKeptWhereClosed = 4;  // the four-vertex theorem
 
-RankedExtremum extremumAt(const LightSample& sample, bool maximum) {
-  return {sample.s, sample.kappa, maximum, sample.point, std::nullopt};
-}
-
-/// Turning points of the sampled curvature with hysteresis; ends are none.
-std::vector<RankedExtremum> turningPointsOf(const LightReference& reference, double prominence) {
-  const auto& samples = reference.samples();
-  const bool periodic = reference.isClosed();
-  const std::size_t n = samples.size();
-  const auto higher = [](const LightSample& a, const LightSample& b) { return a.kappa < b.kappa; };
-  const std::size_t begin =
-      periodic ? static_cast<std::size_t>(std::max_element(samples.begin(), samples.end(), higher) - samples.begin())
-               : 0;
+/// The extrema of the sampled curvature; ends are none.
+std::vector<RankedExtremum> extremaOf(const LightReference& reference, double prominence) {
+  std::vector<LightSample> samples = reference.samples();
+  const auto lower = [](const LightSample& a, const LightSample& b) { return a.kappa < b.kappa; };
+  if (reference.isClosed()) {
+    std::rotate(samples.begin(), std::max_element(samples.begin(), samples.end(), lower), samples.end());
+    samples.push_back(samples.front());
+  }
+  std::vector<double> kappas;
+  for (const LightSample& sample : samples) kappas.push_back(sample.kappa);
   std::vector<RankedExtremum> found;
-  const LightSample *low = &samples[begin], *high = low;
-  int direction = 0;
-  for (std::size_t i = 1; i < n + (periodic ? 1 : 0); ++i) {
-    const LightSample& here = samples[(begin + i) % n];
-    if (here.kappa < low->kappa) low = &here;
-    if (here.kappa > high->kappa) high = &here;
-    if (direction >= 0 && high->kappa - here.kappa > prominence) {
-      if (direction > 0 || periodic) found.push_back(extremumAt(*high, true));
-      direction = -1;
-      low = &here;
-    } else if (direction <= 0 && here.kappa - low->kappa > prominence) {
-      if (direction < 0) found.push_back(extremumAt(*low, false));
-      direction = 1;
-      high = &here;
-    }
+  const TurningStart start = reference.isClosed() ? TurningStart::OnMaximum : TurningStart::AtEnd;
+  for (const TurningPoint& turning : turningPoints(kappas, prominence, start)) {
+    const LightSample& sample = samples[turning.index];
+    found.push_back({sample.s, sample.kappa, turning.maximum, sample.point, std::nullopt});
   }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.s < b.s; });
   return found;
@@ -110,7 +98,7 @@ class Removal {
 }  // namespace
 
 std::vector<RankedExtremum> rankedExtrema(const LightReference& reference, double prominence) {
-  std::vector<RankedExtremum> all = turningPointsOf(reference, prominence);
+  std::vector<RankedExtremum> all = extremaOf(reference, prominence);
   Removal removal(reference, all);
   while (removal.takeCheapest()) {
   }

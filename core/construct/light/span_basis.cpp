@@ -33,7 +33,7 @@ PlaceTable::Place bernsteinPlace(int degree, double at) {
       }
     }
     for (double& value : row) value *= factor;
-    place.rows[static_cast<std::size_t>(order)] = row;
+    place.rows[order] = row;
     factor *= degree - order;
   }
   return place;

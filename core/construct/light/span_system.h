@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 
 #include "core/construct/light/light_rows.h"
 #include "core/construct/light/span_basis.h"
@@ -22,7 +23,7 @@ struct SpanSystem {
   std::array<std::array<Vec2, kSpanPoints>, kLengthsOfSpan> byLength;  ///< Bezier points by the logarithms of lengths.
   std::array<int, kLengthsOfSpan> lengthIndex{};                       ///< Which spans' lengths those are,
   int lengthCount = 0;
-  int ownLength = -1;  ///< and which of them is the span's own.
+  std::optional<int> ownLength;  ///< and which of them is the span's own.
   double length = 1.0;
   int degree = 5;
   double share = 1.0;  ///< Of a row in the mean of all places.
@@ -46,17 +47,16 @@ struct SpanSystem {
     double scale = 1.0;
     for (std::size_t order = 0; order < 4; ++order) {
       PointRow row = PointRow::Zero();
-      for (std::size_t k = 0; k <= static_cast<std::size_t>(degree); ++k) row += place.rows[order][k] * matrix[k];
+      for (int k = 0; k <= degree; ++k) row += place.rows[order][k] * matrix[k];
       result.byPoint[order] = scale * row;
       for (int i = 0; i < lengthCount; ++i) {
-        const auto at = static_cast<std::size_t>(i);
         Vec2 sum = Vec2::Zero();
-        for (std::size_t k = 0; k <= static_cast<std::size_t>(degree); ++k) {
-          sum += place.rows[order][k] * byLength[at][k];
+        for (int k = 0; k <= degree; ++k) {
+          sum += place.rows[order][k] * byLength[i][k];
         }
         sum *= scale;
         if (i == ownLength) sum -= static_cast<double>(order) * state.d[order];
-        result.byLogLength[order][at] = sum;
+        result.byLogLength[order][i] = sum;
       }
       scale /= length;
     }
@@ -72,7 +72,7 @@ struct SpanSystem {
         row[2 * j + 1] += g.y() * d.byPoint[order][j];
       }
       for (int i = 0; i < lengthCount; ++i) {
-        row[2 * (degree + 1) + i] += g.dot(d.byLogLength[order][static_cast<std::size_t>(i)]);
+        row[2 * (degree + 1) + i] += g.dot(d.byLogLength[order][i]);
       }
     }
     return row;

@@ -6,6 +6,7 @@
 
 #include "core/curve/nurbs_curve.h"
 #include "core/solve/banded_least_squares.h"
+#include "core/solve/gauss_legendre.h"
 
 namespace batten {
 
@@ -65,11 +66,11 @@ Result<std::vector<Vec2>> solveQuinticDirections(std::span<const Vec2> points, s
     system.add(u, 1, directions[i], magnitudes[i], weights.along);
   }
   // |R'''|^2 is of degree 4 in every span: three Gauss points are exact.
-  const double node = std::sqrt(0.6);
-  const std::array<std::pair<double, double>, 3> gauss = {{{-node, 5.0 / 18}, {0.0, 8.0 / 18}, {node, 5.0 / 18}}};
+  static constexpr auto kRule = gaussLegendre<3>(0.0, 1.0);
   for (std::size_t i = 0; i + 1 < m; ++i) {
-    for (const auto& [x, w] : gauss) {
-      const double u = static_cast<double>(i) + 0.5 * (1.0 + x), weight = std::sqrt(weights.smoothness * w);
+    for (std::size_t g = 0; g < kRule.node.size(); ++g) {
+      const double u = static_cast<double>(i) + kRule.node[g];
+      const double weight = std::sqrt(weights.smoothness * kRule.weight[g]);
       system.add(u, 3, Vec2::UnitX(), 0.0, weight);
       system.add(u, 3, Vec2::UnitY(), 0.0, weight);
     }

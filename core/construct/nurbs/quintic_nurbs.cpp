@@ -11,6 +11,7 @@
 #include "core/construct/stations/piece_stations.h"
 #include "core/curve/knot_operations.h"
 #include "core/solve/banded_least_squares.h"
+#include "core/solve/gauss_legendre.h"
 
 namespace batten {
 
@@ -95,29 +96,27 @@ std::optional<std::vector<Vec2>> solveSmallestEnergy(const SplineSpace& space, c
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + 2 * m, n + 2 * m);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n + 2 * m, 2);
   // |R'''|^2 is of degree 4: three Gauss points per span are exact.
-  const double node = std::sqrt(0.6);
-  const std::array<std::pair<double, double>, 3> gauss = {{{-node, 5.0 / 9}, {0.0, 8.0 / 9}, {node, 5.0 / 9}}};
+  static constexpr auto kRule = gaussLegendre<3>();
   for (std::size_t i = 0; i + 1 < space.places.size(); ++i) {
     const double half = 0.5 * (space.places[i + 1] - space.places[i]);
-    for (const auto& [x, w] : gauss) {
-      const BasisRow row = space.row(space.places[i] + half * (1.0 + x), 3);
+    for (std::size_t g = 0; g < kRule.node.size(); ++g) {
+      const BasisRow row = space.row(space.places[i] + half * (1.0 + kRule.node[g]), 3);
       const Eigen::Map<const Eigen::Matrix<double, 6, 1>> third(row.values[3].data());
-      system.block<6, 6>(row.first, row.first) += w * half * third * third.transpose();
+      system.block<6, 6>(row.first, row.first) += kRule.weight[g] * half * third * third.transpose();
     }
   }
   // About the first point: large coordinates would cost digits.
   const Vec2 origin = in.points[0];
   for (int i = 0; i < m; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const BasisRow row = space.row(space.places[at], 1);
+    const BasisRow row = space.row(space.places[i], 1);
     for (int j = 0; j <= kQuintic; ++j) {
       for (int order = 0; order < 2; ++order) {
         const double value = row.values[order][j];
         system(n + 2 * i + order, row.first + j) = system(row.first + j, n + 2 * i + order) = value;
       }
     }
-    right.row(n + 2 * i) = (in.points[at] - origin).transpose();
-    right.row(n + 2 * i + 1) = in.derivatives[at].transpose();
+    right.row(n + 2 * i) = (in.points[i] - origin).transpose();
+    right.row(n + 2 * i + 1) = in.derivatives[i].transpose();
   }
   const Eigen::FullPivLU<Eigen::MatrixXd> lu(system);
   if (!lu.isInvertible()) return std::nullopt;

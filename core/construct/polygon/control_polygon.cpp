@@ -3,21 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/construct/stations/piece_stations.h"
 #include "core/curve/knot_operations.h"
 #include "core/polyline/polyline_tools.h"
+#include "core/polyline/thinning.h"
 
 namespace batten {
 
 namespace {
-
-double polygonLength(std::span<const Vec2> points) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
-  return length;
-}
 
 /// The stretch from corner to corner with as many points as a curve of the degree needs: the inner ones are taken twice
 /// or more, the middle ones first. The curve is drawn to them as to any others, only harder, and stays within the
@@ -33,21 +27,10 @@ std::vector<Vec2> doubled(const std::vector<Vec2>& stretch, int needed) {
   const int more = inner > 0 ? missing % inner : 0, firstMore = (inner - more) / 2;
   for (int i = 0; i < inner; ++i) {
     const int times = 1 + missing / inner + (i >= firstMore && i < firstMore + more ? 1 : 0);
-    result.insert(result.end(), static_cast<std::size_t>(times), stretch[i + 1]);
+    result.insert(result.end(), times, stretch[i + 1]);
   }
   result.push_back(stretch.back());
   return result;
-}
-
-/// Indices of the points that must stay: ends and sharp ones.
-std::vector<int> anchors(std::span<const Vec2> points, std::span<const int> sharp) {
-  const int last = static_cast<int>(points.size()) - 1;
-  std::vector<int> all = {0};
-  for (const int s : sharp) {
-    if (s > all.back() && s < last) all.push_back(s);
-  }
-  if (last > 0) all.push_back(last);
-  return all;
 }
 
 Result<NurbsCurve> scaledToLength(int degree, std::vector<double> knots, std::vector<Vec2> points, double length) {
@@ -61,7 +44,7 @@ Result<NurbsCurve> periodicPolygon(const std::vector<Vec2>& points, int degree) 
   for (int i = 0; i < degree; ++i) around.push_back(points[static_cast<std::size_t>(i) % points.size()]);
   std::vector<double> knots;
   for (int i = 0; i < static_cast<int>(around.size()) + degree + 1; ++i) knots.push_back(i - degree);
-  const double length = polygonLength(points) + (points.front() - points.back()).norm();
+  const double length = polylineLength(points, true);
   auto curve = scaledToLength(degree, std::move(knots), std::move(around), length);
   if (!curve) return curve;
   const Vec2 seam = curve->point(curve->start());
@@ -119,14 +102,14 @@ std::vector<double> sharpKnotVector(int order, int controlPointCount, std::span<
     knots.insert(knots.end(), static_cast<std::size_t>(isSharp ? std::min(times, room) : 1), value);
     value += 1.0;
   }
-  knots.insert(knots.end(), static_cast<std::size_t>(order), value);
+  knots.insert(knots.end(), order, value);
   return knots;
 }
 
 SharpPolygon withEnoughPoints(std::span<const Vec2> points, std::span<const int> sharp, int degree) {
   SharpPolygon result;
   if (points.empty()) return result;
-  const std::vector<int> keep = anchors(points, sharp);
+  const std::vector<int> keep = pointsThatStay(static_cast<int>(std::ssize(points)), sharp);
   result.points = {points.front()};
   for (std::size_t k = 0; k + 1 < keep.size(); ++k) {
     std::vector<Vec2> stretch(points.begin() + keep[k], points.begin() + keep[k + 1] + 1);
@@ -142,7 +125,7 @@ SharpPolygon withEnoughPoints(std::span<const Vec2> points, std::span<const int>
 
 Result<PolygonCurve> controlPolygonCurve(std::span<const Vec2> points, std::span<const int> sharp, int degree,
                                          SharpKnots kind) {
-  const double length = polygonLength(points);
+  const double length = polylineLength(points, false);
   if (!(length > 0.0) || !std::isfinite(length) || degree < 1 || degree > 5) {
     return fail(ErrorCode::Numerical, "A control polygon needs at least two distinct points.");
   }
@@ -162,65 +145,6 @@ Result<PolygonCurve> controlPolygonCurve(std::span<const Vec2> points, std::span
     result.warning = "Knots of multiplicity = order break the curve just before each sharp point.";
   } else if (polygon.added > 0) {
     result.warning = "Between close sharp points " + std::to_string(polygon.added) + " control points were doubled.";
-  }
-  return result;
-}
-
-std::vector<int> thinnedByStep(std::span<const Vec2> points, std::span<const int> sharp, double step) {
-  if (points.empty()) return {};
-  if (!(step > 0.0)) {
-    std::vector<int> all(points.size());
-    std::iota(all.begin(), all.end(), 0);
-    return all;
-  }
-  std::vector<double> length = {0.0};
-  for (std::size_t i = 1; i < points.size(); ++i) length.push_back(length.back() + (points[i] - points[i - 1]).norm());
-  const std::vector<int> keep = anchors(points, sharp);
-  std::vector<int> result = {0};
-  for (std::size_t k = 0; k + 1 < keep.size(); ++k) {
-    const double from = length[keep[k]], to = length[keep[k + 1]];
-    const double possible = std::floor((to - from) / step);
-    const int parts = static_cast<int>(std::clamp(possible, 1.0, static_cast<double>(points.size())));
-    for (int i = 1; i < parts; ++i) {
-      const double wanted = from + (to - from) * i / parts;
-      auto near = std::lower_bound(length.begin(), length.end(), wanted);
-      if (near != length.begin() && wanted - *(near - 1) < *near - wanted) --near;
-      const int index = static_cast<int>(near - length.begin());
-      if (index > result.back() && index < keep[k + 1]) result.push_back(index);
-    }
-    result.push_back(keep[k + 1]);
-  }
-  return result;
-}
-
-std::vector<int> thinnedByTolerance(std::span<const Vec2> points, std::span<const int> sharp, double tolerance) {
-  if (points.empty()) return {};
-  std::vector<bool> stays(points.size(), false);
-  const std::vector<int> keep = anchors(points, sharp);
-  for (const int k : keep) stays[k] = true;
-  std::vector<std::pair<int, int>> open;
-  for (std::size_t k = 0; k + 1 < keep.size(); ++k) open.emplace_back(keep[k], keep[k + 1]);
-  // Douglas and Peucker with a list of its own: long lines must not exhaust the call stack.
-  while (!open.empty()) {
-    const auto [from, to] = open.back();
-    open.pop_back();
-    int worst = -1;
-    double largest = tolerance;
-    for (int i = from + 1; i < to; ++i) {
-      const double d = awayFromSegment(points[i], points[from], points[to]).norm();
-      if (d > largest) {
-        largest = d;
-        worst = i;
-      }
-    }
-    if (worst < 0) continue;
-    stays[worst] = true;
-    open.emplace_back(from, worst);
-    open.emplace_back(worst, to);
-  }
-  std::vector<int> result;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (stays[i]) result.push_back(static_cast<int>(i));
   }
   return result;
 }

@@ -58,12 +58,6 @@ LinePolygon linePolygon(const ConstructContour& contour, const ConstructParams& 
 /// it is periodic (`knots` then are 0, 1, 2, …, one period).
 Result<PolygonCurve> polygonCurve(const LinePolygon&, int degree, SharpKnots kind);
 
-/// Indices of the points to keep (004 section 3.1), first, last and sharp ones always. By arc length: points at least
-/// `step` apart along the line, evenly between two points that must stay.
-std::vector<int> thinnedByStep(std::span<const Vec2> points, std::span<const int> sharp, double step);
-/// By tolerance: no removed point lies farther than `tolerance` from the chord that replaces it.
-std::vector<int> thinnedByTolerance(std::span<const Vec2> points, std::span<const int> sharp, double tolerance);
-
 /// The construction of 004 for one piece: its points (of a pen stroke: those that were drawn), thinned as the
 /// parameters say, are the control polygon. Closed pieces give a periodic curve. Degree params.degree. Knots of
 /// multiplicity = degree at the corners are what the pieces give when they are joined; with Order a piece ends one

@@ -8,8 +8,9 @@
 #include <numbers>
 
 #include "core/curve/closest_point.h"
-#include "core/solve/block_levenberg.h"
+#include "core/curve/foot_step.h"
 #include "core/solve/dense_solve.h"
+#include "core/solve/residual_blocks.h"
 
 namespace batten {
 
@@ -25,10 +26,30 @@ constexpr double kLostPx = 0.25;
 /// Half of the stretch [px] from whose points a normal is taken.
 constexpr double kNormalReachPx = 16.0;
 constexpr int kMostSteps = 400;
+// Feet of points on a curve 0..1: those of the points beside its ends lie a little beyond.
+constexpr int kFootSteps = 15;
+constexpr double kLongestFootStep = 0.5, kFirstFoot = -0.3, kLastFoot = 1.5;
+constexpr double kFootSettled = 1e-8;
+// Unknowns of the first curve of a chain, by which they are held where the points say nothing.
+constexpr double kFirstPointPx = 0.3;                         ///< [px] standard deviation of a point
+constexpr double kFirstAngleRad = 0.1, kFirstLogKappa = 0.4;  ///< as the seed is known, from a few directions
+constexpr double kFirstLogTurn = 0.4;
+// A fit of the change of direction.
+constexpr int kTurnFits = 12;
+constexpr double kTurnDifference = 1e-5;                    ///< Relative, of its derivative.
+constexpr double kMostTurnLess = 0.3, kMostTurnMore = 0.5;  ///< Of the turn, in one step.
+constexpr double kTurnSettled = 1e-7;                       ///< [rad]
+constexpr double kAtEnd = 1e-6;                             ///< [parameter] so far beyond an end is at it.
+// The last curve ends at the foot of the end of the line, by its parameter; others are kept to their middle, where
+// the points beyond their end have not bent them (002 keeps all, and starts the next with this part of their size).
+constexpr double kShortestLast = 0.05, kLongestLast = 1.3, kKeptPart = 0.5, kNextSeed = 0.4;
+constexpr int kMostGrowths = 60;                             ///< Of one curve.
+constexpr double kSmallestRatio = 0.3, kLargestRatio = 3.0;  ///< Of a grown curve's edges: beyond, it is a spiral.
 
 double sizeOf(const TypicalCurve& c) { return c.edge * (1.0 + c.ratio * std::cos(c.turnRad) + c.ratio * c.ratio); }
 
 std::complex<double> asComplex(const Vec2& v) { return {v.x(), v.y()}; }
+Vec2 asVector(const std::complex<double>& z) { return {z.real(), z.imag()}; }
 
 /// Signed distances of points from a curve and where their feet are.
 struct Feet {
@@ -40,16 +61,13 @@ Feet feetOn(const TypicalCurve& c, std::span<const Vec2> points) {
   double t = 0.0;
   for (const Vec2& p : points) {
     std::complex<double> d1, away;
-    for (int i = 0; i < 15; ++i) {
+    for (int i = 0; i < kFootSteps; ++i) {
       const std::complex<double> w = 1.0 + t * (z - 1.0);
       away = asComplex(c.start) + edge * t * (w * w + w + 1.0) - asComplex(p);
       d1 = 3.0 * edge * w * w;
-      const double speed = std::norm(d1);
-      if (!(speed > 0.0)) break;
-      const double bend = std::max(speed + (std::conj(away) * 6.0 * edge * w * (z - 1.0)).real(), 0.2 * speed);
-      const double step = std::clamp(-(std::conj(away) * d1).real() / bend, -0.5, 0.5);
-      t = std::clamp(t + step, -0.3, 1.5);
-      if (std::abs(step) < 1e-8) break;
+      const double step = footStep(asVector(away), asVector(d1), asVector(6.0 * edge * w * (z - 1.0)));
+      t = std::clamp(t + std::clamp(step, -kLongestFootStep, kLongestFootStep), kFirstFoot, kLastFoot);
+      if (std::abs(step) < kFootSettled) break;
     }
     feet.distance.push_back(-(std::conj(d1) * away).imag() / std::max(std::abs(d1), 1e-300));
     feet.t.push_back(t);
@@ -62,43 +80,40 @@ class Grower {
   Grower(const TypicalLine& line, const ConstructParams& params, GrowingRecord& record)
       : line_(line), params_(params), record_(record) {}
 
-  /// Segments from the state over the stretch; the state becomes where they end.
-  std::vector<TypicalCurve> grow(PathState& from, const GrowingStretch& stretch, bool freeStart,
-                                 const RunContext& context) {
+  GrownCurves grow(const GrowingStart& start, const GrowingStretch& stretch, const RunContext& context) {
     points_ = stretch.points;
-    isFree_ = freeStart;
-    std::vector<TypicalCurve> kept;
+    isFree_ = start.isFree;
+    GrownCurves kept{{}, start.state};
     // Nothing to grow along: what the joints know of this stretch is better than a curve that follows nothing.
     if (points_.empty()) return kept;
-    auto curve = seed(from, stretch, freeStart);
+    auto curve = seed(start.state, stretch, start.isFree);
     const Vec2 end = line_.joints[stretch.lastJoint].point;
     for (int i = 0; i < kMostSteps && curve && !context.isCancelled(); ++i) {
-      bool reachesEnd = false;
-      const auto grown = growOne(*curve, end, reachesEnd, context);
-      if (!grown) break;
-      TypicalCurve stays = *grown;
+      const auto [grown, reachesEnd] = growOne(*curve, end, context);
+      TypicalCurve stays = grown;
       if (reachesEnd) {
-        const auto foot = feetOn(*grown, std::array{end});
-        stays = grown->toParameter(std::clamp(foot.t[0], 0.05, 1.3));
+        const auto foot = feetOn(grown, std::array{end});
+        stays = grown.toParameter(std::clamp(foot.t[0], kShortestLast, kLongestLast));
       } else if (!params_.growingAsInPaper) {
-        stays = grown->toParameter(0.5);
+        stays = grown.toParameter(kKeptPart);
       }
       if (sizeOf(stays) < kShortestPx) break;
       record_.rested = record_.rested && rested_;
       record(GrowingStep::Kind::Kept, stays, false);
-      kept.push_back(stays);
+      kept.curves.push_back(stays);
       isFree_ = false;
       if (reachesEnd) break;
       ++record_.segment;
-      curve = continued(stays, params_.growingAsInPaper ? 0.4 * sizeOf(stays) : sizeOf(*grown) - sizeOf(stays));
+      curve = continued(stays, params_.growingAsInPaper ? kNextSeed * sizeOf(stays) : sizeOf(grown) - sizeOf(stays));
       if (curve) {
         rested_ = refit(*curve);
         record(GrowingStep::Kind::Seed, *curve, false);
       }
     }
-    if (!kept.empty()) {
-      const Joint joint = kept.back().endJoint();
-      from = {joint.point, kept.back().angleRad + 2.0 * kept.back().turnRad, joint.kappa};
+    if (!kept.curves.empty()) {
+      const TypicalCurve& last = kept.curves.back();
+      const Joint joint = last.endJoint();
+      kept.end = {joint.point, last.angleRad + 2.0 * last.turnRad, joint.kappa};
     }
     return kept;
   }
@@ -145,15 +160,16 @@ class Grower {
           const auto moved = curveOf(x);
           const Feet feet = moved ? feetOn(*moved, near) : Feet{};
           for (std::size_t i = 0; i < near.size(); ++i) {
-            r[i] = moved ? feet.distance[i] / 0.3 : std::numeric_limits<double>::quiet_NaN();
+            r[i] = moved ? feet.distance[i] / kFirstPointPx : std::numeric_limits<double>::quiet_NaN();
           }
-          r[near.size()] = x[0] / 0.1;
-          r[near.size() + 1] = x[1] / 0.4;
-          r[near.size() + 2] = x[2] / 0.4;
+          r[near.size()] = x[0] / kFirstAngleRad;
+          r[near.size() + 1] = x[1] / kFirstLogKappa;
+          r[near.size() + 2] = x[2] / kFirstLogTurn;
         }};
-    const auto solved = minimiseBlocks(Eigen::Vector3d::Zero(), Eigen::Vector3d(0.1, 1.0, 1.0), std::array{block}, {});
+    const auto solved =
+        minimiseBlocks(Eigen::Vector3d::Zero(), Eigen::Vector3d(kFirstAngleRad, 1.0, 1.0), std::array{block}, {});
     if (const auto better = curveOf(std::span(solved.x.data(), 3))) c = *better;
-    return solved.why != Termination::IterationLimit;
+    return solved.run.why != Termination::IterationLimit;
   }
 
   static std::optional<TypicalCurve> continued(const TypicalCurve& before, double size) {
@@ -167,7 +183,7 @@ class Grower {
   /// @return whether it came to rest; also true where there is nothing to meet.
   bool refit(TypicalCurve& c) const {
     const double size = sizeOf(c), kappa = c.startCurvature();
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < kTurnFits; ++i) {
       const auto near = pointsOn(c);
       if (near.size() < 3) return true;
       double step = 0.0;
@@ -185,37 +201,43 @@ class Grower {
         step = (local.point - end.point).dot(normal) / across;
       } else {
         // Least squares over all points: the influence of the turn grows with the third power along the curve.
-        const auto moved = typicalFromForm(c.start, c.angleRad, kappa, size, 2.0 * (c.turnRad * (1.0 + 1e-5)));
+        const auto moved =
+            typicalFromForm(c.start, c.angleRad, kappa, size, 2.0 * (c.turnRad * (1.0 + kTurnDifference)));
         if (!moved) return false;
         const Feet here = feetOn(c, near), there = feetOn(*moved, near);
         double top = 0.0, bottom = 0.0;
         for (std::size_t k = 0; k < near.size(); ++k) {
-          const double slope = (there.distance[k] - here.distance[k]) / (1e-5 * c.turnRad);
+          const double slope = (there.distance[k] - here.distance[k]) / (kTurnDifference * c.turnRad);
           top += slope * here.distance[k];
           bottom += slope * slope;
         }
         if (!(bottom > 0.0)) return true;
         step = -top / bottom;
       }
-      const double next = c.turnRad + std::clamp(step, -0.3 * std::abs(c.turnRad), 0.5 * std::abs(c.turnRad));
+      const double next =
+          c.turnRad + std::clamp(step, -kMostTurnLess * std::abs(c.turnRad), kMostTurnMore * std::abs(c.turnRad));
       const auto better = typicalFromForm(c.start, c.angleRad, kappa, size, 2.0 * next);
       if (!better) return false;
       const double change = std::abs(next - c.turnRad);
       c = *better;
-      if (change < 1e-7) return true;
+      if (change < kTurnSettled) return true;
     }
     return false;
   }
 
   /// The best fit over as many points as one curve can take. Where not even the first fits, the curve itself.
-  std::optional<TypicalCurve> growOne(TypicalCurve c, const Vec2& end, bool& reachesEnd, const RunContext& context) {
-    for (std::size_t i = 0, way = 0; i < 60 && way < kExtrapolations.size() && !context.isCancelled(); ++i) {
-      reachesEnd = feetOn(c, std::array{end}).t[0] <= 1.0 + 1e-6;
-      if (reachesEnd) return c;
+  struct GrownCurve {
+    TypicalCurve curve;
+    bool reachesEnd = false;
+  };
+  GrownCurve growOne(TypicalCurve c, const Vec2& end, const RunContext& context) {
+    for (std::size_t i = 0, way = 0; i < kMostGrowths && way < kExtrapolations.size() && !context.isCancelled(); ++i) {
+      if (feetOn(c, std::array{end}).t[0] <= 1.0 + kAtEnd) return {c, true};
       TypicalCurve longer = c.toParameter(kExtrapolations[way]);
       record(GrowingStep::Kind::Extrapolated, longer, false);
       const bool rested = isFree_ ? refitWhole(longer) : refit(longer);
-      const bool fits = std::abs(longer.turnRad) < kLargestGrownTurn && longer.ratio > 0.3 && longer.ratio < 3.0 &&
+      const bool fits = std::abs(longer.turnRad) < kLargestGrownTurn && longer.ratio > kSmallestRatio &&
+                        longer.ratio < kLargestRatio &&
                         deviation(longer) < params_.growingStopDeg * std::numbers::pi / 180.0 &&
                         distance(longer) < kLostPx;
       record(GrowingStep::Kind::Fitted, longer, !fits);
@@ -226,7 +248,7 @@ class Grower {
         ++way;
       }
     }
-    return c;
+    return {c, false};
   }
 
   struct LocalLine {
@@ -308,10 +330,9 @@ FormGradient formGradient(const TypicalCurve& c) {
   return g;
 }
 
-std::vector<TypicalCurve> growStretch(const TypicalLine& line, const ConstructParams& params,
-                                      const GrowingStretch& stretch, bool freeStart, PathState& from,
-                                      GrowingRecord& record, const RunContext& context) {
-  return Grower(line, params, record).grow(from, stretch, freeStart, context);
+GrownCurves growStretch(const TypicalLine& line, const ConstructParams& params, const GrowingStretch& stretch,
+                        const GrowingStart& start, GrowingRecord& record, const RunContext& context) {
+  return Grower(line, params, record).grow(start, stretch, context);
 }
 
 }  // namespace batten

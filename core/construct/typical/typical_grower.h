@@ -21,10 +21,17 @@ struct GrowingRecord {
   bool rested = true;                         ///< Every fit whose curve was kept came to rest.
 };
 
-/// Grows typical curves from a state over a stretch; the state becomes where they end. @param freeStart nothing comes
-/// before: direction and curvature at the start are found too.
-std::vector<TypicalCurve> growStretch(const TypicalLine& line, const ConstructParams& params,
-                                      const GrowingStretch& stretch, bool freeStart, PathState& from,
-                                      GrowingRecord& record, const RunContext& context);
+/// Where a stretch of growing curves starts.
+struct GrowingStart {
+  PathState state;
+  bool isFree = false;  ///< Nothing comes before: direction and curvature are found too.
+};
+/// Typical curves that have grown, and the state in which the last one ends.
+struct GrownCurves {
+  std::vector<TypicalCurve> curves;
+  PathState end;
+};
+GrownCurves growStretch(const TypicalLine& line, const ConstructParams& params, const GrowingStretch& stretch,
+                        const GrowingStart& start, GrowingRecord& record, const RunContext& context);
 
 }  // namespace batten

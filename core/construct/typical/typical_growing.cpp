@@ -137,19 +137,18 @@ std::optional<FoundPath> grownPath(const TypicalLine& line, std::span<const Vec2
   for (const GrowingStretch& stretch : stretchesOf(line, breakpoints)) {
     if (context.isCancelled()) return std::nullopt;
     goTo(stretch.firstJoint);
-    PathState from = path.states.back();
-    const bool freeStart = path.elements.empty() || !path.elements.back().typical;
-    const auto grown = growStretch(line, params, stretch, freeStart, from, record, context);
-    if (grown.empty()) continue;
+    const GrowingStart start{path.states.back(), path.elements.empty() || !path.elements.back().typical};
+    const GrownCurves grown = growStretch(line, params, stretch, start, record, context);
+    if (grown.curves.empty()) continue;
     ++record.segment;
-    if (freeStart) {
-      path.states.back().angleRad = grown.front().angleRad;
-      path.states.back().kappa = grown.front().startCurvature();
+    if (start.isFree) {
+      path.states.back().angleRad = grown.curves.front().angleRad;
+      path.states.back().kappa = grown.curves.front().startCurvature();
     }
-    for (const TypicalCurve& curve : grown) appendTypical(path, curve);
+    for (const TypicalCurve& curve : grown.curves) appendTypical(path, curve);
     // Where it had to stop early the rest is left to Hermite pieces.
     at = stretch.firstJoint;
-    while (at < stretch.lastJoint && (line.joints[at + 1].point - from.point).dot(line.joints[at + 1].tangent) <
+    while (at < stretch.lastJoint && (line.joints[at + 1].point - grown.end.point).dot(line.joints[at + 1].tangent) <
                                          0.3 * (line.joints[at + 1].point - line.joints[at].point).norm()) {
       ++at;
     }

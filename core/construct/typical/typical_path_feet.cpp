@@ -6,29 +6,37 @@
 
 #include "core/construct/typical/typical_path.h"
 #include "core/construct/typical/typical_path_geometry.h"
+#include "core/curve/foot_step.h"
 
 namespace batten {
 
 namespace {
 
+// Parameters of an element run from 0 to 1.
+constexpr int kSteps = 25;
+constexpr int kLastChange = 20;       ///< Later steps stay in their element: a foot at a joint may go to and fro.
+constexpr double kLongestStep = 0.7;  ///< Less than an element, so that none is passed over.
+constexpr double kBeyondEnds = 0.4;   ///< A path may end this far before the last points, and grows towards them.
+constexpr double kSettled = 1e-9;
+
 /// Newton on the distance, from where the foot is; passes from element to element.
 PathFoot refined(const std::vector<PathGeometry>& geometry, const Vec2& p, PathFoot foot) {
-  for (int i = 0; i < 25; ++i) {
+  for (int i = 0; i < kSteps; ++i) {
     const auto d = geometry[foot.element].at(foot.t, 2);
     const Vec2 away = d[0] - p;
     const double speed = d[1].squaredNorm();
     foot.distance = speed > 0.0 ? cross(d[1], p - d[0]) / std::sqrt(speed) : away.norm();
     if (!(speed > 0.0)) break;
-    const double bend = std::max(speed + away.dot(d[2]), 0.2 * speed);
-    const double next = foot.t - std::clamp(away.dot(d[1]) / bend, -0.7, 0.7);
+    const double next = foot.t + std::clamp(footStep(away, d[1], d[2]), -kLongestStep, kLongestStep);
     const bool forward = next > 1.0 && foot.element + 1 < geometry.size(), back = next < 0.0 && foot.element > 0;
-    if ((forward || back) && i < 20) {
+    if ((forward || back) && i < kLastChange) {
       foot.element += forward ? 1 : static_cast<std::size_t>(-1);
       foot.t = forward ? 0.0 : 1.0;
       continue;
     }
-    const double t = std::clamp(next, foot.element > 0 ? 0.0 : -0.4, foot.element + 1 < geometry.size() ? 1.0 : 1.4);
-    const bool done = std::abs(t - foot.t) < 1e-9;
+    const double t = std::clamp(next, foot.element > 0 ? 0.0 : -kBeyondEnds,
+                                foot.element + 1 < geometry.size() ? 1.0 : 1.0 + kBeyondEnds);
+    const bool done = std::abs(t - foot.t) < kSettled;
     foot.t = t;
     if (done) break;
   }

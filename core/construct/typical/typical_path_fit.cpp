@@ -11,6 +11,7 @@
 #include "core/construct/typical/typical_path_feet.h"
 #include "core/construct/typical/typical_path_geometry.h"
 #include "core/construct/typical/typical_path_unknowns.h"
+#include "core/solve/levenberg_marquardt.h"
 
 namespace batten {
 
@@ -29,11 +30,18 @@ constexpr double kAlongWeight = 0.02;
 constexpr double kBehindTypical = 0.3;
 constexpr double kHermiteFairness = 0.5;
 constexpr double kHermiteChange = 0.2;
+/// Of the largest diagonal of the normal equations: no unknown goes without damping.
+constexpr double kDampingFloor = 1e-9;
+constexpr LevenbergOptions kPathSteps{.attempts = 10, .leastDamping = 1e-9};
+/// The gap is closed by so many Newton steps at most, to so much [units, radians, log of curvature].
+constexpr int kClosingSteps = 12;
+constexpr double kClosed = 1e-13;
+constexpr double kClosingDamping = 1e-6;  ///< Relative: only to keep the metric regular.
 
 /// Sum of squares of everything, as normal equations when asked.
-class Problem {
+class PathSquares {
  public:
-  Problem(const TypicalPath& start, const PathData& data)
+  PathSquares(const TypicalPath& start, const PathData& data)
       : data_(data), unknowns_(start, true), before_(start), unit_(std::max(data.noise, 1e-6)) {}
   const PathUnknowns& unknowns() const { return unknowns_; }
 
@@ -263,25 +271,59 @@ class Problem {
   double unit_;
 };
 
-/// Closes the gap at the end exactly, with the least change of the fit: Newton in the metric of the normal equations.
-void closeGap(TypicalPath& path, const Problem& problem, const Problem::System& system,
-              const Eigen::VectorXd& damping) {
-  Eigen::MatrixXd metric = system.squared;
-  metric.diagonal() += 1e-6 * damping;
-  const Eigen::LDLT<Eigen::MatrixXd> solver(metric);
-  if (solver.info() != Eigen::Success) return;
-  for (int i = 0; i < 12; ++i) {
-    const Eigen::VectorXd open = problem.gap(path);
-    if (open.size() == 0 || open.cwiseAbs().maxCoeff() < 1e-13) return;
-    const Eigen::MatrixXd rows = problem.gapRows(path, problem.unknowns().stateRows(path));
-    const Eigen::MatrixXd away = solver.solve(rows.transpose());
-    const Eigen::VectorXd step = -away * (rows * away).ldlt().solve(open);
-    if (!step.allFinite()) return;
-    TypicalPath next = problem.unknowns().moved(path, step);
-    if (!next.update() || !(problem.gap(next).norm() < open.norm())) return;
-    path = next;
+/// The fit of a path, which becomes the best found.
+class PathProblem final : public LevenbergProblem {
+ public:
+  PathProblem(TypicalPath& path, const PathData& data) : squares_(path, data), path_(path) {}
+  const PathUnknowns& unknowns() const { return squares_.unknowns(); }
+
+  double linearise() override {
+    const double cost = squares_.cost(path_, feet_, &system_);
+    damping_ = system_.squared.diagonal();
+    damping_ = damping_.cwiseMax(kDampingFloor * std::max(damping_.maxCoeff(), std::numeric_limits<double>::min()));
+    return cost;
   }
-}
+  double tryStep(double damping) override {
+    const auto step = squares_.step(path_, system_, damping * damping_);
+    if (!step) return std::numeric_limits<double>::infinity();
+    trial_ = unknowns().moved(path_, *step);
+    trialFeet_ = feet_;
+    return squares_.cost(trial_, trialFeet_, nullptr);
+  }
+  void accept() override {
+    path_ = std::move(trial_);
+    feet_ = std::move(trialFeet_);
+  }
+
+  /// Closes the gap at the end exactly, with the least change of the fit: Newton in the metric of the normal equations,
+  /// made anew where the fit has not come to rest.
+  void closeGap(Termination why) {
+    if (why == Termination::IterationLimit) linearise();
+    Eigen::MatrixXd metric = system_.squared;
+    metric.diagonal() += kClosingDamping * damping_;
+    const Eigen::LDLT<Eigen::MatrixXd> solver(metric);
+    if (solver.info() != Eigen::Success) return;
+    for (int i = 0; i < kClosingSteps; ++i) {
+      const Eigen::VectorXd open = squares_.gap(path_);
+      if (open.size() == 0 || open.cwiseAbs().maxCoeff() < kClosed) return;
+      const Eigen::MatrixXd rows = squares_.gapRows(path_, unknowns().stateRows(path_));
+      const Eigen::MatrixXd away = solver.solve(rows.transpose());
+      const Eigen::VectorXd step = -away * (rows * away).ldlt().solve(open);
+      if (!step.allFinite()) return;
+      TypicalPath next = unknowns().moved(path_, step);
+      if (!next.update() || !(squares_.gap(next).norm() < open.norm())) return;
+      path_ = next;
+    }
+  }
+
+ private:
+  PathSquares squares_;
+  TypicalPath& path_;
+  TypicalPath trial_;
+  std::vector<PathFoot> feet_, trialFeet_;
+  PathSquares::System system_;
+  Eigen::VectorXd damping_;  ///< What a damping of 1 adds to the diagonal.
+};
 
 }  // namespace
 
@@ -291,43 +333,16 @@ std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxI
     path.states.front().point = data.start;
     if (!path.endsTypical()) path.states.back().point = data.end;
   }
-  const Problem problem(path, data);
+  PathProblem problem(path, data);
   PathFit fit;
-  Problem::System system;
-  double cost = problem.cost(path, fit.feet, &system);
-  if (!std::isfinite(cost)) return std::nullopt;
-  const auto damped = [&] {
-    Eigen::VectorXd d = system.squared.diagonal();
-    const double floor = 1e-9 * std::max(d.maxCoeff(), 1e-300);
-    return Eigen::VectorXd(d.cwiseMax(floor));
-  };
-  double lambda = 1e-3;
-  int small = 0;
-  for (; fit.iterations < maxIterations && !context.isCancelled(); ++fit.iterations) {
-    const Eigen::VectorXd diagonal = damped();
-    bool better = false;
-    for (int attempt = 0; attempt < 10 && !better && !context.isCancelled(); ++attempt) {
-      if (const auto step = problem.step(path, system, lambda * diagonal)) {
-        TypicalPath trial = problem.unknowns().moved(path, *step);
-        std::vector<PathFoot> feet = fit.feet;
-        const double reached = problem.cost(trial, feet, nullptr);
-        better = reached < cost;
-        if (better) {
-          small = cost - reached < 1e-4 * cost ? small + 1 : 0;
-          cost = reached;
-          path = std::move(trial);
-          fit.feet = std::move(feet);
-        }
-      }
-      lambda = better ? std::max(lambda / 5.0, 1e-9) : lambda * 4.0;
-    }
-    if (!better || small >= 2) {
-      fit.converged = true;
-      break;
-    }
-    cost = problem.cost(path, fit.feet, &system);
-  }
-  closeGap(path, problem, system, damped());
+  LevenbergOptions options = kPathSteps;
+  options.iterations = maxIterations;
+  const LevenbergRun run = levenbergMarquardt(problem, options, context);
+  if (run.why == Termination::Degenerate) return std::nullopt;
+  if (run.iterations == 0 && !std::isfinite(problem.linearise())) return std::nullopt;  // cancelled
+  fit.iterations = run.iterations;
+  fit.converged = run.why != Termination::IterationLimit;
+  problem.closeGap(run.why);
   fit.feet.clear();
   followFeet(geometryOf(path), data.points, fit.feet);
   double squares = 0.0;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "core/construct/typical/typical_path.h"
@@ -17,6 +18,9 @@ namespace batten {
 using Row = Eigen::RowVectorXd;
 /// Derivatives of a state's x, y, angle and curvature by all unknowns.
 using StateRows = Eigen::Matrix<double, 4, Eigen::Dynamic>;
+
+/// A step changes a curvature by a factor of e^3 at the most: the linear model does not reach farther.
+inline constexpr double kLongestPathLogStep = 3.0;
 
 /// The unknowns of a path by column, and how a step changes it.
 class PathUnknowns {
@@ -42,11 +46,13 @@ class PathUnknowns {
     TypicalPath result = path;
     for (std::size_t s = 0; s < states_.size(); ++s) {
       const Columns& c = states_[s];
-      if (c.place >= 0) result.states[s].point += Vec2(step(c.place), step(c.place + 1));
-      if (c.angle >= 0) result.states[s].angleRad += step(c.angle);
-      if (c.kappa < 0) continue;
-      result.states[s].kappa = c.isLog ? path.states[s].kappa * std::exp(std::clamp(step(c.kappa), -3.0, 3.0))
-                                       : path.states[s].kappa + step(c.kappa);
+      if (c.place) result.states[s].point += Vec2(step(*c.place), step(*c.place + 1));
+      if (c.angle) result.states[s].angleRad += step(*c.angle);
+      if (!c.kappa) continue;
+      result.states[s].kappa =
+          c.isLog
+              ? path.states[s].kappa * std::exp(std::clamp(step(*c.kappa), -kLongestPathLogStep, kLongestPathLogStep))
+              : path.states[s].kappa + step(*c.kappa);
     }
     for (std::size_t e = 0; e < shapes_.size(); ++e) {
       if (shapes_[e] < 0) continue;
@@ -63,9 +69,9 @@ class PathUnknowns {
     for (std::size_t s = 0; s < states_.size(); ++s) {
       const Columns& c = states_[s];
       if (path.isFree(s)) {
-        if (c.place >= 0) rows[s](0, c.place) = rows[s](1, c.place + 1) = 1.0;
-        rows[s](2, c.angle) = 1.0;
-        rows[s](3, c.kappa) = c.isLog ? path.states[s].kappa : 1.0;
+        if (c.place) rows[s](0, *c.place) = rows[s](1, *c.place + 1) = 1.0;
+        rows[s](2, *c.angle) = 1.0;
+        rows[s](3, *c.kappa) = c.isLog ? path.states[s].kappa : 1.0;
       } else if (path.elements[s - 1].typical) {
         rows[s] = behindTypical(path, s - 1, rows[s - 1]);
       } else {
@@ -127,7 +133,8 @@ class PathUnknowns {
 
  private:
   struct Columns {
-    int place = -1, angle = -1, kappa = -1;
+    std::optional<int> place;         ///< Of x; y follows. Absent: pinned, or what comes before decides.
+    std::optional<int> angle, kappa;  ///< Absent: what comes before decides.
     bool isLog = false;
   };
   int take(int n) {

@@ -31,7 +31,7 @@ Nearest nearestOf(const ContourSet& set, const Vec2& at, double limit) {
   for (std::size_t c = 0; c < set.contours.size(); ++c) {
     const auto& points = set.contours[c].points;
     // The sharp point of a pen stroke is one of the points that were drawn (004 section 3.2), none in between.
-    const bool onlyDrawn = set.contours[c].kind == ContourKind::Pen;
+    const bool onlyDrawn = isDrawn(set.contours[c].kind);
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (onlyDrawn && !points[i].refined) continue;
       const double d = (points[i].at - at).squaredNorm();
@@ -108,7 +108,8 @@ Snap sharpestNear(const Contour& contour, const Vec2& mark, double snap) {
 // A corner while the pieces are cut.
 struct Cut {
   Corner corner;
-  double zone = 4.0;  // [px] points nearer than this are left out
+  double zone = 4.0;     // [px] points nearer than this are left out
+  bool isMarked = true;  // else it is a joint of the line itself
   bool exact = false;
 };
 
@@ -147,6 +148,8 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   const int n = static_cast<int>(contour.points.size());
   Piece piece;
   piece.contour = contourIndex;
+  piece.firstPoint = from;
+  piece.lastPoint = to;
   for (int i = from; i <= to; ++i) {
     const ContourPoint& p = contour.points[wrapIndex(i, n)];
     piece.points.push_back(p.at);
@@ -157,9 +160,8 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   const auto zoneOf = [&](const Cut* cut) { return cut->exact ? cut->zone : 0.5; };
   std::size_t head = 0, tail = 0;
   if (start != nullptr)
-    head = pointsToDrop(piece, contour.kind == ContourKind::Pen, false, start->corner.positionPx, zoneOf(start));
-  if (end != nullptr)
-    tail = pointsToDrop(piece, contour.kind == ContourKind::Pen, true, end->corner.positionPx, zoneOf(end));
+    head = pointsToDrop(piece, isDrawn(contour.kind), false, start->corner.positionPx, zoneOf(start));
+  if (end != nullptr) tail = pointsToDrop(piece, isDrawn(contour.kind), true, end->corner.positionPx, zoneOf(end));
   if (head + tail >= piece.points.size()) head = piece.points.size(), tail = 0;
   const auto cutEnds = [&](auto& values) {
     values.erase(values.end() - static_cast<std::ptrdiff_t>(tail), values.end());
@@ -169,12 +171,12 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   cutEnds(piece.refined);
   if (start != nullptr) {
     piece.points.insert(piece.points.begin(), start->corner.positionPx);
-    piece.refined.insert(piece.refined.begin(), start->exact || contour.kind == ContourKind::Pen ? 1 : 0);
+    piece.refined.insert(piece.refined.begin(), start->exact || isDrawn(contour.kind) ? 1 : 0);
     piece.startIsCorner = true;
   }
   if (end != nullptr) {
     piece.points.push_back(end->corner.positionPx);
-    piece.refined.push_back(end->exact || contour.kind == ContourKind::Pen ? 1 : 0);
+    piece.refined.push_back(end->exact || isDrawn(contour.kind) ? 1 : 0);
     piece.endIsCorner = true;
   }
   const auto cutValues = [&](std::vector<float>& values, float ofAlone) {
@@ -255,12 +257,12 @@ std::optional<Corner> nearestContourPoint(const ContourSet& set, const Vec2& pos
   Corner corner;
   Snap best;
   for (std::size_t c = 0; c < set.contours.size() && snapDistancePx > 0.0; ++c) {
-    if (set.contours[c].kind == ContourKind::Pen) continue;
+    if (isDrawn(set.contours[c].kind)) continue;
     const Snap snap = sharpestNear(set.contours[c], positionPx, snapDistancePx);
     if (snap.index >= 0 && snap.score > best.score) best = snap, corner.contour = static_cast<int>(c);
   }
   const Nearest nearest = nearestOf(set, positionPx, snapDistancePx);
-  const bool isOnPen = nearest.contour >= 0 && set.contours[nearest.contour].kind == ContourKind::Pen;
+  const bool isOnPen = nearest.contour >= 0 && isDrawn(set.contours[nearest.contour].kind);
   // A drawn point means itself: it need not be the sharpest place around.
   if (best.index < 0 || (isOnPen && std::sqrt(nearest.squared) < best.distance)) {
     if (nearest.contour < 0) return std::nullopt;
@@ -277,6 +279,29 @@ std::optional<Corner> nearestContourPoint(const ContourSet& set, const Vec2& pos
   }
   return corner;
 }
+
+namespace {
+
+// The joints of a line join its marks; a mark beside one means it.
+void addJoints(const Contour& contour, int index, std::vector<Cut>& cuts) {
+  for (const int joint : contour.joints) {
+    Corner corner;
+    corner.contour = index;
+    corner.pointIndex = joint;
+    corner.positionPx = contour.points[joint].at;
+    const auto beside = std::find_if(cuts.begin(), cuts.end(), [&](const Cut& cut) {
+      return (cut.corner.positionPx - corner.positionPx).norm() <= kSamePlacePx;
+    });
+    if (beside == cuts.end()) {
+      cuts.push_back({.corner = corner, .isMarked = false});
+    } else {
+      beside->corner.pointIndex = joint;
+      beside->corner.positionPx = corner.positionPx;
+    }
+  }
+}
+
+}  // namespace
 
 Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMark> marks, const CornerParams& params,
                                 const GreyImage* grey) {
@@ -301,14 +326,16 @@ Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMar
     }
   }
   for (std::size_t c = 0; c < set.contours.size(); ++c) {
+    addJoints(set.contours[c], static_cast<int>(c), cuts[c]);
     std::sort(cuts[c].begin(), cuts[c].end(),
               [](const Cut& a, const Cut& b) { return a.corner.pointIndex < b.corner.pointIndex; });
     const Contour& contour = set.contours[c];
     // A pen stroke is exact already: its corner is the point that was drawn.
-    if (params.exact && contour.kind != ContourKind::Pen && !cuts[c].empty()) {
+    if (params.exact && !isDrawn(contour.kind) && !cuts[c].empty()) {
       locateCuts(contour, grey, cuts[c]);
     }
     cutContour(set, static_cast<int>(c), cuts[c], out);
+    std::erase_if(cuts[c], [](const Cut& cut) { return !cut.isMarked; });
     noteCloseCorners(contour, cuts[c], out);
     for (const Cut& cut : cuts[c]) out.corners.push_back(cut.corner);
   }

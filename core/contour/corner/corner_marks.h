@@ -40,8 +40,9 @@ struct Corner {
 /// A stretch of one contour from corner to corner (or end), or a whole closed contour without corner. Image frame.
 struct Piece {
   int contour = 0;
-  int index = 0;             ///< Position within the contour.
-  bool closed = false;       ///< Smooth closed: periodic, no start and no end.
+  int index = 0;                      ///< Position within the contour.
+  int firstPoint = 0, lastPoint = 0;  ///< Of the contour; of a closed one the last may go on behind its end.
+  bool closed = false;                ///< Smooth closed: periodic, no start and no end.
   std::vector<Vec2> points;  ///< [px] ordered; where an end is a corner, the first or last point is exactly the corner.
   std::vector<std::uint8_t> refined;  ///< As in Contour, same size.
   std::vector<float> sigmaPx;         ///< As in Contour: same size or empty.

@@ -26,9 +26,9 @@ StrandPixel measured(const SkeletonPixel& p, const BitImage& ink) {
 }
 
 // Numbers for the pixels at the ends of chains; those joined by a chain of two pixels, both no free ends, are one node.
-class NodeNumbers {
+class StrandNodes {
  public:
-  explicit NodeNumbers(const std::vector<SkeletonChain>& chains) {
+  explicit StrandNodes(const std::vector<SkeletonChain>& chains) {
     for (const SkeletonChain& c : chains) {
       if (c.closed) continue;
       add(c.pixels.front());
@@ -157,7 +157,7 @@ StrandGraph::StrandGraph(const BitImage& skeleton, const BitImage& ink, const Ru
 }
 
 void StrandGraph::makeNodes(const std::vector<SkeletonChain>& found, const BitImage& ink) {
-  const NodeNumbers numbers(found);
+  const StrandNodes numbers(found);
   nodes_.resize(numbers.count());
   for (const SkeletonPixel& p : numbers.pixels()) {
     StrandNode& node = nodes_[numbers.nodeOf(p)];
@@ -167,7 +167,7 @@ void StrandGraph::makeNodes(const std::vector<SkeletonChain>& found, const BitIm
   }
   for (StrandNode& node : nodes_) node.centre /= static_cast<double>(node.pixels.size());
   for (const SkeletonChain& c : found) {
-    if (NodeNumbers::isLink(c)) continue;
+    if (StrandNodes::isLink(c)) continue;
     StrandChain chain;
     chain.isRing = c.closed;
     if (!c.closed) chain.node = {numbers.nodeOf(c.pixels.front()), numbers.nodeOf(c.pixels.back())};
@@ -184,7 +184,7 @@ void StrandGraph::makeNodes(const std::vector<SkeletonChain>& found, const BitIm
 void StrandGraph::makeChains(const std::vector<SkeletonChain>& found, const BitImage& ink, const RunContext& context) {
   std::size_t number = 0;
   for (const SkeletonChain& c : found) {
-    if (NodeNumbers::isLink(c)) continue;
+    if (StrandNodes::isLink(c)) continue;
     if (context.isCancelled()) return;
     StrandChain& chain = chains_[number++];
     for (const SkeletonPixel& p : c.pixels) chain.pixels.push_back(measured(p, ink));

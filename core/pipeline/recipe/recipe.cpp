@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <utility>
 
 namespace batten {
 namespace {
@@ -47,8 +50,39 @@ std::optional<Error> validatePlaces(const Recipe& recipe) {
   for (const ExtremumChoice& choice : recipe.extremumChoices) {
     if (!isPlace(choice.positionPx)) return badPlace("A choice for a curvature extremum");
   }
+  for (const DirectionMark& mark : recipe.directions) {
+    if (!isPlace(mark.positionPx) || !isPlace(mark.towardsPx)) return badPlace("A direction of a curve");
+    if (mark.positionPx == mark.towardsPx) return bad("A direction of a curve must lead from one place to another.");
+  }
+  for (const StartMark& mark : recipe.starts) {
+    if (!isPlace(mark.positionPx)) return badPlace("The start of a curve");
+  }
+  if (recipe.scaleLine && !(isPlace(recipe.scaleLine->fromPx) && isPlace(recipe.scaleLine->toPx))) {
+    return badPlace("The line by which the scale is measured");
+  }
   return std::nullopt;
 }
+
+std::optional<Error> validateNumbers(const CurveNumbers& numbers) {
+  // Far more than any drawing comes to; counting on from here still fits an int.
+  constexpr int kMostNumbered = 1'000'000'000;
+  if (!(numbers.lastGiven >= 0 && numbers.lastGiven <= kMostNumbered)) {
+    return bad("The last number given to a curve must be 0 to 1000000000.");
+  }
+  std::set<int> given;
+  for (const NumberedCurve& curve : numbers.curves) {
+    if (!(curve.number >= 1 && curve.number <= kMostNumbered && given.insert(curve.number).second)) {
+      return bad("Curves are numbered from 1 to 1000000000, each number once.");
+    }
+    if (curve.placesPx.empty() || curve.placesPx.size() > kMostPlacesOfCurve) {
+      return bad("A numbered curve must have 1 to " + std::to_string(kMostPlacesOfCurve) + " places.");
+    }
+    if (!arePlaces(curve.placesPx)) return badPlace("A place of a numbered curve");
+  }
+  return std::nullopt;
+}
+
+constexpr double kFarthestPageMm = 1e5;
 
 bool isPageSide(int px) { return px >= 16 && px <= 20000; }
 
@@ -78,7 +112,11 @@ std::optional<Error> validate(const Recipe& recipe) {
   if (recipe.dpi && !(*recipe.dpi >= kMinDpi && *recipe.dpi <= kMaxDpi)) {
     return bad("The resolution must be between 1 and 100000 dpi.");
   }
+  if (auto e = validate(recipe.scanPage)) return e;
   if (auto e = validatePlaces(recipe)) return e;
+  if (recipe.scaleLine && !resolutionOf(*recipe.scaleLine)) {
+    return bad("The line by which the scale is measured must have a length on the page and one in mm above 0.");
+  }
   if (auto e = validate(recipe.log)) return e;
   if (auto e = validate(recipe.threshold)) return e;
   if (auto e = validate(recipe.filter)) return e;
@@ -90,6 +128,12 @@ std::optional<Error> validate(const Recipe& recipe) {
   if (recipe.page && !(isPageSide(recipe.page->widthPx) && isPageSide(recipe.page->heightPx))) {
     return bad("A page without a scan must be 16 to 20000 px wide and high.");
   }
+  for (const ImportedFile& file : recipe.imports) {
+    if (auto e = validate(file)) return e;
+  }
+  if (recipe.page &&
+      !(std::abs(recipe.page->leftMm) <= kFarthestPageMm && std::abs(recipe.page->bottomMm) <= kFarthestPageMm))
+    return bad("A page without a scan must lie within 100 m of the origin.");
   for (const RegionOfInterest& region : recipe.regions) {
     if (auto e = validate(region)) return e;
   }
@@ -103,6 +147,7 @@ std::optional<Error> validate(const Recipe& recipe) {
   for (const PieceChoice& choice : recipe.choices) {
     if (auto e = validateChoice(choice)) return e;
   }
+  if (auto e = validateNumbers(recipe.curveNumbers)) return e;
   return std::nullopt;
 }
 

@@ -11,10 +11,15 @@
 #include "core/contour/pen_strokes.h"
 #include "core/contour/region_of_interest.h"
 #include "core/contour/segment/regression_segments.h"
+#include "core/curve/imported_line.h"
 #include "core/fairing/fairing_params.h"
 #include "core/image/log_transform.h"
 #include "core/image/neighbourhood_filter.h"
 #include "core/image/region_thresholds.h"
+#include "core/image/scan.h"
+#include "core/pipeline/recipe/curve_numbers.h"
+#include "core/pipeline/recipe/direction_marks.h"
+#include "core/pipeline/recipe/scale_line.h"
 
 namespace batten {
 
@@ -66,8 +71,9 @@ struct PieceChoice {
 
 /// The size of a drawing that has no scan: white paper. Resolution: the recipe's.
 struct BlankPage {
-  int widthPx = 0;   ///< [px] 16..20000
-  int heightPx = 0;  ///< [px] 16..20000
+  int widthPx = 0;                      ///< [px] 16..20000
+  int heightPx = 0;                     ///< [px] 16..20000
+  double leftMm = 0.0, bottomMm = 0.0;  ///< [mm] Its lower left corner in the model frame, within 100 m of the origin.
   bool operator==(const BlankPage&) const = default;
 };
 
@@ -88,14 +94,17 @@ struct ExtremumChoice {
 
 /// Everything the user decided: all parameters and all edits, one comparable value. Result = f(scan, recipe).
 struct Recipe {
-  std::optional<double> dpi;  ///< The user's own resolution; absent = the file's, else the assumed one.
+  std::optional<double> dpi;           ///< The user's own resolution; absent = the file's, else the assumed one.
+  std::optional<ScaleLine> scaleLine;  ///< Where `dpi` comes from, if it was measured on the drawing.
+  PageChoice scanPage;                 ///< Which page of the scan's file it is for.
   LogParams log;
   PaperParams paper;
   ThresholdParams threshold;
   FilterParams filter;
   EdgeParams edges;
   ContourParams contours;
-  std::vector<PenStroke> penStrokes;      ///< Lines drawn by hand, behind those found on the scan.
+  std::vector<PenStroke> penStrokes;      ///< Lines drawn by hand, behind all others.
+  std::vector<ImportedFile> imports;      ///< Lines of other programs, behind those found on the scan.
   std::optional<BlankPage> page;          ///< The drawing was begun without a scan; null = it needs its scan.
   std::vector<RegionOfInterest> regions;  ///< Only what lies inside one of them is traced; none = the whole page.
   CornerParams corners;
@@ -106,6 +115,9 @@ struct Recipe {
   FairingParams fairing;
   std::vector<PieceChoice> choices;
   std::vector<ExtremumChoice> extremumChoices;
+  CurveNumbers curveNumbers;              ///< What the curves are called; changes no curve.
+  std::vector<DirectionMark> directions;  ///< Of exported curves; the later of two for one curve counts.
+  std::vector<StartMark> starts;          ///< Likewise.
   bool operator==(const Recipe&) const = default;
 };
 

@@ -8,7 +8,9 @@
 
 #include "core/base/json_text.h"
 #include "core/base/number_text.h"
+#include "core/pipeline/recipe/imports_json.h"
 #include "core/pipeline/recipe/parameter_table.h"
+#include "core/pipeline/recipe/placed_marks_file.h"
 
 namespace batten {
 namespace {
@@ -173,12 +175,42 @@ Result<void> readSegmentPoints(const Json& json, Recipe& recipe) {
 
 Result<void> readPage(const Json& json, Recipe& recipe) {
   if (json.is_null()) return {};
-  const bool isPair = json.is_array() && json.size() == 2;
+  const bool isPlaced = json.is_array() && json.size() == 4 && json[2].is_number() && json[3].is_number();
+  const bool isPair = isPlaced || (json.is_array() && json.size() == 2);
   const auto width = isPair ? integerFromJson(json[0]) : std::nullopt;
   const auto height = isPair ? integerFromJson(json[1]) : std::nullopt;
   if (!width || !height) return refuse("The recipe is damaged: the size of the page is not a pair of whole numbers.");
   recipe.page = BlankPage{*width, *height};
+  if (isPlaced) {
+    recipe.page->leftMm = json[2].get<double>();
+    recipe.page->bottomMm = json[3].get<double>();
+  }
   return {};
+}
+
+Result<void> readScanPage(const Json& json, Recipe& recipe) {
+  if (!json.is_object()) return refuse("The recipe is damaged: \"scan_page\" is not an object.");
+  for (const auto& [name, value] : json.items()) {
+    const auto number = integerFromJson(value);
+    if (name == "number" && number) {
+      recipe.scanPage.number = *number;
+    } else if (name == "pdf_dpi" && value.is_number()) {
+      recipe.scanPage.pdfDpi = value.get<double>();
+    } else {
+      return refuse("The recipe holds \"" + name +
+                    "\" in its scan_page, which this version of Batten does not know or cannot read.");
+    }
+  }
+  return {};
+}
+
+Json numbersToJson(const CurveNumbers& numbers) {
+  Json curves = Json::array();
+  for (const NumberedCurve& curve : numbers.curves) {
+    Json& places = curves.emplace_back(Json{{"number", curve.number}, {"places", Json::array()}})["places"];
+    for (const Vec2& p : curve.placesPx) places.push_back({p.x(), p.y()});
+  }
+  return {{"last", numbers.lastGiven}, {"known", std::move(curves)}};
 }
 
 Json traceModesToJson(const Recipe& recipe) {
@@ -310,6 +342,26 @@ Result<void> readTraceModes(const Json& json, Recipe& recipe) {
   return {};
 }
 
+Result<void> readNumbers(const Json& json, Recipe& recipe) {
+  const auto damaged = [] {
+    return refuse(
+        "The recipe is damaged: \"curves\" does not hold just the \"last\" number and the numbers and places "
+        "\"known\". Without \"curves\" it can be used; its curves are numbered anew then.");
+  };
+  const bool isWhole = json.is_object() && json.size() == 2 && json.contains("last") && json.contains("known");
+  const auto last = isWhole ? integerFromJson(json["last"]) : std::nullopt;
+  if (!last || !json["known"].is_array()) return damaged();
+  recipe.curveNumbers.lastGiven = *last;
+  for (const Json& entry : json["known"]) {
+    const bool isOne = entry.is_object() && entry.size() == 2 && entry.contains("number") && entry.contains("places");
+    const auto number = isOne ? integerFromJson(entry["number"]) : std::nullopt;
+    auto places = number ? pairsFromJson(entry["places"]) : std::nullopt;
+    if (!places) return damaged();
+    recipe.curveNumbers.curves.push_back({*number, std::move(*places)});
+  }
+  return {};
+}
+
 Result<void> checkHead(const Json& json) {
   if (!json.is_object() || !json.contains("format") || json["format"] != kFormat) {
     return refuse("This is not a Batten recipe. Choose a file that Batten saved as a recipe.");
@@ -334,9 +386,18 @@ Result<void> readEntry(const std::string& name, const Json& value, Recipe& recip
   if (name == "choices") return readChoices(value, recipe);
   if (name == "strokes") return readStrokes(value, recipe);
   if (name == "page") return readPage(value, recipe);
+  if (name == "imports") {
+    auto imports = importsFromJson(value);
+    if (!imports) return fail(imports.error());
+    recipe.imports = std::move(*imports);
+    return {};
+  }
+  if (name == "scan_page") return readScanPage(value, recipe);
   if (name == "extrema") return readExtrema(value, recipe);
   if (name == "regions") return readRegions(value, recipe);
   if (name == "ways") return readTraceModes(value, recipe);
+  if (name == "curves") return readNumbers(value, recipe);
+  if (const auto mark = readPlacedMark(name, value, recipe); !mark || *mark) return mark.map([](bool) {});
   if (name != "dpi") {
     return refuse("The recipe holds \"" + name + "\", which this version of Batten does not know.");
   }
@@ -366,7 +427,14 @@ std::string recipeToJson(const Recipe& recipe) {
     Json& strokes = json["strokes"] = Json::array();
     for (const PenStroke& stroke : recipe.penStrokes) strokes.push_back(strokeToJson(stroke));
   }
-  if (recipe.page) json["page"] = {recipe.page->widthPx, recipe.page->heightPx};
+  if (recipe.scanPage != PageChoice{})
+    json["scan_page"] = {{"number", recipe.scanPage.number}, {"pdf_dpi", recipe.scanPage.pdfDpi}};
+  if (!recipe.imports.empty()) json["imports"] = importsToJson(recipe.imports);
+  if (const auto& page = recipe.page) {
+    json["page"] = {page->widthPx, page->heightPx};
+    if (page->leftMm != 0.0 || page->bottomMm != 0.0)
+      json["page"].insert(json["page"].end(), {page->leftMm, page->bottomMm});
+  }
   Json& extrema = json["extrema"] = Json::array();
   for (const ExtremumChoice& choice : recipe.extremumChoices) {
     extrema.push_back({{"at", {choice.positionPx.x(), choice.positionPx.y()}}, {"keep", choice.keep}});
@@ -377,6 +445,8 @@ std::string recipeToJson(const Recipe& recipe) {
     for (const Vec2& p : region.cornersPx) polygon.push_back({p.x(), p.y()});
   }
   if (!recipe.edges.choices.empty()) json["ways"] = traceModesToJson(recipe);
+  if (recipe.curveNumbers.lastGiven > 0) json["curves"] = numbersToJson(recipe.curveNumbers);
+  addPlacedMarks(recipe, json);
   return json.dump(1) + "\n";
 }
 
@@ -394,6 +464,8 @@ Result<Recipe> recipeFromJson(std::string_view text, const RunContext& context) 
       if (context.isCancelled()) return cancelled();
       if (auto read = readEntry(name, value, recipe); !read) return fail(read.error());
     }
+    // The line says the resolution, whatever was written beside it.
+    if (recipe.scaleLine && resolutionOf(*recipe.scaleLine)) recipe.dpi = resolutionOf(*recipe.scaleLine);
     if (auto wrong = validate(recipe)) return refuse("The recipe cannot be used. " + wrong->message, wrong->detail);
     return recipe;
   } catch (const Json::exception& e) {

@@ -8,6 +8,7 @@
 
 #include "core/construct/construct.h"
 #include "core/curve/arc_length.h"
+#include "core/pipeline/run/imported_lines.h"
 #include "core/pipeline/run/piece_choices.h"
 #include "core/pipeline/run/segment_points.h"
 #include "core/pipeline/run/stage_items.h"
@@ -72,7 +73,7 @@ ConstructContour inputOf(const ContourSet& contours, const PieceSet& pieces, con
   input.pixelMm = frame.mmPerPx;
   for (std::size_t i = range.first; i < range.last; ++i) {
     input.pieces.push_back(pieceInput(pieces.pieces[i], segments.pieces[i], frame));
-    if (contour.kind == ContourKind::Pen) input.pieces.back().drawn = drawnPoints(pieces.pieces[i]);
+    if (isDrawn(contour.kind)) input.pieces.back().drawn = drawnPoints(pieces.pieces[i]);
   }
   return input;
 }
@@ -110,14 +111,18 @@ class ContourBuilder {
         someTypical ? assignSegmentPoints(pieces, recipe) : std::vector<std::vector<std::size_t>>(pieces.pieces.size());
   }
 
-  ContourOutcome buildAlone(std::size_t piece) const { return buildAlike({piece, piece + 1}); }
+  /// From the points of the line, whatever the user chose for its curves.
+  ContourOutcome buildFromPoints(PieceRange range) const { return buildAlike(range); }
 
   ContourOutcome build(PieceRange range) const {
-    ContourOutcome outcome = buildAlike(range);
+    auto imported = buildImported(range);
+    ContourOutcome outcome = imported ? std::move(*imported) : buildAlike(range);
     if (choices_.empty()) return outcome;
     for (TracedCurve& curve : outcome.curves) {
       const auto& choice = choices_[curve.piece];
-      if (choice && own_[*choice].method) constructAsChosen(curve, *own_[*choice].method);
+      if (!choice || !own_[*choice].method) continue;
+      const bool isImported = contours_.contours[curve.contour].imported.has_value();
+      constructAsChosen(curve, *own_[*choice].method, isImported);
     }
     return outcome;
   }
@@ -166,8 +171,8 @@ class ContourBuilder {
   }
 
   /// A piece with a method of its own.
-  void constructAsChosen(TracedCurve& curve, ConstructMethod method) const {
-    if (method == recipe_.construct.method) return;
+  void constructAsChosen(TracedCurve& curve, ConstructMethod method, bool evenIfCommon) const {
+    if (method == recipe_.construct.method && !evenIfCommon) return;
     ConstructParams params = recipe_.construct;
     params.method = method;
     const auto index = static_cast<std::size_t>(curve.piece);
@@ -177,6 +182,22 @@ class ContourBuilder {
     } else {
       curve.construct.note = "Its own method gave no curve: " + own.error().message;
     }
+  }
+
+  /// Curves of other programs stay what they are, until the user chooses a method for one of them. Nothing for other
+  /// lines.
+  std::optional<ContourOutcome> buildImported(PieceRange range) const {
+    const Contour& contour = contours_.contours[pieces_.pieces[range.first].contour];
+    const ImportedLine* line = importedLineOf(contour, recipe_.imports);
+    if (line == nullptr || line->curves.empty()) return std::nullopt;
+    const std::span<const Piece> pieces(pieces_.pieces.data() + range.first, range.last - range.first);
+    ContourOutcome outcome;
+    const auto exact = importedCurves(*line, pieces, frame_);
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      if (!exact[i]) return std::nullopt;
+      add(outcome, range.first + i, {*exact[i], {}, fairableShape(*exact[i])});
+    }
+    return outcome;
   }
 
   Error named(Error error, std::size_t piece) const {
@@ -286,7 +307,7 @@ Result<std::vector<TracedCurve>> constructLine(const PipelineOutput& out, const 
     alike.choices.clear();
     const PieceRange range = rangeOf(*out.pieces, contour);
     const ContourBuilder builder(*out.contours, *out.pieces, *out.segments, alike, out.frame, context);
-    ContourOutcome outcome = builder.build(range);
+    ContourOutcome outcome = builder.buildFromPoints(range);
     if (context.isCancelled()) return cancelled();
     std::vector<TracedCurve> curves(range.last - range.first);
     for (TracedCurve& curve : outcome.curves) {
@@ -308,7 +329,8 @@ Result<TracedCurve> constructPiece(const PipelineOutput& out, const Recipe& reci
     Recipe alike = recipe;
     alike.choices.clear();
     const ContourBuilder builder(*out.contours, *out.pieces, *out.segments, alike, out.frame, context);
-    ContourOutcome outcome = builder.buildAlone(static_cast<std::size_t>(piece));
+    ContourOutcome outcome =
+        builder.buildFromPoints({static_cast<std::size_t>(piece), static_cast<std::size_t>(piece) + 1});
     if (context.isCancelled()) return cancelled();
     if (outcome.curves.empty())
       return fail(outcome.failures.empty() ? Error{ErrorCode::NoCurve, "The line gave no curve.", {}}

@@ -6,6 +6,7 @@
 
 #include "core/construct/light/light_pieces.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/curvature.h"
 #include "core/fairing/edge_length_fairing.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_line.h"
@@ -53,11 +54,11 @@ FairingParams paramsFor(const std::optional<std::size_t>& choice, const Recipe& 
   return params;
 }
 
-/// What the fairing may know of the line. A drawn stroke has no noise to be told from what was meant.
+/// What the fairing may know of the line. A drawn or imported line has no noise to be told from what was meant.
 FairingLine lineOf(const Piece& piece, ContourKind kind, const PageFrame& frame) {
   FairingLine line;
   line.pixelMm = frame.mmPerPx;
-  if (kind == ContourKind::Pen) return line;
+  if (isDrawn(kind)) return line;
   // Blur rounds the edge near a corner, and the width of a stroke its middle: as in the fair fit.
   const double reach = kind == ContourKind::Centreline ? 8.0 : 4.0;
   for (const Vec2& p : piece.points) {
@@ -110,7 +111,10 @@ class LineFairing {
     if (!light || light->report.kind == LightKind::Dense) return std::nullopt;
     const double moved = deviation(light->curve, curve_.fairingStart()).max;
     if (moved > std::max(curve_.fairingUsed.toleranceMm, faired.report.maxDeviationMm)) return std::nullopt;
+    const int extrema = countedExtrema(light->curve, curve_.closed);
+    if (extrema > faired.report.extremaAfter) return std::nullopt;
     FairedCurve result{std::move(light->curve), faired.report};
+    result.report.extremaAfter = extrema;
     result.report.maxDeviationMm = moved;
     return result;
   }

@@ -9,11 +9,11 @@
 #include <map>
 #include <utility>
 
-#include "core/construct/polygon/control_polygon.h"
 #include "core/pipeline/run/choice_course.h"
 #include "core/pipeline/run/curve_stages.h"
 #include "core/polyline/point_grid.h"
 #include "core/polyline/polyline_tools.h"
+#include "core/polyline/thinning.h"
 
 namespace batten {
 namespace {

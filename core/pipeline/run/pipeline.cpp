@@ -8,6 +8,7 @@
 #include "core/image/laplacian_edges.h"
 #include "core/pipeline/run/curve_stages.h"
 #include "core/pipeline/run/fair_stage.h"
+#include "core/pipeline/run/imported_lines.h"
 #include "core/pipeline/run/stage_keys.h"
 
 namespace batten {
@@ -39,6 +40,11 @@ std::size_t bytesOf(const PieceSet& set) {
         sizeof(p) + vectorBytes(p.points) + vectorBytes(p.refined) + vectorBytes(p.sigmaPx) + vectorBytes(p.spreadPx);
   return bytes;
 }
+std::size_t bytesOf(const PieceNumbers& numbers) {
+  std::size_t bytes = sizeof(numbers) + vectorBytes(numbers.ofPiece) + vectorBytes(numbers.known.curves);
+  for (const NumberedCurve& curve : numbers.known.curves) bytes += vectorBytes(curve.placesPx);
+  return bytes;
+}
 std::size_t bytesOf(const SegmentSet& set) {
   std::size_t bytes = sizeof(set);
   for (const PieceSegments& p : set.pieces) bytes += sizeof(p) + vectorBytes(p.stations);
@@ -60,7 +66,7 @@ std::size_t bytesOf(const FairedSet& set) { return sizeof(set) + bytesOf(set.cur
 class PipelineRun {
  public:
   PipelineRun(const Scan& scan, const Recipe& recipe, StageCache& cache, const PipelineRequest& request,
-      const RunContext& context)
+              const RunContext& context)
       : scan_(scan), recipe_(recipe), cache_(cache), request_(request), context_(context) {}
 
   PipelineOutput runStages() {
@@ -95,10 +101,12 @@ class PipelineRun {
       case StageId::Contours:
         return step(stage, out_.contours, [&] { return lines(); });
       case StageId::Pieces:
-        return step(stage, out_.pieces, [&] {
-          const GreyImage& grey = recipe_.cornerMarks.empty() ? scan_.grey : flattenedScan();
-          return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, &grey);
-        });
+        return step(stage, out_.pieces,
+                    [&] {
+                      const GreyImage& grey = recipe_.cornerMarks.empty() ? scan_.grey : flattenedScan();
+                      return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, &grey);
+                    }) &&
+               numberPiecesOnce();
       case StageId::Segments:
         return step(stage, out_.segments, [&] { return regressionSegments(*out_.pieces, recipe_.segments); });
       case StageId::Curves:
@@ -111,6 +119,21 @@ class PipelineRun {
         });
     }
     return false;
+  }
+
+  /// What the pieces are called; kept for the runs that change only later stages.
+  bool numberPiecesOnce() {
+    HashBuilder h;
+    h.text("curve numbers").hash(keys_[StageId::Pieces]).integer(recipe_.curveNumbers.lastGiven);
+    for (const NumberedCurve& curve : recipe_.curveNumbers.curves) {
+      h.integer(curve.number).integer(std::ssize(curve.placesPx));
+      for (const Vec2& p : curve.placesPx) h.number(p.x()).number(p.y());
+    }
+    const bool made = fill(StageId::Pieces, h.finish(), out_.numbers, [&]() -> Result<PieceNumbers> {
+      return numberPieces(*out_.pieces, recipe_.curveNumbers, context_);
+    });
+    if (made) takeTime(StageId::Pieces);
+    return made;
   }
 
   /// The scan without its folds, made once a run.
@@ -136,11 +159,12 @@ class PipelineRun {
     return fail(ErrorCode::NoCurve, "No line lies inside the region: draw a larger one or clear it.");
   }
 
-  /// The lines found on the scan, and behind them those drawn by hand. The found ones are kept by themselves, so that a
-  /// new stroke does not trace the page again.
+  /// The lines found on the scan, and behind them those of other programs and those drawn by hand. The found ones are
+  /// kept by themselves, so that a new stroke does not trace the page again.
   Result<ContourSet> lines() {
-    if (recipe_.penStrokes.empty()) {
-      if (isBlank(scan_)) return fail(ErrorCode::NoCurve, "The page is empty. Draw a line with the pen.");
+    if (recipe_.penStrokes.empty() && recipe_.imports.empty()) {
+      if (isBlank(scan_))
+        return fail(ErrorCode::NoCurve, "The page is empty. Draw a line with the pen, or import curves.");
       return traceRegions();
     }
     auto traced = cache_.find<ContourSet>(keys_.traced);
@@ -152,7 +176,7 @@ class PipelineRun {
       traced = std::make_shared<const ContourSet>(found ? std::move(*found) : ContourSet{});
       if (found) cache_.store(keys_.traced, traced, bytesOf(*traced));
     }
-    return withPenStrokes(*traced, recipe_.penStrokes);
+    return withPenStrokes(withImports(*traced, recipe_.imports, out_.frame), recipe_.penStrokes);
   }
 
   /// Fills `slot` from the cache or by running `work`; false if the run ends here.
@@ -161,17 +185,26 @@ class PipelineRun {
     begin_ = Clock::now();
     StageTiming& timing = out_.timing[indexOf(stage)];
     timing.run = true;
+    slot = cache_.find<T>(keys_[stage]);
+    timing.fromCache = slot != nullptr;
+    if (!fill(stage, keys_[stage], slot, work)) return false;
+    takeTime(stage);
+    return true;
+  }
+
+  /// As step(), for one of the outputs of a stage.
+  template <class T, class Work>
+  bool fill(StageId stage, const ContentHash& key, std::shared_ptr<const T>& slot, const Work& work) {
     try {
       if (context_.isCancelled()) return stop(stage, {ErrorCode::Cancelled, "Cancelled.", {}});
-      slot = cache_.find<T>(keys_[stage]);
-      timing.fromCache = slot != nullptr;
+      if (!slot) slot = cache_.find<T>(key);
       if (!slot) {
         Result<T> result = work();
         // A stage that was interrupted may hand back what it had: never kept.
         if (context_.isCancelled()) return stop(stage, {ErrorCode::Cancelled, "Cancelled.", {}});
         if (!result) return stop(stage, std::move(result).error());
         slot = std::make_shared<const T>(std::move(*result));
-        cache_.store(keys_[stage], slot, bytesOf(*slot));
+        cache_.store(key, slot, bytesOf(*slot));
       }
     } catch (const std::bad_alloc&) {
       slot = nullptr;
@@ -186,7 +219,6 @@ class PipelineRun {
                               "\" failed on this drawing. Change its settings or report it.",
                           e.what()});
     }
-    takeTime(stage);
     return true;
   }
 
@@ -220,8 +252,19 @@ PipelineOutput runPipeline(const Scan& scan, const Recipe& recipe, StageCache& c
   return PipelineRun(scan, recipe, cache, request, context).runStages();
 }
 
+int curveNumber(const PipelineOutput& output, const TracedCurve& curve) {
+  // Curves of an older run may be shown beside the pieces of a newer one, for a moment.
+  const bool isKnown = output.numbers && curve.piece >= 0 && curve.piece < std::ssize(output.numbers->ofPiece);
+  return isKnown ? output.numbers->ofPiece[curve.piece] : curve.piece + 1;
+}
+
 PageFrame frameFor(const Scan& scan, const Recipe& recipe) {
-  return pageFrame(scan, recipe.dpi ? recipe.dpi : scan.dpi);
+  PageFrame frame = pageFrame(scan, recipe.dpi ? recipe.dpi : scan.dpi);
+  if (recipe.page) {
+    frame.leftMm = recipe.page->leftMm;
+    frame.bottomMm = recipe.page->bottomMm;
+  }
+  return frame;
 }
 
 bool isScaleAssumed(const Scan& scan, const Recipe& recipe) { return !recipe.dpi && !scan.dpi; }

@@ -22,6 +22,7 @@
 #include "core/image/scan.h"
 #include "core/pipeline/recipe/recipe.h"
 #include "core/pipeline/recipe/stage_id.h"
+#include "core/pipeline/run/piece_numbers.h"
 #include "core/pipeline/run/stage_cache.h"
 
 namespace batten {
@@ -79,6 +80,7 @@ struct PipelineOutput {
   std::shared_ptr<const BitImage> edges;
   std::shared_ptr<const ContourSet> contours;
   std::shared_ptr<const PieceSet> pieces;
+  std::shared_ptr<const PieceNumbers> numbers;  ///< Of `pieces`, and by TracedCurve::piece of the curves.
   std::shared_ptr<const SegmentSet> segments;
   std::shared_ptr<const ConstructedSet> constructed;
   std::shared_ptr<const FairedSet> faired;
@@ -99,6 +101,9 @@ struct PipelineRequest {
 /// same output with any number of threads and any state of the cache. Never throws for bad input; see
 /// PipelineOutput::error.
 PipelineOutput runPipeline(const Scan&, const Recipe&, StageCache&, const PipelineRequest&, const RunContext&);
+
+/// The number of a curve of this output, from 1: what the user knows it by.
+int curveNumber(const PipelineOutput&, const TracedCurve&);
 
 /// What the constructions take of one line (contour): all its pieces, model frame. Empty if there is no such line.
 ConstructContour lineInput(const PipelineOutput&, int contour);

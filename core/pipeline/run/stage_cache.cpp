@@ -37,12 +37,15 @@ void StageCache::store(const ContentHash& key, std::shared_ptr<const void> value
   used_ += bytes;
 }
 
-void StageCache::clear() {
-  std::map<ContentHash, Entry> dropped;
+std::vector<std::shared_ptr<const void>> StageCache::release() {
+  std::vector<std::shared_ptr<const void>> released;
   const std::scoped_lock lock(mutex_);
-  dropped.swap(entries_);
+  released.reserve(entries_.size());
+  for (auto& [key, entry] : entries_) released.push_back(std::move(entry.value));
+  entries_.clear();
   ages_.clear();
   used_ = 0;
+  return released;
 }
 
 std::size_t StageCache::bytesUsed() const {

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include "core/base/content_hash.h"
 
@@ -24,7 +25,9 @@ class StageCache {
   }
   /// Stores an output that takes about `bytes`; one larger than the budget is not kept.
   void store(const ContentHash& key, std::shared_ptr<const void> value, std::size_t bytes);
-  void clear();
+  /// Everything stored so far, which it then no longer holds: to be freed where that may take a while. What is stored
+  /// afterwards stays.
+  std::vector<std::shared_ptr<const void>> release();
   std::size_t bytesUsed() const;
 
  private:

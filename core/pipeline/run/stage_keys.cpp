@@ -63,7 +63,8 @@ ContentHash scanKey(const Scan& scan) {
   // A scan that was not read from a file has no file hash; its pixels identify it.
   const bool hasFile =
       std::any_of(scan.fileHash.bytes.begin(), scan.fileHash.bytes.end(), [](auto b) { return b != 0; });
-  return hasFile ? h.hash(scan.fileHash).finish() : h.bytes(std::as_bytes(std::span(scan.grey.pixels))).finish();
+  if (hasFile) h.hash(scan.fileHash).integer(scan.page.number).number(scan.page.pdfDpi);
+  return hasFile ? h.finish() : h.bytes(std::as_bytes(std::span(scan.grey.pixels))).finish();
 }
 
 /// Adds to the digest what of the recipe a stage reads itself: its parameters, so that none can be forgotten, and the
@@ -97,7 +98,7 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
       break;
     case StageId::Curves:
       addMethods(h, r);
-      h.number(frame.mmPerPx).integer(frame.heightPx);
+      h.number(frame.mmPerPx).integer(frame.heightPx).number(frame.leftMm).number(frame.bottomMm);
       addCount(h, r.segmentPoints);
       for (const SegmentPoint& point : r.segmentPoints) add(h, point.positionPx);
       addCount(h, r.extremumChoices);
@@ -112,6 +113,38 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
       for (const CornerMark& mark : r.cornerMarks) h.number(mark.roundMm);
       break;
   }
+}
+
+void add(HashBuilder& h, const ImportedLine& line) {
+  h.integer(line.closed);
+  addCount(h, line.curves);
+  for (const NurbsCurve& curve : line.curves) {
+    h.integer(curve.degree()).integer(std::ssize(curve.knots())).integer(std::ssize(curve.weights()));
+    for (const double knot : curve.knots()) h.number(knot);
+    for (const Vec2& p : curve.controlPoints()) add(h, p);
+    for (const double weight : curve.weights()) h.number(weight);
+  }
+  addCount(h, line.points);
+  for (const Vec2& p : line.points) add(h, p);
+  addCount(h, line.corners);
+  for (const int corner : line.corners) h.integer(corner);
+}
+
+ContentHash withImports(const ContentHash& lines, const Recipe& recipe, const PageFrame& frame) {
+  HashBuilder h;
+  h.text("imports")
+      .hash(lines)
+      .number(frame.mmPerPx)
+      .integer(frame.heightPx)
+      .number(frame.leftMm)
+      .number(frame.bottomMm);
+  addCount(h, recipe.imports);
+  for (const ImportedFile& file : recipe.imports) {
+    h.text(file.source);
+    addCount(h, file.lines);
+    for (const ImportedLine& line : file.lines) add(h, line);
+  }
+  return h.finish();
 }
 
 ContentHash withStrokes(const ContentHash& traced, const Recipe& recipe) {
@@ -140,6 +173,7 @@ StageKeys stageKeys(const Scan& scan, const Recipe& recipe, const PageFrame& fra
     if (kStages[i] == StageId::Contours) {
       result.traced = result.keys[i];
       if (!recipe.penStrokes.empty()) result.keys[i] = withStrokes(result.traced, recipe);
+      if (!recipe.imports.empty()) result.keys[i] = withImports(result.keys[i], recipe, frame);
     }
     // The edges picture is only looked at; contours are made from the filtered mask.
     if (kStages[i] != StageId::Edges) input = &result.keys[i];

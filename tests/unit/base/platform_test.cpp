@@ -2,6 +2,7 @@
 #include "core/base/platform.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstring>
@@ -21,6 +22,17 @@ TEST(Platform, MemoryThatIsTakenIsSeen) {
   EXPECT_GE(residentMemoryBytes(getpid()) + (kBlock / 8), before + kBlock);
   EXPECT_GE(peakMemoryBytes() + (kBlock / 8), before + kBlock);
   EXPECT_EQ(residentMemoryBytes(-1), 0u);
+}
+
+TEST(Platform, AProcessIsKnownByItsNumber) {
+  EXPECT_TRUE(isProcessRunning(getpid()));
+  EXPECT_TRUE(isProcessRunning(1));  // of somebody else, perhaps
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  EXPECT_FALSE(isProcessRunning(child));
+  EXPECT_FALSE(isProcessRunning(0));
+  EXPECT_FALSE(isProcessRunning(-1));
 }
 
 TEST(Platform, NoMoreMemoryIsFreeThanThereIs) {

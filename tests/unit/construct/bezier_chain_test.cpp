@@ -7,7 +7,6 @@
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
-#include "core/solve/block_levenberg.h"
 #include "tests/unit/construct/roof_line.h"
 #include "tests/unit/construct/stations_of.h"
 
@@ -30,21 +29,6 @@ double variation(const NurbsCurve& curve) {
   const auto samples = sampleByArcLength(curve, 2001);
   for (std::size_t i = 1; i < samples.size(); ++i) sum += std::abs(samples[i].kappa - samples[i - 1].kappa);
   return sum;
-}
-
-TEST(MinimiseBlocks, FindsTheBottomOfRosenbrocksValley) {
-  const std::vector<ResidualBlock> blocks = {{{0, 1}, 2, [](std::span<const double> x, std::span<double> r) {
-                                                r[0] = 10.0 * (x[1] - x[0] * x[0]);
-                                                r[1] = 1.0 - x[0];
-                                              }}};
-  const auto found = minimiseBlocks(Eigen::Vector2d(-1.2, 1.0), Eigen::Vector2d::Ones(), blocks, {});
-  EXPECT_LT(found.after, 1e-12);
-  EXPECT_NEAR(found.before, 24.2, 1e-9);
-  EXPECT_NEAR(found.x(0), 1.0, 1e-5);
-  const std::vector<ResidualBlock> broken = {
-      {{0}, 1, [](std::span<const double> x, std::span<double> r) { r[0] = std::log(-std::abs(x[0])); }}};
-  EXPECT_EQ(minimiseBlocks(Eigen::VectorXd::Ones(1), Eigen::VectorXd::Ones(1), broken, {}).why,
-            Termination::Degenerate);
 }
 
 TEST(BezierPath, PassesTheStationsInTheirDirections) {

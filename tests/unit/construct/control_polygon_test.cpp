@@ -108,30 +108,6 @@ TEST(ControlPolygonCurve, IsTheBezierCurveOfItsDoubledPoints) {
   }
 }
 
-TEST(Thinned, KeepsEndsAndSharpPointsAndTheTolerance) {
-  std::vector<Vec2> points;
-  for (int i = 0; i <= 500; ++i) points.push_back(test::ellipsePoint(0.003 * i));
-  const std::vector<int> sharp = {100, 103, 333};
-  const auto byStep = thinnedByStep(points, sharp, 20.0);
-  const auto byTolerance = thinnedByTolerance(points, sharp, 0.5);
-  for (const auto& kept : {byStep, byTolerance}) {
-    EXPECT_EQ(kept.front(), 0);
-    EXPECT_EQ(kept.back(), 500);
-    EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
-    EXPECT_LT(kept.size(), 60u);
-    for (const int s : sharp) EXPECT_NE(std::find(kept.begin(), kept.end(), s), kept.end());
-  }
-  for (std::size_t k = 0; k + 1 < byTolerance.size(); ++k) {
-    const Vec2 a = points[byTolerance[k]];
-    const Vec2 chord = (points[byTolerance[k + 1]] - a).normalized();
-    for (int i = byTolerance[k]; i <= byTolerance[k + 1]; ++i) {
-      EXPECT_LE(std::abs(cross(chord, points[i] - a)), 0.5 + 1e-12);
-    }
-  }
-  EXPECT_TRUE(thinnedByStep({}, {}, 1.0).empty());
-  EXPECT_EQ(thinnedByStep(points, {}, 0.0).size(), points.size());
-}
-
 TEST(ConstructControlPolygon, AllDegreesOpenAndClosed) {
   for (int degree = 2; degree <= 5; ++degree) {
     ConstructParams params;

@@ -97,7 +97,22 @@ TEST(ExportBuilder, AMissingPieceInterruptsTheLine) {
   EXPECT_EQ(firstAbscissas(document.curves[0]), std::vector{2});
   EXPECT_EQ(firstAbscissas(document.curves[1]), std::vector{0});
   EXPECT_FALSE(document.curves[0].closed || document.curves[1].closed);
-  EXPECT_EQ(document.curves[2].id, "curve-3");
+  EXPECT_EQ(document.curves[2].id, "curve-5");
+}
+
+TEST(ExportBuilder, NamesPathsAndPiecesByTheNumbersOfTheirCurves) {
+  Scene scene;
+  scene.output.numbers = std::make_shared<PieceNumbers>(PieceNumbers{{9, 4, 12, 30, 2, 77}, {}});
+  scene.faired.curves[1].included = false;
+  const ExportDocument document = scene.build();
+  ASSERT_EQ(document.curves.size(), 2u);
+  EXPECT_EQ(document.curves[0].id, "curve-9");
+  ASSERT_EQ(document.curves[0].pieces.size(), 3u);
+  EXPECT_EQ(document.curves[0].pieces[0].name, "Curve 12");
+  EXPECT_EQ(document.curves[0].pieces[0].number, 12);
+  EXPECT_EQ(document.curves[0].pieces[2].name, "Curve 9");
+  EXPECT_EQ(document.curves[1].id, "curve-2");
+  EXPECT_EQ(document.curves[1].pieces[1].name, "Curve 77");
 }
 
 TEST(ExportBuilder, ARunWithoutResultGivesNothing) {

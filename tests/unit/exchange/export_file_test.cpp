@@ -10,7 +10,10 @@
 
 #include "core/base/number_text.h"
 #include "core/curve/arc_length.h"
+#include "core/exchange/cad_drawing.h"
 #include "core/exchange/csv_writer.h"
+#include "core/exchange/dxf_reader.h"
+#include "core/exchange/dxf_writer.h"
 #include "core/exchange/file_text.h"
 #include "core/exchange/polynomial_writer.h"
 #include "tests/unit/exchange/exchange_shapes.h"
@@ -45,7 +48,7 @@ ExportSettings settingsOf(ExportFormat format) {
 TEST_F(ExportFile, WritesEveryFormatAndStatesTheDifference) {
   for (const ExportFormat format :
        {ExportFormat::Svg, ExportFormat::Json, ExportFormat::Dxf, ExportFormat::Iges, ExportFormat::Step,
-        ExportFormat::Pdf, ExportFormat::Csv, ExportFormat::Polynomials}) {
+        ExportFormat::Pdf, ExportFormat::Csv, ExportFormat::Polynomials, ExportFormat::Rhino}) {
     const fs::path path = folder_ / ("süße kurve" + std::string(endingsOf(format)[0]));
     EXPECT_EQ(formatOf(path), format);
     const auto report = exportToFile(exportOfAllKinds(), settingsOf(format), path);
@@ -94,6 +97,43 @@ TEST_F(ExportFile, RefusesAndLeavesTheOldFileWhole) {
   EXPECT_EQ(exportToFile(exportOfAllKinds(), settingsOf(ExportFormat::Dxf), path, stopped).error().code,
             ErrorCode::Cancelled);
   EXPECT_EQ(contentOf(path), "old");
+}
+
+/// The file with another first digit after the point in the number that begins at `at`.
+std::string withAnotherDigit(std::string text, std::size_t at) {
+  const auto point = text.find('.', at);
+  EXPECT_NE(point, std::string::npos);
+  text[point + 1] = text[point + 1] == '7' ? '2' : '7';
+  return text;
+}
+
+TEST(ReadBack, ADigitThatChangedInATableIsNoticed) {
+  const ExportDocument document = exportOfAllKinds();
+  const auto isNoticed = [](const Result<double>& difference) { return !difference || *difference > 1e-9; };
+  const std::string csv = *writeCsv(document, settingsOf(ExportFormat::Csv));
+  const auto row = csv.find("\ncurve-2,");
+  ASSERT_NE(row, std::string::npos);
+  EXPECT_TRUE(
+      isNoticed(checkCsv(withAnotherDigit(csv, csv.find('\n', row + 1)), document, settingsOf(ExportFormat::Csv))));
+  EXPECT_FALSE(checkCsv(csv.substr(0, csv.size() / 2), document, settingsOf(ExportFormat::Csv)));
+  const ExportSettings list = settingsOf(ExportFormat::Polynomials);
+  const std::string poly = *writePolynomials(document, list);
+  EXPECT_TRUE(isNoticed(checkPolynomials(withAnotherDigit(poly, poly.size() / 2), document, list)));
+  EXPECT_FALSE(checkPolynomials(poly.substr(0, poly.size() / 2), document, list));
+}
+
+TEST(ReadBack, AVertexThatMovedInAnR12PolylineIsNoticed) {
+  ExportSettings settings = settingsOf(ExportFormat::Dxf);
+  settings.dxf = DxfProfile::Cnc;
+  const auto made = cadExport(exportOfAllKinds(), settings);
+  ASSERT_TRUE(made);
+  const auto text = writeDxf(made->drawing, DxfProfile::Cnc);
+  ASSERT_TRUE(text);
+  EXPECT_LE(largestDifference(made->drawing, *readDxf(*text)).value(), 1e-9);
+  const auto vertex = text->find("VERTEX", text->size() / 2);
+  const auto moved = readDxf(withAnotherDigit(*text, text->find("\n 10\n", vertex)));
+  ASSERT_TRUE(moved);
+  EXPECT_GT(largestDifference(made->drawing, *moved).value(), 1e-3);
 }
 
 TEST(ExportSettings, EndingsChooseTheFormatWhateverTheirCase) {

@@ -144,6 +144,7 @@ TEST(ModifyShape, FindsTheKnownCurves) {
 TEST(ModifyShape, NeverLeavesTheToleranceAndSaysWhy) {
   const NurbsCurve start = test::noisy(test::ellipseQuarter(200, 120, 20), 0.5, 7);
   double before = 1e9;
+  int extrema = countedExtrema(start, false);
   for (const double tolerance : {0.01, 0.05, 0.2, 1.0, 5.0}) {
     FairingParams params;
     params.mode = FairingMode::Target;
@@ -155,10 +156,15 @@ TEST(ModifyShape, NeverLeavesTheToleranceAndSaysWhy) {
     EXPECT_LE(deviation(start, faired->curve).max, tolerance);
     EXPECT_EQ(faired->report.withinTolerance, faired->report.neededMm <= tolerance);
     EXPECT_EQ(faired->report.why == Termination::ToleranceLimited, !faired->report.withinTolerance);
-    EXPECT_LE(faired->report.objectiveAfter, before * 1.001);
+    // Farther from the profile only for fewer extrema.
+    EXPECT_TRUE(faired->report.objectiveAfter <= before * 1.001 || faired->report.extremaAfter < extrema)
+        << tolerance << ": " << faired->report.objectiveAfter << " after " << before << ", " << extrema;
+    EXPECT_LE(faired->report.extremaAfter, extrema);
+    extrema = faired->report.extremaAfter;
     if (!faired->report.withinTolerance) {
-      EXPECT_GT(faired->report.maxDeviationMm, 0.8 * tolerance);
+      EXPECT_FALSE(faired->report.note.empty());
     }
+    EXPECT_LE(faired->report.extremaAfter, faired->report.extremaBefore);
     before = faired->report.objectiveAfter;
   }
 }

@@ -28,7 +28,7 @@ class ScanReader : public testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
     return folder_ / name;
   }
-  std::string refusal(const std::filesystem::path& path, const ScanLimits& limits = {}) const {
+  std::string refusal(const std::filesystem::path& path, const ScanRequest& limits = {}) const {
     const auto scan = readScan(path, limits, {});
     if (scan) return "read";
     EXPECT_EQ(scan.error().code, ErrorCode::UnreadableScan);

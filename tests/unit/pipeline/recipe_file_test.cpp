@@ -45,6 +45,7 @@ Recipe fullRecipe() {
   r.extremumChoices = {{Vec2(1.0 / 7.0, 300.5), true}, {Vec2(12.25, 1e-3), false}};
   r.regions = {rectangleRegion({1.0 / 3.0, 2.0}, {300.0, 4e2}), {{Vec2(0, 0), Vec2(10.1, 3.3), Vec2(-4, 9)}}};
   r.edges.choices = {{Vec2(1.0 / 3.0, 20.0), EdgeMode::Outline}, {Vec2(300.0, 4e2), EdgeMode::Centreline}};
+  r.curveNumbers = {12, {{3, {Vec2(1.5, 20.0), Vec2(1.0 / 3.0, 7.0)}}, {12, {Vec2(300.1, 4.0)}}}};
   return r;
 }
 
@@ -55,6 +56,22 @@ TEST(RecipeFile, ReadsBackExactly) {
   const auto plain = recipeFromJson(recipeToJson(Recipe{}));
   ASSERT_TRUE(plain);
   EXPECT_EQ(*plain, Recipe{});
+}
+
+TEST(RecipeFile, RefusesNumbersOfCurvesThatCannotBe) {
+  const auto with = [](const std::string& curves) {
+    return recipeFromJson(R"({"format":"batten-recipe","version":1,"curves":)" + curves + "}");
+  };
+  EXPECT_TRUE(with(R"({"last":7,"known":[{"number":7,"places":[[1,2]]}]})"));
+  for (const char* damaged :
+       {"7", "{}", R"({"last":7})", R"({"last":1e300,"known":[]})", R"({"last":2000000000,"known":[]})",
+        R"({"last":7,"known":[{"number":0,"places":[[1,2]]}]})", R"({"last":7,"known":[{"number":1,"places":[]}]})",
+        R"({"last":7,"known":[{"number":1,"places":[[1,2]]},{"number":1,"places":[[1,2]]}]})",
+        R"({"last":7,"known":[{"number":1,"places":[[1e9,2]]}]})", R"({"last":-1,"known":[]})"}) {
+    const auto read = with(damaged);
+    ASSERT_FALSE(read) << damaged;
+    EXPECT_FALSE(read.error().message.empty());
+  }
 }
 
 TEST(RecipeFile, KeepsEveryDoubleOfRandomRecipes) {

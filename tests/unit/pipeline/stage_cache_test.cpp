@@ -24,9 +24,20 @@ TEST(StageCache, GivesBackWhatWasStored) {
   cache.store(key(1), value(12), 10);
   EXPECT_EQ(*cache.find<int>(key(1)), 12);
   EXPECT_EQ(cache.bytesUsed(), 10u);
-  cache.clear();
+}
+
+TEST(StageCache, HandsOverWhatItHoldsAndKeepsWhatComesAfter) {
+  StageCache cache(100);
+  cache.store(key(1), value(11), 40);
+  cache.store(key(2), value(12), 40);
+  auto released = cache.release();
+  EXPECT_EQ(released.size(), 2u);
   EXPECT_EQ(cache.find<int>(key(1)), nullptr);
   EXPECT_EQ(cache.bytesUsed(), 0u);
+  cache.store(key(3), value(13), 100);
+  released.clear();
+  ASSERT_NE(cache.find<int>(key(3)), nullptr);
+  EXPECT_EQ(cache.bytesUsed(), 100u);
 }
 
 TEST(StageCache, DropsTheLeastRecentlyUsed) {

@@ -139,6 +139,10 @@ QString cursorText(const CanvasScene& scene) {
 }
 
 QString workText(const CanvasScene& scene) {
+  const bool isCoarse =
+      (scene.session.coarseInk() && scene.view.isVisible(Layer::Mask)) || scene.session.coarseCurves();
+  if (isCoarse && !scene.view.isScanOnly())
+    return scene.session.isBusy() ? tr("coarse result · the full one follows") : tr("stopped · shows a coarse result");
   if (scene.session.isBusy()) return scene.isLate ? tr("working…") : QString();
   if (scene.session.hasScan() && scene.session.isStale(StageId::Faired)) return tr("stopped · shows the result before");
   return {};

@@ -101,8 +101,8 @@ void renderRaster(const RasterContent& content, double zoom, const QRect& device
   renderPage(content, zoom, device, out);
   const bool overPicture = content.showsPicture && content.pyramid;
   if (content.mask)
-    renderBits(*content.mask, zoom, device, overPicture ? colors::kMask : qRgb(24, 24, 24), overPicture ? 0.72 : 1.0,
-               1.0, out);
+    renderBits(*content.mask, zoom * content.maskFactor, device, overPicture ? colors::kMask : qRgb(24, 24, 24),
+               overPicture ? 0.72 : 1.0, 1.0, out);
   if (content.edges) renderBits(*content.edges, zoom, device, colors::kEdges, 0.9, std::max(1.0, 0.7 / zoom), out);
 }
 

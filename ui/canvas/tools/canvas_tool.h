@@ -54,5 +54,7 @@ std::unique_ptr<CanvasTool> makePenTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeSegmentTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeLinesTool(CanvasScene&);
 std::unique_ptr<CanvasTool> makeRegionTool(CanvasScene&, bool isLasso);
+std::unique_ptr<CanvasTool> makeScaleTool(CanvasScene&);
+std::unique_ptr<CanvasTool> makeDirectionTool(CanvasScene&);
 
 }  // namespace batten

@@ -5,10 +5,12 @@
 #include <QFileDialog>
 #include <QFileInfo>
 
+#include "ui/session/path_text.h"
+
 namespace batten {
 
 QString askSavePath(QWidget* parent, const SaveQuestion& question) {
-  const QFileInfo start(question.start);
+  const QFileInfo start(question.start);  // Unicode: proposals are
   QFileDialog dialog(parent, question.title, start.absolutePath(), question.filter);
   dialog.setObjectName(QStringLiteral("saveDialog"));
   dialog.setAcceptMode(QFileDialog::AcceptSave);
@@ -17,13 +19,14 @@ QString askSavePath(QWidget* parent, const SaveQuestion& question) {
   dialog.selectFile(start.fileName());
   if (dialog.exec() != QDialog::Accepted) return {};
   // Some desktops' own dialogs leave the suffix to the program.
-  return withSuffix(dialog.selectedFiles().value(0), question.suffix);
+  return withSuffix(chosenPath(dialog.selectedFiles().value(0)), question.suffix);
 }
 
 bool isOfProgram(const QString& path) {
   const QString own =
       QFileInfo(QCoreApplication::applicationDirPath() + QStringLiteral("/../share/batten")).canonicalFilePath();
-  return !own.isEmpty() && QFileInfo(path).canonicalFilePath().startsWith(own + QLatin1Char('/'));
+  return !own.isEmpty() && isUnicodePath(path) &&
+         QFileInfo(path).canonicalFilePath().startsWith(own + QLatin1Char('/'));
 }
 
 QString withSuffix(const QString& path, const QString& suffix) {

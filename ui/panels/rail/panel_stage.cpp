@@ -102,7 +102,7 @@ QString hint(PanelStage stage, bool isOpen) {
     case PanelStage::Fairing:
       return tr("Hover a target to see its curve; click to apply it.");
     case PanelStage::Export:
-      return tr("Curves whose eye is closed are left out.");
+      return tr("Choose who is to read the file, then export. F shows and turns directions; L leaves lines out.");
   }
   return {};
 }
@@ -118,7 +118,8 @@ StageState stateOf(PanelStage panel, const EditorSession& session) {
   if (panel == PanelStage::Scan) return StageState::Done;
   const PipelineOutput& out = session.output();
   // An empty page has not failed, it has not begun.
-  if (session.isBlankPage() && session.recipe().penStrokes.empty()) return StageState::Open;
+  if (session.isBlankPage() && session.recipe().penStrokes.empty() && session.recipe().imports.empty())
+    return StageState::Open;
   if (out.failedStage && panelOf(*out.failedStage) == panel) return StageState::Failed;
   const StageId stage = *pipelineStage(panel);
   if (panel == PanelStage::Export || !hasOutput(stage, out)) return StageState::Open;

@@ -27,9 +27,6 @@ constexpr int kFieldWidth = 92, kPresetLetters = 16;
 bool hasUnit(ExportFormat format) {
   return format != ExportFormat::Svg && format != ExportFormat::Pdf && format != ExportFormat::Json;
 }
-bool isCad(ExportFormat format) {
-  return format == ExportFormat::Dxf || format == ExportFormat::Iges || format == ExportFormat::Step;
-}
 QString nameOfFormat(ExportFormat format) {
   switch (format) {
     case ExportFormat::Svg:
@@ -44,6 +41,8 @@ QString nameOfFormat(ExportFormat format) {
       return QStringLiteral("STEP");
     case ExportFormat::Pdf:
       return QStringLiteral("PDF");
+    case ExportFormat::Rhino:
+      return QStringLiteral("3DM");
     default:
       return QStringLiteral("CSV");
   }
@@ -136,6 +135,8 @@ void ExportOptions::build() {
                       tr("What the format cannot hold exactly stays this close to the curves. Smaller: more pieces."));
   layout->addWidget(toleranceRow_);
   joined_->setObjectName(QStringLiteral("export.joined"));
+  joined_->setToolTip(
+      tr("On: a line with corners is one curve or path of the file. Off: every curve is one by itself."));
   layout->addWidget(joined_);
 }
 
@@ -150,12 +151,11 @@ void ExportOptions::choosePreset() {
   note_->setText(missing.isEmpty() ? QString::fromUtf8(chosen.note) : missing);
   unitRow_->setVisible(hasUnit(chosen.settings.format));
   toleranceRow_->setVisible(isApproximate(chosen.settings));
-  joined_->setVisible(isCad(chosen.settings.format));
   const QSettings settings;
   const QSignalBlocker quiet(joined_);
   const QString own = QLatin1Char('/') + QString::fromLatin1(chosen.id);
   tolerance_->setValue(settings.value(kToleranceKey + own, defaultTolerance(chosen.settings)).toDouble());
-  joined_->setChecked(settings.value(kJoinedKey + own, chosen.settings.joined).toBool());
+  joined_->setChecked(settings.value(kJoinedKey + own, isJoined(chosen.settings)).toBool());
   QSettings().setValue(kPresetKey, QString::fromLatin1(chosen.id));
 }
 
@@ -181,7 +181,7 @@ ExportSettings ExportOptions::settings() const {
   ExportSettings settings = preset().settings;
   settings.unit = hasUnit(settings.format) && unit_->currentIndex() == 1 ? LengthUnit::Inch : LengthUnit::Millimetre;
   settings.scale = scale_->value();
-  settings.joined = isCad(settings.format) && joined_->isChecked();
+  settings.joined = joined_->isChecked();
   if (isApproximate(settings)) settings.toleranceMm = tolerance_->value();
   return settings;
 }

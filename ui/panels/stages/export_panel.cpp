@@ -8,6 +8,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPointer>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QSettings>
 #include <QVBoxLayout>
@@ -18,7 +19,12 @@
 #include "ui/panels/controls/path_edit.h"
 #include "ui/panels/controls/save_dialog.h"
 #include "ui/panels/stages/export_options.h"
+#include "ui/panels/stages/export_preview.h"
+#include "ui/panels/stages/report_section.h"
+#include "ui/panels/stages/svg_carrier.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/direction_edits.h"
+#include "ui/session/path_text.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -28,7 +34,7 @@ const QString kFolderKey = QStringLiteral("export/folder");
 
 /// A name without the ending of an export, if it has one.
 QString withoutEnding(const QString& name) {
-  if (const auto format = formatOf(std::filesystem::path(name.toStdU16String()))) {
+  if (const auto format = formatOf(nativePath(name))) {
     for (const char* ending : endingsOf(*format))
       if (name.endsWith(QLatin1String(ending), Qt::CaseInsensitive)) return name.chopped(qsizetype(qstrlen(ending)));
   }
@@ -41,6 +47,12 @@ ExportPanel::ExportPanel(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
       options_(new ExportOptions(this)),
+      preview_(new ExportPreview(this)),
+      held_(note({}, this)),
+      turn_(linkButton(tr("Turn direction"), QStringLiteral("export.turn"), this)),
+      carrier_(new SvgCarrier(this)),
+      report_(new ReportSection(session, this)),
+      progress_(new QProgressBar(this)),
       path_(new PathEdit(this)),
       browse_(plainButton(tr("Choose…"), QStringLiteral("export.browse"), this)),
       size_(note({}, this)),
@@ -54,6 +66,19 @@ ExportPanel::ExportPanel(EditorSession& session, QWidget* parent)
     suggestName();
   });
   connect(options_, &ExportOptions::changed, this, &ExportPanel::refresh);
+  connect(preview_, &ExportPreview::changed, this, &ExportPanel::refresh);
+  connect(preview_, &ExportPreview::chosen, this, [this](int number) { session_.selectCurve(number - 1); });
+  connect(preview_, &ExportPreview::dragAsked, this, &ExportPanel::dragOut);
+  connect(turn_, &QPushButton::clicked, this, [this] { turnCurve(session_, session_.selectedCurve()); });
+  connect(carrier_, &SvgCarrier::copied, this, &ExportPanel::said);
+  connect(carrier_, &SvgCarrier::failed, this, &ExportPanel::failed);
+  connect(report_, &ReportSection::written, this, &ExportPanel::said);
+  connect(report_, &ReportSection::failed, this, &ExportPanel::failed);
+  connect(this, &ExportPanel::said, result_, &QLabel::setText);
+  connect(&session_, &EditorSession::selectionChanged, this, &ExportPanel::refresh);
+  connect(&session_, &EditorSession::stopped, this, [this] {
+    if (running_) cancel_.cancel();
+  });
   connect(path_, &QLineEdit::textEdited, this, [this] {
     confirmReplace_ = false;
     refresh();
@@ -82,6 +107,20 @@ void ExportPanel::buildForm() {
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Export"), this));
   layout->addWidget(options_);
+  layout->addWidget(caption(tr("What will be written"), this));
+  layout->addWidget(preview_);
+  held_->setObjectName(QStringLiteral("export.held"));
+  layout->addWidget(held_);
+  auto* hand = new QHBoxLayout;
+  hand->setSpacing(8);
+  turn_->setToolTip(tr("Export the selected curve the other way round.  (Shift+F)"));
+  hand->addWidget(turn_);
+  hand->addStretch();
+  auto* copyButton = linkButton(tr("Copy as SVG"), QStringLiteral("export.copy"), this);
+  copyButton->setToolTip(tr("Put the curves on the clipboard, to be pasted into a drawing program.  (Ctrl+Shift+C)"));
+  connect(copyButton, &QPushButton::clicked, this, &ExportPanel::copy);
+  hand->addWidget(copyButton);
+  layout->addLayout(hand);
   layout->addWidget(caption(tr("File"), this));
   auto* file = new QHBoxLayout;
   file->setSpacing(8);
@@ -94,9 +133,16 @@ void ExportPanel::buildForm() {
   layout->addWidget(size_);
   export_->setProperty("primary", true);
   layout->addWidget(export_);
+  progress_->setObjectName(QStringLiteral("export.progress"));
+  progress_->setAccessibleName(tr("Progress of the export"));
+  progress_->setRange(0, 100);
+  progress_->setTextVisible(false);
+  progress_->hide();
+  layout->addWidget(progress_);
   layout->addWidget(again_, 0, Qt::AlignLeft);
   result_->setObjectName(QStringLiteral("export.result"));
   layout->addWidget(result_);
+  layout->addWidget(report_);
   layout->addStretch();
 }
 
@@ -123,12 +169,12 @@ void ExportPanel::suggestName() {
     path_->setText(now.path() + QLatin1Char('/') + withoutEnding(now.fileName()) + QLatin1Char('.') + suffix);
     path_->setModified(true);
   } else if (session_.hasScan()) {
-    const QFileInfo scan(session_.scanPath());
+    const QString scan = session_.scanPath();
     QString folder = QSettings().value(kFolderKey).toString();
-    if (folder.isEmpty() && !session_.isBlankPage() && !isOfProgram(scan.absoluteFilePath()))
-      folder = scan.absolutePath();
-    if (folder.isEmpty() || !QFileInfo(folder).isWritable()) folder = QDir::homePath();
-    const QString name = session_.isBlankPage() ? QStringLiteral("drawing") : scan.completeBaseName();
+    if (folder.isEmpty() && !session_.isBlankPage() && !isOfProgram(scan)) folder = folderOf(scan);
+    if (folder.isEmpty() || !isUnicodePath(folder) || !QFileInfo(folder).isWritable()) folder = QDir::homePath();
+    const QString name =
+        session_.isBlankPage() ? QStringLiteral("drawing") : QFileInfo(proposedFileName(scan)).completeBaseName();
     path_->setText(folder + QLatin1Char('/') + name + QLatin1Char('.') + suffix);
     path_->setCursorPosition(static_cast<int>(path_->text().size()));
   }
@@ -175,9 +221,13 @@ void ExportPanel::refresh() {
   again_->setVisible(!session_.isWorking() && session_.isStopped() && session_.isStale(StageId::Faired));
   // Measured and looked for on the disk only while someone reads it.
   if (!isVisible()) return;
+  refreshPreview();
   const ExportSize size = session_.hasScan() ? this->size() : ExportSize{};
   export_->setEnabled(isReady() && options_->obstacle().isEmpty() && size.curves > 0 &&
                       !path_->text().trimmed().isEmpty());
+  report_->setReady(isReady() && size.curves > 0);
+  turn_->setEnabled(session_.selectedCurve() >= 0);
+  held_->setText(summary(size));
   const bool exists = QFileInfo::exists(path_->text()) && path_->text() != lastWritten_ && confirmReplace_;
   export_->setText(running_ ? tr("Writing…") : exists ? tr("Replace the file") : tr("Export"));
   if (const QString reason = reasonToWait(); !reason.isEmpty()) return size_->setText(reason);
@@ -198,10 +248,52 @@ void ExportPanel::refresh() {
 /// What was typed, with the ending of the format: that of another one is replaced.
 QString ExportPanel::wantedPath() const {
   const QString typed = QFileInfo(path_->text().trimmed()).absoluteFilePath();
-  const auto format = formatOf(std::filesystem::path(typed.toStdU16String()));
+  const auto format = formatOf(nativePath(typed));
   if (format && *format != options_->settings().format)
     return withoutEnding(typed) + QLatin1Char('.') + options_->suffix();
   return withSuffix(typed, options_->suffix());
+}
+
+ExportRequest ExportPanel::request(const QString& path) const {
+  return {session_.output(),    session_.recipe(), session_.scan(),
+          options_->settings(), options_->which(), nativePath(path)};
+}
+
+// Asked for when anything that it shows has changed, and not with every refresh.
+void ExportPanel::refreshPreview() {
+  if (!isReady()) {
+    if (!previewed_) return;
+    previewed_.reset();
+    return preview_->clear();
+  }
+  const ExportSettings settings = options_->settings();
+  const Previewed now{session_.output().faired, session_.recipe().directions, session_.recipe().starts,
+                      options_->which(),        isJoined(settings),           settings.scale};
+  if (previewed_ == now) return;
+  previewed_ = now;
+  preview_->show(request({}));
+}
+
+QString ExportPanel::summary(const ExportSize& size) const {
+  const PreviewContent& content = preview_->content();
+  if (content.curves.empty() || size.curves == 0) return {};
+  QString text = counted(std::ssize(content.curves), tr("1 curve"), tr("%1 curves"));
+  if (options_->settings().joined.value_or(false) && std::ssize(content.curves) < size.curves)
+    text = tr("%1 of %2 pieces").arg(text).arg(size.curves);
+  if (content.layers > 1) text += tr(" on %1 layers").arg(content.layers);
+  if (content.doubles > 0) text += tr(", %1 on top of another left out").arg(content.doubles);
+  return text + QLatin1Char('.');
+}
+
+void ExportPanel::copy() {
+  if (!isReady() || size().curves == 0) return;
+  carrier_->copy(request({}));
+}
+
+void ExportPanel::dragOut(std::optional<int> number) {
+  if (!isReady()) return;
+  const QString name = number ? tr("Curve %1").arg(*number) : QFileInfo(session_.scanPath()).completeBaseName();
+  carrier_->drag(request({}), number, name.isEmpty() ? QStringLiteral("drawing") : name);
 }
 
 void ExportPanel::start() {
@@ -216,17 +308,28 @@ void ExportPanel::start() {
     result_->setText(tr("%1 exists. Press again to replace it.").arg(QFileInfo(path).fileName()));
     return refresh();
   }
-  ExportRequest request{session_.output(),    session_.recipe(), session_.scan(),
-                        options_->settings(), options_->which(), std::filesystem::path(path.toStdU16String())};
+  ExportRequest request = this->request(path);
   running_ = true;
+  progress_->setValue(0);
+  progress_->show();
+  session_.setSideWork(this, true, false);
   writing_ = session_.recipe();
   if (path_->isModified()) QSettings().setValue(kFolderKey, QFileInfo(path).absolutePath());
   result_->clear();
   refresh();
-  worker_->start(
+  cancel_ = worker_->start(
       [request = std::move(request), panel = QPointer<ExportPanel>(this)](const CancelToken& cancel) {
         RunContext context;
         context.cancel = cancel;
+        context.progress = [panel](double fraction) {
+          if (!panel) return;
+          QMetaObject::invokeMethod(
+              panel.data(),
+              [panel, fraction] {
+                if (panel) panel->progress_->setValue(static_cast<int>(100.0 * fraction));
+              },
+              Qt::QueuedConnection);
+        };
         const auto outcome = runExport(request, context);
         if (!panel) return;
         QMetaObject::invokeMethod(
@@ -242,12 +345,15 @@ void ExportPanel::start() {
 void ExportPanel::finish(const Result<ExportReport>& report) {
   running_ = false;
   confirmReplace_ = false;
+  progress_->hide();
+  session_.setSideWork(this, false);
   if (!report) {
     refresh();
+    if (report.error().code == ErrorCode::Cancelled) return result_->setText(tr("Stopped: nothing was written."));
     emit failed(report.error());
     return;
   }
-  lastWritten_ = QString::fromStdU16String(report->path.u16string());
+  lastWritten_ = pathText(report->path);
   result_->setText(
       tr("Wrote %1: %2.").arg(QFileInfo(lastWritten_).fileName(), QString::fromStdString(sentenceOf(*report))));
   refresh();

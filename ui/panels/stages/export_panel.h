@@ -3,18 +3,24 @@
 
 #include <QWidget>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "ui/panels/stages/export_job.h"
 #include "ui/session/editor_session.h"
 
 class QLabel;
 class QLineEdit;
+class QProgressBar;
 class QPushButton;
 
 namespace batten {
 
 class BackgroundWorker;
 class ExportOptions;
+class ExportPreview;
+class ReportSection;
+class SvgCarrier;
 
 /// Format, place and size of what is written; writing runs in the background and is read back.
 class ExportPanel : public QWidget {
@@ -24,10 +30,13 @@ class ExportPanel : public QWidget {
   ~ExportPanel() override;
   /// Asks for the file to write.
   void browse();
+  /// Puts the curves on the clipboard as SVG.
+  void copy();
 
  signals:
   void exported(bool presentResult);  ///< True after a file holds the present result, false once that changes.
   void failed(const batten::Error& error);
+  void said(const QString& sentence);  ///< What was done beside an export.
 
  protected:
   void showEvent(QShowEvent*) override;
@@ -43,15 +52,37 @@ class ExportPanel : public QWidget {
   void finish(const Result<ExportReport>& report);
   bool isReady() const;
   const ExportSize& size();
+  ExportRequest request(const QString& path) const;
+  void refreshPreview();
+  void dragOut(std::optional<int> number);
+  QString summary(const ExportSize& size) const;
 
   EditorSession& session_;
   ExportOptions* options_;
+  ExportPreview* preview_;
+  QLabel* held_;
+  QPushButton* turn_;
+  SvgCarrier* carrier_;
+  ReportSection* report_;
+  QProgressBar* progress_;
+  CancelToken cancel_;
   QLineEdit* path_;
   QPushButton* browse_;
   QLabel* size_;
   QPushButton* export_;
   QPushButton* again_;
   QLabel* result_;
+  /// What the preview was made of.
+  struct Previewed {
+    std::shared_ptr<const FairedSet> faired;
+    std::vector<DirectionMark> directions;
+    std::vector<StartMark> starts;
+    ExportedCurves which = ExportedCurves::Faired;
+    bool isJoined = false;
+    double scale = 1.0;
+    bool operator==(const Previewed&) const = default;
+  };
+  std::optional<Previewed> previewed_;
   bool confirmReplace_ = false;
   bool running_ = false;
   QString lastWritten_;

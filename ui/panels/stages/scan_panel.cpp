@@ -14,6 +14,7 @@
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
+#include "ui/panels/stages/scale_controls.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -52,10 +53,14 @@ void ToneSwatch::paintEvent(QPaintEvent*) {
   }
 }
 
-ScanPanel::ScanPanel(EditorSession& session, QWidget* parent)
+ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
     : QWidget(parent),
       session_(session),
       facts_(new FigureTable(this)),
+      pageName_(new QLabel(tr("Page"), this)),
+      page_(new NumberField(this)),
+      pdfName_(new QLabel(tr("Drawn at"), this)),
+      pdfDpi_(new NumberField(this)),
       dpi_(new NumberField(this)),
       scaleNote_(note({}, this)),
       fromFile_(linkButton(tr("Use the file's resolution"), QStringLiteral("scan.dpiFromFile"), this)),
@@ -65,6 +70,27 @@ ScanPanel::ScanPanel(EditorSession& session, QWidget* parent)
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Scan"), this));
   layout->addWidget(facts_);
+  auto* pages = new QGridLayout;
+  pages->setHorizontalSpacing(8);
+  pages->setColumnStretch(0, 1);
+  const auto addField = [&](QLabel* title, NumberField* field, int row, const QString& what, const QString& called) {
+    title->setToolTip(what);
+    field->setToolTip(what);
+    field->setDecimals(0);
+    field->setStep(1.0);
+    field->setFixedWidth(92);
+    field->edit()->setObjectName(called);
+    field->edit()->setAccessibleName(what);
+    pages->addWidget(title, row, 0);
+    pages->addWidget(field, row, 1);
+  };
+  addField(pageName_, page_, 0, tr("Which page of the file is open. Each page is a drawing with a recipe of its own."),
+           QStringLiteral("scan.page"));
+  addField(pdfName_, pdfDpi_, 1, tr("How finely the page of the PDF is drawn. Its size in mm stays."),
+           QStringLiteral("scan.pdfDpi"));
+  pdfDpi_->setRange(20.0, 4800.0);
+  pdfDpi_->setUnit(tr("dpi"));
+  layout->addLayout(pages);
   layout->addWidget(caption(tr("Scale"), this));
   auto* scale = new QGridLayout;
   scale->setHorizontalSpacing(8);
@@ -85,6 +111,7 @@ ScanPanel::ScanPanel(EditorSession& session, QWidget* parent)
   layout->addLayout(scale);
   layout->addWidget(scaleNote_);
   layout->addWidget(fromFile_, 0, Qt::AlignLeft);
+  layout->addWidget(new ScaleControls(session, view, this));
   layout->addWidget(caption(tr("Tones"), this));
   layout->addWidget(new ParameterEditor(session, {"log.enabled", "log.factor"}, this));
   layout->addWidget(swatch_);
@@ -92,6 +119,16 @@ ScanPanel::ScanPanel(EditorSession& session, QWidget* parent)
   layout->addWidget(new ParameterEditor(session, {"paper.flatten", "paper.folds"}, this));
   layout->addStretch();
   connect(dpi_, &NumberField::committed, this, [this](double value) { setDpi(value); });
+  connect(page_, &NumberField::committed, this, [this](double value) {
+    PageChoice choice = session_.recipe().scanPage;
+    choice.number = static_cast<int>(value);
+    if (choice != session_.recipe().scanPage) emit pageChosen(choice);
+  });
+  connect(pdfDpi_, &NumberField::committed, this, [this](double value) {
+    PageChoice choice = session_.recipe().scanPage;
+    choice.pdfDpi = value;
+    if (choice != session_.recipe().scanPage) emit pageChosen(choice);
+  });
   connect(fromFile_, &QPushButton::clicked, this, [this] { setDpi(std::nullopt); });
   connect(&session_, &EditorSession::scanOpened, this, &ScanPanel::refresh);
   connect(&session_, &EditorSession::recipeChanged, this, &ScanPanel::refresh);
@@ -105,17 +142,32 @@ void ScanPanel::focusResolution() {
 
 void ScanPanel::setDpi(std::optional<double> dpi) {
   Recipe after = session_.recipe();
-  after.dpi = dpi;
+  setResolution(after, dpi);
   session_.change(tr("Resolution"), std::move(after));
+}
+
+void ScanPanel::refreshPage(const Scan* scan) {
+  const bool hasPages = scan != nullptr && scan->pages > 1, isPdf = scan != nullptr && scan->info.format == "PDF";
+  pageName_->setVisible(hasPages);
+  page_->setVisible(hasPages);
+  pdfName_->setVisible(isPdf);
+  pdfDpi_->setVisible(isPdf);
+  if (hasPages) {
+    pageName_->setText(tr("Page of %1").arg(scan->pages));
+    page_->setRange(1.0, static_cast<double>(scan->pages));
+    page_->setValue(static_cast<double>(scan->page.number));
+  }
+  if (isPdf) pdfDpi_->setValue(scan->page.pdfDpi);
 }
 
 void ScanPanel::refresh() {
   swatch_->show(session_.recipe().log);
+  refreshPage(session_.scan().get());
   dpi_->setEnabled(session_.hasScan());
   if (!session_.hasScan()) {
     facts_->setRows({});
     dpi_->setEmpty(QStringLiteral("–"));
-    scaleNote_->setText(tr("Open a scan: PNG, JPEG, TIFF, BMP, WebP or PNM."));
+    scaleNote_->setText(tr("Open a scan: PNG, JPEG, TIFF, PDF, JPEG 2000, BMP, WebP or PNM."));
     fromFile_->hide();
     return;
   }
@@ -146,7 +198,9 @@ void ScanPanel::refresh() {
            "(%1 dpi assumed).")
             .arg(kAssumedDpi, 0, 'f', 0));
   else
-    scaleNote_->setText(own ? tr("Set by you.") : tr("Stated by the file."));
+    scaleNote_->setText(session_.recipe().scaleLine ? tr("Measured on the drawing.")
+                        : own                       ? tr("Set by you.")
+                                                    : tr("Stated by the file."));
 }
 
 }  // namespace batten

@@ -34,15 +34,25 @@ class ToneSwatch : public QWidget {
 class ScanPanel : public QWidget {
   Q_OBJECT
  public:
-  explicit ScanPanel(EditorSession& session, QWidget* parent = nullptr);
+  ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
   /// Puts the keyboard into the resolution field ("no scale: set it").
   void focusResolution();
+  /// Shows what is open again, after a choice that was not followed.
+  void refresh();
+
+ signals:
+  /// Another page of the file is to be opened, or its PDF to be drawn more or less finely.
+  void pageChosen(const batten::PageChoice& page);
 
  private:
-  void refresh();
   void setDpi(std::optional<double> dpi);
+  void refreshPage(const Scan* scan);
   EditorSession& session_;
   FigureTable* facts_;
+  QLabel* pageName_;
+  NumberField* page_;
+  QLabel* pdfName_;
+  NumberField* pdfDpi_;
   NumberField* dpi_;
   QLabel* scaleNote_;
   QPushButton* fromFile_;

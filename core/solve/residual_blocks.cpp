@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/solve/block_levenberg.h"
+#include "core/solve/residual_blocks.h"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -10,8 +10,10 @@ namespace batten {
 
 namespace {
 
-constexpr int kMaxIterations = 40;
-constexpr double kSmallDecrease = 1e-4;
+constexpr int kAttempts = 12;             ///< Dampings tried before a step is given up: up to 4^12 of the first.
+constexpr double kDifferenceStep = 1e-5;  ///< Of an unknown's scale: about the cube root of the rounding error.
+/// Of the largest diagonal: an unknown that nothing depends on must not make the system singular.
+constexpr double kDiagonalFloor = 1e-12;
 
 void gather(const ResidualBlock& block, const Eigen::VectorXd& x, std::vector<double>& local) {
   local.resize(block.columns.size());
@@ -35,7 +37,7 @@ struct Linearised {
   Eigen::VectorXd gradient;             ///< J'r
 };
 
-Linearised linearise(std::span<const ResidualBlock> blocks, const Eigen::VectorXd& x, const Eigen::VectorXd& scales) {
+Linearised linearised(std::span<const ResidualBlock> blocks, const Eigen::VectorXd& x, const Eigen::VectorXd& scales) {
   const auto n = x.size();
   std::vector<Eigen::Triplet<double>> entries;
   Linearised result{Eigen::SparseMatrix<double>(n, n), Eigen::VectorXd::Zero(n)};
@@ -47,7 +49,7 @@ Linearised linearise(std::span<const ResidualBlock> blocks, const Eigen::VectorX
     block.evaluate(local, r);
     Eigen::MatrixXd jacobian(block.size, static_cast<Eigen::Index>(local.size()));
     for (std::size_t c = 0; c < local.size(); ++c) {
-      const double step = 1e-5 * scales(block.columns[c]), here = local[c];
+      const double step = kDifferenceStep * scales(block.columns[c]), here = local[c];
       ahead.assign(rows, 0.0);
       behind.assign(rows, 0.0);
       local[c] = here + step;
@@ -76,49 +78,55 @@ Linearised linearise(std::span<const ResidualBlock> blocks, const Eigen::VectorX
   return result;
 }
 
+class BlockProblem final : public LevenbergProblem {
+ public:
+  BlockProblem(const Eigen::VectorXd& start, const Eigen::VectorXd& scales, std::span<const ResidualBlock> blocks)
+      : scales_(scales), blocks_(blocks), x_(start), cost_(sumOfSquares(blocks, start)) {}
+
+  const Eigen::VectorXd& x() const { return x_; }
+  double cost() const { return cost_; }
+
+  double linearise() override {
+    if (!std::isfinite(cost_)) return cost_;
+    system_ = linearised(blocks_, x_, scales_);
+    diagonal_ = system_.squared.diagonal();
+    diagonal_ = diagonal_.cwiseMax(kDiagonalFloor * std::max(diagonal_.maxCoeff(), std::numeric_limits<double>::min()));
+    return cost_;
+  }
+  double tryStep(double damping) override {
+    Eigen::SparseMatrix<double> damped = system_.squared;
+    for (Eigen::Index i = 0; i < diagonal_.size(); ++i) damped.coeffRef(i, i) += damping * diagonal_(i);
+    solver_.compute(damped);
+    trial_ = x_ - solver_.solve(system_.gradient);
+    trialCost_ = solver_.info() == Eigen::Success && trial_.allFinite() ? sumOfSquares(blocks_, trial_)
+                                                                        : std::numeric_limits<double>::infinity();
+    return trialCost_;
+  }
+  void accept() override {
+    x_ = trial_;
+    cost_ = trialCost_;
+  }
+
+ private:
+  const Eigen::VectorXd& scales_;
+  std::span<const ResidualBlock> blocks_;
+  Eigen::VectorXd x_, trial_, diagonal_;
+  double cost_, trialCost_ = 0.0;
+  Linearised system_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
+};
+
 }  // namespace
 
-LevenbergResult minimiseBlocks(const Eigen::VectorXd& start, const Eigen::VectorXd& scales,
-                               std::span<const ResidualBlock> blocks, const RunContext& context) {
-  LevenbergResult result;
-  result.x = start;
-  result.before = result.after = sumOfSquares(blocks, start);
-  result.why = Termination::IterationLimit;
-  if (!std::isfinite(result.before)) {
-    result.why = Termination::Degenerate;
-    return result;
-  }
-  double damping = 1e-3;
-  int small = 0;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
-  for (; result.iterations < kMaxIterations && !context.isCancelled(); ++result.iterations) {
-    const Linearised system = linearise(blocks, result.x, scales);
-    const Eigen::VectorXd diagonal = system.squared.diagonal();
-    // An unknown that nothing depends on must not make the system singular.
-    const double floor = 1e-12 * std::max(diagonal.maxCoeff(), std::numeric_limits<double>::min());
-    bool better = false;
-    for (int attempt = 0; attempt < 12 && !better; ++attempt) {
-      Eigen::SparseMatrix<double> damped = system.squared;
-      for (Eigen::Index i = 0; i < diagonal.size(); ++i) {
-        damped.coeffRef(i, i) += damping * std::max(diagonal(i), floor);
-      }
-      solver.compute(damped);
-      const Eigen::VectorXd trial = result.x - solver.solve(system.gradient);
-      const double cost = solver.info() == Eigen::Success && trial.allFinite()
-                              ? sumOfSquares(blocks, trial)
-                              : std::numeric_limits<double>::infinity();
-      better = cost < result.after;
-      damping = better ? std::max(damping / 5.0, 1e-12) : damping * 4.0;
-      if (!better) continue;
-      small = result.after - cost < kSmallDecrease * result.after ? small + 1 : 0;
-      result.x = trial;
-      result.after = cost;
-    }
-    if (!better || small >= 2 || result.after == 0.0) {
-      result.why = better ? Termination::Converged : Termination::NoProgress;
-      break;
-    }
-  }
+BlockSolution minimiseBlocks(const Eigen::VectorXd& start, const Eigen::VectorXd& scales,
+                             std::span<const ResidualBlock> blocks, const RunContext& context) {
+  BlockProblem problem(start, scales, blocks);
+  BlockSolution result;
+  result.before = problem.cost();
+  LevenbergOptions options;
+  options.attempts = kAttempts;
+  result.run = levenbergMarquardt(problem, options, context);
+  result.x = problem.x();
   return result;
 }
 

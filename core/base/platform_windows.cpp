@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Windows side of platform.h. MinGW-w64 compiles it (packaging/check windows); it has not been run on Windows by
+// us.
+#include "core/base/platform.h"
+
+#if defined(_WIN32)
+
+#ifndef NOMINMAX
+#define NOMINMAX
+#endif
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+// psapi.h stands on windows.h.
+#include <fcntl.h>
+#include <io.h>
+#include <psapi.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace batten {
+
+struct SystemFile {
+  HANDLE handle;
+};
+
+void CloseSystemFile::operator()(SystemFile* file) const {
+  CloseHandle(file->handle);
+  delete file;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the last call says went wrong, in the words of POSIX that the callers ask for.
+std::error_code systemError() {
+  const DWORD error = GetLastError();
+  static constexpr struct {
+    DWORD windows;
+    std::errc posix;
+  } kMeanings[] = {
+      {ERROR_FILE_NOT_FOUND, std::errc::no_such_file_or_directory},
+      {ERROR_PATH_NOT_FOUND, std::errc::no_such_file_or_directory},
+      {ERROR_INVALID_NAME, std::errc::no_such_file_or_directory},
+      {ERROR_ACCESS_DENIED, std::errc::permission_denied},
+      {ERROR_SHARING_VIOLATION, std::errc::permission_denied},
+      {ERROR_FILE_EXISTS, std::errc::file_exists},
+      {ERROR_ALREADY_EXISTS, std::errc::file_exists},
+      {ERROR_DISK_FULL, std::errc::no_space_on_device},
+      {ERROR_HANDLE_DISK_FULL, std::errc::no_space_on_device},
+      {ERROR_NOT_ENOUGH_QUOTA, std::errc::no_space_on_device},
+      {ERROR_WRITE_PROTECT, std::errc::read_only_file_system},
+      {ERROR_FILENAME_EXCED_RANGE, std::errc::filename_too_long},
+      {ERROR_TOO_MANY_OPEN_FILES, std::errc::too_many_files_open},
+  };
+  for (const auto& one : kMeanings) {
+    if (one.windows == error) return std::make_error_code(one.posix);
+  }
+  return {static_cast<int>(error), std::system_category()};
+}
+
+OpenFile owned(HANDLE handle) {
+  const bool isOpen = handle != INVALID_HANDLE_VALUE && handle != nullptr;
+  return OpenFile(isOpen ? new SystemFile{handle} : nullptr);
+}
+
+constexpr DWORD kShareAll = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
+/// No other program may open the file meanwhile, not even to delete it: that is the lock, and it ends with the program.
+constexpr DWORD kShareNothing = 0;
+
+double secondsOf(const FILETIME& time) {
+  constexpr double kTick = 1e-7;  // [s]
+  return kTick * (4294967296.0 * static_cast<double>(time.dwHighDateTime) + static_cast<double>(time.dwLowDateTime));
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> availableMemoryBytes() {
+  MEMORYSTATUSEX status{};
+  status.dwLength = sizeof status;
+  if (GlobalMemoryStatusEx(&status) == 0) return std::nullopt;
+  std::uint64_t available = status.ullAvailPhys;
+  // A job object may allow less.
+  JOBOBJECT_EXTENDED_LIMIT_INFORMATION job{};
+  if (QueryInformationJobObject(nullptr, JobObjectExtendedLimitInformation, &job, sizeof job, nullptr) != 0 &&
+      (job.BasicLimitInformation.LimitFlags & JOB_OBJECT_LIMIT_JOB_MEMORY) != 0) {
+    available = std::min<std::uint64_t>(available, job.JobMemoryLimit);
+  }
+  return available;
+}
+
+std::uint64_t peakMemoryBytes() {
+  PROCESS_MEMORY_COUNTERS counters{};
+  return GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters) != 0 ? counters.PeakWorkingSetSize : 0;
+}
+
+std::uint64_t residentMemoryBytes(std::int64_t processId) {
+  if (processId <= 0 || processId > std::numeric_limits<DWORD>::max()) return 0;
+  const OpenFile process = owned(OpenProcess(PROCESS_QUERY_LIMITED_INFORMATION, FALSE, static_cast<DWORD>(processId)));
+  PROCESS_MEMORY_COUNTERS counters{};
+  const bool isKnown = process && GetProcessMemoryInfo(process->handle, &counters, sizeof counters) != 0;
+  return isKnown ? counters.WorkingSetSize : 0;
+}
+
+bool isProcessRunning(std::int64_t processId) {
+  if (processId <= 0 || processId > std::numeric_limits<DWORD>::max()) return false;
+  const OpenFile process = owned(OpenProcess(SYNCHRONIZE, FALSE, static_cast<DWORD>(processId)));
+  if (!process) return GetLastError() == ERROR_ACCESS_DENIED;
+  return WaitForSingleObject(process->handle, 0) == WAIT_TIMEOUT;  // an ended one has its number while it is held open
+}
+
+double processorSeconds() {
+  FILETIME created, ended, kernel, user;
+  if (GetProcessTimes(GetCurrentProcess(), &created, &ended, &kernel, &user) == 0) return 0.0;
+  return secondsOf(kernel) + secondsOf(user);
+}
+
+bool stderrIsTerminal() {
+  DWORD mode = 0;  // only a console has one
+  return GetConsoleMode(GetStdHandle(STD_ERROR_HANDLE), &mode) != 0;
+}
+
+void reportLargeFilesAsErrors() {}  // they are errors here
+
+void tieChildrenToThisProcess() {
+  // The job is never closed by hand: the system does so when this process ends, and ends all that is left in it.
+  static const HANDLE job = [] {
+    const HANDLE made = CreateJobObjectW(nullptr, nullptr);
+    JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits{};
+    limits.BasicLimitInformation.LimitFlags = JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE;
+    if (made != nullptr &&
+        SetInformationJobObject(made, JobObjectExtendedLimitInformation, &limits, sizeof limits) != 0)
+      AssignProcessToJobObject(made, GetCurrentProcess());
+    return made;
+  }();
+  static_cast<void>(job);
+}
+
+void becomeDependentChild() {}  // there is no such moment here
+
+QuietStderr::QuietStderr() {
+  std::fflush(stderr);
+  const int nowhere = _open("NUL", _O_WRONLY), real = _fileno(stderr);
+  if (nowhere < 0) return;
+  const int kept = real < 0 ? -1 : _dup(real);
+  if (kept >= 0) {
+    kept_ = kept;
+    _dup2(nowhere, real);
+  }
+  _close(nowhere);
+}
+
+QuietStderr::~QuietStderr() {
+  if (!kept_) return;
+  std::fflush(stderr);
+  _dup2(*kept_, _fileno(stderr));
+  _close(*kept_);
+}
+
+tl::expected<ReadableFile, std::error_code> ReadableFile::open(const fs::path& path) {
+  const DWORD attributes = GetFileAttributesW(path.c_str());
+  if (attributes == INVALID_FILE_ATTRIBUTES) return tl::unexpected(systemError());
+  if ((attributes & FILE_ATTRIBUTE_DIRECTORY) != 0) return ReadableFile(nullptr, FileKind::Folder, 0);
+  OpenFile file =
+      owned(CreateFileW(path.c_str(), GENERIC_READ, kShareAll, nullptr, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr));
+  if (!file) return tl::unexpected(systemError());
+  if (GetFileType(file->handle) != FILE_TYPE_DISK) return ReadableFile(nullptr, FileKind::Other, 0);
+  LARGE_INTEGER size{};
+  if (GetFileSizeEx(file->handle, &size) == 0) return tl::unexpected(systemError());
+  return ReadableFile(std::move(file), FileKind::Ordinary, static_cast<std::uint64_t>(size.QuadPart));
+}
+
+std::error_code ReadableFile::read(std::span<std::byte> bytes) const {
+  constexpr std::size_t kAtOnce = std::size_t{1} << 30;  // [bytes] One call takes no more than 32 bits hold.
+  for (std::uint64_t done = 0; done < bytes.size();) {
+    OVERLAPPED place{};
+    place.Offset = static_cast<DWORD>(done & 0xffffffffu);
+    place.OffsetHigh = static_cast<DWORD>(done >> 32);
+    const std::size_t wanted = std::min<std::size_t>(kAtOnce, bytes.size() - done);
+    DWORD got = 0;
+    if (ReadFile(file_->handle, bytes.data() + done, static_cast<DWORD>(wanted), &got, &place) == 0) {
+      return GetLastError() == ERROR_HANDLE_EOF ? std::make_error_code(std::errc::io_error) : systemError();
+    }
+    if (got == 0) return std::make_error_code(std::errc::io_error);
+    done += got;
+  }
+  return {};
+}
+
+ReplacingFile::ReplacingFile(OpenFile folder, OpenFile file, fs::path target, std::string name)
+    : folder_(std::move(folder)), file_(std::move(file)), target_(std::move(target)), name_(std::move(name)) {}
+
+ReplacingFile::ReplacingFile(ReplacingFile&& other) noexcept
+    : folder_(std::move(other.folder_)),
+      file_(std::move(other.file_)),
+      target_(std::move(other.target_)),
+      name_(std::exchange(other.name_, {})) {}
+
+ReplacingFile::~ReplacingFile() {
+  if (name_.empty()) return;
+  FILE_DISPOSITION_INFO gone{};
+  gone.DeleteFile = TRUE;
+  SetFileInformationByHandle(file_->handle, FileDispositionInfo, &gone, sizeof gone);
+}
+
+tl::expected<ReplacingFile, std::error_code> ReplacingFile::create(const fs::path& target, const std::string& name) {
+  std::error_code code;
+  const fs::path whole = fs::absolute(target, code);
+  if (code) return tl::unexpected(code);
+  // Held open without leave to delete it, the folder cannot be renamed meanwhile.
+  OpenFile folder =
+      owned(CreateFileW(whole.parent_path().c_str(), FILE_LIST_DIRECTORY, FILE_SHARE_READ | FILE_SHARE_WRITE, nullptr,
+                        OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr));
+  if (!folder) return tl::unexpected(systemError());
+  const DWORD before = GetFileAttributesW(whole.c_str());
+  if (before != INVALID_FILE_ATTRIBUTES && (before & FILE_ATTRIBUTE_READONLY) != 0)
+    return tl::unexpected(std::make_error_code(std::errc::permission_denied));
+  OpenFile file = owned(CreateFileW((whole.parent_path() / name).c_str(), GENERIC_WRITE | DELETE, kShareNothing,
+                                    nullptr, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, nullptr));
+  if (!file) return tl::unexpected(systemError());
+  return ReplacingFile(std::move(folder), std::move(file), whole, name);
+}
+
+std::error_code ReplacingFile::write(std::string_view bytes) {
+  constexpr std::size_t kAtOnce = std::size_t{1} << 30;  // [bytes]
+  while (!bytes.empty()) {
+    DWORD count = 0;
+    if (WriteFile(file_->handle, bytes.data(), static_cast<DWORD>(std::min(kAtOnce, bytes.size())), &count, nullptr) ==
+        0)
+      return systemError();
+    bytes.remove_prefix(count);
+  }
+  return {};
+}
+
+std::error_code ReplacingFile::takePlace() {
+  if (FlushFileBuffers(file_->handle) == 0) return systemError();
+  const std::wstring name = target_.native();
+  std::vector<std::byte> memory(sizeof(FILE_RENAME_INFO) + name.size() * sizeof(wchar_t));
+  auto* const info = new (memory.data()) FILE_RENAME_INFO{};
+  info->ReplaceIfExists = TRUE;
+  info->FileNameLength = static_cast<DWORD>(name.size() * sizeof(wchar_t));
+  std::memcpy(info->FileName, name.data(), info->FileNameLength);
+  if (SetFileInformationByHandle(file_->handle, FileRenameInfo, info, static_cast<DWORD>(memory.size())) == 0)
+    return systemError();
+  name_.clear();
+  return {};
+}
+
+void removeLeftover(const fs::path& path) {
+  const DWORD attributes = GetFileAttributesW(path.c_str());
+  constexpr DWORD kForeign = FILE_ATTRIBUTE_DIRECTORY | FILE_ATTRIBUTE_REPARSE_POINT | FILE_ATTRIBUTE_DEVICE;
+  if (attributes == INVALID_FILE_ATTRIBUTES || (attributes & kForeign) != 0) return;
+  DeleteFileW(path.c_str());  // fails while a program writes it
+}
+
+LockFile::LockFile(fs::path path) : path_(std::move(path)) {}
+
+LockFile::~LockFile() { release(); }
+
+bool LockFile::hold() {
+  if (file_) {  // nobody can remove it meanwhile
+    FILETIME now{};
+    GetSystemTimeAsFileTime(&now);
+    SetFileTime(file_->handle, nullptr, nullptr, &now);
+    return true;
+  }
+  file_ = owned(CreateFileW(path_.c_str(), GENERIC_READ | GENERIC_WRITE | DELETE, kShareNothing, nullptr, OPEN_ALWAYS,
+                            FILE_FLAG_DELETE_ON_CLOSE | FILE_FLAG_OPEN_REPARSE_POINT, nullptr));
+  return file_ != nullptr;
+}
+
+void LockFile::release() { file_.reset(); }
+
+}  // namespace batten
+
+#endif

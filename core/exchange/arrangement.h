@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/exchange/export_model.h"
+
+namespace batten {
+
+/// A document as a file is to hold it.
+struct Arrangement {
+  ExportDocument document;
+  int doubles = 0;  ///< Curves left out because they lie on top of another one, forwards or backwards.
+};
+
+/// Begins closed lines where the user wants it, turns what is to run the other way, and takes curves out that lie
+/// wholly on a longer or earlier one of the document (within a ten-millionth of their size). Exact.
+/// @param joined the pieces of a line stay together, and a line runs the way of the latest of its pieces' marks; else
+/// every piece is a line of its own. Ids stay unique, names and layers go with their curves.
+Result<Arrangement> arranged(const ExportDocument&, bool joined, const RunContext& = {});
+
+}  // namespace batten

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/iges_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "core/base/conventions.h"
+#include "core/base/number_text.h"
+#include "core/curve/knot_operations.h"
+#include "core/exchange/iges_records.h"
+
+namespace batten {
+namespace {
+
+constexpr int kMostControlPoints = 1 << 20;
+
+/// The numbers of an entity behind its type.
+class IgesNumbers {
+ public:
+  explicit IgesNumbers(const std::vector<std::string>& fields) {
+    for (std::size_t i = 1; i < fields.size(); ++i) {
+      const auto value = igesNumber(fields[i]);
+      if (!value) break;  // properties and names may follow; what is asked for lies before
+      values_.push_back(*value);
+    }
+  }
+  bool has(std::size_t count) const { return values_.size() >= count; }
+  double at(std::size_t i) const { return values_[i]; }
+  Vec2 point(std::size_t i) const { return {values_[i], values_[i + 1]}; }
+  /// A count in a sensible range, else nothing.
+  std::optional<int> count(std::size_t i, int least, int most) const {
+    if (!has(i + 1) || values_[i] != std::floor(values_[i]) || values_[i] < least || values_[i] > most)
+      return std::nullopt;
+    return static_cast<int>(values_[i]);
+  }
+  std::vector<double> range(std::size_t begin, std::size_t count) const {
+    const auto first = values_.begin() + static_cast<std::ptrdiff_t>(begin);
+    return {first, first + static_cast<std::ptrdiff_t>(count)};
+  }
+
+ private:
+  std::vector<double> values_;
+};
+
+std::optional<CadShape> lineOf(const IgesNumbers& n) {
+  if (!n.has(6) || n.point(0) == n.point(3)) return std::nullopt;
+  return CadLine{n.point(0), n.point(3)};
+}
+
+std::optional<CadShape> arcOf(const IgesNumbers& n) {
+  if (!n.has(7)) return std::nullopt;
+  const Vec2 centre = n.point(1), start = n.point(3) - centre, end = n.point(5) - centre;
+  if (!(start.norm() > 0.0)) return std::nullopt;
+  const double first = std::atan2(start.y(), start.x());
+  double sweep = std::atan2(cross(start, end), start.dot(end));
+  if (sweep <= 0.0) sweep += kFullTurnRad;
+  return CadArc{centre, start.norm(), first, start == end ? kFullTurnRad : sweep};
+}
+
+/// The part of a curve that an entity names, if that is less than the whole.
+std::optional<NurbsCurve> cutTo(NurbsCurve curve, double from, double to) {
+  const double span = curve.end() - curve.start(), least = 1e-9 * span;
+  if (!(to > from)) return curve;
+  if (to < curve.end() - least && to > curve.start() + least) {
+    auto parts = split(curve, to);
+    if (!parts) return std::nullopt;
+    curve = parts->left;
+  }
+  if (from > curve.start() + least && from < curve.end() - least) {
+    auto parts = split(curve, from);
+    if (!parts) return std::nullopt;
+    curve = parts->right;
+  }
+  return curve;
+}
+
+std::optional<CadShape> splineOf(const IgesNumbers& n) {
+  const auto last = n.count(0, 1, kMostControlPoints), degree = n.count(1, 1, 7);
+  if (!last || !degree || *last < *degree) return std::nullopt;
+  const auto points = static_cast<std::size_t>(*last) + 1;
+  const std::size_t knots = points + static_cast<std::size_t>(*degree) + 1;
+  const std::size_t begin = 6;
+  if (!n.has(begin + knots + 4 * points)) return std::nullopt;
+  std::vector<Vec2> control;
+  for (std::size_t i = 0; i < points; ++i) control.push_back(n.point(begin + knots + points + 3 * i));
+  auto curve = NurbsCurve::make(*degree, n.range(begin, knots), std::move(control), n.range(begin + knots, points));
+  if (!curve) return std::nullopt;
+  const std::size_t domain = begin + knots + 4 * points;
+  if (!n.has(domain + 2)) return std::move(*curve);
+  auto part = cutTo(std::move(*curve), n.at(domain), n.at(domain + 1));
+  return part ? std::optional<CadShape>(std::move(*part)) : std::nullopt;
+}
+
+/// Only ellipses in their own axes, which is how they are written; A x^2 + C y^2 + F = 0.
+std::optional<CadShape> conicOf(const IgesNumbers& n) {
+  if (!n.has(11)) return std::nullopt;
+  const double a = n.at(0), b = n.at(1), c = n.at(2), d = n.at(3), e = n.at(4), f = n.at(5);
+  if (b != 0.0 || d != 0.0 || e != 0.0 || !(-f * a > 0.0) || !(-f * c > 0.0)) return std::nullopt;
+  const Vec2 half(std::sqrt(-f / a), std::sqrt(-f / c));
+  const Vec2 start = n.point(7), end = n.point(9);
+  const double first = std::atan2(start.y() / half.y(), start.x() / half.x());
+  double sweep = std::atan2(end.y() / half.y(), end.x() / half.x()) - first;
+  while (sweep <= 0.0) sweep += kFullTurnRad;
+  const auto unit =
+      curveOf(CadArc{Vec2::Zero(), 1.0, first, start == end ? kFullTurnRad : std::min(sweep, kFullTurnRad)});
+  if (!unit) return std::nullopt;
+  return unit->mapped(half.asDiagonal(), Vec2::Zero());
+}
+
+/// Points: pairs at a common z, triples, or triples with a vector each.
+std::optional<CadShape> copiousOf(const IgesNumbers& n, int form) {
+  const auto kind = n.count(0, 1, 3), count = n.count(1, 2, kMostControlPoints);
+  if (!kind || !count) return std::nullopt;
+  const std::size_t stride = *kind == 1 ? 2 : *kind == 2 ? 3 : 6, begin = *kind == 1 ? 3 : 2;
+  if (!n.has(begin + stride * static_cast<std::size_t>(*count))) return std::nullopt;
+  constexpr int kClosedArea = 63;
+  CadPolyline line{{}, form == kClosedArea};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(*count); ++i)
+    line.vertices.push_back({n.point(begin + stride * i)});
+  if (line.closed && line.vertices.front().point == line.vertices.back().point) line.vertices.pop_back();
+  if (line.vertices.size() < 2) return std::nullopt;
+  return line;
+}
+
+/// Cubics in powers of the parameter, one behind the other.
+std::optional<CadShape> parametricSplineOf(const IgesNumbers& n) {
+  const auto segments = n.count(3, 1, kMostControlPoints / 16);
+  if (!segments) return std::nullopt;
+  const auto count = static_cast<std::size_t>(*segments);
+  const std::size_t breaks = 4, begin = breaks + count + 1;
+  if (!n.has(begin + 12 * count)) return std::nullopt;
+  std::vector<NurbsCurve> pieces;
+  double size = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double from = n.at(breaks + i), to = n.at(breaks + i + 1), h = to - from;
+    if (!(h > 0.0)) return std::nullopt;
+    std::array<Vec2, 4> power;
+    for (std::size_t k = 0; k < 4; ++k) {
+      power[k] = Vec2(n.at(begin + 12 * i + k), n.at(begin + 12 * i + 4 + k)) * std::pow(h, static_cast<double>(k));
+    }
+    const Vec2 p0 = power[0], p1 = p0 + power[1] / 3.0, p2 = p0 + (2.0 * power[1] + power[2]) / 3.0;
+    const Vec2 p3 = power[0] + power[1] + power[2] + power[3];
+    size = std::max({size, (p3 - p0).norm(), (p1 - p0).norm(), (p2 - p0).norm()});
+    auto piece = NurbsCurve::make(3, {from, from, from, from, to, to, to, to}, {p0, p1, p2, p3});
+    if (!piece) return std::nullopt;
+    pieces.push_back(std::move(*piece));
+  }
+  constexpr double kGap = 1e-6;  // of the size
+  auto joined = joinAtCorners(pieces, kGap * size);
+  return joined ? std::optional<CadShape>(std::move(*joined)) : std::nullopt;
+}
+
+struct IgesMatrix {
+  Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
+  Vec2 offset = Vec2::Zero();
+  bool isIdentity() const { return linear == Eigen::Matrix2d::Identity() && offset == Vec2::Zero(); }
+};
+
+std::optional<double> millimetresOf(int flag, const std::string& name) {
+  static const std::map<int, double> kUnits = {{1, kMillimetresPerInch},
+                                               {2, 1.0},
+                                               {4, 12.0 * kMillimetresPerInch},
+                                               {5, 1609344.0},
+                                               {6, 1000.0},
+                                               {7, 1e6},
+                                               {8, 1e-3 * kMillimetresPerInch},
+                                               {9, 1e-3},
+                                               {10, 10.0},
+                                               {11, 1e-6 * kMillimetresPerInch}};
+  static const std::map<std::string, double> kNames = {{"MM", 1.0},
+                                                       {"IN", kMillimetresPerInch},
+                                                       {"INCH", kMillimetresPerInch},
+                                                       {"CM", 10.0},
+                                                       {"M", 1000.0},
+                                                       {"FT", 12.0 * kMillimetresPerInch},
+                                                       {"UM", 1e-3}};
+  constexpr int kByName = 3;
+  if (flag == kByName) {
+    const auto named = kNames.find(name);
+    return named == kNames.end() ? std::nullopt : std::optional(named->second);
+  }
+  const auto known = kUnits.find(flag);
+  return known == kUnits.end() ? std::nullopt : std::optional(known->second);
+}
+
+class IgesReader {
+ public:
+  IgesReader(IgesRecords records, const RunContext& context) : records_(std::move(records)), context_(context) {
+    // Each line belongs to one entry; matrices are read once.
+    constexpr std::size_t kLineBytes = 64, kOfAll = 4;
+    budget_ = kOfAll * kLineBytes * records_.data.size() + kLineBytes;
+  }
+
+  Result<CadDrawing> read() {
+    readUnit();
+    if (auto done = findComposites(); !done) return fail(done.error());
+    for (std::size_t i = 0; i < records_.entries.size(); ++i) {
+      constexpr std::size_t kEvery = 256;
+      if (i % kEvery == 0 && context_.isCancelled()) return cancelled();
+      if (records_.entries[i].type == kComposite) {
+        for (const std::size_t child : children_[i]) {
+          if (auto done = take(child); !done) return fail(done.error());
+        }
+      } else if (!isChild_.contains(i)) {
+        if (auto done = take(i); !done) return fail(done.error());
+      }
+    }
+    return std::move(drawing_);
+  }
+
+ private:
+  static constexpr int kComposite = 102, kMatrix = 124;
+
+  void readUnit() {
+    // The third parameter of the section is the first here: the unit's flag is the 14th, its name the 15th.
+    constexpr std::size_t kFlag = 14 - 3, kName = 15 - 3;
+    const auto& global = records_.global;
+    const auto flag = global.size() > kFlag ? igesNumber(global[kFlag]) : std::nullopt;
+    const std::string name = global.size() > kName ? global[kName] : std::string();
+    if (flag && *flag >= 0.0 && *flag < 100.0) drawing_.mmPerUnit = millimetresOf(static_cast<int>(*flag), name);
+  }
+
+  std::optional<std::size_t> entryAt(double directoryLine) const {
+    const double index = (std::abs(directoryLine) - 1.0) / 2.0;
+    if (!(index >= 0.0) || index != std::floor(index) || index >= static_cast<double>(records_.entries.size()))
+      return std::nullopt;
+    return static_cast<std::size_t>(index);
+  }
+
+  Result<void> findComposites() {
+    for (std::size_t i = 0; i < records_.entries.size(); ++i) {
+      if (records_.entries[i].type != kComposite) continue;
+      const auto fields = parametersOf(records_, records_.entries[i], budget_);
+      if (!fields) return fail(fields.error());
+      const IgesNumbers n(*fields);
+      const auto count = n.count(0, 0, kMostControlPoints);
+      if (!count || !n.has(1 + static_cast<std::size_t>(*count)))
+        return igesDamaged(records_.entries[i].line, "a composite curve does not name its parts");
+      for (int k = 0; k < *count; ++k) {
+        const auto child = entryAt(n.at(1 + static_cast<std::size_t>(k)));
+        if (!child) return igesDamaged(records_.entries[i].line, "a part of a composite curve is not there");
+        // A part of two composites counts once, a composite within another by itself.
+        if (records_.entries[*child].type == kComposite || !isChild_.insert(*child).second) continue;
+        children_[i].push_back(*child);
+      }
+    }
+    return {};
+  }
+
+  /// The matrices of an entry, the inner one first.
+  Result<IgesMatrix> matrixOf(const IgesDirectoryEntry& entry) {
+    constexpr int kDeepest = 8;
+    IgesMatrix all;
+    int line = entry.matrix;
+    for (int depth = 0; line != 0; ++depth) {
+      const auto at = entryAt(line);
+      if (!at || depth == kDeepest || records_.entries[*at].type != kMatrix)
+        return igesDamaged(entry.line, "its transformation is not there");
+      auto known = matrices_.find(*at);
+      if (known == matrices_.end()) {
+        const auto fields = parametersOf(records_, records_.entries[*at], budget_);
+        if (!fields) return fail(fields.error());
+        const IgesNumbers n(*fields);
+        if (!n.has(12)) return igesDamaged(records_.entries[*at].line, "a transformation has too few numbers");
+        IgesMatrix one;
+        one.linear << n.at(0), n.at(1), n.at(4), n.at(5);
+        one.offset = {n.at(3), n.at(7)};
+        known = matrices_.emplace(*at, one).first;
+      }
+      all.offset = known->second.linear * all.offset + known->second.offset;
+      all.linear = known->second.linear * all.linear;
+      line = records_.entries[*at].matrix;
+    }
+    return all;
+  }
+
+  static std::optional<CadShape> shapeOf(const IgesDirectoryEntry& entry, const std::vector<std::string>& fields) {
+    const IgesNumbers n(fields);
+    switch (entry.type) {
+      case 100:
+        return arcOf(n);
+      case 104:
+        return conicOf(n);
+      case 106:
+        return copiousOf(n, entry.form);
+      case 110:
+        return lineOf(n);
+      case 112:
+        return parametricSplineOf(n);
+      case 126:
+        return splineOf(n);
+      default:
+        return std::nullopt;
+    }
+  }
+
+  /// Texts, views, colours and the like are no curves and not missed.
+  static bool isOther(int type) {
+    return type == 0 || type == 116 || type == kMatrix || (type >= 200 && type < 300) || type >= 302;
+  }
+
+  Result<void> take(std::size_t index) {
+    const IgesDirectoryEntry& entry = records_.entries[index];
+    constexpr int kBlanked = 1000000, kUse = 100, kParameterSpace = 5;
+    const bool isHidden = entry.status / kBlanked == 1 || entry.status / kUse % 100 == kParameterSpace;
+    if (isOther(entry.type) || isHidden) return {};
+    static const std::set<int> kCurves = {100, 104, 106, 110, 112, 126};
+    if (!kCurves.contains(entry.type)) {
+      ++drawing_.left;
+      return {};
+    }
+    const auto fields = parametersOf(records_, entry, budget_);
+    if (!fields) return fail(fields.error());
+    auto shape = shapeOf(entry, *fields);
+    auto matrix = matrixOf(entry);
+    if (!matrix) return fail(matrix.error());
+    if (shape && !matrix->isIdentity()) {
+      const auto curve = curveOf(*shape);
+      shape = curve && std::abs(matrix->linear.determinant()) > 0.0
+                  ? std::optional<CadShape>(curve->mapped(matrix->linear, matrix->offset))
+                  : std::nullopt;
+    }
+    if (!shape) {
+      ++drawing_.left;
+      return {};
+    }
+    const std::string layer = entry.level > 0 ? "Level " + std::to_string(entry.level) : std::string();
+    drawing_.entities.push_back({entry.label, layer, std::move(*shape)});
+    return {};
+  }
+
+  IgesRecords records_;
+  const RunContext& context_;
+  std::size_t budget_ = 0;  ///< Characters that may still be read: a damaged file may name one line a million times.
+  std::map<std::size_t, std::vector<std::size_t>> children_;
+  std::set<std::size_t> isChild_;
+  std::map<std::size_t, IgesMatrix> matrices_;
+  CadDrawing drawing_;
+};
+
+}  // namespace
+
+Result<CadDrawing> parseIges(std::string_view text, const RunContext& context) {
+  auto records = readIgesRecords(text);
+  if (!records) return fail(records.error());
+  return IgesReader(std::move(*records), context).read();
+}
+
+}  // namespace batten

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/point_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/base/conventions.h"
+#include "core/base/json_text.h"
+#include "core/base/number_text.h"
+#include "core/exchange/file_text.h"
+
+namespace batten {
+namespace {
+
+using PointJson = nlohmann::ordered_json;
+
+tl::unexpected<Error> noPoints(const std::string& what) {
+  return fail(ErrorCode::BadParameter, "The points cannot be read: " + what + ".");
+}
+
+std::string lowered(std::string_view text) {
+  std::string result(trimmed(text));
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+/// Where the columns stand.
+struct Columns {
+  std::size_t x = 0, y = 1;
+  std::optional<std::size_t> line;
+};
+
+class TableReader {
+ public:
+  explicit TableReader(const RunContext& context) : context_(context) {}
+
+  Result<PointFile> read(std::string_view text) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    for (std::size_t row = 1; !text.empty(); ++row) {
+      const auto end = text.find('\n');
+      const std::string_view line = trimmed(text.substr(0, end));
+      text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+      constexpr std::size_t kEvery = 4096;
+      if (row % kEvery == 0 && context_.isCancelled()) return cancelled();
+      if (line.starts_with('#')) continue;
+      if (line.empty()) {
+        endLine();
+        continue;
+      }
+      if (auto taken = takeRow(line, row); !taken) return fail(taken.error());
+    }
+    endLine();
+    return std::move(out_);
+  }
+
+ private:
+  std::vector<std::string> fieldsOf(std::string_view line) {
+    if (separator_ == 0) {
+      separator_ = line.find(';') != std::string_view::npos    ? ';'
+                   : line.find('\t') != std::string_view::npos ? '\t'
+                   : line.find(',') != std::string_view::npos  ? ','
+                                                               : ' ';
+    }
+    if (separator_ == ',') return csvFields(line);
+    std::vector<std::string> fields;
+    while (!line.empty()) {
+      const auto end = line.find(separator_);
+      const std::string_view field = trimmed(line.substr(0, end));
+      line.remove_prefix(end == std::string_view::npos ? line.size() : end + 1);
+      if (separator_ != ' ' || !field.empty()) fields.emplace_back(field);
+    }
+    return fields;
+  }
+  std::optional<double> numberOf(std::string field) const {
+    if (separator_ == ';' || separator_ == '\t') std::replace(field.begin(), field.end(), ',', '.');
+    return numberFromText(field);
+  }
+
+  Result<void> takeRow(std::string_view line, std::size_t row) {
+    const std::vector<std::string> fields = fieldsOf(line);
+    const std::size_t last = std::max(columns_.x, columns_.y);
+    const auto x = fields.size() > last ? numberOf(fields[columns_.x]) : std::nullopt;
+    const auto y = x ? numberOf(fields[columns_.y]) : std::nullopt;
+    if (!y && isFirst_) {
+      isFirst_ = false;
+      return takeNames(fields, row);
+    }
+    isFirst_ = false;
+    if (!y) return noPoints("row " + std::to_string(row) + " does not hold x and y as numbers");
+    const std::string name = columns_.line && fields.size() > *columns_.line ? fields[*columns_.line] : std::string();
+    if (!line_.points.empty() && name != line_.name) endLine();
+    line_.name = name;
+    line_.points.emplace_back(*x, *y);
+    return {};
+  }
+
+  Result<void> takeNames(const std::vector<std::string>& fields, std::size_t row) {
+    std::optional<std::size_t> x, y;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const std::string name = lowered(fields[i]);
+      const bool isAlone =
+          name.size() == 1 || (name.size() > 1 && std::isalpha(static_cast<unsigned char>(name[1])) == 0);
+      if (!x && isAlone && name[0] == 'x') x = i, takeUnit(name);
+      if (!y && isAlone && name[0] == 'y') y = i;
+      if (!columns_.line && (name == "curve" || name == "line" || name == "name")) columns_.line = i;
+    }
+    if (!x || !y) return noPoints("row " + std::to_string(row) + " holds neither numbers nor columns x and y");
+    columns_.x = *x;
+    columns_.y = *y;
+    return {};
+  }
+  /// "x_mm", "x [in]", "x (cm)".
+  void takeUnit(std::string name) {
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return std::isalpha(c) == 0; }, ' ');
+    const std::string_view unit = trimmed(std::string_view(name).substr(1));
+    out_.mmPerUnit = millimetresOfUnit(unit);
+  }
+  void endLine() {
+    auto& points = line_.points;
+    constexpr std::size_t kLeastLoop = 4;
+    if (points.size() >= kLeastLoop && points.front() == points.back()) {
+      points.pop_back();
+      line_.closed = true;
+    }
+    if (points.size() >= 2) {
+      out_.lines.push_back(std::move(line_));
+    } else if (!points.empty()) {
+      ++out_.left;
+    }
+    line_ = {};
+  }
+
+  const RunContext& context_;
+  char separator_ = 0;
+  bool isFirst_ = true;
+  Columns columns_;
+  ImportedLine line_;
+  PointFile out_;
+};
+
+bool isPair(const PointJson& json) {
+  return json.is_array() && json.size() == 2 && json[0].is_number() && json[1].is_number();
+}
+
+Result<std::vector<Vec2>> pointsOf(const PointJson& list) {
+  std::vector<Vec2> points;
+  if (!list.is_array()) return noPoints("a line is no list of points");
+  for (const PointJson& pair : list) {
+    if (!isPair(pair)) return noPoints("a point is not a pair of numbers");
+    points.emplace_back(pair[0].get<double>(), pair[1].get<double>());
+    if (!points.back().allFinite()) return noPoints("a number is not finite");
+  }
+  return points;
+}
+
+Result<void> addLine(const PointJson& json, PointFile& file) {
+  ImportedLine line;
+  const bool isNamed = json.is_object();
+  if (isNamed && json.contains("name") && json["name"].is_string()) line.name = json["name"].get<std::string>();
+  if (isNamed && json.contains("closed") && json["closed"].is_boolean()) line.closed = json["closed"].get<bool>();
+  if (isNamed && !json.contains("points")) return noPoints("a line has no points");
+  auto points = pointsOf(isNamed ? json["points"] : json);
+  if (!points) return fail(points.error());
+  constexpr std::size_t kLeastLoop = 4;
+  if (points->size() >= kLeastLoop && points->front() == points->back()) line.closed = true;
+  if (line.closed && points->size() > 1 && points->front() == points->back()) points->pop_back();
+  line.points = std::move(*points);
+  if (line.points.size() < 2) {
+    ++file.left;
+  } else {
+    file.lines.push_back(std::move(line));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<double> millimetresOfUnit(std::string_view unit) {
+  if (unit == "mm") return 1.0;
+  if (unit == "cm") return 10.0;
+  if (unit == "m") return 1000.0;
+  if (unit == "in" || unit == "inch") return kMillimetresPerInch;
+  return std::nullopt;
+}
+
+Result<PointFile> readPointTable(std::string_view text, const RunContext& context) {
+  if (text.find('\0') != std::string_view::npos) return noPoints("the file is no text");
+  auto file = TableReader(context).read(text);
+  if (file && file->lines.empty()) return fail(ErrorCode::NoCurve, "There is no line of two or more points in it.");
+  return file;
+}
+
+Result<PointFile> readPointJson(std::string_view text, const RunContext& context) {
+  const auto json = parseJson(text, context);
+  if (!json && json.error().code == ErrorCode::Cancelled) return cancelled();
+  if (!json) return noPoints(json.error().message);
+  PointFile file;
+  try {
+    const PointJson* lines = &*json;
+    if (json->is_object()) {
+      if (json->contains("unit")) {
+        if (!(*json)["unit"].is_string()) return noPoints("its unit is no text");
+        file.mmPerUnit = millimetresOfUnit((*json)["unit"].get<std::string>());
+        if (!file.mmPerUnit) return noPoints("its unit is none of mm, cm, m and in");
+      }
+      if (!json->contains("lines")) return noPoints("it has no \"lines\"");
+      lines = &(*json)["lines"];
+    }
+    if (!lines->is_array()) return noPoints("it is no list of lines");
+    if (!lines->empty() && isPair((*lines)[0])) {
+      if (auto added = addLine(*lines, file); !added) return fail(added.error());
+    } else {
+      for (const PointJson& line : *lines) {
+        if (auto added = addLine(line, file); !added) return fail(added.error());
+      }
+    }
+  } catch (const PointJson::exception& e) {
+    auto error = noPoints("it is not complete");
+    error.value().detail = e.what();
+    return error;
+  }
+  if (file.lines.empty()) return fail(ErrorCode::NoCurve, "There is no line of two or more points in it.");
+  return file;
+}
+
+}  // namespace batten

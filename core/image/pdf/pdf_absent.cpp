@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/pdf/pdf_absent.h"
+
+#include "core/image/pdf/pdf_page.h"
+
+namespace batten {
+
+bool hasPdf() { return false; }
+
+tl::expected<PdfPage, PdfProblem> lookAtPdfPage(std::span<const std::byte>, int, int&) {
+  return tl::unexpected(PdfProblem::NotInstalled);
+}
+
+tl::expected<GreyImage, PdfProblem> drawPdfPage(std::span<const std::byte>, int, const PdfSize&, const RunContext&) {
+  return tl::unexpected(PdfProblem::NotInstalled);
+}
+
+}  // namespace batten

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <tl/expected.hpp>
+
+#include "core/base/run_context.h"
+#include "core/image/grey_image.h"
+
+namespace batten {
+
+/// Whether this build can read PDF. Without Poppler all of this room fails with NotInstalled.
+bool hasPdf();
+
+enum class PdfProblem { NotInstalled, Damaged, Locked, NoSuchPage, Cancelled };
+
+struct PdfPage {
+  int pages = 1;              ///< Of the file.
+  double widthPoints = 0.0;   ///< [1/72 inch] as it is shown, turned.
+  double heightPoints = 0.0;  ///< [1/72 inch]
+};
+
+/// What a file says of one of its pages, counted from 1. Of NoSuchPage the file's own count is in `pages`.
+tl::expected<PdfPage, PdfProblem> lookAtPdfPage(std::span<const std::byte> file, int number, int& pages);
+
+/// The page on white paper, images and lines alike, as grey (the luma of Rec. 601). @pre lookAtPdfPage found it.
+struct PdfSize {
+  int widthPx = 0, heightPx = 0;
+  double dpi = 300.0;
+};
+tl::expected<GreyImage, PdfProblem> drawPdfPage(std::span<const std::byte> file, int number, const PdfSize&,
+                                                const RunContext&);
+
+}  // namespace batten

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/recipe/placed_marks_file.h"
+
+#include <cmath>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+namespace batten {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+tl::unexpected<Error> damaged(const std::string& what) {
+  return fail(ErrorCode::BadParameter, "The recipe is damaged: " + what);
+}
+
+std::optional<Vec2> placeFromJson(const Json& json) {
+  if (!json.is_array() || json.size() != 2 || !json[0].is_number() || !json[1].is_number()) return std::nullopt;
+  const Vec2 p(json[0].get<double>(), json[1].get<double>());
+  return std::isfinite(p.x()) && std::isfinite(p.y()) ? std::optional(p) : std::nullopt;
+}
+
+Json pairToJson(const Vec2& p) { return {p.x(), p.y()}; }
+
+/// The places that an entry must hold, and nothing else.
+std::optional<std::vector<Vec2>> placesFromJson(const Json& json, std::initializer_list<const char*> names) {
+  if (!json.is_object()) return std::nullopt;
+  std::vector<Vec2> places;
+  for (const char* one : names) {
+    const auto point = json.contains(one) ? placeFromJson(json[one]) : std::nullopt;
+    if (!point) return std::nullopt;
+    places.push_back(*point);
+  }
+  return places;
+}
+
+Result<bool> readScaleLine(const Json& json, Recipe& recipe) {
+  const auto ends = placesFromJson(json, {"from", "to"});
+  if (!ends || json.size() != 3 || !json.contains("mm") || !json["mm"].is_number()) {
+    return damaged("\"scale\" does not hold just two places \"from\" and \"to\" and a length \"mm\".");
+  }
+  recipe.scaleLine = ScaleLine{(*ends)[0], (*ends)[1], json["mm"].get<double>()};
+  return true;
+}
+
+Result<bool> readDirections(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return damaged("\"directions\" is not a list.");
+  for (const Json& entry : json) {
+    const auto places = placesFromJson(entry, {"at", "towards"});
+    if (!places || entry.size() != 2) return damaged("an entry of \"directions\" does not hold just two places.");
+    recipe.directions.push_back({(*places)[0], (*places)[1]});
+  }
+  return true;
+}
+
+Result<bool> readStarts(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return damaged("\"starts\" is not a list of positions.");
+  for (const Json& entry : json) {
+    const auto point = placeFromJson(entry);
+    if (!point) return damaged("the start of a curve is not a pair of numbers [x, y].");
+    recipe.starts.push_back({*point});
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<bool> readPlacedMark(const std::string& name, const Json& value, Recipe& recipe) {
+  if (name == "scale") return readScaleLine(value, recipe);
+  if (name == "directions") return readDirections(value, recipe);
+  if (name == "starts") return readStarts(value, recipe);
+  return false;
+}
+
+void addPlacedMarks(const Recipe& recipe, Json& json) {
+  if (const auto& line = recipe.scaleLine)
+    json["scale"] = {{"from", pairToJson(line->fromPx)}, {"to", pairToJson(line->toPx)}, {"mm", line->lengthMm}};
+  for (const DirectionMark& mark : recipe.directions)
+    json["directions"].push_back({{"at", pairToJson(mark.positionPx)}, {"towards", pairToJson(mark.towardsPx)}});
+  for (const StartMark& mark : recipe.starts) json["starts"].push_back(pairToJson(mark.positionPx));
+}
+
+}  // namespace batten

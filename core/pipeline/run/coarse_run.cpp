@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/run/coarse_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/conventions.h"
+#include "core/base/number_text.h"
+#include "core/base/parallel.h"
+#include "core/pipeline/recipe/parameter_table.h"
+
+namespace batten {
+namespace {
+
+constexpr double kQuickPage = 8e6, kCoarsePage = 3e6;  // [px]
+
+/// A length or area that the table knows, divided. One that stands for a word ("auto") says the same on any page.
+void divide(const Parameter& p, double by, Recipe& recipe) {
+  const auto value = numberFromText(p.get(recipe));
+  if (!value || (!p.minimumWord.empty() && *value <= p.minimum)) return;
+  double divided = std::clamp(*value / by, p.leastAbove.value_or(p.minimum), p.maximum);
+  if (p.type == ParameterType::Integer) divided = std::clamp(std::round(divided), p.minimum, p.maximum);
+  if (*value == 0.0) divided = 0.0;
+  // Within its range by now: the value before stays if the table has further rules.
+  (void)p.set(recipe, numberToText(divided));
+}
+
+void divide(std::vector<Vec2>& places, double by) {
+  for (Vec2& p : places) p /= by;
+}
+
+}  // namespace
+
+int coarseFactor(int widthPx, int heightPx) {
+  const double pixels = static_cast<double>(widthPx) * heightPx;
+  return pixels <= kQuickPage ? 1 : static_cast<int>(std::ceil(std::sqrt(pixels / kCoarsePage)));
+}
+
+Scan coarsePage(const Scan& scan, int factor, const RunContext& context) {
+  Scan coarse;
+  coarse.info = scan.info;
+  coarse.info.width = coarse.info.height = 0;  // of no file
+  coarse.dpi = scan.dpi ? std::optional(*scan.dpi / factor) : std::nullopt;
+  coarse.fileHash = HashBuilder().text("coarse page").hash(scan.fileHash).integer(factor).finish();
+  coarse.path = scan.path;
+  coarse.grey = GreyImage(std::max(1, scan.grey.width / factor), std::max(1, scan.grey.height / factor));
+  const auto area = static_cast<std::uint32_t>(factor * factor);
+  parallelFor(context, coarse.grey.height, kRowsPerBlock, [&](int begin, int end) {
+    std::vector<std::uint32_t> sums(static_cast<std::size_t>(coarse.grey.width));
+    for (int y = begin; y < end; ++y) {
+      std::fill(sums.begin(), sums.end(), 0u);
+      for (int dy = 0; dy < factor; ++dy) {
+        const std::uint16_t* row = scan.grey.row(std::min(y * factor + dy, scan.grey.height - 1));
+        for (int x = 0; x < coarse.grey.width; ++x)
+          for (int dx = 0; dx < factor; ++dx) sums[x] += row[std::min(x * factor + dx, scan.grey.width - 1)];
+      }
+      std::uint16_t* to = coarse.grey.row(y);
+      for (int x = 0; x < coarse.grey.width; ++x) to[x] = static_cast<std::uint16_t>((sums[x] + area / 2) / area);
+    }
+  });
+  return coarse;
+}
+
+Recipe coarseRecipe(Recipe recipe, const Scan& scan, int factor) {
+  const double by = factor;
+  recipe.dpi = recipe.dpi.value_or(scan.dpi.value_or(kAssumedDpi)) / by;
+  for (const Parameter& p : parameterTable()) {
+    if (p.unit == "px") divide(p, by, recipe);
+    if (p.unit == "px²") divide(p, by * by, recipe);
+  }
+  if (recipe.page) recipe.page.reset();
+  for (PenStroke& stroke : recipe.penStrokes) divide(stroke.points, by);
+  for (RegionOfInterest& region : recipe.regions) divide(region.cornersPx, by);
+  for (EdgeChoice& choice : recipe.edges.choices) choice.positionPx /= by;
+  for (CornerMark& mark : recipe.cornerMarks) mark.positionPx /= by;
+  for (SegmentPoint& point : recipe.segmentPoints) point.positionPx /= by;
+  for (ExtremumChoice& choice : recipe.extremumChoices) choice.positionPx /= by;
+  for (PieceChoice& choice : recipe.choices) {
+    divide(choice.anchorsPx, by);
+    divide(choice.keepPx, by);
+    divide(choice.splitsPx, by);
+  }
+  recipe.curveNumbers = {};
+  return recipe;
+}
+
+PageFrame coarseFrame(const PageFrame& coarse, int factor) {
+  PageFrame frame = coarse;
+  frame.widthPx *= factor;
+  frame.heightPx *= factor;
+  frame.mmPerPx /= factor;
+  return frame;
+}
+
+}  // namespace batten

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/run/imported_lines.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/contour/pen_strokes.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/curvature.h"
+#include "core/curve/knot_operations.h"
+
+namespace batten {
+namespace {
+
+constexpr double kStepPx = 1.0;
+constexpr int kLeastSteps = 4, kMostSteps = 4000;  // of a span
+constexpr int kMostSamples = 200'000;              // of a line
+constexpr double kSeamGap = 1e-6;                  // of the size
+
+/// A place on one of the curves of a line.
+struct ImportedSample {
+  int curve = 0;
+  double u = 0.0;
+};
+
+/// Whether the line goes on in the same direction from its last curve to its first.
+bool isSmoothSeam(const ImportedLine& line) {
+  constexpr double kSameDirection = 1e-6;  // radians
+  const NurbsCurve &last = line.curves.back(), &first = line.curves.front();
+  const Vec2 in = last.derivatives(last.end(), 1)[1], out = first.derivatives(first.start(), 1)[1];
+  return in.dot(out) > 0.0 && std::abs(cross(in, out)) <= kSameDirection * in.norm() * out.norm();
+}
+
+/// Steps of a span, about a pixel each.
+int stepsOf(const NurbsCurve& curve, double from, double to, const PageFrame& frame) {
+  constexpr int kChords = 8;
+  double length = 0.0;
+  Vec2 before = curve.point(from);
+  for (int i = 1; i <= kChords; ++i) {
+    const Vec2 at = curve.point(from + (to - from) * i / kChords);
+    length += (at - before).norm();
+    before = at;
+  }
+  const double steps = std::ceil(frame.lengthToImage(length) / kStepPx);
+  return static_cast<int>(std::clamp(steps, static_cast<double>(kLeastSteps), static_cast<double>(kMostSteps)));
+}
+
+std::vector<ImportedSample> samplesOf(const ImportedLine& line, const PageFrame& frame) {
+  std::vector<ImportedSample> samples;
+  for (std::size_t k = 0; k < line.curves.size(); ++k) {
+    const std::vector<double> breaks = line.curves[k].breaks();
+    for (std::size_t i = 1; i < breaks.size(); ++i) {
+      const double from = breaks[i - 1], to = breaks[i];
+      const bool isMuch = std::ssize(samples) > kMostSamples;
+      const int steps = isMuch ? kLeastSteps : stepsOf(line.curves[k], from, to, frame);
+      for (int n = 0; n < steps; ++n) samples.push_back({static_cast<int>(k), from + (to - from) * n / steps});
+    }
+  }
+  if (!line.closed) samples.push_back({static_cast<int>(line.curves.size()) - 1, line.curves.back().end()});
+  return samples;
+}
+
+Contour contourOfCurves(const ImportedLine& line, const PageFrame& frame) {
+  Contour contour;
+  const std::vector<ImportedSample> samples = samplesOf(line, frame);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Vec2 at = frame.pointToImage(line.curves[static_cast<std::size_t>(samples[i].curve)].point(samples[i].u));
+    contour.points.push_back({.at = at, .unrefined = at, .refined = true});
+    const bool begins = i > 0 ? samples[i].curve != samples[i - 1].curve
+                              : line.closed && (line.curves.size() > 1 || !isSmoothSeam(line));
+    if (begins) contour.joints.push_back(static_cast<int>(i));
+  }
+  return contour;
+}
+
+Contour contourOfPoints(const ImportedLine& line, const PageFrame& frame) {
+  PenStroke stroke;
+  stroke.closed = line.closed;
+  for (const Vec2& p : line.points) stroke.points.push_back(frame.pointToImage(p));
+  Contour contour = penContour(stroke);
+  // Corners are counted in the points that were given.
+  std::size_t corner = 0;
+  for (std::size_t i = 0, given = 0; i < contour.points.size() && corner < line.corners.size(); ++i) {
+    if (!contour.points[i].refined) continue;
+    while (given < stroke.points.size() && stroke.points[given] != contour.points[i].at) ++given;
+    while (corner < line.corners.size() && static_cast<std::size_t>(line.corners[corner]) < given) ++corner;
+    if (corner < line.corners.size() && static_cast<std::size_t>(line.corners[corner]) == given) {
+      const bool isEnd = !line.closed && (i == 0 || i + 1 == contour.points.size());
+      if (!isEnd) contour.joints.push_back(static_cast<int>(i));
+      ++corner;
+    }
+  }
+  return contour;
+}
+
+/// The part of a curve between two parameters.
+std::optional<NurbsCurve> partOf(const NurbsCurve& curve, double from, double to) {
+  NurbsCurve part = curve;
+  if (to < part.end()) {
+    auto cut = split(part, to);
+    if (!cut) return std::nullopt;
+    part = cut->left;
+  }
+  if (from > part.start()) {
+    auto cut = split(part, from);
+    if (!cut) return std::nullopt;
+    part = cut->right;
+  }
+  return part;
+}
+
+/// The curve from one sample to another, on one curve of the line or over the seam of a closed one.
+std::optional<NurbsCurve> curveBetween(const ImportedLine& line, std::span<const ImportedSample> samples, int first,
+                                       int last) {
+  const int count = static_cast<int>(samples.size());
+  if (first < 0 || first >= count || last <= first) return std::nullopt;
+  const ImportedSample& from = samples[static_cast<std::size_t>(first)];
+  const NurbsCurve& curve = line.curves[static_cast<std::size_t>(from.curve)];
+  if (last >= count) {
+    // Behind the last sample of a closed line comes its first.
+    if (!line.closed || from.curve + 1 != std::ssize(line.curves)) return std::nullopt;
+    auto head = partOf(curve, from.u, curve.end());
+    const int rest = last - count;
+    if (rest == 0 || !head) return head;
+    const ImportedSample& to = samples[static_cast<std::size_t>(rest)];
+    if (rest >= count || to.curve != 0 || line.curves.size() != 1) return std::nullopt;
+    const auto tail = partOf(curve, curve.start(), to.u);
+    if (!tail) return std::nullopt;
+    const std::array<NurbsCurve, 2> both{*head, *tail};
+    auto joined = joinAtCorners(both, kSeamGap * extent(curve));
+    return joined ? std::optional(std::move(*joined)) : std::nullopt;
+  }
+  const ImportedSample& to = samples[static_cast<std::size_t>(last)];
+  if (to.curve == from.curve) return partOf(curve, from.u, to.u);
+  const bool isNext =
+      to.curve == from.curve + 1 && (last == 0 || samples[static_cast<std::size_t>(last) - 1].curve == from.curve);
+  return isNext ? partOf(curve, from.u, curve.end()) : std::nullopt;
+}
+
+}  // namespace
+
+ContourSet withImports(ContourSet set, std::span<const ImportedFile> imports, const PageFrame& frame) {
+  int index = 0;
+  for (const ImportedFile& file : imports) {
+    for (const ImportedLine& line : file.lines) {
+      Contour contour = line.curves.empty() ? contourOfPoints(line, frame) : contourOfCurves(line, frame);
+      contour.kind = ContourKind::Imported;
+      contour.closed = line.closed;
+      contour.imported = index++;
+      measureContour(contour);
+      set.contours.push_back(std::move(contour));
+    }
+  }
+  return set;
+}
+
+const ImportedLine* importedLineOf(const Contour& contour, std::span<const ImportedFile> imports) {
+  if (!contour.imported) return nullptr;
+  int index = *contour.imported;
+  for (const ImportedFile& file : imports) {
+    if (index < std::ssize(file.lines)) return &file.lines[static_cast<std::size_t>(index)];
+    index -= static_cast<int>(file.lines.size());
+  }
+  return nullptr;
+}
+
+std::string importedFrom(const Contour& contour, std::span<const ImportedFile> imports) {
+  if (!contour.imported) return {};
+  int index = *contour.imported;
+  for (const ImportedFile& file : imports) {
+    if (index < std::ssize(file.lines)) return file.source;
+    index -= static_cast<int>(file.lines.size());
+  }
+  return {};
+}
+
+std::vector<std::optional<NurbsCurve>> importedCurves(const ImportedLine& line, std::span<const Piece> pieces,
+                                                      const PageFrame& frame) {
+  std::vector<std::optional<NurbsCurve>> curves(pieces.size());
+  if (line.curves.empty()) return curves;
+  const std::vector<ImportedSample> samples = samplesOf(line, frame);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (pieces[i].closed) {
+      if (line.curves.size() == 1) curves[i] = line.curves.front();
+    } else {
+      curves[i] = curveBetween(line, samples, pieces[i].firstPoint, pieces[i].lastPoint);
+    }
+  }
+  return curves;
+}
+
+NurbsCurve fairableShape(const NurbsCurve& curve) {
+  constexpr int kDegree = 5;
+  constexpr double kLongestSpan = 1.0 / 16.0;  // of the length
+  if (curve.isRational()) return {};
+  auto shape = elevated(curve, std::max(kDegree, curve.degree()));
+  if (!shape) return {};
+  const ArcLength arc(*shape);
+  const double longest = kLongestSpan * arc.total();
+  const std::vector<double> breaks = shape->breaks();
+  for (std::size_t i = 1; i < breaks.size(); ++i) {
+    const double length = arc.at(breaks[i]) - arc.at(breaks[i - 1]);
+    const int parts = std::clamp(static_cast<int>(std::ceil(length / longest)), 1, 64);
+    for (int k = 1; k < parts; ++k) {
+      auto finer = insertKnot(*shape, breaks[i - 1] + (breaks[i] - breaks[i - 1]) * k / parts, 1);
+      if (!finer) return {};
+      shape = std::move(finer);
+    }
+  }
+  return *shape == curve ? NurbsCurve() : *shape;
+}
+
+}  // namespace batten

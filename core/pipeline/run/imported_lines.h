@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/page_frame.h"
+#include "core/contour/contour_set.h"
+#include "core/contour/corner/corner_marks.h"
+#include "core/curve/imported_line.h"
+
+namespace batten {
+
+/// `set` with the lines of other programs behind its own. Curves are followed about a point a pixel; where two of them
+/// meet, and at the corners of points, the line has a joint.
+ContourSet withImports(ContourSet set, std::span<const ImportedFile>, const PageFrame&);
+
+/// The line that a contour stands for; null for contours of other kinds.
+const ImportedLine* importedLineOf(const Contour&, std::span<const ImportedFile>);
+/// Name of the file that it came from.
+std::string importedFrom(const Contour&, std::span<const ImportedFile>);
+
+/// The curves of the pieces of one imported line, exactly as they were imported: whole, or the part between two corner
+/// marks. Absent for lines of points, and where the pieces are none of the line. Model frame, mm.
+std::vector<std::optional<NurbsCurve>> importedCurves(const ImportedLine&, std::span<const Piece> pieces,
+                                                      const PageFrame&);
+
+/// What fairing starts from where an imported curve has too little freedom of its own: the same shape with degree 5 and
+/// no span longer than a sixteenth of its length. Empty where it has enough; also for rational curves, which cannot be
+/// raised exactly.
+NurbsCurve fairableShape(const NurbsCurve&);
+
+}  // namespace batten

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/run/piece_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "core/polyline/point_grid.h"
+
+namespace batten {
+namespace {
+
+/// [px] Thresholds and filters move a line by less; as for choices (piece_choices).
+constexpr double kNumberReachPx = 8.0;
+/// [px] A line that lies where it lay, but for rounding and the spacing of its points.
+constexpr double kSamePlaceReachPx = 1.5;
+/// Of the places of a line: a crossing line meets one of them, a part that deserves the number two.
+constexpr int kFewestPlaces = 2;
+/// Noted along a line, in the middle of as many equal parts: none lies at an end, where other lines begin.
+constexpr int kPlacesNoted = 5;
+/// Lines that are gone may come back. So many are remembered; those that went first are forgotten first.
+constexpr std::ptrdiff_t kMostGone = 5000;
+constexpr double kPlaceRoundingPx = 0.1;
+
+std::vector<Vec2> placesOf(const Piece& piece) {
+  std::vector<Vec2> places;
+  const auto count = std::ssize(piece.points);
+  std::ptrdiff_t last = -1;
+  for (int k = 0; k < kPlacesNoted; ++k) {
+    const std::ptrdiff_t i = (2 * k + 1) * count / (2 * kPlacesNoted);
+    if (i == last || i >= count) continue;
+    last = i;
+    const Vec2 p = piece.points[i] / kPlaceRoundingPx;
+    places.push_back(kPlaceRoundingPx * Vec2(std::round(p.x()), std::round(p.y())));
+  }
+  return places;
+}
+
+/// What speaks for giving the number of a known curve to a piece.
+struct NumberClaim {
+  std::size_t known = 0, piece = 0;
+  int near = 0, within = 0;  ///< Places of the curve on the piece, within the two reaches.
+};
+
+/// The piece nearest to each place of the known curves.
+class PlaceOwners {
+ public:
+  explicit PlaceOwners(const std::vector<NumberedCurve>& curves) {
+    for (std::size_t known = 0; known < curves.size(); ++known) {
+      for (const Vec2& p : curves[known].placesPx) {
+        grid_.add(p, places_.size());
+        places_.push_back({p, known});
+      }
+    }
+  }
+
+  void look(const Piece& piece, std::size_t index) {
+    for (const Vec2& point : piece.points) {
+      grid_.around(point, [&](std::size_t at) {
+        NotedPlace& place = places_[at];
+        const double distance = (place.at - point).norm();
+        if (distance > kNumberReachPx || distance >= place.distance) return;
+        place.distance = distance;
+        place.piece = index;
+      });
+    }
+  }
+
+  std::vector<NumberClaim> claims() const {
+    std::map<std::pair<std::size_t, std::size_t>, NumberClaim> found;
+    for (const NotedPlace& place : places_) {
+      if (!place.piece) continue;
+      NumberClaim& claim = found.try_emplace({place.known, *place.piece}, place.known, *place.piece).first->second;
+      ++claim.within;
+      if (place.distance <= kSamePlaceReachPx) ++claim.near;
+    }
+    std::vector<NumberClaim> list;
+    for (const auto& [pair, claim] : found) list.push_back(claim);
+    return list;
+  }
+
+ private:
+  struct NotedPlace {
+    Vec2 at;
+    std::size_t known;
+    double distance = std::numeric_limits<double>::infinity();
+    std::optional<std::size_t> piece{};
+  };
+  std::vector<NotedPlace> places_;
+  PointGrid<std::size_t> grid_{kNumberReachPx};
+};
+
+/// Number of each piece that a known curve has; 0: none has it. `isThere`: the known curves that have a piece.
+std::vector<int> keptNumbers(const PieceSet& set, const std::vector<NumberedCurve>& known, std::vector<bool>& isThere,
+                             const RunContext& context) {
+  std::vector<int> numbers(set.pieces.size(), 0);
+  if (known.empty()) return numbers;
+  PlaceOwners owners(known);
+  for (std::size_t piece = 0; piece < set.pieces.size(); ++piece) {
+    if (context.isCancelled()) return numbers;
+    owners.look(set.pieces[piece], piece);
+  }
+  std::vector<NumberClaim> claims = owners.claims();
+  std::sort(claims.begin(), claims.end(), [&](const NumberClaim& a, const NumberClaim& b) {
+    return std::tuple(-a.near, -a.within, known[a.known].number, a.piece) <
+           std::tuple(-b.near, -b.within, known[b.known].number, b.piece);
+  });
+  for (const NumberClaim& claim : claims) {
+    const NumberedCurve& curve = known[claim.known];
+    const int asked = std::min(kFewestPlaces, static_cast<int>(curve.placesPx.size()));
+    if (claim.within < asked || numbers[claim.piece] != 0 || isThere[claim.known]) continue;
+    numbers[claim.piece] = curve.number;
+    isThere[claim.known] = true;
+  }
+  return numbers;
+}
+
+}  // namespace
+
+PieceNumbers numberPieces(const PieceSet& set, const CurveNumbers& known, const RunContext& context) {
+  PieceNumbers result;
+  std::vector<bool> isThere(known.curves.size(), false);
+  result.ofPiece = keptNumbers(set, known.curves, isThere, context);
+  if (context.isCancelled()) return {{}, known};
+  result.known.lastGiven = known.lastGiven;
+  for (const NumberedCurve& curve : known.curves)
+    result.known.lastGiven = std::max(result.known.lastGiven, curve.number);
+  for (std::size_t piece = 0; piece < set.pieces.size(); ++piece) {
+    if (result.ofPiece[piece] == 0) result.ofPiece[piece] = ++result.known.lastGiven;
+    if (!set.pieces[piece].points.empty())
+      result.known.curves.push_back({result.ofPiece[piece], placesOf(set.pieces[piece])});
+  }
+  std::sort(result.known.curves.begin(), result.known.curves.end(),
+            [](const NumberedCurve& a, const NumberedCurve& b) { return a.number < b.number; });
+  const std::ptrdiff_t present = std::ssize(result.known.curves);
+  for (std::size_t i = 0; i < known.curves.size() && std::ssize(result.known.curves) < present + kMostGone; ++i)
+    if (!isThere[i]) result.known.curves.push_back(known.curves[i]);
+  return result;
+}
+
+std::string curveName(int number) { return "Curve " + std::to_string(number); }
+
+}  // namespace batten

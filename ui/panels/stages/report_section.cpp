@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/stages/report_section.h"
+
+#include <QComboBox>
+#include <QCoreApplication>
+#include <QDate>
+#include <QDir>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QLocale>
+#include <QPointer>
+#include <QPushButton>
+#include <QSettings>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <filesystem>
+#include <new>
+
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/panels/controls/save_dialog.h"
+#include "ui/session/background_worker.h"
+#include "ui/session/path_text.h"
+
+namespace batten {
+namespace {
+
+const QString kKindKey = QStringLiteral("report/kind"), kReportFolderKey = QStringLiteral("export/folder");
+enum Kind { PdfOnA4, PdfOnLetter, Html };
+
+Result<void> writeReport(const PipelineOutput& output, const Recipe& recipe, const Scan& scan, Kind kind,
+                         const std::filesystem::path& path, const RunContext& context) {
+  try {
+    const ReportOrigin origin{
+        (QStringLiteral("Batten ") + QCoreApplication::applicationVersion()).trimmed().toStdString(),
+        QDate::currentDate().toString(Qt::ISODate).toStdString()};
+    const auto content = reportContent(scan, recipe, output, origin, context);
+    if (!content) return fail(content.error());
+    return writeReportFile(*content, kind == Html ? ReportFormat::Html : ReportFormat::Pdf,
+                           kind == PdfOnLetter ? ReportPaper::Letter : ReportPaper::A4, path, context);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory for the report. Leave some curves out.");
+  }
+}
+
+}  // namespace
+
+ReportSection::ReportSection(EditorSession& session, QWidget* parent)
+    : QWidget(parent),
+      session_(session),
+      kind_(new QComboBox(this)),
+      button_(plainButton(tr("Write report…"), QStringLiteral("report.write"), this)),
+      worker_(std::make_unique<BackgroundWorker>()) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(8);
+  layout->addWidget(caption(tr("Report"), this));
+  auto* row = new QHBoxLayout;
+  row->setSpacing(8);
+  kind_->setObjectName(QStringLiteral("report.kind"));
+  kind_->setAccessibleName(tr("Format of the report"));
+  kind_->addItems({tr("PDF, A4"), tr("PDF, Letter"), tr("HTML")});
+  const bool isLetter = QLocale().measurementSystem() == QLocale::ImperialUSSystem;
+  kind_->setCurrentIndex(std::clamp(QSettings().value(kKindKey, isLetter ? PdfOnLetter : PdfOnA4).toInt(), 0, 2));
+  button_->setToolTip(tr("The drawing 1:1, figures of every curve, comb, radius, deviations and the recipe."));
+  row->addWidget(kind_);
+  row->addWidget(button_, 1);
+  layout->addLayout(row);
+  connect(kind_, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          [](int kind) { QSettings().setValue(kKindKey, kind); });
+  connect(button_, &QPushButton::clicked, this, &ReportSection::choose);
+  connect(&session_, &EditorSession::stopped, this, [this] {
+    if (isRunning_) cancel_.cancel();
+  });
+}
+
+ReportSection::~ReportSection() { cancel_.cancel(); }
+
+void ReportSection::setReady(bool ready) {
+  isReady_ = ready;
+  button_->setEnabled(ready && !isRunning_);
+}
+
+void ReportSection::choose() {
+  const bool isHtml = kind_->currentIndex() == Html;
+  const QString suffix = isHtml ? QStringLiteral("html") : QStringLiteral("pdf");
+  const QFileInfo scan(session_.scanPath());
+  QString folder = QSettings().value(kReportFolderKey).toString();
+  if (folder.isEmpty() && !session_.isBlankPage() && !isOfProgram(scan.absoluteFilePath()))
+    folder = scan.absolutePath();
+  if (folder.isEmpty() || !QFileInfo(folder).isWritable()) folder = QDir::homePath();
+  const QString name = session_.isBlankPage() ? QStringLiteral("drawing") : scan.completeBaseName();
+  const QString path =
+      askSavePath(this, {tr("Write report"), folder + QLatin1Char('/') + name + QStringLiteral(".report.") + suffix,
+                         isHtml ? tr("HTML (*.html)") : tr("PDF (*.pdf)"), suffix});
+  if (!path.isEmpty()) write(path);
+}
+
+void ReportSection::write(const QString& path) {
+  if (isRunning_ || !session_.output().faired) return;
+  isRunning_ = true;
+  setReady(isReady_);
+  session_.setSideWork(this, true, false);
+  const Kind kind = static_cast<Kind>(kind_->currentIndex());
+  cancel_ = worker_->start(
+      [output = session_.output(), recipe = session_.recipe(), scan = session_.scan(), kind, path,
+       self = QPointer<ReportSection>(this)](const CancelToken& cancel) {
+        RunContext context;
+        context.cancel = cancel;
+        const auto outcome = writeReport(output, recipe, *scan, kind, nativePath(path), context);
+        if (!self) return;
+        QMetaObject::invokeMethod(
+            self.data(),
+            [self, outcome, path] {
+              if (self) self->finish(outcome, path);
+            },
+            Qt::QueuedConnection);
+      },
+      BackgroundWorker::Running::Finish);
+}
+
+void ReportSection::finish(const Result<void>& outcome, const QString& path) {
+  isRunning_ = false;
+  session_.setSideWork(this, false);
+  setReady(isReady_);
+  if (outcome) return emit written(tr("Wrote %1.").arg(QFileInfo(path).fileName()));
+  if (outcome.error().code == ErrorCode::Cancelled) return emit written(tr("Stopped: no report was written."));
+  emit failed(outcome.error());
+}
+
+}  // namespace batten

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "core/document/report_pages/report_file.h"
+#include "ui/session/editor_session.h"
+
+class QComboBox;
+class QPushButton;
+
+namespace batten {
+
+class BackgroundWorker;
+
+/// The report to print or to read in a browser: format, paper, and the button that asks where.
+class ReportSection : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ReportSection(EditorSession& session, QWidget* parent = nullptr);
+  ~ReportSection() override;
+  /// Whether there is something to report on.
+  void setReady(bool ready);
+
+ signals:
+  void written(const QString& sentence);
+  void failed(const batten::Error& error);
+
+ private:
+  void choose();
+  void write(const QString& path);
+  void finish(const Result<void>& outcome, const QString& path);
+
+  EditorSession& session_;
+  QComboBox* kind_;
+  QPushButton* button_;
+  bool isReady_ = false, isRunning_ = false;
+  CancelToken cancel_;
+  std::unique_ptr<BackgroundWorker> worker_;
+};
+
+}  // namespace batten

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+#include <optional>
+
+#include "ui/session/editor_session.h"
+#include "ui/session/view_settings.h"
+
+class QComboBox;
+class QLabel;
+class QPushButton;
+
+namespace batten {
+
+class NumberField;
+
+/// The true size of the drawing by other means than its resolution: a length measured on it, the paper it was drawn on,
+/// or the width of what was scanned.
+class ScaleControls : public QWidget {
+  Q_OBJECT
+ public:
+  ScaleControls(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
+
+ private:
+  enum class Unit { Millimetre, Centimetre, Inch };
+  void build();
+  void refresh();
+  void measureTaken();
+  void setLength(double length);
+  void choosePaper(int index);
+  void setWidth(double mm);
+  void change(const QString& what, Recipe after);
+  double millimetresPerUnit() const;
+
+  EditorSession& session_;
+  ViewSettings& view_;
+  QPushButton* measure_;
+  QWidget* lengthRow_ = nullptr;
+  NumberField* length_;
+  QComboBox* unit_;
+  QComboBox* paper_;
+  NumberField* width_;
+  QLabel* note_;
+};
+
+}  // namespace batten

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/session/coarse_runner.h"
+
+#include "core/pipeline/run/coarse_run.h"
+#include "ui/session/guarded.h"
+
+namespace batten {
+
+void CoarseRunner::start(Request request) {
+  if (coarseFactor(request.scan->grey.width, request.scan->grey.height) <= 1) return;
+  worker_.start([this, request = std::move(request)](const CancelToken& token) { run(request, token); },
+                BackgroundWorker::Running::Finish);
+}
+
+void CoarseRunner::run(const Request& request, const CancelToken& token) {
+  RunContext context;
+  context.cancel = token;
+  // What fails here fails in the full run, which says so.
+  (void)guarded<bool>([&]() -> Result<bool> {
+    const int factor = coarseFactor(request.scan->grey.width, request.scan->grey.height);
+    if (!page_ || pageOf_.lock() != request.scan) {
+      auto page = std::make_shared<const Scan>(coarsePage(*request.scan, factor, context));
+      if (token.isCancelled()) return cancelled();
+      (void)cache_.release();
+      page_ = std::move(page);
+      pageOf_ = request.scan;
+    }
+    PipelineRequest wanted;
+    wanted.needEdges = false;
+    wanted.upTo = request.withCurves ? StageId::Faired : StageId::Filtered;
+    wanted.stageReady = [&](StageId stage, const PipelineOutput& output) {
+      if (!token.isCancelled() && (stage == StageId::Filtered || stage == StageId::Faired)) post(request, output);
+    };
+    (void)runPipeline(*page_, coarseRecipe(request.recipe, *request.scan, factor), cache_, wanted, context);
+    return true;
+  });
+}
+
+void CoarseRunner::post(const Request& request, const PipelineOutput& output) {
+  auto result = std::make_shared<CoarseResult>();
+  result->factor = coarseFactor(request.scan->grey.width, request.scan->grey.height);
+  result->binary = output.binary;
+  result->filtered = output.filtered;
+  result->faired = output.faired;
+  result->frame = coarseFrame(output.frame, result->factor);
+  result->generation = request.generation;
+  QMetaObject::invokeMethod(
+      &inbox_, [this, scan = request.scan, result] { show_(scan, result); }, Qt::QueuedConnection);
+}
+
+}  // namespace batten

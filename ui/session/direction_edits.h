@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "ui/session/editor_session.h"
+
+namespace batten {
+
+/// How a curve of the session is exported.
+struct CurveCourse {
+  bool isTurned = false;        ///< The other way than it was traced.
+  bool isOfClosedLine = false;  ///< It has a start that can be moved.
+  std::optional<Vec2> startPx;  ///< Where its closed line was asked to begin.
+};
+/// The courses of all curves, in their order. @pre none of the outputs has to be there: then none.
+std::vector<CurveCourse> curveCourses(const EditorSession&);
+
+/// Exports a curve the other way round, as an undoable step.
+void turnCurve(EditorSession&, int curve);
+/// Begins the closed line of a curve at a place. Changes with one gesture are one step.
+void startCurveAt(EditorSession&, int curve, const Vec2& px, int gesture);
+
+}  // namespace batten
