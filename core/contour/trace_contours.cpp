@@ -36,10 +36,32 @@ void addSentence(ContourSet& set, const std::string& sentence) {
   set.report.note += sentence;
 }
 
+bool hasInnerBorders(const EdgeParams& edges) {
+  if (edges.internal == InnerBorders::Automatic) return edges.mode == EdgeMode::Automatic;
+  return edges.internal == InnerBorders::On;
+}
+
+std::string counted(int count, const char* one, const char* many) {
+  return count == 1 ? std::string("One ") + one + " is" : std::to_string(count) + " " + many + " are";
+}
+
+// What was found and is not there, in words.
+void tellDropped(ContourSet& set, const EdgeParams& edges) {
+  const ContourReport& report = set.report;
+  if (report.droppedShort > 0)
+    addSentence(set, counted(report.droppedShort, "short line", "short lines") +
+                         " left out (contours.min_widths, contours.min_length).");
+  if (report.droppedHoles > 0 && edges.internal == InnerBorders::Automatic)
+    addSentence(set, counted(report.droppedHoles, "inner border", "inner borders") +
+                         " left out: edges.internal=on keeps them.");
+  if (report.droppedMargins > 0)
+    addSentence(set, counted(report.droppedMargins, "line", "lines") + " along the border of the page left out.");
+}
+
 void sortAndCut(ContourSet& set, const ContourParams& params) {
   std::sort(set.contours.begin(), set.contours.end(), before);
   const auto most = static_cast<std::size_t>(params.maxCount);
-  if (set.contours.size() <= most) return;
+  if (most == 0 || set.contours.size() <= most) return;
   addSentence(set, "Only the " + std::to_string(most) + " longest of " + std::to_string(set.contours.size()) +
                        " lines are kept: raise the largest number of lines to see the rest.");
   set.contours.resize(most);
@@ -102,12 +124,48 @@ void append(ContourSet& to, ContourSet&& from) {
   std::move(from.contours.begin(), from.contours.end(), std::back_inserter(to.contours));
 }
 
+// [px] What a line has to be long, by the width of the pen.
+double shortestPx(const ContourParams& params, double penPx) {
+  return std::max(params.minLengthPx, params.minWidths * penPx);
+}
+
+// [px] A pen width for ink that is followed along its borders alone: that of its borders in the middle, where twice
+// the area by the border is the width of a line; never more than a small mark may be wide.
+double penOfBorders(const ContourSet& borders) {
+  constexpr double kMostPx = 40.0 / 3.0;
+  std::vector<std::pair<double, double>> widths;
+  double all = 0.0, sum = 0.0;
+  for (const Contour& c : borders.contours) {
+    if (c.hole) continue;
+    widths.emplace_back(2.0 * c.areaPx / std::max(1.0, c.lengthPx), c.lengthPx);
+    all += c.lengthPx;
+  }
+  std::sort(widths.begin(), widths.end());
+  for (const auto& [width, length] : widths) {
+    sum += length;
+    if (2.0 * sum >= all) return std::min(width, kMostPx);
+  }
+  return 0.0;
+}
+
+// The borders of ink that is followed along them, but the short ones. `penPx`: 0 = take it from the borders.
+Result<ContourSet> bordersOf(const BitImage& ink, bool holes, const ContourParams& params, double penPx,
+                             const RunContext& context) {
+  constexpr double kLeastHole = 1.0 / 3.0;  // of a line's least length: the eye of an e is no wider than its pen
+  Result<ContourSet> set = crackContours(ink, holes, params.minLengthPx, context);
+  if (!set) return set;
+  const double shortest = shortestPx(params, penPx > 0.0 ? penPx : penOfBorders(*set));
+  const auto dropped = std::erase_if(
+      set->contours, [&](const Contour& c) { return c.lengthPx < (c.hole ? kLeastHole * shortest : shortest); });
+  set->report.droppedShort += static_cast<int>(dropped);
+  return set;
+}
+
 // The borders of shapes. Holes belong to shapes; on a page that is followed by outlines only, they are the inner
 // borders of its lines.
 Result<ContourSet> outlinesOf(const InkSplit& split, const EdgeParams& edges, const ContourParams& params,
                               const RunContext& context) {
-  const bool holes = edges.internal || edges.mode == EdgeMode::Automatic;
-  Result<ContourSet> set = crackContours(split.shapes, holes, params.minLengthPx, context);
+  Result<ContourSet> set = bordersOf(split.shapes, hasInnerBorders(edges), params, split.penPx, context);
   if (!set) return set;
   for (Contour& outline : set->contours) implyBorders(outline, split.strokes);
   return set;
@@ -118,7 +176,7 @@ Result<ContourSet> outlinesOf(const InkSplit& split, const EdgeParams& edges, co
 Result<ContourSet> findLines(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
                              const ContourParams& params, RunPieces& regions, const RunContext& context) {
   if (edges.mode == EdgeMode::Outline && edges.choices.empty()) {
-    return crackContours(ink, edges.internal, params.minLengthPx, context);
+    return bordersOf(ink, hasInnerBorders(edges), params, 0.0, context);
   }
   Result<InkSplit> found = splitInk(ink, grey, edges, context);
   if (!found) return fail(found.error());
@@ -132,7 +190,8 @@ Result<ContourSet> findLines(const BitImage& ink, const GreyImage& grey, const E
     append(set, std::move(*outlines));
   }
   context.report(0.3);
-  Result<ContourSet> lines = centrelines(split.strokes, grey, edges, context, anyShape ? &split.shapes : nullptr);
+  const CentrelineOptions options{anyShape ? &split.shapes : nullptr, params.minWidths};
+  Result<ContourSet> lines = centrelines(split.strokes, grey, edges, context, options);
   if (!lines) return lines;
   const std::size_t all = lines->contours.size();
   std::erase_if(lines->contours, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
@@ -147,18 +206,44 @@ void addNote(ContourSet& set, const std::string& what, const Vec2& px) {
       set, what + " near (" + std::to_string(std::lround(px.x())) + ", " + std::to_string(std::lround(px.y())) + ").");
 }
 
-// Notes on every line which choice of the user its ink follows; true for every choice that gave a line.
+// Which choice of the user the ink of a point follows; -1 = none.
+int choiceUnder(const Contour& contour, std::size_t point, const ChosenInk& chosen) {
+  for (const Vec2& place : inkBeside(contour, point)) {
+    const int choice = chosen.choiceAt(place);
+    if (choice >= 0) return choice;
+  }
+  return -1;
+}
+
+// Notes on every line which choice of the user its ink follows; true for every choice that gave a line. A line that
+// only ends in chosen ink, or begins there, is its neighbour's; one that is led through it is its own where there is no
+// other.
 std::vector<bool> noteWays(ContourSet& set, const ChosenInk& chosen, std::span<const EdgeChoice> choices) {
+  constexpr int kFewestPoints = 3;
+  struct Longest {
+    int points = 0;
+    Contour* line = nullptr;
+  };
+  std::vector<Longest> longest(choices.size());
   std::vector<bool> gaveLine(choices.size(), false);
   for (Contour& contour : set.contours) {
-    for (std::size_t i = 0; i < contour.points.size() && !contour.traceMode; ++i) {
-      for (const Vec2& place : inkBeside(contour, i)) {
-        const int choice = chosen.choiceAt(place);
-        if (choice < 0) continue;
-        contour.traceMode = choices[choice];
-        gaveLine[choice] = true;
-      }
+    std::vector<int> points(choices.size(), 0);
+    for (std::size_t i = 0; i < contour.points.size(); ++i) {
+      const int choice = choiceUnder(contour, i, chosen);
+      if (choice >= 0) ++points[choice];
     }
+    for (std::size_t k = 0; k < choices.size(); ++k) {
+      if (2 * points[k] > std::ssize(contour.points)) {
+        contour.traceMode = choices[k];
+        gaveLine[k] = true;
+      }
+      if (points[k] >= kFewestPoints && points[k] > longest[k].points) longest[k] = {points[k], &contour};
+    }
+  }
+  for (std::size_t k = 0; k < choices.size(); ++k) {
+    if (gaveLine[k] || longest[k].line == nullptr) continue;
+    gaveLine[k] = true;
+    if (!longest[k].line->traceMode) longest[k].line->traceMode = choices[k];
   }
   return gaveLine;
 }
@@ -186,7 +271,7 @@ Result<void> followChoices(ContourSet& set, const BitImage& ink, const EdgeParam
     isNoted[at] = true;
   }
   if (std::find(isNoted.begin(), isNoted.end(), true) == isNoted.end()) return {};
-  Result<ContourSet> outlines = crackContours(blots, edges.internal, params.minLengthPx, context);
+  Result<ContourSet> outlines = bordersOf(blots, hasInnerBorders(edges), params, set.report.widthPx, context);
   if (!outlines) return fail(outlines.error());
   noteWays(*outlines, chosen, edges.choices);
   append(set, std::move(*outlines));
@@ -225,6 +310,7 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
     if (context.isCancelled()) return cancelled();
     std::sort(set->contours.begin(), set->contours.end(), before);
   }
+  tellDropped(*set, edges);
   countRefined(*set);
   context.report(1.0);
   return set;

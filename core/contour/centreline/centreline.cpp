@@ -22,7 +22,6 @@
 namespace batten {
 namespace {
 
-constexpr double kShortestWidths = 3.0;     // [stroke widths] shorter stroke paths are blots
 constexpr double kClosingWidths = 0.75;     // [stroke widths] between the specks of a pencil there is less, and a pixel
 constexpr double kPencilSmoothingPx = 3.0;  // of the middles along a pencil stroke, whose grain moves every one
 
@@ -145,7 +144,8 @@ bool isSeen(const Contour& c) {
 }
 
 Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
-                                const RunContext& context, const BitImage* shapes) {
+                                const RunContext& context, const CentrelineOptions& options) {
+  const BitImage* shapes = options.shapes;
   std::vector<StrokePath> paths = centrelinesOf(strokes, shapes, params, context);
   if (context.isCancelled()) return cancelled();
   const double width = medianWidth(paths, [](int) { return true; });
@@ -165,8 +165,8 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (context.isCancelled()) return cancelled();
   ContourSet set;
   set.report.found = static_cast<int>(paths.size());
-  std::erase_if(paths,
-                [](const StrokePath& s) { return s.points.size() < 3 || s.length() < kShortestWidths * s.widthPx(); });
+  std::erase_if(
+      paths, [&](const StrokePath& s) { return s.points.size() < 3 || s.length() < options.minWidths * s.widthPx(); });
   set.report.droppedShort = set.report.found - static_cast<int>(paths.size());
   if (anyPencil) {
     const GraininessMap found(paths, grey, context);
@@ -193,13 +193,13 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
 }  // namespace
 
 Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
-                               const RunContext& context, const BitImage* shapes) {
+                               const RunContext& context, const CentrelineOptions& options) {
   if (strokes.width <= 0 || strokes.height <= 0) return ContourSet{};
   if (grey.width != strokes.width || grey.height != strokes.height) {
     return fail(ErrorCode::BadParameter, "The mask and the scan differ in size.");
   }
   try {
-    return traceStrokes(strokes, grey, params, context, shapes);
+    return traceStrokes(strokes, grey, params, context, options);
   } catch (const cv::Exception& e) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to find the centre lines.", e.what());
   } catch (const std::bad_alloc&) {

@@ -22,8 +22,11 @@ Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams&, const R
 /// Centre lines of all strokes of a mask: skeleton for the topology (spurs pruned, smooth stroke paths joined through
 /// crossings, gaps bridged, overdrawn strokes merged if asked), then the centre from the grey profile across the
 /// stroke.
-/// @param shapes ink beside the strokes, which they may run into: they end at its rim. Absent: there is none.
+struct CentrelineOptions {
+  const BitImage* shapes = nullptr;  ///< Ink beside the strokes, which they may run into: they end at its rim.
+  double minWidths = 3.0;            ///< [stroke widths] Shorter strokes are left out.
+};
 Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams&, const RunContext&,
-                               const BitImage* shapes = nullptr);
+                               const CentrelineOptions& options = {});
 
 }  // namespace batten

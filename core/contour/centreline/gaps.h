@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/contour/centreline/stroke_paths.h"
+#include "core/image/grey_image.h"
 
 namespace batten {
 

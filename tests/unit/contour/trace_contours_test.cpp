@@ -77,7 +77,7 @@ TEST(TraceContours, ModesOverrideTheChoice) {
   for (const Contour& c : lines->contours) EXPECT_EQ(c.kind, ContourKind::Centreline);
   EXPECT_EQ(outlines->report.droppedHoles, 1);
   EdgeParams inner = withMode(EdgeMode::Outline);
-  inner.internal = true;
+  inner.internal = InnerBorders::On;
   const auto both = traceContours(page.ink, page.grey, inner, {}, {});
   ASSERT_TRUE(both.has_value());
   EXPECT_EQ(both->contours.size(), outlines->contours.size() + 1);
