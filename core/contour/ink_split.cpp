@@ -102,8 +102,10 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
   Result<StrokeSplit> byPiece = splitStrokes(ink, whole, context);
   if (!byPiece) return fail(byPiece.error());
   const RunPieces& pieces = pencil.pieces();
+  split.pencil = BitImage(ink.width, ink.height);
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     if (!pencil.isPencil(pieces.piece[i])) continue;
+    setBits(split.pencil, pieces.runs[i]);
     move(ink, pieces.runs[i], byPiece->shapes.at(pieces.runs[i].x0, pieces.runs[i].y), split);
   }
   return {};
@@ -113,7 +115,7 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
 
 Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
                           const RunContext& context) {
-  InkSplit split{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height), {}, 0.0};
+  InkSplit split{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height), {}, {}, 0.0};
   if (params.mode == EdgeMode::Outline) {
     split.shapes = ink;
   } else if (params.mode == EdgeMode::Centreline) {

@@ -14,6 +14,7 @@ namespace batten {
 struct InkSplit {
   BitImage strokes;    ///< Along their middle.
   BitImage shapes;     ///< Along their border.
+  BitImage pencil;     ///< Ink that was drawn with a pencil; no pixels at all where there is none.
   RunPieces regions;   ///< What the user turns over with one click: connected parts of one kind, before the choices.
   double penPx = 0.0;  ///< [px] width of the strokes; 0 = none was looked for, or there are none.
 };

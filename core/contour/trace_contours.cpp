@@ -11,11 +11,15 @@
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/chosen_ink.h"
 #include "core/contour/ink_split.h"
+#include "core/contour/line_choices.h"
 #include "core/contour/outline/crack_contours.h"
 #include "core/contour/outline/implied_borders.h"
 #include "core/contour/outline/soft_borders.h"
 #include "core/contour/outline/soft_edges.h"
 #include "core/contour/outline/subpixel_edges.h"
+#include "core/image/bit_disc.h"
+#include "core/image/bit_steps.h"
+#include "core/image/run_pieces.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -31,13 +35,8 @@ bool before(const Contour& a, const Contour& b) {
   return p.y() != q.y() ? p.y() < q.y() : p.x() < q.x();
 }
 
-void addSentence(ContourSet& set, const std::string& sentence) {
-  if (!set.report.note.empty()) set.report.note += ' ';
-  set.report.note += sentence;
-}
-
 bool hasInnerBorders(const EdgeParams& edges) {
-  if (edges.internal == InnerBorders::Automatic) return edges.mode == EdgeMode::Automatic;
+  if (edges.internal == InnerBorders::Automatic) return edges.mode != EdgeMode::Outline;
   return edges.internal == InnerBorders::On;
 }
 
@@ -49,21 +48,21 @@ std::string counted(int count, const char* one, const char* many) {
 void tellDropped(ContourSet& set, const EdgeParams& edges) {
   const ContourReport& report = set.report;
   if (report.droppedShort > 0)
-    addSentence(set, counted(report.droppedShort, "short line", "short lines") +
-                         " left out (contours.min_widths, contours.min_length).");
+    addNote(set, counted(report.droppedShort, "short line", "short lines") +
+                     " left out (contours.min_widths, contours.min_length).");
   if (report.droppedHoles > 0 && edges.internal == InnerBorders::Automatic)
-    addSentence(set, counted(report.droppedHoles, "inner border", "inner borders") +
-                         " left out: edges.internal=on keeps them.");
+    addNote(set,
+            counted(report.droppedHoles, "inner border", "inner borders") + " left out: edges.internal=on keeps them.");
   if (report.droppedMargins > 0)
-    addSentence(set, counted(report.droppedMargins, "line", "lines") + " along the border of the page left out.");
+    addNote(set, counted(report.droppedMargins, "line", "lines") + " along the border of the page left out.");
 }
 
 void sortAndCut(ContourSet& set, const ContourParams& params) {
   std::sort(set.contours.begin(), set.contours.end(), before);
   const auto most = static_cast<std::size_t>(params.maxCount);
   if (most == 0 || set.contours.size() <= most) return;
-  addSentence(set, "Only the " + std::to_string(most) + " longest of " + std::to_string(set.contours.size()) +
-                       " lines are kept: raise the largest number of lines to see the rest.");
+  addNote(set, "Only the " + std::to_string(most) + " longest of " + std::to_string(set.contours.size()) +
+                   " lines are kept: raise the largest number of lines to see the rest.");
   set.contours.resize(most);
 }
 
@@ -149,157 +148,126 @@ double penOfBorders(const ContourSet& borders) {
 }
 
 // The borders of ink that is followed along them, but the short ones. `penPx`: 0 = take it from the borders.
+// `pencil`: ink whose grain leaves specks and holes; absent: none is known.
 Result<ContourSet> bordersOf(const BitImage& ink, bool holes, const ContourParams& params, double penPx,
-                             const RunContext& context) {
+                             const BitImage* pencil, const RunContext& context) {
   constexpr double kLeastHole = 1.0 / 3.0;  // of a line's least length: the eye of an e is no wider than its pen
+  constexpr double kGrain = 4.0;            // of it: specks and holes of a pencil are smaller
   Result<ContourSet> set = crackContours(ink, holes, params.minLengthPx, context);
   if (!set) return set;
   const double shortest = shortestPx(params, penPx > 0.0 ? penPx : penOfBorders(*set));
-  const auto dropped = std::erase_if(
-      set->contours, [&](const Contour& c) { return c.lengthPx < (c.hole ? kLeastHole * shortest : shortest); });
+  const auto isGrainy = [&](const Contour& c) {
+    return pencil != nullptr && anyInDisc(*pencil, c.points.front().unrefined, 1.0);
+  };
+  const auto dropped = std::erase_if(set->contours, [&](const Contour& c) {
+    return c.lengthPx < shortest * (isGrainy(c) ? kGrain : c.hole ? kLeastHole : 1.0);
+  });
   set->report.droppedShort += static_cast<int>(dropped);
   return set;
 }
 
-// The borders of shapes. Holes belong to shapes; on a page that is followed by outlines only, they are the inner
-// borders of its lines.
-Result<ContourSet> outlinesOf(const InkSplit& split, const EdgeParams& edges, const ContourParams& params,
-                              const RunContext& context) {
-  Result<ContourSet> set = bordersOf(split.shapes, hasInnerBorders(edges), params, split.penPx, context);
-  if (!set) return set;
-  for (Contour& outline : set->contours) implyBorders(outline, split.strokes);
-  return set;
+// What a page is made of, before sub-pixel placement of the outlines; centre lines come placed.
+struct FoundLines {
+  ContourSet set;
+  RunPieces regions;  ///< What a choice of the user holds for.
+  BitImage blots;     ///< Ink to be followed along its middle that has none.
+};
+
+// Stroke ink that no line follows: blots. A pencil leaves specks that are none.
+BitImage withoutLine(const InkSplit& split, const ContourSet& lines, const RunContext& context) {
+  constexpr double kBesidePx = 1.5;
+  const RunPieces pieces = findPieces(split.strokes, Connectivity::Eight, context);
+  BitImage rest(split.strokes.width, split.strokes.height);
+  BitImage near(split.strokes.width, split.strokes.height);
+  for (const Contour& line : lines.contours) {
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      for (const Vec2& place : inkBeside(line, i)) setDisc(near, place, kBesidePx);
+    }
+  }
+  std::vector<bool> hasLine(pieces.runs.size(), false);
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    const Run& run = pieces.runs[i];
+    if (countBits(near, run) > 0 || (split.pencil.width > 0 && countBits(split.pencil, run) > 0))
+      hasLine[pieces.piece[i]] = true;
+  }
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    if (!hasLine[pieces.piece[i]]) setBits(rest, pieces.runs[i]);
+  }
+  return rest;
 }
 
-// The lines of the page before sub-pixel placement of the outlines; centre lines come placed. `regions`: what a choice
-// of the user holds for.
-Result<ContourSet> findLines(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
-                             const ContourParams& params, RunPieces& regions, const RunContext& context) {
+// Where the page is followed along its middles, blots are what the user chose to be.
+BitImage chosenOf(const BitImage& blots, const RunPieces& regions, const EdgeParams& edges) {
+  BitImage chosenBlots(blots.width, blots.height);
+  const ChosenInk chosen(regions, edges.choices);
+  for (std::size_t i = 0; i < regions.runs.size(); ++i) {
+    const Run& run = regions.runs[i];
+    if (chosen.choiceOf(regions.piece[i]) < 0) continue;
+    for (int x = run.x0; x < run.x1; ++x) {
+      if (blots.at(x, run.y)) chosenBlots.set(x, run.y, true);
+    }
+  }
+  return chosenBlots;
+}
+
+Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
+                             const ContourParams& params, const RunContext& context) {
+  FoundLines found;
   if (edges.mode == EdgeMode::Outline && edges.choices.empty()) {
-    return bordersOf(ink, hasInnerBorders(edges), params, 0.0, context);
+    Result<ContourSet> borders = bordersOf(ink, hasInnerBorders(edges), params, 0.0, nullptr, context);
+    if (!borders) return fail(borders.error());
+    found.set = std::move(*borders);
+    return found;
   }
-  Result<InkSplit> found = splitInk(ink, grey, edges, context);
-  if (!found) return fail(found.error());
-  InkSplit& split = *found;
+  Result<InkSplit> split = splitInk(ink, grey, edges, context);
+  if (!split) return fail(split.error());
   context.report(0.2);
-  ContourSet set;
-  const bool anyShape = split.shapes.count() > 0;
-  if (anyShape) {
-    Result<ContourSet> outlines = outlinesOf(split, edges, params, context);
-    if (!outlines) return outlines;
-    append(set, std::move(*outlines));
-  }
+  found.regions = std::move(split->regions);
+  const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr, params.minWidths};
+  Result<ContourSet> lines = centrelines(split->strokes, grey, edges, context, options);
+  if (!lines) return fail(lines.error());
   context.report(0.3);
-  const CentrelineOptions options{anyShape ? &split.shapes : nullptr, params.minWidths};
-  Result<ContourSet> lines = centrelines(split.strokes, grey, edges, context, options);
-  if (!lines) return lines;
+  found.blots = withoutLine(*split, *lines, context);
+  if (edges.mode == EdgeMode::Centreline) found.blots = chosenOf(found.blots, found.regions, edges);
+  if (context.isCancelled()) return cancelled();
+  split->shapes = either(std::move(split->shapes), found.blots);
+  split->strokes = without(std::move(split->strokes), found.blots);
+  Result<ContourSet> borders =
+      bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, &split->pencil, context);
+  if (!borders) return fail(borders.error());
+  for (Contour& border : borders->contours) implyBorders(border, split->strokes);
+  found.set = std::move(*borders);
   const std::size_t all = lines->contours.size();
   std::erase_if(lines->contours, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
   lines->report.droppedShort += static_cast<int>(all - lines->contours.size());
-  append(set, std::move(*lines));
-  regions = std::move(split.regions);
-  return set;
+  append(found.set, std::move(*lines));
+  return found;
 }
 
-void addNote(ContourSet& set, const std::string& what, const Vec2& px) {
-  addSentence(
-      set, what + " near (" + std::to_string(std::lround(px.x())) + ", " + std::to_string(std::lround(px.y())) + ").");
-}
-
-// Which choice of the user the ink of a point follows; -1 = none.
-int choiceUnder(const Contour& contour, std::size_t point, const ChosenInk& chosen) {
-  for (const Vec2& place : inkBeside(contour, point)) {
-    const int choice = chosen.choiceAt(place);
-    if (choice >= 0) return choice;
-  }
-  return -1;
-}
-
-// Notes on every line which choice of the user its ink follows; true for every choice that gave a line. A line that
-// only ends in chosen ink, or begins there, is its neighbour's; one that is led through it is its own where there is no
-// other.
-std::vector<bool> noteWays(ContourSet& set, const ChosenInk& chosen, std::span<const EdgeChoice> choices) {
-  constexpr int kFewestPoints = 3;
-  struct Longest {
-    int points = 0;
-    Contour* line = nullptr;
-  };
-  std::vector<Longest> longest(choices.size());
-  std::vector<bool> gaveLine(choices.size(), false);
-  for (Contour& contour : set.contours) {
-    std::vector<int> points(choices.size(), 0);
-    for (std::size_t i = 0; i < contour.points.size(); ++i) {
-      const int choice = choiceUnder(contour, i, chosen);
-      if (choice >= 0) ++points[choice];
-    }
-    for (std::size_t k = 0; k < choices.size(); ++k) {
-      if (2 * points[k] > std::ssize(contour.points)) {
-        contour.traceMode = choices[k];
-        gaveLine[k] = true;
-      }
-      if (points[k] >= kFewestPoints && points[k] > longest[k].points) longest[k] = {points[k], &contour};
-    }
-  }
-  for (std::size_t k = 0; k < choices.size(); ++k) {
-    if (gaveLine[k] || longest[k].line == nullptr) continue;
-    gaveLine[k] = true;
-    if (!longest[k].line->traceMode) longest[k].line->traceMode = choices[k];
-  }
-  return gaveLine;
-}
-
-// Ink that was chosen to be followed along its middle, but is a blot that has none, keeps its outline: a line that
-// vanished could not be clicked again.
-Result<void> followChoices(ContourSet& set, const BitImage& ink, const EdgeParams& edges, const ContourParams& params,
-                           const RunPieces& pieces, const RunContext& context) {
-  if (edges.choices.empty()) return {};
-  const ChosenInk chosen(pieces, edges.choices);
-  for (const EdgeChoice& choice : chosen.withoutInk())
-    addNote(set, "No ink to follow in its own way lies", choice.positionPx);
-  const std::vector<bool> gaveLine = noteWays(set, chosen, edges.choices);
-  BitImage blots(ink.width, ink.height);
-  std::vector<bool> isNoted(edges.choices.size(), false);
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    const int index = chosen.choiceOf(pieces.piece[i]);
-    if (index < 0) continue;
-    const auto at = static_cast<std::size_t>(index);
-    const EdgeChoice& choice = edges.choices[at];
-    if (gaveLine[at] || choice.mode != EdgeMode::Centreline) continue;
-    setBits(blots, pieces.runs[i]);
-    if (!isNoted[at])
-      addNote(set, "Too short and wide for a centre line, followed along its outline: the ink", choice.positionPx);
-    isNoted[at] = true;
-  }
-  if (std::find(isNoted.begin(), isNoted.end(), true) == isNoted.end()) return {};
-  Result<ContourSet> outlines = bordersOf(blots, hasInnerBorders(edges), params, set.report.widthPx, context);
-  if (!outlines) return fail(outlines.error());
-  noteWays(*outlines, chosen, edges.choices);
-  append(set, std::move(*outlines));
-  return {};
-}
-
-std::string noLineMessage(const ContourSet& set) {
+std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
   if (set.report.found == 0) {
     return "No line was found: raise the thresholds, or check that the drawing is darker than the paper.";
   }
-  return "No line is long enough: lower the smallest length or raise the thresholds.";
+  const bool isPx = params.minLengthPx > 0.0;
+  const auto limit = std::lround(std::min(isPx ? params.minLengthPx : params.minWidths, 1e9));
+  return "No line of " + std::to_string(limit) + (isPx ? " px" : " stroke widths") +
+         " or longer was found: lower the smallest length or raise the thresholds.";
 }
 
 Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
                             const ContourParams& params, const RunContext& context) {
-  RunPieces regions;
-  Result<ContourSet> set = findLines(ink, grey, edges, params, regions, context);
-  if (!set) return set;
-  if (auto followed = followChoices(*set, ink, edges, params, regions, context); !followed)
-    return fail(followed.error());
+  Result<FoundLines> found = findLines(ink, grey, edges, params, context);
+  if (!found) return fail(found.error());
+  ContourSet* set = &found->set;
+  noteChoices(*set, found->regions, edges.choices, found->blots);
   if (context.isCancelled()) return cancelled();
   if (set->contours.empty()) {
     return fail(
-        ErrorCode::NoCurve, noLineMessage(*set),
+        ErrorCode::NoCurve, noLineMessage(*set, params),
         std::to_string(set->report.found) + " found, " + std::to_string(set->report.droppedShort) + " too short");
   }
   if (edges.strokeWidth != EdgeParams{}.strokeWidth) {
-    addSentence(*set, "edges.stroke_width has no effect: strokes and shapes are told apart region by region.");
+    addNote(*set, "edges.stroke_width has no effect: strokes and shapes are told apart region by region.");
   }
   sortAndCut(*set, params);
   context.report(0.6);
@@ -313,7 +281,7 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
   tellDropped(*set, edges);
   countRefined(*set);
   context.report(1.0);
-  return set;
+  return std::move(*set);
 }
 
 }  // namespace

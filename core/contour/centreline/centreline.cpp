@@ -5,6 +5,7 @@
 #include <cmath>
 #include <new>
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "core/base/statistics.h"
 #include "core/contour/centreline/gaps.h"
@@ -138,6 +139,56 @@ std::vector<Contour> placeStrokePaths(const std::vector<StrokePath>& paths, cons
   return contours;
 }
 
+// [grey] by which a stroke is darker than the paper on both its sides.
+double depthOf(const StrokePath& s, const GreyImage& grey) {
+  constexpr double kBesideWidths = 1.25, kBesidePx = 1.5;
+  const auto level = [&](const Vec2& at) {
+    return static_cast<double>(grey.level(std::clamp(static_cast<int>(at.x()), 0, grey.width - 1),
+                                          std::clamp(static_cast<int>(at.y()), 0, grey.height - 1)));
+  };
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 1; i + 1 < std::ssize(s.points); ++i) {
+    const Vec2 along = s.points[i + 1].at - s.points[i - 1].at;
+    if (!(along.norm() > 0.0)) continue;
+    const double beside = kBesideWidths * 2.0 * static_cast<double>(s.points[i].radius) + kBesidePx;
+    const Vec2 away = beside * leftNormal(along.normalized()), &at = s.points[i].at;
+    sum += 0.5 * (level(at + away) + level(at - away)) - level(at);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0.0;
+}
+
+// Strokes shorter than `minWidths` of their widths are blots. Grain breaks the strokes of a pencil and makes short ones
+// of its own: such are kept only where they are as dark as the strokes around.
+void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, double minWidths, bool anyPencil,
+               const RunContext& context) {
+  constexpr double kGrainWidths = 2.5;  // times the shortest: longer ones are no grain
+  constexpr double kAsDark = 0.8;
+  // A free end of a skeleton lies half a width before that of its ink.
+  const auto widthsOf = [](const StrokePath& s) {
+    const double ends = s.closed ? 0.0 : (s.tip[0] ? 0.5 : 0.0) + (s.tip[1] ? 0.5 : 0.0);
+    return s.length() / s.widthPx() + ends;
+  };
+  std::vector<bool> isDropped;
+  const std::optional<GraininessMap> grain =
+      anyPencil ? std::optional<GraininessMap>(std::in_place, paths, grey, context) : std::nullopt;
+  if (context.isCancelled()) return;
+  for (int i = 0; i < std::ssize(paths); ++i) {
+    const StrokePath& s = paths[i];
+    const double widths = widthsOf(s);
+    bool drop = s.points.size() < 3 || widths < minWidths;
+    if (!drop && grain && grain->isPencil(i) && widths < kGrainWidths * minWidths)
+      drop = depthOf(s, grey) < kAsDark * grain->depthAt(s.points[s.points.size() / 2].at);
+    isDropped.push_back(drop);
+  }
+  std::vector<StrokePath> kept;
+  for (int i = 0; i < std::ssize(paths); ++i) {
+    if (!isDropped[i]) kept.push_back(std::move(paths[i]));
+  }
+  paths = std::move(kept);
+}
+
 // A line of which the grey values show no point is none.
 bool isSeen(const Contour& c) {
   return std::any_of(c.points.begin(), c.points.end(), [](const ContourPoint& p) { return p.refined; });
@@ -165,8 +216,8 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (context.isCancelled()) return cancelled();
   ContourSet set;
   set.report.found = static_cast<int>(paths.size());
-  std::erase_if(
-      paths, [&](const StrokePath& s) { return s.points.size() < 3 || s.length() < options.minWidths * s.widthPx(); });
+  dropShort(paths, grey, options.minWidths, anyPencil, context);
+  if (context.isCancelled()) return cancelled();
   set.report.droppedShort = set.report.found - static_cast<int>(paths.size());
   if (anyPencil) {
     const GraininessMap found(paths, grey, context);

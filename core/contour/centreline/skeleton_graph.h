@@ -45,6 +45,7 @@ class SkeletonGraph {
   std::optional<int> spurTip(int edge, double factor) const;
   bool closesCorner(int edge, int node) const;
   double sharedLength(int link) const;
+  bool isOneCrossing(const std::vector<int>& nodes) const;
   double meanRadius(int edge) const;
   void removeEdge(int edge);
   void splice(int node);

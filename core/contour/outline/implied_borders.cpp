@@ -8,7 +8,7 @@
 namespace batten {
 namespace {
 
-constexpr int kRoundingPoints = 2;  // to each side, where the border of the shape bends into that of the stroke
+constexpr int kRoundingPoints = 4;  // to each side, where the border of the shape bends into that of the stroke
 
 // The crack lies between two pixels; one of them is the shape's.
 bool isBesideStroke(const Vec2& crack, const BitImage& strokes) {
