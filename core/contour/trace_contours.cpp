@@ -151,8 +151,9 @@ double penOfBorders(const ContourSet& borders) {
 // `pencil`: ink whose grain leaves specks and holes; absent: none is known.
 Result<ContourSet> bordersOf(const BitImage& ink, bool holes, const ContourParams& params, double penPx,
                              const BitImage* pencil, const RunContext& context) {
-  constexpr double kLeastHole = 1.0 / 3.0;  // of a line's least length: the eye of an e is no wider than its pen
-  constexpr double kGrain = 4.0;            // of it: specks and holes of a pencil are smaller
+  // Of a line's least length: a dot half as wide as the pen, and the eye of an e.
+  constexpr double kLeastDot = 0.5, kLeastHole = 1.0 / 3.0;
+  constexpr double kGrain = 4.0;  // of it: specks and holes of a pencil are smaller
   Result<ContourSet> set = crackContours(ink, holes, params.minLengthPx, context);
   if (!set) return set;
   const double shortest = shortestPx(params, penPx > 0.0 ? penPx : penOfBorders(*set));
@@ -160,7 +161,7 @@ Result<ContourSet> bordersOf(const BitImage& ink, bool holes, const ContourParam
     return pencil != nullptr && anyInDisc(*pencil, c.points.front().unrefined, 1.0);
   };
   const auto dropped = std::erase_if(set->contours, [&](const Contour& c) {
-    return c.lengthPx < shortest * (isGrainy(c) ? kGrain : c.hole ? kLeastHole : 1.0);
+    return c.lengthPx < shortest * (isGrainy(c) ? kGrain : c.hole ? kLeastHole : kLeastDot);
   });
   set->report.droppedShort += static_cast<int>(dropped);
   return set;
@@ -173,8 +174,10 @@ struct FoundLines {
   BitImage blots;     ///< Ink to be followed along its middle that has none.
 };
 
-// Stroke ink that no line follows: blots. A pencil leaves specks that are none.
-BitImage withoutLine(const InkSplit& split, const ContourSet& lines, const RunContext& context) {
+// Stroke ink that no line follows: blots. A pencil leaves specks that are none, and what the user wants to be longer is
+// a short line.
+BitImage withoutLine(const InkSplit& split, const ContourSet& lines, double minWidths, const RunContext& context) {
+  constexpr double kBlotWidths = 3.0;  // [stroke widths] shorter ink has no direction
   constexpr double kBesidePx = 1.5;
   const RunPieces pieces = findPieces(split.strokes, Connectivity::Eight, context);
   BitImage rest(split.strokes.width, split.strokes.height);
@@ -185,10 +188,15 @@ BitImage withoutLine(const InkSplit& split, const ContourSet& lines, const RunCo
     }
   }
   std::vector<bool> hasLine(pieces.runs.size(), false);
+  std::vector<Run> box(pieces.runs.size());  // x0..x1 of each piece, y its last row
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     const Run& run = pieces.runs[i];
     if (countBits(near, run) > 0 || (split.pencil.width > 0 && countBits(split.pencil, run) > 0))
       hasLine[pieces.piece[i]] = true;
+    Run& b = box[pieces.piece[i]];
+    b = pieces.piece[i] == static_cast<int>(i) ? run : Run{run.y, std::min(b.x0, run.x0), std::max(b.x1, run.x1)};
+    const double size = std::hypot(b.x1 - b.x0, b.y - pieces.runs[pieces.piece[i]].y + 1.0);
+    if (minWidths > kBlotWidths && size > kBlotWidths * split.penPx) hasLine[pieces.piece[i]] = true;
   }
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     if (!hasLine[pieces.piece[i]]) setBits(rest, pieces.runs[i]);
@@ -227,7 +235,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const E
   Result<ContourSet> lines = centrelines(split->strokes, grey, edges, context, options);
   if (!lines) return fail(lines.error());
   context.report(0.3);
-  found.blots = withoutLine(*split, *lines, context);
+  found.blots = withoutLine(*split, *lines, params.minWidths, context);
   if (edges.mode == EdgeMode::Centreline) found.blots = chosenOf(found.blots, found.regions, edges);
   if (context.isCancelled()) return cancelled();
   split->shapes = either(std::move(split->shapes), found.blots);

@@ -212,7 +212,12 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
     if (context.isCancelled()) return cancelled();
     paths = centrelinesOf(bodies, shapes, params, context);
   }
-  bridgeGaps(paths, *ink, grey, params, context);
+  std::vector<bool> pencil;
+  if (anyPencil) {
+    const GraininessMap found(paths, grey, context);
+    for (int i = 0; i < std::ssize(paths); ++i) pencil.push_back(found.isPencil(i));
+  }
+  bridgeGaps(paths, pencil, *ink, grey, params, context);
   if (context.isCancelled()) return cancelled();
   ContourSet set;
   set.report.found = static_cast<int>(paths.size());

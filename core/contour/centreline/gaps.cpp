@@ -34,10 +34,11 @@ constexpr int kEndsPerLook = 256;           // between two looks at the cancel t
 struct FreeEnd {
   int path = 0, side = 0;  ///< side 0: the start.
   Vec2 at = Vec2::Zero();
-  Vec2 out = Vec2::Zero();       ///< Unit direction in which the stroke would go on.
-  double width = 1.0;            ///< [px] of the skeleton's discs, which are half a pixel and more too small.
-  double inkWidth = 1.0;         ///< [px] across the ink.
-  double level = 0.0;            ///< [grey] mean of the stroke near its end.
+  Vec2 out = Vec2::Zero();  ///< Unit direction in which the stroke would go on.
+  double width = 1.0;       ///< [px] of the skeleton's discs, which are half a pixel and more too small.
+  double inkWidth = 1.0;    ///< [px] across the ink.
+  double level = 0.0;       ///< [grey] mean of the stroke near its end.
+  bool isPencil = false;
   std::optional<int> best = {};  ///< The free end that it costs least to join.
   double bestCost = 0.0;
 };
@@ -100,18 +101,21 @@ double levelAt(const StrokePath& s, int side, double width, const GreyImage& gre
   return sum / count;
 }
 
-std::vector<FreeEnd> freeEnds(const std::vector<StrokePath>& paths, const BitImage& ink, const GreyImage& grey) {
+std::vector<FreeEnd> freeEnds(const std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
+                              const BitImage& ink, const GreyImage& grey) {
   std::vector<FreeEnd> ends;
   for (int i = 0; i < static_cast<int>(paths.size()); ++i) {
     const StrokePath& s = paths[i];
     if (s.closed || s.points.size() < 3) continue;
     const double width = s.widthPx();
-    if (s.length() < kLeastStrokeWidths * width) continue;
+    const bool isPencil = !pencil.empty() && pencil[i];
+    if (!isPencil && s.length() < kLeastStrokeWidths * width) continue;
     const double inkWidth = s.tip[0] || s.tip[1] ? inkWidthOf(s, ink) : width;
     for (int side = 0; side < 2; ++side) {
       if (!s.tip[side]) continue;
       const Vec2 at = side == 0 ? s.points.front().at : s.points.back().at;
-      ends.push_back({i, side, at, endDirection(s, side, width), width, inkWidth, levelAt(s, side, width, grey)});
+      ends.push_back(
+          {i, side, at, endDirection(s, side, width), width, inkWidth, levelAt(s, side, width, grey), isPencil});
     }
   }
   std::sort(ends.begin(), ends.end(), [](const FreeEnd& a, const FreeEnd& b) {
@@ -142,7 +146,8 @@ double paperBetween(const FreeEnd& a, const FreeEnd& b, const BitImage& ink) {
 std::optional<double> joinCost(const FreeEnd& a, const FreeEnd& b, const BitImage& ink, double gapFactor) {
   const double width = 0.5 * (a.width + b.width), thinner = std::min(a.inkWidth, b.inkWidth);
   const double octaves = std::abs(std::log2(a.inkWidth / b.inkWidth));
-  if (octaves > std::log2(kWidthRatio) + 1.0 / thinner) return std::nullopt;
+  const bool isPencil = a.isPencil && b.isPencil;
+  if (!isPencil && octaves > std::log2(kWidthRatio) + 1.0 / thinner) return std::nullopt;
   const Vec2 d = b.at - a.at;
   const double gap = d.norm(), longest = gapFactor * 0.5 * (a.inkWidth + b.inkWidth);
   if (gap > longest + kSkeletonShort * width + kSkeletonShortPx) return std::nullopt;
@@ -153,6 +158,7 @@ std::optional<double> joinCost(const FreeEnd& a, const FreeEnd& b, const BitImag
                             : d.dot(a.out) >= limit && -d.dot(b.out) >= limit;
   // Half a pixel for the mask, whose pixels are whole.
   if (!isFacing || paperBetween(a, b, ink) > longest + 0.5) return std::nullopt;
+  if (isPencil) return gap + width * turn;
   return gap + width * (turn + kOctaveCost * octaves + kGreyCost * std::abs(a.level - b.level));
 }
 
@@ -184,11 +190,11 @@ void join(std::vector<StrokePath>& paths, const FreeEnd& a, const FreeEnd& b) {
 
 }  // namespace
 
-void bridgeGaps(std::vector<StrokePath>& paths, const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
-                const RunContext& context) {
+void bridgeGaps(std::vector<StrokePath>& paths, const std::vector<bool>& pencil, const BitImage& ink,
+                const GreyImage& grey, const EdgeParams& params, const RunContext& context) {
   if (!(params.gapFactor > 0.0)) return;
   for (int round = 0; round < kBridgeRounds; ++round) {
-    std::vector<FreeEnd> ends = freeEnds(paths, ink, grey);
+    std::vector<FreeEnd> ends = freeEnds(paths, pencil, ink, grey);
     double widest = 1.0;
     for (const FreeEnd& e : ends) widest = std::max(widest, std::max(e.width, e.inkWidth));
     const double farthest = (params.gapFactor + kSkeletonShort) * widest + kSkeletonShortPx;

@@ -293,17 +293,35 @@ double SkeletonGraph::sharedLength(int link) const {
   return angle > kMost ? 0.0 : 2.0 * width / std::sin(0.5 * std::max(kLeast, angle));
 }
 
-// Whether three strokes or more leave these nodes taken together: else they are no crossing, but a small drawing.
+// Whether nodes may be taken for one crossing: three strokes or more leave them, or they lie along one stroke, as the
+// holes in that of a pencil. Others are a small drawing.
 bool SkeletonGraph::isOneCrossing(const std::vector<int>& nodes) const {
   constexpr int kFewestLegs = 3;
+  constexpr double kAlong = 1.5;  // of the largest radius: so far aside of their common line
   const auto isInside = [&](std::optional<int> node) {
     return node && std::find(nodes.begin(), nodes.end(), *node) != nodes.end();
   };
   int legs = 0;
+  double largest = 0.0;
+  Vec2 centre = Vec2::Zero();
   for (const int n : nodes) {
     for (const int end : nodes_[n].ends) legs += isInside(edges_[end / 2].node[1 - end % 2]) ? 0 : 1;
+    largest = std::max(largest, nodes_[n].radius);
+    centre += nodes_[n].centre / static_cast<double>(nodes.size());
   }
-  return legs >= kFewestLegs;
+  if (legs >= kFewestLegs) return true;
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (const int n : nodes) {
+    const Vec2 d = nodes_[n].centre - centre;
+    xx += d.x() * d.x();
+    xy += d.x() * d.y();
+    yy += d.y() * d.y();
+  }
+  const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  const Vec2 along(std::cos(angle), std::sin(angle));
+  return std::all_of(nodes.begin(), nodes.end(), [&](int n) {
+    return std::abs(cross(along, Vec2(nodes_[n].centre - centre))) <= kAlong * largest + 1.0;
+  });
 }
 
 void SkeletonGraph::mergeJunctions() {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace batten {
@@ -27,6 +28,31 @@ std::vector<bool> mouthsOf(const Contour& outline, const BitImage& strokes) {
   return mouth;
 }
 
+// Straight from rim to rim; where that would cut much of the shape off, as of a knot that the stroke is led through,
+// along the end of the shape's ink.
+std::vector<Vec2> acrossMouth(const Vec2& from, std::span<const ContourPoint> rim, const Vec2& to) {
+  constexpr double kMostSag = 0.3, kMostSagPx = 2.0;  // [of the way across]
+  const Vec2 way = to - from;
+  double sag = 0.0;
+  for (const ContourPoint& p : rim) sag = std::max(sag, std::abs(cross(way, Vec2(p.at - from))));
+  const double length = way.norm();
+  std::vector<Vec2> points;
+  if (length > 0.0 && sag / length <= std::max(kMostSagPx, kMostSag * length)) {
+    const int steps = std::max(1, static_cast<int>(std::lround(length)));
+    for (int k = 1; k < steps; ++k) points.push_back(from + way * (static_cast<double>(k) / steps));
+    return points;
+  }
+  constexpr int kReach = 3;  // points to each side that even out the steps of the pixels
+  const int n = static_cast<int>(rim.size());
+  for (int i = 0; i < n; ++i) {
+    const int reach = std::min({kReach, i, n - 1 - i});
+    Vec2 sum = Vec2::Zero();
+    for (int k = i - reach; k <= i + reach; ++k) sum += rim[k].at;
+    points.push_back(sum / (2.0 * reach + 1.0));
+  }
+  return points;
+}
+
 }  // namespace
 
 void implyBorders(Contour& outline, const BitImage& strokes) {
@@ -47,13 +73,10 @@ void implyBorders(Contour& outline, const BitImage& strokes) {
     }
     int last = i;
     while (last + 1 < n && mouth[last + 1]) ++last;
-    const Vec2 from = points.back().at, to = outline.points[(last + 1) % n].at;
-    const int steps = std::max(1, static_cast<int>(std::lround((to - from).norm())));
     const int first = static_cast<int>(points.size());
-    for (int k = 1; k < steps; ++k) {
-      const Vec2 at = from + (to - from) * (static_cast<double>(k) / steps);
+    const std::span<const ContourPoint> rim(outline.points.data() + i, static_cast<std::size_t>(last - i + 1));
+    for (const Vec2& at : acrossMouth(points.back().at, rim, outline.points[(last + 1) % n].at))
       points.push_back({.at = at, .unrefined = at});
-    }
     if (std::ssize(points) > first) outline.bridges.emplace_back(first, static_cast<int>(points.size()) - 1);
     i = last;
   }
