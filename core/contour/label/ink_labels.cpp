@@ -17,6 +17,7 @@ namespace batten {
 namespace {
 
 constexpr std::size_t kDiscsPerCheck = 256;
+constexpr double kWidestPen = 0.05;  // of the page's mean side: 12 mm on A4; bars of lettering and of signs are wider
 
 // Discs of ink about skeleton pixels; those that lie within the one painted before are passed over.
 class DiscPainter {
@@ -110,7 +111,8 @@ Result<InkLabels> label(const BitImage& ink, const RunContext& context) {
   StrandGraph graph(labels.skeleton, ink, context);
   const RunPieces runs = findPieces(ink, Connectivity::Eight, context);
   if (context.isCancelled()) return cancelled();
-  const PiecesOfPage page = measurePieces(graph, runs);
+  PiecesOfPage page = measurePieces(graph, runs);
+  page.widestPenPx = kWidestPen * std::sqrt(static_cast<double>(ink.width) * ink.height);
   labels.penPx = page.pagePenPx;
   labelStrands(graph, page);
   paintLabels(graph, labels, context);

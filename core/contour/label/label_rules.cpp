@@ -75,6 +75,9 @@ class Labeller {
     }
     labelJunctions();
     labelPixels();
+    for (std::size_t i = 0; i < penOf_.size(); ++i) {
+      if (graph_.strands()[i].widthPx.value_or(0.0) > page_.widestPenPx) labelWhole(static_cast<int>(i));
+    }
     absorbLimbs();
     for (const LabelledPiece& piece : page_.pieces) {
       if (piece.isBlot) labelWhole(piece);
