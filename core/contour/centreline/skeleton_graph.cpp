@@ -293,38 +293,20 @@ double SkeletonGraph::sharedLength(int link) const {
   return angle > kMost ? 0.0 : 2.0 * width / std::sin(0.5 * std::max(kLeast, angle));
 }
 
-// Whether nodes may be taken for one crossing: three strokes or more leave them, or they lie along one stroke, as the
-// holes in that of a pencil. Others are a small drawing.
+// Whether one disc not much larger than theirs holds these nodes: else they are a small drawing and no crossing.
 bool SkeletonGraph::isOneCrossing(const std::vector<int>& nodes) const {
-  constexpr int kFewestLegs = 3;
-  constexpr double kAlong = 1.5;  // of the largest radius: so far aside of their common line
-  const auto isInside = [&](std::optional<int> node) {
-    return node && std::find(nodes.begin(), nodes.end(), *node) != nodes.end();
-  };
-  int legs = 0;
-  double largest = 0.0;
+  constexpr double kMostReach = 2.5;  // of the largest radius
+  double largest = 0.0, reach = 0.0;
   Vec2 centre = Vec2::Zero();
+  for (const int n : nodes) centre += nodes_[n].centre / static_cast<double>(nodes.size());
   for (const int n : nodes) {
-    for (const int end : nodes_[n].ends) legs += isInside(edges_[end / 2].node[1 - end % 2]) ? 0 : 1;
     largest = std::max(largest, nodes_[n].radius);
-    centre += nodes_[n].centre / static_cast<double>(nodes.size());
+    reach = std::max(reach, (nodes_[n].centre - centre).norm() + nodes_[n].radius);
   }
-  if (legs >= kFewestLegs) return true;
-  double xx = 0.0, xy = 0.0, yy = 0.0;
-  for (const int n : nodes) {
-    const Vec2 d = nodes_[n].centre - centre;
-    xx += d.x() * d.x();
-    xy += d.x() * d.y();
-    yy += d.y() * d.y();
-  }
-  const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
-  const Vec2 along(std::cos(angle), std::sin(angle));
-  return std::all_of(nodes.begin(), nodes.end(), [&](int n) {
-    return std::abs(cross(along, Vec2(nodes_[n].centre - centre))) <= kAlong * largest + 1.0;
-  });
+  return reach <= kMostReach * largest + 1.0;
 }
 
-void SkeletonGraph::mergeJunctions() {
+void SkeletonGraph::mergeJunctions(bool ofBundles) {
   const int count = edgeCount();
   std::vector<double> radius;
   std::vector<std::vector<int>> members(nodes_.size());
@@ -350,7 +332,7 @@ void SkeletonGraph::mergeJunctions() {
     if (a != b) {
       std::vector<int> all = members[a];
       all.insert(all.end(), members[b].begin(), members[b].end());
-      if (all.size() > 2 && !isOneCrossing(all)) continue;
+      if (!ofBundles && all.size() > 2 && !isOneCrossing(all)) continue;
       groups.join(a, b);
       members[groups.root(a)] = std::move(all);
     }
