@@ -105,6 +105,15 @@ void applyVotes(const RunPieces& runs, const PiecesOfPage& page, const std::vect
   }
 }
 
+// [px] median width of the strokes, weighed by their lengths in widths; 0 = there is none.
+double penOfStrokes(const StrandGraph& graph) {
+  std::vector<std::pair<double, double>> widths;
+  for (const Strand& s : graph.strands()) {
+    if (s.label == InkLabel::Stroke && s.elongation() >= kStrokeWidths) widths.emplace_back(*s.widthPx, s.elongation());
+  }
+  return weightedMedian(std::move(widths));
+}
+
 Result<InkLabels> label(const BitImage& ink, const RunContext& context) {
   InkLabels labels{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height), ink, 0.0};
   if (!thinToSkeleton(labels.skeleton, context)) return cancelled();
@@ -113,8 +122,8 @@ Result<InkLabels> label(const BitImage& ink, const RunContext& context) {
   if (context.isCancelled()) return cancelled();
   PiecesOfPage page = measurePieces(graph, runs);
   page.widestPenPx = kWidestPen * std::sqrt(static_cast<double>(ink.width) * ink.height);
-  labels.penPx = page.pagePenPx;
   labelStrands(graph, page);
+  labels.penPx = penOfStrokes(graph);
   paintLabels(graph, labels, context);
   shareRest(ink, labels, context);
   if (context.isCancelled()) return cancelled();
