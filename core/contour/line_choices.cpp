@@ -32,7 +32,7 @@ struct LongestLine {
 // A line that only ends in chosen ink, or begins there, is its neighbour's; one that is led through it is its own where
 // there is no other.
 void noteLines(ContourSet& set, const ChosenInk& chosen, std::span<const EdgeChoice> choices) {
-  constexpr int kFewestPoints = 3;
+  constexpr int kFewestInside = 3;
   std::vector<LongestLine> longest(choices.size());
   std::vector<bool> hasLine(choices.size(), false);
   for (Contour& contour : set.contours) {
@@ -46,7 +46,7 @@ void noteLines(ContourSet& set, const ChosenInk& chosen, std::span<const EdgeCho
         contour.traceMode = choices[k];
         hasLine[k] = true;
       }
-      if (points[k] >= kFewestPoints && points[k] > longest[k].points) longest[k] = {points[k], &contour};
+      if (points[k] >= kFewestInside && points[k] > longest[k].points) longest[k] = {points[k], &contour};
     }
   }
   for (std::size_t k = 0; k < choices.size(); ++k) {

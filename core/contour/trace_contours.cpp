@@ -181,17 +181,17 @@ BitImage withoutLine(const InkSplit& split, const ContourSet& lines, double minW
   constexpr double kBesidePx = 1.5;
   const RunPieces pieces = findPieces(split.strokes, Connectivity::Eight, context);
   BitImage rest(split.strokes.width, split.strokes.height);
-  BitImage near(split.strokes.width, split.strokes.height);
+  BitImage beside(split.strokes.width, split.strokes.height);
   for (const Contour& line : lines.contours) {
     for (std::size_t i = 0; i < line.points.size(); ++i) {
-      for (const Vec2& place : inkBeside(line, i)) setDisc(near, place, kBesidePx);
+      for (const Vec2& place : inkBeside(line, i)) setDisc(beside, place, kBesidePx);
     }
   }
   std::vector<bool> hasLine(pieces.runs.size(), false);
   std::vector<Run> box(pieces.runs.size());  // x0..x1 of each piece, y its last row
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
     const Run& run = pieces.runs[i];
-    if (countBits(near, run) > 0 || (split.pencil.width > 0 && countBits(split.pencil, run) > 0))
+    if (countBits(beside, run) > 0 || (split.pencil.width > 0 && countBits(split.pencil, run) > 0))
       hasLine[pieces.piece[i]] = true;
     Run& b = box[pieces.piece[i]];
     b = pieces.piece[i] == static_cast<int>(i) ? run : Run{run.y, std::min(b.x0, run.x0), std::max(b.x1, run.x1)};

@@ -25,7 +25,7 @@ constexpr double kDirectionWidths = 3.0;    // [stroke widths] over which the di
 constexpr double kLeastDirectionPx = 4.0;   // and of thin strokes
 constexpr double kMostOfPath = 0.3;         // of its points: what of a short one is left out at its end
 constexpr double kLeastStrokeWidths = 3.0;  // [stroke widths] a shorter stroke has no direction, and is not joined
-constexpr double kWidthRatio = 1.5;         // of two strokes that may be one; and a pixel more
+constexpr double kBridgedWidthRatio = 1.5;  // of two strokes that may be one; and a pixel more
 constexpr double kOctaveCost = 2.0;         // of twice the width, as of so many widths of gap
 constexpr double kGreyCost = 0.02;          // [1/grey] of ends that differ in darkness
 constexpr int kBridgeRounds = 4;            // an end whose best partner is taken may find another
@@ -147,7 +147,7 @@ std::optional<double> joinCost(const FreeEnd& a, const FreeEnd& b, const BitImag
   const double width = 0.5 * (a.width + b.width), thinner = std::min(a.inkWidth, b.inkWidth);
   const double octaves = std::abs(std::log2(a.inkWidth / b.inkWidth));
   const bool isPencil = a.isPencil && b.isPencil;
-  if (!isPencil && octaves > std::log2(kWidthRatio) + 1.0 / thinner) return std::nullopt;
+  if (!isPencil && octaves > std::log2(kBridgedWidthRatio) + 1.0 / thinner) return std::nullopt;
   const Vec2 d = b.at - a.at;
   const double gap = d.norm(), longest = gapFactor * 0.5 * (a.inkWidth + b.inkWidth);
   if (gap > longest + kSkeletonShort * width + kSkeletonShortPx) return std::nullopt;

@@ -10,7 +10,7 @@ namespace batten {
 namespace {
 
 constexpr double kLeastReachPx = 2.0;
-constexpr int kFewestPoints = 3;
+constexpr int kFewestOnInk = 3;
 
 enum class Ground { Ink, Bridge, Paper };
 
@@ -73,7 +73,7 @@ std::vector<Contour> keepOnInk(std::vector<Contour> lines, const BitImage& ink) 
       for (int k = i; k < n && ground[k] != Ground::Paper; ++k) {
         if (ground[k] == Ground::Ink) last = k;
       }
-      if (last - i + 1 >= kFewestPoints) kept.push_back(partOf(line, i, last));
+      if (last - i + 1 >= kFewestOnInk) kept.push_back(partOf(line, i, last));
       i = last;
     }
   }
