@@ -131,7 +131,7 @@ double shortestPx(const ContourParams& params, double penPx) {
 // [px] A pen width for ink that is followed along its borders alone: that of its borders in the middle, where twice
 // the area by the border is the width of a line; never more than a small mark may be wide.
 double penOfBorders(const ContourSet& borders) {
-  constexpr double kMostPx = 40.0 / 3.0;
+  constexpr double kMostPenPx = 40.0 / 3.0;
   std::vector<std::pair<double, double>> widths;
   double all = 0.0, sum = 0.0;
   for (const Contour& c : borders.contours) {
@@ -142,7 +142,7 @@ double penOfBorders(const ContourSet& borders) {
   std::sort(widths.begin(), widths.end());
   for (const auto& [width, length] : widths) {
     sum += length;
-    if (2.0 * sum >= all) return std::min(width, kMostPx);
+    if (2.0 * sum >= all) return std::min(width, kMostPenPx);
   }
   return 0.0;
 }
@@ -178,13 +178,13 @@ struct FoundLines {
 // a short line.
 BitImage withoutLine(const InkSplit& split, const ContourSet& lines, double minWidths, const RunContext& context) {
   constexpr double kBlotWidths = 3.0;  // [stroke widths] shorter ink has no direction
-  constexpr double kBesidePx = 1.5;
+  constexpr double kBesideLinePx = 1.5;
   const RunPieces pieces = findPieces(split.strokes, Connectivity::Eight, context);
   BitImage rest(split.strokes.width, split.strokes.height);
   BitImage beside(split.strokes.width, split.strokes.height);
   for (const Contour& line : lines.contours) {
     for (std::size_t i = 0; i < line.points.size(); ++i) {
-      for (const Vec2& place : inkBeside(line, i)) setDisc(beside, place, kBesidePx);
+      for (const Vec2& place : inkBeside(line, i)) setDisc(beside, place, kBesideLinePx);
     }
   }
   std::vector<bool> hasLine(pieces.runs.size(), false);
