@@ -153,7 +153,10 @@ class PipelineRun {
     };
     if (recipe_.regions.empty()) return trace(out_.filtered->ink);
     auto set = trace(inkTouching(out_.filtered->ink, recipe_.regions, context_));
-    if (set) set = keepInside(std::move(*set), recipe_.regions, recipe_.contours.minLengthPx);
+    if (set) {
+      const double limit = recipe_.contours.minWidths * set->report.widthPx;
+      set = keepInside(std::move(*set), recipe_.regions, std::max(limit, recipe_.contours.minLengthPx));
+    }
     const bool isEmpty = set ? set->contours.empty() : set.error().code == ErrorCode::NoCurve;
     if (!isEmpty) return set;
     return fail(ErrorCode::NoCurve, "No line lies inside the region: draw a larger one or clear it.");
