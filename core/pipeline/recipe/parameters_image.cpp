@@ -79,6 +79,13 @@ void appendThresholds(std::vector<Parameter>& table) {
        "Slope of the log transform. Larger lifts the dark tones more and washes out the bright ones."},
       {10.0, 150.0, 1.0, 1, true}, [](auto& r) -> auto& { return r.log.factor; }));
   table.back().isForDisplay = true;
+  table.push_back(choice<ColourUse>(
+      kThresholds,
+      {"paper.colour", "Coloured ink", "",
+       "Coloured ink takes the darkest of its channels where that gains contrast: yellow marker is found. Grey: "
+       "brightness alone."},
+      {{"darkest", "Darkest channel", ColourUse::Darkest}, {"grey", "Brightness", ColourUse::Grey}},
+      [](auto& r) -> auto& { return r.preparation.colour; }));
   table.push_back(boolean(
       kThresholds,
       {"paper.flatten", "Flatten paper", "",

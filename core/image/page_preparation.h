@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/image/scan.h"
+
+namespace batten {
+
+/// How the colours of a scan become its grey.
+enum class ColourUse {
+  Darkest,  ///< Coloured ink that gains by it takes the darkest of its channels, everything else its grey.
+  Grey,     ///< The luma of Rec. 601 everywhere.
+};
+
+/// What is done to a scan before its thresholds.
+struct PreparationParams {
+  ColourUse colour = ColourUse::Darkest;
+  bool operator==(const PreparationParams&) const = default;
+};
+
+/// The page as it is traced.
+struct PreparedPage {
+  GreyImage grey;                  ///< Of the scan's size; empty: the scan's own grey, untouched.
+  double colouredShare = 0.0;      ///< 0..1 of the page, taken by its darkest channel.
+  std::vector<std::string> notes;  ///< What the user should know, one line each.
+  bool isUntouched() const { return grey.pixels.empty(); }
+};
+
+/// Makes the grey page that all later stages read. A grey scan stays bit by bit as it is.
+/// @return Cancelled or OutOfMemory.
+Result<PreparedPage> preparePage(const Scan&, const PreparationParams&, const RunContext&);
+
+}  // namespace batten
