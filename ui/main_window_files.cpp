@@ -229,10 +229,10 @@ void MainWindow::openPage(const PageChoice& page) {
 
 // A recipe needs its scan: the picture becomes a file of the user's own data, and opens as any other.
 void MainWindow::pasteScan() {
-  const QMimeData* data = QGuiApplication::clipboard()->mimeData();
-  if (data != nullptr && data->hasUrls() && data->urls().first().isLocalFile())
-    return openPath(pathText(data->urls().first()));
-  const QImage picture = data != nullptr && data->hasImage() ? qvariant_cast<QImage>(data->imageData()) : QImage();
+  const QMimeData* held = QGuiApplication::clipboard()->mimeData();
+  if (held != nullptr && held->hasUrls() && held->urls().first().isLocalFile())
+    return openPath(pathText(held->urls().first()));
+  const QImage picture = held != nullptr && held->hasImage() ? qvariant_cast<QImage>(held->imageData()) : QImage();
   if (picture.isNull()) return parts_->status->showMessage(tr("The clipboard holds no picture."));
   const QString folder = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + QStringLiteral("/pasted");
   const QString name = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd HH.mm.ss.zzz"));

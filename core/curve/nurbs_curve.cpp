@@ -210,7 +210,7 @@ std::array<Vec2, 5> NurbsCurve::derivatives(double u, int order) const {
   // Quotient rule, A4.2: each order from the numerator's and the lower ones.
   constexpr double binomial[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
   for (int k = 0; k <= top; ++k) {
-    for (std::size_t i = 1; i <= k; ++i) result[k] -= binomial[k][i] * weight[i] * result[k - i];
+    for (int i = 1; i <= k; ++i) result[k] -= binomial[k][i] * weight[i] * result[k - i];
     result[k] /= weight[0];
   }
   return result;

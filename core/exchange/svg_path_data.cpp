@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/exchange/svg_path_data.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cctype>
 #include <charconv>

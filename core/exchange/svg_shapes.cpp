@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/exchange/svg_shapes.h"
 
+#include <Eigen/LU>
 #include <QByteArray>
 #include <QXmlStreamReader>
 #include <algorithm>

@@ -95,8 +95,8 @@ std::string twoPageTiff(const GreyImage& first, const GreyImage& second) {
 }
 
 GreyImage pageOf(const std::string& shape) {
-  const auto truth = truthShape(shape, 480, 320);
-  return renderPage(fillCoverage(truth.outline(), 480, 320), 480, 320, scannedPage(3)).grey;
+  const auto truth = test::truthShape(shape, 480, 320);
+  return test::renderPage(test::fillCoverage(truth.outline(), 480, 320), 480, 320, test::scannedPage(3)).grey;
 }
 
 TEST_F(CommandLinePages, EveryPageOfAStackIsTracedWhenAsked) {

@@ -14,6 +14,7 @@ namespace batten {
 class FigureTable;
 class NumberField;
 class ParameterEditor;
+class ViewSettings;
 
 /// The grey ramp before and after the log transform, over one another.
 class ToneSwatch : public QWidget {
