@@ -7,6 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
+#include "core/image/rulings.h"
 #include "core/image/scan.h"
 
 namespace batten {
@@ -17,17 +18,25 @@ enum class ColourUse {
   Grey,     ///< The luma of Rec. 601 everywhere.
 };
 
+/// What becomes of printed lines of the paper.
+enum class RulingUse {
+  LeaveOut,  ///< Ruled lines and grids are found and taken out of the page.
+  Keep,      ///< They are ink as any other.
+};
+
 /// What is done to a scan before its thresholds.
 struct PreparationParams {
   ColourUse colour = ColourUse::Darkest;
+  RulingUse rulings = RulingUse::LeaveOut;
   bool operator==(const PreparationParams&) const = default;
 };
 
 /// The page as it is traced.
 struct PreparedPage {
-  GreyImage grey;                  ///< Of the scan's size; empty: the scan's own grey, untouched.
-  double colouredShare = 0.0;      ///< 0..1 of the page, taken by its darkest channel.
-  std::vector<std::string> notes;  ///< What the user should know, one line each.
+  GreyImage grey;                     ///< Of the scan's size; empty: the scan's own grey, untouched.
+  double colouredShare = 0.0;         ///< 0..1 of the page, taken by its darkest channel.
+  std::vector<RulingFamily> rulings;  ///< What was taken out of it.
+  std::vector<std::string> notes;     ///< What the user should know, one line each.
   bool isUntouched() const { return grey.pixels.empty(); }
 };
 

@@ -86,6 +86,12 @@ void appendThresholds(std::vector<Parameter>& table) {
        "brightness alone."},
       {{"darkest", "Darkest channel", ColourUse::Darkest}, {"grey", "Brightness", ColourUse::Grey}},
       [](auto& r) -> auto& { return r.preparation.colour; }));
+  table.push_back(choice<RulingUse>(
+      kThresholds,
+      {"paper.rulings", "Ruled lines", "",
+       "Printed lines of ruled paper and grids are found by their even spacing and left out; strokes across them stay."},
+      {{"leave-out", "Leave out", RulingUse::LeaveOut}, {"keep", "Keep", RulingUse::Keep}},
+      [](auto& r) -> auto& { return r.preparation.rulings; }));
   table.push_back(boolean(
       kThresholds,
       {"paper.flatten", "Flatten paper", "",

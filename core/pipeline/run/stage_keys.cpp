@@ -71,7 +71,7 @@ ContentHash scanKey(const Scan& scan) {
 
 ContentHash preparedKey(const ContentHash& scan, const PreparationParams& params) {
   HashBuilder h;
-  h.text("prepared page").hash(scan).integer(static_cast<int>(params.colour));
+  h.text("prepared page").hash(scan).integer(static_cast<int>(params.colour)).integer(static_cast<int>(params.rulings));
   return h.finish();
 }
 

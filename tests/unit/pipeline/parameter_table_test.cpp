@@ -52,6 +52,8 @@ TEST(ParameterTable, HoldsThePromisedNames) {
                            "fairing.mode",
                            "fairing.target",
                            "fairing.tolerance",
+                           "paper.colour",
+                           "paper.rulings",
                            "paper.flatten",
                            "paper.folds",
                            "corners.snap"}) {

@@ -116,7 +116,7 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
   layout->addWidget(new ParameterEditor(session, {"log.enabled", "log.factor"}, this));
   layout->addWidget(swatch_);
   layout->addWidget(caption(tr("Paper"), this));
-  layout->addWidget(new ParameterEditor(session, {"paper.colour", "paper.flatten", "paper.folds"}, this));
+  layout->addWidget(new ParameterEditor(session, {"paper.colour", "paper.rulings", "paper.flatten", "paper.folds"}, this));
   layout->addStretch();
   connect(dpi_, &NumberField::committed, this, [this](double value) { setDpi(value); });
   connect(page_, &NumberField::committed, this, [this](double value) {
