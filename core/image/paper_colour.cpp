@@ -91,15 +91,27 @@ void PaperColour::ratiosOfRow(int y, int width, int height, std::array<std::vect
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& c = ratio[k];
     out[k].resize(static_cast<std::size_t>(width));
-    const auto level = static_cast<float>(c[0] + v * (c[2] + v * c[5]));
+    const auto start = static_cast<float>(c[0] + v * (c[2] + v * c[5]));
     const auto slope = static_cast<float>((c[1] + v * c[4]) / width);
     const auto bend = static_cast<float>(c[3] / width / width);
     float* row = out[k].data();
     for (int x = 0; x < width; ++x) {
       const float at = static_cast<float>(x) + 0.5f;
-      row[x] = std::max(0.05f, level + at * (slope + at * bend));
+      row[x] = std::max(0.05f, start + at * (slope + at * bend));
     }
   }
+}
+
+float PaperColour::levelAt(int x, int y) const {
+  const auto size = static_cast<float>(cellPx);
+  const float u = std::clamp((static_cast<float>(x) + 0.5f) / size - 0.5f, 0.0f, static_cast<float>(columns - 1));
+  const float v = std::clamp((static_cast<float>(y) + 0.5f) / size - 0.5f, 0.0f, static_cast<float>(rows - 1));
+  const int x0 = static_cast<int>(u), y0 = static_cast<int>(v);
+  const int x1 = std::min(x0 + 1, columns - 1), y1 = std::min(y0 + 1, rows - 1);
+  const auto cell = [&](int i, int j) { return level[std::ptrdiff_t{j} * columns + i]; };
+  const float s = u - static_cast<float>(x0), t = v - static_cast<float>(y0);
+  return (1.0f - t) * ((1.0f - s) * cell(x0, y0) + s * cell(x1, y0)) +
+         t * ((1.0f - s) * cell(x0, y1) + s * cell(x1, y1));
 }
 
 PaperColour measurePaperColour(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {
@@ -129,6 +141,12 @@ PaperColour measurePaperColour(const GreyImage& grey, const ColourImage& colour,
       }
     }
   }
+  // A cell without paper of its own takes what is around.
+  constexpr float kOwnPaper = 0.9f;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    paper.level.push_back(static_cast<float>(cells[i].grey) >= kOwnPaper * paper.bright[i]
+                              ? static_cast<float>(cells[i].grey)
+                              : paper.bright[i]);
   std::vector<float> levels = paper.bright;
   const double most = static_cast<double>(lowerQuantile(levels, 0.9));
   std::erase_if(cells, [&](const CellColour& cell) { return cell.grey < kPaperShare * most; });

@@ -18,6 +18,7 @@ struct PaperColour {
   std::array<std::array<double, 6>, 3> ratio{};
   int cellPx = 32, columns = 0, rows = 0;
   std::vector<float> bright;  ///< [grey 0..255] columns * rows: the brighter part of every cell and its neighbours.
+  std::vector<float> level;   ///< [grey 0..255] the same of every cell by itself, where it holds paper.
   double paperLevel = 255.0;  ///< [grey] Median of the bright cells of the page.
 
   /// Ratios of the three channels at the pixel centres of row y. @param out three rows of `width` values.
@@ -27,6 +28,8 @@ struct PaperColour {
     return bright[static_cast<std::size_t>(y / cellPx) * static_cast<std::size_t>(columns) +
                   static_cast<std::size_t>(x / cellPx)];
   }
+  /// The same without steps: bilinear between the middles of the cells.
+  float levelAt(int x, int y) const;
 };
 
 /// Measures the paper on the brighter part of every cell of the page; cells of other colours (filled areas, a table

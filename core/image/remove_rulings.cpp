@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -13,11 +14,12 @@ namespace {
 constexpr int kBlockPx = 32;       // [px] along a line: one paper level, one place and one profile
 constexpr int kProfileBlocks = 2;  // to either side, for the profile of a line
 constexpr int kBinsPerPx = 2;
-constexpr int kMostReachPx = 24;      // [px] across a line
-constexpr double kRimShare = 0.25;    // of the spacing: beyond lies paper
-constexpr double kPaperRank = 0.7;    // of the pixels beside a line: ink is darker
-constexpr double kFoot = 0.1;         // of the depth: where a line ends across
-constexpr double kMostSupport = 0.4;  // of the spacing: wider is no ruled line
+constexpr double kLeastOfColumns = 0.15;  // that must meet a place of a profile
+constexpr int kMostReachPx = 24;          // [px] across a line
+constexpr double kRimShare = 0.25;        // of the spacing: beyond lies paper
+constexpr double kPaperRank = 0.7;        // of the pixels beside a line: ink is darker
+constexpr double kFoot = 0.1;             // of the depth: where a line ends across
+constexpr double kMostSupport = 0.4;      // of the spacing: wider is no ruled line
 constexpr double kLeastDepthSeen = 0.01;
 constexpr double kPresence = 0.35;    // of the line's depth: fainter stretches are gaps
 constexpr double kSolidLight = 0.35;  // less light comes through a dark line: what is over it cannot be told
@@ -64,11 +66,15 @@ class RulingEraser {
     straightenCourse();
     measurePaper();
     whole_ = profileOf(0, blocks_);
-    depth_ = 1.0 - *std::min_element(whole_.begin(), whole_.end());
+    const auto [nearFrom, nearTo] = middleOf(whole_);
+    depth_ = 1.0 - *std::min_element(nearFrom, nearTo);
     if (depth_ < kLeastDepthSeen || !findSupport()) return;
     measureRims();
     isSolid_ = 1.0 - depth_ < kSolidLight;
-    for (int b = 0; b < blocks_; ++b) eraseBlock(b);
+    std::vector<std::vector<double>> profiles;  // all before the first pixel changes
+    for (int b = 0; b < blocks_; ++b)
+      profiles.push_back(profileOf(std::max(0, b - kProfileBlocks), std::min(blocks_, b + kProfileBlocks + 1)));
+    for (int b = 0; b < blocks_; ++b) eraseBlock(b, profiles[b]);
   }
 
  private:
@@ -86,49 +92,51 @@ class RulingEraser {
     }
   }
 
-  /// Moves the course to where the line is darkest, block by block, smoothly.
-  void straightenCourse() {
-    const int most = std::max(1, static_cast<int>(std::min(0.25 * family_.spacingPx, 3.0 + family_.widthPx)));
-    std::vector<double> shifts;
-    std::vector<float> column;
-    for (int b = 0; b < blocks_; ++b) {
-      std::vector<double> levels;
-      for (int o = -most - 1; o <= most + 1; ++o) {
-        column.clear();
-        for (int x = begin(b); x < end(b); ++x) {
-          const int y = static_cast<int>(std::floor(course_[x])) + o;
-          if (y >= 0 && y < image_.height) column.push_back(static_cast<float>(image_.row(y)[x]));
-        }
-        levels.push_back(column.empty() ? 65535.0 : static_cast<double>(upperMedian(column)));
-      }
-      const auto darkest = std::min_element(levels.begin() + 1, levels.end() - 1) - levels.begin();
-      const double bend = levels[darkest - 1] - 2.0 * levels[darkest] + levels[darkest + 1];
-      const double part = bend > 0.0 ? 0.5 * (levels[darkest - 1] - levels[darkest + 1]) / bend : 0.0;
-      shifts.push_back(static_cast<double>(darkest) - most - 1 + std::clamp(part, -0.5, 0.5));
-    }
-    std::vector<double> calm(shifts.size());
-    for (std::ptrdiff_t i = 0; i < std::ssize(shifts); ++i) {
-      std::vector<double> near;
-      for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(0, i - 3); j <= std::min(std::ssize(shifts) - 1, i + 3); ++j)
-        near.push_back(shifts[j]);
-      calm[i] = upperMedian(near);
-    }
-    for (int x = 0; x < image_.width; ++x) {
-      // floor() lost half a pixel on average, since a pixel's centre lies there.
-      course_[x] = std::floor(course_[x]) + 0.5 + atBlocks(calm, x);
-    }
-    smoothCourse();
+  /// Grey at a place across the line, between pixel centres; absent beyond the picture.
+  std::optional<float> greyAt(int x, double offset) const {
+    const double place = course_[x] + offset - 0.5;
+    const int y = static_cast<int>(std::floor(place));
+    if (y < 0 || y + 1 >= image_.height) return std::nullopt;
+    const auto share = static_cast<float>(place - y);
+    return (1.0f - share) * static_cast<float>(image_.row(y)[x]) + share * static_cast<float>(image_.row(y + 1)[x]);
   }
 
-  /// The steps that floor() left are taken out again.
-  void smoothCourse() {
-    std::vector<double> sums(course_.size() + 1, 0.0);
-    for (std::size_t i = 0; i < course_.size(); ++i) sums[i + 1] = sums[i] + course_[i];
-    constexpr std::ptrdiff_t kHalf = kBlockPx / 2;
-    for (std::ptrdiff_t x = 0; x < std::ssize(course_); ++x) {
-      const std::ptrdiff_t half = std::min({kHalf, x, std::ssize(course_) - 1 - x});
-      course_[x] = (sums[x + half + 1] - sums[x - half]) / static_cast<double>(2 * half + 1);
+  /// Where the line lies off its course in one block: the middle of what is at least half as dark as its darkest place.
+  double shiftOf(int block) const {
+    const int steps = std::max(2, static_cast<int>(2.0 * std::min(0.25 * family_.spacingPx, 3.0 + family_.widthPx)));
+    std::vector<float> levels, column;
+    for (int o = -steps; o <= steps; ++o) {
+      column.clear();
+      for (int x = begin(block); x < end(block); ++x) {
+        if (const auto level = greyAt(x, 0.5 * o)) column.push_back(*level);
+      }
+      levels.push_back(column.empty() ? 65535.0f : upperMedian(column));
     }
+    const auto darkest = std::min_element(levels.begin(), levels.end());
+    const float paper = *std::max_element(levels.begin(), levels.end()), half = 0.5f * (paper + *darkest);
+    if (paper <= *darkest) return 0.0;
+    auto from = darkest, to = darkest;
+    while (from != levels.begin() && *(from - 1) < half) --from;
+    while (to + 1 != levels.end() && *(to + 1) < half) ++to;
+    double sum = 0.0, weight = 0.0;
+    for (auto it = from; it <= to; ++it) {
+      const double darker = static_cast<double>(half - *it) + 1.0;
+      sum += darker * static_cast<double>(it - levels.begin());
+      weight += darker;
+    }
+    return 0.5 * (sum / weight - steps);
+  }
+
+  /// Moves the course to where the line is darkest, block by block, smoothly.
+  void straightenCourse() {
+    std::vector<double> shifts, calm;
+    for (int b = 0; b < blocks_; ++b) shifts.push_back(shiftOf(b));
+    for (std::ptrdiff_t i = 0; i < std::ssize(shifts); ++i) {
+      const auto from = shifts.begin() + std::max<std::ptrdiff_t>(0, i - 3);
+      const auto to = shifts.begin() + std::min(std::ssize(shifts), i + 4);
+      calm.push_back(upperMedian(std::vector<double>(from, to)));
+    }
+    for (int x = 0; x < image_.width; ++x) course_[x] += atBlocks(calm, x);
   }
 
   /// Values at the blocks' middles, linear between them.
@@ -160,7 +168,7 @@ class RulingEraser {
 
   double lightAt(int x, int y) const { return image_.row(y)[x] / atBlocks(paper_, x); }
 
-  /// Light that comes through the line, per half pixel across: medians over blocks, so that strokes across do not
+  /// Light that comes through the line, per half pixel across: a high rank over blocks, so that strokes across do not
   /// count.
   std::vector<double> profileOf(int fromBlock, int toBlock) const {
     std::vector<std::vector<float>> light(static_cast<std::size_t>(bins()));
@@ -170,9 +178,37 @@ class RulingEraser {
           static_cast<float>(lightAt(x, y)));
     });
     std::vector<double> profile;
+    // A line without slope meets every second place only, but for a few pixels, which say nothing of the whole.
+    const auto least = static_cast<std::size_t>(kLeastOfColumns * (end(toBlock - 1) - begin(fromBlock)));
     for (auto& values : light)
-      profile.push_back(values.empty() ? 1.0 : std::min(1.0, static_cast<double>(upperMedian(values))));
+      profile.push_back(values.size() <= least ? -1.0
+                                               : std::min(1.0, static_cast<double>(lowerQuantile(values, kPaperRank))));
+    fillGaps(profile);
+    // Beside the line there is paper, whatever the noise and the slope of its grey.
+    std::vector<double> beside;
+    for (int i = 0; i < bins(); ++i) {
+      if (std::fabs(static_cast<double>(i) / kBinsPerPx - reach_) >= rim_) beside.push_back(profile[i]);
+    }
+    // Ink only darkens: the brighter ones show the line alone.
+    // Ink only darkens: the brighter pixels show the line alone.
+    const double paper = beside.empty() ? 1.0 : std::max(0.5, upperMedian(beside));
+    for (double& value : profile) value = std::min(1.0, value / paper);
     return profile;
+  }
+
+  /// Places of the profile that are not known lie between their neighbours.
+  static void fillGaps(std::vector<double>& profile) {
+    const auto isKnown = [&](std::ptrdiff_t i) { return profile[i] >= 0.0; };
+    std::ptrdiff_t before = -1;
+    for (std::ptrdiff_t i = 0; i < std::ssize(profile); ++i) {
+      if (!isKnown(i)) continue;
+      for (std::ptrdiff_t k = before + 1; k < i; ++k) {
+        const double share = static_cast<double>(k - before) / static_cast<double>(i - before);
+        profile[k] = before < 0 ? profile[i] : profile[before] + share * (profile[i] - profile[before]);
+      }
+      before = i;
+    }
+    for (std::ptrdiff_t k = before + 1; k < std::ssize(profile); ++k) profile[k] = before < 0 ? 1.0 : profile[before];
   }
 
   double at(const std::vector<double>& profile, double offset) const {
@@ -182,9 +218,18 @@ class RulingEraser {
     return profile[i] + (place - static_cast<double>(i)) * (profile[j] - profile[i]);
   }
 
+  using Place = std::vector<double>::const_iterator;
+  /// The part of a profile in which the line lies.
+  std::pair<Place, Place> middleOf(const std::vector<double>& profile) const {
+    const auto half = static_cast<std::ptrdiff_t>(rim_ * kBinsPerPx), middle = static_cast<std::ptrdiff_t>(bins() / 2);
+    return {profile.begin() + std::max<std::ptrdiff_t>(0, middle - half),
+            profile.begin() + std::min<std::ptrdiff_t>(bins(), middle + half + 1)};
+  }
+
   /// How far the line reaches to either side of its middle; false if that is no line.
   bool findSupport() {
-    const auto darkest = std::min_element(whole_.begin(), whole_.end()) - whole_.begin();
+    const auto [nearFrom, nearTo] = middleOf(whole_);
+    const auto darkest = std::min_element(nearFrom, nearTo) - whole_.begin();
     auto from = darkest, to = darkest;
     const double foot = 1.0 - kFoot * depth_;
     while (from > 0 && whole_[from - 1] < foot) --from;
@@ -198,12 +243,8 @@ class RulingEraser {
   /// What strokes take of the light just above and just below the line.
   void measureRims() {
     const auto darkness = [&](int x, double offset) {
-      const double place = course_[x] + offset - 0.5;
-      const int y = static_cast<int>(std::floor(place));
-      if (y < 0 || y + 1 >= image_.height) return 0.0;
-      const double share = place - y;
-      const double light = (1.0 - share) * lightAt(x, y) + share * lightAt(x, y + 1);
-      return std::clamp(1.0 - light, 0.0, 1.0);
+      const auto level = greyAt(x, offset);
+      return level ? std::clamp(1.0 - static_cast<double>(*level) / atBlocks(paper_, x), 0.0, 1.0) : 0.0;
     };
     for (int x = 0; x < image_.width; ++x) {
       above_.push_back(darkness(x, low_ - 0.5));
@@ -225,11 +266,10 @@ class RulingEraser {
     return most;
   }
 
-  void eraseBlock(int block) {
-    const int from = std::max(0, block - kProfileBlocks), to = std::min(blocks_, block + kProfileBlocks + 1);
-    std::vector<double> profile = profileOf(from, to);
-    const double depthHere = 1.0 - *std::min_element(profile.begin(), profile.end());
-    if (depthHere < kPresence * depth_) return;
+  void eraseBlock(int block, std::vector<double>& profile) {
+    const auto [nearFrom, nearTo] = middleOf(profile);
+    const double depthHere = 1.0 - *std::min_element(nearFrom, nearTo);
+    if (!isSolid_ && depthHere < kPresence * depth_) return;
     // A stroke that runs along the line is no part of it.
     for (std::size_t i = 0; i < profile.size(); ++i)
       profile[i] = std::max({profile[i], 1.0 - 1.35 * (1.0 - whole_[i]) - 0.02, 0.0});

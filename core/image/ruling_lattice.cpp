@@ -21,6 +21,7 @@ constexpr int kMostMissing = 3;         // lines between two that are seen
 constexpr double kChainReach = 0.2;     // of the spacing: where the next line is looked for
 constexpr double kLatticeReach = 0.18;  // of the spacing: how far a stretch may lie off its line
 constexpr double kLeastReach = 1.2;     // [grid]
+constexpr double kPrintReach = 2.5;     // [grid] printed lines lie nearer to the lattice
 constexpr double kLeastOfLine = 0.5;    // of the strips: a line is seen
 constexpr int kMatchRounds = 4;
 
@@ -116,7 +117,7 @@ class LatticeFit {
     fit(2);
     grow(static_cast<int>(seed));
     for (int round = 0; round < kMatchRounds; ++round) {
-      matchAll();
+      matchAll(round + 1 == kMatchRounds);
       if (std::ssize(members_) < kLeastLines) return std::nullopt;
       fit(10);
     }
@@ -139,9 +140,11 @@ class LatticeFit {
     }
   }
 
-  void matchAll() {
+  /// @param isLast what lies off its line by more than print does is none of it.
+  void matchAll(bool isLast) {
     members_.clear();
-    for (int s = 0; s < static_cast<int>(found_.strips.size()); ++s) match(s, kLatticeReach);
+    const double share = isLast ? std::min(kLatticeReach, kPrintReach / spacing_) : kLatticeReach;
+    for (int s = 0; s < static_cast<int>(found_.strips.size()); ++s) match(s, share);
   }
 
   /// Adds the stretches of a strip that lie on the lattice, at most one a line.
@@ -219,6 +222,15 @@ class LatticeFit {
     const double extent = lattice_.at(lattice_.last, middle) - lattice_.at(lattice_.first, middle);
     lattice_.spacing = extent / std::max(1, lattice_.last - lattice_.first);
     lattice_.misfit = upperMedian(off);
+    // How many of the stretches over the lattice lie on its lines.
+    std::size_t within = 0;
+    for (std::size_t s = 0; s < found_.strips.size(); ++s) {
+      for (const double y : found_.strips[s]) {
+        const double k = lineAt(xOf(s), y);
+        within += k > lattice_.first - 0.5 && k < lattice_.last + 0.5 ? 1 : 0;
+      }
+    }
+    lattice_.selective = static_cast<double>(members_.size()) / static_cast<double>(std::max<std::size_t>(1, within));
     if (seen < kLeastLines || lattice_.seen <= 0.5 || lattice_.spacing < kSmallestSpacing) return std::nullopt;
     if (extent + 2.0 * lattice_.spacing < kLeastShareOfPage * found_.height) return std::nullopt;
     return lattice_;

@@ -20,6 +20,7 @@ struct RulingLattice {
   double spacing = 0.0;                   ///< [grid] mean.
   double seen = 0.0;         ///< Share of the lines from first to last that are seen along most of the page.
   double coverage = 0.0;     ///< Share of the stretches of these lines that are seen.
+  double selective = 0.0;    ///< Share of the stretches over the lattice that lie on its lines.
   double misfit = 0.0;       ///< [grid] median distance of the stretches from the lattice.
   std::vector<bool> isSeen;  ///< From first to last: line by line.
 

@@ -64,7 +64,8 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
       dpi_(new NumberField(this)),
       scaleNote_(note({}, this)),
       fromFile_(linkButton(tr("Use the file's resolution"), QStringLiteral("scan.dpiFromFile"), this)),
-      swatch_(new ToneSwatch(this)) {
+      swatch_(new ToneSwatch(this)),
+      paperNote_(note({}, this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(14, 12, 14, 12);
   layout->setSpacing(8);
@@ -116,7 +117,10 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
   layout->addWidget(new ParameterEditor(session, {"log.enabled", "log.factor"}, this));
   layout->addWidget(swatch_);
   layout->addWidget(caption(tr("Paper"), this));
-  layout->addWidget(new ParameterEditor(session, {"paper.colour", "paper.rulings", "paper.flatten", "paper.folds"}, this));
+  layout->addWidget(
+      new ParameterEditor(session, {"paper.colour", "paper.rulings", "paper.flatten", "paper.folds"}, this));
+  paperNote_->setObjectName(QStringLiteral("scan.paperNote"));
+  layout->addWidget(paperNote_);
   layout->addStretch();
   connect(dpi_, &NumberField::committed, this, [this](double value) { setDpi(value); });
   connect(page_, &NumberField::committed, this, [this](double value) {
@@ -132,6 +136,7 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
   connect(fromFile_, &QPushButton::clicked, this, [this] { setDpi(std::nullopt); });
   connect(&session_, &EditorSession::scanOpened, this, &ScanPanel::refresh);
   connect(&session_, &EditorSession::recipeChanged, this, &ScanPanel::refresh);
+  connect(&session_, &EditorSession::stageReady, this, &ScanPanel::refreshPaper);
   refresh();
 }
 
@@ -160,7 +165,23 @@ void ScanPanel::refreshPage(const Scan* scan) {
   if (isPdf) pdfDpi_->setValue(scan->page.pdfDpi);
 }
 
+void ScanPanel::refreshPaper() {
+  QStringList said;
+  const auto& page = session_.output().page;
+  if (page && page->colouredShare > 0.0)
+    said << tr("Coloured ink was made darker on %1 % of the page.").arg(100.0 * page->colouredShare, 0, 'f', 1);
+  for (const RulingFamily& family : page ? page->rulings : std::vector<RulingFamily>{}) {
+    const int count = static_cast<int>(std::ssize(family.lines));
+    said << (family.runsDown ? tr("%1 printed lines down the page are left out.")
+                             : tr("%1 printed lines across the page are left out."))
+                .arg(count);
+  }
+  paperNote_->setText(said.join(QLatin1Char(' ')));
+  paperNote_->setVisible(!said.isEmpty());
+}
+
 void ScanPanel::refresh() {
+  refreshPaper();
   swatch_->show(session_.recipe().log);
   refreshPage(session_.scan().get());
   dpi_->setEnabled(session_.hasScan());

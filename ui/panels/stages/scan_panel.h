@@ -48,6 +48,7 @@ class ScanPanel : public QWidget {
  private:
   void setDpi(std::optional<double> dpi);
   void refreshPage(const Scan* scan);
+  void refreshPaper();
   EditorSession& session_;
   FigureTable* facts_;
   QLabel* pageName_;
@@ -58,6 +59,7 @@ class ScanPanel : public QWidget {
   QLabel* scaleNote_;
   QPushButton* fromFile_;
   ToneSwatch* swatch_;
+  QLabel* paperNote_;
 };
 
 }  // namespace batten
