@@ -13,7 +13,7 @@
 namespace batten {
 namespace {
 
-constexpr double kStepPx = 1.0;
+constexpr double kSampleStepPx = 1.0;
 constexpr int kLeastSteps = 4, kMostSteps = 4000;  // of a span
 constexpr int kMostSamples = 200'000;              // of a line
 constexpr double kSeamGap = 1e-6;                  // of the size
@@ -42,7 +42,7 @@ int stepsOf(const NurbsCurve& curve, double from, double to, const PageFrame& fr
     length += (at - before).norm();
     before = at;
   }
-  const double steps = std::ceil(frame.lengthToImage(length) / kStepPx);
+  const double steps = std::ceil(frame.lengthToImage(length) / kSampleStepPx);
   return static_cast<int>(std::clamp(steps, static_cast<double>(kLeastSteps), static_cast<double>(kMostSteps)));
 }
 
