@@ -73,5 +73,16 @@ TEST_F(Paper, RuledLinesAreLeftOutAndBroughtBack) {
   EXPECT_EQ(with.at("notes").dump().find("printed lines"), std::string::npos);
 }
 
+TEST_F(Paper, InksAreDroppedAndKeptByName) {
+  const std::string scan = colourPage(
+      "inks.png", {line({40, 60}, {380, 90}, 4, {0.85, 0.25, 0.3}), line({40, 180}, {380, 200}, 4, {0.3, 0.4, 0.85}),
+                   line({40, 300}, {380, 280}, 4, {0.1, 0.1, 0.1})});
+  EXPECT_EQ(traced(scan).at("curves"), 3);
+  EXPECT_EQ(traced(scan, "--set inks.drop=blue").at("curves"), 2);
+  EXPECT_EQ(traced(scan, "--set inks.drop=blue,black").at("curves"), 1);
+  EXPECT_EQ(traced(scan, "--set inks.keep=red").at("curves"), 1);
+  expectError("trace " + scan + " --set inks.drop=beige", 2, "inks.drop cannot be \"beige\"");
+}
+
 }  // namespace
 }  // namespace batten

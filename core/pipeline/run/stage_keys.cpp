@@ -71,7 +71,16 @@ ContentHash scanKey(const Scan& scan) {
 
 ContentHash preparedKey(const ContentHash& scan, const PreparationParams& params) {
   HashBuilder h;
-  h.text("prepared page").hash(scan).integer(static_cast<int>(params.colour)).integer(static_cast<int>(params.rulings));
+  h.text("prepared page")
+      .hash(scan)
+      .integer(static_cast<int>(params.colour))
+      .integer(static_cast<int>(params.rulings))
+      .integer(static_cast<int>(params.sheet));
+  for (const auto* list : {&params.inks.keep, &params.inks.drop}) {
+    addCount(h, *list);
+    for (const InkColour& ink : *list) add(h, ink.hueDeg);
+  }
+  h.number(params.inks.rangeDeg);
   return h.finish();
 }
 

@@ -54,6 +54,9 @@ TEST(ParameterTable, HoldsThePromisedNames) {
                            "fairing.tolerance",
                            "paper.colour",
                            "paper.rulings",
+                           "paper.sheet",
+                           "inks.keep",
+                           "inks.drop",
                            "paper.flatten",
                            "paper.folds",
                            "corners.snap"}) {

@@ -14,6 +14,8 @@ void paintExtrema(QPainter&, const CanvasScene&);
 void paintFallback(QPainter&, const CanvasScene&);
 /// Printed lines of the paper that were left out, faintly.
 void paintRulings(QPainter&, const CanvasScene&);
+/// What lies beside the sheet of a photograph, veiled.
+void paintSheet(QPainter&, const CanvasScene&);
 /// The regions of interest; what lies outside is veiled.
 void paintRegions(QPainter&, const CanvasScene&);
 

@@ -3,6 +3,7 @@
 
 #include <QWidget>
 
+#include "core/image/inks.h"
 #include "core/image/log_transform.h"
 #include "ui/session/editor_session.h"
 
@@ -49,6 +50,8 @@ class ScanPanel : public QWidget {
   void setDpi(std::optional<double> dpi);
   void refreshPage(const Scan* scan);
   void refreshPaper();
+  void refreshInks();
+  void setInkDropped(const InkColour& ink, bool isDropped);
   EditorSession& session_;
   FigureTable* facts_;
   QLabel* pageName_;
@@ -60,6 +63,8 @@ class ScanPanel : public QWidget {
   QPushButton* fromFile_;
   ToneSwatch* swatch_;
   QLabel* paperNote_;
+  QWidget* inkBox_;                  ///< A button for every ink of the page.
+  std::vector<FoundInk> shownInks_;  ///< What its buttons were made for.
 };
 
 }  // namespace batten
