@@ -121,6 +121,7 @@ std::optional<Error> validate(const Recipe& recipe) {
     return bad("The line by which the scale is measured must have a length on the page and one in mm above 0.");
   }
   if (auto e = validate(recipe.log)) return e;
+  if (auto e = validate(recipe.preparation)) return e;
   if (auto e = validate(recipe.threshold)) return e;
   if (auto e = validate(recipe.filter)) return e;
   if (auto e = validate(recipe.edges)) return e;

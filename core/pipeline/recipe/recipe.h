@@ -15,6 +15,7 @@
 #include "core/fairing/fairing_params.h"
 #include "core/image/log_transform.h"
 #include "core/image/neighbourhood_filter.h"
+#include "core/image/page_preparation.h"
 #include "core/image/region_thresholds.h"
 #include "core/image/scan.h"
 #include "core/pipeline/recipe/curve_numbers.h"
@@ -99,6 +100,7 @@ struct Recipe {
   std::optional<ScaleLine> scaleLine;  ///< Where `dpi` comes from, if it was measured on the drawing.
   PageChoice scanPage;                 ///< Which page of the scan's file it is for.
   LogParams log;
+  PreparationParams preparation;
   PaperParams paper;
   ThresholdParams threshold;
   FilterParams filter;
