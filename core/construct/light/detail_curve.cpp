@@ -26,7 +26,7 @@ constexpr double kFitShare = 0.9;    // of the tolerance; the rest is for the sm
 constexpr double kClearNotch =
     60.0 * std::numbers::pi / 180.0;  // a corner that does not turn at large must turn by this
 constexpr int kFewestStretchSamples = 16;
-constexpr int kFewestTried = 9, kMostPoints = 60;
+constexpr int kFewestTried = 9, kMostDetailPoints = 60;
 constexpr double kChordReach = 3.0;  // tolerances
 constexpr int kMostCuts = 4;         // of a stretch, one within the other
 constexpr double kSamplesPerPoint = 4.0;
@@ -92,8 +92,8 @@ LightCurve fitOf(const NurbsCurve& dense, const std::vector<Vec2>& points, bool 
   LightTask task;
   task.forms = closed ? LightForms::All : LightForms::UpToQuintic;
   task.keepStructure = false;
-  task.mostPoints =
-      std::clamp(static_cast<int>(static_cast<double>(points.size()) / kSamplesPerPoint), kFewestTried, kMostPoints);
+  task.mostPoints = std::clamp(static_cast<int>(static_cast<double>(points.size()) / kSamplesPerPoint), kFewestTried,
+                               kMostDetailPoints);
   LightOptions within = options;
   within.tolerance = kFitShare * options.tolerance;
   within.start = within.end = LightHold::Position;

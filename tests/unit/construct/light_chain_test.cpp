@@ -41,7 +41,7 @@ test::TruthPiece wavyRing(int waves) {
   return piece;
 }
 
-LightOptions within(double tolerance) {
+LightOptions lightWithin(double tolerance) {
   LightOptions options;
   options.tolerance = tolerance;
   return options;
@@ -62,7 +62,7 @@ double kappaAt(const NurbsCurve& curve, double u) {
 
 TEST(LightChain, MakesLinesOfManyExtremaLight) {
   const NurbsCurve dense = test::denseCurve(wavyLine(12), false);
-  LightOptions options = within(0.1);
+  LightOptions options = lightWithin(0.1);
   options.start = LightHold::Curvature;
   options.end = LightHold::Tangent;
   const auto light = makeLight(dense, false, options, {});
@@ -85,7 +85,7 @@ TEST(LightChain, MakesLinesOfManyExtremaLight) {
 
 TEST(LightChain, ItsSectionsMeetWithOneTangentAndCurvature) {
   const NurbsCurve dense = test::denseCurve(wavyLine(9), false);
-  const auto light = makeLight(dense, false, within(0.1), {});
+  const auto light = makeLight(dense, false, lightWithin(0.1), {});
   ASSERT_TRUE(light);
   ASSERT_EQ(light->report.kind, LightKind::Chain);
   const auto breaks = light->curve.breaks();
@@ -100,7 +100,7 @@ TEST(LightChain, ItsSectionsMeetWithOneTangentAndCurvature) {
 
 TEST(LightChain, GoesRoundClosedCurves) {
   const NurbsCurve dense = test::denseCurve(wavyRing(11), true);
-  const auto light = makeLight(dense, true, within(0.1), {});
+  const auto light = makeLight(dense, true, lightWithin(0.1), {});
   ASSERT_TRUE(light);
   ASSERT_EQ(light->report.kind, LightKind::Chain);
   EXPECT_LT(2 * light->report.points, light->report.pointsBefore);
@@ -118,7 +118,7 @@ TEST(LightChain, IsTheSameWhateverTheNumberOfThreads) {
   for (const int threads : {1, 2, 4}) {
     RunContext context;
     context.threads = threads;
-    auto light = makeLight(dense, false, within(0.1), context);
+    auto light = makeLight(dense, false, lightWithin(0.1), context);
     ASSERT_TRUE(light);
     if (first) {
       EXPECT_EQ(light->curve, first->curve);
