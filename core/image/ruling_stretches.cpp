@@ -12,7 +12,7 @@ namespace batten {
 namespace {
 
 constexpr int kStrips = 8;
-constexpr int kLeastSide = 160;                // [grid] smaller pictures hold no ruled page
+constexpr int kLeastStretchSide = 160;         // [grid] smaller pictures hold no ruled page
 constexpr double kSteepest = 0.2;              // of the lines
 constexpr double kLeastOfStrip = 0.35;         // of the columns of a strip that must hold the line
 constexpr std::array<int, 2> kSides = {2, 5};  // [grid] where the paper beside a thin line is looked for
@@ -114,7 +114,7 @@ RulingStretches findRulingStretches(const Plane& grey, const RunContext& context
   out.width = grey.width;
   out.height = grey.height;
   out.stripWidth = out.width / kStrips;
-  if (std::min(grey.width, grey.height) < kLeastSide) return out;
+  if (std::min(grey.width, grey.height) < kLeastStretchSide) return out;
   const auto pixels = linePixels(averagedAlong(grey, context), context);
   if (context.isCancelled()) return out;
   const double offset = kSteepest * out.width + 2.0;

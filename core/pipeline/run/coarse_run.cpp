@@ -105,6 +105,7 @@ Recipe coarseRecipe(Recipe recipe, const Scan& scan, int factor) {
     divide(choice.anchorsPx, by);
     divide(choice.keepPx, by);
     divide(choice.splitsPx, by);
+    for (SpanChoice& span : choice.spanTargets) span.placePx /= by;
   }
   recipe.curveNumbers = {};
   return recipe;

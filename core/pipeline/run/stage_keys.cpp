@@ -45,6 +45,12 @@ void add(HashBuilder& h, const PieceChoice& c) {
     for (const Vec2& p : *places) add(h, p);
   }
   add(h, c.profile);
+  h.integer(c.spans ? static_cast<int>(*c.spans) : -1);
+  addCount(h, c.spanTargets);
+  for (const SpanChoice& span : c.spanTargets) {
+    add(h, span.placePx);
+    h.integer(span.degree);
+  }
 }
 
 void addMethods(HashBuilder& h, const Recipe& recipe) {
@@ -128,7 +134,8 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
     case StageId::Faired:
       addCount(h, r.choices);
       for (const PieceChoice& choice : r.choices) add(h, choice);
-      for (const CornerMark& mark : r.cornerMarks) h.number(mark.roundMm);
+      for (const CornerMark& mark : r.cornerMarks)
+        h.number(mark.roundMm).integer(static_cast<int>(mark.roundBy)).integer(static_cast<int>(mark.joint));
       break;
   }
 }

@@ -71,7 +71,7 @@ void paintFallback(QPainter& painter, const CanvasScene& scene) {
 void paintRulings(QPainter& painter, const CanvasScene& scene) {
   const auto& page = scene.session.output().page;
   if (!page || page->rulings.empty() || scene.session.recipe().preparation.rulings == RulingUse::Keep) return;
-  constexpr double kStepPx = 12.0;  // [widget px] the lines are nearly straight
+  constexpr double kChoiceStepPx = 12.0;  // [widget px] the lines are nearly straight
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(QPen(colors::ruling(), 1.0));
@@ -81,7 +81,7 @@ void paintRulings(QPainter& painter, const CanvasScene& scene) {
       for (std::size_t i = 0; i < line.coursePx.size(); ++i) {
         const QPointF at = scene.transform.toWidget(line.coursePx[i]);
         const bool isEnd = i + 1 == line.coursePx.size();
-        if (shown.isEmpty() || isEnd || (at - shown.last()).manhattanLength() >= kStepPx) shown.append(at);
+        if (shown.isEmpty() || isEnd || (at - shown.last()).manhattanLength() >= kChoiceStepPx) shown.append(at);
       }
       painter.drawPolyline(shown);
     }
