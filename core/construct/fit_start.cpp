@@ -31,8 +31,7 @@ class FittedLine {
 
   Station foot(const Station& station) const {
     // Stations at equal distance stay so: beside the curve they are apart by their noise, too.
-    const double s =
-        std::isfinite(station.along) ? station.along * total_ : polished(nearest(station).s, station.point);
+    const double s = station.along ? *station.along * total_ : polished(nearest(station).s, station.point);
     const double u = parameter(s);
     Station moved = station;
     moved.point = curve_.point(u);

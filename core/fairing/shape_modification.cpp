@@ -27,7 +27,7 @@ constexpr std::array kRoundTolerances = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.
 /// A search that leaves more of it unused got stuck in the noise of a rough start; the barrier then takes over.
 constexpr double kStuckShare = 0.8;
 /// Room for what lies between the places where the deviation is measured.
-constexpr double kMeasured = 0.999;
+constexpr double kHeldShare = 0.999;
 
 constexpr const char* kNothingWon =
     "Left as sketched: within the tolerance, this target would add curvature extrema. Raise the tolerance, split the "
@@ -91,7 +91,7 @@ class ShapeModification {
         if (isWithin(step)) take(step, &course);
       }
     }
-    report_.withinTolerance = report_.neededMm <= kMeasured * toleranceMm_;
+    report_.withinTolerance = report_.neededMm <= kHeldShare * toleranceMm_;
     for (const double tolerance : kRoundTolerances) {
       if (tolerance <= toleranceMm_) useRound(tolerance);
     }
@@ -109,7 +109,7 @@ class ShapeModification {
     TargetSteps steps;
   };
 
-  bool isWithin(const TargetStep& step) const { return step.deviationMm <= kMeasured * toleranceMm_; }
+  bool isWithin(const TargetStep& step) const { return step.deviationMm <= kHeldShare * toleranceMm_; }
   /// Extrema that the target itself has are no fault.
   int rank(const TargetStep& step) const { return std::max(step.extrema, asked_); }
 
@@ -132,7 +132,7 @@ class ShapeModification {
   Sides sidesOf(const Course& course, double toleranceMm) const {
     Sides sides;
     for (const TargetStep& step : course.steps.all()) {
-      if (step.deviationMm <= kMeasured * toleranceMm) {
+      if (step.deviationMm <= kHeldShare * toleranceMm) {
         sides.inside = &step;
         break;
       }
@@ -162,7 +162,7 @@ class ShapeModification {
       const double weight = near ? weightBetween(wide, *near, toleranceMm) : 4.0 * wide.weight;
       auto step = course.steps.between(near ? *near : wide, weight);
       if (!step) break;
-      if (step->deviationMm <= kMeasured * toleranceMm) {
+      if (step->deviationMm <= kHeldShare * toleranceMm) {
         found.push_back(*step);
         near = std::move(step);
       } else {

@@ -67,7 +67,7 @@ ConstructContour contourOf(const std::vector<Vec2>& points, const SegmentParams&
   ConstructContour contour;
   ConstructPiece& made = contour.pieces.emplace_back();
   made.points = points;
-  if (const auto segments = regressionSegments(set, params)) made.stations = segments->pieces[0].stations;
+  if (const auto segments = regressionSegments(set, params, {})) made.stations = segments->pieces[0].stations;
   return contour;
 }
 

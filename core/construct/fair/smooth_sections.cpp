@@ -280,7 +280,7 @@ Result<ConstructedPiece> SmoothSections::throughStations(const RunContext& conte
   px.refined.assign(px.points.size(), 1);
   SegmentParams adaptive;
   adaptive.mode = SegmentMode::Adaptive;
-  const auto segments = regressionSegments(set, adaptive);
+  const auto segments = regressionSegments(set, adaptive, context);
   if (!segments) return fail(segments.error());
   ConstructPiece piece = piece_;
   piece.stations = segments->pieces.at(0).stations;

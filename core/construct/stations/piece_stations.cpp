@@ -80,7 +80,7 @@ void settleStart(std::vector<Station>& stations, const Vec2& start, bool corner,
   const double spacing = stations.size() > 1 ? (stations[1].point - stations[0].point).norm() : gap.norm();
   if (gap.norm() > 0.25 * spacing && gap.dot(stations.front().direction) > 0.5 * gap.norm()) {
     // What was first stands away from where it was measured.
-    stations.front().along = std::numeric_limits<double>::quiet_NaN();
+    stations.front().along.reset();
     stations.insert(stations.begin(), stationAt(start, mirrored(stations.front().direction, gap)));
     stations.front().along = along;
   } else if (corner) {

@@ -11,6 +11,7 @@
 namespace batten {
 namespace {
 
+constexpr int kWidePercent = 90;          // of the points are no wider than the profile is made for
 constexpr int kTangentReach = 2;          // points to either side
 constexpr double kStairSigma = 1.5;       // points: the stairs of the pixels are about three long
 constexpr double kLeastBaseSigma = 2.0;   // points: thin strokes wander by as much from pixel to pixel
@@ -116,7 +117,7 @@ StrokeCourse resample(const StrokePath& path) {
   setValues(course, &CoursePoint::base, base);
   setValues(course, &CoursePoint::tangent, directions(base, course.closed, kTangentReach));
   std::vector<float> radius = valuesOf(course, &CoursePoint::radius);
-  const double high = elementOfRank(radius, std::ssize(radius) * 9 / 10);
+  const double high = elementOfRank(radius, std::ssize(radius) * kWidePercent / 100);
   course.profileHalf =
       static_cast<int>(std::lround((std::max(high, 0.5 * course.widthPx) + kPaperBesidePx) / kStrokeStepPx));
   return course;

@@ -88,6 +88,9 @@ bool isPageSide(int px) { return px >= 16 && px <= 20000; }
 
 std::optional<Error> validateChoice(const PieceChoice& choice) {
   // The rest has the ranges of the common settings.
+  if (choice.detail && !(*choice.detail >= 0.0 && *choice.detail <= 1.0)) {
+    return bad("The choice for a curve cannot be used. Its detail must lie between 0 and 1.");
+  }
   if (auto wrong = validate(choice.fairing({}))) return bad("The choice for a curve cannot be used. " + wrong->message);
   return std::nullopt;
 }

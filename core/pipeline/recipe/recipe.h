@@ -40,6 +40,7 @@ struct PieceChoice {
   std::optional<FairingMeans> means{};               ///< Own way to move, on Bézier paths.
   std::optional<EndHold> startHold{}, endHold{};
   std::optional<ConstructMethod> method{};  ///< Own way of construction.
+  std::optional<double> detail{};           ///< Own detail of a light curve, 0..1.
   /// Made for a part of a line that shares a choice: there it counts instead of that one, also where it says nothing.
   bool isPart = false;
   bool operator==(const PieceChoice&) const = default;
@@ -66,7 +67,7 @@ struct PieceChoice {
   /// The common fairing with what is chosen here in its place; what is chosen by place on the drawing is not in it.
   FairingParams fairing(FairingParams common) const;
   /// True when the choice says nothing.
-  bool isEmpty() const { return included && !hasFairing() && splitsPx.empty() && !method && !isPart; }
+  bool isEmpty() const { return included && !hasFairing() && splitsPx.empty() && !method && !detail && !isPart; }
 };
 
 /// The size of a drawing that has no scan: white paper. Resolution: the recipe's.

@@ -104,11 +104,11 @@ class PipelineRun {
         return step(stage, out_.pieces,
                     [&] {
                       const GreyImage& grey = recipe_.cornerMarks.empty() ? scan_.grey : flattenedScan();
-                      return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, &grey);
+                      return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, context_, &grey);
                     }) &&
                numberPiecesOnce();
       case StageId::Segments:
-        return step(stage, out_.segments, [&] { return regressionSegments(*out_.pieces, recipe_.segments); });
+        return step(stage, out_.segments, [&] { return regressionSegments(*out_.pieces, recipe_.segments, context_); });
       case StageId::Curves:
         return step(stage, out_.constructed, [&] {
           return constructAll(*out_.contours, *out_.pieces, *out_.segments, recipe_, out_.frame, context_);
@@ -153,7 +153,10 @@ class PipelineRun {
     };
     if (recipe_.regions.empty()) return trace(out_.filtered->ink);
     auto set = trace(inkTouching(out_.filtered->ink, recipe_.regions, context_));
-    if (set) set = keepInside(std::move(*set), recipe_.regions, recipe_.contours.minLengthPx);
+    if (set) {
+      const double limit = recipe_.contours.minWidths * set->report.widthPx;
+      set = keepInside(std::move(*set), recipe_.regions, std::max(limit, recipe_.contours.minLengthPx));
+    }
     const bool isEmpty = set ? set->contours.empty() : set.error().code == ErrorCode::NoCurve;
     if (!isEmpty) return set;
     return fail(ErrorCode::NoCurve, "No line lies inside the region: draw a larger one or clear it.");
@@ -176,7 +179,8 @@ class PipelineRun {
       traced = std::make_shared<const ContourSet>(found ? std::move(*found) : ContourSet{});
       if (found) cache_.store(keys_.traced, traced, bytesOf(*traced));
     }
-    return withPenStrokes(withImports(*traced, recipe_.imports, out_.frame), recipe_.penStrokes);
+    return withPenStrokes(withImports(*traced, recipe_.imports, out_.frame), recipe_.penStrokes,
+                          {static_cast<double>(scan_.grey.width), static_cast<double>(scan_.grey.height)});
   }
 
   /// Fills `slot` from the cache or by running `work`; false if the run ends here.

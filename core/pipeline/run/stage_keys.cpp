@@ -54,6 +54,7 @@ void addMethods(HashBuilder& h, const Recipe& recipe) {
     addCount(h, choice.anchorsPx);
     for (const Vec2& p : choice.anchorsPx) add(h, p);
     h.integer(choice.method ? static_cast<int>(*choice.method) : -1);
+    h.integer(choice.detail ? 1 : 0).number(choice.detail.value_or(0.0));
   }
 }
 

@@ -23,7 +23,7 @@ ExportSettings rhino(LengthUnit unit = LengthUnit::Millimetre) {
   return settings;
 }
 
-std::string fileOf(const ExportDocument& document, const ExportSettings& settings) {
+std::string rhinoFileOf(const ExportDocument& document, const ExportSettings& settings) {
   const auto file = exportedFile(document, settings);
   EXPECT_TRUE(file) << (file ? "" : file.error().message + file.error().detail);
   return file ? file->bytes : std::string();
@@ -88,7 +88,7 @@ class Rhino : public testing::TestWithParam<LengthUnit> {};
 
 TEST_P(Rhino, HoldsEveryDegreeExactly) {
   const ExportDocument document = test::exportOfAllDegrees();
-  const auto drawing = readRhino(fileOf(document, rhino(GetParam())));
+  const auto drawing = readRhino(rhinoFileOf(document, rhino(GetParam())));
   ASSERT_TRUE(drawing) << drawing.error().message;
   const double mm = millimetresPer(GetParam());
   EXPECT_EQ(drawing->mmPerUnit, mm);
@@ -122,7 +122,7 @@ TEST_P(Rhino, HoldsEveryDegreeExactly) {
 TEST_P(Rhino, BytesAreAsOpenNurbsLaysThemOut) {
   ExportDocument document = test::exportOfAllKinds();
   document.curves.resize(2);
-  const std::string bytes = fileOf(document, rhino(GetParam()));
+  const std::string bytes = rhinoFileOf(document, rhino(GetParam()));
   EXPECT_TRUE(bytes.starts_with("3D Geometry File Format        3"));
   EXPECT_EQ(numberAt(bytes, bytes.size() - 12), 0x00007fffU);
   EXPECT_EQ(numberAt(bytes, bytes.size() - 4), bytes.size()) << "the end states the length";
@@ -154,19 +154,19 @@ TEST(RhinoFile, NamesAndLayersSurviveWhateverTheirLetters) {
   document.curves[0].name = "It's süß, 漢字 😀";
   document.curves[1].layer = "Skizze (roh)";
   document.curves[2].layer = "漢字";
-  const auto drawing = readRhino(fileOf(document, rhino()));
+  const auto drawing = readRhino(rhinoFileOf(document, rhino()));
   ASSERT_TRUE(drawing);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(drawing->entities[i].layer, document.curves[i].layer);
   EXPECT_EQ(drawing->entities[0].name, document.curves[0].name);
 }
 
 TEST(RhinoFile, IsTheSameEachTimeAndRefusesNothing) {
-  EXPECT_EQ(fileOf(test::exportOfAllDegrees(), rhino()), fileOf(test::exportOfAllDegrees(), rhino()));
+  EXPECT_EQ(rhinoFileOf(test::exportOfAllDegrees(), rhino()), rhinoFileOf(test::exportOfAllDegrees(), rhino()));
   EXPECT_EQ(exportedFile({}, rhino()).error().code, ErrorCode::NoCurve);
 }
 
 TEST(RhinoFile, DamageIsNoticed) {
-  const std::string whole = fileOf(test::exportOfAllKinds(), rhino());
+  const std::string whole = rhinoFileOf(test::exportOfAllKinds(), rhino());
   for (std::size_t length = 0; length < whole.size(); length += 7)
     EXPECT_FALSE(readRhino(whole.substr(0, length))) << length;
   // A bit that turns in a curve is told by its check sum.

@@ -51,7 +51,7 @@ ConstructPiece randomPiece(std::mt19937& random) {
   params.count = stations;
   ConstructPiece made;
   made.points = piece.points;
-  const auto segments = regressionSegments(set, params);
+  const auto segments = regressionSegments(set, params, {});
   if (segments) made.stations = segments->pieces[0].stations;
   made.startIsCorner = uniform(random) < 0.5;
   made.endIsCorner = uniform(random) < 0.5;
