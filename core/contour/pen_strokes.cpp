@@ -108,9 +108,12 @@ std::string noteOf(const PenReport& report) {
   add(report.cut, " leaves the page: only its longest part on the page is kept.",
       " leave the page: only the longest part of each on the page is kept.");
   add(report.beside, " lies beside the page and is left out.", " lie beside the page and are left out.");
-  const std::string why = " left out, because a drawing may hold " + std::to_string(kMostPenPoints) +
-                          " points of pen strokes, about one a pixel: remove some strokes.";
-  add(report.tooMany, " is" + why, " are" + why);
+  add(report.tooMany, " is left out", " are left out");
+  if (report.tooMany > 0) {
+    note += ", because a drawing may hold ";
+    note += std::to_string(kMostPenPoints);
+    note += " points of pen strokes, about one a pixel: remove some strokes.";
+  }
   return note;
 }
 

@@ -141,7 +141,7 @@ std::vector<Contour> placeStrokePaths(const std::vector<StrokePath>& paths, cons
 
 // [grey] by which a stroke is darker than the paper on both its sides.
 double depthOf(const StrokePath& s, const GreyImage& grey) {
-  constexpr double kBesideWidths = 1.25, kBesidePx = 1.5;
+  constexpr double kBesideWidths = 1.25, kTakenBesidePx = 1.5;
   const auto level = [&](const Vec2& at) {
     return static_cast<double>(grey.level(std::clamp(static_cast<int>(at.x()), 0, grey.width - 1),
                                           std::clamp(static_cast<int>(at.y()), 0, grey.height - 1)));
@@ -151,7 +151,7 @@ double depthOf(const StrokePath& s, const GreyImage& grey) {
   for (int i = 1; i + 1 < std::ssize(s.points); ++i) {
     const Vec2 along = s.points[i + 1].at - s.points[i - 1].at;
     if (!(along.norm() > 0.0)) continue;
-    const double beside = kBesideWidths * 2.0 * static_cast<double>(s.points[i].radius) + kBesidePx;
+    const double beside = kBesideWidths * 2.0 * static_cast<double>(s.points[i].radius) + kTakenBesidePx;
     const Vec2 away = beside * leftNormal(along.normalized()), &at = s.points[i].at;
     sum += 0.5 * (level(at + away) + level(at - away)) - level(at);
     ++count;

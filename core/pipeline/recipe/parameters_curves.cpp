@@ -352,6 +352,13 @@ void appendFairing(std::vector<Parameter>& table) {
       {"fairing.lowpass", "Wavelength", "mm",
        "Low-pass: waves of the curvature of this length are halved, shorter ones go. Larger is smoother."},
       {0.1, 10000.0, 0.1, 1, true}, [](auto& r) -> auto& { return r.fairing.lowPassMm; }));
+  table.push_back(choice<TargetSpans>(
+      kFaired,
+      {"fairing.spans", "Spans", "",
+       "A target has one polynomial from each extremum of the curvature to the next, small ones left out; or one for "
+       "the whole curve, as in the papers."},
+      {{"natural", "Natural", TargetSpans::Natural}, {"whole", "Whole curve", TargetSpans::Whole}},
+      [](auto& r) -> auto& { return r.fairing.targets.spans; }));
   table.push_back(choice<TargetQuantity>(
       kFaired,
       {"fairing.quantity", "Profile of", "",

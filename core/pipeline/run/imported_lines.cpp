@@ -191,10 +191,10 @@ std::vector<std::optional<NurbsCurve>> importedCurves(const ImportedLine& line, 
 }
 
 NurbsCurve fairableShape(const NurbsCurve& curve) {
-  constexpr int kDegree = 5;
+  constexpr int kLineDegree = 5;
   constexpr double kLongestSpan = 1.0 / 16.0;  // of the length
   if (curve.isRational()) return {};
-  auto shape = elevated(curve, std::max(kDegree, curve.degree()));
+  auto shape = elevated(curve, std::max(kLineDegree, curve.degree()));
   if (!shape) return {};
   const ArcLength arc(*shape);
   const double longest = kLongestSpan * arc.total();
