@@ -12,15 +12,15 @@ namespace batten {
 namespace {
 
 constexpr std::int64_t kLargestLatticePx = 4'000'000;
-constexpr int kStationPx = 16;            // [px] between the points of a course
-constexpr double kMostMisfit = 0.75;      // [grid] drawn lines are less even
-constexpr double kLeastSeen = 0.8;        // of the lines
-constexpr double kLeastCoverage = 0.7;    // of the stretches of the lines that are seen
-constexpr double kLeastSelective = 0.25;  // of the thin lines over the ruling that belong to it
-constexpr double kMostWidth = 0.3;        // of the spacing
-constexpr double kDarkRuling = 0.55;      // of the paper's light: printed rulings are lighter
-constexpr double kDarkCoverage = 0.85;    // asked of dark lines that make no grid
-constexpr int kDarkLines = 12;            // likewise
+constexpr int kStationPx = 16;                             // [px] between the points of a course
+constexpr double kMostMisfit = 0.75;                       // [grid] drawn lines are less even
+constexpr double kLeastSeen = 0.8, kLeastSeenAlone = 0.7;  // of the lines; the latter where hardly any others are
+constexpr double kLeastCoverage = 0.7;                     // of the stretches of the lines that are seen
+constexpr double kAlone = 0.4, kLeastSelective = 0.25;     // of the thin lines over the ruling that belong to it
+constexpr double kMostWidth = 0.3;                         // of the spacing
+constexpr double kDarkRuling = 0.55;                       // of the paper's light: printed rulings are lighter
+constexpr double kDarkCoverage = 0.85;                     // asked of dark lines that make no grid
+constexpr int kDarkLines = 12;                             // likewise
 constexpr double kLeastRulingDepth = 0.015;
 
 Plane transposed(const Plane& in) {
@@ -80,7 +80,9 @@ std::optional<FoundLattice> lookFor(const Plane& grey, const RunContext& context
   const bool isEven = l.misfit <= kMostMisfit;
   const bool isThin = found.look.width <= std::max(2.0, kMostWidth * l.spacing);
   if (!isEven || !isThin || found.look.depth < kLeastRulingDepth) return std::nullopt;
-  if (l.seen < kLeastSeen || l.coverage < kLeastCoverage || l.selective < kLeastSelective) return std::nullopt;
+  if (l.seen < (l.selective >= kAlone ? kLeastSeenAlone : kLeastSeen) || l.coverage < kLeastCoverage ||
+      l.selective < kLeastSelective)
+    return std::nullopt;
   return found;
 }
 

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kSheetCells = 400;          // along the longer side of the picture
 constexpr double kPaperRankOfCell = 0.7;  // of the pixels of a cell by grey: ink is darker
+constexpr int kSamplesAcross = 4;         // of a cell
 constexpr float kMostStep = 7.0f;         // [grey] from cell to cell of one sheet, in brightness and in colour
 constexpr double kMostRoughness = 9.0;    // [grey] between neighbours within a cell: carpet, wood, cloth
 constexpr double kLeastSheet = 0.3, kMostSheet = 0.985;  // of the picture
@@ -38,6 +39,7 @@ SheetCells measureCellsOf(const GreyImage& grey, const ColourImage& colour, cons
   cells.rows = grey.height / cells.sizePx;
   cells.colour.create(cells.rows, cells.columns);
   cells.rough.create(cells.rows, cells.columns);
+  const int stride = std::max(1, cells.sizePx / kSamplesAcross);
   parallelFor(context, cells.rows, 8, [&](int begin, int end) {
     std::vector<std::pair<std::uint16_t, Rgb8>> pixels;
     std::vector<float> steps;
@@ -45,8 +47,8 @@ SheetCells measureCellsOf(const GreyImage& grey, const ColourImage& colour, cons
       for (int i = 0; i < cells.columns; ++i) {
         pixels.clear();
         steps.clear();
-        for (int y = j * cells.sizePx; y < (j + 1) * cells.sizePx; ++y) {
-          for (int x = i * cells.sizePx; x < (i + 1) * cells.sizePx; ++x) {
+        for (int y = j * cells.sizePx; y < (j + 1) * cells.sizePx; y += stride) {
+          for (int x = i * cells.sizePx; x < (i + 1) * cells.sizePx; x += stride) {
             pixels.emplace_back(grey.row(y)[x], colour.isEmpty() ? Rgb8{} : colour.row(y)[x]);
             if (x + 1 < grey.width)
               steps.push_back(std::fabs(static_cast<float>(grey.level(x + 1, y) - grey.level(x, y))));

@@ -11,6 +11,7 @@
 #include <QLabel>
 #include <QMimeData>
 #include <QProgressBar>
+#include <QRegularExpression>
 #include <QUndoStack>
 #include <QUrl>
 #include <QWindow>
@@ -52,7 +53,7 @@ TEST_F(Export, ADxfInInchesIsReadBackAndItsSizeShown) {
   auto* unit = find<QComboBox>("export.unit");
   unit->setFocus();
   QTest::keyClick(unit, Qt::Key_Down);
-  EXPECT_TRUE(find<QLabel>("export.note")->text().contains(QStringLiteral(" in)")));
+  EXPECT_TRUE(find<QLabel>("export.note")->text().contains(QStringLiteral("\u00a0in)")));
   // The ending of another format is replaced.
   auto* path = find<QLineEdit>("export.path");
   path->selectAll();
@@ -155,8 +156,12 @@ TEST_F(Export, CurvesAreCopiedAsSvg) {
     const auto at = [&](const NurbsCurve& c) { return c.point(c.start() + (c.end() - c.start()) * i / 200); };
     EXPECT_LE((at(shape) - at(there)).norm(), 1e-9);
   }
-  const QString side = QString::number(session().output().frame.widthPx * session().output().frame.mmPerPx, 'f', 2);
-  EXPECT_TRUE(svg.contains("width=\"" + side.left(side.size() - 1).toUtf8())) << svg.left(300).toStdString();
+  // Its size is that of the page; user units are pixels, for which Inkscape takes what it is given.
+  const QRegularExpressionMatch head =
+      QRegularExpression(QStringLiteral("width=\"([0-9.]+)mm\" .*viewBox=\"0 0 ([0-9.]+) ")).match(QString::fromUtf8(svg));
+  const double side = session().output().frame.widthPx * session().output().frame.mmPerPx;
+  EXPECT_NEAR(head.captured(1).toDouble(), side, 1e-6);
+  EXPECT_NEAR(head.captured(2).toDouble(), side * 96 / 25.4, 1e-6);
   EXPECT_TRUE(find<QLabel>("export.result")->text().contains(QStringLiteral("read back")));
 }
 

@@ -234,10 +234,10 @@ void ExportPanel::refresh() {
   if (size.curves == 0) return size_->setText(tr("There is no curve to export yet."));
   const ExportSettings settings = options_->settings();
   const double width = size.widthMm * settings.scale, height = size.heightMm * settings.scale;
-  QString text = tr("Will import as %1 × %2 mm").arg(width, 0, 'f', 1).arg(height, 0, 'f', 1);
+  QString text = tr("Will import as %1\u00a0×\u00a0%2\u00a0mm").arg(width, 0, 'f', 1).arg(height, 0, 'f', 1);
   if (settings.unit == LengthUnit::Inch) {
     const double inch = millimetresPer(LengthUnit::Inch);
-    text += tr(" (%1 × %2 in)").arg(width / inch, 0, 'f', 3).arg(height / inch, 0, 'f', 3);
+    text += tr(" (%1\u00a0×\u00a0%2\u00a0in)").arg(width / inch, 0, 'f', 3).arg(height / inch, 0, 'f', 3);
   }
   text += QLatin1Char('.');
   if (isScaleAssumed(*session_.scan(), session_.recipe()))
