@@ -2,6 +2,7 @@
 #include "core/exchange/polynomial_writer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "core/base/number_text.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/bezier_quintics.h"
+#include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
 #include "core/exchange/cad_drawing.h"
@@ -22,11 +24,11 @@ namespace {
 constexpr std::size_t kBefore = 5;  ///< Columns before the coefficients.
 constexpr int kPolynomialPlaces = 200;
 
-constexpr double kNearEnough = 1e-9;  ///< Of the size of a rational curve: its polynomials may lie so far from it.
+constexpr double kNearEnough = 1e-12;  ///< Of the size of a rational curve: its polynomials may lie so far from it.
 constexpr int kStepsPerSpan = 8, kMostSteps = 4096;
 
 /// A rational curve as quintics over its arc length: they share place, direction and curvature with it at ever closer
-/// places, until none in between is farther away than a billionth of its size.
+/// places, until none in between is farther away than a millionth of a millionth of its size.
 Result<NurbsCurve> inPolynomials(const NurbsCurve& rational) {
   const double most = kNearEnough * extent(rational);
   for (int steps = kStepsPerSpan * static_cast<int>(rational.breaks().size() - 1);; steps *= 2) {
@@ -41,7 +43,7 @@ Result<NurbsCurve> inPolynomials(const NurbsCurve& rational) {
     if (!chain) return chain;
     double worst = 0.0;
     for (std::size_t i = 1; i < samples.size(); i += 2) {
-      worst = std::max(worst, (chain->point(samples[i].s) - samples[i].point).norm());
+      worst = std::max(worst, std::abs(cross(samples[i].tangent, chain->point(samples[i].s) - samples[i].point)));
     }
     if (worst <= most || steps >= kMostSteps) return chain;
   }
@@ -171,14 +173,14 @@ Result<double> checkPolynomials(std::string_view text, const ExportDocument& doc
       const std::size_t count = curve->breaks().size() - 1;
       if (first + count > spans.size()) return readsBackOtherwise("too few rows");
       const NurbsCurve scaled = inUnits(piece.curve, settings);
-      std::optional<ArcLength> arc;
-      if (scaled.isRational()) arc.emplace(scaled);
       std::size_t k = first;
       for (int i = 0; i <= kPolynomialPlaces; ++i) {
         const double u = curve->start() + (curve->end() - curve->start()) * i / kPolynomialPlaces;
         while (k + 1 < first + count && u >= spans[k].end) ++k;
-        const Vec2 wanted = arc ? scaled.point(arc->parameter(u)) : curve->point(u);
-        most = std::max(most, (spans[k].at(u) - wanted).norm());
+        const Vec2 read = spans[k].at(u);
+        // Of a rational curve the places of one arc length are not known so exactly.
+        most =
+            std::max(most, scaled.isRational() ? closestPoint(scaled, read).distance : (read - curve->point(u)).norm());
       }
       first += count;
     }

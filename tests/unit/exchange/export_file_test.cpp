@@ -71,7 +71,7 @@ TEST_F(ExportFile, WritesRationalCurvesAsPolynomials) {
   ASSERT_TRUE(std::any_of(document.curves.begin(), document.curves.end(), isRational));
   const auto report = exportToFile(document, settingsOf(ExportFormat::Polynomials), folder_ / "arcs.poly.csv");
   ASSERT_TRUE(report) << report.error().message << report.error().detail;
-  EXPECT_LE(report->largestDifferenceMm, 1e-6);
+  EXPECT_LE(report->largestDifferenceMm, 1e-9);
 }
 
 TEST_F(ExportFile, EveryPresetWritesWhatItSays) {
