@@ -14,9 +14,7 @@ namespace batten {
 namespace {
 
 constexpr std::size_t kMostPoints = 100000;  // of one stroke
-/// [px] Distance of the points in between; longer strokes take wider steps, so that a page never becomes too much.
-constexpr double kStepPx = 1.0;
-constexpr double kMostSteps = 200000.0;  // of one stroke
+constexpr double kMostSteps = 200000.0;      // of one stroke
 
 std::vector<Vec2> distinct(const PenStroke& stroke) {
   std::vector<Vec2> points;
@@ -128,14 +126,14 @@ std::optional<Error> validate(const PenStroke& stroke) {
   return std::nullopt;
 }
 
-Contour penContour(const PenStroke& stroke) {
+Contour penContour(const PenStroke& stroke, double stepPx) {
   const std::vector<Vec2> drawn = distinct(stroke);
   Contour contour;
   contour.kind = ContourKind::Pen;
   contour.closed = stroke.closed;
   contour.lengthPx = polylineLength(drawn, stroke.closed);
   if (stroke.closed) contour.areaPx = polygonArea(drawn);
-  const double step = std::max(kStepPx, contour.lengthPx / kMostSteps);
+  const double step = std::max(stepPx, contour.lengthPx / kMostSteps);
   const int n = static_cast<int>(drawn.size()), legs = stroke.closed ? n : n - 1;
   const auto add = [&](const Vec2& at, bool isDrawn) {
     contour.points.push_back({.at = at, .unrefined = at, .refined = isDrawn});
