@@ -15,10 +15,13 @@ namespace {
 constexpr double kRankedProminence = 2e-3;  // times 1 / diagonal: extrema that have a removal deviation
 constexpr int kFewestOpenPoints = 3, kFewestClosedPoints = 4;
 constexpr int kMostSpanDegree = 7;
-constexpr int kStepShare = 16;     // counts of 32 points and more rise by 2, of 48 by 3, ...
-constexpr double kMostWork = 3e4;  // iterations times spans: half a second or so
-constexpr int kCheckRounds = 4;    // of one fit, while the strict check finds a little missing
-constexpr double kNearly = 1.3;    // tolerances: more than a little
+constexpr int kStepShare = 16;       // counts of 32 points and more rise by 2, of 48 by 3, ...
+constexpr double kMostWork = 3e4;    // iterations times spans: half a second or so
+constexpr int kCheckRounds = 4;      // of one fit, while the strict check finds a little missing
+constexpr double kAskedLess = 0.98;  // of the tolerance over what was missed: the next round's
+constexpr double kMoreSignMargin = 5.0,
+                 kMoreSigns = 3.0;  // times the margin of the signs, and their weight, in the next round
+constexpr double kNearly = 1.3;     // tolerances: more than a little
 
 class LightSearch {
  public:
@@ -146,12 +149,12 @@ class LightSearch {
       // The places of the fit have missed something: they are asked for a little more.
       if (verdict.worst > options_.tolerance) {
         if (verdict.worst > kNearly * options_.tolerance) return false;
-        ask.reach *= 0.98 * options_.tolerance / verdict.worst;
+        ask.reach *= kAskedLess * options_.tolerance / verdict.worst;
       } else {
-        ask.signMargin *= 5.0;
+        ask.signMargin *= kMoreSignMargin;
       }
       ask.firstPhase = false;
-      ask.signs = 3.0;
+      ask.signs = kMoreSigns;
       start = fitted.shape;
     }
     return false;
