@@ -146,9 +146,9 @@ class PathSquares {
       row.setZero(unknowns_.count());
       const std::size_t e = foot.element;
       if (path.elements[e].typical) {
-        unknowns_.addTypical(row, path, geometry[e], e, rows[e], foot.t, n);
+        unknowns_.addTypical(row, path, geometry[e], e, rows[e], {foot.t, n});
       } else {
-        PathUnknowns::addHermite(row, path.states[e], path.states[e + 1], rows[e], rows[e + 1], foot.t, n);
+        PathUnknowns::addHermite(row, {path.states[e], rows[e]}, {path.states[e + 1], rows[e + 1]}, {foot.t, n});
       }
       // The distance shrinks as the path moves towards the point.
       jacobian.row(static_cast<Eigen::Index>(i)) = -weight / unit_ * row;
