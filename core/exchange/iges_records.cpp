@@ -37,8 +37,10 @@ class ParameterSplitter {
     std::vector<std::string> fields;
     while (true) {
       std::size_t length = 0;
-      if (const auto string = hollerith(text, length)) {
-        fields.push_back(*string);
+      if (const auto string = stringAt(text)) {
+        if (string->length > text.size() - string->begin) return std::nullopt;
+        fields.emplace_back(text.substr(string->begin, string->length));
+        length = string->begin + string->length;
       } else {
         length = std::min(text.find(delimiter_), text.find(end_));
         if (length == std::string_view::npos) return std::nullopt;
@@ -55,18 +57,19 @@ class ParameterSplitter {
   }
 
  private:
-  static std::optional<std::string> hollerith(std::string_view text, std::size_t& length) {
+  struct StringField {
+    std::size_t begin = 0, length = 0;
+  };
+  /// Where the characters of a string begin and how many it says it has, be they there or not; nothing for a number.
+  static std::optional<StringField> stringAt(std::string_view text) {
     std::size_t at = 0;
     while (at < text.size() && text[at] == ' ') ++at;
-    int count = 0;
+    std::size_t count = 0;
     const std::size_t digits = at;
     while (at < text.size() && text[at] >= '0' && text[at] <= '9' && count < kLongestString)
-      count = 10 * count + (text[at++] - '0');
+      count = 10 * count + static_cast<std::size_t>(text[at++] - '0');
     if (at == digits || at >= text.size() || text[at] != 'H') return std::nullopt;
-    ++at;
-    if (static_cast<std::size_t>(count) > text.size() - at) return std::nullopt;
-    length = at + static_cast<std::size_t>(count);
-    return std::string(text.substr(at, static_cast<std::size_t>(count)));
+    return StringField{at + 1, count};
   }
   char delimiter_, end_;
 };

@@ -192,7 +192,7 @@ TEST_F(Pen, ADrawingIsSavedOpenedAgainAndTracedAlikeByItsRecipe) {
     ASSERT_TRUE(waitUntil([&] { return QFile::exists(target) && !find<QLabel>("export.result")->text().isEmpty(); }));
   }
   // The oracle: the stages alone, from the saved recipe and a page of its size, as batten-cli runs them.
-  const std::string saved = recipeToJson(session().recipe());
+  const std::string saved = recipeToJson(session().recipeToSave());
   const auto read = recipeFromJson(saved);
   ASSERT_TRUE(read);
   const Scan page = blankScan(read->page->widthPx, read->page->heightPx, *read->dpi);
@@ -207,7 +207,7 @@ TEST_F(Pen, ADrawingIsSavedOpenedAgainAndTracedAlikeByItsRecipe) {
   openPage(test::ellipsePage());
   ASSERT_NO_FATAL_FAILURE(openFile(path));
   EXPECT_TRUE(session().isBlankPage());
-  EXPECT_EQ(session().recipe(), *read);
+  EXPECT_EQ(session().recipeToSave(), *read);
   EXPECT_EQ(session().curves().size(), output.faired->curves.size());
   EXPECT_EQ(MainWindow::recentFiles().value(0), path);
 }

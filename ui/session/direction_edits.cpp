@@ -9,7 +9,7 @@
 namespace batten {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("DirectionEdits", text); }
+QString directionText(const char* text) { return QCoreApplication::translate("DirectionEdits", text); }
 
 std::optional<std::size_t> pieceNumber(const EditorSession& session, int curve) {
   const auto curves = session.curves();
@@ -47,7 +47,7 @@ void turnCurve(EditorSession& session, int curve) {
   if (!piece) return;
   Recipe after = session.recipe();
   turnDirection(after, *session.output().pieces, *piece);
-  session.change(tr("Turn direction"), std::move(after));
+  session.change(directionText("Turn direction"), std::move(after));
 }
 
 void startCurveAt(EditorSession& session, int curve, const Vec2& px, int gesture) {
@@ -55,7 +55,7 @@ void startCurveAt(EditorSession& session, int curve, const Vec2& px, int gesture
   if (!piece) return;
   Recipe after = session.recipe();
   setStart(after, *session.output().pieces, *piece, px);
-  session.change(tr("Move start"), std::move(after), gesture);
+  session.change(directionText("Move start"), std::move(after), gesture);
 }
 
 }  // namespace batten

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kCertainFactor = 5.0;  // of the cost that an extremum must have to be kept
 constexpr double kSamePlacePx = 1.0;
-QString tr(const char* text) { return QCoreApplication::translate("ExtremumMarks", text); }
+QString extremumText(const char* text) { return QCoreApplication::translate("ExtremumMarks", text); }
 
 const TracedCurve* curveAt(const EditorSession& session, int curve) {
   const auto curves = session.curves();
@@ -38,27 +38,28 @@ std::optional<std::size_t> choiceOf(const EditorSession& session, const Extremum
 QString textOf(const ExtremumMark& mark, const ExtremumNote& note) {
   // Seen along the line, whichever way it runs: where it bends most, or least.
   const bool isPeak = note.maximum == (note.kappa > 0.0);
-  QString text = isPeak ? tr("Bends most here") : tr("Bends least here");
+  QString text = isPeak ? extremumText("Bends most here") : extremumText("Bends least here");
   const QString cost = QString::number(note.removalCost, 'f', note.removalCost < 9.95 ? 1 : 0);
   const QString chi = QStringLiteral(" (χ² %1)").arg(cost);
   text += QStringLiteral(" · ");
   if (note.kept) {
-    text += (mark.isCertain                       ? tr("certain")
-             : note.removalCost >= note.askedCost ? tr("probable")
-                                                  : tr("not certain")) +
+    text += (mark.isCertain                       ? extremumText("certain")
+             : note.removalCost >= note.askedCost ? extremumText("probable")
+                                                  : extremumText("not certain")) +
             chi;
   } else {
-    text += (note.removalCost >= note.askedCost         ? tr("drawn, but taken out")
-             : note.removalCost >= 0.5 * note.askedCost ? tr("doubtful, dropped")
-                                                        : tr("noise, dropped")) +
+    text += (note.removalCost >= note.askedCost         ? extremumText("drawn, but taken out")
+             : note.removalCost >= 0.5 * note.askedCost ? extremumText("doubtful, dropped")
+                                                        : extremumText("noise, dropped")) +
             chi;
   }
   if (mark.wantedToKeep) {
-    text += *mark.wantedToKeep == note.kept ? (note.kept ? tr(" · kept by you") : tr(" · taken out by you"))
-                                            : tr(" · cannot be changed: a closed line has at least four");
-    return text + tr(". Click to let the program decide.");
+    text += *mark.wantedToKeep == note.kept
+                ? (note.kept ? extremumText(" · kept by you") : extremumText(" · taken out by you"))
+                : extremumText(" · cannot be changed: a closed line has at least four");
+    return text + extremumText(". Click to let the program decide.");
   }
-  return text + (note.kept ? tr(". Click to take it out.") : tr(". Click to keep it."));
+  return text + (note.kept ? extremumText(". Click to take it out.") : extremumText(". Click to keep it."));
 }
 
 std::vector<ExtremumMark> marksOfFaired(const EditorSession& session, const TracedCurve& curve) {
@@ -71,7 +72,8 @@ std::vector<ExtremumMark> marksOfFaired(const EditorSession& session, const Trac
     mark.s = one.s;
     mark.kappa = one.kappa;
     const bool isPeak = one.maximum == (one.kappa > 0.0);
-    mark.text = (isPeak ? tr("The faired curve bends most here.") : tr("The faired curve bends least here."));
+    mark.text = (isPeak ? extremumText("The faired curve bends most here.")
+                        : extremumText("The faired curve bends least here."));
     marks.push_back(std::move(mark));
   }
   return marks;
@@ -108,11 +110,11 @@ void toggleExtremum(EditorSession& session, int curve, int note) {
   Recipe after = session.recipe();
   if (const auto choice = choiceOf(session, extremum)) {
     after.extremumChoices.erase(after.extremumChoices.begin() + static_cast<std::ptrdiff_t>(*choice));
-    session.change(tr("Let the program decide on a bump"), std::move(after));
+    session.change(extremumText("Let the program decide on a bump"), std::move(after));
     return;
   }
   after.extremumChoices.push_back({session.output().frame.pointToImage(extremum.point), !extremum.kept});
-  session.change(extremum.kept ? tr("Take a bump out") : tr("Keep a bump"), std::move(after));
+  session.change(extremum.kept ? extremumText("Take a bump out") : extremumText("Keep a bump"), std::move(after));
 }
 
 }  // namespace batten

@@ -9,7 +9,7 @@ namespace {
 /// Of the tolerance: a curve that moves less than this has not been faired.
 constexpr double kStill = 1e-3;
 
-QString tr(const char* text) { return QCoreApplication::translate("JudgedCurve", text); }
+QString judgedText(const char* text) { return QCoreApplication::translate("JudgedCurve", text); }
 
 }  // namespace
 
@@ -38,19 +38,19 @@ bool isLeftAsDrawn(const TracedCurve& curve) {
 QString whyLeftAsDrawn(const TracedCurve& curve) {
   if (!isLeftAsDrawn(curve)) return {};
   if (!curve.fairing.note.empty()) return QString::fromStdString(curve.fairing.note);
-  if (curve.construct.isCircle) return tr("Left as drawn: it is an exact circle, nothing is fairer.");
-  if (curve.construct.isLine) return tr("Left as drawn: it is an exact line, nothing is fairer.");
+  if (curve.construct.isCircle) return judgedText("Left as drawn: it is an exact circle, nothing is fairer.");
+  if (curve.construct.isLine) return judgedText("Left as drawn: it is an exact line, nothing is fairer.");
   switch (curve.fairingUsed.mode) {
     case FairingMode::Target:
-      return tr("Left as drawn: no move within the tolerance brings it nearer to the target.");
+      return judgedText("Left as drawn: no move within the tolerance brings it nearer to the target.");
     case FairingMode::Tolerance:
       return curve.fairingUsed.tolerancePolicy == TolerancePolicy::AsNeeded
-                 ? tr("Left as drawn: it has no wave that the line does not prove.")
-                 : tr("Left as drawn: no move within the tolerance makes it more even.");
+                 ? judgedText("Left as drawn: it has no wave that the line does not prove.")
+                 : judgedText("Left as drawn: no move within the tolerance makes it more even.");
     case FairingMode::Monotone:
-      return tr("Left as drawn: it has no curvature extremum that would have to go.");
+      return judgedText("Left as drawn: it has no curvature extremum that would have to go.");
     case FairingMode::LowPass:
-      return tr("Left as drawn: it has no waves as short as those that would go.");
+      return judgedText("Left as drawn: it has no waves as short as those that would go.");
     case FairingMode::None:
       break;
   }

@@ -7,7 +7,7 @@
 namespace batten {
 namespace {
 
-QString tr(const char* text) { return QObject::tr(text); }
+QString penText(const char* text) { return QObject::tr(text); }
 
 /// Index of the first pen stroke in the contours, when these belong to the present recipe.
 std::optional<std::size_t> firstPenContour(const EditorSession& session) {
@@ -31,7 +31,7 @@ bool addStroke(EditorSession& session, PenStroke stroke) {
   session.selectNear(stroke.points[stroke.points.size() / 2]);
   Recipe after = session.recipe();
   after.penStrokes.push_back(std::move(stroke));
-  session.change(tr("Draw stroke"), std::move(after));
+  session.change(penText("Draw stroke"), std::move(after));
   return true;
 }
 
@@ -39,13 +39,13 @@ void removeStroke(EditorSession& session, std::size_t stroke) {
   Recipe after = session.recipe();
   if (stroke >= after.penStrokes.size()) return;
   after.penStrokes.erase(after.penStrokes.begin() + static_cast<std::ptrdiff_t>(stroke));
-  session.change(tr("Remove stroke"), std::move(after));
+  session.change(penText("Remove stroke"), std::move(after));
 }
 
 void removeAllStrokes(EditorSession& session) {
   Recipe after = session.recipe();
   after.penStrokes.clear();
-  session.change(tr("Remove all strokes"), std::move(after));
+  session.change(penText("Remove all strokes"), std::move(after));
 }
 
 std::optional<std::size_t> strokeOf(const EditorSession& session, int curve) {

@@ -19,7 +19,7 @@ std::optional<std::size_t> pieceOf(const EditorSession& session, int curve) {
   return static_cast<std::size_t>(piece);
 }
 
-QString tr(const char* text) { return QCoreApplication::translate("PieceChoice", text); }
+QString choiceText(const char* text) { return QCoreApplication::translate("PieceChoice", text); }
 
 }  // namespace
 
@@ -67,11 +67,11 @@ void chooseTarget(EditorSession& session, int degree) {
     if (session.curves().size() == 1 && hasOwnFairing(session, 0))
       for (PieceChoice& choice : after.choices) choice.mode.reset(), choice.target.reset();
   }
-  session.change(tr("Target %1").arg(degree), std::move(after));
+  session.change(choiceText("Target %1").arg(degree), std::move(after));
 }
 
 void setIncluded(EditorSession& session, int curve, bool included) {
-  session.change(included ? tr("Take curve in") : tr("Leave curve out"),
+  session.change(included ? choiceText("Take curve in") : choiceText("Leave curve out"),
                  withChoice(session, curve, [included](PieceChoice& choice) { choice.included = included; }));
 }
 
@@ -80,7 +80,7 @@ void forgetWaitingChoices(EditorSession& session) {
   const std::vector<std::size_t> waiting = session.choiceOwners().waiting;
   for (auto choice = waiting.rbegin(); choice != waiting.rend(); ++choice)
     after.choices.erase(after.choices.begin() + static_cast<std::ptrdiff_t>(*choice));
-  session.change(tr("Forget choices"), std::move(after));
+  session.change(choiceText("Forget choices"), std::move(after));
 }
 
 }  // namespace batten

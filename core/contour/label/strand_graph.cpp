@@ -14,12 +14,12 @@ namespace {
 
 // A square end of a stroke makes a spur that sticks out .41 radii; nothing that is drawn is dropped.
 constexpr double kSpurRadii = 1.6;
-constexpr int kSpurRounds = 3;
+constexpr int kStrandSpurRounds = 3;
 constexpr double kStraightDeg = 45.0;  // legs that bend more are no single stroke
 constexpr double kWidthRatio = 1.6;    // nor those whose widths differ more, and a pixel
 constexpr double kDegPerOctave = 40.0;
 constexpr double kLevelPx = 1.0;  // of a width, that the grid of pixels explains
-constexpr double kCoreWidths = 2.5;
+constexpr double kStrandCoreWidths = 2.5;
 
 StrandPixel measured(const SkeletonPixel& p, const BitImage& ink) {
   return {p.x, p.y, static_cast<float>(inkRadius(ink, p.x, p.y))};
@@ -141,7 +141,7 @@ std::optional<double> costOfPassing(const Leg& a, const Leg& b) {
 
 }  // namespace
 
-double coreWidth(double strokeWidthPx) { return kCoreWidths * strokeWidthPx + 1.0; }
+double coreWidth(double strokeWidthPx) { return kStrandCoreWidths * strokeWidthPx + 1.0; }
 
 StrandGraph::StrandGraph(const BitImage& skeleton, const BitImage& ink, const RunContext& context) {
   const std::vector<SkeletonChain> found = skeletonChains(skeleton);
@@ -245,7 +245,7 @@ void StrandGraph::splice(int node) {
 }
 
 void StrandGraph::dropSpurs() {
-  for (int round = 0; round < kSpurRounds; ++round) {
+  for (int round = 0; round < kStrandSpurRounds; ++round) {
     std::vector<int> spurs;
     for (int i = 0; i < static_cast<int>(chains_.size()); ++i) {
       const StrandChain& c = chains_[i];

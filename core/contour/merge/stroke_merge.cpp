@@ -19,10 +19,10 @@ namespace {
 
 constexpr double kFirstWidths = 1.5;  // [stroke widths] strokes as near as this are one before others are looked at
 constexpr int kMostLevels = 5;
-constexpr double kSmoothing = 0.25;      // of the distance
-constexpr double kLeastSmoothing = 2.0;  // points
-constexpr float kLeastShare = 1e-3f;     // of merged points in the window of the smoothing: less moves nothing
-constexpr float kMerged = 1.05f;         // weight of more than one stroke
+constexpr double kSmoothing = 0.25;         // of the distance
+constexpr double kLeastSmoothing = 2.0;     // points
+constexpr float kLeastMergedShare = 1e-3f;  // of merged points in the window of the smoothing: less moves nothing
+constexpr float kMerged = 1.05f;            // weight of more than one stroke
 
 // Merged lines are smoothed a little before they are merged further: where strokes begin and end they have small steps.
 // Lines of one stroke stay.
@@ -34,7 +34,7 @@ void smoothMerged(MeanLine& line, double sigma) {
   std::vector<Vec2> at = positionsOf(line);
   const std::vector<Vec2> smooth = smoothPolyline(at, line.closed, sigma);
   for (int i = 0; i < std::ssize(smooth); ++i)
-    if (share[i] > kLeastShare) at[i] += std::min(1.0, 2.0 * static_cast<double>(share[i])) * (smooth[i] - at[i]);
+    if (share[i] > kLeastMergedShare) at[i] += std::min(1.0, 2.0 * static_cast<double>(share[i])) * (smooth[i] - at[i]);
   setPositions(line, at);
 }
 

@@ -14,9 +14,8 @@
 namespace batten {
 namespace {
 
-constexpr double kStepPx = 1.0;  // distance of the points of a contour, where a drawing has no more than:
-constexpr double kMostImportedPoints =
-    1'000'000;  // of all imported lines together, as of pen strokes; then wider apart
+constexpr double kSampleStepPx = 1.0;  // distance of the points of a contour
+constexpr double kMostImported = 1e6;  // points of all imported lines together; beyond, they lie wider apart
 constexpr int kLeastSteps = 4, kMostSteps = 4000;  // of a span
 constexpr int kMostSamples = 200'000;              // of a line
 constexpr double kSeamGap = 1e-6;                  // of the size
@@ -155,7 +154,7 @@ double importStepPx(std::span<const ImportedFile> imports, const PageFrame& fram
   for (const ImportedFile& file : imports) {
     for (const ImportedLine& line : file.lines) length += frame.lengthToImage(lengthBoundOf(line));
   }
-  return std::max(kStepPx, length / kMostImportedPoints);
+  return std::max(kSampleStepPx, length / kMostImported);
 }
 
 ContourSet withImports(ContourSet set, std::span<const ImportedFile> imports, const PageFrame& frame) {

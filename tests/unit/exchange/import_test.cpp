@@ -302,7 +302,7 @@ TEST(IgesReader, SurvivesDamage) {
       whole, [](const std::string& text) { return parseIges(text); }, 331);
 }
 
-/// A file of lines for the sections; the data of entity i stand in one line of their own.
+/// A file of lines for the sections; the data of every entity begin in a line of their own.
 std::string igesOf(const std::vector<std::pair<std::string, std::string>>& entities,
                    const std::string& unit = "2,2HMM") {
   const auto line = [](std::string text, char section, std::size_t number) {
@@ -316,19 +316,24 @@ std::string igesOf(const std::vector<std::pair<std::string, std::string>>& entit
   std::string file = line("made by hand", 'S', 1);
   file += line("1H,,1H;,4Hself,5Ha.igs,4Htest,4Htest,32,38,6,308,15,4Hself,1.," + unit + ",1,0.01,", 'G', 1);
   file += line("15H20260101.000000,1E-6,1000.,2Hme,2Hme,11,0,15H20260101.000000;", 'G', 2);
+  constexpr std::size_t kColumns = 64;  // of data in a line
   std::string data;
+  std::size_t next = 1;
   for (std::size_t i = 0; i < entities.size(); ++i) {
+    const std::string& parameters = entities[i].second;
+    const std::size_t lines = (parameters.size() + kColumns - 1) / kColumns;
     const std::string type = entities[i].first.substr(0, entities[i].first.find(' '));
     const std::string matrix = entities[i].first.find(' ') == std::string::npos
                                    ? "0"
                                    : entities[i].first.substr(entities[i].first.find(' ') + 1);
-    file += line(field(type) + field(std::to_string(i + 1)) + field("0") + field("0") + field("0") + field("0") +
+    file += line(field(type) + field(std::to_string(next)) + field("0") + field("0") + field("0") + field("0") +
                      field(matrix) + field("0") + field("00000000"),
                  'D', 2 * i + 1);
-    file += line(field(type) + field("0") + field("0") + field("1") + field("0") + field("") + field("") + field("") +
-                     field("0"),
+    file += line(field(type) + field("0") + field("0") + field(std::to_string(lines)) + field("0") + field("") +
+                     field("") + field("") + field("0"),
                  'D', 2 * i + 2);
-    data += line(entities[i].second, 'P', i + 1);
+    for (std::size_t k = 0; k < lines; ++k) data += line(parameters.substr(k * kColumns, kColumns), 'P', next + k);
+    next += lines;
   }
   return file + data + line("S      1G      2D      2P      1", 'T', 1);
 }
@@ -341,7 +346,7 @@ TEST(IgesReader, ReadsWhatOthersWrite) {
                         {"124", "124,0.,-1.,0.,5.,1.,0.,0.,7.,0.,0.,1.,0.;"},
                         {"106", "106,1,3,0.,0.,0.,1.,1.,2.,0.;"},
                         {"104", "104,.25,0.,1.,0.,0.,-1.,0.,2.,0.,0.,1.;"},
-                        {"112", "112,3,1,2,1,0.,2.,1.,3.,0.,0.,5.,0.,1.,0.;"},
+                        {"112", "112,3,1,2,1,0.,2.,1.,3.,0.,0.,5.,0.,1.,0.,0.,0.,0.,0.;"},
                         {"108", "108,1.,0.,0.,0.,0;"},
                         {"126", "126,1,1,0,0,1,0,0.,0.,1.,1.,1.,1.,0.,0.,0.,4.,4.,0.,.25,1.,0.,0.,1.;"},
                         {"406", "406,1,4Hname;"}},

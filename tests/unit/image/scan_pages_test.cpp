@@ -160,6 +160,7 @@ TEST_F(ScanPages, DamagedJpeg2000IsToldFromWhole) {
   // A size of 2 gigapixels is refused before anything is allocated.
   std::string bomb = kJp2;
   bomb.replace(kCodestreamAt + 8, 8, numberOf(50000, 4, true) + numberOf(40000, 4, true));
+  bomb.replace(kCodestreamAt + 24, 8, numberOf(50000, 4, true) + numberOf(40000, 4, true));  // one tile
   EXPECT_THAT(readScan(write("bomb.jp2", bomb), {.memoryBytes = 1'000'000'000}, {}).error().message,
               HasSubstr("memory"));
   // A million tiles.

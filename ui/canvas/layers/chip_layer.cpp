@@ -19,7 +19,7 @@ namespace {
 constexpr double kMargin = 12.0;
 constexpr double kPadX = 10.0, kPadY = 6.0;
 
-QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
+QString chipText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
 /// How the selected curve came about: its own method if it has one, or what took its place. Nothing is known of a curve
 /// that an earlier choice left.
@@ -29,15 +29,16 @@ QString methodText(const CanvasScene& scene, const TracedCurve& curve, int degre
   const bool own = choice != nullptr && choice->method.has_value();
   switch (own ? *choice->method : scene.session.recipe().construct.method) {
     case ConstructMethod::Fair:
-      return degree == 5 ? tr("fair quintic") : tr("fair fit");
+      return degree == 5 ? chipText("fair quintic") : chipText("fair fit");
     case ConstructMethod::Nurbs:
-      return tr("quintic NURBS");
+      return chipText("quintic NURBS");
     case ConstructMethod::Bezier:
-      return tr("quintic Bézier path");
+      return chipText("quintic Bézier path");
     case ConstructMethod::Typical:
-      return curve.construct.segments.empty() ? tr("Bézier path, as typical curves do not fit") : tr("typical curves");
+      return curve.construct.segments.empty() ? chipText("Bézier path, as typical curves do not fit")
+                                              : chipText("typical curves");
     case ConstructMethod::ControlPolygon:
-      return tr("control polygon");
+      return chipText("control polygon");
   }
   return {};
 }
@@ -97,8 +98,9 @@ QString curveText(const CanvasScene& scene) {
   const CurveFigures& figures = judgedFigures(*curve, judged);
   QStringList parts{curveName(scene.session, scene.session.selectedCurve())};
   if (const QString method = methodText(scene, *curve, shown.degree()); !method.isEmpty()) parts << method;
-  parts << tr("%1 control points").arg(shown.controlPointCount()) << tr("%1 mm").arg(number(figures.lengthMm, 1));
-  if (judged == Judged::Result && isLeftAsDrawn(*curve)) parts << tr("left as drawn by fairing");
+  parts << chipText("%1 control points").arg(shown.controlPointCount())
+        << chipText("%1 mm").arg(number(figures.lengthMm, 1));
+  if (judged == Judged::Result && isLeftAsDrawn(*curve)) parts << chipText("left as drawn by fairing");
   return parts.join(QStringLiteral(" · "));
 }
 
@@ -106,14 +108,14 @@ QString pageText(const CanvasScene& scene) {
   const auto scan = scene.session.scan();
   if (!scan) return {};
   const Recipe& recipe = scene.session.recipe();
-  if (isScaleAssumed(*scan, recipe)) return tr("no scale: assumed %1 dpi").arg(number(kAssumedDpi, 0));
+  if (isScaleAssumed(*scan, recipe)) return chipText("no scale: assumed %1 dpi").arg(number(kAssumedDpi, 0));
   const PageFrame frame = frameFor(*scan, recipe);
   const QString size = QStringLiteral("%1 × %2 mm")
                            .arg(number(frame.widthPx * frame.mmPerPx, 0), number(frame.heightPx * frame.mmPerPx, 0));
   const double dpi = kMillimetresPerInch / frame.mmPerPx;
   const QString value = number(dpi, std::abs(dpi - std::round(dpi)) < 0.05 ? 0 : 1);
-  if (scene.session.isBlankPage()) return tr("empty page, %1 dpi · %2").arg(value, size);
-  return (recipe.dpi ? tr("%1 dpi set by hand · %2") : tr("%1 dpi from file · %2")).arg(value, size);
+  if (scene.session.isBlankPage()) return chipText("empty page, %1 dpi · %2").arg(value, size);
+  return (recipe.dpi ? chipText("%1 dpi set by hand · %2") : chipText("%1 dpi from file · %2")).arg(value, size);
 }
 
 QString cursorText(const CanvasScene& scene) {
@@ -122,18 +124,18 @@ QString cursorText(const CanvasScene& scene) {
   if (!s || comb == nullptr) return {};
   const CombPoint place = comb->at(*s);
   const double extentMm = scene.combs->source.frame.lengthToModel(comb->extentPx);
-  QString text = tr("s %1 mm").arg(number(std::clamp(*s, 0.0, comb->lengthMm), 1)) + QStringLiteral(" · ");
+  QString text = chipText("s %1 mm").arg(number(std::clamp(*s, 0.0, comb->lengthMm), 1)) + QStringLiteral(" · ");
   if (std::abs(place.kappa) * extentMm < kStraightCurvature) {
-    text += tr("straight");
+    text += chipText("straight");
   } else {
     const double radius = std::abs(1.0 / place.kappa);
-    text += tr("R %1 mm").arg(number(radius, radius < 10.0 ? 2 : radius < 100.0 ? 1 : 0));
+    text += chipText("R %1 mm").arg(number(radius, radius < 10.0 ? 2 : radius < 100.0 ? 1 : 0));
   }
   if (!comb->whiskers.empty()) {
     const auto nearest =
         std::min_element(comb->whiskers.begin(), comb->whiskers.end(),
                          [s](const Whisker& a, const Whisker& b) { return std::abs(a.s - *s) < std::abs(b.s - *s); });
-    text += QStringLiteral(" · ") + tr("off sketch %1 mm").arg(number(nearest->mm, nearest->mm < 0.01 ? 4 : 2));
+    text += QStringLiteral(" · ") + chipText("off sketch %1 mm").arg(number(nearest->mm, nearest->mm < 0.01 ? 4 : 2));
   }
   return text;
 }
@@ -142,9 +144,11 @@ QString workText(const CanvasScene& scene) {
   const bool isCoarse =
       (scene.session.coarseInk() && scene.view.isVisible(Layer::Mask)) || scene.session.coarseCurves();
   if (isCoarse && !scene.view.isScanOnly())
-    return scene.session.isBusy() ? tr("coarse result · the full one follows") : tr("stopped · shows a coarse result");
-  if (scene.session.isBusy()) return scene.isLate ? tr("working…") : QString();
-  if (scene.session.hasScan() && scene.session.isStale(StageId::Faired)) return tr("stopped · shows the result before");
+    return scene.session.isBusy() ? chipText("coarse result · the full one follows")
+                                  : chipText("stopped · shows a coarse result");
+  if (scene.session.isBusy()) return scene.isLate ? chipText("working…") : QString();
+  if (scene.session.hasScan() && scene.session.isStale(StageId::Faired))
+    return chipText("stopped · shows the result before");
   return {};
 }
 
@@ -170,7 +174,7 @@ void paintDropHint(QPainter& painter, const CanvasScene& scene) {
   painter.setFont(font);
   painter.setPen(QColor(60, 60, 60));
   const QString text =
-      scene.session.isBusy() ? tr("Opening the scan…") : tr("Drop a scan here, or open one with Ctrl+O");
+      scene.session.isBusy() ? chipText("Opening the scan…") : chipText("Drop a scan here, or open one with Ctrl+O");
   painter.drawText(area, Qt::AlignCenter | Qt::TextWordWrap, text);
   painter.restore();
 }

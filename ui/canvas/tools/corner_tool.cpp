@@ -14,7 +14,7 @@
 namespace batten {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
+QString cornerText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
 /// Marks corners; the selected one is the session's, so that the list in the panel shows the same.
 class CornerTool final : public PointTool {
@@ -49,7 +49,9 @@ class CornerTool final : public PointTool {
   }
 
  protected:
-  Steps steps() const override { return {tr("Mark corner"), tr("Move corner"), tr("Remove corner")}; }
+  Steps steps() const override {
+    return {cornerText("Mark corner"), cornerText("Move corner"), cornerText("Remove corner")};
+  }
   std::size_t count() const override { return marks().size(); }
   Vec2 stored(std::size_t mark) const override { return marks()[mark].positionPx; }
   /// At its corner once that is known.
@@ -80,9 +82,9 @@ class CornerTool final : public PointTool {
 
   QString hintText() const override {
     if (hovered() && hovered() == selected())
-      return tr("Click to remove this corner; drag or press arrow keys to move it.");
-    if (hovered()) return tr("Click to select this corner, click again to remove it; drag to move it.");
-    return snapped() ? tr("Click to mark a corner.") : tr("Click a line where it has a sharp corner.");
+      return cornerText("Click to remove this corner; drag or press arrow keys to move it.");
+    if (hovered()) return cornerText("Click to select this corner, click again to remove it; drag to move it.");
+    return snapped() ? cornerText("Click to mark a corner.") : cornerText("Click a line where it has a sharp corner.");
   }
 
   Index selected() const override {
@@ -105,8 +107,9 @@ class CornerTool final : public PointTool {
   QString angleText(std::size_t mark) const {
     if (!isFresh()) return {};
     if (const Corner* corner = cornerOf(mark))
-      return tr("turns %1°").arg(QString::number(std::abs(corner->turningAngleRad) * 180.0 / std::numbers::pi, 'f', 1));
-    return tr("no line within %1 px").arg(scene_.session.recipe().corners.snapDistancePx, 0, 'f', 0);
+      return cornerText("turns %1°")
+          .arg(QString::number(std::abs(corner->turningAngleRad) * 180.0 / std::numbers::pi, 'f', 1));
+    return cornerText("no line within %1 px").arg(scene_.session.recipe().corners.snapDistancePx, 0, 'f', 0);
   }
 };
 

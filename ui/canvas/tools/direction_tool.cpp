@@ -18,7 +18,7 @@ namespace {
 constexpr double kArrowPx = 11.0, kRingPx = 6.0;  ///< [widget px]
 constexpr double kHeadAngleRad = 0.45;
 
-QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
+QString directionToolText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
 /// Shows which way curves are exported and where they begin; click turns, drag of the ring of a closed line moves its
 /// start.
@@ -49,14 +49,15 @@ class DirectionTool final : public CanvasTool {
     update();
     overStart_ = startAt(event.px);
     over_ = scene_.curveNear(event.px);
-    scene_.hint(overStart_ ? tr("Drag the ring to where the closed line is to begin.")
-                : over_    ? tr("Click to export %1 the other way round.").arg(curveName(scene_.session, *over_))
-                           : tr("Arrows show which way curves are exported. Click a curve to turn it."));
+    scene_.hint(
+        overStart_ ? directionToolText("Drag the ring to where the closed line is to begin.")
+        : over_    ? directionToolText("Click to export %1 the other way round.").arg(curveName(scene_.session, *over_))
+                   : directionToolText("Arrows show which way curves are exported. Click a curve to turn it."));
   }
 
   void release(const ToolEvent&) override { held_.reset(); }
   void abort() override {
-    if (held_) scene_.session.change(tr("Move start"), before_, gesture_);
+    if (held_) scene_.session.change(directionToolText("Move start"), before_, gesture_);
     held_.reset();
   }
   void leave() override { over_.reset(); }

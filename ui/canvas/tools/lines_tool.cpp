@@ -11,7 +11,7 @@
 namespace batten {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
+QString linesText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
 /// Click leaves a line out of fairing and export, click again takes it in.
 class LinesTool final : public CanvasTool {
@@ -55,10 +55,10 @@ class LinesTool final : public CanvasTool {
 
  private:
   QString hintFor(std::optional<int> curve) const {
-    if (!curve) return tr("Click a line to leave it out, or to take it in again.");
+    if (!curve) return linesText("Click a line to leave it out, or to take it in again.");
     return isIncluded(*curve)
-               ? tr("Click to leave %1 out of fairing and export.").arg(curveName(scene_.session, *curve))
-               : tr("Click to take %1 in again.").arg(curveName(scene_.session, *curve));
+               ? linesText("Click to leave %1 out of fairing and export.").arg(curveName(scene_.session, *curve))
+               : linesText("Click to take %1 in again.").arg(curveName(scene_.session, *curve));
   }
   bool isIncluded(int curve) const {
     const PieceChoice* choice = choiceOf(scene_.session, curve);

@@ -18,7 +18,7 @@ constexpr double kStepPx = 1.0;
 /// A line that comes back to its start is closed when it is at least this many reaches long.
 constexpr double kLeastRound = 4.0;
 
-QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
+QString penToolText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
 QPainterPath pathOf(const std::vector<Vec2>& points, bool closed, const ViewTransform& transform) {
   QPainterPath path;
@@ -49,7 +49,7 @@ class PenTool final : public CanvasTool {
     if (distance(event.widget, last_) < kStepPx) return;
     points_.push_back(event.px);
     last_ = event.widget;
-    scene_.hint(closes(event) ? tr("Let go to close the line.") : QString());
+    scene_.hint(closes(event) ? penToolText("Let go to close the line.") : QString());
     scene_.repaint();
   }
 
@@ -110,8 +110,8 @@ class PenTool final : public CanvasTool {
 
   void hover(const ToolEvent& event) {
     const bool over = strokeNear(scene_.session.recipe(), event.px, scene_.reachImagePx()).has_value();
-    scene_.hint(over ? tr("Click to select this line; Del removes it.")
-                     : tr("Drag to draw a line; end where it began to close it."));
+    scene_.hint(over ? penToolText("Click to select this line; Del removes it.")
+                     : penToolText("Drag to draw a line; end where it began to close it."));
   }
 
   void select(const ToolEvent& event) {

@@ -17,7 +17,7 @@ constexpr double kShortestPx = 6.0;  ///< [widget px] a shorter drag was a click
 constexpr double kEndMarkPx = 7.0;   ///< [widget px] half the mark across an end
 constexpr double kSteepDeg = 45.0;   ///< Shift: the line keeps to multiples of this angle
 
-QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
+QString scaleText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
 /// Measures a known length: a drag, or two clicks. Ends can be dragged later.
 class ScaleTool final : public CanvasTool {
@@ -41,12 +41,12 @@ class ScaleTool final : public CanvasTool {
   void move(const ToolEvent& event, bool isPressed) override {
     if (isPressed || isFollowing_) {
       if (isFollowing_ || isPressed_) drag(event);
-      scene_.hint(tr("Shift keeps the line upright, level or at 45 degrees."));
+      scene_.hint(scaleText("Shift keeps the line upright, level or at 45 degrees."));
       return scene_.repaint();
     }
     over_ = endAt(event.px);
-    scene_.hint(over_ ? tr("Drag the end to where the known length ends.")
-                      : tr("Drag along something whose length is known, as a ruler or the edge of the paper."));
+    scene_.hint(over_ ? scaleText("Drag the end to where the known length ends.")
+                      : scaleText("Drag along something whose length is known, as a ruler or the edge of the paper."));
   }
 
   void release(const ToolEvent& event) override {
@@ -74,7 +74,7 @@ class ScaleTool final : public CanvasTool {
     if (scene_.session.recipe().scaleLine) {
       Recipe after = scene_.session.recipe();
       setResolution(after, std::nullopt);
-      scene_.session.change(tr("Forget scale"), std::move(after));
+      scene_.session.change(scaleText("Forget scale"), std::move(after));
     }
     return true;
   }
@@ -147,7 +147,7 @@ class ScaleTool final : public CanvasTool {
         (before_->fromPx == line_.fromPx || before_->toPx == line_.toPx)) {
       Recipe after = scene_.session.recipe();
       setScaleLine(after, {line_.fromPx, line_.toPx, known->lengthMm});
-      return scene_.session.change(tr("Move scale"), std::move(after));
+      return scene_.session.change(scaleText("Move scale"), std::move(after));
     }
     scene_.view.setMeasure(line_);
   }
@@ -156,9 +156,9 @@ class ScaleTool final : public CanvasTool {
     const double px = (line.toPx - line.fromPx).norm();
     const auto& known = scene_.session.recipe().scaleLine;
     const bool isKnown = known && known->fromPx == line.fromPx && known->toPx == line.toPx;
-    const QString pixels = tr("%1 px").arg(px, 0, 'f', 1);
+    const QString pixels = scaleText("%1 px").arg(px, 0, 'f', 1);
     if (!isKnown) return pixels;
-    return tr("%1 mm = %2").arg(known->lengthMm, 0, 'g', 6).arg(pixels);
+    return scaleText("%1 mm = %2").arg(known->lengthMm, 0, 'g', 6).arg(pixels);
   }
 
   Line line_;

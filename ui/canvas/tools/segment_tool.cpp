@@ -9,7 +9,7 @@
 namespace batten {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
+QString segmentText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
 /// Sets the places where typical curves meet.
 class SegmentTool final : public PointTool {
@@ -37,7 +37,7 @@ class SegmentTool final : public PointTool {
 
  protected:
   Steps steps() const override {
-    return {tr("Set segment point"), tr("Move segment point"), tr("Remove segment point")};
+    return {segmentText("Set segment point"), segmentText("Move segment point"), segmentText("Remove segment point")};
   }
   std::size_t count() const override { return scene_.session.recipe().segmentPoints.size(); }
   Vec2 stored(std::size_t mark) const override { return scene_.session.recipe().segmentPoints[mark].positionPx; }
@@ -55,12 +55,13 @@ class SegmentTool final : public PointTool {
     return at ? std::optional(at->positionPx) : std::nullopt;
   }
   QString hintText() const override {
-    if (hovered() && hovered() == selected()) return tr("Click to remove this segment point; drag to move it.");
-    if (hovered()) return tr("Click to select this segment point, click again to remove it; drag to move it.");
+    if (hovered() && hovered() == selected())
+      return segmentText("Click to remove this segment point; drag to move it.");
+    if (hovered()) return segmentText("Click to select this segment point, click again to remove it; drag to move it.");
     if (scene_.session.recipe().construct.method != ConstructMethod::Typical)
-      return tr("Segment points count for the method Typical curves; choose it under Curves.");
-    return snapped() ? tr("Click to let two typical curves meet here.")
-                     : tr("Click a line where two typical curves are to meet.");
+      return segmentText("Segment points count for the method Typical curves; choose it under Curves.");
+    return snapped() ? segmentText("Click to let two typical curves meet here.")
+                     : segmentText("Click a line where two typical curves are to meet.");
   }
 };
 

@@ -32,8 +32,8 @@ constexpr std::array kPapers = {
 /// A scan whose sides are as those of the paper but for this share is the whole sheet.
 constexpr double kSameShape = 0.03;
 constexpr double kMillimetresPerCm = 10.0;
-constexpr int kFieldWidth = 92, kUnitWidth = 60;
-const QString kUnitKey = QStringLiteral("scale/unit");
+constexpr int kScaleFieldWidth = 92, kUnitWidth = 60;
+const QString kScaleUnitKey = QStringLiteral("scale/unit");
 
 /// Sides of the page in the order of the scan's.
 double ratioOf(double a, double b) { return std::max(a, b) / std::min(a, b); }
@@ -70,7 +70,7 @@ ScaleControls::ScaleControls(EditorSession& session, ViewSettings& view, QWidget
   connect(measure_, &QPushButton::clicked, this, [this] { view_.setTool(Tool::Scale); });
   connect(length_, &NumberField::committed, this, &ScaleControls::setLength);
   connect(unit_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int index) {
-    QSettings().setValue(kUnitKey, index);
+    QSettings().setValue(kScaleUnitKey, index);
     refresh();
   });
   connect(paper_, qOverload<int>(&QComboBox::activated), this, &ScaleControls::choosePaper);
@@ -89,7 +89,7 @@ void ScaleControls::build() {
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);
   const QString widthHelp = tr("How wide the whole picture is in truth. Type mm, cm or in.");
-  width_->setFixedWidth(kFieldWidth);
+  width_->setFixedWidth(kScaleFieldWidth);
   width_->setRange(0.1, 100000.0);
   width_->setDecimals(1);
   width_->setStep(1.0);
@@ -102,13 +102,13 @@ void ScaleControls::build() {
   layout->addWidget(rowOf(tr("Width"), widthHelp, {width_}, this));
   paper_->setObjectName(QStringLiteral("scale.paper"));
   paper_->setAccessibleName(tr("Paper"));
-  paper_->setFixedWidth(kFieldWidth);
+  paper_->setFixedWidth(kScaleFieldWidth);
   paper_->addItem(QStringLiteral("–"));
   for (const Paper& paper : kPapers) paper_->addItem(QString::fromLatin1(paper.name));
   layout->addWidget(rowOf(tr("Paper"), tr("The whole picture is one sheet of this paper."), {paper_}, this));
   measure_->setToolTip(tr("Drag along something whose length is known.  (M)"));
   layout->addWidget(measure_);
-  length_->setFixedWidth(kFieldWidth);
+  length_->setFixedWidth(kScaleFieldWidth);
   length_->setRange(0.01, 100000.0);
   length_->setDecimals(2);
   length_->setStep(1.0);
@@ -118,7 +118,7 @@ void ScaleControls::build() {
   unit_->setAccessibleName(tr("Unit of the length"));
   unit_->setFixedWidth(kUnitWidth);
   unit_->addItems({tr("mm"), tr("cm"), tr("in")});
-  unit_->setCurrentIndex(std::clamp(QSettings().value(kUnitKey, 0).toInt(), 0, 2));
+  unit_->setCurrentIndex(std::clamp(QSettings().value(kScaleUnitKey, 0).toInt(), 0, 2));
   lengthRow_ = rowOf(tr("Is"), tr("How long the line on the drawing is in truth."), {length_, unit_}, this);
   layout->addWidget(lengthRow_);
   note_->setObjectName(QStringLiteral("scale.note"));
