@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/pipeline/run/left_as_drawn.h"
+
 namespace batten::cli {
 namespace {
 
@@ -38,9 +40,25 @@ void add(std::vector<Kind>& kinds, const std::string& kind, const std::string& n
 std::string kindOf(const std::string& note) { return note.starts_with("Turns sharply at ") ? "Turns sharply" : note; }
 
 /// What fairing refused, or did in part; what a target would have taken beyond the tolerance differs for every curve.
-std::string fairingNote(const FairingReport& report) {
+std::string fairingNote(const TracedCurve& curve) {
+  const FairingReport& report = curve.fairing;
   if (report.note.empty() && !report.withinTolerance) return "Only part of what was asked lies within the tolerance.";
-  return report.note;
+  return report.note.empty() ? leftAsDrawnReason(curve) : report.note;
+}
+
+/// Of what typical chains are made; empty where there are none.
+std::string typicalNote(const std::vector<TracedCurve>& curves) {
+  int typical = 0, monotone = 0, transitions = 0;
+  for (const TracedCurve& curve : curves) {
+    if (!curve.included) continue;
+    for (const SegmentNote& segment : curve.construct.segments) {
+      ++(segment.typical ? typical : transitions);
+      monotone += segment.typical && segment.monotone ? 1 : 0;
+    }
+  }
+  if (typical + transitions == 0) return {};
+  return std::to_string(typical) + " typical curves, " + std::to_string(monotone) + " of them monotone, and " +
+         std::to_string(transitions) + " transitions where none can go.";
 }
 
 }  // namespace
@@ -51,7 +69,7 @@ std::vector<std::string> curveNotes(const PipelineOutput& output) {
     if (!curve.included) continue;
     const int number = curveNumber(output, curve);
     add(constructed, kindOf(curve.construct.note), curve.construct.note, number);
-    const std::string note = fairingNote(curve.fairing);
+    const std::string note = fairingNote(curve);
     add(faired, note, note, number);
   }
   std::vector<std::string> lines;
@@ -63,6 +81,7 @@ std::vector<std::string> curveNotes(const PipelineOutput& output) {
       lines.push_back(named(k.curves) + ": " + k.note);
     }
   }
+  if (std::string note = typicalNote(output.faired->curves); !note.empty()) lines.push_back(std::move(note));
   for (const Kind& k : faired) lines.push_back(named(k.curves) + ", fairing: " + k.note);
   return lines;
 }

@@ -103,8 +103,10 @@ void addTrace(CLI::App& app, TraceArguments& a) {
                    "within the tolerance (cubic)")
       ->type_name("KIND");
   trace->add_flag("--chords", a.chords, "DXF for cnc: chords only, no arcs");
-  addRepeated(*trace, "--corner", a.corners, "X,Y[,MM]",
-              "Sharp corner near this place, px from the upper left; with MM rounded by that size; may be repeated");
+  addRepeated(
+      *trace, "--corner", a.corners, "X,Y[,MM|,rMM][,gN]",
+      "Sharp corner near this place, px from the upper left; with MM rounded from this distance on, with rMM by "
+      "this smallest radius; g1, g2 or g3: how smoothly; may be repeated");
   addRepeated(*trace, "--segment-point", a.segmentPoints, "X,Y",
               "Typical curves meet near this place of a line, px from the upper left; may be repeated");
   trace

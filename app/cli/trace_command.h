@@ -25,7 +25,7 @@ struct TraceArguments {
   bool chords = false;                     ///< --chords
   std::string recipe;                      ///< --recipe
   std::vector<std::string> settings;       ///< --set stage.parameter=value
-  std::vector<std::string> corners;        ///< --corner X,Y or X,Y,MM
+  std::vector<std::string> corners;        ///< --corner X,Y[,MM|,rMM][,g1|,g2|,g3]
   std::vector<std::string> segmentPoints;  ///< --segment-point X,Y
   std::vector<std::string> outlines;       ///< --outline X,Y
   std::vector<std::string> centrelines;    ///< --centreline X,Y

@@ -84,12 +84,38 @@ std::optional<std::vector<double>> numbersOf(std::string_view text) {
   }
 }
 
-Result<void> applyCorner(const std::string& corner, Recipe& recipe) {
-  const auto values = numbersOf(corner);
-  if (!values || values->size() < 2 || values->size() > 3) {
-    return wrong("--corner takes X,Y in px from the upper left corner, or X,Y,MM to round it, not \"" + corner + "\".");
+/// X,Y[,MM|,rMM][,g1|,g2|,g3]
+std::optional<CornerMark> cornerMarkOf(std::string text) {
+  CornerMark mark;
+  for (const auto& [ending, joint] : {std::pair{",g1", RoundingJoint::Tangent},
+                                      {",g2", RoundingJoint::Curvature},
+                                      {",g3", RoundingJoint::CurvatureSlope}}) {
+    if (!text.ends_with(ending)) continue;
+    mark.joint = joint;
+    text.resize(text.size() - 3);
+    break;
   }
-  recipe.cornerMarks.push_back({Vec2((*values)[0], (*values)[1]), values->size() == 3 ? (*values)[2] : 0.0});
+  if (const auto radius = text.rfind(",r"); radius != std::string::npos) {
+    mark.roundBy = RoundingSize::Radius;
+    text.erase(radius + 1, 1);
+  }
+  const auto values = numbersOf(text);
+  if (!values || values->size() < 2 || values->size() > 3) return std::nullopt;
+  if (mark.roundBy == RoundingSize::Radius && values->size() < 3) return std::nullopt;
+  mark.positionPx = Vec2((*values)[0], (*values)[1]);
+  if (values->size() == 3) mark.roundMm = (*values)[2];
+  return mark;
+}
+
+Result<void> applyCorner(const std::string& corner, Recipe& recipe) {
+  const auto mark = cornerMarkOf(corner);
+  if (!mark) {
+    return wrong(
+        "--corner takes X,Y in px from the upper left corner, or X,Y,MM to round it from this distance on, or "
+        "X,Y,rMM to round it by this radius, each with ,g1 ,g2 or ,g3 behind it, not \"" +
+        corner + "\".");
+  }
+  recipe.cornerMarks.push_back(*mark);
   return {};
 }
 
@@ -309,7 +335,7 @@ std::string withPage(const std::string& name, int page) {
   if (name.empty()) return name;
   const fs::path path(name);
   std::string file = path.filename().string(), ending = path.extension().string();
-  for (const char* whole : {".poly.csv", ".recipe.json"}) {
+  for (const char* whole : {".poly.csv", ".recipe.json", ".report.pdf", ".report.html"}) {
     if (file.size() > std::string_view(whole).size() && file.ends_with(whole)) ending = whole;
   }
   file.insert(file.size() - ending.size(), "-p" + std::to_string(page));

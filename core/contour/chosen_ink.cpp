@@ -53,22 +53,13 @@ std::optional<int> ChosenInk::choiceOf(int piece) const {
   return last == chosen_.rend() ? std::nullopt : std::optional(last->choice);
 }
 
-std::optional<int> ChosenInk::pieceAt(int x, int y) const {
-  const auto before = [](const Run& run, const std::pair<int, int>& yx) {
-    return run.y != yx.first ? run.y < yx.first : run.x1 <= yx.second;
-  };
-  const auto run = std::lower_bound(pieces_.runs.begin(), pieces_.runs.end(), std::pair(y, x), before);
-  if (run == pieces_.runs.end() || run->y != y || run->x0 > x) return std::nullopt;
-  return pieces_.piece[run - pieces_.runs.begin()];
-}
-
 std::optional<int> ChosenInk::choiceAt(const Vec2& px) const {
   if (chosen_.empty()) return std::nullopt;
   const int x = static_cast<int>(std::floor(px.x())), y = static_cast<int>(std::floor(px.y()));
   constexpr std::array<std::pair<int, int>, 9> kNear = {
       {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
   for (const auto& [dx, dy] : kNear) {
-    if (const auto piece = pieceAt(x + dx, y + dy)) return choiceOf(*piece);
+    if (const auto piece = pieceAt(pieces_, x + dx, y + dy)) return choiceOf(*piece);
   }
   return std::nullopt;
 }

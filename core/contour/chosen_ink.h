@@ -10,7 +10,7 @@
 
 namespace batten {
 
-/// Which of the user's choices applies to each piece of ink.
+/// Which of the user's choices applies to each piece of ink; pieces are the regions of one kind (ink_split.h).
 class ChosenInk {
  public:
   ChosenInk(const RunPieces& pieces, std::span<const EdgeChoice> choices);
@@ -25,7 +25,6 @@ class ChosenInk {
   struct Chosen {
     int piece = 0, choice = 0;
   };
-  std::optional<int> pieceAt(int x, int y) const;
   const RunPieces& pieces_;
   std::vector<Chosen> chosen_;
   std::vector<EdgeChoice> withoutInk_;

@@ -74,7 +74,8 @@ Vec2 placeOnInk(const Contour& c) {
 
 int bridgeCount(const ContourSet& set) {
   std::size_t count = 0;
-  for (const Contour& contour : set.contours) count += contour.bridges.size();
+  for (const Contour& contour : set.contours)
+    count += contour.kind == ContourKind::Outline ? 0 : contour.bridges.size();
   return static_cast<int>(count);
 }
 

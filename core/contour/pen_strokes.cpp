@@ -14,7 +14,9 @@ namespace batten {
 namespace {
 
 constexpr std::size_t kMostPoints = 100000;  // of one stroke
-constexpr double kMostSteps = 200000.0;      // of one stroke
+/// [px] Distance of the points in between; longer strokes take wider steps, so that a page never becomes too much.
+constexpr double kStepPx = 1.0;
+constexpr double kMostSteps = 200000.0;  // of one stroke
 
 std::vector<Vec2> distinct(const PenStroke& stroke) {
   std::vector<Vec2> points;
@@ -106,9 +108,12 @@ std::string noteOf(const PenReport& report) {
   add(report.cut, " leaves the page: only its longest part on the page is kept.",
       " leave the page: only the longest part of each on the page is kept.");
   add(report.beside, " lies beside the page and is left out.", " lie beside the page and are left out.");
-  const std::string why = " left out, because a drawing may hold " + std::to_string(kMostPenPoints) +
-                          " points of pen strokes, about one a pixel: remove some strokes.";
-  add(report.tooMany, " is" + why, " are" + why);
+  add(report.tooMany, " is left out", " are left out");
+  if (report.tooMany > 0) {
+    note += ", because a drawing may hold ";
+    note += std::to_string(kMostPenPoints);
+    note += " points of pen strokes, about one a pixel: remove some strokes.";
+  }
   return note;
 }
 
@@ -126,14 +131,14 @@ std::optional<Error> validate(const PenStroke& stroke) {
   return std::nullopt;
 }
 
-Contour penContour(const PenStroke& stroke, double stepPx) {
+Contour penContour(const PenStroke& stroke) {
   const std::vector<Vec2> drawn = distinct(stroke);
   Contour contour;
   contour.kind = ContourKind::Pen;
   contour.closed = stroke.closed;
   contour.lengthPx = polylineLength(drawn, stroke.closed);
   if (stroke.closed) contour.areaPx = polygonArea(drawn);
-  const double step = std::max(stepPx, contour.lengthPx / kMostSteps);
+  const double step = std::max(kStepPx, contour.lengthPx / kMostSteps);
   const int n = static_cast<int>(drawn.size()), legs = stroke.closed ? n : n - 1;
   const auto add = [&](const Vec2& at, bool isDrawn) {
     contour.points.push_back({.at = at, .unrefined = at, .refined = isDrawn});

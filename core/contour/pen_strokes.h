@@ -20,10 +20,9 @@ struct PenStroke {
 /// A stroke needs two different points (closed: three), all finite, and at most 100 000.
 std::optional<Error> validate(const PenStroke&);
 
-/// The stroke as a contour: straight between the drawn points, with one point about every `stepPx`, wider apart on
-/// strokes of more than 200 000 steps. `refined` is set at the drawn points. Repeated points count once.
-/// @param stepPx [px] > 0 @pre the stroke is valid.
-Contour penContour(const PenStroke&, double stepPx = 1.0);
+/// The stroke as a contour: straight between the drawn points, with about one point a pixel. `refined` is set at the
+/// drawn points. Repeated points count once. @pre the stroke is valid.
+Contour penContour(const PenStroke&);
 
 /// A page by its corners (0, 0) and (width, height). [px]
 struct PageExtent {

@@ -12,14 +12,17 @@
 namespace batten {
 namespace {
 
-/// [mm] Coordinates hold this many decimals: so many that rounding leaves the curvature of short cubics alone.
 constexpr int kDecimals = 9;
-constexpr double kGridMm = 1e-9;
+/// [mm] Places of paths hold this many decimals: so many that rounding leaves the curvature of short cubics alone.
+constexpr int kPathDecimals = 12;
+constexpr double kGridMm = 1e-12;
 constexpr double kLeastToleranceMm = 1e-6;
 
 std::string fixed(double value) { return fixedNumber(value, kDecimals); }
 
-std::string pointText(const Vec2& p) { return fixed(p.x()) + "," + fixed(p.y()); }
+std::string pointText(const Vec2& p) {
+  return fixedNumber(p.x(), kPathDecimals) + "," + fixedNumber(p.y(), kPathDecimals);
+}
 
 void appendRun(std::string& data, const CubicRun& run) {
   for (const auto& cubic : run.cubics) {

@@ -190,12 +190,17 @@ class EdgeLengthFairing {
 
 /// What came of a curve that has no edge lengths to move.
 Result<FairedCurve> noted(Result<FairedCurve> other) {
-  if (other && other->report.note.empty())
-    other->report.note = "Not a Bézier path: its control points were moved instead of edge lengths.";
+  if (other) noteNoPath(other->report);
   return other;
 }
 
 }  // namespace
+
+bool isBezierPath(const NurbsCurve& curve) { return !quinticsOf(curve).empty(); }
+
+void noteNoPath(FairingReport& report) {
+  if (report.note.empty()) report.note = "Not a Bézier path: its control points were moved instead of edge lengths.";
+}
 
 bool movesEdgeLengths(const FairingParams& params) {
   return params.means == FairingMeans::EdgeLengths &&

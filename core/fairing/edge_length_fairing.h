@@ -24,6 +24,11 @@ bool movesEdgeLengths(const FairingParams&);
 /// were.
 Result<FairedCurve> fairByEdgeLengths(const NurbsCurve& path, bool closed, const FairingParams&, const RunContext&);
 
+/// False where there are no edge lengths to move; true for a path of quintic pieces.
+bool isBezierPath(const NurbsCurve&);
+/// Says in the report that control points were moved, unless it says something else.
+void noteNoPath(FairingReport&);
+
 /// The same towards this profile, whatever mode and target say.
 Result<FairedCurve> fairByEdgeLengths(const NurbsCurve& path, bool closed, const TargetProfile&, const FairingParams&,
                                       const RunContext&);

@@ -12,7 +12,10 @@
 #include "core/fairing/fairing_setup.h"
 #include "core/fairing/low_pass.h"
 #include "core/fairing/monotone_fairing.h"
+#include "core/fairing/natural_spans.h"
 #include "core/fairing/shape_modification.h"
+#include "core/fairing/span_fairing.h"
+#include "core/fairing/target_levels.h"
 #include "core/fairing/tolerance_fairing.h"
 
 namespace batten {
@@ -22,19 +25,30 @@ namespace {
 struct TargetsRun {
   std::shared_ptr<const FairingSetup> setup;  ///< Null: the curve cannot be made fair, `problem` says why.
   std::string problem;
+  std::vector<TargetLevel> levels;
+  std::array<bool, 6> isMet{};
   Result<TargetOutcomes> outcomes = cancelled();
 };
 
 TargetsRun prepared(const TargetsJob& job) {
   TargetsRun run;
   try {
-    if (const auto error = validate(job.params)) return {nullptr, {}, fail(*error)};
-    if (job.curve.isEmpty()) return {nullptr, {}, fail(ErrorCode::BadParameter, "There is no curve to make fair.")};
+    if (const auto error = validate(job.params)) return {nullptr, {}, {}, fail(*error)};
+    if (job.curve.isEmpty()) return {nullptr, {}, {}, fail(ErrorCode::BadParameter, "There is no curve to make fair.")};
     TargetOutcomes outcomes;
-    outcomes.targets = fitTargets(job.curve, job.params.targets, job.closed);
+    if (job.spanAt) {
+      outcomes.splits = targetSplits(job.curve, job.closed, job.params);
+      outcomes.span = spanBetween(outcomes.splits, *job.spanAt, job.closed);
+      run.levels = {{{}, fitSpanTargets(job.curve, job.closed, job.params.targets, *outcomes.span)}};
+    } else {
+      run.levels = targetLevels(job.curve, job.closed, job.params);
+      outcomes.splits = run.levels.front().splits;
+    }
+    outcomes.targets = run.levels.front().targets;
     outcomes.recommendedDegree = outcomes.targets.recommendedDegree;
-    auto setup = makeSetup(job.curve, job.closed, job.params);
-    if (!setup && setup.error().code != ErrorCode::Numerical) return {nullptr, {}, fail(setup.error())};
+    auto setup = outcomes.span ? makeSpanSetup(job.curve, job.closed, job.params, *outcomes.span)
+                               : makeSetup(job.curve, job.closed, job.params);
+    if (!setup && setup.error().code != ErrorCode::Numerical) return {nullptr, {}, {}, fail(setup.error())};
     if (setup) run.setup = std::move(*setup);
     if (!setup) run.problem = setup.error().message;
     run.outcomes = std::move(outcomes);
@@ -51,9 +65,17 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
       outcomes.faired[at] = unchanged(job.curve, job.closed, Termination::Degenerate, run.problem);
       return;
     }
-    auto faired = modifyShape(run.setup, outcomes.targets.profiles[at], job.params.toleranceMm, context);
+    const double tolerance = job.params.toleranceMm - run.setup->seamMm;
+    if (!(tolerance > 0.0)) {
+      outcomes.faired[at] = unchanged(job.curve, job.closed, Termination::Degenerate, kSeamInTheWay);
+      return;
+    }
+    auto faired = fairOverLevels(run.setup, run.levels, static_cast<int>(at) + 1, tolerance, context);
     if (faired) {
-      outcomes.faired[at] = std::move(*faired);
+      run.isMet[at] = faired->isMet();
+      faired->faired = againstSketch(*run.setup, std::move(faired->faired));
+      outcomes.targets.profiles[at] = run.levels[faired->level].targets.profiles[at];
+      outcomes.faired[at] = std::move(faired->faired);
     } else {
       outcomes.problems[at] = faired.error().message;
     }
@@ -62,14 +84,21 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
   }
 }
 
+/// The lowest degree that is met, where one is.
+void recommend(TargetsRun& run) {
+  const auto met = std::find(run.isMet.begin(), run.isMet.end(), true);
+  if (met != run.isMet.end()) run.outcomes->recommendedDegree = static_cast<int>(met - run.isMet.begin()) + 1;
+}
+
 }  // namespace
 
 Result<FairedCurve> fairWithinTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                         const RunContext& context, const FairingLine& line) {
-  return withSetup(curve, closed, params, [&](const std::shared_ptr<const FairingSetup>& setup) {
-    return params.tolerancePolicy == TolerancePolicy::All ? fairWithinTolerance(setup, params, context)
-                                                          : fairAsNeeded(setup, params, line, context);
-  });
+  return withSetup(curve, closed, params,
+                   [&](const std::shared_ptr<const FairingSetup>& setup, const FairingParams& within) {
+                     return within.tolerancePolicy == TolerancePolicy::All ? fairWithinTolerance(setup, within, context)
+                                                                           : fairAsNeeded(setup, within, line, context);
+                   });
 }
 
 std::vector<Result<TargetOutcomes>> fairAllTargets(std::span<const TargetsJob> jobs, const RunContext& context) {
@@ -91,6 +120,7 @@ std::vector<Result<TargetOutcomes>> fairAllTargets(std::span<const TargetsJob> j
   std::vector<Result<TargetOutcomes>> results;
   for (TargetsRun& run : runs) {
     if (context.isCancelled()) run.outcomes = cancelled();
+    if (run.outcomes) recommend(run);
     results.push_back(std::move(run.outcomes));
   }
   return results;
@@ -123,14 +153,7 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
     if (!drawn.valid) return unchanged(curve, closed, Termination::NotRun, drawn.problem);
     return modifyShape(curve, closed, drawn, params, context);
   }
-  const TargetSet targets = fitTargets(curve, params.targets, closed);
-  const int degree = params.target > 0 ? params.target : targets.recommendedDegree;
-  if (degree == 0) {
-    return unchanged(curve, closed, Termination::Degenerate, targets.profiles.front().problem);
-  }
-  const TargetProfile& profile = targets.profiles[degree - 1];
-  if (!profile.valid) return unchanged(curve, closed, Termination::Degenerate, profile.problem);
-  return modifyShape(curve, closed, profile, params, context);
+  return fairToTarget(curve, closed, params, context);
 }
 
 }  // namespace batten

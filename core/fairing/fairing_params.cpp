@@ -36,6 +36,14 @@ std::optional<Error> validate(const FairingParams& params) {
     if (!(at >= 0.0 && at <= 1.0))
       return Error{ErrorCode::BadParameter, "An extremum to keep lies beside the curve.", {}};
   }
+  for (const SpanTarget& one : params.spanTargets) {
+    if (!(one.at >= 0.0 && one.at <= 1.0))
+      return Error{ErrorCode::BadParameter, "A span with a target of its own lies beside the curve.", {}};
+    if (one.degree < 1 || one.degree > 6) {
+      return Error{
+          ErrorCode::BadParameter, "The target of a span must be 1 to 6, not " + std::to_string(one.degree) + ".", {}};
+    }
+  }
   if (auto wrong = validateProfile(params.profile)) return wrong;
   return validate(params.targets);
 }

@@ -42,6 +42,13 @@ struct EndHold {
   bool operator==(const EndHold&) const = default;
 };
 
+/// A natural span with a target of its own.
+struct SpanTarget {
+  double at = 0.0;  ///< 0..1. Share of the arc length: a place in the span.
+  int degree = 1;   ///< 1..6.
+  bool operator==(const SpanTarget&) const = default;
+};
+
 struct FairingParams {
   FairingMode mode = FairingMode::None;
   int target = 0;            ///< 0..7. Degree of the profile; 0 = the recommended one, 7 = the drawn one.
@@ -53,7 +60,8 @@ struct FairingParams {
   int keepExtrema =
       kKeepSignificant;        ///< Monotone: -1..99. Curvature extrema that may stay; -1 = those that must, see above.
   std::vector<double> keptAt;  ///< Monotone: arc length fractions 0..1 of the extrema to keep; not empty: counts alone.
-  std::vector<ProfilePoint> profile;  ///< Target 7: the drawn curvature.
+  std::vector<SpanTarget> spanTargets;  ///< Target: not empty: only these spans are moved, the rest stays as it is.
+  std::vector<ProfilePoint> profile;    ///< Target 7: the drawn curvature.
   EndHold startHold, endHold;
   TargetParams targets;
   bool operator==(const FairingParams&) const = default;

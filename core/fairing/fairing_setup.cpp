@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/fairing/fairing_report.h"
 
@@ -16,7 +17,13 @@ constexpr int kChecksPerSpan = 12, kMostChecks = 400;
 /// Part of the tolerance that is kept for what lies between the places where the deviation is measured.
 constexpr double kMeasured = 0.999;
 constexpr double kUnseenShare = 0.01;  // of the largest distance, between the places where it is measured
-constexpr double kMostTurn = 0.5;      // [rad] of the curve from place to place
+/// Of the extent: control points that differ by less are the same but for rounding.
+constexpr double kSamePeriodic = 1e-8;
+/// What may lie between the places where a distance is measured.
+constexpr double kUnseenSeam = 1.01;
+/// The same of a curve over fewer knots, whose places are not those of the sketched one.
+constexpr double kUnseenOverFewerKnots = 1.015;
+constexpr double kMostTurn = 0.5;  // [rad] of the curve from place to place
 
 /// Largest distance of `count` + 1 equally spaced points of a span of `from` from their feet on `to`, a curve of
 /// similar course; peaks between them by a parabola. `hint` says where on `to` a foot is looked for.
@@ -53,6 +60,15 @@ int checksFor(const SpanCurve& from, const SpanCurve& to, int span, double large
   return count < kMostChecks ? std::max(static_cast<int>(count), kChecksPerSpan) : kMostChecks;
 }
 
+/// So many places of a span that the curve turns little from one to the next.
+int turnsFor(const SpanCurve& from, int span, int least) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kChecksPerSpan; ++i)
+    slowest = std::min(slowest, from.speed({span, static_cast<double>(i) / kChecksPerSpan}));
+  const double turned = std::ceil(from.bendBound(span) / (kMostTurn * slowest * from.basis().width(span)));
+  return turned < kMostChecks ? std::max(static_cast<int>(turned), least) : kMostChecks;
+}
+
 /// Of two curves over one basis.
 double largestDistance(const SpanCurve& from, const SpanCurve& to) {
   const auto same = [](const SpanPlace& place) { return place; };
@@ -74,7 +90,7 @@ double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve&
   const int checks = kChecksPerSpan * std::max(1, (sketched + spans - 1) / spans);
   double largest = 0.0;
   for (int span = 0; span < spans; ++span) {
-    largest = std::max(largest, largestInSpan(curve, setup.reference, span, checks,
+    largest = std::max(largest, largestInSpan(curve, setup.reference, span, turnsFor(curve, span, checks),
                                               [&](const SpanPlace& place) { return setup.sketchedPlace(place); }));
   }
   const auto shareOf = [&](const SpanPlace& place) {
@@ -87,10 +103,36 @@ double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve&
     return SpanPlace{span, std::clamp((u - setup.basis.begin(span)) / setup.basis.width(span), 0.0, 1.0)};
   };
   for (int span = 0; bothWays && span < sketched; ++span) {
-    largest = std::max(largest, largestInSpan(setup.reference, curve, span, kChecksPerSpan,
-                                              [&](const SpanPlace& place) { return placeAt(shareOf(place)); }));
+    largest =
+        std::max(largest, largestInSpan(setup.reference, curve, span, turnsFor(setup.reference, span, kChecksPerSpan),
+                                        [&](const SpanPlace& place) { return placeAt(shareOf(place)); }));
   }
-  return std::isfinite(largest) ? largest : std::numeric_limits<double>::max();
+  return std::isfinite(largest) ? kUnseenOverFewerKnots * largest : std::numeric_limits<double>::max();
+}
+
+/// How far a periodic form is from the curve that it was made of; 0 where they differ by rounding only.
+double distanceFrom(const NurbsCurve& curve, const PeriodicForm& form) {
+  const auto periodic = fromPeriodic(form, curve);
+  if (!periodic) return 0.0;
+  double moved = 0.0;
+  for (int i = 0; i < curve.controlPointCount(); ++i)
+    moved = std::max(moved, (periodic->controlPoints()[i] - curve.controlPoints()[i]).norm());
+  if (moved <= kSamePeriodic * extent(curve)) return 0.0;
+  return kUnseenSeam * std::max(deviation(*periodic, curve).max, deviation(curve, *periodic).max);
+}
+
+/// Which control points a knot span that is not in the range depends on.
+std::vector<bool> pointsOutside(const SpanBasis& basis, const ProfileSpan& range) {
+  std::vector<bool> outside(static_cast<std::size_t>(basis.pointCount()), false);
+  const int last = basis.spanCount() - 1;
+  const double period = basis.begin(last) + basis.width(last) - basis.begin(0), rounding = 1e-9 * period;
+  const auto isIn = [&](double u) { return u >= range.from - rounding && u <= range.to + rounding; };
+  for (int span = 0; span <= last; ++span) {
+    const double begin = basis.begin(span), end = begin + basis.width(span);
+    if ((isIn(begin) && isIn(end)) || (isIn(begin + period) && isIn(end + period))) continue;
+    for (int j = 0; j <= basis.degree(); ++j) outside[basis.point(span, j)] = true;
+  }
+  return outside;
 }
 
 /// Samples at equal arc length, so that the shortest span has its share too: what happens between samples is not felt
@@ -110,8 +152,8 @@ int samplesFor(const SpanBasis& basis) {
 
 }  // namespace
 
-Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, bool closed,
-                                                      const FairingParams& params) {
+Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
+                                                      const std::optional<ProfileSpan>& moving) {
   if (curve.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to make fair.");
   if (curve.isRational()) {
     return fail(ErrorCode::BadParameter, "Curves with weights cannot be made fair: set all weights to 1.");
@@ -127,6 +169,7 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
     auto periodic = toPeriodic(curve);
     if (!periodic) return fail(periodic.error());
     setup->periodic = std::move(*periodic);
+    setup->seamMm = distanceFrom(curve, setup->periodic);
     setup->points = setup->periodic.points;
     const int m = static_cast<int>(setup->points.size());
     setup->basis = SpanBasis(curve.degree(), setup->periodic.knots, m + curve.degree(), m);
@@ -143,7 +186,9 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
   setup->start = std::move(*start);
   setup->startHold = params.startHold;
   setup->endHold = params.endHold;
-  setup->unknowns = Unknowns(setup->basis, setup->reference, params.startHold, params.endHold);
+  setup->isPart = moving.has_value();
+  const std::vector<bool> held = moving ? pointsOutside(setup->basis, *moving) : std::vector<bool>();
+  setup->unknowns = Unknowns(setup->basis, setup->reference, params.startHold, params.endHold, held);
   return std::shared_ptr<const FairingSetup>(std::move(setup));
 }
 
@@ -196,15 +241,35 @@ double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& poin
   return bothWays ? std::max(there, largestDistance(setup.reference, curve)) : there;
 }
 
+FairedCurve againstSketch(const FairingSetup& setup, FairedCurve faired) {
+  if (!(setup.seamMm > 0.0)) return faired;
+  const auto periodic = fromPeriodic(setup.periodic, setup.original);
+  if (periodic && faired.curve == *periodic) {
+    faired.curve = setup.original;
+    faired.report.maxDeviationMm = 0.0;
+    faired.report.extremaAfter = faired.report.extremaBefore;
+    return faired;
+  }
+  faired.report.maxDeviationMm =
+      std::max(deviation(faired.curve, setup.original).max, deviation(setup.original, faired.curve).max);
+  if (faired.report.neededMm > 0.0) faired.report.neededMm += setup.seamMm;
+  return faired;
+}
+
 Result<FairedCurve> withSetup(
     const NurbsCurve& curve, bool closed, const FairingParams& params,
-    const std::function<Result<FairedCurve>(const std::shared_ptr<const FairingSetup>&)>& body) {
+    const std::function<Result<FairedCurve>(const std::shared_ptr<const FairingSetup>&, const FairingParams&)>& body) {
   if (const auto error = validate(params)) return fail(*error);
   try {
     const auto setup = makeSetup(curve, closed, params);
-    if (setup) return body(*setup);
-    if (setup.error().code != ErrorCode::Numerical) return fail(setup.error());
-    return unchanged(curve, closed, Termination::Degenerate, setup.error().message);
+    if (!setup && setup.error().code != ErrorCode::Numerical) return fail(setup.error());
+    if (!setup) return unchanged(curve, closed, Termination::Degenerate, setup.error().message);
+    FairingParams within = params;
+    within.toleranceMm -= (*setup)->seamMm;
+    if (!(within.toleranceMm > 0.0)) return unchanged(curve, closed, Termination::Degenerate, kSeamInTheWay);
+    auto faired = body(*setup, within);
+    if (!faired) return faired;
+    return againstSketch(**setup, std::move(*faired));
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to make the curve fair.");
   }

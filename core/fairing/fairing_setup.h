@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/base/result.h"
@@ -22,12 +23,15 @@ struct FairingSetup {
   std::shared_ptr<const FairingSetup> sketch;
   bool closed = false;
   PeriodicForm periodic;  ///< Closed curves only.
+  /// [mm] How far the periodic form is from a closed curve whose ends do not meet with all derivatives; else 0.
+  double seamMm = 0.0;
   SpanBasis basis;
   std::vector<Vec2> points;  ///< Control points of the curve to begin with (each once).
   SpanCurve reference;       ///< The sketched curve.
   EqualArc start;            ///< Sample places on it.
   Unknowns unknowns;
   EndHold startHold, endHold;
+  bool isPart = false;  ///< Only a span of the curve moves.
   double extent = 0.0;
   /// Signed distance of the line's own points from the sketched curve, at its samples (in the mean of those nearby);
   /// empty when the line is not known: the sketched curve then stands for it.
@@ -44,9 +48,10 @@ struct FairingSetup {
     return static_cast<double>(sample) / (closed ? sampleCount() : sampleCount() - 1);
   }
 };
+/// @param moving parameters between which alone the curve may move, a closed one over its seam, too; absent: anywhere.
 /// @return BadParameter for rational curves and degrees outside 3..7; Numerical for a curve without length.
-Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, bool closed,
-                                                      const FairingParams& params);
+Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
+                                                      const std::optional<ProfileSpan>& moving = {});
 
 /// The faired curve over the knots of the sketched one.
 Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& points);
@@ -56,11 +61,19 @@ Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& p
 /// `bothWays` also measures the sketched curve's distance from the curve.
 double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays = false);
 
-/// Runs `body` on the curve's setup. Curves that cannot be made fair stay as they are when the reason lies in their
-/// shape.
-Result<FairedCurve> withSetup(
-    const NurbsCurve& curve, bool closed, const FairingParams& params,
-    const std::function<Result<FairedCurve>(const std::shared_ptr<const FairingSetup>&)>& body);
+inline constexpr const char* kSeamInTheWay =
+    "Left as sketched: to make the ends of this closed curve meet with all derivatives moves it by more than the "
+    "tolerance.";
+
+/// A result over a setup as one of the curve that the user has: where that one had to be made periodic first, the
+/// deviation is measured again, and what has not moved is that curve itself.
+FairedCurve againstSketch(const FairingSetup& setup, FairedCurve faired);
+
+/// Runs `body` on the curve's setup, with the tolerance that its seam leaves. Curves that cannot be made fair stay as
+/// they are when the reason lies in their shape.
+Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
+                              const std::function<Result<FairedCurve>(const std::shared_ptr<const FairingSetup>& setup,
+                                                                      const FairingParams& within)>& body);
 
 /// The share of the way from the sketched curve to `points` that stays within the tolerance, measured both ways on the
 /// whole curve; `points` are moved there. @return the largest deviation.

@@ -84,9 +84,11 @@ Result<TargetProfile> lowPassedProfile(const NurbsCurve& curve, bool closed, con
 
 Result<FairedCurve> fairByLowPass(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                   const RunContext& context) {
-  return withSetup(curve, closed, params, [&](const std::shared_ptr<const FairingSetup>& setup) {
-    return modifyShape(setup, smoothedProfile(*setup, params.lowPassMm), params.toleranceMm, context, false);
-  });
+  return withSetup(curve, closed, params,
+                   [&](const std::shared_ptr<const FairingSetup>& setup, const FairingParams& within) {
+                     return modifyShape(setup, smoothedProfile(*setup, within.lowPassMm), within.toleranceMm, context,
+                                        ExtremaAsked::None);
+                   });
 }
 
 }  // namespace batten

@@ -115,9 +115,10 @@ class MonotoneFairing {
 
 Result<FairedCurve> fairMonotone(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                  const RunContext& context) {
-  return withSetup(curve, closed, params, [&](const std::shared_ptr<const FairingSetup>& setup) {
-    return MonotoneFairing(setup, params, context).run();
-  });
+  return withSetup(curve, closed, params,
+                   [&](const std::shared_ptr<const FairingSetup>& setup, const FairingParams& within) {
+                     return MonotoneFairing(setup, within, context).run();
+                   });
 }
 
 }  // namespace batten

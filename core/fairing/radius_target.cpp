@@ -3,91 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "core/base/conventions.h"
-#include "core/curve/arc_length.h"
-#include "core/curve/span_curve.h"
+#include "core/fairing/curvature_samples.h"
 #include "core/fairing/polynomial_fit.h"
-#include "core/fairing/similarity.h"
+#include "core/fairing/profile_data.h"
 #include "core/fairing/split_profile.h"
 
 namespace batten {
 namespace {
 
-constexpr int kSamplesPerSpan = 4;
-/// |rho| counts as at most this many extents of the curve.
-constexpr double kLargestRadius = 10.0;
-constexpr double kExactShare = 1e-6;
+/// A part of a profile turns back, if it does so by more than this share of its range.
+constexpr double kTurnsBack = 1e-6;
 
 double evaluatePowers(const std::vector<double>& c, double f) {
   double v = 0.0;
   for (std::size_t k = c.size(); k-- > 0;) v = v * f + c[k];
   return v;
-}
-
-double clippedRadius(double kappa, double largest) {
-  return std::abs(kappa) * largest > 1.0 ? 1.0 / kappa : std::copysign(largest, kappa);
-}
-
-struct Data {
-  std::vector<double> perimeter, kappa, radius, values;
-  double largestRadius = 0.0;
-  std::string problem;
-};
-
-/// Curvature at equal arc length. Plain B-splines take the fast way; what it refuses, the general one.
-void sampleCurvature(const NurbsCurve& curve, const TargetParams& params, Data& data) {
-  const int spans = static_cast<int>(curve.breaks().size()) - 1;
-  const int count = std::max(params.samples, kSamplesPerSpan * spans + 1);
-  for (int i = 0; i < count; ++i) data.perimeter.push_back(static_cast<double>(i) / (count - 1));
-  data.kappa.assign(count, 0.0);
-  if (!curve.isRational() && curve.degree() >= 2 && curve.degree() <= kMaxDegree) {
-    const SpanBasis basis(curve.degree(), curve.knots(), curve.controlPointCount(), 0);
-    const SpanCurve fast(basis, curve.controlPoints());
-    if (const auto places = equalArcPlaces(fast, count, false)) {
-      for (std::size_t i = 0; i < data.kappa.size(); ++i) {
-        const Jet jet = fast.at(places->places[i], 2);
-        const double speed = jet[1].norm(), kappa = cross(jet[1], jet[2]) / (speed * speed * speed);
-        data.kappa[i] = std::isfinite(kappa) ? kappa : 0.0;
-      }
-      return;
-    }
-  }
-  const std::vector<CurveSample> samples = sampleByArcLength(curve, count);
-  for (std::size_t i = 0; i < samples.size() && i < data.kappa.size(); ++i) data.kappa[i] = samples[i].kappa;
-}
-
-Data collect(const NurbsCurve& curve, const TargetParams& params) {
-  Data data;
-  sampleCurvature(curve, params, data);
-  const double size = extent(curve);
-  data.largestRadius = kLargestRadius * size;
-  bool left = false, right = false;
-  for (const double kappa : data.kappa) {
-    data.radius.push_back(clippedRadius(kappa, data.largestRadius));
-    left = left || kappa * size > kStraightCurvature;
-    right = right || kappa * size < -kStraightCurvature;
-  }
-  if (params.quantity == TargetQuantity::Curvature) {
-    data.values = data.kappa;
-    return data;
-  }
-  if (left && right) {
-    data.problem =
-        "The curvature changes sign: a radius has no profile there. Use curvature, or split at the inflection.";
-  } else if (!left && !right) {
-    data.problem = "The curve is straight: its radius has no value. Use curvature.";
-  }
-  // Straight parts of a curve that turns one way take that way's sign.
-  data.values = data.radius;
-  for (double& rho : data.values) rho = right ? -std::abs(rho) : std::abs(rho);
-  return data;
-}
-
-double meanSquare(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return a.empty() ? 0.0 : sum / static_cast<double>(a.size());
 }
 
 std::vector<double> valuesOf(const std::vector<double>& coefficients, const std::vector<double>& perimeter) {
@@ -98,13 +30,13 @@ std::vector<double> valuesOf(const std::vector<double>& coefficients, const std:
 }
 
 /// The better of the rising and the falling monotone fit.
-std::vector<double> fitMonotoneEitherWay(const Data& data, int degree) {
+std::vector<double> fitMonotoneEitherWay(const ProfileData& data, int degree) {
   std::vector<double> best;
   double bestError = 0.0;
   for (const bool increasing : {true, false}) {
     std::vector<double> c = fitMonotonePolynomial(data.perimeter, data.values, degree, increasing);
     if (c.empty()) continue;
-    const double error = meanSquare(valuesOf(c, data.perimeter), data.values);
+    const double error = meanSquareDifference(valuesOf(c, data.perimeter), data.values);
     if (best.empty() || error < bestError) {
       best = std::move(c);
       bestError = error;
@@ -113,7 +45,28 @@ std::vector<double> fitMonotoneEitherWay(const Data& data, int degree) {
   return best;
 }
 
-TargetProfile fitProfile(const Data& data, const TargetParams& params, bool closed, int degree, int controlPoints) {
+/// Whether a profile turns back nowhere but at its splits.
+bool isMonotoneBetween(const std::vector<double>& perimeter, const std::vector<double>& values,
+                       const std::vector<double>& splits) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double flat = kTurnsBack * (*high - *low);
+  std::size_t part = 0;
+  double rise = 0.0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    // Of the interval in which a split lies, both parts have something.
+    const bool isNew = part < splits.size() && perimeter[i] > splits[part];
+    while (part < splits.size() && perimeter[i] > splits[part]) ++part;
+    const double step = isNew ? 0.0 : values[i] - values[i - 1];
+    if (isNew) rise = 0.0;
+    if (std::abs(step) <= flat) continue;
+    if (step * rise < 0.0) return false;
+    rise = step;
+  }
+  return true;
+}
+
+TargetProfile fitProfile(const ProfileData& data, const TargetParams& params, bool closed, int degree,
+                         int controlPoints) {
   TargetProfile profile;
   profile.degree = degree;
   profile.quantity = params.quantity;
@@ -140,24 +93,8 @@ TargetProfile fitProfile(const Data& data, const TargetParams& params, bool clos
   std::vector<double> fitted;
   for (const double f : data.perimeter) fitted.push_back(profile.value(f));
   profile.isMonotone = profile.nodes.empty() ? isMonotonePolynomial(profile.coefficients)
-                                             : std::is_sorted(fitted.begin(), fitted.end()) ||
-                                                   std::is_sorted(fitted.rbegin(), fitted.rend());
-  std::vector<double> radius;
-  for (std::size_t i = 0; i < fitted.size(); ++i) {
-    const double rho = params.quantity == TargetQuantity::Curvature
-                           ? clippedRadius(fitted[i], data.largestRadius)
-                           : std::clamp(fitted[i], -data.largestRadius, data.largestRadius);
-    radius.push_back(rho);
-  }
-  profile.similarity = similarity(radius, data.radius);
-  profile.pearson = pearson(radius, data.radius);
-  const double square = meanSquare(fitted, data.values);
-  const auto [low, high] = std::minmax_element(data.values.begin(), data.values.end());
-  const double size = std::max(std::abs(*low), std::abs(*high));
-  // A circle has no range: what is left is rounding and counts as a perfect fit.
-  profile.rmsPercent = *high - *low > 1e-12 * size ? 100.0 * std::sqrt(square) / (*high - *low) : 0.0;
-  const double scale = meanSquare(data.values, std::vector<double>(data.values.size(), 0.0));
-  profile.aicc = aicc(std::max(square, kExactShare * kExactShare * scale), coefficients - 1, controlPoints);
+                                             : isMonotoneBetween(data.perimeter, fitted, params.splits);
+  judgeProfile(profile, data, fitted, coefficients, controlPoints);
   return profile;
 }
 
@@ -204,9 +141,12 @@ TargetSet fitTargets(const NurbsCurve& curve, const TargetParams& params, bool c
     }
     return set;
   }
-  const Data data = collect(curve, params);
+  CurvatureSamples samples = sampledCurvature(curve, params.samples);
+  const ProfileData data =
+      profileData(std::move(samples.perimeter), std::move(samples.kappa), extent(curve), params.quantity);
   set.perimeter = data.perimeter;
   set.kappa = data.kappa;
+  set.comparesCurvature = data.bendsBothWays;
   for (int degree = 1; degree <= 6; ++degree) {
     const auto at = static_cast<std::size_t>(degree - 1);
     set.profiles[at] = fitProfile(data, params, closed, degree, curve.controlPointCount());

@@ -18,7 +18,14 @@ enum class TargetQuantity {
   Radius,     ///< rho = 1/kappa as the papers fit it (000 VI); undefined on straight parts.
 };
 
+/// Where a polynomial begins and ends, unless the user has split the curve himself.
+enum class TargetSpans {
+  Natural,  ///< At every extremum of the curvature that is no trifle (naturalSplits).
+  Whole,    ///< At the ends of the curve: one polynomial, as in the papers.
+};
+
 struct TargetParams {
+  TargetSpans spans = TargetSpans::Natural;
   TargetQuantity quantity = TargetQuantity::Curvature;
   bool monotone = true;  ///< Never turns back; off: "as in the paper", and the tile says when it is not monotone.
   int samples = 121;     ///< 101..2001. Samples at equal arc length (at least 4 a knot span are taken).
@@ -28,6 +35,12 @@ struct TargetParams {
   bool operator==(const TargetParams&) const = default;
 };
 std::optional<Error> validate(const TargetParams&);
+
+/// A part of a curve by shares of its arc length. On a closed curve `to` may lie beyond 1: over the seam.
+struct ProfileSpan {
+  double from = 0.0, to = 1.0;
+  bool operator==(const ProfileSpan&) const = default;
+};
 
 /// A place of a profile made of cubics.
 struct ProfileNode {
@@ -42,8 +55,10 @@ struct TargetProfile {
   std::vector<ProfileNode> nodes;    ///< Ascending f from 0 to 1, cubic between two; a kink is two nodes of the same f.
   bool valid = false;                ///< False: could not be fitted; `problem` says why.
   std::string problem;
-  bool isMonotone = false;
-  double similarity = 0.0;  ///< S (003 Eq 14) of the target's radius against the curve's, 0..1.
+  bool isMonotone = false;  ///< Turns back nowhere, but where it is split.
+  /// S (003 Eq 14) of the target's radius against the curve's, -1..1; where the curve has an inflection, and its radius
+  /// no end, S of the curvature.
+  double similarity = 0.0;
   double pearson = 0.0;     ///< Pearson r of the same, -1..1.
   double rmsPercent = 0.0;  ///< rms difference in % of the range of the data.
   double aicc = 0.0;        ///< Smaller is better; n_eff = number of control points.
@@ -56,6 +71,7 @@ struct TargetSet {
   std::array<TargetProfile, 6> profiles;  ///< Degree 1..6.
   std::vector<double> perimeter;          ///< 0..1, the sample positions.
   std::vector<double> kappa;              ///< [1/mm] of the curve there.
+  bool comparesCurvature = false;         ///< Similarities are of the curvature, for the radius has no end somewhere.
   int recommendedDegree = 0;              ///< By AICc; 0 = none valid.
 };
 

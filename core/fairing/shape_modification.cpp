@@ -21,13 +21,13 @@ namespace {
 
 /// Steps between two of TargetSteps, to use as much of the tolerance as this.
 constexpr int kSearchSteps = 4, kRoundSteps = 4;
-constexpr double kUsedShare = 0.95;
+constexpr double kTargetUsedShare = 0.95;
 /// [mm] Tolerances that are used up whatever the tolerance is, if it is no smaller.
 constexpr std::array kRoundTolerances = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01};
 /// A search that leaves more of it unused got stuck in the noise of a rough start; the barrier then takes over.
 constexpr double kStuckShare = 0.8;
 /// Room for what lies between the places where the deviation is measured.
-constexpr double kMeasured = 0.999;
+constexpr double kTargetRoom = 0.999;
 
 constexpr const char* kNothingWon =
     "Left as sketched: within the tolerance, this target would add curvature extrema. Raise the tolerance, split the "
@@ -40,6 +40,7 @@ constexpr std::array kCalmSpans = {13, 5, 3};
 
 std::vector<std::shared_ptr<const FairingSetup>> calmSetups(const std::shared_ptr<const FairingSetup>& sketch) {
   std::vector<std::shared_ptr<const FairingSetup>> result;
+  if (sketch->isPart) return result;
   int extrema = countedExtrema(sketch->original, sketch->closed);
   for (const int spans : kCalmSpans) {
     if (extrema < kTrembles) break;
@@ -56,19 +57,18 @@ std::vector<std::shared_ptr<const FairingSetup>> calmSetups(const std::shared_pt
 class ShapeModification {
  public:
   ShapeModification(const std::shared_ptr<const FairingSetup>& setup, const FairingObjective& objective,
-                    double toleranceMm, const RunContext& context, bool asksForExtrema)
+                    double toleranceMm, const RunContext& context, ExtremaAsked asked)
       : sketch_(*setup),
         objective_(objective),
         toleranceMm_(toleranceMm),
         context_(context),
-        calm_(calmSetups(setup)),
-        asked_(asksForExtrema ? extremaAsked(*setup, objective) : 0) {
-    std::vector<const FairingSetup*> all{setup.get()};
-    for (const auto& calm : calm_) all.push_back(calm.get());
-    for (const FairingSetup* over : all) {
-      Course course{over, TargetSteps(*over, objective, context)};
-      if (!course.steps.all().empty()) courses_.push_back(std::move(course));
-    }
+        asked_(asked == ExtremaAsked::None ? 0 : extremaAsked(*setup, objective)) {
+    if (asked == ExtremaAsked::UpToSketch) asked_ = std::min(asked_, countedExtrema(setup->original, setup->closed));
+    open(setup.get());
+    // Where the target is met without tremor, there is none to be passed over.
+    if (!courses_.empty() && courses_.front().steps.all().front().extrema <= asked_) return;
+    calm_ = calmSetups(setup);
+    for (const auto& calm : calm_) open(calm.get());
   }
 
   Result<FairedCurve> run() {
@@ -91,7 +91,7 @@ class ShapeModification {
         if (isWithin(step)) take(step, &course);
       }
     }
-    report_.withinTolerance = report_.neededMm <= kMeasured * toleranceMm_;
+    report_.withinTolerance = report_.neededMm <= kTargetRoom * toleranceMm_;
     for (const double tolerance : kRoundTolerances) {
       if (tolerance <= toleranceMm_) useRound(tolerance);
     }
@@ -109,7 +109,11 @@ class ShapeModification {
     TargetSteps steps;
   };
 
-  bool isWithin(const TargetStep& step) const { return step.deviationMm <= kMeasured * toleranceMm_; }
+  void open(const FairingSetup* over) {
+    Course course{over, TargetSteps(*over, objective_, context_)};
+    if (!course.steps.all().empty()) courses_.push_back(std::move(course));
+  }
+  bool isWithin(const TargetStep& step) const { return step.deviationMm <= kTargetRoom * toleranceMm_; }
   /// Extrema that the target itself has are no fault.
   int rank(const TargetStep& step) const { return std::max(step.extrema, asked_); }
 
@@ -132,7 +136,7 @@ class ShapeModification {
   Sides sidesOf(const Course& course, double toleranceMm) const {
     Sides sides;
     for (const TargetStep& step : course.steps.all()) {
-      if (step.deviationMm <= kMeasured * toleranceMm) {
+      if (step.deviationMm <= kTargetRoom * toleranceMm) {
         sides.inside = &step;
         break;
       }
@@ -146,7 +150,8 @@ class ShapeModification {
     for (const Course& course : courses_) {
       if (rank(best_) <= asked_ || context_.isCancelled()) return;
       const Sides sides = sidesOf(course, toleranceMm);
-      if (!sides.outside) continue;
+      // Between two steps the extrema are those of the one or the other, or nearly so.
+      if (!sides.outside || rank(*sides.outside) >= rank(best_)) continue;
       for (const TargetStep& step : between(course, sides, toleranceMm, kRoundSteps)) take(step, &course);
     }
   }
@@ -158,11 +163,11 @@ class ShapeModification {
     std::optional<TargetStep> near;
     if (sides.inside) near = *sides.inside;
     for (int i = 0; i < most && !context_.isCancelled(); ++i) {
-      if (near && (near->deviationMm >= kUsedShare * toleranceMm || near->weight < 1.02 * wide.weight)) break;
+      if (near && (near->deviationMm >= kTargetUsedShare * toleranceMm || near->weight < 1.02 * wide.weight)) break;
       const double weight = near ? weightBetween(wide, *near, toleranceMm) : 4.0 * wide.weight;
       auto step = course.steps.between(near ? *near : wide, weight);
       if (!step) break;
-      if (step->deviationMm <= kMeasured * toleranceMm) {
+      if (step->deviationMm <= kTargetRoom * toleranceMm) {
         found.push_back(*step);
         near = std::move(step);
       } else {
@@ -187,7 +192,8 @@ class ShapeModification {
   static double weightBetween(const TargetStep& wide, const TargetStep& near, double toleranceMm) {
     const double a = std::log(wide.weight), b = std::log(near.weight);
     const double da = std::log(wide.deviationMm / toleranceMm);
-    const double db = std::log(std::max(near.deviationMm / toleranceMm, 1e-9)) - std::log(0.5 * (1.0 + kUsedShare));
+    const double db =
+        std::log(std::max(near.deviationMm / toleranceMm, 1e-9)) - std::log(0.5 * (1.0 + kTargetUsedShare));
     return std::exp(a + std::clamp(da / std::max(da - db, 1e-12), 0.1, 0.9) * (b - a));
   }
 
@@ -253,17 +259,18 @@ class ShapeModification {
 }  // namespace
 
 Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
-                                double toleranceMm, const RunContext& context, bool asksForExtrema) {
+                                double toleranceMm, const RunContext& context, ExtremaAsked asked) {
   const auto objective = targetObjective(*setup, profile);
   if (!objective) return fail(objective.error());
-  return ShapeModification(setup, *objective, toleranceMm, context, asksForExtrema).run();
+  return ShapeModification(setup, *objective, toleranceMm, context, asked).run();
 }
 
 Result<FairedCurve> modifyShape(const NurbsCurve& curve, bool closed, const TargetProfile& profile,
                                 const FairingParams& params, const RunContext& context) {
-  return withSetup(curve, closed, params, [&](const std::shared_ptr<const FairingSetup>& setup) {
-    return modifyShape(setup, profile, params.toleranceMm, context);
-  });
+  return withSetup(curve, closed, params,
+                   [&](const std::shared_ptr<const FairingSetup>& setup, const FairingParams& within) {
+                     return modifyShape(setup, profile, within.toleranceMm, context, ExtremaAsked::OfProfile);
+                   });
 }
 
 }  // namespace batten

@@ -16,13 +16,19 @@ namespace batten {
 /// depend on the tolerance (TargetSteps). Periodic curves stay periodic (`closed`). Knots stay as they are, but for a
 /// sketch that trembles: the tremor of many knots stops it, so it is followed over a few knots too. Of the curves
 /// within the tolerance the one with the fewest curvature extrema is taken, of these the nearest to the profile; none
-/// has more than the sketch, or the profile. Never returns a curve that leaves the tolerance.
+/// has more than the sketch, or than a profile that was drawn. Never returns a curve that leaves the tolerance.
 Result<FairedCurve> modifyShape(const NurbsCurve&, bool closed, const TargetProfile&, const FairingParams&,
                                 const RunContext&);
 
+/// How many curvature extrema count as none too many, beside the nearness to the profile.
+enum class ExtremaAsked {
+  None,        ///< As few as can be.
+  UpToSketch,  ///< Those of the profile, but no more than the sketch has.
+  OfProfile,   ///< Those of the profile: the user has drawn it.
+};
+
 /// The same on a setup that several fairings share.
-/// @param asksForExtrema the curve may have as many extrema as the profile; off: as few as can be.
 Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
-                                double toleranceMm, const RunContext& context, bool asksForExtrema = true);
+                                double toleranceMm, const RunContext& context, ExtremaAsked = ExtremaAsked::UpToSketch);
 
 }  // namespace batten

@@ -55,7 +55,11 @@ std::vector<Part> partsOf(std::span<const double> perimeter, std::span<const dou
 
 void fitPart(Part& part, int degree, bool monotone, std::optional<double> start, std::optional<double> end) {
   const int most = static_cast<int>(part.x.size()) - 1 + (start ? 1 : 0) + (end ? 1 : 0);
-  part.coefficients = fitPinnedPolynomial(part.x, part.y, std::max(0, std::min(degree, most)), monotone, start, end);
+  // Where the constraints of a degree do not settle, a lower one does.
+  for (int d = std::max(0, std::min(degree, most)); d >= 0; --d) {
+    part.coefficients = fitPinnedPolynomial(part.x, part.y, d, monotone, start, end);
+    if (!part.coefficients.empty()) return;
+  }
 }
 
 }  // namespace

@@ -12,10 +12,10 @@ namespace batten {
 namespace {
 
 /// Weight of the distance, in 1/extent: at last hardly any.
-constexpr double kSmallestWeight = 0.5, kWeightStep = 4.0, kRoughWeightStep = 16.0;
+constexpr double kSmallestWeight = 0.5, kWeightStep = 8.0, kRoughWeightStep = 16.0;
 /// [extents] At first the curve leaves the sketch by about this.
 constexpr double kHardlyMoved = 1e-4;
-constexpr int kMostSteps = 16;
+constexpr int kMostSteps = 10;
 /// A reference curvature below this (times extent) would weigh a straight line's rounding as shape.
 constexpr double kSmallestReference = 1e-3;
 constexpr FairingLimits kFull{40, 1e-4}, kWarm{6, 1e-3}, kPolish{12, 1e-5};

@@ -73,7 +73,8 @@ std::vector<Block> endBlocks(const SpanBasis& basis, const SpanCurve& curve, con
 
 }  // namespace
 
-Unknowns::Unknowns(const SpanBasis& basis, const SpanCurve& curve, const EndHold& startHold, const EndHold& endHold)
+Unknowns::Unknowns(const SpanBasis& basis, const SpanCurve& curve, const EndHold& startHold, const EndHold& endHold,
+                   const std::vector<bool>& held)
     : degree_(basis.degree()) {
   coordinates_.resize(static_cast<std::size_t>(basis.pointCount()) * 2);
   if (basis.isPeriodic()) {
@@ -81,7 +82,26 @@ Unknowns::Unknowns(const SpanBasis& basis, const SpanCurve& curve, const EndHold
   } else {
     buildBlocks(basis, curve, startHold, endHold);
   }
+  if (!held.empty()) hold(held);
   buildSpans(basis);
+}
+
+/// An end's points share their unknowns: they are free together or not at all.
+void Unknowns::hold(const std::vector<bool>& held) {
+  std::vector<bool> isHeld(static_cast<std::size_t>(count_), false);
+  for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+    if (!held[i / 2]) continue;
+    for (const Part& part : coordinates_[i]) isHeld[part.index] = true;
+  }
+  std::vector<int> place(static_cast<std::size_t>(count_), 0);
+  int count = 0;
+  for (std::size_t i = 0; i < place.size(); ++i)
+    if (!isHeld[i]) place[i] = count++;
+  for (auto& parts : coordinates_) {
+    std::erase_if(parts, [&](const Part& part) { return isHeld[part.index]; });
+    for (Part& part : parts) part.index = place[part.index];
+  }
+  count_ = count;
 }
 
 void Unknowns::buildPeriodic(int points) {

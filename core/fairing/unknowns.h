@@ -18,7 +18,9 @@ namespace batten {
 class Unknowns {
  public:
   Unknowns() = default;
-  Unknowns(const SpanBasis& basis, const SpanCurve& curve, const EndHold& startHold, const EndHold& endHold);
+  /// @param held control points that do not move at all, one entry each; empty: none.
+  Unknowns(const SpanBasis& basis, const SpanCurve& curve, const EndHold& startHold, const EndHold& endHold,
+           const std::vector<bool>& held = {});
   int count() const { return count_; }
   int halfWidth() const { return halfWidth_; }
   int stride() const { return stride_; }  ///< Largest number of unknowns that a span depends on.
@@ -39,6 +41,7 @@ class Unknowns {
   };
   void buildBlocks(const SpanBasis& basis, const SpanCurve& curve, const EndHold& startHold, const EndHold& endHold);
   void buildPeriodic(int points);
+  void hold(const std::vector<bool>& held);
   void buildSpans(const SpanBasis& basis);
   int count_ = 0, halfWidth_ = 0, stride_ = 0, degree_ = 0;
   std::vector<std::vector<Part>> coordinates_;  ///< Per coordinate 2 * point + c.

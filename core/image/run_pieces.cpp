@@ -137,6 +137,15 @@ RunPieces findPieces(const BitImage& image, Connectivity connectivity, const Run
 
 void setBits(BitImage& image, const Run& run) { setBits(image.row(run.y), run.x0, run.x1); }
 
+std::optional<int> pieceAt(const RunPieces& pieces, int x, int y) {
+  const auto before = [](const Run& run, const std::pair<int, int>& yx) {
+    return run.y != yx.first ? run.y < yx.first : run.x1 <= yx.second;
+  };
+  const auto run = std::lower_bound(pieces.runs.begin(), pieces.runs.end(), std::pair(y, x), before);
+  if (run == pieces.runs.end() || run->y != y || run->x0 > x) return {};
+  return pieces.piece[run - pieces.runs.begin()];
+}
+
 void clearBits(BitImage& image, const Run& run) {
   std::uint64_t* row = image.row(run.y);
   const int first = run.x0 >> 6, last = (run.x1 - 1) >> 6;

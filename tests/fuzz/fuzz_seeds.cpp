@@ -51,29 +51,6 @@ ExportDocument drawing() {
   return document;
 }
 
-/// Valid files for fuzz_import, each behind the byte that selects its kind.
-void writeImports(const fs::path& folder) {
-  const auto add = [&](char kind, const char* name, const std::string& text) { write(folder / name, kind + text); };
-  const std::pair<ExportFormat, const char*> kFormats[] = {{ExportFormat::Dxf, "dxf"},  {ExportFormat::Iges, "igs"},
-                                                           {ExportFormat::Step, "stp"}, {ExportFormat::Svg, "svg"},
-                                                           {ExportFormat::Csv, "csv"},  {ExportFormat::Json, "json"}};
-  char kind = 0;
-  for (const auto& [format, name] : kFormats) {
-    // A build without Open CASCADE writes neither IGES nor STEP.
-    if (const auto file = exportedFile(drawing(), {.format = format})) add(kind, name, file->bytes);
-    ++kind;
-  }
-  add(0, "polyline.dxf",
-      "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n90\n3\n70\n1\n10\n0\n20\n0\n42\n0.5\n10\n9\n20\n0\n10\n9\n20\n9\n"
-      "0\nARC\n10\n1\n20\n2\n40\n3\n50\n10\n51\n200\n0\nENDSEC\n0\nEOF\n");
-  add(3, "shapes.svg",
-      "<svg xmlns='http://www.w3.org/2000/svg' width='90mm' height='60mm' viewBox='0 0 90 60'><g transform='rotate(9 "
-      "1,2) scale(2)'><path d='M1 2C3 4 5 6 7 8s1-1 2 3q4 5 6-7t1 2a5 3 20 1 0 9 9z'/><rect x='1' y='2' width='9' "
-      "height='5' rx='2'/><ellipse cx='20' cy='20' rx='9' ry='4'/><polyline points='1,2 3,4 9,1'/></g></svg>");
-  add(4, "points.csv", "curve;x [mm];y [mm]\n1;0,5;1\n1;2;3,5\n1;4;1\n\n2;0;0\n2;9;9\n");
-  add(5, "points.json", R"({"unit":"cm","lines":[{"name":"roof","closed":true,"points":[[0,0],[5,1],[3,4]]}]})");
-}
-
 void writeScans(const fs::path& folder) {
   cv::Mat grey(40, 60, CV_8UC1, cv::Scalar(230)), colour(40, 60, CV_8UC3, cv::Scalar(230, 235, 225)),
       deep(40, 60, CV_16UC1, cv::Scalar(60000));
@@ -93,6 +70,29 @@ void writeScans(const fs::path& folder) {
   }
 }
 
+/// A file of every kind, behind the letter by which fuzz_import knows it.
+void writeImports(const fs::path& folder) {
+  for (const auto& [letter, ending] :
+       {std::pair('d', ".dxf"), {'i', ".igs"}, {'s', ".step"}, {'3', ".3dm"}, {'v', ".svg"}}) {
+    ExportSettings settings;
+    settings.format = *formatOf(std::string("a") + ending);
+    const auto file = exportedFile(drawing(), settings);
+    if (file) write(folder / (std::string("curves") + ending), letter + file->bytes);
+  }
+  ExportSettings cnc;
+  cnc.format = ExportFormat::Dxf;
+  cnc.dxf = DxfProfile::Cnc;
+  cnc.arcs = true;
+  write(folder / "cnc.dxf", 'd' + exportedFile(drawing(), cnc).value().bytes);
+  write(folder / "shapes.svg",
+        "g<svg width='100mm' height='50mm' viewBox='0 0 200 100'><g transform='rotate(10)'><path d='M0 0C1 2 3 2 4 "
+        "0S7-2 8 0"
+        "a3 2 10 1 0 4 4z'/><rect width='5' height='5' rx='1'/><polygon points='1,1 2,2 3,1'/></g></svg>");
+  write(folder / "points.csv", "ccurve,x_mm,y_mm\nroof,1,2\nroof,2,2.5\nsill,3,2\nsill,4,9\n");
+  write(folder / "points.json",
+        R"(j{"unit": "mm", "lines": [{"name": "roof", "closed": false, "points": [[1, 2], [3, 4]]}]})");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -105,8 +105,8 @@ int main(int argc, char** argv) {
   write(folder / "fuzz_recipe" / "full.json", recipeToJson(fullRecipe()));
   write(folder / "fuzz_curves" / "curves.json", writeCurveJson(drawing()).value());
   write(folder / "fuzz_svg" / "curves.svg", writeSvg(drawing(), {}).value().text);
-  writeScans(folder / "fuzz_scan");
   writeImports(folder / "fuzz_import");
+  writeScans(folder / "fuzz_scan");
   write(folder / "fuzz_parameters" / "seed", "seed");
   return 0;
 }

@@ -6,12 +6,17 @@
 #include <QAction>
 #include <QClipboard>
 #include <QComboBox>
+#include <QDropEvent>
+#include <QFileInfo>
 #include <QLabel>
 #include <QMimeData>
 #include <QProgressBar>
 #include <QUndoStack>
+#include <QUrl>
+#include <QWindow>
 
 #include "core/exchange/dxf_reader.h"
+#include "core/exchange/svg_reader.h"
 #include "tests/ui/rendered_scan.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/stages/export_preview.h"
@@ -137,9 +142,93 @@ TEST_F(Export, CurvesAreCopiedAsSvg) {
   QTest::mouseClick(find<QAbstractButton>("export.copy"), Qt::LeftButton);
   ASSERT_TRUE(
       waitUntil([] { return QApplication::clipboard()->mimeData()->hasFormat(QStringLiteral("image/svg+xml")); }));
-  const QByteArray svg = QApplication::clipboard()->mimeData()->data(QStringLiteral("image/svg+xml"));
-  EXPECT_TRUE(svg.contains("<path ")) << svg.left(300).toStdString();
+  const QMimeData* data = QApplication::clipboard()->mimeData();
+  const QByteArray svg = data->data(QStringLiteral("image/svg+xml"));
+  // Inkscape asks for its own name first, editors for the text.
+  EXPECT_EQ(data->data(QStringLiteral("image/x-inkscape-svg")), svg);
+  EXPECT_EQ(data->text().toUtf8(), svg);
+  const auto copied = readSvg(svg.toStdString());
+  ASSERT_TRUE(copied) << copied.error().message;
+  ASSERT_EQ(copied->curves.size(), 1u);
+  const NurbsCurve &shape = session().curves()[0].faired, &there = copied->curves[0].pieces[0].curve;
+  for (int i = 0; i <= 200; ++i) {
+    const auto at = [&](const NurbsCurve& c) { return c.point(c.start() + (c.end() - c.start()) * i / 200); };
+    EXPECT_LE((at(shape) - at(there)).norm(), 1e-9);
+  }
+  const QString side = QString::number(session().output().frame.widthPx * session().output().frame.mmPerPx, 'f', 2);
+  EXPECT_TRUE(svg.contains("width=\"" + side.left(side.size() - 1).toUtf8())) << svg.left(300).toStdString();
   EXPECT_TRUE(find<QLabel>("export.result")->text().contains(QStringLiteral("read back")));
+}
+
+/// Where something is dropped, as a drawing program would take it.
+class DropTarget : public QWidget {
+ public:
+  using QWidget::QWidget;
+  bool isEntered = false;
+  QStringList formats;
+  QByteArray picture, file;
+  QString fileName;
+
+ protected:
+  void dragEnterEvent(QDragEnterEvent* event) override {
+    isEntered = true;
+    event->acceptProposedAction();
+  }
+  void dropEvent(QDropEvent* event) override {
+    formats = event->mimeData()->formats();
+    picture = event->mimeData()->data(QStringLiteral("image/svg+xml"));
+    const QList<QUrl> urls = event->mimeData()->urls();
+    if (!urls.isEmpty()) {
+      QFile dragged(urls[0].toLocalFile());
+      fileName = QFileInfo(dragged).fileName();
+      if (dragged.open(QIODevice::ReadOnly)) file = dragged.readAll();
+    }
+    event->acceptProposedAction();
+  }
+};
+
+TEST_F(Export, ACurveIsDraggedOutAsAnSvg) {
+  openPage(test::zigzagPage());
+  Recipe recipe = session().recipe();
+  recipe.cornerMarks.push_back({Vec2(200, 100)});
+  session().change(QStringLiteral("Corner"), recipe);
+  ASSERT_TRUE(settle());
+  window_->action(ActionId::Export)->trigger();
+  ASSERT_NO_FATAL_FAILURE(chooseReceiver("fusion"));
+  auto* preview = find<ExportPreview>("export.preview");
+  ASSERT_TRUE(waitUntil([&] { return preview->content().curves.size() == 2; }));
+  DropTarget target(window_.get());
+  target.setAcceptDrops(true);
+  target.setGeometry(0, 0, 120, 120);
+  target.show();
+  target.raise();
+  const PreviewCurve& second = preview->content().curves[1];
+  QWindow* window = window_->windowHandle();
+  const QPoint from = preview->mapTo(window_.get(), preview->toWidget(second.points[20]).toPoint());
+  QTest::mousePress(window, Qt::LeftButton, {}, from);
+  for (int i = 1; i <= 5; ++i) QTest::mouseMove(window, from + QPoint(8 * i, 0));
+  // The drag holds the event loop until it ends.
+  int moves = 0;
+  QTimer hand;
+  QObject::connect(&hand, &QTimer::timeout, [&] {
+    if (!target.isEntered && moves < 200) {
+      ++moves;
+      return QTest::mouseMove(window, QPoint(60 + moves % 2, 60));
+    }
+    QTest::mouseRelease(window, Qt::LeftButton, {}, QPoint(60, 60));
+    hand.stop();
+  });
+  hand.start(30);
+  ASSERT_TRUE(waitUntil([&] { return !target.picture.isEmpty(); })) << moves;
+  EXPECT_TRUE(target.formats.contains(QStringLiteral("image/x-inkscape-svg")));
+  EXPECT_EQ(target.file, target.picture);
+  EXPECT_EQ(target.fileName, QStringLiteral("Curve %1.svg").arg(*second.number));
+  const auto dragged = readSvg(target.picture.toStdString());
+  ASSERT_TRUE(dragged) << dragged.error().message;
+  ASSERT_EQ(dragged->curves.size(), 1u) << "the one under the mouse alone";
+  const NurbsCurve& there = dragged->curves[0].pieces[0].curve;
+  EXPECT_NEAR(there.point(there.start()).x(), second.points.front().x(), 1e-6);
+  EXPECT_NEAR(there.point(there.start()).y(), -second.points.front().y(), 1e-6);
 }
 
 TEST_F(Export, EscapeStopsItAndNothingIsWritten) {

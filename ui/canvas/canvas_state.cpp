@@ -10,6 +10,7 @@
 #include "ui/canvas/layers/curve_layer.h"
 #include "ui/canvas/layers/growing_layer.h"
 #include "ui/canvas/layers/mark_layers.h"
+#include "ui/canvas/layers/span_layer.h"
 #include "ui/session/coarse_runner.h"
 #include "ui/session/growing_player.h"
 #include "ui/session/judged_view.h"
@@ -351,8 +352,13 @@ void CurveCanvas::State::paint(QPainter& painter) {
     return;
   }
   if (!view.isScanOnly()) {
+    if (view.isVisible(Layer::Scan)) {
+      paintSheet(painter, *this);
+      paintRulings(painter, *this);
+    }
     paintRegions(painter, *this);
     if (areCombsShown()) paintDirection(painter, *this);
+    paintSpans(painter, *this);
     if (areExtremaShown()) paintExtrema(painter, *this);
     if (view.isVisible(Layer::Corners)) paintCorners(painter, *this);
     if (view.isVisible(Layer::Regions) && view.tool() != Tool::Thresholds) paintRegionGrid(painter, *this);

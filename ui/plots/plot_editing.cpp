@@ -3,6 +3,7 @@
 
 #include <qcustomplot.h>
 
+#include <QApplication>
 #include <QMenu>
 #include <algorithm>
 #include <cmath>
@@ -116,6 +117,8 @@ bool PlotEditing::isOnTarget(const QPoint& position) const {
 bool PlotEditing::press(const QMouseEvent& event) {
   const QPoint at = event.position().toPoint();
   if (event.button() != Qt::LeftButton || !isOverAxes(at)) return false;
+  pressedAt_ = at;
+  hasMoved_ = false;
   if (index_ = handleAt(at); index_ >= 0) {
     dragged_ = Dragged::Handle;
   } else if (index_ = splitAt(at); index_ >= 0) {
@@ -149,6 +152,8 @@ bool PlotEditing::press(const QMouseEvent& event) {
 }
 
 void PlotEditing::drag(const QPoint& position) {
+  hasMoved_ = hasMoved_ || (position - pressedAt_).manhattanLength() >= QApplication::startDragDistance();
+  if (!hasMoved_ && dragged_ == Dragged::Split) return;
   if (dragged_ == Dragged::Split) return moveSplit(session_, index_, fractionAt(position.x()), gesture_);
   std::vector<ProfilePoint> profile = fairingAsked(session_).profile;
   const auto at = static_cast<std::size_t>(index_);
@@ -168,7 +173,7 @@ void PlotEditing::drag(const QPoint& position) {
 QString PlotEditing::hintAt(const QPoint& position) const {
   if (!isEditable() || !isOverAxes(position)) return {};
   if (handleAt(position) >= 0) return tr("Drag the point to shape the target; right-click removes it.");
-  if (splitAt(position) >= 0) return tr("Drag the split along the curve; right-click removes it.");
+  if (splitAt(position) >= 0) return tr("Drag the split along the curve; click it to join the spans beside it.");
   if (isOnTarget(position)) return tr("Drag the target to draw your own.");
   return {};
 }
@@ -198,13 +203,13 @@ void PlotEditing::openMenu(const QPoint& position) {
   };
   const int split = splitAt(position), handle = handleAt(position);
   if (split >= 0) {
-    add(tr("Remove this split"), "plot.removeSplit", [this, split] { removeSplit(session_, split); });
+    add(tr("Join the spans here"), "plot.removeSplit", [this, split] { joinAtSplit(session_, split); });
   } else {
     add(tr("Split the target here"), "plot.split", [this, f] { addSplit(session_, f); });
   }
-  if (data_.splits.size() > 1) add(tr("Remove all splits"), "plot.removeSplits", [this] { removeSplits(session_); });
-  if (!inflectionsOf(session_).empty())
-    add(tr("Split at inflections"), "plot.splitInflections", [this] { splitAtInflections(session_); });
+  if (!data_.splits.empty()) add(tr("Join all spans"), "plot.removeSplits", [this] { joinAllSpans(session_); });
+  if (!hasNaturalSpans(session_))
+    add(tr("Natural spans again"), "plot.splitNaturally", [this] { splitNaturally(session_); });
   if (fairingAsked(session_).mode == FairingMode::Monotone) {
     add(tr("Keep the extremum here"), "plot.keep", [this, f] { keepExtremum(session_, f); });
     if (!data_.kept.empty())
@@ -246,6 +251,7 @@ bool PlotEditing::eventFilter(QObject* watched, QEvent* event) {
       return move(*static_cast<QMouseEvent*>(event));
     case QEvent::MouseButtonRelease:
       if (!isDragging()) break;
+      if (dragged_ == Dragged::Split && !hasMoved_) joinAtSplit(session_, index_);
       dragged_ = Dragged::Nothing;
       index_ = gesture_ = -1;
       return true;

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <QObject>
+#include <QPoint>
 #include <vector>
 
 #include "ui/plots/plot_series.h"
 
 class QCustomPlot;
 class QMouseEvent;
-class QPoint;
 
 namespace batten {
 
@@ -51,6 +51,8 @@ class PlotEditing : public QObject {
   PlotTab tab_ = PlotTab::Radius;
   Dragged dragged_ = Dragged::Nothing;
   int index_ = -1, gesture_ = -1;
+  QPoint pressedAt_;
+  bool hasMoved_ = false;  ///< Since then, farther than a click may.
   std::vector<QObject*> items_;
 };
 

@@ -47,7 +47,7 @@ int chosenDegree(const TracedCurve& curve, const TargetOutcomes& targets) {
 void addTargets(PlotData& data, const EditorSession& session, const TracedCurve& curve, const auto& valueOf) {
   const auto targets = session.targets();
   if (!targets) return;
-  const int chosen = chosenDegree(curve, *targets);
+  const int chosen = session.pointedSpan() ? chosenSpanTarget(session) : chosenDegree(curve, *targets);
   for (const TargetProfile& profile : targets->targets.profiles) {
     if (!profile.valid) continue;
     PlotSeries series{PlotRole::Target, profile.degree, {}, {}};

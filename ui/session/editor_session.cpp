@@ -183,6 +183,7 @@ void EditorSession::selectCurve(int index) {
   if (index == selectedCurve_) return;
   selectedCurve_ = index;
   setCursor(std::nullopt);
+  pointedSpan_.reset();
   targets_.reset();
   emit selectionChanged();
   emit targetsChanged();
@@ -237,6 +238,16 @@ const TracedCurve* EditorSession::pinnedOf(int curve) const {
     }
   }
   return nearest;
+}
+
+void EditorSession::pointAtSpan(std::optional<double> share) {
+  if (share && !(*share >= 0.0 && *share <= 1.0)) share.reset();
+  if (share == pointedSpan_) return;
+  pointedSpan_ = share;
+  // Those of the span before would be read as those of this one.
+  targets_.reset();
+  emit targetsChanged();
+  runner_->computeTargets();
 }
 
 void EditorSession::hoverTarget(int degree) {

@@ -133,6 +133,10 @@ class EditorSession : public QObject {
 
   /// The six targets of the selected curve, null while they are computed.
   std::shared_ptr<const TargetOutcomes> targets() const { return targets_; }
+  /// The span of the selected curve to which the six targets belong, by a place in it as a share of the arc length;
+  /// none: the whole curve, every span by itself.
+  std::optional<double> pointedSpan() const { return pointedSpan_; }
+  void pointAtSpan(std::optional<double> share);
   /// Target shown as a ghost while hovered, 0 = none.
   int hoveredTarget() const { return hoveredTarget_; }
   void hoverTarget(int degree);
@@ -185,6 +189,7 @@ class EditorSession : public QObject {
   int selectedCurve_ = -1, selectedCorner_ = -1;
   QHash<const QObject*, bool> sideWork_;  ///< And whether its result is on display.
   std::shared_ptr<const TargetOutcomes> targets_;
+  std::optional<double> pointedSpan_;
   int hoveredTarget_ = 0;
   std::optional<double> cursorMm_;
   std::shared_ptr<const PinnedResult> pinned_;

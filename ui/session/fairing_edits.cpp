@@ -8,8 +8,10 @@
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
+#include "core/fairing/fairing.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/low_pass.h"
+#include "core/fairing/natural_spans.h"
 #include "ui/session/piece_choice.h"
 
 namespace batten {
@@ -57,7 +59,14 @@ FairingParams fairingAsked(const EditorSession& session) {
   return own ? own->fairing(session.recipe().fairing) : session.recipe().fairing;
 }
 
-std::vector<double> splitsOf(const EditorSession& session) { return fractionsOf(session, &PieceChoice::splitsPx); }
+std::vector<double> splitsOf(const EditorSession& session) {
+  std::vector<double> own = fractionsOf(session, &PieceChoice::splitsPx);
+  if (!own.empty() || !isUsable(session)) return own;
+  const TracedCurve& curve = *session.selected();
+  FairingParams asked = fairingAsked(session);
+  asked.targets.splits.clear();
+  return targetSplits(curve.fairingStart(), curve.closed, asked);
+}
 
 std::vector<double> keptOf(const EditorSession& session) { return fractionsOf(session, &PieceChoice::keepPx); }
 
@@ -71,58 +80,131 @@ void keepByNumber(EditorSession& session) {
   edit(session, tr("Keep extrema by number"), -1, [](PieceChoice& choice) { choice.keepPx.clear(); });
 }
 
+namespace {
+
+/// Edits the splits as places; natural ones become the user's.
+void editSplits(EditorSession& session, const QString& what, int gesture,
+                const std::function<void(std::vector<Vec2>&)>& change) {
+  if (!isUsable(session)) return;
+  std::vector<Vec2> places;
+  const PieceChoice* own = choiceOf(session, session.selectedCurve());
+  if (own && !own->splitsPx.empty()) {
+    places = own->splitsPx;
+  } else {
+    for (const double f : splitsOf(session)) places.push_back(placeAt(session, f));
+  }
+  change(places);
+  edit(session, what, gesture, [&](PieceChoice& choice) {
+    choice.splitsPx = places;
+    // Without splits the natural ones would be back.
+    if (places.empty()) choice.spans = TargetSpans::Whole;
+  });
+}
+
+}  // namespace
+
 void addSplit(EditorSession& session, double fraction) {
   if (!isUsable(session) || fraction < kLeastPart || fraction > 1.0 - kLeastPart) return;
   const Vec2 place = placeAt(session, fraction);
-  edit(session, tr("Split the target"), -1, [&](PieceChoice& choice) { choice.splitsPx.push_back(place); });
+  editSplits(session, tr("Split the target"), -1, [&](std::vector<Vec2>& places) { places.push_back(place); });
 }
 
 void moveSplit(EditorSession& session, int index, double fraction, int gesture) {
   if (!isUsable(session)) return;
   const Vec2 place = placeAt(session, std::clamp(fraction, kLeastPart, 1.0 - kLeastPart));
-  edit(session, tr("Move a split"), gesture, [&](PieceChoice& choice) {
-    if (index >= 0 && static_cast<std::size_t>(index) < choice.splitsPx.size()) choice.splitsPx[index] = place;
+  editSplits(session, tr("Move a split"), gesture, [&](std::vector<Vec2>& places) {
+    if (index >= 0 && index < std::ssize(places)) places[index] = place;
   });
 }
 
-void removeSplit(EditorSession& session, int index) {
-  edit(session, tr("Remove a split"), -1, [&](PieceChoice& choice) {
-    if (index >= 0 && static_cast<std::size_t>(index) < choice.splitsPx.size())
-      choice.splitsPx.erase(choice.splitsPx.begin() + index);
+void joinAtSplit(EditorSession& session, int index) {
+  editSplits(session, tr("Join two spans"), -1, [&](std::vector<Vec2>& places) {
+    if (index >= 0 && index < std::ssize(places)) places.erase(places.begin() + index);
   });
 }
 
-void removeSplits(EditorSession& session) {
-  edit(session, tr("Remove the splits"), -1, [](PieceChoice& choice) { choice.splitsPx.clear(); });
+void joinAllSpans(EditorSession& session) {
+  session.pointAtSpan({});
+  edit(session, tr("Join all spans"), -1, [](PieceChoice& choice) {
+    choice.splitsPx.clear();
+    choice.spanTargets.clear();
+    choice.spans = TargetSpans::Whole;
+  });
 }
 
-std::vector<double> inflectionsOf(const EditorSession& session) {
-  std::vector<double> result;
-  const double size = isUsable(session) ? extent(session.selected()->sketched) : 0.0;
-  if (!(size > 0.0)) return result;
+void splitNaturally(EditorSession& session) {
+  const bool isCommon = session.recipe().fairing.targets.spans == TargetSpans::Natural;
+  edit(session, tr("Natural spans"), -1, [isCommon](PieceChoice& choice) {
+    choice.splitsPx.clear();
+    choice.spans = isCommon ? std::nullopt : std::optional(TargetSpans::Natural);
+  });
+}
+
+bool hasNaturalSpans(const EditorSession& session) {
+  const PieceChoice* own = choiceOf(session, session.selectedCurve());
+  return !(own && !own->splitsPx.empty()) && fairingAsked(session).targets.spans == TargetSpans::Natural;
+}
+
+void pointAtSpanNear(EditorSession& session, const Vec2& px) {
+  if (!isUsable(session)) return;
   const TracedCurve& curve = *session.selected();
   const ArcLength arc(curve.sketched);
-  for (const double u : inflections(curve.sketched, kExtremumProminence / size, curve.closed)) {
-    const double fraction = arc.at(u) / arc.total();
-    if (fraction > kLeastPart && fraction < 1.0 - kLeastPart) result.push_back(fraction);
-  }
-  return result;
+  const double share = arc.at(closestPoint(curve.sketched, session.output().frame.pointToModel(px)).u) / arc.total();
+  std::vector<double> splits = splitsOf(session);
+  std::sort(splits.begin(), splits.end());
+  const auto spanOf = [&](double at) { return spanBetween(splits, at, curve.closed); };
+  const bool isOne = splits.empty() || (curve.closed && splits.size() < 2);
+  const bool again = session.pointedSpan() && spanOf(*session.pointedSpan()) == spanOf(share);
+  session.pointAtSpan(isOne || again ? std::nullopt : std::optional(share));
 }
 
-void splitAtInflections(EditorSession& session) {
-  std::vector<Vec2> places;
-  for (const double fraction : inflectionsOf(session)) places.push_back(placeAt(session, fraction));
-  if (places.empty()) return;
-  edit(session, tr("Split at inflections"), -1, [&](PieceChoice& choice) { choice.splitsPx = places; });
-}
-
-bool isSplitOffered(const EditorSession& session) {
+void chooseSpanTarget(EditorSession& session, int degree) {
+  const auto share = session.pointedSpan();
+  if (!isUsable(session) || !share || degree < 1 || degree > 6) return;
+  const TracedCurve& curve = *session.selected();
+  std::vector<double> splits = splitsOf(session);
+  std::sort(splits.begin(), splits.end());
+  const ProfileSpan span = spanBetween(splits, *share, curve.closed);
+  const ArcLength arc(curve.sketched);
+  const auto isThere = [&](const SpanChoice& one) {
+    const Vec2 mm = session.output().frame.pointToModel(one.placePx);
+    return spanBetween(splits, arc.at(closestPoint(curve.sketched, mm).u) / arc.total(), curve.closed) == span;
+  };
+  // The middle of the span stays in it when its ends move a little.
+  const double middle = 0.5 * (span.from + span.to);
+  const SpanChoice chosen{placeAt(session, middle > 1.0 ? middle - 1.0 : middle), degree};
+  // What the whole curve follows, its other spans go on following.
   const FairingParams asked = fairingAsked(session);
-  if (!isUsable(session) || asked.mode != FairingMode::Target || asked.target == kDrawnTarget) return false;
-  const PieceChoice* own = choiceOf(session, session.selectedCurve());
-  if (own && !own->splitsPx.empty()) return false;
-  const FairingReport& report = session.selected()->fairing;
-  return !report.withinTolerance && !inflectionsOf(session).empty();
+  std::vector<SpanChoice> others;
+  const bool isWhole = asked.mode == FairingMode::Target && asked.target >= 1 && asked.target <= 6;
+  if (isWhole && curve.fairingUsed.spanTargets.empty()) {
+    std::vector<double> borders = splits;
+    if (!curve.closed) borders.insert(borders.begin(), 0.0), borders.push_back(1.0);
+    if (curve.closed) borders.push_back(splits.front() + 1.0);
+    for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
+      const double at = 0.5 * (borders[i] + borders[i + 1]);
+      others.push_back({placeAt(session, at > 1.0 ? at - 1.0 : at), asked.target});
+    }
+  }
+  edit(session, tr("Target %1 of a span").arg(degree), -1, [&](PieceChoice& choice) {
+    choice.mode = FairingMode::Target;
+    if (choice.spanTargets.empty()) choice.spanTargets = others;
+    if (choice.target == kDrawnTarget || session.recipe().fairing.target == kDrawnTarget) choice.target = 0;
+    std::erase_if(choice.spanTargets, isThere);
+    choice.spanTargets.push_back(chosen);
+  });
+}
+
+int chosenSpanTarget(const EditorSession& session) {
+  const TracedCurve* curve = session.selected();
+  if (!curve || !session.pointedSpan() || fairingAsked(session).mode != FairingMode::Target) return 0;
+  std::vector<double> splits = splitsOf(session);
+  std::sort(splits.begin(), splits.end());
+  const ProfileSpan span = spanBetween(splits, *session.pointedSpan(), curve->closed);
+  int degree = 0;
+  for (const SpanTarget& one : curve->fairingUsed.spanTargets)
+    if (spanBetween(splits, one.at, curve->closed) == span) degree = one.degree;
+  return degree;
 }
 
 bool isTargetDrawn(const EditorSession& session) {

@@ -13,19 +13,28 @@ namespace batten {
 /// The fairing that the recipe asks for the selected curve, known before the run that follows it.
 FairingParams fairingAsked(const EditorSession& session);
 
-/// Shares of the length at which the selected curve's targets are split, in the order of the choice's list.
+/// Shares of the length at which the selected curve's targets are split: those of the user, in the order of the
+/// choice's list, or where its natural spans meet.
 std::vector<double> splitsOf(const EditorSession& session);
+/// Where natural spans are edited, they become splits of the user's first.
 void addSplit(EditorSession& session, double fraction);
-/// Moves or removes the split that lies nearest to a share of the length.
+/// Moves a split of the list of splitsOf.
 void moveSplit(EditorSession& session, int index, double fraction, int gesture);
-void removeSplit(EditorSession& session, int index);
-void removeSplits(EditorSession& session);
-/// Inflections of the selected sketched curve as shares of its length.
-std::vector<double> inflectionsOf(const EditorSession& session);
-void splitAtInflections(EditorSession& session);
-/// True where splitting would help: a target that needs more than the tolerance on a curve with inflections and no
-/// splits.
-bool isSplitOffered(const EditorSession& session);
+/// Joins the spans on both sides of a split of the list of splitsOf.
+void joinAtSplit(EditorSession& session, int index);
+/// One polynomial for the whole curve.
+void joinAllSpans(EditorSession& session);
+/// Back to the natural spans.
+void splitNaturally(EditorSession& session);
+/// True where the curve has its natural spans.
+bool hasNaturalSpans(const EditorSession& session);
+
+/// The span in which a place on the page lies becomes the one to which the targets belong; if it is, the whole curve.
+void pointAtSpanNear(EditorSession& session, const Vec2& px);
+/// The target of the span that is pointed at. The rest of the curve stays, but for spans with a target of their own.
+void chooseSpanTarget(EditorSession& session, int degree);
+/// The target that the span that is pointed at has now; 0: none.
+int chosenSpanTarget(const EditorSession& session);
 
 /// Monotone: places of the extrema that the user chose to keep, as shares of the length. Empty: by number.
 std::vector<double> keptOf(const EditorSession& session);

@@ -1,19 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/session/judged_curve.h"
 
-#include <QCoreApplication>
-
 namespace batten {
-namespace {
-
-/// Of the tolerance: a curve that moves less than this has not been faired.
-constexpr double kStill = 1e-3;
-
-QString judgedText(const char* text) { return QCoreApplication::translate("JudgedCurve", text); }
-
-}  // namespace
-
-bool isChanged(const TracedCurve& curve) { return !curve.faired.isEmpty() && !(curve.faired == curve.sketched); }
 
 const NurbsCurve& judgedCurve(const TracedCurve& curve, Judged judged) {
   return judged == Judged::Result && isChanged(curve) ? curve.faired : curve.sketched;
@@ -24,37 +12,6 @@ const CurveFigures& judgedFigures(const TracedCurve& curve, Judged judged) {
                                                                                             : curve.sketchedFigures;
 }
 
-bool isLeftAsDrawn(const TracedCurve& curve) {
-  if (!curve.included || curve.faired.isEmpty() || curve.fairingUsed.mode == FairingMode::None) return false;
-  if (!isChanged(curve)) return true;
-  // A rounded corner takes a piece of the curve away, whatever fairing did.
-  const auto isSameEnd = [&](double a, double b) {
-    return (curve.faired.point(a) - curve.sketched.point(b)).norm() <= kStill * curve.fairingUsed.toleranceMm;
-  };
-  return curve.fairing.maxDeviationMm <= kStill * curve.fairingUsed.toleranceMm &&
-         isSameEnd(curve.faired.start(), curve.sketched.start()) && isSameEnd(curve.faired.end(), curve.sketched.end());
-}
-
-QString whyLeftAsDrawn(const TracedCurve& curve) {
-  if (!isLeftAsDrawn(curve)) return {};
-  if (!curve.fairing.note.empty()) return QString::fromStdString(curve.fairing.note);
-  if (curve.construct.isCircle) return judgedText("Left as drawn: it is an exact circle, nothing is fairer.");
-  if (curve.construct.isLine) return judgedText("Left as drawn: it is an exact line, nothing is fairer.");
-  switch (curve.fairingUsed.mode) {
-    case FairingMode::Target:
-      return judgedText("Left as drawn: no move within the tolerance brings it nearer to the target.");
-    case FairingMode::Tolerance:
-      return curve.fairingUsed.tolerancePolicy == TolerancePolicy::AsNeeded
-                 ? judgedText("Left as drawn: it has no wave that the line does not prove.")
-                 : judgedText("Left as drawn: no move within the tolerance makes it more even.");
-    case FairingMode::Monotone:
-      return judgedText("Left as drawn: it has no curvature extremum that would have to go.");
-    case FairingMode::LowPass:
-      return judgedText("Left as drawn: it has no waves as short as those that would go.");
-    case FairingMode::None:
-      break;
-  }
-  return {};
-}
+QString whyLeftAsDrawn(const TracedCurve& curve) { return QString::fromStdString(leftAsDrawnReason(curve)); }
 
 }  // namespace batten

@@ -3,6 +3,7 @@
 
 #include <QString>
 
+#include "core/pipeline/run/left_as_drawn.h"
 #include "core/pipeline/run/pipeline.h"
 
 namespace batten {
@@ -11,13 +12,9 @@ namespace batten {
 /// figures all show the same one.
 enum class Judged { Sketched, Result };
 
-/// True when fairing (or the rounding of a corner) gave the curve another shape than the sketched one.
-bool isChanged(const TracedCurve& curve);
 /// The sketched curve where there is no other yet.
 const NurbsCurve& judgedCurve(const TracedCurve& curve, Judged judged);
 const CurveFigures& judgedFigures(const TracedCurve& curve, Judged judged);
-/// Fairing was asked for and moved the curve by less than a thousandth of the tolerance.
-bool isLeftAsDrawn(const TracedCurve& curve);
 /// Why fairing left a curve as it was drawn, one sentence; empty where it did not.
 QString whyLeftAsDrawn(const TracedCurve& curve);
 

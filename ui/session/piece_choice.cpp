@@ -5,6 +5,7 @@
 
 #include "core/pipeline/run/choice_course.h"
 #include "core/pipeline/run/piece_choices.h"
+#include "ui/session/fairing_edits.h"
 
 namespace batten {
 namespace {
@@ -54,18 +55,20 @@ bool choosesForOneCurve(const EditorSession& session) {
 }
 
 void chooseTarget(EditorSession& session, int degree) {
+  if (session.pointedSpan()) return chooseSpanTarget(session, degree);
   Recipe after = session.recipe();
   if (choosesForOneCurve(session)) {
     after = withChoice(session, session.selectedCurve(), [degree](PieceChoice& choice) {
       choice.mode = FairingMode::Target;
       choice.target = degree;
+      choice.spanTargets.clear();
     });
   } else {
     after.fairing.mode = FairingMode::Target;
     after.fairing.target = degree;
     // An only curve must not keep an older choice of its own that would win over this one.
     if (session.curves().size() == 1 && hasOwnFairing(session, 0))
-      for (PieceChoice& choice : after.choices) choice.mode.reset(), choice.target.reset();
+      for (PieceChoice& choice : after.choices) choice.mode.reset(), choice.target.reset(), choice.spanTargets.clear();
   }
   session.change(choiceText("Target %1").arg(degree), std::move(after));
 }

@@ -20,7 +20,8 @@ bool hasOwnFairing(const EditorSession& session, int curve);
 /// other parts of its line.
 Recipe withChoice(const EditorSession& session, int curve, const std::function<void(PieceChoice&)>& edit);
 
-/// Chooses a target: for the selected curve alone when the drawing has several, else for all.
+/// Chooses a target: for the span that is pointed at, else for the selected curve alone when the drawing has several,
+/// else for all.
 void chooseTarget(EditorSession& session, int degree);
 /// Whether chooseTarget would act on the selected curve alone.
 bool choosesForOneCurve(const EditorSession& session);

@@ -137,6 +137,7 @@ void EditorSession::Runner::adopt(OpenedScan opened, const QString& scanPath, bo
   session.output_.frame = frameFor(*session.scan_, session.recipe_);
   session.pinned_.reset();
   session.selectedCurve_ = session.selectedCorner_ = -1;
+  session.pointedSpan_.reset();
   session.targets_.reset();
   session.coarse_.reset();
   shownInkKey = {};
@@ -314,6 +315,7 @@ void EditorSession::Runner::curvesChanged() {
       if (distance < nearest) nearest = distance, index = static_cast<int>(i);
     }
   }
+  if (index != before) session.pointedSpan_.reset();
   session.selectedCurve_ = index;
   const TracedCurve* now = session.selected();
   const bool isKnown = now != nullptr && targetsCurve && *targetsCurve == now->sketched;
@@ -350,9 +352,12 @@ void EditorSession::Runner::computeTargets() {
   params.keepExtrema = kKeepSignificant;
   params.keptAt.clear();
   params.profile.clear();
-  if (targetsCurve && *targetsCurve == curve->sketched && targetsParams == params) return;
+  params.spanTargets.clear();
+  const auto span = session.pointedSpan_;
+  if (targetsCurve && *targetsCurve == curve->sketched && targetsParams == params && targetsSpan == span) return;
   targetsCurve = curve->sketched;
   targetsParams = params;
+  targetsSpan = span;
   const auto id = ++newestTargets;
   isTargeting = true;
   // While one curve changes, its last outcomes stay; another curve's would be read as this one's.
@@ -362,10 +367,10 @@ void EditorSession::Runner::computeTargets() {
     emit session.targetsChanged();
   }
   if (!session.isStale(StageId::Faired)) isStopped = false;
-  targeting.start([this, id, job = *curve](const CancelToken& token) {
+  targeting.start([this, id, job = *curve, span](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
-    auto result = guarded<TargetOutcomes>([&] { return targetsFor(job, context); });
+    auto result = guarded<TargetOutcomes>([&] { return targetsFor(job, context, span); });
     if (!result && result.error().code == ErrorCode::Cancelled) return;
     std::shared_ptr<const TargetOutcomes> outcomes;
     if (result) outcomes = std::make_shared<const TargetOutcomes>(std::move(*result));

@@ -47,6 +47,7 @@ struct EditorSession::Runner {
   std::optional<Vec2> anchorPx;
   std::optional<NurbsCurve> targetsCurve;  ///< Whose outcomes are computed or shown.
   FairingParams targetsParams;
+  std::optional<double> targetsSpan;
   double targetsLengthMm = 0.0;  ///< Of the curve whose outcomes are shown.
 
   /// A run that a newer request overtakes still gets this long since its start, so that a drag that never pauses shows

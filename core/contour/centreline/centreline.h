@@ -19,9 +19,14 @@ struct StrokeSplit {
 };
 Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams&, const RunContext&);
 
-/// Centre lines of all strokes of a mask. The skeleton gives the topology: spurs are pruned, strokes continue through
-/// crossings, gaps are bridged and, if asked, overdrawn strokes are merged. The grey profile across the stroke then
-/// gives the positions.
-Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams&, const RunContext&);
+/// Centre lines of all strokes of a mask: skeleton for the topology (spurs pruned, smooth stroke paths joined through
+/// crossings, gaps bridged, overdrawn strokes merged if asked), then the centre from the grey profile across the
+/// stroke.
+struct CentrelineOptions {
+  const BitImage* shapes = nullptr;  ///< Ink beside the strokes, which they may run into: they end at its rim.
+  double minWidths = 3.0;            ///< [stroke widths] Shorter strokes are left out.
+};
+Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams&, const RunContext&,
+                               const CentrelineOptions& options = {});
 
 }  // namespace batten

@@ -28,7 +28,7 @@ constexpr double kMeetPx = 1e-3;         // between the two sides where they mee
 constexpr double kExtensions = 2.0;      // of the farthest tip: a side is extended as far
 constexpr double kLeastReach = 0.4;      // of the stretch asked for: a shorter side is none
 // What a side may miss its points by, and the two each other: the part that grows with the stretch is that of arcs.
-constexpr double kMisfitShare = 0.02, kMisfitPx = 0.1, kGapShare = 0.15, kGapPx = 0.5;
+constexpr double kMisfitShare = 0.02, kMisfitPx = 0.1, kGapShare = 0.15, kSideGapPx = 0.5;
 constexpr double kLeastZonePx = 3.0, kMostZonePx = 60.0;                 // of a stroke's corner, otherwise its width
 constexpr double kSharpestHalfTipRad = 0.03, kFlattestHalfTipRad = 1.5;  // 2 and 86 degrees: keep sine and tangent sane
 constexpr double kSettledZonePx = 0.5;
@@ -149,7 +149,7 @@ std::optional<Turning> turningAt(const Contour& contour, int index, double inner
   t.angleRad = turningAngle(-before->fit.r1, after->fit.r1);
   // Where the index is off the corner one parabola swallows it: it fits badly there and the two do not meet.
   const double misfit = std::max(before->fit.residualRms, after->fit.residualRms) / (kMisfitShare * outer + kMisfitPx);
-  const double gap = (before->fit.r0 - after->fit.r0).norm() / (kGapShare * outer + kGapPx);
+  const double gap = (before->fit.r0 - after->fit.r0).norm() / (kGapShare * outer + kSideGapPx);
   t.score = std::abs(t.angleRad) / (1.0 + misfit * misfit + gap * gap);
   return t;
 }

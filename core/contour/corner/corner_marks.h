@@ -12,11 +12,29 @@
 
 namespace batten {
 
+/// What the size of a rounding is.
+enum class RoundingSize {
+  Distance,  ///< Along the line, from the corner to where the rounding begins.
+  Radius,    ///< The smallest radius of curvature of the rounding.
+};
+
+/// How a rounding meets the sides of its corner.
+enum class RoundingJoint {
+  Tangent,         ///< G1: direction only, by two typical curves (002 figure 6).
+  Curvature,       ///< G2.
+  CurvatureSlope,  ///< G3: the change of curvature along the line, too.
+};
+
 /// A corner set by the user. Stored as a position, so that it survives a change of the threshold.
 struct CornerMark {
   Vec2 positionPx = Vec2::Zero();
-  double roundMm = 0.0;  ///< [mm] 0..500. Rounded by two typical curves that begin this far from the corner; 0 = sharp.
-  bool operator==(const CornerMark& other) const { return positionPx == other.positionPx && roundMm == other.roundMm; }
+  double roundMm = 0.0;  ///< [mm] 0..500. Size of the rounding; 0 = sharp.
+  RoundingSize roundBy = RoundingSize::Distance;
+  RoundingJoint joint = RoundingJoint::Curvature;
+  bool operator==(const CornerMark& other) const {
+    return positionPx == other.positionPx && roundMm == other.roundMm && roundBy == other.roundBy &&
+           joint == other.joint;
+  }
 };
 
 struct CornerParams {

@@ -42,13 +42,13 @@ double chordAngle(const Contour& contour, int i, int reach) {
 // Not complete when cancelled.
 std::vector<double> roughnessOf(const Contour& contour, double scale, const RunContext& context) {
   constexpr int kStride = 6, kWindow = 25;  // points; fits to either side
-  constexpr double kLeastReach = 0.5;       // of the scale
+  constexpr double kLeastFitReach = 0.5;    // of the scale
   const int n = static_cast<int>(contour.points.size());
   std::vector<double> residual;
   for (int i = 0; i < n; i += kStride) {
     if (context.isCancelled()) return {};
     const auto fit = fitOneSide(contour, i, 1, 0.0, scale);
-    residual.push_back(fit && fit->reach > kLeastReach * scale ? fit->fit.residualRms : 0.0);
+    residual.push_back(fit && fit->reach > kLeastFitReach * scale ? fit->fit.residualRms : 0.0);
   }
   std::vector<double> rough(n), window;
   const int count = static_cast<int>(residual.size());
@@ -112,8 +112,8 @@ class CornerDetector {
  public:
   CornerDetector(const Contour& contour, double minAngle, double scale, const RunContext& context)
       : contour_(contour), minAngle_(minAngle), scale_(scale), s_(cumulativeLength(positionsOf(contour.points))) {
-    if (s_.size() < kFewestPoints) return;
-    step_ = std::max(kLeastStepPx, s_.back() / (static_cast<double>(s_.size()) - 1.0));
+    if (s_.size() < kFewestLinePoints) return;
+    step_ = std::max(kLeastScaleStepPx, s_.back() / (static_cast<double>(s_.size()) - 1.0));
     rough_ = roughnessOf(contour, scale, context);
     for (int i = 0; i < std::ssize(rough_); ++i) {
       if (!isRagged(i)) continue;
@@ -152,8 +152,8 @@ class CornerDetector {
  private:
   // Of `scale_`: what dents and bristles are smoothed over, and what is left out and looked at beside a corner then.
   static constexpr double kSmoothing = 0.6, kRaggedInner = 0.7, kRaggedScale = 2.0;
-  static constexpr std::size_t kFewestPoints = 8;
-  static constexpr double kLeastStepPx = 0.1;
+  static constexpr std::size_t kFewestLinePoints = 8;
+  static constexpr double kLeastScaleStepPx = 0.1;
 
   // Whether dents look like corners here.
   bool isRagged(int i) const {

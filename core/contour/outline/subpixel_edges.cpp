@@ -181,6 +181,12 @@ void refineOutline(Contour& contour, const GreyImage& grey, const RunContext& co
                 std::abs(edge.position) <= kLargestMovePx && (found[i] - p.unrefined).norm() <= kEdgeGatePx;
     p.at = p.refined ? found[i] : fallback[i];
   }
+  for (const auto& [first, last] : contour.bridges) {
+    for (int i = first; i <= last; ++i) {
+      contour.points[i].at = contour.points[i].unrefined;
+      contour.points[i].refined = false;
+    }
+  }
   removeReversals(contour, frame.normal);
   contour.blurPx = std::sqrt(std::max(kLeastVariance, blur * blur - kPixelVariance - PixelWindow::kVariance));
   std::vector<std::optional<PointInformation>> information(n);

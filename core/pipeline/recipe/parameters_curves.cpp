@@ -7,6 +7,26 @@
 namespace batten::table {
 namespace {
 
+// Once it was a switch: files and commands may still say true and false.
+Parameter innerBordersParameter() {
+  Parameter inner = choice<InnerBorders>(
+      StageId::Contours,
+      {"edges.internal", "Inner outlines", "",
+       "Whether the borders of holes inside the ink are followed too. Automatic: those of shapes, as in letters, but "
+       "not of a page that is followed by outlines alone."},
+      {{"auto", "Automatic", InnerBorders::Automatic},
+       {"on", "Always", InnerBorders::On},
+       {"off", "Never", InnerBorders::Off}},
+      [](auto& r) -> auto& { return r.edges.internal; });
+  inner.set = [byWord = inner.set](Recipe& r, std::string_view text) -> Result<void> {
+    const std::string_view word = trimmed(text);
+    if (word == "true" || word == "yes" || word == "1") return byWord(r, "on");
+    if (word == "false" || word == "no" || word == "0") return byWord(r, "off");
+    return byWord(r, text);
+  };
+  return inner;
+}
+
 void appendEdges(std::vector<Parameter>& table) {
   constexpr StageId kContours = StageId::Contours;
   table.push_back(choice<EdgeMode>(
@@ -17,9 +37,7 @@ void appendEdges(std::vector<Parameter>& table) {
        {"outline", "Outline", EdgeMode::Outline},
        {"centreline", "Centre line", EdgeMode::Centreline}},
       [](auto& r) -> auto& { return r.edges.mode; }));
-  table.push_back(boolean(
-      kContours, {"edges.internal", "Inner outlines", "", "Also traces the borders of holes in the ink."},
-      [](auto& r) -> auto& { return r.edges.internal; }));
+  table.push_back(innerBordersParameter());
   table.push_back(boolean(
       kContours,
       {"edges.subpixel", "Sub-pixel placing", "",
@@ -28,8 +46,7 @@ void appendEdges(std::vector<Parameter>& table) {
   table.push_back(real(
       kContours,
       {"edges.stroke_width", "Stroke limit", "",
-       "Ink narrower than this part of the page's mean side is a stroke, wider ink is a shape. Larger: more strokes.",
-       true},
+       "Without effect: strokes and shapes are told apart region by region. Recipes that name it stay valid.", true},
       {0.005, 0.1, 0.001, 3, true}, [](auto& r) -> auto& { return r.edges.strokeWidth; }));
   table.push_back(real(
       kContours,
@@ -53,11 +70,22 @@ void appendEdges(std::vector<Parameter>& table) {
       {0.0, 90.0, 1.0, 0}, [](auto& r) -> auto& { return r.edges.maxBendDeg; }));
   table.push_back(real(
       kContours,
-      {"contours.min_length", "Shortest line", "px", "Shorter lines are left out. Larger keeps fewer lines."},
+      {"contours.min_widths", "Shortest line", "stroke widths",
+       "Lines shorter than this many widths of their stroke are left out. Larger keeps fewer lines."},
+      {0.0, 100.0, 0.5, 1}, [](auto& r) -> auto& { return r.contours.minWidths; }));
+  table.push_back(real(
+      kContours,
+      {"contours.min_length", "Shortest line in pixels", "px",
+       "Lines shorter than this are left out too, whatever their width. Larger keeps fewer lines; 0 leaves it to the "
+       "stroke widths."},
       {0.0, 100000.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.contours.minLengthPx; }));
-  table.push_back(integer(
-      kContours, {"contours.max_count", "Most lines", "", "Largest number of lines; the longest are kept.", true},
-      {1, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.contours.maxCount; }));
+  Parameter most = integer(
+      kContours,
+      {"contours.max_count", "Most lines", "",
+       "Only this many lines are kept, the longest first; all (0) keeps every one.", true},
+      {0, 100000, 1}, [](auto& r) -> auto& { return r.contours.maxCount; });
+  most.minimumWord = "all";
+  table.push_back(std::move(most));
 }
 
 void appendCornersAndSegments(std::vector<Parameter>& table) {
@@ -84,7 +112,8 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
   Parameter count = integer(
       kSegments,
       {"segments.count", "Number of segments", "",
-       "Segments per line; auto (0) derives the number from the length, otherwise at least 4. More follow the line closer."},
+       "Segments per line; auto (0) derives the number from the length, otherwise at least 4. More follow the line "
+       "closer."},
       {0, 2000, 1}, [](auto& r) -> auto& { return r.segments.count; });
   count.set = [inRange = count.set, name = count.name](Recipe& r, std::string_view text) -> Result<void> {
     const auto value = integerFromText(text);
@@ -224,6 +253,13 @@ void appendConstruct(std::vector<Parameter>& table) {
       {0.005, 50.0, 0.05, 3, true}, [](auto& r) -> auto& { return r.construct.lightTolerancePx; }));
   table.push_back(real(
       kCurves,
+      {"construct.detail", "Detail", "",
+       "Light curves: 0 is true to the ink; larger leaves out ever larger bumps, up to a quarter of the width of the "
+       "ink, "
+       "and keeps sharp corners: what was meant."},
+      {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.construct.detail; }));
+  table.push_back(real(
+      kCurves,
       {"construct.reduce", "Fewer control points", "× noise",
        "True and fair fit: how far the curve may move, as a part of the noise of the scan's edge, to need fewer "
        "control points. Larger: fewer points; 0 keeps all."},
@@ -316,6 +352,13 @@ void appendFairing(std::vector<Parameter>& table) {
       {"fairing.lowpass", "Wavelength", "mm",
        "Low-pass: waves of the curvature of this length are halved, shorter ones go. Larger is smoother."},
       {0.1, 10000.0, 0.1, 1, true}, [](auto& r) -> auto& { return r.fairing.lowPassMm; }));
+  table.push_back(choice<TargetSpans>(
+      kFaired,
+      {"fairing.spans", "Spans", "",
+       "A target has one polynomial from each extremum of the curvature to the next, small ones left out; or one for "
+       "the whole curve, as in the papers."},
+      {{"natural", "Natural", TargetSpans::Natural}, {"whole", "Whole curve", TargetSpans::Whole}},
+      [](auto& r) -> auto& { return r.fairing.targets.spans; }));
   table.push_back(choice<TargetQuantity>(
       kFaired,
       {"fairing.quantity", "Profile of", "",

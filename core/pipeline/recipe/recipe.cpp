@@ -46,6 +46,10 @@ std::optional<Error> validatePlaces(const Recipe& recipe) {
     if (!arePlaces(choice.anchorsPx)) return badPlace("An anchor of a choice for a curve");
     if (!arePlaces(choice.keepPx)) return badPlace("An extremum kept by a choice for a curve");
     if (!arePlaces(choice.splitsPx)) return badPlace("A split in a choice for a curve");
+    for (const SpanChoice& span : choice.spanTargets) {
+      if (!isPlace(span.placePx)) return badPlace("A span in a choice for a curve");
+      if (span.degree < 1 || span.degree > 6) return bad("The target of a span must be 1 to 6.");
+    }
   }
   for (const ExtremumChoice& choice : recipe.extremumChoices) {
     if (!isPlace(choice.positionPx)) return badPlace("A choice for a curvature extremum");
@@ -88,6 +92,9 @@ bool isPageSide(int px) { return px >= 16 && px <= 20000; }
 
 std::optional<Error> validateChoice(const PieceChoice& choice) {
   // The rest has the ranges of the common settings.
+  if (choice.detail && !(*choice.detail >= 0.0 && *choice.detail <= 1.0)) {
+    return bad("The choice for a curve cannot be used. Its detail must lie between 0 and 1.");
+  }
   if (auto wrong = validate(choice.fairing({}))) return bad("The choice for a curve cannot be used. " + wrong->message);
   return std::nullopt;
 }
@@ -104,6 +111,7 @@ FairingParams PieceChoice::fairing(FairingParams common) const {
   common.means = means.value_or(common.means);
   common.startHold = startHold.value_or(common.startHold);
   common.endHold = endHold.value_or(common.endHold);
+  common.targets.spans = spans.value_or(common.targets.spans);
   if (!profile.empty()) common.profile = profile;
   return common;
 }
@@ -118,6 +126,7 @@ std::optional<Error> validate(const Recipe& recipe) {
     return bad("The line by which the scale is measured must have a length on the page and one in mm above 0.");
   }
   if (auto e = validate(recipe.log)) return e;
+  if (auto e = validate(recipe.preparation)) return e;
   if (auto e = validate(recipe.threshold)) return e;
   if (auto e = validate(recipe.filter)) return e;
   if (auto e = validate(recipe.edges)) return e;

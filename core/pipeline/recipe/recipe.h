@@ -15,6 +15,7 @@
 #include "core/fairing/fairing_params.h"
 #include "core/image/log_transform.h"
 #include "core/image/neighbourhood_filter.h"
+#include "core/image/page_preparation.h"
 #include "core/image/region_thresholds.h"
 #include "core/image/scan.h"
 #include "core/pipeline/recipe/curve_numbers.h"
@@ -23,23 +24,33 @@
 
 namespace batten {
 
+/// The target that the user has chosen for one natural span of a curve.
+struct SpanChoice {
+  Vec2 placePx = Vec2::Zero();  ///< In the span.
+  int degree = 1;               ///< 1..6.
+  bool operator==(const SpanChoice& o) const { return placePx == o.placePx && degree == o.degree; }
+};
+
 /// A choice of the user about one curve, attached by position so that it survives changes upstream: it belongs to every
 /// piece that lies on the course of its anchors (see assignChoices), so that a line that breaks up keeps it.
 struct PieceChoice {
   std::vector<Vec2> anchorsPx{};  ///< Along the line (see anchorsOf). A single one: the piece nearest to it, in 24 px.
   bool included = true;           ///< False: left out of fairing results and export.
-  std::optional<FairingMode> mode{};    ///< Own fairing mode; absent = the recipe's.
-  std::optional<int> target{};          ///< Own target degree 0..6.
-  std::optional<double> toleranceMm{};  ///< Own tolerance.
-  std::optional<double> lowPassMm{};    ///< Own wavelength of the low-pass.
-  std::optional<int> keepExtrema{};     ///< Own number of extrema to keep.
-  std::vector<Vec2> keepPx{};           ///< Extrema to keep, by place; not empty: counts instead of the number.
-  std::vector<Vec2> splitsPx{};         ///< Where one target profile ends and the next begins.
-  std::vector<ProfilePoint> profile{};  ///< Own drawn profile, from start to end of the piece.
+  std::optional<FairingMode> mode{};      ///< Own fairing mode; absent = the recipe's.
+  std::optional<int> target{};            ///< Own target degree 0..6.
+  std::optional<double> toleranceMm{};    ///< Own tolerance.
+  std::optional<double> lowPassMm{};      ///< Own wavelength of the low-pass.
+  std::optional<int> keepExtrema{};       ///< Own number of extrema to keep.
+  std::vector<Vec2> keepPx{};             ///< Extrema to keep, by place; not empty: counts instead of the number.
+  std::vector<Vec2> splitsPx{};           ///< Where one target profile ends and the next begins.
+  std::vector<ProfilePoint> profile{};    ///< Own drawn profile, from start to end of the piece.
+  std::optional<TargetSpans> spans{};     ///< Own spans of the targets, where they are not split by hand.
+  std::vector<SpanChoice> spanTargets{};  ///< Target mode: only these spans are moved.
   std::optional<TolerancePolicy> tolerancePolicy{};  ///< Own use of the tolerance.
   std::optional<FairingMeans> means{};               ///< Own way to move, on Bézier paths.
   std::optional<EndHold> startHold{}, endHold{};
   std::optional<ConstructMethod> method{};  ///< Own way of construction.
+  std::optional<double> detail{};           ///< Own detail of a light curve, 0..1.
   /// Made for a part of a line that shares a choice: there it counts instead of that one, also where it says nothing.
   bool isPart = false;
   bool operator==(const PieceChoice&) const = default;
@@ -47,7 +58,7 @@ struct PieceChoice {
   /// True when the piece is not faired by the recipe's settings alone.
   bool hasFairing() const {
     return mode || target || toleranceMm || lowPassMm || keepExtrema || tolerancePolicy || means || startHold ||
-           endHold || !keepPx.empty() || !profile.empty();
+           endHold || !keepPx.empty() || !profile.empty() || !spanTargets.empty();
   }
   /// Back to the recipe's settings; splits belong to the shape and stay.
   void clearFairing() {
@@ -62,11 +73,12 @@ struct PieceChoice {
     endHold.reset();
     keepPx.clear();
     profile.clear();
+    spanTargets.clear();
   }
   /// The common fairing with what is chosen here in its place; what is chosen by place on the drawing is not in it.
   FairingParams fairing(FairingParams common) const;
   /// True when the choice says nothing.
-  bool isEmpty() const { return included && !hasFairing() && splitsPx.empty() && !method && !isPart; }
+  bool isEmpty() const { return included && !hasFairing() && splitsPx.empty() && !spans && !method && !detail && !isPart; }
 };
 
 /// The size of a drawing that has no scan: white paper. Resolution: the recipe's.
@@ -98,6 +110,7 @@ struct Recipe {
   std::optional<ScaleLine> scaleLine;  ///< Where `dpi` comes from, if it was measured on the drawing.
   PageChoice scanPage;                 ///< Which page of the scan's file it is for.
   LogParams log;
+  PreparationParams preparation;
   PaperParams paper;
   ThresholdParams threshold;
   FilterParams filter;

@@ -57,6 +57,7 @@ Json choiceToJson(const PieceChoice& choice) {
   };
   word(choice.mode.has_value(), "mode", "fairing.mode");
   word(choice.tolerancePolicy.has_value(), "spend", "fairing.spend");
+  word(choice.spans.has_value(), "spans", "fairing.spans");
   word(choice.means.has_value(), "moves", "fairing.moves");
   word(choice.startHold.has_value(), "hold_start", "fairing.hold_start");
   word(choice.endHold.has_value(), "hold_end", "fairing.hold_end");
@@ -65,6 +66,7 @@ Json choiceToJson(const PieceChoice& choice) {
     named.construct.method = *choice.method;
     json["method"] = findParameter("construct.method")->get(named);
   }
+  if (choice.detail) json["detail"] = *choice.detail;
   if (choice.target) json["target"] = *choice.target;
   if (choice.toleranceMm) json["tolerance"] = *choice.toleranceMm;
   if (choice.lowPassMm) json["low_pass"] = *choice.lowPassMm;
@@ -72,6 +74,8 @@ Json choiceToJson(const PieceChoice& choice) {
   for (const auto& [name, places] : {std::pair("keep", &choice.keepPx), std::pair("splits", &choice.splitsPx)}) {
     for (const Vec2& p : *places) json[name].push_back({p.x(), p.y()});
   }
+  for (const SpanChoice& span : choice.spanTargets)
+    json["span_targets"].push_back({span.placePx.x(), span.placePx.y(), span.degree});
   for (const ProfilePoint& p : choice.profile) json["profile"].push_back({p.fraction, p.kappa});
   return json;
 }
@@ -125,15 +129,36 @@ Result<void> readParameters(const Json& json, Recipe& recipe) {
   return {};
 }
 
+/// Sharp: [x, y]. Rounded: {"at": [x, y], "round": mm}, with "by": "radius" and "joint": "g1", "g2" or "g3" if need be.
+std::optional<CornerMark> cornerFromJson(const Json& json) {
+  CornerMark mark;
+  const auto point = pointFromJson(json.is_object() && json.contains("at") ? json["at"] : json);
+  if (!point) return std::nullopt;
+  mark.positionPx = *point;
+  if (!json.is_object()) return mark;
+  for (const auto& [name, value] : json.items()) {
+    if (name == "at") continue;
+    if (name == "round" && value.is_number()) {
+      mark.roundMm = value.get<double>();
+    } else if (name == "by" && (value == "radius" || value == "distance")) {
+      mark.roundBy = value == "radius" ? RoundingSize::Radius : RoundingSize::Distance;
+    } else if (name == "joint" && (value == "g1" || value == "g2" || value == "g3")) {
+      mark.joint = value == "g1"   ? RoundingJoint::Tangent
+                   : value == "g2" ? RoundingJoint::Curvature
+                                   : RoundingJoint::CurvatureSlope;
+    } else {
+      return std::nullopt;
+    }
+  }
+  return mark;
+}
+
 Result<void> readCorners(const Json& json, Recipe& recipe) {
   if (!json.is_array()) return refuse("The recipe is damaged: \"corners\" is not a list of positions.");
   for (const Json& entry : json) {
-    // Sharp: [x, y]. Rounded: {"at": [x, y], "round": mm}.
-    const bool rounded = entry.is_object() && entry.size() == 2 && entry.contains("at") && entry.contains("round") &&
-                         entry["round"].is_number();
-    const auto point = pointFromJson(rounded ? entry["at"] : entry);
-    if (!point) return refuse("The recipe is damaged: a corner is not a pair of numbers [x, y].");
-    recipe.cornerMarks.push_back({*point, rounded ? entry["round"].get<double>() : 0.0});
+    const auto mark = cornerFromJson(entry);
+    if (!mark) return refuse("The recipe is damaged: a corner is not a pair of numbers [x, y], or a rounded one.");
+    recipe.cornerMarks.push_back(*mark);
   }
   return {};
 }
@@ -226,26 +251,45 @@ Json traceModesToJson(const Recipe& recipe) {
 
 Json cornerToJson(const CornerMark& mark) {
   const Json at = {mark.positionPx.x(), mark.positionPx.y()};
-  return mark.roundMm > 0.0 ? Json{{"at", at}, {"round", mark.roundMm}} : at;
+  if (!(mark.roundMm > 0.0)) return at;
+  Json json{{"at", at}, {"round", mark.roundMm}};
+  if (mark.roundBy == RoundingSize::Radius) json["by"] = "radius";
+  if (mark.joint == RoundingJoint::Tangent) json["joint"] = "g1";
+  if (mark.joint == RoundingJoint::CurvatureSlope) json["joint"] = "g3";
+  return json;
 }
 
 /// A choice's own setting whose words the table knows; false where the name is none of these.
 Result<bool> readWord(const std::string& name, const Json& value, PieceChoice& choice) {
   static const std::map<std::string, std::string> kParameters = {
-      {"mode", "fairing.mode"},         {"spend", "fairing.spend"},
-      {"moves", "fairing.moves"},       {"hold_start", "fairing.hold_start"},
-      {"hold_end", "fairing.hold_end"}, {"method", "construct.method"}};
+      {"mode", "fairing.mode"},      {"spend", "fairing.spend"},           {"spans", "fairing.spans"},
+      {"moves", "fairing.moves"},    {"hold_start", "fairing.hold_start"}, {"hold_end", "fairing.hold_end"},
+      {"method", "construct.method"}};
   const auto known = kParameters.find(name);
   if (known == kParameters.end() || !value.is_string()) return false;
   Recipe named;
   if (auto set = setParameter(named, known->second, value.get<std::string>()); !set) return fail(set.error());
   if (name == "mode") choice.mode = named.fairing.mode;
+  if (name == "spans") choice.spans = named.fairing.targets.spans;
   if (name == "spend") choice.tolerancePolicy = named.fairing.tolerancePolicy;
   if (name == "moves") choice.means = named.fairing.means;
   if (name == "hold_start") choice.startHold = named.fairing.startHold;
   if (name == "hold_end") choice.endHold = named.fairing.endHold;
   if (name == "method") choice.method = named.construct.method;
   return true;
+}
+
+std::optional<std::vector<SpanChoice>> spansFromJson(const Json& json) {
+  if (!json.is_array()) return std::nullopt;
+  std::vector<SpanChoice> spans;
+  for (const Json& entry : json) {
+    if (!entry.is_array() || entry.size() != 3) return std::nullopt;
+    const auto place = pointFromJson(Json{entry[0], entry[1]});
+    const auto degree = integerFromJson(entry[2]);
+    if (!place || !degree) return std::nullopt;
+    spans.push_back({*place, *degree});
+  }
+  return spans;
 }
 
 Result<PieceChoice> readChoice(const Json& json) {
@@ -267,6 +311,8 @@ Result<PieceChoice> readChoice(const Json& json) {
       choice.target = *whole;
     } else if (name == "tolerance" && value.is_number()) {
       choice.toleranceMm = value.get<double>();
+    } else if (name == "detail" && value.is_number()) {
+      choice.detail = value.get<double>();
     } else if (name == "low_pass" && value.is_number()) {
       choice.lowPassMm = value.get<double>();
     } else if (whole && name == "keep_extrema") {
@@ -277,6 +323,8 @@ Result<PieceChoice> readChoice(const Json& json) {
       choice.anchorsPx = *pairs;
     } else if (pairs && name == "splits") {
       choice.splitsPx = *pairs;
+    } else if (const auto spans = spansFromJson(value); spans && name == "span_targets") {
+      choice.spanTargets = *spans;
     } else if (pairs && name == "profile") {
       for (const Vec2& p : *pairs) choice.profile.push_back({p.x(), p.y()});
     } else {

@@ -4,7 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
 
+#include "core/base/number_text.h"
+#include "core/construct/typical/corner_blend.h"
 #include "core/construct/typical/rounded_corner.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/knot_operations.h"
@@ -19,17 +24,12 @@ constexpr double kForm = 0.85;
 constexpr int kDegree = 5;
 constexpr const char* kStaysSharp = "A corner could not be rounded: its sides do not meet ahead. It stays sharp.";
 
-Joint jointAt(const NurbsCurve& curve, double u) {
-  const auto d = curve.derivatives(u, 1);
-  return {d[0], d[1].normalized(), curvature(curve, u).value_or(0.0)};
-}
-
-Result<NurbsCurve> asCurve(const TypicalCurve& arc, double start) {
+Result<NurbsCurve> asCurve(const TypicalCurve& arc) {
   const auto q = arc.controlPoints();
   const Quintic quintic = elevatedCubic(q[0], q[1], q[2], q[3]);
-  std::vector<double> knots(6, start);
+  std::vector<double> knots(6, 0.0);
   const double length = arc.edge * (1.0 + arc.ratio * std::cos(arc.turnRad) + arc.ratio * arc.ratio);
-  knots.insert(knots.end(), 6, start + length);
+  knots.insert(knots.end(), 6, length);
   return NurbsCurve::make(kDegree, std::move(knots), {quintic.begin(), quintic.end()});
 }
 
@@ -71,28 +71,148 @@ Neighbours neighboursOf(FairedSet& set, const PieceSet& pieces, const Corner& co
   return found;
 }
 
-bool roundOne(const Neighbours& at, double sizeMm) {
-  const double room = std::min(ArcLength(at.before->faired).total(), ArcLength(at.behind->faired).total());
-  const double size = std::min(sizeMm, kLargestShare * room);
-  if (!(size > 0.0)) return false;
-  const auto first = shortened(at.before->faired, size, true);
-  if (!first) return false;
-  // One curve from its corner back to it is cut at both ends.
-  const bool same = at.before == at.behind;
-  const auto second = shortened(same ? *first : at.behind->faired, size, false);
-  if (!second) return false;
-  const NurbsCurve& cutBefore = same ? *second : *first;
-  const auto corner = roundCorner(jointAt(cutBefore, cutBefore.end()), jointAt(*second, second->start()), kForm);
-  if (!corner) return false;
-  const auto arc1 = asCurve(corner->arcs[0], 0.0), arc2 = asCurve(corner->arcs[1], 0.0);
-  if (!arc1 || !arc2) return false;
-  const auto behind = together(*arc2, *second);
-  if (!behind) return false;
-  const auto before = together(same ? *behind : *first, *arc1);
-  if (!before) return false;
-  if (!same) at.behind->faired = *behind;
-  at.before->faired = *before;
-  return true;
+/// A rounding in two halves: one goes to each side.
+struct Rounding {
+  NurbsCurve first, second;
+  double radiusMm = 0.0;
+};
+
+std::optional<Rounding> byTypicalCurves(const BlendEnd& before, const BlendEnd& behind, bool withCurvature) {
+  const auto jointOf = [&](const BlendEnd& end) {
+    return Joint{end.point, end.tangent, withCurvature ? end.kappa : 0.0};
+  };
+  const auto corner = roundCorner(jointOf(before), jointOf(behind), kForm);
+  if (!corner || (withCurvature && !corner->curvatureAtEnds)) return std::nullopt;
+  const auto first = asCurve(corner->arcs[0]), second = asCurve(corner->arcs[1]);
+  if (!first || !second) return std::nullopt;
+  return Rounding{*first, *second, std::min(smallestRadius(*first), smallestRadius(*second))};
+}
+
+std::optional<Rounding> byBlend(const BlendEnd& before, const BlendEnd& behind, BlendContact contact) {
+  const auto blend = blendCorner(before, behind, contact);
+  if (!blend) return std::nullopt;
+  const auto curve = reparametrized(blend->curve, 0.0, ArcLength(blend->curve).total());
+  if (!curve) return std::nullopt;
+  const auto halves = split(*curve, 0.5 * (curve->start() + curve->end()));
+  if (!halves) return std::nullopt;
+  return Rounding{halves->left, halves->right, blend->smallestRadiusMm};
+}
+
+/// The roundest way to join two ends with this contact.
+std::optional<Rounding> roundingOf(const BlendEnd& before, const BlendEnd& behind, RoundingJoint joint) {
+  if (joint == RoundingJoint::Tangent) return byTypicalCurves(before, behind, false);
+  if (joint == RoundingJoint::CurvatureSlope) return byBlend(before, behind, BlendContact::G3);
+  auto blend = byBlend(before, behind, BlendContact::G2);
+  auto typical = byTypicalCurves(before, behind, true);
+  return !blend || (typical && typical->radiusMm > blend->radiusMm) ? std::move(typical) : std::move(blend);
+}
+
+/// One corner between two curves.
+class RoundedSides {
+ public:
+  RoundedSides(const Neighbours& at, RoundingJoint joint) : at_(at), joint_(joint) {
+    const double room = std::min(ArcLength(at.before->faired).total(), ArcLength(at.behind->faired).total());
+    // One curve from its corner back to it is cut at both ends.
+    most_ = kLargestShare * room;
+  }
+
+  /// A rounding that begins this far from the corner.
+  struct Sized {
+    double sizeMm = 0.0;
+    NurbsCurve before, behind;  ///< The sides, cut.
+    Rounding rounding;
+  };
+  std::optional<Sized> sized(double sizeMm) const {
+    if (!(sizeMm > 0.0)) return std::nullopt;
+    auto before = shortened(at_.before->faired, sizeMm, true);
+    if (!before) return std::nullopt;
+    auto behind = shortened(isOne() ? *before : at_.behind->faired, sizeMm, false);
+    if (!behind) return std::nullopt;
+    const NurbsCurve& first = isOne() ? *behind : *before;
+    auto rounding = roundingOf(blendEndAt(first, first.end()), blendEndAt(*behind, behind->start()), joint_);
+    if (!rounding) return std::nullopt;
+    return Sized{sizeMm, *before, *behind, std::move(*rounding)};
+  }
+
+  /// Of the distance, or where the sides bend so that less is rounder, of less.
+  std::optional<Sized> byDistance(double sizeMm, std::string& note) const {
+    const double wanted = std::min(sizeMm, most_);
+    auto best = sized(wanted);
+    for (const double share : kSmaller) {
+      auto smaller = sized(share * wanted);
+      if (smaller && (!best || smaller->rounding.radiusMm > kRounder * best->rounding.radiusMm))
+        best = std::move(smaller);
+    }
+    if (best && best->sizeMm < wanted) {
+      note = "A corner is rounded from " + millimetresText(best->sizeMm) +
+             " on: with its sides bent as they are, a larger rounding would be sharper.";
+    } else if (best && wanted < sizeMm) {
+      note = "A corner is rounded from " + millimetresText(wanted) + " on: its sides are too short for more.";
+    }
+    return best;
+  }
+
+  std::optional<Sized> byRadius(double radiusMm, std::string& note) const {
+    std::optional<Sized> wide;
+    double low = 0.0;
+    for (int i = kRadiusSteps; i >= 1; --i) {
+      auto tried = sized(most_ * std::pow(kRadiusStep, i - 1));
+      if (!tried) continue;
+      if (!wide || tried->rounding.radiusMm > wide->rounding.radiusMm) {
+        if (wide) low = wide->sizeMm;
+        wide = std::move(tried);
+      }
+      if (wide->rounding.radiusMm >= radiusMm) break;
+    }
+    if (!wide) return std::nullopt;
+    if (wide->rounding.radiusMm < radiusMm) {
+      note = "A corner is rounded by " + millimetresText(wide->rounding.radiusMm) +
+             " only: no larger radius fits between its sides.";
+      return wide;
+    }
+    for (int i = 0; i < kRadiusHalvings && wide->rounding.radiusMm > kRadiusMet * radiusMm; ++i) {
+      auto middle = sized(0.5 * (low + wide->sizeMm));
+      if (middle && middle->rounding.radiusMm >= radiusMm) {
+        wide = std::move(middle);
+      } else {
+        low = 0.5 * (low + wide->sizeMm);
+      }
+    }
+    return wide;
+  }
+
+  /// Puts the rounding between the sides.
+  bool apply(const Sized& one) const {
+    const auto behind = together(one.rounding.second, one.behind);
+    if (!behind) return false;
+    const auto before = together(isOne() ? *behind : one.before, one.rounding.first);
+    if (!before) return false;
+    if (!isOne()) at_.behind->faired = *behind;
+    at_.before->faired = *before;
+    return true;
+  }
+
+ private:
+  /// Sizes beside the wanted one, and how much rounder they must be to be taken.
+  static constexpr std::array kSmaller = {0.7, 0.5, 0.3};
+  static constexpr double kRounder = 1.02;
+  /// Sizes tried for a radius, each this share of the one before, and how near the radius is to be met.
+  static constexpr int kRadiusSteps = 18, kRadiusHalvings = 30;
+  static constexpr double kRadiusStep = 0.7, kRadiusMet = 1.001;
+
+  static std::string millimetresText(double mm) { return significantText(mm, 3) + " mm"; }
+  bool isOne() const { return at_.before == at_.behind; }
+
+  const Neighbours& at_;
+  RoundingJoint joint_;
+  double most_ = 0.0;
+};
+
+bool roundOne(const Neighbours& at, const CornerMark& mark, std::string& note) {
+  const RoundedSides sides(at, mark.joint);
+  const auto rounded =
+      mark.roundBy == RoundingSize::Radius ? sides.byRadius(mark.roundMm, note) : sides.byDistance(mark.roundMm, note);
+  return rounded && sides.apply(*rounded);
 }
 
 void addNote(std::string& notes, const std::string& note) {
@@ -114,10 +234,13 @@ void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, 
     if (mark >= recipe.cornerMarks.size() || !(recipe.cornerMarks[mark].roundMm > 0.0)) continue;
     const Neighbours at = neighboursOf(set, pieces, corner);
     if (!at.before || !at.behind) continue;
-    const bool done = roundOne(at, recipe.cornerMarks[mark].roundMm);
+    std::string note;
+    const bool done = roundOne(at, recipe.cornerMarks[mark], note);
+    if (!done) note = kStaysSharp;
+    if (!note.empty()) addNote(at.before->fairing.note, note);
     for (TracedCurve* curve : {at.before, at.behind}) {
       if (done) changed[curve->piece] = true;
-      if (!done) addNote(curve->fairing.note, kStaysSharp);
+      if (!done) addNote(curve->fairing.note, note);
     }
   }
   for (TracedCurve& curve : set.curves) {

@@ -18,6 +18,7 @@ namespace {
 struct Asked {
   const TracedCurve* curve = nullptr;
   Result<TargetOutcomes>* outcomes = nullptr;
+  std::optional<double> spanAt{};  ///< See targetsFor.
 };
 
 Result<TargetOutcomes> noMemory() {
@@ -28,7 +29,7 @@ Result<TargetOutcomes> noMemory() {
 void moveControlPoints(const std::vector<Asked>& all, const RunContext& context) {
   std::vector<TargetsJob> jobs;
   for (const Asked& asked : all)
-    jobs.push_back({asked.curve->fairingStart(), asked.curve->closed, asked.curve->fairingUsed});
+    jobs.push_back({asked.curve->fairingStart(), asked.curve->closed, asked.curve->fairingUsed, asked.spanAt});
   auto outcomes = fairAllTargets(jobs, context);
   for (std::size_t i = 0; i < all.size(); ++i) *all[i].outcomes = std::move(outcomes[i]);
 }
@@ -72,9 +73,17 @@ void moveEdgeLengths(const std::vector<Asked>& all, const RunContext& context) {
 void answer(const std::vector<Asked>& all, const RunContext& context) {
   try {
     std::vector<Asked> points, edges;
+    const auto asksForEdges = [](const Asked& asked) {
+      return asked.curve->fairingUsed.means == FairingMeans::EdgeLengths;
+    };
     for (const Asked& asked : all)
-      (asked.curve->fairingUsed.means == FairingMeans::EdgeLengths ? edges : points).push_back(asked);
+      (asksForEdges(asked) && isBezierPath(asked.curve->fairingStart()) ? edges : points).push_back(asked);
     moveControlPoints(points, context);
+    for (const Asked& asked : points) {
+      if (!asksForEdges(asked) || !*asked.outcomes) continue;
+      for (auto& faired : (*asked.outcomes)->faired)
+        if (faired) noteNoPath(faired->report);
+    }
     moveEdgeLengths(edges, context);
   } catch (const std::bad_alloc&) {
     for (const Asked& asked : all) *asked.outcomes = noMemory();
@@ -85,10 +94,10 @@ void answer(const std::vector<Asked>& all, const RunContext& context) {
 
 }  // namespace
 
-Result<TargetOutcomes> targetsFor(const TracedCurve& curve, const RunContext& context) {
+Result<TargetOutcomes> targetsFor(const TracedCurve& curve, const RunContext& context, std::optional<double> spanAt) {
   if (curve.sketched.isEmpty()) return fail(ErrorCode::NoCurve, "There is no curve to compare with the targets.");
   Result<TargetOutcomes> outcomes = cancelled();
-  answer({{&curve, &outcomes}}, context);
+  answer({{&curve, &outcomes, spanAt}}, context);
   return outcomes;
 }
 
@@ -96,7 +105,7 @@ std::vector<Result<TargetOutcomes>> targetsForAll(std::span<const TracedCurve> c
   std::vector<Result<TargetOutcomes>> results(curves.size(), cancelled());
   std::vector<Asked> all;
   for (std::size_t i = 0; i < curves.size(); ++i)
-    if (curves[i].included && !curves[i].sketched.isEmpty()) all.push_back({&curves[i], &results[i]});
+    if (curves[i].included && !curves[i].sketched.isEmpty()) all.push_back({&curves[i], &results[i], std::nullopt});
   answer(all, context);
   return results;
 }

@@ -49,6 +49,10 @@ FairingParams paramsFor(const std::optional<std::size_t>& choice, const Recipe& 
   params = own.fairing(std::move(params));
   params.keptAt = fractionsOf(own.keepPx, curve, frame);
   params.targets.splits = fractionsOf(own.splitsPx, curve, frame);
+  for (const SpanChoice& span : own.spanTargets) {
+    const auto at = fractionsOf({span.placePx}, curve, frame);
+    if (!at.empty()) params.spanTargets.push_back({at.front(), span.degree});
+  }
   // A split at an end of the curve parts nothing.
   std::erase_if(params.targets.splits, [](double f) { return f < kLeastPart || f > 1.0 - kLeastPart; });
   return params;

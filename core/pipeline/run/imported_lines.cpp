@@ -83,11 +83,24 @@ Contour contourOfCurves(const ImportedLine& line, const PageFrame& frame, double
   return contour;
 }
 
+/// Leaves out points between those that were given, so that about one every `stepPx` stays.
+void keepEvery(double stepPx, Contour& contour) {
+  const double laidPx = contour.lengthPx / static_cast<double>(std::max<std::ptrdiff_t>(1, std::ssize(contour.points)));
+  const auto stride = static_cast<int>(std::ceil(stepPx / std::max(kSampleStepPx, laidPx)));
+  if (stride <= 1) return;
+  int since = 0;
+  std::erase_if(contour.points, [&](const ContourPoint& p) {
+    since = p.refined ? 0 : since + 1;
+    return since % stride != 0;
+  });
+}
+
 Contour contourOfPoints(const ImportedLine& line, const PageFrame& frame, double stepPx) {
   PenStroke stroke;
   stroke.closed = line.closed;
   for (const Vec2& p : line.points) stroke.points.push_back(frame.pointToImage(p));
-  Contour contour = penContour(stroke, stepPx);
+  Contour contour = penContour(stroke);
+  keepEvery(stepPx, contour);
   // Corners are counted in the points that were given.
   std::size_t corner = 0;
   for (std::size_t i = 0, given = 0; i < contour.points.size() && corner < line.corners.size(); ++i) {
@@ -210,10 +223,10 @@ std::vector<std::optional<NurbsCurve>> importedCurves(const ImportedLine& line, 
 }
 
 NurbsCurve fairableShape(const NurbsCurve& curve) {
-  constexpr int kDegree = 5;
+  constexpr int kLineDegree = 5;
   constexpr double kLongestSpan = 1.0 / 16.0;  // of the length
   if (curve.isRational()) return {};
-  auto shape = elevated(curve, std::max(kDegree, curve.degree()));
+  auto shape = elevated(curve, std::max(kLineDegree, curve.degree()));
   if (!shape) return {};
   const ArcLength arc(*shape);
   const double longest = kLongestSpan * arc.total();

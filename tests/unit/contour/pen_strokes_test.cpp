@@ -81,11 +81,11 @@ TEST(PenContour, IsCutAtTheDrawnPointNearestToAMark) {
   }
 }
 
-constexpr PageExtent kPage{100.0, 80.0};
+constexpr PageExtent kPenPage{100.0, 80.0};
 
 // What the strokes of a drawing become on a page.
 ContourSet onPage(const std::vector<PenStroke>& strokes) {
-  const auto set = withPenStrokes({}, strokes, kPage);
+  const auto set = withPenStrokes({}, strokes, kPenPage);
   EXPECT_TRUE(set.has_value());
   return set.value_or(ContourSet{});
 }
@@ -125,7 +125,7 @@ TEST(PenStrokes, KeepTheirPlaceWhenTheyAreLeftOut) {
   ASSERT_TRUE(pieces.has_value());
   ASSERT_EQ(pieces->pieces.size(), 1u);
   EXPECT_EQ(pieces->pieces[0].contour, 1);
-  const auto none = withPenStrokes({}, std::vector<PenStroke>{{{{-50.0, 10.0}, {-10.0, 60.0}}, false}}, kPage);
+  const auto none = withPenStrokes({}, std::vector<PenStroke>{{{{-50.0, 10.0}, {-10.0, 60.0}}, false}}, kPenPage);
   ASSERT_FALSE(none.has_value());
   EXPECT_EQ(none.error().code, ErrorCode::NoCurve);
 }

@@ -3,6 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/construct/typical/corner_blend.h"
+#include "core/curve/bezier_quintics.h"
 #include "core/curve/knot_operations.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "core/pipeline/run/segment_points.h"
@@ -74,6 +81,94 @@ TEST(RoundCorners, TakesAtMostPartOfItsNeighboursAndLeavesSharpOnesAlone) {
   EXPECT_EQ(sharp.set.curves[0].faired, sharp.set.curves[0].sketched);
 }
 
+/// A side that bends: an arc of a radius from a to b, bulging to its left where it is positive.
+NurbsCurve arcBetween(const Vec2& a, const Vec2& b, double radius) {
+  const Vec2 chord = b - a, middle = 0.5 * (a + b);
+  const double half = 0.5 * chord.norm(), away = std::sqrt(radius * radius - half * half);
+  const Vec2 centre = middle - std::copysign(away, radius) * leftNormal(chord.normalized());
+  const double from = std::atan2((a - centre).y(), (a - centre).x()),
+               turn = std::remainder(std::atan2((b - centre).y(), (b - centre).x()) - from, 2.0 * std::numbers::pi);
+  // Quintic Hermite over a small angle: curvature right to a few digits, which is all that a side needs.
+  const double r = std::abs(radius), side = turn > 0.0 ? 1.0 : -1.0;
+  const auto joint = [&](double f) {
+    const double angle = from + f * turn;
+    return Joint{centre + r * Vec2(std::cos(angle), std::sin(angle)), side * Vec2(-std::sin(angle), std::cos(angle)),
+                 side / r};
+  };
+  std::vector<Joint> joints;
+  constexpr int kPieces = 8;
+  for (int i = 0; i <= kPieces; ++i) joints.push_back(joint(static_cast<double>(i) / kPieces));
+  return hermiteChain(joints, std::vector<double>(kPieces, r * std::abs(turn) / kPieces)).value();
+}
+
+/// The angle with sides that bend gently.
+Angle bent(double radius1, double radius2, const CornerMark& mark) {
+  Angle angle(5);
+  angle.recipe.cornerMarks[0] = mark;
+  angle.set.curves[0].sketched = angle.set.curves[0].faired = arcBetween({0, 0}, {100, 0}, radius1);
+  angle.set.curves[1].sketched = angle.set.curves[1].faired = arcBetween({100, 0}, {100, 80}, radius2);
+  roundCorners(angle.set, angle.pieces, angle.recipe, {});
+  return angle;
+}
+
+double radiusOf(const Angle& angle) {
+  constexpr int kPlaces = 2000;
+  double largest = 0.0;
+  for (const TracedCurve& one : angle.set.curves) {
+    const auto breaks = one.faired.breaks();
+    for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
+      for (int i = 0; i < kPlaces; ++i) {
+        const double u = breaks[k] + (breaks[k + 1] - breaks[k]) * (i + 0.5) / kPlaces;
+        largest = std::max(largest, std::abs(curvature(one.faired, u).value()));
+      }
+  }
+  return 1.0 / largest;
+}
+
+TEST(RoundCorners, ALargerSizeIsNeverSharper) {
+  for (const RoundingJoint joint : {RoundingJoint::Tangent, RoundingJoint::Curvature, RoundingJoint::CurvatureSlope}) {
+    for (const double radius : {150.0, -150.0, 400.0, -70.0}) {
+      double before = 0.0;
+      for (const double size : {1.0, 2.0, 4.0, 8.0, 16.0, 30.0}) {
+        const Angle angle = bent(radius, -2.0 * radius, {Vec2(100, 0), size, RoundingSize::Distance, joint});
+        const double now = radiusOf(angle);
+        EXPECT_GT(now, 0.98 * before) << radius << " " << size << " " << static_cast<int>(joint);
+        EXPECT_GT(now, 0.4 * std::min(size, 30.0))
+            << radius << " " << size << " " << static_cast<int>(joint) << " " << angle.set.curves[0].fairing.note;
+        before = now;
+      }
+    }
+  }
+}
+
+TEST(RoundCorners, MeetTheRadiusThatIsAskedForOrSayWhy) {
+  for (const double wanted : {1.0, 3.0, 10.0}) {
+    const Angle angle = bent(200.0, -300.0, {Vec2(100, 0), wanted, RoundingSize::Radius});
+    EXPECT_NEAR(radiusOf(angle), wanted, 0.01 * wanted);
+    EXPECT_TRUE(angle.set.curves[0].fairing.note.empty());
+  }
+  const Angle large = bent(200.0, -300.0, {Vec2(100, 0), 300.0, RoundingSize::Radius});
+  EXPECT_GT(radiusOf(large), 20.0);
+  EXPECT_NE(large.set.curves[0].fairing.note.find("no larger radius fits"), std::string::npos);
+}
+
+TEST(RoundCorners, MeetTheirSidesAsSmoothlyAsAsked) {
+  for (const RoundingJoint joint : {RoundingJoint::Curvature, RoundingJoint::CurvatureSlope}) {
+    const Angle angle = bent(200.0, -300.0, {Vec2(100, 0), 10.0, RoundingSize::Distance, joint});
+    const NurbsCurve& curve = angle.set.curves[0].faired;
+    // The rounding begins at the last knot inside.
+    const auto breaks = curve.breaks();
+    const double u = breaks[breaks.size() - 2], h = 1e-10 * (curve.end() - curve.start());
+    const BlendEnd left = blendEndAt(curve, u - h), right = blendEndAt(curve, u + h);
+    EXPECT_LT((left.point - right.point).norm(), 1e-5);
+    EXPECT_NEAR(left.kappa, right.kappa, 1e-5);
+    EXPECT_NEAR(left.kappa, -1.0 / 200.0, 2e-4);
+    if (joint == RoundingJoint::CurvatureSlope) {
+      EXPECT_NEAR(left.kappaSlope, right.kappaSlope, 1e-4);
+    }
+  }
+}
+
 TEST(RoundCorners, TheFiguresAreThoseOfTheRoundedCurve) {
   Angle angle(5);
   const PageFrame frame{200, 100, 0.5};
@@ -109,7 +204,10 @@ TEST(RoundCorners, SaysSoEvenWhereFairingHasSaidSomethingElse) {
 
 TEST(RecipeFile, KeepsRoundedCornersAndSegmentPoints) {
   Recipe recipe;
-  recipe.cornerMarks = {{Vec2(1, 2)}, {Vec2(3, 4), 2.5}};
+  recipe.cornerMarks = {{Vec2(1, 2)},
+                        {Vec2(3, 4), 2.5},
+                        {Vec2(5, 6), 1.5, RoundingSize::Radius, RoundingJoint::CurvatureSlope},
+                        {Vec2(7, 8), 0.5, RoundingSize::Distance, RoundingJoint::Tangent}};
   recipe.segmentPoints = {{Vec2(5.5, 6)}};
   const auto read = recipeFromJson(recipeToJson(recipe));
   ASSERT_TRUE(read) << read.error().message;

@@ -52,6 +52,11 @@ TEST(ParameterTable, HoldsThePromisedNames) {
                            "fairing.mode",
                            "fairing.target",
                            "fairing.tolerance",
+                           "paper.colour",
+                           "paper.rulings",
+                           "paper.sheet",
+                           "inks.keep",
+                           "inks.drop",
                            "paper.flatten",
                            "paper.folds",
                            "corners.snap"}) {

@@ -35,6 +35,8 @@ Recipe fullRecipe() {
                 .mode = FairingMode::None,
                 .target = std::nullopt,
                 .toleranceMm = std::nullopt,
+                .spans = TargetSpans::Whole,
+                .spanTargets = {{Vec2(1.0 / 3.0, 2.0), 1}, {Vec2(30.0, 40.5), 6}},
                 .tolerancePolicy = TolerancePolicy::All,
                 .means = FairingMeans::EdgeLengths,
                 .startHold = EndHold{true, false},
@@ -124,6 +126,9 @@ TEST(RecipeFile, RefusesWhatItDoesNotKnowByName) {
   expectRefused(head + R"("choices":[{"anchor":[1,2],"splits":[[1]]}]})", "splits");
   expectRefused(head + R"("choices":[{"anchor":[1,2],"profile":[[0.5,1],[0.4,1]]}]})", "ascend");
   expectRefused(head + R"("choices":[{"anchor":[1,2],"low_pass":0}]})", "wavelength");
+  expectRefused(head + R"("choices":[{"anchor":[1,2],"span_targets":[[1,2]]}]})", "span_targets");
+  expectRefused(head + R"("choices":[{"anchor":[1,2],"span_targets":[[1,2,7]]}]})", "span");
+  expectRefused(head + R"("corners":[{"at":[1,2],"round":1,"joint":"g4"}]})", "corner");
   expectRefused(head + R"("dpi":-3})", "resolution");
 }
 

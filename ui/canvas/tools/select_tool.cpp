@@ -5,6 +5,7 @@
 #include "ui/canvas/layers/chip_layer.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/curve_names.h"
+#include "ui/session/fairing_edits.h"
 #include "ui/session/judged_view.h"
 #include "ui/session/pen_edits.h"
 
@@ -21,7 +22,11 @@ class SelectTool final : public CanvasTool {
       over_.reset();
       return toggleExtremum(scene_.session, scene_.session.selectedCurve(), note);
     }
-    if (const auto curve = scene_.curveNear(event.px)) scene_.session.selectCurve(*curve);
+    const auto curve = scene_.curveNear(event.px);
+    if (!curve) return;
+    if (*curve == scene_.session.selectedCurve() && judgedIn(scene_.view) == Judged::Result)
+      return pointAtSpanNear(scene_.session, event.px);
+    scene_.session.selectCurve(*curve);
   }
 
   void move(const ToolEvent& event, bool isPressed) override {
@@ -31,8 +36,10 @@ class SelectTool final : public CanvasTool {
     if (over.has_value() != over_.has_value() || (over && over->px != over_->px)) scene_.repaint();
     over_ = over;
     const auto curve = scene_.curveNear(event.px);
+    const bool isOnSpan =
+        curve && *curve == scene_.session.selectedCurve() && !over_ && judgedIn(scene_.view) == Judged::Result;
     isOver_ = curve.has_value() && *curve != scene_.session.selectedCurve();
-    scene_.hint(over_ ? over_->text : isOver_ ? hintFor(*curve) : QString());
+    scene_.hint(over_ ? over_->text : isOver_ ? hintFor(*curve) : isOnSpan ? spanHint() : QString());
   }
 
   bool key(QKeyEvent* event) override {
@@ -56,6 +63,9 @@ class SelectTool final : public CanvasTool {
   }
 
  private:
+  static QString spanHint() {
+    return QCoreApplication::translate("CurveCanvas", "Click a span of the curve to see the targets for it alone.");
+  }
   QString hintFor(int curve) const {
     const QString text =
         QCoreApplication::translate("CurveCanvas", "Click to select %1.").arg(curveName(scene_.session, curve));

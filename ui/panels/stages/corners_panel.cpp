@@ -18,6 +18,8 @@
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
+#include "ui/panels/controls/segmented_control.h"
+#include "ui/panels/controls/setting_name.h"
 #include "ui/panels/controls/slider_track.h"
 #include "ui/session/suggestion_source.h"
 #include "ui/theme/theme.h"
@@ -44,6 +46,8 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       remove_(plainButton(tr("Remove"), QStringLiteral("corners.remove"), this)),
       removeAll_(plainButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)),
       rounding_(new NumberField(this)),
+      roundBy_(new SegmentedControl({tr("Distance"), tr("Radius")}, this)),
+      joint_(new SegmentedControl({tr("G1"), tr("G2"), tr("G3")}, this)),
       angle_(new NumberField(this)),
       angleTrack_(new SliderTrack(this)),
       scale_(new NumberField(this)),
@@ -66,27 +70,10 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
   buttons->addWidget(removeAll_);
   buttons->addStretch();
   layout->addLayout(buttons);
-  auto* rounding = new QHBoxLayout;
-  auto* roundingName = new QLabel(tr("Rounding"), this);
-  const QString roundingHelp =
-      tr("How far from the selected corner its rounding by two typical curves begins. 0 keeps it sharp.");
-  roundingName->setToolTip(roundingHelp);
-  rounding_->setToolTip(roundingHelp);
-  rounding_->edit()->setObjectName(QStringLiteral("corners.rounding"));
-  rounding_->setRange(0.0, 500.0);
-  rounding_->setDecimals(2);
-  rounding_->setStep(0.5);
-  rounding_->setUnit(QStringLiteral("mm"));
-  rounding_->setFixedWidth(92);
-  rounding_->edit()->setAccessibleName(tr("Rounding of the selected corner"));
-  rounding->addWidget(roundingName);
-  rounding->addStretch();
-  rounding->addWidget(rounding_);
-  layout->addLayout(rounding);
+  buildRounding();
   marks_->setObjectName(QStringLiteral("corners.list"));
   marks_->setAccessibleName(tr("Marked corners"));
   layout->addWidget(marks_);
-  connect(rounding_, &NumberField::committed, this, &CornersPanel::roundSelected);
   buildSuggestions();
   close_->setObjectName(QStringLiteral("corners.close"));
   layout->addWidget(close_);
@@ -287,11 +274,66 @@ void CornersPanel::mark(const std::vector<Vec2>& positions) {
   session_.change(positions.size() == 1 ? tr("Mark corner") : tr("Mark suggested corners"), std::move(after));
 }
 
+void CornersPanel::buildRounding() {
+  auto* column = static_cast<QVBoxLayout*>(layout());
+  auto* row = new QHBoxLayout;
+  auto* name = new QLabel(tr("Rounding"), this);
+  const QString help = tr("Size of the rounding of the selected corner. 0 keeps it sharp.");
+  name->setToolTip(help);
+  rounding_->setToolTip(help);
+  rounding_->edit()->setObjectName(QStringLiteral("corners.rounding"));
+  rounding_->setRange(0.0, 500.0);
+  rounding_->setDecimals(2);
+  rounding_->setStep(0.5);
+  rounding_->setUnit(QStringLiteral("mm"));
+  rounding_->setFixedWidth(92);
+  rounding_->edit()->setAccessibleName(tr("Rounding of the selected corner"));
+  row->addWidget(name);
+  row->addStretch();
+  row->addWidget(rounding_);
+  column->addLayout(row);
+  roundBy_->setNames(QStringLiteral("corners.roundBy"), {QStringLiteral("distance"), QStringLiteral("radius")});
+  roundBy_->setToolTip(
+      tr("Distance: from the corner to where the rounding begins. Radius: the smallest radius of the rounding."));
+  setSettingName(roundBy_, tr("What the size of a rounding is"));
+  joint_->setNames(QStringLiteral("corners.joint"), {QStringLiteral("g1"), QStringLiteral("g2"), QStringLiteral("g3")});
+  joint_->setToolTip(tr(
+      "How the rounding meets its sides. G1: direction, by two typical curves. G2: curvature. G3: its change, too."));
+  setSettingName(joint_, tr("How a rounding meets its sides"));
+  auto* choices = new QHBoxLayout;
+  choices->addWidget(roundBy_, 1);
+  choices->addWidget(joint_, 1);
+  column->addLayout(choices);
+  connect(rounding_, &NumberField::committed, this, &CornersPanel::roundSelected);
+  connect(roundBy_, &SegmentedControl::chosen, this, [this](int index) {
+    editSelected(tr("Rounding"), [index](CornerMark& mark) { mark.roundBy = static_cast<RoundingSize>(index); });
+  });
+  connect(joint_, &SegmentedControl::chosen, this, [this](int index) {
+    editSelected(tr("Rounding"), [index](CornerMark& mark) { mark.joint = static_cast<RoundingJoint>(index); });
+  });
+}
+
+void CornersPanel::editSelected(const QString& what, const std::function<void(CornerMark&)>& change) {
+  const int row = marks_->currentRow();
+  Recipe after = session_.recipe();
+  if (row < 0 || row >= static_cast<int>(after.cornerMarks.size())) return;
+  change(after.cornerMarks[row]);
+  session_.change(what, std::move(after));
+}
+
 void CornersPanel::showRounding() {
   const int row = marks_->currentRow();
   const auto& marks = session_.recipe().cornerMarks;
   const bool isMark = row >= 0 && row < static_cast<int>(marks.size());
   rounding_->setEnabled(isMark);
+  // What a sharp corner would be rounded by is of no interest.
+  const bool isRound = isMark && marks[row].roundMm > 0.0;
+  roundBy_->setVisible(isRound);
+  joint_->setVisible(isRound);
+  if (isRound) {
+    roundBy_->setCurrent(static_cast<int>(marks[row].roundBy));
+    joint_->setCurrent(static_cast<int>(marks[row].joint));
+  }
   if (isMark) {
     rounding_->setValue(marks[row].roundMm);
   } else {
@@ -300,11 +342,7 @@ void CornersPanel::showRounding() {
 }
 
 void CornersPanel::roundSelected(double mm) {
-  const int row = marks_->currentRow();
-  Recipe after = session_.recipe();
-  if (row < 0 || row >= static_cast<int>(after.cornerMarks.size())) return;
-  after.cornerMarks[row].roundMm = mm;
-  session_.change(mm > 0.0 ? tr("Round corner") : tr("Sharpen corner"), std::move(after));
+  editSelected(mm > 0.0 ? tr("Round corner") : tr("Sharpen corner"), [mm](CornerMark& mark) { mark.roundMm = mm; });
 }
 
 void CornersPanel::removeSelected() {

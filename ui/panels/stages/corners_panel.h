@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -16,6 +17,7 @@ class QPushButton;
 namespace batten {
 
 class NumberField;
+class SegmentedControl;
 class SliderTrack;
 
 /// The marked corners as a list, and places that look like corners.
@@ -41,6 +43,9 @@ class CornersPanel : public QWidget {
   void showSelected();
   void showRounding();
   void roundSelected(double mm);
+  void buildRounding();
+  /// Changes the selected mark.
+  void editSelected(const QString& what, const std::function<void(CornerMark&)>& change);
   void removeSelected();
   void removeAll();
   void mark(const std::vector<Vec2>& positions);
@@ -53,6 +58,8 @@ class CornersPanel : public QWidget {
   QPushButton* remove_;
   QPushButton* removeAll_;
   NumberField* rounding_;
+  SegmentedControl* roundBy_;
+  SegmentedControl* joint_;
   NumberField* angle_;
   SliderTrack* angleTrack_;
   NumberField* scale_;

@@ -67,11 +67,13 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       wavelength_(new ParameterRow(session, *findParameter("fairing.lowpass"), this)),
       spend_(new ParameterRow(session, *findParameter("fairing.spend"), this)),
       moves_(new ParameterRow(session, *findParameter("fairing.moves"), this)),
-      editor_(new ParameterEditor(session, {"fairing.samples", "fairing.quantity", "fairing.monotone"}, this)),
+      editor_(new ParameterEditor(session, {"fairing.spans", "fairing.samples", "fairing.quantity", "fairing.monotone"},
+                                  this)),
       note_(note({}, this)),
       raise_(linkButton(tr("Raise the tolerance"), QStringLiteral("fairing.raise"), this)),
       useForAll_(linkButton(tr("Use this for all curves"), QStringLiteral("fairing.useForAll"), this)),
       followAll_(linkButton(tr("Follow the common setting"), QStringLiteral("fairing.followAll"), this)),
+      whole_(linkButton({}, QStringLiteral("fairing.whole"), this)),
       split_(linkButton({}, QStringLiteral("fairing.split"), this)),
       unsplit_(linkButton({}, QStringLiteral("fairing.unsplit"), this)),
       draw_(linkButton(tr("Draw the target in the plot"), QStringLiteral("fairing.draw"), this)),
@@ -179,17 +181,23 @@ void FairingPanel::bindToScope(ParameterRow* row,
 
 void FairingPanel::buildLinks() {
   auto* column = static_cast<QVBoxLayout*>(layout());
-  for (QPushButton* link : {split_, unsplit_, draw_, forget_}) column->addWidget(link, 0, Qt::AlignLeft);
-  split_->setAccessibleName(tr("Split at the inflections"));
-  unsplit_->setAccessibleName(tr("Remove the splits"));
-  split_->setToolTip(tr("One polynomial is too stiff for a line that bends both ways: each part gets one of its own."));
+  for (QPushButton* link : {whole_, split_, unsplit_, draw_, forget_}) column->addWidget(link, 0, Qt::AlignLeft);
+  split_->setText(tr("Natural spans"));
+  split_->setToolTip(
+      tr("A polynomial from each extremum of the curvature to the next. Extrema whose removal would move the curve by "
+         "less than a tenth of the tolerance do not count."));
+  unsplit_->setText(tr("One polynomial for the whole curve"));
+  unsplit_->setToolTip(tr("Joins all spans, as in the papers."));
+  whole_->setText(tr("Targets for the whole curve"));
+  whole_->setToolTip(tr("The targets belong to the span that you clicked. This goes back to all spans."));
   draw_->setToolTip(tr("Turns the target into points that you drag in the curvature plot."));
   auto* compare = linkButton(tr("Compare shapes…"), QStringLiteral("fairing.compare"), this);
   compare->setToolTip(tr("How alike two curves are, and how fair this one is: the similarities in a table."));
   column->addWidget(compare, 0, Qt::AlignLeft);
   connect(compare, &QPushButton::clicked, this, &FairingPanel::comparisonAsked);
-  connect(split_, &QPushButton::clicked, this, [this] { splitAtInflections(session_); });
-  connect(unsplit_, &QPushButton::clicked, this, [this] { removeSplits(session_); });
+  connect(split_, &QPushButton::clicked, this, [this] { splitNaturally(session_); });
+  connect(unsplit_, &QPushButton::clicked, this, [this] { joinAllSpans(session_); });
+  connect(whole_, &QPushButton::clicked, this, [this] { session_.pointAtSpan({}); });
   connect(draw_, &QPushButton::clicked, this, [this] { drawTarget(session_, profileToBeginWith(session_), -1); });
   connect(forget_, &QPushButton::clicked, this, [this] { forgetDrawnTarget(session_); });
 }
@@ -208,16 +216,11 @@ void FairingPanel::refreshLinks(const FairingParams& params) {
   const bool isDrawn = isTargetDrawn(session_);
   draw_->setVisible(isTarget && !isDrawn);
   forget_->setVisible(isDrawn);
-  const PieceChoice* own = choiceOf(session_, session_.selectedCurve());
-  const auto splits = own ? static_cast<qint64>(own->splitsPx.size()) : 0;
-  unsplit_->setText(counted(splits, tr("Remove the split"), tr("Remove the %1 splits")));
-  unsplit_->setVisible(isTarget && splits > 0);
-  const bool isOffered = isSplitOffered(session_);
-  if (isOffered) {
-    split_->setText(counted(static_cast<qint64>(inflectionsOf(session_).size()), tr("Split at the inflection"),
-                            tr("Split at the %1 inflections")));
-  }
-  split_->setVisible(isOffered);
+  const bool canSplit = isTarget && !isDrawn && params.targets.quantity == TargetQuantity::Curvature;
+  const auto spans = canSplit ? static_cast<qint64>(splitsOf(session_).size()) : 0;
+  whole_->setVisible(canSplit && session_.pointedSpan().has_value());
+  unsplit_->setVisible(canSplit && spans > 0);
+  split_->setVisible(canSplit && !hasNaturalSpans(session_));
 }
 
 FairingParams FairingPanel::shown(const Recipe& recipe) const {
@@ -311,6 +314,7 @@ void FairingPanel::refreshFigures() {
   const auto targets = session_.targets();
   int degree = curve->fairingUsed.target;
   if (targets && degree == 0) degree = targets->recommendedDegree;
+  if (session_.pointedSpan()) degree = chosenSpanTarget(session_);
   if (targets && faired && curve->fairingUsed.mode == FairingMode::Target && degree >= 1 && degree <= 6) {
     const TargetProfile& profile = targets->targets.profiles[degree - 1];
     rows.push_back({tr("Similarity S"),

@@ -54,6 +54,7 @@ class FairingPanel : public QWidget {
   QPushButton* raise_;
   QPushButton* useForAll_;
   QPushButton* followAll_;
+  QPushButton* whole_;
   QPushButton* split_;
   QPushButton* unsplit_;
   QPushButton* draw_;

@@ -31,6 +31,14 @@ std::vector<double> drawn(const TargetOutcomes& outcomes, const TargetProfile* p
   return values;
 }
 
+/// Where a share of the perimeter lies along what a tile shows: the curve, or its span.
+std::optional<double> shareOfSpan(const TargetOutcomes& outcomes, double perimeter) {
+  if (!outcomes.span) return perimeter;
+  const double f = perimeter < outcomes.span->from ? perimeter + 1.0 : perimeter;
+  const double share = (f - outcomes.span->from) / (outcomes.span->to - outcomes.span->from);
+  return share <= 1.0 ? std::optional(share) : std::nullopt;
+}
+
 QPainterPath pathOf(const TargetOutcomes& outcomes, const std::vector<double>& values, const QRectF& box, double low,
                     double high) {
   QPainterPath path;
@@ -40,8 +48,13 @@ QPainterPath pathOf(const TargetOutcomes& outcomes, const std::vector<double>& v
       pen = false;
       continue;
     }
+    const auto share = shareOfSpan(outcomes, outcomes.targets.perimeter[i]);
+    if (!share) {
+      pen = false;
+      continue;
+    }
     const double t = std::clamp((values[i] - low) / (high - low), -0.04, 1.04);
-    const QPointF at(box.left() + outcomes.targets.perimeter[i] * box.width(), box.bottom() - t * box.height());
+    const QPointF at(box.left() + *share * box.width(), box.bottom() - t * box.height());
     // Steps far below a pixel make the pen leave specks beside the line.
     const bool isLast = i + 1 == values.size();
     if (pen && !isLast &&
@@ -102,7 +115,12 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
       tip += counted(more, tr("\nThat is 1 more than the sketch has."), tr("\nThat is %1 more than the sketch has."));
     if (!faired.report.withinTolerance)
       tip += tr("\nTo meet it fully needs %1.").arg(millimetres(faired.report.neededMm));
-    if (!profile.isMonotone) tip += tr("\nThis profile turns back: it is not monotone.");
+    if (!profile.isMonotone) tip += tr("\nThis profile turns back within a span: it is not monotone.");
+    if (outcomes_->span)
+      tip += tr("\nFor the span that you clicked; the rest of the curve stays.");
+    else if (!outcomes_->splits.empty())
+      tip += tr("\nOne polynomial for each of %1 spans.").arg(outcomes_->splits.size() + 1);
+    if (outcomes_->targets.comparesCurvature) tip += tr("\nS compares the curvatures, as the line bends both ways.");
   }
   tip += QLatin1Char('\n') + (oneCurve ? tr("Click or press %1: for the selected curve.").arg(degree_)
                                        : tr("Click or press %1: for all curves.").arg(degree_));
@@ -172,7 +190,10 @@ void TargetTile::paintProfiles(QPainter& painter, const QRectF& box) const {
   const std::vector<double> sketched = drawn(*outcomes_, nullptr);
   // Same axes in every tile: the range of the data without its two outermost percent, so one spike cannot flatten all.
   std::vector<double> sorted;
-  std::copy_if(sketched.begin(), sketched.end(), std::back_inserter(sorted), [](double v) { return std::isfinite(v); });
+  for (std::size_t i = 0; i < sketched.size(); ++i) {
+    if (std::isfinite(sketched[i]) && shareOfSpan(*outcomes_, outcomes_->targets.perimeter[i]))
+      sorted.push_back(sketched[i]);
+  }
   if (sorted.size() < 2) return;
   std::sort(sorted.begin(), sorted.end());
   const std::size_t cut = sorted.size() / 50;
@@ -294,7 +315,9 @@ void TargetStrip::refresh() {
   if (curve) {
     const FairingParams used = fairingAsked(session_);
     tolerance = used.toleranceMm;
-    if (used.mode == FairingMode::Target && used.target != kDrawnTarget)
+    if (session_.pointedSpan())
+      chosen = chosenSpanTarget(session_);
+    else if (used.mode == FairingMode::Target && used.target != kDrawnTarget && curve->fairingUsed.spanTargets.empty())
       chosen = used.target > 0 ? used.target : targets ? targets->recommendedDegree : 0;
   }
   const QString waiting = !curve                   ? QString()

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fairing/target_levels.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/fairing/fairing.h"
+#include "core/fairing/natural_spans.h"
+#include "core/fairing/shape_modification.h"
+#include "core/fairing/span_fairing.h"
+
+namespace batten {
+namespace {
+
+/// A profile of more polynomials says nothing that the curve does not say itself.
+constexpr std::size_t kMostSplits = 24;
+
+bool hasNaturalSpans(const TargetParams& params) {
+  return params.splits.empty() && params.spans == TargetSpans::Natural && params.quantity == TargetQuantity::Curvature;
+}
+
+}  // namespace
+
+std::vector<double> targetSplits(const NurbsCurve& curve, bool closed, const FairingParams& params) {
+  return hasNaturalSpans(params.targets) ? naturalSplits(curve, closed, params.toleranceMm) : params.targets.splits;
+}
+
+std::vector<TargetLevel> targetLevels(const NurbsCurve& curve, bool closed, const FairingParams& params) {
+  std::vector<std::vector<double>> splits = {params.targets.splits};
+  if (hasNaturalSpans(params.targets)) splits = naturalSplitLevels(curve, closed, params.toleranceMm);
+  std::vector<TargetLevel> levels;
+  for (auto& one : splits) {
+    if (!levels.empty() && one.size() > kMostSplits) break;
+    TargetParams targets = params.targets;
+    targets.splits = one;
+    levels.push_back({std::move(one), fitTargets(curve, targets, closed)});
+  }
+  return levels;
+}
+
+Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& setup,
+                                    std::span<const TargetLevel> levels, int degree, double toleranceMm,
+                                    const RunContext& context) {
+  std::optional<LevelOutcome> best;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    // More splits than that would bring no fewer extrema.
+    if (best && levels[i].splits.size() >= static_cast<std::size_t>(best->faired.report.extremaAfter)) break;
+    auto faired =
+        modifyShape(setup, levels[i].targets.profiles[static_cast<std::size_t>(degree) - 1], toleranceMm, context);
+    if (!faired && best) break;
+    if (!faired) return fail(faired.error());
+    if (!best || faired->report.extremaAfter < best->faired.report.extremaAfter)
+      best = LevelOutcome{i, std::move(*faired)};
+    if (best->faired.report.withinTolerance && best->faired.report.extremaAfter <= best->faired.report.extremaBefore)
+      break;
+  }
+  return std::move(*best);
+}
+
+Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const FairingParams& params,
+                                 const RunContext& context) {
+  if (!params.spanTargets.empty())
+    return fairSpans(curve, closed, targetSplits(curve, closed, params), params, context);
+  const std::vector<TargetLevel> levels = targetLevels(curve, closed, params);
+  const TargetSet& first = levels.front().targets;
+  if (first.recommendedDegree == 0)
+    return unchanged(curve, closed, Termination::Degenerate, first.profiles.front().problem);
+  if (params.target > 0) {
+    const TargetProfile& profile = first.profiles[static_cast<std::size_t>(params.target) - 1];
+    if (!profile.valid) return unchanged(curve, closed, Termination::Degenerate, profile.problem);
+  }
+  return withSetup(curve, closed, params, [&](const auto& setup, const FairingParams& within) -> Result<FairedCurve> {
+    const auto toDegree = [&](int degree, std::span<const TargetLevel> over) -> Result<LevelOutcome> {
+      return fairOverLevels(setup, over, degree, within.toleranceMm, context);
+    };
+    int degree = params.target;
+    for (int tried = 1; tried <= 6 && degree == 0; ++tried) {
+      if (!first.profiles[static_cast<std::size_t>(tried) - 1].valid) continue;
+      auto outcome = toDegree(tried, std::span(levels).first(1));
+      if (!outcome) return fail(outcome.error());
+      if (outcome->isMet()) return std::move(outcome->faired);
+    }
+    if (degree == 0) degree = first.recommendedDegree;
+    auto outcome = toDegree(degree, levels);
+    if (!outcome) return fail(outcome.error());
+    return std::move(outcome->faired);
+  });
+}
+
+}  // namespace batten

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/pipeline/run/left_as_drawn.h"
+
+namespace batten {
+namespace {
+
+/// Of the tolerance: a curve that moves less than this has not been faired.
+constexpr double kStillShare = 1e-3;
+
+}  // namespace
+
+bool isChanged(const TracedCurve& curve) { return !curve.faired.isEmpty() && !(curve.faired == curve.sketched); }
+
+bool isLeftAsDrawn(const TracedCurve& curve) {
+  if (!curve.included || curve.faired.isEmpty() || curve.fairingUsed.mode == FairingMode::None) return false;
+  if (!isChanged(curve)) return true;
+  // A rounded corner takes a piece of the curve away, whatever fairing did.
+  const auto isSameEnd = [&](double a, double b) {
+    return (curve.faired.point(a) - curve.sketched.point(b)).norm() <= kStillShare * curve.fairingUsed.toleranceMm;
+  };
+  return curve.fairing.maxDeviationMm <= kStillShare * curve.fairingUsed.toleranceMm &&
+         isSameEnd(curve.faired.start(), curve.sketched.start()) && isSameEnd(curve.faired.end(), curve.sketched.end());
+}
+
+std::string leftAsDrawnReason(const TracedCurve& curve) {
+  if (!isLeftAsDrawn(curve)) return {};
+  if (!curve.fairing.note.empty()) return curve.fairing.note;
+  if (curve.construct.isCircle) return "Left as drawn: it is an exact circle, nothing is fairer.";
+  if (curve.construct.isLine) return "Left as drawn: it is an exact line, nothing is fairer.";
+  switch (curve.fairingUsed.mode) {
+    case FairingMode::Target:
+      return "Left as drawn: no move within the tolerance brings it nearer to the target.";
+    case FairingMode::Tolerance:
+      return curve.fairingUsed.tolerancePolicy == TolerancePolicy::AsNeeded
+                 ? "Left as drawn: it has no wave that the line does not prove."
+                 : "Left as drawn: no move within the tolerance makes it more even.";
+    case FairingMode::Monotone:
+      return "Left as drawn: it has no curvature extremum that would have to go.";
+    case FairingMode::LowPass:
+      return "Left as drawn: it has no waves as short as those that would go.";
+    case FairingMode::None:
+      break;
+  }
+  return {};
+}
+
+}  // namespace batten
