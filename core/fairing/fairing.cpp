@@ -30,11 +30,17 @@ struct TargetsRun {
   Result<TargetOutcomes> outcomes = cancelled();
 };
 
+TargetsRun refused(Result<TargetOutcomes> why) {
+  TargetsRun run;
+  run.outcomes = std::move(why);
+  return run;
+}
+
 TargetsRun prepared(const TargetsJob& job) {
   TargetsRun run;
   try {
-    if (const auto error = validate(job.params)) return {nullptr, {}, {}, fail(*error)};
-    if (job.curve.isEmpty()) return {nullptr, {}, {}, fail(ErrorCode::BadParameter, "There is no curve to make fair.")};
+    if (const auto error = validate(job.params)) return refused(fail(*error));
+    if (job.curve.isEmpty()) return refused(fail(ErrorCode::BadParameter, "There is no curve to make fair."));
     TargetOutcomes outcomes;
     if (job.spanAt) {
       outcomes.splits = targetSplits(job.curve, job.closed, job.params);
@@ -48,7 +54,7 @@ TargetsRun prepared(const TargetsJob& job) {
     outcomes.recommendedDegree = outcomes.targets.recommendedDegree;
     auto setup = outcomes.span ? makeSpanSetup(job.curve, job.closed, job.params, *outcomes.span)
                                : makeSetup(job.curve, job.closed, job.params);
-    if (!setup && setup.error().code != ErrorCode::Numerical) return {nullptr, {}, {}, fail(setup.error())};
+    if (!setup && setup.error().code != ErrorCode::Numerical) return refused(fail(setup.error()));
     if (setup) run.setup = std::move(*setup);
     if (!setup) run.problem = setup.error().message;
     run.outcomes = std::move(outcomes);
