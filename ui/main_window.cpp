@@ -282,6 +282,7 @@ void MainWindow::enterStage(PanelStage stage) {
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->source() != nullptr) return;  // a curve that is being dragged out of this window
   const auto urls = event->mimeData()->urls();
   if (!urls.isEmpty() && urls.first().isLocalFile()) event->acceptProposedAction();
 }

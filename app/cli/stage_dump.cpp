@@ -117,7 +117,7 @@ bool isThere(StageId stage, const PipelineOutput& out) {
 }
 
 Picture stagePicture(StageId stage, const Scan& scan, const PipelineOutput& out) {
-  if (stage == StageId::Thresholds) return thresholdPicture(scan.grey, *out.thresholds);
+  if (stage == StageId::Thresholds) return thresholdPicture(tracedGrey(scan, out), *out.thresholds);
   if (stage == StageId::Binary) return maskPicture(scan.grey, *out.binary);
   if (stage == StageId::Filtered) return maskPicture(scan.grey, out.filtered->ink);
   if (stage == StageId::Edges) return maskPicture(scan.grey, *out.edges);
@@ -133,7 +133,7 @@ tl::unexpected<Error> notThere(std::string_view dumpName) {
 }  // namespace
 
 std::vector<std::string> dumpNames() {
-  std::vector<std::string> names{"log", "paper"};
+  std::vector<std::string> names{"log", "page", "paper"};
   for (const StageId stage : kStages) names.emplace_back(name(stage));
   return names;
 }
@@ -142,11 +142,17 @@ Result<Picture> dumpStage(std::string_view dumpName, const Scan& scan, const Rec
                           const PipelineOutput& out) {
   const GreyImage& grey = scan.grey;
   if (dumpName == "log") return greyPicture(grey, [&](int x, int y) { return logTone(grey.level(x, y), recipe.log); });
+  if (dumpName == "page") {
+    if (!out.page) return notThere(dumpName);
+    const GreyImage& page = tracedGrey(scan, out);
+    return greyPicture(page, [&](int x, int y) { return page.level(x, y); });
+  }
   if (dumpName == "paper") {
     if (!out.thresholds) return notThere(dumpName);
     const PaperBackground& paper = out.thresholds->paper;
+    const GreyImage& page = tracedGrey(scan, out);
     return greyPicture(
-        grey, [&](int x, int y) { return 255.0 * grey.level(x, y) / std::max(1.0, paper.at(x + 0.5, y + 0.5)); });
+        page, [&](int x, int y) { return 255.0 * page.level(x, y) / std::max(1.0, paper.at(x + 0.5, y + 0.5)); });
   }
   const auto stage = stageFromName(dumpName);
   if (!stage || !isThere(*stage, out)) return notThere(dumpName);

@@ -202,6 +202,7 @@ class Trace {
       list.push_back("The file holds " + std::to_string(scan_.pages) + " pages; page " +
                      std::to_string(scan_.page.number) + " was traced. Take others by --page N, or all by --page all.");
     }
+    list.insert(list.end(), out_.page->notes.begin(), out_.page->notes.end());
     if (!out_.thresholds->note.empty() && !isBlank(scan_)) list.push_back(out_.thresholds->note);
     if (out_.filtered && out_.filtered->report.thinStrokesLost) {
       list.emplace_back("The clean-up took thin strokes away. Set filter.max_change to 8 or fewer filter.iterations.");

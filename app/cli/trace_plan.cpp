@@ -335,7 +335,7 @@ std::string withPage(const std::string& name, int page) {
   if (name.empty()) return name;
   const fs::path path(name);
   std::string file = path.filename().string(), ending = path.extension().string();
-  for (const char* whole : {".poly.csv", ".recipe.json"}) {
+  for (const char* whole : {".poly.csv", ".recipe.json", ".report.pdf", ".report.html"}) {
     if (file.size() > std::string_view(whole).size() && file.ends_with(whole)) ending = whole;
   }
   file.insert(file.size() - ending.size(), "-p" + std::to_string(page));

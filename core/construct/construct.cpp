@@ -71,7 +71,8 @@ Result<std::vector<ConstructedPiece>> construct(const ConstructContour& contour,
   if (params.method == ConstructMethod::Fair) {
     FairFitOptions options;
     options.extremumSignificance = params.extremumSignificance;
-    options.knotRemovalTolerance = params.knotRemovalTolerance;
+    options.knotRemovalTolerance =
+        params.light ? ConstructParams{}.knotRemovalTolerance : params.knotRemovalTolerance;
     auto made = fairFit(contour, options, context);
     if (!made || !params.light) return made;
     try {

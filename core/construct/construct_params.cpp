@@ -27,6 +27,7 @@ std::optional<Error> validate(const ConstructParams& params) {
   if (auto error = outside("construct.lowpass", params.lowPass, 0.0, 8.0)) return error;
   if (auto error = outside("construct.growing_stop", params.growingStopDeg, 0.2, 20.0)) return error;
   if (auto error = outside("construct.light_tolerance", params.lightTolerancePx, 0.005, 50.0)) return error;
+  if (auto error = outside("construct.detail", params.detail, 0.0, 1.0)) return error;
   if (auto error = outside("construct.reduce", params.knotRemovalTolerance, 0.0, 1.0)) return error;
   return outside("construct.keep_extrema", params.extremumSignificance, 1.0, 1000.0);
 }

@@ -73,12 +73,16 @@ struct ConstructParams {
   /// little more is asked on longer ones (ExtremumNote::askedCost).
   double extremumSignificance = 20.0;
   /// [-] 0..1. Fair fit: part of the noise of an edge point by which the curve may move to need fewer control points;
-  /// 0 keeps them all.
+  /// 0 keeps them all. Without light curves; the dense curve of a light one has its default.
   double knotRemovalTolerance = 0.25;
   /// Fair fit: the fewest control points that hold the tolerance below and keep the extrema of the curvature.
-  bool light = false;
+  bool light = true;
   /// [px] 0.005..50. Light curves: farthest that a light curve lies from the dense one.
   double lightTolerancePx = 0.05;
+  /// [-] 0..1. Light curves: from true to the ink (0: the tolerance above) to what was meant (1: a quarter of the width
+  /// of the ink). Between them the tolerance grows by equal factors; what is smaller than it is smoothed away, and
+  /// sharp corners of its size stay sharp.
+  double detail = 0.0;
   bool operator==(const ConstructParams&) const = default;
 };
 std::optional<Error> validate(const ConstructParams&);

@@ -37,12 +37,14 @@ struct ConstructPiece {
   bool endIsCorner = false;
   std::vector<Vec2> breakpoints;  ///< Places along the line where the user wants typical curves to meet.
   std::vector<ExtremumConstraint> constraints = {};
+  std::optional<double> detail = {};  ///< 0..1. Its own, instead of ConstructParams::detail.
 };
 /// All pieces of one contour: methods may pool what they have in common (noise).
 struct ConstructContour {
   std::vector<ConstructPiece> pieces;
-  bool isStroke = false;  ///< Centre line of a stroke (else an outline).
-  double pixelMm = 1.0;   ///< [mm] size of a scan pixel: the scale of noise.
+  bool isStroke = false;    ///< Centre line of a stroke (else an outline).
+  double pixelMm = 1.0;     ///< [mm] size of a scan pixel: the scale of noise.
+  double inkWidthPx = 0.0;  ///< [px] width of the page's strokes and shapes; 0 = not known.
 };
 
 /// A curvature extremum that a construction considered.
@@ -70,11 +72,16 @@ struct SegmentNote {
 
 /// What making a curve light has won (construct.light).
 struct LightNote {
-  bool found = false;    ///< False: nothing lighter holds the tolerance and the extrema; the curve is the dense one.
-  bool exact = false;    ///< An exact line, arc or circle.
-  int points = 0;        ///< Control points, each counted once; exact lines 2, arcs and circles 3.
-  int pointsBefore = 0;  ///< The same of the dense curve.
-  double movedPx = 0.0;  ///< [px] largest distance of the two.
+  bool found = false;     ///< False: nothing lighter holds the tolerance and the extrema; the curve is the dense one.
+  bool exact = false;     ///< An exact line, arc or circle.
+  int points = 0;         ///< Control points, each counted once; exact lines 2, arcs and circles 3.
+  int pointsBefore = 0;   ///< The same of the dense curve.
+  double movedPx = 0.0;   ///< [px] largest distance of the two.
+  int sections = 1;       ///< More than 1: it was cut into sections that meet with one curvature …
+  int sectionsDense = 0;  ///< … of which these are as dense as they were.
+  double tolerancePx = 0.0;  ///< [px] that it was made with.
+  int corners = 0;  ///< Sharp corners inside, which were found at the scale of the tolerance (construct.detail).
+  std::string why;  ///< Why the curve, or a section of it, stayed dense; else empty.
 };
 
 struct ConstructReport {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace batten {
 namespace {
@@ -14,15 +15,16 @@ double squaredDistance(const Run& run, const Vec2& px) {
   return (px - Vec2(x, y)).squaredNorm();
 }
 
-/// The nearest piece within reach; -1 = none. Runs are in reading order, so that rows out of reach are passed over.
-int nearestPiece(const RunPieces& pieces, const Vec2& px) {
+/// The nearest piece within reach, if there is one. Runs are in reading order, so that rows out of reach are passed
+/// over.
+std::optional<int> nearestPiece(const RunPieces& pieces, const Vec2& px) {
   const auto above = [](const Run& run, double y) { return run.y < y; };
   auto run = std::lower_bound(pieces.runs.begin(), pieces.runs.end(), std::floor(px.y() - kInkReachPx - 1.0), above);
   double least = kInkReachPx * kInkReachPx;
-  int piece = -1;
+  std::optional<int> piece;
   for (; run != pieces.runs.end() && run->y <= px.y() + kInkReachPx; ++run) {
     const double distance = squaredDistance(*run, px);
-    if (distance > least || (distance == least && piece >= 0)) continue;
+    if (distance > least || (distance == least && piece)) continue;
     least = distance;
     piece = pieces.piece[run - pieces.runs.begin()];
   }
@@ -37,42 +39,29 @@ std::optional<Error> validate(const EdgeChoice& choice) {
 }
 
 ChosenInk::ChosenInk(const RunPieces& pieces, std::span<const EdgeChoice> choices) : pieces_(pieces) {
-  for (std::size_t i = 0; i < choices.size(); ++i) {
-    const int piece = nearestPiece(pieces, choices[i].positionPx);
-    if (piece >= 0) {
-      chosen_.emplace_back(piece, static_cast<int>(i));
+  for (int i = 0; i < std::ssize(choices); ++i) {
+    if (const auto piece = nearestPiece(pieces, choices[i].positionPx)) {
+      chosen_.push_back({*piece, i});
     } else {
       withoutInk_.push_back(choices[i]);
     }
   }
 }
 
-int ChosenInk::choiceOf(int piece) const {
-  for (auto one = chosen_.rbegin(); one != chosen_.rend(); ++one) {
-    if (one->first == piece) return one->second;
-  }
-  return -1;
+std::optional<int> ChosenInk::choiceOf(int piece) const {
+  const auto last = std::find_if(chosen_.rbegin(), chosen_.rend(), [&](const Chosen& c) { return c.piece == piece; });
+  return last == chosen_.rend() ? std::nullopt : std::optional(last->choice);
 }
 
-int ChosenInk::pieceAt(int x, int y) const {
-  const auto before = [](const Run& run, const std::pair<int, int>& yx) {
-    return run.y != yx.first ? run.y < yx.first : run.x1 <= yx.second;
-  };
-  const auto run = std::lower_bound(pieces_.runs.begin(), pieces_.runs.end(), std::pair(y, x), before);
-  if (run == pieces_.runs.end() || run->y != y || run->x0 > x) return -1;
-  return pieces_.piece[run - pieces_.runs.begin()];
-}
-
-int ChosenInk::choiceAt(const Vec2& px) const {
-  if (chosen_.empty()) return -1;
+std::optional<int> ChosenInk::choiceAt(const Vec2& px) const {
+  if (chosen_.empty()) return std::nullopt;
   const int x = static_cast<int>(std::floor(px.x())), y = static_cast<int>(std::floor(px.y()));
   constexpr std::array<std::pair<int, int>, 9> kNear = {
       {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
   for (const auto& [dx, dy] : kNear) {
-    const int piece = pieceAt(x + dx, y + dy);
-    if (piece >= 0) return choiceOf(piece);
+    if (const auto piece = pieceAt(pieces_, x + dx, y + dy)) return choiceOf(*piece);
   }
-  return -1;
+  return std::nullopt;
 }
 
 }  // namespace batten

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/contour/edge_choices.h"
@@ -10,21 +10,23 @@
 
 namespace batten {
 
-/// Which choice each piece of ink follows.
+/// Which of the user's choices applies to each piece of ink; pieces are the regions of one kind (ink_split.h).
 class ChosenInk {
  public:
   ChosenInk(const RunPieces& pieces, std::span<const EdgeChoice> choices);
-  /// @param piece as in RunPieces::piece. Index of its choice; -1 = none.
-  int choiceOf(int piece) const;
-  /// Choice of the ink on or next to a place [px]; -1 = none, or no ink there.
-  int choiceAt(const Vec2& px) const;
-  /// The choices that no ink is near to.
+  /// @param piece as in RunPieces::piece. Index of its choice, if it has one.
+  std::optional<int> choiceOf(int piece) const;
+  /// Index of the choice of the ink on or next to a place [px]; nothing where there is none, or no ink.
+  std::optional<int> choiceAt(const Vec2& px) const;
+  /// The choices without ink near them.
   const std::vector<EdgeChoice>& withoutInk() const { return withoutInk_; }
 
  private:
-  int pieceAt(int x, int y) const;
+  struct Chosen {
+    int piece = 0, choice = 0;
+  };
   const RunPieces& pieces_;
-  std::vector<std::pair<int, int>> chosen_;  ///< Piece and choice.
+  std::vector<Chosen> chosen_;
   std::vector<EdgeChoice> withoutInk_;
 };
 

@@ -43,10 +43,10 @@ void measureContour(Contour& c) {
   c.areaPx = c.closed ? polygonArea(at) : 0.0;
 }
 
-std::vector<Vec2> inkBeside(const Contour& c, std::size_t point) {
+std::vector<Vec2> inkBeside(const Contour& c, int point) {
   const ContourPoint& here = c.points[point];
   if (!here.band || c.points.size() < 2) return {here.unrefined};
-  const std::size_t before = point > 0 ? point - 1 : 0, after = std::min(point + 1, c.points.size() - 1);
+  const int before = std::max(point - 1, 0), after = std::min(point + 1, static_cast<int>(c.points.size()) - 1);
   const Vec2 along = c.points[after].unrefined - c.points[before].unrefined;
   if (!(along.norm() > 0.0)) return {here.unrefined};
   const Vec2 left = leftNormal(along.normalized());
@@ -66,16 +66,16 @@ Vec2 placeOnInk(const Contour& c) {
     least = std::abs(i - middle);
     best = i;
   }
-  const auto at = static_cast<std::size_t>(best);
-  const std::vector<Vec2> places = inkBeside(c, at);
+  const std::vector<Vec2> places = inkBeside(c, best);
   if (places.size() == 1) return places[0];
-  const StrokeBand band = c.points[at].band.value_or(StrokeBand{});
+  const StrokeBand band = c.points[best].band.value_or(StrokeBand{});
   return band.left >= band.right ? places[1] : places[2];
 }
 
 int bridgeCount(const ContourSet& set) {
   std::size_t count = 0;
-  for (const Contour& contour : set.contours) count += contour.bridges.size();
+  for (const Contour& contour : set.contours)
+    count += contour.kind == ContourKind::Outline ? 0 : contour.bridges.size();
   return static_cast<int>(count);
 }
 

@@ -22,21 +22,20 @@ enum class ContourKind {
 /// Whether the points of such a line mean themselves: none was measured on a scan.
 constexpr bool isDrawn(ContourKind kind) { return kind == ContourKind::Pen || kind == ContourKind::Imported; }
 
-/// How far the strokes that were merged into a line lie beside one of its points, at most within a few points of it.
-/// [px, never negative]
+/// Distance from a point of a merged line to the outermost strokes that were merged there. [px] >= 0
 struct StrokeBand {
   float left = 0.0f;   ///< To the side of leftNormal(direction of travel).
   float right = 0.0f;  ///< To the other side.
   bool operator==(const StrokeBand&) const = default;
 };
 
-/// A point of a line. What is not measured there is absent; along one line a value is there at every point or at none.
+/// A point of a line. A value that was not measured is absent; along one line it is present at every point or at none.
 struct ContourPoint {
   Vec2 at = Vec2::Zero();         ///< [px] sub-pixel position where refined, else that of the crack or the skeleton.
   Vec2 unrefined = Vec2::Zero();  ///< [px] of the crack or the skeleton.
   bool refined = false;           ///< Placed on the raw grey values. Pen: drawn, not laid between drawn points.
-  /// [px] > 0. Standard deviation of the point across the line, as the grey values around it tell. Absent: not measured
-  /// (pen, pencil, merged strokes).
+  /// [px] > 0. Standard deviation of the point across the line, estimated from the grey values around it. Absent for
+  /// pen, pencil and merged strokes.
   std::optional<float> sigmaPx = {};
   std::optional<float> widthPx = {};  ///< [px] stroke width (centre lines); absent on outlines.
   std::optional<StrokeBand> band =
@@ -55,14 +54,14 @@ struct Contour {
   std::vector<ContourPoint> points;
   double blurPx = 0.0;  ///< [px] standard deviation of the light's blur along an outline; 0: not measured.
   std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.
-  std::optional<EdgeChoice> traceMode;       ///< The user's choice about its ink that it follows.
+  std::optional<EdgeChoice> traceMode;       ///< The user's choice for its ink, if there is one.
   std::vector<int> joints;                   ///< Imported: points that are corners whatever the user marks, ascending.
   std::optional<int> imported;               ///< Imported: which line of the recipe's, counted through all its files.
   double lengthPx = 0.0;                     ///< [px] length of the polyline through `points`.
   double areaPx = 0.0;                       ///< [px^2] absolute enclosed area (closed), else 0.
 };
 
-/// Points that lie where they were found: refined and unrefined position are the same.
+/// Points whose refined and unrefined positions are the same.
 std::vector<ContourPoint> contourPoints(std::span<const Vec2> positionsPx, bool refined);
 /// Copies of the positions, for the functions of core/polyline. [px]
 std::vector<Vec2> positionsOf(std::span<const ContourPoint>);
@@ -72,10 +71,10 @@ std::vector<float> strokeWidthsOf(std::span<const ContourPoint>);
 /// Sets length and area from the positions of the points.
 void measureContour(Contour&);
 
-/// Where the ink lies that a point of a line was made of: the point itself, and of merged strokes the outermost ones.
-/// [px, unrefined]
-std::vector<Vec2> inkBeside(const Contour&, std::size_t point);
-/// A place on or near the ink of a line, about in its middle; not over a gap. [px] @pre the line has a point.
+/// Places of the ink that a point of a line stands for: the point itself and, on a merged line, the outermost strokes
+/// beside it. [px, unrefined]
+std::vector<Vec2> inkBeside(const Contour&, int point);
+/// A place on the ink of a line, near the middle of the line and not on a bridge. [px] @pre the line has a point.
 Vec2 placeOnInk(const Contour&);
 
 struct ContourReport {
@@ -94,7 +93,7 @@ struct ContourSet {
   ContourReport report;
 };
 
-/// Gaps in the ink that the lines bridge.
+/// Number of gaps in the ink that the lines bridge.
 int bridgeCount(const ContourSet&);
 
 }  // namespace batten

@@ -14,8 +14,9 @@ enum class EdgeMode {
   Centreline,  ///< The middle of every stroke.
 };
 
-/// How the user wants one piece of ink followed, whatever holds for the page. Attached by position so that it survives
-/// changes of the mask: it belongs to the piece of ink nearest to it within kInkReachPx; of several, the last counts.
+/// How the user wants one piece of ink traced, whatever the setting for the page. It is tied to a position so that it
+/// survives changes of the mask: it applies to the nearest piece of ink within kInkReachPx. If several choices apply to
+/// one piece, the last one counts.
 struct EdgeChoice {
   Vec2 positionPx = Vec2::Zero();
   EdgeMode mode = EdgeMode::Outline;

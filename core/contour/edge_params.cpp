@@ -18,8 +18,9 @@ std::optional<Error> validate(const EdgeParams& p) {
 
 std::optional<Error> validate(const ContourParams& p) {
   const auto bad = [](const char* message) { return Error{ErrorCode::BadParameter, message, {}}; };
+  if (!(p.minWidths >= 0.0 && p.minWidths <= 100.0)) return bad("contours.min_widths must be 0 to 100 stroke widths.");
   if (!(p.minLengthPx >= 0.0)) return bad("contours.min_length must be 0 px or more.");
-  if (p.maxCount < 1 || p.maxCount > 100000) return bad("contours.max_count must be 1 to 100000.");
+  if (p.maxCount < 0 || p.maxCount > 100000) return bad("contours.max_count must be 0 (all) to 100000.");
   return std::nullopt;
 }
 

@@ -9,26 +9,34 @@
 
 namespace batten {
 
+/// Whether the borders of holes inside the ink are followed, where ink is followed along its border.
+enum class InnerBorders {
+  Automatic,  ///< Those of shapes are, as in letters; not the inner sides of strokes when the page is followed by
+              ///< outline.
+  On,
+  Off,
+};
+
 struct EdgeParams {
   EdgeMode mode = EdgeMode::Automatic;
-  bool internal = false;       ///< Outline: also the borders of holes inside the ink.
+  InnerBorders internal = InnerBorders::Automatic;
   bool subpixel = true;        ///< Place the points on the raw grey values; off: crack midpoints or skeleton pixels.
-  double strokeWidth = 0.025;  ///< [-] 0.005..0.1. Strokes narrower than this part of sqrt(width * height) are lines,
-                               ///< wider ones are shapes.
+  double strokeWidth = 0.025;  ///< [-] 0.005..0.1. Of no effect but on pencil, by its default; kept for old recipes.
   double gapFactor =
       4.0;  ///< [stroke widths] 0..20. Longest gap that is bridged between two ends that face each other; 0 = none.
   double mergeWidths =
-      0.0;  ///< [stroke widths] 0..20. Strokes of one intended line closer than this are merged into one; 0 = off.
+      0.0;  ///< [stroke widths] 0..20. Strokes closer together than this are merged into one line; 0 = off.
   double spurFactor = 1.5;   ///< [stroke widths] 0..5. Side branches of the skeleton shorter than this are dropped.
-  double maxBendDeg = 40.0;  ///< [deg] 0..90. StrokePaths bending less than this continue through a crossing.
-  std::vector<EdgeChoice> choices;  ///< Pieces of ink that are followed in a way of their own.
+  double maxBendDeg = 40.0;  ///< [deg] 0..90. A stroke that bends by less than this continues through a crossing.
+  std::vector<EdgeChoice> choices;  ///< Pieces of ink with a trace mode of their own.
   bool operator==(const EdgeParams&) const = default;
 };
 std::optional<Error> validate(const EdgeParams&);
 
 struct ContourParams {
-  double minLengthPx = 40.0;  ///< [px] >= 0. Shorter lines are left out.
-  int maxCount = 400;         ///< 1..100000. At most this many, the longest; says when it cuts.
+  double minWidths = 3.0;    ///< [stroke widths] 0..100. Shorter lines are left out.
+  double minLengthPx = 0.0;  ///< [px] >= 0. So are lines shorter than this.
+  int maxCount = 0;          ///< 0..100000. At most this many, the longest; says when it cuts. 0 = all.
   bool operator==(const ContourParams&) const = default;
 };
 std::optional<Error> validate(const ContourParams&);

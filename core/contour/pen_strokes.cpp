@@ -3,16 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <string>
+#include <utility>
 
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {
 
-constexpr std::size_t kMostPoints = 100000;
+constexpr std::size_t kMostPoints = 100000;  // of one stroke
 /// [px] Distance of the points in between; longer strokes take wider steps, so that a page never becomes too much.
 constexpr double kStepPx = 1.0;
-constexpr double kMostSteps = 200000.0;
+constexpr double kMostSteps = 200000.0;  // of one stroke
 
 std::vector<Vec2> distinct(const PenStroke& stroke) {
   std::vector<Vec2> points;
@@ -21,6 +25,96 @@ std::vector<Vec2> distinct(const PenStroke& stroke) {
   }
   while (stroke.closed && points.size() > 1 && points.front() == points.back()) points.pop_back();
   return points;
+}
+
+// The part of a leg that lies on a page: from 0..1 at `from` to 0..1 at `to` (Liang and Barsky 1984).
+struct LegPart {
+  double from = 0.0, to = 1.0;
+};
+std::optional<LegPart> onPage(const Vec2& a, const Vec2& b, const PageExtent& page) {
+  LegPart part;
+  const Vec2 size(page.widthPx, page.heightPx), leg = b - a;
+  for (const int axis : {0, 1}) {
+    if (leg[axis] == 0.0) {
+      if (a[axis] < 0.0 || a[axis] > size[axis]) return std::nullopt;
+      continue;
+    }
+    const double low = -a[axis] / leg[axis], high = (size[axis] - a[axis]) / leg[axis];
+    part.from = std::max(part.from, std::min(low, high));
+    part.to = std::min(part.to, std::max(low, high));
+  }
+  if (!(part.from < part.to)) return std::nullopt;
+  return part;
+}
+
+bool isOnPage(const PenStroke& stroke, const PageExtent& page) {
+  return std::all_of(stroke.points.begin(), stroke.points.end(), [&](const Vec2& p) {
+    return p.x() >= 0.0 && p.y() >= 0.0 && p.x() <= page.widthPx && p.y() <= page.heightPx;
+  });
+}
+
+// The parts of a stroke that lie on a page, each an open line.
+std::vector<std::vector<Vec2>> partsOnPage(const PenStroke& stroke, const PageExtent& page) {
+  const std::vector<Vec2> drawn = distinct(stroke);
+  const int n = static_cast<int>(drawn.size()), legs = stroke.closed ? n : n - 1;
+  std::vector<std::vector<Vec2>> parts;
+  bool isOpen = false;  // the last part ends where this leg begins
+  for (int i = 0; i < legs; ++i) {
+    const Vec2 &a = drawn[i], &b = drawn[(i + 1) % n];
+    const auto leg = onPage(a, b, page);
+    if (!leg) {
+      isOpen = false;
+      continue;
+    }
+    if (!isOpen || leg->from > 0.0) parts.push_back({a + leg->from * (b - a)});
+    parts.back().push_back(leg->to < 1.0 ? Vec2(a + leg->to * (b - a)) : b);
+    isOpen = leg->to >= 1.0;
+  }
+  // A closed stroke comes round to the part that it began with.
+  if (stroke.closed && isOpen && parts.size() > 1 && parts.front().front() == drawn.front()) {
+    parts.back().insert(parts.back().end(), parts.front().begin() + 1, parts.front().end());
+    parts.erase(parts.begin());
+  }
+  return parts;
+}
+
+// The longest part of a stroke on a page; nothing where it lies beside it.
+std::optional<PenStroke> cutToPage(const PenStroke& stroke, const PageExtent& page) {
+  std::optional<PenStroke> longest;
+  double most = 0.0;
+  for (std::vector<Vec2>& part : partsOnPage(stroke, page)) {
+    const double length = polylineLength(part, false);
+    if (!(length > most)) continue;
+    most = length;
+    longest = PenStroke{std::move(part), false};
+  }
+  return longest;
+}
+
+// What became of the strokes of a drawing.
+struct PenReport {
+  int beside = 0, cut = 0, tooMany = 0;
+};
+
+std::string strokesOf(int count) { return std::to_string(count) + (count == 1 ? " pen stroke" : " pen strokes"); }
+
+std::string noteOf(const PenReport& report) {
+  std::string note;
+  const auto add = [&](int count, const std::string& one, const std::string& several) {
+    if (count == 0) return;
+    if (!note.empty()) note += ' ';
+    note += strokesOf(count) + (count == 1 ? one : several);
+  };
+  add(report.cut, " leaves the page: only its longest part on the page is kept.",
+      " leave the page: only the longest part of each on the page is kept.");
+  add(report.beside, " lies beside the page and is left out.", " lie beside the page and are left out.");
+  add(report.tooMany, " is left out", " are left out");
+  if (report.tooMany > 0) {
+    note += ", because a drawing may hold ";
+    note += std::to_string(kMostPenPoints);
+    note += " points of pen strokes, about one a pixel: remove some strokes.";
+  }
+  return note;
 }
 
 }  // namespace
@@ -45,14 +139,14 @@ Contour penContour(const PenStroke& stroke) {
   contour.lengthPx = polylineLength(drawn, stroke.closed);
   if (stroke.closed) contour.areaPx = polygonArea(drawn);
   const double step = std::max(kStepPx, contour.lengthPx / kMostSteps);
-  const std::size_t legs = stroke.closed ? drawn.size() : drawn.size() - 1;
+  const int n = static_cast<int>(drawn.size()), legs = stroke.closed ? n : n - 1;
   const auto add = [&](const Vec2& at, bool isDrawn) {
     contour.points.push_back({.at = at, .unrefined = at, .refined = isDrawn});
   };
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
+  for (int i = 0; i < n; ++i) {
     add(drawn[i], true);
     if (i >= legs) break;
-    const Vec2& next = drawn[(i + 1) % drawn.size()];
+    const Vec2& next = drawn[(i + 1) % n];
     const int parts = static_cast<int>(std::ceil((next - drawn[i]).norm() / step));
     for (int k = 1; k < parts; ++k) {
       add(drawn[i] + (next - drawn[i]) * (static_cast<double>(k) / parts), false);
@@ -61,9 +155,33 @@ Contour penContour(const PenStroke& stroke) {
   return contour;
 }
 
-ContourSet withPenStrokes(const ContourSet& set, std::span<const PenStroke> strokes) {
+Result<ContourSet> withPenStrokes(const ContourSet& set, std::span<const PenStroke> strokes, const PageExtent& page) {
   ContourSet result = set;
-  for (const PenStroke& stroke : strokes) result.contours.push_back(penContour(stroke));
+  PenReport report;
+  std::int64_t points = 0;
+  for (const PenStroke& stroke : strokes) {
+    Contour& contour = result.contours.emplace_back();
+    contour.kind = ContourKind::Pen;
+    const bool isWhole = isOnPage(stroke, page);
+    const std::optional<PenStroke> kept = isWhole ? std::optional(stroke) : cutToPage(stroke, page);
+    if (!kept) {
+      ++report.beside;
+      continue;
+    }
+    Contour laid = penContour(*kept);
+    if (points + std::ssize(laid.points) > kMostPenPoints) {
+      ++report.tooMany;
+      continue;
+    }
+    if (!isWhole) ++report.cut;
+    points += std::ssize(laid.points);
+    contour = std::move(laid);
+  }
+  const std::string note = noteOf(report);
+  if (points == 0 && set.contours.empty()) {
+    return fail(ErrorCode::NoCurve, "No line lies on the page: draw on it, or make the page larger.", note);
+  }
+  if (!note.empty()) result.report.note += (result.report.note.empty() ? "" : " ") + note;
   return result;
 }
 

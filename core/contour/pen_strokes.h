@@ -10,21 +10,33 @@
 
 namespace batten {
 
-/// A line drawn by hand in the program, with a mouse or a tablet (004 section 3); pressure plays no part. Image frame.
+/// A line drawn in the program with a mouse or a tablet ([004] section 3). Pressure is ignored. Image frame.
 struct PenStroke {
-  std::vector<Vec2> points;  ///< [px] as drawn, in order; at any distance from each other.
+  std::vector<Vec2> points;  ///< [px] as drawn, in order, at any spacing.
   bool closed = false;       ///< The last point is followed by the first.
   bool operator==(const PenStroke& other) const { return closed == other.closed && points == other.points; }
 };
 
-/// A stroke needs two points at different places (closed: three); all finite, at most 100 000.
+/// A stroke needs two different points (closed: three), all finite, and at most 100 000.
 std::optional<Error> validate(const PenStroke&);
 
-/// The stroke as a line of the drawing. Straight between the drawn points, about one point a pixel as in every contour;
-/// `refined` is set at the points that were drawn. Points drawn twice in a row count once. @pre the stroke is valid.
+/// The stroke as a contour: straight between the drawn points, with about one point a pixel. `refined` is set at the
+/// drawn points. Repeated points count once. @pre the stroke is valid.
 Contour penContour(const PenStroke&);
 
-/// `set` with the strokes behind its own lines, in the order in which they were drawn. @pre all strokes are valid.
-ContourSet withPenStrokes(const ContourSet& set, std::span<const PenStroke> strokes);
+/// A page by its corners (0, 0) and (width, height). [px]
+struct PageExtent {
+  double widthPx = 0.0, heightPx = 0.0;
+};
+
+/// Largest number of contour points of all pen strokes of a drawing together. At one point a pixel that is a page full
+/// of lines.
+inline constexpr int kMostPenPoints = 1'000'000;
+
+/// Appends the strokes to the lines of `set`, in the order drawn, one contour a stroke. A stroke that leaves the page
+/// is cut to its longest part on the page. A stroke beside the page, and one that would exceed kMostPenPoints, becomes
+/// a contour without points. The note of the report says which. @pre all strokes are valid.
+/// @return NoCurve, with what to do, if no line is left.
+Result<ContourSet> withPenStrokes(const ContourSet& set, std::span<const PenStroke> strokes, const PageExtent& page);
 
 }  // namespace batten

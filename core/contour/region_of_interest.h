@@ -12,7 +12,7 @@
 
 namespace batten {
 
-/// A part of the page that the user wants traced: a polygon, closed by itself; crossing sides count even-odd.
+/// A part of the page to trace: a polygon, closed implicitly, filled by the even-odd rule.
 struct RegionOfInterest {
   std::vector<Vec2> cornersPx;  ///< [px] at least three.
   bool operator==(const RegionOfInterest& o) const { return cornersPx == o.cornersPx; }
@@ -24,11 +24,11 @@ std::optional<Error> validate(const RegionOfInterest&);
 /// Whether a place lies in one of the regions.
 bool isInside(std::span<const RegionOfInterest>, const Vec2& px);
 
-/// The pieces of ink that reach into a region, whole: what is cut is the line, not the ink, so that no border of a
-/// region is ever traced.
+/// The pieces of ink that reach into a region, complete. Lines are cut later and not the ink, so that the border of a
+/// region is never traced.
 BitImage inkTouching(const BitImage& ink, std::span<const RegionOfInterest>, const RunContext&);
 
-/// The parts of lines that lie inside: a line that crosses a border ends there, a closed one becomes open. Parts
+/// The parts of lines inside the regions. A line that crosses a border ends there; a closed line becomes open. Parts
 /// shorter than `minLengthPx` are dropped; longest first as before.
 ContourSet keepInside(ContourSet, std::span<const RegionOfInterest>, double minLengthPx);
 

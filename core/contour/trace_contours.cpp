@@ -10,10 +10,16 @@
 #include "core/base/parallel.h"
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/chosen_ink.h"
+#include "core/contour/ink_split.h"
+#include "core/contour/line_choices.h"
 #include "core/contour/outline/crack_contours.h"
+#include "core/contour/outline/implied_borders.h"
 #include "core/contour/outline/soft_borders.h"
 #include "core/contour/outline/soft_edges.h"
 #include "core/contour/outline/subpixel_edges.h"
+#include "core/image/bit_disc.h"
+#include "core/image/bit_steps.h"
+#include "core/image/run_pieces.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -29,13 +35,34 @@ bool before(const Contour& a, const Contour& b) {
   return p.y() != q.y() ? p.y() < q.y() : p.x() < q.x();
 }
 
+bool hasInnerBorders(const EdgeParams& edges) {
+  if (edges.internal == InnerBorders::Automatic) return edges.mode != EdgeMode::Outline;
+  return edges.internal == InnerBorders::On;
+}
+
+std::string counted(int count, const char* one, const char* many) {
+  return count == 1 ? std::string("One ") + one + " is" : std::to_string(count) + " " + many + " are";
+}
+
+// What was found and is not there, in words.
+void tellDropped(ContourSet& set, const EdgeParams& edges) {
+  const ContourReport& report = set.report;
+  if (report.droppedShort > 0)
+    addNote(set, counted(report.droppedShort, "short line", "short lines") +
+                     " left out (contours.min_widths, contours.min_length).");
+  if (report.droppedHoles > 0 && edges.internal == InnerBorders::Automatic)
+    addNote(set,
+            counted(report.droppedHoles, "inner border", "inner borders") + " left out: edges.internal=on keeps them.");
+  if (report.droppedMargins > 0)
+    addNote(set, counted(report.droppedMargins, "line", "lines") + " along the border of the page left out.");
+}
+
 void sortAndCut(ContourSet& set, const ContourParams& params) {
   std::sort(set.contours.begin(), set.contours.end(), before);
   const auto most = static_cast<std::size_t>(params.maxCount);
-  if (set.contours.size() <= most) return;
-  if (!set.report.note.empty()) set.report.note += ' ';
-  set.report.note += "Only the " + std::to_string(most) + " longest of " + std::to_string(set.contours.size()) +
-                     " lines are kept: raise the largest number of lines to see the rest.";
+  if (most == 0 || set.contours.size() <= most) return;
+  addNote(set, "Only the " + std::to_string(most) + " longest of " + std::to_string(set.contours.size()) +
+                   " lines are kept: raise the largest number of lines to see the rest.");
   set.contours.resize(most);
 }
 
@@ -96,109 +123,159 @@ void append(ContourSet& to, ContourSet&& from) {
   std::move(from.contours.begin(), from.contours.end(), std::back_inserter(to.contours));
 }
 
-// The lines of the page before sub-pixel placement of the outlines; centre lines come placed.
-Result<ContourSet> findLines(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
-                             const ContourParams& params, const RunContext& context) {
-  if (edges.mode == EdgeMode::Outline && edges.choices.empty()) {
-    return crackContours(ink, edges.internal, params.minLengthPx, context);
+// [px] What a line has to be long, by the width of the pen.
+double shortestPx(const ContourParams& params, double penPx) {
+  return std::max(params.minLengthPx, params.minWidths * penPx);
+}
+
+// [px] A pen width for ink that is followed along its borders alone: that of its borders in the middle, where twice
+// the area by the border is the width of a line; never more than a small mark may be wide.
+double penOfBorders(const ContourSet& borders) {
+  constexpr double kMostPenPx = 40.0 / 3.0;
+  std::vector<std::pair<double, double>> widths;
+  double all = 0.0, sum = 0.0;
+  for (const Contour& c : borders.contours) {
+    if (c.hole) continue;
+    widths.emplace_back(2.0 * c.areaPx / std::max(1.0, c.lengthPx), c.lengthPx);
+    all += c.lengthPx;
   }
-  StrokeSplit split;
-  if (edges.mode == EdgeMode::Centreline && edges.choices.empty()) {
-    split.strokes = ink;
-  } else {
-    Result<StrokeSplit> found = splitStrokes(ink, edges, context);
-    if (!found) return fail(found.error());
-    split = std::move(*found);
+  std::sort(widths.begin(), widths.end());
+  for (const auto& [width, length] : widths) {
+    sum += length;
+    if (2.0 * sum >= all) return std::min(width, kMostPenPx);
   }
-  context.report(0.2);
-  ContourSet set;
-  if (!split.shapes.words.empty()) {
-    Result<ContourSet> outlines = crackContours(split.shapes, edges.internal, params.minLengthPx, context);
-    if (!outlines) return outlines;
-    append(set, std::move(*outlines));
-  }
-  context.report(0.3);
-  Result<ContourSet> lines = centrelines(split.strokes, grey, edges, context);
-  if (!lines) return lines;
-  const std::size_t all = lines->contours.size();
-  std::erase_if(lines->contours, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
-  lines->report.droppedShort += static_cast<int>(all - lines->contours.size());
-  append(set, std::move(*lines));
+  return 0.0;
+}
+
+// The borders of ink that is followed along them, but the short ones. `penPx`: 0 = take it from the borders.
+// `pencil`: ink whose grain leaves specks and holes; absent: none is known.
+Result<ContourSet> bordersOf(const BitImage& ink, bool holes, const ContourParams& params, double penPx,
+                             const BitImage* pencil, const RunContext& context) {
+  // Of a line's least length: a dot half as wide as the pen, and the eye of an e.
+  constexpr double kLeastDot = 0.5, kLeastHole = 1.0 / 3.0;
+  constexpr double kGrain = 4.0;  // of it: specks and holes of a pencil are smaller
+  Result<ContourSet> set = crackContours(ink, holes, params.minLengthPx, context);
+  if (!set) return set;
+  const double shortest = shortestPx(params, penPx > 0.0 ? penPx : penOfBorders(*set));
+  const auto isGrainy = [&](const Contour& c) {
+    return pencil != nullptr && anyInDisc(*pencil, c.points.front().unrefined, 1.0);
+  };
+  const auto dropped = std::erase_if(set->contours, [&](const Contour& c) {
+    return c.lengthPx < shortest * (isGrainy(c) ? kGrain : c.hole ? kLeastHole : kLeastDot);
+  });
+  set->report.droppedShort += static_cast<int>(dropped);
   return set;
 }
 
-void addNote(ContourSet& set, const std::string& what, const Vec2& px) {
-  if (!set.report.note.empty()) set.report.note += ' ';
-  set.report.note +=
-      what + " near (" + std::to_string(std::lround(px.x())) + ", " + std::to_string(std::lround(px.y())) + ").";
-}
+// What a page is made of, before sub-pixel placement of the outlines; centre lines come placed.
+struct FoundLines {
+  ContourSet set;
+  RunPieces regions;  ///< What a choice of the user holds for.
+  BitImage blots;     ///< Ink to be followed along its middle that has none.
+};
 
-// Notes on every line which choice of the user its ink follows; true for every choice that gave a line.
-std::vector<bool> noteWays(ContourSet& set, const ChosenInk& chosen, std::span<const EdgeChoice> choices) {
-  std::vector<bool> gaveLine(choices.size(), false);
-  for (Contour& contour : set.contours) {
-    for (std::size_t i = 0; i < contour.points.size() && !contour.traceMode; ++i) {
-      for (const Vec2& place : inkBeside(contour, i)) {
-        const int choice = chosen.choiceAt(place);
-        if (choice < 0) continue;
-        contour.traceMode = choices[choice];
-        gaveLine[choice] = true;
-      }
+// Stroke ink that no line follows: blots. A pencil leaves specks that are none, and what the user wants to be longer is
+// a short line.
+BitImage withoutLine(const InkSplit& split, const ContourSet& lines, double minWidths, const RunContext& context) {
+  constexpr double kBlotWidths = 3.0;  // [stroke widths] shorter ink has no direction
+  constexpr double kBesideLinePx = 1.5;
+  const RunPieces pieces = findPieces(split.strokes, Connectivity::Eight, context);
+  BitImage rest(split.strokes.width, split.strokes.height);
+  BitImage beside(split.strokes.width, split.strokes.height);
+  for (const Contour& line : lines.contours) {
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      for (const Vec2& place : inkBeside(line, i)) setDisc(beside, place, kBesideLinePx);
     }
   }
-  return gaveLine;
+  std::vector<bool> hasLine(pieces.runs.size(), false);
+  std::vector<Run> box(pieces.runs.size());  // x0..x1 of each piece, y its last row
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    const Run& run = pieces.runs[i];
+    if (countBits(beside, run) > 0 || (split.pencil.width > 0 && countBits(split.pencil, run) > 0))
+      hasLine[pieces.piece[i]] = true;
+    Run& b = box[pieces.piece[i]];
+    b = pieces.piece[i] == static_cast<int>(i) ? run : Run{run.y, std::min(b.x0, run.x0), std::max(b.x1, run.x1)};
+    const double size = std::hypot(b.x1 - b.x0, b.y - pieces.runs[pieces.piece[i]].y + 1.0);
+    if (minWidths > kBlotWidths && size > kBlotWidths * split.penPx) hasLine[pieces.piece[i]] = true;
+  }
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    if (!hasLine[pieces.piece[i]]) setBits(rest, pieces.runs[i]);
+  }
+  return rest;
 }
 
-// Ink that was chosen to be followed along its middle, but is a blot that has none, keeps its outline: a line that
-// vanished could not be clicked again.
-Result<void> followChoices(ContourSet& set, const BitImage& ink, const EdgeParams& edges, const ContourParams& params,
-                           const RunContext& context) {
-  if (edges.choices.empty()) return {};
-  const RunPieces pieces = findPieces(ink, Connectivity::Eight, context);
-  if (context.isCancelled()) return cancelled();
-  const ChosenInk chosen(pieces, edges.choices);
-  for (const EdgeChoice& choice : chosen.withoutInk())
-    addNote(set, "No ink to follow in its own way lies", choice.positionPx);
-  const std::vector<bool> gaveLine = noteWays(set, chosen, edges.choices);
-  BitImage blots(ink.width, ink.height);
-  std::vector<bool> isNoted(edges.choices.size(), false);
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    const int index = chosen.choiceOf(pieces.piece[i]);
-    if (index < 0) continue;
-    const auto at = static_cast<std::size_t>(index);
-    const EdgeChoice& choice = edges.choices[at];
-    if (gaveLine[at] || choice.mode != EdgeMode::Centreline) continue;
-    setBits(blots, pieces.runs[i]);
-    if (!isNoted[at])
-      addNote(set, "Too short and wide for a centre line, followed along its outline: the ink", choice.positionPx);
-    isNoted[at] = true;
+// Where the page is followed along its middles, blots are what the user chose to be.
+BitImage chosenOf(const BitImage& blots, const RunPieces& regions, const EdgeParams& edges) {
+  BitImage chosenBlots(blots.width, blots.height);
+  const ChosenInk chosen(regions, edges.choices);
+  for (std::size_t i = 0; i < regions.runs.size(); ++i) {
+    const Run& run = regions.runs[i];
+    if (!chosen.choiceOf(regions.piece[i])) continue;
+    for (int x = run.x0; x < run.x1; ++x) {
+      if (blots.at(x, run.y)) chosenBlots.set(x, run.y, true);
+    }
   }
-  if (std::find(isNoted.begin(), isNoted.end(), true) == isNoted.end()) return {};
-  Result<ContourSet> outlines = crackContours(blots, edges.internal, params.minLengthPx, context);
-  if (!outlines) return fail(outlines.error());
-  noteWays(*outlines, chosen, edges.choices);
-  append(set, std::move(*outlines));
-  return {};
+  return chosenBlots;
+}
+
+Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
+                             const ContourParams& params, const RunContext& context) {
+  FoundLines found;
+  if (edges.mode == EdgeMode::Outline && edges.choices.empty()) {
+    Result<ContourSet> borders = bordersOf(ink, hasInnerBorders(edges), params, 0.0, nullptr, context);
+    if (!borders) return fail(borders.error());
+    found.set = std::move(*borders);
+    return found;
+  }
+  Result<InkSplit> split = splitInk(ink, grey, edges, context);
+  if (!split) return fail(split.error());
+  context.report(0.2);
+  found.regions = std::move(split->regions);
+  const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr, params.minWidths};
+  Result<ContourSet> lines = centrelines(split->strokes, grey, edges, context, options);
+  if (!lines) return fail(lines.error());
+  context.report(0.3);
+  found.blots = withoutLine(*split, *lines, params.minWidths, context);
+  if (edges.mode == EdgeMode::Centreline) found.blots = chosenOf(found.blots, found.regions, edges);
+  if (context.isCancelled()) return cancelled();
+  split->shapes = either(std::move(split->shapes), found.blots);
+  split->strokes = without(std::move(split->strokes), found.blots);
+  Result<ContourSet> borders =
+      bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, &split->pencil, context);
+  if (!borders) return fail(borders.error());
+  for (Contour& border : borders->contours) implyBorders(border, split->strokes);
+  found.set = std::move(*borders);
+  const std::size_t all = lines->contours.size();
+  std::erase_if(lines->contours, [&](const Contour& c) { return c.lengthPx < params.minLengthPx; });
+  lines->report.droppedShort += static_cast<int>(all - lines->contours.size());
+  append(found.set, std::move(*lines));
+  return found;
 }
 
 std::string noLineMessage(const ContourSet& set, const ContourParams& params) {
-  const std::string length = std::to_string(static_cast<long>(std::lround(std::min(params.minLengthPx, 1e9))));
   if (set.report.found == 0) {
     return "No line was found: raise the thresholds, or check that the drawing is darker than the paper.";
   }
-  return "No line of " + length + " px or longer was found: lower the smallest length or raise the thresholds.";
+  const bool isPx = params.minLengthPx > 0.0;
+  const auto limit = std::lround(std::min(isPx ? params.minLengthPx : params.minWidths, 1e9));
+  return "No line of " + std::to_string(limit) + (isPx ? " px" : " stroke widths") +
+         " or longer was found: lower the smallest length or raise the thresholds.";
 }
 
 Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
                             const ContourParams& params, const RunContext& context) {
-  Result<ContourSet> set = findLines(ink, grey, edges, params, context);
-  if (!set) return set;
-  if (auto followed = followChoices(*set, ink, edges, params, context); !followed) return fail(followed.error());
+  Result<FoundLines> found = findLines(ink, grey, edges, params, context);
+  if (!found) return fail(found.error());
+  ContourSet* set = &found->set;
+  noteChoices(*set, found->regions, edges.choices, found->blots);
   if (context.isCancelled()) return cancelled();
   if (set->contours.empty()) {
     return fail(
         ErrorCode::NoCurve, noLineMessage(*set, params),
         std::to_string(set->report.found) + " found, " + std::to_string(set->report.droppedShort) + " too short");
+  }
+  if (edges.strokeWidth != EdgeParams{}.strokeWidth) {
+    addNote(*set, "edges.stroke_width has no effect: strokes and shapes are told apart region by region.");
   }
   sortAndCut(*set, params);
   context.report(0.6);
@@ -209,9 +286,10 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
     if (context.isCancelled()) return cancelled();
     std::sort(set->contours.begin(), set->contours.end(), before);
   }
+  tellDropped(*set, edges);
   countRefined(*set);
   context.report(1.0);
-  return set;
+  return std::move(*set);
 }
 
 }  // namespace

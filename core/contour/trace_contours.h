@@ -10,9 +10,9 @@
 
 namespace batten {
 
-/// Ink to ordered lines: borders by crack following, strokes by their skeleton, each refined on the raw grey values.
-/// The mask decides topology only; positions come from `grey` where EdgeParams::subpixel is on.
-/// @return NoCurve, with what to do, if nothing long enough is left.
+/// Finds the lines of a page: outlines by crack following, centre lines by thinning, both refined on the raw grey
+/// values. The mask gives the topology only; positions come from `grey` if EdgeParams::subpixel is on.
+/// @return NoCurve, with advice, if no line is long enough.
 Result<ContourSet> traceContours(const BitImage& ink, const GreyImage& grey, const EdgeParams&, const ContourParams&,
                                  const RunContext&);
 

@@ -119,7 +119,8 @@ double snapped(const Parts& parts, double u) {
 }
 
 int multiplicity(const Parts& parts, double u) {
-  return static_cast<int>(std::count(parts.knots.begin(), parts.knots.end(), u));
+  const auto [first, last] = std::equal_range(parts.knots.begin(), parts.knots.end(), u);
+  return static_cast<int>(last - first);
 }
 
 Parts elevatedOnce(const Parts& old) {

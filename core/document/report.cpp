@@ -58,7 +58,10 @@ Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
                      {"exact", r.light->exact},
                      {"control_points", r.light->points},
                      {"control_points_before", r.light->pointsBefore},
-                     {"moved_px", number(r.light->movedPx)}};
+                     {"moved_px", number(r.light->movedPx)},
+                     {"sections", r.light->sections},
+                     {"sections_dense", r.light->sectionsDense},
+                     {"why", r.light->why}};
   }
   if (r.pointsBefore > 0) {
     json["polygon_points"] = {{"before", r.pointsBefore}, {"after", r.pointsAfter}, {"added", r.pointsAdded}};

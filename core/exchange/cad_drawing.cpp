@@ -14,7 +14,7 @@
 namespace batten {
 namespace {
 
-constexpr double kGrid = 1e-10;    ///< [unit of the file] To which the handles of cubics are rounded.
+constexpr double kGrid = 1e-12;    ///< [unit of the file] To which the handles of cubics are rounded.
 constexpr double kMeeting = 1e-6;  ///< Of the size of a curve: gap of pieces that are joined (see doMeet).
 
 /// Pieces to be written as one, with the name of the first.

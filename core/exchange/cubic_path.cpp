@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/curve/arc_length.h"
@@ -13,17 +14,20 @@
 namespace batten {
 namespace {
 
-constexpr int kSamples = 32;   ///< Places per cubic at which the error is measured and handles are fitted.
-constexpr int kRounds = 4;     ///< Fits of the handles, each with better parameters.
-constexpr int kMaxDepth = 24;  ///< Halvings; 1/2^24 of a piece is far below any tolerance.
+constexpr int kSamples = 32;       ///< Places per cubic at which the error is measured and handles are fitted.
+constexpr double kSettled = 1e-6;  ///< [share of the piece] A step to the foot point so small is the last one.
+constexpr int kRounds = 4;         ///< Fits of the handles, each with better parameters.
+constexpr int kMaxDepth = 24;      ///< Halvings; 1/2^24 of a piece is far below any tolerance.
 constexpr double kMaxTurn =
     1.75;  ///< [rad] A cubic that turns more than 100 degrees fits badly and looks wrong in editors.
 
+constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
 constexpr int kCurvatureRounds = 12;          ///< Steps towards the curvatures at both ends.
 constexpr double kMaxCurvatureError = 0.008;  ///< At the end of a cubic; two that meet may jump by twice as much.
 constexpr double kLeastCurvature = 0.05;      ///< [1/length of the curve] What a curvature error is measured against.
 
-constexpr double kJump = 4.0;  ///< [grid] Parts of a curve that end and start farther apart than by rounding.
+/// Parts of a curve that end and start farther apart than this share of its coordinates do so not by rounding.
+constexpr double kJump = 1e-11;
 
 using Cubic = std::array<Vec2, 4>;
 
@@ -66,19 +70,27 @@ class Approximation {
   Approximation(const NurbsCurve& curve, double tolerance, double grid, CubicPath& path)
       : curve_(curve), tolerance_(tolerance), grid_(grid), path_(path) {}
 
-  /// Adds the curve, which has one curvature at every place, to the last run, or begins one where it starts elsewhere.
-  /// Curvatures less than kLeastCurvature / `wholeLength` count as that much.
-  void add(double wholeLength) {
+  /// Adds the curve, whose curvature has one slope at every place, to the last run, or begins one where it starts
+  /// elsewhere. Curvatures less than kLeastCurvature / `wholeLength` count as that much.
+  /// @param before curvature of the cubic before at its end, which the first one's must agree with.
+  void add(double wholeLength, std::optional<double> before) {
     least_ = kLeastCurvature / wholeLength;
-    before_.reset();
+    before_ = before;
     const Vec2 start = rounded(curve_.point(curve_.start()));
-    if (path_.runs.empty() || (path_.runs.back().end() - start).norm() > kJump * grid_)
-      path_.runs.push_back({start, {}});
+    if (path_.runs.empty() || (path_.runs.back().end() - start).norm() > jump()) path_.runs.push_back({start, {}});
     recurse(curve_.start(), curve_.end(), 0);
   }
+  /// Curvature of the last cubic at its end.
+  std::optional<double> curvatureBehind() const { return before_; }
 
  private:
   Vec2 rounded(const Vec2& p) const { return {std::round(p.x() / grid_) * grid_, std::round(p.y() / grid_) * grid_}; }
+
+  double jump() const {
+    double size = 0.0;
+    for (const Vec2& p : curve_.controlPoints()) size = std::max(size, p.cwiseAbs().maxCoeff());
+    return std::max(4.0 * grid_, kJump * size);
+  }
 
   /// Unit direction at u, from the side of the interval [from, to] that u bounds.
   Vec2 direction(double u, double from, double to) const {
@@ -134,6 +146,13 @@ class Approximation {
     c[2] = c[3] - length[1] * d1;
   }
 
+  /// Whether rounding a handle turns the curvatures by more than may be: no smaller cubic would be better.
+  bool isTooShortForGrid(const Cubic& c, const EndCurvatures& exact) const {
+    const double handle = std::min((c[1] - c[0]).norm(), (c[3] - c[2]).norm());
+    const double least = std::min(weight(exact[0].value_or(0.0)), weight(exact[1].value_or(0.0)));
+    return grid_ > kMaxCurvatureError * least * 1.5 * handle * handle;
+  }
+
   double turning() const {
     double sum = 0.0;
     for (std::size_t i = 2; i < points_.size(); ++i) {
@@ -186,16 +205,19 @@ class Approximation {
     return c;
   }
 
-  /// Largest distance between cubic and curve over [from, to]: from the curve's samples to the cubic, and back.
-  double error(const Cubic& c, double from, double to) {
+  /// Largest distance between cubic and curve over [from, to]: from the curve's samples to the cubic, and back; once it
+  /// is more than `enough`, any such distance.
+  double error(const Cubic& c, double from, double to, double enough) {
     double worst = 0.0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       double t = parameters_[i];
       worst = std::max(worst, footDistance(c, points_[i], t));
+      if (worst > enough) return worst;
     }
     for (int i = 1; i < 2 * kSamples; ++i) {
       const Vec2 p = at(c, i / (2.0 * kSamples));
       worst = std::max(worst, distanceFromCurve(p, from, to));
+      if (worst > enough) return worst;
     }
     return worst;
   }
@@ -208,10 +230,14 @@ class Approximation {
     double best = (*nearest - p).norm();
     for (int i = 0; i < 8; ++i) {
       const auto d = curve_.derivatives(u, 1);
+      best = std::min(best, (d[0] - p).norm());
       const double square = d[1].squaredNorm();
       if (square == 0.0) break;
-      u = std::clamp(u + (p - d[0]).dot(d[1]) / square, from, to);
-      best = std::min(best, (curve_.point(u) - p).norm());
+      const double next = std::clamp(u + (p - d[0]).dot(d[1]) / square, from, to);
+      // Gauss-Newton: what is left is of second order, and the distance changes by the square of that.
+      const bool settled = std::abs(next - u) <= kSettled * (to - from);
+      u = next;
+      if (settled) break;
     }
     return best;
   }
@@ -228,7 +254,8 @@ class Approximation {
       matchCurvatures(c, exact);
       c[1] = rounded(c[1]);
       c[2] = rounded(c[2]);
-      const double measured = curvatureError(c, exact) <= kMaxCurvatureError || !mayHalve ? error(c, from, to) : -1.0;
+      const bool isKept = curvatureError(c, exact) <= kMaxCurvatureError || isTooShortForGrid(c, exact) || !mayHalve;
+      const double measured = isKept ? error(c, from, to, mayHalve ? tolerance_ : kAnyDistance) : -1.0;
       if ((measured >= 0.0 && measured <= tolerance_) || !mayHalve) {
         take(c, exact[0], measured);
         return;
@@ -256,20 +283,28 @@ class Approximation {
   std::vector<double> parameters_;
 };
 
-/// The curve cut where its curvature may jump, so that within a part both sides of a knot agree.
-Result<std::vector<NurbsCurve>> smoothParts(const NurbsCurve& curve) {
-  std::vector<NurbsCurve> parts;
-  NurbsCurve rest = curve;
+/// A part of a curve between knots where its curvature, or the slope of that, may jump.
+struct SmoothPart {
+  NurbsCurve curve;
+  bool curvatureGoesOn = false;  ///< From the part before.
+};
+
+/// Cut where the slope of the curvature may jump: halving towards such a place never ends well, because a cubic that
+/// reaches across it has one slope only.
+Result<std::vector<SmoothPart>> smoothParts(const NurbsCurve& curve) {
+  std::vector<SmoothPart> parts;
+  SmoothPart rest{curve};
   const std::vector<double> breaks = curve.breaks();
+  const auto knots = curve.knots();
   for (std::size_t i = 1; i + 1 < breaks.size(); ++i) {
-    const auto knots = curve.knots();
-    if (std::count(knots.begin(), knots.end(), breaks[i]) < curve.degree() - 1) continue;
-    auto cut = split(rest, breaks[i]);
+    const auto times = std::count(knots.begin(), knots.end(), breaks[i]);
+    if (times < curve.degree() - 2) continue;
+    auto cut = split(rest.curve, breaks[i]);
     if (!cut) return fail(cut.error());
-    parts.push_back(cut->left);
-    rest = cut->right;
+    parts.push_back({std::move(cut->left), rest.curvatureGoesOn});
+    rest = {std::move(cut->right), times == curve.degree() - 2};
   }
-  parts.push_back(rest);
+  parts.push_back(std::move(rest));
   return parts;
 }
 
@@ -280,7 +315,12 @@ Result<CubicPath> cubicPath(const NurbsCurve& curve, double tolerance, double gr
   if (!parts) return fail(parts.error());
   CubicPath path;
   const double length = ArcLength(curve).total();
-  for (const NurbsCurve& part : *parts) Approximation(part, tolerance, grid, path).add(length);
+  std::optional<double> behind;
+  for (const SmoothPart& part : *parts) {
+    Approximation approximation(part.curve, tolerance, grid, path);
+    approximation.add(length, part.curvatureGoesOn ? behind : std::nullopt);
+    behind = approximation.curvatureBehind();
+  }
   return path;
 }
 

@@ -98,7 +98,7 @@ Result<Check> cadFile(const ExportDocument& document, const ExportSettings& sett
 }
 
 Result<Check> svgFile(const ExportDocument& document, const ExportSettings& settings, ExportReport& report) {
-  auto svg = writeSvg(document, {toleranceOf(settings), settings.strokeWidthMm});
+  auto svg = writeSvg(document, {toleranceOf(settings), settings.strokeWidthMm, settings.svgUnitsPerMm});
   if (!svg) return fail(svg.error());
   const auto back = checkSvg(svg->text, document);
   if (!back) return fail(back.error());

@@ -21,10 +21,13 @@ namespace {
 constexpr double kPointsPerMm = 72.0 / kMillimetresPerInch;
 constexpr double kLargestPagePt = 14400.0;  ///< Of PDF without UserUnit: 5080 mm.
 constexpr int kPdfDecimals = 9;
-constexpr double kPdfGridMm = 1e-9;
+constexpr int kPdfPathDecimals = 12;  ///< As in SVG, for the curvature of short cubics.
+constexpr double kPdfGridMm = 1e-12;
 
 std::string pdfNumber(double value) { return fixedNumber(value, kPdfDecimals); }
-std::string pdfPoint(const Vec2& p) { return pdfNumber(p.x()) + " " + pdfNumber(p.y()) + " "; }
+std::string pdfPoint(const Vec2& p) {
+  return fixedNumber(p.x(), kPdfPathDecimals) + " " + fixedNumber(p.y(), kPdfPathDecimals) + " ";
+}
 
 /// UTF-16 with its mark, in hexadecimal: how PDF keeps text beyond ASCII.
 std::string pdfText(const std::string& utf8) {

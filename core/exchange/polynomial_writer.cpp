@@ -2,12 +2,16 @@
 #include "core/exchange/polynomial_writer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/base/number_text.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/bezier_quintics.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
 #include "core/exchange/cad_drawing.h"
 #include "core/exchange/export_check.h"
@@ -20,11 +24,41 @@ namespace {
 constexpr std::size_t kBefore = 5;  ///< Columns before the coefficients.
 constexpr int kPolynomialPlaces = 200;
 
-/// The piece at the size and in the unit of the file, over its arc length.
-Result<NurbsCurve> overArcLength(const NurbsCurve& curve, const ExportSettings& settings) {
+constexpr double kNearEnough = 1e-12;  ///< Of the size of a rational curve: its polynomials may lie so far from it.
+constexpr int kStepsPerSpan = 8, kMostSteps = 4096;
+
+/// A rational curve as quintics over its arc length: they share place, direction and curvature with it at ever closer
+/// places, until none in between is farther away than a millionth of a millionth of its size.
+Result<NurbsCurve> inPolynomials(const NurbsCurve& rational) {
+  const double most = kNearEnough * extent(rational);
+  for (int steps = kStepsPerSpan * static_cast<int>(rational.breaks().size() - 1);; steps *= 2) {
+    std::vector<Joint> joints;
+    std::vector<double> lengths;
+    const auto samples = sampleByArcLength(rational, 2 * steps + 1);
+    for (std::size_t i = 0; i < samples.size(); i += 2) {
+      joints.push_back({samples[i].point, samples[i].tangent, samples[i].kappa});
+      if (i > 0) lengths.push_back(samples[i].s - samples[i - 2].s);
+    }
+    auto chain = hermiteChain(joints, lengths);
+    if (!chain) return chain;
+    double worst = 0.0;
+    for (std::size_t i = 1; i < samples.size(); i += 2) {
+      worst = std::max(worst, std::abs(cross(samples[i].tangent, chain->point(samples[i].s) - samples[i].point)));
+    }
+    if (worst <= most || steps >= kMostSteps) return chain;
+  }
+}
+
+/// The piece at the size and in the unit of the file.
+NurbsCurve inUnits(const NurbsCurve& curve, const ExportSettings& settings) {
   const double size = settings.scale / millimetresPer(settings.unit);
-  const NurbsCurve scaled = curve.mapped(size * Eigen::Matrix2d::Identity(), Vec2::Zero());
-  return reparametrized(scaled, 0.0, ArcLength(scaled).total());
+  return curve.mapped(size * Eigen::Matrix2d::Identity(), Vec2::Zero());
+}
+
+/// The same over its arc length.
+Result<NurbsCurve> overArcLength(const NurbsCurve& curve, const ExportSettings& settings) {
+  const NurbsCurve scaled = inUnits(curve, settings);
+  return scaled.isRational() ? inPolynomials(scaled) : reparametrized(scaled, 0.0, ArcLength(scaled).total());
 }
 
 /// Coefficients of the powers of t = u - start: the k-th forward differences of the control points times the binomial
@@ -42,9 +76,11 @@ std::vector<Vec2> coefficientsOf(const BezierPiece& piece) {
 }
 
 int highestDegree(const ExportDocument& document) {
+  constexpr int kOfRational = 5;
   int degree = 1;
   for (const ExportCurve& line : document.curves)
-    for (const ExportPiece& piece : line.pieces) degree = std::max(degree, piece.curve.degree());
+    for (const ExportPiece& piece : line.pieces)
+      degree = std::max(degree, piece.curve.isRational() ? kOfRational : piece.curve.degree());
   return degree;
 }
 
@@ -104,8 +140,6 @@ Result<std::string> writePolynomials(const ExportDocument& document, const Expor
   for (const ExportCurve& line : document.curves) {
     for (std::size_t i = 0; i < line.pieces.size(); ++i) {
       const std::string name = entityName(line, i);
-      if (line.pieces[i].curve.isRational())
-        return fail(ErrorCode::BadParameter, "The curve " + name + " is rational, so it has no polynomials. Use CSV.");
       const auto curve = overArcLength(line.pieces[i].curve, settings);
       if (!curve) return fail(curve.error());
       const auto spans = bezierPieces(*curve);
@@ -138,11 +172,15 @@ Result<double> checkPolynomials(std::string_view text, const ExportDocument& doc
       if (!curve) return fail(curve.error());
       const std::size_t count = curve->breaks().size() - 1;
       if (first + count > spans.size()) return readsBackOtherwise("too few rows");
+      const NurbsCurve scaled = inUnits(piece.curve, settings);
       std::size_t k = first;
       for (int i = 0; i <= kPolynomialPlaces; ++i) {
         const double u = curve->start() + (curve->end() - curve->start()) * i / kPolynomialPlaces;
         while (k + 1 < first + count && u >= spans[k].end) ++k;
-        most = std::max(most, (spans[k].at(u) - curve->point(u)).norm());
+        const Vec2 read = spans[k].at(u);
+        // Of a rational curve the places of one arc length are not known so exactly.
+        most =
+            std::max(most, scaled.isRational() ? closestPoint(scaled, read).distance : (read - curve->point(u)).norm());
       }
       first += count;
     }

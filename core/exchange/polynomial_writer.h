@@ -13,7 +13,7 @@ namespace batten {
 /// The formula of every curve, for Matlab or a spreadsheet: a row per polynomial piece with the parameters it holds
 /// for and the coefficients of x and y. x = x0 + x1 t + x2 t^2 + … with t = u - u_start; u is the arc length where the
 /// speed of the curve is even, else near it. Curves of lower degree have empty fields at the end.
-/// @return BadParameter if a curve is rational: it has no such formula.
+/// Rational curves, as exact arcs and circles, are written as quintics that lie within 1e-12 of their size.
 Result<std::string> writePolynomials(const ExportDocument&, const ExportSettings&);
 
 /// The largest distance of the polynomials from the curves at 200 parameters each, in mm.

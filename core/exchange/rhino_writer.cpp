@@ -71,35 +71,35 @@ std::string instance(std::string_view id, const std::string& data) {
 }
 
 std::string units(double mmPerUnit) {
-  constexpr std::uint32_t kVersion = 102, kDecimals = 3;
+  constexpr std::uint32_t kRhinoVersion = 102, kRhinoDecimals = 3;
   constexpr double kAbsoluteTolerance = 0.001, kAngleTolerance = 0.0174532925199433, kRelativeTolerance = 0.01;
   constexpr double kMetresPerMm = 0.001;
   const std::uint32_t unit = mmPerUnit == kMillimetresPerInch ? kInches : kMillimetres;
   return Bytes()
-      .number(kVersion)
+      .number(kRhinoVersion)
       .number(unit)
       .real(kAbsoluteTolerance)
       .real(kAngleTolerance)
       .real(kRelativeTolerance)
       .number(0)
-      .number(kDecimals)
+      .number(kRhinoDecimals)
       .real(kMetresPerMm * mmPerUnit)
       .number(0)
       .text();
 }
 
 std::string layer(const std::string& name, std::uint32_t index) {
-  constexpr std::uint8_t kVersion = 0x11;
+  constexpr std::uint8_t kRhinoVersion = 0x11;
   constexpr std::uint32_t kNone = 0xffffffff;
-  constexpr std::array<std::uint32_t, 2> kColours = {0x00000000, 0x002000b0};  // 0x00BBGGRR: black, then red
+  constexpr std::array<std::uint32_t, 2> kRhinoColours = {0x00000000, 0x002000b0};  // 0x00BBGGRR: black, then red
   return Bytes()
-      .byte(kVersion)
+      .byte(kRhinoVersion)
       .number(0)
       .number(index)
       .number(kNone)
       .number(kNone)
       .number(0)
-      .number(kColours[index % kColours.size()])
+      .number(kRhinoColours[index % kRhinoColours.size()])
       .number(0)
       .real(0.0)
       .real(1.0)
@@ -109,12 +109,12 @@ std::string layer(const std::string& name, std::uint32_t index) {
 }
 
 std::string nurbs(const NurbsCurve& curve) {
-  constexpr std::uint8_t kVersion = 0x10;
+  constexpr std::uint8_t kRhinoVersion = 0x10;
   constexpr std::uint32_t kDimension = 3;
   const auto points = curve.controlPoints();
   const auto knots = curve.knots();
   Bytes bytes;
-  bytes.byte(kVersion).number(kDimension).number(curve.isRational() ? 1 : 0);
+  bytes.byte(kRhinoVersion).number(kDimension).number(curve.isRational() ? 1 : 0);
   bytes.number(static_cast<std::uint32_t>(curve.degree()) + 1).number(static_cast<std::uint32_t>(points.size()));
   bytes.number(0).number(0);
   // A box that is none: the reader makes its own.
@@ -136,10 +136,10 @@ std::string objectId(std::uint32_t index) {
 }
 
 std::string attributes(const CadEntity& entity, std::uint32_t index, std::uint32_t layerIndex) {
-  constexpr std::uint8_t kVersion = 0x12;
+  constexpr std::uint8_t kRhinoVersion = 0x12;
   constexpr std::uint32_t kNone = 0xffffffff;
   return Bytes()
-      .byte(kVersion)
+      .byte(kRhinoVersion)
       .raw(objectId(index))
       .number(layerIndex)
       .number(kNone)

@@ -22,6 +22,7 @@ struct ReadPiece {
 struct ReadSvg {
   std::vector<std::vector<ReadPiece>> curves;
   std::vector<QByteArray> paths;
+  double unitsPerMm = 1.0;
 };
 
 Result<ReadSvg> parsed(std::string_view text) {
@@ -31,7 +32,12 @@ Result<ReadSvg> parsed(std::string_view text) {
     if (xml.readNext() != QXmlStreamReader::StartElement) continue;
     const auto attributes = xml.attributes();
     const auto value = [&](const char* name) { return attributes.value(QLatin1String(name)).toLatin1(); };
-    if (xml.name() == QLatin1String("curve")) {
+    if (xml.name() == QLatin1String("svg")) {
+      const auto width = numbersIn(value("width").toStdString()), box = numbersIn(value("viewBox").toStdString());
+      if (width.size() != 1 || box.size() != 4 || !(width[0] > 0.0) || !(box[2] > 0.0))
+        return readsBackOtherwise("another size of the page");
+      svg.unitsPerMm = box[2] / width[0];
+    } else if (xml.name() == QLatin1String("curve")) {
       svg.curves.emplace_back();
     } else if (xml.name() == QLatin1String("piece")) {
       if (svg.curves.empty()) return readsBackOtherwise("a piece outside of a curve");
@@ -60,7 +66,7 @@ struct ReadPath {
   bool closes = false;
 };
 
-Result<ReadPath> pathOf(const QByteArray& data, const PageFrame& frame) {
+Result<ReadPath> pathOf(const QByteArray& data, const PageFrame& frame, double unitsPerMm) {
   ReadPath path;
   Vec2 pen = Vec2::Zero();
   qsizetype at = 0;
@@ -73,7 +79,8 @@ Result<ReadPath> pathOf(const QByteArray& data, const PageFrame& frame) {
     const std::vector<double> n = numbersIn(data.mid(at, end - at).toStdString());
     at = end;
     const auto model = [&](std::size_t i) {
-      return Vec2(frame.leftMm + n[i], frame.bottomMm + frame.lengthToModel(frame.heightPx) - n[i + 1]);
+      return Vec2(frame.leftMm + n[i] / unitsPerMm,
+                  frame.bottomMm + frame.lengthToModel(frame.heightPx) - n[i + 1] / unitsPerMm);
     };
     if (command == 'M' && n.size() == 2) {
       pen = model(0);
@@ -105,7 +112,7 @@ Result<SvgCheck> checkSvg(std::string_view text, const ExportDocument& document)
     for (std::size_t k = 0; k < curve.pieces.size(); ++k)
       if (!isSame(svg->curves[i][k], curve.pieces[k].curve))
         return readsBackOtherwise("another B-spline in " + curve.id);
-    const auto path = pathOf(svg->paths[i], document.frame);
+    const auto path = pathOf(svg->paths[i], document.frame, svg->unitsPerMm);
     if (!path) return fail(path.error());
     if (path->closes != curve.closed) return readsBackOtherwise("a path closed otherwise than " + curve.id);
     check.largestErrorMm = std::max(check.largestErrorMm, distanceFromLine(path->cubics, curve));

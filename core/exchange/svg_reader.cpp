@@ -47,7 +47,7 @@ Result<NurbsCurve> splineOfPiece(const Element& piece) {
 }
 
 Result<void> take(const Element& element, std::vector<double>& page, ExportDocument& document) {
-  if (element.is("svg")) page = element.numbers("viewBox");
+  if (element.is("svg")) page = {element.number("width").value_or(0.0), element.number("height").value_or(0.0)};
   if (element.is("curves")) {
     const auto scale = element.number("mm-per-px");
     if (!scale || !(*scale > 0.0)) return unreadable("its metadata states no scale");
@@ -88,8 +88,8 @@ Result<ExportDocument> readSvg(std::string_view text) {
   }
   if (xml.hasError()) return unreadable("it is damaged (" + xml.errorString().toStdString() + ")");
   if (document.curves.empty()) return unreadable("it holds no curves of Batten");
-  if (page.size() != 4) return unreadable("its page has no size");
-  const double width = page[2] / document.frame.mmPerPx, height = page[3] / document.frame.mmPerPx;
+  if (page.size() != 2) return unreadable("its page has no size");
+  const double width = page[0] / document.frame.mmPerPx, height = page[1] / document.frame.mmPerPx;
   if (!(width >= 0.5 && width < kMostPixels && height >= 0.5 && height < kMostPixels))
     return unreadable("its page has no size");
   document.frame.widthPx = static_cast<int>(std::lround(width));

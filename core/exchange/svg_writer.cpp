@@ -12,14 +12,17 @@
 namespace batten {
 namespace {
 
-/// [mm] Coordinates hold this many decimals: so many that rounding leaves the curvature of short cubics alone.
 constexpr int kDecimals = 9;
-constexpr double kGridMm = 1e-9;
+/// [mm] Places of paths hold this many decimals: so many that rounding leaves the curvature of short cubics alone.
+constexpr int kPathDecimals = 12;
+constexpr double kGridMm = 1e-12;
 constexpr double kLeastToleranceMm = 1e-6;
 
 std::string fixed(double value) { return fixedNumber(value, kDecimals); }
 
-std::string pointText(const Vec2& p) { return fixed(p.x()) + "," + fixed(p.y()); }
+std::string pointText(const Vec2& p) {
+  return fixedNumber(p.x(), kPathDecimals) + "," + fixedNumber(p.y(), kPathDecimals);
+}
 
 void appendRun(std::string& data, const CubicRun& run) {
   for (const auto& cubic : run.cubics) {
@@ -29,15 +32,17 @@ void appendRun(std::string& data, const CubicRun& run) {
   }
 }
 
-/// The path of a line, mm with y down from the upper edge.
-Result<std::string> pathData(const ExportCurve& curve, const PageFrame& frame, double toleranceMm, SvgText& svg) {
+/// The path of a line in user units, y down from the upper edge.
+Result<std::string> pathData(const ExportCurve& curve, const PageFrame& frame, const SvgOptions& options,
+                             SvgText& svg) {
+  const double unit = options.unitsPerMm;
   Eigen::Matrix2d flip;
-  flip << 1.0, 0.0, 0.0, -1.0;
-  const auto outline = cubicOutline(curve, flip, {-frame.leftMm, frame.bottomMm + frame.lengthToModel(frame.heightPx)},
-                                    toleranceMm, kGridMm);
+  flip << unit, 0.0, 0.0, -unit;
+  const Vec2 corner(-frame.leftMm, frame.bottomMm + frame.lengthToModel(frame.heightPx));
+  const auto outline = cubicOutline(curve, flip, unit * corner, unit * options.toleranceMm, kGridMm);
   if (!outline) return fail(outline.error());
   svg.cubics += outline->cubics;
-  svg.largestErrorMm = std::max(svg.largestErrorMm, outline->largestError);
+  svg.largestErrorMm = std::max(svg.largestErrorMm, outline->largestError / unit);
   svg.largestJump = std::max(svg.largestJump, outline->largestJump);
   std::string data;
   for (const CubicRun& run : outline->runs) {
@@ -84,6 +89,8 @@ std::string metadata(const ExportDocument& document) {
 std::optional<Error> problemOf(const SvgOptions& options) {
   if (!(std::isfinite(options.toleranceMm) && options.toleranceMm >= kLeastToleranceMm))
     return Error{ErrorCode::BadParameter, "The tolerance of an SVG must be at least 0.000001 mm.", {}};
+  if (!(std::isfinite(options.unitsPerMm) && options.unitsPerMm > 0.0))
+    return Error{ErrorCode::BadParameter, "The user unit of an SVG must be larger than 0.", {}};
   if (!(std::isfinite(options.strokeWidthMm) && options.strokeWidthMm > 0.0))
     return Error{ErrorCode::BadParameter, "The stroke width of an SVG must be larger than 0 mm.", {}};
   return std::nullopt;
@@ -101,9 +108,10 @@ Result<std::string> layers(const ExportDocument& document, const SvgOptions& opt
       text += "  <g id=\"curves" + (count == 1 ? std::string() : std::string("-").append(std::to_string(count))) +
               "\" inkscape:groupmode=\"layer\" inkscape:label=\"" + xmlText(curve.layer) +
               "\" fill=\"none\" stroke=\"" + (count == 1 ? "#000000" : "#b00020") + "\"\n     stroke-width=\"" +
-              fixed(options.strokeWidthMm) + "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
+              fixed(options.unitsPerMm * options.strokeWidthMm) +
+              "\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
     }
-    auto data = pathData(curve, document.frame, options.toleranceMm, svg);
+    auto data = pathData(curve, document.frame, options, svg);
     if (!data) return data;
     text += "    <path id=\"" + xmlText(curve.id) + "\" d=\"" + *data + "\"/>\n";
   }
@@ -129,14 +137,15 @@ Result<SvgText> writeSvg(const ExportDocument& document, const SvgOptions& optio
   SvgText svg;
   const auto paths = layers(document, options, svg);
   if (!paths) return fail(paths.error());
-  const std::string width = fixed(document.frame.lengthToModel(document.frame.widthPx));
-  const std::string height = fixed(document.frame.lengthToModel(document.frame.heightPx));
+  const double width = document.frame.lengthToModel(document.frame.widthPx);
+  const double height = document.frame.lengthToModel(document.frame.heightPx);
   svg.text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"\n"
       "     xmlns:batten=\"urn:batten:curves:1\" version=\"1.1\"\n     width=\"" +
-      width + "mm\" height=\"" + height + "mm\" viewBox=\"0 0 " + width + " " + height + "\">\n" +
-      description(document, svg) + metadata(document) + *paths + "</svg>\n";
+      fixed(width) + "mm\" height=\"" + fixed(height) + "mm\" viewBox=\"0 0 " + fixed(options.unitsPerMm * width) +
+      " " + fixed(options.unitsPerMm * height) + "\">\n" + description(document, svg) + metadata(document) + *paths +
+      "</svg>\n";
   return svg;
 }
 

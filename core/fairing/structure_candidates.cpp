@@ -13,7 +13,7 @@ namespace batten {
 namespace {
 
 /// [extents] Moves that the search is scaled for.
-constexpr double kLeastMove = 1e-3;
+constexpr double kLeastStep = 1e-3;
 /// A start over fewer knots that lies so many tolerances off is not looked at.
 constexpr double kWorthOpening = 2.0;
 /// A structure whose estimated move, good to a factor of a few, is so many tolerances is not tried; over all knots of
@@ -62,7 +62,7 @@ StructureCandidates::StructureCandidates(std::shared_ptr<const FairingSetup> ske
 StructureCandidates::Basis& StructureCandidates::open(std::size_t at) {
   Basis& basis = bases_[at];
   if (basis.search) return basis;
-  basis.search = std::make_unique<MonotoneSearch>(*basis.setup, kLeastMove * sketch_->extent, context_);
+  basis.search = std::make_unique<MonotoneSearch>(*basis.setup, kLeastStep * sketch_->extent, context_);
   if (basis.search->arcLength().empty()) return basis;
   basis.levels = structureLevels(basis.search->arcLength(), basis.search->curvature(), basis.setup->start.length,
                                  basis.setup->closed);

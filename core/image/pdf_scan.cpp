@@ -9,13 +9,14 @@
 #include "core/image/pdf/pdf_absent.h"
 #include "core/image/pdf/pdf_page.h"
 #include "core/image/scan_file.h"
+#include "core/image/scan_grey.h"
 
 namespace batten {
 namespace {
 
 constexpr double kPointsPerInch = 72.0;
-/// [bytes] a pixel: the picture that is drawn, a copy of it, and its grey.
-constexpr std::uint64_t kBytesPerPixel = 10;
+/// [bytes] a pixel: the picture that is drawn, a copy of it, its grey and its colours.
+constexpr std::uint64_t kBytesPerPixel = 13;
 /// [px] Of a side; no page of paper is larger.
 constexpr double kMostSide = 1e6;
 
@@ -100,9 +101,12 @@ Result<Scan> readPdfScan(const std::filesystem::path& path, const RegularFile& f
   scan.pages = found->pages;
   scan.fileHash = sha256(found->bytes);
   if (context.isCancelled()) return cancelled();
-  auto grey = drawPdfPage(found->bytes, request.page.number, {width, height, request.page.pdfDpi}, context);
-  if (!grey) return fail(problemOf(path, grey.error(), request.page.number, found->pages));
-  scan.grey = std::move(*grey);
+  auto drawn = drawPdfPage(found->bytes, request.page.number, {width, height, request.page.pdfDpi}, context);
+  if (!drawn) return fail(problemOf(path, drawn.error(), request.page.number, found->pages));
+  scan.grey = std::move(drawn->grey);
+  scan.colour = std::move(drawn->colour);
+  dropGreyColours(scan.colour, context);
+  if (context.isCancelled()) return cancelled();
   return scan;
 }
 

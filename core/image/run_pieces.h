@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/base/run_context.h"
@@ -21,6 +22,8 @@ struct RunPieces {
 };
 
 enum class Connectivity { Four, Eight };
+/// The piece that a pixel lies in; absent on paper.
+std::optional<int> pieceAt(const RunPieces& pieces, int x, int y);
 RunPieces findPieces(const BitImage& image, Connectivity connectivity, const RunContext& context);
 
 /// Sets the pixels of a run.

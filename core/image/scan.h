@@ -7,6 +7,7 @@
 #include "core/base/content_hash.h"
 #include "core/base/page_frame.h"
 #include "core/base/result.h"
+#include "core/image/colour_image.h"
 #include "core/image/grey_image.h"
 
 namespace batten {
@@ -33,6 +34,7 @@ struct ScanInfo {
 /// A scan as the program works on it: upright, grey, alpha laid over white.
 struct Scan {
   GreyImage grey;
+  ColourImage colour;  ///< Of the same size; empty where every pixel is grey.
   ScanInfo info;
   std::optional<double> dpi;  ///< From the file; absent means unknown.
   PageChoice page;            ///< What of the file it is.

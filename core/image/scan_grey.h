@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/base/run_context.h"
+#include "core/image/colour_image.h"
 #include "core/image/grey_image.h"
 
 namespace batten {
@@ -19,11 +20,21 @@ struct SampleMeaning {
   int bits = 8;                                ///< Of a stored sample.
 };
 
+/// A decoded picture: its grey and, if any pixel has colour, its colours.
+struct DecodedPicture {
+  GreyImage grey;
+  ColourImage colour;
+};
+
 /// Decodes a file held in memory to grey: colour by the luma of Rec. 601 (.299 red, .587 green, .114 blue), which is
 /// also JPEG's own grey; alpha laid over white. The orientation is left as stored. Empty if the file cannot be decoded.
-std::optional<GreyImage> decodeGrey(std::span<std::byte> file, const SampleMeaning&, const RunContext& context);
+std::optional<DecodedPicture> decodePicture(std::span<std::byte> file, const SampleMeaning&, const RunContext& context);
 
 /// The picture turned upright. @param orientation EXIF 1..8.
 GreyImage turnUpright(GreyImage image, int orientation, const RunContext& context);
+ColourImage turnUpright(ColourImage image, int orientation, const RunContext& context);
+
+/// Drops the colours of a picture that has none: every pixel grey.
+void dropGreyColours(ColourImage& colour, const RunContext& context);
 
 }  // namespace batten

@@ -59,7 +59,7 @@ std::uint64_t tileBytes(const ScanHeader& header) {
   return header.tilePixels * (header.info.bitsPerChannel > 8 ? 8 : 4);
 }
 
-/// What reading takes at its peak: the file, the decoded picture, its grey, and a turned copy.
+/// What reading takes at its peak: the file, the decoded picture, its grey and colours, and a turned copy.
 std::uint64_t memoryNeeded(const ScanHeader& header, std::uint64_t fileBytes) {
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(header.info.width) * static_cast<std::uint64_t>(header.info.height);
@@ -68,8 +68,8 @@ std::uint64_t memoryNeeded(const ScanHeader& header, std::uint64_t fileBytes) {
   const std::uint64_t sample = header.info.bitsPerChannel > 8 ? 2 : 1;
   const std::uint64_t decoded =
       pixels * channels * sample + (header.progressive ? pixels * channels * 2 : 0) + header.workBytes;
-  const std::uint64_t grey = pixels * 2;
-  return fileBytes + grey + std::max(decoded + tileBytes(header), header.info.exifOrientation > 1 ? grey : 0);
+  const std::uint64_t kept = pixels * (channels >= 3 ? 5 : 2);  // grey of 16 bit, colours of 3 x 8
+  return fileBytes + kept + std::max(decoded + tileBytes(header), header.info.exifOrientation > 1 ? kept : 0);
 }
 
 std::optional<Error> checkSize(const std::filesystem::path& path, const ScanHeader& header, std::uint64_t fileBytes,
@@ -125,13 +125,14 @@ Result<Scan> readChecked(const std::filesystem::path& path, const RegularFile& f
   if (context.isCancelled()) return cancelled();
   selectTiffPage(*bytes, *header);
   clearTiffOrientation(*bytes, *header);
-  auto grey = decodeGrey(*bytes, header->meaning, context);
+  auto picture = decodePicture(*bytes, header->meaning, context);
   if (context.isCancelled()) return cancelled();
-  if (!grey || grey->width != header->info.width || grey->height != header->info.height) {
+  if (!picture || picture->grey.width != header->info.width || picture->grey.height != header->info.height) {
     return unreadable(path, "is damaged or of a rare kind that cannot be decoded. Scan it again or export it as PNG.");
   }
   std::vector<std::byte>().swap(*bytes);
-  scan.grey = turnUpright(std::move(*grey), scan.info.exifOrientation, context);
+  scan.grey = turnUpright(std::move(picture->grey), scan.info.exifOrientation, context);
+  scan.colour = turnUpright(std::move(picture->colour), scan.info.exifOrientation, context);
   if (context.isCancelled()) return cancelled();
   return scan;
 }

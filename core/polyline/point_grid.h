@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
@@ -28,7 +29,10 @@ class PointGrid {
   }
 
  private:
-  int cellOf(double v) const { return static_cast<int>(std::floor(v / size_)); }
+  static constexpr double kFarthestCell = 1e9;  // cells beyond are one: their numbers and those beside them fit an int
+  int cellOf(double v) const {
+    return static_cast<int>(std::clamp(std::floor(v / size_), -kFarthestCell, kFarthestCell));
+  }
   static std::int64_t key(int x, int y) { return (static_cast<std::int64_t>(y) << 32) ^ (x & 0xffffffffLL); }
   double size_;
   std::unordered_map<std::int64_t, std::vector<Place>> cells_;

@@ -52,11 +52,11 @@ std::optional<TraceResult> tracedBy(const std::string& command, const fs::path& 
 // -u: its coordinates to a hundredth of a pixel; its SVG is in points at 72 dpi, one a pixel.
 constexpr const char* kPotrace = "potrace -b svg -u 100 -r 96 ";
 
-Peer potrace() {
-  return {"potrace", runs("potrace --version") ? "" : "not installed", [](const fs::path& pgm, const fs::path& folder) {
+Peer potraceBy(const std::string& options) {
+  return {"potrace", runs("potrace --version") ? "" : "not installed",
+          [options](const fs::path& pgm, const fs::path& folder) {
             const fs::path svg = folder / "potrace.svg";
-            return tracedBy(std::string(kPotrace).append("-o ").append(quoted(svg)).append(" ").append(quoted(pgm)),
-                            svg, 1.0);
+            return tracedBy(kPotrace + options + " -o " + quoted(svg) + " " + quoted(pgm), svg, 1.0);
           }};
 }
 
@@ -89,7 +89,9 @@ Peer inkscape() {
 
 }  // namespace
 
-std::vector<Peer> peers() { return {potrace(), mkbitmap(), inkscape()}; }
+std::vector<Peer> peers() { return {potraceBy(""), mkbitmap(), inkscape()}; }
+
+Peer potraceWith(double optimumTolerance) { return potraceBy("-O " + std::to_string(optimumTolerance)); }
 
 bool writePgm(const GreyImage& grey, const fs::path& file) {
   std::ofstream out(file, std::ios::binary);

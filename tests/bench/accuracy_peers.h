@@ -22,6 +22,8 @@ struct Peer {
 
 /// potrace; mkbitmap, then potrace; Inkscape's own trace. All with their own default settings.
 std::vector<Peer> peers();
+/// potrace with this tolerance for joining its curves.
+Peer potraceWith(double optimumTolerance);
 
 /// The page as these programs read it.
 bool writePgm(const GreyImage& grey, const std::filesystem::path& file);

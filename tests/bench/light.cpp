@@ -4,9 +4,11 @@
 //   bench_light [--drawings]
 //
 // First table: nine shapes of 800 x 600 px, at tolerances of 1, 0.5, 0.2 and 0.05 px from the truth itself: control
-// points (each once; exact line 2, arc or circle 3), curvature extrema of the light curve and of the truth, largest
-// distance, milliseconds for the whole shape. --drawings: the drawings in BATTEN_SKETCHES (.png, .jpg), the dense
-// curve beside light ones at 0.05, 0.2 and 1 px.
+// points (each once; exact line 2, arc or circle 3), those of a chain of G1 cubics, each as long as it can be, and of
+// potrace on a clean page where it is installed (optimum tolerances 5, 1 and 0.2; its own error is 0.4 to 3 px);
+// curvature extrema of the light curve and of the truth, largest distance, milliseconds for the whole shape.
+// --drawings: the drawings in BATTEN_SKETCHES (.png, .jpg), the dense curve beside light ones at 0.05, 0.2 and 1 px,
+// and what the detail makes of them.
 
 #include <algorithm>
 #include <chrono>
@@ -21,6 +23,9 @@
 #include "core/curve/uniform_quintic.h"
 #include "core/image/scan_reader.h"
 #include "core/pipeline/run/pipeline.h"
+#include "tests/bench/accuracy_peers.h"
+#include "tests/bench/cubic_chain.h"
+#include "tests/support/render_page.h"
 #include "tests/support/truth_shapes.h"
 
 using namespace batten;
@@ -46,6 +51,14 @@ std::optional<NurbsCurve> denseCurve(const TruthPiece& piece, bool closed) {
 struct Sum {
   int points = 0, before = 0, extrema = 0, asked = 0, dense = 0;
   double worst = 0.0, ms = 0.0, slowest = 0.0;
+  int iterations = 0, tries = 0, sections = 0, denseSections = 0;
+  std::vector<double> each;  ///< [ms] of every curve.
+
+  double medianMs() const {
+    std::vector<double> sorted = each;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted.empty() ? 0.0 : sorted[sorted.size() / 2];
+  }
 };
 
 void add(Sum& sum, const NurbsCurve& curve, bool closed, double tolerance, double step) {
@@ -64,21 +77,43 @@ void add(Sum& sum, const NurbsCurve& curve, bool closed, double tolerance, doubl
   sum.dense += r.kind == LightKind::Dense ? 1 : 0;
   sum.worst = std::max(sum.worst, r.worst);
   sum.ms += ms;
+  sum.each.push_back(ms);
+  sum.iterations += r.iterations;
+  sum.tries += r.tries;
+  sum.sections += r.sections;
+  sum.denseSections += r.sectionsDense;
   sum.slowest = std::max(sum.slowest, ms);
+}
+
+/// Of the clean page; none where potrace is not there.
+std::optional<int> potracePoints(const TruthShape& shape, double optimum) {
+  const Peer potrace = potraceWith(optimum);
+  if (!potrace.missing.empty()) return std::nullopt;
+  const Scan page = renderPage(fillCoverage(shape.outline(), 800, 600), 800, 600, cleanPage());
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "batten-bench-light";
+  std::filesystem::create_directories(folder);
+  const auto pgm = folder / "page.pgm";
+  const auto result = writePgm(page.grey, pgm) ? potrace.run(pgm, folder) : std::nullopt;
+  std::filesystem::remove_all(folder);
+  return result ? std::optional(result->controlPoints) : std::nullopt;
 }
 
 void printShapes() {
   for (const double tolerance : {1.0, 0.5, 0.2, 0.05}) {
-    std::printf("\n%g px      points  extrema  asked  worst px      ms\n", tolerance);
+    std::printf("\n%g px      points   cubics  potrace  extrema  asked  worst px      ms\n", tolerance);
     std::vector<int> points;
     for (const TruthShape& shape : truthShapes(800, 600)) {
       Sum sum;
+      int cubics = 0;
       const bool closed = shape.corners.empty();
       for (const TruthPiece& piece : shape.pieces) {
+        cubics += cubicChainPoints(piece, closed, tolerance);
         if (const auto dense = denseCurve(piece, closed)) add(sum, *dense, closed, tolerance, 0.5);
       }
-      std::printf("%-10s %6d %8d %6d %9.3f %7.1f\n", shape.name.c_str(), sum.points, sum.extrema, sum.asked, sum.worst,
-                  sum.ms);
+      const auto potrace = potracePoints(shape, tolerance >= 1.0 ? 5.0 : tolerance >= 0.5 ? 1.0 : 0.2);
+      const std::string traced = potrace ? std::to_string(*potrace) : "-";
+      std::printf("%-10s %6d %8d %8s %8d %6d %9.3f %7.1f\n", shape.name.c_str(), sum.points, cubics, traced.c_str(),
+                  sum.extrema, sum.asked, sum.worst, sum.ms);
       points.push_back(sum.points);
     }
     std::sort(points.begin(), points.end());
@@ -102,9 +137,45 @@ void printDrawing(const std::filesystem::path& path) {
       add(sum, curve.sketched, curve.closed, tolerancePx * out.frame.mmPerPx, 0.5 * out.frame.mmPerPx);
     }
     std::printf(
-        "%-34s %5.2f px: %6d -> %5d points, %5d of %5d extrema, %3d of %3zu stay dense, %8.0f ms, slowest %6.0f\n",
+        "%-30s %5.2f px: %6d -> %5d points, %5d of %5d extrema, %3d of %3zu stay dense, of %d sections %d; ms: %8.0f, "
+        "median %5.2f, slowest %5.0f; %d tries, %d iterations\n",
         path.filename().string().c_str(), tolerancePx, sum.before, sum.points, sum.extrema, sum.asked, sum.dense,
-        out.constructed->curves.size(), sum.ms, sum.slowest);
+        out.constructed->curves.size(), sum.sections, sum.denseSections, sum.ms, sum.medianMs(), sum.slowest, sum.tries,
+        sum.iterations);
+    std::fflush(stdout);
+  }
+}
+
+/// What the detail makes of a drawing.
+void printDetails(const std::filesystem::path& path) {
+  const auto scan = readScan(path, ScanRequest{}, RunContext{});
+  if (!scan) return;
+  StageCache cache;
+  for (const double detail : {0.0, 0.5, 0.7, 0.85, 1.0}) {
+    Recipe recipe;
+    recipe.construct.detail = detail;
+    PipelineRequest request;
+    request.upTo = StageId::Curves;
+    const auto begin = std::chrono::steady_clock::now();
+    const PipelineOutput out = runPipeline(*scan, recipe, cache, request, {});
+    const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    if (!out.constructed) return;
+    int points = 0, extrema = 0, corners = 0, dense = 0;
+    double tolerance = 0.0, moved = 0.0;
+    for (const TracedCurve& curve : out.constructed->curves) {
+      extrema += curve.sketchedFigures.extrema;
+      points += curve.construct.light ? curve.construct.light->points : curve.sketchedFigures.controlPoints;
+      if (!curve.construct.light) continue;
+      corners += curve.construct.light->corners;
+      dense += curve.construct.light->found ? 0 : 1;
+      tolerance = std::max(tolerance, curve.construct.light->tolerancePx);
+      moved = std::max(moved, curve.construct.light->movedPx);
+    }
+    std::printf(
+        "%-30s detail %.2f: tolerance to %6.2f px, %5d points, %5d extrema, %4d corners inside, %d of %zu stay "
+        "dense, moved by %.2f px at most, %.0f ms\n",
+        path.filename().string().c_str(), detail, tolerance, points, extrema, corners, dense,
+        out.constructed->curves.size(), moved, ms);
     std::fflush(stdout);
   }
 }
@@ -113,6 +184,9 @@ void printDrawing(const std::filesystem::path& path) {
 
 int main(int argc, char** argv) {
   printShapes();
+  if (const Peer potrace = potraceWith(0.2); !potrace.missing.empty()) {
+    std::printf("\npotrace: %s\n", potrace.missing.c_str());
+  }
   if (argc < 2 || std::string(argv[1]) != "--drawings") return 0;
   const char* folder = std::getenv("BATTEN_SKETCHES");
   if (folder == nullptr) {
@@ -127,5 +201,7 @@ int main(int argc, char** argv) {
   std::sort(drawings.begin(), drawings.end());
   std::printf("\n");
   for (const auto& drawing : drawings) printDrawing(drawing);
+  std::printf("\n");
+  for (const auto& drawing : drawings) printDetails(drawing);
   return 0;
 }

@@ -67,7 +67,7 @@ ConstructContour contourOf(const std::vector<Vec2>& points, const SegmentParams&
   ConstructContour contour;
   ConstructPiece& made = contour.pieces.emplace_back();
   made.points = points;
-  if (const auto segments = regressionSegments(set, params)) made.stations = segments->pieces[0].stations;
+  if (const auto segments = regressionSegments(set, params, {})) made.stations = segments->pieces[0].stations;
   return contour;
 }
 
@@ -81,7 +81,9 @@ Outcome measure(const OpenTruth& truth, const Recipe& recipe, double noise, unsi
   Outcome out;
   const ConstructContour contour = contourOf(noisyPoints(truth, noise, seed), recipe.segments);
   const auto begin = std::chrono::steady_clock::now();
-  auto made = construct(contour, recipe.construct, {});
+  ConstructParams params = recipe.construct;
+  params.light = false;  // what the constructions give themselves
+  auto made = construct(contour, params, {});
   if (!made) {
     out.problem = made.error().message;
     return out;

@@ -38,7 +38,7 @@ std::vector<std::vector<Vec2>> tracedLines(const Scan& scan) {
   request.upTo = StageId::Contours;
   request.needEdges = false;
   Recipe recipe;
-  recipe.edges.internal = true;
+  recipe.edges.internal = InnerBorders::On;
   return linesOf(runPipeline(scan, recipe, cache, request, {}));
 }
 
@@ -101,7 +101,7 @@ TonePage measureTone(const Tone& tone, const Scan& scan) {
   PipelineRequest request;
   request.needEdges = false;
   Recipe recipe;
-  recipe.edges.internal = true;
+  recipe.edges.internal = InnerBorders::On;
   recipe.edges.mode = EdgeMode::Outline;
   const PipelineOutput out = runPipeline(scan, recipe, cache, request, {});
   std::vector<std::vector<Vec2>> curves;

@@ -101,10 +101,10 @@ QImage faded(const GreyImage& grey, double scale) {
 std::vector<std::vector<test::CurvePoint>> cornerToCorner(const ContourSet& contours) {
   constexpr double kAngleRad = 0.61, kScalePx = 16.0;  // 35 degrees, as in the window
   std::vector<CornerMark> marks;
-  for (const CornerSuggestion& s : suggestCornersAndCuts(contours, kAngleRad, kScalePx))
+  for (const CornerSuggestion& s : suggestCornersAndCuts(contours, kAngleRad, kScalePx, {}))
     marks.push_back({s.positionPx, 0.0});
   std::vector<std::vector<test::CurvePoint>> lines;
-  const auto pieces = splitAtCorners(contours, marks, {});
+  const auto pieces = splitAtCorners(contours, marks, {}, {});
   for (std::size_t i = 0; pieces && i < pieces->pieces.size(); ++i) {
     std::vector<test::CurvePoint> line;
     const auto& p = pieces->pieces[i].points;

@@ -61,8 +61,9 @@ TEST_F(CommandLineImport, SaysWhatIsAssumedAndWhatIsWrong) {
   ASSERT_EQ(run("trace " + file("bare.csv") + " --import-unit in -o " + file("o.json")).code, 0);
   const auto document = readCurveJson(test::readFile(file("o.json")));
   ASSERT_TRUE(document);
-  const NurbsCurve& curve = document->curves[0].pieces[0].curve;
-  EXPECT_NEAR(curve.point(curve.end()).x(), 50.8, 1e-9);
+  ASSERT_EQ(document->curves[0].pieces.size(), 2u) << "a corner in the middle";
+  const NurbsCurve& last = document->curves[0].pieces[1].curve;
+  EXPECT_NEAR(last.point(last.end()).x(), 50.8, 1e-9);
   write("bad.dxf", "0\nSECTION\n");
   write("bad.step", "hello");
   expectError("trace " + file("bad.dxf") + " -o " + file("x.svg"), 2, "bad.dxf");
@@ -106,14 +107,15 @@ TEST_F(CommandLinePages, EveryPageOfAStackIsTracedWhenAsked) {
   ASSERT_EQ(first.code, 0) << first.err;
   EXPECT_THAT(first.out, HasSubstr("The file holds 2 pages; page 1 was traced"));
   ASSERT_EQ(run("trace " + stack + " --dpi 254 --page 2 -o " + file("two.json")).code, 0);
-  const auto all = run("trace " + stack + " --dpi 254 --page all -o " + file("o.json") + " -o " + file("o.poly.csv") +
-                       " --report " + file("rep.json") + " --save-recipe " + file("r.recipe.json"));
+  const auto all =
+      run("trace " + stack + " --dpi 254 --page all -o " + file("o.json") + " -o " + file("o.poly.csv") + " -o " +
+          file("o.report.html") + " --report " + file("rep.json") + " --save-recipe " + file("r.recipe.json"));
   ASSERT_EQ(all.code, 0) << all.err;
   EXPECT_EQ(std::count(all.out.begin(), all.out.end(), '\n'), 2);
   EXPECT_EQ(test::readFile(file("o-p1.json")), test::readFile(file("o.json")));
   EXPECT_EQ(test::readFile(file("o-p2.json")), test::readFile(file("two.json")));
   EXPECT_NE(test::readFile(file("o-p1.json")), test::readFile(file("o-p2.json")));
-  for (const char* name : {"o-p2.poly.csv", "rep-p1.json", "r-p2.recipe.json"})
+  for (const char* name : {"o-p2.poly.csv", "o-p1.report.html", "rep-p1.json", "r-p2.recipe.json"})
     EXPECT_TRUE(std::filesystem::exists(file(name))) << name;
   const auto recipe = recipeFromJson(test::readFile(file("r-p2.recipe.json")));
   ASSERT_TRUE(recipe);

@@ -230,7 +230,7 @@ TEST_F(Trace, SettingsComeOnTopOfTheRecipeInTheOrderGiven) {
 
 TEST_F(Trace, DumpsEveryStageAsPng) {
   std::string words = "trace " + scene("car");
-  std::vector<std::string> names{"log", "paper"};
+  std::vector<std::string> names{"log", "page", "paper"};
   for (const StageId stage : kStages) names.emplace_back(name(stage));
   for (const std::string& one : names) words += " --dump " + one + "=" + file(one + ".png");
   const auto done = run(words);

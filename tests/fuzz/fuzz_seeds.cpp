@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/exchange/curve_json.h"
+#include "core/exchange/export_file.h"
 #include "core/exchange/svg_writer.h"
 #include "core/pipeline/recipe/recipe_file.h"
 
@@ -69,6 +70,29 @@ void writeScans(const fs::path& folder) {
   }
 }
 
+/// A file of every kind, behind the letter by which fuzz_import knows it.
+void writeImports(const fs::path& folder) {
+  for (const auto& [letter, ending] :
+       {std::pair('d', ".dxf"), {'i', ".igs"}, {'s', ".step"}, {'3', ".3dm"}, {'v', ".svg"}}) {
+    ExportSettings settings;
+    settings.format = *formatOf(std::string("a") + ending);
+    const auto file = exportedFile(drawing(), settings);
+    if (file) write(folder / (std::string("curves") + ending), letter + file->bytes);
+  }
+  ExportSettings cnc;
+  cnc.format = ExportFormat::Dxf;
+  cnc.dxf = DxfProfile::Cnc;
+  cnc.arcs = true;
+  write(folder / "cnc.dxf", 'd' + exportedFile(drawing(), cnc).value().bytes);
+  write(folder / "shapes.svg",
+        "g<svg width='100mm' height='50mm' viewBox='0 0 200 100'><g transform='rotate(10)'><path d='M0 0C1 2 3 2 4 "
+        "0S7-2 8 0"
+        "a3 2 10 1 0 4 4z'/><rect width='5' height='5' rx='1'/><polygon points='1,1 2,2 3,1'/></g></svg>");
+  write(folder / "points.csv", "ccurve,x_mm,y_mm\nroof,1,2\nroof,2,2.5\nsill,3,2\nsill,4,9\n");
+  write(folder / "points.json",
+        R"(j{"unit": "mm", "lines": [{"name": "roof", "closed": false, "points": [[1, 2], [3, 4]]}]})");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -81,6 +105,7 @@ int main(int argc, char** argv) {
   write(folder / "fuzz_recipe" / "full.json", recipeToJson(fullRecipe()));
   write(folder / "fuzz_curves" / "curves.json", writeCurveJson(drawing()).value());
   write(folder / "fuzz_svg" / "curves.svg", writeSvg(drawing(), {}).value().text);
+  writeImports(folder / "fuzz_import");
   writeScans(folder / "fuzz_scan");
   write(folder / "fuzz_parameters" / "seed", "seed");
   return 0;

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Exports of test curves of every kind, and of the sample, as other programs read them: one table. Curves are compared at 201
-# places where the program reads curves, by their length where it makes chords of them; mm and inch, each by itself. A judge
-# that is not installed says so and counts as failed.
+# Exports of test curves of every kind, of the sample and of the sample as light curves (arcs among them) as other programs read
+# them: one table. Curves are compared at 201 places where the program reads curves, by their length where it makes chords of
+# them; mm and inch, each by itself. A judge that is not installed says so and counts as failed.
 # Usage: tests/heavy/exports.sh [FOLDER]   (the files stay there)
 set -u
 cd "$(dirname "$0")/../.."
@@ -23,16 +23,26 @@ mkdir -p "$folder"
 recipe=${scan%.png}.recipe.json
 
 /usr/bin/python3 tests/judges/exact_curves.py write "$folder/test.json" || exit 1
-for unit in mm in; do
-  "$cli" trace "$scan" --recipe "$recipe" --unit $unit -o "$folder/cad-$unit.dxf" -o "$folder/cad-$unit.igs" \
-    -o "$folder/cad-$unit.step" -o "$folder/cad-$unit.csv" >/dev/null || exit 1
-  # The test curves come in as an import and go out as they are.
-  "$cli" trace "$folder/test.json" --unit $unit --splines-only -o "$folder/test-$unit.dxf" -o "$folder/test-$unit.igs" \
-    -o "$folder/test-$unit.step" -o "$folder/test.svg" >/dev/null || exit 1
+# of_test OPTION... and of_sample OPTION...: the test curves come in as an import and go out as they are.
+of_test() { "$cli" trace "$folder/test.json" "$@" >/dev/null || exit 1; }
+of_sample() { "$cli" trace "$scan" --recipe "$recipe" "$@" >/dev/null || exit 1; }
+of_light() { of_sample --set construct.light=true "$@"; }
+of_sample -o "$folder/sample.json"
+of_light -o "$folder/light.json"
+for which in test sample light; do
+  for unit in mm in; do
+    outputs=()
+    for ending in dxf igs step 3dm csv poly.csv; do outputs+=(-o "$folder/$which-$unit.$ending"); done
+    of_$which --unit $unit --splines-only "${outputs[@]}"
+  done
+  of_$which -o "$folder/$which.svg" -o "$folder/$which.pdf"
 done
-"$cli" trace "$scan" --recipe "$recipe" --preset laser -o "$folder/laser.dxf" -o "$folder/drawing.svg" -o "$folder/drawing.pdf" \
-  >/dev/null || exit 1
-"$cli" trace "$scan" --recipe "$recipe" --preset cnc -o "$folder/cnc.dxf" >/dev/null || exit 1
+for unit in mm in; do
+  of_sample --unit $unit -o "$folder/plain-$unit.dxf" -o "$folder/plain-$unit.igs" -o "$folder/plain-$unit.step"
+done
+for flavour in cubic bezier; do of_sample --flavour $flavour -o "$folder/$flavour.igs" -o "$folder/$flavour.step"; done
+of_sample --preset laser -o "$folder/laser.dxf"
+of_sample --preset cnc -o "$folder/cnc.dxf"
 
 failed=0
 # judge NAME COMMAND...: the command prints rows of the table and fails if one is wrong.
@@ -47,7 +57,7 @@ judged() { /usr/bin/python3 tests/heavy/judged.py "$1" "$folder"; }
 gdal() {
   need ogr2ogr gdal-bin || return 1
   local file
-  for file in cad-mm cad-in laser cnc; do
+  for file in plain-mm plain-in laser cnc; do
     ogr2ogr -f GeoJSON "$folder/$file.geojson" "$folder/$file.dxf" || return 1
   done
   judged gdal
@@ -58,28 +68,44 @@ freecad() {
   FOLDER=$folder freecadcmd tests/heavy/freecad_samples.py >"$folder/freecad.log" 2>&1
   judged freecad
 }
-npm_dxf() {
+package() {
   need npm npm || return 1
-  [ -d "$folder/node_modules/dxf" ] || npm install --silent --prefix "$folder" dxf@5.3.1 >/dev/null || return 1
+  [ -d "$folder/node_modules/$1" ] || npm install --silent --prefix "$folder" "$1@$2" >/dev/null
+}
+npm_dxf() {
+  package dxf 5.3.1 || return 1
   NODE_PATH=$folder/node_modules node tests/heavy/npm_lengths.js "$folder" >"$folder/npm.txt" || return 1
   judged npm
 }
-sizes() {
-  need rsvg-convert librsvg2-bin && need pdfinfo poppler-utils || return 1
-  rsvg-convert -f pdf -o "$folder/svg.pdf" "$folder/drawing.svg" || return 1
-  judged size
+rhino3dm() {
+  package rhino3dm 8.35.0 || return 1
+  NODE_PATH=$folder/node_modules node tests/heavy/rhino_samples.js "$folder"/*.3dm >"$folder/rhino.txt" || return 1
+  judged rhino
+}
+drawn() {
+  need rsvg-convert librsvg2-bin && need pdftocairo poppler-utils || return 1
+  local which
+  for which in test sample light; do
+    rsvg-convert -f pdf -o "$folder/$which-by-rsvg.pdf" "$folder/$which.svg" &&
+      pdftocairo -svg -noshrink -nocenter "$folder/$which-by-rsvg.pdf" "$folder/$which-by-rsvg.svg" &&
+      pdftocairo -svg -noshrink -nocenter "$folder/$which.pdf" "$folder/$which-by-poppler.svg" || return 1
+  done
+  judged paths && judged size
 }
 boxes() { need inkscape inkscape && judged inkscape; }
 clean_pdf() {
   need qpdf qpdf || return 1
-  qpdf --check "$folder/drawing.pdf" >/dev/null && printf '%-12s %-14s %s\n' qpdf drawing.pdf "no errors"
+  qpdf --check "$folder/sample.pdf" >/dev/null && printf '%-12s %-18s %s\n' qpdf sample.pdf "no errors"
 }
 
+judge "own parsers" judged parser
+judge "own parsers" judged tables
 judge ezdxf judged ezdxf
 judge FreeCAD freecad
 judge GDAL gdal
 judge "npm dxf" npm_dxf
-judge "rsvg and pdfinfo" sizes
+judge rhino3dm rhino3dm
+judge "rsvg and Poppler" drawn
 judge Inkscape boxes
 judge qpdf clean_pdf
 exit $failed

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Run by freecadcmd with FOLDER set: writes freecad.json, for every file of the test curves 201 places of each edge that
-# FreeCAD reads, mm, and lengths and counts of the exports of the sample.
+# Run by freecadcmd with FOLDER set: writes freecad.json, for every file of splines 201 places of each edge that
+# FreeCAD reads, mm, and lengths and counts of those of the sample that hold lines and arcs as such.
 import json
 import os
 
@@ -30,8 +30,9 @@ def places(edge):
 found = {"curves": {}, "lengths": {}}
 for kind in ("dxf", "igs", "step"):
     for unit in ("mm", "in"):
-        found["curves"][f"test-{unit}.{kind}"] = [places(edge) for edge in edges_of(f"test-{unit}.{kind}")]
-        edges = edges_of(f"cad-{unit}.{kind}")
-        found["lengths"][f"cad-{unit}.{kind}"] = [sum(edge.Length for edge in edges), len(edges)]
+        for which in ("test", "sample", "light"):
+            found["curves"][f"{which}-{unit}.{kind}"] = [places(edge) for edge in edges_of(f"{which}-{unit}.{kind}")]
+        edges = edges_of(f"plain-{unit}.{kind}")
+        found["lengths"][f"plain-{unit}.{kind}"] = [sum(edge.Length for edge in edges), len(edges)]
 with open(os.path.join(folder, "freecad.json"), "w", encoding="utf-8") as file:
     json.dump(found, file)

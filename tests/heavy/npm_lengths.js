@@ -2,7 +2,7 @@
 // What npm's dxf makes of the files: its polylines' length in the unit of the file, and their count.
 const fs = require('fs');
 const dxf = require('dxf');
-for (const name of ['cad-mm', 'cad-in', 'laser', 'cnc']) {
+for (const name of ['plain-mm', 'plain-in', 'laser', 'cnc']) {
   const helper = new dxf.Helper(fs.readFileSync(`${process.argv[2]}/${name}.dxf`, 'utf-8'));
   let total = 0;
   const { polylines } = helper.toPolylines();

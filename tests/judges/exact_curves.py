@@ -8,37 +8,51 @@ import math
 import sys
 
 
-def basis(knots, degree, index, u):
-    """N of Cox and de Boor, by recursion; the end of the domain belongs to its last span."""
-    if degree == 0:
-        last = knots[index + 1] == knots[-1] and u == knots[-1] and knots[index] < knots[index + 1]
-        return 1.0 if knots[index] <= u < knots[index + 1] or last else 0.0
-    value = 0.0
-    if knots[index + degree] > knots[index]:
-        value += (u - knots[index]) / (knots[index + degree] - knots[index]) * basis(knots, degree - 1, index, u)
-    if knots[index + degree + 1] > knots[index + 1]:
-        value += ((knots[index + degree + 1] - u) / (knots[index + degree + 1] - knots[index + 1]) *
-                  basis(knots, degree - 1, index + 1, u))
-    return value
+def basis(knots, degree, u):
+    """N of Cox and de Boor for every control point, degree by degree; the end of the domain belongs to its last span."""
+    span = max(i for i in range(degree, len(knots) - degree - 1) if knots[i] <= u and knots[i] < knots[i + 1])
+    values = {span: 1.0}
+    for p in range(1, degree + 1):
+        higher = {}
+        for i in range(span - p, span + 1):
+            value = 0.0
+            if i in values and knots[i + p] > knots[i]:
+                value += (u - knots[i]) / (knots[i + p] - knots[i]) * values[i]
+            if i + 1 in values and knots[i + p + 1] > knots[i + 1]:
+                value += (knots[i + p + 1] - u) / (knots[i + p + 1] - knots[i + 1]) * values[i + 1]
+            higher[i] = value
+        values = higher
+    return values
 
 
-def evaluate(piece, fraction):
-    """Place of a piece of curve JSON at a fraction of its domain, mm."""
-    degree, knots, points = piece["degree"], piece["knots"], piece["control_points_mm"]
-    weights = piece.get("weights", [1.0] * len(points))
-    u = knots[degree] + fraction * (knots[-degree - 1] - knots[degree])
-    if fraction == 1.0:
-        u = knots[-1]
+def evaluate_at(piece, u):
+    """Place of a piece of curve JSON at a parameter of its domain, mm."""
+    points = piece["control_points_mm"]
+    weights = piece.get("weights") or [1.0] * len(points)
     x = y = w = 0.0
-    for i, (p, weight) in enumerate(zip(points, weights)):
-        if knots[i] <= u <= knots[i + degree + 1]:
-            n = basis(knots, degree, i, u) * weight
-            x, y, w = x + n * p[0], y + n * p[1], w + n
+    for i, n in basis(piece["knots"], piece["degree"], u).items():
+        n *= weights[i]
+        x, y, w = x + n * points[i][0], y + n * points[i][1], w + n
     return x / w, y / w
 
 
-def samples(piece, count=200):
-    return [evaluate(piece, i / count) for i in range(count + 1)]
+def domain(piece):
+    return piece["knots"][piece["degree"]], piece["knots"][-piece["degree"] - 1]
+
+
+def samples(piece, count=200, part=None):
+    """Places at equal fractions of the domain, or of a part of it."""
+    first, last = part or domain(piece)
+    return [evaluate_at(piece, last if i == count else first + (last - first) * i / count) for i in range(count + 1)]
+
+
+def smooth_parts(piece):
+    """The domain, cut where a knot is repeated as often as the degree, and the curve may turn."""
+    first, last = domain(piece)
+    knots = piece["knots"]
+    cuts = sorted({k for k in knots if first < k < last and knots.count(k) >= piece["degree"]})
+    ends = [first, *cuts, last]
+    return list(zip(ends, ends[1:]))
 
 
 def pieces_of(path):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads a DXF by ezdxf and prints what it finds: units and errors of the audit, then for every entity its kind, degree and
-201 places at equal fractions of its parameter, all numbers with 17 digits. Usage: ezdxf_samples.py FILE.dxf"""
+201 places at equal fractions of its parameter (of a polyline those of its chords and arcs), all numbers with 17 digits. Usage: ezdxf_samples.py FILE.dxf"""
 import math
 import sys
 
@@ -25,7 +25,20 @@ def places(entity):
         c, r = entity.dxf.center, entity.dxf.radius
         angles = (start + sweep * i / 200 for i in range(201))
         return [c + type(c)(r * math.cos(a), r * math.sin(a), 0) for a in angles]
+    if kind == "POLYLINE":
+        return [p for part in joined(entity) for p in part]
     return []
+
+
+def joined(polyline):
+    """Places of its chords and arcs in its order; an arc that turns to the right is given the other way round."""
+    at = polyline.vertices[0].dxf.location
+    for part in polyline.virtual_entities():
+        run = places(part)
+        if run[-1].distance(at) < run[0].distance(at):
+            run.reverse()
+        at = run[-1]
+        yield run
 
 
 def main():

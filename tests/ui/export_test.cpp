@@ -6,12 +6,18 @@
 #include <QAction>
 #include <QClipboard>
 #include <QComboBox>
+#include <QDropEvent>
+#include <QFileInfo>
 #include <QLabel>
 #include <QMimeData>
 #include <QProgressBar>
+#include <QRegularExpression>
 #include <QUndoStack>
+#include <QUrl>
+#include <QWindow>
 
 #include "core/exchange/dxf_reader.h"
+#include "core/exchange/svg_reader.h"
 #include "tests/ui/rendered_scan.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/stages/export_preview.h"
@@ -47,7 +53,7 @@ TEST_F(Export, ADxfInInchesIsReadBackAndItsSizeShown) {
   auto* unit = find<QComboBox>("export.unit");
   unit->setFocus();
   QTest::keyClick(unit, Qt::Key_Down);
-  EXPECT_TRUE(find<QLabel>("export.note")->text().contains(QStringLiteral(" in)")));
+  EXPECT_TRUE(find<QLabel>("export.note")->text().contains(QStringLiteral("\u00a0in)")));
   // The ending of another format is replaced.
   auto* path = find<QLineEdit>("export.path");
   path->selectAll();
@@ -137,9 +143,97 @@ TEST_F(Export, CurvesAreCopiedAsSvg) {
   QTest::mouseClick(find<QAbstractButton>("export.copy"), Qt::LeftButton);
   ASSERT_TRUE(
       waitUntil([] { return QApplication::clipboard()->mimeData()->hasFormat(QStringLiteral("image/svg+xml")); }));
-  const QByteArray svg = QApplication::clipboard()->mimeData()->data(QStringLiteral("image/svg+xml"));
-  EXPECT_TRUE(svg.contains("<path ")) << svg.left(300).toStdString();
+  const QMimeData* data = QApplication::clipboard()->mimeData();
+  const QByteArray svg = data->data(QStringLiteral("image/svg+xml"));
+  // Inkscape asks for its own name first, editors for the text.
+  EXPECT_EQ(data->data(QStringLiteral("image/x-inkscape-svg")), svg);
+  EXPECT_EQ(data->text().toUtf8(), svg);
+  const auto copied = readSvg(svg.toStdString());
+  ASSERT_TRUE(copied) << copied.error().message;
+  ASSERT_EQ(copied->curves.size(), 1u);
+  const NurbsCurve &shape = session().curves()[0].faired, &there = copied->curves[0].pieces[0].curve;
+  for (int i = 0; i <= 200; ++i) {
+    const auto at = [&](const NurbsCurve& c) { return c.point(c.start() + (c.end() - c.start()) * i / 200); };
+    EXPECT_LE((at(shape) - at(there)).norm(), 1e-9);
+  }
+  // Its size is that of the page; user units are pixels, for which Inkscape takes what it is given.
+  const QRegularExpressionMatch head =
+      QRegularExpression(QStringLiteral("width=\"([0-9.]+)mm\" .*viewBox=\"0 0 ([0-9.]+) ")).match(QString::fromUtf8(svg));
+  const double side = session().output().frame.widthPx * session().output().frame.mmPerPx;
+  EXPECT_NEAR(head.captured(1).toDouble(), side, 1e-6);
+  EXPECT_NEAR(head.captured(2).toDouble(), side * 96 / 25.4, 1e-6);
   EXPECT_TRUE(find<QLabel>("export.result")->text().contains(QStringLiteral("read back")));
+}
+
+/// Where something is dropped, as a drawing program would take it.
+class DropTarget : public QWidget {
+ public:
+  using QWidget::QWidget;
+  bool isEntered = false;
+  QStringList formats;
+  QByteArray picture, file;
+  QString fileName;
+
+ protected:
+  void dragEnterEvent(QDragEnterEvent* event) override {
+    isEntered = true;
+    event->acceptProposedAction();
+  }
+  void dropEvent(QDropEvent* event) override {
+    formats = event->mimeData()->formats();
+    picture = event->mimeData()->data(QStringLiteral("image/svg+xml"));
+    const QList<QUrl> urls = event->mimeData()->urls();
+    if (!urls.isEmpty()) {
+      QFile dragged(urls[0].toLocalFile());
+      fileName = QFileInfo(dragged).fileName();
+      if (dragged.open(QIODevice::ReadOnly)) file = dragged.readAll();
+    }
+    event->acceptProposedAction();
+  }
+};
+
+TEST_F(Export, ACurveIsDraggedOutAsAnSvg) {
+  openPage(test::zigzagPage());
+  Recipe recipe = session().recipe();
+  recipe.cornerMarks.push_back({Vec2(200, 100)});
+  session().change(QStringLiteral("Corner"), recipe);
+  ASSERT_TRUE(settle());
+  window_->action(ActionId::Export)->trigger();
+  ASSERT_NO_FATAL_FAILURE(chooseReceiver("fusion"));
+  auto* preview = find<ExportPreview>("export.preview");
+  ASSERT_TRUE(waitUntil([&] { return preview->content().curves.size() == 2; }));
+  DropTarget target(window_.get());
+  target.setAcceptDrops(true);
+  target.setGeometry(0, 0, 120, 120);
+  target.show();
+  target.raise();
+  const PreviewCurve& second = preview->content().curves[1];
+  QWindow* window = window_->windowHandle();
+  const QPoint from = preview->mapTo(window_.get(), preview->toWidget(second.points[20]).toPoint());
+  QTest::mousePress(window, Qt::LeftButton, {}, from);
+  for (int i = 1; i <= 5; ++i) QTest::mouseMove(window, from + QPoint(8 * i, 0));
+  // The drag holds the event loop until it ends.
+  int moves = 0;
+  QTimer hand;
+  QObject::connect(&hand, &QTimer::timeout, [&] {
+    if (!target.isEntered && moves < 200) {
+      ++moves;
+      return QTest::mouseMove(window, QPoint(60 + moves % 2, 60));
+    }
+    QTest::mouseRelease(window, Qt::LeftButton, {}, QPoint(60, 60));
+    hand.stop();
+  });
+  hand.start(30);
+  ASSERT_TRUE(waitUntil([&] { return !target.picture.isEmpty(); })) << moves;
+  EXPECT_TRUE(target.formats.contains(QStringLiteral("image/x-inkscape-svg")));
+  EXPECT_EQ(target.file, target.picture);
+  EXPECT_EQ(target.fileName, QStringLiteral("Curve %1.svg").arg(*second.number));
+  const auto dragged = readSvg(target.picture.toStdString());
+  ASSERT_TRUE(dragged) << dragged.error().message;
+  ASSERT_EQ(dragged->curves.size(), 1u) << "the one under the mouse alone";
+  const NurbsCurve& there = dragged->curves[0].pieces[0].curve;
+  EXPECT_NEAR(there.point(there.start()).x(), second.points.front().x(), 1e-6);
+  EXPECT_NEAR(there.point(there.start()).y(), -second.points.front().y(), 1e-6);
 }
 
 TEST_F(Export, EscapeStopsItAndNothingIsWritten) {

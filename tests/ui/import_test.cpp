@@ -103,7 +103,7 @@ TEST_F(ImportWindow, ThePagesOfAFileAreChosenInTheScanPanel) {
   openFile(path);
   window_->setStage(PanelStage::Scan);
   ASSERT_EQ(session().scan()->pages, 2);
-  EXPECT_EQ(session().scan()->grey.width, 709);
+  EXPECT_NEAR(session().scan()->grey.width, 708.7, 1.0) << "the writer may round the page to points";
   const std::size_t curves = session().curves().size();
   EXPECT_TRUE(find<QLineEdit>("scan.page")->isVisible());
   type(find<QLineEdit>("scan.page"), QStringLiteral("2"));
@@ -111,8 +111,9 @@ TEST_F(ImportWindow, ThePagesOfAFileAreChosenInTheScanPanel) {
   EXPECT_EQ(session().recipe().scanPage.number, 2);
   EXPECT_NE(session().curves().size(), curves);
   type(find<QLineEdit>("scan.pdfDpi"), QStringLiteral("150"));
-  ASSERT_TRUE(waitUntil([this] { return session().scan()->grey.width == 354 && !session().isBusy(); }));
-  EXPECT_NEAR(session().output().frame.mmPerPx * 354, 60.0, 0.1) << "the size in mm stays";
+  ASSERT_TRUE(waitUntil([this] { return session().scan()->grey.width < 400 && !session().isBusy(); }));
+  EXPECT_NEAR(session().scan()->grey.width, 354.3, 1.0);
+  EXPECT_NEAR(session().output().frame.mmPerPx * session().scan()->grey.width, 60.0, 0.2) << "the size in mm stays";
   // A recipe saved for the page is found with it, and the first page knows nothing of it.
   saveAs(folder_.filePath(QStringLiteral("pages-p2.recipe.json")), [&] { actionOf("save-recipe")->trigger(); });
   type(find<QLineEdit>("scan.page"), QStringLiteral("1"));

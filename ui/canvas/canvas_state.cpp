@@ -352,6 +352,10 @@ void CurveCanvas::State::paint(QPainter& painter) {
     return;
   }
   if (!view.isScanOnly()) {
+    if (view.isVisible(Layer::Scan)) {
+      paintSheet(painter, *this);
+      paintRulings(painter, *this);
+    }
     paintRegions(painter, *this);
     if (areCombsShown()) paintDirection(painter, *this);
     paintSpans(painter, *this);

@@ -313,8 +313,8 @@ bool CurveCanvas::event(QEvent* event) {
       anchor = mapFromGlobal(pinch->centerPoint().toPoint());
     }
   } else if (event->type() == QEvent::ShortcutOverride) {
-    // While the button is down Esc is the gesture's, before it stops work or hides a message.
-    if (state_->isPressed && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
+    // Within a gesture Esc takes that back, before it stops work or hides a message.
+    if ((state_->isPressed || state_->tool().isUnderWay()) && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
       event->accept();
       return true;
     }

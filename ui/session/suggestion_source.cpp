@@ -31,7 +31,9 @@ void SuggestionSource::look(double angleDeg, double scalePx) {
       [contours, angleDeg, scalePx, snapPx, source = QPointer<SuggestionSource>(this)](const CancelToken& token) {
         auto found = guarded<std::vector<CornerSuggestion>>([&] {
           const double angle = angleDeg * std::numbers::pi / 180.0;
-          return oncePerCorner(*contours, suggestCornersAndCuts(*contours, angle, scalePx), snapPx);
+          RunContext context;
+          context.cancel = token;
+          return oncePerCorner(*contours, suggestCornersAndCuts(*contours, angle, scalePx, context), snapPx, context);
         });
         if (token.isCancelled() || !found || !source) return;
         QMetaObject::invokeMethod(

@@ -22,11 +22,20 @@ struct LightOptions {
 };
 
 enum class LightKind {
-  Dense,   ///< Nothing lighter was found: the curve as it was.
+  Dense,   ///< Nothing lighter was found: the curve as it was, and LightReport::obstacle says why.
   Line,    ///< Exactly straight.
   Arc,     ///< Exactly an arc or a circle (rational).
   Span,    ///< One polynomial span of degree 2..7.
   Spline,  ///< Quintic with simple knots (C4).
+  Chain,   ///< Quintic of sections that meet with one curvature (G2), or simplified sections between corners.
+};
+
+/// Why a curve, or sections of it, stayed dense.
+enum class LightObstacle {
+  None,
+  NoNormal,   ///< It has no direction somewhere, or a corner inside.
+  Structure,  ///< No curve of fewer control points that was tried holds the tolerance and the curvature's extrema.
+  Effort,     ///< The search was given up: there are too many extrema.
 };
 
 struct LightReport {
@@ -39,6 +48,10 @@ struct LightReport {
   int inflections = 0;
   int iterations = 0;  ///< Of Levenberg-Marquardt, failed tries included.
   int tries = 0;
+  int sections = 1, sectionsDense = 0;  ///< Of a chain; those that nothing lighter was found for are as they were.
+  LightObstacle obstacle = LightObstacle::None;
+  int corners = 0;                     ///< Sharp ones that simplifiedCurve set between sections.
+  int necks = 0;                       ///< Spikes and inlets that it cut off.
   std::vector<RankedExtremum> ranked;  ///< All extrema of the dense curve with their removal deviations.
 };
 
@@ -49,8 +62,9 @@ struct LightCurve {
 
 /// The curve of fewest control points found that lies within the tolerance of a dense one and has no more curvature
 /// extrema and inflections than it (strict check). Closed curves come back clamped, their ends meeting with all
-/// derivatives of the spline. A curve with a corner inside, and one that no lighter curve was found for, comes back as
-/// it is (LightKind::Dense).
+/// derivatives of the spline. Curves of many extrema are cut between them, and at tight turns, and each section is made
+/// light for itself with its ends held to the second order; one for which nothing lighter is found stays as it is. A
+/// curve with a corner inside, and one that no lighter curve was found for, comes back as it is (LightKind::Dense).
 /// @return Cancelled, or BadParameter for a tolerance or step that is not above 0.
 Result<LightCurve> makeLight(const NurbsCurve& dense, bool closed, const LightOptions&, const RunContext&);
 

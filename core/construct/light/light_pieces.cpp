@@ -1,21 +1,69 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/construct/light/light_pieces.h"
 
+#include <cmath>
 #include <cstddef>
+#include <string>
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/construct/light/detail_curve.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/curvature.h"
 
 namespace batten {
 namespace {
 
-constexpr double kStepPx = 0.5;  // of the samples of the dense curve
+constexpr double kStepPx = 0.5;        // of the samples of the dense curve
+constexpr double kMostOfWidth = 0.25;  // of the ink's width: the tolerance of the least detail
+constexpr double kMostOfSize = 0.01;   // of the curve's size, where the width is not known
+constexpr double kLeastSignificance = 0.1, kMostSignificance = 0.25;
+constexpr double kRaggedLength = 12.0;  // tolerances of length for each extremum: ragged where there is less
 
-void lighten(ConstructedPiece& piece, bool closed, const LightOptions& options, double pixelMm,
+std::string reasonOf(LightObstacle obstacle) {
+  switch (obstacle) {
+    case LightObstacle::None:
+      break;
+    case LightObstacle::NoNormal:
+      return "It has a corner inside, or a place without direction.";
+    case LightObstacle::Structure:
+      return "With fewer control points no curve was found that lies within the tolerance and has no more curvature "
+             "extrema.";
+    case LightObstacle::Effort:
+      return "It has so many curvature extrema that the search was given up.";
+  }
+  return {};
+}
+
+/// Ragged: more extrema than a line that was meant so could have.
+bool isRagged(const NurbsCurve& curve, bool closed, double tolerance) {
+  return countedExtrema(curve, closed) * kRaggedLength * tolerance > ArcLength(curve).total();
+}
+
+Result<LightCurve> lightOf(const NurbsCurve& dense, bool closed, const LightOptions& options, bool simplified,
+                           const RunContext& context) {
+  const bool ragged = simplified && isRagged(dense, closed, options.tolerance);
+  if (ragged) {
+    if (auto simple = simplifiedCurve(dense, closed, options, context)) return std::move(*simple);
+  }
+  auto light = makeLight(dense, closed, options, context);
+  if (!light || ragged || !simplified || light->report.sectionsDense == 0) return light;
+  if (light->report.kind != LightKind::Dense && light->report.sectionsDense == 0) return light;
+  auto simple = simplifiedCurve(dense, closed, options, context);
+  return simple && simple->report.points < light->report.points ? Result<LightCurve>(std::move(*simple)) : light;
+}
+
+void lighten(ConstructedPiece& piece, bool closed, const LightOptions& options, bool simplified, double pixelMm,
              const RunContext& context) {
-  auto light = makeLight(piece.curve, closed, options, context);
+  auto light = lightOf(piece.curve, closed, options, simplified, context);
   if (!light) return;  // cancelled, or nothing that a light curve could stand for
   piece.report.light = lightNote(light->report, pixelMm);
+  piece.report.light->tolerancePx = options.tolerance / pixelMm;
+  if (light->report.necks > 0 && piece.report.note.empty()) {
+    piece.report.note = light->report.necks == 1 ? "A spike or inlet thinner than the detail is left out."
+                                                 : std::to_string(light->report.necks) +
+                                                       " spikes and inlets thinner than the detail are left out.";
+  }
   if (light->report.kind == LightKind::Dense) return;
   piece.dense = std::exchange(piece.curve, std::move(light->curve));
   piece.report.isLine = piece.report.isLine || light->report.kind == LightKind::Line;
@@ -31,6 +79,16 @@ LightOptions lightOptions(const ConstructParams& params, double pixelMm) {
   return options;
 }
 
+LightOptions lightOptions(const ConstructParams& params, const ConstructContour& contour, const NurbsCurve& dense,
+                          double detail) {
+  LightOptions options = lightOptions(params, contour.pixelMm);
+  const double most =
+      contour.inkWidthPx > 0.0 ? kMostOfWidth * contour.inkWidthPx * contour.pixelMm : kMostOfSize * extent(dense);
+  if (most > options.tolerance) options.tolerance *= std::pow(most / options.tolerance, detail);
+  options.significance = kLeastSignificance + detail * (kMostSignificance - kLeastSignificance);
+  return options;
+}
+
 LightNote lightNote(const LightReport& report, double pixelMm) {
   LightNote note;
   note.found = report.kind != LightKind::Dense;
@@ -38,15 +96,21 @@ LightNote lightNote(const LightReport& report, double pixelMm) {
   note.points = report.points;
   note.pointsBefore = report.pointsBefore;
   note.movedPx = report.worst / pixelMm;
+  note.sections = report.sections;
+  note.sectionsDense = report.sectionsDense;
+  note.corners = report.corners;
+  note.why = reasonOf(report.obstacle);
   return note;
 }
 
 Result<void> makePiecesLight(std::vector<ConstructedPiece>& made, const ConstructContour& contour,
                              const ConstructParams& params, const RunContext& context) {
-  const LightOptions options = lightOptions(params, contour.pixelMm);
   parallelFor(context, static_cast<int>(made.size()), 1, [&](int begin, int end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      if (!context.isCancelled()) lighten(made[i], contour.pieces[i].closed, options, contour.pixelMm, context);
+      if (context.isCancelled() || made[i].curve.isEmpty()) continue;
+      const double detail = contour.pieces[i].detail.value_or(params.detail);
+      const LightOptions options = lightOptions(params, contour, made[i].curve, detail);
+      lighten(made[i], contour.pieces[i].closed, options, detail > 0.0, contour.pixelMm, context);
     }
   });
   if (context.isCancelled()) return cancelled();

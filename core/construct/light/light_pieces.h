@@ -14,6 +14,10 @@ namespace batten {
 /// What ConstructParams asks of a light curve in the model frame, with pixels of this size.
 LightOptions lightOptions(const ConstructParams&, double pixelMm);
 
+/// The same for a piece's detail (0..1): the tolerance grows by equal factors from that of the light curve to a quarter
+/// of the width of the ink (where that is not known, 1 % of the size of the curve), and what may go with it.
+LightOptions lightOptions(const ConstructParams&, const ConstructContour&, const NurbsCurve& dense, double detail);
+
 /// What is told of a light curve.
 LightNote lightNote(const LightReport&, double pixelMm);
 

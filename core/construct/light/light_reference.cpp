@@ -10,6 +10,8 @@ namespace batten {
 namespace {
 
 constexpr double kCornerCosine = 0.94;  // cosine of 20 degrees: more between two samples is a corner
+constexpr double kTurnCosine = 0.985;   // cosine of 10 degrees: more between two samples asks for one between
+constexpr int kMostHalvings = 6;        // of one step
 constexpr int kFewestSteps = 4;         // in a span of the curve
 constexpr int kMostSamples = 40000;     // of a curve: longer ones get larger steps
 constexpr int kFewestSamples = 48;
@@ -20,6 +22,7 @@ std::optional<LightSample> lightSampleAt(const NurbsCurve& curve, double u) {
   const double v = d[1].norm();
   if (!(v * (curve.end() - curve.start()) > 1e-9 * (d[0].norm() + d[1].norm()))) return std::nullopt;
   LightSample sample;
+  sample.u = u;
   sample.point = d[0];
   sample.tangent = d[1] / v;
   sample.kappa = cross(d[1], d[2]) / (v * v * v);
@@ -43,7 +46,37 @@ double roughLength(const NurbsCurve& curve, double from, double to) {
 
 }  // namespace
 
-std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool closed, double step) {
+bool LightReference::add(const NurbsCurve& curve, const LightSample& next, int depth) {
+  if (!samples_.empty()) {
+    const LightSample before = samples_.back();
+    if (before.tangent.dot(next.tangent) < kTurnCosine && depth < kMostHalvings) {
+      const auto between = lightSampleAt(curve, 0.5 * (before.u + next.u));
+      if (!between || !add(curve, *between, depth + 1)) return false;
+      return add(curve, next, depth + 1);
+    }
+    if (before.tangent.dot(next.tangent) < kCornerCosine) return false;
+    // Chord and sagitta: exact to the fourth order of the step.
+    const double chord = (next.point - before.point).norm();
+    const double bend = 0.5 * (before.kappa + next.kappa) * chord;
+    samples_.push_back(next);
+    samples_.back().s = before.s + chord * (1.0 + bend * bend / 24.0);
+  } else {
+    samples_.push_back(next);
+  }
+  return true;
+}
+
+bool LightReference::addSpan(const NurbsCurve& curve, double from, double to, int steps) {
+  const bool last = !(to < curve.end());
+  for (int k = 0; k < steps + (last ? 1 : 0); ++k) {
+    const auto next = lightSampleAt(curve, from + (to - from) * k / steps);
+    if (!next || !add(curve, *next, 0)) return false;
+  }
+  return true;
+}
+
+std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool closed, double step,
+                                                   std::optional<double> diagonal) {
   LightReference made;
   made.closed_ = closed;
   const std::vector<double> breaks = curve.breaks();
@@ -59,22 +92,7 @@ std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool
   samples.reserve(static_cast<std::size_t>(total / asked) + kFewestSteps * breaks.size() + 1);
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     const int steps = std::max(kFewestSteps, static_cast<int>(std::ceil(lengths[i] / asked)));
-    const bool last = i + 2 == breaks.size();
-    for (int k = 0; k < steps + (last ? 1 : 0); ++k) {
-      const auto next = lightSampleAt(curve, breaks[i] + (breaks[i + 1] - breaks[i]) * k / steps);
-      if (!next) return std::nullopt;
-      if (!samples.empty()) {
-        const LightSample& before = samples.back();
-        if (before.tangent.dot(next->tangent) < kCornerCosine) return std::nullopt;
-        // Chord and sagitta: exact to the fourth order of the step.
-        const double chord = (next->point - before.point).norm();
-        const double bend = 0.5 * (before.kappa + next->kappa) * chord;
-        samples.push_back(*next);
-        samples.back().s = before.s + chord * (1.0 + bend * bend / 24.0);
-      } else {
-        samples.push_back(*next);
-      }
-    }
+    if (!made.addSpan(curve, breaks[i], breaks[i + 1], steps)) return std::nullopt;
   }
   made.length_ = samples.back().s;
   if (closed) {
@@ -82,13 +100,48 @@ std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool
     samples.pop_back();
     made.beginWhereSteepest();
   }
+  return made.finish(diagonal) ? std::optional(std::move(made)) : std::nullopt;
+}
+
+bool LightReference::finish(std::optional<double> diagonal) {
   Eigen::AlignedBox2d box;
-  for (const LightSample& sample : samples) {
+  for (const LightSample& sample : samples_) {
     box.extend(sample.point);
-    made.kappaMax_ = std::max(made.kappaMax_, std::abs(sample.kappa));
+    kappaMax_ = std::max(kappaMax_, std::abs(sample.kappa));
   }
-  made.diagonal_ = box.diagonal().norm();
-  return made.diagonal_ > 0.0 ? std::optional(std::move(made)) : std::nullopt;
+  diagonal_ = diagonal.value_or(box.diagonal().norm());
+  return diagonal_ > 0.0;
+}
+
+std::optional<LightReference> LightReference::through(const std::vector<Vec2>& points, bool closed) {
+  LightReference made;
+  made.closed_ = closed;
+  const int n = static_cast<int>(points.size());
+  const auto at = [&](int i) -> const Vec2& { return points[closed ? (i % n + n) % n : std::clamp(i, 0, n - 1)]; };
+  made.samples_.resize(points.size());
+  for (int i = 0; i < n; ++i) {
+    LightSample& sample = made.samples_[i];
+    sample.point = at(i);
+    const Vec2 in = at(i) - at(i - 1), out = at(i + 1) - at(i), way = at(i + 1) - at(i - 1);
+    if (!(way.norm() > 0.0)) return std::nullopt;
+    sample.tangent = way.normalized();
+    const double length = 0.5 * (in.norm() + out.norm());
+    if (in.norm() > 0.0 && out.norm() > 0.0) sample.kappa = std::atan2(cross(in, out), in.dot(out)) / length;
+    sample.s = i == 0 ? 0.0 : made.samples_[i - 1].s + in.norm();
+    sample.u = sample.s;
+  }
+  if (!closed) {  // an end has no turn of its own
+    made.samples_.front().kappa = made.samples_[1].kappa;
+    made.samples_.back().kappa = made.samples_[points.size() - 2].kappa;
+  }
+  const auto kappaAt = [&](int i) { return made.samples_[closed ? (i % n + n) % n : std::clamp(i, 0, n - 1)].kappa; };
+  for (int i = 0; i < n; ++i) {
+    made.samples_[i].slope = (kappaAt(i + 1) - kappaAt(i - 1)) / (at(i + 1) - at(i - 1)).norm();
+  }
+  made.length_ = made.samples_.back().s + (closed ? (points.front() - points.back()).norm() : 0.0);
+  if (!(made.length_ > 0.0)) return std::nullopt;
+  if (closed) made.beginWhereSteepest();
+  return made.finish({}) ? std::optional(std::move(made)) : std::nullopt;
 }
 
 void LightReference::beginWhereSteepest() {

@@ -16,6 +16,7 @@ struct LightSample {
   double kappa = 0.0;            ///< Signed curvature, positive to the left.
   double slope = 0.0;            ///< d kappa / ds.
   double s = 0.0;                ///< Arc length from the first sample.
+  double u = 0.0;                ///< Parameter of the curve.
 };
 
 /// The nearest sample of a place and the place's coordinates there.
@@ -30,16 +31,22 @@ struct LightFoot {
 /// its curvature changes fastest, so that no extremum lies at the seam, and does not repeat its first sample.
 class LightReference {
  public:
-  /// @param step largest distance of two samples. Absent when the curve has no length or a derivative that vanishes, or
-  /// turns by more than 20 degrees within a knot (a corner): it then has no normal everywhere.
-  static std::optional<LightReference> make(const NurbsCurve&, bool closed, double step);
+  /// @param step largest distance of two samples; they lie closer where the curve turns quickly. Absent when the curve
+  /// has no length or a derivative that vanishes, or turns by more than 20 degrees at once (a corner): it then has no
+  /// normal everywhere.
+  /// @param diagonal of the whole that the curve is a section of; absent: its own.
+  static std::optional<LightReference> make(const NurbsCurve&, bool closed, double step,
+                                            std::optional<double> diagonal = {});
+  /// Of a smooth line of points at about even steps, with its direction and curvature by differences; a closed one does
+  /// not repeat its first point. Absent when it has no length. @pre at least 5 points.
+  static std::optional<LightReference> through(const std::vector<Vec2>& points, bool closed);
 
   const std::vector<LightSample>& samples() const { return samples_; }
   int size() const { return static_cast<int>(samples_.size()); }
   const LightSample& at(int i) const { return samples_[i]; }
   bool isClosed() const { return closed_; }
   double length() const { return length_; }
-  double diagonal() const { return diagonal_; }      ///< Of the bounding box of the samples.
+  double diagonal() const { return diagonal_; }      ///< Of the bounding box of the samples, or the one given.
   double largestKappa() const { return kappaMax_; }  ///< Largest |kappa|.
 
   /// The foot of a place, looked for from sample `hint` on, downhill only (both ways; around the seam where closed).
@@ -51,6 +58,9 @@ class LightReference {
 
  private:
   LightReference() = default;
+  bool finish(std::optional<double> diagonal);
+  bool addSpan(const NurbsCurve&, double from, double to, int steps);
+  bool add(const NurbsCurve&, const LightSample& next, int depth);
   void beginWhereSteepest();
 
   std::vector<LightSample> samples_;

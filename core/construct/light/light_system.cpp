@@ -202,20 +202,18 @@ LightSystem::Cost LightSystem::evaluate(const LightShape& shape, const LightWeig
 
 void LightSystem::addPlace(SpanSystem& local, const Place& place, const LightWeights& weights) const {
   const double tau = ask_.tolerance, l = place.scale;
-  const auto index = static_cast<std::size_t>((&place - places_.data()) % perSpan_);
-  const SpanSystem::Derivatives d = local.at(table_.places[index], place.state);
+  const PlaceTable::Place& table = table_.places[static_cast<std::size_t>((&place - places_.data()) % perSpan_)];
   const double e = place.foot.offset / tau, beyond = std::max(0.0, std::abs(e) - kWallAt * ask_.reach);
   const double wall = beyond > 0.0 ? weights.wall * weights.wall : 0.0, offset = weights.offset * weights.offset;
   const DerivativeGradients across{place.foot.normal / tau, Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
-  local.add(local.rowOf(d, across), local.share * (offset + wall),
+  local.add(local.rowOf(table, place.state, across), local.share * (offset + wall),
             local.share * (offset * e + wall * std::copysign(beyond, e)));
-  const auto sign = [&](int wanted, double amount, double factor, const DerivativeGradients& gradients) {
+  const auto sign = [&](int wanted, double amount, double factor, DerivativeGradients gradients) {
     const SignRow row = signRow(wanted * amount, ask_.signMargin);
     if (row.weight == 0.0) return;
     const double weight = local.share * row.weight * std::pow(weights.signs * kSignFactor, 2);
-    DerivativeGradients scaled;
-    for (std::size_t k = 0; k < 4; ++k) scaled[k] = -wanted * factor * gradients[k];
-    local.add(local.rowOf(d, scaled), weight, weight * row.residual);
+    for (Vec2& g : gradients) g *= -wanted * factor;
+    local.add(local.rowOf(table, place.state, gradients), weight, weight * row.residual);
   };
   if (weights.signs > 0.0) {
     const double slopeFactor = l * l * l / tau, kappaFactor = l * l / tau;
@@ -229,7 +227,7 @@ void LightSystem::addPlace(SpanSystem& local, const Place& place, const LightWei
   DerivativeGradients speed = speedGradient(place.state);
   speed[1] /= meanSpeed_;
   const double even = local.share * kEvenWeight * kEvenWeight;
-  local.add(local.rowOf(d, speed), even, even * (place.state.speed / meanSpeed_ - 1.0));
+  local.add(local.rowOf(table, place.state, speed), even, even * (place.state.speed / meanSpeed_ - 1.0));
 }
 
 void LightSystem::addEnds(SpanSystem& local, const LightShape& shape, const LightWeights& weights, int span) const {
@@ -237,11 +235,11 @@ void LightSystem::addEnds(SpanSystem& local, const LightShape& shape, const Ligh
     if (shape.closed || span != (atEnd ? shape.spans() - 1 : 0) || holdAt(atEnd) == LightHold::Position) continue;
     const PlaceState state = endState(shape, atEnd);
     const LightSample& wanted = atEnd ? reference_.samples().back() : reference_.samples().front();
-    const SpanSystem::Derivatives d = local.at(ends_[atEnd ? 1 : 0], state);
+    const PlaceTable::Place& table = ends_[atEnd ? 1 : 0];
     const double l = (atEnd ? places_.back() : places_.front()).scale, weight = weights.ends * weights.ends;
     const auto row = [&](double residual, double factor, DerivativeGradients gradients) {
       for (Vec2& g : gradients) g *= factor;
-      local.add(local.rowOf(d, gradients), weight, weight * residual * factor);
+      local.add(local.rowOf(table, state, gradients), weight, weight * residual * factor);
     };
     const Vec2 across = leftNormal(wanted.tangent);
     row(state.d[1].dot(across) / state.speed, l / ask_.tolerance, tangentGradient(state, across));
@@ -304,9 +302,12 @@ void LightSystem::scatter(const SpanSystem& local, const LightShape& shape, int 
     const Eigen::Index column = target[c];
     if (column < 0) continue;
     gradient[column] += local.gradient[c];
-    for (Eigen::Index r = 0; r < local.used; ++r) {
+    for (Eigen::Index r = c; r < local.used; ++r) {
       const Eigen::Index row = target[r];
-      if (row >= column) matrix(row, column) += local.squares(r, c);
+      if (row < 0) continue;
+      // A closed curve of few spans comes to some of its points twice.
+      const double times = row == column && r != c ? 2.0 : 1.0;
+      matrix(std::max(row, column), std::min(row, column)) += times * local.squares(r, c);
     }
   }
 }
@@ -317,6 +318,7 @@ void LightSystem::addSpan(const LightShape& shape, const LightWeights& weights, 
   differentiate(local, shape, span);
   for (int k = 0; k < perSpan_; ++k) addPlace(local, places_[span * perSpan_ + k], weights);
   addEnds(local, shape, weights, span);
+  local.finish();
   scatter(local, shape, span, matrix, gradient);
 }
 

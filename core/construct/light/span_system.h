@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <optional>
 
 #include "core/construct/light/light_rows.h"
@@ -14,10 +15,12 @@ namespace batten {
 inline constexpr int kLengthReach = 4;
 inline constexpr int kLengthsOfSpan = 2 * kLengthReach + 1;
 
-/// Derivatives of one span's places by what the span depends on.
+/// The normal equations of one span: rows are gathered by the span's Bezier points and its own length, and only their
+/// sum is carried over to what these depend on, the control points and the lengths of the spans around.
 struct SpanSystem {
-  static constexpr Eigen::Index kMost = 2 * static_cast<Eigen::Index>(kSpanPoints) + kLengthsOfSpan;
-  using Row = Eigen::Matrix<double, kMost, 1>;
+  static constexpr int kLocal = 2 * static_cast<int>(kSpanPoints) + 1;  ///< x and y of the Bezier points; own length.
+  static constexpr int kMost = 2 * static_cast<int>(kSpanPoints) + kLengthsOfSpan;
+  using LocalRow = std::array<double, static_cast<std::size_t>(kLocal)>;
   using PointRow = Eigen::Array<double, static_cast<int>(kSpanPoints), 1>;
   std::array<PointRow, kSpanPoints> matrix;                            ///< Bezier points by control points.
   std::array<std::array<Vec2, kSpanPoints>, kLengthsOfSpan> byLength;  ///< Bezier points by the logarithms of lengths.
@@ -26,65 +29,27 @@ struct SpanSystem {
   std::optional<int> ownLength;  ///< and which of them is the span's own.
   double length = 1.0;
   int degree = 5;
-  double share = 1.0;  ///< Of a row in the mean of all places.
-  Eigen::Matrix<double, kMost, kMost> squares;
-  Row gradient;
-  Eigen::Index used = 0;
+  double share = 1.0;                           ///< Of a row in the mean of all places.
+  Eigen::Matrix<double, kMost, kMost> squares;  ///< Lower triangle; by x and y of the control points, then by lengths.
+  Eigen::Matrix<double, kMost, 1> gradient;
+  int used = 0;
 
   /// Before the first row: all else is set.
-  void begin() {
-    used = 2 * (degree + 1) + lengthCount;
-    squares.topLeftCorner(used, used).setZero();
-    gradient.setZero();
-  }
-  /// Rows of C .. C''' by all unknowns at a place of the span.
-  struct Derivatives {
-    std::array<PointRow, 4> byPoint;
-    std::array<std::array<Vec2, kLengthsOfSpan>, 4> byLogLength;
-  };
-  Derivatives at(const PlaceTable::Place& place, const PlaceState& state) const {
-    Derivatives result;
-    double scale = 1.0;
-    for (std::size_t order = 0; order < 4; ++order) {
-      PointRow row = PointRow::Zero();
-      for (int k = 0; k <= degree; ++k) row += place.rows[order][k] * matrix[k];
-      result.byPoint[order] = scale * row;
-      for (int i = 0; i < lengthCount; ++i) {
-        Vec2 sum = Vec2::Zero();
-        for (int k = 0; k <= degree; ++k) {
-          sum += place.rows[order][k] * byLength[i][k];
-        }
-        sum *= scale;
-        if (i == ownLength) sum -= static_cast<double>(order) * state.d[order];
-        result.byLogLength[order][i] = sum;
-      }
-      scale /= length;
-    }
-    return result;
-  }
-  Row rowOf(const Derivatives& d, const DerivativeGradients& gradients) const {
-    Row row = Row::Zero();
-    for (std::size_t order = 0; order < 4; ++order) {
-      const Vec2& g = gradients[order];
-      if (g.x() == 0.0 && g.y() == 0.0) continue;
-      for (Eigen::Index j = 0; j <= degree; ++j) {
-        row[2 * j] += g.x() * d.byPoint[order][j];
-        row[2 * j + 1] += g.y() * d.byPoint[order][j];
-      }
-      for (int i = 0; i < lengthCount; ++i) {
-        row[2 * (degree + 1) + i] += g.dot(d.byLogLength[order][i]);
-      }
-    }
-    return row;
-  }
+  void begin();
+  /// Row of a residual with these gradients by the position and its derivatives at a place of the span.
+  LocalRow rowOf(const PlaceTable::Place&, const PlaceState&, const DerivativeGradients&) const;
   /// Adds a row with its weight (squared) and weighted residual.
-  void add(const Row& row, double weight, double residual) {
-    for (Eigen::Index c = 0; c < used; ++c) {
-      const double factor = weight * row[c];
-      for (Eigen::Index r = 0; r < used; ++r) squares(r, c) += factor * row[r];
-      gradient[c] += residual * row[c];
-    }
-  }
+  void add(const LocalRow&, double weight, double residual);
+  /// After the last row: fills `squares` and `gradient`.
+  void finish();
+
+ private:
+  int localCount() const { return 2 * (degree + 1) + (lengthCount > 0 ? 1 : 0); }
+  /// A column by Bezier points and own length becomes one by what they depend on.
+  void carry(const LocalRow& from, double* to) const;
+
+  std::array<LocalRow, static_cast<std::size_t>(kLocal)> local_;  ///< Column by column, the lower triangle.
+  LocalRow localGradient_;
 };
 
 }  // namespace batten

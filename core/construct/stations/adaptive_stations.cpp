@@ -71,14 +71,15 @@ class Refiner {
     const double reach = 2.0 * meter_.length() / static_cast<double>(n);
     for (std::size_t i = 0; i < n; ++i) {
       const double guess = (i > 0 ? s_.front() : 0.0) + scale * run[i];
-      double s = set_.stations[i].along * meter_.length();
+      std::optional<double> s;
+      if (set_.stations[i].along) s = *set_.stations[i].along * meter_.length();
       // A station at a free end stands for it, however far from it a turn there has put it.
       if (!given_.closed && (i == 0 || i + 1 == n)) s = i == 0 ? 0.0 : meter_.length();
-      if (std::isnan(s)) {
+      if (!s) {
         s = i > 0 ? nearest(stationPx(i), guess - reach, guess + reach) : nearest(stationPx(i), 0.0, meter_.length());
       }
-      if (i > 0 && !(s > s_.back() + 1e-6 * meter_.length())) return false;
-      s_.push_back(s);
+      if (i > 0 && !(*s > s_.back() + 1e-6 * meter_.length())) return false;
+      s_.push_back(*s);
     }
     return !given_.closed || s_.back() < s_.front() + meter_.length();
   }

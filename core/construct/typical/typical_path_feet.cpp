@@ -13,7 +13,7 @@ namespace batten {
 namespace {
 
 // Parameters of an element run from 0 to 1.
-constexpr int kSteps = 25;
+constexpr int kPathFeetSteps = 25;
 constexpr int kLastChange = 20;       ///< Later steps stay in their element: a foot at a joint may go to and fro.
 constexpr double kLongestStep = 0.7;  ///< Less than an element, so that none is passed over.
 constexpr double kBeyondEnds = 0.4;   ///< A path may end this far before the last points, and grows towards them.
@@ -21,7 +21,7 @@ constexpr double kSettled = 1e-9;
 
 /// Newton on the distance, from where the foot is; passes from element to element.
 PathFoot refined(const std::vector<PathGeometry>& geometry, const Vec2& p, PathFoot foot) {
-  for (int i = 0; i < kSteps; ++i) {
+  for (int i = 0; i < kPathFeetSteps; ++i) {
     const auto d = geometry[foot.element].at(foot.t, 2);
     const Vec2 away = d[0] - p;
     const double speed = d[1].squaredNorm();

@@ -5,29 +5,48 @@
 #include <cmath>
 #include <new>
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "core/base/statistics.h"
 #include "core/contour/centreline/gaps.h"
 #include "core/contour/centreline/graininess.h"
+#include "core/contour/centreline/on_ink.h"
 #include "core/contour/centreline/oriented_line_filter.h"
 #include "core/contour/centreline/refinement.h"
 #include "core/contour/centreline/skeleton.h"
 #include "core/contour/centreline/stroke_mask.h"
 #include "core/contour/centreline/stroke_paths.h"
 #include "core/contour/merge/stroke_merge.h"
+#include "core/image/bit_disc.h"
 #include "core/image/bit_steps.h"
 
 namespace batten {
 namespace {
 
-constexpr double kShortestWidths = 3.0;     // [stroke widths] shorter stroke paths are blots
 constexpr double kClosingWidths = 0.75;     // [stroke widths] between the specks of a pencil there is less, and a pixel
 constexpr double kPencilSmoothingPx = 3.0;  // of the middles along a pencil stroke, whose grain moves every one
 
-std::vector<StrokePath> centrelinesOf(const BitImage& ink, const EdgeParams& params, const RunContext& context) {
-  BitImage skeleton = ink;
+constexpr double kAtRimPx = 2.0;  // a skeleton that was cut at a rim ends nearer to the shape
+
+// A stroke that runs into a shape has no free end there.
+void endAtRims(std::vector<StrokePath>& paths, const BitImage& shapes) {
+  for (StrokePath& path : paths) {
+    if (path.closed || path.points.empty()) continue;
+    if (anyInDisc(shapes, path.points.front().at, kAtRimPx)) path.tip[0] = false;
+    if (anyInDisc(shapes, path.points.back().at, kAtRimPx)) path.tip[1] = false;
+  }
+}
+
+// The skeleton of all ink is cut at the rims of the shapes, so that it runs straight up to them.
+std::vector<StrokePath> centrelinesOf(const BitImage& ink, const BitImage* shapes, const EdgeParams& params,
+                                      const RunContext& context) {
+  const BitImage all = shapes != nullptr ? either(ink, *shapes) : ink;
+  BitImage skeleton = all;
   if (!thinToSkeleton(skeleton, context)) return {};
-  return findStrokePaths(skeleton, ink, params, context);
+  if (shapes == nullptr) return findStrokePaths(skeleton, all, params, context);
+  std::vector<StrokePath> paths = findStrokePaths(without(std::move(skeleton), *shapes), all, params, context);
+  endAtRims(paths, *shapes);
+  return paths;
 }
 
 // [px] median over all points of the stroke paths chosen.
@@ -52,19 +71,6 @@ bool isMargin(const Contour& c, const GreyImage& grey) {
     if (toBorder <= 0.5 * point.widthPx.value_or(0.0f) + kTouchPx) ++touching;
   }
   return static_cast<double>(touching) >= kMostly * static_cast<double>(c.points.size());
-}
-
-// Sets the pixels whose centres lie within a disc.
-void setDisc(BitImage& image, const Vec2& at, double radius) {
-  const int y0 = std::max(0, static_cast<int>(std::floor(at.y() - radius)));
-  const int y1 = std::min(image.height - 1, static_cast<int>(std::ceil(at.y() + radius)));
-  const int x0 = std::max(0, static_cast<int>(std::floor(at.x() - radius)));
-  const int x1 = std::min(image.width - 1, static_cast<int>(std::ceil(at.x() + radius)));
-  for (int y = y0; y <= y1; ++y) {
-    for (int x = x0; x <= x1; ++x) {
-      if ((Vec2(x + 0.5, y + 0.5) - at).squaredNorm() <= radius * radius) image.set(x, y, true);
-    }
-  }
 }
 
 // Covers the strokes that were, or were not, drawn with a pencil, and `margin` px around them.
@@ -133,9 +139,65 @@ std::vector<Contour> placeStrokePaths(const std::vector<StrokePath>& paths, cons
   return contours;
 }
 
+// [grey] by which a stroke is darker than the paper on both its sides.
+double depthOf(const StrokePath& s, const GreyImage& grey) {
+  constexpr double kBesideWidths = 1.25, kTakenBesidePx = 1.5;
+  const auto level = [&](const Vec2& at) {
+    return static_cast<double>(grey.level(std::clamp(static_cast<int>(at.x()), 0, grey.width - 1),
+                                          std::clamp(static_cast<int>(at.y()), 0, grey.height - 1)));
+  };
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 1; i + 1 < std::ssize(s.points); ++i) {
+    const Vec2 along = s.points[i + 1].at - s.points[i - 1].at;
+    if (!(along.norm() > 0.0)) continue;
+    const double beside = kBesideWidths * 2.0 * static_cast<double>(s.points[i].radius) + kTakenBesidePx;
+    const Vec2 away = beside * leftNormal(along.normalized()), &at = s.points[i].at;
+    sum += 0.5 * (level(at + away) + level(at - away)) - level(at);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0.0;
+}
+
+// Strokes shorter than `minWidths` of their widths are blots. Grain breaks the strokes of a pencil and makes short ones
+// of its own: such are kept only where they are as dark as the strokes around.
+void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, double minWidths, bool anyPencil,
+               const RunContext& context) {
+  constexpr double kGrainWidths = 2.5;  // times the shortest: longer ones are no grain
+  constexpr double kAsDark = 0.8;
+  // A free end of a skeleton lies half a width before that of its ink.
+  const auto widthsOf = [](const StrokePath& s) {
+    const double ends = s.closed ? 0.0 : (s.tip[0] ? 0.5 : 0.0) + (s.tip[1] ? 0.5 : 0.0);
+    return s.length() / s.widthPx() + ends;
+  };
+  std::vector<bool> isDropped;
+  const std::optional<GraininessMap> grain =
+      anyPencil ? std::optional<GraininessMap>(std::in_place, paths, grey, context) : std::nullopt;
+  if (context.isCancelled()) return;
+  for (int i = 0; i < std::ssize(paths); ++i) {
+    const StrokePath& s = paths[i];
+    const double widths = widthsOf(s);
+    bool drop = s.points.size() < 3 || widths < minWidths;
+    if (!drop && grain && grain->isPencil(i) && widths < kGrainWidths * minWidths)
+      drop = depthOf(s, grey) < kAsDark * grain->depthAt(s.points[s.points.size() / 2].at);
+    isDropped.push_back(drop);
+  }
+  std::vector<StrokePath> kept;
+  for (int i = 0; i < std::ssize(paths); ++i) {
+    if (!isDropped[i]) kept.push_back(std::move(paths[i]));
+  }
+  paths = std::move(kept);
+}
+
+// A line of which the grey values show no point is none.
+bool isSeen(const Contour& c) {
+  return std::any_of(c.points.begin(), c.points.end(), [](const ContourPoint& p) { return p.refined; });
+}
+
 Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
-                                const RunContext& context) {
-  std::vector<StrokePath> paths = centrelinesOf(strokes, params, context);
+                                const RunContext& context, const CentrelineOptions& options) {
+  const BitImage* shapes = options.shapes;
+  std::vector<StrokePath> paths = centrelinesOf(strokes, shapes, params, context);
   if (context.isCancelled()) return cancelled();
   const double width = medianWidth(paths, [](int) { return true; });
   const GraininessMap grain(paths, grey, context);
@@ -145,16 +207,22 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   for (int i = 0; i < std::ssize(paths); ++i) anyPencil = anyPencil || grain.isPencil(i);
   if (anyPencil) {
     bodies = bodiesOf(strokes, grey, paths, grain, context);
+    if (shapes != nullptr) bodies = without(std::move(bodies), *shapes);
     ink = &bodies;
     if (context.isCancelled()) return cancelled();
-    paths = centrelinesOf(bodies, params, context);
+    paths = centrelinesOf(bodies, shapes, params, context);
   }
-  bridgeGaps(paths, *ink, params, context);
+  std::vector<bool> pencil;
+  if (anyPencil) {
+    const GraininessMap found(paths, grey, context);
+    for (int i = 0; i < std::ssize(paths); ++i) pencil.push_back(found.isPencil(i));
+  }
+  bridgeGaps(paths, pencil, *ink, grey, params, context);
   if (context.isCancelled()) return cancelled();
   ContourSet set;
   set.report.found = static_cast<int>(paths.size());
-  std::erase_if(paths,
-                [](const StrokePath& s) { return s.points.size() < 3 || s.length() < kShortestWidths * s.widthPx(); });
+  dropShort(paths, grey, options.minWidths, anyPencil, context);
+  if (context.isCancelled()) return cancelled();
   set.report.droppedShort = set.report.found - static_cast<int>(paths.size());
   if (anyPencil) {
     const GraininessMap found(paths, grey, context);
@@ -163,7 +231,10 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
     set.contours = placeStrokePaths(paths, nullptr, grey, params.subpixel, context);
   }
   if (context.isCancelled()) return cancelled();
-  std::erase_if(set.contours, [](const Contour& c) { return c.points.size() < 3; });
+  const std::size_t placed = set.contours.size();
+  std::erase_if(set.contours, [&](const Contour& c) { return c.points.size() < 3 || (params.subpixel && !isSeen(c)); });
+  set.report.droppedShort += static_cast<int>(placed - set.contours.size());
+  set.contours = keepOnInk(std::move(set.contours), shapes != nullptr ? either(*ink, *shapes) : *ink);
   if (!set.contours.empty()) set.report.widthPx = width;
   if (params.mergeWidths * width >= 1.0) {
     // Between middles: the paper between two strokes is a width less.
@@ -178,13 +249,13 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
 }  // namespace
 
 Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
-                               const RunContext& context) {
+                               const RunContext& context, const CentrelineOptions& options) {
   if (strokes.width <= 0 || strokes.height <= 0) return ContourSet{};
   if (grey.width != strokes.width || grey.height != strokes.height) {
     return fail(ErrorCode::BadParameter, "The mask and the scan differ in size.");
   }
   try {
-    return traceStrokes(strokes, grey, params, context);
+    return traceStrokes(strokes, grey, params, context, options);
   } catch (const cv::Exception& e) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to find the centre lines.", e.what());
   } catch (const std::bad_alloc&) {

@@ -11,8 +11,8 @@
 namespace batten {
 
 /// Splits the ink into strokes and shapes: a component is a shape when more than half of its area survives an opening
-/// by a disc of the stroke-width limit (EdgeParams::strokeWidth * sqrt(width * height)), unless the page is followed in
-/// one way (EdgeParams::mode) or the user chose one for the component. Both masks have the size of `ink`.
+/// by a disc of the stroke-width limit (EdgeParams::strokeWidth * sqrt(width * height)), unless EdgeParams::mode or the
+/// user decides otherwise. Both masks have the size of `ink`.
 struct StrokeSplit {
   BitImage strokes;
   BitImage shapes;
@@ -22,6 +22,11 @@ Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams&, const R
 /// Centre lines of all strokes of a mask: skeleton for the topology (spurs pruned, smooth stroke paths joined through
 /// crossings, gaps bridged, overdrawn strokes merged if asked), then the centre from the grey profile across the
 /// stroke.
-Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams&, const RunContext&);
+struct CentrelineOptions {
+  const BitImage* shapes = nullptr;  ///< Ink beside the strokes, which they may run into: they end at its rim.
+  double minWidths = 3.0;            ///< [stroke widths] Shorter strokes are left out.
+};
+Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams&, const RunContext&,
+                               const CentrelineOptions& options = {});
 
 }  // namespace batten

@@ -16,23 +16,29 @@ namespace {
 // A skeleton ends before its ink does, by up to a width and a pixel; there are two of them to a gap.
 constexpr double kSkeletonShort = 2.0;  // [stroke widths]
 constexpr double kSkeletonShortPx = 2.0;
-constexpr double kFacingDeg = 30.0;        // between the direction of an end and the way to the other
-constexpr double kShortGapWidths = 1.5;    // [stroke widths] over so short a gap that way says little:
-constexpr double kShortGapTurnDeg = 60.0;  // the directions of the two ends decide,
-constexpr double kShortGapBack = 0.5;      // [stroke widths] and they may lie a little beside each other
-constexpr double kLeastRingWidths = 6.0;   // [stroke widths] round a ring that one stroke path makes
-constexpr double kDirectionWidths = 3.0;   // [stroke widths] over which the direction of an end is taken,
-constexpr double kLeastDirectionPx = 4.0;  // and of thin strokes
-constexpr double kMostOfPath = 0.3;        // of its points: what of a short one is left out at its end
-constexpr int kBridgeRounds = 4;           // an end whose best partner is taken may find another
-constexpr int kEndsPerLook = 256;          // between two looks at the cancel token
+constexpr double kFacingDeg = 30.0;         // between the direction of an end and the way to the other
+constexpr double kShortGapWidths = 1.5;     // [stroke widths] over so short a gap that way says little:
+constexpr double kShortGapTurnDeg = 60.0;   // the directions of the two ends decide,
+constexpr double kShortGapBack = 0.5;       // [stroke widths] and they may lie a little beside each other
+constexpr double kLeastRingWidths = 6.0;    // [stroke widths] round a ring that one stroke path makes
+constexpr double kDirectionWidths = 3.0;    // [stroke widths] over which the direction of an end is taken,
+constexpr double kLeastDirectionPx = 4.0;   // and of thin strokes
+constexpr double kMostOfPath = 0.3;         // of its points: what of a short one is left out at its end
+constexpr double kLeastStrokeWidths = 3.0;  // [stroke widths] a shorter stroke has no direction, and is not joined
+constexpr double kBridgedWidthRatio = 1.5;  // of two strokes that may be one; and a pixel more
+constexpr double kOctaveCost = 2.0;         // of twice the width, as of so many widths of gap
+constexpr double kGreyCost = 0.02;          // [1/grey] of ends that differ in darkness
+constexpr int kBridgeRounds = 4;            // an end whose best partner is taken may find another
+constexpr int kEndsPerLook = 256;           // between two looks at the cancel token
 
 struct FreeEnd {
   int path = 0, side = 0;  ///< side 0: the start.
   Vec2 at = Vec2::Zero();
-  Vec2 out = Vec2::Zero();       ///< Unit direction in which the stroke would go on.
-  double width = 1.0;            ///< [px] of the skeleton's discs, which are half a pixel and more too small.
-  double inkWidth = 1.0;         ///< [px] across the ink.
+  Vec2 out = Vec2::Zero();  ///< Unit direction in which the stroke would go on.
+  double width = 1.0;       ///< [px] of the skeleton's discs, which are half a pixel and more too small.
+  double inkWidth = 1.0;    ///< [px] across the ink.
+  double level = 0.0;       ///< [grey] mean of the stroke near its end.
+  bool isPencil = false;
   std::optional<int> best = {};  ///< The free end that it costs least to join.
   double bestCost = 0.0;
 };
@@ -82,16 +88,34 @@ double inkWidthOf(const StrokePath& s, const BitImage& ink) {
   return std::max(1.0, sum / static_cast<double>(std::ssize(chords) - 2 * quarter));
 }
 
-std::vector<FreeEnd> freeEnds(const std::vector<StrokePath>& paths, const BitImage& ink) {
+// [grey] mean along the middle of a stroke, over a few widths from its end.
+double levelAt(const StrokePath& s, int side, double width, const GreyImage& grey) {
+  const int n = static_cast<int>(s.points.size());
+  const int count = std::clamp(static_cast<int>(kDirectionWidths * width), 1, n);
+  double sum = 0.0;
+  for (int k = 0; k < count; ++k) {
+    const Vec2& at = s.points[side == 0 ? k : n - 1 - k].at;
+    sum += grey.level(std::clamp(static_cast<int>(at.x()), 0, grey.width - 1),
+                      std::clamp(static_cast<int>(at.y()), 0, grey.height - 1));
+  }
+  return sum / count;
+}
+
+std::vector<FreeEnd> freeEnds(const std::vector<StrokePath>& paths, const std::vector<bool>& pencil,
+                              const BitImage& ink, const GreyImage& grey) {
   std::vector<FreeEnd> ends;
   for (int i = 0; i < static_cast<int>(paths.size()); ++i) {
     const StrokePath& s = paths[i];
     if (s.closed || s.points.size() < 3) continue;
-    const double width = s.widthPx(), inkWidth = s.tip[0] || s.tip[1] ? inkWidthOf(s, ink) : width;
+    const double width = s.widthPx();
+    const bool isPencil = !pencil.empty() && pencil[i];
+    if (!isPencil && s.length() < kLeastStrokeWidths * width) continue;
+    const double inkWidth = s.tip[0] || s.tip[1] ? inkWidthOf(s, ink) : width;
     for (int side = 0; side < 2; ++side) {
       if (!s.tip[side]) continue;
       const Vec2 at = side == 0 ? s.points.front().at : s.points.back().at;
-      ends.push_back({i, side, at, endDirection(s, side, width), width, inkWidth});
+      ends.push_back(
+          {i, side, at, endDirection(s, side, width), width, inkWidth, levelAt(s, side, width, grey), isPencil});
     }
   }
   std::sort(ends.begin(), ends.end(), [](const FreeEnd& a, const FreeEnd& b) {
@@ -120,7 +144,10 @@ double paperBetween(const FreeEnd& a, const FreeEnd& b, const BitImage& ink) {
 // Cost of joining two ends; nothing where they do not belong together. They must face each other unless the gap is no
 // longer than the pen is wide.
 std::optional<double> joinCost(const FreeEnd& a, const FreeEnd& b, const BitImage& ink, double gapFactor) {
-  const double width = 0.5 * (a.width + b.width);
+  const double width = 0.5 * (a.width + b.width), thinner = std::min(a.inkWidth, b.inkWidth);
+  const double octaves = std::abs(std::log2(a.inkWidth / b.inkWidth));
+  const bool isPencil = a.isPencil && b.isPencil;
+  if (!isPencil && octaves > std::log2(kBridgedWidthRatio) + 1.0 / thinner) return std::nullopt;
   const Vec2 d = b.at - a.at;
   const double gap = d.norm(), longest = gapFactor * 0.5 * (a.inkWidth + b.inkWidth);
   if (gap > longest + kSkeletonShort * width + kSkeletonShortPx) return std::nullopt;
@@ -131,7 +158,8 @@ std::optional<double> joinCost(const FreeEnd& a, const FreeEnd& b, const BitImag
                             : d.dot(a.out) >= limit && -d.dot(b.out) >= limit;
   // Half a pixel for the mask, whose pixels are whole.
   if (!isFacing || paperBetween(a, b, ink) > longest + 0.5) return std::nullopt;
-  return gap + width * turn;
+  if (isPencil) return gap + width * turn;
+  return gap + width * (turn + kOctaveCost * octaves + kGreyCost * std::abs(a.level - b.level));
 }
 
 void join(std::vector<StrokePath>& paths, const FreeEnd& a, const FreeEnd& b) {
@@ -162,11 +190,11 @@ void join(std::vector<StrokePath>& paths, const FreeEnd& a, const FreeEnd& b) {
 
 }  // namespace
 
-void bridgeGaps(std::vector<StrokePath>& paths, const BitImage& ink, const EdgeParams& params,
-                const RunContext& context) {
+void bridgeGaps(std::vector<StrokePath>& paths, const std::vector<bool>& pencil, const BitImage& ink,
+                const GreyImage& grey, const EdgeParams& params, const RunContext& context) {
   if (!(params.gapFactor > 0.0)) return;
   for (int round = 0; round < kBridgeRounds; ++round) {
-    std::vector<FreeEnd> ends = freeEnds(paths, ink);
+    std::vector<FreeEnd> ends = freeEnds(paths, pencil, ink, grey);
     double widest = 1.0;
     for (const FreeEnd& e : ends) widest = std::max(widest, std::max(e.width, e.inkWidth));
     const double farthest = (params.gapFactor + kSkeletonShort) * widest + kSkeletonShortPx;

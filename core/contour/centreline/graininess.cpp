@@ -51,9 +51,10 @@ double grainFrom(double ink, double paper) { return std::sqrt(std::max(0.0, ink 
 
 // Five taps of a small Gaussian, so that the noise of single pixels counts little.
 float softGrey(const GreyImage& grey, const Vec2& at) {
-  return 0.4f * sampleGrey(grey, at.x(), at.y()) +
-         0.15f * (sampleGrey(grey, at.x() - 1.0, at.y()) + sampleGrey(grey, at.x() + 1.0, at.y()) +
-                  sampleGrey(grey, at.x(), at.y() - 1.0) + sampleGrey(grey, at.x(), at.y() + 1.0));
+  constexpr float kCentreTap = 0.4f, kSideTap = 0.15f;  // sum 1
+  return kCentreTap * sampleGrey(grey, at.x(), at.y()) +
+         kSideTap * (sampleGrey(grey, at.x() - 1.0, at.y()) + sampleGrey(grey, at.x() + 1.0, at.y()) +
+                     sampleGrey(grey, at.x(), at.y() - 1.0) + sampleGrey(grey, at.x(), at.y() + 1.0));
 }
 
 std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& grey, int most) {

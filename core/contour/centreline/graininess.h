@@ -10,20 +10,20 @@
 
 namespace batten {
 
-/// How grainy the strokes of a page are, stroke by stroke and region by region. Grain is the mean deviation of the
-/// ink's darkness along a stroke that is the pencil's own (what the paper beside it shows as well is taken off), as
-/// part of the darkness. Ink: < .03; pencil: > .05.
+/// How grainy the strokes of a page are, by stroke and by region. Grain is the mean absolute deviation of the darkness
+/// along a stroke, less that of the paper beside it, as a part of the darkness. Ink: below 0.03; pencil: above 0.05.
 class GraininessMap {
  public:
   GraininessMap(const std::vector<StrokePath>& paths, const GreyImage& grey, const RunContext& context);
 
-  /// [-] Grain of a stroke path: its own as far as it is long enough to tell, for the rest that of its surroundings.
+  /// [-] Grain of a stroke path. The shorter the path, the more the grain of its surroundings counts.
   double grainOf(int path) const { return grains_[path]; }
   /// Whether a stroke path was drawn with a pencil.
   bool isPencil(int path) const { return grains_[path] > kPencil; }
-  /// [-] Mean deviation along the strokes round a place, grain and noise of the scan together, as part of the depth.
+  /// [-] Mean absolute deviation along the strokes near a place, grain and scanner noise together, as a part of the
+  /// depth.
   double deviationAt(const Vec2& px) const;
-  /// [grey] by which the strokes round a place are darker than their paper.
+  /// [grey] Contrast of the strokes near a place with their paper.
   double depthAt(const Vec2& px) const;
 
  private:

@@ -9,10 +9,10 @@
 
 namespace batten {
 
-/// Last step of placing centre lines: moves every measured point to the middle between the two borders of the stroke
-/// that make the raw pixels around it most likely. Half levels of interpolated profiles beat with the pixel grid (to
-/// .08 px on unblurred pages); areas of pixels do not. A point that this would move by more than .3 px stays. The blur
-/// of the light is one for the whole page.
+/// Last step of placing centre lines: fits both borders of the stroke to the raw pixels around every measured point
+/// (maximum likelihood) and moves the point to their middle. Half levels of interpolated profiles have an error that
+/// repeats with the pixel grid (up to 0.08 px on unblurred pages); a model of pixel areas has none. A point that would
+/// move by more than 0.3 px stays. One optical blur is fitted for the whole page.
 void placeOnPixels(std::vector<StrokeCourse>& courses, const GreyImage& grey, const RunContext& context);
 
 }  // namespace batten

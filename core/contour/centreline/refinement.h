@@ -10,11 +10,11 @@
 
 namespace batten {
 
-/// What of the profile across a stroke is taken for its centre.
+/// How the centre is read from the profile across a stroke.
 enum class CentreRule {
   None,       ///< Skeleton positions, smoothed to even steps.
   HalfLevel,  ///< Midpoint of the two half levels: ink.
-  Centroid,   ///< Centroid of darkness: grain and bundles of strokes, whose inner borders say nothing.
+  Centroid,   ///< Centroid of darkness: pencil and bundles of strokes, which have no clear borders.
 };
 
 struct RefineSettings {
@@ -22,9 +22,9 @@ struct RefineSettings {
   double smoothShiftPx = 0.0;  ///< [px] Gaussian over the shifts along the stroke path (Centroid).
 };
 
-/// StrokePaths to contours: points about 1 px apart, moved to the middle of the stroke on the grey values, laid
-/// smoothly through junctions, ended where the pen's disc was at the stroke's end. One contour per stroke path, same
-/// order. Not complete when the context is cancelled.
+/// Turns stroke paths into contours: points about 1 px apart, moved to the middle of the stroke on the grey values,
+/// interpolated through junctions, and ended half a stroke width before the end of the ink. One contour per stroke
+/// path, same order. Not complete when the context is cancelled.
 std::vector<Contour> refineStrokePaths(const std::vector<StrokePath>& paths, const GreyImage& grey,
                                        const RefineSettings& settings, const RunContext& context);
 

@@ -293,34 +293,64 @@ double SkeletonGraph::sharedLength(int link) const {
   return angle > kMost ? 0.0 : 2.0 * width / std::sin(0.5 * std::max(kLeast, angle));
 }
 
-void SkeletonGraph::mergeJunctions() {
+// Whether one disc not much larger than theirs holds these nodes: else they are a small drawing and no crossing.
+bool SkeletonGraph::isOneCrossing(const std::vector<int>& nodes) const {
+  constexpr double kMostReach = 2.5;  // of the largest radius
+  double largest = 0.0, reach = 0.0;
+  Vec2 centre = Vec2::Zero();
+  for (const int n : nodes) centre += nodes_[n].centre / static_cast<double>(nodes.size());
+  for (const int n : nodes) {
+    largest = std::max(largest, nodes_[n].radius);
+    reach = std::max(reach, (nodes_[n].centre - centre).norm() + nodes_[n].radius);
+  }
+  return reach <= kMostReach * largest + 1.0;
+}
+
+void SkeletonGraph::mergeJunctions(bool ofBundles) {
   const int count = edgeCount();
   std::vector<double> radius;
-  for (const SkeletonNode& n : nodes_) radius.push_back(n.radius);
+  std::vector<std::vector<int>> members(nodes_.size());
+  for (int i = 0; i < nodeCount(); ++i) {
+    radius.push_back(nodes_[i].radius);
+    members[i] = {i};
+  }
   Groups groups(nodeCount());
-  std::vector<int> inner;
+  std::vector<std::pair<double, int>> links;
   for (int i = 0; i < count; ++i) {
     const SkeletonEdge& l = edges_[i];
     if (!l.alive || l.ring) continue;
     const int a = *l.node[0], b = *l.node[1];
     if (nodes_[a].ends.size() < 3 || nodes_[b].ends.size() < 3) continue;
-    if (l.length > std::max(kOneJunction * (radius[a] + radius[b]) + 1.0, sharedLength(i))) continue;
-    groups.join(a, b);
-    inner.push_back(i);
+    if (l.length <= std::max(kOneJunction * (radius[a] + radius[b]) + 1.0, sharedLength(i)))
+      links.emplace_back(l.length, i);
+  }
+  // The nearest first, as long as they are a crossing: all of a small drawing could be one.
+  std::sort(links.begin(), links.end());
+  std::vector<int> inner;
+  for (const auto& [length, link] : links) {
+    const int a = groups.root(*edges_[link].node[0]), b = groups.root(*edges_[link].node[1]);
+    if (a != b) {
+      std::vector<int> all = members[a];
+      all.insert(all.end(), members[b].begin(), members[b].end());
+      if (!ofBundles && all.size() > 2 && !isOneCrossing(all)) continue;
+      groups.join(a, b);
+      members[groups.root(a)] = std::move(all);
+    }
+    inner.push_back(link);
   }
   for (const int edge : inner) removeEdge(edge);
   // Centre of each cluster first, then the disc that holds the discs of all its members.
   std::vector<Vec2> sum(nodes_.size(), Vec2::Zero());
-  std::vector<int> members(nodes_.size(), 0);
+  std::vector<int> size(nodes_.size(), 0);
   for (int i = 0; i < nodeCount(); ++i) {
     const int root = groups.root(i);
     sum[root] += nodes_[i].centre;
-    ++members[root];
+    ++size[root];
   }
   std::vector<double> disc(nodes_.size(), 0.0);
   for (int i = 0; i < nodeCount(); ++i) {
     const int root = groups.root(i);
-    disc[root] = std::max(disc[root], (nodes_[i].centre - sum[root] / members[root]).norm() + radius[i]);
+    disc[root] = std::max(disc[root], (nodes_[i].centre - sum[root] / size[root]).norm() + radius[i]);
     if (root == i) continue;
     for (const int end : nodes_[i].ends) {
       edges_[end / 2].node[end % 2] = root;
@@ -329,8 +359,8 @@ void SkeletonGraph::mergeJunctions() {
     nodes_[i].ends.clear();
   }
   for (int i = 0; i < nodeCount(); ++i) {
-    if (members[i] == 0) continue;
-    nodes_[i].centre = sum[i] / members[i];
+    if (size[i] == 0) continue;
+    nodes_[i].centre = sum[i] / size[i];
     nodes_[i].radius = disc[i];
     std::sort(nodes_[i].ends.begin(), nodes_[i].ends.end());
   }

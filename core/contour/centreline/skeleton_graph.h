@@ -32,7 +32,8 @@ class SkeletonGraph {
   /// Drops side branches that only a bump or a corner of the border caused. `factor` in stroke widths.
   void pruneSpurs(double factor);
   /// Makes one node of junctions that are nearer than their discs allow to tell apart (a crossing at a shallow angle).
-  void mergeJunctions();
+  /// `ofBundles`: all the crossings of overdrawn strokes with others too.
+  void mergeJunctions(bool ofBundles);
 
   const std::vector<SkeletonEdge>& edges() const { return edges_; }
   const std::vector<SkeletonNode>& nodes() const { return nodes_; }
@@ -45,6 +46,7 @@ class SkeletonGraph {
   std::optional<int> spurTip(int edge, double factor) const;
   bool closesCorner(int edge, int node) const;
   double sharedLength(int link) const;
+  bool isOneCrossing(const std::vector<int>& nodes) const;
   double meanRadius(int edge) const;
   void removeEdge(int edge);
   void splice(int node);

@@ -11,16 +11,17 @@
 namespace batten {
 namespace {
 
-constexpr int kTangentReach = 2;          // points to either side
-constexpr double kStairSigma = 1.5;       // points: the stairs of the pixels are about three long
-constexpr double kLeastBaseSigma = 2.0;   // points: thin strokes wander by as much from pixel to pixel
-constexpr double kPaperBesidePx = 3.5;    // beyond the border of the ink: two px of blur, and paper to measure
-constexpr double kParabolaShare = 0.6;    // of the reach: over less only a line is fitted
-constexpr double kWidthOffMedian = 0.4;   // of the median width of the stroke
-constexpr double kWidthOffMask = 0.25;    // of the width in the mask at the place
-constexpr double kApproachWidths = 4.0;   // [stroke widths] looked at on either side of a junction,
-constexpr double kLeastApproachPx = 8.0;  // and of thin strokes
-constexpr double kOffInkWidths = 0.6;     // [stroke widths] a course farther than this, and a pixel, has left the ink
+constexpr int kWidePercent = 90;           // of the points are no wider than the profile is made for
+constexpr int kTangentReach = 2;           // points to either side
+constexpr double kCourseStairSigma = 1.5;  // points: the stairs of the pixels are about three long
+constexpr double kLeastBaseSigma = 2.0;    // points: thin strokes wander by as much from pixel to pixel
+constexpr double kPaperBesidePx = 3.5;     // beyond the border of the ink: two px of blur, and paper to measure
+constexpr double kParabolaShare = 0.6;     // of the reach: over less only a line is fitted
+constexpr double kWidthOffMedian = 0.4;    // of the median width of the stroke
+constexpr double kWidthOffMask = 0.25;     // of the width in the mask at the place
+constexpr double kApproachWidths = 4.0;    // [stroke widths] looked at on either side of a junction,
+constexpr double kLeastApproachPx = 8.0;   // and of thin strokes
+constexpr double kOffInkWidths = 0.6;      // [stroke widths] a course farther than this, and a pixel, has left the ink
 
 std::vector<Vec2> positions(const std::vector<StrokePathPoint>& points) {
   std::vector<Vec2> at;
@@ -110,13 +111,13 @@ StrokeCourse resample(const StrokePath& path) {
   course.widthPx = path.widthPx();
   if (path.points.empty()) return course;
   // A light smoothing takes the stairs of the pixels, so that the length and with it the steps come out even.
-  resample(smoothPolyline(positions(path.points), path.closed, kStairSigma), path.points, course);
+  resample(smoothPolyline(positions(path.points), path.closed, kCourseStairSigma), path.points, course);
   const std::vector<Vec2> base = smoothPolyline(valuesOf(course, &CoursePoint::chain), course.closed,
                                                 std::max(kLeastBaseSigma, 0.5 * course.widthPx));
   setValues(course, &CoursePoint::base, base);
   setValues(course, &CoursePoint::tangent, directions(base, course.closed, kTangentReach));
   std::vector<float> radius = valuesOf(course, &CoursePoint::radius);
-  const double high = elementOfRank(radius, std::ssize(radius) * 9 / 10);
+  const double high = elementOfRank(radius, std::ssize(radius) * kWidePercent / 100);
   course.profileHalf =
       static_cast<int>(std::lround((std::max(high, 0.5 * course.widthPx) + kPaperBesidePx) / kStrokeStepPx));
   return course;
@@ -147,7 +148,7 @@ void moveCourse(StrokeCourse& c, bool again) {
     p.shift = 0.0f;
   }
   if (!again) return;
-  const std::vector<Vec2> base = smoothPolyline(valuesOf(c, &CoursePoint::base), c.closed, kStairSigma);
+  const std::vector<Vec2> base = smoothPolyline(valuesOf(c, &CoursePoint::base), c.closed, kCourseStairSigma);
   setValues(c, &CoursePoint::base, base);
   setValues(c, &CoursePoint::tangent, directions(base, c.closed, kTangentReach));
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -16,12 +17,12 @@ namespace batten {
 namespace {
 
 // The part of the page around the ink, with a margin; 255 = ink.
-struct Window {
+struct InkWindow {
   cv::Mat mat;
   int x0 = 0, y0 = 0;
 };
 
-Window windowAround(const BitImage& ink, int margin) {
+InkWindow windowAround(const BitImage& ink, int margin) {
   int top = ink.height, bottom = -1, left = ink.wordsPerRow, right = -1;
   for (int y = 0; y < ink.height; ++y) {
     for (int i = 0; i < ink.wordsPerRow; ++i) {
@@ -32,7 +33,7 @@ Window windowAround(const BitImage& ink, int margin) {
       right = std::max(right, i);
     }
   }
-  Window w;
+  InkWindow w;
   if (bottom < 0) return w;
   w.x0 = left * 64 - margin;
   w.y0 = top - margin;
@@ -61,7 +62,7 @@ void fillNarrowHoles(cv::Mat& ink, double limitPx) {
       most = std::max(most, toInk.at<float>(y, x));
     }
   }
-  inscribed[labels.at<int>(0, 0)] = 1e9f;  // the margin: not a hole
+  inscribed[labels.at<int>(0, 0)] = std::numeric_limits<float>::infinity();  // the margin: not a hole
   for (int y = 0; y < ink.rows; ++y) {
     for (int x = 0; x < ink.cols; ++x) {
       const float radius = inscribed[labels.at<int>(y, x)];
@@ -147,23 +148,26 @@ void copyRun(const BitImage& from, const Run& run, BitImage& to) {
 // A letter drawn with a broad nib is a shape, and so are its neighbours that are a little thinner: where a quarter of
 // the ink lies in shapes and three quarters near the limit, the latter are shapes as well.
 constexpr double kNearLimit = 0.6;
+constexpr double kLongChord = 0.7;       // of the diameter of a disc
+constexpr double kLeastLongRuns = 0.35;  // of the area of a piece: with less it cannot be half a disc's chords
 
 std::vector<bool> shapesByWidth(const BitImage& ink, const RunPieces& pieces, double limitPx) {
   std::vector<bool> shapes(pieces.runs.size(), false);
   std::vector<Bulk> bulk(pieces.runs.size());
   bool anyThick = false;
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+  for (int i = 0; i < std::ssize(pieces.runs); ++i) {
     const Run& r = pieces.runs[i];
     Bulk& b = bulk[pieces.piece[i]];
     b.area += r.x1 - r.x0;
     // The chords of a disc that are longer than .7 diameters make up 4/5 of it.
-    const int chord = static_cast<int>(0.7 * kNearLimit * limitPx);
+    const int chord = static_cast<int>(kLongChord * kNearLimit * limitPx);
     if (r.x1 - r.x0 >= chord && heightAt(ink, (r.x0 + r.x1) / 2, r.y, chord) >= chord) b.longRuns += r.x1 - r.x0;
   }
-  for (const Bulk& b : bulk) anyThick = anyThick || (b.area > 0 && b.longRuns >= 0.35 * static_cast<double>(b.area));
+  for (const Bulk& b : bulk)
+    anyThick = anyThick || (b.area > 0 && b.longRuns >= kLeastLongRuns * static_cast<double>(b.area));
   if (!anyThick) return shapes;
   const FatCells fat = fatCells(ink, limitPx), nearly = fatCells(ink, kNearLimit * limitPx);
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+  for (int i = 0; i < std::ssize(pieces.runs); ++i) {
     Bulk& b = bulk[pieces.piece[i]];
     b.fat += fatPart(pieces.runs[i], fat);
     b.nearlyFat += fatPart(pieces.runs[i], nearly);
@@ -175,7 +179,7 @@ std::vector<bool> shapesByWidth(const BitImage& ink, const RunPieces& pieces, do
     if (2 * b.nearlyFat > b.area) nearShapes += b.area;
   }
   const bool vote = 4 * inShapes > all && 4 * nearShapes > 3 * all;
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+  for (int i = 0; i < std::ssize(pieces.runs); ++i) {
     const Bulk& b = bulk[pieces.piece[i]];
     shapes[i] = 2 * (vote ? b.nearlyFat : b.fat) > b.area;
   }
@@ -192,9 +196,9 @@ StrokeSplit split(const BitImage& ink, const EdgeParams& params, const RunContex
     shapes = shapesByWidth(ink, pieces, params.strokeWidth * side);
   }
   const ChosenInk chosen(pieces, params.choices);
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    const int choice = params.choices.empty() ? -1 : chosen.choiceOf(pieces.piece[i]);
-    const EdgeMode own = choice < 0 ? EdgeMode::Automatic : params.choices[choice].mode;
+  for (int i = 0; i < std::ssize(pieces.runs); ++i) {
+    const auto choice = chosen.choiceOf(pieces.piece[i]);
+    const EdgeMode own = choice ? params.choices[*choice].mode : EdgeMode::Automatic;
     const bool shape = own == EdgeMode::Automatic ? shapes[i] : own == EdgeMode::Outline;
     copyRun(ink, pieces.runs[i], shape ? result.shapes : result.strokes);
   }
@@ -205,7 +209,7 @@ StrokeSplit split(const BitImage& ink, const EdgeParams& params, const RunContex
 
 BitImage closeInk(const BitImage& ink, double diameterPx) {
   const double radius = 0.5 * diameterPx;
-  const Window window = windowAround(ink, static_cast<int>(std::ceil(radius)) + 2);
+  const InkWindow window = windowAround(ink, static_cast<int>(std::ceil(radius)) + 2);
   BitImage closed(ink.width, ink.height);
   if (window.mat.empty()) return closed;
   cv::Mat toInk, toPaper;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/contour/corner/corner_pixels.h"
 #include "core/contour/corner/corner_sides.h"
@@ -21,63 +22,75 @@ constexpr int kCornerNewtonSteps = 12;
 constexpr int kLocateRounds = 4;
 constexpr double kFreeLegsPx = 6.0;  // legs nearer to each other than this share their blur
 constexpr double kFarthestPixelMovePx = 3.0;
+constexpr double kFarthestScales = 2.0;  // of what is looked at: a side extended farther says nothing
+constexpr double kSettled = 1e-9;        // of that
+constexpr double kMeetPx = 1e-3;         // between the two sides where they meet
+constexpr double kExtensions = 2.0;      // of the farthest tip: a side is extended as far
+constexpr double kLeastReach = 0.4;      // of the stretch asked for: a shorter side is none
+// What a side may miss its points by, and the two each other: the part that grows with the stretch is that of arcs.
+constexpr double kMisfitShare = 0.02, kMisfitPx = 0.1, kGapShare = 0.15, kSideGapPx = 0.5;
+constexpr double kLeastZonePx = 3.0, kMostZonePx = 60.0;                 // of a stroke's corner, otherwise its width
+constexpr double kSharpestHalfTipRad = 0.03, kFlattestHalfTipRad = 1.5;  // 2 and 86 degrees: keep sine and tangent sane
+constexpr double kSettledZonePx = 0.5;
 constexpr double kFitOuterPx = 260.0;   // looked at on either side at most
 constexpr double kWidestZonePx = 14.0;  // beyond the rounded one
 
 struct Meeting {
   Vec2 position = Vec2::Zero();
   double angle = 0.0;  // in the image frame
-  bool ok = false;
 };
 
-// Newton for a(s) = b(t), from s = t = 0.
-Meeting meet(const CornerSide& a, const CornerSide& b, double scale) {
-  Meeting m;
+// Newton for a(s) = b(t), from s = t = 0; nothing where the sides do not meet well.
+std::optional<Meeting> meet(const CornerSide& a, const CornerSide& b, double scale) {
   double s = 0.0, t = 0.0;
   for (int step = 0; step < kCornerNewtonSteps; ++step) {
     const Vec2 da = a.derivative(s), db = b.derivative(t);
     const double det = -cross(da, db);
-    if (std::abs(det) < kSmallestSine * da.norm() * db.norm() || !(det != 0.0)) return m;
+    if (std::abs(det) < kSmallestSine * da.norm() * db.norm() || !(det != 0.0)) return std::nullopt;
     const Vec2 gap = b.at(t) - a.at(s);
     // Solve da * ds - db * dt = gap.
     const double ds = -cross(gap, db) / det;
     const double dt = -cross(gap, da) / det;
     s += std::clamp(ds, -scale, scale);
     t += std::clamp(dt, -scale, scale);
-    if (std::abs(s) > 2.0 * scale || std::abs(t) > 2.0 * scale) return m;
-    if (std::abs(ds) + std::abs(dt) < 1e-9 * scale) break;
+    if (std::abs(s) > kFarthestScales * scale || std::abs(t) > kFarthestScales * scale) return std::nullopt;
+    if (std::abs(ds) + std::abs(dt) < kSettled * scale) break;
   }
-  if ((a.at(s) - b.at(t)).norm() > 1e-3) return m;
+  if ((a.at(s) - b.at(t)).norm() > kMeetPx) return std::nullopt;
+  Meeting m;
   m.position = 0.5 * (a.at(s) + b.at(t));
   const Vec2 in = -a.derivative(s), out = b.derivative(t);
   m.angle = std::atan2(cross(in, out), in.dot(out));
-  m.ok = m.position.allFinite();
+  if (!m.position.allFinite()) return std::nullopt;
   return m;
 }
 
-double turn(const Vec2& in, const Vec2& out) { return -std::atan2(cross(in, out), in.dot(out)); }
+double turningAngle(const Vec2& in, const Vec2& out) { return -std::atan2(cross(in, out), in.dot(out)); }
 
+// The two sides of a corner as curves.
 struct CornerLegs {
   CornerSide before, after;
 };
 
-// Extends both sides until they meet; `inner` bounds how far.
-Meeting meetSides(const Contour& contour, int at, double inner, double outerBefore, double outerAfter, double& angle,
-                  CornerLegs& legs) {
-  legs.before = fitCornerSide(contour, at, -1, inner, outerBefore);
-  legs.after = fitCornerSide(contour, at, 1, inner, outerAfter);
-  if (legs.before.degree < 0 || legs.after.degree < 0) return {};
-  angle = turn(-legs.before.derivative(0.0), legs.after.derivative(0.0));
-  return meet(legs.before, legs.after, inner + 2.0 * kFarthestTipPx);
+// [px of arc] What of a line is looked at on either side of a corner.
+struct LegReach {
+  double inner = 0.0, before = 0.0, after = 0.0;
+};
+
+std::optional<CornerLegs> fitLegs(const Contour& contour, int at, const LegReach& reach) {
+  auto before = fitCornerSide(contour, at, -1, reach.inner, reach.before);
+  auto after = fitCornerSide(contour, at, 1, reach.inner, reach.after);
+  if (!before || !after) return std::nullopt;
+  return CornerLegs{*before, *after};
 }
 
 // Lets the pixels have their say, within reason.
 void askPixels(const GreyImage& grey, double blurPx, CornerLegs legs, CornerFix& fix) {
   if (!fitCornerToPixels(grey, fix.position, blurPx, legs.before, legs.after)) return;
-  const Meeting m = meet(legs.before, legs.after, fix.zonePx + 2.0 * kFarthestTipPx);
-  if (!m.ok || (m.position - fix.position).norm() > kFarthestPixelMovePx) return;
-  fix.position = m.position;
-  fix.angleRad = -m.angle;
+  const auto m = meet(legs.before, legs.after, fix.zonePx + kExtensions * kFarthestTipPx);
+  if (!m || (m->position - fix.position).norm() > kFarthestPixelMovePx) return;
+  fix.position = m->position;
+  fix.angleRad = -m->angle;
 }
 
 struct NearestPoint {
@@ -99,8 +112,8 @@ NearestPoint nearestAlong(const Contour& contour, int at, const Vec2& position, 
 
 }  // namespace
 
-OneSidedFit fitOneSide(const Contour& contour, int index, int side, double inner, double outer, int maxOrder) {
-  OneSidedFit result;
+std::optional<OneSidedFit> fitOneSide(const Contour& contour, int index, int side, double inner, double outer,
+                                      int maxOrder) {
   const int n = static_cast<int>(contour.points.size());
   std::vector<double> s, weights;
   std::vector<Vec2> points;
@@ -120,21 +133,23 @@ OneSidedFit fitOneSide(const Contour& contour, int index, int side, double inner
     points.push_back(p.at);
     weights.push_back(p.refined ? 1.0 : kUnrefinedWeight);
   }
-  if (s.size() < 3) return result;
-  result.fit = fitLocalQuadratic(s, points, weights, maxOrder);
-  if (result.fit.order >= 1) result.reach = s.back() - s.front();
-  return result;
+  if (s.size() < 3) return std::nullopt;
+  const LocalQuadratic fit = fitLocalQuadratic(s, points, weights, maxOrder);
+  const double reach = s.back() - s.front();
+  if (fit.order < 1 || !(reach > 0.0)) return std::nullopt;
+  return OneSidedFit{fit, reach};
 }
 
 std::optional<Turning> turningAt(const Contour& contour, int index, double inner, double outer, int maxOrder) {
-  const OneSidedFit before = fitOneSide(contour, index, -1, inner, outer, maxOrder);
-  const OneSidedFit after = fitOneSide(contour, index, 1, inner, outer, maxOrder);
-  if (before.reach <= 0.4 * (outer - inner) || after.reach <= 0.4 * (outer - inner)) return std::nullopt;
+  const auto before = fitOneSide(contour, index, -1, inner, outer, maxOrder);
+  const auto after = fitOneSide(contour, index, 1, inner, outer, maxOrder);
+  const double least = kLeastReach * (outer - inner);
+  if (!before || !after || before->reach <= least || after->reach <= least) return std::nullopt;
   Turning t;
-  t.angleRad = turn(-before.fit.r1, after.fit.r1);
+  t.angleRad = turningAngle(-before->fit.r1, after->fit.r1);
   // Where the index is off the corner one parabola swallows it: it fits badly there and the two do not meet.
-  const double misfit = std::max(before.fit.residualRms, after.fit.residualRms) / (0.02 * outer + 0.1);
-  const double gap = (before.fit.r0 - after.fit.r0).norm() / (0.15 * outer + 0.5);
+  const double misfit = std::max(before->fit.residualRms, after->fit.residualRms) / (kMisfitShare * outer + kMisfitPx);
+  const double gap = (before->fit.r0 - after->fit.r0).norm() / (kGapShare * outer + kSideGapPx);
   t.score = std::abs(t.angleRad) / (1.0 + misfit * misfit + gap * gap);
   return t;
 }
@@ -142,13 +157,12 @@ std::optional<Turning> turningAt(const Contour& contour, int index, double inner
 double roundedZonePx(const Contour& contour, int index) {
   if (contour.kind == ContourKind::Outline) return kOutlineZonePx;
   const std::optional<float> widthPx = contour.points[index].widthPx;
-  return widthPx ? std::clamp(static_cast<double>(*widthPx), 3.0, 60.0) : kOutlineZonePx;
+  return widthPx ? std::clamp(static_cast<double>(*widthPx), kLeastZonePx, kMostZonePx) : kOutlineZonePx;
 }
 
 CornerFix locateCorner(const Contour& contour, int index, double inner, double outerBefore, double outerAfter,
                        const GreyImage* grey) {
   CornerFix result;
-  CornerLegs legs;
   result.position = contour.points[index].at;
   result.zonePx = inner;
   // Several times: the meeting point says which contour point is really nearest and so where the rounded zone lies, and
@@ -158,39 +172,45 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
   // Two legs of a stroke have one middle until they are a stroke's width apart.
   const double eatenHalf = contour.kind == ContourKind::Outline ? kEatenHalfPx : 0.5 * inner + kFilledHalfPx;
   const double blending = contour.kind == ContourKind::Outline ? kFreeLegsPx : inner + kFreeLegsPx;
+  std::optional<CornerLegs> legs;
   for (int round = 0; round < kLocateRounds; ++round) {
     const double shorter = std::min(outerBefore, outerAfter);
     const double from = std::clamp(zone, inner, std::max(inner, 0.5 * shorter));
-    const Meeting m = meetSides(contour, at, from, outerBefore, outerAfter, result.angleRad, legs);
-    if (!m.ok) return result;
-    const double halfTip = std::max(0.03, 0.5 * (std::numbers::pi - std::abs(m.angle)));
+    legs = fitLegs(contour, at, {from, outerBefore, outerAfter});
+    if (!legs) return result;
+    result.angleRad = turningAngle(-legs->before.derivative(0.0), legs->after.derivative(0.0));
+    const auto m = meet(legs->before, legs->after, from + kExtensions * kFarthestTipPx);
+    if (!m) return result;
+    const double halfTip = std::max(kSharpestHalfTipRad, 0.5 * (std::numbers::pi - std::abs(m->angle)));
     const double farthest = std::clamp(eatenHalf / std::sin(halfTip), kFarthestMeetPx, kFarthestTipPx);
-    const NearestPoint nearest = nearestAlong(contour, at, m.position, static_cast<int>(farthest * 2.0) + 4);
+    // Points lie half a pixel apart or more.
+    const NearestPoint nearest = nearestAlong(contour, at, m->position, static_cast<int>(farthest * 2.0) + 4);
     if (nearest.distance > farthest) return result;
-    result.position = m.position;
-    result.angleRad = -m.angle;
+    result.position = m->position;
+    result.angleRad = -m->angle;
     result.exact = true;
     result.zonePx = from;
     // From the tip, where the contour may have ended before it.
-    const double free = blending / (2.0 * std::tan(std::min(halfTip, 1.5))) - nearest.distance;
+    const double free = blending / (2.0 * std::tan(std::min(halfTip, kFlattestHalfTipRad))) - nearest.distance;
     const double wanted = std::clamp(free, inner, inner + kWidestZonePx);
-    if (nearest.index == at && std::abs(wanted - zone) < 0.5) break;
+    if (nearest.index == at && std::abs(wanted - zone) < kSettledZonePx) break;
     at = nearest.index;
     zone = wanted;
   }
-  if (grey != nullptr && contour.blurPx > 0.0) askPixels(*grey, contour.blurPx, legs, result);
+  if (grey != nullptr && contour.blurPx > 0.0) askPixels(*grey, contour.blurPx, *legs, result);
   return result;
 }
 
-std::vector<CornerFix> locateCorners(const Contour& contour, std::span<const int> indices, const GreyImage* grey) {
+std::vector<CornerFix> locateCorners(const Contour& contour, std::span<const int> indices, const RunContext& context,
+                                     const GreyImage* grey) {
   std::vector<CornerFix> fixes;
-  const auto count = indices.size();
+  const int count = static_cast<int>(indices.size());
   if (count == 0) return fixes;
   const std::vector<Vec2> points = positionsOf(contour.points);
   const std::vector<double> arc = cumulativeLength(points);
   const double length = polylineLength(points, contour.closed);
-  const auto s = [&](std::size_t i) { return arc[indices[i]]; };
-  for (std::size_t i = 0; i < count; ++i) {
+  const auto s = [&](int i) { return arc[indices[i]]; };
+  for (int i = 0; i < count && !context.isCancelled(); ++i) {
     double before = s(i), after = length - s(i);
     if (contour.closed) {
       before = i > 0 ? s(i) - s(i - 1) : s(i) + length - s(count - 1);
@@ -202,7 +222,7 @@ std::vector<CornerFix> locateCorners(const Contour& contour, std::span<const int
     }
     const double zone = roundedZonePx(contour, indices[i]);
     const auto outer = [&](double free, bool toCorner) {
-      return std::clamp(free - (toCorner ? zone : 0.0), 0.0, kFitOuterPx + 2.0 * (zone - 4.0));
+      return std::clamp(free - (toCorner ? zone : 0.0), 0.0, kFitOuterPx + 2.0 * (zone - kOutlineZonePx));
     };
     const bool cornerBefore = contour.closed ? count > 1 : i > 0;
     const bool cornerAfter = contour.closed ? count > 1 : i + 1 < count;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
 #include "core/image/grey_image.h"
 
@@ -24,7 +25,7 @@ enum class RoundingJoint {
   CurvatureSlope,  ///< G3: the change of curvature along the line, too.
 };
 
-/// A place where the user said: here the line has a sharp corner. By position, so that it survives a changed threshold.
+/// A corner set by the user. Stored as a position, so that it survives a change of the threshold.
 struct CornerMark {
   Vec2 positionPx = Vec2::Zero();
   double roundMm = 0.0;  ///< [mm] 0..500. Size of the rounding; 0 = sharp.
@@ -70,7 +71,7 @@ struct Piece {
   double lengthPx = 0.0;
 };
 
-/// Two marks that have to do with each other, as indices.
+/// A pair of marks that concern the same corner or neighbouring corners, as indices.
 struct MarkPair {
   int mark = 0, other = 0;  ///< `other` is the earlier one.
   double apartPx = 0.0;     ///< [px] How far apart their corners lie.
@@ -85,12 +86,13 @@ struct PieceSet {
   std::vector<MarkPair> closeCorners;  ///< Neighbours so close that the piece between them is a sliver (under 12 px).
 };
 
-/// Cuts the contours at the marks (004 section 3.2). Two marks that snap to the same point count once.
-/// @param grey the page that the contours were refined on, if there is one: its pixels help to place the corners.
-Result<PieceSet> splitAtCorners(const ContourSet&, std::span<const CornerMark>, const CornerParams&,
+/// Cuts the contours at the marks ([004] section 3.2). Marks that snap to the same point count once.
+/// @param grey the page that the contours were refined on, if any; its pixels help to place the corners.
+Result<PieceSet> splitAtCorners(const ContourSet&, std::span<const CornerMark>, const CornerParams&, const RunContext&,
                                 const GreyImage* grey = nullptr);
 
-/// Where a click would put a corner: nearest contour point within the snap distance, without the exact intersection.
+/// Where a click would put a corner: the sharpest turn, else the nearest contour point, within the snap distance;
+/// without the exact intersection.
 std::optional<Corner> nearestContourPoint(const ContourSet&, const Vec2& positionPx, double snapDistancePx);
 
 }  // namespace batten

@@ -4,8 +4,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <iterator>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "core/base/statistics.h"
@@ -22,10 +23,11 @@ constexpr double kNearSigmas = 3.5;        // of blur: an edge farther away says
 constexpr double kSeenPx = 1.2;            // the points of a side have seen the pixels this far before the first block
 constexpr double kTonesPx = 12.0;          // beyond the wedge, where the tones are taken
 constexpr double kFarthestWedgePx = 40.0;  // of pixels from the corner
-constexpr std::size_t kFewestTones = 12, kFewestPixels = 12;
+constexpr int kFewestTones = 12, kFewestPixels = 12;
 constexpr double kLeastCornerContrast = 4.0;  // [grey]
 constexpr double kWedgeError = 0.015;         // [contrast] what the model leaves: pixels taken for round spots, bends
 constexpr double kSpotError = 0.05;           // [contrast] and more where there is no blur to hide that
+constexpr double kMostCorrelation = 0.99;     // as far as bothBelow() is good
 constexpr int kCornerRounds = 4;
 constexpr double kMostSurprise = 2.0;  // mean square of what is left, in units of the noise
 
@@ -42,7 +44,7 @@ class Wedge {
   Wedge(const CornerSide& before, const CornerSide& after, double blurPx)
       : sides_{&before, &after}, blur_(std::sqrt(blurPx * blurPx + kPixelVariance)) {
     const Vec2 in = -before.derivative(0.0).normalized(), out = after.derivative(0.0).normalized();
-    correlation_ = std::clamp(in.dot(out), -0.99, 0.99);  // of the normals
+    correlation_ = std::clamp(in.dot(out), -kMostCorrelation, kMostCorrelation);  // of the normals
     ink_ = cross(in, out) > 0.0;
   }
 
@@ -66,21 +68,24 @@ class Wedge {
   }
 
   /// Part of the light that falls on ink, and its slopes with respect to the two distances.
-  double part(double first, double second, double& slopeFirst, double& slopeSecond) const {
+  struct InkPart {
+    double part = 0.0, slopeFirst = 0.0, slopeSecond = 0.0;
+  };
+  InkPart part(double first, double second) const {
     const double sign = ink_ ? 1.0 : -1.0;
     const double a = sign * first / blur_, b = sign * second / blur_;
     const double rest = std::sqrt(1.0 - correlation_ * correlation_);
     const double density = std::sqrt(0.5 / std::numbers::pi) / blur_;
-    slopeFirst = density * std::exp(-0.5 * a * a) * below((b - correlation_ * a) / rest);
-    slopeSecond = density * std::exp(-0.5 * b * b) * below((a - correlation_ * b) / rest);
     const double both = bothBelow(a, b, correlation_);
-    return ink_ ? both : 1.0 - both;
+    return {ink_ ? both : 1.0 - both, density * std::exp(-0.5 * a * a) * below((b - correlation_ * a) / rest),
+            density * std::exp(-0.5 * b * b) * below((a - correlation_ * b) / rest)};
   }
 
-  /// 1 deep in the ink, -1 far out on the paper, 0 near an edge.
-  int tone(double first, double second) const {
+  enum class Tone { Ink, Paper, Edge };
+  /// Deep in the ink, far out on the paper, or near an edge.
+  Tone tone(double first, double second) const {
     const double inside = ink_ ? std::min(first, second) : std::max(first, second);
-    return inside > kNearSigmas * blur_ ? 1 : inside < -kNearSigmas * blur_ ? -1 : 0;
+    return inside > kNearSigmas * blur_ ? Tone::Ink : inside < -kNearSigmas * blur_ ? Tone::Paper : Tone::Edge;
   }
 
  private:
@@ -99,42 +104,46 @@ struct CornerScene {
   double paper = 255.0, contrast = 0.0, variance = 1.0;  // [grey], [grey^2]
 };
 
-/// The pixels that show the corner, the tones beside it and their noise. False when they do not tell.
-bool readScene(const GreyImage& grey, const Vec2& corner, const Wedge& wedge, CornerScene& scene) {
-  const double radius = std::min(kFarthestWedgePx, std::max(wedge.from(0), wedge.from(1)) + 2.0),
-               reach = radius + kTonesPx;
+/// The pixels that show the corner, the tones beside it and their noise. Nothing when they do not tell.
+std::optional<CornerScene> readScene(const GreyImage& grey, const Vec2& corner, const Wedge& wedge) {
+  const double radius = std::min(kFarthestWedgePx, std::max(wedge.from(0), wedge.from(1)) + 2.0);
+  const double reach = radius + kTonesPx;
   const int left = std::max(0, static_cast<int>(corner.x() - reach)),
             right = std::min(grey.width - 1, static_cast<int>(corner.x() + reach));
   const int top = std::max(0, static_cast<int>(corner.y() - reach)),
             bottom = std::min(grey.height - 1, static_cast<int>(corner.y() + reach));
-  std::vector<double> tones[2];
+  CornerScene scene;
+  std::vector<double> paper, ink;
   for (int y = top; y <= bottom; ++y) {
     for (int x = left; x <= right; ++x) {
       const Vec2 p(x + 0.5, y + 0.5);
       const double away = (p - corner).norm();
       if (away > reach) continue;
       const SideView a = wedge.view(0, p, Sides::Zero()), b = wedge.view(1, p, Sides::Zero());
-      const int tone = wedge.tone(a.distance, b.distance);
-      if (tone != 0) tones[tone > 0 ? 1 : 0].push_back(grey.level(x, y));
+      const Wedge::Tone tone = wedge.tone(a.distance, b.distance);
+      if (tone != Wedge::Tone::Edge) (tone == Wedge::Tone::Ink ? ink : paper).push_back(grey.level(x, y));
       const double far = kNearSigmas * wedge.blur();
       const bool nearA = std::abs(a.distance) < far, nearB = std::abs(b.distance) < far;
-      if (tone != 0 || away > radius || (nearA && a.x > wedge.from(0) - kSeenPx) ||
+      if (tone != Wedge::Tone::Edge || away > radius || (nearA && a.x > wedge.from(0) - kSeenPx) ||
           (nearB && b.x > wedge.from(1) - kSeenPx))
         continue;
       scene.pixels.push_back({p, grey.level(x, y)});
     }
   }
-  if (scene.pixels.size() < kFewestPixels || std::min(tones[0].size(), tones[1].size()) < kFewestTones) return false;
-  scene.paper = upperMedian(tones[0]);
-  const double ink = upperMedian(tones[1]);
-  scene.contrast = scene.paper - ink;
+  if (std::ssize(scene.pixels) < kFewestPixels || std::min(std::ssize(paper), std::ssize(ink)) < kFewestTones) {
+    return std::nullopt;
+  }
+  scene.paper = upperMedian(paper);
+  const double inkLevel = upperMedian(ink);
+  scene.contrast = scene.paper - inkLevel;
   std::vector<double> off;
-  for (const double g : tones[0]) off.push_back(std::abs(g - scene.paper));
-  for (const double g : tones[1]) off.push_back(std::abs(g - ink));
+  for (const double g : paper) off.push_back(std::abs(g - scene.paper));
+  for (const double g : ink) off.push_back(std::abs(g - inkLevel));
   const double noise = robustSigma(off);
   const double error = scene.contrast * (kWedgeError + kSpotError * kPixelVariance / (wedge.blur() * wedge.blur()));
   scene.variance = noise * noise + error * error;
-  return scene.contrast > std::max(kLeastCornerContrast, noise);
+  if (!(scene.contrast > std::max(kLeastCornerContrast, noise))) return std::nullopt;
+  return scene;
 }
 
 SidesSpread knownBefore(const CornerSide& before, const CornerSide& after) {
@@ -149,7 +158,7 @@ void addCubic(CornerSide& side, const Eigen::Vector4d& d) {
   const double half = 0.5 * (side.to - side.from);
   const double w[4] = {d[0], d[1] * half, d[2] / 2.0 * half * half, d[3] / 6.0 * half * half * half};
   const double add[4] = {w[0] + w[1] + w[2] + w[3], w[1] + 2.0 * w[2] + 3.0 * w[3], w[2] + 3.0 * w[3], w[3]};
-  for (std::size_t k = 0; k < 4; ++k) side.coefficient[k] += add[k];
+  for (int k = 0; k < 4; ++k) side.coefficient[k] += add[k];
 }
 
 }  // namespace
@@ -160,7 +169,7 @@ double bothBelow(double h, double k, double correlation) {
   const double end = std::asin(correlation);
   double sum = 0.0;
   for (const double middle : {0.25, 0.75}) {
-    for (std::size_t i = 0; i < kRule.node.size(); ++i) {
+    for (int i = 0; i < std::ssize(kRule.node); ++i) {
       const double s = std::sin(end * (middle + 0.25 * kRule.node[i])), c2 = 1.0 - s * s;
       sum += kRule.weight[i] * std::exp(-0.5 * (h * h + k * k - 2.0 * h * k * s) / c2);
     }
@@ -171,27 +180,26 @@ double bothBelow(double h, double k, double correlation) {
 bool fitCornerToPixels(const GreyImage& grey, const Vec2& corner, double blurPx, CornerSide& before,
                        CornerSide& after) {
   const Wedge wedge(before, after, blurPx);
-  CornerScene scene;
-  if (!readScene(grey, corner, wedge, scene)) return false;
+  const std::optional<CornerScene> scene = readScene(grey, corner, wedge);
+  if (!scene) return false;
   const SidesSpread known = knownBefore(before, after);
   Sides change = Sides::Zero();
   for (int round = 0; round < kCornerRounds; ++round) {
     Sides state = Sides::Zero();
     SidesSpread spread = known;
     double surprise = 0.0;
-    for (const WedgePixel& pixel : scene.pixels) {
+    for (const WedgePixel& pixel : scene->pixels) {
       const SideView a = wedge.view(0, pixel.at, change), b = wedge.view(1, pixel.at, change);
-      double slopeA = 0.0, slopeB = 0.0;
-      const double left =
-          pixel.grey - (scene.paper - scene.contrast * wedge.part(a.distance, b.distance, slopeA, slopeB));
+      const Wedge::InkPart ink = wedge.part(a.distance, b.distance);
+      const double left = pixel.grey - (scene->paper - scene->contrast * ink.part);
       surprise += left * left;
       Sides row;
-      row << -scene.contrast * slopeA * a.row, -scene.contrast * slopeB * b.row;
-      const Sides gain = spread * row / (row.dot(spread * row) + scene.variance);
+      row << -scene->contrast * ink.slopeFirst * a.row, -scene->contrast * ink.slopeSecond * b.row;
+      const Sides gain = spread * row / (row.dot(spread * row) + scene->variance);
       state += gain * (left - row.dot(state - change));
       spread -= gain * (row.transpose() * spread);
     }
-    const bool described = surprise < kMostSurprise * scene.variance * static_cast<double>(scene.pixels.size());
+    const bool described = surprise < kMostSurprise * scene->variance * static_cast<double>(scene->pixels.size());
     if (!state.allFinite() || (round + 1 == kCornerRounds && !described)) return false;
     change = state;
   }

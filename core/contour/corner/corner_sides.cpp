@@ -19,12 +19,18 @@ namespace {
 constexpr double kBlockPx = 2.0;         // points are averaged over this much of the axis
 constexpr double kGuessedWeight = 0.02;  // points known to the pixel only, or guessed
 constexpr double kLeastSideWeight = 1.0 / 64.0, kMostSideWeight = 16.0;
+constexpr double kLeastSigmaPx = 1e-3;
 constexpr double kSteepest = 0.8;       // slope against the axis up to which a side is a function of x
 constexpr double kPriorDensity = 0.01;  // [px^2 px] noise of an edge in an ordinary scan, worth kPriorBlocks blocks
 constexpr double kPriorBlocks = 3.0;
 constexpr double kLeastDensity = 0.0006;  // [px^2 px] what the pixel grid leaves: .02 px over 16 px
-constexpr std::size_t kFewestBlocks = 3;
-constexpr std::size_t kMostGuessed = 40, kFewestKnown = 12;  // points
+constexpr int kFewestBlocks = 3;
+constexpr int kMostGuessed = 40, kFewestKnown = 12;  // points
+constexpr int kAxisPoints = 12;                      // nearest to the corner: over more a side may bend
+constexpr int kOutlineGroup = 2, kStrokeGroup = 4;   // blocks: over as many points share their noise
+constexpr double kTurnedBackPx = 2.0;                // along the axis: noise is less
+constexpr double kMedianOfSquares = 0.455;           // of the variance, of a normal variable
+constexpr double kThirdDifferences = 20.0;           // 1 + 9 + 9 + 1: variance of a third difference of unit noise
 // [px] Waves shorter than these are noise: what the side may be, from scribble to spline.
 constexpr double kShortestCutoffPx = 40.0, kLongestCutoffPx = 1100.0, kCutoffStep = 1.6;
 constexpr double kStartPx = 100.0, kStartSlope = 2.0;  // what a side may be at its far end, along its axis
@@ -64,11 +70,11 @@ SidePoints collect(const Contour& contour, int index, int side, double inner, do
 // Next to a corner the points may be guessed only, laid round the turn where the legs of a stroke are one body: they
 // say nothing of the side.
 void dropGuessed(SidePoints& points) {
-  std::size_t first = 0, known = 0;
-  while (first < points.size() && points[first].weight < 1.0) ++first;
+  int first = 0, known = 0;
+  while (first < std::ssize(points) && points[first].weight < 1.0) ++first;
   for (const SidePoint& p : points) known += p.weight < 1.0 ? 0 : 1;
   if (first > kMostGuessed || known < kFewestKnown) return;
-  points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(first));
+  points.erase(points.begin(), points.begin() + first);
 }
 
 // Known points weigh by their own noise, against the median of the side.
@@ -80,20 +86,19 @@ void weighByNoise(SidePoints& points) {
   const double middle = upperMedian(known);
   for (SidePoint& p : points) {
     if (!p.sigmaPx || p.weight < 1.0) continue;
-    const double ratio = middle / std::max<double>(*p.sigmaPx, 1e-3);
+    const double ratio = middle / std::max<double>(*p.sigmaPx, kLeastSigmaPx);
     p.weight = std::clamp(ratio * ratio, kLeastSideWeight, kMostSideWeight);
   }
 }
 
 // The axis: the direction of the first few points.
 Vec2 axisOf(const SidePoints& points) {
-  const std::size_t n = std::min<std::size_t>(points.size(), 12);
+  const int n = std::min(static_cast<int>(points.size()), kAxisPoints);
   Vec2 mean = Vec2::Zero();
-  for (std::size_t i = 0; i < n; ++i) mean += points[i].at;
-  mean /= static_cast<double>(n);
+  for (int i = 0; i < n; ++i) mean += points[i].at;
+  mean /= n;
   Vec2 direction = Vec2::Zero();
-  for (std::size_t i = 0; i < n; ++i)
-    direction += (static_cast<double>(i) - 0.5 * static_cast<double>(n - 1)) * (points[i].at - mean);
+  for (int i = 0; i < n; ++i) direction += (i - 0.5 * (n - 1)) * (points[i].at - mean);
   const double length = direction.norm();
   return length > 0.0 ? Vec2(direction / length) : Vec2::Zero();
 }
@@ -110,7 +115,7 @@ std::vector<SideBlock> blocksOf(const SidePoints& points, const CornerSide& fram
     const Vec2 d = p.at - frame.origin;
     const double x = d.dot(frame.along), y = d.dot(frame.across);
     if (&p == &points.front()) begin = furthest = x;
-    if (x < furthest - 2.0) break;  // turned back
+    if (x < furthest - kTurnedBackPx) break;
     furthest = std::max(furthest, x);
     while (x >= begin + kBlockPx) {
       close();
@@ -120,7 +125,7 @@ std::vector<SideBlock> blocksOf(const SidePoints& points, const CornerSide& fram
     sum.y += p.weight * y;
     sum.weight += p.weight;
     count += 1.0;
-    const std::size_t n = blocks.size();
+    const auto n = std::ssize(blocks);
     if (n >= 4 && std::abs(blocks[n - 1].y - blocks[n - 4].y) > kSteepest * (blocks[n - 1].x - blocks[n - 4].x)) break;
   }
   close();
@@ -131,27 +136,30 @@ std::vector<SideBlock> blocksOf(const SidePoints& points, const CornerSide& fram
 // [px^2 px] Density of the noise: variance of the mean over a length, times the length. From third differences, which
 // a smooth side leaves small, of the means of `group` blocks: neighbouring points of a centre line share their noise.
 // For blocks of weight 1.
-double noiseDensity(const std::vector<SideBlock>& blocks, std::size_t group) {
-  std::vector<double> mean, weight, square;
-  for (std::size_t i = 0; i + group <= blocks.size(); i += group) {
-    double sum = 0.0, weights = 0.0;
-    for (std::size_t k = i; k < i + group; ++k) {
-      sum += blocks[k].y / static_cast<double>(group);
-      weights += blocks[k].weight / static_cast<double>(group);
+double noiseDensity(const std::vector<SideBlock>& blocks, int group) {
+  struct Mean {
+    double y = 0.0, weight = 0.0;
+  };
+  std::vector<Mean> means;
+  std::vector<double> square;
+  for (int i = 0; i + group <= std::ssize(blocks); i += group) {
+    Mean mean;
+    for (int k = i; k < i + group; ++k) {
+      mean.y += blocks[k].y / group;
+      mean.weight += blocks[k].weight / group;
     }
-    mean.push_back(sum);
-    weight.push_back(weights);
+    means.push_back(mean);
   }
-  for (std::size_t i = 0; i + 3 < mean.size(); ++i) {
-    const double d = mean[i + 3] - 3.0 * mean[i + 2] + 3.0 * mean[i + 1] - mean[i];
-    const double w = (weight[i] + 9.0 * weight[i + 1] + 9.0 * weight[i + 2] + weight[i + 3]) / 20.0;
-    square.push_back(w * d * d / 20.0);
+  for (int i = 0; i + 3 < std::ssize(means); ++i) {
+    const double d = means[i + 3].y - 3.0 * means[i + 2].y + 3.0 * means[i + 1].y - means[i].y;
+    const double w = (means[i].weight + 9.0 * means[i + 1].weight + 9.0 * means[i + 2].weight + means[i + 3].weight) /
+                     kThirdDifferences;
+    square.push_back(w * d * d / kThirdDifferences);
   }
   if (square.empty()) return kPriorDensity;
-  // The median of squares of a normal variable is .455 of its variance.
-  const auto middle = upperMedian(square);
+  const double middle = upperMedian(square);
   const double count = static_cast<double>(square.size()) / 3.0;  // neighbours share blocks
-  const double measured = middle / 0.455 * kBlockPx * static_cast<double>(group);
+  const double measured = middle / kMedianOfSquares * kBlockPx * group;
   return std::max(kLeastDensity, (measured * count + kPriorDensity * kPriorBlocks) / (count + kPriorBlocks));
 }
 
@@ -250,8 +258,8 @@ Followed follow(std::span<const SideBlock> blocks, const Model& model, const Sta
   Followed f;
   f.mean[0] = about(blocks.back()).y;
   f.spread = openOf(start, model.kind).cwiseAbs2().asDiagonal();
-  for (std::size_t k = blocks.size(); k-- > 0;) {
-    if (k + 1 < blocks.size()) goTo(f, blocks[k + 1].x - blocks[k].x, model.tau2);
+  for (auto k = std::ssize(blocks) - 1; k >= 0; --k) {
+    if (k + 1 < std::ssize(blocks)) goTo(f, blocks[k + 1].x - blocks[k].x, model.tau2);
     learn(f, about(blocks[k]), perBlock);
     if (sums) (*sums)[k] = std::max((*sums)[k], f.logLikelihood);
   }
@@ -263,7 +271,7 @@ Followed follow(std::span<const SideBlock> blocks, const Model& model, const Sta
 // make it. What lies beyond is a course of its own: a side may come round another corner.
 struct Extension {
   Followed f;
-  std::size_t count = 0;  // blocks of the most likely one
+  int count = 0;  // blocks of the most likely one
 };
 
 Extension extend(const std::vector<SideBlock>& blocks, double density) {
@@ -281,11 +289,11 @@ Extension extend(const std::vector<SideBlock>& blocks, double density) {
   struct Choice {
     Followed f;
     double evidence;
-    std::size_t count;
+    int count;
   };
   std::vector<Choice> all;
-  for (std::size_t count = blocks.size(); count >= kFewestBlocks; count = count * 7 / 10) {
-    const bool whole = count == blocks.size();
+  for (int count = static_cast<int>(blocks.size()); count >= kFewestBlocks; count = count * 7 / 10) {  // by ratios
+    const bool whole = count == std::ssize(blocks);
     for (const Model& model : models) {
       const Followed f = follow(std::span(blocks).first(count), model, start, perBlock, whole ? &beyond : nullptr);
       // A line, an arc and a free course are as likely before anything is known.
@@ -296,7 +304,7 @@ Extension extend(const std::vector<SideBlock>& blocks, double density) {
   Extension result;
   for (Choice& c : all) {
     // A course may change anywhere; the stretches are spaced by ratios.
-    if (c.count < blocks.size())
+    if (c.count < std::ssize(blocks))
       c.evidence += beyond[c.count] + std::log(static_cast<double>(c.count) / static_cast<double>(blocks.size()));
     if (c.evidence > best) best = c.evidence, result.count = c.count;
   }
@@ -312,8 +320,7 @@ Extension extend(const std::vector<SideBlock>& blocks, double density) {
 }
 
 // The cubic that goes on from the last state, as a side; the state runs against x.
-void goOn(const Followed& f, double from, double to, CornerSide& side) {
-  side.degree = 3;
+void continueSide(const Followed& f, double from, double to, CornerSide& side) {
   side.from = from;
   side.to = std::max(to, from + 1.0);
   const double half = 0.5 * (side.to - side.from);  // x - from = half (z + 1)
@@ -331,32 +338,32 @@ void goOn(const Followed& f, double from, double to, CornerSide& side) {
 Vec2 CornerSide::at(double x) const {
   const double z = (2.0 * x - from - to) / (to - from);
   double y = 0.0;
-  for (std::size_t k = coefficient.size(); k-- > 0;) y = y * z + coefficient[k];
+  for (auto k = std::ssize(coefficient) - 1; k >= 0; --k) y = y * z + coefficient[k];
   return origin + x * along + y * across;
 }
 
 Vec2 CornerSide::derivative(double x) const {
   const double z = (2.0 * x - from - to) / (to - from);
   double slope = 0.0;
-  for (std::size_t k = coefficient.size(); k-- > 1;) slope = slope * z + static_cast<double>(k) * coefficient[k];
+  for (auto k = std::ssize(coefficient) - 1; k >= 1; --k) slope = slope * z + static_cast<double>(k) * coefficient[k];
   return along + 2.0 * slope / (to - from) * across;
 }
 
-CornerSide fitCornerSide(const Contour& contour, int index, int side, double inner, double outer) {
+std::optional<CornerSide> fitCornerSide(const Contour& contour, int index, int side, double inner, double outer) {
   CornerSide best;
   best.origin = contour.points[index].at;
   SidePoints points = collect(contour, index, side, inner, outer);
   dropGuessed(points);
   weighByNoise(points);
-  if (points.size() < 3) return best;
+  if (points.size() < 3) return std::nullopt;
   best.along = axisOf(points);
   best.across = Vec2(-best.along.y(), best.along.x());
-  if (!(best.along.norm() > 0.5)) return best;
+  if (!(best.along.norm() > 0.5)) return std::nullopt;  // a unit vector, or none
   const std::vector<SideBlock> blocks = blocksOf(points, best);
-  const double density = noiseDensity(blocks, contour.kind == ContourKind::Outline ? 2 : 4);
-  if (blocks.size() < kFewestBlocks) return best;
+  if (std::ssize(blocks) < kFewestBlocks) return std::nullopt;
+  const double density = noiseDensity(blocks, contour.kind == ContourKind::Outline ? kOutlineGroup : kStrokeGroup);
   const Extension extension = extend(blocks, density);
-  goOn(extension.f, blocks.front().x, blocks[extension.count - 1].x, best);
+  continueSide(extension.f, blocks.front().x, blocks[extension.count - 1].x, best);
   return best;
 }
 

@@ -2,20 +2,20 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "core/contour/contour_set.h"
 
 namespace batten {
 
-/// One side of a corner as a polynomial over a straight axis, ready to be extended to the corner and beyond; away from
-/// the corner, beyond `from`, it need not follow the points.
+/// One side of a corner as a polynomial over a straight axis, to be extended to the corner and beyond. Beyond `from`,
+/// away from the corner, it need not follow the points.
 struct CornerSide {
   static constexpr int kMostDegree = 4;
   Vec2 origin = Vec2::Zero();                         ///< [px] the contour point that the fit started from.
   Vec2 along = Vec2::Zero();                          ///< Unit axis, pointing away from the corner.
   Vec2 across = Vec2::Zero();                         ///< Unit, along turned by 90 degrees.
   std::array<double, kMostDegree + 1> coefficient{};  ///< [px] of powers of z, which is -1 at `from` and 1 at `to`.
-  int degree = -1;                                    ///< -1: no fit; else 3.
   double from = 0.0;                                  ///< [px] the points used begin here...
   double to = 0.0;                                    ///< ...and end here, along the axis.
   /// Covariance of the side and its derivatives 1 to 3 with respect to x at `from` [px, 1/px per derivative].
@@ -27,10 +27,10 @@ struct CornerSide {
 };
 
 /// Fits the side +1 (along the contour) or -1 (against it) of a point to the points `inner`..`outer` [px of arc] away
-/// and extends it to the corner. A side is a line, an arc, or a course whose fourth derivative is white noise of some
-/// density (a quintic-like spline, as in the fair fit), from the corner up to some place where it goes over into
-/// another course; the result is the mean over all of these, each as likely as the points make it (Kalman filter
-/// towards the corner, marginal likelihood). `sigmaPx` holds the noise and what is uncertain about the choice.
-CornerSide fitCornerSide(const Contour& contour, int index, int side, double inner, double outer);
+/// and extends it to the corner. The candidates are a line, an arc, and curves whose fourth derivative is white noise
+/// of some density (a spline, as in the fair fit), each over stretches of several lengths from the corner on. The
+/// result is their mean, weighted by marginal likelihood (Kalman filter towards the corner). `sigmaPx` includes the
+/// uncertainty of the choice. Nothing where there are too few points.
+std::optional<CornerSide> fitCornerSide(const Contour& contour, int index, int side, double inner, double outer);
 
 }  // namespace batten

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <span>
 
 #include "core/base/statistics.h"
+#include "core/contour/corner/corner_finder.h"
 #include "core/contour/corner/corner_geometry.h"
 #include "core/contour/corner/corner_marks.h"
+#include "core/polyline/point_grid.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -36,17 +39,21 @@ double chordAngle(const Contour& contour, int i, int reach) {
 }
 
 // [px] How rough the line is about every point: the median over 300 px of what parabolas of one scale leave over.
-std::vector<double> roughnessOf(const Contour& contour, double scale) {
-  constexpr int kStride = 6, kWindow = 25;
+// Not complete when cancelled.
+std::vector<double> roughnessOf(const Contour& contour, double scale, const RunContext& context) {
+  constexpr int kStride = 6, kWindow = 25;  // points; fits to either side
+  constexpr double kLeastFitReach = 0.5;    // of the scale
   const int n = static_cast<int>(contour.points.size());
   std::vector<double> residual;
   for (int i = 0; i < n; i += kStride) {
-    const OneSidedFit fit = fitOneSide(contour, i, 1, 0.0, scale);
-    residual.push_back(fit.reach > 0.5 * scale ? fit.fit.residualRms : 0.0);
+    if (context.isCancelled()) return {};
+    const auto fit = fitOneSide(contour, i, 1, 0.0, scale);
+    residual.push_back(fit && fit->reach > kLeastFitReach * scale ? fit->fit.residualRms : 0.0);
   }
   std::vector<double> rough(n), window;
   const int count = static_cast<int>(residual.size());
   for (int k = 0; k < count; ++k) {
+    if (context.isCancelled()) return {};
     window.clear();
     for (int j = -kWindow; j <= kWindow; ++j) {
       if (!contour.closed && (k + j < 0 || k + j >= count)) continue;
@@ -61,8 +68,8 @@ std::vector<double> roughnessOf(const Contour& contour, double scale) {
 // [rad] Standard deviation of the angle between two parabolas of length `scale` on such a line, whose dents are about
 // `kDentPx` long: the slope at the end of a parabola has variance 192 S / L^3 for noise of density S.
 double angleNoise(double roughPx, double scale) {
-  constexpr double kDentPx = 8.0;
-  return roughPx * std::sqrt(2.0 * 192.0 * kDentPx / (scale * scale * scale));
+  constexpr double kDentPx = 8.0, kSlopeVariance = 192.0;
+  return roughPx * std::sqrt(2.0 * kSlopeVariance * kDentPx / (scale * scale * scale));
 }
 
 // On a clean line a corner is one however short its legs are. On a rough one it may be a dent, which has gone once more
@@ -77,14 +84,15 @@ bool isMoreThanADent(const Contour& contour, int i, const Turning& turning, doub
 }
 
 // Without the bristles of a ragged border: every point the mean of its neighbours. Kept point for point.
-Contour smoothed(const Contour& contour, double sigmaPx, double step) {
+// Not complete when cancelled.
+Contour smoothed(const Contour& contour, double sigmaPx, double step, const RunContext& context) {
   Contour out = contour;
   const int n = static_cast<int>(contour.points.size());
   const double sigma = sigmaPx / step;
   const int reach = std::min(static_cast<int>(3.0 * sigma), n / 2);
   std::vector<double> weights;
   for (int k = 0; k <= reach; ++k) weights.push_back(std::exp(-0.5 * k * k / (sigma * sigma)));
-  for (int i = 0; i < n; ++i) {
+  for (int i = 0; i < n && !context.isCancelled(); ++i) {
     Vec2 sum = Vec2::Zero();
     double total = 0.0;
     for (int k = -reach; k <= reach; ++k) {
@@ -100,24 +108,27 @@ Contour smoothed(const Contour& contour, double sigmaPx, double step) {
 }
 
 // Looks for the corners of one contour.
-class CornerSearch {
+class CornerDetector {
  public:
-  CornerSearch(const Contour& contour, double minAngle, double scale)
+  CornerDetector(const Contour& contour, double minAngle, double scale, const RunContext& context)
       : contour_(contour), minAngle_(minAngle), scale_(scale), s_(cumulativeLength(positionsOf(contour.points))) {
-    if (s_.size() < 8) return;
-    step_ = std::max(0.1, s_.back() / (static_cast<double>(s_.size()) - 1.0));
-    rough_ = roughnessOf(contour, scale);
-    for (std::size_t i = 0; i < rough_.size(); ++i) {
+    if (s_.size() < kFewestLinePoints) return;
+    step_ = std::max(kLeastScaleStepPx, s_.back() / (static_cast<double>(s_.size()) - 1.0));
+    rough_ = roughnessOf(contour, scale, context);
+    for (int i = 0; i < std::ssize(rough_); ++i) {
       if (!isRagged(i)) continue;
-      smooth_ = smoothed(contour, kSmoothing * scale, step_);
+      smooth_ = smoothed(contour, kSmoothing * scale, step_, context);
       break;
     }
   }
 
-  std::vector<Candidate> candidates() const {
+  /// [px] The longest stretch that is looked at on either side of a point.
+  static double widestScale(double scale) { return std::max(1.0, kRaggedScale) * scale; }
+
+  std::vector<Candidate> candidates(const RunContext& context) const {
     std::vector<Candidate> found;
-    for (int i = 0; i < static_cast<int>(rough_.size()); ++i) {
-      const auto candidate = isRagged(static_cast<std::size_t>(i)) ? onRagged(i) : onClean(i);
+    for (int i = 0; i < std::ssize(rough_) && !context.isCancelled(); ++i) {
+      const auto candidate = isRagged(i) ? onRagged(i) : onClean(i);
       if (candidate) found.push_back(*candidate);
     }
     return found;
@@ -134,38 +145,41 @@ class CornerSearch {
       if (std::abs(angle) > std::abs(best.angle)) best = {i, angle, std::abs(angle), s_[i], scale_, true};
     }
     if (!best.isTurn || std::abs(best.angle) < kChordShare * minAngle_) return std::nullopt;
-    if (isRagged(static_cast<std::size_t>(best.index))) return std::nullopt;
+    if (isRagged(best.index)) return std::nullopt;
     return best;
   }
 
  private:
   // Of `scale_`: what dents and bristles are smoothed over, and what is left out and looked at beside a corner then.
   static constexpr double kSmoothing = 0.6, kRaggedInner = 0.7, kRaggedScale = 2.0;
+  static constexpr std::size_t kFewestLinePoints = 8;
+  static constexpr double kLeastScaleStepPx = 0.1;
 
   // Whether dents look like corners here.
-  bool isRagged(std::size_t i) const {
+  bool isRagged(int i) const {
     constexpr double kRagged = 1.5;
     return kSure * angleNoise(rough_[i], scale_) > kRagged * minAngle_;
   }
 
   bool isStraight(const Contour& contour, int i, double scale) const {
+    constexpr double kChordScale = 0.6, kChordShare = 0.6;  // chords see less of a turn than tangents
     const int n = static_cast<int>(contour.points.size());
-    const int reach = std::clamp(static_cast<int>(0.6 * scale / step_), 2, std::max(2, n / 3));
-    return std::abs(chordAngle(contour, i, reach)) < 0.6 * minAngle_;
+    const int reach = std::clamp(static_cast<int>(kChordScale * scale / step_), 2, std::max(2, n / 3));
+    return std::abs(chordAngle(contour, i, reach)) < kChordShare * minAngle_;
   }
 
   std::optional<Candidate> onClean(int i) const {
     // The score is the angle discounted by misfit; half of it lost means that the legs are no legs.
     constexpr double kLeastScore = 0.5;
+    constexpr double kBlurredPx = 3.0, kMostBlurred = 0.25;  // left out beside a corner; of the scale
     if (isStraight(contour_, i, scale_)) return std::nullopt;
-    const double inner =
-        contour_.kind == ContourKind::Outline ? std::min(3.0, 0.25 * scale_) : roundedZonePx(contour_, i);
+    const double inner = contour_.kind == ContourKind::Outline ? std::min(kBlurredPx, kMostBlurred * scale_)
+                                                               : roundedZonePx(contour_, i);
     const auto turning = turningAt(contour_, i, inner, inner + scale_);
     if (!turning || std::abs(turning->angleRad) < minAngle_) return std::nullopt;
     if (turning->score < kLeastScore * std::abs(turning->angleRad)) return std::nullopt;
-    const auto at = static_cast<std::size_t>(i);
-    if (!isMoreThanADent(contour_, i, *turning, rough_[at], inner, scale_)) return std::nullopt;
-    return Candidate{i, turning->angleRad, turning->score, s_[at], scale_, false};
+    if (!isMoreThanADent(contour_, i, *turning, rough_[i], inner, scale_)) return std::nullopt;
+    return Candidate{i, turning->angleRad, turning->score, s_[i], scale_, false};
   }
 
   // More of the line is looked at, without its bristles, and the legs are straight: what bends them counts as noise.
@@ -187,26 +201,53 @@ class CornerSearch {
   Contour smooth_;
 };
 
-// In order along the contour: the turns that are known to be some, and the best of every other one.
+// Corners along one contour, by arc length: a candidate too near to one of them is part of it.
+class KeptCorners {
+ public:
+  KeptCorners(double length, bool closed, double widest) : length_(length), closed_(closed), widest_(widest) {}
+  void add(const Candidate& c) { byArc_.emplace(c.s, c); }
+  bool isNear(const Candidate& c) const {
+    return isNearFrom(c, c.s) || (closed_ && (isNearFrom(c, c.s - length_) || isNearFrom(c, c.s + length_)));
+  }
+  /// In the order of travel.
+  std::vector<Candidate> sorted() const {
+    std::vector<Candidate> all;
+    for (const auto& [s, candidate] : byArc_) all.push_back(candidate);
+    std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.index < b.index; });
+    return all;
+  }
+
+ private:
+  // As if the candidate lay at `s`.
+  bool isNearFrom(const Candidate& c, double s) const {
+    for (auto other = byArc_.lower_bound(s - widest_); other != byArc_.end() && other->first <= s + widest_; ++other)
+      if (std::abs(other->first - s) < std::max(c.scale, other->second.scale)) return true;
+    return false;
+  }
+
+  double length_;
+  bool closed_;
+  double widest_;  // [px] of all scales
+  std::multimap<double, Candidate> byArc_;
+};
+
+// In order along the contour: the turns that are known to be some, and the best of every other one. Not complete when
+// cancelled.
 std::vector<Candidate> cornersOf(const Contour& contour, std::span<const SharpTurn> turns, double minAngle,
-                                 double scale) {
-  const CornerSearch search(contour, minAngle, scale);
-  std::vector<Candidate> candidates = search.candidates(), kept;
+                                 double scale, const RunContext& context) {
+  const CornerDetector detector(contour, minAngle, scale, context);
+  std::vector<Candidate> candidates = detector.candidates(context);
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-  for (const SharpTurn& turn : turns) {
-    if (const auto sharpest = search.sharpest(turn)) kept.push_back(*sharpest);
-  }
   const double length = polylineLength(positionsOf(contour.points), contour.closed);
-  for (const Candidate& candidate : candidates) {
-    const bool near = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
-      const double d = std::abs(candidate.s - other.s);
-      return std::min(d, contour.closed ? length - d : d) < std::max(candidate.scale, other.scale);
-    });
-    if (!near) kept.push_back(candidate);
+  KeptCorners kept(length, contour.closed, CornerDetector::widestScale(scale));
+  for (const SharpTurn& turn : turns) {
+    if (context.isCancelled()) break;
+    if (const auto sharpest = detector.sharpest(turn)) kept.add(*sharpest);
   }
-  std::sort(kept.begin(), kept.end(), [](const Candidate& a, const Candidate& b) { return a.index < b.index; });
-  return kept;
+  for (const Candidate& candidate : candidates)
+    if (!kept.isNear(candidate)) kept.add(candidate);
+  return kept.sorted();
 }
 
 // Sides that lead elsewhere, past a neighbour that is none, locate nothing.
@@ -218,20 +259,20 @@ bool isLocated(const CornerFix& fix, double seenRad) {
 }  // namespace
 
 std::vector<CornerSuggestion> suggestCorners(const ContourSet& set, double minAngleRad, double scalePx,
-                                             std::span<const SharpTurn> turns) {
+                                             const RunContext& context, std::span<const SharpTurn> turns) {
   std::vector<CornerSuggestion> suggestions;
   if (!(minAngleRad > 0.0) || !(scalePx > 0.0)) return suggestions;
-  for (std::size_t c = 0; c < set.contours.size(); ++c) {
+  std::vector<std::vector<SharpTurn>> own(set.contours.size());
+  for (const SharpTurn& turn : turns)
+    if (turn.contour >= 0 && turn.contour < std::ssize(own)) own[turn.contour].push_back(turn);
+  for (int c = 0; c < std::ssize(set.contours) && !context.isCancelled(); ++c) {
     const Contour& contour = set.contours[c];
-    std::vector<SharpTurn> own;
-    std::copy_if(turns.begin(), turns.end(), std::back_inserter(own),
-                 [&](const SharpTurn& turn) { return turn.contour == static_cast<int>(c); });
-    const std::vector<Candidate> kept = cornersOf(contour, own, minAngleRad, scalePx);
+    const std::vector<Candidate> kept = cornersOf(contour, own[c], minAngleRad, scalePx, context);
     std::vector<int> places;
     for (const Candidate& k : kept) places.push_back(k.index);
-    const std::vector<CornerFix> fixes = locateCorners(contour, places);
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      CornerSuggestion suggestion{static_cast<int>(c), kept[i].index, {}, kept[i].angle};
+    const std::vector<CornerFix> fixes = locateCorners(contour, places, context);
+    for (int i = 0; i < std::ssize(fixes); ++i) {
+      CornerSuggestion suggestion{c, kept[i].index, {}, kept[i].angle};
       suggestion.positionPx = contour.points[kept[i].index].at;
       if (isLocated(fixes[i], kept[i].angle)) {
         suggestion.positionPx = fixes[i].position;
@@ -246,29 +287,36 @@ std::vector<CornerSuggestion> suggestCorners(const ContourSet& set, double minAn
 // A mark finds the sharpest turn within its reach, so that those at two suggestions may find one corner: the suggestion
 // nearer to it stays.
 std::vector<CornerSuggestion> oncePerCorner(const ContourSet& set, const std::vector<CornerSuggestion>& all,
-                                            double snapDistancePx) {
+                                            double snapDistancePx, const RunContext& context) {
   constexpr double kOneCornerPx = 2.0;
   struct Found {
-    std::size_t suggestion;
+    int suggestion;
     Corner corner;
   };
   std::vector<Found> found;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (const auto corner = nearestContourPoint(set, all[i].positionPx, snapDistancePx)) found.push_back({i, *corner});
+  CornerFinder finder(set, snapDistancePx);
+  finder.sortPoints();
+  for (int i = 0; i < std::ssize(all) && !context.isCancelled(); ++i) {
+    if (const auto corner = finder.find(all[i].positionPx)) found.push_back({i, *corner});
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Found& a, const Found& b) { return a.corner.snapPx < b.corner.snapPx; });
-  std::vector<Found> kept;
-  for (const Found& one : found) {
-    const bool isTaken = std::any_of(kept.begin(), kept.end(), [&](const Found& other) {
-      return other.corner.contour == one.corner.contour &&
-             (other.corner.positionPx - one.corner.positionPx).norm() <= kOneCornerPx;
+  PointGrid<const Corner*> taken(kOneCornerPx);
+  std::vector<int> kept;
+  for (const Found& next : found) {
+    const Corner& corner = next.corner;
+    bool isTaken = false;
+    taken.around(corner.positionPx, [&](const Corner* other) {
+      isTaken = isTaken ||
+                (other->contour == corner.contour && (other->positionPx - corner.positionPx).norm() <= kOneCornerPx);
     });
-    if (!isTaken) kept.push_back(one);
+    if (isTaken) continue;
+    taken.add(corner.positionPx, &corner);
+    kept.push_back(next.suggestion);
   }
-  std::sort(kept.begin(), kept.end(), [](const Found& a, const Found& b) { return a.suggestion < b.suggestion; });
+  std::sort(kept.begin(), kept.end());
   std::vector<CornerSuggestion> result;
-  for (const Found& one : kept) result.push_back(all[one.suggestion]);
+  for (const int i : kept) result.push_back(all[i]);
   return result;
 }
 

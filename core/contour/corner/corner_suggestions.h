@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
 
 namespace batten {
@@ -16,24 +17,24 @@ struct CornerSuggestion {
   double turningAngleRad = 0.0;
 };
 
-/// A stretch of a contour that is known to turn sharply: its points first..last; of a closed contour `last` may pass
-/// the number of points.
+/// A stretch of a contour that is known to turn sharply: points first..last. On a closed contour `last` may exceed the
+/// number of points.
 struct SharpTurn {
   int contour = 0;
   int first = 0, last = 0;
 };
 
 /// Places where two one-sided local parabolas, extrapolated to the point, differ in direction by at least
-/// `minAngleRad`; one suggestion per turn. `scalePx` is the length looked at on either side, and more where the line is
-/// ragged. `turns` of about `minAngleRad` and more stand before what is found near
-/// them, unless the line is ragged. The angle is that of the
-/// located corner, as a mark would give it; where none can be located, that of the place.
-std::vector<CornerSuggestion> suggestCorners(const ContourSet&, double minAngleRad, double scalePx,
+/// `minAngleRad`; one suggestion per turn. `scalePx` is the length used on either side, more where the line is ragged.
+/// `turns` of about `minAngleRad` or more take precedence over what is found near them, unless the line is ragged. The
+/// angle is that of the located corner, as a mark would give it; where none can be located, that at the point. Not
+/// complete when cancelled.
+std::vector<CornerSuggestion> suggestCorners(const ContourSet&, double minAngleRad, double scalePx, const RunContext&,
                                              std::span<const SharpTurn> turns = {});
 
-/// The suggestions of which no two stand for one corner: a mark at each finds a corner, with this snap distance, that
-/// no mark at another one finds.
+/// Removes suggestions that stand for the same corner: a mark at each remaining one finds a corner of its own, with
+/// this snap distance. Not complete when cancelled.
 std::vector<CornerSuggestion> oncePerCorner(const ContourSet&, const std::vector<CornerSuggestion>&,
-                                            double snapDistancePx);
+                                            double snapDistancePx, const RunContext&);
 
 }  // namespace batten

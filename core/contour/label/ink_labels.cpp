@@ -17,6 +17,7 @@ namespace batten {
 namespace {
 
 constexpr std::size_t kDiscsPerCheck = 256;
+constexpr double kWidestPen = 0.05;  // of the page's mean side: 12 mm on A4; bars of lettering and of signs are wider
 
 // Discs of ink about skeleton pixels; those that lie within the one painted before are passed over.
 class DiscPainter {
@@ -104,15 +105,25 @@ void applyVotes(const RunPieces& runs, const PiecesOfPage& page, const std::vect
   }
 }
 
+// [px] median width of the strokes, weighed by their lengths in widths; 0 = there is none.
+double penOfStrokes(const StrandGraph& graph) {
+  std::vector<std::pair<double, double>> widths;
+  for (const Strand& s : graph.strands()) {
+    if (s.label == InkLabel::Stroke && s.elongation() >= kStrokeWidths) widths.emplace_back(*s.widthPx, s.elongation());
+  }
+  return weightedMedian(std::move(widths));
+}
+
 Result<InkLabels> label(const BitImage& ink, const RunContext& context) {
   InkLabels labels{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height), ink, 0.0};
   if (!thinToSkeleton(labels.skeleton, context)) return cancelled();
   StrandGraph graph(labels.skeleton, ink, context);
   const RunPieces runs = findPieces(ink, Connectivity::Eight, context);
   if (context.isCancelled()) return cancelled();
-  const PiecesOfPage page = measurePieces(graph, runs);
-  labels.penPx = page.pagePenPx;
+  PiecesOfPage page = measurePieces(graph, runs);
+  page.widestPenPx = kWidestPen * std::sqrt(static_cast<double>(ink.width) * ink.height);
   labelStrands(graph, page);
+  labels.penPx = penOfStrokes(graph);
   paintLabels(graph, labels, context);
   shareRest(ink, labels, context);
   if (context.isCancelled()) return cancelled();

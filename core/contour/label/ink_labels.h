@@ -12,7 +12,7 @@ struct InkLabels {
   BitImage strokes;    ///< Lines of a pen, to be followed along their middle.
   BitImage shapes;     ///< Filled areas, dots and broad lettering, to be followed along their border.
   BitImage skeleton;   ///< Of all the ink.
-  double penPx = 0.0;  ///< [px] length-weighted median width of what may be strokes; 0 = nothing may.
+  double penPx = 0.0;  ///< [px] median width of the strokes, weighed by their lengths in widths; 0: there is none.
 };
 
 /// Strokes and shapes, region by region: a solid and the lines attached to it are one piece of ink and two labels.

@@ -18,14 +18,6 @@ constexpr double kSamePen = 1.5;      // ratio of widths
 
 bool isExplained(const Strand& s) { return s.elongation() >= kStrokeWidths && s.unevenness <= kUneven; }
 
-int runAt(const RunPieces& pieces, int x, int y) {
-  const auto before = [](const Run& run, const std::pair<int, int>& yx) {
-    return run.y != yx.first ? run.y < yx.first : run.x1 <= yx.second;
-  };
-  return static_cast<int>(std::lower_bound(pieces.runs.begin(), pieces.runs.end(), std::pair(y, x), before) -
-                          pieces.runs.begin());
-}
-
 std::vector<LabelledPiece> boxesOf(const RunPieces& runs, std::unordered_map<int, int>& number) {
   std::vector<LabelledPiece> pieces;
   for (std::size_t i = 0; i < runs.runs.size(); ++i) {
@@ -83,6 +75,9 @@ class Labeller {
     }
     labelJunctions();
     labelPixels();
+    for (std::size_t i = 0; i < penOf_.size(); ++i) {
+      if (graph_.strands()[i].widthPx.value_or(0.0) > page_.widestPenPx) labelWhole(static_cast<int>(i));
+    }
     absorbLimbs();
     for (const LabelledPiece& piece : page_.pieces) {
       if (piece.isBlot) labelWhole(piece);
@@ -244,7 +239,7 @@ PiecesOfPage measurePieces(const StrandGraph& graph, const RunPieces& runs) {
   for (int i = 0; i < static_cast<int>(graph.strands().size()); ++i) {
     const Strand& s = graph.strands()[i];
     const StrandPixel& first = graph.chains()[s.chains.front()].pixels.front();
-    LabelledPiece& piece = page.pieces[number.at(runs.piece[runAt(runs, first.x, first.y)])];
+    LabelledPiece& piece = page.pieces[number.at(*pieceAt(runs, first.x, first.y))];
     piece.strands.push_back(i);
     for (const int chain : s.chains) {
       for (const StrandPixel& p : graph.chains()[chain].pixels) {

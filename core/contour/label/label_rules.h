@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,7 @@ inline constexpr double kStrokeWidths = 3.0;
 struct PiecesOfPage {
   std::vector<LabelledPiece> pieces;
   double pagePenPx = 0.0;
+  double widestPenPx = std::numeric_limits<double>::infinity();  ///< Wider ink was not drawn with a pen.
 };
 /// The least value that half of the weight lies at or below; 0 for none.
 double weightedMedian(std::vector<std::pair<double, double>> valueAndWeight);

@@ -9,9 +9,9 @@
 namespace batten {
 namespace {
 
-constexpr double kLetterOfPage = 0.25;  // [page diagonals] larger pieces are no letters
-constexpr double kLetterRadii = 4.0;    // smaller pieces, against their largest disc, are dots
-constexpr double kLetterLength = 40.0;  // [pen widths] four or five lines of a letter, each of at most ten
+constexpr double kLetterOfPage = 0.25;      // [page diagonals] larger pieces are no letters
+constexpr double kLetterRadii = 4.0;        // smaller pieces, against their largest disc, are dots
+constexpr double kLetterLength = 40.0;      // [pen widths] four or five lines of a letter, each of at most ten
 constexpr double kBroadUnevenness = 0.075;  // median that one pen leaves unexplained in an alphabet
 constexpr double kHairWidths = 0.5;
 constexpr double kLeastBroadPx = 4.5;  // below it the grid of pixels is as large as the contrast of a nib

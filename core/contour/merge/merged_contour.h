@@ -9,10 +9,9 @@
 
 namespace batten {
 
-/// The contour that a line of joined strokes makes: about one point a pixel, made fair between the strokes beside it
-/// (stroke_fair.h), with the band in which they lie. Points where strokes were joined and none was drawn are not
-/// refined.
-/// @param lines the strokes that the line's sources refer to. Not complete when cancelled.
+/// Turns a merged line into a contour: about one point a pixel, smoothed between the strokes beside it
+/// (stroke_smoothing.h), with their band. Points between joined strokes, where none was drawn, are not refined.
+/// @param lines the strokes that MeanPoint::source refers to. Not complete when cancelled.
 Contour mergedContour(const MeanLine& line, const std::vector<Contour>& lines, const StrokesBeside& strokes,
                       double distancePx, const RunContext& context);
 

@@ -8,10 +8,10 @@
 
 namespace batten {
 
-/// What is left of mean lines when none runs along another, or along itself.
+/// Mean lines after removal of their overlaps.
 struct StrokePieces {
-  /// Where a piece was cut off because it goes on along another: its start (side 0) or end (1) lies on point `index`
-  /// of the piece `onto` (which may be the piece itself).
+  /// Where a piece was cut off because it continues along another: its start (side 0) or end (1) lies on point `index`
+  /// of the piece `onto` (possibly the piece itself).
   struct Attachment {
     int piece = 0, side = 0;
     int onto = 0, index = 0;
@@ -20,10 +20,9 @@ struct StrokePieces {
   std::vector<Attachment> attachments;
 };
 
-/// Keeps the parts of the lines that lie on no line before them; to lie on a line is to be within a part of
-/// `distancePx` of it in its direction over some length, or to run beside it within `distancePx` between two places
-/// (or one place and an end) where it does. Lines that cross or meet at an end are left alone. Longest first, please.
-/// Not complete when cancelled.
+/// Keeps the parts of each line that do not lie on a line before it. A stretch lies on a line if it runs in the same
+/// direction within a small part of `distancePx`, or within `distancePx` between two such stretches (or such a stretch
+/// and an end). Lines that cross or meet at an end stay. @pre longest first. Not complete when cancelled.
 StrokePieces removeOverlaps(std::vector<MeanLine> lines, double distancePx, const RunContext& context);
 
 }  // namespace batten

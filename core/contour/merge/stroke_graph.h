@@ -8,12 +8,12 @@
 
 namespace batten {
 
-/// The lines that the pieces were meant to be. Where pieces meet, those go on as one whose places, directions and bends
-/// fit; what is left over there and no longer than twice `distancePx` was an overshoot and goes. Lines that share a
-/// short way go on at its other end as they came. Free ends that look at each other within the distance are joined,
-/// and a line is closed where it meets itself. A single stroke that leaves the others smoothly and ends is an overshoot
-/// for longer than a bundle is. `widestPx` is the distance within which strokes will be one in the end. Not complete
-/// when cancelled.
+/// Joins pieces into lines. Where pieces meet, those with matching positions and directions continue as one line; a
+/// remainder no longer than twice `distancePx` is an overshoot and is dropped. Lines that share a short stretch
+/// continue at its other end as they came. Free ends that face each other within the distance are joined, and a line
+/// that meets itself is closed. A single stroke that leaves the others smoothly and ends counts as an overshoot up to a
+/// greater length. `widestPx` is the largest distance that strokes are merged over in the end. Not complete when
+/// cancelled.
 std::vector<MeanLine> joinPieces(StrokePieces pieces, double distancePx, double widestPx, const RunContext& context);
 
 }  // namespace batten

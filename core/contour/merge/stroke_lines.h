@@ -7,26 +7,26 @@
 
 namespace batten {
 
-/// The line in the other direction.
+/// Reverses the direction of travel.
 void reverseLine(MeanLine& line);
 /// The open line from point `from` to point `to`.
 MeanLine partOf(const MeanLine& line, int from, int to);
-/// A ring begins at another of its points.
+/// Makes a closed line start at another of its points.
 void startAt(MeanLine& ring, int first);
-/// `more` goes on from the end of `line`; where both cover the same way, `line` gives in, by `mostPx` or a little more.
+/// Appends `more` to `line`. Where the two overlap, the end of `line` is cut off, by `mostPx` or slightly more.
 void appendLine(MeanLine& line, const MeanLine& more, double mostPx);
-/// The end of the line goes on at its beginning; what covers the same way twice goes, as in appendLine().
+/// Closes the line; an overlap of its end with its start is cut off as in appendLine().
 void closeLine(MeanLine& line, double mostPx);
-/// Two lines, the ends (2 * line + side) nearest to each place, no farther from it than the distance, meet: where they
-/// would if they went on, or halfway.
+/// At each of the places, makes the two nearest line ends within the distance meet: at the intersection of their
+/// extensions or, if that is far or ill-conditioned, halfway between them.
 void meetAtTurns(std::vector<MeanLine>& lines, const std::vector<Vec2>& turns, double distancePx);
 
-/// How a line begins: place and unit direction into the line. Means are bent at their ends, so they are continued from
-/// what comes after these.
+/// Position and direction of a line at its end, the unit direction pointing into the line. Mean lines are distorted at
+/// their very ends, so both are extrapolated from further inside.
 struct EndTangent {
   Vec2 at = Vec2::Zero(), into = Vec2::Zero();
 };
-/// The start (side 0) or the end (1) of a line, looked at over about 1.5 distances.
+/// The start (side 0) or the end (1) of a line, fitted over about 1.5 distances.
 EndTangent endTangent(const MeanLine& line, int side, double distancePx);
 
 /// [deg] 0..180 between two directions.

@@ -8,15 +8,14 @@
 
 namespace batten {
 
-/// Takes the wavering out of the mean of strokes that were drawn over one another. Where strokes begin and end their
-/// mean jumps from one to the other, and how it does so was not drawn: the line becomes the one of least change of
-/// curvature (third differences) between the outermost strokes; waves longer than `longestPx` stay in any case. Just
-/// beyond the end of a stroke it may lie outside the others, by less than half of their spread there, fading away.
-/// Where only one stroke was drawn, away from the ends of others, the line stays where it is.
-/// @param points about one a pixel.
-/// @param band where the strokes lie beside every point; of another size: nothing moves.
-/// @return the points moved, never farther than the farther of the strokes beside it, or just beyond the end of one
-/// than said above.
+/// Smooths the mean of overdrawn strokes. The mean has steps where strokes begin and end, which nobody drew. The line
+/// is replaced by the one with the least change of curvature (third differences) that stays between the outermost
+/// strokes; waves longer than `longestPx` are kept. Just beyond the end of a stroke the line may leave the remaining
+/// strokes by less than half of the spread at that end, decreasing with distance. Where only one stroke was drawn the
+/// line does not move.
+/// @param points spacing of about one pixel.
+/// @param band distances to the outermost strokes, one entry per point; if the sizes differ nothing moves.
+/// @return the moved points, within the limits above.
 std::vector<Vec2> fairWithinBand(const std::vector<Vec2>& points, bool closed, const std::vector<StrokeBand>& band,
                                  double longestPx);
 

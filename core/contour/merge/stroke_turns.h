@@ -7,16 +7,15 @@
 
 namespace batten {
 
-/// Lines as strokes of the hand.
+/// Lines cut into strokes.
 struct HandStrokes {
   std::vector<MeanLine> strokes;
   std::vector<Vec2> turns;  ///< [px] where lines were cut.
 };
-/// Cuts the lines where they turn sharply, since at a crossing of bundles a line often turns from the one into the
-/// other.
+/// Cuts the lines at sharp turns, because at a crossing of two bundles a line often turns from one into the other.
 HandStrokes strokesOf(const std::vector<Contour>& lines, double distancePx);
 
-/// Finds the ends at which another line goes on (MeanLine::continues): within this many px, about straight on.
+/// Sets MeanLine::continues where another line continues within `nearPx`, about straight on.
 void findContinuations(std::vector<MeanLine>& strokes, double nearPx);
 
 }  // namespace batten

@@ -7,10 +7,10 @@
 
 namespace batten {
 
-/// A tone that fades behind its edge is fainter where levels are taken than at the edge itself, so that the place of
-/// half the contrast is found too far outside. Measures the slopes of the grey on both sides beyond the edge, by and
-/// by along the outline, and takes out what they do to the edge's position. Points that are not refined, or that see
-/// another line or the end of the page there, take the slopes of their neighbours; without any nothing changes.
+/// Corrects the position of edges whose tone fades behind the edge: there the levels are fainter than at the edge
+/// itself, and the half level is found too far outside. Measures the slope of the grey on both sides beyond the edge,
+/// smoothed along the outline, and subtracts its effect on the position. Points that are not refined, or that see
+/// another line or the end of the page there, take the slopes of their neighbours.
 /// @pre blurPx of the outline is known. Not complete when cancelled.
 void undoFade(Contour& outline, const GreyImage&, const RunContext&);
 

@@ -9,11 +9,11 @@
 
 namespace batten {
 
-/// A tone laid up to an edge and fading out on its other sides has a border all round, but a line only where it is
-/// sharp. Cuts the soft stretches out of a refined outline: where the grey changes over 22 px more than twice as much
-/// as over 6 px, for 30 px and more of the way. What is left are open lines, in order of travel; an outline without
-/// soft stretches, and one that is soft nearly all round, comes back as it was. The border of the page counts as soft
-/// where something else does, else as sharp.
+/// Cuts the soft stretches out of a refined outline. A tone that ends at an edge and fades out on its other sides has a
+/// border all round, but a line only where it is sharp. A stretch is soft where, over 30 px or more, the grey changes
+/// more than twice as much within 22 px as within 6 px. The sharp stretches are returned as open lines in order of
+/// travel. An outline without soft stretches, or one that is soft nearly all round, is returned unchanged. The border
+/// of the page counts as soft if any other stretch is.
 std::vector<Contour> cutSoftBorders(const Contour& outline, const GreyImage& grey, const RunContext& context);
 
 }  // namespace batten

@@ -95,6 +95,12 @@ void enlarge(Contour& contour, const Contour& small, int scale, const std::vecto
     p.sigmaPx = static_cast<float>(std::lerp(static_cast<double>(*p.sigmaPx), sigma, share));
     if (share > 0.5) p.refined = true;
   }
+  for (const auto& [first, last] : contour.bridges) {
+    for (int i = first; i <= last; ++i) {
+      contour.points[i].at = contour.points[i].unrefined;
+      contour.points[i].refined = false;
+    }
+  }
   contour.blurPx = scale * small.blurPx;
   measureContour(contour);
 }

@@ -7,12 +7,11 @@
 
 namespace batten {
 
-/// The edge of a tone laid with an airbrush, or out of focus, changes over more pixels than a profile across it is
-/// long. Outlines whose blur was found to be 1.4 px or more are placed once more on copies of the scan of a half, a
-/// quarter and an eighth of its size, until the blur is small against the profile there. Where the edge is soft, and is
-/// found on the copy, points and sigmaPx follow it, about one point a pixel of the scan as before; sharp stretches of
-/// the same outline stay as they are. (An outline of which a fifth or more is sharp shows a small blur and stays
-/// whole.) Not complete when cancelled. Same result with any number of threads.
+/// Places soft edges (airbrush, out of focus), which are wider than the profile across them. Outlines with a blur
+/// of 1.4 px or more are placed again on copies of the scan at a half, a quarter and an eighth of its size, until the
+/// blur is small against the profile. Where the edge is soft and is found on the copy, position and sigmaPx come from
+/// there; sharp stretches of the same outline stay. (An outline of which a fifth or more is sharp shows a small blur
+/// and is left alone.) Not complete when cancelled. Same result with any number of threads.
 /// @pre refineOutline has run on the outlines.
 void refineSoftOutlines(ContourSet&, const GreyImage&, const RunContext&);
 

@@ -44,11 +44,11 @@ std::vector<Vec2> normalsOf(const std::vector<Vec2>& points, bool closed) {
 std::vector<Vec2> halfLevelPass(const Contour& contour, const GreyImage& grey, const RunContext& context) {
   const std::vector<Vec2> base = smoothPolyline(unrefinedPositionsOf(contour.points), contour.closed, kChainSigma);
   const std::vector<Vec2> normal = normalsOf(base, contour.closed);
-  const ProfileBand band =
+  const EdgeProfiles profiles =
       averageAlong(sampleProfiles(grey, base, normal, false, context), contour.closed, 1.0, context);
   std::vector<Vec2> points = base;
   forEdgePoints(context, static_cast<int>(base.size()), [&](int i) {
-    const float* profile = band.row(i);
+    const float* profile = profiles.row(i);
     const EdgeSpan span = findEdgeSpan(profile);
     const Vec2& crack = contour.points[i].unrefined;
     if (span.contrast < kLeastEdgeContrast || onPageBorder(crack, grey)) return;
@@ -163,9 +163,9 @@ void refineOutline(Contour& contour, const GreyImage& grey, const RunContext& co
   frame.base = smoothPolyline(halfLevelPass(contour, grey, context), contour.closed, kBaseSigma);
   frame.normal = normalsOf(frame.base, contour.closed);
   if (context.isCancelled()) return;
-  const ProfileBand band = sampleProfiles(grey, frame.base, frame.normal, true, context);
+  const EdgeProfiles profiles = sampleProfiles(grey, frame.base, frame.normal, true, context);
   if (context.isCancelled()) return;
-  MatchedEdges m = matchEdges(band, contour.closed, context);
+  MatchedEdges m = matchEdges(profiles, contour.closed, context);
   if (context.isCancelled()) return;
   const double blur = pixelPass(grey, frame, m, context);
   std::vector<Vec2> found(n);
@@ -180,6 +180,12 @@ void refineOutline(Contour& contour, const GreyImage& grey, const RunContext& co
     p.refined = edge.span.hasEdge() && edge.contrast() >= std::max(kLeastEdgeContrast, m.noise) &&
                 std::abs(edge.position) <= kLargestMovePx && (found[i] - p.unrefined).norm() <= kEdgeGatePx;
     p.at = p.refined ? found[i] : fallback[i];
+  }
+  for (const auto& [first, last] : contour.bridges) {
+    for (int i = first; i <= last; ++i) {
+      contour.points[i].at = contour.points[i].unrefined;
+      contour.points[i].refined = false;
+    }
   }
   removeReversals(contour, frame.normal);
   contour.blurPx = std::sqrt(std::max(kLeastVariance, blur * blur - kPixelVariance - PixelWindow::kVariance));

@@ -7,11 +7,11 @@
 
 namespace batten {
 
-/// Moves the points of outline contours to where the raw grey values make the border between the local means of ink and
-/// paper most likely: half level on profiles along the normal of the smoothed chain (search +-4 px), a blurred-edge
-/// model for levels, blur and neighbouring borders, at last the pixels themselves, as areas (pixel_edge.h): no bias
-/// that beats with the pixel grid. Where the profile is no edge the point stays on the crack and `refined` stays 0.
-/// Points keep their number and order.
+/// Moves the points of an outline to the most likely position of the border between the local levels of ink and paper,
+/// in three passes: half level on profiles along the normal of the smoothed chain (+-4 px); a blurred-edge model for
+/// levels, blur and neighbouring borders; a model of pixel areas (pixel_edge.h), whose error does not repeat with the
+/// pixel grid. Where the profile shows no edge the point stays on the crack and `refined` is false. Number and order of
+/// the points stay.
 void refineOutline(Contour& contour, const GreyImage& grey, const RunContext&);
 
 }  // namespace batten

@@ -31,10 +31,12 @@ void pinEnds(const Piece& piece, std::vector<FittedStation>& stations) {
   if (piece.endIsCorner) pin(stations.back(), piece.points.back());
 }
 
-std::vector<FittedStation> stationsOf(const MeasuredPiece& piece, int count) {
+// Not complete when cancelled.
+std::vector<FittedStation> stationsOf(const MeasuredPiece& piece, int count, const RunContext& context) {
   std::vector<FittedStation> stations;
   const double spacing = piece.length() / (piece.closed() ? count : count - 1);
-  for (int j = 0; j < count; ++j) stations.push_back(makeStation(piece, j * spacing, spacing));
+  for (int j = 0; j < count && !context.isCancelled(); ++j)
+    stations.push_back(makeStation(piece, j * spacing, spacing));
   pinEnds(piece.piece(), stations);
   return stations;
 }
@@ -94,13 +96,15 @@ int stationCount(const MeasuredPiece& piece, const SegmentParams& params) {
   return std::clamp(static_cast<int>(std::lround(spacings)) + (piece.closed() ? 0 : 1), fewest, kMostStations);
 }
 
-PieceSegments adaptiveSegments(const MeasuredPiece& piece, const SegmentParams& params) {
+// Not complete when cancelled.
+PieceSegments adaptiveSegments(const MeasuredPiece& piece, const SegmentParams& params, const RunContext& context) {
   const int fewest = piece.closed() ? kFewestClosed : kFewestOpen;
   const double finest = std::min(piece.length() / kSmallestSpacingPx, static_cast<double>(kMostStations));
   const int most = std::max(fewest, static_cast<int>(finest));
   int count = fewest;
   for (;;) {
-    const std::vector<FittedStation> stations = stationsOf(piece, count);
+    const std::vector<FittedStation> stations = stationsOf(piece, count, context);
+    if (context.isCancelled()) return {};
     if (count >= most || residualsOf(piece, stations).largestAveraged <= params.tolerancePx) {
       return toSegments(piece, stations);
     }
@@ -116,8 +120,7 @@ PieceSegments groupSegments(const Piece& piece, int groups) {
   double square = 0.0;
   for (int g = 0; g < k; ++g) {
     const int from = bounds[g], to = bounds[g + 1];
-    const std::span<const Vec2> group(piece.points.data() + from, static_cast<std::size_t>(to - from));
-    const PcaLine line = pcaLine(group);
+    const PcaLine line = pcaLine(std::span(piece.points).subspan(from, to - from));
     result.stations.push_back({line.centroid, line.direction, line.from, line.to});
     square += line.residualRms * line.residualRms * (to - from);
   }
@@ -125,7 +128,8 @@ PieceSegments groupSegments(const Piece& piece, int groups) {
   return result;
 }
 
-PieceSegments segmentsOf(const Piece& piece, const SegmentParams& params) {
+// Not complete when cancelled.
+PieceSegments segmentsOf(const Piece& piece, const SegmentParams& params, const RunContext& context) {
   if (piece.points.empty()) return {};
   const MeasuredPiece measured(piece);
   if (piece.points.size() < 2 || !(measured.length() > 0.0)) {
@@ -133,7 +137,7 @@ PieceSegments segmentsOf(const Piece& piece, const SegmentParams& params) {
   }
   switch (params.mode) {
     case SegmentMode::Stations:
-      return toSegments(measured, stationsOf(measured, stationCount(measured, params)));
+      return toSegments(measured, stationsOf(measured, stationCount(measured, params), context));
     case SegmentMode::Sturges:
       return groupSegments(piece, sturgesGroups(static_cast<int>(piece.points.size())));
     case SegmentMode::Count: {
@@ -142,7 +146,7 @@ PieceSegments segmentsOf(const Piece& piece, const SegmentParams& params) {
           piece, params.count > 0 ? params.count : std::max(kFewestOpen, static_cast<int>(std::lround(wanted))));
     }
     case SegmentMode::Adaptive:
-      return adaptiveSegments(measured, params);
+      return adaptiveSegments(measured, params, context);
   }
   return {};
 }
@@ -165,11 +169,14 @@ std::vector<int> groupBoundaries(int n, int k) {
   return bounds;
 }
 
-Result<SegmentSet> regressionSegments(const PieceSet& pieces, const SegmentParams& params) {
+Result<SegmentSet> regressionSegments(const PieceSet& pieces, const SegmentParams& params, const RunContext& context) {
   if (auto error = validate(params)) return fail(*error);
   SegmentSet set;
   set.pieces.reserve(pieces.pieces.size());
-  for (const Piece& piece : pieces.pieces) set.pieces.push_back(segmentsOf(piece, params));
+  for (const Piece& piece : pieces.pieces) {
+    set.pieces.push_back(segmentsOf(piece, params, context));
+    if (context.isCancelled()) return cancelled();
+  }
   return set;
 }
 

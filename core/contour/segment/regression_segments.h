@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/base/run_context.h"
 #include "core/base/vec2.h"
 #include "core/contour/corner/corner_marks.h"
 
@@ -30,15 +30,15 @@ struct SegmentParams {
 };
 std::optional<Error> validate(const SegmentParams&);
 
-/// One regression segment: the line that stands for a group of points. Image frame or model frame, as its holder says.
+/// A regression segment: the line fitted to a group of points. Image frame or model frame, as its holder says.
 struct Station {
   Vec2 point = Vec2::Zero();       ///< Midpoint (groups) or the station itself.
   Vec2 direction = Vec2::UnitX();  ///< Unit, along the contour.
   Vec2 from = Vec2::Zero();        ///< Ends of the drawn segment.
   Vec2 to = Vec2::Zero();
   /// [-] Part of the piece's length that lies before it: 0..1, on a closed piece up to 2 for stations added behind its
-  /// start. Not a number where that is not known (groups).
-  double along = std::numeric_limits<double>::quiet_NaN();
+  /// start. Absent for groups of points.
+  std::optional<double> along = {};
 };
 
 struct PieceSegments {
@@ -55,6 +55,6 @@ int sturgesGroups(int n);
 std::vector<int> groupBoundaries(int n, int k);
 
 /// Regression segments of every piece. Ends at corners are kept exactly.
-Result<SegmentSet> regressionSegments(const PieceSet&, const SegmentParams&);
+Result<SegmentSet> regressionSegments(const PieceSet&, const SegmentParams&, const RunContext&);
 
 }  // namespace batten

@@ -48,18 +48,18 @@ double MeasuredPiece::s(int i) const {
 }
 
 double MeasuredPiece::weight(int i) const {
-  const auto j = slot(i);
-  return j < piece_.refined.size() && piece_.refined[j] == 0 ? kPixelPointWeight : 1.0;
+  const int j = slot(i);
+  return j < std::ssize(piece_.refined) && piece_.refined[j] == 0 ? kPixelPointWeight : 1.0;
 }
 
 int MeasuredPiece::lowerBound(double value) const {
-  double turns = 0.0;
+  double rounds = 0.0;
   if (closed() && length_ > 0.0) {
-    turns = std::floor(value / length_);
-    value -= turns * length_;
+    rounds = std::floor(value / length_);
+    value -= rounds * length_;
   }
   const auto it = std::lower_bound(s_.begin(), s_.end(), value);
-  return static_cast<int>(it - s_.begin()) + static_cast<int>(turns) * count();
+  return static_cast<int>(it - s_.begin()) + static_cast<int>(rounds) * count();
 }
 
 FittedStation makeStation(const MeasuredPiece& piece, double s, double spacing) {

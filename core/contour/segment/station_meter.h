@@ -16,7 +16,7 @@ class MeasuredPiece {
   bool closed() const { return piece_.closed; }
   int count() const { return static_cast<int>(s_.size()); }
   const Piece& piece() const { return piece_; }
-  /// Arc length of point `i`; of a closed piece any integer, growing by the length with every turn.
+  /// Arc length of point `i`; of a closed piece any integer, growing by the length with every round.
   double s(int i) const;
   const Vec2& point(int i) const { return piece_.points[slot(i)]; }
   double weight(int i) const;
@@ -24,7 +24,7 @@ class MeasuredPiece {
   int lowerBound(double value) const;
 
  private:
-  std::size_t slot(int i) const { return static_cast<std::size_t>(closed() ? wrapIndex(i, count()) : i); }
+  int slot(int i) const { return closed() ? wrapIndex(i, count()) : i; }
 
   const Piece& piece_;
   std::vector<double> s_;

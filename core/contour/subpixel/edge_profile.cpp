@@ -87,26 +87,26 @@ double sampleLinear(const GreyImage& grey, const Vec2& at) {
   return ((1 - fy) * ((1 - fx) * a[ix] + fx * a[jx]) + fy * ((1 - fx) * b[ix] + fx * b[jx])) / GreyImage::kGreyUnit;
 }
 
-ProfileBand sampleProfiles(const GreyImage& grey, std::span<const Vec2> base, std::span<const Vec2> normal, bool cubic,
-                           const RunContext& context) {
-  ProfileBand band;
-  band.grey.resize(base.size() * kProfileSamples);
+EdgeProfiles sampleProfiles(const GreyImage& grey, std::span<const Vec2> base, std::span<const Vec2> normal, bool cubic,
+                            const RunContext& context) {
+  EdgeProfiles profiles;
+  profiles.grey.resize(base.size() * kProfileSamples);
   parallelFor(context, static_cast<int>(base.size()), kSamplingGrain, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      float* row = band.row(i);
+      float* row = profiles.row(i);
       for (int k = 0; k < kProfileSamples; ++k) {
         const Vec2 at = base[i] + profileU(k) * normal[i];
         row[k] = static_cast<float>(cubic ? sampleCubic(grey, at) : sampleLinear(grey, at));
       }
     }
   });
-  return band;
+  return profiles;
 }
 
-ProfileBand averageAlong(const ProfileBand& band, bool closed, double sigma, const RunContext& context) {
-  ProfileBand out;
-  out.grey.resize(band.grey.size());
-  const int n = band.count();
+EdgeProfiles averageAlong(const EdgeProfiles& profiles, bool closed, double sigma, const RunContext& context) {
+  EdgeProfiles out;
+  out.grey.resize(profiles.grey.size());
+  const int n = profiles.count();
   const int half = std::max(1, static_cast<int>(std::ceil(3.0 * sigma)));
   std::vector<float> weight(2 * half + 1);
   for (int d = -half; d <= half; ++d) {
@@ -120,7 +120,7 @@ ProfileBand averageAlong(const ProfileBand& band, bool closed, double sigma, con
         const int j = closed ? wrapIndex(i + d, n) : i + d;
         if (j < 0 || j >= n) continue;
         const float w = weight[d + half];
-        const float* row = band.row(j);
+        const float* row = profiles.row(j);
         for (int k = 0; k < kProfileSamples; ++k) sum[k] += w * row[k];
         total += w;
       }

@@ -29,7 +29,7 @@ double sampleCubic(const GreyImage& grey, const Vec2& at);
 double sampleLinear(const GreyImage& grey, const Vec2& at);
 
 /// Profiles across a line, one a point, row by row, kProfileSamples each.
-struct ProfileBand {
+struct EdgeProfiles {
   std::vector<float> grey;
   int count() const { return static_cast<int>(grey.size()) / kProfileSamples; }
   const float* row(std::ptrdiff_t i) const { return grey.data() + i * kProfileSamples; }
@@ -37,10 +37,10 @@ struct ProfileBand {
 };
 
 /// Samples the profiles at `base` along `normal` (unit, towards the ink).
-ProfileBand sampleProfiles(const GreyImage& grey, std::span<const Vec2> base, std::span<const Vec2> normal, bool cubic,
-                           const RunContext& context);
+EdgeProfiles sampleProfiles(const GreyImage& grey, std::span<const Vec2> base, std::span<const Vec2> normal, bool cubic,
+                            const RunContext& context);
 /// Averages neighbouring profiles along the line (Gaussian, sigma in points), in the frame of the line.
-ProfileBand averageAlong(const ProfileBand& band, bool closed, double sigma, const RunContext& context);
+EdgeProfiles averageAlong(const EdgeProfiles& profiles, bool closed, double sigma, const RunContext& context);
 
 /// Other borders in sight of an edge, in any unit of length; absent: none in sight.
 struct EdgeTwins {

@@ -87,11 +87,11 @@ void smoothLevel(std::vector<SideLevels>& levels, float SideLevels::*value, cons
 // Ink and paper of every point: the two side means freed of what the blur carries over from the other side, everything
 // smoothed along the line first because a single profile is noisy. Weight: contrast squared, so that places without an
 // edge (the page border, tips) say nothing about the levels of their neighbours.
-void measureLevels(const ProfileBand& band, bool closed, MatchedEdges& m, const RunContext& context) {
+void measureLevels(const EdgeProfiles& profiles, bool closed, MatchedEdges& m, const RunContext& context) {
   std::vector<SideLevels> levels(m.edges.size());
   forEdgePoints(context, m.count(), [&](int i) {
     const EdgeSpan& span = m.edges[i].span;
-    const BothSides sums = sumSides(band.row(i), m.edges[i], m.blur);
+    const BothSides sums = sumSides(profiles.row(i), m.edges[i], m.blur);
     if (!span.hasEdge() || sums.ink.count == 0 || sums.paper.count == 0) return;
     levels[i] = {static_cast<float>(span.contrast * span.contrast), static_cast<float>(sums.ink.grey / sums.ink.count),
                  static_cast<float>(sums.ink.model / sums.ink.count),
@@ -139,7 +139,7 @@ double fitPosition(const float* profile, const MatchedEdge& edge, double start, 
 }
 
 // One step for the blur common to the contour from a spread sample of its points; also measures the noise.
-void updateBlur(const ProfileBand& band, MatchedEdges& m) {
+void updateBlur(const EdgeProfiles& profiles, MatchedEdges& m) {
   const NormalTable& table = NormalTable::instance();
   const int stride = std::max(1, m.count() / kBlurSamples);
   double top = 0.0, bottom = 0.0;
@@ -148,7 +148,7 @@ void updateBlur(const ProfileBand& band, MatchedEdges& m) {
     const MatchedEdge& edge = m.edges[i];
     const double contrast = edge.contrast();
     if (contrast < kLeastEdgeContrast || !edge.span.hasEdge()) continue;
-    const float* profile = band.row(i);
+    const float* profile = profiles.row(i);
     for (int k = 0; k < kProfileSamples; ++k) {
       const double u = profileU(k);
       if (!edge.span.holds(u)) continue;
@@ -177,14 +177,14 @@ struct FittedPoints {
   bool twinsOnly = false;  // those that another border is in sight of
 };
 
-void fitAll(const ProfileBand& band, const std::vector<double>& start, MatchedEdges& m, const FittedPoints& which,
+void fitAll(const EdgeProfiles& profiles, const std::vector<double>& start, MatchedEdges& m, const FittedPoints& which,
             const RunContext& context) {
   forEdgePoints(context, (m.count() + which.stride - 1) / which.stride, [&](int k) {
     const int i = k * which.stride;
     MatchedEdge& edge = m.edges[i];
     if (which.twinsOnly && !edge.span.inkTwin && !edge.span.paperTwin) return;
     if (!edge.span.hasEdge() || edge.contrast() < kLeastEdgeContrast) return;
-    edge.position = fitPosition(band.row(i), edge, start[i], m.blur);
+    edge.position = fitPosition(profiles.row(i), edge, start[i], m.blur);
   });
 }
 
@@ -207,12 +207,12 @@ bool updateTwins(bool closed, MatchedEdges& m) {
 
 }  // namespace
 
-MatchedEdges matchEdges(const ProfileBand& band, bool closed, const RunContext& context) {
+MatchedEdges matchEdges(const EdgeProfiles& profiles, bool closed, const RunContext& context) {
   MatchedEdges m;
-  const int n = band.count();
+  const int n = profiles.count();
   m.edges.resize(n);
   {
-    const ProfileBand average = averageAlong(band, closed, kSpanSigma, context);
+    const EdgeProfiles average = averageAlong(profiles, closed, kSpanSigma, context);
     forEdgePoints(context, n, [&](int i) {
       m.edges[i].span = findEdgeSpan(average.row(i));
       m.edges[i].position = halfLevelCrossing(average.row(i), m.edges[i].span);
@@ -223,16 +223,16 @@ MatchedEdges matchEdges(const ProfileBand& band, bool closed, const RunContext& 
   updateTwins(closed, m);
   const int stride = std::max(1, n / kBlurSamples);
   for (int round = 0; round < kBlurRounds && !context.isCancelled(); ++round) {
-    measureLevels(band, closed, m, context);
-    fitAll(band, start, m, {.stride = stride}, context);
+    measureLevels(profiles, closed, m, context);
+    fitAll(profiles, start, m, {.stride = stride}, context);
     if (stride == 1) updateTwins(closed, m);
     const double before = m.blur;
-    updateBlur(band, m);
+    updateBlur(profiles, m);
     if (std::abs(m.blur - before) < kSettledBlurPx) break;
   }
   for (int round = 0; round < kTwinRounds && !context.isCancelled(); ++round) {
-    measureLevels(band, closed, m, context);
-    fitAll(band, start, m, {.twinsOnly = round > 0}, context);
+    measureLevels(profiles, closed, m, context);
+    fitAll(profiles, start, m, {.twinsOnly = round > 0}, context);
     if (!updateTwins(closed, m)) break;
   }
   return m;

@@ -42,6 +42,6 @@ void forEdgePoints(const RunContext& context, int count, const Body& body) {
 
 /// The position on every profile that the grey values make most likely: blurred-edge model, one blur for the contour.
 /// Not complete when cancelled.
-MatchedEdges matchEdges(const ProfileBand& band, bool closed, const RunContext& context);
+MatchedEdges matchEdges(const EdgeProfiles& profiles, bool closed, const RunContext& context);
 
 }  // namespace batten

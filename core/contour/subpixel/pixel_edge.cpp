@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <numbers>
@@ -24,6 +25,9 @@ struct Answer {
   double part, slope;
 };
 
+constexpr double kReachBlurs = 2.5;  // of blur: farther from the edge the answer is 0 or 1 to 1 %,
+constexpr double kRangeBlurs = 4.0;  // and farther than this to 3e-5
+constexpr double kParallel = 1e-9;   // cosine: a row that runs along a strip crosses no side of it
 constexpr int kEdgeNewtonSteps = 4;
 constexpr double kLargestStepPx = 0.5, kSettledPx = 2e-3;
 
@@ -50,8 +54,8 @@ Answer answerOf(double d, double a, double b, double s) {
 }  // namespace
 
 PixelResponse::PixelResponse(double blur) : blur_(blur) {
-  reach_ = 0.5 + 2.5 * blur;
-  range_ = 1.0 + 4.0 * blur;
+  reach_ = 0.5 + kReachBlurs * blur;
+  range_ = 1.0 + kRangeBlurs * blur;
   columns_ = 2 * static_cast<int>(std::ceil(range_ * kPerPx)) + 2;
   range_ = 0.5 * (columns_ - 2) / kPerPx;
   for (int row = 0; row < kDirections; ++row) {
@@ -99,10 +103,11 @@ void PixelWindow::read(const GreyImage& grey, const Vec2& base, const Vec2& norm
   for (int y = top; y <= bottom; ++y) {
     // Where the row of pixel centres crosses the two strips |along| < kHalfPx and lo..hi.
     const double dy = y + 0.5 - centre.y();
-    double from = -1e9, to = 1e9;
+    constexpr double kEndless = std::numeric_limits<double>::infinity();
+    double from = -kEndless, to = kEndless;
     const auto cut = [&](double rate, double offset, double limit) {
-      if (std::abs(rate) < 1e-9) {
-        if (std::abs(offset) > limit) to = -1e9;
+      if (std::abs(rate) < kParallel) {
+        if (std::abs(offset) > limit) to = -kEndless;
         return;
       }
       const double a = (-limit - offset) / rate, b = (limit - offset) / rate;

@@ -15,6 +15,7 @@ constexpr int kNoiseReach = 24;                // points: the noise of a scan ch
 constexpr int kNoiseStep = 2;                  // neighbours share pixels
 constexpr int kNoiseStride = 4;                // a median is taken at every fourth point
 constexpr double kNoiseAlong = 6.0;            // points: the medians are smoothed by this
+constexpr double kFreedomOfWeights = 1.5;      // effective degrees of freedom over the sum of the weights
 constexpr double kModelErrorPx = 0.01;         // of the pixel model itself
 constexpr float kGuessedSigmaPx = 0.35f;       // of a point that is known to the pixel only
 constexpr double kLargestPointSigmaPx = 0.35;  // of one that was placed
@@ -52,7 +53,7 @@ std::optional<std::vector<float>> noiseAlong(const Information& points, bool clo
     const auto middle = upperMedian(ratios);
     // Of a chi2 the median is (1 - 2 / (9 f))^3 of the mean (Wilson and Hilferty); weights that fall off along the
     // edge make half as many degrees of freedom again.
-    const double share = 1.0 - 2.0 / (9.0 * 1.5 * std::max(1.0, freedom / count));
+    const double share = 1.0 - 2.0 / (9.0 * kFreedomOfWeights * std::max(1.0, freedom / count));
     const auto median = static_cast<float>(middle / (share * share * share));
     for (int k = i; k < std::min(n, i + kNoiseStride); ++k) variance[k] = median;
   }

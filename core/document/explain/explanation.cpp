@@ -18,12 +18,12 @@ constexpr double kReferenceStrength = 0.6;  // of the contrast that is asked of 
 constexpr double kPixelPx = 0.5;            // ink begins half a pixel before the centre of its first pixel
 constexpr double kLeastExplained = 0.92, kMostInvented = 0.005;
 
-Result<BitImage> referenceInk(const Scan& scan, const Recipe& recipe, const RunContext& context) {
+Result<BitImage> referenceInk(const GreyImage& page, const Recipe& recipe, const RunContext& context) {
   ThresholdParams asked;
   asked.strength = kReferenceStrength;
-  const auto thresholds = findThresholds(scan.grey, {}, asked, context);
+  const auto thresholds = findThresholds(page, {}, asked, context);
   if (!thresholds) return fail(thresholds.error());
-  auto ink = binarize(scan.grey, *thresholds, asked, context);
+  auto ink = binarize(page, *thresholds, asked, context);
   if (!ink || recipe.regions.empty()) return ink;
   for (int y = 0; y < ink->height && !context.isCancelled(); ++y) {
     for (int x = 0; x < ink->width; ++x) {
@@ -75,7 +75,7 @@ std::string noteOn(const Explanation& e) {
 Result<Explanation> explain(const Scan& scan, const Recipe& recipe, const PipelineOutput& out,
                             const RunContext& context) {
   Explanation result;
-  auto ink = referenceInk(scan, recipe, context);
+  auto ink = referenceInk(tracedGrey(scan, out), recipe, context);
   if (!ink) return fail(ink.error());
   const std::vector<RedrawnCurve> curves = redrawCurves(out, context);
   result.referencePx = ink->count();

@@ -68,6 +68,9 @@ QFont PagePainter::font(double heightMm, bool bold) const {
   if (!family.isEmpty()) font.setFamily(family);
   font.setPixelSize(std::max(1, static_cast<int>(std::lround(heightMm * unit_))));
   font.setBold(bold);
+  // Inter draws "1:1", "2 x 3" and "-1" with glyphs that stand for no letter: text taken out of the PDF would lack
+  // them.
+  font.setStyleStrategy(QFont::PreferNoShaping);
   return font;
 }
 

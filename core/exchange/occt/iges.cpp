@@ -133,10 +133,10 @@ std::optional<CadShape> arcOf(const Handle(IGESGeom_CircularArc) & entity) {
   if (!(entity->TransformedAxis().Z() > 0.5)) return std::nullopt;  // seen from behind
   const Vec2 c(centre.X(), centre.Y()), a = Vec2(from.X(), from.Y()) - c, b = Vec2(to.X(), to.Y()) - c;
   if (!(a.norm() > 0.0)) return std::nullopt;
-  constexpr double kTurn = 2.0 * std::numbers::pi;
+  constexpr double kFullTurn = 2.0 * std::numbers::pi;
   const double turn = std::atan2(cross(a, b), a.dot(b));
   const bool whole = a == b;
-  return CadArc{c, a.norm(), std::atan2(a.y(), a.x()), whole ? kTurn : turn > 0.0 ? turn : turn + kTurn};
+  return CadArc{c, a.norm(), std::atan2(a.y(), a.x()), whole ? kFullTurn : turn > 0.0 ? turn : turn + kFullTurn};
 }
 
 std::optional<CadShape> shapeOf(const Handle(IGESData_IGESEntity) & entity) {

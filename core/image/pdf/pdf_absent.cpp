@@ -11,7 +11,7 @@ tl::expected<PdfPage, PdfProblem> lookAtPdfPage(std::span<const std::byte>, int,
   return tl::unexpected(PdfProblem::NotInstalled);
 }
 
-tl::expected<GreyImage, PdfProblem> drawPdfPage(std::span<const std::byte>, int, const PdfSize&, const RunContext&) {
+tl::expected<PdfPicture, PdfProblem> drawPdfPage(std::span<const std::byte>, int, const PdfSize&, const RunContext&) {
   return tl::unexpected(PdfProblem::NotInstalled);
 }
 

@@ -40,22 +40,24 @@ bool isCancelled(const QVariant& drawing) {
   return static_cast<Drawing*>(drawing.value<void*>())->context.isCancelled();
 }
 
-GreyImage greyOf(const QImage& picture, const RunContext& context) {
-  GreyImage grey(picture.width(), picture.height());
-  parallelFor(context, grey.height, kRowsPerBlock, [&](int begin, int end) {
+PdfPicture pictureOf(const QImage& drawn, const RunContext& context) {
+  PdfPicture picture{GreyImage(drawn.width(), drawn.height()), ColourImage(drawn.width(), drawn.height())};
+  parallelFor(context, drawn.height(), kRowsPerBlock, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      const auto* in = reinterpret_cast<const QRgb*>(picture.constScanLine(y));
-      std::uint16_t* out = grey.row(y);
+      const auto* in = reinterpret_cast<const QRgb*>(drawn.constScanLine(y));
+      std::uint16_t* out = picture.grey.row(y);
+      Rgb8* colours = picture.colour.row(y);
       constexpr std::uint32_t kUnit = 257;  // of 8 bit on the 16-bit scale
-      for (int x = 0; x < grey.width; ++x) {
-        const auto luma = 299u * static_cast<std::uint32_t>(qRed(in[x])) +
-                          587u * static_cast<std::uint32_t>(qGreen(in[x])) +
-                          114u * static_cast<std::uint32_t>(qBlue(in[x]));
+      for (int x = 0; x < drawn.width(); ++x) {
+        const auto red = static_cast<std::uint8_t>(qRed(in[x])), green = static_cast<std::uint8_t>(qGreen(in[x])),
+                   blue = static_cast<std::uint8_t>(qBlue(in[x]));
+        colours[x] = {red, green, blue};
+        const std::uint32_t luma = 299u * red + 587u * green + 114u * blue;
         out[x] = static_cast<std::uint16_t>((luma * kUnit + 500) / 1000);
       }
     }
   });
-  return grey;
+  return picture;
 }
 
 }  // namespace
@@ -75,8 +77,8 @@ tl::expected<PdfPage, PdfProblem> lookAtPdfPage(std::span<const std::byte> file,
   return PdfPage{pages, size.width(), size.height()};
 }
 
-tl::expected<GreyImage, PdfProblem> drawPdfPage(std::span<const std::byte> file, int number, const PdfSize& size,
-                                                const RunContext& context) {
+tl::expected<PdfPicture, PdfProblem> drawPdfPage(std::span<const std::byte> file, int number, const PdfSize& size,
+                                                 const RunContext& context) {
   const std::lock_guard lock(popplerMutex());
   const auto document = openPdf(file);
   if (!document) return tl::unexpected(document.error());
@@ -93,7 +95,7 @@ tl::expected<GreyImage, PdfProblem> drawPdfPage(std::span<const std::byte> file,
   if (picture.width() != size.widthPx || picture.height() != size.heightPx) return tl::unexpected(PdfProblem::Damaged);
   if (picture.format() != QImage::Format_RGB32 && picture.format() != QImage::Format_ARGB32)
     picture.convertTo(QImage::Format_RGB32);
-  return greyOf(picture, context);
+  return pictureOf(picture, context);
 }
 
 }  // namespace batten

@@ -6,6 +6,7 @@
 #include <tl/expected.hpp>
 
 #include "core/base/run_context.h"
+#include "core/image/colour_image.h"
 #include "core/image/grey_image.h"
 
 namespace batten {
@@ -24,12 +25,17 @@ struct PdfPage {
 /// What a file says of one of its pages, counted from 1. Of NoSuchPage the file's own count is in `pages`.
 tl::expected<PdfPage, PdfProblem> lookAtPdfPage(std::span<const std::byte> file, int number, int& pages);
 
-/// The page on white paper, images and lines alike, as grey (the luma of Rec. 601). @pre lookAtPdfPage found it.
+struct PdfPicture {
+  GreyImage grey;  ///< The luma of Rec. 601.
+  ColourImage colour;
+};
+
+/// The page on white paper, images and lines alike. @pre lookAtPdfPage found it.
 struct PdfSize {
   int widthPx = 0, heightPx = 0;
   double dpi = 300.0;
 };
-tl::expected<GreyImage, PdfProblem> drawPdfPage(std::span<const std::byte> file, int number, const PdfSize&,
-                                                const RunContext&);
+tl::expected<PdfPicture, PdfProblem> drawPdfPage(std::span<const std::byte> file, int number, const PdfSize&,
+                                                 const RunContext&);
 
 }  // namespace batten

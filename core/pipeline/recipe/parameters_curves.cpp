@@ -7,19 +7,37 @@
 namespace batten::table {
 namespace {
 
+// Once it was a switch: files and commands may still say true and false.
+Parameter innerBordersParameter() {
+  Parameter inner = choice<InnerBorders>(
+      StageId::Contours,
+      {"edges.internal", "Inner outlines", "",
+       "Whether the borders of holes inside the ink are followed too. Automatic: those of shapes, as in letters, but "
+       "not of a page that is followed by outlines alone."},
+      {{"auto", "Automatic", InnerBorders::Automatic},
+       {"on", "Always", InnerBorders::On},
+       {"off", "Never", InnerBorders::Off}},
+      [](auto& r) -> auto& { return r.edges.internal; });
+  inner.set = [byWord = inner.set](Recipe& r, std::string_view text) -> Result<void> {
+    const std::string_view word = trimmed(text);
+    if (word == "true" || word == "yes" || word == "1") return byWord(r, "on");
+    if (word == "false" || word == "no" || word == "0") return byWord(r, "off");
+    return byWord(r, text);
+  };
+  return inner;
+}
+
 void appendEdges(std::vector<Parameter>& table) {
   constexpr StageId kContours = StageId::Contours;
   table.push_back(choice<EdgeMode>(
       kContours,
       {"edges.mode", "Follow", "",
-       "What becomes a line: the middle of strokes, the outline of shapes, or each as it suits."},
+       "What is traced: the middle of strokes, the outline of shapes, or whichever suits each piece of ink."},
       {{"auto", "Automatic", EdgeMode::Automatic},
        {"outline", "Outline", EdgeMode::Outline},
        {"centreline", "Centre line", EdgeMode::Centreline}},
       [](auto& r) -> auto& { return r.edges.mode; }));
-  table.push_back(boolean(
-      kContours, {"edges.internal", "Inner outlines", "", "Follows the borders of holes inside the ink too."},
-      [](auto& r) -> auto& { return r.edges.internal; }));
+  table.push_back(innerBordersParameter());
   table.push_back(boolean(
       kContours,
       {"edges.subpixel", "Sub-pixel placing", "",
@@ -28,8 +46,7 @@ void appendEdges(std::vector<Parameter>& table) {
   table.push_back(real(
       kContours,
       {"edges.stroke_width", "Stroke limit", "",
-       "Ink narrower than this part of the page's mean side is a stroke, wider ink is a shape. Larger: more strokes.",
-       true},
+       "Without effect: strokes and shapes are told apart region by region. Recipes that name it stay valid.", true},
       {0.005, 0.1, 0.001, 3, true}, [](auto& r) -> auto& { return r.edges.strokeWidth; }));
   table.push_back(real(
       kContours,
@@ -53,23 +70,34 @@ void appendEdges(std::vector<Parameter>& table) {
       {0.0, 90.0, 1.0, 0}, [](auto& r) -> auto& { return r.edges.maxBendDeg; }));
   table.push_back(real(
       kContours,
-      {"contours.min_length", "Shortest line", "px", "Shorter lines are left out. Larger keeps fewer lines."},
+      {"contours.min_widths", "Shortest line", "stroke widths",
+       "Lines shorter than this many widths of their stroke are left out. Larger keeps fewer lines."},
+      {0.0, 100.0, 0.5, 1}, [](auto& r) -> auto& { return r.contours.minWidths; }));
+  table.push_back(real(
+      kContours,
+      {"contours.min_length", "Shortest line in pixels", "px",
+       "Lines shorter than this are left out too, whatever their width. Larger keeps fewer lines; 0 leaves it to the "
+       "stroke widths."},
       {0.0, 100000.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.contours.minLengthPx; }));
-  table.push_back(integer(
-      kContours, {"contours.max_count", "Most lines", "", "Only this many lines are kept, the longest first.", true},
-      {1, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.contours.maxCount; }));
+  Parameter most = integer(
+      kContours,
+      {"contours.max_count", "Most lines", "",
+       "Only this many lines are kept, the longest first; all (0) keeps every one.", true},
+      {0, 100000, 1}, [](auto& r) -> auto& { return r.contours.maxCount; });
+  most.minimumWord = "all";
+  table.push_back(std::move(most));
 }
 
 void appendCornersAndSegments(std::vector<Parameter>& table) {
   table.push_back(real(
       StageId::Pieces,
       {"corners.snap", "Corner reach", "px",
-       "A corner mark holds the nearest line within this distance. Larger reaches farther."},
+       "Largest distance of a corner mark from its line. Larger reaches farther."},
       {1.0, 200.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.corners.snapDistancePx; }));
   table.push_back(boolean(
       StageId::Pieces,
       {"corners.exact", "Exact corners", "",
-       "Puts the corner where its two lines, carried on, meet. Off: at the nearest point of the line."},
+       "Puts the corner where its two sides meet when extended. Off: at the nearest point of the line."},
       [](auto& r) -> auto& { return r.corners.exact; }));
   constexpr StageId kSegments = StageId::Segments;
   table.push_back(choice<SegmentMode>(
@@ -84,7 +112,8 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
   Parameter count = integer(
       kSegments,
       {"segments.count", "Number of segments", "",
-       "Segments of every line: auto (0) takes it from the length, else at least 4. More follows the line closer."},
+       "Segments per line; auto (0) derives the number from the length, otherwise at least 4. More follow the line "
+       "closer."},
       {0, 2000, 1}, [](auto& r) -> auto& { return r.segments.count; });
   count.set = [inRange = count.set, name = count.name](Recipe& r, std::string_view text) -> Result<void> {
     const auto value = integerFromText(text);
@@ -97,7 +126,7 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
   table.push_back(real(
       kSegments,
       {"segments.spacing", "Spacing", "px",
-       "Distance of the stations along the line. Larger: fewer control points and a calmer curve."},
+       "Distance of the stations along the line. Larger: fewer control points and a smoother curve."},
       {8.0, 400.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.segments.spacingPx; }));
   table.push_back(real(
       kSegments,
@@ -138,7 +167,7 @@ void appendConstruct(std::vector<Parameter>& table) {
   table.push_back(choice<ConstructMethod>(
       kCurves,
       {"construct.method", "Method", "",
-       "How the line becomes a curve: our fit of the line itself, or one of the papers' ways."},
+       "How a line becomes a curve: the fit to its points, or a method of the papers."},
       {{"fair", "True and fair fit", ConstructMethod::Fair},
        {"nurbs", "Quintic NURBS", ConstructMethod::Nurbs},
        {"bezier", "Bézier path", ConstructMethod::Bezier},
@@ -174,7 +203,7 @@ void appendConstruct(std::vector<Parameter>& table) {
   table.push_back(real(
       kCurves,
       {"construct.lowpass", "Low pass", "stations",
-       "Bézier path: length over which its curvature is evened out. 0 is the path as in the paper; larger is calmer."},
+       "Bézier path: length over which its curvature is smoothed. 0 is the path as in the paper; larger is smoother."},
       {0.0, 8.0, 0.25, 2}, [](auto& r) -> auto& { return r.construct.lowPass; }));
   table.push_back(real(
       kCurves,
@@ -208,7 +237,7 @@ void appendConstruct(std::vector<Parameter>& table) {
   table.push_back(real(
       kCurves,
       {"construct.keep_extrema", "Extremum significance", "",
-       "True and fair fit: a bump of the curvature must be this certain to be kept. Larger keeps fewer."},
+       "True and fair fit: least significance of an extremum of curvature that is kept. Larger keeps fewer."},
       {1.0, 1000.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.construct.extremumSignificance; }));
   table.push_back(boolean(
       kCurves,
@@ -222,6 +251,13 @@ void appendConstruct(std::vector<Parameter>& table) {
        "Light curves: farthest that they lie from the dense curve. Larger: fewer control points, and smaller extrema "
        "go."},
       {0.005, 50.0, 0.05, 3, true}, [](auto& r) -> auto& { return r.construct.lightTolerancePx; }));
+  table.push_back(real(
+      kCurves,
+      {"construct.detail", "Detail", "",
+       "Light curves: 0 is true to the ink; larger leaves out ever larger bumps, up to a quarter of the width of the "
+       "ink, "
+       "and keeps sharp corners: what was meant."},
+      {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.construct.detail; }));
   table.push_back(real(
       kCurves,
       {"construct.reduce", "Fewer control points", "× noise",

@@ -2,6 +2,8 @@
 #include "core/pipeline/recipe/parameters_image.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "core/pipeline/recipe/parameter_builders.h"
 
@@ -65,6 +67,82 @@ Parameter gridParameter() {
   return p;
 }
 
+/// Inks as people call them.
+constexpr std::array<std::pair<std::string_view, double>, 9> kInkNames = {{{"red", 0.0},
+                                                                           {"orange", 30.0},
+                                                                           {"yellow", 60.0},
+                                                                           {"green", 120.0},
+                                                                           {"turquoise", 180.0},
+                                                                           {"blue", 225.0},
+                                                                           {"violet", 265.0},
+                                                                           {"magenta", 300.0},
+                                                                           {"pink", 340.0}}};
+
+std::string inksToText(const std::vector<InkColour>& inks, const std::string& none) {
+  std::string text;
+  for (const InkColour& ink : inks) {
+    if (!text.empty()) text.push_back(',');
+    text.append(ink.hueDeg ? numberToText(*ink.hueDeg) : "black");
+  }
+  return text.empty() ? none : text;
+}
+
+Result<std::vector<InkColour>> inksFromText(const std::string& name, std::string_view text, const std::string& none) {
+  std::vector<InkColour> inks;
+  if (trimmed(text) == none) return inks;
+  for (std::string_view rest = text;;) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view entry = trimmed(rest.substr(0, comma));
+    const auto known =
+        std::find_if(kInkNames.begin(), kInkNames.end(), [&](const auto& n) { return n.first == entry; });
+    InkColour ink;
+    if (known != kInkNames.end())
+      ink.hueDeg = known->second;
+    else if (entry != "black") {
+      const auto hue = numberFromText(entry);
+      if (!hue || *hue < 0.0 || *hue > 360.0)
+        return refuse(name, entry,
+                      "it must be \"" + none +
+                          "\" or colours separated by commas: black, red, orange, "
+                          "yellow, green, turquoise, blue, violet, magenta, pink or a hue from 0 to 360");
+      ink.hueDeg = *hue;
+    }
+    inks.push_back(ink);
+    if (comma == std::string_view::npos) return inks;
+    rest.remove_prefix(comma + 1);
+  }
+}
+
+template <class Field>
+Parameter inkList(Words words, const std::string& none, Field field) {
+  Parameter p = described(StageId::Thresholds, std::move(words), ParameterType::Text);
+  p.get = [field, none](const Recipe& r) { return inksToText(field(r), none); };
+  p.set = [field, none, name = p.name](Recipe& r, std::string_view text) -> Result<void> {
+    auto inks = inksFromText(name, text, none);
+    if (!inks) return fail(std::move(inks).error());
+    field(r) = std::move(*inks);
+    return {};
+  };
+  return p;
+}
+
+void appendInks(std::vector<Parameter>& table) {
+  table.push_back(inkList(
+      {"inks.keep", "Inks kept", "",
+       "\"all\", or the inks that are traced: names of colours or hues in degrees, separated by "
+       "commas; black stands for grey and pencil, too."},
+      "all", [](auto& r) -> auto& { return r.preparation.inks.keep; }));
+  table.push_back(inkList(
+      {"inks.drop", "Inks dropped", "",
+       "\"none\", or the inks that are painted over before anything is traced, as inks.keep."},
+      "none", [](auto& r) -> auto& { return r.preparation.inks.drop; }));
+  table.push_back(real(
+      StageId::Thresholds,
+      {"inks.range", "Range of hues", "°",
+       "How far the hue of ink may lie from that of a chosen one. Larger takes more for the same ink.", true},
+      {5.0, 90.0, 1.0, 0}, [](auto& r) -> auto& { return r.preparation.inks.rangeDeg; }));
+}
+
 void appendThresholds(std::vector<Parameter>& table) {
   constexpr StageId kThresholds = StageId::Thresholds, kBinary = StageId::Binary;
   table.push_back(boolean(
@@ -79,6 +157,27 @@ void appendThresholds(std::vector<Parameter>& table) {
        "Slope of the log transform. Larger lifts the dark tones more and washes out the bright ones."},
       {10.0, 150.0, 1.0, 1, true}, [](auto& r) -> auto& { return r.log.factor; }));
   table.back().isForDisplay = true;
+  table.push_back(choice<ColourUse>(
+      kThresholds,
+      {"paper.colour", "Coloured ink", "",
+       "Coloured ink takes the darkest of its channels where that gains contrast: yellow marker is found. Grey: "
+       "brightness alone."},
+      {{"darkest", "Darkest channel", ColourUse::Darkest}, {"grey", "Brightness", ColourUse::Grey}},
+      [](auto& r) -> auto& { return r.preparation.colour; }));
+  table.push_back(choice<RulingUse>(
+      kThresholds,
+      {"paper.rulings", "Ruled lines", "",
+       "Printed lines of ruled paper and grids are found by their even spacing and left out; strokes across them "
+       "stay."},
+      {{"leave-out", "Leave out", RulingUse::LeaveOut}, {"keep", "Keep", RulingUse::Keep}},
+      [](auto& r) -> auto& { return r.preparation.rulings; }));
+  table.push_back(choice<SheetUse>(
+      kThresholds,
+      {"paper.sheet", "Beside the sheet", "",
+       "Table, carpet and shadow beside the sheet of a photograph are cut off where the sheet is found."},
+      {{"cut-off", "Cut off", SheetUse::CutOff}, {"off", "Keep", SheetUse::Off}},
+      [](auto& r) -> auto& { return r.preparation.sheet; }));
+  appendInks(table);
   table.push_back(boolean(
       kThresholds,
       {"paper.flatten", "Flatten paper", "",

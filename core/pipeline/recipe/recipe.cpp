@@ -92,6 +92,9 @@ bool isPageSide(int px) { return px >= 16 && px <= 20000; }
 
 std::optional<Error> validateChoice(const PieceChoice& choice) {
   // The rest has the ranges of the common settings.
+  if (choice.detail && !(*choice.detail >= 0.0 && *choice.detail <= 1.0)) {
+    return bad("The choice for a curve cannot be used. Its detail must lie between 0 and 1.");
+  }
   if (auto wrong = validate(choice.fairing({}))) return bad("The choice for a curve cannot be used. " + wrong->message);
   return std::nullopt;
 }
@@ -123,6 +126,7 @@ std::optional<Error> validate(const Recipe& recipe) {
     return bad("The line by which the scale is measured must have a length on the page and one in mm above 0.");
   }
   if (auto e = validate(recipe.log)) return e;
+  if (auto e = validate(recipe.preparation)) return e;
   if (auto e = validate(recipe.threshold)) return e;
   if (auto e = validate(recipe.filter)) return e;
   if (auto e = validate(recipe.edges)) return e;

@@ -15,6 +15,7 @@
 #include "core/fairing/fairing_params.h"
 #include "core/image/log_transform.h"
 #include "core/image/neighbourhood_filter.h"
+#include "core/image/page_preparation.h"
 #include "core/image/region_thresholds.h"
 #include "core/image/scan.h"
 #include "core/pipeline/recipe/curve_numbers.h"
@@ -49,6 +50,7 @@ struct PieceChoice {
   std::optional<FairingMeans> means{};               ///< Own way to move, on Bézier paths.
   std::optional<EndHold> startHold{}, endHold{};
   std::optional<ConstructMethod> method{};  ///< Own way of construction.
+  std::optional<double> detail{};           ///< Own detail of a light curve, 0..1.
   /// Made for a part of a line that shares a choice: there it counts instead of that one, also where it says nothing.
   bool isPart = false;
   bool operator==(const PieceChoice&) const = default;
@@ -76,7 +78,7 @@ struct PieceChoice {
   /// The common fairing with what is chosen here in its place; what is chosen by place on the drawing is not in it.
   FairingParams fairing(FairingParams common) const;
   /// True when the choice says nothing.
-  bool isEmpty() const { return included && !hasFairing() && splitsPx.empty() && !spans && !method && !isPart; }
+  bool isEmpty() const { return included && !hasFairing() && splitsPx.empty() && !spans && !method && !detail && !isPart; }
 };
 
 /// The size of a drawing that has no scan: white paper. Resolution: the recipe's.
@@ -108,6 +110,7 @@ struct Recipe {
   std::optional<ScaleLine> scaleLine;  ///< Where `dpi` comes from, if it was measured on the drawing.
   PageChoice scanPage;                 ///< Which page of the scan's file it is for.
   LogParams log;
+  PreparationParams preparation;
   PaperParams paper;
   ThresholdParams threshold;
   FilterParams filter;

@@ -66,6 +66,7 @@ Json choiceToJson(const PieceChoice& choice) {
     named.construct.method = *choice.method;
     json["method"] = findParameter("construct.method")->get(named);
   }
+  if (choice.detail) json["detail"] = *choice.detail;
   if (choice.target) json["target"] = *choice.target;
   if (choice.toleranceMm) json["tolerance"] = *choice.toleranceMm;
   if (choice.lowPassMm) json["low_pass"] = *choice.lowPassMm;
@@ -310,6 +311,8 @@ Result<PieceChoice> readChoice(const Json& json) {
       choice.target = *whole;
     } else if (name == "tolerance" && value.is_number()) {
       choice.toleranceMm = value.get<double>();
+    } else if (name == "detail" && value.is_number()) {
+      choice.detail = value.get<double>();
     } else if (name == "low_pass" && value.is_number()) {
       choice.lowPassMm = value.get<double>();
     } else if (whole && name == "keep_extrema") {

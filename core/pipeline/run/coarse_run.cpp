@@ -31,6 +31,29 @@ void divide(std::vector<Vec2>& places, double by) {
   for (Vec2& p : places) p /= by;
 }
 
+/// Means over factor x factor pixels, of the size of the coarse grey.
+ColourImage coarseColours(const ColourImage& colour, const GreyImage& grey, int factor, const RunContext& context) {
+  ColourImage coarse(grey.width, grey.height);
+  const int area = factor * factor;
+  parallelFor(context, coarse.height, kRowsPerBlock, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      for (int x = 0; x < coarse.width; ++x) {
+        int red = area / 2, green = area / 2, blue = area / 2;
+        for (int i = 0; i < area; ++i) {
+          const Rgb8& c = colour.row(std::min(y * factor + i / factor,
+                                              colour.height - 1))[std::min(x * factor + i % factor, colour.width - 1)];
+          red += c.red;
+          green += c.green;
+          blue += c.blue;
+        }
+        coarse.row(y)[x] = {static_cast<std::uint8_t>(red / area), static_cast<std::uint8_t>(green / area),
+                            static_cast<std::uint8_t>(blue / area)};
+      }
+    }
+  });
+  return coarse;
+}
+
 }  // namespace
 
 int coarseFactor(int widthPx, int heightPx) {
@@ -46,6 +69,7 @@ Scan coarsePage(const Scan& scan, int factor, const RunContext& context) {
   coarse.fileHash = HashBuilder().text("coarse page").hash(scan.fileHash).integer(factor).finish();
   coarse.path = scan.path;
   coarse.grey = GreyImage(std::max(1, scan.grey.width / factor), std::max(1, scan.grey.height / factor));
+  if (!scan.colour.isEmpty()) coarse.colour = coarseColours(scan.colour, coarse.grey, factor, context);
   const auto area = static_cast<std::uint32_t>(factor * factor);
   parallelFor(context, coarse.grey.height, kRowsPerBlock, [&](int begin, int end) {
     std::vector<std::uint32_t> sums(static_cast<std::size_t>(coarse.grey.width));

@@ -12,9 +12,10 @@ constexpr double kSmallLoopPx = 70.0;  // round: radius 11 px
 
 }  // namespace
 
-std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet& set, double minAngleRad, double scalePx) {
+std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet& set, double minAngleRad, double scalePx,
+                                                    const RunContext& context) {
   std::vector<SharpTurn> turns;
-  for (std::size_t c = 0; c < set.contours.size(); ++c) {
+  for (int c = 0; c < std::ssize(set.contours) && !context.isCancelled(); ++c) {
     const Contour& contour = set.contours[c];
     ConstructPiece piece;
     piece.points = positionsOf(contour.points);
@@ -22,10 +23,10 @@ std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet& set, doubl
     if (contour.closed && polylineLength(piece.points, true) < kSmallLoopPx) continue;
     piece.closed = contour.closed;
     for (const PointRange& range : sharpTurns(piece, contour.kind == ContourKind::Centreline, 1.0, {})) {
-      turns.push_back({static_cast<int>(c), range.first, range.last});
+      turns.push_back({c, range.first, range.last});
     }
   }
-  return suggestCorners(set, minAngleRad, scalePx, turns);
+  return suggestCorners(set, minAngleRad, scalePx, context, turns);
 }
 
 }  // namespace batten

@@ -3,7 +3,9 @@
 #include "core/pipeline/run/piece_construction.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
+#include <map>
 #include <new>
 
 #include "core/construct/construct.h"
@@ -78,6 +80,28 @@ ConstructContour inputOf(const ContourSet& contours, const PieceSet& pieces, con
   return input;
 }
 
+/// [px] How wide the ink is along lines of a kind: of centre lines the median of their strokes, of outlines what their
+/// area and length tell of the shapes between them; 0 = no such ink.
+double inkWidth(const ContourSet& contours, ContourKind kind) {
+  std::vector<float> widths;
+  double area = 0.0, length = 0.0;
+  for (const Contour& contour : contours.contours) {
+    if (contour.kind != kind) continue;
+    const auto own = strokeWidthsOf(contour.points);
+    widths.insert(widths.end(), own.begin(), own.end());
+    if (kind != ContourKind::Outline || !contour.closed) continue;
+    area += contour.hole ? -contour.areaPx : contour.areaPx;
+    length += contour.lengthPx;
+  }
+  if (!widths.empty()) {
+    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+    std::nth_element(widths.begin(), middle, widths.end());
+    return static_cast<double>(*middle);
+  }
+  // A stroke of width w and length l has about the area w l and an outline of 2 l.
+  return length > 0.0 ? std::max(0.0, 2.0 * area / length) : 0.0;
+}
+
 /// Where the pieces of a line stand; empty if it has none.
 PieceRange rangeOf(const PieceSet& set, int contour) {
   for (const PieceRange& range : rangesByContour(set)) {
@@ -101,7 +125,11 @@ class ContourBuilder {
         recipe_(recipe),
         frame_(frame),
         context_(context),
-        constraints_(assignExtremumChoices(pieces, recipe)) {
+        constraints_(assignExtremumChoices(pieces, recipe)),
+        importStepPx_(importStepPx(recipe.imports, frame)) {
+    for (const ContourKind kind : {ContourKind::Outline, ContourKind::Centreline}) {
+      inkWidthPx_[kind] = inkWidth(contours, kind);
+    }
     own_ = choicesForMethods(recipe);
     if (!own_.empty()) choices_ = assignChoices(pieces, own_).ofPiece;
     const auto isTypical = [](const PieceChoice& choice) { return choice.method == ConstructMethod::Typical; };
@@ -155,7 +183,10 @@ class ContourBuilder {
     const bool grouped = segments.mode == SegmentMode::Sturges || segments.mode == SegmentMode::Count;
     if (grouped || (segments.mode == SegmentMode::Stations && segments.count > 0)) params.maxDeviationPx = 0.0;
     ConstructContour input = inputOf(contours_, pieces_, segments_, range, frame_);
+    const auto width = inkWidthPx_.find(contours_.contours[pieces_.pieces[range.first].contour].kind);
+    if (width != inkWidthPx_.end()) input.inkWidthPx = width->second;
     for (std::size_t i = range.first; i < range.last; ++i) {
+      if (!choices_.empty() && choices_[i]) input.pieces[i - range.first].detail = own_[*choices_[i]].detail;
       input.pieces[i - range.first].breakpoints = breakpointsOf(breakpoints_[i], recipe_, frame_);
       for (const std::size_t constraint : constraints_[i]) {
         const ExtremumChoice& choice = recipe_.extremumChoices[constraint];
@@ -192,7 +223,7 @@ class ContourBuilder {
     if (line == nullptr || line->curves.empty()) return std::nullopt;
     const std::span<const Piece> pieces(pieces_.pieces.data() + range.first, range.last - range.first);
     ContourOutcome outcome;
-    const auto exact = importedCurves(*line, pieces, frame_);
+    const auto exact = importedCurves(*line, pieces, frame_, importStepPx_);
     for (std::size_t i = 0; i < exact.size(); ++i) {
       if (!exact[i]) return std::nullopt;
       add(outcome, range.first + i, {*exact[i], {}, fairableShape(*exact[i])});
@@ -232,10 +263,12 @@ class ContourBuilder {
   const Recipe& recipe_;
   const PageFrame& frame_;
   const RunContext& context_;
+  std::map<ContourKind, double> inkWidthPx_;
   std::vector<PieceChoice> own_;                       ///< The choices that compete for the method.
   std::vector<std::optional<std::size_t>> choices_;    ///< Per piece, when there are such choices: which.
   std::vector<std::vector<std::size_t>> breakpoints_;  ///< Per piece, the segment points on it.
   std::vector<std::vector<std::size_t>> constraints_;
+  double importStepPx_;
 };
 
 }  // namespace

@@ -201,7 +201,7 @@ std::size_t makeOwnChoice(std::vector<PieceChoice>& choices, const PieceSet& set
 std::vector<PieceChoice> choicesForMethods(const Recipe& recipe) {
   std::vector<PieceChoice> competing;
   std::copy_if(recipe.choices.begin(), recipe.choices.end(), std::back_inserter(competing),
-               [](const PieceChoice& choice) { return choice.method || choice.isPart; });
+               [](const PieceChoice& choice) { return choice.method || choice.detail || choice.isPart; });
   return competing;
 }
 

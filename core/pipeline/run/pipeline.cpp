@@ -20,6 +20,7 @@ std::size_t vectorBytes(const std::vector<T>& v) {
 }
 
 // Sizes for the cache's budget: the large parts exactly, the rest roughly.
+std::size_t bytesOf(const PreparedPage& page) { return sizeof(page) + vectorBytes(page.grey.pixels); }
 std::size_t bytesOf(const RegionThresholds& t) {
   std::size_t bytes = sizeof(t) + vectorBytes(t.paper.grey);
   for (const PaperFold& fold : t.paper.folds)
@@ -89,11 +90,10 @@ class PipelineRun {
   bool one(StageId stage) {
     switch (stage) {
       case StageId::Thresholds:
-        return step(stage, out_.thresholds,
-                    [&] { return findThresholds(scan_.grey, recipe_.paper, recipe_.threshold, context_); });
+        return thresholds();
       case StageId::Binary:
         return step(stage, out_.binary,
-                    [&] { return binarize(scan_.grey, *out_.thresholds, recipe_.threshold, context_); });
+                    [&] { return binarize(grey(), *out_.thresholds, recipe_.threshold, context_); });
       case StageId::Filtered:
         return step(stage, out_.filtered, [&] { return neighbourhoodFilter(*out_.binary, recipe_.filter, context_); });
       case StageId::Edges:
@@ -103,12 +103,12 @@ class PipelineRun {
       case StageId::Pieces:
         return step(stage, out_.pieces,
                     [&] {
-                      const GreyImage& grey = recipe_.cornerMarks.empty() ? scan_.grey : flattenedScan();
-                      return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, &grey);
+                      const GreyImage& grey = recipe_.cornerMarks.empty() ? this->grey() : flattenedScan();
+                      return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, context_, &grey);
                     }) &&
                numberPiecesOnce();
       case StageId::Segments:
-        return step(stage, out_.segments, [&] { return regressionSegments(*out_.pieces, recipe_.segments); });
+        return step(stage, out_.segments, [&] { return regressionSegments(*out_.pieces, recipe_.segments, context_); });
       case StageId::Curves:
         return step(stage, out_.constructed, [&] {
           return constructAll(*out_.contours, *out_.pieces, *out_.segments, recipe_, out_.frame, context_);
@@ -119,6 +119,22 @@ class PipelineRun {
         });
     }
     return false;
+  }
+
+  const GreyImage& grey() const { return tracedGrey(scan_, out_); }
+
+  /// The page that all stages read, kept for the runs that change thresholds alone, and its thresholds.
+  bool thresholds() {
+    const Clock::time_point begin = begin_ = Clock::now();
+    const bool isPrepared = fill(StageId::Thresholds, keys_.page, out_.page, [&]() -> Result<PreparedPage> {
+      return isBlank(scan_) ? PreparedPage{} : preparePage(scan_, recipe_.preparation, context_);
+    });
+    if (!isPrepared) return false;
+    const bool isDone = step(StageId::Thresholds, out_.thresholds,
+                             [&] { return findThresholds(grey(), recipe_.paper, recipe_.threshold, context_); });
+    begin_ = begin;
+    takeTime(StageId::Thresholds);
+    return isDone;
   }
 
   /// What the pieces are called; kept for the runs that change only later stages.
@@ -139,8 +155,8 @@ class PipelineRun {
   /// The scan without its folds, made once a run.
   const GreyImage& flattenedScan() {
     const auto& folds = out_.thresholds->paper.folds;
-    if (folds.empty()) return scan_.grey;
-    if (!even_) even_ = withoutFolds(scan_.grey, folds, context_);
+    if (folds.empty()) return grey();
+    if (!even_) even_ = withoutFolds(grey(), folds, context_);
     return *even_;
   }
 
@@ -153,7 +169,10 @@ class PipelineRun {
     };
     if (recipe_.regions.empty()) return trace(out_.filtered->ink);
     auto set = trace(inkTouching(out_.filtered->ink, recipe_.regions, context_));
-    if (set) set = keepInside(std::move(*set), recipe_.regions, recipe_.contours.minLengthPx);
+    if (set) {
+      const double limit = recipe_.contours.minWidths * set->report.widthPx;
+      set = keepInside(std::move(*set), recipe_.regions, std::max(limit, recipe_.contours.minLengthPx));
+    }
     const bool isEmpty = set ? set->contours.empty() : set.error().code == ErrorCode::NoCurve;
     if (!isEmpty) return set;
     return fail(ErrorCode::NoCurve, "No line lies inside the region: draw a larger one or clear it.");
@@ -176,7 +195,8 @@ class PipelineRun {
       traced = std::make_shared<const ContourSet>(found ? std::move(*found) : ContourSet{});
       if (found) cache_.store(keys_.traced, traced, bytesOf(*traced));
     }
-    return withPenStrokes(withImports(*traced, recipe_.imports, out_.frame), recipe_.penStrokes);
+    return withPenStrokes(withImports(*traced, recipe_.imports, out_.frame), recipe_.penStrokes,
+                          {static_cast<double>(scan_.grey.width), static_cast<double>(scan_.grey.height)});
   }
 
   /// Fills `slot` from the cache or by running `work`; false if the run ends here.
@@ -250,6 +270,10 @@ class PipelineRun {
 PipelineOutput runPipeline(const Scan& scan, const Recipe& recipe, StageCache& cache, const PipelineRequest& request,
                            const RunContext& context) {
   return PipelineRun(scan, recipe, cache, request, context).runStages();
+}
+
+const GreyImage& tracedGrey(const Scan& scan, const PipelineOutput& output) {
+  return output.page && !output.page->isUntouched() ? output.page->grey : scan.grey;
 }
 
 int curveNumber(const PipelineOutput& output, const TracedCurve& curve) {

@@ -19,6 +19,7 @@
 #include "core/curve/curvature_jump.h"
 #include "core/fairing/fairing_report.h"
 #include "core/image/binarize.h"
+#include "core/image/page_preparation.h"
 #include "core/image/scan.h"
 #include "core/pipeline/recipe/recipe.h"
 #include "core/pipeline/recipe/stage_id.h"
@@ -74,6 +75,7 @@ struct StageTiming {
 
 /// All outputs of one run; a null pointer means that the stage was not asked for or failed.
 struct PipelineOutput {
+  std::shared_ptr<const PreparedPage> page;  ///< Made by the first stage; what all stages read of the scan.
   std::shared_ptr<const RegionThresholds> thresholds;
   std::shared_ptr<const BitImage> binary;
   std::shared_ptr<const FilteredImage> filtered;
@@ -101,6 +103,9 @@ struct PipelineRequest {
 /// same output with any number of threads and any state of the cache. Never throws for bad input; see
 /// PipelineOutput::error.
 PipelineOutput runPipeline(const Scan&, const Recipe&, StageCache&, const PipelineRequest&, const RunContext&);
+
+/// The grey that the stages of this output read: the prepared page, or the scan's own where that stayed as it is.
+const GreyImage& tracedGrey(const Scan&, const PipelineOutput&);
 
 /// The number of a curve of this output, from 1: what the user knows it by.
 int curveNumber(const PipelineOutput&, const TracedCurve&);

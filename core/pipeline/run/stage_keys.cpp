@@ -60,6 +60,7 @@ void addMethods(HashBuilder& h, const Recipe& recipe) {
     addCount(h, choice.anchorsPx);
     for (const Vec2& p : choice.anchorsPx) add(h, p);
     h.integer(choice.method ? static_cast<int>(*choice.method) : -1);
+    h.integer(choice.detail ? 1 : 0).number(choice.detail.value_or(0.0));
   }
 }
 
@@ -70,7 +71,24 @@ ContentHash scanKey(const Scan& scan) {
   const bool hasFile =
       std::any_of(scan.fileHash.bytes.begin(), scan.fileHash.bytes.end(), [](auto b) { return b != 0; });
   if (hasFile) h.hash(scan.fileHash).integer(scan.page.number).number(scan.page.pdfDpi);
-  return hasFile ? h.finish() : h.bytes(std::as_bytes(std::span(scan.grey.pixels))).finish();
+  if (hasFile) return h.finish();
+  if (!scan.colour.isEmpty()) h.bytes(std::as_bytes(std::span(scan.colour.pixels)));
+  return h.bytes(std::as_bytes(std::span(scan.grey.pixels))).finish();
+}
+
+ContentHash preparedKey(const ContentHash& scan, const PreparationParams& params) {
+  HashBuilder h;
+  h.text("prepared page")
+      .hash(scan)
+      .integer(static_cast<int>(params.colour))
+      .integer(static_cast<int>(params.rulings))
+      .integer(static_cast<int>(params.sheet));
+  for (const auto* list : {&params.inks.keep, &params.inks.drop}) {
+    addCount(h, *list);
+    for (const InkColour& ink : *list) add(h, ink.hueDeg);
+  }
+  h.number(params.inks.rangeDeg);
+  return h.finish();
 }
 
 /// Adds to the digest what of the recipe a stage reads itself: its parameters, so that none can be forgotten, and the
@@ -172,6 +190,7 @@ StageKeys stageKeys(const Scan& scan, const Recipe& recipe, const PageFrame& fra
   StageKeys result;
   const ContentHash first = scanKey(scan);
   const ContentHash* input = &first;
+  result.page = preparedKey(first, recipe.preparation);
   for (std::size_t i = 0; i < kStages.size(); ++i) {
     HashBuilder h;
     h.text(name(kStages[i])).hash(*input);

@@ -17,6 +17,7 @@ namespace batten {
 /// and how numbers are entered, never a result.
 struct StageKeys {
   std::array<ContentHash, kStages.size()> keys;
+  ContentHash page;    ///< The prepared page, an output of the first stage beside its thresholds.
   ContentHash traced;  ///< The lines of the scan alone, before the pen strokes: drawing one does not trace again.
   const ContentHash& operator[](StageId stage) const { return keys[indexOf(stage)]; }
 };

@@ -33,7 +33,7 @@ ConstructPiece measured(const test::PlaneCurve& curve, double from, double to, i
   px.refined.assign(px.points.size(), 1);
   ConstructPiece piece;
   piece.closed = closed;
-  piece.stations = regressionSegments(set, {}).value().pieces[0].stations;
+  piece.stations = regressionSegments(set, {}, {}).value().pieces[0].stations;
   for (Station& s : piece.stations) {
     for (Vec2* p : {&s.point, &s.from, &s.to}) *p *= mm;
   }

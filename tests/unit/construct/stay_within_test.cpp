@@ -30,7 +30,7 @@ ConstructPiece pieceThrough(const std::vector<Vec2>& points, bool closed,
   piece.refined = refined;
   piece.points = points;
   piece.closed = closed;
-  piece.stations = regressionSegments(set, {}).value().pieces[0].stations;
+  piece.stations = regressionSegments(set, {}, {}).value().pieces[0].stations;
   return piece;
 }
 

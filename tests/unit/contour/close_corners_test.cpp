@@ -46,10 +46,10 @@ TEST(SuggestCorners, AMarkAtEverySuggestionFindsACornerOfItsOwn) {
     for (const CornerSuggestion& s : suggestions) marks.push_back({s.positionPx});
     return marks;
   };
-  const auto all = suggestCorners(set, angle, scale), offered = oncePerCorner(set, all, 16.0);
-  const auto asked = splitAtCorners(set, marksAt(all), {});
+  const auto all = suggestCorners(set, angle, scale, {}), offered = oncePerCorner(set, all, 16.0, {});
+  const auto asked = splitAtCorners(set, marksAt(all), {}, {});
   ASSERT_FALSE(asked->sameCorner.empty()) << "else this drawing shows nothing";
-  const auto made = splitAtCorners(set, marksAt(offered), {});
+  const auto made = splitAtCorners(set, marksAt(offered), {}, {});
   EXPECT_EQ(made->corners.size(), offered.size());
   EXPECT_EQ(made->corners.size(), asked->corners.size()) << "none is lost either";
   EXPECT_TRUE(made->sameCorner.empty());
@@ -59,7 +59,7 @@ TEST(SuggestCorners, AMarkAtEverySuggestionFindsACornerOfItsOwn) {
 TEST(CornerMarks, CornersThatLeaveASliverAreNamed) {
   const ContourSet open = contourThrough({{0, 100}, {300, 100}}, false);
   const auto pieces =
-      splitAtCorners(open, std::vector<CornerMark>{{Vec2(154, 101)}, {Vec2(50, 100)}, {Vec2(150, 100)}}, {});
+      splitAtCorners(open, std::vector<CornerMark>{{Vec2(154, 101)}, {Vec2(50, 100)}, {Vec2(150, 100)}}, {}, {});
   ASSERT_EQ(pieces->corners.size(), 3u);
   ASSERT_EQ(pieces->closeCorners.size(), 1u);
   EXPECT_EQ(pieces->closeCorners[0].mark, 2);
@@ -67,7 +67,7 @@ TEST(CornerMarks, CornersThatLeaveASliverAreNamed) {
   EXPECT_NEAR(pieces->closeCorners[0].apartPx, 4.0, 0.6);
   const ContourSet ring = contourThrough({{50, 50}, {350, 50}, {350, 250}, {50, 250}}, true);
   const std::vector<Vec2> points = positionsOf(ring.contours[0].points);
-  const auto two = splitAtCorners(ring, std::vector<CornerMark>{{points[160]}, {points[164]}}, {});
+  const auto two = splitAtCorners(ring, std::vector<CornerMark>{{points[160]}, {points[164]}}, {}, {});
   ASSERT_EQ(two->corners.size(), 2u);
   EXPECT_EQ(two->closeCorners.size(), 1u);
 }

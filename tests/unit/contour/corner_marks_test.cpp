@@ -76,7 +76,7 @@ TEST(CornerMarks, CornersOfACurvedLetterAreFoundToATenthOfAPixel) {
       const double angle = static_cast<double>(random() % 360) * kDeg;
       marks.push_back({c + 8.0 * Vec2(std::cos(angle), std::sin(angle))});  // a click 8 px away
     }
-    const auto pieces = splitAtCorners(set, marks, {});
+    const auto pieces = splitAtCorners(set, marks, {}, {});
     ASSERT_TRUE(pieces.has_value());
     ASSERT_EQ(pieces->corners.size(), shape.corners.size());
     EXPECT_TRUE(pieces->lostMarks.empty());
@@ -111,7 +111,7 @@ TEST(CornerMarks, AcuteTipsAreExtended) {
     const std::vector<Vec2> wedge{tip, {60, 150 + w}, {60, 150 - w}};
     const ContourSet set = traceShape(wedge, 3.0, 2);
     const std::vector<CornerMark> marks{{tip - Vec2(6, 3)}};
-    const auto pieces = splitAtCorners(set, marks, {});
+    const auto pieces = splitAtCorners(set, marks, {}, {});
     ASSERT_TRUE(pieces.has_value());
     ASSERT_EQ(pieces->corners.size(), 1u) << halfAngle;
     const double e = (pieces->corners[0].positionPx - tip).norm();
@@ -141,7 +141,7 @@ TEST(CornerMarks, TipsEatenByTheMaskAreExtended) {
     const auto set = traceContours(ink, grey, edges, {}, {});
     ASSERT_TRUE(set.has_value());
     const std::vector<CornerMark> marks{{tip - Vec2(6, 3)}};
-    const auto pieces = splitAtCorners(*set, marks, {});
+    const auto pieces = splitAtCorners(*set, marks, {}, {});
     ASSERT_TRUE(pieces.has_value());
     ASSERT_EQ(pieces->corners.size(), 1u) << angle;
     EXPECT_LE((pieces->corners[0].positionPx - tip).norm(), 0.7) << angle;
@@ -170,7 +170,7 @@ TEST(CornerMarks, ClicksBesideEatenTipsFindThem) {
     ASSERT_TRUE(set.has_value());
     for (const double direction : {0.0, 70.0, 140.0, 220.0, 290.0}) {
       const std::vector<CornerMark> marks{{tip + 8.0 * Vec2(std::cos(direction * kDeg), std::sin(direction * kDeg))}};
-      const auto pieces = splitAtCorners(*set, marks, {});
+      const auto pieces = splitAtCorners(*set, marks, {}, {});
       ASSERT_TRUE(pieces.has_value());
       ASSERT_EQ(pieces->corners.size(), 1u) << angle << " clicked at " << direction;
       EXPECT_LE((pieces->corners[0].positionPx - tip).norm(), angle < 40.0 ? 0.5 : 0.25) << angle << ", " << direction;
@@ -198,7 +198,7 @@ TEST(CornerMarks, ShallowCornersOfLongSides) {
       ContourSet set;
       set.contours.push_back(c);
       const std::vector<CornerMark> marks{{corner + Vec2(-5, 6)}};
-      const auto pieces = splitAtCorners(set, marks, {});
+      const auto pieces = splitAtCorners(set, marks, {}, {});
       ASSERT_TRUE(pieces.has_value());
       ASSERT_EQ(pieces->corners.size(), 1u);
       square += (pieces->corners[0].positionPx - corner).squaredNorm();
@@ -213,7 +213,7 @@ TEST(CornerMarks, TurningAngleIsPositiveToTheLeftInTheModelFrame) {
   for (int i = 0; i <= 60; ++i) points.emplace_back(i, 100.0);
   for (int i = 1; i <= 60; ++i) points.emplace_back(60.0, 100.0 - i);  // up on the screen: a left turn
   const std::vector<CornerMark> marks{{Vec2(58, 98)}};
-  const auto pieces = splitAtCorners(fromPoints(points, false), marks, {});
+  const auto pieces = splitAtCorners(fromPoints(points, false), marks, {}, {});
   ASSERT_TRUE(pieces.has_value());
   ASSERT_EQ(pieces->corners.size(), 1u);
   EXPECT_NEAR(pieces->corners[0].turningAngleRad, 90.0 * kDeg, 1e-6);
@@ -253,14 +253,14 @@ TEST(CornerMarks, MarksAnyDistanceAwayFindNoLine) {
 
 TEST(CornerMarks, ClosedContours) {
   const ContourSet set = fromPoints(circle(60.0), true);
-  const auto smooth = splitAtCorners(set, {}, {});
+  const auto smooth = splitAtCorners(set, {}, {}, {});
   ASSERT_TRUE(smooth.has_value());
   ASSERT_EQ(smooth->pieces.size(), 1u);
   EXPECT_TRUE(smooth->pieces[0].closed);
   EXPECT_EQ(smooth->pieces[0].points, positionsOf(set.contours[0].points));
   EXPECT_NEAR(smooth->pieces[0].lengthPx, 2 * std::numbers::pi * 60, 0.05);
   const std::vector<CornerMark> marks{{Vec2(212, 150)}, {Vec2(211, 150)}, {Vec2(400, 400)}};
-  const auto one = splitAtCorners(set, marks, {});
+  const auto one = splitAtCorners(set, marks, {}, {});
   ASSERT_TRUE(one.has_value());
   EXPECT_EQ(one->lostMarks, std::vector<int>{2});
   ASSERT_EQ(one->corners.size(), 1u);  // the second mark found the same place
@@ -277,12 +277,12 @@ TEST(CornerMarks, TinyAndDegenerateContours) {
   for (const auto& points : cases) {
     for (const bool closed : {false, true}) {
       const std::vector<CornerMark> marks{{Vec2(1, 1)}, {Vec2(3, 3)}};
-      const auto pieces = splitAtCorners(fromPoints(points, closed), marks, {});
+      const auto pieces = splitAtCorners(fromPoints(points, closed), marks, {}, {});
       ASSERT_TRUE(pieces.has_value());
       for (const Piece& piece : pieces->pieces) {
         for (const Vec2& p : piece.points) EXPECT_TRUE(p.allFinite());
       }
-      EXPECT_TRUE(suggestCorners(fromPoints(points, closed), 0.5, 16.0).empty());
+      EXPECT_TRUE(suggestCorners(fromPoints(points, closed), 0.5, 16.0, {}).empty());
     }
   }
 }
@@ -290,13 +290,13 @@ TEST(CornerMarks, TinyAndDegenerateContours) {
 TEST(CornerMarks, BadSnapDistanceIsRefused) {
   CornerParams params;
   params.snapDistancePx = 0.0;
-  EXPECT_FALSE(splitAtCorners({}, {}, params).has_value());
+  EXPECT_FALSE(splitAtCorners({}, {}, params, {}).has_value());
 }
 
 TEST(SuggestCorners, NoneOnSmoothLines) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     for (const double radius : {15.0, 25.0, 60.0}) {
-      EXPECT_TRUE(suggestCorners(fromPoints(circle(radius), true, 0.08, seed), 28 * kDeg, 16.0).empty()) << radius;
+      EXPECT_TRUE(suggestCorners(fromPoints(circle(radius), true, 0.08, seed), 28 * kDeg, 16.0, {}).empty()) << radius;
     }
     std::vector<Vec2> ellipse, clothoid;
     for (int i = 0; i < 1200; ++i) {
@@ -309,8 +309,8 @@ TEST(SuggestCorners, NoneOnSmoothLines) {
       p += Vec2(std::cos(angle), std::sin(angle));
       clothoid.push_back(p);
     }
-    EXPECT_TRUE(suggestCorners(fromPoints(ellipse, true, 0.08, seed), 28 * kDeg, 16.0).empty());
-    EXPECT_TRUE(suggestCorners(fromPoints(clothoid, false, 0.08, seed), 28 * kDeg, 16.0).empty());
+    EXPECT_TRUE(suggestCorners(fromPoints(ellipse, true, 0.08, seed), 28 * kDeg, 16.0, {}).empty());
+    EXPECT_TRUE(suggestCorners(fromPoints(clothoid, false, 0.08, seed), 28 * kDeg, 16.0, {}).empty());
   }
 }
 
@@ -339,13 +339,14 @@ TEST(SuggestCorners, DentsOfARaggedEdgeAreNone) {
   int onCircles = 0, onSquares = 0;
   for (unsigned seed = 1; seed <= 5; ++seed) {
     onCircles += static_cast<int>(
-        suggestCorners(fromPoints(roughened(circle(120.0), 0.45, seed), true), 28 * kDeg, 16.0).size());
+        suggestCorners(fromPoints(roughened(circle(120.0), 0.45, seed), true), 28 * kDeg, 16.0, {}).size());
     std::vector<Vec2> square;
     for (int i = 0; i < 300; ++i) square.emplace_back(i, 0);
     for (int i = 0; i < 300; ++i) square.emplace_back(300, i);
     for (int i = 300; i > 0; --i) square.emplace_back(i, 300);
     for (int i = 300; i > 0; --i) square.emplace_back(0, i);
-    for (const CornerSuggestion& s : suggestCorners(fromPoints(roughened(square, 0.4, seed), true), 28 * kDeg, 16.0)) {
+    for (const CornerSuggestion& s :
+         suggestCorners(fromPoints(roughened(square, 0.4, seed), true), 28 * kDeg, 16.0, {})) {
       const bool corner = std::min(std::abs(s.positionPx.x()), std::abs(s.positionPx.x() - 300)) < 4.0 &&
                           std::min(std::abs(s.positionPx.y()), std::abs(s.positionPx.y() - 300)) < 4.0;
       onSquares += corner ? 1 : -1;
@@ -364,7 +365,8 @@ TEST(SuggestCorners, CornersOfAVeryRaggedEdgeAreFound) {
     for (int i = 0; i < 300; ++i) square.emplace_back(300, i);
     for (int i = 300; i > 0; --i) square.emplace_back(i, 300);
     for (int i = 300; i > 0; --i) square.emplace_back(0, i);
-    for (const CornerSuggestion& s : suggestCorners(fromPoints(roughened(square, 1.0, seed), true), 35 * kDeg, 14.0)) {
+    for (const CornerSuggestion& s :
+         suggestCorners(fromPoints(roughened(square, 1.0, seed), true), 35 * kDeg, 14.0, {})) {
       const bool corner = std::min(std::abs(s.positionPx.x()), std::abs(s.positionPx.x() - 300)) < 6.0 &&
                           std::min(std::abs(s.positionPx.y()), std::abs(s.positionPx.y() - 300)) < 6.0;
       ++(corner ? onSquares : elsewhere);
@@ -376,10 +378,10 @@ TEST(SuggestCorners, CornersOfAVeryRaggedEdgeAreFound) {
 
 TEST(SuggestCorners, SayTheAngleThatAMarkGives) {
   const ContourSet set = traceShape(letterK().sampled(), 5.0, 3);
-  const auto suggestions = suggestCorners(set, 28 * kDeg, 16.0);
+  const auto suggestions = suggestCorners(set, 28 * kDeg, 16.0, {});
   std::vector<CornerMark> marks;
   for (const CornerSuggestion& s : suggestions) marks.push_back({s.positionPx});
-  const auto pieces = splitAtCorners(set, marks, {});
+  const auto pieces = splitAtCorners(set, marks, {}, {});
   ASSERT_TRUE(pieces.has_value());
   ASSERT_EQ(pieces->corners.size(), suggestions.size());
   for (const Corner& corner : pieces->corners) {
@@ -391,7 +393,7 @@ TEST(SuggestCorners, SayTheAngleThatAMarkGives) {
 TEST(SuggestCorners, EveryCornerOfALetterOnce) {
   const CurvedPolygon shape = letterK();
   const ContourSet set = traceShape(shape.sampled(), 5.0, 3);
-  const auto suggestions = suggestCorners(set, 28 * kDeg, 16.0);
+  const auto suggestions = suggestCorners(set, 28 * kDeg, 16.0, {});
   EXPECT_EQ(suggestions.size(), shape.corners.size());
   for (const Vec2& corner : shape.corners) {
     const auto found = std::count_if(suggestions.begin(), suggestions.end(),

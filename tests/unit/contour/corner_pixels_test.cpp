@@ -65,7 +65,7 @@ struct WedgePage {
     set->contours.resize(1);
     refineOutline(set->contours.front(), page, {});
     const CornerMark marks[] = {{tip + Vec2(-3.0, 4.0)}};
-    const auto pieces = splitAtCorners(*set, marks, {}, askPixels ? &page : nullptr);
+    const auto pieces = splitAtCorners(*set, marks, {}, {}, askPixels ? &page : nullptr);
     if (!pieces || pieces->corners.size() != 1) return {99.0, 99.0};
     return pieces->corners.front().positionPx - tip;
   }

@@ -57,6 +57,19 @@ TEST(InkLabels, CrossingsOfTwoWidthsAreStrokes) {
   EXPECT_LT(shareOfShapes(labelsOf(page.ink(2))), 0.001);
 }
 
+// A bar is as even as a stroke, but no pen is so wide.
+TEST(InkLabels, BarsWiderThanAnyPenAreShapes) {
+  for (const double width : {12.0, 40.0}) {
+    test::LabelPage page(400, 400);
+    page.begin(true);
+    page.line(segment({60, 40}, {60, 360}), width);
+    page.line(segment({60, 200}, {300, 60}), width);
+    page.line(segment({60, 200}, {300, 340}), width);
+    const double shapes = shareOfShapes(labelsOf(page.ink(2)));
+    EXPECT_EQ(shapes, width > 20.0 ? 1.0 : 0.0) << width;
+  }
+}
+
 TEST(InkLabels, ATaperedStrokeIsAStroke) {
   test::LabelPage page(400, 200);
   page.begin(false);

@@ -59,12 +59,12 @@ TEST(PenContour, KeepsEveryDrawnPointAndFillsTheWayBetween) {
 TEST(PenContour, IsCutAtTheDrawnPointNearestToAMark) {
   // A right angle of five drawn points; the marks miss by a little, and one is out of reach.
   const PenStroke stroke{{{10, 10}, {60, 10}, {110, 10}, {110, 60}, {110, 110}}, false};
-  const ContourSet set = withPenStrokes({}, std::vector<PenStroke>{stroke});
+  const ContourSet set = withPenStrokes({}, std::vector<PenStroke>{stroke}, {200.0, 200.0}).value();
   const std::vector<CornerMark> marks = {{Vec2(104, 13)}, {Vec2(300, 300)}};
   for (const bool exact : {true, false}) {
     CornerParams params;
     params.exact = exact;
-    const auto pieces = splitAtCorners(set, marks, params);
+    const auto pieces = splitAtCorners(set, marks, params, {});
     ASSERT_TRUE(pieces);
     ASSERT_EQ(pieces->corners.size(), 1u);
     EXPECT_EQ(pieces->corners[0].positionPx, Vec2(110, 10));
@@ -79,6 +79,76 @@ TEST(PenContour, IsCutAtTheDrawnPointNearestToAMark) {
     }
     EXPECT_NEAR(pieces->pieces[0].lengthPx + pieces->pieces[1].lengthPx, 200.0, 1e-9);
   }
+}
+
+constexpr PageExtent kPenPage{100.0, 80.0};
+
+// What the strokes of a drawing become on a page.
+ContourSet onPage(const std::vector<PenStroke>& strokes) {
+  const auto set = withPenStrokes({}, strokes, kPenPage);
+  EXPECT_TRUE(set.has_value());
+  return set.value_or(ContourSet{});
+}
+
+TEST(PenStrokes, AreCutToThePage) {
+  const ContourSet set = onPage({{{{-1e6, 40.0}, {1e6, 40.0}}, false}});
+  ASSERT_EQ(set.contours.size(), 1u);
+  const Contour& line = set.contours[0];
+  EXPECT_NEAR(line.lengthPx, 100.0, 1e-6);
+  EXPECT_LE(line.points.size(), 102u);
+  EXPECT_NEAR((line.points.front().at - Vec2(0.0, 40.0)).norm(), 0.0, 1e-6);
+  EXPECT_NEAR((line.points.back().at - Vec2(100.0, 40.0)).norm(), 0.0, 1e-6);
+  EXPECT_NE(set.report.note.find("1 pen stroke leaves the page"), std::string::npos) << set.report.note;
+}
+
+TEST(PenStrokes, KeepTheirLongestPartWhereTheyLeaveThePageAndComeBack) {
+  // 30 px on the page, out over the right border, back in for 60 px.
+  const ContourSet set = onPage({{{{70.0, 20.0}, {130.0, 20.0}, {130.0, 50.0}, {40.0, 50.0}}, false}});
+  EXPECT_NEAR(set.contours.at(0).lengthPx, 60.0, 1e-9);
+  EXPECT_NEAR((set.contours[0].points.back().at - Vec2(40.0, 50.0)).norm(), 0.0, 1e-9);
+  // A ring that hangs over the upper border, begun on the page: one line from border to border.
+  const ContourSet ring = onPage({{{{30.0, 20.0}, {30.0, -20.0}, {60.0, -20.0}, {60.0, 20.0}}, true}});
+  const Contour& open = ring.contours.at(0);
+  EXPECT_FALSE(open.closed);
+  EXPECT_NEAR(open.lengthPx, 20.0 + 30.0 + 20.0, 1e-9);
+  EXPECT_NEAR(open.points.front().at.y(), 0.0, 1e-9);
+  EXPECT_NEAR(open.points.back().at.y(), 0.0, 1e-9);
+}
+
+TEST(PenStrokes, KeepTheirPlaceWhenTheyAreLeftOut) {
+  const ContourSet set = onPage({{{{-50.0, 10.0}, {-10.0, 60.0}}, false}, {{{10.0, 10.0}, {90.0, 10.0}}, false}});
+  ASSERT_EQ(set.contours.size(), 2u);
+  EXPECT_TRUE(set.contours[0].points.empty());
+  EXPECT_NEAR(set.contours[1].lengthPx, 80.0, 1e-9);
+  EXPECT_NE(set.report.note.find("1 pen stroke lies beside the page"), std::string::npos) << set.report.note;
+  const auto pieces = splitAtCorners(set, {}, {}, {});
+  ASSERT_TRUE(pieces.has_value());
+  ASSERT_EQ(pieces->pieces.size(), 1u);
+  EXPECT_EQ(pieces->pieces[0].contour, 1);
+  const auto none = withPenStrokes({}, std::vector<PenStroke>{{{{-50.0, 10.0}, {-10.0, 60.0}}, false}}, kPenPage);
+  ASSERT_FALSE(none.has_value());
+  EXPECT_EQ(none.error().code, ErrorCode::NoCurve);
+}
+
+TEST(PenStrokes, OfADrawingHaveALimitTogether) {
+  constexpr PageExtent kLargePage{20'000.0, 20'000.0};
+  std::vector<PenStroke> strokes(80, PenStroke{{{0.0, 0.0}, {20'000.0, 20'000.0}}, false});
+  strokes.push_back({{{0.0, 0.0}, {0.0, 100.0}}, false});
+  const auto set = withPenStrokes({}, strokes, kLargePage);
+  ASSERT_TRUE(set.has_value());
+  ASSERT_EQ(set->contours.size(), strokes.size());
+  std::ptrdiff_t points = 0;
+  int leftOut = 0;
+  for (const Contour& contour : set->contours) {
+    points += std::ssize(contour.points);
+    leftOut += contour.points.empty() ? 1 : 0;
+  }
+  EXPECT_LE(points, kMostPenPoints);
+  EXPECT_GT(points, kMostPenPoints / 2);
+  EXPECT_GT(leftOut, 10);
+  EXPECT_FALSE(set->contours.back().points.empty()) << "a short stroke still has room";
+  EXPECT_NE(set->report.note.find(std::to_string(leftOut) + " pen strokes are left out"), std::string::npos)
+      << set->report.note;
 }
 
 }  // namespace

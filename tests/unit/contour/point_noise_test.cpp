@@ -14,7 +14,7 @@
 namespace batten {
 namespace {
 
-constexpr double kRadius = 70.0;
+constexpr double kNoiseRadius = 70.0;
 const Vec2 kCentre(100.3, 99.6);
 
 /// The page with white noise whose standard deviation grows from left to right.
@@ -56,8 +56,8 @@ TEST(PointSigmas, SayHowFarBordersScatter) {
   test::RenderSettings s;
   s.ink = 130.0;
   s.slope = -0.25;
-  const GreyImage clean =
-      test::renderShape([](double x, double y) { return std::hypot(x - kCentre.x(), y - kCentre.y()) < kRadius; }, s);
+  const GreyImage clean = test::renderShape(
+      [](double x, double y) { return std::hypot(x - kCentre.x(), y - kCentre.y()) < kNoiseRadius; }, s);
   auto set = crackContours(test::thresholdMask(clean, 155.0), false, 100.0, {});
   ASSERT_TRUE(set.has_value());
   ASSERT_FALSE(set->contours.empty());
@@ -65,7 +65,7 @@ TEST(PointSigmas, SayHowFarBordersScatter) {
   for (unsigned seed = 1; seed <= 8; ++seed) {
     Contour c = set->contours.front();
     refineOutline(c, noisy(clean, 1.0, 9.0, seed), {});
-    halves.add(c, kRadius);
+    halves.add(c, kNoiseRadius);
   }
   for (const int side : {0, 1}) EXPECT_NEAR(halves.ratio(side), 1.0, 0.25) << side;
   EXPECT_GT(halves.missed[1] / halves.count[1], 4.0 * halves.missed[0] / halves.count[0]);
@@ -75,14 +75,15 @@ TEST(PointSigmas, SayHowFarCentreLinesScatter) {
   test::RenderSettings s;
   s.ink = 110.0;
   const GreyImage clean = test::renderShape(
-      [](double x, double y) { return std::abs(std::hypot(x - kCentre.x(), y - kCentre.y()) - kRadius) < 2.5; }, s);
+      [](double x, double y) { return std::abs(std::hypot(x - kCentre.x(), y - kCentre.y()) - kNoiseRadius) < 2.5; },
+      s);
   const BitImage ink = test::thresholdMask(clean, 170.0);
   Halves halves;
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const auto set = centrelines(ink, noisy(clean, 1.0, 8.0, seed), {}, {});
     ASSERT_TRUE(set.has_value());
     ASSERT_EQ(set->contours.size(), 1U);
-    halves.add(set->contours.front(), kRadius);
+    halves.add(set->contours.front(), kNoiseRadius);
   }
   for (const int side : {0, 1}) EXPECT_NEAR(halves.ratio(side), 1.0, 0.25) << side;
 }

@@ -56,7 +56,7 @@ Piece arc(double radius, double angle, bool closed, double noise = 0.0) {
 PieceSegments segments(const Piece& piece, const SegmentParams& params) {
   PieceSet set;
   set.pieces.push_back(piece);
-  const auto result = regressionSegments(set, params);
+  const auto result = regressionSegments(set, params, {});
   EXPECT_TRUE(result.has_value());
   return result ? result->pieces.at(0) : PieceSegments{};
 }
@@ -75,7 +75,8 @@ TEST(Stations, LieOnACircleAtEqualArcLength) {
       EXPECT_LE((s.point - Vec2(300 + radius * std::cos(a), 300 + radius * std::sin(a))).norm(), 0.1) << j;
       EXPECT_LE((s.direction - Vec2(-std::sin(a), std::cos(a))).norm(), 0.02) << j;
       EXPECT_NEAR(s.direction.norm(), 1.0, 1e-12);
-      EXPECT_NEAR(s.along, static_cast<double>(j) / (closed ? m : m - 1), 1e-12);
+      ASSERT_TRUE(s.along);
+      EXPECT_NEAR(*s.along, static_cast<double>(j) / (closed ? m : m - 1), 1e-12);
     }
   }
 }
@@ -143,7 +144,7 @@ TEST(Stations, BadParametersAreRefused) {
   EXPECT_TRUE(validate(params).has_value());
   params = {};
   params.spacingPx = 0.0;
-  EXPECT_FALSE(regressionSegments({}, params).has_value());
+  EXPECT_FALSE(regressionSegments({}, params, {}).has_value());
 }
 
 }  // namespace

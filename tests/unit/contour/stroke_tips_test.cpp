@@ -31,7 +31,7 @@ TEST(CornerMarks, SharpTipsOfStrokesAreFound) {
     ASSERT_TRUE(set.has_value());
     for (const double direction : {0.0, 90.0, 200.0}) {
       const std::vector<CornerMark> marks{{tip + 8.0 * Vec2(std::cos(direction * kDeg), std::sin(direction * kDeg))}};
-      const auto pieces = splitAtCorners(*set, marks, {});
+      const auto pieces = splitAtCorners(*set, marks, {}, {});
       ASSERT_TRUE(pieces.has_value());
       ASSERT_EQ(pieces->corners.size(), 1u) << opening << ", clicked at " << direction;
       EXPECT_LE((pieces->corners[0].positionPx - tip).norm(), 0.5) << opening << ", clicked at " << direction;

@@ -167,6 +167,7 @@ TEST(ImportedCurves, CanBeMadeFairAndBuiltAnew) {
   EXPECT_EQ(curve.faired.degree(), 5);
   // A method chosen for the curve builds it from its points.
   Recipe anew = drawingOf(file);
+  anew.construct.light = false;
   PieceChoice choice;
   choice.method = ConstructMethod::Fair;
   choice.anchorsPx = {plain.frame.pointToImage(file.lines[0].curves[0].point(50.0))};

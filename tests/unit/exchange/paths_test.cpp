@@ -130,6 +130,33 @@ TEST(CubicPaths, KeepTheCurvatureAtEveryJoint) {
   }
 }
 
+/// A tight bend that runs out into a long straight line; only the slope of the curvature jumps between them.
+NurbsCurve bendAndLine(double knotGap) {
+  constexpr double kBend = 0.1, kLine = 100.0;
+  std::vector<Vec2> points = {{0, 0.3 * kBend}, {0.2 * kBend, 0.09 * kBend}, {0.4 * kBend, 0.015 * kBend}};
+  points.emplace_back(0.6 * kBend, 0.0);
+  for (int i = 1; i <= 5; ++i) points.emplace_back(kBend + 0.2 * i * kLine, 0.0);
+  Eigen::Matrix2d turn;  // off the axes, so that no place of the line has round numbers
+  turn << 0.9, -std::sqrt(0.19), std::sqrt(0.19), 0.9;
+  const double end = kBend + kLine;
+  return test::made(5, {0, 0, 0, 0, 0, 0, kBend, kBend + knotGap, kBend + 2 * knotGap, end, end, end, end, end, end},
+                    points)
+      .mapped(turn, Vec2::Zero());
+}
+
+TEST(CubicPaths, AKnotWhereOnlyTheSlopeOfTheCurvatureJumpsTakesFewCubics) {
+  ExportDocument document = test::exportOfAllKinds();
+  // Knots that nearly coincide are no better.
+  for (const double knotGap : {0.0, 1e-9}) {
+    document.curves = {{"bend", false, {{bendAndLine(knotGap)}}}};
+    const auto svg = writeSvg(document, {});
+    ASSERT_TRUE(svg);
+    EXPECT_LE(svg->cubics, knotGap > 0.0 ? 80 : 20);
+    EXPECT_LE(svg->largestJump, 0.02);
+    EXPECT_LE(svg->largestErrorMm, 0.002);
+  }
+}
+
 TEST(CubicPaths, StateTheErrorsThatTheyHave) {
   const auto svg = writeSvg(hardCurves(), {});
   ASSERT_TRUE(svg);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/exchange/svg_check.h"
+#include "core/exchange/svg_reader.h"
 #include "core/exchange/svg_writer.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
@@ -27,6 +28,29 @@ TEST(SvgCheck, FindsWhatWasWrittenWithItsStatedError) {
     EXPECT_LE(check->largestErrorMm, 1.02 * svg->largestErrorMm + 1e-7);
     EXPECT_GT(check->largestErrorMm, 0.1 * svg->largestErrorMm);
   }
+}
+
+TEST(SvgCheck, UserUnitsMayBeOthersAndTheSizeStays) {
+  const ExportDocument document = test::exportOfAllKinds();
+  SvgOptions pixels;
+  pixels.unitsPerMm = 96 / 25.4;
+  const auto svg = writeSvg(document, pixels);
+  ASSERT_TRUE(svg);
+  EXPECT_NE(svg->text.find("width=\"120mm\" height=\"100mm\" viewBox=\"0 0 453.543307087 377.952755906\""),
+            std::string::npos)
+      << svg->text.substr(0, 400);
+  // The first curve begins at (10, 10) mm, y up.
+  EXPECT_NE(svg->text.find("d=\"M37.795275590551,340.157480314961 C"), std::string::npos);
+  EXPECT_LE(svg->largestErrorMm, 0.002);
+  const auto check = checkSvg(svg->text, document);
+  ASSERT_TRUE(check) << check.error().message << check.error().detail;
+  EXPECT_LE(check->largestErrorMm, 0.00201);
+  const auto again = readSvg(svg->text);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->frame.widthPx, document.frame.widthPx);
+  EXPECT_EQ(again->frame.heightPx, document.frame.heightPx);
+  pixels.unitsPerMm = 0.0;
+  EXPECT_FALSE(writeSvg(document, pixels));
 }
 
 TEST(SvgCheck, RefusesWhatIsCutOffOrChanged) {

@@ -34,7 +34,7 @@ NurbsCurve clothoidPath(unsigned seed) {
     ConstructContour contour;
     ConstructPiece& made = contour.pieces.emplace_back();
     made.points = piece.points;
-    made.stations = regressionSegments(set, {})->pieces[0].stations;
+    made.stations = regressionSegments(set, {}, {})->pieces[0].stations;
     ConstructParams params;
     params.method = ConstructMethod::Bezier;
     params.lowPass = 0.0;

@@ -173,6 +173,23 @@ TEST_F(ScanReader, LaysAlphaOverWhiteAndTakesTheLumaOfColour) {
   EXPECT_EQ(levels(indexed->grey), (std::vector<int>{0, 255, 150}));
 }
 
+TEST_F(ScanReader, KeepsTheColoursOfAColourScanOnly) {
+  const std::string row = std::string("\0", 1) + std::string("\xff\0\0\xff", 4) + std::string("\0\0\0\x80", 4) +
+                          std::string("\x12\x34\x56\0", 4);
+  const auto scan = readScan(write("colour.png", png(3, 1, 8, 6, row)), {}, {});
+  ASSERT_TRUE(scan.has_value());
+  EXPECT_EQ(scan->colour.pixels, (std::vector<Rgb8>{{255, 0, 0}, {127, 127, 127}, {255, 255, 255}}));
+  EXPECT_EQ(scan->colour.width, 3);
+  const std::string grey = std::string("\0", 1) + std::string("\x40\x40\x40\x80\x80\x80", 6);
+  EXPECT_TRUE(readScan(write("grey.png", png(2, 1, 8, 2, grey)), {}, {})->colour.isEmpty());
+  EXPECT_TRUE(
+      readScan(write("grey8.png", png(3, 1, 8, 0, std::string("\0\x01\x80\xff", 4))), {}, {})->colour.isEmpty());
+  const std::string deep = std::string("\0", 1) + std::string("\x80\x80\x10\x10\xff\xff", 6);
+  const auto sixteen = readScan(write("deep.png", png(1, 1, 16, 2, deep)), {}, {});
+  ASSERT_TRUE(sixteen.has_value());
+  EXPECT_EQ(sixteen->colour.pixels, (std::vector<Rgb8>{{0x80, 0x10, 0xff}}));
+}
+
 TEST_F(ScanReader, ReadsResolutionAndHash) {
   const std::string phys = chunk("pHYs", big(11811) + big(11811) + '\1');
   const auto scan = readScan(write("dpi.png", png(1, 1, 8, 0, std::string("\0\7", 2), phys)), {}, {});
@@ -213,6 +230,21 @@ TEST_F(ScanReader, TurnsTiffUprightByItsOrientation) {
     EXPECT_EQ(scan->dpi, 300.0);
   }
   EXPECT_THAT(refusal(write("cut.tif", tiff(1).substr(0, tiff(1).size() - 2))), HasSubstr("truncated"));
+}
+
+TEST(TurnUpright, TurnsColoursAsItTurnsGrey) {
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    GreyImage grey(4, 3);
+    ColourImage colour(4, 3);
+    for (std::size_t i = 0; i < grey.pixels.size(); ++i) {
+      grey.pixels[i] = static_cast<std::uint16_t>(i);
+      colour.pixels[i] = {static_cast<std::uint8_t>(i), 0, 0};
+    }
+    grey = turnUpright(std::move(grey), orientation, {});
+    colour = turnUpright(std::move(colour), orientation, {});
+    ASSERT_EQ(colour.width, grey.width);
+    for (std::size_t i = 0; i < grey.pixels.size(); ++i) EXPECT_EQ(colour.pixels[i].red, grey.pixels[i]) << orientation;
+  }
 }
 
 TEST_F(ScanReader, ReadsTiffsWhoseZeroIsWhiteOrBlack) {

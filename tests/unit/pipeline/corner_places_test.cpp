@@ -32,7 +32,7 @@ ContourSet lineThrough(const std::vector<Vec2>& corners) {
 // A horse's ear: its sides are hardly longer than what is looked at, so that they hide each other.
 TEST(CornerPlaces, TipsWithShortSidesAreSuggested) {
   const std::vector<Vec2> corners{{0, 100}, {150, 95}, {158, 78}, {163, 96}, {320, 100}};
-  const auto found = suggestCornersAndCuts(lineThrough(corners), 35 * kDeg, 14.0);
+  const auto found = suggestCornersAndCuts(lineThrough(corners), 35 * kDeg, 14.0, {});
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
     const auto near = std::count_if(found.begin(), found.end(), [&](const CornerSuggestion& s) {
       return (s.positionPx - corners[i]).norm() < 3.0;
@@ -44,7 +44,7 @@ TEST(CornerPlaces, TipsWithShortSidesAreSuggested) {
 
 TEST(CornerPlaces, AskedForSharperPlacesTheFitsCutsComeOnlyWhereTheyAreThatSharp) {
   const auto set = lineThrough({{0, 100}, {150, 95}, {158, 78}, {163, 96}, {320, 100}});
-  for (const CornerSuggestion& s : suggestCornersAndCuts(set, 120 * kDeg, 14.0)) {
+  for (const CornerSuggestion& s : suggestCornersAndCuts(set, 120 * kDeg, 14.0, {})) {
     EXPECT_NEAR(s.positionPx.x(), 158.0, 4.0);
   }
 }
@@ -63,7 +63,7 @@ TEST(CornerPlaces, NoneOnSmoothLinesAndDots) {
     circle.points = contourPoints(points, true);
     ContourSet set;
     set.contours.push_back(circle);
-    EXPECT_TRUE(suggestCornersAndCuts(set, 35 * kDeg, 14.0).empty()) << radius;
+    EXPECT_TRUE(suggestCornersAndCuts(set, 35 * kDeg, 14.0, {}).empty()) << radius;
   }
 }
 

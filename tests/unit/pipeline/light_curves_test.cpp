@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/curve/closest_point.h"
+#include "core/pipeline/recipe/recipe_file.h"
+#include "core/pipeline/run/piece_choices.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/unit/pipeline/ellipse_scan.h"
 
@@ -45,6 +47,17 @@ TEST(LightCurves, StandForTheDenseOneThatFairingStartsFrom) {
   EXPECT_LE(apart(before.sketched, after.sketched), 1.02 * tolerance);
 }
 
+TEST(LightCurves, TakeNoPartOfSparingControlPoints) {
+  Recipe recipe;
+  StageCache cache;
+  const auto usual = runPipeline(test::ellipseScan(), recipe, cache, {}, {});
+  recipe.construct.knotRemovalTolerance = 0.0;
+  const auto other = runPipeline(test::ellipseScan(), recipe, cache, {}, {});
+  ASSERT_FALSE(usual.error || other.error);
+  EXPECT_EQ(usual.faired->curves.front().dense, other.faired->curves.front().dense);
+  EXPECT_EQ(usual.faired->curves.front().sketched, other.faired->curves.front().sketched);
+}
+
 TEST(LightCurves, KeepTheToleranceOfTheFairing) {
   for (const FairingMode mode : {FairingMode::Tolerance, FairingMode::Target, FairingMode::Monotone}) {
     const double toleranceMm = 0.15;
@@ -69,6 +82,42 @@ TEST(LightCurves, AreOfTheTrueAndFairFitOnly) {
   EXPECT_TRUE(out.faired->curves.front().dense.isEmpty());
   EXPECT_FALSE(out.faired->curves.front().construct.light);
   EXPECT_EQ(out.faired->curves.front().sketched.degree(), 5);
+}
+
+TEST(LightCurves, AreTheDefault) {
+  EXPECT_TRUE(Recipe{}.construct.light);
+  EXPECT_EQ(Recipe{}.construct.detail, 0.0);
+}
+
+TEST(LightCurves, DetailRaisesTheToleranceOfAllCurvesOrOfOne) {
+  StageCache cache;
+  Recipe recipe;
+  const auto plain = runPipeline(test::ellipseScan(), recipe, cache, {}, {});
+  ASSERT_FALSE(plain.error);
+  const TracedCurve& exact = plain.faired->curves.front();
+  EXPECT_NEAR(exact.construct.light->tolerancePx, recipe.construct.lightTolerancePx, 1e-9);
+  recipe.construct.detail = 0.8;
+  const auto calm = runPipeline(test::ellipseScan(), recipe, cache, {}, {});
+  ASSERT_FALSE(calm.error);
+  const TracedCurve& meant = calm.faired->curves.front();
+  const double tolerancePx = meant.construct.light->tolerancePx;
+  EXPECT_GT(tolerancePx, 4.0 * recipe.construct.lightTolerancePx);
+  EXPECT_LE(meant.construct.light->points, exact.construct.light->points);
+  EXPECT_LE(apart(meant.sketched, exact.dense), 1.3 * tolerancePx * calm.frame.mmPerPx);
+  EXPECT_EQ(meant.dense, exact.dense) << "fairing starts from the same curve";
+
+  recipe.construct.detail = 0.0;
+  const std::size_t own = makeOwnChoice(recipe.choices, *plain.pieces, static_cast<std::size_t>(exact.piece));
+  recipe.choices[own].detail = 0.8;
+  EXPECT_FALSE(recipe.choices[own].isEmpty());
+  const auto one = runPipeline(test::ellipseScan(), recipe, cache, {}, {});
+  ASSERT_FALSE(one.error);
+  EXPECT_EQ(one.faired->curves.front().sketched, meant.sketched);
+  const auto read = recipeFromJson(recipeToJson(recipe));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(*read, recipe);
+  recipe.choices[own].detail = 1.5;
+  EXPECT_TRUE(validate(recipe));
 }
 
 }  // namespace

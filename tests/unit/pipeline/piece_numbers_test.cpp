@@ -25,7 +25,7 @@ Piece wavy(double from, double to, double down = 0.0) {
   return piece;
 }
 
-PieceSet setOf(std::vector<Piece> pieces) {
+PieceSet numberedSet(std::vector<Piece> pieces) {
   PieceSet set;
   set.pieces = std::move(pieces);
   return set;
@@ -33,49 +33,49 @@ PieceSet setOf(std::vector<Piece> pieces) {
 using Numbers = std::vector<int>;
 
 TEST(PieceNumbers, CountFromOneWhereNothingIsKnown) {
-  const PieceNumbers first = numberPieces(setOf({wavy(0, 300), wavy(0, 300, 50), wavy(0, 5, 90)}), {});
+  const PieceNumbers first = numberPieces(numberedSet({wavy(0, 300), wavy(0, 300, 50), wavy(0, 5, 90)}), {});
   EXPECT_EQ(first.ofPiece, (Numbers{1, 2, 3}));
   EXPECT_EQ(first.known.lastGiven, 3);
   EXPECT_TRUE(numberPieces({}, {}).ofPiece.empty());
 }
 
 TEST(PieceNumbers, StayWithTheirLinesInAnyOrderAndDirection) {
-  const PieceNumbers first = numberPieces(setOf({wavy(0, 300), wavy(0, 300, 50), wavy(0, 300, 100)}), {});
+  const PieceNumbers first = numberPieces(numberedSet({wavy(0, 300), wavy(0, 300, 50), wavy(0, 300, 100)}), {});
   // Moved by a px or two, in another order, one of them backwards, and a new line before all.
-  PieceSet later = setOf({wavy(400, 700), wavy(3, 296, 101.5), wavy(0, 290, -1.0), wavy(5, 300, 52.0)});
+  PieceSet later = numberedSet({wavy(400, 700), wavy(3, 296, 101.5), wavy(0, 290, -1.0), wavy(5, 300, 52.0)});
   std::reverse(later.pieces[1].points.begin(), later.pieces[1].points.end());
   EXPECT_EQ(numberPieces(later, first.known).ofPiece, (Numbers{4, 3, 1, 2}));
 }
 
 TEST(PieceNumbers, TheLongerPartKeepsTheNumberAndTheWholeGetsItBack) {
-  const PieceNumbers whole = numberPieces(setOf({wavy(0, 300), wavy(0, 300, 50)}), {});
+  const PieceNumbers whole = numberPieces(numberedSet({wavy(0, 300), wavy(0, 300, 50)}), {});
   for (const double cut : {40.0, 260.0}) {
-    const PieceNumbers parts = numberPieces(setOf({wavy(0, cut), wavy(cut, 300), wavy(0, 300, 50)}), whole.known);
+    const PieceNumbers parts = numberPieces(numberedSet({wavy(0, cut), wavy(cut, 300), wavy(0, 300, 50)}), whole.known);
     EXPECT_EQ(parts.ofPiece, (cut < 150.0 ? Numbers{3, 1, 2} : Numbers{1, 3, 2})) << cut;
-    const PieceNumbers again = numberPieces(setOf({wavy(0, 300), wavy(0, 300, 50)}), parts.known);
+    const PieceNumbers again = numberPieces(numberedSet({wavy(0, 300), wavy(0, 300, 50)}), parts.known);
     EXPECT_EQ(again.ofPiece, (Numbers{1, 2})) << cut;
     // The part has its number once it is there again, and no other line has had it in between.
-    const PieceNumbers other = numberPieces(setOf({wavy(0, 300), wavy(0, 300, 50), wavy(500, 800)}), again.known);
+    const PieceNumbers other = numberPieces(numberedSet({wavy(0, 300), wavy(0, 300, 50), wavy(500, 800)}), again.known);
     EXPECT_EQ(other.ofPiece, (Numbers{1, 2, 4})) << cut;
-    const PieceNumbers back = numberPieces(setOf({wavy(0, cut), wavy(cut, 300), wavy(0, 300, 50)}), other.known);
+    const PieceNumbers back = numberPieces(numberedSet({wavy(0, cut), wavy(cut, 300), wavy(0, 300, 50)}), other.known);
     EXPECT_EQ(back.ofPiece, parts.ofPiece) << cut;
   }
 }
 
 TEST(PieceNumbers, ANumberIsNeverGivenToAnotherLine) {
-  const PieceNumbers first = numberPieces(setOf({wavy(0, 300), wavy(0, 300, 50)}), {});
-  const PieceNumbers gone = numberPieces(setOf({wavy(0, 300)}), first.known);
+  const PieceNumbers first = numberPieces(numberedSet({wavy(0, 300), wavy(0, 300, 50)}), {});
+  const PieceNumbers gone = numberPieces(numberedSet({wavy(0, 300)}), first.known);
   EXPECT_EQ(gone.ofPiece, Numbers{1});
   // One that crosses where the lost line ran, once, is another line.
   Piece crossing;
   for (double y = 0.0; y <= 400.0; y += 1.0) crossing.points.emplace_back(150.0, y);
-  EXPECT_EQ(numberPieces(setOf({crossing, wavy(0, 300)}), gone.known).ofPiece, (Numbers{3, 1}));
-  EXPECT_EQ(numberPieces(setOf({wavy(0, 300), wavy(0, 300, 50)}), gone.known).ofPiece, (Numbers{1, 2}));
+  EXPECT_EQ(numberPieces(numberedSet({crossing, wavy(0, 300)}), gone.known).ofPiece, (Numbers{3, 1}));
+  EXPECT_EQ(numberPieces(numberedSet({wavy(0, 300), wavy(0, 300, 50)}), gone.known).ofPiece, (Numbers{1, 2}));
 }
 
 TEST(PieceNumbers, TheTwoBordersOfAThinStrokeKeepTheirsWhenOneGoes) {
-  const PieceNumbers both = numberPieces(setOf({wavy(0, 300), wavy(0, 300, 3.0)}), {});
-  EXPECT_EQ(numberPieces(setOf({wavy(0, 300, 3.0)}), both.known).ofPiece, Numbers{2});
+  const PieceNumbers both = numberPieces(numberedSet({wavy(0, 300), wavy(0, 300, 3.0)}), {});
+  EXPECT_EQ(numberPieces(numberedSet({wavy(0, 300, 3.0)}), both.known).ofPiece, Numbers{2});
 }
 
 TEST(PieceNumbers, AreDifferentAndGrowOnlyThroughRandomChanges) {
@@ -113,7 +113,7 @@ TEST(PieceNumbers, NoLongHistoryMakesThemEndless) {
   CurveNumbers known;
   known.lastGiven = 50000;
   for (int i = 1; i <= 20000; ++i) known.curves.push_back({i, {Vec2(5000.0 + i, 9000.0)}});
-  const PieceNumbers numbers = numberPieces(setOf({wavy(0, 300)}), known);
+  const PieceNumbers numbers = numberPieces(numberedSet({wavy(0, 300)}), known);
   EXPECT_EQ(numbers.ofPiece, Numbers{50001});
   EXPECT_LE(numbers.known.curves.size(), 6000u);
   EXPECT_EQ(numbers.known.curves[1].number, 1) << "those of the result before are gone last";

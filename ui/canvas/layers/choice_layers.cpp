@@ -68,6 +68,46 @@ void paintFallback(QPainter& painter, const CanvasScene& scene) {
   painter.restore();
 }
 
+void paintRulings(QPainter& painter, const CanvasScene& scene) {
+  const auto& page = scene.session.output().page;
+  if (!page || page->rulings.empty() || scene.session.recipe().preparation.rulings == RulingUse::Keep) return;
+  constexpr double kChoiceStepPx = 12.0;  // [widget px] the lines are nearly straight
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(colors::ruling(), 1.0));
+  for (const RulingFamily& family : page->rulings) {
+    for (const RulingLine& line : family.lines) {
+      QPolygonF shown;
+      for (std::size_t i = 0; i < line.coursePx.size(); ++i) {
+        const QPointF at = scene.transform.toWidget(line.coursePx[i]);
+        const bool isEnd = i + 1 == line.coursePx.size();
+        if (shown.isEmpty() || isEnd || (at - shown.last()).manhattanLength() >= kChoiceStepPx) shown.append(at);
+      }
+      painter.drawPolyline(shown);
+    }
+  }
+  painter.restore();
+}
+
+void paintSheet(QPainter& painter, const CanvasScene& scene) {
+  const auto& page = scene.session.output().page;
+  if (!page || !page->sheet || scene.session.recipe().preparation.sheet == SheetUse::Off) return;
+  QPolygonF polygon;
+  for (const Vec2& p : page->sheet->outlinePx) polygon.append(scene.transform.toWidget(p));
+  QPainterPath inside, outside;
+  inside.addPolygon(polygon);
+  inside.closeSubpath();
+  const QSize size = scene.transform.imageSize();
+  outside.addRect(QRectF(scene.transform.toWidget({0.0, 0.0}),
+                         scene.transform.toWidget({double(size.width()), double(size.height())})));
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(QColor(218, 216, 211, 190));
+  painter.drawPath(outside.subtracted(inside));
+  painter.restore();
+}
+
 void paintRegions(QPainter& painter, const CanvasScene& scene) {
   const auto& regions = scene.session.recipe().regions;
   if (regions.empty()) return;

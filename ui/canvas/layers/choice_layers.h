@@ -12,6 +12,10 @@ namespace batten {
 void paintExtrema(QPainter&, const CanvasScene&);
 /// Points that could not be placed on the grey values.
 void paintFallback(QPainter&, const CanvasScene&);
+/// Printed lines of the paper that were left out, faintly.
+void paintRulings(QPainter&, const CanvasScene&);
+/// What lies beside the sheet of a photograph, veiled.
+void paintSheet(QPainter&, const CanvasScene&);
 /// The regions of interest; what lies outside is veiled.
 void paintRegions(QPainter&, const CanvasScene&);
 

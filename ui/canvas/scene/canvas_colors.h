@@ -23,6 +23,7 @@ inline QColor pinned() { return {132, 58, 186}; }  ///< A result set aside.
 inline QColor uniform() { return {200, 112, 0}; }  ///< A control polygon without repeated knots.
 inline QColor pen() { return {60, 60, 72, 150}; }  ///< What was drawn by hand.
 inline QColor segment() { return {20, 130, 80}; }
+inline QColor ruling() { return {70, 150, 210, 70}; }  ///< A printed line that was left out.
 inline QColor grid() { return {40, 40, 40, 70}; }
 
 }  // namespace batten::colors

@@ -33,6 +33,8 @@ class CanvasTool {
   virtual bool key(QKeyEvent*) { return false; }
   /// Esc while the button is down: takes back what the gesture has changed so far.
   virtual void abort() {}
+  /// A gesture goes on with the button up: Esc is its own.
+  virtual bool isUnderWay() const { return false; }
   /// Tab or Shift+Tab: true = it chose another mark, false = there is none behind the last, none = not the tool's.
   virtual std::optional<bool> tab(bool /*next*/) { return std::nullopt; }
   /// The recipe has changed, by undo, a panel or the tool itself.

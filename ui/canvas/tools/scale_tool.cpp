@@ -83,6 +83,7 @@ class ScaleTool final : public CanvasTool {
     isPressed_ = isFollowing_ = false;
     scene_.repaint();
   }
+  bool isUnderWay() const override { return isFollowing_; }
   void leave() override { over_.reset(); }
   void reset() override {
     isPressed_ = isFollowing_ = false;

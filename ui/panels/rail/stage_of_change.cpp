@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/rail/stage_of_change.h"
 
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace batten {
@@ -18,9 +18,10 @@ std::optional<PanelStage> stageOfChange(const Recipe& a, const Recipe& b) {
   if (!(a.corners == b.corners) || a.cornerMarks != b.cornerMarks) return PanelStage::Corners;
   // Of a choice for one curve the method and whether it counts are chosen under Curves, the rest is how it is faired.
   const auto constructed = [](const Recipe& recipe) {
-    std::vector<std::pair<bool, std::optional<ConstructMethod>>> said;
+    std::vector<std::tuple<bool, std::optional<ConstructMethod>, std::optional<double>>> said;
     for (const PieceChoice& choice : recipe.choices)
-      if (!choice.included || choice.method) said.emplace_back(choice.included, choice.method);
+      if (!choice.included || choice.method || choice.detail)
+        said.emplace_back(choice.included, choice.method, choice.detail);
     return said;
   };
   const bool isOfCurves = a.segments == b.segments && a.segmentPoints == b.segmentPoints &&

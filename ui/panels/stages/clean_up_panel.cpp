@@ -98,11 +98,11 @@ EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* pare
       figures_(new FigureTable(this)),
       note_(note({}, this)) {
   auto* layout = panelLayout(this, tr("Edges"));
-  auto* editor =
-      new ParameterEditor(session,
-                          {"edges.mode", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
-                           "edges.merge", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
-                          this);
+  auto* editor = new ParameterEditor(
+      session,
+      {"edges.mode", "contours.min_widths", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
+       "edges.merge", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
+      this);
   editor->addBelow("edges.merge", new MergeSuggestion(session, editor));
   tracing_ = {editor, new LineWay(session, this), caption(tr("Lines found"), this), figures_};
   layout->addWidget(tracing_[0]);

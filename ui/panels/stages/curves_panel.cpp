@@ -14,6 +14,8 @@
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
+#include "ui/panels/controls/parameter_row.h"
+#include "ui/panels/controls/segmented_control.h"
 #include "ui/panels/controls/slider_track.h"
 #include "ui/panels/stages/curve_list.h"
 #include "ui/panels/stages/growing_controls.h"
@@ -82,14 +84,15 @@ CombControls::CombControls(ViewSettings& view, QWidget* parent) : QWidget(parent
 CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
     : QWidget(parent),
       session_(session),
-      editor_(
-          new ParameterEditor(session,
-                              {"construct.start", "construct.derivative_magnitude", "construct.keep_extrema",
-                               "construct.light", "construct.light_tolerance", "construct.reduce", "construct.lowpass",
-                               "construct.closeness", "construct.typical", "construct.growing_stop", "segments.mode",
-                               "segments.count", "segments.spacing", "segments.tolerance", "construct.gradients",
-                               "construct.magnitude_as_in_paper", "construct.growing_as_in_paper"},
-                              this)),
+      editor_(new ParameterEditor(
+          session,
+          {"construct.start", "construct.derivative_magnitude", "construct.keep_extrema", "construct.light",
+           "construct.detail", "construct.light_tolerance", "construct.reduce", "construct.lowpass",
+           "construct.closeness", "construct.typical", "construct.growing_stop", "segments.mode", "segments.count",
+           "segments.spacing", "segments.tolerance", "construct.gradients", "construct.magnitude_as_in_paper",
+           "construct.growing_as_in_paper"},
+          this)),
+      detailScope_(new SegmentedControl({tr("All curves"), tr("Selected curve")}, this)),
       methods_(new MethodTable(session, this)),
       knots_(new KnotPanel(session, view, this)),
       figures_(new FigureTable(this)),
@@ -110,6 +113,7 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
   layout->addWidget(growing_);
   layout->addWidget(caption(tr("Curves"), this));
   layout->addWidget(new CurveList(session, Judged::Sketched, this));
+  bindDetail();
   addWaitingRow();
   layout->addWidget(caption(tr("Selected curve"), this));
   layout->addWidget(figures_);
@@ -125,6 +129,40 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
     if (stage == StageId::Curves) refresh();
   });
   refresh();
+}
+
+void CurvesPanel::bindDetail() {
+  detailScope_->setNames(QStringLiteral("construct.detail.scope"), {QStringLiteral("all"), QStringLiteral("one")});
+  detailScope_->setToolTip(tr("Whether the detail acts on the whole drawing or on the selected curve alone."));
+  detailScope_->setCurrent(0);
+  editor_->addBelow("construct.detail", detailScope_);
+  ParameterRow* row = editor_->row("construct.detail");
+  const Parameter* parameter = &row->parameter();
+  row->setBinding({[this, parameter](const Recipe& recipe) {
+                     Recipe shown;
+                     shown.construct.detail = recipe.construct.detail;
+                     const PieceChoice* own = detailsOne() ? choiceOf(session_, session_.selectedCurve()) : nullptr;
+                     if (own != nullptr && own->detail) shown.construct.detail = *own->detail;
+                     return parameter->get(shown);
+                   },
+                   [this, parameter](Recipe& recipe, std::string_view text) -> Result<void> {
+                     if (!detailsOne()) return parameter->set(recipe, text);
+                     Recipe asked;
+                     auto done = parameter->set(asked, text);
+                     if (!done) return done;
+                     const double detail = asked.construct.detail;
+                     const bool isCommon = detail == recipe.construct.detail;
+                     recipe = withChoice(session_, session_.selectedCurve(), [&](PieceChoice& own) {
+                       own.detail = isCommon ? std::nullopt : std::optional(detail);
+                     });
+                     std::erase_if(recipe.choices, [](const PieceChoice& choice) { return choice.isEmpty(); });
+                     return {};
+                   }});
+  connect(detailScope_, &SegmentedControl::chosen, row, &ParameterRow::sync);
+}
+
+bool CurvesPanel::detailsOne() const {
+  return detailScope_->current() == 1 && session_.selected() != nullptr && session_.curves().size() > 1;
 }
 
 void CurvesPanel::addWaitingRow() {
@@ -159,6 +197,10 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
     rows.push_back(
         {tr("Moved by sparing"), {{length(fit.knotRemovalMovedPx)}}, tr("How far that moved the curve at most.")});
   }
+  if (fit.light && fit.light->corners > 0)
+    rows.push_back({tr("Sharp corners inside"),
+                    {{QString::number(fit.light->corners)}},
+                    tr("Found at the scale of the detail; the curve is smooth between them.")});
   if (fit.light) {
     rows.push_back({tr("Made light"),
                     {{fit.light->found ? tr("%1 of %2 points").arg(fit.light->points).arg(fit.light->pointsBefore)
@@ -166,6 +208,12 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
                     tr("Control points of the light curve, each counted once, and of the dense curve of the fit.")});
     if (fit.light->found)
       rows.push_back({tr("Moved by that"), {{length(fit.light->movedPx)}}, tr("How far the two lie apart at most.")});
+    if (!fit.light->why.empty())
+      rows.push_back(
+          {tr("Stayed dense"),
+           {{fit.light->found ? tr("%1 of %2 sections").arg(fit.light->sectionsDense).arg(fit.light->sections)
+                              : tr("all of it")}},
+           QString::fromStdString(fit.light->why)});
   }
   const auto dropped =
       std::count_if(fit.extrema.begin(), fit.extrema.end(), [](const ExtremumNote& e) { return !e.kept; });
@@ -224,6 +272,11 @@ void CurvesPanel::refreshRows() {
   const bool light = session_.recipe().construct.light;
   editor_->setRowVisible("construct.light", method == ConstructMethod::Fair);
   editor_->setRowVisible("construct.light_tolerance", method == ConstructMethod::Fair && light);
+  const bool detailed = method == ConstructMethod::Fair && light;
+  editor_->setRowVisible("construct.detail", detailed);
+  detailScope_->setVisible(detailed && session_.curves().size() > 1);
+  detailScope_->setSegmentEnabled(1, session_.selected() != nullptr);
+  editor_->row("construct.detail")->sync();
   editor_->setRowVisible("construct.reduce", method == ConstructMethod::Fair && !light);
   knots_->setVisible(method == ConstructMethod::ControlPolygon);
   const bool segmented = method != ConstructMethod::Fair && method != ConstructMethod::ControlPolygon;

@@ -16,6 +16,7 @@ class KnotPanel;
 class MethodTable;
 class GrowingControls;
 class ParameterEditor;
+class SegmentedControl;
 
 /// How lines become curves, the curves themselves, and the figures of the selected one.
 class CurvesPanel : public QWidget {
@@ -30,12 +31,16 @@ class CurvesPanel : public QWidget {
   void refresh();
   void refreshRows();
   void refreshFigures();
+  /// The row of the detail acts on all curves or on the selected one alone.
+  void bindDetail();
+  bool detailsOne() const;
   /// One line below the list: choices whose line is not there now.
   void addWaitingRow();
   /// What the fair fit says of the selected curve: noise, spared control points, dropped extrema.
   void addFitRows(std::vector<FigureTable::Row>& rows, const TracedCurve& curve) const;
   EditorSession& session_;
   ParameterEditor* editor_;
+  SegmentedControl* detailScope_;
   MethodTable* methods_;
   KnotPanel* knots_;
   FigureTable* figures_;

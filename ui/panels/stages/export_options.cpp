@@ -22,7 +22,7 @@ const QString kPresetKey = QStringLiteral("export/preset"), kUnitKey = QStringLi
               kWhichKey = QStringLiteral("export/which"), kJoinedKey = QStringLiteral("export/joined"),
               kToleranceKey = QStringLiteral("export/accuracy");
 constexpr const char* kFirstPreset = "illustrator";
-constexpr int kFieldWidth = 92, kPresetLetters = 16;
+constexpr int kFieldWidth = 118, kPresetLetters = 16;
 
 bool hasUnit(ExportFormat format) {
   return format != ExportFormat::Svg && format != ExportFormat::Pdf && format != ExportFormat::Json;
@@ -89,11 +89,12 @@ QWidget* ExportOptions::row(const QString& label, QWidget* control, const QStrin
   name->setToolTip(help);
   control->setToolTip(help);
   if (auto* field = qobject_cast<NumberField*>(control)) {
-    field->setFixedWidth(kFieldWidth);
     field->edit()->setAccessibleName(label);
   } else {
     control->setAccessibleName(label);
   }
+  // One edge for all values; only the receiver's name needs more.
+  if (control != presets_) control->setFixedWidth(kFieldWidth);
   layout->addWidget(name);
   layout->addStretch();
   layout->addWidget(control);
@@ -131,7 +132,7 @@ void ExportOptions::build() {
   tolerance_->setDecimals(4);
   tolerance_->setStep(0.001);
   tolerance_->setUnit(tr("mm"));
-  toleranceRow_ = row(tr("Accuracy"), tolerance_,
+  toleranceRow_ = row(tr("Tolerance"), tolerance_,
                       tr("What the format cannot hold exactly stays this close to the curves. Smaller: more pieces."));
   layout->addWidget(toleranceRow_);
   joined_->setObjectName(QStringLiteral("export.joined"));

@@ -234,12 +234,12 @@ void ExportPanel::refresh() {
   if (size.curves == 0) return size_->setText(tr("There is no curve to export yet."));
   const ExportSettings settings = options_->settings();
   const double width = size.widthMm * settings.scale, height = size.heightMm * settings.scale;
-  QString text = tr("Will import as %1 × %2 mm").arg(width, 0, 'f', 1).arg(height, 0, 'f', 1);
+  QString text = tr("Will import as %1\u00a0×\u00a0%2\u00a0mm").arg(width, 0, 'f', 1).arg(height, 0, 'f', 1);
   if (settings.unit == LengthUnit::Inch) {
     const double inch = millimetresPer(LengthUnit::Inch);
-    text += tr(" (%1 × %2 in)").arg(width / inch, 0, 'f', 3).arg(height / inch, 0, 'f', 3);
+    text += tr(" (%1\u00a0×\u00a0%2\u00a0in)").arg(width / inch, 0, 'f', 3).arg(height / inch, 0, 'f', 3);
   }
-  text += QStringLiteral(", ") + counted(size.curves, tr("1 curve."), tr("%1 curves."));
+  text += QLatin1Char('.');
   if (isScaleAssumed(*session_.scan(), session_.recipe()))
     text += tr(" The scale is not known: set the resolution in the Scan stage.");
   size_->setText(text);
@@ -277,9 +277,9 @@ void ExportPanel::refreshPreview() {
 QString ExportPanel::summary(const ExportSize& size) const {
   const PreviewContent& content = preview_->content();
   if (content.curves.empty() || size.curves == 0) return {};
-  QString text = counted(std::ssize(content.curves), tr("1 curve"), tr("%1 curves"));
+  QString text = counted(size.curves, tr("1 curve"), tr("%1 curves"));
   if (options_->settings().joined.value_or(false) && std::ssize(content.curves) < size.curves)
-    text = tr("%1 of %2 pieces").arg(text).arg(size.curves);
+    text = tr("%1 joined into %2").arg(text).arg(std::ssize(content.curves));
   if (content.layers > 1) text += tr(" on %1 layers").arg(content.layers);
   if (content.doubles > 0) text += tr(", %1 on top of another left out").arg(content.doubles);
   return text + QLatin1Char('.');

@@ -8,6 +8,8 @@
 #include <QPainter>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <array>
+#include <cmath>
 
 #include "core/base/conventions.h"
 #include "core/pipeline/run/pipeline.h"
@@ -64,7 +66,9 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
       dpi_(new NumberField(this)),
       scaleNote_(note({}, this)),
       fromFile_(linkButton(tr("Use the file's resolution"), QStringLiteral("scan.dpiFromFile"), this)),
-      swatch_(new ToneSwatch(this)) {
+      swatch_(new ToneSwatch(this)),
+      paperNote_(note({}, this)),
+      inkBox_(new QWidget(this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(14, 12, 14, 12);
   layout->setSpacing(8);
@@ -116,7 +120,14 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
   layout->addWidget(new ParameterEditor(session, {"log.enabled", "log.factor"}, this));
   layout->addWidget(swatch_);
   layout->addWidget(caption(tr("Paper"), this));
-  layout->addWidget(new ParameterEditor(session, {"paper.flatten", "paper.folds"}, this));
+  layout->addWidget(new ParameterEditor(
+      session, {"paper.colour", "paper.rulings", "paper.sheet", "paper.flatten", "paper.folds"}, this));
+  paperNote_->setObjectName(QStringLiteral("scan.paperNote"));
+  layout->addWidget(paperNote_);
+  new QGridLayout(inkBox_);
+  inkBox_->layout()->setContentsMargins(0, 0, 0, 0);
+  inkBox_->setObjectName(QStringLiteral("scan.inks"));
+  layout->addWidget(inkBox_);
   layout->addStretch();
   connect(dpi_, &NumberField::committed, this, [this](double value) { setDpi(value); });
   connect(page_, &NumberField::committed, this, [this](double value) {
@@ -132,6 +143,7 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
   connect(fromFile_, &QPushButton::clicked, this, [this] { setDpi(std::nullopt); });
   connect(&session_, &EditorSession::scanOpened, this, &ScanPanel::refresh);
   connect(&session_, &EditorSession::recipeChanged, this, &ScanPanel::refresh);
+  connect(&session_, &EditorSession::stageReady, this, &ScanPanel::refreshPaper);
   refresh();
 }
 
@@ -160,7 +172,90 @@ void ScanPanel::refreshPage(const Scan* scan) {
   if (isPdf) pdfDpi_->setValue(scan->page.pdfDpi);
 }
 
+void ScanPanel::refreshPaper() {
+  QStringList said;
+  const auto& page = session_.output().page;
+  if (page && page->colouredShare > 0.0)
+    said << tr("Coloured ink was made darker on %1 % of the page.").arg(100.0 * page->colouredShare, 0, 'f', 1);
+  for (const RulingFamily& family : page ? page->rulings : std::vector<RulingFamily>{}) {
+    const int count = static_cast<int>(std::ssize(family.lines));
+    said << (family.runsDown ? tr("%1 printed lines down the page are left out.")
+                             : tr("%1 printed lines across the page are left out."))
+                .arg(count);
+  }
+  if (page && page->sheet)
+    said << tr("%1 % of the picture lies beside the sheet and is cut off.")
+                .arg(100.0 * page->sheet->outsideShare, 0, 'f', 0);
+  refreshInks();
+  paperNote_->setText(said.join(QLatin1Char(' ')));
+  paperNote_->setVisible(!said.isEmpty());
+}
+
+namespace {
+
+QString inkName(const InkColour& ink) {
+  if (!ink.hueDeg) return ScanPanel::tr("Black and grey");
+  constexpr std::array kNames = {
+      QT_TRANSLATE_NOOP("batten::ScanPanel", "Red"),     QT_TRANSLATE_NOOP("batten::ScanPanel", "Orange"),
+      QT_TRANSLATE_NOOP("batten::ScanPanel", "Yellow"),  QT_TRANSLATE_NOOP("batten::ScanPanel", "Green"),
+      QT_TRANSLATE_NOOP("batten::ScanPanel", "Green"),   QT_TRANSLATE_NOOP("batten::ScanPanel", "Turquoise"),
+      QT_TRANSLATE_NOOP("batten::ScanPanel", "Blue"),    QT_TRANSLATE_NOOP("batten::ScanPanel", "Blue"),
+      QT_TRANSLATE_NOOP("batten::ScanPanel", "Violet"),  QT_TRANSLATE_NOOP("batten::ScanPanel", "Violet"),
+      QT_TRANSLATE_NOOP("batten::ScanPanel", "Magenta"), QT_TRANSLATE_NOOP("batten::ScanPanel", "Red")};
+  constexpr double kStepDeg = 360.0 / static_cast<double>(kNames.size());
+  const auto at = static_cast<std::size_t>(std::lround(*ink.hueDeg / kStepDeg)) % kNames.size();
+  return ScanPanel::tr(kNames[at]);
+}
+
+QIcon inkIcon(const Rgb8& colour) {
+  QPixmap swatch(14, 14);
+  swatch.fill(QColor(colour.red, colour.green, colour.blue));
+  return QIcon(swatch);
+}
+
+}  // namespace
+
+void ScanPanel::setInkDropped(const InkColour& ink, bool isDropped) {
+  Recipe after = session_.recipe();
+  InkChoice& inks = after.preparation.inks;
+  std::erase_if(inks.drop, [&](const InkColour& c) { return isSameInk(c, ink, inks.rangeDeg); });
+  if (isDropped)
+    inks.drop.push_back(ink);
+  else if (!inks.keep.empty() && !isTraced(ink, inks))
+    inks.keep.push_back(ink);
+  session_.change(isDropped ? tr("Drop ink") : tr("Trace ink"), std::move(after));
+}
+
+/// One button for every ink of the page; pressed in is traced. Made anew only for other inks, so that the focus stays.
+void ScanPanel::refreshInks() {
+  const auto& page = session_.output().page;
+  const std::vector<FoundInk> inks = page && page->inks.size() > 1 ? page->inks : std::vector<FoundInk>{};
+  if (inks != shownInks_) {
+    qDeleteAll(inkBox_->findChildren<QPushButton*>(QString(), Qt::FindDirectChildrenOnly));
+    shownInks_ = inks;
+    auto* grid = static_cast<QGridLayout*>(inkBox_->layout());
+    for (std::size_t i = 0; i < inks.size(); ++i) {
+      const FoundInk& ink = inks[i];
+      auto* button = new QPushButton(inkIcon(ink.shown), inkName(ink.colour), inkBox_);
+      button->setObjectName(QStringLiteral("scan.ink%1").arg(i));
+      button->setCheckable(true);
+      button->setToolTip(tr("%1 % of the ink of the page. Press to leave this ink out, press again to trace it.")
+                             .arg(100.0 * ink.share, 0, 'f', 0));
+      connect(button, &QPushButton::clicked, this,
+              [this, colour = ink.colour](bool isTraced) { setInkDropped(colour, !isTraced); });
+      grid->addWidget(button, static_cast<int>(i) / 2, static_cast<int>(i) % 2);
+    }
+  }
+  const auto buttons = inkBox_->findChildren<QPushButton*>(QString(), Qt::FindDirectChildrenOnly);
+  for (QPushButton* button : buttons) {
+    const int i = button->objectName().mid(8).toInt();
+    if (i < std::ssize(inks)) button->setChecked(isTraced(inks[i].colour, session_.recipe().preparation.inks));
+  }
+  inkBox_->setVisible(!inks.empty());
+}
+
 void ScanPanel::refresh() {
+  refreshPaper();
   swatch_->show(session_.recipe().log);
   refreshPage(session_.scan().get());
   dpi_->setEnabled(session_.hasScan());

@@ -3,6 +3,7 @@
 
 #include <QWidget>
 
+#include "core/image/inks.h"
 #include "core/image/log_transform.h"
 #include "ui/session/editor_session.h"
 
@@ -48,6 +49,9 @@ class ScanPanel : public QWidget {
  private:
   void setDpi(std::optional<double> dpi);
   void refreshPage(const Scan* scan);
+  void refreshPaper();
+  void refreshInks();
+  void setInkDropped(const InkColour& ink, bool isDropped);
   EditorSession& session_;
   FigureTable* facts_;
   QLabel* pageName_;
@@ -58,6 +62,9 @@ class ScanPanel : public QWidget {
   QLabel* scaleNote_;
   QPushButton* fromFile_;
   ToneSwatch* swatch_;
+  QLabel* paperNote_;
+  QWidget* inkBox_;                  ///< A button for every ink of the page.
+  std::vector<FoundInk> shownInks_;  ///< What its buttons were made for.
 };
 
 }  // namespace batten

@@ -11,10 +11,15 @@
 #include <QWidget>
 #include <new>
 
+#include "core/base/conventions.h"
 #include "ui/session/background_worker.h"
 
 namespace batten {
 namespace {
+
+/// What is carried has pixels as user units: Inkscape takes what is pasted or dropped for pixels, whatever the view box
+/// says. Others go by the size of the page, which is in mm.
+constexpr double kPixelsPerMm = 96.0 / kMillimetresPerInch;
 
 /// The picture under every name by which drawing programs look for one; the text is for editors.
 std::unique_ptr<QMimeData> pictureOf(const QByteArray& svg) {
@@ -35,6 +40,7 @@ Result<ExportedFile> svgOf(const ExportRequest& request, std::optional<int> numb
     ExportSettings settings;
     settings.scale = request.settings.scale;
     settings.joined = request.settings.joined;
+    settings.svgUnitsPerMm = kPixelsPerMm;
     return exportedFile(document, settings, context);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to make the SVG. Leave some curves out.");

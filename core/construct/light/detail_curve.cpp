@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/construct/light/detail_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/construct/light/detail_line.h"
+#include "core/construct/light/light_search.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
+#include "core/curve/knot_operations.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr double kStepsPerScale = 12.0;
+constexpr double kLeftOut = 1.2;     // scales beside a corner, where ink is rounded
+constexpr double kSmoothedBy = 0.4;  // scales
+constexpr double kFitShare = 0.9;    // of the tolerance; the rest is for the smoothing
+constexpr double kClearNotch =
+    60.0 * std::numbers::pi / 180.0;  // a corner that does not turn at large must turn by this
+constexpr int kFewestStretchSamples = 16;
+constexpr int kFewestTried = 9, kMostDetailPoints = 60;
+constexpr double kChordReach = 3.0;  // tolerances
+constexpr int kMostCuts = 4;         // of a stretch, one within the other
+constexpr double kSamplesPerPoint = 4.0;
+constexpr int kMeasuredEvery = 3;  // samples of the line
+
+/// Points at even steps along a polyline, both ends included.
+std::vector<Vec2> evenly(const std::vector<Vec2>& line, double step) {
+  const std::vector<double> s = cumulativeLength(line);
+  const int steps = std::max(kFewestStretchSamples, static_cast<int>(std::lround(s.back() / step)));
+  std::vector<Vec2> points;
+  std::size_t at = 0;
+  for (int k = 0; k <= steps; ++k) {
+    const double wanted = s.back() * k / steps;
+    while (at + 2 < s.size() && s[at + 1] < wanted) ++at;
+    const double width = s[at + 1] - s[at], f = width > 0.0 ? std::clamp((wanted - s[at]) / width, 0.0, 1.0) : 0.0;
+    points.push_back(line[at] + f * (line[at + 1] - line[at]));
+  }
+  return points;
+}
+
+/// The line from one corner, or its start, to the next, or its end.
+struct Stretch {
+  std::optional<Vec2> from, to;  ///< The corners.
+  int first = 0, last = 0;       ///< Samples; the last may pass the number of those of a closed line.
+};
+
+std::vector<Stretch> stretchesOf(const EvenLine& line, const std::vector<ScaleCorner>& corners) {
+  std::vector<Stretch> stretches;
+  const int n = line.size();
+  if (line.closed) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const ScaleCorner &a = corners[i], &b = corners[(i + 1) % corners.size()];
+      stretches.push_back({a.vertex, b.vertex, a.sample, i + 1 < corners.size() ? b.sample : b.sample + n});
+    }
+    return stretches;
+  }
+  Stretch now{{}, {}, 0, 0};
+  for (const ScaleCorner& corner : corners) {
+    now.to = corner.vertex;
+    now.last = corner.sample;
+    stretches.push_back(now);
+    now = {corner.vertex, {}, corner.sample, 0};
+  }
+  now.last = n - 1;
+  stretches.push_back(now);
+  return stretches;
+}
+
+std::vector<Vec2> pointsOf(const Stretch& stretch, const EvenLine& line, double scale) {
+  const int away = static_cast<int>(std::lround(kLeftOut * scale / line.step));
+  std::vector<Vec2> points;
+  if (stretch.from) points.push_back(*stretch.from);
+  const int first = stretch.first + (stretch.from ? away : 0), last = stretch.last - (stretch.to ? away : 0);
+  for (int i = first; i <= last; ++i) points.push_back(line.points[static_cast<std::size_t>(i % line.size())]);
+  if (stretch.to) points.push_back(*stretch.to);
+  return points;
+}
+
+LightCurve fitOf(const NurbsCurve& dense, const std::vector<Vec2>& points, bool closed, const LightOptions& options,
+                 const RunContext& context) {
+  const auto reference = LightReference::through(points, closed);
+  if (!reference) return {};
+  LightTask task;
+  task.forms = closed ? LightForms::All : LightForms::UpToQuintic;
+  task.keepStructure = false;
+  task.mostPoints = std::clamp(static_cast<int>(static_cast<double>(points.size()) / kSamplesPerPoint), kFewestTried,
+                               kMostDetailPoints);
+  LightOptions within = options;
+  within.tolerance = kFitShare * options.tolerance;
+  within.start = within.end = LightHold::Position;
+  return searchLight(dense, *reference, within, task, context);
+}
+
+/// Where a stretch is farthest from its chord.
+std::size_t farthestFromChord(const std::vector<Vec2>& points) {
+  const Vec2 first = points.front(), chord = points.back() - first;
+  const double length = chord.norm();
+  std::size_t at = points.size() / 2;
+  double most = 0.0;
+  for (std::size_t i = kFewestStretchSamples / 2; i + kFewestStretchSamples / 2 < points.size(); ++i) {
+    const Vec2 away = points[i] - first;
+    const double distance = length > 0.0 ? std::abs(cross(chord, away)) / length : away.norm();
+    if (distance > most) {
+      most = distance;
+      at = i;
+    }
+  }
+  return at;
+}
+
+/// What is left of a spike or a notch: a straight line, if no point lies farther from it than that.
+std::optional<LightCurve> chordOf(const std::vector<Vec2>& points, double most) {
+  const Vec2 first = points.front(), chord = points.back() - first;
+  const double length = chord.norm();
+  if (!(length > 0.0)) return std::nullopt;
+  for (const Vec2& p : points) {
+    if (awayFromSegment(p, first, points.back()).norm() > most) return std::nullopt;
+  }
+  auto line = NurbsCurve::make(1, {0.0, 0.0, length, length}, {first, points.back()});
+  if (!line) return std::nullopt;
+  LightCurve curve{std::move(*line), {}};
+  curve.report.kind = LightKind::Line;
+  curve.report.points = 2;
+  return curve;
+}
+
+/// The curves of a stretch: one, or where none is found those of two parts of it, which meet in a corner.
+std::vector<LightCurve> fitsOf(const NurbsCurve& dense, const std::vector<Vec2>& points, bool closed,
+                               const LightOptions& options, int cuts, const RunContext& context) {
+  LightCurve one = fitOf(dense, points, closed, options, context);
+  const bool found = !one.curve.isEmpty() && one.report.kind != LightKind::Dense;
+  if (found || closed || context.isCancelled()) return {one};
+  if (cuts == 0 || points.size() < 2 * kFewestStretchSamples) {
+    if (auto chord = chordOf(points, kChordReach * options.tolerance)) return {*chord};
+    return {one};
+  }
+  const auto at = points.begin() + static_cast<std::ptrdiff_t>(farthestFromChord(points));
+  auto parts = fitsOf(dense, {points.begin(), at + 1}, false, options, cuts - 1, context);
+  auto rest = fitsOf(dense, {at, points.end()}, false, options, cuts - 1, context);
+  std::move(rest.begin(), rest.end(), std::back_inserter(parts));
+  return parts;
+}
+
+/// All of one degree, end to start.
+std::optional<NurbsCurve> joinedAtCorners(const std::vector<LightCurve>& parts, double tolerance) {
+  int degree = 1;
+  for (const LightCurve& part : parts) degree = std::max(degree, part.curve.degree());
+  std::vector<NurbsCurve> curves;
+  for (const LightCurve& part : parts) {
+    auto raised = part.curve.degree() < degree ? elevated(part.curve, degree) : Result<NurbsCurve>(part.curve);
+    if (!raised) return std::nullopt;
+    curves.push_back(std::move(*raised));
+  }
+  if (curves.size() == 1) return curves.front();
+  auto joined = joinAtCorners(curves, tolerance);
+  return joined ? std::optional(std::move(*joined)) : std::nullopt;
+}
+
+double farthest(const EvenLine& line, const NurbsCurve& curve) {
+  double worst = 0.0;
+  for (int i = 0; i < line.size(); i += kMeasuredEvery) {
+    worst = std::max(worst, closestPoint(curve, line.points[static_cast<std::size_t>(i)]).distance);
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, const LightOptions& options,
+                                          const RunContext& context) {
+  const double scale = options.tolerance;
+  const EvenLine whole = evenLine(dense, closed, std::max(options.step, scale / kStepsPerScale));
+  EvenLine line = whole;
+  const int necks = cutNecks(line, scale);
+  std::vector<ScaleCorner> corners = cornersAtScale(line, scale);
+  std::erase_if(corners, [](const ScaleCorner& c) { return !c.hard && std::abs(c.turnRad) < kClearNotch; });
+  const bool loop = closed && corners.empty();
+  const double sigma = kSmoothedBy * scale / line.step;
+  std::vector<std::vector<Vec2>> stretches;
+  if (loop) {
+    stretches.push_back(smoothPolyline(line.points, true, sigma));
+  } else {
+    for (const Stretch& stretch : stretchesOf(line, corners)) {
+      auto points = pointsOf(stretch, line, scale);
+      if (points.size() < 2) return std::nullopt;
+      stretches.push_back(smoothPolyline(evenly(points, line.step), false, sigma));
+    }
+  }
+  std::vector<std::vector<LightCurve>> fits(stretches.size());
+  parallelFor(context, static_cast<int>(fits.size()), 1, [&](int begin, int end) {
+    for (int i = begin; i < end && !context.isCancelled(); ++i) {
+      fits[i] = fitsOf(dense, stretches[i], loop, options, kMostCuts, context);
+    }
+  });
+  if (context.isCancelled()) return std::nullopt;
+  std::vector<LightCurve> parts;
+  for (auto& some : fits) std::move(some.begin(), some.end(), std::back_inserter(parts));
+  const int cuts = static_cast<int>(parts.size() - stretches.size());
+  LightCurve simple;
+  for (const LightCurve& part : parts) {
+    if (part.curve.isEmpty() || part.report.kind == LightKind::Dense) return std::nullopt;
+    simple.report.iterations += part.report.iterations;
+    simple.report.tries += part.report.tries;
+    simple.report.points += part.report.points - 1;
+  }
+  simple.report.points += closed ? (loop ? 1 : 0) : 1;
+  auto joined = joinedAtCorners(parts, scale);
+  if (!joined) return std::nullopt;
+  simple.curve = std::move(*joined);
+  simple.report.kind = parts.size() == 1 ? parts.front().report.kind : LightKind::Chain;
+  simple.report.sections = static_cast<int>(parts.size());
+  simple.report.necks = necks;
+  simple.report.corners = static_cast<int>(corners.size()) + cuts;
+  simple.report.pointsBefore = dense.controlPointCount() - (closed ? dense.degree() : 0);
+  simple.report.worst = farthest(line, simple.curve);
+  simple.report.extrema = countedExtrema(simple.curve, closed);
+  return simple;
+}
+
+}  // namespace batten

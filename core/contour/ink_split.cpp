@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/ink_split.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/contour/centreline/centreline.h"
+#include "core/contour/centreline/graininess.h"
+#include "core/contour/centreline/stroke_paths.h"
+#include "core/contour/chosen_ink.h"
+#include "core/contour/label/ink_labels.h"
+
+namespace batten {
+namespace {
+
+// Lengths by what they were drawn with.
+struct Drawn {
+  double pencil = 0.0, pen = 0.0;
+  bool isPencil() const { return pencil > pen; }
+};
+
+// Whether each piece of ink was drawn with a pencil; what is too small to tell goes with the page.
+class PencilPieces {
+ public:
+  PencilPieces(const BitImage& skeleton, const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
+               const RunContext& context)
+      : pieces_(findPieces(ink, Connectivity::Eight, context)) {
+    const std::vector<StrokePath> paths = findStrokePaths(skeleton, ink, params, context);
+    if (context.isCancelled()) return;
+    const GraininessMap grain(paths, grey, context);
+    for (int i = 0; i < static_cast<int>(paths.size()); ++i) {
+      const double length = paths[i].length();
+      const int piece = pieceOf(paths[i]);
+      for (Drawn* drawn : {&page_, piece >= 0 ? &byPiece_[piece] : nullptr}) {
+        if (drawn != nullptr) (grain.isPencil(i) ? drawn->pencil : drawn->pen) += length;
+      }
+    }
+  }
+  const RunPieces& pieces() const { return pieces_; }
+  bool isPencil(int piece) const {
+    const auto found = byPiece_.find(piece);
+    return found == byPiece_.end() ? page_.isPencil() : found->second.isPencil();
+  }
+  bool any() const { return page_.pencil > 0.0; }
+
+ private:
+  int pieceOf(const StrokePath& path) const {
+    if (path.points.empty()) return -1;
+    const Vec2& at = path.points[path.points.size() / 2].at;
+    return pieceAt(pieces_, static_cast<int>(at.x()), static_cast<int>(at.y())).value_or(-1);
+  }
+
+  RunPieces pieces_;
+  Drawn page_;
+  std::map<int, Drawn> byPiece_;
+};
+
+void move(const BitImage& ink, const Run& run, bool isShape, InkSplit& split) {
+  clearBits(isShape ? split.strokes : split.shapes, run);
+  BitImage& to = isShape ? split.shapes : split.strokes;
+  for (int x = run.x0; x < run.x1; ++x) {
+    if (ink.at(x, run.y)) to.set(x, run.y, true);
+  }
+}
+
+RunPieces regionsOf(const BitImage& strokes, const BitImage& shapes, const RunContext& context) {
+  struct Marked {
+    Run run;
+    std::pair<bool, int> region;
+  };
+  std::vector<Marked> marked;
+  for (const bool isShape : {false, true}) {
+    const RunPieces pieces = findPieces(isShape ? shapes : strokes, Connectivity::Eight, context);
+    for (std::size_t i = 0; i < pieces.runs.size(); ++i) marked.push_back({pieces.runs[i], {isShape, pieces.piece[i]}});
+  }
+  std::sort(marked.begin(), marked.end(), [](const Marked& a, const Marked& b) {
+    return a.run.y != b.run.y ? a.run.y < b.run.y : a.run.x0 < b.run.x0;
+  });
+  RunPieces regions;
+  std::map<std::pair<bool, int>, int> first;
+  for (const Marked& m : marked) {
+    regions.piece.push_back(first.try_emplace(m.region, static_cast<int>(regions.runs.size())).first->second);
+    regions.runs.push_back(m.run);
+  }
+  return regions;
+}
+
+Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params, InkSplit& split,
+                          const RunContext& context) {
+  Result<InkLabels> labels = labelInk(ink, context);
+  if (!labels) return fail(labels.error());
+  split.strokes = std::move(labels->strokes);
+  split.shapes = std::move(labels->shapes);
+  split.penPx = labels->penPx;
+  const PencilPieces pencil(labels->skeleton, ink, grey, params, context);
+  if (context.isCancelled()) return cancelled();
+  if (!pencil.any()) return {};
+  EdgeParams whole = params;
+  whole.choices.clear();
+  whole.strokeWidth = EdgeParams{}.strokeWidth;
+  Result<StrokeSplit> byPiece = splitStrokes(ink, whole, context);
+  if (!byPiece) return fail(byPiece.error());
+  const RunPieces& pieces = pencil.pieces();
+  split.pencil = BitImage(ink.width, ink.height);
+  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
+    if (!pencil.isPencil(pieces.piece[i])) continue;
+    setBits(split.pencil, pieces.runs[i]);
+    move(ink, pieces.runs[i], byPiece->shapes.at(pieces.runs[i].x0, pieces.runs[i].y), split);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
+                          const RunContext& context) {
+  InkSplit split{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height), {}, {}, 0.0};
+  if (params.mode == EdgeMode::Outline) {
+    split.shapes = ink;
+  } else if (params.mode == EdgeMode::Centreline) {
+    split.strokes = ink;
+  } else if (auto done = splitByLabel(ink, grey, params, split, context); !done) {
+    return fail(done.error());
+  }
+  if (params.choices.empty()) return split;
+  split.regions = regionsOf(split.strokes, split.shapes, context);
+  if (context.isCancelled()) return cancelled();
+  const ChosenInk chosen(split.regions, params.choices);
+  for (std::size_t i = 0; i < split.regions.runs.size(); ++i) {
+    const auto choice = chosen.choiceOf(split.regions.piece[i]);
+    if (!choice || params.choices[*choice].mode == EdgeMode::Automatic) continue;
+    move(ink, split.regions.runs[i], params.choices[*choice].mode == EdgeMode::Outline, split);
+  }
+  return split;
+}
+
+}  // namespace batten

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/contour/edge_params.h"
+#include "core/image/bit_image.h"
+#include "core/image/grey_image.h"
+#include "core/image/run_pieces.h"
+
+namespace batten {
+
+/// The ink of a page by the way it is followed. Both pictures have the size of the ink and share no pixel.
+struct InkSplit {
+  BitImage strokes;    ///< Along their middle.
+  BitImage shapes;     ///< Along their border.
+  BitImage pencil;     ///< Ink that was drawn with a pencil; no pixels at all where there is none.
+  RunPieces regions;   ///< What the user turns over with one click: connected parts of one kind, before the choices.
+  double penPx = 0.0;  ///< [px] width of the strokes; 0 = none was looked for, or there are none.
+};
+
+/// Splits the ink into strokes and shapes, region by region (label/ink_labels.h), unless the page is followed in one
+/// way (EdgeParams::mode); regions that the user chose for follow his choice. Ink drawn with a pencil is split piece by
+/// piece (splitStrokes): its specks and tones are no shapes.
+Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const EdgeParams&, const RunContext&);
+
+}  // namespace batten

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/image/inks.h"
+#include "core/image/paper_sheet.h"
+#include "core/image/rulings.h"
+#include "core/image/scan.h"
+
+namespace batten {
+
+/// How the colours of a scan become its grey.
+enum class ColourUse {
+  Darkest,  ///< Coloured ink that gains by it takes the darkest of its channels, everything else its grey.
+  Grey,     ///< The luma of Rec. 601 everywhere.
+};
+
+/// What becomes of printed lines of the paper.
+enum class RulingUse {
+  LeaveOut,  ///< Ruled lines and grids are found and taken out of the page.
+  Keep,      ///< They are ink as any other.
+};
+
+/// What becomes of the surroundings of the sheet in a photograph.
+enum class SheetUse {
+  CutOff,  ///< The sheet is found, and what lies beside it is painted over.
+  Off,     ///< The whole picture is the page.
+};
+
+/// What is done to a scan before its thresholds.
+struct PreparationParams {
+  ColourUse colour = ColourUse::Darkest;
+  RulingUse rulings = RulingUse::LeaveOut;
+  SheetUse sheet = SheetUse::CutOff;
+  InkChoice inks;
+  bool operator==(const PreparationParams&) const = default;
+};
+
+/// The page as it is traced.
+struct PreparedPage {
+  GreyImage grey;                     ///< Of the scan's size; empty: the scan's own grey, untouched.
+  double colouredShare = 0.0;         ///< 0..1 of the page, taken by its darkest channel.
+  std::vector<RulingFamily> rulings;  ///< What was taken out of it.
+  std::optional<PaperSheet> sheet;    ///< What lies beside it was painted over.
+  std::vector<FoundInk> inks;         ///< Of a colour scan: all of them, also those that were dropped.
+  double droppedShare = 0.0;          ///< 0..1 of the page: inks painted over.
+  std::vector<std::string> notes;     ///< What the user should know, one line each.
+  bool isUntouched() const { return grey.pixels.empty(); }
+};
+
+std::optional<Error> validate(const PreparationParams&);
+
+/// Makes the grey page that all later stages read. A grey scan stays bit by bit as it is.
+/// @return Cancelled or OutOfMemory.
+Result<PreparedPage> preparePage(const Scan&, const PreparationParams&, const RunContext&);
+
+}  // namespace batten

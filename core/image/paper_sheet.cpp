@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/paper_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/base/parallel.h"
+#include "core/base/statistics.h"
+#include "core/image/push_pull.h"
+
+namespace batten {
+namespace {
+
+constexpr int kSheetCells = 400;          // along the longer side of the picture
+constexpr double kPaperRankOfCell = 0.7;  // of the pixels of a cell by grey: ink is darker
+constexpr int kSamplesAcross = 4;         // of a cell
+constexpr float kMostStep = 7.0f;         // [grey] from cell to cell of one sheet, in brightness and in colour
+constexpr double kMostRoughness = 9.0;    // [grey] between neighbours within a cell: carpet, wood, cloth
+constexpr double kLeastSheet = 0.3, kMostSheet = 0.985;  // of the picture
+constexpr double kLeastSolid = 0.92;                     // of the convex hull: a torn edge is nearly convex
+constexpr double kLeastPatch = 0.004;     // of the picture: smaller patches at the border are ink that runs off it
+constexpr double kLeastAlongSide = 0.2;   // of a side of the picture that a patch beside the sheet takes
+constexpr double kSheetContrast = 12.0;   // [grey] of the patch against the sheet beside it
+constexpr double kSheetRimShare = 0.006;  // of the diagonal: the sheet's edge and its shadow
+constexpr double kNeckShare = 0.01;       // of the diagonal: narrower parts of the sheet are torn edges and ring holes
+
+struct SheetCells {
+  int sizePx = 1, columns = 0, rows = 0;
+  cv::Mat3f colour;  ///< Grey, red less grey, blue less grey; without ink.
+  cv::Mat1f rough;   ///< Mean difference of neighbours.
+};
+
+SheetCells measureCellsOf(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {
+  SheetCells cells;
+  cells.sizePx = std::max(2, (std::max(grey.width, grey.height) + kSheetCells - 1) / kSheetCells);
+  cells.columns = grey.width / cells.sizePx;
+  cells.rows = grey.height / cells.sizePx;
+  cells.colour.create(cells.rows, cells.columns);
+  cells.rough.create(cells.rows, cells.columns);
+  const int stride = std::max(1, cells.sizePx / kSamplesAcross);
+  parallelFor(context, cells.rows, 8, [&](int begin, int end) {
+    std::vector<std::pair<std::uint16_t, Rgb8>> pixels;
+    std::vector<float> steps;
+    for (int j = begin; j < end; ++j) {
+      for (int i = 0; i < cells.columns; ++i) {
+        pixels.clear();
+        steps.clear();
+        for (int y = j * cells.sizePx; y < (j + 1) * cells.sizePx; y += stride) {
+          for (int x = i * cells.sizePx; x < (i + 1) * cells.sizePx; x += stride) {
+            pixels.emplace_back(grey.row(y)[x], colour.isEmpty() ? Rgb8{} : colour.row(y)[x]);
+            if (x + 1 < grey.width)
+              steps.push_back(std::fabs(static_cast<float>(grey.level(x + 1, y) - grey.level(x, y))));
+          }
+        }
+        const auto rank = static_cast<std::ptrdiff_t>(kPaperRankOfCell * static_cast<double>(pixels.size() - 1));
+        std::nth_element(pixels.begin(), pixels.begin() + rank, pixels.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        const auto& paper = pixels[rank];
+        const auto level = static_cast<float>(paper.first / GreyImage::kGreyUnit);
+        cv::Vec3f value(level, 0.0f, 0.0f);
+        if (!colour.isEmpty()) {
+          value[1] = static_cast<float>(paper.second.red) - level;
+          value[2] = static_cast<float>(paper.second.blue) - level;
+        }
+        cells.colour(j, i) = value;
+        cells.rough(j, i) = upperMedian(steps);
+      }
+    }
+  });
+  cv::medianBlur(cells.colour, cells.colour, 3);
+  return cells;
+}
+
+bool isOneSheet(const cv::Vec3f& a, const cv::Vec3f& b) {
+  return std::fabs(a[0] - b[0]) <= kMostStep && std::fabs(a[1] - b[1]) <= kMostStep &&
+         std::fabs(a[2] - b[2]) <= kMostStep;
+}
+
+/// Cells joined as long as brightness and colour change slowly; rough ones stay alone. Labels from 0.
+cv::Mat1i joinCells(const SheetCells& cells) {
+  cv::Mat1i labels(cells.rows, cells.columns, -1);
+  std::vector<cv::Point> open;
+  int next = 0;
+  for (int j = 0; j < cells.rows; ++j) {
+    for (int i = 0; i < cells.columns; ++i) {
+      if (labels(j, i) >= 0) continue;
+      labels(j, i) = next;
+      open.assign(1, {i, j});
+      while (!open.empty()) {
+        const cv::Point at = open.back();
+        open.pop_back();
+        if (cells.rough(at) > static_cast<float>(kMostRoughness)) continue;
+        for (const cv::Point step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
+          const cv::Point to = at + step;
+          if (to.x < 0 || to.y < 0 || to.x >= cells.columns || to.y >= cells.rows || labels(to) >= 0) continue;
+          if (cells.rough(to) > static_cast<float>(kMostRoughness)) continue;
+          if (!isOneSheet(cells.colour(at), cells.colour(to))) continue;
+          labels(to) = next;
+          open.push_back(to);
+        }
+      }
+      ++next;
+    }
+  }
+  return labels;
+}
+
+/// The sheet with all that it encloses: what cannot be reached from outside the picture.
+cv::Mat1b filledSheet(const cv::Mat1b& sheet) {
+  cv::Mat1b around;
+  cv::copyMakeBorder(sheet, around, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
+  cv::floodFill(around, {0, 0}, 128);
+  return around(cv::Rect(1, 1, sheet.cols, sheet.rows)) != 128;
+}
+
+/// How a patch of cells lies against the border of the picture, and what it is like.
+struct BorderPatch {
+  int area = 0;
+  std::array<int, 4> along{};  ///< Cells at the top, right, bottom and left side.
+  int corners = 0;
+};
+
+bool isBeside(const BorderPatch& patch, const cv::Size& size) {
+  if (patch.area < kLeastPatch * size.area() || patch.corners == 0) return false;
+  const double across = std::max(patch.along[0], patch.along[2]) / static_cast<double>(size.width);
+  const double down = std::max(patch.along[1], patch.along[3]) / static_cast<double>(size.height);
+  return std::max(across, down) >= kLeastAlongSide;
+}
+
+/// Cells beside the sheet: patches outside it that reach a corner of the picture and run along its border. The rest
+/// outside it is ink that runs off the page, and stays.
+cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
+  cv::Mat1i labels;
+  const cv::Mat1b outside = sheet == 0;
+  const int count = cv::connectedComponents(outside, labels, 8, CV_32S);
+  std::vector<BorderPatch> patches(static_cast<std::size_t>(count));
+  const int right = sheet.cols - 1, bottom = sheet.rows - 1;
+  for (int j = 0; j <= bottom; ++j) {
+    for (int i = 0; i <= right; ++i) {
+      BorderPatch& patch = patches[labels(j, i)];
+      ++patch.area;
+      patch.along[0] += j == 0;
+      patch.along[1] += i == right;
+      patch.along[2] += j == bottom;
+      patch.along[3] += i == 0;
+      patch.corners += (j == 0 || j == bottom) && (i == 0 || i == right);
+    }
+  }
+  cv::Mat1b beside(sheet.size(), 0);
+  const double level = cv::mean(cells.colour, sheet)[0];
+  for (int k = 1; k < count; ++k) {
+    if (!isBeside(patches[k], sheet.size())) continue;
+    const cv::Mat1b patch = labels == k;
+    cv::Scalar mean, spread;
+    cv::meanStdDev(cells.colour, mean, spread, patch);
+    const double roughness = cv::mean(cells.rough, patch)[0];
+    const cv::Scalar sheetMean = cv::mean(cells.colour, sheet);
+    const double apart =
+        std::max({std::fabs(mean[0] - level), std::fabs(mean[1] - sheetMean[1]), std::fabs(mean[2] - sheetMean[2])});
+    if (apart >= kSheetContrast || roughness > kMostRoughness) beside.setTo(255, patch);
+  }
+  return beside;
+}
+
+std::vector<Vec2> outlineOf(const cv::Mat1b& inside, double cellPx) {
+  std::vector<std::vector<cv::Point>> outlines;
+  cv::findContours(inside.clone(), outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  std::vector<Vec2> polygon;
+  const auto largest = std::max_element(outlines.begin(), outlines.end(), [](const auto& a, const auto& b) {
+    return cv::contourArea(a) < cv::contourArea(b);
+  });
+  if (largest == outlines.end()) return polygon;
+  std::vector<cv::Point> rough;
+  cv::approxPolyDP(*largest, rough, 1.5, true);
+  for (const cv::Point& p : rough) polygon.emplace_back((p.x + 0.5) * cellPx, (p.y + 0.5) * cellPx);
+  return polygon;
+}
+
+/// The four corners of the sheet's hull, from the top left clockwise; none if it is no quadrilateral.
+std::vector<Vec2> cornersOf(const cv::Mat1b& sheet, double cellPx) {
+  std::vector<cv::Point> places, hull, four;
+  cv::findNonZero(sheet, places);
+  if (places.size() < 4) return {};
+  cv::convexHull(places, hull);
+  const double length = cv::arcLength(hull, true);
+  for (double share = 0.005; share < 0.08 && four.size() != 4; share += 0.0025)
+    cv::approxPolyDP(hull, four, share * length, true);
+  if (four.size() != 4 || cv::contourArea(four) < 0.93 * cv::contourArea(hull)) return {};
+  const auto first = std::min_element(four.begin(), four.end(),
+                                      [](const cv::Point& a, const cv::Point& b) { return a.x + a.y < b.x + b.y; });
+  std::rotate(four.begin(), first, four.end());
+  const cv::Point a = four[1] - four[0], b = four[3] - four[0];
+  if (a.x * b.y - a.y * b.x < 0) std::reverse(four.begin() + 1, four.end());
+  std::vector<Vec2> corners;
+  for (const cv::Point& p : four) corners.emplace_back((p.x + 0.5) * cellPx, (p.y + 0.5) * cellPx);
+  return corners;
+}
+
+/// A whole number from 0 to 255 * 4 that looks random, the same for the same pixel.
+int grainAt(int x, int y) {
+  auto h = static_cast<std::uint32_t>(x) * 0x9E3779B1u ^ static_cast<std::uint32_t>(y) * 0x85EBCA77u;
+  h ^= h >> 15;
+  h *= 0x2C1B3C6Du;
+  h ^= h >> 12;
+  h *= 0x297A2D39u;
+  h ^= h >> 15;
+  return static_cast<int>((h & 255u) + (h >> 8 & 255u) + (h >> 16 & 255u) + (h >> 24));
+}
+constexpr double kGrainMean = 510.0, kGrainSigma = 147.8;  // of four bytes added
+
+}  // namespace
+
+std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {
+  const SheetCells cells = measureCellsOf(grey, colour, context);
+  if (context.isCancelled() || cells.columns < 40 || cells.rows < 40) return std::nullopt;
+  const cv::Mat1i labels = joinCells(cells);
+  std::vector<int> areas;
+  for (const int label : labels) {
+    if (label >= std::ssize(areas)) areas.resize(static_cast<std::size_t>(label) + 1, 0);
+    ++areas[label];
+  }
+  const int largest = static_cast<int>(std::max_element(areas.begin(), areas.end()) - areas.begin());
+  const cv::Mat1b joined = labels == largest;
+  const cv::Mat1b beside = besideTheSheet(filledSheet(joined), cells);
+  if (cv::countNonZero(beside) == 0) return std::nullopt;
+  const double diagonal = std::hypot(cells.columns, cells.rows);
+  cv::Mat1b sheet = beside == 0;
+  const auto disc = [&](double share) {
+    const int radius = std::max(1, static_cast<int>(std::lround(share * diagonal)));
+    return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
+  };
+  // Beyond the picture the sheet goes on: only what lies beside it is cut.
+  cv::morphologyEx(sheet, sheet, cv::MORPH_OPEN, disc(kNeckShare), {-1, -1}, 1, cv::BORDER_REPLICATE);
+  const double area = sheet.total(), share = cv::countNonZero(sheet) / area;
+  if (share < kLeastSheet || share > kMostSheet) return std::nullopt;
+  std::vector<cv::Point> places, hull;
+  cv::findNonZero(sheet, places);
+  cv::convexHull(places, hull);
+  if (static_cast<double>(places.size()) < kLeastSolid * cv::contourArea(hull)) return std::nullopt;
+  PaperSheet found;
+  found.cellPx = cells.sizePx;
+  found.cornersPx = cornersOf(sheet, cells.sizePx);
+  cv::Mat1b inside;
+  cv::erode(sheet, inside, disc(kSheetRimShare), {-1, -1}, 1, cv::BORDER_REPLICATE);
+  found.outlinePx = outlineOf(inside, cells.sizePx);
+  found.inside = BitImage(cells.columns, cells.rows);
+  for (int j = 0; j < cells.rows; ++j) {
+    for (int i = 0; i < cells.columns; ++i) {
+      if (inside(j, i) != 0) found.inside.set(i, j, true);
+    }
+  }
+  found.outsideShare = 1.0 - static_cast<double>(found.inside.count()) / area;
+  return found;
+}
+
+GreyImage onlyTheSheet(const GreyImage& page, const PaperSheet& sheet, const RunContext& context) {
+  const int columns = sheet.inside.width, rows = sheet.inside.height;
+  std::vector<float> level(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0f),
+      weight(level.size(), 0.0f);
+  std::vector<float> pixels, steps;
+  for (int j = 0; j < rows && !context.isCancelled(); ++j) {
+    for (int i = 0; i < columns; ++i) {
+      if (!sheet.inside.at(i, j)) continue;
+      pixels.clear();
+      for (int y = j * sheet.cellPx; y < (j + 1) * sheet.cellPx; ++y) {
+        for (int x = i * sheet.cellPx; x < (i + 1) * sheet.cellPx; ++x)
+          pixels.push_back(static_cast<float>(page.row(y)[x]));
+      }
+      steps.push_back(pixels[1] - pixels[0]);
+      const std::size_t at =
+          static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(i);
+      level[at] = upperMedian(pixels);
+      weight[at] = 1.0f;
+    }
+  }
+  GreyImage out = page;
+  if (steps.empty() || context.isCancelled()) return out;
+  const double grain = robustSigma(steps) / std::sqrt(2.0);
+  // Ink within the sheet must not bleed out of it: darker cells than around do not count.
+  const std::vector<float> first = pushPull(level, weight, columns, rows);
+  cv::Mat1f smooth(rows, columns, const_cast<float*>(first.data())), around;
+  cv::blur(smooth, around, {31, 31}, {-1, -1}, cv::BORDER_REPLICATE);
+  for (std::size_t i = 0; i < level.size(); ++i) {
+    if (level[i] < 0.97f * around(static_cast<int>(i) / columns, static_cast<int>(i) % columns)) weight[i] = 0.0f;
+  }
+  const std::vector<float> paper = pushPull(level, weight, columns, rows);
+  parallelFor(context, page.height, kRowsPerBlock, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const double v = std::clamp((y + 0.5) / sheet.cellPx - 0.5, 0.0, rows - 1.0);
+      const int j = static_cast<int>(v), j1 = std::min(j + 1, rows - 1), cellRow = std::min(y / sheet.cellPx, rows - 1);
+      for (int x = 0; x < page.width; ++x) {
+        if (sheet.inside.at(std::min(x / sheet.cellPx, columns - 1), cellRow)) continue;
+        const double u = std::clamp((x + 0.5) / sheet.cellPx - 0.5, 0.0, columns - 1.0);
+        const int i = static_cast<int>(u), i1 = std::min(i + 1, columns - 1);
+        const auto cell = [&](int a, int b) { return static_cast<double>(paper[std::ptrdiff_t{b} * columns + a]); };
+        const double above = cell(i, j) + (u - i) * (cell(i1, j) - cell(i, j));
+        const double below = cell(i, j1) + (u - i) * (cell(i1, j1) - cell(i, j1));
+        const double noise = grain * (grainAt(x, y) - kGrainMean) / kGrainSigma;
+        out.row(y)[x] = static_cast<std::uint16_t>(std::clamp(above + (v - j) * (below - above) + noise, 0.0, 65535.0));
+      }
+    }
+  });
+  return out;
+}
+
+}  // namespace batten

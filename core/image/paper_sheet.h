@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/base/vec2.h"
+#include "core/image/bit_image.h"
+#include "core/image/colour_image.h"
+#include "core/image/grey_image.h"
+
+namespace batten {
+
+/// The sheet of paper in a photograph or a scan that shows more than the sheet.
+struct PaperSheet {
+  int cellPx = 1;               ///< [px] What one pixel of `inside` covers a side.
+  BitImage inside;              ///< The sheet without a narrow rim: its edge and the shadow along it are cut off, too.
+  double outsideShare = 0.0;    ///< 0..1 of the picture.
+  std::vector<Vec2> outlinePx;  ///< The border of `inside` as a polygon, image frame.
+  std::vector<Vec2>
+      cornersPx;  ///< The four corners of the whole sheet, from the top left clockwise; empty if it has none.
+};
+
+/// Finds the sheet: the largest even, bright area, if what lies beside it is of another brightness, colour or texture,
+/// reaches the border of the picture at a corner of it, and leaves the sheet about convex. Absent where the paper fills
+/// the picture, and where that is doubtful: a drawing with a dark ground is no table.
+std::optional<PaperSheet> findPaperSheet(const GreyImage&, const ColourImage&, const RunContext&);
+
+/// The page with all that lies beside the sheet painted over: the paper goes on, with its grain.
+GreyImage onlyTheSheet(const GreyImage& page, const PaperSheet&, const RunContext&);
+
+}  // namespace batten

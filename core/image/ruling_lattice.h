@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/image/plane.h"
+
+namespace batten {
+
+/// Equally spaced lines across a plane: line k runs along y = at(k, x). Slightly turned, bent and in perspective.
+struct RulingLattice {
+  double slope = 0.0;
+  double halfWidth = 1.0;                 ///< [grid] x is centred and divided by it.
+  double middle = 0.0, reach = 1.0;       ///< k is centred and divided by these.
+  std::array<double, 10> coefficients{};  ///< Of a cubic in both.
+  int first = 0, last = 0;                ///< Lines seen, the outermost ones.
+  double spacing = 0.0;                   ///< [grid] mean.
+  double seen = 0.0;         ///< Share of the lines from first to last that are seen along most of the page.
+  double coverage = 0.0;     ///< Share of the stretches of these lines that are seen.
+  double selective = 0.0;    ///< Share of the stretches over the lattice that lie on its lines.
+  double misfit = 0.0;       ///< [grid] median distance of the stretches from the lattice.
+  std::vector<bool> isSeen;  ///< From first to last: line by line.
+
+  double at(double k, double x) const;
+};
+
+/// The lattice of thin dark lines across the plane (they run along x, sloped by at most 1 in 5), if there is one that
+/// has at least five lines, more than half of its lines seen, and fills half of the plane both ways.
+std::optional<RulingLattice> findRulingLattice(const Plane& grey, const RunContext& context);
+
+}  // namespace batten

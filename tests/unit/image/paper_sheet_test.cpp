@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/paper_sheet.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "core/image/page_preparation.h"
+#include "tests/support/colour_page.h"
+
+namespace batten {
+namespace {
+
+constexpr int kPhotoWidth = 820, kPhotoHeight = 640;
+
+/// A photograph, pixel by pixel: grey of what lies at a place, and how rough it is there.
+struct PhotoPixel {
+  double grey = 235.0, rough = 1.5;
+};
+Scan photo(const std::function<PhotoPixel(double, double)>& at) {
+  Scan scan;
+  scan.grey = GreyImage(kPhotoWidth, kPhotoHeight);
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  for (int y = 0; y < kPhotoHeight; ++y) {
+    for (int x = 0; x < kPhotoWidth; ++x) {
+      const PhotoPixel p = at(x + 0.5, y + 0.5);
+      const double level = std::clamp(p.grey + p.rough * noise(random), 0.0, 255.0);
+      scan.grey.row(y)[x] = static_cast<std::uint16_t>(std::lround(level) * 257);
+    }
+  }
+  return scan;
+}
+
+/// Signed distance into a sheet turned by 4 degrees; positive inside.
+double depthInSheet(double x, double y) {
+  const double u = std::cos(0.07) * (x - 410.0) + std::sin(0.07) * (y - 320.0);
+  const double v = -std::sin(0.07) * (x - 410.0) + std::cos(0.07) * (y - 320.0);
+  return std::min(320.0 - std::fabs(u), 240.0 - std::fabs(v));
+}
+bool isRing(double x, double y) { return std::fabs(std::hypot(x - 410.0, y - 320.0) - 130.0) < 2.5; }
+
+std::optional<PaperSheet> sheetOf(const Scan& scan) { return findPaperSheet(scan.grey, scan.colour, {}); }
+
+void expectCutAtTheSheet(const Scan& scan, const char* name) {
+  const auto sheet = sheetOf(scan);
+  ASSERT_TRUE(sheet.has_value()) << name;
+  const GreyImage page = onlyTheSheet(scan.grey, *sheet, {});
+  int darkOutside = 0, changedInside = 0;
+  for (int y = 0; y < kPhotoHeight; ++y) {
+    for (int x = 0; x < kPhotoWidth; ++x) {
+      const double depth = depthInSheet(x + 0.5, y + 0.5);
+      if (depth < 0.0 && page.level(x, y) < 215.0) ++darkOutside;
+      if (depth > 22.0 && page.row(y)[x] != scan.grey.row(y)[x]) ++changedInside;
+    }
+  }
+  EXPECT_EQ(darkOutside, 0) << name;
+  EXPECT_EQ(changedInside, 0) << name;
+}
+
+TEST(PaperSheet, IsFoundOnTableAndCarpet) {
+  expectCutAtTheSheet(photo([](double x, double y) -> PhotoPixel {
+                        if (depthInSheet(x, y) < 0.0) return {110.0, 2.0};
+                        return {isRing(x, y) ? 40.0 : 235.0, 1.5};
+                      }),
+                      "table");
+  expectCutAtTheSheet(photo([](double x, double y) -> PhotoPixel {
+                        if (depthInSheet(x, y) < 0.0) return {150.0, 30.0};
+                        return {isRing(x, y) ? 40.0 : 235.0, 1.5};
+                      }),
+                      "carpet");
+  expectCutAtTheSheet(photo([](double x, double y) -> PhotoPixel {
+                        const double depth = depthInSheet(x, y);
+                        // A shadow falls off the edge of the sheet.
+                        if (depth < 0.0) return {170.0 - 90.0 * std::exp(depth / 8.0), 2.0};
+                        return {isRing(x, y) ? 40.0 : 235.0, 1.5};
+                      }),
+                      "shadow along the edge");
+}
+
+TEST(PaperSheet, KnowsItsCorners) {
+  const auto sheet = sheetOf(photo([](double x, double y) -> PhotoPixel {
+    return depthInSheet(x, y) < 0.0 ? PhotoPixel{110.0, 2.0} : PhotoPixel{};
+  }));
+  ASSERT_TRUE(sheet.has_value());
+  ASSERT_EQ(sheet->cornersPx.size(), 4u);
+  const double c = std::cos(0.07), s = std::sin(0.07);
+  const Vec2 topLeft(410.0 - 320.0 * c + 240.0 * s, 320.0 - 320.0 * s - 240.0 * c);
+  EXPECT_LT((sheet->cornersPx[0] - topLeft).norm(), 12.0);
+  EXPECT_GT(sheet->cornersPx[1].x(), 650.0);
+  EXPECT_GT(sheet->cornersPx[2].y(), 500.0);
+  EXPECT_NEAR(sheet->outsideShare, 1.0 - 640.0 * 480.0 / (kPhotoWidth * kPhotoHeight), 0.06);
+}
+
+TEST(PaperSheet, IsNotLookedForInADrawing) {
+  const struct {
+    const char* name;
+    std::function<PhotoPixel(double, double)> at;
+  } cases[] = {
+      {"a ring",
+       [](double x, double y) -> PhotoPixel {
+         return {isRing(x, y) ? 40.0 : 235.0, 2.0};
+       }},
+      {"uneven light",
+       [](double x, double y) -> PhotoPixel {
+         return {240.0 - 0.12 * x - 0.05 * y, 2.0};
+       }},
+      {"strokes that run off the page",
+       [](double x, double y) -> PhotoPixel {
+         return {std::fabs(y - 0.7 * x) < 6.0 ? 40.0 : 235.0, 2.0};
+       }},
+      {"a solid shape at the lower border",
+       [](double x, double y) -> PhotoPixel {
+         return {std::hypot(x - 400.0, y - 660.0) < 200.0 ? 30.0 : 235.0, 2.0};
+       }},
+      {"a dark ground that a bright figure is left out of",
+       [](double x, double y) -> PhotoPixel {
+         return {std::hypot(x - 400.0, y - 320.0) < 180.0 ? 235.0 : 60.0, 6.0};
+       }},
+  };
+  for (const auto& c : cases) {
+    EXPECT_FALSE(sheetOf(photo(c.at)).has_value()) << c.name;
+  }
+}
+
+TEST(PaperSheet, IsCutOnlyWhenAsked) {
+  const Scan scan = photo([](double x, double y) -> PhotoPixel {
+    if (depthInSheet(x, y) < 0.0) return {110.0, 2.0};
+    return {isRing(x, y) ? 40.0 : 235.0, 1.5};
+  });
+  PreparationParams params;
+  const auto cut = preparePage(scan, params, {});
+  ASSERT_TRUE(cut->sheet.has_value());
+  ASSERT_EQ(cut->notes.size(), 1u);
+  EXPECT_NE(cut->notes[0].find("beside the sheet"), std::string::npos);
+  params.sheet = SheetUse::Off;
+  EXPECT_TRUE(preparePage(scan, params, {})->isUntouched());
+}
+
+TEST(PaperSheet, IsTheSameWithAnyNumberOfThreads) {
+  const Scan scan = photo([](double x, double y) -> PhotoPixel {
+    return depthInSheet(x, y) < 0.0 ? PhotoPixel{110.0, 2.0} : PhotoPixel{};
+  });
+  RunContext one, four;
+  one.threads = 1;
+  four.threads = 4;
+  const auto a = findPaperSheet(scan.grey, scan.colour, one), b = findPaperSheet(scan.grey, scan.colour, four);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(onlyTheSheet(scan.grey, *a, one), onlyTheSheet(scan.grey, *b, four));
+}
+
+}  // namespace
+}  // namespace batten

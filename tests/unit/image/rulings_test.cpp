@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/rulings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "core/image/binarize.h"
+#include "core/image/page_preparation.h"
+#include "tests/support/colour_page.h"
+
+namespace batten {
+namespace {
+
+using test::ColourPage;
+using test::InkLayer;
+using test::renderColourPage;
+
+constexpr int kRuledWidth = 760, kRuledHeight = 900;
+constexpr std::array<double, 3> kPen{0.12, 0.12, 0.12};
+
+/// Share of a pixel that lies within half of `width` of the zero line of a field whose gradient has unit length.
+float covered(double away, double width) {
+  return static_cast<float>(std::clamp(0.5 * width - std::fabs(away) + 0.5, 0.0, 1.0));
+}
+
+std::vector<float> layer(const std::function<float(double, double)>& at) {
+  std::vector<float> coverage;
+  for (int y = 0; y < kRuledHeight; ++y) {
+    for (int x = 0; x < kRuledWidth; ++x) coverage.push_back(at(x + 0.5, y + 0.5));
+  }
+  return coverage;
+}
+
+struct Ruling {
+  double spacing = 31.0, width = 1.6, turnedDeg = 0.0, bendPx = 0.0, perspective = 0.0;
+  bool runsDown = false;
+};
+
+/// How far a place lies from the nearest line of the ruling.
+double offLine(const Ruling& r, double x, double y) {
+  const double angle = r.turnedDeg * std::numbers::pi / 180.0;
+  const double u = x - 0.5 * kRuledWidth, v = y - 0.5 * kRuledHeight;
+  double across = r.runsDown ? std::cos(angle) * u + std::sin(angle) * v : -std::sin(angle) * u + std::cos(angle) * v;
+  const double along = r.runsDown ? v / kRuledHeight : u / kRuledWidth;
+  across += r.bendPx * 4.0 * along * along;
+  const double spacing = r.spacing * (1.0 + r.perspective * along);
+  return across - spacing * std::round(across / spacing);
+}
+
+std::vector<float> ruling(const Ruling& r) {
+  return layer([&](double x, double y) { return covered(offLine(r, x, y), r.width); });
+}
+
+/// Two rings and a wave, 5 px wide.
+double offDrawing(double x, double y) {
+  const double rings =
+      std::min(std::fabs(std::hypot(x - 380.0, y - 330.0) - 210.0), std::fabs(std::hypot(x - 300.0, y - 420.0) - 90.0));
+  const double slope = 70.0 * std::cos(x / 60.0) / 60.0;
+  const double wave = std::fabs(y - 720.0 - 70.0 * std::sin(x / 60.0)) / std::sqrt(1.0 + slope * slope);
+  return x > 60.0 && x < 700.0 ? std::min(rings, wave) : rings;
+}
+std::vector<float> drawing() {
+  return layer([](double x, double y) { return covered(offDrawing(x, y), 5.0); });
+}
+
+Scan paperWith(const std::vector<InkLayer>& inks, double noise = 1.5) {
+  ColourPage page;
+  page.width = kRuledWidth;
+  page.height = kRuledHeight;
+  page.paperLeft = {236, 236, 236};
+  page.paperRight = {222, 222, 222};
+  page.noise = noise;
+  return renderColourPage(page, inks);
+}
+
+std::array<double, 3> light(double passes) { return {passes, passes, passes}; }
+
+BitImage inkOf(const GreyImage& grey) {
+  const auto thresholds = findThresholds(grey, {}, {}, {});
+  return *binarize(grey, *thresholds, {}, {});
+}
+
+/// Ink farther than this from the drawing, and drawing without ink.
+struct Wrong {
+  int beside = 0;
+  double missed = 0.0;
+};
+Wrong wrongInk(const BitImage& ink) {
+  Wrong wrong;
+  int all = 0, missed = 0;
+  for (int y = 0; y < ink.height; ++y) {
+    for (int x = 0; x < ink.width; ++x) {
+      const double off = offDrawing(x + 0.5, y + 0.5);
+      if (off > 5.0 && ink.at(x, y)) ++wrong.beside;
+      if (off > 1.5) continue;
+      ++all;
+      missed += ink.at(x, y) ? 0 : 1;
+    }
+  }
+  wrong.missed = static_cast<double>(missed) / all;
+  return wrong;
+}
+
+TEST(Rulings, AreFoundWithTheirSpacing) {
+  const struct {
+    const char* name;
+    Ruling ruling;
+  } cases[] = {{"plain", {}},
+               {"turned", {.turnedDeg = 3.0}},
+               {"turned the other way", {.spacing = 44.0, .turnedDeg = -6.5}},
+               {"curved", {.bendPx = 14.0}},
+               {"in perspective", {.perspective = 0.12}},
+               {"down the page", {.spacing = 26.0, .turnedDeg = 1.5, .runsDown = true}},
+               {"narrow", {.spacing = 9.0, .width = 1.0}}};
+  for (const auto& c : cases) {
+    const auto found = findRulings(paperWith({{ruling(c.ruling), light(0.8)}, {drawing(), kPen}}).grey, {});
+    ASSERT_EQ(found.size(), 1u) << c.name;
+    EXPECT_EQ(found[0].runsDown, c.ruling.runsDown) << c.name;
+    const double turned = std::cos(c.ruling.turnedDeg * std::numbers::pi / 180.0);
+    EXPECT_NEAR(found[0].spacingPx, c.ruling.spacing / turned, 0.02 * c.ruling.spacing) << c.name;
+    // Every course lies on a line of the page.
+    double most = 0.0;
+    for (const RulingLine& line : found[0].lines) {
+      for (const Vec2& p : line.coursePx) {
+        if (p.x() > 0 && p.y() > 0 && p.x() < kRuledWidth && p.y() < kRuledHeight)
+          most = std::max(most, std::fabs(offLine(c.ruling, p.x(), p.y())));
+      }
+    }
+    EXPECT_LT(most, 2.0) << c.name;
+  }
+}
+
+TEST(Rulings, AreTakenOutWithoutCuttingStrokes) {
+  for (const double passes : {0.9, 0.75, 0.6}) {
+    for (const double turned : {0.0, 2.5}) {
+      const Ruling across{.turnedDeg = turned}, down{.turnedDeg = turned, .runsDown = true};
+      const Scan scan = paperWith({{ruling(across), light(passes)}, {ruling(down), light(passes)}, {drawing(), kPen}});
+      const auto found = findRulings(scan.grey, {});
+      ASSERT_EQ(found.size(), 2u) << passes << " " << turned;
+      const Wrong wrong = wrongInk(inkOf(withoutRulings(scan.grey, found, {})));
+      EXPECT_LE(wrong.beside, 100) << passes << " " << turned;
+      EXPECT_LT(wrong.missed, 0.002) << passes << " " << turned;
+    }
+  }
+}
+
+TEST(Rulings, StrokesKeepTheirGreyAcrossThem) {
+  const Scan with = paperWith({{ruling({}), light(0.8)}, {drawing(), kPen}}, 0.0);
+  const Scan without = paperWith({{drawing(), kPen}}, 0.0);
+  const GreyImage cleaned = withoutRulings(with.grey, findRulings(with.grey, {}), {});
+  double sum = 0.0;
+  for (std::size_t i = 0; i < cleaned.pixels.size(); ++i)
+    sum += std::pow((cleaned.pixels[i] - without.grey.pixels[i]) / GreyImage::kGreyUnit, 2);
+  EXPECT_LT(std::sqrt(sum / static_cast<double>(cleaned.pixels.size())), 1.0);
+}
+
+TEST(Rulings, AGridAsDarkAsTheStrokesIsTakenOut) {
+  const Scan scan = paperWith({{ruling({}), kPen}, {ruling({.runsDown = true}), kPen}, {drawing(), kPen}});
+  const auto found = findRulings(scan.grey, {});
+  ASSERT_EQ(found.size(), 2u);
+  const Wrong wrong = wrongInk(inkOf(withoutRulings(scan.grey, found, {})));
+  EXPECT_LT(wrong.beside, 400);
+  EXPECT_LT(wrong.missed, 0.03);
+}
+
+TEST(Rulings, DrawingsHaveNone) {
+  const auto within = [](double x, double y, double x0, double y0, double x1, double y1) {
+    return x > x0 && x < x1 && y > y0 && y < y1;
+  };
+  const struct {
+    const char* name;
+    std::vector<float> ink;
+  } cases[] = {{"rings and a wave", drawing()},
+               {"hatching", layer([&](double x, double y) {
+                  return within(x, y, 100, 200, 420, 700)
+                             ? covered(offLine({.spacing = 14.0, .turnedDeg = 4.0}, x, y), 2.0)
+                             : 0.0f;
+                })},
+               {"a railing", layer([&](double x, double y) {
+                  return within(x, y, 30, 500, 730, 800)
+                             ? covered(offLine({.spacing = 35.0, .runsDown = true}, x, y), 3.0)
+                             : 0.0f;
+                })},
+               {"a grille", layer([&](double x, double y) {
+                  const double spacing = 22.0;
+                  return within(x, y, 250, 380, 560, 620) ? covered(offLine({.spacing = spacing}, x, y), 3.0) : 0.0f;
+                })},
+               {"siding of a house, drawn by hand", layer([&](double x, double y) {
+                  const double sway = 5.0 * std::sin(x / 47.0 + y / 9.0) + 4.0 * std::sin(y * 0.37);
+                  return covered(offLine({.spacing = 40.0}, x, y + sway), 3.0);
+                })},
+               {"spokes", layer([&](double x, double y) {
+                  const double angle = std::atan2(y - 450.0, x - 380.0), away = std::hypot(x - 380.0, y - 450.0);
+                  const double step = std::numbers::pi / 18.0;
+                  const double off = away * (angle - step * std::round(angle / step));
+                  return away < 330.0 ? covered(off, 2.0) : 0.0f;
+                })},
+               {"three lines over the page", layer([&](double x, double y) {
+                  return within(x, y, 20, 300, 740, 420) ? covered(offLine({.spacing = 38.0}, x, y), 2.0) : 0.0f;
+                })},
+               {"blank paper", layer([](double, double) { return 0.0f; })}};
+  for (const auto& c : cases) {
+    EXPECT_TRUE(findRulings(paperWith({{c.ink, kPen}}).grey, {}).empty()) << c.name;
+    EXPECT_TRUE(findRulings(paperWith({{c.ink, light(0.7)}}, 4.0).grey, {}).empty()) << c.name << ", pencil";
+  }
+}
+
+TEST(Rulings, AreKeptWhenAsked) {
+  const Scan scan = paperWith({{ruling({}), light(0.8)}, {drawing(), kPen}});
+  PreparationParams params;
+  const auto without = preparePage(scan, params, {});
+  EXPECT_EQ(without->rulings.size(), 1u);
+  EXPECT_FALSE(without->isUntouched());
+  params.rulings = RulingUse::Keep;
+  EXPECT_TRUE(preparePage(scan, params, {})->isUntouched());
+}
+
+TEST(Rulings, AreTheSameWithAnyNumberOfThreads) {
+  const Scan scan = paperWith({{ruling({.turnedDeg = 2.0}), light(0.8)}, {drawing(), kPen}});
+  RunContext one, four;
+  one.threads = 1;
+  four.threads = 4;
+  EXPECT_EQ(withoutRulings(scan.grey, findRulings(scan.grey, one), one),
+            withoutRulings(scan.grey, findRulings(scan.grey, four), four));
+}
+
+}  // namespace
+}  // namespace batten
