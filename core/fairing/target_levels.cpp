@@ -43,16 +43,15 @@ Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& s
                                     const RunContext& context) {
   std::optional<LevelOutcome> best;
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    // More splits than that would bring no fewer extrema.
-    if (best && levels[i].splits.size() >= static_cast<std::size_t>(best->faired.report.extremaAfter)) break;
+    // No fewer than the extrema between the spans are looked for.
+    const auto fewest = static_cast<int>(levels.front().splits.size());
+    if (best && best->faired.report.extremaAfter <= fewest) break;
     auto faired =
         modifyShape(setup, levels[i].targets.profiles[static_cast<std::size_t>(degree) - 1], toleranceMm, context);
     if (!faired && best) break;
     if (!faired) return fail(faired.error());
     if (!best || faired->report.extremaAfter < best->faired.report.extremaAfter)
       best = LevelOutcome{i, std::move(*faired)};
-    if (best->faired.report.withinTolerance && best->faired.report.extremaAfter <= best->faired.report.extremaBefore)
-      break;
   }
   return std::move(*best);
 }

@@ -34,7 +34,8 @@ struct LevelOutcome {
   }
 };
 
-/// The first level whose target is met; where none is, the one whose curve has the fewest extrema.
+/// The level whose curve has the fewest extrema, of those the first: one that has no more than there are splits of the
+/// first level ends the search.
 Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>&, std::span<const TargetLevel>,
                                     int degree, double toleranceMm, const RunContext&);
 

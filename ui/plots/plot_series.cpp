@@ -66,7 +66,9 @@ void addTargets(PlotData& data, const EditorSession& session, const TracedCurve&
 
 /// The drawn target as the recipe has it now, so that it follows the mouse and not the run.
 void addDrawn(PlotData& data, const EditorSession& session, const TracedCurve& curve, const auto& valueOf) {
-  for (const double f : splitsOf(session)) data.splits.push_back(f * data.lengthMm);
+  // Natural spans meet at extrema, whose marks can be clicked: they are only shown where there is a target to split.
+  if (fairingAsked(session).mode == FairingMode::Target || !hasNaturalSpans(session))
+    for (const double f : splitsOf(session)) data.splits.push_back(f * data.lengthMm);
   if (fairingAsked(session).mode == FairingMode::Monotone)
     for (const double f : keptOf(session)) data.kept.push_back(f * data.lengthMm);
   if (!isTargetDrawn(session)) return;
