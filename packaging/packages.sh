@@ -13,6 +13,7 @@ test_packages=(xvfb xauth openbox python3-ezdxf qpdf poppler-utils)
 judge_packages=(freecad gdal-bin librsvg2-bin inkscape)  # of the scripts in tests/heavy; npm, too, where there is none
 # What packaging/check needs on top.
 check_packages=(clang-tidy python3)
+fuzz_packages=(clang libclang-rt-dev llvm)  # of its part fuzz: libFuzzer, and names instead of addresses in its traces
 batch_packages=(parallel snakemake slurmctld slurmd slurm-client munge)  # the ways over several machines
 package_packages=(lintian mmdebstrap binutils desktop-file-utils appstream shared-mime-info libglib2.0-bin man-db zsh xdotool)
 

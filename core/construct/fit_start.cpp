@@ -12,12 +12,15 @@
 namespace batten {
 namespace {
 
+constexpr double kFewestLineSteps = 8.0, kMostLineSteps = 2e6;  // about one a pixel, of a curve
+constexpr double kBackwardCost = 100.0;  // times the squared distance: a place where the curve runs the other way
+
 /// The fit of one piece, sampled every pixel.
 class FittedLine {
  public:
   FittedLine(const NurbsCurve& curve, bool closed, double pixelMm)
       : curve_(curve), length_(curve), closed_(closed), total_(length_.total()) {
-    const double count = std::clamp(std::ceil(total_ / pixelMm), 8.0, 2e6);
+    const double count = std::clamp(std::ceil(total_ / pixelMm), kFewestLineSteps, kMostLineSteps);
     samples_ = sampleByArcLength(curve, static_cast<int>(count) + 1);
   }
 
@@ -50,7 +53,7 @@ class FittedLine {
     double least = 0.0;
     for (const CurveSample& sample : samples_) {
       const double along = sample.tangent.dot(station.direction);
-      const double distance = (sample.point - station.point).squaredNorm() * (along > 0.0 ? 1.0 : 100.0);
+      const double distance = (sample.point - station.point).squaredNorm() * (along > 0.0 ? 1.0 : kBackwardCost);
       if (best && distance >= least) continue;
       best = &sample;
       least = distance;

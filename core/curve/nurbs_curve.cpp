@@ -13,11 +13,19 @@ namespace {
 
 constexpr int kMaxOrder = 4;
 
+/// A parameter on a span of a knot vector.
+struct PlaceOnKnots {
+  int degree;
+  const double* knots;
+  int span;
+  double u;
+};
+
 /// Values of the degree + 1 basis functions of a span, Piegl & Tiller A2.2. `values` holds 8 numbers. Tells
 /// `difference` (row, column, knot difference) and `column` (number, its values) what the derivatives need.
 template <class Difference, class Column>
-void basisTriangle(int degree, const double* knots, int span, double u, double* values, const Difference& difference,
-                   const Column& column) {
+void basisTriangle(const PlaceOnKnots& place, double* values, const Difference& difference, const Column& column) {
+  const auto [degree, knots, span, u] = place;
   std::array<double, kMaxDegree + 1> left, right;
   values[0] = 1.0;
   column(0, values);
@@ -41,7 +49,7 @@ void basisTriangle(int degree, const double* knots, int span, double u, double* 
 
 void basisValues(int degree, const double* knots, int span, double u, double* values) {
   basisTriangle(
-      degree, knots, span, u, values, [](int, int, double) {}, [](int, const double*) {});
+      {degree, knots, span, u}, values, [](int, int, double) {}, [](int, const double*) {});
 }
 
 /// Derivatives of the basis functions from the triangle of knot differences and values, Piegl & Tiller A2.3.
@@ -101,7 +109,7 @@ BasisRow basis(int degree, std::span<const double> knots, int controlPointCount,
   }
   double ndu[kMaxDegree + 1][kMaxDegree + 1];
   basisTriangle(
-      degree, knots.data(), span, u, values.data(), [&](int j, int r, double whole) { ndu[j][r] = whole; },
+      {degree, knots.data(), span, u}, values.data(), [&](int j, int r, double whole) { ndu[j][r] = whole; },
       [&](int j, const double* column) {
         for (int r = 0; r <= j; ++r) ndu[r][j] = column[r];
       });

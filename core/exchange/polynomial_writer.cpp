@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/exchange/polynomial_writer.h"
 
-#include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/base/number_text.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/bezier_quintics.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
 #include "core/exchange/cad_drawing.h"
 #include "core/exchange/export_check.h"
@@ -18,154 +21,113 @@
 namespace batten {
 namespace {
 
-constexpr std::size_t kBefore = 5;  ///< PolynomialColumns before the coefficients.
+constexpr std::size_t kBefore = 5;  ///< Columns before the coefficients.
 constexpr int kPolynomialPlaces = 200;
 
-/// The piece at the size and in the unit of the file, over its arc length.
-Result<NurbsCurve> overArcLength(const NurbsCurve& curve, const ExportSettings& settings) {
-  const double size = settings.scale / millimetresPer(settings.unit);
-  const NurbsCurve scaled = curve.mapped(size * Eigen::Matrix2d::Identity(), Vec2::Zero());
-  return reparametrized(scaled, 0.0, ArcLength(scaled).total());
+constexpr double kNearEnough = 1e-12;  ///< Of the size of a rational curve: its polynomials may lie so far from it.
+constexpr int kStepsPerSpan = 8, kMostSteps = 4096;
+
+/// A rational curve as quintics over its arc length: they share place, direction and curvature with it at ever closer
+/// places, until none in between is farther away than a millionth of a millionth of its size.
+Result<NurbsCurve> inPolynomials(const NurbsCurve& rational) {
+  const double most = kNearEnough * extent(rational);
+  for (int steps = kStepsPerSpan * static_cast<int>(rational.breaks().size() - 1);; steps *= 2) {
+    std::vector<Joint> joints;
+    std::vector<double> lengths;
+    const auto samples = sampleByArcLength(rational, 2 * steps + 1);
+    for (std::size_t i = 0; i < samples.size(); i += 2) {
+      joints.push_back({samples[i].point, samples[i].tangent, samples[i].kappa});
+      if (i > 0) lengths.push_back(samples[i].s - samples[i - 2].s);
+    }
+    auto chain = hermiteChain(joints, lengths);
+    if (!chain) return chain;
+    double worst = 0.0;
+    for (std::size_t i = 1; i < samples.size(); i += 2) {
+      worst = std::max(worst, std::abs(cross(samples[i].tangent, chain->point(samples[i].s) - samples[i].point)));
+    }
+    if (worst <= most || steps >= kMostSteps) return chain;
+  }
 }
 
-/// Place and weight: (w x, w y, w).
-using Weighted = Eigen::Vector3d;
+/// The piece at the size and in the unit of the file.
+NurbsCurve inUnits(const NurbsCurve& curve, const ExportSettings& settings) {
+  const double size = settings.scale / millimetresPer(settings.unit);
+  return curve.mapped(size * Eigen::Matrix2d::Identity(), Vec2::Zero());
+}
+
+/// The same over its arc length.
+Result<NurbsCurve> overArcLength(const NurbsCurve& curve, const ExportSettings& settings) {
+  const NurbsCurve scaled = inUnits(curve, settings);
+  return scaled.isRational() ? inPolynomials(scaled) : reparametrized(scaled, 0.0, ArcLength(scaled).total());
+}
 
 /// Coefficients of the powers of t = u - start: the k-th forward differences of the control points times the binomial
 /// coefficients, over the k-th power of the width (Piegl & Tiller, The NURBS Book, 1.3).
-std::vector<Weighted> coefficientsOf(std::vector<Weighted> difference, double width) {
-  std::vector<Weighted> coefficients;
+std::vector<Vec2> coefficientsOf(const BezierPiece& piece) {
+  std::vector<Vec2> difference = piece.controlPoints, coefficients;
   const std::size_t degree = difference.size() - 1;
   double factor = 1.0;
   for (std::size_t k = 0; k <= degree; ++k) {
     coefficients.push_back(factor * difference[0]);
     for (std::size_t i = 0; i + k < degree; ++i) difference[i] = difference[i + 1] - difference[i];
-    factor *= static_cast<double>(degree - k) / static_cast<double>(k + 1) / width;
+    factor *= static_cast<double>(degree - k) / static_cast<double>(k + 1) / (piece.end - piece.start);
   }
   return coefficients;
 }
 
-/// A polynomial piece of a curve, or the quotient of two.
-struct PolynomialSpan {
-  double start = 0.0, end = 0.0;
-  std::vector<Weighted> coefficients;
-
-  Vec2 at(double u) const {
-    Weighted value = Weighted::Zero();
-    for (auto it = coefficients.rbegin(); it != coefficients.rend(); ++it) value = value * (u - start) + *it;
-    return value.head<2>() / value.z();
-  }
-};
-
-/// The pieces of a curve: those of its weighted control points and those of its weights, which have the same knots.
-Result<std::vector<PolynomialSpan>> spansOf(const NurbsCurve& curve) {
-  const std::vector<double> knots(curve.knots().begin(), curve.knots().end());
-  std::vector<Vec2> places, weights;
-  for (std::size_t i = 0; i < curve.controlPoints().size(); ++i) {
-    const double weight = curve.isRational() ? curve.weights()[i] : 1.0;
-    places.emplace_back(weight * curve.controlPoints()[i]);
-    weights.emplace_back(weight, 0.0);
-  }
-  const auto over = NurbsCurve::make(curve.degree(), knots, std::move(places));
-  const auto under = NurbsCurve::make(curve.degree(), knots, std::move(weights));
-  if (!over || !under) return fail(over ? under.error() : over.error());
-  const auto above = bezierPieces(*over), below = bezierPieces(*under);
-  if (!above || !below) return fail(above ? below.error() : above.error());
-  std::vector<PolynomialSpan> spans;
-  for (std::size_t i = 0; i < above->size(); ++i) {
-    const BezierPiece &place = (*above)[i], &weight = (*below)[i];
-    std::vector<Weighted> points;
-    for (std::size_t k = 0; k < place.controlPoints.size(); ++k)
-      points.emplace_back(place.controlPoints[k].x(), place.controlPoints[k].y(), weight.controlPoints[k].x());
-    spans.push_back({place.start, place.end, coefficientsOf(std::move(points), place.end - place.start)});
-  }
-  return spans;
-}
-
-/// What the columns are: those of weights stand only where a curve has some.
-struct PolynomialColumns {
+int highestDegree(const ExportDocument& document) {
+  constexpr int kOfRational = 5;
   int degree = 1;
-  bool hasWeights = false;
-
-  int axes() const { return hasWeights ? 3 : 2; }
-};
-
-PolynomialColumns columnsOf(const ExportDocument& document) {
-  PolynomialColumns columns;
-  for (const ExportCurve& line : document.curves) {
-    for (const ExportPiece& piece : line.pieces) {
-      columns.degree = std::max(columns.degree, piece.curve.degree());
-      columns.hasWeights = columns.hasWeights || piece.curve.isRational();
-    }
-  }
-  return columns;
+  for (const ExportCurve& line : document.curves)
+    for (const ExportPiece& piece : line.pieces)
+      degree = std::max(degree, piece.curve.isRational() ? kOfRational : piece.curve.degree());
+  return degree;
 }
 
-std::string header(const std::string& unit, const PolynomialColumns& columns) {
-  std::string text = columns.hasWeights ? "# x = (x0 + x1 t + x2 t^2 + ...) / (w0 + w1 t + ...), "
-                                        : "# x = x0 + x1 t + x2 t^2 + ..., ";
-  text += "t = u - u_start, y alike; lengths in " + unit +
-          ", x to the right, y up, from the lower left corner of the page.\ncurve,piece,span,u_start,u_end";
-  for (int axis = 0; axis < columns.axes(); ++axis)
-    for (int k = 0; k <= columns.degree; ++k) text.append(",").append(1, "xyw"[axis]).append(std::to_string(k));
+std::string header(const std::string& unit, int degree) {
+  std::string text = "# x = x0 + x1 t + x2 t^2 + ..., t = u - u_start, y alike; lengths in " + unit +
+                     ", x to the right, y up, from the lower left corner of the page.\ncurve,piece,span,u_start,u_end";
+  for (const char* axis : {"x", "y"})
+    for (int k = 0; k <= degree; ++k) text.append(",").append(axis).append(std::to_string(k));
   return text + "\n";
 }
 
-/// @param isRational else its weight is 1, whatever rounding made of it.
-std::string row(const std::string& begin, const PolynomialSpan& span, const PolynomialColumns& columns,
-                bool isRational) {
-  std::string text = begin + "," + exactNumber(span.start) + "," + exactNumber(span.end);
-  for (int axis = 0; axis < columns.axes(); ++axis) {
-    const std::size_t count = axis == 2 && !isRational ? 1 : span.coefficients.size();
-    for (std::size_t k = 0; k <= static_cast<std::size_t>(columns.degree); ++k) {
+std::string row(const std::string& begin, const BezierPiece& piece, int degree) {
+  const std::vector<Vec2> coefficients = coefficientsOf(piece);
+  std::string text = begin + "," + exactNumber(piece.start) + "," + exactNumber(piece.end);
+  for (const int axis : {0, 1}) {
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(degree); ++k) {
       text += ",";
-      if (k < count) text += exactNumber(span.coefficients[k][axis]);
+      if (k < coefficients.size()) text += exactNumber(coefficients[k][axis]);
     }
   }
   return text + "\n";
 }
 
 /// One row as it was read.
-std::optional<PolynomialSpan> spanOf(const std::vector<std::string>& fields, bool hasWeights) {
-  const std::size_t axes = hasWeights ? 3 : 2;
-  if (fields.size() < kBefore + 2 * axes || (fields.size() - kBefore) % axes != 0) return std::nullopt;
-  const std::size_t count = (fields.size() - kBefore) / axes;
+struct ReadSpan {
+  double start = 0.0, end = 0.0;
+  std::vector<Vec2> coefficients;
+
+  Vec2 at(double u) const {
+    Vec2 value = Vec2::Zero();
+    for (auto it = coefficients.rbegin(); it != coefficients.rend(); ++it) value = value * (u - start) + *it;
+    return value;
+  }
+};
+
+std::optional<ReadSpan> spanOf(const std::vector<std::string>& fields) {
+  if (fields.size() < kBefore + 4 || (fields.size() - kBefore) % 2 != 0) return std::nullopt;
+  const std::size_t count = (fields.size() - kBefore) / 2;
   const auto start = numberFromText(fields[3]), end = numberFromText(fields[4]);
   if (!start || !end) return std::nullopt;
-  PolynomialSpan span{*start, *end, {}};
+  ReadSpan span{*start, *end, {}};
   for (std::size_t k = 0; k < count && !fields[kBefore + k].empty(); ++k) {
-    Weighted coefficient(0.0, 0.0, k == 0 ? 1.0 : 0.0);
-    for (std::size_t axis = 0; axis < axes; ++axis) {
-      const std::string& field = fields[kBefore + axis * count + k];
-      if (axis == 2 && field.empty()) continue;
-      const auto value = numberFromText(field);
-      if (!value) return std::nullopt;
-      coefficient[static_cast<Eigen::Index>(axis)] = *value;
-    }
-    span.coefficients.push_back(coefficient);
+    const auto x = numberFromText(fields[kBefore + k]), y = numberFromText(fields[kBefore + count + k]);
+    if (!x || !y) return std::nullopt;
+    span.coefficients.emplace_back(*x, *y);
   }
-  if (span.coefficients.empty()) return std::nullopt;
   return span;
-}
-
-/// All rows of a text; nothing if one is none.
-std::optional<std::vector<PolynomialSpan>> rowsOf(std::string_view text) {
-  std::vector<PolynomialSpan> spans;
-  std::optional<bool> hasWeights;
-  while (!text.empty()) {
-    const auto end = text.find('\n');
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (line.empty() || line.front() == '#') continue;
-    if (!hasWeights) {
-      hasWeights = line.find(",w0") != std::string_view::npos;
-      continue;
-    }
-    auto span = spanOf(csvFields(line), *hasWeights);
-    if (!span) return std::nullopt;
-    spans.push_back(std::move(*span));
-  }
-  return spans;
 }
 
 }  // namespace
@@ -173,26 +135,35 @@ std::optional<std::vector<PolynomialSpan>> rowsOf(std::string_view text) {
 Result<std::string> writePolynomials(const ExportDocument& document, const ExportSettings& settings) {
   if (auto problem = exportProblem(document)) return fail(std::move(*problem));
   if (auto problem = validate(settings)) return fail(std::move(*problem));
-  const PolynomialColumns columns = columnsOf(document);
-  std::string text = header(nameOf(settings.unit), columns);
+  const int degree = highestDegree(document);
+  std::string text = header(nameOf(settings.unit), degree);
   for (const ExportCurve& line : document.curves) {
     for (std::size_t i = 0; i < line.pieces.size(); ++i) {
       const std::string name = entityName(line, i);
       const auto curve = overArcLength(line.pieces[i].curve, settings);
       if (!curve) return fail(curve.error());
-      const auto spans = spansOf(*curve);
+      const auto spans = bezierPieces(*curve);
       if (!spans) return fail(spans.error());
       const std::string begin = csvField(line.name.empty() ? line.id : line.name) + "," + csvField(name) + ",";
-      for (std::size_t k = 0; k < spans->size(); ++k)
-        text += row(begin + std::to_string(k + 1), (*spans)[k], columns, curve->isRational());
+      for (std::size_t k = 0; k < spans->size(); ++k) text += row(begin + std::to_string(k + 1), (*spans)[k], degree);
     }
   }
   return text;
 }
 
 Result<double> checkPolynomials(std::string_view text, const ExportDocument& document, const ExportSettings& settings) {
-  const auto spans = rowsOf(text);
-  if (!spans) return readsBackOtherwise("a row that is no polynomial");
+  std::vector<ReadSpan> spans;
+  bool sawNames = false;
+  while (!text.empty()) {
+    const auto end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (line.empty() || line.front() == '#') continue;
+    if (!std::exchange(sawNames, true)) continue;
+    auto span = spanOf(csvFields(line));
+    if (!span) return readsBackOtherwise("a row that is no polynomial");
+    spans.push_back(std::move(*span));
+  }
   std::size_t first = 0;
   double most = 0.0;
   for (const ExportCurve& line : document.curves) {
@@ -200,17 +171,21 @@ Result<double> checkPolynomials(std::string_view text, const ExportDocument& doc
       const auto curve = overArcLength(piece.curve, settings);
       if (!curve) return fail(curve.error());
       const std::size_t count = curve->breaks().size() - 1;
-      if (first + count > spans->size()) return readsBackOtherwise("too few rows");
+      if (first + count > spans.size()) return readsBackOtherwise("too few rows");
+      const NurbsCurve scaled = inUnits(piece.curve, settings);
       std::size_t k = first;
       for (int i = 0; i <= kPolynomialPlaces; ++i) {
         const double u = curve->start() + (curve->end() - curve->start()) * i / kPolynomialPlaces;
-        while (k + 1 < first + count && u >= (*spans)[k].end) ++k;
-        most = std::max(most, ((*spans)[k].at(u) - curve->point(u)).norm());
+        while (k + 1 < first + count && u >= spans[k].end) ++k;
+        const Vec2 read = spans[k].at(u);
+        // Of a rational curve the places of one arc length are not known so exactly.
+        most =
+            std::max(most, scaled.isRational() ? closestPoint(scaled, read).distance : (read - curve->point(u)).norm());
       }
       first += count;
     }
   }
-  if (first != spans->size()) return readsBackOtherwise("too many rows");
+  if (first != spans.size()) return readsBackOtherwise("too many rows");
   return most * millimetresPer(settings.unit);
 }
 

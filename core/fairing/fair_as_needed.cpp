@@ -32,6 +32,9 @@ constexpr double kExtremumCost = 20.0, kFurtherCost = 4.0;
 constexpr double kDoubtful = 4.0, kLeastMove = 0.3;
 /// What the search for a simpler structure takes for a large move, in the same unit.
 constexpr double kSearched = 16.0;
+/// Iterations times control points that the search for a simpler structure may take: some seconds. Curves of a hundred
+/// spans take less than half of it; those of many hundreds would take minutes, mostly in vain.
+constexpr double kMostSearchWork = 1e5;
 /// A smoothed curve that leaves the sketch by more, in the same unit, has gone astray.
 constexpr double kFarthest = 30.0;
 /// [px^3] Density of the systematic error of edge points: less noise than this is not believed.
@@ -181,10 +184,13 @@ class NeededFairing {
     // The estimates scale the problem: a vanishing one would make it stiff.
     const double least = kLeastMove * std::sqrt(noise_);
     std::optional<Smoothed> simpler;
+    double work = 0.0;
+    const auto mayGoOn = [&] { return work < kMostSearchWork && !context_.isCancelled(); };
     const auto attempt = [&](std::size_t level) {
       auto trial =
           search.solve(levels[level].structure, (*smooth)->points, std::max(levels[level].estimateMm, least), 0.0, 0.0);
       report_.iterations += trial.iterations;
+      work += static_cast<double>(trial.iterations) * static_cast<double>(start.points.size());
       const double allowed = kExtremumCost + kFurtherCost * static_cast<double>(level - 1);
       const bool taken = trial.found && misfitOf(trial.points) < before + allowed;
       if (taken) simpler = Smoothed{std::move(trial.points), 0, 0.0, 0.0};
@@ -195,13 +201,16 @@ class NeededFairing {
     std::size_t level = 0;
     while (level + 1 < levels.size() && levels[level + 1].estimateMm <= kDoubtful * std::sqrt(noise_)) ++level;
     std::size_t reached = 0;
-    while (level > 0 && reached == 0 && !context_.isCancelled()) {
+    while (level > 0 && reached == 0 && mayGoOn()) {
       if (attempt(level)) reached = level;
       level -= std::max<std::size_t>(1, level / 6);
     }
-    for (level = reached + 1; reached > 0 && level < levels.size() && !context_.isCancelled(); ++level) {
+    for (level = reached + 1; reached > 0 && level < levels.size() && mayGoOn(); ++level) {
       if (!attempt(level)) break;
     }
+    if (work >= kMostSearchWork)
+      report_.note =
+          "The curve has too many segments to try every simpler course of its curvature. Use fewer segments.";
     if (!simpler) return std::nullopt;
     simpler->extrema = extremaOf(simpler->points);
     simpler->deviationMm = largestDeviation(setup_, simpler->points, true);

@@ -35,11 +35,18 @@ inline std::uint64_t moreThan(std::uint64_t s, std::uint64_t t, std::uint64_t f,
   return 0;
 }
 
-/// One row of one step: 64 pixels at once, the 8 neighbours added by carry-save adders. `flip` is all ones for erosion,
-/// which is dilation of the paper: paper neighbours are counted and ink is taken away.
+/// A row with its neighbours, before a step and after.
+struct RowOfStep {
+  const std::uint64_t *above, *here, *below;
+  std::uint64_t* out;
+  int words;           ///< Of a row.
+  std::uint64_t flip;  ///< All ones for erosion, which is dilation of the paper: ink is taken away.
+};
+
+/// One row of one step: 64 pixels at once, the 8 neighbours added by carry-save adders.
 template <int Coefficient>
-inline void stepRowBody(const std::uint64_t* above, const std::uint64_t* here, const std::uint64_t* below,
-                        std::uint64_t* out, int words, std::uint64_t flip) {
+inline void stepRowBody(const RowOfStep& row) {
+  const auto [above, here, below, out, words, flip] = row;
   for (int i = 0; i < words; ++i) {
     const std::uint64_t a = above[i] ^ flip, c = here[i] ^ flip, b = below[i] ^ flip;
     const std::uint64_t aL = (a << 1) | ((above[i - 1] ^ flip) >> 63), aR = (a >> 1) | ((above[i + 1] ^ flip) << 63);
@@ -55,57 +62,62 @@ inline void stepRowBody(const std::uint64_t* above, const std::uint64_t* here, c
   }
 }
 
-BATTEN_HOT_LOOP void stepRow(const std::uint64_t* above, const std::uint64_t* here, const std::uint64_t* below,
-                             std::uint64_t* out, int words, std::uint64_t flip, int coefficient) {
+BATTEN_HOT_LOOP void stepRow(const RowOfStep& row, int coefficient) {
   switch (coefficient) {
     case 0:
-      return stepRowBody<0>(above, here, below, out, words, flip);
+      return stepRowBody<0>(row);
     case 1:
-      return stepRowBody<1>(above, here, below, out, words, flip);
+      return stepRowBody<1>(row);
     case 2:
-      return stepRowBody<2>(above, here, below, out, words, flip);
+      return stepRowBody<2>(row);
     case 3:
-      return stepRowBody<3>(above, here, below, out, words, flip);
+      return stepRowBody<3>(row);
     case 4:
-      return stepRowBody<4>(above, here, below, out, words, flip);
+      return stepRowBody<4>(row);
     case 5:
-      return stepRowBody<5>(above, here, below, out, words, flip);
+      return stepRowBody<5>(row);
     case 6:
-      return stepRowBody<6>(above, here, below, out, words, flip);
+      return stepRowBody<6>(row);
     case 7:
-      return stepRowBody<7>(above, here, below, out, words, flip);
+      return stepRowBody<7>(row);
     default:
       break;
   }
-  if (coefficient < 0) return stepRowBody<-1>(above, here, below, out, words, flip);
-  std::copy_n(here, words, out);
+  if (coefficient < 0) return stepRowBody<-1>(row);
+  std::copy_n(row.here, row.words, row.out);
 }
 
 using RowFlags = std::vector<std::uint8_t>;  // one byte a row: neighbouring rows are written by different threads
 
+/// An image, and which of its rows differ from an iteration before.
+struct FlaggedBits {
+  PaddedBits bits;
+  RowFlags changed;
+};
+
 /// Runs one step from `in` into `out`, which holds the result of the same step one iteration ago: a row whose three
-/// rows of origin have not changed since then is already right. `changed` tells which rows of `out` differ from before.
-void runStep(const PaddedBits& in, const RowFlags& inChanged, PaddedBits& out, RowFlags& outChanged, Step step,
-             const FilterParams& params, const RunContext& context) {
+/// rows of origin have not changed since then is already right.
+void runStep(const FlaggedBits& in, FlaggedBits& out, Step step, const FilterParams& params,
+             const RunContext& context) {
   const bool replicate = params.border == FilterBorder::Replicate;
   const std::uint64_t flip = step == Step::Erosion ? ~std::uint64_t{0} : 0;
-  const int height = in.height();
-  const int words = in.wordsPerRow();
+  const int height = in.bits.height();
+  const int words = in.bits.wordsPerRow();
   parallelFor(context, height, 2 * kRowsPerBlock, [&](int begin, int end) {
     std::vector<std::uint64_t> before(words);
     for (int y = begin; y < end; ++y) {
-      const auto flag = [&](int row) { return inChanged[std::clamp(row, 0, height - 1)]; };
-      std::uint8_t& mark = outChanged[y];
+      const auto flag = [&](int row) { return in.changed[std::clamp(row, 0, height - 1)]; };
+      std::uint8_t& mark = out.changed[y];
       mark = 0;
       if ((flag(y - 1) | flag(y) | flag(y + 1)) == 0) continue;
-      std::uint64_t* row = out.row(y);
+      std::uint64_t* row = out.bits.row(y);
       std::copy_n(row, words, before.data());
-      stepRow(in.row(y - 1), in.row(y), in.row(y + 1), row, words, flip, params.coefficient);
-      out.finishRow(y, replicate);
+      stepRow({in.bits.row(y - 1), in.bits.row(y), in.bits.row(y + 1), row, words, flip}, params.coefficient);
+      out.bits.finishRow(y, replicate);
       mark = std::equal(before.begin(), before.end(), row) ? 0 : 1;
     }
   });
-  out.finishBorderRows(replicate);
+  out.bits.finishBorderRows(replicate);
 }
 
 bool sameRows(const PaddedBits& a, const PaddedBits& b) {
@@ -124,32 +136,31 @@ PaddedBits runPairs(const BitImage& image, const FilterParams& params, FilterRep
   const auto rows = static_cast<std::size_t>(image.height);
   const Step first = params.order == FilterOrder::ErosionFirst ? Step::Erosion : Step::Dilation;
   const Step second = params.order == FilterOrder::ErosionFirst ? Step::Dilation : Step::Erosion;
-  PaddedBits state(image, replicate);
-  PaddedBits middle(image.width, image.height);
-  PaddedBits previous = state, beforePrevious = state;
-  RowFlags stateChanged(rows, 1), middleChanged(rows, 1);
+  FlaggedBits state{PaddedBits(image, replicate), RowFlags(rows, 1)};
+  FlaggedBits middle{PaddedBits(image.width, image.height), RowFlags(rows, 1)};
+  PaddedBits previous = state.bits, beforePrevious = state.bits;
   report.why = Termination::IterationLimit;
   int limit = params.iterations;
   while (report.iterations < limit && !context.isCancelled()) {
     std::swap(previous, beforePrevious);
-    previous = state;
-    runStep(state, stateChanged, middle, middleChanged, first, params, context);
-    if (report.iterations == 0) std::fill(middleChanged.begin(), middleChanged.end(), std::uint8_t{1});
-    runStep(middle, middleChanged, state, stateChanged, second, params, context);
+    previous = state.bits;
+    runStep(state, middle, first, params, context);
+    if (report.iterations == 0) std::fill(middle.changed.begin(), middle.changed.end(), std::uint8_t{1});
+    runStep(middle, state, second, params, context);
     ++report.iterations;
     context.report(static_cast<double>(report.iterations) / limit);
-    if (!any(stateChanged)) {
+    if (!any(state.changed)) {
       report.why = Termination::FixedPoint;
       break;
     }
-    if (!report.alternates && report.iterations >= 2 && sameRows(state, beforePrevious)) {
+    if (!report.alternates && report.iterations >= 2 && sameRows(state.bits, beforePrevious)) {
       // Two states take turns for ever: what the asked number of pairs gives is decided by its being odd or even.
       report.alternates = true;
       report.why = Termination::NoProgress;
       limit = report.iterations + (params.iterations - report.iterations) % 2;
     }
   }
-  return state;
+  return std::move(state.bits);
 }
 
 /// Undoes the larger ones of the changes, and counts.
@@ -171,14 +182,14 @@ void limitChanges(const BitImage& before, const FilterParams& params, FilteredIm
 
 BitImage singleStep(const BitImage& image, Step step, int coefficient, FilterBorder border, const RunContext& context) {
   const bool replicate = border == FilterBorder::Replicate;
-  const PaddedBits in(image, replicate);
-  PaddedBits out(image.width, image.height);
-  RowFlags all(static_cast<std::size_t>(image.height), 1), changed = all;
+  const RowFlags all(image.height, 1);
+  const FlaggedBits in{PaddedBits(image, replicate), all};
+  FlaggedBits out{PaddedBits(image.width, image.height), all};
   FilterParams params;
   params.coefficient = coefficient;
   params.border = border;
-  runStep(in, all, out, changed, step, params, context);
-  return out.toImage();
+  runStep(in, out, step, params, context);
+  return out.bits.toImage();
 }
 
 }  // namespace

@@ -41,9 +41,15 @@ int findRoot(std::vector<int>& parent, int i) {
   return i;
 }
 
-/// Joins the runs of two neighbouring rows, given as index ranges, where they touch.
-void joinRows(const std::vector<Run>& runs, int a, int aEnd, int b, int bEnd, int slack, std::vector<int>& parent) {
-  while (a < aEnd && b < bEnd) {
+/// The runs of a row, by index: from first to before last.
+struct RowRuns {
+  int first = 0, last = 0;
+};
+
+/// Joins the runs of two neighbouring rows where they touch. @param slack [px] 1: corners touch, too; else 0.
+void joinRows(const std::vector<Run>& runs, RowRuns upper, RowRuns lower, int slack, std::vector<int>& parent) {
+  int a = upper.first, b = lower.first;
+  while (a < upper.last && b < lower.last) {
     const Run& above = runs[a];
     const Run& below = runs[b];
     if (above.x0 < below.x1 + slack && below.x0 < above.x1 + slack) {
@@ -115,7 +121,7 @@ RunPieces findPieces(const BitImage& image, Connectivity connectivity, const Run
   for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = static_cast<int>(i);
   const auto join = [&](int y) {
     const auto row = static_cast<std::size_t>(y);
-    joinRows(all.runs, all.rowStart[row - 1], all.rowStart[row], all.rowStart[row], all.rowStart[row + 1], slack,
+    joinRows(all.runs, {all.rowStart[row - 1], all.rowStart[row]}, {all.rowStart[row], all.rowStart[row + 1]}, slack,
              parent);
   };
   // Within a strip only its own runs are joined, so strips do not disturb each other; the seams come afterwards.

@@ -174,8 +174,9 @@ TEST_F(HostileInput, GoesOnWithTheThreadsThereAre) {
 
 TEST_F(HostileInput, SaysWhatFairingRefusedOrLeft) {
   // A profile of constant curvature is out of reach for half an ellipse within a hundredth of a millimetre.
-  const Outcome done = run("trace " + scene() + " -o " + file("o.svg") +
-                           " --set fairing.mode=target --set fairing.target=1 --set fairing.tolerance=0.01");
+  const Outcome done =
+      run("trace " + scene() + " -o " + file("o.svg") +
+          " --set fairing.mode=target --set fairing.target=1 --set fairing.tolerance=0.01 --set fairing.spans=whole");
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_NE(done.out.find("Curve 1, fairing: "), std::string::npos) << done.out;
   const Outcome plain = run("trace " + scene() + " -o " + file("o.svg"));

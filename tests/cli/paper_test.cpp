@@ -9,7 +9,6 @@
 namespace batten {
 namespace {
 
-using json = nlohmann::json;
 using test::InkLayer;
 using test::lineCoverage;
 
@@ -34,10 +33,10 @@ class Paper : public test::Program {
     write(name, encodePng(picture).value());
     return file(name);
   }
-  json traced(const std::string& scan, const std::string& more = {}) const {
+  nlohmann::json traced(const std::string& scan, const std::string& more = {}) const {
     const auto done = run("trace " + scan + " --dpi 300 -o " + file("out.json") + " " + more);
     EXPECT_EQ(done.code, 0) << done.err;
-    return done.code == 0 ? json::parse(done.out) : json();
+    return done.code == 0 ? nlohmann::json::parse(done.out) : nlohmann::json();
   }
 };
 
@@ -63,12 +62,12 @@ TEST_F(Paper, YellowMarkerIsTracedUnlessBrightnessIsAskedFor) {
 
 TEST_F(Paper, RuledLinesAreLeftOutAndBroughtBack) {
   const std::string scan = colourPage("ruled.png", {rules(), line({60, 40}, {360, 320}, 5, {0.1, 0.1, 0.1})});
-  const json without = traced(scan);
+  const nlohmann::json without = traced(scan);
   EXPECT_EQ(without.at("curves"), 1);
   ASSERT_FALSE(without.at("notes").empty());
   EXPECT_NE(without.at("notes").dump().find("15 printed lines across the page were left out"), std::string::npos)
       << without.at("notes");
-  const json with = traced(scan, "--set paper.rulings=keep");
+  const nlohmann::json with = traced(scan, "--set paper.rulings=keep");
   EXPECT_GT(with.at("curves").get<int>(), 10);
   EXPECT_EQ(with.at("notes").dump().find("printed lines"), std::string::npos);
 }

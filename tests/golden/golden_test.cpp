@@ -103,6 +103,7 @@ TEST_P(Golden, FiguresStayWithinTheirTolerance) {
   recipe.construct.method = scene.method;
   recipe.construct.light = false;
   recipe.fairing.mode = scene.mode;
+  recipe.fairing.targets.spans = TargetSpans::Whole;
   for (std::size_t i = 0; i < truth.corners.size(); ++i) {
     recipe.cornerMarks.push_back({truth.corners[i] + Vec2(i % 2 == 0 ? 4.0 : -4.0, 3.0)});
   }

@@ -7,13 +7,17 @@ cd "$(dirname "$0")/../.."
 seconds=${FUZZ_SECONDS:-60}
 sets=${FUZZ_SETS:-1000}
 if ! command -v clang++ >/dev/null || ! ls /usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer-*.a >/dev/null 2>&1; then
+  . packaging/packages.sh
+  install_missing "${fuzz_packages[@]}"
+fi
+if ! command -v clang++ >/dev/null; then
   echo "clang with libFuzzer is not installed (Debian: clang libclang-rt-dev)"
   exit 77
 fi
-export CCACHE_DEPEND=1 CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
-targets=(fuzz_recipe fuzz_curves fuzz_import fuzz_svg fuzz_scan fuzz_parameters)
+export CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+targets=(fuzz_recipe fuzz_curves fuzz_svg fuzz_scan fuzz_import fuzz_parameters)
 cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_COMPILER=clang++ \
-  -DCMAKE_CXX_FLAGS=-fsanitize=fuzzer-no-link -DBATTEN_SANITIZE=address,undefined -DBATTEN_WERROR=OFF \
+  -DCMAKE_CXX_FLAGS=-fsanitize=fuzzer-no-link -DBATTEN_SANITIZE=address,undefined -DBATTEN_WERROR=OFF -DBATTEN_PCH=ON \
   -DBATTEN_GUI=OFF -DBATTEN_TESTS=OFF -DBATTEN_BENCH=OFF -DBATTEN_FUZZ=ON
 cmake --build build/fuzz -j "${BATTEN_JOBS:-2}" --target "${targets[@]}" fuzz_seeds
 

@@ -5,6 +5,7 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenu>
 #include <QMimeData>
 #include <QTextBrowser>
@@ -82,6 +83,36 @@ TEST_F(Compare, OneCurveCanHaveAMethodOfItsOwn) {
   ASSERT_TRUE(settle());
   EXPECT_EQ(session().recipe().construct.method, ConstructMethod::Nurbs);
   EXPECT_TRUE(session().recipe().choices.empty());
+}
+
+TEST_F(Compare, DetailBelongsToAllCurvesOrToOne) {
+  openPage(test::zigzagPage());
+  Recipe marked = session().recipe();
+  marked.cornerMarks = {{{200, 100}}, {{400, 300}}};
+  session().change(QStringLiteral("Marks"), marked);
+  ASSERT_TRUE(settle());
+  window_->setStage(PanelStage::Curves);
+  ASSERT_EQ(session().curves().size(), 3u);
+  session().selectCurve(1);
+  const auto click = [this](const char* name) { QTest::mouseClick(find<QAbstractButton>(name), Qt::LeftButton); };
+  const auto tolerancePx = [this](std::size_t curve) { return session().curves()[curve].construct.light->tolerancePx; };
+  click("construct.detail.scope.one");
+  type(find<QLineEdit>("construct.detail.field"), QStringLiteral("0.6"));
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(session().recipe().construct.detail, 0.0);
+  ASSERT_EQ(session().recipe().choices.size(), 1u);
+  EXPECT_EQ(session().recipe().choices[0].detail, 0.6);
+  EXPECT_GT(tolerancePx(1), tolerancePx(0));
+  EXPECT_EQ(tolerancePx(2), tolerancePx(0));
+  type(find<QLineEdit>("construct.detail.field"), QStringLiteral("0"));
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(session().recipe().choices.empty()) << "as all others: nothing of its own is left";
+  click("construct.detail.scope.all");
+  type(find<QLineEdit>("construct.detail.field"), QStringLiteral("0.5"));
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(session().recipe().construct.detail, 0.5);
+  EXPECT_TRUE(session().recipe().choices.empty());
+  EXPECT_GT(tolerancePx(0), session().recipe().construct.lightTolerancePx);
 }
 
 TEST_F(Compare, APinnedResultStaysAndIsSetBesideThePresentOne) {

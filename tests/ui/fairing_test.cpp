@@ -161,6 +161,12 @@ TEST_F(FairingWindow, TheTargetIsSplitOnThePlot) {
   window_->findChild<CurvePlots*>()->setTab(PlotTab::Curvature);
   click("fairing.mode.target");
   ASSERT_TRUE(settle());
+  ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr; }));
+  EXPECT_EQ(session().targets()->splits.size(), 4u) << "the natural spans of an ellipse";
+  click("fairing.unsplit");
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(choice().spans, TargetSpans::Whole);
+  ASSERT_TRUE(waitUntil([this] { return session().targets() && session().targets()->splits.empty(); }));
   auto* plot = find<QWidget>("plot");
   QTest::mouseClick(plot, Qt::RightButton, {}, QPoint(plot->width() / 3, 30));
   auto* menu = find<QMenu>("plot.menu");
@@ -186,6 +192,48 @@ TEST_F(FairingWindow, TheTargetIsSplitOnThePlot) {
   EXPECT_TRUE(used().targets.splits.empty());
   session().undoStack()->undo();
   EXPECT_EQ(choice().splitsPx.size(), 1u);
+  // A click on a split joins the spans beside it.
+  ASSERT_TRUE(settle());
+  QTest::qWait(50);
+  const QPoint join = placeOf(QStringLiteral("Drag the split")) + QPoint(4, 0);
+  ASSERT_GT(join.x(), 0);
+  QTest::mouseClick(plot, Qt::LeftButton, {}, join);
+  EXPECT_TRUE(choice().splitsPx.empty());
+  EXPECT_EQ(choice().spans, TargetSpans::Whole);
+  click("fairing.split");
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(used().targets.spans, TargetSpans::Natural);
+}
+
+TEST_F(FairingWindow, ASpanOfTheCurveHasATargetOfItsOwn) {
+  ASSERT_TRUE(settle());
+  session().pointAtSpan(0.3);
+  ASSERT_TRUE(waitUntil([this] { return session().targets() && session().targets()->span; }));
+  const ProfileSpan span = *session().targets()->span;
+  EXPECT_LT(span.from, 0.3);
+  EXPECT_GT(span.to, 0.3);
+  EXPECT_LT(span.to - span.from, 0.4) << "about a quarter of the ellipse";
+  find<QAbstractButton>("target.3")->click();
+  ASSERT_TRUE(settle());
+  ASSERT_EQ(session().recipe().choices.size(), 1u);
+  ASSERT_EQ(choice().spanTargets.size(), 1u);
+  EXPECT_EQ(choice().spanTargets[0].degree, 3);
+  ASSERT_EQ(used().spanTargets.size(), 1u);
+  EXPECT_GT(used().spanTargets[0].at, span.from);
+  EXPECT_LT(used().spanTargets[0].at, span.to);
+  EXPECT_TRUE(find<QAbstractButton>("target.3")->accessibleName().contains(QStringLiteral("chosen")));
+  // Another one for the same span takes its place.
+  find<QAbstractButton>("target.5")->click();
+  ASSERT_TRUE(settle());
+  ASSERT_EQ(choice().spanTargets.size(), 1u);
+  EXPECT_EQ(choice().spanTargets[0].degree, 5);
+  click("fairing.whole");
+  EXPECT_FALSE(session().pointedSpan());
+  ASSERT_TRUE(waitUntil([this] { return session().targets() && !session().targets()->span; }));
+  find<QAbstractButton>("target.4")->click();
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(used().spanTargets.empty());
+  EXPECT_EQ(used().target, 4);
 }
 
 TEST_F(FairingWindow, ShapesAreComparedAndTheTableShowsAllSixProfiles) {

@@ -13,6 +13,8 @@ namespace {
 
 /// The least length of the low pass; where stations were set closer, the least is shorter by as much.
 constexpr double kShortestLowPassPx = 20.0;
+constexpr double kKernelWidths = 8.0;    // standard deviations of a Gaussian; beyond it is 1e-14
+constexpr double kUnitsOfPath = 1000.0;  // of a path whose pixel nobody knows: about as long as a drawing's lines
 /// Weights of one px: offset of a joint, turn of a joint (over a quarter of a segment), sagitta of a segment that the
 /// curvature misses, change of that miss along a segment. Tuned on ellipses and roof lines with noise of 0 to 0.3 px.
 constexpr double kOffsetWeight = 0.2;
@@ -160,7 +162,7 @@ struct TurningData {
     for (std::size_t i = 0; i < lengths.size(); ++i) {
       double away = middle[i] - s;
       if (closed) away -= total * std::round(away / total);
-      if (std::abs(away) > 8.0 * width) continue;
+      if (std::abs(away) > kKernelWidths * width) continue;
       const double w = lengths[i] * std::exp(-0.5 * away * away / (width * width));
       w0 += w;
       w1 += w * away;
@@ -247,7 +249,7 @@ FairedJoints fairedJoints(const StationSet& set, bool closed, double pixelMm, do
     total += length;
   }
   if (!closed) places.push_back(total);
-  const double unit = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / 1000.0;
+  const double unit = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / kUnitsOfPath;
   // Distances that there were before stations were set closer.
   double distances = 0.0;
   for (std::size_t i = 0; i < lengths.size(); ++i) {

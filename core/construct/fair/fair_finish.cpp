@@ -25,7 +25,8 @@ constexpr int kChecksPerSpan = 4, kFineChecksPerSpan = 8;
 constexpr int kRefinements = 3;
 constexpr double kWrongWay = 2e-3;      // [1/diagonal] curvature that may turn back unasked before the frame is refined
 constexpr double kLeastNoisePx = 0.02;  // systematic error of edges on perfect pages
-constexpr double kKappaShare = 2.0;     // of the share of the noise, for the curvature
+constexpr double kResidualSigmas = 6.0;  // points farther off are left out of the report's residuals
+constexpr double kKappaShare = 2.0;      // of the share of the noise, for the curvature
 constexpr double kCornerReachPx = 16.0;  // an end may lie this far beyond the curve of the moment
 constexpr const char* kShortNote =
     "Too short for the fair fit; a smooth curve of low degree through the points instead.";
@@ -203,7 +204,7 @@ class FinishedFit {
   }
 
   void addResidual(double e, double weight) {
-    if (std::abs(e) * std::sqrt(weight) > 6.0 * std::sqrt(s0_)) return;
+    if (std::abs(e) * std::sqrt(weight) > kResidualSigmas * std::sqrt(s0_)) return;
     piece_.squares += e * e;
     ++piece_.pointCount;
   }

@@ -14,6 +14,12 @@ namespace {
 
 constexpr double kPilotCutoffPx = 50.0;
 constexpr double kSmoothingSamples = 3.0;
+constexpr double kGateSigmas = 6.0,
+                 kLeastSigmaPx = 0.02;   // points farther off than as many robust sigmas are no points of the line
+constexpr double kPointsPerBlock = 1.5;  // at least, where points are sparse
+constexpr double kFewestInBlock = 2.0, kFewestShare = 0.5,
+                 kSparseShare = 0.3;  // points, and of those expected: else no block
+constexpr double kFullShare = 0.6;    // of the points expected: from here on a block has its whole weight
 constexpr auto kTwoPoints = gaussLegendre<2>(-1.0, 0.0);  // of an interval that ends at 0
 constexpr int kClosedSpansMin = 12;  // so that band entries of periodic inverses are all different places
 
@@ -62,7 +68,7 @@ FrameStation makeStation(const UniformQuintic& base, double u, bool bendOnly) {
 void averageBlocks(FairFrame& frame, const FairData& data, const FairFitOptions& options, const std::vector<double>& e,
                    double limit) {
   const double length = frame.base.knots().length;
-  const double wished = std::max(options.blockPx, 1.5 / data.density);
+  const double wished = std::max(options.blockPx, kPointsPerBlock / data.density);
   const int count = std::max(1, static_cast<int>(std::lround(length / wished)));
   frame.blockLength = length / count;
   struct Sum {
@@ -84,13 +90,13 @@ void averageBlocks(FairFrame& frame, const FairData& data, const FairFitOptions&
     frame.weights += w;
   }
   const double expected = frame.blockLength * data.density;
-  const double least = std::min(2.0, 0.5 * expected);
+  const double least = std::min(kFewestInBlock, kFewestShare * expected);
   for (const Sum& sum : sums) {
-    if (sum.n < std::max(least, 0.3 * expected) || sum.n == 0) continue;
+    if (sum.n < std::max(least, kSparseShare * expected) || sum.n == 0) continue;
     FairBlock block;
     block.u = sum.t / sum.w;
     block.offset = sum.e / sum.w;
-    block.weight = std::min(1.0, sum.n / (0.6 * expected)) * sum.w / sum.n;
+    block.weight = std::min(1.0, sum.n / (kFullShare * expected)) * sum.w / sum.n;
     block.row = frame.base.knots().row(block.u, 0);
     frame.blocks.push_back(block);
   }
@@ -148,7 +154,7 @@ std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions& opt
       e[i] = (data.points[i] - d[0]).dot(unitNormal(d[1]));
       if (data.use[i]) used.push_back(e[i] * std::sqrt(data.weight[i]));
     }
-    const double reach = 6.0 * std::max(robustSigma(used), 0.02);
+    const double reach = kGateSigmas * std::max(robustSigma(used), kLeastSigmaPx);
     for (std::size_t i = 0; i < n; ++i) {
       const double x = std::min(1.0, std::abs(e[i]) * std::sqrt(data.weight[i]) / reach);
       weights[i] = data.use[i] ? data.weight[i] * (1.0 - x * x) * (1.0 - x * x) : 0.0;
@@ -179,7 +185,7 @@ FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFi
     e[i] = (data.points[i] - d[0]).dot(unitNormal(d[1]));
     used.push_back(e[i] * std::sqrt(data.weight[i]));
   }
-  averageBlocks(frame, data, options, e, 6.0 * std::max(robustSigma(std::move(used)), 0.02));
+  averageBlocks(frame, data, options, e, kGateSigmas * std::max(robustSigma(std::move(used)), kLeastSigmaPx));
   frame.h = BandedMatrix(knots.coefficients(), BandRow::kHalfWidth, knots.closed);
   frame.g = Eigen::VectorXd::Zero(knots.coefficients());
   for (const FairBlock& block : frame.blocks) {

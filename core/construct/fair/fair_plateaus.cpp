@@ -14,6 +14,7 @@ namespace {
 constexpr double kSlopeShare = 0.25;  // of the mean slope of a stretch
 constexpr double kStretchCost = 1.0;  // [chi2] what a stretch may pay for it
 constexpr double kLessSlope = 0.4;    // next try of a stretch that paid more
+constexpr double kNearWindows = 1.5;  // half windows of an extremum: flat is what the curve is there anyhow
 constexpr int kPlateauRounds = 3;
 constexpr double kFlatSlope = 0.05;  // of the mean slope: a plateau
 constexpr double kFlatShare = 0.02;  // of a stretch that may be plateaus as it is
@@ -80,7 +81,7 @@ void spareSteady(const FairFrame& frame, const FairStructure& structure, const E
     const bool nearExtremum = std::any_of(structure.extrema.begin(), structure.extrema.end(), [&](const auto& e) {
       double away = std::abs(s.u - e.u);
       if (closed) away = std::min(away, frame.base.knots().length - away);
-      return away < 1.5 * e.halfWidth;
+      return away < kNearWindows * e.halfWidth;
     });
     ++all[i];
     if (!nearExtremum && std::abs(s.slope + dot(s.slopeRow, c)) < kFlatSlope * slopes[i]) ++flat[i];

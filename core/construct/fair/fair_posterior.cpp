@@ -12,6 +12,7 @@
 namespace batten {
 namespace {
 
+constexpr double kShortestCutoffPx = 24.0, kCutoffStep = 1.15;  // the first candidate, and each over the one before
 constexpr double kLongestCutoffPx = 1400.0;
 constexpr double kOrdinaryBlocks = 4.0, kOrdinaryVariance = 1.25e-3;  // [px^2] of a mean over 8 px: .01 px^2 px
 constexpr int kMeasuredStep = 3;                                      // of the candidates for the cut-off
@@ -95,7 +96,7 @@ void fillBetween(CutoffTable& table) {
 
 }  // namespace
 
-double CutoffTable::cutoffPx(int k) { return 24.0 * std::pow(1.15, k); }
+double CutoffTable::cutoffPx(int k) { return kShortestCutoffPx * std::pow(kCutoffStep, k); }
 
 CutoffTable cutoffTable(const FairFrame& frame) {
   CutoffTable table;

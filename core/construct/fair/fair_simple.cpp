@@ -14,6 +14,8 @@ namespace batten {
 namespace {
 
 constexpr double kStraightBelowPx = 12.0, kQuadraticBelowPx = 25.0;
+constexpr double kLoopCutoffShare = 0.25;  // of the length of a small closed line: shorter waves are noise
+constexpr double kLoopSpacingPx = 16.0;    // of its knots
 constexpr double kPinWeight = 1e8;
 
 Result<NurbsCurve> bezier(std::vector<Vec2> points, double length, double scale) {
@@ -183,9 +185,9 @@ Result<NurbsCurve> simpleCurve(const FairData& data, const FairPins& pins, doubl
   if (!(t.back() > 0.0) || !std::isfinite(t.back())) return nothing();
   if (!data.closed) return openCurve(data, pins, scale, t);
   const double length = t.back() + (data.points.front() - data.points.back()).norm();
-  const double lambda = data.density * std::pow(length / (8.0 * std::numbers::pi), 6);
+  const double lambda = data.density * std::pow(kLoopCutoffShare * length / (2.0 * std::numbers::pi), 6);
   std::vector<double> weights(data.use.begin(), data.use.end());
-  const auto loop = fitUniformQuintic(fairKnots(length, 16.0, true), t, data.points, weights, lambda);
+  const auto loop = fitUniformQuintic(fairKnots(length, kLoopSpacingPx, true), t, data.points, weights, lambda);
   if (!loop) return nothing();
   return loop->toNurbs(scale, scale, Vec2::Zero(), Vec2::Zero());
 }

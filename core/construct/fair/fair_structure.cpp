@@ -13,9 +13,10 @@ namespace batten {
 namespace {
 
 constexpr double kWindowShare = 0.25, kStretchShare = 0.8, kWindowMinPx = 8.0, kWindowMaxPx = 60.0;
-constexpr double kRecentre = 0.7;      // of the half width
-constexpr double kLocalReachPx = 640;  // far beyond any correlation that matters
-constexpr int kRounds = 4;             // one solution and three recentrings
+constexpr double kWindowsApart = 0.45;  // of the distance of neighbouring extrema: half a window is no wider
+constexpr double kRecentre = 0.7;       // of the half width
+constexpr double kLocalReachPx = 640;   // far beyond any correlation that matters
+constexpr int kRounds = 4;              // one solution and three recentrings
 
 double slopeAt(const FrameStation& s, const Eigen::VectorXd& c) { return s.slope + dot(s.slopeRow, c); }
 double bendAt(const FrameStation& s, const Eigen::VectorXd& c) { return s.bend + dot(s.bendRow, c); }
@@ -216,7 +217,7 @@ void setWindows(FairStructure& structure, const UniformKnots& knots) {
     if (knots.closed && i == 0) before = e.u + knots.length - extrema.back().u;
     if (knots.closed && i + 1 == count) after = extrema.front().u + knots.length - e.u;
     double nearest = std::min(before, after);
-    const double limit = 0.45 * nearest;
+    const double limit = kWindowsApart * nearest;
     if (!knots.closed) nearest = std::min({nearest, e.u, knots.length - e.u});
     e.halfWidth = std::clamp(std::min(kWindowShare * nearest, kStretchShare * e.stretch), kWindowMinPx, kWindowMaxPx);
     e.halfWidth = std::min(e.halfWidth, limit);

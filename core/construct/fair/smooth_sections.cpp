@@ -18,7 +18,8 @@
 namespace batten {
 namespace {
 
-constexpr double kLeastSmoothPx = 24.0;  // between two turns; shorter stretches have no fairness to keep
+constexpr double kMostLengthRatio = 1.15;  // of a curve to its points: longer, it has a loop of its own
+constexpr double kLeastSmoothPx = 24.0;    // between two turns; shorter stretches have no fairness to keep
 
 /// The notes of a part that begins at `offset` of the whole, for lengths from..to of the part.
 void append(ConstructReport& whole, const ConstructReport& part, double from, double to, double offset) {
@@ -315,7 +316,7 @@ Result<ConstructedPiece> SmoothSections::joined(const RunContext& context) const
 Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) const {
   auto whole = withTurns();
   const auto farness = [&](const PointDeviation& c) {
-    return c.far + 10 * c.veryFar + (c.lengthRatio > 1.15 ? 1000 : 0);
+    return c.far + 10 * c.veryFar + (c.lengthRatio > kMostLengthRatio ? 1000 : 0);
   };
   std::optional<int> far;
   if (whole) {

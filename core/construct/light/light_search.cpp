@@ -16,12 +16,15 @@ namespace {
 constexpr double kRankedProminence = 2e-3;  // times 1 / diagonal: extrema that have a removal deviation
 constexpr int kFewestOpenPoints = 3, kFewestClosedPoints = 4;
 constexpr int kMostSpanDegree = 7;
-constexpr double kOrder = 9.0;          // a fit of c points errs by about c to the power of minus this
-constexpr double kMostGrowth = 1.6;     // of the number of points from one try to the next
-constexpr double kWorkPerPoint = 60.0;  // iterations times spans, about 0.01 ms each, per point that may be spared
-constexpr int kCheckRounds = 4;         // of one fit, while the strict check finds a little missing
-constexpr double kNearly = 1.3;         // tolerances: more than a little
-constexpr double kHopeless = 5.0;       // tolerances after the first phase: no other start will do
+constexpr double kOrder = 9.0;           // a fit of c points errs by about c to the power of minus this
+constexpr double kMostGrowth = 1.6;      // of the number of points from one try to the next
+constexpr double kWorkPerPoint = 60.0;   // iterations times spans, about 0.01 ms each, per point that may be spared
+constexpr int kCheckRounds = 4;          // of one fit, while the strict check finds a little missing
+constexpr double kNearly = 1.3;          // tolerances: more than a little
+constexpr double kHopeless = 5.0;        // tolerances after the first phase: no other start will do
+constexpr double kAskedLess = 0.98;      // of the tolerance over what was missed: the next round's
+constexpr double kMoreSignMargin = 5.0;  // times the margin of the signs, in the next round
+constexpr double kMoreSigns = 3.0;       // their weight then
 constexpr int kLightQuintic = 5;
 
 class LightSearch {
@@ -170,12 +173,12 @@ class LightSearch {
       // The places of the fit have missed something: they are asked for a little more.
       if (verdict.worst > options_.tolerance) {
         if (verdict.worst > kNearly * options_.tolerance) return false;
-        ask.reach *= 0.98 * options_.tolerance / verdict.worst;
+        ask.reach *= kAskedLess * options_.tolerance / verdict.worst;
       } else {
-        ask.signMargin *= 5.0;
+        ask.signMargin *= kMoreSignMargin;
       }
       ask.firstPhase = false;
-      ask.signs = 3.0;
+      ask.signs = kMoreSigns;
       start = fitted.shape;
     }
     return false;

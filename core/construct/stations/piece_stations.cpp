@@ -11,6 +11,10 @@ namespace batten {
 
 namespace {
 
+/// Of the spacing: a first station farther from the start of the piece is not the start, if the start lies behind it
+/// (the cosine of the angle between the gap and its direction is more than kAhead).
+constexpr double kStandsAway = 0.25, kAhead = 0.5;
+
 double diagonal(std::span<const Vec2> points) {
   if (points.empty()) return 0.0;
   Vec2 low = points.front(), high = low;
@@ -78,7 +82,7 @@ std::vector<Station> cleaned(std::span<const Station> stations, double tooNear) 
 void settleStart(std::vector<Station>& stations, const Vec2& start, bool corner, double along) {
   const Vec2 gap = stations.front().point - start;
   const double spacing = stations.size() > 1 ? (stations[1].point - stations[0].point).norm() : gap.norm();
-  if (gap.norm() > 0.25 * spacing && gap.dot(stations.front().direction) > 0.5 * gap.norm()) {
+  if (gap.norm() > kStandsAway * spacing && gap.dot(stations.front().direction) > kAhead * gap.norm()) {
     // What was first stands away from where it was measured.
     stations.front().along.reset();
     stations.insert(stations.begin(), stationAt(start, mirrored(stations.front().direction, gap)));

@@ -29,13 +29,17 @@ constexpr std::size_t kMostPoints = 400;
 constexpr double kLostRmsPx = 3.0;
 /// Distance of the joints along a fair fit, and the shortest one that is taken as a guide.
 constexpr double kHoldPx = 0.01, kAgreePx = 0.05;
+/// Where nobody knows the size of a pixel a line is as long as a drawing's usual ones are.
+constexpr double kUnitsOfLine = 1000.0;
+/// A joint is put in no nearer to its neighbours than this part of their distance.
+constexpr double kLeastSplitShare = 0.01;
 constexpr double kJointPx = 40.0, kLeastFairPx = 40.0;
 
 /// A closed line is opened after the station whose segment bends least: curvature is least at a joint, never inside a
 /// typical curve.
 void turnToStraightest(std::vector<Station>& stations) {
   std::size_t best = 0;
-  double least = 10.0;
+  double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const double turn = std::abs(angleBetween(stations[i].direction, stations[(i + 1) % stations.size()].direction));
     if (turn < least) {
@@ -105,7 +109,7 @@ TypicalLine lineOnStations(const ConstructPiece& piece, double pixelMm, const Co
   const FairedJoints faired = fairedJoints(givenStations(stations), piece.closed, pixelMm, params.lowPass, context);
   double total = 0.0;
   for (const double length : faired.lengths) total += length;
-  line.unitMm = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / 1000.0;
+  line.unitMm = pixelMm > 0.0 && std::isfinite(pixelMm) ? pixelMm : total / kUnitsOfLine;
   line.originMm = stations.front().point;
   line.endMm = stations.back().point;
   for (const Joint& j : faired.joints) {
@@ -219,7 +223,7 @@ std::vector<std::size_t> jointsAtPlaces(TypicalLine& line, std::span<const Vec2>
     between.elements[0].typical = false;
     between.states = {{a.point, std::atan2(a.tangent.y(), a.tangent.x()), a.kappa},
                       {b.point, std::atan2(b.tangent.y(), b.tangent.x()), b.kappa}};
-    between.split(0, std::clamp(share, 0.01, 0.99));
+    between.split(0, std::clamp(share, kLeastSplitShare, 1.0 - kLeastSplitShare));
     for (std::size_t& i : at) i += i > nearest ? 1 : 0;
     line.joints.insert(line.joints.begin() + static_cast<std::ptrdiff_t>(nearest) + 1, between.states[1].joint());
     at.push_back(nearest + 1);

@@ -21,6 +21,7 @@ constexpr std::array<double, 2> kExtrapolations = {1.35, 1.12};
 /// Segments shorter than this [px] mean that the growing has come to an end of its own.
 constexpr double kShortestPx = 6.0;
 constexpr double kLargestGrownTurn = 0.7;
+constexpr double kMostSeedTurnRad = 1.2;  // of a curve that goes on from one before: the fit may let it turn more
 /// A fit whose points lie this far [px] to one side in the mean has lost the line, whatever its normals say.
 constexpr double kLostPx = 0.25;
 /// Half of the stretch [px] from whose points a normal is taken.
@@ -176,7 +177,7 @@ class Grower {
     const Joint joint = before.endJoint();
     const double turn = joint.kappa * size;
     return typicalFromForm(joint.point, before.angleRad + 2.0 * before.turnRad, joint.kappa, size,
-                           std::copysign(std::clamp(std::abs(turn), 1e-4, 1.2), turn));
+                           std::copysign(std::clamp(std::abs(turn), kLeastStartTurnRad, kMostSeedTurnRad), turn));
   }
 
   /// Bends the curve until it meets the points: only the change of direction moves (002 section 5).

@@ -14,6 +14,9 @@ namespace batten {
 
 namespace {
 
+/// Of a segment: a joint is passed if a grown curve ends less than this before it.
+constexpr double kPassedShare = 0.3;
+
 std::complex<double> complexOf(const Vec2& v) { return {v.x(), v.y()}; }
 
 std::vector<Vec2> pointsBetween(const TypicalLine& line, std::size_t firstJoint, std::size_t lastJoint) {
@@ -149,7 +152,7 @@ std::optional<FoundPath> grownPath(const TypicalLine& line, std::span<const Vec2
     // Where it had to stop early the rest is left to Hermite pieces.
     at = stretch.firstJoint;
     while (at < stretch.lastJoint && (line.joints[at + 1].point - grown.end.point).dot(line.joints[at + 1].tangent) <
-                                         0.3 * (line.joints[at + 1].point - line.joints[at].point).norm()) {
+                                         kPassedShare * (line.joints[at + 1].point - line.joints[at].point).norm()) {
       ++at;
     }
   }

@@ -171,10 +171,10 @@ bool TypicalPath::makeTypical(std::size_t e) {
   const PathState &a = states[e], &b = states[e + 1];
   const double turn = std::remainder(b.angleRad - a.angleRad, 2.0 * std::numbers::pi);
   if (elements[e].typical || !(a.kappa * b.kappa > 0.0) || !(a.kappa * turn > 0.0)) return false;
-  if (!(std::abs(turn) < 1.4) || !(std::abs(turn) > 1e-4)) return false;
+  if (!(std::abs(turn) < kMostStartTurnRad) || !(std::abs(turn) > kLeastStartTurnRad)) return false;
   // The size of the stretch decides the mean curvature, as the curvatures at the ends are less certain.
   const double mean = std::abs(turn) / hermiteLength(e);
-  const double ratio = std::clamp(0.25 * std::log(a.kappa / b.kappa), -1.2, 1.2);
+  const double ratio = std::clamp(0.25 * std::log(a.kappa / b.kappa), -kMostStartLogRatio, kMostStartLogRatio);
   PathElement element;
   element.side = a.kappa > 0.0 ? 1.0 : -1.0;
   element.logTurn = std::log(0.5 * std::abs(turn));

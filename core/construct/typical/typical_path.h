@@ -18,6 +18,12 @@ namespace batten {
 /// state: place, direction and curvature; so the path is G2 by construction. The unit is the caller's (px: noise is
 /// then about 1).
 
+/// Limits of the first guess of a typical curve. The fit itself allows a little more, so that it does not start at a
+/// border of its own.
+inline constexpr double kMostStartTurnRad = 1.4;    ///< [rad] Change of direction; more is divided.
+inline constexpr double kLeastStartTurnRad = 1e-4;  ///< [rad] Less is straight.
+inline constexpr double kMostStartLogRatio = 1.2;   ///< Of the edges: the curvatures at the ends differ 120 times.
+
 /// Where |curvature| goes along a typical curve. Rising and Falling keep it monotone by construction: h <= cos(phi) or
 /// h >= 1 / cos(phi) whatever the unknowns are.
 enum class Trend { Free, Rising, Falling };

@@ -35,6 +35,8 @@ constexpr double kHermiteChange = 0.2;
 constexpr double kDampingFloor = 1e-9;
 constexpr LevenbergOptions kPathSteps{.attempts = 10, .leastDamping = 1e-9};
 /// The gap is closed by so many Newton steps at most, to so much [units, radians, log of curvature].
+/// A radian of gap weighs like this many units of length: 0.01 rad like a px.
+constexpr double kUnitsPerRadian = 100.0;
 constexpr int kClosingSteps = 12;
 constexpr double kClosed = 1e-13;
 constexpr double kClosingDamping = 1e-6;  ///< Relative: only to keep the metric regular.
@@ -144,9 +146,9 @@ class PathSquares {
     result.row(3) = rows.back().row(3) / last.kappa - rows.front().row(3) / first.kappa;
     return result;
   }
-  /// A radian of gap weighs like this many units of length, so that all gaps are about as near to none.
+  /// So that all gaps are about as near to none.
   static Eigen::VectorXd levers(Eigen::VectorXd open) {
-    if (open.size() == 4) open.tail(2) *= 100.0;
+    if (open.size() == 4) open.tail(2) *= kUnitsPerRadian;
     return open;
   }
 
@@ -192,9 +194,9 @@ class PathSquares {
       row.setZero(unknowns_.count());
       const std::size_t e = foot.element;
       if (path.elements[e].typical) {
-        unknowns_.addTypical(row, path, geometry[e], e, rows[e], foot.t, n);
+        unknowns_.addTypical(row, path, geometry[e], e, rows[e], {foot.t, n});
       } else {
-        PathUnknowns::addHermite(row, path.states[e], path.states[e + 1], rows[e], rows[e + 1], foot.t, n);
+        PathUnknowns::addHermite(row, {path.states[e], rows[e]}, {path.states[e + 1], rows[e + 1]}, {foot.t, n});
       }
       // The distance shrinks as the path moves towards the point.
       if (isSparse(unknowns_.count())) {

@@ -90,9 +90,23 @@ class PathUnknowns {
     return {ratio[0], ratio[1], e.side * e.turn()};
   }
 
-  /// Derivative along `n` of the point at t of a typical element, without the foot's own movement.
+  /// A place on an element, and the direction along which its derivatives are wanted.
+  struct Foot {
+    double t = 0.0;  ///< 0..1
+    Vec2 along = Vec2::Zero();
+  };
+  /// Where an element ends, and its derivatives.
+  struct ElementEnd {
+    const PathState& state;
+    const StateRows& rows;
+  };
+
+  /// Adds the derivatives of a place on typical element `e`, without the foot's own movement, to `row`.
+  /// @param start derivatives of the state where the element starts
   void addTypical(Row& row, const TypicalPath& path, const PathGeometry& g, std::size_t e, const StateRows& start,
-                  double t, const Vec2& n) const {
+                  const Foot& foot) const {
+    const double t = foot.t;
+    const Vec2& n = foot.along;
     const std::complex<double> z = g.ratio(), w = 1.0 + t * (z - 1.0), v = g.edge() * t * (w * w + w + 1.0);
     const std::complex<double> u = g.edge() * t * t * (2.0 * w + 1.0) * z;
     const auto along = [&](const std::complex<double>& c) { return n.x() * c.real() + n.y() * c.imag(); };
@@ -107,9 +121,10 @@ class PathUnknowns {
   }
 
   /// The same for a Hermite element.
-  static void addHermite(Row& row, const PathState& a, const PathState& b, const StateRows& start, const StateRows& end,
-                         double t, const Vec2& n) {
-    const double s = 1.0 - t;
+  static void addHermite(Row& row, const ElementEnd& start, const ElementEnd& end, const Foot& foot) {
+    const PathState &a = start.state, &b = end.state;
+    const Vec2& n = foot.along;
+    const double t = foot.t, s = 1.0 - t;
     const std::array<double, 6> basis = {s * s * s * s * s,      5 * t * s * s * s * s, 10 * t * t * s * s * s,
                                          10 * t * t * t * s * s, 5 * t * t * t * t * s, t * t * t * t * t};
     const HermiteLength length = hermiteLength(a, b);
@@ -128,7 +143,7 @@ class PathUnknowns {
       byStart(k) += byLength * length.fromStart[k];
       byEnd(k) += byLength * length.fromEnd[k];
     }
-    row.noalias() += byStart * start + byEnd * end;
+    row.noalias() += byStart * start.rows + byEnd * end.rows;
   }
 
  private:
@@ -148,7 +163,7 @@ class PathUnknowns {
     const PathGeometry g(path, e);
     for (const Eigen::Index k : {0, 1}) {
       Row row = Row::Zero(count_);
-      addTypical(row, path, g, e, start, 1.0, k == 0 ? Vec2::UnitX() : Vec2::UnitY());
+      addTypical(row, path, g, e, start, {1.0, k == 0 ? Vec2::UnitX() : Vec2::UnitY()});
       rows.row(k) = row;
     }
     const ShapeSlopes s = slopes(path.elements[e]);

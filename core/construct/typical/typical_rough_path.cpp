@@ -18,6 +18,8 @@ constexpr double kClearShare = 0.06;
 constexpr double kClearSagitta = 0.05;
 /// Turn of a segment at the start.
 constexpr double kFirstTurn = 0.7;
+/// [rad] Counts as a turn, however straight the span is.
+constexpr double kLeastSpanTurn = 1e-6;
 /// Joints between two nodes of a stretch without typical curves.
 constexpr std::size_t kJointsPerHermite = 12;
 
@@ -94,11 +96,12 @@ class RoughPath {
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
       const double turn = turned[nodes[i + 1] - run.first] - turned[nodes[i] - run.first];
       // More turn than one typical curve can make.
-      const int parts = static_cast<int>(std::ceil(std::max(turn, 1e-6) / 1.4));
+      const int parts = static_cast<int>(std::ceil(std::max(turn, kLeastSpanTurn) / kMostStartTurnRad));
       PathElement element;
       element.side = side;
-      element.logTurn = std::log(std::max(0.5 * turn / parts, 1e-4));
-      element.shape = std::clamp(0.25 * (logKappa[i] - logKappa[i + 1]) / parts, -1.2, 1.2);
+      element.logTurn = std::log(std::max(0.5 * turn / parts, kLeastStartTurnRad));
+      element.shape =
+          std::clamp(0.25 * (logKappa[i] - logKappa[i + 1]) / parts, -kMostStartLogRatio, kMostStartLogRatio);
       for (int k = 0; k < parts; ++k) {
         path_.elements.push_back(element);
         path_.states.push_back(state(nodes[i + 1], path_.states.back().angleRad));

@@ -24,6 +24,15 @@ constexpr double kTurnCost = 8.0;
 /// Stretches along which the curvature changes more than e to this are not questioned.
 constexpr double kSureRise = 1.2;
 
+/// Noise of the points: no less, however well they lie.
+constexpr double kLeastNoise = 0.05;
+/// Points farther off than this many robust standard deviations count less, which are no less than this.
+constexpr double kOutlierSigmas = 5.0, kLeastOutlierSigma = 0.1;
+/// [parameter] An element is not divided nearer to its ends, and an extremum nearer to them is none inside.
+constexpr double kDivideFrom = 0.2, kInsideFrom = 0.05;
+/// [rad] Half the change of direction of one curve in place of two.
+constexpr double kMostJoinedTurn = 0.7;
+
 /// How much of the misfit of each element is systematic: squared means of groups of neighbouring points.
 std::vector<double> systematicMisfit(const TypicalPath& path, const PathFit& fit) {
   std::vector<std::vector<double>> byElement(path.elements.size());
@@ -92,8 +101,8 @@ class StructureSearch {
     for (const PathFoot& foot : fit_.feet) sizes.push_back(std::abs(foot.distance));
     if (sizes.empty()) return;
     const double typical = robustSigma(sizes);
-    data_.noise = std::max(typical, 0.05);
-    data_.outlier = 5.0 * std::max(typical, 0.1);
+    data_.noise = std::max(typical, kLeastNoise);
+    data_.outlier = kOutlierSigmas * std::max(typical, kLeastOutlierSigma);
   }
 
   bool refit(TypicalPath& path, PathFit& fit, int iterations) {
@@ -137,14 +146,14 @@ class StructureSearch {
     for (const PathFoot& foot : fit_.feet) {
       if (foot.element == e) t.push_back(foot.t);
     }
-    return t.empty() ? 0.5 : std::clamp(t[t.size() / 2], 0.2, 0.8);
+    return t.empty() ? 0.5 : std::clamp(t[t.size() / 2], kDivideFrom, 1.0 - kDivideFrom);
   }
 
   bool holdMonotone(bool divide) {
     for (std::size_t e = 0; e < path_.elements.size(); ++e) {
       if (!path_.elements[e].typical) continue;
       const double top = placeOfMaximum(path_.elements[e]);
-      if (divide && !path_.elements[e].isMonotone() && top > 0.05 && top < 0.95) {
+      if (divide && !path_.elements[e].isMonotone() && top > kInsideFrom && top < 1.0 - kInsideFrom) {
         path_.split(e, top);
         path_.elements[e].setTrend(Trend::Rising);
         path_.elements[++e].setTrend(Trend::Falling);
@@ -224,7 +233,7 @@ class StructureSearch {
       for (std::size_t e = 0; e + 1 < path_.elements.size();) {
         const PathElement &one = path_.elements[e], &next = path_.elements[e + 1];
         const bool both = one.typical && next.typical;
-        const bool done = both ? one.trend == next.trend && one.turn() + next.turn() < 0.7 &&
+        const bool done = both ? one.trend == next.trend && one.turn() + next.turn() < kMostJoinedTurn &&
                                      tryChange([&](TypicalPath& path) { return path.join(e); })
                                : kinds && tryChange([&](TypicalPath& path) { return path.joinAsHermite(e); });
         changed = changed || done;

@@ -25,6 +25,8 @@ constexpr double kMostTurn = 0.8, kLeastTurn = 0.04, kLeastLength = 20.0;
 /// neighbours leave.
 constexpr double kLeastHermite = 45.0;
 constexpr double kMostLogRatio = 1.2;
+constexpr double kLeastTileTurn =
+    1e-6;  // [rad] half the change of direction: a tile that is straight has a logarithm, too
 /// Room on the border of monotone curvature, so that the fit begins inside.
 constexpr double kBorderRoom = 1.02;
 
@@ -97,7 +99,7 @@ class Tiling {
     PathElement element;
     const double turned = at(j).state.angleRad - at(i).state.angleRad;
     element.side = turned > 0.0 ? 1.0 : -1.0;
-    element.logTurn = std::log(std::max(0.5 * std::abs(turned), 1e-6));
+    element.logTurn = std::log(std::max(0.5 * std::abs(turned), kLeastTileTurn));
     element.shape = 0.25 * std::log(kappa(i) / kappa(j));
     return element;
   }

@@ -125,7 +125,8 @@ class ContourBuilder {
         recipe_(recipe),
         frame_(frame),
         context_(context),
-        constraints_(assignExtremumChoices(pieces, recipe)) {
+        constraints_(assignExtremumChoices(pieces, recipe)),
+        importStepPx_(importStepPx(recipe.imports, frame)) {
     for (const ContourKind kind : {ContourKind::Outline, ContourKind::Centreline}) {
       inkWidthPx_[kind] = inkWidth(contours, kind);
     }
@@ -222,7 +223,7 @@ class ContourBuilder {
     if (line == nullptr || line->curves.empty()) return std::nullopt;
     const std::span<const Piece> pieces(pieces_.pieces.data() + range.first, range.last - range.first);
     ContourOutcome outcome;
-    const auto exact = importedCurves(*line, pieces, frame_);
+    const auto exact = importedCurves(*line, pieces, frame_, importStepPx_);
     for (std::size_t i = 0; i < exact.size(); ++i) {
       if (!exact[i]) return std::nullopt;
       add(outcome, range.first + i, {*exact[i], {}, fairableShape(*exact[i])});
@@ -267,6 +268,7 @@ class ContourBuilder {
   std::vector<std::optional<std::size_t>> choices_;    ///< Per piece, when there are such choices: which.
   std::vector<std::vector<std::size_t>> breakpoints_;  ///< Per piece, the segment points on it.
   std::vector<std::vector<std::size_t>> constraints_;
+  double importStepPx_;
 };
 
 }  // namespace

@@ -9,11 +9,13 @@
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
+#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {
 
-constexpr double kSampleStepPx = 1.0;
+constexpr double kSampleStepPx = 1.0;  // distance of the points of a contour
+constexpr double kMostImported = 1e6;  // points of all imported lines together; beyond, they lie wider apart
 constexpr int kLeastSteps = 4, kMostSteps = 4000;  // of a span
 constexpr int kMostSamples = 200'000;              // of a line
 constexpr double kSeamGap = 1e-6;                  // of the size
@@ -32,8 +34,15 @@ bool isSmoothSeam(const ImportedLine& line) {
   return in.dot(out) > 0.0 && std::abs(cross(in, out)) <= kSameDirection * in.norm() * out.norm();
 }
 
-/// Steps of a span, about a pixel each.
-int stepsOf(const NurbsCurve& curve, double from, double to, const PageFrame& frame) {
+/// [mm] At least as long as the line: no curve is longer than its control polygon.
+double lengthBoundOf(const ImportedLine& line) {
+  double length = polylineLength(line.points, line.closed);
+  for (const NurbsCurve& curve : line.curves) length += polylineLength(curve.controlPoints(), false);
+  return length;
+}
+
+/// Steps of a span of a curve.
+int stepsOf(const NurbsCurve& curve, double from, double to, const PageFrame& frame, double stepPx) {
   constexpr int kChords = 8;
   double length = 0.0;
   Vec2 before = curve.point(from);
@@ -42,18 +51,18 @@ int stepsOf(const NurbsCurve& curve, double from, double to, const PageFrame& fr
     length += (at - before).norm();
     before = at;
   }
-  const double steps = std::ceil(frame.lengthToImage(length) / kSampleStepPx);
+  const double steps = std::ceil(frame.lengthToImage(length) / stepPx);
   return static_cast<int>(std::clamp(steps, static_cast<double>(kLeastSteps), static_cast<double>(kMostSteps)));
 }
 
-std::vector<ImportedSample> samplesOf(const ImportedLine& line, const PageFrame& frame) {
+std::vector<ImportedSample> samplesOf(const ImportedLine& line, const PageFrame& frame, double stepPx) {
   std::vector<ImportedSample> samples;
   for (std::size_t k = 0; k < line.curves.size(); ++k) {
     const std::vector<double> breaks = line.curves[k].breaks();
     for (std::size_t i = 1; i < breaks.size(); ++i) {
       const double from = breaks[i - 1], to = breaks[i];
       const bool isMuch = std::ssize(samples) > kMostSamples;
-      const int steps = isMuch ? kLeastSteps : stepsOf(line.curves[k], from, to, frame);
+      const int steps = isMuch ? kLeastSteps : stepsOf(line.curves[k], from, to, frame, stepPx);
       for (int n = 0; n < steps; ++n) samples.push_back({static_cast<int>(k), from + (to - from) * n / steps});
     }
   }
@@ -61,9 +70,9 @@ std::vector<ImportedSample> samplesOf(const ImportedLine& line, const PageFrame&
   return samples;
 }
 
-Contour contourOfCurves(const ImportedLine& line, const PageFrame& frame) {
+Contour contourOfCurves(const ImportedLine& line, const PageFrame& frame, double stepPx) {
   Contour contour;
-  const std::vector<ImportedSample> samples = samplesOf(line, frame);
+  const std::vector<ImportedSample> samples = samplesOf(line, frame, stepPx);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Vec2 at = frame.pointToImage(line.curves[static_cast<std::size_t>(samples[i].curve)].point(samples[i].u));
     contour.points.push_back({.at = at, .unrefined = at, .refined = true});
@@ -74,11 +83,24 @@ Contour contourOfCurves(const ImportedLine& line, const PageFrame& frame) {
   return contour;
 }
 
-Contour contourOfPoints(const ImportedLine& line, const PageFrame& frame) {
+/// Leaves out points between those that were given, so that about one every `stepPx` stays.
+void keepEvery(double stepPx, Contour& contour) {
+  const double laidPx = contour.lengthPx / static_cast<double>(std::max<std::ptrdiff_t>(1, std::ssize(contour.points)));
+  const auto stride = static_cast<int>(std::ceil(stepPx / std::max(kSampleStepPx, laidPx)));
+  if (stride <= 1) return;
+  int since = 0;
+  std::erase_if(contour.points, [&](const ContourPoint& p) {
+    since = p.refined ? 0 : since + 1;
+    return since % stride != 0;
+  });
+}
+
+Contour contourOfPoints(const ImportedLine& line, const PageFrame& frame, double stepPx) {
   PenStroke stroke;
   stroke.closed = line.closed;
   for (const Vec2& p : line.points) stroke.points.push_back(frame.pointToImage(p));
   Contour contour = penContour(stroke);
+  keepEvery(stepPx, contour);
   // Corners are counted in the points that were given.
   std::size_t corner = 0;
   for (std::size_t i = 0, given = 0; i < contour.points.size() && corner < line.corners.size(); ++i) {
@@ -140,11 +162,21 @@ std::optional<NurbsCurve> curveBetween(const ImportedLine& line, std::span<const
 
 }  // namespace
 
+double importStepPx(std::span<const ImportedFile> imports, const PageFrame& frame) {
+  double length = 0.0;
+  for (const ImportedFile& file : imports) {
+    for (const ImportedLine& line : file.lines) length += frame.lengthToImage(lengthBoundOf(line));
+  }
+  return std::max(kSampleStepPx, length / kMostImported);
+}
+
 ContourSet withImports(ContourSet set, std::span<const ImportedFile> imports, const PageFrame& frame) {
+  const double stepPx = importStepPx(imports, frame);
   int index = 0;
   for (const ImportedFile& file : imports) {
     for (const ImportedLine& line : file.lines) {
-      Contour contour = line.curves.empty() ? contourOfPoints(line, frame) : contourOfCurves(line, frame);
+      Contour contour =
+          line.curves.empty() ? contourOfPoints(line, frame, stepPx) : contourOfCurves(line, frame, stepPx);
       contour.kind = ContourKind::Imported;
       contour.closed = line.closed;
       contour.imported = index++;
@@ -176,10 +208,10 @@ std::string importedFrom(const Contour& contour, std::span<const ImportedFile> i
 }
 
 std::vector<std::optional<NurbsCurve>> importedCurves(const ImportedLine& line, std::span<const Piece> pieces,
-                                                      const PageFrame& frame) {
+                                                      const PageFrame& frame, double stepPx) {
   std::vector<std::optional<NurbsCurve>> curves(pieces.size());
   if (line.curves.empty()) return curves;
-  const std::vector<ImportedSample> samples = samplesOf(line, frame);
+  const std::vector<ImportedSample> samples = samplesOf(line, frame, stepPx);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (pieces[i].closed) {
       if (line.curves.size() == 1) curves[i] = line.curves.front();

@@ -13,8 +13,12 @@
 
 namespace batten {
 
-/// `set` with the lines of other programs behind its own. Curves are followed about a point a pixel; where two of them
-/// meet, and at the corners of points, the line has a joint.
+/// [px] Distance of the points of imported contours: a pixel, and more where that would make over a million points of all
+/// lines together.
+double importStepPx(std::span<const ImportedFile>, const PageFrame&);
+
+/// `set` with the lines of other programs behind its own, with one point about every importStepPx(). Where two of their
+/// curves meet, and at the corners of points, the line has a joint.
 ContourSet withImports(ContourSet set, std::span<const ImportedFile>, const PageFrame&);
 
 /// The line that a contour stands for; null for contours of other kinds.
@@ -24,8 +28,9 @@ std::string importedFrom(const Contour&, std::span<const ImportedFile>);
 
 /// The curves of the pieces of one imported line, exactly as they were imported: whole, or the part between two corner
 /// marks. Absent for lines of points, and where the pieces are none of the line. Model frame, mm.
+/// @param stepPx [px] importStepPx() of the drawing
 std::vector<std::optional<NurbsCurve>> importedCurves(const ImportedLine&, std::span<const Piece> pieces,
-                                                      const PageFrame&);
+                                                      const PageFrame&, double stepPx);
 
 /// What fairing starts from where an imported curve has too little freedom of its own: the same shape with degree 5 and
 /// no span longer than a sixteenth of its length. Empty where it has enough; also for rational curves, which cannot be

@@ -97,6 +97,7 @@ TEST(ParameterTable, DefaultsAndBordersOfEveryRangeAreValid) {
 TEST(ParameterTable, RefusesWhatDoesNotFitAndLeavesTheRecipe) {
   for (const Parameter& p : parameterTable()) {
     for (const std::string bad : {"", "nonsense", "nan", "inf", "1e999", "-1e9", "1,5", "1 2"}) {
+      if (p.name.starts_with("inks.") && bad == "1,5") continue;  // a list
       Recipe recipe;
       const auto result = p.set(recipe, bad);
       ASSERT_FALSE(result) << p.name << " took \"" << bad << "\"";
