@@ -23,7 +23,7 @@ constexpr int kLeastIntervals = 16;
 /// Of the mean knot interval: a knot nearer to another one is the same.
 constexpr double kSameKnot = 0.05;
 /// Cubic pieces that stand for a polynomial of degree 6 or less.
-constexpr int kNodesPerSpan = 24;
+constexpr int kNodesPerSpan = 60;
 
 /// The curve's own curvature over the perimeter, with its slopes.
 class OwnProfile {
@@ -34,6 +34,11 @@ class OwnProfile {
     const double x = place(f) * intervals(), below = std::min(std::floor(x), intervals() - 1.0);
     const auto i = static_cast<std::size_t>(below);
     return samples_.kappa[i] + (x - below) * (samples_.kappa[i + 1] - samples_.kappa[i]);
+  }
+  double slope(double f) const {
+    const double h = 1.0 / intervals(), low = std::max(f - h, closed_ ? f - h : 0.0),
+                 high = std::min(f + h, closed_ ? f + h : 1.0);
+    return (at(high) - at(low < 0.0 ? low + 1.0 : low)) / (high - low);
   }
   ProfileNode node(std::size_t i) const {
     const auto count = samples_.kappa.size();
@@ -60,9 +65,32 @@ double powers(const std::vector<double>& c, double x, bool slope) {
   return v;
 }
 
+/// How much of the polynomial there is at x in 0..1 of the span: none at an end that is held, where the curve cannot
+/// turn its curvature at once, all of it soon behind.
+struct Easing {
+  bool atStart = true, atEnd = true;
+  double value(double x) const { return part(atStart, x) * part(atEnd, 1.0 - x); }
+  double slope(double x) const {
+    return partSlope(atStart, x) * part(atEnd, 1.0 - x) - part(atStart, x) * partSlope(atEnd, 1.0 - x);
+  }
+
+ private:
+  static constexpr double kReach = 0.2;  // of the span
+  static double part(bool isHeld, double x) {
+    if (!isHeld || x >= kReach) return 1.0;
+    const double t = x / kReach;
+    return t * t * t * (10.0 - 15.0 * t + 6.0 * t * t);
+  }
+  static double partSlope(bool isHeld, double x) {
+    if (!isHeld || x >= kReach) return 0.0;
+    const double t = x / kReach;
+    return 30.0 * t * t * (1.0 - t) * (1.0 - t) / kReach;
+  }
+};
+
 /// A polynomial over the span, the curve's own curvature outside.
 std::vector<ProfileNode> spanNodes(const CurvatureSamples& samples, bool closed, const ProfileSpan& span,
-                                   const std::vector<double>& polynomial) {
+                                   const std::vector<double>& polynomial, const Easing& easing) {
   const OwnProfile own(samples, closed);
   std::vector<ProfileNode> nodes;
   for (std::size_t i = 0; i < samples.perimeter.size(); ++i)
@@ -70,7 +98,10 @@ std::vector<ProfileNode> spanNodes(const CurvatureSamples& samples, bool closed,
   const double width = span.to - span.from;
   const auto inside = [&](double x) {
     const double f = span.from + x * width;
-    return ProfileNode{f > 1.0 ? f - 1.0 : f, powers(polynomial, x, false), powers(polynomial, x, true) / width};
+    const double share = easing.value(x), sketched = own.at(f), wanted = powers(polynomial, x, false);
+    const double slope = share * powers(polynomial, x, true) / width + (1.0 - share) * own.slope(f) +
+                         easing.slope(x) / width * (wanted - sketched);
+    return ProfileNode{f > 1.0 ? f - 1.0 : f, share * wanted + (1.0 - share) * sketched, slope};
   };
   for (int i = 0; i <= kNodesPerSpan; ++i) nodes.push_back(inside(static_cast<double>(i) / kNodesPerSpan));
   if (span.to > 1.0) {
@@ -177,7 +208,7 @@ TargetSet fitSpanTargets(const NurbsCurve& curve, bool closed, const TargetParam
     for (const double one : x) fitted.push_back(powers(c, one, false));
     profile.valid = true;
     profile.isMonotone = isMonotonePolynomial(c);
-    profile.nodes = spanNodes(samples, closed, span, c);
+    profile.nodes = spanNodes(samples, closed, span, c, {start.has_value(), end.has_value()});
     judgeProfile(profile, data, fitted, std::max(1, degree - (start ? 1 : 0) - (end ? 1 : 0)),
                  curve.controlPointCount());
     const auto best = static_cast<std::size_t>(std::max(set.recommendedDegree, 1) - 1);
@@ -224,7 +255,7 @@ Result<FairedCurve> fairSpans(const NurbsCurve& curve, bool closed, const std::v
     const auto shareOf = [&](double u) {
       return u > curve.end() ? 1.0 + arc.at(u - period) / arc.total() : arc.at(u) / arc.total();
     };
-    const ProfileSpan now{shareOf(range.from), shareOf(range.to)};
+    const ProfileSpan now = result.curve == curve ? span : ProfileSpan{shareOf(range.from), shareOf(range.to)};
     const TargetSet targets = fitSpanTargets(result.curve, closed, params.targets, now);
     const TargetProfile& profile = targets.profiles[static_cast<std::size_t>(degree) - 1];
     auto setup = makeSpanSetup(result.curve, closed, params, now);

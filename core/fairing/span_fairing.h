@@ -13,7 +13,8 @@
 
 namespace batten {
 
-/// The six polynomials of one span of a curve: each takes the curve's own curvature where the span meets the rest.
+/// The six polynomials of one span of a curve: each takes the curve's own curvature where the span meets the rest, and
+/// is eased into it over a fifth of the span.
 /// Outside of the span the profile is the curve's own curvature. Similarities are of the span alone.
 TargetSet fitSpanTargets(const NurbsCurve&, bool closed, const TargetParams&, const ProfileSpan&);
 

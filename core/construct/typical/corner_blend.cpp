@@ -15,14 +15,14 @@ namespace {
 
 // What counts as a corner to be rounded: less is a line, more a hairpin whose vertex runs off.
 constexpr double kLeastBlendTurn = 0.01, kMostBlendTurn = 3.0;
-constexpr int kBlendSamples = 48, kRadiusSamples = 200;
+constexpr int kBlendSamples = 64, kRadiusSamples = 200;
 /// Price of curvature that turns back, beside the height of its peak.
 constexpr double kTurnsBackPrice = 20.0;
 /// Lengths of the first derivative to begin with, in distances to where the tangents meet.
 constexpr std::array kFirstSpeeds = {1.2, 1.8, 2.6};
 /// Steps of the search, in the same unit.
-constexpr double kFirstStep = 0.4, kLastStep = 4e-3;
-constexpr int kMostBlendRounds = 150;
+constexpr double kFirstStep = 0.4, kLastStep = 1e-3;
+constexpr int kMostBlendRounds = 400;
 
 /// Derivatives of arc length with respect to the parameter, at both ends: the free lengths of a blend.
 struct FreeLengths {

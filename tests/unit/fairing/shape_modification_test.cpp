@@ -149,6 +149,7 @@ TEST(ModifyShape, NeverLeavesTheToleranceAndSaysWhy) {
     FairingParams params;
     params.mode = FairingMode::Target;
     params.target = 3;
+    params.targets.spans = TargetSpans::Whole;
     params.toleranceMm = tolerance;
     const auto faired = fair(start, false, params, {});
     ASSERT_TRUE(faired) << faired.error().message;
@@ -194,6 +195,7 @@ TEST(ModifyShape, ClosedCurvesStillMeetWithAllDerivatives) {
   for (const FairingMode mode : {FairingMode::Target, FairingMode::Tolerance}) {
     FairingParams params;
     params.mode = mode;
+    params.targets.spans = TargetSpans::Whole;
     params.toleranceMm = 0.5;
     const auto faired = fair(start, true, params, {});
     ASSERT_TRUE(faired) << faired.error().message;
