@@ -141,7 +141,8 @@ std::unordered_map<int, ShapeRegion> measureShapes(const StrandGraph& graph, con
 }
 
 // Where strokes lie over one another there is no solid: see labelInk.
-void releaseBundles(const StrandGraph& graph, double mergeWidths, InkLabels& labels, const RunContext& context) {
+void releaseBundles(const StrandGraph& graph, const PiecesOfPage& page, double mergeWidths, InkLabels& labels,
+                    const RunContext& context) {
   constexpr double kBundlePens = 5.0;  // a bundle is no wider
   // Area by the square of the width: of what is long where two strokes come out of an end, or one out of each.
   constexpr double kLong = 1.3, kLongBetweenTwo = kStrokeWidths;
@@ -155,7 +156,7 @@ void releaseBundles(const StrandGraph& graph, double mergeWidths, InkLabels& lab
     const double width = 2.0 * r.largestRadiusPx - 0.7;
     if (r.mouths == 0 || width <= 0.0) return false;
     if (mergeWidths > 0.0 && width <= (mergeWidths + 1.0) * labels.penPx + 1.0) return true;
-    if (r.mouths < 2 || width > kBundlePens * labels.penPx + 1.0) return false;
+    if (r.mouths < 2 || width > std::min(kBundlePens * labels.penPx + 1.0, page.widestPenPx)) return false;
     return static_cast<double>(r.areaPx) >= (r.mouths > 2 ? kLong : kLongBetweenTwo) * width * width;
   };
   for (std::size_t i = 0; i < shapes.runs.size(); ++i) {
@@ -186,7 +187,7 @@ Result<InkLabels> label(const BitImage& ink, double mergeWidths, const RunContex
   labels.penPx = penOfStrokes(graph);
   paintLabels(graph, labels, context);
   shareRest(ink, labels, context);
-  releaseBundles(graph, mergeWidths, labels, context);
+  releaseBundles(graph, page, mergeWidths, labels, context);
   if (context.isCancelled()) return cancelled();
   std::unordered_map<int, std::int64_t> shapeArea;
   for (std::size_t i = 0; i < runs.runs.size(); ++i) shapeArea[runs.piece[i]] += countBits(labels.shapes, runs.runs[i]);
