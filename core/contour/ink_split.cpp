@@ -88,7 +88,7 @@ RunPieces regionsOf(const BitImage& strokes, const BitImage& shapes, const RunCo
 
 Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params, InkSplit& split,
                           const RunContext& context) {
-  Result<InkLabels> labels = labelInk(ink, context);
+  Result<InkLabels> labels = labelInk(ink, context, params.mergeWidths);
   if (!labels) return fail(labels.error());
   split.strokes = std::move(labels->strokes);
   split.shapes = std::move(labels->shapes);

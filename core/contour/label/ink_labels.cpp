@@ -105,6 +105,67 @@ void applyVotes(const RunPieces& runs, const PiecesOfPage& page, const std::vect
   }
 }
 
+// What is known of one connected shape.
+struct ShapeRegion {
+  std::int64_t areaPx = 0;
+  double largestRadiusPx = 0.0;
+  int mouths = 0;  ///< Places where strokes run into it.
+};
+
+std::unordered_map<int, ShapeRegion> measureShapes(const StrandGraph& graph, const RunPieces& shapes,
+                                                   const RunPieces& mouths) {
+  std::unordered_map<int, ShapeRegion> regions;
+  for (std::size_t i = 0; i < shapes.runs.size(); ++i)
+    regions[shapes.piece[i]].areaPx += shapes.runs[i].x1 - shapes.runs[i].x0;
+  const auto addPixels = [&](const std::vector<StrandPixel>& pixels) {
+    for (const StrandPixel& p : pixels) {
+      const auto piece = pieceAt(shapes, p.x, p.y);
+      if (!piece) continue;
+      double& largest = regions[*piece].largestRadiusPx;
+      largest = std::max(largest, static_cast<double>(p.radius));
+    }
+  };
+  for (const StrandChain& chain : graph.chains()) addPixels(chain.pixels);
+  for (const StrandNode& node : graph.nodes()) addPixels(node.pixels);
+  for (std::size_t i = 0; i < mouths.runs.size(); ++i) {
+    if (mouths.piece[i] != static_cast<int>(i)) continue;
+    const Run& run = mouths.runs[i];
+    for (const auto& [dx, dy] : {std::pair{-1, 0}, {0, -1}, {0, 1}, {-1, -1}, {-1, 1}, {1, -1}, {1, 1}, {1, 0}}) {
+      const auto piece = pieceAt(shapes, run.x0 + dx, run.y + dy);
+      if (!piece) continue;
+      ++regions[*piece].mouths;
+      break;
+    }
+  }
+  return regions;
+}
+
+// Where strokes lie over one another there is no solid: see labelInk.
+void releaseBundles(const StrandGraph& graph, const PiecesOfPage& page, double mergeWidths, InkLabels& labels,
+                    const RunContext& context) {
+  constexpr double kBundlePens = 5.0;  // a bundle is no wider
+  // Area by the square of the width: of what is long where two strokes come out of an end, or one out of each.
+  constexpr double kLong = 1.3, kLongBetweenTwo = kStrokeWidths;
+  if (labels.penPx <= 0.0 || labels.shapes.count() == 0) return;
+  const RunPieces shapes = findPieces(labels.shapes, Connectivity::Eight, context);
+  const BitImage rim = both(grown(labels.shapes, 1, context), labels.strokes);
+  const RunPieces mouths = findPieces(rim, Connectivity::Eight, context);
+  if (context.isCancelled()) return;
+  const auto regions = measureShapes(graph, shapes, mouths);
+  const auto isBundle = [&](const ShapeRegion& r) {
+    const double width = 2.0 * r.largestRadiusPx - 0.7;
+    if (r.mouths == 0 || width <= 0.0) return false;
+    if (mergeWidths > 0.0 && width <= (mergeWidths + 1.0) * labels.penPx + 1.0) return true;
+    if (r.mouths < 2 || width > std::min(kBundlePens * labels.penPx + 1.0, page.widestPenPx)) return false;
+    return static_cast<double>(r.areaPx) >= (r.mouths > 2 ? kLong : kLongBetweenTwo) * width * width;
+  };
+  for (std::size_t i = 0; i < shapes.runs.size(); ++i) {
+    if (!isBundle(regions.at(shapes.piece[i]))) continue;
+    setBits(labels.strokes, shapes.runs[i]);
+    clearBits(labels.shapes, shapes.runs[i]);
+  }
+}
+
 // [px] median width of the strokes, weighed by their lengths in widths; 0 = there is none.
 double penOfStrokes(const StrandGraph& graph) {
   std::vector<std::pair<double, double>> widths;
@@ -114,7 +175,7 @@ double penOfStrokes(const StrandGraph& graph) {
   return weightedMedian(std::move(widths));
 }
 
-Result<InkLabels> label(const BitImage& ink, const RunContext& context) {
+Result<InkLabels> label(const BitImage& ink, double mergeWidths, const RunContext& context) {
   InkLabels labels{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height), ink, 0.0};
   if (!thinToSkeleton(labels.skeleton, context)) return cancelled();
   StrandGraph graph(labels.skeleton, ink, context);
@@ -126,6 +187,7 @@ Result<InkLabels> label(const BitImage& ink, const RunContext& context) {
   labels.penPx = penOfStrokes(graph);
   paintLabels(graph, labels, context);
   shareRest(ink, labels, context);
+  releaseBundles(graph, page, mergeWidths, labels, context);
   if (context.isCancelled()) return cancelled();
   std::unordered_map<int, std::int64_t> shapeArea;
   for (std::size_t i = 0; i < runs.runs.size(); ++i) shapeArea[runs.piece[i]] += countBits(labels.shapes, runs.runs[i]);
@@ -139,10 +201,10 @@ Result<InkLabels> label(const BitImage& ink, const RunContext& context) {
 
 }  // namespace
 
-Result<InkLabels> labelInk(const BitImage& ink, const RunContext& context) {
+Result<InkLabels> labelInk(const BitImage& ink, const RunContext& context, double mergeWidths) {
   if (ink.width <= 0 || ink.height <= 0) return InkLabels{};
   try {
-    return label(ink, context);
+    return label(ink, mergeWidths, context);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory to tell strokes from shapes.");
   }

@@ -18,7 +18,11 @@ struct InkLabels {
 /// Strokes and shapes, region by region: a solid and the lines attached to it are one piece of ink and two labels.
 /// Pieces that are alike in size and width (an alphabet) are voted on together, so that broad-nib letters are shapes as
 /// a whole. Nothing depends on the size of the page but what counts as a letter.
+/// Strokes drawn over one another are no solid where they lie close: what is long, narrow and joined to three strokes,
+/// or longer and joined to two, stays stroke.
+/// @param mergeWidths [stroke widths] how far apart the strokes of one line run that are to be merged; what is no wider
+/// than such a line and joined to strokes is none of the shapes. 0: none are merged.
 /// @return OutOfMemory, Cancelled.
-Result<InkLabels> labelInk(const BitImage& ink, const RunContext&);
+Result<InkLabels> labelInk(const BitImage& ink, const RunContext&, double mergeWidths = 0.0);
 
 }  // namespace batten

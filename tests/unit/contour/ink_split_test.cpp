@@ -17,13 +17,13 @@ namespace batten {
 namespace {
 
 const Vec2 kCentre(150.0, 150.0);
-constexpr double kDiscRadius = 60.0, kPen = 5.0;
+constexpr double kWheelRadius = 60.0, kPen = 5.0;
 
 // A black disc with a round hole; a line runs into it from the right and another from below.
 test::LabelPage wheel() {
   test::LabelPage page(420, 420);
   page.begin(true);
-  page.area({test::circle(kCentre, kDiscRadius), test::circle(kCentre, 20.0)});
+  page.area({test::circle(kCentre, kWheelRadius), test::circle(kCentre, 20.0)});
   page.begin(false);
   page.line({kCentre + Vec2(50, 0), Vec2(400, 150)}, kPen);
   page.begin(false);
@@ -53,7 +53,7 @@ TEST(InkSplit, ASolidIsFollowedByItsBorderAndItsLinesEndAtTheRim) {
   ASSERT_EQ(borders.size(), 2u);
   EXPECT_FALSE(borders[0]->hole);
   EXPECT_TRUE(borders[1]->hole) << "holes of shapes are followed by default";
-  for (const ContourPoint& p : borders[0]->points) EXPECT_NEAR(fromCentre(p.at), kDiscRadius, 1.0);
+  for (const ContourPoint& p : borders[0]->points) EXPECT_NEAR(fromCentre(p.at), kWheelRadius, 1.0);
   for (const ContourPoint& p : borders[1]->points) EXPECT_NEAR(fromCentre(p.at), 20.0, 0.5);
   EXPECT_EQ(borders[0]->bridges.size(), 2u) << "the mouths of both lines";
   for (const auto& [first, last] : borders[0]->bridges) {
@@ -68,7 +68,7 @@ TEST(InkSplit, ASolidIsFollowedByItsBorderAndItsLinesEndAtTheRim) {
       farthest = std::max(farthest, fromCentre(p.at));
       EXPECT_LT(std::min(std::abs(p.at.x() - 150.0), std::abs(p.at.y() - 150.0)), 0.6);
     }
-    EXPECT_NEAR(nearest, kDiscRadius, 3.0) << "a T at the rim";
+    EXPECT_NEAR(nearest, kWheelRadius, 3.0) << "a T at the rim";
     EXPECT_NEAR(farthest, 252.5, 3.5);
   }
 }
