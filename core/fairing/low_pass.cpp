@@ -13,7 +13,7 @@ namespace batten {
 namespace {
 
 /// Gaussian weights beyond so many standard deviations are nothing.
-constexpr double kReach = 4.0;
+constexpr double kLowPassReach = 4.0;
 
 /// The standard deviation that halves a wave: exp(-2 (pi sigma / wavelength)^2) = 1/2.
 double sigmaOf(double wavelength) { return wavelength * std::sqrt(0.5 * std::numbers::ln2) / std::numbers::pi; }
@@ -52,7 +52,8 @@ std::vector<double> lowPass(std::span<const double> values, double spacing, doub
     result.assign(values.size(), mean);
     return result;
   }
-  const int reach = static_cast<int>(std::ceil(std::min(kReach * sigma, closed ? kReach * count : 1.0 * count)));
+  const int reach =
+      static_cast<int>(std::ceil(std::min(kLowPassReach * sigma, closed ? kLowPassReach * count : 1.0 * count)));
   std::vector<double> weight(static_cast<std::size_t>(reach) + 1);
   for (int k = 0; k <= reach; ++k) weight[k] = std::exp(-0.5 * (k / sigma) * (k / sigma));
   for (int i = 0; i < count; ++i) {

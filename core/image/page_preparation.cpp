@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/image/coloured_ink.h"
+#include "core/image/find_rulings.h"
+#include "core/image/remove_rulings.h"
 
 namespace batten {
 namespace {

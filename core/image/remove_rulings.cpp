@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/remove_rulings.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -6,7 +8,6 @@
 
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
-#include "core/image/rulings.h"
 
 namespace batten {
 namespace {

@@ -80,7 +80,7 @@ TEST_F(Paper, InksAreDroppedAndKeptByName) {
   EXPECT_EQ(traced(scan, "--set inks.drop=blue").at("curves"), 2);
   EXPECT_EQ(traced(scan, "--set inks.drop=blue,black").at("curves"), 1);
   EXPECT_EQ(traced(scan, "--set inks.keep=red").at("curves"), 1);
-  expectError("trace " + scan + " --set inks.drop=beige", 2, "inks.drop cannot be \"beige\"");
+  expectError("trace " + scan + " --set inks.drop=beige -o " + file("out.json"), 2, "inks.drop cannot be \"beige\"");
 }
 
 }  // namespace

@@ -309,7 +309,7 @@ def polynomials(folder, which, unit, mm, pieces):
             x, y = (sum(span[2 + k * (degree + 1) + j] * t ** j for j in range(degree + 1)) for k in (0, 1))
             places.append((mm * x, mm * y))
         found.append(places)
-    # Arcs have no polynomials: those that stand for them are as near as a billionth of their size, at other parameters.
+    # Arcs have no polynomials: those that stand for them are as near as the numbers hold, at other parameters.
     if any(piece.get("weights") for piece in pieces):
         return near("own parser", f"{which}-{unit}.poly.csv", found, truth(folder, which, 4000), 0.0, len(pieces))
     compare("own parser", f"{which}-{unit}.poly.csv", found, [exact_curves.samples(piece) for piece in pieces], EXACT_MM)

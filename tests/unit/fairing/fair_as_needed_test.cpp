@@ -120,24 +120,5 @@ TEST(FairAsNeeded, KeepsATightToleranceAndClosedCurves) {
   }
 }
 
-// Hundreds of segments follow the noise; what is tried to make such a curve simpler is bounded.
-TEST(FairAsNeeded, TakesNoTimeWithTheSquareOfTheSegments) {
-  const auto iterationsOf = [](int points) {
-    std::vector<Vec2> control;
-    for (int i = 0; i < points; ++i) {
-      const double t = 3.0 * i / (points - 1);
-      control.emplace_back(300.0 * std::cos(t), 180.0 * std::sin(t));
-    }
-    const NurbsCurve truth = NurbsCurve::make(5, test::clampedKnots(5, points), control).value();
-    const FairingLine line = measured(truth, 0.3, 1);
-    const auto faired = fair(test::noisy(truth, 0.02, 1), false, tolerance(1.0), {}, line);
-    EXPECT_TRUE(faired);
-    return faired ? faired->report.iterations : 0;
-  };
-  const int few = iterationsOf(150), many = iterationsOf(600);
-  RecordProperty("iterations", std::to_string(few) + " " + std::to_string(many));
-  EXPECT_LE(many, few + 200);
-}
-
 }  // namespace
 }  // namespace batten

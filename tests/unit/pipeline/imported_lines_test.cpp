@@ -32,7 +32,9 @@ ImportedFile longLines(int count, bool asCurves) {
 
 TEST(ImportedLines, HaveOnePointAPixel) {
   ImportedFile file{"one.dxf", "mm", {}};
-  file.lines.push_back({.points = {Vec2(0, 0), Vec2(30, 40)}});  // 500 px
+  ImportedLine line;
+  line.points = {Vec2(0, 0), Vec2(30, 40)};  // 500 px
+  file.lines.push_back(line);
   const ContourSet set = withImports({}, std::vector{file}, kFrame);
   ASSERT_EQ(set.contours.size(), 1u);
   EXPECT_EQ(set.contours[0].points.size(), 501u);

@@ -128,6 +128,7 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
   inkBox_->layout()->setContentsMargins(0, 0, 0, 0);
   inkBox_->setObjectName(QStringLiteral("scan.inks"));
   layout->addWidget(inkBox_);
+  layout->addWidget(new ParameterEditor(session, {"inks.keep", "inks.drop", "inks.range"}, this));
   layout->addStretch();
   connect(dpi_, &NumberField::committed, this, [this](double value) { setDpi(value); });
   connect(page_, &NumberField::committed, this, [this](double value) {
