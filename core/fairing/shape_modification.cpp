@@ -150,8 +150,7 @@ class ShapeModification {
     for (const Course& course : courses_) {
       if (rank(best_) <= asked_ || context_.isCancelled()) return;
       const Sides sides = sidesOf(course, toleranceMm);
-      // Between two steps the extrema are those of the one or the other, or nearly so.
-      if (!sides.outside || rank(*sides.outside) >= rank(best_)) continue;
+      if (!sides.outside) continue;
       for (const TargetStep& step : between(course, sides, toleranceMm, kRoundSteps)) take(step, &course);
     }
   }
