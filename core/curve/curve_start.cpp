@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
 
@@ -74,6 +75,11 @@ Result<NurbsCurve> startedAt(const NurbsCurve& closed, double u) {
     joined = std::move(*without);
   }
   return joined;
+}
+
+NurbsCurve startedNear(const NurbsCurve& closed, const Vec2& place) {
+  auto started = startedAt(closed, closestPoint(closed, place).u);
+  return started ? std::move(*started) : closed;
 }
 
 }  // namespace batten

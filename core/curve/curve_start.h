@@ -12,4 +12,7 @@ namespace batten {
 /// @pre the ends of the curve meet.
 Result<NurbsCurve> startedAt(const NurbsCurve& closed, double u);
 
+/// The same closed curve, begun at its point nearest to a place; as it is where that cannot be.
+NurbsCurve startedNear(const NurbsCurve& closed, const Vec2& place);
+
 }  // namespace batten

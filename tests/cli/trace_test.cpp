@@ -88,7 +88,9 @@ TEST_F(Trace, TheSampleGivesItsLinesWhole) {
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(json::parse(done.out)["curves"], 7);
   EXPECT_EQ(json::parse(done.out)["pieces"], 14);
-  EXPECT_TRUE(json::parse(done.out)["notes"].empty());
+  // Its fairing leaves what is fair already, and that is all there is to say.
+  for (const std::string note : json::parse(done.out)["notes"])
+    EXPECT_NE(note.find("Left as drawn"), std::string::npos) << note;
   const auto document = readCurveJson(test::readFile(file("o.json")));
   ASSERT_TRUE(document);
   EXPECT_EQ(std::count_if(document->curves.begin(), document->curves.end(), [](const auto& c) { return c.closed; }), 6)

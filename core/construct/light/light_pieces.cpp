@@ -10,6 +10,7 @@
 #include "core/construct/light/detail_curve.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
+#include "core/curve/curve_start.h"
 
 namespace batten {
 namespace {
@@ -66,6 +67,8 @@ void lighten(ConstructedPiece& piece, bool closed, const LightOptions& options, 
   }
   if (light->report.kind == LightKind::Dense) return;
   piece.dense = std::exchange(piece.curve, std::move(light->curve));
+  // Shares of the length mean the same on both: what is pointed at on the one is split on the other.
+  if (closed) piece.dense = startedNear(piece.dense, piece.curve.point(piece.curve.start()));
   piece.report.isLine = piece.report.isLine || light->report.kind == LightKind::Line;
   piece.report.isCircle = piece.report.isCircle || (closed && light->report.kind == LightKind::Arc);
 }

@@ -7,6 +7,7 @@
 #include "core/construct/light/light_pieces.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
+#include "core/curve/curve_start.h"
 #include "core/fairing/edge_length_fairing.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_line.h"
@@ -118,6 +119,9 @@ class LineFairing {
     const int extrema = countedExtrema(light->curve, curve_.closed);
     if (extrema > faired.report.extremaAfter) return std::nullopt;
     FairedCurve result{std::move(light->curve), faired.report};
+    const NurbsCurve& start = curve_.fairingStart();
+    if (curve_.closed && !result.curve.isRational())
+      result.curve = startedNear(result.curve, start.point(start.start()));
     result.report.extremaAfter = extrema;
     result.report.maxDeviationMm = moved;
     return result;

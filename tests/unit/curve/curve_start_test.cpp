@@ -59,6 +59,13 @@ TEST(CurveStart, TheOldSeamKeepsNoMoreKnotsThanItNeeds) {
   EXPECT_EQ(std::count(begun->knots().begin(), begun->knots().end(), seam), 5);
 }
 
+TEST(CurveStart, IsTakenToThePointNearestToAPlace) {
+  const NurbsCurve loop = ring();
+  const NurbsCurve turned = startedNear(loop, 1.001 * loop.point(37.0));
+  EXPECT_LT((turned.point(turned.start()) - loop.point(37.0)).norm(), 0.05);
+  EXPECT_LT((turned.point(turned.end()) - turned.point(turned.start())).norm(), 1e-9);
+}
+
 TEST(CurveStart, AtTheStartNothingChanges) {
   const NurbsCurve loop = ring();
   EXPECT_TRUE(*startedAt(loop, loop.start()) == loop);
