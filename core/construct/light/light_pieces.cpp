@@ -68,7 +68,10 @@ void lighten(ConstructedPiece& piece, bool closed, const LightOptions& options, 
   if (light->report.kind == LightKind::Dense) return;
   piece.dense = std::exchange(piece.curve, std::move(light->curve));
   // Shares of the length mean the same on both: what is pointed at on the one is split on the other.
-  if (closed) piece.dense = startedNear(piece.dense, piece.curve.point(piece.curve.start()));
+  if (closed && !piece.curve.isRational()) {
+    piece.curve = startedNear(piece.curve, piece.dense.point(piece.dense.start()));
+    piece.report.light->points = piece.curve.controlPointCount();
+  }
   piece.report.isLine = piece.report.isLine || light->report.kind == LightKind::Line;
   piece.report.isCircle = piece.report.isCircle || (closed && light->report.kind == LightKind::Arc);
 }

@@ -68,7 +68,8 @@ TEST(LightCurves, KeepTheToleranceOfTheFairing) {
     EXPECT_NEAR(apart(curve.faired, curve.fairingStart()), curve.fairing.maxDeviationMm, 0.02 * toleranceMm);
     const auto dense = traced(false, mode, toleranceMm);
     EXPECT_LE(curve.fairedFigures.extrema, dense.faired->curves.front().fairedFigures.extrema);
-    EXPECT_LE(curve.faired.controlPointCount(), dense.faired->curves.front().faired.controlPointCount());
+    // One more for the seam, which lies where the dense curve begins.
+    EXPECT_LE(curve.faired.controlPointCount(), dense.faired->curves.front().faired.controlPointCount() + 1);
   }
 }
 
