@@ -357,8 +357,10 @@ void CurveCanvas::State::paint(QPainter& painter) {
       paintRulings(painter, *this);
     }
     paintRegions(painter, *this);
-    if (areCombsShown()) paintDirection(painter, *this);
-    paintSpans(painter, *this);
+    if (areCombsShown()) {
+      paintDirection(painter, *this);
+      paintSpans(painter, *this);
+    }
     if (areExtremaShown()) paintExtrema(painter, *this);
     if (view.isVisible(Layer::Corners)) paintCorners(painter, *this);
     if (view.isVisible(Layer::Regions) && view.tool() != Tool::Thresholds) paintRegionGrid(painter, *this);

@@ -24,6 +24,7 @@ void mergeOutputs(PipelineOutput& shown, const PipelineOutput& run, StageId last
   const auto take = [last](StageId stage, auto& to, const auto& from) {
     if (stage <= last) to = from;
   };
+  take(StageId::Thresholds, shown.page, run.page);
   take(StageId::Thresholds, shown.thresholds, run.thresholds);
   take(StageId::Binary, shown.binary, run.binary);
   take(StageId::Filtered, shown.filtered, run.filtered);

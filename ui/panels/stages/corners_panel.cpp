@@ -259,8 +259,9 @@ void CornersPanel::showSuggestions() {
         suggested_);
     item->setFont(uiFont(12));
   }
+  suggestedNote_->setVisible(!suggestions_.empty());  // the list says that there is none
   suggestedNote_->setText(suggestions_.empty()
-                              ? tr("No further place turns that sharply.")
+                              ? QString()
                               : counted(static_cast<qint64>(suggestions_.size()),
                                         tr("1 place could be a corner. It is used only when you mark it."),
                                         tr("%1 places could be corners. None is used until you mark it.")));

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What was found on the paper before anything is traced: rulings and inks.
+#include <gtest/gtest.h>
+
+#include <QAbstractButton>
+#include <QLabel>
+#include <QPainter>
+
+#include "tests/ui/window_fixture.h"
+
+namespace batten {
+namespace {
+
+class PaperWindow : public test::WindowFixture {
+ protected:
+  /// A page of blue rules with a black line and a red one across them.
+  QString ruledPage() const {
+    QImage page(480, 400, QImage::Format_RGB32);
+    page.fill(Qt::white);
+    QPainter painter(&page);
+    for (int y = 11; y < page.height(); y += 24) painter.fillRect(0, y, page.width(), 1, QColor(184, 204, 230));
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(QColor(25, 25, 25), 5.0));
+    painter.drawLine(60, 40, 400, 330);
+    painter.setPen(QPen(QColor(210, 30, 40), 5.0));
+    painter.drawLine(60, 330, 250, 60);
+    painter.end();
+    const QString path = folder_.filePath(QStringLiteral("ruled.png"));
+    EXPECT_TRUE(page.save(path));
+    return path;
+  }
+};
+
+TEST_F(PaperWindow, RulingsAndInksAreShownInTheScanPanel) {
+  ASSERT_NO_FATAL_FAILURE(openWindow());
+  ASSERT_NO_FATAL_FAILURE(openFile(ruledPage()));
+  ASSERT_TRUE(settle());
+  window_->setStage(PanelStage::Scan);
+  ASSERT_TRUE(session().output().page);
+  EXPECT_FALSE(session().output().page->rulings.empty());
+  EXPECT_TRUE(find<QLabel>("scan.paperNote")->isVisible());
+  EXPECT_FALSE(find<QLabel>("scan.paperNote")->text().isEmpty());
+  ASSERT_EQ(session().curves().size(), 2u);
+  // A press on an ink leaves it out; another brings it back.
+  auto* ink = find<QAbstractButton>("scan.ink0");
+  ASSERT_NE(ink, nullptr);
+  EXPECT_TRUE(ink->isVisible());
+  QTest::mouseClick(ink, Qt::LeftButton);
+  ASSERT_TRUE(settle());
+  EXPECT_LT(session().curves().size(), 2u);
+  session().undoStack()->undo();
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(session().curves().size(), 2u);
+}
+
+}  // namespace
+}  // namespace batten
