@@ -21,7 +21,7 @@ struct EdgeParams {
   EdgeMode mode = EdgeMode::Automatic;
   InnerBorders internal = InnerBorders::Automatic;
   bool subpixel = true;        ///< Place the points on the raw grey values; off: crack midpoints or skeleton pixels.
-  double strokeWidth = 0.025;  ///< [-] 0.005..0.1. Of no effect but on pencil, by its default; kept for old recipes.
+  double strokeWidth = 0.025;  ///< [-] 0.005..0.1. Without effect; kept for old recipes.
   double gapFactor =
       4.0;  ///< [stroke widths] 0..20. Longest gap that is bridged between two ends that face each other; 0 = none.
   double mergeWidths =

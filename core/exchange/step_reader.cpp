@@ -191,9 +191,12 @@ class StepReader {
         drawing_.entities.resize(before);
         ++drawing_.left;
       }
+      if (visitsLeft_ == 0)
+        return fail(ErrorCode::BadParameter, "The curves of the STEP file name each other too often. Export it again.");
       if (drawing_.entities.size() > kMostShapes)
         return fail(ErrorCode::BadParameter, "The STEP file holds more than 200000 curves. Export fewer of them.");
     }
+    if (context_.isCancelled()) return cancelled();
     return std::move(drawing_);
   }
 
@@ -293,7 +296,8 @@ class StepReader {
 
   /// Adds the shapes of a curve; false if it cannot be read.
   bool take(std::uint64_t id, const std::optional<StepTrim>& trim, int depth) {
-    if (depth > kDeepestCurve) return false;
+    if (depth > kDeepestCurve || visitsLeft_ == 0 || context_.isCancelled()) return false;
+    --visitsLeft_;
     if (const auto edge = data_.record(id, "EDGE_CURVE")) return takeEdge(*edge, depth);
     if (const auto curve = data_.record(id, "TRIMMED_CURVE")) return takeTrimmed(*curve, depth);
     if (const auto curve = data_.record(id, "COMPOSITE_CURVE")) return takeComposite(*curve, depth);
@@ -528,7 +532,8 @@ class StepReader {
   const StepRecords& records_;
   const RunContext& context_;
   double radiansPerUnit_ = 1.0;
-  std::size_t budget_ = 20'000'000;  ///< Control points that may still be read.
+  std::size_t budget_ = 20'000'000;     ///< Control points that may still be read.
+  std::size_t visitsLeft_ = 2'000'000;  ///< Curves that may still be looked at: composites of composites multiply.
   CadDrawing drawing_;
 };
 

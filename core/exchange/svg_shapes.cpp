@@ -20,6 +20,11 @@
 namespace batten {
 namespace {
 
+std::string withoutBlanks(std::string text) {
+  std::erase_if(text, [](char c) { return c == ' ' || c == '\t' || c == '\n'; });
+  return text;
+}
+
 constexpr double kPxPerInch = 96.0;
 constexpr int kDeepestElement = 256;
 constexpr double kSmoothRad = std::numbers::pi / 180.0;  // a turn that is no corner
@@ -137,7 +142,7 @@ class ShapesReader {
                                                   "pattern",        "metadata", "style", "script", "linearGradient",
                                                   "radialGradient", "filter",   "glyph", "font",   "foreignObject"};
     frame.isHidden = frame.isHidden || kHidden.contains(name) || text("display") == "none" ||
-                     text("style").find("display:none") != std::string::npos;
+                     withoutBlanks(text("style")).find("display:none") != std::string::npos;
     if (name == "svg" && !sawSvg_) {
       sawSvg_ = true;
       frame.toMm = pageTransform();

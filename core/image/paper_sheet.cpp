@@ -213,8 +213,10 @@ constexpr double kGrainMean = 510.0, kGrainSigma = 147.8;  // of four bytes adde
 }  // namespace
 
 std::optional<PaperSheet> findPaperSheet(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {
+  constexpr int kFewestCells = 40, kLeastCellPx = 2;
+  if (std::min(grey.width, grey.height) < kFewestCells * kLeastCellPx) return std::nullopt;
   const SheetCells cells = measureCellsOf(grey, colour, context);
-  if (context.isCancelled() || cells.columns < 40 || cells.rows < 40) return std::nullopt;
+  if (context.isCancelled() || std::min(cells.columns, cells.rows) < kFewestCells) return std::nullopt;
   const cv::Mat1i labels = joinCells(cells);
   std::vector<int> areas;
   for (const int label : labels) {

@@ -190,7 +190,6 @@ class RulingEraser {
     for (int i = 0; i < bins(); ++i) {
       if (std::fabs(static_cast<double>(i) / kBinsPerPx - reach_) >= rim_) beside.push_back(profile[i]);
     }
-    // Ink only darkens: the brighter ones show the line alone.
     // Ink only darkens: the brighter pixels show the line alone.
     const double paper = beside.empty() ? 1.0 : std::max(0.5, upperMedian(beside));
     for (double& value : profile) value = std::min(1.0, value / paper);

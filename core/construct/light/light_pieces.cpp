@@ -48,7 +48,7 @@ Result<LightCurve> lightOf(const NurbsCurve& dense, bool closed, const LightOpti
     if (auto simple = simplifiedCurve(dense, closed, options, context)) return std::move(*simple);
   }
   auto light = makeLight(dense, closed, options, context);
-  if (!light || ragged || !simplified || light->report.sectionsDense == 0) return light;
+  if (!light || ragged || !simplified) return light;
   if (light->report.kind != LightKind::Dense && light->report.sectionsDense == 0) return light;
   auto simple = simplifiedCurve(dense, closed, options, context);
   return simple && simple->report.points < light->report.points ? Result<LightCurve>(std::move(*simple)) : light;

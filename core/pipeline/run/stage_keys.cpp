@@ -11,8 +11,6 @@
 namespace batten {
 namespace {
 
-/// To be raised for a stage whose algorithm gives other results than before.
-
 void add(HashBuilder& h, const std::optional<double>& v) {
   h.integer(v.has_value());
   if (v) h.number(*v);

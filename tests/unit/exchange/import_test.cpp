@@ -399,6 +399,22 @@ TEST(StepReader, SurvivesDamage) {
       whole, [](const std::string& text) { return parseStep(text); }, 331);
 }
 
+TEST(StepReader, CompositesThatMultiplyComeToAnEnd) {
+  constexpr int kDeep = 14, kWide = 12;
+  std::string data;
+  for (int depth = 0; depth < kDeep; ++depth) {
+    const int id = 1000 * (depth + 1);
+    std::string parts;
+    for (int i = 1; depth + 1 < kDeep && i <= kWide; ++i) {
+      data += "#" + std::to_string(id + i) + "=COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.,.T.,#" + std::to_string(id + 1000) +
+              ");\n";
+      parts += (i > 1 ? ",#" : "#") + std::to_string(id + i);
+    }
+    data += "#" + std::to_string(id) + "=COMPOSITE_CURVE('',(" + parts + "),.F.);\n";
+  }
+  EXPECT_FALSE(parseStep(stepOf(data)));
+}
+
 TEST(StepReader, ReadsWhatOthersWrite) {
   const auto drawing = parseStep(stepOf(
       "#1=(CONVERSION_BASED_UNIT('INCH',#2)LENGTH_UNIT()NAMED_UNIT(#9));\n"

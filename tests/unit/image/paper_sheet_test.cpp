@@ -95,6 +95,11 @@ TEST(PaperSheet, KnowsItsCorners) {
   EXPECT_NEAR(sheet->outsideShare, 1.0 - 640.0 * 480.0 / (kPhotoWidth * kPhotoHeight), 0.06);
 }
 
+TEST(PaperSheet, TinyPicturesHaveNone) {
+  for (const auto& [width, height] : {std::pair(1, 1), std::pair(400, 1), std::pair(1, 400), std::pair(79, 79)})
+    EXPECT_FALSE(findPaperSheet(GreyImage(width, height), {}, {})) << width << " x " << height;
+}
+
 TEST(PaperSheet, IsNotLookedForInADrawing) {
   const struct {
     const char* name;
