@@ -259,9 +259,8 @@ void CornersPanel::showSuggestions() {
         suggested_);
     item->setFont(uiFont(12));
   }
-  suggestedNote_->setVisible(!suggestions_.empty());  // the list says that there is none
   suggestedNote_->setText(suggestions_.empty()
-                              ? QString()
+                              ? tr("No further place turns that sharply.")
                               : counted(static_cast<qint64>(suggestions_.size()),
                                         tr("1 place could be a corner. It is used only when you mark it."),
                                         tr("%1 places could be corners. None is used until you mark it.")));
