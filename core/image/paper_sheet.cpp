@@ -32,6 +32,42 @@ struct SheetCells {
   cv::Mat1f rough;   ///< Mean difference of neighbours.
 };
 
+/// Some pixels of a cell, and their differences from their neighbours at the right.
+class CellSamples {
+ public:
+  void take(const GreyImage& grey, const ColourImage& colour, const cv::Rect& cell, int stride) {
+    levels_.clear();
+    steps_.clear();
+    coloured_.clear();
+    for (int y = cell.y; y < cell.y + cell.height; y += stride) {
+      const std::uint16_t* row = grey.row(y);
+      for (int x = cell.x; x < cell.x + cell.width; x += stride) {
+        levels_.push_back(row[x]);
+        if (!colour.isEmpty()) coloured_.emplace_back(row[x], colour.row(y)[x]);
+        if (x + 1 < grey.width) steps_.push_back(static_cast<std::uint16_t>(std::abs(row[x + 1] - row[x])));
+      }
+    }
+  }
+
+  /// Grey, red less grey and blue less grey of the paper.
+  cv::Vec3f paper() {
+    const auto rank = static_cast<std::ptrdiff_t>(kPaperRankOfCell * static_cast<double>(levels_.size() - 1));
+    if (coloured_.empty()) return {static_cast<float>(elementOfRank(levels_, rank) / GreyImage::kGreyUnit), 0.0f, 0.0f};
+    std::nth_element(coloured_.begin(), coloured_.begin() + rank, coloured_.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    const auto& [grey, colour] = coloured_[rank];
+    const auto level = static_cast<float>(grey / GreyImage::kGreyUnit);
+    return {level, static_cast<float>(colour.red) - level, static_cast<float>(colour.blue) - level};
+  }
+
+  /// [grey]
+  float roughness() { return static_cast<float>(upperMedian(steps_) / GreyImage::kGreyUnit); }
+
+ private:
+  std::vector<std::uint16_t> levels_, steps_;
+  std::vector<std::pair<std::uint16_t, Rgb8>> coloured_;
+};
+
 SheetCells measureCellsOf(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {
   SheetCells cells;
   cells.sizePx = std::max(2, (std::max(grey.width, grey.height) + kSheetCells - 1) / kSheetCells);
@@ -41,31 +77,12 @@ SheetCells measureCellsOf(const GreyImage& grey, const ColourImage& colour, cons
   cells.rough.create(cells.rows, cells.columns);
   const int stride = std::max(1, cells.sizePx / kSamplesAcross);
   parallelFor(context, cells.rows, 8, [&](int begin, int end) {
-    std::vector<std::pair<std::uint16_t, Rgb8>> pixels;
-    std::vector<float> steps;
+    CellSamples samples;
     for (int j = begin; j < end; ++j) {
       for (int i = 0; i < cells.columns; ++i) {
-        pixels.clear();
-        steps.clear();
-        for (int y = j * cells.sizePx; y < (j + 1) * cells.sizePx; y += stride) {
-          for (int x = i * cells.sizePx; x < (i + 1) * cells.sizePx; x += stride) {
-            pixels.emplace_back(grey.row(y)[x], colour.isEmpty() ? Rgb8{} : colour.row(y)[x]);
-            if (x + 1 < grey.width)
-              steps.push_back(std::fabs(static_cast<float>(grey.level(x + 1, y) - grey.level(x, y))));
-          }
-        }
-        const auto rank = static_cast<std::ptrdiff_t>(kPaperRankOfCell * static_cast<double>(pixels.size() - 1));
-        std::nth_element(pixels.begin(), pixels.begin() + rank, pixels.end(),
-                         [](const auto& a, const auto& b) { return a.first < b.first; });
-        const auto& paper = pixels[rank];
-        const auto level = static_cast<float>(paper.first / GreyImage::kGreyUnit);
-        cv::Vec3f value(level, 0.0f, 0.0f);
-        if (!colour.isEmpty()) {
-          value[1] = static_cast<float>(paper.second.red) - level;
-          value[2] = static_cast<float>(paper.second.blue) - level;
-        }
-        cells.colour(j, i) = value;
-        cells.rough(j, i) = upperMedian(steps);
+        samples.take(grey, colour, cv::Rect(i * cells.sizePx, j * cells.sizePx, cells.sizePx, cells.sizePx), stride);
+        cells.colour(j, i) = samples.paper();
+        cells.rough(j, i) = samples.roughness();
       }
     }
   });
