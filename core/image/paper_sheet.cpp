@@ -2,10 +2,12 @@
 #include "core/image/paper_sheet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
 #include "core/image/push_pull.h"
@@ -32,27 +34,47 @@ struct SheetCells {
   cv::Mat1f rough;   ///< Mean difference of neighbours.
 };
 
+/// Values so few that counting those below each of them beats sorting.
+struct FewValues {
+  static constexpr int kMost = 64;
+  std::array<std::int16_t, kMost> values{};  ///< Less 32768.
+  int count = 0;
+
+  void add(int value) { values[count++] = static_cast<std::int16_t>(value - 32768); }
+};
+
+/// The value that has `rank` smaller ones before it when sorted: the largest of those with no more than `rank` below.
+BATTEN_HOT_LOOP int valueOfRank(const FewValues& few, int rank) {
+  std::array<std::int16_t, FewValues::kMost> below{};
+  for (int j = 0; j < few.count; ++j) {
+    const std::int16_t value = few.values[j];
+    for (int i = 0; i < FewValues::kMost; ++i) below[i] = static_cast<std::int16_t>(below[i] + (value < few.values[i]));
+  }
+  int found = -32768;
+  for (int i = 0; i < few.count; ++i) found = below[i] <= rank && few.values[i] > found ? few.values[i] : found;
+  return found + 32768;
+}
+
 /// Some pixels of a cell, and their differences from their neighbours at the right.
 class CellSamples {
  public:
   void take(const GreyImage& grey, const ColourImage& colour, const cv::Rect& cell, int stride) {
-    levels_.clear();
-    steps_.clear();
+    levels_.count = steps_.count = 0;
     coloured_.clear();
     for (int y = cell.y; y < cell.y + cell.height; y += stride) {
       const std::uint16_t* row = grey.row(y);
       for (int x = cell.x; x < cell.x + cell.width; x += stride) {
-        levels_.push_back(row[x]);
+        levels_.add(row[x]);
         if (!colour.isEmpty()) coloured_.emplace_back(row[x], colour.row(y)[x]);
-        if (x + 1 < grey.width) steps_.push_back(static_cast<std::uint16_t>(std::abs(row[x + 1] - row[x])));
+        if (x + 1 < grey.width) steps_.add(std::abs(row[x + 1] - row[x]));
       }
     }
   }
 
   /// Grey, red less grey and blue less grey of the paper.
   cv::Vec3f paper() {
-    const auto rank = static_cast<std::ptrdiff_t>(kPaperRankOfCell * static_cast<double>(levels_.size() - 1));
-    if (coloured_.empty()) return {static_cast<float>(elementOfRank(levels_, rank) / GreyImage::kGreyUnit), 0.0f, 0.0f};
+    const int rank = static_cast<int>(kPaperRankOfCell * (levels_.count - 1.0));
+    if (coloured_.empty()) return {static_cast<float>(valueOfRank(levels_, rank) / GreyImage::kGreyUnit), 0.0f, 0.0f};
     std::nth_element(coloured_.begin(), coloured_.begin() + rank, coloured_.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     const auto& [grey, colour] = coloured_[rank];
@@ -61,10 +83,10 @@ class CellSamples {
   }
 
   /// [grey]
-  float roughness() { return static_cast<float>(upperMedian(steps_) / GreyImage::kGreyUnit); }
+  float roughness() const { return static_cast<float>(valueOfRank(steps_, steps_.count / 2) / GreyImage::kGreyUnit); }
 
  private:
-  std::vector<std::uint16_t> levels_, steps_;
+  FewValues levels_, steps_;
   std::vector<std::pair<std::uint16_t, Rgb8>> coloured_;
 };
 
@@ -76,6 +98,7 @@ SheetCells measureCellsOf(const GreyImage& grey, const ColourImage& colour, cons
   cells.colour.create(cells.rows, cells.columns);
   cells.rough.create(cells.rows, cells.columns);
   const int stride = std::max(1, cells.sizePx / kSamplesAcross);
+  static_assert(2 * kSamplesAcross * 2 * kSamplesAcross <= FewValues::kMost);  // 2 kSamplesAcross - 1 at the most
   parallelFor(context, cells.rows, 8, [&](int begin, int end) {
     CellSamples samples;
     for (int j = begin; j < end; ++j) {
