@@ -85,7 +85,7 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWid
 
 BitImage findFillings(const InkSplit& split, const ContourSet& lines, const RunContext& context) {
   constexpr double kWiderThanPen = 1.25;
-  constexpr double kLeastReachPx = 2.0;  // a line lies no farther from the ink that it explains, or half its width
+  constexpr double kExplainedReachPx = 2.0;  // a line lies no farther from the ink that it explains, or half its width
   constexpr double kLeastArea = 3.0;     // [squared pen widths] a dot of two pens across
   BitImage none(split.strokes.width, split.strokes.height);
   if (split.penPx <= 0.0 || split.strokes.count() == 0) return none;
@@ -94,7 +94,7 @@ BitImage findFillings(const InkSplit& split, const ContourSet& lines, const RunC
   if (split.pencil.width > 0) wide = without(std::move(wide), split.pencil);
   if (wide.count() == 0 || context.isCancelled()) return none;
   wide = without(std::move(wide), coveredBy(
-                                      lines, wide, [&](double r) { return std::max(kLeastReachPx, r); }, context));
+                                      lines, wide, [&](double r) { return std::max(kExplainedReachPx, r); }, context));
   if (wide.count() == 0 || context.isCancelled()) return none;
   const BitImage strokes = coveredBy(
       lines, wide, [](double) { return 0.0; }, context);
