@@ -28,6 +28,7 @@ constexpr std::size_t kFewestPathPoints = 25;  // a shorter stroke path has too 
 constexpr int kLeastStride = 3;                // points: neighbouring samples share pixels
 constexpr int kGrainEvery = 8;                 // points: regions are far larger
 constexpr double kLeastDepth = 2.0;            // [grey]
+constexpr double kMostDeviation = 0.12;        // of the depth: what is farther off is an end, a crossing or a gap
 constexpr double kSmallerOfTwo = 1.7;          // mean of |x| over that of the smaller of two, for normal deviates
 
 struct GrainSample {
@@ -38,11 +39,12 @@ struct GrainSample {
 };
 
 struct GrainSum {
-  double length = 0.0, ink = 0.0, paper = 0.0, depth = 0.0;
+  double length = 0.0, deviation = 0.0, ink = 0.0, paper = 0.0, depth = 0.0;
   void add(const GrainSample& s) {
     length += s.px;
-    ink += s.px * s.ink;
-    paper += s.px * s.paper;
+    deviation += s.px * s.ink;
+    ink += s.px * std::min(s.ink, kMostDeviation);
+    paper += s.px * std::min(s.paper, kMostDeviation);
     depth += s.px * s.depth;
   }
 };
@@ -158,6 +160,7 @@ GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyIma
       own[i].add(s);
     }
   }
+  deviation_ = filledRegions(regions, &GrainSum::deviation);
   ink_ = filledRegions(regions, &GrainSum::ink);
   paper_ = filledRegions(regions, &GrainSum::paper);
   depth_ = filledRegions(regions, &GrainSum::depth);
@@ -175,7 +178,7 @@ GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyIma
   }
 }
 
-double GraininessMap::deviationAt(const Vec2& px) const { return valueAt(ink_, px, width_, height_); }
+double GraininessMap::deviationAt(const Vec2& px) const { return valueAt(deviation_, px, width_, height_); }
 
 double GraininessMap::depthAt(const Vec2& px) const { return valueAt(depth_, px, width_, height_); }
 
