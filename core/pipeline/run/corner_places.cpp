@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pipeline/run/corner_places.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "core/base/parallel.h"
+#include "core/base/statistics.h"
 #include "core/construct/fair/sharp_features.h"
 #include "core/contour/corner/corner_certainty.h"
 #include "core/contour/corner/corner_suggestions.h"
@@ -17,6 +19,40 @@ namespace {
 constexpr double kSmallLoopPx = 70.0;                                 // round: radius 11 px
 constexpr double kCertainAngleRad = 28.0 * std::numbers::pi / 180.0;  // below the least turn of a certain corner
 constexpr double kCertainScalePx = 14.0;
+
+// [grey] The darkest or lightest pixel of a square about a place, as far as it lies on the page.
+struct GreyRange {
+  double darkest = 255.0, lightest = 0.0;
+};
+GreyRange greyAround(const GreyImage& page, const Vec2& place, double reachPx) {
+  GreyRange range;
+  const auto from = [&](double v) { return std::max(0, static_cast<int>(std::floor(v - reachPx))); };
+  const auto to = [&](double v, int size) { return std::min(size - 1, static_cast<int>(std::floor(v + reachPx))); };
+  for (int y = from(place.y()); y <= to(place.y(), page.height); ++y) {
+    for (int x = from(place.x()); x <= to(place.x(), page.width); ++x) {
+      range.darkest = std::min(range.darkest, page.level(x, y));
+      range.lightest = std::max(range.lightest, page.level(x, y));
+    }
+  }
+  return range;
+}
+
+// Sides that never met lead to a vertex on blank paper. The border of a shape may have lost its tip to the mask.
+bool liesOnInk(const CornerSuggestion& corner, const Contour& contour, const GreyImage& page) {
+  constexpr int kBesidePoints = 20;
+  constexpr double kPaperReach = 3.0;  // widths of the stroke
+  constexpr double kInkShare = 0.5;    // of the way from ink to paper
+  const std::optional<float> width = contour.points[corner.pointIndex].widthPx;
+  if (contour.kind != ContourKind::Centreline || !width || page.pixels.empty()) return true;
+  std::vector<double> ink;
+  const int n = static_cast<int>(contour.points.size());
+  for (int k = -kBesidePoints; k <= kBesidePoints; ++k) {
+    const int i = contour.closed ? wrapIndex(corner.pointIndex + k, n) : corner.pointIndex + k;
+    if (i >= 0 && i < n) ink.push_back(greyAround(page, contour.points[i].at, 1.0).darkest);
+  }
+  const double dark = upperMedian(ink), light = greyAround(page, corner.positionPx, kPaperReach * *width).lightest;
+  return greyAround(page, corner.positionPx, 1.0).darkest <= dark + kInkShare * (light - dark);
+}
 
 }  // namespace
 
@@ -44,11 +80,12 @@ std::vector<CornerSuggestion> possibleCorners(const ContourSet& set, const RunCo
   return suggestCornersAndCuts(set, kCertainAngleRad, kCertainScalePx, context);
 }
 
-std::vector<Corner> certainCorners(const ContourSet& set, std::span<const Vec2> refusedPx, double reachPx,
-                                   const RunContext& context) {
+std::vector<Corner> certainCorners(const ContourSet& set, const GreyImage& page, std::span<const Vec2> refusedPx,
+                                   double reachPx, const RunContext& context) {
   std::vector<Corner> corners;
   for (const CornerSuggestion& s : possibleCorners(set, context)) {
     if (s.certainty < kCertainCorner || isDrawn(set.contours[s.contour].kind)) continue;
+    if (!liesOnInk(s, set.contours[s.contour], page)) continue;
     Corner corner;
     corner.contour = s.contour;
     corner.pointIndex = s.pointIndex;

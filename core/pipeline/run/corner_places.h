@@ -6,6 +6,7 @@
 
 #include "core/contour/corner/corner_marks.h"
 #include "core/contour/corner/corner_suggestions.h"
+#include "core/image/grey_image.h"
 
 namespace batten {
 
@@ -18,9 +19,10 @@ std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet&, double mi
 /// The places among which certainCorners chooses: turns of 28 degrees and more, over 14 px.
 std::vector<CornerSuggestion> possibleCorners(const ContourSet&, const RunContext&);
 
-/// The corners that count without a mark: the possible ones of kCertainCorner on lines found on the scan. Of those near
-/// a refused place, within `reachPx`, the nearest is left out. Image frame, px. Not complete when cancelled.
-std::vector<Corner> certainCorners(const ContourSet&, std::span<const Vec2> refusedPx, double reachPx,
-                                   const RunContext&);
+/// The corners that count without a mark: the possible ones of kCertainCorner on lines found on the scan, on centre
+/// lines only those that lie on ink. Of those near a refused place, within `reachPx`, the nearest is left out. Image
+/// frame, px. Not complete when cancelled.
+std::vector<Corner> certainCorners(const ContourSet&, const GreyImage& page, std::span<const Vec2> refusedPx,
+                                   double reachPx, const RunContext&);
 
 }  // namespace batten

@@ -122,7 +122,8 @@ class PipelineRun {
   Result<PieceSet> pieces() {
     std::vector<Corner> certain;
     if (recipe_.corners.automatic) {
-      certain = certainCorners(*out_.contours, recipe_.refusedCornersPx, recipe_.corners.snapDistancePx, context_);
+      certain =
+          certainCorners(*out_.contours, grey(), recipe_.refusedCornersPx, recipe_.corners.snapDistancePx, context_);
       if (context_.isCancelled()) return cancelled();
     }
     const bool hasCorners = !recipe_.cornerMarks.empty() || !certain.empty();

@@ -115,9 +115,9 @@ TEST(AutomaticCorners, NoneWhenSwitchedOffOrOnPenLines) {
   for (int i = 0; i < 100; ++i) points.emplace_back(100.0, i);
   line.points = contourPoints(points, true);
   drawn.contours = {line};
-  EXPECT_TRUE(certainCorners(drawn, {}, 16.0, {}).empty());
+  EXPECT_TRUE(certainCorners(drawn, {}, {}, 16.0, {}).empty());
   drawn.contours.front().kind = ContourKind::Outline;
-  EXPECT_EQ(certainCorners(drawn, {}, 16.0, {}).size(), 1u);
+  EXPECT_EQ(certainCorners(drawn, {}, {}, 16.0, {}).size(), 1u);
 }
 
 }  // namespace
