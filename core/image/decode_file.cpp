@@ -16,18 +16,22 @@
 namespace batten {
 namespace {
 
-/// Whether a PNG holds nothing that would change its samples on the way: its chunks are all of those that do not.
+/// Whether a PNG holds nothing that changes its samples on the way: no palette, transparency, gamma other than sRGB's
+/// or profile. Chunks that a reader may pass over begin with a small letter.
 bool isPlainPng(const ByteReader& file) {
-  constexpr std::array<std::string_view, 9> kHarmless = {"IHDR", "IDAT", "pHYs", "tEXt", "zTXt",
-                                                         "iTXt", "tIME", "sRGB", "eXIf"};
+  constexpr std::array<std::string_view, 5> kTelling = {"iCCP", "tRNS", "sBIT", "cICP", "gAMA"};
+  constexpr std::array<std::string_view, 2> kNeeded = {"IHDR", "IDAT"};
   constexpr std::uint32_t kGammaOfSrgb = 45455;
   const std::uint32_t colour = file.u8(25);
   if (file.u8(24) != 8 || (colour != 0 && colour != 2)) return false;
   for (std::uint64_t at = 8; file.has(at, 12); at += file.u32(at) + 12ull) {
+    const auto isOneOf = [&](const auto& names) {
+      return std::any_of(names.begin(), names.end(), [&](std::string_view name) { return file.matches(at + 4, name); });
+    };
     if (file.matches(at + 4, "IEND")) return true;
     if (file.matches(at + 4, "gAMA") && file.u32(at + 8) == kGammaOfSrgb) continue;
-    if (std::none_of(kHarmless.begin(), kHarmless.end(), [&](std::string_view k) { return file.matches(at + 4, k); }))
-      return false;
+    const bool mayBePassedOver = (file.u8(at + 4) & 0x20u) != 0;
+    if (mayBePassedOver ? isOneOf(kTelling) : !isOneOf(kNeeded)) return false;
   }
   return false;
 }
