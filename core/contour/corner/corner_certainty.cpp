@@ -19,8 +19,8 @@ constexpr double kWidthLimit = 1.5;      // of the usual width: at a junction th
 constexpr double kSharpRadius = 1.5;     // units
 constexpr double kSharpSlackPx = 0.4;    // a vertex is known to that
 constexpr double kFarthestVertex = 2.3;  // units from the line, even for acute tips
-constexpr double kShortChord = 3.0, kLongChord = 6.0, kChordStart = 1.0;  // units
-constexpr double kLeastLeg = 2.5, kLeastLegToEnd = 3.0;                   // units: ends have hooks of their own
+constexpr double kShortChord = 3.0, kCertainChord = 6.0, kChordStart = 1.0;  // units
+constexpr double kLeastLeg = 2.5, kLeastLegToEnd = 3.0;                      // units: ends have hooks of their own
 constexpr double kLeastCertainTurn = 30.0 * kRadOfDeg;
 constexpr double kLeastUnlocatedTurn = 50.0 * kRadOfDeg;  // of the chords, where no vertex tells how sharp it is
 constexpr double kFlankShare = 0.25;                      // of the turn: how much more the longer chords may turn
@@ -79,7 +79,7 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
     const double turn = chordTurn(arc, kChordStart * unit, std::min(most, e.freeBefore), std::min(most, e.freeAfter));
     return std::max(1e-9, std::copysign(1.0, e.angleRad) * turn);
   };
-  const double near = turnOver(kShortChord), far = turnOver(kLongChord);
+  const double near = turnOver(kShortChord), far = turnOver(kCertainChord);
   demand(kLeastCertainTurn, angle);
   demand(kNoiseLimit * e.angleNoiseRad, angle);
   demand(kLeastChordShare * angle, near);

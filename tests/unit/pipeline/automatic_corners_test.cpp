@@ -11,13 +11,13 @@
 namespace batten {
 namespace {
 
-constexpr int kWidth = 800, kHeight = 600;
+constexpr int kSquareWidth = 800, kSquareHeight = 600;
 
 Scan pageOf(const test::TruthShape& shape, bool stroke, std::uint32_t seed) {
   const auto outline = shape.outline();
-  auto coverage =
-      stroke ? test::strokeCoverage(outline, true, 5.0, kWidth, kHeight) : test::fillCoverage(outline, kWidth, kHeight);
-  return test::renderPage(std::move(coverage), kWidth, kHeight, test::scannedPage(seed));
+  auto coverage = stroke ? test::strokeCoverage(outline, true, 5.0, kSquareWidth, kSquareHeight)
+                         : test::fillCoverage(outline, kSquareWidth, kSquareHeight);
+  return test::renderPage(std::move(coverage), kSquareWidth, kSquareHeight, test::scannedPage(seed));
 }
 
 std::vector<Corner> cornersWith(const Scan& scan, const Recipe& recipe) {
@@ -36,7 +36,7 @@ bool hasCornerAt(const std::vector<Corner>& corners, const Vec2& place, double w
 TEST(AutomaticCorners, AreThoseOfRenderedShapesAndNoOthers) {
   int known = 0, found = 0;
   double square = 0.0;
-  for (const auto& shape : test::truthShapes(kWidth, kHeight)) {
+  for (const auto& shape : test::truthShapes(kSquareWidth, kSquareHeight)) {
     for (const bool stroke : {false, true}) {
       const std::vector<Corner> corners = cornersWith(pageOf(shape, stroke, 3), {});
       for (const Corner& corner : corners) {
@@ -56,7 +56,7 @@ TEST(AutomaticCorners, AreThoseOfRenderedShapesAndNoOthers) {
 }
 
 TEST(AutomaticCorners, GiveTheCurvesThatMarksAtTheCornersGive) {
-  const auto shape = test::truthShape("crown", kWidth, kHeight);
+  const auto shape = test::truthShape("crown", kSquareWidth, kSquareHeight);
   const Scan scan = pageOf(shape, false, 4);
   Recipe marked;
   marked.corners.automatic = false;
@@ -69,7 +69,7 @@ TEST(AutomaticCorners, GiveTheCurvesThatMarksAtTheCornersGive) {
 }
 
 TEST(AutomaticCorners, ARefusedOneStaysOut) {
-  const auto shape = test::truthShape("K", kWidth, kHeight);
+  const auto shape = test::truthShape("K", kSquareWidth, kSquareHeight);
   const Scan scan = pageOf(shape, false, 3);
   const std::size_t all = cornersWith(scan, {}).size();
   Recipe recipe;
@@ -90,7 +90,7 @@ TEST(AutomaticCorners, ARefusedOneStaysOut) {
 }
 
 TEST(AutomaticCorners, GiveWayToMarks) {
-  const auto shape = test::truthShape("K", kWidth, kHeight);
+  const auto shape = test::truthShape("K", kSquareWidth, kSquareHeight);
   const Scan scan = pageOf(shape, false, 3);
   const std::size_t all = cornersWith(scan, {}).size();
   Recipe recipe;
@@ -103,7 +103,7 @@ TEST(AutomaticCorners, GiveWayToMarks) {
 }
 
 TEST(AutomaticCorners, NoneWhenSwitchedOffOrOnPenLines) {
-  const auto shape = test::truthShape("K", kWidth, kHeight);
+  const auto shape = test::truthShape("K", kSquareWidth, kSquareHeight);
   Recipe off;
   off.corners.automatic = false;
   EXPECT_TRUE(cornersWith(pageOf(shape, false, 3), off).empty());
