@@ -57,7 +57,8 @@ TEST_F(Suggest, CornersWithAngleAndCertainty) {
   const auto done = run("suggest " + file("k.png"));
   ASSERT_EQ(done.code, 0) << done.err;
   int certain = 0;
-  for (const json& corner : json::parse(done.out)["corners"]) {
+  const json said = json::parse(done.out);
+  for (const json& corner : said["corners"]) {
     const Vec2 at(corner["at"][0], corner["at"][1]);
     double nearest = 1e9;
     for (const Vec2& truth : shape.corners) nearest = std::min(nearest, (truth - at).norm());

@@ -24,6 +24,7 @@ constexpr double kLeastLeg = 2.5, kLeastLegToEnd = 3.0;                      // 
 constexpr double kLeastCertainTurn = 30.0 * kRadOfDeg;
 constexpr double kLeastUnlocatedTurn = 50.0 * kRadOfDeg;  // of the chords, where no vertex tells how sharp it is
 constexpr double kFlankShare = 0.25;                      // of the turn: how much more the longer chords may turn
+constexpr double kUnlocatedShare = 0.15;                  // the same where no vertex tells
 constexpr double kLeastChordShare = 0.5, kMostChordShare = 1.35;  // of the angle: cusps, arcs
 constexpr double kFaintTurn = 45.0 * kRadOfDeg;                   // below, both chords must show the angle itself
 constexpr double kFaintShare = 0.15, kFaintLongShare = 0.2;
@@ -100,7 +101,7 @@ double CornerJudge::certainty(const CornerEvidence& e) const {
     demand(off, kFarthestVertex * unit);
   } else {
     demand(kLeastUnlocatedTurn, near);
-    demand(std::abs(far - near), kFlankShare * near);
+    demand(std::abs(far - near), kUnlocatedShare * near);
   }
   if (angle < kFaintTurn) {
     demand(std::abs(near - angle), kFaintShare * angle + kFaintSlackRad);

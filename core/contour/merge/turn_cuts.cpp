@@ -15,8 +15,9 @@ namespace {
 // In samples, one stroke width apart.
 constexpr int kCutChord = 5, kCutBeyond = 15;  // chords end there; what lies beyond says how the line bends
 constexpr int kLeastPart = 3;
-constexpr int kCutsApart = 4;
-constexpr double kArcSamples = 6.0;  // as much of the bend beyond counts as no corner
+constexpr int kShortCutChord = 3, kPlaceReach = 2;
+constexpr double kShortShare = 0.75;  // of the turn: chords as short see as much of a corner, but two thirds of an arc
+constexpr double kArcSamples = 6.0;   // as much of the bend beyond counts as no corner
 constexpr double kCutRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kMostArc = 120.0 * kCutRadPerDeg;
 constexpr double kLeastTurn = 40.0 * kCutRadPerDeg, kLeastBeyondArc = 24.0 * kCutRadPerDeg;
@@ -55,17 +56,19 @@ class TurnSearch {
     for (int i = 0; i < n; ++i) {
       if (const auto score = scoreAt(i)) turns.push_back({i, *score});
     }
-    std::stable_sort(turns.begin(), turns.end(), [](const Turn& a, const Turn& b) { return a.score > b.score; });
-    std::vector<int> chosen;
-    for (const Turn& turn : turns) {
-      const bool isNear = std::ranges::any_of(chosen, [&](int other) {
-        const int apart = std::abs(other - turn.sample);
-        return (closed_ ? std::min(apart, n - apart) : apart) < kCutsApart;
-      });
-      if (!isNear) chosen.push_back(turn.sample);
-    }
+    const auto isBeside = [&](int a, int b) {
+      const int apart = std::abs(a - b);
+      return (closed_ ? std::min(apart, n - apart) : apart) <= kCutChord;
+    };
     std::vector<int> points;
-    for (const int sample : chosen) points.push_back(point_[sample]);
+    for (const Turn& turn : turns) {
+      // What lies beside a sharper turn sees a part of it.
+      const bool isPart = std::ranges::any_of(turns, [&](const Turn& other) {
+        return isBeside(other.sample, turn.sample) &&
+               (other.score > turn.score || (other.score == turn.score && other.sample < turn.sample));
+      });
+      if (!isPart) points.push_back(point_[sharpestBeside(turn.sample)]);
+    }
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
     return points;
@@ -100,7 +103,23 @@ class TurnSearch {
     const double bend = std::copysign(0.5, turn) * (bendBeyond(i, -1) + bendBeyond(i, 1));
     const double arc = std::clamp(kArcSamples * bend, 0.0, kMostArc);
     if (std::abs(turn) <= kLeastTurn || std::abs(turn) - arc <= kLeastBeyondArc) return std::nullopt;
+    const int shortBefore = room(i, -1, kShortCutChord), shortAfter = room(i, 1, kShortCutChord);
+    const double shortTurn = angleBetween(chord(i - shortBefore, i - 1), chord(i + 1, i + shortAfter));
+    if (shortTurn / turn < kShortShare) return std::nullopt;
     return std::abs(turn) - arc;
+  }
+
+  // Where chords that meet in a sample turn most.
+  int sharpestBeside(int i) const {
+    int best = i;
+    double most = 0.0;
+    for (int k = i - kPlaceReach; k <= i + kPlaceReach; ++k) {
+      const int before = room(k, -1, kCutChord), after = room(k, 1, kCutChord);
+      if (before < kLeastPart || after < kLeastPart) continue;
+      const double turn = std::abs(angleBetween(chord(k - before, k), chord(k, k + after)));
+      if (turn > most) most = turn, best = k;
+    }
+    return wrapIndex(best, static_cast<int>(samples_.size()));
   }
 
   bool closed_;

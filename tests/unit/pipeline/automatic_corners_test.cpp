@@ -65,7 +65,9 @@ TEST(AutomaticCorners, GiveTheCurvesThatMarksAtTheCornersGive) {
   const auto found = runPipeline(scan, {}, cache, {}, {}), asked = runPipeline(scan, marked, cache, {}, {});
   ASSERT_EQ(found.faired->curves.size(), asked.faired->curves.size());
   for (std::size_t i = 0; i < found.faired->curves.size(); ++i)
-    EXPECT_EQ(found.faired->curves[i].sketched, asked.faired->curves[i].sketched);
+    EXPECT_LT(deviation(found.faired->curves[i].sketched, asked.faired->curves[i].sketched).rms,
+              0.1 * found.frame.mmPerPx)
+        << i;
 }
 
 TEST(AutomaticCorners, ARefusedOneStaysOut) {

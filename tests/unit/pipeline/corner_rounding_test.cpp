@@ -38,6 +38,7 @@ struct Angle {
     pieces.pieces[1].points = {{100, 0}, {100, 80}};
     pieces.pieces[1].startIsCorner = true;
     Corner corner;
+    corner.mark = 0;
     corner.positionPx = {100, 0};
     pieces.corners.push_back(corner);
     recipe.cornerMarks.push_back({Vec2(100, 0), 10.0});
