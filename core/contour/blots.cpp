@@ -13,7 +13,7 @@
 namespace batten {
 namespace {
 
-constexpr int kDiscsPerLook = 256;  // between two looks at the cancel token
+constexpr int kExplainedDiscsPerLook = 256;  // between two looks at the cancel token
 
 // What lines with their widths cover, and `reach(half width)` px around them.
 template <class Reach>
@@ -22,7 +22,7 @@ BitImage coveredBy(const ContourSet& lines, const BitImage& like, const Reach& r
   int painted = 0;
   for (const Contour& line : lines.contours) {
     for (const ContourPoint& p : line.points) {
-      if (painted++ % kDiscsPerLook == 0 && context.isCancelled()) return cover;
+      if (painted++ % kExplainedDiscsPerLook == 0 && context.isCancelled()) return cover;
       const double half = 0.5 * static_cast<double>(p.widthPx.value_or(0.0f));
       setDisc(cover, p.at, half + reach(half));
     }
@@ -84,9 +84,9 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWid
 }
 
 BitImage findFillings(const InkSplit& split, const ContourSet& lines, const RunContext& context) {
-  constexpr double kWiderThanPen = 2.0;  // two strokes across each other hold no disc so wide
-  constexpr double kLeastReachPx = 2.0;  // a line lies no farther from the ink that it explains, or half its width
-  constexpr double kLeastArea = 3.0;     // [squared pen widths] a dot of two pens across
+  constexpr double kWiderThanPen = 1.5;      // two strokes that cross at a right angle hold a disc of 1.41
+  constexpr double kExplainedReachPx = 2.0;  // a line lies no farther from the ink that it explains, or half its width
+  constexpr double kLeastArea = 3.0;         // [squared pen widths] a dot of two pens across
   BitImage none(split.strokes.width, split.strokes.height);
   if (split.penPx <= 0.0 || split.strokes.count() == 0) return none;
   const int half = std::max(1, static_cast<int>(std::lround(0.5 * kWiderThanPen * split.penPx)));
@@ -94,7 +94,7 @@ BitImage findFillings(const InkSplit& split, const ContourSet& lines, const RunC
   if (split.pencil.width > 0) wide = without(std::move(wide), split.pencil);
   if (wide.count() == 0 || context.isCancelled()) return none;
   wide = without(std::move(wide), coveredBy(
-                                      lines, wide, [&](double r) { return std::max(kLeastReachPx, r); }, context));
+                                      lines, wide, [&](double r) { return std::max(kExplainedReachPx, r); }, context));
   if (wide.count() == 0 || context.isCancelled()) return none;
   const BitImage strokes = coveredBy(
       lines, wide, [](double) { return 0.0; }, context);

@@ -212,9 +212,11 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const E
   if (!split) return fail(split.error());
   context.report(0.2);
   found.regions = std::move(split->regions);
-  const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr, params.minWidths};
+  const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr, params.minWidths,
+                                  split->known.get()};
   Result<ContourSet> lines = centrelines(split->strokes, grey, edges, context, options);
   if (!lines) return fail(lines.error());
+  split->known.reset();
   context.report(0.3);
   found.blots = findBlots(*split, *lines, params.minWidths, context);
   if (edges.mode == EdgeMode::Centreline) {

@@ -137,12 +137,12 @@ class HoleSearch {
 
   // [px] Of the shape with its holes filled, across the hole: uphill to the middle of the shape.
   double shapeWidth(const InkHole& hole) const {
-    constexpr int kStepPx = 2;
+    constexpr int kAroundPx = 2;
     cv::Point at = hole.middle;
     for (;;) {
       cv::Point best = at;
-      for (int y = std::max(0, at.y - kStepPx); y <= std::min(filled_.rows - 1, at.y + kStepPx); ++y) {
-        for (int x = std::max(0, at.x - kStepPx); x <= std::min(filled_.cols - 1, at.x + kStepPx); ++x) {
+      for (int y = std::max(0, at.y - kAroundPx); y <= std::min(filled_.rows - 1, at.y + kAroundPx); ++y) {
+        for (int x = std::max(0, at.x - kAroundPx); x <= std::min(filled_.cols - 1, at.x + kAroundPx); ++x) {
           if (filled_.at<float>(y, x) > filled_.at<float>(best)) best = {x, y};
         }
       }
