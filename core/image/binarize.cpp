@@ -89,7 +89,7 @@ Masks compareAll(const GreyImage& image, const RegionThresholds& t, const Thresh
   Masks masks{blank, wantCertain ? blank : BitImage(), wantFaint ? blank : BitImage()};
   const RegionSurface contrast(t.contrast, image.width, image.height, params.interpolate);
   const RegionSurface certain(t.certain, image.width, image.height, params.interpolate);
-  const double variance = t.smoothingPx * t.smoothingPx;
+  const double variance = params.smooth ? t.smoothingPx * t.smoothingPx : 0.0;
   const std::vector<float> kernel = gaussianKernel(variance > 0.0 ? std::max(variance, 0.51) : 0.0);
   const auto radius = static_cast<int>(kernel.size()) - 1;
   const auto width = static_cast<std::size_t>(image.width);
