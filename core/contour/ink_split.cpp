@@ -95,7 +95,7 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
   GraininessMap grain(paths, grey, context);
   const PencilPieces pencil(ink, paths, grain, context);
   if (context.isCancelled()) return cancelled();
-  split.known = std::make_shared<const StrokesOfInk>(
+  split.known = std::make_unique<StrokesOfInk>(
       StrokesOfInk{ink, std::move(labels->skeleton), std::move(paths), std::move(grain)});
   if (!pencil.any()) return {};
   EdgeParams whole = params;

@@ -19,8 +19,8 @@ struct InkSplit {
   BitImage shapes;    ///< Along their border.
   BitImage pencil;    ///< Ink that was drawn with a pencil; no pixels at all where there is none.
   RunPieces regions;  ///< What the user turns over with one click: connected parts of one kind, before the choices.
-  std::shared_ptr<const StrokesOfInk> known;  ///< What was found on the way; absent where nothing was.
-  double penPx = 0.0;  ///< [px] width of the strokes; 0 = none was looked for, or there are none.
+  std::unique_ptr<StrokesOfInk> known;  ///< What was found on the way; absent where nothing was.
+  double penPx = 0.0;                   ///< [px] width of the strokes; 0 = none was looked for, or there are none.
 };
 
 /// Splits the ink into strokes and shapes, region by region (label/ink_labels.h), unless the page is followed in one

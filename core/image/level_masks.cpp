@@ -46,7 +46,8 @@ BATTEN_HOT_LOOP void flagBelow(const float* grey, const float* paper, const floa
 struct FaintContrast {
   float reach, limit;
   float of(float contrast) const {
-    const float weaker = contrast < 0.0f ? reach * contrast : contrast;
+    const float share = reach * contrast;  // by itself: else the loop below is not vectorised
+    const float weaker = contrast < 0.0f ? share : contrast;
     const float capped = weaker < limit ? weaker : limit;
     return contrast > capped ? contrast : capped;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -34,24 +35,33 @@ struct SheetCells {
   cv::Mat1f rough;   ///< Mean difference of neighbours.
 };
 
-/// Values so few that counting those below each of them beats sorting.
+/// Values so few that counting those below each of them beats sorting. Behind them lie ones that none exceeds.
 struct FewValues {
-  static constexpr int kMost = 64;
-  std::array<std::int16_t, kMost> values{};  ///< Less 32768.
+  static constexpr int kMost = 64, kHalf = kMost / 2;
+  std::array<std::int16_t, kMost> values;  ///< Less 32768.
   int count = 0;
 
+  void clear() {
+    values.fill(std::numeric_limits<std::int16_t>::max());
+    count = 0;
+  }
   void add(int value) { values[count++] = static_cast<std::int16_t>(value - 32768); }
 };
 
 /// The value that has `rank` smaller ones before it when sorted: the largest of those with no more than `rank` below.
 BATTEN_HOT_LOOP int valueOfRank(const FewValues& few, int rank) {
   std::array<std::int16_t, FewValues::kMost> below{};
+  const int lanes = few.count <= FewValues::kHalf ? FewValues::kHalf : FewValues::kMost;
   for (int j = 0; j < few.count; ++j) {
     const std::int16_t value = few.values[j];
-    for (int i = 0; i < FewValues::kMost; ++i) below[i] = static_cast<std::int16_t>(below[i] + (value < few.values[i]));
+    for (int i = 0; i < lanes; ++i) below[i] = static_cast<std::int16_t>(below[i] + (value < few.values[i] ? 1 : 0));
   }
-  int found = -32768;
-  for (int i = 0; i < few.count; ++i) found = below[i] <= rank && few.values[i] > found ? few.values[i] : found;
+  const auto most = static_cast<std::int16_t>(rank);
+  std::int16_t found = std::numeric_limits<std::int16_t>::min();
+  for (int i = 0; i < lanes; ++i) {
+    const std::int16_t value = below[i] <= most ? few.values[i] : std::numeric_limits<std::int16_t>::min();
+    found = value > found ? value : found;
+  }
   return found + 32768;
 }
 
@@ -59,7 +69,8 @@ BATTEN_HOT_LOOP int valueOfRank(const FewValues& few, int rank) {
 class CellSamples {
  public:
   void take(const GreyImage& grey, const ColourImage& colour, const cv::Rect& cell, int stride) {
-    levels_.count = steps_.count = 0;
+    levels_.clear();
+    steps_.clear();
     coloured_.clear();
     for (int y = cell.y; y < cell.y + cell.height; y += stride) {
       const std::uint16_t* row = grey.row(y);

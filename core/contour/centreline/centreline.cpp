@@ -6,6 +6,7 @@
 #include <new>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <utility>
 
 #include "core/base/statistics.h"
 #include "core/contour/centreline/gaps.h"
@@ -43,8 +44,8 @@ std::vector<StrokePath> centrelinesOf(const BitImage& ink, const CentrelineOptio
   const BitImage* shapes = options.shapes;
   const BitImage all = shapes != nullptr ? either(ink, *shapes) : ink;
   const bool isKnown = options.known != nullptr && options.known->ink == all;
-  if (isKnown && shapes == nullptr) return options.known->paths;
-  BitImage skeleton = isKnown ? options.known->skeleton : all;
+  if (isKnown && shapes == nullptr) return std::move(options.known->paths);
+  BitImage skeleton = isKnown ? std::move(options.known->skeleton) : all;
   if (!isKnown && !thinToSkeleton(skeleton, context)) return {};
   if (shapes == nullptr) return findStrokePaths(skeleton, all, params, context);
   std::vector<StrokePath> paths = findStrokePaths(without(std::move(skeleton), *shapes), all, params, context);
@@ -204,7 +205,8 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (context.isCancelled()) return cancelled();
   const double width = medianWidth(paths, [](int) { return true; });
   const bool isKnown = shapes == nullptr && options.known != nullptr && options.known->ink == strokes;
-  const GraininessMap grain = isKnown ? options.known->grain : GraininessMap(paths, grey, context);
+  const GraininessMap grain = isKnown ? std::move(options.known->grain) : GraininessMap(paths, grey, context);
+  if (options.known != nullptr) options.known->ink = options.known->skeleton = BitImage();
   BitImage bodies;
   const BitImage* ink = &strokes;
   bool anyPencil = false;

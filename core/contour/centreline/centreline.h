@@ -34,9 +34,9 @@ struct StrokesOfInk {
 /// crossings, gaps bridged, overdrawn strokes merged if asked), then the centre from the grey profile across the
 /// stroke.
 struct CentrelineOptions {
-  const BitImage* shapes = nullptr;     ///< Ink beside the strokes, which they may run into: they end at its rim.
-  double minWidths = 3.0;               ///< [stroke widths] Shorter strokes are left out.
-  const StrokesOfInk* known = nullptr;  ///< By the same parameters: what it holds is not sought again.
+  const BitImage* shapes = nullptr;  ///< Ink beside the strokes, which they may run into: they end at its rim.
+  double minWidths = 3.0;            ///< [stroke widths] Shorter strokes are left out.
+  StrokesOfInk* known = nullptr;  ///< By the same parameters: what it holds is not sought again, but taken out of it.
 };
 Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams&, const RunContext&,
                                const CentrelineOptions& options = {});

@@ -230,7 +230,8 @@ void measureAgain(TracedCurve& curve, const Piece& piece, const PageFrame& frame
 void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, const PageFrame& frame) {
   std::vector<bool> changed(pieces.pieces.size(), false);
   for (const Corner& corner : pieces.corners) {
-    const auto mark = static_cast<std::size_t>(corner.mark);
+    if (!corner.mark) continue;
+    const auto mark = static_cast<std::size_t>(*corner.mark);
     if (mark >= recipe.cornerMarks.size() || !(recipe.cornerMarks[mark].roundMm > 0.0)) continue;
     const Neighbours at = neighboursOf(set, pieces, corner);
     if (!at.before || !at.behind) continue;

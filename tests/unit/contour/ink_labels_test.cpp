@@ -112,19 +112,19 @@ TEST(InkLabels, AnAlphabetGetsOneTreatment) {
 // is nearly as large as in the letters.
 TEST(InkLabels, WordsOfAFinePenAreNotLettersOfAFeltPen) {
   test::LabelPage page(900, 500);
-  for (int i = 0; i < 9; ++i) {
-    const double x = 60.0 + 95.0 * i;
+  for (int i = 0; i < 18; ++i) {
+    const double x = 60.0 + 95.0 * (i % 9), y = 40.0 + 100.0 * (i / 9);
     page.begin(true);
-    page.line({{x, 60}, {x + 12, 120}}, 22.0);
-    page.line({{x + 12, 120}, {x + 40, 100}}, 22.0);
+    page.line({{x, y}, {x + 12, y + 60}}, 15.0);
+    page.line({{x + 12, y + 60}, {x + 40, y + 40}}, 15.0);
   }
   for (int row = 0; row < 2; ++row) {
     for (int i = 0; i < 5; ++i) {
       const double x = 50.0 + 170.0 * i, y = 280.0 + 110.0 * row;
       page.begin(false);
       page.line({{x, y}, {x + 20, y - 50}, {x + 30, y}, {x + 60, y - 40}, {x + 75, y}, {x + 110, y - 10}}, 5.0);
-      page.line({{x + 20, y - 50}, {x + 26, y - 46}, {x + 33, y}}, 5.0);
-      page.line({{x + 60, y - 40}, {x + 66, y - 38}, {x + 78, y}}, 5.0);
+      page.line({{x + 60, y - 40}, {x + 65, y - 25}, {x + 75, y}}, 5.0);
+      page.line({{x + 60, y - 40}, {x + 63, y - 20}, {x + 75, y}}, 5.0);
     }
   }
   const BitImage ink = page.ink(4);
