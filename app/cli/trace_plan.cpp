@@ -5,6 +5,7 @@
 #include <cctype>
 #include <utility>
 
+#include "app/cli/file_names.h"
 #include "app/cli/stage_dump.h"
 #include "core/base/conventions.h"
 #include "core/base/number_text.h"
@@ -14,6 +15,7 @@
 #include "core/exchange/point_file.h"
 #include "core/exchange/save_atomically.h"
 #include "core/image/pdf_scan.h"
+#include "core/pipeline/recipe/paper_presets.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/recipe/recipe_file.h"
 
@@ -285,20 +287,6 @@ Result<TracePlan::Dump> dumpOf(const std::string& dump) {
   return TracePlan::Dump{stage, path};
 }
 
-/// Whether two names mean one file, be it by way of links or of folders named differently. Of links that lead to no
-/// file yet what would be written counts.
-bool isSameFile(const fs::path& first, const fs::path& second) {
-  std::error_code code;
-  const fs::path a = saveTarget(first).value_or(first), b = saveTarget(second).value_or(second);
-  if (fs::equivalent(a, b, code)) return true;
-  const auto plain = [](const fs::path& path) {
-    std::error_code wrong;
-    fs::path whole = fs::weakly_canonical(fs::absolute(path, wrong), wrong);
-    return wrong ? path.lexically_normal() : whole.lexically_normal();
-  };
-  return plain(a) == plain(b);
-}
-
 /// No file is written over what is read, nor twice. Only the recipe may be saved where it was.
 Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan) {
   std::vector<fs::path> targets;
@@ -330,18 +318,6 @@ Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan
   return {};
 }
 
-/// "drawing-p2.svg" of "drawing.svg"; endings of two parts stay whole.
-std::string withPage(const std::string& name, int page) {
-  if (name.empty()) return name;
-  const fs::path path(name);
-  std::string file = path.filename().string(), ending = path.extension().string();
-  for (const char* whole : {".poly.csv", ".recipe.json", ".report.pdf", ".report.html"}) {
-    if (file.size() > std::string_view(whole).size() && file.ends_with(whole)) ending = whole;
-  }
-  file.insert(file.size() - ending.size(), "-p" + std::to_string(page));
-  return (path.parent_path() / file).string();
-}
-
 }  // namespace
 
 TraceArguments withCurvesAsImport(TraceArguments arguments) {
@@ -365,6 +341,12 @@ TraceArguments argumentsForPage(TraceArguments arguments, int page) {
 Result<Recipe> recipeOf(const TraceArguments& arguments) {
   auto recipe = readRecipe(arguments.recipe);
   if (!recipe) return recipe;
+  if (!arguments.asIn.empty()) {
+    const PaperPreset* paper = findPaperPreset(arguments.asIn);
+    if (paper == nullptr)
+      return wrong("There is no paper \"" + arguments.asIn + "\". --as-in takes " + paperPresetNames() + ".");
+    if (auto set = applyPaperPreset(*paper, *recipe); !set) return fail(set.error());
+  }
   for (const std::string& setting : arguments.settings) {
     if (auto set = applySetting(setting, *recipe); !set) return fail(set.error());
   }
@@ -463,6 +445,8 @@ Result<TracePlan> planTrace(const TraceArguments& arguments) {
   plan.threads = *threads;
   if (arguments.reportTargets && arguments.report.empty())
     return wrong("--report-targets needs a report to write to: add --report REPORT.json.");
+  if (arguments.reportSeries && arguments.report.empty())
+    return wrong("--report-series needs a report to write to: add --report REPORT.json.");
   for (const std::string& dump : arguments.dumps) {
     auto parsed = dumpOf(dump);
     if (!parsed) return fail(parsed.error());
@@ -472,6 +456,8 @@ Result<TracePlan> planTrace(const TraceArguments& arguments) {
   auto recipe = recipeOf(arguments);
   if (!recipe) return fail(recipe.error());
   plan.recipe = std::move(*recipe);
+  if (const PaperPreset* paper = findPaperPreset(arguments.asIn); paper != nullptr && !paper->cost.empty())
+    plan.notes.push_back("As in paper " + paper->id + ", " + paper->title + ": " + paper->cost);
   // Beside a scan they wait for its page.
   if (arguments.scan.empty()) {
     if (auto imported = importInto(arguments, nullptr, plan); !imported) return fail(imported.error());
