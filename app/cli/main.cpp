@@ -16,6 +16,7 @@
 #include "core/base/platform.h"
 #include "core/exchange/export_settings.h"
 #include "core/exchange/import_file.h"
+#include "core/pipeline/recipe/paper_presets.h"
 
 namespace {
 
@@ -58,6 +59,9 @@ void addDrawing(CLI::App& app, TraceArguments& a, const DrawingHelp& help) {
   app.add_option("scan", a.scan, help.scan)->type_name("SCAN");
   app.add_option("--recipe", a.recipe, help.recipe)->type_name("R.json");
   app.add_option("--page", a.page, help.page)->type_name(help.pages);
+  app.add_option("--as-in", a.asIn,
+                 "Everything as in a paper: " + paperPresetNames() + "; --set comes on top, a note says what it costs")
+      ->type_name("PAPER");
   addRepeated(app, "--set", a.settings, "NAME=VALUE", "Set a parameter (see batten-cli parameters); may be repeated");
   addRepeated(app, "--outline", a.outlines, "X,Y",
               "Follow the border of the ink near this place, px from the upper left; may be repeated");
@@ -135,6 +139,10 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   trace->add_option("--report", a.report, "Write figures of every stage and curve")->type_name("REPORT.json");
   trace->add_flag("--report-targets", a.reportTargets,
                   "Have the report say what each of the six targets would make of every curve, too; takes far longer");
+  trace->add_flag(
+      "--report-series", a.reportSeries,
+      "Have the report list knots, polynomial coefficients, and radius, curvature and its slope along every "
+      "curve, too");
   trace->add_flag("--explain", a.explain,
                   "Say how much of the ink the curves explain and how much of their length has no ink under it, in the "
                   "line printed and in the report; after the curves are written");

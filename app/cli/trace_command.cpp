@@ -147,6 +147,7 @@ class Trace {
         if (targets[i]) extras.targets[i] = std::move(*targets[i]);
       }
     }
+    extras.series = arguments_.reportSeries;
     extras.explanation = explanation_;
     extras.peakMemoryBytes = peakMemoryBytes();
     return save(arguments_.report, reportToJson(scan_, plan_.recipe, out_, extras));

@@ -24,6 +24,7 @@ struct TraceArguments {
   std::string flavour;                     ///< --flavour exact|bezier|cubic; empty: the preset's, else exact
   bool chords = false;                     ///< --chords
   std::string recipe;                      ///< --recipe
+  std::string asIn;                        ///< --as-in PAPER, before the settings
   std::vector<std::string> settings;       ///< --set stage.parameter=value
   std::vector<std::string> corners;        ///< --corner X,Y[,MM|,rMM][,g1|,g2|,g3]
   std::vector<std::string> segmentPoints;  ///< --segment-point X,Y
@@ -40,6 +41,7 @@ struct TraceArguments {
   std::vector<std::string> starts;         ///< --start X,Y
   std::string report;                      ///< --report
   bool reportTargets = false;              ///< --report-targets
+  bool reportSeries = false;               ///< --report-series
   bool explain = false;                    ///< --explain
   std::vector<std::string> dumps;          ///< --dump STAGE=FILE.png
   std::string saveRecipe;                  ///< --save-recipe

@@ -15,6 +15,7 @@
 #include "core/exchange/point_file.h"
 #include "core/exchange/save_atomically.h"
 #include "core/image/pdf_scan.h"
+#include "core/pipeline/recipe/paper_presets.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/recipe/recipe_file.h"
 
@@ -340,6 +341,12 @@ TraceArguments argumentsForPage(TraceArguments arguments, int page) {
 Result<Recipe> recipeOf(const TraceArguments& arguments) {
   auto recipe = readRecipe(arguments.recipe);
   if (!recipe) return recipe;
+  if (!arguments.asIn.empty()) {
+    const PaperPreset* paper = findPaperPreset(arguments.asIn);
+    if (paper == nullptr)
+      return wrong("There is no paper \"" + arguments.asIn + "\". --as-in takes " + paperPresetNames() + ".");
+    if (auto set = applyPaperPreset(*paper, *recipe); !set) return fail(set.error());
+  }
   for (const std::string& setting : arguments.settings) {
     if (auto set = applySetting(setting, *recipe); !set) return fail(set.error());
   }
@@ -438,6 +445,8 @@ Result<TracePlan> planTrace(const TraceArguments& arguments) {
   plan.threads = *threads;
   if (arguments.reportTargets && arguments.report.empty())
     return wrong("--report-targets needs a report to write to: add --report REPORT.json.");
+  if (arguments.reportSeries && arguments.report.empty())
+    return wrong("--report-series needs a report to write to: add --report REPORT.json.");
   for (const std::string& dump : arguments.dumps) {
     auto parsed = dumpOf(dump);
     if (!parsed) return fail(parsed.error());
@@ -447,6 +456,8 @@ Result<TracePlan> planTrace(const TraceArguments& arguments) {
   auto recipe = recipeOf(arguments);
   if (!recipe) return fail(recipe.error());
   plan.recipe = std::move(*recipe);
+  if (const PaperPreset* paper = findPaperPreset(arguments.asIn); paper != nullptr && !paper->cost.empty())
+    plan.notes.push_back("As in paper " + paper->id + ", " + paper->title + ": " + paper->cost);
   // Beside a scan they wait for its page.
   if (arguments.scan.empty()) {
     if (auto imported = importInto(arguments, nullptr, plan); !imported) return fail(imported.error());

@@ -29,6 +29,12 @@ enum class GradientUse {
   Directions,   ///< Points and directions; the lengths of the derivatives count less (uneven stations on even knots).
 };
 
+/// How far the curves of stations go.
+enum class ConstructEnds {
+  Line,      ///< To the ends of the line (default).
+  Stations,  ///< From the first station to the last, none of them held: m stations give m + 4 control points (000).
+};
+
 /// How a chain of typical curves comes about.
 enum class TypicalMode {
   Chain,    ///< All segments fitted together (default).
@@ -56,8 +62,12 @@ struct ConstructParams {
   double derivativeMagnitude = 1.0;  ///< [-] 0.1..3. Factor on the arc-corrected length of the first derivative.
   bool magnitudeAsInPaper = false;   ///< 1/3 of the mean distance of adjacent points instead (000; wrong by 3).
   GradientUse gradients = GradientUse::All;
-  int degree = 3;                         ///< 2..5. Control polygon only, as the next four.
-  SharpKnots knots = SharpKnots::Degree;  ///< Degree or Order.
+  /// Bezier without low pass: both sides of a joint take the mean of their curvatures. Off: the path before that
+  /// (001 Fig. 11 to 14), whose curvature jumps.
+  bool equaliseJoints = true;
+  ConstructEnds ends = ConstructEnds::Line;  ///< Nurbs, Bezier; open lines.
+  int degree = 3;                            ///< 2..5. Control polygon only, as the next four.
+  SharpKnots knots = SharpKnots::Degree;
   PointRemoval removal = PointRemoval::Step;
   double removalStepPx = 8.0;       ///< [px] 0..200. Distance of the points that are kept; 0 keeps all.
   double removalTolerancePx = 1.0;  ///< [px] 0..50. Farthest that a removed point lies from the polygon.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,9 +60,19 @@ struct ExtremumNote {
   std::optional<int> constraint = {};  ///< Id of the constraint that was attached to it.
 };
 
+/// Why a segment of a chain is no typical curve.
+enum class SegmentCause {
+  None,        ///< It is one.
+  Straight,    ///< It turns by less than 3 degrees.
+  Inflection,  ///< The curvature changes its sign, or has none at an end.
+  Even,        ///< The curvature hardly changes: a typical curve would rise and fall there (002: monotone only for h <=
+               ///< cos phi or h >= 1 / cos phi); or none lies near enough.
+};
+
 /// One segment of a typical chain.
 struct SegmentNote {
-  bool typical = true;          ///< Else a quintic between two, at an inflection or a straight part.
+  bool typical = true;  ///< Else a quintic between two, for the reason below.
+  SegmentCause cause = SegmentCause::None;
   Vec2 startMm = Vec2::Zero();  ///< Where it starts.
   double lengthMm = 0.0;
   double ratio = 1.0;                       ///< h
@@ -69,6 +80,16 @@ struct SegmentNote {
   double startKappa = 0.0, endKappa = 0.0;  ///< [1/mm]
   bool monotone = false;                    ///< h <= cos(phi) or h >= 1 / cos(phi); typical segments only.
 };
+
+/// Part of the length of a chain that typical curves make, 0..1.
+inline double typicalShare(std::span<const SegmentNote> segments) {
+  double typical = 0.0, all = 0.0;
+  for (const SegmentNote& one : segments) {
+    all += one.lengthMm;
+    if (one.typical) typical += one.lengthMm;
+  }
+  return all > 0.0 ? typical / all : 0.0;
+}
 
 /// What making a curve light has won (construct.light).
 struct LightNote {
@@ -81,7 +102,8 @@ struct LightNote {
   int sectionsDense = 0;  ///< … of which these are as dense as they were.
   double tolerancePx = 0.0;  ///< [px] that it was made with.
   int corners = 0;  ///< Sharp corners inside, which were found at the scale of the tolerance (construct.detail).
-  std::string why;  ///< Why the curve, or a section of it, stayed dense; else empty.
+  bool isSimplified = false;  ///< Made with construct.detail above 0: what was meant, which fairing starts from.
+  std::string why;            ///< Why the curve, or a section of it, stayed dense; else empty.
 };
 
 struct ConstructReport {
@@ -109,8 +131,9 @@ struct ConstructedPiece {
   /// rational quadratics) and control polygons (their own degree).
   NurbsCurve curve;
   ConstructReport report;
-  NurbsCurve dense =
-      {};  ///< What `curve` was made light of, degree 5: what fairing starts from. Empty: `curve` itself.
+  /// What fairing starts from; empty: `curve` itself. Of a light curve the one that it was made of, degree 5; of one
+  /// that was simplified (LightNote::isSimplified) the same curve with more knots.
+  NurbsCurve dense = {};
 };
 
 }  // namespace batten

@@ -7,9 +7,11 @@
 #include <numbers>
 
 #include "core/construct/pieces.h"
+#include "core/document/curve_series.h"
 #include "core/fairing/curve_comparison.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_report.h"
+#include "core/fairing/target_advice.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -41,6 +43,20 @@ Json figuresToJson(const CurveFigures& f, const PageFrame& frame) {
           {"curvature_jump_at_joints", number(f.curvatureJump)}};
 }
 
+const char* causeName(SegmentCause cause) {
+  switch (cause) {
+    case SegmentCause::None:
+      break;
+    case SegmentCause::Straight:
+      return "straight";
+    case SegmentCause::Inflection:
+      return "inflection";
+    case SegmentCause::Even:
+      return "hardly changing curvature";
+  }
+  return "";
+}
+
 Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
   Json json{{"stopped", name(r.why)},
             {"note", r.note},
@@ -66,8 +82,10 @@ Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
   if (r.pointsBefore > 0) {
     json["polygon_points"] = {{"before", r.pointsBefore}, {"after", r.pointsAfter}, {"added", r.pointsAdded}};
   }
+  if (!r.segments.empty()) json["typical_share"] = number(typicalShare(r.segments));
   for (const SegmentNote& n : r.segments) {
     json["segments"].push_back({{"kind", n.typical ? "typical" : "transition"},
+                                {"cause", causeName(n.cause)},
                                 {"start_mm", pointToJson(n.startMm)},
                                 {"length_mm", number(n.lengthMm)},
                                 {"ratio", number(n.ratio)},
@@ -91,6 +109,19 @@ Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
   return json;
 }
 
+Json logAestheticToJson(const FairingReport& r) {
+  Json list = Json::array();
+  for (const LogAestheticSpan& one : r.logAesthetic) {
+    list.push_back({{"from", number(one.from)},
+                    {"to", number(one.to)},
+                    {"alpha", number(one.alpha)},
+                    {"lambda", number(one.lambda)},
+                    {"start_radius_mm", number(one.startRadiusMm)},
+                    {"end_radius_mm", number(one.endRadiusMm)}});
+  }
+  return list;
+}
+
 Json fairingToJson(const FairingReport& r) {
   return {{"stopped", name(r.why)},
           {"note", r.note},
@@ -100,12 +131,16 @@ Json fairingToJson(const FairingReport& r) {
           {"max_deviation_mm", number(r.maxDeviationMm)},
           {"needed_mm", number(r.neededMm)},
           {"within_budget", r.withinTolerance},
+          {"similarity_to_sketch", r.similarityAfter ? number(*r.similarityAfter) : Json()},
           {"noise_of_points_mm", number(r.noiseMm)},
+          {"log_aesthetic", logAestheticToJson(r)},
+          {"rounding_moved_mm", number(r.roundedMm)},
           {"curvature_extrema_before", r.extremaBefore},
           {"curvature_extrema_after", r.extremaAfter}};
 }
 
-Json targetsToJson(const TargetOutcomes& outcomes) {
+Json targetsToJson(const TargetOutcomes& outcomes, double toleranceMm) {
+  const int advised = advisedDegree(outcomes, toleranceMm);
   Json list = Json::array();
   for (std::size_t i = 0; i < outcomes.faired.size(); ++i) {
     const TargetProfile& p = outcomes.targets.profiles[i];
@@ -116,7 +151,7 @@ Json targetsToJson(const TargetOutcomes& outcomes) {
               {"rms_percent", number(p.rmsPercent)},
               {"monotone", p.isMonotone},
               {"aicc", number(p.aicc)},
-              {"recommended", outcomes.recommendedDegree == static_cast<int>(i) + 1}};
+              {"recommended", advised == static_cast<int>(i) + 1}};
     if (!p.valid) json["problem"] = p.problem;
     if (outcomes.faired[i]) {
       json["fairing"] = fairingToJson(outcomes.faired[i]->report);
@@ -177,9 +212,13 @@ Json curveToJson(const PipelineOutput& out, const ReportExtras& extras, std::siz
   json["choice"] = choiceToJson(c);
   json["faired"] = figuresToJson(c.fairedFigures, out.frame);
   json["fairing"] = fairingToJson(c.fairing);
+  if (extras.series) {
+    json["sketched_curve"] = curveSeriesToJson(c.sketched);
+    if (!(c.faired == c.sketched)) json["faired_curve"] = curveSeriesToJson(c.faired);
+  }
   if (index < extras.targets.size() && extras.targets[index]) {
-    json["recommended_degree"] = extras.targets[index]->recommendedDegree;
-    json["targets"] = targetsToJson(*extras.targets[index]);
+    json["recommended_degree"] = advisedDegree(*extras.targets[index], c.fairingUsed.toleranceMm);
+    json["targets"] = targetsToJson(*extras.targets[index], c.fairingUsed.toleranceMm);
   } else if (index < extras.targetProblems.size() && !extras.targetProblems[index].empty()) {
     json["targets_problem"] = extras.targetProblems[index];
   }

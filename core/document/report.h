@@ -17,8 +17,9 @@ struct ReportExtras {
   double readMilliseconds = 0.0;                       ///< Reading the scan.
   std::vector<std::optional<TargetOutcomes>> targets;  ///< One per faired curve; absent = not computed.
   std::vector<std::string> targetProblems;             ///< Why, where a curve's targets failed; same size or empty.
-  std::optional<Explanation> explanation;              ///< Absent = not asked for.
-  std::uint64_t peakMemoryBytes = 0;                   ///< 0 = unknown.
+  bool series = false;  ///< Knots, polynomials and series along every curve (curveSeriesToJson), sketched and faired.
+  std::optional<Explanation> explanation;  ///< Absent = not asked for.
+  std::uint64_t peakMemoryBytes = 0;       ///< 0 = unknown.
 };
 
 /// The report as JSON, "batten-report" version 1: image; per stage milliseconds and counts; per contour length, area,

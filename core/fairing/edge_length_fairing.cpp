@@ -12,6 +12,7 @@
 #include "core/fairing/edge_lengths.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_report.h"
+#include "core/fairing/log_aesthetic.h"
 #include "core/fairing/low_pass.h"
 #include "core/fairing/shape_modification.h"
 
@@ -48,6 +49,9 @@ std::vector<Quintic> quinticsOf(const NurbsCurve& curve) {
 Result<TargetProfile> profileFor(const NurbsCurve& path, bool closed, const FairingParams& params) {
   if (params.mode == FairingMode::LowPass) return lowPassedProfile(path, closed, params);
   if (params.target == kDrawnTarget) return drawnProfile(params.profile, closed);
+  if (params.target == kLogAestheticTarget)
+    return logAestheticTarget(path, closed, targetSplits(path, closed, params), params.alpha, params.targets.samples)
+        .profile;
   const TargetSet targets = fitTargets(path, params.targets, closed);
   const int degree = params.target > 0 ? params.target : targets.recommendedDegree;
   return targets.profiles[std::max(degree, 1) - 1];

@@ -10,6 +10,7 @@
 #include "core/fairing/fairing_line.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/fairing_setup.h"
+#include "core/fairing/log_aesthetic.h"
 #include "core/fairing/low_pass.h"
 #include "core/fairing/monotone_fairing.h"
 #include "core/fairing/natural_spans.h"
@@ -90,8 +91,26 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
   }
 }
 
-/// The lowest degree that is met, where one is.
-void recommend(TargetsRun& run) {
+/// The highest S of the modified curve (003 section 6); 0 where no curve has one.
+int mostSimilar(const TargetOutcomes& outcomes) {
+  int degree = 0;
+  double best = 0.0;
+  for (std::size_t i = 0; i < outcomes.faired.size(); ++i) {
+    if (!outcomes.faired[i] || !outcomes.faired[i]->report.similarityAfter) continue;
+    const double s = *outcomes.faired[i]->report.similarityAfter;
+    if (degree > 0 && s <= best) continue;
+    degree = static_cast<int>(i) + 1;
+    best = s;
+  }
+  return degree;
+}
+
+/// The lowest degree that is met, where one is, or the most similar.
+void recommend(TargetsRun& run, TargetChoice choice) {
+  if (choice == TargetChoice::Similarity) {
+    if (const int degree = mostSimilar(*run.outcomes)) run.outcomes->recommendedDegree = degree;
+    return;
+  }
   const auto met = std::find(run.isMet.begin(), run.isMet.end(), true);
   if (met != run.isMet.end()) run.outcomes->recommendedDegree = static_cast<int>(met - run.isMet.begin()) + 1;
 }
@@ -124,9 +143,10 @@ std::vector<Result<TargetOutcomes>> fairAllTargets(std::span<const TargetsJob> j
     }
   });
   std::vector<Result<TargetOutcomes>> results;
-  for (TargetsRun& run : runs) {
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    TargetsRun& run = runs[i];
     if (context.isCancelled()) run.outcomes = cancelled();
-    if (run.outcomes) recommend(run);
+    if (run.outcomes) recommend(run, jobs[i].params.targetChoice);
     results.push_back(std::move(run.outcomes));
   }
   return results;
@@ -158,6 +178,16 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
     const TargetProfile drawn = drawnProfile(params.profile, closed);
     if (!drawn.valid) return unchanged(curve, closed, Termination::NotRun, drawn.problem);
     return modifyShape(curve, closed, drawn, params, context);
+  }
+  if (params.target == kLogAestheticTarget) {
+    const auto target =
+        logAestheticTarget(curve, closed, targetSplits(curve, closed, params), params.alpha, params.targets.samples);
+    if (!target.profile.valid) return unchanged(curve, closed, Termination::NotRun, target.profile.problem);
+    auto faired = withSetup(curve, closed, params, [&](const auto& setup, const FairingParams& within) {
+      return modifyShape(setup, target.profile, within.toleranceMm, context);
+    });
+    if (faired) faired->report.logAesthetic = target.spans;
+    return faired;
   }
   return fairToTarget(curve, closed, params, context);
 }

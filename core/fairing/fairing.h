@@ -29,14 +29,15 @@ struct TargetOutcomes {
   std::array<std::optional<FairedCurve>, 6> faired;
   std::array<std::string, 6> problems;
   /// The lowest degree that is met within the tolerance without a curvature extremum more; where none is, the one that
-  /// TargetSet recommends. 0 = none.
+  /// TargetSet recommends. With TargetChoice::Similarity the one of the highest S of the modified curve. 0 = none.
   int recommendedDegree = 0;
   std::vector<double> splits;       ///< Shares of the arc length at which the polynomials meet.
   std::optional<ProfileSpan> span;  ///< The span that alone was moved; absent: the whole curve.
 };
 Result<TargetOutcomes> fairAllTargets(const NurbsCurve&, bool closed, const FairingParams&, const RunContext&);
 
-/// Where the targets of a curve are split: as the parameters say, or at its natural spans.
+/// Where the targets of a curve are split: as the parameters say, or at its natural spans, and at sharp corners inside
+/// it (a closed curve that begins at one: also at 0).
 std::vector<double> targetSplits(const NurbsCurve&, bool closed, const FairingParams&);
 
 /// The same for several curves at once: all targets of all curves share the threads, the longest first.

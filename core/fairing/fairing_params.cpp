@@ -14,11 +14,18 @@ std::optional<Error> validate(const FairingParams& params) {
         "The fairing tolerance must lie between 0.001 and 20 mm, not at " + numberToText(params.toleranceMm) + ".",
         {}};
   }
-  if (params.target < 0 || params.target > kDrawnTarget) {
+  if (params.target < 0 || params.target > kLogAestheticTarget) {
     return Error{ErrorCode::BadParameter,
-                 "The fairing target must be 1 to 6, 0 for the recommended one or 7 for the drawn one, not " +
+                 "The fairing target must be 1 to 6, 0 for the recommended one, 7 for the drawn one or 8 for a "
+                 "log-aesthetic one, not " +
                      std::to_string(params.target) + ".",
                  {}};
+  }
+  if (params.alpha && !(*params.alpha >= kLeastAlpha && *params.alpha <= kMostAlpha)) {
+    return Error{
+        ErrorCode::BadParameter,
+        "The alpha of a log-aesthetic target must lie between -3 and 6, not at " + numberToText(*params.alpha) + ".",
+        {}};
   }
   if (!(params.lowPassMm >= 0.1 && params.lowPassMm <= 10000.0)) {
     return Error{ErrorCode::BadParameter,

@@ -30,8 +30,17 @@ enum class FairingMeans {
   EdgeLengths,    ///< Bezier path: the lengths of the edges of each piece's polygon, not their directions (001).
 };
 
+/// Which target is recommended.
+enum class TargetChoice {
+  Simplest,    ///< The lowest degree that is met within the tolerance without a curvature extremum more (default).
+  Similarity,  ///< The highest similarity S (000, 003), which rises with the degree.
+};
+
 /// FairingParams::target: the profile that the user has drawn.
 inline constexpr int kDrawnTarget = 7;
+/// FairingParams::target: log-aesthetic between the splits, rho^alpha linear in the arc length (log_aesthetic.h).
+inline constexpr int kLogAestheticTarget = 8;
+inline constexpr double kLeastAlpha = -3.0, kMostAlpha = 6.0;
 /// FairingParams::keepExtrema: as few as the tolerance allows.
 inline constexpr int kKeepSignificant = -1;
 
@@ -51,8 +60,10 @@ struct SpanTarget {
 
 struct FairingParams {
   FairingMode mode = FairingMode::None;
-  int target = 0;            ///< 0..7. Degree of the profile; 0 = the recommended one, 7 = the drawn one.
-  double toleranceMm = 0.2;  ///< [mm] 0.001..20. Largest move of the curve from the sketched one; never exceeded.
+  int target = 0;  ///< 0..8. Degree of the profile; 0 = the recommended one, 7 = the drawn one, 8 = log-aesthetic.
+  TargetChoice targetChoice = TargetChoice::Simplest;
+  std::optional<double> alpha;  ///< -3..6. Of a log-aesthetic target; absent: what each span comes nearest to.
+  double toleranceMm = 0.2;     ///< [mm] 0.001..20. Largest move of the curve from the sketched one; never exceeded.
   TolerancePolicy tolerancePolicy = TolerancePolicy::AsNeeded;  ///< Tolerance mode.
   FairingMeans means = FairingMeans::ControlPoints;  ///< Target and low-pass modes; edge lengths only on Bezier paths.
   double lowPassMm =

@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/termination.h"
 #include "core/curve/nurbs_curve.h"
 
 namespace batten {
+
+/// A log-aesthetic stretch of a target (log_aesthetic.h).
+struct LogAestheticSpan {
+  double from = 0.0, to = 1.0;  ///< Shares of the arc length; closed: `to` may lie beyond 1.
+  double alpha = 0.0;
+  /// [-] Miura's Lambda for a radius of 1 at its start: rho^alpha = 1 + alpha Lambda s (alpha 0: rho = e^(Lambda s)).
+  /// 0 where a stretch begins or ends straight, or is a circle.
+  double lambda = 0.0;
+  double startRadiusMm = 0.0, endRadiusMm = 0.0;  ///< Signed; 0 = straight there.
+};
 
 struct FairingReport {
   Termination why = Termination::NotRun;
@@ -16,9 +28,14 @@ struct FairingReport {
   double maxDeviationMm = 0.0;                         ///< From the sketched curve.
   double neededMm = 0.0;        ///< Target mode: deviation that meeting the target fully would take.
   bool withinTolerance = true;  ///< Target mode: the target was met within the tolerance.
+  /// Target mode: S (003 section 6) of the faired curve against the sketched one (similarityToSketch).
+  std::optional<double> similarityAfter;
+  std::vector<LogAestheticSpan> logAesthetic;  ///< Target 8: what the curve was fitted to.
   int extremaBefore = 0, extremaAfter = 0;
-  double noiseMm = 0.0;  ///< Tolerance mode, as needed: standard deviation of a stretch of 8 px of the line's
-                         ///< points; 0 = not known.
+  double roundedMm = 0.0;  ///< Largest distance that rounding its corners moved the faired curve; not in the figures
+                           ///< above, which are of fairing alone.
+  double noiseMm = 0.0;    ///< Tolerance mode, as needed: standard deviation of a stretch of 8 px of the line's
+                           ///< points; 0 = not known.
 };
 
 struct FairedCurve {

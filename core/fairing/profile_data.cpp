@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "core/base/conventions.h"
+#include "core/curve/curvature.h"
+#include "core/fairing/curvature_samples.h"
 #include "core/fairing/similarity.h"
 
 namespace batten {
@@ -14,6 +16,7 @@ namespace {
 /// |rho| counts as at most this many extents of the curve.
 constexpr double kRadiusLimit = 10.0;
 constexpr double kExactShare = 1e-6;
+constexpr int kLeastCompared = 121;  // samples
 
 double clippedRadius(double kappa, double largest) {
   return std::abs(kappa) * largest > 1.0 ? 1.0 / kappa : std::copysign(largest, kappa);
@@ -48,6 +51,19 @@ ProfileData profileData(std::vector<double> perimeter, std::vector<double> kappa
   data.values = data.radius;
   for (double& rho : data.values) rho = right ? -std::abs(rho) : std::abs(rho);
   return data;
+}
+
+double similarityToSketch(const NurbsCurve& modified, const NurbsCurve& sketched) {
+  if (modified.isEmpty() || sketched.isEmpty()) return 0.0;
+  const int count =
+      std::max<int>(static_cast<int>(modified.breaks().size()), static_cast<int>(sketched.breaks().size()));
+  const auto dataOf = [&](const NurbsCurve& curve) {
+    CurvatureSamples samples = sampledCurvature(curve, std::max(kLeastCompared, 4 * count + 1));
+    return profileData(std::move(samples.perimeter), std::move(samples.kappa), extent(curve),
+                       TargetQuantity::Curvature);
+  };
+  const ProfileData a = dataOf(modified), b = dataOf(sketched);
+  return b.bendsBothWays ? similarity(a.kappa, b.kappa) : similarity(a.radius, b.radius);
 }
 
 double meanSquareDifference(const std::vector<double>& a, const std::vector<double>& b) {

@@ -24,6 +24,10 @@ ProfileData profileData(std::vector<double> perimeter, std::vector<double> kappa
 void judgeProfile(TargetProfile&, const ProfileData&, const std::vector<double>& fitted, int coefficientCount,
                   int controlPoints);
 
+/// S (003 section 6) of a modified curve against the curve that it was made of: of their radii over the perimeter, both
+/// rescaled to 1, or where the curve bends both ways and its radius has no end, of their curvatures.
+double similarityToSketch(const NurbsCurve& modified, const NurbsCurve& sketched);
+
 double meanSquareDifference(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace batten

@@ -13,6 +13,7 @@
 #include "core/fairing/coarse_setups.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/fairing_state.h"
+#include "core/fairing/profile_data.h"
 #include "core/fairing/target_steps.h"
 #include "core/fairing/tolerance_fairing.h"
 
@@ -29,8 +30,11 @@ constexpr double kStuckShare = 0.8;
 /// Room for what lies between the places where the deviation is measured.
 constexpr double kTargetRoom = 0.999;
 
-constexpr const char* kNothingWon =
-    "Left as sketched: within the tolerance, this target would add curvature extrema. Raise the tolerance, split the "
+constexpr const char* kNothingNearer =
+    "Left as sketched: nothing within the tolerance comes nearer to this target without more curvature extrema. Raise "
+    "the tolerance, split the profile, or smooth without a target.";
+constexpr const char* kTargetAddsExtrema =
+    "Left as sketched: the curve that meets this target has more curvature extrema. Choose another degree, split the "
     "profile, or smooth without a target.";
 
 /// A sketch of so many extrema trembles, when over these spans it has less than half of them. Fewer and fewer of them
@@ -57,13 +61,15 @@ std::vector<std::shared_ptr<const FairingSetup>> calmSetups(const std::shared_pt
 class ShapeModification {
  public:
   ShapeModification(const std::shared_ptr<const FairingSetup>& setup, const FairingObjective& objective,
-                    double toleranceMm, const RunContext& context, ExtremaAsked asked)
+                    double toleranceMm, const RunContext& context, ModificationEffort effort)
       : sketch_(*setup),
         objective_(objective),
         toleranceMm_(toleranceMm),
         context_(context),
-        asked_(asked == ExtremaAsked::None ? 0 : extremaAsked(*setup, objective)) {
-    if (asked == ExtremaAsked::UpToSketch) asked_ = std::min(asked_, countedExtrema(setup->original, setup->closed));
+        onlyIfMet_(effort.onlyIfMet),
+        asked_(effort.asked == ExtremaAsked::None ? 0 : extremaAsked(*setup, objective)) {
+    if (effort.asked == ExtremaAsked::UpToSketch)
+      asked_ = std::min(asked_, countedExtrema(setup->original, setup->closed));
     open(setup.get());
     // Where the target is met without tremor, there is none to be passed over.
     if (!courses_.empty() && courses_.front().steps.all().front().extrema <= asked_) return;
@@ -92,6 +98,7 @@ class ShapeModification {
       }
     }
     report_.withinTolerance = report_.neededMm <= kTargetRoom * toleranceMm_;
+    if (onlyIfMet_ && !report_.withinTolerance) return done();
     for (const double tolerance : kRoundTolerances) {
       if (tolerance <= toleranceMm_) useRound(tolerance);
     }
@@ -217,8 +224,8 @@ class ShapeModification {
     report_.why = course_ ? best_.why : Termination::FixedPoint;
     if (!course_ && (!report_.withinTolerance || std::any_of(own.all().begin(), own.all().end(), adds))) {
       report_.why = Termination::ToleranceLimited;
+      report_.note = report_.withinTolerance ? kTargetAddsExtrema : kNothingNearer;
       report_.withinTolerance = false;
-      report_.note = kNothingWon;
     } else if (!report_.withinTolerance) {
       report_.why = Termination::ToleranceLimited;
       report_.note = "The profile was followed as far as the tolerance allows.";
@@ -249,6 +256,7 @@ class ShapeModification {
   const RunContext& context_;
   std::vector<std::shared_ptr<const FairingSetup>> calm_;
   std::vector<Course> courses_;
+  bool onlyIfMet_;
   int asked_;
   TargetStep best_;
   const Course* course_ = nullptr;  ///< To which the best one belongs; null: the sketch is the best.
@@ -258,17 +266,19 @@ class ShapeModification {
 }  // namespace
 
 Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
-                                double toleranceMm, const RunContext& context, ExtremaAsked asked) {
+                                double toleranceMm, const RunContext& context, ModificationEffort effort) {
   const auto objective = targetObjective(*setup, profile);
   if (!objective) return fail(objective.error());
-  return ShapeModification(setup, *objective, toleranceMm, context, asked).run();
+  auto faired = ShapeModification(setup, *objective, toleranceMm, context, effort).run();
+  if (faired) faired->report.similarityAfter = similarityToSketch(faired->curve, setup->sketchedCurve());
+  return faired;
 }
 
 Result<FairedCurve> modifyShape(const NurbsCurve& curve, bool closed, const TargetProfile& profile,
                                 const FairingParams& params, const RunContext& context) {
   return withSetup(curve, closed, params,
                    [&](const std::shared_ptr<const FairingSetup>& setup, const FairingParams& within) {
-                     return modifyShape(setup, profile, within.toleranceMm, context, ExtremaAsked::OfProfile);
+                     return modifyShape(setup, profile, within.toleranceMm, context, {ExtremaAsked::OfProfile});
                    });
 }
 

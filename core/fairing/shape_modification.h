@@ -27,8 +27,13 @@ enum class ExtremaAsked {
   OfProfile,   ///< Those of the profile: the user has drawn it.
 };
 
+struct ModificationEffort {
+  ExtremaAsked asked = ExtremaAsked::UpToSketch;
+  bool onlyIfMet = false;  ///< Where the tolerance does not allow the whole target, the sketch comes back at once.
+};
+
 /// The same on a setup that several fairings share.
 Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
-                                double toleranceMm, const RunContext& context, ExtremaAsked = ExtremaAsked::UpToSketch);
+                                double toleranceMm, const RunContext& context, ModificationEffort effort = {});
 
 }  // namespace batten

@@ -174,6 +174,8 @@ void addReport(FairingReport& report, const FairingReport& one) {
   report.objectiveAfter = std::max(report.objectiveAfter, one.objectiveAfter);
   report.maxDeviationMm = std::max(report.maxDeviationMm, one.maxDeviationMm);
   report.neededMm = std::max(report.neededMm, one.neededMm);
+  if (one.similarityAfter)
+    report.similarityAfter = std::min(report.similarityAfter.value_or(1.0), *one.similarityAfter);
   report.withinTolerance = report.withinTolerance && one.withinTolerance;
 }
 

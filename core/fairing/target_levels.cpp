@@ -4,16 +4,24 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/fairing/corner_sections.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/natural_spans.h"
 #include "core/fairing/shape_modification.h"
 #include "core/fairing/span_fairing.h"
+#include "core/fairing/target_steps.h"
 
 namespace batten {
 namespace {
 
 /// A profile of more polynomials says nothing that the curve does not say itself.
 constexpr std::size_t kMostSplits = 24;
+
+/// Extrema that a profile itself asks for.
+int extremaOf(const FairingSetup& setup, const TargetProfile& profile) {
+  const auto objective = targetObjective(setup, profile);
+  return objective ? extremaAsked(setup, *objective) : 0;
+}
 
 bool hasNaturalSpans(const TargetParams& params) {
   return params.splits.empty() && params.spans == TargetSpans::Natural && params.quantity == TargetQuantity::Curvature;
@@ -22,7 +30,18 @@ bool hasNaturalSpans(const TargetParams& params) {
 }  // namespace
 
 std::vector<double> targetSplits(const NurbsCurve& curve, bool closed, const FairingParams& params) {
-  return hasNaturalSpans(params.targets) ? naturalSplits(curve, closed, params.toleranceMm) : params.targets.splits;
+  const bool isNatural = hasNaturalSpans(params.targets);
+  const auto sections = cornerSections(curve, closed);
+  if (sections.empty()) return isNatural ? naturalSplits(curve, closed, params.toleranceMm) : params.targets.splits;
+  std::vector<double> splits = isNatural ? std::vector<double>{} : params.targets.splits;
+  for (const CornerSection& section : sections) {
+    if (section.span.from > 0.0 || closed) splits.push_back(section.span.from);
+    if (!isNatural || section.isStraight) continue;
+    for (const double f : naturalSplits(section.curve, false, params.toleranceMm))
+      splits.push_back(section.span.from + f * (section.span.to - section.span.from));
+  }
+  std::sort(splits.begin(), splits.end());
+  return splits;
 }
 
 std::vector<TargetLevel> targetLevels(const NurbsCurve& curve, bool closed, const FairingParams& params) {
@@ -40,14 +59,16 @@ std::vector<TargetLevel> targetLevels(const NurbsCurve& curve, bool closed, cons
 
 Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& setup,
                                     std::span<const TargetLevel> levels, int degree, double toleranceMm,
-                                    const RunContext& context) {
+                                    const RunContext& context, bool onlyIfMet) {
   std::optional<LevelOutcome> best;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     // No fewer than the extrema between the spans are looked for.
     const auto fewest = static_cast<int>(levels.front().splits.size());
     if (best && best->faired.report.extremaAfter <= fewest) break;
-    auto faired =
-        modifyShape(setup, levels[i].targets.profiles[static_cast<std::size_t>(degree) - 1], toleranceMm, context);
+    const TargetProfile& profile = levels[i].targets.profiles[static_cast<std::size_t>(degree) - 1];
+    // More spans ask for more extrema: they win none of those that are left.
+    if (best && best->faired.report.extremaAfter <= extremaOf(*setup, profile)) break;
+    auto faired = modifyShape(setup, profile, toleranceMm, context, {ExtremaAsked::UpToSketch, onlyIfMet});
     if (!faired && best) break;
     if (!faired) return fail(faired.error());
     if (!best || faired->report.extremaAfter < best->faired.report.extremaAfter)
@@ -69,13 +90,25 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
     if (!profile.valid) return unchanged(curve, closed, Termination::Degenerate, profile.problem);
   }
   return withSetup(curve, closed, params, [&](const auto& setup, const FairingParams& within) -> Result<FairedCurve> {
-    const auto toDegree = [&](int degree, std::span<const TargetLevel> over) -> Result<LevelOutcome> {
-      return fairOverLevels(setup, over, degree, within.toleranceMm, context);
+    const auto toDegree = [&](int degree, std::span<const TargetLevel> over,
+                              bool onlyIfMet = false) -> Result<LevelOutcome> {
+      return fairOverLevels(setup, over, degree, within.toleranceMm, context, onlyIfMet);
     };
     int degree = params.target;
+    if (degree == 0 && params.targetChoice == TargetChoice::Similarity) {
+      std::optional<LevelOutcome> best;
+      for (int tried = 1; tried <= 6; ++tried) {
+        if (!first.profiles[static_cast<std::size_t>(tried) - 1].valid) continue;
+        auto outcome = toDegree(tried, levels);
+        if (!outcome) return fail(outcome.error());
+        const double s = outcome->faired.report.similarityAfter.value_or(-1.0);
+        if (!best || s > best->faired.report.similarityAfter.value_or(-1.0)) best = std::move(*outcome);
+      }
+      if (best) return std::move(best->faired);
+    }
     for (int tried = 1; tried <= 6 && degree == 0; ++tried) {
       if (!first.profiles[static_cast<std::size_t>(tried) - 1].valid) continue;
-      auto outcome = toDegree(tried, std::span(levels).first(1));
+      auto outcome = toDegree(tried, std::span(levels).first(1), true);
       if (!outcome) return fail(outcome.error());
       if (outcome->isMet()) return std::move(outcome->faired);
     }

@@ -35,9 +35,10 @@ struct LevelOutcome {
 };
 
 /// The level whose curve has the fewest extrema, of those the first: one that has no more than there are splits of the
-/// first level ends the search.
+/// first level ends the search, and a level that asks for no fewer than that curve has. `onlyIfMet`: see
+/// ModificationEffort.
 Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>&, std::span<const TargetLevel>,
-                                    int degree, double toleranceMm, const RunContext&);
+                                    int degree, double toleranceMm, const RunContext&, bool onlyIfMet = false);
 
 /// Target mode, the drawn profile excepted.
 Result<FairedCurve> fairToTarget(const NurbsCurve&, bool closed, const FairingParams&, const RunContext&);

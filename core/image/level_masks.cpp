@@ -296,7 +296,7 @@ LevelMasks compareWithLevels(const GreyImage& image, const RegionThresholds& t, 
   const bool wantFaint = params.reach < 1.0, wantCertain = wantFaint || params.speckArea > 0;
   const BitImage blank(image.width, image.height);
   LevelMasks masks{blank, wantCertain ? blank : BitImage(), wantFaint ? blank : BitImage()};
-  const double variance = t.smoothingPx * t.smoothingPx;
+  const double variance = params.smooth ? t.smoothingPx * t.smoothingPx : 0.0;
   const Comparison comparison{
       image,
       t.paper,

@@ -32,10 +32,12 @@ struct ThresholdParams {
   double manualLevel = 128.0;  ///< [grey 0..255] Threshold of every region in Manual mode.
   double strength = 1.0;    ///< [-] 0.2..3. Scales the automatic contrast asked of ink: larger keeps only darker lines.
   bool interpolate = true;  ///< Bilinear between region centres (no seams); off: blocks, as in the paper.
-  double reach = 0.0;       ///< [-] 0..1. Share of the contrast asked of ink that thin, long faint lines need; smaller
-                            ///< keeps fainter ones, 1 = ink as it is, 0 = chosen by the program.
-  int speckArea = 20;       ///< [px] >= 0. Smaller pieces of ink are specks and are dropped; 0 keeps all.
-  int holeArea = 10;        ///< [px] >= 0. Smaller holes inside ink are filled; 0 keeps all.
+  bool smooth = true;  ///< A Gaussian as wide as the paper's noise asks for comes before the thresholds; off: none,
+                       ///< as in the papers.
+  double reach = 0.0;  ///< [-] 0..1. Share of the contrast asked of ink that thin, long faint lines need; smaller
+                       ///< keeps fainter ones, 1 = ink as it is, 0 = chosen by the program.
+  int speckArea = 20;  ///< [px] >= 0. Smaller pieces of ink are specks and are dropped; 0 keeps all.
+  int holeArea = 10;   ///< [px] >= 0. Smaller holes inside ink are filled; 0 keeps all.
   /// [grey 0..255] The user's own thresholds on the scan's scale, at the region's centre; absent = automatic.
   std::array<std::optional<double>, kRegions> grid{};
   bool operator==(const ThresholdParams&) const = default;

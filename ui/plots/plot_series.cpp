@@ -40,7 +40,7 @@ void add(PlotData& data, PlotRole role, const std::vector<CurveSample>& samples,
 }
 
 int chosenDegree(const TracedCurve& curve, const TargetOutcomes& targets) {
-  if (curve.fairingUsed.mode != FairingMode::Target || curve.fairingUsed.target == kDrawnTarget) return 0;
+  if (curve.fairingUsed.mode != FairingMode::Target || curve.fairingUsed.target >= kDrawnTarget) return 0;
   return curve.fairingUsed.target > 0 ? curve.fairingUsed.target : targets.recommendedDegree;
 }
 

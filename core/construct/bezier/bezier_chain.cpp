@@ -186,11 +186,12 @@ std::vector<std::vector<Vec2>> polylinesOf(const std::vector<Quintic>& path) {
   return lines;
 }
 
-/// The path as 001 leaves it without the low pass: at every joint the mean of both curvatures (Eq 9, 10).
-Result<ConstructedPiece> plainPath(std::span<const Station> stations, bool closed) {
+/// The path as 001 leaves it without the low pass: at every joint the mean of both curvatures (Eq 9, 10), or as it was
+/// before that.
+Result<ConstructedPiece> plainPath(std::span<const Station> stations, bool closed, bool equalise) {
   std::vector<Quintic> path = bezierPath(stations, closed);
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) equaliseJoint(path[i], path[i + 1]);
-  if (closed) equaliseJoint(path.back(), path.front());
+  for (std::size_t i = 0; equalise && i + 1 < path.size(); ++i) equaliseJoint(path[i], path[i + 1]);
+  if (equalise && closed) equaliseJoint(path.back(), path.front());
   auto curve = joinedQuintics(path, 1.0);
   if (!curve) return fail(curve.error());
   ConstructedPiece result{std::move(*curve), {}};
@@ -269,7 +270,7 @@ FairedJoints fairedJoints(const StationSet& set, bool closed, double pixelMm, do
 
 StationSet bezierStations(const ConstructPiece& piece, double pixelMm, const ConstructParams& params,
                           const RunContext& context) {
-  StationSet set = givenStations(usableStations(piece, 6));
+  StationSet set = givenStations(usableStations(piece, 6, params.ends));
   const bool closed = piece.closed;
   if (set.stations.size() < (closed ? 3u : 2u)) return set;
   const auto plain = [closed](const StationSet& now) { return polylinesOf(bezierPath(now.stations, closed)); };
@@ -290,10 +291,10 @@ StationSet bezierStations(const ConstructPiece& piece, double pixelMm, const Con
 
 namespace {
 
-Result<ConstructedPiece> chainThrough(const StationSet& set, bool closed, double pixelMm, double lowPass,
+Result<ConstructedPiece> chainThrough(const StationSet& set, bool closed, double pixelMm, const ConstructParams& params,
                                       const RunContext& context) {
-  if (lowPass == 0.0) return plainPath(set.stations, closed);
-  const FairedJoints faired = fairedJoints(set, closed, pixelMm, lowPass, context);
+  if (params.lowPass == 0.0) return plainPath(set.stations, closed, params.equaliseJoints);
+  const FairedJoints faired = fairedJoints(set, closed, pixelMm, params.lowPass, context);
   if (context.isCancelled()) return cancelled();
   auto curve = hermiteChain(faired.joints, faired.lengths);
   if (!curve) return fail(curve.error());
@@ -311,10 +312,10 @@ Result<ConstructedPiece> constructBezierChain(const ConstructPiece& piece, doubl
   if (set.stations.size() < (piece.closed ? 3u : 2u)) {
     return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
   }
-  auto made = chainThrough(set, piece.closed, pixelMm, params.lowPass, context);
+  auto made = chainThrough(set, piece.closed, pixelMm, params, context);
   if (!made && set.added > 0 && !context.isCancelled()) {
-    set = givenStations(usableStations(piece, 6));
-    made = chainThrough(set, piece.closed, pixelMm, params.lowPass, context);
+    set = givenStations(usableStations(piece, 6, params.ends));
+    made = chainThrough(set, piece.closed, pixelMm, params, context);
   }
   if (!made) return made;
   made->report.stationsAdded = set.added;

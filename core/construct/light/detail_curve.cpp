@@ -10,10 +10,10 @@
 
 #include "core/base/parallel.h"
 #include "core/construct/light/detail_line.h"
+#include "core/construct/light/light_corners.h"
 #include "core/construct/light/light_search.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
-#include "core/curve/knot_operations.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -150,21 +150,6 @@ std::vector<LightCurve> fitsOf(const NurbsCurve& dense, const std::vector<Vec2>&
   return parts;
 }
 
-/// All of one degree, end to start.
-std::optional<NurbsCurve> joinedAtCorners(const std::vector<LightCurve>& parts, double tolerance) {
-  int degree = 1;
-  for (const LightCurve& part : parts) degree = std::max(degree, part.curve.degree());
-  std::vector<NurbsCurve> curves;
-  for (const LightCurve& part : parts) {
-    auto raised = part.curve.degree() < degree ? elevated(part.curve, degree) : Result<NurbsCurve>(part.curve);
-    if (!raised) return std::nullopt;
-    curves.push_back(std::move(*raised));
-  }
-  if (curves.size() == 1) return curves.front();
-  auto joined = joinAtCorners(curves, tolerance);
-  return joined ? std::optional(std::move(*joined)) : std::nullopt;
-}
-
 double farthest(const EvenLine& line, const NurbsCurve& curve) {
   double worst = 0.0;
   for (int i = 0; i < line.size(); i += kMeasuredEvery) {
@@ -210,12 +195,16 @@ std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, 
     if (part.curve.isEmpty() || part.report.kind == LightKind::Dense) return std::nullopt;
     simple.report.iterations += part.report.iterations;
     simple.report.tries += part.report.tries;
-    simple.report.points += part.report.points - 1;
   }
-  simple.report.points += closed ? (loop ? 1 : 0) : 1;
-  auto joined = joinedAtCorners(parts, scale);
+  std::vector<NurbsCurve> curves;
+  for (const LightCurve& part : parts) curves.push_back(part.curve);
+  auto joined = joinedAtCorners(curves, scale);
   if (!joined) return std::nullopt;
   simple.curve = std::move(*joined);
+  // Parts of a lower degree have been raised to that of the others: what counts is the curve that comes out.
+  const bool isExact = parts.size() == 1 && (parts.front().report.kind == LightKind::Line || simple.curve.isRational());
+  simple.report.points =
+      isExact || loop ? parts.front().report.points : simple.curve.controlPointCount() - (closed ? 1 : 0);
   simple.report.kind = parts.size() == 1 ? parts.front().report.kind : LightKind::Chain;
   simple.report.sections = static_cast<int>(parts.size());
   simple.report.necks = necks;

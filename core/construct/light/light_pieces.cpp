@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/construct/light/light_pieces.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -9,8 +10,10 @@
 #include "core/base/parallel.h"
 #include "core/construct/light/detail_curve.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/corners_inside.h"
 #include "core/curve/curvature.h"
 #include "core/curve/curve_start.h"
+#include "core/curve/fairable_shape.h"
 
 namespace batten {
 namespace {
@@ -18,6 +21,7 @@ namespace {
 constexpr double kStepPx = 0.5;        // of the samples of the dense curve
 constexpr double kMostOfWidth = 0.25;  // of the ink's width: the tolerance of the least detail
 constexpr double kMostOfSize = 0.01;   // of the curve's size, where the width is not known
+constexpr double kSmoothShare = 0.01;  // of the samples' distance: what a curve without joints may lie off
 constexpr double kLeastSignificance = 0.1, kMostSignificance = 0.25;
 constexpr double kRaggedLength = 12.0;  // tolerances of length for each extremum: ragged where there is less
 
@@ -34,6 +38,15 @@ std::string reasonOf(LightObstacle obstacle) {
       return "It has so many curvature extrema that the search was given up.";
   }
   return {};
+}
+
+/// Whether a knot inside repeats so often, or more.
+bool hasKnotsOf(const NurbsCurve& curve, int multiplicity) {
+  const auto knots = curve.knots();
+  const auto more = static_cast<std::size_t>(std::max(2, multiplicity)) - 1;
+  for (std::size_t i = 0; i + more < knots.size(); ++i)
+    if (knots[i] == knots[i + more] && knots[i] > curve.start() && knots[i] < curve.end()) return true;
+  return false;
 }
 
 /// Ragged: more extrema than a line that was meant so could have.
@@ -54,6 +67,22 @@ Result<LightCurve> lightOf(const NurbsCurve& dense, bool closed, const LightOpti
   return simple && simple->report.points < light->report.points ? Result<LightCurve>(std::move(*simple)) : light;
 }
 
+/// What fairing starts from, that was simplified: the curve itself with more knots, and without the joints at which it
+/// would part.
+NurbsCurve fairingStartOf(const NurbsCurve& curve, bool closed, double apart) {
+  if (curve.isRational()) return {};
+  const bool isJoined = hasKnotsOf(curve, curve.degree() - 1) && cornersInside(curve).empty();
+  if (isJoined) {
+    if (auto smooth = smoothShape(curve, closed, apart)) return std::move(*smooth);
+  }
+  return fairableShape(curve);
+}
+
+void finishExact(ConstructedPiece& piece, bool closed, LightKind kind) {
+  piece.report.isLine = piece.report.isLine || kind == LightKind::Line;
+  piece.report.isCircle = piece.report.isCircle || (closed && kind == LightKind::Arc);
+}
+
 void lighten(ConstructedPiece& piece, bool closed, const LightOptions& options, bool simplified, double pixelMm,
              const RunContext& context) {
   auto light = lightOf(piece.curve, closed, options, simplified, context);
@@ -66,14 +95,21 @@ void lighten(ConstructedPiece& piece, bool closed, const LightOptions& options, 
                                                        " spikes and inlets thinner than the detail are left out.";
   }
   if (light->report.kind == LightKind::Dense) return;
+  piece.report.light->isSimplified = simplified;
   piece.dense = std::exchange(piece.curve, std::move(light->curve));
+  if (simplified) {
+    if (closed && !piece.curve.isRational() && cornersInside(piece.curve).empty() && !beginsAtCorner(piece.curve))
+      piece.curve = startedNear(piece.curve, piece.dense.point(piece.dense.start()));
+    piece.dense = fairingStartOf(piece.curve, closed, kSmoothShare * options.step);
+    finishExact(piece, closed, light->report.kind);
+    return;
+  }
   // Shares of the length mean the same on both: what is pointed at on the one is split on the other.
   if (closed && !piece.curve.isRational()) {
     piece.curve = startedNear(piece.curve, piece.dense.point(piece.dense.start()));
     piece.report.light->points = piece.curve.controlPointCount();
   }
-  piece.report.isLine = piece.report.isLine || light->report.kind == LightKind::Line;
-  piece.report.isCircle = piece.report.isCircle || (closed && light->report.kind == LightKind::Arc);
+  finishExact(piece, closed, light->report.kind);
 }
 
 }  // namespace

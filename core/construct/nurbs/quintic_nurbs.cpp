@@ -196,7 +196,7 @@ Result<ConstructedPiece> constructFromDirections(std::span<const Station> statio
     directions.push_back(s.direction);
   }
   DirectionWeights weights;
-  weights.pinEnds = true;
+  weights.pinEnds = params.ends == ConstructEnds::Line;
   auto solution = solveQuinticDirections(points, directions, magnitudes, weights);
   if (!solution) return fail(solution.error());
   const SplineSpace space = makeSpace(uniformPlaces(stations.size(), false), false);
@@ -204,7 +204,8 @@ Result<ConstructedPiece> constructFromDirections(std::span<const Station> statio
   for (double& k : knots) k *= total / static_cast<double>(stations.size() - 1);
   auto open = NurbsCurve::make(kQuintic, std::move(knots), std::move(*solution));
   if (!open) return fail(open.error());
-  auto curve = clampedWithEnds(*open, points.front(), points.back());
+  auto curve =
+      params.ends == ConstructEnds::Line ? clampedWithEnds(*open, points.front(), points.back()) : clamped(*open);
   if (!curve) return fail(curve.error());
   ConstructedPiece result{std::move(*curve), {}};
   result.report.why = Termination::Exact;
@@ -225,7 +226,8 @@ std::optional<CurveOnStations> curveThrough(std::span<const Station> stations, b
   std::vector<Vec2> points;
   for (const Station& s : stations) points.push_back(s.point);
   const SplineSpace space = makeSpace(places.at, closed);
-  const auto solution = solveSystem(space, {points, derivatives, params.gradients, !closed, !closed});
+  const bool isPinned = !closed && params.ends == ConstructEnds::Line;
+  const auto solution = solveSystem(space, {points, derivatives, params.gradients, isPinned, isPinned});
   if (!solution) return std::nullopt;
   std::vector<double> knots = space.knots, at = places.at;
   for (std::vector<double>* values : {&knots, &at}) {
@@ -233,8 +235,8 @@ std::optional<CurveOnStations> curveThrough(std::span<const Station> stations, b
   }
   auto open = NurbsCurve::make(kQuintic, std::move(knots), unrolled(space, *solution));
   if (!open) return std::nullopt;
-  const Vec2 start = closed ? open->point(open->start()) : points.front();
-  auto curve = clampedWithEnds(*open, start, closed ? start : points.back());
+  const Vec2 start = isPinned ? points.front() : open->point(open->start());
+  auto curve = clampedWithEnds(*open, start, closed ? start : isPinned ? points.back() : open->point(open->end()));
   if (!curve) return std::nullopt;
   return CurveOnStations{std::move(*curve), std::move(at)};
 }
@@ -308,7 +310,7 @@ Result<QuinticSystemResult> solveQuintic(std::span<const Vec2> points, std::span
 Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, double pixelMm,
                                                const ConstructParams& params, const RunContext& context) {
   if (context.isCancelled()) return cancelled();
-  StationSet set = givenStations(usableStations(piece, 6));
+  StationSet set = givenStations(usableStations(piece, 6, params.ends));
   const bool closed = piece.closed;
   if (set.stations.size() < (closed ? 6u : 2u)) {
     return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
@@ -326,7 +328,7 @@ Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, doub
   }
   auto made = curveThrough(set.stations, closed, params);
   if (!made && set.added > 0) {
-    set = givenStations(usableStations(piece, 6));
+    set = givenStations(usableStations(piece, 6, params.ends));
     made = curveThrough(set.stations, closed, params);
   }
   if (!made) return straightPiece(piece, "The equations of the curve have no solution; a straight line was drawn.");

@@ -213,13 +213,17 @@ Result<ConstructedPiece> constructControlPolygon(const ConstructPiece& piece, do
   } else {
     const bool breaks = params.knots == SharpKnots::Order && piece.endIsCorner && points.size() > 2;
     if (breaks) points.pop_back();
-    auto made = controlPolygonCurve(points, {}, params.degree, SharpKnots::Degree);
+    const bool isFree = params.knots == SharpKnots::Uniform;
+    auto made = controlPolygonCurve(points, {}, params.degree, isFree ? SharpKnots::Uniform : SharpKnots::Degree);
     if (!made || piece.closed) return straightPiece(piece, "Too few points for a control polygon.");
-    result.curve = std::move(made->curve);
+    auto curve = isFree ? clamped(made->curve) : Result<NurbsCurve>(std::move(made->curve));
+    if (!curve) return fail(curve.error());
+    result.curve = std::move(*curve);
     result.report.pointsAdded = made->added;
     if (made->added > 0) {
       result.report.note = "Too few points for this degree: " + std::to_string(made->added) + " were doubled.";
     }
+    if (isFree) result.report.note = "Uniform knots: the curve ends short of the ends of its line.";
     if (breaks) result.report.note = "Multiplicity = order: the curve is broken just before its last corner.";
   }
   result.report.why = Termination::Exact;

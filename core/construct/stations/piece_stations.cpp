@@ -99,7 +99,7 @@ void turnRound(std::vector<Station>& stations) {
 
 }  // namespace
 
-std::vector<Station> usableStations(const ConstructPiece& piece, int fewestClosed) {
+std::vector<Station> usableStations(const ConstructPiece& piece, int fewestClosed, ConstructEnds ends) {
   std::vector<Vec2> all = piece.points;
   for (const Station& s : piece.stations) {
     if (s.point.allFinite()) all.push_back(s.point);
@@ -113,7 +113,7 @@ std::vector<Station> usableStations(const ConstructPiece& piece, int fewestClose
     }
     return stations;
   }
-  if (stations.empty() || piece.points.size() < 2) return stations;
+  if (stations.empty() || piece.points.size() < 2 || ends == ConstructEnds::Stations) return stations;
   settleStart(stations, piece.points.front(), piece.startIsCorner, 0.0);
   turnRound(stations);
   settleStart(stations, piece.points.back(), piece.endIsCorner, 1.0);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/construct/construct_params.h"
 #include "core/construct/pieces.h"
 
 namespace batten {
@@ -12,8 +13,8 @@ namespace batten {
 /// The stations of a piece made fit for a construction: distinct points, unit directions, and for open pieces one at
 /// either end of the piece, exactly on corners. A missing end station takes the direction of the circle through the end
 /// that touches the first station. Closed pieces with fewer than `fewestClosed` stations are measured anew from their
-/// points.
-std::vector<Station> usableStations(const ConstructPiece&, int fewestClosed);
+/// points. With ConstructEnds::Stations open pieces get none at their ends.
+std::vector<Station> usableStations(const ConstructPiece&, int fewestClosed, ConstructEnds ends = ConstructEnds::Line);
 
 /// Arc-corrected distances a_i = c_i (alpha_i / 2) / sin(alpha_i / 2) from each station to the next (closed: the last
 /// to the first).

@@ -173,6 +173,17 @@ Result<NurbsCurve> pathCurve(const TypicalPath& path, const TypicalLine& line) {
   return joinedQuintics(pieces, 1.0);
 }
 
+namespace {
+
+/// Why a segment is no typical curve.
+SegmentCause causeOf(double startKappa, double endKappa, double turnRad) {
+  constexpr double kStraightTurn = 0.05;  // [rad]
+  if (startKappa * endKappa < 0.0 || startKappa * turnRad < 0.0) return SegmentCause::Inflection;
+  return std::abs(turnRad) < kStraightTurn ? SegmentCause::Straight : SegmentCause::Even;
+}
+
+}  // namespace
+
 std::vector<SegmentNote> segmentNotes(const TypicalPath& path, const TypicalLine& line) {
   std::vector<SegmentNote> notes;
   for (std::size_t e = 0; e < path.elements.size(); ++e) {
@@ -183,6 +194,7 @@ std::vector<SegmentNote> segmentNotes(const TypicalPath& path, const TypicalLine
     note.startMm = line.toModel(path.states[e].point);
     note.turnRad = path.states[e + 1].angleRad - path.states[e].angleRad;
     if (!note.typical) note.turnRad = std::remainder(note.turnRad, 2.0 * std::numbers::pi);
+    if (!note.typical) note.cause = causeOf(path.states[e].kappa, path.states[e + 1].kappa, note.turnRad);
     if (note.typical) {
       const TypicalCurve curve = path.typical(e);
       note.ratio = curve.ratio;
@@ -245,10 +257,41 @@ bool isOnLine(const std::optional<PathFit>& fit, const PathData& data) {
   return fit && fit->rms < kLostRmsPx + 3.0 * data.noise;
 }
 
+/// Two places of the user mean one segment between them: a typical curve where the line bends one way, else a Hermite
+/// piece.
+void oneBetweenPlaces(TypicalPath& path, const TypicalLine& line, const std::vector<std::size_t>& joints) {
+  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+    const auto stateAt = [&](std::size_t joint) {
+      std::size_t s = path.states.size();
+      while (s > 0 && path.states[s - 1].point != line.joints[joint].point) --s;
+      return s;  // one behind
+    };
+    const std::size_t from = stateAt(joints[i]), to = stateAt(joints[i + 1]);
+    if (from == 0 || to <= from + 1) continue;
+    PathElement one;
+    const auto first = path.elements.begin() + static_cast<std::ptrdiff_t>(from) - 1;
+    const auto last = path.elements.begin() + static_cast<std::ptrdiff_t>(to) - 1;
+    one.typical = std::all_of(first, last, [&](const PathElement& e) { return e.typical && e.side == first->side; });
+    one.side = first->side;
+    double turn = 0.0, shape = 0.0;
+    for (auto e = first; e != last; ++e) {
+      turn += std::exp(e->logTurn);
+      shape += e->shape;
+    }
+    one.logTurn = std::log(std::max(turn, kLeastStartTurnRad));
+    one.shape = std::clamp(shape, -kMostStartLogRatio, kMostStartLogRatio);
+    path.elements.erase(first, last);
+    path.elements.insert(path.elements.begin() + static_cast<std::ptrdiff_t>(from) - 1, one);
+    path.states.erase(path.states.begin() + static_cast<std::ptrdiff_t>(from),
+                      path.states.begin() + static_cast<std::ptrdiff_t>(to) - 1);
+  }
+}
+
 /// The path divided where the user wants it; absent where the points allow none.
 std::optional<FoundPath> dividedPath(TypicalLine line, std::span<const Vec2> placesMm, const RunContext& context) {
   const auto at = jointsAtPlaces(line, placesMm);
   TypicalPath path = roughTypicalPath(line.joints, line.closed, at);
+  oneBetweenPlaces(path, line, at);
   PathData data = dataOf(line);
   data.places.resize(path.states.size());
   for (const std::size_t joint : at) {
@@ -338,13 +381,35 @@ std::optional<FoundPath> chainPath(const TypicalLine& line, std::span<const Vec2
 /// curvature that the line has not. As grown where that helps nothing, or the segments are the user's or the paper's.
 std::optional<FoundPath> grownAndTidied(const TypicalLine& line, std::span<const Vec2> placesMm,
                                         const ConstructParams& params, const RunContext& context) {
-  auto grown = grownPath(line, placesMm, params, nullptr, context);
+  TypicalLine divided = line;
+  jointsAtPlaces(divided, placesMm);
+  auto grown = grownPath(divided, placesMm, params, nullptr, context);
   if (!grown) return std::nullopt;
   if (!placesMm.empty() || params.growingAsInPaper) return grown;
   Candidate tidy = fittedCandidate(grown->path, dataOf(line), PathSearch::Tidy, line, context);
   const auto curve = pathCurve(grown->path, line);
   const bool stays = curve && !isAstray(*curve, line);
   return !tidy.path || (stays && countedExtrema(*curve, line.closed) < tidy.falseExtrema) ? grown : tidy.path;
+}
+
+/// What a chain with few typical curves says of the rest; empty where they are most of it.
+std::string typicalNote(const std::vector<SegmentNote>& segments) {
+  constexpr double kMostOfIt = 0.6;
+  const double share = typicalShare(segments);
+  if (segments.empty() || share >= kMostOfIt) return {};
+  const auto counted = [&](SegmentCause cause) {
+    return std::count_if(segments.begin(), segments.end(),
+                         [&](const SegmentNote& one) { return !one.typical && one.cause == cause; });
+  };
+  std::string why;
+  const auto add = [&](std::ptrdiff_t count, const char* what) {
+    if (count > 0) why.append(why.empty() ? "" : ", ").append(std::to_string(count)).append(what);
+  };
+  add(counted(SegmentCause::Straight), " all but straight");
+  add(counted(SegmentCause::Inflection), " at inflections");
+  add(counted(SegmentCause::Even), " of hardly changing curvature or beyond what one typical curve can follow");
+  return "Typical curves make " + std::to_string(static_cast<int>(std::lround(100.0 * share))) +
+         " % of the length; the other segments are transitions: " + why + ".";
 }
 
 /// The Bezier path of a piece, with the reason why it took the place of the chain.
@@ -371,18 +436,23 @@ Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, double pi
   if (context.isCancelled()) return cancelled();
   auto curve = found ? pathCurve(found->path, line) : Result<NurbsCurve>(fail(ErrorCode::Numerical, ""));
   if (!curve) return pathInstead(piece, pixelMm, params, context);
-  const Vec2 end = line.closed ? Vec2(curve->controlPoints().front()) : line.endMm;
+  const bool endsFree = params.typical == TypicalMode::Growing && params.growingAsInPaper && found->path.endsTypical();
+  const Vec2 end = line.closed ? Vec2(curve->controlPoints().front())
+                   : endsFree  ? Vec2(curve->controlPoints().back())
+                               : line.endMm;
   const Vec2 start = line.closed ? end : line.originMm;
   curve = clampedWithEnds(*curve, start, end);
   if (!curve) return fail(curve.error());
   // The fit looks at feet that move along with it; a chain that has run away from its line is seen only from the line.
   constexpr double kAstrayPx = 5.0;
-  if (isAstray(*curve, line) || !(deviation(*curve, piece.points, true).rms < kAstrayPx * pixelMm)) {
+  const bool asInPaper = params.typical == TypicalMode::Growing && params.growingAsInPaper;
+  if (!asInPaper && (isAstray(*curve, line) || !(deviation(*curve, piece.points, true).rms < kAstrayPx * pixelMm))) {
     return pathInstead(piece, pixelMm, params, context);
   }
   ConstructedPiece result{std::move(*curve), {}};
   result.report.why = found->converged ? Termination::Converged : Termination::IterationLimit;
   result.report.segments = segmentNotes(found->path, line);
+  result.report.note = typicalNote(result.report.segments);
   return result;
 }
 

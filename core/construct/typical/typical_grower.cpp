@@ -27,6 +27,9 @@ constexpr double kLostPx = 0.25;
 /// Half of the stretch [px] from whose points a normal is taken.
 constexpr double kNormalReachPx = 16.0;
 constexpr int kMostSteps = 400;
+/// Points behind a curve's start that are looked at, and the line [of the curve's size, and px] in which its own lie.
+constexpr std::size_t kBehind = 2;
+constexpr double kReachOfSize = 1.5, kReachPx = 10.0;
 // Feet of points on a curve 0..1: those of the points beside its ends lie a little beyond.
 constexpr int kFootSteps = 15;
 constexpr double kLongestFootStep = 0.5, kFirstFoot = -0.3, kLastFoot = 1.5;
@@ -44,8 +47,9 @@ constexpr double kAtEnd = 1e-6;                             ///< [parameter] so 
 // The last curve ends at the foot of the end of the line, by its parameter; others are kept to their middle, where
 // the points beyond their end have not bent them (002 keeps all, and starts the next with this part of their size).
 constexpr double kShortestLast = 0.05, kLongestLast = 1.3, kKeptPart = 0.5, kNextSeed = 0.4;
-constexpr int kMostGrowths = 60;                             ///< Of one curve.
-constexpr double kSmallestRatio = 0.3, kLargestRatio = 3.0;  ///< Of a grown curve's edges: beyond, it is a spiral.
+constexpr double kPassedShareOfSize = 0.5, kPassedPx = 10.0;  ///< Of a curve, from which the end lies away at most.
+constexpr int kMostGrowths = 60;                              ///< Of one curve.
+constexpr double kSmallestRatio = 0.3, kLargestRatio = 3.0;   ///< Of a grown curve's edges: beyond, it is a spiral.
 
 double sizeOf(const TypicalCurve& c) { return c.edge * (1.0 + c.ratio * std::cos(c.turnRad) + c.ratio * c.ratio); }
 
@@ -83,12 +87,14 @@ class Grower {
 
   GrownCurves grow(const GrowingStart& start, const GrowingStretch& stretch, const RunContext& context) {
     points_ = stretch.points;
+    passed_ = 0;
     isFree_ = start.isFree;
     GrownCurves kept{{}, start.state};
     // Nothing to grow along: what the joints know of this stretch is better than a curve that follows nothing.
     if (points_.empty()) return kept;
-    auto curve = seed(start.state, stretch, start.isFree);
     const Vec2 end = line_.joints[stretch.lastJoint].point;
+    if (stretch.isOne) return growAtOnce(start, stretch, end);
+    auto curve = seed(start.state, stretch, start.isFree);
     for (int i = 0; i < kMostSteps && curve && !context.isCancelled(); ++i) {
       const auto [grown, reachesEnd] = growOne(*curve, end, context);
       TypicalCurve stays = grown;
@@ -102,6 +108,8 @@ class Grower {
       record_.rested = record_.rested && rested_;
       record(GrowingStep::Kind::Kept, stays, false);
       kept.curves.push_back(stays);
+      passed_ = nearestTo(stays.endJoint().point);
+      passed_ = passed_ > kBehind ? passed_ - kBehind : 0;
       isFree_ = false;
       if (reachesEnd) break;
       ++record_.segment;
@@ -111,36 +119,78 @@ class Grower {
         record(GrowingStep::Kind::Seed, *curve, false);
       }
     }
-    if (!kept.curves.empty()) {
-      const TypicalCurve& last = kept.curves.back();
-      const Joint joint = last.endJoint();
-      kept.end = {joint.point, last.angleRad + 2.0 * last.turnRad, joint.kappa};
-    }
+    if (!kept.curves.empty()) kept.end = endOf(kept.curves.back());
     return kept;
   }
 
  private:
-  std::span<const Vec2> pointsOn(const TypicalCurve& c) const {
-    const Feet feet = feetOn(c, points_);
-    std::size_t first = 0, last = points_.size();
-    while (first < last && feet.t[first] < 0.0) ++first;
-    // A closed line comes back: what lies beyond the first point past the end is another stretch.
-    const auto past = std::find_if(feet.t.begin() + static_cast<std::ptrdiff_t>(first), feet.t.end(),
-                                   [](double t) { return t > 1.0; });
-    last = static_cast<std::size_t>(past - feet.t.begin());
-    return std::span(points_).subspan(first, last - first);
+  static PathState endOf(const TypicalCurve& last) {
+    const Joint joint = last.endJoint();
+    return {joint.point, last.angleRad + 2.0 * last.turnRad, joint.kappa};
   }
 
-  /// A small curve fitted to the first points: direction, curvature and change of direction.
-  std::optional<TypicalCurve> seed(const PathState& from, const GrowingStretch& stretch, bool freeStart) {
-    const std::size_t reach = std::min(stretch.firstJoint + 2, stretch.lastJoint);
+  /// One curve from end to end, bent until it meets the points.
+  GrownCurves growAtOnce(const GrowingStart& start, const GrowingStretch& stretch, const Vec2& end) {
+    GrownCurves kept{{}, start.state};
+    auto curve = spanning(start.state, stretch.firstJoint, stretch.lastJoint);
+    if (!curve) return kept;
+    rested_ = start.isFree ? refitWhole(*curve) : refit(*curve);
+    record(GrowingStep::Kind::Seed, *curve, false);
+    const auto foot = feetOn(*curve, std::array{end});
+    *curve = curve->toParameter(std::clamp(foot.t[0], kShortestLast, kLongestLast));
+    record_.rested = record_.rested && rested_;
+    record(GrowingStep::Kind::Kept, *curve, false);
+    kept.curves.push_back(*curve);
+    kept.end = endOf(*curve);
+    return kept;
+  }
+
+  /// The end of the stretch lies on the curve, and not behind its start, where the end of a closed line is, nor across
+  /// a turn of it.
+  static bool isPassed(const TypicalCurve& c, const Vec2& end) {
+    const Feet feet = feetOn(c, std::array{end});
+    const double away = std::abs(feet.distance[0]);
+    return feet.t[0] > 0.0 && feet.t[0] <= 1.0 + kAtEnd && away <= kPassedShareOfSize * sizeOf(c) + kPassedPx;
+  }
+
+  /// A curve over joints: their length and change of direction.
+  std::optional<TypicalCurve> spanning(const PathState& from, std::size_t first, std::size_t last) const {
     double size = 0.0, turn = 0.0;
-    for (std::size_t i = stretch.firstJoint; i < reach; ++i) {
+    for (std::size_t i = first; i < last; ++i) {
       const Joint &a = line_.joints[i], &b = line_.joints[i + 1];
       size += (b.point - a.point).norm();
       turn += std::atan2(cross(a.tangent, b.tangent), a.tangent.dot(b.tangent));
     }
-    auto first = typicalFromForm(from.point, from.angleRad, from.kappa, size, turn);
+    return typicalFromForm(from.point, from.angleRad, from.kappa, size, turn);
+  }
+
+  /// The points beside a curve. Only those near its start and as far along the line as it can reach are looked at: a
+  /// closed line has others on its far side, which lie beyond its end as well.
+  std::span<const Vec2> pointsOn(const TypicalCurve& c) const {
+    const std::size_t near = nearestTo(c.start), begin = near > kBehind ? near - kBehind : 0;
+    std::size_t end = begin + 1;
+    for (double way = 0.0; end < points_.size() && way < kReachOfSize * sizeOf(c) + kReachPx; ++end)
+      way += (points_[end] - points_[end - 1]).norm();
+    const std::span<const Vec2> beside = std::span(points_).subspan(begin, end - begin);
+    const Feet feet = feetOn(c, beside);
+    std::size_t first = 0;
+    while (first < beside.size() && feet.t[first] < 0.0) ++first;
+    const auto past = std::find_if(feet.t.begin() + static_cast<std::ptrdiff_t>(first), feet.t.end(),
+                                   [](double t) { return t > 1.0; });
+    return beside.subspan(first, static_cast<std::size_t>(past - feet.t.begin()) - first);
+  }
+
+  /// The point nearest to a place that lies ahead of what has grown; a closed line's last points are not its first.
+  std::size_t nearestTo(const Vec2& place) const {
+    std::size_t best = passed_;
+    for (std::size_t i = passed_; i < points_.size() && i - passed_ <= points_.size() / 2; ++i)
+      if ((points_[i] - place).squaredNorm() < (points_[best] - place).squaredNorm()) best = i;
+    return best;
+  }
+
+  /// A small curve fitted to the first points: direction, curvature and change of direction.
+  std::optional<TypicalCurve> seed(const PathState& from, const GrowingStretch& stretch, bool freeStart) {
+    auto first = spanning(from, stretch.firstJoint, std::min(stretch.firstJoint + 2, stretch.lastJoint));
     if (first && std::abs(first->turnRad) < kLargestGrownTurn && freeStart) rested_ = refitWhole(*first);
     if (first) record(GrowingStep::Kind::Seed, *first, false);
     return first;
@@ -233,7 +283,7 @@ class Grower {
   };
   GrownCurve growOne(TypicalCurve c, const Vec2& end, const RunContext& context) {
     for (std::size_t i = 0, way = 0; i < kMostGrowths && way < kExtrapolations.size() && !context.isCancelled(); ++i) {
-      if (feetOn(c, std::array{end}).t[0] <= 1.0 + kAtEnd) return {c, true};
+      if (isPassed(c, end)) return {c, true};
       TypicalCurve longer = c.toParameter(kExtrapolations[way]);
       record(GrowingStep::Kind::Extrapolated, longer, false);
       const bool rested = isFree_ ? refitWhole(longer) : refit(longer);
@@ -310,6 +360,7 @@ class Grower {
   const ConstructParams& params_;
   GrowingRecord& record_;
   std::vector<Vec2> points_;
+  std::size_t passed_ = 0;  ///< About the point to which the kept curves reach.
   bool isFree_ = true;
   bool rested_ = true;  ///< The fit that gave the curve in hand came to rest.
 };

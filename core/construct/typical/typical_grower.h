@@ -12,6 +12,7 @@ namespace batten {
 struct GrowingStretch {
   std::size_t firstJoint = 0, lastJoint = 0;
   std::vector<Vec2> points;
+  bool isOne = false;  ///< Between two places of the user: one segment, however well it fits.
 };
 
 /// What is written down while chains grow.

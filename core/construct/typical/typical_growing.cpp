@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include "core/construct/typical/typical_grower.h"
 #include "core/construct/typical/typical_path_fit.h"
@@ -42,19 +43,57 @@ std::vector<GrowingStretch> stretchesOf(const TypicalLine& line, std::span<const
     cuts.push_back(static_cast<std::size_t>(nearest - line.joints.begin()));
   }
   std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
   std::vector<GrowingStretch> result;
+  const auto add = [&](std::size_t first, std::size_t last, bool isOne) {
+    if (last > first) result.push_back({first, last, pointsBetween(line, first, last), isOne});
+  };
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) add(cuts[i], cuts[i + 1], true);
   for (const JointRun& run : bendingRuns(line.joints)) {
-    std::size_t first = run.first, last = run.last;
     // A closed line ends with a Hermite piece that meets its start.
-    if (line.closed && last + 1 == line.joints.size()) --last;
-    for (const std::size_t cut : cuts) {
-      if (cut <= first || cut >= last) continue;
-      result.push_back({first, cut, pointsBetween(line, first, cut)});
-      first = cut;
+    const std::size_t last = line.closed && run.last + 1 == line.joints.size() ? run.last - 1 : run.last;
+    if (cuts.empty()) {
+      add(run.first, last, false);
+      continue;
     }
-    if (last > first) result.push_back({first, last, pointsBetween(line, first, last)});
+    // Beside the user's places as far as the line bends; between them there is one segment already.
+    add(run.first, std::min(last, cuts.front()), false);
+    add(std::max(run.first, cuts.back()), last, false);
   }
+  std::sort(result.begin(), result.end(),
+            [](const GrowingStretch& a, const GrowingStretch& b) { return a.firstJoint < b.firstJoint; });
   return result;
+}
+
+/// A curve that a path can hold.
+bool isDrawable(const TypicalCurve& curve) {
+  constexpr double kMostDrawnTurn = 0.84, kMostDrawnLogRatio = 1.6;
+  return std::abs(curve.turnRad) < kMostDrawnTurn && std::abs(std::log(curve.ratio)) < kMostDrawnLogRatio &&
+         std::isfinite(curve.edge);
+}
+
+/// The last joint of a stretch that grown curves have passed: near their end, and about as far along the line as they
+/// are long, for a closed line comes near its start again.
+std::size_t passedJoint(const TypicalLine& line, const GrowingStretch& stretch, std::span<const TypicalCurve> grown) {
+  constexpr double kLengthShare = 0.25;
+  const auto chord = [&](std::size_t i) { return (line.joints[i + 1].point - line.joints[i].point).norm(); };
+  double length = 0.0;
+  for (const TypicalCurve& c : grown) length += c.edge * (1.0 + c.ratio * std::cos(c.turnRad) + c.ratio * c.ratio);
+  const Vec2 end = grown.back().endJoint().point;
+  std::size_t nearest = stretch.firstJoint;
+  double s = 0.0, least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = stretch.firstJoint; i <= stretch.lastJoint; ++i) {
+    if (i > stretch.firstJoint) s += chord(i - 1);
+    const double step = i < stretch.lastJoint ? chord(i) : chord(i - 1), away = (line.joints[i].point - end).norm();
+    if (std::abs(s - length) > kLengthShare * length + 3.0 * step || away >= least) continue;
+    least = away;
+    nearest = i;
+  }
+  // One that lies clearly ahead is still to come.
+  const Joint& joint = line.joints[nearest];
+  const double step = nearest > stretch.firstJoint ? chord(nearest - 1) : chord(nearest);
+  const bool isAhead = (joint.point - end).dot(joint.tangent) > kPassedShare * step;
+  return isAhead && nearest > stretch.firstJoint ? nearest - 1 : nearest;
 }
 
 PathState stateOf(const Joint& joint, double near) {
@@ -142,26 +181,32 @@ std::optional<FoundPath> grownPath(const TypicalLine& line, std::span<const Vec2
     goTo(stretch.firstJoint);
     const GrowingStart start{path.states.back(), path.elements.empty() || !path.elements.back().typical};
     const GrownCurves grown = growStretch(line, params, stretch, start, record, context);
+    if (grown.curves.empty() && stretch.isOne) {
+      appendHermite(path, stateOf(line.joints[stretch.lastJoint], path.states.back().angleRad));
+      at = stretch.lastJoint;
+    }
     if (grown.curves.empty()) continue;
     ++record.segment;
     if (start.isFree) {
       path.states.back().angleRad = grown.curves.front().angleRad;
       path.states.back().kappa = grown.curves.front().startCurvature();
     }
-    for (const TypicalCurve& curve : grown.curves) appendTypical(path, curve);
+    // As far as it goes: an error that grows ends in a curve that is none.
+    const auto drawn = std::find_if_not(grown.curves.begin(), grown.curves.end(), isDrawable);
+    for (auto curve = grown.curves.begin(); curve != drawn; ++curve) appendTypical(path, *curve);
+    const std::span<const TypicalCurve> kept(grown.curves.data(),
+                                             static_cast<std::size_t>(drawn - grown.curves.begin()));
+    if (kept.empty()) continue;
     // Where it had to stop early the rest is left to Hermite pieces.
-    at = stretch.firstJoint;
-    while (at < stretch.lastJoint && (line.joints[at + 1].point - grown.end.point).dot(line.joints[at + 1].tangent) <
-                                         kPassedShare * (line.joints[at + 1].point - line.joints[at].point).norm()) {
-      ++at;
-    }
+    at = stretch.isOne ? stretch.lastJoint : passedJoint(line, stretch, kept);
   }
   goTo(line.joints.size() - 1);
   if (path.elements.empty()) return std::nullopt;
   if (!path.update()) return std::nullopt;
   divideAtMaxima(path);
   if (!path.update()) return std::nullopt;
-  if (!path.closed && path.endsTypical()) settleEnd(path, line.joints.back().point);
+  // The paper's own way shows where it ends.
+  if (!path.closed && path.endsTypical() && !params.growingAsInPaper) settleEnd(path, line.joints.back().point);
   return FoundPath{std::move(path), record.rested};
 }
 

@@ -68,6 +68,7 @@ Piece makePiece(const ContourSet& set, int contourIndex, int from, int to, const
   piece.contour = contourIndex;
   piece.firstPoint = from;
   piece.lastPoint = to;
+  piece.isPen = contour.kind == ContourKind::Pen;
   for (int i = from; i <= to; ++i) {
     const ContourPoint& p = contour.points[wrapIndex(i, n)];
     piece.points.push_back(p.at);

@@ -69,6 +69,7 @@ struct Piece {
   std::vector<float> spreadPx;  ///< [px] half the breadth of the strokes merged there: same size, or empty: none were.
   bool startIsCorner = false;
   bool endIsCorner = false;
+  bool isPen = false;  ///< Of a pen stroke: `refined` tells the drawn points.
   double lengthPx = 0.0;
 };
 

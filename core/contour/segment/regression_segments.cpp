@@ -13,6 +13,7 @@ namespace batten {
 namespace {
 
 constexpr int kFewestOpen = 4;
+constexpr int kFewestGiven = 2;  // that the user may set
 constexpr int kFewestClosed = 6;
 constexpr int kMostStations = 2000;
 constexpr double kSmallestSpacingPx = 8.0;
@@ -91,7 +92,7 @@ PieceSegments toSegments(const MeasuredPiece& piece, const std::vector<FittedSta
 
 int stationCount(const MeasuredPiece& piece, const SegmentParams& params) {
   const int fewest = piece.closed() ? kFewestClosed : kFewestOpen;
-  if (params.count > 0) return std::clamp(params.count, fewest, kMostStations);
+  if (params.count > 0) return std::clamp(params.count, piece.closed() ? fewest : kFewestGiven, kMostStations);
   const double spacings = std::min(piece.length() / params.spacingPx, static_cast<double>(kMostStations));
   return std::clamp(static_cast<int>(std::lround(spacings)) + (piece.closed() ? 0 : 1), fewest, kMostStations);
 }
@@ -112,15 +113,24 @@ PieceSegments adaptiveSegments(const MeasuredPiece& piece, const SegmentParams& 
   }
 }
 
-PieceSegments groupSegments(const Piece& piece, int groups) {
+/// The points that groups are made of: of a pen stroke those that were drawn, of other lines all.
+std::vector<Vec2> groupedPoints(const Piece& piece) {
+  if (!piece.isPen || piece.refined.size() != piece.points.size()) return piece.points;
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < piece.points.size(); ++i)
+    if (piece.refined[i] != 0) points.push_back(piece.points[i]);
+  return points.size() >= 2 ? points : piece.points;
+}
+
+PieceSegments groupSegments(const std::vector<Vec2>& points, int groups) {
   PieceSegments result;
-  const int n = static_cast<int>(piece.points.size());
+  const int n = static_cast<int>(points.size());
   const int k = std::clamp(groups, 1, std::max(1, n / 2));
   const std::vector<int> bounds = groupBoundaries(n, k);
   double square = 0.0;
   for (int g = 0; g < k; ++g) {
     const int from = bounds[g], to = bounds[g + 1];
-    const PcaLine line = pcaLine(std::span(piece.points).subspan(from, to - from));
+    const PcaLine line = pcaLine(std::span(points).subspan(from, to - from));
     result.stations.push_back({line.centroid, line.direction, line.from, line.to});
     square += line.residualRms * line.residualRms * (to - from);
   }
@@ -138,12 +148,15 @@ PieceSegments segmentsOf(const Piece& piece, const SegmentParams& params, const 
   switch (params.mode) {
     case SegmentMode::Stations:
       return toSegments(measured, stationsOf(measured, stationCount(measured, params), context));
-    case SegmentMode::Sturges:
-      return groupSegments(piece, sturgesGroups(static_cast<int>(piece.points.size())));
+    case SegmentMode::Sturges: {
+      const std::vector<Vec2> points = groupedPoints(piece);
+      return groupSegments(points, sturgesGroups(static_cast<int>(points.size())));
+    }
     case SegmentMode::Count: {
       const double wanted = std::min(measured.length() / params.spacingPx, static_cast<double>(kMostStations));
-      return groupSegments(
-          piece, params.count > 0 ? params.count : std::max(kFewestOpen, static_cast<int>(std::lround(wanted))));
+      return groupSegments(groupedPoints(piece), params.count > 0
+                                                     ? params.count
+                                                     : std::max(kFewestOpen, static_cast<int>(std::lround(wanted))));
     }
     case SegmentMode::Adaptive:
       return adaptiveSegments(measured, params, context);
@@ -155,7 +168,8 @@ PieceSegments segmentsOf(const Piece& piece, const SegmentParams& params, const 
 
 std::optional<Error> validate(const SegmentParams& p) {
   const auto bad = [](const char* message) { return Error{ErrorCode::BadParameter, message, {}}; };
-  if (p.count != 0 && (p.count < 4 || p.count > kMostStations)) return bad("segments.count must be 0 or 4 to 2000.");
+  if (p.count != 0 && (p.count < kFewestGiven || p.count > kMostStations))
+    return bad("segments.count must be 0 or 2 to 2000.");
   if (!(p.spacingPx >= 8.0 && p.spacingPx <= 400.0)) return bad("segments.spacing must be 8 to 400 px.");
   if (!(p.tolerancePx >= 0.02 && p.tolerancePx <= 5.0)) return bad("segments.tolerance must be 0.02 to 5 px.");
   return std::nullopt;

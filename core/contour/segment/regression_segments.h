@@ -14,7 +14,8 @@ namespace batten {
 
 enum class SegmentMode {
   Stations,  ///< Equal arc length, both ends included (default).
-  Sturges,   ///< floor(1 + log2 N) groups of points (000 III), PCA line each.
+  Sturges,   ///< floor(1 + log2 N) groups of the N points of the line (000 III), PCA line each; of a pen stroke the
+             ///< points that were drawn.
   Count,     ///< A fixed number of groups, PCA line each.
   Adaptive,  ///< Stations, as few as keep the line within `tolerancePx` of the local parabolas.
 };
@@ -22,7 +23,7 @@ enum class SegmentMode {
 struct SegmentParams {
   SegmentMode mode = SegmentMode::Stations;
   int count =
-      0;  ///< 0 or 4..2000. Number of segments or stations; 0 = from the length (one per `spacingPx`, at least 4).
+      0;  ///< 0 or 2..2000. Number of segments or stations; 0 = from the length (one per `spacingPx`, at least 4).
   double spacingPx = 40.0;    ///< [px] 8..400. Length of contour per station when `count` is 0.
   double tolerancePx = 0.15;  ///< [px] 0.02..5. Adaptive: largest distance of the line (points averaged over 5 px) from
                               ///< the local parabola.

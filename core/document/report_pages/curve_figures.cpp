@@ -7,6 +7,8 @@
 #include "core/base/number_text.h"
 #include "core/curve/arc_length.h"
 #include "core/exchange/cubic_path.h"
+#include "core/fairing/fairing.h"
+#include "core/fairing/log_aesthetic.h"
 
 namespace batten {
 namespace {
@@ -133,6 +135,12 @@ std::optional<TargetProfile> targetOf(const TracedCurve& curve) {
   if (params.target == kDrawnTarget) {
     TargetProfile drawn = drawnProfile(params.profile, curve.closed);
     return drawn.valid ? std::optional(std::move(drawn)) : std::nullopt;
+  }
+  if (params.target == kLogAestheticTarget) {
+    const NurbsCurve& start = curve.fairingStart();
+    const auto splits = targetSplits(start, curve.closed, params);
+    auto wanted = logAestheticTarget(start, curve.closed, splits, params.alpha, params.targets.samples);
+    return wanted.profile.valid ? std::optional(std::move(wanted.profile)) : std::nullopt;
   }
   TargetSet targets = fitTargets(curve.fairingStart(), params.targets, curve.closed);
   const int degree = params.target > 0 ? params.target : targets.recommendedDegree;

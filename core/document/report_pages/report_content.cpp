@@ -70,7 +70,8 @@ std::string fairingLine(const TracedCurve& curve, const std::optional<TargetProf
   if (curve.fairingUsed.mode == FairingMode::None) return "Not faired.";
   std::string text = shownValue(*findParameter("fairing.mode"), used);
   if (target && curve.fairingUsed.target == kDrawnTarget) text += ", drawn by hand";
-  if (target && curve.fairingUsed.target != kDrawnTarget) {
+  if (target && curve.fairingUsed.target == kLogAestheticTarget) text += ", log-aesthetic";
+  if (target && curve.fairingUsed.target < kDrawnTarget) {
     text += ", degree " + std::to_string(target->degree);
     if (curve.fairingUsed.target == 0) text += " (recommended)";
     text += ", similarity " + roundedText(target->similarity, 4);

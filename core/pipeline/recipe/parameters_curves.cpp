@@ -117,16 +117,16 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
   Parameter count = integer(
       kSegments,
       {"segments.count", "Number of segments", "",
-       "Segments per line; auto (0) derives the number from the length, otherwise at least 4. More follow the line "
+       "Segments per line; auto (0) derives the number from the length, otherwise at least 2. More follow the line "
        "closer."},
       {0, 2000, 1}, [](auto& r) -> auto& { return r.segments.count; });
   count.set = [inRange = count.set, name = count.name](Recipe& r, std::string_view text) -> Result<void> {
     const auto value = integerFromText(text);
-    if (value && *value >= 1 && *value <= 3) return refuse(name, text, "it must be 0 (from the length) or 4 to 2000");
+    if (value && *value == 1) return refuse(name, text, "it must be 0 (from the length) or 2 to 2000");
     return inRange(r, text);
   };
   count.minimumWord = "auto";
-  count.leastAbove = 4.0;
+  count.leastAbove = 2.0;
   table.push_back(std::move(count));
   table.push_back(real(
       kSegments,
@@ -146,8 +146,10 @@ void appendControlPolygon(std::vector<Parameter>& table) {
       kCurves,
       {"construct.knots", "Knots at corners", "",
        "Control polygon: degree equal knots make a sharp corner. As many as the order, as in the paper, break the "
-       "curve there."},
-      {{"degree", "As the degree", SharpKnots::Degree}, {"order", "As the order (paper)", SharpKnots::Order}},
+       "curve there. Uniform knots have free ends: the curve ends short of its corners, for comparison."},
+      {{"degree", "As the degree", SharpKnots::Degree},
+       {"order", "As the order (paper)", SharpKnots::Order},
+       {"uniform", "Uniform, free ends", SharpKnots::Uniform}},
       [](auto& r) -> auto& { return r.construct.knots; }));
   table.push_back(choice<PointRemoval>(
       kCurves,
@@ -205,6 +207,21 @@ void appendConstruct(std::vector<Parameter>& table) {
        {"natural-ends", "None, natural ends", GradientUse::NaturalEnds},
        {"directions", "Directions, lengths loosely", GradientUse::Directions}},
       [](auto& r) -> auto& { return r.construct.gradients; }));
+  table.push_back(boolean(
+      kCurves,
+      {"construct.equalise", "Equal curvature at joints", "",
+       "Bézier path without low pass: both sides of a joint take the mean of their curvatures. Off: the path before "
+       "that, as in the figures of the paper; its curvature jumps.",
+       true},
+      [](auto& r) -> auto& { return r.construct.equaliseJoints; }));
+  table.push_back(choice<ConstructEnds>(
+      kCurves,
+      {"construct.ends", "Ends", "",
+       "Quintic NURBS and Bézier path of open lines: to the ends of the line, or from the first segment's midpoint to "
+       "the last, as in the papers.",
+       true},
+      {{"line", "Of the line", ConstructEnds::Line}, {"stations", "First and last segment", ConstructEnds::Stations}},
+      [](auto& r) -> auto& { return r.construct.ends; }));
   table.push_back(real(
       kCurves,
       {"construct.lowpass", "Low pass", "stations",
@@ -298,6 +315,30 @@ Parameter profileParameter() {
   return p;
 }
 
+Parameter alphaParameter() {
+  Parameter p = described(StageId::Faired,
+                          {"fairing.alpha", "Alpha", "",
+                           "Log-aesthetic target: the power of the radius that is linear in the length, -3 to 6: -1 "
+                           "clothoid, 0 Nielsen's spiral, 1 logarithmic spiral, 2 involute; auto: what each span comes "
+                           "nearest to.",
+                           true},
+                          ParameterType::Text);
+  p.get = [](const Recipe& r) { return r.fairing.alpha ? numberToText(*r.fairing.alpha) : std::string("auto"); };
+  p.set = [name = p.name](Recipe& r, std::string_view text) -> Result<void> {
+    const std::string_view word = trimmed(text);
+    if (word == "auto") {
+      r.fairing.alpha.reset();
+      return {};
+    }
+    const auto value = numberFromText(word);
+    if (!value || !(*value >= kLeastAlpha && *value <= kMostAlpha))
+      return refuse(name, text, "it must be auto or a number from -3 to 6");
+    r.fairing.alpha = *value;
+    return {};
+  };
+  return p;
+}
+
 void appendFairing(std::vector<Parameter>& table) {
   constexpr StageId kFaired = StageId::Faired;
   table.push_back(choice<FairingMode>(
@@ -314,8 +355,8 @@ void appendFairing(std::vector<Parameter>& table) {
   table.push_back(choice<int>(
       kFaired,
       {"fairing.target", "Target", "",
-       "Degree of the curvature profile; auto takes the recommended one, drawn the user's own (fairing.profile). A "
-       "larger degree follows the sketch closer."},
+       "Degree of the curvature profile; auto takes the recommended one, drawn the user's own (fairing.profile), "
+       "log-aesthetic a power of the radius that is linear in the length. A larger degree follows the sketch closer."},
       {{"auto", "Recommended", 0},
        {"1", "Degree 1", 1},
        {"2", "Degree 2", 2},
@@ -323,8 +364,17 @@ void appendFairing(std::vector<Parameter>& table) {
        {"4", "Degree 4", 4},
        {"5", "Degree 5", 5},
        {"6", "Degree 6", 6},
-       {"drawn", "Drawn", kDrawnTarget}},
+       {"drawn", "Drawn", kDrawnTarget},
+       {"log-aesthetic", "Log-aesthetic", kLogAestheticTarget}},
       [](auto& r) -> auto& { return r.fairing.target; }));
+  table.push_back(choice<TargetChoice>(
+      kFaired,
+      {"fairing.choose", "Recommended target", "",
+       "Which target is recommended: the simplest that is met within the tolerance without more extrema, or the one of "
+       "the highest similarity S, as in the papers; S rises with the degree.",
+       true},
+      {{"simplest", "Simplest", TargetChoice::Simplest}, {"similarity", "Highest S (paper)", TargetChoice::Similarity}},
+      [](auto& r) -> auto& { return r.fairing.targetChoice; }));
   table.push_back(real(
       kFaired,
       {"fairing.tolerance", "Tolerance", "mm",
@@ -344,6 +394,7 @@ void appendFairing(std::vector<Parameter>& table) {
       {{"points", "Control points", FairingMeans::ControlPoints}, {"edges", "Edge lengths", FairingMeans::EdgeLengths}},
       [](auto& r) -> auto& { return r.fairing.means; }));
   table.push_back(profileParameter());
+  table.push_back(alphaParameter());
   Parameter keep = integer(
       kFaired,
       {"fairing.keep_extrema", "Extrema to keep", "",

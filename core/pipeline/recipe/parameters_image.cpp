@@ -210,6 +210,12 @@ void appendThresholds(std::vector<Parameter>& table) {
       {"threshold.interpolate", "Blend regions", "",
        "Thresholds change smoothly from region to region, without seams. Off: blocks, as in the paper."},
       [](auto& r) -> auto& { return r.threshold.interpolate; }));
+  table.push_back(boolean(
+      kBinary,
+      {"threshold.smooth", "Smooth before", "",
+       "Evens out the noise of the scan before the thresholds. Off: the grey values as they are, as in the papers.",
+       true},
+      [](auto& r) -> auto& { return r.threshold.smooth; }));
   Parameter reach = real(
       kBinary,
       {"threshold.reach", "Faint parts from", "",

@@ -12,6 +12,7 @@
 #include "core/construct/typical/corner_blend.h"
 #include "core/construct/typical/rounded_corner.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/closest_point.h"
 #include "core/curve/knot_operations.h"
 #include "core/pipeline/run/curve_stages.h"
 
@@ -221,14 +222,15 @@ void addNote(std::string& notes, const std::string& note) {
 }
 
 /// The figures of the curve as it is exported: where a corner is cut off, the edge points lie beside it.
-void measureAgain(TracedCurve& curve, const Piece& piece, const PageFrame& frame) {
+void measureAgain(TracedCurve& curve, const NurbsCurve& unrounded, const Piece& piece, const PageFrame& frame) {
+  curve.fairing.roundedMm = std::max(deviation(curve.faired, unrounded).max, deviation(unrounded, curve.faired).max);
   curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(piece.points, frame));
 }
 
 }  // namespace
 
 void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, const PageFrame& frame) {
-  std::vector<bool> changed(pieces.pieces.size(), false);
+  std::vector<NurbsCurve> unrounded(pieces.pieces.size());
   for (const Corner& corner : pieces.corners) {
     if (!corner.mark) continue;
     const auto mark = static_cast<std::size_t>(*corner.mark);
@@ -236,17 +238,21 @@ void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, 
     const Neighbours at = neighboursOf(set, pieces, corner);
     if (!at.before || !at.behind) continue;
     std::string note;
+    for (const TracedCurve* curve : {at.before, at.behind}) {
+      NurbsCurve& before = unrounded[static_cast<std::size_t>(curve->piece)];
+      if (before.isEmpty()) before = curve->faired;
+    }
     const bool done = roundOne(at, recipe.cornerMarks[mark], note);
     if (!done) note = kStaysSharp;
     if (!note.empty()) addNote(at.before->fairing.note, note);
     for (TracedCurve* curve : {at.before, at.behind}) {
-      if (done) changed[curve->piece] = true;
       if (!done) addNote(curve->fairing.note, note);
     }
   }
   for (TracedCurve& curve : set.curves) {
     const auto piece = static_cast<std::size_t>(curve.piece);
-    if (changed[piece]) measureAgain(curve, pieces.pieces[piece], frame);
+    const NurbsCurve& before = unrounded[piece];
+    if (!before.isEmpty() && !(before == curve.faired)) measureAgain(curve, before, pieces.pieces[piece], frame);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/construct/construct.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/fairable_shape.h"
 #include "core/pipeline/run/imported_lines.h"
 #include "core/pipeline/run/piece_choices.h"
 #include "core/pipeline/run/segment_points.h"

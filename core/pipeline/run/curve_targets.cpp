@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/curve/curvature.h"
+#include "core/fairing/corner_sections.h"
 #include "core/fairing/edge_length_fairing.h"
 #include "core/fairing/fairing.h"
 #include "core/pipeline/run/pipeline.h"
@@ -30,8 +32,15 @@ void moveControlPoints(const std::vector<Asked>& all, const RunContext& context)
   std::vector<TargetsJob> jobs;
   for (const Asked& asked : all)
     jobs.push_back({asked.curve->fairingStart(), asked.curve->closed, asked.curve->fairingUsed, asked.spanAt});
-  auto outcomes = fairAllTargets(jobs, context);
-  for (std::size_t i = 0; i < all.size(); ++i) *all[i].outcomes = std::move(outcomes[i]);
+  auto outcomes = targetsBetweenCorners(jobs, context);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    *all[i].outcomes = std::move(outcomes[i]);
+    if (!*all[i].outcomes) continue;
+    // The sketch that the user sees counts, not what fairing starts from.
+    const int sketched = countedExtrema(all[i].curve->sketched, all[i].curve->closed);
+    for (auto& faired : (*all[i].outcomes)->faired)
+      if (faired) faired->report.extremaBefore = sketched;
+  }
 }
 
 void moveEdgeLengths(const Asked& asked, std::size_t target, const RunContext& context) {

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <new>
 
+#include "core/construct/light/light_corners.h"
 #include "core/construct/light/light_pieces.h"
 #include "core/curve/arc_length.h"
+#include "core/curve/corners_inside.h"
 #include "core/curve/curvature.h"
 #include "core/curve/curve_start.h"
+#include "core/fairing/corner_sections.h"
 #include "core/fairing/edge_length_fairing.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_line.h"
@@ -22,6 +25,9 @@ namespace {
 
 /// Share of the length below which a part of a split curve is none.
 constexpr double kLeastPart = 1e-3;
+
+constexpr const char* kHasMoreExtrema =
+    "Left as sketched: made fair, the curve would have more curvature extrema. Raise the tolerance.";
 
 /// [px] A place farther than this from a curve lies on another part of the line whose choice it shares.
 constexpr double kPlaceReachPx = 24.0;
@@ -78,53 +84,93 @@ LightHold asLightHold(const EndHold& hold) {
   return hold.curvature ? LightHold::Curvature : hold.tangent ? LightHold::Tangent : LightHold::Position;
 }
 
-/// Fairs the dense curve of one line, and makes the faired one light where the sketched one was to be.
+/// Fairs the curve of one line from where its fairing starts, and makes the faired one light where the sketched one was
+/// to be.
 class LineFairing {
  public:
   LineFairing(const TracedCurve& curve, FairingLine line, LightOptions light, const RunContext& context)
       : curve_(curve), line_(std::move(line)), light_(light), context_(context) {
     light_.start = asLightHold(curve.fairingUsed.startHold);
     light_.end = asLightHold(curve.fairingUsed.endHold);
+    // What was simplified already needs no more of the tolerance than this to have few control points.
+    if (curve.isSimplified()) light_.tolerance = std::max(light.tolerance, kLightShare * curve.fairingUsed.toleranceMm);
   }
 
   Result<FairedCurve> run() const {
-    auto faired = fairedWithin(curve_.fairingUsed);
-    if (!faired || !curve_.construct.light || curve_.fairingUsed.mode == FairingMode::None) return faired;
+    FairingParams params = curve_.fairingUsed;
+    params.toleranceMm -= startsOff();
+    if (!(params.toleranceMm > 0.0)) {
+      return unchanged(curve_.sketched, curve_.closed, Termination::Degenerate,
+                       "Left as sketched: the tolerance is too small to begin with. Raise it.");
+    }
+    auto faired = fairedWithin(params);
+    if (!faired || params.mode == FairingMode::None) return faired;
+    if (!curve_.construct.light) return measured(std::move(*faired));
     if (auto light = madeLight(*faired)) return *light;
     // The light curve would have left the tolerance, all of which the fairing took: it leaves some of it to the light
     // one.
-    FairingParams closer = curve_.fairingUsed;
+    FairingParams closer = params;
     closer.toleranceMm -= light_.tolerance;
-    if (closer.toleranceMm < kFairingShare * curve_.fairingUsed.toleranceMm || context_.isCancelled()) return faired;
+    if (closer.toleranceMm < kFairingShare * params.toleranceMm || context_.isCancelled())
+      return measured(std::move(*faired));
     if (const auto again = fairedWithin(closer)) {
       if (auto light = madeLight(*again)) return *light;
     }
-    return faired;
+    return measured(std::move(*faired));
   }
 
  private:
   static constexpr double kFairingShare = 0.5;  // of the tolerance, is left to the fairing
+  static constexpr double kLightShare = 0.1;    // of the tolerance
+
+  /// How far what fairing starts from lies off what the deviation is measured from.
+  double startsOff() const {
+    return curve_.isSimplified() ? deviation(curve_.fairingStart(), curve_.sketched).max : 0.0;
+  }
 
   Result<FairedCurve> fairedWithin(const FairingParams& params) const {
     return movesEdgeLengths(params) ? fairByEdgeLengths(curve_.sketched, curve_.closed, params, context_)
-                                    : fair(curve_.fairingStart(), curve_.closed, params, context_, line_);
+                                    : fairBetweenCorners(curve_.fairingStart(), curve_.closed, params, context_, line_);
+  }
+
+  /// Counted against the curve that the user sees, where fairing started from another; what was simplified is also
+  /// measured from it.
+  FairedCurve measured(FairedCurve faired) const {
+    faired.report.extremaBefore = countedExtrema(curve_.sketched, curve_.closed);
+    const bool isStill = curve_.isSimplified() && faired.curve == curve_.fairingStart();
+    const bool addsExtrema = faired.report.extremaAfter > faired.report.extremaBefore;
+    if (isStill || addsExtrema) {
+      faired.curve = curve_.sketched;
+      faired.report.extremaAfter = faired.report.extremaBefore;
+      faired.report.maxDeviationMm = 0.0;
+      if (addsExtrema) faired.report.note = kHasMoreExtrema;
+      if (addsExtrema) faired.report.withinTolerance = false;
+      return faired;
+    }
+    if (curve_.isSimplified()) faired.report.maxDeviationMm = distanceFromSeen(faired.curve);
+    return faired;
+  }
+  double distanceFromSeen(const NurbsCurve& curve) const {
+    return std::max(deviation(curve, curve_.measuredFrom()).max, deviation(curve_.measuredFrom(), curve).max);
   }
 
   /// The faired curve as a light one that holds the fairing's tolerance; none when there is none.
   std::optional<FairedCurve> madeLight(const FairedCurve& faired) const {
-    auto light = makeLight(faired.curve, curve_.closed, light_, context_);
-    if (!light || light->report.kind == LightKind::Dense) return std::nullopt;
-    const double moved = deviation(light->curve, curve_.fairingStart()).max;
+    auto light = lightBetweenCorners(faired.curve, curve_.closed, light_, context_);
+    if (!light) return std::nullopt;
+    const double moved =
+        curve_.isSimplified() ? distanceFromSeen(*light) : deviation(*light, curve_.measuredFrom()).max;
     if (moved > std::max(curve_.fairingUsed.toleranceMm, faired.report.maxDeviationMm)) return std::nullopt;
-    const int extrema = countedExtrema(light->curve, curve_.closed);
+    const int extrema = countedExtrema(*light, curve_.closed);
     if (extrema > faired.report.extremaAfter) return std::nullopt;
-    FairedCurve result{std::move(light->curve), faired.report};
+    FairedCurve result{std::move(*light), faired.report};
     const NurbsCurve& start = curve_.fairingStart();
-    if (curve_.closed && !result.curve.isRational())
+    if (curve_.closed && !result.curve.isRational() && !beginsAtCorner(result.curve))
       result.curve = startedNear(result.curve, start.point(start.start()));
     result.report.extremaAfter = extrema;
     result.report.maxDeviationMm = moved;
-    return result;
+    // What was simplified and has not moved is the curve that the user sees.
+    return curve_.isSimplified() && faired.curve == start ? measured(faired) : measured(std::move(result));
   }
 
   const TracedCurve& curve_;
@@ -138,8 +184,13 @@ void fairOne(TracedCurve& curve, const Piece& piece, ContourKind kind, const Rec
   curve.faired = curve.sketched;
   curve.fairedFigures = curve.sketchedFigures;
   if (!curve.included || curve.fairingUsed.mode == FairingMode::None) return;
+  const bool isSimplified = curve.isSimplified();
+  // An arc is as fair as a curve can be; its note says so.
+  if (isSimplified && (curve.sketched.isRational() || curve.construct.isLine)) return;
   const LightOptions light = lightOptions(recipe.construct, frame.mmPerPx);
-  auto result = LineFairing(curve, lineOf(piece, kind, frame), light, context).run();
+  // What was simplified has left the points of the line behind.
+  FairingLine line = isSimplified ? FairingLine{} : lineOf(piece, kind, frame);
+  auto result = LineFairing(curve, std::move(line), light, context).run();
   if (!result) {
     curve.fairing.why = Termination::Degenerate;
     curve.fairing.note = "Left as sketched: " + result.error().message;

@@ -222,25 +222,4 @@ std::vector<std::optional<NurbsCurve>> importedCurves(const ImportedLine& line, 
   return curves;
 }
 
-NurbsCurve fairableShape(const NurbsCurve& curve) {
-  constexpr int kLineDegree = 5;
-  constexpr double kLongestSpan = 1.0 / 16.0;  // of the length
-  if (curve.isRational()) return {};
-  auto shape = elevated(curve, std::max(kLineDegree, curve.degree()));
-  if (!shape) return {};
-  const ArcLength arc(*shape);
-  const double longest = kLongestSpan * arc.total();
-  const std::vector<double> breaks = shape->breaks();
-  for (std::size_t i = 1; i < breaks.size(); ++i) {
-    const double length = arc.at(breaks[i]) - arc.at(breaks[i - 1]);
-    const int parts = std::clamp(static_cast<int>(std::ceil(length / longest)), 1, 64);
-    for (int k = 1; k < parts; ++k) {
-      auto finer = insertKnot(*shape, breaks[i - 1] + (breaks[i] - breaks[i - 1]) * k / parts, 1);
-      if (!finer) return {};
-      shape = std::move(finer);
-    }
-  }
-  return *shape == curve ? NurbsCurve() : *shape;
-}
-
 }  // namespace batten

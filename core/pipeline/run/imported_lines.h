@@ -13,8 +13,8 @@
 
 namespace batten {
 
-/// [px] Distance of the points of imported contours: a pixel, and more where that would make over a million points of all
-/// lines together.
+/// [px] Distance of the points of imported contours: a pixel, and more where that would make over a million points of
+/// all lines together.
 double importStepPx(std::span<const ImportedFile>, const PageFrame&);
 
 /// `set` with the lines of other programs behind its own, with one point about every importStepPx(). Where two of their
@@ -31,10 +31,5 @@ std::string importedFrom(const Contour&, std::span<const ImportedFile>);
 /// @param stepPx [px] importStepPx() of the drawing
 std::vector<std::optional<NurbsCurve>> importedCurves(const ImportedLine&, std::span<const Piece> pieces,
                                                       const PageFrame&, double stepPx);
-
-/// What fairing starts from where an imported curve has too little freedom of its own: the same shape with degree 5 and
-/// no span longer than a sixteenth of its length. Empty where it has enough; also for rational curves, which cannot be
-/// raised exactly.
-NurbsCurve fairableShape(const NurbsCurve&);
 
 }  // namespace batten

@@ -27,6 +27,8 @@ std::string leftAsDrawnReason(const TracedCurve& curve) {
   if (!curve.fairing.note.empty()) return curve.fairing.note;
   if (curve.construct.isCircle) return "Left as drawn: it is an exact circle, nothing is fairer.";
   if (curve.construct.isLine) return "Left as drawn: it is an exact line, nothing is fairer.";
+  if (curve.isSimplified() && curve.sketched.isRational())
+    return "Left as drawn: it is an exact arc, nothing is fairer.";
   switch (curve.fairingUsed.mode) {
     case FairingMode::Target:
       return "Left as drawn: no move within the tolerance brings it nearer to the target.";

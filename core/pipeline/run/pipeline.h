@@ -46,7 +46,7 @@ struct TracedCurve {
   bool closed = false;
   bool included = true;  ///< The user's choice.
   NurbsCurve sketched;
-  NurbsCurve dense;  ///< What `sketched` was made light of; empty: `sketched` itself.
+  NurbsCurve dense;  ///< See ConstructedPiece::dense; empty: `sketched` itself.
   ConstructReport construct;
   CurveFigures sketchedFigures;
   NurbsCurve faired;  ///< Equal to `sketched` while the mode is None.
@@ -56,6 +56,10 @@ struct TracedCurve {
 
   /// What fairing and its targets start from.
   const NurbsCurve& fairingStart() const { return dense.isEmpty() ? sketched : dense; }
+  /// What the user sees is not the line but what was meant by it (construct.detail).
+  bool isSimplified() const { return construct.light && construct.light->isSimplified; }
+  /// What a faired curve's distance is measured from.
+  const NurbsCurve& measuredFrom() const { return isSimplified() ? sketched : fairingStart(); }
 };
 
 struct ConstructedSet {

@@ -95,6 +95,18 @@ TEST(SimplifiedCurve, KeepsCornersSharpAndSidesSmooth) {
   EXPECT_LT(test::farthestFrom(outline, test::pointsOn(simple->curve, 500)), 2.5) << "nearer to what was meant";
 }
 
+TEST(SimplifiedCurve, CountsTheControlPointsOfTheCurveThatComesOut) {
+  // One side is a bow: the straight ones are raised to its degree.
+  test::TruthPiece piece = raggedPolygon(kBar);
+  for (Vec2& p : piece.points)
+    if (p.y() > 0.5 * kStroke) p.y() += 40.0 * std::sin(std::numbers::pi * std::clamp(p.x() / 400.0, 0.0, 1.0));
+  const NurbsCurve dense = test::denseCurve(piece, true);
+  const auto simple = simplifiedCurve(dense, true, atScale(6.0), {});
+  ASSERT_TRUE(simple);
+  ASSERT_GT(simple->curve.degree(), 1);
+  EXPECT_EQ(simple->report.points, simple->curve.controlPointCount() - 1) << "the last is the first";
+}
+
 TEST(SimplifiedCurve, GivesARingItsFewExtremaBack) {
   const NurbsCurve dense = test::denseCurve(raggedRing(120.0), true);
   const auto simple = simplifiedCurve(dense, true, atScale(6.0), {});

@@ -103,6 +103,38 @@ TEST(Stations, FewestAndFixedNumbers) {
   EXPECT_EQ(segments(arc(200.0, 2.0, false), params).stations.size(), 9u);  // 500 points
 }
 
+TEST(Stations, TwoAndThreeMayBeAsked) {
+  for (const SegmentMode mode : {SegmentMode::Stations, SegmentMode::Count}) {
+    for (const int count : {2, 3}) {
+      SegmentParams params;
+      params.mode = mode;
+      params.count = count;
+      EXPECT_EQ(std::ssize(segments(arc(200.0, 2.0, false), params).stations), count);
+    }
+  }
+}
+
+TEST(Sturges, CountsThePointsOfAPenStrokeThatWereDrawn) {
+  SegmentParams params;
+  params.mode = SegmentMode::Sturges;
+  for (const auto& [drawn, groups] : {std::pair{119, 7}, {160, 8}}) {
+    // Four points laid between two that were drawn.
+    Piece piece = arc(400.0, 2.5, false);
+    const int all = 5 * (drawn - 1) + 1;
+    piece.points.clear();
+    piece.refined.clear();
+    for (int i = 0; i < all; ++i) {
+      const double a = 2.5 * i / (all - 1);
+      piece.points.emplace_back(300.0 + 400.0 * std::cos(a), 300.0 + 400.0 * std::sin(a));
+      piece.refined.push_back(i % 5 == 0 ? 1 : 0);
+    }
+    piece.isPen = true;
+    EXPECT_EQ(std::ssize(segments(piece, params).stations), groups) << drawn;
+    piece.isPen = false;
+    EXPECT_GT(std::ssize(segments(piece, params).stations), groups) << "on a scan all points count";
+  }
+}
+
 TEST(Stations, AdaptiveTakesMoreWhereTheLineIsStricter) {
   SegmentParams loose, strict;
   loose.mode = strict.mode = SegmentMode::Adaptive;
@@ -140,7 +172,7 @@ TEST(Stations, DegeneratePiecesStayFinite) {
 
 TEST(Stations, BadParametersAreRefused) {
   SegmentParams params;
-  params.count = 3;
+  params.count = 1;
   EXPECT_TRUE(validate(params).has_value());
   params = {};
   params.spacingPx = 0.0;

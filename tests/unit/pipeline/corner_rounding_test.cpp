@@ -50,6 +50,28 @@ struct Angle {
   }
 };
 
+TEST(RoundCorners, SayHowFarTheyMovedTheCurveAndLeaveTheFiguresOfFairingAlone) {
+  Angle angle(5);
+  for (TracedCurve& curve : angle.set.curves) curve.fairing.maxDeviationMm = 0.07;
+  const NurbsCurve before = angle.set.curves[0].faired;
+  roundCorners(angle.set, angle.pieces, angle.recipe, {});
+  const TracedCurve& curve = angle.set.curves[0];
+  EXPECT_EQ(curve.fairing.maxDeviationMm, 0.07);
+  // The middle of the rounding is the point farthest from the corner's own place.
+  double farthest = 0.0;
+  for (int i = 0; i <= 2000; ++i) {
+    const double u = curve.faired.start() + (curve.faired.end() - curve.faired.start()) * i / 2000.0;
+    const Vec2 p = curve.faired.point(u);
+    farthest = std::max(farthest, std::hypot(std::max(p.x() - 100.0, 0.0), p.y()));
+  }
+  double corner = 1e9;
+  for (int i = 0; i <= 2000; ++i) {
+    const double u = curve.faired.start() + (curve.faired.end() - curve.faired.start()) * i / 2000.0;
+    corner = std::min(corner, (curve.faired.point(u) - Vec2(100, 0)).norm());
+  }
+  EXPECT_NEAR(curve.fairing.roundedMm, std::max(farthest, corner), 0.02);
+}
+
 TEST(RoundCorners, PutsTwoArcsBetweenTheShortenedNeighbours) {
   for (const int degree : {2, 3, 5}) {
     Angle angle(degree);

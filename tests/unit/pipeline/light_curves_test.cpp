@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <vector>
+
 #include "core/curve/closest_point.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "core/pipeline/run/piece_choices.h"
@@ -105,7 +109,8 @@ TEST(LightCurves, DetailRaisesTheToleranceOfAllCurvesOrOfOne) {
   EXPECT_GT(tolerancePx, 4.0 * recipe.construct.lightTolerancePx);
   EXPECT_LE(meant.construct.light->points, exact.construct.light->points);
   EXPECT_LE(apart(meant.sketched, exact.dense), 1.3 * tolerancePx * calm.frame.mmPerPx);
-  EXPECT_EQ(meant.dense, exact.dense) << "fairing starts from the same curve";
+  EXPECT_LT(apart(meant.fairingStart(), meant.sketched), 0.01 * calm.frame.mmPerPx)
+      << "fairing starts from what the user sees";
 
   recipe.construct.detail = 0.0;
   const std::size_t own = makeOwnChoice(recipe.choices, *plain.pieces, static_cast<std::size_t>(exact.piece));
@@ -119,6 +124,45 @@ TEST(LightCurves, DetailRaisesTheToleranceOfAllCurvesOrOfOne) {
   EXPECT_EQ(*read, recipe);
   recipe.choices[own].detail = 1.5;
   EXPECT_TRUE(validate(recipe));
+}
+
+/// A closed blot whose border trembles: its detail is what a larger tolerance leaves away.
+const Scan& tremblingScan() {
+  static const Scan scan = [] {
+    std::vector<Vec2> outline;
+    const int steps = 4000;
+    for (int i = 0; i < steps; ++i) {
+      const double a = 2.0 * std::numbers::pi * i / steps, r = 1.0 + 0.012 * std::sin(23.0 * a);
+      outline.push_back(Vec2(200.0, 150.0) + r * Vec2(150.0 * std::cos(a), 100.0 * std::sin(a)));
+    }
+    return test::renderPage(test::fillCoverage({outline}, 400, 300), 400, 300, test::cleanPage());
+  }();
+  return scan;
+}
+
+TEST(LightCurves, FairingStartsFromWhatTheDetailHasLeftAndIsMeasuredFromIt) {
+  for (const double detail : {0.5, 1.0}) {
+    Recipe recipe;
+    recipe.construct.detail = detail;
+    StageCache cache;
+    const auto plain = runPipeline(tremblingScan(), recipe, cache, {}, {});
+    ASSERT_FALSE(plain.error);
+    const TracedCurve& meant = plain.faired->curves.front();
+    ASSERT_TRUE(meant.construct.light && meant.construct.light->found);
+    for (const FairingMode mode : {FairingMode::Tolerance, FairingMode::Target, FairingMode::Monotone}) {
+      recipe.fairing.mode = mode;
+      recipe.fairing.toleranceMm = 0.02;
+      const auto out = runPipeline(tremblingScan(), recipe, cache, {}, {});
+      ASSERT_FALSE(out.error);
+      const TracedCurve& curve = out.faired->curves.front();
+      EXPECT_EQ(curve.sketched, meant.sketched);
+      const double moved = std::max(apart(curve.faired, curve.sketched), apart(curve.sketched, curve.faired));
+      EXPECT_LE(moved, 1.001 * recipe.fairing.toleranceMm) << detail;
+      EXPECT_NEAR(moved, curve.fairing.maxDeviationMm, 0.05 * recipe.fairing.toleranceMm);
+      EXPECT_LE(curve.fairedFigures.extrema, curve.sketchedFigures.extrema) << detail;
+      EXPECT_EQ(curve.fairing.extremaBefore, curve.sketchedFigures.extrema);
+    }
+  }
 }
 
 }  // namespace

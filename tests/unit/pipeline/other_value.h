@@ -23,6 +23,7 @@ inline std::string otherValue(const Parameter& p) {
     case ParameterType::Text:
       break;
   }
+  if (p.name == "fairing.alpha") return "0.5";
   if (p.name == "fairing.profile") return "0:0.01 0.25:-0.5 1:0.02";
   if (p.name.starts_with("inks.")) return "black,215";
   std::string grid = "12.25";

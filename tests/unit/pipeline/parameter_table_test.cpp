@@ -107,7 +107,7 @@ TEST(ParameterTable, RefusesWhatDoesNotFitAndLeavesTheRecipe) {
     }
   }
   Recipe recipe;
-  EXPECT_FALSE(setParameter(recipe, "segments.count", "3"));
+  EXPECT_FALSE(setParameter(recipe, "segments.count", "1"));
   EXPECT_TRUE(setParameter(recipe, "segments.count", "4"));
   EXPECT_FALSE(setParameter(recipe, "filter.coefficient", "2.5"));
 }

@@ -21,6 +21,7 @@
 #include "ui/panels/stages/growing_controls.h"
 #include "ui/panels/stages/knot_panel.h"
 #include "ui/panels/stages/method_table.h"
+#include "ui/panels/stages/paper_row.h"
 #include "ui/panels/stages/pin_panel.h"
 #include "ui/session/pen_edits.h"
 #include "ui/session/piece_choice.h"
@@ -84,14 +85,28 @@ CombControls::CombControls(ViewSettings& view, QWidget* parent) : QWidget(parent
 CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
     : QWidget(parent),
       session_(session),
-      editor_(new ParameterEditor(
-          session,
-          {"construct.start", "construct.derivative_magnitude", "construct.keep_extrema", "construct.light",
-           "construct.detail", "construct.light_tolerance", "construct.reduce", "construct.lowpass",
-           "construct.closeness", "construct.typical", "construct.growing_stop", "segments.mode", "segments.count",
-           "segments.spacing", "segments.tolerance", "construct.gradients", "construct.magnitude_as_in_paper",
-           "construct.growing_as_in_paper"},
-          this)),
+      editor_(new ParameterEditor(session,
+                                  {"construct.start",
+                                   "construct.derivative_magnitude",
+                                   "construct.keep_extrema",
+                                   "construct.light",
+                                   "construct.detail",
+                                   "construct.light_tolerance",
+                                   "construct.reduce",
+                                   "construct.lowpass",
+                                   "construct.closeness",
+                                   "construct.typical",
+                                   "construct.growing_stop",
+                                   "segments.mode",
+                                   "segments.count",
+                                   "segments.spacing",
+                                   "segments.tolerance",
+                                   "construct.gradients",
+                                   "construct.ends",
+                                   "construct.equalise",
+                                   "construct.magnitude_as_in_paper",
+                                   "construct.growing_as_in_paper"},
+                                  this)),
       detailScope_(new SegmentedControl({tr("All curves"), tr("Selected curve")}, this)),
       methods_(new MethodTable(session, this)),
       knots_(new KnotPanel(session, view, this)),
@@ -106,6 +121,7 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Curves"), this));
   layout->addWidget(methods_);
+  layout->addWidget(new PaperRow(session, this));
   layout->addWidget(new PinPanel(session, this));
   layout->addWidget(editor_);
   layout->addWidget(knots_);
@@ -252,6 +268,9 @@ void CurvesPanel::refreshRows() {
   editor_->setRowVisible("construct.derivative_magnitude", nurbs);
   editor_->setRowVisible("construct.magnitude_as_in_paper", nurbs);
   editor_->setRowVisible("construct.gradients", nurbs);
+  editor_->setRowVisible("construct.ends", nurbs || method == ConstructMethod::Bezier);
+  editor_->setRowVisible("construct.equalise",
+                         method == ConstructMethod::Bezier && session_.recipe().construct.lowPass == 0.0);
   const bool typical = method == ConstructMethod::Typical;
   const bool grows = typical && session_.recipe().construct.typical == TypicalMode::Growing;
   editor_->setRowVisible("construct.lowpass", method == ConstructMethod::Bezier);
@@ -322,11 +341,12 @@ void CurvesPanel::refreshFigures() {
   const auto typicalCount = std::count_if(made.begin(), made.end(), [](const SegmentNote& n) { return n.typical; });
   const auto monotoneCount =
       std::count_if(made.begin(), made.end(), [](const SegmentNote& n) { return n.typical && n.monotone; });
-  if (!made.empty() && text.isEmpty()) {
-    text = tr("%1 typical curves, %2 of them monotone, and %3 transitions.")
-               .arg(typicalCount)
-               .arg(monotoneCount)
-               .arg(static_cast<qint64>(made.size()) - typicalCount);
+  if (!made.empty()) {
+    const QString counts = tr("%1 typical curves, %2 of them monotone, and %3 transitions.")
+                               .arg(typicalCount)
+                               .arg(monotoneCount)
+                               .arg(static_cast<qint64>(made.size()) - typicalCount);
+    text = text.isEmpty() ? counts : counts + QLatin1Char(' ') + text;
   }
   if (const auto unmet = static_cast<qint64>(curve->construct.unmetConstraints.size())) {
     if (!text.isEmpty()) text += QLatin1Char('\n');

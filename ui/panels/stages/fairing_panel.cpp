@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "core/fairing/fairing_report.h"
+#include "core/fairing/target_advice.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
@@ -17,6 +18,7 @@
 #include "ui/panels/controls/setting_name.h"
 #include "ui/panels/stages/curve_list.h"
 #include "ui/panels/stages/ends_table.h"
+#include "ui/panels/stages/like_link.h"
 #include "ui/session/fairing_edits.h"
 #include "ui/session/judged_curve.h"
 #include "ui/session/piece_choice.h"
@@ -67,8 +69,9 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       wavelength_(new ParameterRow(session, *findParameter("fairing.lowpass"), this)),
       spend_(new ParameterRow(session, *findParameter("fairing.spend"), this)),
       moves_(new ParameterRow(session, *findParameter("fairing.moves"), this)),
-      editor_(new ParameterEditor(session, {"fairing.spans", "fairing.samples", "fairing.quantity", "fairing.monotone"},
-                                  this)),
+      editor_(new ParameterEditor(
+          session, {"fairing.spans", "fairing.choose", "fairing.samples", "fairing.quantity", "fairing.monotone"},
+          this)),
       note_(note({}, this)),
       raise_(linkButton(tr("Raise the tolerance"), QStringLiteral("fairing.raise"), this)),
       useForAll_(linkButton(tr("Use this for all curves"), QStringLiteral("fairing.useForAll"), this)),
@@ -78,6 +81,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       unsplit_(linkButton({}, QStringLiteral("fairing.unsplit"), this)),
       draw_(linkButton(tr("Draw the target in the plot"), QStringLiteral("fairing.draw"), this)),
       forget_(linkButton(tr("Back to the six targets"), QStringLiteral("fairing.forget"), this)),
+      like_(likeLink(session, this)),
       figures_(new FigureTable(this)),
       ends_(new EndsTable([this] { return shown(session_.recipe()); },
                           [this](int end, EndHold hold) { setHold(end, hold); }, this)) {
@@ -134,7 +138,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
     if (const TracedCurve* curve = session_.selected()) {
       Recipe after = session_.recipe();
       // Rounded up to what the field shows, so that the target really fits.
-      const double needed = std::min(20.0, std::ceil(curve->fairing.neededMm * 1000.0) / 1000.0);
+      const double needed = std::ceil(curve->fairing.neededMm * 1000.0) / 1000.0;
       if (hasOwnFairing(session_, session_.selectedCurve()))
         after = withChoice(session_, session_.selectedCurve(),
                            [needed](PieceChoice& choice) { choice.toleranceMm = needed; });
@@ -181,7 +185,7 @@ void FairingPanel::bindToScope(ParameterRow* row,
 
 void FairingPanel::buildLinks() {
   auto* column = static_cast<QVBoxLayout*>(layout());
-  for (QPushButton* link : {whole_, split_, unsplit_, draw_, forget_}) column->addWidget(link, 0, Qt::AlignLeft);
+  for (QPushButton* link : {whole_, split_, unsplit_, draw_, forget_, like_}) column->addWidget(link, 0, Qt::AlignLeft);
   split_->setText(tr("Natural spans"));
   split_->setToolTip(
       tr("A polynomial from each extremum of the curvature to the next. Extrema whose removal would move the curve by "
@@ -216,6 +220,7 @@ void FairingPanel::refreshLinks(const FairingParams& params) {
   const bool isDrawn = isTargetDrawn(session_);
   draw_->setVisible(isTarget && !isDrawn);
   forget_->setVisible(isDrawn);
+  like_->setVisible(session_.selected() != nullptr && params.mode != FairingMode::None);
   const bool canSplit = isTarget && !isDrawn && params.targets.quantity == TargetQuantity::Curvature;
   const auto spans = canSplit ? static_cast<qint64>(splitsOf(session_).size()) : 0;
   whole_->setVisible(canSplit && session_.pointedSpan().has_value());
@@ -303,23 +308,33 @@ void FairingPanel::refreshFigures() {
   const auto mm = [](double value) { return QString::number(value, 'f', value < 0.1 ? 3 : 2); };
   std::vector<FigureTable::Row> rows = {
       {tr("Curvature extrema"),
-       {{QString::number(before.extrema)}, faired ? FigureTable::Cell{QString::number(after.extrema)} : none},
-       tr("Places where the curvature turns back: fewer is fairer.")},
+       {{QString::number(before.extrema)},
+        faired ? FigureTable::Cell{QString::number(report.roundedMm > 0.0 ? report.extremaAfter : after.extrema)}
+               : none},
+       tr("Places where the curvature turns back: fewer is fairer. Those of rounded corners are not counted.")},
       {tr("Moved at most, mm"),
        {none, faired ? FigureTable::Cell{mm(report.maxDeviationMm), over} : none},
        tr("Largest distance of the faired curve from the sketched one; never above the tolerance.")},
       {tr("Off the line, mm"),
        {{mm(before.fromPoints.max)}, faired ? FigureTable::Cell{mm(after.fromPoints.max)} : none},
        tr("Largest distance of an edge point of the scan from the curve.")}};
+  if (report.roundedMm > 0.0) {
+    rows.push_back({tr("Rounded by, mm"),
+                    {none, {mm(report.roundedMm)}},
+                    tr("Largest distance that rounding its corners moved the curve, beside what fairing moved.")});
+  }
   const auto targets = session_.targets();
   int degree = curve->fairingUsed.target;
   if (targets && degree == 0) degree = targets->recommendedDegree;
   if (session_.pointedSpan()) degree = chosenSpanTarget(session_);
   if (targets && faired && curve->fairingUsed.mode == FairingMode::Target && degree >= 1 && degree <= 6) {
     const TargetProfile& profile = targets->targets.profiles[degree - 1];
-    rows.push_back({tr("Similarity S"),
-                    {{similarityText(profile.similarity)}, none},
-                    tr("How much the radius of the sketched curve resembles the target; 1 is the same.")});
+    rows.push_back(
+        {tr("Similarity S"),
+         {{similarityText(profile.similarity)},
+          report.similarityAfter ? FigureTable::Cell{similarityText(*report.similarityAfter)} : none},
+         tr("How much the radius of the sketched curve resembles the target; 1 is the same. Faired: how much "
+            "that of the faired curve resembles the sketched one's.")});
     rows.push_back({tr("Monotone target"),
                     {none, {profile.isMonotone ? tr("yes") : tr("no")}},
                     tr("A monotone profile never turns back, so it brings no bump.")});
@@ -328,8 +343,14 @@ void FairingPanel::refreshFigures() {
   QString text = isLeftAsDrawn(*curve) ? whyLeftAsDrawn(*curve) : QString::fromStdString(report.note);
   if (faired && !report.withinTolerance) {
     if (text.isEmpty()) text = tr("The tolerance stops the curve before it meets the target.");
+    const bool isMore = report.neededMm > curve->fairingUsed.toleranceMm;
+    const bool isSensible = report.neededMm <= mostSensibleToleranceMm(curve->sketched);
     raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(report.neededMm)));
-    raise_->setVisible(report.neededMm > curve->fairingUsed.toleranceMm && report.neededMm <= 20.0);
+    raise_->setVisible(isMore && isSensible);
+    if (isMore && !isSensible)
+      text += tr(" To meet it would move this curve by %1, which makes another shape of it: choose a higher degree or "
+                 "more spans.")
+                  .arg(millimetres(report.neededMm));
   }
   note_->setText(text);
   note_->setVisible(!text.isEmpty());

@@ -59,6 +59,7 @@ class FairingPanel : public QWidget {
   QPushButton* unsplit_;
   QPushButton* draw_;
   QPushButton* forget_;
+  QPushButton* like_;
   FigureTable* figures_;
   EndsTable* ends_;
   bool oneCurve_ = false;

@@ -14,9 +14,9 @@
 #include <optional>
 
 #include "core/curve/curvature.h"
+#include "core/fairing/target_advice.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/segmented_control.h"
-#include "ui/panels/targets/target_advice.h"
 #include "ui/session/curve_names.h"
 #include "ui/session/fairing_edits.h"
 #include "ui/theme/theme.h"

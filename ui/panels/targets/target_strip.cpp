@@ -11,8 +11,8 @@
 
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_report.h"
+#include "core/fairing/target_advice.h"
 #include "ui/panels/controls/panel_parts.h"
-#include "ui/panels/targets/target_advice.h"
 #include "ui/session/fairing_edits.h"
 #include "ui/session/piece_choice.h"
 #include "ui/theme/theme.h"
@@ -90,6 +90,10 @@ QString TargetTile::problem() const {
   return {};
 }
 
+bool TargetTile::fits() const {
+  return outcomes_ && isWithinTolerance(*outcomes_, degree_, toleranceMm_) && !addsExtrema(*outcomes_, degree_);
+}
+
 void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double toleranceMm, bool chosen, bool oneCurve,
                       const QString& waiting) {
   outcomes_ = std::move(outcomes);
@@ -111,10 +115,15 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
     tip += tr("\nS %1, moves the curve by at most %2, %3 left.")
                .arg(similarityText(profile.similarity), millimetres(faired.report.maxDeviationMm),
                     counted(faired.report.extremaAfter, tr("1 curvature extremum"), tr("%1 curvature extrema")));
+    if (faired.report.similarityAfter)
+      tip +=
+          tr("\nS of the curve against the sketch afterwards: %1.").arg(similarityText(*faired.report.similarityAfter));
     if (const int more = faired.report.extremaAfter - faired.report.extremaBefore; more > 0)
       tip += counted(more, tr("\nThat is 1 more than the sketch has."), tr("\nThat is %1 more than the sketch has."));
-    if (!faired.report.withinTolerance)
+    if (!faired.report.withinTolerance && faired.report.neededMm > toleranceMm)
       tip += tr("\nTo meet it fully needs %1.").arg(millimetres(faired.report.neededMm));
+    else if (!faired.report.withinTolerance)
+      tip += tr("\nTo meet it would add curvature extrema; the curve stays as it was.");
     if (!profile.isMonotone) tip += tr("\nThis profile turns back within a span: it is not monotone.");
     if (outcomes_->span)
       tip += tr("\nFor the span that you clicked; the rest of the curve stays.");
@@ -124,8 +133,12 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
   }
   tip += QLatin1Char('\n') + (oneCurve ? tr("Click or press %1: for the selected curve.").arg(degree_)
                                        : tr("Click or press %1: for all curves.").arg(degree_));
-  if (outcomes_ && outcomes_->recommendedDegree == degree_)
-    spoken += isAdvisable(*outcomes_, degree_, toleranceMm_) ? tr(", recommended") : tr(", simplest fit");
+  if (outcomes_ && outcomes_->recommendedDegree == degree_) {
+    if (isAdvisable(*outcomes_, degree_, toleranceMm_))
+      spoken += tr(", recommended");
+    else if (fits())
+      spoken += tr(", simplest fit");
+  }
   if (!outcomes_ && !waiting_.isEmpty()) spoken += QStringLiteral(", ") + waiting_;
   if (chosen_) spoken += tr(", chosen");
   setAccessibleName(spoken);
@@ -166,16 +179,16 @@ void TargetTile::paintTitle(QPainter& painter, const QRectF& title) const {
   painter.drawText(title, Qt::AlignLeft | Qt::AlignVCenter, number);
   const double numberWidth = painter.fontMetrics().horizontalAdvance(number) + 5;
   // The shape nearest to the sketch is only advice where the tolerance allows it.
-  const bool isNearest = outcomes_ && outcomes_->recommendedDegree == degree_;
+  const bool isNearest = outcomes_ && outcomes_->recommendedDegree == degree_ && fits();
   const bool isAdvised = isNearest && isAdvisable(*outcomes_, degree_, toleranceMm_);
   const QFontMetricsF metrics(uiFont(12)), small(uiFont(11));
   const double nameWidth = metrics.horizontalAdvance(degreeName(degree_));
   QString word = isAdvised ? tr("recommended") : isNearest ? tr("simplest fit") : QString();
-  const auto fits = [&](const QString& one) {
+  const auto hasRoom = [&](const QString& one) {
     return numberWidth + nameWidth + 6 + small.horizontalAdvance(one) <= title.width();
   };
-  if (!fits(word)) word = isAdvised ? QStringLiteral("✓") : tr("closest");
-  if (!fits(word) && !isAdvised) word.clear();
+  if (!hasRoom(word)) word = isAdvised ? QStringLiteral("✓") : tr("simplest");
+  if (!hasRoom(word) && !isAdvised) word.clear();
   const double taken = word.isEmpty() ? 0.0 : small.horizontalAdvance(word) + 6;
   painter.setFont(uiFont(12));
   painter.drawText(title.adjusted(numberWidth, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter,
@@ -220,11 +233,14 @@ void TargetTile::paintFigures(QPainter& painter, const QRectF& box) const {
   const FairingReport& report = outcomes_->faired[index]->report;
   const bool over = !isWithinTolerance(*outcomes_, degree_, toleranceMm_);
   // What meeting the target takes is the number that decides; the curve itself never leaves the tolerance.
+  const bool wouldAdd = over && report.neededMm <= toleranceMm_;
   const double mm = over ? std::max(report.neededMm, report.maxDeviationMm) : report.maxDeviationMm;
   painter.setFont(uiFont(11));
   const QFontMetricsF metrics(painter.font());
   const QString similarity = QStringLiteral("S ") + similarityText(outcomes_->targets.profiles[index].similarity);
-  const QString length = shortMillimetres(mm), needs = over ? tr("needs %1").arg(length) : length;
+  const QString length = shortMillimetres(mm), needs = wouldAdd ? tr("adds extrema")
+                                                       : over   ? tr("needs %1").arg(length)
+                                                                : length;
   const QString extrema = tr("%1 extr.").arg(report.extremaAfter);
   const auto fits = [&](std::initializer_list<QString> parts) {
     double width = 8.0 * static_cast<double>(parts.size() - 1);
@@ -317,7 +333,7 @@ void TargetStrip::refresh() {
     tolerance = used.toleranceMm;
     if (session_.pointedSpan())
       chosen = chosenSpanTarget(session_);
-    else if (used.mode == FairingMode::Target && used.target != kDrawnTarget && curve->fairingUsed.spanTargets.empty())
+    else if (used.mode == FairingMode::Target && used.target < kDrawnTarget && curve->fairingUsed.spanTargets.empty())
       chosen = used.target > 0 ? used.target : targets ? targets->recommendedDegree : 0;
   }
   const QString waiting = !curve                   ? QString()

@@ -38,6 +38,8 @@ class TargetTile : public QAbstractButton {
 
  private:
   QString problem() const;
+  /// Met within the tolerance, without a curvature extremum more.
+  bool fits() const;
   void paintTitle(class QPainter&, const QRectF&) const;
   void paintProfiles(class QPainter&, const QRectF&) const;
   void paintFigures(class QPainter&, const QRectF&) const;

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fairing/corner_sections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/curve/arc_length.h"
+#include "core/curve/corners_inside.h"
+#include "core/curve/knot_operations.h"
+#include "core/fairing/curvature_samples.h"
+#include "core/fairing/fairing_report.h"
+
+namespace batten {
+namespace {
+
+constexpr double kStraight = 1e-9;  // of the extent
+constexpr double kJoins = 1e-6;     // of the extent
+constexpr double kTrifle = 1e-4;    // of a part
+constexpr int kNodesPerSection = 48;
+constexpr const char* kAddsAtCorners =
+    "Left as sketched: with its parts fair, the curve would have more curvature extrema.";
+
+bool isStraightLine(const NurbsCurve& curve) {
+  const Vec2 first = curve.controlPoints().front(), chord = curve.controlPoints().back() - first;
+  const double length = chord.norm(), most = kStraight * extent(curve);
+  return std::all_of(curve.controlPoints().begin(), curve.controlPoints().end(),
+                     [&](const Vec2& p) { return length > 0.0 && std::abs(cross(chord, p - first)) <= most * length; });
+}
+
+double widthOf(const ProfileSpan& span) { return span.to - span.from; }
+double within(const ProfileSpan& span, double f) { return (f - span.from) / widthOf(span); }
+double across(const ProfileSpan& span, double f) { return span.from + f * widthOf(span); }
+
+/// What the parameters ask of one part.
+FairingParams paramsOf(const FairingParams& whole, const ProfileSpan& span, bool closed) {
+  FairingParams params = whole;
+  const double trifle = kTrifle * widthOf(span);  // what rounding makes of a place at the corner
+  const auto isIn = [&](double f) { return f > span.from + trifle && f < span.to - trifle; };
+  params.keptAt.clear();
+  for (const double f : whole.keptAt)
+    if (isIn(f)) params.keptAt.push_back(within(span, f));
+  // The extrema that are named count alone: where none is, none stays.
+  if (!whole.keptAt.empty() && params.keptAt.empty()) params.keepExtrema = 0;
+  params.targets.splits.clear();
+  for (const double f : whole.targets.splits)
+    if (isIn(f)) params.targets.splits.push_back(within(span, f));
+  if (!whole.targets.splits.empty() && params.targets.splits.empty()) params.targets.spans = TargetSpans::Whole;
+  params.spanTargets.clear();
+  for (const SpanTarget& one : whole.spanTargets)
+    if (one.at >= span.from && one.at <= span.to) params.spanTargets.push_back({within(span, one.at), one.degree});
+  if (span.from > 0.0) params.startHold = {};
+  if (span.to < 1.0) params.endHold = {};
+  if (closed) params.startHold = params.endHold = {};
+  if (whole.target == kDrawnTarget && !whole.profile.empty()) {
+    const TargetProfile drawn = drawnProfile(whole.profile, closed);
+    params.profile = {{0.0, drawn.valid ? drawn.curvatureAt(span.from) : 0.0}};
+    for (const ProfilePoint& point : whole.profile)
+      if (isIn(point.fraction)) params.profile.push_back({within(span, point.fraction), point.kappa});
+    params.profile.push_back({1.0, drawn.valid ? drawn.curvatureAt(span.to) : 0.0});
+  }
+  return params;
+}
+
+void addSentence(std::string& notes, const std::string& note) {
+  if (note.empty() || notes.find(note) != std::string::npos) return;
+  notes.append(notes.empty() ? "" : " ").append(note);
+}
+
+void addPart(FairingReport& sum, const FairingReport& one) {
+  if (sum.why == Termination::NotRun || one.why != Termination::Converged) sum.why = one.why;
+  addSentence(sum.note, one.note);
+  sum.iterations += one.iterations;
+  sum.objectiveBefore = std::max(sum.objectiveBefore, one.objectiveBefore);
+  sum.objectiveAfter = std::max(sum.objectiveAfter, one.objectiveAfter);
+  sum.maxDeviationMm = std::max(sum.maxDeviationMm, one.maxDeviationMm);
+  sum.neededMm = std::max(sum.neededMm, one.neededMm);
+  if (one.similarityAfter) sum.similarityAfter = std::min(sum.similarityAfter.value_or(1.0), *one.similarityAfter);
+  sum.withinTolerance = sum.withinTolerance && one.withinTolerance;
+  sum.noiseMm = std::max(sum.noiseMm, one.noiseMm);
+}
+
+/// The parts as one curve again, with what they report.
+Result<FairedCurve> joinedParts(const NurbsCurve& whole, bool closed, const std::vector<CornerSection>& sections,
+                                std::vector<FairedCurve> parts) {
+  FairedCurve result;
+  std::vector<ProfileSpan> spans;
+  for (const CornerSection& section : sections) spans.push_back(section.span);
+  std::vector<NurbsCurve> curves;
+  for (FairedCurve& part : parts) {
+    addPart(result.report, part.report);
+    for (LogAestheticSpan span : part.report.logAesthetic) {
+      span.from = across(spans[curves.size()], span.from);
+      span.to = across(spans[curves.size()], span.to);
+      result.report.logAesthetic.push_back(span);
+    }
+    curves.push_back(std::move(part.curve));
+  }
+  auto joined = joinAtCorners(curves, kJoins * extent(whole));
+  if (!joined) return fail(joined.error());
+  result.curve = std::move(*joined);
+  result.report.extremaBefore = countedExtrema(whole, closed);
+  result.report.extremaAfter = countedExtrema(result.curve, closed);
+  if (result.report.extremaAfter <= result.report.extremaBefore) return result;
+  auto same = unchanged(whole, closed, Termination::ToleranceLimited, kAddsAtCorners);
+  same.report.neededMm = result.report.neededMm;
+  same.report.withinTolerance = false;
+  return same;
+}
+
+Result<FairedCurve> fairSections(const NurbsCurve& curve, bool closed, const std::vector<CornerSection>& sections,
+                                 const FairingParams& params, const RunContext& context, const FairingLine& line) {
+  if (const auto error = validate(params)) return fail(*error);
+  std::vector<Result<FairedCurve>> made(sections.size(), cancelled());
+  parallelFor(context, static_cast<int>(sections.size()), 1, [&](int begin, int end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      const CornerSection& section = sections[i];
+      const FairingParams own = paramsOf(params, section.span, closed);
+      const bool isLeft = section.isStraight || (!params.spanTargets.empty() && own.spanTargets.empty());
+      made[i] = isLeft ? Result<FairedCurve>(unchanged(section.curve, false, Termination::Converged, {}))
+                       : fair(section.curve, false, own, context, line);
+    }
+  });
+  if (context.isCancelled()) return cancelled();
+  std::vector<FairedCurve> parts;
+  for (auto& one : made) {
+    if (!one) return one;
+    parts.push_back(std::move(*one));
+  }
+  return joinedParts(curve, closed, sections, std::move(parts));
+}
+
+/// A straight part, or one that another span's target leaves alone.
+TargetOutcomes asItIs(const CornerSection& section, const TargetParams& params) {
+  TargetOutcomes outcomes;
+  const CurvatureSamples samples = sampledCurvature(section.curve, params.samples);
+  outcomes.targets.perimeter = samples.perimeter;
+  outcomes.targets.kappa = samples.kappa;
+  const std::size_t count = samples.kappa.size();
+  for (std::size_t d = 0; d < outcomes.faired.size(); ++d) {
+    TargetProfile& profile = outcomes.targets.profiles[d];
+    profile.degree = static_cast<int>(d) + 1;
+    profile.valid = profile.isMonotone = true;
+    profile.similarity = profile.pearson = 1.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t a = i > 0 ? i - 1 : 0, b = std::min(i + 1, count - 1);
+      const double slope = (samples.kappa[b] - samples.kappa[a]) / (samples.perimeter[b] - samples.perimeter[a]);
+      profile.nodes.push_back({samples.perimeter[i], samples.kappa[i], slope});
+    }
+    outcomes.faired[d] = unchanged(section.curve, false, Termination::Converged, {});
+  }
+  return outcomes;
+}
+
+std::vector<ProfileNode> nodesOf(const TargetProfile& profile) {
+  if (!profile.nodes.empty()) return profile.nodes;
+  std::vector<ProfileNode> nodes;
+  constexpr double kStep = 1e-4;
+  for (int i = 0; i <= kNodesPerSection; ++i) {
+    const double f = static_cast<double>(i) / kNodesPerSection;
+    const double slope = (profile.curvatureAt(f + kStep) - profile.curvatureAt(f - kStep)) / (2.0 * kStep);
+    nodes.push_back({f, profile.curvatureAt(f), slope});
+  }
+  return nodes;
+}
+
+/// The target of one degree over all parts.
+void addProfile(TargetProfile& whole, const TargetProfile& part, const ProfileSpan& span, bool isFirst) {
+  whole.degree = part.degree;
+  whole.valid = part.valid && (isFirst || whole.valid);
+  if (!part.valid && whole.problem.empty()) whole.problem = part.problem;
+  if (!whole.valid) return;
+  for (const ProfileNode& node : nodesOf(part))
+    whole.nodes.push_back({across(span, node.f), node.value, node.slope / widthOf(span)});
+  whole.isMonotone = part.isMonotone && (isFirst || whole.isMonotone);
+  whole.similarity = isFirst ? part.similarity : std::min(whole.similarity, part.similarity);
+  whole.pearson = isFirst ? part.pearson : std::min(whole.pearson, part.pearson);
+  whole.rmsPercent = std::max(whole.rmsPercent, part.rmsPercent);
+  whole.aicc += part.aicc;
+}
+
+Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<CornerSection>& sections,
+                                      std::vector<Result<TargetOutcomes>>& parts) {
+  TargetOutcomes whole;
+  std::array<bool, 6> isMet{true, true, true, true, true, true};
+  std::array<std::vector<FairedCurve>, 6> faired;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    if (!parts[i]) return std::move(parts[i]);
+    TargetOutcomes& part = *parts[i];
+    const ProfileSpan& span = sections[i].span;
+    for (const double f : part.targets.perimeter) whole.targets.perimeter.push_back(across(span, f));
+    whole.targets.kappa.insert(whole.targets.kappa.end(), part.targets.kappa.begin(), part.targets.kappa.end());
+    whole.targets.comparesCurvature = whole.targets.comparesCurvature || part.targets.comparesCurvature;
+    whole.targets.recommendedDegree = std::max(whole.targets.recommendedDegree, part.targets.recommendedDegree);
+    if (i > 0 || job.closed) whole.splits.push_back(span.from);
+    for (const double f : part.splits) whole.splits.push_back(across(span, f));
+    if (part.span) whole.span = ProfileSpan{across(span, part.span->from), across(span, part.span->to)};
+    for (std::size_t d = 0; d < faired.size(); ++d) {
+      addProfile(whole.targets.profiles[d], part.targets.profiles[d], span, i == 0);
+      addSentence(whole.problems[d], part.problems[d]);
+      if (!part.faired[d]) continue;
+      const FairingReport& report = part.faired[d]->report;
+      isMet[d] = isMet[d] && report.withinTolerance && report.extremaAfter <= report.extremaBefore;
+      faired[d].push_back(std::move(*part.faired[d]));
+    }
+  }
+  whole.recommendedDegree = whole.targets.recommendedDegree;
+  double mostSimilar = -1.0;
+  for (std::size_t d = faired.size(); d-- > 0;) {
+    if (faired[d].size() != sections.size()) continue;
+    auto joined = joinedParts(job.curve, job.closed, sections, std::move(faired[d]));
+    if (!joined) {
+      whole.problems[d] = joined.error().message;
+      continue;
+    }
+    const bool bySimilarity = job.params.targetChoice == TargetChoice::Similarity;
+    if (!bySimilarity && isMet[d] && joined->report.withinTolerance) whole.recommendedDegree = static_cast<int>(d) + 1;
+    // From the highest degree down: of two equal ones the lower is taken.
+    const double s = joined->report.similarityAfter.value_or(-1.0);
+    if (bySimilarity && s >= mostSimilar) {
+      mostSimilar = s;
+      whole.recommendedDegree = static_cast<int>(d) + 1;
+    }
+    whole.faired[d] = std::move(*joined);
+  }
+  return whole;
+}
+
+/// A job, or the jobs of its parts.
+struct SplitJob {
+  std::vector<CornerSection> sections;
+  std::vector<std::size_t> jobs;  ///< Per section (without sections: one); kNoJob where it stays as it is.
+};
+constexpr std::size_t kNoJob = static_cast<std::size_t>(-1);
+
+SplitJob splitJob(const TargetsJob& job, std::vector<TargetsJob>& all) {
+  SplitJob result{cornerSections(job.curve, job.closed), {}};
+  if (result.sections.empty()) {
+    result.jobs.push_back(all.size());
+    all.push_back(job);
+    return result;
+  }
+  for (const CornerSection& section : result.sections) {
+    const bool isPointedAt =
+        !job.spanAt || (*job.spanAt >= section.span.from && (*job.spanAt < section.span.to || section.span.to >= 1.0));
+    if (section.isStraight || !isPointedAt) {
+      result.jobs.push_back(kNoJob);
+      continue;
+    }
+    TargetsJob own{section.curve, false, paramsOf(job.params, section.span, job.closed), std::nullopt};
+    if (job.spanAt) own.spanAt = within(section.span, *job.spanAt);
+    result.jobs.push_back(all.size());
+    all.push_back(std::move(own));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<CornerSection> cornerSections(const NurbsCurve& curve, bool closed) {
+  std::vector<CornerSection> sections;
+  if (curve.isEmpty() || curve.isRational() || (closed && !beginsAtCorner(curve))) return sections;
+  const std::vector<double> corners = cornersInside(curve);
+  if (corners.empty()) return sections;
+  const ArcLength arc(curve);
+  if (!(arc.total() > 0.0)) return sections;
+  NurbsCurve rest = curve;
+  double from = 0.0;
+  for (const double u : corners) {
+    auto halves = split(rest, u);
+    if (!halves) return {};
+    const double to = arc.at(u) / arc.total();
+    sections.push_back({std::move(halves->left), {from, to}});
+    rest = std::move(halves->right);
+    from = to;
+  }
+  sections.push_back({std::move(rest), {from, 1.0}});
+  for (CornerSection& section : sections) section.isStraight = isStraightLine(section.curve);
+  return sections;
+}
+
+Result<FairedCurve> fairBetweenCorners(const NurbsCurve& curve, bool closed, const FairingParams& params,
+                                       const RunContext& context, const FairingLine& line) {
+  try {
+    const auto sections = cornerSections(curve, closed);
+    if (sections.empty() || params.mode == FairingMode::None) return fair(curve, closed, params, context, line);
+    return fairSections(curve, closed, sections, params, context, line);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to make the curve fair.");
+  }
+}
+
+std::vector<Result<TargetOutcomes>> targetsBetweenCorners(std::span<const TargetsJob> jobs, const RunContext& context) {
+  std::vector<TargetsJob> all;
+  std::vector<SplitJob> split;
+  for (const TargetsJob& job : jobs) split.push_back(splitJob(job, all));
+  auto outcomes = fairAllTargets(all, context);
+  std::vector<Result<TargetOutcomes>> results;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    const SplitJob& one = split[i];
+    if (one.sections.empty()) {
+      results.push_back(std::move(outcomes[one.jobs.front()]));
+      continue;
+    }
+    std::vector<Result<TargetOutcomes>> parts;
+    for (std::size_t k = 0; k < one.sections.size(); ++k) {
+      parts.push_back(one.jobs[k] == kNoJob ? Result<TargetOutcomes>(asItIs(one.sections[k], jobs[i].params.targets))
+                                            : std::move(outcomes[one.jobs[k]]));
+    }
+    results.push_back(joinedOutcomes(jobs[i], one.sections, parts));
+  }
+  return results;
+}
+
+}  // namespace batten
