@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Windows side of platform.h. Its syntax is checked with MinGW-w64; it has not been run on Windows by us.
+// The Windows side of platform.h. MinGW-w64 reads it (packaging/check windows); it has not been run on Windows by us.
 #include "core/base/platform.h"
 
 #if defined(_WIN32)

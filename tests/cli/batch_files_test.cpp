@@ -110,7 +110,7 @@ TEST_F(BatchFiles, OutputsThatAreOneFileAreRefused) {
   };
   refused({"d/o.svg", "same/o.svg"}, "is written by line 1 as well");
   refused({"d/o.svg", "link.svg"}, "is written by line 1 as well");
-  refused({"d/o.svg", "d/o.svg.batch.json"}, "to keep what is known");
+  refused({"d/o.svg", "d/o.svg.batch.json"}, "which is kept beside the output, is written by line 1");
   fs::create_symlink(file("a.png"), file("scan.svg"));
   refused({"scan.svg"}, "is a scan or a recipe");
   write("d/r.svg.batch.json", "{}");

@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <string>
 #include <vector>
 
 namespace batten {
@@ -64,6 +66,63 @@ TEST(Platform, QuietStderrPutsItBack) {
   }
   std::fputs("heard", stderr);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "heard");
+}
+
+class SharedFiles : public ::testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("batten-shared-" + std::to_string(getpid()));
+};
+
+TEST_F(SharedFiles, LinesOfManyProgramsStayWhole) {
+  constexpr int kPrograms = 4, kLines = 50;
+  const std::filesystem::path file = folder_ / "lines";
+  std::ofstream(file) << "cut of";
+  std::vector<pid_t> children;
+  for (int i = 0; i < kPrograms; ++i) {
+    children.push_back(fork());
+    if (children.back() != 0) continue;
+    auto lines = SharedLines::open(file);
+    for (int k = 0; k < kLines; ++k) (void)lines->add(std::string(2000, static_cast<char>('a' + i)) + "\n");
+    _exit(0);
+  }
+  for (const pid_t child : children) waitpid(child, nullptr, 0);
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  EXPECT_EQ(line, "cut of") << "it was ended, not written on";
+  int count = 0;
+  for (; std::getline(in, line); ++count) EXPECT_EQ(line, std::string(2000, line.front()));
+  EXPECT_EQ(count, kPrograms * kLines);
+  const auto lines = SharedLines::open(file);
+  EXPECT_EQ(lines->size(), 7u + kPrograms * kLines * 2001u);
+  EXPECT_EQ(lines->read(0, 7).value(), "cut of\n");
+  EXPECT_EQ(lines->read(lines->size(), 7).value(), "");
+  EXPECT_FALSE(SharedLines::open(folder_ / "none" / "lines"));
+  EXPECT_EQ(SharedLines::open("/dev/null")->add("x\n"), std::error_code());
+  EXPECT_EQ(SharedLines::open("/dev/full")->add("x\n"), std::errc::no_space_on_device);
+}
+
+TEST_F(SharedFiles, ALockTellsBusyFromImpossible) {
+  LockFile first(folder_ / "lock"), second(folder_ / "lock"), nowhere(folder_ / "none" / "lock");
+  EXPECT_EQ(first.tryHold(), LockState::Held);
+  EXPECT_EQ(first.tryHold(), LockState::Held);
+  EXPECT_EQ(second.tryHold(), LockState::Busy);
+  EXPECT_EQ(nowhere.tryHold(), LockState::Impossible);
+}
+
+TEST_F(SharedFiles, AFileIsItselfByAnyName) {
+  std::ofstream(folder_ / "a") << "x";
+  std::ofstream(folder_ / "b") << "x";
+  std::filesystem::create_symlink("a", folder_ / "soft");
+  std::filesystem::create_hard_link(folder_ / "a", folder_ / "hard");
+  EXPECT_TRUE(fileId(folder_ / "a"));
+  EXPECT_EQ(fileId(folder_ / "a"), fileId(folder_ / "soft"));
+  EXPECT_EQ(fileId(folder_ / "a"), fileId(folder_ / "hard"));
+  EXPECT_NE(fileId(folder_ / "a"), fileId(folder_ / "b"));
+  EXPECT_FALSE(fileId(folder_ / "none"));
 }
 
 }  // namespace
