@@ -121,12 +121,19 @@ Result<void> applyCorner(const std::string& corner, Recipe& recipe) {
   return {};
 }
 
-Result<void> applySegmentPoint(const std::string& point, Recipe& recipe) {
-  const auto values = numbersOf(point);
+/// X,Y of an option, in px.
+Result<Vec2> placeOf(const char* option, const std::string& text) {
+  const auto values = numbersOf(text);
   if (!values || values->size() != 2) {
-    return wrong("--segment-point takes X,Y in px from the upper left corner, not \"" + point + "\".");
+    return wrong(std::string(option) + " takes X,Y in px from the upper left corner, not \"" + text + "\".");
   }
-  recipe.segmentPoints.push_back({Vec2((*values)[0], (*values)[1])});
+  return Vec2((*values)[0], (*values)[1]);
+}
+
+Result<void> applySegmentPoint(const std::string& point, Recipe& recipe) {
+  const auto place = placeOf("--segment-point", point);
+  if (!place) return fail(place.error());
+  recipe.segmentPoints.push_back({*place});
   return {};
 }
 
@@ -174,40 +181,27 @@ Result<void> applyDirection(const std::string& direction, Recipe& recipe) {
   return {};
 }
 
-Result<void> applyStart(const std::string& place, Recipe& recipe) {
-  const auto values = numbersOf(place);
-  if (!values || values->size() != 2) {
-    return wrong("--start takes X,Y in px from the upper left corner, not \"" + place + "\".");
-  }
-  recipe.starts.push_back({Vec2((*values)[0], (*values)[1])});
+Result<void> applyStart(const std::string& start, Recipe& recipe) {
+  const auto place = placeOf("--start", start);
+  if (!place) return fail(place.error());
+  recipe.starts.push_back({*place});
   return {};
 }
 
-Result<void> applyWay(const std::string& place, EdgeMode mode, Recipe& recipe) {
-  const auto values = numbersOf(place);
-  if (!values || values->size() != 2) {
-    return wrong(std::string(mode == EdgeMode::Outline ? "--outline" : "--centreline") +
-                 " takes X,Y in px from the upper left corner, not \"" + place + "\".");
-  }
-  recipe.edges.choices.push_back({Vec2((*values)[0], (*values)[1]), mode});
+Result<void> applyWay(const std::string& region, EdgeMode mode, Recipe& recipe) {
+  const auto place = placeOf(mode == EdgeMode::Outline ? "--outline" : "--centreline", region);
+  if (!place) return fail(place.error());
+  recipe.edges.choices.push_back({*place, mode});
   return {};
 }
 
 Result<void> applyRegion(const std::string& region, Recipe& recipe) {
-  std::vector<double> numbers;
-  for (std::size_t from = 0; from <= region.size() && numbers.size() < 5;) {
-    const auto comma = std::min(region.find(',', from), region.size());
-    const auto number = numberFromText(std::string_view(region).substr(from, comma - from));
-    if (!number) break;
-    numbers.push_back(*number);
-    from = comma + 1;
-  }
-  const bool isWhole = std::count(region.begin(), region.end(), ',') == 3 && numbers.size() == 4;
-  if (!isWhole || !(numbers[2] > 0.0) || !(numbers[3] > 0.0)) {
+  const auto numbers = numbersOf(region);
+  if (!numbers || numbers->size() != 4 || !((*numbers)[2] > 0.0) || !((*numbers)[3] > 0.0)) {
     return wrong("--roi takes X,Y,WIDTH,HEIGHT in px from the upper left corner, not \"" + region + "\".");
   }
-  const Vec2 corner(numbers[0], numbers[1]);
-  recipe.regions.push_back(rectangleRegion(corner, corner + Vec2(numbers[2], numbers[3])));
+  const Vec2 corner((*numbers)[0], (*numbers)[1]);
+  recipe.regions.push_back(rectangleRegion(corner, corner + Vec2((*numbers)[2], (*numbers)[3])));
   return {};
 }
 

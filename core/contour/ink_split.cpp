@@ -55,10 +55,7 @@ class PencilPieces {
 
 void move(const BitImage& ink, const Run& run, bool isShape, InkSplit& split) {
   clearBits(isShape ? split.strokes : split.shapes, run);
-  BitImage& to = isShape ? split.shapes : split.strokes;
-  for (int x = run.x0; x < run.x1; ++x) {
-    if (ink.at(x, run.y)) to.set(x, run.y, true);
-  }
+  copyBits(ink, run, isShape ? split.shapes : split.strokes);
 }
 
 RunPieces regionsOf(const BitImage& strokes, const BitImage& shapes, const RunContext& context) {
@@ -69,12 +66,14 @@ RunPieces regionsOf(const BitImage& strokes, const BitImage& shapes, const RunCo
   std::vector<Marked> marked;
   for (const bool isShape : {false, true}) {
     const RunPieces pieces = findPieces(isShape ? shapes : strokes, Connectivity::Eight, context);
+    if (context.isCancelled()) return {};
     for (std::size_t i = 0; i < pieces.runs.size(); ++i) marked.push_back({pieces.runs[i], {isShape, pieces.piece[i]}});
   }
   std::sort(marked.begin(), marked.end(), [](const Marked& a, const Marked& b) {
     return a.run.y != b.run.y ? a.run.y < b.run.y : a.run.x0 < b.run.x0;
   });
   RunPieces regions;
+  if (context.isCancelled()) return regions;
   std::map<std::pair<bool, int>, int> first;
   for (const Marked& m : marked) {
     regions.piece.push_back(first.try_emplace(m.region, static_cast<int>(regions.runs.size())).first->second);

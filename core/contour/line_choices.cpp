@@ -31,11 +31,13 @@ struct LongestLine {
 
 // A line that only ends in chosen ink, or begins there, is its neighbour's; one that is led through it is its own where
 // there is no other.
-void noteLines(ContourSet& set, const ChosenInk& chosen, std::span<const EdgeChoice> choices) {
+void noteLines(ContourSet& set, const ChosenInk& chosen, std::span<const EdgeChoice> choices,
+               const RunContext& context) {
   constexpr int kFewestInside = 3;
   std::vector<LongestLine> longest(choices.size());
   std::vector<bool> hasLine(choices.size(), false);
   for (Contour& contour : set.contours) {
+    if (context.isCancelled()) return;
     std::vector<int> points(choices.size(), 0);
     for (int i = 0; i < std::ssize(contour.points); ++i) {
       if (const auto choice = choiceUnder(contour, i, chosen)) ++points[*choice];
@@ -61,8 +63,8 @@ void addNote(ContourSet& set, const std::string& sentence) {
   set.report.note += sentence;
 }
 
-void noteChoices(ContourSet& set, const RunPieces& regions, std::span<const EdgeChoice> choices,
-                 const BitImage& blots) {
+void noteChoices(ContourSet& set, const RunPieces& regions, std::span<const EdgeChoice> choices, const BitImage& blots,
+                 const RunContext& context) {
   if (choices.empty()) return;
   const ChosenInk chosen(regions, choices);
   for (const EdgeChoice& choice : chosen.withoutInk())
@@ -73,13 +75,12 @@ void noteChoices(ContourSet& set, const RunPieces& regions, std::span<const Edge
     if (!chosenHere) continue;
     const int index = *chosenHere;
     if (isNoted[index] || choices[index].mode != EdgeMode::Centreline) continue;
-    const Run& run = regions.runs[i];
-    for (int x = run.x0; x < run.x1 && !isNoted[index]; ++x) isNoted[index] = blots.at(x, run.y);
+    isNoted[index] = countBits(blots, regions.runs[i]) > 0;
     if (isNoted[index])
       addPlace(set, "Too short and wide for a centre line, followed along its outline: the ink",
                choices[index].positionPx);
   }
-  noteLines(set, chosen, choices);
+  noteLines(set, chosen, choices, context);
 }
 
 }  // namespace batten

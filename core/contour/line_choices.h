@@ -2,7 +2,9 @@
 #pragma once
 
 #include <span>
+#include <string>
 
+#include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
 #include "core/contour/edge_choices.h"
 #include "core/image/bit_image.h"
@@ -13,7 +15,8 @@ namespace batten {
 /// Notes on every line which choice of the user its ink follows (Contour::traceMode), and in the report which choices
 /// lie near no ink or asked for the middle of ink that has none.
 /// @param regions what a choice holds for. @param blots ink that has no middle and is followed along its border.
-void noteChoices(ContourSet& set, const RunPieces& regions, std::span<const EdgeChoice> choices, const BitImage& blots);
+void noteChoices(ContourSet& set, const RunPieces& regions, std::span<const EdgeChoice> choices, const BitImage& blots,
+                 const RunContext& context);
 
 /// Adds a sentence to the note of the report.
 void addNote(ContourSet& set, const std::string& sentence);

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/contour/line_choices.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -181,7 +182,7 @@ Result<ContourSet> withPenStrokes(const ContourSet& set, std::span<const PenStro
   if (points == 0 && set.contours.empty()) {
     return fail(ErrorCode::NoCurve, "No line lies on the page: draw on it, or make the page larger.", note);
   }
-  if (!note.empty()) result.report.note += (result.report.note.empty() ? "" : " ") + note;
+  if (!note.empty()) addNote(result, note);
   return result;
 }
 

@@ -181,11 +181,7 @@ BitImage chosenOf(const BitImage& blots, const RunPieces& regions, const EdgePar
   BitImage chosenBlots(blots.width, blots.height);
   const ChosenInk chosen(regions, edges.choices);
   for (std::size_t i = 0; i < regions.runs.size(); ++i) {
-    const Run& run = regions.runs[i];
-    if (!chosen.choiceOf(regions.piece[i])) continue;
-    for (int x = run.x0; x < run.x1; ++x) {
-      if (blots.at(x, run.y)) chosenBlots.set(x, run.y, true);
-    }
+    if (chosen.choiceOf(regions.piece[i])) copyBits(blots, regions.runs[i], chosenBlots);
   }
   return chosenBlots;
 }
@@ -262,7 +258,7 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
   Result<FoundLines> found = findLines(ink, grey, edges, params, context);
   if (!found) return fail(found.error());
   ContourSet* set = &found->set;
-  noteChoices(*set, found->regions, edges.choices, found->blots);
+  noteChoices(*set, found->regions, edges.choices, found->blots, context);
   if (context.isCancelled()) return cancelled();
   if (set->contours.empty()) {
     return fail(

@@ -230,6 +230,7 @@ DroppedInk dropInks(const GreyImage& page, const GreyImage& scan, const ColourIm
   cv::Mat1d centres;
   for (cv::Mat1b* mask : {&dropped, &kept}) {
     cv::connectedComponentsWithStats(*mask, labels, stats, centres, 8, CV_32S);
+    if (context.isCancelled()) return result;
     for (int y = 0; y < mask->rows; ++y) {
       for (int x = 0; x < mask->cols; ++x) {
         if ((*mask)(y, x) != 0 && stats(labels(y, x), cv::CC_STAT_AREA) < kLeastPiecePx) (*mask)(y, x) = 0;

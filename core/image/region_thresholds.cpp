@@ -163,12 +163,18 @@ void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, 
 
 /// Where lines stand so close all over the page that hardly any paper shows between them, neither the paper nor its
 /// noise can be measured: then the two greys of every region tell ink from paper, as without flattening, if most
-/// regions have two clearly different ones. Noise has one, and a shadow or a margin parts few regions.
-void thresholdsWithoutPaper(const Plane& smoothed, double strength, RegionThresholds& out, const RunContext& context) {
+/// regions have two clearly different ones. Noise has one, and a shadow or a margin parts few regions. Bright lines on
+/// dark paper are told by the greys, too: most of such a page is dark.
+void thresholdsWithoutPaper(const GreyImage& image, const Plane& smoothed, double strength, RegionThresholds& out,
+                            const RunContext& context) {
+  const auto isHatched = [&](const OtsuRegions& regions) {
+    return 2 * regions.split >= kRegions && (out.note != kBrighterLines || 2 * regions.mostlyDark < regions.split);
+  };
   RegionThresholds split;
   split.smoothingPx = kSmoothings.front();
-  otsuThresholds(smoothed, strength, split, context);
-  if (2 * std::count(split.measured.begin(), split.measured.end(), true) < kRegions) return;
+  if (!isHatched(otsuThresholds(smoothed, strength, split, context)) &&
+      !isHatched(fineOtsuThresholds(image, strength, split, context)))
+    return;
   split.note =
       "The lines stand too close for the paper between them to be measured; each region is split by its two greys.";
   out = std::move(split);
@@ -268,7 +274,7 @@ Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParam
       } else {
         thresholdsBesideFolds(image, std::move(folds), shrink, params.strength, out, context);
       }
-      if (!out.foundLine && out.note != kBrighterLines) thresholdsWithoutPaper(smoothed, params.strength, out, context);
+      if (!out.foundLine) thresholdsWithoutPaper(image, smoothed, params.strength, out, context);
     } else {
       out.smoothingPx = kSmoothings.front();
       otsuThresholds(smoothed, params.strength, out, context);

@@ -51,11 +51,12 @@ double pairsAt(const RulingStretches& found, double spacing) {
 }
 
 /// The distance at which most stretches have a neighbour: the smallest of its kind, not a multiple.
-double commonSpacing(const RulingStretches& found, double height) {
+double commonSpacing(const RulingStretches& found, double height, const RunContext& context) {
   std::vector<double> pairs;
   const int most = static_cast<int>(height / 4.0);
   double best = 0.0;
   for (int spacing = 0; spacing <= most; ++spacing) {
+    if (context.isCancelled()) return 0.0;
     pairs.push_back(spacing >= kSmallestSpacing ? pairsAt(found, spacing) : 0.0);
     best = std::max(best, pairs.back());
   }
@@ -97,12 +98,14 @@ std::vector<std::pair<int, double>> longestChain(const std::vector<double>& plac
 
 class LatticeFit {
  public:
-  LatticeFit(const RulingStretches& found, double spacing) : found_(found), spacing_(spacing) {}
+  LatticeFit(const RulingStretches& found, double spacing, const RunContext& context)
+      : found_(found), spacing_(spacing), context_(context) {}
 
   std::optional<RulingLattice> run() {
     std::size_t seed = 0;
     std::vector<std::pair<int, double>> chain;
     for (std::size_t s = 0; s < found_.strips.size(); ++s) {
+      if (context_.isCancelled()) return std::nullopt;
       auto here = longestChain(found_.strips[s], spacing_);
       if (here.size() <= chain.size()) continue;
       chain = std::move(here);
@@ -117,6 +120,7 @@ class LatticeFit {
     fit(2);
     grow(static_cast<int>(seed));
     for (int round = 0; round < kMatchRounds; ++round) {
+      if (context_.isCancelled()) return std::nullopt;
       matchAll(round + 1 == kMatchRounds);
       if (std::ssize(members_) < kLeastLines) return std::nullopt;
       fit(10);
@@ -131,7 +135,7 @@ class LatticeFit {
   /// Strip by strip outwards from the seed, so that a bend is followed.
   void grow(int seed) {
     const int strips = static_cast<int>(found_.strips.size());
-    for (int away = 1; away < strips; ++away) {
+    for (int away = 1; away < strips && !context_.isCancelled(); ++away) {
       for (const int s : {seed - away, seed + away}) {
         if (s < 0 || s >= strips) continue;
         match(s, 0.25);
@@ -238,6 +242,7 @@ class LatticeFit {
 
   const RulingStretches& found_;
   double spacing_;
+  const RunContext& context_;
   RulingLattice lattice_;
   std::vector<Member> members_;
 };
@@ -252,9 +257,9 @@ double RulingLattice::at(double k, double x) const {
 std::optional<RulingLattice> findRulingLattice(const Plane& grey, const RunContext& context) {
   const RulingStretches found = findRulingStretches(grey, context);
   if (context.isCancelled() || found.strips.empty()) return std::nullopt;
-  const double spacing = commonSpacing(found, found.height);
+  const double spacing = commonSpacing(found, found.height, context);
   if (spacing <= 0.0) return std::nullopt;
-  return LatticeFit(found, spacing).run();
+  return LatticeFit(found, spacing, context).run();
 }
 
 }  // namespace batten

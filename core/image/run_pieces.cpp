@@ -64,25 +64,26 @@ void joinRows(const std::vector<Run>& runs, RowRuns upper, RowRuns lower, int sl
   }
 }
 
-bool anyBit(const std::uint64_t* row, int x0, int x1) {
+/// Calls `work` with the index of every word that pixels [x0, x1) of a row lie in, and their bits of it.
+template <class Work>
+void forWords(int x0, int x1, const Work& work) {
   const int first = x0 >> 6, last = (x1 - 1) >> 6;
   for (int i = first; i <= last; ++i) {
-    std::uint64_t word = row[i];
-    if (i == first) word &= ~std::uint64_t{0} << (x0 & 63);
-    if (i == last) word &= ~std::uint64_t{0} >> (63 - ((x1 - 1) & 63));
-    if (word != 0) return true;
+    std::uint64_t bits = ~std::uint64_t{0};
+    if (i == first) bits &= ~std::uint64_t{0} << (x0 & 63);
+    if (i == last) bits &= ~std::uint64_t{0} >> (63 - ((x1 - 1) & 63));
+    work(i, bits);
   }
-  return false;
+}
+
+bool anyBit(const std::uint64_t* row, int x0, int x1) {
+  bool any = false;
+  forWords(x0, x1, [&](int i, std::uint64_t bits) { any = any || (row[i] & bits) != 0; });
+  return any;
 }
 
 void setBits(std::uint64_t* row, int x0, int x1) {
-  const int first = x0 >> 6, last = (x1 - 1) >> 6;
-  for (int i = first; i <= last; ++i) {
-    std::uint64_t word = ~std::uint64_t{0};
-    if (i == first) word &= ~std::uint64_t{0} << (x0 & 63);
-    if (i == last) word &= ~std::uint64_t{0} >> (63 - ((x1 - 1) & 63));
-    row[i] |= word;
-  }
+  forWords(x0, x1, [&](int i, std::uint64_t bits) { row[i] |= bits; });
 }
 
 struct Strips {
@@ -148,25 +149,19 @@ std::optional<int> pieceAt(const RunPieces& pieces, int x, int y) {
 
 void clearBits(BitImage& image, const Run& run) {
   std::uint64_t* row = image.row(run.y);
-  const int first = run.x0 >> 6, last = (run.x1 - 1) >> 6;
-  for (int i = first; i <= last; ++i) {
-    std::uint64_t word = ~std::uint64_t{0};
-    if (i == first) word &= ~std::uint64_t{0} << (run.x0 & 63);
-    if (i == last) word &= ~std::uint64_t{0} >> (63 - ((run.x1 - 1) & 63));
-    row[i] &= ~word;
-  }
+  forWords(run.x0, run.x1, [&](int i, std::uint64_t bits) { row[i] &= ~bits; });
+}
+
+void copyBits(const BitImage& from, const Run& run, BitImage& to) {
+  const std::uint64_t* source = from.row(run.y);
+  std::uint64_t* row = to.row(run.y);
+  forWords(run.x0, run.x1, [&](int i, std::uint64_t bits) { row[i] |= source[i] & bits; });
 }
 
 int countBits(const BitImage& image, const Run& run) {
   const std::uint64_t* row = image.row(run.y);
-  const int first = run.x0 >> 6, last = (run.x1 - 1) >> 6;
   int count = 0;
-  for (int i = first; i <= last; ++i) {
-    std::uint64_t word = row[i];
-    if (i == first) word &= ~std::uint64_t{0} << (run.x0 & 63);
-    if (i == last) word &= ~std::uint64_t{0} >> (63 - ((run.x1 - 1) & 63));
-    count += std::popcount(word);
-  }
+  forWords(run.x0, run.x1, [&](int i, std::uint64_t bits) { count += std::popcount(row[i] & bits); });
   return count;
 }
 
@@ -217,15 +212,10 @@ void fillHoles(BitImage& image, int area, const RunContext& context) {
   std::vector<std::int64_t> size(found.runs.size(), 0);
   const auto openTowards = [&](const Run& run, int y) {
     if (y < 0 || y >= image.height) return true;
-    const int first = run.x0 >> 6, last = (run.x1 - 1) >> 6;
-    for (int i = first; i <= last; ++i) {
-      const std::uint64_t paper = ~(image.row(y)[i] | gaps.row(y)[i]);
-      if (paper == 0) continue;
-      const std::uint64_t low = i == first ? ~std::uint64_t{0} << (run.x0 & 63) : ~std::uint64_t{0};
-      const std::uint64_t high = i == last ? ~std::uint64_t{0} >> (63 - ((run.x1 - 1) & 63)) : ~std::uint64_t{0};
-      if ((paper & low & high) != 0) return true;
-    }
-    return false;
+    bool isOpen = false;
+    forWords(run.x0, run.x1,
+             [&](int i, std::uint64_t bits) { isOpen = isOpen || (~(image.row(y)[i] | gaps.row(y)[i]) & bits) != 0; });
+    return isOpen;
   };
   for (std::size_t i = 0; i < found.runs.size(); ++i) {
     const Run& run = found.runs[i];

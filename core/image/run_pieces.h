@@ -30,6 +30,8 @@ RunPieces findPieces(const BitImage& image, Connectivity connectivity, const Run
 void setBits(BitImage& image, const Run& run);
 /// Clears the pixels of a run.
 void clearBits(BitImage& image, const Run& run);
+/// Sets in `to` the pixels of the run that are set in `from`, which is as large.
+void copyBits(const BitImage& from, const Run& run, BitImage& to);
 /// How many pixels of the run are set.
 int countBits(const BitImage& image, const Run& run);
 

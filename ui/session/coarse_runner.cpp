@@ -7,7 +7,7 @@
 namespace batten {
 
 void CoarseRunner::start(Request request) {
-  if (coarseFactor(request.scan->grey.width, request.scan->grey.height) <= 1) return;
+  if (coarseFactor(*request.scan, request.recipe) <= 1) return;
   worker_.start([this, request = std::move(request)](const CancelToken& token) { run(request, token); },
                 BackgroundWorker::Running::Finish);
 }
@@ -17,7 +17,7 @@ void CoarseRunner::run(const Request& request, const CancelToken& token) {
   context.cancel = token;
   // What fails here fails in the full run, which says so.
   (void)guarded<bool>([&]() -> Result<bool> {
-    const int factor = coarseFactor(request.scan->grey.width, request.scan->grey.height);
+    const int factor = coarseFactor(*request.scan, request.recipe);
     if (!page_ || pageOf_.lock() != request.scan) {
       auto page = std::make_shared<const Scan>(coarsePage(*request.scan, factor, context));
       if (token.isCancelled()) return cancelled();
@@ -38,7 +38,7 @@ void CoarseRunner::run(const Request& request, const CancelToken& token) {
 
 void CoarseRunner::post(const Request& request, const PipelineOutput& output) {
   auto result = std::make_shared<CoarseResult>();
-  result->factor = coarseFactor(request.scan->grey.width, request.scan->grey.height);
+  result->factor = coarseFactor(*request.scan, request.recipe);
   result->binary = output.binary;
   result->filtered = output.filtered;
   result->faired = output.faired;

@@ -150,9 +150,9 @@ std::vector<LightCurve> fitsOf(const NurbsCurve& dense, const std::vector<Vec2>&
   return parts;
 }
 
-double farthest(const EvenLine& line, const NurbsCurve& curve) {
+double farthest(const EvenLine& line, const NurbsCurve& curve, const RunContext& context) {
   double worst = 0.0;
-  for (int i = 0; i < line.size(); i += kMeasuredEvery) {
+  for (int i = 0; i < line.size() && !context.isCancelled(); i += kMeasuredEvery) {
     worst = std::max(worst, closestPoint(curve, line.points[static_cast<std::size_t>(i)]).distance);
   }
   return worst;
@@ -165,7 +165,8 @@ std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, 
   const double scale = options.tolerance;
   const EvenLine whole = evenLine(dense, closed, std::max(options.step, scale / kStepsPerScale));
   EvenLine line = whole;
-  const int necks = cutNecks(line, scale);
+  const int necks = cutNecks(line, scale, context);
+  if (context.isCancelled()) return std::nullopt;
   std::vector<ScaleCorner> corners = cornersAtScale(line, scale);
   std::erase_if(corners, [](const ScaleCorner& c) { return !c.hard && std::abs(c.turnRad) < kClearNotch; });
   const bool loop = closed && corners.empty();
@@ -210,7 +211,8 @@ std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, 
   simple.report.necks = necks;
   simple.report.corners = static_cast<int>(corners.size()) + cuts;
   simple.report.pointsBefore = dense.controlPointCount() - (closed ? dense.degree() : 0);
-  simple.report.worst = farthest(line, simple.curve);
+  simple.report.worst = farthest(line, simple.curve, context);
+  if (context.isCancelled()) return std::nullopt;
   simple.report.extrema = countedExtrema(simple.curve, closed);
   return simple;
 }

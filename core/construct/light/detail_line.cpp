@@ -180,7 +180,7 @@ EvenLine evenLine(const NurbsCurve& curve, bool closed, double step) {
   return evenPolyline(fine, closed, step);
 }
 
-int cutNecks(EvenLine& line, double scale) {
+int cutNecks(EvenLine& line, double scale, const RunContext& context) {
   const int n = line.size();
   const int longest = std::min(static_cast<int>(kLongestNeck * scale / line.step), line.closed ? n / 2 : n - 1);
   struct Neck {
@@ -188,6 +188,7 @@ int cutNecks(EvenLine& line, double scale) {
   };
   std::vector<Neck> necks;
   for (int i = 0; i < n; ++i) {
+    if (context.isCancelled()) return 0;
     Neck found{i, 0};
     for (int length = static_cast<int>(2.0 * scale / line.step); length <= longest; ++length) {
       if (!line.closed && i + length >= n) break;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/base/run_context.h"
 #include "core/base/vec2.h"
 #include "core/curve/nurbs_curve.h"
 
@@ -28,7 +29,7 @@ EvenLine evenLine(const NurbsCurve&, bool closed, double step);
 
 /// Cuts off spikes, inlets and loops that are thinner than the scale: between two points nearer than .8 of it, with a
 /// line between them of more than 3 mouths and 2 scales and of at most 16 scales; the longest first. @return how many.
-int cutNecks(EvenLine&, double scale);
+int cutNecks(EvenLine&, double scale, const RunContext&);
 
 /// Corners of a line that are sharp within `scale`, in order along it: its direction, smoothed over half a scale, turns
 /// by 25 degrees and more within two scales, while the line to either side bends far less, and the sides meet within a

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/curve/rough_length.h"
+
 namespace batten {
 namespace {
 
@@ -29,19 +31,6 @@ std::optional<LightSample> lightSampleAt(const NurbsCurve& curve, double u) {
   sample.slope = (cross(d[1], d[3]) / (v * v * v) - 3.0 * sample.kappa * d[1].dot(d[2]) / (v * v)) / v;
   if (!std::isfinite(sample.kappa) || !std::isfinite(sample.slope)) return std::nullopt;
   return sample;
-}
-
-/// Length of a span, by a polygon through it: only to choose the number of steps.
-double roughLength(const NurbsCurve& curve, double from, double to) {
-  constexpr int kChords = 8;
-  double length = 0.0;
-  Vec2 last = curve.point(from);
-  for (int i = 1; i <= kChords; ++i) {
-    const Vec2 next = curve.point(from + (to - from) * i / kChords);
-    length += (next - last).norm();
-    last = next;
-  }
-  return length;
 }
 
 }  // namespace

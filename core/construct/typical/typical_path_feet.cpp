@@ -61,10 +61,4 @@ void followFeet(const std::vector<PathGeometry>& geometry, const std::vector<Vec
   }
 }
 
-std::vector<PathFoot> pathFeet(const TypicalPath& path, const std::vector<Vec2>& points) {
-  std::vector<PathFoot> feet;
-  followFeet(geometryOf(path), points, feet);
-  return feet;
-}
-
 }  // namespace batten

@@ -15,9 +15,6 @@ struct PathFoot {
   double distance = 0.0;  ///< Signed, positive to the left of the path.
 };
 
-/// Feet of points in order, each searched from the one before.
-std::vector<PathFoot> pathFeet(const TypicalPath& path, const std::vector<Vec2>& points);
-
 /// Feet of points in order, each searched from where it was, or at first from the one before.
 void followFeet(const std::vector<PathGeometry>& geometry, const std::vector<Vec2>& points,
                 std::vector<PathFoot>& feet);

@@ -135,16 +135,6 @@ int heightAt(const BitImage& ink, int x, int y, int most) {
   return height;
 }
 
-void copyRun(const BitImage& from, const Run& run, BitImage& to) {
-  const int first = run.x0 >> 6, last = (run.x1 - 1) >> 6;
-  for (int i = first; i <= last; ++i) {
-    std::uint64_t mask = ~std::uint64_t{0};
-    if (i == first) mask &= ~std::uint64_t{0} << (run.x0 & 63);
-    if (i == last) mask &= ~std::uint64_t{0} >> (63 - ((run.x1 - 1) & 63));
-    to.row(run.y)[i] |= from.row(run.y)[i] & mask;
-  }
-}
-
 // A letter drawn with a broad nib is a shape, and so are its neighbours that are a little thinner: where a quarter of
 // the ink lies in shapes and three quarters near the limit, the latter are shapes as well.
 constexpr double kNearLimit = 0.6;
@@ -200,7 +190,7 @@ StrokeSplit split(const BitImage& ink, const EdgeParams& params, const RunContex
     const auto choice = chosen.choiceOf(pieces.piece[i]);
     const EdgeMode own = choice ? params.choices[*choice].mode : EdgeMode::Automatic;
     const bool shape = own == EdgeMode::Automatic ? shapes[i] : own == EdgeMode::Outline;
-    copyRun(ink, pieces.runs[i], shape ? result.shapes : result.strokes);
+    copyBits(ink, pieces.runs[i], shape ? result.shapes : result.strokes);
   }
   return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/document/report_pages/curve_figures.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -26,17 +27,6 @@ constexpr double kLeastRadius = 1e-4, kMostRadius = 20.0;
 constexpr double kLeastDecades = 0.5;  ///< A nearly constant radius looks constant.
 constexpr double kAxisLeftMm = 13.0, kAxisFootMm = 8.0, kAxisHeadMm = 2.0, kAxisRightMm = 3.0;
 constexpr int kMostTicks = 7;
-
-struct Box {
-  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
-  bool isEmpty = true;
-  void add(const Vec2& p) {
-    low = isEmpty ? p : Vec2(low.cwiseMin(p));
-    high = isEmpty ? p : Vec2(high.cwiseMax(p));
-    isEmpty = false;
-  }
-  Vec2 size() const { return high - low; }
-};
 
 /// The cubics of a curve in a figure whose upper left corner stands at `corner` of the model frame, or an error.
 Result<void> addCurve(Figure& figure, const NurbsCurve& curve, const Vec2& corner, Ink ink, double widthMm) {
@@ -152,20 +142,20 @@ std::optional<TargetProfile> targetOf(const TracedCurve& curve) {
 bool isShownFaired(const TracedCurve& curve) { return !curve.faired.isEmpty() && !(curve.faired == curve.sketched); }
 
 Result<Figure> drawingFigure(const std::vector<const TracedCurve*>& curves, const std::vector<int>& numbers) {
-  Box box;
+  Eigen::AlignedBox2d box;
   for (const TracedCurve* curve : curves) {
     for (const NurbsCurve* shape : {&curve->sketched, &curve->faired}) {
       if (shape->isEmpty()) continue;
-      for (const CurveSample& sample : sampleByArcLength(*shape, kPlotSamples)) box.add(sample.point);
+      for (const CurveSample& sample : sampleByArcLength(*shape, kPlotSamples)) box.extend(sample.point);
     }
   }
   Figure figure;
-  if (box.isEmpty) return figure;
+  if (box.isEmpty()) return figure;
   const Vec2 margin(kDrawingMarginMm, kDrawingMarginMm);
-  const Vec2 size = box.size() + 2.0 * margin;
+  const Vec2 size = box.sizes() + 2.0 * margin;
   figure.widthMm = size.x();
   figure.heightMm = size.y();
-  const Vec2 corner(box.low.x() - margin.x(), box.high.y() + margin.y());
+  const Vec2 corner(box.min().x() - margin.x(), box.max().y() + margin.y());
   for (const TracedCurve* curve : curves) {
     if (!isShownFaired(*curve)) continue;
     if (auto added = addCurve(figure, curve->sketched, corner, Ink::Sketched, kSketchedWidthMm); !added)
@@ -186,24 +176,24 @@ Result<Figure> drawingFigure(const std::vector<const TracedCurve*>& curves, cons
 Figure combFigure(const TracedCurve& curve, double widthMm, double heightMm) {
   const NurbsCurve& shape = curve.faired.isEmpty() ? curve.sketched : curve.faired;
   const auto samples = sampleByArcLength(shape, kCombSamples);
-  Box box;
+  Eigen::AlignedBox2d box;
   double most = 0.0;
   for (const CurveSample& sample : samples) {
-    box.add(sample.point);
+    box.extend(sample.point);
     most = std::max(most, std::abs(sample.kappa));
   }
-  const double longest = kLongestQuill * std::max(box.size().x(), box.size().y());
+  const double longest = kLongestQuill * std::max(box.sizes().x(), box.sizes().y());
   const auto tipOf = [&](const CurveSample& sample) {
     const Vec2 left(-sample.tangent.y(), sample.tangent.x());
     return Vec2(sample.point - (most > 0.0 ? longest * sample.kappa / most : 0.0) * left);
   };
-  Box whole = box;
-  for (const CurveSample& sample : samples) whole.add(tipOf(sample));
-  const Vec2 size = whole.size();
+  Eigen::AlignedBox2d whole = box;
+  for (const CurveSample& sample : samples) whole.extend(tipOf(sample));
+  const Vec2 size = whole.sizes();
   const double room = 3.0;
   const double scale =
       std::min((widthMm - 2 * room) / std::max(size.x(), 1e-9), (heightMm - 2 * room) / std::max(size.y(), 1e-9));
-  const Vec2 middle = 0.5 * (whole.low + whole.high);
+  const Vec2 middle = whole.center();
   const auto place = [&](const Vec2& p) {
     return Vec2(0.5 * widthMm + scale * (p.x() - middle.x()), 0.5 * heightMm - scale * (p.y() - middle.y()));
   };

@@ -15,6 +15,7 @@ namespace batten {
 namespace {
 
 constexpr double kQuickPage = 8e6, kCoarsePage = 3e6;  // [px]
+constexpr double kLeastDpi = 1.0;                      // of a recipe
 
 /// A length or area that the table knows, divided. One that stands for a word ("auto") says the same on any page.
 void divide(const Parameter& p, double by, Recipe& recipe) {
@@ -54,6 +55,8 @@ ColourImage coarseColours(const ColourImage& colour, const GreyImage& grey, int 
   return coarse;
 }
 
+double dpiOf(const Recipe& recipe, const Scan& scan) { return recipe.dpi.value_or(scan.dpi.value_or(kAssumedDpi)); }
+
 }  // namespace
 
 int coarseFactor(int widthPx, int heightPx) {
@@ -61,12 +64,21 @@ int coarseFactor(int widthPx, int heightPx) {
   return pixels <= kQuickPage ? 1 : static_cast<int>(std::ceil(std::sqrt(pixels / kCoarsePage)));
 }
 
+int coarseFactor(const Scan& scan, const Recipe& recipe) {
+  const int factor = coarseFactor(scan.grey.width, scan.grey.height);
+  return dpiOf(recipe, scan) / factor < kLeastDpi ? 1 : factor;
+}
+
 Scan coarsePage(const Scan& scan, int factor, const RunContext& context) {
   Scan coarse;
   coarse.info = scan.info;
   coarse.info.width = coarse.info.height = 0;  // of no file
   coarse.dpi = scan.dpi ? std::optional(*scan.dpi / factor) : std::nullopt;
-  coarse.fileHash = HashBuilder().text("coarse page").hash(scan.fileHash).integer(factor).finish();
+  coarse.page = scan.page;
+  coarse.pages = scan.pages;
+  // Where no file stands for the pixels, they stand for themselves.
+  if (scan.fileHash != ContentHash{})
+    coarse.fileHash = HashBuilder().text("coarse page").hash(scan.fileHash).integer(factor).finish();
   coarse.path = scan.path;
   coarse.grey = GreyImage(std::max(1, scan.grey.width / factor), std::max(1, scan.grey.height / factor));
   if (!scan.colour.isEmpty()) coarse.colour = coarseColours(scan.colour, coarse.grey, factor, context);
@@ -89,12 +101,19 @@ Scan coarsePage(const Scan& scan, int factor, const RunContext& context) {
 
 Recipe coarseRecipe(Recipe recipe, const Scan& scan, int factor) {
   const double by = factor;
-  recipe.dpi = recipe.dpi.value_or(scan.dpi.value_or(kAssumedDpi)) / by;
+  const double dpi = dpiOf(recipe, scan);
+  recipe.dpi = dpi / by;
   for (const Parameter& p : parameterTable()) {
     if (p.unit == "px") divide(p, by, recipe);
     if (p.unit == "px²") divide(p, by * by, recipe);
   }
-  if (recipe.page) recipe.page.reset();
+  if (recipe.page) {
+    // What is left over at the lower border is no part of the coarse page, which begins above it.
+    const int restPx = scan.grey.height % factor;
+    recipe.page->widthPx = scan.grey.width / factor;
+    recipe.page->heightPx = scan.grey.height / factor;
+    recipe.page->bottomMm += restPx * kMillimetresPerInch / dpi;
+  }
   for (PenStroke& stroke : recipe.penStrokes) divide(stroke.points, by);
   for (RegionOfInterest& region : recipe.regions) divide(region.cornersPx, by);
   for (EdgeChoice& choice : recipe.edges.choices) choice.positionPx /= by;

@@ -10,6 +10,8 @@ namespace batten {
 /// By how much a page is made smaller, along both sides, so that a run on it takes a moment: 1 for pages of up to
 /// 8 million pixels, else the least whole number that leaves at most 3 million.
 int coarseFactor(int widthPx, int heightPx);
+/// The same for a page with its recipe: 1, too, where the smaller page would have a resolution that no page may have.
+int coarseFactor(const Scan&, const Recipe&);
 
 /// The page with each square of `factor` px averaged to one px; what is left over at the right and the lower border is
 /// dropped. Its resolution is that much lower, so that lengths in mm stay. Pixels averaged from a cancelled run are

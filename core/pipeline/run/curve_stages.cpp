@@ -8,6 +8,7 @@
 #include <map>
 #include <new>
 
+#include "core/base/statistics.h"
 #include "core/construct/construct.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/fairable_shape.h"
@@ -94,11 +95,7 @@ double inkWidth(const ContourSet& contours, ContourKind kind) {
     area += contour.hole ? -contour.areaPx : contour.areaPx;
     length += contour.lengthPx;
   }
-  if (!widths.empty()) {
-    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-    std::nth_element(widths.begin(), middle, widths.end());
-    return static_cast<double>(*middle);
-  }
+  if (!widths.empty()) return static_cast<double>(upperMedian(widths));
   // A stroke of width w and length l has about the area w l and an outline of 2 l.
   return length > 0.0 ? std::max(0.0, 2.0 * area / length) : 0.0;
 }

@@ -9,6 +9,7 @@
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
+#include "core/curve/rough_length.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -43,15 +44,7 @@ double lengthBoundOf(const ImportedLine& line) {
 
 /// Steps of a span of a curve.
 int stepsOf(const NurbsCurve& curve, double from, double to, const PageFrame& frame, double stepPx) {
-  constexpr int kChords = 8;
-  double length = 0.0;
-  Vec2 before = curve.point(from);
-  for (int i = 1; i <= kChords; ++i) {
-    const Vec2 at = curve.point(from + (to - from) * i / kChords);
-    length += (at - before).norm();
-    before = at;
-  }
-  const double steps = std::ceil(frame.lengthToImage(length) / stepPx);
+  const double steps = std::ceil(frame.lengthToImage(roughLength(curve, from, to)) / stepPx);
   return static_cast<int>(std::clamp(steps, static_cast<double>(kLeastSteps), static_cast<double>(kMostSteps)));
 }
 
@@ -93,6 +86,7 @@ void keepEvery(double stepPx, Contour& contour) {
     since = p.refined ? 0 : since + 1;
     return since % stride != 0;
   });
+  contour.points.shrink_to_fit();
 }
 
 Contour contourOfPoints(const ImportedLine& line, const PageFrame& frame, double stepPx) {
@@ -170,11 +164,13 @@ double importStepPx(std::span<const ImportedFile> imports, const PageFrame& fram
   return std::max(kSampleStepPx, length / kMostImported);
 }
 
-ContourSet withImports(ContourSet set, std::span<const ImportedFile> imports, const PageFrame& frame) {
+ContourSet withImports(ContourSet set, std::span<const ImportedFile> imports, const PageFrame& frame,
+                       const RunContext& context) {
   const double stepPx = importStepPx(imports, frame);
   int index = 0;
   for (const ImportedFile& file : imports) {
     for (const ImportedLine& line : file.lines) {
+      if (context.isCancelled()) return set;
       Contour contour =
           line.curves.empty() ? contourOfPoints(line, frame, stepPx) : contourOfCurves(line, frame, stepPx);
       contour.kind = ContourKind::Imported;
@@ -195,16 +191,6 @@ const ImportedLine* importedLineOf(const Contour& contour, std::span<const Impor
     index -= static_cast<int>(file.lines.size());
   }
   return nullptr;
-}
-
-std::string importedFrom(const Contour& contour, std::span<const ImportedFile> imports) {
-  if (!contour.imported) return {};
-  int index = *contour.imported;
-  for (const ImportedFile& file : imports) {
-    if (index < std::ssize(file.lines)) return file.source;
-    index -= static_cast<int>(file.lines.size());
-  }
-  return {};
 }
 
 std::vector<std::optional<NurbsCurve>> importedCurves(const ImportedLine& line, std::span<const Piece> pieces,

@@ -3,10 +3,10 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "core/base/page_frame.h"
+#include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
 #include "core/contour/corner/corner_marks.h"
 #include "core/curve/imported_line.h"
@@ -18,13 +18,11 @@ namespace batten {
 double importStepPx(std::span<const ImportedFile>, const PageFrame&);
 
 /// `set` with the lines of other programs behind its own, with one point about every importStepPx(). Where two of their
-/// curves meet, and at the corners of points, the line has a joint.
-ContourSet withImports(ContourSet set, std::span<const ImportedFile>, const PageFrame&);
+/// curves meet, and at the corners of points, the line has a joint. Some lines are missing when cancelled.
+ContourSet withImports(ContourSet set, std::span<const ImportedFile>, const PageFrame&, const RunContext&);
 
 /// The line that a contour stands for; null for contours of other kinds.
 const ImportedLine* importedLineOf(const Contour&, std::span<const ImportedFile>);
-/// Name of the file that it came from.
-std::string importedFrom(const Contour&, std::span<const ImportedFile>);
 
 /// The curves of the pieces of one imported line, exactly as they were imported: whole, or the part between two corner
 /// marks. Absent for lines of points, and where the pieces are none of the line. Model frame, mm.

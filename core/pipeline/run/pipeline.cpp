@@ -203,7 +203,9 @@ class PipelineRun {
       traced = std::make_shared<const ContourSet>(found ? std::move(*found) : ContourSet{});
       if (found) cache_.store(keys_.traced, traced, bytesOf(*traced));
     }
-    return withPenStrokes(withImports(*traced, recipe_.imports, out_.frame), recipe_.penStrokes,
+    const ContourSet drawn = withImports(*traced, recipe_.imports, out_.frame, context_);
+    if (context_.isCancelled()) return cancelled();
+    return withPenStrokes(drawn, recipe_.penStrokes,
                           {static_cast<double>(scan_.grey.width), static_cast<double>(scan_.grey.height)});
   }
 
@@ -213,9 +215,13 @@ class PipelineRun {
     begin_ = Clock::now();
     StageTiming& timing = out_.timing[indexOf(stage)];
     timing.run = true;
-    slot = cache_.find<T>(keys_[stage]);
-    timing.fromCache = slot != nullptr;
-    if (!fill(stage, keys_[stage], slot, work)) return false;
+    bool isMade = false;
+    const auto make = [&] {
+      isMade = true;
+      return work();
+    };
+    if (!fill(stage, keys_[stage], slot, make)) return false;
+    timing.fromCache = !isMade;
     takeTime(stage);
     return true;
   }
@@ -225,7 +231,7 @@ class PipelineRun {
   bool fill(StageId stage, const ContentHash& key, std::shared_ptr<const T>& slot, const Work& work) {
     try {
       if (context_.isCancelled()) return stop(stage, {ErrorCode::Cancelled, "Cancelled.", {}});
-      if (!slot) slot = cache_.find<T>(key);
+      slot = cache_.find<T>(key);
       if (!slot) {
         Result<T> result = work();
         // A stage that was interrupted may hand back what it had: never kept.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "tests/unit/image/random_image.h"
 
@@ -52,6 +53,26 @@ TEST(RunPieces, KeepsWhatFloodFillKeeps) {
       context.threads = 3;
       EXPECT_EQ(keepPieces(image, {.minArea = 7, .minDiagonal = 0.0, .seeds = &seeds}, context), expected);
     }
+  }
+}
+
+TEST(RunPieces, CopiesClearsAndCountsTheBitsOfARun) {
+  const BitImage image = test::randomImage(200, 4, 0.5, 9);
+  for (const batten::Run& run :
+       std::vector<batten::Run>{{0, 0, 200}, {1, 3, 60}, {2, 63, 65}, {3, 64, 128}, {1, 127, 129}}) {
+    BitImage copied = test::randomImage(200, 4, 0.2, 10), cleared = image;
+    BitImage expected = copied, without = image;
+    int count = 0;
+    for (int x = run.x0; x < run.x1; ++x) {
+      if (image.at(x, run.y)) expected.set(x, run.y, true);
+      if (image.at(x, run.y)) ++count;
+      without.set(x, run.y, false);
+    }
+    copyBits(image, run, copied);
+    clearBits(cleared, run);
+    EXPECT_EQ(copied, expected);
+    EXPECT_EQ(cleared, without);
+    EXPECT_EQ(countBits(image, run), count);
   }
 }
 

@@ -131,6 +131,42 @@ TEST(Thresholds, FindLinesSoCloseThatNoPaperShowsBetweenThem) {
   EXPECT_EQ(mask(page, {}, {}).count(), 0);
 }
 
+/// What is darker than 128 is found as ink, but for one pixel of `allowedOneOf`.
+void expectLines(const GreyImage& page, int allowedOneOf, const std::string& what) {
+  const BitImage found = mask(page, {}, {});
+  int wrong = 0;
+  for (int y = 0; y < page.height; ++y) {
+    for (int x = 0; x < page.width; ++x) wrong += found.at(x, y) != (page.level(x, y) < 128.0) ? 1 : 0;
+  }
+  EXPECT_LT(wrong, page.width * page.height / allowedOneOf) << what;
+}
+
+TEST(Thresholds, FindRulingsGridsAndHatchingAFewPixelsApart) {
+  for (const int pitch : {3, 4, 5}) {
+    GreyImage page(600, 400);
+    for (int y = 0; y < 400; ++y) {
+      for (int x = 0; x < 600; ++x) {
+        page.row(y)[x] = static_cast<std::uint16_t>((x % pitch == 1 ? 20 : 235) * 257);
+      }
+    }
+    expectLines(page, 50, std::to_string(pitch) + " px");
+  }
+  GreyImage grid(600, 400);
+  for (int y = 0; y < 400; ++y) {
+    for (int x = 0; x < 600; ++x)
+      grid.row(y)[x] = static_cast<std::uint16_t>((x % 8 == 3 || y % 8 == 3 ? 20 : 235) * 257);
+  }
+  expectLines(grid, 12, "grid");  // four corners of every crossing are rounded
+  // Black and white pixels at random are no lines.
+  std::mt19937 random(3);
+  for (const double share : {0.1, 0.3, 0.5, 0.7}) {
+    std::bernoulli_distribution black(share);
+    GreyImage specks(600, 400);
+    for (std::uint16_t& pixel : specks.pixels) pixel = static_cast<std::uint16_t>((black(random) ? 20 : 235) * 257);
+    EXPECT_EQ(mask(specks, {}, {}).count(), 0) << share;
+  }
+}
+
 TEST(Thresholds, TinyPicturesDoNotFail) {
   for (const int width : {1, 2, 3, 7, 9}) {
     for (const int height : {1, 2, 5, 8}) {

@@ -27,7 +27,11 @@ TEST(CoarseRun, AveragesSquaresOfThePage) {
   for (int y = 0; y < 5; ++y)
     for (int x = 0; x < 7; ++x) scan.grey.row(y)[x] = static_cast<std::uint16_t>(1000 * y + 10 * x);
   scan.dpi = 600.0;
+  EXPECT_EQ(coarsePage(scan, 2, {}).fileHash, ContentHash{}) << "pixels of no file stand for themselves";
+  scan.fileHash = HashBuilder().text("a file").finish();
+  scan.page.number = 3;
   const Scan coarse = coarsePage(scan, 2, {});
+  EXPECT_EQ(coarse.page, scan.page) << "the pages of a file are told apart";
   ASSERT_EQ(coarse.grey.width, 3);
   ASSERT_EQ(coarse.grey.height, 2);
   for (int y = 0; y < 2; ++y)
@@ -37,6 +41,38 @@ TEST(CoarseRun, AveragesSquaresOfThePage) {
   // White stays white, however many pixels are averaged.
   scan.grey = GreyImage(40, 40);
   EXPECT_EQ(coarsePage(scan, 13, {}).grey.row(1)[1], 0xffff);
+}
+
+TEST(CoarseRun, LeavesPagesOfTheLowestResolutionsAlone) {
+  Scan scan;
+  scan.grey = GreyImage(4000, 3000);
+  Recipe recipe;
+  recipe.dpi = 1.5;
+  EXPECT_EQ(coarseFactor(scan, recipe), 1) << "below 1 dpi nothing is computed";
+  recipe.dpi = 300.0;
+  EXPECT_EQ(coarseFactor(scan, recipe), 2);
+}
+
+// A page with its corner somewhere in the model: what was imported lies where the full page has it.
+TEST(CoarseRun, ImportedLinesLieWhereTheFullPageHasThem) {
+  constexpr int kWidth = 4000, kHeight = 3001, kFactor = 2;
+  const Scan scan = blankScan(kWidth, kHeight, 254.0);
+  Recipe recipe;
+  recipe.dpi = 254.0;
+  recipe.page = BlankPage{kWidth, kHeight, 1200.0, -350.0};
+  ImportedLine line;
+  line.curves = {NurbsCurve::make(1, {0, 0, 1, 1}, {Vec2(1250, -300), Vec2(1500, -200)}).value()};
+  recipe.imports.push_back({"line.dxf", "mm", {line}});
+  StageCache cache, coarseCache;
+  const PipelineOutput full = runPipeline(scan, recipe, cache, {}, {});
+  const PipelineOutput coarse =
+      runPipeline(coarsePage(scan, kFactor, {}), coarseRecipe(recipe, scan, kFactor), coarseCache, {}, {});
+  ASSERT_TRUE(full.contours);
+  ASSERT_TRUE(coarse.contours) << (coarse.error ? coarse.error->message : "");
+  const Vec2 expected = full.contours->contours.at(0).points.front().at;
+  EXPECT_LT((kFactor * coarse.contours->contours.at(0).points.front().at - expected).norm(), 1e-6);
+  const Vec2 shown = coarseFrame(coarse.frame, kFactor).pointToImage(Vec2(1250, -300));
+  EXPECT_LT((shown - expected).norm(), 1e-6);
 }
 
 TEST(CoarseRun, PlacesAndLengthsInPixelsShrinkAndMillimetresStay) {

@@ -35,7 +35,7 @@ TEST(ImportedLines, HaveOnePointAPixel) {
   ImportedLine line;
   line.points = {Vec2(0, 0), Vec2(30, 40)};  // 500 px
   file.lines.push_back(line);
-  const ContourSet set = withImports({}, std::vector{file}, kFrame);
+  const ContourSet set = withImports({}, std::vector{file}, kFrame, {});
   ASSERT_EQ(set.contours.size(), 1u);
   EXPECT_EQ(set.contours[0].points.size(), 501u);
   EXPECT_EQ(importStepPx(std::vector{file}, kFrame), 1.0);
@@ -46,10 +46,13 @@ TEST(ImportedLines, OfADrawingHaveALimitTogether) {
   for (const bool asCurves : {false, true}) {
     constexpr int kLines = 30;
     const std::vector files{longLines(kLines, asCurves)};
-    const ContourSet set = withImports({}, files, kFrame);
+    const ContourSet set = withImports({}, files, kFrame, {});
     ASSERT_EQ(std::ssize(set.contours), kLines) << asCurves;
     EXPECT_LE(pointsOf(set), 1'000'000 + 2 * kLines) << asCurves;
     EXPECT_GE(std::ssize(set.contours[0].points), 4000) << asCurves;
+    std::size_t reserved = 0;
+    for (const Contour& contour : set.contours) reserved += contour.points.capacity();
+    EXPECT_LE(reserved, 2'100'000u) << "memory that no point uses";
     EXPECT_NEAR(importStepPx(files, kFrame), kLines, 1e-9);
   }
 }
