@@ -6,6 +6,8 @@ set(BATTEN_LIBRARIES
   "Qt|${Qt6_VERSION}|LGPL-3.0-only|https://www.qt.io|window, pictures, files|libQt6"
   "QCustomPlot|2.1|GPL-3.0-or-later|https://www.qcustomplot.com|plots|libQCustomPlotQt6"
   "OpenCV|${OpenCV_VERSION}|Apache-2.0|https://opencv.org|reading scans|libopencv_"
+  "libpng|${PNG_VERSION_STRING}|libpng-2.0|http://www.libpng.org|PNG|libpng"
+  "libjpeg-turbo||IJG AND BSD-3-Clause AND Zlib|https://libjpeg-turbo.org|JPEG|libturbojpeg"
   "dxflib||GPL-2.0-or-later|https://www.ribbonsoft.com/en/what-is-dxflib|DXF|libdxflib"
   "Open CASCADE||LGPL-2.1-only WITH OCCT-exception-1.0|https://dev.opencascade.org|IGES and STEP|libTK"
   "Poppler||GPL-2.0-or-later|https://poppler.freedesktop.org|pages of PDF|libpoppler"

@@ -4,7 +4,7 @@
 build_packages=(
   build-essential cmake ninja-build ccache git
   qt6-base-dev qt6-base-dev-tools libgl1-mesa-dev libqcustomplot-dev
-  libopencv-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libexpected-dev libssl-dev
+  libopencv-dev libpng-dev libturbojpeg0-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libexpected-dev libssl-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   libdxflib-dev libocct-data-exchange-dev libpoppler-qt6-dev
 )
@@ -12,7 +12,7 @@ run_packages=(qt6-qpa-plugins libqt6svg6 fonts-inter)
 test_packages=(xvfb xauth openbox python3-ezdxf qpdf poppler-utils)
 judge_packages=(freecad gdal-bin librsvg2-bin inkscape)  # of the scripts in tests/heavy; npm, too, where there is none
 # What packaging/check needs on top.
-check_packages=(clang-tidy python3)
+check_packages=(clang-tidy python3 valgrind)
 fuzz_packages=(clang libclang-rt-dev llvm)  # of its part fuzz: libFuzzer, and names instead of addresses in its traces
 batch_packages=(parallel snakemake slurmctld slurmd slurm-client munge)  # the ways over several machines
 package_packages=(lintian mmdebstrap binutils desktop-file-utils appstream shared-mime-info libglib2.0-bin man-db zsh xdotool)

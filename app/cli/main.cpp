@@ -143,10 +143,13 @@ void addTrace(CLI::App& app, TraceArguments& a) {
 }
 
 CLI::App* addSuggest(CLI::App& app, TraceArguments& a) {
-  CLI::App* suggest = app.add_subcommand("suggest", "Whether a scan has overdrawn strokes, and how far to merge them");
+  CLI::App* suggest = app.add_subcommand(
+      "suggest", "Whether a scan has overdrawn strokes, how far to merge them, and where its corners are");
   suggest->footer(
       "Prints one line of JSON: a value for edges.merge (0: nothing to merge), how many strokes become how many "
-      "lines, and the reason. Changes nothing.");
+      "lines, and the reason; and every place that may be a corner with its angle in degrees and its certainty from 0 "
+      "to "
+      "1. Those of 0.95 and more count without a mark (corners.auto). Changes nothing.");
   addDrawing(*suggest, a,
              {std::string("The scan: ") + kScanKinds, "Start from this recipe; --set and the places given come on top",
               "Which page of a TIFF or PDF, from 1", "N"});

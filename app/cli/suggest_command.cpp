@@ -1,20 +1,55 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/suggest_command.h"
 
+#include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 #include "app/cli/exit_codes.h"
 #include "app/cli/trace_plan.h"
 #include "core/base/platform.h"
 #include "core/base/shown_text.h"
+#include "core/contour/corner/corner_certainty.h"
 #include "core/image/scan_reader.h"
+#include "core/pipeline/run/corner_places.h"
 #include "core/pipeline/run/merge_advice.h"
 
 namespace batten::cli {
 namespace {
 
-Result<MergeAdvice> adviceFor(const TraceArguments& arguments) {
+struct Advice {
+  MergeAdvice merge;
+  std::vector<CornerSuggestion> corners;
+};
+
+nlohmann::ordered_json cornersToJson(const std::vector<CornerSuggestion>& corners) {
+  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+  const auto rounded = [](double value, double step) { return std::round(value / step) * step; };
+  auto list = nlohmann::ordered_json::array();
+  for (const CornerSuggestion& corner : corners) {
+    list.push_back({{"at", {rounded(corner.positionPx.x(), 0.01), rounded(corner.positionPx.y(), 0.01)}},
+                    {"angle", rounded(std::abs(corner.turningAngleRad) * kDegPerRad, 0.1)},
+                    {"certainty", rounded(corner.certainty, 0.001)},
+                    {"certain", corner.certainty >= kCertainCorner}});
+  }
+  return list;
+}
+
+/// The places that turn, on the lines as the recipe traces them.
+Result<std::vector<CornerSuggestion>> cornersOf(const Scan& scan, const Recipe& recipe, StageCache& cache,
+                                                const RunContext& context) {
+  PipelineRequest request;
+  request.upTo = StageId::Contours;
+  request.needEdges = false;
+  const PipelineOutput out = runPipeline(scan, recipe, cache, request, context);
+  if (!out.contours) return out.error ? fail(*out.error) : fail(ErrorCode::NoCurve, "No line was found.");
+  return possibleCorners(*out.contours, context);
+}
+
+Result<Advice> adviceFor(const TraceArguments& arguments) {
   if (arguments.scan.empty()) return fail(ErrorCode::BadParameter, "Name the scan to look at.");
   const auto recipe = recipeOf(arguments);
   if (!recipe) return fail(recipe.error());
@@ -28,7 +63,11 @@ Result<MergeAdvice> adviceFor(const TraceArguments& arguments) {
   }();
   if (!scan) return fail(scan.error());
   StageCache cache;
-  return adviseMerge(*scan, *recipe, cache, context);
+  auto merge = adviseMerge(*scan, *recipe, cache, context);
+  if (!merge) return fail(merge.error());
+  auto corners = cornersOf(*scan, *recipe, cache, context);
+  if (!corners) return fail(corners.error());
+  return Advice{std::move(*merge), std::move(*corners)};
 }
 
 }  // namespace
@@ -36,9 +75,13 @@ Result<MergeAdvice> adviceFor(const TraceArguments& arguments) {
 int runSuggest(const TraceArguments& arguments) {
   const auto advice = adviceFor(arguments);
   if (!advice) return reportError(advice.error());
-  nlohmann::ordered_json json{{"scan", arguments.scan},           {"edges.merge", advice->widths},
-                              {"strokes", advice->strokes},       {"lines", advice->lines},
-                              {"overdrawn_share", advice->share}, {"reason", describe(*advice)}};
+  nlohmann::ordered_json json{{"scan", arguments.scan},
+                              {"edges.merge", advice->merge.widths},
+                              {"strokes", advice->merge.strokes},
+                              {"lines", advice->merge.lines},
+                              {"overdrawn_share", advice->merge.share},
+                              {"reason", describe(advice->merge)},
+                              {"corners", cornersToJson(advice->corners)}};
   std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';
   return endOutput();
 }

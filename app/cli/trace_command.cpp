@@ -84,6 +84,7 @@ class Trace {
     if (scan_.pages > 1) json["page"] = scan_.page.number;
     json["curves"] = curves_;
     json["pieces"] = out_.faired->curves.size();
+    json["corners_without_mark"] = unmarkedCornerCount(*out_.pieces);
     json["milliseconds"] = millisecondsSince(begin_);
     json["processor_milliseconds"] = 1000.0 * processorSeconds();
     json["peak_memory_bytes"] = peakMemoryBytes();

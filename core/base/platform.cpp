@@ -3,6 +3,7 @@
 
 #if !defined(_WIN32)
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/resource.h>
@@ -19,6 +20,8 @@
 #include <fstream>
 #include <string>
 #include <utility>
+
+#include "core/base/loaded_module.h"
 
 namespace batten {
 namespace {
@@ -320,6 +323,12 @@ bool LockFile::hold() {
 void LockFile::release() {
   if (file_ && isNamed(*file_, path_)) ::unlink(path_.c_str());
   file_.reset();
+}
+
+void* functionOfModule(const std::string& module, const char* function) {
+  // Found by the run path of the program, in which this file lies.
+  void* loaded = ::dlopen(("lib" + module + ".so").c_str(), RTLD_LAZY | RTLD_LOCAL);
+  return loaded != nullptr ? ::dlsym(loaded, function) : nullptr;
 }
 
 }  // namespace batten

@@ -22,6 +22,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/loaded_module.h"
+
 namespace batten {
 
 struct SystemFile {
@@ -276,6 +278,11 @@ bool LockFile::hold() {
 }
 
 void LockFile::release() { file_.reset(); }
+
+void* functionOfModule(const std::string& module, const char* function) {
+  const HMODULE loaded = ::LoadLibraryA((module + ".dll").c_str());
+  return loaded != nullptr ? reinterpret_cast<void*>(::GetProcAddress(loaded, function)) : nullptr;
+}
 
 }  // namespace batten
 

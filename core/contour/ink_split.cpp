@@ -23,12 +23,9 @@ struct Drawn {
 // Whether each piece of ink was drawn with a pencil; what is too small to tell goes with the page.
 class PencilPieces {
  public:
-  PencilPieces(const BitImage& skeleton, const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
+  PencilPieces(const BitImage& ink, const std::vector<StrokePath>& paths, const GraininessMap& grain,
                const RunContext& context)
       : pieces_(findPieces(ink, Connectivity::Eight, context)) {
-    const std::vector<StrokePath> paths = findStrokePaths(skeleton, ink, params, context);
-    if (context.isCancelled()) return;
-    const GraininessMap grain(paths, grey, context);
     for (int i = 0; i < static_cast<int>(paths.size()); ++i) {
       const double length = paths[i].length();
       const int piece = pieceOf(paths[i]);
@@ -93,8 +90,13 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
   split.strokes = std::move(labels->strokes);
   split.shapes = std::move(labels->shapes);
   split.penPx = labels->penPx;
-  const PencilPieces pencil(labels->skeleton, ink, grey, params, context);
+  std::vector<StrokePath> paths = findStrokePaths(labels->skeleton, ink, params, context);
   if (context.isCancelled()) return cancelled();
+  GraininessMap grain(paths, grey, context);
+  const PencilPieces pencil(ink, paths, grain, context);
+  if (context.isCancelled()) return cancelled();
+  split.known = std::make_unique<StrokesOfInk>(
+      StrokesOfInk{ink, std::move(labels->skeleton), std::move(paths), std::move(grain)});
   if (!pencil.any()) return {};
   EdgeParams whole = params;
   whole.choices.clear();
@@ -115,7 +117,7 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
 
 Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const EdgeParams& params,
                           const RunContext& context) {
-  InkSplit split{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height), {}, {}, 0.0};
+  InkSplit split{BitImage(ink.width, ink.height), BitImage(ink.width, ink.height), {}, {}, {}, 0.0};
   if (params.mode == EdgeMode::Outline) {
     split.shapes = ink;
   } else if (params.mode == EdgeMode::Centreline) {

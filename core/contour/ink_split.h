@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
+
 #include "core/base/result.h"
 #include "core/base/run_context.h"
+#include "core/contour/centreline/centreline.h"
 #include "core/contour/edge_params.h"
 #include "core/image/bit_image.h"
 #include "core/image/grey_image.h"
@@ -12,11 +15,12 @@ namespace batten {
 
 /// The ink of a page by the way it is followed. Both pictures have the size of the ink and share no pixel.
 struct InkSplit {
-  BitImage strokes;    ///< Along their middle.
-  BitImage shapes;     ///< Along their border.
-  BitImage pencil;     ///< Ink that was drawn with a pencil; no pixels at all where there is none.
-  RunPieces regions;   ///< What the user turns over with one click: connected parts of one kind, before the choices.
-  double penPx = 0.0;  ///< [px] width of the strokes; 0 = none was looked for, or there are none.
+  BitImage strokes;   ///< Along their middle.
+  BitImage shapes;    ///< Along their border.
+  BitImage pencil;    ///< Ink that was drawn with a pencil; no pixels at all where there is none.
+  RunPieces regions;  ///< What the user turns over with one click: connected parts of one kind, before the choices.
+  std::unique_ptr<StrokesOfInk> known;  ///< What was found on the way; absent where nothing was.
+  double penPx = 0.0;                   ///< [px] width of the strokes; 0 = none was looked for, or there are none.
 };
 
 /// Splits the ink into strokes and shapes, region by region (label/ink_labels.h), unless the page is followed in one

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/base/parallel.h"
+#include "core/contour/blots.h"
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/chosen_ink.h"
 #include "core/contour/ink_split.h"
@@ -17,6 +18,7 @@
 #include "core/contour/outline/soft_borders.h"
 #include "core/contour/outline/soft_edges.h"
 #include "core/contour/outline/subpixel_edges.h"
+#include "core/contour/outline/texture_holes.h"
 #include "core/image/bit_disc.h"
 #include "core/image/bit_steps.h"
 #include "core/image/run_pieces.h"
@@ -174,36 +176,6 @@ struct FoundLines {
   BitImage blots;     ///< Ink to be followed along its middle that has none.
 };
 
-// Stroke ink that no line follows: blots. A pencil leaves specks that are none, and what the user wants to be longer is
-// a short line.
-BitImage withoutLine(const InkSplit& split, const ContourSet& lines, double minWidths, const RunContext& context) {
-  constexpr double kBlotWidths = 3.0;  // [stroke widths] shorter ink has no direction
-  constexpr double kBesideLinePx = 1.5;
-  const RunPieces pieces = findPieces(split.strokes, Connectivity::Eight, context);
-  BitImage rest(split.strokes.width, split.strokes.height);
-  BitImage beside(split.strokes.width, split.strokes.height);
-  for (const Contour& line : lines.contours) {
-    for (std::size_t i = 0; i < line.points.size(); ++i) {
-      for (const Vec2& place : inkBeside(line, i)) setDisc(beside, place, kBesideLinePx);
-    }
-  }
-  std::vector<bool> hasLine(pieces.runs.size(), false);
-  std::vector<Run> box(pieces.runs.size());  // x0..x1 of each piece, y its last row
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    const Run& run = pieces.runs[i];
-    if (countBits(beside, run) > 0 || (split.pencil.width > 0 && countBits(split.pencil, run) > 0))
-      hasLine[pieces.piece[i]] = true;
-    Run& b = box[pieces.piece[i]];
-    b = pieces.piece[i] == static_cast<int>(i) ? run : Run{run.y, std::min(b.x0, run.x0), std::max(b.x1, run.x1)};
-    const double size = std::hypot(b.x1 - b.x0, b.y - pieces.runs[pieces.piece[i]].y + 1.0);
-    if (minWidths > kBlotWidths && size > kBlotWidths * split.penPx) hasLine[pieces.piece[i]] = true;
-  }
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    if (!hasLine[pieces.piece[i]]) setBits(rest, pieces.runs[i]);
-  }
-  return rest;
-}
-
 // Where the page is followed along its middles, blots are what the user chose to be.
 BitImage chosenOf(const BitImage& blots, const RunPieces& regions, const EdgeParams& edges) {
   BitImage chosenBlots(blots.width, blots.height);
@@ -216,6 +188,15 @@ BitImage chosenOf(const BitImage& blots, const RunPieces& regions, const EdgePar
     }
   }
   return chosenBlots;
+}
+
+// What the user turned over to be followed along its middle is.
+BitImage notChosen(BitImage fillings, const RunPieces& regions, const EdgeParams& edges) {
+  const ChosenInk chosen(regions, edges.choices);
+  for (std::size_t i = 0; i < regions.runs.size(); ++i) {
+    if (chosen.choiceOf(regions.piece[i])) clearBits(fillings, regions.runs[i]);
+  }
+  return fillings;
 }
 
 Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const EdgeParams& edges,
@@ -231,18 +212,32 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const E
   if (!split) return fail(split.error());
   context.report(0.2);
   found.regions = std::move(split->regions);
-  const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr, params.minWidths};
+  const CentrelineOptions options{split->shapes.count() > 0 ? &split->shapes : nullptr, params.minWidths,
+                                  split->known.get()};
   Result<ContourSet> lines = centrelines(split->strokes, grey, edges, context, options);
   if (!lines) return fail(lines.error());
+  split->known.reset();
   context.report(0.3);
-  found.blots = withoutLine(*split, *lines, params.minWidths, context);
-  if (edges.mode == EdgeMode::Centreline) found.blots = chosenOf(found.blots, found.regions, edges);
+  found.blots = findBlots(*split, *lines, params.minWidths, context);
+  if (edges.mode == EdgeMode::Centreline) {
+    found.blots = chosenOf(found.blots, found.regions, edges);
+  } else if (edges.mergeWidths <= 0.0) {
+    found.blots =
+        either(std::move(found.blots), notChosen(findFillings(*split, *lines, context), found.regions, edges));
+  }
   if (context.isCancelled()) return cancelled();
   split->shapes = either(std::move(split->shapes), found.blots);
   split->strokes = without(std::move(split->strokes), found.blots);
+  int texture = 0;
+  if (edges.internal == InnerBorders::Automatic && split->shapes.count() > 0) {
+    EvenInk even = fillTextureHoles(std::move(split->shapes), grey, context);
+    split->shapes = without(std::move(even.ink), split->strokes);
+    texture = even.filled;
+  }
   Result<ContourSet> borders =
       bordersOf(split->shapes, hasInnerBorders(edges), params, split->penPx, &split->pencil, context);
   if (!borders) return fail(borders.error());
+  borders->report.droppedHoles += texture;
   for (Contour& border : borders->contours) implyBorders(border, split->strokes);
   found.set = std::move(*borders);
   const std::size_t all = lines->contours.size();

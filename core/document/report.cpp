@@ -376,6 +376,7 @@ Json countsOf(StageId stage, const PipelineOutput& out) {
       if (!out.pieces) break;
       return {{"pieces", out.pieces->pieces.size()},
               {"corners", out.pieces->corners.size()},
+              {"corners_without_mark", unmarkedCornerCount(*out.pieces)},
               {"lost_marks", out.pieces->lostMarks.size()}};
     case StageId::Segments:
       if (out.segments) return {{"segments", stationCount(*out.segments)}};

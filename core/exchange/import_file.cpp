@@ -219,6 +219,21 @@ void takeDocument(const ExportDocument& document, ImportReport& report) {
   }
 }
 
+/// Scales all lines about the origin.
+void scaleLines(double factor, ImportedFile& file) {
+  for (ImportedLine& line : file.lines) {
+    for (NurbsCurve& curve : line.curves) curve = curve.mapped(factor * Eigen::Matrix2d::Identity(), Vec2::Zero());
+    for (Vec2& p : line.points) p *= factor;
+  }
+}
+
+/// Lines that were read in mm: the user's unit, if there is one, takes the place of the file's own.
+void takeUnitOf(double mmPerUnit, std::optional<double> asked, ImportReport& report) {
+  if (!asked) return;
+  scaleLines(*asked / mmPerUnit, report.file);
+  report.file.unit = unitName(*asked);
+}
+
 void takePoints(PointFile points, std::optional<double> asked, ImportReport& report) {
   const double mm = takeUnit(points.mmPerUnit, asked, report);
   report.file.lines = std::move(points.lines);
@@ -233,19 +248,22 @@ void takePoints(PointFile points, std::optional<double> asked, ImportReport& rep
   tellLeft(points.left + static_cast<int>(erased), report);
 }
 
-Result<void> takeSvg(const std::string& bytes, const RunContext& context, ImportReport& report) {
+Result<void> takeSvg(const std::string& bytes, std::optional<double> asked, const RunContext& context,
+                     ImportReport& report) {
   if (bytes.find("urn:batten:curves") != std::string::npos) {
     const auto own = readSvg(bytes);
     if (!own) return fail(own.error());
     takeDocument(*own, report);
+    takeUnitOf(1.0, asked, report);
     return {};
   }
   auto shapes = readSvgShapes(bytes, context);
   if (!shapes) return fail(shapes.error());
   report.file.lines = std::move(shapes->lines);
   report.file.unit = shapes->hasSize ? "mm" : "px?";
-  if (!shapes->hasSize)
+  if (!shapes->hasSize && !asked)
     report.notes.push_back("The file " + report.file.source + " states no size; a unit was taken for 1/96 inch.");
+  takeUnitOf(shapes->mmPerUnit, asked, report);
   tellLeft(shapes->left, report);
   return {};
 }
@@ -256,6 +274,7 @@ Result<void> takeJson(const std::string& bytes, std::optional<double> asked, con
     const auto own = readCurveJson(bytes, context);
     if (!own) return fail(own.error());
     takeDocument(*own, report);
+    takeUnitOf(1.0, asked, report);
     return {};
   }
   auto points = readPointJson(bytes, context);
@@ -266,7 +285,7 @@ Result<void> takeJson(const std::string& bytes, std::optional<double> asked, con
 
 Result<void> takeBytes(const std::string& ending, const std::string& bytes, std::optional<double> asked,
                        const RunContext& context, ImportReport& report) {
-  if (ending == ".svg") return takeSvg(bytes, context, report);
+  if (ending == ".svg") return takeSvg(bytes, asked, context, report);
   if (ending == ".json") return takeJson(bytes, asked, context, report);
   if (ending == ".csv" || ending == ".txt") {
     auto points = readPointTable(bytes, context);

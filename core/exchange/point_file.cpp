@@ -27,6 +27,26 @@ std::string lowered(std::string_view text) {
   return result;
 }
 
+/// Whether the row is numbers with decimal commas parted by blanks, "1,5 2,5": every comma stands between two digits.
+bool hasDecimalCommas(std::string_view row) {
+  const auto isDigit = [&](std::size_t i) {
+    return i < row.size() && std::isdigit(static_cast<unsigned char>(row[i])) != 0;
+  };
+  if (row.find(' ') == std::string_view::npos) return false;
+  for (auto at = row.find(','); at != std::string_view::npos; at = row.find(',', at + 1)) {
+    if (at == 0 || !isDigit(at - 1) || !isDigit(at + 1)) return false;
+  }
+  return true;
+}
+
+/// What parts the fields, by the first row that is read: semicolons, tabs, commas or blanks.
+char separatorOf(std::string_view row) {
+  for (const char separator : {';', '\t'}) {
+    if (row.find(separator) != std::string_view::npos) return separator;
+  }
+  return row.find(',') != std::string_view::npos && !hasDecimalCommas(row) ? ',' : ' ';
+}
+
 /// Where the columns stand.
 struct Columns {
   std::size_t x = 0, y = 1;
@@ -59,12 +79,7 @@ class TableReader {
 
  private:
   std::vector<std::string> fieldsOf(std::string_view line) {
-    if (separator_ == 0) {
-      separator_ = line.find(';') != std::string_view::npos    ? ';'
-                   : line.find('\t') != std::string_view::npos ? '\t'
-                   : line.find(',') != std::string_view::npos  ? ','
-                                                               : ' ';
-    }
+    if (separator_ == 0) separator_ = separatorOf(line);
     if (separator_ == ',') return csvFields(line);
     std::vector<std::string> fields;
     while (!line.empty()) {
@@ -76,7 +91,7 @@ class TableReader {
     return fields;
   }
   std::optional<double> numberOf(std::string field) const {
-    if (separator_ == ';' || separator_ == '\t') std::replace(field.begin(), field.end(), ',', '.');
+    if (separator_ != ',') std::replace(field.begin(), field.end(), ',', '.');
     return numberFromText(field);
   }
 

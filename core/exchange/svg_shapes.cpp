@@ -185,6 +185,7 @@ class ShapesReader {
       }
       shift -= Vec2(view[0], view[1]).cwiseProduct(scale);
     }
+    out_.mmPerUnit = scale.minCoeff();
     Affine flipped;
     flipped.linear = Vec2(scale.x(), -scale.y()).asDiagonal();
     flipped.offset = {shift.x(), page.y() - shift.y()};

@@ -36,28 +36,74 @@ void growStrip(const std::uint64_t* in, std::uint64_t* out, int words, int rows,
   }
 }
 
-/// All steps of a strip of rows at once, while it is in the cache. `inverse`: the paper grows instead of the ink.
+constexpr int kTileWords = 4;
+constexpr int kMostTileSteps = 63;  // a tile knows one word at either side: what comes from beyond gets no further
+
+/// A part of the page with a word at either side, and rows above and below as many as there are steps.
+struct StepTile {
+  int firstWord, pastWord, firstRow, pastRow;  // of the page
+  int words() const { return pastWord - firstWord; }
+  int rows() const { return pastRow - firstRow; }
+};
+
+bool holdsInk(const BitImage& image, const StepTile& tile) {
+  for (int y = tile.firstRow; y < tile.pastRow; ++y) {
+    const std::uint64_t* row = image.row(y);
+    for (int i = tile.firstWord; i < tile.pastWord; ++i) {
+      if (row[i] != 0) return true;
+    }
+  }
+  return false;
+}
+
+/// All steps of a tile at once, while it is in the cache. What is left in `now` holds for its inner part.
+class StepsOnTile {
+ public:
+  StepsOnTile(int steps, bool inverse) : steps_(steps), flip_(inverse ? ~std::uint64_t{0} : 0) {}
+
+  /// Writes words [firstWord, pastWord) of rows [begin, end).
+  void run(const BitImage& image, const StepTile& tile, const StepTile& inner, BitImage& out) {
+    const int words = tile.words();
+    const auto size = static_cast<std::size_t>(words) * static_cast<std::size_t>(tile.rows());
+    now_.resize(size);
+    next_.resize(size);
+    const std::uint64_t lastMask = tile.pastWord == image.wordsPerRow ? image.lastWordMask() : ~std::uint64_t{0};
+    for (int y = tile.firstRow; y < tile.pastRow; ++y) {
+      const std::uint64_t* from = image.row(y) + tile.firstWord;
+      std::uint64_t* to = now_.data() + std::ptrdiff_t{y - tile.firstRow} * words;
+      for (int i = 0; i < words; ++i) to[i] = from[i] ^ flip_;
+      to[words - 1] &= lastMask;
+    }
+    for (int i = 0; i < steps_; ++i) {
+      growStrip(now_.data(), next_.data(), words, tile.rows(), lastMask, i % 2 == 0);
+      now_.swap(next_);
+    }
+    for (int y = inner.firstRow; y < inner.pastRow; ++y) {
+      const std::uint64_t* from = now_.data() + std::ptrdiff_t{y - tile.firstRow} * words;
+      for (int i = inner.firstWord; i < inner.pastWord; ++i) out.row(y)[i] = from[i - tile.firstWord] ^ flip_;
+      if (inner.pastWord == image.wordsPerRow) out.row(y)[inner.pastWord - 1] &= image.lastWordMask();
+    }
+  }
+
+ private:
+  int steps_;
+  std::uint64_t flip_;
+  std::vector<std::uint64_t> now_, next_;
+};
+
+/// Tiles without ink stay paper. `inverse`: the paper grows instead of the ink.
 BitImage octagon(const BitImage& image, int steps, bool inverse, const RunContext& context) {
   BitImage out(image.width, image.height);
   const int words = image.wordsPerRow;
   if (words == 0) return out;
-  const std::uint64_t flip = inverse ? ~std::uint64_t{0} : 0, lastMask = image.lastWordMask();
-  parallelFor(context, image.height, 2 * kRowsPerBlock, [&](int begin, int end) {
-    const int first = std::max(0, begin - steps), rows = std::min(image.height, end + steps) - first;
-    const auto size = std::ptrdiff_t{words} * rows;
-    std::vector<std::uint64_t> now(image.row(first), image.row(first) + size), next(size);
-    for (std::uint64_t& word : now) word ^= flip;
-    for (std::size_t i = 1; i <= static_cast<std::size_t>(rows); ++i) {
-      now[i * static_cast<std::size_t>(words) - 1] &= lastMask;
-    }
-    for (int i = 0; i < steps; ++i) {
-      growStrip(now.data(), next.data(), words, rows, lastMask, i % 2 == 0);
-      now.swap(next);
-    }
-    for (int y = begin; y < end; ++y) {
-      const std::uint64_t* row = now.data() + static_cast<std::ptrdiff_t>(y - first) * words;
-      for (int i = 0; i < words; ++i) out.row(y)[i] = row[i] ^ flip;
-      out.row(y)[words - 1] &= lastMask;
+  const int tileWords = steps <= kMostTileSteps ? kTileWords : words;
+  parallelFor(context, image.height, kRowsPerBlock, [&](int begin, int end) {
+    StepsOnTile work(steps, inverse);
+    for (int word = 0; word < words; word += tileWords) {
+      const StepTile inner{word, std::min(word + tileWords, words), begin, end};
+      const StepTile tile{std::max(0, word - 1), std::min(inner.pastWord + 1, words), std::max(0, begin - steps),
+                          std::min(image.height, end + steps)};
+      if (holdsInk(image, inverse ? inner : tile)) work.run(image, tile, inner, out);
     }
   });
   return out;

@@ -23,6 +23,41 @@ BATTEN_HOT_LOOP void addPairs(const std::uint16_t* a, const std::uint16_t* b, fl
   }
 }
 
+BATTEN_HOT_LOOP void addRow(const std::uint16_t* in, std::uint32_t* __restrict sums, int count) {
+  for (int i = 0; i < count; ++i) sums[i] += in[i];
+}
+
+/// Means of the sums by threes or fours, each over as many rows, as grey levels.
+BATTEN_HOT_LOOP void meansByThrees(const std::uint32_t* sums, float* __restrict out, int count) {
+  for (int i = 0; i < count; ++i) {
+    const auto sum = static_cast<std::int32_t>(sums[3 * i] + sums[3 * i + 1] + sums[3 * i + 2]);
+    out[i] = static_cast<float>(static_cast<double>(sum) / 9.0 / GreyImage::kGreyUnit);
+  }
+}
+BATTEN_HOT_LOOP void meansByFours(const std::uint32_t* sums, float* __restrict out, int count) {
+  for (int i = 0; i < count; ++i) {
+    const auto sum = static_cast<std::int32_t>(sums[4 * i] + sums[4 * i + 1] + sums[4 * i + 2] + sums[4 * i + 3]);
+    out[i] = static_cast<float>(static_cast<double>(sum) / 16.0 / GreyImage::kGreyUnit);
+  }
+}
+void meansOf(const std::uint32_t* sums, float* out, int count, int shrink) {
+  for (int i = 0; i < count; ++i) {
+    std::uint64_t sum = 0;
+    for (int k = 0; k < shrink; ++k) sum += sums[i * shrink + k];
+    out[i] = static_cast<float>(static_cast<double>(sum) / (shrink * shrink) / GreyImage::kGreyUnit);
+  }
+}
+
+/// The blocks of one row that are whole. Sums of whole numbers are exact, in whatever order they are added.
+void shrinkRow(const GreyImage& image, int y, int shrink, std::vector<std::uint32_t>& sums, float* out) {
+  const int count = image.width / shrink;
+  sums.assign(static_cast<std::size_t>(image.width), 0);
+  for (int i = 0; i < shrink; ++i) addRow(image.row(y * shrink + i), sums.data(), count * shrink);
+  if (shrink == 3) return meansByThrees(sums.data(), out, count);
+  if (shrink == 4) return meansByFours(sums.data(), out, count);
+  meansOf(sums.data(), out, count, shrink);
+}
+
 BATTEN_HOT_LOOP void alongLoop(const float* in, float* __restrict out, int count, const float* kernel, int radius) {
   if (radius == 1) {
     for (int i = 0; i < count; ++i) out[i] = kernel[0] * in[i] + kernel[1] * (in[i - 1] + in[i + 1]);
@@ -84,11 +119,7 @@ void smoothAcross(const float* const* rows, float* out, int count, const std::ve
   }
 }
 
-void loadGreyRow(const std::uint16_t* in, float* out, int count, int radius) {
-  scaleRow(in, out + radius, count);
-  std::fill_n(out, radius, out[radius]);
-  std::fill_n(out + radius + count, radius, out[radius + count - 1]);
-}
+void scaleGrey(const std::uint16_t* in, float* out, int count) { scaleRow(in, out, count); }
 
 Plane smooth(const Plane& in, const std::vector<float>& kernel, const RunContext& context) {
   Plane out(in.width, in.height);
@@ -115,17 +146,20 @@ Plane smooth(const Plane& in, const std::vector<float>& kernel, const RunContext
 Plane shrinkGrey(const GreyImage& image, int shrink, const RunContext& context) {
   Plane out((image.width + shrink - 1) / shrink, (image.height + shrink - 1) / shrink);
   parallelFor(context, out.height, kRowsPerBlock, [&](int begin, int end) {
+    std::vector<std::uint32_t> sums;
     for (int y = begin; y < end; ++y) {
-      int done = 0;
       if (shrink == 1) {
         scaleRow(image.row(y), out.row(y), out.width);
         continue;
       }
-      if (shrink == 2 && 2 * y + 1 < image.height) {
-        done = image.width / 2;
-        addPairs(image.row(2 * y), image.row(2 * y + 1), out.row(y), done);
+      const bool isWhole = (y + 1) * shrink <= image.height;
+      if (isWhole && shrink == 2) {
+        addPairs(image.row(2 * y), image.row(2 * y + 1), out.row(y), image.width / 2);
+      } else if (isWhole) {
+        shrinkRow(image, y, shrink, sums, out.row(y));
       }
-      for (int x = done; x < out.width; ++x) out.row(y)[x] = meanOfBlock(image, x * shrink, y * shrink, shrink);
+      for (int x = isWhole ? image.width / shrink : 0; x < out.width; ++x)
+        out.row(y)[x] = meanOfBlock(image, x * shrink, y * shrink, shrink);
     }
   });
   return out;

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
+#include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
 
@@ -25,18 +28,22 @@ struct LinePixel {
   float x, y;
 };
 
+BATTEN_HOT_LOOP void meansOfFive(const float* in, float* __restrict out, int count) {
+  for (int i = 0; i < count; ++i) out[i] = (in[i] + in[i + 1] + in[i + 2] + in[i + 3] + in[i + 4]) / 5.0f;
+}
+
 /// The plane averaged along x over 2 kAlong + 1 pixels.
 Plane averagedAlong(const Plane& grey, const RunContext& context) {
+  static_assert(kAlong == 2);
   Plane out(grey.width, grey.height);
   parallelFor(context, grey.height, kRowsPerBlock, [&](int begin, int end) {
+    std::vector<float> padded(static_cast<std::size_t>(grey.width) + 2 * kAlong);
     for (int y = begin; y < end; ++y) {
       const float* in = grey.row(y);
-      float* to = out.row(y);
-      for (int x = 0; x < grey.width; ++x) {
-        float sum = 0.0f;
-        for (int i = -kAlong; i <= kAlong; ++i) sum += in[std::clamp(x + i, 0, grey.width - 1)];
-        to[x] = sum / static_cast<float>(2 * kAlong + 1);
-      }
+      std::copy_n(in, grey.width, padded.data() + kAlong);
+      std::fill_n(padded.data(), kAlong, in[0]);
+      std::fill_n(padded.data() + kAlong + grey.width, kAlong, in[grey.width - 1]);
+      meansOfFive(padded.data(), out.row(y), grey.width);
     }
   });
   return out;
@@ -51,35 +58,73 @@ double noiseAcross(const Plane& grey) {
   return robustSigma(steps) / std::sqrt(2.0);
 }
 
-/// How much darker a pixel is than the paper above and below it.
-float depthAt(const Plane& grey, int x, int y) {
-  const float here = grey.row(y)[x];
-  float depth = 0.0f;
-  for (const int side : kSides) {
-    if (y < side || y + side >= grey.height) continue;
-    depth = std::max(depth, std::min(grey.row(y - side)[x], grey.row(y + side)[x]) - here);
+/// A row and those around it that it is compared with.
+struct RowsAround {
+  const float *above, *here, *below;
+  std::array<const float*, kSides.size()> up, down;
+};
+
+/// Strip s holds columns from floor(s * width / kStrips) on.
+int stripOf(int x, int width) {
+  int strip = std::min(x * kStrips / width, kStrips - 1);
+  while (strip + 1 < kStrips && (strip + 1) * width / kStrips <= x) ++strip;
+  return strip;
+}
+
+/// Marks pixels that are the darkest of a column of three and darker by `least` than the paper on both sides. `up` and
+/// `down` of a side that lies beyond the page are the row itself: it is not darker than that.
+BATTEN_HOT_LOOP void markThinDark(const RowsAround& rows, float least, std::uint8_t* __restrict marks, int count) {
+  const float *above = rows.above, *here = rows.here, *below = rows.below;
+  const float *up0 = rows.up[0], *down0 = rows.down[0], *up1 = rows.up[1], *down1 = rows.down[1];
+  for (int x = 0; x < count; ++x) {
+    const float near = (down0[x] < up0[x] ? down0[x] : up0[x]) - here[x];
+    const float far = (down1[x] < up1[x] ? down1[x] : up1[x]) - here[x];
+    const float depth = near > far ? near : far;
+    marks[x] = (here[x] <= above[x]) & (here[x] < below[x]) & (depth >= least);
   }
-  return depth;
+}
+
+RowsAround rowsAround(const Plane& grey, int y) {
+  RowsAround rows{grey.row(y - 1), grey.row(y), grey.row(y + 1), {}, {}};
+  for (std::size_t i = 0; i < kSides.size(); ++i) {
+    const bool isOnPage = y >= kSides[i] && y + kSides[i] < grey.height;
+    rows.up[i] = isOnPage ? grey.row(y - kSides[i]) : rows.here;
+    rows.down[i] = isOnPage ? grey.row(y + kSides[i]) : rows.here;
+  }
+  return rows;
 }
 
 /// Pixels in the middle of thin dark lines, strip by strip.
 std::array<std::vector<LinePixel>, kStrips> linePixels(const Plane& grey, const RunContext& context) {
+  static_assert(kSides.size() == 2);
   std::array<std::vector<LinePixel>, kStrips> pixels;
   const float least = std::max(kLeastDepth, static_cast<float>(kDepthPerNoise * noiseAcross(grey)));
-  parallelFor(context, kStrips, 1, [&](int begin, int end) {
-    for (int s = begin; s < end; ++s) {
-      const int x0 = s * grey.width / kStrips, x1 = (s + 1) * grey.width / kStrips;
-      for (int y = 1; y + 1 < grey.height; ++y) {
-        const float *above = grey.row(y - 1), *row = grey.row(y), *below = grey.row(y + 1);
-        for (int x = x0; x < x1; ++x) {
-          if (row[x] > above[x] || row[x] >= below[x] || depthAt(grey, x, y) < least) continue;
-          const float bend = above[x] - 2.0f * row[x] + below[x];
-          const float shift = bend > 0.0f ? 0.5f * (above[x] - below[x]) / bend : 0.0f;
-          pixels[s].push_back({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f + shift});
+  const int blocks = (grey.height + kRowsPerBlock - 1) / kRowsPerBlock;
+  std::vector<std::array<std::vector<LinePixel>, kStrips>> parts(blocks);
+  parallelFor(context, grey.height, kRowsPerBlock, [&](int begin, int end) {
+    std::vector<std::uint8_t> marks((static_cast<std::size_t>(grey.width) + 7) / 8 * 8, 0);
+    for (int y = std::max(1, begin); y < std::min(end, grey.height - 1); ++y) {
+      const RowsAround rows = rowsAround(grey, y);
+      markThinDark(rows, least, marks.data(), grey.width);
+      for (int x = 0; x < grey.width; ++x) {
+        if (std::uint64_t eight = 0; x % 8 == 0) {
+          std::memcpy(&eight, marks.data() + x, 8);
+          if (eight == 0) {
+            x += 7;
+            continue;
+          }
         }
+        if (marks[x] == 0) continue;
+        const float bend = rows.above[x] - 2.0f * rows.here[x] + rows.below[x];
+        const float shift = bend > 0.0f ? 0.5f * (rows.above[x] - rows.below[x]) / bend : 0.0f;
+        parts[begin / kRowsPerBlock][stripOf(x, grey.width)].push_back(
+            {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f + shift});
       }
     }
   });
+  for (const auto& part : parts) {
+    for (std::size_t s = 0; s < kStrips; ++s) pixels[s].insert(pixels[s].end(), part[s].begin(), part[s].end());
+  }
   return pixels;
 }
 

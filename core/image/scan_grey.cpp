@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/image/decode_file.h"
 
 namespace batten {
 namespace {
@@ -129,8 +129,7 @@ std::optional<std::uint16_t> keyLevel(const SampleMeaning& meaning) {
 
 std::optional<DecodedPicture> decodePicture(std::span<std::byte> file, const SampleMeaning& meaning,
                                             const RunContext& context) {
-  const cv::Mat raw(1, static_cast<int>(file.size()), CV_8UC1, file.data());
-  const cv::Mat picture = cv::imdecode(raw, cv::IMREAD_UNCHANGED | cv::IMREAD_IGNORE_ORIENTATION);
+  const cv::Mat picture = decodeFile(file);
   if (picture.empty() || picture.channels() > 4) return std::nullopt;
   if (picture.depth() != CV_8U && picture.depth() != CV_16U) return std::nullopt;
   // TIFFs of up to 8 bit come by way of RGBA: white is white then, and every alpha associated. Wider ones come as

@@ -11,22 +11,36 @@
 namespace batten {
 namespace {
 
-std::array<std::uint32_t, 256> crcTable() {
-  std::array<std::uint32_t, 256> table{};
+/// [k][byte]: what a byte adds to the check sum of the k bytes after it.
+using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
+
+CrcTables crcTables() {
+  CrcTables tables{};
   for (std::uint32_t n = 0; n < 256; ++n) {
     std::uint32_t c = n;
     for (int k = 0; k < 8; ++k) c = (c & 1u) != 0 ? 0xedb88320u ^ (c >> 1) : c >> 1;
-    table[n] = c;
+    tables[0][n] = c;
   }
-  return table;
+  for (std::size_t k = 1; k < tables.size(); ++k) {
+    for (std::size_t n = 0; n < 256; ++n) tables[k][n] = tables[0][tables[k - 1][n] & 0xffu] ^ (tables[k - 1][n] >> 8);
+  }
+  return tables;
 }
 
 /// The check sum of PNG chunks: a chunk that fails it makes the decoder complain on stderr, so it is found here.
 bool crcFits(const ByteReader& file, std::uint64_t begin, std::uint64_t count) {
-  static const std::array<std::uint32_t, 256> kTable = crcTable();
+  static const CrcTables kTables = crcTables();
   std::uint32_t crc = 0xffffffffu;
-  for (const std::byte value : file.bytes().subspan(begin, static_cast<std::size_t>(count))) {
-    crc = kTable[(crc ^ std::to_integer<std::uint32_t>(value)) & 0xffu] ^ (crc >> 8);
+  std::span<const std::byte> left = file.bytes().subspan(begin, static_cast<std::size_t>(count));
+  const auto at = [&](std::size_t i) { return std::to_integer<std::uint32_t>(left[i]); };
+  // Eight bytes at a time: their tables do not wait for one another.
+  for (; left.size() >= 8; left = left.subspan(8)) {
+    const std::uint32_t first = crc ^ (at(0) | at(1) << 8 | at(2) << 16 | at(3) << 24);
+    crc = kTables[7][first & 0xffu] ^ kTables[6][first >> 8 & 0xffu] ^ kTables[5][first >> 16 & 0xffu] ^
+          kTables[4][first >> 24] ^ kTables[3][at(4)] ^ kTables[2][at(5)] ^ kTables[1][at(6)] ^ kTables[0][at(7)];
+  }
+  for (const std::byte value : left) {
+    crc = kTables[0][(crc ^ std::to_integer<std::uint32_t>(value)) & 0xffu] ^ (crc >> 8);
   }
   return (crc ^ 0xffffffffu) == file.u32(begin + count);
 }

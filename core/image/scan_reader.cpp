@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/base/regular_file.h"
 #include "core/image/pdf_scan.h"
 #include "core/image/scan_file.h"
@@ -121,11 +122,19 @@ Result<Scan> readChecked(const std::filesystem::path& path, const RegularFile& f
   scan.path = path.string();
   scan.page = page;
   scan.pages = header->pages;
-  scan.fileHash = sha256(*bytes);
-  if (context.isCancelled()) return cancelled();
-  selectTiffPage(*bytes, *header);
-  clearTiffOrientation(*bytes, *header);
-  auto picture = decodePicture(*bytes, header->meaning, context);
+  std::optional<DecodedPicture> picture;
+  if (header->info.format == "TIFF") {
+    scan.fileHash = sha256(*bytes);  // before the file is changed for the decoder
+    selectTiffPage(*bytes, *header);
+    clearTiffOrientation(*bytes, *header);
+    if (context.isCancelled()) return cancelled();
+    picture = decodePicture(*bytes, header->meaning, context);
+  } else {
+    parallelFor(context, 2, 1, [&](int part, int) {
+      if (part == 0) picture = decodePicture(*bytes, header->meaning, context);
+      if (part == 1) scan.fileHash = sha256(*bytes);
+    });
+  }
   if (context.isCancelled()) return cancelled();
   if (!picture || picture->grey.width != header->info.width || picture->grey.height != header->info.height) {
     return unreadable(path, "is damaged or of a rare kind that cannot be decoded. Scan it again or export it as PNG.");

@@ -30,7 +30,7 @@ const test::ArrowTable& rooms() {
 
 /// Headers of POSIX and of Windows. Any other name with an ending that no rule states is "unknown" and refused.
 bool isOfTheSystem(const std::string& header) {
-  static const std::set<std::string> names = {"unistd.h", "fcntl.h", "io.h", "windows.h", "psapi.h"};
+  static const std::set<std::string> names = {"unistd.h", "dlfcn.h", "fcntl.h", "io.h", "windows.h", "psapi.h"};
   return header.starts_with("sys/") || names.contains(header);
 }
 
@@ -55,6 +55,7 @@ std::string libraryOf(const std::string& header) {
                                             "QPixmap",      "QFont",        "QFontMetricsF",  "QKeySequence",
                                             "QTransform",   "QPolygonF",    "QGuiApplication"};
   if (header.starts_with("opencv2/")) return "opencv";
+  if (header == "png.h" || header == "turbojpeg.h") return "pictures";
   if (header.starts_with("Eigen/")) return "eigen";
   if (header.starts_with("tl/")) return "expected";
   if (header.starts_with("openssl/")) return "openssl";

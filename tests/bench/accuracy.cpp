@@ -13,7 +13,8 @@
 // mean of its stretch), after the same for the truth. Clean pages have no seed. On varying ones the noise grows sixfold
 // from left to right while the contrast falls to a third. The goals are those of 1200 x 800. Everything is run twice,
 // with construct.light=false and true, unless --set says which; points of light curves: each once, exact lines 2, exact
-// arcs and circles 3.
+// arcs and circles 3. Both with corners.auto=false; then once more with light curves and corners.auto=true, without a
+// click: only then are corners counted that are none (false corners: 4 px and more from every true one).
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,8 @@ struct Options {
   std::vector<std::string> shapes, cases = {"clean", "scan", "dark"}, kinds = {"outline", "stroke"},
                                    sizes = {"1200x800", "2480x3508"};
   Recipe recipe;
-  std::vector<bool> light = {false, true};  ///< The dense curves' block, and that of the light ones.
+  std::vector<bool> light = {false, true};      ///< The dense curves' block, and that of the light ones.
+  std::vector<bool> automatic = {false, true};  ///< Corners by clicks, and found by the program.
 };
 
 std::vector<std::string> splitAtCommas(const std::string& text) {
@@ -90,6 +92,7 @@ Options parse(int argc, char** argv) {
       options.sizes = splitAtCommas(value);
     } else if (word == "--set") {
       set(options.recipe, value);
+      if (value.starts_with("corners.auto=")) options.automatic = {options.recipe.corners.automatic};
       if (value.starts_with("construct.light=")) options.light = {options.recipe.construct.light};
     } else {
       std::fprintf(stderr, "unknown option %s\n", word.c_str());
@@ -137,7 +140,7 @@ double rmsOf(const std::vector<double>& values) {
 /// What one tracer reached on one shape (all seeds), or on all shapes.
 struct Tally {
   std::vector<double> rms, max, curvature, corner, acute, ms, coverage, stray;
-  int falseExtrema = 0, missed = 0, cornersFound = 0, cornersTrue = 0, found = 0, runs = 0;
+  int falseExtrema = 0, missed = 0, cornersFound = 0, cornersTrue = 0, cornersFalse = 0, found = 0, runs = 0;
   double points = 0, monotonePx = 0, flatPx = 0, trueMonotonePx = 0, trueFlatPx = 0;
   std::string failure;
   std::vector<Accuracy::CornerError> each;
@@ -156,6 +159,7 @@ struct Tally {
     missed += a.missedExtrema;
     cornersFound += a.cornersFound;
     cornersTrue += a.cornersTrue;
+    cornersFalse += a.cornersFalse;
     found += a.found ? 1 : 0;
     points += r.controlPoints;
     monotonePx += a.monotonePx;
@@ -178,6 +182,7 @@ struct Tally {
     missed += t.missed;
     cornersFound += t.cornersFound;
     cornersTrue += t.cornersTrue;
+    cornersFalse += t.cornersFalse;
     found += t.found;
     points += t.points;
     monotonePx += t.monotonePx;
@@ -299,6 +304,9 @@ struct Bench {
         if (peerTallies[p].runs > 0) allPeers[p].addShape(peerTallies[p]);
     }
     printTally("Batten", all, seeds);
+    if (options.recipe.corners.automatic)
+      std::printf("%-18s %d of %d without a click, %d false\n", "corners", all.cornersFound, all.cornersTrue,
+                  all.cornersFalse);
     for (const Goal& g : kGoals) {
       if (kind != g.kind || name != g.name) continue;
       printGoal(g);
@@ -319,13 +327,23 @@ int main(int argc, char** argv) {
   if (bench.options.peerSeeds > 0)
     for (const Peer& peer : bench.others)
       if (!peer.missing.empty()) std::printf("%s: %s\n", peer.name.c_str(), peer.missing.c_str());
+  bench.options.recipe.corners.automatic = false;
   for (const bool light : bench.options.light) {
+    if (!bench.options.automatic.empty() && bench.options.automatic.front()) break;
     std::printf(light ? "\nLight curves, construct.light=true\n" : "Dense curves, construct.light=false\n");
     bench.options.recipe.construct.light = light;
     for (const std::string& size : bench.options.sizes)
       for (const std::string& kind : bench.options.kinds)
         for (const std::string& name : bench.options.cases) bench.runCase(kind, name, size);
     bench.options.peerSeeds = 0;  // once is enough
+  }
+  if (bench.options.automatic.back()) {
+    std::printf("\nWithout a click, corners.auto=true\n");
+    bench.options.recipe.corners.automatic = true;
+    bench.options.recipe.construct.light = bench.options.light.back();
+    for (const std::string& size : bench.options.sizes)
+      for (const std::string& kind : bench.options.kinds)
+        for (const std::string& name : bench.options.cases) bench.runCase(kind, name, size);
   }
   std::filesystem::remove_all(bench.folder);
   return 0;

@@ -336,6 +336,9 @@ void measureCorners(const TruthShape& shape, const std::vector<Vec2>& corners, A
     result.corners.push_back({i, openingAt(shape, i) * 180.0 / std::numbers::pi, best, off});
     if (best <= kCornerWithinPx) ++result.cornersFound;
   }
+  for (const Vec2& corner : corners) {
+    if (distanceToCorners(shape, corner) > kCornerWithinPx) ++result.cornersFalse;
+  }
 }
 
 SampledCurve sampledCurve(const TracedCurve& curve, bool faired, const PageFrame& frame) {
@@ -373,7 +376,7 @@ Accuracy compareWithTruth(const TruthShape& shape, const TraceResult& result, do
 
 TraceResult traceShape(const TruthShape& shape, const Scan& scan, Recipe recipe, double clickOffsetPx) {
   TraceResult result;
-  for (std::size_t i = 0; i < shape.corners.size(); ++i) {
+  for (std::size_t i = 0; i < shape.corners.size() && !recipe.corners.automatic; ++i) {
     const double angle = 2.4 * static_cast<double>(i);  // clicks miss in every direction
     recipe.cornerMarks.push_back({shape.corners[i] + clickOffsetPx * Vec2(std::cos(angle), std::sin(angle))});
   }

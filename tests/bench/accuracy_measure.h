@@ -42,6 +42,7 @@ struct Accuracy {
   double trueMonotonePx = 0.0, trueFlatPx = 0.0;  ///< The same of the truth.
   int cornersFound = 0;                           ///< True corners with one found within 4 px.
   int cornersTrue = 0;
+  int cornersFalse = 0;  ///< Found ones 4 px and more from every true one.
   struct CornerError {
     std::size_t corner = 0;     ///< Of the shape.
     double openingDeg = 0.0;    ///< Between its sides; 180 would be none.
@@ -55,7 +56,8 @@ struct Accuracy {
 /// borders of a stroke instead of its middle); curvature and extrema are not compared then.
 Accuracy compareWithTruth(const TruthShape& shape, const TraceResult& result, double borderPx = 0.0);
 
-/// Runs the program on a page that shows `shape`, every corner marked by a click `clickOffsetPx` beside it.
+/// Runs the program on a page that shows `shape`, every corner marked by a click `clickOffsetPx` beside it; none is
+/// marked where the recipe takes certain corners.
 TraceResult traceShape(const TruthShape& shape, const Scan& scan, Recipe recipe, double clickOffsetPx);
 
 /// Samples paths of cubics; points where the direction jumps by 20 degrees or more are corners.

@@ -26,6 +26,7 @@ void addFaired(std::vector<JobFigure>& figures, const std::string& scene, const 
                                    {FairingMode::Target, "faired towards the recommended target"}}) {
     Recipe recipe;
     recipe.construct.light = false;
+    recipe.corners.automatic = false;
     recipe.fairing.mode = mode;
     const Accuracy faired = compareWithTruth(shape, traceShape(shape, scan, recipe, kClickPx));
     const std::string what = ", " + std::string(name);
@@ -48,6 +49,7 @@ std::vector<JobFigure> mainJob(std::uint32_t seed) {
       const std::string scene = std::string(name) + (stroke ? ", line" : ", filled");
       Recipe dense;
       dense.construct.light = false;
+      dense.corners.automatic = false;
       const TraceResult traced = traceShape(shape, scan, dense, kClickPx);
       const Accuracy accuracy = compareWithTruth(shape, traced);
       const double rms = accuracy.found ? accuracy.rmsPx : std::numeric_limits<double>::infinity();

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Times of the chain on an A4 page at 300 dpi, stage by stage and as a whole, and of the six targets of a 40-point
-// curve.
+// curve. bench_speed --page [ROUNDS]: of an A4 page at 600 dpi, beside a copy of the page and a fixed loop.
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "core/construct/nurbs/quintic_nurbs.h"
 #include "core/curve/knot_operations.h"
 #include "core/fairing/fairing.h"
 #include "core/pipeline/run/pipeline.h"
+#include "tests/bench/large_page_speed.h"
 #include "tests/support/render_page.h"
 
 using namespace batten;
@@ -85,4 +88,15 @@ BENCHMARK(sixTargets)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  if (argc >= 2 && std::strcmp(argv[1], "--page") == 0) {
+    constexpr int kRounds = 7;
+    printLargePageSpeed(argc >= 3 ? std::max(1, std::atoi(argv[2])) : kRounds);
+    return 0;
+  }
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}

@@ -3,6 +3,7 @@
 
 #include "tests/cli/program.h"
 #include "tests/support/overdrawn_page.h"
+#include "tests/support/render_page.h"
 
 namespace batten {
 namespace {
@@ -45,7 +46,35 @@ TEST_F(Suggest, NoneForASingleStroke) {
   const json said = json::parse(done.out);
   EXPECT_EQ(said["edges.merge"], 0.0);
   EXPECT_EQ(said["lines"], said["strokes"]);
+  EXPECT_TRUE(said["corners"].empty());
   EXPECT_NE(said["reason"].get<std::string>().find("No overdrawn strokes"), std::string::npos);
+}
+
+TEST_F(Suggest, CornersWithAngleAndCertainty) {
+  const auto shape = test::truthShape("K", 500, 400);
+  const auto coverage = test::fillCoverage(shape.outline(), 500, 400);
+  write("k.png", pngOf(test::renderPage(coverage, 500, 400, test::cleanPage()).grey));
+  const auto done = run("suggest " + file("k.png"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  int certain = 0;
+  for (const json& corner : json::parse(done.out)["corners"]) {
+    const Vec2 at(corner["at"][0], corner["at"][1]);
+    double nearest = 1e9;
+    for (const Vec2& truth : shape.corners) nearest = std::min(nearest, (truth - at).norm());
+    EXPECT_LT(nearest, 1.0) << corner;
+    EXPECT_GT(corner["angle"].get<double>(), 25.0);
+    EXPECT_LT(corner["angle"].get<double>(), 180.0);
+    EXPECT_EQ(corner["certain"].get<bool>(), corner["certainty"].get<double>() >= 0.95);
+    certain += corner["certain"].get<bool>() ? 1 : 0;
+  }
+  EXPECT_GE(certain, 10);  // of 11
+  const auto traced = run("trace " + file("k.png") + " --dpi 300 -o " + file("k.json"));
+  ASSERT_EQ(traced.code, 0) << traced.err;
+  EXPECT_EQ(json::parse(traced.out)["corners_without_mark"], certain);
+  const auto off = run("trace " + file("k.png") + " --dpi 300 --set corners.auto=false -o " + file("off.json"));
+  ASSERT_EQ(off.code, 0) << off.err;
+  EXPECT_EQ(json::parse(off.out)["corners_without_mark"], 0);
+  EXPECT_EQ(json::parse(off.out)["pieces"], 1);
 }
 
 TEST_F(Suggest, SaysWhatIsWrong) {

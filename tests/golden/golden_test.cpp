@@ -102,6 +102,7 @@ TEST_P(Golden, FiguresStayWithinTheirTolerance) {
   Recipe recipe;
   recipe.construct.method = scene.method;
   recipe.construct.light = false;
+  recipe.corners.automatic = false;
   recipe.fairing.mode = scene.mode;
   recipe.fairing.targets.spans = TargetSpans::Whole;
   for (std::size_t i = 0; i < truth.corners.size(); ++i) {

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Exports of test curves of every kind, of the sample and of the sample as light curves (arcs among them) as other programs read
-# them: one table. Curves are compared at 201 places where the program reads curves, by their length where it makes chords of
-# them; mm and inch, each by itself. A judge that is not installed says so and counts as failed.
+# Exports of test curves of every kind, of the sample and of the sample as dense curves, as other programs read them: one
+# table. Curves are compared at 201 places where the program reads curves, by their length where it makes chords of them; mm
+# and inch, each by itself. A judge that is not installed says so and counts as failed.
 # Usage: tests/heavy/exports.sh [FOLDER]   (the files stay there)
 set -u
 cd "$(dirname "$0")/../.."
@@ -26,10 +26,10 @@ recipe=${scan%.png}.recipe.json
 # of_test OPTION... and of_sample OPTION...: the test curves come in as an import and go out as they are.
 of_test() { "$cli" trace "$folder/test.json" "$@" >/dev/null || exit 1; }
 of_sample() { "$cli" trace "$scan" --recipe "$recipe" "$@" >/dev/null || exit 1; }
-of_light() { of_sample --set construct.light=true "$@"; }
+of_dense() { of_sample --set construct.light=false "$@"; }
 of_sample -o "$folder/sample.json"
-of_light -o "$folder/light.json"
-for which in test sample light; do
+of_dense -o "$folder/dense.json"
+for which in test sample dense; do
   for unit in mm in; do
     outputs=()
     for ending in dxf igs step 3dm csv poly.csv; do outputs+=(-o "$folder/$which-$unit.$ending"); done
@@ -85,7 +85,7 @@ rhino3dm() {
 drawn() {
   need rsvg-convert librsvg2-bin && need pdftocairo poppler-utils || return 1
   local which
-  for which in test sample light; do
+  for which in test sample dense; do
     rsvg-convert -f pdf -o "$folder/$which-by-rsvg.pdf" "$folder/$which.svg" &&
       pdftocairo -svg -noshrink -nocenter "$folder/$which-by-rsvg.pdf" "$folder/$which-by-rsvg.svg" &&
       pdftocairo -svg -noshrink -nocenter "$folder/$which.pdf" "$folder/$which-by-poppler.svg" || return 1

@@ -30,7 +30,7 @@ def places(edge):
 found = {"curves": {}, "lengths": {}}
 for kind in ("dxf", "igs", "step"):
     for unit in ("mm", "in"):
-        for which in ("test", "sample", "light"):
+        for which in ("test", "sample", "dense"):
             found["curves"][f"{which}-{unit}.{kind}"] = [places(edge) for edge in edges_of(f"{which}-{unit}.{kind}")]
         edges = edges_of(f"plain-{unit}.{kind}")
         found["lengths"][f"plain-{unit}.{kind}"] = [sum(edge.Length for edge in edges), len(edges)]

@@ -23,8 +23,9 @@ cmake --build build/fuzz -j "${BATTEN_JOBS:-2}" --target "${targets[@]}" fuzz_se
 
 work=build/fuzz/corpus
 rm -rf "$work"
-build/fuzz/bin/fuzz_seeds "$work"
+# Leaks are not looked for: Open CASCADE keeps what it has allocated.
 export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+build/fuzz/bin/fuzz_seeds "$work"
 for target in "${targets[@]}"; do
   limits=(-max_total_time="$seconds" -timeout=10)
   [ "$target" = fuzz_parameters ] && limits=(-runs="$sets" -timeout=60 -max_len=32)

@@ -22,7 +22,7 @@ import cad_text  # noqa: E402
 import drawn_paths  # noqa: E402
 import exact_curves  # noqa: E402
 
-SETS = ("test", "sample", "light")
+SETS = ("test", "sample", "dense")
 UNITS = (("mm", 1.0), ("in", 25.4))
 EXACT_MM = 1e-9
 KERNEL_MM = 1e-6   # of FreeCAD's DXF reader, which rounds knots

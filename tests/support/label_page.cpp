@@ -369,9 +369,9 @@ std::vector<LabelScene> labelScenes() {
   std::vector<LabelScene> scenes = {
       {"mixed", mixedPage}, {"solid", solidPage}, {"taper", taperPage}, {"cross", crossPage}};
   for (const auto& [name, height] : {std::pair{"mono S", 22.0}, {"mono M", 50.0}, {"mono L", 120.0}})
-    scenes.push_back({name, [height](unsigned seed) { return lettersPage(seed, height, false); }});
+    scenes.push_back({name, [height = height](unsigned seed) { return lettersPage(seed, height, false); }});
   for (const auto& [name, height] : {std::pair{"nib S", 32.0}, {"nib M", 60.0}, {"nib L", 140.0}})
-    scenes.push_back({name, [height](unsigned seed) { return lettersPage(seed, height, true); }});
+    scenes.push_back({name, [height = height](unsigned seed) { return lettersPage(seed, height, true); }});
   return scenes;
 }
 

@@ -176,8 +176,8 @@ TEST(CurveShapes, SampledLinesStayWithinTheTolerance) {
 /// A canvas over an open session, shown and fitted.
 class CanvasTest : public testing::Test {
  protected:
-  void open(const QImage& page) {
-    opened = std::make_unique<OpenSession>(page);
+  void open(const QImage& page, const Recipe& start = test::markedCornersOnly()) {
+    opened = std::make_unique<OpenSession>(page, start);
     ASSERT_TRUE(opened->isReady);
     canvas = std::make_unique<CurveCanvas>(opened->session, view);
     canvas->resize(900, 640);
@@ -222,6 +222,36 @@ TEST_F(CanvasTest, ClickMarksACornerAndClickRemovesIt) {
   EXPECT_EQ(session().recipe().cornerMarks.size(), 1u);
   session().undoStack()->undo();
   EXPECT_TRUE(session().recipe().cornerMarks.empty());
+}
+
+// A diamond: it counts without a mark until it is clicked, and again when that is undone or all are restored.
+TEST_F(CanvasTest, AClickLeavesACertainCornerOutAndTheNextOneMarksIt) {
+  open(test::zigzagPage(), Recipe{});
+  view.setTool(Tool::Corners);
+  ASSERT_EQ(session().output().pieces->corners.size(), 2u);
+  for (const Corner& corner : session().output().pieces->corners) EXPECT_FALSE(corner.mark);
+  click(200, 100);
+  ASSERT_EQ(session().recipe().refusedCornersPx.size(), 1u);
+  EXPECT_LT((session().recipe().refusedCornersPx[0] - Vec2(200, 100)).norm(), 1.5);
+  EXPECT_TRUE(session().recipe().cornerMarks.empty()) << "found corners are never written as marks";
+  ASSERT_TRUE(opened->settle());
+  ASSERT_EQ(session().output().pieces->corners.size(), 1u);
+  EXPECT_LT((session().output().pieces->corners[0].positionPx - Vec2(400, 300)).norm(), 1.5);
+  Recipe moved = session().recipe();
+  moved.threshold.strength = 1.3;
+  session().change(QStringLiteral("Strength"), moved);
+  ASSERT_TRUE(opened->settle());
+  EXPECT_EQ(session().output().pieces->corners.size(), 1u) << "stays out when a threshold moves";
+  click(200, 100);
+  ASSERT_TRUE(opened->settle());
+  ASSERT_EQ(session().recipe().cornerMarks.size(), 1u);
+  ASSERT_EQ(session().output().pieces->corners.size(), 2u);
+  EXPECT_TRUE(session().output().pieces->corners[0].mark.has_value() !=
+              session().output().pieces->corners[1].mark.has_value());
+  for (int i = 0; i < 3; ++i) session().undoStack()->undo();
+  ASSERT_TRUE(opened->settle());
+  EXPECT_TRUE(session().recipe().refusedCornersPx.empty());
+  EXPECT_EQ(session().output().pieces->corners.size(), 2u);
 }
 
 TEST_F(CanvasTest, ClickInEmptySpaceMarksNothing) {

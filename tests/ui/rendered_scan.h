@@ -55,10 +55,19 @@ inline QImage ellipsePage(QSize size = {640, 400}) {
   });
 }
 
-/// A session with a page of its own, opened and computed.
+/// The defaults, but only marks make corners: for tests of what marks and whole lines do.
+inline Recipe markedCornersOnly() {
+  Recipe recipe;
+  recipe.corners.automatic = false;
+  return recipe;
+}
+
+/// A session with a page of its own, opened and computed. Corners are those that the test marks, unless it starts with
+/// another recipe.
 class OpenSession {
  public:
-  explicit OpenSession(const QImage& page) {
+  explicit OpenSession(const QImage& page, const Recipe& start = markedCornersOnly()) {
+    session.setStartRecipe(start);
     page.save(path());
     session.openScan(path());
     isReady = waitUntil([this] { return session.hasScan() && !session.isBusy(); });

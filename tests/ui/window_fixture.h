@@ -35,6 +35,7 @@ class WindowFixture : public testing::Test {
   void openWindow() {
     window_.reset();
     window_ = std::make_unique<MainWindow>();
+    session().setStartRecipe(start_);
     // No test waits for an answer that nobody gives.
     window_->setUnsavedQuestion([this](const QString&) {
       ++questions_;
@@ -147,6 +148,7 @@ class WindowFixture : public testing::Test {
     return file.readAll();
   }
 
+  Recipe start_ = markedCornersOnly();  ///< What pages without a recipe open with.
   QTemporaryDir folder_;
   QString path_;
   std::unique_ptr<MainWindow> window_;

@@ -44,6 +44,8 @@ class EditorSession : public QObject {
   /// drawing stays until the new one is there.
   /// @param page of a file of several; absent: that of the recipe, else the first.
   void openScan(const QString& path, const std::optional<PageChoice>& page = {});
+  /// What a scan opens with that has no recipe beside it; the program's defaults unless set.
+  void setStartRecipe(const Recipe& recipe) { startRecipe_ = recipe; }
   /// Begins a drawing without a scan, on white paper of the size recipe.page, with this recipe. The paper is made in
   /// the background, scanOpened or failed follows; the undo stack is empty. @pre recipe.page
   void newDrawing(const Recipe& recipe);
@@ -180,7 +182,7 @@ class EditorSession : public QObject {
 
   std::unique_ptr<Runner> runner_;
   std::shared_ptr<const Scan> scan_;
-  Recipe recipe_;
+  Recipe recipe_, startRecipe_;
   PipelineOutput output_;
   std::shared_ptr<const CoarseResult> coarse_;
   mutable KnownOwners known_;

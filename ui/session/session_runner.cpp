@@ -76,10 +76,16 @@ void EditorSession::Runner::open(const QString& scanPath, bool isRestored, ScanJ
 
 void EditorSession::Runner::read(const QString& scanPath, const std::optional<PageChoice>& page,
                                  const std::optional<Recipe>& restored) {
-  open(scanPath, restored.has_value(), [scanPath, page, restored](const CancelToken& token) {
+  const Recipe& start = session.startRecipe_;
+  open(scanPath, restored.has_value(), [scanPath, page, restored, start](const CancelToken& token) {
     RunContext context;
     context.cancel = token;
     auto opened = openWithRecipe(nativePath(scanPath), restored ? std::optional(restored->scanPage) : page, context);
+    if (opened && !opened->hasRecipe) {
+      const PageChoice of = opened->recipe.scanPage;
+      opened->recipe = start;
+      opened->recipe.scanPage = of;
+    }
     if (opened && restored) {
       opened->recipe = *restored;
       opened->problem.clear();

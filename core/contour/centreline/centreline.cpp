@@ -6,6 +6,7 @@
 #include <new>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <utility>
 
 #include "core/base/statistics.h"
 #include "core/contour/centreline/gaps.h"
@@ -38,11 +39,14 @@ void endAtRims(std::vector<StrokePath>& paths, const BitImage& shapes) {
 }
 
 // The skeleton of all ink is cut at the rims of the shapes, so that it runs straight up to them.
-std::vector<StrokePath> centrelinesOf(const BitImage& ink, const BitImage* shapes, const EdgeParams& params,
+std::vector<StrokePath> centrelinesOf(const BitImage& ink, const CentrelineOptions& options, const EdgeParams& params,
                                       const RunContext& context) {
+  const BitImage* shapes = options.shapes;
   const BitImage all = shapes != nullptr ? either(ink, *shapes) : ink;
-  BitImage skeleton = all;
-  if (!thinToSkeleton(skeleton, context)) return {};
+  const bool isKnown = options.known != nullptr && options.known->ink == all;
+  if (isKnown && shapes == nullptr) return std::move(options.known->paths);
+  BitImage skeleton = isKnown ? std::move(options.known->skeleton) : all;
+  if (!isKnown && !thinToSkeleton(skeleton, context)) return {};
   if (shapes == nullptr) return findStrokePaths(skeleton, all, params, context);
   std::vector<StrokePath> paths = findStrokePaths(without(std::move(skeleton), *shapes), all, params, context);
   endAtRims(paths, *shapes);
@@ -197,10 +201,12 @@ bool isSeen(const Contour& c) {
 Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
                                 const RunContext& context, const CentrelineOptions& options) {
   const BitImage* shapes = options.shapes;
-  std::vector<StrokePath> paths = centrelinesOf(strokes, shapes, params, context);
+  std::vector<StrokePath> paths = centrelinesOf(strokes, options, params, context);
   if (context.isCancelled()) return cancelled();
   const double width = medianWidth(paths, [](int) { return true; });
-  const GraininessMap grain(paths, grey, context);
+  const bool isKnown = shapes == nullptr && options.known != nullptr && options.known->ink == strokes;
+  const GraininessMap grain = isKnown ? std::move(options.known->grain) : GraininessMap(paths, grey, context);
+  if (options.known != nullptr) options.known->ink = options.known->skeleton = BitImage();
   BitImage bodies;
   const BitImage* ink = &strokes;
   bool anyPencil = false;
@@ -210,7 +216,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
     if (shapes != nullptr) bodies = without(std::move(bodies), *shapes);
     ink = &bodies;
     if (context.isCancelled()) return cancelled();
-    paths = centrelinesOf(bodies, shapes, params, context);
+    paths = centrelinesOf(bodies, options, params, context);
   }
   std::vector<bool> pencil;
   if (anyPencil) {

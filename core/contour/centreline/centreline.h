@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include "core/base/result.h"
 #include "core/base/run_context.h"
+#include "core/contour/centreline/graininess.h"
+#include "core/contour/centreline/stroke_paths.h"
 #include "core/contour/contour_set.h"
 #include "core/contour/edge_params.h"
 #include "core/image/bit_image.h"
@@ -19,12 +23,20 @@ struct StrokeSplit {
 };
 Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams&, const RunContext&);
 
+/// What was found along all ink of a page before it was split.
+struct StrokesOfInk {
+  BitImage ink, skeleton;
+  std::vector<StrokePath> paths;
+  GraininessMap grain;
+};
+
 /// Centre lines of all strokes of a mask: skeleton for the topology (spurs pruned, smooth stroke paths joined through
 /// crossings, gaps bridged, overdrawn strokes merged if asked), then the centre from the grey profile across the
 /// stroke.
 struct CentrelineOptions {
   const BitImage* shapes = nullptr;  ///< Ink beside the strokes, which they may run into: they end at its rim.
   double minWidths = 3.0;            ///< [stroke widths] Shorter strokes are left out.
+  StrokesOfInk* known = nullptr;  ///< By the same parameters: what it holds is not sought again, but taken out of it.
 };
 Result<ContourSet> centrelines(const BitImage& strokes, const GreyImage& grey, const EdgeParams&, const RunContext&,
                                const CentrelineOptions& options = {});

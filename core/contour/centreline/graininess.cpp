@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
-#include "core/base/statistics.h"
 #include "core/contour/centreline/stroke_course.h"
 #include "core/contour/centreline/stroke_profile.h"
 #include "core/image/push_pull.h"
@@ -20,7 +20,7 @@ constexpr double kMostPx = 60000.0;              // of all stroke paths; longer 
 constexpr int kFewestSamples = 30;               // of a stroke path, at three px or more: one or two could not tell
 constexpr double kPathTellsPx = 90.0;            // a stroke path this long counts as much as its surroundings
 constexpr double kRegionTellsPx = 300.0;         // a region with so much line counts as much as the page
-constexpr int kLanes = 7;                        // the stroke, then three to either side
+constexpr int kLanes = 8;                        // the stroke, then three to either side, and one unused
 constexpr double kBeside[3] = {1.5, 2.75, 4.0};  // [px] from the border: one of them misses the next line
 
 constexpr int kEndPoints = 3;                  // at either end, besides the window, where ink fades
@@ -28,6 +28,7 @@ constexpr std::size_t kFewestPathPoints = 25;  // a shorter stroke path has too 
 constexpr int kLeastStride = 3;                // points: neighbouring samples share pixels
 constexpr int kGrainEvery = 8;                 // points: regions are far larger
 constexpr double kLeastDepth = 2.0;            // [grey]
+constexpr double kMostDeviation = 0.12;        // of the depth: what is farther off is an end, a crossing or a gap
 constexpr double kSmallerOfTwo = 1.7;          // mean of |x| over that of the smaller of two, for normal deviates
 
 struct GrainSample {
@@ -38,16 +39,37 @@ struct GrainSample {
 };
 
 struct GrainSum {
-  double length = 0.0, ink = 0.0, paper = 0.0, depth = 0.0;
+  double length = 0.0, deviation = 0.0, ink = 0.0, paper = 0.0, depth = 0.0;
   void add(const GrainSample& s) {
     length += s.px;
-    ink += s.px * s.ink;
-    paper += s.px * s.paper;
+    deviation += s.px * s.ink;
+    ink += s.px * std::min(s.ink, kMostDeviation);
+    paper += s.px * std::min(s.paper, kMostDeviation);
     depth += s.px * s.depth;
   }
 };
 
 double grainFrom(double ink, double paper) { return std::sqrt(std::max(0.0, ink * ink - paper * paper)); }
+
+using Lanes = std::array<float, kLanes>;
+
+// The median of every lane over 2 kWindow + 1 places: after each round the largest of those left lies behind the
+// others.
+BATTEN_HOT_LOOP void medianOfLanes(const Lanes* first, Lanes& median) {
+  constexpr int kPlaces = 2 * kWindow + 1;
+  std::array<Lanes, kPlaces> sorted;
+  std::copy_n(first, kPlaces, sorted.begin());
+  for (int end = kPlaces - 1; end >= kWindow; --end) {
+    for (int i = 0; i < end; ++i) {
+      for (int k = 0; k < kLanes; ++k) {
+        const float a = sorted[i][k], b = sorted[i + 1][k];
+        sorted[i][k] = a < b ? a : b;
+        sorted[i + 1][k] = a < b ? b : a;
+      }
+    }
+  }
+  median = sorted[kWindow];
+}
 
 // Five taps of a small Gaussian, so that the noise of single pixels counts little.
 float softGrey(const GreyImage& grey, const Vec2& at) {
@@ -63,32 +85,27 @@ std::vector<GrainSample> samplesAlong(const StrokePath& path, const GreyImage& g
   const int stride = std::min(most, std::max(kLeastStride, static_cast<int>(path.points.size()) / kFewestSamples));
   const StrokeCourse course = resample(path);
   const int n = course.count();
-  std::array<std::vector<float>, kLanes> lanes;
-  for (auto& lane : lanes) lane.resize(n);
+  std::vector<Lanes> lanes(n, Lanes{});
   for (int i = 0; i < n; ++i) {
     const CoursePoint& p = course.points[i];
     const Vec2 normal = leftNormal(p.tangent);
-    lanes[0][i] = softGrey(grey, p.base);
+    lanes[i][0] = softGrey(grey, p.base);
     for (int k = 0; k < 3; ++k) {
       const double off = 0.5 * course.widthPx + kBeside[k];
-      lanes[1 + k][i] = softGrey(grey, p.base + off * normal);
-      lanes[4 + k][i] = softGrey(grey, p.base - off * normal);
+      lanes[i][1 + k] = softGrey(grey, p.base + off * normal);
+      lanes[i][4 + k] = softGrey(grey, p.base - off * normal);
     }
   }
   for (int i = kWindow + kEndPoints; i + kWindow + kEndPoints < n; i += stride) {
     if (course.points[i].part != StrokePart::Ink) continue;
-    std::array<float, kLanes> median{};
-    for (int k = 0; k < kLanes; ++k) {
-      std::array<float, 2 * kWindow + 1> window{};
-      std::copy_n(lanes[k].begin() + (i - kWindow), window.size(), window.begin());
-      median[k] = upperMedian(window);
-    }
+    Lanes median;
+    medianOfLanes(lanes.data() + (i - kWindow), median);
     // Beside the stroke the brightest lane is paper; others may lie on the next line.
     const auto left = std::max_element(median.begin() + 1, median.begin() + 4) - median.begin();
-    const auto right = std::max_element(median.begin() + 4, median.end()) - median.begin();
+    const auto right = std::max_element(median.begin() + 4, median.begin() + 7) - median.begin();
     const double depth = std::max(median[left], median[right]) - median[0];
     if (!(depth > kLeastDepth)) continue;
-    const auto off = [&](std::ptrdiff_t k) { return static_cast<double>(std::abs(lanes[k][i] - median[k])); };
+    const auto off = [&](std::ptrdiff_t k) { return static_cast<double>(std::abs(lanes[i][k] - median[k])); };
     samples.push_back({course.points[i].base, off(0) / depth, kSmallerOfTwo * std::min(off(left), off(right)) / depth,
                        depth, static_cast<double>(stride)});
   }
@@ -143,6 +160,7 @@ GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyIma
       own[i].add(s);
     }
   }
+  deviation_ = filledRegions(regions, &GrainSum::deviation);
   ink_ = filledRegions(regions, &GrainSum::ink);
   paper_ = filledRegions(regions, &GrainSum::paper);
   depth_ = filledRegions(regions, &GrainSum::depth);
@@ -160,7 +178,7 @@ GraininessMap::GraininessMap(const std::vector<StrokePath>& paths, const GreyIma
   }
 }
 
-double GraininessMap::deviationAt(const Vec2& px) const { return valueAt(ink_, px, width_, height_); }
+double GraininessMap::deviationAt(const Vec2& px) const { return valueAt(deviation_, px, width_, height_); }
 
 double GraininessMap::depthAt(const Vec2& px) const { return valueAt(depth_, px, width_, height_); }
 

@@ -25,7 +25,7 @@ constexpr int kManyMarks = 16;          // from here on sorting the points of th
 struct PlacedCorner {
   Corner corner;
   double zone = 4.0;     // [px] points nearer than this are left out
-  bool isMarked = true;  // else it is a joint of the line itself
+  bool isJoint = false;  // of the line itself
   bool exact = false;
 };
 
@@ -156,15 +156,17 @@ std::vector<MarkPair> closeCornersOf(const Contour& contour, const std::vector<P
   // A closed line comes round to its first corner, which with two of them is looked at from both sides.
   for (int i = 0; i < (contour.closed ? count : count - 1); ++i) {
     const Corner &here = corners[i].corner, &next = corners[(i + 1) % count].corner;
+    if (!here.mark || !next.mark) continue;
     const double along = arc[next.pointIndex] - arc[here.pointIndex] + (i + 1 == count ? length : 0.0);
     const double apart = (next.positionPx - here.positionPx).norm();
     if (along >= kSliverPx || apart >= kSliverPx) continue;
-    close.push_back({std::max(here.mark, next.mark), std::min(here.mark, next.mark), apart});
+    close.push_back({std::max(*here.mark, *next.mark), std::min(*here.mark, *next.mark), apart});
   }
   return close;
 }
 
-// The corners of one contour: those that marks found, and its joints. Those within kSamePlacePx are one.
+// The corners of one contour: those that marks found, its joints, and those found without marks. Those within
+// kSamePlacePx are one.
 class ContourCorners {
  public:
   /// The mark that found the corner before; nothing: it is new.
@@ -182,8 +184,15 @@ class ContourCorners {
       corners_[*known].corner.pointIndex = joint.pointIndex;
       corners_[*known].corner.positionPx = joint.positionPx;
     } else {
-      corners_.push_back({.corner = joint, .isMarked = false});
+      corners_.push_back({.corner = joint, .isJoint = true});
     }
+  }
+  /// Found without a mark. What is there already wins. @pre all marks and joints are in.
+  void addFound(const Corner& corner) {
+    const bool isTaken = std::any_of(corners_.begin(), corners_.end(), [&](const PlacedCorner& other) {
+      return (other.corner.positionPx - corner.positionPx).norm() < kSliverPx;
+    });
+    if (!isTaken) corners_.push_back({.corner = corner});
   }
   /// In the order of travel.
   std::vector<PlacedCorner> sorted() && {
@@ -243,27 +252,34 @@ std::optional<Error> validate(const CornerParams& p) {
   return Error{ErrorCode::BadParameter, "corners.snap must be more than 0 px.", {}};
 }
 
+int unmarkedCornerCount(const PieceSet& set) {
+  return static_cast<int>(std::ranges::count_if(set.corners, [](const Corner& corner) { return !corner.mark; }));
+}
+
 std::optional<Corner> nearestContourPoint(const ContourSet& set, const Vec2& positionPx, double snapDistancePx) {
   return CornerFinder(set, snapDistancePx).find(positionPx);
 }
 
 Result<PieceSet> splitAtCorners(const ContourSet& set, std::span<const CornerMark> marks, const CornerParams& params,
-                                const RunContext& context, const GreyImage* grey) {
+                                const RunContext& context, const GreyImage* grey, std::span<const Corner> found) {
   if (auto error = validate(params)) return fail(*error);
   PieceSet out;
-  std::vector<ContourCorners> found = findCorners(set, marks, params.snapDistancePx, context, out);
+  std::vector<ContourCorners> atContour = findCorners(set, marks, params.snapDistancePx, context, out);
+  std::vector<std::vector<Corner>> unmarked(set.contours.size());
+  for (const Corner& corner : found) unmarked[corner.contour].push_back(corner);
   for (int c = 0; c < std::ssize(set.contours); ++c) {
     if (context.isCancelled()) return cancelled();
     const Contour& contour = set.contours[c];
-    addJoints(contour, c, found[c]);
-    std::vector<PlacedCorner> corners = std::move(found[c]).sorted();
+    addJoints(contour, c, atContour[c]);
+    for (const Corner& corner : unmarked[c]) atContour[c].addFound(corner);
+    std::vector<PlacedCorner> corners = std::move(atContour[c]).sorted();
     // A pen stroke is exact already: its corner is the point that was drawn.
     if (params.exact && !isDrawn(contour.kind) && !corners.empty()) locate(contour, grey, context, corners);
     if (context.isCancelled()) return cancelled();
     std::ranges::move(piecesOf(set, c, corners), std::back_inserter(out.pieces));
-    std::erase_if(corners, [](const PlacedCorner& placed) { return !placed.isMarked; });
+    std::erase_if(corners, [](const PlacedCorner& placed) { return placed.isJoint; });
     std::ranges::copy(closeCornersOf(contour, corners), std::back_inserter(out.closeCorners));
-    for (const PlacedCorner& placed : corners) out.corners.push_back(placed.corner);
+    for (const PlacedCorner& one : corners) out.corners.push_back(one.corner);
   }
   return out;
 }

@@ -38,6 +38,7 @@ struct CornerMark {
 };
 
 struct CornerParams {
+  bool automatic = true;  ///< Corners that are certain (corner_certainty.h) count without a mark.
   double snapDistancePx =
       16.0;  ///< [px] > 0. A mark farther than this from every line holds no corner (004 section 3.2: distance d).
   bool exact =
@@ -46,9 +47,9 @@ struct CornerParams {
 };
 std::optional<Error> validate(const CornerParams&);
 
-/// A mark that found its line.
+/// A corner of a line: of a mark that found its line, or one that is certain without a mark.
 struct Corner {
-  int mark = 0;                    ///< Index into the marks given.
+  std::optional<int> mark;         ///< Index into the marks given; absent: found without one.
   int contour = 0;                 ///< Index into the contour set.
   int pointIndex = 0;              ///< Nearest point of the contour.
   Vec2 positionPx = Vec2::Zero();  ///< [px] Where the corner is.
@@ -81,16 +82,20 @@ struct MarkPair {
 
 struct PieceSet {
   std::vector<Piece> pieces;           ///< Contour by contour, in order of travel.
-  std::vector<Corner> corners;         ///< Sorted by contour, then along it.
+  std::vector<Corner> corners;         ///< Marked and found ones, sorted by contour, then along it.
   std::vector<int> lostMarks;          ///< Indices of marks with no line within the snap distance; kept, shown in red.
   std::vector<MarkPair> sameCorner;    ///< Marks that found the corner of an earlier one, and which: they count once.
   std::vector<MarkPair> closeCorners;  ///< Neighbours so close that the piece between them is a sliver (under 12 px).
 };
 
+/// Number of corners that no mark asked for.
+int unmarkedCornerCount(const PieceSet&);
+
 /// Cuts the contours at the marks ([004] section 3.2). Marks that snap to the same point count once.
 /// @param grey the page that the contours were refined on, if any; its pixels help to place the corners.
+/// @param found corners without a mark; those within a sliver (12 px) of a marked one give way to it.
 Result<PieceSet> splitAtCorners(const ContourSet&, std::span<const CornerMark>, const CornerParams&, const RunContext&,
-                                const GreyImage* grey = nullptr);
+                                const GreyImage* grey = nullptr, std::span<const Corner> found = {});
 
 /// Where a click would put a corner: the sharpest turn, else the nearest contour point, within the snap distance;
 /// without the exact intersection.

@@ -8,7 +8,9 @@
 #include <optional>
 #include <span>
 
+#include "core/base/parallel.h"
 #include "core/base/statistics.h"
+#include "core/contour/corner/corner_certainty.h"
 #include "core/contour/corner/corner_finder.h"
 #include "core/contour/corner/corner_geometry.h"
 #include "core/contour/corner/corner_marks.h"
@@ -25,6 +27,7 @@ struct Candidate {
   double angle = 0.0, score = 0.0, s = 0.0;
   double scale = 0.0;   // [px] looked at on either side
   bool isTurn = false;  // given as one
+  double rough = 0.0;   // [px] of the line there
 };
 
 // The angle between the chords on either side, signed as Turning: cheap, and never much smaller than that of a corner.
@@ -142,7 +145,7 @@ class CornerDetector {
     for (int k = turn.first; k <= turn.last && n > 0; ++k) {
       const int i = wrapIndex(k, n);
       const double angle = chordAngle(contour_, i, std::max(2, static_cast<int>(std::lround(kArmPx / step_))));
-      if (std::abs(angle) > std::abs(best.angle)) best = {i, angle, std::abs(angle), s_[i], scale_, true};
+      if (std::abs(angle) > std::abs(best.angle)) best = {i, angle, std::abs(angle), s_[i], scale_, true, rough_[i]};
     }
     if (!best.isTurn || std::abs(best.angle) < kChordShare * minAngle_) return std::nullopt;
     if (isRagged(best.index)) return std::nullopt;
@@ -179,7 +182,7 @@ class CornerDetector {
     if (!turning || std::abs(turning->angleRad) < minAngle_) return std::nullopt;
     if (turning->score < kLeastScore * std::abs(turning->angleRad)) return std::nullopt;
     if (!isMoreThanADent(contour_, i, *turning, rough_[i], inner, scale_)) return std::nullopt;
-    return Candidate{i, turning->angleRad, turning->score, s_[i], scale_, false};
+    return Candidate{i, turning->angleRad, turning->score, s_[i], scale_, false, rough_[i]};
   }
 
   // More of the line is looked at, without its bristles, and the legs are straight: what bends them counts as noise.
@@ -192,7 +195,7 @@ class CornerDetector {
     const auto turning = turningAt(smooth_, i, inner, inner + scale, 1);
     if (!turning || std::abs(turning->angleRad) < minAngle_) return std::nullopt;
     if (turning->score < kLeastScore * std::abs(turning->angleRad)) return std::nullopt;
-    return Candidate{i, turning->angleRad, turning->score, s_[i], scale, false};
+    return Candidate{i, turning->angleRad, turning->score, s_[i], scale, false, rough_[i]};
   }
 
   const Contour& contour_;
@@ -256,31 +259,71 @@ bool isLocated(const CornerFix& fix, double seenRad) {
   return fix.exact && fix.angleRad * seenRad > 0.0 && std::abs(fix.angleRad) >= kLeastShare * std::abs(seenRad);
 }
 
+// What is known of every place from the line alone.
+std::vector<CornerEvidence> evidenceAt(const Contour& contour, const std::vector<Candidate>& kept) {
+  const double length = polylineLength(positionsOf(contour.points), contour.closed);
+  std::vector<CornerEvidence> all;
+  const int count = static_cast<int>(kept.size());
+  for (int i = 0; i < count; ++i) {
+    const Candidate& here = kept[i];
+    CornerEvidence e;
+    e.pointIndex = here.index;
+    e.angleRad = here.angle;
+    e.positionPx = contour.points[here.index].at;
+    e.roughPx = here.rough;
+    e.angleNoiseRad = angleNoise(here.rough, here.scale);
+    e.freeBefore = i > 0 ? here.s - kept[i - 1].s : here.s;
+    e.freeAfter = i + 1 < count ? kept[i + 1].s - here.s : length - here.s;
+    if (contour.closed && i == 0) e.freeBefore += length - kept[count - 1].s;
+    if (contour.closed && i + 1 == count) e.freeAfter += kept[0].s;
+    if (contour.closed && count == 1) e.freeBefore = e.freeAfter = 0.5 * length;
+    if (contour.closed ? count > 1 : i > 0) e.angleBefore = kept[wrapIndex(i - 1, count)].angle;
+    if (contour.closed ? count > 1 : i + 1 < count) e.angleAfter = kept[wrapIndex(i + 1, count)].angle;
+    all.push_back(e);
+  }
+  return all;
+}
+
+// Of one contour, whose index is left at 0.
+std::vector<CornerSuggestion> suggestionsAt(const Contour& contour, const std::vector<Candidate>& kept,
+                                            const RunContext& context) {
+  std::vector<CornerSuggestion> suggestions;
+  if (kept.empty()) return suggestions;
+  std::vector<int> places;
+  for (const Candidate& k : kept) places.push_back(k.index);
+  const std::vector<CornerFix> fixes = locateCorners(contour, places, context);
+  std::vector<CornerEvidence> evidence = evidenceAt(contour, kept);
+  const CornerJudge judge(contour);
+  for (int i = 0; i < std::ssize(fixes); ++i) {
+    CornerEvidence& e = evidence[i];
+    e.isLocated = isLocated(fixes[i], kept[i].angle);
+    if (e.isLocated) {
+      e.positionPx = fixes[i].position;
+      e.angleRad = fixes[i].angleRad;
+    }
+    suggestions.push_back({0, e.pointIndex, e.positionPx, e.angleRad, judge.certainty(e)});
+  }
+  return suggestions;
+}
+
 }  // namespace
 
 std::vector<CornerSuggestion> suggestCorners(const ContourSet& set, double minAngleRad, double scalePx,
                                              const RunContext& context, std::span<const SharpTurn> turns) {
-  std::vector<CornerSuggestion> suggestions;
-  if (!(minAngleRad > 0.0) || !(scalePx > 0.0)) return suggestions;
+  if (!(minAngleRad > 0.0) || !(scalePx > 0.0)) return {};
   std::vector<std::vector<SharpTurn>> own(set.contours.size());
   for (const SharpTurn& turn : turns)
     if (turn.contour >= 0 && turn.contour < std::ssize(own)) own[turn.contour].push_back(turn);
-  for (int c = 0; c < std::ssize(set.contours) && !context.isCancelled(); ++c) {
-    const Contour& contour = set.contours[c];
-    const std::vector<Candidate> kept = cornersOf(contour, own[c], minAngleRad, scalePx, context);
-    std::vector<int> places;
-    for (const Candidate& k : kept) places.push_back(k.index);
-    const std::vector<CornerFix> fixes = locateCorners(contour, places, context);
-    for (int i = 0; i < std::ssize(fixes); ++i) {
-      CornerSuggestion suggestion{c, kept[i].index, {}, kept[i].angle};
-      suggestion.positionPx = contour.points[kept[i].index].at;
-      if (isLocated(fixes[i], kept[i].angle)) {
-        suggestion.positionPx = fixes[i].position;
-        suggestion.turningAngleRad = fixes[i].angleRad;
-      }
-      suggestions.push_back(suggestion);
+  std::vector<std::vector<CornerSuggestion>> found(set.contours.size());
+  parallelFor(context, static_cast<int>(found.size()), 1, [&](int begin, int end) {
+    for (int c = begin; c < end && !context.isCancelled(); ++c) {
+      const Contour& contour = set.contours[c];
+      found[c] = suggestionsAt(contour, cornersOf(contour, own[c], minAngleRad, scalePx, context), context);
+      for (CornerSuggestion& suggestion : found[c]) suggestion.contour = c;
     }
-  }
+  });
+  std::vector<CornerSuggestion> suggestions;
+  for (const auto& some : found) suggestions.insert(suggestions.end(), some.begin(), some.end());
   return suggestions;
 }
 

@@ -9,12 +9,13 @@
 
 namespace batten {
 
-/// A place that looks like a corner. Shown hollow, never applied silently.
+/// A place that looks like a corner.
 struct CornerSuggestion {
   int contour = 0;
   int pointIndex = 0;
   Vec2 positionPx = Vec2::Zero();
   double turningAngleRad = 0.0;
+  double certainty = 0.0;  ///< 0..1 (CornerJudge). From kCertainCorner on it is taken without being asked for.
 };
 
 /// A stretch of a contour that is known to turn sharply: points first..last. On a closed contour `last` may exceed the

@@ -196,6 +196,7 @@ Result<InkLabels> label(const BitImage& ink, double mergeWidths, const RunContex
     votes.push_back({2 * shapeArea[piece.firstRun] > piece.areaPx, std::nullopt});
   voteAmongAlike(votes, graph, page, std::hypot(ink.width, ink.height));
   applyVotes(runs, page, votes, labels);
+  if (labels.strokes.count() == 0) labels.penPx = 0.0;  // crumbs beside shapes that went with them
   return labels;
 }
 

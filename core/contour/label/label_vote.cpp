@@ -2,6 +2,7 @@
 #include "core/contour/label/label_vote.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -20,7 +21,7 @@ constexpr int kLeastVoters = 5;
 // What the vote looks at in one piece.
 struct Voter {
   std::size_t piece = 0;
-  int widthBin = 0, sizeBin = 0;  // half octaves
+  int widthBin = 0, sizeBin = 0, meanBin = 0;  // half octaves: of the largest disc, of the piece, of the mean width
   double area = 0.0, uneven = 0.0, penPx = 0.0, widthsLong = 0.0;
   bool isMostlyShape = false;
 };
@@ -50,11 +51,14 @@ std::optional<Voter> voterOf(const LabelledPiece& piece, const StrandGraph& grap
   v.sizeBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, size))));
   v.area = static_cast<double>(piece.areaPx);
   v.penPx = piece.mainPenPx;
+  double strandsPx = 0.0;
   for (const int number : piece.strands) {
+    strandsPx += graph.strands()[number].lengthPx;
     // Hairs of a brush and of rough borders are no lines of a letter.
     const Strand& s = graph.strands()[number];
     if (s.widthPx && *s.widthPx >= kHairWidths * piece.mainPenPx) v.widthsLong += s.lengthPx / piece.mainPenPx;
   }
+  v.meanBin = static_cast<int>(std::floor(2.0 * std::log2(std::max(1.0, v.area / std::max(1.0, strandsPx)))));
   // Of joined letters, what one letter has.
   v.uneven = v.widthsLong * size / diagonal < kLetterLength ? unevennessOf(piece, graph) : 0.0;
   return v;
@@ -95,20 +99,24 @@ std::optional<InkLabel> decide(const Voter& voter, const Tally& t) {
 void voteAmongAlike(std::vector<PieceVote>& votes, const StrandGraph& graph, const PiecesOfPage& page,
                     double pageDiagonalPx) {
   std::vector<Voter> voters;
-  std::map<std::pair<int, int>, Tally> bins;
+  std::map<std::array<int, 3>, Tally> bins;
   for (std::size_t i = 0; i < votes.size(); ++i) {
     std::optional<Voter> voter = voterOf(page.pieces[i], graph, pageDiagonalPx);
     if (!voter) continue;
     voter->piece = i;
     voter->isMostlyShape = votes[i].isMostlyShape;
-    bins[{voter->widthBin, voter->sizeBin}].add(*voter);
+    bins[{voter->widthBin, voter->sizeBin, voter->meanBin}].add(*voter);
     voters.push_back(*voter);
   }
   for (const Voter& v : voters) {
-    Tally near;  // half an octave of width and one of size about the voter
+    // Half an octave of both widths and one of size about the voter: letters of a felt pen and words of a fine one may
+    // hold the same disc where lines of the latter meet, but they are not alike.
+    Tally near;
     for (int w = v.widthBin - 1; w <= v.widthBin + 1; ++w) {
       for (int s = v.sizeBin - 2; s <= v.sizeBin + 2; ++s) {
-        if (const auto bin = bins.find({w, s}); bin != bins.end()) near.add(bin->second);
+        for (int m = v.meanBin - 1; m <= v.meanBin + 1; ++m) {
+          if (const auto bin = bins.find({w, s, m}); bin != bins.end()) near.add(bin->second);
+        }
       }
     }
     votes[v.piece].decision = decide(v, near);

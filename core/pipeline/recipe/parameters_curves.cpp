@@ -89,6 +89,11 @@ void appendEdges(std::vector<Parameter>& table) {
 }
 
 void appendCornersAndSegments(std::vector<Parameter>& table) {
+  table.push_back(boolean(
+      StageId::Pieces,
+      {"corners.auto", "Certain corners", "",
+       "Corners that are certain count without a mark. Off: only what is marked is a corner."},
+      [](auto& r) -> auto& { return r.corners.automatic; }));
   table.push_back(real(
       StageId::Pieces,
       {"corners.snap", "Corner reach", "px",

@@ -39,6 +39,7 @@ std::optional<Error> validatePlaces(const Recipe& recipe) {
   for (const CornerMark& mark : recipe.cornerMarks) {
     if (!isPlace(mark.positionPx)) return badPlace("A corner mark");
   }
+  if (!arePlaces(recipe.refusedCornersPx)) return badPlace("A corner that is not wanted");
   for (const SegmentPoint& point : recipe.segmentPoints) {
     if (!isPlace(point.positionPx)) return badPlace("A segment point");
   }

@@ -78,7 +78,9 @@ struct PieceChoice {
   /// The common fairing with what is chosen here in its place; what is chosen by place on the drawing is not in it.
   FairingParams fairing(FairingParams common) const;
   /// True when the choice says nothing.
-  bool isEmpty() const { return included && !hasFairing() && splitsPx.empty() && !spans && !method && !detail && !isPart; }
+  bool isEmpty() const {
+    return included && !hasFairing() && splitsPx.empty() && !spans && !method && !detail && !isPart;
+  }
 };
 
 /// The size of a drawing that has no scan: white paper. Resolution: the recipe's.
@@ -122,6 +124,7 @@ struct Recipe {
   std::vector<RegionOfInterest> regions;  ///< Only what lies inside one of them is traced; none = the whole page.
   CornerParams corners;
   std::vector<CornerMark> cornerMarks;
+  std::vector<Vec2> refusedCornersPx;  ///< Corners found without a mark that the user does not want, by place.
   SegmentParams segments;
   std::vector<SegmentPoint> segmentPoints;
   ConstructParams construct;

@@ -163,6 +163,16 @@ Result<void> readCorners(const Json& json, Recipe& recipe) {
   return {};
 }
 
+Result<void> readRefusedCorners(const Json& json, Recipe& recipe) {
+  if (!json.is_array()) return refuse("The recipe is damaged: \"refused_corners\" is not a list of positions.");
+  for (const Json& entry : json) {
+    const auto point = pointFromJson(entry);
+    if (!point) return refuse("The recipe is damaged: a refused corner is not a pair of numbers [x, y].");
+    recipe.refusedCornersPx.push_back(*point);
+  }
+  return {};
+}
+
 Result<void> readStrokes(const Json& json, Recipe& recipe) {
   if (!json.is_array()) return refuse("The recipe is damaged: \"strokes\" is not a list.");
   for (const Json& entry : json) {
@@ -430,6 +440,7 @@ Result<void> readEntry(const std::string& name, const Json& value, Recipe& recip
   if (name == "format" || name == "version") return {};
   if (name == "parameters") return readParameters(value, recipe);
   if (name == "corners") return readCorners(value, recipe);
+  if (name == "refused_corners") return readRefusedCorners(value, recipe);
   if (name == "segment_points") return readSegmentPoints(value, recipe);
   if (name == "choices") return readChoices(value, recipe);
   if (name == "strokes") return readStrokes(value, recipe);
@@ -464,6 +475,10 @@ std::string recipeToJson(const Recipe& recipe) {
   for (const Parameter& p : parameterTable()) parameters[p.name] = parameterToJson(p, recipe);
   Json& corners = json["corners"] = Json::array();
   for (const CornerMark& mark : recipe.cornerMarks) corners.push_back(cornerToJson(mark));
+  if (!recipe.refusedCornersPx.empty()) {
+    Json& places = json["refused_corners"] = Json::array();
+    for (const Vec2& place : recipe.refusedCornersPx) places.push_back({place.x(), place.y()});
+  }
   if (!recipe.segmentPoints.empty()) {
     Json& places = json["segment_points"] = Json::array();
     for (const SegmentPoint& one : recipe.segmentPoints) places.push_back({one.positionPx.x(), one.positionPx.y()});

@@ -99,6 +99,7 @@ Recipe coarseRecipe(Recipe recipe, const Scan& scan, int factor) {
   for (RegionOfInterest& region : recipe.regions) divide(region.cornersPx, by);
   for (EdgeChoice& choice : recipe.edges.choices) choice.positionPx /= by;
   for (CornerMark& mark : recipe.cornerMarks) mark.positionPx /= by;
+  divide(recipe.refusedCornersPx, by);
   for (SegmentPoint& point : recipe.segmentPoints) point.positionPx /= by;
   for (ExtremumChoice& choice : recipe.extremumChoices) choice.positionPx /= by;
   for (PieceChoice& choice : recipe.choices) {

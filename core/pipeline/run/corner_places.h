@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/contour/corner/corner_marks.h"
 #include "core/contour/corner/corner_suggestions.h"
+#include "core/image/grey_image.h"
 
 namespace batten {
 
@@ -13,5 +15,14 @@ namespace batten {
 /// as there. Not complete when cancelled.
 std::vector<CornerSuggestion> suggestCornersAndCuts(const ContourSet&, double minAngleRad, double scalePx,
                                                     const RunContext&);
+
+/// The places among which certainCorners chooses: turns of 28 degrees and more, over 14 px.
+std::vector<CornerSuggestion> possibleCorners(const ContourSet&, const RunContext&);
+
+/// The corners that count without a mark: the possible ones of kCertainCorner on lines found on the scan, on centre
+/// lines only those that lie on ink. Of those near a refused place, within `reachPx`, the nearest is left out. Image
+/// frame, px. Not complete when cancelled.
+std::vector<Corner> certainCorners(const ContourSet&, const GreyImage& page, std::span<const Vec2> refusedPx,
+                                   double reachPx, const RunContext&);
 
 }  // namespace batten

@@ -232,7 +232,8 @@ void measureAgain(TracedCurve& curve, const NurbsCurve& unrounded, const Piece& 
 void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, const PageFrame& frame) {
   std::vector<NurbsCurve> unrounded(pieces.pieces.size());
   for (const Corner& corner : pieces.corners) {
-    const auto mark = static_cast<std::size_t>(corner.mark);
+    if (!corner.mark) continue;
+    const auto mark = static_cast<std::size_t>(*corner.mark);
     if (mark >= recipe.cornerMarks.size() || !(recipe.cornerMarks[mark].roundMm > 0.0)) continue;
     const Neighbours at = neighboursOf(set, pieces, corner);
     if (!at.before || !at.behind) continue;

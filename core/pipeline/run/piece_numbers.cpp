@@ -74,7 +74,8 @@ class PlaceOwners {
     std::map<std::pair<std::size_t, std::size_t>, NumberClaim> found;
     for (const NotedPlace& place : places_) {
       if (!place.piece) continue;
-      NumberClaim& claim = found.try_emplace({place.known, *place.piece}, place.known, *place.piece).first->second;
+      NumberClaim& claim =
+          found.try_emplace({place.known, *place.piece}, NumberClaim{place.known, *place.piece}).first->second;
       ++claim.within;
       if (place.distance <= kSamePlaceReachPx) ++claim.near;
     }

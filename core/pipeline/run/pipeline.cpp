@@ -6,6 +6,7 @@
 
 #include "core/contour/trace_contours.h"
 #include "core/image/laplacian_edges.h"
+#include "core/pipeline/run/corner_places.h"
 #include "core/pipeline/run/curve_stages.h"
 #include "core/pipeline/run/fair_stage.h"
 #include "core/pipeline/run/imported_lines.h"
@@ -101,12 +102,7 @@ class PipelineRun {
       case StageId::Contours:
         return step(stage, out_.contours, [&] { return lines(); });
       case StageId::Pieces:
-        return step(stage, out_.pieces,
-                    [&] {
-                      const GreyImage& grey = recipe_.cornerMarks.empty() ? this->grey() : flattenedScan();
-                      return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, context_, &grey);
-                    }) &&
-               numberPiecesOnce();
+        return step(stage, out_.pieces, [&] { return pieces(); }) && numberPiecesOnce();
       case StageId::Segments:
         return step(stage, out_.segments, [&] { return regressionSegments(*out_.pieces, recipe_.segments, context_); });
       case StageId::Curves:
@@ -122,6 +118,18 @@ class PipelineRun {
   }
 
   const GreyImage& grey() const { return tracedGrey(scan_, out_); }
+
+  Result<PieceSet> pieces() {
+    std::vector<Corner> certain;
+    if (recipe_.corners.automatic) {
+      certain =
+          certainCorners(*out_.contours, grey(), recipe_.refusedCornersPx, recipe_.corners.snapDistancePx, context_);
+      if (context_.isCancelled()) return cancelled();
+    }
+    const bool hasCorners = !recipe_.cornerMarks.empty() || !certain.empty();
+    const GreyImage& even = hasCorners ? flattenedScan() : grey();
+    return splitAtCorners(*out_.contours, recipe_.cornerMarks, recipe_.corners, context_, &even, certain);
+  }
 
   /// The page that all stages read, kept for the runs that change thresholds alone, and its thresholds.
   bool thresholds() {

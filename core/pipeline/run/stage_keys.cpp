@@ -117,6 +117,8 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
     case StageId::Pieces:
       addCount(h, r.cornerMarks);
       for (const CornerMark& mark : r.cornerMarks) add(h, mark.positionPx);
+      addCount(h, r.refusedCornersPx);
+      for (const Vec2& place : r.refusedCornersPx) add(h, place);
       break;
     case StageId::Curves:
       addMethods(h, r);

@@ -81,9 +81,10 @@ TEST(CornerMarks, CornersOfACurvedLetterAreFoundToATenthOfAPixel) {
     ASSERT_EQ(pieces->corners.size(), shape.corners.size());
     EXPECT_TRUE(pieces->lostMarks.empty());
     for (const Corner& corner : pieces->corners) {
-      const double e = (corner.positionPx - shape.corners[corner.mark]).norm();
+      const double e = (corner.positionPx - shape.corners[corner.mark.value()]).norm();
       if (e > 0.3)
-        printf("seed %u corner %d error %.3f angle %.1f\n", seed, corner.mark, e, corner.turningAngleRad / kDeg);
+        printf("seed %u corner %d error %.3f angle %.1f\n", seed, corner.mark.value(), e,
+               corner.turningAngleRad / kDeg);
       square += e * e;
       worst = std::max(worst, e);
       ++count;
@@ -385,7 +386,7 @@ TEST(SuggestCorners, SayTheAngleThatAMarkGives) {
   ASSERT_TRUE(pieces.has_value());
   ASSERT_EQ(pieces->corners.size(), suggestions.size());
   for (const Corner& corner : pieces->corners) {
-    const CornerSuggestion& s = suggestions[corner.mark];
+    const CornerSuggestion& s = suggestions[corner.mark.value()];
     EXPECT_NEAR(s.turningAngleRad, corner.turningAngleRad, 1.5 * kDeg) << s.positionPx.transpose();
   }
 }

@@ -108,6 +108,31 @@ TEST(InkLabels, AnAlphabetGetsOneTreatment) {
   }
 }
 
+// Letters of a felt pen above words of a fine pen, of about their size; where lines of a word meet, a disc fits in that
+// is nearly as large as in the letters.
+TEST(InkLabels, WordsOfAFinePenAreNotLettersOfAFeltPen) {
+  test::LabelPage page(900, 500);
+  for (int i = 0; i < 18; ++i) {
+    const double x = 60.0 + 95.0 * (i % 9), y = 40.0 + 100.0 * (i / 9);
+    page.begin(true);
+    page.line({{x, y}, {x + 12, y + 60}}, 15.0);
+    page.line({{x + 12, y + 60}, {x + 40, y + 40}}, 15.0);
+  }
+  for (int row = 0; row < 2; ++row) {
+    for (int i = 0; i < 5; ++i) {
+      const double x = 50.0 + 170.0 * i, y = 280.0 + 110.0 * row;
+      page.begin(false);
+      page.line({{x, y}, {x + 20, y - 50}, {x + 30, y}, {x + 60, y - 40}, {x + 75, y}, {x + 110, y - 10}}, 5.0);
+      page.line({{x + 60, y - 40}, {x + 65, y - 25}, {x + 75, y}}, 5.0);
+      page.line({{x + 60, y - 40}, {x + 63, y - 20}, {x + 75, y}}, 5.0);
+    }
+  }
+  const BitImage ink = page.ink(4);
+  const auto score = page.score(ink, labelsOf(ink).shapes);
+  EXPECT_GT(score.strokes, 0.95);
+  EXPECT_GT(score.shapes, 0.95);
+}
+
 TEST(InkLabels, MixedPagesAreToldApart) {
   for (const test::LabelScene& scene : test::labelScenes()) {
     if (scene.name != "mixed" && scene.name != "solid" && scene.name != "cross" && scene.name != "taper") continue;

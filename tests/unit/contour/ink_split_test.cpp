@@ -73,6 +73,45 @@ TEST(InkSplit, ASolidIsFollowedByItsBorderAndItsLinesEndAtTheRim) {
   }
 }
 
+// Two lines of a pen that meet at an angle; the pen filled the corner between them.
+test::LabelPage filledCorner() {
+  test::LabelPage page(420, 420);
+  page.begin(false);
+  page.line({Vec2(60, 380), Vec2(150, 60)}, kPen);
+  page.line({Vec2(150, 60), Vec2(380, 60)}, kPen);
+  page.line({Vec2(132, 125), Vec2(200, 60)}, kPen);
+  page.begin(true);
+  page.area({{Vec2(150, 60), Vec2(132, 125), Vec2(200, 60)}});
+  return page;
+}
+
+TEST(InkSplit, WhatStrokesEncloseAndFillIsFollowedAlongItsBorder) {
+  const ContourSet set = traced(filledCorner());
+  bool isFollowed = false;
+  for (const Contour* border : linesOf(set, ContourKind::Outline)) {
+    double left = 1e9, right = 0.0;
+    for (const ContourPoint& p : border->points) {
+      left = std::min(left, p.at.x());
+      right = std::max(right, p.at.x());
+    }
+    isFollowed = isFollowed || (left < 160.0 && right > 165.0);
+  }
+  EXPECT_TRUE(isFollowed);
+}
+
+// A crossing of a thin and a thick line, a Y and a T of one pen: ink that the lines explain.
+TEST(InkSplit, JunctionsOfStrokesAreNoFillings) {
+  test::LabelPage page(420, 420);
+  page.begin(false);
+  page.line({Vec2(40, 60), Vec2(380, 120)}, 9.0);
+  page.line({Vec2(200, 30), Vec2(180, 200)}, kPen);
+  page.line({Vec2(60, 380), Vec2(150, 300)}, kPen);
+  page.line({Vec2(150, 300), Vec2(60, 240)}, kPen);
+  page.line({Vec2(150, 300), Vec2(380, 300)}, kPen);
+  page.line({Vec2(300, 300), Vec2(300, 390)}, kPen);
+  EXPECT_TRUE(linesOf(traced(page), ContourKind::Outline).empty());
+}
+
 TEST(InkSplit, HolesGoWhereTheyAreNotWanted) {
   EdgeParams edges;
   edges.internal = InnerBorders::Off;

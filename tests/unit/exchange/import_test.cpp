@@ -144,6 +144,29 @@ TEST_F(Import, TheUnitIsThatOfTheFileElseMillimetresElseWhatTheUserSays) {
   EXPECT_NEAR(curvesOf(told)[0].controlPoints()[1].x(), 25.4, 1e-12);
 }
 
+TEST_F(Import, TheUsersUnitGoesBeforeThatOfSvgAndOwnFiles) {
+  const std::string sized =
+      R"(<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="50mm" viewBox="0 0 200 100">)"
+      R"(<path d="M0,100 L40,100"/></svg>)";
+  EXPECT_NEAR(curvesOf(read("a.svg", sized))[0].controlPoints().back().x(), 20.0, 1e-12);
+  const ImportReport inches = read("a.svg", sized, 25.4);
+  EXPECT_EQ(inches.file.unit, "in");
+  EXPECT_NEAR(curvesOf(inches)[0].controlPoints().back().x(), 1016.0, 1e-9);
+  const ImportReport bare = read("b.svg", R"(<svg xmlns="http://www.w3.org/2000/svg"><line x2="3"/></svg>)", 10.0);
+  EXPECT_TRUE(bare.notes.empty()) << "nothing was assumed";
+  EXPECT_NEAR(curvesOf(bare)[0].controlPoints().back().x(), 30.0, 1e-9);
+  for (const char* ending : {".svg", ".json"}) {
+    ExportSettings settings;
+    const fs::path path = folder_ / (std::string("own") + ending);
+    settings.format = *formatOf(path);
+    ASSERT_TRUE(exportToFile(test::exportOfAllKinds(), settings, path));
+    const auto plain = readImportFile(path), scaled = readImportFile(path, 10.0);
+    ASSERT_TRUE(plain && scaled);
+    EXPECT_EQ(scaled->file.unit, "cm");
+    EXPECT_LE((10.0 * curvesOf(*plain)[0].controlPoints()[1] - curvesOf(*scaled)[0].controlPoints()[1]).norm(), 1e-9);
+  }
+}
+
 TEST_F(Import, ReadsTablesOfPointsAsPeopleWriteThem) {
   struct Case {
     const char* text;
@@ -155,7 +178,8 @@ TEST_F(Import, ReadsTablesOfPointsAsPeopleWriteThem) {
         Case{"# a comment\nx;y\n0;0\n1,5;2,25\n", 1.5, 2.25, 1, 2},
         Case{"0\t0\n1\t2\n\n5\t5\n6\t6\n7\t5\n", 1.0, 2.0, 2, 2}, Case{"  0   0\n  1   2 9 9\n", 1.0, 2.0, 1, 2},
         Case{"curve,s_mm,x_mm,y_mm\nA,0,0,0\nA,1,3,4\nB,0,9,9\nB,1,8,8\n", 3.0, 4.0, 2, 2},
-        Case{"\xef\xbb\xbfx [cm],y [cm]\n0,0\n1,2\n", 10.0, 20.0, 1, 2}}) {
+        Case{"1,5 2\n2,25 3,5\n", 2.25, 3.5, 1, 2}, Case{"x y\n0 0\n1,5 2,5\n", 1.5, 2.5, 1, 2},
+        Case{"0, 0\n1, 2\n", 1.0, 2.0, 1, 2}, Case{"\xef\xbb\xbfx [cm],y [cm]\n0,0\n1,2\n", 10.0, 20.0, 1, 2}}) {
     const ImportReport report = read("p.csv", c.text);
     ASSERT_EQ(report.file.lines.size(), c.lines) << c.text;
     ASSERT_EQ(report.file.lines[0].points.size(), c.points) << c.text;

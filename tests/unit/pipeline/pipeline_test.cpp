@@ -61,6 +61,8 @@ TEST(Pipeline, RunsOnlyWhatAChangeAffects) {
   EXPECT_EQ(after([](Recipe& r) { r.filter.iterations = 3; }), StageId::Filtered);
   EXPECT_EQ(after([](Recipe& r) { r.contours.minLengthPx = 55.0; }), StageId::Contours);
   EXPECT_EQ(after([](Recipe& r) { r.cornerMarks = {{Vec2(200, 50)}}; }), StageId::Pieces);
+  EXPECT_EQ(after([](Recipe& r) { r.refusedCornersPx = {Vec2(200, 50)}; }), StageId::Pieces);
+  EXPECT_EQ(after([](Recipe& r) { r.corners.automatic = false; }), StageId::Pieces);
   EXPECT_EQ(after([](Recipe& r) { r.segments.spacingPx = 30.0; }), StageId::Segments);
   EXPECT_EQ(after([](Recipe& r) { r.construct.derivativeMagnitude = 1.1; }), StageId::Curves);
   EXPECT_EQ(after([](Recipe& r) { r.dpi = 200.0; }), StageId::Curves);

@@ -17,6 +17,8 @@ Recipe fullRecipe() {
   r.log.factor = 45.123456789012345;
   r.threshold.grid[5] = 0.1 + 0.2;
   r.cornerMarks = {{Vec2(1.0 / 3.0, 2e-17)}, {Vec2(-4.5, 1e6 / 7.0)}};
+  r.refusedCornersPx = {Vec2(1.0 / 7.0, 40.0), Vec2(-3.5, 2e5)};
+  r.corners.automatic = false;
   r.fairing.mode = FairingMode::Tolerance;
   r.fairing.endHold = {true, true};
   r.choices = {{{Vec2(10.1, 20.2)}, false, std::nullopt, std::nullopt, std::nullopt},

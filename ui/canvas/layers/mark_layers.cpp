@@ -2,6 +2,7 @@
 #include "ui/canvas/layers/mark_layers.h"
 
 #include <QPen>
+#include <QPolygonF>
 #include <cmath>
 
 #include "core/base/conventions.h"
@@ -19,14 +20,30 @@ void paintCornerSquare(QPainter& painter, QPointF centre, double half, const QCo
   painter.drawRect(square);
 }
 
+void paintFoundCorner(QPainter& painter, QPointF centre, double half, const QColor& color) {
+  const QPolygonF diamond(
+      {centre + QPointF(0, -half), centre + QPointF(half, 0), centre + QPointF(0, half), centre + QPointF(-half, 0)});
+  painter.setPen(QPen(QColor(255, 255, 255, 200), 3.5, Qt::SolidLine, Qt::SquareCap, Qt::MiterJoin));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawPolygon(diamond);
+  painter.setPen(QPen(color, 1.4, Qt::SolidLine, Qt::SquareCap, Qt::MiterJoin));
+  painter.drawPolygon(diamond);
+}
+
 void paintCorners(QPainter& painter, const CanvasScene& scene) {
   const auto& pieces = scene.session.output().pieces;
   const auto& marks = scene.session.recipe().cornerMarks;
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
   if (pieces && !scene.session.isStale(StageId::Pieces)) {
-    for (const Corner& corner : pieces->corners)
-      paintCornerSquare(painter, scene.transform.toWidget(corner.positionPx), 5.0, colors::corner(), false);
+    for (const Corner& corner : pieces->corners) {
+      const QPointF at = scene.transform.toWidget(corner.positionPx);
+      if (corner.mark) {
+        paintCornerSquare(painter, at, 5.0, colors::corner(), false);
+      } else {
+        paintFoundCorner(painter, at, 5.0, colors::corner());
+      }
+    }
     for (const int lost : pieces->lostMarks) {
       if (lost < 0 || static_cast<std::size_t>(lost) >= marks.size()) continue;
       const QPointF at = scene.transform.toWidget(marks[lost].positionPx);

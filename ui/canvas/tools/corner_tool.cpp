@@ -27,7 +27,8 @@ class CornerTool final : public PointTool {
     painter.setBrush(Qt::NoBrush);
     painter.setPen(QPen(colors::corner(), 1.4, Qt::DotLine));
     for (const CornerSuggestion& suggestion : scene_.session.suggestions().found())
-      if (!nearest(suggestion.positionPx, scene_.session.recipe().corners.snapDistancePx))
+      if (!foundAt(suggestion.positionPx, scene_.session.recipe().corners.snapDistancePx) &&
+          !nearest(suggestion.positionPx, scene_.session.recipe().corners.snapDistancePx))
         painter.drawEllipse(scene_.transform.toWidget(suggestion.positionPx), 7.0, 7.0);
     if (const Index mark = selected()) {
       painter.setPen(QPen(colors::corner(), 1.2));
@@ -38,6 +39,10 @@ class CornerTool final : public PointTool {
       const QPointF at = scene_.transform.toWidget(shown(*hovered()));
       paintCornerSquare(painter, at, 6.5, colors::corner(), false);
       paintLabel(painter, scene_, angleText(*hovered()), at);
+    } else if (const Corner* found = hoveredFound()) {
+      const QPointF at = scene_.transform.toWidget(found->positionPx);
+      paintFoundCorner(painter, at, 7.5, colors::corner());
+      paintLabel(painter, scene_, turnText(*found), at);
     } else if (snapped()) {
       const QPointF at = scene_.transform.toWidget(*snapped());
       painter.setPen(QPen(Qt::white, 4.0));
@@ -67,8 +72,20 @@ class CornerTool final : public PointTool {
     recipe.cornerMarks.erase(recipe.cornerMarks.begin() + static_cast<std::ptrdiff_t>(mark));
   }
 
+  /// A corner that was found without a mark is left out by a click, and stays out.
+  bool pressElse(const ToolEvent& event, int gesture) override {
+    const Corner* found =
+        event.modifiers.testFlag(Qt::AltModifier) ? nullptr : foundAt(event.px, scene_.reachImagePx());
+    if (!found) return false;
+    Recipe recipe = scene_.session.recipe();
+    recipe.refusedCornersPx.push_back(found->positionPx);
+    scene_.session.change(cornerText("Leave corner out"), std::move(recipe), gesture);
+    return true;
+  }
+
   /// The nearest place of a line within reach; with Alt the place itself.
   std::optional<Vec2> placeFor(const ToolEvent& event) const override {
+    pointed_ = event.px;
     const auto& contours = scene_.session.output().contours;
     if (event.modifiers.testFlag(Qt::AltModifier)) return event.px;
     if (!contours) return std::nullopt;
@@ -83,6 +100,8 @@ class CornerTool final : public PointTool {
   QString hintText() const override {
     if (hovered() && hovered() == selected())
       return cornerText("Click to remove this corner; drag or press arrow keys to move it.");
+    if (!hovered() && hoveredFound())
+      return cornerText("This corner was found without a mark. Click to leave it out; click again to mark it.");
     if (hovered()) return cornerText("Click to select this corner, click again to remove it; drag to move it.");
     return snapped() ? cornerText("Click to mark a corner.") : cornerText("Click a line where it has a sharp corner.");
   }
@@ -104,13 +123,31 @@ class CornerTool final : public PointTool {
     return nullptr;
   }
 
+  static QString turnText(const Corner& corner) {
+    return cornerText("turns %1°")
+        .arg(QString::number(std::abs(corner.turningAngleRad) * 180.0 / std::numbers::pi, 'f', 1));
+  }
+
+  /// The nearest corner without a mark within reach of a place.
+  const Corner* foundAt(const Vec2& px, double reachPx) const {
+    const Corner* found = nullptr;
+    if (!isFresh()) return found;
+    for (const Corner& corner : scene_.session.output().pieces->corners) {
+      const double distance = (corner.positionPx - px).norm();
+      if (!corner.mark && distance <= reachPx) reachPx = distance, found = &corner;
+    }
+    return found;
+  }
+  /// The one under the mouse.
+  const Corner* hoveredFound() const { return snapped() ? foundAt(pointed_, scene_.reachImagePx()) : nullptr; }
+
   QString angleText(std::size_t mark) const {
     if (!isFresh()) return {};
-    if (const Corner* corner = cornerOf(mark))
-      return cornerText("turns %1°")
-          .arg(QString::number(std::abs(corner->turningAngleRad) * 180.0 / std::numbers::pi, 'f', 1));
+    if (const Corner* corner = cornerOf(mark)) return turnText(*corner);
     return cornerText("no line within %1 px").arg(scene_.session.recipe().corners.snapDistancePx, 0, 'f', 0);
   }
+
+  mutable Vec2 pointed_ = Vec2::Zero();  ///< [px] Where the mouse last was over the drawing.
 };
 
 }  // namespace

@@ -45,6 +45,7 @@ void PointTool::press(const ToolEvent& event) {
   before_ = scene_.session.recipe();
   wasSelected_ = held_ && selected() == held_;
   if (held_) return select(held_);
+  if (pressElse(event, gesture_)) return update(event);
   const auto at = placeFor(event);
   if (!at) {
     scene_.flash(event.px);

@@ -39,6 +39,8 @@ class PointTool : public CanvasTool {
   virtual void add(Recipe&, const Vec2& px) const = 0;
   virtual void place(Recipe&, std::size_t mark, const Vec2& px) const = 0;
   virtual void erase(Recipe&, std::size_t mark) const = 0;
+  /// Lets a press beside all marks do something else, with the undo step that it is given; true: it did.
+  virtual bool pressElse(const ToolEvent&, int /*gesture*/) { return false; }
   /// Where a press sets a mark, or none.
   virtual std::optional<Vec2> placeFor(const ToolEvent&) const = 0;
   virtual QString hintText() const = 0;

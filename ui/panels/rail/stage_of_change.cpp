@@ -15,7 +15,8 @@ std::optional<PanelStage> stageOfChange(const Recipe& a, const Recipe& b) {
   const bool isOfEdges = a.edges == b.edges && a.contours == b.contours && a.penStrokes == b.penStrokes &&
                          a.imports == b.imports && a.page == b.page && a.regions == b.regions;
   if (!isOfEdges) return PanelStage::Edges;
-  if (!(a.corners == b.corners) || a.cornerMarks != b.cornerMarks) return PanelStage::Corners;
+  if (!(a.corners == b.corners) || a.cornerMarks != b.cornerMarks || a.refusedCornersPx != b.refusedCornersPx)
+    return PanelStage::Corners;
   // Of a choice for one curve the method and whether it counts are chosen under Curves, the rest is how it is faired.
   const auto constructed = [](const Recipe& recipe) {
     std::vector<std::tuple<bool, std::optional<ConstructMethod>, std::optional<double>>> said;

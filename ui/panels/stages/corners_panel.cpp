@@ -42,6 +42,8 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       session_(session),
       view_(view),
       marks_(new HintList(tr("No corner is marked yet."), kRows, this)),
+      found_(note({}, this)),
+      restore_(plainButton(tr("Restore all"), QStringLiteral("corners.restore"), this)),
       close_(note({}, this)),
       remove_(plainButton(tr("Remove"), QStringLiteral("corners.remove"), this)),
       removeAll_(plainButton(tr("Remove all"), QStringLiteral("corners.removeAll"), this)),
@@ -62,7 +64,15 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
   layout->addWidget(heading(tr("Corners"), this));
   layout->addWidget(
       note(tr("Click a line where it turns sharply; click a corner to select it, and again to remove it."), this));
-  layout->addWidget(new ParameterEditor(session, {"corners.exact", "corners.snap"}, this));
+  layout->addWidget(new ParameterEditor(session, {"corners.auto", "corners.exact", "corners.snap"}, this));
+  found_->setObjectName(QStringLiteral("corners.found"));
+  layout->addWidget(found_);
+  layout->addWidget(restore_);
+  connect(restore_, &QPushButton::clicked, this, [this] {
+    Recipe after = session_.recipe();
+    after.refusedCornersPx.clear();
+    session_.change(tr("Restore corners"), std::move(after));
+  });
   layout->addWidget(caption(tr("Marked"), this));
   // Buttons stand above what grows.
   auto* buttons = new QHBoxLayout;
@@ -198,7 +208,7 @@ void CornersPanel::refreshMarks() {
     std::optional<int> same;
     if (pieces) {
       const auto corner = std::find_if(pieces->corners.begin(), pieces->corners.end(),
-                                       [&](const Corner& c) { return static_cast<std::size_t>(c.mark) == i; });
+                                       [&](const Corner& c) { return c.mark == static_cast<int>(i); });
       if (corner != pieces->corners.end()) angle = QStringLiteral("   ") + degrees(corner->turningAngleRad);
       for (const MarkPair& pair : pieces->sameCorner)
         if (static_cast<std::size_t>(pair.mark) == i) same = pair.other;
@@ -221,12 +231,41 @@ void CornersPanel::refreshMarks() {
                  .arg(pair.other + 1)
                  .arg(pair.mark + 1)
                  .arg(pair.apartPx, 0, 'f', 0);
+  showFound();
   close_->setText(close.join(QLatin1Char('\n')));
   close_->setVisible(!close.empty());
   filling_ = false;
   removeAll_->setEnabled(!marks.empty());
   showSelected();
   showSuggestions();
+}
+
+void CornersPanel::showFound() {
+  const auto& pieces = session_.output().pieces;
+  const auto& refused = session_.recipe().refusedCornersPx;
+  const int found = pieces ? unmarkedCornerCount(*pieces) : 0;
+  QStringList lines;
+  if (session_.recipe().corners.automatic && pieces)
+    lines += found == 0
+                 ? tr("No corner is certain without a mark.")
+                 : counted(found,
+                           tr("1 corner is certain and counts without a mark (a diamond). Click it to leave "
+                              "it out."),
+                           tr("%1 corners are certain and count without a mark (diamonds). Click one to leave it "
+                              "out."));
+  if (!refused.empty())
+    lines += counted(static_cast<qint64>(refused.size()), tr("1 is left out."), tr("%1 are left out."));
+  found_->setText(lines.join(QLatin1Char(' ')));
+  found_->setVisible(!lines.empty());
+  restore_->setVisible(!refused.empty());
+}
+
+bool CornersPanel::isFound(const Vec2& positionPx) const {
+  const auto& pieces = session_.output().pieces;
+  const double reach = session_.recipe().corners.snapDistancePx;
+  return pieces && std::any_of(pieces->corners.begin(), pieces->corners.end(), [&](const Corner& corner) {
+           return !corner.mark && (corner.positionPx - positionPx).norm() <= reach;
+         });
 }
 
 void CornersPanel::showSelected() {
@@ -251,7 +290,8 @@ bool CornersPanel::isMarked(const Vec2& positionPx) const {
 
 void CornersPanel::showSuggestions() {
   suggestions_ = session_.suggestions().found();
-  std::erase_if(suggestions_, [this](const CornerSuggestion& s) { return isMarked(s.positionPx); });
+  std::erase_if(suggestions_,
+                [this](const CornerSuggestion& s) { return isMarked(s.positionPx) || isFound(s.positionPx); });
   suggested_->clear();
   for (const auto& suggestion : suggestions_) {
     auto* item = new QListWidgetItem(

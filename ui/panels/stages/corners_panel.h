@@ -50,10 +50,15 @@ class CornersPanel : public QWidget {
   void removeAll();
   void mark(const std::vector<Vec2>& positions);
   bool isMarked(const Vec2& positionPx) const;
+  /// Whether a corner counts there without a mark.
+  bool isFound(const Vec2& positionPx) const;
+  void showFound();
 
   EditorSession& session_;
   ViewSettings& view_;
   QListWidget* marks_;
+  QLabel* found_;  ///< How many corners count without a mark.
+  QPushButton* restore_;
   QLabel* close_;  ///< Names corners that lie too close together.
   QPushButton* remove_;
   QPushButton* removeAll_;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/run_context.h"
+#include "core/contour/contour_set.h"
+#include "core/contour/ink_split.h"
+#include "core/image/bit_image.h"
+
+namespace batten {
+
+/// Pieces of stroke ink that no line follows. A pencil leaves specks that are none, and what the user wants to be
+/// longer is a short line.
+/// @param minWidths ContourParams::minWidths.
+BitImage findBlots(const InkSplit&, const ContourSet& lines, double minWidths, const RunContext&);
+
+/// Places of pen strokes that are wider than the pen, and that the lines with their widths leave out: what strokes
+/// enclose and fill, knots, scribbles. Up to the strokes, which stay strokes.
+BitImage findFillings(const InkSplit&, const ContourSet& lines, const RunContext&);
+
+}  // namespace batten

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/corner/corner_certainty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/base/statistics.h"
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+constexpr double kRadOfDeg = std::numbers::pi / 180.0;
+constexpr double kLeastUnitPx = 3.0;     // blur and mask round a border by about as much
+constexpr double kRoughUnits = 6.0;      // of the roughness
+constexpr double kWidthLimit = 1.5;      // of the usual width: at a junction the ink is wider than the stroke
+constexpr double kSharpRadius = 1.5;     // units
+constexpr double kSharpSlackPx = 0.4;    // a vertex is known to that
+constexpr double kFarthestVertex = 2.3;  // units from the line, even for acute tips
+constexpr double kShortChord = 3.0, kCertainChord = 6.0, kChordStart = 1.0;  // units
+constexpr double kLeastLeg = 2.5, kLeastLegToEnd = 3.0;                      // units: ends have hooks of their own
+constexpr double kLeastCertainTurn = 30.0 * kRadOfDeg;
+constexpr double kLeastUnlocatedTurn = 50.0 * kRadOfDeg;  // of the chords, where no vertex tells how sharp it is
+constexpr double kFlankShare = 0.25;                      // of the turn: how much more the longer chords may turn
+constexpr double kLeastChordShare = 0.5, kMostChordShare = 1.35;  // of the angle: cusps, arcs
+constexpr double kFaintTurn = 45.0 * kRadOfDeg;                   // below, both chords must show the angle itself
+constexpr double kFaintShare = 0.15, kFaintLongShare = 0.2;
+constexpr double kFaintSlackRad = 2.0 * kRadOfDeg;
+constexpr double kNoiseLimit = 3.5;  // standard deviations
+constexpr double kDentReach = 8.0;   // units
+constexpr double kDentShare = 0.5;   // of the turn that turns back
+constexpr double kNoDentTurn = 70.0 * kRadOfDeg;
+constexpr double kSteepness = 4.0, kOddsAtLimit = 19.0;  // 19 to 1 where the worst share is just 1
+
+}  // namespace
+
+CornerJudge::CornerJudge(const Contour& contour)
+    : contour_(contour), arc_(cumulativeLength(positionsOf(contour.points))) {
+  length_ = polylineLength(positionsOf(contour.points), contour.closed);
+  const std::vector<float> widths = strokeWidthsOf(contour.points);
+  if (!widths.empty()) typicalWidthPx_ = upperMedian(std::vector<double>(widths.begin(), widths.end()));
+}
+
+double CornerJudge::unitAt(const CornerEvidence& e) const {
+  const ContourPoint& p = contour_.points[e.pointIndex];
+  double unit = std::max(kLeastUnitPx, kRoughUnits * e.roughPx);
+  if (p.widthPx) unit = std::max(unit, std::min<double>(*p.widthPx, kWidthLimit * typicalWidthPx_));
+  if (p.band) unit = std::max<double>(unit, p.band->left + p.band->right);
+  return unit;
+}
+
+Vec2 CornerJudge::atArc(double s) const {
+  if (contour_.closed) s -= length_ * std::floor(s / length_);
+  s = std::clamp(s, 0.0, length_);
+  const auto after = std::upper_bound(arc_.begin(), arc_.end(), s);
+  const auto i = std::max<std::ptrdiff_t>(0, after - arc_.begin() - 1);
+  const std::ptrdiff_t next = i + 1 < std::ssize(arc_) ? i + 1 : contour_.closed ? 0 : i;
+  const double end = next > i ? arc_[next] : length_;
+  const double f = end > arc_[i] ? (s - arc_[i]) / (end - arc_[i]) : 0.0;
+  return contour_.points[i].at + f * (contour_.points[next].at - contour_.points[i].at);
+}
+
+// Between the chords from `before` to `near` ahead of a place and from `near` to `after` behind it; signed as Turning.
+double CornerJudge::chordTurn(double arc, double near, double before, double after) const {
+  const Vec2 in = atArc(arc - near) - atArc(arc - before), out = atArc(arc + after) - atArc(arc + near);
+  return -std::atan2(cross(in, out), in.dot(out));
+}
+
+double CornerJudge::certainty(const CornerEvidence& e) const {
+  const double unit = unitAt(e), angle = std::abs(e.angleRad), arc = arc_[e.pointIndex];
+  if (!(angle > 0.0)) return 0.0;
+  const bool toEnd = !contour_.closed && std::min(arc, length_ - arc) <= std::min(e.freeBefore, e.freeAfter);
+  double worst = (toEnd ? kLeastLegToEnd : kLeastLeg) * unit / std::max(1e-9, std::min(e.freeBefore, e.freeAfter));
+  const auto demand = [&worst](double value, double limit) { worst = std::max(worst, value / limit); };
+  const auto turnOver = [&](double units) {
+    const double most = units * unit;
+    const double turn = chordTurn(arc, kChordStart * unit, std::min(most, e.freeBefore), std::min(most, e.freeAfter));
+    return std::max(1e-9, std::copysign(1.0, e.angleRad) * turn);
+  };
+  const double near = turnOver(kShortChord), far = turnOver(kCertainChord);
+  demand(kLeastCertainTurn, angle);
+  demand(kNoiseLimit * e.angleNoiseRad, angle);
+  demand(kLeastChordShare * angle, near);
+  demand(near, kMostChordShare * angle);
+  demand(far - near, kFlankShare * near);
+  const auto turnsBack = [&](double free, double other) {
+    return free < kDentReach * unit && other * e.angleRad < 0.0 && std::abs(other) >= kDentShare * angle;
+  };
+  if (turnsBack(e.freeBefore, e.angleBefore) || turnsBack(e.freeAfter, e.angleAfter)) demand(kNoDentTurn, angle);
+  if (e.isLocated) {
+    double off = std::numeric_limits<double>::infinity();
+    const int n = static_cast<int>(contour_.points.size()), reach = static_cast<int>(4.0 * kFarthestVertex * unit);
+    for (int k = -reach; k <= reach; ++k) {
+      const int i = contour_.closed ? wrapIndex(e.pointIndex + k, n) : e.pointIndex + k;
+      if (i >= 0 && i < n) off = std::min(off, (contour_.points[i].at - e.positionPx).norm());
+    }
+    demand(off, kSharpRadius * unit * (1.0 / std::cos(0.5 * angle) - 1.0) + kSharpSlackPx);
+    demand(off, kFarthestVertex * unit);
+  } else {
+    demand(kLeastUnlocatedTurn, near);
+    demand(std::abs(far - near), kFlankShare * near);
+  }
+  if (angle < kFaintTurn) {
+    demand(std::abs(near - angle), kFaintShare * angle + kFaintSlackRad);
+    demand(std::abs(far - angle), kFaintLongShare * angle + kFaintSlackRad);
+  }
+  for (const auto& [first, last] : contour_.bridges) {
+    if (arc >= arc_[std::clamp<int>(first, 0, static_cast<int>(arc_.size()) - 1)] - unit &&
+        arc <= arc_[std::clamp<int>(last, 0, static_cast<int>(arc_.size()) - 1)] + unit)
+      return 0.0;
+  }
+  return kOddsAtLimit / (kOddsAtLimit + std::pow(worst, kSteepness));
+}
+
+}  // namespace batten

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/base/vec2.h"
+#include "core/contour/contour_set.h"
+#include "core/contour/corner/corner_geometry.h"
+
+namespace batten {
+
+/// A place on a line that may be a corner, with what is known of it.
+struct CornerEvidence {
+  int pointIndex = 0;
+  double angleRad = 0.0;                       ///< Change of direction, signed as Turning.
+  Vec2 positionPx = Vec2::Zero();              ///< Where its two sides meet, or the point itself.
+  bool isLocated = false;                      ///< The sides meet.
+  double roughPx = 0.0;                        ///< [px] rms of the line about smooth stretches of it.
+  double angleNoiseRad = 0.0;                  ///< [rad] standard deviation that this gives to the angle.
+  double freeBefore = 0.0, freeAfter = 0.0;    ///< [px of arc] To the neighbouring places or the open ends.
+  double angleBefore = 0.0, angleAfter = 0.0;  ///< [rad] Of those places; 0 at an end.
+};
+
+/// How certain it is that such places are corners and neither bends nor dents: 0..1, from kCertainCorner on taken for
+/// granted. The unit of length is what rounds the line by itself: the width of the stroke, the blur of a border, or a
+/// multiple of the roughness. A corner is sharp at that scale: its vertex lies no farther from the line than that of a
+/// rounding of radius r, r (sec(angle / 2) - 1), r being 1.5 units. It has sides of 2.5 units and more, and they bend
+/// far less than it turns: chords over 3 and 6 units agree. Where the line turns back again within 8 units it may be a
+/// dent, unless it turns by 70 degrees.
+class CornerJudge {
+ public:
+  explicit CornerJudge(const Contour&);
+  double certainty(const CornerEvidence&) const;
+
+ private:
+  double unitAt(const CornerEvidence&) const;
+  Vec2 atArc(double) const;
+  double chordTurn(double arc, double near, double before, double after) const;
+
+  const Contour& contour_;
+  std::vector<double> arc_;
+  double length_ = 0.0;
+  double typicalWidthPx_ = 0.0;
+};
+
+/// At least this certain: taken without being asked for.
+inline constexpr double kCertainCorner = 0.95;
+
+}  // namespace batten

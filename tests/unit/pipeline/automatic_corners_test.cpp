@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/pipeline/recipe/recipe_file.h"
+#include "core/pipeline/run/corner_places.h"
+#include "core/pipeline/run/pipeline.h"
+#include "tests/support/render_page.h"
+
+namespace batten {
+namespace {
+
+constexpr int kSquareWidth = 800, kSquareHeight = 600;
+
+Scan pageOf(const test::TruthShape& shape, bool stroke, std::uint32_t seed) {
+  const auto outline = shape.outline();
+  auto coverage = stroke ? test::strokeCoverage(outline, true, 5.0, kSquareWidth, kSquareHeight)
+                         : test::fillCoverage(outline, kSquareWidth, kSquareHeight);
+  return test::renderPage(std::move(coverage), kSquareWidth, kSquareHeight, test::scannedPage(seed));
+}
+
+std::vector<Corner> cornersWith(const Scan& scan, const Recipe& recipe) {
+  StageCache cache;
+  PipelineRequest request;
+  request.upTo = StageId::Pieces;
+  const auto out = runPipeline(scan, recipe, cache, request, {});
+  EXPECT_FALSE(out.error) << out.error->message;
+  return out.pieces ? out.pieces->corners : std::vector<Corner>{};
+}
+
+bool hasCornerAt(const std::vector<Corner>& corners, const Vec2& place, double within) {
+  return std::ranges::any_of(corners, [&](const Corner& c) { return (c.positionPx - place).norm() < within; });
+}
+
+TEST(AutomaticCorners, AreThoseOfRenderedShapesAndNoOthers) {
+  int known = 0, found = 0;
+  double square = 0.0;
+  for (const auto& shape : test::truthShapes(kSquareWidth, kSquareHeight)) {
+    for (const bool stroke : {false, true}) {
+      const std::vector<Corner> corners = cornersWith(pageOf(shape, stroke, 3), {});
+      for (const Corner& corner : corners) {
+        EXPECT_FALSE(corner.mark);
+        double nearest = 1e9;
+        for (const Vec2& truth : shape.corners) nearest = std::min(nearest, (corner.positionPx - truth).norm());
+        EXPECT_LT(nearest, 2.0) << shape.name << (stroke ? " stroke" : " outline") << " at "
+                                << corner.positionPx.transpose();
+        square += nearest * nearest;
+        ++found;
+      }
+      known += static_cast<int>(shape.corners.size());
+    }
+  }
+  EXPECT_GE(found, 0.95 * known) << "of " << known;
+  EXPECT_LT(std::sqrt(square / found), 0.2);
+}
+
+TEST(AutomaticCorners, GiveTheCurvesThatMarksAtTheCornersGive) {
+  const auto shape = test::truthShape("crown", kSquareWidth, kSquareHeight);
+  const Scan scan = pageOf(shape, false, 4);
+  Recipe marked;
+  marked.corners.automatic = false;
+  for (const Vec2& corner : shape.corners) marked.cornerMarks.push_back({corner});
+  StageCache cache;
+  const auto found = runPipeline(scan, {}, cache, {}, {}), asked = runPipeline(scan, marked, cache, {}, {});
+  ASSERT_EQ(found.faired->curves.size(), asked.faired->curves.size());
+  for (std::size_t i = 0; i < found.faired->curves.size(); ++i)
+    EXPECT_EQ(found.faired->curves[i].sketched, asked.faired->curves[i].sketched);
+}
+
+TEST(AutomaticCorners, ARefusedOneStaysOut) {
+  const auto shape = test::truthShape("K", kSquareWidth, kSquareHeight);
+  const Scan scan = pageOf(shape, false, 3);
+  const std::size_t all = cornersWith(scan, {}).size();
+  Recipe recipe;
+  recipe.refusedCornersPx = {shape.corners[4] + Vec2(3.0, -2.0)};
+  const auto read = recipeFromJson(recipeToJson(recipe));
+  ASSERT_TRUE(read);
+  EXPECT_TRUE(read->cornerMarks.empty());
+  const std::vector<Corner> left = cornersWith(scan, *read);
+  EXPECT_EQ(left.size(), all - 1);
+  EXPECT_FALSE(hasCornerAt(left, shape.corners[4], 10.0));
+  // At another threshold the line lies elsewhere.
+  recipe.threshold.strength *= 1.2;
+  EXPECT_FALSE(hasCornerAt(cornersWith(scan, recipe), shape.corners[4], 10.0));
+  // A refusal where no corner is refuses none.
+  recipe = {};
+  recipe.refusedCornersPx = {{5.0, 5.0}};
+  EXPECT_EQ(cornersWith(scan, recipe).size(), all);
+}
+
+TEST(AutomaticCorners, GiveWayToMarks) {
+  const auto shape = test::truthShape("K", kSquareWidth, kSquareHeight);
+  const Scan scan = pageOf(shape, false, 3);
+  const std::size_t all = cornersWith(scan, {}).size();
+  Recipe recipe;
+  recipe.cornerMarks = {{shape.corners[0] + Vec2(4.0, 3.0)}};
+  recipe.refusedCornersPx = {shape.corners[0]};
+  const std::vector<Corner> corners = cornersWith(scan, recipe);
+  EXPECT_EQ(corners.size(), all);
+  EXPECT_EQ(std::ranges::count_if(corners, [](const Corner& c) { return c.mark == 0; }), 1);
+  EXPECT_TRUE(hasCornerAt(corners, shape.corners[0], 1.0));
+}
+
+TEST(AutomaticCorners, NoneWhenSwitchedOffOrOnPenLines) {
+  const auto shape = test::truthShape("K", kSquareWidth, kSquareHeight);
+  Recipe off;
+  off.corners.automatic = false;
+  EXPECT_TRUE(cornersWith(pageOf(shape, false, 3), off).empty());
+  ContourSet drawn;
+  Contour line;
+  line.kind = ContourKind::Pen;
+  std::vector<Vec2> points;
+  for (int i = 0; i < 100; ++i) points.emplace_back(i, 0.0);
+  for (int i = 0; i < 100; ++i) points.emplace_back(100.0, i);
+  line.points = contourPoints(points, true);
+  drawn.contours = {line};
+  EXPECT_TRUE(certainCorners(drawn, {}, {}, 16.0, {}).empty());
+  drawn.contours.front().kind = ContourKind::Outline;
+  EXPECT_EQ(certainCorners(drawn, {}, {}, 16.0, {}).size(), 1u);
+}
+
+}  // namespace
+}  // namespace batten
