@@ -76,6 +76,6 @@ if(BATTEN_GUI)
   set(icons ${CMAKE_INSTALL_DATADIR}/icons/hicolor)
   install(FILES resources/icons/batten.svg DESTINATION ${icons}/scalable/apps RENAME ${id}.svg)
   install(FILES ${desktop}/icons/${id}-symbolic.svg DESTINATION ${icons}/symbolic/apps)
-  install(FILES ${desktop}/icons/application-x-batten-recipe.svg ${desktop}/icons/application-x-batten-curves.svg
+  install(FILES ${desktop}/icons/${id}-recipe.svg ${desktop}/icons/${id}-curves.svg
     DESTINATION ${icons}/scalable/mimetypes)
 endif()

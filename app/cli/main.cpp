@@ -34,6 +34,13 @@ std::string dumpHelp() {
   return text;
 }
 
+/// The names of the presets as an option's value is shown: "a|b".
+std::string presetWords() {
+  std::string words;
+  for (const ExportPreset& preset : exportPresets()) words.append(words.empty() ? "" : "|").append(preset.id);
+  return words;
+}
+
 /// One value per option, so that "-o a.svg scan.png" does not take the scan for an output.
 void addRepeated(CLI::App& app, const char* names, std::vector<std::string>& values, const char* what,
                  const std::string& help) {
@@ -88,16 +95,18 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   trace
       ->add_option("--import-unit", a.importUnit,
                    "Unit of their numbers instead of what the files state: mm, cm, m or in")
-      ->type_name("UNIT");
-  trace->add_option("--preset", a.preset, "Write what this receiver reads best: " + presetNames())->type_name("NAME");
-  trace->add_option("--paper", a.paper, "Paper of a .report.pdf: a4 or letter")->type_name("SIZE");
-  trace->add_option("--unit", a.unit, "Unit of DXF, IGES, STEP and CSV: mm or in")->type_name("UNIT");
+      ->type_name("mm|cm|m|in");
+  trace->add_option("--preset", a.preset, "Write what this receiver reads best: " + presetNames())
+      ->type_name(presetWords());
+  trace->add_option("--paper", a.paper, "Paper of a .report.pdf: a4 or letter")->type_name("a4|letter");
+  trace->add_option("--unit", a.unit, "Unit of DXF, IGES, STEP and CSV: mm or in")->type_name("mm|in");
   trace->add_option("--scale", a.scale, "Write the curves this many times as large")->type_name("N");
   trace->add_option("--tolerance", a.tolerance, "Largest distance of what is approximated from the exact curves, mm")
       ->type_name("MM");
   trace->add_option("--curves", a.curves, "Write only these curves, by their numbers in the report: 1,3-5")
       ->type_name("LIST");
-  trace->add_option("--which", a.which, "Which curves to write: faired, sketched or both")->type_name("KIND");
+  trace->add_option("--which", a.which, "Which curves to write: faired, sketched or both")
+      ->type_name("faired|sketched|both");
   trace->add_flag("--joined", a.joined, "Curves that follow each other are written as one, also in DXF, IGES and STEP");
   trace->add_flag("--apart", a.apart, "Every curve is written by itself, also in SVG, PDF and the others");
   trace->add_flag("--splines-only", a.splinesOnly, "DXF, IGES, STEP: lines, arcs and circles as splines, too");
@@ -105,7 +114,7 @@ void addTrace(CLI::App& app, TraceArguments& a) {
       ->add_option("--flavour", a.flavour,
                    "IGES, STEP: curves as they are (exact), each polynomial piece by itself (bezier), or of degree 3 "
                    "within the tolerance (cubic)")
-      ->type_name("KIND");
+      ->type_name("exact|bezier|cubic");
   trace->add_flag("--chords", a.chords, "DXF for cnc: chords only, no arcs");
   addRepeated(
       *trace, "--corner", a.corners, "X,Y[,MM|,rMM][,gN]",
@@ -179,19 +188,27 @@ CLI::App* addBatch(CLI::App& app, BatchArguments& a) {
                    "Outputs that are there: leave unchanged pages, make all anew, or do nothing")
       ->check(CLI::IsMember({"skip", "overwrite", "abort"}).description(""))
       ->type_name("skip|overwrite|abort");
+  batch
+      ->add_option("--first-line", a.firstLine,
+                   "The number of the manifest's first line in what is printed, where it is a part of another (1)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000000));
   batch->add_flag("--resume", a.resume, "Go on where an earlier call ended, whatever --existing says");
-  batch->add_option("--page-timeout", a.pageTimeoutSeconds, "A page that takes longer fails, s")
-      ->type_name("S")
-      ->check(CLI::Range(0.001, 1e6));
+  batch->add_option("--page-timeout", a.pageTimeoutSeconds, "A page that takes longer fails, 0.001 to 1000000 s")
+      ->type_name("S");
   batch
       ->add_option("--max-failures", a.maxFailures, "Start no more pages once a larger share of all has failed, 0 to 1")
-      ->type_name("RATE")
-      ->check(CLI::Range(0.0, 1.0));
-  batch->add_option("--results", a.results, "Add the lines to this file instead of stdout, each page's once")
+      ->type_name("RATE");
+  batch
+      ->add_option("--results", a.results,
+                   "Add the lines to this file instead of stdout, each page's once; several calls may add to it at the "
+                   "same time")
       ->type_name("FILE.jsonl");
   batch->add_option("--failures", a.failures, "Write the pages that failed as a manifest")->type_name("FILE.jsonl");
   batch->add_option("--sheet", a.sheet, "Write an overview of all pages for the browser")->type_name("FILE.html");
-  batch->add_option("--write-manifest", a.writeManifest, "Write the pages as a manifest, and trace nothing")
+  batch
+      ->add_option("--write-manifest", a.writeManifest,
+                   "Write the pages as a manifest, - for stdout, and trace nothing")
       ->type_name("FILE.jsonl");
   return batch;
 }

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <utility>
 
+#include "app/cli/file_names.h"
 #include "app/cli/stage_dump.h"
 #include "core/base/conventions.h"
 #include "core/base/number_text.h"
@@ -286,20 +287,6 @@ Result<TracePlan::Dump> dumpOf(const std::string& dump) {
   return TracePlan::Dump{stage, path};
 }
 
-/// Whether two names mean one file, be it by way of links or of folders named differently. Of links that lead to no
-/// file yet what would be written counts.
-bool isSameFile(const fs::path& first, const fs::path& second) {
-  std::error_code code;
-  const fs::path a = saveTarget(first).value_or(first), b = saveTarget(second).value_or(second);
-  if (fs::equivalent(a, b, code)) return true;
-  const auto plain = [](const fs::path& path) {
-    std::error_code wrong;
-    fs::path whole = fs::weakly_canonical(fs::absolute(path, wrong), wrong);
-    return wrong ? path.lexically_normal() : whole.lexically_normal();
-  };
-  return plain(a) == plain(b);
-}
-
 /// No file is written over what is read, nor twice. Only the recipe may be saved where it was.
 Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan) {
   std::vector<fs::path> targets;
@@ -329,18 +316,6 @@ Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan
     }
   }
   return {};
-}
-
-/// "drawing-p2.svg" of "drawing.svg"; endings of two parts stay whole.
-std::string withPage(const std::string& name, int page) {
-  if (name.empty()) return name;
-  const fs::path path(name);
-  std::string file = path.filename().string(), ending = path.extension().string();
-  for (const char* whole : {".poly.csv", ".recipe.json", ".report.pdf", ".report.html"}) {
-    if (file.size() > std::string_view(whole).size() && file.ends_with(whole)) ending = whole;
-  }
-  file.insert(file.size() - ending.size(), "-p" + std::to_string(page));
-  return (path.parent_path() / file).string();
 }
 
 }  // namespace

@@ -135,10 +135,20 @@ void reportLargeFilesAsErrors() { std::signal(SIGXFSZ, SIG_IGN); }
 void tieChildrenToThisProcess() {}  // each ties itself
 
 void becomeDependentChild() {
-  std::signal(SIGINT, SIG_IGN);  // is kept over exec
+  // What is sent to the whole group, from the terminal or by a queue that ends a job, is the parent's to hear. Kept
+  // over exec.
+  for (const int one : {SIGINT, SIGTERM, SIGHUP}) std::signal(one, SIG_IGN);
 #if defined(__linux__)
   prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
+}
+
+void becomeProgram(const char* const* words) { ::execv(words[0], const_cast<char* const*>(words)); }
+
+std::optional<FileId> fileId(const std::filesystem::path& path) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0) return std::nullopt;
+  return FileId{static_cast<std::uint64_t>(info.st_dev), static_cast<std::uint64_t>(info.st_ino)};
 }
 
 QuietStderr::QuietStderr() {
@@ -298,26 +308,85 @@ void removeLeftover(const std::filesystem::path& path) {
   if (::flock(file->descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(path.c_str());
 }
 
+tl::expected<SharedLines, std::error_code> SharedLines::open(const std::filesystem::path& path) {
+  struct stat info {};
+  const bool isOther = ::stat(path.c_str(), &info) == 0 && kindOf(info.st_mode) != FileKind::Ordinary;
+  constexpr int kAdding = O_APPEND | O_CLOEXEC | O_NOCTTY;
+  OpenFile file = owned(::open(path.c_str(), isOther ? O_WRONLY | kAdding : O_RDWR | O_CREAT | kAdding, 0666));
+  if (!file || ::fstat(file->descriptor, &info) != 0) return tl::unexpected(systemError());
+  return SharedLines(std::move(file), kindOf(info.st_mode));
+}
+
+std::uint64_t SharedLines::size() const {
+  struct stat info {};
+  const bool isKnown = kind_ == FileKind::Ordinary && ::fstat(file_->descriptor, &info) == 0;
+  return isKnown ? static_cast<std::uint64_t>(info.st_size) : 0;
+}
+
+tl::expected<std::string, std::error_code> SharedLines::read(std::uint64_t offset, std::size_t most) const {
+  std::string text;
+  if (kind_ != FileKind::Ordinary) return text;
+  text.resize(most);
+  std::size_t done = 0;
+  while (done < most) {
+    const ssize_t got = ::pread(file_->descriptor, text.data() + done, most - done, static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return tl::unexpected(systemError());
+    if (got == 0) break;
+    done += static_cast<std::size_t>(got);
+  }
+  text.resize(done);
+  return text;
+}
+
+std::error_code SharedLines::add(std::string_view text) {
+  const bool isOrdinary = kind_ == FileKind::Ordinary;
+  // A disk without locks takes the text in one piece all the same.
+  while (isOrdinary && ::flock(file_->descriptor, LOCK_EX) != 0 && errno == EINTR) continue;
+  const std::uint64_t before = size();
+  bool isCut = false;  // its last line, by a full disk
+  if (before > 0) {
+    const auto last = read(before - 1, 1);
+    isCut = last && !last->ends_with('\n');
+  }
+  std::string whole;
+  whole.reserve(text.size() + 1);
+  if (isCut) whole.push_back('\n');
+  whole.append(text);
+  std::error_code error;
+  for (std::string_view left = whole; !left.empty() && !error;) {
+    const ssize_t count = ::write(file_->descriptor, left.data(), left.size());
+    if (count >= 0) left.remove_prefix(static_cast<std::size_t>(count));
+    if (count < 0 && errno != EINTR) error = systemError();
+  }
+  if (isOrdinary && error && ::ftruncate(file_->descriptor, static_cast<off_t>(before)) != 0) error = systemError();
+  if (isOrdinary) ::flock(file_->descriptor, LOCK_UN);
+  return error;
+}
+
 LockFile::LockFile(std::filesystem::path path) : path_(std::move(path)) {}
 
 LockFile::~LockFile() { release(); }
 
-bool LockFile::hold() {
+LockState LockFile::tryHold() {
   if (file_ && isNamed(*file_, path_)) {
     (void)::futimens(file_->descriptor, nullptr);  // What looks unused for days is cleaned away on some machines.
-    return true;
+    return LockState::Held;
   }
   release();
-  constexpr int kAttempts = 10;
+  constexpr int kFlags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, kAttempts = 10;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    OpenFile file = owned(::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600));
-    if (!file || ::flock(file->descriptor, LOCK_EX | LOCK_NB) != 0) return false;
+    OpenFile file = owned(::open(path_.c_str(), O_RDWR | O_CREAT | kFlags, 0644));
+    if (!file && errno == EACCES) file = owned(::open(path_.c_str(), O_RDONLY | kFlags));  // another user's
+    if (!file) return LockState::Impossible;
+    if (::flock(file->descriptor, LOCK_EX | LOCK_NB) != 0)
+      return errno == EWOULDBLOCK ? LockState::Busy : LockState::Impossible;
     // Its last holder may have removed the file between the two calls: then this is a lock on nothing.
     if (!isNamed(*file, path_)) continue;
     file_ = std::move(file);
-    return true;
+    return LockState::Held;
   }
-  return false;
+  return LockState::Busy;
 }
 
 void LockFile::release() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -48,6 +49,18 @@ void tieChildrenToThisProcess();
 /// the parent's to hear, and the child does not outlive a parent that is killed. Calls nothing that may not be called
 /// after fork().
 void becomeDependentChild();
+
+/// To be called after becomeDependentChild: the program words[0] takes the place of the child, called with these words,
+/// which a null pointer ends. They are bytes, whatever they spell. Returns only where that fails or is not known.
+void becomeProgram(const char* const* words);
+
+/// A file or folder, whatever names lead to it: links of either kind give it no other.
+struct FileId {
+  std::uint64_t device = 0, number = 0;
+  auto operator<=>(const FileId&) const = default;
+};
+/// Of what the path leads to, with links followed; nullopt if there is nothing.
+std::optional<FileId> fileId(const std::filesystem::path&);
 
 /// While it lives, nothing reaches stderr: image libraries print complaints of their own there, and an error of this
 /// program is to be one line. Does nothing in sanitizer builds, whose reports must be seen.
@@ -118,6 +131,32 @@ class ReplacingFile {
 /// still written, and whatever else has that name.
 void removeLeftover(const std::filesystem::path&);
 
+/// A file to which several programs add whole lines at the same time.
+class SharedLines {
+ public:
+  /// Makes the file if there is none. What is no ordinary file (a pipe, a terminal) is written to and never read.
+  static tl::expected<SharedLines, std::error_code> open(const std::filesystem::path&);
+
+  /// [bytes] Of an ordinary file; else 0.
+  std::uint64_t size() const;
+  /// At most `most` bytes from `offset` on; fewer at the file's end.
+  tl::expected<std::string, std::error_code> read(std::uint64_t offset, std::size_t most) const;
+  /// Adds a text that ends with a line break, while no other program adds. A last line that was cut off is ended first.
+  /// A file that cannot take all of it is left as it was.
+  std::error_code add(std::string_view text);
+
+ private:
+  SharedLines(OpenFile file, FileKind kind) : file_(std::move(file)), kind_(kind) {}
+  OpenFile file_;
+  FileKind kind_;
+};
+
+enum class LockState {
+  Held,
+  Busy,        ///< Another holder has it.
+  Impossible,  ///< The folder takes no files, or its disk knows no locks.
+};
+
 /// A file that says that a program runs. The system gives the lock back when its holder ends, however it ends.
 class LockFile {
  public:
@@ -128,9 +167,9 @@ class LockFile {
   /// Gives the lock back and removes the file.
   ~LockFile();
 
-  /// Takes the lock, renews the time of its file, or takes it anew where somebody has removed the file. False while
-  /// another holder has it or the folder takes no files.
-  bool hold();
+  /// Takes the lock, renews the time of its file, or takes it anew where somebody has removed the file.
+  LockState tryHold();
+  bool hold() { return tryHold() == LockState::Held; }
 
  private:
   void release();

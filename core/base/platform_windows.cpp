@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Windows side of platform.h. MinGW-w64 compiles it (packaging/check windows); it has not been run on Windows by
-// us.
+// The Windows side of platform.h. Its syntax is checked with MinGW-w64; it has not been run on Windows by us.
 #include "core/base/platform.h"
 
 #if defined(_WIN32)
@@ -145,6 +144,16 @@ void tieChildrenToThisProcess() {
 
 void becomeDependentChild() {}  // there is no such moment here
 
+void becomeProgram(const char* const*) {}
+
+std::optional<FileId> fileId(const fs::path& path) {
+  const OpenFile file =
+      owned(CreateFileW(path.c_str(), 0, kShareAll, nullptr, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr));
+  BY_HANDLE_FILE_INFORMATION info{};
+  if (!file || GetFileInformationByHandle(file->handle, &info) == 0) return std::nullopt;
+  return FileId{info.dwVolumeSerialNumber, (std::uint64_t{info.nFileIndexHigh} << 32) | info.nFileIndexLow};
+}
+
 QuietStderr::QuietStderr() {
   std::fflush(stderr);
   const int nowhere = _open("NUL", _O_WRONLY), real = _fileno(stderr);
@@ -261,20 +270,78 @@ void removeLeftover(const fs::path& path) {
   DeleteFileW(path.c_str());  // fails while a program writes it
 }
 
+tl::expected<SharedLines, std::error_code> SharedLines::open(const fs::path& path) {
+  OpenFile file = owned(CreateFileW(path.c_str(), GENERIC_READ | GENERIC_WRITE, kShareAll, nullptr, OPEN_ALWAYS,
+                                    FILE_ATTRIBUTE_NORMAL, nullptr));
+  if (!file) return tl::unexpected(systemError());
+  const bool isOnDisk = GetFileType(file->handle) == FILE_TYPE_DISK;
+  return SharedLines(std::move(file), isOnDisk ? FileKind::Ordinary : FileKind::Other);
+}
+
+std::uint64_t SharedLines::size() const {
+  LARGE_INTEGER size{};
+  const bool isKnown = kind_ == FileKind::Ordinary && GetFileSizeEx(file_->handle, &size) != 0;
+  return isKnown ? static_cast<std::uint64_t>(size.QuadPart) : 0;
+}
+
+tl::expected<std::string, std::error_code> SharedLines::read(std::uint64_t offset, std::size_t most) const {
+  std::string text;
+  if (kind_ != FileKind::Ordinary) return text;
+  text.resize(most);
+  OVERLAPPED place{};
+  place.Offset = static_cast<DWORD>(offset & 0xffffffffu);
+  place.OffsetHigh = static_cast<DWORD>(offset >> 32);
+  DWORD got = 0;
+  if (ReadFile(file_->handle, text.data(), static_cast<DWORD>(most), &got, &place) == 0 &&
+      GetLastError() != ERROR_HANDLE_EOF)
+    return tl::unexpected(systemError());
+  text.resize(got);
+  return text;
+}
+
+std::error_code SharedLines::add(std::string_view text) {
+  const bool isOrdinary = kind_ == FileKind::Ordinary;
+  OVERLAPPED guard{};  // a byte far behind every end: what is there may be read meanwhile
+  guard.OffsetHigh = 0x40000000;
+  if (isOrdinary) LockFileEx(file_->handle, LOCKFILE_EXCLUSIVE_LOCK, 0, 1, 0, &guard);
+  const std::uint64_t before = size();
+  std::string whole;
+  if (before > 0) {
+    const auto last = read(before - 1, 1);
+    if (last && *last != "\n") whole = "\n";
+  }
+  whole += text;
+  OVERLAPPED place{};
+  place.Offset = static_cast<DWORD>(before & 0xffffffffu);
+  place.OffsetHigh = static_cast<DWORD>(before >> 32);
+  DWORD count = 0;
+  std::error_code error;
+  if (WriteFile(file_->handle, whole.data(), static_cast<DWORD>(whole.size()), &count, isOrdinary ? &place : nullptr) ==
+      0) {
+    error = systemError();
+    LARGE_INTEGER end{};
+    end.QuadPart = static_cast<LONGLONG>(before);
+    if (isOrdinary && SetFilePointerEx(file_->handle, end, nullptr, FILE_BEGIN) != 0) SetEndOfFile(file_->handle);
+  }
+  if (isOrdinary) UnlockFileEx(file_->handle, 0, 1, 0, &guard);
+  return error;
+}
+
 LockFile::LockFile(fs::path path) : path_(std::move(path)) {}
 
 LockFile::~LockFile() { release(); }
 
-bool LockFile::hold() {
+LockState LockFile::tryHold() {
   if (file_) {  // nobody can remove it meanwhile
     FILETIME now{};
     GetSystemTimeAsFileTime(&now);
     SetFileTime(file_->handle, nullptr, nullptr, &now);
-    return true;
+    return LockState::Held;
   }
   file_ = owned(CreateFileW(path_.c_str(), GENERIC_READ | GENERIC_WRITE | DELETE, kShareNothing, nullptr, OPEN_ALWAYS,
                             FILE_FLAG_DELETE_ON_CLOSE | FILE_FLAG_OPEN_REPARSE_POINT, nullptr));
-  return file_ != nullptr;
+  if (file_) return LockState::Held;
+  return GetLastError() == ERROR_SHARING_VIOLATION ? LockState::Busy : LockState::Impossible;
 }
 
 void LockFile::release() { file_.reset(); }

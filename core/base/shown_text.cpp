@@ -56,6 +56,8 @@ std::string shownText(std::string_view bytes) {
   return shown;
 }
 
+std::size_t characterBytes(std::string_view text) { return firstOf(text).bytes; }
+
 std::string withoutControls(std::string_view json) {
   constexpr std::string_view kHex = "0123456789abcdef";
   std::string safe;

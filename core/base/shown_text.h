@@ -13,6 +13,9 @@ namespace batten {
 std::string shownText(std::string_view bytes);
 inline std::string shownName(const std::filesystem::path& path) { return shownText(path.string()); }
 
+/// How many bytes the character takes with which a text that is not empty begins; 0 if it is no well-formed UTF-8.
+std::size_t characterBytes(std::string_view text);
+
 /// JSON text as a terminal may see it: DEL and C1, which JSON allows within strings, written as \u007f … \u009f. The
 /// value stays the same.
 std::string withoutControls(std::string_view json);

@@ -84,7 +84,7 @@ BitImage findBlots(const InkSplit& split, const ContourSet& lines, double minWid
 }
 
 BitImage findFillings(const InkSplit& split, const ContourSet& lines, const RunContext& context) {
-  constexpr double kWiderThanPen = 2.0;      // two strokes across each other hold no disc so wide
+  constexpr double kWiderThanPen = 1.5;      // two strokes that cross at a right angle hold a disc of 1.41
   constexpr double kExplainedReachPx = 2.0;  // a line lies no farther from the ink that it explains, or half its width
   constexpr double kLeastArea = 3.0;         // [squared pen widths] a dot of two pens across
   BitImage none(split.strokes.width, split.strokes.height);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/exchange/save_atomically.h"
 
-#include <random>
 #include <system_error>
 
+#include "core/base/content_hash.h"
 #include "core/base/platform.h"
 #include "core/base/shown_text.h"
 
@@ -60,36 +60,25 @@ std::optional<std::string> obstacle(const fs::path& path) {
   return std::nullopt;
 }
 
-/// A name for a file that is being written, and whether a name is one: short, whatever the target is called.
-std::string savingName() {
-  constexpr std::string_view kHex = "0123456789abcdef";
-  std::random_device random;
-  std::string name(kPrefix);
-  for (std::size_t i = 0; i < kDigits; ++i) name.push_back(kHex[random() & 0xfu]);
-  return name.append(kSuffix);
+/// The name of a file that is being written for `target`: short, whatever the target is called, and always the same, so
+/// that what was left of an earlier attempt is found without a look through the folder.
+std::string savingName(const fs::path& target, int attempt) {
+  HashBuilder hash;
+  hash.text(target.filename().string()).integer(attempt);
+  return std::string(kPrefix).append(hash.finish().hex(), 0, kDigits).append(kSuffix);
 }
 
-bool isSavingName(std::string_view name) {
-  return name.size() == kPrefix.size() + kDigits + kSuffix.size() && name.starts_with(kPrefix) &&
-         name.ends_with(kSuffix) &&
-         name.substr(kPrefix.size(), kDigits).find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
+fs::path folderOf(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : fs::path("."); }
 
-/// Removes what programs left in the folder that were ended while they saved. What cannot be removed stays.
-void removeLeftovers(const fs::path& folder) {
-  std::error_code code;
-  for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
-    const fs::path& path = entry->path();
-    if (isSavingName(path.filename().string())) removeLeftover(path);
-  }
-}
+/// Programs that save one target at the same time take these names one after another. More than a few never do.
+constexpr int kNamesInUse = 4;
 
 /// An empty file beside the target, under a name that nothing has.
 tl::expected<ReplacingFile, std::error_code> fileBeside(const fs::path& target) {
   constexpr int kAttempts = 100;
   std::error_code error;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    auto file = ReplacingFile::create(target, savingName());
+    auto file = ReplacingFile::create(target, savingName(target, attempt));
     if (file) return file;
     error = file.error();
     if (error != std::errc::file_exists) break;
@@ -111,11 +100,17 @@ std::optional<fs::path> saveTarget(const fs::path& path) {
   return std::nullopt;
 }
 
+void removeLeftoversOf(const fs::path& path) {
+  const fs::path target = saveTarget(path).value_or(path);
+  for (int attempt = 0; attempt < kNamesInUse; ++attempt)
+    removeLeftover(folderOf(target) / savingName(target, attempt));
+}
+
 Result<void> saveAtomically(const fs::path& path, std::string_view bytes) {
   const auto target = saveTarget(path);
   if (!target) return cannotWrite(path, "its links lead in a circle. Choose another name.");
   if (const auto why = obstacle(*target)) return cannotWrite(path, *why);
-  removeLeftovers(target->has_parent_path() ? target->parent_path() : fs::path("."));
+  removeLeftoversOf(*target);
   auto file = fileBeside(*target);
   if (!file) return failedCall(path, file.error());
   if (const auto error = file->write(bytes)) return failedCall(path, error);

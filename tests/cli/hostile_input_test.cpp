@@ -140,12 +140,6 @@ TEST_F(HostileInput, AFailingDiskGivesFive) {
   EXPECT_EQ(test::readFile(file("o.svg")), "old");
 }
 
-TEST_F(HostileInput, WhatAnEndedProgramLeftIsCleanedAway) {
-  write(".batten-0123456789abcdef.saving", "half a file");
-  ASSERT_EQ(run("trace " + scene() + " -o " + file("o.svg")).code, 0);
-  EXPECT_FALSE(std::filesystem::exists(file(".batten-0123456789abcdef.saving")));
-}
-
 TEST_F(HostileInput, NumbersAreNumbersAndRangesAreTaken) {
   const std::string start = "trace " + scene() + " -o " + file("o.svg") + " ";
   for (const char* dpi : {"0x60", "\"\"", "\" \"", "1e", "300dpi", "3,5", "nan", "inf", "0x1p3"})

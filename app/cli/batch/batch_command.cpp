@@ -15,6 +15,8 @@
 #include "app/cli/batch/batch_run.h"
 #include "app/cli/batch/contact_sheet.h"
 #include "app/cli/exit_codes.h"
+#include "app/cli/file_names.h"
+#include "core/base/shown_text.h"
 #include "core/exchange/save_atomically.h"
 
 namespace batten::cli {
@@ -31,7 +33,7 @@ Result<std::string> textOf(const std::string& input) {
   std::error_code code;
   std::ifstream file(input, std::ios::binary);
   if (!file || !fs::is_regular_file(input, code)) {
-    return wrong("The manifest " + input + " cannot be read. Check its name.");
+    return wrong("The manifest " + shownText(input) + " cannot be read. Check its name.");
   }
   return std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
@@ -52,7 +54,7 @@ Result<std::vector<std::string>> extensionsOf(const std::string& formats) {
 
 /// The pages that the words name; folders for outputs of scans are made.
 Result<std::vector<BatchPage>> pagesFor(const BatchArguments& arguments) {
-  const PageDefaults defaults{arguments.recipe, arguments.settings, arguments.dpi};
+  const PageDefaults defaults{arguments.recipe, arguments.settings, arguments.dpi, arguments.firstLine};
   const auto manifests = std::count_if(arguments.inputs.begin(), arguments.inputs.end(), isManifest);
   if (manifests > 0) {
     if (arguments.inputs.size() > 1) return wrong("Name one manifest, or scans and folders, not both.");
@@ -64,20 +66,69 @@ Result<std::vector<BatchPage>> pagesFor(const BatchArguments& arguments) {
   if (arguments.to.empty()) return wrong("Say where the curves go: --to FOLDER.");
   const auto extensions = extensionsOf(arguments.formats);
   if (!extensions) return fail(extensions.error());
-  auto pages = pagesOf(arguments.inputs, arguments.to, *extensions, defaults);
-  if (!pages) return pages;
+  return pagesOf(arguments.inputs, arguments.to, *extensions, defaults);
+}
+
+/// Makes the folders for the outputs of scans; a manifest's are there.
+Result<void> makeFolders(const BatchArguments& arguments, const std::vector<BatchPage>& pages) {
+  if (arguments.to.empty()) return {};
   std::set<fs::path> folders;
-  for (const BatchPage& page : *pages) folders.insert(fs::path(page.outputs.front()).parent_path());
+  for (const BatchPage& page : pages) folders.insert(fs::path(page.outputs.front()).parent_path());
   for (const fs::path& folder : folders) {
     std::error_code code;
     if (!folder.empty()) fs::create_directories(folder, code);
     if (code)
-      return fail(ErrorCode::CannotWrite, "Cannot make the folder " + folder.string() + ": " + code.message() + ".");
+      return fail(ErrorCode::CannotWrite, "Cannot make the folder " + shownName(folder) + ": " + code.message() + ".");
   }
-  return pages;
+  return {};
 }
 
-Result<BatchSettings> settingsOf(const BatchArguments& arguments) {
+/// What is written beside the outputs is written over nothing that is read, nor over an output, nor twice.
+Result<void> checkSideFiles(const BatchArguments& arguments, const std::vector<BatchPage>& pages) {
+  struct SideFile {
+    std::string option, file;
+  };
+  std::vector<SideFile> sides;
+  for (const SideFile& one :
+       {SideFile{"--results", arguments.results}, SideFile{"--failures", arguments.failures},
+        SideFile{"--sheet", arguments.sheet}, SideFile{"--write-manifest", arguments.writeManifest}}) {
+    if (!one.file.empty()) sides.push_back(one);
+  }
+  if (sides.empty()) return {};
+  if (!arguments.sheet.empty() && arguments.sheet != "-") {
+    for (const std::string& more : sheetFiles(pages.size(), arguments.sheet)) sides.push_back({"--sheet", more});
+  }
+  std::map<std::string, std::string> taken = filesOf(pages);
+  for (const std::string& input : arguments.inputs) {
+    if (isManifest(input) && input != "-") taken.emplace(fileKey(input), "the manifest itself");
+  }
+  if (!arguments.recipe.empty()) taken.emplace(fileKey(arguments.recipe), "the recipe");
+  for (const auto& [option, file] : sides) {
+    if (file == "-") {
+      if (option == "--write-manifest" || option == "--results") continue;
+      return wrong(option + " needs the name of a file: stdout has the lines about the pages.");
+    }
+    const auto [before, isNew] = taken.emplace(fileKey(file), "the file of " + option);
+    if (!isNew)
+      return wrong(option + ": the file " + shownText(file) + " is " + before->second + ". Give it another name.");
+  }
+  return {};
+}
+
+/// --page-timeout and --max-failures; NaN lies in no range, though it is no number beyond one either.
+Result<void> checkNumbers(const BatchArguments& arguments) {
+  constexpr double kShortestSeconds = 0.001, kLongestSeconds = 1e6, kLeastDpi = 1.0, kMostDpi = 1e5;
+  const auto isWithin = [](double value, double least, double most) { return value >= least && value <= most; };
+  if (!isWithin(arguments.pageTimeoutSeconds.value_or(1.0), kShortestSeconds, kLongestSeconds))
+    return wrong("--page-timeout takes seconds from 0.001 to 1000000.");
+  if (!isWithin(arguments.maxFailures, 0.0, 1.0))
+    return wrong("--max-failures takes a share of the pages from 0 to 1.");
+  if (!isWithin(arguments.dpi.value_or(kLeastDpi), kLeastDpi, kMostDpi))
+    return wrong("--dpi takes a number from 1 to 100000.");
+  return {};
+}
+
+BatchSettings settingsOf(const BatchArguments& arguments) {
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   BatchSettings settings;
   settings.jobs = arguments.jobs > 0 ? arguments.jobs : processors;
@@ -100,7 +151,7 @@ Result<void> checkExisting(const BatchSettings& settings, const std::vector<Batc
       std::error_code code;
       if (fs::exists(output, code)) {
         return fail(ErrorCode::CannotWrite,
-                    output + " is there already, and --existing abort was asked for. Nothing was done.");
+                    shownText(output) + " is there already, and --existing abort was asked for. Nothing was done.");
       }
     }
   }
@@ -141,22 +192,34 @@ int finish(const BatchArguments& arguments, const std::vector<BatchPage>& pages,
 
 }  // namespace
 
+namespace {
+
+int writeManifest(const std::string& file, const std::vector<BatchPage>& pages) {
+  if (file == "-") {
+    std::cout << manifestOf(pages);
+    return endOutput();
+  }
+  const auto saved = saveAtomically(file, manifestOf(pages));
+  return saved ? kDone : reportError(saved.error());
+}
+
+}  // namespace
+
 int runBatch(const BatchArguments& arguments, char* program) {
+  if (auto checked = checkNumbers(arguments); !checked) return reportError(checked.error());
   const auto pages = pagesFor(arguments);
   if (!pages) return reportError(pages.error());
-  if (!arguments.writeManifest.empty()) {
-    const auto saved = saveAtomically(arguments.writeManifest, manifestOf(*pages));
-    return saved ? kDone : reportError(saved.error());
-  }
+  if (auto checked = checkSideFiles(arguments, *pages); !checked) return reportError(checked.error());
   const auto settings = settingsOf(arguments);
-  if (!settings) return reportError(settings.error());
-  if (auto checked = checkExisting(*settings, *pages); !checked) return reportError(checked.error());
+  if (auto checked = checkExisting(settings, *pages); !checked) return reportError(checked.error());
+  if (auto made = makeFolders(arguments, *pages); !made) return reportError(made.error());
+  if (!arguments.writeManifest.empty()) return writeManifest(arguments.writeManifest, *pages);
   auto lines = ResultLines::open(arguments.results);
   if (!lines) return reportError(lines.error());
   int count = 1;
   char* words[] = {program, nullptr};
   const QCoreApplication application(count, words);
-  BatchRun run(*settings, *pages, *lines);
+  BatchRun run(settings, *pages, *lines);
   run.run();
   return finish(arguments, *pages, run);
 }

@@ -17,6 +17,7 @@ struct BatchArguments {
   std::optional<double> dpi;                 ///< --dpi
   int jobs = 0;                              ///< --jobs, 0 = as many as processors
   std::string existing = "skip";             ///< --existing
+  int firstLine = 1;                         ///< --first-line
   bool resume = false;                       ///< --resume
   std::optional<double> pageTimeoutSeconds;  ///< --page-timeout
   double maxFailures = 1.0;                  ///< --max-failures

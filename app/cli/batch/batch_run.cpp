@@ -11,6 +11,7 @@
 #include "app/cli/exit_codes.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
+#include "core/exchange/save_atomically.h"
 #include "core/image/scan_reader.h"
 
 namespace batten::cli {
@@ -45,18 +46,37 @@ bool anyOutputExists(const BatchPage& page) {
                      [&](const std::string& name) { return fs::exists(name, code); });
 }
 
+/// Removes what a call that failed has written: an output that it ended, and one that it was killed within.
+void removeOutput(const std::string& output, const std::optional<FileId>& before) {
+  removeLeftoversOf(output);
+  if (const auto now = fileId(output); !now || now == before) return;
+  std::error_code code;
+  fs::remove(saveTarget(output).value_or(output), code);
+}
+
 }  // namespace
 
-struct BatchRun::Running {
+/// A page for which a call is needed, and which no other call works on.
+struct BatchRun::Candidate {
   std::size_t index = 0;
-  std::string key;
-  std::uint64_t needs = 0;  ///< [bytes]
+  std::string key;                 ///< Empty: scan or recipe cannot be read, which the call will say.
+  std::unique_ptr<LockFile> lock;  ///< Held until the page's line is written, where its folder takes one.
+};
+
+struct BatchRun::Running {
+  std::unique_ptr<Candidate> page;
+  std::uint64_t needs = 0;                     ///< [bytes]
+  std::vector<std::optional<FileId>> outputs;  ///< What was there before.
+  bool wasBegun = false;                       ///< By an earlier call, which may have told of the page.
+  std::uint64_t resultsFrom = 0;               ///< As in its record.
   std::unique_ptr<PageCall> call;
 };
 
 BatchRun::BatchRun(const BatchSettings& settings, const std::vector<BatchPage>& pages, ResultLines& lines)
     : settings_(settings), pages_(pages), lines_(lines), showsProgress_(stderrIsTerminal()) {
   QObject::connect(&tick_, &QTimer::timeout, &tick_, [this] {
+    again_.insert(again_.end(), busy_.begin(), busy_.end());
+    busy_.clear();
     hearSignals();
     startMore();
     showProgress();
@@ -74,47 +94,86 @@ void BatchRun::run() {
   tick_.start(kTickMs);
   QEventLoop loop;
   QTimer::singleShot(0, &tick_, [this] { startMore(); });
-  while (next_ < pages_.size() || !running_.empty()) {
+  while (isLeft() || !running_.empty()) {
     if (!whyStopped_.empty() && running_.empty()) break;
     loop.processEvents(QEventLoop::AllEvents | QEventLoop::WaitForMoreEvents);
   }
   tick_.stop();
-  if (showsProgress_) std::fputs("\r\033[K", stderr);
+  hideProgress();
   std::signal(SIGINT, before);
   std::signal(SIGTERM, beforeTerm);
 }
+
+bool BatchRun::isLeft() const { return next_ < pages_.size() || candidate_ || !busy_.empty() || !again_.empty(); }
 
 void BatchRun::startMore() {
   QElapsedTimer turn;
   turn.start();
   while (turn.elapsed() < kLongestTurnMs) {
     hearSignals();
-    if (!whyStopped_.empty() || next_ >= pages_.size() || std::ssize(running_) >= settings_.jobs) return;
+    if (!whyStopped_.empty() || std::ssize(running_) >= settings_.jobs) return;
     if (!takeNext()) return;
   }
   QTimer::singleShot(0, &tick_, [this] { startMore(); });
 }
 
-/// Settles the next page without a call, or starts its call; false if it has to wait for memory.
+/// The pages in their order, then those that other calls worked on when they were asked for.
+std::optional<std::size_t> BatchRun::nextIndex() {
+  if (next_ < pages_.size()) return next_++;
+  if (again_.empty()) return std::nullopt;
+  const std::size_t index = again_.front();
+  again_.pop_front();
+  return index;
+}
+
+/// Settles the next page without a call, or starts its call; false if it has to wait for memory or none is left.
 bool BatchRun::takeNext() {
-  const BatchPage& page = pages_[next_];
-  if (lookedAt_ != next_) {
-    const auto key = pageKey(page);  // none: the call says what is wrong with the scan or the recipe
-    if (auto known = resultWithoutCall(page, key)) {
-      report(next_++, *known);
-      return true;
-    }
-    lookedAt_ = next_;
-    nextKey_ = key.value_or(std::string());
+  if (!candidate_) {
+    const auto index = nextIndex();
+    if (!index) return false;
+    candidate_ = candidateOf(*index);
+    if (!candidate_) return true;
   }
-  if (!running_.empty() && !isRoomFor(page)) return false;
-  start(next_++, nextKey_);
+  if (!running_.empty() && !isRoomFor(pages_[candidate_->index])) return false;
+  start(std::move(candidate_));
   return true;
 }
 
+/// The page, locked, if it needs a call; null if it is settled without one, or another call works on it.
+std::unique_ptr<BatchRun::Candidate> BatchRun::candidateOf(std::size_t index) {
+  const BatchPage& page = pages_[index];
+  auto candidate = std::make_unique<Candidate>();
+  candidate->index = index;
+  candidate->lock = std::make_unique<LockFile>(lockName(page));
+  std::error_code code;
+  // Most pages of a second run are unchanged: they are not locked at all. A lock that lies there is asked first: it may
+  // be held, or left by a program that was killed and to be removed.
+  bool isAsked = fs::exists(lockName(page), code);
+  const auto isBusy = [&] { return candidate->lock->tryHold() == LockState::Busy; };
+  if (isAsked && isBusy()) {
+    busy_.push_back(index);
+    return nullptr;
+  }
+  const auto key = pageKey(page);  // none: the call says what is wrong with the scan or the recipe
+  candidate->key = key.value_or(std::string());
+  for (; true; isAsked = true) {
+    const auto known = resultWithoutCall(page, key);
+    const bool isUntold = known && known->status == PageStatus::Unchanged && lines_.isFile() && !known->isTold;
+    // Under the lock only it is sure what the record and the results say.
+    if (isAsked || (known && !isUntold)) {
+      if (!known) return candidate;
+      report(index, *known);
+      return nullptr;
+    }
+    if (isBusy()) {
+      busy_.push_back(index);
+      return nullptr;
+    }
+  }
+}
+
 /// What becomes of a page for which nothing needs to be done, or nothing may be.
-std::optional<PageResult> BatchRun::resultWithoutCall(const BatchPage& page,
-                                                      const std::optional<std::string>& key) const {
+std::optional<PageResult> BatchRun::resultWithoutCall(const BatchPage& page, const std::optional<std::string>& key) {
   if (settings_.existing != Existing::Skip) return std::nullopt;
   const auto record = readRecord(page);
   PageResult result;
@@ -125,6 +184,7 @@ std::optional<PageResult> BatchRun::resultWithoutCall(const BatchPage& page,
     result.figures = record->figures;
     result.key = *key;
     result.seconds = record->seconds;
+    result.isTold = lines_.isTold(*key, record->resultsFrom);
     return result;
   }
   if (record || !anyOutputExists(page)) return std::nullopt;
@@ -144,17 +204,22 @@ bool BatchRun::isRoomFor(const BatchPage& page) const {
   return needed <= *available;
 }
 
-void BatchRun::start(std::size_t index, const std::string& key) {
+void BatchRun::start(std::unique_ptr<Candidate> candidate) {
+  const std::size_t index = candidate->index;
   const BatchPage& page = pages_[index];
   auto running = std::make_unique<Running>();
-  running->index = index;
-  running->key = key;
   running->needs = memoryNeeded(page);
+  for (const std::string& output : page.outputs) running->outputs.push_back(fileId(output));
   // So that a later call knows the outputs for its own even if this one is killed between them. A folder that takes no
   // record takes no output either, and the call says so in its own words.
+  const auto before = readRecord(page);
+  running->wasBegun = before && before->key == candidate->key;
+  running->resultsFrom = running->wasBegun ? before->resultsFrom : lines_.size();
   PageRecord begun;
-  begun.key = key;
+  begun.key = candidate->key;
+  begun.resultsFrom = running->resultsFrom;
   static_cast<void>(writeRecord(page, begun));
+  running->page = std::move(candidate);
   running->call = std::make_unique<PageCall>(
       page, settings_.threads, settings_.pageTimeoutSeconds, [this, index](const PageResult& result) {
         QTimer::singleShot(
@@ -164,18 +229,20 @@ void BatchRun::start(std::size_t index, const std::string& key) {
 }
 
 void BatchRun::settle(std::size_t index, PageResult result) {
-  const auto running =
-      std::find_if(running_.begin(), running_.end(), [&](const auto& one) { return one->index == index; });
-  if (running == running_.end()) return;  // ended by a second signal
+  const auto place =
+      std::find_if(running_.begin(), running_.end(), [&](const auto& one) { return one->page->index == index; });
+  if (place == running_.end()) return;  // ended by a second signal
   const BatchPage& page = pages_[index];
-  result.key = (*running)->key;
-  running_.erase(running);
+  const std::unique_ptr<Running> ended = std::move(*place);  // with the page's lock, until all is written
+  running_.erase(place);
+  result.key = ended->page->key;
   PageRecord record;
   record.key = result.key;
   record.isEnded = true;
   record.isEmpty = result.status == PageStatus::Empty;
   record.seconds = result.seconds;
   record.figures = result.figures;
+  record.resultsFrom = ended->resultsFrom;
   if (record.isEmpty) record.note = result.error;
   if (result.status == PageStatus::Done) {
     for (const std::string& output : page.outputs) record.outputHashes.push_back(fileHash(output).value_or(""));
@@ -185,9 +252,13 @@ void BatchRun::settle(std::size_t index, PageResult result) {
       result.status = PageStatus::Failed;
       result.error = written.error().message;
     }
-  } else {
+  }
+  if (result.status == PageStatus::Failed) {
+    for (std::size_t i = 0; i < page.outputs.size(); ++i) removeOutput(page.outputs[i], ended->outputs[i]);
     std::error_code code;
     if (!anyOutputExists(page)) fs::remove(recordName(page), code);  // nothing was made, so nothing is left
+  } else if (ended->wasBegun) {
+    result.isTold = lines_.isTold(result.key, ended->resultsFrom);
   }
   report(index, result);
   startMore();
@@ -209,11 +280,14 @@ void BatchRun::report(std::size_t index, const PageResult& result) {
       failed_[index] = result.error;
       break;
   }
-  if (const auto written = lines_.write(pages_[index], result); !written) stop(written.error().message);
+  if (!result.isTold) {
+    if (!lines_.isFile()) hideProgress();  // a terminal would show both in one line
+    if (const auto written = lines_.write(pages_[index], result); !written) stop(written.error().message);
+  }
   const double share = static_cast<double>(counts_.failed) / static_cast<double>(pages_.size());
   if (share > settings_.maxFailures) {
     stop(std::to_string(counts_.failed) + " of " + std::to_string(pages_.size()) +
-         " pages have failed, more than --max-failures allows.");
+         (counts_.failed == 1 ? " pages has" : " pages have") + " failed, more than --max-failures allows.");
   }
 }
 
@@ -227,6 +301,10 @@ void BatchRun::hearSignals() {
   signalsHeard_ = caught;
   stop("It was stopped. The same command goes on where it ended.");
   if (caught > 1) running_.clear();  // ends the calls; their pages count as begun
+}
+
+void BatchRun::hideProgress() const {
+  if (showsProgress_) std::fputs("\r\033[K", stderr);
 }
 
 void BatchRun::showProgress() {
@@ -243,6 +321,8 @@ void BatchRun::showProgress() {
             (left < 1.0 ? std::string("less than a minute") : std::to_string(static_cast<int>(left + 0.5)) + " min") +
             " left";
   }
+  const std::size_t elsewhere = busy_.size() + again_.size();
+  if (elsewhere > 0) line += ", " + std::to_string(elsewhere) + " with another call";
   if (!whyStopped_.empty()) line += "; ends after " + std::to_string(running_.size()) + " running";
   std::fputs((line + "\033[K").c_str(), stderr);
 }

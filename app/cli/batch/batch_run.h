@@ -4,6 +4,7 @@
 #include <QElapsedTimer>
 #include <QTimer>
 #include <cstdint>
+#include <deque>
 #include <list>
 #include <map>
 #include <memory>
@@ -38,7 +39,7 @@ struct BatchCounts {
 
 /// Runs over the pages in their order, several at once, each in a process of its own. SIGINT or SIGTERM: no page is
 /// started any more and the running ones end; a second time ends them as well. A page is started beside others only
-/// while free memory holds it.
+/// while free memory holds it, and never while another call works on it: then it waits, and finds the page done.
 class BatchRun {
  public:
   BatchRun(const BatchSettings& settings, const std::vector<BatchPage>& pages, ResultLines& lines);
@@ -55,23 +56,29 @@ class BatchRun {
 
  private:
   struct Running;
+  struct Candidate;
   void startMore();
   bool takeNext();
-  std::optional<PageResult> resultWithoutCall(const BatchPage& page, const std::optional<std::string>& key) const;
-  void start(std::size_t index, const std::string& key);
+  std::optional<std::size_t> nextIndex();
+  bool isLeft() const;
+  std::unique_ptr<Candidate> candidateOf(std::size_t index);
+  std::optional<PageResult> resultWithoutCall(const BatchPage& page, const std::optional<std::string>& key);
+  void start(std::unique_ptr<Candidate> candidate);
   void settle(std::size_t index, PageResult result);
   void report(std::size_t index, const PageResult& result);
   bool isRoomFor(const BatchPage& page) const;
   void hearSignals();
   void showProgress();
+  void hideProgress() const;
   void stop(const std::string& why);
 
   const BatchSettings& settings_;
   const std::vector<BatchPage>& pages_;
   ResultLines& lines_;
   std::size_t next_ = 0;
-  std::optional<std::size_t> lookedAt_;  ///< The page that waits for memory: its key is known.
-  std::string nextKey_;
+  std::unique_ptr<Candidate> candidate_;  ///< The page that waits for memory.
+  std::deque<std::size_t> busy_,
+      again_;  ///< Pages that another call works on: heard of this turn, or to be asked again.
   std::list<std::unique_ptr<Running>> running_;
   BatchCounts counts_;
   std::map<std::size_t, std::string> failed_;

@@ -4,16 +4,18 @@
 #include <QBuffer>
 #include <QImage>
 #include <QString>
-#include <QUrl>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <optional>
 
 #include "app/cli/batch/drawn_lines.h"
 #include "app/cli/batch/page_record.h"
 #include "core/base/parallel.h"
 #include "core/base/platform.h"
+#include "core/base/shown_text.h"
 #include "core/exchange/save_atomically.h"
 #include "core/image/scan_reader.h"
 
@@ -22,9 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPictureSide = 320;      // [px] of the longer side
-constexpr int kPictureQuality = 75;    // of JPEG, 0..100
-constexpr double kLineUnits = 1000.0;  // width of the drawing that holds the lines
+constexpr int kPictureSide = 320;         // [px] of the longer side
+constexpr int kPictureQuality = 75;       // of JPEG, 0..100
+constexpr double kLineUnits = 1000.0;     // width of the drawing that holds the lines
+constexpr std::size_t kPagesAFile = 500;  // a browser shows so many curves at once without a wait
 
 constexpr const char* kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
@@ -32,7 +35,8 @@ constexpr const char* kHead = R"(<!DOCTYPE html>
 body{font:14px/1.4 Inter,system-ui,sans-serif;margin:16px;background:#f4f5f7;color:#1c1f23}
 main{display:grid;grid-template-columns:repeat(auto-fill,minmax(240px,1fr));gap:12px;margin-top:10px}
 figure{margin:0;padding:8px;background:#fff;border-radius:6px;border-top:4px solid #2c9a4b}
-figure.empty{border-color:#c98a00}figure.failed{border-color:#c62b2b}
+figure.empty{border-color:#c98a00}figure.failed{border-color:#c62b2b}figure.waiting{border-color:#9aa1a9}
+nav a,nav b{margin-right:8px}
 .picture{display:block;position:relative;background:#e8eaed}
 .picture img{display:block;width:100%;height:100%;opacity:.75}
 .picture svg{position:absolute;left:0;top:0;width:100%;height:100%;overflow:hidden}
@@ -42,15 +46,14 @@ figcaption{margin-top:6px;overflow-wrap:anywhere}small{color:#5c636b;display:blo
 </style></head><body>
 )";
 
-QByteArray escaped(const std::string& text) { return QString::fromStdString(text).toHtmlEscaped().toUtf8(); }
+QByteArray escaped(const std::string& text) { return QString::fromStdString(shownText(text)).toHtmlEscaped().toUtf8(); }
 
-/// The address of a file as seen from the sheet's folder.
+/// The address of a file as seen from the sheet's folder. Names are bytes.
 QByteArray linkTo(const std::string& file, const fs::path& folder) {
   std::error_code code;
   const fs::path whole = fs::absolute(file, code).lexically_normal();
   const fs::path relative = whole.lexically_relative(folder);
-  const std::string name = (relative.empty() ? whole : relative).generic_string();
-  return QUrl::toPercentEncoding(QString::fromStdString(name), "/");
+  return QByteArray::fromStdString((relative.empty() ? whole : relative).generic_string()).toPercentEncoding("/");
 }
 
 /// The scan made small by averaging; the empty image if it cannot be read.
@@ -79,7 +82,7 @@ QImage smallPicture(const BatchPage& page) {
 
 /// What a sheet shows of one page.
 struct Card {
-  std::string kind = "failed";  ///< "done", "empty" or "failed".
+  std::string kind = "failed";  ///< "done", "empty", "failed" or "waiting".
   std::string picture;          ///< File of the small picture; empty: there is none.
   double aspect = 1.0;          ///< Width over height.
   QByteArray figures;
@@ -105,20 +108,31 @@ QByteArray figuresOf(const PageRecord& record) {
   return text;
 }
 
+QImage pictureIn(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  return QImage::fromData(QByteArray::fromStdString(bytes));
+}
+
 /// @return CannotWrite if the small picture cannot be written.
 Result<Card> cardOf(const BatchPage& page, const std::string* error, const fs::path& pictures) {
   Card card;
+  const auto hash = fileHash(page.scan);
   const auto record = readRecord(page);
-  if (record && record->isEnded && error == nullptr) {
+  const auto key = pageKey(page, hash);
+  if (error != nullptr) {
+    card.figures = escaped(*error);
+  } else if (record && key && isUnchanged(page, *record, *key)) {
     card.kind = record->isEmpty ? "empty" : "done";
     card.figures = record->isEmpty ? escaped(record->note) : figuresOf(*record);
   } else {
-    card.figures = error != nullptr ? escaped(*error) : QByteArray("not reached yet");
+    card.kind = "waiting";
+    card.figures = "not reached yet";
   }
-  const auto hash = fileHash(page.scan);
   if (!hash) return card;
-  card.picture = (pictures / (hash->substr(0, 24) + ".jpg")).string();
-  QImage picture(QString::fromStdString(card.picture));
+  const std::string number = page.page == 1 ? std::string() : "-p" + std::to_string(page.page);
+  card.picture = (pictures / (hash->substr(0, 24) + number + ".jpg")).string();
+  QImage picture = pictureIn(card.picture);
   if (picture.isNull()) {
     picture = smallPicture(page);
     if (picture.isNull()) {
@@ -158,26 +172,74 @@ QByteArray overlayOf(const BatchPage& page) {
   return {};
 }
 
-QByteArray figureOf(const BatchPage& page, const Card& card, const fs::path& folder) {
+/// What is shown of one page. `name` says which it is.
+QByteArray figureOf(const BatchPage& page, const Card& card, const std::string& name, const fs::path& folder) {
   QByteArray html = "<figure class=\"" + QByteArray::fromStdString(card.kind) + "\">";
-  const std::string name = fs::path(page.scan).filename().string();
+  const QByteArray overlay = card.kind == "done" ? overlayOf(page) : QByteArray();
   if (!card.picture.empty()) {
     html += "<a class=\"picture\" style=\"aspect-ratio:" + QByteArray::number(card.aspect, 'f', 4) + "\" href=\"" +
             linkTo(card.kind == "done" ? page.outputs.front() : page.scan, folder) + "\"><img loading=\"lazy\" alt=\"" +
-            escaped(name) + "\" src=\"" + linkTo(card.picture, folder) + "\">" +
-            (card.kind == "done" ? overlayOf(page) : QByteArray()) + "</a>";
+            escaped(name) + "\" src=\"" + linkTo(card.picture, folder) + "\">" + overlay + "</a>";
   }
   html += "<figcaption><b>" + escaped(name) + "</b> ";
   if (card.kind == "done") {
     for (const std::string& output : page.outputs) {
-      html += "<a href=\"" + linkTo(output, folder) + "\">" + escaped(fs::path(output).extension().string().substr(1)) +
-              "</a> ";
+      const std::string ending = fs::path(output).extension().string();
+      html +=
+          "<a href=\"" + linkTo(output, folder) + "\">" + escaped(ending.empty() ? output : ending.substr(1)) + "</a> ";
     }
   }
-  return html + "<small>" + card.figures + "</small></figcaption></figure>\n";
+  html += "<small>" + card.figures;
+  if (card.kind == "done" && overlay.isEmpty())
+    html += "<br>The picture shows the scan only: curves are drawn from an SVG or JSON.";
+  return html + "</small></figcaption></figure>\n";
+}
+
+/// The files of a sheet, the first of which is the one that was asked for.
+std::vector<fs::path> filesOfSheet(std::size_t pages, const fs::path& whole) {
+  std::vector<fs::path> files{whole};
+  const fs::path folder = whole.parent_path() / (whole.stem().string() + "_files");
+  for (std::size_t begin = kPagesAFile; begin < pages; begin += kPagesAFile)
+    files.push_back(folder / ("sheet-" + std::to_string(files.size() + 1) + ".html"));
+  return files;
+}
+
+/// Links from one file of a sheet to the others: which pages each shows.
+QByteArray linksOf(const std::vector<fs::path>& files, std::size_t present, std::size_t pages) {
+  if (files.size() == 1) return {};
+  QByteArray html = "<nav>Pages ";
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const QByteArray range = QByteArray::number(static_cast<qlonglong>(i * kPagesAFile + 1)) + "–" +
+                             QByteArray::number(static_cast<qlonglong>(std::min(pages, (i + 1) * kPagesAFile)));
+    if (i == present) {
+      html += "<b>" + range + "</b> ";
+    } else {
+      html += "<a href=\"" + linkTo(files[i].string(), files[present].parent_path()) + "\">" + range + "</a> ";
+    }
+  }
+  return html + "</nav>\n";
+}
+
+/// "wing.tif", or "wing.tif, page 2" where the file holds several.
+std::vector<std::string> captionsOf(const std::vector<BatchPage>& pages) {
+  std::map<std::string, int> times;
+  for (const BatchPage& page : pages) ++times[page.scan];
+  std::vector<std::string> captions;
+  for (const BatchPage& page : pages) {
+    captions.push_back(fs::path(page.scan).filename().string());
+    if (page.page != 1 || times[page.scan] > 1) captions.back() += ", page " + std::to_string(page.page);
+  }
+  return captions;
 }
 
 }  // namespace
+
+std::vector<std::string> sheetFiles(std::size_t pages, const std::string& file) {
+  std::vector<std::string> names;
+  for (const fs::path& one : filesOfSheet(pages, file)) names.push_back(one.string());
+  names.erase(names.begin());
+  return names;
+}
 
 Result<void> writeContactSheet(const std::vector<BatchPage>& pages, const std::map<std::size_t, std::string>& errors,
                                const std::string& file) {
@@ -186,7 +248,7 @@ Result<void> writeContactSheet(const std::vector<BatchPage>& pages, const std::m
   const fs::path pictures = folder / (whole.stem().string() + "_files");
   fs::create_directories(pictures, code);
   if (code)
-    return fail(ErrorCode::CannotWrite, "Cannot make the folder " + pictures.string() + ": " + code.message() + ".");
+    return fail(ErrorCode::CannotWrite, "Cannot make the folder " + shownName(pictures) + ": " + code.message() + ".");
   std::vector<Result<Card>> cards(pages.size(), Card{});
   {
     const QuietStderr quiet;
@@ -196,20 +258,30 @@ Result<void> writeContactSheet(const std::vector<BatchPage>& pages, const std::m
       cards[i] = cardOf(pages[i], error == errors.end() ? nullptr : &error->second, pictures);
     });
   }
-  QByteArray html = kHead;
   std::map<std::string, int> kinds;
-  QByteArray figures;
-  for (std::size_t i = 0; i < pages.size(); ++i) {
-    if (!cards[i]) return fail(cards[i].error());
-    ++kinds[cards[i]->kind];
-    figures += figureOf(pages[i], *cards[i], folder);
+  for (const Result<Card>& card : cards) {
+    if (!card) return fail(card.error());
+    ++kinds[card->kind];
   }
-  html += "<h1>" + QByteArray::number(static_cast<int>(pages.size())) + " pages</h1><p>" +
-          QByteArray::number(kinds["done"]) + " done, " + QByteArray::number(kinds["empty"]) + " without a curve, " +
-          QByteArray::number(kinds["failed"]) +
-          " failed or not reached</p>\n<input type=\"checkbox\" id=\"curves\" checked>" +
-          "<label for=\"curves\">Curves</label>\n<main>\n" + figures + "</main></body></html>\n";
-  return saveAtomically(whole, {html.data(), static_cast<std::size_t>(html.size())});
+  const QByteArray summary = "<h1>" + QByteArray::number(static_cast<qlonglong>(pages.size())) +
+                             (pages.size() == 1 ? " page" : " pages") + "</h1><p>" + QByteArray::number(kinds["done"]) +
+                             " done, " + QByteArray::number(kinds["empty"]) + " without a curve, " +
+                             QByteArray::number(kinds["failed"]) + " failed, " + QByteArray::number(kinds["waiting"]) +
+                             " not reached</p>\n";
+  const std::vector<std::string> captions = captionsOf(pages);
+  const std::vector<fs::path> files = filesOfSheet(pages.size(), whole);
+  for (std::size_t k = files.size(); k-- > 0;) {  // the first file last: its links lead somewhere
+    const QByteArray links = linksOf(files, k, pages.size());
+    QByteArray html = kHead + summary + links + "<input type=\"checkbox\" id=\"curves\" checked>" +
+                      "<label for=\"curves\">Curves</label>\n<main>\n";
+    const std::size_t end = std::min(pages.size(), (k + 1) * kPagesAFile);
+    for (std::size_t i = k * kPagesAFile; i < end; ++i)
+      html += figureOf(pages[i], *cards[i], captions[i], files[k].parent_path());
+    html += "</main>" + links + "</body></html>\n";
+    if (auto saved = saveAtomically(files[k], {html.data(), static_cast<std::size_t>(html.size())}); !saved)
+      return saved;
+  }
+  return {};
 }
 
 }  // namespace batten::cli

@@ -2,6 +2,7 @@
 #include "app/cli/batch/page_call.h"
 
 #include <QCoreApplication>
+#include <QFile>
 
 #include "app/cli/exit_codes.h"
 #include "core/base/number_text.h"
@@ -24,10 +25,18 @@ std::string lastLine(const QByteArray& text) {
 
 PageCall::PageCall(const BatchPage& page, int threads, std::optional<double> timeoutSeconds, Ended ended)
     : timeoutSeconds_(timeoutSeconds.value_or(0.0)), ended_(std::move(ended)) {
+  words_ = traceWords(page, threads);
   QStringList words;
-  for (const std::string& word : traceWords(page, threads)) words.push_back(QString::fromStdString(word));
+  for (const std::string& word : words_) words.push_back(QString::fromStdString(word));
+  words_.insert(words_.begin(), QFile::encodeName(QCoreApplication::applicationFilePath()).toStdString());
+  for (const std::string& word : words_) pointers_.push_back(word.c_str());
+  pointers_.push_back(nullptr);
 #if defined(Q_OS_UNIX)  // of Qt's own two calls each system has one
-  process_.setChildProcessModifier([] { becomeDependentChild(); });
+  // Qt's words are text, names of files are bytes: the child calls the program itself.
+  process_.setChildProcessModifier([pointers = pointers_.data()] {
+    becomeDependentChild();
+    becomeProgram(pointers);
+  });
 #elif defined(Q_OS_WIN)
   constexpr unsigned long kOwnProcessGroup = 0x200;  // CREATE_NEW_PROCESS_GROUP: Ctrl+C does not reach the child
   process_.setCreateProcessArgumentsModifier(
@@ -67,7 +76,8 @@ void PageCall::finish() {
 
 PageResult PageCall::result() {
   PageResult result;
-  result.seconds = 1e-3 * static_cast<double>(clock_.elapsed());
+  constexpr double kMsInASecond = 1000.0;  // divided, so that the quotient prints with three digits
+  result.seconds = static_cast<double>(clock_.elapsed()) / kMsInASecond;
   if (process_.error() == QProcess::FailedToStart) {
     result.error = "The program cannot be started again: " + process_.errorString().toStdString();
     return result;

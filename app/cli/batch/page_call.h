@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/cli/batch/page_record.h"
 
@@ -30,6 +32,8 @@ class PageCall {
   void finish();
   PageResult result();
 
+  std::vector<std::string> words_;     ///< The program and what it is told, byte by byte.
+  std::vector<const char*> pointers_;  ///< To them, and null.
   double timeoutSeconds_ = 0.0;
   bool isTooSlow_ = false, hasEnded_ = false;
   Ended ended_;

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <span>
 
+#include "app/cli/batch/name_json.h"
 #include "core/base/content_hash.h"
 #include "core/exchange/save_atomically.h"
 
@@ -16,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kReadAtOnce = std::size_t{1} << 20;  // [bytes]
 
-const char* nameOf(PageStatus status) {
+const char* wordOf(PageStatus status) {
   switch (status) {
     case PageStatus::Done:
       return "done";
@@ -35,13 +36,15 @@ std::string lineOf(const Json& json) { return json.dump(-1, ' ', false, Json::er
 }  // namespace
 
 std::string resultLine(const BatchPage& page, const PageResult& result) {
-  Json json{{"line", page.line},       {"scan", page.scan},
-            {"outputs", page.outputs}, {"status", nameOf(result.status)},
+  Json outputs = Json::array();
+  for (const std::string& output : page.outputs) outputs.push_back(jsonText(output));
+  Json json{{"line", page.line},       {"scan", jsonText(page.scan)},
+            {"outputs", outputs},      {"status", wordOf(result.status)},
             {"exit", result.exitCode}, {"seconds", result.seconds}};
   if (!result.error.empty()) json["error"] = result.error;
   for (const auto& [key, value] : result.figures.items()) json[key] = value;
   if (!result.key.empty()) json["key"] = result.key;
-  return lineOf(json);
+  return lineWithNames(json);
 }
 
 std::optional<std::string> fileHash(const std::string& name) {
@@ -59,22 +62,20 @@ std::optional<std::string> fileHash(const std::string& name) {
   return hash.finish().hex();
 }
 
-std::optional<std::string> pageKey(const BatchPage& page) {
+std::optional<std::string> pageKey(const BatchPage& page) { return pageKey(page, fileHash(page.scan)); }
+
+std::optional<std::string> pageKey(const BatchPage& page, const std::optional<std::string>& scanHash) {
   HashBuilder key;
   key.text("batten-cli batch").text(BATTEN_VERSION);
-  for (const std::string& name : {page.scan, page.recipe}) {
-    const auto hash = name.empty() ? std::optional<std::string>("none") : fileHash(name);
-    if (!hash) return std::nullopt;
-    key.text(*hash);
-  }
+  const auto recipeHash = page.recipe.empty() ? std::optional<std::string>("none") : fileHash(page.recipe);
+  if (!scanHash || !recipeHash) return std::nullopt;
+  key.text(*scanHash).text(*recipeHash);
   key.integer(std::ssize(page.settings));
   for (const std::string& setting : page.settings) key.text(setting);
   key.number(page.dpi.value_or(0.0)).integer(page.page);
   for (const std::string& output : page.outputs) key.text(output);
   return key.finish().hex();
 }
-
-std::string recordName(const BatchPage& page) { return page.outputs.front() + ".batch.json"; }
 
 std::optional<PageRecord> readRecord(const BatchPage& page) {
   std::ifstream file(recordName(page), std::ios::binary);
@@ -88,6 +89,7 @@ std::optional<PageRecord> readRecord(const BatchPage& page) {
     record.isEnded = json.at("ended").get<bool>();
     record.isEmpty = json.at("empty").get<bool>();
     record.seconds = json.at("seconds").get<double>();
+    record.resultsFrom = json.at("results_from").get<std::uint64_t>();
     record.note = json.at("note").get<std::string>();
     record.outputHashes = json.at("outputs_sha256").get<std::vector<std::string>>();
     record.figures = json.at("figures");
@@ -98,15 +100,11 @@ std::optional<PageRecord> readRecord(const BatchPage& page) {
 }
 
 Result<void> writeRecord(const BatchPage& page, const PageRecord& record) {
-  const Json json{{"format", "batten-batch-page"},
-                  {"version", 1},
-                  {"program", BATTEN_VERSION},
-                  {"key", record.key},
-                  {"ended", record.isEnded},
-                  {"empty", record.isEmpty},
-                  {"seconds", record.seconds},
-                  {"note", record.note},
-                  {"outputs_sha256", record.outputHashes},
+  const Json json{{"format", "batten-batch-page"}, {"version", 1},
+                  {"program", BATTEN_VERSION},     {"key", record.key},
+                  {"ended", record.isEnded},       {"empty", record.isEmpty},
+                  {"seconds", record.seconds},     {"results_from", record.resultsFrom},
+                  {"note", record.note},           {"outputs_sha256", record.outputHashes},
                   {"figures", record.figures}};
   return saveAtomically(recordName(page), lineOf(json) + "\n");
 }

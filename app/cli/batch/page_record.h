@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -26,6 +27,7 @@ struct PageResult {
   nlohmann::ordered_json figures;  ///< Of a page that is done: curves, pieces, times, memory, notes; else empty.
   std::string key;                 ///< See pageKey.
   double seconds = 0.0;            ///< [s] From the start of the call to its end.
+  bool isTold = false;             ///< An earlier line of the results tells of it: none is to be written.
 };
 
 /// {"line", "scan", "outputs", "status", "exit", …}: one line of JSON without a line break.
@@ -34,6 +36,8 @@ std::string resultLine(const BatchPage&, const PageResult&);
 /// What the outputs depend on, as 64 hexadecimal digits: the bytes of scan and recipe, settings, resolution, page,
 /// names of the outputs, and the program's version. nullopt if the scan or the recipe cannot be read.
 std::optional<std::string> pageKey(const BatchPage&);
+/// The same where the scan's fileHash is known already.
+std::optional<std::string> pageKey(const BatchPage&, const std::optional<std::string>& scanHash);
 
 /// What is kept of a page beside its outputs, as NAME.batch.json beside its first output NAME: with it, a page that is
 /// unchanged is known, and one that was cut off is told from a file that someone else put there.
@@ -42,12 +46,12 @@ struct PageRecord {
   bool isEnded = false;  ///< False: it was begun, and the program was stopped before its end.
   bool isEmpty = false;
   double seconds = 0.0;
+  std::uint64_t resultsFrom = 0;          ///< [bytes] The page's line in the results lies behind this place of them.
   std::string note;                       ///< Of an empty page: what the call says.
   std::vector<std::string> outputHashes;  ///< SHA-256 of each output, in the order of the page's.
   nlohmann::ordered_json figures;
 };
 
-std::string recordName(const BatchPage&);
 /// nullopt if there is none or it cannot be understood: the page then counts as never begun.
 std::optional<PageRecord> readRecord(const BatchPage&);
 Result<void> writeRecord(const BatchPage&, const PageRecord&);

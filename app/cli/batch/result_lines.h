@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdio>
-#include <memory>
-#include <set>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <unordered_set>
 
 #include "app/cli/batch/page_record.h"
+#include "core/base/platform.h"
 #include "core/base/result.h"
 
 namespace batten::cli {
@@ -15,24 +16,25 @@ namespace batten::cli {
 /// at once, so that no line is lost or torn when the program is killed, and several programs may write one file.
 class ResultLines {
  public:
-  /// @param file empty for stdout. What a file holds already is kept: pages that it calls done or empty are known by
-  /// their keys. @return CannotWrite if it cannot be opened.
+  /// @param file empty or - for stdout. What a file holds already is kept. @return CannotWrite if it cannot be opened.
   static Result<ResultLines> open(const std::string& file);
 
-  /// Writes the line of a page. In a file an unchanged page is left out when an earlier line tells of it; when none
-  /// does, as after a kill between a page's end and its line, the line says what the page's record says.
+  bool isFile() const { return file_.has_value(); }
+  /// [bytes] Of the file so far: a line that is written later lies behind this place.
+  std::uint64_t size() const { return file_ ? file_->size() : 0; }
+  /// Whether the file calls the page with this key done or empty, as far as it has been written by now, by whomever.
+  /// `from` is where to look first (PageRecord::resultsFrom): no more is read of a long file if the line is there.
+  bool isTold(const std::string& key, std::uint64_t from);
+
   /// @return CannotWrite when nothing more can be written.
   Result<void> write(const BatchPage&, const PageResult&);
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const {
-      if (file != stdout) std::fclose(file);
-    }
-  };
+  void readOn();
   std::string name_;  ///< Empty: stdout.
-  std::unique_ptr<std::FILE, Close> file_;
-  std::set<std::string> known_;  ///< Keys of pages that the file calls done or empty.
+  std::optional<SharedLines> file_;
+  std::uint64_t readTo_ = 0;               ///< [bytes] Lines of the file before this place are in known_.
+  std::unordered_set<std::string> known_;  ///< Keys of pages that the file calls done or empty.
 };
 
 }  // namespace batten::cli

@@ -18,6 +18,7 @@
 #include "core/contour/centreline/stroke_mask.h"
 #include "core/contour/centreline/stroke_paths.h"
 #include "core/contour/merge/stroke_merge.h"
+#include "core/contour/merge/turn_cuts.h"
 #include "core/image/bit_disc.h"
 #include "core/image/bit_steps.h"
 
@@ -244,7 +245,7 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (!set.contours.empty()) set.report.widthPx = width;
   if (params.mergeWidths * width >= 1.0) {
     // Between middles: the paper between two strokes is a width less.
-    set.contours = mergeStrokes(set.contours, (params.mergeWidths + 1.0) * width, context);
+    set.contours = cutAtTurns(mergeStrokes(set.contours, (params.mergeWidths + 1.0) * width, context), width);
     if (context.isCancelled()) return cancelled();
   }
   set.report.droppedMargins =

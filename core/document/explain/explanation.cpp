@@ -3,13 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <new>
+#include <optional>
+#include <utility>
 
+#include "core/contour/centreline/stroke_profile.h"
 #include "core/contour/region_of_interest.h"
 #include "core/document/explain/redraw.h"
 #include "core/image/binarize.h"
 #include "core/image/bit_disc.h"
 #include "core/image/bit_steps.h"
+#include "core/image/region_surface.h"
+#include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {
@@ -18,40 +24,98 @@ constexpr double kReferenceStrength = 0.6;  // of the contrast that is asked of 
 constexpr double kPixelPx = 0.5;            // ink begins half a pixel before the centre of its first pixel
 constexpr double kLeastExplained = 0.92, kMostInvented = 0.005;
 
-Result<BitImage> referenceInk(const GreyImage& page, const Recipe& recipe, const RunContext& context) {
+// What curves are held against.
+struct Reference {
+  const GreyImage& page;
+  BitImage ink;
+  RegionThresholds thresholds;
+};
+
+Result<Reference> makeReference(const GreyImage& page, const Recipe& recipe, const RunContext& context) {
   ThresholdParams asked;
   asked.strength = kReferenceStrength;
-  const auto thresholds = findThresholds(page, {}, asked, context);
+  auto thresholds = findThresholds(page, {}, asked, context);
   if (!thresholds) return fail(thresholds.error());
   auto ink = binarize(page, *thresholds, asked, context);
-  if (!ink || recipe.regions.empty()) return ink;
-  for (int y = 0; y < ink->height && !context.isCancelled(); ++y) {
+  if (!ink) return fail(ink.error());
+  for (int y = 0; y < ink->height && !recipe.regions.empty() && !context.isCancelled(); ++y) {
     for (int x = 0; x < ink->width; ++x) {
       if (ink->at(x, y) && !isInside(recipe.regions, {x + 0.5, y + 0.5})) ink->set(x, y, false);
     }
   }
-  return ink;
+  return Reference{page, std::move(*ink), std::move(*thresholds)};
+}
+
+// [grey] By which the page is darker at a place of a line than at both its sides, where that is the least; of a border,
+// by which it is darker on the right.
+double depthAt(const RedrawnPoint& p, const Vec2& along, bool isBorder, const GreyImage& page) {
+  constexpr double kBesidePx[] = {1.5, 2.5, 3.5};
+  const Vec2 across = leftNormal(along.normalized());
+  const auto level = [&](double off) {
+    double sum = 0.0;
+    for (const int step : {-1, 0, 1}) {
+      const Vec2 at = p.at + off * across + step * along.normalized();
+      sum += static_cast<double>(sampleGrey(page, at.x(), at.y())) / 3.0;
+    }
+    return sum;
+  };
+  double left = 0.0, right = 0.0;
+  for (const double beside : kBesidePx) {
+    left += level(p.halfWidthPx + beside) / std::ssize(kBesidePx);
+    right += level(-p.halfWidthPx - beside) / std::ssize(kBesidePx);
+  }
+  return isBorder ? left - right : std::min(left, right) - level(0.0);
+}
+
+// A line or border may be too faint for the reference at every pixel and still be seen along its length: the mean over
+// a stretch is known better than a pixel by the root of their number.
+bool isFaintlySeen(const RedrawnCurve& c, std::size_t first, std::size_t last, const Reference& reference) {
+  constexpr std::size_t kFewestPoints = 6;
+  constexpr double kClear = 3.0;          // [standard deviations of the mean]
+  constexpr double kNoiseLengthPx = 3.0;  // along which the noise of the smoothed page is alike
+  constexpr double kFaintShare = 0.25;    // of the contrast asked of reference ink
+  if (last - first < kFewestPoints) return false;
+  double depth = 0.0, contrast = 0.0;
+  for (std::size_t i = first; i < last; ++i) {
+    const Vec2& at = c.points[i].at;
+    const Vec2 along = c.points[i + 1].at - at;
+    if (!(along.norm() > 0.0)) return false;
+    depth += depthAt(c.points[i], along, c.kind == ContourKind::Outline, reference.page);
+    const int region = regionOf(std::clamp(static_cast<int>(at.x()), 0, reference.page.width - 1),
+                                std::clamp(static_cast<int>(at.y()), 0, reference.page.height - 1),
+                                reference.page.width, reference.page.height);
+    contrast -= reference.thresholds.contrast[region];
+  }
+  if (c.kind == ContourKind::Outline) depth = std::abs(depth);
+  const auto count = static_cast<double>(last - first);
+  const double sigma = reference.thresholds.paperNoise * std::sqrt(kNoiseLengthPx / count);
+  return depth / count > std::max(kClear * sigma, kFaintShare * contrast / count);
 }
 
 // Adds what of a curve lies on paper.
-void findInventions(const RedrawnCurve& c, const BitImage& ink, Explanation& result, double& inventedPx) {
-  std::optional<InventedStretch> open;
+void findInventions(const RedrawnCurve& c, const Reference& reference, Explanation& result, double& inventedPx) {
+  std::optional<std::size_t> first;
+  double lengthPx = 0.0;
+  const auto close = [&](std::size_t last) {
+    if (first && !isFaintlySeen(c, *first, last, reference)) {
+      result.inventions.push_back({c.curve, c.points[*first].at, c.points[last].at, lengthPx});
+      inventedPx += lengthPx;
+    }
+    first.reset();
+    lengthPx = 0.0;
+  };
   for (std::size_t i = 0; i + 1 < c.points.size(); ++i) {
     const RedrawnPoint& p = c.points[i];
     const double step = (c.points[i + 1].at - p.at).norm();
     result.curvesPx += step;
-    const bool isInvented = !p.isBridge && !anyInDisc(ink, p.at, explainingReach(p) + kPixelPx);
-    if (!isInvented) {
-      if (open) result.inventions.push_back(*open);
-      open.reset();
+    if (p.isBridge || anyInDisc(reference.ink, p.at, explainingReach(p) + kPixelPx)) {
+      close(i);
       continue;
     }
-    if (!open) open = InventedStretch{c.curve, p.at, p.at, 0.0};
-    open->toPx = c.points[i + 1].at;
-    open->lengthPx += step;
-    inventedPx += step;
+    if (!first) first = i;
+    lengthPx += step;
   }
-  if (open) result.inventions.push_back(*open);
+  if (!c.points.empty()) close(c.points.size() - 1);
 }
 
 std::string percent(double share) {
@@ -75,8 +139,9 @@ std::string noteOn(const Explanation& e) {
 Result<Explanation> explain(const Scan& scan, const Recipe& recipe, const PipelineOutput& out,
                             const RunContext& context) {
   Explanation result;
-  auto ink = referenceInk(tracedGrey(scan, out), recipe, context);
-  if (!ink) return fail(ink.error());
+  const auto reference = makeReference(tracedGrey(scan, out), recipe, context);
+  if (!reference) return fail(reference.error());
+  const BitImage* ink = &reference->ink;
   const std::vector<RedrawnCurve> curves = redrawCurves(out, context);
   result.referencePx = ink->count();
   result.missedInk = without(*ink, redrawPage(curves, out, *ink, context));
@@ -87,7 +152,7 @@ Result<Explanation> explain(const Scan& scan, const Recipe& recipe, const Pipeli
   double inventedPx = 0.0;
   for (const RedrawnCurve& c : curves) {
     if (context.isCancelled()) return cancelled();
-    if (c.kind != ContourKind::Pen) findInventions(c, *ink, result, inventedPx);
+    if (c.kind != ContourKind::Pen) findInventions(c, *reference, result, inventedPx);
   }
   if (result.curvesPx > 0.0) result.invented = inventedPx / result.curvesPx;
   std::stable_sort(result.inventions.begin(), result.inventions.end(),

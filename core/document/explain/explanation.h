@@ -27,7 +27,9 @@ struct Explanation {
   double explained = 1.0;  ///< Share of the reference ink within reach of the curves drawn anew. 0..1
   double missed = 0.0;     ///< The rest of it.
   double curvesPx = 0.0;   ///< Length of all curves found on the scan.
-  double invented = 0.0;   ///< Share of that length out of reach of any reference ink, but for declared bridges. 0..1
+  /// Share of that length out of reach of any reference ink, but for declared bridges and for stretches along which the
+  /// page is clearly darker than at both sides, or, of borders, than at one. 0..1
+  double invented = 0.0;
   std::vector<InventedStretch> inventions;  ///< The longest, longest first, at most kMostInventions.
   BitImage missedInk;                       ///< Reference ink that no curve explains.
   std::string note;                         ///< What is below a limit, for the user; else empty.

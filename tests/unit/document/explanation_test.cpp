@@ -69,6 +69,26 @@ TEST(Explanation, CurvesOnTheirInkExplainItAll) {
   EXPECT_NEAR(e.curvesPx, 2 * 420.0 + 2 * 60.0 * 3.1416, 15.0);
 }
 
+// A line that is too faint for the reference is seen along its length all the same.
+TEST(Explanation, AFaintLineIsNotInvented) {
+  Drawing drawing;
+  drawing.shiftTopLine(35.0);
+  EXPECT_GT(drawing.explain().invented, 0.3) << "over paper";
+  test::LabelPage faint(500, 400);
+  faint.begin(false);
+  faint.line({{40, 95}, {460, 115}}, 5.0);
+  const BitImage line = faint.ink(1);
+  constexpr int kFaint = 20;  // [grey]
+  for (int y = 0; y < 400; ++y) {
+    for (int x = 0; x < 500; ++x) {
+      if (line.at(x, y)) drawing.scan.grey.row(y)[x] -= kFaint * GreyImage::kGreyUnit;
+    }
+  }
+  const Explanation e = drawing.explain();
+  EXPECT_EQ(e.invented, 0.0);
+  EXPECT_GT(e.missed, 0.05) << "the ink that the curve left";
+}
+
 TEST(Explanation, InkWithoutACurveIsMissed) {
   Drawing drawing;
   const auto all = static_cast<double>(drawing.explain().referencePx);

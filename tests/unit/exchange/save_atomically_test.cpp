@@ -6,6 +6,7 @@
 #include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -119,18 +120,39 @@ TEST_F(SaveAtomically, KeepsThePermissionsOfWhatItReplaces) {
 }
 
 TEST_F(SaveAtomically, WhatAnEndedProgramLeftGoesAndWhatARunningOneWritesStays) {
-  const fs::path left = folder_ / ".batten-0123456789abcdef.saving", held = folder_ / ".batten-fedcba9876543210.saving";
-  const fs::path foreign = folder_ / ".batten-notes.saving";
-  for (const fs::path& path : {left, held, foreign}) std::ofstream(path) << "half";
-  const int running = open(held.c_str(), O_RDONLY);
+  // A child that is killed while it saves leaves its file; the next save of the same name removes it.
+  const fs::path target = folder_ / "a.svg";
+  const auto handler = std::signal(SIGXFSZ, SIG_DFL);
+  const pid_t child = fork();
+  if (child == 0) {
+    const rlimit none{0, 0};  // no core file either
+    setrlimit(RLIMIT_CORE, &none);
+    const rlimit small{4096, 4096};
+    setrlimit(RLIMIT_FSIZE, &small);
+    static_cast<void>(saveAtomically(target, std::string(100000, 'x')));  // the signal ends the program within
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  std::signal(SIGXFSZ, handler);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  ASSERT_EQ(filesInFolder(), 1u);
+  const fs::path left = fs::directory_iterator(folder_)->path(), foreign = folder_ / ".batten-notes.saving";
+  std::ofstream(foreign) << "half";
+  ASSERT_TRUE(saveAtomically(folder_ / "other.svg", "x"));
+  EXPECT_TRUE(fs::exists(left)) << "it is of another file, and folders may be large";
+  const int running = open(left.c_str(), O_RDONLY);
   ASSERT_EQ(flock(running, LOCK_EX), 0);
-  ASSERT_TRUE(saveAtomically(folder_ / "a.svg", "x"));
-  EXPECT_FALSE(fs::exists(left));
-  EXPECT_TRUE(fs::exists(held));
-  EXPECT_TRUE(fs::exists(foreign));
+  ASSERT_TRUE(saveAtomically(target, "x"));
+  EXPECT_TRUE(fs::exists(left)) << "a program writes it";
   close(running);
-  ASSERT_TRUE(saveAtomically(folder_ / "a.svg", "x"));
-  EXPECT_FALSE(fs::exists(held));
+  ASSERT_TRUE(saveAtomically(target, "x"));
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(foreign));
+  std::ofstream(left) << "half";
+  removeLeftoversOf(target);
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_EQ(read(target), "x");
 }
 
 TEST(Picture, DrawsLinesAndEncodesPng) {

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/merge/turn_cuts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "core/polyline/polyline_tools.h"
+
+namespace batten {
+namespace {
+
+// In samples, one stroke width apart.
+constexpr int kCutChord = 5, kCutBeyond = 15;  // chords end there; what lies beyond says how the line bends
+constexpr int kLeastPart = 3;
+constexpr int kCutsApart = 4;
+constexpr double kArcSamples = 6.0;  // as much of the bend beyond counts as no corner
+constexpr double kCutRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kMostArc = 120.0 * kCutRadPerDeg;
+constexpr double kLeastTurn = 40.0 * kCutRadPerDeg, kLeastBeyondArc = 24.0 * kCutRadPerDeg;
+
+// A line in steps of about one stroke width.
+class TurnSearch {
+ public:
+  TurnSearch(const Contour& line, double widthPx) : closed_(line.closed) {
+    const std::vector<Vec2> points = positionsOf(line.points);
+    const std::vector<double> arc = cumulativeLength(points);
+    const double length = polylineLength(points, line.closed);
+    const int steps = static_cast<int>(std::lround(length / widthPx));
+    const int samples = line.closed ? steps : steps + 1;
+    if (points.size() < 2 || steps < 2 * kLeastPart) return;
+    int at = 0;
+    for (int k = 0; k < samples; ++k) {
+      const double wanted = length * k / steps;
+      while (at + 1 < std::ssize(arc) && arc[at + 1] <= wanted) ++at;
+      const double end = at + 1 < std::ssize(arc) ? arc[at + 1] : length;
+      const Vec2& next = points[wrapIndex(at + 1, static_cast<int>(points.size()))];
+      const double f = end > arc[at] ? std::clamp((wanted - arc[at]) / (end - arc[at]), 0.0, 1.0) : 0.0;
+      const bool isLast = at + 1 == std::ssize(arc) && !line.closed;
+      samples_.push_back(isLast ? points[at] : Vec2(points[at] + f * (next - points[at])));
+      point_.push_back(wrapIndex(f < 0.5 || isLast ? at : at + 1, static_cast<int>(points.size())));
+    }
+  }
+
+  /// Points of the line at which it is cut, ascending.
+  std::vector<int> cuts() const {
+    struct Turn {
+      int sample;
+      double score;
+    };
+    std::vector<Turn> turns;
+    const int n = static_cast<int>(samples_.size());
+    for (int i = 0; i < n; ++i) {
+      if (const auto score = scoreAt(i)) turns.push_back({i, *score});
+    }
+    std::stable_sort(turns.begin(), turns.end(), [](const Turn& a, const Turn& b) { return a.score > b.score; });
+    std::vector<int> chosen;
+    for (const Turn& turn : turns) {
+      const bool isNear = std::ranges::any_of(chosen, [&](int other) {
+        const int apart = std::abs(other - turn.sample);
+        return (closed_ ? std::min(apart, n - apart) : apart) < kCutsApart;
+      });
+      if (!isNear) chosen.push_back(turn.sample);
+    }
+    std::vector<int> points;
+    for (const int sample : chosen) points.push_back(point_[sample]);
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    return points;
+  }
+
+ private:
+  // How far the line goes on from a sample, up to `most`.
+  int room(int i, int side, int most) const {
+    const int n = static_cast<int>(samples_.size());
+    if (closed_) return std::min(most, n / 2);
+    return std::min(most, side < 0 ? i : n - 1 - i);
+  }
+  Vec2 chord(int from, int to) const {
+    const int n = static_cast<int>(samples_.size());
+    return samples_[wrapIndex(to, n)] - samples_[wrapIndex(from, n)];
+  }
+  static double angleBetween(const Vec2& in, const Vec2& out) { return std::atan2(cross(in, out), in.dot(out)); }
+
+  // [rad per sample] By which the line goes on bending on one side, in the direction of travel.
+  double bendBeyond(int i, int side) const {
+    const int far = room(i, side, kCutBeyond), reach = far - kCutChord, half = reach / 2;
+    if (half < 2) return 0.0;
+    const int a = i + side * kCutChord, b = a + side * half, c = b + side * half;
+    return (side > 0 ? angleBetween(chord(a, b), chord(b, c)) : angleBetween(chord(c, b), chord(b, a))) / half;
+  }
+
+  // [rad] By how much the line turns beyond what an arc would; absent: no corner.
+  std::optional<double> scoreAt(int i) const {
+    const int before = room(i, -1, kCutChord), after = room(i, 1, kCutChord);
+    if (before < kLeastPart || after < kLeastPart) return std::nullopt;
+    const double turn = angleBetween(chord(i - before, i - 1), chord(i + 1, i + after));
+    const double bend = std::copysign(0.5, turn) * (bendBeyond(i, -1) + bendBeyond(i, 1));
+    const double arc = std::clamp(kArcSamples * bend, 0.0, kMostArc);
+    if (std::abs(turn) <= kLeastTurn || std::abs(turn) - arc <= kLeastBeyondArc) return std::nullopt;
+    return std::abs(turn) - arc;
+  }
+
+  bool closed_;
+  std::vector<Vec2> samples_;
+  std::vector<int> point_;  ///< Of the line, nearest to every sample.
+};
+
+// The points from..to of a line, both included; of a closed one `to` may pass its end.
+Contour cutPart(const Contour& line, int from, int to) {
+  const int n = static_cast<int>(line.points.size());
+  Contour part = line;
+  part.closed = false;
+  part.points.clear();
+  part.bridges.clear();
+  for (int i = from; i <= to; ++i) part.points.push_back(line.points[wrapIndex(i, n)]);
+  for (const auto& [first, last] : line.bridges) {
+    for (const int turn : {0, n}) {
+      const int a = std::max(first + turn, from), b = std::min(last + turn, to);
+      if (a <= b && (turn == 0 || line.closed)) part.bridges.emplace_back(a - from, b - from);
+    }
+  }
+  measureContour(part);
+  return part;
+}
+
+}  // namespace
+
+std::vector<Contour> cutAtTurns(const std::vector<Contour>& lines, double widthPx) {
+  std::vector<Contour> parts;
+  for (const Contour& line : lines) {
+    const std::vector<int> cuts = TurnSearch(line, widthPx).cuts();
+    const int n = static_cast<int>(line.points.size());
+    if (cuts.empty()) {
+      parts.push_back(line);
+    } else if (line.closed) {
+      for (std::size_t i = 0; i < cuts.size(); ++i)
+        parts.push_back(cutPart(line, cuts[i], i + 1 < cuts.size() ? cuts[i + 1] : cuts[0] + n));
+    } else {
+      int from = 0;
+      for (const int cut : cuts) parts.push_back(cutPart(line, std::exchange(from, cut), cut));
+      parts.push_back(cutPart(line, from, n - 1));
+    }
+  }
+  return parts;
+}
+
+}  // namespace batten
