@@ -159,6 +159,8 @@ void MainWindow::loadSettings() {
     view_.setVisible(layer, settings.value(action(showAction(layer))->objectName(), view_.isVisible(layer)).toBool());
   view_.setCombScale(settings.value(QStringLiteral("comb-scale"), view_.combScale()).toDouble());
   view_.setCombDensity(settings.value(QStringLiteral("comb-density"), view_.combDensity()).toInt());
+  view_.setCombShowsRadius(settings.value(QStringLiteral("comb-radius"), view_.combShowsRadius()).toBool());
+  view_.setRadiusIsLinear(settings.value(QStringLiteral("radius-linear"), view_.radiusIsLinear()).toBool());
   settings.endGroup();
   parts_->plots->setTab(static_cast<PlotTab>(std::clamp(settings.value(kPlotKey, 0).toInt(), 0, kPlotTabs - 1)));
   const ThemeChoice choice = storedTheme();
@@ -180,6 +182,8 @@ void MainWindow::saveSettings() {
   }
   settings.setValue(QStringLiteral("comb-scale"), view_.combScale());
   settings.setValue(QStringLiteral("comb-density"), view_.combDensity());
+  settings.setValue(QStringLiteral("comb-radius"), view_.combShowsRadius());
+  settings.setValue(QStringLiteral("radius-linear"), view_.radiusIsLinear());
   settings.endGroup();
   settings.setValue(kPlotKey, static_cast<int>(parts_->plots->tab()));
 }

@@ -281,6 +281,7 @@ CurveCanvas::State::LinesKey CurveCanvas::State::linesKeyNow() const {
   if (view.isScanOnly()) return key;
   for (std::size_t i = 0; i < kLayers.size(); ++i) key.layers |= view.isVisible(kLayers[i]) ? 1 << i : 0;
   key.combScale = view.combScale();
+  key.isRadius = view.combShowsRadius();
   key.combDensity = view.combDensity();
   key.selected = session.selectedCurve();
   key.isGrowing = session.growing().isOpen();

@@ -58,7 +58,7 @@ struct CurveCanvas::State : CanvasScene {
     QSize size;
     double zoom = 0.0, ratio = 0.0, combScale = 0.0;
     int combDensity = 0, selected = -1, layers = 0;
-    bool isGrowing = false;
+    bool isGrowing = false, isRadius = false;
     const void *shapes = nullptr, *combs = nullptr, *segments = nullptr, *overlay = nullptr, *contours = nullptr;
     bool operator==(const LinesKey&) const = default;
   };

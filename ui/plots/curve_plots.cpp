@@ -46,6 +46,7 @@ struct CurvePlots::State {
   PlotTab shownTab = PlotTab::Radius;
   int shownCurve = -2;
   Judged shownJudged = Judged::Result;
+  bool shownLinear = false;
 };
 
 CurvePlots::CurvePlots(EditorSession& session, const ViewSettings& view, QWidget* parent)
@@ -62,7 +63,8 @@ CurvePlots::CurvePlots(EditorSession& session, const ViewSettings& view, QWidget
   });
   connect(&session, &EditorSession::cursorChanged, this, &CurvePlots::showCursor);
   connect(&view, &ViewSettings::changed, this, [this] {
-    if (judgedIn(state_->view) != state_->shownJudged) refreshSoon();
+    if (judgedIn(state_->view) != state_->shownJudged || state_->view.radiusIsLinear() != state_->shownLinear)
+      refreshSoon();
   });
   connect(&session, &EditorSession::selectionChanged, this, [this] { state_->isTurned = false; });
   refresh();
@@ -195,7 +197,8 @@ void CurvePlots::refresh() {
   const DataKey key{d.session.output().faired, d.session.output().pieces, d.session.selectedCurve(), d.tab,
                     judgedIn(d.view)};
   if (d.tab != PlotTab::Deviation || !d.dataKey || !(*d.dataKey == key))
-    d.data = plotData(d.session, d.tab, key.judged);
+    d.data = plotData(d.session, d.tab, key.judged, d.view.radiusIsLinear());
+  d.shownLinear = d.view.radiusIsLinear();
   d.dataKey = key;
   d.shownJudged = key.judged;
   const bool runsLeft = d.data.runsLeft != d.isTurned;

@@ -17,6 +17,8 @@
 namespace batten {
 namespace {
 
+constexpr double kLargestRadius = 20.0;  // extents that a plot shows
+constexpr double kMostlyBelow = 0.9;     // of the samples, on a linear axis
 constexpr int kSamples = 400;
 constexpr int kDeviationSamples = 160;
 /// Of the mean: how far up and down the plot of the speed reaches at least.
@@ -118,6 +120,17 @@ void fitRange(PlotData& data, double padding) {
   }
 }
 
+/// [mm] Where a linear axis of the radius ends: straight stretches would press all others flat.
+double linearLimit(const std::vector<CurveSample>& samples, double size) {
+  std::vector<double> radii;
+  for (const CurveSample& sample : samples)
+    if (std::abs(sample.kappa) > 0.0) radii.push_back(1.0 / std::abs(sample.kappa));
+  if (radii.empty()) return kLargestRadius * size;
+  const auto at = radii.begin() + static_cast<std::ptrdiff_t>(kMostlyBelow * static_cast<double>(radii.size() - 1));
+  std::nth_element(radii.begin(), at, radii.end());
+  return std::min(kLargestRadius * size, 2.0 * *at);
+}
+
 void addBand(PlotData& data, const TracedCurve& curve, const std::vector<CurveSample>& sketched, double scale) {
   const auto &s = curve.construct.bandS, &sigma = curve.construct.bandSigma;
   if (s.size() < 2 || s.size() != sigma.size() || sketched.size() < 2) return;
@@ -199,7 +212,7 @@ double clampedRadius(double kappa, double smallest, double largest) {
   return std::max(smallest, 1.0 / size);
 }
 
-PlotData plotData(const EditorSession& session, PlotTab tab, Judged judged) {
+PlotData plotData(const EditorSession& session, PlotTab tab, Judged judged, bool linearRadius) {
   PlotData data;
   const TracedCurve* curve = session.selected();
   if (!curve || curve->sketched.isEmpty()) return data;
@@ -227,8 +240,9 @@ PlotData plotData(const EditorSession& session, PlotTab tab, Judged judged) {
   const double shownScale = faired.empty() ? scale : 1.0;
   switch (tab) {
     case PlotTab::Radius:
-      data.logarithmic = true;
-      addBoth([size](const CurveSample& sample) { return clampedRadius(sample.kappa, size * 1e-4, size * 20); });
+      data.logarithmic = !linearRadius;
+      addBoth([size, most = linearRadius ? linearLimit(sketched, size) : kLargestRadius * size](
+                  const CurveSample& sample) { return clampedRadius(sample.kappa, size * 1e-4, most); });
       break;
     case PlotTab::Curvature:
       addBand(data, *curve, sketched, scale);

@@ -39,8 +39,10 @@ struct PlotData {
 };
 
 /// The plot of the session's selected curve. Model frame, mm.
+/// @param linearRadius the radius on a linear axis, cut off at twice the largest radius that a tenth of the curve
+/// reaches.
 /// @param judged Sketched: the constructed curve alone; Result: what fairing made of it, over the sketched one in grey.
-PlotData plotData(const EditorSession& session, PlotTab tab, Judged judged = Judged::Result);
+PlotData plotData(const EditorSession& session, PlotTab tab, Judged judged = Judged::Result, bool linearRadius = false);
 
 /// Radius limited to what a plot can show: straight stretches end as a flat line at `largest`, never as infinity.
 double clampedRadius(double kappa, double smallest, double largest);

@@ -70,7 +70,9 @@ void chooseTarget(EditorSession& session, int degree) {
     if (session.curves().size() == 1 && hasOwnFairing(session, 0))
       for (PieceChoice& choice : after.choices) choice.mode.reset(), choice.target.reset(), choice.spanTargets.clear();
   }
-  session.change(choiceText("Target %1").arg(degree), std::move(after));
+  session.change(
+      degree == kLogAestheticTarget ? choiceText("Log-aesthetic target") : choiceText("Target %1").arg(degree),
+      std::move(after));
 }
 
 void setIncluded(EditorSession& session, int curve, bool included) {

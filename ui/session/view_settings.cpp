@@ -74,6 +74,18 @@ void ViewSettings::setCombScale(double scale) {
   emit changed();
 }
 
+void ViewSettings::setCombShowsRadius(bool radius) {
+  if (combShowsRadius_ == radius) return;
+  combShowsRadius_ = radius;
+  emit changed();
+}
+
+void ViewSettings::setRadiusIsLinear(bool linear) {
+  if (radiusIsLinear_ == linear) return;
+  radiusIsLinear_ = linear;
+  emit changed();
+}
+
 void ViewSettings::setCombDensity(int density) {
   const int bounded = std::clamp(density, 20, 1000);
   if (combDensity_ == bounded) return;

@@ -73,6 +73,10 @@ class ViewSettings : public QObject {
   void setTool(Tool);
   double combScale() const { return combScale_; }  ///< [-] 0.05..20, factor on the automatic comb height.
   void setCombScale(double);
+  bool combShowsRadius() const { return combShowsRadius_; }  ///< Quills as long as the radius, as in the papers.
+  void setCombShowsRadius(bool);
+  bool radiusIsLinear() const { return radiusIsLinear_; }  ///< Axis of the radius plot; else logarithmic.
+  void setRadiusIsLinear(bool);
   int combDensity() const { return combDensity_; }  ///< 20..1000 quills a curve.
   void setCombDensity(int);
   int selectedRegion() const { return selectedRegion_; }  ///< 0..63, -1 = none.
@@ -115,6 +119,7 @@ class ViewSettings : public QObject {
   double suggestionScalePx_ = 14.0;
   std::optional<Measure> measure_;
   bool scanOnly_ = false, showsUniform_ = false, maskUncleaned_ = false;
+  bool combShowsRadius_ = false, radiusIsLinear_ = false;
 };
 
 }  // namespace batten

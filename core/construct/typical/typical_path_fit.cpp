@@ -335,6 +335,7 @@ class PathProblem final : public LevenbergProblem {
 
   double linearise() override {
     const double cost = squares_.cost(path_, feet_, &system_);
+    if (!std::isfinite(cost) || system_.squared.size() == 0) return std::numeric_limits<double>::infinity();
     damping_ = system_.squared.diagonal();
     damping_ = damping_.cwiseMax(kDampingFloor * std::max(damping_.maxCoeff(), std::numeric_limits<double>::min()));
     return cost;
@@ -390,6 +391,7 @@ std::optional<PathFit> fitPath(TypicalPath& path, const PathData& data, int maxI
     if (!path.endsTypical()) path.states.back().point = data.end;
   }
   PathProblem problem(path, data);
+  if (problem.unknowns().count() == 0) return std::nullopt;  // nothing can move
   PathFit fit;
   LevenbergOptions options = kPathSteps;
   options.iterations = maxIterations;

@@ -13,10 +13,11 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// What all papers leave out: they take black and white pixels as they are.
 Settings withPixels(Settings own) {
-  const Settings pixels = {
-      {"threshold.smooth", "false"},  {"threshold.interpolate", "false"}, {"edges.subpixel", "false"},
-      {"corners.exact", "false"},     {"paper.flatten", "false"},         {"fairing.spans", "whole"},
-      {"fairing.quantity", "radius"}, {"fairing.monotone", "false"},      {"fairing.choose", "similarity"}};
+  const Settings pixels = {{"threshold.smooth", "false"}, {"threshold.interpolate", "false"},
+                           {"edges.subpixel", "false"},   {"corners.exact", "false"},
+                           {"corners.auto", "false"},     {"paper.flatten", "false"},
+                           {"fairing.spans", "whole"},    {"fairing.quantity", "radius"},
+                           {"fairing.monotone", "false"}, {"fairing.choose", "similarity"}};
   own.insert(own.end(), pixels.begin(), pixels.end());
   return own;
 }

@@ -64,6 +64,18 @@ TEST(TypicalPath, TrendsKeepTheCurvatureMonotoneWhateverTheUnknowns) {
   }
 }
 
+TEST(FitPath, APathOfWhichNothingCanMoveIsNoFit) {
+  TypicalPath path;
+  path.closed = true;
+  path.elements.resize(1);
+  path.elements[0].typical = false;
+  path.states = {{{0, 0}, 0.0, 0.01}, {{0, 0}, 0.0, 0.01}};
+  PathData data;
+  for (int i = 0; i < 40; ++i) data.points.emplace_back(20.0 * std::sin(0.16 * i), 20.0 - 20.0 * std::cos(0.16 * i));
+  const auto fit = fitPath(path, data, 10, {});
+  EXPECT_TRUE(!fit || std::isfinite(fit->rms));
+}
+
 TEST(TypicalPath, SplittingATypicalElementIsExact) {
   TypicalPath path = somePath();
   const TypicalCurve whole = path.typical(1);

@@ -28,8 +28,10 @@ CombScale combScale(const CanvasScene& scene) {
   const auto at = static_cast<std::size_t>(reference->index);
   const int extrema = reference->index >= 0 && at < curves.size() ? curves[at].sketchedFigures.extrema : 0;
   const double lengthPx = reference->lengthMm / scene.combs->source.frame.lengthToModel(1.0);
-  return combScaleFor({reference->robustKappa, reference->extentPx, lengthPx, extrema}, scene.view.combScale(),
-                      std::min(view.width(), view.height()) * scene.transform.imagePerWidget());
+  const CombedCurve curve{reference->robustKappa, reference->extentPx, lengthPx, extrema};
+  const double viewPx = std::min(view.width(), view.height()) * scene.transform.imagePerWidget();
+  return scene.view.combShowsRadius() ? radiusScaleFor(curve, reference->points, scene.view.combScale(), viewPx)
+                                      : combScaleFor(curve, scene.view.combScale(), viewPx);
 }
 
 QPointF tipOf(const CombPoint& point, const CombScale& scale, const ViewTransform& transform) {
@@ -161,7 +163,7 @@ void paintMarks(QPainter& painter, const CanvasScene& scene, const CurveComb& co
 void paintCombs(QPainter& painter, const CanvasScene& scene) {
   if (!scene.combs || scene.combs->combs.empty()) return;
   const CombScale scale = combScale(scene);
-  if (!(scale.pxPerKappa > 0.0)) return;
+  if (scale.isEmpty()) return;
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
   const CurveComb* selected = scene.selectedComb();
@@ -233,7 +235,7 @@ void paintCursor(QPainter& painter, const CanvasScene& scene) {
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
   const CombScale scale = scene.areCombsShown() ? combScale(scene) : CombScale{};
-  if (scale.pxPerKappa > 0.0) {
+  if (!scale.isEmpty()) {
     painter.setPen(QPen(colors::accent(), 1.2));
     painter.drawLine(foot, tipOf(place, scale, scene.transform));
   }

@@ -15,9 +15,17 @@ constexpr double kSpikeShare = 0.03;       ///< Of the comb's points: a cut run 
 
 }  // namespace
 
-double CombScale::heightOf(double kappa) const { return std::clamp(kappa * pxPerKappa, -limitPx, limitPx); }
+double CombScale::heightOf(double kappa) const {
+  if (!(pxPerRadius > 0.0)) return std::clamp(kappa * pxPerKappa, -limitPx, limitPx);
+  return cuts(kappa) ? std::copysign(limitPx, kappa) : pxPerRadius / kappa;
+}
 
-bool CombScale::cuts(double kappa) const { return std::abs(kappa) * pxPerKappa > limitPx; }
+bool CombScale::cuts(double kappa) const {
+  if (pxPerRadius > 0.0) return !(std::abs(kappa) * limitPx >= pxPerRadius);
+  return std::abs(kappa) * pxPerKappa > limitPx;
+}
+
+double CombScale::limitKappa() const { return pxPerRadius > 0.0 ? pxPerRadius / limitPx : limitPx / pxPerKappa; }
 
 std::vector<CombRun> combRuns(const std::vector<CombPoint>& points, const CombScale& scale) {
   std::vector<CombRun> runs;
@@ -38,7 +46,7 @@ std::vector<CombRun> combRuns(const std::vector<CombPoint>& points, const CombSc
 }
 
 CombPoint combCrossing(const CombPoint& uncut, const CombPoint& cut, const CombScale& scale) {
-  const double limit = std::copysign(scale.limitPx / scale.pxPerKappa, cut.kappa);
+  const double limit = std::copysign(scale.limitKappa(), scale.pxPerRadius > 0.0 ? uncut.kappa : cut.kappa);
   const double rise = cut.kappa - uncut.kappa;
   const double t = rise != 0.0 ? std::clamp((limit - uncut.kappa) / rise, 0.0, 1.0) : 0.0;
   CombPoint at = uncut;
@@ -48,6 +56,21 @@ CombPoint combCrossing(const CombPoint& uncut, const CombPoint& cut, const CombS
   const Vec2 out = uncut.outPx + t * (cut.outPx - uncut.outPx);
   if (out.norm() > 0.0) at.outPx = out.normalized();
   return at;
+}
+
+CombScale radiusScaleFor(const CombedCurve& curve, const std::vector<CombPoint>& points, double wantedScale,
+                         double viewPx) {
+  const CombScale curvature = combScaleFor(curve, wantedScale, viewPx);
+  std::vector<double> radii;
+  for (const CombPoint& point : points)
+    if (std::abs(point.kappa) > 0.0) radii.push_back(1.0 / std::abs(point.kappa));
+  if (!(curvature.pxPerKappa > 0.0) || radii.empty()) return {};
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  CombScale scale;
+  scale.limitPx = curvature.limitPx;
+  scale.pxPerRadius = curvature.pxPerKappa * curve.robustKappa / *middle;
+  return scale;
 }
 
 CombScale combScaleFor(const CombedCurve& curve, double wantedScale, double viewPx) {

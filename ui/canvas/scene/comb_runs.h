@@ -8,9 +8,12 @@
 
 namespace batten {
 
-/// Height [image px] per curvature [1/mm], and the height at which quills are cut.
+/// Height [image px] per curvature [1/mm], or per radius [mm], and the height at which quills are cut.
 struct CombScale {
   double pxPerKappa = 0.0, limitPx = 0.0;
+  double pxPerRadius = 0.0;  ///< Above 0: quills show the radius, which has no end where the curve is straight.
+  bool isEmpty() const { return !(pxPerKappa > 0.0) && !(pxPerRadius > 0.0); }
+  double limitKappa() const;            ///< [1/mm] at which quills are cut.
   double heightOf(double kappa) const;  ///< [image px], signed, cut.
   bool cuts(double kappa) const;
 };
@@ -35,6 +38,9 @@ struct CombedCurve {
   double lengthPx = 0.0;     ///< [image px]
   int extrema = 0;           ///< Places where the curvature turns back.
 };
+/// The scale of quills that show radii: as high for the middle radius of a curve's points as those of its curvature
+/// would be for its largest curvatures.
+CombScale radiusScaleFor(const CombedCurve&, const std::vector<CombPoint>& points, double wantedScale, double viewPx);
 /// The scale of combs for a curve, seen in a view `viewPx` [image px] high or wide (the smaller). The more the curve
 /// turns to and fro, the lower they are: quills longer than a bend would hide it. No comb at all where the curve is
 /// straight (`pxPerKappa` = 0).

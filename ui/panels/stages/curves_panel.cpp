@@ -72,6 +72,25 @@ CombControls::CombControls(ViewSettings& view, QWidget* parent) : QWidget(parent
   grid->setHorizontalSpacing(8);
   grid->setVerticalSpacing(4);
   grid->setColumnStretch(0, 1);
+  auto* quantity = new SegmentedControl({tr("Curvature"), tr("Radius")}, this);
+  quantity->setNames(QStringLiteral("view.combQuantity"), {QStringLiteral("curvature"), QStringLiteral("radius")});
+  quantity->setToolTip(
+      tr("What the quills of the comb are as long as: the curvature, or the radius of curvature as in the papers."));
+  quantity->setAccessibleName(tr("Quills show"));
+  grid->addWidget(quantity, 0, 0, 1, 2);
+  auto* axis = new SegmentedControl({tr("Logarithmic"), tr("Linear")}, this);
+  axis->setNames(QStringLiteral("view.radiusAxis"), {QStringLiteral("logarithmic"), QStringLiteral("linear")});
+  axis->setToolTip(tr("Axis of the radius plot: logarithmic, or linear as in the papers."));
+  axis->setAccessibleName(tr("Axis of the radius plot"));
+  grid->addWidget(axis, 1, 0, 1, 2);
+  connect(axis, &SegmentedControl::chosen, this, [&view](int index) { view.setRadiusIsLinear(index == 1); });
+  const auto showQuantity = [quantity, axis, &view] {
+    quantity->setCurrent(view.combShowsRadius() ? 1 : 0);
+    axis->setCurrent(view.radiusIsLinear() ? 1 : 0);
+  };
+  connect(quantity, &SegmentedControl::chosen, this, [&view](int index) { view.setCombShowsRadius(index == 1); });
+  connect(&view, &ViewSettings::changed, this, showQuantity);
+  showQuantity();
   addViewRow(
       grid, view, this, tr("Comb height"), QStringLiteral("view.combScale"),
       tr("Length of the quills of the curvature comb; 1 is automatic."), 0.05, 20.0, 2,

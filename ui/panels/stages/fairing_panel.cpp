@@ -69,9 +69,10 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       wavelength_(new ParameterRow(session, *findParameter("fairing.lowpass"), this)),
       spend_(new ParameterRow(session, *findParameter("fairing.spend"), this)),
       moves_(new ParameterRow(session, *findParameter("fairing.moves"), this)),
-      editor_(new ParameterEditor(
-          session, {"fairing.spans", "fairing.choose", "fairing.samples", "fairing.quantity", "fairing.monotone"},
-          this)),
+      editor_(new ParameterEditor(session,
+                                  {"fairing.spans", "fairing.choose", "fairing.alpha", "fairing.samples",
+                                   "fairing.quantity", "fairing.monotone"},
+                                  this)),
       note_(note({}, this)),
       raise_(linkButton(tr("Raise the tolerance"), QStringLiteral("fairing.raise"), this)),
       useForAll_(linkButton(tr("Use this for all curves"), QStringLiteral("fairing.useForAll"), this)),
@@ -82,6 +83,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       draw_(linkButton(tr("Draw the target in the plot"), QStringLiteral("fairing.draw"), this)),
       forget_(linkButton(tr("Back to the six targets"), QStringLiteral("fairing.forget"), this)),
       like_(likeLink(session, this)),
+      logAesthetic_(linkButton(tr("Log-aesthetic target"), QStringLiteral("fairing.logAesthetic"), this)),
       figures_(new FigureTable(this)),
       ends_(new EndsTable([this] { return shown(session_.recipe()); },
                           [this](int end, EndHold hold) { setHold(end, hold); }, this)) {
@@ -185,7 +187,8 @@ void FairingPanel::bindToScope(ParameterRow* row,
 
 void FairingPanel::buildLinks() {
   auto* column = static_cast<QVBoxLayout*>(layout());
-  for (QPushButton* link : {whole_, split_, unsplit_, draw_, forget_, like_}) column->addWidget(link, 0, Qt::AlignLeft);
+  for (QPushButton* link : {whole_, split_, unsplit_, draw_, forget_, like_, logAesthetic_})
+    column->addWidget(link, 0, Qt::AlignLeft);
   split_->setText(tr("Natural spans"));
   split_->setToolTip(
       tr("A polynomial from each extremum of the curvature to the next. Extrema whose removal would move the curve by "
@@ -195,6 +198,13 @@ void FairingPanel::buildLinks() {
   whole_->setText(tr("Targets for the whole curve"));
   whole_->setToolTip(tr("The targets belong to the span that you clicked. This goes back to all spans."));
   draw_->setToolTip(tr("Turns the target into points that you drag in the curvature plot."));
+  logAesthetic_->setToolTip(tr(
+      "Each span with its radius to a power, alpha, linear in the length: clothoids, spirals, involutes. Alpha stands "
+      "under More."));
+  connect(logAesthetic_, &QPushButton::clicked, this, [this] {
+    session_.pointAtSpan({});
+    chooseTarget(session_, kLogAestheticTarget);
+  });
   auto* compare = linkButton(tr("Compare shapes…"), QStringLiteral("fairing.compare"), this);
   compare->setToolTip(tr("How alike two curves are, and how fair this one is: the similarities in a table."));
   column->addWidget(compare, 0, Qt::AlignLeft);
@@ -220,6 +230,7 @@ void FairingPanel::refreshLinks(const FairingParams& params) {
   const bool isDrawn = isTargetDrawn(session_);
   draw_->setVisible(isTarget && !isDrawn);
   forget_->setVisible(isDrawn);
+  logAesthetic_->setVisible(isTarget && params.target != kLogAestheticTarget);
   like_->setVisible(session_.selected() != nullptr && params.mode != FairingMode::None);
   const bool canSplit = isTarget && !isDrawn && params.targets.quantity == TargetQuantity::Curvature;
   const auto spans = canSplit ? static_cast<qint64>(splitsOf(session_).size()) : 0;

@@ -60,6 +60,7 @@ class FairingPanel : public QWidget {
   QPushButton* draw_;
   QPushButton* forget_;
   QPushButton* like_;
+  QPushButton* logAesthetic_;
   FigureTable* figures_;
   EndsTable* ends_;
   bool oneCurve_ = false;
