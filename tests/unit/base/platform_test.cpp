@@ -85,7 +85,9 @@ TEST_F(SharedFiles, LinesOfManyProgramsStayWhole) {
     children.push_back(fork());
     if (children.back() != 0) continue;
     auto lines = SharedLines::open(file);
-    for (int k = 0; k < kLines; ++k) (void)lines->add(std::string(2000, static_cast<char>('a' + i)) + "\n");
+    std::string text(2000, static_cast<char>('a' + i));
+    text.push_back('\n');
+    for (int k = 0; k < kLines; ++k) (void)lines->add(text);
     _exit(0);
   }
   for (const pid_t child : children) waitpid(child, nullptr, 0);
