@@ -9,19 +9,12 @@
 #include "core/fairing/natural_spans.h"
 #include "core/fairing/shape_modification.h"
 #include "core/fairing/span_fairing.h"
-#include "core/fairing/target_steps.h"
 
 namespace batten {
 namespace {
 
 /// A profile of more polynomials says nothing that the curve does not say itself.
 constexpr std::size_t kMostSplits = 24;
-
-/// Extrema that a profile itself asks for.
-int extremaOf(const FairingSetup& setup, const TargetProfile& profile) {
-  const auto objective = targetObjective(setup, profile);
-  return objective ? extremaAsked(setup, *objective) : 0;
-}
 
 bool hasNaturalSpans(const TargetParams& params) {
   return params.splits.empty() && params.spans == TargetSpans::Natural && params.quantity == TargetQuantity::Curvature;
@@ -66,8 +59,6 @@ Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>& s
     const auto fewest = static_cast<int>(levels.front().splits.size());
     if (best && best->faired.report.extremaAfter <= fewest) break;
     const TargetProfile& profile = levels[i].targets.profiles[static_cast<std::size_t>(degree) - 1];
-    // More spans ask for more extrema: they win none of those that are left.
-    if (best && best->faired.report.extremaAfter <= extremaOf(*setup, profile)) break;
     auto faired = modifyShape(setup, profile, toleranceMm, context, {ExtremaAsked::UpToSketch, onlyIfMet});
     if (!faired && best) break;
     if (!faired) return fail(faired.error());

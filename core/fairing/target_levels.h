@@ -35,8 +35,7 @@ struct LevelOutcome {
 };
 
 /// The level whose curve has the fewest extrema, of those the first: one that has no more than there are splits of the
-/// first level ends the search, and a level that asks for no fewer than that curve has. `onlyIfMet`: see
-/// ModificationEffort.
+/// first level ends the search. `onlyIfMet`: see ModificationEffort.
 Result<LevelOutcome> fairOverLevels(const std::shared_ptr<const FairingSetup>&, std::span<const TargetLevel>,
                                     int degree, double toleranceMm, const RunContext&, bool onlyIfMet = false);
 

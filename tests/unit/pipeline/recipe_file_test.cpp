@@ -124,7 +124,7 @@ TEST(RecipeFile, RefusesWhatItDoesNotKnowByName) {
   expectRefused(head + R"("extra":1})", "extra");
   expectRefused(head + R"("corners":[[1,2],[3]]})", "corner");
   expectRefused(head + R"("choices":[{"target":2}]})", "anchor");
-  expectRefused(head + R"("choices":[{"anchor":[1,2],"target":8}]})", "target");
+  expectRefused(head + R"("choices":[{"anchor":[1,2],"target":9}]})", "target");
   expectRefused(head + R"("choices":[{"anchor":[1,2],"splits":[[1]]}]})", "splits");
   expectRefused(head + R"("choices":[{"anchor":[1,2],"profile":[[0.5,1],[0.4,1]]}]})", "ascend");
   expectRefused(head + R"("choices":[{"anchor":[1,2],"low_pass":0}]})", "wavelength");
