@@ -12,13 +12,19 @@ namespace fs = std::filesystem;
 
 std::string fileKey(const fs::path& path) {
   const auto textOf = [](const FileId& id) { return std::to_string(id.device) + ":" + std::to_string(id.number); };
+  const auto keyOf = [&](const fs::path& name) -> std::string {
+    if (const auto id = fileId(name)) return textOf(*id);
+    const auto folder = fileId(name.has_parent_path() ? name.parent_path() : fs::path("."));
+    return folder && name.has_filename() ? textOf(*folder) + "/" + name.filename().string() : std::string();
+  };
   const fs::path target = saveTarget(path).value_or(path);
-  if (const auto id = fileId(target)) return textOf(*id);
-  const auto folder = fileId(target.has_parent_path() ? target.parent_path() : fs::path("."));
-  if (folder && target.has_filename()) return textOf(*folder) + "/" + target.filename().string();
+  if (std::string key = keyOf(target); !key.empty()) return key;
+  // Of "none/../scan.png", where there is no folder "none", the name counts that is left without both.
   std::error_code wrong;
   const fs::path whole = fs::weakly_canonical(fs::absolute(target, wrong), wrong);
-  return (wrong ? target : whole).lexically_normal().string();
+  const fs::path plain = (wrong ? target : whole).lexically_normal();
+  const std::string key = keyOf(plain);
+  return key.empty() ? plain.string() : key;
 }
 
 bool isSameFile(const fs::path& first, const fs::path& second) { return fileKey(first) == fileKey(second); }
