@@ -20,7 +20,6 @@ constexpr double kLeastSeen = 0.8, kLeastSeenAlone = 0.7;  // of the lines; the 
 constexpr double kLeastCoverage = 0.7;                     // of the stretches of the lines that are seen
 constexpr double kAlone = 0.4, kLeastSelective = 0.25;     // of the thin lines over the ruling that belong to it
 constexpr double kMostWidth = 0.3;                         // of the spacing
-constexpr double kDarkRuling = 0.55;                       // of the paper's light: printed rulings are lighter
 constexpr double kDarkCoverage = 0.85;                     // asked of dark lines that make no grid
 constexpr int kDarkLines = 12;                             // likewise
 constexpr double kLeastRulingDepth = 0.015;

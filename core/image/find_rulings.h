@@ -9,6 +9,9 @@
 
 namespace batten {
 
+/// Of the paper's light: what printed rulings take is less.
+inline constexpr double kDarkRuling = 0.55;
+
 /// Finds the ruled lines or the grid of the paper, also on a page that is turned by up to 11 degrees, slightly curved
 /// or seen in perspective. Lines count as ruling only if they are thin, at least five, equally spaced over at least
 /// half of the page and each seen along most of it; dark ones must make a grid or fill the page. At most one family

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/image/page_preparation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <new>
 #include <opencv2/core.hpp>
 #include <utility>
 
 #include "core/image/coloured_ink.h"
 #include "core/image/find_rulings.h"
+#include "core/image/region_values.h"
 #include "core/image/remove_rulings.h"
+#include "core/image/run_pieces.h"
 
 namespace batten {
 namespace {
@@ -32,22 +36,72 @@ std::string rulingNote(const std::vector<RulingFamily>& families) {
   return counts + " the page were left out; paper.rulings=keep brings them back.";
 }
 
+constexpr int kPaperOneOf = 10;            // the brightest tenth of a region is its paper
+constexpr double kCrossingWidths = 2.0;    // [line widths] diagonal of what is left where two lines cross
+constexpr double kLeastDrawnShare = 0.01;  // of the pixels of the lines: a drawing on ruled paper has more
+constexpr const char* kNothingButRulings =
+    "There is nothing but dark lines at even distances on the page; they are taken for the drawing.";
 constexpr int kRulingRounds = 3;  // the ruling of the back may shine through beside that of the front
 
 const GreyImage& greyOf(const Scan& scan, const PreparedPage& page) {
   return page.isUntouched() ? scan.grey : page.grey;
 }
 
+/// Whether dark lines at even distances are all that is on the page: then they were drawn. What the eraser leaves where
+/// two of them cross, and at the border of the page, is nothing.
+bool isNothingButRulings(const GreyImage& with, const GreyImage& without, const std::vector<RulingFamily>& families,
+                         const RunContext& context) {
+  double widthPx = 0.0, spacingPx = 0.0, depth = 1.0;
+  for (const RulingFamily& family : families) {
+    widthPx = std::max(widthPx, family.widthPx);
+    spacingPx = std::max(spacingPx, family.spacingPx);
+    depth = std::min(depth, family.depth);
+  }
+  if (depth <= kDarkRuling) return false;
+  const int margin = static_cast<int>(std::ceil(spacingPx));
+  BitImage left(with.width, with.height);
+  std::int64_t removed = 0;
+  for (int region = 0; region < kRegions; ++region) {
+    if (context.isCancelled()) return false;
+    const RegionBounds b = regionBounds(with.width, with.height, region);
+    const auto counts = regionHistogram(without, region);
+    std::int64_t darker = 0;
+    int paper = 255;
+    for (const std::int64_t brighter = (b.x1 - b.x0) * (b.y1 - b.y0) / kPaperOneOf; paper > 0; --paper)
+      if ((darker += counts[paper]) > brighter) break;
+    const double limit = paper * (1.0 - 0.5 * depth) * GreyImage::kGreyUnit;
+    for (int y = std::max(b.y0, margin); y < std::min(b.y1, with.height - margin); ++y) {
+      for (int x = std::max(b.x0, margin); x < std::min(b.x1, with.width - margin); ++x) {
+        if (without.row(y)[x] < limit)
+          left.set(x, y, true);
+        else
+          removed += with.row(y)[x] < limit ? 1 : 0;
+      }
+    }
+  }
+  const BitImage drawn = keepPieces(left, {.minArea = 1, .minDiagonal = kCrossingWidths * (widthPx + 1.0)}, context);
+  return static_cast<double>(drawn.count()) < kLeastDrawnShare * static_cast<double>(removed);
+}
+
 void leaveOutRulings(const Scan& scan, PreparedPage& page, const RunContext& context) {
+  GreyImage before;  // empty: the scan's own
   for (int round = 0; round < kRulingRounds; ++round) {
     const std::vector<RulingFamily> found = findRulings(greyOf(scan, page), context);
     if (context.isCancelled() || found.empty()) break;
     GreyImage without = withoutRulings(greyOf(scan, page), found, context);
     if (context.isCancelled()) break;
+    if (page.rulings.empty()) before = std::move(page.grey);
     page.grey = std::move(without);
     page.rulings.insert(page.rulings.end(), found.begin(), found.end());
   }
-  if (!page.rulings.empty()) page.notes.push_back(rulingNote(page.rulings));
+  if (page.rulings.empty() || context.isCancelled()) return;
+  if (isNothingButRulings(before.width > 0 ? before : scan.grey, page.grey, page.rulings, context)) {
+    page.grey = std::move(before);
+    page.rulings.clear();
+    page.notes.emplace_back(kNothingButRulings);
+    return;
+  }
+  page.notes.push_back(rulingNote(page.rulings));
 }
 
 void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context) {

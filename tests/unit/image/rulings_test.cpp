@@ -220,6 +220,24 @@ TEST(Rulings, AreKeptWhenAsked) {
   EXPECT_TRUE(preparePage(scan, params, {})->isUntouched());
 }
 
+TEST(Rulings, NothingButDarkLinesIsTheDrawing) {
+  for (const bool isGrid : {false, true}) {
+    std::vector<InkLayer> inks = {{ruling({.spacing = 16.0, .width = 2.0}), kPen}};
+    if (isGrid) inks.push_back({ruling({.spacing = 16.0, .width = 2.0, .runsDown = true}), kPen});
+    const Scan bare = paperWith(inks);
+    ASSERT_FALSE(findRulings(bare.grey, {}).empty());
+    const auto kept = preparePage(bare, {}, {});
+    EXPECT_TRUE(kept->isUntouched()) << isGrid;
+    EXPECT_TRUE(kept->rulings.empty());
+    ASSERT_EQ(kept->notes.size(), 1u);
+    // Something drawn over them: they are the paper's.
+    inks.push_back({drawing(), kPen});
+    EXPECT_EQ(preparePage(paperWith(inks), {}, {})->rulings.size(), isGrid ? 2u : 1u) << isGrid;
+  }
+  // An empty sheet of ruled paper holds no drawing.
+  EXPECT_EQ(preparePage(paperWith({{ruling({}), light(0.8)}}), {}, {})->rulings.size(), 1u);
+}
+
 TEST(Rulings, AreTheSameWithAnyNumberOfThreads) {
   const Scan scan = paperWith({{ruling({.turnedDeg = 2.0}), light(0.8)}, {drawing(), kPen}});
   RunContext one, four;
