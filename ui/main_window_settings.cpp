@@ -84,9 +84,12 @@ void MainWindow::refreshRecent() {
 }
 
 QString MainWindow::drawingName() const {
-  // A drawing without a scan is called as the file that holds it.
-  if (session_.isBlankPage())
-    return parts_->recipePath.isEmpty() ? tr("New drawing") : shownFileName(parts_->recipePath);
+  // A drawing without a scan is called as the file that holds it, or that its lines came from.
+  if (session_.isBlankPage()) {
+    if (!parts_->recipePath.isEmpty()) return shownFileName(parts_->recipePath);
+    const auto& imports = session_.recipe().imports;
+    return imports.empty() ? tr("New drawing") : QString::fromStdString(imports.front().source);
+  }
   return session_.hasScan() ? shownFileName(session_.scanPath()) : tr("No scan");
 }
 

@@ -89,7 +89,8 @@ void addTrace(CLI::App& app, TraceArguments& a) {
        "N|all"});
   addRepeated(*trace, "-o,--output", a.outputs, "OUT",
               "Write the curves; the ending chooses the format (" + allEndings() +
-                  "); .report.pdf and .report.html hold a report to print; may be repeated");
+                  "); .report.pdf and .report.html hold a report to print; a file of that name is replaced; may be "
+                  "repeated");
   addRepeated(*trace, "--import", a.imports, "FILE",
               "Take lines over from a file of curves or points (" + importEndings() + "); may be repeated");
   trace
@@ -103,7 +104,10 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   trace->add_option("--scale", a.scale, "Write the curves this many times as large")->type_name("N");
   trace->add_option("--tolerance", a.tolerance, "Largest distance of what is approximated from the exact curves, mm")
       ->type_name("MM");
-  trace->add_option("--curves", a.curves, "Write only these curves, by their numbers in the report: 1,3-5")
+  trace
+      ->add_option_function<std::string>(
+          "--curves", [&a](const std::string& list) { a.curves = list; },
+          "Write only these curves, by their numbers in the report: 1,3-5")
       ->type_name("LIST");
   trace->add_option("--which", a.which, "Which curves to write: faired, sketched or both")
       ->type_name("faired|sketched|both");

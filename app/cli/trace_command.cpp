@@ -23,6 +23,7 @@
 #include "core/image/scan_reader.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "core/pipeline/run/curve_targets.h"
+#include "core/pipeline/run/direction_owners.h"
 #include "core/pipeline/run/piece_choices.h"
 
 namespace batten::cli {
@@ -195,6 +196,22 @@ class Trace {
     }
   }
 
+  void addDirectionNotes(std::vector<std::string>& list) const {
+    const Recipe& recipe = plan_.recipe;
+    const DirectionOwners owners = assignDirections(*out_.pieces, recipe);
+    for (const std::size_t mark : owners.lostDirections)
+      list.push_back("No curve lies near " + placeText(recipe.directions[mark].positionPx) +
+                     ", where --direction was to turn one.");
+    for (const std::size_t mark : owners.lostStarts)
+      list.push_back("No curve lies near " + placeText(recipe.starts[mark].positionPx) +
+                     ", where --start was to begin one.");
+    for (const auto& [contour, mark] : owners.startOfContour) {
+      if (out_.contours->contours[static_cast<std::size_t>(contour)].closed) continue;
+      list.push_back("The line at " + placeText(recipe.starts[mark].positionPx) +
+                     " is open: it begins at one of its ends, and --start changes nothing.");
+    }
+  }
+
   /// What the user should know although the trace was made.
   std::vector<std::string> notes() const {
     std::vector<std::string> list = plan_.notes;
@@ -212,6 +229,7 @@ class Trace {
     if (!out_.contours->report.note.empty()) list.push_back(out_.contours->report.note);
     if (explanation_ && !explanation_->note.empty()) list.push_back(explanation_->note);
     addCornerNotes(list);
+    addDirectionNotes(list);
     for (const std::size_t choice : assignChoices(*out_.pieces, plan_.recipe.choices).waiting) {
       const std::vector<Vec2>& anchors = plan_.recipe.choices[choice].anchorsPx;
       if (anchors.empty()) continue;

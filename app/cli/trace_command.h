@@ -16,7 +16,7 @@ struct TraceArguments {
   std::optional<double> scale;             ///< --scale
   std::optional<double> tolerance;         ///< --tolerance [mm]
   std::string paper;                       ///< --paper a4|letter; empty: a4
-  std::string curves;                      ///< --curves 1,3-5; empty: all
+  std::optional<std::string> curves;       ///< --curves 1,3-5; empty: all
   std::string which;                       ///< --which faired|sketched|both; empty: faired
   bool joined = false;                     ///< --joined
   bool apart = false;                      ///< --apart

@@ -137,10 +137,10 @@ Result<void> applySegmentPoint(const std::string& point, Recipe& recipe) {
   return {};
 }
 
-/// "100mm", "10 cm", "4in", "100" (mm) as millimetres.
+/// "100mm", "10 cm", "4in" as millimetres; nothing without a unit, since nobody could say which was meant.
 std::optional<double> lengthOf(std::string_view text) {
   constexpr double kMillimetresPerCentimetre = 10.0;
-  double unit = 1.0;
+  std::optional<double> unit;
   for (const auto& [word, mm] :
        {std::pair{"mm", 1.0}, {"cm", kMillimetresPerCentimetre}, {"in", kMillimetresPerInch}}) {
     if (!text.ends_with(word)) continue;
@@ -149,7 +149,7 @@ std::optional<double> lengthOf(std::string_view text) {
     break;
   }
   const auto value = numberFromText(text);
-  return value ? std::optional(*value * unit) : std::nullopt;
+  return value && unit ? std::optional(*value * *unit) : std::nullopt;
 }
 
 Result<void> applyKnownLength(const std::string& line, Recipe& recipe) {
@@ -161,8 +161,8 @@ Result<void> applyKnownLength(const std::string& line, Recipe& recipe) {
       isWhole ? ScaleLine{Vec2((*places)[0], (*places)[1]), Vec2((*places)[2], (*places)[3]), *length} : ScaleLine{};
   if (!isWhole || !resolutionOf(scale)) {
     return wrong(
-        "--known-length takes X,Y,X,Y,LENGTH: two places in px from the upper left corner and their distance, "
-        "as 100mm, 10cm or 4in, not \"" +
+        "--known-length takes X,Y,X,Y,LENGTH: two places in px from the upper left corner and their distance "
+        "with its unit, as 100mm, 10cm or 4in, not \"" +
         line + "\".");
   }
   setScaleLine(recipe, scale);
@@ -246,7 +246,9 @@ Result<void> planExport(const TraceArguments& arguments, TracePlan& plan) {
     return wrong("--flavour takes exact, bezier or cubic, not \"" + flavour + "\".");
   if (arguments.joined && arguments.apart)
     return wrong("--joined and --apart contradict each other. Give one of them.");
-  plan.curves = arguments.curves;
+  if (arguments.curves && arguments.curves->empty())
+    return wrong("--curves names no curve. Give numbers, as in 1,3-5, or leave it out to write all.");
+  plan.curves = arguments.curves.value_or("");
   if (!arguments.paper.empty() && arguments.paper != "a4" && arguments.paper != "letter")
     return wrong("--paper takes a4 or letter, not \"" + arguments.paper + "\".");
   for (const std::string& path : arguments.outputs) {

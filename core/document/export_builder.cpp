@@ -11,6 +11,7 @@
 
 #include "core/base/statistics.h"
 #include "core/exchange/export_check.h"
+#include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/run/direction_owners.h"
 #include "core/pipeline/run/imported_lines.h"
 
@@ -65,6 +66,21 @@ void takeName(const std::string& name, ExportCurve& curve) {
     curve.pieces[i].name = curve.pieces.size() == 1 ? name : name + " " + std::to_string(i + 1);
 }
 
+PieceFigures figuresOf(const TracedCurve& curve, bool sketched) {
+  PieceFigures figures;
+  const CurveFigures& own = sketched ? curve.sketchedFigures : curve.fairedFigures;
+  figures.largestOffMm = own.fromPoints.max;
+  figures.typicalOffMm = own.fromPoints.rms;
+  Recipe used;
+  used.fairing = curve.fairingUsed;
+  figures.fairing = sketched ? "none" : findParameter("fairing.mode")->get(used);
+  if (sketched || curve.fairingUsed.mode == FairingMode::None) return figures;
+  figures.toleranceMm = curve.fairingUsed.toleranceMm;
+  figures.movedMm = curve.fairing.maxDeviationMm;
+  if (curve.fairingUsed.mode == FairingMode::Target) figures.target = curve.fairingUsed.target;
+  return figures;
+}
+
 /// Adds the lines of a run in one of their two kinds.
 void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched, ExportDocument& document) {
   const DirectionOwners owners = assignDirections(*output.pieces, recipe);
@@ -87,10 +103,14 @@ void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched
         const int number = curveNumber(output, *piece);
         lowest = std::min(lowest, number);
         ExportPiece& own = curve.pieces.emplace_back(ExportPiece{shapeOf(*piece, sketched), curveName(number), number});
+        own.figures = figuresOf(*piece, sketched);
         if (const auto& wanted = owners.ofPiece[static_cast<std::size_t>(piece->piece)])
           own.direction = PieceDirection{static_cast<int>(wanted->mark), wanted->isTurned};
       }
-      if (const ImportedLine* imported = importedLineOf(line, recipe.imports)) takeName(imported->name, curve);
+      if (const ImportedLine* imported = importedLineOf(line, recipe.imports)) {
+        takeName(imported->name, curve);
+        curve.isImported = true;
+      }
       curve.id = "curve-" + std::to_string(lowest) + (sketched ? "-sketched" : "");
       if (const auto start = owners.startOfContour.find(contour); start != owners.startOfContour.end())
         curve.startMm = output.frame.pointToModel(recipe.starts[start->second].positionPx);
@@ -111,6 +131,8 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
   document.imageSha256 = scan.fileHash.hex();
   document.title = std::filesystem::path(scan.path).filename().string();
   if (document.title.empty() && !recipe.imports.empty()) document.title = recipe.imports.front().source;
+  for (const Parameter& parameter : parameterTable())
+    if (!parameter.isForDisplay) document.settings.emplace_back(parameter.name, parameter.get(recipe));
   if (!output.faired || !output.pieces || !output.contours) return document;
   if (which != ExportedCurves::Faired) addCurves(output, recipe, true, document);
   if (which != ExportedCurves::Sketched) addCurves(output, recipe, false, document);

@@ -4,8 +4,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
 
 #include "core/base/conventions.h"
+#include "core/base/number_text.h"
+#include "core/exchange/point_file.h"
 
 namespace batten {
 namespace {
@@ -68,6 +73,50 @@ AddedImport withImport(Recipe recipe, ImportedFile file, const PageFrame& frame)
   if (isOutside) move(file, 0.5 * (low + high) - box.center());
   recipe.imports.push_back(std::move(file));
   return {std::move(recipe), isOutside};
+}
+
+std::optional<double> millimetresOfImport(const ImportedFile& file) {
+  constexpr double kPxPerInchOfSvg = 96.0;
+  constexpr std::string_view kMillimetres = " mm";
+  std::string_view unit = file.unit;
+  if (unit.ends_with('?')) unit.remove_suffix(1);
+  if (unit == "px") return kMillimetresPerInch / kPxPerInchOfSvg;
+  if (unit == "ft") return 12.0 * kMillimetresPerInch;
+  if (const auto known = millimetresOfUnit(unit)) return known;
+  if (!unit.ends_with(kMillimetres)) return std::nullopt;
+  unit.remove_suffix(kMillimetres.size());
+  const auto count = numberFromText(unit);
+  return count && *count > 0.0 ? std::optional(*count) : std::nullopt;
+}
+
+Result<Recipe> withImportUnit(Recipe recipe, std::size_t import, const std::string& unit, const PageFrame& frame) {
+  ImportedFile file = recipe.imports.at(import);
+  const auto before = millimetresOfImport(file), now = millimetresOfUnit(unit);
+  if (!before || !now)
+    return fail(ErrorCode::BadParameter, "Lengths are not known in " + unit + ". Take mm, cm, m or in.");
+  const double factor = *now / *before;
+  file.unit = unit;
+  const Eigen::Matrix2d linear = factor * Eigen::Matrix2d::Identity();
+  for (ImportedLine& line : file.lines) {
+    for (Vec2& p : line.points) p *= factor;
+    for (NurbsCurve& curve : line.curves) curve = curve.mapped(linear, Vec2::Zero());
+  }
+  if (auto wrong = validate(file)) return fail(std::move(*wrong));
+  if (recipe.page && recipe.dpi && recipe.imports.size() == 1 && recipe.penStrokes.empty()) {
+    recipe.imports.front() = std::move(file);
+    recipe.scaleLine.reset();
+    *recipe.dpi /= factor;
+    recipe.page->leftMm *= factor;
+    recipe.page->bottomMm *= factor;
+  } else {
+    const auto at = recipe.imports.begin() + static_cast<std::ptrdiff_t>(import);
+    recipe.imports.erase(at);
+    recipe = withImport(std::move(recipe), std::move(file), frame).recipe;
+    std::rotate(recipe.imports.begin() + static_cast<std::ptrdiff_t>(import), recipe.imports.end() - 1,
+                recipe.imports.end());
+  }
+  if (auto wrong = validate(recipe)) return fail(std::move(*wrong));
+  return recipe;
 }
 
 }  // namespace batten

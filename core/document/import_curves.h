@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <string>
+
 #include "core/base/page_frame.h"
+#include "core/base/result.h"
 #include "core/curve/imported_line.h"
 #include "core/pipeline/recipe/recipe.h"
 
@@ -18,5 +23,14 @@ struct AddedImport {
   bool moved = false;
 };
 AddedImport withImport(Recipe recipe, ImportedFile file, const PageFrame& frame);
+
+/// [mm] What one unit of the file was taken for. Absent if its name says nothing.
+std::optional<double> millimetresOfImport(const ImportedFile&);
+
+/// The recipe with the lines of one of its imports read in another unit: "mm", "cm", "m" or "in". They grow about the
+/// origin. A drawing that is made of this file alone keeps its picture, since its page grows with them; on the page of
+/// a scan, or beside other lines, they lie where withImport() would put them.
+/// @param frame of the page. @return BadParameter if the unit is none, or the lines would be too large.
+Result<Recipe> withImportUnit(Recipe recipe, std::size_t import, const std::string& unit, const PageFrame& frame);
 
 }  // namespace batten

@@ -15,6 +15,7 @@
 #include "core/curve/knot_operations.h"
 #include "core/exchange/cad_drawing.h"
 #include "core/exchange/export_check.h"
+#include "core/exchange/line_joining.h"
 
 namespace batten {
 namespace {
@@ -73,7 +74,8 @@ Result<std::set<std::pair<std::size_t, std::size_t>>> curvesOnTop(const ExportDo
     const double near = kOnTop * extent(*one.curve);
     const auto samples = sampleByArcLength(*one.curve, kTopSamples);
     const bool isOnTop = std::any_of(kept.begin(), kept.end(), [&](const Candidate* other) {
-      return canLieOn(samples, *other, near) && liesOn(samples, *other->curve, near);
+      return document.curves[other->line].layer == document.curves[one.line].layer && canLieOn(samples, *other, near) &&
+             liesOn(samples, *other->curve, near);
     });
     if (isOnTop)
       found.insert({one.line, one.piece});
@@ -87,6 +89,7 @@ Result<std::set<std::pair<std::size_t, std::size_t>>> curvesOnTop(const ExportDo
 Result<void> begin(ExportCurve& line) {
   if (!line.closed || !line.startMm) return {};
   const Vec2 wanted = *std::exchange(line.startMm, std::nullopt);
+  for (ExportPiece& piece : line.pieces) piece.keepsDirection = true;
   if (line.pieces.size() == 1) {
     NurbsCurve& curve = line.pieces[0].curve;
     auto turned = startedAt(curve, closestPoint(curve, wanted).u);
@@ -103,6 +106,7 @@ Result<void> begin(ExportCurve& line) {
 
 void turn(ExportPiece& piece) {
   if (piece.direction && piece.direction->isTurned) piece.curve = reversed(piece.curve);
+  piece.keepsDirection = piece.keepsDirection || piece.direction.has_value();
   piece.direction.reset();
 }
 
@@ -170,6 +174,7 @@ Result<Arrangement> arranged(const ExportDocument& document, bool joined, const 
       }
     }
   }
+  if (joined) result.document.curves = joinedLines(std::move(result.document.curves));
   return result;
 }
 

@@ -22,6 +22,7 @@ struct Chain {
   std::vector<NurbsCurve> curves;
   std::string name, layer;
   bool closed = false;
+  bool keepsDirection = false;  ///< See ExportPiece.
 };
 
 /// The parts of a curve between the knots inside it that are repeated more than `most` times.
@@ -88,6 +89,22 @@ double distanceFrom(const CadShape& shape, const NurbsCurve& curve) {
   return most;
 }
 
+/// Whether a simple shape starts where the curve does and runs its way. Arcs of DXF, IGES and 3DM run counter-clockwise
+/// and circles begin at the right, whatever the curve does.
+bool runsAs(const CadShape& shape, const NurbsCurve& curve) {
+  const double near = kMeeting * extent(curve);
+  const auto at = [&](double fraction) {
+    return (pointAt(shape, fraction) - curve.point(curve.start() + fraction * (curve.end() - curve.start()))).norm();
+  };
+  if (const auto* arc = std::get_if<CadArc>(&shape); arc != nullptr && isCircle(*arc)) {
+    const Vec2 right = arc->centre + Vec2(arc->radius, 0.0);
+    const Vec2 radius = curve.point(curve.start()) - arc->centre;
+    return (curve.point(curve.start()) - right).norm() <= near &&
+           cross(radius, curve.derivatives(curve.start(), 1)[1]) > 0.0;
+  }
+  return at(0.0) <= near && at(1.0) <= near;
+}
+
 class Builder {
  public:
   Builder(const ExportSettings& settings, CadExport& result)
@@ -123,7 +140,7 @@ class Builder {
   bool addSimple(const Chain& chain, const NurbsCurve& curve) {
     if (settings_.splinesOnly) return false;
     const auto shape = simpleShape(curve);
-    if (!shape) return false;
+    if (!shape || (chain.keepsDirection && !runsAs(*shape, curve))) return false;
     note(distanceFrom(*shape, curve), 0.0);
     push(chain, *shape);
     return true;
@@ -188,6 +205,7 @@ std::vector<Chain> chainsOf(const ExportCurve& line, const ExportSettings& setti
       const std::string name = alone && !line.name.empty() ? line.name : entityName(line, i);
       chains.push_back({{}, name, line.layer, false});
     }
+    chains.back().keepsDirection = chains.back().keepsDirection || line.pieces[i].keepsDirection;
     chains.back().curves.push_back(std::move(curve));
   }
   for (Chain& chain : chains) chain.closed = doMeet(chain.curves.back(), chain.curves.front());
@@ -222,7 +240,13 @@ ExportDocument scaled(const ExportDocument& document, double scale) {
   const Eigen::Matrix2d linear = scale * Eigen::Matrix2d::Identity();
   for (ExportCurve& curve : result.curves) {
     if (curve.strokeWidthMm) *curve.strokeWidthMm *= scale;
-    for (ExportPiece& piece : curve.pieces) piece.curve = piece.curve.mapped(linear, Vec2::Zero());
+    for (ExportPiece& piece : curve.pieces) {
+      piece.curve = piece.curve.mapped(linear, Vec2::Zero());
+      if (!piece.figures) continue;
+      PieceFigures& figures = *piece.figures;
+      for (double* length : {&figures.toleranceMm, &figures.movedMm, &figures.largestOffMm, &figures.typicalOffMm})
+        *length *= scale;
+    }
   }
   return result;
 }

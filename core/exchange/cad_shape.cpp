@@ -130,26 +130,18 @@ Result<NurbsCurve> lineCurve(const Vec2& from, const Vec2& to) {
 }
 
 Result<NurbsCurve> polylineCurve(const CadPolyline& line) {
-  std::vector<NurbsCurve> edges;
-  bool arcs = false;
-  const std::size_t n = line.vertices.size();
-  for (std::size_t i = 0; i + 1 < n + (line.closed ? 1 : 0); ++i) {
-    const Edge edge = edgeOf(line, i);
-    if ((pointAt(edge.shape, 0.0) - pointAt(edge.shape, 1.0)).norm() == 0.0) continue;  // a vertex twice
-    auto curve = curveOf(edge.shape);
-    if (!curve) return curve;
-    arcs = arcs || curve->degree() > 1;
-    edges.push_back(edge.backwards ? reversed(*curve) : std::move(*curve));
-  }
-  if (edges.empty()) return fail(ErrorCode::BadParameter, "A polyline has no length.");
-  for (NurbsCurve& edge : edges) {
+  auto edges = edgesOf(line);
+  if (!edges) return fail(edges.error());
+  if (edges->empty()) return fail(ErrorCode::BadParameter, "A polyline has no length.");
+  const bool arcs = std::any_of(edges->begin(), edges->end(), [](const NurbsCurve& edge) { return edge.degree() > 1; });
+  for (NurbsCurve& edge : *edges) {
     auto raised = elevated(edge, arcs ? 2 : 1);
     if (!raised) return raised;
     edge = std::move(*raised);
   }
   double size = 0.0;
-  for (const NurbsCurve& edge : edges) size = std::max(size, extent(edge));
-  return joinAtCorners(edges, 1e-6 * size);
+  for (const NurbsCurve& edge : *edges) size = std::max(size, extent(edge));
+  return joinAtCorners(*edges, 1e-6 * size);
 }
 
 double arcDifference(const CadArc& a, const CadArc& b) {
@@ -180,6 +172,19 @@ std::optional<CadShape> simpleShape(const NurbsCurve& curve) {
   if (!(size > 0.0)) return std::nullopt;
   if (auto line = lineOf(curve, size)) return line;
   return arcOf(curve, size);
+}
+
+Result<std::vector<NurbsCurve>> edgesOf(const CadPolyline& line) {
+  std::vector<NurbsCurve> edges;
+  const std::size_t n = line.vertices.size();
+  for (std::size_t i = 0; i + 1 < n + (line.closed ? 1 : 0); ++i) {
+    const Edge edge = edgeOf(line, i);
+    if ((pointAt(edge.shape, 0.0) - pointAt(edge.shape, 1.0)).norm() == 0.0) continue;  // a vertex twice
+    auto curve = curveOf(edge.shape);
+    if (!curve) return fail(curve.error());
+    edges.push_back(edge.backwards ? reversed(*curve) : std::move(*curve));
+  }
+  return edges;
 }
 
 Result<NurbsCurve> curveOf(const CadShape& shape) {

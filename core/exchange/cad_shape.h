@@ -63,6 +63,10 @@ std::optional<CadShape> simpleShape(const NurbsCurve&);
 /// The shape as a curve; a polyline as a chain of lines, with arcs as rational quadratics. @pre not an empty polyline.
 Result<NurbsCurve> curveOf(const CadShape&);
 
+/// The lines and arcs of a polyline in its order and direction, arcs as rational quadratics; vertices that lie on the
+/// one before are passed over, so there may be none.
+Result<std::vector<NurbsCurve>> edgesOf(const CadPolyline&);
+
 /// Largest distance of two drawings' entities at 200 equal fractions of their parameters each, in mm; a place of an arc
 /// is compared with the same place of the other, however far it was turned. CannotWrite if one drawing has other
 /// entities than the other.

@@ -57,11 +57,15 @@ std::vector<std::string_view> linesOf(std::string_view text) {
 
 }  // namespace
 
-Result<std::string> writeCsv(const ExportDocument& document, const ExportSettings& settings) {
+Result<std::string> writeCsv(const ExportDocument& document, const ExportSettings& settings,
+                             const RunContext& context) {
   if (auto problem = exportProblem(document)) return fail(std::move(*problem));
   if (auto problem = validate(settings)) return fail(std::move(*problem));
   std::string text = header(nameOf(settings.unit));
+  std::size_t done = 0;
   for (const ExportCurve& line : document.curves) {
+    if (context.isCancelled()) return cancelled();
+    context.report(static_cast<double>(done++) / static_cast<double>(document.curves.size()));
     for (std::size_t i = 0; i < line.pieces.size(); ++i) {
       const NurbsCurve curve = inFile(line.pieces[i].curve, settings);
       const double length = ArcLength(curve).total() * millimetresPer(settings.unit);
@@ -70,23 +74,30 @@ Result<std::string> writeCsv(const ExportDocument& document, const ExportSetting
       const int rows = std::max(2, static_cast<int>(std::ceil(length / settings.spacingMm - 1e-9)) + 1);
       const std::string begin = csvField(line.name.empty() ? line.id : line.name) + "," + csvField(entityName(line, i));
       const double straight = kStraightCurvature / extent(curve);
+      if (context.isCancelled()) return cancelled();
       for (const CurveSample& sample : sampleByArcLength(curve, rows)) text += row(begin, sample, straight);
     }
   }
   return text;
 }
 
-Result<double> checkCsv(std::string_view text, const ExportDocument& document, const ExportSettings& settings) {
+Result<double> checkCsv(std::string_view text, const ExportDocument& document, const ExportSettings& settings,
+                        const RunContext& context) {
   const std::vector<std::string_view> lines = linesOf(text);
   std::size_t at = 1;  // behind the names of the columns
   double most = 0.0;
+  std::size_t done = 0;
   for (const ExportCurve& line : document.curves) {
+    if (context.isCancelled()) return cancelled();
+    context.report(static_cast<double>(done++) / static_cast<double>(document.curves.size()));
     for (std::size_t i = 0; i < line.pieces.size(); ++i) {
       const NurbsCurve curve = inFile(line.pieces[i].curve, settings);
       const ArcLength length(curve);
       const std::string name = entityName(line, i);
       double last = -1.0;
       while (at < lines.size()) {
+        constexpr std::size_t kRowsBetweenLooks = 1024;
+        if (at % kRowsBetweenLooks == 0 && context.isCancelled()) return cancelled();
         const std::vector<std::string> fields = csvFields(lines[at]);
         if (fields.size() != kColumns) return readsBackOtherwise("a row of another length");
         std::array<double, 3> values{};

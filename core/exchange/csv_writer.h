@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/result.h"
+#include "core/base/run_context.h"
 #include "core/exchange/export_model.h"
 #include "core/exchange/export_settings.h"
 
@@ -13,10 +14,10 @@ namespace batten {
 /// Places along every curve for a spreadsheet: arc length, x, y, direction [degrees], curvature and radius, at equal
 /// steps of arc length of at most `settings.spacingMm`, both ends included. Units in the names of the columns, the sign
 /// convention in a line that begins with #; UTF-8, comma, dot. The radius of a straight place is empty.
-Result<std::string> writeCsv(const ExportDocument&, const ExportSettings&);
+Result<std::string> writeCsv(const ExportDocument&, const ExportSettings&, const RunContext& = {});
 
 /// The largest distance of the rows of such a file from the curves at their arc length, in mm.
-/// @return CannotWrite if it holds other curves or other rows.
-Result<double> checkCsv(std::string_view text, const ExportDocument&, const ExportSettings&);
+/// @return CannotWrite if it holds other curves or other rows, Cancelled.
+Result<double> checkCsv(std::string_view text, const ExportDocument&, const ExportSettings&, const RunContext& = {});
 
 }  // namespace batten

@@ -8,6 +8,7 @@
 #include "core/base/json_text.h"
 #include "core/curve/knot_operations.h"
 #include "core/exchange/export_check.h"
+#include "core/exchange/file_text.h"
 
 namespace batten {
 namespace {
@@ -21,6 +22,28 @@ Json pointsToJson(std::span<const Vec2> points) {
   Json list = Json::array();
   for (const Vec2& p : points) list.push_back({p.x(), p.y()});
   return list;
+}
+
+Json figuresToJson(const PieceFigures& figures) {
+  Json fairing{{"mode", figures.fairing}};
+  if (figures.target) fairing["target"] = *figures.target;
+  if (figures.toleranceMm > 0.0) {
+    fairing["tolerance_mm"] = figures.toleranceMm;
+    fairing["moved_mm"] = figures.movedMm;
+  }
+  return {{"fairing", std::move(fairing)},
+          {"deviation_mm", {{"max", figures.largestOffMm}, {"rms", figures.typicalOffMm}}}};
+}
+
+/// Where the pieces of a line meet.
+Json cornersToJson(const ExportCurve& line) {
+  Json corners = Json::array();
+  for (std::size_t i = line.closed ? 0 : 1; i < line.pieces.size() && line.pieces.size() > 1; ++i) {
+    const NurbsCurve& curve = line.pieces[i].curve;
+    const Vec2 at = curve.point(curve.start());
+    corners.push_back({at.x(), at.y()});
+  }
+  return corners;
 }
 
 Result<Json> pieceToJson(const ExportPiece& piece, const PageFrame& frame) {
@@ -41,11 +64,12 @@ Result<Json> pieceToJson(const ExportPiece& piece, const PageFrame& frame) {
     json["weights"] = Json::array();
     for (const double weight : curve.weights()) json["weights"].push_back(weight);
   }
+  if (piece.figures) json.update(figuresToJson(*piece.figures));
   return json;
 }
 
 tl::unexpected<Error> damaged(const std::string& what) {
-  return fail(ErrorCode::BadParameter, "The curve file cannot be read: " + what + ".");
+  return fail(ErrorCode::BadParameter, "The curve file cannot be read: " + withoutFullStop(what) + ".");
 }
 
 /// A whole number as large as an int, else nothing: never what is left of a larger one.
@@ -86,13 +110,14 @@ Result<ExportDocument> documentFromJson(const Json& json) {
     ExportCurve& curve = document.curves.emplace_back();
     curve.id = entry.at("id").get<std::string>();
     curve.closed = entry.at("closed").get<bool>();
+    if (entry.contains("name")) curve.name = entry.at("name").get<std::string>();
     if (entry.contains("stroke_width_mm")) {
       curve.strokeWidthMm = entry.at("stroke_width_mm").get<double>();
       if (!(*curve.strokeWidthMm > 0.0)) return damaged("a stroke width is not above 0");
     }
     for (const Json& piece : entry.at("pieces")) {
       auto made = pieceFromJson(piece);
-      if (!made) return damaged("curve " + curve.id + " is invalid (" + made.error().message + ")");
+      if (!made) return damaged("curve " + curve.id + " is invalid (" + withoutFullStop(made.error().message) + ")");
       ExportPiece& known = curve.pieces.emplace_back(ExportPiece{std::move(*made)});
       if (piece.contains("name")) known.name = piece.at("name").get<std::string>();
       if (piece.contains("number")) known.number = integerOf(piece.at("number"));
@@ -104,16 +129,20 @@ Result<ExportDocument> documentFromJson(const Json& json) {
 
 }  // namespace
 
-Result<std::string> writeCurveJson(const ExportDocument& document) {
+Result<std::string> writeCurveJson(const ExportDocument& document, const RunContext& context) {
   if (auto problem = exportProblem(document)) return fail(std::move(*problem));
-  Json json{{"format", kFormat}, {"version", kVersion}};
+  Json json{{"format", kFormat}, {"version", kVersion}, {"unit", "mm"}};
   json["image"] = {{"width", document.frame.widthPx},
                    {"height", document.frame.heightPx},
                    {"dpi", document.dpi ? Json(*document.dpi) : Json(nullptr)},
                    {"sha256", document.imageSha256}};
   json["mm_per_px"] = document.frame.mmPerPx;
+  for (const auto& [name, value] : document.settings) json["settings"][name] = value;
   Json& curves = json["curves"] = Json::array();
+  std::size_t done = 0;
   for (const ExportCurve& curve : document.curves) {
+    if (context.isCancelled()) return cancelled();
+    context.report(static_cast<double>(done++) / static_cast<double>(document.curves.size()));
     Json pieces = Json::array();
     for (const ExportPiece& piece : curve.pieces) {
       auto made = pieceToJson(piece, document.frame);
@@ -123,6 +152,8 @@ Result<std::string> writeCurveJson(const ExportDocument& document) {
     Json& entry = curves.emplace_back(Json{{"id", curve.id}, {"closed", curve.closed}});
     if (curve.closed) entry["continuity"] = continuityOf(curve.pieces);
     if (curve.strokeWidthMm) entry["stroke_width_mm"] = *curve.strokeWidthMm;
+    if (!curve.name.empty()) entry["name"] = curve.name;
+    if (curve.pieces.size() > 1) entry["corners_mm"] = cornersToJson(curve);
     entry["pieces"] = std::move(pieces);
   }
   return json.dump(1) + "\n";

@@ -11,7 +11,8 @@
 namespace batten {
 
 /// Curve JSON, "batten-curves" version 1 (see README); numbers with 17 significant digits.
-Result<std::string> writeCurveJson(const ExportDocument&);
+/// @return NoCurve if there is nothing to write, Cancelled.
+Result<std::string> writeCurveJson(const ExportDocument&, const RunContext& context = {});
 /// Reads curve JSON back: for the self-check after an export, and to compare curves. Damage and attacks end early
 /// (json_text.h); a cancel is heard.
 Result<ExportDocument> readCurveJson(std::string_view text, const RunContext& context = {});

@@ -212,16 +212,36 @@ std::optional<double> millimetresOf(int insUnits) {
       return kMillimetresPerInch;
     case 2:
       return 12.0 * kMillimetresPerInch;
+    case 3:
+      return 63360.0 * kMillimetresPerInch;  // mile
     case 4:
       return 1.0;
     case 5:
       return 10.0;
     case 6:
       return 1000.0;
+    case 7:
+      return 1e6;
+    case 8:
+      return 1e-6 * kMillimetresPerInch;
+    case 9:
+      return 1e-3 * kMillimetresPerInch;
+    case 10:
+      return 36.0 * kMillimetresPerInch;
+    case 11:
+      return 1e-7;
+    case 12:
+      return 1e-6;
     case 13:
       return 0.001;
     case 14:
       return 100.0;
+    case 15:
+      return 1e4;
+    case 16:
+      return 1e5;
+    case 21:
+      return 1200.0 / 3937.0 * 1000.0;  // foot of the surveyors of the USA
     default:
       return std::nullopt;
   }

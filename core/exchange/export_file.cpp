@@ -97,10 +97,24 @@ Result<Check> cadFile(const ExportDocument& document, const ExportSettings& sett
   return Check{std::move(*bytes), *difference, exactTolerance(document)};
 }
 
-Result<Check> svgFile(const ExportDocument& document, const ExportSettings& settings, ExportReport& report) {
-  auto svg = writeSvg(document, {toleranceOf(settings), settings.strokeWidthMm, settings.svgUnitsPerMm});
+constexpr double kWritingPart = 0.5;  ///< [-] Of the progress of an export; the rest is reading it back.
+
+/// The context of a part of the work, whose progress runs from one fraction to another.
+RunContext stretch(const RunContext& whole, double from, double to) {
+  RunContext part = whole;
+  if (whole.progress)
+    part.progress = [all = whole.progress, from, to](double fraction) { all(from + fraction * (to - from)); };
+  return part;
+}
+RunContext whileWriting(const RunContext& context) { return stretch(context, 0.0, kWritingPart); }
+RunContext whileReading(const RunContext& context) { return stretch(context, kWritingPart, 1.0); }
+
+Result<Check> svgFile(const ExportDocument& document, const ExportSettings& settings, const RunContext& context,
+                      ExportReport& report) {
+  auto svg = writeSvg(document, {toleranceOf(settings), settings.strokeWidthMm, settings.svgUnitsPerMm},
+                      whileWriting(context));
   if (!svg) return fail(svg.error());
-  const auto back = checkSvg(svg->text, document);
+  const auto back = checkSvg(svg->text, document, whileReading(context));
   if (!back) return fail(back.error());
   report.entities = back->curves;
   report.cubics = back->cubics;
@@ -109,10 +123,11 @@ Result<Check> svgFile(const ExportDocument& document, const ExportSettings& sett
   return Check{std::move(svg->text), back->largestErrorMm, kReadMargin * toleranceOf(settings)};
 }
 
-Result<Check> pdfFile(const ExportDocument& document, const ExportSettings& settings, ExportReport& report) {
-  auto pdf = writePdf(document, settings);
+Result<Check> pdfFile(const ExportDocument& document, const ExportSettings& settings, const RunContext& context,
+                      ExportReport& report) {
+  auto pdf = writePdf(document, settings, whileWriting(context));
   if (!pdf) return fail(pdf.error());
-  const auto difference = checkPdf(pdf->bytes, document);
+  const auto difference = checkPdf(pdf->bytes, document, whileReading(context));
   if (!difference) return fail(difference.error());
   report.entities = static_cast<int>(document.curves.size());
   report.cubics = pdf->cubics;
@@ -140,10 +155,10 @@ Result<double> difference(const ExportDocument& a, const ExportDocument& b) {
   return largest;
 }
 
-Result<Check> jsonFile(const ExportDocument& document, ExportReport& report) {
-  auto json = writeCurveJson(document);
+Result<Check> jsonFile(const ExportDocument& document, const RunContext& context, ExportReport& report) {
+  auto json = writeCurveJson(document, whileWriting(context));
   if (!json) return fail(json.error());
-  const auto back = readCurveJson(*json);
+  const auto back = readCurveJson(*json, whileReading(context));
   if (!back) return fail(back.error());
   const auto largest = difference(document, *back);
   if (!largest) return fail(largest.error());
@@ -152,11 +167,11 @@ Result<Check> jsonFile(const ExportDocument& document, ExportReport& report) {
 }
 
 template <class Write, class Read>
-Result<Check> tableFile(const ExportDocument& document, const ExportSettings& settings, ExportReport& report,
-                        const Write& write, const Read& read) {
-  auto text = write(document, settings);
+Result<Check> tableFile(const ExportDocument& document, const ExportSettings& settings, const RunContext& context,
+                        ExportReport& report, const Write& write, const Read& read) {
+  auto text = write(document, settings, whileWriting(context));
   if (!text) return fail(text.error());
-  const auto largest = read(*text, document, settings);
+  const auto largest = read(*text, document, settings, whileReading(context));
   if (!largest) return fail(largest.error());
   report.entities = report.curves;
   return Check{std::move(*text), *largest, exactTolerance(document)};
@@ -166,15 +181,15 @@ Result<Check> checkedFile(const ExportDocument& document, const ExportSettings& 
                           ExportReport& report) {
   switch (settings.format) {
     case ExportFormat::Svg:
-      return svgFile(scaled(document, settings.scale), settings, report);
+      return svgFile(scaled(document, settings.scale), settings, context, report);
     case ExportFormat::Pdf:
-      return pdfFile(scaled(document, settings.scale), settings, report);
+      return pdfFile(scaled(document, settings.scale), settings, context, report);
     case ExportFormat::Json:
-      return jsonFile(scaled(document, settings.scale), report);
+      return jsonFile(scaled(document, settings.scale), context, report);
     case ExportFormat::Csv:
-      return tableFile(document, settings, report, writeCsv, checkCsv);
+      return tableFile(document, settings, context, report, writeCsv, checkCsv);
     case ExportFormat::Polynomials:
-      return tableFile(document, settings, report, writePolynomials, checkPolynomials);
+      return tableFile(document, settings, context, report, writePolynomials, checkPolynomials);
     default:
       return cadFile(document, settings, context, report);
   }
@@ -259,6 +274,7 @@ Result<ExportReport> exportToFile(const ExportDocument& document, const ExportSe
 
 std::string sentenceOf(const ExportReport& report) {
   std::string text = countOf(report.curves, "curve");
+  if (report.entities > 0 && report.entities < report.curves) text += " joined into " + std::to_string(report.entities);
   if (report.vertices > 0) text += " as " + std::to_string(report.vertices) + " vertices";
   if (report.cubics > 0) text += " as " + countOf(report.cubics, "cubic");
   if (report.largestErrorMm) text += ", within " + shortNumber(*report.largestErrorMm) + " mm of the exact ones";

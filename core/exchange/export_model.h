@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/page_frame.h"
@@ -16,11 +17,21 @@ struct PieceDirection {
   int mark = 0;           ///< Of those in the recipe; the later one of a line counts.
   bool isTurned = false;  ///< The other way than the curve here.
 };
+/// How a piece was made fair, and how far it lies from what was scanned.
+struct PieceFigures {
+  std::string fairing;                            ///< Mode of fairing: "none", "target" …
+  std::optional<int> target;                      ///< Degree of the target curve, 0: the recommended one.
+  double toleranceMm = 0.0, movedMm = 0.0;        ///< What fairing was allowed, and how far it moved the curve.
+  double largestOffMm = 0.0, typicalOffMm = 0.0;  ///< Largest and rms distance of the scan's points from the curve.
+};
 struct ExportPiece {
   NurbsCurve curve;
   std::string name = {};                         ///< As the window calls it; empty: named after its line.
   std::optional<int> number = {};                ///< As the window counts it, from 1.
   std::optional<PieceDirection> direction = {};  ///< Wanted; see arrangement.h.
+  /// The user said where it starts or which way it runs: no entity may stand for it that runs otherwise.
+  bool keepsDirection = false;
+  std::optional<PieceFigures> figures = {};
 };
 /// All pieces of one line of the drawing, in order of travel; neighbouring pieces meet at corners, but for
 /// curves that a construction breaks there.
@@ -32,12 +43,14 @@ struct ExportCurve {
   std::string name = {};                     ///< Of the user's; empty: its id is its name.
   std::string layer = "Faired";              ///< Layer of CAD files and of SVG. Not empty.
   std::optional<Vec2> startMm = {};          ///< Where a closed one is wanted to begin; see arrangement.h.
+  bool isImported = false;                   ///< The order and direction of its file say nothing about what follows it.
 };
 struct ExportDocument {
   PageFrame frame;
   std::optional<double> dpi;  ///< Absent: the scale is assumed.
   std::string imageSha256;
-  std::string title;  ///< File name of the scan.
+  std::string title;                                               ///< File name of the scan.
+  std::vector<std::pair<std::string, std::string>> settings = {};  ///< All settings: name and value, as in a recipe.
   std::vector<ExportCurve> curves;
 };
 

@@ -47,6 +47,11 @@ std::string xmlText(const std::string& text) {
   return result;
 }
 
+std::string withoutFullStop(std::string sentence) {
+  if (sentence.ends_with('.')) sentence.pop_back();
+  return sentence;
+}
+
 std::string csvField(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";

@@ -19,6 +19,8 @@ std::string xmlText(const std::string& text);
 std::string csvField(const std::string& text);
 /// The fields of one line of a CSV, quotes taken off.
 std::vector<std::string> csvFields(std::string_view line);
+/// A sentence without the full stop behind it, to be set into another one.
+std::string withoutFullStop(std::string sentence);
 /// All numbers of a text; blanks and commas part them.
 std::vector<double> numbersIn(std::string_view text);
 

@@ -17,6 +17,7 @@
 #include "core/exchange/curve_json.h"
 #include "core/exchange/dxf_reader.h"
 #include "core/exchange/iges_reader.h"
+#include "core/exchange/own_svg.h"
 #include "core/exchange/point_file.h"
 #include "core/exchange/step_reader.h"
 #include "core/exchange/svg_reader.h"
@@ -72,6 +73,10 @@ class LineBuilder {
       addPoints(*polyline, entity.name);
       return;
     }
+    if (const auto* polyline = std::get_if<CadPolyline>(&entity.shape); polyline != nullptr && hasArcs(*polyline)) {
+      addEdges(*polyline, entity);
+      return;
+    }
     const auto curve = curveOf(entity.shape);
     const auto held = curve ? clamped(*curve) : Result<NurbsCurve>(tl::unexpected(curve.error()));
     if (!held) {
@@ -124,6 +129,24 @@ class LineBuilder {
     lines_.push_back(std::move(line));
   }
 
+  static bool hasArcs(const CadPolyline& line) {
+    return line.vertices.size() > 1 &&
+           std::any_of(line.vertices.begin(), line.vertices.end(), [](const CadVertex& v) { return v.bulge != 0.0; });
+  }
+  /// A polyline with arcs: a line of its own, with a corner at each vertex, where a line or an arc ends.
+  void addEdges(const CadPolyline& polyline, const CadEntity& entity) {
+    endLine();
+    const auto edges = edgesOf(polyline);
+    if (!edges || edges->empty()) {
+      ++left_;
+      return;
+    }
+    line_.name = entity.name;
+    for (const NurbsCurve& edge : *edges) line_.curves.push_back(edge.mapped(linear_, Vec2::Zero()));
+    line_.closed = polyline.closed || meet(line_.curves.back(), line_.curves.front());
+    endLine();
+  }
+
   static double sizeOf(const NurbsCurve& curve) {
     double size = 0.0;
     for (const Vec2& p : curve.controlPoints()) size = std::max(size, (p - curve.controlPoints().front()).norm());
@@ -172,6 +195,7 @@ std::string unitName(double mmPerUnit) {
   if (mmPerUnit == 10.0) return "cm";
   if (mmPerUnit == 1000.0) return "m";
   if (mmPerUnit == kMillimetresPerInch) return "in";
+  if (mmPerUnit == 12.0 * kMillimetresPerInch) return "ft";
   return numberToText(mmPerUnit) + " mm";
 }
 
@@ -185,8 +209,9 @@ double takeUnit(std::optional<double> stated, std::optional<double> asked, Impor
 
 void tellLeft(int left, ImportReport& report) {
   if (left == 0) return;
-  report.notes.push_back(std::to_string(left) + (left == 1 ? " entity" : " entities") + " of " + report.file.source +
-                         " are no curves that can be taken over, and were left out.");
+  report.notes.push_back(std::to_string(left) + (left == 1 ? " entity of " : " entities of ") + report.file.source +
+                         (left == 1 ? " is no curve that can be taken over, and was left out."
+                                    : " are no curves that can be taken over, and were left out."));
 }
 
 void takeDrawing(const CadDrawing& drawing, std::optional<double> asked, ImportReport& report) {
@@ -197,8 +222,8 @@ void takeDrawing(const CadDrawing& drawing, std::optional<double> asked, ImportR
 }
 
 /// Lines of Batten's own files; where the curves of one leave a gap it becomes two.
-void takeDocument(const ExportDocument& document, ImportReport& report) {
-  report.file.unit = "mm";
+std::vector<ImportedLine> linesOf(const ExportDocument& document) {
+  std::vector<ImportedLine> lines;
   for (const ExportCurve& curve : document.curves) {
     ImportedLine line;
     line.name = curve.name;
@@ -210,13 +235,14 @@ void takeDocument(const ExportDocument& document, ImportReport& report) {
                            !(line.curves.back().controlPoints().back() - held->controlPoints().front()).isZero(1e-9);
       if (isApart) {
         line.closed = false;
-        report.file.lines.push_back(line);
+        lines.push_back(line);
         line.curves.clear();
       }
       line.curves.push_back(*held);
     }
-    if (!line.curves.empty()) report.file.lines.push_back(std::move(line));
+    if (!line.curves.empty()) lines.push_back(std::move(line));
   }
+  return lines;
 }
 
 /// Scales all lines about the origin.
@@ -248,17 +274,45 @@ void takePoints(PointFile points, std::optional<double> asked, ImportReport& rep
   tellLeft(points.left + static_cast<int>(erased), report);
 }
 
+std::string counted(int count, const char* one, const char* more) {
+  return std::to_string(count) + " " + (count == 1 ? one : more);
+}
+
+/// The exact curves of one of Batten's own SVG files where its paths still show them, else the paths.
+void takeOwnSvg(const ExportDocument& own, SvgShapes shapes, double toleranceMm, ImportReport& report) {
+  const Vec2 origin(own.frame.leftMm, own.frame.bottomMm);
+  for (ImportedLine& line : shapes.lines) {
+    for (NurbsCurve& curve : line.curves) curve = curve.mapped(Eigen::Matrix2d::Identity(), origin);
+  }
+  OwnSvgLines lines = exactWhereUnchanged(linesOf(own), std::move(shapes.lines), toleranceMm);
+  report.file.unit = "mm";
+  report.file.lines = std::move(lines.lines);
+  if (lines.drawn > 0) {
+    report.notes.push_back(report.file.source + ": " +
+                           counted(lines.drawn, "path is not what Batten wrote and was read as it is drawn.",
+                                   "paths are not what Batten wrote and were read as they are drawn."));
+  }
+  if (lines.gone > 0) {
+    report.notes.push_back(report.file.source + ": " +
+                           counted(lines.gone, "curve of Batten is not drawn any more as it was, and was left out.",
+                                   "curves of Batten are not drawn any more as they were, and were left out."));
+  }
+}
+
 Result<void> takeSvg(const std::string& bytes, std::optional<double> asked, const RunContext& context,
                      ImportReport& report) {
-  if (bytes.find("urn:batten:curves") != std::string::npos) {
-    const auto own = readSvg(bytes);
-    if (!own) return fail(own.error());
-    takeDocument(*own, report);
-    takeUnitOf(1.0, asked, report);
-    return {};
-  }
   auto shapes = readSvgShapes(bytes, context);
   if (!shapes) return fail(shapes.error());
+  if (bytes.find("urn:batten:curves") != std::string::npos) {
+    if (const auto own = readSvg(bytes)) {
+      tellLeft(shapes->left, report);
+      takeOwnSvg(*own, std::move(*shapes), statedPathTolerance(bytes), report);
+      takeUnitOf(1.0, asked, report);
+      return {};
+    }
+    report.notes.push_back("The exact curves of Batten are no longer in " + report.file.source +
+                           ", or cannot be read; its paths were read as they are drawn.");
+  }
   report.file.lines = std::move(shapes->lines);
   report.file.unit = shapes->hasSize ? "mm" : "px?";
   if (!shapes->hasSize && !asked)
@@ -273,7 +327,8 @@ Result<void> takeJson(const std::string& bytes, std::optional<double> asked, con
   if (bytes.find("\"batten-curves\"") != std::string::npos) {
     const auto own = readCurveJson(bytes, context);
     if (!own) return fail(own.error());
-    takeDocument(*own, report);
+    report.file.lines = linesOf(*own);
+    report.file.unit = "mm";
     takeUnitOf(1.0, asked, report);
     return {};
   }

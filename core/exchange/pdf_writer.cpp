@@ -42,11 +42,15 @@ struct Page {
   std::vector<std::string> layers;
 };
 
-Result<Page> pageOf(const ExportDocument& document, const ExportSettings& settings, double unit, PdfText& pdf) {
+Result<Page> pageOf(const ExportDocument& document, const ExportSettings& settings, double unit,
+                    const RunContext& context, PdfText& pdf) {
   const std::string scale = pdfNumber(kPointsPerMm / unit);
   Page page{"q\n" + scale + " 0 0 " + scale + " 0 0 cm\n" + pdfNumber(settings.strokeWidthMm) + " w 1 J 1 j\n", {}};
   const double tolerance = settings.toleranceMm.value_or(defaultTolerance(settings));
+  std::size_t done = 0;
   for (const ExportCurve& curve : document.curves) {
+    if (context.isCancelled()) return cancelled();
+    context.report(static_cast<double>(done++) / static_cast<double>(document.curves.size()));
     if (page.layers.empty() || page.layers.back() != curve.layer) {
       if (!page.layers.empty()) page.content += "EMC\n";
       page.layers.push_back(curve.layer);
@@ -120,7 +124,7 @@ Result<std::vector<Cubics>> pathsOf(const std::string& content) {
 
 }  // namespace
 
-Result<PdfText> writePdf(const ExportDocument& document, const ExportSettings& settings) {
+Result<PdfText> writePdf(const ExportDocument& document, const ExportSettings& settings, const RunContext& context) {
   if (auto problem = exportProblem(document)) return fail(std::move(*problem));
   if (auto problem = validate(settings)) return fail(std::move(*problem));
   const double width = document.frame.lengthToModel(document.frame.widthPx) * kPointsPerMm;
@@ -129,7 +133,7 @@ Result<PdfText> writePdf(const ExportDocument& document, const ExportSettings& s
   const double left = document.frame.leftMm * kPointsPerMm / unit;
   const double bottom = document.frame.bottomMm * kPointsPerMm / unit;
   PdfText pdf;
-  const auto page = pageOf(document, settings, unit, pdf);
+  const auto page = pageOf(document, settings, unit, context, pdf);
   if (!page) return fail(page.error());
 
   constexpr std::size_t kFirstLayer = 5;  // objects: catalogue, pages, page, content, layers, information
@@ -153,7 +157,7 @@ Result<PdfText> writePdf(const ExportDocument& document, const ExportSettings& s
   return pdf;
 }
 
-Result<double> checkPdf(std::string_view bytes, const ExportDocument& document) {
+Result<double> checkPdf(std::string_view bytes, const ExportDocument& document, const RunContext& context) {
   constexpr std::string_view kBegin = "stream\n", kEnd = "\nendstream";
   const auto begin = bytes.find(kBegin), end = bytes.find(kEnd);
   if (!bytes.starts_with("%PDF-") || begin == std::string_view::npos || end == std::string_view::npos || end < begin)
@@ -163,6 +167,8 @@ Result<double> checkPdf(std::string_view bytes, const ExportDocument& document) 
   if (paths->size() != document.curves.size()) return readsBackOtherwise("another number of curves");
   double most = 0.0;
   for (std::size_t i = 0; i < paths->size(); ++i) {
+    if (context.isCancelled()) return cancelled();
+    context.report(static_cast<double>(i) / static_cast<double>(paths->size()));
     if ((*paths)[i].empty()) return readsBackOtherwise("an empty path");
     most = std::max(most, distanceFromLine((*paths)[i], document.curves[i]));
   }

@@ -132,12 +132,16 @@ std::optional<ReadSpan> spanOf(const std::vector<std::string>& fields) {
 
 }  // namespace
 
-Result<std::string> writePolynomials(const ExportDocument& document, const ExportSettings& settings) {
+Result<std::string> writePolynomials(const ExportDocument& document, const ExportSettings& settings,
+                                     const RunContext& context) {
   if (auto problem = exportProblem(document)) return fail(std::move(*problem));
   if (auto problem = validate(settings)) return fail(std::move(*problem));
   const int degree = highestDegree(document);
   std::string text = header(nameOf(settings.unit), degree);
+  std::size_t done = 0;
   for (const ExportCurve& line : document.curves) {
+    if (context.isCancelled()) return cancelled();
+    context.report(static_cast<double>(done++) / static_cast<double>(document.curves.size()));
     for (std::size_t i = 0; i < line.pieces.size(); ++i) {
       const std::string name = entityName(line, i);
       const auto curve = overArcLength(line.pieces[i].curve, settings);
@@ -151,7 +155,8 @@ Result<std::string> writePolynomials(const ExportDocument& document, const Expor
   return text;
 }
 
-Result<double> checkPolynomials(std::string_view text, const ExportDocument& document, const ExportSettings& settings) {
+Result<double> checkPolynomials(std::string_view text, const ExportDocument& document, const ExportSettings& settings,
+                                const RunContext& context) {
   std::vector<ReadSpan> spans;
   bool sawNames = false;
   while (!text.empty()) {
@@ -166,7 +171,10 @@ Result<double> checkPolynomials(std::string_view text, const ExportDocument& doc
   }
   std::size_t first = 0;
   double most = 0.0;
+  std::size_t done = 0;
   for (const ExportCurve& line : document.curves) {
+    if (context.isCancelled()) return cancelled();
+    context.report(static_cast<double>(done++) / static_cast<double>(document.curves.size()));
     for (const ExportPiece& piece : line.pieces) {
       const auto curve = overArcLength(piece.curve, settings);
       if (!curve) return fail(curve.error());

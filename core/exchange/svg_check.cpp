@@ -99,13 +99,15 @@ Result<ReadPath> pathOf(const QByteArray& data, const PageFrame& frame, double u
 
 }  // namespace
 
-Result<SvgCheck> checkSvg(std::string_view text, const ExportDocument& document) {
+Result<SvgCheck> checkSvg(std::string_view text, const ExportDocument& document, const RunContext& context) {
   auto svg = parsed(text);
   if (!svg) return fail(std::move(svg).error());
   if (svg->paths.size() != document.curves.size() || svg->curves.size() != document.curves.size())
     return readsBackOtherwise("another number of curves");
   SvgCheck check;
   for (std::size_t i = 0; i < document.curves.size(); ++i) {
+    if (context.isCancelled()) return cancelled();
+    context.report(static_cast<double>(i) / static_cast<double>(document.curves.size()));
     const ExportCurve& curve = document.curves[i];
     if (svg->curves[i].size() != curve.pieces.size())
       return readsBackOtherwise("another number of pieces in " + curve.id);

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/base/result.h"
+#include "core/base/run_context.h"
 #include "core/exchange/export_model.h"
 
 namespace batten {
@@ -15,7 +16,7 @@ struct SvgCheck {
 };
 /// Reads an SVG back and compares it with the document it was written from: as many paths, the exact B-splines of the
 /// metadata equal to the last bit, every path along its curve.
-/// @return CannotWrite if it holds something else.
-Result<SvgCheck> checkSvg(std::string_view text, const ExportDocument&);
+/// @return CannotWrite if it holds something else, Cancelled.
+Result<SvgCheck> checkSvg(std::string_view text, const ExportDocument&, const RunContext& = {});
 
 }  // namespace batten

@@ -15,7 +15,7 @@ namespace {
 constexpr double kMostPixels = 1e6;  ///< Of a side; a page beyond that is damage.
 
 tl::unexpected<Error> unreadable(const std::string& what) {
-  return fail(ErrorCode::BadParameter, "The SVG cannot be read: " + what + ".");
+  return fail(ErrorCode::BadParameter, "The SVG cannot be read: " + withoutFullStop(what) + ".");
 }
 
 /// One element of the file and its attributes.
@@ -39,7 +39,7 @@ Result<NurbsCurve> splineOfPiece(const Element& piece) {
   const auto degree = piece.number("degree");
   const std::vector<double> coordinates = piece.numbers("control-points");
   if (!degree || *degree != std::floor(*degree) || *degree < 1 || *degree > 7 || coordinates.size() % 2 != 0)
-    return unreadable("a curve of its metadata is no B-spline");
+    return fail(ErrorCode::BadParameter, "a curve of its metadata is no B-spline");
   std::vector<Vec2> points;
   for (std::size_t i = 0; i < coordinates.size(); i += 2) points.emplace_back(coordinates[i], coordinates[i + 1]);
   return NurbsCurve::make(static_cast<int>(*degree), piece.numbers("knots"), std::move(points),

@@ -245,7 +245,8 @@ class ShapesReader {
     std::vector<NurbsCurve> segments;
     for (const NurbsCurve& segment : part.segments) segments.push_back(segment.mapped(toMm.linear, toMm.offset));
     ImportedLine line;
-    line.name = text("id");
+    const std::string label = text("inkscape:label");  // as the user called it; ids are mostly made up
+    line.name = label.empty() ? text("id") : label;
     line.closed = part.closed;
     for (std::size_t i = 0; i < segments.size();) {
       std::size_t end = i + 1;

@@ -97,10 +97,13 @@ std::optional<Error> problemOf(const SvgOptions& options) {
 }
 
 /// The paths, a group for curves in a row that share a layer.
-Result<std::string> layers(const ExportDocument& document, const SvgOptions& options, SvgText& svg) {
+Result<std::string> layers(const ExportDocument& document, const SvgOptions& options, const RunContext& context,
+                           SvgText& svg) {
   std::string text;
   int count = 0;
   for (std::size_t i = 0; i < document.curves.size(); ++i) {
+    if (context.isCancelled()) return cancelled();
+    context.report(static_cast<double>(i) / static_cast<double>(document.curves.size()));
     const ExportCurve& curve = document.curves[i];
     if (i == 0 || curve.layer != document.curves[i - 1].layer) {
       if (i > 0) text += "  </g>\n";
@@ -113,14 +116,15 @@ Result<std::string> layers(const ExportDocument& document, const SvgOptions& opt
     }
     auto data = pathData(curve, document.frame, options, svg);
     if (!data) return data;
-    text += "    <path id=\"" + xmlText(curve.id) + "\" d=\"" + *data + "\"/>\n";
+    const std::string label = curve.name.empty() ? "" : "\" inkscape:label=\"" + xmlText(curve.name);
+    text += "    <path id=\"" + xmlText(curve.id) + label + "\" d=\"" + *data + "\"/>\n";
   }
   return text + "  </g>\n";
 }
 
 /// What the file is and how far its paths are off.
 std::string description(const ExportDocument& document, const SvgText& svg) {
-  return "  <title>" + xmlText(document.title) + "</title>\n  <desc>Fair curves in mm. The cubic paths lie within " +
+  return "  <title>" + xmlText(document.title) + "</title>\n  <desc>Fair curves in mm. " + kPathsLieWithin +
          fixed(svg.largestErrorMm) +
          " mm of the exact curves in the metadata; where cubics meet, the curvature jumps by at most " +
          fixedNumber(100.0 * svg.largestJump, 4) + " percent" +
@@ -131,11 +135,11 @@ std::string description(const ExportDocument& document, const SvgText& svg) {
 
 }  // namespace
 
-Result<SvgText> writeSvg(const ExportDocument& document, const SvgOptions& options) {
+Result<SvgText> writeSvg(const ExportDocument& document, const SvgOptions& options, const RunContext& context) {
   if (auto problem = exportProblem(document)) return fail(std::move(*problem));
   if (auto problem = problemOf(options)) return fail(std::move(*problem));
   SvgText svg;
-  const auto paths = layers(document, options, svg);
+  const auto paths = layers(document, options, context, svg);
   if (!paths) return fail(paths.error());
   const double width = document.frame.lengthToModel(document.frame.widthPx);
   const double height = document.frame.lengthToModel(document.frame.heightPx);

@@ -4,9 +4,13 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/base/run_context.h"
 #include "core/exchange/export_model.h"
 
 namespace batten {
+
+/// How the description begins to state the error of the paths; a number in mm follows.
+inline constexpr const char* kPathsLieWithin = "The cubic paths lie within ";
 
 struct SvgOptions {
   double toleranceMm = 0.002;  ///< [mm] > 0. Largest distance of the cubics from the exact curves.
@@ -22,7 +26,7 @@ struct SvgText {
 /// SVG in mm (width and height in mm, 1 user unit = 1 mm unless asked otherwise, y down), one <path> per curve of the
 /// drawing, a <g> per layer, cubics within the tolerance of the exact curves and with their curvatures at every joint,
 /// both errors stated in <desc>, the exact B-splines in <metadata>.
-/// @return NoCurve if there is nothing to write.
-Result<SvgText> writeSvg(const ExportDocument&, const SvgOptions&);
+/// @return NoCurve if there is nothing to write, Cancelled.
+Result<SvgText> writeSvg(const ExportDocument&, const SvgOptions&, const RunContext& = {});
 
 }  // namespace batten

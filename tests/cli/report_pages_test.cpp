@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -128,6 +129,18 @@ TEST_F(Report, PaperIsChosenAndTextIsThere) {
     EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
 }
 
+TEST_F(Report, OfAnImportItNamesTheFileTheUnitAndTheLines) {
+  std::ofstream(file("roof.csv")) << "curve,x_in,y_in\nridge,0,0\nridge,2,0.3\nridge,4,0.2\nridge,5,0\n";
+  const auto done = run("trace " + file("roof.csv") + " -o " + file("a.report.html"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  const std::string html = test::readFile(file("a.report.html"));
+  EXPECT_NE(html.find("roof.csv, unit in, 1 line: ridge"), std::string::npos) << html.substr(0, 4000);
+  EXPECT_NE(html.find("<td>imported curves</td>"), std::string::npos);
+  const auto facts = html.substr(0, html.find("<h2>"));
+  EXPECT_EQ(facts.find("set by the user"), std::string::npos) << facts;
+  EXPECT_EQ(facts.find("drawn with the pen"), std::string::npos);
+}
+
 TEST_F(Report, HtmlHoldsTheDrawingInMillimetres) {
   ASSERT_EQ(run("trace " + scene() + " --dpi 254 -o " + file("a.report.html") + " -o " + file("c.svg")).code, 0);
   const std::string html = test::readFile(file("a.report.html"));
@@ -154,6 +167,7 @@ TEST_F(Report, ADrawingTooLargeForASheetIsTiled) {
 
 TEST_F(Report, WordsAreCheckedFirst) {
   expectError("trace " + scene() + " -o " + file("a.report.pdf") + " --paper a9", 2, "--paper takes a4 or letter");
+  expectError("trace " + scene() + " -o " + file("a.svg") + " --curves \"\"", 2, "--curves names no curve");
   expectError("trace " + scene() + " -o " + file("a.report.txt"), 2, ".report.pdf");
   expectError("trace " + scene() + " -o " + file("no/a.report.pdf"), 5, "");
   EXPECT_FALSE(std::filesystem::exists(file("no")));
@@ -170,6 +184,7 @@ TEST_F(Report, TheScaleCanBeMeasured) {
   ASSERT_EQ(run("trace " + scene() + " --recipe " + file("r.json") + " -o " + file("b.svg")).code, 0);
   EXPECT_EQ(test::readFile(file("a.svg")), test::readFile(file("b.svg")));
   expectError("trace " + scene() + " --known-length 0,0,480,0,0mm -o " + file("a.svg"), 2, "--known-length takes");
+  expectError("trace " + scene() + " --known-length 0,0,480,0,12 -o " + file("a.svg"), 2, "with its unit");
   expectError("trace " + scene() + " --known-length 0,0,10,0,1in --dpi 3 -o " + file("a.svg"), 2, "Give one of them");
 }
 
@@ -199,6 +214,12 @@ TEST_F(Report, DirectionAndStartAreTheUsers) {
             1e-9);
   expectError("trace " + scene() + " --direction 1,2 -o " + file("o.json"), 2, "--direction takes X,Y,X,Y");
   expectError("trace " + scene() + " --start 1 -o " + file("o.json"), 2, "--start takes X,Y");
+  const auto missed = run("trace " + scene() + " --dpi 254 --start 1,1 --direction 2,2,9,9 -o " + file("o.json"));
+  ASSERT_EQ(missed.code, 0) << missed.err;
+  EXPECT_NE(missed.out.find("No curve lies near 1,1, where --start"), std::string::npos) << missed.out;
+  EXPECT_NE(missed.out.find("No curve lies near 2,2, where --direction"), std::string::npos) << missed.out;
+  EXPECT_EQ(run("trace " + scene() + " --start " + place + " -o " + file("o.json")).out.find("No curve lies near"),
+            std::string::npos);
   expectError("trace " + scene() + " --joined --apart -o " + file("o.json"), 2, "contradict");
 }
 

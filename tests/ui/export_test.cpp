@@ -158,7 +158,8 @@ TEST_F(Export, CurvesAreCopiedAsSvg) {
   }
   // Its size is that of the page; user units are pixels, for which Inkscape takes what it is given.
   const QRegularExpressionMatch head =
-      QRegularExpression(QStringLiteral("width=\"([0-9.]+)mm\" .*viewBox=\"0 0 ([0-9.]+) ")).match(QString::fromUtf8(svg));
+      QRegularExpression(QStringLiteral("width=\"([0-9.]+)mm\" .*viewBox=\"0 0 ([0-9.]+) "))
+          .match(QString::fromUtf8(svg));
   const double side = session().output().frame.widthPx * session().output().frame.mmPerPx;
   EXPECT_NEAR(head.captured(1).toDouble(), side, 1e-6);
   EXPECT_NEAR(head.captured(2).toDouble(), side * 96 / 25.4, 1e-6);
@@ -260,6 +261,35 @@ TEST_F(Export, EscapeStopsItAndNothingIsWritten) {
   }
   EXPECT_TRUE(wasStopped);
   EXPECT_FALSE(find<QProgressBar>("export.progress")->isVisible());
+}
+
+TEST_F(Export, AFileThatAnotherProgramChangedIsAskedAboutAgain) {
+  openPage(test::ellipsePage());
+  window_->action(ActionId::Export)->trigger();
+  ASSERT_NO_FATAL_FAILURE(chooseReceiver("laser"));
+  const QString target = folder_.filePath(QStringLiteral("ours.dxf"));
+  auto* path = find<QLineEdit>("export.path");
+  auto* result = find<QLabel>("export.result");
+  auto* button = find<QAbstractButton>("export.run");
+  path->selectAll();
+  path->insert(target);
+  const auto press = [&] {
+    result->clear();
+    EXPECT_TRUE(waitUntil([&] { return button->isEnabled(); }));
+    button->click();
+    EXPECT_TRUE(waitUntil([&] { return !result->text().isEmpty(); }));
+    return result->text();
+  };
+  EXPECT_TRUE(press().startsWith(QStringLiteral("Wrote")));
+  EXPECT_TRUE(press().startsWith(QStringLiteral("Wrote"))) << "its own file is replaced without a word";
+  QFile file(target);
+  ASSERT_TRUE(file.open(QIODevice::Append));
+  file.write("999\nedited\n");
+  file.close();
+  EXPECT_TRUE(press().contains(QStringLiteral("changed by another program"))) << result->text().toStdString();
+  EXPECT_TRUE(read(target).endsWith("edited\n"));
+  EXPECT_TRUE(press().startsWith(QStringLiteral("Wrote")));
+  EXPECT_FALSE(read(target).endsWith("edited\n"));
 }
 
 TEST_F(Export, AReportIsWrittenFromThePanel) {

@@ -4,7 +4,9 @@
 #include <QAbstractButton>
 #include <QAction>
 #include <QClipboard>
+#include <QComboBox>
 #include <QGuiApplication>
+#include <QLabel>
 #include <QMimeData>
 #include <QPdfWriter>
 #include <QStandardPaths>
@@ -52,6 +54,30 @@ TEST_F(ImportWindow, AFileOfCurvesIsADrawingOfItsOwn) {
   window_->openPath(written(QStringLiteral("bad.step"), "hello"));
   ASSERT_TRUE(waitUntil([this] { return find<QWidget>("errorStrip")->isVisible(); }));
   EXPECT_EQ(session().curves().size(), 2u);
+}
+
+TEST_F(ImportWindow, AFileWithoutAUnitIsAskedFor) {
+  window_->openPath(written(QStringLiteral("bare.dxf"),
+                            "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nA\n10\n0\n20\n0\n11\n40\n"
+                            "21\n30\n0\nENDSEC\n0\nEOF\n"));
+  ASSERT_TRUE(waitUntil([this] { return session().isBlankPage() && !session().isBusy(); }));
+  EXPECT_TRUE(window_->windowTitle().startsWith(QStringLiteral("bare.dxf"))) << window_->windowTitle().toStdString();
+  ASSERT_EQ(session().recipe().imports.at(0).unit, "mm?");
+  const auto pick = [&](const QString& unit) {
+    auto* choice = find<QComboBox>("import.unit.0");
+    choice->setCurrentText(unit);
+    emit choice->textActivated(unit);
+    EXPECT_TRUE(waitUntil([this] { return !session().isBusy(); }));
+  };
+  EXPECT_EQ(find<QComboBox>("import.unit.0")->currentText(), QStringLiteral("mm?"));
+  EXPECT_TRUE(find<QLabel>("import.note")->text().contains(QStringLiteral("states no unit")));
+  pick(QStringLiteral("in"));
+  EXPECT_EQ(session().recipe().imports.at(0).unit, "in");
+  EXPECT_NEAR(session().curves().at(0).fairedFigures.lengthMm, 1270.0, 1e-6);
+  EXPECT_FALSE(find<QLabel>("import.note")->text().contains(QStringLiteral("states no unit")));
+  actionOf("undo")->trigger();
+  ASSERT_TRUE(waitUntil([this] { return session().recipe().imports.at(0).unit == "mm?" && !session().isBusy(); }));
+  EXPECT_NEAR(session().curves().at(0).fairedFigures.lengthMm, 50.0, 1e-6);
 }
 
 TEST_F(ImportWindow, CurvesAreImportedOverTheScanAndUndone) {

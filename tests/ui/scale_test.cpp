@@ -64,6 +64,35 @@ TEST_F(TrueSize, AKnownLengthIsMeasuredOnTheDrawing) {
   ASSERT_TRUE(settle());
 }
 
+TEST_F(TrueSize, AUnitMayBeTypedOrPickedBehindTheNumber) {
+  openPage(test::ellipsePage());
+  window_->action(ActionId::ToolScale)->trigger();
+  drag({100, 200}, {500, 200});
+  auto* length = find<QLineEdit>("scale.length");
+  ASSERT_TRUE(waitUntil([&] { return length->isVisible(); }));
+  auto* unit = find<QComboBox>("scale.unit");
+  unit->setCurrentIndex(0);
+  type(length, QStringLiteral("4 in"));
+  ASSERT_TRUE(session().recipe().scaleLine);
+  EXPECT_NEAR(session().recipe().scaleLine->lengthMm, 101.6, 1e-9);
+  unit->setCurrentIndex(2);
+  EXPECT_NEAR(session().recipe().scaleLine->lengthMm, 101.6, 1e-9) << "a unit that was typed counts";
+  unit->setCurrentIndex(0);
+  type(length, QStringLiteral("12"));
+  EXPECT_NEAR(session().recipe().scaleLine->lengthMm, 12.0, 1e-9);
+  unit->setCurrentIndex(1);
+  EXPECT_NEAR(session().recipe().scaleLine->lengthMm, 120.0, 1e-9) << "the number that was typed stands";
+  EXPECT_EQ(length->text(), QStringLiteral("12.00"));
+  // What was not typed just now is shown in the other unit.
+  session().undoStack()->undo();
+  unit->setCurrentIndex(0);
+  EXPECT_NEAR(session().recipe().scaleLine->lengthMm, 12.0, 1e-9);
+  unit->setCurrentIndex(1);
+  EXPECT_NEAR(session().recipe().scaleLine->lengthMm, 12.0, 1e-9);
+  EXPECT_EQ(length->text(), QStringLiteral("1.20"));
+  ASSERT_TRUE(settle());
+}
+
 TEST_F(TrueSize, TwoClicksDoAsADragAndEscapeTakesThemBack) {
   openPage(test::ellipsePage());
   find<QAbstractButton>("scale.measure")->click();

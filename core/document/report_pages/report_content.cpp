@@ -94,6 +94,30 @@ ReportContent::CurveSection sectionOf(const TracedCurve& curve, int number) {
   return section;
 }
 
+/// "roof.dxf, in inch, 3 lines: roof, sill, door"; a unit that was assumed is said to be.
+std::string importFact(const ImportedFile& file) {
+  constexpr std::size_t kMostNames = 12;
+  const bool assumed = file.unit.ends_with('?');
+  std::string text = file.source + ", unit " + (assumed ? file.unit.substr(0, file.unit.size() - 1) : file.unit) +
+                     (assumed ? " (assumed: the file states none)" : "") + ", " + std::to_string(file.lines.size()) +
+                     (file.lines.size() == 1 ? " line" : " lines");
+  std::size_t named = 0;
+  for (const ImportedLine& line : file.lines) {
+    if (line.name.empty()) continue;
+    if (named == kMostNames) {
+      text += " …";
+      break;
+    }
+    text += (named++ == 0 ? ": " : ", ") + line.name;
+  }
+  return shownText(text);
+}
+
+std::string drawingFact(const Recipe& recipe) {
+  if (recipe.imports.empty()) return "drawn with the pen on an empty page";
+  return recipe.penStrokes.empty() ? "imported curves" : "imported curves, and lines drawn with the pen";
+}
+
 std::vector<ReportContent::Fact> factsOf(const Scan& scan, const Recipe& recipe, const PipelineOutput& output,
                                          const ReportOrigin& origin) {
   const PageFrame& frame = output.frame;
@@ -102,16 +126,18 @@ std::vector<ReportContent::Fact> factsOf(const Scan& scan, const Recipe& recipe,
   };
   std::vector<ReportContent::Fact> facts;
   if (isBlank(scan)) {
-    facts.push_back({"Drawing", "drawn with the pen on an empty page"});
+    facts.push_back({"Drawing", drawingFact(recipe)});
   } else {
     facts.push_back({"Scan", scan.info.format + ", " + std::to_string(scan.grey.width) + " \u00d7 " +
                                  std::to_string(scan.grey.height) + " px"});
     facts.push_back({"SHA-256", scan.fileHash.hex()});
   }
+  for (const ImportedFile& file : recipe.imports) facts.push_back({"Imported", importFact(file)});
   const std::string dpi = roundedText(25.4 / frame.mmPerPx, 2) + " dpi";
-  facts.push_back({"Resolution", isScaleAssumed(scan, recipe) ? dpi + ", assumed: the true size is not known"
-                                 : recipe.dpi                 ? dpi + ", set by the user"
-                                                              : dpi + ", stated by the file"});
+  facts.push_back({"Resolution", isBlank(scan)                  ? dpi + ", of the page of the drawing"
+                                 : isScaleAssumed(scan, recipe) ? dpi + ", assumed: the true size is not known"
+                                 : recipe.dpi                   ? dpi + ", set by the user"
+                                                                : dpi + ", stated by the file"});
   facts.push_back({"Page", size(frame.lengthToModel(frame.widthPx), frame.lengthToModel(frame.heightPx))});
   if (!origin.program.empty()) facts.push_back({"Made by", origin.program});
   if (!origin.date.empty()) facts.push_back({"Date", origin.date});

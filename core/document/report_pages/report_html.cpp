@@ -23,7 +23,8 @@ constexpr const char* kStyle =
     "svg{display:block;max-width:none}.row{display:flex;flex-wrap:wrap;gap:4mm}\n"
     ".key{display:inline-block;width:22px;border-top:2px solid;margin:0 5px 3px 14px}\n"
     "pre{font-size:11px;overflow-x:auto}\n"
-    "@media print{body{margin:0;padding:0;max-width:none}details{display:none}}\n";
+    "@media print{body{margin:0;padding:0;max-width:none}details{display:none}"
+    ".wide{overflow-x:visible}.wide svg{max-width:100%;height:auto}}\n";
 
 std::string decimalText(double value) { return fixedNumber(value, kFigureDecimals); }
 std::string pointText(const Vec2& p) { return decimalText(p.x()) + " " + decimalText(p.y()); }
@@ -105,9 +106,11 @@ std::string reportHtml(const ReportContent& content) {
       "content=\"width=device-width\">\n<title>" +
       xmlText(content.title) + "</title>\n<style>\n" + kStyle + "</style></head><body>\n<h1>" + xmlText(content.title) +
       "</h1>\n" + factTable(content.facts);
-  text += "<h2>Drawing, 1:1</h2>\n<p class=\"mute\">Measure the bar: printed at 100 % it is 100 mm long. " +
-          keyText(Ink::Sketched, "sketched") + keyText(Ink::Faired, "faired") + "</p>\n<div class=\"wide\">" +
-          svgText(withBar(content.drawing), "Drawing") + "</div>\n";
+  text +=
+      "<h2>Drawing, 1:1</h2>\n<p class=\"mute\">Measure the bar: printed at 100 % it is 100 mm long, "
+      "but for a drawing wider than the sheet, which is reduced to it. " +
+      keyText(Ink::Sketched, "sketched") + keyText(Ink::Faired, "faired") + "</p>\n<div class=\"wide\">" +
+      svgText(withBar(content.drawing), "Drawing") + "</div>\n";
   text +=
       "<h2>Fairness and deviations</h2>\n<p class=\"mute\">An arrow leads from the sketched to the faired curve. "
       "Variation is the integral of the squared slope of the curvature, times the cube of the length; rms, 95 % "

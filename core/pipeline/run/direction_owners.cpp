@@ -47,13 +47,19 @@ DirectionOwners assignDirections(const PieceSet& set, const Recipe& recipe) {
   for (std::size_t mark = 0; mark < recipe.directions.size(); ++mark) {
     const DirectionMark& wanted = recipe.directions[mark];
     const auto place = placeNear(set, wanted.positionPx);
-    if (!place) continue;
+    if (!place) {
+      owners.lostDirections.push_back(mark);
+      continue;
+    }
     const Vec2 way = wayAt(set.pieces[place->piece], place->point);
     owners.ofPiece[place->piece] = {mark, way.dot(wanted.towardsPx - wanted.positionPx) < 0.0};
   }
-  for (std::size_t mark = 0; mark < recipe.starts.size(); ++mark)
+  for (std::size_t mark = 0; mark < recipe.starts.size(); ++mark) {
     if (const auto place = placeNear(set, recipe.starts[mark].positionPx))
       owners.startOfContour[set.pieces[place->piece].contour] = mark;
+    else
+      owners.lostStarts.push_back(mark);
+  }
   return owners;
 }
 

@@ -16,8 +16,9 @@ struct DirectionOwners {
     std::size_t mark = 0;   ///< Index into Recipe::directions.
     bool isTurned = false;  ///< The curve is to run the other way than its piece.
   };
-  std::vector<std::optional<Direction>> ofPiece;  ///< One entry per piece.
-  std::map<int, std::size_t> startOfContour;      ///< By contour: index into Recipe::starts.
+  std::vector<std::optional<Direction>> ofPiece;        ///< One entry per piece.
+  std::map<int, std::size_t> startOfContour;            ///< By contour: index into Recipe::starts.
+  std::vector<std::size_t> lostDirections, lostStarts;  ///< Marks near which no line lies: indices into the recipe's.
 };
 
 /// Each mark belongs to the piece nearest to it within 24 px; of several for one piece, or one contour, the last

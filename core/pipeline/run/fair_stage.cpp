@@ -198,6 +198,8 @@ void fairOne(TracedCurve& curve, const Piece& piece, ContourKind kind, const Rec
   }
   curve.faired = result->curve;
   curve.fairing = std::move(result->report);
+  // Measured from the dense curve, of which a light sketched curve is a little off: what is as drawn has not moved.
+  if (curve.faired == curve.sketched) curve.fairing.maxDeviationMm = 0.0;
   curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(piece.points, frame));
 }
 

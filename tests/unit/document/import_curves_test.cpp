@@ -201,5 +201,41 @@ TEST(ImportedCurves, AnotherResolutionLeavesThemWhereTheyAre) {
   EXPECT_TRUE(coarse.faired->curves[0].faired == fine.faired->curves[0].faired);
 }
 
+TEST(ImportedCurves, TheirUnitCanBeChosenLater) {
+  ImportedFile file = roof();
+  for (ImportedLine& line : file.lines) {
+    for (Vec2& p : line.points) p += Vec2(2100, -850);
+    for (NurbsCurve& curve : line.curves) curve = curve.mapped(Eigen::Matrix2d::Identity(), Vec2(2100, -850));
+  }
+  file.unit = "mm?";
+  const Recipe assumed = drawingOf(file);
+  const auto before = run(assumed);
+  const auto inches = withImportUnit(assumed, 0, "in", before.frame);
+  ASSERT_TRUE(inches) << inches.error().message;
+  EXPECT_EQ(inches->imports[0].unit, "in");
+  const auto out = run(*inches);
+  ASSERT_EQ(out.faired->curves.size(), before.faired->curves.size());
+  EXPECT_NEAR(out.faired->curves[2].fairedFigures.lengthMm, 25.4 * before.faired->curves[2].fairedFigures.lengthMm,
+              1e-6);
+  const Vec2 px = before.frame.pointToImage(assumed.imports[0].lines[0].curves[0].point(7.0));
+  EXPECT_LT((out.frame.pointToImage(inches->imports[0].lines[0].curves[0].point(7.0)) - px).norm(), 1e-6)
+      << "marks stay where they are";
+  const auto back = withImportUnit(*inches, 0, "mm", out.frame);
+  ASSERT_TRUE(back);
+  EXPECT_NEAR(*back->dpi, *assumed.dpi, 1e-9);
+  EXPECT_FALSE(withImportUnit(assumed, 0, "ell", before.frame));
+  EXPECT_THAT(withImportUnit(drawingOf(roof()), 0, "m", before.frame).error().message, HasSubstr("100 m"));
+  // On another page the order of the imports stays.
+  Recipe two = assumed;
+  two.imports.push_back(roof());
+  const auto second = withImportUnit(two, 0, "cm", before.frame);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->imports[0].unit, "cm");
+  EXPECT_EQ(second->imports[1].source, "roof.dxf");
+  ImportedFile feet = roof();
+  feet.unit = "304.8 mm";
+  EXPECT_EQ(millimetresOfImport(feet), 304.8);
+}
+
 }  // namespace
 }  // namespace batten

@@ -2,10 +2,16 @@
 #include "core/exchange/arrangement.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cmath>
+#include <filesystem>
 #include <set>
+#include <utility>
 
 #include "core/exchange/export_file.h"
+#include "core/exchange/import_file.h"
+#include "core/exchange/occt/open_cascade.h"
 #include "core/exchange/svg_check.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
@@ -111,6 +117,102 @@ TEST(Arrangement, ClosedLinesBeginWhereTheyAreAskedTo) {
     settings.format = format;
     EXPECT_TRUE(exportedFile(document, settings));
   }
+}
+
+TEST(Arrangement, ACurveOnAnotherLayerIsNoDouble) {
+  ExportDocument document = test::exportOfAllKinds();
+  document.curves.push_back(document.curves[0]);
+  document.curves.back().id = "curve-1-sketched";
+  document.curves.back().layer = "Sketched";
+  const auto made = arranged(document, true);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->doubles, 0);
+  EXPECT_EQ(made->document.curves.size(), 7u);
+}
+
+/// The start and the direction there of the only curve of a file that holds `document`.
+std::pair<Vec2, Vec2> writtenStart(const ExportDocument& document, const char* ending) {
+  const auto path = std::filesystem::temp_directory_path() / ("batten-way" + std::to_string(getpid()) + ending);
+  ExportSettings settings;
+  settings.format = *formatOf(path);
+  const auto written = exportToFile(document, settings, path);
+  EXPECT_TRUE(written) << written.error().message;
+  const auto read = readImportFile(path);
+  EXPECT_TRUE(read) << read.error().message;
+  std::filesystem::remove(path);
+  if (!read || read->file.lines.empty()) return {};
+  const NurbsCurve& curve = read->file.lines[0].curves[0];
+  return {curve.point(curve.start()), curve.derivatives(curve.start(), 1)[1].normalized()};
+}
+
+TEST(Arrangement, ArcsAndCirclesKeepTheWayTheUserAskedFor) {
+  for (const char* ending : {".dxf", ".igs", ".step"}) {
+    if (std::string(ending) != ".dxf" && !hasOpenCascade()) continue;
+    for (const bool turned : {true, false}) {
+      ExportDocument document = test::exportOfAllKinds();
+      const NurbsCurve arc = curveOf(CadArc{{60, 50}, 12.5, 0.4, 2.1}).value();
+      document.curves = {{"arc", false, {{arc}}}};
+      document.curves[0].pieces[0].direction = PieceDirection{0, turned};
+      const double angle = turned ? 2.5 : 0.4;
+      const auto [at, way] = writtenStart(document, ending);
+      EXPECT_LT((at - (Vec2(60, 50) + 12.5 * Vec2(std::cos(angle), std::sin(angle)))).norm(), 1e-6) << ending;
+      EXPECT_GT((turned ? -1.0 : 1.0) * way.dot(Vec2(-std::sin(angle), std::cos(angle))), 0.999) << ending;
+
+      const NurbsCurve circle = curveOf(CadArc{{60, 50}, 7.25, 1.0, 2 * M_PI}).value();
+      document.curves = {{"circle", true, {{circle}}}};
+      document.curves[0].pieces[0].direction = PieceDirection{0, turned};
+      document.curves[0].startMm = Vec2(60, 58);
+      const auto [start, direction] = writtenStart(document, ending);
+      EXPECT_LT((start - Vec2(60, 57.25)).norm(), 1e-6) << ending;
+      EXPECT_GT((turned ? 1.0 : -1.0) * direction.x(), 0.999) << ending;
+    }
+  }
+}
+
+TEST(Arrangement, ArcsOfWhichNothingWasAskedStayEntitiesOfTheFormat) {
+  ExportDocument document = test::exportOfAllKinds();
+  document.curves = {{"arc", false, {{reversed(curveOf(CadArc{{60, 50}, 12.5, 0.4, 2.1}).value())}}}};
+  ExportSettings settings;
+  settings.format = ExportFormat::Dxf;
+  const auto file = exportedFile(document, settings);
+  ASSERT_TRUE(file);
+  EXPECT_NE(file->bytes.find("\nARC\n"), std::string::npos);
+}
+
+ExportCurve importedLine(const char* id, const Vec2& from, const Vec2& to) {
+  ExportCurve line{id, false, {{curveOf(CadLine{from, to}).value()}}};
+  line.isImported = true;
+  return line;
+}
+
+TEST(Arrangement, ImportedLinesAreJoinedWhateverTheirOrderAndDirection) {
+  ExportDocument document = test::exportOfAllKinds();
+  // A square whose sides come out of order, two of them backwards; a chain of two; a junction of three.
+  document.curves = {importedLine("south", {0, 0}, {10, 0}), importedLine("north", {0, 10}, {10, 10}),
+                     importedLine("west", {0, 0}, {0, 10}),  importedLine("east", {10, 0}, {10, 10}),
+                     importedLine("one", {40, 0}, {30, 0}),  importedLine("two", {40, 0}, {50, 5}),
+                     importedLine("a", {70, 0}, {80, 0}),    importedLine("b", {80, 0}, {90, 4}),
+                     importedLine("c", {80, 0}, {90, -4})};
+  const auto made = arranged(document, true);
+  ASSERT_TRUE(made);
+  const auto& lines = made->document.curves;
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_EQ(lines[0].id, "south");
+  EXPECT_TRUE(lines[0].closed);
+  ASSERT_EQ(lines[0].pieces.size(), 4u);
+  EXPECT_EQ(startOf(lines[0].pieces[0]), Vec2(0, 0));
+  EXPECT_EQ(endOf(lines[0].pieces[0]), Vec2(10, 0)) << "the first keeps its direction";
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(endOf(lines[0].pieces[i]), startOf(lines[0].pieces[(i + 1) % 4]));
+  ASSERT_EQ(lines[1].pieces.size(), 2u);
+  EXPECT_FALSE(lines[1].closed);
+  EXPECT_EQ(startOf(lines[1].pieces[0]), Vec2(50, 5)) << "before the first comes the other, turned";
+  EXPECT_EQ(endOf(lines[1].pieces[1]), Vec2(30, 0));
+  EXPECT_EQ(arranged(document, false)->document.curves.size(), 9u);
+  // A direction that was chosen counts, and what is no import stays apart.
+  document.curves[5].pieces[0].direction = PieceDirection{0, false};
+  EXPECT_EQ(startOf(arranged(document, true)->document.curves[1].pieces[0]), Vec2(30, 0));
+  for (ExportCurve& line : document.curves) line.isImported = false;
+  EXPECT_EQ(arranged(document, true)->document.curves.size(), 9u);
 }
 
 }  // namespace

@@ -120,5 +120,13 @@ TEST_F(CurveFile, SaysWhatItDoesNotRead) {
   EXPECT_EQ(readCurveFile(empty).error().code, ErrorCode::NoCurve);
 }
 
+TEST(CurveFileText, SaysOnceWhatIsWrong) {
+  const auto broken =
+      readSvg(R"(<svg xmlns:batten="urn:batten:curves:1" width="9mm" height="9mm"><batten:curves mm-per-px="0.1">)"
+              R"(<batten:curve id="a"><batten:piece degree="9"/></batten:curve></batten:curves></svg>)");
+  ASSERT_FALSE(broken);
+  EXPECT_EQ(broken.error().message, "The SVG cannot be read: a curve of its metadata is no B-spline.");
+}
+
 }  // namespace
 }  // namespace batten

@@ -122,5 +122,27 @@ TEST(CurveJson, RefusesNothingAndDamage) {
   EXPECT_EQ(writeCurveJson(document).error().code, ErrorCode::NoCurve);
 }
 
+TEST(CurveJson, SaysHowTheCurvesCameAbout) {
+  ExportDocument document = test::exportOfAllKinds();
+  document.settings = {{"fairing.mode", "target"}, {"fairing.target", "3"}};
+  document.curves[0].name = "Dach";
+  document.curves[0].pieces[0].figures = PieceFigures{"target", 3, 0.5, 0.25, 0.125, 0.0625};
+  const auto json = nlohmann::json::parse(writeCurveJson(document).value());
+  EXPECT_EQ(json["unit"], "mm");
+  EXPECT_EQ(json["settings"]["fairing.target"], "3");
+  EXPECT_EQ(json["curves"][0]["name"], "Dach");
+  const auto& piece = json["curves"][0]["pieces"][0];
+  EXPECT_EQ(piece["fairing"]["mode"], "target");
+  EXPECT_EQ(piece["fairing"]["target"], 3);
+  EXPECT_EQ(piece["fairing"]["tolerance_mm"], 0.5);
+  EXPECT_EQ(piece["fairing"]["moved_mm"], 0.25);
+  EXPECT_EQ(piece["deviation_mm"]["max"], 0.125);
+  EXPECT_EQ(piece["deviation_mm"]["rms"], 0.0625);
+  EXPECT_FALSE(json["curves"][0].contains("corners_mm"));
+  ASSERT_EQ(json["curves"][5]["corners_mm"].size(), 3u) << "of the loop";
+  EXPECT_EQ(json["curves"][5]["corners_mm"][1][0], 110.0);
+  EXPECT_EQ(readCurveJson(json.dump())->curves[0].name, "Dach");
+}
+
 }  // namespace
 }  // namespace batten

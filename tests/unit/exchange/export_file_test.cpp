@@ -246,5 +246,27 @@ TEST(Polynomials, AreTheCurve) {
   EXPECT_NEAR(checkPolynomials(*text, document, settings).value(), 1.0, 1e-9);
 }
 
+TEST(ExportFile, EveryFormatHearsACancelWhileItIsWritten) {
+  for (const ExportFormat format : {ExportFormat::Svg, ExportFormat::Json, ExportFormat::Pdf, ExportFormat::Csv,
+                                    ExportFormat::Polynomials, ExportFormat::Dxf}) {
+    ExportSettings settings;
+    settings.format = format;
+    double last = 0.0;
+    bool falls = false;
+    RunContext context;
+    context.progress = [&](double fraction) {
+      falls = falls || fraction < last;
+      last = fraction;
+      if (fraction >= 0.25) context.cancel.cancel();
+    };
+    const auto file = exportedFile(test::exportOfAllKinds(), settings, context);
+    ASSERT_FALSE(file) << static_cast<int>(format);
+    EXPECT_EQ(file.error().code, ErrorCode::Cancelled);
+    EXPECT_FALSE(falls);
+    EXPECT_GE(last, 0.25);
+    EXPECT_LT(last, 0.9) << "it stops at once";
+  }
+}
+
 }  // namespace
 }  // namespace batten

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <numbers>
 #include <random>
 
@@ -165,6 +167,122 @@ TEST_F(Import, TheUsersUnitGoesBeforeThatOfSvgAndOwnFiles) {
     EXPECT_EQ(scaled->file.unit, "cm");
     EXPECT_LE((10.0 * curvesOf(*plain)[0].controlPoints()[1] - curvesOf(*scaled)[0].controlPoints()[1]).norm(), 1e-9);
   }
+}
+
+/// An SVG of ours with the second curve's path changed by what `edit` does to its data.
+std::string editedSvg(const std::function<std::string(std::string)>& edit) {
+  ExportDocument document = test::exportOfAllKinds();
+  document.frame.leftMm = -20.0;
+  document.frame.bottomMm = 5.0;
+  std::string svg = exportedFile(document, {})->bytes;
+  const auto at = svg.find("<path id=\"curve-2\""), begin = svg.find(" d=\"", at) + 4, end = svg.find('"', begin);
+  return svg.replace(begin, end - begin, edit(svg.substr(begin, end - begin)));
+}
+
+TEST_F(Import, OwnSvgKeepsItsExactCurvesWhereThePathsStillShowThem) {
+  const ImportReport same = read("own.svg", editedSvg([](std::string data) { return data; }));
+  ASSERT_EQ(same.file.lines.size(), 6u);
+  EXPECT_TRUE(same.notes.empty());
+  EXPECT_TRUE(same.file.lines[1].curves[0] == test::severalSpans());
+  // Another program writes fewer digits; the handles stay within a thousandth of a millimetre.
+  const ImportReport rounded = read("own.svg", editedSvg([](std::string data) {
+                                      std::string result;
+                                      for (std::size_t i = 0, behind = 0; i < data.size(); ++i) {
+                                        behind = data[i] == '.' ? 1
+                                                 : behind > 0 && std::isdigit(static_cast<unsigned char>(data[i]))
+                                                     ? behind + 1
+                                                     : 0;
+                                        if (behind <= 5) result += data[i];
+                                      }
+                                      return result;
+                                    }));
+  EXPECT_TRUE(rounded.notes.empty());
+  EXPECT_TRUE(rounded.file.lines[1].curves[0] == test::severalSpans());
+}
+
+TEST_F(Import, AnEditedPathOfAnOwnSvgIsReadAsItIsDrawn) {
+  // The last place is drawn 3 mm farther to the right.
+  const std::string svg = editedSvg([](std::string data) {
+    const auto end = data.rfind(','), begin = data.rfind(' ', end) + 1;
+    return data.replace(begin, end - begin, std::to_string(std::stod(data.substr(begin, end - begin)) + 3.0));
+  });
+  const ImportReport report = read("own.svg", svg);
+  ASSERT_EQ(report.file.lines.size(), 6u);
+  const NurbsCurve& drawn = report.file.lines[1].curves.back();
+  EXPECT_LT((drawn.point(drawn.end()) - Vec2(73, 40)).norm(), 1e-5);
+  EXPECT_TRUE(report.file.lines[0].curves[0] == test::oneSpan()) << "the others stay exact";
+  ASSERT_EQ(report.notes.size(), 2u);
+  EXPECT_THAT(report.notes[0], HasSubstr("1 path is not what Batten wrote"));
+  EXPECT_THAT(report.notes[1], HasSubstr("1 curve of Batten is not drawn"));
+}
+
+TEST_F(Import, PathsAddedToAnOwnSvgOrTakenFromItCount) {
+  std::string svg = editedSvg([](std::string data) { return data; });
+  const auto at = svg.find("<path id=\"curve-2\""), end = svg.find("/>", at) + 2;
+  const ImportReport without = read("own.svg", std::string(svg).erase(at, end - at));
+  EXPECT_EQ(without.file.lines.size(), 5u);
+  ASSERT_EQ(without.notes.size(), 1u);
+  EXPECT_THAT(without.notes[0], HasSubstr("1 curve of Batten is not drawn"));
+  const ImportReport more = read("own.svg", svg.insert(at, "<path d=\"M1,1 L20,7\"/>"));
+  EXPECT_EQ(more.file.lines.size(), 7u);
+  ASSERT_EQ(more.notes.size(), 1u);
+  EXPECT_THAT(more.notes[0], HasSubstr("1 path is not what Batten wrote"));
+  // Moved as a whole by the other program.
+  const auto group = svg.find("<g id=");
+  const ImportReport moved = read("own.svg", svg.insert(group + 2, " transform=\"translate(2,0)\""));
+  EXPECT_THAT(moved.notes[0], HasSubstr("7 paths are not"));
+  EXPECT_NEAR(moved.file.lines[0].curves[0].controlPoints()[0].x(), 12.0, 1e-6);
+}
+
+TEST_F(Import, AnOwnSvgWithoutItsExactCurvesIsReadAsItIsDrawn) {
+  std::string svg = editedSvg([](std::string data) { return data; });
+  const auto at = svg.find("<metadata>"), end = svg.find("</metadata>") + 11;
+  const ImportReport report = read("own.svg", svg.erase(at, end - at));
+  EXPECT_EQ(report.file.lines.size(), 6u);
+  ASSERT_EQ(report.notes.size(), 1u);
+  EXPECT_THAT(report.notes[0], HasSubstr("read as they are drawn"));
+}
+
+TEST_F(Import, SvgKeepsTheNamesOfItsCurves) {
+  ExportDocument document = test::exportOfAllKinds();
+  document.curves[0].name = "Schürze <a>";
+  std::string svg = exportedFile(document, {})->bytes;
+  EXPECT_THAT(svg, HasSubstr("<path id=\"curve-1\" inkscape:label=\"Schürze &lt;a&gt;\" d="));
+  const auto at = svg.find("<metadata>"), end = svg.find("</metadata>") + 11;
+  EXPECT_EQ(read("own.svg", svg.erase(at, end - at)).file.lines[0].name, "Schürze <a>");
+}
+
+TEST_F(Import, TheUnitsOfADxfAreKnown) {
+  const auto length = [&](const char* unit) {
+    const ImportReport report =
+        read("u.dxf", std::string("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n") + unit +
+                          "\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nLINE\n8\n0\n10\n0\n20\n0\n11\n0.01\n21\n0\n"
+                          "0\nENDSEC\n0\nEOF\n");
+    EXPECT_TRUE(report.notes.empty()) << unit;
+    const NurbsCurve& line = report.file.lines.at(0).curves.at(0);
+    return line.point(line.end()).x();
+  };
+  EXPECT_NEAR(length("3"), 16093.44, 1e-9);
+  EXPECT_NEAR(length("7"), 10000.0, 1e-9);
+  EXPECT_NEAR(length("10"), 9.144, 1e-12);
+  EXPECT_NEAR(length("2"), 3.048, 1e-12);
+}
+
+TEST_F(Import, APolylineWithBulgesBecomesLinesAndArcs) {
+  // 10 mm to the right, half a circle to the left over (15, 5), 10 mm back, closed by a chord.
+  const std::string dxf =
+      "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\n0\n90\n4\n70\n1\n10\n0\n20\n0\n10\n10\n20\n0\n42\n1\n"
+      "10\n10\n20\n10\n10\n0\n20\n10\n0\nENDSEC\n0\nEOF\n";
+  const ImportReport report = read("slot.dxf", dxf, 1.0);
+  ASSERT_EQ(report.file.lines.size(), 1u);
+  const ImportedLine& line = report.file.lines[0];
+  EXPECT_TRUE(line.closed);
+  ASSERT_EQ(line.curves.size(), 4u);
+  EXPECT_EQ(line.curves[0].degree(), 1);
+  EXPECT_EQ(line.curves[2].degree(), 1);
+  const NurbsCurve& arc = line.curves[1];
+  EXPECT_LT((arc.point(0.5 * (arc.start() + arc.end())) - Vec2(15, 5)).norm(), 1e-12);
+  EXPECT_LT((arc.point(arc.start()) - Vec2(10, 0)).norm(), 1e-12);
 }
 
 TEST_F(Import, ReadsTablesOfPointsAsPeopleWriteThem) {

@@ -147,7 +147,7 @@ void ExportPanel::buildForm() {
 }
 
 void ExportPanel::openedAnother() {
-  lastWritten_.clear();
+  lastWritten_ = {};
   result_->clear();
   confirmReplace_ = false;
   // The folder that was chosen stays; the name is the new drawing's, or its export would replace the old one's.
@@ -162,6 +162,14 @@ void ExportPanel::showEvent(QShowEvent* event) {
   refresh();
 }
 
+QString ExportPanel::drawingName() const {
+  if (!session_.isBlankPage()) return QFileInfo(proposedFileName(session_.scanPath())).completeBaseName();
+  const auto& imports = session_.recipe().imports;
+  const QString source = imports.empty() ? QString() : QString::fromStdString(imports.front().source);
+  const QString name = QFileInfo(source).completeBaseName();
+  return name.isEmpty() ? QStringLiteral("drawing") : name;
+}
+
 void ExportPanel::suggestName() {
   const QString suffix = options_->suffix();
   if (!path_->text().isEmpty() && path_->isModified()) {
@@ -173,8 +181,7 @@ void ExportPanel::suggestName() {
     QString folder = QSettings().value(kFolderKey).toString();
     if (folder.isEmpty() && !session_.isBlankPage() && !isOfProgram(scan)) folder = folderOf(scan);
     if (folder.isEmpty() || !isUnicodePath(folder) || !QFileInfo(folder).isWritable()) folder = QDir::homePath();
-    const QString name =
-        session_.isBlankPage() ? QStringLiteral("drawing") : QFileInfo(proposedFileName(scan)).completeBaseName();
+    const QString name = drawingName();
     path_->setText(folder + QLatin1Char('/') + name + QLatin1Char('.') + suffix);
     path_->setCursorPosition(static_cast<int>(path_->text().size()));
   }
@@ -228,7 +235,7 @@ void ExportPanel::refresh() {
   report_->setReady(isReady() && size.curves > 0);
   turn_->setEnabled(session_.selectedCurve() >= 0);
   held_->setText(summary(size));
-  const bool exists = QFileInfo::exists(path_->text()) && path_->text() != lastWritten_ && confirmReplace_;
+  const bool exists = confirmReplace_ && isOfOthers(path_->text());
   export_->setText(running_ ? tr("Writing…") : exists ? tr("Replace the file") : tr("Export"));
   if (const QString reason = reasonToWait(); !reason.isEmpty()) return size_->setText(reason);
   if (size.curves == 0) return size_->setText(tr("There is no curve to export yet."));
@@ -242,6 +249,8 @@ void ExportPanel::refresh() {
   text += QLatin1Char('.');
   if (isScaleAssumed(*session_.scan(), session_.recipe()))
     text += tr(" The scale is not known: set the resolution in the Scan stage.");
+  if (settings.format == ExportFormat::Iges || settings.format == ExportFormat::Step)
+    text += tr(" The file holds curves only: if nothing shows, turn wireframe on in the other program's import.");
   size_->setText(text);
 }
 
@@ -252,6 +261,12 @@ QString ExportPanel::wantedPath() const {
   if (format && *format != options_->settings().format)
     return withoutEnding(typed) + QLatin1Char('.') + options_->suffix();
   return withSuffix(typed, options_->suffix());
+}
+
+bool ExportPanel::isOfOthers(const QString& path) const {
+  const QFileInfo now(path);
+  if (!now.exists()) return false;
+  return path != lastWritten_.path || now.size() != lastWritten_.bytes || now.lastModified() != lastWritten_.changed;
 }
 
 ExportRequest ExportPanel::request(const QString& path) const {
@@ -303,9 +318,13 @@ void ExportPanel::start() {
     path_->setText(path);
     path_->setModified(true);
   }
-  if (QFileInfo::exists(path) && path != lastWritten_ && !confirmReplace_) {
+  if (isOfOthers(path) && !confirmReplace_) {
     confirmReplace_ = true;
-    result_->setText(tr("%1 exists. Press again to replace it.").arg(QFileInfo(path).fileName()));
+    const QString name = QFileInfo(path).fileName();
+    result_->setText(
+        path == lastWritten_.path
+            ? tr("%1 was changed by another program since it was written. Press again to replace it.").arg(name)
+            : tr("%1 exists. Press again to replace it.").arg(name));
     return refresh();
   }
   ExportRequest request = this->request(path);
@@ -353,9 +372,9 @@ void ExportPanel::finish(const Result<ExportReport>& report) {
     emit failed(report.error());
     return;
   }
-  lastWritten_ = pathText(report->path);
-  result_->setText(
-      tr("Wrote %1: %2.").arg(QFileInfo(lastWritten_).fileName(), QString::fromStdString(sentenceOf(*report))));
+  const QFileInfo written(pathText(report->path));
+  lastWritten_ = {pathText(report->path), written.size(), written.lastModified()};
+  result_->setText(tr("Wrote %1: %2.").arg(written.fileName(), QString::fromStdString(sentenceOf(*report))));
   refresh();
   // A change made meanwhile is not in the file.
   emit exported(writing_ == session_.recipe());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QDateTime>
 #include <QWidget>
 #include <memory>
 #include <optional>
@@ -45,8 +46,12 @@ class ExportPanel : public QWidget {
   void buildForm();
   void refresh();
   void suggestName();
+  /// What a file of the drawing is called: after the scan, else after the first file that was imported.
+  QString drawingName() const;
   void openedAnother();
   QString wantedPath() const;
+  /// Whether a file stands there that this window did not write, or that was changed since.
+  bool isOfOthers(const QString& path) const;
   QString reasonToWait() const;
   void start();
   void finish(const Result<ExportReport>& report);
@@ -85,7 +90,13 @@ class ExportPanel : public QWidget {
   std::optional<Previewed> previewed_;
   bool confirmReplace_ = false;
   bool running_ = false;
-  QString lastWritten_;
+  /// A file as it was right after this window wrote it.
+  struct Written {
+    QString path;
+    qint64 bytes = -1;
+    QDateTime changed;
+  };
+  Written lastWritten_;
   std::shared_ptr<const FairedSet> sizeOf_;  ///< What size_ was measured of: only when it changes, and is seen.
   ExportedCurves sizeWhich_ = ExportedCurves::Faired;
   ExportSize measured_;

@@ -9,6 +9,7 @@
 #include <QHBoxLayout>
 #include <QLocale>
 #include <QPointer>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QSettings>
 #include <QVBoxLayout>
@@ -33,10 +34,19 @@ Result<void> writeReport(const PipelineOutput& output, const Recipe& recipe, con
     const ReportOrigin origin{
         (QStringLiteral("Batten ") + QCoreApplication::applicationVersion()).trimmed().toStdString(),
         QDate::currentDate().toString(Qt::ISODate).toStdString()};
-    const auto content = reportContent(scan, recipe, output, origin, context);
+    // The figures take most of the time; the pages follow.
+    constexpr double kFiguresPart = 0.8;
+    const auto stretch = [&context](double from, double to) {
+      RunContext part = context;
+      if (context.progress)
+        part.progress = [all = context.progress, from, to](double fraction) { all(from + fraction * (to - from)); };
+      return part;
+    };
+    const auto content = reportContent(scan, recipe, output, origin, stretch(0.0, kFiguresPart));
     if (!content) return fail(content.error());
     return writeReportFile(*content, kind == Html ? ReportFormat::Html : ReportFormat::Pdf,
-                           kind == PdfOnLetter ? ReportPaper::Letter : ReportPaper::A4, path, context);
+                           kind == PdfOnLetter ? ReportPaper::Letter : ReportPaper::A4, path,
+                           stretch(kFiguresPart, 1.0));
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory for the report. Leave some curves out.");
   }
@@ -49,6 +59,7 @@ ReportSection::ReportSection(EditorSession& session, QWidget* parent)
       session_(session),
       kind_(new QComboBox(this)),
       button_(plainButton(tr("Write report…"), QStringLiteral("report.write"), this)),
+      progress_(new QProgressBar(this)),
       worker_(std::make_unique<BackgroundWorker>()) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -65,6 +76,12 @@ ReportSection::ReportSection(EditorSession& session, QWidget* parent)
   row->addWidget(kind_);
   row->addWidget(button_, 1);
   layout->addLayout(row);
+  progress_->setObjectName(QStringLiteral("report.progress"));
+  progress_->setAccessibleName(tr("Progress of the report"));
+  progress_->setRange(0, 100);
+  progress_->setTextVisible(false);
+  progress_->hide();
+  layout->addWidget(progress_);
   connect(kind_, qOverload<int>(&QComboBox::currentIndexChanged), this,
           [](int kind) { QSettings().setValue(kKindKey, kind); });
   connect(button_, &QPushButton::clicked, this, &ReportSection::choose);
@@ -88,7 +105,11 @@ void ReportSection::choose() {
   if (folder.isEmpty() && !session_.isBlankPage() && !isOfProgram(scan.absoluteFilePath()))
     folder = scan.absolutePath();
   if (folder.isEmpty() || !QFileInfo(folder).isWritable()) folder = QDir::homePath();
-  const QString name = session_.isBlankPage() ? QStringLiteral("drawing") : scan.completeBaseName();
+  const auto& imports = session_.recipe().imports;
+  const QString source = session_.isBlankPage()
+                             ? imports.empty() ? QString() : QString::fromStdString(imports.front().source)
+                             : scan.fileName();
+  const QString own = QFileInfo(source).completeBaseName(), name = own.isEmpty() ? QStringLiteral("drawing") : own;
   const QString path =
       askSavePath(this, {tr("Write report"), folder + QLatin1Char('/') + name + QStringLiteral(".report.") + suffix,
                          isHtml ? tr("HTML (*.html)") : tr("PDF (*.pdf)"), suffix});
@@ -98,6 +119,8 @@ void ReportSection::choose() {
 void ReportSection::write(const QString& path) {
   if (isRunning_ || !session_.output().faired) return;
   isRunning_ = true;
+  progress_->setValue(0);
+  progress_->show();
   setReady(isReady_);
   session_.setSideWork(this, true, false);
   const Kind kind = static_cast<Kind>(kind_->currentIndex());
@@ -106,6 +129,15 @@ void ReportSection::write(const QString& path) {
        self = QPointer<ReportSection>(this)](const CancelToken& cancel) {
         RunContext context;
         context.cancel = cancel;
+        context.progress = [self](double fraction) {
+          if (!self) return;
+          QMetaObject::invokeMethod(
+              self.data(),
+              [self, fraction] {
+                if (self) self->progress_->setValue(static_cast<int>(100.0 * fraction));
+              },
+              Qt::QueuedConnection);
+        };
         const auto outcome = writeReport(output, recipe, *scan, kind, nativePath(path), context);
         if (!self) return;
         QMetaObject::invokeMethod(
@@ -120,6 +152,7 @@ void ReportSection::write(const QString& path) {
 
 void ReportSection::finish(const Result<void>& outcome, const QString& path) {
   isRunning_ = false;
+  progress_->hide();
   session_.setSideWork(this, false);
   setReady(isReady_);
   if (outcome) return emit written(tr("Wrote %1.").arg(QFileInfo(path).fileName()));

@@ -8,6 +8,7 @@
 #include "ui/session/editor_session.h"
 
 class QComboBox;
+class QProgressBar;
 class QPushButton;
 
 namespace batten {
@@ -35,6 +36,7 @@ class ReportSection : public QWidget {
   EditorSession& session_;
   QComboBox* kind_;
   QPushButton* button_;
+  QProgressBar* progress_;
   bool isReady_ = false, isRunning_ = false;
   CancelToken cancel_;
   std::unique_ptr<BackgroundWorker> worker_;

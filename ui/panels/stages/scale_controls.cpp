@@ -68,15 +68,17 @@ ScaleControls::ScaleControls(EditorSession& session, ViewSettings& view, QWidget
       note_(note({}, this)) {
   build();
   connect(measure_, &QPushButton::clicked, this, [this] { view_.setTool(Tool::Scale); });
+  connect(length_->edit(), &QLineEdit::textEdited, this, [this] { namedUnit_ = false; });
   connect(length_, &NumberField::committed, this, &ScaleControls::setLength);
   connect(unit_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int index) {
     QSettings().setValue(kScaleUnitKey, index);
-    refresh();
+    chooseUnit();
   });
   connect(paper_, qOverload<int>(&QComboBox::activated), this, &ScaleControls::choosePaper);
   connect(width_, &NumberField::committed, this, &ScaleControls::setWidth);
   connect(&view_, &ViewSettings::measureChanged, this, &ScaleControls::measureTaken);
   connect(&session_, &EditorSession::scanOpened, this, [this] {
+    typed_.reset();
     view_.setMeasure(std::nullopt);
     refresh();
   });
@@ -112,6 +114,7 @@ void ScaleControls::build() {
   length_->setRange(0.01, 100000.0);
   length_->setDecimals(2);
   length_->setStep(1.0);
+  length_->setOtherUnits([this](const QString& unit) { return lengthTypedIn(unit); });
   length_->edit()->setObjectName(QStringLiteral("scale.length"));
   length_->edit()->setAccessibleName(tr("True length of the line"));
   unit_->setObjectName(QStringLiteral("scale.unit"));
@@ -119,7 +122,8 @@ void ScaleControls::build() {
   unit_->setFixedWidth(kUnitWidth);
   unit_->addItems({tr("mm"), tr("cm"), tr("in")});
   unit_->setCurrentIndex(std::clamp(QSettings().value(kScaleUnitKey, 0).toInt(), 0, 2));
-  lengthRow_ = rowOf(tr("Is"), tr("How long the line on the drawing is in truth."), {length_, unit_}, this);
+  lengthRow_ =
+      rowOf(tr("Is"), tr("How long the line on the drawing is in truth. Type mm, cm or in."), {length_, unit_}, this);
   layout->addWidget(lengthRow_);
   note_->setObjectName(QStringLiteral("scale.note"));
   layout->addWidget(note_);
@@ -133,6 +137,22 @@ double ScaleControls::millimetresPerUnit() const {
 void ScaleControls::change(const QString& what, Recipe after) {
   view_.setMeasure(std::nullopt);
   session_.change(what, std::move(after));
+}
+
+double ScaleControls::lengthTypedIn(const QString& unit) {
+  namedUnit_ = true;
+  const double mm = unit == QLatin1String("mm")   ? 1.0
+                    : unit == QLatin1String("cm") ? kMillimetresPerCm
+                    : unit == QLatin1String("in") ? kMillimetresPerInch
+                                                  : 0.0;
+  return mm / millimetresPerUnit();
+}
+
+// Who picks the unit behind the number means the number in that unit; a length that was not typed just now stays.
+void ScaleControls::chooseUnit() {
+  const auto& known = session_.recipe().scaleLine;
+  if (typed_ && !view_.measure() && known && known->lengthMm == typed_->lengthMm) return setLength(typed_->number);
+  refresh();
 }
 
 void ScaleControls::measureTaken() {
@@ -153,6 +173,7 @@ void ScaleControls::setLength(double length) {
     return;
   }
   line.lengthMm = length * millimetresPerUnit();
+  typed_ = namedUnit_ ? std::nullopt : std::optional(Typed{length, line.lengthMm});
   Recipe after = session_.recipe();
   setScaleLine(after, line);
   if (const auto problem = validate(after)) return note_->setText(QString::fromStdString(problem->message));

@@ -28,6 +28,9 @@ class ScaleControls : public QWidget {
   void refresh();
   void measureTaken();
   void setLength(double length);
+  void chooseUnit();
+  /// How many of the chosen unit one of another makes; 0: no unit of length.
+  double lengthTypedIn(const QString& unit);
   void choosePaper(int index);
   void setWidth(double mm);
   void change(const QString& what, Recipe after);
@@ -37,6 +40,12 @@ class ScaleControls : public QWidget {
   ViewSettings& view_;
   QPushButton* measure_;
   QWidget* lengthRow_ = nullptr;
+  /// The number that was typed last, and what it was taken for.
+  struct Typed {
+    double number = 0.0, lengthMm = 0.0;
+  };
+  std::optional<Typed> typed_;
+  bool namedUnit_ = false;  ///< A unit was typed behind the number.
   NumberField* length_;
   QComboBox* unit_;
   QComboBox* paper_;

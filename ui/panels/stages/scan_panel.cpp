@@ -16,6 +16,7 @@
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
+#include "ui/panels/stages/import_units.h"
 #include "ui/panels/stages/scale_controls.h"
 #include "ui/theme/theme.h"
 
@@ -116,6 +117,10 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
   layout->addWidget(scaleNote_);
   layout->addWidget(fromFile_, 0, Qt::AlignLeft);
   layout->addWidget(new ScaleControls(session, view, this));
+  auto* units = new ImportUnits(session, this);
+  connect(units, &ImportUnits::failed, scaleNote_,
+          [this](const Error& error) { scaleNote_->setText(QString::fromStdString(error.message)); });
+  layout->addWidget(units);
   layout->addWidget(caption(tr("Tones"), this));
   layout->addWidget(new ParameterEditor(session, {"log.enabled", "log.factor"}, this));
   layout->addWidget(swatch_);
