@@ -73,11 +73,11 @@ TEST_F(ImportWindow, AFileWithoutAUnitIsAskedFor) {
   EXPECT_TRUE(find<QLabel>("import.note")->text().contains(QStringLiteral("states no unit")));
   pick(QStringLiteral("in"));
   EXPECT_EQ(session().recipe().imports.at(0).unit, "in");
-  EXPECT_NEAR(session().curves().at(0).fairedFigures.lengthMm, 1270.0, 1e-6);
+  EXPECT_NEAR(session().curves()[0].fairedFigures.lengthMm, 1270.0, 1e-6);
   EXPECT_FALSE(find<QLabel>("import.note")->text().contains(QStringLiteral("states no unit")));
   actionOf("undo")->trigger();
   ASSERT_TRUE(waitUntil([this] { return session().recipe().imports.at(0).unit == "mm?" && !session().isBusy(); }));
-  EXPECT_NEAR(session().curves().at(0).fairedFigures.lengthMm, 50.0, 1e-6);
+  EXPECT_NEAR(session().curves()[0].fairedFigures.lengthMm, 50.0, 1e-6);
 }
 
 TEST_F(ImportWindow, CurvesAreImportedOverTheScanAndUndone) {
