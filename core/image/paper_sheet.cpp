@@ -208,6 +208,9 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
     cv::meanStdDev(cells.colour, mean, spread, patch);
     const double roughness = cv::mean(cells.rough, patch)[0];
     const cv::Scalar sheetMean = cv::mean(cells.colour, sheet);
+    // Even paper that is brighter than what it encloses: that is a drawn solid, and no dark sheet on a table.
+    const bool isPaper = mean[0] >= level + kSheetContrast && roughness <= kMostRoughness;
+    if (isPaper) continue;
     const double apart =
         std::max({std::fabs(mean[0] - level), std::fabs(mean[1] - sheetMean[1]), std::fabs(mean[2] - sheetMean[2])});
     if (apart >= kSheetContrast || roughness > kMostRoughness) beside.setTo(255, patch);

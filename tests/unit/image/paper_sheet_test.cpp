@@ -95,6 +95,14 @@ TEST(PaperSheet, KnowsItsCorners) {
   EXPECT_NEAR(sheet->outsideShare, 1.0 - 640.0 * 480.0 / (kPhotoWidth * kPhotoHeight), 0.06);
 }
 
+TEST(PaperSheet, ADarkSolidOnPaperIsNone) {
+  const auto solid = photo([](double x, double y) -> PhotoPixel {
+    const double u = std::fabs(x - 410.0) / 380.0, v = std::fabs(y - 320.0) / 290.0;
+    return {std::pow(u, 4.0) + std::pow(v, 4.0) < 1.0 ? 40.0 : 235.0, 1.5};
+  });
+  EXPECT_FALSE(sheetOf(solid).has_value());
+}
+
 TEST(PaperSheet, TinyPicturesHaveNone) {
   for (const auto& [width, height] : {std::pair(1, 1), std::pair(400, 1), std::pair(1, 400), std::pair(79, 79)})
     EXPECT_FALSE(findPaperSheet(GreyImage(width, height), {}, {})) << width << " x " << height;
