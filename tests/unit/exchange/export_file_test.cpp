@@ -246,7 +246,7 @@ TEST(Polynomials, AreTheCurve) {
   EXPECT_NEAR(checkPolynomials(*text, document, settings).value(), 1.0, 1e-9);
 }
 
-TEST(ExportFile, EveryFormatHearsACancelWhileItIsWritten) {
+TEST_F(ExportFile, EveryFormatHearsACancelWhileItIsWritten) {
   for (const ExportFormat format : {ExportFormat::Svg, ExportFormat::Json, ExportFormat::Pdf, ExportFormat::Csv,
                                     ExportFormat::Polynomials, ExportFormat::Dxf}) {
     ExportSettings settings;
