@@ -96,6 +96,15 @@ class Entity {
     const auto found = find(code);
     return found == tags_.end() ? std::string() : plainText(found->value);
   }
+  /// The name that Batten wrote behind its mark; the texts of other programs are none.
+  std::string name() const {
+    constexpr int kApplication = 1001, kText = 1000;
+    const auto own = std::find_if(tags_.begin(), tags_.end(),
+                                  [](const Tag& tag) { return tag.code == kApplication && tag.value == "BATTEN"; });
+    return own != tags_.end() && std::next(own) != tags_.end() && std::next(own)->code == kText
+               ? plainText(std::next(own)->value)
+               : std::string();
+  }
   /// The first number of the code; `absent` if there is none; nothing if it is no number.
   std::optional<double> real(int code, std::optional<double> absent = {}) const {
     const auto found = find(code);
@@ -314,13 +323,13 @@ class Reader {
       ++drawing_.left;
       return;
     }
-    drawing_.entities.push_back({entity.textOf(1000), entity.textOf(8), std::move(*shape)});
+    drawing_.entities.push_back({entity.name(), entity.textOf(8), std::move(*shape)});
   }
 
   void beginPolyline(const Entity& entity) {
     constexpr int kMeshes = 16 | 64;
     const auto flags = entity.whole(70, 0);
-    polyline_ = CadEntity{entity.textOf(1000), entity.textOf(8), CadPolyline{{}, flags && (*flags & 1) != 0}};
+    polyline_ = CadEntity{entity.name(), entity.textOf(8), CadPolyline{{}, flags && (*flags & 1) != 0}};
     polylineIsWrong_ = !flags || (*flags & kMeshes) != 0 || entity.isMirrored();
   }
   void vertex(const Entity& entity) {

@@ -84,6 +84,18 @@ void addPart(FairingReport& sum, const FairingReport& one) {
   sum.noiseMm = std::max(sum.noiseMm, one.noiseMm);
 }
 
+/// The degree that all parts but the straight ones followed; 0: there is none.
+int commonDegree(const std::vector<CornerSection>& sections, const std::vector<FairedCurve>& parts) {
+  std::optional<int> common;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (sections[i].isStraight) continue;
+    const int degree = parts[i].report.targetDegree;
+    if (common && *common != degree) return 0;
+    common = degree;
+  }
+  return common.value_or(0);
+}
+
 /// The parts as one curve again, with what they report.
 Result<FairedCurve> joinedParts(const NurbsCurve& whole, bool closed, const std::vector<CornerSection>& sections,
                                 std::vector<FairedCurve> parts) {
@@ -93,6 +105,9 @@ Result<FairedCurve> joinedParts(const NurbsCurve& whole, bool closed, const std:
   std::vector<NurbsCurve> curves;
   for (FairedCurve& part : parts) {
     addPart(result.report, part.report);
+    const CornerSection& section = sections[curves.size()];
+    if (section.span.from > 0.0) result.report.targetSplits.push_back(section.span.from);
+    for (const double f : part.report.targetSplits) result.report.targetSplits.push_back(across(section.span, f));
     for (LogAestheticSpan span : part.report.logAesthetic) {
       span.from = across(spans[curves.size()], span.from);
       span.to = across(spans[curves.size()], span.to);
@@ -103,6 +118,7 @@ Result<FairedCurve> joinedParts(const NurbsCurve& whole, bool closed, const std:
   auto joined = joinAtCorners(curves, kJoins * extent(whole));
   if (!joined) return fail(joined.error());
   result.curve = std::move(*joined);
+  result.report.targetDegree = commonDegree(sections, parts);
   result.report.extremaBefore = countedExtrema(whole, closed);
   result.report.extremaAfter = countedExtrema(result.curve, closed);
   if (result.report.extremaAfter <= result.report.extremaBefore) return result;

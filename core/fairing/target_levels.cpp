@@ -81,6 +81,11 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
     if (!profile.valid) return unchanged(curve, closed, Termination::Degenerate, profile.problem);
   }
   return withSetup(curve, closed, params, [&](const auto& setup, const FairingParams& within) -> Result<FairedCurve> {
+    const auto followed = [&](LevelOutcome&& outcome, int degree) {
+      outcome.faired.report.targetDegree = degree;
+      outcome.faired.report.targetSplits = levels[outcome.level].splits;
+      return std::move(outcome.faired);
+    };
     const auto toDegree = [&](int degree, std::span<const TargetLevel> over,
                               bool onlyIfMet = false) -> Result<LevelOutcome> {
       return fairOverLevels(setup, over, degree, within.toleranceMm, context, onlyIfMet);
@@ -93,20 +98,22 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
         auto outcome = toDegree(tried, levels);
         if (!outcome) return fail(outcome.error());
         const double s = outcome->faired.report.similarityAfter.value_or(-1.0);
-        if (!best || s > best->faired.report.similarityAfter.value_or(-1.0)) best = std::move(*outcome);
+        if (best && s <= best->faired.report.similarityAfter.value_or(-1.0)) continue;
+        best = std::move(*outcome);
+        degree = tried;
       }
-      if (best) return std::move(best->faired);
+      if (best) return followed(std::move(*best), degree);
     }
     for (int tried = 1; tried <= 6 && degree == 0; ++tried) {
       if (!first.profiles[static_cast<std::size_t>(tried) - 1].valid) continue;
       auto outcome = toDegree(tried, std::span(levels).first(1), true);
       if (!outcome) return fail(outcome.error());
-      if (outcome->isMet()) return std::move(outcome->faired);
+      if (outcome->isMet()) return followed(std::move(*outcome), tried);
     }
     if (degree == 0) degree = first.recommendedDegree;
     auto outcome = toDegree(degree, levels);
     if (!outcome) return fail(outcome.error());
-    return std::move(outcome->faired);
+    return followed(std::move(*outcome), degree);
   });
 }
 

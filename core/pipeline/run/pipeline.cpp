@@ -296,6 +296,17 @@ int curveNumber(const PipelineOutput& output, const TracedCurve& curve) {
   return isKnown ? output.numbers->ofPiece[curve.piece] : curve.piece + 1;
 }
 
+std::string ownNameOfCurve(const PipelineOutput& output, const Recipe& recipe, const TracedCurve& curve) {
+  if (!output.pieces || !output.contours || curve.piece < 0 || curve.piece >= std::ssize(output.pieces->pieces))
+    return {};
+  return importedNameOf(*output.pieces, static_cast<std::size_t>(curve.piece), *output.contours, recipe.imports);
+}
+
+std::string nameOfCurve(const PipelineOutput& output, const Recipe& recipe, const TracedCurve& curve) {
+  std::string own = ownNameOfCurve(output, recipe, curve);
+  return own.empty() ? curveName(curveNumber(output, curve)) : own;
+}
+
 PageFrame frameFor(const Scan& scan, const Recipe& recipe) {
   PageFrame frame = pageFrame(scan, recipe.dpi ? recipe.dpi : scan.dpi);
   if (recipe.page) {

@@ -11,6 +11,7 @@
 #include "core/base/conventions.h"
 #include "ui/session/curve_names.h"
 #include "ui/session/judged_view.h"
+#include "ui/session/page_text.h"
 #include "ui/session/piece_choice.h"
 
 namespace batten {
@@ -110,10 +111,7 @@ QString pageText(const CanvasScene& scene) {
   const Recipe& recipe = scene.session.recipe();
   if (isScaleAssumed(*scan, recipe)) return chipText("no scale: assumed %1 dpi").arg(number(kAssumedDpi, 0));
   const PageFrame frame = frameFor(*scan, recipe);
-  const QString size = QStringLiteral("%1 × %2 mm")
-                           .arg(number(frame.widthPx * frame.mmPerPx, 0), number(frame.heightPx * frame.mmPerPx, 0));
-  const double dpi = kMillimetresPerInch / frame.mmPerPx;
-  const QString value = number(dpi, std::abs(dpi - std::round(dpi)) < 0.05 ? 0 : 1);
+  const QString size = pageSizeText(frame), value = resolutionText(kMillimetresPerInch / frame.mmPerPx);
   if (scene.session.isBlankPage()) return chipText("empty page, %1 dpi · %2").arg(value, size);
   return (recipe.dpi ? chipText("%1 dpi set by hand · %2") : chipText("%1 dpi from file · %2")).arg(value, size);
 }

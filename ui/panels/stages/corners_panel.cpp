@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/stages/corners_panel.h"
 
+#include <QCoreApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -32,6 +33,15 @@ constexpr int kRows = 6;  // of the lists
 constexpr double kLeastScalePx = 6.0, kLargestScalePx = 60.0;
 
 QString place(const Vec2& px) { return QStringLiteral("%1, %2").arg(px.x(), 0, 'f', 1).arg(px.y(), 0, 'f', 1); }
+
+/// "   rounded 2 mm", "   rounded R 2 mm"; empty for a sharp corner.
+QString roundingOf(const CornerMark& mark) {
+  if (!(mark.roundMm > 0.0)) return {};
+  const QString mm = shortMillimetres(mark.roundMm);
+  return QStringLiteral("   ") + (mark.roundBy == RoundingSize::Radius
+                                      ? QCoreApplication::translate("CornersPanel", "rounded R %1").arg(mm)
+                                      : QCoreApplication::translate("CornersPanel", "rounded %1").arg(mm));
+}
 
 QString degrees(double rad) { return QStringLiteral("%1°").arg(std::abs(rad) * 180.0 / std::numbers::pi, 0, 'f', 0); }
 
@@ -216,8 +226,8 @@ void CornersPanel::refreshMarks() {
       lost =
           std::find(pieces->lostMarks.begin(), pieces->lostMarks.end(), static_cast<int>(i)) != pieces->lostMarks.end();
     }
-    auto* item =
-        new QListWidgetItem(tr("%1   px %2%3").arg(i + 1).arg(what, lost ? tr("   no line here") : angle), marks_);
+    auto* item = new QListWidgetItem(
+        tr("%1   px %2%3").arg(i + 1).arg(what, lost ? tr("   no line here") : angle + roundingOf(marks[i])), marks_);
     item->setFont(uiFont(12));
     if (lost) item->setForeground(theme.bad);
     item->setToolTip(
@@ -300,7 +310,7 @@ void CornersPanel::showSuggestions() {
     item->setFont(uiFont(12));
   }
   suggestedNote_->setText(suggestions_.empty()
-                              ? tr("No further place turns that sharply.")
+                              ? QString()  // the empty list says so, and the note keeps its place
                               : counted(static_cast<qint64>(suggestions_.size()),
                                         tr("1 place could be a corner. It is used only when you mark it."),
                                         tr("%1 places could be corners. None is used until you mark it.")));

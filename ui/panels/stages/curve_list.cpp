@@ -18,6 +18,7 @@ namespace {
 constexpr int kCurveRow = 26;
 constexpr int kEyeWidth = 26;
 constexpr int kIconSize = 14;
+constexpr int kApart = 8;  ///< Between a name, which may be cut, and its figures.
 enum Role { IncludedRole = Qt::UserRole, FiguresRole, WarnsRole };
 
 class CurveDelegate : public QStyledItemDelegate {
@@ -40,14 +41,18 @@ class CurveDelegate : public QStyledItemDelegate {
     eye.paint(painter, iconBox(option, 6));
     painter->setFont(uiFont(12));
     painter->setPen(included ? theme.text : theme.mute);
-    const QString name = index.data().toString();
+    const QString figures = index.data(FiguresRole).toString();
+    const int sign = index.data(WarnsRole).toBool() ? kIconSize + 6 : 0;
+    const int room = static_cast<int>(box.width()) - kEyeWidth - sign - kApart - 6 -
+                     painter->fontMetrics().horizontalAdvance(figures);
+    const QString name = painter->fontMetrics().elidedText(index.data().toString(), Qt::ElideRight, room);
     painter->drawText(box.adjusted(kEyeWidth, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, name);
     if (index.data(WarnsRole).toBool()) {
       const int after = kEyeWidth + painter->fontMetrics().horizontalAdvance(name) + 6;
       themedIcon(QStringLiteral("warning"), option.palette).paint(painter, iconBox(option, after));
     }
     painter->setPen(theme.mute);
-    painter->drawText(box.adjusted(0, 0, -6, 0), Qt::AlignVCenter | Qt::AlignRight, index.data(FiguresRole).toString());
+    painter->drawText(box.adjusted(0, 0, -6, 0), Qt::AlignVCenter | Qt::AlignRight, figures);
     painter->restore();
   }
 
@@ -107,7 +112,7 @@ void CurveList::refresh() {
     const QString warning = curve.included ? QString::fromStdString(curve.construct.note) : QString();
     item(i)->setData(WarnsRole, !warning.isEmpty());
     QStringList said;
-    for (const QString& one : {whyStill, warning})
+    for (const QString& one : {curveOrigin(session_, i), whyStill, warning})
       if (!one.isEmpty()) said << one;
     item(i)->setData(Qt::ToolTipRole, said.isEmpty() ? QVariant() : said.join(QLatin1Char('\n')));
     item(i)->setData(Qt::AccessibleTextRole,

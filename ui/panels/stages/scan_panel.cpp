@@ -18,6 +18,7 @@
 #include "ui/panels/controls/parameter_editor.h"
 #include "ui/panels/stages/import_units.h"
 #include "ui/panels/stages/scale_controls.h"
+#include "ui/session/page_text.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -275,9 +276,7 @@ void ScanPanel::refresh() {
   const Scan& scan = *session_.scan();
   const PageFrame frame = frameFor(scan, session_.recipe());
   const QString size = QStringLiteral("%1 × %2").arg(grouped(frame.widthPx), grouped(frame.heightPx));
-  const QString paper = QStringLiteral("%1 × %2 mm")
-                            .arg(frame.widthPx * frame.mmPerPx, 0, 'f', 1)
-                            .arg(frame.heightPx * frame.mmPerPx, 0, 'f', 1);
+  const QString paper = pageSizeText(frame);
   const bool assumed = isScaleAssumed(scan, session_.recipe());
   const QString depth = tr("%1, %2 bit").arg(QString::fromStdString(scan.info.format)).arg(scan.info.bitsPerChannel);
   facts_->setRows(
@@ -285,14 +284,15 @@ void ScanPanel::refresh() {
        {tr("Size, px"), {{size}}, tr("Width and height of the upright picture.")},
        {tr("Size, mm"), {{assumed ? tr("not known yet") : paper, assumed}}, tr("What the resolution makes of it.")}});
   const auto own = session_.recipe().dpi;
-  if (own)
-    dpi_->setValue(*own);
-  else if (scan.dpi)
-    dpi_->setValue(*scan.dpi);
-  else
+  if (const auto stated = own ? own : scan.dpi) {
+    dpi_->setDecimals(resolutionText(*stated).contains(QLatin1Char('.')) ? 1 : 0);
+    dpi_->setValue(*stated);
+  } else {
     dpi_->setEmpty(QStringLiteral("–"));
+  }
   fromFile_->setVisible(own.has_value());
-  fromFile_->setText(scan.dpi ? tr("Use the file's %1 dpi").arg(*scan.dpi, 0, 'f', 0) : tr("Forget this resolution"));
+  fromFile_->setText(scan.dpi ? tr("Use the file's %1 dpi").arg(resolutionText(*scan.dpi))
+                              : tr("Forget this resolution"));
   if (assumed)
     scaleNote_->setText(
         tr("The file states no resolution. Type the scanner's dpi, or lengths are only right up to a factor "

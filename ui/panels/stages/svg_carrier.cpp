@@ -31,7 +31,7 @@ std::unique_ptr<QMimeData> pictureOf(const QByteArray& svg) {
 
 Result<ExportedFile> svgOf(const ExportRequest& request, std::optional<int> number, const RunContext& context) {
   try {
-    ExportDocument document = exportDocument(request.output, request.recipe, *request.scan, request.which);
+    ExportDocument document = documentOf(request);
     if (number) {
       auto one = chosenCurves(document, std::to_string(*number));
       if (!one) return fail(one.error());
