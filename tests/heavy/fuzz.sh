@@ -28,7 +28,8 @@ export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 UBSAN_OPTIONS=hal
 build/fuzz/bin/fuzz_seeds "$work"
 for target in "${targets[@]}"; do
   limits=(-max_total_time="$seconds" -timeout=10)
-  [ "$target" = fuzz_parameters ] && limits=(-runs="$sets" -timeout=60 -max_len=32)
+  # Under sanitizers and coverage a set is twenty times as slow: five seconds of a long Bézier path become a minute and more.
+  [ "$target" = fuzz_parameters ] && limits=(-runs="$sets" -timeout=300 -max_len=32)
   echo "== $target"
   if ! "build/fuzz/bin/$target" -seed=1 -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="build/fuzz/$target-" \
     "${limits[@]}" "$work/$target" >"build/fuzz/$target.log" 2>&1; then
