@@ -110,15 +110,15 @@ void printEach(const test::StrokeDrawing& drawing, const char* way, const test::
   std::fflush(stdout);
 }
 
-struct Options {
+struct StrokeOptions {
   Recipe recipe;
   bool each = false;
   int folds = 0;
   std::string only;
 };
 
-std::optional<Options> optionsOf(int argc, char** argv) {
-  Options options;
+std::optional<StrokeOptions> optionsOf(int argc, char** argv) {
+  StrokeOptions options;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     const std::size_t equals = word.find('=');
@@ -158,7 +158,7 @@ std::vector<test::StrokeDrawing> drawingsOf(const fs::path& folder, const std::s
 
 // Grouped with weights that were not learned from the drawing itself, before the curves are fitted.
 void printCrossValidated(const std::vector<test::StrokeDrawing>& drawings, const std::vector<Scan>& scans,
-                         const std::vector<test::StrokeJudge>& judges, const Options& options) {
+                         const std::vector<test::StrokeJudge>& judges, const StrokeOptions& options) {
   std::vector<test::LearningPage> pages;
   for (std::size_t i = 0; i < drawings.size(); ++i) {
     Recipe recipe = options.recipe;

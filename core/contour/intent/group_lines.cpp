@@ -19,12 +19,14 @@ namespace batten {
 namespace {
 
 // In stroke widths.
-constexpr double kBandShare = 0.95;  // of the strokes' samples lie within the reach of the band
+constexpr double kReachShare = 0.95;  // of the strokes' samples lie within the reach of the band
 constexpr double kBandMargin = 1.0;
 constexpr double kClosing = 3.0;     // ends as near as this, and the spread, close a line
 constexpr double kClosingCos = 0.5;  // 60 degrees
 constexpr double kShortestRing = 15.0;
-constexpr double kExplainedNear = 2.2, kExplainedAlong = 4.5, kExplainedCos = 0.85, kExplainedNearCos = 0.5;
+// What runs within the bundle of a longer line is of it; a lone line has no bundle.
+constexpr double kExplainedNear = 1.5, kExplainedAlong = 4.5, kExplainedSpreads = 1.5, kExplainedCos = 0.85,
+                 kExplainedNearCos = 0.5;
 constexpr double kUnexplained = 3.0, kUnexplainedShare = 0.35;
 
 // A line made of one mean.
@@ -91,7 +93,7 @@ class MeanDrawer {
         across.push_back(std::abs(cross(mean.strip.tangent[i], Vec2(strip.at[k] - mean.strip.at[i]))));
       }
     }
-    return lowerQuantile(across, kBandShare);
+    return lowerQuantile(across, kReachShare);
   }
 
   // About one point a pixel; its source is the nearest stroke there.
@@ -157,8 +159,8 @@ class MeanDrawer {
 };
 
 struct Explaining {
-  int line;
   Vec2 at, tangent;
+  double reach;  // [stroke widths] of the bundle that it is of
 };
 
 // Leaves out what lies along longer lines, by the ink of their pieces. @pre longest first.
@@ -172,10 +174,9 @@ std::vector<Contour> withoutExplained(std::vector<GroupLine> found, const Stroke
       for (int k = 0; k < strip.count(); ++k) {
         bool explained = false;
         ink.around(strip.at[k], [&](const Explaining& e) {
-          const double d = (e.at - strip.at[k]).norm();
-          const double way = std::abs(e.tangent.dot(strip.tangent[k]));
-          explained = explained || (d <= kExplainedNear && way > kExplainedNearCos) ||
-                      (d <= kExplainedAlong && way > kExplainedCos);
+          const double d = (e.at - strip.at[k]).norm(), way = std::abs(e.tangent.dot(strip.tangent[k]));
+          explained =
+              explained || (d <= kExplainedNear && way > kExplainedNearCos) || (d <= e.reach && way > kExplainedCos);
         });
         all += 1.0;
         unexplained += explained ? 0.0 : 1.0;
@@ -186,9 +187,10 @@ std::vector<Contour> withoutExplained(std::vector<GroupLine> found, const Stroke
       const bool isAlone = unexplained >= all;
       if (!isAlone) continue;
     }
+    const double reach = std::min(kExplainedAlong, kExplainedNear + kExplainedSpreads * found[l].mean.strip.spread);
     for (const int piece : found[l].mean.strip.members) {
       const Strip& strip = set.pieces[piece].strip;
-      for (int k = 0; k < strip.count(); ++k) ink.add(strip.at[k], {l, strip.at[k], strip.tangent[k]});
+      for (int k = 0; k < strip.count(); ++k) ink.add(strip.at[k], {strip.at[k], strip.tangent[k], reach});
     }
     kept.push_back(std::move(found[l].contour));
   }

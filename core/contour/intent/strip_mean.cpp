@@ -27,7 +27,7 @@ constexpr double kTraceCost = 0.5;
 constexpr double kLeastFarthest = 6.0, kFarthestFactor = 2.5;
 constexpr int kMostFar = 4;
 constexpr double kAgreeing = 8.0;  // relations that disagree by more are the closing of a loop
-constexpr double kEndTaper = 6.0, kLeastShare = 0.05;
+constexpr double kEndTaper = 6.0, kLeastTaperShare = 0.05;
 constexpr double kTraceWeight = 50.0, kEndWeight = 2.0;  // crossings
 constexpr int kRelaxations = 30;
 constexpr int kHannReach = 3;  // samples to either side
@@ -194,7 +194,7 @@ double shareAt(const Member& m, double k) {
   double toEnd = kEndTaper;
   if (!m.goesOn[0]) toEnd = std::min(toEnd, k);
   if (!m.goesOn[1]) toEnd = std::min(toEnd, m.strip->count() - 1 - k);
-  return std::max(kLeastShare, toEnd / kEndTaper);
+  return std::max(kLeastTaperShare, toEnd / kEndTaper);
 }
 
 // Places where nothing was drawn lie on the way from one side to the other.

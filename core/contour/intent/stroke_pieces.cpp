@@ -20,7 +20,7 @@ constexpr int kOnePlace = 2;                      // cuts as near as this are on
 constexpr int kShortestPiece = 3;
 
 enum class CutKind { Crossing, Attachment, Corner };  // the weaker first
-struct PieceCut {
+struct StrokeCut {
   int sample = 0;
   CutKind kind = CutKind::Crossing;
 };
@@ -113,7 +113,7 @@ class PieceCutter {
   }
 
   // In the middle of every run of samples that lie on another line.
-  void addCrossings(int l, std::vector<PieceCut>& cuts) const {
+  void addCrossings(int l, std::vector<StrokeCut>& cuts) const {
     const int n = lines_[l].count();
     std::vector<bool> crossed;
     for (int k = 0; k < n; ++k) crossed.push_back(isCrossed(l, k));
@@ -127,9 +127,9 @@ class PieceCutter {
   }
 
   // Ascending, none too near to another or to an open end.
-  std::vector<PieceCut> cutsOf(int l) const {
+  std::vector<StrokeCut> cutsOf(int l) const {
     const SampledLine& line = lines_[l];
-    std::vector<PieceCut> cuts;
+    std::vector<StrokeCut> cuts;
     for (const int point : turnsOf(contours_[l], width_)) {
       const auto at = std::min_element(line.point.begin(), line.point.end(),
                                        [&](int a, int b) { return std::abs(a - point) < std::abs(b - point); });
@@ -138,28 +138,28 @@ class PieceCutter {
     for (const int sample : attached_[l]) cuts.push_back({sample, CutKind::Attachment});
     addCrossings(l, cuts);
     cuts = places(std::move(cuts));
-    std::stable_sort(cuts.begin(), cuts.end(), [](const PieceCut& a, const PieceCut& b) { return a.kind > b.kind; });
-    std::vector<PieceCut> kept;
-    for (const PieceCut& c : cuts) {
+    std::stable_sort(cuts.begin(), cuts.end(), [](const StrokeCut& a, const StrokeCut& b) { return a.kind > b.kind; });
+    std::vector<StrokeCut> kept;
+    for (const StrokeCut& c : cuts) {
       const bool atEnd = !line.closed && std::min(c.sample, line.count() - 1 - c.sample) < kShortestPiece;
       const bool isNear = std::ranges::any_of(
-          kept, [&](const PieceCut& other) { return line.apart(c.sample, other.sample) < kShortestPiece; });
+          kept, [&](const StrokeCut& other) { return line.apart(c.sample, other.sample) < kShortestPiece; });
       if (!atEnd && !isNear) kept.push_back(c);
     }
-    std::sort(kept.begin(), kept.end(), [](const PieceCut& a, const PieceCut& b) { return a.sample < b.sample; });
+    std::sort(kept.begin(), kept.end(), [](const StrokeCut& a, const StrokeCut& b) { return a.sample < b.sample; });
     return kept;
   }
 
   // Cuts that follow each other closely become one: at the corner among them, else in their middle.
-  static std::vector<PieceCut> places(std::vector<PieceCut> cuts) {
-    std::sort(cuts.begin(), cuts.end(), [](const PieceCut& a, const PieceCut& b) {
+  static std::vector<StrokeCut> places(std::vector<StrokeCut> cuts) {
+    std::sort(cuts.begin(), cuts.end(), [](const StrokeCut& a, const StrokeCut& b) {
       return a.sample != b.sample ? a.sample < b.sample : a.kind < b.kind;
     });
-    std::vector<PieceCut> found;
+    std::vector<StrokeCut> found;
     for (std::size_t i = 0; i < cuts.size();) {
       std::size_t end = i + 1;
       while (end < cuts.size() && cuts[end].sample - cuts[end - 1].sample <= kOnePlace) ++end;
-      PieceCut best{(cuts[i].sample + cuts[end - 1].sample) / 2, cuts[i].kind};
+      StrokeCut best{(cuts[i].sample + cuts[end - 1].sample) / 2, cuts[i].kind};
       for (std::size_t k = i; k < end; ++k) {
         if (cuts[k].kind == CutKind::Corner) found.push_back(cuts[k]);
         best.kind = std::max(best.kind, cuts[k].kind);
@@ -192,7 +192,7 @@ class PieceCutter {
 
   void cutLine(int l, StrokePieceSet& set) const {
     const SampledLine& line = lines_[l];
-    const std::vector<PieceCut> cuts = cutsOf(l);
+    const std::vector<StrokeCut> cuts = cutsOf(l);
     const int n = line.count(), first = static_cast<int>(set.pieces.size());
     const auto link = [&](int from, int to, CutKind kind) {
       set.links.push_back({2 * from + 1, 2 * to, kind == CutKind::Corner});
@@ -206,7 +206,7 @@ class PieceCutter {
       for (int i = 0; i < pieces; ++i) link(first + wrapIndex(i - 1, pieces), first + i, cuts[i].kind);
     } else {
       int from = 0;
-      for (const PieceCut& c : cuts) addPiece(l, std::exchange(from, c.sample), c.sample, false, set);
+      for (const StrokeCut& c : cuts) addPiece(l, std::exchange(from, c.sample), c.sample, false, set);
       addPiece(l, from, n - 1, false, set);
       for (int i = 0; i < std::ssize(cuts); ++i) link(first + i, first + i + 1, cuts[i].kind);
     }

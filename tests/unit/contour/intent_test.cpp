@@ -24,7 +24,7 @@ namespace {
 
 using test::kPi;
 
-constexpr double kPenPx = 4.0;
+constexpr double kIntentPenPx = 4.0;
 
 Contour penLine(const std::vector<Vec2>& corners, bool closed = false) {
   std::vector<Vec2> points;
@@ -38,7 +38,7 @@ Contour penLine(const std::vector<Vec2>& corners, bool closed = false) {
   c.kind = ContourKind::Centreline;
   c.closed = closed;
   c.points = contourPoints(points, true);
-  for (ContourPoint& p : c.points) p.widthPx = static_cast<float>(kPenPx);
+  for (ContourPoint& p : c.points) p.widthPx = static_cast<float>(kIntentPenPx);
   measureContour(c);
   return c;
 }
@@ -52,7 +52,7 @@ Contour curve(const std::function<Vec2(double)>& at, double from = 0.0, double t
   Contour c;
   c.kind = ContourKind::Centreline;
   c.points = contourPoints(even, true);
-  for (ContourPoint& p : c.points) p.widthPx = static_cast<float>(kPenPx);
+  for (ContourPoint& p : c.points) p.widthPx = static_cast<float>(kIntentPenPx);
   measureContour(c);
   return c;
 }
@@ -108,7 +108,7 @@ TEST(Intent, LinesAreCutAtCornersEndsAndCrossings) {
   // An angle, a line that ends on its second leg, and one that crosses its first leg.
   const std::vector<Contour> lines{penLine({{50, 50}, {250, 50}, {250, 250}}), penLine({{255, 150}, {350, 150}}),
                                    penLine({{150, 20}, {150, 120}})};
-  const StrokePieceSet set = cutIntoPieces(lines, kPenPx, {});
+  const StrokePieceSet set = cutIntoPieces(lines, kIntentPenPx, {});
   std::vector<int> pieces(3);
   for (const StrokePiece& p : set.pieces) ++pieces[p.line];
   EXPECT_EQ(pieces, (std::vector<int>{4, 1, 2}));
@@ -118,7 +118,7 @@ TEST(Intent, LinesAreCutAtCornersEndsAndCrossings) {
   double length = 0.0;
   for (const StrokePiece& p : set.pieces) {
     freeEnds += (p.strip.isFree[0] ? 1 : 0) + (p.strip.isFree[1] ? 1 : 0);
-    length += p.strip.length() * kPenPx;
+    length += p.strip.length() * kIntentPenPx;
     EXPECT_LT(p.firstPoint, p.lastPoint);
   }
   EXPECT_EQ(freeEnds, 5) << "all but the one that ends on a line";
@@ -127,7 +127,7 @@ TEST(Intent, LinesAreCutAtCornersEndsAndCrossings) {
 
 TEST(Intent, PiecesFollowEachOtherRoundARing) {
   const std::vector<Contour> lines{penLine({{100, 100}, {300, 100}, {300, 300}, {100, 300}}, true)};
-  const StrokePieceSet set = cutIntoPieces(lines, kPenPx, {});
+  const StrokePieceSet set = cutIntoPieces(lines, kIntentPenPx, {});
   ASSERT_EQ(set.pieces.size(), 4u);
   EXPECT_EQ(set.links.size(), 4u);
   for (const TraceLink& link : set.links) {
@@ -140,7 +140,7 @@ TEST(Intent, PiecesFollowEachOtherRoundARing) {
 TEST(Intent, MeasuresOfTwoStraightStrokesSideBySide) {
   // 12 px apart are 3 widths; the second begins 80 px later and runs back.
   const std::vector<Contour> lines{penLine({{40, 100}, {440, 100}}), penLine({{440, 112}, {120, 112}})};
-  const StrokePieceSet set = cutIntoPieces(lines, kPenPx, {});
+  const StrokePieceSet set = cutIntoPieces(lines, kIntentPenPx, {});
   ASSERT_EQ(set.pieces.size(), 2u);
   const std::vector<Strip> strips{set.pieces[0].strip, set.pieces[1].strip};
   const auto pairs = findStripPairs(strips, kSideReach, false, {});
@@ -162,7 +162,7 @@ TEST(Intent, MeasuresOfTwoStraightStrokesSideBySide) {
 
 // The mean of all pieces of some lines as one group.
 std::vector<PieceMean> meanOfAll(const std::vector<Contour>& lines) {
-  const StrokePieceSet set = cutIntoPieces(lines, kPenPx, {});
+  const StrokePieceSet set = cutIntoPieces(lines, kIntentPenPx, {});
   std::vector<Strip> strips;
   for (const StrokePiece& p : set.pieces) strips.push_back(p.strip);
   const auto pairs = findStripPairs(strips, kSideReach, true, {});
@@ -174,7 +174,7 @@ std::vector<PieceMean> meanOfAll(const std::vector<Contour>& lines) {
 
 Contour contourOf(const PieceMean& mean) {
   std::vector<Vec2> points;
-  for (const Vec2& p : mean.strip.at) points.push_back(kPenPx * p);
+  for (const Vec2& p : mean.strip.at) points.push_back(kIntentPenPx * p);
   Contour c;
   c.points = contourPoints(points, false);
   measureContour(c);
@@ -241,7 +241,7 @@ std::vector<Contour> narrowAndWideBundles() {
 }
 
 TEST(Intent, BundlesOfDifferentWidthsBecomeOneLineEach) {
-  const auto lines = intendedLines(narrowAndWideBundles(), kPenPx, 0.0, {});
+  const auto lines = intendedLines(narrowAndWideBundles(), kIntentPenPx, 0.0, {});
   ASSERT_TRUE(lines);
   EXPECT_EQ(lines->size(), 2u);
   const auto narrow = test::cubicLine({60, 500}, {420, 560}, {200, 380}, {580, 420});
@@ -260,7 +260,8 @@ TEST(Intent, TheSameLinesWithAnyNumberOfThreads) {
   const std::vector<Contour> strokes = narrowAndWideBundles();
   RunContext one;
   one.threads = 1;
-  const auto alone = intendedLines(strokes, kPenPx, 0.0, one), all = intendedLines(strokes, kPenPx, 0.0, {});
+  const auto alone = intendedLines(strokes, kIntentPenPx, 0.0, one),
+             all = intendedLines(strokes, kIntentPenPx, 0.0, {});
   ASSERT_TRUE(alone && all);
   ASSERT_EQ(alone->size(), all->size());
   for (std::size_t i = 0; i < all->size(); ++i) EXPECT_EQ((*alone)[i].points, (*all)[i].points);
@@ -269,7 +270,7 @@ TEST(Intent, TheSameLinesWithAnyNumberOfThreads) {
 TEST(Intent, NothingWhenCancelled) {
   RunContext cancelledRun;
   cancelledRun.cancel.cancel();
-  EXPECT_FALSE(intendedLines(narrowAndWideBundles(), kPenPx, 0.0, cancelledRun));
+  EXPECT_FALSE(intendedLines(narrowAndWideBundles(), kIntentPenPx, 0.0, cancelledRun));
 }
 
 TEST(Intent, CleanLinesHaveNoOtherMeaning) {
@@ -278,8 +279,8 @@ TEST(Intent, CleanLinesHaveNoOtherMeaning) {
   lines.push_back(penLine({{100, 250}, {500, 500}}));
   lines.push_back(penLine({{500, 250}, {100, 500}}));
   lines.push_back(penLine({{250, 250}, {350, 250}, {350, 350}, {250, 350}}, true));
-  EXPECT_FALSE(intendedLines(lines, kPenPx, 0.0, {}));
-  EXPECT_FALSE(intendedLines({}, kPenPx, 0.0, {}));
+  EXPECT_FALSE(intendedLines(lines, kIntentPenPx, 0.0, {}));
+  EXPECT_FALSE(intendedLines({}, kIntentPenPx, 0.0, {}));
 }
 
 }  // namespace
