@@ -190,10 +190,6 @@ int finish(const BatchArguments& arguments, const std::vector<BatchPage>& pages,
   return kPagesFailed;
 }
 
-}  // namespace
-
-namespace {
-
 int writeManifest(const std::string& file, const std::vector<BatchPage>& pages) {
   if (file == "-") {
     std::cout << manifestOf(pages);
