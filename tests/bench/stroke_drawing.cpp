@@ -205,6 +205,41 @@ void StrokeJudge::findHidden() {
       if (a != b && n > kMostlyOver * count[a]) hidden_[a][b] = hidden_[b][a] = true;
 }
 
+namespace {
+
+// Of the curves that a stroke lies on, those that have enough of it; none where they have less than half of it.
+void keepLargeShares(std::vector<std::map<int, double>>& share, const std::vector<double>& count) {
+  for (int s = 0; s < std::ssize(share); ++s) {
+    double sum = 0.0;
+    for (auto& [c, part] : share[s]) part /= count[s];
+    std::erase_if(share[s], [](const auto& e) { return e.second < kLeastShare; });
+    for (const auto& [c, part] : share[s]) sum += part;
+    if (sum < 0.5) share[s].clear();
+    for (auto& [c, part] : share[s]) part /= sum;
+  }
+}
+
+}  // namespace
+
+void StrokeJudge::countPairs(const std::vector<std::map<int, double>>& share, StrokeFigures& f) const {
+  double right = 0.0, wrong = 0.0, missed = 0.0;
+  for (int a = 0; a < strokes_; ++a)
+    for (int b = a + 1; b < strokes_; ++b) {
+      double together = 0.0;
+      for (const auto& [c, part] : share[a]) {
+        const auto other = share[b].find(c);
+        if (other != share[b].end()) together += std::min(part, other->second);
+      }
+      const bool isOne = cluster_[a] == cluster_[b], isFoundOne = together >= 0.5;
+      if (isOne && isFoundOne) ++right;
+      if (isOne && !isFoundOne) ++missed;
+      if (!isOne && isFoundOne && !hidden_[a][b]) ++wrong;
+    }
+  f.precision = right + wrong > 0.0 ? right / (right + wrong) : 1.0;
+  f.recall = right + missed > 0.0 ? right / (right + missed) : 1.0;
+  f.f1 = f.precision + f.recall > 0.0 ? 2.0 * f.precision * f.recall / (f.precision + f.recall) : 0.0;
+}
+
 StrokeFigures StrokeJudge::judge(const std::vector<std::vector<Vec2>>& curvesPx) const {
   std::vector<Vec2> at, tangent;
   std::vector<int> curve;
@@ -241,30 +276,8 @@ StrokeFigures StrokeJudge::judge(const std::vector<std::vector<Vec2>>& curvesPx)
       break;
     }
   }
-  for (int s = 0; s < strokes_; ++s) {
-    double sum = 0.0;
-    for (auto& [c, part] : share[s]) part /= count[s];
-    std::erase_if(share[s], [](const auto& e) { return e.second < kLeastShare; });
-    for (const auto& [c, part] : share[s]) sum += part;
-    if (sum < 0.5) share[s].clear();
-    for (auto& [c, part] : share[s]) part /= sum;
-  }
-  double right = 0.0, wrong = 0.0, missed = 0.0;
-  for (int a = 0; a < strokes_; ++a)
-    for (int b = a + 1; b < strokes_; ++b) {
-      double together = 0.0;
-      for (const auto& [c, part] : share[a]) {
-        const auto other = share[b].find(c);
-        if (other != share[b].end()) together += std::min(part, other->second);
-      }
-      const bool isOne = cluster_[a] == cluster_[b], isFoundOne = together >= 0.5;
-      if (isOne && isFoundOne) ++right;
-      if (isOne && !isFoundOne) ++missed;
-      if (!isOne && isFoundOne && !hidden_[a][b]) ++wrong;
-    }
-  f.precision = right + wrong > 0.0 ? right / (right + wrong) : 1.0;
-  f.recall = right + missed > 0.0 ? right / (right + missed) : 1.0;
-  f.f1 = f.precision + f.recall > 0.0 ? 2.0 * f.precision * f.recall / (f.precision + f.recall) : 0.0;
+  keepLargeShares(share, count);
+  countPairs(share, f);
   if (!distances.empty()) {
     for (const double d : distances) f.meanWidths += d / static_cast<double>(distances.size());
     f.p95Widths = lowerQuantile(distances, 0.95);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,6 +52,8 @@ class StrokeJudge {
   };
   void findMiddles();
   void findHidden();
+  /// Precision and recall over pairs, from the share of each stroke on each curve.
+  void countPairs(const std::vector<std::map<int, double>>& share, StrokeFigures& figures) const;
   double width_, step_;
   int strokes_ = 0;
   std::vector<int> cluster_;  // by stroke

@@ -108,6 +108,27 @@ void setRivals(std::vector<EndPair>& pairs, const EndView& v) {
   }
 }
 
+// What bundles show beside. `gap`, `offset`: logarithms.
+std::vector<double> laterEndFeatures(const EndPair& p, const EndView& v, bool isBesideToo, double gap, double offset) {
+  const Strip &a = stripOf(v, p.a), &b = stripOf(v, p.b);
+  const double longTurn =
+      endAngleDeg(directionOut(a, p.a % 2, kLongFrom, kLongTo), -directionOut(b, p.b % 2, kLongFrom, kLongTo));
+  const double w = std::log(a.spread + b.spread + 1.0), beside = isBesideToo ? 1.0 : 0.0;
+  const auto fewer = static_cast<double>(std::min(a.members.size(), b.members.size()));
+  const auto more = static_cast<double>(std::max(a.members.size(), b.members.size()));
+  return {static_cast<double>(std::min(p.links, 4)),
+          std::min(longTurn, 120.0) / 30.0,
+          std::max(0.0, longTurn - 30.0) / 30.0,
+          w,
+          std::abs(a.spread - b.spread) / (a.spread + b.spread + 1.0),
+          std::log(fewer),
+          std::log(more),
+          beside,
+          beside * offset,
+          offset - w,
+          gap - w};
+}
+
 }  // namespace
 
 const Vec2& tipOf(const Strip& strip, int side) { return side == 0 ? strip.at.front() : strip.at.back(); }
@@ -202,22 +223,7 @@ std::vector<double> endFeatures(const EndPair& p, const EndView& v, bool isBesid
   const std::vector<double> merged = mergeFeatures(a.merged, b.merged, t);
   f.insert(f.end(), merged.begin(), merged.end());
   if (!v.view.isLater) return f;
-  const double longTurn =
-      endAngleDeg(directionOut(a, p.a % 2, kLongFrom, kLongTo), -directionOut(b, p.b % 2, kLongFrom, kLongTo));
-  const double w = std::log(a.spread + b.spread + 1.0), beside = isBesideToo ? 1.0 : 0.0;
-  const auto fewer = static_cast<double>(std::min(a.members.size(), b.members.size()));
-  const auto more = static_cast<double>(std::max(a.members.size(), b.members.size()));
-  const std::vector<double> later = {static_cast<double>(std::min(p.links, 4)),
-                                     std::min(longTurn, 120.0) / 30.0,
-                                     std::max(0.0, longTurn - 30.0) / 30.0,
-                                     w,
-                                     std::abs(a.spread - b.spread) / (a.spread + b.spread + 1.0),
-                                     std::log(fewer),
-                                     std::log(more),
-                                     beside,
-                                     beside * offset,
-                                     offset - w,
-                                     gap - w};
+  const std::vector<double> later = laterEndFeatures(p, v, isBesideToo, gap, offset);
   f.insert(f.end(), later.begin(), later.end());
   return f;
 }

@@ -93,6 +93,13 @@ Vec2 pointAtSample(const Strip& strip, double k) {
   return strip.at[i] + (k - i) * (strip.at[next] - strip.at[i]);
 }
 
+double lowEnd(const Strip& strip, const PlacedPiece& p) {
+  return std::min(p.offset, p.offset + p.direction * (strip.count() - 1));
+}
+double highEnd(const Strip& strip, const PlacedPiece& p) {
+  return std::max(p.offset, p.offset + p.direction * (strip.count() - 1));
+}
+
 // Pieces of a group on one or several common arc lengths.
 class CommonLength {
  public:
@@ -140,6 +147,9 @@ class CommonLength {
         PlacedPiece moved = placed_[k];
         moved.direction *= flip;
         moved.offset = flip * moved.offset + shift;
+        if (lowEnd(*strips_[k], moved) > highEnd(*strips_[i], placed_[i]) ||
+            highEnd(*strips_[k], moved) < lowEnd(*strips_[i], placed_[i]))
+          continue;
         int far = 0;
         for (int sample = 0; sample < strips_[k]->count(); ++sample) {
           const auto at = sampleAt(*strips_[i], placed_[i], moved.direction * sample + moved.offset);
@@ -182,13 +192,6 @@ struct Member {
   PlacedPiece placed;
   bool goesOn[2] = {false, false};  // in another member
 };
-
-double lowEnd(const Member& m) {
-  return std::min(m.placed.offset, m.placed.offset + m.placed.direction * (m.strip->count() - 1));
-}
-double highEnd(const Member& m) {
-  return std::max(m.placed.offset, m.placed.offset + m.placed.direction * (m.strip->count() - 1));
-}
 
 double shareAt(const Member& m, double k) {
   double toEnd = kEndTaper;
@@ -254,10 +257,10 @@ void measureMean(PieceMean& mean, const std::vector<Member>& members) {
 
 PieceMean meanOf(const std::vector<Member>& members) {
   PieceMean mean;
-  double from = lowEnd(members[0]), to = highEnd(members[0]);
+  double from = lowEnd(*members[0].strip, members[0].placed), to = highEnd(*members[0].strip, members[0].placed);
   for (const Member& m : members) {
-    from = std::min(from, lowEnd(m));
-    to = std::max(to, highEnd(m));
+    from = std::min(from, lowEnd(*m.strip, m.placed));
+    to = std::max(to, highEnd(*m.strip, m.placed));
     mean.placed.push_back(m.placed);
     mean.strip.members.push_back(m.placed.piece);
   }
@@ -287,6 +290,45 @@ PieceMean meanOf(const std::vector<Member>& members) {
   return mean;
 }
 
+// All that says how the pieces of a group lie to each other; their numbers are places in the group.
+std::vector<Relation> relationsOf(const std::vector<int>& group, const StrokePieceSet& set,
+                                  const std::vector<StripPair>& pairs, const std::vector<std::vector<int>>& pairsOf,
+                                  const std::vector<bool>& areOne) {
+  std::map<int, int> local;
+  for (int i = 0; i < std::ssize(group); ++i) local[group[i]] = i;
+  std::vector<Relation> relations;
+  for (const int piece : group)
+    for (const int p : pairsOf[piece]) {
+      const auto other = local.find(pairs[p].b);
+      if (other == local.end()) continue;
+      if (auto r = besideRelation(pairs[p], local[piece], other->second, areOne[p])) relations.push_back(*r);
+    }
+  for (int i = 0; i < std::ssize(group); ++i)
+    for (int k = i + 1; k < std::ssize(group); ++k)
+      for (int ends = 0; ends < 4; ++ends) {
+        const Strip &a = set.pieces[group[i]].strip, &b = set.pieces[group[k]].strip;
+        if (a.closed || b.closed) continue;
+        auto r = endRelation(a, b, ends / 2, ends % 2);
+        if (!r) continue;
+        r->a = i;
+        r->b = k;
+        relations.push_back(*r);
+      }
+  for (const TraceLink& link : set.links) {
+    const auto from = local.find(link.from / 2), to = local.find(link.to / 2);
+    if (from == local.end() || to == local.end() || from == to || link.isCorner) continue;
+    relations.push_back({.a = from->second,
+                         .b = to->second,
+                         .offset = static_cast<double>(set.pieces[link.from / 2].strip.count() - 1),
+                         .cost = kTraceCost,
+                         .weight = kTraceWeight,
+                         .isTrace = true,
+                         .endA = 1,
+                         .endB = 0});
+  }
+  return relations;
+}
+
 }  // namespace
 
 PieceMeans::PieceMeans(const StrokePieceSet& set, const std::vector<StripPair>& pairs, const std::vector<bool>& areOne)
@@ -302,38 +344,7 @@ std::vector<PieceMean> PieceMeans::of(const std::vector<int>& group) const {
     mean.strokes.assign(mean.strip.at.size(), 1);
     return {mean};
   }
-  std::map<int, int> local;
-  for (int i = 0; i < std::ssize(group); ++i) local[group[i]] = i;
-  std::vector<Relation> relations;
-  for (const int piece : group)
-    for (const int p : pairsOf_[piece]) {
-      const auto other = local.find(pairs_[p].b);
-      if (other == local.end()) continue;
-      if (auto r = besideRelation(pairs_[p], local[piece], other->second, areOne_[p])) relations.push_back(*r);
-    }
-  for (int i = 0; i < std::ssize(group); ++i)
-    for (int k = i + 1; k < std::ssize(group); ++k)
-      for (int ends = 0; ends < 4; ++ends) {
-        const Strip &a = set_.pieces[group[i]].strip, &b = set_.pieces[group[k]].strip;
-        if (a.closed || b.closed) continue;
-        auto r = endRelation(a, b, ends / 2, ends % 2);
-        if (!r) continue;
-        r->a = i;
-        r->b = k;
-        relations.push_back(*r);
-      }
-  for (const TraceLink& link : set_.links) {
-    const auto from = local.find(link.from / 2), to = local.find(link.to / 2);
-    if (from == local.end() || to == local.end() || from == to || link.isCorner) continue;
-    relations.push_back({.a = from->second,
-                         .b = to->second,
-                         .offset = static_cast<double>(set_.pieces[link.from / 2].strip.count() - 1),
-                         .cost = kTraceCost,
-                         .weight = kTraceWeight,
-                         .isTrace = true,
-                         .endA = 1,
-                         .endB = 0});
-  }
+  std::vector<Relation> relations = relationsOf(group, set_, pairs_, pairsOf_, areOne_);
   std::vector<const Strip*> strips;
   for (const int piece : group) strips.push_back(&set_.pieces[piece].strip);
   const CommonLength common(std::move(strips), std::move(relations));

@@ -19,8 +19,8 @@ struct MergeAdvice {
   int strokes = 0;      ///< Centre lines of the page without merging, all of them,
   int lines = 0;        ///< and with it.
   double share = 0.0;   ///< [-] See OverdrawnStrokes::share.
-  std::optional<int>
-      meant;  ///< Centre lines with edges.intent; absent: the page shows no lines drawn over more than once.
+  /// Centre lines with edges.intent; absent: the page shows no lines drawn over more than once.
+  std::optional<int> meant = {};
 };
 
 /// Traces the page without merging, looks for strokes drawn over one another (findOverdrawnStrokes()), and where there
