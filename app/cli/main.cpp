@@ -160,7 +160,8 @@ CLI::App* addSuggest(CLI::App& app, TraceArguments& a) {
       "suggest", "Whether a scan has overdrawn strokes, how far to merge them, and where its corners are");
   suggest->footer(
       "Prints one line of JSON: a value for edges.merge (0: nothing to merge), how many strokes become how many "
-      "lines, and the reason; and every place that may be a corner with its angle in degrees and its certainty from 0 "
+      "lines, whether edges.intent finds lines drawn over more than once and how many curves it makes of them, and "
+      "the reason; and every place that may be a corner with its angle in degrees and its certainty from 0 "
       "to "
       "1. Those of 0.95 and more count without a mark (corners.auto). Changes nothing.");
   addDrawing(*suggest, a,

@@ -75,13 +75,16 @@ Result<Advice> adviceFor(const TraceArguments& arguments) {
 int runSuggest(const TraceArguments& arguments) {
   const auto advice = adviceFor(arguments);
   if (!advice) return reportError(advice.error());
-  nlohmann::ordered_json json{{"scan", arguments.scan},
-                              {"edges.merge", advice->merge.widths},
-                              {"strokes", advice->merge.strokes},
-                              {"lines", advice->merge.lines},
-                              {"overdrawn_share", advice->merge.share},
-                              {"reason", describe(advice->merge)},
-                              {"corners", cornersToJson(advice->corners)}};
+  nlohmann::ordered_json json{
+      {"scan", arguments.scan},
+      {"edges.merge", advice->merge.widths},
+      {"edges.intent", advice->merge.meant.has_value()},
+      {"strokes", advice->merge.strokes},
+      {"lines", advice->merge.lines},
+      {"curves_meant", advice->merge.meant ? nlohmann::ordered_json(*advice->merge.meant) : nlohmann::ordered_json()},
+      {"overdrawn_share", advice->merge.share},
+      {"reason", describe(advice->merge)},
+      {"corners", cornersToJson(advice->corners)}};
   std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';
   return endOutput();
 }

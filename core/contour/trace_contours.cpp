@@ -120,6 +120,7 @@ void append(ContourSet& to, ContourSet&& from) {
   to.report.droppedShort += from.report.droppedShort;
   to.report.droppedHoles += from.report.droppedHoles;
   to.report.droppedMargins += from.report.droppedMargins;
+  to.report.isGrouped = to.report.isGrouped || from.report.isGrouped;
   to.report.widthPx = std::max(to.report.widthPx, from.report.widthPx);
   if (to.report.note.empty()) to.report.note = std::move(from.report.note);
   std::move(from.contours.begin(), from.contours.end(), std::back_inserter(to.contours));
@@ -217,7 +218,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const E
   found.blots = findBlots(*split, *lines, params.minWidths, context);
   if (edges.mode == EdgeMode::Centreline) {
     found.blots = chosenOf(found.blots, found.regions, edges);
-  } else if (edges.mergeWidths <= 0.0) {
+  } else if (edges.mergeWidths <= 0.0 && !lines->report.isGrouped) {
     found.blots =
         either(std::move(found.blots), notChosen(findFillings(*split, *lines, context), found.regions, edges));
   }
@@ -267,6 +268,9 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
   }
   if (edges.strokeWidth != EdgeParams{}.strokeWidth) {
     addNote(*set, "edges.stroke_width has no effect: strokes and shapes are told apart region by region.");
+  }
+  if (edges.intent && !set->report.isGrouped) {
+    addNote(*set, "No lines drawn over more than once were found: edges.intent changes nothing.");
   }
   sortAndCut(*set, params);
   context.report(0.6);

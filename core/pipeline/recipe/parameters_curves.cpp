@@ -58,6 +58,12 @@ void appendEdges(std::vector<Parameter>& table) {
       {"edges.merge", "Merge strokes", "stroke widths",
        "Strokes of one intended line that run closer than this become one line. Larger merges more; 0 is off."},
       {0.0, 20.0, 0.5, 1}, [](auto& r) -> auto& { return r.edges.mergeWidths; }));
+  table.push_back(boolean(
+      kContours,
+      {"edges.intent", "Curves that were meant", "",
+       "Lines drawn over more than once become the curves that were meant, strokes near and far apart alike. Pages "
+       "without such lines stay as they are."},
+      [](auto& r) -> auto& { return r.edges.intent; }));
   table.push_back(real(
       kContours,
       {"edges.spur", "Drop side branches", "stroke widths",

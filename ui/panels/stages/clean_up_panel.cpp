@@ -101,7 +101,7 @@ EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* pare
   auto* editor = new ParameterEditor(
       session,
       {"edges.mode", "contours.min_widths", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
-       "edges.merge", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
+       "edges.merge", "edges.intent", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
       this);
   editor->addBelow("edges.merge", new MergeSuggestion(session, editor));
   tracing_ = {editor, new LineWay(session, this), caption(tr("Lines found"), this), figures_};
