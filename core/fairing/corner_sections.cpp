@@ -66,24 +66,6 @@ FairingParams paramsOf(const FairingParams& whole, const ProfileSpan& span, bool
   return params;
 }
 
-void addSentence(std::string& notes, const std::string& note) {
-  if (note.empty() || notes.find(note) != std::string::npos) return;
-  notes.append(notes.empty() ? "" : " ").append(note);
-}
-
-void addPart(FairingReport& sum, const FairingReport& one) {
-  if (sum.why == Termination::NotRun || one.why != Termination::Converged) sum.why = one.why;
-  addSentence(sum.note, one.note);
-  sum.iterations += one.iterations;
-  sum.objectiveBefore = std::max(sum.objectiveBefore, one.objectiveBefore);
-  sum.objectiveAfter = std::max(sum.objectiveAfter, one.objectiveAfter);
-  sum.maxDeviationMm = std::max(sum.maxDeviationMm, one.maxDeviationMm);
-  sum.neededMm = std::max(sum.neededMm, one.neededMm);
-  if (one.similarityAfter) sum.similarityAfter = std::min(sum.similarityAfter.value_or(1.0), *one.similarityAfter);
-  sum.withinTolerance = sum.withinTolerance && one.withinTolerance;
-  sum.noiseMm = std::max(sum.noiseMm, one.noiseMm);
-}
-
 /// The degree that all parts but the straight ones followed; 0: there is none.
 int commonDegree(const std::vector<CornerSection>& sections, const std::vector<FairedCurve>& parts) {
   std::optional<int> common;
@@ -225,7 +207,7 @@ Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<C
     }
   }
   whole.recommendedDegree = whole.targets.recommendedDegree;
-  double mostSimilar = -1.0;
+  const bool bySimilarity = job.params.targetChoice == TargetChoice::Similarity;
   for (std::size_t d = faired.size(); d-- > 0;) {
     if (faired[d].size() != sections.size()) continue;
     auto joined = joinedParts(job.curve, job.closed, sections, std::move(faired[d]));
@@ -233,16 +215,10 @@ Result<TargetOutcomes> joinedOutcomes(const TargetsJob& job, const std::vector<C
       whole.problems[d] = joined.error().message;
       continue;
     }
-    const bool bySimilarity = job.params.targetChoice == TargetChoice::Similarity;
     if (!bySimilarity && isMet[d] && joined->report.withinTolerance) whole.recommendedDegree = static_cast<int>(d) + 1;
-    // From the highest degree down: of two equal ones the lower is taken.
-    const double s = joined->report.similarityAfter.value_or(-1.0);
-    if (bySimilarity && s >= mostSimilar) {
-      mostSimilar = s;
-      whole.recommendedDegree = static_cast<int>(d) + 1;
-    }
     whole.faired[d] = std::move(*joined);
   }
+  if (bySimilarity) whole.recommendedDegree = mostSimilar(whole.faired).value_or(whole.recommendedDegree);
   return whole;
 }
 

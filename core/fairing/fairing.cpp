@@ -91,24 +91,10 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
   }
 }
 
-/// The highest S of the modified curve (003 section 6); 0 where no curve has one.
-int mostSimilar(const TargetOutcomes& outcomes) {
-  int degree = 0;
-  double best = 0.0;
-  for (std::size_t i = 0; i < outcomes.faired.size(); ++i) {
-    if (!outcomes.faired[i] || !outcomes.faired[i]->report.similarityAfter) continue;
-    const double s = *outcomes.faired[i]->report.similarityAfter;
-    if (degree > 0 && s <= best) continue;
-    degree = static_cast<int>(i) + 1;
-    best = s;
-  }
-  return degree;
-}
-
 /// The lowest degree that is met, where one is, or the most similar.
 void recommend(TargetsRun& run, TargetChoice choice) {
   if (choice == TargetChoice::Similarity) {
-    if (const int degree = mostSimilar(*run.outcomes)) run.outcomes->recommendedDegree = degree;
+    run.outcomes->recommendedDegree = mostSimilar(run.outcomes->faired).value_or(run.outcomes->recommendedDegree);
     return;
   }
   const auto met = std::find(run.isMet.begin(), run.isMet.end(), true);

@@ -10,6 +10,7 @@
 #include "core/curve/curvature.h"
 #include "core/fairing/curvature_samples.h"
 #include "core/fairing/profile_data.h"
+#include "core/solve/levenberg_marquardt.h"
 
 namespace batten {
 namespace {
@@ -19,7 +20,8 @@ constexpr double kNielsen = 1e-9;        // a smaller alpha is 0
 constexpr double kStraightShare = 1e-3;  // of the largest curvature: less is straight
 constexpr double kAlphaStep = 0.5, kAlphaAccuracy = 1e-4;
 constexpr int kEndSteps = 40;
-constexpr double kEndDifference = 1e-6, kEndConverged = 1e-12, kMostLog = 12.0;
+constexpr double kEndDifference = 1e-6, kEndConverged = 1e-12;
+constexpr double kMostLog = 24.0, kMostLogStep = 1.0;
 constexpr int kNodesPerStretch = 32;
 constexpr double kGolden = 0.6180339887498949;
 
@@ -55,51 +57,77 @@ LogAesthetic linearFit(std::span<const double> x, std::span<const double> kappa,
   return fit;
 }
 
-/// The free ends for one alpha: Levenberg-Marquardt on the logarithms of their curvatures.
-LogAesthetic withEnds(LogAesthetic fit, std::span<const double> x, std::span<const double> kappa, bool freeStart,
-                      bool freeEnd) {
-  const double sign = fit.startKappa > 0.0 ? 1.0 : -1.0;
-  std::array<double, 2> log = {std::log(std::abs(fit.startKappa)), std::log(std::abs(fit.endKappa))};
-  const std::array<bool, 2> isFree = {freeStart, freeEnd};
-  const auto made = [&](const std::array<double, 2>& at) {
-    return LogAesthetic{sign * std::exp(at[0]), sign * std::exp(at[1]), fit.alpha};
-  };
-  double cost = misfitOf(made(log), x, kappa), damping = 1e-3;
-  for (int step = 0; step < kEndSteps && (freeStart || freeEnd); ++step) {
-    std::array<double, 2> gradient{};
-    double h00 = 0.0, h01 = 0.0, h11 = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
+/// The logarithms of the curvatures at the free ends, for one alpha.
+class EndsProblem final : public LevenbergProblem {
+ public:
+  EndsProblem(const LogAesthetic& fit, std::span<const double> x, std::span<const double> kappa,
+              const std::array<bool, 2>& isFree)
+      : alpha_(fit.alpha),
+        sign_(fit.startKappa > 0.0 ? 1.0 : -1.0),
+        x_(x),
+        kappa_(kappa),
+        isFree_(isFree),
+        log_{std::log(std::abs(fit.startKappa)), std::log(std::abs(fit.endKappa))},
+        trial_(log_) {}
+
+  LogAesthetic result() const { return made(log_); }
+
+  double linearise() override {
+    gradient_ = {};
+    h00_ = h01_ = h11_ = 0.0;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
       std::array<double, 2> slope{};
       for (std::size_t k = 0; k < 2; ++k) {
-        if (!isFree[k]) continue;
-        std::array<double, 2> more = log, less = log;
+        if (!isFree_[k]) continue;
+        std::array<double, 2> more = log_, less = log_;
         more[k] += kEndDifference;
         less[k] -= kEndDifference;
-        slope[k] = (made(more).kappa(x[i]) - made(less).kappa(x[i])) / (2.0 * kEndDifference);
+        slope[k] = (made(more).kappa(x_[i]) - made(less).kappa(x_[i])) / (2.0 * kEndDifference);
       }
-      const double off = made(log).kappa(x[i]) - kappa[i];
-      gradient[0] += slope[0] * off, gradient[1] += slope[1] * off;
-      h00 += slope[0] * slope[0], h01 += slope[0] * slope[1], h11 += slope[1] * slope[1];
+      const double off = made(log_).kappa(x_[i]) - kappa_[i];
+      gradient_[0] += slope[0] * off, gradient_[1] += slope[1] * off;
+      h00_ += slope[0] * slope[0], h01_ += slope[0] * slope[1], h11_ += slope[1] * slope[1];
     }
-    const double a = isFree[0] ? h00 * (1.0 + damping) : 1.0, b = isFree[1] ? h11 * (1.0 + damping) : 1.0;
-    const double determinant = a * b - h01 * h01;
-    if (!(determinant > 0.0)) break;
-    std::array<double, 2> next = {log[0] - (b * gradient[0] - h01 * gradient[1]) / determinant,
-                                  log[1] - (a * gradient[1] - h01 * gradient[0]) / determinant};
-    for (std::size_t k = 0; k < 2; ++k) next[k] = isFree[k] ? std::clamp(next[k], log[k] - 1.0, log[k] + 1.0) : log[k];
-    const double after = misfitOf(made(next), x, kappa);
-    if (after < cost) {
-      const bool isDone = cost - after <= kEndConverged * cost;
-      log = next;
-      cost = after;
-      damping *= 0.2;
-      if (isDone || std::abs(log[0]) > kMostLog * 2.0 || std::abs(log[1]) > kMostLog * 2.0) break;
-    } else {
-      damping *= 5.0;
-      if (damping > 1e8) break;
-    }
+    return misfitOf(made(log_), x_, kappa_);
   }
-  return made(log);
+  double tryStep(double damping) override {
+    const double a = isFree_[0] ? h00_ * (1.0 + damping) : 1.0, b = isFree_[1] ? h11_ * (1.0 + damping) : 1.0;
+    const double determinant = a * b - h01_ * h01_;
+    if (!(determinant > 0.0)) return std::numeric_limits<double>::infinity();
+    const std::array<double, 2> step = {(b * gradient_[0] - h01_ * gradient_[1]) / determinant,
+                                        (a * gradient_[1] - h01_ * gradient_[0]) / determinant};
+    for (std::size_t k = 0; k < 2; ++k)
+      trial_[k] = isFree_[k] ? log_[k] - std::clamp(step[k], -kMostLogStep, kMostLogStep) : log_[k];
+    return misfitOf(made(trial_), x_, kappa_);
+  }
+  void accept() override { log_ = trial_; }
+  /// An end runs off to a straight line, or to a point.
+  bool isReached() const override { return std::abs(log_[0]) > kMostLog || std::abs(log_[1]) > kMostLog; }
+
+ private:
+  LogAesthetic made(const std::array<double, 2>& at) const {
+    return {sign_ * std::exp(at[0]), sign_ * std::exp(at[1]), alpha_};
+  }
+
+  double alpha_, sign_;
+  std::span<const double> x_, kappa_;
+  std::array<bool, 2> isFree_;
+  std::array<double, 2> log_, trial_, gradient_{};
+  double h00_ = 0.0, h01_ = 0.0, h11_ = 0.0;
+};
+
+/// The best ends for the alpha of a fit.
+LogAesthetic withEnds(const LogAesthetic& fit, std::span<const double> x, std::span<const double> kappa, bool freeStart,
+                      bool freeEnd) {
+  EndsProblem problem(fit, x, kappa, {freeStart, freeEnd});
+  LevenbergOptions options;
+  options.iterations = freeStart || freeEnd ? kEndSteps : 0;
+  options.failure = 5.0;
+  options.mostDamping = 1e8;
+  options.smallDecrease = kEndConverged;
+  options.smallSteps = options.smallStepsDamped = 1;
+  levenbergMarquardt(problem, options, RunContext{});
+  return problem.result();
 }
 
 /// From split to split, as samples over 0..1 of the stretch.
@@ -223,7 +251,6 @@ LogAestheticTarget logAestheticTarget(const NurbsCurve& curve, bool closed, cons
   }
   const std::vector<Stretch> stretches = stretchesOf(sampled, splits, closed);
   const std::size_t count = stretches.size();
-  const bool isRing = closed;
   // Where two meet: the mean of what both want there.
   std::vector<LogAesthetic> fits;
   for (const Stretch& one : stretches) fits.push_back(fitLogAesthetic(one.x, one.kappa, alpha, {}, {}));
@@ -234,8 +261,8 @@ LogAestheticTarget logAestheticTarget(const NurbsCurve& curve, bool closed, cons
   std::vector<ProfileNode>& nodes = target.profile.nodes;
   for (std::size_t k = 0; k < count; ++k) {
     const Stretch& one = stretches[k];
-    const auto start = k > 0 || isRing ? std::optional(joint[(k + count - 1) % count]) : std::nullopt;
-    const auto end = k + 1 < count || isRing ? std::optional(joint[k]) : std::nullopt;
+    const auto start = k > 0 || closed ? std::optional(joint[(k + count - 1) % count]) : std::nullopt;
+    const auto end = k + 1 < count || closed ? std::optional(joint[k]) : std::nullopt;
     const LogAesthetic fit = fitLogAesthetic(one.x, one.kappa, alpha, start, end);
     const double width = one.to - one.from;
     for (int i = 0; i <= kNodesPerStretch; ++i) {

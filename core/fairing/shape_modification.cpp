@@ -29,6 +29,8 @@ constexpr std::array kRoundTolerances = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.
 constexpr double kStuckShare = 0.8;
 /// Room for what lies between the places where the deviation is measured.
 constexpr double kTargetRoom = 0.999;
+/// Tolerances: a curve that has left the sketch by this, on its way to the target, will not come back.
+constexpr double kBeyondReach = 2.0;
 
 constexpr const char* kNothingNearer =
     "Left as sketched: nothing within the tolerance comes nearer to this target without more curvature extrema. Raise "
@@ -70,13 +72,17 @@ class ShapeModification {
         asked_(effort.asked == ExtremaAsked::None ? 0 : extremaAsked(*setup, objective)) {
     if (effort.asked == ExtremaAsked::UpToSketch)
       asked_ = std::min(asked_, countedExtrema(setup->original, setup->closed));
-    open(setup.get());
-    // Where the target is met without tremor, there is none to be passed over.
-    if (!courses_.empty() && courses_.front().steps.all().front().extrema <= asked_) return;
-    calm_ = calmSetups(setup);
-    for (const auto& calm : calm_) open(calm.get());
+    if (onlyIfMet_) mostMm_ = kBeyondReach * toleranceMm;
+    openAll(setup);
+    // One that comes to its target decides together with the others, which are then followed to the end.
+    const auto endsEarly = [](const Course& course) { return course.steps.endsEarly(); };
+    const bool allEndEarly = std::all_of(courses_.begin(), courses_.end(), endsEarly);
+    if (allEndEarly || std::none_of(courses_.begin(), courses_.end(), endsEarly)) return;
+    mostMm_ = std::numeric_limits<double>::infinity();
+    courses_.clear();
+    calm_.clear();
+    openAll(setup);
   }
-
   Result<FairedCurve> run() {
     if (context_.isCancelled()) return cancelled();
     const auto before = evaluate(sketch_, objective_, {}, sketch_.points, sketch_.start.places);
@@ -97,7 +103,7 @@ class ShapeModification {
         if (isWithin(step)) take(step, &course);
       }
     }
-    report_.withinTolerance = report_.neededMm <= kTargetRoom * toleranceMm_;
+    report_.withinTolerance = !courses_.front().steps.endsEarly() && report_.neededMm <= kTargetRoom * toleranceMm_;
     if (onlyIfMet_ && !report_.withinTolerance) return done();
     for (const double tolerance : kRoundTolerances) {
       if (tolerance <= toleranceMm_) useRound(tolerance);
@@ -116,8 +122,17 @@ class ShapeModification {
     TargetSteps steps;
   };
 
+  void openAll(const std::shared_ptr<const FairingSetup>& setup) {
+    open(setup.get());
+    // Where the target is met without tremor, there is none to be passed over.
+    if (!courses_.empty() && !courses_.front().steps.endsEarly() &&
+        courses_.front().steps.all().front().extrema <= asked_)
+      return;
+    calm_ = calmSetups(setup);
+    for (const auto& calm : calm_) open(calm.get());
+  }
   void open(const FairingSetup* over) {
-    Course course{over, TargetSteps(*over, objective_, context_)};
+    Course course{over, TargetSteps(*over, objective_, context_, mostMm_)};
     if (!course.steps.all().empty()) courses_.push_back(std::move(course));
   }
   bool isWithin(const TargetStep& step) const { return step.deviationMm <= kTargetRoom * toleranceMm_; }
@@ -252,7 +267,7 @@ class ShapeModification {
 
   const FairingSetup& sketch_;
   const FairingObjective& objective_;
-  double toleranceMm_;
+  double toleranceMm_, mostMm_ = std::numeric_limits<double>::infinity();
   const RunContext& context_;
   std::vector<std::shared_ptr<const FairingSetup>> calm_;
   std::vector<Course> courses_;

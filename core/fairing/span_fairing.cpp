@@ -160,25 +160,6 @@ Result<NurbsCurve> refined(NurbsCurve curve, const ProfileSpan& range) {
   return curve;
 }
 
-void addNote(std::string& notes, const std::string& note) {
-  if (note.empty() || notes.find(note) != std::string::npos) return;
-  notes.append(notes.empty() ? "" : " ").append(note);
-}
-
-/// What the fairing of one more span adds to the report.
-void addReport(FairingReport& report, const FairingReport& one) {
-  if (report.why == Termination::NotRun || one.why != Termination::Converged) report.why = one.why;
-  addNote(report.note, one.note);
-  report.iterations += one.iterations;
-  report.objectiveBefore = std::max(report.objectiveBefore, one.objectiveBefore);
-  report.objectiveAfter = std::max(report.objectiveAfter, one.objectiveAfter);
-  report.maxDeviationMm = std::max(report.maxDeviationMm, one.maxDeviationMm);
-  report.neededMm = std::max(report.neededMm, one.neededMm);
-  if (one.similarityAfter)
-    report.similarityAfter = std::min(report.similarityAfter.value_or(1.0), *one.similarityAfter);
-  report.withinTolerance = report.withinTolerance && one.withinTolerance;
-}
-
 }  // namespace
 
 TargetSet fitSpanTargets(const NurbsCurve& curve, bool closed, const TargetParams& params, const ProfileSpan& span) {
@@ -267,12 +248,12 @@ Result<FairedCurve> fairSpans(const NurbsCurve& curve, bool closed, const std::v
       stayed.why = Termination::Degenerate;
       stayed.note = setup ? profile.problem : setup.error().message;
       stayed.withinTolerance = false;
-      addReport(result.report, stayed);
+      addPart(result.report, stayed);
       continue;
     }
     auto faired = modifyShape(*setup, profile, params.toleranceMm, context);
     if (!faired) return faired;
-    addReport(result.report, faired->report);
+    addPart(result.report, faired->report);
     if (faired->report.maxDeviationMm > 0.0) result.curve = std::move(faired->curve);
   }
   result.report.extremaBefore = countedExtrema(curve, closed);

@@ -92,17 +92,15 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
     };
     int degree = params.target;
     if (degree == 0 && params.targetChoice == TargetChoice::Similarity) {
-      std::optional<LevelOutcome> best;
+      FairedByDegree all;
       for (int tried = 1; tried <= 6; ++tried) {
-        if (!first.profiles[static_cast<std::size_t>(tried) - 1].valid) continue;
+        const auto at = static_cast<std::size_t>(tried) - 1;
+        if (!first.profiles[at].valid) continue;
         auto outcome = toDegree(tried, levels);
         if (!outcome) return fail(outcome.error());
-        const double s = outcome->faired.report.similarityAfter.value_or(-1.0);
-        if (best && s <= best->faired.report.similarityAfter.value_or(-1.0)) continue;
-        best = std::move(*outcome);
-        degree = tried;
+        all[at] = followed(std::move(*outcome), tried);
       }
-      if (best) return followed(std::move(*best), degree);
+      if (const auto best = mostSimilar(all)) return std::move(*all[static_cast<std::size_t>(*best) - 1]);
     }
     for (int tried = 1; tried <= 6 && degree == 0; ++tried) {
       if (!first.profiles[static_cast<std::size_t>(tried) - 1].valid) continue;

@@ -51,7 +51,8 @@ int extremaAsked(const FairingSetup& setup, const FairingObjective& objective) {
   return countExtrema(objective.wanted, kExtremumProminence / setup.extent, setup.closed);
 }
 
-TargetSteps::TargetSteps(const FairingSetup& setup, const FairingObjective& objective, const RunContext& context)
+TargetSteps::TargetSteps(const FairingSetup& setup, const FairingObjective& objective, const RunContext& context,
+                         double mostMm)
     : setup_(setup), objective_(objective), context_(context) {
   TargetStep from{0.0, setup.points, setup.start.places, 1e-3, 0.0, 0.0, 0, Termination::NotRun};
   const auto start = evaluate(setup, objective, {}, setup.points, setup.start.places);
@@ -68,9 +69,13 @@ TargetSteps::TargetSteps(const FairingSetup& setup, const FairingObjective& obje
     if (!step) break;
     from = *step;
     steps_.push_back(std::move(*step));
+    if (i == 0 || !(from.deviationMm > mostMm)) continue;
+    early_ = true;
+    break;
   }
   std::reverse(steps_.begin(), steps_.end());
   if (context.isCancelled()) steps_.clear();
+  if (early_) return;
   rough_ = isLong && !steps_.empty() && steps_.front().deviationMm > kOutOfReach * setup.extent;
   if (!isLong || rough_ || steps_.empty() || steps_.front().why != Termination::IterationLimit) return;
   if (auto step = solve(smallest, steps_.front(), kRest)) steps_.front() = std::move(*step);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -36,10 +37,14 @@ struct TargetStep {
 /// on sketch and target alone, so what is found within a tolerance is found within a larger one too.
 class TargetSteps {
  public:
-  TargetSteps(const FairingSetup& setup, const FairingObjective& objective, const RunContext& context);
+  /// @param mostMm the steps end, and none meets the target, where the curve has left the sketch by more than this.
+  TargetSteps(const FairingSetup& setup, const FairingObjective& objective, const RunContext& context,
+              double mostMm = std::numeric_limits<double>::infinity());
 
-  /// The first meets the target fully. Empty when the sketch has a cusp, or when cancelled.
+  /// The first meets the target fully, but where they ended before (endsEarly). Empty when the sketch has a cusp, or
+  /// when cancelled.
   const std::vector<TargetStep>& all() const { return steps_; }
+  bool endsEarly() const { return early_; }
   /// Less effort was made: a long curve, and a target far out of its reach.
   bool isRough() const { return rough_; }
   /// A step of another weight, from one that is near.
@@ -54,7 +59,7 @@ class TargetSteps {
   const FairingObjective& objective_;
   const RunContext& context_;
   std::vector<TargetStep> steps_;
-  bool rough_ = false;
+  bool rough_ = false, early_ = false;
   mutable int iterations_ = 0;
 };
 
