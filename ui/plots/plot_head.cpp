@@ -31,19 +31,19 @@ PlotHead::PlotHead(QWidget* parent)
   const struct {
     PlotTab tab;
     QString text, name, help;
-  } tabs[] = {
-      {PlotTab::Radius, tr("Radius over arc length"), QStringLiteral("plot.radius"),
-       tr("Radius of curvature in mm, logarithmic; straight stretches are cut off at the top.")},
-      {PlotTab::Curvature, tr("Curvature"), QStringLiteral("plot.curvature"),
-       tr("Signed curvature, 1/mm: positive where the curve turns left. The band is what the scan leaves open.")},
-      {PlotTab::CurvatureSlope, tr("Curvature slope"), QStringLiteral("plot.slope"),
-       tr("How fast the curvature changes along the curve, dκ/ds in 1/mm²: it crosses 0 at every curvature extremum; "
-          "small and even is fair.")},
-      {PlotTab::Speed, tr("Parameter speed"), QStringLiteral("plot.speed"),
-       tr("Length of the first derivative |R′(u)|: how many mm of curve a unit of its parameter u makes. Even is good "
-          "parametrisation; it says nothing of the shape.")},
-      {PlotTab::Deviation, tr("Deviation"), QStringLiteral("plot.deviation"),
-       tr("Distance of the scan's edge points and of the faired curve from the sketched curve, in mm.")}};
+  } tabs[] = {{PlotTab::Radius, tr("Radius over arc length"), QStringLiteral("plot.radius"),
+               tr("Radius of curvature in mm, logarithmic; straight stretches are cut off at the top.")},
+              {PlotTab::Curvature, tr("Curvature"), QStringLiteral("plot.curvature"),
+               tr("Signed curvature, 1/mm: positive where the curve turns left. The band is the "
+                  "uncertainty due to scan noise.")},
+              {PlotTab::CurvatureSlope, tr("Curvature slope"), QStringLiteral("plot.slope"),
+               tr("Rate of change of the curvature along the curve, dκ/ds in 1/mm²: zero at every "
+                  "curvature extremum; small and even is fair.")},
+              {PlotTab::Speed, tr("Parameter speed"), QStringLiteral("plot.speed"),
+               tr("Magnitude of the first derivative |R′(u)|, in mm per unit of u. Even speed means a good "
+                  "parametrisation; it says nothing about the shape.")},
+              {PlotTab::Deviation, tr("Deviation"), QStringLiteral("plot.deviation"),
+               tr("Distance of the scan's edge points and of the faired curve from the sketched curve, in mm.")}};
   for (const auto& one : tabs) {
     auto* button = new QToolButton(this);
     add(button, one.text, one.name, one.help);
@@ -56,8 +56,8 @@ PlotHead::PlotHead(QWidget* parent)
   layout->addWidget(value_);
   layout->addSpacing(8);
   add(reverse_, tr("Reverse"), QStringLiteral("plot.reverse"),
-      tr("Turns the plot round. By itself it runs as the curve lies on the drawing, from left to right; lengths count "
-         "from the end with the arrow."));
+      tr("Reverses the plot. By default it runs from left to right as on the drawing; arc length "
+         "is measured from the end with the arrow."));
   connect(tabs_, &QButtonGroup::idClicked, this, [this](int id) { emit chosen(static_cast<PlotTab>(id)); });
   connect(reverse_, &QToolButton::clicked, this, &PlotHead::reverseAsked);
 }

@@ -23,9 +23,8 @@ MergeSuggestion::MergeSuggestion(EditorSession& session, QWidget* parent)
       note_(note({}, this)),
       ask_(linkButton(tr("Suggest"), QStringLiteral("edges.suggestMerge"), this)) {
   note_->setObjectName(QStringLiteral("edges.suggestMerge.note"));
-  ask_->setAccessibleName(tr("Suggest how far to merge strokes"));
-  ask_->setToolTip(
-      tr("Looks whether lines were drawn in several strokes over one another, and if so sets how far to merge them."));
+  ask_->setAccessibleName(tr("Suggest merge distance"));
+  ask_->setToolTip(tr("Checks for overdrawn strokes and sets the merge distance if there are any."));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(8);
@@ -49,7 +48,7 @@ void MergeSuggestion::look() {
   const ContentHash key = mergeAdviceKey(*scan, recipe);
   asked_ = key;
   said_.reset();
-  say(tr("Looking at the strokes …"));
+  say(tr("Analysing strokes…"));
   session_.setSideWork(this, true, false);
   worker_.start([scan, recipe, key, panel = QPointer<MergeSuggestion>(this)](const CancelToken& token) {
     RunContext context;
@@ -106,8 +105,6 @@ void MergeSuggestion::follow() {
   say({});
 }
 
-void MergeSuggestion::say(const QString& text) {
-  note_->setText(text.isEmpty() ? tr("Drawn in several strokes?") : text);
-}
+void MergeSuggestion::say(const QString& text) { note_->setText(text.isEmpty() ? tr("Overdrawn strokes?") : text); }
 
 }  // namespace batten
