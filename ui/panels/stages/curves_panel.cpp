@@ -29,37 +29,44 @@
 namespace batten {
 namespace {
 
-/// A slider with a field for something of the view; both follow `get`.
-void addViewRow(QGridLayout* grid, ViewSettings& view, QWidget* parent, const QString& label, const QString& name,
-                const QString& help, double low, double high, int decimals, const std::function<double()>& get,
-                const std::function<void(double)>& set) {
+/// What a slider with a field is for; both follow `get`.
+struct ViewRow {
+  QString label, name, help;
+  double low = 0.0, high = 1.0;
+  int decimals = 0;
+  std::function<double()> get;
+  std::function<void(double)> set;
+};
+
+void addViewRow(QGridLayout* grid, ViewSettings& view, QWidget* parent, const ViewRow& its) {
   const int row = grid->rowCount();
-  auto* text = new QLabel(label, parent);
+  auto* text = new QLabel(its.label, parent);
   auto* field = new NumberField(parent);
   auto* track = new SliderTrack(parent);
   for (QWidget* widget : {static_cast<QWidget*>(text), static_cast<QWidget*>(field), static_cast<QWidget*>(track)})
-    widget->setToolTip(help);
-  field->setRange(low, high);
-  field->setDecimals(decimals);
+    widget->setToolTip(its.help);
+  field->setRange(its.low, its.high);
+  field->setDecimals(its.decimals);
   field->setFixedWidth(76);
-  field->edit()->setObjectName(name + QStringLiteral(".field"));
-  field->edit()->setAccessibleName(label);
-  track->setObjectName(name);
-  track->setAccessibleName(label);
+  field->edit()->setObjectName(its.name + QStringLiteral(".field"));
+  field->edit()->setAccessibleName(its.label);
+  track->setObjectName(its.name);
+  track->setAccessibleName(its.label);
   grid->addWidget(text, row, 0);
   grid->addWidget(field, row, 1);
   grid->addWidget(track, row + 1, 0, 1, 2);
   const auto show = [=] {
-    field->setValue(get());
+    field->setValue(its.get());
     const QSignalBlocker quiet(track);
     if (!track->isSliderDown())
-      track->setValue(
-          static_cast<int>(std::lround(std::log(get() / low) / std::log(high / low) * SliderTrack::kSteps)));
+      track->setValue(static_cast<int>(
+          std::lround(std::log(its.get() / its.low) / std::log(its.high / its.low) * SliderTrack::kSteps)));
     track->update();
   };
-  QObject::connect(field, &NumberField::committed, parent, [set](double value) { set(value); });
-  QObject::connect(track, &QSlider::valueChanged, parent,
-                   [=](int position) { set(low * std::pow(high / low, double(position) / SliderTrack::kSteps)); });
+  QObject::connect(field, &NumberField::committed, parent, its.set);
+  QObject::connect(track, &QSlider::valueChanged, parent, [its](int position) {
+    its.set(its.low * std::pow(its.high / its.low, double(position) / SliderTrack::kSteps));
+  });
   QObject::connect(&view, &ViewSettings::changed, parent, show);
   show();
 }
@@ -90,14 +97,24 @@ CombControls::CombControls(ViewSettings& view, QWidget* parent) : QWidget(parent
   connect(quantity, &SegmentedControl::chosen, this, [&view](int index) { view.setCombShowsRadius(index == 1); });
   connect(&view, &ViewSettings::changed, this, showQuantity);
   showQuantity();
-  addViewRow(
-      grid, view, this, tr("Comb height"), QStringLiteral("view.combScale"),
-      tr("Height of the curvature comb; 1 is automatic."), 0.05, 20.0, 2, [&view] { return view.combScale(); },
-      [&view](double value) { view.setCombScale(value); });
-  addViewRow(
-      grid, view, this, tr("Comb density"), QStringLiteral("view.combDensity"), tr("Number of comb lines on a curve."),
-      20, 1000, 0, [&view] { return double(view.combDensity()); },
-      [&view](double value) { view.setCombDensity(static_cast<int>(std::lround(value))); });
+  addViewRow(grid, view, this,
+             {.label = tr("Comb height"),
+              .name = QStringLiteral("view.combScale"),
+              .help = tr("Height of the curvature comb; 1 is automatic."),
+              .low = 0.05,
+              .high = 20.0,
+              .decimals = 2,
+              .get = [&view] { return view.combScale(); },
+              .set = [&view](double value) { view.setCombScale(value); }});
+  addViewRow(grid, view, this,
+             {.label = tr("Comb density"),
+              .name = QStringLiteral("view.combDensity"),
+              .help = tr("Number of comb lines on a curve."),
+              .low = 20.0,
+              .high = 1000.0,
+              .decimals = 0,
+              .get = [&view] { return double(view.combDensity()); },
+              .set = [&view](double value) { view.setCombDensity(static_cast<int>(std::lround(value))); }});
 }
 
 CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
