@@ -85,7 +85,7 @@ StatusLine::StatusLine(EditorSession& session, QWidget* parent)
   setScale_->setFont(uiFont(12));
   cancel_->setFont(uiFont(12));
   again_->setFont(uiFont(12));
-  again_->setToolTip(tr("Go on with the computation that was stopped.  (Ctrl+R)"));
+  again_->setToolTip(tr("Resume the stopped computation.  (Ctrl+R)"));
   messageTimer_.setSingleShot(true);
   messageTimer_.setInterval(kMessageMs);
   connect(&messageTimer_, &QTimer::timeout, this, [this] {
@@ -185,8 +185,8 @@ void StatusLine::refreshWork() {
   work_->setText(session_.isStopped() || !whole ? tr("stopped")
                  : ms < 0.5                     ? tr("exact")
                                                 : tr("exact · %1 ms").arg(ms, 0, 'f', 0));
-  work_->setToolTip(whole ? tr("All that is shown belongs to the present settings.")
-                          : tr("Some of what is shown is from earlier settings."));
+  work_->setToolTip(whole ? tr("Everything shown matches the current settings.")
+                          : tr("Some of what is shown was computed with earlier settings."));
 }
 
 void StatusLine::paintEvent(QPaintEvent*) {

@@ -50,7 +50,7 @@ Result<std::vector<CornerSuggestion>> cornersOf(const Scan& scan, const Recipe& 
 }
 
 Result<Advice> adviceFor(const TraceArguments& arguments) {
-  if (arguments.scan.empty()) return fail(ErrorCode::BadParameter, "Name the scan to look at.");
+  if (arguments.scan.empty()) return fail(ErrorCode::BadParameter, "Name a scan.");
   const auto recipe = recipeOf(arguments);
   if (!recipe) return fail(recipe.error());
   RunContext context;

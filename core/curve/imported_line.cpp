@@ -47,15 +47,15 @@ std::optional<Error> validateLine(const ImportedLine& line) {
   const double size = line.curves.empty() && line.points.empty() ? 0.0 : sizeOf(line);
   if (!(size > 0.0)) return bad("An imported line has no length.");
   if (!line.curves.empty()) {
-    if (!line.points.empty()) return bad("An imported line holds curves and points at once.");
-    if (!followEachOther(line, size)) return bad("The curves of an imported line do not follow each other.");
+    if (!line.points.empty()) return bad("An imported line has both curves and points.");
+    if (!followEachOther(line, size)) return bad("The curves of an imported line do not join end to end.");
     return std::nullopt;
   }
   if (std::ssize(line.points) < (line.closed ? 3 : 2)) return bad("An imported line needs at least two points.");
   int before = -1;
   for (const int corner : line.corners) {
     if (corner <= before || corner >= std::ssize(line.points))
-      return bad("A corner of an imported line is none of its points.");
+      return bad("A corner of an imported line is not one of its points.");
     before = corner;
   }
   return std::nullopt;
@@ -64,14 +64,14 @@ std::optional<Error> validateLine(const ImportedLine& line) {
 }  // namespace
 
 std::optional<Error> validate(const ImportedFile& file) {
-  if (file.lines.size() > kMostLines) return bad("A file may bring at most 20000 lines.");
+  if (file.lines.size() > kMostLines) return bad("At most 20000 lines can be imported from a file.");
   std::size_t points = 0;
   for (const ImportedLine& line : file.lines) {
     points += line.points.size();
     for (const auto& [curve, name] : line.curves)
       points += curve.isEmpty() ? 0 : static_cast<std::size_t>(curve.controlPointCount());
   }
-  if (points > kMostPoints) return bad("A file may bring at most 500000 points.");
+  if (points > kMostPoints) return bad("At most 500000 points can be imported from a file.");
   for (const ImportedLine& line : file.lines) {
     if (auto wrong = validateLine(line)) return wrong;
   }

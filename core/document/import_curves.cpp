@@ -121,8 +121,7 @@ std::optional<double> millimetresOfImport(const ImportedFile& file) {
 Result<Recipe> withImportUnit(Recipe recipe, std::size_t import, const std::string& unit, const PageFrame& frame) {
   ImportedFile file = recipe.imports.at(import);
   const auto before = millimetresOfImport(file), now = millimetresOfUnit(unit);
-  if (!before || !now)
-    return fail(ErrorCode::BadParameter, "Lengths are not known in " + unit + ". Take mm, cm, m or in.");
+  if (!before || !now) return fail(ErrorCode::BadParameter, "Unknown unit: " + unit + ". Use mm, cm, m or in.");
   const double factor = *now / *before;
   file.unit = unit;
   const Eigen::Matrix2d linear = factor * Eigen::Matrix2d::Identity();

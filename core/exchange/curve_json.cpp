@@ -173,7 +173,7 @@ Result<ExportDocument> readCurveJson(std::string_view text, const RunContext& co
   try {
     return documentFromJson(*json);
   } catch (const Json::exception& e) {
-    auto error = damaged("it is not complete, or not what Batten writes");
+    auto error = damaged("it is incomplete or was not written by Batten");
     error.value().detail = e.what();
     return error;
   }

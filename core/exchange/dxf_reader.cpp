@@ -114,7 +114,7 @@ class Entity {
     const auto found = find(code);
     return found == tags_.end() ? absent : numberOf<int>(found->value);
   }
-  /// All numbers of a code in order; nothing if one of them is none.
+  /// All numbers of a code in order; absent if one is not a number.
   std::optional<std::vector<double>> all(int code) const {
     std::vector<double> values;
     for (const Tag& tag : tags_) {
@@ -275,10 +275,10 @@ class Reader {
         comment((*tag)->value);
         continue;
       }
-      if (entity.empty() && (*tag)->code != 0) return damaged((*tag)->line, "it does not begin as a DXF does");
+      if (entity.empty() && (*tag)->code != 0) return damaged((*tag)->line, "it does not start like a DXF");
       entity.push_back(**tag);
     }
-    if (!sawSection_) return damaged(1, "it is no DXF");
+    if (!sawSection_) return damaged(1, "it is not a DXF");
     if (!sawEnd_) return fail(ErrorCode::BadParameter, "The DXF cannot be read: its end is missing. Export it again.");
     return std::move(drawing_);
   }

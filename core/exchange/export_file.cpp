@@ -258,10 +258,10 @@ Result<ExportedFile> exportedFile(const ExportDocument& given, const ExportSetti
   auto check = checkedFile(document, settings, context, file.report);
   if (!check) return fail(check.error());
   if (!(check->difference <= check->allowed)) {
-    return fail(
-        ErrorCode::CannotWrite,
-        "What was written differs by " + shortNumber(check->difference) +
-            " mm when it is read back, more than this format allows. Nothing was saved; choose another format.");
+    return fail(ErrorCode::CannotWrite,
+                "The written file deviates by " + shortNumber(check->difference) +
+                    " mm when read back, more than this format allows. Nothing was saved; choose another "
+                    "format.");
   }
   file.report.largestDifferenceMm = check->difference;
   file.bytes = std::move(check->bytes);
@@ -278,7 +278,7 @@ Result<ExportReport> exportToFile(const ExportDocument& document, const ExportSe
   const std::string back{std::istreambuf_iterator<char>(in), {}};
   if (back != file->bytes)
     return fail(ErrorCode::CannotWrite,
-                "The file " + path.string() + " does not hold what was written. Is the disk full?");
+                "The file " + path.string() + " does not contain what was written. Is the disk full?");
   file->report.path = path;
   return std::move(file->report);
 }
@@ -338,7 +338,7 @@ ExportDocument onlyCurves(const ExportDocument& document, const std::set<int>& n
 Result<ExportDocument> chosenCurves(const ExportDocument& document, const std::string& list) {
   const auto numbers = numbersOf(list);
   if (!numbers) {
-    return fail(ErrorCode::BadParameter, "Curves are chosen by their numbers, as in 1,3-5, not \"" + list + "\".");
+    return fail(ErrorCode::BadParameter, "Give curve numbers such as 1,3-5, not \"" + list + "\".");
   }
   std::set<int> missing = *numbers;
   for (const auto& line : pieceNumbers(document))

@@ -243,7 +243,7 @@ class IgesReader {
         return igesDamaged(records_.entries[i].line, "a composite curve does not name its parts");
       for (int k = 0; k < *count; ++k) {
         const auto child = entryAt(n.at(1 + static_cast<std::size_t>(k)));
-        if (!child) return igesDamaged(records_.entries[i].line, "a part of a composite curve is not there");
+        if (!child) return igesDamaged(records_.entries[i].line, "a part of a composite curve is missing");
         // A part of two composites counts once, a composite within another by itself.
         if (records_.entries[*child].type == kComposite || !isChild_.insert(*child).second) continue;
         children_[i].push_back(*child);
@@ -260,7 +260,7 @@ class IgesReader {
     for (int depth = 0; line != 0; ++depth) {
       const auto at = entryAt(line);
       if (!at || depth == kDeepest || records_.entries[*at].type != kMatrix)
-        return igesDamaged(entry.line, "its transformation is not there");
+        return igesDamaged(entry.line, "its transformation is missing");
       auto known = matrices_.find(*at);
       if (known == matrices_.end()) {
         const auto fields = parametersOf(records_, records_.entries[*at], budget_);

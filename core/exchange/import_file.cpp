@@ -213,9 +213,9 @@ double takeUnit(std::optional<double> stated, std::optional<double> asked, Impor
 
 void tellLeft(int left, ImportReport& report) {
   if (left == 0) return;
-  report.notes.push_back(std::to_string(left) + (left == 1 ? " entity of " : " entities of ") + report.file.source +
-                         (left == 1 ? " is no curve that can be taken over, and was left out."
-                                    : " are no curves that can be taken over, and were left out."));
+  report.notes.push_back(
+      std::to_string(left) + (left == 1 ? " entity of " : " entities of ") + report.file.source +
+      (left == 1 ? " could not be imported and was skipped." : " could not be imported and were skipped."));
 }
 
 void takeDrawing(const CadDrawing& drawing, std::optional<double> asked, ImportReport& report) {
@@ -295,13 +295,13 @@ void takeOwnSvg(const ExportDocument& own, SvgShapes shapes, double toleranceMm,
   report.file.lines = std::move(lines.lines);
   if (lines.drawn > 0) {
     report.notes.push_back(report.file.source + ": " +
-                           counted(lines.drawn, "path is not what Batten wrote and was read as it is drawn.",
-                                   "paths are not what Batten wrote and were read as they are drawn."));
+                           counted(lines.drawn, "path was changed by another program and was read as drawn.",
+                                   "paths were changed by another program and were read as drawn."));
   }
   if (lines.gone > 0) {
     report.notes.push_back(report.file.source + ": " +
-                           counted(lines.gone, "curve of Batten is not drawn any more as it was, and was left out.",
-                                   "curves of Batten are not drawn any more as they were, and were left out."));
+                           counted(lines.gone, "curve written by Batten is no longer drawn and was skipped.",
+                                   "curves written by Batten are no longer drawn and were skipped."));
   }
 }
 
@@ -322,7 +322,7 @@ Result<void> takeSvg(const std::string& bytes, std::optional<double> asked, cons
   report.file.lines = std::move(shapes->lines);
   report.file.unit = shapes->hasSize ? "mm" : "px?";
   if (!shapes->hasSize && !asked)
-    report.notes.push_back("The file " + report.file.source + " states no size; a unit was taken for 1/96 inch.");
+    report.notes.push_back("The file " + report.file.source + " states no size; 96 units per inch were assumed.");
   takeUnitOf(shapes->mmPerUnit, asked, report);
   tellLeft(shapes->left, report);
   return {};

@@ -179,7 +179,7 @@ bool isPair(const PointJson& json) {
 
 Result<std::vector<Vec2>> pointsOf(const PointJson& list) {
   std::vector<Vec2> points;
-  if (!list.is_array()) return noPoints("a line is no list of points");
+  if (!list.is_array()) return noPoints("a line is not a list of points");
   for (const PointJson& pair : list) {
     if (!isPair(pair)) return noPoints("a point is not a pair of numbers");
     points.emplace_back(pair[0].get<double>(), pair[1].get<double>());
@@ -219,7 +219,7 @@ std::optional<double> millimetresOfUnit(std::string_view unit) {
 }
 
 Result<PointFile> readPointTable(std::string_view text, const RunContext& context) {
-  if (text.find('\0') != std::string_view::npos) return noPoints("the file is no text");
+  if (text.find('\0') != std::string_view::npos) return noPoints("the file is not text");
   auto file = TableReader(context).read(text);
   if (file && file->lines.empty()) return fail(ErrorCode::NoCurve, "There is no line of two or more points in it.");
   return file;
@@ -234,9 +234,9 @@ Result<PointFile> readPointJson(std::string_view text, const RunContext& context
     const PointJson* lines = &*json;
     if (json->is_object()) {
       if (json->contains("unit")) {
-        if (!(*json)["unit"].is_string()) return noPoints("its unit is no text");
+        if (!(*json)["unit"].is_string()) return noPoints("its unit is not text");
         file.mmPerUnit = millimetresOfUnit((*json)["unit"].get<std::string>());
-        if (!file.mmPerUnit) return noPoints("its unit is none of mm, cm, m and in");
+        if (!file.mmPerUnit) return noPoints("its unit is not mm, cm, m or in");
       }
       if (!json->contains("lines")) return noPoints("it has no \"lines\"");
       lines = &(*json)["lines"];

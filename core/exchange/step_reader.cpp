@@ -195,7 +195,8 @@ class StepReader {
         for (std::size_t k = before; k < drawing_.entities.size(); ++k) drawing_.entities[k].layer = layer->second;
       }
       if (visitsLeft_ == 0)
-        return fail(ErrorCode::BadParameter, "The curves of the STEP file name each other too often. Export it again.");
+        return fail(ErrorCode::BadParameter,
+                    "The curves of the STEP file refer to each other too often. Export it again.");
       if (drawing_.entities.size() > kMostShapes)
         return fail(ErrorCode::BadParameter, "The STEP file holds more than 200000 curves. Export fewer of them.");
     }

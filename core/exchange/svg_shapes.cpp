@@ -110,11 +110,11 @@ class ShapesReader {
       const auto token = xml_.readNext();
       if (token == QXmlStreamReader::EndElement && !frames_.empty()) frames_.pop_back();
       if (token != QXmlStreamReader::StartElement) continue;
-      if (frames_.size() >= kDeepestElement) return damaged("its elements lie more than 256 deep in one another");
+      if (frames_.size() >= kDeepestElement) return damaged("its elements are nested more than 256 deep");
       if (auto taken = begin(); !taken) return fail(taken.error());
     }
     if (xml_.hasError()) return damaged("it is damaged (" + xml_.errorString().toStdString() + ")");
-    if (!sawSvg_) return damaged("it is no SVG");
+    if (!sawSvg_) return damaged("it is not an SVG");
     return std::move(out_);
   }
 

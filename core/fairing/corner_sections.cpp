@@ -22,8 +22,7 @@ constexpr double kStraight = 1e-9;  // of the extent
 constexpr double kJoins = 1e-6;     // of the extent
 constexpr double kTrifle = 1e-4;    // of a part
 constexpr int kNodesPerSection = 48;
-constexpr const char* kAddsAtCorners =
-    "Left as sketched: with its parts fair, the curve would have more curvature extrema.";
+constexpr const char* kAddsAtCorners = "Unchanged: fairing its parts would add curvature extrema.";
 
 bool isStraightLine(const NurbsCurve& curve) {
   const Vec2 first = curve.controlPoints().front(), chord = curve.controlPoints().back() - first;
@@ -282,7 +281,7 @@ Result<FairedCurve> fairBetweenCorners(const NurbsCurve& curve, bool closed, con
     if (sections.empty() || params.mode == FairingMode::None) return fair(curve, closed, params, context, line);
     return fairSections(curve, closed, sections, params, context, line);
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "Not enough memory to make the curve fair.");
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to fair the curve.");
   }
 }
 

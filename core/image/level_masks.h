@@ -11,7 +11,7 @@ namespace batten {
 /// The smoothed page compared with three levels: paper plus the contrast of the regions, made deeper or weaker.
 struct LevelMasks {
   BitImage ink;      ///< Darker than the level of its region.
-  BitImage certain;  ///< Darker than the deeper level; empty where nobody asks for it.
+  BitImage certain;  ///< Darker than the deeper level; empty if not requested.
   BitImage faint;    ///< Darker than the weaker level; empty where nobody asks for it.
 };
 

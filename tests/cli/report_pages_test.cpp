@@ -167,7 +167,7 @@ TEST_F(Report, ADrawingTooLargeForASheetIsTiled) {
 
 TEST_F(Report, WordsAreCheckedFirst) {
   expectError("trace " + scene() + " -o " + file("a.report.pdf") + " --paper a9", 2, "--paper takes a4 or letter");
-  expectError("trace " + scene() + " -o " + file("a.svg") + " --curves \"\"", 2, "--curves names no curve");
+  expectError("trace " + scene() + " -o " + file("a.svg") + " --curves \"\"", 2, "--curves is empty");
   expectError("trace " + scene() + " -o " + file("a.report.txt"), 2, ".report.pdf");
   expectError("trace " + scene() + " -o " + file("no/a.report.pdf"), 5, "");
   EXPECT_FALSE(std::filesystem::exists(file("no")));

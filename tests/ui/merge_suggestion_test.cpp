@@ -157,7 +157,7 @@ TEST_F(MergeButton, AChangeMeanwhileIsLookedAtAnew) {
   outlines.edges.mode = EdgeMode::Outline;
   session().change(QStringLiteral("Outline"), outlines);
   ASSERT_TRUE(answered());
-  EXPECT_TRUE(note_->text().startsWith(QStringLiteral("No ink is followed"))) << note_->text().toStdString();
+  EXPECT_TRUE(note_->text().startsWith(QStringLiteral("No centre lines are traced"))) << note_->text().toStdString();
   EXPECT_EQ(strength(), 0.0);
 }
 

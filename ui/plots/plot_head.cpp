@@ -64,8 +64,8 @@ PlotHead::PlotHead(QWidget* parent)
   layout->addWidget(value_);
   layout->addSpacing(8);
   add(reverse_, tr("Reverse"), QStringLiteral("plot.reverse"),
-      tr("Turns the plot round. By itself it runs as the curve lies on the drawing, from left to right; lengths count "
-         "from the end with the arrow."));
+      tr("Reverses the plot. By default it runs from left to right as on the drawing; arc length "
+         "is measured from the end with the arrow."));
   connect(tabs_, &QButtonGroup::idClicked, this, [this](int id) { emit chosen(static_cast<PlotTab>(id)); });
   connect(reverse_, &QToolButton::clicked, this, &PlotHead::reverseAsked);
 }

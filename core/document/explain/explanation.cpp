@@ -128,7 +128,7 @@ std::string noteOn(const Explanation& e) {
   std::string note;
   if (e.referencePx > 0 && e.explained < kLeastExplained) {
     note = "The curves explain " + percent(e.explained) +
-           " of the ink on the page: lower the thresholds' strength or the shortest line to see more of it.";
+           " of the ink on the page: lower the threshold strength or the minimum line length to trace more.";
   }
   if (e.invented > kMostInvented) {
     if (!note.empty()) note += ' ';

@@ -187,7 +187,7 @@ Result<ReportContent> reportContent(const Scan& scan, const Recipe& recipe, cons
     curves.push_back(&curve);
     numbers.push_back(curveNumber(output, curve));
   }
-  if (curves.empty()) return fail(ErrorCode::NoCurve, "There is no curve to report on. Take at least one curve in.");
+  if (curves.empty()) return fail(ErrorCode::NoCurve, "There is no curve to report on. Include at least one curve.");
   content.title = shownName(std::filesystem::path(scan.path).filename());
   if (content.title.empty()) content.title = "Drawing";
   content.facts = factsOf(scan, recipe, output, origin);

@@ -71,7 +71,7 @@ Result<ImportedCurve> curveOfImport(const ImportJson& json) {
   if (!json.is_object() || !json.contains("degree") || !json.contains("knots") || !json.contains("points"))
     return damagedImport("an imported curve has no degree, knots and points");
   const auto degree = json["degree"].is_number_integer() ? integerFromText(json["degree"].dump()) : std::nullopt;
-  if (!degree) return damagedImport("the degree of an imported curve is no whole number");
+  if (!degree) return damagedImport("the degree of an imported curve is not a whole number");
   auto knots = numbersOfImport(json["knots"], "the knots");
   if (!knots) return fail(knots.error());
   auto points = placesOfImport(json["points"]);
@@ -132,7 +132,7 @@ Result<ImportedFile> fileOfImport(const ImportJson& json) {
     (name == "source" ? file.source : file.unit) = value.get<std::string>();
   }
   for (const ImportJson& one : json["lines"]) {
-    if (!one.is_object()) return damagedImport("an imported line is no object");
+    if (!one.is_object()) return damagedImport("an imported line is not an object");
     ImportedLine& line = file.lines.emplace_back();
     for (const auto& [name, value] : one.items()) {
       if (auto taken = takeOfLine(name, value, line); !taken) return fail(taken.error());

@@ -20,7 +20,7 @@ std::size_t vectorBytes(const std::vector<T>& v) {
   return v.capacity() * sizeof(T);
 }
 
-// Sizes for the cache's budget: the large parts exactly, the rest roughly.
+// Sizes for the cache's budget: large parts exactly, the rest approximately.
 std::size_t bytesOf(const PreparedPage& page) { return sizeof(page) + vectorBytes(page.grey.pixels); }
 std::size_t bytesOf(const RegionThresholds& t) {
   std::size_t bytes = sizeof(t) + vectorBytes(t.paper.grey);

@@ -243,7 +243,7 @@ TEST_F(Import, AnOwnSvgWithoutItsExactCurvesIsReadAsItIsDrawn) {
   const ImportReport report = read("own.svg", svg.erase(at, end - at));
   EXPECT_EQ(report.file.lines.size(), 6u);
   ASSERT_EQ(report.notes.size(), 1u);
-  EXPECT_THAT(report.notes[0], HasSubstr("read as they are drawn"));
+  EXPECT_THAT(report.notes[0], HasSubstr("read as drawn"));
 }
 
 TEST_F(Import, SvgKeepsTheNamesOfItsCurves) {

@@ -49,7 +49,7 @@ class PenTool final : public CanvasTool {
     if (distance(event.widget, last_) < kStepPx) return;
     points_.push_back(event.px);
     last_ = event.widget;
-    scene_.hint(closes(event) ? penToolText("Let go to close the line.") : QString());
+    scene_.hint(closes(event) ? penToolText("Release to close the line.") : QString());
     scene_.repaint();
   }
 
@@ -111,7 +111,7 @@ class PenTool final : public CanvasTool {
   void hover(const ToolEvent& event) {
     const bool over = strokeNear(scene_.session.recipe(), event.px, scene_.reachImagePx()).has_value();
     scene_.hint(over ? penToolText("Click to select this line; Del removes it.")
-                     : penToolText("Drag to draw a line; end where it began to close it."));
+                     : penToolText("Drag to draw a line; end at its start to close it."));
   }
 
   void select(const ToolEvent& event) {

@@ -74,7 +74,9 @@ CurveList::CurveList(EditorSession& session, Judged judged, QWidget* parent)
   setFrameShape(QFrame::NoFrame);
   setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  setToolTip(tr("Click a curve to select it; click its eye, or press Space, to leave it out of the export."));
+  setToolTip(
+      tr("Click a curve to select it; click its eye, or press Space, to exclude it from fairing "
+         "and export."));
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::runFinished, &EditorSession::selectionChanged})
     connect(&session_, signal, this, &CurveList::refresh);
   connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {

@@ -16,10 +16,10 @@ Result<ExportReport> runExport(const ExportRequest& request, const RunContext& c
     const ExportDocument document = documentOf(request);
     if (document.curves.empty())
       return fail(ErrorCode::NoCurve,
-                  "There is no curve to export. Take at least one curve in (its eye in the list of curves).");
+                  "There is no curve to export. Include at least one (the eye in the list of curves).");
     return exportToFile(document, request.settings, request.path, context);
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "Not enough memory to export. Close other programs or leave some curves out.");
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to export. Close other programs or exclude some curves.");
   }
 }
 

@@ -49,7 +49,7 @@ ExportPanel::ExportPanel(EditorSession& session, QWidget* parent)
       choice_(new ExportChoice(session, this)),
       preview_(new ExportPreview(this)),
       held_(note({}, this)),
-      turn_(linkButton(tr("Turn direction"), QStringLiteral("export.turn"), this)),
+      turn_(linkButton(tr("Reverse direction"), QStringLiteral("export.turn"), this)),
       carrier_(new SvgCarrier(this)),
       report_(new ReportSection(session, this)),
       progress_(new QProgressBar(this)),
@@ -117,11 +117,11 @@ void ExportPanel::buildForm() {
   layout->addWidget(held_);
   auto* hand = new QHBoxLayout;
   hand->setSpacing(8);
-  turn_->setToolTip(tr("Export the selected curve the other way round.  (Shift+F)"));
+  turn_->setToolTip(tr("Reverse the direction of the selected curve.  (Shift+F)"));
   hand->addWidget(turn_);
   hand->addStretch();
   auto* copyButton = linkButton(tr("Copy as SVG"), QStringLiteral("export.copy"), this);
-  copyButton->setToolTip(tr("Put the curves on the clipboard, to be pasted into a drawing program.  (Ctrl+Shift+C)"));
+  copyButton->setToolTip(tr("Copy the curves to the clipboard for pasting into a drawing program.  (Ctrl+Shift+C)"));
   connect(copyButton, &QPushButton::clicked, this, &ExportPanel::copy);
   hand->addWidget(copyButton);
   layout->addLayout(hand);
@@ -249,7 +249,9 @@ void ExportPanel::refresh() {
   if (isScaleAssumed(*session_.scan(), session_.recipe()))
     text += tr(" The scale is not known: set the resolution in the Scan stage.");
   if (settings.format == ExportFormat::Iges || settings.format == ExportFormat::Step)
-    text += tr(" The file holds curves only: if nothing shows, turn wireframe on in the other program's import.");
+    text +=
+        tr(" The file contains curves only: if nothing appears, enable wireframe import in the "
+           "other program.");
   size_->setText(text);
 }
 
@@ -300,7 +302,7 @@ QString ExportPanel::summary(const ExportSize& size) const {
   if (options_->settings().joined.value_or(false) && std::ssize(content.curves) < size.curves)
     text = tr("%1 joined into %2").arg(text).arg(std::ssize(content.curves));
   if (content.layers > 1) text += tr(" on %1 layers").arg(content.layers);
-  if (content.doubles > 0) text += tr(", %1 on top of another left out").arg(content.doubles);
+  if (content.doubles > 0) text += tr(", %1 duplicate omitted").arg(content.doubles);
   return text + QLatin1Char('.');
 }
 
@@ -327,7 +329,7 @@ void ExportPanel::start() {
     const QString name = QFileInfo(path).fileName();
     result_->setText(
         path == lastWritten_.path
-            ? tr("%1 was changed by another program since it was written. Press again to replace it.").arg(name)
+            ? tr("%1 was changed by another program after the export. Press again to replace it.").arg(name)
             : tr("%1 exists. Press again to replace it.").arg(name));
     return refresh();
   }
@@ -372,7 +374,7 @@ void ExportPanel::finish(const Result<ExportReport>& report) {
   session_.setSideWork(this, false);
   if (!report) {
     refresh();
-    if (report.error().code == ErrorCode::Cancelled) return result_->setText(tr("Stopped: nothing was written."));
+    if (report.error().code == ErrorCode::Cancelled) return result_->setText(tr("Stopped. Nothing was written."));
     emit failed(report.error());
     return;
   }

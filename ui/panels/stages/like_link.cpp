@@ -75,7 +75,7 @@ void showMenu(EditorSession& session, QPushButton* link) {
 QPushButton* likeLink(EditorSession& session, QWidget* parent) {
   auto* link = linkButton(words("Make it like…"), QStringLiteral("fairing.like"), parent);
   link->setToolTip(
-      words("The target becomes the course of the curvature of another curve, or of one that you saved, at this one's "
+      words("Uses the curvature profile of another or a saved curve as the target, rescaled to this "
             "length."));
   QObject::connect(link, &QPushButton::clicked, link, [&session, link] { showMenu(session, link); });
   return link;

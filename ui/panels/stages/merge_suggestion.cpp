@@ -62,7 +62,7 @@ void MergeSuggestion::look() {
   const ContentHash key = mergeAdviceKey(*scan, recipe);
   asked_ = key;
   said_.reset();
-  say(tr("Looking at the strokes …"));
+  say(tr("Analysing strokes…"));
   session_.setSideWork(this, true, false);
   worker_.start([scan, recipe, key, panel = QPointer<MergeSuggestion>(this)](const CancelToken& token) {
     RunContext context;

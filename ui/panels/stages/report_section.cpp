@@ -49,7 +49,7 @@ Result<void> writeReport(const PipelineOutput& output, const Recipe& recipe, con
                            kind == PdfOnLetter ? ReportPaper::Letter : ReportPaper::A4, path,
                            stretch(kFiguresPart, 1.0));
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "Not enough memory for the report. Leave some curves out.");
+    return fail(ErrorCode::OutOfMemory, "Not enough memory for the report. Exclude some curves.");
   }
 }
 
@@ -74,7 +74,7 @@ ReportSection::ReportSection(EditorSession& session, QWidget* parent)
   kind_->addItems({tr("PDF, A4"), tr("PDF, Letter"), tr("HTML")});
   const bool isLetter = QLocale().measurementSystem() == QLocale::ImperialUSSystem;
   kind_->setCurrentIndex(std::clamp(QSettings().value(kKindKey, isLetter ? PdfOnLetter : PdfOnA4).toInt(), 0, 2));
-  button_->setToolTip(tr("The drawing 1:1, figures of every curve, comb, radius, deviations and the recipe."));
+  button_->setToolTip(tr("The drawing at 1:1, measurements of every curve, comb, radius, deviations and the recipe."));
   row->addWidget(kind_);
   row->addWidget(button_, 1);
   layout->addLayout(row);

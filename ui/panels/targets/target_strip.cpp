@@ -112,24 +112,23 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
     spoken += tr(", moves the curve by %1, %2 extrema")
                   .arg(millimetres(faired.report.maxDeviationMm))
                   .arg(faired.report.extremaAfter);
-    tip += tr("\nS %1, moves the curve by at most %2, %3 left.")
+    tip += tr("\nS %1, moves the curve by at most %2; %3 remain.")
                .arg(similarityText(profile.similarity), millimetres(faired.report.maxDeviationMm),
                     counted(faired.report.extremaAfter, tr("1 curvature extremum"), tr("%1 curvature extrema")));
     if (faired.report.similarityAfter)
-      tip +=
-          tr("\nS of the curve against the sketch afterwards: %1.").arg(similarityText(*faired.report.similarityAfter));
+      tip += tr("\nS of the faired curve against the sketch: %1.").arg(similarityText(*faired.report.similarityAfter));
     if (const int more = faired.report.extremaAfter - faired.report.extremaBefore; more > 0)
       tip += counted(more, tr("\nThat is 1 more than the sketch has."), tr("\nThat is %1 more than the sketch has."));
     if (!faired.report.withinTolerance && faired.report.neededMm > toleranceMm)
-      tip += tr("\nTo meet it fully needs %1.").arg(millimetres(faired.report.neededMm));
+      tip += tr("\nReaching it needs a tolerance of %1.").arg(millimetres(faired.report.neededMm));
     else if (!faired.report.withinTolerance)
-      tip += tr("\nTo meet it would add curvature extrema; the curve stays as it was.");
-    if (!profile.isMonotone) tip += tr("\nThis profile turns back within a span: it is not monotone.");
+      tip += tr("\nReaching it would add curvature extrema; the curve is unchanged.");
+    if (!profile.isMonotone) tip += tr("\nThis profile is not monotone within a span.");
     if (outcomes_->span)
-      tip += tr("\nFor the span that you clicked; the rest of the curve stays.");
+      tip += tr("\nFor the span you clicked; the rest of the curve is unchanged.");
     else if (!outcomes_->splits.empty())
       tip += tr("\nOne polynomial for each of %1 spans.").arg(outcomes_->splits.size() + 1);
-    if (outcomes_->targets.comparesCurvature) tip += tr("\nS compares the curvatures, as the line bends both ways.");
+    if (outcomes_->targets.comparesCurvature) tip += tr("\nS compares curvatures, because the line has inflections.");
   }
   tip += QLatin1Char('\n') + (oneCurve ? tr("Click or press %1: for the selected curve.").arg(degree_)
                                        : tr("Click or press %1: for all curves.").arg(degree_));
