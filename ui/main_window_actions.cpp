@@ -214,7 +214,9 @@ void MainWindow::showStrokes(bool isEntering) {
   using For = Parts::StrokesFor;
   const auto& lines = session_.output().contours;
   const bool isBridging = lines && bridgeCount(*lines) > 0 && !parts_->hidesBridges;
-  const For now = session_.recipe().edges.mergeWidths > 0.0 || session_.recipe().edges.intent ? For::Merges : isBridging ? For::Bridges : For::Nothing;
+  const For now = session_.recipe().edges.mergeWidths > 0.0 || session_.recipe().edges.intent ? For::Merges
+                  : isBridging                                                                ? For::Bridges
+                                                                                              : For::Nothing;
   const For before = std::exchange(parts_->strokesFor, now);
   if (stage() != PanelStage::Edges || (now == before && !isEntering)) return;
   const auto is = [](const Parts::StageLayer& one) { return one.layer == Layer::Strokes; };

@@ -83,8 +83,8 @@ struct ContourReport {
   int droppedHoles = 0;     ///< Inner borders, in outline mode without them.
   int droppedMargins = 0;   ///< Lines along the border of the page: the margin of the scanner.
   double refinedShare = 0;  ///< Part of the points that were placed on the grey values, 0..1.
-  double widthPx = 0.0;     ///< [px] What EdgeParams::mergeWidths counts in; 0: no strokes.
-  bool isGrouped = false;  ///< The lines are curves that were meant by lines drawn over more than once.
+  double widthPx = 0.0;     ///< [px] Stroke width, the unit of EdgeParams::mergeWidths; 0: no strokes.
+  bool isGrouped = false;   ///< The lines are curves that were meant by lines drawn over more than once.
   std::string note;
 };
 

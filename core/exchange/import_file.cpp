@@ -399,7 +399,7 @@ Result<ImportReport> readImportFile(const std::filesystem::path& path, std::opti
   report.file.source = name;
   auto taken = takeBytes(importEndingOf(path), *bytes, mmPerUnit, context, report);
   for (ImportedLine& line : report.file.lines) makeNamesShown(line);
-  if (taken && report.file.lines.empty()) taken = fail(ErrorCode::NoCurve, "There is no line in it.");
+  if (taken && report.file.lines.empty()) taken = fail(ErrorCode::NoCurve, "It contains no line.");
   if (taken) {
     if (auto wrong = validate(report.file)) taken = fail(std::move(*wrong));
   }

@@ -38,19 +38,19 @@ PlotHead::PlotHead(QWidget* parent)
   const struct {
     PlotTab tab;
     QString text, shortText, name, help;
-  } tabs[] = {
-      {PlotTab::Radius, tr("Radius over arc length"), tr("Radius"), QStringLiteral("plot.radius"),
-       tr("Radius of curvature in mm, logarithmic; straight stretches are cut off at the top.")},
-      {PlotTab::Curvature, tr("Curvature"), tr("Curvature"), QStringLiteral("plot.curvature"),
-       tr("Signed curvature, 1/mm: positive where the curve turns left. The band is what the scan leaves open.")},
-      {PlotTab::CurvatureSlope, tr("Curvature slope"), tr("Slope"), QStringLiteral("plot.slope"),
-       tr("How fast the curvature changes along the curve, dκ/ds in 1/mm²: it crosses 0 at every curvature extremum; "
-          "small and even is fair.")},
-      {PlotTab::Speed, tr("Parameter speed"), tr("Speed"), QStringLiteral("plot.speed"),
-       tr("Length of the first derivative |R′(u)|: how many mm of curve a unit of its parameter u makes. Even is good "
-          "parametrisation; it says nothing of the shape.")},
-      {PlotTab::Deviation, tr("Deviation"), tr("Deviation"), QStringLiteral("plot.deviation"),
-       tr("Distance of the scan's edge points and of the faired curve from the sketched curve, in mm.")}};
+  } tabs[] = {{PlotTab::Radius, tr("Radius over arc length"), tr("Radius"), QStringLiteral("plot.radius"),
+               tr("Radius of curvature in mm, logarithmic; straight stretches are cut off at the top.")},
+              {PlotTab::Curvature, tr("Curvature"), tr("Curvature"), QStringLiteral("plot.curvature"),
+               tr("Signed curvature, 1/mm: positive where the curve turns left. The band is the "
+                  "uncertainty due to scan noise.")},
+              {PlotTab::CurvatureSlope, tr("Curvature slope"), tr("Slope"), QStringLiteral("plot.slope"),
+               tr("Rate of change of the curvature along the curve, dκ/ds in 1/mm²: zero at every "
+                  "curvature extremum; small and even is fair.")},
+              {PlotTab::Speed, tr("Parameter speed"), tr("Speed"), QStringLiteral("plot.speed"),
+               tr("Magnitude of the first derivative |R′(u)|, in mm per unit of u. Even speed means a good "
+                  "parametrisation; it says nothing about the shape.")},
+              {PlotTab::Deviation, tr("Deviation"), tr("Deviation"), QStringLiteral("plot.deviation"),
+               tr("Distance of the scan's edge points and of the faired curve from the sketched curve, in mm.")}};
   for (const auto& one : tabs) {
     auto* button = new QToolButton(this);
     add(button, one.text, one.name, one.help);

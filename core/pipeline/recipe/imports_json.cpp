@@ -83,7 +83,7 @@ Result<ImportedCurve> curveOfImport(const ImportJson& json) {
     weights = std::move(*given);
   }
   auto curve = NurbsCurve::make(*degree, std::move(*knots), std::move(*points), std::move(weights));
-  if (!curve) return damagedImport("an imported curve is none (" + curve.error().message + ")");
+  if (!curve) return damagedImport("an imported curve is invalid (" + curve.error().message + ")");
   ImportedCurve imported{std::move(*curve)};
   if (json.contains("name")) {
     if (!json["name"].is_string()) return damagedImport("the name of an imported curve is no text");

@@ -83,14 +83,14 @@ ContentHash mergeAdviceKey(const Scan& scan, const Recipe& recipe) {
 }
 
 std::string describe(const MergeAdvice& advice) {
-  if (advice.strokes == 0) return "No ink is followed along its middle: there are no strokes to merge.";
+  if (advice.strokes == 0) return "No centre lines are traced, so there are no strokes to merge.";
   const std::string meant = advice.meant
                                 ? " With edges.intent there " + std::string(*advice.meant == 1 ? "is " : "are ") +
                                       counted(*advice.meant, "curve.", "curves.")
                                 : std::string();
   if (!(advice.widths > 0.0) && advice.share > 0.0)
-    return "Some strokes run over one another, but merging them would not make fewer lines." + meant;
-  if (!(advice.widths > 0.0)) return "No overdrawn strokes were found: merging is not needed." + meant;
+    return "Some strokes overlap, but merging them would not reduce the number of lines." + meant;
+  if (!(advice.widths > 0.0)) return "No overdrawn strokes were found." + meant;
   return numberToText(advice.widths) + (advice.widths == 1.0 ? " stroke width: " : " stroke widths: ") +
          counted(advice.strokes, "stroke becomes ", "strokes become ") + counted(advice.lines, "line.", "lines.") +
          meant;

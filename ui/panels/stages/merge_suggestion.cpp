@@ -25,9 +25,8 @@ MergeSuggestion::MergeSuggestion(EditorSession& session, QWidget* parent)
       ask_(linkButton(tr("Suggest"), QStringLiteral("edges.suggestMerge"), this)),
       offer_(linkButton(tr("Curves that were meant"), QStringLiteral("edges.offerIntent"), this)) {
   note_->setObjectName(QStringLiteral("edges.suggestMerge.note"));
-  ask_->setAccessibleName(tr("Suggest how far to merge strokes"));
-  ask_->setToolTip(
-      tr("Looks whether lines were drawn in several strokes over one another, and if so sets how far to merge them."));
+  ask_->setAccessibleName(tr("Suggest merge distance"));
+  ask_->setToolTip(tr("Checks for overdrawn strokes and sets the merge distance if there are any."));
   offer_->setToolTip(tr("Makes of lines drawn over more than once the curves that were meant."));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -121,7 +120,7 @@ void MergeSuggestion::follow() {
 }
 
 void MergeSuggestion::say(const QString& text) {
-  note_->setText(text.isEmpty() ? tr("Drawn in several strokes?") : text);
+  note_->setText(text.isEmpty() ? tr("Overdrawn strokes?") : text);
   showOffer();
 }
 
