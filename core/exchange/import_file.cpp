@@ -317,7 +317,7 @@ Result<void> takeSvg(const std::string& bytes, std::optional<double> asked, cons
       return {};
     }
     report.notes.push_back("The exact curves of Batten are no longer in " + report.file.source +
-                           ", or cannot be read; its paths were read as they are drawn.");
+                           ", or cannot be read; its paths were read as drawn.");
   }
   report.file.lines = std::move(shapes->lines);
   report.file.unit = shapes->hasSize ? "mm" : "px?";

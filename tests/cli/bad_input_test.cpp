@@ -87,7 +87,7 @@ TEST_F(BadInput, WithoutACurveReportAndDumpsStillShowWhy) {
 
 TEST_F(BadInput, WrongWordsGiveTwo) {
   const std::string start = "trace " + scene() + " -o " + file("o.svg") + " ";
-  expectError("", 2, "Name a command: there are trace, suggest, batch, parameters and compare.");
+  expectError("", 2, "Name a command: trace, suggest, batch, parameters and compare.");
   expectError("trase scan.png", 2, "There is no command trase. Did you mean trace?");
   expectError("frobnicate", 2, "There is no command frobnicate. There are trace");
   expectError("trace", 2, "");
@@ -117,12 +117,12 @@ TEST_F(BadInput, WrongWordsGiveTwo) {
 TEST_F(BadInput, PlacesOffEveryPageAreRefused) {
   const std::string start = "trace " + scene("car") + " -o " + file("o.svg") + " ";
   for (const char* at : {"5000000000,5", "1e10,1e10", "-1e12,3", "1e300,0", "3,-1e300"})
-    expectError(start + "--corner=" + at, 2, "corner mark lies nowhere");
-  expectError(start + "--corner=1e10,3,2", 2, "corner mark lies nowhere");
-  expectError(start + "--segment-point=1e300,0", 2, "segment point lies nowhere");
-  expectError(start + "--outline=1e300,0", 2, "nowhere");
+    expectError(start + "--corner=" + at, 2, "corner mark has an invalid position");
+  expectError(start + "--corner=1e10,3,2", 2, "corner mark has an invalid position");
+  expectError(start + "--segment-point=1e300,0", 2, "segment point has an invalid position");
+  expectError(start + "--outline=1e300,0", 2, "trace mode choice has an invalid position");
   expectError(start + "--centreline=7", 2, "X,Y");
-  expectError(start + "--roi=-1e10,0,50,50", 2, "region lies nowhere");
+  expectError(start + "--roi=-1e10,0,50,50", 2, "region has an invalid position");
   for (const std::string entry :
        {R"("corners":[[1e10,3.0]])", R"("corners":[{"at":[1e10,3],"round":2}])", R"("segment_points":[[1e10,3]])",
         R"("extrema":[{"at":[-1e300,3],"keep":true}])", R"("regions":[[[0,0],[9,1e10],[9,9]]])",

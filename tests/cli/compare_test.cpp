@@ -39,7 +39,7 @@ TEST_F(Compare, SaysWhatIsWrong) {
   write("broken.json", "{");
   expectError("compare " + file("broken.json") + " " + file("broken.json"), 2,
               "broken.json: The curve file cannot be read: it is incomplete or was not written by "
-              "Batten. Write it anew");
+              "Batten. Create it again");
   expectError("compare " + file("none.json") + " " + file("none.json"), 2, "none.json");
   expectError("compare " + file("none.json"), 2, "second");
 }

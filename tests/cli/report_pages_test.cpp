@@ -216,11 +216,11 @@ TEST_F(Report, DirectionAndStartAreTheUsers) {
   expectError("trace " + scene() + " --start 1 -o " + file("o.json"), 2, "--start takes X,Y");
   const auto missed = run("trace " + scene() + " --dpi 254 --start 1,1 --direction 2,2,9,9 -o " + file("o.json"));
   ASSERT_EQ(missed.code, 0) << missed.err;
-  EXPECT_NE(missed.out.find("No curve near 1,1, where --start"), std::string::npos) << missed.out;
-  EXPECT_NE(missed.out.find("No curve near 2,2, where --direction"), std::string::npos) << missed.out;
+  EXPECT_NE(missed.out.find("No curve near 1,1 for --start"), std::string::npos) << missed.out;
+  EXPECT_NE(missed.out.find("No curve near 2,2 for --direction"), std::string::npos) << missed.out;
   EXPECT_EQ(run("trace " + scene() + " --start " + place + " -o " + file("o.json")).out.find("No curve near "),
             std::string::npos);
-  expectError("trace " + scene() + " --joined --apart -o " + file("o.json"), 2, "contradict");
+  expectError("trace " + scene() + " --joined --apart -o " + file("o.json"), 2, "exclude each other");
 }
 
 }  // namespace

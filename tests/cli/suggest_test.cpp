@@ -88,7 +88,7 @@ TEST_F(Suggest, SaysWhatIsWrong) {
   expectError("suggest", 2, "scan");
   expectError("suggest -o x " + file("none.png"), 2,
               "suggest has no option -o: it prints its advice and writes no file. Run batten-cli suggest --help.");
-  expectError("suggest a.png b.png", 2, "\"b.png\" is one word too many for suggest.");
+  expectError("suggest a.png b.png", 2, "\"b.png\" is an unexpected argument of suggest.");
   expectError("suggest " + file("none.png"), 3, "none.png");
   expectError("suggest " + page(1) + " --set edges.merge=99", 2, "edges.merge");
   expectError("suggest " + page(0), 4, "line");

@@ -85,7 +85,7 @@ TEST_F(Habits, UndoInAnotherStageSaysWhatItChangedAndLeadsThere) {
   EXPECT_EQ(window_->stage(), PanelStage::Corners);
   EXPECT_FALSE(show->isVisible());
   window_->action(ActionId::Redo)->trigger();
-  EXPECT_EQ(hint->text(), QStringLiteral("Done again: Mark corner."));
+  EXPECT_EQ(hint->text(), QStringLiteral("Redone: Mark corner."));
   EXPECT_FALSE(show->isVisible()) << "it is seen where one is";
 }
 

@@ -135,7 +135,7 @@ TEST_F(TrueSize, APaperOfAnotherShapeIsSaid) {
   auto* paper = find<QComboBox>("scale.paper");
   paper->setFocus();
   QTest::keyClick(paper, Qt::Key_Down);
-  EXPECT_TRUE(find<QLabel>("scale.note")->text().contains(QStringLiteral("no whole sheet of A5")))
+  EXPECT_TRUE(find<QLabel>("scale.note")->text().contains(QStringLiteral("not a whole sheet of A5")))
       << find<QLabel>("scale.note")->text().toStdString();
   ASSERT_TRUE(settle());
 }

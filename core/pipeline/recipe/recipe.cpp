@@ -34,7 +34,7 @@ std::optional<Error> validatePlaces(const Recipe& recipe) {
     if (!arePlaces(region.cornersPx)) return badPlace("A corner of a region");
   }
   for (const EdgeChoice& choice : recipe.edges.choices) {
-    if (!isPlace(choice.positionPx)) return badPlace("The position of a trace mode choice");
+    if (!isPlace(choice.positionPx)) return badPlace("A trace mode choice");
   }
   for (const CornerMark& mark : recipe.cornerMarks) {
     if (!isPlace(mark.positionPx)) return badPlace("A corner mark");

@@ -120,7 +120,7 @@ TEST(PenStrokes, KeepTheirPlaceWhenTheyAreLeftOut) {
   ASSERT_EQ(set.contours.size(), 2u);
   EXPECT_TRUE(set.contours[0].points.empty());
   EXPECT_NEAR(set.contours[1].lengthPx, 80.0, 1e-9);
-  EXPECT_NE(set.report.note.find("1 pen stroke lies beside the page"), std::string::npos) << set.report.note;
+  EXPECT_NE(set.report.note.find("1 pen stroke is outside the page"), std::string::npos) << set.report.note;
   const auto pieces = splitAtCorners(set, {}, {}, {});
   ASSERT_TRUE(pieces.has_value());
   ASSERT_EQ(pieces->pieces.size(), 1u);

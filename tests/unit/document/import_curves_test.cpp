@@ -193,7 +193,7 @@ TEST(ImportedCurves, DamagedImportsInARecipeAreRefusedWithAReason) {
   EXPECT_THAT(with("\"degree\": 3", "\"degree\": 4"), HasSubstr("Not a valid curve"));
   EXPECT_THAT(with("\"source\"", "\"sauce\""), HasSubstr("sauce"));
   EXPECT_THAT(with("-2100.25", "-2100250000.0"), HasSubstr("100 m"));
-  EXPECT_THAT(with("\"closed\": false", "\"closed\": true"), HasSubstr("follow"));
+  EXPECT_THAT(with("\"closed\": false", "\"closed\": true"), HasSubstr("end to end"));
   EXPECT_THAT(with("40\n", "400\n"), HasSubstr("corner"));
 }
 

@@ -215,8 +215,8 @@ TEST_F(Import, AnEditedPathOfAnOwnSvgIsReadAsItIsDrawn) {
   EXPECT_LT((drawn.point(drawn.end()) - Vec2(73, 40)).norm(), 1e-5);
   EXPECT_TRUE(report.file.lines[0].curves[0].curve == test::oneSpan()) << "the others stay exact";
   ASSERT_EQ(report.notes.size(), 2u);
-  EXPECT_THAT(report.notes[0], HasSubstr("1 path is not what Batten wrote"));
-  EXPECT_THAT(report.notes[1], HasSubstr("1 curve of Batten is not drawn"));
+  EXPECT_THAT(report.notes[0], HasSubstr("1 path was changed by another program"));
+  EXPECT_THAT(report.notes[1], HasSubstr("1 curve written by Batten is no longer drawn"));
 }
 
 TEST_F(Import, PathsAddedToAnOwnSvgOrTakenFromItCount) {
@@ -225,15 +225,15 @@ TEST_F(Import, PathsAddedToAnOwnSvgOrTakenFromItCount) {
   const ImportReport without = read("own.svg", std::string(svg).erase(at, end - at));
   EXPECT_EQ(without.file.lines.size(), 5u);
   ASSERT_EQ(without.notes.size(), 1u);
-  EXPECT_THAT(without.notes[0], HasSubstr("1 curve of Batten is not drawn"));
+  EXPECT_THAT(without.notes[0], HasSubstr("1 curve written by Batten is no longer drawn"));
   const ImportReport more = read("own.svg", svg.insert(at, "<path d=\"M1,1 L20,7\"/>"));
   EXPECT_EQ(more.file.lines.size(), 7u);
   ASSERT_EQ(more.notes.size(), 1u);
-  EXPECT_THAT(more.notes[0], HasSubstr("1 path is not what Batten wrote"));
+  EXPECT_THAT(more.notes[0], HasSubstr("1 path was changed by another program"));
   // Moved as a whole by the other program.
   const auto group = svg.find("<g id=");
   const ImportReport moved = read("own.svg", svg.insert(group + 2, " transform=\"translate(2,0)\""));
-  EXPECT_THAT(moved.notes[0], HasSubstr("7 paths are not"));
+  EXPECT_THAT(moved.notes[0], HasSubstr("7 paths were changed"));
   EXPECT_NEAR(moved.file.lines[0].curves[0].curve.controlPoints()[0].x(), 12.0, 1e-6);
 }
 

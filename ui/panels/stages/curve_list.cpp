@@ -107,7 +107,7 @@ void CurveList::refresh() {
     const QString right = !curve.included ? tr("left out")
                           : whyStill.isEmpty()
                               ? tr("%1 pts · %2").arg(figures.controlPoints).arg(millimetres(figures.lengthMm))
-                              : tr("as drawn · %1").arg(millimetres(figures.lengthMm));
+                              : tr("unchanged · %1").arg(millimetres(figures.lengthMm));
     item(i)->setText(name);
     item(i)->setData(IncludedRole, curve.included);
     item(i)->setData(FiguresRole, right);
