@@ -69,10 +69,10 @@ TEST_F(ImportWindow, NamesAndLayersAreShownWhereTheCurvesAre) {
   ASSERT_TRUE(waitUntil([&] { return list->count() == 2; }));
   EXPECT_TRUE(list->item(0)->text().startsWith(QStringLiteral("Curve 10 (roof line)")))
       << list->item(0)->text().toStdString();
-  EXPECT_TRUE(list->item(0)->toolTip().startsWith(QStringLiteral("roof.dxf, layer Body")));
+  EXPECT_TRUE(list->item(0)->toolTip().contains(QStringLiteral("(roof line), roof.dxf, layer Body")));
   EXPECT_TRUE(list->item(1)->text().startsWith(QStringLiteral("Curve 9, closed")))
       << list->item(1)->text().toStdString();
-  EXPECT_TRUE(list->item(1)->toolTip().startsWith(QStringLiteral("roof.dxf")));
+  EXPECT_TRUE(list->item(1)->toolTip().contains(QStringLiteral("roof.dxf")));
 }
 
 TEST_F(ImportWindow, AFileWithoutAUnitIsAskedFor) {

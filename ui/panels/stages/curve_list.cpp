@@ -114,7 +114,9 @@ void CurveList::refresh() {
     const QString warning = curve.included ? QString::fromStdString(curve.construct.note) : QString();
     item(i)->setData(WarnsRole, !warning.isEmpty());
     QStringList said;
-    for (const QString& one : {curveOrigin(session_, i), whyStill, warning})
+    const QString origin = curveOrigin(session_, i);
+    const QString whence = origin.isEmpty() ? QString() : name + QStringLiteral(", ") + origin;
+    for (const QString& one : {whence, whyStill, warning})
       if (!one.isEmpty()) said << one;
     item(i)->setData(Qt::ToolTipRole, said.isEmpty() ? QVariant() : said.join(QLatin1Char('\n')));
     item(i)->setData(Qt::AccessibleTextRole,
