@@ -16,6 +16,7 @@ constexpr double kSharedWidth = 1.1;       // of a single stroke
 constexpr double kFatCorner = 1.15;        // of the usual radius: the ink inside an acute corner is fatter
 constexpr double kCornerSpur = 5.0 / 3.0;  // of a spur: so much longer is the branch to the tip of an acute corner
 constexpr double kWidestTip = 2.5;         // of the usual radius: two strokes side by side, and no blot
+constexpr double kLeastLegWidths = 3.0;    // [stroke widths] shorter legs have no direction
 constexpr double kLeavingWidths = 4.0;     // [stroke widths] over which the direction of an edge is taken
 constexpr double kOnwardCos = 0.7;         // 45 degrees: what turns more at a link does not go on through it
 constexpr double kOneJunction = 1.5;       // of the radii of two junctions: nearer ones are one crossing
@@ -282,7 +283,10 @@ void SkeletonGraph::pruneSpurs(double factor) {
     SkeletonNode& n = nodes_[node];
     if (corner) {
       const double reach = n.radius + 2.0 * medianRadius_;
-      const bool isTip = n.radius <= kWidestTip * (medianRadius_ + 0.5);
+      const bool isTip =
+          n.radius <= kWidestTip * (medianRadius_ + 0.5) && std::all_of(n.ends.begin(), n.ends.end(), [&](int end) {
+            return edges_[end / 2].length >= kLeastLegWidths * 2.0 * medianRadius_;
+          });
       for (const int end : n.ends) {
         if (isTip) {
           leadToTip(end / 2, end % 2, turning, reach);
