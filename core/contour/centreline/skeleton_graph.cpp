@@ -15,6 +15,8 @@ namespace {
 constexpr double kSharedWidth = 1.1;       // of a single stroke
 constexpr double kFatCorner = 1.15;        // of the usual radius: the ink inside an acute corner is fatter
 constexpr double kCornerSpur = 5.0 / 3.0;  // of a spur: so much longer is the branch to the tip of an acute corner
+constexpr double kWidestTip = 2.5;         // of the usual radius: two strokes side by side, and no blot
+constexpr double kLeastLegWidths = 3.0;    // [stroke widths] shorter legs have no direction
 constexpr double kLeavingWidths = 4.0;     // [stroke widths] over which the direction of an edge is taken
 constexpr double kOnwardCos = 0.7;         // 45 degrees: what turns more at a link does not go on through it
 constexpr double kOneJunction = 1.5;       // of the radii of two junctions: nearer ones are one crossing
@@ -230,6 +232,36 @@ void SkeletonGraph::markCorner(int edge, int side, const Vec2& centre, double re
   }
 }
 
+// An edge that ends where two legs of an acute corner become one body of ink goes straight on to the tip instead: what
+// it has within `reach` of its end is pulled to the other leg.
+void SkeletonGraph::leadToTip(int edge, int side, const Vec2& tip, double reach) {
+  std::vector<StrokePathPoint>& p = edges_[edge].points;
+  if (side == 0) std::reverse(p.begin(), p.end());
+  const Vec2 end = p.back().at;
+  while (p.size() > 1 && (p.back().at - end).norm() <= reach) p.pop_back();
+  const Vec2 from = p.back().at;
+  const int steps = static_cast<int>(std::ceil((tip - from).norm()));
+  for (int k = 1; k <= steps; ++k)
+    p.push_back({from + (tip - from) * k / steps, static_cast<float>(medianRadius_), StrokePart::Corner});
+  if (side == 0) std::reverse(p.begin(), p.end());
+  edges_[edge].length = lengthOf(p, false);
+}
+
+// Where the pen turned at the tip of an acute corner: a spur ends there or nearer to the border of the ink.
+Vec2 SkeletonGraph::turningPoint(int spur, int tipSide) const {
+  const std::vector<StrokePathPoint>& p = edges_[spur].points;
+  const int n = static_cast<int>(p.size());
+  const StrokePathPoint& last = tipSide == 1 ? p.back() : p.front();
+  const double beyond = std::clamp(medianRadius_ - static_cast<double>(last.radius), 0.0, edges_[spur].length);
+  double arc = 0.0;
+  for (int k = 1; k < n; ++k) {
+    const Vec2& at = p[tipSide == 1 ? n - 1 - k : k].at;
+    arc += (at - p[tipSide == 1 ? n - k : k - 1].at).norm();
+    if (arc >= beyond) return beyond > 0.0 ? at : last.at;
+  }
+  return last.at;
+}
+
 void SkeletonGraph::pruneSpurs(double factor) {
   if (!(factor > 0.0)) return;
   using Entry = std::pair<double, int>;
@@ -246,10 +278,23 @@ void SkeletonGraph::pruneSpurs(double factor) {
     if (!tip) continue;
     const int node = *edges_[edge].node[1 - *tip];
     const bool corner = closesCorner(edge, node);
+    const Vec2 turning = turningPoint(edge, *tip);
     removeEdge(edge);
     SkeletonNode& n = nodes_[node];
     if (corner) {
-      for (const int end : n.ends) markCorner(end / 2, end % 2, n.centre, n.radius + 2.0 * medianRadius_);
+      const double reach = n.radius + 2.0 * medianRadius_;
+      const bool isTip =
+          n.radius <= kWidestTip * (medianRadius_ + 0.5) && std::all_of(n.ends.begin(), n.ends.end(), [&](int end) {
+            return edges_[end / 2].length >= kLeastLegWidths * 2.0 * medianRadius_;
+          });
+      for (const int end : n.ends) {
+        if (isTip) {
+          leadToTip(end / 2, end % 2, turning, reach);
+        } else {
+          markCorner(end / 2, end % 2, n.centre, reach);
+        }
+      }
+      if (isTip) n.centre = turning;
     }
     const std::vector<int> ends = n.ends;
     splice(node);

@@ -53,6 +53,8 @@ class SkeletonGraph {
   void appendEdge(int into, int from);
   void reverse(int edge);
   void markCorner(int edge, int side, const Vec2& centre, double reach);
+  void leadToTip(int edge, int side, const Vec2& tip, double reach);
+  Vec2 turningPoint(int spur, int tipSide) const;
 
   std::vector<SkeletonEdge> edges_;
   std::vector<SkeletonNode> nodes_;

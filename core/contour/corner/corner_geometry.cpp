@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kUnrefinedWeight = 0.1;  // points known to the pixel only
 constexpr double kOutlineZonePx = 4.0;
-constexpr double kFarthestMeetPx = 6.0;  // of the meeting point from the contour
+constexpr double kFarthestMeetPx = 6.0;        // of the meeting point from the contour
+constexpr double kFarthestStrokeMeetPx = 9.0;  // of thin strokes; beyond, sides that nearly touch meet off the ink
 constexpr double kEatenHalfPx = 4.0;    // half the width at which the tip of a shape is eaten away by blur and the mask
 constexpr double kFilledHalfPx = 3.0;   // half of a gap between two legs of a stroke that blur and the mask may fill
 constexpr double kSmallestSine = 0.08;  // of the angle between the sides; below, the meeting point is ill-conditioned
@@ -172,6 +173,8 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
   // Two legs of a stroke have one middle until they are a stroke's width apart.
   const double eatenHalf = contour.kind == ContourKind::Outline ? kEatenHalfPx : 0.5 * inner + kFilledHalfPx;
   const double blending = contour.kind == ContourKind::Outline ? kFreeLegsPx : inner + kFreeLegsPx;
+  // The middle of a stroke is led to the tip of a corner; that of a bundle of strokes is not.
+  const bool reachesTip = contour.kind == ContourKind::Centreline && !contour.points[index].band;
   std::optional<CornerLegs> legs;
   for (int round = 0; round < kLocateRounds; ++round) {
     const double shorter = std::min(outerBefore, outerAfter);
@@ -182,7 +185,8 @@ CornerFix locateCorner(const Contour& contour, int index, double inner, double o
     const auto m = meet(legs->before, legs->after, from + kExtensions * kFarthestTipPx);
     if (!m) return result;
     const double halfTip = std::max(kSharpestHalfTipRad, 0.5 * (std::numbers::pi - std::abs(m->angle)));
-    const double farthest = std::clamp(eatenHalf / std::sin(halfTip), kFarthestMeetPx, kFarthestTipPx);
+    const double most = reachesTip ? std::max(kFarthestStrokeMeetPx, inner) : kFarthestTipPx;
+    const double farthest = std::clamp(eatenHalf / std::sin(halfTip), kFarthestMeetPx, most);
     // Points lie half a pixel apart or more.
     const NearestPoint nearest = nearestAlong(contour, at, m->position, static_cast<int>(farthest * 2.0) + 4);
     if (nearest.distance > farthest) return result;

@@ -167,7 +167,8 @@ void releaseBundles(const StrandGraph& graph, const PiecesOfPage& page, double m
   constexpr double kBundlePens = 5.0;  // a bundle is no wider
   // Area by the square of the width: of what is long where two strokes come out of an end, or one out of each.
   constexpr double kLong = 1.3, kLongBetweenTwo = kStrokeWidths;
-  constexpr double kMouthShare = 1.0 / 3.0;  // of its border: most of what surrounds a dot is paper
+  constexpr double kKnotPens = 4.0;    // what six strokes hold that cross in one point
+  constexpr double kMouthShare = 0.5;  // of its border: most of what surrounds a dot is paper
   if (labels.penPx <= 0.0 || labels.shapes.count() == 0) return;
   const RunPieces shapes = findPieces(labels.shapes, Connectivity::Eight, context);
   const BitImage border = without(grown(labels.shapes, 1, context), labels.shapes);
@@ -181,7 +182,8 @@ void releaseBundles(const StrandGraph& graph, const PiecesOfPage& page, double m
     if (r.mouths == 0 || width <= 0.0) return false;
     if (mergeWidths > 0.0 && width <= (mergeWidths + 1.0) * labels.penPx + 1.0) return true;
     if (r.mouths < 2 || width > std::min(kBundlePens * labels.penPx + 1.0, page.widestPenPx)) return false;
-    if (static_cast<double>(r.mouthsPx) >= kMouthShare * static_cast<double>(r.borderPx)) return true;
+    const bool isKnot = static_cast<double>(r.mouthsPx) >= kMouthShare * static_cast<double>(r.borderPx);
+    if (isKnot && width <= kKnotPens * labels.penPx + 1.0) return true;
     return static_cast<double>(r.areaPx) >= (r.mouths > 2 ? kLong : kLongBetweenTwo) * width * width;
   };
   for (std::size_t i = 0; i < shapes.runs.size(); ++i) {
