@@ -24,7 +24,7 @@ constexpr double kSurelyNear = 4.0;                    // what looks overdrawn a
 constexpr double kOverdrawnPart = 0.1;  // of its cost: a pair that looks overdrawn comes before the trace
 constexpr double kTraceCost = 0.5;
 // At one arc length pieces are no farther apart than a multiple of what is usual for the group, but for a few samples.
-constexpr double kLeastFarthest = 6.0, kFarthestFactor = 2.5;
+constexpr double kLeastFarthest = 6.0, kFarthestFactor = 2.0, kFarthestShare = 0.8;
 constexpr int kMostFar = 4;
 constexpr double kAgreeing = 8.0;  // relations that disagree by more are the closing of a loop
 constexpr double kEndTaper = 6.0, kLeastTaperShare = 0.05;
@@ -111,7 +111,7 @@ class CommonLength {
     std::vector<double> apart;
     for (const Relation& r : relations_)
       if (r.apart > 0.0) apart.push_back(r.apart);
-    farthest_ = std::max(kLeastFarthest, apart.empty() ? 0.0 : kFarthestFactor * upperMedian(apart));
+    farthest_ = std::max(kLeastFarthest, apart.empty() ? 0.0 : kFarthestFactor * lowerQuantile(apart, kFarthestShare));
     for (const Relation& r : relations_) join(r);
     relax();
   }
