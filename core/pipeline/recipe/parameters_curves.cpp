@@ -277,9 +277,8 @@ void appendConstruct(std::vector<Parameter>& table) {
       kCurves,
       {"construct.detail", "Detail", "",
        "Light curves: 0 is true to the ink; larger leaves out ever larger bumps, up to a quarter of the width of the "
-       "ink, "
-       "and keeps sharp corners: what was meant."},
-      {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.construct.detail; }));
+       "ink, and keeps sharp corners: what was meant. Taken in steps of 0.1."},
+      {0.0, 1.0, 0.1, 2}, [](auto& r) -> auto& { return r.construct.detail; }));
   table.push_back(real(
       kCurves,
       {"construct.reduce", "Fewer control points", "× noise",

@@ -210,8 +210,8 @@ void ShapeWindow::refreshTable() {
   if (rows.empty()) rows.push_back({tr("No curve selected"), {}, {}});
   table_->setRows(std::move(rows));
   recommendation_->setText(
-      isAdvised ? tr("✓ recommended: the degree that explains the curve with the fewest coefficients (smallest "
-                     "AICc). S alone must rise with the degree and cannot choose.")
+      isAdvised ? tr("✓ recommended: the lowest degree that is met within the tolerance without a bump more. S alone "
+                     "must rise with the degree and cannot choose.")
       : nearest > 0
           ? tr("Closest shape: %1 (smallest AICc). It is not recommended, as it needs more than the tolerance, "
                "adds bumps, moves nothing or is unlike the curve.")
