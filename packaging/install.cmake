@@ -7,7 +7,7 @@ set(pages ${CMAKE_BINARY_DIR}/packaging)
 set(doc ${CMAKE_INSTALL_DATADIR}/doc/batten)
 
 install(TARGETS batten-cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS batten_pictures LIBRARY DESTINATION lib/batten)
+install(TARGETS batten_pictures LIBRARY DESTINATION lib/batten/modules)
 if(BATTEN_GUI)
   install(TARGETS batten RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} BUNDLE DESTINATION .)
 endif()

@@ -48,7 +48,7 @@ class ActionDelegate : public QStyledItemDelegate {
     painter->drawText(box, Qt::AlignVCenter | Qt::AlignRight, keys);
     const int keysWidth = painter->fontMetrics().horizontalAdvance(keys) + 12;
     const QRect middle = box.adjusted(nameWidth, 0, -keysWidth, 0);
-    const QString help = enabled ? index.data(HelpRole).toString() : CommandPalette::tr("not possible now");
+    const QString help = enabled ? index.data(HelpRole).toString() : CommandPalette::tr("not available now");
     if (middle.width() > 40)
       painter->drawText(middle, Qt::AlignVCenter | Qt::AlignLeft,
                         painter->fontMetrics().elidedText(help, Qt::ElideRight, middle.width()));

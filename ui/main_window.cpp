@@ -194,7 +194,7 @@ void MainWindow::connectSession() {
   });
   connect(&session_, &EditorSession::failed, this, &MainWindow::showProblem);
   connect(&session_, &EditorSession::failureCleared, this, [this] {
-    // What a run says goes with the next run; other messages wait for the user.
+    // Messages of a run are cleared by the next run; other messages stay until dismissed.
     if (parts_->problemOrigin == FailureOrigin::Run) parts_->errors->hide();
   });
   connect(&session_, &EditorSession::scanOpened, this, &MainWindow::scanOpened);

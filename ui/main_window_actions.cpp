@@ -61,26 +61,24 @@ void MainWindow::makeActions() {
   for (const auto& plot : plots)
     connect(own(plot.text, {}, tr("Show this plot of the selected curve."), {}), &QAction::triggered, this,
             [this, tab = plot.tab] { parts_->plots->setTab(tab); });
-  connect(
-      own(tr("Plot: reverse"), QStringLiteral("reverse-plot"), tr("Turn the plot of the selected curve round."), {}),
-      &QAction::triggered, this, [this] { parts_->plots->setTurned(!parts_->plots->isTurned()); });
+  connect(own(tr("Plot: reverse"), QStringLiteral("reverse-plot"), tr("Reverse the plot of the selected curve."), {}),
+          &QAction::triggered, this, [this] { parts_->plots->setTurned(!parts_->plots->isTurned()); });
   connect(own(tr("Compare shapes"), QStringLiteral("compare-shapes"),
-              tr("How alike two curves are, whatever their size and place."), {}),
+              tr("Similarity of two curves, independent of size and position."), {}),
           &QAction::triggered, this, &MainWindow::showShapes);
-  parts_->foldAction =
-      own(tr("Targets and plots"), QStringLiteral("fold-plots"),
-          tr("Show or fold away the six targets and the plot. They open with the stages Curves and Fairing."),
-          QKeySequence(QStringLiteral("P")));
+  parts_->foldAction = own(tr("Targets and plots"), QStringLiteral("fold-plots"),
+                           tr("Show or hide the six targets and the plot. They open in stages Curves and Fairing."),
+                           QKeySequence(QStringLiteral("P")));
   parts_->foldAction->setCheckable(true);
   connect(parts_->foldAction, &QAction::triggered, this, &MainWindow::foldLower);
-  connect(own(tr("Help on this stage"), QStringLiteral("help-stage"), tr("What this stage does, in plain words."),
-              QKeySequence(Qt::Key_F1)),
-          &QAction::triggered, this, [this] { showHelp(key(stage())); });
-  connect(own(tr("All help pages"), QStringLiteral("help-contents"), tr("Start page of the help."), {}),
+  connect(
+      own(tr("Help on this stage"), QStringLiteral("help-stage"), tr("Explains this stage."), QKeySequence(Qt::Key_F1)),
+      &QAction::triggered, this, [this] { showHelp(key(stage())); });
+  connect(own(tr("All help pages"), QStringLiteral("help-contents"), tr("First page of the help."), {}),
           &QAction::triggered, this, [this] { showHelp(QStringLiteral("index")); });
   connect(own(tr("Keys and mouse"), QStringLiteral("help-keys"), tr("Every shortcut, and what the mouse does."), {}),
           &QAction::triggered, this, [this] { showHelp(QStringLiteral("keys")); });
-  connect(own(tr("About Batten"), QStringLiteral("about"), tr("What this program is, and its licence."), {}),
+  connect(own(tr("About Batten"), QStringLiteral("about"), tr("Version, licence and libraries."), {}),
           &QAction::triggered, this, [this] { showHelp(QStringLiteral("about")); });
   auto* menuKey = own(tr("Open the menu"), QStringLiteral("open-menu"), tr("Open the menu at the top left."),
                       QKeySequence(Qt::Key_F10));
@@ -124,7 +122,7 @@ void MainWindow::makeMenus() {
     sub->addAction(p.foldAction);
     QMenu* theme = sub->addMenu(tr("Theme"));
     auto* group = new QActionGroup(theme);
-    const std::pair<ThemeChoice, QString> themes[] = {{ThemeChoice::System, tr("As the desktop")},
+    const std::pair<ThemeChoice, QString> themes[] = {{ThemeChoice::System, tr("Follow the desktop")},
                                                       {ThemeChoice::Light, tr("Light")},
                                                       {ThemeChoice::Dark, tr("Dark")}};
     for (const auto& [choice, text] : themes) {
@@ -216,7 +214,9 @@ void MainWindow::showStrokes(bool isEntering) {
   using For = Parts::StrokesFor;
   const auto& lines = session_.output().contours;
   const bool isBridging = lines && bridgeCount(*lines) > 0 && !parts_->hidesBridges;
-  const For now = session_.recipe().edges.mergeWidths > 0.0 ? For::Merges : isBridging ? For::Bridges : For::Nothing;
+  const For now = session_.recipe().edges.mergeWidths > 0.0 || session_.recipe().edges.intent ? For::Merges
+                  : isBridging                                                                ? For::Bridges
+                                                                                              : For::Nothing;
   const For before = std::exchange(parts_->strokesFor, now);
   if (stage() != PanelStage::Edges || (now == before && !isEntering)) return;
   const auto is = [](const Parts::StageLayer& one) { return one.layer == Layer::Strokes; };
@@ -333,8 +333,8 @@ void MainWindow::stepBack(bool isUndo) {
   const auto changed = stageOfChange(before, session_.recipe());
   if (!changed) return;
   if (*changed == stage())
-    return parts_->status->showMessage((isUndo ? tr("Undone: %1.") : tr("Done again: %1.")).arg(what));
-  const QString text = isUndo ? tr("Undone in %1: %2.") : tr("Done again in %1: %2.");
+    return parts_->status->showMessage((isUndo ? tr("Undone: %1.") : tr("Redone: %1.")).arg(what));
+  const QString text = isUndo ? tr("Undone in %1: %2.") : tr("Redone in %1: %2.");
   parts_->status->showMessage(text.arg(label(*changed), what), tr("Show"), [this, to = *changed] { setStage(to); });
 }
 

@@ -44,11 +44,10 @@ bool isPlaceToSave(const QString& folder) {
 bool isRecipeFile(const QString& path) { return path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive); }
 
 UnsavedAnswer askOnScreen(QWidget* window, const QString& drawing) {
-  QMessageBox box(QMessageBox::NoIcon, QStringLiteral("Batten"),
-                  QObject::tr("%1 has changes that are not saved.").arg(drawing),
+  QMessageBox box(QMessageBox::NoIcon, QStringLiteral("Batten"), QObject::tr("%1 has unsaved changes.").arg(drawing),
                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, window);
   box.setObjectName(QStringLiteral("unsavedBox"));
-  box.setInformativeText(QObject::tr("Save the recipe, or give the changes up?"));
+  box.setInformativeText(QObject::tr("Save the recipe, or discard the changes?"));
   box.button(QMessageBox::Save)->setText(QObject::tr("Save…"));
   box.button(QMessageBox::Discard)->setText(QObject::tr("Discard"));
   // The words say it; the toolkit's pictures are from another house.
@@ -111,15 +110,15 @@ void MainWindow::scanOpened() {
   } else if (session_.isBlankPage()) {
     setStage(PanelStage::Edges);
     view_.setTool(Tool::Pen);
-    p.status->setStageHint(tr("Drag on the page to draw a line; end where it began to close it."));
+    p.status->setStageHint(tr("Drag on the page to draw a line; end at its start to close it."));
   } else if (session_.openedWithRecipe() || session_.wasRestored()) {
     // Work that was saved is past the first stages: it opens where it is read.
     setStage(PanelStage::Fairing);
   }
   if (session_.wasRestored())
-    p.status->showMessage(tr("The unsaved work is back. Save it to keep it."));
+    p.status->showMessage(tr("Unsaved work restored. Save it to keep it."));
   else if (session_.openedWithRecipe())
-    p.status->showMessage(tr("Opened with the recipe saved beside the drawing."));
+    p.status->showMessage(tr("Opened with the recipe stored next to the drawing."));
   p.canvas->zoomFit();
 }
 
@@ -213,12 +212,12 @@ void MainWindow::useImport(const ImportReport& report, bool intoDrawing) {
     session_.newDrawing(drawingOf(report.file));
   } else {
     AddedImport added = withImport(session_.recipe(), report.file, frameFor(*session_.scan(), session_.recipe()));
-    if (added.moved) said += tr("The lines lay beside the page; they were put on its middle.");
+    if (added.moved) said += tr("The lines were outside the page and have been centred on it.");
     session_.change(tr("Import %1").arg(source), std::move(added.recipe));
   }
   const int count = static_cast<int>(report.file.lines.size());
-  said.prepend(count == 1 ? tr("Imported one line of %1.").arg(source)
-                          : tr("Imported %1 lines of %2.").arg(count).arg(source));
+  said.prepend(count == 1 ? tr("Imported 1 line from %1.").arg(source)
+                          : tr("Imported %1 lines from %2.").arg(count).arg(source));
   parts_->status->showMessage(said.join(QLatin1Char(' ')));
 }
 
@@ -233,7 +232,7 @@ void MainWindow::pasteScan() {
   if (held != nullptr && held->hasUrls() && held->urls().first().isLocalFile())
     return openPath(pathText(held->urls().first()));
   const QImage picture = held != nullptr && held->hasImage() ? qvariant_cast<QImage>(held->imageData()) : QImage();
-  if (picture.isNull()) return parts_->status->showMessage(tr("The clipboard holds no picture."));
+  if (picture.isNull()) return parts_->status->showMessage(tr("The clipboard contains no picture."));
   const QString folder = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + QStringLiteral("/pasted");
   const QString name = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd HH.mm.ss.zzz"));
   const QString path = folder + QStringLiteral("/Pasted %1.png").arg(name);
@@ -244,7 +243,7 @@ void MainWindow::pasteScan() {
         this,
         [this, path, isSaved] {
           if (isSaved) return openPath(path);
-          showProblem({ErrorCode::CannotWrite, tr("The picture cannot be kept in %1.").arg(path).toStdString(), {}},
+          showProblem({ErrorCode::CannotWrite, tr("The picture cannot be saved in %1.").arg(path).toStdString(), {}},
                       FailureOrigin::OpenScan);
         },
         Qt::QueuedConnection);
@@ -311,7 +310,7 @@ bool MainWindow::offerLeftWork() {
     if (const QString sample = std::exchange(parts_->sample, {}); !sample.isEmpty()) openAtStart(sample);
   };
   const QString name = left.scanPath.isEmpty() ? tr("a new drawing") : shownFileName(left.scanPath);
-  p.errors->show(tr("Batten did not end as it should. Unsaved work on %1 from %2 was kept.")
+  p.errors->show(tr("Batten did not close properly. Unsaved work on %1 from %2 is available.")
                      .arg(name, QLocale().toString(left.when, QLocale::ShortFormat)),
                  tr("Restore it"), tr("Discard it"));
   refreshActions();
@@ -342,8 +341,9 @@ void MainWindow::tellNotOpened(const QString& path) {
     parts_->errors->hide();
     openPath(path);
   };
-  parts_->errors->show(tr("Batten ended while it opened %1, so that it stays closed now.").arg(shownFileName(path)),
-                       tr("Open it all the same"));
+  parts_->errors->show(
+      tr("Batten stopped while opening %1, so the file was not opened again.").arg(shownFileName(path)),
+      tr("Open it anyway"));
   refreshActions();
 }
 

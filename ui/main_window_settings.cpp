@@ -129,7 +129,7 @@ std::pair<QString, std::function<void()>> MainWindow::remedyFor(const Error& err
   }
   if (error.code == ErrorCode::NoCurve) return {tr("Show the thresholds"), stageOf(PanelStage::Threshold)};
   if (error.code == ErrorCode::OutOfMemory) return {tr("Open…"), [this] { chooseScan(); }};
-  if (session_.undoStack()->canUndo()) return {tr("Take the change back"), [this] { session_.undoStack()->undo(); }};
+  if (session_.undoStack()->canUndo()) return {tr("Undo the change"), [this] { session_.undoStack()->undo(); }};
   return {tr("Show the settings"), stageOf(PanelStage::Curves)};
 }
 

@@ -12,6 +12,8 @@
 
 #include "core/pipeline/run/pipeline.h"
 #include "ui/panels/controls/panel_parts.h"
+#include "ui/session/page_text.h"
+#include "ui/theme/elided_label.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -58,9 +60,12 @@ StatusLine::StatusLine(EditorSession& session, QWidget* parent)
   scale_ = add("status.scale", {});
   layout->addWidget(setScale_);
   zoom_ = add("status.zoom", QStringLiteral("888 %"));
-  hint_ = add("status.hint", {}, 1);
+  hint_ = new ElidedLabel(this);
+  hint_->setObjectName(QStringLiteral("status.hint"));
+  hint_->setFont(uiFont(12));
+  hint_->setForegroundRole(QPalette::PlaceholderText);
   hint_->setAlignment(Qt::AlignCenter);
-  hint_->setMinimumWidth(40);
+  layout->addWidget(hint_, 1);
   layout->addWidget(act_);
   act_->setFont(uiFont(12));
   act_->hide();
@@ -80,7 +85,7 @@ StatusLine::StatusLine(EditorSession& session, QWidget* parent)
   setScale_->setFont(uiFont(12));
   cancel_->setFont(uiFont(12));
   again_->setFont(uiFont(12));
-  again_->setToolTip(tr("Go on with the computation that was stopped.  (Ctrl+R)"));
+  again_->setToolTip(tr("Resume the stopped computation.  (Ctrl+R)"));
   messageTimer_.setSingleShot(true);
   messageTimer_.setInterval(kMessageMs);
   connect(&messageTimer_, &QTimer::timeout, this, [this] {
@@ -155,10 +160,8 @@ void StatusLine::refreshScale() {
   setScale_->setVisible(assumed);
   if (assumed) return;
   const PageFrame frame = frameFor(*session_.scan(), session_.recipe());
-  scale_->setText(tr("%1 dpi · %2 × %3 mm")
-                      .arg(own ? *own : session_.scan()->dpi.value_or(0.0), 0, 'f', 0)
-                      .arg(frame.lengthToModel(frame.widthPx), 0, 'f', 1)
-                      .arg(frame.lengthToModel(frame.heightPx), 0, 'f', 1));
+  scale_->setText(
+      tr("%1 dpi · %2").arg(resolutionText(own ? *own : session_.scan()->dpi.value_or(0.0)), pageSizeText(frame)));
   scale_->setToolTip(session_.recipe().scaleLine ? tr("Resolution measured on the drawing, and the size of the page")
                      : own                       ? tr("Resolution set by you, and the size of the page")
                                                  : tr("Resolution from the file, and the size of the page"));
@@ -182,8 +185,8 @@ void StatusLine::refreshWork() {
   work_->setText(session_.isStopped() || !whole ? tr("stopped")
                  : ms < 0.5                     ? tr("exact")
                                                 : tr("exact · %1 ms").arg(ms, 0, 'f', 0));
-  work_->setToolTip(whole ? tr("All that is shown belongs to the present settings.")
-                          : tr("Some of what is shown is from earlier settings."));
+  work_->setToolTip(whole ? tr("Everything shown matches the current settings.")
+                          : tr("Some of what is shown was computed with earlier settings."));
 }
 
 void StatusLine::paintEvent(QPaintEvent*) {

@@ -26,7 +26,7 @@ Result<std::vector<NamedShape>> shapesOf(const std::string& path) {
   const auto document = readCurveFile(path);
   if (!document) {
     return fail(document.error().code,
-                document.error().message + " Write it anew with batten-cli trace SCAN -o FILE.json.");
+                document.error().message + " Create it again with batten-cli trace SCAN -o FILE.json.");
   }
   std::vector<NamedShape> shapes;
   for (const ExportCurve& curve : document->curves) {

@@ -42,7 +42,8 @@ std::string kindOf(const std::string& note) { return note.starts_with("Turns sha
 /// What fairing refused, or did in part; what a target would have taken beyond the tolerance differs for every curve.
 std::string fairingNote(const TracedCurve& curve) {
   const FairingReport& report = curve.fairing;
-  if (report.note.empty() && !report.withinTolerance) return "Only part of what was asked lies within the tolerance.";
+  if (report.note.empty() && !report.withinTolerance)
+    return "The request could only be met in part within the tolerance.";
   return report.note.empty() ? leftAsDrawnReason(curve) : report.note;
 }
 
@@ -58,7 +59,7 @@ std::string typicalNote(const std::vector<TracedCurve>& curves) {
   }
   if (typical + transitions == 0) return {};
   return std::to_string(typical) + " typical curves, " + std::to_string(monotone) + " of them monotone, and " +
-         std::to_string(transitions) + " transitions where none can go.";
+         std::to_string(transitions) + " transitions in between.";
 }
 
 }  // namespace

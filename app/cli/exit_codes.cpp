@@ -36,7 +36,7 @@ int reportError(const Error& error) {
 int endOutput() {
   if (std::cout.flush()) return kDone;
   return reportError(
-      {ErrorCode::CannotWrite, "The result cannot be written to stdout. Send it where there is room.", {}});
+      {ErrorCode::CannotWrite, "Cannot write the result to stdout. Redirect it to a disk with free space.", {}});
 }
 
 }  // namespace batten::cli

@@ -24,7 +24,7 @@ using namespace batten;
 using namespace batten::cli;
 
 constexpr const char* kFooter =
-    "Exit codes: 0 done; 2 wrong usage, or curves that compare cannot read; 3 the scan cannot be read; 4 no curve "
+    "Exit codes: 0 success; 2 wrong usage, or curves that compare cannot read; 3 the scan cannot be read; 4 no curve "
     "found; 5 cannot write; of a batch: 6 pages have failed, 7 stopped before its end.\n"
     "An error is one line on stderr. stdout holds only what programs can read.";
 
@@ -59,50 +59,51 @@ void addDrawing(CLI::App& app, TraceArguments& a, const DrawingHelp& help) {
   app.add_option("scan", a.scan, help.scan)->type_name("SCAN");
   app.add_option("--recipe", a.recipe, help.recipe)->type_name("R.json");
   app.add_option("--page", a.page, help.page)->type_name(help.pages);
-  app.add_option("--as-in", a.asIn,
-                 "Everything as in a paper: " + paperPresetNames() + "; --set comes on top, a note says what it costs")
+  app.add_option(
+         "--as-in", a.asIn,
+         "Use all settings of a paper: " + paperPresetNames() + "; --set overrides it; a note states the drawbacks")
       ->type_name("PAPER");
   addRepeated(app, "--set", a.settings, "NAME=VALUE", "Set a parameter (see batten-cli parameters); may be repeated");
   addRepeated(app, "--outline", a.outlines, "X,Y",
-              "Follow the border of the ink near this place, px from the upper left; may be repeated");
+              "Trace the outline of the ink near this point, px from the upper left; may be repeated");
   addRepeated(app, "--centreline", a.centrelines, "X,Y",
-              "Follow the middle of the ink near this place, px from the upper left; may be repeated");
+              "Trace the centre line of the ink near this point, px from the upper left; may be repeated");
   addRepeated(app, "--roi", a.regions, "X,Y,WIDTH,HEIGHT",
-              "Trace only what lies in this rectangle, px from the upper left; may be repeated");
+              "Trace only inside this rectangle, px from the upper left; may be repeated");
   app.add_option_function<std::string>(
          "--threads", [&a](const std::string& text) { a.threads = text; },
-         "Use at most this many threads, 0 to 1024; 0 = all. Never changes the result")
+         "Maximum number of threads, 0 to 1024; 0 = all. Does not affect the result")
       ->type_name("N");
 }
 
 void addTrace(CLI::App& app, TraceArguments& a) {
   CLI::App* trace = app.add_subcommand("trace", "Turn a scan into fair curves");
   trace->footer(
-      "Prints one line of JSON: the scan, how many curves, the files written, how each compares with the curves, and "
-      "notes.");
-  addDrawing(
-      *trace, a,
-      {std::string("The scan: ") + kScanKinds +
-           "; or curves and points to make fair; none for a recipe drawn on an empty page",
-       "Start from this recipe; --set, --corner and --dpi come on top",
-       "Which page of a TIFF or PDF, from 1; all: every page, with -p1, -p2 … behind the names of what is written",
-       "N|all"});
+      "Prints one line of JSON: the scan, the number of curves, the files written with their "
+      "deviation from the curves, and notes.");
+  addDrawing(*trace, a,
+             {std::string("The scan: ") + kScanKinds +
+                  "; or curves or points to fair; omitted for a recipe drawn on an empty page",
+              "Use this recipe; --set, --corner and --dpi override it",
+              "Page of a TIFF or PDF, from 1; all: every page, with -p1, -p2 … appended to the output "
+              "names",
+              "N|all"});
   addRepeated(*trace, "-o,--output", a.outputs, "OUT",
-              "Write the curves; the ending chooses the format (" + allEndings() +
-                  "); .report.pdf and .report.html hold a report to print; a file of that name is replaced; may be "
-                  "repeated");
+              "Write the curves; the file extension selects the format (" + allEndings() +
+                  "); .report.pdf and .report.html write a printable report; an existing file is replaced; "
+                  "may be repeated");
   addRepeated(*trace, "--import", a.imports, "FILE",
-              "Take lines over from a file of curves or points (" + importEndings() + "); may be repeated");
+              "Import lines from a file of curves or points (" + importEndings() + "); may be repeated");
   trace
       ->add_option("--import-unit", a.importUnit,
-                   "Unit of their numbers instead of what the files state: mm, cm, m or in")
+                   "Unit of the imported coordinates, overriding the files: mm, cm, m or in")
       ->type_name("mm|cm|m|in");
-  trace->add_option("--preset", a.preset, "Write what this receiver reads best: " + presetNames())
+  trace->add_option("--preset", a.preset, "Format options for a receiving program: " + presetNames())
       ->type_name(presetWords());
   trace->add_option("--paper", a.paper, "Paper of a .report.pdf: a4 or letter")->type_name("a4|letter");
   trace->add_option("--unit", a.unit, "Unit of DXF, IGES, STEP and CSV: mm or in")->type_name("mm|in");
-  trace->add_option("--scale", a.scale, "Write the curves this many times as large")->type_name("N");
-  trace->add_option("--tolerance", a.tolerance, "Largest distance of what is approximated from the exact curves, mm")
+  trace->add_option("--scale", a.scale, "Scale factor of the curves")->type_name("N");
+  trace->add_option("--tolerance", a.tolerance, "Maximum deviation of approximated curves from the exact ones, mm")
       ->type_name("MM");
   trace
       ->add_option_function<std::string>(
@@ -111,105 +112,103 @@ void addTrace(CLI::App& app, TraceArguments& a) {
       ->type_name("LIST");
   trace->add_option("--which", a.which, "Which curves to write: faired, sketched or both")
       ->type_name("faired|sketched|both");
-  trace->add_flag("--joined", a.joined, "Curves that follow each other are written as one, also in DXF, IGES and STEP");
-  trace->add_flag("--apart", a.apart, "Every curve is written by itself, also in SVG, PDF and the others");
-  trace->add_flag("--splines-only", a.splinesOnly, "DXF, IGES, STEP: lines, arcs and circles as splines, too");
+  trace->add_flag("--joined", a.joined, "Join consecutive curves, also in DXF, IGES and STEP");
+  trace->add_flag("--apart", a.apart, "Write every curve separately, also in SVG, PDF and the other formats");
+  trace->add_flag("--splines-only", a.splinesOnly, "DXF, IGES, STEP: write lines, arcs and circles as splines too");
   trace
       ->add_option("--flavour", a.flavour,
-                   "IGES, STEP: curves as they are (exact), each polynomial piece by itself (bezier), or of degree 3 "
-                   "within the tolerance (cubic)")
+                   "IGES, STEP: exact curves (exact), one Bézier curve per polynomial piece (bezier), or "
+                   "degree 3 within the tolerance (cubic)")
       ->type_name("exact|bezier|cubic");
   trace->add_flag("--chords", a.chords, "DXF for cnc: chords only, no arcs");
-  addRepeated(
-      *trace, "--corner", a.corners, "X,Y[,MM|,rMM][,gN]",
-      "Sharp corner near this place, px from the upper left; with MM rounded from this distance on, with rMM by "
-      "this smallest radius; g1, g2 or g3: how smoothly; may be repeated");
+  addRepeated(*trace, "--corner", a.corners, "X,Y[,MM|,rMM][,gN]",
+              "Corner near this point, px from the upper left; MM rounds it from that distance on, rMM "
+              "to that minimum radius; g1, g2 or g3: continuity of the rounding; may be repeated");
   addRepeated(*trace, "--segment-point", a.segmentPoints, "X,Y",
-              "Typical curves meet near this place of a line, px from the upper left; may be repeated");
+              "Make typical curves meet near this point, px from the upper left; may be repeated");
   trace
       ->add_option_function<std::string>(
           "--dpi", [&a](const std::string& text) { a.dpi = text; },
-          "Resolution of the scan, 1 to 100000, overrides what the file states; of a PDF how finely its page is drawn "
-          "(300)")
+          "Resolution of the scan, 1 to 100000, overriding the file; for a PDF the rendering "
+          "resolution (300)")
       ->type_name("N");
   trace
       ->add_option("--known-length", a.knownLength,
-                   "Resolution by two places, px from the upper left, and their distance: 100mm, 10cm or 4in")
+                   "Resolution from two points, px from the upper left, and their true distance: 100mm, "
+                   "10cm or 4in")
       ->type_name("X,Y,X,Y,LENGTH");
   addRepeated(*trace, "--direction", a.directions, "X,Y,X,Y",
-              "The curve near the first place is written so that it runs towards the second, px; may be repeated");
-  addRepeated(*trace, "--start", a.starts, "X,Y",
-              "The closed line near this place is written so that it begins there, px; may be repeated");
+              "Direct the curve near the first point towards the second, px; may be repeated");
+  addRepeated(*trace, "--start", a.starts, "X,Y", "Start the closed curve near this point there, px; may be repeated");
   trace->add_option("--report", a.report, "Write figures of every stage and curve")->type_name("REPORT.json");
   trace->add_flag("--report-targets", a.reportTargets,
-                  "Have the report say what each of the six targets would make of every curve, too; takes far longer");
-  trace->add_flag(
-      "--report-series", a.reportSeries,
-      "Have the report list knots, polynomial coefficients, and radius, curvature and its slope along every "
-      "curve, too");
+                  "Add the result of each of the six targets for every curve to the report; much slower");
+  trace->add_flag("--report-series", a.reportSeries,
+                  "Add knots, polynomial coefficients, and radius, curvature and curvature slope along "
+                  "every curve to the report");
   trace->add_flag("--explain", a.explain,
-                  "Say how much of the ink the curves explain and how much of their length has no ink under it, in the "
-                  "line printed and in the report; after the curves are written");
+                  "Print and report the share of the ink that the curves explain and the share of their "
+                  "length without ink; computed after writing");
   addRepeated(*trace, "--dump", a.dumps, "STAGE=FILE.png", dumpHelp());
   trace->add_option("--save-recipe", a.saveRecipe, "Write all settings used, for --recipe and the window")
       ->type_name("R.json");
 }
 
 CLI::App* addSuggest(CLI::App& app, TraceArguments& a) {
-  CLI::App* suggest = app.add_subcommand(
-      "suggest", "Whether a scan has overdrawn strokes, how far to merge them, and where its corners are");
+  CLI::App* suggest =
+      app.add_subcommand("suggest", "Suggest a merge distance for overdrawn strokes and list possible corners");
   suggest->footer(
       "Prints one line of JSON: a value for edges.merge (0: nothing to merge), how many strokes become how many "
-      "lines, and the reason; and every place that may be a corner with its angle in degrees and its certainty from 0 "
+      "lines, whether edges.intent finds lines drawn over more than once and how many curves it makes of them, and "
+      "the reason; and every place that may be a corner with its angle in degrees and its certainty from 0 "
       "to "
       "1. Those of 0.95 and more count without a mark (corners.auto). Changes nothing.");
   addDrawing(*suggest, a,
-             {std::string("The scan: ") + kScanKinds, "Start from this recipe; --set and the places given come on top",
+             {std::string("The scan: ") + kScanKinds, "Use this recipe; --set and the points given override it",
               "Which page of a TIFF or PDF, from 1", "N"});
   return suggest;
 }
 
 CLI::App* addBatch(CLI::App& app, BatchArguments& a) {
-  CLI::App* batch = app.add_subcommand("batch", "Trace many scans, and go on where an earlier call ended");
+  CLI::App* batch = app.add_subcommand("batch", "Trace many scans; resumes an earlier run");
   batch->footer(
-      "Prints one line of JSON for each page as it ends. A page is left when its scan, recipe, settings and the "
-      "program "
-      "are as before; NAME.batch.json beside its first output NAME knows. A page without a curve is an answer, not a "
-      "failure. Ctrl+C ends after the running pages; the same command goes on.");
+      "Prints one line of JSON per finished page. A page is skipped if its scan, recipe, "
+      "settings and the program are unchanged, according to NAME.batch.json next to its first "
+      "output NAME. A page without curves is not a failure. Ctrl+C stops after the running "
+      "pages; the same command resumes.");
   batch->add_option("inputs", a.inputs, "A manifest (NAME.jsonl, or - for stdin), or scans, folders and patterns")
       ->type_name("INPUT")
       ->required();
-  batch->add_option("--to", a.to, "Where the curves of scans, folders and patterns go")->type_name("FOLDER");
-  batch->add_option("--formats", a.formats, "What is written of each of them (svg,json)")->type_name("LIST");
+  batch->add_option("--to", a.to, "Output folder for scans, folders and patterns")->type_name("FOLDER");
+  batch->add_option("--formats", a.formats, "Formats to write for each of them (svg,json)")->type_name("LIST");
   batch->add_option("--recipe", a.recipe, "Recipe of the pages that have none of their own")->type_name("R.json");
   addRepeated(*batch, "--set", a.settings, "NAME=VALUE", "Set a parameter of every page; may be repeated");
   batch->add_option("--dpi", a.dpi, "Resolution of the pages that state none in the manifest")->type_name("N");
-  batch->add_option("--jobs", a.jobs, "Pages at once; 0 = as many as processors")
+  batch->add_option("--jobs", a.jobs, "Pages processed in parallel; 0 = one per processor")
       ->type_name("N")
       ->check(CLI::Range(0, 1024));
-  batch
-      ->add_option("--existing", a.existing,
-                   "Outputs that are there: leave unchanged pages, make all anew, or do nothing")
+  batch->add_option("--existing", a.existing, "Existing outputs: skip unchanged pages, overwrite all, or abort")
       ->check(CLI::IsMember({"skip", "overwrite", "abort"}).description(""))
       ->type_name("skip|overwrite|abort");
   batch
       ->add_option("--first-line", a.firstLine,
-                   "The number of the manifest's first line in what is printed, where it is a part of another (1)")
+                   "Line number of the first line of the manifest, if it is part of a larger one (1)")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000000));
-  batch->add_flag("--resume", a.resume, "Go on where an earlier call ended, whatever --existing says");
+  batch->add_flag("--resume", a.resume, "Resume an earlier run, regardless of --existing");
   batch->add_option("--page-timeout", a.pageTimeoutSeconds, "A page that takes longer fails, 0.001 to 1000000 s")
       ->type_name("S");
   batch
-      ->add_option("--max-failures", a.maxFailures, "Start no more pages once a larger share of all has failed, 0 to 1")
+      ->add_option("--max-failures", a.maxFailures,
+                   "Stop starting pages once this fraction of all pages has failed, 0 to 1")
       ->type_name("RATE");
   batch
       ->add_option("--results", a.results,
-                   "Add the lines to this file instead of stdout, each page's once; several calls may add to it at the "
-                   "same time")
+                   "Append the lines to this file instead of stdout, one per page; several runs may share "
+                   "the file")
       ->type_name("FILE.jsonl");
   batch->add_option("--failures", a.failures, "Write the pages that failed as a manifest")->type_name("FILE.jsonl");
-  batch->add_option("--sheet", a.sheet, "Write an overview of all pages for the browser")->type_name("FILE.html");
+  batch->add_option("--sheet", a.sheet, "Write an HTML overview of all pages")->type_name("FILE.html");
   batch
       ->add_option("--write-manifest", a.writeManifest,
                    "Write the pages as a manifest, - for stdout, and trace nothing")
@@ -235,7 +234,7 @@ int run(int argc, char** argv) {
   const CLI::App* options = app.add_subcommand("options", "Commands and options as JSON")->group("");
   std::string first, second;
   CLI::App* compare =
-      app.add_subcommand("compare", "How alike the curves of two files are, whatever their size and place");
+      app.add_subcommand("compare", "Similarity of the curves of two files, independent of size and position");
   compare->footer(
       "Prints one line of JSON: similarity S and Pearson's r of the radii over the perimeter for every pair.");
   compare->add_option("first", first, "Curves: JSON or SVG written by trace, or DXF")->type_name("A")->required();
@@ -267,6 +266,6 @@ int main(int argc, char** argv) {
     return reportError(
         {ErrorCode::OutOfMemory, "There is not enough memory. Close other programs or use a smaller scan.", {}});
   } catch (const std::exception& e) {
-    return reportError({ErrorCode::Numerical, std::string("Something unforeseen happened: ") + e.what(), {}});
+    return reportError({ErrorCode::Numerical, std::string("Unexpected error: ") + e.what(), {}});
   }
 }

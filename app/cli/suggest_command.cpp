@@ -50,7 +50,7 @@ Result<std::vector<CornerSuggestion>> cornersOf(const Scan& scan, const Recipe& 
 }
 
 Result<Advice> adviceFor(const TraceArguments& arguments) {
-  if (arguments.scan.empty()) return fail(ErrorCode::BadParameter, "Name the scan to look at.");
+  if (arguments.scan.empty()) return fail(ErrorCode::BadParameter, "Name a scan.");
   const auto recipe = recipeOf(arguments);
   if (!recipe) return fail(recipe.error());
   RunContext context;
@@ -75,13 +75,16 @@ Result<Advice> adviceFor(const TraceArguments& arguments) {
 int runSuggest(const TraceArguments& arguments) {
   const auto advice = adviceFor(arguments);
   if (!advice) return reportError(advice.error());
-  nlohmann::ordered_json json{{"scan", arguments.scan},
-                              {"edges.merge", advice->merge.widths},
-                              {"strokes", advice->merge.strokes},
-                              {"lines", advice->merge.lines},
-                              {"overdrawn_share", advice->merge.share},
-                              {"reason", describe(advice->merge)},
-                              {"corners", cornersToJson(advice->corners)}};
+  nlohmann::ordered_json json{
+      {"scan", arguments.scan},
+      {"edges.merge", advice->merge.widths},
+      {"edges.intent", advice->merge.meant.has_value()},
+      {"strokes", advice->merge.strokes},
+      {"lines", advice->merge.lines},
+      {"curves_meant", advice->merge.meant ? nlohmann::ordered_json(*advice->merge.meant) : nlohmann::ordered_json()},
+      {"overdrawn_share", advice->merge.share},
+      {"reason", describe(advice->merge)},
+      {"corners", cornersToJson(advice->corners)}};
   std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';
   return endOutput();
 }

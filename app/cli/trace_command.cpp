@@ -188,11 +188,11 @@ class Trace {
     }
     for (const MarkPair& pair : out_.pieces->sameCorner) {
       list.push_back("Corners " + numbers(pair) + ", at " + placeOf(pair.other) + " and " + placeOf(pair.mark) +
-                     ", are one corner of the line: remove one, or lower corners.snap if two are meant.");
+                     ", snap to the same corner: remove one, or reduce corners.snap if you mean two corners.");
     }
     for (const MarkPair& pair : out_.pieces->closeCorners) {
       list.push_back("Corners " + numbers(pair) + " are " + std::to_string(std::lround(pair.apartPx)) +
-                     " px apart and leave a sliver of the line between them: remove one of them.");
+                     " px apart: remove one of them.");
     }
   }
 
@@ -200,15 +200,13 @@ class Trace {
     const Recipe& recipe = plan_.recipe;
     const DirectionOwners owners = assignDirections(*out_.pieces, recipe);
     for (const std::size_t mark : owners.lostDirections)
-      list.push_back("No curve lies near " + placeText(recipe.directions[mark].positionPx) +
-                     ", where --direction was to turn one.");
+      list.push_back("No curve near " + placeText(recipe.directions[mark].positionPx) + " for --direction.");
     for (const std::size_t mark : owners.lostStarts)
-      list.push_back("No curve lies near " + placeText(recipe.starts[mark].positionPx) +
-                     ", where --start was to begin one.");
+      list.push_back("No curve near " + placeText(recipe.starts[mark].positionPx) + " for --start.");
     for (const auto& [contour, mark] : owners.startOfContour) {
       if (out_.contours->contours[static_cast<std::size_t>(contour)].closed) continue;
       list.push_back("The line at " + placeText(recipe.starts[mark].positionPx) +
-                     " is open: it begins at one of its ends, and --start changes nothing.");
+                     " is open, so --start has no effect.");
     }
   }
 
@@ -219,12 +217,13 @@ class Trace {
       list.emplace_back("The scan states no resolution; 96 dpi was assumed. Set --dpi.");
     if (scan_.pages > 1 && !arguments_.isOneOfAll) {
       list.push_back("The file holds " + std::to_string(scan_.pages) + " pages; page " +
-                     std::to_string(scan_.page.number) + " was traced. Take others by --page N, or all by --page all.");
+                     std::to_string(scan_.page.number) +
+                     " was traced. Use --page N for another page or --page all for all.");
     }
     list.insert(list.end(), out_.page->notes.begin(), out_.page->notes.end());
     if (!out_.thresholds->note.empty() && !isBlank(scan_)) list.push_back(out_.thresholds->note);
     if (out_.filtered && out_.filtered->report.thinStrokesLost) {
-      list.emplace_back("The clean-up took thin strokes away. Set filter.max_change to 8 or fewer filter.iterations.");
+      list.emplace_back("The clean-up removed thin strokes. Set filter.max_change to 8 or reduce filter.iterations.");
     }
     if (!out_.contours->report.note.empty()) list.push_back(out_.contours->report.note);
     if (explanation_ && !explanation_->note.empty()) list.push_back(explanation_->note);
@@ -233,8 +232,8 @@ class Trace {
     for (const std::size_t choice : assignChoices(*out_.pieces, plan_.recipe.choices).waiting) {
       const std::vector<Vec2>& anchors = plan_.recipe.choices[choice].anchorsPx;
       if (anchors.empty()) continue;
-      list.push_back("No line lies where the choice at " + placeText(anchors[anchors.size() / 2]) +
-                     " was made; it is kept in the recipe.");
+      list.push_back("No line at the position of the choice at " + placeText(anchors[anchors.size() / 2]) +
+                     "; the choice is kept in the recipe.");
     }
     for (const Error& failure : out_.constructed->failures) list.push_back(failure.message);
     for (std::string& note : curveNotes(out_)) list.push_back(std::move(note));
@@ -271,8 +270,7 @@ int traceOne(const TraceArguments& arguments) {
 int runTrace(const TraceArguments& given) {
   const TraceArguments arguments = withCurvesAsImport(given);
   if (arguments.page != "all") return traceOne(arguments);
-  if (arguments.scan.empty())
-    return reportError({ErrorCode::BadParameter, "--page needs a scan: name the file whose page it is.", {}});
+  if (arguments.scan.empty()) return reportError({ErrorCode::BadParameter, "--page needs a scan: name the file.", {}});
   int code = kDone;
   const int pages = [&] {
     const QuietStderr quiet;

@@ -49,7 +49,7 @@ struct TraceArguments {
 };
 
 /// Traces a scan and writes what was asked for; one line of JSON on stdout when done. Returns the exit code. Of all
-/// pages of a file there is a line for each; one that fails is told on stderr and does not keep the others, and the
+/// pages of a file there is a line for each; a failing page is reported on stderr and does not stop the others, and the
 /// exit code is that of the first one that failed.
 int runTrace(const TraceArguments&);
 

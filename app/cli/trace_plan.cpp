@@ -54,7 +54,7 @@ Result<void> applyPage(const TraceArguments& arguments, Recipe& recipe) {
   const auto page = integerFromText(arguments.page);
   if (!page || *page < 1)
     return wrong("--page takes the number of a page, from 1, or all, not \"" + arguments.page + "\".");
-  if (arguments.scan.empty()) return wrong("--page needs a scan: name the file whose page it is.");
+  if (arguments.scan.empty()) return wrong("--page needs a scan: name the file.");
   recipe.scanPage.number = *page;
   return {};
 }
@@ -173,8 +173,8 @@ Result<void> applyDirection(const std::string& direction, Recipe& recipe) {
   const auto values = numbersOf(direction);
   if (!values || values->size() != 4) {
     return wrong(
-        "--direction takes X,Y,X,Y in px from the upper left corner, a place of a curve and one that it is to "
-        "run towards, not \"" +
+        "--direction takes X,Y,X,Y in px from the upper left corner, a point on a curve and one "
+        "that the curve should run towards, not \"" +
         direction + "\".");
   }
   recipe.directions.push_back({Vec2((*values)[0], (*values)[1]), Vec2((*values)[2], (*values)[3])});
@@ -244,10 +244,9 @@ Result<void> planExport(const TraceArguments& arguments, TracePlan& plan) {
   const std::string& flavour = arguments.flavour;
   if (!flavour.empty() && flavour != "exact" && flavour != "bezier" && flavour != "cubic")
     return wrong("--flavour takes exact, bezier or cubic, not \"" + flavour + "\".");
-  if (arguments.joined && arguments.apart)
-    return wrong("--joined and --apart contradict each other. Give one of them.");
+  if (arguments.joined && arguments.apart) return wrong("--joined and --apart exclude each other. Give one of them.");
   if (arguments.curves && arguments.curves->empty())
-    return wrong("--curves names no curve. Give numbers, as in 1,3-5, or leave it out to write all.");
+    return wrong("--curves is empty. Give numbers such as 1,3-5, or omit it to write all.");
   plan.curves = arguments.curves.value_or("");
   if (!arguments.paper.empty() && arguments.paper != "a4" && arguments.paper != "letter")
     return wrong("--paper takes a4 or letter, not \"" + arguments.paper + "\".");
@@ -292,7 +291,7 @@ Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan
   if (!arguments.report.empty()) targets.emplace_back(arguments.report);
   const std::size_t withoutRecipe = targets.size();
   if (!arguments.saveRecipe.empty()) targets.emplace_back(arguments.saveRecipe);
-  if (targets.empty()) return wrong("Nothing would be written. Add -o OUT.svg, -o OUT.dxf or another.");
+  if (targets.empty()) return wrong("No output is named. Add -o OUT.svg, -o OUT.dxf or another.");
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const std::string name = targets[i].string();
     if (!arguments.scan.empty() && isSameFile(targets[i], arguments.scan)) {
@@ -303,7 +302,7 @@ Result<void> checkTargets(const TraceArguments& arguments, const TracePlan& plan
     }
     for (const std::string& import : arguments.imports) {
       if (isSameFile(targets[i], import))
-        return wrong("The file " + name + " is imported. Give the output another name.");
+        return wrong("The file " + name + " is an imported file. Give the output another name.");
     }
     for (std::size_t k = 0; k < i; ++k) {
       if (isSameFile(targets[i], targets[k])) {
@@ -369,12 +368,12 @@ Result<Recipe> recipeOf(const TraceArguments& arguments) {
     if (auto set = applyStart(start, *recipe); !set) return fail(set.error());
   }
   if (arguments.dpi && !arguments.knownLength.empty())
-    return wrong("--dpi and --known-length both say the resolution. Give one of them.");
+    return wrong("--dpi and --known-length both set the resolution. Give one of them.");
   if (!arguments.knownLength.empty()) {
     if (auto set = applyKnownLength(arguments.knownLength, *recipe); !set) return fail(set.error());
   }
   if (arguments.scan.empty() && !recipe->page && arguments.imports.empty()) {
-    return wrong("No scan is named. Only a recipe that was drawn on an empty page needs none.");
+    return wrong("Name a scan. Only a recipe drawn on an empty page needs none.");
   }
   if (auto problem = validate(*recipe)) return fail(std::move(*problem));
   return recipe;
@@ -427,7 +426,7 @@ Result<void> importInto(const TraceArguments& arguments, const PageFrame* frame,
     auto added = withImport(std::move(plan.recipe), std::move(read->file), page);
     plan.recipe = std::move(added.recipe);
     if (added.moved && frame != nullptr)
-      plan.notes.push_back("The lines of " + name + " lie beside the page; they were put on its middle.");
+      plan.notes.push_back("The lines of " + name + " were outside the page and have been centred on it.");
   }
   if (auto problem = validate(plan.recipe)) return fail(std::move(*problem));
   return {};

@@ -19,7 +19,7 @@ Error wrongCommand(const CLI::App& app, const std::string& word) {
     const std::size_t changes = editDistance(word, name);
     if (isNearWord(word, changes) && (near.empty() || changes < editDistance(word, near))) near = name;
   }
-  if (word.empty()) return {ErrorCode::BadParameter, "Name a command: there are " + all + ". Try --help.", {}};
+  if (word.empty()) return {ErrorCode::BadParameter, "Name a command: " + all + ". Try --help.", {}};
   return {
       ErrorCode::BadParameter,
       "There is no command " + word + ". " + (near.empty() ? "There are " + all + "." : "Did you mean " + near + "?"),
@@ -32,7 +32,7 @@ Error wordTooMany(const std::string& command, const std::vector<std::string>& wo
       std::find_if(words.begin(), words.end(), [](const std::string& w) { return w.size() > 1 && w.front() == '-'; });
   std::string line;
   if (option == words.end()) {
-    line = "\"" + words.front() + "\" is one word too many for " + command + ".";
+    line = "\"" + words.front() + "\" is an unexpected argument of " + command + ".";
   } else {
     line = command + " has no option " + *option + ".";
     if (command == "suggest" && (*option == "-o" || *option == "--output")) {

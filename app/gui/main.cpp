@@ -24,7 +24,9 @@ bool answeredInWords(int argc, char** argv) {
   const std::string_view word = argc > 1 ? argv[1] : "";
   if (word == "--version") return std::puts("batten " BATTEN_VERSION) >= 0;
   if (word != "--help" && word != "-h") return false;
-  return std::puts("batten [SCAN | RECIPE]   opens a scan, or a recipe that was drawn on an empty page") >= 0;
+  return std::puts(
+             "batten [SCAN | CURVES | RECIPE]   opens a scan, a file of curves, or a recipe drawn on "
+             "an empty page") >= 0;
 }
 
 }  // namespace
@@ -47,7 +49,7 @@ int main(int argc, char** argv) {
     window.offerLeftWork();
     window.openPath(batten::absolutePath(batten::pathText(std::filesystem::path(argv[1]))));
   } else {
-    window.openAtStart(samplePath());  // The sample opens finished, by the recipe beside it: one learns by changing it.
+    window.openAtStart(samplePath());  // The sample opens with its finished recipe, for exploration.
   }
   return QApplication::exec();
 }

@@ -6,7 +6,7 @@
 
 namespace batten {
 
-/// A flag shared by whoever asks for work and whoever does it. Copies refer to the same flag. Thread-safe; cancelling
+/// A flag shared by the requester and the worker. Copies refer to the same flag. Thread-safe; cancelling
 /// never waits.
 class CancelToken {
  public:

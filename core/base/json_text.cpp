@@ -25,7 +25,7 @@ class Builder {
   bool number_unsigned(Json::number_unsigned_t value) { return add(value) != nullptr; }
   bool number_float(Json::number_float_t value, const std::string&) { return add(value) != nullptr; }
   bool string(std::string& value) { return add(std::move(value)) != nullptr; }
-  bool binary(Json::binary_t&) { return refuse("it is no text"); }
+  bool binary(Json::binary_t&) { return refuse("it is not text"); }
   bool start_object(std::size_t) { return begin(Json::object()); }
   bool start_array(std::size_t) { return begin(Json::array()); }
   bool end_object() { return end(); }
@@ -41,7 +41,7 @@ class Builder {
   }
 
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) {
-    problem_ = {ErrorCode::BadParameter, "it is not complete, or not what Batten writes", error.what()};
+    problem_ = {ErrorCode::BadParameter, "it is incomplete or was not written by Batten", error.what()};
     return false;
   }
 

@@ -19,7 +19,7 @@ struct JsonLimits {
 };
 
 /// The one door through which JSON comes in, whatever file or place it lies in. Takes time in proportion to the text;
-/// hears a cancel while it parses. An object that holds one key twice is refused: nobody could say which one counts.
+/// can be cancelled while parsing. Objects with duplicate keys are rejected as ambiguous.
 /// @return BadParameter; its message is the end of a sentence: "it is nested more than 64 levels deep". Cancelled.
 Result<nlohmann::ordered_json> parseJson(std::string_view text, const RunContext& context = {},
                                          const JsonLimits& limits = {});

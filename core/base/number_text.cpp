@@ -10,7 +10,7 @@ namespace batten {
 
 std::string numberToText(double value) {
   std::array<char, 40> buffer;
-  // The shortest form would write 100000 as 1e+05, which nobody types.
+  // The shortest form would write 100000 as 1e+05, which is unusual in messages.
   const double size = std::abs(value);
   const bool plain = size == 0.0 || (size >= 1e-4 && size < 1e15);
   const auto format = plain ? std::chars_format::fixed : std::chars_format::general;

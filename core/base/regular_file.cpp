@@ -28,15 +28,15 @@ std::string describe(FileProblem problem) {
     case FileProblem::Folder:
       return "is a folder";
     case FileProblem::NotOrdinary:
-      return "is not an ordinary file";
+      return "is not a regular file";
     case FileProblem::NotAllowed:
-      return "cannot be opened for want of permission";
+      return "cannot be opened: permission denied";
     case FileProblem::TooLarge:
       return "is too large";
     case FileProblem::Broken:
       break;
   }
-  return "could not be read to its end";
+  return "could not be read completely";
 }
 
 tl::expected<RegularFile, FileProblem> RegularFile::open(const std::filesystem::path& path) {

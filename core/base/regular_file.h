@@ -25,8 +25,8 @@ enum class FileProblem {
 /// "does not exist", "is a folder" …: what follows the file's name in a message.
 std::string describe(FileProblem);
 
-/// An ordinary file, open for reading. What it is is asked of the open file and not of its name, so that nothing else
-/// can take the name in between; opening never waits.
+/// An ordinary file, open for reading. Its type is checked on the open descriptor, not on the path, so that nothing
+/// else can take the name in between; opening never waits.
 class RegularFile {
  public:
   static tl::expected<RegularFile, FileProblem> open(const std::filesystem::path&);

@@ -58,7 +58,8 @@ Result<std::vector<ConstructedPiece>> constructFromFit(const ConstructContour& c
   auto pieces = constructEach(contour, params, context);
   if (!pieces) return pieces;
   for (ConstructedPiece& piece : *pieces) {
-    if (piece.report.note.empty()) piece.report.note = "Starts from the line itself: it allows no true and fair fit.";
+    if (piece.report.note.empty())
+      piece.report.note = "Starts from the edge points, as the true and fair fit failed on this line.";
   }
   return pieces;
 }
@@ -71,8 +72,7 @@ Result<std::vector<ConstructedPiece>> construct(const ConstructContour& contour,
   if (params.method == ConstructMethod::Fair) {
     FairFitOptions options;
     options.extremumSignificance = params.extremumSignificance;
-    options.knotRemovalTolerance =
-        params.light ? ConstructParams{}.knotRemovalTolerance : params.knotRemovalTolerance;
+    options.knotRemovalTolerance = params.light ? ConstructParams{}.knotRemovalTolerance : params.knotRemovalTolerance;
     auto made = fairFit(contour, options, context);
     if (!made || !params.light) return made;
     try {

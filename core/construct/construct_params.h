@@ -74,7 +74,7 @@ struct ConstructParams {
   double lowPass =
       1.0;  ///< [stations] 0..8. Bezier path: standard deviation of the low pass of its curvature; 0 = none.
   /// [px] 0..50. Nurbs, Bezier: where the curve leaves the line by more (and by more than its noise), stations are set
-  /// closer, and the report says where that was of no avail; 0 = never (papers).
+  /// closer, and the report says where that did not help; 0 = never (papers).
   double maxDeviationPx = 2.0;
   TypicalMode typical = TypicalMode::Chain;
   double growingStopDeg = 2.0;    ///< [degrees] 0.2..20. Growing: the normals of curve and points may differ by this.

@@ -10,7 +10,7 @@ namespace batten {
 
 /// The contour as its true and fair fit shows it: points every pixel along the fit, and every station moved onto it,
 /// in its direction: where its share of the length is known to that share, else to its foot point. Corners, constraints
-/// and breakpoints stay. All control points of the fit are kept (nothing is spared), since nobody sees them.
+/// and breakpoints stay. No knot removal: the fit is intermediate.
 /// @return what the fit says where it cannot be made.
 Result<ConstructContour> onFairFit(const ConstructContour&, const ConstructParams&, const RunContext&);
 

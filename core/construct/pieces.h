@@ -31,7 +31,7 @@ struct ConstructPiece {
   std::vector<int> drawn;         ///< Pen strokes: indices of the points that were drawn; empty = all are measured.
   std::vector<std::uint8_t> refined = {};  ///< Per point: 0 = known to the pixel only; empty = all are better known.
   std::vector<float> sigmaPx = {};         ///< [px] per point: standard deviation across the line; empty = all alike.
-  /// [px] per point: half the breadth of the strokes that were merged there; empty = none were. The line that was meant
+  /// [px] per point: half-width of the bundle of merged strokes; empty = none. The intended line
   /// may lie anywhere between them.
   std::vector<float> spreadPx = {};
   bool startIsCorner = false;
@@ -91,7 +91,7 @@ inline double typicalShare(std::span<const SegmentNote> segments) {
   return all > 0.0 ? typical / all : 0.0;
 }
 
-/// What making a curve light has won (construct.light).
+/// Result of making a curve light (construct.light).
 struct LightNote {
   bool found = false;     ///< False: nothing lighter holds the tolerance and the extrema; the curve is the dense one.
   bool exact = false;     ///< An exact line, arc or circle.
@@ -108,9 +108,9 @@ struct LightNote {
 
 struct ConstructReport {
   Termination why = Termination::NotRun;
-  std::string note;                   ///< One line for the user when a fallback was used; else empty.
-  std::vector<ExtremumNote> extrema;  ///< Fair fit only.
-  int extremaInTurns = 0;  ///< Fair fit: in turns too sharp for it, so that nothing is known of their certainty.
+  std::string note;                     ///< One line for the user when a fallback was used; else empty.
+  std::vector<ExtremumNote> extrema;    ///< Fair fit only.
+  int extremaInTurns = 0;               ///< Fair fit: at sharp features, where significance is not tested.
   std::vector<int> unmetConstraints;    ///< Ids of constraints that found no extremum, or one that cannot go.
   std::vector<double> bandS;            ///< [mm] arc lengths at which the band is given (fair fit only).
   std::vector<double> bandSigma;        ///< [1/mm] standard deviation of the curvature there.
@@ -120,8 +120,8 @@ struct ConstructReport {
   int pointsBefore = 0;                 ///< Control polygon: points of the line (0 = not a control polygon) …
   int pointsAfter = 0;                  ///< … that are left after point removal …
   int pointsAdded = 0;                  ///< … and control points added between close corners.
-  int fullControlPoints = 0;            ///< Of the fair fit before control points were spared (0 = not done).
-  double knotRemovalMovedPx = 0.0;      ///< [px] farthest that sparing them moved the curve.
+  int fullControlPoints = 0;            ///< Of the fair fit before knot removal (0 = not done).
+  double knotRemovalMovedPx = 0.0;      ///< [px] largest move of the curve by knot removal.
   std::optional<LightNote> light = {};  ///< Fair fit, where light curves were asked for.
   bool isCircle = false;                ///< Recognised as an exact circle.
   bool isLine = false;                  ///< Recognised as an exact line.

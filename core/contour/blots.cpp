@@ -8,6 +8,7 @@
 
 #include "core/image/bit_disc.h"
 #include "core/image/bit_steps.h"
+#include "core/image/page_margins.h"
 #include "core/image/run_pieces.h"
 
 namespace batten {
@@ -28,29 +29,6 @@ BitImage coveredBy(const ContourSet& lines, const BitImage& like, const Reach& r
     }
   }
   return cover;
-}
-
-// Ink along the border of the page is the margin of the scanner or the edge of the sheet.
-BitImage withoutMargins(BitImage fillings, const RunContext& context) {
-  constexpr int kTouchPx = 3;
-  struct Extent {
-    int x0 = 0, x1 = 0, y0 = 0, y1 = 0, rows = 0, columns = 0;  // rows and columns that touch
-  };
-  const RunPieces pieces = findPieces(fillings, Connectivity::Eight, context);
-  std::vector<Extent> extents(pieces.runs.size());
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    const Run& run = pieces.runs[i];
-    Extent& e = extents[pieces.piece[i]];
-    if (pieces.piece[i] == static_cast<int>(i)) e = {run.x0, run.x1, run.y, run.y + 1, 0, 0};
-    e = {std::min(e.x0, run.x0), std::max(e.x1, run.x1), e.y0, run.y + 1, e.rows, e.columns};
-    if (run.x0 < kTouchPx || run.x1 > fillings.width - kTouchPx) ++e.rows;
-    if (run.y < kTouchPx || run.y >= fillings.height - kTouchPx) e.columns = std::max(e.columns, run.x1 - run.x0);
-  }
-  for (std::size_t i = 0; i < pieces.runs.size(); ++i) {
-    const Extent& e = extents[pieces.piece[i]];
-    if (2 * std::max(e.rows, e.columns) > std::max(e.x1 - e.x0, e.y1 - e.y0)) clearBits(fillings, pieces.runs[i]);
-  }
-  return fillings;
 }
 
 }  // namespace
@@ -87,6 +65,7 @@ BitImage findFillings(const InkSplit& split, const ContourSet& lines, const RunC
   constexpr double kWiderThanPen = 1.5;      // two strokes that cross at a right angle hold a disc of 1.41
   constexpr double kExplainedReachPx = 2.0;  // a line lies no farther from the ink that it explains, or half its width
   constexpr double kLeastArea = 3.0;         // [squared pen widths] a dot of two pens across
+  constexpr double kBodyWidths = 2.5;        // strokes that cross at any angle hold no larger disc, and a pixel
   BitImage none(split.strokes.width, split.strokes.height);
   if (split.penPx <= 0.0 || split.strokes.count() == 0) return none;
   const int half = std::max(1, static_cast<int>(std::lround(0.5 * kWiderThanPen * split.penPx)));
@@ -100,8 +79,11 @@ BitImage findFillings(const InkSplit& split, const ContourSet& lines, const RunC
       lines, wide, [](double) { return 0.0; }, context);
   BitImage fillings = without(both(grown(wide, half + 1, context), split.strokes), strokes);
   if (context.isCancelled()) return none;
+  const int body = std::max(half, static_cast<int>(std::floor(0.5 * (kBodyWidths * split.penPx + 1.0))));
+  const BitImage bodies = grown(shrunken(split.strokes, body, context), body + 1, context);
+  if (context.isCancelled()) return none;
   const int leastArea = static_cast<int>(std::lround(kLeastArea * split.penPx * split.penPx));
-  return withoutMargins(keepPieces(fillings, {.minArea = leastArea}, context), context);
+  return withoutMargins(keepPieces(fillings, {.minArea = leastArea, .seeds = &bodies}, context), context);
 }
 
 }  // namespace batten

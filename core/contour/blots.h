@@ -14,7 +14,8 @@ namespace batten {
 BitImage findBlots(const InkSplit&, const ContourSet& lines, double minWidths, const RunContext&);
 
 /// Places of pen strokes that are wider than the pen, and that the lines with their widths leave out: what strokes
-/// enclose and fill, knots, scribbles. Up to the strokes, which stay strokes.
+/// enclose and fill, knots, scribbles. Ink that two strokes across each other could hold is none. Up to the strokes,
+/// which stay strokes.
 BitImage findFillings(const InkSplit&, const ContourSet& lines, const RunContext&);
 
 }  // namespace batten

@@ -35,7 +35,7 @@ std::optional<int> nearestPiece(const RunPieces& pieces, const Vec2& px) {
 
 std::optional<Error> validate(const EdgeChoice& choice) {
   if (choice.positionPx.allFinite()) return std::nullopt;
-  return Error{ErrorCode::BadParameter, "The place of a line that is followed in its own way is not a number.", {}};
+  return Error{ErrorCode::BadParameter, "The position of a trace mode choice is not a number.", {}};
 }
 
 ChosenInk::ChosenInk(const RunPieces& pieces, std::span<const EdgeChoice> choices) : pieces_(pieces) {

@@ -16,7 +16,7 @@ class ChosenInk {
   ChosenInk(const RunPieces& pieces, std::span<const EdgeChoice> choices);
   /// @param piece as in RunPieces::piece. Index of its choice, if it has one.
   std::optional<int> choiceOf(int piece) const;
-  /// Index of the choice of the ink on or next to a place [px]; nothing where there is none, or no ink.
+  /// Index of the choice of the ink on or next to a place [px]; absent where there is no choice or no ink.
   std::optional<int> choiceAt(const Vec2& px) const;
   /// The choices without ink near them.
   const std::vector<EdgeChoice>& withoutInk() const { return withoutInk_; }

@@ -19,7 +19,7 @@ enum class ContourKind {
   Imported,    ///< Made by another program (core/curve/imported_line.h).
 };
 
-/// Whether the points of such a line mean themselves: none was measured on a scan.
+/// Whether the points of such a line are exact, not measured on a scan.
 constexpr bool isDrawn(ContourKind kind) { return kind == ContourKind::Pen || kind == ContourKind::Imported; }
 
 /// Distance from a point of a merged line to the outermost strokes that were merged there. [px] >= 0
@@ -52,7 +52,7 @@ struct Contour {
   bool closed = false;  ///< The last point is followed by the first; the first is not repeated at the end.
   bool hole = false;    ///< An inner border (outline mode with internal contours on).
   std::vector<ContourPoint> points;
-  double blurPx = 0.0;  ///< [px] standard deviation of the light's blur along an outline; 0: not measured.
+  double blurPx = 0.0;  ///< [px] standard deviation of the optical blur along an outline; 0: not measured.
   std::vector<std::pair<int, int>> bridges;  ///< Index ranges [first, last] that bridge a gap in the ink.
   std::optional<EdgeChoice> traceMode;       ///< The user's choice for its ink, if there is one.
   std::vector<int> joints;                   ///< Imported: points that are corners whatever the user marks, ascending.
@@ -83,7 +83,8 @@ struct ContourReport {
   int droppedHoles = 0;     ///< Inner borders, in outline mode without them.
   int droppedMargins = 0;   ///< Lines along the border of the page: the margin of the scanner.
   double refinedShare = 0;  ///< Part of the points that were placed on the grey values, 0..1.
-  double widthPx = 0.0;     ///< [px] What EdgeParams::mergeWidths counts in; 0: no strokes.
+  double widthPx = 0.0;     ///< [px] Stroke width, the unit of EdgeParams::mergeWidths; 0: no strokes.
+  bool isGrouped = false;   ///< The lines are curves that were meant by lines drawn over more than once.
   std::string note;
 };
 

@@ -26,6 +26,9 @@ struct EdgeParams {
       4.0;  ///< [stroke widths] 0..20. Longest gap that is bridged between two ends that face each other; 0 = none.
   double mergeWidths =
       0.0;  ///< [stroke widths] 0..20. Strokes closer together than this are merged into one line; 0 = off.
+  /// Lines that were drawn over more than once become the curves that were meant, found place by place; mergeWidths,
+  /// where it is not 0, is the distance to begin with. Pages without such lines stay as they are.
+  bool intent = false;
   double spurFactor = 1.5;   ///< [stroke widths] 0..5. Side branches of the skeleton shorter than this are dropped.
   double maxBendDeg = 40.0;  ///< [deg] 0..90. A stroke that bends by less than this continues through a crossing.
   std::vector<EdgeChoice> choices;  ///< Pieces of ink with a trace mode of their own.

@@ -13,7 +13,7 @@
 
 namespace batten {
 
-/// The ink of a page by the way it is followed. Both pictures have the size of the ink and share no pixel.
+/// The ink of a page by trace mode. Both pictures have the size of the ink and share no pixel.
 struct InkSplit {
   BitImage strokes;   ///< Along their middle.
   BitImage shapes;    ///< Along their border.

@@ -68,7 +68,7 @@ void noteChoices(ContourSet& set, const RunPieces& regions, std::span<const Edge
   if (choices.empty()) return;
   const ChosenInk chosen(regions, choices);
   for (const EdgeChoice& choice : chosen.withoutInk())
-    addPlace(set, "No ink to follow in its own way lies", choice.positionPx);
+    addPlace(set, "A trace mode was chosen, but there is no ink", choice.positionPx);
   std::vector<bool> isNoted(choices.size(), false);
   for (std::size_t i = 0; i < regions.runs.size(); ++i) {
     const auto chosenHere = chosen.choiceOf(regions.piece[i]);
@@ -77,7 +77,7 @@ void noteChoices(ContourSet& set, const RunPieces& regions, std::span<const Edge
     if (isNoted[index] || choices[index].mode != EdgeMode::Centreline) continue;
     isNoted[index] = countBits(blots, regions.runs[i]) > 0;
     if (isNoted[index])
-      addPlace(set, "Too short and wide for a centre line, followed along its outline: the ink",
+      addPlace(set, "Too short and wide for a centre line, so traced by its outline: the ink",
                choices[index].positionPx);
   }
   noteLines(set, chosen, choices, context);

@@ -106,9 +106,9 @@ std::string noteOf(const PenReport& report) {
     if (!note.empty()) note += ' ';
     note += strokesOf(count) + (count == 1 ? one : several);
   };
-  add(report.cut, " leaves the page: only its longest part on the page is kept.",
-      " leave the page: only the longest part of each on the page is kept.");
-  add(report.beside, " lies beside the page and is left out.", " lie beside the page and are left out.");
+  add(report.cut, " leaves the page: only its longest part on the page is used.",
+      " leave the page: only the longest part of each on the page is used.");
+  add(report.beside, " is outside the page and is ignored.", " are outside the page and are ignored.");
   add(report.tooMany, " is left out", " are left out");
   if (report.tooMany > 0) {
     note += ", because a drawing may hold ";

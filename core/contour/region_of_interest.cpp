@@ -97,7 +97,7 @@ std::optional<Error> validate(const RegionOfInterest& region) {
   for (const Vec2& p : region.cornersPx) {
     if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1e7) return bad("A corner of a region has no valid position.");
   }
-  if (!(polygonArea(region.cornersPx) > 0.0)) return bad("A region must enclose some of the page.");
+  if (!(polygonArea(region.cornersPx) > 0.0)) return bad("A region must have an area.");
   return std::nullopt;
 }
 

@@ -46,17 +46,17 @@ std::string counted(int count, const char* one, const char* many) {
   return count == 1 ? std::string("One ") + one + " is" : std::to_string(count) + " " + many + " are";
 }
 
-// What was found and is not there, in words.
+// Notes on contours that were dropped.
 void tellDropped(ContourSet& set, const EdgeParams& edges) {
   const ContourReport& report = set.report;
   if (report.droppedShort > 0)
     addNote(set, counted(report.droppedShort, "short line", "short lines") +
-                     " left out (contours.min_widths, contours.min_length).");
+                     " dropped (contours.min_widths, contours.min_length).");
   if (report.droppedHoles > 0 && edges.internal == InnerBorders::Automatic)
     addNote(set,
-            counted(report.droppedHoles, "inner border", "inner borders") + " left out: edges.internal=on keeps them.");
+            counted(report.droppedHoles, "inner border", "inner borders") + " dropped: edges.internal=on keeps them.");
   if (report.droppedMargins > 0)
-    addNote(set, counted(report.droppedMargins, "line", "lines") + " along the border of the page left out.");
+    addNote(set, counted(report.droppedMargins, "line", "lines") + " along the page border dropped.");
 }
 
 void sortAndCut(ContourSet& set, const ContourParams& params) {
@@ -64,7 +64,7 @@ void sortAndCut(ContourSet& set, const ContourParams& params) {
   const auto most = static_cast<std::size_t>(params.maxCount);
   if (most == 0 || set.contours.size() <= most) return;
   addNote(set, "Only the " + std::to_string(most) + " longest of " + std::to_string(set.contours.size()) +
-                   " lines are kept: raise the largest number of lines to see the rest.");
+                   " lines are kept: raise contours.max_count to keep more.");
   set.contours.resize(most);
 }
 
@@ -120,6 +120,7 @@ void append(ContourSet& to, ContourSet&& from) {
   to.report.droppedShort += from.report.droppedShort;
   to.report.droppedHoles += from.report.droppedHoles;
   to.report.droppedMargins += from.report.droppedMargins;
+  to.report.isGrouped = to.report.isGrouped || from.report.isGrouped;
   to.report.widthPx = std::max(to.report.widthPx, from.report.widthPx);
   if (to.report.note.empty()) to.report.note = std::move(from.report.note);
   std::move(from.contours.begin(), from.contours.end(), std::back_inserter(to.contours));
@@ -217,7 +218,7 @@ Result<FoundLines> findLines(const BitImage& ink, const GreyImage& grey, const E
   found.blots = findBlots(*split, *lines, params.minWidths, context);
   if (edges.mode == EdgeMode::Centreline) {
     found.blots = chosenOf(found.blots, found.regions, edges);
-  } else if (edges.mergeWidths <= 0.0) {
+  } else if (edges.mergeWidths <= 0.0 && !lines->report.isGrouped) {
     found.blots =
         either(std::move(found.blots), notChosen(findFillings(*split, *lines, context), found.regions, edges));
   }
@@ -266,7 +267,10 @@ Result<ContourSet> traceAll(const BitImage& ink, const GreyImage& grey, const Ed
         std::to_string(set->report.found) + " found, " + std::to_string(set->report.droppedShort) + " too short");
   }
   if (edges.strokeWidth != EdgeParams{}.strokeWidth) {
-    addNote(*set, "edges.stroke_width has no effect: strokes and shapes are told apart region by region.");
+    addNote(*set, "edges.stroke_width has no effect.");
+  }
+  if (edges.intent && !set->report.isGrouped) {
+    addNote(*set, "No lines drawn over more than once were found: edges.intent changes nothing.");
   }
   sortAndCut(*set, params);
   context.report(0.6);

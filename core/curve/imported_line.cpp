@@ -20,7 +20,7 @@ bool isNear(const Vec2& p) { return std::abs(p.x()) <= kFarthestMm && std::abs(p
 double sizeOf(const ImportedLine& line) {
   Vec2 low = Vec2::Constant(kFarthestMm), high = Vec2::Constant(-kFarthestMm);
   const auto take = [&](const Vec2& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); };
-  for (const NurbsCurve& curve : line.curves)
+  for (const auto& [curve, name] : line.curves)
     std::for_each(curve.controlPoints().begin(), curve.controlPoints().end(), take);
   std::for_each(line.points.begin(), line.points.end(), take);
   return (high - low).maxCoeff();
@@ -31,13 +31,13 @@ bool followEachOther(const ImportedLine& line, double size) {
     return (before.point(before.end()) - behind.point(behind.start())).norm() <= kSamePlace * size;
   };
   for (std::size_t i = 1; i < line.curves.size(); ++i) {
-    if (!meet(line.curves[i - 1], line.curves[i])) return false;
+    if (!meet(line.curves[i - 1].curve, line.curves[i].curve)) return false;
   }
-  return !line.closed || meet(line.curves.back(), line.curves.front());
+  return !line.closed || meet(line.curves.back().curve, line.curves.front().curve);
 }
 
 std::optional<Error> validateLine(const ImportedLine& line) {
-  for (const NurbsCurve& curve : line.curves) {
+  for (const auto& [curve, name] : line.curves) {
     if (curve.isEmpty()) return bad("An imported curve is empty.");
     if (!std::all_of(curve.controlPoints().begin(), curve.controlPoints().end(), isNear))
       return bad("An imported curve lies farther than 100 m from the origin. Is its unit right?");
@@ -47,15 +47,15 @@ std::optional<Error> validateLine(const ImportedLine& line) {
   const double size = line.curves.empty() && line.points.empty() ? 0.0 : sizeOf(line);
   if (!(size > 0.0)) return bad("An imported line has no length.");
   if (!line.curves.empty()) {
-    if (!line.points.empty()) return bad("An imported line holds curves and points at once.");
-    if (!followEachOther(line, size)) return bad("The curves of an imported line do not follow each other.");
+    if (!line.points.empty()) return bad("An imported line has both curves and points.");
+    if (!followEachOther(line, size)) return bad("The curves of an imported line do not join end to end.");
     return std::nullopt;
   }
   if (std::ssize(line.points) < (line.closed ? 3 : 2)) return bad("An imported line needs at least two points.");
   int before = -1;
   for (const int corner : line.corners) {
     if (corner <= before || corner >= std::ssize(line.points))
-      return bad("A corner of an imported line is none of its points.");
+      return bad("A corner of an imported line is not one of its points.");
     before = corner;
   }
   return std::nullopt;
@@ -64,14 +64,14 @@ std::optional<Error> validateLine(const ImportedLine& line) {
 }  // namespace
 
 std::optional<Error> validate(const ImportedFile& file) {
-  if (file.lines.size() > kMostLines) return bad("A file may bring at most 20000 lines.");
+  if (file.lines.size() > kMostLines) return bad("At most 20000 lines can be imported from a file.");
   std::size_t points = 0;
   for (const ImportedLine& line : file.lines) {
     points += line.points.size();
-    for (const NurbsCurve& curve : line.curves)
+    for (const auto& [curve, name] : line.curves)
       points += curve.isEmpty() ? 0 : static_cast<std::size_t>(curve.controlPointCount());
   }
-  if (points > kMostPoints) return bad("A file may bring at most 500000 points.");
+  if (points > kMostPoints) return bad("At most 500000 points can be imported from a file.");
   for (const ImportedLine& line : file.lines) {
     if (auto wrong = validateLine(line)) return wrong;
   }

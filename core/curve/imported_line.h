@@ -10,18 +10,23 @@
 
 namespace batten {
 
+/// One curve of a line that another program made.
+struct ImportedCurve {
+  NurbsCurve curve;       ///< Clamped. Model frame, mm.
+  std::string name = {};  ///< UTF-8; may be empty.
+  bool operator==(const ImportedCurve&) const = default;
+};
+
 /// A line that another program made. Model frame, mm. It is either curves, which stay what they are, or points, which a
 /// construction makes a curve of.
 struct ImportedLine {
-  std::string name;                ///< UTF-8; may be empty.
-  std::vector<NurbsCurve> curves;  ///< Clamped; each begins where the one before it ends. Where they meet is a corner.
-  std::vector<Vec2> points;        ///< In order of travel; used where there are no curves.
-  std::vector<int> corners;        ///< Indices of points at which the line turns sharply, ascending.
-  bool closed = false;             ///< The end is followed by the begin; of points the first is not repeated.
-  bool operator==(const ImportedLine& other) const {
-    return name == other.name && curves == other.curves && points == other.points && corners == other.corners &&
-           closed == other.closed;
-  }
+  std::string name;                   ///< UTF-8; may be empty.
+  std::string layer = {};             ///< UTF-8; may be empty.
+  std::vector<ImportedCurve> curves;  ///< Each begins where the one before it ends. Where they meet is a corner.
+  std::vector<Vec2> points;           ///< In order of travel; used where there are no curves.
+  std::vector<int> corners;           ///< Indices of points at which the line turns sharply, ascending.
+  bool closed = false;                ///< The end is followed by the begin; of points the first is not repeated.
+  bool operator==(const ImportedLine&) const = default;
 };
 
 /// What was taken over from one file.

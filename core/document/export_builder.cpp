@@ -14,6 +14,7 @@
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/run/direction_owners.h"
 #include "core/pipeline/run/imported_lines.h"
+#include "core/pipeline/run/piece_numbers.h"
 
 namespace batten {
 namespace {
@@ -58,12 +59,14 @@ std::optional<double> strokeWidth(const Contour& line, const PageFrame& frame) {
 
 const NurbsCurve& shapeOf(const TracedCurve& curve, bool sketched) { return sketched ? curve.sketched : curve.faired; }
 
-/// A line that had a name where it came from keeps it.
-void takeName(const std::string& name, ExportCurve& curve) {
-  if (name.empty()) return;
-  curve.name = name;
-  for (std::size_t i = 0; i < curve.pieces.size(); ++i)
-    curve.pieces[i].name = curve.pieces.size() == 1 ? name : name + " " + std::to_string(i + 1);
+/// A line that came from another file keeps its name, if Batten did not make it, and its layer. Where sketched and
+/// faired curves stand in one file, the layers of the sketched ones say so.
+void takeOrigin(const ImportedLine& line, bool sketched, bool isBoth, ExportCurve& curve) {
+  curve.isImported = true;
+  const std::string& name = curve.pieces.size() == 1 ? curve.pieces.front().name : line.name;
+  if (!isMadeName(name)) curve.name = name;
+  const bool isOwnLayer = line.layer.empty() || line.layer == kFairedLayer || line.layer == kSketchedLayer;
+  if (!isOwnLayer) curve.layer = sketched && isBoth ? line.layer + " sketched" : line.layer;
 }
 
 PieceFigures figuresOf(const TracedCurve& curve, bool sketched) {
@@ -82,7 +85,8 @@ PieceFigures figuresOf(const TracedCurve& curve, bool sketched) {
 }
 
 /// Adds the lines of a run in one of their two kinds.
-void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched, ExportDocument& document) {
+void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched, bool isBoth,
+               ExportDocument& document) {
   const DirectionOwners owners = assignDirections(*output.pieces, recipe);
   std::map<int, ContourPieces> byContour;
   std::map<std::size_t, const TracedCurve*> byPiece;
@@ -98,19 +102,19 @@ void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched
     for (const auto& run : runs(pieces, line.closed)) {
       ExportCurve& curve = document.curves.emplace_back();
       curve.layer = sketched ? kSketchedLayer : kFairedLayer;
+      curve.isSketched = sketched;
       int lowest = std::numeric_limits<int>::max();
       for (const TracedCurve* piece : run) {
         const int number = curveNumber(output, *piece);
         lowest = std::min(lowest, number);
-        ExportPiece& own = curve.pieces.emplace_back(ExportPiece{shapeOf(*piece, sketched), curveName(number), number});
+        ExportPiece& own = curve.pieces.emplace_back(
+            ExportPiece{shapeOf(*piece, sketched), nameOfCurve(output, recipe, *piece), number});
         own.figures = figuresOf(*piece, sketched);
         if (const auto& wanted = owners.ofPiece[static_cast<std::size_t>(piece->piece)])
           own.direction = PieceDirection{static_cast<int>(wanted->mark), wanted->isTurned};
       }
-      if (const ImportedLine* imported = importedLineOf(line, recipe.imports)) {
-        takeName(imported->name, curve);
-        curve.isImported = true;
-      }
+      if (const ImportedLine* imported = importedLineOf(line, recipe.imports))
+        takeOrigin(*imported, sketched, isBoth, curve);
       curve.id = "curve-" + std::to_string(lowest) + (sketched ? "-sketched" : "");
       if (const auto start = owners.startOfContour.find(contour); start != owners.startOfContour.end())
         curve.startMm = output.frame.pointToModel(recipe.starts[start->second].positionPx);
@@ -134,8 +138,9 @@ ExportDocument exportDocument(const PipelineOutput& output, const Recipe& recipe
   for (const Parameter& parameter : parameterTable())
     if (!parameter.isForDisplay) document.settings.emplace_back(parameter.name, parameter.get(recipe));
   if (!output.faired || !output.pieces || !output.contours) return document;
-  if (which != ExportedCurves::Faired) addCurves(output, recipe, true, document);
-  if (which != ExportedCurves::Sketched) addCurves(output, recipe, false, document);
+  const bool isBoth = which == ExportedCurves::Both;
+  if (which != ExportedCurves::Faired) addCurves(output, recipe, true, isBoth, document);
+  if (which != ExportedCurves::Sketched) addCurves(output, recipe, false, isBoth, document);
   return document;
 }
 

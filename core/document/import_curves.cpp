@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string_view>
 #include <utility>
 
 #include "core/base/conventions.h"
 #include "core/base/number_text.h"
 #include "core/exchange/point_file.h"
+#include "core/pipeline/run/piece_numbers.h"
 
 namespace batten {
 namespace {
@@ -21,7 +23,7 @@ Eigen::AlignedBox2d boxOf(const ImportedFile& file) {
   Eigen::AlignedBox2d box;
   for (const ImportedLine& line : file.lines) {
     for (const Vec2& p : line.points) box.extend(p);
-    for (const NurbsCurve& curve : line.curves) {
+    for (const auto& [curve, name] : line.curves) {
       const std::vector<double> breaks = curve.breaks();
       for (std::size_t i = 1; i < breaks.size(); ++i) {
         for (int k = 0; k <= kPlaces; ++k)
@@ -35,8 +37,34 @@ Eigen::AlignedBox2d boxOf(const ImportedFile& file) {
 void move(ImportedFile& file, const Vec2& by) {
   for (ImportedLine& line : file.lines) {
     for (Vec2& p : line.points) p += by;
-    for (NurbsCurve& curve : line.curves) curve = curve.mapped(Eigen::Matrix2d::Identity(), by);
+    for (auto& [curve, name] : line.curves) curve = curve.mapped(Eigen::Matrix2d::Identity(), by);
   }
+}
+
+/// The numbers in the names that Batten gave ("Curve 3"): such a curve is Curve 3 again. Of several of one name the
+/// first is.
+CurveNumbers numbersOf(const ImportedFile& file, const PageFrame& frame) {
+  constexpr int kPlaces = 5;
+  CurveNumbers numbers;
+  std::set<int> given;
+  const auto add = [&](const std::string& name, const auto& placeAt) {
+    const auto number = numberOfCurveName(name);
+    if (!number || !given.insert(*number).second) return;
+    NumberedCurve& one = numbers.curves.emplace_back(NumberedCurve{*number});
+    for (int k = 0; k < kPlaces; ++k) one.placesPx.push_back(frame.pointToImage(placeAt((k + 0.5) / kPlaces)));
+  };
+  for (const ImportedLine& line : file.lines) {
+    for (const auto& [curve, name] : line.curves)
+      add(name, [&](double part) { return curve.point(curve.start() + part * (curve.end() - curve.start())); });
+    if (!line.points.empty())
+      add(line.name, [&](double part) {
+        return line.points[static_cast<std::size_t>(part * static_cast<double>(line.points.size()))];
+      });
+  }
+  std::sort(numbers.curves.begin(), numbers.curves.end(),
+            [](const NumberedCurve& a, const NumberedCurve& b) { return a.number < b.number; });
+  if (!given.empty()) numbers.lastGiven = *given.rbegin();
+  return numbers;
 }
 
 }  // namespace
@@ -60,6 +88,7 @@ Recipe drawingOf(ImportedFile file) {
   page.leftMm = middle.x() - 0.5 * page.widthPx * mmPerPx;
   page.bottomMm = middle.y() - 0.5 * page.heightPx * mmPerPx;
   recipe.page = page;
+  recipe.curveNumbers = numbersOf(file, {page.widthPx, page.heightPx, mmPerPx, page.leftMm, page.bottomMm});
   recipe.imports.push_back(std::move(file));
   return recipe;
 }
@@ -92,14 +121,13 @@ std::optional<double> millimetresOfImport(const ImportedFile& file) {
 Result<Recipe> withImportUnit(Recipe recipe, std::size_t import, const std::string& unit, const PageFrame& frame) {
   ImportedFile file = recipe.imports.at(import);
   const auto before = millimetresOfImport(file), now = millimetresOfUnit(unit);
-  if (!before || !now)
-    return fail(ErrorCode::BadParameter, "Lengths are not known in " + unit + ". Take mm, cm, m or in.");
+  if (!before || !now) return fail(ErrorCode::BadParameter, "Unknown unit: " + unit + ". Use mm, cm, m or in.");
   const double factor = *now / *before;
   file.unit = unit;
   const Eigen::Matrix2d linear = factor * Eigen::Matrix2d::Identity();
   for (ImportedLine& line : file.lines) {
     for (Vec2& p : line.points) p *= factor;
-    for (NurbsCurve& curve : line.curves) curve = curve.mapped(linear, Vec2::Zero());
+    for (auto& [curve, name] : line.curves) curve = curve.mapped(linear, Vec2::Zero());
   }
   if (auto wrong = validate(file)) return fail(std::move(*wrong));
   if (recipe.page && recipe.dpi && recipe.imports.size() == 1 && recipe.penStrokes.empty()) {

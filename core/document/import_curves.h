@@ -13,7 +13,7 @@
 namespace batten {
 
 /// The recipe of a drawing without a scan that holds these lines: a page around them, about 2000 px at its longer side,
-/// that lies where they are.
+/// that lies where they are. Curves that Batten named ("Curve 3") keep their numbers.
 Recipe drawingOf(ImportedFile);
 
 /// The recipe with the lines of a file behind its own, where their coordinates put them. Where they miss the page of a

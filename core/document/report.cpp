@@ -130,7 +130,7 @@ Json fairingToJson(const FairingReport& r) {
           {"objective_after", number(r.objectiveAfter)},
           {"max_deviation_mm", number(r.maxDeviationMm)},
           {"needed_mm", number(r.neededMm)},
-          {"within_budget", r.withinTolerance},
+          {"within_tolerance", r.withinTolerance},
           {"similarity_to_sketch", r.similarityAfter ? number(*r.similarityAfter) : Json()},
           {"noise_of_points_mm", number(r.noiseMm)},
           {"log_aesthetic", logAestheticToJson(r)},
@@ -197,11 +197,15 @@ Json cornersToJson(const PipelineOutput& out, const TracedCurve& c) {
   return list;
 }
 
-Json curveToJson(const PipelineOutput& out, const ReportExtras& extras, std::size_t index) {
+Json curveToJson(const PipelineOutput& out, const Recipe& recipe, const ReportExtras& extras, std::size_t index) {
   const TracedCurve& c = out.faired->curves[index];
   const int known = curveNumber(out, c);
-  Json json{{"index", static_cast<int>(index)}, {"name", curveName(known)}, {"number", known},
-            {"contour", c.contour + 1},         {"piece", c.piece},         {"closed", c.closed}};
+  Json json{{"index", static_cast<int>(index)},
+            {"name", nameOfCurve(out, recipe, c)},
+            {"number", known},
+            {"contour", c.contour + 1},
+            {"piece", c.piece},
+            {"closed", c.closed}};
   json["kind"] = kindName(out.contours->contours[c.contour].kind);
   json["corners_px"] = cornersToJson(out, c);
   const auto& refined = out.pieces->pieces[c.piece].refined;
@@ -314,7 +318,7 @@ void addComparisons(const PipelineOutput& out, Json& curves) {
     }
     if (!best) continue;
     curves[i]["most_alike"] = {{"index", static_cast<int>(other)},
-                               {"name", curveName(curveNumber(out, all[other]))},
+                               {"name", curves[other]["name"]},
                                {"similarity", number(best->similarity)},
                                {"pearson", number(best->pearson)},
                                {"curvature_similarity", number(best->curvatureSimilarity)},
@@ -323,10 +327,11 @@ void addComparisons(const PipelineOutput& out, Json& curves) {
   }
 }
 
-Json explanationToJson(const Explanation& e) {
+Json explanationToJson(const PipelineOutput& out, const Explanation& e) {
   Json stretches = Json::array();
   for (const InventedStretch& s : e.inventions) {
-    stretches.push_back({{"curve", s.curve}, {"from_px", pointToJson(s.fromPx)}, {"length_px", number(s.lengthPx)}});
+    const std::string name = curveName(curveNumber(out, out.faired->curves[static_cast<std::size_t>(s.curve)]));
+    stretches.push_back({{"curve", name}, {"from_px", pointToJson(s.fromPx)}, {"length_px", number(s.lengthPx)}});
   }
   return {{"reference_ink_px", e.referencePx}, {"explained", number(e.explained)}, {"missed", number(e.missed)},
           {"curves_px", number(e.curvesPx)},   {"invented", number(e.invented)},   {"inventions", stretches}};
@@ -420,13 +425,13 @@ std::string reportToJson(const Scan& scan, const Recipe& recipe, const PipelineO
   json["mm_per_px"] = number(out.frame.mmPerPx);
   json["read_milliseconds"] = number(extras.readMilliseconds);
   json["stages"] = stagesToJson(out);
-  if (extras.explanation) json["explanation"] = explanationToJson(*extras.explanation);
+  if (extras.explanation) json["explanation"] = explanationToJson(out, *extras.explanation);
   Json& contours = json["contours"] = Json::array();
   for (std::size_t i = 0; out.contours && i < out.contours->contours.size(); ++i)
     contours.push_back(contourToJson(out.contours->contours[i], i, out.frame));
   Json& curves = json["curves"] = Json::array();
   for (std::size_t i = 0; out.faired && i < out.faired->curves.size(); ++i)
-    curves.push_back(curveToJson(out, extras, i));
+    curves.push_back(curveToJson(out, recipe, extras, i));
   if (out.faired) addComparisons(out, curves);
   if (curves.size() > kMostCompared) {
     json["most_alike_note"] = "Curves are compared with each other up to " + std::to_string(kMostCompared) +

@@ -18,7 +18,7 @@ struct Arrangement {
 /// @param joined the pieces of a line stay together, and a line runs the way of the latest of its pieces' marks; else
 /// every piece is a line of its own. Joined imported lines become one wherever just two of their ends meet, whatever
 /// their order and direction in the file; the first of them, or one whose direction the user chose, says which way.
-/// Ids stay unique, names and layers go with their curves.
+/// Ids stay unique; names and layers are kept.
 Result<Arrangement> arranged(const ExportDocument&, bool joined, const RunContext& = {});
 
 }  // namespace batten

@@ -21,10 +21,14 @@ namespace {
 constexpr std::size_t kColumns = 8;
 constexpr int kMostRows = 1'000'000;  ///< Of one curve; more is a mistyped spacing.
 
-std::string header(const std::string& unit) {
-  return "# Curvature is positive where the curve turns left (counter-clockwise); x to the right, y up, from the lower "
-         "left corner of the page.\ncurve,piece,s_" +
-         unit + ",x_" + unit + ",y_" + unit + ",tangent_deg,kappa_per_" + unit + ",radius_" + unit + "\n";
+/// Imported curves keep the origin of their file, so that they come to lie where they were.
+std::string header(const PageFrame& frame, const std::string& unit) {
+  const bool isOfPage = frame.leftMm == 0.0 && frame.bottomMm == 0.0;
+  return std::string(
+             "# Curvature is positive where the curve turns left (counter-clockwise); x to the right, y up, from ") +
+         (isOfPage ? "the lower left corner of the page" : "the origin of the file that was imported") +
+         ".\ncurve,piece,s_" + unit + ",x_" + unit + ",y_" + unit + ",tangent_deg,kappa_per_" + unit + ",radius_" +
+         unit + "\n";
 }
 
 /// The piece at the size and in the unit of the file.
@@ -61,7 +65,7 @@ Result<std::string> writeCsv(const ExportDocument& document, const ExportSetting
                              const RunContext& context) {
   if (auto problem = exportProblem(document)) return fail(std::move(*problem));
   if (auto problem = validate(settings)) return fail(std::move(*problem));
-  std::string text = header(nameOf(settings.unit));
+  std::string text = header(document.frame, nameOf(settings.unit));
   std::size_t done = 0;
   for (const ExportCurve& line : document.curves) {
     if (context.isCancelled()) return cancelled();

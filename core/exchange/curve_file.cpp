@@ -38,7 +38,7 @@ bool isLoop(const NurbsCurve& curve) {
 }
 
 Result<ExportDocument> documentOf(const CadDrawing& drawing) {
-  if (drawing.entities.empty()) return fail(ErrorCode::NoCurve, "There is no curve in it.");
+  if (drawing.entities.empty()) return fail(ErrorCode::NoCurve, "It contains no curve.");
   ExportDocument document;
   const Eigen::Matrix2d linear = drawing.mmPerUnit.value_or(1.0) * Eigen::Matrix2d::Identity();
   Vec2 far = Vec2::Ones();
@@ -78,7 +78,7 @@ Result<ExportDocument> readCurveFile(const std::filesystem::path& path) {
                                 ExportFormat::Step};
   if (std::find(kRead.begin(), kRead.end(), format) == kRead.end()) {
     return fail(ErrorCode::BadParameter, "Curves are not read from " + shownName(path.filename()) +
-                                             ". Take a .json, .svg, .dxf, .igs or .step file.");
+                                             ". Use a .json, .svg, .dxf, .igs or .step file.");
   }
   const auto bytes = readWhole(path, kLargestCurveBytes);
   if (!bytes) {

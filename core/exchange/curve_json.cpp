@@ -111,6 +111,8 @@ Result<ExportDocument> documentFromJson(const Json& json) {
     curve.id = entry.at("id").get<std::string>();
     curve.closed = entry.at("closed").get<bool>();
     if (entry.contains("name")) curve.name = entry.at("name").get<std::string>();
+    if (entry.contains("layer")) curve.layer = entry.at("layer").get<std::string>();
+    if (curve.layer.empty()) return damaged("a layer has no name");
     if (entry.contains("stroke_width_mm")) {
       curve.strokeWidthMm = entry.at("stroke_width_mm").get<double>();
       if (!(*curve.strokeWidthMm > 0.0)) return damaged("a stroke width is not above 0");
@@ -153,6 +155,7 @@ Result<std::string> writeCurveJson(const ExportDocument& document, const RunCont
     if (curve.closed) entry["continuity"] = continuityOf(curve.pieces);
     if (curve.strokeWidthMm) entry["stroke_width_mm"] = *curve.strokeWidthMm;
     if (!curve.name.empty()) entry["name"] = curve.name;
+    entry["layer"] = curve.layer;
     if (curve.pieces.size() > 1) entry["corners_mm"] = cornersToJson(curve);
     entry["pieces"] = std::move(pieces);
   }
@@ -170,7 +173,7 @@ Result<ExportDocument> readCurveJson(std::string_view text, const RunContext& co
   try {
     return documentFromJson(*json);
   } catch (const Json::exception& e) {
-    auto error = damaged("it is not complete, or not what Batten writes");
+    auto error = damaged("it is incomplete or was not written by Batten");
     error.value().detail = e.what();
     return error;
   }

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/exchange/drawing_figures.h"
 
-#include <array>
+#include "core/solve/gauss_legendre.h"
 
 namespace batten {
 namespace {
 
 constexpr int kPlaces = 5, kParts = 8;
-constexpr std::array<double, 5> kNodes = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
-                                          0.9061798459386640};
-constexpr std::array<double, 5> kWeights = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
-                                            0.4786286704993665, 0.2369268850561891};
+constexpr QuadratureRule<5> kRule = gaussLegendre<5>();
 
 struct Moments {
   double length = 0.0;
@@ -24,9 +21,9 @@ Moments momentsOf(const NurbsCurve& curve) {
     const double half = 0.5 * (breaks[i] - breaks[i - 1]) / kParts;
     for (int part = 0; part < kParts; ++part) {
       const double middle = breaks[i - 1] + (2 * part + 1) * half;
-      for (std::size_t k = 0; k < kNodes.size(); ++k) {
-        const auto d = curve.derivatives(middle + half * kNodes[k], 1);
-        const double share = half * kWeights[k] * d[1].norm();
+      for (std::size_t k = 0; k < kRule.node.size(); ++k) {
+        const auto d = curve.derivatives(middle + half * kRule.node[k], 1);
+        const double share = half * kRule.weight[k] * d[1].norm();
         sum.length += share;
         sum.first += share * d[0];
       }

@@ -96,6 +96,15 @@ class Entity {
     const auto found = find(code);
     return found == tags_.end() ? std::string() : plainText(found->value);
   }
+  /// The name that Batten wrote behind its mark; the texts of other programs are none.
+  std::string name() const {
+    constexpr int kApplication = 1001, kText = 1000;
+    const auto own = std::find_if(tags_.begin(), tags_.end(),
+                                  [](const Tag& tag) { return tag.code == kApplication && tag.value == "BATTEN"; });
+    return own != tags_.end() && std::next(own) != tags_.end() && std::next(own)->code == kText
+               ? plainText(std::next(own)->value)
+               : std::string();
+  }
   /// The first number of the code; `absent` if there is none; nothing if it is no number.
   std::optional<double> real(int code, std::optional<double> absent = {}) const {
     const auto found = find(code);
@@ -105,7 +114,7 @@ class Entity {
     const auto found = find(code);
     return found == tags_.end() ? absent : numberOf<int>(found->value);
   }
-  /// All numbers of a code in order; nothing if one of them is none.
+  /// All numbers of a code in order; absent if one is not a number.
   std::optional<std::vector<double>> all(int code) const {
     std::vector<double> values;
     for (const Tag& tag : tags_) {
@@ -266,10 +275,10 @@ class Reader {
         comment((*tag)->value);
         continue;
       }
-      if (entity.empty() && (*tag)->code != 0) return damaged((*tag)->line, "it does not begin as a DXF does");
+      if (entity.empty() && (*tag)->code != 0) return damaged((*tag)->line, "it does not start like a DXF");
       entity.push_back(**tag);
     }
-    if (!sawSection_) return damaged(1, "it is no DXF");
+    if (!sawSection_) return damaged(1, "it is not a DXF");
     if (!sawEnd_) return fail(ErrorCode::BadParameter, "The DXF cannot be read: its end is missing. Export it again.");
     return std::move(drawing_);
   }
@@ -314,13 +323,13 @@ class Reader {
       ++drawing_.left;
       return;
     }
-    drawing_.entities.push_back({entity.textOf(1000), entity.textOf(8), std::move(*shape)});
+    drawing_.entities.push_back({entity.name(), entity.textOf(8), std::move(*shape)});
   }
 
   void beginPolyline(const Entity& entity) {
     constexpr int kMeshes = 16 | 64;
     const auto flags = entity.whole(70, 0);
-    polyline_ = CadEntity{entity.textOf(1000), entity.textOf(8), CadPolyline{{}, flags && (*flags & 1) != 0}};
+    polyline_ = CadEntity{entity.name(), entity.textOf(8), CadPolyline{{}, flags && (*flags & 1) != 0}};
     polylineIsWrong_ = !flags || (*flags & kMeshes) != 0 || entity.isMirrored();
   }
   void vertex(const Entity& entity) {

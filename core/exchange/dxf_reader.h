@@ -10,8 +10,8 @@ namespace batten {
 
 /// Reads the LINE, ARC, CIRCLE, ELLIPSE, SPLINE (by control points), LWPOLYLINE and POLYLINE entities of an ASCII DXF
 /// of any version, in the order of the file, z left out; what cannot be read is counted in `left`. Entities inside
-/// blocks are not read. A parser of its own, so that it tells what the library wrote.
-/// @return BadParameter if it is no DXF or damaged: the message says where.
+/// blocks are not read. An independent parser, so that it verifies what the library wrote.
+/// @return BadParameter if it is not a DXF or damaged: the message says where.
 Result<CadDrawing> readDxf(std::string_view text);
 
 }  // namespace batten

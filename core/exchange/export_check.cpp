@@ -80,14 +80,16 @@ std::optional<Error> exportProblem(const ExportDocument& document) {
     return numerical("The resolution is not a positive number. Set it again.");
   }
   for (const ExportCurve& curve : document.curves) {
-    if (curve.pieces.empty()) return numerical("The curve " + curve.id + " is empty. Leave it out of the export.");
+    if (curve.pieces.empty()) return numerical("The curve " + curve.id + " is empty. Exclude it from the export.");
     for (const ExportPiece& piece : curve.pieces) {
       if (piece.curve.isEmpty() || !isFinite(piece.curve)) {
-        return numerical("The curve " + curve.id + " holds a number that is not finite. Leave it out of the export.");
+        return numerical("The curve " + curve.id +
+                         " contains a number that is not finite. Exclude it from the export.");
       }
     }
     if (curve.closed && !isLoop(curve.pieces)) {
-      return numerical("The curve " + curve.id + " is said to be closed, but its ends lie apart. Export it again.");
+      return numerical("The curve " + curve.id +
+                       " is marked as closed, but its ends do not meet. Exclude it from the export.");
     }
   }
   return std::nullopt;

@@ -70,6 +70,16 @@ Result<CadDrawing> cadBack(const std::string& bytes, ExportFormat format) {
   return readDxf(bytes);
 }
 
+/// STEP holds its curves layer by layer, in the order in which the layers come.
+void sortByLayer(CadDrawing& drawing) {
+  std::vector<std::string> layers;
+  for (const CadEntity& entity : drawing.entities)
+    if (std::find(layers.begin(), layers.end(), entity.layer) == layers.end()) layers.push_back(entity.layer);
+  std::stable_sort(drawing.entities.begin(), drawing.entities.end(), [&](const CadEntity& a, const CadEntity& b) {
+    return std::find(layers.begin(), layers.end(), a.layer) < std::find(layers.begin(), layers.end(), b.layer);
+  });
+}
+
 Result<Check> cadFile(const ExportDocument& document, const ExportSettings& settings, const RunContext& context,
                       ExportReport& report) {
   auto made = cadExport(document, settings, context);
@@ -79,6 +89,7 @@ Result<Check> cadFile(const ExportDocument& document, const ExportSettings& sett
     if (!curves) return fail(curves.error());
     made->drawing = std::move(*curves);
   }
+  if (settings.format == ExportFormat::Step) sortByLayer(made->drawing);
   auto bytes = cadBytes(made->drawing, settings, document.title);
   if (!bytes) return fail(bytes.error());
   if (context.isCancelled()) return cancelled();
@@ -247,10 +258,10 @@ Result<ExportedFile> exportedFile(const ExportDocument& given, const ExportSetti
   auto check = checkedFile(document, settings, context, file.report);
   if (!check) return fail(check.error());
   if (!(check->difference <= check->allowed)) {
-    return fail(
-        ErrorCode::CannotWrite,
-        "What was written differs by " + shortNumber(check->difference) +
-            " mm when it is read back, more than this format allows. Nothing was saved; choose another format.");
+    return fail(ErrorCode::CannotWrite,
+                "The written file deviates by " + shortNumber(check->difference) +
+                    " mm when read back, more than this format allows. Nothing was saved; choose another "
+                    "format.");
   }
   file.report.largestDifferenceMm = check->difference;
   file.bytes = std::move(check->bytes);
@@ -267,7 +278,7 @@ Result<ExportReport> exportToFile(const ExportDocument& document, const ExportSe
   const std::string back{std::istreambuf_iterator<char>(in), {}};
   if (back != file->bytes)
     return fail(ErrorCode::CannotWrite,
-                "The file " + path.string() + " does not hold what was written. Is the disk full?");
+                "The file " + path.string() + " does not contain what was written. Is the disk full?");
   file->report.path = path;
   return std::move(file->report);
 }
@@ -284,41 +295,59 @@ std::string sentenceOf(const ExportReport& report) {
   return text;
 }
 
+namespace {
+
+/// The number of each piece, line by line.
+std::vector<std::vector<int>> pieceNumbers(const ExportDocument& document) {
+  std::vector<std::vector<int>> numbers;
+  int number = 0;
+  for (const ExportCurve& line : document.curves) {
+    auto& own = numbers.emplace_back();
+    for (const ExportPiece& piece : line.pieces) own.push_back(number = piece.number.value_or(number + 1));
+  }
+  return numbers;
+}
+
+}  // namespace
+
+ExportDocument onlyCurves(const ExportDocument& document, const std::set<int>& numbers) {
+  ExportDocument result = document;
+  result.curves.clear();
+  const auto known = pieceNumbers(document);
+  for (std::size_t i = 0; i < document.curves.size(); ++i) {
+    const ExportCurve& line = document.curves[i];
+    int runs = 0;
+    bool goesOn = false;
+    for (std::size_t k = 0; k < line.pieces.size(); ++k) {
+      const bool isTaken = numbers.contains(known[i][k]);
+      if (isTaken && !goesOn) {
+        ExportCurve& part = result.curves.emplace_back(line);
+        if (++runs > 1) part.id.append("-").append(std::to_string(runs));
+        part.pieces.clear();
+        part.closed = false;
+      }
+      if (isTaken) result.curves.back().pieces.push_back(line.pieces[k]);
+      goesOn = isTaken;
+    }
+    if (runs == 1 && result.curves.back().pieces.size() == line.pieces.size())
+      result.curves.back().closed = line.closed;
+  }
+  return result;
+}
+
 Result<ExportDocument> chosenCurves(const ExportDocument& document, const std::string& list) {
   const auto numbers = numbersOf(list);
   if (!numbers) {
-    return fail(ErrorCode::BadParameter, "Curves are chosen by their numbers, as in 1,3-5, not \"" + list + "\".");
+    return fail(ErrorCode::BadParameter, "Give curve numbers such as 1,3-5, not \"" + list + "\".");
   }
-  ExportDocument result = document;
-  result.curves.clear();
-  int number = 0;
   std::set<int> missing = *numbers;
-  for (const ExportCurve& line : document.curves) {
-    std::vector<ExportPiece> run;
-    int runs = 0;
-    const auto endRun = [&] {
-      if (run.empty()) return;
-      ExportCurve& part = result.curves.emplace_back(line);
-      part.closed = line.closed && run.size() == line.pieces.size();
-      if (runs++ > 0) part.id.append("-").append(std::to_string(runs));
-      part.pieces = std::move(run);
-      run.clear();
-    };
-    for (const ExportPiece& piece : line.pieces) {
-      number = piece.number.value_or(number + 1);
-      missing.erase(number);
-      if (numbers->contains(number))
-        run.push_back(piece);
-      else
-        endRun();
-    }
-    endRun();
-  }
+  for (const auto& line : pieceNumbers(document))
+    for (const int number : line) missing.erase(number);
   if (!missing.empty()) {
     return fail(ErrorCode::BadParameter, "There is no curve " + std::to_string(*missing.begin()) +
                                              " to export. The report and the window number them.");
   }
-  return result;
+  return onlyCurves(document, *numbers);
 }
 
 }  // namespace batten

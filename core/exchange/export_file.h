@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "core/base/run_context.h"
@@ -44,6 +45,10 @@ Result<ExportReport> exportToFile(const ExportDocument&, const ExportSettings&, 
 
 /// The report in one sentence: "4 curves, read back, largest difference 3e-12 mm".
 std::string sentenceOf(const ExportReport&);
+
+/// The curves of a document whose numbers are these; a line that lacks some of its pieces becomes several. Pieces
+/// without a number are counted from 1 through all lines, in order. Numbers that no curve has say nothing.
+ExportDocument onlyCurves(const ExportDocument&, const std::set<int>& numbers);
 
 /// The curves of a document that are named in a list like "1,3-5": by the numbers of
 /// their pieces; pieces without one are counted from 1 through all lines, in order. @return BadParameter for a list

@@ -43,6 +43,7 @@ struct ExportCurve {
   std::string name = {};                     ///< Of the user's; empty: its id is its name.
   std::string layer = "Faired";              ///< Layer of CAD files and of SVG. Not empty.
   std::optional<Vec2> startMm = {};          ///< Where a closed one is wanted to begin; see arrangement.h.
+  bool isSketched = false;                   ///< As it was found on the scan, not as it was made fair.
   bool isImported = false;                   ///< The order and direction of its file say nothing about what follows it.
 };
 struct ExportDocument {

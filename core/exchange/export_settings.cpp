@@ -137,8 +137,9 @@ std::string allEndings() {
 
 std::span<const ExportPreset> exportPresets() {
   static const std::array presets = {
-      ExportPreset{"alias", "Alias", "IGES, every curve exact, of its own degree.", cad(ExportFormat::Iges)},
-      ExportPreset{"rhino", "Rhino", "STEP, every curve exact, lines and arcs as such.", cad(ExportFormat::Step)},
+      ExportPreset{"alias", "Alias", "IGES, every curve exact, in its own degree.", cad(ExportFormat::Iges)},
+      ExportPreset{"rhino", "Rhino", "STEP, every curve exact, lines and arcs as native entities.",
+                   cad(ExportFormat::Step)},
       ExportPreset{"3dm", "Rhino, its own format", "3DM, every curve exact, with names and layers.",
                    cad(ExportFormat::Rhino)},
       ExportPreset{"fusion", "Fusion", "DXF, every curve one exact spline; lines, arcs and circles as such.",
@@ -150,7 +151,7 @@ std::span<const ExportPreset> exportPresets() {
       ExportPreset{"cubic", "CAD that takes degree 3 only", "IGES, curves of degree 3 within the tolerance.",
                    cad(ExportFormat::Iges, CurveFlavour::Cubic)},
       ExportPreset{"simple-knots", "CAD that takes simple knots only",
-                   "DXF, exact splines, cut wherever a knot is repeated.", simpleKnots()},
+                   "DXF, exact splines, split at every multiple knot.", simpleKnots()},
       ExportPreset{"illustrator", "Illustrator", "SVG in mm: cubic paths within the tolerance, curvature kept.",
                    cad(ExportFormat::Svg)},
       ExportPreset{"inkscape", "Inkscape", "SVG in mm on a layer of its own; opens in Batten again, exact.",
@@ -178,7 +179,7 @@ std::optional<Error> validate(const ExportSettings& settings) {
   const auto isAbove = [](double value, double least) { return std::isfinite(value) && value > least; };
   constexpr double kLargestScale = 1e6;
   if (!isAbove(settings.scale, 0.0) || settings.scale > kLargestScale)
-    return wrong("The scale of an export must lie above 0 and be at most 1000000.");
+    return wrong("The scale of an export must be above 0 and at most 1000000.");
   if (settings.toleranceMm && !(std::isfinite(*settings.toleranceMm) && *settings.toleranceMm >= kLeastTolerance))
     return wrong("The tolerance of an export must be at least 0.000001 mm.");
   if (!isAbove(settings.strokeWidthMm, 0.0)) return wrong("The stroke width of an export must be larger than 0 mm.");

@@ -243,7 +243,7 @@ class IgesReader {
         return igesDamaged(records_.entries[i].line, "a composite curve does not name its parts");
       for (int k = 0; k < *count; ++k) {
         const auto child = entryAt(n.at(1 + static_cast<std::size_t>(k)));
-        if (!child) return igesDamaged(records_.entries[i].line, "a part of a composite curve is not there");
+        if (!child) return igesDamaged(records_.entries[i].line, "a part of a composite curve is missing");
         // A part of two composites counts once, a composite within another by itself.
         if (records_.entries[*child].type == kComposite || !isChild_.insert(*child).second) continue;
         children_[i].push_back(*child);
@@ -260,7 +260,7 @@ class IgesReader {
     for (int depth = 0; line != 0; ++depth) {
       const auto at = entryAt(line);
       if (!at || depth == kDeepest || records_.entries[*at].type != kMatrix)
-        return igesDamaged(entry.line, "its transformation is not there");
+        return igesDamaged(entry.line, "its transformation is missing");
       auto known = matrices_.find(*at);
       if (known == matrices_.end()) {
         const auto fields = parametersOf(records_, records_.entries[*at], budget_);
@@ -299,6 +299,55 @@ class IgesReader {
     }
   }
 
+  /// How many numbers a curve has behind its type, before the pointers to what belongs to it; nothing if that is open.
+  static std::optional<std::size_t> ownNumbers(const IgesDirectoryEntry& entry, const IgesNumbers& n) {
+    switch (entry.type) {
+      case 100:
+        return 7;
+      case 104:
+        return 11;
+      case 106: {
+        const auto kind = n.count(0, 1, 3), count = n.count(1, 2, kMostControlPoints);
+        if (!kind || !count) return std::nullopt;
+        const std::size_t stride = *kind == 1 ? 2 : *kind == 2 ? 3 : 6;
+        return (*kind == 1 ? 3 : 2) + stride * static_cast<std::size_t>(*count);
+      }
+      case 110:
+        return 6;
+      case 126: {
+        const auto last = n.count(0, 1, kMostControlPoints), degree = n.count(1, 1, 7);
+        if (!last || !degree) return std::nullopt;
+        // Six of its head, knots, weights, places, the two ends and the normal.
+        return 6 + static_cast<std::size_t>(*last + *degree + 2 + 4 * (*last + 1) + 5);
+      }
+      default:
+        return std::nullopt;
+    }
+  }
+
+  /// The name of an entry: its name property, which holds more than the eight letters of a label.
+  Result<std::string> nameOf(const IgesDirectoryEntry& entry, const std::vector<std::string>& fields) {
+    constexpr int kProperty = 406, kNameForm = 15, kMostProperties = 64;
+    const IgesNumbers n(fields);
+    const auto own = ownNumbers(entry, n);
+    if (!own) return entry.label;
+    const auto groups = n.count(*own, 0, kMostProperties);
+    if (!groups) return entry.label;
+    const std::size_t at = *own + 1 + static_cast<std::size_t>(*groups);
+    const auto properties = n.count(at, 0, kMostProperties);
+    for (int i = 0; properties && i < *properties && n.has(at + 2 + static_cast<std::size_t>(i)); ++i) {
+      const auto property = entryAt(n.at(at + 1 + static_cast<std::size_t>(i)));
+      if (!property) continue;
+      const IgesDirectoryEntry& record = records_.entries[*property];
+      if (record.type != kProperty || record.form != kNameForm) continue;
+      const auto values = parametersOf(records_, record, budget_);
+      if (!values) return fail(values.error());
+      constexpr std::size_t kName = 2;  // behind its type and the count of its values
+      if (values->size() > kName && !(*values)[kName].empty()) return (*values)[kName];
+    }
+    return entry.label;
+  }
+
   /// Texts, views, colours and the like are no curves and not missed.
   static bool isOther(int type) {
     return type == 0 || type == 116 || type == kMatrix || (type >= 200 && type < 300) || type >= 302;
@@ -330,7 +379,9 @@ class IgesReader {
       return {};
     }
     const std::string layer = entry.level > 0 ? "Level " + std::to_string(entry.level) : std::string();
-    drawing_.entities.push_back({entry.label, layer, std::move(*shape)});
+    auto name = nameOf(entry, *fields);
+    if (!name) return fail(name.error());
+    drawing_.entities.push_back({std::move(*name), layer, std::move(*shape)});
     return {};
   }
 

@@ -104,7 +104,7 @@ Result<void> addEntry(std::string_view first, std::string_view second, std::size
                                                                  {fieldOf(second, 4), &entry.form}}};
   for (const auto& [field, value] : fields) {
     const auto number = wholeOf(field);
-    if (!number) return igesDamaged(line, "a number of the directory is none");
+    if (!number) return igesDamaged(line, "an entry of the directory is not a number");
     *value = *number;
   }
   entry.label = trimmed(fieldOf(second, 7));
@@ -170,7 +170,7 @@ Result<IgesRecords> readIgesRecords(std::string_view text) {
       default:
         return igesDamaged(number, "it belongs to no section");
     }
-    if (!sawStart && !sawEnd) return igesDamaged(number, "it does not begin as IGES does");
+    if (!sawStart && !sawEnd) return igesDamaged(number, "it does not start like IGES");
   }
   if (!sawEnd)
     return fail(ErrorCode::BadParameter, "The IGES file cannot be read: its end is missing. Export it again.");
@@ -182,11 +182,11 @@ Result<std::vector<std::string>> parametersOf(const IgesRecords& records, const 
                                               std::size_t& budget) {
   const auto lines = static_cast<std::ptrdiff_t>(records.data.size());
   const std::ptrdiff_t first = entry.parameterLine - 1, last = first + std::max(entry.parameterLines, 1);
-  if (first < 0 || last > lines) return igesDamaged(entry.line, "its parameters are not there");
+  if (first < 0 || last > lines) return igesDamaged(entry.line, "its parameters are missing");
   std::string text;
   for (std::ptrdiff_t i = first; i < last; ++i) {
     const std::string_view line = records.data[static_cast<std::size_t>(i)];
-    if (line.size() > budget) return igesDamaged(entry.line, "several entries lie over one another");
+    if (line.size() > budget) return igesDamaged(entry.line, "several entries overlap");
     budget -= line.size();
     text += line;
   }

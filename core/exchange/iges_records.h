@@ -27,7 +27,7 @@ struct IgesRecords {
   char delimiter = ',', end = ';';
 };
 
-/// @return BadParameter with the line if a section is missing or does not hold what it must.
+/// @return BadParameter with the line if a section is missing or is invalid.
 Result<IgesRecords> readIgesRecords(std::string_view text);
 
 /// The parameters of an entry, the number of its type first. Reads at most `budget` characters and takes them off it.

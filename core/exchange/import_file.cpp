@@ -60,6 +60,9 @@ std::vector<int> sharpPoints(const std::vector<Vec2>& points, bool closed) {
   return corners;
 }
 
+/// DXF puts what has no layer on layer 0.
+std::string layerOf(const CadEntity& entity) { return entity.layer == "0" ? std::string() : entity.layer; }
+
 void setCorners(ImportedLine& line) { line.corners = sharpPoints(line.points, line.closed); }
 
 /// Makes lines of the entities of a drawing, one after the other.
@@ -70,7 +73,7 @@ class LineBuilder {
   void add(const CadEntity& entity) {
     if (const auto* polyline = std::get_if<CadPolyline>(&entity.shape); polyline != nullptr && isOfChords(*polyline)) {
       endLine();
-      addPoints(*polyline, entity.name);
+      addPoints(*polyline, entity);
       return;
     }
     if (const auto* polyline = std::get_if<CadPolyline>(&entity.shape); polyline != nullptr && hasArcs(*polyline)) {
@@ -85,14 +88,14 @@ class LineBuilder {
     }
     const NurbsCurve shape = held->mapped(linear_, Vec2::Zero());
     const bool mayTurn = std::holds_alternative<CadArc>(entity.shape);  // an arc has no direction of its own
-    if (!goesOn(shape, mayTurn, entity.layer)) {
+    if (!goesOn({shape, entity.name}, mayTurn, layerOf(entity))) {
       endLine();
       line_.name = entity.name;
-      layer_ = entity.layer;
-      line_.curves = {shape};
+      line_.layer = layerOf(entity);
+      line_.curves = {{shape, entity.name}};
       firstMayTurn_ = mayTurn;
     }
-    if (meet(line_.curves.back(), line_.curves.front())) {
+    if (meet(line_.curves.back().curve, line_.curves.front().curve)) {
       line_.closed = true;
       endLine();
     }
@@ -108,9 +111,10 @@ class LineBuilder {
     return line.vertices.size() > 2 &&
            std::all_of(line.vertices.begin(), line.vertices.end(), [](const CadVertex& v) { return v.bulge == 0.0; });
   }
-  void addPoints(const CadPolyline& polyline, const std::string& name) {
+  void addPoints(const CadPolyline& polyline, const CadEntity& entity) {
     ImportedLine line;
-    line.name = name;
+    line.name = entity.name;
+    line.layer = layerOf(entity);
     line.closed = polyline.closed;
     for (const CadVertex& v : polyline.vertices) {
       const Vec2 at = linear_ * v.point;
@@ -142,8 +146,9 @@ class LineBuilder {
       return;
     }
     line_.name = entity.name;
-    for (const NurbsCurve& edge : *edges) line_.curves.push_back(edge.mapped(linear_, Vec2::Zero()));
-    line_.closed = polyline.closed || meet(line_.curves.back(), line_.curves.front());
+    line_.layer = layerOf(entity);
+    for (const NurbsCurve& edge : *edges) line_.curves.push_back({edge.mapped(linear_, Vec2::Zero())});
+    line_.closed = polyline.closed || meet(line_.curves.back().curve, line_.curves.front().curve);
     endLine();
   }
 
@@ -161,17 +166,17 @@ class LineBuilder {
   }
 
   /// Adds the curve to the line if it begins where that one ends.
-  bool goesOn(const NurbsCurve& curve, bool mayTurn, const std::string& layer) {
-    if (line_.curves.empty() || layer != layer_) return false;
-    const NurbsCurve& last = line_.curves.back();
+  bool goesOn(const ImportedCurve& next, bool mayTurn, const std::string& layer) {
+    if (line_.curves.empty() || layer != line_.layer) return false;
+    const NurbsCurve &last = line_.curves.back().curve, &curve = next.curve;
     const bool isFirst = line_.curves.size() == 1 && firstMayTurn_;
     const std::array<NurbsCurve, 2> lasts{last, isFirst ? reversed(last) : NurbsCurve()};
     const std::array<NurbsCurve, 2> nexts{curve, mayTurn ? reversed(curve) : NurbsCurve()};
     for (const NurbsCurve& before : lasts) {
       for (const NurbsCurve& behind : nexts) {
         if (before.isEmpty() || behind.isEmpty() || !meet(before, behind)) continue;
-        line_.curves.back() = before;
-        line_.curves.push_back(behind);
+        line_.curves.back().curve = before;
+        line_.curves.push_back({behind, next.name});
         return true;
       }
     }
@@ -185,7 +190,6 @@ class LineBuilder {
   Eigen::Matrix2d linear_;
   std::vector<ImportedLine> lines_;
   ImportedLine line_;
-  std::string layer_;
   bool firstMayTurn_ = false;
   int left_ = 0;
 };
@@ -209,9 +213,9 @@ double takeUnit(std::optional<double> stated, std::optional<double> asked, Impor
 
 void tellLeft(int left, ImportReport& report) {
   if (left == 0) return;
-  report.notes.push_back(std::to_string(left) + (left == 1 ? " entity of " : " entities of ") + report.file.source +
-                         (left == 1 ? " is no curve that can be taken over, and was left out."
-                                    : " are no curves that can be taken over, and were left out."));
+  report.notes.push_back(
+      std::to_string(left) + (left == 1 ? " entity of " : " entities of ") + report.file.source +
+      (left == 1 ? " could not be imported and was skipped." : " could not be imported and were skipped."));
 }
 
 void takeDrawing(const CadDrawing& drawing, std::optional<double> asked, ImportReport& report) {
@@ -227,18 +231,20 @@ std::vector<ImportedLine> linesOf(const ExportDocument& document) {
   for (const ExportCurve& curve : document.curves) {
     ImportedLine line;
     line.name = curve.name;
+    line.layer = curve.layer;
     line.closed = curve.closed;
     for (const ExportPiece& piece : curve.pieces) {
       const auto held = clamped(piece.curve);
       if (!held) continue;
-      const bool isApart = !line.curves.empty() &&
-                           !(line.curves.back().controlPoints().back() - held->controlPoints().front()).isZero(1e-9);
+      const bool isApart =
+          !line.curves.empty() &&
+          !(line.curves.back().curve.controlPoints().back() - held->controlPoints().front()).isZero(1e-9);
       if (isApart) {
         line.closed = false;
         lines.push_back(line);
         line.curves.clear();
       }
-      line.curves.push_back(*held);
+      line.curves.push_back({*held, piece.name});
     }
     if (!line.curves.empty()) lines.push_back(std::move(line));
   }
@@ -248,7 +254,7 @@ std::vector<ImportedLine> linesOf(const ExportDocument& document) {
 /// Scales all lines about the origin.
 void scaleLines(double factor, ImportedFile& file) {
   for (ImportedLine& line : file.lines) {
-    for (NurbsCurve& curve : line.curves) curve = curve.mapped(factor * Eigen::Matrix2d::Identity(), Vec2::Zero());
+    for (auto& [curve, name] : line.curves) curve = curve.mapped(factor * Eigen::Matrix2d::Identity(), Vec2::Zero());
     for (Vec2& p : line.points) p *= factor;
   }
 }
@@ -268,7 +274,7 @@ void takePoints(PointFile points, std::optional<double> asked, ImportReport& rep
     const auto last = std::unique(line.points.begin(), line.points.end());
     line.points.erase(last, line.points.end());
     if (std::ssize(line.points) < 3) line.closed = false;
-    setCorners(line);
+    if (line.corners.empty()) setCorners(line);
   }
   const auto erased = std::erase_if(report.file.lines, [](const ImportedLine& line) { return line.points.size() < 2; });
   tellLeft(points.left + static_cast<int>(erased), report);
@@ -282,20 +288,20 @@ std::string counted(int count, const char* one, const char* more) {
 void takeOwnSvg(const ExportDocument& own, SvgShapes shapes, double toleranceMm, ImportReport& report) {
   const Vec2 origin(own.frame.leftMm, own.frame.bottomMm);
   for (ImportedLine& line : shapes.lines) {
-    for (NurbsCurve& curve : line.curves) curve = curve.mapped(Eigen::Matrix2d::Identity(), origin);
+    for (auto& [curve, name] : line.curves) curve = curve.mapped(Eigen::Matrix2d::Identity(), origin);
   }
   OwnSvgLines lines = exactWhereUnchanged(linesOf(own), std::move(shapes.lines), toleranceMm);
   report.file.unit = "mm";
   report.file.lines = std::move(lines.lines);
   if (lines.drawn > 0) {
     report.notes.push_back(report.file.source + ": " +
-                           counted(lines.drawn, "path is not what Batten wrote and was read as it is drawn.",
-                                   "paths are not what Batten wrote and were read as they are drawn."));
+                           counted(lines.drawn, "path was changed by another program and was read as drawn.",
+                                   "paths were changed by another program and were read as drawn."));
   }
   if (lines.gone > 0) {
     report.notes.push_back(report.file.source + ": " +
-                           counted(lines.gone, "curve of Batten is not drawn any more as it was, and was left out.",
-                                   "curves of Batten are not drawn any more as they were, and were left out."));
+                           counted(lines.gone, "curve written by Batten is no longer drawn and was skipped.",
+                                   "curves written by Batten are no longer drawn and were skipped."));
   }
 }
 
@@ -316,7 +322,7 @@ Result<void> takeSvg(const std::string& bytes, std::optional<double> asked, cons
   report.file.lines = std::move(shapes->lines);
   report.file.unit = shapes->hasSize ? "mm" : "px?";
   if (!shapes->hasSize && !asked)
-    report.notes.push_back("The file " + report.file.source + " states no size; a unit was taken for 1/96 inch.");
+    report.notes.push_back("The file " + report.file.source + " states no size; 96 units per inch were assumed.");
   takeUnitOf(shapes->mmPerUnit, asked, report);
   tellLeft(shapes->left, report);
   return {};
@@ -356,6 +362,14 @@ Result<void> takeBytes(const std::string& ending, const std::string& bytes, std:
   return {};
 }
 
+/// Names as windows and other files can hold them, whatever bytes the file has.
+void makeNamesShown(ImportedLine& line) {
+  const auto shown = [](std::string& name) { name = shownText(trimmed(name)); };
+  shown(line.name);
+  shown(line.layer);
+  for (ImportedCurve& curve : line.curves) shown(curve.name);
+}
+
 }  // namespace
 
 bool isImportName(const std::filesystem::path& path) {
@@ -384,7 +398,8 @@ Result<ImportReport> readImportFile(const std::filesystem::path& path, std::opti
   ImportReport report;
   report.file.source = name;
   auto taken = takeBytes(importEndingOf(path), *bytes, mmPerUnit, context, report);
-  if (taken && report.file.lines.empty()) taken = fail(ErrorCode::NoCurve, "There is no line in it.");
+  for (ImportedLine& line : report.file.lines) makeNamesShown(line);
+  if (taken && report.file.lines.empty()) taken = fail(ErrorCode::NoCurve, "It contains no line.");
   if (taken) {
     if (auto wrong = validate(report.file)) taken = fail(std::move(*wrong));
   }

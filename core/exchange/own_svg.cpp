@@ -26,7 +26,7 @@ struct PathPlaces {
 
 PathPlaces placesOf(const ImportedLine& line) {
   PathPlaces path;
-  for (const NurbsCurve& curve : line.curves) {
+  for (const auto& [curve, name] : line.curves) {
     const std::vector<double> breaks = curve.breaks();
     if (path.places.empty()) path.places.push_back(curve.point(curve.start()));
     for (std::size_t i = 1; i < breaks.size(); ++i) {
@@ -43,13 +43,13 @@ bool isNear(const Vec2& a, const Vec2& b, double tolerance) { return (a - b).nor
 /// Whether a path runs along the curves of a line, from its start to its end.
 bool showsLine(const PathPlaces& path, const ImportedLine& line, double tolerance) {
   if (line.curves.empty() || path.places.empty()) return false;
-  const NurbsCurve &front = line.curves.front(), &back = line.curves.back();
+  const NurbsCurve &front = line.curves.front().curve, &back = line.curves.back().curve;
   if (!isNear(path.places.front(), front.point(front.start()), tolerance) ||
       !isNear(path.places.back(), back.point(back.end()), tolerance))
     return false;
   std::size_t first = 0;
   for (std::size_t i = 0; i < line.curves.size(); ++i) {
-    const NurbsCurve& curve = line.curves[i];
+    const NurbsCurve& curve = line.curves[i].curve;
     std::size_t last = path.places.size() - 1;
     if (i + 1 < line.curves.size()) {
       const Vec2 end = curve.point(curve.end());

@@ -13,7 +13,7 @@ namespace batten {
 struct OwnSvgLines {
   std::vector<ImportedLine> lines;  ///< One for every path, in the order of the paths.
   int drawn = 0;                    ///< Paths that are no picture of an exact curve (any more): as they are drawn.
-  int gone = 0;                     ///< Exact curves that no path shows.
+  int gone = 0;                     ///< Exact curves without a matching path.
 };
 
 /// Takes the exact curve for every path that lies on one: same start and direction, no farther off than

@@ -50,7 +50,7 @@ char separatorOf(std::string_view row) {
 /// Where the columns stand.
 struct Columns {
   std::size_t x = 0, y = 1;
-  std::optional<std::size_t> line;
+  std::optional<std::size_t> line, piece;
 };
 
 class TableReader {
@@ -107,9 +107,18 @@ class TableReader {
     isFirst_ = false;
     if (!y) return noPoints("row " + std::to_string(row) + " does not hold x and y as numbers");
     const std::string name = columns_.line && fields.size() > *columns_.line ? fields[*columns_.line] : std::string();
+    const std::string piece =
+        columns_.piece && fields.size() > *columns_.piece ? fields[*columns_.piece] : std::string();
     if (!line_.points.empty() && name != line_.name) endLine();
     line_.name = name;
-    line_.points.emplace_back(*x, *y);
+    const Vec2 at(*x, *y);
+    const bool isAgain = !line_.points.empty() && line_.points.back() == at;
+    if (pieces_.empty() || pieces_.back() != piece) {
+      // A piece begins where the one before it ends, so its first row repeats the last one.
+      if (!line_.points.empty()) line_.corners.push_back(static_cast<int>(line_.points.size()) - (isAgain ? 1 : 0));
+      pieces_.push_back(piece);
+    }
+    if (!isAgain) line_.points.push_back(at);
     return {};
   }
 
@@ -121,11 +130,13 @@ class TableReader {
           name.size() == 1 || (name.size() > 1 && std::isalpha(static_cast<unsigned char>(name[1])) == 0);
       if (!x && isAlone && name[0] == 'x') x = i, takeUnit(name);
       if (!y && isAlone && name[0] == 'y') y = i;
+      if (name == "piece") columns_.piece = i;
       if (!columns_.line && (name == "curve" || name == "line" || name == "name")) columns_.line = i;
     }
     if (!x || !y) return noPoints("row " + std::to_string(row) + " holds neither numbers nor columns x and y");
     columns_.x = *x;
     columns_.y = *y;
+    if (!columns_.line) columns_.piece.reset();  // only beside the name of a line it is Batten's
     return {};
   }
   /// "x_mm", "x [in]", "x (cm)".
@@ -141,7 +152,10 @@ class TableReader {
     if (points.size() >= kLeastLoop && points.front() == points.back()) {
       points.pop_back();
       line_.closed = true;
+      if (!line_.corners.empty()) line_.corners.insert(line_.corners.begin(), 0);
     }
+    if (pieces_.size() == 1 && !pieces_.front().empty()) line_.name = pieces_.front();
+    pieces_.clear();
     if (points.size() >= 2) {
       out_.lines.push_back(std::move(line_));
     } else if (!points.empty()) {
@@ -154,6 +168,7 @@ class TableReader {
   char separator_ = 0;
   bool isFirst_ = true;
   Columns columns_;
+  std::vector<std::string> pieces_;  ///< Of the line that is read, by name.
   ImportedLine line_;
   PointFile out_;
 };
@@ -164,7 +179,7 @@ bool isPair(const PointJson& json) {
 
 Result<std::vector<Vec2>> pointsOf(const PointJson& list) {
   std::vector<Vec2> points;
-  if (!list.is_array()) return noPoints("a line is no list of points");
+  if (!list.is_array()) return noPoints("a line is not a list of points");
   for (const PointJson& pair : list) {
     if (!isPair(pair)) return noPoints("a point is not a pair of numbers");
     points.emplace_back(pair[0].get<double>(), pair[1].get<double>());
@@ -204,7 +219,7 @@ std::optional<double> millimetresOfUnit(std::string_view unit) {
 }
 
 Result<PointFile> readPointTable(std::string_view text, const RunContext& context) {
-  if (text.find('\0') != std::string_view::npos) return noPoints("the file is no text");
+  if (text.find('\0') != std::string_view::npos) return noPoints("the file is not text");
   auto file = TableReader(context).read(text);
   if (file && file->lines.empty()) return fail(ErrorCode::NoCurve, "There is no line of two or more points in it.");
   return file;
@@ -219,9 +234,9 @@ Result<PointFile> readPointJson(std::string_view text, const RunContext& context
     const PointJson* lines = &*json;
     if (json->is_object()) {
       if (json->contains("unit")) {
-        if (!(*json)["unit"].is_string()) return noPoints("its unit is no text");
+        if (!(*json)["unit"].is_string()) return noPoints("its unit is not text");
         file.mmPerUnit = millimetresOfUnit((*json)["unit"].get<std::string>());
-        if (!file.mmPerUnit) return noPoints("its unit is none of mm, cm, m and in");
+        if (!file.mmPerUnit) return noPoints("its unit is not mm, cm, m or in");
       }
       if (!json->contains("lines")) return noPoints("it has no \"lines\"");
       lines = &(*json)["lines"];

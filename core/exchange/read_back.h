@@ -8,10 +8,10 @@
 
 namespace batten {
 
-/// What a check says of a file that does not hold what was to be written.
+/// The error of a file that does not read back as written.
 inline tl::unexpected<Error> readsBackOtherwise(std::string detail) {
-  return fail(ErrorCode::CannotWrite,
-              "The file that was written reads back as something else. Export to another format.", std::move(detail));
+  return fail(ErrorCode::CannotWrite, "The written file does not read back correctly. Export to another format.",
+              std::move(detail));
 }
 
 }  // namespace batten

@@ -80,7 +80,7 @@ Result<std::vector<Chunk>> chunksOf(std::string_view bytes) {
         chunk.content.remove_suffix(4);
         const std::uint32_t crc = stated.number();
         if (crc != 0 && crc != crc32(chunk.content) && chunk.code != kObjectAttributes)
-          return damaged("a part does not have the check sum that it states");
+          return damaged("a part has a wrong checksum");
       }
     }
     chunks.push_back(chunk);
@@ -217,7 +217,7 @@ Result<void> readObject(const Chunk& record, const std::map<std::uint32_t, std::
 
 Result<CadDrawing> readRhino(std::string_view bytes) {
   using namespace rhino;
-  if (!bytes.starts_with(kHead)) return damaged("it is no 3DM of version 3");
+  if (!bytes.starts_with(kHead)) return damaged("it is not a 3DM of version 3");
   const auto tables = chunksOf(bytes.substr(kHead.size()));
   if (!tables) return fail(tables.error());
   const Chunk *settings = find(*tables, kSettings), *objects = find(*tables, kObjectTable),

@@ -117,7 +117,7 @@ std::string nurbs(const NurbsCurve& curve) {
   bytes.byte(kRhinoVersion).number(kDimension).number(curve.isRational() ? 1 : 0);
   bytes.number(static_cast<std::uint32_t>(curve.degree()) + 1).number(static_cast<std::uint32_t>(points.size()));
   bytes.number(0).number(0);
-  // A box that is none: the reader makes its own.
+  // Invalid bounding box: the reader computes its own.
   for (const double side : {1.0, 0.0, 0.0, -1.0, 0.0, 0.0}) bytes.real(side);
   bytes.number(static_cast<std::uint32_t>(knots.size()) - 2);
   for (std::size_t i = 1; i + 1 < knots.size(); ++i) bytes.real(knots[i]);

@@ -28,7 +28,7 @@ std::string reason(std::error_code error) {
     const char* words;
   } kReasons[] = {
       {std::errc::no_space_on_device, "the disk is full. Free some space or choose another place."},
-      {std::errc::file_too_large, "the file would become larger than is allowed here. Choose another place."},
+      {std::errc::file_too_large, "the file would exceed the file size limit. Choose another place."},
       {std::errc::permission_denied, "there is no permission to write there. Choose another place."},
       {std::errc::operation_not_permitted, "there is no permission to write there. Choose another place."},
       {std::errc::read_only_file_system, "the disk is write-protected. Choose another place."},
@@ -56,7 +56,7 @@ std::optional<std::string> obstacle(const fs::path& path) {
     return "the folder " + shownName(folder) + " does not exist. Create it or choose another.";
   if (!fs::is_directory(folder, code)) return shownName(folder) + " is not a folder. Choose another place.";
   if (fs::exists(path, code) && !fs::is_regular_file(path, code))
-    return "it is not an ordinary file. Choose another name.";
+    return "it is not a regular file. Choose another name.";
   return std::nullopt;
 }
 
@@ -108,7 +108,7 @@ void removeLeftoversOf(const fs::path& path) {
 
 Result<void> saveAtomically(const fs::path& path, std::string_view bytes) {
   const auto target = saveTarget(path);
-  if (!target) return cannotWrite(path, "its links lead in a circle. Choose another name.");
+  if (!target) return cannotWrite(path, "its symbolic links form a loop. Choose another name.");
   if (const auto why = obstacle(*target)) return cannotWrite(path, *why);
   removeLeftoversOf(*target);
   auto file = fileBeside(*target);

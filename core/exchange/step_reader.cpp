@@ -191,8 +191,12 @@ class StepReader {
         drawing_.entities.resize(before);
         ++drawing_.left;
       }
+      if (const auto layer = layerOf_.find(roots[i]); layer != layerOf_.end()) {
+        for (std::size_t k = before; k < drawing_.entities.size(); ++k) drawing_.entities[k].layer = layer->second;
+      }
       if (visitsLeft_ == 0)
-        return fail(ErrorCode::BadParameter, "The curves of the STEP file name each other too often. Export it again.");
+        return fail(ErrorCode::BadParameter,
+                    "The curves of the STEP file refer to each other too often. Export it again.");
       if (drawing_.entities.size() > kMostShapes)
         return fail(ErrorCode::BadParameter, "The STEP file holds more than 200000 curves. Export fewer of them.");
     }
@@ -255,18 +259,22 @@ class StepReader {
   }
 
   /// Which curves the file is about.
-  std::vector<std::uint64_t> findRoots() const {
+  std::vector<std::uint64_t> findRoots() {
     std::vector<std::uint64_t> ofSets, edges, alone;
     std::set<std::uint64_t> used;
     for (const std::uint64_t id : records_.order) {
       const std::string_view type = data_.typeOf(id);
+      if (type == "PRESENTATION_LAYER_ASSIGNMENT") readLayer(id);
       if (type == "EDGE_CURVE") edges.push_back(id);
       for (const char* set : {"GEOMETRIC_CURVE_SET", "GEOMETRIC_SET"}) {
         const auto values = data_.record(id, set);
         if (!values || values->size() < 2) continue;
         for (const StepValue& one : data_.valuesOf((*values)[1])) {
           const auto element = StepData::idOf(one);
-          if (element && isCurve(data_.typeOf(*element))) ofSets.push_back(*element);
+          if (!element || !isCurve(data_.typeOf(*element))) continue;
+          ofSets.push_back(*element);
+          // The sets of our own files are their layers; a layer that was assigned is told apart by its own record.
+          if (const std::string name = nameOf(*values); !name.empty()) layerOf_.try_emplace(*element, name);
         }
       }
       if (!isCurve(type) && type != "COMPOSITE_CURVE_SEGMENT" && type != "PCURVE") continue;
@@ -282,6 +290,16 @@ class StepReader {
       if (isCurve(data_.typeOf(id)) && !used.contains(id)) alone.push_back(id);
     }
     return alone;
+  }
+
+  /// What lies on a layer: name, description, items.
+  void readLayer(std::uint64_t id) {
+    const auto values = data_.record(id, "PRESENTATION_LAYER_ASSIGNMENT");
+    if (!values || values->size() < 3) return;
+    const std::string name = nameOf(*values);
+    for (const StepValue& one : data_.valuesOf((*values)[2])) {
+      if (const auto item = StepData::idOf(one); item && !name.empty()) layerOf_[*item] = name;
+    }
   }
 
   bool push(const std::string& name, std::optional<CadShape> shape) {
@@ -534,6 +552,7 @@ class StepReader {
   double radiansPerUnit_ = 1.0;
   std::size_t budget_ = 20'000'000;     ///< Control points that may still be read.
   std::size_t visitsLeft_ = 2'000'000;  ///< Curves that may still be looked at: composites of composites multiply.
+  std::map<std::uint64_t, std::string> layerOf_;
   CadDrawing drawing_;
 };
 

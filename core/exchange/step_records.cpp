@@ -25,7 +25,7 @@ class StepScanner {
 
   Result<StepRecords> read() {
     skip();
-    if (!text_.substr(at_).starts_with("ISO-10303-21")) return damaged("it does not begin as STEP does");
+    if (!text_.substr(at_).starts_with("ISO-10303-21")) return damaged("it does not start like STEP");
     const auto data = text_.find("DATA;", at_);
     if (data == std::string_view::npos) return damaged("it has no data");
     at_ = data + 5;
@@ -97,19 +97,19 @@ class StepScanner {
       const std::string_view type = word();
       if (type.empty() || !take('(')) return wrong("an entry has no type");
       StepRecord record{type, 0, 0};
-      if (!readList(record.first, record.count)) return wrong("the values of an entry cannot be understood");
+      if (!readList(record.first, record.count)) return wrong("the values of an entry are invalid");
       out_.records.push_back(record);
       ++instance.count;
     } while (isComplex && !take(')'));
     if (!take(';')) return wrong("an entry does not end");
-    if (!out_.instances.emplace(*number, instance).second) return wrong("one number is given to two entries");
+    if (!out_.instances.emplace(*number, instance).second) return wrong("two entries have the same number");
     out_.order.push_back(*number);
     return true;
   }
 
   /// Values up to the closing bracket. Those of one list come to lie side by side, behind those of the lists in it.
   bool readList(std::uint32_t& first, std::uint32_t& count) {
-    if (++depth_ > kDeepestList) return wrong("its lists lie too deep in one another");
+    if (++depth_ > kDeepestList) return wrong("its lists are nested too deeply");
     const std::size_t begin = open_.size();
     if (!take(')')) {
       do {
@@ -145,7 +145,7 @@ class StepScanner {
     }
     if (c == '#') {
       const auto number = id();
-      if (!number) return wrong("a reference is none");
+      if (!number) return wrong("a reference is invalid");
       value.kind = StepValue::Kind::Reference;
       value.number = static_cast<double>(*number);
       return true;
@@ -158,7 +158,7 @@ class StepScanner {
     }
     if (isStepDigit(c) || c == '-' || c == '+') return readNumber(value);
     value.text = word();
-    if (value.text.empty() || !take('(')) return wrong("a value cannot be understood");
+    if (value.text.empty() || !take('(')) return wrong("a value is invalid");
     value.kind = StepValue::Kind::List;
     return readList(value.first, value.count);
   }
@@ -187,7 +187,7 @@ class StepScanner {
   bool readNumber(StepValue& value) {
     if (text_[at_] == '+') ++at_;
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value.number);
-    if (error != std::errc() || !std::isfinite(value.number)) return wrong("a number is none");
+    if (error != std::errc() || !std::isfinite(value.number)) return wrong("a number is invalid");
     value.kind = StepValue::Kind::Number;
     at_ = static_cast<std::size_t>(end - text_.data());
     return true;

@@ -15,7 +15,7 @@ struct SvgSubpath {
   bool closed = false;
 };
 /// The path data of SVG 1.1, section 8.3, in its own units, y down. Nothing if it has an error; what comes before the
-/// error is not given, since nobody could say what was meant.
+/// error is omitted, as its meaning is undefined.
 std::optional<std::vector<SvgSubpath>> readSvgPath(std::string_view data);
 
 /// An arc of an ellipse from `from` to `to` (SVG 1.1, appendix F.6). Nothing if it has no length.

@@ -110,11 +110,11 @@ class ShapesReader {
       const auto token = xml_.readNext();
       if (token == QXmlStreamReader::EndElement && !frames_.empty()) frames_.pop_back();
       if (token != QXmlStreamReader::StartElement) continue;
-      if (frames_.size() >= kDeepestElement) return damaged("its elements lie more than 256 deep in one another");
+      if (frames_.size() >= kDeepestElement) return damaged("its elements are nested more than 256 deep");
       if (auto taken = begin(); !taken) return fail(taken.error());
     }
     if (xml_.hasError()) return damaged("it is damaged (" + xml_.errorString().toStdString() + ")");
-    if (!sawSvg_) return damaged("it is no SVG");
+    if (!sawSvg_) return damaged("it is not an SVG");
     return std::move(out_);
   }
 
@@ -153,6 +153,7 @@ class ShapesReader {
       frame.isHidden = true;
     }
     if (own) frame.toMm = frame.toMm.over(*own);
+    if (name == "g" && text("inkscape:groupmode") == "layer") frame.layer = text("inkscape:label");
     frames_.push_back(frame);
     if (sawSvg_ && !frame.isHidden) takeShape(name, frame.toMm);
     return {};
@@ -247,6 +248,7 @@ class ShapesReader {
     ImportedLine line;
     const std::string label = text("inkscape:label");  // as the user called it; ids are mostly made up
     line.name = label.empty() ? text("id") : label;
+    line.layer = frames_.back().layer;
     line.closed = part.closed;
     for (std::size_t i = 0; i < segments.size();) {
       std::size_t end = i + 1;
@@ -255,9 +257,9 @@ class ShapesReader {
       constexpr double kGap = 1e-9;
       auto joined = run.size() == 1 ? Result<NurbsCurve>(run.front()) : joinAtCorners(run, kGap * sizeOf(run));
       if (joined) {
-        line.curves.push_back(std::move(*joined));
+        line.curves.push_back({std::move(*joined)});
       } else {
-        line.curves.insert(line.curves.end(), run.begin(), run.end());
+        for (const NurbsCurve& segment : run) line.curves.push_back({segment});
       }
       i = end;
     }
@@ -279,6 +281,7 @@ class ShapesReader {
   struct Frame {
     Affine toMm;
     bool isHidden = false;
+    std::string layer;  ///< Of Inkscape: a group that says so.
   };
   QXmlStreamReader xml_;
   const RunContext& context_;

@@ -23,8 +23,7 @@ constexpr double kStraight = 1e-9;  // of the extent
 constexpr double kJoins = 1e-6;     // of the extent
 constexpr double kTrifle = 1e-4;    // of a part
 constexpr int kNodesPerSection = 48;
-constexpr const char* kAddsAtCorners =
-    "Left as sketched: with its parts fair, the curve would have more curvature extrema.";
+constexpr const char* kAddsAtCorners = "Unchanged: fairing its parts would add curvature extrema.";
 
 bool isStraightLine(const NurbsCurve& curve) {
   const Vec2 first = curve.controlPoints().front(), chord = curve.controlPoints().back() - first;
@@ -67,6 +66,18 @@ FairingParams paramsOf(const FairingParams& whole, const ProfileSpan& span, bool
   return params;
 }
 
+/// The degree that all parts but the straight ones followed; 0: there is none.
+int commonDegree(const std::vector<CornerSection>& sections, const std::vector<FairedCurve>& parts) {
+  std::optional<int> common;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (sections[i].isStraight) continue;
+    const int degree = parts[i].report.targetDegree;
+    if (common && *common != degree) return 0;
+    common = degree;
+  }
+  return common.value_or(0);
+}
+
 /// The parts as one curve again, with what they report.
 Result<FairedCurve> joinedParts(const NurbsCurve& whole, bool closed, const std::vector<CornerSection>& sections,
                                 std::vector<FairedCurve> parts) {
@@ -76,6 +87,9 @@ Result<FairedCurve> joinedParts(const NurbsCurve& whole, bool closed, const std:
   std::vector<NurbsCurve> curves;
   for (FairedCurve& part : parts) {
     addPart(result.report, part.report);
+    const CornerSection& section = sections[curves.size()];
+    if (section.span.from > 0.0) result.report.targetSplits.push_back(section.span.from);
+    for (const double f : part.report.targetSplits) result.report.targetSplits.push_back(across(section.span, f));
     for (LogAestheticSpan span : part.report.logAesthetic) {
       span.from = across(spans[curves.size()], span.from);
       span.to = across(spans[curves.size()], span.to);
@@ -86,6 +100,7 @@ Result<FairedCurve> joinedParts(const NurbsCurve& whole, bool closed, const std:
   auto joined = joinAtCorners(curves, kJoins * extent(whole));
   if (!joined) return fail(joined.error());
   result.curve = std::move(*joined);
+  result.report.targetDegree = commonDegree(sections, parts);
   result.report.extremaBefore = countedExtrema(whole, closed);
   result.report.extremaAfter = countedExtrema(result.curve, closed);
   if (result.report.extremaAfter <= result.report.extremaBefore) return result;
@@ -267,7 +282,7 @@ Result<FairedCurve> fairBetweenCorners(const NurbsCurve& curve, bool closed, con
     if (sections.empty() || params.mode == FairingMode::None) return fair(curve, closed, params, context, line);
     return fairSections(curve, closed, sections, params, context, line);
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "Not enough memory to make the curve fair.");
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to fair the curve.");
   }
 }
 

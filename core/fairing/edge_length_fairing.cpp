@@ -85,7 +85,7 @@ class EdgeLengthFairing {
     best.report.objectiveBefore = misfit(curve_);
     best.report.objectiveAfter = best.report.objectiveBefore;
     best.report.why = Termination::NoProgress;
-    best.report.note = "Other edge lengths bring the path no nearer to the profile.";
+    best.report.note = "No change of edge lengths brings the path closer to the profile.";
     const bool free = !closed_ && !params_.startHold.tangent && !params_.endHold.tangent;
     for (const bool pin : {false, true}) {
       if (!pin && !free) continue;
@@ -214,7 +214,7 @@ bool movesEdgeLengths(const FairingParams& params) {
 Result<FairedCurve> fairByEdgeLengths(const NurbsCurve& path, bool closed, const FairingParams& params,
                                       const RunContext& context) {
   if (const auto error = validate(params)) return fail(*error);
-  if (path.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to make fair.");
+  if (path.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to fair.");
   const std::vector<Quintic> pieces = quinticsOf(path);
   if (pieces.empty()) return noted(fair(path, closed, params, context));
   const auto profile = profileFor(path, closed, params);
@@ -225,7 +225,7 @@ Result<FairedCurve> fairByEdgeLengths(const NurbsCurve& path, bool closed, const
 Result<FairedCurve> fairByEdgeLengths(const NurbsCurve& path, bool closed, const TargetProfile& profile,
                                       const FairingParams& params, const RunContext& context) {
   if (const auto error = validate(params)) return fail(*error);
-  if (path.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to make fair.");
+  if (path.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to fair.");
   const std::vector<Quintic> pieces = quinticsOf(path);
   if (pieces.empty()) return noted(modifyShape(path, closed, profile, params, context));
   if (!profile.valid) return modifyShape(path, closed, profile, params, context);

@@ -59,7 +59,7 @@ class NeededFairing {
     const auto start = evaluate(setup_, objective_, {}, setup_.points, setup_.start.places);
     if (!start) {
       return unchanged(setup_.original, setup_.closed, Termination::Degenerate,
-                       "The curve has a cusp and was left alone.");
+                       "The curve has a cusp and was not changed.");
     }
     report_.objectiveBefore = start->misfit;
     if (!(start->misfit * std::pow(setup_.start.length, 3.0) > 1e-12))
@@ -210,7 +210,8 @@ class NeededFairing {
     }
     if (work >= kMostSearchWork)
       report_.note =
-          "The curve has too many segments to try every simpler course of its curvature. Use fewer segments.";
+          "The curve has too many segments to test every simpler curvature profile. Use fewer "
+          "segments.";
     if (!simpler) return std::nullopt;
     simpler->extrema = extremaOf(simpler->points);
     simpler->deviationMm = largestDeviation(setup_, simpler->points, true);

@@ -42,7 +42,7 @@ TargetsRun prepared(const TargetsJob& job) {
   TargetsRun run;
   try {
     if (const auto error = validate(job.params)) return refused(fail(*error));
-    if (job.curve.isEmpty()) return refused(fail(ErrorCode::BadParameter, "There is no curve to make fair."));
+    if (job.curve.isEmpty()) return refused(fail(ErrorCode::BadParameter, "There is no curve to fair."));
     TargetOutcomes outcomes;
     if (job.spanAt) {
       outcomes.splits = targetSplits(job.curve, job.closed, job.params);
@@ -61,7 +61,7 @@ TargetsRun prepared(const TargetsJob& job) {
     if (!setup) run.problem = setup.error().message;
     run.outcomes = std::move(outcomes);
   } catch (const std::bad_alloc&) {
-    run.outcomes = fail(ErrorCode::OutOfMemory, "Not enough memory to make the curve fair.");
+    run.outcomes = fail(ErrorCode::OutOfMemory, "Not enough memory to fair the curve.");
   }
   return run;
 }
@@ -88,7 +88,7 @@ void runTarget(const TargetsJob& job, TargetsRun& run, std::size_t at, const Run
       outcomes.problems[at] = faired.error().message;
     }
   } catch (const std::bad_alloc&) {
-    outcomes.problems[at] = "Not enough memory to make the curve fair.";
+    outcomes.problems[at] = "Not enough memory to fair the curve.";
   }
 }
 
@@ -148,7 +148,7 @@ Result<TargetOutcomes> fairAllTargets(const NurbsCurve& curve, bool closed, cons
 Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingParams& params, const RunContext& context,
                          const FairingLine& line) {
   if (const auto error = validate(params)) return fail(*error);
-  if (curve.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to make fair.");
+  if (curve.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to fair.");
   switch (params.mode) {
     case FairingMode::None:
       return unchanged(curve, closed, Termination::NotRun, {});

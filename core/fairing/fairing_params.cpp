@@ -9,10 +9,9 @@ namespace batten {
 
 std::optional<Error> validate(const FairingParams& params) {
   if (!(params.toleranceMm >= 0.001 && params.toleranceMm <= 20.0)) {
-    return Error{
-        ErrorCode::BadParameter,
-        "The fairing tolerance must lie between 0.001 and 20 mm, not at " + numberToText(params.toleranceMm) + ".",
-        {}};
+    return Error{ErrorCode::BadParameter,
+                 "The fairing tolerance must be between 0.001 and 20 mm, not " + numberToText(params.toleranceMm) + ".",
+                 {}};
   }
   if (params.target < 0 || params.target > kLogAestheticTarget) {
     return Error{ErrorCode::BadParameter,
@@ -24,14 +23,14 @@ std::optional<Error> validate(const FairingParams& params) {
   if (params.alpha && !(*params.alpha >= kLeastAlpha && *params.alpha <= kMostAlpha)) {
     return Error{
         ErrorCode::BadParameter,
-        "The alpha of a log-aesthetic target must lie between -3 and 6, not at " + numberToText(*params.alpha) + ".",
+        "The alpha of a log-aesthetic target must be between -3 and 6, not " + numberToText(*params.alpha) + ".",
         {}};
   }
   if (!(params.lowPassMm >= 0.1 && params.lowPassMm <= 10000.0)) {
-    return Error{ErrorCode::BadParameter,
-                 "The wavelength of the low-pass must lie between 0.1 and 10000 mm, not at " +
-                     numberToText(params.lowPassMm) + ".",
-                 {}};
+    return Error{
+        ErrorCode::BadParameter,
+        "The low-pass wavelength must be between 0.1 and 10000 mm, not " + numberToText(params.lowPassMm) + ".",
+        {}};
   }
   if (params.keepExtrema < kKeepSignificant || params.keepExtrema > 99) {
     return Error{ErrorCode::BadParameter,
@@ -41,11 +40,11 @@ std::optional<Error> validate(const FairingParams& params) {
   }
   for (const double at : params.keptAt) {
     if (!(at >= 0.0 && at <= 1.0))
-      return Error{ErrorCode::BadParameter, "An extremum to keep lies beside the curve.", {}};
+      return Error{ErrorCode::BadParameter, "An extremum to keep is not on the curve.", {}};
   }
   for (const SpanTarget& one : params.spanTargets) {
     if (!(one.at >= 0.0 && one.at <= 1.0))
-      return Error{ErrorCode::BadParameter, "A span with a target of its own lies beside the curve.", {}};
+      return Error{ErrorCode::BadParameter, "A span with its own target is not on the curve.", {}};
     if (one.degree < 1 || one.degree > 6) {
       return Error{
           ErrorCode::BadParameter, "The target of a span must be 1 to 6, not " + std::to_string(one.degree) + ".", {}};

@@ -20,8 +20,8 @@ enum class FairingMode {
 
 /// How much of the tolerance the tolerance fairing uses.
 enum class TolerancePolicy {
-  AsNeeded,  ///< Until no wave is left that the line does not prove; see fairWithinTolerance.
-  All,       ///< All of it: as even as the tolerance allows, whatever was drawn.
+  AsNeeded,  ///< Until no insignificant wave is left; see fairWithinTolerance.
+  All,       ///< All of it: least variation of curvature within the tolerance.
 };
 
 /// What a target or low-passed profile moves.
@@ -67,7 +67,7 @@ struct FairingParams {
   TolerancePolicy tolerancePolicy = TolerancePolicy::AsNeeded;  ///< Tolerance mode.
   FairingMeans means = FairingMeans::ControlPoints;  ///< Target and low-pass modes; edge lengths only on Bezier paths.
   double lowPassMm =
-      20.0;  ///< [mm] 0.1..10000. Low-pass: waves of the curvature of this length are halved, shorter ones go.
+      20.0;  ///< [mm] 0.1..10000. Low-pass: curvature waves of this length are halved, shorter ones removed.
   int keepExtrema =
       kKeepSignificant;        ///< Monotone: -1..99. Curvature extrema that may stay; -1 = those that must, see above.
   std::vector<double> keptAt;  ///< Monotone: arc length fractions 0..1 of the extrema to keep; not empty: counts alone.

@@ -28,6 +28,10 @@ struct FairingReport {
   double maxDeviationMm = 0.0;                         ///< From the sketched curve.
   double neededMm = 0.0;        ///< Target mode: deviation that meeting the target fully would take.
   bool withinTolerance = true;  ///< Target mode: the target was met within the tolerance.
+  /// Target mode with polynomials: the degree of the one that was followed, and the shares of the arc length at which
+  /// its parts meet; 0: none. Parts between corners that followed different degrees: 0.
+  int targetDegree = 0;
+  std::vector<double> targetSplits;
   /// Target mode: S (003 section 6) of the faired curve against the sketched one (similarityToSketch).
   std::optional<double> similarityAfter;
   std::vector<LogAestheticSpan> logAesthetic;  ///< Target 8: what the curve was fitted to.

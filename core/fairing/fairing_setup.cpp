@@ -154,12 +154,12 @@ int samplesFor(const SpanBasis& basis) {
 
 Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                                       const std::optional<ProfileSpan>& moving) {
-  if (curve.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to make fair.");
+  if (curve.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to fair.");
   if (curve.isRational()) {
-    return fail(ErrorCode::BadParameter, "Curves with weights cannot be made fair: set all weights to 1.");
+    return fail(ErrorCode::BadParameter, "Rational curves cannot be faired: set all weights to 1.");
   }
   if (curve.degree() < 3 || curve.degree() > kMaxDegree) {
-    return fail(ErrorCode::BadParameter, "Only curves of degree 3 to 7 can be made fair.");
+    return fail(ErrorCode::BadParameter, "Only curves of degree 3 to 7 can be faired.");
   }
   auto setup = std::make_shared<FairingSetup>();
   setup->original = curve;
@@ -271,7 +271,7 @@ Result<FairedCurve> withSetup(
     if (!faired) return faired;
     return againstSketch(**setup, std::move(*faired));
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "Not enough memory to make the curve fair.");
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to fair the curve.");
   }
 }
 

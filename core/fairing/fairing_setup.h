@@ -62,14 +62,13 @@ Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& p
 double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays = false);
 
 inline constexpr const char* kSeamInTheWay =
-    "Left as sketched: to make the ends of this closed curve meet with all derivatives moves it by more than the "
-    "tolerance.";
+    "Unchanged: making this closed curve periodic would move it by more than the tolerance.";
 
 /// A result over a setup as one of the curve that the user has: where that one had to be made periodic first, the
 /// deviation is measured again, and what has not moved is that curve itself.
 FairedCurve againstSketch(const FairingSetup& setup, FairedCurve faired);
 
-/// Runs `body` on the curve's setup, with the tolerance that its seam leaves. Curves that cannot be made fair stay as
+/// Runs `body` on the curve's setup, with the tolerance that its seam leaves. Curves that cannot be faired are returned
 /// they are when the reason lies in their shape.
 Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
                               const std::function<Result<FairedCurve>(const std::shared_ptr<const FairingSetup>& setup,

@@ -36,7 +36,7 @@ class MonotoneFairing {
   Result<FairedCurve> run() {
     if (!candidates_.isValid()) {
       return unchanged(setup_.original, setup_.closed, Termination::Degenerate,
-                       "The curve has a cusp and was left alone.");
+                       "The curve has a cusp and was not changed.");
     }
     const bool byPlace = !params_.keptAt.empty(), byCount = !byPlace && params_.keepExtrema != kKeepSignificant;
     std::optional<StructureCandidate> wanted;
@@ -80,7 +80,7 @@ class MonotoneFairing {
     const int sketched = countedExtrema(setup_.original, setup_.closed);
     report.why = found.deviationMm > 0.0 ? Termination::Converged : Termination::FixedPoint;
     if (found.deviationMm == 0.0 && sketched > 0 && params_.keptAt.empty() && params_.keepExtrema == kKeepSignificant)
-      report.note = "No extremum can be taken away within the tolerance.";
+      report.note = "No extremum can be removed within the tolerance.";
     report.iterations = iterations_ + candidates_.iterations();
     report.neededMm = found.deviationMm;
     return asFaired(setup_, found, std::move(report));

@@ -75,7 +75,7 @@ TargetProfile fitProfile(const ProfileData& data, const TargetParams& params, bo
   int coefficients = degree + 1;
   if (!params.splits.empty()) {
     if (params.quantity == TargetQuantity::Radius) {
-      profile.problem = "Only profiles of the curvature can be split. Choose curvature, or take the splits away.";
+      profile.problem = "Only curvature profiles can be split. Choose curvature, or remove the splits.";
       return profile;
     }
     profile.nodes =

@@ -20,14 +20,14 @@ enum class TargetQuantity {
 
 /// Where a polynomial begins and ends, unless the user has split the curve himself.
 enum class TargetSpans {
-  Natural,  ///< At every extremum of the curvature that is no trifle (naturalSplits).
+  Natural,  ///< At every significant curvature extremum (naturalSplits).
   Whole,    ///< At the ends of the curve: one polynomial, as in the papers.
 };
 
 struct TargetParams {
   TargetSpans spans = TargetSpans::Natural;
   TargetQuantity quantity = TargetQuantity::Curvature;
-  bool monotone = true;  ///< Never turns back; off: "as in the paper", and the tile says when it is not monotone.
+  bool monotone = true;  ///< Monotone; off: "as in the paper", and the tile says when it is not monotone.
   int samples = 121;     ///< 101..2001. Samples at equal arc length (at least 4 a knot span are taken).
   /// Arc length fractions, ascending and inside 0..1, at which one profile ends and the next begins: each part has a
   /// polynomial of its own, and the curvature goes on where they meet.
@@ -55,7 +55,7 @@ struct TargetProfile {
   std::vector<ProfileNode> nodes;    ///< Ascending f from 0 to 1, cubic between two; a kink is two nodes of the same f.
   bool valid = false;                ///< False: could not be fitted; `problem` says why.
   std::string problem;
-  bool isMonotone = false;  ///< Turns back nowhere, but where it is split.
+  bool isMonotone = false;  ///< Monotone, except at splits.
   /// S (003 Eq 14) of the target's radius against the curve's, -1..1; where the curve has an inflection, and its radius
   /// no end, S of the curvature.
   double similarity = 0.0;

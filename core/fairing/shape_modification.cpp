@@ -33,11 +33,11 @@ constexpr double kTargetRoom = 0.999;
 constexpr double kBeyondReach = 2.0;
 
 constexpr const char* kNothingNearer =
-    "Left as sketched: nothing within the tolerance comes nearer to this target without more curvature extrema. Raise "
-    "the tolerance, split the profile, or smooth without a target.";
+    "Unchanged: no curve within the tolerance is closer to this target without added "
+    "curvature extrema. Raise the tolerance, split the profile, or use Smooth.";
 constexpr const char* kTargetAddsExtrema =
-    "Left as sketched: the curve that meets this target has more curvature extrema. Choose another degree, split the "
-    "profile, or smooth without a target.";
+    "Unchanged: reaching this target adds curvature extrema. Choose another degree, split "
+    "the profile, or use Smooth.";
 
 /// A sketch of so many extrema trembles, when over these spans it has less than half of them. Fewer and fewer of them
 /// are tried, until a few extrema are left.
@@ -88,7 +88,7 @@ class ShapeModification {
     const auto before = evaluate(sketch_, objective_, {}, sketch_.points, sketch_.start.places);
     if (courses_.empty() || !before) {
       return unchanged(sketch_.original, sketch_.closed, Termination::Degenerate,
-                       "The curve has a cusp and was left alone.");
+                       "The curve has a cusp and was not changed.");
     }
     best_.points = sketch_.points;
     best_.misfit = before->misfit;
@@ -246,8 +246,8 @@ class ShapeModification {
       report_.note = "The profile was followed as far as the tolerance allows.";
       if (best_.deviationMm >= kStuckShare * toleranceMm_) return;
       // The corridor had room left: it was not what stopped the curve.
-      report_.note = own.isRough() ? "The profile lies far out of reach for this curve. Split it, or mark its corners."
-                                   : "The profile was followed as far as no curvature extremum is added.";
+      report_.note = own.isRough() ? "The profile is far out of reach for this curve. Split it, or mark the corners."
+                                   : "The profile was followed as far as possible without adding a curvature extremum.";
     }
   }
 

@@ -210,13 +210,12 @@ Result<std::shared_ptr<const FairingSetup>> makeSpanSetup(const NurbsCurve& curv
   if (!finer) return fail(finer.error());
   auto setup = makeSetup(*finer, closed, params, range);
   if (setup && (*setup)->seamMm > 0.0) {
-    return fail(
-        ErrorCode::Numerical,
-        "A span of this closed curve cannot be moved alone: its ends do not meet with all derivatives. Choose a "
-        "target for the whole curve.");
+    return fail(ErrorCode::Numerical,
+                "A single span of this closed curve cannot be moved because the curve is not periodic. "
+                "Choose a target for the whole curve.");
   }
   if (setup && (*setup)->unknowns.count() == 0)
-    return fail(ErrorCode::Numerical, "This span is too short to be moved alone. Join it with its neighbour.");
+    return fail(ErrorCode::Numerical, "This span is too short to be moved on its own. Join it with its neighbour.");
   return setup;
 }
 

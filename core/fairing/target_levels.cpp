@@ -82,6 +82,11 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
     if (!profile.valid) return unchanged(curve, closed, Termination::Degenerate, profile.problem);
   }
   return withSetup(curve, closed, params, [&](const auto& setup, const FairingParams& within) -> Result<FairedCurve> {
+    const auto followed = [&](LevelOutcome&& outcome, int degree) {
+      outcome.faired.report.targetDegree = degree;
+      outcome.faired.report.targetSplits = levels[outcome.level].splits;
+      return std::move(outcome.faired);
+    };
     const auto toDegree = [&](int degree, std::span<const TargetLevel> over,
                               bool onlyIfMet = false) -> Result<LevelOutcome> {
       return fairOverLevels(setup, over, degree, within.toleranceMm, context, onlyIfMet);
@@ -94,7 +99,7 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
         if (!first.profiles[at].valid) continue;
         auto outcome = toDegree(tried, levels);
         if (!outcome) return fail(outcome.error());
-        all[at] = std::move(outcome->faired);
+        all[at] = followed(std::move(*outcome), tried);
       }
       if (const auto best = mostSimilar(all)) return std::move(*all[static_cast<std::size_t>(*best) - 1]);
     }
@@ -102,12 +107,12 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
       if (!first.profiles[static_cast<std::size_t>(tried) - 1].valid) continue;
       auto outcome = toDegree(tried, std::span(levels).first(1), true);
       if (!outcome) return fail(outcome.error());
-      if (outcome->isMet()) return std::move(outcome->faired);
+      if (outcome->isMet()) return followed(std::move(*outcome), tried);
     }
     if (degree == 0) degree = first.recommendedDegree;
     auto outcome = toDegree(degree, levels);
     if (!outcome) return fail(outcome.error());
-    return std::move(outcome->faired);
+    return followed(std::move(*outcome), degree);
   });
 }
 

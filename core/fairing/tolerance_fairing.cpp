@@ -93,7 +93,7 @@ Result<FairedCurve> fairWithinTolerance(const std::shared_ptr<const FairingSetup
   const auto state = evaluate(*setup, {}, {}, setup->points, setup->start.places);
   if (!state) {
     return unchanged(setup->original, setup->closed, Termination::Degenerate,
-                     "The curve has a cusp and was left alone.");
+                     "The curve has a cusp and was not changed.");
   }
   const double length = setup->start.length;
   if (!(state->misfit * length * length * length > kPerfect)) {

@@ -66,6 +66,11 @@ cv::Mat decodeJpeg(std::span<const std::byte> file) {
   return done == 0 ? picture : cv::Mat();
 }
 
+DecodeRarePicture rareDecoder() {
+  static const auto decode = reinterpret_cast<DecodeRarePicture>(functionOfModule(kRarePictures, kDecodeRarePicture));
+  return decode;
+}
+
 }  // namespace
 
 cv::Mat decodePlainFile(std::span<const std::byte> file) {
@@ -75,11 +80,11 @@ cv::Mat decodePlainFile(std::span<const std::byte> file) {
   return {};
 }
 
+bool hasRareDecoder() { return rareDecoder() != nullptr; }
+
 cv::Mat decodeFile(std::span<const std::byte> file) {
   cv::Mat picture = decodePlainFile(file);
-  if (!picture.empty()) return picture;
-  static const auto decode = reinterpret_cast<DecodeRarePicture>(functionOfModule(kRarePictures, kDecodeRarePicture));
-  if (decode != nullptr) decode(file.data(), file.size(), picture);
+  if (picture.empty() && hasRareDecoder()) rareDecoder()(file.data(), file.size(), picture);
   return picture;
 }
 

@@ -12,6 +12,9 @@ namespace batten {
 /// can, they give the same bytes.
 cv::Mat decodeFile(std::span<const std::byte> file);
 
+/// Whether OpenCV's readers could be loaded. Without them only plain PNG and JPEG files are decoded.
+bool hasRareDecoder();
+
 /// The first half of it: empty for whatever is no plain PNG or JPEG. Plain: grey or colour of 8 bit without
 /// transparency, palette and colour profile.
 cv::Mat decodePlainFile(std::span<const std::byte> file);

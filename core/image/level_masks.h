@@ -11,8 +11,8 @@ namespace batten {
 /// The smoothed page compared with three levels: paper plus the contrast of the regions, made deeper or weaker.
 struct LevelMasks {
   BitImage ink;      ///< Darker than the level of its region.
-  BitImage certain;  ///< Darker than the deeper level; empty where nobody asks for it.
-  BitImage faint;    ///< Darker than the weaker level; empty where nobody asks for it.
+  BitImage certain;  ///< Darker than the deeper level; empty if not requested.
+  BitImage faint;    ///< Darker than the weaker level; empty if not requested.
 };
 
 /// Smooths the page by the thresholds' Gaussian and compares it with its levels, in float. A place whose darkest

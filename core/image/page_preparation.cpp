@@ -31,16 +31,16 @@ std::string rulingNote(const std::vector<RulingFamily>& families) {
     for (const RulingFamily& family : families) lines += family.runsDown == runsDown ? family.lines.size() : 0;
     if (lines == 0) continue;
     counts += (counts.empty() ? "" : " and ") + std::to_string(lines) +
-              (runsDown ? " printed lines down" : " printed lines across");
+              (runsDown ? " ruled lines down" : " ruled lines across");
   }
-  return counts + " the page were left out; paper.rulings=keep brings them back.";
+  return counts + " the page were removed; paper.rulings=keep restores them.";
 }
 
 constexpr int kPaperOneOf = 10;            // the brightest tenth of a region is its paper
 constexpr double kCrossingWidths = 2.0;    // [line widths] diagonal of what is left where two lines cross
 constexpr double kLeastDrawnShare = 0.01;  // of the pixels of the lines: a drawing on ruled paper has more
 constexpr const char* kNothingButRulings =
-    "There is nothing but dark lines at even distances on the page; they are taken for the drawing.";
+    "The page contains only evenly spaced dark lines; they are treated as the drawing.";
 constexpr int kRulingRounds = 3;  // the ruling of the back may shine through beside that of the front
 
 const GreyImage& greyOf(const Scan& scan, const PreparedPage& page) {
@@ -109,7 +109,7 @@ void cutOffTable(const Scan& scan, PreparedPage& page, const RunContext& context
   if (context.isCancelled() || !sheet) return;
   page.grey = onlyTheSheet(greyOf(scan, page), *sheet, context);
   page.notes.push_back(std::to_string(std::lround(100.0 * sheet->outsideShare)) +
-                       " % of the picture lies beside the sheet and was cut off; paper.sheet=off keeps it.");
+                       " % of the picture is outside the sheet and was cut off; paper.sheet=off keeps it.");
   page.sheet = std::move(sheet);
 }
 

@@ -73,7 +73,7 @@ std::vector<float> integrateSteps(const Cells& cells, const std::vector<float>& 
   const int width = 2 * cv::getOptimalDFTSize((cells.columns + 1) / 2);
   const int height = 2 * cv::getOptimalDFTSize((cells.rows + 1) / 2);
   cv::Mat_<double> divergence(height, width, 0.0);
-  // Beyond the page the surface is continued flat across its border, which pulls at nothing inside.
+  // Page border the surface is continued flat across its border, which pulls at nothing inside.
   for (int y = 0; y < height; ++y) {
     const int cy = std::min(y, cells.rows - 1);
     for (int x = 0; x < width; ++x) {

@@ -23,11 +23,11 @@ constexpr double kMostSide = 1e6;
 Error problemOf(const std::filesystem::path& path, PdfProblem problem, int page, int pages) {
   switch (problem) {
     case PdfProblem::NotInstalled:
-      return unreadable(path, std::string("is a PDF, and this Batten was built without Poppler (") + kPdfPackage +
+      return unreadable(path, std::string("is a PDF, but this build of Batten has no Poppler (") + kPdfPackage +
                                   "). Export the page as PNG.")
           .value();
     case PdfProblem::Locked:
-      return unreadable(path, "is locked by a password. Save it without one, or export the page as PNG.").value();
+      return unreadable(path, "is password-protected. Save it without a password, or export the page as PNG.").value();
     case PdfProblem::NoSuchPage:
       return noSuchPage(path, page, pages);
     case PdfProblem::Cancelled:

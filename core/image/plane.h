@@ -10,7 +10,7 @@
 
 namespace batten {
 
-/// Real numbers over a grid, row by row. The memory is not cleared: whoever makes one fills it.
+/// Real numbers over a grid, row by row. The memory is uninitialised.
 struct Plane {
   int width = 0;
   int height = 0;
@@ -27,7 +27,7 @@ std::vector<float> gaussianKernel(double variance);
 
 /// Smooths along a row: `in` holds `radius` values before and after the `count` that are asked for.
 void smoothAlong(const float* in, float* out, int count, const std::vector<float>& kernel);
-/// Smooths across rows: `rows` are 2 radius + 1 pointers, the middle one is the row asked for.
+/// Smooths across rows: `rows` are 2 radius + 1 pointers, the middle one is the output row.
 void smoothAcross(const float* const* rows, float* out, int count, const std::vector<float>& kernel);
 /// Grey of 16 bit as grey levels 0..255.
 void scaleGrey(const std::uint16_t* in, float* out, int count);

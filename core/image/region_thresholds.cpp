@@ -156,7 +156,7 @@ void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, 
   if (out.foundLine) {
     fillContrast(grey, edges, depths, strength, out);
   } else {
-    out.note = enough && depths.mean > kLeastContrast ? kBrighterLines : "Nothing stands out of the paper.";
+    out.note = enough && depths.mean > kLeastContrast ? kBrighterLines : "No ink contrast was found.";
     out.contrast.fill(kNever);
   }
 }
@@ -176,7 +176,8 @@ void thresholdsWithoutPaper(const GreyImage& image, const Plane& smoothed, doubl
       !isHatched(fineOtsuThresholds(image, strength, split, context)))
     return;
   split.note =
-      "The lines stand too close for the paper between them to be measured; each region is split by its two greys.";
+      "The lines are too close together to measure the paper between them; each region was "
+      "thresholded between its two grey levels.";
   out = std::move(split);
 }
 
@@ -193,8 +194,8 @@ void thresholdsBesideFolds(const GreyImage& image, std::vector<PaperFold> folds,
   if (context.isCancelled()) return;
   flattenedThresholds(grey, edges, shrink, strength, out, context);
   if (out.note.empty())
-    out.note = folds.size() == 1 ? "A fold or the edge of a shadow runs across the page; it is evened out."
-                                 : "Folds or edges of shadows run across the page; they are evened out.";
+    out.note = folds.size() == 1 ? "A fold or shadow edge across the page was removed."
+                                 : "Folds or shadow edges across the page were removed.";
   out.paper.folds = std::move(folds);
 }
 
@@ -286,7 +287,7 @@ Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParam
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory for the thresholds; scan at a lower resolution or crop.");
   } catch (const cv::Exception& exception) {
-    return fail(ErrorCode::Numerical, "The paper could not be measured; switch the flattening off.", exception.what());
+    return fail(ErrorCode::Numerical, "The paper could not be measured; turn off Flatten paper.", exception.what());
   }
 }
 

@@ -24,7 +24,7 @@ tl::unexpected<Error> problemOf(const std::filesystem::path& path, FileProblem p
     case FileProblem::Broken:
       break;
   }
-  return unreadable(path, "could not be read to its end; copy it again.");
+  return unreadable(path, "could not be read completely; copy it again.");
 }
 
 /// With two digits behind the point, whatever the locale.

@@ -9,6 +9,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/regular_file.h"
+#include "core/image/decode_file.h"
 #include "core/image/pdf_scan.h"
 #include "core/image/scan_file.h"
 #include "core/image/scan_grey.h"
@@ -137,6 +138,10 @@ Result<Scan> readChecked(const std::filesystem::path& path, const RegularFile& f
   }
   if (context.isCancelled()) return cancelled();
   if (!picture || picture->grey.width != header->info.width || picture->grey.height != header->info.height) {
+    if (!picture && !hasRareDecoder()) {
+      return unreadable(path,
+                        "needs the program's file libbatten-pictures, which is missing. Install the program again.");
+    }
     return unreadable(path, "is damaged or of a rare kind that cannot be decoded. Scan it again or export it as PNG.");
   }
   std::vector<std::byte>().swap(*bytes);

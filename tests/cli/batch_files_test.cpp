@@ -244,7 +244,7 @@ TEST_F(BatchFiles, TheSheetTellsWhatIsDoneFromWhatIsNot) {
   EXPECT_EQ(count(html, "<figure class=\"waiting\">"), 2);
   drawPage("a");
   ASSERT_EQ(run("batch " + file("pages.jsonl") + " --sheet " + file("s.html")).code, 0);
-  EXPECT_EQ(count(readFile(file("s.html")), "The picture shows the scan only"), 1) << "of a DXF no curve is drawn";
+  EXPECT_EQ(count(readFile(file("s.html")), "The picture shows only the scan"), 1) << "of a DXF no curve is drawn";
 }
 
 TEST_F(BatchFiles, ALongSheetIsSplit) {

@@ -122,7 +122,7 @@ TEST_F(Batch, FilesOfOthersAreNotTouchedUnlessAsked) {
   const auto kept = run("batch " + file("pages.jsonl"));
   EXPECT_EQ(kept.code, 6);
   EXPECT_NE(kept.out.find("--existing overwrite"), std::string::npos) << kept.out;
-  expectError("batch " + file("pages.jsonl") + " --existing abort", 5, "is there already");
+  expectError("batch " + file("pages.jsonl") + " --existing abort", 5, "already exists");
   EXPECT_EQ(test::readFile(file("a.svg")), "mine");
   EXPECT_EQ(run("batch " + file("pages.jsonl") + " --existing overwrite").code, 0);
   EXPECT_NE(test::readFile(file("a.svg")), "mine");
@@ -137,8 +137,8 @@ TEST_F(Batch, WrongManifestsAreRefusedWithTheirLine) {
     write("pages.jsonl", line("a") + text);
     expectError("batch " + file("pages.jsonl"), 2, says);
   };
-  refused("{\"scan\":", "Line 2 of the manifest: it is no JSON object");
-  refused("[1,2]", "it is no JSON object");
+  refused("{\"scan\":", "Line 2 of the manifest: not a JSON object");
+  refused("[1,2]", "not a JSON object");
   refused("{\"outputs\":[\"x.svg\"]}", "\"scan\" is missing");
   refused("{\"scan\":\"x.png\"}", "\"outputs\" is missing");
   refused("{\"scan\":\"x.png\",\"outputs\":[]}", "\"outputs\" takes");
@@ -150,7 +150,7 @@ TEST_F(Batch, WrongManifestsAreRefusedWithTheirLine) {
   refused("{\"scan\":\"x.png\",\"outputs\":[\"" + file("./a.svg") + "\"]}", "is written by line 1 as well");
   refused("{\"scan\":\"x.png\",\"outputs\":[\"" + file("a.png") + "\"]}", "is a scan or a recipe");
   write("pages.jsonl", "\n");
-  expectError("batch " + file("pages.jsonl"), 2, "holds no page");
+  expectError("batch " + file("pages.jsonl"), 2, "is empty");
   expectError("batch " + file("none.jsonl"), 2, "cannot be read");
   expectError("batch " + file("none") + " --to " + file("out"), 2, "There is no scan in");
   expectError("batch " + file("a.png"), 2, "--to FOLDER");

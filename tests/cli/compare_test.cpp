@@ -37,9 +37,9 @@ TEST_F(Compare, ReadsEveryFormatThatHoldsTheCurvesThemselves) {
 
 TEST_F(Compare, SaysWhatIsWrong) {
   write("broken.json", "{");
-  expectError(
-      "compare " + file("broken.json") + " " + file("broken.json"), 2,
-      "broken.json: The curve file cannot be read: it is not complete, or not what Batten writes. Write it anew");
+  expectError("compare " + file("broken.json") + " " + file("broken.json"), 2,
+              "broken.json: The curve file cannot be read: it is incomplete or was not written by "
+              "Batten. Write it anew");
   expectError("compare " + file("none.json") + " " + file("none.json"), 2, "none.json");
   expectError("compare " + file("none.json"), 2, "second");
 }

@@ -65,11 +65,11 @@ TEST_F(Paper, RuledLinesAreLeftOutAndBroughtBack) {
   const nlohmann::json without = traced(scan);
   EXPECT_EQ(without.at("curves"), 1);
   ASSERT_FALSE(without.at("notes").empty());
-  EXPECT_NE(without.at("notes").dump().find("15 printed lines across the page were left out"), std::string::npos)
+  EXPECT_NE(without.at("notes").dump().find("15 ruled lines across the page were removed"), std::string::npos)
       << without.at("notes");
   const nlohmann::json with = traced(scan, "--set paper.rulings=keep");
   EXPECT_GT(with.at("curves").get<int>(), 10);
-  EXPECT_EQ(with.at("notes").dump().find("printed lines"), std::string::npos);
+  EXPECT_EQ(with.at("notes").dump().find("ruled lines"), std::string::npos);
 }
 
 TEST_F(Paper, InksAreDroppedAndKeptByName) {

@@ -59,7 +59,7 @@ TEST_F(Regions, AreTurnedOneByOne) {
   EXPECT_EQ(count(middle, "centreline"), 3) << "it is a stroke already";
   const json none = trace("--outline 330,200");
   EXPECT_EQ(count(none, "centreline"), 3);
-  EXPECT_NE(notes.find("No ink to follow"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("there is no ink"), std::string::npos) << notes;
 }
 
 TEST_F(Regions, KeepTheirChoiceWhenAThresholdMoves) {

@@ -167,7 +167,7 @@ TEST_F(Report, ADrawingTooLargeForASheetIsTiled) {
 
 TEST_F(Report, WordsAreCheckedFirst) {
   expectError("trace " + scene() + " -o " + file("a.report.pdf") + " --paper a9", 2, "--paper takes a4 or letter");
-  expectError("trace " + scene() + " -o " + file("a.svg") + " --curves \"\"", 2, "--curves names no curve");
+  expectError("trace " + scene() + " -o " + file("a.svg") + " --curves \"\"", 2, "--curves is empty");
   expectError("trace " + scene() + " -o " + file("a.report.txt"), 2, ".report.pdf");
   expectError("trace " + scene() + " -o " + file("no/a.report.pdf"), 5, "");
   EXPECT_FALSE(std::filesystem::exists(file("no")));
@@ -216,9 +216,9 @@ TEST_F(Report, DirectionAndStartAreTheUsers) {
   expectError("trace " + scene() + " --start 1 -o " + file("o.json"), 2, "--start takes X,Y");
   const auto missed = run("trace " + scene() + " --dpi 254 --start 1,1 --direction 2,2,9,9 -o " + file("o.json"));
   ASSERT_EQ(missed.code, 0) << missed.err;
-  EXPECT_NE(missed.out.find("No curve lies near 1,1, where --start"), std::string::npos) << missed.out;
-  EXPECT_NE(missed.out.find("No curve lies near 2,2, where --direction"), std::string::npos) << missed.out;
-  EXPECT_EQ(run("trace " + scene() + " --start " + place + " -o " + file("o.json")).out.find("No curve lies near"),
+  EXPECT_NE(missed.out.find("No curve near 1,1, where --start"), std::string::npos) << missed.out;
+  EXPECT_NE(missed.out.find("No curve near 2,2, where --direction"), std::string::npos) << missed.out;
+  EXPECT_EQ(run("trace " + scene() + " --start " + place + " -o " + file("o.json")).out.find("No curve near "),
             std::string::npos);
   expectError("trace " + scene() + " --joined --apart -o " + file("o.json"), 2, "contradict");
 }

@@ -32,6 +32,10 @@ TEST_F(Suggest, AStrengthThatMakesOneLineOfABundle) {
   EXPECT_GT(strength, 0.0);
   EXPECT_GT(said["strokes"].get<int>(), 1);
   EXPECT_EQ(said["lines"], 1);
+  EXPECT_EQ(said["edges.intent"], true);
+  const auto meant = run("trace " + scan + " --set edges.intent=on -o " + file("meant.json"));
+  ASSERT_EQ(meant.code, 0) << meant.err;
+  EXPECT_EQ(json::parse(meant.out)["curves"], said["curves_meant"]);
   EXPECT_NE(said["reason"].get<std::string>().find("strokes become 1 line."), std::string::npos);
   const auto traced =
       run("trace " + scan + " --set edges.merge=" + std::to_string(strength) + " -o " + file("lines.json"));
@@ -46,6 +50,8 @@ TEST_F(Suggest, NoneForASingleStroke) {
   const json said = json::parse(done.out);
   EXPECT_EQ(said["edges.merge"], 0.0);
   EXPECT_EQ(said["lines"], said["strokes"]);
+  EXPECT_EQ(said["edges.intent"], false);
+  EXPECT_TRUE(said["curves_meant"].is_null());
   EXPECT_TRUE(said["corners"].empty());
   EXPECT_NE(said["reason"].get<std::string>().find("No overdrawn strokes"), std::string::npos);
 }

@@ -107,6 +107,5 @@ int main(int argc, char** argv) {
   write(folder / "fuzz_svg" / "curves.svg", writeSvg(drawing(), {}).value().text);
   writeImports(folder / "fuzz_import");
   writeScans(folder / "fuzz_scan");
-  write(folder / "fuzz_parameters" / "seed", "seed");
   return 0;
 }

@@ -25,7 +25,18 @@ namespace {
 
 using test::waitUntil;
 
-class Compare : public test::WindowFixture {};
+class Compare : public test::WindowFixture {
+ protected:
+  /// A line with two corners, in stage Curves.
+  void openThreePieces() {
+    openPage(test::zigzagPage());
+    Recipe marked = session().recipe();
+    marked.cornerMarks = {{{200, 100}}, {{400, 300}}};
+    session().change(QStringLiteral("Marks"), marked);
+    ASSERT_TRUE(settle());
+    window_->setStage(PanelStage::Curves);
+  }
+};
 
 TEST_F(Compare, EveryMethodIsComputedAndChosenFromTheTable) {
   openPage(test::zigzagPage());
@@ -46,12 +57,7 @@ TEST_F(Compare, EveryMethodIsComputedAndChosenFromTheTable) {
 }
 
 TEST_F(Compare, OneCurveCanHaveAMethodOfItsOwn) {
-  openPage(test::zigzagPage());
-  Recipe marked = session().recipe();
-  marked.cornerMarks = {{{200, 100}}, {{400, 300}}};
-  session().change(QStringLiteral("Marks"), marked);
-  ASSERT_TRUE(settle());
-  window_->setStage(PanelStage::Curves);
+  openThreePieces();
   ASSERT_EQ(session().curves().size(), 3u);
   session().selectCurve(1);
   const auto click = [this](const char* name) { QTest::mouseClick(find<QAbstractButton>(name), Qt::LeftButton); };
@@ -86,12 +92,7 @@ TEST_F(Compare, OneCurveCanHaveAMethodOfItsOwn) {
 }
 
 TEST_F(Compare, DetailBelongsToAllCurvesOrToOne) {
-  openPage(test::zigzagPage());
-  Recipe marked = session().recipe();
-  marked.cornerMarks = {{{200, 100}}, {{400, 300}}};
-  session().change(QStringLiteral("Marks"), marked);
-  ASSERT_TRUE(settle());
-  window_->setStage(PanelStage::Curves);
+  openThreePieces();
   ASSERT_EQ(session().curves().size(), 3u);
   session().selectCurve(1);
   const auto click = [this](const char* name) { QTest::mouseClick(find<QAbstractButton>(name), Qt::LeftButton); };

@@ -9,6 +9,7 @@
 #include <QDropEvent>
 #include <QFileInfo>
 #include <QLabel>
+#include <QListWidget>
 #include <QMimeData>
 #include <QProgressBar>
 #include <QRegularExpression>
@@ -101,6 +102,61 @@ TEST_F(Export, ThePreviewShowsWhatWillBeWritten) {
     const auto& curves = preview->content().curves;
     return curves.size() == 3 && QLineF(curves[0].points.front(), first.points.front()).length() < 1e-6;
   }));
+}
+
+TEST_F(Export, TheCurvesOfTheFileAreChosenInThePanel) {
+  openPage(test::zigzagPage());
+  Recipe recipe = session().recipe();
+  recipe.cornerMarks = {{{200, 100}}, {{400, 300}}};
+  session().change(QStringLiteral("Corners"), recipe);
+  ASSERT_TRUE(settle());
+  window_->action(ActionId::Export)->trigger();
+  ASSERT_NO_FATAL_FAILURE(chooseReceiver("illustrator"));
+  auto* choice = find<QComboBox>("export.choice");
+  auto* list = find<QListWidget>("export.list");
+  auto* button = find<QAbstractButton>("export.run");
+  auto* preview = find<ExportPreview>("export.preview");
+  EXPECT_FALSE(list->isVisible());
+  choice->setFocus();
+  QTest::keyClick(choice, Qt::Key_End);
+  ASSERT_TRUE(list->isVisible());
+  ASSERT_EQ(list->count(), 3);
+  EXPECT_EQ(list->item(1)->text(), QStringLiteral("Curve 2"));
+  list->setFocus();
+  list->setCurrentRow(1);
+  EXPECT_EQ(session().selectedCurve(), 1) << "what is pointed at shows in the drawing";
+  // With the mouse on the drawing Space pans.
+  QCursor::setPos(list->mapToGlobal(list->rect().center()));
+  QTest::qWait(30);
+  QTest::keyClick(list, Qt::Key_Space);
+  ASSERT_EQ(list->item(1)->checkState(), Qt::Unchecked);
+  ASSERT_TRUE(waitUntil([&] { return preview->content().curves.size() == 2; })) << "the line is interrupted";
+  EXPECT_TRUE(find<QLabel>("export.held")->text().startsWith(QStringLiteral("2 curves")));
+  const QString target = folder_.filePath(QStringLiteral("some.svg"));
+  auto* path = find<QLineEdit>("export.path");
+  path->selectAll();
+  path->insert(target);
+  QTest::keyClick(path, Qt::Key_Return);
+  QTest::mouseClick(button, Qt::LeftButton);
+  ASSERT_TRUE(waitUntil([&] { return QFile::exists(target) && button->isEnabled(); }));
+  const auto written = readSvg(read(target).toStdString());
+  ASSERT_TRUE(written) << written.error().message;
+  ASSERT_EQ(written->curves.size(), 2u);
+  EXPECT_EQ(written->curves[0].pieces[0].name, "Curve 1");
+  EXPECT_EQ(written->curves[1].pieces[0].name, "Curve 3");
+  // Nothing ticked is nothing to write.
+  QTest::mouseClick(find<QAbstractButton>("export.none"), Qt::LeftButton);
+  EXPECT_FALSE(button->isEnabled());
+  EXPECT_TRUE(find<QLabel>("export.note")->text().startsWith(QStringLiteral("Tick")));
+  // The selected one follows the selection, and another drawing begins with all.
+  choice->setFocus();
+  QTest::keyClick(choice, Qt::Key_Up);
+  EXPECT_FALSE(list->isVisible());
+  session().selectCurve(2);
+  ASSERT_TRUE(
+      waitUntil([&] { return preview->content().curves.size() == 1 && preview->content().curves[0].number == 3; }));
+  openPage(test::ellipsePage());
+  EXPECT_EQ(choice->currentIndex(), 0);
 }
 
 TEST_F(Export, DirectionsAndStartsAreSetOnTheDrawing) {
@@ -302,6 +358,8 @@ TEST_F(Export, AReportIsWrittenFromThePanel) {
     find<QComboBox>("report.kind")->setCurrentIndex(target.endsWith(QStringLiteral("pdf")) ? 0 : 2);
     saveAs(target, [&] { QTest::mouseClick(button, Qt::LeftButton); });
     ASSERT_TRUE(waitUntil([&] { return QFile::exists(target) && button->isEnabled(); }));
+    EXPECT_TRUE(find<QLabel>("report.result")->text().contains(QLatin1String(name)));
+    EXPECT_TRUE(find<QLabel>("export.result")->text().isEmpty()) << "that line is the export's";
     const QByteArray bytes = read(target);
     EXPECT_TRUE(bytes.startsWith(target.endsWith(QStringLiteral("pdf")) ? "%PDF-" : "<!DOCTYPE html>"));
   }

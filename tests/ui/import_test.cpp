@@ -7,6 +7,7 @@
 #include <QComboBox>
 #include <QGuiApplication>
 #include <QLabel>
+#include <QListWidget>
 #include <QMimeData>
 #include <QPdfWriter>
 #include <QStandardPaths>
@@ -54,6 +55,24 @@ TEST_F(ImportWindow, AFileOfCurvesIsADrawingOfItsOwn) {
   window_->openPath(written(QStringLiteral("bad.step"), "hello"));
   ASSERT_TRUE(waitUntil([this] { return find<QWidget>("errorStrip")->isVisible(); }));
   EXPECT_EQ(session().curves().size(), 2u);
+}
+
+TEST_F(ImportWindow, NamesAndLayersAreShownWhereTheCurvesAre) {
+  window_->openPath(
+      written(QStringLiteral("roof.dxf"),
+              "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n"
+              "0\nLINE\n8\nBody\n10\n5\n20\n5\n11\n40\n21\n20\n1001\nBATTEN\n1000\nroof line\n"
+              "0\nCIRCLE\n8\n0\n10\n25\n20\n45\n40\n8\n1001\nBATTEN\n1000\nCurve 9\n0\nENDSEC\n0\nEOF\n"));
+  ASSERT_TRUE(waitUntil([this] { return session().isBlankPage() && !session().isBusy(); }));
+  window_->setStage(PanelStage::Curves);
+  auto* list = find<QListWidget>("curves.list");
+  ASSERT_TRUE(waitUntil([&] { return list->count() == 2; }));
+  EXPECT_TRUE(list->item(0)->text().startsWith(QStringLiteral("Curve 10 (roof line)")))
+      << list->item(0)->text().toStdString();
+  EXPECT_TRUE(list->item(0)->toolTip().startsWith(QStringLiteral("roof.dxf, layer Body")));
+  EXPECT_TRUE(list->item(1)->text().startsWith(QStringLiteral("Curve 9, closed")))
+      << list->item(1)->text().toStdString();
+  EXPECT_TRUE(list->item(1)->toolTip().startsWith(QStringLiteral("roof.dxf")));
 }
 
 TEST_F(ImportWindow, AFileWithoutAUnitIsAskedFor) {

@@ -138,9 +138,9 @@ TEST_F(Judging, ACurveThatFairingLeavesIsShownAsAResultAndExplained) {
     if (one->isVisible()) list = one;
   ASSERT_NE(list, nullptr);
   const QString spoken = list->item(line)->data(Qt::AccessibleTextRole).toString();
-  EXPECT_TRUE(spoken.contains(QStringLiteral("as drawn"))) << spoken.toStdString();
+  EXPECT_TRUE(spoken.contains(QStringLiteral("unchanged by"))) << spoken.toStdString();
   EXPECT_TRUE(list->item(line)->toolTip().contains(QStringLiteral("exact line")));
-  EXPECT_FALSE(list->item(1 - line)->toolTip().contains(QStringLiteral("as drawn")));
+  EXPECT_FALSE(list->item(1 - line)->toolTip().contains(QStringLiteral("unchanged by")));
   for (const PanelStage stage : {PanelStage::Fairing, PanelStage::Export}) {
     window_->setStage(stage);
     EXPECT_GT(bluest(canvasImage(), {350, 366}), 60) << label(stage).toStdString();

@@ -3,7 +3,9 @@
 
 #include <QAbstractButton>
 #include <QLabel>
+#include <QListWidget>
 #include <QTest>
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -124,6 +126,58 @@ TEST_F(Layout, TheLinesOfTheSixTargetsCarryTheirNumbers) {
     EXPECT_EQ(text != nullptr, isValid) << degree;
   }
   EXPECT_GT(valid, 3);
+}
+
+TEST_F(Layout, TheTabsOfThePlotNeverLieOverOneAnother) {
+  openPage(test::ellipsePage());
+  window_->setStage(PanelStage::Fairing);
+  for (const int width : {1600, 1024, 960}) {
+    window_->resize(width, 860);
+    ASSERT_TRUE(waitUntil([&] { return window_->width() == width && find<QWidget>("plots")->isVisible(); }, 5000));
+    QTest::qWait(20);
+    int right = 0;
+    for (const char* name :
+         {"plot.radius", "plot.curvature", "plot.slope", "plot.speed", "plot.deviation", "plot.reverse"}) {
+      const auto* tab = find<QAbstractButton>(name);
+      EXPECT_GE(tab->x(), right) << name << " at " << width;
+      EXPECT_GE(tab->width(), tab->fontMetrics().horizontalAdvance(tab->text())) << name << " at " << width;
+      right = tab->x() + tab->width();
+    }
+    EXPECT_LE(right, find<QWidget>("plot.radius")->parentWidget()->width()) << width;
+  }
+}
+
+TEST_F(Layout, TheFiguresOfAllTilesSayAlike) {
+  openPage(test::zigzagPage());
+  window_->setStage(PanelStage::Fairing);
+  ASSERT_TRUE(settle());
+  ASSERT_TRUE(waitUntil([this] { return session().targets() != nullptr && !session().isTargeting(); }));
+  for (const int width : {1600, 1024}) {
+    window_->resize(width, 860);
+    ASSERT_TRUE(waitUntil([&] { return window_->width() == width; }, 5000));
+    QTest::qWait(20);
+    TargetTile::Figures least = TargetTile::Figures::All;
+    for (const TargetTile* tile : window_->findChildren<TargetTile*>()) least = std::max(least, tile->roomFor());
+    for (const TargetTile* tile : window_->findChildren<TargetTile*>()) EXPECT_EQ(tile->figures(), least) << width;
+  }
+}
+
+TEST_F(Layout, TheListOfCornersSaysWhatIsRounded) {
+  openPage(test::zigzagPage());
+  Recipe recipe = session().recipe();
+  recipe.cornerMarks = {{{200, 100}}, {{400, 300}}};
+  recipe.cornerMarks[0].roundMm = 1.5;
+  session().change(QStringLiteral("Marks"), recipe);
+  ASSERT_TRUE(settle());
+  window_->setStage(PanelStage::Corners);
+  auto* list = find<QListWidget>("corners.list");
+  ASSERT_EQ(list->count(), 2);
+  EXPECT_TRUE(list->item(0)->text().contains(QStringLiteral("rounded 1.5"))) << list->item(0)->text().toStdString();
+  EXPECT_FALSE(list->item(1)->text().contains(QStringLiteral("rounded")));
+  recipe.cornerMarks[0].roundBy = RoundingSize::Radius;
+  session().change(QStringLiteral("Marks"), recipe);
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(list->item(0)->text().contains(QStringLiteral("rounded R 1.5"))) << list->item(0)->text().toStdString();
 }
 
 TEST_F(Layout, ButtonsStayWhereTheyAreWhileListsGrow) {

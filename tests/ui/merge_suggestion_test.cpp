@@ -75,6 +75,35 @@ TEST_F(MergeButton, SetsTheStrengthInOneStepAndSaysWhy) {
   EXPECT_NE(note_->text(), rest_);
 }
 
+TEST_F(MergeButton, OffersTheCurvesThatWereMeant) {
+  open(strokesPage(3));
+  auto* offer = find<QPushButton>("edges.offerIntent");
+  ASSERT_TRUE(offer);
+  EXPECT_FALSE(offer->isVisible());
+  ask_->click();
+  ASSERT_TRUE(answered());
+  ASSERT_TRUE(offer->isVisible()) << note_->text().toStdString();
+  EXPECT_FALSE(session().recipe().edges.intent) << "it is only offered";
+  offer->click();
+  EXPECT_TRUE(session().recipe().edges.intent);
+  EXPECT_FALSE(offer->isVisible());
+  ASSERT_TRUE(answered());
+  EXPECT_TRUE(session().output().contours->report.isGrouped);
+  EXPECT_EQ(session().output().contours->contours.size(), 2u);
+  session().undoStack()->undo();
+  EXPECT_FALSE(session().recipe().edges.intent);
+  EXPECT_TRUE(offer->isVisible());
+}
+
+TEST_F(MergeButton, OffersNothingOnACleanPage) {
+  open(strokesPage(1));
+  ask_->click();
+  ASSERT_TRUE(answered());
+  auto* offer = find<QPushButton>("edges.offerIntent");
+  ASSERT_TRUE(offer);
+  EXPECT_FALSE(offer->isVisible());
+}
+
 TEST_F(MergeButton, ChangesNothingWhereNoStrokesAreOverdrawn) {
   open(strokesPage(1));
   const Recipe before = session().recipe();
@@ -128,7 +157,7 @@ TEST_F(MergeButton, AChangeMeanwhileIsLookedAtAnew) {
   outlines.edges.mode = EdgeMode::Outline;
   session().change(QStringLiteral("Outline"), outlines);
   ASSERT_TRUE(answered());
-  EXPECT_TRUE(note_->text().startsWith(QStringLiteral("No ink is followed"))) << note_->text().toStdString();
+  EXPECT_TRUE(note_->text().startsWith(QStringLiteral("No centre lines are traced"))) << note_->text().toStdString();
   EXPECT_EQ(strength(), 0.0);
 }
 

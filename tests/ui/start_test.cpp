@@ -52,7 +52,7 @@ TEST_F(Start, AFileOnWhichTheLastStartEndedIsNotOpenedByItself) {
   EXPECT_FALSE(session().isBusy());
   QAbstractButton* open = nullptr;
   for (auto* button : strip->findChildren<QAbstractButton*>())
-    if (button->isVisible() && button->text() == QStringLiteral("Open it all the same")) open = button;
+    if (button->isVisible() && button->text() == QStringLiteral("Open it anyway")) open = button;
   ASSERT_NE(open, nullptr);
   QTest::mouseClick(open, Qt::LeftButton);
   ASSERT_TRUE(waitUntil([this] { return isOpen(); }));

@@ -229,7 +229,7 @@ TEST_F(Unsaved, AMessageGoesAfterAWhileAndWithTheStage) {
   auto* hint = find<QLabel>("status.hint");
   EXPECT_TRUE(hint->text().startsWith(QStringLiteral("Opened with the recipe")));
   window_->setStage(PanelStage::Corners);
-  EXPECT_TRUE(hint->text().startsWith(QStringLiteral("Click a line"))) << hint->text().toStdString();
+  EXPECT_TRUE(hint->text().startsWith(QStringLiteral("Click a sharp corner"))) << hint->text().toStdString();
   find<StatusLine>("statusLine")->showMessage(QStringLiteral("said"));
   EXPECT_EQ(hint->text(), QStringLiteral("said"));
   EXPECT_TRUE(waitUntil([&] { return hint->text() != QStringLiteral("said"); }, 6000));

@@ -372,8 +372,8 @@ bool CurvePlots::eventFilter(QObject* watched, QEvent* event) {
       const QString editing = d.editing->hintAt(mouse->position().toPoint());
       if (mark || editing.isEmpty()) d.plot->setCursor(mark && mark->note ? Qt::PointingHandCursor : Qt::ArrowCursor);
       const QString otherwise =
-          tr("The cursor is the same place on the drawing. Wheel zooms, drag pans, double click shows all, right click "
-             "edits the target.");
+          tr("The cursor marks the same point on the drawing. The wheel zooms, dragging pans, "
+             "double-click shows all, right-click edits the target.");
       emit hint(mark ? mark->text : !editing.isEmpty() ? editing : otherwise);
     }
     if (event->type() == QEvent::MouseButtonPress) {

@@ -173,7 +173,7 @@ void PlotEditing::drag(const QPoint& position) {
 QString PlotEditing::hintAt(const QPoint& position) const {
   if (!isEditable() || !isOverAxes(position)) return {};
   if (handleAt(position) >= 0) return tr("Drag the point to shape the target; right-click removes it.");
-  if (splitAt(position) >= 0) return tr("Drag the split along the curve; click it to join the spans beside it.");
+  if (splitAt(position) >= 0) return tr("Drag the split along the curve; click it to join the adjacent spans.");
   if (isOnTarget(position)) return tr("Drag the target to draw your own.");
   return {};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QWidget>
+#include <vector>
 
 #include "ui/plots/plot_series.h"
 
@@ -19,12 +20,23 @@ class PlotHead : public QWidget {
   void setTab(PlotTab tab);
   void setValue(const QString& text);
   void setReversed(bool reversed);
+  QSize minimumSizeHint() const override;
 
  signals:
   void chosen(batten::PlotTab tab);
   void reverseAsked(bool reversed);
 
+ protected:
+  void resizeEvent(QResizeEvent*) override;
+
  private:
+  /// What stands on a tab, and what does where there is little room.
+  struct TabNames {
+    QToolButton* button = nullptr;
+    QString text, shortText;
+  };
+
+  std::vector<TabNames> names_;
   QButtonGroup* tabs_;
   QToolButton* reverse_;
   QLabel* value_;

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/statistics.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
@@ -126,9 +127,7 @@ double linearLimit(const std::vector<CurveSample>& samples, double size) {
   for (const CurveSample& sample : samples)
     if (std::abs(sample.kappa) > 0.0) radii.push_back(1.0 / std::abs(sample.kappa));
   if (radii.empty()) return kLargestRadius * size;
-  const auto at = radii.begin() + static_cast<std::ptrdiff_t>(kMostlyBelow * static_cast<double>(radii.size() - 1));
-  std::nth_element(radii.begin(), at, radii.end());
-  return std::min(kLargestRadius * size, 2.0 * *at);
+  return std::min(kLargestRadius * size, 2.0 * lowerQuantile(radii, kMostlyBelow));
 }
 
 void addBand(PlotData& data, const TracedCurve& curve, const std::vector<CurveSample>& sketched, double scale) {

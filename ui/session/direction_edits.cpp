@@ -47,7 +47,7 @@ void turnCurve(EditorSession& session, int curve) {
   if (!piece) return;
   Recipe after = session.recipe();
   turnDirection(after, *session.output().pieces, *piece);
-  session.change(directionText("Turn direction"), std::move(after));
+  session.change(directionText("Reverse direction"), std::move(after));
 }
 
 void startCurveAt(EditorSession& session, int curve, const Vec2& px, int gesture) {

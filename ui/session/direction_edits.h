@@ -9,11 +9,11 @@ namespace batten {
 
 /// How a curve of the session is exported.
 struct CurveCourse {
-  bool isTurned = false;        ///< The other way than it was traced.
+  bool isTurned = false;        ///< Reversed relative to the traced direction.
   bool isOfClosedLine = false;  ///< It has a start that can be moved.
   std::optional<Vec2> startPx;  ///< Where its closed line was asked to begin.
 };
-/// The courses of all curves, in their order. @pre none of the outputs has to be there: then none.
+/// The courses of all curves, in their order. Empty while there are no outputs.
 std::vector<CurveCourse> curveCourses(const EditorSession&);
 
 /// Exports a curve the other way round, as an undoable step.

@@ -38,7 +38,7 @@ std::optional<std::size_t> choiceOf(const EditorSession& session, const Extremum
 QString textOf(const ExtremumMark& mark, const ExtremumNote& note) {
   // Seen along the line, whichever way it runs: where it bends most, or least.
   const bool isPeak = note.maximum == (note.kappa > 0.0);
-  QString text = isPeak ? extremumText("Bends most here") : extremumText("Bends least here");
+  QString text = isPeak ? extremumText("Curvature maximum") : extremumText("Curvature minimum");
   const QString cost = QString::number(note.removalCost, 'f', note.removalCost < 9.95 ? 1 : 0);
   const QString chi = QStringLiteral(" (χ² %1)").arg(cost);
   text += QStringLiteral(" · ");
@@ -48,18 +48,18 @@ QString textOf(const ExtremumMark& mark, const ExtremumNote& note) {
                                                   : extremumText("not certain")) +
             chi;
   } else {
-    text += (note.removalCost >= note.askedCost         ? extremumText("drawn, but taken out")
+    text += (note.removalCost >= note.askedCost         ? extremumText("drawn, but removed")
              : note.removalCost >= 0.5 * note.askedCost ? extremumText("doubtful, dropped")
                                                         : extremumText("noise, dropped")) +
             chi;
   }
   if (mark.wantedToKeep) {
     text += *mark.wantedToKeep == note.kept
-                ? (note.kept ? extremumText(" · kept by you") : extremumText(" · taken out by you"))
-                : extremumText(" · cannot be changed: a closed line has at least four");
+                ? (note.kept ? extremumText(" · kept by you") : extremumText(" · removed by you"))
+                : extremumText(" · cannot be changed: a closed curve has at least four");
     return text + extremumText(". Click to let the program decide.");
   }
-  return text + (note.kept ? extremumText(". Click to take it out.") : extremumText(". Click to keep it."));
+  return text + (note.kept ? extremumText(". Click to remove it.") : extremumText(". Click to keep it."));
 }
 
 std::vector<ExtremumMark> marksOfFaired(const EditorSession& session, const TracedCurve& curve) {
@@ -72,8 +72,8 @@ std::vector<ExtremumMark> marksOfFaired(const EditorSession& session, const Trac
     mark.s = one.s;
     mark.kappa = one.kappa;
     const bool isPeak = one.maximum == (one.kappa > 0.0);
-    mark.text = (isPeak ? extremumText("The faired curve bends most here.")
-                        : extremumText("The faired curve bends least here."));
+    mark.text = (isPeak ? extremumText("Curvature maximum of the faired curve.")
+                        : extremumText("Curvature minimum of the faired curve."));
     marks.push_back(std::move(mark));
   }
   return marks;
@@ -110,11 +110,11 @@ void toggleExtremum(EditorSession& session, int curve, int note) {
   Recipe after = session.recipe();
   if (const auto choice = choiceOf(session, extremum)) {
     after.extremumChoices.erase(after.extremumChoices.begin() + static_cast<std::ptrdiff_t>(*choice));
-    session.change(extremumText("Let the program decide on a bump"), std::move(after));
+    session.change(extremumText("Reset extremum to automatic"), std::move(after));
     return;
   }
   after.extremumChoices.push_back({session.output().frame.pointToImage(extremum.point), !extremum.kept});
-  session.change(extremum.kept ? extremumText("Take a bump out") : extremumText("Keep a bump"), std::move(after));
+  session.change(extremum.kept ? extremumText("Remove extremum") : extremumText("Keep extremum"), std::move(after));
 }
 
 }  // namespace batten

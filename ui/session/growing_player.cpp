@@ -88,7 +88,7 @@ void GrowingPlayer::take(std::uint64_t request, std::shared_ptr<const std::vecto
   if (request != newest_ || !isOpen_) return;
   steps_ = std::move(steps);
   problem_ = problem;
-  if (steps_ && steps_->empty()) problem_ = tr("This line nowhere bends clearly enough for typical curves.");
+  if (steps_ && steps_->empty()) problem_ = tr("This line is nowhere curved enough for typical curves.");
   step_ = stepCount() > 0 ? 0 : -1;
   emit changed();
 }

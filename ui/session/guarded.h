@@ -16,7 +16,7 @@ Result<T> guarded(F&& body) {
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "There is not enough memory for this drawing; use a lower resolution.");
   } catch (const std::exception& e) {
-    return fail(ErrorCode::Numerical, "The computation failed; take the last change back.", e.what());
+    return fail(ErrorCode::Numerical, "The computation failed; undo the last change.", e.what());
   }
 }
 

@@ -76,7 +76,7 @@ void chooseTarget(EditorSession& session, int degree) {
 }
 
 void setIncluded(EditorSession& session, int curve, bool included) {
-  session.change(included ? choiceText("Take curve in") : choiceText("Leave curve out"),
+  session.change(included ? choiceText("Include curve") : choiceText("Exclude curve"),
                  withChoice(session, curve, [included](PieceChoice& choice) { choice.included = included; }));
 }
 

@@ -54,11 +54,11 @@ Result<std::vector<ProfilePoint>> ProfileLibrary::load(const QString& name) cons
 Result<void> ProfileLibrary::save(const QString& name, const std::vector<ProfilePoint>& shape) const {
   if (!isName(name)) {
     return fail(ErrorCode::BadParameter,
-                "A profile's name has 1 to 60 letters, digits, blanks, dots, dashes and underscores, and begins with a "
-                "letter or digit.");
+                "A profile name has 1 to 60 letters, digits, spaces, dots, hyphens and underscores, and "
+                "starts with a letter or digit.");
   }
   if (!QDir().mkpath(folderOfProfiles()))
-    return fail(ErrorCode::CannotWrite, "The folder of the profiles cannot be made.");
+    return fail(ErrorCode::CannotWrite, "The folder for saved profiles cannot be created.");
   return saveAtomically(nativePath(fileOf(name)), profileToText(shape));
 }
 

@@ -43,9 +43,9 @@ void chooseWay(EditorSession& session, int curve, EdgeMode mode) {
   std::erase_if(after.edges.choices, [&](const EdgeChoice& c) { return c.positionPx == place; });
   if (mode != EdgeMode::Automatic) after.edges.choices.push_back({place, mode});
   session.selectNear(place);
-  session.change(mode == EdgeMode::Automatic ? QCoreApplication::translate("WayEdits", "Follow line as the page")
-                 : mode == EdgeMode::Outline ? QCoreApplication::translate("WayEdits", "Follow outline of line")
-                                             : QCoreApplication::translate("WayEdits", "Follow centre of line"),
+  session.change(mode == EdgeMode::Automatic ? QCoreApplication::translate("WayEdits", "Trace line as the page")
+                 : mode == EdgeMode::Outline ? QCoreApplication::translate("WayEdits", "Trace outline of line")
+                                             : QCoreApplication::translate("WayEdits", "Trace centre of line"),
                  std::move(after));
 }
 

@@ -9,9 +9,9 @@ namespace batten {
 
 /// The line of the scan that a curve was made of; null for lines drawn by hand, and while there is none.
 const Contour* tracedLineOf(const EditorSession& session, int curve);
-/// The way chosen for a curve's ink; Automatic = as the page.
+/// Trace mode of a curve's ink; Automatic = as the page.
 EdgeMode traceModeOf(const EditorSession& session, int curve);
-/// Chooses a way for a curve's ink, whatever holds for the page; Automatic takes the choice back.
+/// Sets the trace mode of a curve's ink, overriding the page; Automatic removes the choice.
 void chooseWay(EditorSession& session, int curve, EdgeMode mode);
 
 }  // namespace batten

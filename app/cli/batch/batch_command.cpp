@@ -44,7 +44,7 @@ Result<std::vector<std::string>> extensionsOf(const std::string& formats) {
     const auto comma = std::min(formats.find(',', from), formats.size());
     const std::string one = formats.substr(from, comma - from);
     if (one.empty() || !std::all_of(one.begin(), one.end(), [](unsigned char c) { return std::isalnum(c) != 0; })) {
-      return wrong("--formats takes extensions with commas between them, such as svg,json, not \"" + formats + "\".");
+      return wrong("--formats takes extensions separated by commas, such as svg,json, not \"" + formats + "\".");
     }
     if (std::find(extensions.begin(), extensions.end(), one) == extensions.end()) extensions.push_back(one);
     from = comma + 1;
@@ -58,12 +58,12 @@ Result<std::vector<BatchPage>> pagesFor(const BatchArguments& arguments) {
   const auto manifests = std::count_if(arguments.inputs.begin(), arguments.inputs.end(), isManifest);
   if (manifests > 0) {
     if (arguments.inputs.size() > 1) return wrong("Name one manifest, or scans and folders, not both.");
-    if (!arguments.to.empty()) return wrong("A manifest names its outputs itself: leave --to out.");
+    if (!arguments.to.empty()) return wrong("A manifest names its own outputs: omit --to.");
     const auto text = textOf(arguments.inputs.front());
     if (!text) return fail(text.error());
     return readManifest(*text, defaults);
   }
-  if (arguments.to.empty()) return wrong("Say where the curves go: --to FOLDER.");
+  if (arguments.to.empty()) return wrong("Give an output folder: --to FOLDER.");
   const auto extensions = extensionsOf(arguments.formats);
   if (!extensions) return fail(extensions.error());
   return pagesOf(arguments.inputs, arguments.to, *extensions, defaults);
@@ -151,7 +151,7 @@ Result<void> checkExisting(const BatchSettings& settings, const std::vector<Batc
       std::error_code code;
       if (fs::exists(output, code)) {
         return fail(ErrorCode::CannotWrite,
-                    shownText(output) + " is there already, and --existing abort was asked for. Nothing was done.");
+                    shownText(output) + " already exists and --existing abort was given. Nothing was done.");
       }
     }
   }
@@ -189,10 +189,6 @@ int finish(const BatchArguments& arguments, const std::vector<BatchPage>& pages,
             << "; the lines with \"status\":\"failed\" say why." << std::endl;
   return kPagesFailed;
 }
-
-}  // namespace
-
-namespace {
 
 int writeManifest(const std::string& file, const std::vector<BatchPage>& pages) {
   if (file == "-") {

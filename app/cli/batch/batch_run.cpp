@@ -67,7 +67,7 @@ struct BatchRun::Running {
   std::unique_ptr<Candidate> page;
   std::uint64_t needs = 0;                     ///< [bytes]
   std::vector<std::optional<FileId>> outputs;  ///< What was there before.
-  bool wasBegun = false;                       ///< By an earlier call, which may have told of the page.
+  bool wasBegun = false;                       ///< By an earlier run, which may have reported the page.
   std::uint64_t resultsFrom = 0;               ///< As in its record.
   std::unique_ptr<PageCall> call;
 };
@@ -189,7 +189,7 @@ std::optional<PageResult> BatchRun::resultWithoutCall(const BatchPage& page, con
   }
   if (record || !anyOutputExists(page)) return std::nullopt;
   result.exitCode = kCannotWrite;
-  result.error = "An output is there that no batch has written. Move it away, or use --existing overwrite.";
+  result.error = "An output exists that was not written by batch. Move it, or use --existing overwrite.";
   return result;
 }
 
@@ -299,7 +299,7 @@ void BatchRun::hearSignals() {
   const int caught = signalsCaught;
   if (caught == signalsHeard_) return;
   signalsHeard_ = caught;
-  stop("It was stopped. The same command goes on where it ended.");
+  stop("Stopped. Run the same command to resume.");
   if (caught > 1) running_.clear();  // ends the calls; their pages count as begun
 }
 

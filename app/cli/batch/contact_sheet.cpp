@@ -127,7 +127,7 @@ Result<Card> cardOf(const BatchPage& page, const std::string* error, const fs::p
     card.figures = record->isEmpty ? escaped(record->note) : figuresOf(*record);
   } else {
     card.kind = "waiting";
-    card.figures = "not reached yet";
+    card.figures = "pending";
   }
   if (!hash) return card;
   const std::string number = page.page == 1 ? std::string() : "-p" + std::to_string(page.page);
@@ -141,8 +141,7 @@ Result<Card> cardOf(const BatchPage& page, const std::string* error, const fs::p
     }
     QBuffer bytes;
     if (!bytes.open(QIODevice::WriteOnly) || !picture.save(&bytes, "JPG", kPictureQuality)) {
-      return fail(ErrorCode::CannotWrite,
-                  "The small pictures of the contact sheet cannot be made: Qt cannot write JPEG here.");
+      return fail(ErrorCode::CannotWrite, "Cannot write the thumbnails of the overview: this Qt has no JPEG writer.");
     }
     const QByteArray& made = bytes.data();
     if (auto saved = saveAtomically(card.picture, {made.data(), static_cast<std::size_t>(made.size())}); !saved) {
@@ -191,7 +190,7 @@ QByteArray figureOf(const BatchPage& page, const Card& card, const std::string& 
   }
   html += "<small>" + card.figures;
   if (card.kind == "done" && overlay.isEmpty())
-    html += "<br>The picture shows the scan only: curves are drawn from an SVG or JSON.";
+    html += "<br>The picture shows only the scan; curves are shown for SVG or JSON outputs.";
   return html + "</small></figcaption></figure>\n";
 }
 

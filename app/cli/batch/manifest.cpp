@@ -84,7 +84,7 @@ Result<BatchPage> pageOf(std::string_view text, int line, const PageDefaults& de
   const std::string where = "Line " + std::to_string(line) + " of the manifest: ";
   const Json json = Json::parse(parsableLine(text), nullptr, false);
   if (!json.is_object())
-    return wrongLine(where + "it is no JSON object. Write {\"scan\": \"a.png\", \"outputs\": [\"a.svg\"]}.");
+    return wrongLine(where + "not a JSON object. Write {\"scan\": \"a.png\", \"outputs\": [\"a.svg\"]}.");
   BatchPage page;
   page.line = line;
   page.recipe = defaults.recipe;
@@ -279,7 +279,7 @@ Result<std::vector<BatchPage>> readManifest(std::string_view text, const PageDef
     if (!page) return fail(page.error());
     for (BatchPage& each : everyPageOf(*page)) pages.push_back(std::move(each));
   }
-  if (pages.empty()) return wrongLine("The manifest holds no page. Write one JSON object a line.");
+  if (pages.empty()) return wrongLine("The manifest is empty. Write one JSON object per line.");
   if (auto checked = checkFiles(pages); !checked) return fail(checked.error());
   return pages;
 }

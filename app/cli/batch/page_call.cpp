@@ -79,7 +79,7 @@ PageResult PageCall::result() {
   constexpr double kMsInASecond = 1000.0;  // divided, so that the quotient prints with three digits
   result.seconds = static_cast<double>(clock_.elapsed()) / kMsInASecond;
   if (process_.error() == QProcess::FailedToStart) {
-    result.error = "The program cannot be started again: " + process_.errorString().toStdString();
+    result.error = "Cannot start a subprocess: " + process_.errorString().toStdString();
     return result;
   }
   if (isTooSlow_) {
@@ -87,7 +87,7 @@ PageResult PageCall::result() {
     return result;
   }
   if (process_.exitStatus() != QProcess::NormalExit) {
-    result.error = "The call was ended from outside or crashed (signal " + std::to_string(process_.exitCode()) + ").";
+    result.error = "The subprocess was killed or crashed (signal " + std::to_string(process_.exitCode()) + ").";
     return result;
   }
   result.exitCode = process_.exitCode();
@@ -96,7 +96,7 @@ PageResult PageCall::result() {
   if (result.exitCode != kDone) return result;
   Json said = Json::parse(process_.readAllStandardOutput().toStdString(), nullptr, false);
   if (!said.is_object()) {
-    result.error = "The call said nothing that can be understood.";
+    result.error = "The output of the subprocess could not be read.";
     return result;
   }
   for (const char* key : {"scan", "files"}) said.erase(key);  // the line has them from the manifest

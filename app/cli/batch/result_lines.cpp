@@ -86,9 +86,9 @@ Result<void> ResultLines::write(const BatchPage& page, const PageResult& result)
       file_ ? !file_->add(line)
             : std::fwrite(line.data(), 1, line.size(), stdout) == line.size() && std::fflush(stdout) == 0;
   if (isWritten) return {};
-  return fail(ErrorCode::CannotWrite, name_.empty()
-                                          ? "The result cannot be written to stdout. Send it where there is room."
-                                          : "Cannot write " + shownText(name_) + ": the disk may be full. Make room.");
+  return fail(ErrorCode::CannotWrite,
+              name_.empty() ? "Cannot write the result to stdout. Redirect it to a disk with free space."
+                            : "Cannot write " + shownText(name_) + ": the disk may be full. Free some space.");
 }
 
 }  // namespace batten::cli

@@ -23,7 +23,7 @@ class ResultLines {
   /// [bytes] Of the file so far: a line that is written later lies behind this place.
   std::uint64_t size() const { return file_ ? file_->size() : 0; }
   /// Whether the file calls the page with this key done or empty, as far as it has been written by now, by whomever.
-  /// `from` is where to look first (PageRecord::resultsFrom): no more is read of a long file if the line is there.
+  /// `from` is where to look first (PageRecord::resultsFrom): a long file is not read further if the line is found.
   bool isTold(const std::string& key, std::uint64_t from);
 
   /// @return CannotWrite when nothing more can be written.

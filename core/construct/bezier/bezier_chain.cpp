@@ -310,7 +310,7 @@ Result<ConstructedPiece> constructBezierChain(const ConstructPiece& piece, doubl
   if (context.isCancelled()) return cancelled();
   StationSet set = bezierStations(piece, pixelMm, params, context);
   if (set.stations.size() < (piece.closed ? 3u : 2u)) {
-    return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
+    return straightPiece(piece, "Too few stations for a curve; a straight line was used.");
   }
   auto made = chainThrough(set, piece.closed, pixelMm, params, context);
   if (!made && set.added > 0 && !context.isCancelled()) {

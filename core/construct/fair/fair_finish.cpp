@@ -28,9 +28,8 @@ constexpr double kLeastNoisePx = 0.02;  // systematic error of edges on perfect 
 constexpr double kResidualSigmas = 6.0;  // points farther off are left out of the report's residuals
 constexpr double kKappaShare = 2.0;      // of the share of the noise, for the curvature
 constexpr double kCornerReachPx = 16.0;  // an end may lie this far beyond the curve of the moment
-constexpr const char* kShortNote =
-    "Too short for the fair fit; a smooth curve of low degree through the points instead.";
-constexpr const char* kPlainNote = "The fair fit could not be solved here; a smoothed curve instead.";
+constexpr const char* kShortNote = "Too short for the fair fit; a low-degree curve was fitted to the points.";
+constexpr const char* kPlainNote = "The fair fit could not be solved; a smoothed curve was used.";
 
 /// Values of a piecewise linear table at ascending arguments; runs on linearly beyond the ends.
 double lookUp(const std::vector<double>& from, const std::vector<double>& to, double x) {

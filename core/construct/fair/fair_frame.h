@@ -18,8 +18,8 @@ struct FairData {
   std::vector<Vec2> points;
   std::vector<std::uint8_t> use;  ///< 0: gated out or too near a corner.
   std::vector<double> weight;     ///< 1 / variance, 1 being that of an ordinary point of the contour; same size.
-  std::vector<double> spread;  ///< [px] half the breadth of the strokes that were merged there; 0: of one; same size.
-  std::vector<double> t;       ///< Parameters of the foot points on the curve of the moment.
+  std::vector<double> spread;     ///< [px] half-width of the bundle of merged strokes; 0: single stroke; same size.
+  std::vector<double> t;          ///< Parameters of the foot points on the current curve.
   bool closed = false;
   double density = 1.0;  ///< [1/px] points per length, at most 1.
 };

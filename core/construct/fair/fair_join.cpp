@@ -190,7 +190,7 @@ Result<NurbsCurve> cornerFill(std::span<const Vec2> points, double pixelMm, cons
   for (std::size_t i = 1; i < p.size(); ++i) t.push_back(t.back() + (p[i] - p[i - 1]).norm());
   const double length = t.back();
   if (!(length > 0.0) || !std::isfinite(length)) {
-    return fail(ErrorCode::Numerical, "A line is too short to become a curve; leave out short lines.");
+    return fail(ErrorCode::Numerical, "A line is too short for a curve; drop short lines.");
   }
   const double density = std::min(1.0, static_cast<double>(p.size()) / length);
   std::vector<Vec2> controls;
@@ -222,9 +222,7 @@ Result<NurbsCurve> tightLoop(std::span<const Vec2> points, double pixelMm) {
   std::vector<double> t(1, 0.0);
   for (std::size_t i = 1; i < p.size(); ++i) t.push_back(t.back() + (p[i] - p[i - 1]).norm());
   const double length = p.empty() ? 0.0 : t.back() + (p.front() - p.back()).norm();
-  const auto nothing = [] {
-    return fail(ErrorCode::Numerical, "A line is too short to become a curve; leave out short lines.");
-  };
+  const auto nothing = [] { return fail(ErrorCode::Numerical, "A line is too short for a curve; drop short lines."); };
   if (!(length > 0.0) || !std::isfinite(length)) return nothing();
   const double density = std::min(1.0, static_cast<double>(p.size()) / length);
   std::optional<UniformQuintic> loop;

@@ -70,7 +70,7 @@ std::vector<double> meanSlopes(const FairFrame& frame, const FairStructure& stru
   return slopes;
 }
 
-/// No slope is asked of stretches that have next to no plateau.
+/// No minimum slope is required where there is practically no plateau.
 void spareSteady(const FairFrame& frame, const FairStructure& structure, const Eigen::VectorXd& c,
                  std::vector<double>& slopes) {
   std::vector<int> flat(slopes.size(), 0), all(slopes.size(), 0);

@@ -22,7 +22,7 @@ constexpr double kCrossingPx = 25.0;  // Gaussian: as long as merged strokes may
 // the line together.
 constexpr double kLeastWeight = 1.0 / 16.0, kMostWeight = 16.0;
 
-/// Half the breadth of the strokes beside each point. Where they cross they only seem to agree.
+/// Half-width of the bundle at each point. Where strokes cross, it is deceptively small.
 std::vector<float> smoothSpread(const std::vector<float>& spread, bool closed) {
   std::vector<float> square;
   for (const float s : spread) square.push_back(std::isfinite(s) ? s * s : 0.0f);

@@ -15,7 +15,7 @@ FairPiece prepareFairPiece(const ConstructPiece&, bool isStroke, double pixelMm,
                            const FairFitOptions&);
 
 /// [-] What merged strokes leave open about the line that was meant: a noise density of this part of the cube of half
-/// their breadth (hands stray over a way that goes with how far they stray), …
+/// their half-width (a hand wanders over a length proportional to its excursion), …
 inline constexpr double kWanderShare = 0.02;
 /// … at any one place this part of half their breadth.
 inline constexpr double kMeanShare = 0.07;

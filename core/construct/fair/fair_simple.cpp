@@ -175,8 +175,7 @@ Result<NurbsCurve> lineCurve(const LineFit& line, const Vec2& first, const Vec2&
 
 Result<NurbsCurve> simpleCurve(const FairData& data, const FairPins& pins, double scale) {
   const auto nothing = [] {
-    return fail(ErrorCode::Numerical,
-                "A line is too short to become a curve; leave out short lines or erase the speck.");
+    return fail(ErrorCode::Numerical, "A line is too short for a curve; drop short lines or specks.");
   };
   if (data.points.size() < 2) return nothing();
   std::vector<double> t(1, 0.0);

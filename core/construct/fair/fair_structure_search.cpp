@@ -140,7 +140,7 @@ class Search {
     return std::any_of(held_.begin(), held_.end(), [&](int id) { return touches(c, id); });
   }
 
-  /// Removes an extremum in the cheapest way there is. False when there is none; true when it has gone already.
+  /// Removes an extremum by the cheapest candidate. False if there is none; true if it is already gone.
   bool forceOut(int id) {
     if (find(id) == result_.structure.extrema.size()) return true;
     std::optional<StructureFit> best;

@@ -268,7 +268,7 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
     along += d.distance;
   }
   if (!std::isfinite(along)) result.veryFar = static_cast<int>(n) + 1;
-  for (std::size_t i = 0; i < n; ++i) {  // one stray point is none of the curve's business
+  for (std::size_t i = 0; i < n; ++i) {  // ignore single outliers
     const auto near = [&](double limit) {
       int count = 0;
       for (std::size_t k = i > 2 ? i - 2 : 0; k <= std::min(n - 1, i + 2); ++k) count += result.distancePx[k] > limit;

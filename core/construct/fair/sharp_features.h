@@ -13,7 +13,7 @@ struct PointRange {
   int first = 0, last = 0;
 };
 
-/// Stretches of a piece that turn more sharply than the fair fit can follow: corners that nobody has marked, tips and
+/// Stretches of a piece that turn more sharply than the fair fit can follow: unmarked corners, tips and
 /// hairpins, with a little of the line on either side. In order, at most one turn of a closed piece long.
 std::vector<PointRange> sharpTurns(const ConstructPiece&, bool isStroke, double pixelMm, const FairFitOptions&);
 

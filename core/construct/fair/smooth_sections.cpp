@@ -199,7 +199,9 @@ Result<ConstructedPiece> SmoothSections::withTurns() const {
     if (!curve) return fail(curve.error());
     whole.curve = std::move(*curve);
     whole.report.why = Termination::Degenerate;
-    whole.report.note = "Turns too sharply all along for the fair fit; a curve close to the points instead.";
+    whole.report.note =
+        "The line bends too sharply everywhere for the fair fit; a curve close to the points was "
+        "used.";
     whole.report.extremaInTurns = extremaOf({whole.curve}, extent(whole.curve), piece_.closed);
     return whole;
   }
@@ -291,11 +293,11 @@ Result<ConstructedPiece> SmoothSections::throughStations(const RunContext& conte
   auto made = constructQuinticNurbs(piece, pixelMm_, ConstructParams{}, context);
   if (!made) return made;
   made->report.why = Termination::Degenerate;
-  made->report.note = "The fair fit did not stay on this line; a quintic through stations instead.";
+  made->report.note = "The fair fit did not stay on this line; quintic NURBS were used.";
   return made;
 }
 
-/// Constraints whose extremum the parts did not hold, or could not let go.
+/// Constraints whose extremum was not kept, or could not be removed.
 void SmoothSections::noteUnmet(ConstructReport& report) const {
   report.unmetConstraints.clear();
   for (const ExtremumConstraint& constraint : piece_.constraints) {

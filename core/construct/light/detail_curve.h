@@ -14,7 +14,7 @@ namespace batten {
 /// LightReport::worst is the largest distance of what is left from the result. A
 /// More than LightOptions::mostPoints: LightObstacle::Points. A
 /// part that finds no such curve is cut where it is farthest from its chord, which is then a corner. None when
-/// cancelled, or when that is of no avail.
+/// cancelled or if nothing is gained.
 std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, const LightOptions&, const RunContext&);
 
 }  // namespace batten

@@ -33,14 +33,14 @@ std::string reasonOf(LightObstacle obstacle) {
     case LightObstacle::None:
       break;
     case LightObstacle::NoNormal:
-      return "It has a corner inside, or a place without direction.";
+      return "It has a corner or a point without tangent.";
     case LightObstacle::Structure:
-      return "With fewer control points no curve was found that lies within the tolerance and has no more curvature "
-             "extrema.";
+      return "No curve with fewer control points was found within the tolerance and without "
+             "additional curvature extrema.";
     case LightObstacle::Points:
-      return "It would need more control points than are wanted.";
+      return "It needs more control points than a smaller detail gives.";
     case LightObstacle::Effort:
-      return "It has so many curvature extrema that the search was given up.";
+      return "It has too many curvature extrema to search.";
   }
   return {};
 }
@@ -133,9 +133,9 @@ void lighten(ConstructedPiece& piece, bool closed, double detail, const Construc
   piece.report.light = lightNote(light->report, pixelMm);
   piece.report.light->tolerancePx = options.tolerance / pixelMm;
   if (light->report.necks > 0 && piece.report.note.empty()) {
-    piece.report.note = light->report.necks == 1 ? "A spike or inlet thinner than the detail is left out."
+    piece.report.note = light->report.necks == 1 ? "A spike or notch narrower than the detail was removed."
                                                  : std::to_string(light->report.necks) +
-                                                       " spikes and inlets thinner than the detail are left out.";
+                                                       " spikes and notches narrower than the detail were removed.";
   }
   if (light->report.kind == LightKind::Dense) return;
   piece.report.light->isSimplified = simplified;

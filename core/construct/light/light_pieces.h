@@ -18,11 +18,11 @@ LightOptions lightOptions(const ConstructParams&, double pixelMm);
 /// of the width of the ink (where that is not known, 1 % of the size of the curve), and what may go with it.
 LightOptions lightOptions(const ConstructParams&, const ConstructContour&, const NurbsCurve& dense, double detail);
 
-/// What is told of a light curve.
+/// Figures of a light curve for the report.
 LightNote lightNote(const LightReport&, double pixelMm);
 
 /// Makes the curves of pieces light: each keeps the dense one beside it (ConstructedPiece::dense) and says in its
-/// report what was won. A curve for which nothing lighter was found stays as it is, and says so.
+/// report what was won. A curve without a lighter version is kept, with a note.
 Result<void> makePiecesLight(std::vector<ConstructedPiece>& made, const ConstructContour&, const ConstructParams&,
                              const RunContext&);
 

@@ -313,7 +313,7 @@ Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, doub
   StationSet set = givenStations(usableStations(piece, 6, params.ends));
   const bool closed = piece.closed;
   if (set.stations.size() < (closed ? 6u : 2u)) {
-    return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
+    return straightPiece(piece, "Too few stations for a curve; a straight line was used.");
   }
   if (params.gradients == GradientUse::Directions && !closed && set.stations.size() >= 4) {
     return constructFromDirections(set.stations, params);
@@ -331,7 +331,7 @@ Result<ConstructedPiece> constructQuinticNurbs(const ConstructPiece& piece, doub
     set = givenStations(usableStations(piece, 6, params.ends));
     made = curveThrough(set.stations, closed, params);
   }
-  if (!made) return straightPiece(piece, "The equations of the curve have no solution; a straight line was drawn.");
+  if (!made) return straightPiece(piece, "The equations of the curve have no solution; a straight line was used.");
   ConstructedPiece result{std::move(made->curve), {}};
   result.report.why = Termination::Exact;
   result.report.stationsAdded = set.added;

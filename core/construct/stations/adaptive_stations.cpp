@@ -282,7 +282,7 @@ StationSet adaptiveStations(const ConstructPiece& piece, StationSet start, doubl
 std::string maxDeviationNote(const StationSet& set) {
   if (!(set.missedPx > 0.0)) return {};
   return "The curve leaves the line by about " + roundedText(set.missedPx, 1) +
-         " px, farther than \"Maximum deviation\" asks. Where it turns sharply, mark a corner; else use the true and "
+         " px, more than \"Maximum deviation\" allows. Mark sharp corners, or use the true and "
          "fair fit.";
 }
 

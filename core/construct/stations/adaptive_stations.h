@@ -34,7 +34,7 @@ using CurveThrough = std::function<std::vector<std::vector<Vec2>>(const StationS
 StationSet adaptiveStations(const ConstructPiece& piece, StationSet start, double pixelMm, double tolerancePx,
                             const CurveThrough& curve, const RunContext& context);
 
-/// What to tell the user where the curve could not be kept as near as wanted; else empty.
+/// Message for the user if the maximum deviation was not reached; else empty.
 std::string maxDeviationNote(const StationSet& set);
 
 /// The stations as they are.

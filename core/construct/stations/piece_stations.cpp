@@ -60,7 +60,7 @@ std::vector<Station> measuredAround(std::span<const Vec2> points, int count) {
   return stations;
 }
 
-/// Drops stations that lie on their predecessor and mends directions that are none.
+/// Drops coincident stations and repairs zero directions.
 std::vector<Station> cleaned(std::span<const Station> stations, double tooNear) {
   std::vector<Station> result;
   for (const Station& s : stations) {

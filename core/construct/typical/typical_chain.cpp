@@ -29,7 +29,7 @@ constexpr std::size_t kMostPoints = 400;
 constexpr double kLostRmsPx = 3.0;
 /// Distance of the joints along a fair fit, and the shortest one that is taken as a guide.
 constexpr double kHoldPx = 0.01, kAgreePx = 0.05;
-/// Where nobody knows the size of a pixel a line is as long as a drawing's usual ones are.
+/// Without a pixel size, assume the length of a typical line of a drawing.
 constexpr double kUnitsOfLine = 1000.0;
 /// A joint is put in no nearer to its neighbours than this part of their distance.
 constexpr double kLeastSplitShare = 0.01;
@@ -405,7 +405,7 @@ std::string typicalNote(const std::vector<SegmentNote>& segments) {
   const auto add = [&](std::ptrdiff_t count, const char* what) {
     if (count > 0) why.append(why.empty() ? "" : ", ").append(std::to_string(count)).append(what);
   };
-  add(counted(SegmentCause::Straight), " all but straight");
+  add(counted(SegmentCause::Straight), " nearly straight");
   add(counted(SegmentCause::Inflection), " at inflections");
   add(counted(SegmentCause::Even), " of hardly changing curvature or beyond what one typical curve can follow");
   return "Typical curves make " + std::to_string(static_cast<int>(std::lround(100.0 * share))) +
@@ -418,7 +418,7 @@ Result<ConstructedPiece> pathInstead(const ConstructPiece& piece, double pixelMm
   auto other = constructBezierChain(piece, pixelMm, params, context);
   if (other && other->report.why != Termination::Degenerate) {
     const std::string more = other->report.note.empty() ? "" : " " + other->report.note;
-    other->report.note = "Typical curves do not fit this line, so a Bézier path took their place." + more;
+    other->report.note = "Typical curves do not fit this line; a Bézier path was used." + more;
   }
   return other;
 }
@@ -429,7 +429,7 @@ Result<ConstructedPiece> constructTypical(const ConstructPiece& piece, double pi
                                           const RunContext& context) {
   if (context.isCancelled()) return cancelled();
   const TypicalLine line = typicalLine(piece, pixelMm, params, context);
-  if (line.joints.empty()) return straightPiece(piece, "Too few stations for a curve; a straight line was drawn.");
+  if (line.joints.empty()) return straightPiece(piece, "Too few stations for a curve; a straight line was used.");
   if (context.isCancelled()) return cancelled();
   auto found = params.typical == TypicalMode::Growing ? grownAndTidied(line, piece.breakpoints, params, context)
                                                       : chainPath(line, piece.breakpoints, context);

@@ -17,6 +17,7 @@
 #include "core/contour/centreline/skeleton.h"
 #include "core/contour/centreline/stroke_mask.h"
 #include "core/contour/centreline/stroke_paths.h"
+#include "core/contour/intent/intended_lines.h"
 #include "core/contour/merge/stroke_merge.h"
 #include "core/contour/merge/turn_cuts.h"
 #include "core/image/bit_disc.h"
@@ -199,6 +200,17 @@ bool isSeen(const Contour& c) {
   return std::any_of(c.points.begin(), c.points.end(), [](const ContourPoint& p) { return p.refined; });
 }
 
+// The curves that were meant, in place of the lines, where the page shows lines drawn over more than once.
+void groupByIntent(ContourSet& set, const EdgeParams& params, double width, double minWidths,
+                   const RunContext& context) {
+  auto meant = intendedLines(set.contours, width, params.mergeWidths, context);
+  if (!meant) return;
+  set.contours = std::move(*meant);
+  set.report.isGrouped = true;
+  set.report.droppedShort +=
+      static_cast<int>(std::erase_if(set.contours, [&](const Contour& c) { return c.lengthPx < minWidths * width; }));
+}
+
 Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, const EdgeParams& params,
                                 const RunContext& context, const CentrelineOptions& options) {
   const BitImage* shapes = options.shapes;
@@ -243,7 +255,10 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   set.report.droppedShort += static_cast<int>(placed - set.contours.size());
   set.contours = keepOnInk(std::move(set.contours), shapes != nullptr ? either(*ink, *shapes) : *ink);
   if (!set.contours.empty()) set.report.widthPx = width;
-  if (params.mergeWidths * width >= 1.0) {
+  if (params.intent) {
+    groupByIntent(set, params, width, options.minWidths, context);
+    if (context.isCancelled()) return cancelled();
+  } else if (params.mergeWidths * width >= 1.0) {
     // Between middles: the paper between two strokes is a width less.
     set.contours = cutAtTurns(mergeStrokes(set.contours, (params.mergeWidths + 1.0) * width, context), width);
     if (context.isCancelled()) return cancelled();

@@ -17,7 +17,7 @@ namespace {
 constexpr double kSkeletonShort = 2.0;  // [stroke widths]
 constexpr double kSkeletonShortPx = 2.0;
 constexpr double kFacingDeg = 30.0;         // between the direction of an end and the way to the other
-constexpr double kShortGapWidths = 1.5;     // [stroke widths] over so short a gap that way says little:
+constexpr double kShortGapWidths = 1.5;     // [stroke widths] below this gap its direction is unreliable:
 constexpr double kShortGapTurnDeg = 60.0;   // the directions of the two ends decide,
 constexpr double kShortGapBack = 0.5;       // [stroke widths] and they may lie a little beside each other
 constexpr double kLeastRingWidths = 6.0;    // [stroke widths] round a ring that one stroke path makes
@@ -29,7 +29,7 @@ constexpr double kBridgedWidthRatio = 1.5;  // of two strokes that may be one; a
 constexpr double kOctaveCost = 2.0;         // of twice the width, as of so many widths of gap
 constexpr double kGreyCost = 0.02;          // [1/grey] of ends that differ in darkness
 constexpr int kBridgeRounds = 4;            // an end whose best partner is taken may find another
-constexpr int kEndsPerLook = 256;           // between two looks at the cancel token
+constexpr int kEndsPerLook = 256;           // between polls of the cancel token
 
 struct FreeEnd {
   int path = 0, side = 0;  ///< side 0: the start.
@@ -125,7 +125,7 @@ std::vector<FreeEnd> freeEnds(const std::vector<StrokePath>& paths, const std::v
 }
 
 // [px] of the straight way from one end to the other that is paper, between the last ink here and the first ink there:
-// the gap as it is seen. Skeletons end inside the ink, how far depends on the pen's shape.
+// the gap as it is seen. Skeletons end inside the ink, by an amount that depends on the shape of the pen tip.
 double paperBetween(const FreeEnd& a, const FreeEnd& b, const BitImage& ink) {
   constexpr double kStepPx = 0.25;
   const double length = (b.at - a.at).norm();

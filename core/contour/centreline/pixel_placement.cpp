@@ -242,7 +242,7 @@ int pageBlur(const std::vector<StrokeCourse>& courses, const std::vector<Placer>
     std::vector<double> known;
     for (const auto& sum : squares)
       if (sum) known.push_back(*sum);
-    // A blur that half of the strokes are not described by is none of theirs.
+    // Discard a blur that does not fit at least half of the strokes.
     if (known.size() < some.size() / 2 || known.empty()) return std::numeric_limits<double>::max();
     return upperMedian(known);
   };

@@ -15,7 +15,7 @@ struct SkeletonEdge {
   std::array<std::optional<int>, 2> node;  ///< At the start and the end; none on rings.
   double length = 0.0;
   bool alive = true;
-  bool ring = false;  ///< Closed by itself, at no node.
+  bool ring = false;  ///< A closed loop without a node.
 };
 
 struct SkeletonNode {

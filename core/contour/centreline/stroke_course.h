@@ -19,7 +19,7 @@ struct StrokeTone {
   float reach = 0.0f;                  ///< [px] no other ink nearer than this.
 };
 
-/// A point of a stroke path on its way to a contour.
+/// A sample of a stroke path.
 struct CoursePoint {
   Vec2 chain = Vec2::Zero();    ///< [px] skeleton position, evened.
   Vec2 base = Vec2::Zero();     ///< [px] where the profile stands.
@@ -33,7 +33,7 @@ struct CoursePoint {
   std::optional<PointInformation> information = {};  ///< Absent where the pixels themselves did not place the point.
 };
 
-/// A stroke path on its way to a contour: even steps of about 1 px.
+/// A stroke path resampled at equal steps of about 1 px.
 struct StrokeCourse {
   std::vector<CoursePoint> points;
   bool closed = false;
@@ -66,11 +66,11 @@ std::optional<CourseApproach> approachAt(const StrokeCourse& course, int border,
 
 /// Even, smooth positions of a stroke path, ready to be measured.
 StrokeCourse resample(const StrokePath& path);
-/// Refuses shifts that cannot be (and those in junctions and corners), and fills these from their neighbours.
+/// Rejects implausible shifts (and those in junctions and corners) and interpolates them from their neighbours.
 void rejectImplausibleShifts(StrokeCourse& course, bool checkWidth);
 /// Moves the points to the middle found; `again`: and prepares the next round.
 void moveCourse(StrokeCourse& course, bool again);
-/// Replaces the points within junctions by a cubic that goes on from both sides.
+/// Replaces the points within junctions by a cubic that continues both sides.
 void layThroughJunctions(StrokeCourse& course);
 
 }  // namespace batten

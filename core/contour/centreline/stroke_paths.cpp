@@ -243,7 +243,7 @@ std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage
   SkeletonGraph graph(skeletonChains(skeleton), ink);
   if (context.isCancelled()) return {};
   graph.pruneSpurs(params.spurFactor);
-  graph.mergeJunctions(params.mergeWidths > 0.0);
+  graph.mergeJunctions(params.mergeWidths > 0.0 && !params.intent);
   if (context.isCancelled()) return {};
   return StrokePathMaker(graph, params.maxBendDeg).make();
 }

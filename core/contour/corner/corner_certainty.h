@@ -9,7 +9,7 @@
 
 namespace batten {
 
-/// A place on a line that may be a corner, with what is known of it.
+/// A corner candidate on a line, with its measurements.
 struct CornerEvidence {
   int pointIndex = 0;
   double angleRad = 0.0;                       ///< Change of direction, signed as Turning.
@@ -43,7 +43,7 @@ class CornerJudge {
   double typicalWidthPx_ = 0.0;
 };
 
-/// At least this certain: taken without being asked for.
+/// Minimum certainty for automatic corners.
 inline constexpr double kCertainCorner = 0.95;
 
 }  // namespace batten

@@ -12,7 +12,7 @@
 
 namespace batten {
 
-/// What the size of a rounding is.
+/// Measure of the rounding.
 enum class RoundingSize {
   Distance,  ///< Along the line, from the corner to where the rounding begins.
   Radius,    ///< The smallest radius of curvature of the rounding.
@@ -61,12 +61,12 @@ struct Corner {
 struct Piece {
   int contour = 0;
   int index = 0;                      ///< Position within the contour.
-  int firstPoint = 0, lastPoint = 0;  ///< Of the contour; of a closed one the last may go on behind its end.
+  int firstPoint = 0, lastPoint = 0;  ///< Of the contour; of a closed one the last may run past the seam.
   bool closed = false;                ///< Smooth closed: periodic, no start and no end.
   std::vector<Vec2> points;  ///< [px] ordered; where an end is a corner, the first or last point is exactly the corner.
   std::vector<std::uint8_t> refined;  ///< As in Contour, same size.
   std::vector<float> sigmaPx;         ///< As in Contour: same size or empty.
-  std::vector<float> spreadPx;  ///< [px] half the breadth of the strokes merged there: same size, or empty: none were.
+  std::vector<float> spreadPx;        ///< [px] half-width of the bundle of merged strokes: same size, or empty: none.
   bool startIsCorner = false;
   bool endIsCorner = false;
   bool isPen = false;  ///< Of a pen stroke: `refined` tells the drawn points.

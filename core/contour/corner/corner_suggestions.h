@@ -33,7 +33,7 @@ struct SharpTurn {
 std::vector<CornerSuggestion> suggestCorners(const ContourSet&, double minAngleRad, double scalePx, const RunContext&,
                                              std::span<const SharpTurn> turns = {});
 
-/// Removes suggestions that stand for the same corner: a mark at each remaining one finds a corner of its own, with
+/// Removes duplicate suggestions of the same corner: a mark at each remaining one finds a corner of its own, with
 /// this snap distance. Not complete when cancelled.
 std::vector<CornerSuggestion> oncePerCorner(const ContourSet&, const std::vector<CornerSuggestion>&,
                                             double snapDistancePx, const RunContext&);

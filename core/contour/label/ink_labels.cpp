@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <new>
+#include <optional>
 #include <unordered_map>
 
 #include "core/contour/centreline/skeleton.h"
@@ -109,8 +110,16 @@ void applyVotes(const RunPieces& runs, const PiecesOfPage& page, const std::vect
 struct ShapeRegion {
   std::int64_t areaPx = 0;
   double largestRadiusPx = 0.0;
-  int mouths = 0;  ///< Places where strokes run into it.
+  int mouths = 0;                           ///< Places where strokes run into it.
+  std::int64_t borderPx = 0, mouthsPx = 0;  ///< Pixels around it; those of them that are strokes.
 };
+
+std::optional<int> pieceBeside(const RunPieces& pieces, const SkeletonPixel& p) {
+  for (const auto& [dx, dy] : {std::pair{-1, 0}, {0, -1}, {0, 1}, {-1, -1}, {-1, 1}, {1, -1}, {1, 1}, {1, 0}}) {
+    if (const auto piece = pieceAt(pieces, p.x + dx, p.y + dy)) return piece;
+  }
+  return std::nullopt;
+}
 
 std::unordered_map<int, ShapeRegion> measureShapes(const StrandGraph& graph, const RunPieces& shapes,
                                                    const RunPieces& mouths) {
@@ -130,14 +139,26 @@ std::unordered_map<int, ShapeRegion> measureShapes(const StrandGraph& graph, con
   for (std::size_t i = 0; i < mouths.runs.size(); ++i) {
     if (mouths.piece[i] != static_cast<int>(i)) continue;
     const Run& run = mouths.runs[i];
-    for (const auto& [dx, dy] : {std::pair{-1, 0}, {0, -1}, {0, 1}, {-1, -1}, {-1, 1}, {1, -1}, {1, 1}, {1, 0}}) {
-      const auto piece = pieceAt(shapes, run.x0 + dx, run.y + dy);
-      if (!piece) continue;
-      ++regions[*piece].mouths;
-      break;
-    }
+    if (const auto piece = pieceBeside(shapes, {run.x0, run.y})) ++regions[*piece].mouths;
   }
   return regions;
+}
+
+// How much of its border each shape shares with strokes.
+void measureMouths(std::unordered_map<int, ShapeRegion>& regions, const RunPieces& shapes, const BitImage& border,
+                   const BitImage& mouths) {
+  for (int y = 0; y < border.height; ++y) {
+    const std::uint64_t* row = border.row(y);
+    for (int i = 0; i < border.wordsPerRow; ++i) {
+      for (std::uint64_t bits = row[i]; bits != 0; bits &= bits - 1) {
+        const SkeletonPixel p{i * 64 + std::countr_zero(bits), y};
+        const auto piece = pieceBeside(shapes, p);
+        if (!piece) continue;
+        ++regions[*piece].borderPx;
+        if (mouths.at(p.x, p.y)) ++regions[*piece].mouthsPx;
+      }
+    }
+  }
 }
 
 // Where strokes lie over one another there is no solid: see labelInk.
@@ -146,17 +167,21 @@ void releaseBundles(const StrandGraph& graph, const PiecesOfPage& page, double m
   constexpr double kBundlePens = 5.0;  // a bundle is no wider
   // Area by the square of the width: of what is long where two strokes come out of an end, or one out of each.
   constexpr double kLong = 1.3, kLongBetweenTwo = kStrokeWidths;
+  constexpr double kMouthShare = 1.0 / 3.0;  // of its border: most of what surrounds a dot is paper
   if (labels.penPx <= 0.0 || labels.shapes.count() == 0) return;
   const RunPieces shapes = findPieces(labels.shapes, Connectivity::Eight, context);
-  const BitImage rim = both(grown(labels.shapes, 1, context), labels.strokes);
+  const BitImage border = without(grown(labels.shapes, 1, context), labels.shapes);
+  const BitImage rim = both(border, labels.strokes);
   const RunPieces mouths = findPieces(rim, Connectivity::Eight, context);
   if (context.isCancelled()) return;
-  const auto regions = measureShapes(graph, shapes, mouths);
+  auto regions = measureShapes(graph, shapes, mouths);
+  measureMouths(regions, shapes, border, rim);
   const auto isBundle = [&](const ShapeRegion& r) {
     const double width = 2.0 * r.largestRadiusPx - 0.7;
     if (r.mouths == 0 || width <= 0.0) return false;
     if (mergeWidths > 0.0 && width <= (mergeWidths + 1.0) * labels.penPx + 1.0) return true;
     if (r.mouths < 2 || width > std::min(kBundlePens * labels.penPx + 1.0, page.widestPenPx)) return false;
+    if (static_cast<double>(r.mouthsPx) >= kMouthShare * static_cast<double>(r.borderPx)) return true;
     return static_cast<double>(r.areaPx) >= (r.mouths > 2 ? kLong : kLongBetweenTwo) * width * width;
   };
   for (std::size_t i = 0; i < shapes.runs.size(); ++i) {

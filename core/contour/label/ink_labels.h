@@ -7,7 +7,7 @@
 
 namespace batten {
 
-/// The ink of a page, told apart: every pixel of ink is in one of the two. All pictures have the size of the ink.
+/// The ink of a page, classified: every ink pixel is in exactly one of the two. All pictures have the size of the ink.
 struct InkLabels {
   BitImage strokes;    ///< Lines of a pen, to be followed along their middle.
   BitImage shapes;     ///< Filled areas, dots and broad lettering, to be followed along their border.
@@ -21,7 +21,7 @@ struct InkLabels {
 /// Strokes drawn over one another are no solid where they lie close: what is long, narrow and joined to three strokes,
 /// or longer and joined to two, stays stroke.
 /// @param mergeWidths [stroke widths] how far apart the strokes of one line run that are to be merged; what is no wider
-/// than such a line and joined to strokes is none of the shapes. 0: none are merged.
+/// than such a line and joined to strokes is not a shape. 0: no merging.
 /// @return OutOfMemory, Cancelled.
 Result<InkLabels> labelInk(const BitImage& ink, const RunContext&, double mergeWidths = 0.0);
 

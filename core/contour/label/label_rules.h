@@ -11,7 +11,7 @@
 
 namespace batten {
 
-/// What is known of one connected piece of ink.
+/// Measurements of one connected component of ink.
 struct LabelledPiece {
   int firstRun = -1;  ///< RunPieces::piece of its runs.
   std::vector<int> strands;
@@ -21,7 +21,7 @@ struct LabelledPiece {
   double strokesPx = 0.0;              ///< Length of its strands that are at least kStrokeWidths long.
   double penPx = 1.0;                  ///< Width of the pen that is taken for its strokes.
   double mainPenPx = 1.0;              ///< The same, but by length: the width that most of the ink has.
-  bool isBlot = false;                 ///< No strand is long enough to have a direction.
+  bool isBlot = false;                 ///< No stroke path is long enough to have a direction.
 };
 
 /// Ink shorter than this many of its widths has no direction.

@@ -22,10 +22,10 @@ enum class InkLabel {
 struct StrandPixel {
   int x = 0, y = 0;
   float radius = 0.0f;      ///< [px] from its centre to the nearest centre of a paper pixel.
-  bool inJunction = false;  ///< Within the disc of a junction: there it tells no width and no length.
+  bool inJunction = false;  ///< Within the disc of a junction, where width and length are undefined.
   InkLabel label = InkLabel::Stroke;
   Vec2 centre() const { return {x + 0.5, y + 0.5}; }
-  /// [px] of the ink here: what the two distances overshoot on a grid of pixels is taken off.
+  /// [px] stroke width, corrected for the pixel grid.
   double widthPx() const { return 2.0 * static_cast<double>(radius) - 0.7; }
 };
 
@@ -55,7 +55,7 @@ struct StrandNode {
 /// Chains joined straight through junctions: what one movement of a pen may have drawn.
 struct Strand {
   std::vector<int> chains;
-  double lengthPx = 0.0;  ///< Of the pen's way; a passage through a junction counts as one or two widths at most.
+  double lengthPx = 0.0;          ///< Of the pen path; a junction counts as one or two widths at most.
   std::optional<double> widthPx;  ///< Median outside junctions; absent: it has no pixel there.
   double unevenness = 0.0;        ///< 1 - (area shared with the same strand at one width / area of both); 0..1.
   InkLabel label = InkLabel::Stroke;

@@ -127,7 +127,10 @@ class TurnSearch {
   std::vector<int> point_;  ///< Of the line, nearest to every sample.
 };
 
-// The points from..to of a line, both included; of a closed one `to` may pass its end.
+}  // namespace
+
+std::vector<int> turnsOf(const Contour& line, double widthPx) { return TurnSearch(line, widthPx).cuts(); }
+
 Contour cutPart(const Contour& line, int from, int to) {
   const int n = static_cast<int>(line.points.size());
   Contour part = line;
@@ -145,12 +148,10 @@ Contour cutPart(const Contour& line, int from, int to) {
   return part;
 }
 
-}  // namespace
-
 std::vector<Contour> cutAtTurns(const std::vector<Contour>& lines, double widthPx) {
   std::vector<Contour> parts;
   for (const Contour& line : lines) {
-    const std::vector<int> cuts = TurnSearch(line, widthPx).cuts();
+    const std::vector<int> cuts = turnsOf(line, widthPx);
     const int n = static_cast<int>(line.points.size());
     if (cuts.empty()) {
       parts.push_back(line);

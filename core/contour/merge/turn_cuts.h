@@ -14,5 +14,9 @@ namespace batten {
 /// widths. The parts share the point of the cut; a closed line with one corner opens there. In the order of the lines.
 /// @pre widthPx > 0.
 std::vector<Contour> cutAtTurns(const std::vector<Contour>& lines, double widthPx);
+/// The points of a line at which cutAtTurns() cuts it, ascending.
+std::vector<int> turnsOf(const Contour& line, double widthPx);
+/// The points from..to of a line, both included; of a closed one `to` may pass its end. Always open.
+Contour cutPart(const Contour& line, int from, int to);
 
 }  // namespace batten

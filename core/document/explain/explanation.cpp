@@ -14,6 +14,7 @@
 #include "core/image/binarize.h"
 #include "core/image/bit_disc.h"
 #include "core/image/bit_steps.h"
+#include "core/image/page_margins.h"
 #include "core/image/region_surface.h"
 #include "core/polyline/polyline_tools.h"
 
@@ -127,7 +128,7 @@ std::string noteOn(const Explanation& e) {
   std::string note;
   if (e.referencePx > 0 && e.explained < kLeastExplained) {
     note = "The curves explain " + percent(e.explained) +
-           " of the ink on the page: lower the thresholds' strength or the shortest line to see more of it.";
+           " of the ink on the page: lower the threshold strength or the minimum line length to trace more.";
   }
   if (e.invented > kMostInvented) {
     if (!note.empty()) note += ' ';
@@ -141,10 +142,10 @@ Result<Explanation> explain(const Scan& scan, const Recipe& recipe, const Pipeli
   Explanation result;
   const auto reference = makeReference(tracedGrey(scan, out), recipe, context);
   if (!reference) return fail(reference.error());
-  const BitImage* ink = &reference->ink;
+  const BitImage drawn = withoutMargins(reference->ink, context);
   const std::vector<RedrawnCurve> curves = redrawCurves(out, context);
-  result.referencePx = ink->count();
-  result.missedInk = without(*ink, redrawPage(curves, out, *ink, context));
+  result.referencePx = drawn.count();
+  result.missedInk = without(drawn, redrawPage(curves, out, drawn, context));
   if (result.referencePx > 0) {
     result.missed = static_cast<double>(result.missedInk.count()) / static_cast<double>(result.referencePx);
     result.explained = 1.0 - result.missed;

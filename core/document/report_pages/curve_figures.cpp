@@ -8,8 +8,7 @@
 #include "core/base/number_text.h"
 #include "core/curve/arc_length.h"
 #include "core/exchange/cubic_path.h"
-#include "core/fairing/fairing.h"
-#include "core/fairing/log_aesthetic.h"
+#include "core/fairing/followed_target.h"
 
 namespace batten {
 namespace {
@@ -27,6 +26,8 @@ constexpr double kLeastRadius = 1e-4, kMostRadius = 20.0;
 constexpr double kLeastDecades = 0.5;  ///< A nearly constant radius looks constant.
 constexpr double kAxisLeftMm = 13.0, kAxisFootMm = 8.0, kAxisHeadMm = 2.0, kAxisRightMm = 3.0;
 constexpr int kMostTicks = 7;
+/// [mm] Height of the numbers at the axes, and of the row that each of them needs.
+constexpr double kLabelHeightMm = 2.2, kLabelRowMm = 2.6;
 
 /// The cubics of a curve in a figure whose upper left corner stands at `corner` of the model frame, or an error.
 Result<void> addCurve(Figure& figure, const NurbsCurve& curve, const Vec2& corner, Ink ink, double widthMm) {
@@ -81,14 +82,24 @@ void addAxes(Figure& figure, const RadiusAxes& axes) {
   const auto line = [&](const Vec2& a, const Vec2& b, Ink ink) {
     figure.strokes.push_back({{a, b}, false, false, ink, kThinMm});
   };
-  for (double decade = std::pow(10.0, std::floor(std::log10(axes.low))); decade <= axes.high; decade *= 10.0) {
-    for (const double factor : {1.0, 2.0, 5.0}) {
-      const double radius = factor * decade;
-      if (radius < axes.low * (1 - 1e-9) || radius > axes.high * (1 + 1e-9)) continue;
+  // Whole decades are labelled first, then 2 and 5 times them where they leave room.
+  std::vector<double> labelled;
+  const double lowest = std::pow(10.0, std::floor(std::log10(axes.low)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    for (double radius = factor * lowest; radius <= axes.high * (1 + 1e-9); radius *= 10.0) {
+      if (radius < axes.low * (1 - 1e-9)) continue;
       const double y = axes.place(0.0, radius).y();
       line({axes.left(), y}, {axes.right(), y}, Ink::Grid);
-      figure.texts.push_back(
-          {{axes.left() - 1.2, y + 0.8}, significantText(radius, 3), FigureText::Anchor::End, Ink::Mute, 2.2});
+      const bool hasRoom = y > kAxisHeadMm + 0.5 * kLabelRowMm &&
+                           std::all_of(labelled.begin(), labelled.end(),
+                                       [&](double other) { return std::abs(other - y) >= kLabelRowMm; });
+      if (!hasRoom) continue;
+      labelled.push_back(y);
+      figure.texts.push_back({{axes.left() - 1.2, y + 0.8},
+                              significantText(radius, 3),
+                              FigureText::Anchor::End,
+                              Ink::Mute,
+                              kLabelHeightMm});
     }
   }
   const double step = roundStep(axes.lengthMm, kMostTicks);
@@ -120,23 +131,8 @@ void addSeries(Figure& figure, const RadiusAxes& axes, const RadiusSeries& serie
 }  // namespace
 
 std::optional<TargetProfile> targetOf(const TracedCurve& curve) {
-  const FairingParams& params = curve.fairingUsed;
-  if (params.mode != FairingMode::Target) return std::nullopt;
-  if (params.target == kDrawnTarget) {
-    TargetProfile drawn = drawnProfile(params.profile, curve.closed);
-    return drawn.valid ? std::optional(std::move(drawn)) : std::nullopt;
-  }
-  if (params.target == kLogAestheticTarget) {
-    const NurbsCurve& start = curve.fairingStart();
-    const auto splits = targetSplits(start, curve.closed, params);
-    auto wanted = logAestheticTarget(start, curve.closed, splits, params.alpha, params.targets.samples);
-    return wanted.profile.valid ? std::optional(std::move(wanted.profile)) : std::nullopt;
-  }
-  TargetSet targets = fitTargets(curve.fairingStart(), params.targets, curve.closed);
-  const int degree = params.target > 0 ? params.target : targets.recommendedDegree;
-  if (degree < 1 || degree > std::ssize(targets.profiles)) return std::nullopt;
-  TargetProfile& profile = targets.profiles[static_cast<std::size_t>(degree - 1)];
-  return profile.valid ? std::optional(std::move(profile)) : std::nullopt;
+  if (curve.fairingUsed.mode != FairingMode::Target) return std::nullopt;
+  return followedTarget(curve.fairingStart(), curve.closed, curve.fairingUsed, curve.fairing);
 }
 
 bool isShownFaired(const TracedCurve& curve) { return !curve.faired.isEmpty() && !(curve.faired == curve.sketched); }

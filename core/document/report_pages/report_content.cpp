@@ -11,13 +11,18 @@
 #include "core/document/report_pages/curve_figures.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/recipe/recipe_file.h"
+#include "core/pipeline/run/piece_numbers.h"
 
 namespace batten {
 namespace {
 
 constexpr double kCombWidthMm = 84.0, kPlotWidthMm = 96.0, kFigureHeightMm = 50.0;
 
-std::string mm(double value) { return std::isfinite(value) ? significantText(value, 3) : "-"; }
+std::string mm(double value) {
+  constexpr double kLeast = 1e-5;  // shorter lengths are rounding
+  if (value > 0.0 && value < kLeast) return "<0.00001";
+  return std::isfinite(value) ? significantText(value, 3) : "-";
+}
 
 /// Two digits, with a power of ten where zeros would hide them: "6.8", "4.7e8".
 std::string energyText(double value) {
@@ -80,9 +85,10 @@ std::string fairingLine(const TracedCurve& curve, const std::optional<TargetProf
   return curve.fairing.note.empty() ? text + "." : text + ". " + curve.fairing.note;
 }
 
-ReportContent::CurveSection sectionOf(const TracedCurve& curve, int number) {
+ReportContent::CurveSection sectionOf(const TracedCurve& curve, int number, const std::string& ownName) {
   ReportContent::CurveSection section;
-  section.name = "Curve " + std::to_string(number);
+  section.name = curveName(number);
+  if (!ownName.empty()) section.name += " (" + shownText(ownName) + ")";
   if (curve.construct.isCircle) section.name += ", circle";
   if (curve.construct.isLine) section.name += ", line";
   section.cells = cellsOf(curve);
@@ -179,9 +185,9 @@ Result<ReportContent> reportContent(const Scan& scan, const Recipe& recipe, cons
       continue;
     }
     curves.push_back(&curve);
-    numbers.push_back(static_cast<int>(i) + 1);
+    numbers.push_back(curveNumber(output, curve));
   }
-  if (curves.empty()) return fail(ErrorCode::NoCurve, "There is no curve to report on. Take at least one curve in.");
+  if (curves.empty()) return fail(ErrorCode::NoCurve, "There is no curve to report on. Include at least one curve.");
   content.title = shownName(std::filesystem::path(scan.path).filename());
   if (content.title.empty()) content.title = "Drawing";
   content.facts = factsOf(scan, recipe, output, origin);
@@ -193,7 +199,7 @@ Result<ReportContent> reportContent(const Scan& scan, const Recipe& recipe, cons
   content.columns = columnNames();
   for (std::size_t i = 0; i < curves.size(); ++i) {
     if (context.isCancelled()) return cancelled();
-    content.curves.push_back(sectionOf(*curves[i], numbers[i]));
+    content.curves.push_back(sectionOf(*curves[i], numbers[i], ownNameOfCurve(output, recipe, *curves[i])));
     context.report(static_cast<double>(i + 1) / static_cast<double>(curves.size()));
   }
   content.settings = settingsOf(recipe);

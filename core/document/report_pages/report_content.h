@@ -36,7 +36,7 @@ struct ReportContent {
 /// What stays out of the run and the recipe.
 struct ReportOrigin {
   std::string program;  ///< "Batten 0.1.0"
-  std::string date;     ///< As it is to be shown; empty: none.
+  std::string date;     ///< Display text; empty: none.
 };
 
 /// Gathers the report of a finished run: curves that are left out are counted only.

@@ -107,8 +107,8 @@ std::string reportHtml(const ReportContent& content) {
       xmlText(content.title) + "</title>\n<style>\n" + kStyle + "</style></head><body>\n<h1>" + xmlText(content.title) +
       "</h1>\n" + factTable(content.facts);
   text +=
-      "<h2>Drawing, 1:1</h2>\n<p class=\"mute\">Measure the bar: printed at 100 % it is 100 mm long, "
-      "but for a drawing wider than the sheet, which is reduced to it. " +
+      "<h2>Drawing, 1:1</h2>\n<p class=\"mute\">Printed at 100 %, the bar is 100 mm long, "
+      "unless the drawing is wider than the sheet and was reduced to fit. " +
       keyText(Ink::Sketched, "sketched") + keyText(Ink::Faired, "faired") + "</p>\n<div class=\"wide\">" +
       svgText(withBar(content.drawing), "Drawing") + "</div>\n";
   text +=
@@ -121,7 +121,7 @@ std::string reportHtml(const ReportContent& content) {
           "</p>\n";
   for (const auto& curve : content.curves) text += sectionText(curve);
   text += "<h2>Recipe</h2>\n";
-  text += content.settings.empty() ? "<p>All settings are the program's own.</p>\n" : factTable(content.settings);
+  text += content.settings.empty() ? "<p>All settings have their default values.</p>\n" : factTable(content.settings);
   text += "<details><summary>The whole recipe</summary><pre>";
   // Its line ends are kept; xmlText() would make blanks of them.
   for (std::size_t from = 0; from < content.recipeJson.size();) {

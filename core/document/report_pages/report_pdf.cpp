@@ -266,7 +266,7 @@ class Pages {
     y_ += 4.0;
     title("Recipe");
     if (content_.settings.empty()) {
-      page_.text({kMarginMm, y_ + kTextMm}, "All settings are the program's own.", kTextMm, Ink::Text);
+      page_.text({kMarginMm, y_ + kTextMm}, "All settings have their default values.", kTextMm, Ink::Text);
       y_ += kRowMm;
     }
     for (const auto& fact : content_.settings) {

@@ -213,7 +213,8 @@ Result<std::string> writeIges(const CadDrawing& drawing, const std::string& titl
 
 Result<CadDrawing> readIges(std::string_view bytes) {
   const auto damaged = [](std::string detail) {
-    return fail(ErrorCode::BadParameter, "The IGES cannot be read: it is damaged, or no IGES.", std::move(detail));
+    return fail(ErrorCode::BadParameter, "The IGES cannot be read: it is damaged or not an IGES file.",
+                std::move(detail));
   };
   // The library reads files only.
   QTemporaryFile file;

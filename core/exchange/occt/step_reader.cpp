@@ -206,7 +206,8 @@ CadDrawing drawingOf(const Handle(Interface_InterfaceModel) & model) {
 
 Result<CadDrawing> readStep(std::string_view bytes) {
   const auto damaged = [](std::string detail) {
-    return fail(ErrorCode::BadParameter, "The STEP cannot be read: it is damaged, or no STEP.", std::move(detail));
+    return fail(ErrorCode::BadParameter, "The STEP cannot be read: it is damaged or not a STEP file.",
+                std::move(detail));
   };
   const OcctSession session;
   try {

@@ -20,8 +20,12 @@ ImportJson placesToJson(std::span<const Vec2> places) {
   return list;
 }
 
-ImportJson curveToJson(const NurbsCurve& curve) {
-  ImportJson json{{"degree", curve.degree()}, {"knots", ImportJson::array()}};
+ImportJson curveToJson(const ImportedCurve& imported) {
+  const NurbsCurve& curve = imported.curve;
+  ImportJson json = ImportJson::object();
+  if (!imported.name.empty()) json["name"] = imported.name;
+  json["degree"] = curve.degree();
+  json["knots"] = ImportJson::array();
   for (const double knot : curve.knots()) json["knots"].push_back(knot);
   json["points"] = placesToJson(curve.controlPoints());
   for (const double weight : curve.weights()) json["weights"].push_back(weight);
@@ -31,12 +35,13 @@ ImportJson curveToJson(const NurbsCurve& curve) {
 ImportJson lineToJson(const ImportedLine& line) {
   ImportJson json = ImportJson::object();
   if (!line.name.empty()) json["name"] = line.name;
+  if (!line.layer.empty()) json["layer"] = line.layer;
   json["closed"] = line.closed;
   if (line.curves.empty()) {
     json["points"] = placesToJson(line.points);
     if (!line.corners.empty()) json["corners"] = line.corners;
   } else {
-    for (const NurbsCurve& curve : line.curves) json["curves"].push_back(curveToJson(curve));
+    for (const ImportedCurve& curve : line.curves) json["curves"].push_back(curveToJson(curve));
   }
   return json;
 }
@@ -62,11 +67,11 @@ Result<std::vector<Vec2>> placesOfImport(const ImportJson& json) {
   return places;
 }
 
-Result<NurbsCurve> curveOfImport(const ImportJson& json) {
+Result<ImportedCurve> curveOfImport(const ImportJson& json) {
   if (!json.is_object() || !json.contains("degree") || !json.contains("knots") || !json.contains("points"))
     return damagedImport("an imported curve has no degree, knots and points");
   const auto degree = json["degree"].is_number_integer() ? integerFromText(json["degree"].dump()) : std::nullopt;
-  if (!degree) return damagedImport("the degree of an imported curve is no whole number");
+  if (!degree) return damagedImport("the degree of an imported curve is not a whole number");
   auto knots = numbersOfImport(json["knots"], "the knots");
   if (!knots) return fail(knots.error());
   auto points = placesOfImport(json["points"]);
@@ -78,13 +83,20 @@ Result<NurbsCurve> curveOfImport(const ImportJson& json) {
     weights = std::move(*given);
   }
   auto curve = NurbsCurve::make(*degree, std::move(*knots), std::move(*points), std::move(weights));
-  if (!curve) return damagedImport("an imported curve is none (" + curve.error().message + ")");
-  return curve;
+  if (!curve) return damagedImport("an imported curve is invalid (" + curve.error().message + ")");
+  ImportedCurve imported{std::move(*curve)};
+  if (json.contains("name")) {
+    if (!json["name"].is_string()) return damagedImport("the name of an imported curve is no text");
+    imported.name = json["name"].get<std::string>();
+  }
+  return imported;
 }
 
 Result<void> takeOfLine(const std::string& name, const ImportJson& value, ImportedLine& line) {
   if (name == "name" && value.is_string()) {
     line.name = value.get<std::string>();
+  } else if (name == "layer" && value.is_string()) {
+    line.layer = value.get<std::string>();
   } else if (name == "closed" && value.is_boolean()) {
     line.closed = value.get<bool>();
   } else if (name == "points") {
@@ -120,7 +132,7 @@ Result<ImportedFile> fileOfImport(const ImportJson& json) {
     (name == "source" ? file.source : file.unit) = value.get<std::string>();
   }
   for (const ImportJson& one : json["lines"]) {
-    if (!one.is_object()) return damagedImport("an imported line is no object");
+    if (!one.is_object()) return damagedImport("an imported line is not an object");
     ImportedLine& line = file.lines.emplace_back();
     for (const auto& [name, value] : one.items()) {
       if (auto taken = takeOfLine(name, value, line); !taken) return fail(taken.error());

@@ -10,8 +10,8 @@
 namespace batten {
 
 /// Lines of other programs as they stand in a recipe, with numbers that read back exactly, mm:
-/// [{"source":"roof.dxf","unit":"mm","lines":[{"name":"roof","closed":false,
-/// "curves":[{"degree":3,"knots":[…],"points":[[x,y]…],"weights":[…]}…]} or
+/// [{"source":"roof.dxf","unit":"mm","lines":[{"name":"roof","layer":"body","closed":false,
+/// "curves":[{"name":"roof 1","degree":3,"knots":[…],"points":[[x,y]…],"weights":[…]}…]} or
 /// {…,"points":[[x,y]…],"corners":[3,9]}…]}…]
 nlohmann::ordered_json importsToJson(const std::vector<ImportedFile>&);
 /// @return BadParameter that says what is damaged.

@@ -25,8 +25,9 @@ Settings withPixels(Settings own) {
 std::vector<PaperPreset> makePresets() {
   std::vector<PaperPreset> presets;
   presets.push_back({"000", "Quintic NURBS from a sketch",
-                     "Sturges' rule gives about ten segments whatever the length, so bends are cut by pixels; a third "
-                     "of the distance as derivative makes wiggles; pixel borders are 0.3 px off, the grey values 0.01.",
+                     "Sturges' rule gives about ten segments for any length, so bends are missed by several "
+                     "pixels; derivatives of a third of the distance produce wiggles; pixel borders are "
+                     "accurate to 0.3 px, grey values to 0.01 px.",
                      withPixels({{"construct.method", "nurbs"},
                                  {"construct.start", "line"},
                                  {"construct.magnitude_as_in_paper", "true"},
@@ -35,8 +36,9 @@ std::vector<PaperPreset> makePresets() {
                                  {"construct.closeness", "0"},
                                  {"segments.mode", "sturges"}})});
   presets.push_back({"001", "Bézier path",
-                     "Sturges' rule gives about ten segments whatever the length; the path has one curvature at its "
-                     "joints, but turns back at nearly every one; moving edge lengths alone reaches few targets.",
+                     "Sturges' rule gives about ten segments for any length; the path is G2 at its joints but "
+                     "has a curvature extremum at nearly every one; few targets can be reached by edge "
+                     "lengths alone.",
                      withPixels({{"construct.method", "bezier"},
                                  {"construct.start", "line"},
                                  {"construct.lowpass", "0"},
@@ -46,25 +48,25 @@ std::vector<PaperPreset> makePresets() {
                                  {"segments.mode", "sturges"},
                                  {"fairing.moves", "edges"}})});
   presets.push_back({"002", "Typical curves, grown",
-                     "Each segment is kept whole: its error is multiplied by about 3.7 in the next one, so the chain "
-                     "leaves the line after a few segments; lines and inflections have no typical curve.",
+                     "Each segment is kept in full: its error grows by a factor of about 3.7 per segment, so "
+                     "the chain diverges from the line after a few segments; straight parts and inflections "
+                     "have no typical curve.",
                      withPixels({{"construct.method", "typical"},
                                  {"construct.typical", "growing"},
                                  {"construct.growing_as_in_paper", "true"}})});
-  presets.push_back(
-      {"004", "Control polygon with repeated knots",
-       "The curve runs beside its points and cuts bends; knots repeated as often as the order leave a gap "
-       "before each corner, which dots on paper hide and a cutter does not.",
-       withPixels({{"construct.method", "control-polygon"},
-                   {"construct.start", "line"},
-                   {"construct.degree", "3"},
-                   {"construct.knots", "order"},
-                   {"construct.removal", "step"},
-                   {"construct.removal_step", "8"}})});
+  presets.push_back({"004", "Control polygon with repeated knots",
+                     "The curve does not pass through its points and cuts bends; knots of multiplicity equal "
+                     "to the order leave a gap before each corner, visible to a cutter.",
+                     withPixels({{"construct.method", "control-polygon"},
+                                 {"construct.start", "line"},
+                                 {"construct.degree", "3"},
+                                 {"construct.knots", "order"},
+                                 {"construct.removal", "step"},
+                                 {"construct.removal_step", "8"}})});
   std::map<std::string, std::string> defaults;
   for (const PaperPreset& preset : presets)
     for (const auto& [name, value] : preset.settings) defaults[name] = defaultValue(*findParameter(name));
-  presets.push_back({"default", "The program's own way", "", Settings(defaults.begin(), defaults.end())});
+  presets.push_back({"default", "Program defaults", "", Settings(defaults.begin(), defaults.end())});
   return presets;
 }
 

@@ -12,8 +12,8 @@ Parameter innerBordersParameter() {
   Parameter inner = choice<InnerBorders>(
       StageId::Contours,
       {"edges.internal", "Inner outlines", "",
-       "Whether the borders of holes inside the ink are followed too. Automatic: those of shapes, as in letters, but "
-       "not of a page that is followed by outlines alone."},
+       "Whether borders of holes in the ink are traced. Automatic: those of shapes such as "
+       "letters, but not where trace mode is Outline."},
       {{"auto", "Automatic", InnerBorders::Automatic},
        {"on", "Always", InnerBorders::On},
        {"off", "Never", InnerBorders::Off}},
@@ -31,7 +31,7 @@ void appendEdges(std::vector<Parameter>& table) {
   constexpr StageId kContours = StageId::Contours;
   table.push_back(choice<EdgeMode>(
       kContours,
-      {"edges.mode", "Follow", "",
+      {"edges.mode", "Trace", "",
        "What is traced: the middle of strokes, the outline of shapes, or whichever suits each piece of ink."},
       {{"auto", "Automatic", EdgeMode::Automatic},
        {"outline", "Outline", EdgeMode::Outline},
@@ -40,13 +40,13 @@ void appendEdges(std::vector<Parameter>& table) {
   table.push_back(innerBordersParameter());
   table.push_back(boolean(
       kContours,
-      {"edges.subpixel", "Sub-pixel placing", "",
-       "Places the line on the grey values of the scan, far finer than a pixel. Off: pixel borders only."},
+      {"edges.subpixel", "Sub-pixel accuracy", "",
+       "Locates the line on the grey values of the scan to a fraction of a pixel. Off: pixel "
+       "borders only."},
       [](auto& r) -> auto& { return r.edges.subpixel; }));
   table.push_back(real(
       kContours,
-      {"edges.stroke_width", "Stroke limit", "",
-       "Without effect: strokes and shapes are told apart region by region. Recipes that name it stay valid.", true},
+      {"edges.stroke_width", "Stroke limit", "", "No effect; kept so that older recipes remain valid.", true},
       {0.005, 0.1, 0.001, 3, true}, [](auto& r) -> auto& { return r.edges.strokeWidth; }));
   table.push_back(real(
       kContours,
@@ -58,6 +58,12 @@ void appendEdges(std::vector<Parameter>& table) {
       {"edges.merge", "Merge strokes", "stroke widths",
        "Strokes of one intended line that run closer than this become one line. Larger merges more; 0 is off."},
       {0.0, 20.0, 0.5, 1}, [](auto& r) -> auto& { return r.edges.mergeWidths; }));
+  table.push_back(boolean(
+      kContours,
+      {"edges.intent", "Curves that were meant", "",
+       "Lines drawn over more than once become the curves that were meant, strokes near and far apart alike. Pages "
+       "without such lines stay as they are."},
+      [](auto& r) -> auto& { return r.edges.intent; }));
   table.push_back(real(
       kContours,
       {"edges.spur", "Drop side branches", "stroke widths",
@@ -66,7 +72,7 @@ void appendEdges(std::vector<Parameter>& table) {
   table.push_back(real(
       kContours,
       {"edges.bend", "Continue through crossings", "°",
-       "Strokes that bend less than this carry on through a crossing. Larger joins more.", true},
+       "A stroke that bends by less than this continues through a crossing. Larger joins more.", true},
       {0.0, 90.0, 1.0, 0}, [](auto& r) -> auto& { return r.edges.maxBendDeg; }));
   table.push_back(real(
       kContours,
@@ -76,13 +82,13 @@ void appendEdges(std::vector<Parameter>& table) {
   table.push_back(real(
       kContours,
       {"contours.min_length", "Shortest line in pixels", "px",
-       "Lines shorter than this are left out too, whatever their width. Larger keeps fewer lines; 0 leaves it to the "
-       "stroke widths."},
+       "Lines shorter than this are also dropped, whatever their width. Larger keeps fewer "
+       "lines; 0 uses the stroke widths only."},
       {0.0, 100000.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.contours.minLengthPx; }));
   Parameter most = integer(
       kContours,
-      {"contours.max_count", "Most lines", "",
-       "Only this many lines are kept, the longest first; all (0) keeps every one.", true},
+      {"contours.max_count", "Maximum lines", "",
+       "Keeps at most this many lines, the longest first; all (0) keeps every line.", true},
       {0, 100000, 1}, [](auto& r) -> auto& { return r.contours.maxCount; });
   most.minimumWord = "all";
   table.push_back(std::move(most));
@@ -92,7 +98,7 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
   table.push_back(boolean(
       StageId::Pieces,
       {"corners.auto", "Certain corners", "",
-       "Corners that are certain count without a mark. Off: only what is marked is a corner."},
+       "Uses corners that are certain even if unmarked. Off: only marked corners."},
       [](auto& r) -> auto& { return r.corners.automatic; }));
   table.push_back(real(
       StageId::Pieces,
@@ -102,7 +108,8 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
   table.push_back(boolean(
       StageId::Pieces,
       {"corners.exact", "Exact corners", "",
-       "Puts the corner where its two sides meet when extended. Off: at the nearest point of the line."},
+       "Places the corner where its two sides meet when extended. Off: at the nearest point of "
+       "the line."},
       [](auto& r) -> auto& { return r.corners.exact; }));
   constexpr StageId kSegments = StageId::Segments;
   table.push_back(choice<SegmentMode>(
@@ -117,8 +124,8 @@ void appendCornersAndSegments(std::vector<Parameter>& table) {
   Parameter count = integer(
       kSegments,
       {"segments.count", "Number of segments", "",
-       "Segments per line; auto (0) derives the number from the length, otherwise at least 2. More follow the line "
-       "closer."},
+       "Segments per line; auto (0) derives the number from the length, otherwise at least 2. "
+       "More segments follow the line more closely."},
       {0, 2000, 1}, [](auto& r) -> auto& { return r.segments.count; });
   count.set = [inRange = count.set, name = count.name](Recipe& r, std::string_view text) -> Result<void> {
     const auto value = integerFromText(text);
@@ -184,9 +191,8 @@ void appendConstruct(std::vector<Parameter>& table) {
   table.push_back(choice<ConstructStart>(
       kCurves,
       {"construct.start", "Start from", "",
-       "Quintic NURBS, Bézier path, control polygon: the edge points as they are, or where the true and fair fit of "
-       "them "
-       "lies, free of their noise."},
+       "Quintic NURBS, Bézier path, control polygon: starts from the edge points, or from their "
+       "true and fair fit, which is free of noise."},
       {{"line", "Edge points", ConstructStart::Line}, {"fit", "True and fair fit", ConstructStart::Fit}},
       [](auto& r) -> auto& { return r.construct.start; }));
   table.push_back(real(
@@ -197,21 +203,24 @@ void appendConstruct(std::vector<Parameter>& table) {
   table.push_back(boolean(
       kCurves,
       {"construct.magnitude_as_in_paper", "Magnitude as in the paper", "",
-       "Quintic NURBS: one third of the distance of the stations, for comparison; it makes wiggles.", true},
+       "Quintic NURBS: one third of the distance between stations, for comparison; produces "
+       "wiggles.",
+       true},
       [](auto& r) -> auto& { return r.construct.magnitudeAsInPaper; }));
   table.push_back(choice<GradientUse>(
       kCurves,
-      {"construct.gradients", "Gradients", "", "Quintic NURBS: which directions it uses beside the points.", true},
+      {"construct.gradients", "Gradients", "",
+       "Quintic NURBS: which tangent directions are used in addition to the points.", true},
       {{"all", "All", GradientUse::All},
        {"four", "Two at each end", GradientUse::Four},
        {"natural-ends", "None, natural ends", GradientUse::NaturalEnds},
-       {"directions", "Directions, lengths loosely", GradientUse::Directions}},
+       {"directions", "Directions, lengths down-weighted", GradientUse::Directions}},
       [](auto& r) -> auto& { return r.construct.gradients; }));
   table.push_back(boolean(
       kCurves,
       {"construct.equalise", "Equal curvature at joints", "",
-       "Bézier path without low pass: both sides of a joint take the mean of their curvatures. Off: the path before "
-       "that, as in the figures of the paper; its curvature jumps.",
+       "Bézier path without low pass: both sides of a joint get the mean of their curvatures. "
+       "Off: the curvature jumps at joints, as in the figures of the paper.",
        true},
       [](auto& r) -> auto& { return r.construct.equaliseJoints; }));
   table.push_back(choice<ConstructEnds>(
@@ -230,8 +239,9 @@ void appendConstruct(std::vector<Parameter>& table) {
   table.push_back(real(
       kCurves,
       {"construct.closeness", "Maximum deviation", "px",
-       "Quintic NURBS and Bézier path: where the curve would leave the line by more, stations are set closer. Larger: "
-       "fewer, and calmer; 0, a set number of segments or Sturges' rule: only those given, as in the papers."},
+       "Quintic NURBS and Bézier path: adds stations where the curve deviates from the line by "
+       "more than this. Larger: fewer stations, smoother curve; 0, a fixed count or Sturges' "
+       "rule: no stations are added, as in the papers."},
       {0.0, 50.0, 0.1, 1}, [](auto& r) -> auto& { return r.construct.maxDeviationPx; }));
   table.push_back(choice<TypicalMode>(
       kCurves,
@@ -241,14 +251,16 @@ void appendConstruct(std::vector<Parameter>& table) {
       [](auto& r) -> auto& { return r.construct.typical; }));
   table.push_back(real(
       kCurves,
-      {"construct.growing_stop", "Stop growing at", "°",
-       "Grown typical curves: a segment ends where its normal leaves that of the line by this. Larger: longer "
-       "segments."},
+      {"construct.growing_stop", "Growing limit", "°",
+       "Grown typical curves: a segment ends where its normal deviates from that of the line by "
+       "this angle. Larger: longer segments."},
       {0.2, 20.0, 0.1, 1, true}, [](auto& r) -> auto& { return r.construct.growingStopDeg; }));
   table.push_back(boolean(
       kCurves,
       {"construct.growing_as_in_paper", "Growing as in the paper", "",
-       "Grown typical curves: keeps every fit whole, for comparison; errors grow from segment to segment.", true},
+       "Grown typical curves: keeps each fit in full, for comparison; errors accumulate from "
+       "segment to segment.",
+       true},
       [](auto& r) -> auto& { return r.construct.growingAsInPaper; }));
   table.push_back(integer(
       kCurves,
@@ -259,31 +271,32 @@ void appendConstruct(std::vector<Parameter>& table) {
   table.push_back(real(
       kCurves,
       {"construct.keep_extrema", "Extremum significance", "",
-       "True and fair fit: least significance of an extremum of curvature that is kept. Larger keeps fewer."},
+       "True and fair fit: minimum significance (chi square) of a curvature extremum that is "
+       "kept. Larger keeps fewer."},
       {1.0, 1000.0, 1.0, 0, true}, [](auto& r) -> auto& { return r.construct.extremumSignificance; }));
   table.push_back(boolean(
       kCurves,
       {"construct.light", "Light curves", "",
-       "True and fair fit: the fewest control points that keep the curve and the extrema of its curvature; lines, arcs "
-       "and circles exact. Off: the dense curve of the fit itself."},
+       "True and fair fit: fewest control points that preserve the curve and its curvature "
+       "extrema; lines, arcs and circles become exact. Off: the dense curve of the fit."},
       [](auto& r) -> auto& { return r.construct.light; }));
   table.push_back(real(
       kCurves,
-      {"construct.light_tolerance", "Light within", "px",
-       "Light curves: farthest that they lie from the dense curve. Larger: fewer control points, and smaller extrema "
-       "go."},
+      {"construct.light_tolerance", "Light tolerance", "px",
+       "Light curves: maximum deviation from the dense curve. Larger: fewer control points, and "
+       "small extrema vanish."},
       {0.005, 50.0, 0.05, 3, true}, [](auto& r) -> auto& { return r.construct.lightTolerancePx; }));
   table.push_back(real(
       kCurves,
       {"construct.detail", "Detail", "",
-       "Light curves: 0 is true to the ink; larger leaves out ever larger bumps, up to a quarter of the width of the "
-       "ink, and keeps sharp corners: what was meant. Taken in steps of 0.1."},
+       "Light curves: 0 follows the ink; larger values remove larger bumps, up to a quarter of "
+       "the ink width, and keep sharp corners. Taken in steps of 0.1."},
       {0.0, 1.0, 0.1, 2}, [](auto& r) -> auto& { return r.construct.detail; }));
   table.push_back(real(
       kCurves,
       {"construct.reduce", "Fewer control points", "× noise",
-       "True and fair fit: how far the curve may move, as a part of the noise of the scan's edge, to need fewer "
-       "control points. Larger: fewer points; 0 keeps all."},
+       "True and fair fit without light curves: knot removal tolerance as a fraction of the "
+       "edge noise. Larger: fewer control points; 0 keeps all."},
       {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.construct.knotRemovalTolerance; }));
 }
 
@@ -300,9 +313,8 @@ Parameter holdParameter(Words words, Field field) {
 Parameter profileParameter() {
   Parameter p = described(StageId::Faired,
                           {"fairing.profile", "Drawn profile", "",
-                           "Target drawn: share of the length 0 to 1 and curvature in 1/mm, as in \"0:0.01 0.5:0.02 "
-                           "1:0.01\"; a smooth curve "
-                           "joins them."},
+                           "Drawn target: pairs of arc length fraction (0 to 1) and curvature in 1/mm, such as "
+                           "\"0:0.01 0.5:0.02 1:0.01\", joined by a smooth curve."},
                           ParameterType::Text);
   p.get = [](const Recipe& r) { return profileToText(r.fairing.profile); };
   p.set = [name = p.name](Recipe& r, std::string_view text) -> Result<void> {
@@ -317,9 +329,9 @@ Parameter profileParameter() {
 Parameter alphaParameter() {
   Parameter p = described(StageId::Faired,
                           {"fairing.alpha", "Alpha", "",
-                           "Log-aesthetic target: the power of the radius that is linear in the length, -3 to 6: -1 "
-                           "clothoid, 0 Nielsen's spiral, 1 logarithmic spiral, 2 involute; auto: what each span comes "
-                           "nearest to.",
+                           "Log-aesthetic target: the exponent for which radius^alpha is linear in arc length, -3 "
+                           "to 6: -1 clothoid, 0 Nielsen's spiral, 1 logarithmic spiral, 2 involute; auto: best fit "
+                           "of each span.",
                            true},
                           ParameterType::Text);
   p.get = [](const Recipe& r) { return r.fairing.alpha ? numberToText(*r.fairing.alpha) : std::string("auto"); };
@@ -343,8 +355,8 @@ void appendFairing(std::vector<Parameter>& table) {
   table.push_back(choice<FairingMode>(
       kFaired,
       {"fairing.mode", "Fairing", "",
-       "Off; towards a curvature profile; as even as the tolerance allows; curvature monotone between few extrema; or "
-       "without its short waves."},
+       "None; towards a curvature profile; least variation of curvature within the tolerance; "
+       "monotone curvature between few extrema; or without short waves."},
       {{"none", "None", FairingMode::None},
        {"target", "Target", FairingMode::Target},
        {"tolerance", "Smooth", FairingMode::Tolerance},
@@ -354,8 +366,9 @@ void appendFairing(std::vector<Parameter>& table) {
   table.push_back(choice<int>(
       kFaired,
       {"fairing.target", "Target", "",
-       "Degree of the curvature profile; auto takes the recommended one, drawn the user's own (fairing.profile), "
-       "log-aesthetic a power of the radius that is linear in the length. A larger degree follows the sketch closer."},
+       "Degree of the curvature profile; auto is the recommended one, drawn the one in "
+       "fairing.profile, log-aesthetic a power of the radius linear in arc length. A higher "
+       "degree follows the sketch more closely."},
       {{"auto", "Recommended", 0},
        {"1", "Degree 1", 1},
        {"2", "Degree 2", 2},
@@ -369,27 +382,29 @@ void appendFairing(std::vector<Parameter>& table) {
   table.push_back(choice<TargetChoice>(
       kFaired,
       {"fairing.choose", "Recommended target", "",
-       "Which target is recommended: the simplest that is met within the tolerance without more extrema, or the one of "
-       "the highest similarity S, as in the papers; S rises with the degree.",
+       "How the recommended target is chosen: the simplest one reached within the tolerance "
+       "without added extrema, or the one with the highest similarity S, as in the papers; S "
+       "rises with the degree.",
        true},
       {{"simplest", "Simplest", TargetChoice::Simplest}, {"similarity", "Highest S (paper)", TargetChoice::Similarity}},
       [](auto& r) -> auto& { return r.fairing.targetChoice; }));
   table.push_back(real(
       kFaired,
       {"fairing.tolerance", "Tolerance", "mm",
-       "Farthest the faired curve may leave the sketched one. Larger: fairer, less faithful."},
+       "Maximum distance of the faired curve from the sketched one. Larger: fairer, less faithful."},
       {0.001, 20.0, 0.01, 3, true}, [](auto& r) -> auto& { return r.fairing.toleranceMm; }));
   table.push_back(choice<TolerancePolicy>(
       kFaired,
       {"fairing.spend", "Use the tolerance", "",
-       "Within tolerance: until no wave is left that the line does not prove, or all of it, whatever was drawn."},
+       "Smooth: as needed removes only waves that the line does not support; all of it smooths "
+       "as far as the tolerance allows."},
       {{"needed", "As needed", TolerancePolicy::AsNeeded}, {"all", "All of it", TolerancePolicy::All}},
       [](auto& r) -> auto& { return r.fairing.tolerancePolicy; }));
   table.push_back(choice<FairingMeans>(
       kFaired,
       {"fairing.moves", "Move", "",
-       "Target and low-pass: all control points, or only the lengths of the edges of a Bézier path, whose directions "
-       "stay."},
+       "Target and low-pass: move all control points, or only change the edge lengths of a "
+       "Bézier path; edge directions are kept."},
       {{"points", "Control points", FairingMeans::ControlPoints}, {"edges", "Edge lengths", FairingMeans::EdgeLengths}},
       [](auto& r) -> auto& { return r.fairing.means; }));
   table.push_back(profileParameter());
@@ -397,21 +412,22 @@ void appendFairing(std::vector<Parameter>& table) {
   Parameter keep = integer(
       kFaired,
       {"fairing.keep_extrema", "Extrema to keep", "",
-       "Monotone: places where the curvature may turn back; 0 is monotone from end to end, fewest (-1) keeps as few as "
-       "the tolerance allows."},
+       "Monotone: number of curvature extrema to keep; 0 is monotone from end to end, fewest "
+       "(-1) keeps as few as the tolerance allows."},
       {-1, 99, 1}, [](auto& r) -> auto& { return r.fairing.keepExtrema; });
   keep.minimumWord = "fewest";
   table.push_back(std::move(keep));
   table.push_back(real(
       kFaired,
       {"fairing.lowpass", "Wavelength", "mm",
-       "Low-pass: waves of the curvature of this length are halved, shorter ones go. Larger is smoother."},
+       "Low-pass: curvature waves of this length are halved, shorter ones removed. Larger is "
+       "smoother."},
       {0.1, 10000.0, 0.1, 1, true}, [](auto& r) -> auto& { return r.fairing.lowPassMm; }));
   table.push_back(choice<TargetSpans>(
       kFaired,
       {"fairing.spans", "Spans", "",
-       "A target has one polynomial from each extremum of the curvature to the next, small ones left out; or one for "
-       "the whole curve, as in the papers."},
+       "One polynomial between consecutive significant curvature extrema, or one for the whole "
+       "curve, as in the papers."},
       {{"natural", "Natural", TargetSpans::Natural}, {"whole", "Whole curve", TargetSpans::Whole}},
       [](auto& r) -> auto& { return r.fairing.targets.spans; }));
   table.push_back(choice<TargetQuantity>(
@@ -423,18 +439,20 @@ void appendFairing(std::vector<Parameter>& table) {
   table.push_back(boolean(
       kFaired,
       {"fairing.monotone", "Monotone profiles", "",
-       "Profiles never turn back, so the faired curve has no bump. Off: plain polynomials, as in the paper.", true},
+       "Makes the profiles monotone, so that they add no curvature extrema. Off: plain "
+       "polynomials, as in the papers.",
+       true},
       [](auto& r) -> auto& { return r.fairing.targets.monotone; }));
   table.push_back(integer(
       kFaired,
-      {"fairing.samples", "Samples", "", "Places along the curve at which the profile is compared. Larger is slower.",
-       true},
+      {"fairing.samples", "Samples", "",
+       "Number of sample points at which the curve is compared with the profile. Larger is slower.", true},
       {101, 2001, 20}, [](auto& r) -> auto& { return r.fairing.targets.samples; }));
   table.push_back(holdParameter(
-      {"fairing.hold_start", "Hold at start", "", "What fairing leaves as it is at the start of an open curve."},
+      {"fairing.hold_start", "Hold at start", "", "What fairing holds fixed at the start of an open curve."},
       [](auto& r) -> auto& { return r.fairing.startHold; }));
   table.push_back(holdParameter(
-      {"fairing.hold_end", "Hold at end", "", "What fairing leaves as it is at the end of an open curve."},
+      {"fairing.hold_end", "Hold at end", "", "What fairing holds fixed at the end of an open curve."},
       [](auto& r) -> auto& { return r.fairing.endHold; }));
 }
 

@@ -129,17 +129,16 @@ Parameter inkList(Words words, const std::string& none, Field field) {
 void appendInks(std::vector<Parameter>& table) {
   table.push_back(inkList(
       {"inks.keep", "Inks kept", "",
-       "\"all\", or the inks that are traced: names of colours or hues in degrees, separated by "
-       "commas; black stands for grey and pencil, too."},
+       "\"all\", or the inks to trace: colour names or hues in degrees, separated by commas; "
+       "black includes grey and pencil."},
       "all", [](auto& r) -> auto& { return r.preparation.inks.keep; }));
   table.push_back(inkList(
-      {"inks.drop", "Inks dropped", "",
-       "\"none\", or the inks that are painted over before anything is traced, as inks.keep."},
+      {"inks.drop", "Inks dropped", "", "\"none\", or the inks to remove before tracing, given as for inks.keep."},
       "none", [](auto& r) -> auto& { return r.preparation.inks.drop; }));
   table.push_back(real(
       StageId::Thresholds,
       {"inks.range", "Range of hues", "°",
-       "How far the hue of ink may lie from that of a chosen one. Larger takes more for the same ink.", true},
+       "Largest difference in hue from a chosen ink. Larger treats more hues as the same ink.", true},
       {5.0, 90.0, 1.0, 0}, [](auto& r) -> auto& { return r.preparation.inks.rangeDeg; }));
 }
 
@@ -148,50 +147,53 @@ void appendThresholds(std::vector<Parameter>& table) {
   table.push_back(boolean(
       kThresholds,
       {"log.enabled", "Log picture", "",
-       "Shows the scan through the log transform, which lifts faint lines out of dark paper. Display only."},
+       "Shows the scan after the log transform, which brings out faint lines on dark paper. "
+       "Display only."},
       [](auto& r) -> auto& { return r.log.enabled; }));
   table.back().isForDisplay = true;
   table.push_back(real(
       kThresholds,
       {"log.factor", "Log factor", "",
-       "Slope of the log transform. Larger lifts the dark tones more and washes out the bright ones."},
+       "Slope of the log transform. Larger stretches the dark tones more and compresses the "
+       "bright ones."},
       {10.0, 150.0, 1.0, 1, true}, [](auto& r) -> auto& { return r.log.factor; }));
   table.back().isForDisplay = true;
   table.push_back(choice<ColourUse>(
       kThresholds,
       {"paper.colour", "Coloured ink", "",
-       "Coloured ink takes the darkest of its channels where that gains contrast: yellow marker is found. Grey: "
-       "brightness alone."},
+       "Uses the darkest colour channel of coloured ink where that increases contrast, so that "
+       "yellow marker is found. Brightness: brightness only."},
       {{"darkest", "Darkest channel", ColourUse::Darkest}, {"grey", "Brightness", ColourUse::Grey}},
       [](auto& r) -> auto& { return r.preparation.colour; }));
   table.push_back(choice<RulingUse>(
       kThresholds,
       {"paper.rulings", "Ruled lines", "",
-       "Printed lines of ruled paper and grids are found by their even spacing and left out; strokes across them "
-       "stay."},
-      {{"leave-out", "Leave out", RulingUse::LeaveOut}, {"keep", "Keep", RulingUse::Keep}},
+       "Detects printed rulings and grids by their even spacing and removes them; strokes "
+       "across them are kept."},
+      {{"leave-out", "Remove", RulingUse::LeaveOut}, {"keep", "Keep", RulingUse::Keep}},
       [](auto& r) -> auto& { return r.preparation.rulings; }));
   table.push_back(choice<SheetUse>(
       kThresholds,
-      {"paper.sheet", "Beside the sheet", "",
-       "Table, carpet and shadow beside the sheet of a photograph are cut off where the sheet is found."},
+      {"paper.sheet", "Outside the sheet", "",
+       "Cuts off the surroundings of the sheet in a photograph, where the sheet is detected."},
       {{"cut-off", "Cut off", SheetUse::CutOff}, {"off", "Keep", SheetUse::Off}},
       [](auto& r) -> auto& { return r.preparation.sheet; }));
   appendInks(table);
   table.push_back(boolean(
       kThresholds,
-      {"paper.flatten", "Flatten paper", "",
-       "Takes shading, shadows and gradations of the paper out before the thresholds look for ink."},
+      {"paper.flatten", "Flatten paper", "", "Removes shading and shadows of the paper before thresholding."},
       [](auto& r) -> auto& { return r.paper.flatten; }));
   table.push_back(boolean(
       kThresholds,
-      {"paper.folds", "Even out folds", "",
-       "Takes straight steps of the paper's grey that run from border to border out as well: folds, edges of shadows."},
+      {"paper.folds", "Remove folds", "",
+       "Also removes straight steps in paper brightness that run from border to border: folds "
+       "and shadow edges."},
       [](auto& r) -> auto& { return r.paper.folds; }));
   table.push_back(choice<ThresholdMode>(
       kThresholds,
       {"threshold.mode", "Thresholds", "",
-       "Whether regions you have not set find their own threshold or take the common level."},
+       "Whether regions without a threshold of your own find one automatically or use the "
+       "common level."},
       {{"auto", "Automatic", ThresholdMode::Automatic}, {"manual", "Manual", ThresholdMode::Manual}},
       [](auto& r) -> auto& { return r.threshold.mode; }));
   table.push_back(gridParameter());
@@ -212,22 +214,21 @@ void appendThresholds(std::vector<Parameter>& table) {
       [](auto& r) -> auto& { return r.threshold.interpolate; }));
   table.push_back(boolean(
       kBinary,
-      {"threshold.smooth", "Smooth before", "",
-       "Evens out the noise of the scan before the thresholds. Off: the grey values as they are, as in the papers.",
-       true},
+      {"threshold.smooth", "Smooth first", "",
+       "Smooths scan noise before thresholding. Off: raw grey values, as in the papers.", true},
       [](auto& r) -> auto& { return r.threshold.smooth; }));
   Parameter reach = real(
       kBinary,
-      {"threshold.reach", "Faint parts from", "",
-       "Thin faint lines count from this share of the contrast asked of ink. Smaller finds fainter "
-       "ones; 1 none; 0 automatic."},
+      {"threshold.reach", "Faint ink from", "",
+       "Faint parts of thin lines count as ink from this fraction of the ink contrast on. "
+       "Smaller finds fainter parts; 1 finds none; 0 is automatic."},
       {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.threshold.reach; });
   reach.minimumWord = "auto";
   table.push_back(std::move(reach));
   table.push_back(integer(
       kBinary,
       {"threshold.speck_area", "Drop specks below", "px²",
-       "Pieces of ink with a smaller area are taken for dirt. Larger drops more; 0 keeps all."},
+       "Ink components with a smaller area are dropped as dirt. Larger drops more; 0 keeps all."},
       {0, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.threshold.speckArea; }));
   table.push_back(integer(
       kBinary,
@@ -255,15 +256,15 @@ void appendFilter(std::vector<Parameter>& table) {
       [](auto& r) -> auto& { return r.filter.order; }));
   table.push_back(choice<FilterBorder>(
       kFiltered,
-      {"filter.border", "Beyond the page", "",
-       "What lies outside the scan: paper, or the border repeated for cropped drawings.", true},
+      {"filter.border", "Page border", "",
+       "What is assumed outside the scan: paper, or repeated border pixels for cropped drawings.", true},
       {{"paper", "Paper", FilterBorder::Paper}, {"replicate", "Border repeated", FilterBorder::Replicate}},
       [](auto& r) -> auto& { return r.filter.border; }));
   table.push_back(integer(
       kFiltered,
       {"filter.max_change", "Largest change", "px²",
-       "Connected changes of a larger area are undone: thin strokes, tips and narrow gaps stay. 0 = no limit, as in "
-       "the paper."},
+       "Connected changes with a larger area are undone, so that thin strokes, tips and narrow "
+       "gaps survive. 0 = no limit, as in the paper."},
       {0, 100000, 1, 0, true}, [](auto& r) -> auto& { return r.filter.maxChangePx; }));
 }
 

@@ -49,7 +49,7 @@ Result<bool> readDirections(const Json& json, Recipe& recipe) {
   if (!json.is_array()) return damaged("\"directions\" is not a list.");
   for (const Json& entry : json) {
     const auto places = placesFromJson(entry, {"at", "towards"});
-    if (!places || entry.size() != 2) return damaged("an entry of \"directions\" does not hold just two places.");
+    if (!places || entry.size() != 2) return damaged("an entry of \"directions\" is not a pair of points.");
     recipe.directions.push_back({(*places)[0], (*places)[1]});
   }
   return true;

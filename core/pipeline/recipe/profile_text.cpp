@@ -19,7 +19,7 @@ std::string profileToText(std::span<const ProfilePoint> profile) {
 
 Result<std::vector<ProfilePoint>> profileFromText(std::string_view text) {
   constexpr const char* kExpected =
-      "it must be pairs of share of the length and curvature like \"0:0.01 1:0.02\", or none";
+      "it must be pairs of arc length fraction and curvature such as \"0:0.01 1:0.02\", or none";
   constexpr std::string_view kBlank = " \t\n,;";
   std::vector<ProfilePoint> profile;
   if (trimmed(text) == "none") return profile;

@@ -22,7 +22,7 @@ bool isPlace(const Vec2& p) { return std::abs(p.x()) <= kFarthestPlacePx && std:
 bool arePlaces(const std::vector<Vec2>& places) { return std::all_of(places.begin(), places.end(), isPlace); }
 
 std::optional<Error> badPlace(const std::string& what) {
-  return bad(what + " lies nowhere on a page: x and y must be numbers from -1000000 to 1000000 px.");
+  return bad(what + " has an invalid position: x and y must be from -1000000 to 1000000 px.");
 }
 
 /// The first place of the recipe that no page can have.
@@ -34,12 +34,12 @@ std::optional<Error> validatePlaces(const Recipe& recipe) {
     if (!arePlaces(region.cornersPx)) return badPlace("A corner of a region");
   }
   for (const EdgeChoice& choice : recipe.edges.choices) {
-    if (!isPlace(choice.positionPx)) return badPlace("A place of ink that is followed in its own way");
+    if (!isPlace(choice.positionPx)) return badPlace("The position of a trace mode choice");
   }
   for (const CornerMark& mark : recipe.cornerMarks) {
     if (!isPlace(mark.positionPx)) return badPlace("A corner mark");
   }
-  if (!arePlaces(recipe.refusedCornersPx)) return badPlace("A corner that is not wanted");
+  if (!arePlaces(recipe.refusedCornersPx)) return badPlace("An excluded corner");
   for (const SegmentPoint& point : recipe.segmentPoints) {
     if (!isPlace(point.positionPx)) return badPlace("A segment point");
   }

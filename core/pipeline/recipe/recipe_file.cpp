@@ -360,7 +360,7 @@ Result<void> readExtrema(const Json& json, Recipe& recipe) {
   if (!json.is_array()) return refuse("The recipe is damaged: \"extrema\" is not a list.");
   for (const Json& entry : json) {
     if (!entry.is_object() || entry.size() != 2 || !entry.contains("at") || !entry.contains("keep")) {
-      return refuse("The recipe is damaged: an entry of \"extrema\" does not hold just \"at\" and \"keep\".");
+      return refuse("The recipe is damaged: an entry of \"extrema\" must have \"at\" and \"keep\" only.");
     }
     const auto point = pointFromJson(entry["at"]);
     if (!point) return refuse("The recipe is damaged: the place of an extremum is not a pair of numbers [x, y].");
@@ -393,7 +393,7 @@ Result<void> readTraceModes(const Json& json, Recipe& recipe) {
     const auto point = isWhole ? pointFromJson(entry["at"]) : std::nullopt;
     Recipe named;
     if (!point || !entry["mode"].is_string() || !setParameter(named, "edges.mode", entry["mode"].get<std::string>())) {
-      return refuse("The recipe is damaged: an entry of \"ways\" does not hold just a place \"at\" and a \"mode\".");
+      return refuse("The recipe is damaged: an entry of \"ways\" must have \"at\" and \"mode\" only.");
     }
     recipe.edges.choices.push_back({*point, named.edges.mode});
   }

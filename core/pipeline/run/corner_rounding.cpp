@@ -23,7 +23,7 @@ constexpr double kLargestShare = 0.45;
 /// How evenly: nearly as round as a circular arc, and monotone to both sides.
 constexpr double kForm = 0.85;
 constexpr int kDegree = 5;
-constexpr const char* kStaysSharp = "A corner could not be rounded: its sides do not meet ahead. It stays sharp.";
+constexpr const char* kStaysSharp = "A corner could not be rounded because its sides do not meet when extended.";
 
 Result<NurbsCurve> asCurve(const TypicalCurve& arc) {
   const auto q = arc.controlPoints();
@@ -146,9 +146,9 @@ class RoundedSides {
     }
     if (best && best->sizeMm < wanted) {
       note = "A corner is rounded from " + millimetresText(best->sizeMm) +
-             " on: with its sides bent as they are, a larger rounding would be sharper.";
+             " on, because a larger rounding would have a smaller radius here.";
     } else if (best && wanted < sizeMm) {
-      note = "A corner is rounded from " + millimetresText(wanted) + " on: its sides are too short for more.";
+      note = "A corner is rounded from " + millimetresText(wanted) + " on, because its sides are too short.";
     }
     return best;
   }
@@ -168,7 +168,7 @@ class RoundedSides {
     if (!wide) return std::nullopt;
     if (wide->rounding.radiusMm < radiusMm) {
       note = "A corner is rounded by " + millimetresText(wide->rounding.radiusMm) +
-             " only: no larger radius fits between its sides.";
+             ", because no larger radius fits between its sides.";
       return wide;
     }
     for (int i = 0; i < kRadiusHalvings && wide->rounding.radiusMm > kRadiusMet * radiusMm; ++i) {

@@ -209,7 +209,7 @@ class ContourBuilder {
     if (own) {
       take(curve, std::move(own->front()));
     } else {
-      curve.construct.note = "Its own method gave no curve: " + own.error().message;
+      curve.construct.note = "The method chosen for it failed: " + own.error().message;
     }
   }
 
@@ -318,8 +318,9 @@ Result<ConstructedSet> constructAll(const ContourSet& contours, const PieceSet& 
   }
   if (!set.curves.empty()) return set;
   return fail(ErrorCode::NoCurve,
-              set.failures.empty() ? "No line was left to make a curve of. Lower contours.min_length or the thresholds."
-                                   : "No curve could be made. " + set.failures.front().message);
+              set.failures.empty()
+                  ? "No line is left to construct a curve from. Reduce contours.min_length or the thresholds."
+                  : "No curve could be made. " + set.failures.front().message);
 }
 
 ConstructContour lineInput(const PipelineOutput& out, int contour) {
@@ -364,7 +365,7 @@ Result<TracedCurve> constructPiece(const PipelineOutput& out, const Recipe& reci
         builder.buildFromPoints({static_cast<std::size_t>(piece), static_cast<std::size_t>(piece) + 1});
     if (context.isCancelled()) return cancelled();
     if (outcome.curves.empty())
-      return fail(outcome.failures.empty() ? Error{ErrorCode::NoCurve, "The line gave no curve.", {}}
+      return fail(outcome.failures.empty() ? Error{ErrorCode::NoCurve, "No curve could be made from this line.", {}}
                                            : outcome.failures.front());
     return std::move(outcome.curves.front());
   } catch (const std::bad_alloc&) {

@@ -26,8 +26,7 @@ namespace {
 /// Share of the length below which a part of a split curve is none.
 constexpr double kLeastPart = 1e-3;
 
-constexpr const char* kHasMoreExtrema =
-    "Left as sketched: made fair, the curve would have more curvature extrema. Raise the tolerance.";
+constexpr const char* kHasMoreExtrema = "Unchanged: fairing would add curvature extrema. Raise the tolerance.";
 
 /// [px] A place farther than this from a curve lies on another part of the line whose choice it shares.
 constexpr double kPlaceReachPx = 24.0;
@@ -101,7 +100,7 @@ class LineFairing {
     params.toleranceMm -= startsOff();
     if (!(params.toleranceMm > 0.0)) {
       return unchanged(curve_.sketched, curve_.closed, Termination::Degenerate,
-                       "Left as sketched: the tolerance is too small to begin with. Raise it.");
+                       "Unchanged: the tolerance is too small. Raise it.");
     }
     auto faired = fairedWithin(params);
     if (!faired || params.mode == FairingMode::None) return faired;
@@ -193,7 +192,7 @@ void fairOne(TracedCurve& curve, const Piece& piece, ContourKind kind, const Rec
   auto result = LineFairing(curve, std::move(line), light, context).run();
   if (!result) {
     curve.fairing.why = Termination::Degenerate;
-    curve.fairing.note = "Left as sketched: " + result.error().message;
+    curve.fairing.note = "Unchanged: " + result.error().message;
     return;
   }
   curve.faired = result->curve;

@@ -10,6 +10,7 @@
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
 #include "core/curve/rough_length.h"
+#include "core/pipeline/run/piece_numbers.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -30,7 +31,7 @@ struct ImportedSample {
 /// Whether the line goes on in the same direction from its last curve to its first.
 bool isSmoothSeam(const ImportedLine& line) {
   constexpr double kSameDirection = 1e-6;  // radians
-  const NurbsCurve &last = line.curves.back(), &first = line.curves.front();
+  const NurbsCurve &last = line.curves.back().curve, &first = line.curves.front().curve;
   const Vec2 in = last.derivatives(last.end(), 1)[1], out = first.derivatives(first.start(), 1)[1];
   return in.dot(out) > 0.0 && std::abs(cross(in, out)) <= kSameDirection * in.norm() * out.norm();
 }
@@ -38,7 +39,7 @@ bool isSmoothSeam(const ImportedLine& line) {
 /// [mm] At least as long as the line: no curve is longer than its control polygon.
 double lengthBoundOf(const ImportedLine& line) {
   double length = polylineLength(line.points, line.closed);
-  for (const NurbsCurve& curve : line.curves) length += polylineLength(curve.controlPoints(), false);
+  for (const auto& [curve, name] : line.curves) length += polylineLength(curve.controlPoints(), false);
   return length;
 }
 
@@ -51,15 +52,16 @@ int stepsOf(const NurbsCurve& curve, double from, double to, const PageFrame& fr
 std::vector<ImportedSample> samplesOf(const ImportedLine& line, const PageFrame& frame, double stepPx) {
   std::vector<ImportedSample> samples;
   for (std::size_t k = 0; k < line.curves.size(); ++k) {
-    const std::vector<double> breaks = line.curves[k].breaks();
+    const NurbsCurve& curve = line.curves[k].curve;
+    const std::vector<double> breaks = curve.breaks();
     for (std::size_t i = 1; i < breaks.size(); ++i) {
       const double from = breaks[i - 1], to = breaks[i];
       const bool isMuch = std::ssize(samples) > kMostSamples;
-      const int steps = isMuch ? kLeastSteps : stepsOf(line.curves[k], from, to, frame, stepPx);
+      const int steps = isMuch ? kLeastSteps : stepsOf(curve, from, to, frame, stepPx);
       for (int n = 0; n < steps; ++n) samples.push_back({static_cast<int>(k), from + (to - from) * n / steps});
     }
   }
-  if (!line.closed) samples.push_back({static_cast<int>(line.curves.size()) - 1, line.curves.back().end()});
+  if (!line.closed) samples.push_back({static_cast<int>(line.curves.size()) - 1, line.curves.back().curve.end()});
   return samples;
 }
 
@@ -67,7 +69,8 @@ Contour contourOfCurves(const ImportedLine& line, const PageFrame& frame, double
   Contour contour;
   const std::vector<ImportedSample> samples = samplesOf(line, frame, stepPx);
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Vec2 at = frame.pointToImage(line.curves[static_cast<std::size_t>(samples[i].curve)].point(samples[i].u));
+    const Vec2 at =
+        frame.pointToImage(line.curves[static_cast<std::size_t>(samples[i].curve)].curve.point(samples[i].u));
     contour.points.push_back({.at = at, .unrefined = at, .refined = true});
     const bool begins = i > 0 ? samples[i].curve != samples[i - 1].curve
                               : line.closed && (line.curves.size() > 1 || !isSmoothSeam(line));
@@ -132,7 +135,7 @@ std::optional<NurbsCurve> curveBetween(const ImportedLine& line, std::span<const
   const int count = static_cast<int>(samples.size());
   if (first < 0 || first >= count || last <= first) return std::nullopt;
   const ImportedSample& from = samples[static_cast<std::size_t>(first)];
-  const NurbsCurve& curve = line.curves[static_cast<std::size_t>(from.curve)];
+  const NurbsCurve& curve = line.curves[static_cast<std::size_t>(from.curve)].curve;
   if (last >= count) {
     // Behind the last sample of a closed line comes its first.
     if (!line.closed || from.curve + 1 != std::ssize(line.curves)) return std::nullopt;
@@ -152,6 +155,15 @@ std::optional<NurbsCurve> curveBetween(const ImportedLine& line, std::span<const
   const bool isNext =
       to.curve == from.curve + 1 && (last == 0 || samples[static_cast<std::size_t>(last) - 1].curve == from.curve);
   return isNext ? partOf(curve, from.u, curve.end()) : std::nullopt;
+}
+
+/// The curve of the line that a piece begins on; -1 for lines of points. A curve begins at every joint.
+int curveOfPiece(const ImportedLine& line, const Contour& contour, const Piece& piece) {
+  const auto begun = std::upper_bound(contour.joints.begin(), contour.joints.end(), piece.firstPoint);
+  const auto before = std::distance(contour.joints.begin(), begun);
+  const auto curve = line.closed ? before - 1 : before;
+  const auto last = std::ssize(line.curves) - 1;
+  return static_cast<int>(std::min(std::max<std::ptrdiff_t>(curve, 0), last));
 }
 
 }  // namespace
@@ -193,6 +205,28 @@ const ImportedLine* importedLineOf(const Contour& contour, std::span<const Impor
   return nullptr;
 }
 
+std::string importedNameOf(const PieceSet& pieces, std::size_t piece, const ContourSet& contours,
+                           std::span<const ImportedFile> imports) {
+  const int line = pieces.pieces[piece].contour;
+  if (line < 0 || line >= std::ssize(contours.contours)) return {};
+  const Contour& contour = contours.contours[static_cast<std::size_t>(line)];
+  const ImportedLine* imported = importedLineOf(contour, imports);
+  if (imported == nullptr) return {};
+  const int curve = curveOfPiece(*imported, contour, pieces.pieces[piece]);
+  const bool isNamed = curve >= 0 && !imported->curves[static_cast<std::size_t>(curve)].name.empty();
+  const std::string& name = isNamed ? imported->curves[static_cast<std::size_t>(curve)].name : imported->name;
+  if (name.empty() || isMadeName(name)) return {};
+  // The pieces of a line stand side by side.
+  const auto isAlike = [&](std::size_t other) {
+    const Piece& one = pieces.pieces[other];
+    return one.contour == line && (!isNamed || curveOfPiece(*imported, contour, one) == curve);
+  };
+  std::size_t first = piece, last = piece;
+  while (first > 0 && isAlike(first - 1)) --first;
+  while (last + 1 < pieces.pieces.size() && isAlike(last + 1)) ++last;
+  return first == last ? name : name + " " + std::to_string(piece - first + 1);
+}
+
 std::vector<std::optional<NurbsCurve>> importedCurves(const ImportedLine& line, std::span<const Piece> pieces,
                                                       const PageFrame& frame, double stepPx) {
   std::vector<std::optional<NurbsCurve>> curves(pieces.size());
@@ -200,7 +234,7 @@ std::vector<std::optional<NurbsCurve>> importedCurves(const ImportedLine& line, 
   const std::vector<ImportedSample> samples = samplesOf(line, frame, stepPx);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (pieces[i].closed) {
-      if (line.curves.size() == 1) curves[i] = line.curves.front();
+      if (line.curves.size() == 1) curves[i] = line.curves.front().curve;
     } else {
       curves[i] = curveBetween(line, samples, pieces[i].firstPoint, pieces[i].lastPoint);
     }

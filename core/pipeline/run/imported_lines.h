@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/base/page_frame.h"
@@ -23,6 +24,10 @@ ContourSet withImports(ContourSet set, std::span<const ImportedFile>, const Page
 
 /// The line that a contour stands for; null for contours of other kinds.
 const ImportedLine* importedLineOf(const Contour&, std::span<const ImportedFile>);
+
+/// What the file that a piece comes from calls it, with a number behind it where several pieces share one name. Empty
+/// for other lines, for curves without a name, and where the name is one that Batten made ("Curve 3").
+std::string importedNameOf(const PieceSet&, std::size_t piece, const ContourSet&, std::span<const ImportedFile>);
 
 /// The curves of the pieces of one imported line, exactly as they were imported: whole, or the part between two corner
 /// marks. Absent for lines of points, and where the pieces are none of the line. Model frame, mm.

@@ -25,21 +25,20 @@ bool isLeftAsDrawn(const TracedCurve& curve) {
 std::string leftAsDrawnReason(const TracedCurve& curve) {
   if (!isLeftAsDrawn(curve)) return {};
   if (!curve.fairing.note.empty()) return curve.fairing.note;
-  if (curve.construct.isCircle) return "Left as drawn: it is an exact circle, nothing is fairer.";
-  if (curve.construct.isLine) return "Left as drawn: it is an exact line, nothing is fairer.";
-  if (curve.isSimplified() && curve.sketched.isRational())
-    return "Left as drawn: it is an exact arc, nothing is fairer.";
+  if (curve.construct.isCircle) return "Unchanged: exact circle.";
+  if (curve.construct.isLine) return "Unchanged: exact line.";
+  if (curve.isSimplified() && curve.sketched.isRational()) return "Unchanged: exact arc.";
   switch (curve.fairingUsed.mode) {
     case FairingMode::Target:
-      return "Left as drawn: no move within the tolerance brings it nearer to the target.";
+      return "Unchanged: no move within the tolerance brings the curve closer to the target.";
     case FairingMode::Tolerance:
       return curve.fairingUsed.tolerancePolicy == TolerancePolicy::AsNeeded
-                 ? "Left as drawn: it has no wave that the line does not prove."
-                 : "Left as drawn: no move within the tolerance makes it more even.";
+                 ? "Unchanged: every wave of the curvature is supported by the line."
+                 : "Unchanged: no move within the tolerance reduces the variation of curvature.";
     case FairingMode::Monotone:
-      return "Left as drawn: it has no curvature extremum that would have to go.";
+      return "Unchanged: it has no curvature extremum to remove.";
     case FairingMode::LowPass:
-      return "Left as drawn: it has no waves as short as those that would go.";
+      return "Unchanged: it has no waves below this wavelength.";
     case FairingMode::None:
       break;
   }

@@ -19,6 +19,7 @@ constexpr int kAllLines = 100000;  // contours.max_count at its largest
 // Every line counts, also those that the recipe leaves out for being too many.
 Recipe mergedBy(double mergeWidths, Recipe recipe) {
   recipe.edges.mergeWidths = mergeWidths;
+  recipe.edges.intent = false;
   recipe.contours.maxCount = kAllLines;
   return recipe;
 }
@@ -28,12 +29,18 @@ int centrelinesOf(const ContourSet& set) {
                                         [](const Contour& c) { return c.kind == ContourKind::Centreline; }));
 }
 
-Result<std::shared_ptr<const ContourSet>> linesWith(double mergeWidths, const Scan& scan, const Recipe& recipe,
-                                                    StageCache& cache, const RunContext& context) {
+Recipe grouped(Recipe recipe) {
+  recipe = mergedBy(0.0, std::move(recipe));
+  recipe.edges.intent = true;
+  return recipe;
+}
+
+Result<std::shared_ptr<const ContourSet>> linesWith(const Recipe& recipe, const Scan& scan, StageCache& cache,
+                                                    const RunContext& context) {
   PipelineRequest request;
   request.upTo = StageId::Contours;
   request.needEdges = false;
-  PipelineOutput output = runPipeline(scan, mergedBy(mergeWidths, recipe), cache, request, context);
+  PipelineOutput output = runPipeline(scan, recipe, cache, request, context);
   if (context.isCancelled()) return cancelled();
   if (output.error) return fail(std::move(*output.error));
   return output.contours;
@@ -46,12 +53,15 @@ std::string counted(int count, const char* one, const char* many) {
 }  // namespace
 
 Result<MergeAdvice> adviseMerge(const Scan& scan, const Recipe& recipe, StageCache& cache, const RunContext& context) {
-  const auto apart = linesWith(0.0, scan, recipe, cache, context);
+  const auto apart = linesWith(mergedBy(0.0, recipe), scan, cache, context);
   if (!apart) return fail(apart.error());
   MergeAdvice advice;
   advice.strokes = advice.lines = centrelinesOf(**apart);
   const double width = (*apart)->report.widthPx;
   if (advice.strokes == 0 || !(width > 0.0)) return advice;
+  const auto meant = linesWith(grouped(recipe), scan, cache, context);
+  if (!meant) return fail(meant.error());
+  if ((*meant)->report.isGrouped) advice.meant = centrelinesOf(**meant);
   const std::optional<OverdrawnStrokes> strokes =
       findOverdrawnStrokes((*apart)->contours, (kMostWidths + 1.0) * width, context);
   if (context.isCancelled()) return cancelled();
@@ -59,7 +69,7 @@ Result<MergeAdvice> adviseMerge(const Scan& scan, const Recipe& recipe, StageCac
   // The distance is between middles: a width more than the paper between.
   const double widths = kStepWidths * std::round((strokes->distancePx / width - 1.0) / kStepWidths);
   const double strength = std::clamp(widths, kStepWidths, kMostWidths);
-  const auto merged = linesWith(strength, scan, recipe, cache, context);
+  const auto merged = linesWith(mergedBy(strength, recipe), scan, cache, context);
   if (!merged) return fail(merged.error());
   advice.share = strokes->share;
   if (centrelinesOf(**merged) >= advice.strokes) return advice;
@@ -73,12 +83,17 @@ ContentHash mergeAdviceKey(const Scan& scan, const Recipe& recipe) {
 }
 
 std::string describe(const MergeAdvice& advice) {
-  if (advice.strokes == 0) return "No ink is followed along its middle: there are no strokes to merge.";
+  if (advice.strokes == 0) return "No centre lines are traced, so there are no strokes to merge.";
+  const std::string meant = advice.meant
+                                ? " With edges.intent there " + std::string(*advice.meant == 1 ? "is " : "are ") +
+                                      counted(*advice.meant, "curve.", "curves.")
+                                : std::string();
   if (!(advice.widths > 0.0) && advice.share > 0.0)
-    return "Some strokes run over one another, but merging them would not make fewer lines.";
-  if (!(advice.widths > 0.0)) return "No overdrawn strokes were found: merging is not needed.";
+    return "Some strokes overlap, but merging them would not reduce the number of lines." + meant;
+  if (!(advice.widths > 0.0)) return "No overdrawn strokes were found." + meant;
   return numberToText(advice.widths) + (advice.widths == 1.0 ? " stroke width: " : " stroke widths: ") +
-         counted(advice.strokes, "stroke becomes ", "strokes become ") + counted(advice.lines, "line.", "lines.");
+         counted(advice.strokes, "stroke becomes ", "strokes become ") + counted(advice.lines, "line.", "lines.") +
+         meant;
 }
 
 }  // namespace batten

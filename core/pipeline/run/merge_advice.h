@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/base/content_hash.h"
@@ -18,6 +19,8 @@ struct MergeAdvice {
   int strokes = 0;      ///< Centre lines of the page without merging, all of them,
   int lines = 0;        ///< and with it.
   double share = 0.0;   ///< [-] See OverdrawnStrokes::share.
+  /// Centre lines with edges.intent; absent: the page shows no lines drawn over more than once.
+  std::optional<int> meant = {};
 };
 
 /// Traces the page without merging, looks for strokes drawn over one another (findOverdrawnStrokes()), and where there

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/number_text.h"
 #include "core/polyline/point_grid.h"
 
 namespace batten {
@@ -25,6 +26,7 @@ constexpr int kPlacesNoted = 5;
 /// Lines that are gone may come back. So many are remembered; those that went first are forgotten first.
 constexpr std::ptrdiff_t kMostGone = 5000;
 constexpr double kPlaceRoundingPx = 0.1;
+const std::string kCurveNameBegin = "Curve ";
 
 std::vector<Vec2> placesOf(const Piece& piece) {
   std::vector<Vec2> places;
@@ -143,6 +145,18 @@ PieceNumbers numberPieces(const PieceSet& set, const CurveNumbers& known, const 
   return result;
 }
 
-std::string curveName(int number) { return "Curve " + std::to_string(number); }
+std::string curveName(int number) { return kCurveNameBegin + std::to_string(number); }
+
+std::optional<int> numberOfCurveName(std::string_view name) {
+  constexpr int kMostNumber = 1'000'000;
+  if (!name.starts_with(kCurveNameBegin)) return std::nullopt;
+  const auto number = integerFromText(name.substr(kCurveNameBegin.size()));
+  return number && *number >= 1 && *number <= kMostNumber && curveName(*number) == name ? number : std::nullopt;
+}
+
+bool isMadeName(std::string_view name) {
+  constexpr std::string_view kPath = "curve-";
+  return numberOfCurveName(name) || (name.starts_with(kPath) && integerFromText(name.substr(kPath.size())));
+}
 
 }  // namespace batten

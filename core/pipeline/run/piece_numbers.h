@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/run_context.h"
@@ -25,5 +27,9 @@ PieceNumbers numberPieces(const PieceSet&, const CurveNumbers& known, const RunC
 
 /// "Curve 3": how the window, reports and files call a curve.
 std::string curveName(int number);
+/// The number in a name of that kind; absent for other names.
+std::optional<int> numberOfCurveName(std::string_view name);
+/// Whether Batten made the name: "Curve 3" of a curve, "curve-3" of a path.
+bool isMadeName(std::string_view name);
 
 }  // namespace batten

@@ -20,7 +20,7 @@ std::size_t vectorBytes(const std::vector<T>& v) {
   return v.capacity() * sizeof(T);
 }
 
-// Sizes for the cache's budget: the large parts exactly, the rest roughly.
+// Sizes for the cache's budget: large parts exactly, the rest approximately.
 std::size_t bytesOf(const PreparedPage& page) { return sizeof(page) + vectorBytes(page.grey.pixels); }
 std::size_t bytesOf(const RegionThresholds& t) {
   std::size_t bytes = sizeof(t) + vectorBytes(t.paper.grey);
@@ -294,6 +294,17 @@ int curveNumber(const PipelineOutput& output, const TracedCurve& curve) {
   // Curves of an older run may be shown beside the pieces of a newer one, for a moment.
   const bool isKnown = output.numbers && curve.piece >= 0 && curve.piece < std::ssize(output.numbers->ofPiece);
   return isKnown ? output.numbers->ofPiece[curve.piece] : curve.piece + 1;
+}
+
+std::string ownNameOfCurve(const PipelineOutput& output, const Recipe& recipe, const TracedCurve& curve) {
+  if (!output.pieces || !output.contours || curve.piece < 0 || curve.piece >= std::ssize(output.pieces->pieces))
+    return {};
+  return importedNameOf(*output.pieces, static_cast<std::size_t>(curve.piece), *output.contours, recipe.imports);
+}
+
+std::string nameOfCurve(const PipelineOutput& output, const Recipe& recipe, const TracedCurve& curve) {
+  std::string own = ownNameOfCurve(output, recipe, curve);
+  return own.empty() ? curveName(curveNumber(output, curve)) : own;
 }
 
 PageFrame frameFor(const Scan& scan, const Recipe& recipe) {

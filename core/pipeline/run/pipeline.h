@@ -113,6 +113,10 @@ const GreyImage& tracedGrey(const Scan&, const PipelineOutput&);
 
 /// The number of a curve of this output, from 1: what the user knows it by.
 int curveNumber(const PipelineOutput&, const TracedCurve&);
+/// The name of a curve in files and reports: the one of the file that it was imported from, else "Curve 3".
+std::string nameOfCurve(const PipelineOutput&, const Recipe&, const TracedCurve&);
+/// The name that a curve brought from the file that it was imported from; empty if it brought none.
+std::string ownNameOfCurve(const PipelineOutput&, const Recipe&, const TracedCurve&);
 
 /// What the constructions take of one line (contour): all its pieces, model frame. Empty if there is no such line.
 ConstructContour lineInput(const PipelineOutput&, int contour);

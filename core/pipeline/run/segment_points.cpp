@@ -32,7 +32,7 @@ Result<std::vector<GrowingStep>> growingStepsOf(const PieceSet& pieces, const Se
                                                 const RunContext& context) {
   const auto at = static_cast<std::size_t>(piece);
   if (piece < 0 || at >= pieces.pieces.size() || segments.pieces.size() != pieces.pieces.size()) {
-    return fail(ErrorCode::Numerical, "There is no such curve any more.");
+    return fail(ErrorCode::Numerical, "This curve no longer exists.");
   }
   Recipe grown = recipe;
   grown.construct.method = ConstructMethod::Typical;

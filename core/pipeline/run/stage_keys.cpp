@@ -143,7 +143,7 @@ void addOwn(HashBuilder& h, StageId stage, const Recipe& r, const PageFrame& fra
 void add(HashBuilder& h, const ImportedLine& line) {
   h.integer(line.closed);
   addCount(h, line.curves);
-  for (const NurbsCurve& curve : line.curves) {
+  for (const auto& [curve, name] : line.curves) {
     h.integer(curve.degree()).integer(std::ssize(curve.knots())).integer(std::ssize(curve.weights()));
     for (const double knot : curve.knots()) h.number(knot);
     for (const Vec2& p : curve.controlPoints()) add(h, p);

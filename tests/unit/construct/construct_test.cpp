@@ -17,7 +17,8 @@ TEST(Construct, SaysWhichParameterIsWrong) {
   EXPECT_NE(validate(params)->message.find("derivative_magnitude"), std::string::npos);
   params = {};
   params.degree = 6;
-  EXPECT_TRUE(validate(params));
+  ASSERT_TRUE(validate(params));
+  EXPECT_EQ(validate(params)->message.find("000"), std::string::npos) << validate(params)->message;
   params = {};
   params.extremumSignificance = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(validate(params));

@@ -112,6 +112,56 @@ TEST(InkSplit, JunctionsOfStrokesAreNoFillings) {
   EXPECT_TRUE(linesOf(traced(page), ContourKind::Outline).empty());
 }
 
+struct Fan {
+  int lines;
+  double spreadDeg, apartPx;  // from the first to the last; between their meeting points along a circle
+};
+
+// Lines that cross nearly in one point, at angles of 15 to 45 degrees: the ink is up to four pens wide there, but most
+// of its border are the lines themselves.
+TEST(InkSplit, CrossingsOfManyStrokesAreNoShapes) {
+  for (const Fan& fan :
+       {Fan{3, 30.0, 0.0}, Fan{3, 40.0, 3.0}, Fan{4, 70.0, 2.0}, Fan{5, 144.0, 3.0}, Fan{6, 150.0, 2.0}}) {
+    test::LabelPage page(420, 420);
+    page.begin(false);
+    for (int i = 0; i < fan.lines; ++i) {
+      const double angle = std::numbers::pi / 180.0 * (20.0 + fan.spreadDeg * i / (fan.lines - 1));
+      const Vec2 at = Vec2(210, 210) + fan.apartPx * Vec2(std::cos(3.0 * angle), std::sin(3.0 * angle));
+      const Vec2 half = 180.0 * Vec2(std::cos(angle), std::sin(angle));
+      page.line({at - half, at + half}, kPen);
+    }
+    EXPECT_TRUE(linesOf(traced(page), ContourKind::Outline).empty()) << fan.lines << " lines over " << fan.spreadDeg;
+  }
+}
+
+// A stub that was drawn twice, hardly longer than it is wide, on a line and at its end.
+TEST(InkSplit, ShortDoubledStrokesAreNoFillings) {
+  for (const double apart : {3.0, 4.0}) {
+    for (const double length : {10.0, 12.0, 14.0}) {
+      test::LabelPage page(420, 420);
+      page.begin(false);
+      page.line({Vec2(40, 240), Vec2(390, 240)}, kPen);
+      page.line({Vec2(200, 240), Vec2(200, 240 - length)}, kPen);
+      page.line({Vec2(200 + apart, 240), Vec2(200 + apart, 240 - length)}, kPen);
+      page.line({Vec2(40, 100), Vec2(390, 100)}, kPen);
+      page.line({Vec2(390 - length, 100 - apart), Vec2(390, 100 - apart)}, kPen);
+      page.line({Vec2(390 - length, 100 + apart), Vec2(390, 100)}, kPen);
+      EXPECT_TRUE(linesOf(traced(page), ContourKind::Outline).empty()) << apart << ", " << length;
+    }
+  }
+}
+
+// A dot of four pens where four lines meet stays one.
+TEST(InkSplit, DotsOnCrossingsStayShapes) {
+  test::LabelPage page(420, 420);
+  page.begin(false);
+  page.line({Vec2(60, 210), Vec2(360, 210)}, kPen);
+  page.line({Vec2(210, 60), Vec2(210, 360)}, kPen);
+  page.begin(true);
+  page.area({test::circle(Vec2(210, 210), 2.0 * kPen)});
+  EXPECT_EQ(linesOf(traced(page), ContourKind::Outline).size(), 1u);
+}
+
 TEST(InkSplit, HolesGoWhereTheyAreNotWanted) {
   EdgeParams edges;
   edges.internal = InnerBorders::Off;

@@ -69,6 +69,17 @@ TEST(Explanation, CurvesOnTheirInkExplainItAll) {
   EXPECT_NEAR(e.curvesPx, 2 * 420.0 + 2 * 60.0 * 3.1416, 15.0);
 }
 
+TEST(Explanation, TheMarginOfTheScannerIsNoInkToExplain) {
+  Drawing drawing;
+  const Explanation before = drawing.explain();
+  for (int y = 0; y < 400; ++y) {
+    for (int x = 492; x < 500; ++x) drawing.scan.grey.row(y)[x] = 20 * GreyImage::kGreyUnit;
+  }
+  const Explanation e = drawing.explain();
+  EXPECT_NEAR(static_cast<double>(e.referencePx), static_cast<double>(before.referencePx), 400.0);
+  EXPECT_GT(e.explained, 0.99);
+}
+
 // A line that is too faint for the reference is seen along its length all the same.
 TEST(Explanation, AFaintLineIsNotInvented) {
   Drawing drawing;

@@ -4,13 +4,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "core/curve/closest_point.h"
 #include "core/curve/knot_operations.h"
 #include "core/document/export_builder.h"
 #include "core/document/report.h"
+#include "core/exchange/export_file.h"
+#include "core/exchange/import_file.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "core/pipeline/run/pipeline.h"
 
@@ -41,9 +47,9 @@ NurbsCurve circle(const Vec2& centre, double radius) {
 ImportedFile roof() {
   ImportedFile file{"roof.dxf", "mm", {}};
   const Vec2 at(-2100.25, 850.5);
-  file.lines.push_back({"roof", {cubic(at), straight(at + Vec2(40, 6), at + Vec2(60, 0))}, {}, {}, false});
-  file.lines.push_back({"wheel", {circle(at + Vec2(30, -20), 12.0)}, {}, {}, true});
-  ImportedLine wave{"wave", {}, {}, {40}, false};
+  file.lines.push_back({"roof", {}, {{cubic(at)}, {straight(at + Vec2(40, 6), at + Vec2(60, 0))}}, {}, {}, false});
+  file.lines.push_back({"wheel", {}, {{circle(at + Vec2(30, -20), 12.0)}}, {}, {}, true});
+  ImportedLine wave{"wave", {}, {}, {}, {40}, false};
   for (int i = 0; i <= 80; ++i) {
     const double x = i;
     wave.points.push_back(at + Vec2(0.75 * x, 30.0 + 4.0 * std::sin(0.1 * x) + (i > 40 ? 1.5 * (x - 40) : 0.0)));
@@ -65,9 +71,9 @@ TEST(ImportedCurves, StayExactWhereverTheyLie) {
   ASSERT_FALSE(out.error) << out.error->message;
   ASSERT_EQ(out.faired->curves.size(), 5u) << "two of the roof, the wheel, two of the wave";
   const auto& lines = recipe.imports[0].lines;
-  EXPECT_TRUE(out.faired->curves[0].faired == lines[0].curves[0]);
-  EXPECT_TRUE(out.faired->curves[1].faired == lines[0].curves[1]);
-  EXPECT_TRUE(out.faired->curves[2].faired == lines[1].curves[0]);
+  EXPECT_TRUE(out.faired->curves[0].faired == lines[0].curves[0].curve);
+  EXPECT_TRUE(out.faired->curves[1].faired == lines[0].curves[1].curve);
+  EXPECT_TRUE(out.faired->curves[2].faired == lines[1].curves[0].curve);
   EXPECT_TRUE(out.faired->curves[2].closed);
   for (const TracedCurve& curve : out.faired->curves) {
     EXPECT_LT(curve.sketchedFigures.fromPoints.max, 1.0 * out.frame.mmPerPx);
@@ -93,6 +99,86 @@ TEST(ImportedCurves, LiveInTheRecipeToTheLastBit) {
   EXPECT_THAT(recipeToJson(recipe), HasSubstr("\"source\": \"roof.dxf\""));
 }
 
+TEST(ImportedCurves, KeepTheirNamesAndLayersInFilesAndReports) {
+  ImportedFile file = roof();
+  file.lines[0].curves[0].name = "front";
+  file.lines[0].curves[1].name = "rear";
+  file.lines[0].layer = "body";
+  file.lines[1].layer = "Faired";
+  Recipe recipe = drawingOf(file);
+  EXPECT_TRUE(recipeFromJson(recipeToJson(recipe))->imports == recipe.imports);
+  const auto out = run(recipe);
+  ASSERT_FALSE(out.error) << out.error->message;
+  const Scan page = blankScan(16, 16, 96.0);
+  const auto document = exportDocument(out, recipe, page, ExportedCurves::Both);
+  std::vector<std::string> names, layers;
+  for (const ExportCurve& line : document.curves) {
+    layers.push_back(line.layer);
+    for (const ExportPiece& piece : line.pieces) names.push_back(piece.name);
+  }
+  const std::vector<std::string> all = {"front", "rear", "wheel", "wave 1", "wave 2"};
+  ASSERT_EQ(names.size(), 10u);
+  EXPECT_EQ(std::vector<std::string>(names.begin() + 5, names.end()), all);
+  EXPECT_EQ(layers, (std::vector<std::string>{"body sketched", "Sketched", "Sketched", "body", "Faired", "Faired"}));
+  EXPECT_EQ(exportDocument(out, recipe, page).curves[0].layer, "body");
+  EXPECT_THAT(reportToJson(page, recipe, out, {}), HasSubstr("\"name\": \"rear\""));
+  // A part of a curve is told from the rest of it.
+  recipe.cornerMarks.push_back({out.frame.pointToImage(file.lines[0].curves[0].curve.point(20.0))});
+  const auto cut = run(recipe);
+  ASSERT_EQ(cut.faired->curves.size(), 6u);
+  EXPECT_EQ(nameOfCurve(cut, recipe, cut.faired->curves[1]), "front 2");
+  EXPECT_EQ(nameOfCurve(cut, recipe, cut.faired->curves[2]), "rear");
+}
+
+TEST(ImportedCurves, NamesThatBattenGaveAreNumbersAgain) {
+  ImportedFile file = roof();
+  file.lines[0].name = file.lines[0].curves[0].name = "Curve 7";
+  file.lines[0].curves[1].name = "Curve 3";
+  file.lines[1].curves[0].name = "Curve 7";  // of one name the first
+  file.lines[2].name = "Curve 12";
+  file.lines[2].corners.clear();
+  const Recipe recipe = drawingOf(file);
+  const auto out = run(recipe);
+  ASSERT_FALSE(out.error) << out.error->message;
+  std::vector<std::string> names;
+  for (const TracedCurve& curve : out.faired->curves) {
+    names.push_back(nameOfCurve(out, recipe, curve));
+    EXPECT_EQ(names.back(), "Curve " + std::to_string(curveNumber(out, curve)));
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"Curve 7", "Curve 3", "Curve 13", "Curve 12"}));
+}
+
+TEST(ImportedCurves, ACsvOfThemComesBackAtItsPlace) {
+  const Recipe recipe = drawingOf(roof());
+  const auto out = run(recipe);
+  const auto document = exportDocument(out, recipe, blankScan(16, 16, 96.0));
+  ExportSettings settings;
+  settings.format = ExportFormat::Csv;
+  const auto path = std::filesystem::temp_directory_path() / ("batten-csv" + std::to_string(getpid()) + ".csv");
+  ASSERT_TRUE(exportToFile(document, settings, path));
+  std::ifstream in(path);
+  std::string first;
+  std::getline(in, first);
+  EXPECT_THAT(first, HasSubstr("from the origin of the file that was imported"));
+  const auto back = readImportFile(path);
+  std::filesystem::remove(path);
+  ASSERT_TRUE(back) << back.error().message;
+  ASSERT_EQ(back->file.lines.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ImportedLine& line = back->file.lines[i];
+    const NurbsCurve& from = document.curves[i].pieces[0].curve;
+    EXPECT_LT((line.points.front() - from.point(from.start())).norm(), 1e-9) << i;
+    EXPECT_EQ(line.name, recipe.imports[0].lines[i].name);
+    EXPECT_EQ(line.closed, recipe.imports[0].lines[i].closed) << i;
+  }
+  // The corner between the pieces is where it was.
+  ASSERT_EQ(back->file.lines[0].corners.size(), 1u);
+  EXPECT_LT((back->file.lines[0].points[static_cast<std::size_t>(back->file.lines[0].corners[0])] -
+             Vec2(-2100.25 + 40, 850.5 + 6))
+                .norm(),
+            1e-9);
+}
+
 TEST(ImportedCurves, DamagedImportsInARecipeAreRefusedWithAReason) {
   const std::string whole = recipeToJson(drawingOf(roof()));
   const auto with = [&](const std::string& what, const std::string& instead) {
@@ -114,8 +200,8 @@ TEST(ImportedCurves, DamagedImportsInARecipeAreRefusedWithAReason) {
 TEST(ImportedCurves, AMarkCutsACurveWithoutChangingIt) {
   Recipe recipe = drawingOf(roof());
   const auto before = run(recipe);
-  const NurbsCurve whole = recipe.imports[0].lines[0].curves[0];
-  const NurbsCurve wheel = recipe.imports[0].lines[1].curves[0];
+  const NurbsCurve whole = recipe.imports[0].lines[0].curves[0].curve;
+  const NurbsCurve wheel = recipe.imports[0].lines[1].curves[0].curve;
   recipe.cornerMarks = {{before.frame.pointToImage(whole.point(25.0))},
                         {before.frame.pointToImage(wheel.point(0.7))},
                         {before.frame.pointToImage(wheel.point(2.6))}};
@@ -151,7 +237,7 @@ TEST(ImportedCurves, CanBeMadeFairAndBuiltAnew) {
   for (int i = 0; i < 12; ++i) points.emplace_back(9.0 * i, 20.0 * std::sin(0.285 * i) + (i == 5 ? 0.8 : 0.0));
   for (int i = 1; i < 9; ++i) knots.push_back(11.0 * i);
   knots.insert(knots.end(), 4, 99.0);
-  file.lines.push_back({"arch", {NurbsCurve::make(3, knots, points).value()}, {}, {}, false});
+  file.lines.push_back({"arch", {}, {{NurbsCurve::make(3, knots, points).value()}}, {}, {}, false});
   Recipe recipe = drawingOf(file);
   const auto plain = run(recipe);
   ASSERT_FALSE(plain.error);
@@ -160,7 +246,7 @@ TEST(ImportedCurves, CanBeMadeFairAndBuiltAnew) {
   const auto faired = run(recipe);
   ASSERT_FALSE(faired.error) << faired.error->message;
   const TracedCurve& curve = faired.faired->curves[0];
-  EXPECT_TRUE(curve.sketched == file.lines[0].curves[0]) << "what was imported stays";
+  EXPECT_TRUE(curve.sketched == file.lines[0].curves[0].curve) << "what was imported stays";
   EXPECT_FALSE(curve.faired == curve.sketched) << curve.fairing.note;
   EXPECT_LT(curve.fairedFigures.extrema, plain.faired->curves[0].fairedFigures.extrema);
   EXPECT_LE(curve.fairing.maxDeviationMm, 1.0 + 1e-9);
@@ -170,7 +256,7 @@ TEST(ImportedCurves, CanBeMadeFairAndBuiltAnew) {
   anew.construct.light = false;
   PieceChoice choice;
   choice.method = ConstructMethod::Fair;
-  choice.anchorsPx = {plain.frame.pointToImage(file.lines[0].curves[0].point(50.0))};
+  choice.anchorsPx = {plain.frame.pointToImage(file.lines[0].curves[0].curve.point(50.0))};
   anew.choices.push_back(choice);
   const auto built = run(anew);
   ASSERT_FALSE(built.error);
@@ -180,11 +266,11 @@ TEST(ImportedCurves, CanBeMadeFairAndBuiltAnew) {
 
 TEST(ImportedCurves, LieOnTheScanThatIsBelow) {
   const PageFrame frame{1000, 500, 0.1};  // 100 x 50 mm
-  ImportedFile near{"a.csv", "mm", {{"", {}, {{10, 10}, {50, 20}, {90, 10}}, {}, false}}};
+  ImportedFile near{"a.csv", "mm", {{"", {}, {}, {{10, 10}, {50, 20}, {90, 10}}, {}, false}}};
   const auto kept = withImport({}, near, frame);
   EXPECT_FALSE(kept.moved);
   EXPECT_TRUE(kept.recipe.imports[0] == near);
-  ImportedFile far{"b.csv", "mm", {{"", {}, {{1010, 10}, {1050, 20}}, {}, false}}};
+  ImportedFile far{"b.csv", "mm", {{"", {}, {}, {{1010, 10}, {1050, 20}}, {}, false}}};
   const auto moved = withImport(kept.recipe, far, frame);
   EXPECT_TRUE(moved.moved);
   ASSERT_EQ(moved.recipe.imports.size(), 2u);
@@ -205,7 +291,7 @@ TEST(ImportedCurves, TheirUnitCanBeChosenLater) {
   ImportedFile file = roof();
   for (ImportedLine& line : file.lines) {
     for (Vec2& p : line.points) p += Vec2(2100, -850);
-    for (NurbsCurve& curve : line.curves) curve = curve.mapped(Eigen::Matrix2d::Identity(), Vec2(2100, -850));
+    for (auto& [curve, name] : line.curves) curve = curve.mapped(Eigen::Matrix2d::Identity(), Vec2(2100, -850));
   }
   file.unit = "mm?";
   const Recipe assumed = drawingOf(file);
@@ -217,8 +303,8 @@ TEST(ImportedCurves, TheirUnitCanBeChosenLater) {
   ASSERT_EQ(out.faired->curves.size(), before.faired->curves.size());
   EXPECT_NEAR(out.faired->curves[2].fairedFigures.lengthMm, 25.4 * before.faired->curves[2].fairedFigures.lengthMm,
               1e-6);
-  const Vec2 px = before.frame.pointToImage(assumed.imports[0].lines[0].curves[0].point(7.0));
-  EXPECT_LT((out.frame.pointToImage(inches->imports[0].lines[0].curves[0].point(7.0)) - px).norm(), 1e-6)
+  const Vec2 px = before.frame.pointToImage(assumed.imports[0].lines[0].curves[0].curve.point(7.0));
+  EXPECT_LT((out.frame.pointToImage(inches->imports[0].lines[0].curves[0].curve.point(7.0)) - px).norm(), 1e-6)
       << "marks stay where they are";
   const auto back = withImportUnit(*inches, 0, "mm", out.frame);
   ASSERT_TRUE(back);

@@ -6,12 +6,21 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <utility>
 
+#include "core/exchange/cad_drawing.h"
+#include "core/exchange/csv_writer.h"
+#include "core/exchange/dxf_reader.h"
 #include "core/exchange/export_file.h"
 #include "core/exchange/import_file.h"
+#include "core/exchange/occt/iges.h"
 #include "core/exchange/occt/open_cascade.h"
+#include "core/exchange/occt/step_reader.h"
+#include "core/exchange/pdf_writer.h"
+#include "core/exchange/polynomial_writer.h"
+#include "core/exchange/rhino_reader.h"
 #include "core/exchange/svg_check.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
@@ -141,7 +150,7 @@ std::pair<Vec2, Vec2> writtenStart(const ExportDocument& document, const char* e
   EXPECT_TRUE(read) << read.error().message;
   std::filesystem::remove(path);
   if (!read || read->file.lines.empty()) return {};
-  const NurbsCurve& curve = read->file.lines[0].curves[0];
+  const NurbsCurve& curve = read->file.lines[0].curves[0].curve;
   return {curve.point(curve.start()), curve.derivatives(curve.start(), 1)[1].normalized()};
 }
 
@@ -166,6 +175,56 @@ TEST(Arrangement, ArcsAndCirclesKeepTheWayTheUserAskedFor) {
       EXPECT_LT((start - Vec2(60, 57.25)).norm(), 1e-6) << ending;
       EXPECT_GT((turned ? 1.0 : -1.0) * direction.x(), 0.999) << ending;
     }
+  }
+}
+
+/// What reading a file back for the check says of it, [mm]; nothing where other curves are found.
+std::optional<double> readBackDifference(const ExportedFile& file, const ExportDocument& expected,
+                                         const ExportSettings& settings) {
+  const auto of = [](const auto& result) { return result ? std::optional<double>(*result) : std::nullopt; };
+  switch (settings.format) {
+    case ExportFormat::Svg: {
+      const auto check = checkSvg(file.bytes, expected);
+      return check ? std::optional(check->largestErrorMm) : std::nullopt;
+    }
+    case ExportFormat::Pdf:
+      return of(checkPdf(file.bytes, expected));
+    case ExportFormat::Csv:
+      return of(checkCsv(file.bytes, expected, settings));
+    case ExportFormat::Polynomials:
+      return of(checkPolynomials(file.bytes, expected, settings));
+    default: {
+      const auto made = cadExport(expected, settings);
+      const auto back = settings.format == ExportFormat::Dxf    ? readDxf(file.bytes)
+                        : settings.format == ExportFormat::Iges ? readIges(file.bytes)
+                        : settings.format == ExportFormat::Step ? readStep(file.bytes)
+                                                                : readRhino(file.bytes);
+      return made && back ? of(largestDifference(made->drawing, *back)) : std::nullopt;
+    }
+  }
+}
+
+TEST(Arrangement, TheCheckComparesWithTheTurnedCurves) {
+  ExportDocument plain = test::exportOfAllKinds();
+  ExportDocument turned = plain;
+  for (ExportCurve& line : turned.curves) line.pieces[0].direction = PieceDirection{0, true};
+  turned.curves[3].startMm = plain.curves[3].pieces[0].curve.point(0.4 * plain.curves[3].pieces[0].curve.end());
+  for (const ExportFormat format : {ExportFormat::Svg, ExportFormat::Pdf, ExportFormat::Csv, ExportFormat::Polynomials,
+                                    ExportFormat::Dxf, ExportFormat::Iges, ExportFormat::Step, ExportFormat::Rhino}) {
+    if (!hasOpenCascade() && (format == ExportFormat::Iges || format == ExportFormat::Step)) continue;
+    ExportSettings settings;
+    settings.format = format;
+    settings.splinesOnly = true;
+    const auto file = exportedFile(turned, settings), other = exportedFile(plain, settings);
+    ASSERT_TRUE(file) << endingsOf(format)[0] << " " << file.error().message;
+    ASSERT_TRUE(other) << endingsOf(format)[0];
+    EXPECT_NE(file->bytes, other->bytes) << endingsOf(format)[0];
+    const ExportDocument expected = arranged(turned, isJoined(settings))->document;
+    const auto same = readBackDifference(*file, expected, settings);
+    ASSERT_TRUE(same) << endingsOf(format)[0];
+    EXPECT_LE(*same, isApproximate(settings) ? 1.05 * defaultTolerance(settings) : 1e-9) << endingsOf(format)[0];
+    // The same curves as they ran before are found out.
+    EXPECT_GT(readBackDifference(*other, expected, settings).value_or(1e9), 1.0) << endingsOf(format)[0];
   }
 }
 

@@ -114,7 +114,7 @@ TEST_F(CurveFile, DamagedSvgsAreRefusedWithAReason) {
 TEST_F(CurveFile, SaysWhatItDoesNotRead) {
   EXPECT_NE(readCurveFile(folder_ / "none.dxf").error().message.find("Check the name"), std::string::npos);
   const fs::path pdf = written(test::exportOfAllKinds(), ".pdf", LengthUnit::Millimetre);
-  EXPECT_NE(readCurveFile(pdf).error().message.find("Take a .json"), std::string::npos);
+  EXPECT_NE(readCurveFile(pdf).error().message.find("Use a .json"), std::string::npos);
   const fs::path empty = folder_ / "empty.dxf";
   std::ofstream(empty) << "0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n";
   EXPECT_EQ(readCurveFile(empty).error().code, ErrorCode::NoCurve);

@@ -9,8 +9,11 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <random>
+#include <set>
+#include <string>
 
 #include "core/exchange/export_file.h"
 #include "core/exchange/iges_reader.h"
@@ -55,7 +58,7 @@ class Import : public testing::Test {
 std::vector<NurbsCurve> curvesOf(const ImportReport& report) {
   std::vector<NurbsCurve> curves;
   for (const ImportedLine& line : report.file.lines)
-    curves.insert(curves.end(), line.curves.begin(), line.curves.end());
+    for (const ImportedCurve& curve : line.curves) curves.push_back(curve.curve);
   return curves;
 }
 
@@ -183,7 +186,7 @@ TEST_F(Import, OwnSvgKeepsItsExactCurvesWhereThePathsStillShowThem) {
   const ImportReport same = read("own.svg", editedSvg([](std::string data) { return data; }));
   ASSERT_EQ(same.file.lines.size(), 6u);
   EXPECT_TRUE(same.notes.empty());
-  EXPECT_TRUE(same.file.lines[1].curves[0] == test::severalSpans());
+  EXPECT_TRUE(same.file.lines[1].curves[0].curve == test::severalSpans());
   // Another program writes fewer digits; the handles stay within a thousandth of a millimetre.
   const ImportReport rounded = read("own.svg", editedSvg([](std::string data) {
                                       std::string result;
@@ -197,7 +200,7 @@ TEST_F(Import, OwnSvgKeepsItsExactCurvesWhereThePathsStillShowThem) {
                                       return result;
                                     }));
   EXPECT_TRUE(rounded.notes.empty());
-  EXPECT_TRUE(rounded.file.lines[1].curves[0] == test::severalSpans());
+  EXPECT_TRUE(rounded.file.lines[1].curves[0].curve == test::severalSpans());
 }
 
 TEST_F(Import, AnEditedPathOfAnOwnSvgIsReadAsItIsDrawn) {
@@ -208,9 +211,9 @@ TEST_F(Import, AnEditedPathOfAnOwnSvgIsReadAsItIsDrawn) {
   });
   const ImportReport report = read("own.svg", svg);
   ASSERT_EQ(report.file.lines.size(), 6u);
-  const NurbsCurve& drawn = report.file.lines[1].curves.back();
+  const NurbsCurve& drawn = report.file.lines[1].curves.back().curve;
   EXPECT_LT((drawn.point(drawn.end()) - Vec2(73, 40)).norm(), 1e-5);
-  EXPECT_TRUE(report.file.lines[0].curves[0] == test::oneSpan()) << "the others stay exact";
+  EXPECT_TRUE(report.file.lines[0].curves[0].curve == test::oneSpan()) << "the others stay exact";
   ASSERT_EQ(report.notes.size(), 2u);
   EXPECT_THAT(report.notes[0], HasSubstr("1 path is not what Batten wrote"));
   EXPECT_THAT(report.notes[1], HasSubstr("1 curve of Batten is not drawn"));
@@ -231,7 +234,7 @@ TEST_F(Import, PathsAddedToAnOwnSvgOrTakenFromItCount) {
   const auto group = svg.find("<g id=");
   const ImportReport moved = read("own.svg", svg.insert(group + 2, " transform=\"translate(2,0)\""));
   EXPECT_THAT(moved.notes[0], HasSubstr("7 paths are not"));
-  EXPECT_NEAR(moved.file.lines[0].curves[0].controlPoints()[0].x(), 12.0, 1e-6);
+  EXPECT_NEAR(moved.file.lines[0].curves[0].curve.controlPoints()[0].x(), 12.0, 1e-6);
 }
 
 TEST_F(Import, AnOwnSvgWithoutItsExactCurvesIsReadAsItIsDrawn) {
@@ -240,7 +243,7 @@ TEST_F(Import, AnOwnSvgWithoutItsExactCurvesIsReadAsItIsDrawn) {
   const ImportReport report = read("own.svg", svg.erase(at, end - at));
   EXPECT_EQ(report.file.lines.size(), 6u);
   ASSERT_EQ(report.notes.size(), 1u);
-  EXPECT_THAT(report.notes[0], HasSubstr("read as they are drawn"));
+  EXPECT_THAT(report.notes[0], HasSubstr("read as drawn"));
 }
 
 TEST_F(Import, SvgKeepsTheNamesOfItsCurves) {
@@ -252,6 +255,73 @@ TEST_F(Import, SvgKeepsTheNamesOfItsCurves) {
   EXPECT_EQ(read("own.svg", svg.erase(at, end - at)).file.lines[0].name, "Schürze <a>");
 }
 
+TEST_F(Import, NamesAndLayersComeBackFromOwnFiles) {
+  ExportDocument document = test::exportOfAllKinds();
+  std::vector<std::string> names, layers;
+  for (ExportCurve& line : document.curves) {
+    line.layer = layers.size() % 2 == 0 ? "Body side" : "Glass";
+    layers.push_back(line.layer);
+    for (ExportPiece& piece : line.pieces) {
+      piece.name = "Character line " + std::to_string(names.size() + 1);
+      names.push_back(piece.name);
+    }
+  }
+  for (const std::string ending : {".dxf", ".igs", ".step", ".svg", ".json"}) {
+    if (!hasOpenCascade() && (ending == ".igs" || ending == ".step")) continue;
+    const fs::path path = folder_ / ("named" + ending);
+    ExportSettings settings;
+    settings.format = *formatOf(path);
+    ASSERT_TRUE(exportToFile(document, settings, path)) << ending;
+    const auto back = readImportFile(path);
+    ASSERT_TRUE(back) << ending << back.error().message;
+    // STEP holds its curves layer by layer.
+    std::multiset<std::string> namesBack, layersBack;
+    std::map<std::string, std::string> layerOf;
+    for (const ImportedLine& line : back->file.lines) {
+      layersBack.insert(line.layer);
+      for (const ImportedCurve& curve : line.curves) {
+        namesBack.insert(curve.name);
+        layerOf[curve.name] = line.layer;
+      }
+    }
+    EXPECT_EQ(namesBack, std::multiset<std::string>(names.begin(), names.end())) << ending;
+    if (ending == ".igs") continue;  // levels have numbers
+    EXPECT_EQ(layersBack, std::multiset<std::string>(layers.begin(), layers.end())) << ending;
+    EXPECT_EQ(layerOf[names[0]], "Body side") << ending;
+    EXPECT_EQ(layerOf[names[1]], "Glass") << ending;
+  }
+}
+
+TEST_F(Import, NamesOfOtherBytesAreShownAndTextsOfOthersAreNone) {
+  const std::string line = "10\n0\n20\n0\n11\n10\n21\n0\n";
+  const ImportReport report =
+      read("a.dxf", std::string(kDxfHead) + "0\nLINE\n8\nDach \xe4\n" + line + "1001\nACME\n1000\nsecret\n" +
+                        "0\nLINE\n8\n0\n10\n0\n20\n9\n11\n10\n21\n9\n1001\nBATTEN\n1000\nroof\x01line\n" + kDxfEnd);
+  ASSERT_EQ(report.file.lines.size(), 2u);
+  EXPECT_EQ(report.file.lines[0].name, "");
+  EXPECT_EQ(report.file.lines[0].layer, "Dach \xEF\xBF\xBD");
+  EXPECT_EQ(report.file.lines[1].name, "roof?line");
+  EXPECT_EQ(report.file.lines[1].layer, "") << "layer 0 is none";
+}
+
+TEST_F(Import, AnAssignedLayerOfAStepCounts) {
+  if (!hasOpenCascade()) GTEST_SKIP() << "built without Open CASCADE";
+  ExportDocument document = test::exportOfAllKinds();
+  document.curves.resize(1);
+  document.curves[0].pieces[0].name = "sill";
+  ExportSettings settings;
+  settings.format = ExportFormat::Step;
+  std::string step = exportedFile(document, settings)->bytes;
+  const auto name = step.find("B_SPLINE_CURVE_WITH_KNOTS('sill'");
+  ASSERT_NE(name, std::string::npos);
+  const auto hash = step.rfind('#', name);
+  const std::string id = step.substr(hash, step.find_first_of(" =", hash) - hash);
+  step.insert(step.rfind("ENDSEC;"), "#99999=PRESENTATION_LAYER_ASSIGNMENT('Glass','',(" + id + "));\n");
+  const ImportReport report = read("layer.step", step);
+  EXPECT_EQ(report.file.lines.at(0).layer, "Glass");
+  EXPECT_EQ(report.file.lines[0].curves.at(0).name, "sill");
+}
+
 TEST_F(Import, TheUnitsOfADxfAreKnown) {
   const auto length = [&](const char* unit) {
     const ImportReport report =
@@ -259,7 +329,7 @@ TEST_F(Import, TheUnitsOfADxfAreKnown) {
                           "\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nLINE\n8\n0\n10\n0\n20\n0\n11\n0.01\n21\n0\n"
                           "0\nENDSEC\n0\nEOF\n");
     EXPECT_TRUE(report.notes.empty()) << unit;
-    const NurbsCurve& line = report.file.lines.at(0).curves.at(0);
+    const NurbsCurve& line = report.file.lines.at(0).curves.at(0).curve;
     return line.point(line.end()).x();
   };
   EXPECT_NEAR(length("3"), 16093.44, 1e-9);
@@ -278,9 +348,9 @@ TEST_F(Import, APolylineWithBulgesBecomesLinesAndArcs) {
   const ImportedLine& line = report.file.lines[0];
   EXPECT_TRUE(line.closed);
   ASSERT_EQ(line.curves.size(), 4u);
-  EXPECT_EQ(line.curves[0].degree(), 1);
-  EXPECT_EQ(line.curves[2].degree(), 1);
-  const NurbsCurve& arc = line.curves[1];
+  EXPECT_EQ(line.curves[0].curve.degree(), 1);
+  EXPECT_EQ(line.curves[2].curve.degree(), 1);
+  const NurbsCurve& arc = line.curves[1].curve;
   EXPECT_LT((arc.point(0.5 * (arc.start() + arc.end())) - Vec2(15, 5)).norm(), 1e-12);
   EXPECT_LT((arc.point(arc.start()) - Vec2(10, 0)).norm(), 1e-12);
 }
@@ -394,17 +464,18 @@ TEST_F(Import, ReadsTheShapesOfAnySvgInMillimetres) {
   const ImportedLine& path = report.file.lines[0];
   EXPECT_EQ(path.name, "one");
   ASSERT_EQ(path.curves.size(), 2u) << "two cubics that go on are one curve, the line is another";
-  EXPECT_LT((path.curves[0].point(path.curves[0].start()) - Vec2(10.0, 45.0)).norm(), 1e-12);
-  EXPECT_LT((path.curves[0].point(path.curves[0].end()) - Vec2(50.0, 25.0)).norm(), 1e-12);
+  EXPECT_LT((path.curves[0].curve.point(path.curves[0].curve.start()) - Vec2(10.0, 45.0)).norm(), 1e-12);
+  EXPECT_LT((path.curves[0].curve.point(path.curves[0].curve.end()) - Vec2(50.0, 25.0)).norm(), 1e-12);
   EXPECT_EQ(report.file.lines[1].curves.size(), 4u);
   EXPECT_TRUE(report.file.lines[1].closed);
-  const NurbsCurve& circle = report.file.lines[2].curves[0];
+  const NurbsCurve& circle = report.file.lines[2].curves[0].curve;
   for (int i = 0; i <= 20; ++i)
     EXPECT_NEAR((circle.point(circle.start() + (circle.end() - circle.start()) * i / 20) - Vec2(50.0, 25.0)).norm(),
                 5.0, 1e-12);
-  EXPECT_LT((report.file.lines[3].curves[0].controlPoints()[0] - Vec2(5.0, 50.0)).norm(), 1e-12) << "turned about 5, 5";
+  EXPECT_LT((report.file.lines[3].curves[0].curve.controlPoints()[0] - Vec2(5.0, 50.0)).norm(), 1e-12)
+      << "turned about 5, 5";
   // A centimetre is 37.8 units of 1/96 inch, each of which is half a millimetre here.
-  EXPECT_NEAR(report.file.lines[4].curves[0].controlPoints()[0].x(), 0.5 * 96.0 / 2.54, 1e-9);
+  EXPECT_NEAR(report.file.lines[4].curves[0].curve.controlPoints()[0].x(), 0.5 * 96.0 / 2.54, 1e-9);
   ASSERT_EQ(report.notes.size(), 1u) << "the text";
   EXPECT_EQ(read("px.svg", "<svg><path d='M0 0L96 0'/></svg>").file.unit, "px?");
 }

@@ -197,7 +197,7 @@ TEST(SvgWriter, RefusesToCloseWhatDoesNotMeet) {
     document.curves[i].closed = true;
     const auto svg = writeSvg(document, {});
     ASSERT_FALSE(svg);
-    EXPECT_NE(svg.error().message.find("lie apart"), std::string::npos);
+    EXPECT_NE(svg.error().message.find("do not meet"), std::string::npos);
     EXPECT_FALSE(writeCurveJson(document));
   }
 }

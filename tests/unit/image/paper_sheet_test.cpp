@@ -148,7 +148,7 @@ TEST(PaperSheet, IsCutOnlyWhenAsked) {
   const auto cut = preparePage(scan, params, {});
   ASSERT_TRUE(cut->sheet.has_value());
   ASSERT_EQ(cut->notes.size(), 1u);
-  EXPECT_NE(cut->notes[0].find("beside the sheet"), std::string::npos);
+  EXPECT_NE(cut->notes[0].find("outside the sheet"), std::string::npos);
   params.sheet = SheetUse::Off;
   EXPECT_TRUE(preparePage(scan, params, {})->isUntouched());
 }

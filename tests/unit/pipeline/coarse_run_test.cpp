@@ -61,7 +61,7 @@ TEST(CoarseRun, ImportedLinesLieWhereTheFullPageHasThem) {
   recipe.dpi = 254.0;
   recipe.page = BlankPage{kWidth, kHeight, 1200.0, -350.0};
   ImportedLine line;
-  line.curves = {NurbsCurve::make(1, {0, 0, 1, 1}, {Vec2(1250, -300), Vec2(1500, -200)}).value()};
+  line.curves = {{NurbsCurve::make(1, {0, 0, 1, 1}, {Vec2(1250, -300), Vec2(1500, -200)}).value()}};
   recipe.imports.push_back({"line.dxf", "mm", {line}});
   StageCache cache, coarseCache;
   const PipelineOutput full = runPipeline(scan, recipe, cache, {}, {});

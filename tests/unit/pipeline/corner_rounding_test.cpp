@@ -220,9 +220,10 @@ TEST(RoundCorners, SaysSoEvenWhereFairingHasSaidSomethingElse) {
   angle.set.curves[0].fairing.note = "Left as sketched.";
   roundCorners(angle.set, angle.pieces, angle.recipe, {});
   EXPECT_EQ(angle.set.curves[0].fairing.note,
-            "Left as sketched. A corner could not be rounded: its sides do not meet ahead. It stays sharp.");
+            "Left as sketched. A corner could not be rounded because its sides do not meet when "
+            "extended.");
   EXPECT_EQ(angle.set.curves[1].fairing.note,
-            "A corner could not be rounded: its sides do not meet ahead. It stays sharp.");
+            "A corner could not be rounded because its sides do not meet when extended.");
 }
 
 TEST(RecipeFile, KeepsRoundedCornersAndSegmentPoints) {

@@ -21,7 +21,7 @@ ImportedFile longLines(int count, bool asCurves) {
     const std::vector<Vec2> ends{Vec2(-5e4, i), Vec2(5e4, i)};
     ImportedLine line;
     if (asCurves) {
-      line.curves = {NurbsCurve::make(1, {0, 0, 1, 1}, ends).value()};
+      line.curves = {{NurbsCurve::make(1, {0, 0, 1, 1}, ends).value()}};
     } else {
       line.points = ends;
     }

@@ -52,8 +52,7 @@ TEST(MergeAdvice, SaysHowManyStrokesBecomeHowManyLines) {
 }
 
 TEST(MergeAdvice, SaysWhenMergingWouldNotHelp) {
-  EXPECT_EQ(describe({0.0, 5, 5, 0.3}),
-            "Some strokes run over one another, but merging them would not make fewer lines.");
+  EXPECT_EQ(describe({0.0, 5, 5, 0.3}), "Some strokes overlap, but merging them would not reduce the number of lines.");
 }
 
 TEST(MergeAdvice, TheKeyIsOfWhatItDependsOn) {
@@ -76,13 +75,13 @@ TEST(MergeAdvice, NoneForSingleStrokesAndOutlines) {
   ASSERT_TRUE(advice);
   EXPECT_EQ(advice->widths, 0.0);
   EXPECT_EQ(advice->strokes, 1);
-  EXPECT_EQ(describe(*advice), "No overdrawn strokes were found: merging is not needed.");
+  EXPECT_EQ(describe(*advice), "No overdrawn strokes were found.");
   recipe.edges.mode = EdgeMode::Outline;
   const auto outlines = adviseMerge(bundlePage(), recipe, cache, {});
   ASSERT_TRUE(outlines);
   EXPECT_EQ(outlines->widths, 0.0);
   EXPECT_EQ(outlines->strokes, 0);
-  EXPECT_EQ(describe(*outlines), "No ink is followed along its middle: there are no strokes to merge.");
+  EXPECT_EQ(describe(*outlines), "No centre lines are traced, so there are no strokes to merge.");
 }
 
 TEST(MergeAdvice, SaysWhyThereIsNone) {

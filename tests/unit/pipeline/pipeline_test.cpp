@@ -219,11 +219,11 @@ TEST(Pipeline, InkFollowedInItsOwnWayIsTracedAnew) {
   const auto kept = run(recipe, cache);
   ASSERT_TRUE(kept.contours);
   EXPECT_EQ(kept.contours->contours[0].kind, ContourKind::Outline) << "it must not vanish";
-  EXPECT_NE(kept.contours->report.note.find("along its outline"), std::string::npos);
+  EXPECT_NE(kept.contours->report.note.find("traced by its outline"), std::string::npos);
   recipe.edges.choices[0].positionPx = Vec2(-500, -500);
   const auto nowhere = run(recipe, cache);
   ASSERT_TRUE(nowhere.contours);
-  EXPECT_NE(nowhere.contours->report.note.find("No ink"), std::string::npos);
+  EXPECT_NE(nowhere.contours->report.note.find("there is no ink"), std::string::npos);
 }
 
 TEST(Pipeline, ARegionTracesOnlyWhatLiesInside) {

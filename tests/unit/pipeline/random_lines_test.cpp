@@ -141,10 +141,10 @@ void expectSoundFairing(const NurbsCurve& start, const FairedCurve& faired, doub
   EXPECT_LT((faired.curve.point(faired.curve.end()) - start.point(start.end())).norm(), 1e-9 * size);
 }
 
-/// Lines of a case: 25, which take a minute of processor time; BATTEN_LINES_OF_A_CASE sets another number.
+/// Lines of a case: 5, a dozen seconds of processor time; BATTEN_LINES_OF_A_CASE sets another number (packaging/check: 100).
 int linesOfACase() {
   const char* const asked = std::getenv("BATTEN_LINES_OF_A_CASE");
-  return asked == nullptr ? 25 : std::max(1, std::atoi(asked));
+  return asked == nullptr ? 5 : std::max(1, std::atoi(asked));
 }
 
 /// Every construction of its line, then every way of fairing one of the curves.

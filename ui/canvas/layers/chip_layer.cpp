@@ -11,6 +11,7 @@
 #include "core/base/conventions.h"
 #include "ui/session/curve_names.h"
 #include "ui/session/judged_view.h"
+#include "ui/session/page_text.h"
 #include "ui/session/piece_choice.h"
 
 namespace batten {
@@ -35,7 +36,7 @@ QString methodText(const CanvasScene& scene, const TracedCurve& curve, int degre
     case ConstructMethod::Bezier:
       return chipText("quintic Bézier path");
     case ConstructMethod::Typical:
-      return curve.construct.segments.empty() ? chipText("Bézier path, as typical curves do not fit")
+      return curve.construct.segments.empty() ? chipText("Bézier path (typical curves do not fit)")
                                               : chipText("typical curves");
     case ConstructMethod::ControlPolygon:
       return chipText("control polygon");
@@ -100,7 +101,7 @@ QString curveText(const CanvasScene& scene) {
   if (const QString method = methodText(scene, *curve, shown.degree()); !method.isEmpty()) parts << method;
   parts << chipText("%1 control points").arg(shown.controlPointCount())
         << chipText("%1 mm").arg(number(figures.lengthMm, 1));
-  if (judged == Judged::Result && isLeftAsDrawn(*curve)) parts << chipText("left as drawn by fairing");
+  if (judged == Judged::Result && isLeftAsDrawn(*curve)) parts << chipText("unchanged by fairing");
   return parts.join(QStringLiteral(" · "));
 }
 
@@ -108,12 +109,9 @@ QString pageText(const CanvasScene& scene) {
   const auto scan = scene.session.scan();
   if (!scan) return {};
   const Recipe& recipe = scene.session.recipe();
-  if (isScaleAssumed(*scan, recipe)) return chipText("no scale: assumed %1 dpi").arg(number(kAssumedDpi, 0));
+  if (isScaleAssumed(*scan, recipe)) return chipText("no scale: %1 dpi assumed").arg(number(kAssumedDpi, 0));
   const PageFrame frame = frameFor(*scan, recipe);
-  const QString size = QStringLiteral("%1 × %2 mm")
-                           .arg(number(frame.widthPx * frame.mmPerPx, 0), number(frame.heightPx * frame.mmPerPx, 0));
-  const double dpi = kMillimetresPerInch / frame.mmPerPx;
-  const QString value = number(dpi, std::abs(dpi - std::round(dpi)) < 0.05 ? 0 : 1);
+  const QString size = pageSizeText(frame), value = resolutionText(kMillimetresPerInch / frame.mmPerPx);
   if (scene.session.isBlankPage()) return chipText("empty page, %1 dpi · %2").arg(value, size);
   return (recipe.dpi ? chipText("%1 dpi set by hand · %2") : chipText("%1 dpi from file · %2")).arg(value, size);
 }
@@ -135,7 +133,8 @@ QString cursorText(const CanvasScene& scene) {
     const auto nearest =
         std::min_element(comb->whiskers.begin(), comb->whiskers.end(),
                          [s](const Whisker& a, const Whisker& b) { return std::abs(a.s - *s) < std::abs(b.s - *s); });
-    text += QStringLiteral(" · ") + chipText("off sketch %1 mm").arg(number(nearest->mm, nearest->mm < 0.01 ? 4 : 2));
+    text += QStringLiteral(" · ") +
+            chipText("max. deviation from sketch %1 mm").arg(number(nearest->mm, nearest->mm < 0.01 ? 4 : 2));
   }
   return text;
 }
@@ -144,11 +143,11 @@ QString workText(const CanvasScene& scene) {
   const bool isCoarse =
       (scene.session.coarseInk() && scene.view.isVisible(Layer::Mask)) || scene.session.coarseCurves();
   if (isCoarse && !scene.view.isScanOnly())
-    return scene.session.isBusy() ? chipText("coarse result · the full one follows")
-                                  : chipText("stopped · shows a coarse result");
+    return scene.session.isBusy() ? chipText("coarse result · full result to follow")
+                                  : chipText("stopped · coarse result shown");
   if (scene.session.isBusy()) return scene.isLate ? chipText("working…") : QString();
   if (scene.session.hasScan() && scene.session.isStale(StageId::Faired))
-    return chipText("stopped · shows the result before");
+    return chipText("stopped · previous result shown");
   return {};
 }
 

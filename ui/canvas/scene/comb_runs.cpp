@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/statistics.h"
+
 namespace batten {
 namespace {
 
@@ -65,11 +67,9 @@ CombScale radiusScaleFor(const CombedCurve& curve, const std::vector<CombPoint>&
   for (const CombPoint& point : points)
     if (std::abs(point.kappa) > 0.0) radii.push_back(1.0 / std::abs(point.kappa));
   if (!(curvature.pxPerKappa > 0.0) || radii.empty()) return {};
-  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-  std::nth_element(radii.begin(), middle, radii.end());
   CombScale scale;
   scale.limitPx = curvature.limitPx;
-  scale.pxPerRadius = curvature.pxPerKappa * curve.robustKappa / *middle;
+  scale.pxPerRadius = curvature.pxPerKappa * curve.robustKappa / upperMedian(radii);
   return scale;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/parallel.h"
+#include "core/base/statistics.h"
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
@@ -15,7 +16,8 @@ namespace {
 
 constexpr int kCombSamples = 801;
 constexpr int kWhiskers = 121;
-constexpr std::size_t kFewCurves = 6;  ///< All combs are shown up to this many curves.
+constexpr double kMostCurvature = 0.95;  ///< Of the samples: what a few spikes do not raise.
+constexpr std::size_t kFewCurves = 6;    ///< All combs are shown up to this many curves.
 
 double squaredToSegment(const Vec2& p, const Vec2& a, const Vec2& b, double& fraction) {
   const Vec2 d = b - a;
@@ -85,9 +87,7 @@ CurveComb combOf(const TracedCurve& traced, int index, bool isSelected, Judged j
   comb.extentPx = frame.lengthToImage(extent(shown));
   std::vector<double> sizes;
   for (const CombPoint& point : comb.points) sizes.push_back(std::abs(point.kappa));
-  const auto high = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 95 / 100);
-  std::nth_element(sizes.begin(), high, sizes.end());
-  comb.robustKappa = *high;
+  comb.robustKappa = lowerQuantile(sizes, kMostCurvature);
   addMarks(comb, shown, traced.closed);
   if (!comb.isFaired || !isSelected) return comb;
   comb.sketched = combPoints(traced.sketched, frame);

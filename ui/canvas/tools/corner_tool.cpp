@@ -79,7 +79,7 @@ class CornerTool final : public PointTool {
     if (!found) return false;
     Recipe recipe = scene_.session.recipe();
     recipe.refusedCornersPx.push_back(found->positionPx);
-    scene_.session.change(cornerText("Leave corner out"), std::move(recipe), gesture);
+    scene_.session.change(cornerText("Exclude corner"), std::move(recipe), gesture);
     return true;
   }
 
@@ -101,7 +101,7 @@ class CornerTool final : public PointTool {
     if (hovered() && hovered() == selected())
       return cornerText("Click to remove this corner; drag or press arrow keys to move it.");
     if (!hovered() && hoveredFound())
-      return cornerText("This corner was found without a mark. Click to leave it out; click again to mark it.");
+      return cornerText("Corner detected automatically. Click to exclude it; click again to mark it.");
     if (hovered()) return cornerText("Click to select this corner, click again to remove it; drag to move it.");
     return snapped() ? cornerText("Click to mark a corner.") : cornerText("Click a line where it has a sharp corner.");
   }

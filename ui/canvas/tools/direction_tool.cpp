@@ -49,10 +49,10 @@ class DirectionTool final : public CanvasTool {
     update();
     overStart_ = startAt(event.px);
     over_ = scene_.curveNear(event.px);
-    scene_.hint(
-        overStart_ ? directionToolText("Drag the ring to where the closed line is to begin.")
-        : over_    ? directionToolText("Click to export %1 the other way round.").arg(curveName(scene_.session, *over_))
-                   : directionToolText("Arrows show which way curves are exported. Click a curve to turn it."));
+    scene_.hint(overStart_ ? directionToolText("Drag the ring to the start point of the closed line.")
+                : over_
+                    ? directionToolText("Click to reverse the direction of %1.").arg(curveName(scene_.session, *over_))
+                    : directionToolText("Arrows show the export direction. Click a curve to reverse it."));
   }
 
   void release(const ToolEvent&) override { held_.reset(); }

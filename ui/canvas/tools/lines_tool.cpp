@@ -55,10 +55,10 @@ class LinesTool final : public CanvasTool {
 
  private:
   QString hintFor(std::optional<int> curve) const {
-    if (!curve) return linesText("Click a line to leave it out, or to take it in again.");
+    if (!curve) return linesText("Click a line to exclude it; click it again to include it.");
     return isIncluded(*curve)
-               ? linesText("Click to leave %1 out of fairing and export.").arg(curveName(scene_.session, *curve))
-               : linesText("Click to take %1 in again.").arg(curveName(scene_.session, *curve));
+               ? linesText("Click to exclude %1 from fairing and export.").arg(curveName(scene_.session, *curve))
+               : linesText("Click to include %1 again.").arg(curveName(scene_.session, *curve));
   }
   bool isIncluded(int curve) const {
     const PieceChoice* choice = choiceOf(scene_.session, curve);

@@ -108,7 +108,7 @@ class PenTool final : public CanvasTool {
  private:
   /// What letting go would do, and how fair the line is so far.
   void tell() {
-    const QString closing = isClosing_ ? penToolText("Let go to close the line.") : QString();
+    const QString closing = isClosing_ ? penToolText("Release to close the line.") : QString();
     const QString fairness = fairness_.latest() ? fairnessLine(*fairness_.latest()) : QString();
     scene_.hint(closing.isEmpty() || fairness.isEmpty() ? closing + fairness
                                                         : fairness + QStringLiteral(" · ") + closing);
@@ -129,7 +129,7 @@ class PenTool final : public CanvasTool {
   void hover(const ToolEvent& event) {
     const bool over = strokeNear(scene_.session.recipe(), event.px, scene_.reachImagePx()).has_value();
     scene_.hint(over ? penToolText("Click to select this line; Del removes it.")
-                     : penToolText("Drag to draw a line; end where it began to close it."));
+                     : penToolText("Drag to draw a line; end at its start to close it."));
   }
 
   void select(const ToolEvent& event) {

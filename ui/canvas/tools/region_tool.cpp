@@ -32,7 +32,7 @@ class RegionTool final : public CanvasTool {
     if (!isPressed || !isDrawing_) {
       scene_.hint(
           scene_.session.recipe().regions.empty()
-              ? (isLasso_ ? tr("Draw round what is to be traced.") : tr("Drag a rectangle round what is to be traced."))
+              ? (isLasso_ ? tr("Draw around the area to trace.") : tr("Drag a rectangle around the area to trace."))
               : tr("Draw another region to add to it; Delete traces the whole page again."));
       return;
     }

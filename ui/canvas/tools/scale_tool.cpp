@@ -45,8 +45,8 @@ class ScaleTool final : public CanvasTool {
       return scene_.repaint();
     }
     over_ = endAt(event.px);
-    scene_.hint(over_ ? scaleText("Drag the end to where the known length ends.")
-                      : scaleText("Drag along something whose length is known, as a ruler or the edge of the paper."));
+    scene_.hint(over_ ? scaleText("Drag this end to the end of the known length.")
+                      : scaleText("Drag along something of known length, such as a ruler or the edge of the paper."));
   }
 
   void release(const ToolEvent& event) override {

@@ -59,9 +59,9 @@ class SegmentTool final : public PointTool {
       return segmentText("Click to remove this segment point; drag to move it.");
     if (hovered()) return segmentText("Click to select this segment point, click again to remove it; drag to move it.");
     if (scene_.session.recipe().construct.method != ConstructMethod::Typical)
-      return segmentText("Segment points count for the method Typical curves; choose it under Curves.");
-    return snapped() ? segmentText("Click to let two typical curves meet here.")
-                     : segmentText("Click a line where two typical curves are to meet.");
+      return segmentText("Segment points only affect the method Typical curves; choose it in stage Curves.");
+    return snapped() ? segmentText("Click to make two typical curves meet here.")
+                     : segmentText("Click a line where two typical curves should meet.");
   }
 };
 

@@ -64,7 +64,7 @@ class SelectTool final : public CanvasTool {
 
  private:
   static QString spanHint() {
-    return QCoreApplication::translate("CurveCanvas", "Click a span of the curve to see the targets for it alone.");
+    return QCoreApplication::translate("CurveCanvas", "Click a span of the curve to show the targets for that span.");
   }
   QString hintFor(int curve) const {
     const QString text =

@@ -52,7 +52,7 @@ class ThresholdTool final : public CanvasTool {
     }
     scene_.hint(region < 0
                     ? QString()
-                    : tr("Drag up or down, or turn the wheel, to change this threshold; double click for automatic."));
+                    : tr("Drag up or down, or turn the wheel, to change this threshold; double-click for automatic."));
     if (!isPressed || base_.empty()) return;
     const double way = pressed_.y() - event.widget.y();
     if (!isDragging_ && std::abs(way) < kDragStartPx) return;
@@ -246,7 +246,7 @@ class ThresholdTool final : public CanvasTool {
     if (hovered_ < 0) return;
     const auto h = static_cast<std::size_t>(hovered_);
     const QString kind = grid[h]                        ? tr("set by hand")
-                         : found && !found->measured[h] ? tr("automatic, from its neighbours")
+                         : found && !found->measured[h] ? tr("automatic, from neighbouring regions")
                                                         : tr("automatic");
     paintLabel(painter, scene_, QString::number(scale.shown(level(hovered_)), 'f', 1) + QStringLiteral(" · ") + kind,
                rectOf(hovered_).center());

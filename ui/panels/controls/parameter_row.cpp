@@ -167,9 +167,9 @@ void ParameterRow::showOtherUnit(double value) {
   const double mm = session_.output().frame.mmPerPx;
   QString other;
   if (mm > 0.0 && parameter_.unit == "px")
-    other = tr("%1 mm. Millimetres can be typed, too.").arg(value * mm, 0, 'g', 3);
+    other = tr("%1 mm. Millimetres can also be entered.").arg(value * mm, 0, 'g', 3);
   if (mm > 0.0 && parameter_.unit == "px²")
-    other = tr("%1. Square millimetres can be typed, too, as in 0.5 mm2.").arg(areaText(value * mm * mm));
+    other = tr("%1. Square millimetres can also be entered, for example 0.5 mm2.").arg(areaText(value * mm * mm));
   field_->setToolTip(other);
 }
 

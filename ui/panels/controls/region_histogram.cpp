@@ -19,8 +19,8 @@ RegionHistogram::RegionHistogram(QWidget* parent) : QWidget(parent) {
   setObjectName(QStringLiteral("threshold.histogram"));
   setAccessibleName(tr("Histogram of the region with its threshold"));
   setToolTip(
-      tr("How often each grey occurs here, dark at the left. Drag the line or use the arrow keys: darker than the line "
-         "is ink."));
+      tr("Histogram of the grey levels of this region, dark on the left. Drag the line or use the "
+         "arrow keys: everything darker is ink."));
 }
 
 void RegionHistogram::show(const std::array<std::uint32_t, 256>& counts, double threshold) {

@@ -87,7 +87,7 @@ QString label(PanelStage stage) {
 QString hint(PanelStage stage, bool isOpen) {
   switch (stage) {
     case PanelStage::Scan:
-      return isOpen ? tr("Check the resolution: all lengths in mm follow from it. Then go on to the threshold.")
+      return isOpen ? tr("Check the resolution: all lengths in mm depend on it. Then continue with the threshold.")
                     : tr("Drop a drawing on the window to open it.");
     case PanelStage::Threshold:
       return tr("Click a region, then turn the wheel or drag to change its threshold.");
@@ -98,11 +98,13 @@ QString hint(PanelStage stage, bool isOpen) {
     case PanelStage::Corners:
       return tr("Click a line to mark a corner; click a corner to select it, again to remove it.");
     case PanelStage::Curves:
-      return tr("Click a curve to see its figures.");
+      return tr("Click a curve to show its measurements.");
     case PanelStage::Fairing:
       return tr("Hover a target to see its curve; click to apply it.");
     case PanelStage::Export:
-      return tr("Choose who is to read the file, then export. F shows and turns directions; L leaves lines out.");
+      return tr(
+          "Choose the receiving program, then export. F shows and reverses directions; L excludes "
+          "lines.");
   }
   return {};
 }

@@ -45,7 +45,7 @@ CleanUpPanel::CleanUpPanel(EditorSession& session, QWidget* parent)
   layout->addWidget(new ParameterEditor(
       session, {"filter.coefficient", "filter.iterations", "filter.max_change", "filter.order", "filter.border"},
       this));
-  layout->addWidget(caption(tr("What it did"), this));
+  layout->addWidget(caption(tr("Result"), this));
   layout->addWidget(figures_);
   layout->addWidget(warning_);
   layout->addStretch();
@@ -72,8 +72,8 @@ void CleanUpPanel::refresh() {
   figures_->setRows(
       {{tr("Ink before, px"), {{grouped(report.inkBefore)}}, tr("Pixels that count as ink after the threshold.")},
        {tr("Ink after, px"), {{grouped(report.inkAfter)}}, tr("Pixels that count as ink after the clean-up.")},
-       {tr("Taken away"), {{share(report.inkLost), report.thinStrokesLost}}, tr("Ink that became paper.")},
-       {tr("Filled in"), {{share(report.inkGained)}}, tr("Paper that became ink.")},
+       {tr("Removed"), {{share(report.inkLost), report.thinStrokesLost}}, tr("Ink that became paper.")},
+       {tr("Filled"), {{share(report.inkGained)}}, tr("Paper that became ink.")},
        {tr("Undone"),
         {{share(report.undone)}},
         tr("Changes larger than the largest change: thin strokes, tips, gaps.")},
@@ -82,8 +82,8 @@ void CleanUpPanel::refresh() {
         tr("A round is one erosion and one dilation; the filter stops when nothing changes.")}});
   warning_->setVisible(report.thinStrokesLost);
   warning_->setText(
-      tr("Much of the ink vanished: thin strokes do not survive this. Set a largest change, a larger coefficient or "
-         "fewer iterations."));
+      tr("Much of the ink was removed, including thin strokes. Set a largest change, a larger "
+         "coefficient or fewer iterations."));
 }
 
 EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
@@ -94,14 +94,14 @@ EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* pare
       regions_(note({}, this)),
       clear_(linkButton(tr("Clear"), QStringLiteral("edges.clearRegions"), this)),
       strokes_(new QCheckBox(tr("Show stroke widths, merges, bridges"), this)),
-      fallback_(new QCheckBox(tr("Show points that could not be placed"), this)),
+      fallback_(new QCheckBox(tr("Show points not located"), this)),
       figures_(new FigureTable(this)),
       note_(note({}, this)) {
   auto* layout = panelLayout(this, tr("Edges"));
   auto* editor = new ParameterEditor(
       session,
       {"edges.mode", "contours.min_widths", "contours.min_length", "edges.internal", "edges.subpixel", "edges.gap",
-       "edges.merge", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
+       "edges.merge", "edges.intent", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
       this);
   editor->addBelow("edges.merge", new MergeSuggestion(session, editor));
   tracing_ = {editor, new LineWay(session, this), caption(tr("Lines found"), this), figures_};
@@ -123,7 +123,8 @@ void EdgesPanel::buildChoice() {
   tools_->setNames(QStringLiteral("edges.tool"), {QStringLiteral("select"), QStringLiteral("lines"),
                                                   QStringLiteral("rectangle"), QStringLiteral("lasso")});
   tools_->setToolTip(
-      tr("What a click on the drawing does: select a curve, leave a line out or take it in, or draw a region."));
+      tr("What a click on the drawing does: select a curve, exclude or include a line, or draw a "
+         "region."));
   layout->addWidget(tools_);
   auto* row = new QHBoxLayout;
   row->addWidget(regions_, 1);
@@ -187,31 +188,31 @@ void EdgesPanel::refresh() {
   const ContourReport& report = set->report;
   const qint64 kept = static_cast<qint64>(set->contours.size());
   std::vector<FigureTable::Row> rows = {
-      {tr("Kept"), {{grouped(kept)}}, tr("Lines that go on to become curves.")},
-      {tr("of these strokes"), {{grouped(strokes)}}, tr("Followed along the middle of the pen stroke.")},
-      {tr("of these closed"), {{grouped(closed)}}, tr("Lines that return to their start.")},
+      {tr("Kept"), {{grouped(kept)}}, tr("Lines that become curves.")},
+      {tr("of which strokes"), {{grouped(strokes)}}, tr("Followed along the middle of the pen stroke.")},
+      {tr("of which closed"), {{grouped(closed)}}, tr("Lines that return to their start.")},
       {tr("Too short"),
        {{grouped(report.droppedShort)}},
-       tr("Left out because they are shorter than %1.")
+       tr("Dropped because they are shorter than %1.")
            .arg(millimetres(session_.recipe().contours.minLengthPx * session_.output().frame.mmPerPx))}};
   rows.push_back({tr("Gaps bridged"),
                   {{grouped(bridgeCount(*set))}},
                   tr("Gaps in the ink across which two ends were joined: dashes on the drawing.")});
   if (report.droppedMargins > 0)
-    rows.push_back({tr("Margins of the scanner left out"), {{grouped(report.droppedMargins)}}, {}});
-  if (report.droppedHoles > 0) rows.push_back({tr("Inner outlines left out"), {{grouped(report.droppedHoles)}}, {}});
+    rows.push_back({tr("Scanner margins dropped"), {{grouped(report.droppedMargins)}}, {}});
+  if (report.droppedHoles > 0) rows.push_back({tr("Inner outlines dropped"), {{grouped(report.droppedHoles)}}, {}});
   qint64 fallback = 0;
   for (const Contour& contour : set->contours)
     fallback +=
         std::count_if(contour.points.begin(), contour.points.end(), [](const ContourPoint& p) { return !p.refined; });
-  rows.push_back(
-      {tr("Points not placed"),
-       {{grouped(fallback)}},
-       tr("Places not found on the grey values: amber dots on the drawing. An outline lies on the pixel border "
-          "there, a centre line on the skeleton of its ink, mostly where strokes meet.")});
-  rows.push_back({tr("Placed on grey values"),
+  rows.push_back({tr("Points not located"),
+                  {{grouped(fallback)}},
+                  tr("Points without a clear edge in the grey values, shown as amber dots. There an outline "
+                     "follows the pixel borders and a centre line the skeleton of the ink, mostly where "
+                     "strokes meet.")});
+  rows.push_back({tr("Located on grey values"),
                   {{QStringLiteral("%1 %").arg(100 * report.refinedShare, 0, 'f', 0)}},
-                  tr("Part of the points that lie on the scan's grey values, finer than a pixel.")});
+                  tr("Share of the points located on the grey values, to sub-pixel accuracy.")});
   figures_->setRows(std::move(rows));
   note_->setText(QString::fromStdString(report.note));
   note_->setVisible(!note_->text().isEmpty());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/stages/corners_panel.h"
 
+#include <QCoreApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -33,6 +34,15 @@ constexpr double kLeastScalePx = 6.0, kLargestScalePx = 60.0;
 
 QString place(const Vec2& px) { return QStringLiteral("%1, %2").arg(px.x(), 0, 'f', 1).arg(px.y(), 0, 'f', 1); }
 
+/// "   rounded 2 mm", "   rounded R 2 mm"; empty for a sharp corner.
+QString roundingOf(const CornerMark& mark) {
+  if (!(mark.roundMm > 0.0)) return {};
+  const QString mm = shortMillimetres(mark.roundMm);
+  return QStringLiteral("   ") + (mark.roundBy == RoundingSize::Radius
+                                      ? QCoreApplication::translate("CornersPanel", "rounded R %1").arg(mm)
+                                      : QCoreApplication::translate("CornersPanel", "rounded %1").arg(mm));
+}
+
 QString degrees(double rad) { return QStringLiteral("%1°").arg(std::abs(rad) * 180.0 / std::numbers::pi, 0, 'f', 0); }
 
 }  // namespace
@@ -54,7 +64,7 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
       angleTrack_(new SliderTrack(this)),
       scale_(new NumberField(this)),
       scaleTrack_(new SliderTrack(this)),
-      suggested_(new HintList(tr("No further place turns that sharply."), kRows, this)),
+      suggested_(new HintList(tr("No further candidate above this angle."), kRows, this)),
       suggestedNote_(note({}, this)),
       take_(plainButton(tr("Mark"), QStringLiteral("corners.take"), this)),
       takeAll_(plainButton(tr("Mark all"), QStringLiteral("corners.takeAll"), this)) {
@@ -62,8 +72,9 @@ CornersPanel::CornersPanel(EditorSession& session, ViewSettings& view, QWidget* 
   layout->setContentsMargins(14, 12, 14, 12);
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Corners"), this));
-  layout->addWidget(
-      note(tr("Click a line where it turns sharply; click a corner to select it, and again to remove it."), this));
+  layout->addWidget(note(tr("Click a sharp corner of a line to mark it; click a mark to select it, and again to "
+                            "remove it."),
+                         this));
   layout->addWidget(new ParameterEditor(session, {"corners.auto", "corners.exact", "corners.snap"}, this));
   found_->setObjectName(QStringLiteral("corners.found"));
   layout->addWidget(found_);
@@ -133,14 +144,14 @@ void CornersPanel::buildSuggestions() {
   auto* layout = static_cast<QVBoxLayout*>(this->layout());
   layout->addWidget(caption(tr("Suggestions"), this));
   addSlider(tr("Sharper than"),
-            tr("Suggests places where a line turns by more than this. Larger: fewer, sharper places."),
+            tr("Suggests corners that turn by more than this angle. Larger: fewer, sharper corners."),
             {QStringLiteral("corners.suggestAngle"), tr("Smallest angle of a suggested corner"), QStringLiteral("°"),
              kLowestAngleDeg, kHighestAngleDeg},
             angle_, angleTrack_);
   addSlider(tr("Window length"),
-            tr("How much of the line on either side says that it turns. Larger: ragged edges count less, small corners "
-               "are missed."),
-            {QStringLiteral("corners.suggestScale"), tr("Length over which a turn is looked at"), QStringLiteral("px"),
+            tr("Length of line on either side used to measure the turn. Larger: less sensitive to "
+               "ragged edges, but small corners are missed."),
+            {QStringLiteral("corners.suggestScale"), tr("Window length of corner suggestions"), QStringLiteral("px"),
              kLeastScalePx, kLargestScalePx},
             scale_, scaleTrack_);
   layout->addWidget(suggestedNote_);
@@ -216,18 +227,20 @@ void CornersPanel::refreshMarks() {
       lost =
           std::find(pieces->lostMarks.begin(), pieces->lostMarks.end(), static_cast<int>(i)) != pieces->lostMarks.end();
     }
-    auto* item =
-        new QListWidgetItem(tr("%1   px %2%3").arg(i + 1).arg(what, lost ? tr("   no line here") : angle), marks_);
+    auto* item = new QListWidgetItem(
+        tr("%1   px %2%3").arg(i + 1).arg(what, lost ? tr("   no line here") : angle + roundingOf(marks[i])), marks_);
     item->setFont(uiFont(12));
     if (lost) item->setForeground(theme.bad);
-    item->setToolTip(
-        same   ? tr("Both marks find one corner of the line. Remove one, or lower the corner reach if two are meant.")
-        : lost ? tr("No line within reach of this mark. It comes back when a line does; remove it if it is not wanted.")
-               : tr("Place of the mark, and how much the line turns there."));
+    item->setToolTip(same ? tr("Both marks snap to the same corner. Remove one, or reduce the corner reach if you mean "
+                               "two corners.")
+                     : lost
+                         ? tr("No line within reach of this mark. It applies again when the line returns; remove it if "
+                              "it is not needed.")
+                         : tr("Position of the mark and turning angle of the line there."));
   }
   QStringList close;
   for (const MarkPair& pair : pieces ? pieces->closeCorners : std::vector<MarkPair>{})
-    close += tr("Corners %1 and %2 are %3 px apart and leave a sliver of the line between them: remove one of them.")
+    close += tr("Corners %1 and %2 are only %3 px apart: remove one of them.")
                  .arg(pair.other + 1)
                  .arg(pair.mark + 1)
                  .arg(pair.apartPx, 0, 'f', 0);
@@ -246,15 +259,11 @@ void CornersPanel::showFound() {
   const int found = pieces ? unmarkedCornerCount(*pieces) : 0;
   QStringList lines;
   if (session_.recipe().corners.automatic && pieces)
-    lines += found == 0
-                 ? tr("No corner is certain without a mark.")
-                 : counted(found,
-                           tr("1 corner is certain and counts without a mark (a diamond). Click it to leave "
-                              "it out."),
-                           tr("%1 corners are certain and count without a mark (diamonds). Click one to leave it "
-                              "out."));
+    lines += found == 0 ? tr("No corner was detected with certainty.")
+                        : counted(found, tr("1 corner was detected automatically (diamond). Click it to exclude it."),
+                                  tr("%1 corners were detected automatically (diamonds). Click one to exclude it."));
   if (!refused.empty())
-    lines += counted(static_cast<qint64>(refused.size()), tr("1 is left out."), tr("%1 are left out."));
+    lines += counted(static_cast<qint64>(refused.size()), tr("1 is excluded."), tr("%1 are excluded."));
   found_->setText(lines.join(QLatin1Char(' ')));
   found_->setVisible(!lines.empty());
   restore_->setVisible(!refused.empty());
@@ -300,10 +309,10 @@ void CornersPanel::showSuggestions() {
     item->setFont(uiFont(12));
   }
   suggestedNote_->setText(suggestions_.empty()
-                              ? tr("No further place turns that sharply.")
+                              ? QString()  // the empty list says so, and the note keeps its place
                               : counted(static_cast<qint64>(suggestions_.size()),
-                                        tr("1 place could be a corner. It is used only when you mark it."),
-                                        tr("%1 places could be corners. None is used until you mark it.")));
+                                        tr("1 possible corner. It is used only if you mark it."),
+                                        tr("%1 possible corners. They are used only if you mark them.")));
   take_->setEnabled(suggested_->currentRow() >= 0);
   takeAll_->setEnabled(!suggestions_.empty());
 }
@@ -335,11 +344,12 @@ void CornersPanel::buildRounding() {
   roundBy_->setNames(QStringLiteral("corners.roundBy"), {QStringLiteral("distance"), QStringLiteral("radius")});
   roundBy_->setToolTip(
       tr("Distance: from the corner to where the rounding begins. Radius: the smallest radius of the rounding."));
-  setSettingName(roundBy_, tr("What the size of a rounding is"));
+  setSettingName(roundBy_, tr("Measure of the rounding"));
   joint_->setNames(QStringLiteral("corners.joint"), {QStringLiteral("g1"), QStringLiteral("g2"), QStringLiteral("g3")});
-  joint_->setToolTip(tr(
-      "How the rounding meets its sides. G1: direction, by two typical curves. G2: curvature. G3: its change, too."));
-  setSettingName(joint_, tr("How a rounding meets its sides"));
+  joint_->setToolTip(
+      tr("Continuity with the adjacent curves. G1: tangent, by two typical curves. G2: curvature. "
+         "G3: rate of change of curvature."));
+  setSettingName(joint_, tr("Continuity of the rounding"));
   auto* choices = new QHBoxLayout;
   choices->addWidget(roundBy_, 1);
   choices->addWidget(joint_, 1);

@@ -23,6 +23,7 @@ namespace {
 constexpr int kCurveRow = 26;
 constexpr int kEyeWidth = 26;
 constexpr int kIconSize = 14;
+constexpr int kApart = 8;  ///< Between a name, which may be cut, and its figures.
 constexpr int kTellEveryMs = 200;
 constexpr int kBadgeWidth = 44, kBadgeHeight = 18, kBadgeGap = 6;
 enum Role {
@@ -61,14 +62,19 @@ class CurveDelegate : public QStyledItemDelegate {
     eye.paint(painter, iconBox(option, 6));
     painter->setFont(uiFont(12));
     painter->setPen(included ? theme.text : theme.mute);
-    const QString name = index.data().toString();
+    const QString figures = index.data(FiguresRole).toString();
+    const QString badge = index.data(BadgeRole).toString();
+    const int sign =
+        (index.data(WarnsRole).toBool() ? kIconSize + 6 : 0) + (badge.isEmpty() ? 0 : kBadgeWidth + kBadgeGap);
+    const int room = static_cast<int>(box.width()) - kEyeWidth - sign - kApart - 6 -
+                     painter->fontMetrics().horizontalAdvance(figures);
+    const QString name = painter->fontMetrics().elidedText(index.data().toString(), Qt::ElideRight, room);
     painter->drawText(box.adjusted(kEyeWidth, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, name);
     if (index.data(WarnsRole).toBool()) {
       const int after = kEyeWidth + painter->fontMetrics().horizontalAdvance(name) + 6;
       themedIcon(QStringLiteral("warning"), option.palette).paint(painter, iconBox(option, after));
     }
     painter->setPen(theme.mute);
-    const QString badge = index.data(BadgeRole).toString(), figures = index.data(FiguresRole).toString();
     painter->drawText(box.adjusted(0, 0, -6, 0), Qt::AlignVCenter | Qt::AlignRight, figures);
     if (!badge.isEmpty()) {
       const double right = box.right() - 6 - painter->fontMetrics().horizontalAdvance(figures) - kBadgeGap;
@@ -103,7 +109,9 @@ CurveList::CurveList(EditorSession& session, Judged judged, QWidget* parent)
   setFrameShape(QFrame::NoFrame);
   setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  setToolTip(tr("Click a curve to select it; click its eye, or press Space, to leave it out of the export."));
+  setToolTip(
+      tr("Click a curve to select it; click its eye, or press Space, to exclude it from fairing "
+         "and export."));
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::runFinished, &EditorSession::selectionChanged})
     connect(&session_, signal, this, &CurveList::refresh);
   connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
@@ -148,7 +156,7 @@ void CurveList::refresh() {
     const QString warning = curve.included ? QString::fromStdString(curve.construct.note) : QString();
     item(i)->setData(WarnsRole, !warning.isEmpty());
     QStringList said;
-    for (const QString& one : {whyStill, warning, length})
+    for (const QString& one : {curveOrigin(session_, i), whyStill, warning, length})
       if (!one.isEmpty()) said << one;
     item(i)->setData(OwnTipRole, said.join(QLatin1Char('\n')));
     item(i)->setData(OwnTextRole, (QStringList{name + QStringLiteral(", ") + right} + said).join(QStringLiteral(". ")));

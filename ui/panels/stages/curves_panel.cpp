@@ -29,37 +29,44 @@
 namespace batten {
 namespace {
 
-/// A slider with a field for something of the view; both follow `get`.
-void addViewRow(QGridLayout* grid, ViewSettings& view, QWidget* parent, const QString& label, const QString& name,
-                const QString& help, double low, double high, int decimals, const std::function<double()>& get,
-                const std::function<void(double)>& set) {
+/// What a slider with a field is for; both follow `get`.
+struct ViewRow {
+  QString label, name, help;
+  double low = 0.0, high = 1.0;
+  int decimals = 0;
+  std::function<double()> get;
+  std::function<void(double)> set;
+};
+
+void addViewRow(QGridLayout* grid, ViewSettings& view, QWidget* parent, const ViewRow& its) {
   const int row = grid->rowCount();
-  auto* text = new QLabel(label, parent);
+  auto* text = new QLabel(its.label, parent);
   auto* field = new NumberField(parent);
   auto* track = new SliderTrack(parent);
   for (QWidget* widget : {static_cast<QWidget*>(text), static_cast<QWidget*>(field), static_cast<QWidget*>(track)})
-    widget->setToolTip(help);
-  field->setRange(low, high);
-  field->setDecimals(decimals);
+    widget->setToolTip(its.help);
+  field->setRange(its.low, its.high);
+  field->setDecimals(its.decimals);
   field->setFixedWidth(76);
-  field->edit()->setObjectName(name + QStringLiteral(".field"));
-  field->edit()->setAccessibleName(label);
-  track->setObjectName(name);
-  track->setAccessibleName(label);
+  field->edit()->setObjectName(its.name + QStringLiteral(".field"));
+  field->edit()->setAccessibleName(its.label);
+  track->setObjectName(its.name);
+  track->setAccessibleName(its.label);
   grid->addWidget(text, row, 0);
   grid->addWidget(field, row, 1);
   grid->addWidget(track, row + 1, 0, 1, 2);
   const auto show = [=] {
-    field->setValue(get());
+    field->setValue(its.get());
     const QSignalBlocker quiet(track);
     if (!track->isSliderDown())
-      track->setValue(
-          static_cast<int>(std::lround(std::log(get() / low) / std::log(high / low) * SliderTrack::kSteps)));
+      track->setValue(static_cast<int>(
+          std::lround(std::log(its.get() / its.low) / std::log(its.high / its.low) * SliderTrack::kSteps)));
     track->update();
   };
-  QObject::connect(field, &NumberField::committed, parent, [set](double value) { set(value); });
-  QObject::connect(track, &QSlider::valueChanged, parent,
-                   [=](int position) { set(low * std::pow(high / low, double(position) / SliderTrack::kSteps)); });
+  QObject::connect(field, &NumberField::committed, parent, its.set);
+  QObject::connect(track, &QSlider::valueChanged, parent, [its](int position) {
+    its.set(its.low * std::pow(its.high / its.low, double(position) / SliderTrack::kSteps));
+  });
   QObject::connect(&view, &ViewSettings::changed, parent, show);
   show();
 }
@@ -74,8 +81,7 @@ CombControls::CombControls(ViewSettings& view, QWidget* parent) : QWidget(parent
   grid->setColumnStretch(0, 1);
   auto* quantity = new SegmentedControl({tr("Curvature"), tr("Radius")}, this);
   quantity->setNames(QStringLiteral("view.combQuantity"), {QStringLiteral("curvature"), QStringLiteral("radius")});
-  quantity->setToolTip(
-      tr("What the quills of the comb are as long as: the curvature, or the radius of curvature as in the papers."));
+  quantity->setToolTip(tr("Quantity plotted by the comb: curvature, or radius of curvature as in the papers."));
   quantity->setAccessibleName(tr("Quills show"));
   grid->addWidget(quantity, 0, 0, 1, 2);
   auto* axis = new SegmentedControl({tr("Logarithmic"), tr("Linear")}, this);
@@ -91,14 +97,24 @@ CombControls::CombControls(ViewSettings& view, QWidget* parent) : QWidget(parent
   connect(quantity, &SegmentedControl::chosen, this, [&view](int index) { view.setCombShowsRadius(index == 1); });
   connect(&view, &ViewSettings::changed, this, showQuantity);
   showQuantity();
-  addViewRow(
-      grid, view, this, tr("Comb height"), QStringLiteral("view.combScale"),
-      tr("Length of the quills of the curvature comb; 1 is automatic."), 0.05, 20.0, 2,
-      [&view] { return view.combScale(); }, [&view](double value) { view.setCombScale(value); });
-  addViewRow(
-      grid, view, this, tr("Comb density"), QStringLiteral("view.combDensity"), tr("Number of quills on a curve."), 20,
-      1000, 0, [&view] { return double(view.combDensity()); },
-      [&view](double value) { view.setCombDensity(static_cast<int>(std::lround(value))); });
+  addViewRow(grid, view, this,
+             {.label = tr("Comb height"),
+              .name = QStringLiteral("view.combScale"),
+              .help = tr("Height of the curvature comb; 1 is automatic."),
+              .low = 0.05,
+              .high = 20.0,
+              .decimals = 2,
+              .get = [&view] { return view.combScale(); },
+              .set = [&view](double value) { view.setCombScale(value); }});
+  addViewRow(grid, view, this,
+             {.label = tr("Comb density"),
+              .name = QStringLiteral("view.combDensity"),
+              .help = tr("Number of comb lines on a curve."),
+              .low = 20.0,
+              .high = 1000.0,
+              .decimals = 0,
+              .get = [&view] { return double(view.combDensity()); },
+              .set = [&view](double value) { view.setCombDensity(static_cast<int>(std::lround(value))); }});
 }
 
 CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
@@ -168,7 +184,7 @@ CurvesPanel::CurvesPanel(EditorSession& session, ViewSettings& view, QWidget* pa
 
 void CurvesPanel::bindDetail() {
   detailScope_->setNames(QStringLiteral("construct.detail.scope"), {QStringLiteral("all"), QStringLiteral("one")});
-  detailScope_->setToolTip(tr("Whether the detail acts on the whole drawing or on the selected curve alone."));
+  detailScope_->setToolTip(tr("Whether the detail applies to the whole drawing or only to the selected curve."));
   detailScope_->setCurrent(0);
   editor_->addBelow("construct.detail", detailScope_);
   ParameterRow* row = editor_->row("construct.detail");
@@ -206,8 +222,8 @@ void CurvesPanel::addWaitingRow() {
   row->addWidget(forget_);
   static_cast<QVBoxLayout*>(layout())->addLayout(row);
   waiting_->setObjectName(QStringLiteral("curves.waiting"));
-  waiting_->setToolTip(tr("Something was chosen for a line that is not there now, as when a threshold took it away."));
-  forget_->setToolTip(tr("Takes these choices out of the recipe."));
+  waiting_->setToolTip(tr("A choice refers to a line that is missing now, for instance after a change of threshold."));
+  forget_->setToolTip(tr("Removes these choices from the recipe."));
   connect(forget_, &QPushButton::clicked, this, [this] { forgetWaitingChoices(session_); });
 }
 
@@ -220,17 +236,18 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
   if (fit.isCircle || fit.isLine)
     rows.insert(rows.begin(), {tr("Recognised"),
                                {{fit.isCircle ? tr("exact circle") : tr("exact line")}},
-                               tr("The scan holds nothing that a perfect one would not, so it is one.")});
+                               tr("The scan does not differ from the exact shape by more than its noise.")});
   if (fit.noisePx > 0.0)
-    rows.push_back({tr("Noise of the edge"),
+    rows.push_back({tr("Edge noise"),
                     {{length(fit.noisePx)}},
                     tr("Standard deviation of the scan's edge points from the curve.")});
   if (fit.fullControlPoints > curve.sketchedFigures.controlPoints) {
     rows.push_back({tr("Before sparing"),
                     {{tr("%1 points").arg(fit.fullControlPoints)}},
-                    tr("Control points of the fit before they were spared.")});
-    rows.push_back(
-        {tr("Moved by sparing"), {{length(fit.knotRemovalMovedPx)}}, tr("How far that moved the curve at most.")});
+                    tr("Control points before knot removal.")});
+    rows.push_back({tr("Moved by knot removal"),
+                    {{length(fit.knotRemovalMovedPx)}},
+                    tr("Maximum move of the curve by knot removal.")});
   }
   if (fit.light && fit.light->corners > 0)
     rows.push_back({tr("Sharp corners inside"),
@@ -240,9 +257,11 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
     rows.push_back({tr("Made light"),
                     {{fit.light->found ? tr("%1 of %2 points").arg(fit.light->points).arg(fit.light->pointsBefore)
                                        : tr("nothing lighter")}},
-                    tr("Control points of the light curve, each counted once, and of the dense curve of the fit.")});
+                    tr("Control points of the light curve and of the dense curve it approximates.")});
     if (fit.light->found)
-      rows.push_back({tr("Moved by that"), {{length(fit.light->movedPx)}}, tr("How far the two lie apart at most.")});
+      rows.push_back({tr("Deviation from dense curve"),
+                      {{length(fit.light->movedPx)}},
+                      tr("Maximum distance between the light and the dense curve.")});
     if (!fit.light->why.empty())
       rows.push_back(
           {tr("Stayed dense"),
@@ -253,7 +272,7 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
   const auto dropped =
       std::count_if(fit.extrema.begin(), fit.extrema.end(), [](const ExtremumNote& e) { return !e.kept; });
   if (dropped > 0)
-    rows.push_back({tr("Dropped as noise"),
+    rows.push_back({tr("Rejected as noise"),
                     {{tr("%1 extrema").arg(dropped)}},
                     tr("Hollow marks on the curve: click one to keep it.")});
   const auto& pieces = session_.output().pieces;
@@ -262,17 +281,17 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
   const auto fallback = std::count(refined.begin(), refined.end(), std::uint8_t{0});
   // A line drawn by hand is where the hand drew it.
   if (fallback > 0 && !strokeOf(session_, session_.selectedCurve()))
-    rows.push_back({tr("Points not placed"),
+    rows.push_back({tr("Points not located"),
                     {{tr("%1 of %2").arg(fallback).arg(refined.size())}},
-                    tr("Points not found on the grey values. Those of an outline lie on the pixel border, those of a "
-                       "centre line on the skeleton of its ink, mostly where strokes meet.")});
+                    tr("Points without a clear edge in the grey values. Those of an outline lie on the pixel "
+                       "borders, those of a centre line on the skeleton of the ink, mostly where strokes meet.")});
 }
 
 void CurvesPanel::refresh() {
   refreshRows();
   const auto waiting = static_cast<qint64>(session_.choiceOwners().waiting.size());
-  waiting_->setText(batten::counted(waiting, tr("1 choice has no line now. It is kept until its line comes back."),
-                                    tr("%1 choices have no line now. They are kept until their lines come back.")));
+  waiting_->setText(batten::counted(waiting, tr("1 choice has no line at present. It is kept until the line returns."),
+                                    tr("%1 choices have no line at present. They are kept until the lines return.")));
   waiting_->setVisible(waiting > 0);
   forget_->setVisible(waiting > 0);
   refreshFigures();
@@ -303,7 +322,7 @@ void CurvesPanel::refreshRows() {
   growing_->setVisible(grows);
   const auto set = session_.recipe().segmentPoints.size();
   segmentsNote_->setVisible(typical);
-  segmentsNote_->setText(set == 0 ? tr("To say where segments meet, press G and click the line.")
+  segmentsNote_->setText(set == 0 ? tr("To set where segments meet, press G and click the line.")
                                   : counted(static_cast<qint64>(set),
                                             tr("1 segment point set. G, then click it to remove it."),
                                             tr("%1 segment points set. G, then click one to remove it.")));
@@ -336,23 +355,24 @@ void CurvesPanel::refreshFigures() {
   std::vector<FigureTable::Row> rows = {
       {tr("Length"), {{millimetres(f.lengthMm)}}, tr("Arc length of the sketched curve.")},
       {tr("Control points"), {{QString::number(f.controlPoints)}}, {}},
-      {tr("Largest deviation"), {{millimetres(f.fromPoints.max)}}, tr("Farthest edge point from the curve.")},
+      {tr("Largest deviation"),
+       {{millimetres(f.fromPoints.max)}},
+       tr("Largest distance of an edge point from the curve.")},
       {tr("Mean deviation (rms)"), {{millimetres(f.fromPoints.rms)}}, {}},
       {tr("95 % of points within"), {{millimetres(f.fromPoints.percentile95)}}, {}},
       {tr("Curvature extrema"),
        {{QString::number(f.extrema)}},
-       tr("Places where the curvature turns back: fewer is fairer.")},
-      {tr("Inflections"), {{QString::number(f.inflections)}}, tr("Places where the curve bends the other way.")}};
+       tr("Local maxima and minima of the curvature: fewer is fairer.")},
+      {tr("Inflections"), {{QString::number(f.inflections)}}, tr("Points where the curvature changes sign.")}};
   if (const int added = curve->construct.stationsAdded; added > 0)
     rows.push_back({tr("Stations added"),
                     {{QString::number(added)}},
-                    tr("Set between the given ones where the line turns too quickly for them.")});
+                    tr("Inserted where the line bends too sharply for the given stations.")});
   if (const int turns = curve->construct.extremaInTurns; turns > 0)
-    rows.push_back(
-        {tr("Extrema in sharp turns"),
-         {{QString::number(turns)}},
-         tr("Where the line turns sharply and no corner is marked, the curve follows its points closely: such "
-            "extrema are not judged and cannot be taken out one by one.")});
+    rows.push_back({tr("Extrema in sharp features"),
+                    {{QString::number(turns)}},
+                    tr("At sharp features without a corner mark the curve follows the points closely: these "
+                       "extrema are not tested for significance and cannot be removed individually.")});
   addFitRows(rows, *curve);
   figures_->setRows(std::move(rows));
   QString text = QString::fromStdString(curve->construct.note);
@@ -371,8 +391,8 @@ void CurvesPanel::refreshFigures() {
   }
   if (const auto unmet = static_cast<qint64>(curve->construct.unmetConstraints.size())) {
     if (!text.isEmpty()) text += QLatin1Char('\n');
-    text += batten::counted(unmet, tr("1 bump could not be kept or taken out as you wished."),
-                            tr("%1 bumps could not be kept or taken out as you wished."));
+    text += batten::counted(unmet, tr("1 extremum could not be kept or removed as requested."),
+                            tr("%1 extrema could not be kept or removed as requested."));
   }
   note_->setText(text);
   note_->setVisible(!note_->text().isEmpty());

@@ -45,9 +45,9 @@ EndsTable::EndsTable(std::function<FairingParams()> shown, std::function<void(in
   const std::array<QString, 3> rows = {tr("Position"), tr("Tangent"), tr("Curvature")};
   const std::array<QString, 3> rowNames = {QStringLiteral("position"), QStringLiteral("tangent"),
                                            QStringLiteral("curvature")};
-  const std::array<QString, 3> help = {tr("The ends of an open curve always stay where they are."),
-                                       tr("Holds the direction of the curve at this end."),
-                                       tr("Holds the direction and the bend of the curve at this end.")};
+  const std::array<QString, 3> help = {tr("The end points of an open curve are always fixed."),
+                                       tr("Holds the tangent at this end."),
+                                       tr("Holds the tangent and the curvature at this end.")};
   for (std::size_t end = 0; end < 2; ++end) {
     for (std::size_t row = 0; row < 3; ++row) {
       auto* dot = new HoldDot(this);

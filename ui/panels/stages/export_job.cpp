@@ -6,19 +6,24 @@
 
 namespace batten {
 
+ExportDocument documentOf(const ExportRequest& request) {
+  const ExportDocument whole = exportDocument(request.output, request.recipe, *request.scan, request.which);
+  return request.numbers ? onlyCurves(whole, *request.numbers) : whole;
+}
+
 Result<ExportReport> runExport(const ExportRequest& request, const RunContext& context) {
   try {
-    const ExportDocument document = exportDocument(request.output, request.recipe, *request.scan, request.which);
+    const ExportDocument document = documentOf(request);
     if (document.curves.empty())
       return fail(ErrorCode::NoCurve,
-                  "There is no curve to export. Take at least one curve in (its eye in the list of curves).");
+                  "There is no curve to export. Include at least one (the eye in the list of curves).");
     return exportToFile(document, request.settings, request.path, context);
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "Not enough memory to export. Close other programs or leave some curves out.");
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to export. Close other programs or exclude some curves.");
   }
 }
 
-ExportSize exportSize(const PipelineOutput& output, ExportedCurves which) {
+ExportSize exportSize(const PipelineOutput& output, ExportedCurves which, const std::optional<std::set<int>>& numbers) {
   ExportSize size;
   if (!output.faired) return size;
   Vec2 low(0, 0), high(0, 0);
@@ -34,7 +39,7 @@ ExportSize exportSize(const PipelineOutput& output, ExportedCurves which) {
     ++size.curves;
   };
   for (const TracedCurve& curve : output.faired->curves) {
-    if (!curve.included) continue;
+    if (!curve.included || (numbers && !numbers->contains(curveNumber(output, curve)))) continue;
     if (which != ExportedCurves::Sketched && !curve.faired.isEmpty()) add(curve.faired);
     if (which != ExportedCurves::Faired && !curve.sketched.isEmpty()) add(curve.sketched);
   }

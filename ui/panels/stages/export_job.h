@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <set>
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
@@ -21,7 +23,11 @@ struct ExportRequest {
   ExportSettings settings;
   ExportedCurves which = ExportedCurves::Faired;
   std::filesystem::path path;
+  std::optional<std::set<int>> numbers = {};  ///< Of the curves to take; absent: all.
 };
+
+/// What is to be written: the curves of the request as the drawing has them.
+ExportDocument documentOf(const ExportRequest&);
 
 /// Builds the document and writes it, checked. Pure but for the file.
 Result<ExportReport> runExport(const ExportRequest&, const RunContext&);
@@ -31,6 +37,7 @@ struct ExportSize {
   double widthMm = 0.0, heightMm = 0.0;
   int curves = 0;
 };
-ExportSize exportSize(const PipelineOutput&, ExportedCurves which);
+/// @param numbers of the curves to take; absent: all.
+ExportSize exportSize(const PipelineOutput&, ExportedCurves which, const std::optional<std::set<int>>& numbers);
 
 }  // namespace batten

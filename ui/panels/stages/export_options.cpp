@@ -58,7 +58,7 @@ ExportOptions::ExportOptions(QWidget* parent)
       unit_(new QComboBox(this)),
       scale_(new NumberField(this)),
       tolerance_(new NumberField(this)),
-      joined_(new QCheckBox(tr("Join curves that follow each other"), this)) {
+      joined_(new QCheckBox(tr("Join consecutive curves"), this)) {
   build();
   restore();
   connect(presets_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
@@ -112,32 +112,33 @@ void ExportOptions::build() {
   for (const ExportPreset& preset : exportPresets())
     presets_->addItem(tr("%1 (%2)").arg(QString::fromUtf8(preset.label), nameOfFormat(preset.settings.format)),
                       QString::fromLatin1(preset.id));
-  layout->addWidget(row(tr("For"), presets_, tr("Who is to read the file: chooses format and profile.")));
+  layout->addWidget(row(tr("For"), presets_, tr("Receiving program: sets the format and its options.")));
   layout->addWidget(note_);
   which_->setObjectName(QStringLiteral("export.which"));
   which_->addItems({tr("Faired"), tr("Sketched"), tr("Both")});
-  layout->addWidget(row(tr("Curves"), which_, tr("As they were faired, as they were found on the scan, or both.")));
+  layout->addWidget(row(tr("Curves"), which_, tr("Faired, as fitted to the scan, or both.")));
   unit_->setObjectName(QStringLiteral("export.unit"));
   unit_->addItems({tr("Millimetres"), tr("Inches")});
-  unitRow_ = row(tr("Unit"), unit_, tr("The numbers of the file; it names its unit, so the size stays the same."));
+  unitRow_ = row(tr("Unit"), unit_, tr("Unit of the coordinates. The file states it, so the true size is unchanged."));
   layout->addWidget(unitRow_);
   scale_->edit()->setObjectName(QStringLiteral("export.scale"));
   scale_->setRange(0.001, 1000.0);
   scale_->setDecimals(3);
   scale_->setStep(0.1);
   scale_->setValue(1.0);
-  layout->addWidget(row(tr("Scale"), scale_, tr("The curves of the file are this many times as large.")));
+  layout->addWidget(row(tr("Scale"), scale_, tr("Scale factor of the exported curves.")));
   tolerance_->edit()->setObjectName(QStringLiteral("export.tolerance"));
   tolerance_->setRange(0.0001, 1.0);
   tolerance_->setDecimals(4);
   tolerance_->setStep(0.001);
   tolerance_->setUnit(tr("mm"));
   toleranceRow_ = row(tr("Tolerance"), tolerance_,
-                      tr("What the format cannot hold exactly stays this close to the curves. Smaller: more pieces."));
+                      tr("Maximum deviation where the format cannot hold the curves exactly. Smaller: more pieces."));
   layout->addWidget(toleranceRow_);
   joined_->setObjectName(QStringLiteral("export.joined"));
   joined_->setToolTip(
-      tr("On: a line with corners is one curve or path of the file. Off: every curve is one by itself."));
+      tr("On: a line with corners is exported as one curve or path. Off: every curve is exported "
+         "separately."));
   layout->addWidget(joined_);
 }
 
@@ -198,7 +199,7 @@ QString ExportOptions::filter() const {
 QString ExportOptions::obstacle() const {
   const ExportFormat format = preset().settings.format;
   if (hasOpenCascade() || (format != ExportFormat::Iges && format != ExportFormat::Step)) return {};
-  return tr("This build goes without Open CASCADE and writes neither IGES nor STEP: choose a DXF.");
+  return tr("This build has no Open CASCADE and cannot write IGES or STEP: choose DXF.");
 }
 
 }  // namespace batten

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/stages/export_panel.h"
 
-#include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
@@ -10,7 +9,6 @@
 #include <QPointer>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QSettings>
 #include <QVBoxLayout>
 #include <filesystem>
 
@@ -18,19 +16,20 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/path_edit.h"
 #include "ui/panels/controls/save_dialog.h"
+#include "ui/panels/stages/export_choice.h"
+#include "ui/panels/stages/export_folder.h"
 #include "ui/panels/stages/export_options.h"
 #include "ui/panels/stages/export_preview.h"
 #include "ui/panels/stages/report_section.h"
 #include "ui/panels/stages/svg_carrier.h"
 #include "ui/session/background_worker.h"
+#include "ui/session/curve_names.h"
 #include "ui/session/direction_edits.h"
 #include "ui/session/path_text.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
 namespace {
-
-const QString kFolderKey = QStringLiteral("export/folder");
 
 /// A name without the ending of an export, if it has one.
 QString withoutEnding(const QString& name) {
@@ -47,9 +46,10 @@ ExportPanel::ExportPanel(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
       options_(new ExportOptions(this)),
+      choice_(new ExportChoice(session, this)),
       preview_(new ExportPreview(this)),
       held_(note({}, this)),
-      turn_(linkButton(tr("Turn direction"), QStringLiteral("export.turn"), this)),
+      turn_(linkButton(tr("Reverse direction"), QStringLiteral("export.turn"), this)),
       carrier_(new SvgCarrier(this)),
       report_(new ReportSection(session, this)),
       progress_(new QProgressBar(this)),
@@ -66,15 +66,17 @@ ExportPanel::ExportPanel(EditorSession& session, QWidget* parent)
     suggestName();
   });
   connect(options_, &ExportOptions::changed, this, &ExportPanel::refresh);
+  connect(choice_, &ExportChoice::changed, this, &ExportPanel::refresh);
   connect(preview_, &ExportPreview::changed, this, &ExportPanel::refresh);
-  connect(preview_, &ExportPreview::chosen, this, [this](int number) { session_.selectCurve(number - 1); });
+  connect(preview_, &ExportPreview::chosen, this,
+          [this](int number) { session_.selectCurve(curveOfNumber(session_, number)); });
   connect(preview_, &ExportPreview::dragAsked, this, &ExportPanel::dragOut);
   connect(turn_, &QPushButton::clicked, this, [this] { turnCurve(session_, session_.selectedCurve()); });
   connect(carrier_, &SvgCarrier::copied, this, &ExportPanel::said);
   connect(carrier_, &SvgCarrier::failed, this, &ExportPanel::failed);
   connect(report_, &ReportSection::written, this, &ExportPanel::said);
   connect(report_, &ReportSection::failed, this, &ExportPanel::failed);
-  connect(this, &ExportPanel::said, result_, &QLabel::setText);
+  connect(carrier_, &SvgCarrier::copied, result_, &QLabel::setText);
   connect(&session_, &EditorSession::selectionChanged, this, &ExportPanel::refresh);
   connect(&session_, &EditorSession::stopped, this, [this] {
     if (running_) cancel_.cancel();
@@ -90,6 +92,7 @@ ExportPanel::ExportPanel(EditorSession& session, QWidget* parent)
   connect(&session_, &EditorSession::recipeChanged, this, [this] {
     confirmReplace_ = false;
     result_->clear();
+    report_->clearResult();
     emit exported(false);
     refresh();
   });
@@ -107,17 +110,18 @@ void ExportPanel::buildForm() {
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Export"), this));
   layout->addWidget(options_);
+  layout->addWidget(choice_);
   layout->addWidget(caption(tr("What will be written"), this));
   layout->addWidget(preview_);
   held_->setObjectName(QStringLiteral("export.held"));
   layout->addWidget(held_);
   auto* hand = new QHBoxLayout;
   hand->setSpacing(8);
-  turn_->setToolTip(tr("Export the selected curve the other way round.  (Shift+F)"));
+  turn_->setToolTip(tr("Reverse the direction of the selected curve.  (Shift+F)"));
   hand->addWidget(turn_);
   hand->addStretch();
   auto* copyButton = linkButton(tr("Copy as SVG"), QStringLiteral("export.copy"), this);
-  copyButton->setToolTip(tr("Put the curves on the clipboard, to be pasted into a drawing program.  (Ctrl+Shift+C)"));
+  copyButton->setToolTip(tr("Copy the curves to the clipboard for pasting into a drawing program.  (Ctrl+Shift+C)"));
   connect(copyButton, &QPushButton::clicked, this, &ExportPanel::copy);
   hand->addWidget(copyButton);
   layout->addLayout(hand);
@@ -149,9 +153,11 @@ void ExportPanel::buildForm() {
 void ExportPanel::openedAnother() {
   lastWritten_ = {};
   result_->clear();
+  report_->clearResult();
   confirmReplace_ = false;
   // The folder that was chosen stays; the name is the new drawing's, or its export would replace the old one's.
-  if (path_->isModified()) QSettings().setValue(kFolderKey, QFileInfo(path_->text()).absolutePath());
+  choice_->reset();
+  if (path_->isModified()) rememberExportFolder(path_->text());
   path_->clear();
   path_->setModified(false);
   suggestName();
@@ -162,14 +168,6 @@ void ExportPanel::showEvent(QShowEvent* event) {
   refresh();
 }
 
-QString ExportPanel::drawingName() const {
-  if (!session_.isBlankPage()) return QFileInfo(proposedFileName(session_.scanPath())).completeBaseName();
-  const auto& imports = session_.recipe().imports;
-  const QString source = imports.empty() ? QString() : QString::fromStdString(imports.front().source);
-  const QString name = QFileInfo(source).completeBaseName();
-  return name.isEmpty() ? QStringLiteral("drawing") : name;
-}
-
 void ExportPanel::suggestName() {
   const QString suffix = options_->suffix();
   if (!path_->text().isEmpty() && path_->isModified()) {
@@ -177,12 +175,7 @@ void ExportPanel::suggestName() {
     path_->setText(now.path() + QLatin1Char('/') + withoutEnding(now.fileName()) + QLatin1Char('.') + suffix);
     path_->setModified(true);
   } else if (session_.hasScan()) {
-    const QString scan = session_.scanPath();
-    QString folder = QSettings().value(kFolderKey).toString();
-    if (folder.isEmpty() && !session_.isBlankPage() && !isOfProgram(scan)) folder = folderOf(scan);
-    if (folder.isEmpty() || !isUnicodePath(folder) || !QFileInfo(folder).isWritable()) folder = QDir::homePath();
-    const QString name = drawingName();
-    path_->setText(folder + QLatin1Char('/') + name + QLatin1Char('.') + suffix);
+    path_->setText(proposedExportPath(session_, QLatin1Char('.') + suffix));
     path_->setCursorPosition(static_cast<int>(path_->text().size()));
   }
   path_->setToolTip(path_->text());
@@ -205,10 +198,12 @@ bool ExportPanel::isReady() const {
 }
 
 const ExportSize& ExportPanel::size() {
-  if (sizeOf_ != session_.output().faired || sizeWhich_ != options_->which()) {
+  auto numbers = choice_->numbers();
+  if (sizeOf_ != session_.output().faired || sizeWhich_ != options_->which() || sizeNumbers_ != numbers) {
     sizeOf_ = session_.output().faired;
     sizeWhich_ = options_->which();
-    measured_ = exportSize(session_.output(), sizeWhich_);
+    sizeNumbers_ = std::move(numbers);
+    measured_ = exportSize(session_.output(), sizeWhich_, sizeNumbers_);
   }
   return measured_;
 }
@@ -228,6 +223,7 @@ void ExportPanel::refresh() {
   again_->setVisible(!session_.isWorking() && session_.isStopped() && session_.isStale(StageId::Faired));
   // Measured and looked for on the disk only while someone reads it.
   if (!isVisible()) return;
+  choice_->refresh();
   refreshPreview();
   const ExportSize size = session_.hasScan() ? this->size() : ExportSize{};
   export_->setEnabled(isReady() && options_->obstacle().isEmpty() && size.curves > 0 &&
@@ -238,7 +234,10 @@ void ExportPanel::refresh() {
   const bool exists = confirmReplace_ && isOfOthers(path_->text());
   export_->setText(running_ ? tr("Writing…") : exists ? tr("Replace the file") : tr("Export"));
   if (const QString reason = reasonToWait(); !reason.isEmpty()) return size_->setText(reason);
-  if (size.curves == 0) return size_->setText(tr("There is no curve to export yet."));
+  if (size.curves == 0) {
+    const QString nothing = choice_->obstacle();
+    return size_->setText(nothing.isEmpty() ? tr("There is no curve to export yet.") : nothing);
+  }
   const ExportSettings settings = options_->settings();
   const double width = size.widthMm * settings.scale, height = size.heightMm * settings.scale;
   QString text = tr("Will import as %1\u00a0×\u00a0%2\u00a0mm").arg(width, 0, 'f', 1).arg(height, 0, 'f', 1);
@@ -250,7 +249,9 @@ void ExportPanel::refresh() {
   if (isScaleAssumed(*session_.scan(), session_.recipe()))
     text += tr(" The scale is not known: set the resolution in the Scan stage.");
   if (settings.format == ExportFormat::Iges || settings.format == ExportFormat::Step)
-    text += tr(" The file holds curves only: if nothing shows, turn wireframe on in the other program's import.");
+    text +=
+        tr(" The file contains curves only: if nothing appears, enable wireframe import in the "
+           "other program.");
   size_->setText(text);
 }
 
@@ -270,8 +271,8 @@ bool ExportPanel::isOfOthers(const QString& path) const {
 }
 
 ExportRequest ExportPanel::request(const QString& path) const {
-  return {session_.output(),    session_.recipe(), session_.scan(),
-          options_->settings(), options_->which(), nativePath(path)};
+  return {session_.output(), session_.recipe(), session_.scan(),   options_->settings(),
+          options_->which(), nativePath(path),  choice_->numbers()};
 }
 
 // Asked for when anything that it shows has changed, and not with every refresh.
@@ -282,8 +283,13 @@ void ExportPanel::refreshPreview() {
     return preview_->clear();
   }
   const ExportSettings settings = options_->settings();
-  const Previewed now{session_.output().faired, session_.recipe().directions, session_.recipe().starts,
-                      options_->which(),        isJoined(settings),           settings.scale};
+  const Previewed now{session_.output().faired,
+                      session_.recipe().directions,
+                      session_.recipe().starts,
+                      options_->which(),
+                      choice_->numbers(),
+                      isJoined(settings),
+                      settings.scale};
   if (previewed_ == now) return;
   previewed_ = now;
   preview_->show(request({}));
@@ -296,7 +302,7 @@ QString ExportPanel::summary(const ExportSize& size) const {
   if (options_->settings().joined.value_or(false) && std::ssize(content.curves) < size.curves)
     text = tr("%1 joined into %2").arg(text).arg(std::ssize(content.curves));
   if (content.layers > 1) text += tr(" on %1 layers").arg(content.layers);
-  if (content.doubles > 0) text += tr(", %1 on top of another left out").arg(content.doubles);
+  if (content.doubles > 0) text += tr(", %1 duplicate omitted").arg(content.doubles);
   return text + QLatin1Char('.');
 }
 
@@ -323,7 +329,7 @@ void ExportPanel::start() {
     const QString name = QFileInfo(path).fileName();
     result_->setText(
         path == lastWritten_.path
-            ? tr("%1 was changed by another program since it was written. Press again to replace it.").arg(name)
+            ? tr("%1 was changed by another program after the export. Press again to replace it.").arg(name)
             : tr("%1 exists. Press again to replace it.").arg(name));
     return refresh();
   }
@@ -333,7 +339,7 @@ void ExportPanel::start() {
   progress_->show();
   session_.setSideWork(this, true, false);
   writing_ = session_.recipe();
-  if (path_->isModified()) QSettings().setValue(kFolderKey, QFileInfo(path).absolutePath());
+  if (path_->isModified()) rememberExportFolder(path);
   result_->clear();
   refresh();
   cancel_ = worker_->start(
@@ -368,7 +374,7 @@ void ExportPanel::finish(const Result<ExportReport>& report) {
   session_.setSideWork(this, false);
   if (!report) {
     refresh();
-    if (report.error().code == ErrorCode::Cancelled) return result_->setText(tr("Stopped: nothing was written."));
+    if (report.error().code == ErrorCode::Cancelled) return result_->setText(tr("Stopped. Nothing was written."));
     emit failed(report.error());
     return;
   }

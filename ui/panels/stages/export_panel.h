@@ -5,6 +5,7 @@
 #include <QWidget>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "ui/panels/stages/export_job.h"
@@ -18,6 +19,7 @@ class QPushButton;
 namespace batten {
 
 class BackgroundWorker;
+class ExportChoice;
 class ExportOptions;
 class ExportPreview;
 class ReportSection;
@@ -46,8 +48,6 @@ class ExportPanel : public QWidget {
   void buildForm();
   void refresh();
   void suggestName();
-  /// What a file of the drawing is called: after the scan, else after the first file that was imported.
-  QString drawingName() const;
   void openedAnother();
   QString wantedPath() const;
   /// Whether a file stands there that this window did not write, or that was changed since.
@@ -64,6 +64,7 @@ class ExportPanel : public QWidget {
 
   EditorSession& session_;
   ExportOptions* options_;
+  ExportChoice* choice_;
   ExportPreview* preview_;
   QLabel* held_;
   QPushButton* turn_;
@@ -83,6 +84,7 @@ class ExportPanel : public QWidget {
     std::vector<DirectionMark> directions;
     std::vector<StartMark> starts;
     ExportedCurves which = ExportedCurves::Faired;
+    std::optional<std::set<int>> numbers;
     bool isJoined = false;
     double scale = 1.0;
     bool operator==(const Previewed&) const = default;
@@ -99,6 +101,7 @@ class ExportPanel : public QWidget {
   Written lastWritten_;
   std::shared_ptr<const FairedSet> sizeOf_;  ///< What size_ was measured of: only when it changes, and is seen.
   ExportedCurves sizeWhich_ = ExportedCurves::Faired;
+  std::optional<std::set<int>> sizeNumbers_;
   ExportSize measured_;
   Recipe writing_;
   std::unique_ptr<BackgroundWorker> worker_;

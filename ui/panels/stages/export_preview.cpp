@@ -19,6 +19,7 @@ namespace batten {
 namespace {
 
 constexpr double kMarginPx = 12.0, kArrowPx = 6.0, kStartPx = 2.4, kHitPx = 6.0;
+constexpr double kLeastMarkedPx = 5.0 * kArrowPx;  ///< Diagonal of a curve that is marked.
 constexpr int kPointsPerPiece = 48;
 constexpr int kMostMarks = 80;  ///< Arrows of more curves would hide them.
 
@@ -32,7 +33,7 @@ PreviewCurve shapeOf(const std::vector<ExportPiece>& pieces, const ExportCurve& 
   const auto middle = sampleByArcLength(pieces[pieces.size() / 2].curve, 3)[1];
   shape.arrowAt = {middle.point.x(), -middle.point.y()};
   shape.arrowWay = {middle.tangent.x(), -middle.tangent.y()};
-  shape.isSketched = line.layer != ExportCurve{}.layer;
+  shape.isSketched = line.isSketched;
   shape.isClosed = line.closed;
   shape.number = pieces.front().number;
   return shape;
@@ -41,8 +42,7 @@ PreviewCurve shapeOf(const std::vector<ExportPiece>& pieces, const ExportCurve& 
 }  // namespace
 
 Result<PreviewContent> previewOf(const ExportRequest& request, const RunContext& context) {
-  const auto made = arranged(exportDocument(request.output, request.recipe, *request.scan, request.which),
-                             isJoined(request.settings), context);
+  const auto made = arranged(documentOf(request), isJoined(request.settings), context);
   if (!made) return fail(made.error());
   const ExportDocument document = scaled(made->document, request.settings.scale);
   PreviewContent content;
@@ -120,6 +120,9 @@ void ExportPreview::paintEvent(QPaintEvent*) {
   if (std::ssize(content_.curves) > kMostMarks) return;
   painter.setPen(Qt::NoPen);
   for (const PreviewCurve& curve : content_.curves) {
+    // On a curve that is hardly larger than its marks they would be a blot.
+    const QRectF box = curve.points.boundingRect();
+    if (QLineF(toWidget(box.topLeft()), toWidget(box.bottomRight())).length() < kLeastMarkedPx) continue;
     painter.setBrush(curve.isSketched ? theme.mute : theme.accent);
     painter.drawEllipse(toWidget(curve.points.front()), kStartPx, kStartPx);
     const double length = std::hypot(curve.arrowWay.x(), curve.arrowWay.y());

@@ -77,7 +77,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       note_(note({}, this)),
       raise_(linkButton(tr("Raise the tolerance"), QStringLiteral("fairing.raise"), this)),
       useForAll_(linkButton(tr("Use this for all curves"), QStringLiteral("fairing.useForAll"), this)),
-      followAll_(linkButton(tr("Follow the common setting"), QStringLiteral("fairing.followAll"), this)),
+      followAll_(linkButton(tr("Use the common setting"), QStringLiteral("fairing.followAll"), this)),
       whole_(linkButton({}, QStringLiteral("fairing.whole"), this)),
       split_(linkButton({}, QStringLiteral("fairing.split"), this)),
       unsplit_(linkButton({}, QStringLiteral("fairing.unsplit"), this)),
@@ -97,13 +97,14 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Fairing"), this));
   scope_->setNames(QStringLiteral("fairing.scope"), {QStringLiteral("all"), QStringLiteral("one")});
-  scope_->setToolTip(tr("Whether the settings below act on the whole drawing or on the selected curve alone."));
+  scope_->setToolTip(tr("Whether the settings below apply to the whole drawing or only to the selected curve."));
   layout->addWidget(scope_);
   mode_->setNames(QStringLiteral("fairing.mode"), wordsOf(modeParameter()));
   mode_->setToolTip(
-      tr("None: as sketched. Target: follow a profile of the curvature. Smooth: the smallest change of curvature that "
-         "the tolerance allows. Monotone: curvature without a turn, or with few. Low-pass: without short waves."));
-  setSettingName(mode_, tr("Way of fairing"));
+      tr("None: as sketched. Target: follows a curvature profile. Smooth: least variation of "
+         "curvature within the tolerance. Monotone: no or few curvature extrema. Low-pass: "
+         "removes short waves of the curvature."));
+  setSettingName(mode_, tr("Fairing mode"));
   layout->addWidget(mode_);
   buildTolerance();
   layout->addWidget(keep_);
@@ -202,17 +203,17 @@ void FairingPanel::buildLinks() {
   unsplit_->setText(tr("One polynomial for the whole curve"));
   unsplit_->setToolTip(tr("Joins all spans, as in the papers."));
   whole_->setText(tr("Targets for the whole curve"));
-  whole_->setToolTip(tr("The targets belong to the span that you clicked. This goes back to all spans."));
-  draw_->setToolTip(tr("Turns the target into points that you drag in the curvature plot."));
-  logAesthetic_->setToolTip(tr(
-      "Each span with its radius to a power, alpha, linear in the length: clothoids, spirals, involutes. Alpha stands "
-      "under More."));
+  whole_->setToolTip(tr("The targets apply to the span you clicked. Click here to return to the whole curve."));
+  draw_->setToolTip(tr("Converts the target to points that can be dragged in the curvature plot."));
+  logAesthetic_->setToolTip(
+      tr("In each span, radius to the power alpha is linear in arc length: clothoids, spirals, "
+         "involutes. Alpha is under More."));
   connect(logAesthetic_, &QPushButton::clicked, this, [this] {
     session_.pointAtSpan({});
     chooseTarget(session_, kLogAestheticTarget);
   });
   auto* compare = linkButton(tr("Compare shapes…"), QStringLiteral("fairing.compare"), this);
-  compare->setToolTip(tr("How alike two curves are, and how fair this one is: the similarities in a table."));
+  compare->setToolTip(tr("Similarity of two curves and fairness of this one, as a table."));
   column->addWidget(compare, 0, Qt::AlignLeft);
   connect(compare, &QPushButton::clicked, this, &FairingPanel::comparisonAsked);
   connect(split_, &QPushButton::clicked, this, [this] { splitNaturally(session_); });
@@ -284,7 +285,7 @@ void FairingPanel::followAll() {
   Recipe after = withChoice(session_, session_.selectedCurve(), [](PieceChoice& choice) { choice.clearFairing(); });
   std::erase_if(after.choices, [](const PieceChoice& choice) { return choice.isEmpty(); });
   oneCurve_ = false;
-  session_.change(tr("Follow the common fairing"), std::move(after));
+  session_.change(tr("Use the common fairing"), std::move(after));
 }
 
 void FairingPanel::refresh() {
@@ -330,17 +331,18 @@ void FairingPanel::refreshFigures() {
        {{QString::number(before.extrema)},
         faired ? FigureTable::Cell{QString::number(report.roundedMm > 0.0 ? report.extremaAfter : after.extrema)}
                : none},
-       tr("Places where the curvature turns back: fewer is fairer. Those of rounded corners are not counted.")},
+       tr("Local maxima and minima of the curvature: fewer is fairer. Those of rounded corners are "
+          "not counted.")},
       {tr("Moved at most, mm"),
        {none, faired ? FigureTable::Cell{mm(report.maxDeviationMm), over} : none},
        tr("Largest distance of the faired curve from the sketched one; never above the tolerance.")},
-      {tr("Off the line, mm"),
+      {tr("Deviation from line, mm"),
        {{mm(before.fromPoints.max)}, faired ? FigureTable::Cell{mm(after.fromPoints.max)} : none},
        tr("Largest distance of an edge point of the scan from the curve.")}};
   if (report.roundedMm > 0.0) {
     rows.push_back({tr("Rounded by, mm"),
                     {none, {mm(report.roundedMm)}},
-                    tr("Largest distance that rounding its corners moved the curve, beside what fairing moved.")});
+                    tr("Largest move of the curve by corner rounding, not counting fairing.")});
   }
   const auto targets = session_.targets();
   int degree = curve->fairingUsed.target;
@@ -348,27 +350,26 @@ void FairingPanel::refreshFigures() {
   if (session_.pointedSpan()) degree = chosenSpanTarget(session_);
   if (targets && faired && curve->fairingUsed.mode == FairingMode::Target && degree >= 1 && degree <= 6) {
     const TargetProfile& profile = targets->targets.profiles[degree - 1];
-    rows.push_back(
-        {tr("Similarity S"),
-         {{similarityText(profile.similarity)},
-          report.similarityAfter ? FigureTable::Cell{similarityText(*report.similarityAfter)} : none},
-         tr("How much the radius of the sketched curve resembles the target; 1 is the same. Faired: how much "
-            "that of the faired curve resembles the sketched one's.")});
+    rows.push_back({tr("Similarity S"),
+                    {{similarityText(profile.similarity)},
+                     report.similarityAfter ? FigureTable::Cell{similarityText(*report.similarityAfter)} : none},
+                    tr("Similarity of the sketched radius profile to the target; 1 is identical. Faired: "
+                       "similarity of the faired to the sketched radius profile.")});
     rows.push_back({tr("Monotone target"),
                     {none, {profile.isMonotone ? tr("yes") : tr("no")}},
-                    tr("A monotone profile never turns back, so it brings no bump.")});
+                    tr("A monotone profile adds no curvature extremum.")});
   }
   figures_->setRows(std::move(rows));
   QString text = isLeftAsDrawn(*curve) ? whyLeftAsDrawn(*curve) : QString::fromStdString(report.note);
   if (faired && !report.withinTolerance) {
-    if (text.isEmpty()) text = tr("The tolerance stops the curve before it meets the target.");
+    if (text.isEmpty()) text = tr("The tolerance is too small to reach the target.");
     const bool isMore = report.neededMm > curve->fairingUsed.toleranceMm;
     const bool isSensible = report.neededMm <= mostSensibleToleranceMm(curve->sketched);
     raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(report.neededMm)));
     raise_->setVisible(isMore && isSensible);
     if (isMore && !isSensible)
-      text += tr(" To meet it would move this curve by %1, which makes another shape of it: choose a higher degree or "
-                 "more spans.")
+      text += tr(" Reaching it would move this curve by %1, which changes its shape: choose a higher "
+                 "degree or more spans.")
                   .arg(millimetres(report.neededMm));
   }
   note_->setText(text);

@@ -24,12 +24,12 @@ QString textOf(const GrowingStep& step) {
     case GrowingStep::Kind::Seed:
       return QObject::tr("Segment %1: seed").arg(number);
     case GrowingStep::Kind::Extrapolated:
-      return QObject::tr("Segment %1: run on").arg(number);
+      return QObject::tr("Segment %1: extrapolated").arg(number);
     case GrowingStep::Kind::Fitted:
       return step.stops ? QObject::tr("Segment %1: no longer fits (%2)").arg(number, figures)
                         : QObject::tr("Segment %1: fitted (%2)").arg(number, figures);
     case GrowingStep::Kind::Kept:
-      return QObject::tr("Segment %1: this part stays").arg(number);
+      return QObject::tr("Segment %1: this part is kept").arg(number);
   }
   return {};
 }
@@ -39,7 +39,7 @@ QString textOf(const GrowingStep& step) {
 GrowingControls::GrowingControls(GrowingPlayer& player, QWidget* parent)
     : QWidget(parent),
       player_(player),
-      open_(plainButton(tr("Show the growing"), QStringLiteral("growing.open"), this)),
+      open_(plainButton(tr("Show growing steps"), QStringLiteral("growing.open"), this)),
       steps_(new QWidget(this)),
       previous_(plainButton(tr("Previous"), QStringLiteral("growing.previous"), steps_)),
       play_(plainButton(tr("Play"), QStringLiteral("growing.play"), steps_)),
@@ -49,14 +49,14 @@ GrowingControls::GrowingControls(GrowingPlayer& player, QWidget* parent)
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(6);
-  open_->setToolTip(tr("Shows on the drawing how the chain of the selected curve grows, step by step."));
+  open_->setToolTip(tr("Replays how the chain of the selected curve was grown, step by step."));
   open_->setCheckable(true);
   layout->addWidget(open_, 0, Qt::AlignLeft);
   auto* inner = new QVBoxLayout(steps_);
   inner->setContentsMargins(0, 0, 0, 0);
   inner->setSpacing(6);
   track_->setObjectName(QStringLiteral("growing.step"));
-  track_->setAccessibleName(tr("Step of the growing"));
+  track_->setAccessibleName(tr("Growing step"));
   track_->setSingleStep(1);
   inner->addWidget(track_);
   auto* row = new QHBoxLayout;
@@ -88,7 +88,7 @@ void GrowingControls::hideEvent(QHideEvent* event) {
 void GrowingControls::refresh() {
   const int count = player_.stepCount(), at = player_.step();
   open_->setChecked(player_.isOpen());
-  open_->setText(player_.isOpen() ? tr("Hide the growing") : tr("Show the growing"));
+  open_->setText(player_.isOpen() ? tr("Hide growing steps") : tr("Show growing steps"));
   steps_->setVisible(count > 0);
   const QSignalBlocker quiet(track_);
   track_->setRange(0, std::max(count - 1, 0));

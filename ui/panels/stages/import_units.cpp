@@ -45,8 +45,8 @@ void ImportUnits::refresh() {
   build();
   const bool asks =
       std::any_of(shown_.begin(), shown_.end(), [](const auto& one) { return isUnitAssumed(one.second); });
-  note_->setText((asks ? tr("A file states no unit: choose what its numbers are. ") : QString()) +
-                 tr("Resolution, width and paper leave the size of imported lines as it is."));
+  note_->setText((asks ? tr("A file states no unit: choose the unit of its coordinates. ") : QString()) +
+                 tr("Resolution, width and paper size do not affect imported lines."));
 }
 
 void ImportUnits::build() {
@@ -71,7 +71,7 @@ void ImportUnits::build() {
     auto* choice = new QComboBox(rows_);
     choice->setObjectName(QStringLiteral("import.unit.%1").arg(i));
     choice->setAccessibleName(tr("Unit of %1").arg(name));
-    choice->setToolTip(tr("What the numbers of the file are. Another unit makes its lines larger or smaller."));
+    choice->setToolTip(tr("Unit of the coordinates in the file. Changing it rescales the imported lines."));
     choice->setFixedWidth(kImportUnitWidth);
     QStringList units = {QStringLiteral("mm"), QStringLiteral("cm"), QStringLiteral("m"), QStringLiteral("in")};
     if (!units.contains(now)) units.prepend(now);

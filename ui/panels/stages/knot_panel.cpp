@@ -45,7 +45,8 @@ KnotPanel::KnotPanel(EditorSession& session, ViewSettings& view, QWidget* parent
   text_->setObjectName(QStringLiteral("knots.text"));
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   text_->setToolTip(
-      tr("Knot values; ×3 stands for three equal knots. A knot as often as the degree is a sharp corner."));
+      tr("Knot values; ×3 means multiplicity 3. A knot of multiplicity equal to the degree makes "
+         "a sharp corner."));
   layout->addWidget(editor_);
   layout->addWidget(counts_);
   layout->addWidget(caption(tr("Knot vector"), this));
@@ -123,9 +124,9 @@ void KnotPanel::show(const std::shared_ptr<const Result>& result) {
                      : whole.left(whole.lastIndexOf(QLatin1Char(' '), kMostLetters)) + QStringLiteral(" …"));
   text_->setProperty("whole", whole);
   const bool breaks = session_.recipe().construct.knots == SharpKnots::Order && !line.sharp.empty();
-  warning_->setText(
-      breaks ? tr("As many equal knots as the order, as in the paper, break the curve just before each corner.")
-             : QString());
+  warning_->setText(breaks ? tr("Multiplicity equal to the order, as in the paper, breaks the curve just before each "
+                                "corner.")
+                           : QString());
   warning_->setVisible(breaks);
   if (gallery_) gallery_->setLine(line, session_.recipe().construct.knots);
 }

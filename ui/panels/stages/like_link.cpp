@@ -71,7 +71,7 @@ void showMenu(EditorSession& session, QPushButton* link, const std::function<voi
 QPushButton* likeLink(EditorSession& session, QWidget* parent, std::function<void()> saved) {
   auto* link = linkButton(words("Make it like…"), QStringLiteral("fairing.like"), parent);
   link->setToolTip(
-      words("The target becomes the course of the curvature of another curve, or of one that you saved, at this one's "
+      words("Uses the curvature profile of another or a saved curve as the target, rescaled to this "
             "length."));
   QObject::connect(link, &QPushButton::clicked, link,
                    [&session, link, saved = std::move(saved)] { showMenu(session, link, saved); });

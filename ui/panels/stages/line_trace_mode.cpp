@@ -19,8 +19,8 @@ constexpr std::array kWays = {EdgeMode::Automatic, EdgeMode::Outline, EdgeMode::
 LineWay::LineWay(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
-      ways_(new SegmentedControl({tr("As the page"), tr("Outline"), tr("Centre line")}, this)),
-      hint_(note(tr("Click a line to follow it in a way of its own."), this)) {
+      ways_(new SegmentedControl({tr("Same as page"), tr("Outline"), tr("Centre line")}, this)),
+      hint_(note(tr("Click a line to give it its own trace mode."), this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);
@@ -29,7 +29,7 @@ LineWay::LineWay(EditorSession& session, QWidget* parent)
   layout->addWidget(hint_);
   ways_->setNames(QStringLiteral("edges.way"),
                   {QStringLiteral("page"), QStringLiteral("outline"), QStringLiteral("centreline")});
-  ways_->setToolTip(tr("How the ink of the selected line is followed, whatever holds for the page."));
+  ways_->setToolTip(tr("Trace mode of the selected line, independent of the page setting."));
   connect(ways_, &SegmentedControl::chosen, this, [this](int index) {
     chooseWay(session_, session_.selectedCurve(), kWays[index]);
     refresh();

@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QPointer>
 #include <QPushButton>
+#include <QVBoxLayout>
 
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/session/guarded.h"
@@ -21,18 +22,29 @@ MergeSuggestion::MergeSuggestion(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
       note_(note({}, this)),
-      ask_(linkButton(tr("Suggest"), QStringLiteral("edges.suggestMerge"), this)) {
+      ask_(linkButton(tr("Suggest"), QStringLiteral("edges.suggestMerge"), this)),
+      offer_(linkButton(tr("Curves that were meant"), QStringLiteral("edges.offerIntent"), this)) {
   note_->setObjectName(QStringLiteral("edges.suggestMerge.note"));
-  ask_->setAccessibleName(tr("Suggest how far to merge strokes"));
-  ask_->setToolTip(
-      tr("Looks whether lines were drawn in several strokes over one another, and if so sets how far to merge them."));
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
+  ask_->setAccessibleName(tr("Suggest merge distance"));
+  ask_->setToolTip(tr("Checks for overdrawn strokes and sets the merge distance if there are any."));
+  offer_->setToolTip(tr("Makes of lines drawn over more than once the curves that were meant."));
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(2);
+  auto* row = new QHBoxLayout;
   row->setSpacing(8);
+  column->addLayout(row);
+  column->addWidget(offer_, 0, Qt::AlignRight);
   row->addWidget(note_, 1);
   row->addWidget(ask_, 0, Qt::AlignTop | Qt::AlignRight);
   say({});
   connect(ask_, &QPushButton::clicked, this, &MergeSuggestion::look);
+  connect(offer_, &QPushButton::clicked, this, [this] {
+    Recipe after = session_.recipe();
+    after.edges.intent = true;
+    session_.change(tr("Curves that were meant"), std::move(after));
+  });
+  connect(&session_, &EditorSession::recipeChanged, this, &MergeSuggestion::showOffer);
   connect(&session_, &EditorSession::stopped, this, &MergeSuggestion::stop);
   connect(&session_, &EditorSession::recipeChanged, this, &MergeSuggestion::follow);
   connect(&session_, &EditorSession::scanOpened, this, [this] {
@@ -49,7 +61,7 @@ void MergeSuggestion::look() {
   const ContentHash key = mergeAdviceKey(*scan, recipe);
   asked_ = key;
   said_.reset();
-  say(tr("Looking at the strokes …"));
+  say(tr("Analysing strokes…"));
   session_.setSideWork(this, true, false);
   worker_.start([scan, recipe, key, panel = QPointer<MergeSuggestion>(this)](const CancelToken& token) {
     RunContext context;
@@ -76,6 +88,7 @@ void MergeSuggestion::take(const Result<MergeAdvice>& advice) {
     say(QString::fromStdString(advice.error().message));
     return;
   }
+  said_->isMeant = advice->meant.has_value();
   if (advice->widths > 0.0) {
     said_->strength = advice->widths;
     Recipe after = session_.recipe();
@@ -107,7 +120,10 @@ void MergeSuggestion::follow() {
 }
 
 void MergeSuggestion::say(const QString& text) {
-  note_->setText(text.isEmpty() ? tr("Drawn in several strokes?") : text);
+  note_->setText(text.isEmpty() ? tr("Overdrawn strokes?") : text);
+  showOffer();
 }
+
+void MergeSuggestion::showOffer() { offer_->setVisible(said_ && said_->isMeant && !session_.recipe().edges.intent); }
 
 }  // namespace batten

@@ -70,8 +70,8 @@ class MethodRow : public QAbstractButton {
   void show(const std::optional<CurveFigures>& figures, bool failed, const QString& instead) {
     isOther_ = !instead.isEmpty();
     const QString what = MethodTable::tr(
-        "What this method gives for the selected curve: mean deviation from the points of the line, control "
-        "points, curvature extrema. Click to use it.");
+        "Result of this method for the selected curve: rms deviation from the points of the "
+        "line, control points, curvature extrema. Click to use it.");
     setToolTip(isOther_ ? instead + QLatin1Char('\n') + what : what);
     if (figures) {
       texts_ = {shortMillimetres(figures->fromPoints.rms), QString::number(figures->controlPoints),
@@ -102,7 +102,7 @@ class MethodRow : public QAbstractButton {
     painter.setFont(uiFont(12, isChecked() ? QFont::DemiBold : QFont::Normal));
     painter.setPen(theme.text);
     const QString shown =
-        isOther_ ? MethodTable::tr("%1 *", "mark: another construction took its place").arg(text()) : text();
+        isOther_ ? MethodTable::tr("%1 *", "mark: replaced by another construction").arg(text()) : text();
     painter.drawText(box.adjusted(8, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, shown);
     painter.setFont(uiFont(12));
     painter.setPen(theme.mute);
@@ -164,7 +164,7 @@ MethodTable::MethodTable(EditorSession& session, QWidget* parent)
   head->addWidget(caption(tr("Method"), this));
   auto* help = linkButton(QStringLiteral("?"), QStringLiteral("construct.method.help"), this);
   help->setAccessibleName(tr("Help on this method"));
-  help->setToolTip(tr("What this method is good for, how it works, and its limits."));
+  help->setToolTip(tr("Uses, operation and limits of this method."));
   head->addWidget(help);
   head->addWidget(new MethodHead(this), 1);
   layout->addLayout(head);
@@ -175,7 +175,7 @@ MethodTable::MethodTable(EditorSession& session, QWidget* parent)
     connect(row, &QAbstractButton::clicked, this, [this, method] { choose(method); });
   }
   scope_->setNames(QStringLiteral("construct.scope"), {QStringLiteral("one"), QStringLiteral("all")});
-  scope_->setToolTip(tr("Whether a click on a method changes the selected curve alone or the whole drawing."));
+  scope_->setToolTip(tr("Whether a click on a method applies to the selected curve or to the whole drawing."));
   scope_->setCurrent(0);
   whose_->setObjectName(QStringLiteral("construct.method.whose"));
   layout->addSpacing(6);
@@ -250,7 +250,7 @@ Result<TracedCurve> MethodTable::constructedAs(const PipelineOutput& output, con
   if (!line) return fail(line.error());
   for (TracedCurve& each : *line)
     if (each.piece == source.piece && !each.sketched.isEmpty()) return std::move(each);
-  return fail(ErrorCode::NoCurve, "The line gave no curve.");
+  return fail(ErrorCode::NoCurve, "No curve could be made from this line.");
 }
 
 void MethodTable::compute() {

@@ -30,9 +30,9 @@ PenPanel::PenPanel(EditorSession& session, ViewSettings& view, QWidget* parent)
   layout->setSpacing(8);
   layout->addWidget(caption(tr("Drawn by hand"), this));
   layout->addWidget(
-      note(tr("Drag on the drawing, with a mouse or a tablet. Such lines join those of the scan."), this));
+      note(tr("Drag on the drawing with a mouse or tablet. These lines are added to those of the scan."), this));
   draw_->setCheckable(true);
-  draw_->setToolTip(tr("Drag to draw a line; end where it began to close it  (D)"));
+  draw_->setToolTip(tr("Drag to draw a line; end at its start to close it  (D)"));
   layout->addWidget(draw_, 0, Qt::AlignLeft);
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(remove_);

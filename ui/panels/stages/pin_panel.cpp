@@ -57,7 +57,7 @@ PinPanel::PinPanel(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
       pin_(plainButton(tr("Pin this result"), QStringLiteral("pin.set"), this)),
-      unpin_(plainButton(tr("Take away"), QStringLiteral("pin.clear"), this)),
+      unpin_(plainButton(tr("Unpin"), QStringLiteral("pin.clear"), this)),
       what_(note({}, this)),
       figures_(new FigureTable(this)),
       worker_(std::make_unique<BackgroundWorker>()) {
@@ -74,7 +74,7 @@ PinPanel::PinPanel(EditorSession& session, QWidget* parent)
   buttons->addWidget(unpin_);
   buttons->addStretch();
   layout->addLayout(buttons);
-  pin_->setToolTip(tr("Keeps this result as a thin violet line under the ones that follow  (A)"));
+  pin_->setToolTip(tr("Keeps this result as a thin violet line for comparison  (A)"));
   connect(pin_, &QPushButton::clicked, &session_, &EditorSession::pin);
   connect(unpin_, &QPushButton::clicked, &session_, &EditorSession::unpin);
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::selectionChanged, &EditorSession::runFinished,
@@ -95,7 +95,7 @@ void PinPanel::refresh() {
   const TracedCurve* now = session_.selected();
   const TracedCurve* before = session_.pinnedOf(session_.selectedCurve());
   pin_->setEnabled(session_.output().faired != nullptr);
-  pin_->setText(pinned ? tr("Pin the present one") : tr("Pin this result"));
+  pin_->setText(pinned ? tr("Pin the current result") : tr("Pin this result"));
   unpin_->setVisible(pinned != nullptr);
   figures_->setVisible(now && before);
   what_->setText(
@@ -127,14 +127,15 @@ void PinPanel::show(const Comparison& c) {
         tr("Root mean square of the distances of the line's points.")},
        {tr("Largest deviation"),
         {{shortMillimetres(c.pinned.maxMm)}, {shortMillimetres(c.now.maxMm)}},
-        tr("Farthest point of the line from the curve.")},
+        tr("Largest distance of a point of the line from the curve.")},
        {tr("Control points"), {{count(c.pinned.controlPoints)}, {count(c.now.controlPoints)}}, {}},
        {tr("Curvature extrema"),
         {{count(c.pinned.extrema)}, {count(c.now.extrema)}},
-        tr("Places where the curvature turns back: fewer is fairer.")},
+        tr("Local maxima and minima of the curvature: fewer is fairer.")},
        {tr("Unevenness"),
         {{unevennessText(c.pinned.energy)}, {unevennessText(c.now.energy)}},
-        tr("Integral of the squared change of curvature, free of the size: 0 for a circle, smaller is fairer.")},
+        tr("Integral of the squared rate of change of curvature, independent of size: 0 for a "
+           "circle, smaller is fairer.")},
        {tr("Apart"), {{}, {shortMillimetres(c.apartMm)}}, tr("Largest distance between the two curves.")}});
 }
 

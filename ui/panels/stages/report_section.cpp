@@ -4,9 +4,9 @@
 #include <QComboBox>
 #include <QCoreApplication>
 #include <QDate>
-#include <QDir>
 #include <QFileInfo>
 #include <QHBoxLayout>
+#include <QLabel>
 #include <QLocale>
 #include <QPointer>
 #include <QProgressBar>
@@ -19,13 +19,14 @@
 
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/save_dialog.h"
+#include "ui/panels/stages/export_folder.h"
 #include "ui/session/background_worker.h"
 #include "ui/session/path_text.h"
 
 namespace batten {
 namespace {
 
-const QString kKindKey = QStringLiteral("report/kind"), kReportFolderKey = QStringLiteral("export/folder");
+const QString kKindKey = QStringLiteral("report/kind");
 enum Kind { PdfOnA4, PdfOnLetter, Html };
 
 Result<void> writeReport(const PipelineOutput& output, const Recipe& recipe, const Scan& scan, Kind kind,
@@ -48,7 +49,7 @@ Result<void> writeReport(const PipelineOutput& output, const Recipe& recipe, con
                            kind == PdfOnLetter ? ReportPaper::Letter : ReportPaper::A4, path,
                            stretch(kFiguresPart, 1.0));
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "Not enough memory for the report. Leave some curves out.");
+    return fail(ErrorCode::OutOfMemory, "Not enough memory for the report. Exclude some curves.");
   }
 }
 
@@ -60,6 +61,7 @@ ReportSection::ReportSection(EditorSession& session, QWidget* parent)
       kind_(new QComboBox(this)),
       button_(plainButton(tr("Write report…"), QStringLiteral("report.write"), this)),
       progress_(new QProgressBar(this)),
+      result_(note({}, this)),
       worker_(std::make_unique<BackgroundWorker>()) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -72,7 +74,7 @@ ReportSection::ReportSection(EditorSession& session, QWidget* parent)
   kind_->addItems({tr("PDF, A4"), tr("PDF, Letter"), tr("HTML")});
   const bool isLetter = QLocale().measurementSystem() == QLocale::ImperialUSSystem;
   kind_->setCurrentIndex(std::clamp(QSettings().value(kKindKey, isLetter ? PdfOnLetter : PdfOnA4).toInt(), 0, 2));
-  button_->setToolTip(tr("The drawing 1:1, figures of every curve, comb, radius, deviations and the recipe."));
+  button_->setToolTip(tr("The drawing at 1:1, measurements of every curve, comb, radius, deviations and the recipe."));
   row->addWidget(kind_);
   row->addWidget(button_, 1);
   layout->addLayout(row);
@@ -82,6 +84,8 @@ ReportSection::ReportSection(EditorSession& session, QWidget* parent)
   progress_->setTextVisible(false);
   progress_->hide();
   layout->addWidget(progress_);
+  result_->setObjectName(QStringLiteral("report.result"));
+  layout->addWidget(result_);
   connect(kind_, qOverload<int>(&QComboBox::currentIndexChanged), this,
           [](int kind) { QSettings().setValue(kKindKey, kind); });
   connect(button_, &QPushButton::clicked, this, &ReportSection::choose);
@@ -97,22 +101,14 @@ void ReportSection::setReady(bool ready) {
   button_->setEnabled(ready && !isRunning_);
 }
 
+void ReportSection::clearResult() { result_->clear(); }
+
 void ReportSection::choose() {
   const bool isHtml = kind_->currentIndex() == Html;
   const QString suffix = isHtml ? QStringLiteral("html") : QStringLiteral("pdf");
-  const QFileInfo scan(session_.scanPath());
-  QString folder = QSettings().value(kReportFolderKey).toString();
-  if (folder.isEmpty() && !session_.isBlankPage() && !isOfProgram(scan.absoluteFilePath()))
-    folder = scan.absolutePath();
-  if (folder.isEmpty() || !QFileInfo(folder).isWritable()) folder = QDir::homePath();
-  const auto& imports = session_.recipe().imports;
-  const QString source = session_.isBlankPage()
-                             ? imports.empty() ? QString() : QString::fromStdString(imports.front().source)
-                             : scan.fileName();
-  const QString own = QFileInfo(source).completeBaseName(), name = own.isEmpty() ? QStringLiteral("drawing") : own;
+  const QString proposed = proposedExportPath(session_, QStringLiteral(".report.") + suffix);
   const QString path =
-      askSavePath(this, {tr("Write report"), folder + QLatin1Char('/') + name + QStringLiteral(".report.") + suffix,
-                         isHtml ? tr("HTML (*.html)") : tr("PDF (*.pdf)"), suffix});
+      askSavePath(this, {tr("Write report"), proposed, isHtml ? tr("HTML (*.html)") : tr("PDF (*.pdf)"), suffix});
   if (!path.isEmpty()) write(path);
 }
 
@@ -121,6 +117,7 @@ void ReportSection::write(const QString& path) {
   isRunning_ = true;
   progress_->setValue(0);
   progress_->show();
+  clearResult();
   setReady(isReady_);
   session_.setSideWork(this, true, false);
   const Kind kind = static_cast<Kind>(kind_->currentIndex());
@@ -155,9 +152,9 @@ void ReportSection::finish(const Result<void>& outcome, const QString& path) {
   progress_->hide();
   session_.setSideWork(this, false);
   setReady(isReady_);
-  if (outcome) return emit written(tr("Wrote %1.").arg(QFileInfo(path).fileName()));
-  if (outcome.error().code == ErrorCode::Cancelled) return emit written(tr("Stopped: no report was written."));
-  emit failed(outcome.error());
+  if (!outcome && outcome.error().code != ErrorCode::Cancelled) return emit failed(outcome.error());
+  result_->setText(outcome ? tr("Wrote %1.").arg(QFileInfo(path).fileName()) : tr("Stopped. No report was written."));
+  emit written(result_->text());
 }
 
 }  // namespace batten

@@ -8,6 +8,7 @@
 #include "ui/session/editor_session.h"
 
 class QComboBox;
+class QLabel;
 class QProgressBar;
 class QPushButton;
 
@@ -23,6 +24,8 @@ class ReportSection : public QWidget {
   ~ReportSection() override;
   /// Whether there is something to report on.
   void setReady(bool ready);
+  /// Forgets what was written last: it is no longer of the present drawing.
+  void clearResult();
 
  signals:
   void written(const QString& sentence);
@@ -37,6 +40,7 @@ class ReportSection : public QWidget {
   QComboBox* kind_;
   QPushButton* button_;
   QProgressBar* progress_;
+  QLabel* result_;  ///< What became of the last report.
   bool isReady_ = false, isRunning_ = false;
   CancelToken cancel_;
   std::unique_ptr<BackgroundWorker> worker_;

@@ -90,7 +90,7 @@ void ScaleControls::build() {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(8);
-  const QString widthHelp = tr("How wide the whole picture is in truth. Type mm, cm or in.");
+  const QString widthHelp = tr("True width of the whole picture. Enter mm, cm or in.");
   width_->setFixedWidth(kScaleFieldWidth);
   width_->setRange(0.1, 100000.0);
   width_->setDecimals(1);
@@ -108,7 +108,7 @@ void ScaleControls::build() {
   paper_->addItem(QStringLiteral("–"));
   for (const Paper& paper : kPapers) paper_->addItem(QString::fromLatin1(paper.name));
   layout->addWidget(rowOf(tr("Paper"), tr("The whole picture is one sheet of this paper."), {paper_}, this));
-  measure_->setToolTip(tr("Drag along something whose length is known.  (M)"));
+  measure_->setToolTip(tr("Drag along something of known length.  (M)"));
   layout->addWidget(measure_);
   length_->setFixedWidth(kScaleFieldWidth);
   length_->setRange(0.01, 100000.0);
@@ -123,7 +123,7 @@ void ScaleControls::build() {
   unit_->addItems({tr("mm"), tr("cm"), tr("in")});
   unit_->setCurrentIndex(std::clamp(QSettings().value(kScaleUnitKey, 0).toInt(), 0, 2));
   lengthRow_ =
-      rowOf(tr("Is"), tr("How long the line on the drawing is in truth. Type mm, cm or in."), {length_, unit_}, this);
+      rowOf(tr("Is"), tr("True length of the line on the drawing. Enter mm, cm or in."), {length_, unit_}, this);
   layout->addWidget(lengthRow_);
   note_->setObjectName(QStringLiteral("scale.note"));
   layout->addWidget(note_);
@@ -191,11 +191,11 @@ void ScaleControls::choosePaper(int index) {
   change(tr("Paper %1").arg(QString::fromLatin1(paper.name)), std::move(after));
   // Said after the change, which writes its own note.
   if (std::abs(scan - sheet) > kSameShape * sheet)
-    note_->setText(
-        tr("The picture is no whole sheet of %1: its sides are as 1 : %2, not 1 : %3. The longer side counts.")
-            .arg(QString::fromLatin1(paper.name))
-            .arg(scan, 0, 'f', 2)
-            .arg(sheet, 0, 'f', 2));
+    note_->setText(tr("The picture is not a whole sheet of %1: its aspect ratio is 1 : %2, not 1 : %3. The "
+                      "longer side is used.")
+                       .arg(QString::fromLatin1(paper.name))
+                       .arg(scan, 0, 'f', 2)
+                       .arg(sheet, 0, 'f', 2));
 }
 
 void ScaleControls::setWidth(double mm) {
@@ -239,10 +239,10 @@ void ScaleControls::refresh() {
     const double px = (measured->toPx - measured->fromPx).norm();
     length_->setEmpty(assumed ? QString()
                               : tr("now %1").arg(frame.lengthToModel(px) / millimetresPerUnit(), 0, 'f', 2));
-    text = tr("Type how long the line is: %1 px.").arg(px, 0, 'f', 1);
+    text = tr("Enter the true length of the line (%1 px).").arg(px, 0, 'f', 1);
   } else if (known) {
     length_->setValue(known->lengthMm / millimetresPerUnit());
-    text = tr("Drag the ends of the line to move it, Delete to forget it.");
+    text = tr("Drag the ends of the line to move it; press Delete to remove it.");
   }
   note_->setText(text);
   note_->setVisible(!text.isEmpty());

@@ -18,6 +18,7 @@
 #include "ui/panels/controls/parameter_editor.h"
 #include "ui/panels/stages/import_units.h"
 #include "ui/panels/stages/scale_controls.h"
+#include "ui/session/page_text.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -89,9 +90,9 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
     pages->addWidget(title, row, 0);
     pages->addWidget(field, row, 1);
   };
-  addField(pageName_, page_, 0, tr("Which page of the file is open. Each page is a drawing with a recipe of its own."),
+  addField(pageName_, page_, 0, tr("The open page of the file. Each page is a separate drawing with its own recipe."),
            QStringLiteral("scan.page"));
-  addField(pdfName_, pdfDpi_, 1, tr("How finely the page of the PDF is drawn. Its size in mm stays."),
+  addField(pdfName_, pdfDpi_, 1, tr("Rendering resolution of the PDF page. Its size in mm does not change."),
            QStringLiteral("scan.pdfDpi"));
   pdfDpi_->setRange(20.0, 4800.0);
   pdfDpi_->setUnit(tr("dpi"));
@@ -101,7 +102,7 @@ ScanPanel::ScanPanel(EditorSession& session, ViewSettings& view, QWidget* parent
   scale->setHorizontalSpacing(8);
   scale->setColumnStretch(0, 1);
   auto* name = new QLabel(tr("Resolution"), this);
-  const QString help = tr("How many pixels of the scan make an inch. All lengths in mm follow from it.");
+  const QString help = tr("Pixels of the scan per inch. All lengths in mm depend on it.");
   name->setToolTip(help);
   dpi_->setToolTip(help);
   dpi_->setRange(10.0, 10000.0);
@@ -185,12 +186,12 @@ void ScanPanel::refreshPaper() {
     said << tr("Coloured ink was made darker on %1 % of the page.").arg(100.0 * page->colouredShare, 0, 'f', 1);
   for (const RulingFamily& family : page ? page->rulings : std::vector<RulingFamily>{}) {
     const int count = static_cast<int>(std::ssize(family.lines));
-    said << (family.runsDown ? tr("%1 printed lines down the page are left out.")
-                             : tr("%1 printed lines across the page are left out."))
+    said << (family.runsDown ? tr("%1 vertical ruled lines were removed.")
+                             : tr("%1 horizontal ruled lines were removed."))
                 .arg(count);
   }
   if (page && page->sheet)
-    said << tr("%1 % of the picture lies beside the sheet and is cut off.")
+    said << tr("%1 % of the picture is outside the sheet and was cut off.")
                 .arg(100.0 * page->sheet->outsideShare, 0, 'f', 0);
   refreshInks();
   paperNote_->setText(said.join(QLatin1Char(' ')));
@@ -245,7 +246,7 @@ void ScanPanel::refreshInks() {
       auto* button = new QPushButton(inkIcon(ink.shown), inkName(ink.colour), inkBox_);
       button->setObjectName(QStringLiteral("scan.ink%1").arg(i));
       button->setCheckable(true);
-      button->setToolTip(tr("%1 % of the ink of the page. Press to leave this ink out, press again to trace it.")
+      button->setToolTip(tr("%1 % of the ink on the page. Press to exclude this ink; press again to trace it.")
                              .arg(100.0 * ink.share, 0, 'f', 0));
       connect(button, &QPushButton::clicked, this,
               [this, colour = ink.colour](bool isTraced) { setInkDropped(colour, !isTraced); });
@@ -275,29 +276,27 @@ void ScanPanel::refresh() {
   const Scan& scan = *session_.scan();
   const PageFrame frame = frameFor(scan, session_.recipe());
   const QString size = QStringLiteral("%1 × %2").arg(grouped(frame.widthPx), grouped(frame.heightPx));
-  const QString paper = QStringLiteral("%1 × %2 mm")
-                            .arg(frame.widthPx * frame.mmPerPx, 0, 'f', 1)
-                            .arg(frame.heightPx * frame.mmPerPx, 0, 'f', 1);
+  const QString paper = pageSizeText(frame);
   const bool assumed = isScaleAssumed(scan, session_.recipe());
   const QString depth = tr("%1, %2 bit").arg(QString::fromStdString(scan.info.format)).arg(scan.info.bitsPerChannel);
   facts_->setRows(
       {{tr("File"), {{depth}}, QString::fromStdString(scan.path)},
        {tr("Size, px"), {{size}}, tr("Width and height of the upright picture.")},
-       {tr("Size, mm"), {{assumed ? tr("not known yet") : paper, assumed}}, tr("What the resolution makes of it.")}});
+       {tr("Size, mm"), {{assumed ? tr("not known yet") : paper, assumed}}, tr("Calculated from the resolution.")}});
   const auto own = session_.recipe().dpi;
-  if (own)
-    dpi_->setValue(*own);
-  else if (scan.dpi)
-    dpi_->setValue(*scan.dpi);
-  else
+  if (const auto stated = own ? own : scan.dpi) {
+    dpi_->setDecimals(resolutionText(*stated).contains(QLatin1Char('.')) ? 1 : 0);
+    dpi_->setValue(*stated);
+  } else {
     dpi_->setEmpty(QStringLiteral("–"));
+  }
   fromFile_->setVisible(own.has_value());
-  fromFile_->setText(scan.dpi ? tr("Use the file's %1 dpi").arg(*scan.dpi, 0, 'f', 0) : tr("Forget this resolution"));
+  fromFile_->setText(scan.dpi ? tr("Use the file's %1 dpi").arg(resolutionText(*scan.dpi))
+                              : tr("Forget this resolution"));
   if (assumed)
-    scaleNote_->setText(
-        tr("The file states no resolution. Type the scanner's dpi, or lengths are only right up to a factor "
-           "(%1 dpi assumed).")
-            .arg(kAssumedDpi, 0, 'f', 0));
+    scaleNote_->setText(tr("The file states no resolution; %1 dpi is assumed. Enter the scanner's dpi to get true "
+                           "lengths.")
+                            .arg(kAssumedDpi, 0, 'f', 0));
   else
     scaleNote_->setText(session_.recipe().scaleLine ? tr("Measured on the drawing.")
                         : own                       ? tr("Set by you.")

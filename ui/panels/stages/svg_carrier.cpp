@@ -31,7 +31,7 @@ std::unique_ptr<QMimeData> pictureOf(const QByteArray& svg) {
 
 Result<ExportedFile> svgOf(const ExportRequest& request, std::optional<int> number, const RunContext& context) {
   try {
-    ExportDocument document = exportDocument(request.output, request.recipe, *request.scan, request.which);
+    ExportDocument document = documentOf(request);
     if (number) {
       auto one = chosenCurves(document, std::to_string(*number));
       if (!one) return fail(one.error());
@@ -43,7 +43,7 @@ Result<ExportedFile> svgOf(const ExportRequest& request, std::optional<int> numb
     settings.svgUnitsPerMm = kPixelsPerMm;
     return exportedFile(document, settings, context);
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::OutOfMemory, "Not enough memory to make the SVG. Leave some curves out.");
+    return fail(ErrorCode::OutOfMemory, "Not enough memory for the SVG. Exclude some curves.");
   }
 }
 
@@ -89,7 +89,7 @@ void SvgCarrier::carry(const ExportedFile& made, Way way, const QString& name) {
   if (!(QApplication::mouseButtons() & Qt::LeftButton)) return;
   QFile file(folder_.filePath(name + QStringLiteral(".svg")));
   if (!folder_.isValid() || !file.open(QIODevice::WriteOnly) || file.write(svg) != svg.size()) {
-    emit failed({ErrorCode::CannotWrite, "The file to drag cannot be made. Is the disk full?", {}});
+    emit failed({ErrorCode::CannotWrite, "The temporary file for dragging cannot be written. Is the disk full?", {}});
     return;
   }
   file.close();

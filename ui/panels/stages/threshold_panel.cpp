@@ -92,8 +92,9 @@ void ThresholdPanel::buildRegion() {
   layout->addLayout(buttons);
   table_->setObjectName(QStringLiteral("threshold.table"));
   table_->setAccessibleName(tr("Thresholds of the 64 regions"));
-  table_->setToolTip(tr(
-      "The 64 thresholds as they lie on the page. Type a grey level 0 to 255; Delete makes a region automatic again."));
+  table_->setToolTip(
+      tr("The 64 thresholds, arranged as on the page. Enter a grey level from 0 to 255; Delete "
+         "makes a region automatic again."));
   table_->horizontalHeader()->hide();
   table_->verticalHeader()->hide();
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);

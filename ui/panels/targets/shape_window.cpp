@@ -170,17 +170,16 @@ void ShapeWindow::compare() {
   if (found.mirrored) ways << tr("mirrored");
   if (found.reversed) ways << tr("run backwards");
   if (found.shift > 0) ways << tr("begun elsewhere");
-  figures_->setRows(
-      {{tr("Similarity S"),
-        {{number(found.similarity, 4)}, {number(found.curvatureSimilarity, 4)}},
-        tr("1 is the same shape, whatever size, place and turn. Any two bends of one side come near 1: look at r "
-           "too.")},
-       {tr("Pearson r"),
-        {{number(found.pearson, 4)}, {number(found.curvaturePearson, 4)}},
-        tr("The same without what both have in common on the mean: 0 is no likeness, -1 the opposite course.")}});
+  figures_->setRows({{tr("Similarity S"),
+                      {{number(found.similarity, 4)}, {number(found.curvatureSimilarity, 4)}},
+                      tr("1 is the same shape, independent of size, position and rotation. Any two curves that "
+                         "bend to one side come close to 1, so check r too.")},
+                     {tr("Pearson r"),
+                      {{number(found.pearson, 4)}, {number(found.curvaturePearson, 4)}},
+                      tr("The same after subtracting the means: 0 is no correlation, -1 the opposite profile.")}});
   way_->setText(
       ways.isEmpty()
-          ? tr("Both as drawn, rescaled to one length and one mean size.")
+          ? tr("Both in their own direction, rescaled to equal length and mean radius.")
           : tr("Rescaled to one length and one mean size; the second curve %1.").arg(ways.join(QStringLiteral(", "))));
 }
 
@@ -204,19 +203,18 @@ void ShapeWindow::refreshTable() {
                      {faired ? number(faired->report.neededMm, 3) : none, faired && !faired->report.withinTolerance},
                      {faired ? QString::number(faired->report.extremaAfter) : none},
                      {usable ? number(p.aicc, 1) : none}},
-                    p.valid ? (p.isMonotone ? tr("Monotone profile.") : tr("This profile turns back."))
+                    p.valid ? (p.isMonotone ? tr("Monotone profile.") : tr("This profile is not monotone."))
                             : QString::fromStdString(p.problem)});
   }
   if (rows.empty()) rows.push_back({tr("No curve selected"), {}, {}});
   table_->setRows(std::move(rows));
   recommendation_->setText(
-      isAdvised ? tr("✓ recommended: the lowest degree that is met within the tolerance without a bump more. S alone "
-                     "must rise with the degree and cannot choose.")
-      : nearest > 0
-          ? tr("Closest shape: %1 (smallest AICc). It is not recommended, as it needs more than the tolerance, "
-               "adds bumps, moves nothing or is unlike the curve.")
-                .arg(degreeName(nearest))
-          : QString());
+      isAdvised ? tr("✓ recommended: the lowest degree that is met within the tolerance without an extremum more. "
+                     "S alone cannot choose, as it rises with the degree.")
+      : nearest > 0 ? tr("Closest profile: %1 (smallest AICc). It is not recommended because it exceeds the "
+                         "tolerance, adds extrema, moves nothing or is too dissimilar.")
+                          .arg(degreeName(nearest))
+                    : QString());
 }
 
 void ShapeView::show(const ShapeComparison& comparison, bool radius) {

@@ -112,24 +112,23 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
     spoken += tr(", moves the curve by %1, %2 extrema")
                   .arg(millimetres(faired.report.maxDeviationMm))
                   .arg(faired.report.extremaAfter);
-    tip += tr("\nS %1, moves the curve by at most %2, %3 left.")
+    tip += tr("\nS %1, moves the curve by at most %2; %3 remain.")
                .arg(similarityText(profile.similarity), millimetres(faired.report.maxDeviationMm),
                     counted(faired.report.extremaAfter, tr("1 curvature extremum"), tr("%1 curvature extrema")));
     if (faired.report.similarityAfter)
-      tip +=
-          tr("\nS of the curve against the sketch afterwards: %1.").arg(similarityText(*faired.report.similarityAfter));
+      tip += tr("\nS of the faired curve against the sketch: %1.").arg(similarityText(*faired.report.similarityAfter));
     if (const int more = faired.report.extremaAfter - faired.report.extremaBefore; more > 0)
       tip += counted(more, tr("\nThat is 1 more than the sketch has."), tr("\nThat is %1 more than the sketch has."));
     if (!faired.report.withinTolerance && faired.report.neededMm > toleranceMm)
-      tip += tr("\nTo meet it fully needs %1.").arg(millimetres(faired.report.neededMm));
+      tip += tr("\nReaching it needs a tolerance of %1.").arg(millimetres(faired.report.neededMm));
     else if (!faired.report.withinTolerance)
-      tip += tr("\nTo meet it would add curvature extrema; the curve stays as it was.");
-    if (!profile.isMonotone) tip += tr("\nThis profile turns back within a span: it is not monotone.");
+      tip += tr("\nReaching it would add curvature extrema; the curve is unchanged.");
+    if (!profile.isMonotone) tip += tr("\nThis profile is not monotone within a span.");
     if (outcomes_->span)
-      tip += tr("\nFor the span that you clicked; the rest of the curve stays.");
+      tip += tr("\nFor the span you clicked; the rest of the curve is unchanged.");
     else if (!outcomes_->splits.empty())
       tip += tr("\nOne polynomial for each of %1 spans.").arg(outcomes_->splits.size() + 1);
-    if (outcomes_->targets.comparesCurvature) tip += tr("\nS compares the curvatures, as the line bends both ways.");
+    if (outcomes_->targets.comparesCurvature) tip += tr("\nS compares curvatures, because the line has inflections.");
   }
   tip += QLatin1Char('\n') + (oneCurve ? tr("Click or press %1: for the selected curve.").arg(degree_)
                                        : tr("Click or press %1: for all curves.").arg(degree_));
@@ -156,7 +155,7 @@ void TargetTile::paintEvent(QPaintEvent*) {
   painter.setPen(QPen(live ? theme.accent : underMouse() && isEnabled() ? theme.mute : theme.line, live ? 2 : 1));
   painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 7, 7);
   if (hasFocus()) drawFocusRing(painter, QRectF(rect()), 8, theme);
-  const QRectF inner = box.adjusted(9, 6, -9, -5);
+  const QRectF inner = innerBox();
   const QRectF title(inner.left(), inner.top(), inner.width(), 17);
   paintTitle(painter, title);
   const QRectF below(inner.left(), title.bottom() + 4, inner.width(), inner.bottom() - title.bottom() - 4);
@@ -227,45 +226,62 @@ void TargetTile::paintProfiles(QPainter& painter, const QRectF& box) const {
   painter.restore();
 }
 
-void TargetTile::paintFigures(QPainter& painter, const QRectF& box) const {
-  const Theme& theme = themeOf(palette());
+TargetTile::FigureTexts TargetTile::figureTexts() const {
   const auto index = static_cast<std::size_t>(degree_ - 1);
   const FairingReport& report = outcomes_->faired[index]->report;
-  const bool over = !isWithinTolerance(*outcomes_, degree_, toleranceMm_);
+  FigureTexts texts;
+  texts.isOver = !isWithinTolerance(*outcomes_, degree_, toleranceMm_);
+  texts.hasMoreExtrema = report.extremaAfter > report.extremaBefore;
   // What meeting the target takes is the number that decides; the curve itself never leaves the tolerance.
-  const bool wouldAdd = over && report.neededMm <= toleranceMm_;
-  const double mm = over ? std::max(report.neededMm, report.maxDeviationMm) : report.maxDeviationMm;
-  painter.setFont(uiFont(11));
-  const QFontMetricsF metrics(painter.font());
-  const QString similarity = QStringLiteral("S ") + similarityText(outcomes_->targets.profiles[index].similarity);
-  const QString length = shortMillimetres(mm), needs = wouldAdd ? tr("adds extrema")
-                                                       : over   ? tr("needs %1").arg(length)
-                                                                : length;
-  const QString extrema = tr("%1 extr.").arg(report.extremaAfter);
-  const auto fits = [&](std::initializer_list<QString> parts) {
-    double width = 8.0 * static_cast<double>(parts.size() - 1);
-    for (const QString& part : parts) width += metrics.horizontalAdvance(part);
-    return width <= box.width();
-  };
+  const double mm = texts.isOver ? std::max(report.neededMm, report.maxDeviationMm) : report.maxDeviationMm;
+  texts.similarity = QStringLiteral("S ") + similarityText(outcomes_->targets.profiles[index].similarity);
+  texts.length = shortMillimetres(mm);
+  const bool wouldAdd = texts.isOver && report.neededMm <= toleranceMm_;
+  texts.needs = wouldAdd ? tr("adds extrema") : texts.isOver ? tr("needs %1").arg(texts.length) : texts.length;
+  texts.extrema = tr("%1 extr.").arg(report.extremaAfter);
+  return texts;
+}
+
+QRectF TargetTile::innerBox() const { return QRectF(rect()).adjusted(10, 7, -10, -6); }
+
+TargetTile::Figures TargetTile::roomFor() const {
+  if (!outcomes_ || !problem().isEmpty()) return Figures::All;
+  constexpr double kApartPx = 8.0;
+  const FigureTexts texts = figureTexts();
+  const QFontMetricsF metrics(uiFont(11));
+  const auto width = [&](const QString& text) { return metrics.horizontalAdvance(text); };
+  // The length stands in the middle between the other two.
+  const double sides = 2.0 * (std::max(width(texts.similarity), width(texts.extrema)) + kApartPx);
+  const double right = width(texts.extrema) + kApartPx, room = innerBox().width();
   // From the most said to the least: first the words go, which amber says too, then the similarity, which cannot
   // choose.
-  const bool withSimilarity = fits({similarity, length, extrema});
-  const auto room = [&](const QString& middle, const QString& right) {
-    return withSimilarity ? fits({similarity, middle, right}) : fits({middle, right});
-  };
-  const bool withWords = room(needs, extrema);
-  const QString number = withWords ? needs : length;
-  const QString count = room(number, extrema) ? extrema : QString();
-  painter.setPen(report.extremaAfter > report.extremaBefore ? theme.amber : theme.mute);
-  painter.drawText(box, Qt::AlignRight | Qt::AlignVCenter, count);
+  if (sides + width(texts.needs) <= room) return Figures::All;
+  if (sides + width(texts.length) <= room) return Figures::WithoutWords;
+  if (width(texts.needs) + right <= room) return Figures::WithoutSimilarity;
+  if (width(texts.length) + right <= room) return Figures::LengthAndExtrema;
+  return Figures::Length;
+}
+
+void TargetTile::setFigures(Figures figures) {
+  if (figures_ == figures) return;
+  figures_ = figures;
+  update();
+}
+
+void TargetTile::paintFigures(QPainter& painter, const QRectF& box) const {
+  const Theme& theme = themeOf(palette());
+  const FigureTexts texts = figureTexts();
+  const bool withWords = figures_ == Figures::All || figures_ == Figures::WithoutSimilarity;
+  const bool withSimilarity = figures_ == Figures::All || figures_ == Figures::WithoutWords;
+  painter.setFont(uiFont(11));
+  painter.setPen(texts.hasMoreExtrema ? theme.amber : theme.mute);
+  if (figures_ != Figures::Length) painter.drawText(box, Qt::AlignRight | Qt::AlignVCenter, texts.extrema);
   painter.setPen(theme.mute);
-  if (withSimilarity) painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, similarity);
-  painter.setPen(over ? theme.amber : theme.mute);
-  const double shift = 0.5 * (metrics.horizontalAdvance(similarity) - metrics.horizontalAdvance(count));
-  if (withSimilarity)
-    painter.drawText(box.translated(shift, 0), Qt::AlignCenter, number);
-  else
-    painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, metrics.elidedText(number, Qt::ElideRight, box.width()));
+  if (withSimilarity) painter.drawText(box, Qt::AlignLeft | Qt::AlignVCenter, texts.similarity);
+  painter.setPen(texts.isOver ? theme.amber : theme.mute);
+  const QString length =
+      QFontMetricsF(painter.font()).elidedText(withWords ? texts.needs : texts.length, Qt::ElideRight, box.width());
+  painter.drawText(box, (withSimilarity ? Qt::AlignHCenter : Qt::AlignLeft) | Qt::AlignVCenter, length);
 }
 
 void TargetTile::enterEvent(QEnterEvent*) {
@@ -343,6 +359,18 @@ void TargetStrip::refresh() {
   for (int degree = 1; degree <= 6; ++degree)
     tiles_[degree - 1]->show(curve ? targets : nullptr, tolerance, degree == chosen, choosesForOneCurve(session_),
                              waiting);
+  alignFigures();
+}
+
+void TargetStrip::alignFigures() {
+  TargetTile::Figures least = TargetTile::Figures::All;
+  for (const TargetTile* tile : tiles_) least = std::max(least, tile->roomFor());
+  for (TargetTile* tile : tiles_) tile->setFigures(least);
+}
+
+void TargetStrip::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  alignFigures();
 }
 
 void TargetStrip::paintEvent(QPaintEvent*) {

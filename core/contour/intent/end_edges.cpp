@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/intent/end_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/contour/intent/merge_shares.h"
+#include "core/polyline/point_grid.h"
+
+namespace batten {
+namespace {
+
+constexpr double kEndReach = 8.0, kEndReachLater = 10.0;
+constexpr double kNoCandidateDeg = 180.0;
+constexpr double kDirectionFrom = 6.0, kDirectionTo = 1.0;  // inside, of the chord that gives the direction
+constexpr double kBendFrom = 12.0, kBendMiddle = 5.0;       // of the chord before it
+constexpr double kLongFrom = 25.0, kLongTo = 2.0;
+constexpr double kNearArms = 2.5, kNearArmsLater = 3.0;
+constexpr double kLinkReach = 4.0;
+constexpr double kTouchingEnds = 1.5;  // the way between them has no direction
+constexpr double kEndDeg = 180.0 / std::numbers::pi;
+
+double endAngleDeg(const Vec2& a, const Vec2& b) { return kEndDeg * std::atan2(std::abs(cross(a, b)), a.dot(b)); }
+double signedDeg(const Vec2& a, const Vec2& b) { return kEndDeg * std::atan2(cross(a, b), a.dot(b)); }
+
+const Strip& stripOf(const EndView& v, int end) { return v.view.strips[end / 2]; }
+
+// The chord reaches farther in, the wider the bundle: its very end is a few strokes only.
+double farInside(const EndView& v, int end) {
+  return kDirectionFrom + (v.view.isLater ? 2.0 * stripOf(v, end).spread : 0.0);
+}
+Vec2 outOf(const EndView& v, int end) {
+  return directionOut(stripOf(v, end), end % 2, farInside(v, end), kDirectionTo);
+}
+
+// [deg] By which the strip bends towards its end, in the direction out of it.
+double bendAt(const EndView& v, int end) {
+  const Strip& s = stripOf(v, end);
+  const double scale = farInside(v, end) / kDirectionFrom;
+  if (s.length() < kBendMiddle * scale + 3.0) return 0.0;
+  return signedDeg(directionOut(s, end % 2, kBendFrom * scale, kBendMiddle * scale), outOf(v, end));
+}
+
+void setGeometry(EndPair& p, const EndView& v) {
+  const Vec2 outA = outOf(v, p.a), outB = outOf(v, p.b);
+  const Vec2 way = tipOf(stripOf(v, p.b), p.b % 2) - tipOf(stripOf(v, p.a), p.a % 2);
+  p.gap = way.norm();
+  p.turnDeg = endAngleDeg(outA, -outB);
+  p.offset = std::max(std::abs(cross(outA, way)), std::abs(cross(outB, way)));
+}
+
+// [deg] Between the two ends and the way from one to the other, summed.
+double missDeg(const EndPair& p, const EndView& v) {
+  if (p.gap < kTouchingEnds) return p.turnDeg;
+  const Vec2 way = tipOf(stripOf(v, p.b), p.b % 2) - tipOf(stripOf(v, p.a), p.a % 2);
+  return endAngleDeg(outOf(v, p.a), way) + endAngleDeg(outOf(v, p.b), -way);
+}
+
+// Counts the links of the trace between members that lie at both ends.
+void setLinks(std::vector<EndPair>& pairs, const EndView& v) {
+  std::vector<int> stripOfPiece(v.pieces.pieces.size(), -1);
+  for (int s = 0; s < std::ssize(v.view.strips); ++s)
+    for (const int piece : v.view.strips[s].members) stripOfPiece[piece] = s;
+  std::map<std::pair<int, int>, std::vector<const TraceLink*>> between;
+  for (const TraceLink& link : v.pieces.links) {
+    const int a = stripOfPiece[link.from / 2], b = stripOfPiece[link.to / 2];
+    if (a != b) between[std::minmax(a, b)].push_back(&link);
+  }
+  for (EndPair& p : pairs) {
+    const auto found = between.find(std::minmax(p.a / 2, p.b / 2));
+    if (found == between.end()) continue;
+    for (const TraceLink* link : found->second) {
+      const Vec2& at = tipOf(v.pieces.pieces[link->to / 2].strip, link->to % 2);
+      const auto isAt = [&](int end) {
+        const Strip& s = stripOf(v, end);
+        const double reach = v.view.isLater ? kLinkReach + 2.0 * s.spread : 0.0;
+        return (tipOf(s, end % 2) - at).norm() <= reach + 1e-9;
+      };
+      if (!isAt(p.a) || !isAt(p.b)) continue;
+      if (!v.view.isLater && !((link->from == p.a && link->to == p.b) || (link->from == p.b && link->to == p.a)))
+        continue;
+      ++p.links;
+      p.corners += link->isCorner ? 1 : 0;
+    }
+  }
+}
+
+void setRivals(std::vector<EndPair>& pairs, const EndView& v) {
+  std::map<int, std::vector<const EndPair*>> at;
+  for (const EndPair& p : pairs) {
+    at[p.a].push_back(&p);
+    at[p.b].push_back(&p);
+  }
+  const double near = v.view.isLater ? kNearArmsLater : kNearArms;
+  for (EndPair& p : pairs) {
+    double least[2] = {kNoCandidateDeg, kNoCandidateDeg};
+    for (const int which : {0, 1}) {
+      for (const EndPair* other : at[which == 0 ? p.a : p.b]) {
+        if (other == &p) continue;
+        least[which] = std::min(least[which], other->cost);
+        p.arms += other->gap < near ? 1 : 0;
+      }
+    }
+    p.bestOther = std::min(least[0], least[1]);
+    p.worseOther = std::max(least[0], least[1]);
+  }
+}
+
+// What bundles show beside. `gap`, `offset`: logarithms.
+std::vector<double> laterEndFeatures(const EndPair& p, const EndView& v, bool isBesideToo, double gap, double offset) {
+  const Strip &a = stripOf(v, p.a), &b = stripOf(v, p.b);
+  const double longTurn =
+      endAngleDeg(directionOut(a, p.a % 2, kLongFrom, kLongTo), -directionOut(b, p.b % 2, kLongFrom, kLongTo));
+  const double w = std::log(a.spread + b.spread + 1.0), beside = isBesideToo ? 1.0 : 0.0;
+  const auto fewer = static_cast<double>(std::min(a.members.size(), b.members.size()));
+  const auto more = static_cast<double>(std::max(a.members.size(), b.members.size()));
+  return {static_cast<double>(std::min(p.links, 4)),
+          std::min(longTurn, 120.0) / 30.0,
+          std::max(0.0, longTurn - 30.0) / 30.0,
+          w,
+          std::abs(a.spread - b.spread) / (a.spread + b.spread + 1.0),
+          std::log(fewer),
+          std::log(more),
+          beside,
+          beside * offset,
+          offset - w,
+          gap - w};
+}
+
+}  // namespace
+
+const Vec2& tipOf(const Strip& strip, int side) { return side == 0 ? strip.at.front() : strip.at.back(); }
+
+Vec2 directionOut(const Strip& strip, int side, double fromInside, double toInside) {
+  const int last = strip.count() - 1;
+  const int from = std::min(last, static_cast<int>(std::lround(fromInside)));
+  const int to = std::min(std::max(0, from - 1), static_cast<int>(std::lround(toInside)));
+  const auto at = [&](int inside) { return strip.at[side == 0 ? inside : last - inside]; };
+  const Vec2 way = at(to) - at(from);
+  const double length = way.norm();
+  if (length > 0.0) return way / length;
+  return side == 0 ? Vec2(-strip.tangent.front()) : strip.tangent.back();
+}
+
+std::vector<EndPair> findEndPairs(const EndView& v, const RunContext& context) {
+  const double reach = v.view.isLater ? kEndReachLater : kEndReach;
+  PointGrid<int> grid(reach);
+  std::vector<int> ends;
+  for (int s = 0; s < std::ssize(v.view.strips); ++s) {
+    if (v.view.strips[s].closed) continue;
+    for (const int side : {0, 1}) {
+      ends.push_back(2 * s + side);
+      grid.add(tipOf(v.view.strips[s], side), ends.back());
+    }
+  }
+  std::vector<EndPair> pairs;
+  for (const int end : ends) {
+    if (context.isCancelled()) return {};
+    const Vec2& at = tipOf(stripOf(v, end), end % 2);
+    grid.around(at, [&](int other) {
+      if (other / 2 <= end / 2 || (tipOf(stripOf(v, other), other % 2) - at).norm() > reach) return;
+      pairs.push_back({.a = end, .b = other});
+    });
+  }
+  std::sort(pairs.begin(), pairs.end(),
+            [](const EndPair& p, const EndPair& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
+  for (EndPair& p : pairs) setGeometry(p, v);
+  setLinks(pairs, v);
+  for (EndPair& p : pairs) {
+    const double linked = p.links > 0 ? 1.0 : 0.0;
+    p.cost = p.turnDeg + 0.5 * missDeg(p, v) * std::min(1.0, 0.5 * p.gap) +
+             (v.view.isLater ? 3.0 * p.gap - 10.0 * linked : 4.0 * p.gap);
+  }
+  setRivals(pairs, v);
+  return pairs;
+}
+
+std::vector<double> endFeatures(const EndPair& p, const EndView& v, bool isBesideToo) {
+  const Strip &a = stripOf(v, p.a), &b = stripOf(v, p.b);
+  const double linked = p.links > 0 ? 1.0 : 0.0, corner = p.links > 0 && p.corners == p.links ? 1.0 : 0.0;
+  const double t = p.turnDeg / 30.0, g = v.view.scale, gap = std::log(p.gap + 0.5), offset = std::log(p.offset + 0.5);
+  const double best = p.cost <= p.bestOther ? 1.0 : 0.0, alone = p.arms == 0 ? 1.0 : 0.0;
+  const auto advantage = [&](double other) { return std::clamp(other - p.cost, -90.0, 90.0) / 30.0; };
+  const double bendA = bendAt(v, p.a), bendB = bendAt(v, p.b);
+  // In the direction of travel from a into b.
+  const double expected = 0.5 * (bendA - bendB);
+  const double unlike = std::abs(signedDeg(outOf(v, p.a), -outOf(v, p.b)) - expected);
+  const double bend = std::abs(bendA) + std::abs(bendB);
+  const double shorter = std::log(std::min(a.count(), b.count())), longer = std::log(std::max(a.count(), b.count()));
+  const double freeA = a.isFree[p.a % 2] ? 1.0 : 0.0, freeB = b.isFree[p.b % 2] ? 1.0 : 0.0;
+  std::vector<double> f = {t,
+                           std::max(0.0, p.turnDeg - 20.0) / 30.0,
+                           std::max(0.0, p.turnDeg - 40.0) / 30.0,
+                           linked * std::min(p.turnDeg, 150.0) / 30.0,
+                           p.gap > kTouchingEnds ? missDeg(p, v) / 60.0 : 0.0,
+                           gap,
+                           p.gap * (1.0 - linked),
+                           offset,
+                           linked,
+                           corner,
+                           corner * t,
+                           best,
+                           advantage(p.bestOther),
+                           advantage(p.worseOther),
+                           best * linked,
+                           unlike / 30.0,
+                           std::max(0.0, unlike - 25.0) / 30.0,
+                           static_cast<double>(std::min(p.arms, 6)),
+                           alone,
+                           linked * alone,
+                           shorter,
+                           longer,
+                           freeA * freeB,
+                           freeA + freeB,
+                           std::log(g),
+                           bend / 30.0,
+                           offset - std::log(g + 0.5),
+                           gap - std::log(g + 0.5),
+                           p.turnDeg > 120.0 ? 1.0 : 0.0,
+                           t * shorter};
+  const std::vector<double> merged = mergeFeatures(a.merged, b.merged, t);
+  f.insert(f.end(), merged.begin(), merged.end());
+  if (!v.view.isLater) return f;
+  const std::vector<double> later = laterEndFeatures(p, v, isBesideToo, gap, offset);
+  f.insert(f.end(), later.begin(), later.end());
+  return f;
+}
+
+}  // namespace batten

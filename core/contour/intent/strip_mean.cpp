@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/intent/strip_mean.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "core/base/statistics.h"
+#include "core/contour/intent/end_edges.h"
+
+namespace batten {
+namespace {
+
+// In stroke widths, which are also samples.
+constexpr double kMostGap = 14.0;                      // between ends of one curve
+constexpr double kMostTurnCos = -0.17364817766693033;  // 100 degrees
+constexpr double kTurnCost = 30.0 / std::numbers::pi;  // [per rad] a sixth of a degree
+constexpr double kFewCrossings = 20.0;                 // what a pair with few crossings costs
+constexpr double kSurelyNear = 4.0;                    // what looks overdrawn as near as this is one
+constexpr double kOverdrawnPart = 0.1;  // of its cost: a pair that looks overdrawn comes before the trace
+constexpr double kTraceCost = 0.5;
+// At one arc length pieces are no farther apart than a multiple of what is usual for the group, but for a few samples.
+constexpr double kLeastFarthest = 6.0, kFarthestFactor = 2.5;
+constexpr int kMostFar = 4;
+constexpr double kAgreeing = 8.0;  // relations that disagree by more are the closing of a loop
+constexpr double kEndTaper = 6.0, kLeastTaperShare = 0.05;
+constexpr double kTraceWeight = 50.0, kEndWeight = 2.0;  // crossings
+constexpr int kRelaxations = 30;
+constexpr int kHannReach = 3;  // samples to either side
+
+// Sample k of the first lies at direction * (sample of the second) + offset.
+struct Relation {
+  int a = 0, b = 0;  // of the group
+  double direction = 1.0, offset = 0.0, cost = 0.0, weight = 0.0;
+  double apart = 0.0;  // side by side: the 90 % point
+  bool isTrace = false;
+  int endA = 0, endB = 0;  // of a trace: which ends meet
+};
+
+std::optional<Relation> besideRelation(const StripPair& pair, int a, int b, bool isOne) {
+  std::vector<double> along, against, apart;
+  const auto add = [&](const StripCrossing& c, double ofA, double ofB) {
+    (c.isAlong ? along : against).push_back(c.isAlong ? ofA - ofB : ofA + ofB);
+    apart.push_back(std::abs(c.across));
+  };
+  for (const StripCrossing& c : pair.fromA) add(c, c.sample, c.other);
+  for (const StripCrossing& c : pair.fromB) add(c, c.other, c.sample);
+  std::vector<double>& offsets = along.size() >= against.size() ? along : against;
+  if (offsets.empty()) return std::nullopt;
+  Relation r{.a = a, .b = b, .direction = &offsets == &along ? 1.0 : -1.0};
+  r.weight = static_cast<double>(offsets.size());
+  r.offset = upperMedian(offsets);
+  r.cost = upperMedian(apart) + kFewCrossings / (1.0 + r.weight);
+  if (isOne && upperMedian(apart) < kSurelyNear) r.cost *= kOverdrawnPart;
+  r.apart = lowerQuantile(apart, 0.9);
+  return r;
+}
+
+std::optional<Relation> endRelation(const Strip& a, const Strip& b, int sideA, int sideB) {
+  const Vec2 way = tipOf(b, sideB) - tipOf(a, sideA);
+  const double gap = way.norm();
+  if (gap > kMostGap) return std::nullopt;
+  const Vec2 out = directionOut(a, sideA, 6.0, 1.0), in = -directionOut(b, sideB, 6.0, 1.0);
+  const double c = out.dot(in);
+  if (c < kMostTurnCos) return std::nullopt;
+  Relation r;
+  r.endA = sideA;
+  r.endB = sideB;
+  r.direction = sideA == sideB ? -1.0 : 1.0;
+  const double ahead = std::max(0.0, way.dot(out));
+  const double atA = sideA == 1 ? a.count() - 1 + ahead : -ahead;
+  r.offset = atA - r.direction * (sideB == 1 ? b.count() - 1 : 0);
+  r.cost = gap + kTurnCost * std::acos(std::clamp(c, -1.0, 1.0)) + 1.0;
+  r.weight = kEndWeight;
+  return r;
+}
+
+// [sample] Where a piece lies at a common arc length; absent: not there.
+std::optional<double> sampleAt(const Strip& strip, const PlacedPiece& placed, double s) {
+  constexpr double kRounding = 1e-6;
+  const double k = placed.direction * (s - placed.offset), last = strip.count() - 1;
+  if (k < -kRounding || k > last + kRounding) return std::nullopt;
+  return std::clamp(k, 0.0, last);
+}
+
+Vec2 pointAtSample(const Strip& strip, double k) {
+  const int i = std::min(static_cast<int>(k), std::max(0, strip.count() - 2));
+  const int next = std::min(i + 1, strip.count() - 1);
+  return strip.at[i] + (k - i) * (strip.at[next] - strip.at[i]);
+}
+
+double lowEnd(const Strip& strip, const PlacedPiece& p) {
+  return std::min(p.offset, p.offset + p.direction * (strip.count() - 1));
+}
+double highEnd(const Strip& strip, const PlacedPiece& p) {
+  return std::max(p.offset, p.offset + p.direction * (strip.count() - 1));
+}
+
+// Pieces of a group on one or several common arc lengths.
+class CommonLength {
+ public:
+  CommonLength(std::vector<const Strip*> strips, std::vector<Relation> relations)
+      : strips_(std::move(strips)), placed_(strips_.size()), tree_(strips_.size()), relations_(std::move(relations)) {
+    std::iota(tree_.begin(), tree_.end(), 0);
+    std::stable_sort(relations_.begin(), relations_.end(),
+                     [](const Relation& x, const Relation& y) { return x.cost < y.cost; });
+    std::vector<double> apart;
+    for (const Relation& r : relations_)
+      if (r.apart > 0.0) apart.push_back(r.apart);
+    farthest_ = std::max(kLeastFarthest, apart.empty() ? 0.0 : kFarthestFactor * upperMedian(apart));
+    for (const Relation& r : relations_) join(r);
+    relax();
+  }
+  int tree(int piece) const { return tree_[piece]; }
+  const PlacedPiece& placed(int piece) const { return placed_[piece]; }
+  bool agrees(const Relation& r) const {
+    const PlacedPiece &a = placed_[r.a], &b = placed_[r.b];
+    return tree_[r.a] == tree_[r.b] && b.direction == a.direction * r.direction &&
+           std::abs(a.offset + a.direction * r.offset - b.offset) <= kAgreeing;
+  }
+  const std::vector<Relation>& relations() const { return relations_; }
+
+ private:
+  void join(const Relation& r) {
+    const int from = tree_[r.b], to = tree_[r.a];
+    if (from == to) return;
+    const PlacedPiece a = placed_[r.a], b = placed_[r.b];
+    const double flip = a.direction * r.direction * b.direction;
+    const double shift = a.offset + a.direction * r.offset - flip * b.offset;
+    if (parts(to, from, flip, shift)) return;
+    for (int i = 0; i < std::ssize(tree_); ++i) {
+      if (tree_[i] != from) continue;
+      tree_[i] = to;
+      placed_[i].direction *= flip;
+      placed_[i].offset = flip * placed_[i].offset + shift;
+    }
+  }
+  // Whether two trees, the second moved, lie far apart where they are at the same arc length: a line that forks.
+  bool parts(int one, int other, double flip, double shift) const {
+    for (int i = 0; i < std::ssize(tree_); ++i)
+      for (int k = 0; k < std::ssize(tree_); ++k) {
+        if (tree_[i] != one || tree_[k] != other) continue;
+        PlacedPiece moved = placed_[k];
+        moved.direction *= flip;
+        moved.offset = flip * moved.offset + shift;
+        if (lowEnd(*strips_[k], moved) > highEnd(*strips_[i], placed_[i]) ||
+            highEnd(*strips_[k], moved) < lowEnd(*strips_[i], placed_[i]))
+          continue;
+        int far = 0;
+        for (int sample = 0; sample < strips_[k]->count(); ++sample) {
+          const auto at = sampleAt(*strips_[i], placed_[i], moved.direction * sample + moved.offset);
+          if (at && (pointAtSample(*strips_[i], *at) - strips_[k]->at[sample]).norm() > farthest_) ++far;
+        }
+        if (far > kMostFar) return true;
+      }
+    return false;
+  }
+  // Least squares of the offsets over all relations that agree.
+  void relax() {
+    std::vector<std::vector<const Relation*>> of(placed_.size());
+    for (const Relation& r : relations_) {
+      if (!agrees(r)) continue;
+      of[r.a].push_back(&r);
+      of[r.b].push_back(&r);
+    }
+    for (int round = 0; round < kRelaxations; ++round)
+      for (int i = 0; i < std::ssize(placed_); ++i) {
+        double sum = 0.0, weights = 0.0;
+        for (const Relation* r : of[i]) {
+          const PlacedPiece& other = placed_[r->a == i ? r->b : r->a];
+          const double way = placed_[r->a].direction * r->offset;
+          sum += r->weight * (r->a == i ? other.offset - way : other.offset + way);
+          weights += r->weight;
+        }
+        if (weights > 0.0) placed_[i].offset = sum / weights;
+      }
+  }
+
+  std::vector<const Strip*> strips_;
+  std::vector<PlacedPiece> placed_;
+  std::vector<int> tree_;
+  std::vector<Relation> relations_;
+  double farthest_ = 0.0;
+};
+
+struct Member {
+  const Strip* strip = nullptr;
+  PlacedPiece placed;
+  bool goesOn[2] = {false, false};  // in another member
+};
+
+double shareAt(const Member& m, double k) {
+  double toEnd = kEndTaper;
+  if (!m.goesOn[0]) toEnd = std::min(toEnd, k);
+  if (!m.goesOn[1]) toEnd = std::min(toEnd, m.strip->count() - 1 - k);
+  return std::max(kLeastTaperShare, toEnd / kEndTaper);
+}
+
+// Places where nothing was drawn lie on the way from one side to the other.
+void layOverGaps(PieceMean& mean) {
+  std::vector<Vec2>& at = mean.strip.at;
+  for (int i = 0; i < std::ssize(at); ++i) {
+    if (mean.strokes[i] > 0) continue;
+    int end = i;
+    while (mean.strokes[end] == 0) ++end;
+    const Vec2 from = at[i - 1], to = at[end];
+    for (int k = i; k < end; ++k) at[k] = from + (to - from) * (static_cast<double>(k - i + 1) / (end - i + 1));
+    i = end;
+  }
+}
+
+// Smooths what is the mean of several, or laid over a gap; what was drawn once stays.
+void smoothMean(PieceMean& mean) {
+  std::vector<Vec2>& at = mean.strip.at;
+  const int n = static_cast<int>(at.size());
+  const auto hann = [&](auto values) {
+    auto smooth = values;
+    for (int i = 0; i < n; ++i) {
+      const int reach = std::min({kHannReach, i, n - 1 - i});
+      auto sum = values[i];
+      double weights = 1.0;
+      for (int k = 1; k <= reach; ++k) {
+        const double w = 0.5 + 0.5 * std::cos(std::numbers::pi * k / (kHannReach + 1));
+        sum += w * values[i - k];
+        sum += w * values[i + k];
+        weights += 2.0 * w;
+      }
+      smooth[i] = sum / weights;
+    }
+    return smooth;
+  };
+  std::vector<double> share;
+  for (const int strokes : mean.strokes) share.push_back(strokes == 1 ? 0.0 : 1.0);
+  share = hann(share);
+  const std::vector<Vec2> smooth = hann(hann(at));
+  for (int i = 0; i < n; ++i) at[i] += std::min(1.0, 2.0 * share[i]) * (smooth[i] - at[i]);
+}
+
+void measureMean(PieceMean& mean, const std::vector<Member>& members) {
+  double squares = 0.0, samples = 0.0;
+  for (const Member& m : members)
+    for (int k = 0; k < m.strip->count(); ++k) {
+      const double s = m.placed.direction * k + m.placed.offset - mean.from;
+      const int i = std::clamp(static_cast<int>(std::lround(s)), 0, mean.strip.count() - 1);
+      const Vec2 way = m.strip->at[k] - mean.strip.at[i];
+      const double across = cross(mean.strip.tangent[i], way);
+      squares += across * across;
+      samples += 1.0;
+    }
+  mean.strip.spread = std::sqrt(squares / samples);
+  mean.strip.inkPerLength = samples / mean.strip.count();
+}
+
+PieceMean meanOf(const std::vector<Member>& members) {
+  PieceMean mean;
+  double from = lowEnd(*members[0].strip, members[0].placed), to = highEnd(*members[0].strip, members[0].placed);
+  for (const Member& m : members) {
+    from = std::min(from, lowEnd(*m.strip, m.placed));
+    to = std::max(to, highEnd(*m.strip, m.placed));
+    mean.placed.push_back(m.placed);
+    mean.strip.members.push_back(m.placed.piece);
+  }
+  std::sort(mean.strip.members.begin(), mean.strip.members.end());
+  mean.from = from;
+  const int steps = std::max(1, static_cast<int>(std::lround(to - from)));
+  const double step = (to - from) / steps;
+  for (int i = 0; i <= steps; ++i) {
+    Vec2 sum = Vec2::Zero();
+    double shares = 0.0;
+    int strokes = 0;
+    for (const Member& m : members) {
+      const auto k = sampleAt(*m.strip, m.placed, from + i * step);
+      if (!k) continue;
+      const double share = shareAt(m, *k);
+      sum += share * pointAtSample(*m.strip, *k);
+      shares += share;
+      ++strokes;
+    }
+    mean.strip.at.push_back(strokes > 0 ? Vec2(sum / shares) : Vec2::Zero());
+    mean.strokes.push_back(strokes);
+  }
+  layOverGaps(mean);
+  if (members.size() > 1) smoothMean(mean);
+  setTangents(mean.strip);
+  measureMean(mean, members);
+  return mean;
+}
+
+// All that says how the pieces of a group lie to each other; their numbers are places in the group.
+std::vector<Relation> relationsOf(const std::vector<int>& group, const StrokePieceSet& set,
+                                  const std::vector<StripPair>& pairs, const std::vector<std::vector<int>>& pairsOf,
+                                  const std::vector<bool>& areOne) {
+  std::map<int, int> local;
+  for (int i = 0; i < std::ssize(group); ++i) local[group[i]] = i;
+  std::vector<Relation> relations;
+  for (const int piece : group)
+    for (const int p : pairsOf[piece]) {
+      const auto other = local.find(pairs[p].b);
+      if (other == local.end()) continue;
+      if (auto r = besideRelation(pairs[p], local[piece], other->second, areOne[p])) relations.push_back(*r);
+    }
+  for (int i = 0; i < std::ssize(group); ++i)
+    for (int k = i + 1; k < std::ssize(group); ++k)
+      for (int ends = 0; ends < 4; ++ends) {
+        const Strip &a = set.pieces[group[i]].strip, &b = set.pieces[group[k]].strip;
+        if (a.closed || b.closed) continue;
+        auto r = endRelation(a, b, ends / 2, ends % 2);
+        if (!r) continue;
+        r->a = i;
+        r->b = k;
+        relations.push_back(*r);
+      }
+  for (const TraceLink& link : set.links) {
+    const auto from = local.find(link.from / 2), to = local.find(link.to / 2);
+    if (from == local.end() || to == local.end() || from == to || link.isCorner) continue;
+    relations.push_back({.a = from->second,
+                         .b = to->second,
+                         .offset = static_cast<double>(set.pieces[link.from / 2].strip.count() - 1),
+                         .cost = kTraceCost,
+                         .weight = kTraceWeight,
+                         .isTrace = true,
+                         .endA = 1,
+                         .endB = 0});
+  }
+  return relations;
+}
+
+}  // namespace
+
+PieceMeans::PieceMeans(const StrokePieceSet& set, const std::vector<StripPair>& pairs, const std::vector<bool>& areOne)
+    : set_(set), pairs_(pairs), areOne_(areOne), pairsOf_(set.pieces.size()) {
+  for (int p = 0; p < std::ssize(pairs); ++p) pairsOf_[pairs[p].a].push_back(p);
+}
+
+std::vector<PieceMean> PieceMeans::of(const std::vector<int>& group) const {
+  if (group.size() == 1) {
+    PieceMean mean;
+    mean.strip = set_.pieces[group[0]].strip;
+    mean.placed = {{.piece = group[0]}};
+    mean.strokes.assign(mean.strip.at.size(), 1);
+    return {mean};
+  }
+  std::vector<Relation> relations = relationsOf(group, set_, pairs_, pairsOf_, areOne_);
+  std::vector<const Strip*> strips;
+  for (const int piece : group) strips.push_back(&set_.pieces[piece].strip);
+  const CommonLength common(std::move(strips), std::move(relations));
+  std::map<int, std::vector<Member>> trees;
+  std::map<int, std::pair<int, int>> at;
+  for (int i = 0; i < std::ssize(group); ++i) {
+    Member m;
+    m.strip = &set_.pieces[group[i]].strip;
+    m.placed = common.placed(i);
+    m.placed.piece = group[i];
+    std::vector<Member>& tree = trees[common.tree(i)];
+    at[i] = {common.tree(i), static_cast<int>(tree.size())};
+    tree.push_back(m);
+  }
+  for (const Relation& r : common.relations()) {
+    if (!r.isTrace || !common.agrees(r)) continue;
+    trees[at[r.a].first][at[r.a].second].goesOn[r.endA] = true;
+    trees[at[r.b].first][at[r.b].second].goesOn[r.endB] = true;
+  }
+  std::vector<PieceMean> means;
+  for (const auto& [name, members] : trees) means.push_back(meanOf(members));
+  std::stable_sort(means.begin(), means.end(),
+                   [](const PieceMean& a, const PieceMean& b) { return a.strip.count() > b.strip.count(); });
+  return means;
+}
+
+}  // namespace batten
