@@ -13,7 +13,6 @@
 #include "core/curve/corners_inside.h"
 #include "core/curve/knot_operations.h"
 #include "core/fairing/curvature_samples.h"
-#include "core/fairing/fairing_parts.h"
 #include "core/fairing/fairing_report.h"
 
 namespace batten {

@@ -8,7 +8,6 @@
 #include "core/base/parallel.h"
 #include "core/fairing/fair_as_needed.h"
 #include "core/fairing/fairing_line.h"
-#include "core/fairing/fairing_parts.h"
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/fairing_setup.h"
 #include "core/fairing/log_aesthetic.h"

@@ -26,7 +26,7 @@ Result<FairedCurve> fairWithinTolerance(const NurbsCurve&, bool closed, const Fa
 /// `problem` or the error says why.
 struct TargetOutcomes {
   TargetSet targets;
-  std::array<std::optional<FairedCurve>, 6> faired;
+  FairedByDegree faired;
   std::array<std::string, 6> problems;
   /// The lowest degree that is met within the tolerance without a curvature extremum more; where none is, the one that
   /// TargetSet recommends. With TargetChoice::Similarity the one of the highest S of the modified curve. 0 = none.

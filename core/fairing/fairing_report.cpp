@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fairing/fairing_report.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/curve/curvature.h"
@@ -14,6 +15,37 @@ FairedCurve unchanged(const NurbsCurve& curve, bool closed, Termination why, std
   result.report.note = std::move(note);
   if (!curve.isEmpty()) result.report.extremaBefore = result.report.extremaAfter = countedExtrema(curve, closed);
   return result;
+}
+
+std::optional<int> mostSimilar(const FairedByDegree& faired) {
+  std::optional<int> degree;
+  double best = 0.0;
+  for (std::size_t i = 0; i < faired.size(); ++i) {
+    if (!faired[i] || !faired[i]->report.similarityAfter) continue;
+    const double s = *faired[i]->report.similarityAfter;
+    if (degree && s <= best) continue;
+    degree = static_cast<int>(i) + 1;
+    best = s;
+  }
+  return degree;
+}
+
+void addSentence(std::string& notes, const std::string& note) {
+  if (note.empty() || notes.find(note) != std::string::npos) return;
+  notes.append(notes.empty() ? "" : " ").append(note);
+}
+
+void addPart(FairingReport& sum, const FairingReport& part) {
+  if (sum.why == Termination::NotRun || part.why != Termination::Converged) sum.why = part.why;
+  addSentence(sum.note, part.note);
+  sum.iterations += part.iterations;
+  sum.objectiveBefore = std::max(sum.objectiveBefore, part.objectiveBefore);
+  sum.objectiveAfter = std::max(sum.objectiveAfter, part.objectiveAfter);
+  sum.maxDeviationMm = std::max(sum.maxDeviationMm, part.maxDeviationMm);
+  sum.neededMm = std::max(sum.neededMm, part.neededMm);
+  if (part.similarityAfter) sum.similarityAfter = std::min(sum.similarityAfter.value_or(1.0), *part.similarityAfter);
+  sum.withinTolerance = sum.withinTolerance && part.withinTolerance;
+  sum.noiseMm = std::max(sum.noiseMm, part.noiseMm);
 }
 
 }  // namespace batten

@@ -10,7 +10,6 @@
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
 #include "core/fairing/curvature_samples.h"
-#include "core/fairing/fairing_parts.h"
 #include "core/fairing/natural_spans.h"
 #include "core/fairing/polynomial_fit.h"
 #include "core/fairing/profile_data.h"

@@ -6,7 +6,6 @@
 
 #include "core/fairing/corner_sections.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/fairing_parts.h"
 #include "core/fairing/natural_spans.h"
 #include "core/fairing/shape_modification.h"
 #include "core/fairing/span_fairing.h"
