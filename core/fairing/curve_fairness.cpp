@@ -21,8 +21,12 @@ constexpr double kFewestExtremaMm = 20.0;
 /// Of the largest curvature: a curve whose curvature stays within this is a circle.
 constexpr double kEvenCurvature = 1e-6;
 
+/// S of a curve that a log-aesthetic one is looked for.
+constexpr double kLeastForLogAesthetic = 0.9;
+
 struct PartFairness {
-  double similarity = 1.0, logAesthetic = 1.0;
+  double similarity = 1.0;
+  std::optional<double> logAesthetic = 1.0;
   std::optional<double> alpha;
   double lengthMm = 0.0;
 };
@@ -71,12 +75,14 @@ PartFairness fairnessOfPart(const NurbsCurve& curve, bool closed) {
   const double largest = std::max(std::abs(*low), std::abs(*high));
   if (largest * size <= kStraightCurvature || *high - *low <= kEvenCurvature * largest) return result;
   const std::vector<double> splits = closed ? naturalSplits(curve, true, kFewestExtremaMm) : std::vector<double>{};
-  const LogAestheticTarget target = logAestheticTarget(curve, closed, splits, std::nullopt, kFairnessSamples);
-  result.logAesthetic = target.profile.valid ? target.profile.similarity : 0.0;
-  if (target.spans.size() == 1 && !closed) result.alpha = target.spans.front().alpha;
   const ProfileData data =
       profileData(std::move(samples.perimeter), std::move(samples.kappa), size, TargetQuantity::Curvature);
   result.similarity = monotoneSimilarity(data, splits, closed);
+  result.logAesthetic.reset();
+  if (result.similarity < kLeastForLogAesthetic) return result;
+  const LogAestheticTarget target = logAestheticTarget(curve, closed, splits, std::nullopt, kFairnessSamples);
+  if (target.profile.valid) result.logAesthetic = target.profile.similarity;
+  if (target.spans.size() == 1 && !closed) result.alpha = target.spans.front().alpha;
   return result;
 }
 
@@ -108,19 +114,21 @@ std::optional<CurveFairness> curveFairness(const NurbsCurve& curve, bool closed)
   std::vector<PartFairness> parts;
   for (const CornerSection& section : cornerSections(curve, closed)) {
     parts.push_back(fairnessOfPart(section.curve, false));
-    if (section.isStraight) parts.back().similarity = parts.back().logAesthetic = 1.0;
+    if (section.isStraight) parts.back() = PartFairness{1.0, 1.0, {}, parts.back().lengthMm};
   }
   if (parts.empty()) parts.push_back(fairnessOfPart(curve, closed));
   CurveFairness result;
-  double length = 0.0;
+  double length = 0.0, logAesthetic = 0.0;
+  bool isAllKnown = true;
   for (const PartFairness& part : parts) {
     length += part.lengthMm;
     result.similarity += part.lengthMm * part.similarity;
-    result.logAesthetic += part.lengthMm * part.logAesthetic;
+    logAesthetic += part.lengthMm * part.logAesthetic.value_or(0.0);
+    isAllKnown = isAllKnown && part.logAesthetic;
   }
   if (!(length > 0.0)) return std::nullopt;
   result.similarity /= length;
-  result.logAesthetic /= length;
+  if (isAllKnown) result.logAesthetic = logAesthetic / length;
   if (parts.size() == 1) result.alpha = parts.front().alpha;
   result.extrema = countedExtrema(curve, closed);
   result.controlPoints = curve.controlPointCount();

@@ -14,8 +14,9 @@ struct CurveFairness {
   /// curve, whose curvature cannot, does so between four extrema. 1: it is such a curve itself. Of the radii; where the
   /// curve bends both ways or has straight parts, and its radius no end, of the curvatures.
   double similarity = 0.0;
-  /// [-] -1..1. The same to the nearest log-aesthetic curve, which is one of those.
-  double logAesthetic = 0.0;
+  /// [-] -1..1. The same to the nearest log-aesthetic curve, which is one of those, and so no nearer; absent where
+  /// `similarity` is below 0.9.
+  std::optional<double> logAesthetic;
   std::optional<double> alpha;  ///< Of that one; absent where it is a straight line or circle, or is in several spans.
   int extrema = 0;              ///< Of its curvature, of the usual prominence.
   int controlPoints = 0;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints how few control points light curves need, for shapes whose exact course is known, and for drawings.
 //
-//   bench_light [--drawings]
+//   bench_light [SAMPLE.png] [--drawings]
 //
 // First table: nine shapes of 800 x 600 px, at tolerances of 1, 0.5, 0.2 and 0.05 px from the truth itself: control
 // points (each once; exact line 2, arc or circle 3), those of a chain of G1 cubics, each as long as it can be, and of
 // potrace on a clean page where it is installed (optimum tolerances 5, 1 and 0.2; its own error is 0.4 to 3 px);
 // curvature extrema of the light curve and of the truth, largest distance, milliseconds for the whole shape.
+// SAMPLE.png: the sample that comes with the program (build/release/share/batten/samples/coupe-side.png): its longest
+// line, which is the roof, and all of it, at 0.2 and 0.05 mm.
 // --drawings: the drawings in BATTEN_SKETCHES (.png, .jpg), the dense curve beside light ones at 0.05, 0.2 and 1 px,
 // and what the detail makes of them.
 
@@ -16,6 +18,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -121,6 +124,39 @@ void printShapes() {
   }
 }
 
+/// The roof of the sample, and its other lines.
+void printSample(const std::filesystem::path& path) {
+  const auto scan = readScan(path, ScanRequest{}, RunContext{});
+  if (!scan) {
+    std::printf("\n%s cannot be read.\n", path.string().c_str());
+    return;
+  }
+  Recipe recipe;
+  recipe.construct.light = false;
+  StageCache cache;
+  PipelineRequest request;
+  request.upTo = StageId::Curves;
+  const PipelineOutput out = runPipeline(*scan, recipe, cache, request, {});
+  if (!out.constructed || out.constructed->curves.empty()) return;
+  const auto& curves = out.constructed->curves;
+  const auto shorter = [](const TracedCurve& a, const TracedCurve& b) {
+    return a.sketchedFigures.lengthMm < b.sketchedFigures.lengthMm;
+  };
+  const TracedCurve& roof = *std::max_element(curves.begin(), curves.end(), shorter);
+  std::printf("\n");
+  for (const double toleranceMm : {0.2, 0.05}) {
+    Sum one, all;
+    add(one, roof.sketched, roof.closed, toleranceMm, 0.5 * out.frame.mmPerPx);
+    for (const TracedCurve& curve : curves)
+      add(all, curve.sketched, curve.closed, toleranceMm, 0.5 * out.frame.mmPerPx);
+    std::printf(
+        "sample %.2f mm: roof of %.0f mm %d -> %d points, %d of %d extrema, %.3f mm off, %.0f ms; all %zu lines %d -> "
+        "%d points, %.0f ms\n",
+        toleranceMm, roof.sketchedFigures.lengthMm, one.before, one.points, one.extrema, one.asked, one.worst, one.ms,
+        curves.size(), all.before, all.points, all.ms);
+  }
+}
+
 void printDrawing(const std::filesystem::path& path) {
   const auto scan = readScan(path, ScanRequest{}, RunContext{});
   if (!scan) return;
@@ -187,7 +223,14 @@ int main(int argc, char** argv) {
   if (const Peer potrace = potraceWith(0.2); !potrace.missing.empty()) {
     std::printf("\npotrace: %s\n", potrace.missing.c_str());
   }
-  if (argc < 2 || std::string(argv[1]) != "--drawings") return 0;
+  bool wantsDrawings = false;
+  for (const char* argument : std::span(argv, static_cast<std::size_t>(argc)).subspan(1)) {
+    if (std::string(argument) == "--drawings")
+      wantsDrawings = true;
+    else
+      printSample(argument);
+  }
+  if (!wantsDrawings) return 0;
   const char* folder = std::getenv("BATTEN_SKETCHES");
   if (folder == nullptr) {
     std::printf("\nBATTEN_SKETCHES is not set: no drawings.\n");

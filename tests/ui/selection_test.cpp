@@ -158,12 +158,13 @@ TEST_F(Selection, AListedCurveThatTurnsSharplyWarnsUntilItsCornersAreMarked) {
   ASSERT_EQ(list->count(), 1);
   const QString tip = list->item(0)->toolTip();
   EXPECT_TRUE(tip.contains(QStringLiteral("sharply at 2 places"))) << tip.toStdString();
-  EXPECT_TRUE(list->item(0)->data(Qt::AccessibleTextRole).toString().endsWith(tip));
+  EXPECT_TRUE(list->item(0)->data(Qt::AccessibleTextRole).toString().contains(tip.section(QLatin1Char('\n'), 0, 0)));
   changeMarks({200, 100});
   changeMarks({400, 300});
   ASSERT_TRUE(settle());
   ASSERT_EQ(list->count(), 3);
-  for (int i = 0; i < list->count(); ++i) EXPECT_TRUE(list->item(i)->toolTip().isEmpty()) << i;
+  for (int i = 0; i < list->count(); ++i)
+    EXPECT_FALSE(list->item(i)->toolTip().contains(QStringLiteral("sharply"))) << i;
 }
 
 // A bend in a long line is less than a hundredth of its length, and so are the values next to its peak.

@@ -2,8 +2,10 @@
 #include "ui/canvas/curve_canvas.h"
 
 #include <QApplication>
+#include <QDropEvent>
 #include <QGestureEvent>
 #include <QKeyEvent>
+#include <QMimeData>
 #include <QMouseEvent>
 #include <QNativeGestureEvent>
 #include <QPaintEvent>
@@ -15,6 +17,7 @@
 
 #include "ui/canvas/canvas_state.h"
 #include "ui/session/growing_player.h"
+#include "ui/session/like_edits.h"
 #include "ui/session/suggestion_source.h"
 
 namespace batten {
@@ -28,6 +31,36 @@ double notches(const QWheelEvent& event) {
   return (angle.y() != 0 ? angle.y() : angle.x()) / 120.0;
 }
 
+/// A saved profile that is dragged over the drawing, or dropped on a line of it; anything else is the window's.
+bool takeProfile(QEvent& event, CanvasScene& scene) {
+  const QEvent::Type type = event.type();
+  if (type == QEvent::DragLeave) scene.hint({});
+  if (type != QEvent::DragEnter && type != QEvent::DragMove && type != QEvent::Drop) return false;
+  auto& drop = static_cast<QDropEvent&>(event);
+  const QMimeData* data = drop.mimeData();
+  if (data == nullptr || !data->hasFormat(QString::fromLatin1(kProfileMime))) {
+    event.ignore();
+    return false;
+  }
+  const Vec2 px = scene.transform.toImage(drop.position());
+  const auto curve = scene.curveNear(px);
+  const auto words = [](const char* text) { return QCoreApplication::translate("CurveCanvas", text); };
+  scene.hint(curve ? words("Let go: this line follows the profile.") : words("Drop the profile on a line."));
+  if (type == QEvent::Drop) {
+    scene.hint({});
+    if (!curve) scene.flash(px);
+    if (curve) {
+      scene.session.selectCurve(*curve);
+      const auto done =
+          followSavedProfile(scene.session, QString::fromUtf8(data->data(QString::fromLatin1(kProfileMime))));
+      if (!done) scene.hint(QString::fromStdString(done.error().message));
+    }
+  }
+  drop.setDropAction(Qt::CopyAction);
+  drop.setAccepted(type == QEvent::DragEnter || curve.has_value());
+  return true;
+}
+
 }  // namespace
 
 CurveCanvas::CurveCanvas(EditorSession& session, ViewSettings& view, QWidget* parent)
@@ -39,6 +72,7 @@ CurveCanvas::CurveCanvas(EditorSession& session, ViewSettings& view, QWidget* pa
   grabGesture(Qt::PinchGesture);
   qApp->installEventFilter(this);
   setAccessibleName(tr("Drawing"));
+  setAcceptDrops(true);
   State* state = state_.get();
   connect(&session, &EditorSession::scanOpened, this, [state] { state->scanOpened(); });
   connect(&session, &EditorSession::stageReady, this, [state](StageId stage) { state->stageReady(stage); });
@@ -298,6 +332,7 @@ bool CurveCanvas::takesHeldKey(const QWidget& focused, bool isSpace) const {
 }
 
 bool CurveCanvas::event(QEvent* event) {
+  if (takeProfile(*event, *state_)) return true;
   double factor = 1.0;
   QPointF anchor;
   if (event->type() == QEvent::NativeGesture) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -30,7 +31,9 @@ constexpr int kFewestTried = 9, kMostDetailPoints = 60;
 constexpr double kChordReach = 3.0;  // tolerances
 constexpr int kMostCuts = 4;         // of a stretch, one within the other
 constexpr double kSamplesPerPoint = 4.0;
-constexpr int kMeasuredEvery = 3;  // samples of the line
+constexpr int kAnyNumber = std::numeric_limits<int>::max();  // of control points
+constexpr int kFewestOfHalves = 3;                           // control points
+constexpr int kMeasuredEvery = 3;                            // samples of the line
 
 /// Points at even steps along a polyline, both ends included.
 std::vector<Vec2> evenly(const std::vector<Vec2>& line, double step) {
@@ -133,21 +136,70 @@ std::optional<LightCurve> chordOf(const std::vector<Vec2>& points, double most) 
   return curve;
 }
 
-/// The curves of a stretch: one, or where none is found those of two parts of it, which meet in a corner.
+/// No fewer control points have the curves of these parts together: raised to one degree, a part has no fewer than
+/// before.
+int pointsTogether(const std::vector<LightCurve>& parts) {
+  int points = 1;
+  for (const LightCurve& part : parts) points += part.curve.isEmpty() ? 1 : part.curve.controlPointCount() - 1;
+  return points;
+}
+
+bool areAllFound(const std::vector<LightCurve>& parts) {
+  return std::all_of(parts.begin(), parts.end(), [](const LightCurve& part) {
+    return !part.curve.isEmpty() && part.report.kind != LightKind::Dense;
+  });
+}
+
+/// The curves of a stretch: one, or where none is found those of two parts of it, which meet in a corner. Where
+/// LightOptions::mostPoints are too few, one that was not found.
 std::vector<LightCurve> fitsOf(const NurbsCurve& dense, const std::vector<Vec2>& points, bool closed,
                                const LightOptions& options, int cuts, const RunContext& context) {
   LightCurve one = fitOf(dense, points, closed, options, context);
-  const bool found = !one.curve.isEmpty() && one.report.kind != LightKind::Dense;
-  if (found || closed || context.isCancelled()) return {one};
+  if (areAllFound({one}) || closed || context.isCancelled()) return {one};
   if (cuts == 0 || points.size() < 2 * kFewestStretchSamples) {
     if (auto chord = chordOf(points, kChordReach * options.tolerance)) return {*chord};
     return {one};
   }
+  const bool isBounded = options.mostPoints < kAnyNumber;
+  if (options.mostPoints < kFewestOfHalves) return {one};
   const auto at = points.begin() + static_cast<std::ptrdiff_t>(farthestFromChord(points));
-  auto parts = fitsOf(dense, {points.begin(), at + 1}, false, options, cuts - 1, context);
-  auto rest = fitsOf(dense, {at, points.end()}, false, options, cuts - 1, context);
+  LightOptions half = options;
+  if (isBounded) half.mostPoints = options.mostPoints - 1;
+  auto parts = fitsOf(dense, {points.begin(), at + 1}, false, half, cuts - 1, context);
+  if (isBounded && !areAllFound(parts)) return {tooManyPoints(dense)};
+  if (isBounded) half.mostPoints = options.mostPoints + 1 - pointsTogether(parts);
+  auto rest = fitsOf(dense, {at, points.end()}, false, half, cuts - 1, context);
+  if (isBounded && !areAllFound(rest)) return {tooManyPoints(dense)};
   std::move(rest.begin(), rest.end(), std::back_inserter(parts));
   return parts;
+}
+
+/// The curves of all stretches; none when they have more control points than are wanted. Without such a bound they
+/// share the threads; with one they are made in turn, and the first ones that are too many end it.
+std::optional<std::vector<std::vector<LightCurve>>> fitsOfAll(const NurbsCurve& dense,
+                                                              const std::vector<std::vector<Vec2>>& stretches,
+                                                              bool loop, bool closed, const LightOptions& options,
+                                                              const RunContext& context) {
+  std::vector<std::vector<LightCurve>> fits(stretches.size());
+  if (loop || options.mostPoints == kAnyNumber) {
+    parallelFor(context, static_cast<int>(fits.size()), 1, [&](int begin, int end) {
+      for (int i = begin; i < end && !context.isCancelled(); ++i) {
+        fits[i] = fitsOf(dense, stretches[i], loop, options, kMostCuts, context);
+      }
+    });
+    return fits;
+  }
+  // Each stretch adds one point and more: those beyond are for this stretch.
+  int spare = options.mostPoints - static_cast<int>(stretches.size()) - (closed ? 0 : 1);
+  for (std::size_t i = 0; i < fits.size() && !context.isCancelled(); ++i) {
+    if (spare < 0) return std::nullopt;
+    LightOptions own = options;
+    own.mostPoints = spare + 2;
+    fits[i] = fitsOf(dense, stretches[i], false, own, kMostCuts, context);
+    if (!areAllFound(fits[i])) return std::nullopt;
+    spare -= pointsTogether(fits[i]) - 2;
+  }
+  return fits;
 }
 
 double farthest(const EvenLine& line, const NurbsCurve& curve, const RunContext& context) {
@@ -181,15 +233,11 @@ std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, 
       stretches.push_back(smoothPolyline(evenly(points, line.step), false, sigma));
     }
   }
-  std::vector<std::vector<LightCurve>> fits(stretches.size());
-  parallelFor(context, static_cast<int>(fits.size()), 1, [&](int begin, int end) {
-    for (int i = begin; i < end && !context.isCancelled(); ++i) {
-      fits[i] = fitsOf(dense, stretches[i], loop, options, kMostCuts, context);
-    }
-  });
+  const auto fits = fitsOfAll(dense, stretches, loop, closed, options, context);
   if (context.isCancelled()) return std::nullopt;
+  if (!fits) return tooManyPoints(dense);
   std::vector<LightCurve> parts;
-  for (auto& some : fits) std::move(some.begin(), some.end(), std::back_inserter(parts));
+  for (const auto& some : *fits) parts.insert(parts.end(), some.begin(), some.end());
   const int cuts = static_cast<int>(parts.size() - stretches.size());
   LightCurve simple;
   for (const LightCurve& part : parts) {
@@ -211,6 +259,7 @@ std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, 
   simple.report.necks = necks;
   simple.report.corners = static_cast<int>(corners.size()) + cuts;
   simple.report.pointsBefore = dense.controlPointCount() - (closed ? dense.degree() : 0);
+  if (simple.report.points > options.mostPoints) return tooManyPoints(dense);
   simple.report.worst = farthest(line, simple.curve, context);
   if (context.isCancelled()) return std::nullopt;
   simple.report.extrema = countedExtrema(simple.curve, closed);

@@ -12,6 +12,7 @@ namespace batten {
 /// smoothed by .4 of it first; beside corners the result may leave the line by
 /// a little more. Spikes and inlets thinner than the tolerance are cut off first (LightReport::necks);
 /// LightReport::worst is the largest distance of what is left from the result. A
+/// More than LightOptions::mostPoints: LightObstacle::Points. A
 /// part that finds no such curve is cut where it is farthest from its chord, which is then a corner. None when
 /// cancelled or if nothing is gained.
 std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, const LightOptions&, const RunContext&);

@@ -19,6 +19,9 @@ LightCurve sameCurve(const NurbsCurve& dense, LightObstacle obstacle) {
   return same;
 }
 
+/// No fewer have sections that meet with one curvature: each has 6, and at a joint two are spared.
+int fewestOfSections(int sections, bool closed) { return 4 * sections + (closed ? 1 : 2); }
+
 /// Of a closed curve, begun between two extrema.
 std::optional<LightCurve> chainAround(const NurbsCurve& dense, const LightReference& reference,
                                       const LightOptions& options, const RunContext& context) {
@@ -34,6 +37,8 @@ LightCurve lightest(const NurbsCurve& dense, bool closed, const LightOptions& op
   if (!reference) return sameCurve(dense, LightObstacle::NoNormal);
   const LightSections sections = lightSections(dense, *reference, options);
   LightCurve found;
+  const bool mayBeCut = !sections.cuts.empty() &&
+                        fewestOfSections(static_cast<int>(sections.cuts.size()) + 1, closed) <= options.mostPoints;
   if (sections.extrema <= kMostInOneSpline) {
     found = searchLight(dense, *reference, options, LightTask{}, context);
     if (found.report.kind != LightKind::Dense || context.isCancelled()) return found;
@@ -41,12 +46,15 @@ LightCurve lightest(const NurbsCurve& dense, bool closed, const LightOptions& op
     found = sameCurve(dense, LightObstacle::Effort);
   }
   if (sections.cuts.empty()) return found;
+  if (!mayBeCut) return tooManyPoints(dense);
   auto chain = closed ? chainAround(dense, *reference, options, context)
                       : lightChain(dense, *reference, sections, options, context);
   return chain ? std::move(*chain) : std::move(found);
 }
 
 }  // namespace
+
+LightCurve tooManyPoints(const NurbsCurve& dense) { return sameCurve(dense, LightObstacle::Points); }
 
 Result<LightCurve> makeLight(const NurbsCurve& dense, bool closed, const LightOptions& options,
                              const RunContext& context) {

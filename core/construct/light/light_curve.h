@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct LightOptions {
   double significance =
       0.1;  ///< >= 0. Extrema whose removal moves the curve by less than this part of the tolerance may go.
   LightHold start = LightHold::Position, end = LightHold::Position;  ///< Open curves.
+  /// A curve of more control points is not wanted: the search is given up as soon as there can be no other, with
+  /// LightObstacle::Points.
+  int mostPoints = std::numeric_limits<int>::max();
 };
 
 enum class LightKind {
@@ -36,6 +40,7 @@ enum class LightObstacle {
   NoNormal,   ///< It has no direction somewhere, or a corner inside.
   Structure,  ///< No curve of fewer control points that was tried holds the tolerance and the curvature's extrema.
   Effort,     ///< The search was given up: there are too many extrema.
+  Points,     ///< More than LightOptions::mostPoints are needed.
 };
 
 struct LightReport {
@@ -59,6 +64,9 @@ struct LightCurve {
   NurbsCurve curve;
   LightReport report;
 };
+
+/// A curve for which more than LightOptions::mostPoints are needed.
+LightCurve tooManyPoints(const NurbsCurve& dense);
 
 /// The curve of fewest control points found that lies within the tolerance of a dense one and has no more curvature
 /// extrema and inflections than it (strict check). Closed curves come back clamped, their ends meeting with all

@@ -23,6 +23,9 @@ constexpr double kMostOfWidth = 0.25;  // of the ink's width: the tolerance of t
 constexpr double kMostOfSize = 0.01;   // of the curve's size, where the width is not known
 constexpr double kSmoothShare = 0.01;  // of the samples' distance: what a curve without joints may lie off
 constexpr double kLeastSignificance = 0.1, kMostSignificance = 0.25;
+constexpr double kDetailStep = 0.1;
+constexpr int kFewestPoints = 2;        // of any curve
+constexpr int kMostCompared = 40;       // control points
 constexpr double kRaggedLength = 12.0;  // tolerances of length for each extremum: ragged where there is less
 
 std::string reasonOf(LightObstacle obstacle) {
@@ -34,6 +37,8 @@ std::string reasonOf(LightObstacle obstacle) {
     case LightObstacle::Structure:
       return "No curve with fewer control points was found within the tolerance and without "
              "additional curvature extrema.";
+    case LightObstacle::Points:
+      return "It needs more control points than a smaller detail gives.";
     case LightObstacle::Effort:
       return "It has too many curvature extrema to search.";
   }
@@ -67,6 +72,40 @@ Result<LightCurve> lightOf(const NurbsCurve& dense, bool closed, const LightOpti
   return simple && simple->report.points < light->report.points ? Result<LightCurve>(std::move(*simple)) : light;
 }
 
+int detailStep(double detail) { return static_cast<int>(std::lround(detail / kDetailStep)); }
+
+/// What one detail comes to.
+struct DetailCurve {
+  LightCurve light;
+  LightOptions options;
+  double detail = 0.0;
+};
+
+/// The lightest of the curves of this and every smaller detail: each holds what this one asks, as it lies nearer and
+/// keeps more. So more detail never gives more control points than a smaller one; beyond kMostCompared, where that
+/// takes long, it may.
+Result<DetailCurve> lightestUpTo(double detail, const NurbsCurve& dense, bool closed, const ConstructParams& params,
+                                 const ConstructContour& contour, const RunContext& context) {
+  std::optional<DetailCurve> best;
+  int step = detailStep(detail);
+  while (step >= 0) {
+    DetailCurve one;
+    one.detail = step * kDetailStep;
+    one.options = lightOptions(params, contour, dense, one.detail);
+    const bool isAny = best && best->light.report.kind != LightKind::Dense;
+    if (best) one.options.mostPoints = std::min(kMostCompared, isAny ? best->light.report.points - 1 : kMostCompared);
+    if (one.options.mostPoints < kFewestPoints) break;
+    auto light = lightOf(dense, closed, one.options, step > 0, context);
+    if (!light) return fail(light.error());
+    one.light = std::move(*light);
+    const bool isFewer = one.light.report.kind != LightKind::Dense && one.light.report.points <= one.options.mostPoints;
+    // With fewer points wanted, the same detail may have another way.
+    if (!isFewer) --step;
+    if (!best || isFewer) best = std::move(one);
+  }
+  return std::move(*best);
+}
+
 /// What fairing starts from, that was simplified: the curve itself with more knots, and without the joints at which it
 /// would part.
 NurbsCurve fairingStartOf(const NurbsCurve& curve, bool closed, double apart) {
@@ -83,10 +122,14 @@ void finishExact(ConstructedPiece& piece, bool closed, LightKind kind) {
   piece.report.isCircle = piece.report.isCircle || (closed && kind == LightKind::Arc);
 }
 
-void lighten(ConstructedPiece& piece, bool closed, const LightOptions& options, bool simplified, double pixelMm,
-             const RunContext& context) {
-  auto light = lightOf(piece.curve, closed, options, simplified, context);
-  if (!light) return;  // cancelled, or nothing that a light curve could stand for
+void lighten(ConstructedPiece& piece, bool closed, double detail, const ConstructParams& params,
+             const ConstructContour& contour, const RunContext& context) {
+  auto lightest = lightestUpTo(detail, piece.curve, closed, params, contour, context);
+  if (!lightest) return;  // cancelled, or nothing that a light curve could stand for
+  const double pixelMm = contour.pixelMm;
+  const LightOptions& options = lightest->options;
+  LightCurve* light = &lightest->light;
+  const bool simplified = detailStep(detail) > 0;
   piece.report.light = lightNote(light->report, pixelMm);
   piece.report.light->tolerancePx = options.tolerance / pixelMm;
   if (light->report.necks > 0 && piece.report.note.empty()) {
@@ -151,8 +194,7 @@ Result<void> makePiecesLight(std::vector<ConstructedPiece>& made, const Construc
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       if (context.isCancelled() || made[i].curve.isEmpty()) continue;
       const double detail = contour.pieces[i].detail.value_or(params.detail);
-      const LightOptions options = lightOptions(params, contour, made[i].curve, detail);
-      lighten(made[i], contour.pieces[i].closed, options, detail > 0.0, contour.pixelMm, context);
+      lighten(made[i], contour.pieces[i].closed, detail, params, contour, context);
     }
   });
   if (context.isCancelled()) return cancelled();

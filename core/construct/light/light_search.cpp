@@ -58,9 +58,10 @@ class LightSearch {
     result_.report.pointsBefore = free(dense_.controlPointCount(), dense_.degree());
     result_.report.extremaAsked = changes_;
     if (task_.forms != LightForms::Quintic && exact()) return std::move(result_);
-    if (!rising() && !spare_.curve.isEmpty()) result_ = withEffort(std::move(spare_));
+    if (!rising() && !isTooMuch_ && !spare_.curve.isEmpty()) result_ = withEffort(std::move(spare_));
     if (result_.curve.isEmpty()) {
       result_ = withEffort(std::move(result_));
+      if (isTooMuch_) return tooManyPoints(dense_);
       result_.curve = dense_;
       result_.report.kind = LightKind::Dense;
       result_.report.points = result_.report.pointsBefore;
@@ -96,12 +97,14 @@ class LightSearch {
     mostWork_ = kWorkPerPoint * (most - fewest + 1);
     int failed = fewest - 1;
     for (int count = fewest; count <= most && mayGoOn(); count = nextCount(count, most)) {
+      if (isBeyond(failed)) return false;
       if (!withPoints(count)) {
         failed = count;
         continue;
       }
       LightCurve best = std::move(result_);
       while (best.report.points - failed > 1 && mayGoOn()) {
+        if (isBeyond(failed)) return false;
         const int between = (best.report.points + failed) / 2;
         result_ = withEffort(LightCurve{{}, best.report});
         if (withPoints(between)) {
@@ -114,6 +117,12 @@ class LightSearch {
       return true;
     }
     return false;
+  }
+  /// Whether no curve of so few control points as are wanted can come any more.
+  bool isBeyond(int failed) {
+    isTooMuch_ =
+        failed >= options_.mostPoints && (spare_.curve.isEmpty() || spare_.report.points > options_.mostPoints);
+    return isTooMuch_;
   }
   int nextCount(int count, int most) const {
     const double growth = std::clamp(std::pow(leastOff_, 1.0 / kOrder), 1.0, kMostGrowth);
@@ -216,6 +225,7 @@ class LightSearch {
   LightCurve result_, spare_;
   int iterations_ = 0, tries_ = 0;
   double work_ = 0.0, mostWork_ = 0.0;
+  bool isTooMuch_ = false;
   double leastOff_ = 0.0;  // tolerances, of the fits with one number of points
 };
 

@@ -290,8 +290,8 @@ void appendConstruct(std::vector<Parameter>& table) {
       kCurves,
       {"construct.detail", "Detail", "",
        "Light curves: 0 follows the ink; larger values remove larger bumps, up to a quarter of "
-       "the ink width, and keep sharp corners."},
-      {0.0, 1.0, 0.05, 2}, [](auto& r) -> auto& { return r.construct.detail; }));
+       "the ink width, and keep sharp corners. Taken in steps of 0.1."},
+      {0.0, 1.0, 0.1, 2}, [](auto& r) -> auto& { return r.construct.detail; }));
   table.push_back(real(
       kCurves,
       {"construct.reduce", "Fewer control points", "× noise",

@@ -6,7 +6,9 @@
 
 #include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
+#include "ui/session/fairness_text.h"
 #include "ui/session/pen_edits.h"
+#include "ui/session/pen_fairness.h"
 
 namespace batten {
 namespace {
@@ -34,7 +36,11 @@ QPainterPath pathOf(const std::vector<Vec2>& points, bool closed, const ViewTran
 
 class PenTool final : public CanvasTool {
  public:
-  using CanvasTool::CanvasTool;
+  explicit PenTool(CanvasScene& scene) : CanvasTool(scene), fairness_(scene.session) {
+    QObject::connect(&fairness_, &PenFairness::changed, &fairness_, [this] {
+      if (isDrawing_) tell();
+    });
+  }
 
   void press(const ToolEvent& event) override {
     points_ = {event.px};
@@ -49,12 +55,15 @@ class PenTool final : public CanvasTool {
     if (distance(event.widget, last_) < kStepPx) return;
     points_.push_back(event.px);
     last_ = event.widget;
-    scene_.hint(closes(event) ? penToolText("Release to close the line.") : QString());
+    isClosing_ = closes(event);
+    fairness_.follow({points_, isClosing_});
+    tell();
     scene_.repaint();
   }
 
   void release(const ToolEvent& event) override {
     const std::vector<Vec2> points = std::exchange(points_, {});
+    fairness_.stop();
     if (!isDrawing_) return select(event);
     isDrawing_ = false;
     PenStroke stroke{points, false};
@@ -78,6 +87,7 @@ class PenTool final : public CanvasTool {
     scene_.repaint();
   }
   void reset() override {
+    fairness_.stop();
     points_.clear();
     isDrawing_ = false;
   }
@@ -96,6 +106,14 @@ class PenTool final : public CanvasTool {
   }
 
  private:
+  /// What letting go would do, and how fair the line is so far.
+  void tell() {
+    const QString closing = isClosing_ ? penToolText("Release to close the line.") : QString();
+    const QString fairness = fairness_.latest() ? fairnessLine(*fairness_.latest()) : QString();
+    scene_.hint(closing.isEmpty() || fairness.isEmpty() ? closing + fairness
+                                                        : fairness + QStringLiteral(" · ") + closing);
+  }
+
   static double distance(QPointF a, QPointF b) { return std::hypot(a.x() - b.x(), a.y() - b.y()); }
 
   bool closes(const ToolEvent& event) const { return closes(event, points_); }
@@ -151,7 +169,8 @@ class PenTool final : public CanvasTool {
 
   std::vector<Vec2> points_;
   QPointF pressed_, last_;
-  bool isDrawing_ = false;
+  bool isDrawing_ = false, isClosing_ = false;
+  PenFairness fairness_;
 };
 
 }  // namespace

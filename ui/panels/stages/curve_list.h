@@ -2,32 +2,56 @@
 #pragma once
 
 #include <QListWidget>
+#include <memory>
+#include <vector>
 
+#include "core/fairing/curve_fairness.h"
 #include "ui/session/editor_session.h"
 #include "ui/session/judged_curve.h"
 
 namespace batten {
 
+class BackgroundWorker;
+
 /// All curves of the drawing: an eye that takes a curve in or leaves it out (Space does the same), its name, its
 /// figures, and a sign where its construction has something to say, which the tool tip does. Of results it says which
-/// ones fairing left as drawn, and why.
+/// ones fairing left as drawn, and why. Beside each stands its fairness (CurveFairness), found in the background.
 class CurveList : public QListWidget {
   Q_OBJECT
  public:
   /// @param judged whose figures stand beside the names.
   CurveList(EditorSession& session, Judged judged, QWidget* parent = nullptr);
+  /// Of an item: what stands in its badge of fairness; empty as long as that is not known.
+  static constexpr int kBadgeRole = Qt::UserRole + 3;
+  ~CurveList() override;
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override { return {120, 30}; }
 
  protected:
+  void showEvent(QShowEvent*) override;
   void keyPressEvent(QKeyEvent*) override;
   void mousePressEvent(QMouseEvent*) override;
 
  private:
+  /// A curve and how fair it is; none as long as that is not known.
+  struct Judgement {
+    NurbsCurve curve;
+    bool closed = false;
+    std::optional<CurveFairness> fairness;
+    bool isJudged = false;  ///< A curve without length has none all the same.
+  };
+  using Judgements = std::vector<Judgement>;
+
   void refresh();
+  void showFairness();
+  /// Asks for what is not known of the curves that are shown.
+  void judge();
+  void take(const std::shared_ptr<const Judgements>& found, bool isAll);
   EditorSession& session_;
   Judged judged_;
   bool filling_ = false;
+  std::shared_ptr<const Judgements> known_, asked_;  ///< Of the curves in their order.
+  std::unique_ptr<BackgroundWorker> worker_;         ///< Last, so that it is joined before anything goes.
 };
 
 }  // namespace batten

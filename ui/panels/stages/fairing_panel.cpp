@@ -19,6 +19,7 @@
 #include "ui/panels/stages/curve_list.h"
 #include "ui/panels/stages/ends_table.h"
 #include "ui/panels/stages/like_link.h"
+#include "ui/panels/stages/profile_shelf.h"
 #include "ui/session/fairing_edits.h"
 #include "ui/session/judged_curve.h"
 #include "ui/session/piece_choice.h"
@@ -82,7 +83,11 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       unsplit_(linkButton({}, QStringLiteral("fairing.unsplit"), this)),
       draw_(linkButton(tr("Draw the target in the plot"), QStringLiteral("fairing.draw"), this)),
       forget_(linkButton(tr("Back to the six targets"), QStringLiteral("fairing.forget"), this)),
-      like_(likeLink(session, this)),
+      like_(likeLink(session, this,
+                     [this] {
+                       findChild<ProfileShelf*>()->refresh();
+                       refresh();
+                     })),
       logAesthetic_(linkButton(tr("Log-aesthetic target"), QStringLiteral("fairing.logAesthetic"), this)),
       figures_(new FigureTable(this)),
       ends_(new EndsTable([this] { return shown(session_.recipe()); },
@@ -117,6 +122,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   keep_->setSliderRange(-1.0, 12.0);
   layout->addWidget(note_);
   buildLinks();
+  layout->addWidget(new ProfileShelf(session, this));
   layout->addWidget(raise_, 0, Qt::AlignLeft);
   layout->addWidget(useForAll_, 0, Qt::AlignLeft);
   layout->addWidget(followAll_, 0, Qt::AlignLeft);
@@ -233,6 +239,8 @@ void FairingPanel::refreshLinks(const FairingParams& params) {
   forget_->setVisible(isDrawn);
   logAesthetic_->setVisible(isTarget && params.target != kLogAestheticTarget);
   like_->setVisible(session_.selected() != nullptr && params.mode != FairingMode::None);
+  auto* shelf = findChild<ProfileShelf*>();
+  shelf->setVisible(shelf->count() > 0 && session_.hasScan());
   const bool canSplit = isTarget && !isDrawn && params.targets.quantity == TargetQuantity::Curvature;
   const auto spans = canSplit ? static_cast<qint64>(splitsOf(session_).size()) : 0;
   whole_->setVisible(canSplit && session_.pointedSpan().has_value());

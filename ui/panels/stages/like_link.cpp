@@ -8,11 +8,12 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <iterator>
+#include <utility>
 
 #include "core/fairing/like_profile.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/session/curve_names.h"
-#include "ui/session/fairing_edits.h"
+#include "ui/session/like_edits.h"
 #include "ui/session/profile_library.h"
 
 namespace batten {
@@ -22,18 +23,12 @@ QString words(const char* text) { return QCoreApplication::translate("LikeLink",
 
 const NurbsCurve& resultOf(const TracedCurve& curve) { return curve.faired.isEmpty() ? curve.sketched : curve.faired; }
 
-void followShape(EditorSession& session, const std::vector<ProfilePoint>& shape) {
-  if (const TracedCurve* curve = session.selected())
-    drawTarget(session, profileLike(shape, curve->sketched, curve->closed), -1);
-}
-
 void followSaved(EditorSession& session, QWidget* parent, const QString& name) {
-  const auto shape = ProfileLibrary().load(name);
-  if (shape) return followShape(session, *shape);
-  QMessageBox::warning(parent, words("Profile"), QString::fromStdString(shape.error().message));
+  if (const auto done = followSavedProfile(session, name); !done)
+    QMessageBox::warning(parent, words("Profile"), QString::fromStdString(done.error().message));
 }
 
-void saveProfile(EditorSession& session, QWidget* parent) {
+void saveProfile(EditorSession& session, QWidget* parent, const std::function<void()>& saved) {
   const TracedCurve* curve = session.selected();
   if (!curve) return;
   const auto shape = shapeOf(resultOf(*curve));
@@ -41,11 +36,12 @@ void saveProfile(EditorSession& session, QWidget* parent) {
   const QString name = QInputDialog::getText(parent, words("Save the profile"), words("Name"), QLineEdit::Normal,
                                              curveName(session, session.selectedCurve()), &isGiven);
   if (!isGiven) return;
-  if (const auto saved = ProfileLibrary().save(name.trimmed(), shape); !saved)
-    QMessageBox::warning(parent, words("Profile"), QString::fromStdString(saved.error().message));
+  if (const auto done = ProfileLibrary().save(name.trimmed(), shape); !done)
+    QMessageBox::warning(parent, words("Profile"), QString::fromStdString(done.error().message));
+  saved();
 }
 
-void showMenu(EditorSession& session, QPushButton* link) {
+void showMenu(EditorSession& session, QPushButton* link, const std::function<void()>& saved) {
   if (!session.selected()) return;
   auto* menu = new QMenu(link);
   menu->setAttribute(Qt::WA_DeleteOnClose);
@@ -66,18 +62,19 @@ void showMenu(EditorSession& session, QPushButton* link) {
   }
   menu->addSeparator();
   QObject::connect(menu->addAction(words("Save the profile of this curve…")), &QAction::triggered, link,
-                   [&session, link] { saveProfile(session, link); });
+                   [&session, link, saved] { saveProfile(session, link, saved); });
   menu->popup(link->mapToGlobal(QPoint(0, link->height())));
 }
 
 }  // namespace
 
-QPushButton* likeLink(EditorSession& session, QWidget* parent) {
+QPushButton* likeLink(EditorSession& session, QWidget* parent, std::function<void()> saved) {
   auto* link = linkButton(words("Make it like…"), QStringLiteral("fairing.like"), parent);
   link->setToolTip(
       words("Uses the curvature profile of another or a saved curve as the target, rescaled to this "
             "length."));
-  QObject::connect(link, &QPushButton::clicked, link, [&session, link] { showMenu(session, link); });
+  QObject::connect(link, &QPushButton::clicked, link,
+                   [&session, link, saved = std::move(saved)] { showMenu(session, link, saved); });
   return link;
 }
 

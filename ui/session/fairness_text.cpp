@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/session/fairness_text.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <cmath>
+
+namespace batten {
+namespace {
+
+constexpr double kPlaces = 1000.0;
+/// A log-aesthetic curve as near as this is worth naming.
+constexpr double kLikeLogAesthetic = 0.98;
+
+QString fairnessTr(const char* text) { return QCoreApplication::translate("Fairness", text); }
+
+QString threePlaces(double s) { return QString::number(std::floor(s * kPlaces + 1e-6) / kPlaces, 'f', 3); }
+
+}  // namespace
+
+QString fairnessBadge(const CurveFairness& fairness) {
+  return QStringLiteral("S ") + threePlaces(fairness.similarity).mid(fairness.similarity < 1.0 - 1e-6 ? 1 : 0);
+}
+
+QString fairnessSentence(const CurveFairness& fairness) {
+  QString text =
+      fairnessTr("Fairness: S %1 to the nearest curve of monotone curvature").arg(threePlaces(fairness.similarity));
+  if (fairness.logAesthetic) {
+    text += fairnessTr(", %1 to the nearest log-aesthetic one").arg(threePlaces(std::max(0.0, *fairness.logAesthetic)));
+    if (fairness.alpha && *fairness.logAesthetic >= kLikeLogAesthetic)
+      text += fairnessTr(" (alpha %1)").arg(*fairness.alpha, 0, 'f', 1);
+  }
+  return text + fairnessTr("; extrema of the curvature: %1, control points: %2.")
+                    .arg(fairness.extrema)
+                    .arg(fairness.controlPoints);
+}
+
+QString fairnessLine(const CurveFairness& fairness) {
+  return fairnessTr("%1 · extrema: %2 · control points: %3")
+      .arg(fairnessBadge(fairness))
+      .arg(fairness.extrema)
+      .arg(fairness.controlPoints);
+}
+
+}  // namespace batten

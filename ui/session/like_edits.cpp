@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/session/like_edits.h"
+
+#include "core/fairing/like_profile.h"
+#include "ui/session/fairing_edits.h"
+#include "ui/session/profile_library.h"
+
+namespace batten {
+
+void followShape(EditorSession& session, const std::vector<ProfilePoint>& shape) {
+  if (const TracedCurve* curve = session.selected())
+    drawTarget(session, profileLike(shape, curve->sketched, curve->closed), -1);
+}
+
+Result<void> followSavedProfile(EditorSession& session, const QString& name) {
+  const auto shape = ProfileLibrary().load(name);
+  if (!shape) return fail(shape.error());
+  followShape(session, *shape);
+  return {};
+}
+
+}  // namespace batten
