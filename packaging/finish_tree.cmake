@@ -61,3 +61,7 @@ License: GPL-3+
 execute_process(COMMAND chmod -R u=rwX,go=rX ${tree} COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND find ${tree} -exec touch --no-dereference --date "${CPACK_BATTEN_DATE}T00:00:00Z" {} +
   COMMAND_ERROR_IS_FATAL ANY)
+# The archives in the package take the date from here.
+execute_process(COMMAND date -u -d "${CPACK_BATTEN_DATE}T00:00:00Z" +%s OUTPUT_VARIABLE seconds
+  OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+set(ENV{SOURCE_DATE_EPOCH} ${seconds})
