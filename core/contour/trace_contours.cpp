@@ -43,7 +43,7 @@ bool hasInnerBorders(const EdgeParams& edges) {
 }
 
 std::string counted(int count, const char* one, const char* many) {
-  return count == 1 ? std::string("One ") + one + " is" : std::to_string(count) + " " + many + " are";
+  return count == 1 ? std::string("One ") + one + " was" : std::to_string(count) + " " + many + " were";
 }
 
 // Notes on contours that were dropped.

@@ -80,7 +80,7 @@ TEST_F(Regions, HolesAreLeftOutOnRequestInOldWordsToo) {
 
 TEST_F(Regions, ShortLinesGoByWidthsOrByPixelsAndAreTold) {
   EXPECT_EQ(trace("--set contours.min_widths=6").size(), 4u);
-  EXPECT_NE(notes.find("short line dropped"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("short line was dropped"), std::string::npos) << notes;
   EXPECT_EQ(trace("--set contours.min_length=40").size(), 4u);
   EXPECT_EQ(trace("--set contours.max_count=2").size(), 2u);
   EXPECT_NE(notes.find("2 longest of 5"), std::string::npos) << notes;

@@ -241,7 +241,7 @@ TEST(InkSplit, WhatIsLeftOutIsTold) {
   page.line({Vec2(50, 120), Vec2(90, 120)}, 6.0);
   ContourParams params;
   params.minWidths = 10.0;
-  EXPECT_NE(traced(page, {}, params).report.note.find("short line dropped"), std::string::npos);
+  EXPECT_NE(traced(page, {}, params).report.note.find("short line was dropped"), std::string::npos);
   EdgeParams old;
   old.strokeWidth = 0.05;
   EXPECT_NE(traced(page, old).report.note.find("edges.stroke_width has no effect"), std::string::npos);
