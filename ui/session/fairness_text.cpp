@@ -19,7 +19,9 @@ QString threePlaces(double s) { return QString::number(std::floor(s * kPlaces + 
 }  // namespace
 
 QString fairnessBadge(const CurveFairness& fairness) {
-  return QStringLiteral("S ") + threePlaces(fairness.similarity).mid(fairness.similarity < 1.0 - 1e-6 ? 1 : 0);
+  QString s = threePlaces(fairness.similarity);
+  if (s.startsWith(QLatin1String("0."))) s.remove(0, 1);
+  return QStringLiteral("S ") + s;
 }
 
 QString fairnessSentence(const CurveFairness& fairness) {

@@ -146,9 +146,10 @@ void CurveList::refresh() {
                           : curve.closed           ? tr(", closed")
                                                    : QString();
     const QString name = curveName(session_, i) + shape;
-    const QString right = !curve.included       ? tr("left out")
-                          : !whyStill.isEmpty() ? tr("unchanged · %1").arg(millimetres(figures.lengthMm))
-                                                : tr("%1 ext · %2 pts").arg(figures.extrema).arg(figures.controlPoints);
+    const QString right = !curve.included ? tr("left out")
+                          : !whyStill.isEmpty()
+                              ? tr("unchanged")
+                              : tr("%1 extr. · %2 pts").arg(figures.extrema).arg(figures.controlPoints);
     const QString length = tr("Length %1").arg(millimetres(figures.lengthMm));
     item(i)->setText(name);
     item(i)->setData(IncludedRole, curve.included);
