@@ -150,6 +150,22 @@ TEST_F(Compare, APinnedResultStaysAndIsSetBesideThePresentOne) {
   EXPECT_FALSE(session().pinned());
 }
 
+TEST_F(Compare, NothingIsPinnedWhileItsPartsAreOfTwoRuns) {
+  openPage(test::zigzagPage());
+  window_->setStage(PanelStage::Curves);
+  Recipe recipe = session().recipe();
+  recipe.cornerMarks.clear();
+  recipe.edges.mode = EdgeMode::Outline;
+  session().change(QStringLiteral("Outline"), recipe);
+  session().pin();
+  EXPECT_FALSE(session().pinned());
+  ASSERT_TRUE(settle());
+  EXPECT_TRUE(find<QAbstractButton>("pin.set")->isEnabled());
+  session().pin();
+  ASSERT_TRUE(session().pinned());
+  EXPECT_EQ(session().pinned()->pieces, session().output().pieces);
+}
+
 TEST_F(Compare, EveryMethodHasAHelpPageBehindTheQuestionMark) {
   openPage(test::zigzagPage());
   window_->setStage(PanelStage::Curves);

@@ -213,7 +213,8 @@ void EditorSession::selectNear(const Vec2& px) {
 }
 
 void EditorSession::pin() {
-  if (!output_.faired || !output_.pieces) return;
+  // While a run is under way its first stages stand beside the last ones of the run before.
+  if (!output_.faired || !output_.pieces || isStale(StageId::Faired)) return;
   pinned_ = std::make_shared<const PinnedResult>(PinnedResult{output_.faired, output_.pieces, output_.frame, recipe_});
   emit pinChanged();
 }

@@ -94,7 +94,7 @@ void PinPanel::refresh() {
   const auto pinned = session_.pinned();
   const TracedCurve* now = session_.selected();
   const TracedCurve* before = session_.pinnedOf(session_.selectedCurve());
-  pin_->setEnabled(session_.output().faired != nullptr);
+  pin_->setEnabled(session_.output().faired && !session_.isStale(StageId::Faired));
   pin_->setText(pinned ? tr("Pin the current result") : tr("Pin this result"));
   unpin_->setVisible(pinned != nullptr);
   figures_->setVisible(now && before);
