@@ -327,10 +327,10 @@ void addComparisons(const PipelineOutput& out, Json& curves) {
   }
 }
 
-Json explanationToJson(const PipelineOutput& out, const Explanation& e) {
+Json explanationToJson(const PipelineOutput& out, const Recipe& recipe, const Explanation& e) {
   Json stretches = Json::array();
   for (const InventedStretch& s : e.inventions) {
-    const std::string name = curveName(curveNumber(out, out.faired->curves[static_cast<std::size_t>(s.curve)]));
+    const std::string name = nameOfCurve(out, recipe, out.faired->curves[static_cast<std::size_t>(s.curve)]);
     stretches.push_back({{"curve", name}, {"from_px", pointToJson(s.fromPx)}, {"length_px", number(s.lengthPx)}});
   }
   return {{"reference_ink_px", e.referencePx}, {"explained", number(e.explained)}, {"missed", number(e.missed)},
@@ -425,7 +425,7 @@ std::string reportToJson(const Scan& scan, const Recipe& recipe, const PipelineO
   json["mm_per_px"] = number(out.frame.mmPerPx);
   json["read_milliseconds"] = number(extras.readMilliseconds);
   json["stages"] = stagesToJson(out);
-  if (extras.explanation) json["explanation"] = explanationToJson(out, *extras.explanation);
+  if (extras.explanation) json["explanation"] = explanationToJson(out, recipe, *extras.explanation);
   Json& contours = json["contours"] = Json::array();
   for (std::size_t i = 0; out.contours && i < out.contours->contours.size(); ++i)
     contours.push_back(contourToJson(out.contours->contours[i], i, out.frame));

@@ -341,7 +341,7 @@ class IgesReader {
       const IgesDirectoryEntry& record = records_.entries[*property];
       if (record.type != kProperty || record.form != kNameForm) continue;
       const auto values = parametersOf(records_, record, budget_);
-      if (!values) return fail(values.error());
+      if (!values) break;               // a damaged name is no reason to refuse the curve
       constexpr std::size_t kName = 2;  // behind its type and the count of its values
       if (values->size() > kName && !(*values)[kName].empty()) return (*values)[kName];
     }

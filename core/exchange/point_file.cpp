@@ -115,7 +115,9 @@ class TableReader {
     const bool isAgain = !line_.points.empty() && line_.points.back() == at;
     if (pieces_.empty() || pieces_.back() != piece) {
       // A piece begins where the one before it ends, so its first row repeats the last one.
-      if (!line_.points.empty()) line_.corners.push_back(static_cast<int>(line_.points.size()) - (isAgain ? 1 : 0));
+      const int corner = static_cast<int>(line_.points.size()) - (isAgain ? 1 : 0);
+      if (!line_.points.empty() && (line_.corners.empty() || corner > line_.corners.back()))
+        line_.corners.push_back(corner);
       pieces_.push_back(piece);
     }
     if (!isAgain) line_.points.push_back(at);
@@ -152,7 +154,8 @@ class TableReader {
     if (points.size() >= kLeastLoop && points.front() == points.back()) {
       points.pop_back();
       line_.closed = true;
-      if (!line_.corners.empty()) line_.corners.insert(line_.corners.begin(), 0);
+      std::erase_if(line_.corners, [&](int corner) { return corner >= std::ssize(points); });
+      if (!line_.corners.empty() && line_.corners.front() != 0) line_.corners.insert(line_.corners.begin(), 0);
     }
     if (pieces_.size() == 1 && !pieces_.front().empty()) line_.name = pieces_.front();
     pieces_.clear();

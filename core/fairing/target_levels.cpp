@@ -101,6 +101,8 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
         all[at] = followed(std::move(*outcome), tried);
       }
       if (const auto best = mostSimilar(all)) return std::move(*all[static_cast<std::size_t>(*best) - 1]);
+      const auto any = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.has_value(); });
+      if (any != all.end()) return std::move(**any);
     }
     for (int tried = 1; tried <= 6 && degree == 0; ++tried) {
       if (!first.profiles[static_cast<std::size_t>(tried) - 1].valid) continue;

@@ -15,6 +15,7 @@ void followShape(EditorSession& session, const std::vector<ProfilePoint>& shape)
 Result<void> followSavedProfile(EditorSession& session, const QString& name) {
   const auto shape = ProfileLibrary().load(name);
   if (!shape) return fail(shape.error());
+  if (session.selected() == nullptr) return fail(ErrorCode::BadParameter, "Select a curve first.");
   followShape(session, *shape);
   return {};
 }

@@ -14,11 +14,12 @@ namespace batten {
 namespace {
 
 constexpr double kPenMarginPx = 8.0;
-constexpr int kSmallestPagePx = 16, kLargestPagePx = 20000;
+constexpr int kSmallestPagePx = 16, kLargestPagePx = 8000;
 constexpr std::size_t kPenCacheBytes = std::size_t{16} << 20;
 
 /// The stroke alone on a page of its size, made as the drawing's lines are.
-Result<CurveFairness> fairnessOf(PenStroke stroke, const Recipe& drawing, double dpi, const RunContext& context) {
+Result<CurveFairness> fairnessOf(PenStroke stroke, const ConstructParams& construct, double dpi,
+                                 const RunContext& context) {
   Vec2 low = stroke.points.front(), high = low;
   for (const Vec2& p : stroke.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
   for (Vec2& p : stroke.points) p += Vec2::Constant(kPenMarginPx) - low;
@@ -28,7 +29,7 @@ Result<CurveFairness> fairnessOf(PenStroke stroke, const Recipe& drawing, double
   };
   const Scan page = blankScan(pixels(size.x()), pixels(size.y()), dpi);
   Recipe recipe;
-  recipe.construct = drawing.construct;
+  recipe.construct = construct;
   recipe.dpi = dpi;
   recipe.page = BlankPage{pixels(size.x()), pixels(size.y())};
   recipe.penStrokes.push_back(std::move(stroke));
@@ -52,11 +53,11 @@ void PenFairness::follow(PenStroke stroke) {
   if (!session_.hasScan() || validate(stroke)) return;
   const double dpi = kMillimetresPerInch / frameFor(*session_.scan(), session_.recipe()).mmPerPx;
   worker_.start(
-      [stroke = std::move(stroke), recipe = session_.recipe(), dpi, line = line_,
+      [stroke = std::move(stroke), construct = session_.recipe().construct, dpi, line = line_,
        pen = QPointer<PenFairness>(this)](const CancelToken& token) {
         RunContext context;
         context.cancel = token;
-        const auto fairness = guarded<CurveFairness>([&] { return fairnessOf(stroke, recipe, dpi, context); });
+        const auto fairness = guarded<CurveFairness>([&] { return fairnessOf(stroke, construct, dpi, context); });
         if (!fairness || token.isCancelled() || !pen) return;
         QMetaObject::invokeMethod(
             pen.data(),

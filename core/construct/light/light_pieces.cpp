@@ -96,6 +96,7 @@ Result<DetailCurve> lightestUpTo(double detail, const NurbsCurve& dense, bool cl
     if (best) one.options.mostPoints = std::min(kMostCompared, isAny ? best->light.report.points - 1 : kMostCompared);
     if (one.options.mostPoints < kFewestPoints) break;
     auto light = lightOf(dense, closed, one.options, step > 0, context);
+    if (!light && best && !context.isCancelled()) break;
     if (!light) return fail(light.error());
     one.light = std::move(*light);
     const bool isFewer = one.light.report.kind != LightKind::Dense && one.light.report.points <= one.options.mostPoints;
@@ -129,7 +130,7 @@ void lighten(ConstructedPiece& piece, bool closed, double detail, const Construc
   const double pixelMm = contour.pixelMm;
   const LightOptions& options = lightest->options;
   LightCurve* light = &lightest->light;
-  const bool simplified = detailStep(detail) > 0;
+  const bool simplified = lightest->detail > 0.0;  // a smaller detail may have had fewer points
   piece.report.light = lightNote(light->report, pixelMm);
   piece.report.light->tolerancePx = options.tolerance / pixelMm;
   if (light->report.necks > 0 && piece.report.note.empty()) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -72,7 +73,10 @@ class PieceCutter {
   StrokePieceSet cut(const RunContext& context) {
     StrokePieceSet set;
     attached_.resize(lines_.size());
-    for (int l = 0; l < std::ssize(lines_); ++l) findAttachments(l);
+    for (int l = 0; l < std::ssize(lines_); ++l) {
+      if (context.isCancelled()) return {};
+      findAttachments(l);
+    }
     for (int l = 0; l < std::ssize(lines_); ++l) {
       if (context.isCancelled()) return {};
       cutLine(l, set);
@@ -90,15 +94,15 @@ class PieceCutter {
     const SampledLine& line = lines_[l];
     if (line.closed) return;
     for (const int end : {0, line.count() - 1}) {
-      std::vector<std::optional<Place>> nearest(lines_.size());
+      std::map<int, Place> nearest;  // by line
       grid_.around(line.at[end], [&](const Place& p) {
         if (p.line == l && line.apart(p.sample, end) <= kOwnAttached) return;
         const auto distance = [&](const Place& q) { return (lines_[q.line].at[q.sample] - line.at[end]).norm(); };
         if (distance(p) > kAttached) return;
-        if (!nearest[p.line] || distance(p) < distance(*nearest[p.line])) nearest[p.line] = p;
+        const auto [known, isNew] = nearest.try_emplace(p.line, p);
+        if (!isNew && distance(p) < distance(known->second)) known->second = p;
       });
-      for (const auto& place : nearest)
-        if (place) attached_[place->line].push_back(place->sample);
+      for (const auto& [of, place] : nearest) attached_[of].push_back(place.sample);
     }
   }
 

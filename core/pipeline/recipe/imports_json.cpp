@@ -86,7 +86,7 @@ Result<ImportedCurve> curveOfImport(const ImportJson& json) {
   if (!curve) return damagedImport("an imported curve is invalid (" + curve.error().message + ")");
   ImportedCurve imported{std::move(*curve)};
   if (json.contains("name")) {
-    if (!json["name"].is_string()) return damagedImport("the name of an imported curve is no text");
+    if (!json["name"].is_string()) return damagedImport("the name of an imported curve is not text");
     imported.name = json["name"].get<std::string>();
   }
   return imported;

@@ -146,7 +146,7 @@ void CurveList::refresh() {
                           : curve.closed           ? tr(", closed")
                                                    : QString();
     const QString name = curveName(session_, i) + shape;
-    const QString right = !curve.included ? tr("left out")
+    const QString right = !curve.included ? tr("excluded")
                           : !whyStill.isEmpty()
                               ? tr("unchanged")
                               : tr("%1 extr. · %2 pts").arg(figures.extrema).arg(figures.controlPoints);
@@ -199,10 +199,11 @@ void CurveList::judge() {
   const auto curves = session_.curves();
   for (std::size_t i = 0; i < curves.size(); ++i) {
     Judgement one{judgedCurve(curves[i], judged_), curves[i].closed, std::nullopt, false};
-    const bool isSame = known_ && i < known_->size() && (*known_)[i].curve == one.curve && (*known_)[i].isJudged;
+    const bool isSame = known_ && i < known_->size() && (*known_)[i].curve == one.curve &&
+                        (*known_)[i].closed == one.closed && (*known_)[i].isJudged;
     if (isSame) one = (*known_)[i];
     isAllKnown = isAllKnown && isSame;
-    isAsked = isAsked && i < asked_->size() && (*asked_)[i].curve == one.curve;
+    isAsked = isAsked && i < asked_->size() && (*asked_)[i].curve == one.curve && (*asked_)[i].closed == one.closed;
     wanted->push_back(std::move(one));
   }
   if (isAllKnown || isAsked) return;
@@ -214,8 +215,8 @@ void CurveList::judge() {
       auto made = std::make_shared<const Judgements>(found);
       QMetaObject::invokeMethod(
           list.data(),
-          [list, made, isAll] {
-            if (list) list->take(made, isAll);
+          [list, made, wanted, isAll] {
+            if (list && list->asked_ == wanted) list->take(made, isAll);
           },
           Qt::QueuedConnection);
     };

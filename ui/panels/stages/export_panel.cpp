@@ -302,7 +302,7 @@ QString ExportPanel::summary(const ExportSize& size) const {
   if (options_->settings().joined.value_or(false) && std::ssize(content.curves) < size.curves)
     text = tr("%1 joined into %2").arg(text).arg(std::ssize(content.curves));
   if (content.layers > 1) text += tr(" on %1 layers").arg(content.layers);
-  if (content.doubles > 0) text += tr(", %1 duplicate omitted").arg(content.doubles);
+  if (content.doubles > 0) text += counted(content.doubles, tr(", 1 duplicate omitted"), tr(", %1 duplicates omitted"));
   return text + QLatin1Char('.');
 }
 

@@ -112,7 +112,7 @@ void TargetTile::show(std::shared_ptr<const TargetOutcomes> outcomes, double tol
     spoken += tr(", moves the curve by %1, %2 extrema")
                   .arg(millimetres(faired.report.maxDeviationMm))
                   .arg(faired.report.extremaAfter);
-    tip += tr("\nS %1, moves the curve by at most %2; %3 remain.")
+    tip += tr("\nS %1, moves the curve by at most %2; left: %3.")
                .arg(similarityText(profile.similarity), millimetres(faired.report.maxDeviationMm),
                     counted(faired.report.extremaAfter, tr("1 curvature extremum"), tr("%1 curvature extrema")));
     if (faired.report.similarityAfter)
