@@ -263,7 +263,8 @@ Result<void> planExport(const TraceArguments& arguments, TracePlan& plan) {
   const auto isFor = [&](const auto& output) { return output.settings.format == preset->settings.format; };
   if (preset != nullptr && std::none_of(plan.outputs.begin(), plan.outputs.end(), isFor)) {
     return wrong("The preset " + arguments.preset + " is for files that end in " +
-                 endingsOf(preset->settings.format)[0] + ", and no output does.");
+                 endingsOf(preset->settings.format)[0] +
+                 ", and no output does. Other presets: batten-cli trace --help.");
   }
   return {};
 }

@@ -56,7 +56,8 @@ void tellDropped(ContourSet& set, const EdgeParams& edges) {
     addNote(set,
             counted(report.droppedHoles, "inner border", "inner borders") + " dropped: edges.internal=on keeps them.");
   if (report.droppedMargins > 0)
-    addNote(set, counted(report.droppedMargins, "line", "lines") + " along the page border dropped.");
+    addNote(set,
+            counted(report.droppedMargins, "line along the page border", "lines along the page border") + " dropped.");
 }
 
 void sortAndCut(ContourSet& set, const ContourParams& params) {

@@ -156,7 +156,7 @@ std::span<const ExportPreset> exportPresets() {
                    cad(ExportFormat::Svg)},
       ExportPreset{"inkscape", "Inkscape", "SVG in mm on a layer of its own; opens in Batten again, exact.",
                    cad(ExportFormat::Svg)},
-      ExportPreset{"laser", "Laser cutter", "DXF, one cubic spline per piece, which every 2D program draws.", laser()},
+      ExportPreset{"laser", "Laser cutter", "DXF, cubic splines, which every 2D program draws.", laser()},
       ExportPreset{"cnc", "CNC router", "DXF R12: one polyline with arcs per line of the drawing.", cnc()},
       ExportPreset{"print", "Print", "PDF, page in true size.", cad(ExportFormat::Pdf)},
       ExportPreset{"table", "Spreadsheet", "CSV: arc length, place, direction, curvature and radius.",

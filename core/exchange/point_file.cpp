@@ -128,6 +128,7 @@ class TableReader {
     std::optional<std::size_t> x, y;
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const std::string name = lowered(fields[i]);
+      if (name == "u_start") return noPoints("it holds coefficients of polynomials");
       const bool isAlone =
           name.size() == 1 || (name.size() > 1 && std::isalpha(static_cast<unsigned char>(name[1])) == 0);
       if (!x && isAlone && name[0] == 'x') x = i, takeUnit(name);

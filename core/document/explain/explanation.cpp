@@ -128,7 +128,8 @@ std::string noteOn(const Explanation& e) {
   std::string note;
   if (e.referencePx > 0 && e.explained < kLeastExplained) {
     note = "The curves explain " + percent(e.explained) +
-           " of the ink on the page: lower the threshold strength or the minimum line length to trace more.";
+           " of the ink on the page. To trace more, lower threshold.strength (Minimum ink contrast) or the minimum "
+           "line length.";
   }
   if (e.invented > kMostInvented) {
     if (!note.empty()) note += ' ';

@@ -376,6 +376,8 @@ TEST_F(Import, ReadsTablesOfPointsAsPeopleWriteThem) {
   EXPECT_TRUE(read("loop.csv", "0,0\n1,0\n1,1\n0,0\n").file.lines[0].closed);
   EXPECT_THAT(refusal("bad.csv", "0,0\n1,1\nx,2\n"), HasSubstr("row 3"));
   EXPECT_THAT(refusal("nan.csv", "0,0\nnan,1\n"), HasSubstr("row 2"));
+  EXPECT_THAT(refusal("own.poly.csv", "curve,piece,span,u_start,u_end,x0,x1,y0,y1\na,b,1,0,1,0,1,0,1\n"),
+              HasSubstr("coefficients"));
   EXPECT_THAT(refusal("one.csv", "0,0\n"), HasSubstr("no line"));
   EXPECT_THAT(refusal("empty.csv", ""), HasSubstr("no line"));
   EXPECT_THAT(refusal("far.csv", "0,0\n1e9,1\n"), HasSubstr("unit"));
