@@ -267,12 +267,13 @@ TEST_F(Export, ACurveIsDraggedOutAsAnSvg) {
   const PreviewCurve& second = preview->content().curves[1];
   QWindow* window = window_->windowHandle();
   const QPoint from = preview->mapTo(window_.get(), preview->toWidget(second.points[20]).toPoint());
-  QTest::mousePress(window, Qt::LeftButton, {}, from);
-  for (int i = 1; i <= 5; ++i) QTest::mouseMove(window, from + QPoint(8 * i, 0));
-  // The drag holds the event loop until it ends.
-  int moves = 0;
+  // The drag holds the event loop until it ends, and it may begin within any of the first moves.
+  bool isPulled = false;
+  int ticks = 0, moves = 0;
+  constexpr int kTicksOfAPull = 20;
   QTimer hand;
   QObject::connect(&hand, &QTimer::timeout, [&] {
+    if (!isPulled && ++ticks < kTicksOfAPull) return;
     if (!target.isEntered && moves < 200) {
       ++moves;
       return QTest::mouseMove(window, QPoint(60 + moves % 2, 60));
@@ -281,6 +282,9 @@ TEST_F(Export, ACurveIsDraggedOutAsAnSvg) {
     hand.stop();
   });
   hand.start(30);
+  QTest::mousePress(window, Qt::LeftButton, {}, from);
+  for (int i = 1; i <= 5; ++i) QTest::mouseMove(window, from + QPoint(8 * i, 0));
+  isPulled = true;
   ASSERT_TRUE(waitUntil([&] { return !target.picture.isEmpty(); })) << moves;
   EXPECT_TRUE(target.formats.contains(QStringLiteral("image/x-inkscape-svg")));
   EXPECT_EQ(target.file, target.picture);
