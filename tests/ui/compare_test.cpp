@@ -144,6 +144,7 @@ TEST_F(Compare, APinnedResultStaysAndIsSetBesideThePresentOne) {
   EXPECT_TRUE(session().pinned());
   QTest::mouseClick(find<QAbstractButton>("pin.clear"), Qt::LeftButton);
   EXPECT_FALSE(session().pinned());
+  ASSERT_TRUE(settle());
   window_->action(ActionId::Pin)->trigger();
   EXPECT_TRUE(session().pinned());
   window_->action(ActionId::Pin)->trigger();
