@@ -124,20 +124,25 @@ void printShapes() {
   }
 }
 
-/// The roof of the sample, and its other lines.
-void printSample(const std::filesystem::path& path) {
+/// The dense curves of a scan; none where it cannot be read.
+PipelineOutput denseCurvesOf(const std::filesystem::path& path) {
   const auto scan = readScan(path, ScanRequest{}, RunContext{});
-  if (!scan) {
-    std::printf("\n%s cannot be read.\n", path.string().c_str());
-    return;
-  }
+  if (!scan) return {};
   Recipe recipe;
   recipe.construct.light = false;
   StageCache cache;
   PipelineRequest request;
   request.upTo = StageId::Curves;
-  const PipelineOutput out = runPipeline(*scan, recipe, cache, request, {});
-  if (!out.constructed || out.constructed->curves.empty()) return;
+  return runPipeline(*scan, recipe, cache, request, {});
+}
+
+/// The roof of the sample, and its other lines.
+void printSample(const std::filesystem::path& path) {
+  const PipelineOutput out = denseCurvesOf(path);
+  if (!out.constructed || out.constructed->curves.empty()) {
+    std::printf("\n%s cannot be read, or holds no line.\n", path.string().c_str());
+    return;
+  }
   const auto& curves = out.constructed->curves;
   const auto shorter = [](const TracedCurve& a, const TracedCurve& b) {
     return a.sketchedFigures.lengthMm < b.sketchedFigures.lengthMm;
@@ -158,14 +163,7 @@ void printSample(const std::filesystem::path& path) {
 }
 
 void printDrawing(const std::filesystem::path& path) {
-  const auto scan = readScan(path, ScanRequest{}, RunContext{});
-  if (!scan) return;
-  Recipe recipe;
-  recipe.construct.light = false;
-  StageCache cache;
-  PipelineRequest request;
-  request.upTo = StageId::Curves;
-  const PipelineOutput out = runPipeline(*scan, recipe, cache, request, {});
+  const PipelineOutput out = denseCurvesOf(path);
   if (!out.constructed) return;
   for (const double tolerancePx : {0.05, 0.2, 1.0}) {
     Sum sum;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/contour/intent/merge_shares.h"
+#include "core/contour/merge/stroke_lines.h"
 #include "core/polyline/point_grid.h"
 
 namespace batten {
@@ -22,7 +23,6 @@ constexpr double kLinkReach = 4.0;
 constexpr double kTouchingEnds = 1.5;  // the way between them has no direction
 constexpr double kEndDeg = 180.0 / std::numbers::pi;
 
-double endAngleDeg(const Vec2& a, const Vec2& b) { return kEndDeg * std::atan2(std::abs(cross(a, b)), a.dot(b)); }
 double signedDeg(const Vec2& a, const Vec2& b) { return kEndDeg * std::atan2(cross(a, b), a.dot(b)); }
 
 const Strip& stripOf(const EndView& v, int end) { return v.view.strips[end / 2]; }
@@ -47,7 +47,7 @@ void setGeometry(EndPair& p, const EndView& v) {
   const Vec2 outA = outOf(v, p.a), outB = outOf(v, p.b);
   const Vec2 way = tipOf(stripOf(v, p.b), p.b % 2) - tipOf(stripOf(v, p.a), p.a % 2);
   p.gap = way.norm();
-  p.turnDeg = endAngleDeg(outA, -outB);
+  p.turnDeg = turnDeg(outA, -outB);
   p.offset = std::max(std::abs(cross(outA, way)), std::abs(cross(outB, way)));
 }
 
@@ -55,7 +55,7 @@ void setGeometry(EndPair& p, const EndView& v) {
 double missDeg(const EndPair& p, const EndView& v) {
   if (p.gap < kTouchingEnds) return p.turnDeg;
   const Vec2 way = tipOf(stripOf(v, p.b), p.b % 2) - tipOf(stripOf(v, p.a), p.a % 2);
-  return endAngleDeg(outOf(v, p.a), way) + endAngleDeg(outOf(v, p.b), -way);
+  return turnDeg(outOf(v, p.a), way) + turnDeg(outOf(v, p.b), -way);
 }
 
 // Counts the links of the trace between members that lie at both ends.
@@ -112,7 +112,7 @@ void setRivals(std::vector<EndPair>& pairs, const EndView& v) {
 std::vector<double> laterEndFeatures(const EndPair& p, const EndView& v, bool isBesideToo, double gap, double offset) {
   const Strip &a = stripOf(v, p.a), &b = stripOf(v, p.b);
   const double longTurn =
-      endAngleDeg(directionOut(a, p.a % 2, kLongFrom, kLongTo), -directionOut(b, p.b % 2, kLongFrom, kLongTo));
+      turnDeg(directionOut(a, p.a % 2, kLongFrom, kLongTo), -directionOut(b, p.b % 2, kLongFrom, kLongTo));
   const double w = std::log(a.spread + b.spread + 1.0), beside = isBesideToo ? 1.0 : 0.0;
   const auto fewer = static_cast<double>(std::min(a.members.size(), b.members.size()));
   const auto more = static_cast<double>(std::max(a.members.size(), b.members.size()));

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <random>
 
 #include "core/construct/light/light_pieces.h"
+#include "tests/support/asked_count.h"
 #include "tests/unit/construct/light_shapes.h"
 
 namespace batten {
@@ -51,10 +51,7 @@ test::TruthPiece handRing(std::mt19937& random) {
 }
 
 /// How many lines: some by default, BATTEN_RANDOM_LINES where it is set.
-int linesOfDetail() {
-  const char* text = std::getenv("BATTEN_RANDOM_LINES");
-  return text ? std::max(1, std::atoi(text)) : 50;
-}
+int linesOfDetail() { return test::askedCount("BATTEN_RANDOM_LINES", 50); }
 
 /// A curve of a smaller detail of so many control points, or fewer, is the curve of a larger one that needs more.
 constexpr int kMostKept = 40;

@@ -18,6 +18,7 @@
 #include "core/polyline/polyline_tools.h"
 #include "tests/support/angles.h"
 #include "tests/support/overdrawn_page.h"
+#include "tests/support/pen_lines.h"
 
 namespace batten {
 namespace {
@@ -27,20 +28,7 @@ using test::kPi;
 constexpr double kIntentPenPx = 4.0;
 
 Contour penLine(const std::vector<Vec2>& corners, bool closed = false) {
-  std::vector<Vec2> points;
-  for (std::size_t i = 0; i + 1 < corners.size() + (closed ? 1 : 0); ++i) {
-    const Vec2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
-    const int n = std::max(1, static_cast<int>(std::lround((b - a).norm())));
-    for (int k = 0; k < n; ++k) points.push_back(a + (b - a) * (static_cast<double>(k) / n));
-  }
-  if (!closed) points.push_back(corners.back());
-  Contour c;
-  c.kind = ContourKind::Centreline;
-  c.closed = closed;
-  c.points = contourPoints(points, true);
-  for (ContourPoint& p : c.points) p.widthPx = static_cast<float>(kIntentPenPx);
-  measureContour(c);
-  return c;
+  return test::centreline(test::alongPolygon(corners, closed), closed, kIntentPenPx);
 }
 
 Contour curve(const std::function<Vec2(double)>& at, double from = 0.0, double to = 1.0) {
@@ -49,12 +37,7 @@ Contour curve(const std::function<Vec2(double)>& at, double from = 0.0, double t
   std::vector<Vec2> even{points.front()};
   for (const Vec2& p : points)
     if ((p - even.back()).norm() >= 1.0) even.push_back(p);
-  Contour c;
-  c.kind = ContourKind::Centreline;
-  c.points = contourPoints(even, true);
-  for (ContourPoint& p : c.points) p.widthPx = static_cast<float>(kIntentPenPx);
-  measureContour(c);
-  return c;
+  return test::centreline(even, false, kIntentPenPx);
 }
 
 // [px] Of every point of a line from a curve, the largest.

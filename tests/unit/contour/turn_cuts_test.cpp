@@ -6,33 +6,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/pen_lines.h"
+
 namespace batten {
 namespace {
 
 constexpr double kWidthPx = 4.0;
 
-Contour lineOf(const std::vector<Vec2>& points, bool closed) {
-  Contour line;
-  line.kind = ContourKind::Centreline;
-  line.closed = closed;
-  line.points = contourPoints(points, true);
-  for (ContourPoint& p : line.points) p.widthPx = static_cast<float>(kWidthPx);
-  measureContour(line);
-  return line;
-}
+using test::alongPolygon;
 
-// About a point a pixel along a polygon; its last corner ends it, or of a closed one leads back to the first.
-std::vector<Vec2> along(std::vector<Vec2> corners, bool closed) {
-  std::vector<Vec2> points;
-  if (closed) corners.push_back(corners.front());
-  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-    const Vec2 way = corners[i + 1] - corners[i];
-    const int steps = static_cast<int>(way.norm());
-    for (int k = 0; k < steps; ++k) points.push_back(corners[i] + way * k / steps);
-  }
-  if (!closed) points.push_back(corners.back());
-  return points;
-}
+Contour lineOf(const std::vector<Vec2>& points, bool closed) { return test::centreline(points, closed, kWidthPx); }
 
 double totalLength(const std::vector<Contour>& lines) {
   double sum = 0.0;
@@ -51,7 +34,7 @@ bool startsAndEndsAt(const std::vector<Contour>& parts, const Vec2& place) {
 
 TEST(TurnCuts, AnOpenLineIsCutAtItsCorners) {
   const std::vector<Vec2> corners{{10, 10}, {150, 30}, {170, 160}, {20, 170}};
-  const Contour line = lineOf(along(corners, false), false);
+  const Contour line = lineOf(alongPolygon(corners, false), false);
   const auto parts = cutAtTurns({line}, kWidthPx);
   ASSERT_EQ(parts.size(), 3u);
   EXPECT_TRUE(startsAndEndsAt(parts, corners[1]));
@@ -67,7 +50,7 @@ TEST(TurnCuts, AnOpenLineIsCutAtItsCorners) {
 
 TEST(TurnCuts, AClosedLineOpensAtItsCorners) {
   const std::vector<Vec2> square{{20, 20}, {140, 20}, {140, 140}, {20, 140}};
-  const Contour line = lineOf(along(square, true), true);
+  const Contour line = lineOf(alongPolygon(square, true), true);
   const auto parts = cutAtTurns({line}, kWidthPx);
   ASSERT_EQ(parts.size(), 4u);
   for (const Vec2& corner : square) EXPECT_TRUE(startsAndEndsAt(parts, corner)) << corner.transpose();
@@ -103,7 +86,7 @@ TEST(TurnCuts, ArcsBendsAndShortLinesStayWhole) {
   std::vector<Vec2> wave;
   for (int i = 0; i < 400; ++i) wave.emplace_back(i, 100.0 + 25.0 * std::sin(i / 25.0));
   lines.push_back(lineOf(wave, false));
-  lines.push_back(lineOf(along({{0, 0}, {8, 0}, {8, 8}}, false), false));
+  lines.push_back(lineOf(alongPolygon({{0, 0}, {8, 0}, {8, 8}}, false), false));
   lines.push_back(lineOf({{1, 1}}, false));
   lines.push_back(lineOf({}, true));
   const auto parts = cutAtTurns(lines, kWidthPx);
@@ -115,7 +98,7 @@ TEST(TurnCuts, ArcsBendsAndShortLinesStayWhole) {
 }
 
 TEST(TurnCuts, BridgesAndBandsStayWithTheirPoints) {
-  Contour line = lineOf(along({{10, 10}, {150, 10}, {150, 150}}, false), false);
+  Contour line = lineOf(alongPolygon({{10, 10}, {150, 10}, {150, 150}}, false), false);
   for (std::size_t i = 0; i < line.points.size(); ++i) line.points[i].band = StrokeBand{static_cast<float>(i), 1.0f};
   line.bridges = {{20, 30}, {130, 150}, {200, 210}};
   const auto parts = cutAtTurns({line}, kWidthPx);

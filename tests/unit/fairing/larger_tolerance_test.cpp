@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <random>
 #include <string>
@@ -12,6 +11,7 @@
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/fairing/fairing.h"
+#include "tests/support/asked_count.h"
 #include "tests/unit/fairing/fairing_curves.h"
 
 namespace batten {
@@ -38,10 +38,7 @@ NurbsCurve randomLine(std::mt19937& random) {
 }
 
 /// How many lines: some by default, BATTEN_RANDOM_LINES where it is set.
-int lineCount() {
-  const char* text = std::getenv("BATTEN_RANDOM_LINES");
-  return text ? std::max(1, std::atoi(text)) : 50;
-}
+int lineCount() { return test::askedCount("BATTEN_RANDOM_LINES", 50); }
 
 constexpr std::array kTolerances = {0.03, 0.13, 0.6, 5.0};
 

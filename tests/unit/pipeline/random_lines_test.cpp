@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <random>
 #include <string>
 
@@ -17,6 +16,7 @@
 #include "core/fairing/fairing_line.h"
 #include "core/fairing/fairing_report.h"
 #include "core/pipeline/recipe/parameter_table.h"
+#include "tests/support/asked_count.h"
 
 namespace batten {
 namespace {
@@ -141,11 +141,9 @@ void expectSoundFairing(const NurbsCurve& start, const FairedCurve& faired, doub
   EXPECT_LT((faired.curve.point(faired.curve.end()) - start.point(start.end())).norm(), 1e-9 * size);
 }
 
-/// Lines of a case: 5, a dozen seconds of processor time; BATTEN_LINES_OF_A_CASE sets another number (packaging/check: 100).
-int linesOfACase() {
-  const char* const asked = std::getenv("BATTEN_LINES_OF_A_CASE");
-  return asked == nullptr ? 5 : std::max(1, std::atoi(asked));
-}
+/// Lines of a case: 5, a dozen seconds of processor time; BATTEN_LINES_OF_A_CASE sets another number (packaging/check:
+/// 100).
+int linesOfACase() { return test::askedCount("BATTEN_LINES_OF_A_CASE", 5); }
 
 /// Every construction of its line, then every way of fairing one of the curves.
 class RandomLines : public testing::TestWithParam<int> {};

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <random>
 #include <vector>
 
 #include "core/base/number_text.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/run/pipeline.h"
+#include "tests/support/asked_count.h"
 #include "tests/support/render_page.h"
 #include "tests/support/truth_shapes.h"
 
@@ -55,10 +55,7 @@ Recipe randomRecipe(std::mt19937& random, std::string& settings) {
 }
 
 /// Sets of a case: 2; BATTEN_PARAMETER_SETS sets the number of all ten cases (packaging/check: 1000).
-int setsOfACase() {
-  const char* const asked = std::getenv("BATTEN_PARAMETER_SETS");
-  return asked == nullptr ? 2 : std::max(1, std::atoi(asked) / 10);
-}
+int setsOfACase() { return std::max(1, test::askedCount("BATTEN_PARAMETER_SETS", 20) / 10); }
 
 class RandomParameters : public testing::TestWithParam<int> {};
 
