@@ -7,8 +7,10 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 
+#include "core/base/partial_context.h"
 #include "core/curve/curvature.h"
 #include "core/exchange/arrangement.h"
 #include "core/exchange/cad_drawing.h"
@@ -72,12 +74,10 @@ Result<CadDrawing> cadBack(const std::string& bytes, ExportFormat format) {
 
 /// STEP holds its curves layer by layer, in the order in which the layers come.
 void sortByLayer(CadDrawing& drawing) {
-  std::vector<std::string> layers;
-  for (const CadEntity& entity : drawing.entities)
-    if (std::find(layers.begin(), layers.end(), entity.layer) == layers.end()) layers.push_back(entity.layer);
-  std::stable_sort(drawing.entities.begin(), drawing.entities.end(), [&](const CadEntity& a, const CadEntity& b) {
-    return std::find(layers.begin(), layers.end(), a.layer) < std::find(layers.begin(), layers.end(), b.layer);
-  });
+  std::map<std::string, std::size_t> order;
+  for (const CadEntity& entity : drawing.entities) order.try_emplace(entity.layer, order.size());
+  std::stable_sort(drawing.entities.begin(), drawing.entities.end(),
+                   [&](const CadEntity& a, const CadEntity& b) { return order.at(a.layer) < order.at(b.layer); });
 }
 
 Result<Check> cadFile(const ExportDocument& document, const ExportSettings& settings, const RunContext& context,
@@ -110,15 +110,8 @@ Result<Check> cadFile(const ExportDocument& document, const ExportSettings& sett
 
 constexpr double kWritingPart = 0.5;  ///< [-] Of the progress of an export; the rest is reading it back.
 
-/// The context of a part of the work, whose progress runs from one fraction to another.
-RunContext stretch(const RunContext& whole, double from, double to) {
-  RunContext part = whole;
-  if (whole.progress)
-    part.progress = [all = whole.progress, from, to](double fraction) { all(from + fraction * (to - from)); };
-  return part;
-}
-RunContext whileWriting(const RunContext& context) { return stretch(context, 0.0, kWritingPart); }
-RunContext whileReading(const RunContext& context) { return stretch(context, kWritingPart, 1.0); }
+RunContext whileWriting(const RunContext& context) { return partialContext(context, 0.0, kWritingPart); }
+RunContext whileReading(const RunContext& context) { return partialContext(context, kWritingPart, 1.0); }
 
 Result<Check> svgFile(const ExportDocument& document, const ExportSettings& settings, const RunContext& context,
                       ExportReport& report) {

@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <new>
 
+#include "core/base/partial_context.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/save_dialog.h"
 #include "ui/panels/stages/export_folder.h"
@@ -37,17 +38,11 @@ Result<void> writeReport(const PipelineOutput& output, const Recipe& recipe, con
         QDate::currentDate().toString(Qt::ISODate).toStdString()};
     // The figures take most of the time; the pages follow.
     constexpr double kFiguresPart = 0.8;
-    const auto stretch = [&context](double from, double to) {
-      RunContext part = context;
-      if (context.progress)
-        part.progress = [all = context.progress, from, to](double fraction) { all(from + fraction * (to - from)); };
-      return part;
-    };
-    const auto content = reportContent(scan, recipe, output, origin, stretch(0.0, kFiguresPart));
+    const auto content = reportContent(scan, recipe, output, origin, partialContext(context, 0.0, kFiguresPart));
     if (!content) return fail(content.error());
     return writeReportFile(*content, kind == Html ? ReportFormat::Html : ReportFormat::Pdf,
                            kind == PdfOnLetter ? ReportPaper::Letter : ReportPaper::A4, path,
-                           stretch(kFiguresPart, 1.0));
+                           partialContext(context, kFiguresPart, 1.0));
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::OutOfMemory, "Not enough memory for the report. Exclude some curves.");
   }
