@@ -9,6 +9,7 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <array>
 
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/session/curve_names.h"
@@ -18,6 +19,7 @@ namespace batten {
 namespace {
 
 constexpr int kWayWidth = 118, kTickRow = 24, kMostTickRows = 8;
+constexpr std::array kWays = {ExportChoice::All, ExportChoice::Selected, ExportChoice::Ticked};  // as listed
 constexpr int kNumberRole = Qt::UserRole, kIndexRole = Qt::UserRole + 1;
 
 }  // namespace
@@ -87,7 +89,7 @@ void ExportChoice::build() {
   ticks_->hide();
 }
 
-ExportChoice::Way ExportChoice::way() const { return static_cast<Way>(way_->currentIndex()); }
+ExportChoice::Way ExportChoice::way() const { return kWays.at(way_->currentIndex()); }
 
 std::optional<std::set<int>> ExportChoice::numbers() const {
   if (way() == All) return std::nullopt;
