@@ -19,7 +19,6 @@ namespace batten {
 namespace {
 
 constexpr int kWayWidth = 118, kTickRow = 24, kMostTickRows = 8;
-constexpr std::array kWays = {ExportChoice::All, ExportChoice::Selected, ExportChoice::Ticked};  // as listed
 constexpr int kNumberRole = Qt::UserRole, kIndexRole = Qt::UserRole + 1;
 
 }  // namespace
@@ -89,7 +88,10 @@ void ExportChoice::build() {
   ticks_->hide();
 }
 
-ExportChoice::Way ExportChoice::way() const { return kWays.at(way_->currentIndex()); }
+ExportChoice::Way ExportChoice::way() const {
+  constexpr std::array kWays = {All, Selected, Ticked};  // in the order of the list
+  return kWays.at(way_->currentIndex());
+}
 
 std::optional<std::set<int>> ExportChoice::numbers() const {
   if (way() == All) return std::nullopt;
