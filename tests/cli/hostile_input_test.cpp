@@ -82,6 +82,32 @@ TEST_F(HostileInput, NamesAreBytes) {
   const Outcome inside = run("trace " + scan + " -o '" + file("Entw\xfcrfe/o.svg") + "'");
   EXPECT_EQ(inside.code, 0) << inside.err;
   EXPECT_NE(test::readFile(file("Entw\xfcrfe/o.svg")), "");
+  const std::string there = "cd '" + file("Entw\xfcrfe") + "' && '" BATTEN_CLI "' trace '" + scan + "' -o plain.svg";
+  EXPECT_EQ(std::system((there + " >'" + file("out.txt") + "'").c_str()), 0);
+  EXPECT_NE(test::readFile(file("Entw\xfcrfe/plain.svg")), "");
+}
+
+TEST_F(HostileInput, TinyFilesTakeLittleMemory) {
+  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
+  json recipe = {{"format", "batten-recipe"}, {"version", 1}, {"parameters", json::object()}, {"page", {2000, 2000}}};
+  for (int i = 0; i < 200; ++i) {
+    const json points = {{-1e6, -1e6 + i}, {1e6, 1e6 - i}};
+    recipe["strokes"].push_back({{"closed", false}, {"points", points}});
+  }
+  write("far.json", recipe.dump());
+  const Outcome far = run("trace --recipe " + file("far.json") + " -o " + file("far.svg"));
+  ASSERT_EQ(far.code, 0) << far.err;
+  EXPECT_LT(json::parse(far.out)["peak_memory_bytes"].get<std::uint64_t>(), kMostBytes);
+  std::string lines = "0\nSECTION\n2\nENTITIES\n";
+  for (int i = 0; i < 200; ++i) {
+    const std::string y = std::to_string(i);
+    lines += "0\nLINE\n8\n0\n10\n-100000\n20\n" + y + "\n11\n100000\n21\n" + y + "\n";
+  }
+  write("far.dxf", lines + "0\nENDSEC\n0\nEOF\n");
+  const Outcome over =
+      run("trace " + scene() + " --dpi 300 --import " + file("far.dxf") + " --import-unit mm -o " + file("over.svg"));
+  ASSERT_EQ(over.code, 0) << over.err;
+  EXPECT_LT(json::parse(over.out)["peak_memory_bytes"].get<std::uint64_t>(), kMostBytes);
 }
 
 TEST_F(HostileInput, ControlCharactersOfANameStayInTheName) {
