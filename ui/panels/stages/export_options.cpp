@@ -28,6 +28,9 @@ constexpr std::array kExportedCurves = {ExportedCurves::Faired, ExportedCurves::
                                         ExportedCurves::Both};  // as listed
 constexpr int kFieldWidth = 118, kPresetLetters = 16;
 
+bool canWrite(ExportFormat format) {
+  return hasOpenCascade() || (format != ExportFormat::Iges && format != ExportFormat::Step);
+}
 QString nameOfFormat(ExportFormat format) {
   switch (format) {
     case ExportFormat::Svg:
@@ -110,9 +113,11 @@ void ExportOptions::build() {
   // The longest name of all must not make the inspector wider.
   presets_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   presets_->setMinimumContentsLength(kPresetLetters);
-  for (const ExportPreset& preset : exportPresets())
-    presets_->addItem(tr("%1 (%2)").arg(QString::fromUtf8(preset.label), nameOfFormat(preset.settings.format)),
-                      QString::fromLatin1(preset.id));
+  for (const ExportPreset& preset : exportPresets()) {
+    const ExportFormat format = preset.settings.format;
+    const QString label = canWrite(format) ? tr("%1 (%2)") : tr("%1 (%2, not in this build)");
+    presets_->addItem(label.arg(QString::fromUtf8(preset.label), nameOfFormat(format)), QString::fromLatin1(preset.id));
+  }
   layout->addWidget(row(tr("For"), presets_, tr("Receiving program: sets the format and its options.")));
   layout->addWidget(note_);
   which_->setObjectName(QStringLiteral("export.which"));
@@ -150,8 +155,7 @@ const ExportPreset& ExportOptions::preset() const {
 
 void ExportOptions::choosePreset() {
   const ExportPreset& chosen = preset();
-  const QString missing = obstacle();
-  note_->setText(missing.isEmpty() ? QString::fromUtf8(chosen.note) : missing);
+  note_->setText(QString::fromUtf8(chosen.note));
   unitRow_->setVisible(actsOn(FormatOption::Unit, chosen.settings));
   toleranceRow_->setVisible(actsOn(FormatOption::Tolerance, chosen.settings));
   const QSettings settings;
@@ -199,9 +203,8 @@ QString ExportOptions::filter() const {
 }
 
 QString ExportOptions::obstacle() const {
-  const ExportFormat format = preset().settings.format;
-  if (hasOpenCascade() || (format != ExportFormat::Iges && format != ExportFormat::Step)) return {};
-  return tr("This build has no Open CASCADE and cannot write IGES or STEP: choose DXF.");
+  if (canWrite(preset().settings.format)) return {};
+  return tr("This build is without Open CASCADE and cannot write IGES or STEP. Choose a receiver of DXF or 3DM.");
 }
 
 }  // namespace batten
