@@ -103,10 +103,10 @@ TEST_F(Batch, TooManyFailuresOrTooMuchTimeEndIt) {
   write("pages.jsonl", line("a") + line("b") + line("c") + line("d") + line("e"));
   const auto first = run("batch " + file("pages.jsonl") + " --jobs 1 --max-failures 0");
   EXPECT_EQ(first.code, 7);
-  EXPECT_NE(first.err.find("1 of 5 pages has failed"), std::string::npos) << first.err;
+  EXPECT_NE(first.err.find("1 page of 5 has failed"), std::string::npos) << first.err;
   const auto few = run("batch " + file("pages.jsonl") + " --jobs 1 --max-failures 0.2");
   EXPECT_EQ(few.code, 7);
-  EXPECT_NE(few.err.find("2 of 5 pages have failed"), std::string::npos) << few.err;
+  EXPECT_NE(few.err.find("2 pages of 5 have failed"), std::string::npos) << few.err;
   EXPECT_EQ(statusesOf(few.out), (Statuses{"a failed", "b failed"}));
   write("slow.jsonl", line("e"));
   const auto slow = run("batch " + file("slow.jsonl") + " --page-timeout 0.001");

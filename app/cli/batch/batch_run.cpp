@@ -286,8 +286,7 @@ void BatchRun::report(std::size_t index, const PageResult& result) {
   }
   const double share = static_cast<double>(counts_.failed) / static_cast<double>(pages_.size());
   if (share > settings_.maxFailures) {
-    stop(std::to_string(counts_.failed) + " of " + std::to_string(pages_.size()) +
-         (counts_.failed == 1 ? " pages has" : " pages have") + " failed, more than --max-failures allows.");
+    stop(failedPages(counts_.failed, pages_.size()) + ", more than --max-failures allows.");
   }
 }
 
@@ -325,6 +324,11 @@ void BatchRun::showProgress() {
   if (elsewhere > 0) line += ", " + std::to_string(elsewhere) + " with another call";
   if (!whyStopped_.empty()) line += "; ends after " + std::to_string(running_.size()) + " running";
   std::fputs((line + "\033[K").c_str(), stderr);
+}
+
+std::string failedPages(int failed, std::size_t all) {
+  return std::to_string(failed) + (failed == 1 ? " page of " : " pages of ") + std::to_string(all) +
+         (failed == 1 ? " has failed" : " have failed");
 }
 
 }  // namespace batten::cli

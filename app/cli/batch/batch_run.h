@@ -90,4 +90,7 @@ class BatchRun {
   QTimer tick_;
 };
 
+/// "1 page of 2 has failed", "3 pages of 5 have failed".
+std::string failedPages(int failed, std::size_t all);
+
 }  // namespace batten::cli

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/exchange/format_options.h"
 #include "core/exchange/occt/open_cascade.h"
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
@@ -27,9 +28,6 @@ constexpr std::array kExportedCurves = {ExportedCurves::Faired, ExportedCurves::
                                         ExportedCurves::Both};  // as listed
 constexpr int kFieldWidth = 118, kPresetLetters = 16;
 
-bool hasUnit(ExportFormat format) {
-  return format != ExportFormat::Svg && format != ExportFormat::Pdf && format != ExportFormat::Json;
-}
 QString nameOfFormat(ExportFormat format) {
   switch (format) {
     case ExportFormat::Svg:
@@ -154,8 +152,8 @@ void ExportOptions::choosePreset() {
   const ExportPreset& chosen = preset();
   const QString missing = obstacle();
   note_->setText(missing.isEmpty() ? QString::fromUtf8(chosen.note) : missing);
-  unitRow_->setVisible(hasUnit(chosen.settings.format));
-  toleranceRow_->setVisible(isApproximate(chosen.settings));
+  unitRow_->setVisible(actsOn(FormatOption::Unit, chosen.settings));
+  toleranceRow_->setVisible(actsOn(FormatOption::Tolerance, chosen.settings));
   const QSettings settings;
   const QSignalBlocker quiet(joined_);
   const QString own = QLatin1Char('/') + QString::fromLatin1(chosen.id);
@@ -184,10 +182,11 @@ void ExportOptions::save() const {
 
 ExportSettings ExportOptions::settings() const {
   ExportSettings settings = preset().settings;
-  settings.unit = hasUnit(settings.format) && unit_->currentIndex() == 1 ? LengthUnit::Inch : LengthUnit::Millimetre;
+  const bool isInch = actsOn(FormatOption::Unit, settings) && unit_->currentIndex() == 1;
+  settings.unit = isInch ? LengthUnit::Inch : LengthUnit::Millimetre;
   settings.scale = scale_->value();
   settings.joined = joined_->isChecked();
-  if (isApproximate(settings)) settings.toleranceMm = tolerance_->value();
+  if (actsOn(FormatOption::Tolerance, settings)) settings.toleranceMm = tolerance_->value();
   return settings;
 }
 
