@@ -6,8 +6,8 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/conventions.h"
 #include "core/base/number_text.h"
 #include "core/base/regular_file.h"
@@ -29,7 +29,7 @@ namespace {
 constexpr std::uint64_t kLargestImportBytes = std::uint64_t{64} << 20;
 constexpr std::array<const char*, 9> kImportEndings = {".dxf", ".igs", ".iges", ".stp", ".step",
                                                        ".svg", ".csv", ".txt",  ".json"};
-constexpr double kSharpTurn = 35.0 * std::numbers::pi / 180.0;
+constexpr double kSharpTurn = 35.0 * kRadPerDeg;
 /// Polylines of no more points are drawn corner by corner; of longer ones a corner has to stand out from its
 /// neighbours.
 constexpr std::ptrdiff_t kFewPoints = 16;

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "core/base/angle.h"
 #include "core/base/parallel.h"
 #include "core/construct/light/detail_line.h"
 #include "core/construct/light/light_corners.h"
@@ -23,11 +23,10 @@ namespace batten {
 namespace {
 
 constexpr double kStepsPerScale = 12.0;
-constexpr double kLeftOut = 1.2;     // scales beside a corner, where ink is rounded
-constexpr double kSmoothedBy = 0.4;  // scales
-constexpr double kFitShare = 0.9;    // of the tolerance; the rest is for the smoothing
-constexpr double kClearNotch =
-    60.0 * std::numbers::pi / 180.0;  // a corner that does not turn at large must turn by this
+constexpr double kLeftOut = 1.2;                   // scales beside a corner, where ink is rounded
+constexpr double kSmoothedBy = 0.4;                // scales
+constexpr double kFitShare = 0.9;                  // of the tolerance; the rest is for the smoothing
+constexpr double kClearNotch = 60.0 * kRadPerDeg;  // a corner that does not turn at large must turn by this
 constexpr int kFewestStretchSamples = 16;
 constexpr int kFewestTried = 9, kMostDetailPoints = 60;
 constexpr double kChordReach = 3.0;  // tolerances

@@ -10,6 +10,7 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <array>
 
 #include "core/exchange/occt/open_cascade.h"
 #include "ui/panels/controls/number_field.h"
@@ -22,6 +23,8 @@ const QString kPresetKey = QStringLiteral("export/preset"), kUnitKey = QStringLi
               kWhichKey = QStringLiteral("export/which"), kJoinedKey = QStringLiteral("export/joined"),
               kToleranceKey = QStringLiteral("export/accuracy");
 constexpr const char* kFirstPreset = "illustrator";
+constexpr std::array kExportedCurves = {ExportedCurves::Faired, ExportedCurves::Sketched,
+                                        ExportedCurves::Both};  // as listed
 constexpr int kFieldWidth = 118, kPresetLetters = 16;
 
 bool hasUnit(ExportFormat format) {
@@ -188,7 +191,7 @@ ExportSettings ExportOptions::settings() const {
   return settings;
 }
 
-ExportedCurves ExportOptions::which() const { return static_cast<ExportedCurves>(which_->currentIndex()); }
+ExportedCurves ExportOptions::which() const { return kExportedCurves.at(which_->currentIndex()); }
 
 QString ExportOptions::suffix() const { return QString::fromLatin1(endingsOf(preset().settings.format)[0] + 1); }
 
