@@ -2,9 +2,11 @@
 #include "core/construct/light/detail_curve.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -165,12 +167,21 @@ std::vector<LightCurve> fitsOf(const NurbsCurve& dense, const std::vector<Vec2>&
   LightOptions half = options;
   if (isBounded) half.mostPoints = options.mostPoints - 1;
   auto parts = fitsOf(dense, {points.begin(), at + 1}, false, half, cuts - 1, context);
-  if (isBounded && !areAllFound(parts)) return {tooManyPoints(dense)};
+  if (!areAllFound(parts)) return {tooManyPoints(dense)};
   if (isBounded) half.mostPoints = options.mostPoints + 1 - pointsTogether(parts);
   auto rest = fitsOf(dense, {at, points.end()}, false, half, cuts - 1, context);
-  if (isBounded && !areAllFound(rest)) return {tooManyPoints(dense)};
+  if (!areAllFound(rest)) return {tooManyPoints(dense)};
   std::move(rest.begin(), rest.end(), std::back_inserter(parts));
   return parts;
+}
+
+/// The stretches from the shortest to the longest.
+std::vector<std::size_t> byLength(const std::vector<std::vector<Vec2>>& stretches) {
+  std::vector<std::size_t> order(stretches.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return stretches[a].size() < stretches[b].size(); });
+  return order;
 }
 
 /// The curves of all stretches; none when they have more control points than are wanted. Without such a bound they
@@ -181,16 +192,26 @@ std::optional<std::vector<std::vector<LightCurve>>> fitsOfAll(const NurbsCurve& 
                                                               const RunContext& context) {
   std::vector<std::vector<LightCurve>> fits(stretches.size());
   if (loop || options.mostPoints == kAnyNumber) {
+    // One stretch without a curve is enough to give up: the long ones, which mostly are it, come first.
+    const std::vector<std::size_t> order = byLength(stretches);
+    std::atomic<bool> isHopeless = false;
     parallelFor(context, static_cast<int>(fits.size()), 1, [&](int begin, int end) {
       for (int i = begin; i < end && !context.isCancelled(); ++i) {
-        fits[i] = fitsOf(dense, stretches[i], loop, options, kMostCuts, context);
+        const std::size_t at = order[static_cast<std::size_t>(std::ssize(order) - 1 - i)];
+        auto& own = fits[at];
+        own.resize(1);
+        if (isHopeless) continue;
+        own = fitsOf(dense, stretches[at], loop, options, kMostCuts, context);
+        if (!areAllFound(own)) isHopeless = true;
       }
     });
     return fits;
   }
-  // Each stretch adds one point and more: those beyond are for this stretch.
+  // Each stretch adds one point and more: those beyond are for this stretch. The short ones are quickly made, and leave
+  // the long ones less to try.
   int spare = options.mostPoints - static_cast<int>(stretches.size()) - (closed ? 0 : 1);
-  for (std::size_t i = 0; i < fits.size() && !context.isCancelled(); ++i) {
+  for (const std::size_t i : byLength(stretches)) {
+    if (context.isCancelled()) break;
     if (spare < 0) return std::nullopt;
     LightOptions own = options;
     own.mostPoints = spare + 2;
