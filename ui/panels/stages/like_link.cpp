@@ -49,20 +49,20 @@ void saveProfile(EditorSession& session, QWidget* parent, const std::function<vo
 /// The course of a curve as it lies on the drawing, so that it is known again.
 QIcon courseIcon(const NurbsCurve& curve, const QWidget* link) {
   constexpr int kPlaces = 96;
-  constexpr double kSide = 20.0, kMargin = 1.0;
+  constexpr double kProfilePictureSide = 20.0, kMargin = 1.0;
   QPolygonF line;
   for (int i = 0; i <= kPlaces; ++i) {
     const Vec2 p = curve.point(curve.start() + (curve.end() - curve.start()) * i / kPlaces);
     line.append({p.x(), -p.y()});
   }
   const QRectF box = line.boundingRect();
-  const double scale = (kSide - 2.0 * kMargin) / std::max({box.width(), box.height(), 1e-9});
+  const double scale = (kProfilePictureSide - 2.0 * kMargin) / std::max({box.width(), box.height(), 1e-9});
   QTransform fit;
-  fit.translate(0.5 * kSide, 0.5 * kSide);
+  fit.translate(0.5 * kProfilePictureSide, 0.5 * kProfilePictureSide);
   fit.scale(scale, scale);
   fit.translate(-box.center().x(), -box.center().y());
   const double ratio = link->devicePixelRatioF();
-  QPixmap picture(QSize(static_cast<int>(kSide * ratio), static_cast<int>(kSide * ratio)));
+  QPixmap picture(QSize(static_cast<int>(kProfilePictureSide * ratio), static_cast<int>(kProfilePictureSide * ratio)));
   picture.setDevicePixelRatio(ratio);
   picture.fill(Qt::transparent);
   QPainter painter(&picture);
