@@ -53,9 +53,10 @@ void expectSolvesAsDense(const LightShape& shape) {
     const std::vector<int> at = unknownsOf(shape, span);
     Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
     for (const int i : at) row[i] = any(random);
-    whole += row * row.transpose();
-    for (std::size_t a = 0; a < at.size(); ++a)
+    for (std::size_t a = 0; a < at.size(); ++a) {
+      for (const int other : at) whole(at[a], other) += row[at[a]] * row[other];
       for (std::size_t b = 0; b <= a; ++b) matrix.add(at[a], at[b], row[at[a]] * row[at[b]]);
+    }
   }
   Eigen::VectorXd right(n);
   for (Eigen::Index i = 0; i < n; ++i) right[i] = any(random);
@@ -67,8 +68,8 @@ void expectSolvesAsDense(const LightShape& shape) {
 }
 
 TEST(LightMatrix, OfALongCurveIsSolvedAsTheWholeMatrix) {
-  expectSolvesAsDense(shapeOf(240, false));
-  expectSolvesAsDense(shapeOf(240, true));
+  expectSolvesAsDense(shapeOf(180, false));
+  expectSolvesAsDense(shapeOf(180, true));
 }
 
 TEST(LightMatrix, OfAShortCurveToo) {
@@ -77,7 +78,7 @@ TEST(LightMatrix, OfAShortCurveToo) {
 }
 
 TEST(LightMatrix, ThatIsNotPositiveDefiniteIsNotSolved) {
-  for (const int spans : {40, 240}) {
+  for (const int spans : {40, 180}) {
     const LightShape shape = shapeOf(spans, false);
     LightMatrix matrix(shape, true);
     matrix.setZero();
