@@ -41,6 +41,13 @@ std::string presetWords() {
   return words;
 }
 
+/// "000|001|002|004|default"
+std::string paperWords() {
+  std::string words = paperPresetNames();
+  for (auto at = words.find(", "); at != std::string::npos; at = words.find(", ")) words.replace(at, 2, "|");
+  return words;
+}
+
 /// One value per option, so that "-o a.svg scan.png" does not take the scan for an output.
 void addRepeated(CLI::App& app, const char* names, std::vector<std::string>& values, const char* what,
                  const std::string& help) {
@@ -62,7 +69,7 @@ void addDrawing(CLI::App& app, TraceArguments& a, const DrawingHelp& help) {
   app.add_option(
          "--as-in", a.asIn,
          "Use all settings of a paper: " + paperPresetNames() + "; --set overrides it; a note states the drawbacks")
-      ->type_name("PAPER");
+      ->type_name(paperWords());
   addRepeated(app, "--set", a.settings, "NAME=VALUE", "Set a parameter (see batten-cli parameters); may be repeated");
   addRepeated(app, "--outline", a.outlines, "X,Y",
               "Trace the outline of the ink near this point, px from the upper left; may be repeated");
@@ -184,7 +191,9 @@ CLI::App* addBatch(CLI::App& app, BatchArguments& a) {
       "settings and the program are unchanged, according to NAME.batch.json next to its first "
       "output NAME. A page without curves is not a failure. Ctrl+C stops after the running "
       "pages; the same command resumes.");
-  batch->add_option("inputs", a.inputs, "A manifest (NAME.jsonl, or - for stdin), or scans, folders and patterns")
+  batch
+      ->add_option("inputs", a.inputs,
+                   "A manifest (NAME.jsonl, or - for stdin), or scans, folders and patterns of *, ?, [...] and **")
       ->type_name("INPUT")
       ->required();
   batch->add_option("--to", a.to, "Output folder for scans, folders and patterns")->type_name("FOLDER");
