@@ -193,16 +193,16 @@ TEST(LightReference, FollowsTightTurns) {
 // A spiral has no extrema at which it could be cut: without other cuts the search over all of it would take time with
 // the square of its length.
 TEST(LightChain, LongStretchesWithoutExtremaAreDivided) {
-  constexpr int kDegree = 5, kSpans = 3 * kMostSectionSpans + 50;
-  std::vector<double> knots(kDegree, 0.0);
+  constexpr int kQuintic = 5, kSpans = 3 * kMostSectionSpans + 50;
+  std::vector<double> knots(kQuintic, 0.0);
   std::vector<Vec2> points;
   for (int i = 0; i <= kSpans; ++i) knots.push_back(i);
-  knots.insert(knots.end(), kDegree, kSpans);
-  for (int i = 0; i < kSpans + kDegree; ++i) {
+  knots.insert(knots.end(), kQuintic, kSpans);
+  for (int i = 0; i < kSpans + kQuintic; ++i) {
     const double angle = std::sqrt(0.5 * i + 20.0);
     points.emplace_back(5.0 * angle * std::cos(angle), 5.0 * angle * std::sin(angle));
   }
-  const auto curve = NurbsCurve::make(kDegree, std::move(knots), std::move(points));
+  const auto curve = NurbsCurve::make(kQuintic, std::move(knots), std::move(points));
   ASSERT_TRUE(curve);
   LightOptions options;
   const auto reference = LightReference::make(*curve, false, options.step);

@@ -89,8 +89,8 @@ void ExportChoice::build() {
 }
 
 ExportChoice::Way ExportChoice::way() const {
-  constexpr std::array kWays = {All, Selected, Ticked};  // in the order of the list
-  return kWays.at(way_->currentIndex());
+  constexpr std::array kListedWays = {All, Selected, Ticked};  // in the order of the list
+  return kListedWays.at(way_->currentIndex());
 }
 
 std::optional<std::set<int>> ExportChoice::numbers() const {
