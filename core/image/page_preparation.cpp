@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <new>
 #include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
 #include <utility>
 
 #include "core/image/coloured_ink.h"
@@ -127,6 +128,9 @@ void takeInks(const Scan& scan, const InkChoice& choice, PreparedPage& page, con
 std::optional<Error> validate(const PreparationParams& params) { return validate(params.inks); }
 
 Result<PreparedPage> preparePage(const Scan& scan, const PreparationParams& params, const RunContext& context) {
+  // OpenCV works on the calling thread: threads of its own would not keep to RunContext::threads, and it throws where
+  // the system gives none.
+  [[maybe_unused]] static const bool isAlone = (cv::setNumThreads(0), true);
   try {
     PreparedPage page;
     if (params.colour == ColourUse::Darkest && !scan.colour.isEmpty()) takeColouredInk(scan, page, context);
