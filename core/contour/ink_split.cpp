@@ -3,13 +3,17 @@
 
 #include <algorithm>
 #include <map>
+#include <opencv2/core.hpp>
 #include <utility>
 
+#include "core/base/statistics.h"
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/centreline/graininess.h"
+#include "core/contour/centreline/stroke_mask.h"
 #include "core/contour/centreline/stroke_paths.h"
 #include "core/contour/chosen_ink.h"
 #include "core/contour/label/ink_labels.h"
+#include "core/image/bit_steps.h"
 
 namespace batten {
 namespace {
@@ -82,6 +86,40 @@ RunPieces regionsOf(const BitImage& strokes, const BitImage& shapes, const RunCo
   return regions;
 }
 
+// [px] median over all points of the stroke paths drawn with a pencil.
+double pencilWidth(const std::vector<StrokePath>& paths, const GraininessMap& grain) {
+  std::vector<float> radii;
+  for (int i = 0; i < std::ssize(paths); ++i) {
+    if (!grain.isPencil(i)) continue;
+    for (const StrokePathPoint& p : paths[i].points) radii.push_back(p.radius);
+  }
+  return radii.empty() ? 1.0 : std::max(1.0, 2.0 * static_cast<double>(upperMedian(radii)));
+}
+
+// The solids of a pencil, with their grain closed; small ones are grain themselves, or strokes that cross.
+Result<BitImage> pencilSolids(const BitImage& pencil, double widthPx, double mergeWidths, const RunContext& context) {
+  constexpr double kSolidWidths = 5.0;   // strokes side by side that have run together are narrower
+  constexpr double kBorderWidths = 3.0;  // what hangs on to a solid and is narrower is a stroke
+  BitImage body;
+  try {
+    body = closeInk(pencil, grainClosing(widthPx));
+  } catch (const cv::Exception& e) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory to tell strokes from shapes.", e.what());
+  }
+  if (context.isCancelled()) return cancelled();
+  Result<InkLabels> labels = labelInk(body, context, mergeWidths);
+  if (!labels) return fail(labels.error());
+  const double pen = std::max(labels->penPx, widthPx);
+  const auto opened = [&](double widths) {
+    const int steps = std::max(1, static_cast<int>(0.5 * widths * pen));
+    return grown(shrunken(labels->shapes, steps, context), steps, context);
+  };
+  const BitImage seeds = opened(kSolidWidths);
+  BitImage solids = keepPieces(opened(kBorderWidths), {.seeds = &seeds}, context);
+  if (context.isCancelled()) return cancelled();
+  return solids;
+}
+
 Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const EdgeParams& params, InkSplit& split,
                           const RunContext& context) {
   Result<InkLabels> labels = labelInk(ink, context, params.mergeWidths);
@@ -109,6 +147,12 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
     setBits(split.pencil, pieces.runs[i]);
     move(ink, pieces.runs[i], byPiece->shapes.at(pieces.runs[i].x0, pieces.runs[i].y), split);
   }
+  const StrokesOfInk& known = *split.known;
+  const double widthPx = pencilWidth(known.paths, known.grain);
+  Result<BitImage> solids = pencilSolids(both(split.strokes, split.pencil), widthPx, params.mergeWidths, context);
+  if (!solids) return fail(solids.error());
+  split.strokes = without(std::move(split.strokes), *solids);
+  split.shapes = either(std::move(split.shapes), *solids);
   return {};
 }
 

@@ -25,7 +25,7 @@ struct InkSplit {
 
 /// Splits the ink into strokes and shapes, region by region (label/ink_labels.h), unless the page is followed in one
 /// way (EdgeParams::mode); regions that the user chose for follow his choice. Ink drawn with a pencil is split piece by
-/// piece (splitStrokes): its specks and tones are no shapes.
+/// piece (splitStrokes), and of its tones only solids far wider than its strokes are shapes.
 Result<InkSplit> splitInk(const BitImage& ink, const GreyImage& grey, const EdgeParams&, const RunContext&);
 
 }  // namespace batten

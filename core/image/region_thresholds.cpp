@@ -11,6 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
 #include "core/image/find_folds.h"
+#include "core/image/ink_grain.h"
 #include "core/image/otsu_thresholds.h"
 #include "core/image/page_edges.h"
 #include "core/image/paper_cells.h"
@@ -31,7 +32,11 @@ constexpr double kLeastContrastPerNoise = 4.0;
 constexpr double kLeastContrast = 1.5;  // [grey]
 constexpr double kDustShare = 0.25;     // of the page's contrast: regions of dust alone do not get below
 constexpr double kCertainShare = 1.25;
-constexpr double kNever = -1000.0;  // [grey] darker than anything
+// Of ink in [specks and holes per stroke width]: a pen leaves up to .06, a dry brush, pencil or charcoal .12 to .35.
+constexpr double kTorn = 0.1;
+constexpr double kSmoothingPerWidth = 0.45;  // [widths of torn ink, half that of its strokes] more rounds them off
+constexpr double kTornShare = 0.75;          // of the half level: grains are darker than the stroke that they make up
+constexpr double kNever = -1000.0;           // [grey] darker than anything
 constexpr const char* kBrighterLines = "The lines are brighter than the paper; invert the scan.";
 constexpr std::size_t kNoiseSamples = 20000;
 constexpr int kDepthsPerBlock = 1024;
@@ -138,15 +143,45 @@ void fillContrast(const Plane& grey, const PageEdges& edges, const Depths& depth
   }
 }
 
+/// The ink of a shrunken page.
+BitImage inkOf(const Plane& grey, const PaperBackground& paper, const RegionValues& contrasts, int shrink,
+               const std::vector<float>& kernel, const RunContext& context) {
+  BitImage ink(grey.width, grey.height);
+  const Plane smoothed = smooth(grey, kernel, context);
+  if (context.isCancelled()) return ink;
+  const RegionSurface contrast(contrasts, grey.width, grey.height, true);
+  parallelFor(context, grey.height, kRowsPerBlock, [&](int begin, int end) {
+    std::vector<float> level(grey.width);
+    for (int y = begin; y < end; ++y) {
+      contrast.fillRow(y, level.data());
+      const float* row = smoothed.row(y);
+      for (int x = 0; x < grey.width; ++x) {
+        const auto here = static_cast<float>(paper.at((x + 0.5) * shrink, (y + 0.5) * shrink));
+        if (row[x] < here + level[x]) ink.set(x, y, true);
+      }
+    }
+  });
+  return ink;
+}
+
 void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, double strength, RegionThresholds& out,
                          const RunContext& context) {
   const int cellPx = kCellPx * std::max(1, shrink / 2);
   PaperEstimate estimate = estimatePaper(grey, edges, shrink, cellPx, context);
   Depths depths;
+  double roomPx = kSmoothings.back();
+  bool isFirst = true;
   for (const double q : kSmoothings) {
-    depths = measureDepths(grey, edges, estimate, shrink, gaussianKernel(remainingVariance(q * q, shrink)), context);
+    if (q > roomPx || context.isCancelled()) break;
+    const std::vector<float> kernel = gaussianKernel(remainingVariance(q * q, shrink));
+    depths = measureDepths(grey, edges, estimate, shrink, kernel, context);
     out.smoothingPx = q;
-    if (std::fabs(depths.mean) >= kContrastPerNoise * depths.noise) break;
+    if (std::fabs(depths.mean) < kContrastPerNoise * depths.noise) continue;
+    fillContrast(grey, edges, depths, 1.0, out);
+    const InkGrain grain = measureGrain(inkOf(grey, estimate.paper, out.contrast, shrink, kernel, context), context);
+    if (grain.perWidth <= kTorn) break;
+    if (std::exchange(isFirst, false)) out.halfLevelShare = kTornShare;
+    roomPx = std::min(roomPx, kSmoothingPerWidth * grain.widthPx * shrink);
   }
   out.paperNoise = depths.noise;
   out.faintLimit = std::min(-kLeastContrastPerNoise * depths.noise, -kLeastContrast);
@@ -154,7 +189,7 @@ void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, 
   const bool enough = edges.crests.size() >= kMinVotes;
   out.foundLine = enough && depths.mean <= -std::max(kLeastContrast, 2.5 * depths.noise);
   if (out.foundLine) {
-    fillContrast(grey, edges, depths, strength, out);
+    fillContrast(grey, edges, depths, strength * out.halfLevelShare, out);
   } else {
     out.note = enough && depths.mean > kLeastContrast ? kBrighterLines : "No ink contrast was found.";
     out.contrast.fill(kNever);

@@ -69,11 +69,14 @@ struct RegionThresholds {
                                              ///< every pixel added to its paper.
   std::array<double, kRegions> certain{};  ///< [grey] as contrast, deeper: a piece that nowhere gets there is a speck.
   double faintLimit = -1.5;                ///< [grey] contrast that faint parts joined to ink must have at least.
-  bool foundLine = true;                   ///< False: no edge stands out of the paper anywhere.
-  std::string note;                        ///< One line for the user when something is unusual; else empty.
+  /// Of the half level at the edges, 0..1: less where the grain of a pencil tears the ink.
+  double halfLevelShare = 1.0;
+  bool foundLine = true;  ///< False: no edge stands out of the paper anywhere.
+  std::string note;       ///< One line for the user when something is unusual; else empty.
 };
 
-/// Chooses the 64 thresholds. Automatic regions follow the half level at their own edges; regions without edges of
+/// Chooses the 64 thresholds. Automatic regions follow the half level at their own edges, or three quarters of it where
+/// the grain of a pencil tears the ink, which is smoothed more, too (ink_grain.h); regions without edges of
 /// their own are filled from those that have some, so that empty paper is not split into its own noise.
 Result<RegionThresholds> findThresholds(const GreyImage&, const PaperParams&, const ThresholdParams&,
                                         const RunContext&);

@@ -26,7 +26,6 @@
 namespace batten {
 namespace {
 
-constexpr double kClosingWidths = 0.75;     // [stroke widths] between the specks of a pencil there is less, and a pixel
 constexpr double kPencilSmoothingPx = 3.0;  // of the middles along a pencil stroke, whose grain moves every one
 
 constexpr double kAtRimPx = 2.0;  // a skeleton that was cut at a rim ends nearer to the shape
@@ -106,7 +105,7 @@ BitImage coverOf(const BitImage& like, const std::vector<StrokePath>& paths, con
 BitImage bodiesOf(const BitImage& strokes, const GreyImage& grey, const std::vector<StrokePath>& paths,
                   const GraininessMap& grain, const RunContext& context) {
   const double width = medianWidth(paths, [&](int i) { return grain.isPencil(i); });
-  const double closing = kClosingWidths * width + 1.0;
+  const double closing = grainClosing(width);
   BitImage body = closeInk(strokes, closing);
   bool anyPen = false;
   for (int i = 0; i < std::ssize(paths); ++i) anyPen = anyPen || !grain.isPencil(i);

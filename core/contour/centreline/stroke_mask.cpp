@@ -217,6 +217,11 @@ BitImage closeInk(const BitImage& ink, double diameterPx) {
   return closed;
 }
 
+double grainClosing(double widthPx) {
+  constexpr double kClosingWidths = 0.75;  // between the specks of a pencil there is less, and a pixel
+  return kClosingWidths * widthPx + 1.0;
+}
+
 Result<StrokeSplit> splitStrokes(const BitImage& ink, const EdgeParams& params, const RunContext& context) {
   if (ink.width <= 0 || ink.height <= 0) return StrokeSplit{ink, ink};
   if (context.isCancelled()) return cancelled();

@@ -10,4 +10,7 @@ namespace batten {
 /// specks of a pencil stroke become one body. May throw std::bad_alloc or cv::Exception.
 BitImage closeInk(const BitImage& ink, double diameterPx);
 
+/// [px] Diameter that closes the grain of pencil strokes of this width [px].
+double grainClosing(double widthPx);
+
 }  // namespace batten

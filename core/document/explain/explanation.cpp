@@ -36,6 +36,11 @@ Result<Reference> makeReference(const GreyImage& page, const Recipe& recipe, con
   ThresholdParams asked;
   asked.strength = kReferenceStrength;
   auto thresholds = findThresholds(page, {}, asked, context);
+  // The same part of the half level on every page.
+  if (thresholds && thresholds->halfLevelShare < 1.0) {
+    asked.strength = kReferenceStrength / thresholds->halfLevelShare;
+    thresholds = findThresholds(page, {}, asked, context);
+  }
   if (!thresholds) return fail(thresholds.error());
   auto ink = binarize(page, *thresholds, asked, context);
   if (!ink) return fail(ink.error());

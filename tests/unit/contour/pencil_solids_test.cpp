@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A tone of a pencil that lines of it run into: against what is known of the page.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/contour/ink_split.h"
+#include "core/image/binarize.h"
+#include "tests/support/dense_page.h"
+
+namespace batten {
+namespace {
+
+constexpr int kSolidPageWidth = 480, kSolidPageHeight = 360;
+constexpr double kToneRadius = 36.0;
+const Vec2 kToneCentre(240.0, 180.0);
+
+GreyImage tonePage() {
+  std::vector<std::vector<Vec2>> lines = test::hatchLines(kToneCentre, 20.0, 5, 60.0, 420.0, 0.0);
+  for (auto& line : test::hatchLines(kToneCentre, 110.0, 5, 60.0, 300.0, 0.0)) lines.push_back(std::move(line));
+  std::vector<float> cover = test::coverageOf(lines, 7.0, kSolidPageWidth, kSolidPageHeight);
+  for (int y = 0; y < kSolidPageHeight; ++y) {
+    for (int x = 0; x < kSolidPageWidth; ++x) {
+      const bool isTone = (Vec2(x + 0.5, y + 0.5) - kToneCentre).norm() < kToneRadius;
+      if (isTone) cover[static_cast<std::size_t>(y * kSolidPageWidth + x)] = 1.0f;
+    }
+  }
+  test::grainCoverage(
+      cover, kSolidPageWidth, kSolidPageHeight, [](double, double) { return 1.0; }, 5);
+  return test::scanOfLines(std::move(cover), kSolidPageWidth, kSolidPageHeight, 7).grey;
+}
+
+TEST(PencilSolids, AreShapesAndTheLinesThatRunIntoThemAreStrokes) {
+  const GreyImage grey = tonePage();
+  const ThresholdParams params;
+  const BitImage ink = *binarize(grey, *findThresholds(grey, {}, params, {}), params, {});
+  const auto split = splitInk(ink, grey, {}, {});
+  ASSERT_TRUE(split);
+  EXPECT_GT(split->pencil.count(), 0) << "else this is no pencil";
+  int tone = 0, found = 0, astray = 0;
+  for (int y = 0; y < kSolidPageHeight; ++y) {
+    for (int x = 0; x < kSolidPageWidth; ++x) {
+      const double distance = (Vec2(x + 0.5, y + 0.5) - kToneCentre).norm();
+      if (distance < kToneRadius - 3.0) {
+        ++tone;
+        found += split->shapes.at(x, y) ? 1 : 0;
+      }
+      astray += distance > kToneRadius + 8.0 && split->shapes.at(x, y) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(found, 0.97 * tone);
+  EXPECT_EQ(astray, 0);
+}
+
+}  // namespace
+}  // namespace batten
