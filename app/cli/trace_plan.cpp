@@ -304,6 +304,7 @@ Result<void> checkOptions(const TraceArguments& arguments, const TracePlan& plan
   };
   std::string names;
   for (const auto& output : plan.outputs) names.append(names.empty() ? "" : ", ").append(output.path.string());
+  for (const auto& report : plan.reports) names.append(names.empty() ? "" : ", ").append(report.path.string());
   if (names.empty()) names = "what is written here";
   for (const auto& [word, isGiven, option] : {Given{"--unit", !arguments.unit.empty(), FormatOption::Unit},
                                               {"--tolerance", arguments.tolerance.has_value(), FormatOption::Tolerance},
@@ -431,6 +432,10 @@ Result<Recipe> recipeOf(const TraceArguments& arguments) {
   }
   if (arguments.dpi && !arguments.knownLength.empty())
     return wrong("--dpi and --known-length both set the resolution. Give one of them.");
+  if (!arguments.knownLength.empty() && arguments.scan.empty() && !recipe->page)
+    return wrong(
+        "--known-length sets the resolution of a scan, and none is named. Imported curves have their unit: "
+        "use --import-unit or --scale.");
   if (!arguments.knownLength.empty()) {
     if (auto set = applyKnownLength(arguments.knownLength, *recipe); !set) return fail(set.error());
   }

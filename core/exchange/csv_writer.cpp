@@ -21,14 +21,11 @@ namespace {
 constexpr std::size_t kColumns = 8;
 constexpr int kMostRows = 1'000'000;  ///< Of one curve; more is a mistyped spacing.
 
-/// Imported curves keep the origin of their file, so that they come to lie where they were.
 std::string header(const PageFrame& frame, const std::string& unit, int rows) {
-  const bool isOfPage = frame.leftMm == 0.0 && frame.bottomMm == 0.0;
   return std::string(
              "# Curvature is positive where the curve turns left (counter-clockwise); x to the right, y up, from ") +
-         (isOfPage ? "the lower left corner of the page" : "the origin of the file that was imported") + ". " +
-         std::string(kRowsStated) + std::to_string(rows) + ".\ncurve,piece,s_" + unit + ",x_" + unit + ",y_" + unit +
-         ",tangent_deg,kappa_per_" + unit + ",radius_" + unit + "\n";
+         originOf(frame) + ". " + std::string(kRowsStated) + std::to_string(rows) + ".\ncurve,piece,s_" + unit + ",x_" +
+         unit + ",y_" + unit + ",tangent_deg,kappa_per_" + unit + ",radius_" + unit + "\n";
 }
 
 /// The piece at the size and in the unit of the file.
@@ -75,7 +72,9 @@ Result<std::string> writeCsv(const ExportDocument& document, const ExportSetting
       const NurbsCurve curve = inFile(line.pieces[i].curve, settings);
       const double length = ArcLength(curve).total() * millimetresPer(settings.unit);
       if (!(length / settings.spacingMm < kMostRows))
-        return fail(ErrorCode::BadParameter, "The spacing of the rows of the CSV is too small. Choose a larger one.");
+        return fail(
+            ErrorCode::BadParameter,
+            "A curve of this length has over a million rows in a CSV. Choose a smaller scale or another format.");
       const int rows = std::max(2, static_cast<int>(std::ceil(length / settings.spacingMm - 1e-9)) + 1);
       const std::string begin = csvField(line.name.empty() ? line.id : line.name) + "," + csvField(entityName(line, i));
       const double straight = kStraightCurvature / extent(curve);

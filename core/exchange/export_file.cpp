@@ -11,6 +11,7 @@
 #include <set>
 
 #include "core/base/partial_context.h"
+#include "core/base/shown_text.h"
 #include "core/curve/curvature.h"
 #include "core/exchange/arrangement.h"
 #include "core/exchange/cad_drawing.h"
@@ -45,12 +46,12 @@ struct Check {
   double allowed = 0.0;     ///< [mm]
 };
 
-double exactTolerance(const ExportDocument& document) {
+double exactTolerance(const ExportDocument& document, double scale) {
   double size = kSizeOfExact;
   for (const ExportCurve& line : document.curves) {
     for (const ExportPiece& piece : line.pieces) {
-      size = std::max(size, extent(piece.curve));
-      for (const Vec2& p : piece.curve.controlPoints()) size = std::max(size, p.cwiseAbs().maxCoeff());
+      size = std::max(size, scale * extent(piece.curve));
+      for (const Vec2& p : piece.curve.controlPoints()) size = std::max(size, scale * p.cwiseAbs().maxCoeff());
     }
   }
   return kExactMm * size / kSizeOfExact;
@@ -105,7 +106,7 @@ Result<Check> cadFile(const ExportDocument& document, const ExportSettings& sett
   const bool isApproximation = isApproximate(settings);
   if (isApproximation || made->largestErrorMm > kExactMm) report.largestErrorMm = made->largestErrorMm;
   if (isApproximation && report.vertices == 0) report.largestJump = made->largestJump;
-  return Check{std::move(*bytes), *difference, exactTolerance(document)};
+  return Check{std::move(*bytes), *difference, exactTolerance(document, settings.scale)};
 }
 
 constexpr double kWritingPart = 0.5;  ///< [-] Of the progress of an export; the rest is reading it back.
@@ -167,7 +168,7 @@ Result<Check> jsonFile(const ExportDocument& document, const RunContext& context
   const auto largest = difference(document, *back);
   if (!largest) return fail(largest.error());
   report.entities = report.pieces;
-  return Check{std::move(*json), *largest, exactTolerance(document)};
+  return Check{std::move(*json), *largest, exactTolerance(document, 1.0)};
 }
 
 template <class Write, class Read>
@@ -178,7 +179,7 @@ Result<Check> tableFile(const ExportDocument& document, const ExportSettings& se
   const auto largest = read(*text, document, settings, whileReading(context));
   if (!largest) return fail(largest.error());
   report.entities = report.pieces;
-  return Check{std::move(*text), *largest, exactTolerance(document)};
+  return Check{std::move(*text), *largest, exactTolerance(document, settings.scale)};
 }
 
 Result<Check> checkedFile(const ExportDocument& document, const ExportSettings& settings, const RunContext& context,
@@ -264,7 +265,11 @@ Result<ExportedFile> exportedFile(const ExportDocument& given, const ExportSetti
 Result<ExportReport> exportToFile(const ExportDocument& document, const ExportSettings& settings,
                                   const std::filesystem::path& path, const RunContext& context) {
   auto file = exportedFile(document, settings, context);
-  if (!file) return fail(file.error());
+  if (!file) {
+    Error error = file.error();
+    if (error.code == ErrorCode::CannotWrite) error.message = shownName(path.filename()) + ": " + error.message;
+    return fail(std::move(error));
+  }
   if (context.isCancelled()) return cancelled();
   if (auto saved = saveAtomically(path, file->bytes); !saved) return fail(saved.error());
   std::ifstream in(path, std::ios::binary);

@@ -77,6 +77,11 @@ std::vector<std::string> csvFields(std::string_view line) {
   return fields;
 }
 
+std::string originOf(const PageFrame& frame) {
+  const bool isOfPage = frame.leftMm == 0.0 && frame.bottomMm == 0.0;
+  return isOfPage ? "the lower left corner of the page" : "the origin of the file that was imported";
+}
+
 std::vector<double> numbersIn(std::string_view text) {
   std::vector<double> numbers;
   const char* at = text.data();

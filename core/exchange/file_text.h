@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/page_frame.h"
+
 namespace batten {
 
 /// Numbers and texts as files hold them, whatever the program's language.
@@ -21,6 +23,9 @@ std::string csvField(const std::string& text);
 std::vector<std::string> csvFields(std::string_view line);
 /// A sentence without the full stop behind it, to be set into another one.
 std::string withoutFullStop(std::string sentence);
+/// Where coordinates are measured from, for the header of a table: the page, or, as imported curves keep the origin of
+/// their file and so come to lie where they were, that file.
+std::string originOf(const PageFrame&);
 /// All numbers of a text; blanks and commas part them.
 std::vector<double> numbersIn(std::string_view text);
 

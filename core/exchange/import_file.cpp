@@ -213,6 +213,7 @@ double takeUnit(std::optional<double> stated, std::optional<double> asked, Impor
 }
 
 void tellLeft(int left, ImportReport& report) {
+  report.skipped += left;
   if (left == 0) return;
   report.notes.push_back(
       std::to_string(left) + (left == 1 ? " entity of " : " entities of ") + report.file.source +
@@ -409,7 +410,9 @@ Result<ImportReport> readImportFile(const std::filesystem::path& path, std::opti
   auto taken = takeBytes(importEndingOf(path), *bytes, mmPerUnit, context, report);
   for (ImportedLine& line : report.file.lines) makeNamesShown(line);
   for (NamedPart& part : report.parts) part.name = shownText(trimmed(part.name));
-  if (taken && report.file.lines.empty()) taken = fail(ErrorCode::NoCurve, "It contains no line.");
+  if (taken && report.file.lines.empty())
+    taken = report.skipped == 0 ? fail(ErrorCode::NoCurve, "It contains no line.")
+                                : fail(ErrorCode::BadParameter, "None of its lines could be read: it is damaged.");
   if (taken) {
     if (auto wrong = validate(report.file)) taken = fail(std::move(*wrong));
   }

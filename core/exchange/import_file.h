@@ -17,6 +17,7 @@ namespace batten {
 struct ImportReport {
   ImportedFile file;
   std::vector<std::string> notes;  ///< The unit was assumed, something was left out ….
+  int skipped = 0;                 ///< Entities that could not be read, as a note says.
   std::vector<NamedPart> parts;    ///< Of lines of points: what their file calls the parts between two corners.
 };
 
@@ -24,7 +25,8 @@ struct ImportReport {
 /// JSON; the ending says which. Curves that follow each other in the file and meet become one line with a corner where
 /// they meet; polylines of chords become points, with corners where they turn sharply, other shapes curves.
 /// @param mmPerUnit instead of what the file states, not for SVG and Batten's own files; absent: as stated, else mm.
-/// @return BadParameter with what to do if it cannot be read, NoCurve if it holds no line, Cancelled.
+/// @return BadParameter with what to do if it or all that it holds cannot be read, NoCurve if it holds no line,
+/// Cancelled.
 Result<ImportReport> readImportFile(const std::filesystem::path&, std::optional<double> mmPerUnit = {},
                                     const RunContext& context = {});
 

@@ -271,6 +271,7 @@ std::optional<double> millimetresOfUnit(std::string_view unit) {
 }
 
 Result<PointFile> readPointTable(std::string_view text, const RunContext& context) {
+  if (text.empty()) return noPoints("the file is empty");
   if (text.find('\0') != std::string_view::npos) return noPoints("the file is not text");
   auto file = TableReader(context).read(text);
   if (file && file->lines.empty()) return fail(ErrorCode::NoCurve, "There is no line of two or more points in it.");

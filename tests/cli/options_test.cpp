@@ -34,6 +34,11 @@ TEST_F(Options, WithoutEffectOnAnyOutputAreRefused) {
     expectError(start + words + " --report " + file("r.json"), 2, words[2] == 'u' ? "no effect" : "none is written");
 }
 
+TEST_F(Options, ALengthOnTheScanNeedsOne) {
+  ASSERT_EQ(run("trace " + scene() + " --dpi 254 -o " + file("a.dxf")).code, 0);
+  expectError("trace " + file("a.dxf") + " --known-length 1,1,2,2,10mm -o " + file("b.svg"), 2, "--known-length sets");
+}
+
 TEST_F(Options, WithAnEffectOnOneOutputAreTaken) {
   const std::string start = "trace " + scene() + " --dpi 254 ";
   const auto taken = [&](const std::string& words, std::initializer_list<const char*> endings) {
@@ -68,6 +73,24 @@ TEST_F(Options, NumbersThatAreNoneAreSaidToBe) {
   expectError(start + " --scale abc", 2, "--scale takes a number above 0, such as 0.5 or 2, not \"abc\"");
   expectError(start + " --scale nan", 2, "--scale takes");
   expectError(start + " --tolerance x", 2, "--tolerance takes a length in mm, such as 0.005, not \"x\"");
+}
+
+TEST_F(Options, AFileOfWhichNothingCanBeReadIsDamaged) {
+  write("nan.svg", "<svg xmlns='http://www.w3.org/2000/svg'><path d='M nan 0 L 5 5'/></svg>");
+  expectError("trace " + file("nan.svg") + " -o " + file("o.dxf"), 3, "nan.svg");
+  write("empty.csv", "");
+  expectError("trace " + file("empty.csv") + " -o " + file("o.dxf"), 3, "the file is empty");
+  write("blank.svg", "<svg xmlns='http://www.w3.org/2000/svg'/>");
+  expectError("trace " + file("blank.svg") + " -o " + file("o.dxf"), 4, "It contains no line");
+}
+
+TEST_F(Options, ALargeScaleIsTakenByEveryFormat) {
+  std::string words = "trace " + scene() + " --dpi 254 --scale 100000";
+  for (const char* ending : {"svg", "json", "dxf", "igs", "step", "3dm", "poly.csv"})
+    words += " -o " + file(std::string("a.") + ending);
+  const auto done = run(words);
+  EXPECT_EQ(done.code, 0) << done.err;
+  expectError("trace " + scene() + " --dpi 254 --scale 1000000 -o " + file("a.csv"), 2, "over a million rows");
 }
 
 TEST_F(Options, FilesThatAreNotReadAndFormatsThatAreNotWrittenAreNamedAtOnce) {

@@ -379,7 +379,7 @@ TEST_F(Import, ReadsTablesOfPointsAsPeopleWriteThem) {
   EXPECT_THAT(refusal("own.poly.csv", "curve,piece,span,u_start,u_end,x0,x1,y0,y1\na,b,1,0,1,0,1,0,1\n"),
               HasSubstr("coefficients"));
   EXPECT_THAT(refusal("one.csv", "0,0\n"), HasSubstr("no line"));
-  EXPECT_THAT(refusal("empty.csv", ""), HasSubstr("no line"));
+  EXPECT_THAT(refusal("empty.csv", ""), HasSubstr("the file is empty"));
   EXPECT_THAT(refusal("far.csv", "0,0\n1e9,1\n"), HasSubstr("unit"));
 }
 
