@@ -7,7 +7,11 @@ set(pages ${CMAKE_BINARY_DIR}/packaging)
 set(doc ${CMAKE_INSTALL_DATADIR}/doc/batten)
 
 install(TARGETS batten-cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS batten_pictures LIBRARY DESTINATION lib/batten/modules)
+if(WIN32)
+  install(TARGETS batten_pictures LIBRARY DESTINATION ${CMAKE_INSTALL_BINDIR})
+else()
+  install(TARGETS batten_pictures LIBRARY DESTINATION lib/batten/modules)
+endif()
 if(BATTEN_GUI)
   install(TARGETS batten RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} BUNDLE DESTINATION .)
 endif()
@@ -23,8 +27,15 @@ endif()
 install(FILES README.md ${pages}/batten.spdx DESTINATION ${doc})
 
 if(WIN32 OR APPLE)
-  # The libraries of Qt go along with the program. Not tried by us: we have neither system.
+  # The libraries of Qt go along with the window program, and what it finds beside itself into its bundle; batten-cli needs
+  # Qt and OpenCV where the system finds them. Not tried by us: we have neither system.
   if(BATTEN_GUI)
+    if(APPLE)
+      install(TARGETS batten_pictures LIBRARY DESTINATION batten.app/Contents/lib/batten/modules)
+      install(FILES ${CMAKE_BINARY_DIR}/share/batten/samples/coupe-side.png
+        ${CMAKE_BINARY_DIR}/share/batten/samples/coupe-side.recipe.json
+        DESTINATION batten.app/Contents/share/batten/samples)
+    endif()
     qt_generate_deploy_app_script(TARGET batten OUTPUT_SCRIPT deploy_script NO_UNSUPPORTED_PLATFORM_ERROR)
     install(SCRIPT ${deploy_script})
   endif()

@@ -1,16 +1,37 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What the programs are linked with or made from, in one list: the About page, the SPDX file and the check of the package
 # (packaging/try-package holds it against what the programs load) are made from it.
+# The versions of those that say theirs to pkg-config or in a header alone; nothing where it is not found.
+function(batten_pc_version name out)
+  find_file(batten_pc_${name} ${name}.pc PATHS ${CMAKE_SYSTEM_PREFIX_PATH} NO_CACHE
+    PATH_SUFFIXES lib/${CMAKE_LIBRARY_ARCHITECTURE}/pkgconfig lib/pkgconfig lib64/pkgconfig)
+  set(version "")
+  if(batten_pc_${name})
+    file(STRINGS ${batten_pc_${name}} version REGEX "^Version: ")
+    string(REGEX REPLACE "^Version: *" "" version "${version}")
+  endif()
+  set(${out} "${version}" PARENT_SCOPE)
+endfunction()
+batten_pc_version(libturbojpeg turbojpeg_version)
+batten_pc_version(dxflib dxflib_version)
+batten_pc_version(poppler-qt6 poppler_version)
+find_file(batten_occt_header Standard_Version.hxx PATH_SUFFIXES opencascade NO_CACHE)
+set(occt_version "")
+if(batten_occt_header)
+  file(STRINGS ${batten_occt_header} occt_version REGEX "^#define OCC_VERSION_COMPLETE ")
+  string(REGEX REPLACE ".*\"(.*)\".*" "\\1" occt_version "${occt_version}")
+endif()
+
 # NAME | version | licence (SPDX) | home | what it is for | the shared libraries' names, or - where only headers are used
 set(BATTEN_LIBRARIES
   "Qt|${Qt6_VERSION}|LGPL-3.0-only|https://www.qt.io|window, pictures, files|libQt6"
   "QCustomPlot|2.1|GPL-3.0-or-later|https://www.qcustomplot.com|plots|libQCustomPlotQt6"
   "OpenCV|${OpenCV_VERSION}|Apache-2.0|https://opencv.org|reading scans|libopencv_"
   "libpng|${PNG_VERSION_STRING}|libpng-2.0|http://www.libpng.org|PNG|libpng"
-  "libjpeg-turbo||IJG AND BSD-3-Clause AND Zlib|https://libjpeg-turbo.org|JPEG|libturbojpeg"
-  "dxflib||GPL-2.0-or-later|https://www.ribbonsoft.com/en/what-is-dxflib|DXF|libdxflib"
-  "Open CASCADE||LGPL-2.1-only WITH OCCT-exception-1.0|https://dev.opencascade.org|IGES and STEP|libTK"
-  "Poppler||GPL-2.0-or-later|https://poppler.freedesktop.org|pages of PDF|libpoppler"
+  "libjpeg-turbo|${turbojpeg_version}|IJG AND BSD-3-Clause AND Zlib|https://libjpeg-turbo.org|JPEG|libturbojpeg"
+  "dxflib|${dxflib_version}|GPL-2.0-or-later|https://www.ribbonsoft.com/en/what-is-dxflib|DXF|libdxflib"
+  "Open CASCADE|${occt_version}|LGPL-2.1-only WITH OCCT-exception-1.0|https://dev.opencascade.org|IGES and STEP|libTK"
+  "Poppler|${poppler_version}|GPL-2.0-only OR GPL-3.0-only|https://poppler.freedesktop.org|pages of PDF|libpoppler"
   "OpenSSL|${OPENSSL_VERSION}|Apache-2.0|https://www.openssl.org|SHA-256|libcrypto"
   "Eigen|${Eigen3_VERSION}|MPL-2.0|https://eigen.tuxfamily.org|linear algebra|-"
   "expected|${tl-expected_VERSION}|CC0-1.0|https://github.com/TartanLlama/expected|results that may fail|-"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Packages by CPack: `cpack` in the build folder. On Debian a .deb that names exactly the packages whose libraries the
-# programs load, on Windows and macOS archives with the libraries inside (not tried by us: we have neither system).
+# programs load, on Windows and macOS archives with the libraries of the window program (not tried by us: we have neither).
 set(CPACK_PACKAGE_NAME batten)
 set(CPACK_PACKAGE_VENDOR "The Batten developers")
 set(BATTEN_MAINTAINER "The Batten developers <maintainers@batten.invalid>" CACHE STRING "Who answers for a package")
@@ -33,8 +33,9 @@ else()
   set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Batten follows the lines of a scanned or photographed drawing and turns
 them into fair curves: quintic B-splines whose curvature changes the way a
 designer wants, without bumps. It finds pencil lines on shaded, folded and
-dirty paper, shows curvature while a curve is made fair, and writes SVG in
-millimetres or exact curves as JSON.
+dirty paper, and shows curvature while a curve is made fair. It writes SVG
+and PDF in millimetres, exact curves as DXF, IGES, STEP, 3DM and JSON, points
+and polynomials as CSV, and reports in PDF and HTML.
 
 The package holds the window program batten and the command line program
 batten-cli, which also runs over an archive of drawings.")

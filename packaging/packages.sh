@@ -16,6 +16,7 @@ check_packages=(clang-tidy python3 valgrind)
 fuzz_packages=(clang libclang-rt-dev llvm)  # of its part fuzz: libFuzzer, and names instead of addresses in its traces
 batch_packages=(parallel snakemake slurmctld slurmd slurm-client munge)  # the ways over several machines
 package_packages=(lintian mmdebstrap binutils desktop-file-utils appstream shared-mime-info libglib2.0-bin man-db zsh xdotool)
+flatpak_packages=(flatpak-builder)
 
 # install_missing PACKAGE...: installs what is not there yet, asks nothing, and does nothing when all is there.
 install_missing() {

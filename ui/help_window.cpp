@@ -6,6 +6,7 @@
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QKeyEvent>
+#include <QPointer>
 #include <QTextBlock>
 #include <QTextBrowser>
 #include <QTextCursor>
@@ -54,11 +55,14 @@ void HelpWindow::load(const QString& page) {
     return;
   }
   page_ = page;
-  browser_->document()->setDefaultFont(uiFont(14));
-  browser_->setMarkdown(QString::fromUtf8(file.readAll()));
+  // Made apart from the window: a change of what is shown would lay all of it out anew, paragraph by paragraph.
+  auto* text = new QTextDocument(browser_);
+  text->setDefaultFont(uiFont(14));
+  text->setMarkdown(QString::fromUtf8(file.readAll()));
   // Air between paragraphs and lines; headings a little larger, in the window's own font.
-  QTextCursor cursor(browser_->document());
-  for (QTextBlock block = browser_->document()->begin(); block.isValid(); block = block.next()) {
+  QTextCursor cursor(text);
+  cursor.beginEditBlock();
+  for (QTextBlock block = text->begin(); block.isValid(); block = block.next()) {
     QTextBlockFormat format = block.blockFormat();
     const int level = format.headingLevel();
     format.setLineHeight(130, QTextBlockFormat::ProportionalHeight);
@@ -67,6 +71,10 @@ void HelpWindow::load(const QString& page) {
     cursor.setPosition(block.position());
     cursor.setBlockFormat(format);
   }
+  cursor.endEditBlock();
+  const QPointer<QTextDocument> before = browser_->document();  // the first one goes by itself
+  browser_->setDocument(text);
+  if (before) before->deleteLater();
   browser_->moveCursor(QTextCursor::Start);
 }
 

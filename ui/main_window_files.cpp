@@ -209,7 +209,7 @@ void MainWindow::useImport(const ImportReport& report, bool intoDrawing) {
   if (!intoDrawing || !session_.hasScan()) {
     if (!maybeDiscard()) return;
     parts_->pageRecipe.clear();
-    session_.newDrawing(drawingOf(report.file));
+    session_.newDrawing(drawingOf(report.file, report.parts));
   } else {
     AddedImport added = withImport(session_.recipe(), report.file, frameFor(*session_.scan(), session_.recipe()));
     if (added.moved) said += tr("The lines were outside the page and have been centred on it.");

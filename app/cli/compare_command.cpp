@@ -2,20 +2,25 @@
 #include "app/cli/compare_command.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "app/cli/exit_codes.h"
+#include "app/cli/shown_digits.h"
 #include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
 #include "core/exchange/curve_file.h"
+#include "core/exchange/export_settings.h"
 #include "core/fairing/curve_comparison.h"
 
 namespace batten::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr int kDecimals = 6;  // of the figures, which lie between -1 and 1
 
 struct NamedShape {
   std::string name;
@@ -25,14 +30,20 @@ struct NamedShape {
 Result<std::vector<NamedShape>> shapesOf(const std::string& path) {
   const auto document = readCurveFile(path);
   if (!document) {
-    return fail(document.error().code,
-                document.error().message + " Create it again with batten-cli trace SCAN -o FILE.json.");
+    Error error = ofInput(document.error());
+    // Damaged files of Batten's own can be made anew; what to do about others is said already.
+    const auto format = formatOf(path);
+    const bool isOwn = format == ExportFormat::Json || format == ExportFormat::Svg;
+    std::error_code none;
+    if (isOwn && std::filesystem::exists(path, none))
+      error.message += " Create it again with batten-cli trace SCAN -o FILE.json.";
+    return fail(std::move(error));
   }
   std::vector<NamedShape> shapes;
   for (const ExportCurve& curve : document->curves) {
     for (std::size_t i = 0; i < curve.pieces.size(); ++i) {
       const bool closed = curve.closed && curve.pieces.size() == 1;
-      std::string name = curve.id;
+      std::string name = curve.name.empty() ? curve.id : curve.name;
       if (curve.pieces.size() > 1)
         name = curve.pieces[i].name.empty() ? name + "/" + std::to_string(i + 1) : curve.pieces[i].name;
       ShapeProfile profile = shapeProfile(curve.pieces[i].curve, closed);
@@ -55,13 +66,13 @@ int runCompare(const std::string& first, const std::string& second) {
       const ShapeComparison c = compareShapes(one.profile, other.profile);
       pairs.push_back({{"first", one.name},
                        {"second", other.name},
-                       {"similarity", c.similarity},
-                       {"pearson", c.pearson},
-                       {"curvature_similarity", c.curvatureSimilarity},
-                       {"curvature_pearson", c.curvaturePearson},
+                       {"similarity", withDecimals(c.similarity, kDecimals)},
+                       {"pearson", withDecimals(c.pearson, kDecimals)},
+                       {"curvature_similarity", withDecimals(c.curvatureSimilarity, kDecimals)},
+                       {"curvature_pearson", withDecimals(c.curvaturePearson, kDecimals)},
                        {"mirrored", c.mirrored},
                        {"reversed", c.reversed},
-                       {"shift", c.shift}});
+                       {"shift", withDecimals(c.shift, kDecimals)}});
     }
   }
   std::stable_sort(pairs.begin(), pairs.end(), [](const Json& x, const Json& y) {

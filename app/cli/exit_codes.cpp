@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/exit_codes.h"
 
+#include <array>
 #include <iostream>
 
 #include "core/base/shown_text.h"
@@ -14,7 +15,7 @@ int codeOf(ErrorCode code) {
       return kWrongUsage;
     case ErrorCode::UnreadableScan:
     case ErrorCode::OutOfMemory:
-      return kUnreadableScan;  // the scan is too large for this machine
+      return kUnreadableInput;  // the scan is too large for this machine
     case ErrorCode::CannotWrite:
       return kCannotWrite;
     case ErrorCode::NoCurve:
@@ -25,7 +26,35 @@ int codeOf(ErrorCode code) {
   return kNoCurve;
 }
 
+struct ExitRow {
+  ExitCode code;
+  const char* means;
+};
+
+/// The README has the same table.
+constexpr std::array kExitRows = {
+    ExitRow{kDone, "success"},
+    ExitRow{kWrongUsage, "wrong usage, or a recipe or manifest that cannot be used"},
+    ExitRow{kUnreadableInput, "a scan or a file of curves cannot be read"},
+    ExitRow{kNoCurve, "no curve found"},
+    ExitRow{kCannotWrite, "an output, including stdout, cannot be written"},
+    ExitRow{kPagesFailed, "pages of a batch have failed"},
+    ExitRow{kStopped, "a batch was stopped before its end"},
+};
+
 }  // namespace
+
+std::string exitCodeHelp() {
+  std::string text;
+  for (const ExitRow& row : kExitRows)
+    text.append(text.empty() ? "" : "; ").append(std::to_string(row.code)).append(" ").append(row.means);
+  return text;
+}
+
+Error ofInput(Error error) {
+  if (error.code == ErrorCode::BadParameter) error.code = ErrorCode::UnreadableScan;
+  return error;
+}
 
 int reportError(const Error& error) {
   // Names that messages hold may hold anything: the terminal gets one line of text.

@@ -23,10 +23,10 @@ namespace {
 using namespace batten;
 using namespace batten::cli;
 
-constexpr const char* kFooter =
-    "Exit codes: 0 success; 2 wrong usage, or curves that compare cannot read; 3 the scan cannot be read; 4 no curve "
-    "found; 5 cannot write; of a batch: 6 pages have failed, 7 stopped before its end.\n"
-    "An error is one line on stderr. stdout holds only what programs can read.";
+std::string footer() {
+  return "Exit codes: " + exitCodeHelp() +
+         ".\nAn error is one line on stderr. stdout holds only what programs can read.";
+}
 
 std::string dumpHelp() {
   std::string text = "Write a stage's output as a picture; may be repeated. Stages:";
@@ -38,6 +38,13 @@ std::string dumpHelp() {
 std::string presetWords() {
   std::string words;
   for (const ExportPreset& preset : exportPresets()) words.append(words.empty() ? "" : "|").append(preset.id);
+  return words;
+}
+
+/// "000|001|002|004|default"
+std::string paperWords() {
+  std::string words = paperPresetNames();
+  for (auto at = words.find(", "); at != std::string::npos; at = words.find(", ")) words.replace(at, 2, "|");
   return words;
 }
 
@@ -62,7 +69,7 @@ void addDrawing(CLI::App& app, TraceArguments& a, const DrawingHelp& help) {
   app.add_option(
          "--as-in", a.asIn,
          "Use all settings of a paper: " + paperPresetNames() + "; --set overrides it; a note states the drawbacks")
-      ->type_name("PAPER");
+      ->type_name(paperWords());
   addRepeated(app, "--set", a.settings, "NAME=VALUE", "Set a parameter (see batten-cli parameters); may be repeated");
   addRepeated(app, "--outline", a.outlines, "X,Y",
               "Trace the outline of the ink near this point, px from the upper left; may be repeated");
@@ -101,9 +108,15 @@ void addTrace(CLI::App& app, TraceArguments& a) {
   trace->add_option("--preset", a.preset, "Format options for a receiving program: " + presetNames())
       ->type_name(presetWords());
   trace->add_option("--paper", a.paper, "Paper of a .report.pdf: a4 or letter")->type_name("a4|letter");
-  trace->add_option("--unit", a.unit, "Unit of DXF, IGES, STEP and CSV: mm or in")->type_name("mm|in");
-  trace->add_option("--scale", a.scale, "Scale factor of the curves")->type_name("N");
-  trace->add_option("--tolerance", a.tolerance, "Maximum deviation of approximated curves from the exact ones, mm")
+  trace->add_option("--unit", a.unit, "Unit of DXF, IGES, STEP, 3DM and CSV: mm or in")->type_name("mm|in");
+  trace
+      ->add_option_function<std::string>(
+          "--scale", [&a](const std::string& text) { a.scale = text; }, "Scale factor of the curves, above 0")
+      ->type_name("N");
+  trace
+      ->add_option_function<std::string>(
+          "--tolerance", [&a](const std::string& text) { a.tolerance = text; },
+          "Maximum deviation of approximated curves from the exact ones, mm")
       ->type_name("MM");
   trace
       ->add_option_function<std::string>(
@@ -112,12 +125,14 @@ void addTrace(CLI::App& app, TraceArguments& a) {
       ->type_name("LIST");
   trace->add_option("--which", a.which, "Which curves to write: faired, sketched or both")
       ->type_name("faired|sketched|both");
-  trace->add_flag("--joined", a.joined, "Join consecutive curves, also in DXF, IGES and STEP");
-  trace->add_flag("--apart", a.apart, "Write every curve separately, also in SVG, PDF and the other formats");
-  trace->add_flag("--splines-only", a.splinesOnly, "DXF, IGES, STEP: write lines, arcs and circles as splines too");
+  trace->add_flag("--joined", a.joined, "DXF, IGES, STEP, 3DM: join consecutive curves, as the other formats do");
+  trace->add_flag("--apart", a.apart,
+                  "SVG, PDF, JSON, CSV, DXF for cnc: write every curve separately, as the other formats do");
+  trace->add_flag("--splines-only", a.splinesOnly,
+                  "DXF, IGES, STEP, 3DM: write lines, arcs and circles as splines of their own degree");
   trace
       ->add_option("--flavour", a.flavour,
-                   "IGES, STEP: exact curves (exact), one Bézier curve per polynomial piece (bezier), or "
+                   "IGES, STEP, 3DM: exact curves (exact), one Bézier curve per polynomial piece (bezier), or "
                    "degree 3 within the tolerance (cubic)")
       ->type_name("exact|bezier|cubic");
   trace->add_flag("--chords", a.chords, "DXF for cnc: chords only, no arcs");
@@ -176,7 +191,9 @@ CLI::App* addBatch(CLI::App& app, BatchArguments& a) {
       "settings and the program are unchanged, according to NAME.batch.json next to its first "
       "output NAME. A page without curves is not a failure. Ctrl+C stops after the running "
       "pages; the same command resumes.");
-  batch->add_option("inputs", a.inputs, "A manifest (NAME.jsonl, or - for stdin), or scans, folders and patterns")
+  batch
+      ->add_option("inputs", a.inputs,
+                   "A manifest (NAME.jsonl, or - for stdin), or scans, folders and patterns of *, ?, [...] and **")
       ->type_name("INPUT")
       ->required();
   batch->add_option("--to", a.to, "Output folder for scans, folders and patterns")->type_name("FOLDER");
@@ -219,7 +236,7 @@ CLI::App* addBatch(CLI::App& app, BatchArguments& a) {
 int run(int argc, char** argv) {
   CLI::App app("Batten: from a designer's sketch to fair curves", "batten-cli");
   app.set_version_flag("--version", std::string("batten-cli ") + BATTEN_VERSION);
-  app.footer(kFooter);
+  app.footer(footer());
   app.require_subcommand(1);
   TraceArguments arguments;
   addTrace(app, arguments);
@@ -237,7 +254,9 @@ int run(int argc, char** argv) {
       app.add_subcommand("compare", "Similarity of the curves of two files, independent of size and position");
   compare->footer(
       "Prints one line of JSON: similarity S and Pearson's r of the radii over the perimeter for every pair.");
-  compare->add_option("first", first, "Curves: JSON or SVG written by trace, or DXF")->type_name("A")->required();
+  compare->add_option("first", first, "Curves: JSON or SVG written by Batten, DXF, IGES or STEP")
+      ->type_name("A")
+      ->required();
   compare->add_option("second", second, "Curves to compare them with")->type_name("B")->required();
   try {
     app.parse(argc, argv);

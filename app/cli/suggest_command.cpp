@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/cli/exit_codes.h"
+#include "app/cli/shown_digits.h"
 #include "app/cli/trace_plan.h"
 #include "core/base/platform.h"
 #include "core/base/shown_text.h"
@@ -27,12 +28,11 @@ struct Advice {
 
 nlohmann::ordered_json cornersToJson(const std::vector<CornerSuggestion>& corners) {
   constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-  const auto rounded = [](double value, double step) { return std::round(value / step) * step; };
   auto list = nlohmann::ordered_json::array();
   for (const CornerSuggestion& corner : corners) {
-    list.push_back({{"at", {rounded(corner.positionPx.x(), 0.01), rounded(corner.positionPx.y(), 0.01)}},
-                    {"angle", rounded(std::abs(corner.turningAngleRad) * kDegPerRad, 0.1)},
-                    {"certainty", rounded(corner.certainty, 0.001)},
+    list.push_back({{"at", {withDecimals(corner.positionPx.x(), 2), withDecimals(corner.positionPx.y(), 2)}},
+                    {"angle", withDecimals(std::abs(corner.turningAngleRad) * kDegPerRad, 1)},
+                    {"certainty", withDecimals(corner.certainty, 3)},
                     {"certain", corner.certainty >= kCertainCorner}});
   }
   return list;
@@ -77,12 +77,12 @@ int runSuggest(const TraceArguments& arguments) {
   if (!advice) return reportError(advice.error());
   nlohmann::ordered_json json{
       {"scan", arguments.scan},
-      {"edges.merge", advice->merge.widths},
+      {"edges.merge", withDecimals(advice->merge.widths, 3)},
       {"edges.intent", advice->merge.meant.has_value()},
       {"strokes", advice->merge.strokes},
       {"lines", advice->merge.lines},
       {"curves_meant", advice->merge.meant ? nlohmann::ordered_json(*advice->merge.meant) : nlohmann::ordered_json()},
-      {"overdrawn_share", advice->merge.share},
+      {"overdrawn_share", withDecimals(advice->merge.share, 4)},
       {"reason", describe(advice->merge)},
       {"corners", cornersToJson(advice->corners)}};
   std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';

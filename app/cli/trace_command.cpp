@@ -10,9 +10,11 @@
 #include "app/cli/curve_notes.h"
 #include "app/cli/exit_codes.h"
 #include "app/cli/report_output.h"
+#include "app/cli/shown_digits.h"
 #include "app/cli/stage_dump.h"
 #include "app/cli/trace_plan.h"
 #include "core/base/conventions.h"
+#include "core/base/number_text.h"
 #include "core/base/platform.h"
 #include "core/base/shown_text.h"
 #include "core/document/explain/explanation.h"
@@ -31,8 +33,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr int kDecimalsOfMs = 1;
+
 nlohmann::ordered_json explanationFigures(const Explanation& e) {
-  return {{"explained", e.explained}, {"missed", e.missed}, {"invented", e.invented}};
+  constexpr int kDecimals = 4;  // a hundredth of a per cent
+  return {{"explained", withDecimals(e.explained, kDecimals)},
+          {"missed", withDecimals(e.missed, kDecimals)},
+          {"invented", withDecimals(e.invented, kDecimals)}};
 }
 
 double millisecondsSince(Clock::time_point begin) {
@@ -84,10 +91,10 @@ class Trace {
     if (!arguments_.imports.empty()) json["imports"] = arguments_.imports;
     if (scan_.pages > 1) json["page"] = scan_.page.number;
     json["curves"] = curves_;
-    json["pieces"] = out_.faired->curves.size();
+    json["pieces"] = pieces_;
     json["corners_without_mark"] = unmarkedCornerCount(*out_.pieces);
-    json["milliseconds"] = millisecondsSince(begin_);
-    json["processor_milliseconds"] = 1000.0 * processorSeconds();
+    json["milliseconds"] = withDecimals(millisecondsSince(begin_), kDecimalsOfMs);
+    json["processor_milliseconds"] = withDecimals(1000.0 * processorSeconds(), kDecimalsOfMs);
     json["peak_memory_bytes"] = peakMemoryBytes();
     json["files"] = files_;
     json["checks"] = checks_;
@@ -162,6 +169,7 @@ class Trace {
       document = std::move(*chosen);
     }
     curves_ = document.curves.size();
+    for (const ExportCurve& curve : document.curves) pieces_ += curve.pieces.size();
     for (const auto& output : plan_.outputs) {
       const auto report = exportToFile(document, output.settings, output.path, context_);
       if (!report) return fail(report.error());
@@ -215,7 +223,8 @@ class Trace {
     std::vector<std::string> list = plan_.notes;
     if (isScaleAssumed(scan_, plan_.recipe))
       list.emplace_back("The scan states no resolution; 96 dpi was assumed. Set --dpi.");
-    if (scan_.pages > 1 && !arguments_.isOneOfAll) {
+    const bool isPageChosen = !arguments_.page.empty() || plan_.recipe.scanPage.number != PageChoice{}.number;
+    if (scan_.pages > 1 && !isPageChosen) {
       list.push_back("The file holds " + std::to_string(scan_.pages) + " pages; page " +
                      std::to_string(scan_.page.number) +
                      " was traced. Use --page N for another page or --page all for all.");
@@ -248,7 +257,7 @@ class Trace {
   double readMilliseconds_ = 0.0;
   PipelineOutput out_;
   std::optional<Explanation> explanation_;
-  std::size_t curves_ = 0;
+  std::size_t curves_ = 0, pieces_ = 0;
   std::vector<std::string> files_, checks_;
 };
 
@@ -256,11 +265,29 @@ class Trace {
 
 namespace {
 
+/// One of all pages that could not be traced has its line, too: which page, and why.
+int reportPage(const TraceArguments& arguments, Error error) {
+  const std::string why = error.message;
+  error.message = "Page " + arguments.page + ": " + why;
+  const int code = reportError(error);
+  const nlohmann::ordered_json json{{"scan", arguments.scan},
+                                    {"page", integerFromText(arguments.page).value_or(0)},
+                                    {"curves", 0},
+                                    {"pieces", 0},
+                                    {"files", nlohmann::ordered_json::array()},
+                                    {"exit", code},
+                                    {"error", why}};
+  std::cout << withoutControls(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) << '\n';
+  const int written = endOutput();
+  return written == kDone ? code : written;
+}
+
 int traceOne(const TraceArguments& arguments) {
   auto plan = planTrace(arguments);
   if (!plan) return reportError(plan.error());
   Trace trace(arguments, std::move(*plan));
-  if (auto done = trace.run(); !done) return reportError(done.error());
+  if (auto done = trace.run(); !done)
+    return arguments.isOneOfAll ? reportPage(arguments, done.error()) : reportError(done.error());
   std::cout << trace.summary() << '\n';
   return endOutput();
 }

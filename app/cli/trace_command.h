@@ -13,8 +13,8 @@ struct TraceArguments {
   std::vector<std::string> outputs;        ///< -o: the ending chooses the format
   std::string preset;                      ///< --preset
   std::string unit;                        ///< --unit mm|in
-  std::optional<double> scale;             ///< --scale
-  std::optional<double> tolerance;         ///< --tolerance [mm]
+  std::optional<std::string> scale;        ///< --scale
+  std::optional<std::string> tolerance;    ///< --tolerance [mm]
   std::string paper;                       ///< --paper a4|letter; empty: a4
   std::optional<std::string> curves;       ///< --curves 1,3-5; empty: all
   std::string which;                       ///< --which faired|sketched|both; empty: faired
@@ -49,8 +49,8 @@ struct TraceArguments {
 };
 
 /// Traces a scan and writes what was asked for; one line of JSON on stdout when done. Returns the exit code. Of all
-/// pages of a file there is a line for each; a failing page is reported on stderr and does not stop the others, and the
-/// exit code is that of the first one that failed.
+/// pages of a file there is a line for each; that of a failing page says why, as does stderr, and it does not stop the
+/// others. The exit code is that of the first one that failed.
 int runTrace(const TraceArguments&);
 
 }  // namespace batten::cli

@@ -5,12 +5,15 @@
 #include <cctype>
 #include <utility>
 
+#include "app/cli/exit_codes.h"
 #include "app/cli/file_names.h"
 #include "app/cli/stage_dump.h"
 #include "core/base/conventions.h"
 #include "core/base/number_text.h"
 #include "core/base/regular_file.h"
+#include "core/base/shown_text.h"
 #include "core/document/import_curves.h"
+#include "core/exchange/format_options.h"
 #include "core/exchange/import_file.h"
 #include "core/exchange/point_file.h"
 #include "core/exchange/save_atomically.h"
@@ -205,6 +208,22 @@ Result<void> applyRegion(const std::string& region, Recipe& recipe) {
   return {};
 }
 
+bool isFor(const ExportPreset& preset, ExportFormat format) {
+  const auto formats = formatsOf(preset);
+  return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
+
+/// ".dxf, .svg or .pdf"
+std::string endingsFor(const ExportPreset& preset) {
+  std::vector<std::string> endings;
+  for (const ExportFormat format : formatsOf(preset))
+    for (const char* ending : endingsOf(format)) endings.emplace_back(ending);
+  std::string text;
+  for (std::size_t i = 0; i < endings.size(); ++i)
+    text.append(i == 0 ? "" : i + 1 < endings.size() ? ", " : " or ").append(endings[i]);
+  return text;
+}
+
 /// The settings of an output: those of the preset if it is for this format, then what is said beside it.
 Result<TracePlan::Output> outputOf(const std::string& path, const TraceArguments& arguments) {
   const auto format = formatOf(path);
@@ -216,12 +235,20 @@ Result<TracePlan::Output> outputOf(const std::string& path, const TraceArguments
     const ExportPreset* preset = findPreset(arguments.preset);
     if (preset == nullptr)
       return wrong("There is no preset \"" + arguments.preset + "\". Presets: " + presetNames() + ".");
-    if (preset->settings.format == *format) settings = preset->settings;
+    if (isFor(*preset, *format)) settings = settingsFor(*preset, *format);
   }
   settings.format = *format;
   if (arguments.unit == "in") settings.unit = LengthUnit::Inch;
-  if (arguments.scale) settings.scale = *arguments.scale;
-  if (arguments.tolerance) settings.toleranceMm = arguments.tolerance;
+  if (arguments.scale) {
+    const auto scale = numberFromText(*arguments.scale);
+    if (!scale) return wrong("--scale takes a number above 0, such as 0.5 or 2, not \"" + *arguments.scale + "\".");
+    settings.scale = *scale;
+  }
+  if (arguments.tolerance) {
+    settings.toleranceMm = numberFromText(*arguments.tolerance);
+    if (!settings.toleranceMm)
+      return wrong("--tolerance takes a length in mm, such as 0.005, not \"" + *arguments.tolerance + "\".");
+  }
   if (arguments.joined) settings.joined = true;
   if (arguments.apart) settings.joined = false;
   settings.splinesOnly = settings.splinesOnly || arguments.splinesOnly;
@@ -260,12 +287,46 @@ Result<void> planExport(const TraceArguments& arguments, TracePlan& plan) {
     plan.outputs.push_back(std::move(*output));
   }
   const ExportPreset* preset = findPreset(arguments.preset);
-  const auto isFor = [&](const auto& output) { return output.settings.format == preset->settings.format; };
-  if (preset != nullptr && std::none_of(plan.outputs.begin(), plan.outputs.end(), isFor)) {
-    return wrong("The preset " + arguments.preset + " is for files that end in " +
-                 endingsOf(preset->settings.format)[0] +
+  const auto isForIt = [&](const auto& output) { return isFor(*preset, output.settings.format); };
+  if (preset != nullptr && std::none_of(plan.outputs.begin(), plan.outputs.end(), isForIt)) {
+    return wrong("The preset " + arguments.preset + " is for files that end in " + endingsFor(*preset) +
                  ", and no output does. Other presets: batten-cli trace --help.");
   }
+  return {};
+}
+
+/// An option that changes none of the outputs is a mistake of the user's, who would not see that it was passed over.
+Result<void> checkOptions(const TraceArguments& arguments, const TracePlan& plan) {
+  struct Given {
+    const char* word;
+    bool isGiven;
+    FormatOption option;
+  };
+  std::string names;
+  for (const auto& output : plan.outputs) names.append(names.empty() ? "" : ", ").append(output.path.string());
+  if (names.empty()) names = "what is written here";
+  for (const auto& [word, isGiven, option] : {Given{"--unit", !arguments.unit.empty(), FormatOption::Unit},
+                                              {"--tolerance", arguments.tolerance.has_value(), FormatOption::Tolerance},
+                                              {"--joined", arguments.joined, FormatOption::Joined},
+                                              {"--apart", arguments.apart, FormatOption::Apart},
+                                              {"--splines-only", arguments.splinesOnly, FormatOption::SplinesOnly},
+                                              {"--flavour", !arguments.flavour.empty(), FormatOption::Flavour},
+                                              {"--chords", arguments.chords, FormatOption::Chords}}) {
+    const auto acts = [&](const auto& output) { return actsOn(option, output.settings); };
+    if (isGiven && std::none_of(plan.outputs.begin(), plan.outputs.end(), acts)) {
+      return wrong(std::string(word) + " has no effect on " + names + ". It acts on " + whereItActs(option) + ".");
+    }
+  }
+  for (const auto& [word, isGiven] : {std::pair{"--scale", arguments.scale.has_value()},
+                                      {"--curves", arguments.curves.has_value()},
+                                      {"--which", !arguments.which.empty()},
+                                      {"--preset", !arguments.preset.empty()}}) {
+    if (isGiven && plan.outputs.empty())
+      return wrong(std::string(word) + " acts on files of curves, and none is written. Add -o OUT.svg or another.");
+  }
+  const auto isPdf = [](const auto& report) { return report.format == ReportFormat::Pdf; };
+  if (!arguments.paper.empty() && std::none_of(plan.reports.begin(), plan.reports.end(), isPdf))
+    return wrong("--paper has no effect on " + names + ". It acts on .report.pdf.");
   return {};
 }
 
@@ -380,6 +441,17 @@ Result<Recipe> recipeOf(const TraceArguments& arguments) {
   return recipe;
 }
 
+Result<void> checkScanName(const TraceArguments& arguments) {
+  const fs::path name(arguments.scan);
+  const std::string ending = extensionOf(name);
+  for (const char* unread : {".3dm", ".dwg", ".ai", ".eps"}) {
+    if (ending != unread) continue;
+    return fail(ErrorCode::UnreadableScan, "Curves are not read from " + shownName(name.filename()) +
+                                               ". Save them as one of " + importEndings() + " and open that file.");
+  }
+  return {};
+}
+
 std::string presetNames() {
   std::string names;
   for (const ExportPreset& preset : exportPresets()) names.append(names.empty() ? "" : ", ").append(preset.id);
@@ -414,12 +486,13 @@ Result<void> importInto(const TraceArguments& arguments, const PageFrame* frame,
   }
   for (const std::string& name : arguments.imports) {
     auto read = readImportFile(name, unit);
-    if (!read) return fail(read.error());
+    if (!read) return fail(ofInput(read.error()));
     plan.notes.insert(plan.notes.end(), read->notes.begin(), read->notes.end());
     if (frame == nullptr && !plan.recipe.page) {
-      Recipe drawing = drawingOf(std::move(read->file));
+      Recipe drawing = drawingOf(std::move(read->file), read->parts);
       plan.recipe.page = drawing.page;
       plan.recipe.imports.push_back(std::move(drawing.imports.front()));
+      if (plan.recipe.curveNumbers.lastGiven == 0) plan.recipe.curveNumbers = std::move(drawing.curveNumbers);
       if (!plan.recipe.dpi) plan.recipe.dpi = drawing.dpi;
       continue;
     }
@@ -449,6 +522,8 @@ Result<TracePlan> planTrace(const TraceArguments& arguments) {
     plan.dumps.push_back(std::move(*parsed));
   }
   if (auto checked = checkTargets(arguments, plan); !checked) return fail(checked.error());
+  if (auto checked = checkOptions(arguments, plan); !checked) return fail(checked.error());
+  if (auto checked = checkScanName(arguments); !checked) return fail(checked.error());
   auto recipe = recipeOf(arguments);
   if (!recipe) return fail(recipe.error());
   plan.recipe = std::move(*recipe);

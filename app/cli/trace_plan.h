@@ -46,6 +46,9 @@ TraceArguments withCurvesAsImport(TraceArguments);
 /// resolution. @return BadParameter with what to do.
 Result<Recipe> recipeOf(const TraceArguments&);
 
+/// A message if the scan is a file of curves of a kind that is not read. @return UnreadableScan with what to do.
+Result<void> checkScanName(const TraceArguments&);
+
 /// The words --preset takes, in one line.
 std::string presetNames();
 /// --threads. @return BadParameter with what to do.

@@ -395,8 +395,13 @@ void LockFile::release() {
 }
 
 void* functionOfModule(const std::string& module, const char* function) {
-  // Found by the run path of the program, in which this file lies.
-  void* loaded = ::dlopen(("lib" + module + ".so").c_str(), RTLD_LAZY | RTLD_LOCAL);
+  // Found by the run path of the program, in which this file lies; macOS looks there only if it is told to.
+#ifdef __APPLE__
+  const std::string name = "@rpath/lib" + module + ".so";
+#else
+  const std::string name = "lib" + module + ".so";
+#endif
+  void* loaded = ::dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
   return loaded != nullptr ? ::dlsym(loaded, function) : nullptr;
 }
 

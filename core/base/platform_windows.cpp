@@ -347,6 +347,7 @@ LockState LockFile::tryHold() {
 void LockFile::release() { file_.reset(); }
 
 void* functionOfModule(const std::string& module, const char* function) {
+  // Windows looks beside the program first, where this file lies.
   const HMODULE loaded = ::LoadLibraryA((module + ".dll").c_str());
   return loaded != nullptr ? reinterpret_cast<void*>(::GetProcAddress(loaded, function)) : nullptr;
 }

@@ -2,7 +2,8 @@
 #include "core/curve/bezier_quintics.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "core/base/angle.h"
 
 namespace batten {
 
@@ -99,7 +100,7 @@ Quintic quinticHermite(const Joint& from, const Joint& to, double length) {
 std::optional<Vec2> tangentVertex(const Vec2& p, const Vec2& direction, const Vec2& q, const Vec2& directionAtQ) {
   const Vec2 chord = q - p;
   const double c = chord.norm(), sine = cross(direction, directionAtQ);
-  if (!(c > 0.0) || !(std::abs(sine) > std::sin(0.25 * std::numbers::pi / 180.0))) return std::nullopt;
+  if (!(c > 0.0) || !(std::abs(sine) > std::sin(0.25 * kRadPerDeg))) return std::nullopt;
   const double fromP = cross(chord, directionAtQ) / sine, toQ = cross(direction, chord) / sine;
   const auto good = [&](double distance) { return distance >= 0.05 * c && distance <= 0.95 * c; };
   if (!good(fromP) || !good(toQ)) return std::nullopt;

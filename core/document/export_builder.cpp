@@ -60,13 +60,12 @@ std::optional<double> strokeWidth(const Contour& line, const PageFrame& frame) {
 const NurbsCurve& shapeOf(const TracedCurve& curve, bool sketched) { return sketched ? curve.sketched : curve.faired; }
 
 /// A line that came from another file keeps its name, if Batten did not make it, and its layer. Where sketched and
-/// faired curves stand in one file, the layers of the sketched ones say so.
+/// faired curves stand in one file, the layers of the sketched ones say so: two imported layers stay apart.
 void takeOrigin(const ImportedLine& line, bool sketched, bool isBoth, ExportCurve& curve) {
   curve.isImported = true;
   const std::string& name = curve.pieces.size() == 1 ? curve.pieces.front().name : line.name;
   if (!isMadeName(name)) curve.name = name;
-  const bool isOwnLayer = line.layer.empty() || line.layer == kFairedLayer || line.layer == kSketchedLayer;
-  if (!isOwnLayer) curve.layer = sketched && isBoth ? line.layer + " sketched" : line.layer;
+  if (!line.layer.empty()) curve.layer = sketched && isBoth ? line.layer + " sketched" : line.layer;
 }
 
 PieceFigures figuresOf(const TracedCurve& curve, bool sketched) {

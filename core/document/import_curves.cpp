@@ -41,9 +41,37 @@ void move(ImportedFile& file, const Vec2& by) {
   }
 }
 
+/// Points of a line, the last one not counted; behind the last point of a closed line comes its first.
+struct PointRange {
+  std::size_t first = 0, count = 0;
+};
+
+PointRange wholeOf(const ImportedLine& line) { return {0, line.points.size()}; }
+
+/// The points between two corners of a line; absent if it has no such part.
+std::optional<PointRange> rangeOf(const ImportedLine& line, std::size_t part) {
+  if (line.points.empty()) return std::nullopt;
+  if (line.corners.empty()) return part == 0 ? std::optional(wholeOf(line)) : std::nullopt;
+  std::vector<std::size_t> begins;
+  if (!line.closed) begins.push_back(0);
+  for (const int corner : line.corners) {
+    if (begins.empty() || static_cast<std::size_t>(corner) > begins.back())
+      begins.push_back(static_cast<std::size_t>(corner));
+  }
+  if (part >= begins.size()) return std::nullopt;
+  const std::size_t end =
+      part + 1 < begins.size() ? begins[part + 1] : line.points.size() + (line.closed ? begins.front() : 0);
+  return PointRange{begins[part], end - begins[part]};
+}
+
+Vec2 pointAlong(const ImportedLine& line, const PointRange& range, double along) {
+  const auto at = range.first + static_cast<std::size_t>(along * static_cast<double>(range.count));
+  return line.points[at % line.points.size()];
+}
+
 /// The numbers in the names that Batten gave ("Curve 3"): such a curve is Curve 3 again. Of several of one name the
 /// first is.
-CurveNumbers numbersOf(const ImportedFile& file, const PageFrame& frame) {
+CurveNumbers numbersOf(const ImportedFile& file, std::span<const NamedPart> parts, const PageFrame& frame) {
   constexpr int kPlaces = 5;
   CurveNumbers numbers;
   std::set<int> given;
@@ -56,10 +84,13 @@ CurveNumbers numbersOf(const ImportedFile& file, const PageFrame& frame) {
   for (const ImportedLine& line : file.lines) {
     for (const auto& [curve, name] : line.curves)
       add(name, [&](double part) { return curve.point(curve.start() + part * (curve.end() - curve.start())); });
-    if (!line.points.empty())
-      add(line.name, [&](double part) {
-        return line.points[static_cast<std::size_t>(part * static_cast<double>(line.points.size()))];
-      });
+    if (!line.points.empty()) add(line.name, [&](double along) { return pointAlong(line, wholeOf(line), along); });
+  }
+  for (const NamedPart& part : parts) {
+    if (part.line >= file.lines.size()) continue;
+    const ImportedLine& line = file.lines[part.line];
+    if (const auto range = rangeOf(line, part.part))
+      add(part.name, [&](double along) { return pointAlong(line, *range, along); });
   }
   std::sort(numbers.curves.begin(), numbers.curves.end(),
             [](const NumberedCurve& a, const NumberedCurve& b) { return a.number < b.number; });
@@ -69,7 +100,7 @@ CurveNumbers numbersOf(const ImportedFile& file, const PageFrame& frame) {
 
 }  // namespace
 
-Recipe drawingOf(ImportedFile file) {
+Recipe drawingOf(ImportedFile file, std::span<const NamedPart> parts) {
   constexpr double kLongerSidePx = 2000.0, kMargin = 0.05;  // of the longer side, around it
   constexpr double kLeastDpi = 1.0, kMostDpi = 100000.0;    // of a recipe
   constexpr int kLeastSide = 16;
@@ -88,7 +119,7 @@ Recipe drawingOf(ImportedFile file) {
   page.leftMm = middle.x() - 0.5 * page.widthPx * mmPerPx;
   page.bottomMm = middle.y() - 0.5 * page.heightPx * mmPerPx;
   recipe.page = page;
-  recipe.curveNumbers = numbersOf(file, {page.widthPx, page.heightPx, mmPerPx, page.leftMm, page.bottomMm});
+  recipe.curveNumbers = numbersOf(file, parts, {page.widthPx, page.heightPx, mmPerPx, page.leftMm, page.bottomMm});
   recipe.imports.push_back(std::move(file));
   return recipe;
 }

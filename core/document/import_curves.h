@@ -3,18 +3,21 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "core/base/page_frame.h"
 #include "core/base/result.h"
 #include "core/curve/imported_line.h"
+#include "core/exchange/point_file.h"
 #include "core/pipeline/recipe/recipe.h"
 
 namespace batten {
 
 /// The recipe of a drawing without a scan that holds these lines: a page around them, about 2000 px at its longer side,
 /// that lies where they are. Curves that Batten named ("Curve 3") keep their numbers.
-Recipe drawingOf(ImportedFile);
+/// @param parts of lines of points, as ImportReport has them.
+Recipe drawingOf(ImportedFile, std::span<const NamedPart> parts = {});
 
 /// The recipe with the lines of a file behind its own, where their coordinates put them. Where they miss the page of a
 /// scan altogether, their middle is put on the middle of the page; `moved` says so. @param frame of the page.

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/construct/pieces.h"
 #include "core/document/curve_series.h"
 #include "core/fairing/curve_comparison.h"
@@ -89,7 +89,7 @@ Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
                                 {"start_mm", pointToJson(n.startMm)},
                                 {"length_mm", number(n.lengthMm)},
                                 {"ratio", number(n.ratio)},
-                                {"turn_deg", number(n.turnRad * 180.0 / std::numbers::pi)},
+                                {"turn_deg", number(n.turnRad * kDegPerRad)},
                                 {"start_curvature_per_mm", number(n.startKappa)},
                                 {"end_curvature_per_mm", number(n.endKappa)},
                                 {"monotone", n.typical ? Json(n.monotone) : Json(nullptr)}});

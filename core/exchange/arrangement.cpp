@@ -161,10 +161,12 @@ std::vector<ExportCurve> without(const ExportCurve& line, const std::set<std::pa
 Result<Arrangement> arranged(const ExportDocument& document, bool joined, const RunContext& context) {
   const auto onTop = curvesOnTop(document, context);
   if (!onTop) return fail(onTop.error());
-  Arrangement result{document, static_cast<int>(onTop->size())};
+  Arrangement result{document, 0, static_cast<int>(onTop->size())};
   result.document.curves.clear();
   for (std::size_t i = 0; i < document.curves.size(); ++i) {
-    for (ExportCurve& line : without(document.curves[i], *onTop, i)) {
+    std::vector<ExportCurve> parts = without(document.curves[i], *onTop, i);
+    result.lines += parts.empty() ? 0 : 1;
+    for (ExportCurve& line : parts) {
       if (auto begun = begin(line); !begun) return fail(begun.error());
       if (joined) {
         turnLine(line);

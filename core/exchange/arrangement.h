@@ -10,6 +10,7 @@ namespace batten {
 /// A document as a file is to hold it.
 struct Arrangement {
   ExportDocument document;
+  int lines = 0;    ///< Lines of the given document of which something is left.
   int doubles = 0;  ///< Curves left out because they lie on another one of their layer, forwards or backwards.
 };
 

@@ -22,13 +22,13 @@ constexpr std::size_t kColumns = 8;
 constexpr int kMostRows = 1'000'000;  ///< Of one curve; more is a mistyped spacing.
 
 /// Imported curves keep the origin of their file, so that they come to lie where they were.
-std::string header(const PageFrame& frame, const std::string& unit) {
+std::string header(const PageFrame& frame, const std::string& unit, int rows) {
   const bool isOfPage = frame.leftMm == 0.0 && frame.bottomMm == 0.0;
   return std::string(
              "# Curvature is positive where the curve turns left (counter-clockwise); x to the right, y up, from ") +
-         (isOfPage ? "the lower left corner of the page" : "the origin of the file that was imported") +
-         ".\ncurve,piece,s_" + unit + ",x_" + unit + ",y_" + unit + ",tangent_deg,kappa_per_" + unit + ",radius_" +
-         unit + "\n";
+         (isOfPage ? "the lower left corner of the page" : "the origin of the file that was imported") + ". " +
+         std::string(kRowsStated) + std::to_string(rows) + ".\ncurve,piece,s_" + unit + ",x_" + unit + ",y_" + unit +
+         ",tangent_deg,kappa_per_" + unit + ",radius_" + unit + "\n";
 }
 
 /// The piece at the size and in the unit of the file.
@@ -65,7 +65,8 @@ Result<std::string> writeCsv(const ExportDocument& document, const ExportSetting
                              const RunContext& context) {
   if (auto problem = exportProblem(document)) return fail(std::move(*problem));
   if (auto problem = validate(settings)) return fail(std::move(*problem));
-  std::string text = header(document.frame, nameOf(settings.unit));
+  std::string text;
+  int written = 0;
   std::size_t done = 0;
   for (const ExportCurve& line : document.curves) {
     if (context.isCancelled()) return cancelled();
@@ -79,10 +80,13 @@ Result<std::string> writeCsv(const ExportDocument& document, const ExportSetting
       const std::string begin = csvField(line.name.empty() ? line.id : line.name) + "," + csvField(entityName(line, i));
       const double straight = kStraightCurvature / extent(curve);
       if (context.isCancelled()) return cancelled();
-      for (const CurveSample& sample : sampleByArcLength(curve, rows)) text += row(begin, sample, straight);
+      for (const CurveSample& sample : sampleByArcLength(curve, rows)) {
+        text += row(begin, sample, straight);
+        ++written;
+      }
     }
   }
-  return text;
+  return header(document.frame, nameOf(settings.unit), written) + text;
 }
 
 Result<double> checkCsv(std::string_view text, const ExportDocument& document, const ExportSettings& settings,

@@ -11,6 +11,9 @@
 
 namespace batten {
 
+/// Stands in the comment of the file before the number of its rows, so that a reader sees whether rows are missing.
+inline constexpr std::string_view kRowsStated = "Rows: ";
+
 /// Places along every curve for a spreadsheet: arc length, x, y, direction [degrees], curvature and radius, at equal
 /// steps of arc length of at most `settings.spacingMm`, both ends included. Units in the names of the columns, the sign
 /// convention in a line that begins with #; UTF-8, comma, dot. The radius of a straight place is empty.

@@ -8,13 +8,12 @@
 #include <numbers>
 #include <optional>
 
+#include "core/base/angle.h"
 #include "core/base/conventions.h"
 #include "core/curve/knot_operations.h"
 
 namespace batten {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 struct Tag {
   int code = 0;
@@ -156,7 +155,7 @@ std::optional<CadShape> arcOf(const Entity& entity, bool whole) {
   if (!start || !end) return std::nullopt;
   const double turns = std::fmod(*end - *start, 360.0);
   const double sweep = turns > 0.0 ? turns : turns + 360.0;
-  return CadArc{*centre, *radius, *start * kRadians, sweep * kRadians};
+  return CadArc{*centre, *radius, *start * kRadPerDeg, sweep * kRadPerDeg};
 }
 
 std::optional<CadShape> splineOf(const Entity& entity) {

@@ -166,7 +166,7 @@ Result<Check> jsonFile(const ExportDocument& document, const RunContext& context
   if (!back) return fail(back.error());
   const auto largest = difference(document, *back);
   if (!largest) return fail(largest.error());
-  report.entities = report.curves;
+  report.entities = report.pieces;
   return Check{std::move(*json), *largest, exactTolerance(document)};
 }
 
@@ -177,7 +177,7 @@ Result<Check> tableFile(const ExportDocument& document, const ExportSettings& se
   if (!text) return fail(text.error());
   const auto largest = read(*text, document, settings, whileReading(context));
   if (!largest) return fail(largest.error());
-  report.entities = report.curves;
+  report.entities = report.pieces;
   return Check{std::move(*text), *largest, exactTolerance(document)};
 }
 
@@ -246,8 +246,8 @@ Result<ExportedFile> exportedFile(const ExportDocument& given, const ExportSetti
   ExportedFile file;
   file.report.doubles = made->doubles;
   file.report.format = settings.format;
-  file.report.lines = static_cast<int>(given.curves.size());
-  for (const ExportCurve& line : document.curves) file.report.curves += static_cast<int>(line.pieces.size());
+  file.report.curves = made->lines;
+  for (const ExportCurve& line : document.curves) file.report.pieces += static_cast<int>(line.pieces.size());
   auto check = checkedFile(document, settings, context, file.report);
   if (!check) return fail(check.error());
   if (!(check->difference <= check->allowed)) {
@@ -276,16 +276,35 @@ Result<ExportReport> exportToFile(const ExportDocument& document, const ExportSe
   return std::move(file->report);
 }
 
-std::string sentenceOf(const ExportReport& report) {
-  std::string text = countOf(report.curves, "curve");
-  if (report.entities > 0 && report.entities < report.curves) text += " joined into " + std::to_string(report.entities);
+namespace {
+
+/// What follows the number of curves.
+std::string resultOf(const ExportReport& report) {
+  std::string text;
   if (report.vertices > 0) text += " as " + std::to_string(report.vertices) + " vertices";
   if (report.cubics > 0) text += " as " + countOf(report.cubics, "cubic");
   if (report.largestErrorMm) text += ", within " + shortNumber(*report.largestErrorMm) + " mm of the exact ones";
   if (report.largestJump) text += ", curvature jumps by " + shortNumber(100.0 * *report.largestJump) + " % at most";
-  text += ", read back, largest difference " + shortNumber(report.largestDifferenceMm) + " mm";
-  if (report.doubles > 0) text += "; " + countOf(report.doubles, "curve") + " on top of another left out";
-  return text;
+  return text + ", read back, largest difference " + shortNumber(report.largestDifferenceMm) + " mm";
+}
+
+std::string leftOut(int count, const char* one) {
+  return count > 0 ? "; " + countOf(count, one) + " on top of another left out" : std::string();
+}
+
+}  // namespace
+
+std::string sentenceOf(const ExportReport& report) {
+  std::string text = countOf(report.curves, "curve");
+  if (report.pieces != report.curves) text += " in " + countOf(report.pieces, "piece");
+  if (report.entities > 0 && report.entities < report.curves) text += " joined into " + std::to_string(report.entities);
+  return text + resultOf(report) + leftOut(report.doubles, "piece");
+}
+
+std::string sentenceByNumbers(const ExportReport& report) {
+  std::string text = countOf(report.pieces, "curve");
+  if (report.entities > 0 && report.entities < report.pieces) text += " joined into " + std::to_string(report.entities);
+  return text + resultOf(report) + leftOut(report.doubles, "curve");
 }
 
 namespace {
@@ -301,6 +320,13 @@ std::vector<std::vector<int>> pieceNumbers(const ExportDocument& document) {
   return numbers;
 }
 
+/// A part of a line of the drawing is called after its lowest number, as the line is; to other names a count is added.
+std::string idOfPart(const ExportCurve& line, int number, int count) {
+  if (line.id.starts_with("curve-") && line.pieces.front().number)
+    return "curve-" + std::to_string(number) + (line.isSketched ? "-sketched" : "");
+  return count > 1 ? line.id + "-" + std::to_string(count) : line.id;
+}
+
 }  // namespace
 
 ExportDocument onlyCurves(const ExportDocument& document, const std::set<int>& numbers) {
@@ -309,21 +335,27 @@ ExportDocument onlyCurves(const ExportDocument& document, const std::set<int>& n
   const auto known = pieceNumbers(document);
   for (std::size_t i = 0; i < document.curves.size(); ++i) {
     const ExportCurve& line = document.curves[i];
-    int runs = 0;
+    int runs = 0, lowest = 0;
     bool goesOn = false;
     for (std::size_t k = 0; k < line.pieces.size(); ++k) {
       const bool isTaken = numbers.contains(known[i][k]);
       if (isTaken && !goesOn) {
         ExportCurve& part = result.curves.emplace_back(line);
-        if (++runs > 1) part.id.append("-").append(std::to_string(runs));
+        ++runs;
         part.pieces.clear();
         part.closed = false;
       }
-      if (isTaken) result.curves.back().pieces.push_back(line.pieces[k]);
+      if (isTaken) {
+        lowest = goesOn ? std::min(lowest, known[i][k]) : known[i][k];
+        result.curves.back().id = idOfPart(line, lowest, runs);
+        result.curves.back().pieces.push_back(line.pieces[k]);
+      }
       goesOn = isTaken;
     }
-    if (runs == 1 && result.curves.back().pieces.size() == line.pieces.size())
+    if (runs == 1 && result.curves.back().pieces.size() == line.pieces.size()) {
       result.curves.back().closed = line.closed;
+      result.curves.back().id = line.id;
+    }
   }
   return result;
 }

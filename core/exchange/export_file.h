@@ -16,12 +16,12 @@ namespace batten {
 struct ExportReport {
   std::filesystem::path path;
   ExportFormat format = ExportFormat::Svg;
-  int lines = 0;                         ///< Of the drawing.
-  int curves = 0;                        ///< Their pieces from corner to corner.
+  int curves = 0;                        ///< Lines of the drawing, as in curve JSON.
+  int pieces = 0;                        ///< Of the curves, from corner to corner.
   int entities = 0;                      ///< Of the file: splines, lines, arcs, polylines, paths, rows of polynomials.
   int vertices = 0;                      ///< Of polylines.
   int cubics = 0;                        ///< Of paths.
-  int doubles = 0;                       ///< Curves left out because they lie on another one.
+  int doubles = 0;                       ///< Pieces left out because they lie on another one.
   std::optional<double> largestErrorMm;  ///< What the approximation costs, measured; absent for exact files.
   std::optional<double> largestJump;     ///< Of the curvature where cubics meet, relative (see cubic_path.h).
   double largestDifferenceMm = 0.0;      ///< Of what was read back from what was to be written.
@@ -43,8 +43,11 @@ Result<ExportedFile> exportedFile(const ExportDocument&, const ExportSettings&, 
 Result<ExportReport> exportToFile(const ExportDocument&, const ExportSettings&, const std::filesystem::path&,
                                   const RunContext& = {});
 
-/// The report in one sentence: "4 curves, read back, largest difference 3e-12 mm".
+/// The report in one sentence: "4 curves, read back, largest difference 3e-12 mm"; "2 curves in 9 pieces" where there
+/// are corners.
 std::string sentenceOf(const ExportReport&);
+/// The same in the words of the window, where every piece is a curve with a number: "9 curves joined into 2, read …".
+std::string sentenceByNumbers(const ExportReport&);
 
 /// The curves of a document whose numbers are these; a line that lacks some of its pieces becomes several. Pieces
 /// without a number are counted from 1 through all lines, in order. Numbers that no curve has say nothing.

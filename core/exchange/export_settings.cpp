@@ -71,6 +71,7 @@ bool isApproximate(const ExportSettings& settings) {
       return settings.dxf != DxfProfile::Cad;
     case ExportFormat::Iges:
     case ExportFormat::Step:
+    case ExportFormat::Rhino:
       return settings.flavour == CurveFlavour::Cubic;
     default:
       return false;

@@ -325,27 +325,54 @@ class IgesReader {
     }
   }
 
-  /// The name of an entry: its name property, which holds more than the eight letters of a label.
-  Result<std::string> nameOf(const IgesDirectoryEntry& entry, const std::vector<std::string>& fields) {
-    constexpr int kProperty = 406, kNameForm = 15, kMostProperties = 64;
+  /// The records of the properties of an entry.
+  std::vector<std::size_t> propertiesOf(const IgesDirectoryEntry& entry, const std::vector<std::string>& fields) const {
+    constexpr int kProperty = 406, kMostProperties = 64;
+    std::vector<std::size_t> found;
     const IgesNumbers n(fields);
     const auto own = ownNumbers(entry, n);
-    if (!own) return entry.label;
-    const auto groups = n.count(*own, 0, kMostProperties);
-    if (!groups) return entry.label;
+    const auto groups = own ? n.count(*own, 0, kMostProperties) : std::nullopt;
+    if (!groups) return found;
     const std::size_t at = *own + 1 + static_cast<std::size_t>(*groups);
     const auto properties = n.count(at, 0, kMostProperties);
     for (int i = 0; properties && i < *properties && n.has(at + 2 + static_cast<std::size_t>(i)); ++i) {
       const auto property = entryAt(n.at(at + 1 + static_cast<std::size_t>(i)));
-      if (!property) continue;
-      const IgesDirectoryEntry& record = records_.entries[*property];
-      if (record.type != kProperty || record.form != kNameForm) continue;
-      const auto values = parametersOf(records_, record, budget_);
-      if (!values) break;               // a damaged name is no reason to refuse the curve
-      constexpr std::size_t kName = 2;  // behind its type and the count of its values
-      if (values->size() > kName && !(*values)[kName].empty()) return (*values)[kName];
+      if (property && records_.entries[*property].type == kProperty) found.push_back(*property);
+    }
+    return found;
+  }
+
+  /// The text that a property holds behind its type and the numbers before it; empty where it is damaged, which is no
+  /// reason to refuse the curve. Several curves may share a property.
+  const std::string& textOf(std::size_t property, std::size_t field) {
+    const auto [known, isNew] = texts_.try_emplace(property);
+    if (!isNew) return known->second;
+    const auto values = parametersOf(records_, records_.entries[property], budget_);
+    if (values && values->size() > field) known->second = (*values)[field];
+    return known->second;
+  }
+
+  /// The name of an entry: its name property, which holds more than the eight letters of a label.
+  std::string nameOf(const IgesDirectoryEntry& entry, const std::vector<std::size_t>& properties) {
+    constexpr int kNameForm = 15;
+    constexpr std::size_t kName = 2;  // behind its type and the count of its values
+    for (const std::size_t property : properties) {
+      if (records_.entries[property].form != kNameForm) continue;
+      if (const std::string& name = textOf(property, kName); !name.empty()) return name;
     }
     return entry.label;
+  }
+
+  /// The layer of an entry: what its level is for, by a level function property, else the number of the level.
+  std::string layerOfEntry(const IgesDirectoryEntry& entry, const std::vector<std::size_t>& properties) {
+    constexpr int kLevelForm = 3;
+    constexpr std::size_t kDescription = 3;  // behind its type, the count of its values and a code
+    if (entry.level <= 0) return {};
+    for (const std::size_t property : properties) {
+      if (records_.entries[property].form != kLevelForm) continue;
+      if (const std::string& name = textOf(property, kDescription); !name.empty()) return name;
+    }
+    return "Level " + std::to_string(entry.level);
   }
 
   /// Texts, views, colours and the like are no curves and not missed.
@@ -378,10 +405,8 @@ class IgesReader {
       ++drawing_.left;
       return {};
     }
-    const std::string layer = entry.level > 0 ? "Level " + std::to_string(entry.level) : std::string();
-    auto name = nameOf(entry, *fields);
-    if (!name) return fail(name.error());
-    drawing_.entities.push_back({std::move(*name), layer, std::move(*shape)});
+    const std::vector<std::size_t> properties = propertiesOf(entry, *fields);
+    drawing_.entities.push_back({nameOf(entry, properties), layerOfEntry(entry, properties), std::move(*shape)});
     return {};
   }
 
@@ -391,6 +416,7 @@ class IgesReader {
   std::map<std::size_t, std::vector<std::size_t>> children_;
   std::set<std::size_t> isChild_;
   std::map<std::size_t, IgesMatrix> matrices_;
+  std::map<std::size_t, std::string> texts_;  ///< Of properties, by their records.
   CadDrawing drawing_;
 };
 

@@ -6,8 +6,9 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
+#include <set>
 
+#include "core/base/angle.h"
 #include "core/base/conventions.h"
 #include "core/base/number_text.h"
 #include "core/base/regular_file.h"
@@ -29,7 +30,7 @@ namespace {
 constexpr std::uint64_t kLargestImportBytes = std::uint64_t{64} << 20;
 constexpr std::array<const char*, 9> kImportEndings = {".dxf", ".igs", ".iges", ".stp", ".step",
                                                        ".svg", ".csv", ".txt",  ".json"};
-constexpr double kSharpTurn = 35.0 * std::numbers::pi / 180.0;
+constexpr double kSharpTurn = 35.0 * kRadPerDeg;
 /// Polylines of no more points are drawn corner by corner; of longer ones a corner has to stand out from its
 /// neighbours.
 constexpr std::ptrdiff_t kFewPoints = 16;
@@ -269,12 +270,20 @@ void takeUnitOf(double mmPerUnit, std::optional<double> asked, ImportReport& rep
 void takePoints(PointFile points, std::optional<double> asked, ImportReport& report) {
   const double mm = takeUnit(points.mmPerUnit, asked, report);
   report.file.lines = std::move(points.lines);
+  report.parts = std::move(points.parts);
+  for (const std::string& note : points.notes) report.notes.push_back(report.file.source + ": " + note + ".");
+  // Where a file names the parts of a line, it has no corners but those between them.
+  std::set<std::size_t> linesWithParts;
+  for (const NamedPart& part : report.parts) linesWithParts.insert(part.line);
+  const auto hasParts = [&](const ImportedLine& line) {
+    return linesWithParts.contains(static_cast<std::size_t>(&line - report.file.lines.data()));
+  };
   for (ImportedLine& line : report.file.lines) {
     for (Vec2& p : line.points) p *= mm;
     const auto last = std::unique(line.points.begin(), line.points.end());
     line.points.erase(last, line.points.end());
     if (std::ssize(line.points) < 3) line.closed = false;
-    if (line.corners.empty()) setCorners(line);
+    if (line.corners.empty() && !hasParts(line)) setCorners(line);
   }
   const auto erased = std::erase_if(report.file.lines, [](const ImportedLine& line) { return line.points.size() < 2; });
   tellLeft(points.left + static_cast<int>(erased), report);
@@ -399,6 +408,7 @@ Result<ImportReport> readImportFile(const std::filesystem::path& path, std::opti
   report.file.source = name;
   auto taken = takeBytes(importEndingOf(path), *bytes, mmPerUnit, context, report);
   for (ImportedLine& line : report.file.lines) makeNamesShown(line);
+  for (NamedPart& part : report.parts) part.name = shownText(trimmed(part.name));
   if (taken && report.file.lines.empty()) taken = fail(ErrorCode::NoCurve, "It contains no line.");
   if (taken) {
     if (auto wrong = validate(report.file)) taken = fail(std::move(*wrong));

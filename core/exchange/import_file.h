@@ -9,6 +9,7 @@
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/curve/imported_line.h"
+#include "core/exchange/point_file.h"
 
 namespace batten {
 
@@ -16,6 +17,7 @@ namespace batten {
 struct ImportReport {
   ImportedFile file;
   std::vector<std::string> notes;  ///< The unit was assumed, something was left out ….
+  std::vector<NamedPart> parts;    ///< Of lines of points: what their file calls the parts between two corners.
 };
 
 /// Reads lines to make fair: DXF, IGES, STEP, any SVG (of Batten's own the exact curves), curve JSON, points as CSV or

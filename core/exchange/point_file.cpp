@@ -9,12 +9,17 @@
 #include "core/base/conventions.h"
 #include "core/base/json_text.h"
 #include "core/base/number_text.h"
+#include "core/exchange/csv_writer.h"
 #include "core/exchange/file_text.h"
 
 namespace batten {
 namespace {
 
 using PointJson = nlohmann::ordered_json;
+
+/// In the names of the sketched lines of Batten's own CSV; and the layer that other formats put them on.
+constexpr std::string_view kPathBegin = "curve-", kOfSketched = "-sketched";
+constexpr const char* kLayerOfSketched = "Sketched";
 
 tl::unexpected<Error> noPoints(const std::string& what) {
   return fail(ErrorCode::BadParameter, "The points cannot be read: " + what + ".");
@@ -50,7 +55,7 @@ char separatorOf(std::string_view row) {
 /// Where the columns stand.
 struct Columns {
   std::size_t x = 0, y = 1;
-  std::optional<std::size_t> line, piece;
+  std::optional<std::size_t> line, piece, along;  ///< Of Batten's own: the arc length along the piece.
 };
 
 class TableReader {
@@ -66,14 +71,24 @@ class TableReader {
       text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
       constexpr std::size_t kEvery = 4096;
       if (row % kEvery == 0 && context_.isCancelled()) return cancelled();
-      if (line.starts_with('#')) continue;
+      if (line.starts_with('#')) {
+        takeComment(line);
+        continue;
+      }
       if (line.empty()) {
         endLine();
         continue;
       }
       if (auto taken = takeRow(line, row); !taken) return fail(taken.error());
+      isCut_ = columns_.piece && end == std::string_view::npos;
     }
     endLine();
+    // Batten ends every row of its own files.
+    if (isCut_) return noPoints("its last row is cut off: the file is incomplete");
+    if (columns_.piece && statedRows_ && *statedRows_ != rows_) {
+      out_.notes.push_back("the file states " + std::to_string(*statedRows_) + " rows but holds " +
+                           std::to_string(rows_) + ": it may be incomplete");
+    }
     return std::move(out_);
   }
 
@@ -97,6 +112,11 @@ class TableReader {
 
   Result<void> takeRow(std::string_view line, std::size_t row) {
     const std::vector<std::string> fields = fieldsOf(line);
+    if (isFirst_) width_ = fields.size();
+    if (fields.size() < width_) {
+      return noPoints("row " + std::to_string(row) + " holds " + std::to_string(fields.size()) + " of " +
+                      std::to_string(width_) + " fields: the file is incomplete or damaged");
+    }
     const std::size_t last = std::max(columns_.x, columns_.y);
     const auto x = fields.size() > last ? numberOf(fields[columns_.x]) : std::nullopt;
     const auto y = x ? numberOf(fields[columns_.y]) : std::nullopt;
@@ -106,10 +126,18 @@ class TableReader {
     }
     isFirst_ = false;
     if (!y) return noPoints("row " + std::to_string(row) + " does not hold x and y as numbers");
+    ++rows_;
     const std::string name = columns_.line && fields.size() > *columns_.line ? fields[*columns_.line] : std::string();
     const std::string piece =
         columns_.piece && fields.size() > *columns_.piece ? fields[*columns_.piece] : std::string();
-    if (!line_.points.empty() && name != line_.name) endLine();
+    const auto along =
+        columns_.along && fields.size() > *columns_.along ? numberOf(fields[*columns_.along]) : std::nullopt;
+    // One line of the same name behind the other: its arc length begins anew.
+    const bool isAnew = !pieces_.empty() &&
+                        (pieces_.back() == piece ? along && along_ && *along <= *along_
+                                                 : std::find(pieces_.begin(), pieces_.end(), piece) != pieces_.end());
+    if (!line_.points.empty() && (name != line_.name || isAnew)) endLine();
+    along_ = along;
     line_.name = name;
     const Vec2 at(*x, *y);
     const bool isAgain = !line_.points.empty() && line_.points.back() == at;
@@ -134,12 +162,15 @@ class TableReader {
       if (!x && isAlone && name[0] == 'x') x = i, takeUnit(name);
       if (!y && isAlone && name[0] == 'y') y = i;
       if (name == "piece") columns_.piece = i;
+      if (name.starts_with("s_")) columns_.along = i;
       if (!columns_.line && (name == "curve" || name == "line" || name == "name")) columns_.line = i;
     }
     if (!x || !y) return noPoints("row " + std::to_string(row) + " holds neither numbers nor columns x and y");
     columns_.x = *x;
     columns_.y = *y;
-    if (!columns_.line) columns_.piece.reset();  // only beside the name of a line it is Batten's
+    // Only beside the name of a line they are Batten's.
+    if (!columns_.line) columns_.piece.reset();
+    if (!columns_.piece) columns_.along.reset();
     return {};
   }
   /// "x_mm", "x [in]", "x (cm)".
@@ -158,19 +189,36 @@ class TableReader {
       std::erase_if(line_.corners, [&](int corner) { return corner >= std::ssize(points); });
       if (!line_.corners.empty() && line_.corners.front() != 0) line_.corners.insert(line_.corners.begin(), 0);
     }
+    if (columns_.piece && line_.name.starts_with(kPathBegin) && line_.name.find(kOfSketched) != std::string::npos)
+      line_.layer = kLayerOfSketched;
     if (pieces_.size() == 1 && !pieces_.front().empty()) line_.name = pieces_.front();
-    pieces_.clear();
     if (points.size() >= 2) {
+      for (std::size_t part = 0; part < pieces_.size() && columns_.piece; ++part)
+        out_.parts.push_back({out_.lines.size(), part, pieces_[part]});
       out_.lines.push_back(std::move(line_));
     } else if (!points.empty()) {
       ++out_.left;
     }
+    pieces_.clear();
+    along_.reset();
     line_ = {};
+  }
+  /// Batten states in a comment how many rows its file has.
+  void takeComment(std::string_view comment) {
+    const auto at = comment.find(kRowsStated);
+    if (at == std::string_view::npos) return;
+    std::string_view count = comment.substr(at + kRowsStated.size());
+    count = count.substr(0, count.find_first_not_of("0123456789"));
+    if (const auto rows = integerFromText(count)) statedRows_ = *rows;
   }
 
   const RunContext& context_;
   char separator_ = 0;
-  bool isFirst_ = true;
+  bool isFirst_ = true, isCut_ = false;
+  std::size_t width_ = 0;  ///< Fields of the first row.
+  int rows_ = 0;
+  std::optional<int> statedRows_;
+  std::optional<double> along_;
   Columns columns_;
   std::vector<std::string> pieces_;  ///< Of the line that is read, by name.
   ImportedLine line_;

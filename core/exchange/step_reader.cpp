@@ -7,10 +7,10 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <span>
 
+#include "core/base/angle.h"
 #include "core/base/conventions.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/knot_operations.h"
@@ -214,7 +214,7 @@ class StepReader {
         if (!unitId) continue;
         if (data_.record(*unitId, "LENGTH_UNIT") && !drawing_.mmPerUnit) drawing_.mmPerUnit = millimetresOf(*unitId, 0);
         if (data_.record(*unitId, "PLANE_ANGLE_UNIT") && data_.record(*unitId, "CONVERSION_BASED_UNIT"))
-          radiansPerUnit_ = std::numbers::pi / 180.0;  // what is no radian is a degree
+          radiansPerUnit_ = kRadPerDeg;  // what is no radian is a degree
       }
     }
   }

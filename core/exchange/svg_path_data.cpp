@@ -6,8 +6,8 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/curve/knot_operations.h"
 #include "core/exchange/cad_shape.h"
 
@@ -146,8 +146,7 @@ class PathReader {
     const auto to = sweep ? point(base) : std::nullopt;
     if (!to) return false;
     if (*rx == 0.0 || *ry == 0.0) return line(*to);
-    auto curve =
-        svgArc({at_, *to, Vec2(std::abs(*rx), std::abs(*ry)), *turned * std::numbers::pi / 180.0, *large, *sweep});
+    auto curve = svgArc({at_, *to, Vec2(std::abs(*rx), std::abs(*ry)), *turned * kRadPerDeg, *large, *sweep});
     return add(curve ? Result<NurbsCurve>(std::move(*curve)) : fail(ErrorCode::NoCurve, ""), *to);
   }
   void end(bool closed) {

@@ -6,11 +6,11 @@
 #include <QXmlStreamReader>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <span>
 
+#include "core/base/angle.h"
 #include "core/base/conventions.h"
 #include "core/base/number_text.h"
 #include "core/curve/knot_operations.h"
@@ -27,8 +27,7 @@ std::string withoutBlanks(std::string text) {
 
 constexpr double kPxPerInch = 96.0;
 constexpr int kDeepestElement = 256;
-constexpr double kSmoothRad = std::numbers::pi / 180.0;  // a turn that is no corner
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kSmoothRad = kRadPerDeg;  // a turn that is no corner
 
 struct Affine {
   Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
@@ -49,13 +48,13 @@ std::optional<Affine> affineOf(std::string_view name, const std::vector<double>&
   } else if (name == "scale" && (count == 1 || count == 2)) {
     one.linear = Vec2(n[0], count == 2 ? n[1] : n[0]).asDiagonal();
   } else if (name == "rotate" && (count == 1 || count == 3)) {
-    const double a = n[0] * kDegree;
+    const double a = n[0] * kRadPerDeg;
     one.linear << std::cos(a), -std::sin(a), std::sin(a), std::cos(a);
     if (count == 3) one.offset = Vec2(n[1], n[2]) - one.linear * Vec2(n[1], n[2]);
   } else if (name == "skewX" && count == 1) {
-    one.linear(0, 1) = std::tan(n[0] * kDegree);
+    one.linear(0, 1) = std::tan(n[0] * kRadPerDeg);
   } else if (name == "skewY" && count == 1) {
-    one.linear(1, 0) = std::tan(n[0] * kDegree);
+    one.linear(1, 0) = std::tan(n[0] * kRadPerDeg);
   } else {
     return std::nullopt;
   }

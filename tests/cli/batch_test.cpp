@@ -55,12 +55,49 @@ TEST_F(Batch, WhatHasChangedIsMadeAnew) {
   ASSERT_EQ(run("batch " + file("pages.jsonl")).code, 0);
   write("r.json", R"({"format":"batten-recipe","version":1,"parameters":{"fairing.mode":"none"}})");
   drawPage("c", "car");
-  write("d.svg", "damaged");
+  fs::remove(file("d.svg"));
   write("pages.jsonl", same + line("c") + line("d") + line("e", {{"dpi", 300}}));
   const auto done = run("batch " + file("pages.jsonl"));
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(statusesOf(done.out), (Statuses{"a unchanged", "b done", "c done", "d done", "e done"}));
-  EXPECT_NE(test::readFile(file("d.svg")), "damaged");
+  EXPECT_TRUE(fs::exists(file("d.svg")));
+}
+
+TEST_F(Batch, WhatSomebodyHasChangedIsNotOverwritten) {
+  drawPage("a");
+  write("pages.jsonl", line("a"));
+  ASSERT_EQ(run("batch " + file("pages.jsonl")).code, 0);
+  write("a.svg", test::readFile(file("a.svg")) + "<!-- a label was set by hand -->");
+  const std::string edited = test::readFile(file("a.svg"));
+  const auto kept = run("batch " + file("pages.jsonl"));
+  EXPECT_EQ(kept.code, 6);
+  EXPECT_EQ(statusesOf(kept.out), Statuses{"a failed"});
+  EXPECT_EQ(linesOf(kept.out).at(0)["exit"], 5);
+  EXPECT_NE(kept.out.find("was changed after batch"), std::string::npos) << kept.out;
+  // A new scan is no reason to overwrite it either.
+  drawPage("a", "car");
+  EXPECT_EQ(statusesOf(run("batch " + file("pages.jsonl")).out), Statuses{"a failed"});
+  EXPECT_EQ(test::readFile(file("a.svg")), edited);
+  fs::rename(file("a.svg"), file("mine.svg"));
+  EXPECT_EQ(statusesOf(run("batch " + file("pages.jsonl")).out), Statuses{"a done"});
+  write("a.svg", edited);
+  EXPECT_EQ(statusesOf(run("batch " + file("pages.jsonl") + " --existing overwrite").out), Statuses{"a done"});
+}
+
+TEST_F(Batch, APatternMayHoldASetOfLetters) {
+  for (const char* name : {"s1", "s2", "s3", "sx"}) drawPage(name);
+  const auto scansOf = [&](const std::string& pattern) {
+    const auto done = run("batch '" + file(pattern) + "' --to " + file("out") + " --write-manifest -");
+    std::string scans;
+    for (const json& one : linesOf(done.out)) scans += fs::path(one["scan"].get<std::string>()).stem().string() + " ";
+    return scans;
+  };
+  EXPECT_EQ(scansOf("s[12].png"), "s1 s2 ");
+  EXPECT_EQ(scansOf("s[1-3].png"), "s1 s2 s3 ");
+  EXPECT_EQ(scansOf("s[!1-3].png"), "sx ");
+  EXPECT_EQ(scansOf("[s]*[3x].p?g"), "s3 sx ");
+  fs::copy_file(file("s1.png"), file("page[1].png"));
+  EXPECT_EQ(scansOf("page[1].png"), "page[1] ") << "a name that is there is no pattern";
 }
 
 TEST_F(Batch, FailuresAreToldApartAndHoldNothingUp) {
@@ -73,7 +110,7 @@ TEST_F(Batch, FailuresAreToldApartAndHoldNothingUp) {
   write("pages.jsonl", line("damaged") + line("empty") + nowhere.dump() + "\n" + line("missing") + line("good"));
   const auto done = run("batch " + file("pages.jsonl") + " --failures " + file("failed.jsonl"));
   EXPECT_EQ(done.code, 6);
-  EXPECT_EQ(done.err, "batten-cli: 3 of 5 pages have failed; the lines with \"status\":\"failed\" say why.\n");
+  EXPECT_EQ(done.err, "batten-cli: 3 pages of 5 have failed; the lines with \"status\":\"failed\" say why.\n");
   EXPECT_EQ(statusesOf(done.out),
             (Statuses{"damaged failed", "empty empty", "nowhere failed", "missing failed", "good done"}));
   for (const json& one : linesOf(done.out)) {
@@ -103,15 +140,16 @@ TEST_F(Batch, TooManyFailuresOrTooMuchTimeEndIt) {
   write("pages.jsonl", line("a") + line("b") + line("c") + line("d") + line("e"));
   const auto first = run("batch " + file("pages.jsonl") + " --jobs 1 --max-failures 0");
   EXPECT_EQ(first.code, 7);
-  EXPECT_NE(first.err.find("1 of 5 pages has failed"), std::string::npos) << first.err;
+  EXPECT_NE(first.err.find("1 page of 5 has failed"), std::string::npos) << first.err;
   const auto few = run("batch " + file("pages.jsonl") + " --jobs 1 --max-failures 0.2");
   EXPECT_EQ(few.code, 7);
-  EXPECT_NE(few.err.find("2 of 5 pages have failed"), std::string::npos) << few.err;
+  EXPECT_NE(few.err.find("2 pages of 5 have failed"), std::string::npos) << few.err;
   EXPECT_EQ(statusesOf(few.out), (Statuses{"a failed", "b failed"}));
   write("slow.jsonl", line("e"));
   const auto slow = run("batch " + file("slow.jsonl") + " --page-timeout 0.001");
   EXPECT_EQ(slow.code, 6);
   EXPECT_NE(slow.out.find("longer than 0.001 s"), std::string::npos) << slow.out;
+  EXPECT_FALSE(linesOf(slow.out).at(0).contains("exit")) << "it did not end by itself";
   EXPECT_FALSE(fs::exists(file("e.svg")));
 }
 

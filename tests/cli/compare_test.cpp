@@ -26,9 +26,9 @@ TEST_F(Compare, TheSameShapeAtAnotherScaleIsTheSameAndAnotherShapeIsNot) {
 
 TEST_F(Compare, ReadsEveryFormatThatHoldsTheCurvesThemselves) {
   const std::string words = "trace " + scene() + " --dpi 254 --unit in -o " + file("a.json") + " -o " + file("a.svg") +
-                            " -o " + file("a.dxf");
+                            " -o " + file("a.dxf") + " -o " + file("a.igs") + " -o " + file("a.step");
   ASSERT_EQ(run(words).code, 0);
-  for (const char* other : {"a.svg", "a.dxf"}) {
+  for (const char* other : {"a.svg", "a.dxf", "a.igs", "a.step"}) {
     const auto done = run("compare " + file("a.json") + " " + file(other));
     ASSERT_EQ(done.code, 0) << other << done.err;
     EXPECT_GT(json::parse(done.out)["pairs"][0]["similarity"].get<double>(), 0.999999) << other;
@@ -37,10 +37,13 @@ TEST_F(Compare, ReadsEveryFormatThatHoldsTheCurvesThemselves) {
 
 TEST_F(Compare, SaysWhatIsWrong) {
   write("broken.json", "{");
-  expectError("compare " + file("broken.json") + " " + file("broken.json"), 2,
+  expectError("compare " + file("broken.json") + " " + file("broken.json"), 3,
               "broken.json: The curve file cannot be read: it is incomplete or was not written by "
               "Batten. Create it again");
-  expectError("compare " + file("none.json") + " " + file("none.json"), 2, "none.json");
+  expectError("compare " + file("none.json") + " " + file("none.json"), 3, "does not exist. Check the name.\n");
+  write("broken.dxf", "bad");
+  expectError("compare " + file("broken.dxf") + " " + file("broken.dxf"), 3, "a group code was expected.\n");
+  expectError("compare " + file("a.csv") + " " + file("a.csv"), 3, "Use a .json, .svg, .dxf, .igs or .step file.\n");
   expectError("compare " + file("none.json"), 2, "second");
 }
 

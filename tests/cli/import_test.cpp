@@ -66,9 +66,9 @@ TEST_F(CommandLineImport, SaysWhatIsAssumedAndWhatIsWrong) {
   EXPECT_NEAR(last.point(last.end()).x(), 50.8, 1e-9);
   write("bad.dxf", "0\nSECTION\n");
   write("bad.step", "hello");
-  expectError("trace " + file("bad.dxf") + " -o " + file("x.svg"), 2, "bad.dxf");
-  expectError("trace " + file("bad.step") + " -o " + file("x.svg"), 2, "bad.step");
-  expectError("trace " + file("none.igs") + " -o " + file("x.svg"), 2, "does not exist");
+  expectError("trace " + file("bad.dxf") + " -o " + file("x.svg"), 3, "bad.dxf");
+  expectError("trace " + file("bad.step") + " -o " + file("x.svg"), 3, "bad.step");
+  expectError("trace " + file("none.igs") + " -o " + file("x.svg"), 3, "does not exist");
   expectError("trace " + file("bare.csv") + " --import-unit ell -o " + file("x.svg"), 2, "--import-unit");
   expectError("trace " + file("bare.csv") + " -o " + file("bare.csv"), 2, "imported");
   expectError("trace --import-unit in --recipe none -o " + file("x.svg"), 2, "none");
@@ -106,7 +106,11 @@ TEST_F(CommandLinePages, EveryPageOfAStackIsTracedWhenAsked) {
   const auto first = run("trace " + stack + " --dpi 254 -o " + file("o.json"));
   ASSERT_EQ(first.code, 0) << first.err;
   EXPECT_THAT(first.out, HasSubstr("The file holds 2 pages; page 1 was traced"));
-  ASSERT_EQ(run("trace " + stack + " --dpi 254 --page 2 -o " + file("two.json")).code, 0);
+  for (const int page : {1, 2}) {
+    const auto chosen = run("trace " + stack + " --dpi 254 --page " + std::to_string(page) + " -o " + file("two.json"));
+    ASSERT_EQ(chosen.code, 0);
+    EXPECT_THAT(chosen.out, testing::Not(HasSubstr("The file holds"))) << "the page was chosen";
+  }
   const auto all =
       run("trace " + stack + " --dpi 254 --page all -o " + file("o.json") + " -o " + file("o.poly.csv") + " -o " +
           file("o.report.html") + " --report " + file("rep.json") + " --save-recipe " + file("r.recipe.json"));
@@ -134,6 +138,12 @@ TEST_F(CommandLinePages, ABlankPageDoesNotKeepTheOthers) {
   const auto done = run("trace " + file("stack.tif") + " --page all -o " + file("o.svg"));
   EXPECT_EQ(done.code, 4);
   EXPECT_EQ(std::count(done.err.begin(), done.err.end(), '\n'), 1) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("batten-cli: Page 1: "));
+  const json blankPage = json::parse(done.out.substr(0, done.out.find('\n')));
+  EXPECT_EQ(blankPage["page"], 1);
+  EXPECT_EQ(blankPage["exit"], 4);
+  EXPECT_FALSE(blankPage["error"].get<std::string>().empty());
+  EXPECT_EQ(json::parse(done.out.substr(done.out.find('\n')))["page"], 2);
   EXPECT_FALSE(std::filesystem::exists(file("o-p1.svg")));
   EXPECT_TRUE(std::filesystem::exists(file("o-p2.svg")));
 }

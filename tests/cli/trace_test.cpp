@@ -67,7 +67,7 @@ TEST_F(Trace, RefusesWordsOfAnExportThatMakeNoSense) {
   const std::string start = "trace " + scan + " --dpi 300 ";
   expectError(start + "-o " + file("a.dwg"), 2, "must end in one of .svg");
   expectError(start + "--preset paper -o " + file("a.dxf"), 2, "Presets: alias");
-  expectError(start + "--preset laser -o " + file("a.svg"), 2, "end in .dxf");
+  expectError(start + "--preset laser -o " + file("a.step"), 2, "end in .dxf, .svg or .pdf");
   expectError(start + "--unit cm -o " + file("a.dxf"), 2, "mm or in");
   expectError(start + "--scale 0 -o " + file("a.dxf"), 2, "must be above 0");
   expectError(start + "--scale 1e9 -o " + file("a.dxf"), 2, "at most 1000000");

@@ -127,7 +127,7 @@ TEST_F(Export, TheCurvesOfTheFileAreChosenInThePanel) {
   EXPECT_EQ(session().selectedCurve(), 1) << "what is pointed at shows in the drawing";
   // With the mouse on the drawing Space pans.
   QCursor::setPos(list->mapToGlobal(list->rect().center()));
-  QTest::qWait(30);
+  ASSERT_TRUE(waitUntil([this] { return !find<CurveCanvas>("canvas")->underMouse(); }));
   QTest::keyClick(list, Qt::Key_Space);
   ASSERT_EQ(list->item(1)->checkState(), Qt::Unchecked);
   ASSERT_TRUE(waitUntil([&] { return preview->content().curves.size() == 2; })) << "the line is interrupted";

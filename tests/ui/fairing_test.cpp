@@ -134,7 +134,7 @@ TEST_F(FairingWindow, TheTargetIsDrawnByDraggingItsPoints) {
   const std::vector<ProfilePoint> before = choice().profile;
   ASSERT_GE(before.size(), 2u);
   ASSERT_TRUE(settle());
-  QTest::qWait(50);
+  ASSERT_TRUE(waitUntil([this] { return placeOf(QStringLiteral("Drag the point"), 120).x() > 0; }));
   auto* plot = find<QWidget>("plot");
   const QPoint handle = placeOf(QStringLiteral("Drag the point"), 120) + QPoint(3, 3);
   ASSERT_GT(handle.x(), 0);
@@ -179,7 +179,7 @@ TEST_F(FairingWindow, TheTargetIsSplitOnThePlot) {
   ASSERT_EQ(used().targets.splits.size(), 1u);
   const double share = (plot->width() / 3.0 - 54.0) / (plot->width() - 70.0);
   EXPECT_NEAR(used().targets.splits[0], share, 0.01);
-  QTest::qWait(50);
+  ASSERT_TRUE(waitUntil([this] { return placeOf(QStringLiteral("Drag the split")).x() > 0; }));
   const QPoint grip = placeOf(QStringLiteral("Drag the split")) + QPoint(4, 0);
   ASSERT_GT(grip.x(), 0);
   QTest::mousePress(plot, Qt::LeftButton, {}, grip);
@@ -194,7 +194,7 @@ TEST_F(FairingWindow, TheTargetIsSplitOnThePlot) {
   EXPECT_EQ(choice().splitsPx.size(), 1u);
   // A click on a split joins the spans beside it.
   ASSERT_TRUE(settle());
-  QTest::qWait(50);
+  ASSERT_TRUE(waitUntil([this] { return placeOf(QStringLiteral("Drag the split")).x() > 0; }));
   const QPoint join = placeOf(QStringLiteral("Drag the split")) + QPoint(4, 0);
   ASSERT_GT(join.x(), 0);
   QTest::mouseClick(plot, Qt::LeftButton, {}, join);

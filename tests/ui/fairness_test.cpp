@@ -3,6 +3,7 @@
 
 #include <QLabel>
 #include <QListWidget>
+#include <QRegularExpression>
 #include <cmath>
 #include <numbers>
 
@@ -106,6 +107,26 @@ TEST_F(Fairness, IsToldWhileThePenDraws) {
   ASSERT_TRUE(settle());
   EXPECT_FALSE(hint->text().startsWith(QStringLiteral("S "))) << hint->text().toStdString();
   EXPECT_EQ(session().curves().size(), 1u);
+}
+
+TEST_F(Fairness, OfAStrokeAcrossALongPageIsThatOfTheWholeStroke) {
+  constexpr double kWavePx = 900.0, kWaves = 12.0;
+  window_->beginDrawing(NewDrawingDialog::recipeFor({2400, 120}, 127.0));
+  ASSERT_TRUE(waitUntil([this] { return session().isBlankPage() && !session().isBusy(); }));
+  auto* canvas = find<CurveCanvas>("canvas");
+  auto* hint = find<QLabel>("status.hint");
+  const auto at = [](double t) {
+    return Vec2(200.0 + kWavePx * kWaves * t, 300.0 + 150.0 * std::sin(2.0 * std::numbers::pi * kWaves * t));
+  };
+  QTest::mousePress(canvas, Qt::LeftButton, {}, canvas->toWidget(at(0.0)).toPoint());
+  for (int i = 1; i <= 600; ++i) moveTo(at(i / 600.0));
+  const auto told = [hint] {
+    static const QRegularExpression count(QStringLiteral("extrema: (\\d+)"));
+    return count.match(hint->text()).captured(1).toInt();
+  };
+  EXPECT_TRUE(waitUntil([&] { return told() >= 2 * static_cast<int>(kWaves) - 2; })) << hint->text().toStdString();
+  QTest::mouseRelease(canvas, Qt::LeftButton, {}, canvas->toWidget(at(1.0)).toPoint());
+  ASSERT_TRUE(settle());
 }
 
 }  // namespace

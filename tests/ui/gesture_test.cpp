@@ -175,7 +175,7 @@ TEST_F(Gesture, HeldKeysWorkWhereverTheFocusIsButInText) {
     EXPECT_FALSE(window_->view().isScanOnly());
   }
   QCursor::setPos(canvas()->mapToGlobal(canvas()->rect().center()));
-  QTest::qWait(30);
+  ASSERT_TRUE(waitUntil([this] { return canvas()->underMouse(); }));
   QTest::keyPress(button, Qt::Key_Space);
   EXPECT_EQ(canvas()->cursor().shape(), Qt::OpenHandCursor);
   EXPECT_FALSE(button->isDown());

@@ -3,11 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <QAbstractButton>
+#include <QAction>
+#include <QApplication>
 #include <QDir>
 #include <QDragEnterEvent>
 #include <QLabel>
+#include <QMessageBox>
 #include <QMimeData>
 #include <QStandardPaths>
+#include <QTimer>
 #include <cmath>
 #include <numbers>
 
@@ -108,6 +113,28 @@ TEST_F(Shelf, AProfileDroppedBesideTheLinesChangesNothing) {
   const Recipe before = session().recipe();
   EXPECT_FALSE(drop({500.0, 560.0}));
   EXPECT_EQ(session().recipe(), before);
+}
+
+TEST_F(Shelf, AProfileThatIsRemovedIsGoneFromShelfAndLibrary) {
+  const auto answer = [](QMessageBox::StandardButton button) {
+    QTimer::singleShot(100, [button] {
+      auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+      ASSERT_NE(box, nullptr);
+      EXPECT_TRUE(box->text().contains(QStringLiteral("Clothoid"))) << box->text().toStdString();
+      box->button(button)->click();
+    });
+  };
+  auto* title = find<QLabel>("fairing.savedProfiles");
+  EXPECT_TRUE(title->isVisible());
+  shelf()->setCurrentRow(0);
+  answer(QMessageBox::No);
+  find<QAction>("fairing.removeProfile")->trigger();
+  EXPECT_EQ(shelf()->count(), 1);
+  answer(QMessageBox::Yes);
+  find<QAction>("fairing.removeProfile")->trigger();
+  EXPECT_TRUE(ProfileLibrary().names().isEmpty());
+  EXPECT_FALSE(shelf()->isVisible());
+  EXPECT_FALSE(title->isVisible());
 }
 
 }  // namespace

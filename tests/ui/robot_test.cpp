@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A robot at the window: nothing it does may crash it, make Qt complain or hold the window up. BATTEN_ROBOT_EVENTS
-// (1000) is the number of events, BATTEN_ROBOT_SEED (1) where they begin.
+// (1000) is the number of events, BATTEN_ROBOT_SEED (1) where they begin. With BATTEN_ROBOT_LIST every pause over 60 ms
+// is printed, with the calls that were seen in it.
 #include "tests/ui/robot.h"
 
 #include <QDir>
@@ -42,17 +43,37 @@ class RobotAtTheWindow : public test::WindowFixture {
     test::WarningCatcher catcher;
     test::PauseMeter& meter = test::TestApplication::meter();
     meter.reset();
+    if (qEnvironmentVariableIsSet("BATTEN_ROBOT_LIST")) meter.watchCalls();
     const int events = numberFrom("BATTEN_ROBOT_EVENTS", 1000) / 3;
     const auto seed = static_cast<std::uint32_t>(numberFrom("BATTEN_ROBOT_SEED", 1));
     test::Robot robot(*window_, 3 * seed + part);
     robot.run(events);
     session().cancel();
     EXPECT_TRUE(test::waitUntil([&] { return !session().hasRunningJobs(); }));
-    std::cout << document << ": " << events << " events, longest pause " << meter.longestMs() << " ms ("
-              << meter.longestDoing().toStdString() << "), " << meter.over100Ms() << " over 100 ms\n";
-    EXPECT_LT(meter.longestMs(), kHangMs) << meter.longestDoing().toStdString();
+    std::cout << document << ": " << events << " events, longest pause ";
+    print(meter.longest());
+    std::cout << "  most work in one: ";
+    print(meter.mostWork());
+    std::cout << "  over 100 ms: " << meter.over100Ms() << ", of these by work of the window " << meter.workOver100Ms()
+              << '\n';
+    listPauses(meter);
+    EXPECT_LT(meter.longest().spent.wallMs, kHangMs) << meter.longest().doing.toStdString();
     EXPECT_TRUE(test::WarningCatcher::warnings().isEmpty())
         << test::WarningCatcher::warnings().join(QLatin1Char('\n')).toStdString();
+  }
+
+  static void print(const test::PauseMeter::Pause& pause) {
+    std::cout << pause.spent.wallMs << " ms, " << pause.spent.processorMs << " ms of them work, " << pause.spent.waits
+              << " waits (it " << pause.doing.toStdString() << ": " << pause.event.toStdString() << ")\n";
+  }
+  /// Every pause over 60 ms, with the calls that were seen.
+  static void listPauses(const test::PauseMeter& meter) {
+    if (!qEnvironmentVariableIsSet("BATTEN_ROBOT_LIST")) return;
+    for (const test::PauseMeter::Pause& pause : meter.pauses()) {
+      std::cout << "  pause ";
+      print(pause);
+      for (const QString& stack : pause.stack) std::cout << "    in " << stack.toStdString() << '\n';
+    }
   }
 
   test::NoBrowser browser_;

@@ -246,7 +246,7 @@ TEST_F(Window, LeavingACurveOutAndBackIsUndoable) {
   list->setCurrentRow(0);
   // With the mouse on the drawing Space pans.
   QCursor::setPos(list->mapToGlobal(list->rect().center()));
-  QTest::qWait(30);
+  ASSERT_TRUE(waitUntil([this] { return !find<CurveCanvas>("canvas")->underMouse(); }));
   QTest::keyClick(list, Qt::Key_Space);
   ASSERT_EQ(session().recipe().choices.size(), 1u);
   EXPECT_FALSE(session().recipe().choices[0].included);

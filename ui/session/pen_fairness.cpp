@@ -2,44 +2,37 @@
 #include "ui/session/pen_fairness.h"
 
 #include <QPointer>
-#include <algorithm>
-#include <cmath>
+#include <span>
 #include <utility>
 
-#include "core/base/conventions.h"
+#include "core/contour/corner/corner_marks.h"
+#include "core/contour/segment/regression_segments.h"
+#include "core/pipeline/run/curve_stages.h"
 #include "core/pipeline/run/pipeline.h"
 #include "ui/session/guarded.h"
 
 namespace batten {
 namespace {
 
-constexpr double kPenMarginPx = 8.0;
-constexpr int kSmallestPagePx = 16, kLargestPagePx = 8000;
-constexpr std::size_t kPenCacheBytes = std::size_t{16} << 20;
+/// What the stroke becomes, and on what page.
+struct PenCourse {
+  Recipe recipe;  ///< The settings of segments and curves alone.
+  PenStroke stroke;
+  PageExtent page;
+  PageFrame frame;
+};
 
-/// The stroke alone on a page of its size, made as the drawing's lines are.
-Result<CurveFairness> fairnessOf(PenStroke stroke, const ConstructParams& construct, double dpi,
-                                 const RunContext& context) {
-  Vec2 low = stroke.points.front(), high = low;
-  for (const Vec2& p : stroke.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  for (Vec2& p : stroke.points) p += Vec2::Constant(kPenMarginPx) - low;
-  const Vec2 size = high - low + Vec2::Constant(2.0 * kPenMarginPx);
-  const auto pixels = [](double value) {
-    return std::clamp(static_cast<int>(std::ceil(value)), kSmallestPagePx, kLargestPagePx);
-  };
-  const Scan page = blankScan(pixels(size.x()), pixels(size.y()), dpi);
-  Recipe recipe;
-  recipe.construct = construct;
-  recipe.dpi = dpi;
-  recipe.page = BlankPage{pixels(size.x()), pixels(size.y())};
-  recipe.penStrokes.push_back(std::move(stroke));
-  PipelineRequest request;
-  request.upTo = StageId::Curves;
-  StageCache cache(kPenCacheBytes);
-  const PipelineOutput output = runPipeline(page, recipe, cache, request, context);
-  if (output.error) return fail(*output.error);
-  if (!output.constructed || output.constructed->curves.empty()) return fail(ErrorCode::NoCurve, "No curve yet.");
-  const TracedCurve& curve = output.constructed->curves.front();
+/// The stroke by itself, from the points on: nothing of the page is read.
+Result<CurveFairness> fairnessOf(const PenCourse& course, const RunContext& context) {
+  const auto lines = withPenStrokes({}, std::span(&course.stroke, 1), course.page);
+  if (!lines) return fail(lines.error());
+  const auto pieces = splitAtCorners(*lines, {}, course.recipe.corners, context);
+  if (!pieces) return fail(pieces.error());
+  const auto segments = regressionSegments(*pieces, course.recipe.segments, context);
+  if (!segments) return fail(segments.error());
+  const auto made = constructAll(*lines, *pieces, *segments, course.recipe, course.frame, context);
+  if (!made) return fail(made.error());
+  const TracedCurve& curve = made->curves.front();
   const auto fairness = curveFairness(curve.sketched, curve.closed);
   if (!fairness) return fail(ErrorCode::NoCurve, "No curve yet.");
   return *fairness;
@@ -51,13 +44,15 @@ PenFairness::PenFairness(const EditorSession& session, QObject* parent) : QObjec
 
 void PenFairness::follow(PenStroke stroke) {
   if (!session_.hasScan() || validate(stroke)) return;
-  const double dpi = kMillimetresPerInch / frameFor(*session_.scan(), session_.recipe()).mmPerPx;
+  PenCourse course{{}, std::move(stroke), {}, frameFor(*session_.scan(), session_.recipe())};
+  course.recipe.segments = session_.recipe().segments;
+  course.recipe.construct = session_.recipe().construct;
+  course.page = {static_cast<double>(session_.scan()->grey.width), static_cast<double>(session_.scan()->grey.height)};
   worker_.start(
-      [stroke = std::move(stroke), construct = session_.recipe().construct, dpi, line = line_,
-       pen = QPointer<PenFairness>(this)](const CancelToken& token) {
+      [course = std::move(course), line = line_, pen = QPointer<PenFairness>(this)](const CancelToken& token) {
         RunContext context;
         context.cancel = token;
-        const auto fairness = guarded<CurveFairness>([&] { return fairnessOf(stroke, construct, dpi, context); });
+        const auto fairness = guarded<CurveFairness>([&] { return fairnessOf(course, context); });
         if (!fairness || token.isCancelled() || !pen) return;
         QMetaObject::invokeMethod(
             pen.data(),

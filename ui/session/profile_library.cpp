@@ -2,6 +2,7 @@
 #include "ui/session/profile_library.h"
 
 #include <QDir>
+#include <QFile>
 #include <QRegularExpression>
 #include <QStandardPaths>
 
@@ -60,6 +61,14 @@ Result<void> ProfileLibrary::save(const QString& name, const std::vector<Profile
   if (!QDir().mkpath(folderOfProfiles()))
     return fail(ErrorCode::CannotWrite, "The folder for saved profiles cannot be created.");
   return saveAtomically(nativePath(fileOf(name)), profileToText(shape));
+}
+
+Result<void> ProfileLibrary::remove(const QString& name) const {
+  const QString file = fileOf(name);
+  if (isName(name) && QFile::exists(file) && !QFile::remove(file))
+    return fail(ErrorCode::CannotWrite,
+                "The profile \"" + name.toStdString() + "\" cannot be removed. Check the permissions of its file.");
+  return {};
 }
 
 }  // namespace batten

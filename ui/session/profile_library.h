@@ -17,6 +17,8 @@ class ProfileLibrary {
   Result<std::vector<ProfilePoint>> load(const QString& name) const;
   /// Letters, digits, blanks, dots, dashes and underscores; 1 to 60 of them. One of this name is replaced.
   Result<void> save(const QString& name, const std::vector<ProfilePoint>& shape) const;
+  /// One that is no longer there is no error.
+  Result<void> remove(const QString& name) const;
 };
 
 }  // namespace batten

@@ -2,9 +2,9 @@
 #include "ui/session/suggestion_source.h"
 
 #include <QPointer>
-#include <numbers>
 #include <utility>
 
+#include "core/base/angle.h"
 #include "core/contour/corner/corner_suggestions.h"
 #include "core/pipeline/run/corner_places.h"
 #include "ui/session/editor_session.h"
@@ -30,7 +30,7 @@ void SuggestionSource::look(double angleDeg, double scalePx) {
   worker_.start(
       [contours, angleDeg, scalePx, snapPx, source = QPointer<SuggestionSource>(this)](const CancelToken& token) {
         auto found = guarded<std::vector<CornerSuggestion>>([&] {
-          const double angle = angleDeg * std::numbers::pi / 180.0;
+          const double angle = angleDeg * kRadPerDeg;
           RunContext context;
           context.cancel = token;
           return oncePerCorner(*contours, suggestCornersAndCuts(*contours, angle, scalePx, context), snapPx, context);

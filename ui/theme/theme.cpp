@@ -6,8 +6,10 @@
 #include <QFontDatabase>
 #include <QPainter>
 #include <QPixmap>
+#include <QPixmapCache>
 #include <QStyle>
 #include <QStyleFactory>
+#include <optional>
 
 namespace batten {
 namespace {
@@ -109,17 +111,27 @@ QFont uiFont(int pixelSize, QFont::Weight weight) {
 }
 
 QIcon themedIcon(const QString& name, const QPalette& palette) {
-  const QIcon source(QStringLiteral(":/icons/") + name + QStringLiteral(".svg"));
-  QIcon icon;
   const Theme& theme = themeOf(palette);
+  std::optional<QIcon> source;
+  QIcon icon;
   for (const auto& [mode, color] : {std::pair{QIcon::Normal, theme.text}, std::pair{QIcon::Disabled, theme.line}}) {
     for (const int size : {16, 32, 48}) {
-      QPixmap pixmap = source.pixmap(size, size);
-      if (pixmap.isNull()) continue;
-      QPainter painter(&pixmap);
-      painter.setCompositionMode(QPainter::CompositionMode_SourceIn);
-      painter.fillRect(pixmap.rect(), color);
-      painter.end();
+      // Lists ask for the icons of their rows whenever they paint.
+      const QString key = QStringLiteral("batten-icon %1 %2 %3 %4")
+                              .arg(name, color.name(QColor::HexArgb))
+                              .arg(size)
+                              .arg(qApp->devicePixelRatio());
+      QPixmap pixmap;
+      if (!QPixmapCache::find(key, &pixmap)) {
+        if (!source) source = QIcon(QStringLiteral(":/icons/") + name + QStringLiteral(".svg"));
+        pixmap = source->pixmap(size, size);
+        if (pixmap.isNull()) continue;
+        QPainter painter(&pixmap);
+        painter.setCompositionMode(QPainter::CompositionMode_SourceIn);
+        painter.fillRect(pixmap.rect(), color);
+        painter.end();
+        QPixmapCache::insert(key, pixmap);
+      }
       icon.addPixmap(pixmap, mode);
     }
   }

@@ -17,6 +17,8 @@
 #include "app/cli/exit_codes.h"
 #include "app/cli/file_names.h"
 #include "core/base/shown_text.h"
+#include "core/document/report_pages/report_file.h"
+#include "core/exchange/export_settings.h"
 #include "core/exchange/save_atomically.h"
 
 namespace batten::cli {
@@ -38,16 +40,28 @@ Result<std::string> textOf(const std::string& input) {
   return std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
+/// What --formats takes: the endings without their dots.
+std::string formatWords() {
+  std::string words = " " + allEndings() + ", .report.pdf, .report.html";
+  for (auto at = words.find(" ."); at != std::string::npos; at = words.find(" .", at)) words.erase(at + 1, 1);
+  return words.substr(1);
+}
+
 Result<std::vector<std::string>> extensionsOf(const std::string& formats) {
   std::vector<std::string> extensions;
   for (std::size_t from = 0; from <= formats.size();) {
     const auto comma = std::min(formats.find(',', from), formats.size());
     const std::string one = formats.substr(from, comma - from);
-    if (one.empty() || !std::all_of(one.begin(), one.end(), [](unsigned char c) { return std::isalnum(c) != 0; })) {
+    const auto isLetter = [](unsigned char c) { return std::isalnum(c) != 0 || c == '.'; };
+    if (one.empty() || !std::all_of(one.begin(), one.end(), isLetter)) {
       return wrong("--formats takes extensions separated by commas, such as svg,json, not \"" + formats + "\".");
     }
     if (std::find(extensions.begin(), extensions.end(), one) == extensions.end()) extensions.push_back(one);
     from = comma + 1;
+  }
+  for (const std::string& one : extensions) {
+    if (!formatOf("NAME." + one) && !reportFormatOf("NAME." + one))
+      return wrong("--formats: there is no format \"" + one + "\". Formats: " + formatWords() + ".");
   }
   return extensions;
 }
@@ -184,8 +198,7 @@ int finish(const BatchArguments& arguments, const std::vector<BatchPage>& pages,
     return kStopped;
   }
   if (run.counts().failed == 0) return kDone;
-  std::cerr << "batten-cli: " << run.counts().failed << " of " << pages.size()
-            << (run.counts().failed == 1 ? " pages has failed" : " pages have failed")
+  std::cerr << "batten-cli: " << failedPages(run.counts().failed, pages.size())
             << "; the lines with \"status\":\"failed\" say why." << std::endl;
   return kPagesFailed;
 }

@@ -28,9 +28,9 @@ constexpr int kLongestTurnMs = 50;  // the event loop is not held up longer by p
 constexpr double kProgressEverySeconds = 1.0;
 
 // What a call is taken to need at its peak. The program alone takes 85 MB; drawings and photographs of 0.2 to 35
-// megapixels took 6 to 25 bytes a pixel beside that, so the allowance for a pixel is generous.
+// megapixels took 6 to 25 bytes a pixel beside that, a page that one spiral of many turns covers took 55.
 constexpr std::uint64_t kBytesOfACall = std::uint64_t{96} << 20;
-constexpr std::uint64_t kBytesPerPixel = 40;
+constexpr std::uint64_t kBytesPerPixel = 64;
 
 /// [bytes] What tracing the page will take at its peak, from the size that the scan states.
 std::uint64_t memoryNeeded(const BatchPage& page) {
@@ -187,9 +187,10 @@ std::optional<PageResult> BatchRun::resultWithoutCall(const BatchPage& page, con
     result.isTold = lines_.isTold(*key, record->resultsFrom);
     return result;
   }
-  if (record || !anyOutputExists(page)) return std::nullopt;
+  if (record ? !hasForeignOutput(page, *record) : !anyOutputExists(page)) return std::nullopt;
   result.exitCode = kCannotWrite;
-  result.error = "An output exists that was not written by batch. Move it, or use --existing overwrite.";
+  result.error = record ? "An output was changed after batch had written it. Move it, or use --existing overwrite."
+                        : "An output exists that was not written by batch. Move it, or use --existing overwrite.";
   return result;
 }
 
@@ -250,6 +251,7 @@ void BatchRun::settle(std::size_t index, PageResult result) {
   if (result.status != PageStatus::Failed) {
     if (const auto written = writeRecord(page, record); !written) {
       result.status = PageStatus::Failed;
+      result.exitCode = kCannotWrite;
       result.error = written.error().message;
     }
   }
@@ -286,8 +288,7 @@ void BatchRun::report(std::size_t index, const PageResult& result) {
   }
   const double share = static_cast<double>(counts_.failed) / static_cast<double>(pages_.size());
   if (share > settings_.maxFailures) {
-    stop(std::to_string(counts_.failed) + " of " + std::to_string(pages_.size()) +
-         (counts_.failed == 1 ? " pages has" : " pages have") + " failed, more than --max-failures allows.");
+    stop(failedPages(counts_.failed, pages_.size()) + ", more than --max-failures allows.");
   }
 }
 
@@ -325,6 +326,11 @@ void BatchRun::showProgress() {
   if (elsewhere > 0) line += ", " + std::to_string(elsewhere) + " with another call";
   if (!whyStopped_.empty()) line += "; ends after " + std::to_string(running_.size()) + " running";
   std::fputs((line + "\033[K").c_str(), stderr);
+}
+
+std::string failedPages(int failed, std::size_t all) {
+  return std::to_string(failed) + (failed == 1 ? " page of " : " pages of ") + std::to_string(all) +
+         (failed == 1 ? " has failed" : " have failed");
 }
 
 }  // namespace batten::cli

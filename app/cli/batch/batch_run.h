@@ -19,7 +19,8 @@ namespace batten::cli {
 
 /// What becomes of a page whose outputs are there.
 enum class Existing {
-  Skip,       ///< Unchanged pages are left; changed ones are made anew. A file that no batch wrote is not touched.
+  Skip,       ///< Unchanged pages are left; changed ones are made anew. A file that no batch wrote, or that was
+              ///< changed since, is not touched: its page fails.
   Overwrite,  ///< Every page is made anew.
   Abort,      ///< Nothing is done if any output is there.
 };
@@ -89,5 +90,8 @@ class BatchRun {
   QElapsedTimer clock_;
   QTimer tick_;
 };
+
+/// "1 page of 2 has failed", "3 pages of 5 have failed".
+std::string failedPages(int failed, std::size_t all);
 
 }  // namespace batten::cli

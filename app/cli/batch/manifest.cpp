@@ -165,12 +165,31 @@ bool isScanName(const fs::path& path) {
   return known.contains(endingOf(path));
 }
 
-/// Whether a name matches a pattern in which * is any text and ? any letter.
+/// The place behind what one letter of a name has to match, if it does: a letter, ?, or a set as in [a-f7] and [!a-f7].
+/// A set that does not end is the letter [ itself.
+std::optional<std::size_t> behindLetter(std::string_view pattern, std::size_t p, char letter) {
+  if (p >= pattern.size() || pattern[p] == '*') return std::nullopt;
+  const bool isNegated = pattern.substr(p).starts_with("[!");
+  const std::size_t first = p + (isNegated ? 2 : 1);
+  const std::size_t end = pattern[p] == '[' ? pattern.find(']', first + 1) : std::string_view::npos;
+  if (end == std::string_view::npos) {
+    return pattern[p] == '?' || pattern[p] == letter ? std::optional(p + 1) : std::nullopt;
+  }
+  bool isInSet = false;
+  for (std::size_t i = first; i < end; ++i) {
+    const bool isRange = i + 2 < end && pattern[i + 1] == '-';
+    isInSet = isInSet || (pattern[i] <= letter && letter <= pattern[isRange ? i + 2 : i]);
+    if (isRange) i += 2;
+  }
+  return isInSet != isNegated ? std::optional(end + 1) : std::nullopt;
+}
+
+/// Whether a name matches a pattern in which * is any text, ? any letter and [...] a letter of a set.
 bool matches(std::string_view pattern, std::string_view name) {
   std::size_t p = 0, n = 0, star = std::string_view::npos, mark = 0;
   while (n < name.size()) {
-    if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n]) && pattern[p] != '*') {
-      ++p, ++n;
+    if (const auto next = behindLetter(pattern, p, name[n])) {
+      p = *next, ++n;
     } else if (p < pattern.size() && pattern[p] == '*') {
       star = p++, mark = n;
     } else if (star != std::string_view::npos) {
@@ -188,7 +207,7 @@ struct FoundScan {
   fs::path inFolder;  ///< The folder within the one that was searched.
 };
 
-bool isPattern(const std::string& name) { return name.find_first_of("*?") != std::string::npos; }
+bool isPattern(const std::string& name) { return name.find_first_of("*?[") != std::string::npos; }
 
 /// The scans of a folder and of all that lies in it, but for the folder of the outputs.
 void searchFolder(const fs::path& folder, const std::string& outputs,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/batch/page_record.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -38,9 +39,10 @@ std::string lineOf(const Json& json) { return json.dump(-1, ' ', false, Json::er
 std::string resultLine(const BatchPage& page, const PageResult& result) {
   Json outputs = Json::array();
   for (const std::string& output : page.outputs) outputs.push_back(jsonText(output));
-  Json json{{"line", page.line},       {"scan", jsonText(page.scan)},
-            {"outputs", outputs},      {"status", wordOf(result.status)},
-            {"exit", result.exitCode}, {"seconds", result.seconds}};
+  Json json{
+      {"line", page.line}, {"scan", jsonText(page.scan)}, {"outputs", outputs}, {"status", wordOf(result.status)}};
+  if (result.exitCode) json["exit"] = *result.exitCode;
+  json["seconds"] = result.seconds;
   if (!result.error.empty()) json["error"] = result.error;
   for (const auto& [key, value] : result.figures.items()) json[key] = value;
   if (!result.key.empty()) json["key"] = result.key;
@@ -107,6 +109,15 @@ Result<void> writeRecord(const BatchPage& page, const PageRecord& record) {
                   {"note", record.note},           {"outputs_sha256", record.outputHashes},
                   {"figures", record.figures}};
   return saveAtomically(recordName(page), lineOf(json) + "\n");
+}
+
+bool hasForeignOutput(const BatchPage& page, const PageRecord& record) {
+  if (!record.isEnded) return false;
+  const auto& own = record.outputHashes;
+  return std::any_of(page.outputs.begin(), page.outputs.end(), [&](const std::string& output) {
+    const auto hash = fileHash(output);
+    return hash && std::find(own.begin(), own.end(), *hash) == own.end();
+  });
 }
 
 bool isUnchanged(const BatchPage& page, const PageRecord& record, const std::string& key) {

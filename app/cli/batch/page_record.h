@@ -22,7 +22,7 @@ enum class PageStatus {
 /// One line of the results: what is known of a page when it has ended.
 struct PageResult {
   PageStatus status = PageStatus::Failed;
-  int exitCode = 0;                ///< As of `batten-cli trace` alone.
+  std::optional<int> exitCode;     ///< As of `batten-cli trace` alone; none if the call did not end by itself.
   std::string error;               ///< Of a failed or empty page: what the call says.
   nlohmann::ordered_json figures;  ///< Of a page that is done: curves, pieces, times, memory, notes; else empty.
   std::string key;                 ///< See pageKey.
@@ -58,6 +58,10 @@ Result<void> writeRecord(const BatchPage&, const PageRecord&);
 
 /// SHA-256 of a file's bytes; nullopt if it cannot be read.
 std::optional<std::string> fileHash(const std::string& name);
+
+/// Whether an output of the page is there that is not as the record's call left it: somebody has changed it, or put it
+/// there. False for a record that was begun only: which outputs its call wrote is not known.
+bool hasForeignOutput(const BatchPage&, const PageRecord&);
 
 /// Whether a record says that nothing needs to be done: it is of this key, ended, and the outputs are as they were
 /// written.

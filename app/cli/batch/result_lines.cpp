@@ -33,7 +33,10 @@ std::string keyToldBy(std::string_view line) {
 
 Result<ResultLines> ResultLines::open(const std::string& file) {
   ResultLines lines;
-  if (file.empty() || file == "-") return lines;
+  if (file.empty() || file == "-") {
+    std::setvbuf(stdout, nullptr, _IONBF, 0);  // a line longer than a buffer would be handed over in parts
+    return lines;
+  }
   lines.name_ = file;
   auto opened = SharedLines::open(file);
   if (!opened) {

@@ -2,13 +2,15 @@
 #include "core/construct/light/detail_curve.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "core/base/angle.h"
 #include "core/base/parallel.h"
 #include "core/construct/light/detail_line.h"
 #include "core/construct/light/light_corners.h"
@@ -21,11 +23,10 @@ namespace batten {
 namespace {
 
 constexpr double kStepsPerScale = 12.0;
-constexpr double kLeftOut = 1.2;     // scales beside a corner, where ink is rounded
-constexpr double kSmoothedBy = 0.4;  // scales
-constexpr double kFitShare = 0.9;    // of the tolerance; the rest is for the smoothing
-constexpr double kClearNotch =
-    60.0 * std::numbers::pi / 180.0;  // a corner that does not turn at large must turn by this
+constexpr double kLeftOut = 1.2;                   // scales beside a corner, where ink is rounded
+constexpr double kSmoothedBy = 0.4;                // scales
+constexpr double kFitShare = 0.9;                  // of the tolerance; the rest is for the smoothing
+constexpr double kClearNotch = 60.0 * kRadPerDeg;  // a corner that does not turn at large must turn by this
 constexpr int kFewestStretchSamples = 16;
 constexpr int kFewestTried = 9, kMostDetailPoints = 60;
 constexpr double kChordReach = 3.0;  // tolerances
@@ -88,12 +89,14 @@ std::vector<Vec2> pointsOf(const Stretch& stretch, const EvenLine& line, double 
   return points;
 }
 
-LightCurve fitOf(const NurbsCurve& dense, const std::vector<Vec2>& points, bool closed, const LightOptions& options,
-                 const RunContext& context) {
+/// LightForms::All stands for a closed line.
+LightCurve fitOf(const NurbsCurve& dense, const std::vector<Vec2>& points, LightForms forms,
+                 const LightOptions& options, const RunContext& context) {
+  const bool closed = forms == LightForms::All;
   const auto reference = LightReference::through(points, closed);
   if (!reference) return {};
   LightTask task;
-  task.forms = closed ? LightForms::All : LightForms::UpToQuintic;
+  task.forms = forms;
   task.keepStructure = false;
   task.mostPoints = std::clamp(static_cast<int>(static_cast<double>(points.size()) / kSamplesPerPoint), kFewestTried,
                                kMostDetailPoints);
@@ -152,10 +155,10 @@ bool areAllFound(const std::vector<LightCurve>& parts) {
 
 /// The curves of a stretch: one, or where none is found those of two parts of it, which meet in a corner. Where
 /// LightOptions::mostPoints are too few, one that was not found.
-std::vector<LightCurve> fitsOf(const NurbsCurve& dense, const std::vector<Vec2>& points, bool closed,
+std::vector<LightCurve> fitsOf(const NurbsCurve& dense, const std::vector<Vec2>& points, LightForms forms,
                                const LightOptions& options, int cuts, const RunContext& context) {
-  LightCurve one = fitOf(dense, points, closed, options, context);
-  if (areAllFound({one}) || closed || context.isCancelled()) return {one};
+  LightCurve one = fitOf(dense, points, forms, options, context);
+  if (areAllFound({one}) || forms == LightForms::All || context.isCancelled()) return {one};
   if (cuts == 0 || points.size() < 2 * kFewestStretchSamples) {
     if (auto chord = chordOf(points, kChordReach * options.tolerance)) return {*chord};
     return {one};
@@ -165,37 +168,56 @@ std::vector<LightCurve> fitsOf(const NurbsCurve& dense, const std::vector<Vec2>&
   const auto at = points.begin() + static_cast<std::ptrdiff_t>(farthestFromChord(points));
   LightOptions half = options;
   if (isBounded) half.mostPoints = options.mostPoints - 1;
-  auto parts = fitsOf(dense, {points.begin(), at + 1}, false, half, cuts - 1, context);
-  if (isBounded && !areAllFound(parts)) return {tooManyPoints(dense)};
+  auto parts = fitsOf(dense, {points.begin(), at + 1}, forms, half, cuts - 1, context);
+  if (!areAllFound(parts)) return {tooManyPoints(dense)};
   if (isBounded) half.mostPoints = options.mostPoints + 1 - pointsTogether(parts);
-  auto rest = fitsOf(dense, {at, points.end()}, false, half, cuts - 1, context);
-  if (isBounded && !areAllFound(rest)) return {tooManyPoints(dense)};
+  auto rest = fitsOf(dense, {at, points.end()}, forms, half, cuts - 1, context);
+  if (!areAllFound(rest)) return {tooManyPoints(dense)};
   std::move(rest.begin(), rest.end(), std::back_inserter(parts));
   return parts;
+}
+
+/// The stretches from the shortest to the longest.
+std::vector<std::size_t> byLength(const std::vector<std::vector<Vec2>>& stretches) {
+  std::vector<std::size_t> order(stretches.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return stretches[a].size() < stretches[b].size(); });
+  return order;
 }
 
 /// The curves of all stretches; none when they have more control points than are wanted. Without such a bound they
 /// share the threads; with one they are made in turn, and the first ones that are too many end it.
 std::optional<std::vector<std::vector<LightCurve>>> fitsOfAll(const NurbsCurve& dense,
                                                               const std::vector<std::vector<Vec2>>& stretches,
-                                                              bool loop, bool closed, const LightOptions& options,
-                                                              const RunContext& context) {
+                                                              LightForms forms, bool closed,
+                                                              const LightOptions& options, const RunContext& context) {
   std::vector<std::vector<LightCurve>> fits(stretches.size());
-  if (loop || options.mostPoints == kAnyNumber) {
+  if (forms == LightForms::All || options.mostPoints == kAnyNumber) {
+    // One stretch without a curve is enough to give up: the long ones, which mostly are it, come first.
+    const std::vector<std::size_t> order = byLength(stretches);
+    std::atomic<bool> isHopeless = false;
     parallelFor(context, static_cast<int>(fits.size()), 1, [&](int begin, int end) {
       for (int i = begin; i < end && !context.isCancelled(); ++i) {
-        fits[i] = fitsOf(dense, stretches[i], loop, options, kMostCuts, context);
+        const std::size_t at = order[static_cast<std::size_t>(std::ssize(order) - 1 - i)];
+        auto& own = fits[at];
+        own.resize(1);
+        if (isHopeless) continue;
+        own = fitsOf(dense, stretches[at], forms, options, kMostCuts, context);
+        if (!areAllFound(own)) isHopeless = true;
       }
     });
     return fits;
   }
-  // Each stretch adds one point and more: those beyond are for this stretch.
+  // Each stretch adds one point and more: those beyond are for this stretch. The short ones are quickly made, and leave
+  // the long ones less to try.
   int spare = options.mostPoints - static_cast<int>(stretches.size()) - (closed ? 0 : 1);
-  for (std::size_t i = 0; i < fits.size() && !context.isCancelled(); ++i) {
+  for (const std::size_t i : byLength(stretches)) {
+    if (context.isCancelled()) break;
     if (spare < 0) return std::nullopt;
     LightOptions own = options;
     own.mostPoints = spare + 2;
-    fits[i] = fitsOf(dense, stretches[i], false, own, kMostCuts, context);
+    fits[i] = fitsOf(dense, stretches[i], forms, own, kMostCuts, context);
     if (!areAllFound(fits[i])) return std::nullopt;
     spare -= pointsTogether(fits[i]) - 2;
   }
@@ -210,10 +232,9 @@ double farthest(const EvenLine& line, const NurbsCurve& curve, const RunContext&
   return worst;
 }
 
-}  // namespace
-
-std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, const LightOptions& options,
-                                          const RunContext& context) {
+/// With sections of these forms, where it has corners or is open.
+std::optional<LightCurve> simplifiedTo(LightForms forms, const NurbsCurve& dense, bool closed,
+                                       const LightOptions& options, const RunContext& context) {
   const double scale = options.tolerance;
   const EvenLine whole = evenLine(dense, closed, std::max(options.step, scale / kStepsPerScale));
   EvenLine line = whole;
@@ -233,7 +254,7 @@ std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, 
       stretches.push_back(smoothPolyline(evenly(points, line.step), false, sigma));
     }
   }
-  const auto fits = fitsOfAll(dense, stretches, loop, closed, options, context);
+  const auto fits = fitsOfAll(dense, stretches, loop ? LightForms::All : forms, closed, options, context);
   if (context.isCancelled()) return std::nullopt;
   if (!fits) return tooManyPoints(dense);
   std::vector<LightCurve> parts;
@@ -264,6 +285,16 @@ std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, 
   if (context.isCancelled()) return std::nullopt;
   simple.report.extrema = countedExtrema(simple.curve, closed);
   return simple;
+}
+
+}  // namespace
+
+std::optional<LightCurve> simplifiedCurve(const NurbsCurve& dense, bool closed, const LightOptions& options,
+                                          const RunContext& context) {
+  // One quintic among many short sections would raise all of them to its degree.
+  auto cubic = simplifiedTo(LightForms::UpToCubic, dense, closed, options, context);
+  if (cubic || context.isCancelled()) return cubic;
+  return simplifiedTo(LightForms::UpToQuintic, dense, closed, options, context);
 }
 
 }  // namespace batten

@@ -8,21 +8,21 @@
 #include <numbers>
 #include <optional>
 
+#include "core/base/angle.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {
 
-constexpr double kCornerRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kSmoothing = 0.5;  // scales, standard deviation
 constexpr double kHalfTurn = 2.0;   // scales to either side, over which a corner turns
 constexpr double kFlank = 3.0;      // scales beyond, that bend less
-constexpr double kLeastCornerTurn = 25.0 * kCornerRadPerDeg;
+constexpr double kLeastCornerTurn = 25.0 * kRadPerDeg;
 constexpr double kFlankShare = 0.45;                     // of the corner's turn per length
 constexpr double kVertexNear = 1.0, kVertexReach = 1.6;  // scales from the line
-constexpr double kTip = 110.0 * kCornerRadPerDeg;        // turns beyond have no vertex near the line
+constexpr double kTip = 110.0 * kRadPerDeg;              // turns beyond have no vertex near the line
 constexpr double kApart = 3.4;                           // scales between two corners of one sense
-constexpr double kHardTurn = 40.0 * kCornerRadPerDeg, kHardChords = 48.0 * kCornerRadPerDeg;
+constexpr double kHardTurn = 40.0 * kRadPerDeg, kHardChords = 48.0 * kRadPerDeg;
 constexpr double kChordFrom = 1.2, kChordTo = 7.2;  // scales
 constexpr int kFewestLinePlaces = 24;
 constexpr double kMouth = 0.8, kLongestNeck = 16.0;  // scales

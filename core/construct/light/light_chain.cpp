@@ -66,6 +66,23 @@ std::vector<double> spread(std::vector<double> cuts, const NurbsCurve& curve, do
   return kept;
 }
 
+/// Knots at which stretches between cuts are to be divided that have more than kMostSectionSpans spans. @pre `cuts`
+/// ascend.
+std::vector<double> cutsOfLongStretches(const std::vector<double>& cuts, const NurbsCurve& curve) {
+  std::vector<double> added;
+  const std::vector<double> breaks = curve.breaks();
+  auto next = cuts.begin();
+  int since = 0;
+  for (std::size_t i = 1; i + 1 < breaks.size(); ++i) {
+    ++since;
+    for (; next != cuts.end() && *next <= breaks[i]; ++next) since = 0;
+    if (since < kMostSectionSpans) continue;
+    added.push_back(breaks[i]);
+    since = 0;
+  }
+  return added;
+}
+
 struct Section {
   NurbsCurve dense;
   LightHold start = LightHold::Curvature, end = LightHold::Curvature;
@@ -241,6 +258,11 @@ LightSections lightSections(const NurbsCurve& dense, const LightReference& refer
   const double least =
       kFewestSamplesOfCut * (dense.end() - dense.start()) / static_cast<double>(std::max(1, reference.size()));
   sections.cuts = spread(std::move(cuts), dense, least);
+  const std::vector<double> added = cutsOfLongStretches(sections.cuts, dense);
+  if (!added.empty()) {
+    sections.cuts.insert(sections.cuts.end(), added.begin(), added.end());
+    sections.cuts = spread(std::move(sections.cuts), dense, least);
+  }
   return sections;
 }
 

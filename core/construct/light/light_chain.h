@@ -13,13 +13,18 @@ namespace batten {
 /// and these again, down to one extremum.
 inline constexpr int kExtremaPerSection = 6;
 
+/// Spans of a dense curve that are made light together: the search for the fewest control points tries more of them,
+/// and each try costs more, the longer a section is.
+inline constexpr int kMostSectionSpans = 400;
+
 /// How a dense curve is cut into sections that are made light one by one.
 struct LightSections {
   int extrema = 0;           ///< Significant ones of the whole.
   std::vector<double> cuts;  ///< Parameters, ascending, where one section goes over into the next, ends not included.
 };
 /// Cuts lie where a tight turn was joined on (knots of multiplicity 3 and more), and between extrema, after every few
-/// of them, where the curvature changes fastest. Closed curves begin where their reference does (startedAt).
+/// of them, where the curvature changes fastest; and at knots, after kMostSectionSpans without another cut. Closed
+/// curves begin where their reference does (startedAt).
 LightSections lightSections(const NurbsCurve& dense, const LightReference&, const LightOptions&,
                             int extremaPerSection = kExtremaPerSection);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/construct/light/light_curve.h"
 
+#include <iterator>
 #include <utility>
 
 #include "core/construct/light/light_chain.h"
@@ -40,7 +41,9 @@ LightCurve lightest(const NurbsCurve& dense, bool closed, const LightOptions& op
   const bool mayBeCut = !sections.cuts.empty() &&
                         fewestOfSections(static_cast<int>(sections.cuts.size()) + 1, closed) <= options.mostPoints;
   if (sections.extrema <= kMostInOneSpline) {
-    found = searchLight(dense, *reference, options, LightTask{}, context);
+    LightTask whole;
+    if (std::ssize(dense.breaks()) > kMostSectionSpans + 1) whole.mostPoints = 0;  // a line or an arc, or in sections
+    found = searchLight(dense, *reference, options, whole, context);
     if (found.report.kind != LightKind::Dense || context.isCancelled()) return found;
   } else {
     found = sameCurve(dense, LightObstacle::Effort);

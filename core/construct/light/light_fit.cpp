@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/construct/light/light_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/construct/light/light_matrix.h"
 #include "core/construct/light/light_system.h"
 #include "core/solve/levenberg_marquardt.h"
 
@@ -26,13 +26,9 @@ constexpr LightWeights kSecond{0.15, 12.0, 1.0, 3.0};
 class LightProblem final : public LevenbergProblem {
  public:
   LightProblem(const LightReference& reference, LightShape start, const LightAsk& ask, const RunContext& context)
-      : context_(context), ask_(ask), system_(reference, ask, start) {
+      : context_(context), ask_(ask), system_(reference, ask, start), matrix_(start, start.spans() > 1) {
     fit_.shape = std::move(start);
-    const Eigen::Index n = system_.unknowns();
-    matrix_.resize(n, n);
-    damped_.resize(n, n);
-    gradient_.resize(n);
-    step_.resize(n);
+    gradient_.resize(matrix_.unknowns());
   }
 
   LightFit solve() {
@@ -58,12 +54,9 @@ class LightProblem final : public LevenbergProblem {
     return cost_.squares;
   }
   double tryStep(double damping) override {
-    damped_ = matrix_;
-    damped_.diagonal() += damping * matrix_.diagonal();
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(damped_);
-    if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
-    step_ = -gradient_;
-    factor.solveInPlace(step_);
+    const auto step = matrix_.solveDamped(damping, -gradient_);
+    if (!step) return std::numeric_limits<double>::infinity();
+    step_ = *step;
     trial_ = moved();
     trialCost_ = system_.evaluate(trial_, weights_);
     return trialCost_.sound ? trialCost_.squares : std::numeric_limits<double>::infinity();
@@ -121,7 +114,7 @@ class LightProblem final : public LevenbergProblem {
   LightSystem::Cost cost_, trialCost_;
   LightFit fit_;
   LightShape trial_;
-  Eigen::MatrixXd matrix_, damped_;
+  LightMatrix matrix_;
   Eigen::VectorXd gradient_, step_;
 };
 

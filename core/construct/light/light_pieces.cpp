@@ -24,9 +24,10 @@ constexpr double kMostOfSize = 0.01;   // of the curve's size, where the width i
 constexpr double kSmoothShare = 0.01;  // of the samples' distance: what a curve without joints may lie off
 constexpr double kLeastSignificance = 0.1, kMostSignificance = 0.25;
 constexpr double kDetailStep = 0.1;
-constexpr int kFewestPoints = 2;        // of any curve
-constexpr int kMostCompared = 40;       // control points
-constexpr double kRaggedLength = 12.0;  // tolerances of length for each extremum: ragged where there is less
+constexpr int kFewestPoints = 2;             // of any curve
+constexpr int kMostCompared = 40;            // control points
+constexpr int kFarMore = 2 * kMostCompared;  // what no smaller detail has so many fewer than
+constexpr double kRaggedLength = 12.0;       // tolerances of length for each extremum: ragged where there is less
 
 std::string reasonOf(LightObstacle obstacle) {
   switch (obstacle) {
@@ -68,7 +69,10 @@ Result<LightCurve> lightOf(const NurbsCurve& dense, bool closed, const LightOpti
   auto light = makeLight(dense, closed, options, context);
   if (!light || ragged || !simplified) return light;
   if (light->report.kind != LightKind::Dense && light->report.sectionsDense == 0) return light;
-  auto simple = simplifiedCurve(dense, closed, options, context);
+  LightOptions fewer = options;
+  if (light->report.kind != LightKind::Dense)
+    fewer.mostPoints = std::min(fewer.mostPoints, std::max(kFewestPoints, light->report.points - 1));
+  auto simple = simplifiedCurve(dense, closed, fewer, context);
   return simple && simple->report.points < light->report.points ? Result<LightCurve>(std::move(*simple)) : light;
 }
 
@@ -83,7 +87,7 @@ struct DetailCurve {
 
 /// The lightest of the curves of this and every smaller detail: each holds what this one asks, as it lies nearer and
 /// keeps more. So more detail never gives more control points than a smaller one; beyond kMostCompared, where that
-/// takes long, it may.
+/// takes long, it may, and beyond kFarMore none is compared.
 Result<DetailCurve> lightestUpTo(double detail, const NurbsCurve& dense, bool closed, const ConstructParams& params,
                                  const ConstructContour& contour, const RunContext& context) {
   std::optional<DetailCurve> best;
@@ -93,6 +97,7 @@ Result<DetailCurve> lightestUpTo(double detail, const NurbsCurve& dense, bool cl
     one.detail = step * kDetailStep;
     one.options = lightOptions(params, contour, dense, one.detail);
     const bool isAny = best && best->light.report.kind != LightKind::Dense;
+    if (best && best->light.report.points > kFarMore) break;
     if (best) one.options.mostPoints = std::min(kMostCompared, isAny ? best->light.report.points - 1 : kMostCompared);
     if (one.options.mostPoints < kFewestPoints) break;
     auto light = lightOf(dense, closed, one.options, step > 0, context);

@@ -25,7 +25,7 @@ constexpr double kHopeless = 5.0;        // tolerances after the first phase: no
 constexpr double kAskedLess = 0.98;      // of the tolerance over what was missed: the next round's
 constexpr double kMoreSignMargin = 5.0;  // times the margin of the signs, in the next round
 constexpr double kMoreSigns = 3.0;       // their weight then
-constexpr int kLightQuintic = 5;
+constexpr int kLightQuintic = 5, kLightCubic = 3;
 
 class LightSearch {
  public:
@@ -78,7 +78,7 @@ class LightSearch {
   bool exact() {
     const auto line = exactLine(reference_, options_.tolerance);
     if (line && isHeld(*line)) return take(*line, LightKind::Line, 2);
-    if (task_.forms == LightForms::UpToQuintic) return false;
+    if (task_.forms == LightForms::UpToQuintic || task_.forms == LightForms::UpToCubic) return false;
     const auto arc = exactArc(reference_, options_.tolerance);
     return arc && isHeld(*arc) && take(*arc, LightKind::Arc, 3);
   }
@@ -142,15 +142,16 @@ class LightSearch {
     leastOff_ = std::numeric_limits<double>::infinity();
     const int degree = count - 1;
     const int lowest = task_.forms == LightForms::Quintic ? kLightQuintic : 2;
-    const int highest = task_.forms == LightForms::All ? kMostSpanDegree : kLightQuintic;
+    const int spline = task_.forms == LightForms::UpToCubic ? kLightCubic : kLightQuintic;
+    const int highest = task_.forms == LightForms::All ? kMostSpanDegree : spline;
     if (!closed && degree >= lowest && degree <= highest) {
       if (fit(degree, 1, BreakStart::Even, true)) return true;
       if (leastOff_ < kHopeless && fit(degree, 1, BreakStart::Even, false)) return true;
     }
-    const int spans = closed ? count : count - kLightQuintic;
+    const int spans = closed ? count : count - spline;
     if (spans < 2) return false;
-    if (fit(kLightQuintic, spans, BreakStart::ByShape, true)) return true;
-    return leastOff_ < kHopeless && fit(kLightQuintic, spans, BreakStart::Even, true);
+    if (fit(spline, spans, BreakStart::ByShape, true)) return true;
+    return leastOff_ < kHopeless && fit(spline, spans, BreakStart::Even, true);
   }
 
   bool fit(int degree, int spans, BreakStart breaks, bool firstPhase) {

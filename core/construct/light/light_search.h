@@ -11,6 +11,7 @@ namespace batten {
 /// What curves are tried.
 enum class LightForms {
   All,          ///< Lines, arcs and circles, single spans of degree 2..7, quintics.
+  UpToCubic,    ///< Lines, single spans of degree 2 and 3, cubics with simple knots (C2).
   UpToQuintic,  ///< Lines, single spans of degree 2..5, quintics: what can be raised to a quintic.
   Quintic,      ///< Only curves of degree 5: for sections of a longer one.
 };

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/curve/knot_operations.h"
+#include "core/solve/banded_cholesky.h"
+#include "core/solve/banded_matrix.h"
 
 namespace batten {
 namespace {
@@ -77,14 +79,34 @@ PointValues valuesAt(int degree, const std::array<PointValues, kSpanPoints>& mat
   return values;
 }
 
+constexpr int kMostDensePoints = 150;  // of long curves the band is kept, so that the cost grows with the length only
+
+/// Normal equations of a start over its control points; the matrix is dense or a band.
 struct Normal {
   Eigen::MatrixXd matrix;
+  BandedMatrix band;
   Eigen::MatrixXd right;
+
+  Normal(int count, int degree, bool closed) : right(Eigen::MatrixXd::Zero(count, 2)) {
+    if (count > kMostDensePoints) {
+      band = BandedMatrix(count, degree, closed);
+    } else {
+      matrix = Eigen::MatrixXd::Zero(count, count);
+    }
+  }
+  bool isBanded() const { return band.size() > 0; }
+  void add(int row, int column, double value) {
+    if (!isBanded()) {
+      matrix(row, column) += value;
+      return;
+    }
+    const int after = column - row + (column < row && band.isCyclic() ? band.size() : 0);
+    if (after >= 0 && after <= band.halfWidth()) band.entry(row, after) += value;
+  }
 };
 
 Normal normalOf(const LightShape& shape, const LightReference& reference) {
-  const auto count = static_cast<Eigen::Index>(shape.points.size());
-  Normal normal{Eigen::MatrixXd::Zero(count, count), Eigen::MatrixXd::Zero(count, 2)};
+  Normal normal(static_cast<int>(shape.points.size()), shape.degree, shape.closed);
   const std::vector<double> lengths = shape.lengths();
   double total = 0.0;
   for (const double l : lengths) total += l;
@@ -102,9 +124,9 @@ Normal normalOf(const LightShape& shape, const LightReference& reference) {
       const Vec2 p = reference.pointAt((from + at * share) * reference.length());
       const PointValues values = valuesAt(shape.degree, matrix, at);
       for (int a = 0; a <= shape.degree; ++a) {
-        const auto row = static_cast<Eigen::Index>(shape.pointOf(span, a));
+        const auto row = static_cast<int>(shape.pointOf(span, a));
         for (int b = 0; b <= shape.degree; ++b) {
-          normal.matrix(row, static_cast<Eigen::Index>(shape.pointOf(span, b))) += share * values[a] * values[b];
+          normal.add(row, static_cast<int>(shape.pointOf(span, b)), share * values[a] * values[b]);
         }
         normal.right.row(row) += share * values[a] * p.transpose();
       }
@@ -112,6 +134,38 @@ Normal normalOf(const LightShape& shape, const LightReference& reference) {
     from += share;
   }
   return normal;
+}
+
+/// Solves for the control points first..first + count.
+std::optional<Eigen::MatrixXd> solved(const Normal& normal, int first, int count, const Eigen::MatrixXd& right) {
+  Eigen::MatrixXd result;
+  if (normal.isBanded()) {
+    BandedCholesky factor;
+    const bool isAll = count == normal.band.size();
+    if (!factor.factor(isAll ? normal.band : normal.band.block(first, count))) return std::nullopt;
+    result.resize(count, 2);
+    for (const Eigen::Index axis : {Eigen::Index{0}, Eigen::Index{1}})
+      result.col(axis) = factor.solve(Eigen::VectorXd(right.col(axis)));
+  } else {
+    result = normal.matrix.block(first, first, count, count).ldlt().solve(right);
+  }
+  return result.allFinite() ? std::optional(std::move(result)) : std::nullopt;
+}
+
+/// What a control point at an end adds to the equations of those beside it, over all but the two ends.
+Eigen::MatrixXd heldPart(const Normal& normal, bool isLast, const Vec2& at) {
+  const Eigen::Index count = normal.right.rows(), inner = count - 2;
+  if (!normal.isBanded()) return normal.matrix.block(1, isLast ? count - 1 : 0, inner, 1) * at.transpose();
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(count);
+  for (int k = 1; k <= normal.band.halfWidth(); ++k) {
+    const int last = normal.band.size() - 1;
+    if (isLast) {
+      column[last - k] = normal.band.entry(last - k, k);
+    } else {
+      column[k] = normal.band.entry(0, k);
+    }
+  }
+  return column.segment(1, inner) * at.transpose();
 }
 
 }  // namespace
@@ -183,23 +237,22 @@ std::optional<LightShape> startShape(const LightReference& reference, int degree
   const auto count = static_cast<std::size_t>(shape.closed ? spans : spans + degree);
   shape.points.assign(count, Vec2::Zero());
   const Normal normal = normalOf(shape, reference);
-  const auto n = static_cast<Eigen::Index>(count);
+  const int n = static_cast<int>(count);
   if (shape.closed) {
-    const Eigen::MatrixXd solved = normal.matrix.ldlt().solve(normal.right);
-    if (!solved.allFinite()) return std::nullopt;
-    for (std::size_t i = 0; i < count; ++i) shape.points[i] = solved.row(static_cast<Eigen::Index>(i)).transpose();
+    const auto points = solved(normal, 0, n, normal.right);
+    if (!points) return std::nullopt;
+    for (std::size_t i = 0; i < count; ++i) shape.points[i] = points->row(static_cast<Eigen::Index>(i)).transpose();
     return shape;
   }
   shape.points.front() = reference.samples().front().point;
   shape.points.back() = reference.samples().back().point;
   if (n == 2) return shape;
-  const Eigen::MatrixXd right = normal.right.middleRows(1, n - 2) -
-                                normal.matrix.block(1, 0, n - 2, 1) * shape.points.front().transpose() -
-                                normal.matrix.block(1, n - 1, n - 2, 1) * shape.points.back().transpose();
-  const Eigen::MatrixXd solved = normal.matrix.block(1, 1, n - 2, n - 2).ldlt().solve(right);
-  if (!solved.allFinite()) return std::nullopt;
+  const Eigen::MatrixXd right = normal.right.middleRows(1, n - 2) - heldPart(normal, false, shape.points.front()) -
+                                heldPart(normal, true, shape.points.back());
+  const auto points = solved(normal, 1, n - 2, right);
+  if (!points) return std::nullopt;
   for (std::size_t i = 1; i + 1 < count; ++i)
-    shape.points[i] = solved.row(static_cast<Eigen::Index>(i) - 1).transpose();
+    shape.points[i] = points->row(static_cast<Eigen::Index>(i) - 1).transpose();
   return shape;
 }
 

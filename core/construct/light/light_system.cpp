@@ -285,7 +285,7 @@ void LightSystem::differentiate(SpanSystem& local, const LightShape& shape, int 
   local.begin();
 }
 
-void LightSystem::scatter(const SpanSystem& local, const LightShape& shape, int span, Eigen::MatrixXd& matrix,
+void LightSystem::scatter(const SpanSystem& local, const LightShape& shape, int span, LightMatrix& matrix,
                           Eigen::VectorXd& gradient) const {
   std::array<Eigen::Index, static_cast<std::size_t>(SpanSystem::kMost)> target{};
   for (int j = 0; j <= shape.degree; ++j) {
@@ -307,12 +307,12 @@ void LightSystem::scatter(const SpanSystem& local, const LightShape& shape, int 
       if (row < 0) continue;
       // A closed curve of few spans comes to some of its points twice.
       const double times = row == column && r != c ? 2.0 : 1.0;
-      matrix(std::max(row, column), std::min(row, column)) += times * local.squares(r, c);
+      matrix.add(row, column, times * local.squares(r, c));
     }
   }
 }
 
-void LightSystem::addSpan(const LightShape& shape, const LightWeights& weights, int span, Eigen::MatrixXd& matrix,
+void LightSystem::addSpan(const LightShape& shape, const LightWeights& weights, int span, LightMatrix& matrix,
                           Eigen::VectorXd& gradient) {
   SpanSystem local;
   differentiate(local, shape, span);
@@ -322,18 +322,18 @@ void LightSystem::addSpan(const LightShape& shape, const LightWeights& weights, 
   scatter(local, shape, span, matrix, gradient);
 }
 
-void LightSystem::gauss(const LightShape& shape, const LightWeights& weights, Eigen::MatrixXd& matrix,
+void LightSystem::gauss(const LightShape& shape, const LightWeights& weights, LightMatrix& matrix,
                         Eigen::VectorXd& gradient) {
   matrix.setZero();
   gradient.setZero();
   for (int span = 0; span < shape.spans(); ++span) addSpan(shape, weights, span, matrix, gradient);
   if (!shape.closed) {
     for (const Eigen::Index i : {Eigen::Index{0}, Eigen::Index{1}, firstLength_ - 2, firstLength_ - 1}) {
-      matrix(i, i) = 1.0;
+      matrix.add(i, i, 1.0);  // nothing was added for them
     }
   }
   for (Eigen::Index i = firstLength_; i < unknowns_; ++i) {
-    matrix(i, i) += kRidge;
+    matrix.add(i, i, kRidge);
     gradient[i] += kRidge * shape.logLengths[i - firstLength_];
   }
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/construct/light/light_fit.h"
+#include "core/construct/light/light_matrix.h"
 #include "core/construct/light/light_rows.h"
 #include "core/construct/light/span_basis.h"
 #include "core/construct/light/span_system.h"
@@ -36,7 +37,7 @@ class LightSystem {
   Cost evaluate(const LightShape&, const LightWeights&);
   /// Matrix and gradient at the shape evaluated last. Unknowns: x and y of every control point, then the span lengths'
   /// logarithms where there is more than one span; pinned ones have a unit diagonal and no gradient.
-  void gauss(const LightShape&, const LightWeights&, Eigen::MatrixXd& matrix, Eigen::VectorXd& gradient);
+  void gauss(const LightShape&, const LightWeights&, LightMatrix& matrix, Eigen::VectorXd& gradient);
   Eigen::Index unknowns() const { return unknowns_; }
   Eigen::Index firstLength() const { return firstLength_; }
 
@@ -56,9 +57,9 @@ class LightSystem {
   void chooseKappaSigns();
   double rowsOf(const Place&, const LightWeights&, Cost&) const;
   double endRows(const LightShape&, const LightWeights&, Cost&);
-  void addSpan(const LightShape&, const LightWeights&, int span, Eigen::MatrixXd&, Eigen::VectorXd&);
+  void addSpan(const LightShape&, const LightWeights&, int span, LightMatrix&, Eigen::VectorXd&);
   void differentiate(SpanSystem&, const LightShape&, int span);
-  void scatter(const SpanSystem&, const LightShape&, int span, Eigen::MatrixXd&, Eigen::VectorXd&) const;
+  void scatter(const SpanSystem&, const LightShape&, int span, LightMatrix&, Eigen::VectorXd&) const;
   void addPlace(SpanSystem&, const Place&, const LightWeights&) const;
   void addEnds(SpanSystem&, const LightShape&, const LightWeights&, int span) const;
   PlaceState endState(const LightShape&, bool atEnd) const;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/foot_step.h"
 #include "core/solve/dense_solve.h"
@@ -288,8 +288,7 @@ class Grower {
       record(GrowingStep::Kind::Extrapolated, longer, false);
       const bool rested = isFree_ ? refitWhole(longer) : refit(longer);
       const bool fits = std::abs(longer.turnRad) < kLargestGrownTurn && longer.ratio > kSmallestRatio &&
-                        longer.ratio < kLargestRatio &&
-                        deviation(longer) < params_.growingStopDeg * std::numbers::pi / 180.0 &&
+                        longer.ratio < kLargestRatio && deviation(longer) < params_.growingStopDeg * kRadPerDeg &&
                         distance(longer) < kLostPx;
       record(GrowingStep::Kind::Fitted, longer, !fits);
       if (fits) {

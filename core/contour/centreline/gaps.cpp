@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
+#include "core/base/angle.h"
 #include "core/contour/centreline/stroke_paths.h"
 
 namespace batten {
@@ -152,9 +152,9 @@ std::optional<double> joinCost(const FreeEnd& a, const FreeEnd& b, const BitImag
   const double gap = d.norm(), longest = gapFactor * 0.5 * (a.inkWidth + b.inkWidth);
   if (gap > longest + kSkeletonShort * width + kSkeletonShortPx) return std::nullopt;
   const double turn = std::acos(std::clamp(-a.out.dot(b.out), -1.0, 1.0));
-  const double deg = std::numbers::pi / 180.0, limit = std::cos(kFacingDeg * deg) * gap;
+  const double limit = std::cos(kFacingDeg * kRadPerDeg) * gap;
   const bool isFacing = gap <= kShortGapWidths * width
-                            ? turn <= kShortGapTurnDeg * deg && d.dot(a.out) >= -kShortGapBack * width
+                            ? turn <= kShortGapTurnDeg * kRadPerDeg && d.dot(a.out) >= -kShortGapBack * width
                             : d.dot(a.out) >= limit && -d.dot(b.out) >= limit;
   // Half a pixel for the mask, whose pixels are whole.
   if (!isFacing || paperBetween(a, b, ink) > longest + 0.5) return std::nullopt;

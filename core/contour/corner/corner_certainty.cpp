@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "core/base/angle.h"
 #include "core/base/statistics.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {
 
-constexpr double kRadOfDeg = std::numbers::pi / 180.0;
 constexpr double kLeastUnitPx = 3.0;     // blur and mask round a border by about as much
 constexpr double kRoughUnits = 6.0;      // of the roughness
 constexpr double kWidthLimit = 1.5;      // of the usual width: at a junction the ink is wider than the stroke
@@ -21,18 +20,18 @@ constexpr double kSharpSlackPx = 0.4;    // a vertex is known to that
 constexpr double kFarthestVertex = 2.3;  // units from the line, even for acute tips
 constexpr double kShortChord = 3.0, kCertainChord = 6.0, kChordStart = 1.0;  // units
 constexpr double kLeastLeg = 2.5, kLeastLegToEnd = 3.0;                      // units: ends have hooks of their own
-constexpr double kLeastCertainTurn = 30.0 * kRadOfDeg;
-constexpr double kLeastUnlocatedTurn = 50.0 * kRadOfDeg;  // of the chords, where no vertex tells how sharp it is
-constexpr double kFlankShare = 0.25;                      // of the turn: how much more the longer chords may turn
-constexpr double kUnlocatedShare = 0.15;                  // the same where no vertex tells
+constexpr double kLeastCertainTurn = 30.0 * kRadPerDeg;
+constexpr double kLeastUnlocatedTurn = 50.0 * kRadPerDeg;  // of the chords, where no vertex tells how sharp it is
+constexpr double kFlankShare = 0.25;                       // of the turn: how much more the longer chords may turn
+constexpr double kUnlocatedShare = 0.15;                   // the same where no vertex tells
 constexpr double kLeastChordShare = 0.5, kMostChordShare = 1.35;  // of the angle: cusps, arcs
-constexpr double kFaintTurn = 45.0 * kRadOfDeg;                   // below, both chords must show the angle itself
+constexpr double kFaintTurn = 45.0 * kRadPerDeg;                  // below, both chords must show the angle itself
 constexpr double kFaintShare = 0.15, kFaintLongShare = 0.2;
-constexpr double kFaintSlackRad = 2.0 * kRadOfDeg;
+constexpr double kFaintSlackRad = 2.0 * kRadPerDeg;
 constexpr double kNoiseLimit = 3.5;  // standard deviations
 constexpr double kDentReach = 8.0;   // units
 constexpr double kDentShare = 0.5;   // of the turn that turns back
-constexpr double kNoDentTurn = 70.0 * kRadOfDeg;
+constexpr double kNoDentTurn = 70.0 * kRadPerDeg;
 constexpr double kSteepness = 4.0, kOddsAtLimit = 19.0;  // 19 to 1 where the worst share is just 1
 
 }  // namespace

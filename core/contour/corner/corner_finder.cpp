@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
 namespace {
 
-constexpr double kLooksLikeCornerRad = 25.0 * std::numbers::pi / 180.0;
+constexpr double kLooksLikeCornerRad = 25.0 * kRadPerDeg;
 constexpr double kTurnInnerPx = 3.0;       // the part next to a corner that blur has rounded
 constexpr double kTurnOuterPx = 16.0;      // about as far as a corner of a drawing stands free
 constexpr double kSnapOuterPx = 64.0;      // looked at on either side before the neighbours are known

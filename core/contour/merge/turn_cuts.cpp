@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "core/base/angle.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -18,9 +18,8 @@ constexpr int kLeastPart = 3;
 constexpr int kShortCutChord = 3, kPlaceReach = 2;
 constexpr double kShortShare = 0.75;  // of the turn: chords as short see as much of a corner, but two thirds of an arc
 constexpr double kArcSamples = 6.0;   // as much of the bend beyond counts as no corner
-constexpr double kCutRadPerDeg = std::numbers::pi / 180.0;
-constexpr double kMostArc = 120.0 * kCutRadPerDeg;
-constexpr double kLeastTurn = 40.0 * kCutRadPerDeg, kLeastBeyondArc = 24.0 * kCutRadPerDeg;
+constexpr double kMostArc = 120.0 * kRadPerDeg;
+constexpr double kLeastTurn = 40.0 * kRadPerDeg, kLeastBeyondArc = 24.0 * kRadPerDeg;
 
 // A line in steps of about one stroke width.
 class TurnSearch {

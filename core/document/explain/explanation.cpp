@@ -129,8 +129,14 @@ std::string percent(double share) {
   return std::to_string(tenths / 10) + '.' + std::to_string(tenths % 10) + " %";
 }
 
-std::string noteOn(const Explanation& e) {
+std::string noteOn(const Explanation& e, const EdgeParams& edges) {
   std::string note;
+  if (edges.intent && ((e.referencePx > 0 && e.explained < kLeastExplained) || e.invented > kMostInvented)) {
+    // One curve stands for several strokes: it leaves ink beside it and runs over paper between them, as it should.
+    return "The curves explain " + percent(e.explained) + " of the ink on the page, and " + percent(e.invented) +
+           " of their length has no ink under it: with edges.intent one curve stands for several strokes, which need "
+           "not lie under it. To measure how completely the strokes are traced, set edges.intent=false.";
+  }
   if (e.referencePx > 0 && e.explained < kLeastExplained) {
     note = "The curves explain " + percent(e.explained) +
            " of the ink on the page. To trace more, lower threshold.strength (Minimum ink contrast) or the minimum "
@@ -165,7 +171,7 @@ Result<Explanation> explain(const Scan& scan, const Recipe& recipe, const Pipeli
   std::stable_sort(result.inventions.begin(), result.inventions.end(),
                    [](const InventedStretch& a, const InventedStretch& b) { return a.lengthPx > b.lengthPx; });
   if (result.inventions.size() > kMostInventions) result.inventions.resize(kMostInventions);
-  result.note = noteOn(result);
+  result.note = noteOn(result, recipe.edges);
   if (context.isCancelled()) return cancelled();
   return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/exchange/occt/iges.h"
 
+#include <IGESAppli_LevelFunction.hxx>
 #include <IGESBasic_Name.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IGESControl_Writer.hxx>
@@ -184,16 +185,24 @@ Result<std::string> writeIges(const CadDrawing& drawing, const std::string& titl
     IGESControl_Writer writer(isInch ? "INCH" : "MM", 0);
     const Handle(IGESData_IGESModel) model = writer.Model();
     std::vector<std::string> layers;
+    std::vector<Handle(IGESAppli_LevelFunction)> names;  // of the layers: IGES has numbered levels
     for (const CadEntity& entity : drawing.entities) {
       const Handle(IGESData_IGESEntity) made = entityOf(entity.shape);
       if (made.IsNull()) return occtFailed("write " + entity.name);
       auto level = std::find(layers.begin(), layers.end(), entity.layer);
-      if (level == layers.end()) level = layers.insert(layers.end(), entity.layer);
+      if (level == layers.end()) {
+        level = layers.insert(layers.end(), entity.layer);
+        names.push_back(new IGESAppli_LevelFunction);
+        constexpr int kValues = 2, kOwnCode = 0;
+        names.back()->Init(kValues, kOwnCode, text(entity.layer));
+        names.back()->InitLevel(Handle(IGESData_LevelListEntity)(), static_cast<int>(std::ssize(layers)));
+      }
       made->InitLevel(Handle(IGESData_LevelListEntity)(), static_cast<int>(level - layers.begin()) + 1);
       made->SetLabel(text(labelOf(entity.name)));
       Handle(IGESBasic_Name) name = new IGESBasic_Name;
       name->Init(1, text(entity.name));
       made->AddProperty(name);
+      made->AddProperty(names[static_cast<std::size_t>(level - layers.begin())]);
       if (!writer.AddEntity(made)) return occtFailed("write " + entity.name);
     }
     writer.ComputeModel();

@@ -10,8 +10,8 @@ namespace batten {
 
 Error openCascadeAbsent() {
   return {ErrorCode::BadParameter,
-          "This build of Batten has no Open CASCADE and cannot read or write IGES and STEP. Use "
-          "DXF, or install libocct-data-exchange-dev and build again.",
+          "This build of Batten is without Open CASCADE and cannot write IGES or STEP. Use "
+          "DXF or 3DM, or install libocct-data-exchange-dev and build again.",
           {}};
 }
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "core/base/angle.h"
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
 #include "core/construct/fair/sharp_features.h"
@@ -16,8 +16,8 @@
 namespace batten {
 namespace {
 
-constexpr double kSmallLoopPx = 70.0;                                 // round: radius 11 px
-constexpr double kCertainAngleRad = 28.0 * std::numbers::pi / 180.0;  // below the least turn of a certain corner
+constexpr double kSmallLoopPx = 70.0;                   // round: radius 11 px
+constexpr double kCertainAngleRad = 28.0 * kRadPerDeg;  // below the least turn of a certain corner
 constexpr double kCertainScalePx = 14.0;
 
 // [grey] The darkest or lightest pixel of a square about a place, as far as it lies on the page.

@@ -155,8 +155,15 @@ std::optional<int> numberOfCurveName(std::string_view name) {
 }
 
 bool isMadeName(std::string_view name) {
-  constexpr std::string_view kPath = "curve-";
-  return numberOfCurveName(name) || (name.starts_with(kPath) && integerFromText(name.substr(kPath.size())));
+  constexpr std::string_view kPath = "curve-", kOfSketched = "-sketched";
+  if (numberOfCurveName(name)) return true;
+  if (!name.starts_with(kPath)) return false;
+  name.remove_prefix(kPath.size());
+  std::string rest(name);
+  if (const auto at = rest.find(kOfSketched); at != std::string::npos) rest.erase(at, kOfSketched.size());
+  // "-2" and ".2" stand behind the number where a line was written in parts.
+  return !rest.empty() && rest.find_first_not_of("0123456789-.") == std::string::npos &&
+         integerFromText(std::string_view(rest).substr(0, rest.find_first_of("-.")));
 }
 
 }  // namespace batten

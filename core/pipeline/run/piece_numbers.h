@@ -29,7 +29,7 @@ PieceNumbers numberPieces(const PieceSet&, const CurveNumbers& known, const RunC
 std::string curveName(int number);
 /// The number in a name of that kind; absent for other names.
 std::optional<int> numberOfCurveName(std::string_view name);
-/// Whether Batten made the name: "Curve 3" of a curve, "curve-3" of a path.
+/// Whether Batten made the name: "Curve 3" of a curve; "curve-3", "curve-3-2" or "curve-3-sketched" of a path.
 bool isMadeName(std::string_view name);
 
 }  // namespace batten

@@ -190,5 +190,32 @@ TEST(LightReference, FollowsTightTurns) {
   EXPECT_NEAR(reference->length(), t.back(), 0.05);
 }
 
+// A spiral has no extrema at which it could be cut: without other cuts the search over all of it would take time with
+// the square of its length.
+TEST(LightChain, LongStretchesWithoutExtremaAreDivided) {
+  constexpr int kQuintic = 5, kSpans = 3 * kMostSectionSpans + 50;
+  std::vector<double> knots(kQuintic, 0.0);
+  std::vector<Vec2> points;
+  for (int i = 0; i <= kSpans; ++i) knots.push_back(i);
+  knots.insert(knots.end(), kQuintic, kSpans);
+  for (int i = 0; i < kSpans + kQuintic; ++i) {
+    const double angle = std::sqrt(0.5 * i + 20.0);
+    points.emplace_back(5.0 * angle * std::cos(angle), 5.0 * angle * std::sin(angle));
+  }
+  const auto curve = NurbsCurve::make(kQuintic, std::move(knots), std::move(points));
+  ASSERT_TRUE(curve);
+  LightOptions options;
+  const auto reference = LightReference::make(*curve, false, options.step);
+  ASSERT_TRUE(reference);
+  std::vector<double> ends = lightSections(*curve, *reference, options).cuts;
+  EXPECT_GE(ends.size(), 3u);
+  ends.push_back(curve->end());
+  double from = curve->start();
+  for (const double to : ends) {
+    EXPECT_LE(to - from, kMostSectionSpans + 1e-9);
+    from = to;
+  }
+}
+
 }  // namespace
 }  // namespace batten

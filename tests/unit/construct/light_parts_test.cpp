@@ -189,7 +189,7 @@ void expectGradient(const LightReference& reference, LightShape shape, const Lig
     for (double& q : shape.logLengths) q += 0.1 * noise(random);
   }
   ASSERT_TRUE(system.evaluate(shape, weights).sound);
-  Eigen::MatrixXd matrix(system.unknowns(), system.unknowns());
+  LightMatrix matrix(shape, shape.spans() > 1);
   Eigen::VectorXd gradient(system.unknowns());
   system.gauss(shape, weights, matrix, gradient);
   const auto costOf = [&](Eigen::Index unknown, double step) {

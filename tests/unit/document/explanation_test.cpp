@@ -111,7 +111,12 @@ TEST(Explanation, InkWithoutACurveIsMissed) {
   EXPECT_EQ(e.missedInk.count(), std::llround(e.missed * all));
   EXPECT_TRUE(e.missedInk.at(250, 70));
   EXPECT_FALSE(e.missedInk.at(250, 200));
-  EXPECT_FALSE(e.note.empty());
+  EXPECT_NE(e.note.find("threshold.strength"), std::string::npos) << e.note;
+  // A curve that stands for several strokes need not cover them: no threshold would help.
+  drawing.recipe.edges.intent = true;
+  const std::string note = drawing.explain().note;
+  EXPECT_EQ(note.find("threshold.strength"), std::string::npos) << note;
+  EXPECT_NE(note.find("edges.intent=false"), std::string::npos) << note;
 }
 
 TEST(Explanation, ACurveBesideItsInkIsInvented) {

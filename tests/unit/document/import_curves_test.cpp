@@ -119,7 +119,8 @@ TEST(ImportedCurves, KeepTheirNamesAndLayersInFilesAndReports) {
   const std::vector<std::string> all = {"front", "rear", "wheel", "wave 1", "wave 2"};
   ASSERT_EQ(names.size(), 10u);
   EXPECT_EQ(std::vector<std::string>(names.begin() + 5, names.end()), all);
-  EXPECT_EQ(layers, (std::vector<std::string>{"body sketched", "Sketched", "Sketched", "body", "Faired", "Faired"}));
+  EXPECT_EQ(layers,
+            (std::vector<std::string>{"body sketched", "Faired sketched", "Sketched", "body", "Faired", "Faired"}));
   EXPECT_EQ(exportDocument(out, recipe, page).curves[0].layer, "body");
   EXPECT_THAT(reportToJson(page, recipe, out, {}), HasSubstr("\"name\": \"rear\""));
   // A part of a curve is told from the rest of it.

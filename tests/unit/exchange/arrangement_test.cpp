@@ -73,7 +73,8 @@ TEST(Arrangement, LeavesOutWhatLiesOnAnotherCurve) {
     const auto file = exportedFile(document, settings);
     ASSERT_TRUE(file) << file.error().message;
     EXPECT_EQ(file->report.doubles, 5);
-    EXPECT_EQ(file->report.curves, 8);
+    EXPECT_EQ(file->report.curves, 6);
+    EXPECT_EQ(file->report.pieces, 8);
   }
   // Near is not on top.
   ExportDocument two = test::exportOfAllKinds();

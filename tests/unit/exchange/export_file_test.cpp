@@ -55,12 +55,13 @@ TEST_F(ExportFile, WritesEveryFormatAndStatesTheDifference) {
     EXPECT_EQ(formatOf(path), format);
     const auto report = exportToFile(exportOfAllKinds(), settingsOf(format), path);
     ASSERT_TRUE(report) << path << report.error().message << report.error().detail;
-    EXPECT_EQ(report->curves, 8);
-    EXPECT_EQ(report->lines, 6);
+    EXPECT_EQ(report->curves, 6);
+    EXPECT_EQ(report->pieces, 8);
     EXPECT_LE(report->largestDifferenceMm, format == ExportFormat::Svg || format == ExportFormat::Pdf ? 0.0021 : 1e-9);
     EXPECT_GT(fs::file_size(path), 500u);
     const std::string sentence = sentenceOf(*report);
-    EXPECT_TRUE(sentence.starts_with("8 curves")) << sentence;
+    EXPECT_TRUE(sentence.starts_with("6 curves in 8 pieces")) << sentence;
+    EXPECT_TRUE(sentenceByNumbers(*report).starts_with("8 curves")) << "as the window counts";
     EXPECT_NE(sentence.find("read back, largest difference "), std::string::npos) << sentence;
   }
 }

@@ -2,8 +2,8 @@
 #include <QCoreApplication>
 #include <QPen>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/contour/corner/corner_suggestions.h"
 #include "ui/canvas/layers/chip_layer.h"
 #include "ui/canvas/layers/mark_layers.h"
@@ -124,8 +124,7 @@ class CornerTool final : public PointTool {
   }
 
   static QString turnText(const Corner& corner) {
-    return cornerText("turns %1°")
-        .arg(QString::number(std::abs(corner.turningAngleRad) * 180.0 / std::numbers::pi, 'f', 1));
+    return cornerText("turns %1°").arg(QString::number(std::abs(corner.turningAngleRad) * kDegPerRad, 'f', 1));
   }
 
   /// The nearest corner without a mark within reach of a place.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/angle.h"
 #include "core/pipeline/run/pipeline.h"
 #include "ui/canvas/layers/chip_layer.h"
 #include "ui/canvas/scene/canvas_colors.h"
@@ -135,7 +136,7 @@ class ScaleTool final : public CanvasTool {
     end = event.px;
     const Vec2 way = end - other;
     if (!event.modifiers.testFlag(Qt::ShiftModifier) || way.norm() == 0.0) return;
-    const double step = kSteepDeg * M_PI / 180.0, angle = step * std::round(std::atan2(way.y(), way.x()) / step);
+    const double step = kSteepDeg * kRadPerDeg, angle = step * std::round(std::atan2(way.y(), way.x()) / step);
     const Vec2 along(std::cos(angle), std::sin(angle));
     end = other + way.dot(along) * along;
   }

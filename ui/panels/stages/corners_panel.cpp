@@ -11,9 +11,10 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/contour/corner/corner_suggestions.h"
 #include "ui/panels/controls/hint_list.h"
 #include "ui/panels/controls/number_field.h"
@@ -30,7 +31,16 @@ namespace {
 
 constexpr double kLowestAngleDeg = 10.0, kHighestAngleDeg = 150.0;
 constexpr int kRows = 6;  // of the lists
+// In the order of their segments.
+constexpr std::array kRoundingSizes = {RoundingSize::Distance, RoundingSize::Radius};
+constexpr std::array kRoundingJoints = {RoundingJoint::Tangent, RoundingJoint::Curvature,
+                                        RoundingJoint::CurvatureSlope};
 constexpr double kLeastScalePx = 6.0, kLargestScalePx = 60.0;
+
+template <typename Values, typename Value>
+int positionIn(const Values& values, Value value) {
+  return static_cast<int>(std::ranges::find(values, value) - values.begin());
+}
 
 QString place(const Vec2& px) { return QStringLiteral("%1, %2").arg(px.x(), 0, 'f', 1).arg(px.y(), 0, 'f', 1); }
 
@@ -43,7 +53,7 @@ QString roundingOf(const CornerMark& mark) {
                                       : QCoreApplication::translate("CornersPanel", "rounded %1").arg(mm));
 }
 
-QString degrees(double rad) { return QStringLiteral("%1°").arg(std::abs(rad) * 180.0 / std::numbers::pi, 0, 'f', 0); }
+QString degrees(double rad) { return QStringLiteral("%1°").arg(std::abs(rad) * kDegPerRad, 0, 'f', 0); }
 
 }  // namespace
 
@@ -356,10 +366,10 @@ void CornersPanel::buildRounding() {
   column->addLayout(choices);
   connect(rounding_, &NumberField::committed, this, &CornersPanel::roundSelected);
   connect(roundBy_, &SegmentedControl::chosen, this, [this](int index) {
-    editSelected(tr("Rounding"), [index](CornerMark& mark) { mark.roundBy = static_cast<RoundingSize>(index); });
+    editSelected(tr("Rounding"), [index](CornerMark& mark) { mark.roundBy = kRoundingSizes.at(index); });
   });
   connect(joint_, &SegmentedControl::chosen, this, [this](int index) {
-    editSelected(tr("Rounding"), [index](CornerMark& mark) { mark.joint = static_cast<RoundingJoint>(index); });
+    editSelected(tr("Rounding"), [index](CornerMark& mark) { mark.joint = kRoundingJoints.at(index); });
   });
 }
 
@@ -381,8 +391,8 @@ void CornersPanel::showRounding() {
   roundBy_->setVisible(isRound);
   joint_->setVisible(isRound);
   if (isRound) {
-    roundBy_->setCurrent(static_cast<int>(marks[row].roundBy));
-    joint_->setCurrent(static_cast<int>(marks[row].joint));
+    roundBy_->setCurrent(positionIn(kRoundingSizes, marks[row].roundBy));
+    joint_->setCurrent(positionIn(kRoundingJoints, marks[row].joint));
   }
   if (isMark) {
     rounding_->setValue(marks[row].roundMm);

@@ -88,7 +88,8 @@ CombControls::CombControls(ViewSettings& view, QWidget* parent) : QWidget(parent
   axis->setNames(QStringLiteral("view.radiusAxis"), {QStringLiteral("logarithmic"), QStringLiteral("linear")});
   axis->setToolTip(tr("Axis of the radius plot: logarithmic, or linear as in the papers."));
   axis->setAccessibleName(tr("Axis of the radius plot"));
-  grid->addWidget(axis, 1, 0, 1, 2);
+  grid->addWidget(new QLabel(tr("Axis of the radius plot"), this), 1, 0, 1, 2);
+  grid->addWidget(axis, 2, 0, 1, 2);
   connect(axis, &SegmentedControl::chosen, this, [&view](int index) { view.setRadiusIsLinear(index == 1); });
   const auto showQuantity = [quantity, axis, &view] {
     quantity->setCurrent(view.combShowsRadius() ? 1 : 0);
@@ -242,7 +243,7 @@ void CurvesPanel::addFitRows(std::vector<FigureTable::Row>& rows, const TracedCu
                     {{length(fit.noisePx)}},
                     tr("Standard deviation of the scan's edge points from the curve.")});
   if (fit.fullControlPoints > curve.sketchedFigures.controlPoints) {
-    rows.push_back({tr("Before sparing"),
+    rows.push_back({tr("Before knot removal"),
                     {{tr("%1 points").arg(fit.fullControlPoints)}},
                     tr("Control points before knot removal.")});
     rows.push_back({tr("Moved by knot removal"),

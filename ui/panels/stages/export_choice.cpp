@@ -9,6 +9,7 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <array>
 
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/session/curve_names.h"
@@ -87,7 +88,10 @@ void ExportChoice::build() {
   ticks_->hide();
 }
 
-ExportChoice::Way ExportChoice::way() const { return static_cast<Way>(way_->currentIndex()); }
+ExportChoice::Way ExportChoice::way() const {
+  constexpr std::array kListedWays = {All, Selected, Ticked};  // in the order of the list
+  return kListedWays.at(way_->currentIndex());
+}
 
 std::optional<std::set<int>> ExportChoice::numbers() const {
   if (way() == All) return std::nullopt;

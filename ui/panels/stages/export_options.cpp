@@ -10,7 +10,9 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <array>
 
+#include "core/exchange/format_options.h"
 #include "core/exchange/occt/open_cascade.h"
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
@@ -22,10 +24,12 @@ const QString kPresetKey = QStringLiteral("export/preset"), kUnitKey = QStringLi
               kWhichKey = QStringLiteral("export/which"), kJoinedKey = QStringLiteral("export/joined"),
               kToleranceKey = QStringLiteral("export/accuracy");
 constexpr const char* kFirstPreset = "illustrator";
+constexpr std::array kExportedCurves = {ExportedCurves::Faired, ExportedCurves::Sketched,
+                                        ExportedCurves::Both};  // as listed
 constexpr int kFieldWidth = 118, kPresetLetters = 16;
 
-bool hasUnit(ExportFormat format) {
-  return format != ExportFormat::Svg && format != ExportFormat::Pdf && format != ExportFormat::Json;
+bool canWrite(ExportFormat format) {
+  return hasOpenCascade() || (format != ExportFormat::Iges && format != ExportFormat::Step);
 }
 QString nameOfFormat(ExportFormat format) {
   switch (format) {
@@ -109,9 +113,11 @@ void ExportOptions::build() {
   // The longest name of all must not make the inspector wider.
   presets_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   presets_->setMinimumContentsLength(kPresetLetters);
-  for (const ExportPreset& preset : exportPresets())
-    presets_->addItem(tr("%1 (%2)").arg(QString::fromUtf8(preset.label), nameOfFormat(preset.settings.format)),
-                      QString::fromLatin1(preset.id));
+  for (const ExportPreset& preset : exportPresets()) {
+    const ExportFormat format = preset.settings.format;
+    const QString label = canWrite(format) ? tr("%1 (%2)") : tr("%1 (%2, not in this build)");
+    presets_->addItem(label.arg(QString::fromUtf8(preset.label), nameOfFormat(format)), QString::fromLatin1(preset.id));
+  }
   layout->addWidget(row(tr("For"), presets_, tr("Receiving program: sets the format and its options.")));
   layout->addWidget(note_);
   which_->setObjectName(QStringLiteral("export.which"));
@@ -149,10 +155,9 @@ const ExportPreset& ExportOptions::preset() const {
 
 void ExportOptions::choosePreset() {
   const ExportPreset& chosen = preset();
-  const QString missing = obstacle();
-  note_->setText(missing.isEmpty() ? QString::fromUtf8(chosen.note) : missing);
-  unitRow_->setVisible(hasUnit(chosen.settings.format));
-  toleranceRow_->setVisible(isApproximate(chosen.settings));
+  note_->setText(QString::fromUtf8(chosen.note));
+  unitRow_->setVisible(actsOn(FormatOption::Unit, chosen.settings));
+  toleranceRow_->setVisible(actsOn(FormatOption::Tolerance, chosen.settings));
   const QSettings settings;
   const QSignalBlocker quiet(joined_);
   const QString own = QLatin1Char('/') + QString::fromLatin1(chosen.id);
@@ -181,14 +186,15 @@ void ExportOptions::save() const {
 
 ExportSettings ExportOptions::settings() const {
   ExportSettings settings = preset().settings;
-  settings.unit = hasUnit(settings.format) && unit_->currentIndex() == 1 ? LengthUnit::Inch : LengthUnit::Millimetre;
+  const bool isInch = actsOn(FormatOption::Unit, settings) && unit_->currentIndex() == 1;
+  settings.unit = isInch ? LengthUnit::Inch : LengthUnit::Millimetre;
   settings.scale = scale_->value();
   settings.joined = joined_->isChecked();
-  if (isApproximate(settings)) settings.toleranceMm = tolerance_->value();
+  if (actsOn(FormatOption::Tolerance, settings)) settings.toleranceMm = tolerance_->value();
   return settings;
 }
 
-ExportedCurves ExportOptions::which() const { return static_cast<ExportedCurves>(which_->currentIndex()); }
+ExportedCurves ExportOptions::which() const { return kExportedCurves.at(which_->currentIndex()); }
 
 QString ExportOptions::suffix() const { return QString::fromLatin1(endingsOf(preset().settings.format)[0] + 1); }
 
@@ -197,9 +203,8 @@ QString ExportOptions::filter() const {
 }
 
 QString ExportOptions::obstacle() const {
-  const ExportFormat format = preset().settings.format;
-  if (hasOpenCascade() || (format != ExportFormat::Iges && format != ExportFormat::Step)) return {};
-  return tr("This build has no Open CASCADE and cannot write IGES or STEP: choose DXF.");
+  if (canWrite(preset().settings.format)) return {};
+  return tr("This build is without Open CASCADE and cannot write IGES or STEP. Choose a receiver of DXF or 3DM.");
 }
 
 }  // namespace batten

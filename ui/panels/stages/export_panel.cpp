@@ -380,7 +380,7 @@ void ExportPanel::finish(const Result<ExportReport>& report) {
   }
   const QFileInfo written(pathText(report->path));
   lastWritten_ = {pathText(report->path), written.size(), written.lastModified()};
-  result_->setText(tr("Wrote %1: %2.").arg(written.fileName(), QString::fromStdString(sentenceOf(*report))));
+  result_->setText(tr("Wrote %1: %2.").arg(written.fileName(), QString::fromStdString(sentenceByNumbers(*report))));
   refresh();
   // A change made meanwhile is not in the file.
   emit exported(writing_ == session_.recipe());

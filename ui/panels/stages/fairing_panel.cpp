@@ -58,6 +58,13 @@ int segmentOf(FairingMode mode) {
   return static_cast<int>(std::find(words.begin(), words.end(), modeParameter().get(recipe)) - words.begin());
 }
 
+/// What to take where a target is too far away.
+QString insteadOf(int target) {
+  if (target == kDrawnTarget) return FairingPanel::tr("choose or draw a profile that is nearer to its own");
+  if (target == kLogAestheticTarget) return FairingPanel::tr("choose another alpha or more spans");
+  return FairingPanel::tr("choose a higher degree or more spans");
+}
+
 }  // namespace
 
 FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
@@ -122,10 +129,13 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   keep_->setSliderRange(-1.0, 12.0);
   layout->addWidget(note_);
   buildLinks();
-  layout->addWidget(new ProfileShelf(session, this));
   layout->addWidget(raise_, 0, Qt::AlignLeft);
   layout->addWidget(useForAll_, 0, Qt::AlignLeft);
   layout->addWidget(followAll_, 0, Qt::AlignLeft);
+  QLabel* saved = caption(tr("Saved profiles"), this);
+  saved->setObjectName(QStringLiteral("fairing.savedProfiles"));
+  layout->addWidget(saved);
+  layout->addWidget(new ProfileShelf(session, this));
   layout->addWidget(caption(tr("Before and after"), this));
   figures_->setHeader({}, {tr("sketched"), tr("faired")});
   layout->addWidget(figures_);
@@ -142,6 +152,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   });
   connect(mode_, &SegmentedControl::chosen, this, [this](int index) { setMode(modeAt(index)); });
   connect(useForAll_, &QPushButton::clicked, this, &FairingPanel::useForAll);
+  connect(findChild<ProfileShelf*>(), &ProfileShelf::emptied, this, &FairingPanel::refresh);
   connect(followAll_, &QPushButton::clicked, this, &FairingPanel::followAll);
   connect(raise_, &QPushButton::clicked, this, [this] {
     if (const TracedCurve* curve = session_.selected()) {
@@ -241,6 +252,7 @@ void FairingPanel::refreshLinks(const FairingParams& params) {
   like_->setVisible(session_.selected() != nullptr && params.mode != FairingMode::None);
   auto* shelf = findChild<ProfileShelf*>();
   shelf->setVisible(shelf->count() > 0 && session_.hasScan());
+  findChild<QLabel*>(QStringLiteral("fairing.savedProfiles"))->setVisible(shelf->count() > 0 && session_.hasScan());
   const bool canSplit = isTarget && !isDrawn && params.targets.quantity == TargetQuantity::Curvature;
   const auto spans = canSplit ? static_cast<qint64>(splitsOf(session_).size()) : 0;
   whole_->setVisible(canSplit && session_.pointedSpan().has_value());
@@ -368,9 +380,8 @@ void FairingPanel::refreshFigures() {
     raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(report.neededMm)));
     raise_->setVisible(isMore && isSensible);
     if (isMore && !isSensible)
-      text += tr(" Reaching it would move this curve by %1, which changes its shape: choose a higher "
-                 "degree or more spans.")
-                  .arg(millimetres(report.neededMm));
+      text += tr(" Reaching it would move this curve by %1, which changes its shape: %2.")
+                  .arg(millimetres(report.neededMm), insteadOf(curve->fairingUsed.target));
   }
   note_->setText(text);
   note_->setVisible(!text.isEmpty());

@@ -6,8 +6,8 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/slider_track.h"
 #include "ui/session/growing_player.h"
@@ -18,7 +18,7 @@ namespace {
 QString textOf(const GrowingStep& step) {
   const QString number = QString::number(step.segment + 1);
   const QString figures = QObject::tr("normals %1° apart, points %2 away")
-                              .arg(step.deviationRad * 180.0 / std::numbers::pi, 0, 'f', 1)
+                              .arg(step.deviationRad * kDegPerRad, 0, 'f', 1)
                               .arg(shortMillimetres(step.distanceMm));
   switch (step.kind) {
     case GrowingStep::Kind::Seed:

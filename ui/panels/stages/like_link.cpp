@@ -6,7 +6,12 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QMessageBox>
+#include <QPainter>
+#include <QPixmap>
+#include <QPolygonF>
 #include <QPushButton>
+#include <QTransform>
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -41,6 +46,32 @@ void saveProfile(EditorSession& session, QWidget* parent, const std::function<vo
   saved();
 }
 
+/// The course of a curve as it lies on the drawing, so that it is known again.
+QIcon courseIcon(const NurbsCurve& curve, const QWidget* link) {
+  constexpr int kPlaces = 96;
+  constexpr double kProfilePictureSide = 20.0, kMargin = 1.0;
+  QPolygonF line;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const Vec2 p = curve.point(curve.start() + (curve.end() - curve.start()) * i / kPlaces);
+    line.append({p.x(), -p.y()});
+  }
+  const QRectF box = line.boundingRect();
+  const double scale = (kProfilePictureSide - 2.0 * kMargin) / std::max({box.width(), box.height(), 1e-9});
+  QTransform fit;
+  fit.translate(0.5 * kProfilePictureSide, 0.5 * kProfilePictureSide);
+  fit.scale(scale, scale);
+  fit.translate(-box.center().x(), -box.center().y());
+  const double ratio = link->devicePixelRatioF();
+  QPixmap picture(QSize(static_cast<int>(kProfilePictureSide * ratio), static_cast<int>(kProfilePictureSide * ratio)));
+  picture.setDevicePixelRatio(ratio);
+  picture.fill(Qt::transparent);
+  QPainter painter(&picture);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(link->palette().color(QPalette::Text), 1.4));
+  painter.drawPolyline(fit.map(line));
+  return QIcon(picture);
+}
+
 void showMenu(EditorSession& session, QPushButton* link, const std::function<void()>& saved) {
   if (!session.selected()) return;
   auto* menu = new QMenu(link);
@@ -51,7 +82,8 @@ void showMenu(EditorSession& session, QPushButton* link, const std::function<voi
     const TracedCurve& other = curves[static_cast<std::size_t>(i)];
     if (i == session.selectedCurve() || other.sketched.isEmpty()) continue;
     const auto shape = shapeOf(resultOf(other));
-    QObject::connect(menu->addAction(curveName(session, i)), &QAction::triggered, link,
+    const QString name = words("%1 · %2 mm").arg(curveName(session, i)).arg(other.sketchedFigures.lengthMm, 0, 'f', 0);
+    QObject::connect(menu->addAction(courseIcon(resultOf(other), link), name), &QAction::triggered, link,
                      [&session, shape] { followShape(session, shape); });
   }
   const QStringList names = ProfileLibrary().names();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/stages/profile_shelf.h"
 
+#include <QAction>
+#include <QKeySequence>
 #include <QMessageBox>
 #include <QMimeData>
 #include <algorithm>
@@ -21,7 +23,7 @@ ProfileShelf::ProfileShelf(EditorSession& session, QWidget* parent) : QListWidge
   setAccessibleName(tr("Saved profiles"));
   setToolTip(
       tr("Drag a profile onto a line of the drawing: it becomes its target. Or double-click it for the selected "
-         "curve."));
+         "curve; Del removes it."));
   setFont(uiFont(12));
   setFrameShape(QFrame::NoFrame);
   setUniformItemSizes(true);
@@ -33,7 +35,28 @@ ProfileShelf::ProfileShelf(EditorSession& session, QWidget* parent) : QListWidge
     if (const auto done = followSavedProfile(session_, item->text()); !done)
       QMessageBox::warning(this, tr("Profile"), QString::fromStdString(done.error().message));
   });
+  setContextMenuPolicy(Qt::ActionsContextMenu);
+  auto* removal = new QAction(tr("Remove the profile…"), this);
+  removal->setObjectName(QStringLiteral("fairing.removeProfile"));
+  removal->setShortcuts({QKeySequence(Qt::Key_Delete), QKeySequence(Qt::Key_Backspace)});
+  removal->setShortcutContext(Qt::WidgetShortcut);
+  addAction(removal);
+  connect(removal, &QAction::triggered, this, &ProfileShelf::removeCurrent);
   refresh();
+}
+
+void ProfileShelf::removeCurrent() {
+  const QListWidgetItem* item = currentItem();
+  if (item == nullptr) return;
+  const QString name = item->text();
+  const auto answer =
+      QMessageBox::question(this, tr("Remove the profile"),
+                            tr("Remove the profile \"%1\"? Drawings that use it keep their targets.").arg(name));
+  if (answer != QMessageBox::Yes) return;
+  if (const auto done = ProfileLibrary().remove(name); !done)
+    QMessageBox::warning(this, tr("Profile"), QString::fromStdString(done.error().message));
+  refresh();
+  if (count() == 0) emit emptied();
 }
 
 void ProfileShelf::refresh() {

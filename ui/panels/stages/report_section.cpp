@@ -14,6 +14,7 @@
 #include <QSettings>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <new>
 
@@ -29,6 +30,7 @@ namespace {
 
 const QString kKindKey = QStringLiteral("report/kind");
 enum Kind { PdfOnA4, PdfOnLetter, Html };
+constexpr std::array kReportKinds = {PdfOnA4, PdfOnLetter, Html};  // in the order of the list
 
 Result<void> writeReport(const PipelineOutput& output, const Recipe& recipe, const Scan& scan, Kind kind,
                          const std::filesystem::path& path, const RunContext& context) {
@@ -115,7 +117,7 @@ void ReportSection::write(const QString& path) {
   clearResult();
   setReady(isReady_);
   session_.setSideWork(this, true, false);
-  const Kind kind = static_cast<Kind>(kind_->currentIndex());
+  const Kind kind = kReportKinds.at(kind_->currentIndex());
   cancel_ = worker_->start(
       [output = session_.output(), recipe = session_.recipe(), scan = session_.scan(), kind, path,
        self = QPointer<ReportSection>(this)](const CancelToken& cancel) {

@@ -33,6 +33,8 @@ constexpr std::array kPapers = {
 constexpr double kSameShape = 0.03;
 constexpr double kMillimetresPerCm = 10.0;
 constexpr int kScaleFieldWidth = 92, kUnitWidth = 60;
+/// Millimetres of each unit, in the order of the list.
+constexpr std::array kScaleUnitMm = {1.0, kMillimetresPerCm, kMillimetresPerInch};
 const QString kScaleUnitKey = QStringLiteral("scale/unit");
 
 /// Sides of the page in the order of the scan's.
@@ -129,10 +131,7 @@ void ScaleControls::build() {
   layout->addWidget(note_);
 }
 
-double ScaleControls::millimetresPerUnit() const {
-  const Unit unit = static_cast<Unit>(unit_->currentIndex());
-  return unit == Unit::Inch ? kMillimetresPerInch : unit == Unit::Centimetre ? kMillimetresPerCm : 1.0;
-}
+double ScaleControls::millimetresPerUnit() const { return kScaleUnitMm.at(unit_->currentIndex()); }
 
 void ScaleControls::change(const QString& what, Recipe after) {
   view_.setMeasure(std::nullopt);

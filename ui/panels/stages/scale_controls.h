@@ -23,7 +23,6 @@ class ScaleControls : public QWidget {
   ScaleControls(EditorSession& session, ViewSettings& view, QWidget* parent = nullptr);
 
  private:
-  enum class Unit { Millimetre, Centimetre, Inch };
   void build();
   void refresh();
   void measureTaken();

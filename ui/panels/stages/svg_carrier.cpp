@@ -83,7 +83,7 @@ void SvgCarrier::carry(const ExportedFile& made, Way way, const QString& name) {
   if (way == Way::Copy) {
     data->setText(QString::fromUtf8(svg));
     QApplication::clipboard()->setMimeData(data.release());
-    emit copied(tr("Copied as SVG: %1.").arg(QString::fromStdString(sentenceOf(made.report))));
+    emit copied(tr("Copied as SVG: %1.").arg(QString::fromStdString(sentenceByNumbers(made.report))));
     return;
   }
   if (!(QApplication::mouseButtons() & Qt::LeftButton)) return;
