@@ -84,7 +84,7 @@ int highestDegree(const ExportDocument& document) {
   return degree;
 }
 
-std::string header(const PageFrame& frame, const std::string& unit, int degree) {
+std::string polynomialHeader(const PageFrame& frame, const std::string& unit, int degree) {
   std::string text = "# x = x0 + x1 t + x2 t^2 + ..., t = u - u_start, y alike; lengths in " + unit +
                      ", x to the right, y up, from " + originOf(frame) + ".\ncurve,piece,span,u_start,u_end";
   for (const char* axis : {"x", "y"})
@@ -137,7 +137,7 @@ Result<std::string> writePolynomials(const ExportDocument& document, const Expor
   if (auto problem = exportProblem(document)) return fail(std::move(*problem));
   if (auto problem = validate(settings)) return fail(std::move(*problem));
   const int degree = highestDegree(document);
-  std::string text = header(document.frame, nameOf(settings.unit), degree);
+  std::string text = polynomialHeader(document.frame, nameOf(settings.unit), degree);
   std::size_t done = 0;
   for (const ExportCurve& line : document.curves) {
     if (context.isCancelled()) return cancelled();

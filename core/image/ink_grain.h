@@ -8,7 +8,8 @@ namespace batten {
 
 /// How far ink is torn: the grain of a pencil or of charcoal on rough paper.
 struct InkGrain {
-  double widthPx = 0.0;  ///< [px] Twice the area by the border: of whole ink the width of its strokes, of torn ink less.
+  double widthPx =
+      0.0;  ///< [px] Twice the area by the border: of whole ink the width of its strokes, of torn ink less.
   double perWidth = 0.0;  ///< [-] Specks and holes smaller than a square of that width, per width along the strokes.
 };
 
