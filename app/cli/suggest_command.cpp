@@ -4,13 +4,13 @@
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "app/cli/exit_codes.h"
 #include "app/cli/shown_digits.h"
 #include "app/cli/trace_plan.h"
+#include "core/base/angle.h"
 #include "core/base/platform.h"
 #include "core/base/shown_text.h"
 #include "core/contour/corner/corner_certainty.h"
@@ -27,7 +27,6 @@ struct Advice {
 };
 
 nlohmann::ordered_json cornersToJson(const std::vector<CornerSuggestion>& corners) {
-  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
   auto list = nlohmann::ordered_json::array();
   for (const CornerSuggestion& corner : corners) {
     list.push_back({{"at", {withDecimals(corner.positionPx.x(), 2), withDecimals(corner.positionPx.y(), 2)}},

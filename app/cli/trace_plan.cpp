@@ -303,8 +303,9 @@ Result<void> checkOptions(const TraceArguments& arguments, const TracePlan& plan
     FormatOption option;
   };
   std::string names;
-  for (const auto& output : plan.outputs) names.append(names.empty() ? "" : ", ").append(output.path.string());
-  for (const auto& report : plan.reports) names.append(names.empty() ? "" : ", ").append(report.path.string());
+  const auto add = [&](const fs::path& path) { names.append(names.empty() ? "" : ", ").append(path.string()); };
+  for (const auto& output : plan.outputs) add(output.path);
+  for (const auto& report : plan.reports) add(report.path);
   if (names.empty()) names = "what is written here";
   for (const auto& [word, isGiven, option] : {Given{"--unit", !arguments.unit.empty(), FormatOption::Unit},
                                               {"--tolerance", arguments.tolerance.has_value(), FormatOption::Tolerance},

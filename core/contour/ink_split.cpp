@@ -6,7 +6,6 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
-#include "core/base/statistics.h"
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/centreline/graininess.h"
 #include "core/contour/centreline/stroke_mask.h"
@@ -86,16 +85,6 @@ RunPieces regionsOf(const BitImage& strokes, const BitImage& shapes, const RunCo
   return regions;
 }
 
-// [px] median over all points of the stroke paths drawn with a pencil.
-double pencilWidth(const std::vector<StrokePath>& paths, const GraininessMap& grain) {
-  std::vector<float> radii;
-  for (int i = 0; i < std::ssize(paths); ++i) {
-    if (!grain.isPencil(i)) continue;
-    for (const StrokePathPoint& p : paths[i].points) radii.push_back(p.radius);
-  }
-  return radii.empty() ? 1.0 : std::max(1.0, 2.0 * static_cast<double>(upperMedian(radii)));
-}
-
 // The solids of a pencil, with their grain closed; small ones are grain themselves, or strokes that cross.
 Result<BitImage> pencilSolids(const BitImage& pencil, double widthPx, double mergeWidths, const RunContext& context) {
   constexpr double kSolidWidths = 5.0;   // strokes side by side that have run together are narrower
@@ -148,7 +137,7 @@ Result<void> splitByLabel(const BitImage& ink, const GreyImage& grey, const Edge
     move(ink, pieces.runs[i], byPiece->shapes.at(pieces.runs[i].x0, pieces.runs[i].y), split);
   }
   const StrokesOfInk& known = *split.known;
-  const double widthPx = pencilWidth(known.paths, known.grain);
+  const double widthPx = medianWidth(known.paths, [&](int i) { return known.grain.isPencil(i); });
   Result<BitImage> solids = pencilSolids(both(split.strokes, split.pencil), widthPx, params.mergeWidths, context);
   if (!solids) return fail(solids.error());
   split.strokes = without(std::move(split.strokes), *solids);

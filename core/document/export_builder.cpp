@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/base/statistics.h"
+#include "core/curve/line_names.h"
 #include "core/exchange/export_check.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/run/direction_owners.h"
@@ -21,9 +22,6 @@ namespace {
 
 /// All pieces of one contour in order of travel; null where there is no curve to export.
 using ContourPieces = std::vector<const TracedCurve*>;
-
-constexpr const char* kFairedLayer = "Faired";
-constexpr const char* kSketchedLayer = "Sketched";
 
 /// Runs of pieces that follow each other. A closed contour may be entered anywhere: it starts after a gap, so that no
 /// run is cut at the contour's own start.
@@ -114,7 +112,7 @@ void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched
       }
       if (const ImportedLine* imported = importedLineOf(line, recipe.imports))
         takeOrigin(*imported, sketched, isBoth, curve);
-      curve.id = "curve-" + std::to_string(lowest) + (sketched ? "-sketched" : "");
+      curve.id = lineId(lowest, sketched);
       if (const auto start = owners.startOfContour.find(contour); start != owners.startOfContour.end())
         curve.startMm = output.frame.pointToModel(recipe.starts[start->second].positionPx);
       curve.strokeWidthMm = strokeWidth(line, output.frame);

@@ -9,6 +9,7 @@
 
 #include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
+#include "core/curve/line_names.h"
 #include "core/exchange/curve_json.h"
 #include "core/exchange/dxf_reader.h"
 #include "core/exchange/export_settings.h"
@@ -46,7 +47,7 @@ Result<ExportDocument> documentOf(const CadDrawing& drawing) {
     const auto curve = curveOf(entity.shape);
     if (!curve) return fail(curve.error());
     ExportCurve& line = document.curves.emplace_back();
-    line.id = "curve-" + std::to_string(document.curves.size());
+    line.id = lineId(static_cast<int>(document.curves.size()), false);
     line.name = entity.name;
     if (!entity.layer.empty()) line.layer = entity.layer;
     line.pieces.push_back({curve->mapped(linear, Vec2::Zero())});

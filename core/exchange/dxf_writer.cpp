@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/conventions.h"
 
 namespace batten {
@@ -141,13 +141,12 @@ class Writer {
   }
 
   void put(const CadArc& arc, const DL_Attributes& look) {
-    constexpr double kDegrees = 180.0 / std::numbers::pi;
     if (isCircle(arc)) {
       dxf_.writeCircle(*out_, DL_CircleData(arc.centre.x(), arc.centre.y(), 0.0, arc.radius), look);
       return;
     }
     const auto angle = [&](double radians) {
-      const double degrees = std::fmod(radians * kDegrees, 360.0);
+      const double degrees = std::fmod(radians * kDegPerRad, 360.0);
       return degrees < 0.0 ? degrees + 360.0 : degrees;
     };
     dxf_.writeArc(*out_,

@@ -13,6 +13,7 @@
 #include "core/base/partial_context.h"
 #include "core/base/shown_text.h"
 #include "core/curve/curvature.h"
+#include "core/curve/line_names.h"
 #include "core/exchange/arrangement.h"
 #include "core/exchange/cad_drawing.h"
 #include "core/exchange/csv_writer.h"
@@ -327,8 +328,7 @@ std::vector<std::vector<int>> pieceNumbers(const ExportDocument& document) {
 
 /// A part of a line of the drawing is called after its lowest number, as the line is; to other names a count is added.
 std::string idOfPart(const ExportCurve& line, int number, int count) {
-  if (line.id.starts_with("curve-") && line.pieces.front().number)
-    return "curve-" + std::to_string(number) + (line.isSketched ? "-sketched" : "");
+  if (line.id.starts_with(kLineIdBegin) && line.pieces.front().number) return lineId(number, line.isSketched);
   return count > 1 ? line.id + "-" + std::to_string(count) : line.id;
 }
 

@@ -9,6 +9,7 @@
 #include "core/base/conventions.h"
 #include "core/base/json_text.h"
 #include "core/base/number_text.h"
+#include "core/curve/line_names.h"
 #include "core/exchange/csv_writer.h"
 #include "core/exchange/file_text.h"
 
@@ -16,10 +17,6 @@ namespace batten {
 namespace {
 
 using PointJson = nlohmann::ordered_json;
-
-/// In the names of the sketched lines of Batten's own CSV; and the layer that other formats put them on.
-constexpr std::string_view kPathBegin = "curve-", kOfSketched = "-sketched";
-constexpr const char* kLayerOfSketched = "Sketched";
 
 tl::unexpected<Error> noPoints(const std::string& what) {
   return fail(ErrorCode::BadParameter, "The points cannot be read: " + what + ".");
@@ -189,8 +186,8 @@ class TableReader {
       std::erase_if(line_.corners, [&](int corner) { return corner >= std::ssize(points); });
       if (!line_.corners.empty() && line_.corners.front() != 0) line_.corners.insert(line_.corners.begin(), 0);
     }
-    if (columns_.piece && line_.name.starts_with(kPathBegin) && line_.name.find(kOfSketched) != std::string::npos)
-      line_.layer = kLayerOfSketched;
+    if (columns_.piece && line_.name.starts_with(kLineIdBegin) && line_.name.find(kSketchedIdEnd) != std::string::npos)
+      line_.layer = kSketchedLayer;
     if (pieces_.size() == 1 && !pieces_.front().empty()) line_.name = pieces_.front();
     if (points.size() >= 2) {
       for (std::size_t part = 0; part < pieces_.size() && columns_.piece; ++part)

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/statistics.h"
 #include "core/contour/centreline/gaps.h"
 #include "core/contour/centreline/graininess.h"
 #include "core/contour/centreline/on_ink.h"
@@ -52,18 +51,6 @@ std::vector<StrokePath> centrelinesOf(const BitImage& ink, const CentrelineOptio
   std::vector<StrokePath> paths = findStrokePaths(without(std::move(skeleton), *shapes), all, params, context);
   endAtRims(paths, *shapes);
   return paths;
-}
-
-// [px] median over all points of the stroke paths chosen.
-template <class Chosen>
-double medianWidth(const std::vector<StrokePath>& paths, const Chosen& isChosen) {
-  std::vector<float> radii;
-  for (int i = 0; i < std::ssize(paths); ++i) {
-    if (!isChosen(i)) continue;
-    for (const StrokePathPoint& p : paths[i].points) radii.push_back(p.radius);
-  }
-  if (radii.empty()) return 1.0;
-  return std::max(1.0, 2.0 * static_cast<double>(upperMedian(radii)));
 }
 
 // Ink that touches the border of the page nearly all along is the margin of the scanner or the edge of the sheet.

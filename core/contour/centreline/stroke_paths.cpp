@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "core/base/statistics.h"
 #include "core/contour/centreline/skeleton_graph.h"
+#include "core/contour/merge/stroke_lines.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -19,10 +19,6 @@ constexpr double kLeastTangentPx = 8.0;    // and of thin strokes
 constexpr double kMissPerWidthDeg = 20.0;  // what a stroke that goes on a width aside costs, against a bend
 constexpr double kLeastLastStepPx = 0.3;   // a shorter last step is left out
 constexpr double kForwardCos = 0.2;        // 78 degrees: a direction that points away by more looks back
-
-double angleDeg(const Vec2& a, const Vec2& b) {
-  return std::atan2(std::abs(cross(a, b)), a.dot(b)) * 180.0 / std::numbers::pi;
-}
 
 // How one end of an edge meets its node.
 struct MeetingEnd {
@@ -92,7 +88,7 @@ class StrokePathMaker {
   // [deg] Of going from one end to another; nothing where a stroke does not.
   std::optional<double> cost(int a, int b, double radius) const {
     const MeetingEnd &p = ends_[a], &q = ends_[b];
-    const double bend = angleDeg(-p.out, q.out);
+    const double bend = turnDeg(-p.out, q.out);
     if (bend > maxBendDeg_) return std::nullopt;
     const Vec2 d = q.at - p.at;
     const double miss = 0.5 * (std::abs(cross(p.out, d)) + std::abs(cross(q.out, d)));
@@ -246,6 +242,16 @@ std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage
   graph.mergeJunctions(params.mergeWidths > 0.0 && !params.intent);
   if (context.isCancelled()) return {};
   return StrokePathMaker(graph, params.maxBendDeg).make();
+}
+
+double medianWidth(const std::vector<StrokePath>& paths, const std::function<bool(int)>& isChosen) {
+  std::vector<float> radii;
+  for (int i = 0; i < std::ssize(paths); ++i) {
+    if (!isChosen(i)) continue;
+    for (const StrokePathPoint& p : paths[i].points) radii.push_back(p.radius);
+  }
+  if (radii.empty()) return 1.0;
+  return std::max(1.0, 2.0 * static_cast<double>(upperMedian(radii)));
 }
 
 }  // namespace batten

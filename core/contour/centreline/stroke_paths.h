@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/base/run_context.h"
@@ -40,6 +41,9 @@ struct StrokePath {
 /// EdgeParams). Deterministic order. Empty when cancelled.
 std::vector<StrokePath> findStrokePaths(const BitImage& skeleton, const BitImage& ink, const EdgeParams& params,
                                         const RunContext& context);
+
+/// [px] Median over all points of the stroke paths chosen by their index; at least 1, and 1 of none.
+double medianWidth(const std::vector<StrokePath>& paths, const std::function<bool(int)>& isChosen);
 
 /// Points about 1 px apart on a cubic that leaves `from` in direction `fromDirection` and arrives at `to` in
 /// direction `toDirection` (unit vectors), both ends excluded.

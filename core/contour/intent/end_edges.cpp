@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/contour/intent/merge_shares.h"
 #include "core/contour/merge/stroke_lines.h"
 #include "core/polyline/point_grid.h"
@@ -21,9 +21,8 @@ constexpr double kLongFrom = 25.0, kLongTo = 2.0;
 constexpr double kNearArms = 2.5, kNearArmsLater = 3.0;
 constexpr double kLinkReach = 4.0;
 constexpr double kTouchingEnds = 1.5;  // the way between them has no direction
-constexpr double kEndDeg = 180.0 / std::numbers::pi;
 
-double signedDeg(const Vec2& a, const Vec2& b) { return kEndDeg * std::atan2(cross(a, b), a.dot(b)); }
+double signedDeg(const Vec2& a, const Vec2& b) { return kDegPerRad * std::atan2(cross(a, b), a.dot(b)); }
 
 const Strip& stripOf(const EndView& v, int end) { return v.view.strips[end / 2]; }
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "core/base/angle.h"
 #include "core/base/parallel.h"
 #include "core/base/statistics.h"
 #include "core/contour/intent/merge_shares.h"
@@ -25,7 +25,6 @@ constexpr int kAtEnd = 2;              // samples: a crossing there is one of th
 constexpr int kGoesOn = 4;             // samples: by less, ends are level
 constexpr double kCrossingSide = 0.3;  // farther to both sides: they cross
 constexpr int kStripsPerBlock = 8;
-constexpr double kDegPerRadian = 180.0 / std::numbers::pi;
 
 struct StripPlace {
   int strip, sample;
@@ -167,7 +166,7 @@ SideMeasures measureSide(const StripPair& pair, const PairView& view) {
   m.most = lowerQuantile(apart, 0.9);
   m.least = *std::ranges::min_element(apart);
   m.overlap = static_cast<double>(longer.size());
-  m.angleDeg = kDegPerRadian * upperMedian(angles);
+  m.angleDeg = kDegPerRad * upperMedian(angles);
   m.parting = partingOf(longer);
   m.shareA = static_cast<double>(pair.fromA.size()) / a.count();
   m.shareB = static_cast<double>(pair.fromB.size()) / b.count();

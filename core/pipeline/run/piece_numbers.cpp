@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/number_text.h"
+#include "core/curve/line_names.h"
 #include "core/polyline/point_grid.h"
 
 namespace batten {
@@ -155,12 +156,11 @@ std::optional<int> numberOfCurveName(std::string_view name) {
 }
 
 bool isMadeName(std::string_view name) {
-  constexpr std::string_view kPath = "curve-", kOfSketched = "-sketched";
   if (numberOfCurveName(name)) return true;
-  if (!name.starts_with(kPath)) return false;
-  name.remove_prefix(kPath.size());
+  if (!name.starts_with(kLineIdBegin)) return false;
+  name.remove_prefix(kLineIdBegin.size());
   std::string rest(name);
-  if (const auto at = rest.find(kOfSketched); at != std::string::npos) rest.erase(at, kOfSketched.size());
+  if (const auto at = rest.find(kSketchedIdEnd); at != std::string::npos) rest.erase(at, kSketchedIdEnd.size());
   // "-2" and ".2" stand behind the number where a line was written in parts.
   return !rest.empty() && rest.find_first_not_of("0123456789-.") == std::string::npos &&
          integerFromText(std::string_view(rest).substr(0, rest.find_first_of("-.")));
