@@ -206,5 +206,41 @@ TEST(LowPassMode, TakesShortWavesAndLeavesLongOnes) {
   EXPECT_LE(deviation(faired->curve, start).max, 0.5);
 }
 
+TEST(LowPassMode, KeepsItsShareOfEveryWaveAtAnyTolerance) {
+  constexpr double kLength = 200.0;
+  for (const double wave : {20.0, 40.0}) {
+    std::vector<Vec2> course{Vec2::Zero()};
+    constexpr int kSteps = 4000;
+    const auto angle = [&](double s) {
+      return 0.01 * s + 0.004 * wave / (2.0 * std::numbers::pi) * (1.0 - std::cos(2.0 * std::numbers::pi * s / wave));
+    };
+    for (int i = 0; i < kSteps; ++i) {
+      const double a = angle(kLength * (i + 0.5) / kSteps);
+      course.push_back(course.back() + kLength / kSteps * Vec2(std::cos(a), std::sin(a)));
+    }
+    const auto shape = [&](double t) { return course[static_cast<std::size_t>(std::lround(t * kSteps))]; };
+    const NurbsCurve start = test::fitted(shape, 100);
+    const auto amplitude = [&](const NurbsCurve& curve) {
+      double sum = 0.0;
+      const auto samples = sampleByArcLength(curve, 2001);
+      for (const CurveSample& one : samples)
+        sum += (1.0 - std::cos(2.0 * std::numbers::pi * one.s / samples.back().s)) * one.kappa *
+               std::sin(2.0 * std::numbers::pi * one.s / wave);
+      return sum;
+    };
+    // A Gaussian that halves waves of 20 mm.
+    const double share = std::pow(0.5, std::pow(20.0 / wave, 2.0));
+    for (const double tolerance : {0.1, 1.0, 5.0}) {
+      FairingParams params;
+      params.mode = FairingMode::LowPass;
+      params.toleranceMm = tolerance;
+      params.lowPassMm = 20.0;
+      const auto faired = fair(start, false, params, {});
+      ASSERT_TRUE(faired);
+      EXPECT_NEAR(amplitude(faired->curve) / amplitude(start), share, 0.05) << wave << ", tolerance " << tolerance;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace batten
