@@ -22,7 +22,7 @@
 #include "core/document/report.h"
 #include "core/exchange/export_file.h"
 #include "core/exchange/save_atomically.h"
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "core/pipeline/run/curve_targets.h"
 #include "core/pipeline/run/direction_owners.h"

@@ -11,7 +11,7 @@
 
 #include "core/base/statistics.h"
 #include "core/curve/line_names.h"
-#include "core/exchange/export_check.h"
+#include "core/exchange/model/export_check.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/run/direction_owners.h"
 #include "core/pipeline/run/imported_lines.h"

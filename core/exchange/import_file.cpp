@@ -14,15 +14,15 @@
 #include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
 #include "core/curve/knot_operations.h"
-#include "core/exchange/cad_shape.h"
-#include "core/exchange/curve_json.h"
-#include "core/exchange/dxf_reader.h"
-#include "core/exchange/iges_reader.h"
-#include "core/exchange/own_svg.h"
+#include "core/exchange/cad/dxf_reader.h"
+#include "core/exchange/cad/iges_reader.h"
+#include "core/exchange/cad/step_reader.h"
+#include "core/exchange/model/cad_shape.h"
 #include "core/exchange/point_file.h"
-#include "core/exchange/step_reader.h"
-#include "core/exchange/svg_reader.h"
-#include "core/exchange/svg_shapes.h"
+#include "core/exchange/svg/own_svg.h"
+#include "core/exchange/svg/svg_reader.h"
+#include "core/exchange/svg/svg_shapes.h"
+#include "core/exchange/text/curve_json.h"
 
 namespace batten {
 namespace {

@@ -12,8 +12,8 @@
 #include "core/curve/arc_length.h"
 #include "core/curve/corners_inside.h"
 #include "core/curve/knot_operations.h"
-#include "core/fairing/curvature_samples.h"
 #include "core/fairing/fairing_report.h"
+#include "core/fairing/profile/curvature_samples.h"
 
 namespace batten {
 namespace {

@@ -12,9 +12,9 @@
 #include "core/fairing/edge_lengths.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_report.h"
-#include "core/fairing/log_aesthetic.h"
-#include "core/fairing/low_pass.h"
-#include "core/fairing/shape_modification.h"
+#include "core/fairing/target/log_aesthetic.h"
+#include "core/fairing/target/low_pass.h"
+#include "core/fairing/target/shape_modification.h"
 
 namespace batten {
 namespace {

@@ -6,18 +6,18 @@
 #include <numeric>
 
 #include "core/base/parallel.h"
-#include "core/fairing/fair_as_needed.h"
-#include "core/fairing/fairing_line.h"
 #include "core/fairing/fairing_report.h"
-#include "core/fairing/fairing_setup.h"
-#include "core/fairing/log_aesthetic.h"
-#include "core/fairing/low_pass.h"
-#include "core/fairing/monotone_fairing.h"
-#include "core/fairing/natural_spans.h"
-#include "core/fairing/shape_modification.h"
-#include "core/fairing/span_fairing.h"
+#include "core/fairing/model/fairing_line.h"
+#include "core/fairing/model/fairing_setup.h"
+#include "core/fairing/structure/fair_as_needed.h"
+#include "core/fairing/structure/monotone_fairing.h"
+#include "core/fairing/structure/tolerance_fairing.h"
+#include "core/fairing/target/log_aesthetic.h"
+#include "core/fairing/target/low_pass.h"
+#include "core/fairing/target/natural_spans.h"
+#include "core/fairing/target/shape_modification.h"
+#include "core/fairing/target/span_fairing.h"
 #include "core/fairing/target_levels.h"
-#include "core/fairing/tolerance_fairing.h"
 
 namespace batten {
 namespace {

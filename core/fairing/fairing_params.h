@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/fairing/drawn_profile.h"
-#include "core/fairing/radius_target.h"
+#include "core/fairing/profile/drawn_profile.h"
+#include "core/fairing/profile/radius_target.h"
 
 namespace batten {
 

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "core/fairing/corner_sections.h"
-#include "core/fairing/drawn_profile.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/log_aesthetic.h"
-#include "core/fairing/natural_spans.h"
-#include "core/fairing/span_fairing.h"
+#include "core/fairing/profile/drawn_profile.h"
+#include "core/fairing/target/log_aesthetic.h"
+#include "core/fairing/target/natural_spans.h"
+#include "core/fairing/target/span_fairing.h"
 
 namespace batten {
 namespace {

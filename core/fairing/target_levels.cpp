@@ -6,9 +6,9 @@
 
 #include "core/fairing/corner_sections.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/natural_spans.h"
-#include "core/fairing/shape_modification.h"
-#include "core/fairing/span_fairing.h"
+#include "core/fairing/target/natural_spans.h"
+#include "core/fairing/target/shape_modification.h"
+#include "core/fairing/target/span_fairing.h"
 
 namespace batten {
 namespace {

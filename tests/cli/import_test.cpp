@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/exchange/curve_json.h"
 #include "core/exchange/import_file.h"
+#include "core/exchange/text/curve_json.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "tests/cli/program.h"
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/curve/closest_point.h"
-#include "core/exchange/curve_json.h"
-#include "core/exchange/svg_check.h"
+#include "core/exchange/svg/svg_check.h"
+#include "core/exchange/text/curve_json.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/recipe/stage_id.h"
 #include "tests/cli/program.h"

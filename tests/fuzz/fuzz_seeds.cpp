@@ -7,9 +7,9 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "core/exchange/curve_json.h"
 #include "core/exchange/export_file.h"
-#include "core/exchange/svg_writer.h"
+#include "core/exchange/svg/svg_writer.h"
+#include "core/exchange/text/curve_json.h"
 #include "core/pipeline/recipe/recipe_file.h"
 
 namespace {

@@ -11,9 +11,9 @@
 #include <filesystem>
 
 #include "core/document/export_builder.h"
-#include "core/exchange/curve_json.h"
 #include "core/exchange/save_atomically.h"
-#include "core/exchange/svg_writer.h"
+#include "core/exchange/svg/svg_writer.h"
+#include "core/exchange/text/curve_json.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/new_drawing_dialog.h"

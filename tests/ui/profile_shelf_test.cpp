@@ -16,7 +16,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/fairing/like_profile.h"
+#include "core/fairing/profile/like_profile.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/new_drawing_dialog.h"
 #include "ui/session/like_edits.h"

@@ -10,8 +10,8 @@
 #include "core/curve/curvature.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_report.h"
-#include "core/fairing/low_pass.h"
-#include "core/fairing/natural_spans.h"
+#include "core/fairing/target/low_pass.h"
+#include "core/fairing/target/natural_spans.h"
 #include "ui/session/piece_choice.h"
 
 namespace batten {

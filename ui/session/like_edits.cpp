@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/session/like_edits.h"
 
-#include "core/fairing/like_profile.h"
+#include "core/fairing/profile/like_profile.h"
 #include "ui/session/fairing_edits.h"
 #include "ui/session/profile_library.h"
 

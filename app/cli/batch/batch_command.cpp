@@ -18,7 +18,7 @@
 #include "app/cli/file_names.h"
 #include "core/base/shown_text.h"
 #include "core/document/report_pages/report_file.h"
-#include "core/exchange/export_settings.h"
+#include "core/exchange/model/export_settings.h"
 #include "core/exchange/save_atomically.h"
 
 namespace batten::cli {

@@ -17,7 +17,7 @@
 #include "core/base/platform.h"
 #include "core/base/shown_text.h"
 #include "core/exchange/save_atomically.h"
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 
 namespace batten::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "core/curve/arc_length.h"
-#include "core/exchange/curve_json.h"
+#include "core/exchange/text/curve_json.h"
 
 namespace batten::cli {
 namespace {

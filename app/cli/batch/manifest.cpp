@@ -17,7 +17,7 @@
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
 #include "core/base/shown_text.h"
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 
 namespace batten::cli {
 namespace {

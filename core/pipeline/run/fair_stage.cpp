@@ -13,7 +13,7 @@
 #include "core/fairing/corner_sections.h"
 #include "core/fairing/edge_length_fairing.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/fairing_line.h"
+#include "core/fairing/model/fairing_line.h"
 #include "core/pipeline/run/choice_course.h"
 #include "core/pipeline/run/corner_rounding.h"
 #include "core/pipeline/run/curve_stages.h"

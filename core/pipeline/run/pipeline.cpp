@@ -5,7 +5,7 @@
 #include <new>
 
 #include "core/contour/trace_contours.h"
-#include "core/image/laplacian_edges.h"
+#include "core/image/bits/laplacian_edges.h"
 #include "core/pipeline/run/corner_places.h"
 #include "core/pipeline/run/curve_stages.h"
 #include "core/pipeline/run/fair_stage.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/fairing/like_profile.h"
+#include "core/fairing/profile/like_profile.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/curve/knot_operations.h"
-#include "core/fairing/curve_comparison.h"
 #include "core/fairing/fairing.h"
+#include "core/fairing/profile/curve_comparison.h"
 #include "tests/unit/fairing/fairing_curves.h"
 
 namespace batten {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/fairing/log_aesthetic.h"
+#include "core/fairing/target/log_aesthetic.h"
 
 #include <gtest/gtest.h>
 

@@ -5,11 +5,11 @@
 
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
-#include "core/fairing/curvature_rows.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/fairing_model.h"
-#include "core/fairing/minimise.h"
-#include "core/fairing/shape_modification.h"
+#include "core/fairing/model/curvature_rows.h"
+#include "core/fairing/model/fairing_model.h"
+#include "core/fairing/model/minimise.h"
+#include "core/fairing/target/shape_modification.h"
 #include "tests/support/known_answers.h"
 #include "tests/unit/fairing/fairing_curves.h"
 

@@ -13,8 +13,8 @@
 #include "core/curve/curvature.h"
 #include "core/fairing/edge_length_fairing.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/fairing_line.h"
 #include "core/fairing/fairing_report.h"
+#include "core/fairing/model/fairing_line.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "tests/support/asked_count.h"
 

@@ -10,7 +10,7 @@
 #include "core/base/run_context.h"
 #include "core/document/export_builder.h"
 #include "core/exchange/export_file.h"
-#include "core/exchange/export_settings.h"
+#include "core/exchange/model/export_settings.h"
 #include "core/pipeline/run/pipeline.h"
 
 namespace batten {

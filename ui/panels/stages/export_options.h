@@ -4,7 +4,7 @@
 #include <QWidget>
 
 #include "core/document/export_builder.h"
-#include "core/exchange/export_settings.h"
+#include "core/exchange/model/export_settings.h"
 
 class QCheckBox;
 class QComboBox;

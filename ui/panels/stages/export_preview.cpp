@@ -10,8 +10,8 @@
 #include <set>
 
 #include "core/curve/arc_length.h"
-#include "core/exchange/arrangement.h"
-#include "core/exchange/cad_drawing.h"
+#include "core/exchange/model/arrangement.h"
+#include "core/exchange/model/cad_drawing.h"
 #include "ui/session/background_worker.h"
 #include "ui/theme/theme.h"
 

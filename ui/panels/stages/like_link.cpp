@@ -15,7 +15,7 @@
 #include <iterator>
 #include <utility>
 
-#include "core/fairing/like_profile.h"
+#include "core/fairing/profile/like_profile.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/session/curve_names.h"
 #include "ui/session/like_edits.h"

@@ -14,8 +14,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/image/region_thresholds.h"
-#include "core/image/region_values.h"
+#include "core/image/threshold/region_thresholds.h"
+#include "core/image/threshold/region_values.h"
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
