@@ -18,10 +18,10 @@
 #include "core/curve/curvature.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/plots/curve_plots.h"
+#include "ui/session/edits/fairing_edits.h"
+#include "ui/session/edits/piece_choice.h"
 #include "ui/session/extremum_marks.h"
-#include "ui/session/fairing_edits.h"
 #include "ui/session/judged_view.h"
-#include "ui/session/piece_choice.h"
 
 namespace batten {
 namespace {

@@ -17,9 +17,9 @@
 #include "core/pipeline/recipe/recipe_file.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/new_drawing_dialog.h"
-#include "ui/panels/stages/knot_panel.h"
-#include "ui/panels/stages/knot_strip.h"
-#include "ui/session/pen_edits.h"
+#include "ui/panels/stages/curves/knot_panel.h"
+#include "ui/panels/stages/curves/knot_strip.h"
+#include "ui/session/edits/pen_edits.h"
 
 namespace batten {
 namespace {

@@ -19,7 +19,7 @@
 #include "core/fairing/profile/like_profile.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/new_drawing_dialog.h"
-#include "ui/session/like_edits.h"
+#include "ui/session/edits/like_edits.h"
 #include "ui/session/profile_library.h"
 
 namespace batten {

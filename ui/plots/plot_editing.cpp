@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/session/fairing_edits.h"
+#include "ui/session/edits/fairing_edits.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

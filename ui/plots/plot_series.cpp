@@ -13,7 +13,7 @@
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/fairing/fairing.h"
-#include "ui/session/fairing_edits.h"
+#include "ui/session/edits/fairing_edits.h"
 
 namespace batten {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "core/base/conventions.h"
 #include "ui/session/curve_names.h"
+#include "ui/session/edits/piece_choice.h"
 #include "ui/session/judged_view.h"
 #include "ui/session/page_text.h"
-#include "ui/session/piece_choice.h"
 
 namespace batten {
 namespace {

@@ -10,7 +10,7 @@
 #include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/curve_names.h"
-#include "ui/session/direction_edits.h"
+#include "ui/session/edits/direction_edits.h"
 
 namespace batten {
 namespace {

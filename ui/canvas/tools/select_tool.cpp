@@ -5,9 +5,9 @@
 #include "ui/canvas/layers/chip_layer.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/curve_names.h"
-#include "ui/session/fairing_edits.h"
+#include "ui/session/edits/fairing_edits.h"
+#include "ui/session/edits/pen_edits.h"
 #include "ui/session/judged_view.h"
-#include "ui/session/pen_edits.h"
 
 namespace batten {
 namespace {

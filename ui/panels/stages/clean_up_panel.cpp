@@ -15,7 +15,7 @@
 #include "ui/panels/stages/line_trace_mode.h"
 #include "ui/panels/stages/merge_suggestion.h"
 #include "ui/panels/stages/pen_panel.h"
-#include "ui/session/region_edits.h"
+#include "ui/session/edits/region_edits.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

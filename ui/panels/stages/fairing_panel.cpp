@@ -16,13 +16,13 @@
 #include "ui/panels/controls/parameter_row.h"
 #include "ui/panels/controls/segmented_control.h"
 #include "ui/panels/controls/setting_name.h"
-#include "ui/panels/stages/curve_list.h"
+#include "ui/panels/stages/curves/curve_list.h"
 #include "ui/panels/stages/ends_table.h"
 #include "ui/panels/stages/like_link.h"
 #include "ui/panels/stages/profile_shelf.h"
-#include "ui/session/fairing_edits.h"
+#include "ui/session/edits/fairing_edits.h"
+#include "ui/session/edits/piece_choice.h"
 #include "ui/session/judged_curve.h"
-#include "ui/session/piece_choice.h"
 
 namespace batten {
 namespace {

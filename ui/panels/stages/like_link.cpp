@@ -18,7 +18,7 @@
 #include "core/fairing/profile/like_profile.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/session/curve_names.h"
-#include "ui/session/like_edits.h"
+#include "ui/session/edits/like_edits.h"
 #include "ui/session/profile_library.h"
 
 namespace batten {

@@ -7,7 +7,7 @@
 
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/segmented_control.h"
-#include "ui/session/trace_mode_edits.h"
+#include "ui/session/edits/trace_mode_edits.h"
 
 namespace batten {
 namespace {

@@ -18,7 +18,7 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/segmented_control.h"
 #include "ui/session/curve_names.h"
-#include "ui/session/fairing_edits.h"
+#include "ui/session/edits/fairing_edits.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

@@ -13,8 +13,8 @@
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/target_advice.h"
 #include "ui/panels/controls/panel_parts.h"
-#include "ui/session/fairing_edits.h"
-#include "ui/session/piece_choice.h"
+#include "ui/session/edits/fairing_edits.h"
+#include "ui/session/edits/piece_choice.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/stages/report_section.h"
+#include "ui/panels/stages/export/report_section.h"
 
 #include <QComboBox>
 #include <QCoreApplication>
@@ -21,7 +21,7 @@
 #include "core/base/partial_context.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/save_dialog.h"
-#include "ui/panels/stages/export_folder.h"
+#include "ui/panels/stages/export/export_folder.h"
 #include "ui/session/background_worker.h"
 #include "ui/session/path_text.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/session/fairing_edits.h"
+#include "ui/session/edits/fairing_edits.h"
 
 #include <QCoreApplication>
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/target/low_pass.h"
 #include "core/fairing/target/natural_spans.h"
-#include "ui/session/piece_choice.h"
+#include "ui/session/edits/piece_choice.h"
 
 namespace batten {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/stages/export_job.h"
+#include "ui/panels/stages/export/export_job.h"
 
 #include <algorithm>
 #include <new>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/session/piece_choice.h"
+#include "ui/session/edits/piece_choice.h"
 
 #include <QCoreApplication>
 
 #include "core/pipeline/run/choice_course.h"
 #include "core/pipeline/run/piece_choices.h"
-#include "ui/session/fairing_edits.h"
+#include "ui/session/edits/fairing_edits.h"
 
 namespace batten {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "ui/panels/stages/export_job.h"
+#include "ui/panels/stages/export/export_job.h"
 #include "ui/session/editor_session.h"
 
 class QLabel;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/stages/method_table.h"
+#include "ui/panels/stages/curves/method_table.h"
 
 #include <QAbstractButton>
 #include <QKeyEvent>
@@ -16,8 +16,8 @@
 #include "ui/panels/controls/setting_name.h"
 #include "ui/session/background_worker.h"
 #include "ui/session/curve_names.h"
+#include "ui/session/edits/piece_choice.h"
 #include "ui/session/guarded.h"
-#include "ui/session/piece_choice.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/session/direction_edits.h"
+#include "ui/session/edits/direction_edits.h"
 
 #include <QCoreApplication>
 #include <utility>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/session/like_edits.h"
+#include "ui/session/edits/like_edits.h"
 
 #include "core/fairing/profile/like_profile.h"
-#include "ui/session/fairing_edits.h"
+#include "ui/session/edits/fairing_edits.h"
 #include "ui/session/profile_library.h"
 
 namespace batten {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/session/region_edits.h"
+#include "ui/session/edits/region_edits.h"
 
 #include <utility>
 

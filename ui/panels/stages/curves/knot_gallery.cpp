@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/stages/knot_gallery.h"
+#include "ui/panels/stages/curves/knot_gallery.h"
 
 #include <QAbstractButton>
 #include <QGridLayout>

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "ui/panels/stages/export_job.h"
+#include "ui/panels/stages/export/export_job.h"
 
 class QWidget;
 

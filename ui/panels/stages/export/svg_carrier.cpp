@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/stages/svg_carrier.h"
+#include "ui/panels/stages/export/svg_carrier.h"
 
 #include <QApplication>
 #include <QClipboard>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/stages/export_panel.h"
+#include "ui/panels/stages/export/export_panel.h"
 
 #include <QFileDialog>
 #include <QFileInfo>
@@ -16,15 +16,15 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/path_edit.h"
 #include "ui/panels/controls/save_dialog.h"
-#include "ui/panels/stages/export_choice.h"
-#include "ui/panels/stages/export_folder.h"
-#include "ui/panels/stages/export_options.h"
-#include "ui/panels/stages/export_preview.h"
-#include "ui/panels/stages/report_section.h"
-#include "ui/panels/stages/svg_carrier.h"
+#include "ui/panels/stages/export/export_choice.h"
+#include "ui/panels/stages/export/export_folder.h"
+#include "ui/panels/stages/export/export_options.h"
+#include "ui/panels/stages/export/export_preview.h"
+#include "ui/panels/stages/export/report_section.h"
+#include "ui/panels/stages/export/svg_carrier.h"
 #include "ui/session/background_worker.h"
 #include "ui/session/curve_names.h"
-#include "ui/session/direction_edits.h"
+#include "ui/session/edits/direction_edits.h"
 #include "ui/session/path_text.h"
 #include "ui/theme/theme.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/stages/curve_list.h"
+#include "ui/panels/stages/curves/curve_list.h"
 
 #include <QElapsedTimer>
 #include <QKeyEvent>
@@ -12,9 +12,9 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/session/background_worker.h"
 #include "ui/session/curve_names.h"
+#include "ui/session/edits/piece_choice.h"
 #include "ui/session/fairness_text.h"
 #include "ui/session/guarded.h"
-#include "ui/session/piece_choice.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/stages/knot_panel.h"
+#include "ui/panels/stages/curves/knot_panel.h"
 
 #include <QCheckBox>
 #include <QFontMetrics>
@@ -9,8 +9,8 @@
 
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
-#include "ui/panels/stages/knot_gallery.h"
-#include "ui/panels/stages/knot_strip.h"
+#include "ui/panels/stages/curves/knot_gallery.h"
+#include "ui/panels/stages/curves/knot_strip.h"
 #include "ui/session/background_worker.h"
 #include "ui/theme/theme.h"
 

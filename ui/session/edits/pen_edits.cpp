@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/session/pen_edits.h"
+#include "ui/session/edits/pen_edits.h"
 
 #include <algorithm>
 #include <utility>

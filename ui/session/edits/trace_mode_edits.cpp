@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/session/trace_mode_edits.h"
+#include "ui/session/edits/trace_mode_edits.h"
 
 #include <QCoreApplication>
 #include <algorithm>

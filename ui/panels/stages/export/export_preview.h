@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "ui/panels/stages/export_job.h"
+#include "ui/panels/stages/export/export_job.h"
 
 namespace batten {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/stages/growing_controls.h"
+#include "ui/panels/stages/curves/growing_controls.h"
 
 #include <QHBoxLayout>
 #include <QLabel>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/stages/pin_panel.h"
+#include "ui/panels/stages/curves/pin_panel.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -12,7 +12,7 @@
 #include "core/curve/closest_point.h"
 #include "core/curve/variation_energy.h"
 #include "ui/panels/controls/panel_parts.h"
-#include "ui/panels/stages/method_table.h"
+#include "ui/panels/stages/curves/method_table.h"
 #include "ui/session/background_worker.h"
 
 namespace batten {

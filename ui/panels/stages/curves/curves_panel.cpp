@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/stages/curves_panel.h"
+#include "ui/panels/stages/curves/curves_panel.h"
 
 #include <QGridLayout>
 #include <QLabel>
@@ -17,14 +17,14 @@
 #include "ui/panels/controls/parameter_row.h"
 #include "ui/panels/controls/segmented_control.h"
 #include "ui/panels/controls/slider_track.h"
-#include "ui/panels/stages/curve_list.h"
-#include "ui/panels/stages/growing_controls.h"
-#include "ui/panels/stages/knot_panel.h"
-#include "ui/panels/stages/method_table.h"
-#include "ui/panels/stages/paper_row.h"
-#include "ui/panels/stages/pin_panel.h"
-#include "ui/session/pen_edits.h"
-#include "ui/session/piece_choice.h"
+#include "ui/panels/stages/curves/curve_list.h"
+#include "ui/panels/stages/curves/growing_controls.h"
+#include "ui/panels/stages/curves/knot_panel.h"
+#include "ui/panels/stages/curves/method_table.h"
+#include "ui/panels/stages/curves/paper_row.h"
+#include "ui/panels/stages/curves/pin_panel.h"
+#include "ui/session/edits/pen_edits.h"
+#include "ui/session/edits/piece_choice.h"
 
 namespace batten {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/stages/knot_strip.h"
+#include "ui/panels/stages/curves/knot_strip.h"
 
 #include <QHelpEvent>
 #include <QPainter>
