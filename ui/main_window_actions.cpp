@@ -152,7 +152,7 @@ void MainWindow::connectActions() {
 }
 
 void MainWindow::trigger(ActionId id) {
-  if (const auto degree = targetOf(id)) return chooseTarget(session_, *degree);
+  if (const auto degree = targetOf(id)) return chooseTarget(session_, targetOfDegree(*degree));
   switch (id) {
     case ActionId::NewDrawing:
       return newDrawing();

@@ -77,7 +77,7 @@ PieceFigures figuresOf(const TracedCurve& curve, bool sketched) {
   if (sketched || curve.fairingUsed.mode == FairingMode::None) return figures;
   figures.toleranceMm = curve.fairingUsed.toleranceMm;
   figures.movedMm = curve.fairing.maxDeviationMm;
-  if (curve.fairingUsed.mode == FairingMode::Target) figures.target = curve.fairingUsed.target;
+  if (curve.fairingUsed.mode == FairingMode::Target) figures.target = static_cast<int>(curve.fairingUsed.target);
   return figures;
 }
 

@@ -55,7 +55,7 @@ FairingParams paramsOf(const FairingParams& whole, const ProfileSpan& span, bool
   if (span.from > 0.0) params.startHold = {};
   if (span.to < 1.0) params.endHold = {};
   if (closed) params.startHold = params.endHold = {};
-  if (whole.target == kDrawnTarget && !whole.profile.empty()) {
+  if (whole.target == FairingTarget::Drawn && !whole.profile.empty()) {
     const TargetProfile drawn = drawnProfile(whole.profile, closed);
     params.profile = {{0.0, drawn.valid ? drawn.curvatureAt(span.from) : 0.0}};
     for (const ProfilePoint& point : whole.profile)

@@ -48,12 +48,12 @@ std::vector<Quintic> quinticsOf(const NurbsCurve& curve) {
 
 Result<TargetProfile> profileFor(const NurbsCurve& path, bool closed, const FairingParams& params) {
   if (params.mode == FairingMode::LowPass) return lowPassedProfile(path, closed, params);
-  if (params.target == kDrawnTarget) return drawnProfile(params.profile, closed);
-  if (params.target == kLogAestheticTarget)
+  if (params.target == FairingTarget::Drawn) return drawnProfile(params.profile, closed);
+  if (params.target == FairingTarget::LogAesthetic)
     return logAestheticTarget(path, closed, targetSplits(path, closed, params), params.alpha, params.targets.samples)
         .profile;
   const TargetSet targets = fitTargets(path, params.targets, closed);
-  const int degree = params.target > 0 ? params.target : targets.recommendedDegree;
+  const int degree = degreeOf(params.target).value_or(targets.recommendedDegree);
   return targets.profiles[std::max(degree, 1) - 1];
 }
 

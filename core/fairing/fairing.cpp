@@ -160,12 +160,12 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
     case FairingMode::Target:
       break;
   }
-  if (params.target == kDrawnTarget) {
+  if (params.target == FairingTarget::Drawn) {
     const TargetProfile drawn = drawnProfile(params.profile, closed);
     if (!drawn.valid) return unchanged(curve, closed, Termination::NotRun, drawn.problem);
     return modifyShape(curve, closed, drawn, params, context);
   }
-  if (params.target == kLogAestheticTarget) {
+  if (params.target == FairingTarget::LogAesthetic) {
     const auto target =
         logAestheticTarget(curve, closed, targetSplits(curve, closed, params), params.alpha, params.targets.samples);
     if (!target.profile.valid) return unchanged(curve, closed, Termination::NotRun, target.profile.problem);

@@ -76,8 +76,8 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
   const TargetSet& first = levels.front().targets;
   if (first.recommendedDegree == 0)
     return unchanged(curve, closed, Termination::Degenerate, first.profiles.front().problem);
-  if (params.target > 0) {
-    const TargetProfile& profile = first.profiles[static_cast<std::size_t>(params.target) - 1];
+  if (const auto asked = degreeOf(params.target)) {
+    const TargetProfile& profile = first.profiles[static_cast<std::size_t>(*asked) - 1];
     if (!profile.valid) return unchanged(curve, closed, Termination::Degenerate, profile.problem);
   }
   return withSetup(curve, closed, params, [&](const auto& setup, const FairingParams& within) -> Result<FairedCurve> {
@@ -90,7 +90,7 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
                               bool onlyIfMet = false) -> Result<LevelOutcome> {
       return fairOverLevels(setup, over, degree, within.toleranceMm, context, onlyIfMet);
     };
-    int degree = params.target;
+    int degree = degreeOf(params.target).value_or(0);
     if (degree == 0 && params.targetChoice == TargetChoice::Similarity) {
       FairedByDegree all;
       for (int tried = 1; tried <= 6; ++tried) {

@@ -130,7 +130,7 @@ TEST_F(FairingWindow, TheTargetIsDrawnByDraggingItsPoints) {
   ASSERT_TRUE(settle());
   click("fairing.draw");
   ASSERT_EQ(session().recipe().choices.size(), 1u);
-  EXPECT_EQ(choice().target, kDrawnTarget);
+  EXPECT_EQ(choice().target, FairingTarget::Drawn);
   const std::vector<ProfilePoint> before = choice().profile;
   ASSERT_GE(before.size(), 2u);
   ASSERT_TRUE(settle());
@@ -147,13 +147,13 @@ TEST_F(FairingWindow, TheTargetIsDrawnByDraggingItsPoints) {
   EXPECT_NE(choice().profile, before);
   EXPECT_EQ(choice().profile.size(), before.size());
   ASSERT_TRUE(settle());
-  EXPECT_EQ(used().target, kDrawnTarget);
+  EXPECT_EQ(used().target, FairingTarget::Drawn);
   EXPECT_EQ(used().profile, choice().profile);
   EXPECT_GT(session().selected()->fairing.neededMm, 0.0);
   session().undoStack()->undo();
   EXPECT_EQ(choice().profile, before);
   click("fairing.forget");
-  EXPECT_NE(session().recipe().choices.front().target, kDrawnTarget);
+  EXPECT_NE(session().recipe().choices.front().target, FairingTarget::Drawn);
   EXPECT_TRUE(session().recipe().choices.front().profile.empty());
 }
 

@@ -101,7 +101,7 @@ TEST_F(Shelf, AProfileDroppedOnALineBecomesItsTarget) {
   EXPECT_EQ(session().selectedCurve(), lower);
   const TracedCurve& line = session().curves()[static_cast<std::size_t>(lower)];
   EXPECT_EQ(line.fairingUsed.mode, FairingMode::Target);
-  EXPECT_EQ(line.fairingUsed.target, kDrawnTarget);
+  EXPECT_EQ(line.fairingUsed.target, FairingTarget::Drawn);
   EXPECT_FALSE(line.fairingUsed.profile.empty());
   EXPECT_EQ(session().curves()[static_cast<std::size_t>(1 - lower)].fairingUsed.mode, FairingMode::None);
   session().undoStack()->undo();

@@ -19,8 +19,9 @@ struct PieceDirection {
 };
 /// How a piece was made fair, and how far it lies from what was scanned.
 struct PieceFigures {
-  std::string fairing;                            ///< Mode of fairing: "none", "target" …
-  std::optional<int> target;                      ///< Degree of the target curve, 0: the recommended one.
+  std::string fairing;  ///< Mode of fairing: "none", "target" …
+  std::optional<int>
+      target;  ///< As recipes hold it: degree 1..6 of the target, 0 recommended, 7 drawn, 8 log-aesthetic.
   double toleranceMm = 0.0, movedMm = 0.0;        ///< What fairing was allowed, and how far it moved the curve.
   double largestOffMm = 0.0, typicalOffMm = 0.0;  ///< Largest and rms distance of the scan's points from the curve.
 };

@@ -243,7 +243,6 @@ LogAesthetic fitLogAesthetic(std::span<const double> x, std::span<const double> 
 LogAestheticTarget logAestheticTarget(const NurbsCurve& curve, bool closed, const std::vector<double>& splits,
                                       std::optional<double> alpha, int samples) {
   LogAestheticTarget target;
-  target.profile.degree = kLogAestheticTarget;
   const CurvatureSamples sampled = curve.isEmpty() ? CurvatureSamples{} : sampledCurvature(curve, samples);
   if (!(sampled.lengthMm > 0.0) || sampled.kappa.size() < 2) {
     target.profile.problem = "The curve has no length.";

@@ -70,7 +70,7 @@ RecipeJson choiceToJson(const PieceChoice& choice) {
     json["method"] = findParameter("construct.method")->get(named);
   }
   if (choice.detail) json["detail"] = *choice.detail;
-  if (choice.target) json["target"] = *choice.target;
+  if (choice.target) json["target"] = static_cast<int>(*choice.target);
   if (choice.toleranceMm) json["tolerance"] = *choice.toleranceMm;
   if (choice.lowPassMm) json["low_pass"] = *choice.lowPassMm;
   if (choice.keepExtrema) json["keep_extrema"] = *choice.keepExtrema;
@@ -99,7 +99,8 @@ Result<PieceChoice> readChoice(const RecipeJson& json) {
     } else if (name == "part" && value.is_boolean()) {
       choice.isPart = value.get<bool>();
     } else if (const auto whole = integerFromJson(value); whole && name == "target") {
-      choice.target = *whole;
+      choice.target = targetOfNumber(*whole);
+      if (!choice.target) return refuseRecipe("The recipe is damaged: the target of a choice must be 0 to 8.");
     } else if (name == "tolerance" && value.is_number()) {
       choice.toleranceMm = value.get<double>();
     } else if (name == "detail" && value.is_number()) {

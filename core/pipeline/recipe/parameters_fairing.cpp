@@ -70,21 +70,21 @@ void appendModeAndTarget(std::vector<Parameter>& table) {
        {"monotone", "Monotone", FairingMode::Monotone},
        {"lowpass", "Low-pass", FairingMode::LowPass}},
       [](auto& r) -> auto& { return r.fairing.mode; }));
-  table.push_back(choice<int>(
+  table.push_back(choice<FairingTarget>(
       kFaired,
       {"fairing.target", "Target", "",
        "Degree of the curvature profile; auto is the recommended one, drawn the one in "
        "fairing.profile, log-aesthetic a power of the radius linear in arc length. A higher "
        "degree follows the sketch more closely."},
-      {{"auto", "Recommended", 0},
-       {"1", "Degree 1", 1},
-       {"2", "Degree 2", 2},
-       {"3", "Degree 3", 3},
-       {"4", "Degree 4", 4},
-       {"5", "Degree 5", 5},
-       {"6", "Degree 6", 6},
-       {"drawn", "Drawn", kDrawnTarget},
-       {"log-aesthetic", "Log-aesthetic", kLogAestheticTarget}},
+      {{"auto", "Recommended", FairingTarget::Recommended},
+       {"1", "Degree 1", FairingTarget::Degree1},
+       {"2", "Degree 2", FairingTarget::Degree2},
+       {"3", "Degree 3", FairingTarget::Degree3},
+       {"4", "Degree 4", FairingTarget::Degree4},
+       {"5", "Degree 5", FairingTarget::Degree5},
+       {"6", "Degree 6", FairingTarget::Degree6},
+       {"drawn", "Drawn", FairingTarget::Drawn},
+       {"log-aesthetic", "Log-aesthetic", FairingTarget::LogAesthetic}},
       [](auto& r) -> auto& { return r.fairing.target; }));
   table.push_back(choice<TargetChoice>(
       kFaired,

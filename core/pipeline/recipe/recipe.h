@@ -37,7 +37,7 @@ struct PieceChoice {
   std::vector<Vec2> anchorsPx{};  ///< Along the line (see anchorsOf). A single one: the piece nearest to it, in 24 px.
   bool included = true;           ///< False: left out of fairing results and export.
   std::optional<FairingMode> mode{};      ///< Own fairing mode; absent = the recipe's.
-  std::optional<int> target{};            ///< Own target degree 0..6.
+  std::optional<FairingTarget> target{};  ///< Own target.
   std::optional<double> toleranceMm{};    ///< Own tolerance.
   std::optional<double> lowPassMm{};      ///< Own wavelength of the low-pass.
   std::optional<int> keepExtrema{};       ///< Own number of extrema to keep.

@@ -48,7 +48,7 @@ TEST(LikeProfile, MakesACurveLikeAnother) {
   const NurbsCurve model = bend(80.0), sketch = test::noisy(test::arc(100.0, 1.0, 20), 0.05, 5);
   FairingParams params;
   params.mode = FairingMode::Target;
-  params.target = kDrawnTarget;
+  params.target = FairingTarget::Drawn;
   params.toleranceMm = 10.0;
   params.profile = profileLike(shapeOf(model), sketch, false);
   ASSERT_FALSE(validate(params));

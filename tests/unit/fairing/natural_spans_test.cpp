@@ -52,7 +52,7 @@ NurbsCurve twoBumps(double trifle) {
 FairingParams toTarget(int degree, double tolerance) {
   FairingParams params;
   params.mode = FairingMode::Target;
-  params.target = degree;
+  params.target = targetOfDegree(degree);
   params.toleranceMm = tolerance;
   return params;
 }

@@ -59,9 +59,9 @@ int segmentOf(FairingMode mode) {
 }
 
 /// What to take where a target is too far away.
-QString insteadOf(int target) {
-  if (target == kDrawnTarget) return FairingPanel::tr("choose or draw a profile that is nearer to its own");
-  if (target == kLogAestheticTarget) return FairingPanel::tr("choose another alpha or more spans");
+QString insteadOf(FairingTarget target) {
+  if (target == FairingTarget::Drawn) return FairingPanel::tr("choose or draw a profile that is nearer to its own");
+  if (target == FairingTarget::LogAesthetic) return FairingPanel::tr("choose another alpha or more spans");
   return FairingPanel::tr("choose a higher degree or more spans");
 }
 
@@ -221,7 +221,7 @@ void FairingPanel::buildLinks() {
          "involutes. Alpha is under More."));
   connect(logAesthetic_, &QPushButton::clicked, this, [this] {
     session_.pointAtSpan({});
-    chooseTarget(session_, kLogAestheticTarget);
+    chooseTarget(session_, FairingTarget::LogAesthetic);
   });
   auto* compare = linkButton(tr("Compare shapes…"), QStringLiteral("fairing.compare"), this);
   compare->setToolTip(tr("Similarity of two curves and fairness of this one, as a table."));
@@ -248,7 +248,7 @@ void FairingPanel::refreshLinks(const FairingParams& params) {
   const bool isDrawn = isTargetDrawn(session_);
   draw_->setVisible(isTarget && !isDrawn);
   forget_->setVisible(isDrawn);
-  logAesthetic_->setVisible(isTarget && params.target != kLogAestheticTarget);
+  logAesthetic_->setVisible(isTarget && params.target != FairingTarget::LogAesthetic);
   like_->setVisible(session_.selected() != nullptr && params.mode != FairingMode::None);
   auto* shelf = findChild<ProfileShelf*>();
   shelf->setVisible(shelf->count() > 0 && session_.hasScan());
@@ -357,10 +357,10 @@ void FairingPanel::refreshFigures() {
                     tr("Largest move of the curve by corner rounding, not counting fairing.")});
   }
   const auto targets = session_.targets();
-  int degree = curve->fairingUsed.target;
-  if (targets && degree == 0) degree = targets->recommendedDegree;
+  int degree = degreeOf(curve->fairingUsed.target).value_or(0);
+  if (targets && curve->fairingUsed.target == FairingTarget::Recommended) degree = targets->recommendedDegree;
   if (session_.pointedSpan()) degree = chosenSpanTarget(session_);
-  if (targets && faired && curve->fairingUsed.mode == FairingMode::Target && degree >= 1 && degree <= 6) {
+  if (targets && faired && curve->fairingUsed.mode == FairingMode::Target && degree > 0) {
     const TargetProfile& profile = targets->targets.profiles[degree - 1];
     rows.push_back({tr("Similarity S"),
                     {{similarityText(profile.similarity)},

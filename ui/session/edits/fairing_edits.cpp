@@ -176,20 +176,21 @@ void chooseSpanTarget(EditorSession& session, int degree) {
   // What the whole curve follows, its other spans go on following.
   const FairingParams asked = fairingAsked(session);
   std::vector<SpanChoice> others;
-  const bool isWhole = asked.mode == FairingMode::Target && asked.target >= 1 && asked.target <= 6;
-  if (isWhole && curve.fairingUsed.spanTargets.empty()) {
+  const auto whole = asked.mode == FairingMode::Target ? degreeOf(asked.target) : std::nullopt;
+  if (whole && curve.fairingUsed.spanTargets.empty()) {
     std::vector<double> borders = splits;
     if (!curve.closed) borders.insert(borders.begin(), 0.0), borders.push_back(1.0);
     if (curve.closed) borders.push_back(splits.front() + 1.0);
     for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
       const double at = 0.5 * (borders[i] + borders[i + 1]);
-      others.push_back({placeAt(session, at > 1.0 ? at - 1.0 : at), asked.target});
+      others.push_back({placeAt(session, at > 1.0 ? at - 1.0 : at), *whole});
     }
   }
   edit(session, tr("Target %1 of a span").arg(degree), -1, [&](PieceChoice& choice) {
     choice.mode = FairingMode::Target;
     if (choice.spanTargets.empty()) choice.spanTargets = others;
-    if (choice.target == kDrawnTarget || session.recipe().fairing.target == kDrawnTarget) choice.target = 0;
+    if (choice.target == FairingTarget::Drawn || session.recipe().fairing.target == FairingTarget::Drawn)
+      choice.target = FairingTarget::Recommended;
     std::erase_if(choice.spanTargets, isThere);
     choice.spanTargets.push_back(chosen);
   });
@@ -209,7 +210,7 @@ int chosenSpanTarget(const EditorSession& session) {
 
 bool isTargetDrawn(const EditorSession& session) {
   const FairingParams asked = fairingAsked(session);
-  return asked.mode == FairingMode::Target && asked.target == kDrawnTarget && isUsable(session);
+  return asked.mode == FairingMode::Target && asked.target == FairingTarget::Drawn && isUsable(session);
 }
 
 std::vector<ProfilePoint> profileToBeginWith(const EditorSession& session) {
@@ -217,9 +218,9 @@ std::vector<ProfilePoint> profileToBeginWith(const EditorSession& session) {
   if (!isUsable(session)) return points;
   const TracedCurve& curve = *session.selected();
   const FairingParams asked = fairingAsked(session);
-  if (asked.target == kDrawnTarget && asked.profile.size() >= 2) return asked.profile;
+  if (asked.target == FairingTarget::Drawn && asked.profile.size() >= 2) return asked.profile;
   const auto targets = session.targets();
-  const int degree = asked.target >= 1 && asked.target <= 6 ? asked.target : targets ? targets->recommendedDegree : 0;
+  const int degree = degreeOf(asked.target).value_or(targets ? targets->recommendedDegree : 0);
   const TargetProfile* target = targets && degree > 0 ? &targets->targets.profiles[degree - 1] : nullptr;
   std::vector<double> sketch;
   const int count = curve.closed ? kClosedPoints : kOpenPoints;
@@ -242,16 +243,16 @@ void drawTarget(EditorSession& session, std::vector<ProfilePoint> profile, int g
   if (!isUsable(session) || validateProfile(profile) || profile.empty()) return;
   edit(session, tr("Draw the target"), gesture, [&](PieceChoice& choice) {
     choice.mode = FairingMode::Target;
-    choice.target = kDrawnTarget;
+    choice.target = FairingTarget::Drawn;
     choice.profile = std::move(profile);
   });
 }
 
 void forgetDrawnTarget(EditorSession& session) {
-  const bool isCommon = session.recipe().fairing.target == kDrawnTarget;
+  const bool isCommon = session.recipe().fairing.target == FairingTarget::Drawn;
   edit(session, tr("Forget the drawn target"), -1, [isCommon](PieceChoice& choice) {
     choice.profile.clear();
-    if (isCommon || choice.target == kDrawnTarget) choice.target = 0;
+    if (isCommon || choice.target == FairingTarget::Drawn) choice.target = FairingTarget::Recommended;
   });
 }
 

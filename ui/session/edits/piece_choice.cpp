@@ -54,25 +54,24 @@ bool choosesForOneCurve(const EditorSession& session) {
          pieceOf(session, session.selectedCurve()).has_value();
 }
 
-void chooseTarget(EditorSession& session, int degree) {
-  if (session.pointedSpan()) return chooseSpanTarget(session, degree);
+void chooseTarget(EditorSession& session, FairingTarget target) {
+  const auto degree = degreeOf(target);
+  if (session.pointedSpan() && degree) return chooseSpanTarget(session, *degree);
   Recipe after = session.recipe();
   if (choosesForOneCurve(session)) {
-    after = withChoice(session, session.selectedCurve(), [degree](PieceChoice& choice) {
+    after = withChoice(session, session.selectedCurve(), [target](PieceChoice& choice) {
       choice.mode = FairingMode::Target;
-      choice.target = degree;
+      choice.target = target;
       choice.spanTargets.clear();
     });
   } else {
     after.fairing.mode = FairingMode::Target;
-    after.fairing.target = degree;
+    after.fairing.target = target;
     // An only curve must not keep an older choice of its own that would win over this one.
     if (session.curves().size() == 1 && hasOwnFairing(session, 0))
       for (PieceChoice& choice : after.choices) choice.mode.reset(), choice.target.reset(), choice.spanTargets.clear();
   }
-  session.change(
-      degree == kLogAestheticTarget ? choiceText("Log-aesthetic target") : choiceText("Target %1").arg(degree),
-      std::move(after));
+  session.change(degree ? choiceText("Target %1").arg(*degree) : choiceText("Log-aesthetic target"), std::move(after));
 }
 
 void setIncluded(EditorSession& session, int curve, bool included) {

@@ -22,7 +22,7 @@ Recipe withChoice(const EditorSession& session, int curve, const std::function<v
 
 /// Chooses a target: for the span that is pointed at, else for the selected curve alone when the drawing has several,
 /// else for all.
-void chooseTarget(EditorSession& session, int degree);
+void chooseTarget(EditorSession& session, FairingTarget target);
 /// Whether chooseTarget would act on the selected curve alone.
 bool choosesForOneCurve(const EditorSession& session);
 /// Leaves a curve out of fairing and export, or takes it in again.
