@@ -27,23 +27,6 @@ std::optional<CadShape> arcOf(const IgesNumbers& n) {
   return CadArc{centre, start.norm(), first, start == end ? kFullTurnRad : sweep};
 }
 
-/// The part of a curve that an entity names, if that is less than the whole.
-std::optional<NurbsCurve> cutTo(NurbsCurve curve, double from, double to) {
-  const double span = curve.end() - curve.start(), least = 1e-9 * span;
-  if (!(to > from)) return curve;
-  if (to < curve.end() - least && to > curve.start() + least) {
-    auto parts = split(curve, to);
-    if (!parts) return std::nullopt;
-    curve = parts->left;
-  }
-  if (from > curve.start() + least && from < curve.end() - least) {
-    auto parts = split(curve, from);
-    if (!parts) return std::nullopt;
-    curve = parts->right;
-  }
-  return curve;
-}
-
 std::optional<CadShape> splineOf(const IgesNumbers& n) {
   const auto last = n.count(0, 1, kMostIgesPoints), degree = n.count(1, 1, 7);
   if (!last || !degree || *last < *degree) return std::nullopt;
@@ -57,7 +40,8 @@ std::optional<CadShape> splineOf(const IgesNumbers& n) {
   if (!curve) return std::nullopt;
   const std::size_t domain = begin + knots + 4 * points;
   if (!n.has(domain + 2)) return std::move(*curve);
-  auto part = cutTo(std::move(*curve), n.at(domain), n.at(domain + 1));
+  constexpr double kSame = 1e-9;  // of the parameters
+  auto part = partBetween(*curve, n.at(domain), n.at(domain + 1), kSame);
   return part ? std::optional<CadShape>(std::move(*part)) : std::nullopt;
 }
 

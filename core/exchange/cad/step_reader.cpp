@@ -385,8 +385,7 @@ class StepReader {
   static std::optional<NurbsCurve> cutTo(const NurbsCurve& whole, const StepTrim& trim) {
     const auto held = clamped(whole);
     if (!held) return std::nullopt;
-    NurbsCurve curve = *held;
-    const double least = 1e-7 * (curve.end() - curve.start());
+    const NurbsCurve& curve = *held;
     const auto parameterOf = [&](const StepEnd& end) -> std::optional<double> {
       if (end.parameter) return std::clamp(*end.parameter, curve.start(), curve.end());
       return end.place ? std::optional(closestPoint(curve, *end.place).u) : std::nullopt;
@@ -394,19 +393,10 @@ class StepReader {
     auto from = parameterOf(trim.from), to = parameterOf(trim.to);
     if (!from || !to) return std::nullopt;
     if (!trim.forwards) std::swap(from, to);
-    if (*to > *from + least) {
-      if (*to < curve.end() - least) {
-        auto parts = split(curve, *to);
-        if (!parts) return std::nullopt;
-        curve = parts->left;
-      }
-      if (*from > curve.start() + least) {
-        auto parts = split(curve, *from);
-        if (!parts) return std::nullopt;
-        curve = parts->right;
-      }
-    }
-    return trim.forwards ? curve : reversed(curve);
+    constexpr double kSame = 1e-7;  // of the parameters
+    const auto part = partBetween(curve, *from, *to, kSame);
+    if (!part) return std::nullopt;
+    return trim.forwards ? *part : reversed(*part);
   }
 
   StepData data_;

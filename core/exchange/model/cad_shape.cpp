@@ -194,6 +194,24 @@ Result<NurbsCurve> curveOf(const CadShape& shape) {
   return std::get<NurbsCurve>(shape);
 }
 
+std::optional<NurbsCurve> partBetween(const NurbsCurve& whole, double from, double to, double same) {
+  const double start = whole.start(), end = whole.end(), least = same * (end - start);
+  const auto isInside = [&](double u) { return u > start + least && u < end - least; };
+  NurbsCurve part = whole;
+  if (!(to > from + least)) return part;
+  if (isInside(to)) {
+    auto halves = split(part, to);
+    if (!halves) return std::nullopt;
+    part = std::move(halves->left);
+  }
+  if (isInside(from)) {
+    auto halves = split(part, from);
+    if (!halves) return std::nullopt;
+    part = std::move(halves->right);
+  }
+  return part;
+}
+
 Result<double> largestDifference(const CadDrawing& written, const CadDrawing& readBack) {
   if (written.entities.size() != readBack.entities.size() || readBack.left > 0)
     return readsBackOtherwise(std::to_string(readBack.entities.size()) + " entities for " +

@@ -67,6 +67,10 @@ Result<NurbsCurve> curveOf(const CadShape&);
 /// one before are passed over, so there may be none.
 Result<std::vector<NurbsCurve>> edgesOf(const CadPolyline&);
 
+/// The part of a curve from one parameter to another that lies behind it; the whole curve where `to` is not behind
+/// `from`. Ends nearer to those of the curve than `same` of its domain are those. Absent: the curve cannot be split.
+std::optional<NurbsCurve> partBetween(const NurbsCurve&, double from, double to, double same);
+
 /// Largest distance of two drawings' entities at 200 equal fractions of their parameters each, in mm; a place of an arc
 /// is compared with the same place of the other, however far it was turned. CannotWrite if one drawing has other
 /// entities than the other.
