@@ -233,7 +233,7 @@ TEST_F(FairingWindow, ASpanOfTheCurveHasATargetOfItsOwn) {
   find<QAbstractButton>("target.4")->click();
   ASSERT_TRUE(settle());
   EXPECT_TRUE(used().spanTargets.empty());
-  EXPECT_EQ(used().target, 4);
+  EXPECT_EQ(used().target, FairingTarget::Degree4);
 }
 
 TEST_F(FairingWindow, ShapesAreComparedAndTheTableShowsAllSixProfiles) {

@@ -126,7 +126,7 @@ TEST_F(Window, TheWholeWalkEndsInTheCurvesThatTheRecipeGives) {
   ASSERT_TRUE(tile->isEnabled()) << tile->toolTip().toStdString();
   QTest::mouseClick(tile, Qt::LeftButton);
   ASSERT_EQ(session().recipe().choices.size(), 1u);
-  EXPECT_EQ(session().recipe().choices[0].target, 3);
+  EXPECT_EQ(session().recipe().choices[0].target, FairingTarget::Degree3);
   ASSERT_TRUE(settle());
   EXPECT_EQ(session().curves()[1].fairingUsed.mode, FairingMode::Target);
   EXPECT_EQ(session().curves()[1].fairingUsed.target, FairingTarget::Degree3);
