@@ -170,7 +170,7 @@ Result<void> applyStart(const std::string& start, Recipe& recipe) {
   return {};
 }
 
-Result<void> applyWay(const std::string& region, EdgeMode mode, Recipe& recipe) {
+Result<void> applyTraceMode(const std::string& region, EdgeMode mode, Recipe& recipe) {
   const auto place = placeOf(mode == EdgeMode::Outline ? "--outline" : "--centreline", region);
   if (!place) return fail(place.error());
   recipe.edges.choices.push_back({*place, mode});
@@ -208,10 +208,10 @@ Result<Recipe> recipeOf(const TraceArguments& arguments) {
     if (auto set = applySegmentPoint(point, *recipe); !set) return fail(set.error());
   }
   for (const std::string& place : arguments.outlines) {
-    if (auto set = applyWay(place, EdgeMode::Outline, *recipe); !set) return fail(set.error());
+    if (auto set = applyTraceMode(place, EdgeMode::Outline, *recipe); !set) return fail(set.error());
   }
   for (const std::string& place : arguments.centrelines) {
-    if (auto set = applyWay(place, EdgeMode::Centreline, *recipe); !set) return fail(set.error());
+    if (auto set = applyTraceMode(place, EdgeMode::Centreline, *recipe); !set) return fail(set.error());
   }
   for (const std::string& region : arguments.regions) {
     if (auto set = applyRegion(region, *recipe); !set) return fail(set.error());

@@ -341,21 +341,21 @@ ExportDocument onlyCurves(const ExportDocument& document, const std::set<int>& n
   for (std::size_t i = 0; i < document.curves.size(); ++i) {
     const ExportCurve& line = document.curves[i];
     int runs = 0, lowest = 0;
-    bool goesOn = false;
+    bool continues = false;
     for (std::size_t k = 0; k < line.pieces.size(); ++k) {
       const bool isTaken = numbers.contains(known[i][k]);
-      if (isTaken && !goesOn) {
+      if (isTaken && !continues) {
         ExportCurve& part = result.curves.emplace_back(line);
         ++runs;
         part.pieces.clear();
         part.closed = false;
       }
       if (isTaken) {
-        lowest = goesOn ? std::min(lowest, known[i][k]) : known[i][k];
+        lowest = continues ? std::min(lowest, known[i][k]) : known[i][k];
         result.curves.back().id = idOfPart(line, lowest, runs);
         result.curves.back().pieces.push_back(line.pieces[k]);
       }
-      goesOn = isTaken;
+      continues = isTaken;
     }
     if (runs == 1 && result.curves.back().pieces.size() == line.pieces.size()) {
       result.curves.back().closed = line.closed;

@@ -89,7 +89,7 @@ class LineBuilder {
     }
     const NurbsCurve shape = held->mapped(linear_, Vec2::Zero());
     const bool mayTurn = std::holds_alternative<CadArc>(entity.shape);  // an arc has no direction of its own
-    if (!goesOn({shape, entity.name}, mayTurn, layerOf(entity))) {
+    if (!continues({shape, entity.name}, mayTurn, layerOf(entity))) {
       endLine();
       line_.name = entity.name;
       line_.layer = layerOf(entity);
@@ -167,7 +167,7 @@ class LineBuilder {
   }
 
   /// Adds the curve to the line if it begins where that one ends.
-  bool goesOn(const ImportedCurve& next, bool mayTurn, const std::string& layer) {
+  bool continues(const ImportedCurve& next, bool mayTurn, const std::string& layer) {
     if (line_.curves.empty() || layer != line_.layer) return false;
     const NurbsCurve &last = line_.curves.back().curve, &curve = next.curve;
     const bool isFirst = line_.curves.size() == 1 && firstMayTurn_;

@@ -114,7 +114,7 @@ class Entity {
     return found == tags_.end() ? absent : numberOf<int>(found->value);
   }
   /// All numbers of a code in order; absent if one is not a number.
-  std::optional<std::vector<double>> all(int code) const {
+  std::optional<std::vector<double>> allNumbers(int code) const {
     std::vector<double> values;
     for (const Tag& tag : tags_) {
       if (tag.code >= 1000) break;  // extended data
@@ -160,8 +160,8 @@ std::optional<CadShape> arcOf(const Entity& entity, bool whole) {
 
 std::optional<CadShape> splineOf(const Entity& entity) {
   const auto degree = entity.whole(71);
-  auto knots = entity.all(40), weights = entity.all(41);
-  const auto x = entity.all(10), y = entity.all(20);
+  auto knots = entity.allNumbers(40), weights = entity.allNumbers(41);
+  const auto x = entity.allNumbers(10), y = entity.allNumbers(20);
   if (!degree || !knots || !weights || !x || !y || x->size() != y->size() || x->empty()) return std::nullopt;
   std::vector<Vec2> points;
   for (std::size_t i = 0; i < x->size(); ++i) points.emplace_back((*x)[i], (*y)[i]);

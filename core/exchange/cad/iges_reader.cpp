@@ -52,7 +52,7 @@ class IgesReader {
   IgesReader(IgesRecords records, const RunContext& context) : records_(std::move(records)), context_(context) {
     // Each line belongs to one entry; matrices are read once.
     constexpr std::size_t kLineBytes = 64, kOfAll = 4;
-    budget_ = kOfAll * kLineBytes * records_.data.size() + kLineBytes;
+    charactersLeft_ = kOfAll * kLineBytes * records_.data.size() + kLineBytes;
   }
 
   Result<CadDrawing> read() {
@@ -94,7 +94,7 @@ class IgesReader {
   Result<void> findComposites() {
     for (std::size_t i = 0; i < records_.entries.size(); ++i) {
       if (records_.entries[i].type != kComposite) continue;
-      const auto fields = parametersOf(records_, records_.entries[i], budget_);
+      const auto fields = parametersOf(records_, records_.entries[i], charactersLeft_);
       if (!fields) return fail(fields.error());
       const IgesNumbers n(*fields);
       const auto count = n.count(0, 0, kMostIgesPoints);
@@ -122,7 +122,7 @@ class IgesReader {
         return igesDamaged(entry.line, "its transformation is missing");
       auto known = matrices_.find(*at);
       if (known == matrices_.end()) {
-        const auto fields = parametersOf(records_, records_.entries[*at], budget_);
+        const auto fields = parametersOf(records_, records_.entries[*at], charactersLeft_);
         if (!fields) return fail(fields.error());
         const IgesNumbers n(*fields);
         if (!n.has(12)) return igesDamaged(records_.entries[*at].line, "a transformation has too few numbers");
@@ -160,7 +160,7 @@ class IgesReader {
   const std::string& textOf(std::size_t property, std::size_t field) {
     const auto [known, isNew] = texts_.try_emplace(property);
     if (!isNew) return known->second;
-    const auto values = parametersOf(records_, records_.entries[property], budget_);
+    const auto values = parametersOf(records_, records_.entries[property], charactersLeft_);
     if (values && values->size() > field) known->second = (*values)[field];
     return known->second;
   }
@@ -203,7 +203,7 @@ class IgesReader {
       ++drawing_.left;
       return {};
     }
-    const auto fields = parametersOf(records_, entry, budget_);
+    const auto fields = parametersOf(records_, entry, charactersLeft_);
     if (!fields) return fail(fields.error());
     auto shape = igesShape(entry, IgesNumbers(*fields));
     auto matrix = matrixOf(entry);
@@ -225,7 +225,8 @@ class IgesReader {
 
   IgesRecords records_;
   const RunContext& context_;
-  std::size_t budget_ = 0;  ///< Characters that may still be read: a damaged file may name one line a million times.
+  std::size_t charactersLeft_ =
+      0;  ///< Characters that may still be read: a damaged file may name one line a million times.
   std::map<std::size_t, std::vector<std::size_t>> children_;
   std::set<std::size_t> isChild_;
   std::map<std::size_t, IgesMatrix> matrices_;

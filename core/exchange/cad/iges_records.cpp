@@ -179,15 +179,15 @@ Result<IgesRecords> readIgesRecords(std::string_view text) {
 }
 
 Result<std::vector<std::string>> parametersOf(const IgesRecords& records, const IgesDirectoryEntry& entry,
-                                              std::size_t& budget) {
+                                              std::size_t& charactersLeft) {
   const auto lines = static_cast<std::ptrdiff_t>(records.data.size());
   const std::ptrdiff_t first = entry.parameterLine - 1, last = first + std::max(entry.parameterLines, 1);
   if (first < 0 || last > lines) return igesDamaged(entry.line, "its parameters are missing");
   std::string text;
   for (std::ptrdiff_t i = first; i < last; ++i) {
     const std::string_view line = records.data[static_cast<std::size_t>(i)];
-    if (line.size() > budget) return igesDamaged(entry.line, "several entries overlap");
-    budget -= line.size();
+    if (line.size() > charactersLeft) return igesDamaged(entry.line, "several entries overlap");
+    charactersLeft -= line.size();
     text += line;
   }
   auto fields = ParameterSplitter(records.delimiter, records.end).split(text);

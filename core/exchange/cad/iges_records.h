@@ -30,9 +30,11 @@ struct IgesRecords {
 /// @return BadParameter with the line if a section is missing or is invalid.
 Result<IgesRecords> readIgesRecords(std::string_view text);
 
-/// The parameters of an entry, the number of its type first. Reads at most `budget` characters and takes them off it.
+/// The parameters of an entry, the number of its type first. Reads at most `charactersLeft` characters and takes them
+/// off it.
 /// @return BadParameter if its lines are not there, or the characters do not suffice.
-Result<std::vector<std::string>> parametersOf(const IgesRecords&, const IgesDirectoryEntry&, std::size_t& budget);
+Result<std::vector<std::string>> parametersOf(const IgesRecords&, const IgesDirectoryEntry&,
+                                              std::size_t& charactersLeft);
 
 /// A number as IGES writes it: "1.5D+02" as well as "150."; a field left empty is 0. nullopt for anything else.
 std::optional<double> igesNumber(std::string_view field);

@@ -354,8 +354,8 @@ class StepReader {
 
   /// Many edges may name one curve: what is read of them all together has a limit.
   bool mayRead(std::size_t points) {
-    if (points > budget_) return false;
-    budget_ -= points;
+    if (points > pointsLeft_) return false;
+    pointsLeft_ -= points;
     return true;
   }
 
@@ -403,8 +403,8 @@ class StepReader {
   const StepRecords& records_;
   const RunContext& context_;
   double radiansPerUnit_ = 1.0;
-  std::size_t budget_ = 20'000'000;     ///< Control points that may still be read.
-  std::size_t visitsLeft_ = 2'000'000;  ///< Curves that may still be looked at: composites of composites multiply.
+  std::size_t pointsLeft_ = 20'000'000;  ///< Control points that may still be read.
+  std::size_t visitsLeft_ = 2'000'000;   ///< Curves that may still be looked at: composites of composites multiply.
   std::map<std::uint64_t, std::string> layerOf_;
   CadDrawing drawing_;
 };

@@ -141,16 +141,16 @@ void takeApart(const ExportCurve& line, std::vector<ExportCurve>& lines) {
 std::vector<ExportCurve> without(const ExportCurve& line, const std::set<std::pair<std::size_t, std::size_t>>& onTop,
                                  std::size_t number) {
   std::vector<ExportCurve> parts;
-  bool goesOn = false;
+  bool continues = false;
   for (std::size_t k = 0; k < line.pieces.size(); ++k) {
     const bool stays = !onTop.contains({number, k});
-    if (stays && !goesOn) {
+    if (stays && !continues) {
       ExportCurve& part = parts.emplace_back(line);
       if (parts.size() > 1) part.id.append("-").append(std::to_string(parts.size()));
       part.pieces.clear();
     }
     if (stays) parts.back().pieces.push_back(line.pieces[k]);
-    goesOn = stays;
+    continues = stays;
   }
   for (ExportCurve& part : parts) part.closed = line.closed && part.pieces.size() == line.pieces.size();
   return parts;

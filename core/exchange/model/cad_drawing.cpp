@@ -199,8 +199,8 @@ std::vector<Chain> chainsOf(const ExportCurve& line, const ExportSettings& setti
   std::vector<Chain> chains;
   for (std::size_t i = 0; i < line.pieces.size(); ++i) {
     NurbsCurve curve = line.pieces[i].curve.mapped(linear, Vec2::Zero());
-    const bool goesOn = joined && !chains.empty() && doMeet(chains.back().curves.back(), curve);
-    if (!goesOn) {
+    const bool continues = joined && !chains.empty() && doMeet(chains.back().curves.back(), curve);
+    if (!continues) {
       const bool alone = joined || line.pieces.size() == 1;
       const std::string name = alone && !line.name.empty() ? line.name : entityName(line, i);
       chains.push_back({{}, name, line.layer, false});

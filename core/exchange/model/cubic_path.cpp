@@ -286,7 +286,7 @@ class Approximation {
 /// A part of a curve between knots where its curvature, or the slope of that, may jump.
 struct SmoothPart {
   NurbsCurve curve;
-  bool curvatureGoesOn = false;  ///< From the part before.
+  bool isCurvatureContinuous = false;  ///< From the part before.
 };
 
 /// Cut where the slope of the curvature may jump: halving towards such a place never ends well, because a cubic that
@@ -301,7 +301,7 @@ Result<std::vector<SmoothPart>> smoothParts(const NurbsCurve& curve) {
     if (times < curve.degree() - 2) continue;
     auto cut = split(rest.curve, breaks[i]);
     if (!cut) return fail(cut.error());
-    parts.push_back({std::move(cut->left), rest.curvatureGoesOn});
+    parts.push_back({std::move(cut->left), rest.isCurvatureContinuous});
     rest = {std::move(cut->right), times == curve.degree() - 2};
   }
   parts.push_back(std::move(rest));
@@ -318,7 +318,7 @@ Result<CubicPath> cubicPath(const NurbsCurve& curve, double tolerance, double gr
   std::optional<double> behind;
   for (const SmoothPart& part : *parts) {
     Approximation approximation(part.curve, tolerance, grid, path);
-    approximation.add(length, part.curvatureGoesOn ? behind : std::nullopt);
+    approximation.add(length, part.isCurvatureContinuous ? behind : std::nullopt);
     behind = approximation.curvatureBehind();
   }
   return path;

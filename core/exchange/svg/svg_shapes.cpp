@@ -251,7 +251,7 @@ class ShapesReader {
     line.closed = part.closed;
     for (std::size_t i = 0; i < segments.size();) {
       std::size_t end = i + 1;
-      while (end < segments.size() && goesOn(segments[end - 1], segments[end])) ++end;
+      while (end < segments.size() && continues(segments[end - 1], segments[end])) ++end;
       const std::span<const NurbsCurve> run(segments.data() + i, end - i);
       constexpr double kGap = 1e-9;
       auto joined = run.size() == 1 ? Result<NurbsCurve>(run.front()) : joinAtCorners(run, kGap * sizeOf(run));
@@ -271,7 +271,7 @@ class ShapesReader {
     }
     return size;
   }
-  static bool goesOn(const NurbsCurve& before, const NurbsCurve& behind) {
+  static bool continues(const NurbsCurve& before, const NurbsCurve& behind) {
     if (before.degree() != 3 || behind.degree() != 3 || before.isRational() || behind.isRational()) return false;
     const Vec2 in = before.derivatives(before.end(), 1)[1], out = behind.derivatives(behind.start(), 1)[1];
     return in.dot(out) > 0.0 && std::abs(cross(in, out)) <= kSmoothRad * in.norm() * out.norm();

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/angle.h"
 #include "core/base/conventions.h"
 #include "core/base/number_text.h"
 #include "core/curve/arc_length.h"
@@ -36,7 +36,7 @@ NurbsCurve inFile(const NurbsCurve& curve, const ExportSettings& settings) {
 
 std::string row(const std::string& begin, const CurveSample& sample, double straight) {
   std::string text = begin;
-  const double degrees = std::atan2(sample.tangent.y(), sample.tangent.x()) * 180.0 / std::numbers::pi;
+  const double degrees = std::atan2(sample.tangent.y(), sample.tangent.x()) * kDegPerRad;
   for (const double value : {sample.s, sample.point.x(), sample.point.y(), degrees, sample.kappa})
     text.append(",").append(exactNumber(value));
   text += ",";

@@ -75,7 +75,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       tolerance_(new ParameterRow(session, *findParameter("fairing.tolerance"), this)),
       keep_(new ParameterRow(session, *findParameter("fairing.keep_extrema"), this)),
       wavelength_(new ParameterRow(session, *findParameter("fairing.lowpass"), this)),
-      spend_(new ParameterRow(session, *findParameter("fairing.spend"), this)),
+      policy_(new ParameterRow(session, *findParameter("fairing.spend"), this)),
       moves_(new ParameterRow(session, *findParameter("fairing.moves"), this)),
       editor_(new ParameterEditor(session,
                                   {"fairing.spans", "fairing.choose", "fairing.alpha", "fairing.samples",
@@ -116,12 +116,12 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   buildTolerance();
   layout->addWidget(keep_);
   layout->addWidget(wavelength_);
-  layout->addWidget(spend_);
+  layout->addWidget(policy_);
   layout->addWidget(moves_);
   bindToScope(keep_, [](PieceChoice& choice, const FairingParams& params) { choice.keepExtrema = params.keepExtrema; });
   bindToScope(wavelength_,
               [](PieceChoice& choice, const FairingParams& params) { choice.lowPassMm = params.lowPassMm; });
-  bindToScope(spend_, [](PieceChoice& choice, const FairingParams& params) {
+  bindToScope(policy_, [](PieceChoice& choice, const FairingParams& params) {
     choice.tolerancePolicy = params.tolerancePolicy;
   });
   bindToScope(moves_, [](PieceChoice& choice, const FairingParams& params) { choice.means = params.means; });
@@ -237,13 +237,13 @@ void FairingPanel::buildLinks() {
 void FairingPanel::refreshLinks(const FairingParams& params) {
   keep_->setVisible(params.mode == FairingMode::Monotone);
   wavelength_->setVisible(params.mode == FairingMode::LowPass);
-  spend_->setVisible(params.mode == FairingMode::Tolerance);
+  policy_->setVisible(params.mode == FairingMode::Tolerance);
   // Only a Bézier path has edges whose lengths can be moved alone.
   const PieceChoice* choice = choiceOf(session_, session_.selectedCurve());
   const ConstructMethod method = choice && choice->method ? *choice->method : session_.recipe().construct.method;
   const bool followsProfile = params.mode == FairingMode::Target || params.mode == FairingMode::LowPass;
   moves_->setVisible(followsProfile && method == ConstructMethod::Bezier);
-  for (ParameterRow* row : {keep_, wavelength_, spend_, moves_}) row->sync();
+  for (ParameterRow* row : {keep_, wavelength_, policy_, moves_}) row->sync();
   const bool isTarget = params.mode == FairingMode::Target && session_.selected();
   const bool isDrawn = isTargetDrawn(session_);
   draw_->setVisible(isTarget && !isDrawn);

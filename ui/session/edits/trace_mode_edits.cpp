@@ -35,7 +35,7 @@ EdgeMode traceModeOf(const EditorSession& session, int curve) {
   return last == choices.rend() ? EdgeMode::Automatic : last->mode;
 }
 
-void chooseWay(EditorSession& session, int curve, EdgeMode mode) {
+void chooseTraceMode(EditorSession& session, int curve, EdgeMode mode) {
   const Contour* line = tracedLineOf(session, curve);
   if (!line || traceModeOf(session, curve) == mode) return;
   Recipe after = session.recipe();

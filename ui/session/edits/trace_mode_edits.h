@@ -12,6 +12,6 @@ const Contour* tracedLineOf(const EditorSession& session, int curve);
 /// Trace mode of a curve's ink; Automatic = as the page.
 EdgeMode traceModeOf(const EditorSession& session, int curve);
 /// Sets the trace mode of a curve's ink, overriding the page; Automatic removes the choice.
-void chooseWay(EditorSession& session, int curve, EdgeMode mode);
+void chooseTraceMode(EditorSession& session, int curve, EdgeMode mode);
 
 }  // namespace batten
