@@ -5,12 +5,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 
 #include "core/base/partial_context.h"
+#include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
 #include "core/curve/curvature.h"
 #include "core/curve/line_names.h"
@@ -273,11 +272,10 @@ Result<ExportReport> exportToFile(const ExportDocument& document, const ExportSe
   }
   if (context.isCancelled()) return cancelled();
   if (auto saved = saveAtomically(path, file->bytes); !saved) return fail(saved.error());
-  std::ifstream in(path, std::ios::binary);
-  const std::string back{std::istreambuf_iterator<char>(in), {}};
-  if (back != file->bytes)
+  const auto back = readWhole(path, file->bytes.size());
+  if (!back || *back != file->bytes)
     return fail(ErrorCode::CannotWrite,
-                "The file " + path.string() + " does not contain what was written. Is the disk full?");
+                "The file " + shownName(path) + " does not contain what was written. Is the disk full?");
   file->report.path = path;
   return std::move(file->report);
 }

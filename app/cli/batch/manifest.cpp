@@ -14,6 +14,7 @@
 
 #include "app/cli/batch/name_json.h"
 #include "app/cli/file_names.h"
+#include "core/base/json_text.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
 #include "core/base/shown_text.h"
@@ -82,15 +83,15 @@ std::optional<std::string> takeEntry(const std::string& key, const Json& value, 
 
 Result<BatchPage> pageOf(std::string_view text, int line, const PageDefaults& defaults) {
   const std::string where = "Line " + std::to_string(line) + " of the manifest: ";
-  const Json json = Json::parse(parsableLine(text), nullptr, false);
-  if (!json.is_object())
+  const auto parsed = parseJson(parsableLine(text));
+  if (!parsed || !parsed->is_object())
     return wrongLine(where + "not a JSON object. Write {\"scan\": \"a.png\", \"outputs\": [\"a.svg\"]}.");
   BatchPage page;
   page.line = line;
   page.recipe = defaults.recipe;
   page.settings = defaults.settings;
   page.dpi = defaults.dpi;
-  for (const auto& [key, value] : json.items()) {
+  for (const auto& [key, value] : parsed->items()) {
     if (const auto problem = takeEntry(key, value, page)) return wrongLine(where + *problem + ".");
   }
   if (page.scan.empty()) return wrongLine(where + "\"scan\" is missing.");
