@@ -78,8 +78,9 @@ TargetProfile fitProfile(const ProfileData& data, const TargetParams& params, bo
       profile.problem = "Only curvature profiles can be split. Choose curvature, or remove the splits.";
       return profile;
     }
-    profile.nodes =
-        fitSplitProfile(data.perimeter, data.kappa, params.splits, degree, params.monotone, closed, coefficients);
+    SplitProfile split = fitSplitProfile(data.perimeter, data.kappa, params.splits, degree, params.monotone, closed);
+    profile.nodes = std::move(split.nodes);
+    coefficients = split.coefficients;
   } else {
     profile.coefficients = closed            ? fitPeriodicPolynomial(data.perimeter, data.values, degree)
                            : params.monotone ? fitMonotoneEitherWay(data, degree)

@@ -64,9 +64,8 @@ void fitPart(Part& part, int degree, bool monotone, std::optional<double> start,
 
 }  // namespace
 
-std::vector<ProfileNode> fitSplitProfile(std::span<const double> perimeter, std::span<const double> kappa,
-                                         std::span<const double> splits, int degree, bool monotone, bool closed,
-                                         int& coefficientCount) {
+SplitProfile fitSplitProfile(std::span<const double> perimeter, std::span<const double> kappa,
+                             std::span<const double> splits, int degree, bool monotone, bool closed) {
   std::vector<Part> parts = partsOf(perimeter, kappa, splits, closed);
   for (Part& part : parts) {
     fitPart(part, degree, monotone, std::nullopt, std::nullopt);
@@ -78,35 +77,38 @@ std::vector<ProfileNode> fitSplitProfile(std::span<const double> perimeter, std:
   for (std::size_t k = 0; k < count; ++k) {
     joint[k] = 0.5 * (valueOf(parts[k].coefficients, 1.0) + valueOf(parts[(k + 1) % count].coefficients, 0.0));
   }
-  coefficientCount = closed ? 0 : 1;
+  SplitProfile made{{}, closed ? 0 : 1};
   for (std::size_t k = 0; k < count; ++k) {
     const bool first = !closed && k == 0, last = !closed && k + 1 == count;
     fitPart(parts[k], degree, monotone, first ? std::nullopt : std::optional(joint[(k + count - 1) % count]),
             last ? std::nullopt : std::optional(joint[k]));
     if (parts[k].coefficients.empty()) return {};
-    coefficientCount += std::max(1, static_cast<int>(parts[k].coefficients.size()) - 1);
+    made.coefficients += std::max(1, static_cast<int>(parts[k].coefficients.size()) - 1);
   }
-  std::vector<ProfileNode> nodes;
   for (const Part& part : parts) {
     const double width = part.to - part.from;
     for (int i = 0; i <= kNodesPerPart; ++i) {
       const double x = static_cast<double>(i) / kNodesPerPart;
-      nodes.push_back({part.from + x * width, valueOf(part.coefficients, x), slopeOf(part.coefficients, x) / width});
+      made.nodes.push_back(
+          {part.from + x * width, valueOf(part.coefficients, x), slopeOf(part.coefficients, x) / width});
     }
   }
-  if (!closed) return nodes;
+  if (!closed) return made;
   // The part over the seam is cut at it: its end comes first.
   const Part& over = parts.back();
   const double width = over.to - over.from, x = (1.0 - over.from) / width;
-  const ProfileNode seam{1.0, valueOf(over.coefficients, x), slopeOf(over.coefficients, x) / width};
-  std::vector<ProfileNode> head{{0.0, seam.value, seam.slope}}, tail;
-  for (const ProfileNode& node : nodes) {
-    if (node.f > 1.0) head.push_back({node.f - 1.0, node.value, node.slope});
-    if (node.f < 1.0) tail.push_back(node);
-  }
-  head.insert(head.end(), tail.begin(), tail.end());
-  head.push_back(seam);
-  return head;
+  made.nodes = cutAtSeam(made.nodes, valueOf(over.coefficients, x), slopeOf(over.coefficients, x) / width);
+  return made;
+}
+
+std::vector<ProfileNode> cutAtSeam(const std::vector<ProfileNode>& nodes, double value, double slope) {
+  std::vector<ProfileNode> cut{{0.0, value, slope}};
+  for (const ProfileNode& node : nodes)
+    if (node.f > 1.0) cut.push_back({node.f - 1.0, node.value, node.slope});
+  for (const ProfileNode& node : nodes)
+    if (node.f < 1.0) cut.push_back(node);
+  cut.push_back({1.0, value, slope});
+  return cut;
 }
 
 }  // namespace batten

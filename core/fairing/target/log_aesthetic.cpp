@@ -10,6 +10,7 @@
 #include "core/curve/curvature.h"
 #include "core/fairing/profile/curvature_samples.h"
 #include "core/fairing/profile/profile_data.h"
+#include "core/fairing/profile/split_profile.h"
 #include "core/solve/levenberg_marquardt.h"
 
 namespace batten {
@@ -172,18 +173,6 @@ LogAestheticSpan reported(const Stretch& stretch, const LogAesthetic& fit, doubl
   return span;
 }
 
-/// The nodes of a profile that goes on over the seam, ascending from 0 to 1.
-std::vector<ProfileNode> cutAtSeam(std::vector<ProfileNode> nodes, double atSeam, double slopeAtSeam) {
-  std::vector<ProfileNode> head{{0.0, atSeam, slopeAtSeam}}, tail;
-  for (const ProfileNode& node : nodes) {
-    if (node.f > 1.0) head.push_back({node.f - 1.0, node.value, node.slope});
-    if (node.f < 1.0) tail.push_back(node);
-  }
-  head.insert(head.end(), tail.begin(), tail.end());
-  head.push_back({1.0, atSeam, slopeAtSeam});
-  return head;
-}
-
 }  // namespace
 
 double LogAesthetic::kappa(double x) const {
@@ -271,7 +260,7 @@ LogAestheticTarget logAestheticTarget(const NurbsCurve& curve, bool closed, cons
     target.spans.push_back(reported(one, fit, sampled.lengthMm, kStraightShare * largest));
     if (one.to > 1.0) {
       const double seam = (1.0 - one.from) / width;
-      nodes = cutAtSeam(std::move(nodes), fit.kappa(seam), fit.slope(seam) / width);
+      nodes = cutAtSeam(nodes, fit.kappa(seam), fit.slope(seam) / width);
     }
   }
   target.profile.valid = true;
