@@ -2,8 +2,10 @@
 #include "core/fairing/structure/monotone_fairing.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
+#include <limits>
 #include <optional>
+#include <vector>
 
 #include "core/base/number_text.h"
 #include "core/curve/curvature.h"
@@ -19,6 +21,8 @@ namespace {
 constexpr double kKeptShare = 0.999;
 /// Curves of more samples are not tried by targets: they are long and wavy, and each takes seconds.
 constexpr int kMostTargetSamples = 600;
+/// A target is followed until the curve has left the sketch by so many times what is wanted.
+constexpr double kTargetReach = 2.0;
 
 std::string millimetres(double mm) { return significantText(mm, 3) + " mm"; }
 
@@ -38,68 +42,109 @@ class MonotoneFairing {
       return unchanged(setup_.original, setup_.closed, Termination::Degenerate,
                        "The curve has a cusp and was not changed.");
     }
-    const bool byPlace = !params_.keptAt.empty(), byCount = !byPlace && params_.keepExtrema != kKeepSignificant;
-    std::optional<StructureCandidate> wanted;
-    if (byPlace) wanted = candidates_.nearestWith(params_.keptAt);
-    if (byCount) wanted = candidates_.nearest(params_.keepExtrema);
-    if (context_.isCancelled()) return cancelled();
-    if (wanted && isWithin(*wanted)) return done(std::move(*wanted));
-    StructureCandidate best = candidates_.fewest(kKeptShare * params_.toleranceMm);
-    const int fewest = byCount ? params_.keepExtrema : setup_.closed ? 4 : 0;
-    if (!byPlace && best.extrema > fewest) byTargets(fewest, best, wanted);
-    if (context_.isCancelled()) return cancelled();
-    if ((!byPlace && !byCount) || (byCount && best.extrema <= params_.keepExtrema)) return done(std::move(best));
-    return limited(wanted, std::move(best));
+    if (!params_.keptAt.empty()) return byPlace();
+    return params_.keepExtrema == kKeepSignificant ? asFewAsCan() : byCount();
   }
 
  private:
-  bool isWithin(const StructureCandidate& found) const { return found.deviationMm <= kKeptShare * params_.toleranceMm; }
+  double most() const { return kKeptShare * params_.toleranceMm; }
 
-  /// What a target reaches is to be had here too.
-  void byTargets(int fewest, StructureCandidate& best, std::optional<StructureCandidate>& wanted) {
-    if (setup_.sampleCount() > kMostTargetSamples) return;
+  Result<FairedCurve> byPlace() {
+    auto wanted = candidates_.nearestWith(params_.keptAt);
+    if (context_.isCancelled()) return cancelled();
+    if (wanted && wanted->deviationMm <= most()) return done(*wanted);
+    const StructureCandidate best = candidates_.fewest(most());
+    if (context_.isCancelled()) return cancelled();
+    std::optional<double> needed;
+    if (wanted) needed.emplace(wanted->deviationMm);
+    return limited(best, needed);
+  }
+
+  /// What a number of extrema needs is the least of what all ways need, whatever the tolerance. Of the curves within
+  /// the tolerance the one that turns back no more often than asked is taken, of these the nearest.
+  Result<FairedCurve> byCount() {
+    const int asked = params_.keepExtrema;
+    std::vector<StructureCandidate> reached;
+    if (auto nearest = candidates_.nearest(asked)) reached.push_back(std::move(*nearest));
+    const bool isSketch = !reached.empty() && !(reached.front().deviationMm > 0.0);
+    const double reach = reached.empty() ? std::numeric_limits<double>::infinity() : reached.front().deviationMm;
+    const std::vector<StructureCandidate> steps =
+        isSketch ? std::vector<StructureCandidate>{} : targetCurves(kTargetReach * reach);
+    std::copy_if(steps.begin(), steps.end(), std::back_inserter(reached),
+                 [&](const StructureCandidate& step) { return step.extrema <= asked; });
+    if (context_.isCancelled()) return cancelled();
+    std::optional<double> needed;
+    const StructureCandidate* best = nullptr;
+    for (const StructureCandidate& one : reached) {
+      needed = std::min(needed.value_or(one.deviationMm), one.deviationMm);
+      if (one.deviationMm <= most() && (!best || isTruerThan(one, *best, asked))) best = &one;
+    }
+    if (best) return done(*best, *needed);
+    StructureCandidate other = candidates_.fewest(most(), asked);
+    offer(steps, other);
+    if (context_.isCancelled()) return cancelled();
+    return limited(other, needed);
+  }
+
+  Result<FairedCurve> asFewAsCan() {
+    StructureCandidate best = candidates_.fewest(most());
+    const int least = setup_.closed ? 4 : 0;
+    if (countedExtrema(setup_.original, setup_.closed) > least) {
+      // Where none has fewer extrema, only a nearer one is better.
+      const bool isLeast = best.extrema <= least && best.turns <= least;
+      offer(targetCurves(kTargetReach * (isLeast ? best.deviationMm : params_.toleranceMm)), best);
+    }
+    if (context_.isCancelled()) return cancelled();
+    return done(best);
+  }
+
+  /// What a target reaches is to be had here too: the curves on the way to all targets, up to about a distance.
+  std::vector<StructureCandidate> targetCurves(double mostMm) {
+    std::vector<StructureCandidate> curves;
+    if (setup_.sampleCount() > kMostTargetSamples) return curves;
     const TargetSet targets = fitTargets(setup_.original, params_.targets, setup_.closed);
     for (const TargetProfile& profile : targets.profiles) {
       const auto objective = targetObjective(setup_, profile);
       if (!objective) continue;
-      const TargetSteps steps(setup_, *objective, context_);
+      const TargetSteps steps(setup_, *objective, context_, mostMm);
       iterations_ += steps.iterations();
-      for (const TargetStep& step : steps.all()) {
-        StructureCandidate found{candidates_.sketch(), step.points, step.extrema, step.deviationMm};
-        const bool better = found.extrema < best.extrema || (found.extrema == best.extrema && best.deviationMm > 0.0 &&
-                                                             found.deviationMm < best.deviationMm);
-        const bool nearer = found.extrema <= fewest && (!wanted || found.deviationMm < wanted->deviationMm);
-        if (isWithin(found) && better) best = found;
-        if (nearer) wanted = std::move(found);
-      }
+      for (const TargetStep& step : steps.all())
+        curves.push_back(candidates_.overSketch(step.points, step.extrema, step.deviationMm));
+    }
+    return curves;
+  }
+
+  void offer(const std::vector<StructureCandidate>& curves, StructureCandidate& best) const {
+    const int sketched = countedExtrema(setup_.original, setup_.closed);
+    for (const StructureCandidate& one : curves) {
+      if (one.deviationMm <= most() && one.extrema < sketched && isFairerThan(one, best)) best = one;
     }
   }
 
-  Result<FairedCurve> done(StructureCandidate found) {
+  Result<FairedCurve> done(const StructureCandidate& found, std::optional<double> needed = {}) {
     FairingReport report;
     const int sketched = countedExtrema(setup_.original, setup_.closed);
     report.why = found.deviationMm > 0.0 ? Termination::Converged : Termination::FixedPoint;
     if (found.deviationMm == 0.0 && sketched > 0 && params_.keptAt.empty() && params_.keepExtrema == kKeepSignificant)
       report.note = "No extremum can be removed within the tolerance.";
     report.iterations = iterations_ + candidates_.iterations();
-    report.neededMm = found.deviationMm;
+    report.neededMm = needed.value_or(found.deviationMm);
     return asFaired(setup_, found, std::move(report));
   }
 
-  Result<FairedCurve> limited(const std::optional<StructureCandidate>& wanted, StructureCandidate best) {
-    auto result = done(std::move(best));
+  Result<FairedCurve> limited(const StructureCandidate& best, std::optional<double> needed) {
+    auto result = done(best);
     if (!result) return result;
     FairingReport& report = result->report;
     const std::string kept = std::to_string(report.extremaAfter) + " extrema were kept.";
     const bool byPlace = !params_.keptAt.empty();
     const std::string asked = byPlace ? "these extrema" : extremaText(params_.keepExtrema);
-    report.why = wanted ? Termination::ToleranceLimited : Termination::NoProgress;
+    report.why = needed ? Termination::ToleranceLimited : Termination::NoProgress;
     report.withinTolerance = false;
-    report.neededMm = wanted ? wanted->deviationMm : 0.0;
-    report.note =
-        wanted ? "A curve with " + asked + " needs a tolerance of " + millimetres(wanted->deviationMm) + "; " + kept
-               : "No curve with " + asked + " was found; " + kept;
-    if (!wanted && setup_.closed && params_.keepExtrema < 4 && !byPlace)
+    report.neededMm = needed.value_or(0.0);
+    report.note = needed ? "A curve with " + asked + " needs a tolerance of " + millimetres(*needed) + "; " + kept
+                         : "No curve with " + asked + " was found; " + kept;
+    if (!needed && setup_.closed && params_.keepExtrema < 4 && !byPlace)
       report.note = "A closed curve has at least 4 curvature extrema, unless it is a circle; " + kept;
     return result;
   }

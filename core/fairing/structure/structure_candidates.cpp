@@ -2,7 +2,7 @@
 #include "core/fairing/structure/structure_candidates.h"
 
 #include <algorithm>
-#include <tuple>
+#include <limits>
 #include <utility>
 
 #include "core/curve/curvature.h"
@@ -19,24 +19,32 @@ constexpr double kWorthOpening = 2.0;
 /// A structure whose estimated move, good to a factor of a few, is so many tolerances is not tried; over all knots of
 /// the sketch, where it takes longest and finds least, not beyond one.
 constexpr double kWorthTrying = 3.0, kWorthTryingOnSketch = 1.0;
-/// A nearest curve (in the mean) that lies farther off than so many tolerances is not tried with bounds.
-constexpr double kWorthBounding = 3.0;
 /// Bounds on the distance, each this share of what the one before reached.
 constexpr double kTighter = 0.75;
 constexpr int kMostBounds = 4;
 /// The distance is bounded at the samples: some of it is left for what lies between them.
 constexpr double kBoundShare = 0.985;
+/// A nearest curve (in the mean) that lies farther off than so many times what is wanted is not tried with bounds:
+/// 1 / (kTighter * kBoundShare)^kMostBounds.
+constexpr double kWorthBounding = 3.4;
 /// Over more spans than this not every structure is tried, but every one with about a sixth fewer extrema.
 constexpr int kManySpans = 48;
 constexpr double kThinning = 6.0;
-/// For the nearest curve of a number of extrema, more knots are tried until they bring it nearer by less than this.
-constexpr double kWorthKnots = 0.97;
 /// Over this many spans more, a wanted number of extrema is looked for over fewer knots only.
 constexpr int kLongSpans = 200;
 
 int sizeOf(const CurvatureStructure& structure) { return static_cast<int>(structure.extrema.size()); }
 
 }  // namespace
+
+bool isTruerThan(const StructureCandidate& a, const StructureCandidate& b, int asked) {
+  const int turnsA = std::max(a.turns, asked), turnsB = std::max(b.turns, asked);
+  return turnsA != turnsB ? turnsA < turnsB : a.deviationMm < b.deviationMm;
+}
+
+bool isFairerThan(const StructureCandidate& a, const StructureCandidate& b) {
+  return a.extrema != b.extrema ? a.extrema < b.extrema : isTruerThan(a, b, 0);
+}
 
 Result<FairedCurve> asFaired(const FairingSetup& sketch, const StructureCandidate& found, FairingReport report) {
   auto curve = toCurve(*found.setup, found.points);
@@ -85,6 +93,11 @@ std::optional<StructureCandidate> StructureCandidates::candidate(const Basis& ba
   return result;
 }
 
+StructureCandidate StructureCandidates::overSketch(std::vector<Vec2> points, int extrema, double deviationMm) const {
+  const int turns = bases_.back().search->denseTurns(points);
+  return {sketch_, std::move(points), extrema, deviationMm, turns};
+}
+
 /// Simplest first.
 std::vector<std::size_t> StructureCandidates::levelsToTry(const Basis& basis) const {
   std::vector<std::size_t> result;
@@ -100,19 +113,18 @@ std::vector<std::size_t> StructureCandidates::levelsToTry(const Basis& basis) co
 }
 
 std::optional<StructureCandidate> StructureCandidates::solved(const Basis& basis, const CurvatureStructure& structure,
-                                                              double estimateMm, double enoughMm) {
-  auto outcome = basis.search->solve(structure, basis.setup->points, estimateMm, 0.0, kWorthBounding * enoughMm);
+                                                              double estimateMm, double giveUpMm) {
+  auto outcome = basis.search->solve(structure, basis.setup->points, estimateMm, 0.0, giveUpMm);
   iterations_ += outcome.iterations;
   if (!outcome.found || context_.isCancelled()) return std::nullopt;
   auto found = candidate(basis, std::move(outcome.points));
-  if (!found || (enoughMm > 0.0 && found->deviationMm > kWorthBounding * enoughMm)) return std::nullopt;
-  if (found->deviationMm <= enoughMm || !(enoughMm > 0.0)) return found;
-  return closer(basis, structure, std::move(*found), enoughMm);
+  if (!found || (giveUpMm > 0.0 && found->deviationMm > giveUpMm)) return std::nullopt;
+  return found;
 }
 
-std::optional<StructureCandidate> StructureCandidates::closer(const Basis& basis, const CurvatureStructure& structure,
-                                                              StructureCandidate found, double enoughMm) {
-  for (int i = 0; i < kMostBounds && found.deviationMm > enoughMm && !context_.isCancelled(); ++i) {
+StructureCandidate StructureCandidates::closer(const Basis& basis, const CurvatureStructure& structure,
+                                               StructureCandidate found) {
+  for (int i = 0; i < kMostBounds && !context_.isCancelled(); ++i) {
     const double bound = kTighter * found.deviationMm;
     auto outcome = basis.search->solve(structure, found.points, found.deviationMm, kBoundShare * bound, 0.0);
     iterations_ += outcome.iterations;
@@ -124,13 +136,18 @@ std::optional<StructureCandidate> StructureCandidates::closer(const Basis& basis
   return found;
 }
 
-StructureCandidate StructureCandidates::fewest(double toleranceMm) {
+StructureCandidate StructureCandidates::fewest(double toleranceMm, int moreThan) {
   StructureCandidate best = open(bases_.size() - 1).start;
   const int sketched = best.extrema;
   const auto offer = [&](StructureCandidate found) {
-    if (found.deviationMm > toleranceMm || (found.extrema == sketched && best.extrema == sketched)) return;
-    const auto key = [](const StructureCandidate& c) { return std::tuple(c.extrema, c.turns, c.deviationMm); };
-    if (key(found) < key(best)) best = std::move(found);
+    if (found.deviationMm > toleranceMm || found.extrema <= moreThan) return;
+    if (found.extrema == sketched && best.extrema == sketched) return;
+    if (isFairerThan(found, best)) best = std::move(found);
+  };
+  // Bounds on the distance change neither the turns of the curvature nor, but rarely, the extrema.
+  const auto mayWin = [&](const StructureCandidate& found) {
+    if (found.extrema < best.extrema || found.turns < best.turns) return true;
+    return found.turns == best.turns && found.deviationMm < kWorthBounding * best.deviationMm;
   };
   for (std::size_t at = 0; at < bases_.size() && !context_.isCancelled(); ++at) {
     Basis& basis = open(at);
@@ -140,9 +157,11 @@ StructureCandidate StructureCandidates::fewest(double toleranceMm) {
     for (const std::size_t level : levelsToTry(basis)) {
       const StructureLevel& tried = basis.levels[level];
       if (context_.isCancelled() || sizeOf(tried.structure) > best.extrema) break;
-      if (tried.estimateMm > worth) continue;
-      auto found = solved(basis, tried.structure, tried.estimateMm, toleranceMm);
-      if (!found || found->deviationMm > toleranceMm) continue;
+      if (tried.estimateMm > worth || sizeOf(tried.structure) <= moreThan) continue;
+      auto found = solved(basis, tried.structure, tried.estimateMm, kWorthBounding * toleranceMm);
+      if (!found) continue;
+      if (found->deviationMm > toleranceMm || mayWin(*found)) found = closer(basis, tried.structure, std::move(*found));
+      if (found->deviationMm > toleranceMm || found->extrema <= moreThan) continue;
       offer(std::move(*found));
       break;
     }
@@ -150,52 +169,62 @@ StructureCandidate StructureCandidates::fewest(double toleranceMm) {
   return best;
 }
 
-template <class Structure>
-std::optional<StructureCandidate> StructureCandidates::nearestOf(const Structure& structureOf) {
-  std::optional<StructureCandidate> best;
-  std::size_t bestBasis = 0;
-  std::optional<CurvatureStructure> bestStructure;
-  int inVain = 0;
+template <class Structures>
+std::optional<StructureCandidate> StructureCandidates::nearestOf(int most, const Structures& structuresOf) {
+  struct Found {
+    StructureCandidate curve;
+    const Basis* basis;
+    CurvatureStructure structure;
+  };
+  std::vector<Found> all;
   for (std::size_t at = 0; at < bases_.size() && !context_.isCancelled(); ++at) {
     Basis& basis = open(at);
     if (basis.levels.empty()) continue;
-    if (best && basis.setup == sketch_ && basis.setup->basis.spanCount() > kLongSpans) continue;
-    if (best && basis.setup != sketch_ && inVain > 1) continue;
-    const auto [structure, estimate] = structureOf(basis);
-    auto found = solved(basis, structure, estimate, 0.0);
-    const bool nearer =
-        found && found->extrema <= sizeOf(structure) && (!best || found->deviationMm < kWorthKnots * best->deviationMm);
-    inVain = nearer || !best ? 0 : inVain + 1;
-    if (!nearer) continue;
-    best = std::move(found);
-    bestBasis = at;
-    bestStructure = structure;
+    if (!all.empty() && basis.setup == sketch_ && basis.setup->basis.spanCount() > kLongSpans) continue;
+    for (StructureLevel& tried : structuresOf(basis)) {
+      auto found = solved(basis, tried.structure, tried.estimateMm, 0.0);
+      if (found && found->extrema <= most) all.push_back({std::move(*found), &basis, std::move(tried.structure)});
+    }
   }
-  if (!best) return std::nullopt;
-  return closer(bases_[bestBasis], *bestStructure, std::move(*best), 0.0);
+  const auto isNearer = [](const Found& a, const Found& b) { return a.curve.deviationMm < b.curve.deviationMm; };
+  std::stable_sort(all.begin(), all.end(), isNearer);
+  std::optional<StructureCandidate> best;
+  for (Found& one : all) {
+    if (best && one.curve.deviationMm > kWorthBounding * best->deviationMm) break;
+    StructureCandidate nearest = closer(*one.basis, one.structure, std::move(one.curve));
+    if (!best || nearest.deviationMm < best->deviationMm) best = std::move(nearest);
+  }
+  return best;
 }
 
 std::optional<StructureCandidate> StructureCandidates::nearest(int extrema) {
   const StructureCandidate& sketch = bases_.back().start;
   if (sketch.extrema <= extrema) return sketch;
-  return nearestOf([&](const Basis& basis) {
+  auto best = nearestOf(extrema, [&](const Basis& basis) {
     std::size_t level = 0;
     while (level + 1 < basis.levels.size() && sizeOf(basis.levels[level].structure) > extrema) ++level;
-    return std::pair(basis.levels[level].structure, basis.levels[level].estimateMm);
+    // One more turn of the curvature may be too small for an extremum.
+    const std::size_t first = level > 0 ? level - 1 : level;
+    return std::vector(&basis.levels[first], &basis.levels[level] + 1);
   });
+  for (const Basis& basis : bases_) {
+    if (basis.levels.empty() || basis.start.extrema > extrema) continue;
+    if (!best || basis.start.deviationMm < best->deviationMm) best = basis.start;
+  }
+  return best;
 }
 
 std::optional<StructureCandidate> StructureCandidates::nearestWith(const std::vector<double>& keptAt) {
-  return nearestOf([&](const Basis& basis) {
+  return nearestOf(std::numeric_limits<int>::max(), [&](const Basis& basis) {
     std::vector<int> samples;
     const auto& s = basis.search->arcLength();
     for (const double f : keptAt) {
       const auto above = std::lower_bound(s.begin(), s.end(), f * basis.setup->start.length);
       samples.push_back(static_cast<int>(std::min(above, s.end() - 1) - s.begin()));
     }
-    return std::pair(
+    return std::vector{StructureLevel{
         structureAt(basis.search->curvature(), basis.levels.front().structure, samples, basis.setup->closed),
-        basis.levels.back().estimateMm);
+        basis.levels.back().estimateMm}};
   });
 }
 

@@ -25,6 +25,12 @@ struct StructureCandidate {
 /// The candidate as a result: objective, extrema and deviation are filled in.
 Result<FairedCurve> asFaired(const FairingSetup& sketch, const StructureCandidate& candidate, FairingReport report);
 
+/// Of two curves with no more extrema than asked for: the one whose curvature turns back less often, however little
+/// (so often as asked is seldom enough); of these the nearer one.
+bool isTruerThan(const StructureCandidate& a, const StructureCandidate& b, int asked);
+/// Fewer extrema; of equally many the truer one.
+bool isFairerThan(const StructureCandidate& a, const StructureCandidate& b);
+
 /// Curves with fewer curvature extrema than a sketched one: the nearest curve of every structure from the sketch's own
 /// down to the simplest (MonotoneSearch), over the sketch's knots and over fewer. What is tried and found depends on
 /// the sketch alone; a tolerance only says how much of it is looked at. So all that is found within a tolerance is
@@ -35,14 +41,15 @@ class StructureCandidates {
 
   /// False for a curve with a cusp: there is nothing but the sketch.
   bool isValid() const { return !bases_.empty(); }
-  /// The curve with the fewest extrema within the tolerance, and the nearest of those found; the sketch itself if need
-  /// be.
-  StructureCandidate fewest(double toleranceMm);
+  /// The curve with the fewest extrema within the tolerance, but more than these, and of equally many the truest;
+  /// the sketch itself if need be.
+  StructureCandidate fewest(double toleranceMm, int moreThan = -1);
   /// The nearest curve found with no more extrema than these; none when none was found.
   std::optional<StructureCandidate> nearest(int extrema);
   /// The same with the extrema nearest to these shares of the arc length.
   std::optional<StructureCandidate> nearestWith(const std::vector<double>& keptAt);
-  const std::shared_ptr<const FairingSetup>& sketch() const { return sketch_; }
+  /// A curve over the sketch's knots that another search has found.
+  StructureCandidate overSketch(std::vector<Vec2> points, int extrema, double deviationMm) const;
   int iterations() const { return iterations_; }
 
  private:
@@ -56,13 +63,15 @@ class StructureCandidates {
   Basis& open(std::size_t basis);
   std::vector<std::size_t> levelsToTry(const Basis& basis) const;
   std::optional<StructureCandidate> candidate(const Basis& basis, std::vector<Vec2> points) const;
-  /// @param enoughMm the distance is bounded closer and closer until it is no larger than this; 0: as close as it goes.
+  /// The nearest curve in the mean.
+  /// @param giveUpMm > 0: one that goes farther than this is none.
   std::optional<StructureCandidate> solved(const Basis& basis, const CurvatureStructure& structure, double estimateMm,
-                                           double enoughMm);
-  std::optional<StructureCandidate> closer(const Basis& basis, const CurvatureStructure& structure,
-                                           StructureCandidate found, double enoughMm);
-  template <class Structure>
-  std::optional<StructureCandidate> nearestOf(const Structure& structureOf);
+                                           double giveUpMm);
+  /// Bounds the distance closer and closer, as far as that goes.
+  StructureCandidate closer(const Basis& basis, const CurvatureStructure& structure, StructureCandidate found);
+  /// The nearest of the curves of some structures over each knot vector that have at most so many extrema.
+  template <class Structures>
+  std::optional<StructureCandidate> nearestOf(int most, const Structures& structuresOf);
 
   std::shared_ptr<const FairingSetup> sketch_;
   const RunContext& context_;
