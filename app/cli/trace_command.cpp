@@ -212,7 +212,7 @@ class Trace {
     for (const std::size_t mark : owners.lostStarts)
       list.push_back("No curve near " + placeText(recipe.starts[mark].positionPx) + " for --start.");
     for (const auto& [contour, mark] : owners.startOfContour) {
-      if (out_.contours->contours[static_cast<std::size_t>(contour)].closed) continue;
+      if (out_.contours->contours[contour].closed) continue;
       list.push_back("The line at " + placeText(recipe.starts[mark].positionPx) +
                      " is open, so --start has no effect.");
     }

@@ -88,14 +88,14 @@ void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched
   std::map<int, ContourPieces> byContour;
   std::map<std::size_t, const TracedCurve*> byPiece;
   for (const TracedCurve& curve : output.faired->curves) {
-    if (curve.included && !shapeOf(curve, sketched).isEmpty()) byPiece[static_cast<std::size_t>(curve.piece)] = &curve;
+    if (curve.included && !shapeOf(curve, sketched).isEmpty()) byPiece[curve.piece] = &curve;
   }
   for (std::size_t i = 0; i < output.pieces->pieces.size(); ++i) {
     const auto found = byPiece.find(i);
     byContour[output.pieces->pieces[i].contour].push_back(found == byPiece.end() ? nullptr : found->second);
   }
   for (const auto& [contour, pieces] : byContour) {
-    const Contour& line = output.contours->contours[static_cast<std::size_t>(contour)];
+    const Contour& line = output.contours->contours[contour];
     for (const auto& run : runs(pieces, line.closed)) {
       ExportCurve& curve = document.curves.emplace_back();
       curve.layer = sketched ? kSketchedLayer : kFairedLayer;
@@ -107,7 +107,7 @@ void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched
         ExportPiece& own = curve.pieces.emplace_back(
             ExportPiece{shapeOf(*piece, sketched), nameOfCurve(output, recipe, *piece), number});
         own.figures = figuresOf(*piece, sketched);
-        if (const auto& wanted = owners.ofPiece[static_cast<std::size_t>(piece->piece)])
+        if (const auto& wanted = owners.ofPiece[piece->piece])
           own.direction = PieceDirection{static_cast<int>(wanted->mark), wanted->isTurned};
       }
       if (const ImportedLine* imported = importedLineOf(line, recipe.imports))

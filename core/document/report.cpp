@@ -330,7 +330,7 @@ void addComparisons(const PipelineOutput& out, Json& curves) {
 Json explanationToJson(const PipelineOutput& out, const Recipe& recipe, const Explanation& e) {
   Json stretches = Json::array();
   for (const InventedStretch& s : e.inventions) {
-    const std::string name = nameOfCurve(out, recipe, out.faired->curves[static_cast<std::size_t>(s.curve)]);
+    const std::string name = nameOfCurve(out, recipe, out.faired->curves[s.curve]);
     stretches.push_back({{"curve", name}, {"from_px", pointToJson(s.fromPx)}, {"length_px", number(s.lengthPx)}});
   }
   return {{"reference_ink_px", e.referencePx}, {"explained", number(e.explained)}, {"missed", number(e.missed)},

@@ -47,15 +47,14 @@ std::vector<int> sharpPoints(const std::vector<Vec2>& points, bool closed) {
   const std::ptrdiff_t n = std::ssize(points);
   std::vector<double> turns(points.size(), 0.0);
   for (std::ptrdiff_t i = closed ? 0 : 1; i < (closed ? n : n - 1); ++i) {
-    const Vec2 in = points[static_cast<std::size_t>(i)] - points[static_cast<std::size_t>((i + n - 1) % n)];
-    const Vec2 out = points[static_cast<std::size_t>((i + 1) % n)] - points[static_cast<std::size_t>(i)];
-    turns[static_cast<std::size_t>(i)] = std::abs(std::atan2(cross(in, out), in.dot(out)));
+    const Vec2 in = points[i] - points[(i + n - 1) % n];
+    const Vec2 out = points[(i + 1) % n] - points[i];
+    turns[i] = std::abs(std::atan2(cross(in, out), in.dot(out)));
   }
   std::vector<int> corners;
   for (std::ptrdiff_t i = 0; i < n; ++i) {
-    const double turn = turns[static_cast<std::size_t>(i)];
-    const double beside =
-        std::max(turns[static_cast<std::size_t>((i + n - 1) % n)], turns[static_cast<std::size_t>((i + 1) % n)]);
+    const double turn = turns[i];
+    const double beside = std::max(turns[(i + n - 1) % n], turns[(i + 1) % n]);
     if (turn >= kSharpTurn && (n <= kFewPoints || turn >= 2.0 * beside)) corners.push_back(static_cast<int>(i));
   }
   return corners;

@@ -137,7 +137,7 @@ Result<void> checkFiles(const std::vector<BatchPage>& pages) {
 std::vector<BatchPage> everyPageOf(const BatchPage& page) {
   if (page.page != kAllPages) return {page};
   const QuietStderr quiet;
-  std::vector<BatchPage> pages(static_cast<std::size_t>(countPages(page.scan)), page);
+  std::vector<BatchPage> pages(countPages(page.scan), page);
   for (std::size_t i = 0; i < pages.size(); ++i) {
     pages[i].page = static_cast<int>(i) + 1;
     for (std::string& output : pages[i].outputs) output = withPage(output, pages[i].page);

@@ -185,7 +185,7 @@ Result<std::vector<std::string>> parametersOf(const IgesRecords& records, const 
   if (first < 0 || last > lines) return igesDamaged(entry.line, "its parameters are missing");
   std::string text;
   for (std::ptrdiff_t i = first; i < last; ++i) {
-    const std::string_view line = records.data[static_cast<std::size_t>(i)];
+    const std::string_view line = records.data[i];
     if (line.size() > charactersLeft) return igesDamaged(entry.line, "several entries overlap");
     charactersLeft -= line.size();
     text += line;

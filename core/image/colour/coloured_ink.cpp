@@ -29,7 +29,7 @@ constexpr int kRimPx = 2;            // of the ink's edge, where the gain falls 
 void gainsOfRow(const GreyImage& grey, const ColourImage& colour, const PaperColour& paper, int y,
                 std::array<std::vector<float>, 3>& ratios, std::vector<float>& out) {
   paper.ratiosOfRow(y, grey.width, grey.height, ratios);
-  out.resize(static_cast<std::size_t>(grey.width));
+  out.resize(grey.width);
   const Rgb8* in = colour.row(y);
   const std::uint16_t* levels = grey.row(y);
   constexpr float kStep = 1.0f / static_cast<float>(GreyImage::kGreyUnit);
@@ -92,7 +92,7 @@ cv::Mat1b gainingPieces(const GreyImage& grey, const cv::Mat1b& gains, const cv:
   cv::Mat1i labels, stats;
   cv::Mat1d centres;
   const int count = cv::connectedComponentsWithStats(mask, labels, stats, centres, 8, CV_32S);
-  std::vector<ColouredPiece> pieces(static_cast<std::size_t>(count));
+  std::vector<ColouredPiece> pieces(count);
   for (int y = 0; y < grey.height; ++y) {
     for (int x = 0; x < grey.width; ++x) {
       const int label = labels(y, x);

@@ -90,7 +90,7 @@ void PaperColour::ratiosOfRow(int y, int width, int height, std::array<std::vect
   const double v = (y + 0.5) / height;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& c = ratio[k];
-    out[k].resize(static_cast<std::size_t>(width));
+    out[k].resize(width);
     const auto start = static_cast<float>(c[0] + v * (c[2] + v * c[5]));
     const auto slope = static_cast<float>((c[1] + v * c[4]) / width);
     const auto bend = static_cast<float>(c[3] / width / width);

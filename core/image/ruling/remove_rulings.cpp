@@ -48,7 +48,7 @@ class RulingEraser {
     reach_ = std::max(2, static_cast<int>(limit));
     rim_ =
         std::min(static_cast<double>(reach_) - 1.0, std::max(0.5 * family.widthPx + 1.5, kRimShare * family.spacingPx));
-    course_.resize(static_cast<std::size_t>(image.width));
+    course_.resize(image.width);
     std::size_t at = 0;
     for (int x = 0; x < image.width; ++x) {
       const auto place = [&](std::size_t i) {
@@ -172,11 +172,10 @@ class RulingEraser {
   /// Light that comes through the line, per half pixel across: a high rank over blocks, so that strokes across do not
   /// count.
   std::vector<double> profileOf(int fromBlock, int toBlock) const {
-    std::vector<std::vector<float>> light(static_cast<std::size_t>(bins()));
+    std::vector<std::vector<float>> light(bins());
     forBand(begin(fromBlock), end(toBlock - 1), -reach_, reach_, [&](int x, int y, double offset) {
       const auto bin = std::lround((offset + reach_) * kBinsPerPx);
-      light[static_cast<std::size_t>(std::clamp<long>(bin, 0, bins() - 1))].push_back(
-          static_cast<float>(lightAt(x, y)));
+      light[std::clamp<long>(bin, 0, bins() - 1)].push_back(static_cast<float>(lightAt(x, y)));
     });
     std::vector<double> profile;
     // A line without slope meets every second place only, but for a few pixels, which say nothing of the whole.

@@ -155,7 +155,7 @@ class LatticeFit {
   void match(int strip, double share) {
     const double x = xOf(static_cast<std::size_t>(strip));
     const std::size_t before = members_.size();
-    for (const double y : found_.strips[static_cast<std::size_t>(strip)]) {
+    for (const double y : found_.strips[strip]) {
       const double k = std::round(lineAt(x, y));
       const double off = y - lattice_.at(k, x) + lattice_.slope * x;
       if (std::fabs(off) > std::max(kLeastReach, share * spacing_)) continue;
@@ -200,25 +200,25 @@ class LatticeFit {
     const auto [low, high] = std::minmax_element(members_.begin(), members_.end(),
                                                  [](const Member& a, const Member& b) { return a.line < b.line; });
     const int first = low->line, count = high->line - first + 1;
-    std::vector<int> strips(static_cast<std::size_t>(count), 0);
+    std::vector<int> strips(count, 0);
     std::vector<double> off;
     for (const Member& m : members_) {
-      ++strips[static_cast<std::size_t>(m.line - first)];
+      ++strips[m.line - first];
       off.push_back(std::fabs(m.y - lattice_.at(m.line, m.x) + lattice_.slope * m.x));
     }
     const auto isLine = [&](int n) { return n >= kLeastOfLine * static_cast<double>(found_.strips.size()); };
     int from = 0, to = count - 1;
-    while (from <= to && !isLine(strips[static_cast<std::size_t>(from)])) ++from;
-    while (to >= from && !isLine(strips[static_cast<std::size_t>(to)])) --to;
+    while (from <= to && !isLine(strips[from])) ++from;
+    while (to >= from && !isLine(strips[to])) --to;
     if (to - from + 1 < kLeastLines) return std::nullopt;
     lattice_.first = first + from;
     lattice_.last = first + to;
     int seen = 0, stretches = 0;
     for (int i = from; i <= to; ++i) {
-      lattice_.isSeen.push_back(isLine(strips[static_cast<std::size_t>(i)]));
+      lattice_.isSeen.push_back(isLine(strips[i]));
       if (!lattice_.isSeen.back()) continue;
       ++seen;
-      stretches += strips[static_cast<std::size_t>(i)];
+      stretches += strips[i];
     }
     lattice_.seen = seen / static_cast<double>(to - from + 1);
     lattice_.coverage = stretches / (static_cast<double>(seen) * static_cast<double>(found_.strips.size()));

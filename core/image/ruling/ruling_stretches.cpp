@@ -165,7 +165,7 @@ RulingStretches findRulingStretches(const Plane& grey, const RunContext& context
   const double offset = kSteepest * out.width + 2.0;
   const double least = kLeastOfStrip * out.stripWidth;
   const int steps = static_cast<int>(std::ceil(kSteepest * out.stripWidth / 1.5));
-  std::vector<double> scores(static_cast<std::size_t>(2 * steps + 1), 0.0);
+  std::vector<double> scores(2 * steps + 1, 0.0);
   const auto slopeOf = [&](int step) { return kSteepest * (step - steps) / steps; };
   parallelFor(context, 2 * steps + 1, 1, [&](int begin, int end) {
     std::vector<float> bins(static_cast<std::size_t>(out.height + 2.0 * offset) + 2);

@@ -146,7 +146,7 @@ class DirectionTool final : public CanvasTool {
     const auto curves = scene_.session.curves();
     const PageFrame& frame = scene_.session.output().frame;
     if (curve >= std::ssize(curves)) return std::nullopt;
-    const int contour = curves[static_cast<std::size_t>(curve)].contour;
+    const int contour = curves[curve].contour;
     double nearest = std::numeric_limits<double>::infinity();
     std::optional<Vec2> found;
     for (const TracedCurve& one : curves) {

@@ -71,8 +71,7 @@ class SelectTool final : public CanvasTool {
         QCoreApplication::translate("CurveCanvas", "Click to select %1.").arg(curveName(scene_.session, curve));
     // A line that fairing has not moved is told from one that was forgotten.
     if (judgedIn(scene_.view) != Judged::Result) return text;
-    return (text + QLatin1Char(' ') + whyLeftAsDrawn(scene_.session.curves()[static_cast<std::size_t>(curve)]))
-        .trimmed();
+    return (text + QLatin1Char(' ') + whyLeftAsDrawn(scene_.session.curves()[curve])).trimmed();
   }
 
   bool isOver_ = false;

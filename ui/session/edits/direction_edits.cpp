@@ -15,7 +15,7 @@ std::optional<std::size_t> pieceNumber(const EditorSession& session, int curve) 
   const auto curves = session.curves();
   const auto& pieces = session.output().pieces;
   if (!pieces || curve < 0 || curve >= std::ssize(curves)) return std::nullopt;
-  const int piece = curves[static_cast<std::size_t>(curve)].piece;
+  const int piece = curves[curve].piece;
   if (piece < 0 || piece >= std::ssize(pieces->pieces)) return std::nullopt;
   return static_cast<std::size_t>(piece);
 }
@@ -35,7 +35,7 @@ std::vector<CurveCourse> curveCourses(const EditorSession& session) {
     course.isTurned = wanted && wanted->isTurned;
     const int contour = output.pieces->pieces[*piece].contour;
     if (contour < 0 || contour >= std::ssize(output.contours->contours)) continue;
-    course.isOfClosedLine = output.contours->contours[static_cast<std::size_t>(contour)].closed;
+    course.isOfClosedLine = output.contours->contours[contour].closed;
     const auto start = owners.startOfContour.find(contour);
     if (start != owners.startOfContour.end()) course.startPx = session.recipe().starts[start->second].positionPx;
   }

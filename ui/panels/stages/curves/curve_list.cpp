@@ -138,7 +138,7 @@ void CurveList::refresh() {
   while (count() > static_cast<int>(curves.size())) delete takeItem(count() - 1);
   while (count() < static_cast<int>(curves.size())) addItem(QString());
   for (int i = 0; i < count(); ++i) {
-    const TracedCurve& curve = curves[static_cast<std::size_t>(i)];
+    const TracedCurve& curve = curves[i];
     const CurveFigures& figures = judgedFigures(curve, curve.included ? judged_ : Judged::Sketched);
     const QString whyStill = judged_ == Judged::Result ? whyLeftAsDrawn(curve) : QString();
     const QString shape = curve.construct.isCircle ? tr(", circle")

@@ -26,7 +26,7 @@ ComparedFigures figuresOf(const TracedCurve& curve) {
 /// How a pinned curve was made: in its own way or the common one.
 ConstructMethod methodOf(const PinnedResult& pinned, const TracedCurve& curve) {
   const auto owners = assignChoices(*pinned.pieces, pinned.recipe.choices).ofPiece;
-  const auto own = owners[static_cast<std::size_t>(curve.piece)];
+  const auto own = owners[curve.piece];
   return own ? pinned.recipe.choices[*own].method.value_or(pinned.recipe.construct.method)
              : pinned.recipe.construct.method;
 }
