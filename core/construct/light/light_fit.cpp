@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/construct/light/light_matrix.h"
 #include "core/construct/light/light_system.h"
@@ -54,17 +55,17 @@ class LightProblem final : public LevenbergProblem {
     return cost_.squares;
   }
   double tryStep(double damping) override {
-    const auto step = matrix_.solveDamped(damping, -gradient_);
+    auto step = matrix_.solveDamped(damping, -gradient_);
     if (!step) return std::numeric_limits<double>::infinity();
-    step_ = *step;
-    trial_ = moved();
+    step_ = std::move(*step);
+    moveTrial();
     trialCost_ = system_.evaluate(trial_, weights_);
     return trialCost_.sound ? trialCost_.squares : std::numeric_limits<double>::infinity();
   }
   void accept() override {
     cost_ = trialCost_;
     fit_.worst = cost_.worst;
-    fit_.shape = std::move(trial_);
+    std::swap(fit_.shape, trial_);
   }
   bool isReached() const override {
     return cost_.worst <= ask_.reach * ask_.tolerance && cost_.wrongSign < kRowsReached && cost_.ends < kRowsReached;
@@ -91,12 +92,13 @@ class LightProblem final : public LevenbergProblem {
     return {fit_.reached ? Ended::Reached : context_.isCancelled() ? Ended::Failed : Ended::Slow, run.iterations};
   }
 
-  LightShape moved() const {
-    LightShape trial = fit_.shape;
+  void moveTrial() {
+    LightShape& trial = trial_;
+    trial = fit_.shape;
     for (std::size_t i = 0; i < trial.points.size(); ++i) {
       trial.points[i] += step_.segment<2>(2 * static_cast<Eigen::Index>(i));
     }
-    if (trial.spans() == 1) return trial;
+    if (trial.spans() == 1) return;
     double mean = 0.0;
     for (std::size_t i = 0; i < trial.logLengths.size(); ++i) {
       const double moved = step_[system_.firstLength() + static_cast<Eigen::Index>(i)];
@@ -104,7 +106,6 @@ class LightProblem final : public LevenbergProblem {
       mean += trial.logLengths[i] / trial.spans();
     }
     for (double& q : trial.logLengths) q = std::clamp(q - mean, -kMostLogLength, kMostLogLength);
-    return trial;
   }
 
   const RunContext& context_;

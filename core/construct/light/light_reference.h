@@ -22,9 +22,8 @@ struct LightSample {
 /// The nearest sample of a place and the place's coordinates there.
 struct LightFoot {
   int index = 0;
-  double offset = 0.0;          ///< Signed distance from the curve, positive on its left (second order in `along`).
-  double along = 0.0;           ///< From the sample along its tangent.
-  Vec2 normal = Vec2::UnitY();  ///< Unit normal of the curve at the foot: the gradient of `offset`.
+  double offset = 0.0;  ///< Signed distance from the curve, positive on its left (second order in `along`).
+  double along = 0.0;   ///< From the sample along its tangent.
 };
 
 /// A dense curve as samples at nearly equal steps: what a light curve is measured against. A closed one begins where
@@ -51,6 +50,8 @@ class LightReference {
 
   /// The foot of a place, looked for from sample `hint` on, downhill only (both ways; around the seam where closed).
   LightFoot foot(const Vec2& place, int hint) const;
+  /// Unit normal of the curve at a foot: the gradient of its `offset`.
+  Vec2 normalAt(const LightFoot&) const;
   /// Sample nearest to arc length s (wrapped where closed, else clamped).
   int indexAt(double s) const;
   /// Linear between the samples; s wrapped where closed, else clamped.
@@ -64,6 +65,7 @@ class LightReference {
   void beginWhereSteepest();
 
   std::vector<LightSample> samples_;
+  std::vector<Vec2> points_;  ///< Of the samples, side by side.
   bool closed_ = false;
   double length_ = 0.0, diagonal_ = 0.0, kappaMax_ = 0.0;
 };
