@@ -144,17 +144,7 @@ class Trace {
     if (arguments_.report.empty()) return {};
     ReportExtras extras;
     extras.readMilliseconds = readMilliseconds_;
-    if (out_.faired && arguments_.reportTargets) {
-      const auto& curves = out_.faired->curves;
-      extras.targets.resize(curves.size());
-      extras.targetProblems.resize(curves.size());
-      auto targets = targetsForAll(curves, context_);
-      for (std::size_t i = 0; i < curves.size(); ++i) {
-        if (!curves[i].included) continue;
-        if (!targets[i]) extras.targetProblems[i] = targets[i].error().message;
-        if (targets[i]) extras.targets[i] = std::move(*targets[i]);
-      }
-    }
+    if (out_.faired && arguments_.reportTargets) extras.targets = targetsForAll(out_.faired->curves, context_);
     extras.series = arguments_.reportSeries;
     extras.explanation = explanation_;
     extras.peakMemoryBytes = peakMemoryBytes();

@@ -220,11 +220,12 @@ Json curveToJson(const PipelineOutput& out, const Recipe& recipe, const ReportEx
     json["sketched_curve"] = curveSeriesToJson(c.sketched);
     if (!(c.faired == c.sketched)) json["faired_curve"] = curveSeriesToJson(c.faired);
   }
-  if (index < extras.targets.size() && extras.targets[index]) {
-    json["recommended_degree"] = advisedDegree(*extras.targets[index], c.fairingUsed.toleranceMm);
-    json["targets"] = targetsToJson(*extras.targets[index], c.fairingUsed.toleranceMm);
-  } else if (index < extras.targetProblems.size() && !extras.targetProblems[index].empty()) {
-    json["targets_problem"] = extras.targetProblems[index];
+  if (!c.included || index >= extras.targets.size()) return json;
+  if (const auto& targets = extras.targets[index]) {
+    json["recommended_degree"] = advisedDegree(*targets, c.fairingUsed.toleranceMm);
+    json["targets"] = targetsToJson(*targets, c.fairingUsed.toleranceMm);
+  } else {
+    json["targets_problem"] = targets.error().message;
   }
   return json;
 }
