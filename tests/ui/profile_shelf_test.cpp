@@ -68,6 +68,7 @@ class Shelf : public test::WindowFixture {
   /// Drops what the shelf gives for its first entry. @return whether the drawing took it.
   bool drop(const Vec2& px) {
     if (shelf()->count() == 0) return false;
+    QCoreApplication::processEvents();  // the drawing makes room for the panels of the stage
     auto* canvas = find<CurveCanvas>("canvas");
     const std::unique_ptr<QMimeData> data(shelf()->model()->mimeData({shelf()->model()->index(0, 0)}));
     const QPointF at = canvas->toWidget(px);
