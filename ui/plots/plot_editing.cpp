@@ -134,7 +134,7 @@ bool PlotEditing::press(const QMouseEvent& event) {
     }
     if (index_ < 0) return false;
     const bool isNear = spacing * plot_->axisRect()->width() < 2.0 * kReachPx;
-    if (!isNear && isTargetDrawn(session_)) {
+    if (!isNear) {
       const auto above = std::upper_bound(profile.begin(), profile.end(), f,
                                           [](double x, const ProfilePoint& p) { return x < p.fraction; });
       const double sign = profile[index_].kappa;

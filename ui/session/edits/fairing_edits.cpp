@@ -10,6 +10,7 @@
 #include "core/curve/curvature.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_report.h"
+#include "core/fairing/profile/profile_points.h"
 #include "core/fairing/target/low_pass.h"
 #include "core/fairing/target/natural_spans.h"
 #include "ui/session/edits/piece_choice.h"
@@ -17,7 +18,10 @@
 namespace batten {
 namespace {
 
+/// Even points on the smoothed curvature of a sketch without a target.
 constexpr int kOpenPoints = 7, kClosedPoints = 8;
+/// Of the tolerance: beginning to draw moves the curve by no more than this.
+constexpr double kStillShare = 0.05;
 /// A split nearer to an end than this share of the length would part nothing.
 constexpr double kLeastPart = 5e-3;
 
@@ -222,19 +226,19 @@ std::vector<ProfilePoint> profileToBeginWith(const EditorSession& session) {
   const auto targets = session.targets();
   const int degree = degreeOf(asked.target).value_or(targets ? targets->recommendedDegree : 0);
   const TargetProfile* target = targets && degree > 0 ? &targets->targets.profiles[degree - 1] : nullptr;
+  if (target && target->valid)
+    return pointsAlong(*target, targets->splits, curve.closed, ArcLength(curve.sketched).total(),
+                       kStillShare * asked.toleranceMm);
   std::vector<double> sketch;
   const int count = curve.closed ? kClosedPoints : kOpenPoints;
   constexpr int kSamples = 400;
-  if (!target || !target->valid) {
-    for (const CurveSample& one : sampleByArcLength(curve.sketched, kSamples + 1)) sketch.push_back(one.kappa);
-    if (curve.closed) sketch.pop_back();
-    sketch = lowPass(sketch, 1.0 / kSamples, 2.0 / count, curve.closed);
-  }
+  for (const CurveSample& one : sampleByArcLength(curve.sketched, kSamples + 1)) sketch.push_back(one.kappa);
+  if (curve.closed) sketch.pop_back();
+  sketch = lowPass(sketch, 1.0 / kSamples, 2.0 / count, curve.closed);
   for (int i = 0; i < count; ++i) {
     const double f = static_cast<double>(i) / (curve.closed ? count : count - 1);
-    const auto at =
-        std::min(static_cast<std::size_t>(std::lround(f * kSamples)), sketch.empty() ? 0 : sketch.size() - 1);
-    points.push_back({f, sketch.empty() ? target->curvatureAt(f) : sketch[at]});
+    const auto at = std::min(static_cast<std::size_t>(std::lround(f * kSamples)), sketch.size() - 1);
+    points.push_back({f, sketch[at]});
   }
   return points;
 }
