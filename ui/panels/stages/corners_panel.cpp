@@ -273,15 +273,13 @@ void CornersPanel::showFound() {
                         : counted(found, tr("1 certain corner was found (diamond). Click it to exclude it."),
                                   tr("%1 certain corners were found (diamonds). Click one to exclude it."));
   // A mark wins over an excluded corner within its reach.
-  const auto isMarked = [&](const Vec2& place) {
-    const Recipe& recipe = session_.recipe();
-    return std::any_of(recipe.cornerMarks.begin(), recipe.cornerMarks.end(), [&](const CornerMark& mark) {
+  const Recipe& recipe = session_.recipe();
+  const auto excluded = std::count_if(refused.begin(), refused.end(), [&](const Vec2& place) {
+    return std::none_of(recipe.cornerMarks.begin(), recipe.cornerMarks.end(), [&](const CornerMark& mark) {
       return (mark.positionPx - place).norm() <= recipe.corners.snapDistancePx;
     });
-  };
-  const auto excluded =
-      refused.size() - static_cast<std::size_t>(std::count_if(refused.begin(), refused.end(), isMarked));
-  if (excluded > 0) lines += counted(static_cast<qint64>(excluded), tr("1 is excluded."), tr("%1 are excluded."));
+  });
+  if (excluded > 0) lines += counted(excluded, tr("1 is excluded."), tr("%1 are excluded."));
   found_->setText(lines.join(QLatin1Char(' ')));
   found_->setVisible(!lines.empty());
   restore_->setVisible(!refused.empty());
