@@ -251,7 +251,15 @@ void CurveList::judge() {
       }
       return all;
     });
-    if (found) tell(*found, true);
+    if (found) return tell(*found, true);
+    if (token.isCancelled() || !list) return;
+    // What could not be found may be asked for again.
+    QMetaObject::invokeMethod(
+        list.data(),
+        [list, wanted] {
+          if (list && list->asked_ == wanted) list->asked_.reset();
+        },
+        Qt::QueuedConnection);
   });
 }
 
