@@ -71,7 +71,7 @@ ShapeWindow::ShapeWindow(EditorSession& session, QWidget* parent)
   layout->addWidget(table_);
   layout->addWidget(recommendation_);
   figures_->setHeader({}, {tr("radius"), tr("curvature")});
-  table_->setHeader(tr("profile"), {tr("S"), tr("r"), tr("difference, %"), tr("needs, mm"), tr("extrema"), tr("AICc")});
+  table_->setHeader(tr("profile"), {tr("S"), tr("r"), tr("rms, %"), tr("needs, mm"), tr("extrema"), tr("AICc")});
   connect(first_, &QComboBox::currentIndexChanged, this, &ShapeWindow::compare);
   connect(second_, &QComboBox::currentIndexChanged, this, &ShapeWindow::compare);
   connect(quantity_, &SegmentedControl::chosen, this, [this](int index) {

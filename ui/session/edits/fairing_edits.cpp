@@ -4,12 +4,15 @@
 #include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_report.h"
+#include "core/fairing/followed_target.h"
 #include "core/fairing/profile/profile_points.h"
 #include "core/fairing/target/low_pass.h"
 #include "core/fairing/target/natural_spans.h"
@@ -217,17 +220,44 @@ bool isTargetDrawn(const EditorSession& session) {
   return asked.mode == FairingMode::Target && asked.target == FairingTarget::Drawn && isUsable(session);
 }
 
+namespace {
+
+struct TargetOnCurve {
+  TargetProfile profile;
+  std::vector<double> splits;
+};
+
+/// The target that the selected curve follows, or that it would follow; none where there is none yet.
+std::optional<TargetOnCurve> targetOn(const EditorSession& session, const FairingParams& asked) {
+  const TracedCurve& curve = *session.selected();
+  const FairingParams& used = curve.fairingUsed;
+  const bool isFollowed =
+      asked.mode == FairingMode::Target && used.mode == FairingMode::Target && used.target == asked.target;
+  const auto targets = session.targets();
+  const bool isOneOfSix = isPolynomial(asked.target) && !(isFollowed && !used.spanTargets.empty());
+  if (targets && !targets->span && isOneOfSix) {
+    const bool isKnown = isFollowed && curve.fairing.targetDegree > 0;
+    const int degree =
+        degreeOf(asked.target).value_or(isKnown ? curve.fairing.targetDegree : targets->recommendedDegree);
+    if (degree > 0 && targets->targets.profiles[degree - 1].valid)
+      return TargetOnCurve{targets->targets.profiles[degree - 1], targets->splits};
+  }
+  if (!isFollowed) return std::nullopt;
+  auto followed = followedTarget(curve.fairingStart(), curve.closed, used, curve.fairing);
+  if (!followed || !followed->valid) return std::nullopt;
+  return TargetOnCurve{std::move(*followed), curve.fairing.targetSplits};
+}
+
+}  // namespace
+
 std::vector<ProfilePoint> profileToBeginWith(const EditorSession& session) {
   std::vector<ProfilePoint> points;
   if (!isUsable(session)) return points;
   const TracedCurve& curve = *session.selected();
   const FairingParams asked = fairingAsked(session);
   if (asked.target == FairingTarget::Drawn && asked.profile.size() >= 2) return asked.profile;
-  const auto targets = session.targets();
-  const int degree = degreeOf(asked.target).value_or(targets ? targets->recommendedDegree : 0);
-  const TargetProfile* target = targets && degree > 0 ? &targets->targets.profiles[degree - 1] : nullptr;
-  if (target && target->valid)
-    return pointsAlong(*target, targets->splits, curve.closed, ArcLength(curve.sketched).total(),
+  if (const auto target = targetOn(session, asked))
+    return pointsAlong(target->profile, target->splits, curve.closed, ArcLength(curve.sketched).total(),
                        kStillShare * asked.toleranceMm);
   std::vector<double> sketch;
   const int count = curve.closed ? kClosedPoints : kOpenPoints;
