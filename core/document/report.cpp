@@ -112,10 +112,12 @@ Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
 Json logAestheticToJson(const FairingReport& r) {
   Json list = Json::array();
   for (const LogAestheticSpan& one : r.logAesthetic) {
+    // Lambda is relative to the radius at the start; a span that bends both ways or is straight at an end has none.
+    const bool hasLambda = one.startRadiusMm * one.endRadiusMm > 0.0;
     list.push_back({{"from", number(one.from)},
                     {"to", number(one.to)},
                     {"alpha", number(one.alpha)},
-                    {"lambda", number(one.lambda)},
+                    {"lambda", hasLambda ? number(one.lambda) : Json(nullptr)},
                     {"start_radius_mm", number(one.startRadiusMm)},
                     {"end_radius_mm", number(one.endRadiusMm)}});
   }

@@ -33,7 +33,7 @@ enum class FairingMeans {
 /// Which target is recommended.
 enum class TargetChoice {
   Simplest,    ///< The lowest degree that is met within the tolerance without a curvature extremum more (default).
-  Similarity,  ///< The highest similarity S (000, 003), which rises with the degree.
+  Similarity,  ///< The highest similarity S (000, 003), which mostly rises with the degree.
 };
 
 /// What target mode follows. The values are the numbers that recipes hold.

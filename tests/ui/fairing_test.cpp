@@ -128,12 +128,15 @@ TEST_F(FairingWindow, TheTargetIsDrawnByDraggingItsPoints) {
   window_->findChild<CurvePlots*>()->setTab(PlotTab::Curvature);
   click("fairing.mode.target");
   ASSERT_TRUE(settle());
+  const double needed = session().selected()->fairing.neededMm;
   click("fairing.draw");
   ASSERT_EQ(session().recipe().choices.size(), 1u);
   EXPECT_EQ(choice().target, FairingTarget::Drawn);
   const std::vector<ProfilePoint> before = choice().profile;
   ASSERT_GE(before.size(), 2u);
   ASSERT_TRUE(settle());
+  EXPECT_LT(session().selected()->fairing.neededMm, 1.1 * needed + 0.5 * used().toleranceMm)
+      << "what is drawn first is the target that was followed";
   ASSERT_TRUE(waitUntil([this] { return placeOf(QStringLiteral("Drag the point"), 120).x() > 0; }));
   auto* plot = find<QWidget>("plot");
   const QPoint handle = placeOf(QStringLiteral("Drag the point"), 120) + QPoint(3, 3);

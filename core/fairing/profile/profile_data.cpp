@@ -43,9 +43,9 @@ ProfileData profileData(std::vector<double> perimeter, std::vector<double> kappa
   }
   if (left && right) {
     data.problem =
-        "The curvature changes sign: a radius has no profile there. Use curvature, or split at the inflection.";
+        "The curvature changes sign: a radius has no profile there. Under More, choose Profile of: Curvature.";
   } else if (!left && !right) {
-    data.problem = "The curve is straight: its radius has no value. Use curvature.";
+    data.problem = "The curve is straight: its radius has no value. Under More, choose Profile of: Curvature.";
   }
   // Straight parts of a curve that turns one way take that way's sign.
   data.values = data.radius;

@@ -22,7 +22,7 @@ void appendMethod(std::vector<Parameter>& table) {
       kCurves,
       {"construct.start", "Start from", "",
        "Quintic NURBS, Bézier path, control polygon: starts from the edge points, or from their "
-       "true and fair fit, which is free of noise."},
+       "true and fair fit, which has little of their noise."},
       {{"line", "Edge points", ConstructStart::Line}, {"fit", "True and fair fit", ConstructStart::Fit}},
       [](auto& r) -> auto& { return r.construct.start; }));
 }
@@ -44,7 +44,9 @@ void appendPathsOfThePapers(std::vector<Parameter>& table) {
   table.push_back(choice<GradientUse>(
       kCurves,
       {"construct.gradients", "Gradients", "",
-       "Quintic NURBS: which tangent directions are used in addition to the points.", true},
+       "Quintic NURBS: which tangent directions are used in addition to the points; down-weighted: the lengths of the "
+       "derivatives count little.",
+       true},
       {{"all", "All", GradientUse::All},
        {"four", "Two at each end", GradientUse::Four},
        {"natural-ends", "None, natural ends", GradientUse::NaturalEnds},
@@ -53,7 +55,7 @@ void appendPathsOfThePapers(std::vector<Parameter>& table) {
   table.push_back(boolean(
       kCurves,
       {"construct.equalise", "Equal curvature at joints", "",
-       "Bézier path without low pass: both sides of a joint get the mean of their curvatures. "
+       "Bézier path with smoothing length 0: both sides of a joint get the mean of their curvatures. "
        "Off: the curvature jumps at joints, as in the figures of the paper.",
        true},
       [](auto& r) -> auto& { return r.construct.equaliseJoints; }));
@@ -67,7 +69,7 @@ void appendPathsOfThePapers(std::vector<Parameter>& table) {
       [](auto& r) -> auto& { return r.construct.ends; }));
   table.push_back(real(
       kCurves,
-      {"construct.lowpass", "Low pass", "stations",
+      {"construct.lowpass", "Smoothing length", "stations",
        "Bézier path: length over which its curvature is smoothed. 0 is the path as in the paper; larger is smoother."},
       {0.0, 8.0, 0.25, 2}, [](auto& r) -> auto& { return r.construct.lowPass; }));
   table.push_back(real(
@@ -159,7 +161,7 @@ void appendFit(std::vector<Parameter>& table) {
   table.push_back(real(
       kCurves,
       {"construct.detail", "Detail", "",
-       "Light curves: 0 follows the ink; larger values remove larger bumps, up to a quarter of "
+       "Light curves: 0 follows the ink; larger values remove larger deviations, up to a quarter of "
        "the ink width, and keep sharp corners. Taken in steps of 0.1."},
       {0.0, 1.0, 0.1, 2}, [](auto& r) -> auto& { return r.construct.detail; }));
   table.push_back(real(

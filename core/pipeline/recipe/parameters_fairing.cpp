@@ -62,7 +62,7 @@ void appendModeAndTarget(std::vector<Parameter>& table) {
   table.push_back(choice<FairingMode>(
       kFaired,
       {"fairing.mode", "Fairing", "",
-       "None; towards a curvature profile; least variation of curvature within the tolerance; "
+       "None; towards a curvature profile; smooth: least variation of curvature within the tolerance; "
        "monotone curvature between few extrema; or without short waves."},
       {{"none", "None", FairingMode::None},
        {"target", "Target", FairingMode::Target},
@@ -91,7 +91,7 @@ void appendModeAndTarget(std::vector<Parameter>& table) {
       {"fairing.choose", "Recommended target", "",
        "How the recommended target is chosen: the simplest one reached within the tolerance "
        "without added extrema, or the one with the highest similarity S, as in the papers; S "
-       "rises with the degree.",
+       "mostly rises with the degree.",
        true},
       {{"simplest", "Simplest", TargetChoice::Simplest}, {"similarity", "Highest S (paper)", TargetChoice::Similarity}},
       [](auto& r) -> auto& { return r.fairing.targetChoice; }));
@@ -107,7 +107,7 @@ void appendToleranceAndMeans(std::vector<Parameter>& table) {
   table.push_back(choice<TolerancePolicy>(
       kFaired,
       {"fairing.spend", "Use the tolerance", "",
-       "Smooth: as needed removes only waves that the line does not support; all of it smooths "
+       "Smooth: as needed removes only extrema that the line does not support; all of it smooths "
        "as far as the tolerance allows."},
       {{"needed", "As needed", TolerancePolicy::AsNeeded}, {"all", "All of it", TolerancePolicy::All}},
       [](auto& r) -> auto& { return r.fairing.tolerancePolicy; }));
@@ -142,7 +142,7 @@ void appendProfiles(std::vector<Parameter>& table) {
       kFaired,
       {"fairing.spans", "Spans", "",
        "One polynomial between consecutive significant curvature extrema, or one for the whole "
-       "curve, as in the papers."},
+       "curve, as in the papers. Radius profiles and edge lengths always have one."},
       {{"natural", "Natural", TargetSpans::Natural}, {"whole", "Whole curve", TargetSpans::Whole}},
       [](auto& r) -> auto& { return r.fairing.targets.spans; }));
   table.push_back(choice<TargetQuantity>(

@@ -244,10 +244,8 @@ void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, 
     }
     const bool done = roundOne(at, recipe.cornerMarks[mark], note);
     if (!done) note = kStaysSharp;
-    if (!note.empty()) addNote(at.before->fairing.note, note);
-    for (TracedCurve* curve : {at.before, at.behind}) {
-      if (!done) addNote(curve->fairing.note, note);
-    }
+    if (note.empty()) continue;
+    for (TracedCurve* curve : {at.before, at.behind}) addNote(curve->fairing.note, note);
   }
   for (TracedCurve& curve : set.curves) {
     const auto piece = static_cast<std::size_t>(curve.piece);

@@ -104,7 +104,9 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Fairing"), this));
   scope_->setNames(QStringLiteral("fairing.scope"), {QStringLiteral("all"), QStringLiteral("one")});
-  scope_->setToolTip(tr("Whether the settings below apply to the whole drawing or only to the selected curve."));
+  scope_->setToolTip(tr(
+      "Whether mode, tolerance, the settings of the mode and ends apply to the whole drawing or only to the selected "
+      "curve."));
   layout->addWidget(scope_);
   mode_->setNames(QStringLiteral("fairing.mode"), wordsOf(modeParameter()));
   mode_->setToolTip(
@@ -210,12 +212,12 @@ void FairingPanel::buildLinks() {
   split_->setText(tr("Natural spans"));
   split_->setToolTip(
       tr("A polynomial from each extremum of the curvature to the next. Extrema whose removal would move the curve by "
-         "less than a tenth of the tolerance do not count."));
+         "less than a tenth of the tolerance do not count. Radius profiles and edge lengths have one polynomial."));
   unsplit_->setText(tr("One polynomial for the whole curve"));
   unsplit_->setToolTip(tr("Joins all spans, as in the papers."));
   whole_->setText(tr("Targets for the whole curve"));
   whole_->setToolTip(tr("The targets apply to the span you clicked. Click here to return to the whole curve."));
-  draw_->setToolTip(tr("Converts the target to points that can be dragged in the curvature plot."));
+  draw_->setToolTip(tr("Converts the target to points that can be dragged in the plot of curvature or radius."));
   logAesthetic_->setToolTip(
       tr("In each span, radius to the power alpha is linear in arc length: clothoids, spirals, "
          "involutes. Alpha is under More."));
@@ -344,7 +346,7 @@ void FairingPanel::refreshFigures() {
         faired ? FigureTable::Cell{QString::number(report.roundedMm > 0.0 ? report.extremaAfter : after.extrema)}
                : none},
        tr("Local maxima and minima of the curvature: fewer is fairer. Those of rounded corners are "
-          "not counted.")},
+          "counted in the list and in files, not here.")},
       {tr("Moved at most, mm"),
        {none, faired ? FigureTable::Cell{mm(report.maxDeviationMm), over} : none},
        tr("Largest distance of the faired curve from the sketched one; never above the tolerance.")},
@@ -365,8 +367,9 @@ void FairingPanel::refreshFigures() {
     rows.push_back({tr("Similarity S"),
                     {{similarityText(profile.similarity)},
                      report.similarityAfter ? FigureTable::Cell{similarityText(*report.similarityAfter)} : none},
-                    tr("Similarity of the sketched radius profile to the target; 1 is identical. Faired: "
-                       "similarity of the faired to the sketched radius profile.")});
+                    tr("Similarity of the sketched profile to the target; 1 is identical. Faired: similarity "
+                       "of the faired to the sketched profile. Of radii, or where the line has inflections, of "
+                       "curvatures.")});
     rows.push_back({tr("Monotone target"),
                     {none, {profile.isMonotone ? tr("yes") : tr("no")}},
                     tr("A monotone profile adds no curvature extremum.")});
@@ -374,12 +377,15 @@ void FairingPanel::refreshFigures() {
   figures_->setRows(std::move(rows));
   QString text = isLeftAsDrawn(*curve) ? whyLeftAsDrawn(*curve) : QString::fromStdString(report.note);
   if (faired && !report.withinTolerance) {
-    if (text.isEmpty()) text = tr("The tolerance is too small to reach the target.");
+    if (text.isEmpty())
+      text = curve->fairingUsed.mode == FairingMode::LowPass
+                 ? tr("The tolerance is too small to follow the filtered curvature.")
+                 : tr("The tolerance is too small to reach the target.");
     const bool isMore = report.neededMm > curve->fairingUsed.toleranceMm;
     const bool isSensible = report.neededMm <= mostSensibleToleranceMm(curve->sketched);
     raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(report.neededMm)));
     raise_->setVisible(isMore && isSensible);
-    if (isMore && !isSensible)
+    if (isMore && !isSensible && curve->fairingUsed.mode == FairingMode::Target)
       text += tr(" Reaching it would move this curve by %1, which changes its shape: %2.")
                   .arg(millimetres(report.neededMm), insteadOf(curve->fairingUsed.target));
   }

@@ -4,12 +4,16 @@
 #include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_report.h"
+#include "core/fairing/followed_target.h"
+#include "core/fairing/profile/profile_points.h"
 #include "core/fairing/target/low_pass.h"
 #include "core/fairing/target/natural_spans.h"
 #include "ui/session/edits/piece_choice.h"
@@ -17,7 +21,10 @@
 namespace batten {
 namespace {
 
+/// Even points on the smoothed curvature of a sketch without a target.
 constexpr int kOpenPoints = 7, kClosedPoints = 8;
+/// Of the tolerance: beginning to draw moves the curve by no more than this.
+constexpr double kStillShare = 0.05;
 /// A split nearer to an end than this share of the length would part nothing.
 constexpr double kLeastPart = 5e-3;
 
@@ -213,28 +220,55 @@ bool isTargetDrawn(const EditorSession& session) {
   return asked.mode == FairingMode::Target && asked.target == FairingTarget::Drawn && isUsable(session);
 }
 
+namespace {
+
+struct TargetOnCurve {
+  TargetProfile profile;
+  std::vector<double> splits;
+};
+
+/// The target that the selected curve follows, or that it would follow; none where there is none yet.
+std::optional<TargetOnCurve> targetOn(const EditorSession& session, const FairingParams& asked) {
+  const TracedCurve& curve = *session.selected();
+  const FairingParams& used = curve.fairingUsed;
+  const bool isFollowed =
+      asked.mode == FairingMode::Target && used.mode == FairingMode::Target && used.target == asked.target;
+  const auto targets = session.targets();
+  const bool isOneOfSix = isPolynomial(asked.target) && !(isFollowed && !used.spanTargets.empty());
+  if (targets && !targets->span && isOneOfSix) {
+    const bool isKnown = isFollowed && curve.fairing.targetDegree > 0;
+    const int degree =
+        degreeOf(asked.target).value_or(isKnown ? curve.fairing.targetDegree : targets->recommendedDegree);
+    if (degree > 0 && targets->targets.profiles[degree - 1].valid)
+      return TargetOnCurve{targets->targets.profiles[degree - 1], targets->splits};
+  }
+  if (!isFollowed) return std::nullopt;
+  auto followed = followedTarget(curve.fairingStart(), curve.closed, used, curve.fairing);
+  if (!followed || !followed->valid) return std::nullopt;
+  return TargetOnCurve{std::move(*followed), curve.fairing.targetSplits};
+}
+
+}  // namespace
+
 std::vector<ProfilePoint> profileToBeginWith(const EditorSession& session) {
   std::vector<ProfilePoint> points;
   if (!isUsable(session)) return points;
   const TracedCurve& curve = *session.selected();
   const FairingParams asked = fairingAsked(session);
   if (asked.target == FairingTarget::Drawn && asked.profile.size() >= 2) return asked.profile;
-  const auto targets = session.targets();
-  const int degree = degreeOf(asked.target).value_or(targets ? targets->recommendedDegree : 0);
-  const TargetProfile* target = targets && degree > 0 ? &targets->targets.profiles[degree - 1] : nullptr;
+  if (const auto target = targetOn(session, asked))
+    return pointsAlong(target->profile, target->splits, curve.closed, ArcLength(curve.sketched).total(),
+                       kStillShare * asked.toleranceMm);
   std::vector<double> sketch;
   const int count = curve.closed ? kClosedPoints : kOpenPoints;
   constexpr int kSamples = 400;
-  if (!target || !target->valid) {
-    for (const CurveSample& one : sampleByArcLength(curve.sketched, kSamples + 1)) sketch.push_back(one.kappa);
-    if (curve.closed) sketch.pop_back();
-    sketch = lowPass(sketch, 1.0 / kSamples, 2.0 / count, curve.closed);
-  }
+  for (const CurveSample& one : sampleByArcLength(curve.sketched, kSamples + 1)) sketch.push_back(one.kappa);
+  if (curve.closed) sketch.pop_back();
+  sketch = lowPass(sketch, 1.0 / kSamples, 2.0 / count, curve.closed);
   for (int i = 0; i < count; ++i) {
     const double f = static_cast<double>(i) / (curve.closed ? count : count - 1);
-    const auto at =
-        std::min(static_cast<std::size_t>(std::lround(f * kSamples)), sketch.empty() ? 0 : sketch.size() - 1);
-    points.push_back({f, sketch.empty() ? target->curvatureAt(f) : sketch[at]});
+    const auto at = std::min(static_cast<std::size_t>(std::lround(f * kSamples)), sketch.size() - 1);
+    points.push_back({f, sketch[at]});
   }
   return points;
 }

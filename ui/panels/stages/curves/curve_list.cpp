@@ -146,10 +146,10 @@ void CurveList::refresh() {
                           : curve.closed           ? tr(", closed")
                                                    : QString();
     const QString name = curveName(session_, i) + shape;
-    const QString right = !curve.included ? tr("excluded")
-                          : !whyStill.isEmpty()
-                              ? tr("unchanged")
-                              : tr("%1 extr. · %2 pts").arg(figures.extrema).arg(figures.controlPoints);
+    const QString counts = tr("%1 extr. · %2 pts").arg(figures.extrema).arg(figures.controlPoints);
+    const QString right = !curve.included ? tr("excluded") : !whyStill.isEmpty() ? tr("= %1").arg(counts) : counts;
+    // The row has no room for the word; it is the first of the tool tip.
+    const QString spoken = whyStill.isEmpty() || !curve.included ? right : tr("unchanged, %1").arg(counts);
     const QString length = tr("Length %1").arg(millimetres(figures.lengthMm));
     item(i)->setText(name);
     item(i)->setData(IncludedRole, curve.included);
@@ -159,10 +159,13 @@ void CurveList::refresh() {
     QStringList said;
     const QString origin = curveOrigin(session_, i);
     const QString whence = origin.isEmpty() ? QString() : name + QStringLiteral(", ") + origin;
-    for (const QString& one : {whence, whyStill, warning, length})
+    const QString faired = judged_ == Judged::Result ? QString::fromStdString(curve.fairing.note) : QString();
+    const QString fairingSays = curve.included && faired != whyStill ? faired : QString();
+    for (const QString& one : {whence, whyStill, fairingSays, warning, length})
       if (!one.isEmpty()) said << one;
     item(i)->setData(OwnTipRole, said.join(QLatin1Char('\n')));
-    item(i)->setData(OwnTextRole, (QStringList{name + QStringLiteral(", ") + right} + said).join(QStringLiteral(". ")));
+    item(i)->setData(OwnTextRole,
+                     (QStringList{name + QStringLiteral(", ") + spoken} + said).join(QStringLiteral(". ")));
   }
   setCurrentRow(session_.selectedCurve());
   showFairness();
@@ -236,14 +239,27 @@ void CurveList::judge() {
           const auto earlier = std::find_if(before->begin(), before->end(), same);
           if (earlier != before->end()) one.fairness = earlier->fairness;
         }
-        if (!one.fairness) one.fairness = curveFairness(one.curve, one.closed);
+        if (!one.fairness) {
+          // A curve that cannot be judged leaves the others theirs.
+          const auto judged = guarded<std::optional<CurveFairness>>(
+              [&]() -> Result<std::optional<CurveFairness>> { return curveFairness(one.curve, one.closed); });
+          if (judged) one.fairness = *judged;
+        }
         if (k > 0 && sinceTold.elapsed() < kTellEveryMs) continue;
         tell(all, false);
         sinceTold.restart();
       }
       return all;
     });
-    if (found) tell(*found, true);
+    if (found) return tell(*found, true);
+    if (token.isCancelled() || !list) return;
+    // What could not be found may be asked for again.
+    QMetaObject::invokeMethod(
+        list.data(),
+        [list, wanted] {
+          if (list && list->asked_ == wanted) list->asked_.reset();
+        },
+        Qt::QueuedConnection);
   });
 }
 

@@ -382,12 +382,12 @@ void CurvesPanel::refreshFigures() {
   const auto monotoneCount =
       std::count_if(made.begin(), made.end(), [](const SegmentNote& n) { return n.typical && n.monotone; });
   if (!made.empty()) {
-    const QString counts =
-        tr("%1 typical curves, %2 of them monotone, and %3 transitions; typical: %4 % of the length.")
-            .arg(typicalCount)
-            .arg(monotoneCount)
-            .arg(static_cast<qint64>(made.size()) - typicalCount)
-            .arg(100.0 * typicalShare(made), 0, 'f', 0);
+    const QString counts = tr("%1, %2 of them monotone, and %3; typical: %4 % of the length.")
+                               .arg(batten::counted(typicalCount, tr("1 typical curve"), tr("%1 typical curves")))
+                               .arg(monotoneCount)
+                               .arg(batten::counted(static_cast<qint64>(made.size()) - typicalCount, tr("1 transition"),
+                                                    tr("%1 transitions")))
+                               .arg(100.0 * typicalShare(made), 0, 'f', 0);
     text = text.isEmpty() ? counts : counts + QLatin1Char(' ') + text;
   }
   if (const auto unmet = static_cast<qint64>(curve->construct.unmetConstraints.size())) {

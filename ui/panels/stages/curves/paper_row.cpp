@@ -23,16 +23,16 @@ PaperRow::PaperRow(EditorSession& session, QWidget* parent)
     const QString id = QString::fromStdString(preset.id);
     auto* link = linkButton(preset.cost.empty() ? tr("Back") : id, QStringLiteral("curves.paper.") + id, this);
     link->setToolTip(preset.cost.empty()
-                         ? tr("Everything that the papers' ways set, back to the program's own.")
+                         ? tr("Restores the program's settings.")
                          : tr("%1: sets everything as in paper %2. %3")
                                .arg(QString::fromStdString(preset.title), id, QString::fromStdString(preset.cost)));
-    link->setAccessibleName(preset.cost.empty() ? tr("Back to the program's own way") : tr("As in paper %1").arg(id));
+    link->setAccessibleName(preset.cost.empty() ? tr("Back to the program's settings") : tr("As in paper %1").arg(id));
     links_.push_back(link);
     row->addWidget(link);
     connect(link, &QPushButton::clicked, this, [this, &preset, id] {
       Recipe after = session_.recipe();
       if (!applyPaperPreset(preset, after)) return;
-      session_.change(preset.cost.empty() ? tr("Own way") : tr("As in paper %1").arg(id), std::move(after));
+      session_.change(preset.cost.empty() ? tr("Program's settings") : tr("As in paper %1").arg(id), std::move(after));
     });
   }
   row->addStretch();
