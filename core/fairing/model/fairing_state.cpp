@@ -5,10 +5,16 @@
 #include <utility>
 
 namespace batten {
+namespace {
+
+/// The terms of an objective add up to more, whatever the order.
+constexpr double kSurelyMore = 1.0 + 1e-9;
+
+}  // namespace
 
 std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObjective& objective,
                                      const FairingCorridor& corridor, std::vector<Vec2> points,
-                                     const std::vector<SpanPlace>& feet) {
+                                     const std::vector<SpanPlace>& feet, double most) {
   FairingState state;
   state.points = std::move(points);
   state.curve = SpanCurve(setup.basis, state.points);
@@ -25,6 +31,8 @@ std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObj
   state.residual.resize(count);
   const double length = state.arc.length, domain = setup.original.end() - setup.original.start();
   const bool profile = !objective.wanted.empty();
+  double misfit = 0.0;  // so far
+  const double givesUpAt = kSurelyMore * most;
   for (int i = 0; i < count; ++i) {
     const auto at = static_cast<std::size_t>(i);
     state.jets[at] = state.curve.at(state.arc.places[at], 4);
@@ -45,6 +53,8 @@ std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObj
       if (!(std::abs(share) < 1.0)) return std::nullopt;
       state.total -= corridor.barrier / count * std::log1p(-share * share);
     }
+    misfit += state.residual[i] * state.residual[i];
+    if (misfit + state.total > givesUpAt) return std::nullopt;
   }
   state.misfit = state.residual.squaredNorm();
   state.total += state.misfit;

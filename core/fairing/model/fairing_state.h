@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -40,8 +41,10 @@ struct FairingState {
   double misfit = 0.0, total = 0.0;  ///< Sum of squared residuals; the same with the corridor.
 };
 /// Absent when the curve collapses (a vanishing derivative), is not finite or leaves the corridor of the barrier.
+/// @param most of the total: a curve of more is not evaluated to its end, and absent too.
 std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObjective& objective,
                                      const FairingCorridor& corridor, std::vector<Vec2> points,
-                                     const std::vector<SpanPlace>& feet);
+                                     const std::vector<SpanPlace>& feet,
+                                     double most = std::numeric_limits<double>::infinity());
 
 }  // namespace batten

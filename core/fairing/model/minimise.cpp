@@ -14,6 +14,8 @@ namespace batten {
 namespace {
 
 constexpr double kNoMisfit = 1e-24;  // a millionth of a millionth of the reference, squared
+/// Part of a small decrease that a step must promise, for a shorter one to be tried after it.
+constexpr double kLeastPromise = 1e-4;
 constexpr LevenbergOptions kFairingSteps{.success = 8.0,
                                          .failure = 8.0,
                                          .leastDamping = 1e-9,
@@ -50,9 +52,11 @@ class FairingProblem final : public LevenbergProblem {
     const double share = shareWithin(corridor_, state_, model_->distances(*step));
     std::vector<Vec2> points = state_.points;
     setup_.unknowns.move(share * *step, points);
-    trial_ = evaluate(setup_, objective_, corridor_, std::move(points), state_.feet);
+    promised_ = -2.0 * share * model_->gradient().dot(*step);
+    trial_ = evaluate(setup_, objective_, corridor_, std::move(points), state_.feet, state_.total);
     return trial_ ? trial_->total : std::numeric_limits<double>::infinity();
   }
+  double promised() const override { return promised_; }
   void accept() override { state_ = std::move(*trial_); }
   FairingState& state() { return state_; }
 
@@ -61,6 +65,7 @@ class FairingProblem final : public LevenbergProblem {
   const FairingObjective& objective_;
   const FairingCorridor& corridor_;
   FairingState state_;
+  double promised_ = std::numeric_limits<double>::infinity();
   std::optional<FairingState> trial_;
   std::optional<FairingModel> model_;
 };
@@ -73,6 +78,7 @@ FairingRun minimise(const FairingSetup& setup, const FairingObjective& objective
   LevenbergOptions options = kFairingSteps;
   options.iterations = limits.iterations;
   options.smallDecrease = limits.relativeDecrease;
+  options.leastPromise = kLeastPromise * limits.relativeDecrease;
   options.damping = damping;
   const LevenbergRun run = levenbergMarquardt(problem, options, context);
   const bool settled = run.why == Termination::NoProgress && problem.state().misfit <= kNoMisfit;

@@ -53,32 +53,48 @@ int extremaAsked(const FairingSetup& setup, const FairingObjective& objective) {
 
 TargetSteps::TargetSteps(const FairingSetup& setup, const FairingObjective& objective, const RunContext& context,
                          double mostMm)
-    : setup_(setup), objective_(objective), context_(context) {
-  TargetStep from{0.0, setup.points, setup.start.places, 1e-3, 0.0, 0.0, 0, Termination::NotRun};
+    : setup_(setup), objective_(objective), context_(context), long_(setup.sampleCount() > kLongCurve) {
   const auto start = evaluate(setup, objective, {}, setup.points, setup.start.places);
   if (!start) return;
-  const bool isLong = setup.sampleCount() > kLongCurve;
-  const double smallest = kSmallestWeight / setup.extent;
-  const double largest = std::max(smallest, std::sqrt(start->misfit) / (kHardlyMoved * setup.extent));
-  const double wanted = std::log(largest / smallest) / std::log(isLong ? kRoughWeightStep : kWeightStep);
-  const int count = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSteps);
-  // From the sketch to the target: each step starts from the one before, which lies near.
-  for (int i = count; i >= 0 && !context.isCancelled(); --i) {
-    const FairingLimits limits = i > 0 ? (isLong ? kRough : kWarm) : isLong ? kProbe : kFull;
-    auto step = solve(smallest * std::pow(largest / smallest, static_cast<double>(i) / count), from, limits);
+  smallest_ = kSmallestWeight / setup.extent;
+  largest_ = std::max(smallest_, std::sqrt(start->misfit) / (kHardlyMoved * setup.extent));
+  const double wanted = std::log(largest_ / smallest_) / std::log(long_ ? kRoughWeightStep : kWeightStep);
+  count_ = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSteps);
+  next_ = count_;
+  follow(mostMm);
+}
+
+void TargetSteps::goOn() {
+  if (early_) follow(std::numeric_limits<double>::infinity());
+}
+
+double TargetSteps::weightOf(int step) const {
+  return smallest_ * std::pow(largest_ / smallest_, static_cast<double>(step) / count_);
+}
+
+/// From the sketch to the target: each step starts from the one before, which lies near.
+void TargetSteps::follow(double mostMm) {
+  TargetStep from{0.0, setup_.points, setup_.start.places, 1e-3, 0.0, 0.0, 0, Termination::NotRun};
+  if (!steps_.empty()) from = steps_.front();
+  early_ = false;
+  std::reverse(steps_.begin(), steps_.end());
+  while (next_ >= 0 && !context_.isCancelled()) {
+    const int i = next_--;
+    const FairingLimits limits = i > 0 ? (long_ ? kRough : kWarm) : long_ ? kProbe : kFull;
+    auto step = solve(weightOf(i), from, limits);
     if (!step) break;
     from = *step;
     steps_.push_back(std::move(*step));
-    if (i == 0 || !(from.deviationMm > mostMm)) continue;
-    early_ = true;
-    break;
+    early_ = i > 0 && from.deviationMm > mostMm;
+    if (early_) break;
   }
   std::reverse(steps_.begin(), steps_.end());
-  if (context.isCancelled()) steps_.clear();
+  if (context_.isCancelled()) steps_.clear();
   if (early_) return;
-  rough_ = isLong && !steps_.empty() && steps_.front().deviationMm > kOutOfReach * setup.extent;
-  if (!isLong || rough_ || steps_.empty() || steps_.front().why != Termination::IterationLimit) return;
-  if (auto step = solve(smallest, steps_.front(), kRest)) steps_.front() = std::move(*step);
+  next_ = -1;
+  rough_ = long_ && !steps_.empty() && steps_.front().deviationMm > kOutOfReach * setup_.extent;
+  if (!long_ || rough_ || steps_.empty() || steps_.front().why != Termination::IterationLimit) return;
+  if (auto step = solve(smallest_, steps_.front(), kRest)) steps_.front() = std::move(*step);
 }
 
 std::optional<TargetStep> TargetSteps::solve(double weight, const TargetStep& from, const FairingLimits& limits) const {

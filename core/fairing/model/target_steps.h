@@ -41,6 +41,8 @@ class TargetSteps {
   TargetSteps(const FairingSetup& setup, const FairingObjective& objective, const RunContext& context,
               double mostMm = std::numeric_limits<double>::infinity());
 
+  /// Where they ended early: goes on, as if they had not.
+  void goOn();
   /// The first meets the target fully, but where they ended before (endsEarly). Empty when the sketch has a cusp, or
   /// when cancelled.
   const std::vector<TargetStep>& all() const { return steps_; }
@@ -53,13 +55,17 @@ class TargetSteps {
   int iterations() const { return iterations_; }
 
  private:
+  void follow(double mostMm);
+  double weightOf(int step) const;
   std::optional<TargetStep> solve(double weight, const TargetStep& from, const FairingLimits& limits) const;
 
   const FairingSetup& setup_;
   const FairingObjective& objective_;
   const RunContext& context_;
   std::vector<TargetStep> steps_;
-  bool rough_ = false, early_ = false;
+  double smallest_ = 0.0, largest_ = 0.0;  ///< Weights of the steps at the target and at the sketch.
+  int count_ = 0, next_ = -1;              ///< Steps beside the first; the one to be made next, -1: none.
+  bool long_ = false, rough_ = false, early_ = false;
   mutable int iterations_ = 0;
 };
 

@@ -21,7 +21,7 @@ namespace batten {
 namespace {
 
 /// Steps between two of TargetSteps, to use as much of the tolerance as this.
-constexpr int kSearchSteps = 4, kRoundSteps = 4;
+constexpr int kSearchSteps = 4, kRoundSteps = 4, kRoughSteps = 2;
 constexpr double kTargetUsedShare = 0.95;
 /// [mm] Tolerances that are used up whatever the tolerance is, if it is no smaller.
 constexpr std::array kRoundTolerances = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01};
@@ -79,9 +79,12 @@ class ShapeModification {
     const bool allEndEarly = std::all_of(courses_.begin(), courses_.end(), endsEarly);
     if (allEndEarly || std::none_of(courses_.begin(), courses_.end(), endsEarly)) return;
     mostMm_ = std::numeric_limits<double>::infinity();
-    courses_.clear();
-    calm_.clear();
-    openAll(setup);
+    courses_.front().steps.goOn();
+    if (isCalm()) {
+      while (courses_.size() > 1) courses_.pop_back();
+      calm_.clear();
+    }
+    for (Course& course : courses_) course.steps.goOn();
   }
   Result<FairedCurve> run() {
     if (context_.isCancelled()) return cancelled();
@@ -120,16 +123,20 @@ class ShapeModification {
   struct Course {
     const FairingSetup* setup;
     TargetSteps steps;
+    std::vector<TargetStep> toTolerance{};  ///< Steps that use up the tolerance, where a round one has found them.
   };
 
   void openAll(const std::shared_ptr<const FairingSetup>& setup) {
     open(setup.get());
-    // Where the target is met without tremor, there is none to be passed over.
-    if (!courses_.empty() && !courses_.front().steps.endsEarly() &&
-        courses_.front().steps.all().front().extrema <= asked_)
-      return;
+    if (isCalm()) return;
     calm_ = calmSetups(setup);
     for (const auto& calm : calm_) open(calm.get());
+  }
+  /// Where the target is met without tremor, there is none to be passed over.
+  bool isCalm() const {
+    if (courses_.empty() || courses_.front().steps.endsEarly()) return false;
+    const std::vector<TargetStep>& steps = courses_.front().steps.all();
+    return !steps.empty() && steps.front().extrema <= asked_;
   }
   void open(const FairingSetup* over) {
     Course course{over, TargetSteps(*over, objective_, context_, mostMm_)};
@@ -169,11 +176,13 @@ class ShapeModification {
 
   /// A curve that uses up a round tolerance: what it wins, larger tolerances find too.
   void useRound(double toleranceMm) {
-    for (const Course& course : courses_) {
+    for (Course& course : courses_) {
       if (rank(best_) <= asked_ || context_.isCancelled()) return;
       const Sides sides = sidesOf(course, toleranceMm);
       if (!sides.outside) continue;
-      for (const TargetStep& step : between(course, sides, toleranceMm, kRoundSteps)) take(step, &course);
+      std::vector<TargetStep> found = between(course, sides, toleranceMm, kRoundSteps);
+      for (const TargetStep& step : found) take(step, &course);
+      if (!(toleranceMm < toleranceMm_)) course.toTolerance = std::move(found);
     }
   }
 
@@ -201,8 +210,10 @@ class ShapeModification {
   void useTolerance(const Course& course) {
     const Sides sides = sidesOf(course, toleranceMm_);
     if (!sides.outside) return;
-    for (const TargetStep& step : between(course, sides, toleranceMm_, course.steps.isRough() ? 2 : kSearchSteps))
-      takeOfSameRank(step, &course);
+    if (course.toTolerance.empty()) {
+      const int most = course.steps.isRough() ? kRoughSteps : kSearchSteps;
+      for (const TargetStep& step : between(course, sides, toleranceMm_, most)) takeOfSameRank(step, &course);
+    }
     if (course_ != &course || context_.isCancelled()) return;
     const auto polished = course.steps.polished(best_);
     if (polished && isWithin(*polished)) takeOfSameRank(*polished, &course);
