@@ -37,7 +37,7 @@ TargetsRun refused(Result<TargetOutcomes> why) {
   return run;
 }
 
-TargetsRun prepared(const TargetsJob& job) {
+TargetsRun prepared(const TargetsJob& job, const RunContext& context) {
   TargetsRun run;
   try {
     if (const auto error = validate(job.params)) return refused(fail(*error));
@@ -53,8 +53,8 @@ TargetsRun prepared(const TargetsJob& job) {
     }
     outcomes.targets = run.levels.front().targets;
     outcomes.recommendedDegree = outcomes.targets.recommendedDegree;
-    auto setup = outcomes.span ? makeSpanSetup(job.curve, job.closed, job.params, *outcomes.span)
-                               : makeSetup(job.curve, job.closed, job.params);
+    auto setup = outcomes.span ? makeSpanSetup(job.curve, job.closed, job.params, *outcomes.span, context)
+                               : makeSetup(job.curve, job.closed, job.params, context);
     if (!setup && setup.error().code != ErrorCode::Numerical) return refused(fail(setup.error()));
     if (setup) run.setup = std::move(*setup);
     if (!setup) run.problem = setup.error().message;
@@ -105,7 +105,7 @@ void recommend(TargetsRun& run, TargetChoice choice) {
 
 Result<FairedCurve> fairWithinTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                         const RunContext& context, const FairingLine& line) {
-  return withSetup(curve, closed, params,
+  return withSetup(curve, closed, params, context,
                    [&](const std::shared_ptr<const FairingSetup>& setup, const FairingParams& within) {
                      return within.tolerancePolicy == TolerancePolicy::All ? fairWithinTolerance(setup, within, context)
                                                                            : fairAsNeeded(setup, within, line, context);
@@ -115,7 +115,7 @@ Result<FairedCurve> fairWithinTolerance(const NurbsCurve& curve, bool closed, co
 std::vector<Result<TargetOutcomes>> fairAllTargets(std::span<const TargetsJob> jobs, const RunContext& context) {
   std::vector<TargetsRun> runs(jobs.size());
   parallelFor(context, static_cast<int>(jobs.size()), 1, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) runs[i] = prepared(jobs[i]);
+    for (int i = begin; i < end; ++i) runs[i] = prepared(jobs[i], context);
   });
   std::vector<std::size_t> order(jobs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -169,7 +169,7 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
     const auto target =
         logAestheticTarget(curve, closed, targetSplits(curve, closed, params), params.alpha, params.targets.samples);
     if (!target.profile.valid) return unchanged(curve, closed, Termination::NotRun, target.profile.problem);
-    auto faired = withSetup(curve, closed, params, [&](const auto& setup, const FairingParams& within) {
+    auto faired = withSetup(curve, closed, params, context, [&](const auto& setup, const FairingParams& within) {
       return modifyShape(setup, target.profile, within.toleranceMm, context);
     });
     if (faired) faired->report.logAesthetic = target.spans;

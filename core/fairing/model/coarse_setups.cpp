@@ -139,6 +139,7 @@ std::shared_ptr<const FairingSetup> coarseSetup(const std::shared_ptr<const Fair
   setup->startHold = sketch->startHold;
   setup->endHold = sketch->endHold;
   setup->closed = sketch->closed;
+  setup->check = sketch->check;
   setup->extent = sketch->extent;
   setup->reference = sketch->reference;
   setup->start = sketch->start;
@@ -173,6 +174,7 @@ std::vector<std::shared_ptr<const FairingSetup>> coarseSetups(const std::shared_
   std::vector<std::shared_ptr<const FairingSetup>> setups;
   const std::span<const int> counts = sketch->closed ? std::span<const int>(kClosedSpans) : kOpenSpans;
   for (const int spans : counts) {
+    if (sketch->check.isCancelled()) break;
     if (auto setup = coarseSetup(sketch, spans)) setups.push_back(std::move(setup));
   }
   return setups;

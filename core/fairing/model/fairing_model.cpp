@@ -54,7 +54,7 @@ FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& ob
   lengthTerm_.resize(count);
   corridorCurvature_.resize(count);
   Eigen::VectorXd corridorGradient(count);
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < count && !setup.check.isCancelled(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const int span = state.arc.places[at].span;
     const SpanRow basis = setup.basis.row(state.arc.places[at], profile ? 2 : 3);
@@ -88,6 +88,7 @@ FairingModel::FairingModel(const FairingSetup& setup, const FairingObjective& ob
   const double wave = 2.0 * std::numbers::pi / length;
   dampingUnit_ = std::pow(wave, profile ? 4.0 : 6.0) * (profile ? 1.0 : length) /
                  (objective.reference * objective.reference) / count;
+  if (setup.check.isCancelled()) return;
   gradient_ = applyTransposed(state.residual);
   for (int i = 0; i < count; ++i) accumulate(normal_, i, across_[i] * corridorGradient[i], gradient_);
   assemble();
@@ -112,7 +113,7 @@ void FairingModel::assemble() {
   stiffness_ = BandedMatrix(unknowns.count(), unknowns.halfWidth(), false);
   mass_ = stiffness_;
   tangentFloor_ = kTangentFloor * dampingUnit_;
-  for (int i = 0; i < setup_->sampleCount(); ++i) {
+  for (int i = 0; i < setup_->sampleCount() && !setup_->check.isCancelled(); ++i) {
     const auto index = unknowns.indices(state_->arc.places[i].span);
     const double w2 = weight_[i] * weight_[i], f2 = corridorCurvature_[i] * across_[i] * across_[i];
     for (std::size_t b = 0; b < index.size(); ++b) {
@@ -259,13 +260,14 @@ std::optional<Eigen::VectorXd> FairingModel::step(double damping) const {
   BandedMatrix damped = stiffness_;
   damped.add(mass_, damping);
   BandedCholesky factor;
-  if (!factor.factor(damped, 0.0)) return std::nullopt;
+  if (setup_->check.isCancelled() || !factor.factor(damped, 0.0)) return std::nullopt;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(gradient_.size()), r = -gradient_, z = r;
   factor.solveInPlace(z);
   Eigen::VectorXd p = z;
   double rz = r.dot(z);
   const double goal = kConjugateTolerance * kConjugateTolerance * rz;
   for (int k = 0; k < kConjugateSteps && rz > goal && rz > 0.0; ++k) {
+    if (setup_->check.isCancelled()) return std::nullopt;
     const Eigen::VectorXd q = applyNormal(p, damping);
     const double curvature = p.dot(q);
     if (!(curvature > 0.0)) break;

@@ -21,7 +21,7 @@ class FairingModel {
   /// Change of the signed distances.
   Eigen::VectorXd distances(const Eigen::VectorXd& v) const;
   /// Solves (J'J + corridor + damping) x = -gradient by conjugate gradients with the banded part as preconditioner.
-  /// Absent when the banded part cannot be factorised.
+  /// Absent when the banded part cannot be factorised, and when the run is cancelled.
   std::optional<Eigen::VectorXd> step(double damping) const;
 
  private:

@@ -70,14 +70,14 @@ int turnsFor(const SpanCurve& from, int span, int least) {
 }
 
 /// Of two curves over one basis.
-double largestDistance(const SpanCurve& from, const SpanCurve& to) {
+double largestDistance(const SpanCurve& from, const SpanCurve& to, CancelCheck check) {
   const auto same = [](const SpanPlace& place) { return place; };
   double largest = 0.0;
   const int spans = from.basis().spanCount();
-  for (int span = 0; span < spans; ++span)
+  for (int span = 0; span < spans && !check.isCancelled(); ++span)
     largest = std::max(largest, largestInSpan(from, to, span, kChecksPerSpan, same));
   if (!std::isfinite(largest)) return std::numeric_limits<double>::max();
-  for (int span = 0; span < spans && largest > 0.0; ++span) {
+  for (int span = 0; span < spans && largest > 0.0 && !check.isCancelled(); ++span) {
     const int checks = checksFor(from, to, span, largest);
     if (checks > kChecksPerSpan) largest = std::max(largest, largestInSpan(from, to, span, checks, same));
   }
@@ -89,7 +89,7 @@ double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve&
   const int spans = setup.basis.spanCount(), sketched = setup.reference.basis().spanCount();
   const int checks = kChecksPerSpan * std::max(1, (sketched + spans - 1) / spans);
   double largest = 0.0;
-  for (int span = 0; span < spans; ++span) {
+  for (int span = 0; span < spans && !setup.check.isCancelled(); ++span) {
     largest = std::max(largest, largestInSpan(curve, setup.reference, span, turnsFor(curve, span, checks),
                                               [&](const SpanPlace& place) { return setup.sketchedPlace(place); }));
   }
@@ -102,7 +102,7 @@ double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve&
     while (span + 1 < spans && setup.basis.begin(span + 1) <= u) ++span;
     return SpanPlace{span, std::clamp((u - setup.basis.begin(span)) / setup.basis.width(span), 0.0, 1.0)};
   };
-  for (int span = 0; bothWays && span < sketched; ++span) {
+  for (int span = 0; bothWays && span < sketched && !setup.check.isCancelled(); ++span) {
     largest =
         std::max(largest, largestInSpan(setup.reference, curve, span, turnsFor(setup.reference, span, kChecksPerSpan),
                                         [&](const SpanPlace& place) { return placeAt(shareOf(place)); }));
@@ -111,14 +111,14 @@ double largestDistanceOverFewerKnots(const FairingSetup& setup, const SpanCurve&
 }
 
 /// How far a periodic form is from the curve that it was made of; 0 where they differ by rounding only.
-double distanceFrom(const NurbsCurve& curve, const PeriodicForm& form) {
+double distanceFrom(const NurbsCurve& curve, const PeriodicForm& form, CancelCheck check) {
   const auto periodic = fromPeriodic(form, curve);
   if (!periodic) return 0.0;
   double moved = 0.0;
   for (int i = 0; i < curve.controlPointCount(); ++i)
     moved = std::max(moved, (periodic->controlPoints()[i] - curve.controlPoints()[i]).norm());
   if (moved <= kSamePeriodic * extent(curve)) return 0.0;
-  return kUnseenSeam * std::max(deviation(*periodic, curve).max, deviation(curve, *periodic).max);
+  return kUnseenSeam * std::max(deviation(*periodic, curve, check).max, deviation(curve, *periodic, check).max);
 }
 
 /// Which control points a knot span that is not in the range depends on.
@@ -153,7 +153,7 @@ int samplesFor(const SpanBasis& basis) {
 }  // namespace
 
 Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
-                                                      const std::optional<ProfileSpan>& moving) {
+                                                      CancelCheck check, const std::optional<ProfileSpan>& moving) {
   if (curve.isEmpty()) return fail(ErrorCode::BadParameter, "There is no curve to fair.");
   if (curve.isRational()) {
     return fail(ErrorCode::BadParameter, "Rational curves cannot be faired: set all weights to 1.");
@@ -164,12 +164,13 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
   auto setup = std::make_shared<FairingSetup>();
   setup->original = curve;
   setup->closed = closed;
+  setup->check = check;
   setup->extent = extent(curve);
   if (closed) {
     auto periodic = toPeriodic(curve);
     if (!periodic) return fail(periodic.error());
     setup->periodic = std::move(*periodic);
-    setup->seamMm = distanceFrom(curve, setup->periodic);
+    setup->seamMm = distanceFrom(curve, setup->periodic, check);
     setup->points = setup->periodic.points;
     const int m = static_cast<int>(setup->points.size());
     setup->basis = SpanBasis(curve.degree(), setup->periodic.knots, m + curve.degree(), m);
@@ -179,7 +180,7 @@ Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, b
   }
   setup->reference = SpanCurve(setup->basis, setup->points);
   const int samples = std::max(params.targets.samples, samplesFor(setup->basis));
-  auto start = equalArcPlaces(setup->reference, samples, closed);
+  auto start = equalArcPlaces(setup->reference, samples, closed, check);
   if (!start || !(start->length > 1e-9 * setup->extent)) {
     return fail(ErrorCode::Numerical, "The curve has no length.");
   }
@@ -237,8 +238,8 @@ Result<NurbsCurve> toCurve(const FairingSetup& setup, const std::vector<Vec2>& p
 double largestDeviation(const FairingSetup& setup, const std::vector<Vec2>& points, bool bothWays) {
   const SpanCurve curve(setup.basis, points);
   if (setup.sketch) return largestDistanceOverFewerKnots(setup, curve, bothWays);
-  const double there = largestDistance(curve, setup.reference);
-  return bothWays ? std::max(there, largestDistance(setup.reference, curve)) : there;
+  const double there = largestDistance(curve, setup.reference, setup.check);
+  return bothWays ? std::max(there, largestDistance(setup.reference, curve, setup.check)) : there;
 }
 
 FairedCurve againstSketch(const FairingSetup& setup, FairedCurve faired) {
@@ -250,18 +251,19 @@ FairedCurve againstSketch(const FairingSetup& setup, FairedCurve faired) {
     faired.report.extremaAfter = faired.report.extremaBefore;
     return faired;
   }
-  faired.report.maxDeviationMm =
-      std::max(deviation(faired.curve, setup.original).max, deviation(setup.original, faired.curve).max);
+  faired.report.maxDeviationMm = std::max(deviation(faired.curve, setup.original, setup.check).max,
+                                          deviation(setup.original, faired.curve, setup.check).max);
   if (faired.report.neededMm > 0.0) faired.report.neededMm += setup.seamMm;
   return faired;
 }
 
 Result<FairedCurve> withSetup(
-    const NurbsCurve& curve, bool closed, const FairingParams& params,
+    const NurbsCurve& curve, bool closed, const FairingParams& params, const RunContext& context,
     const std::function<Result<FairedCurve>(const std::shared_ptr<const FairingSetup>&, const FairingParams&)>& body) {
   if (const auto error = validate(params)) return fail(*error);
   try {
-    const auto setup = makeSetup(curve, closed, params);
+    const auto setup = makeSetup(curve, closed, params, context);
+    if (context.isCancelled()) return cancelled();
     if (!setup && setup.error().code != ErrorCode::Numerical) return fail(setup.error());
     if (!setup) return unchanged(curve, closed, Termination::Degenerate, setup.error().message);
     FairingParams within = params;
@@ -279,7 +281,7 @@ double keepWithin(const FairingSetup& setup, double toleranceMm, std::vector<Vec
   const std::vector<Vec2> goal = points;
   double share = 1.0;
   // The deviation is all but proportional to the share, so that this ends after one or two rounds.
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < 60 && !setup.check.isCancelled(); ++round) {
     const double deviation = largestDeviation(setup, points, true);
     if (deviation <= kMeasured * toleranceMm) return deviation;
     share *= std::clamp(0.9995 * kMeasured * toleranceMm / deviation, 0.01, 0.9995);
@@ -294,8 +296,8 @@ Result<FairedCurve> finished(const FairingSetup& setup, std::vector<Vec2> points
   report.maxDeviationMm = keepWithin(setup, toleranceMm, points);
   auto curve = toCurve(setup, points);
   if (!curve) return fail(curve.error());
-  report.extremaBefore = countedExtrema(setup.sketchedCurve(), setup.closed);
-  report.extremaAfter = countedExtrema(*curve, setup.closed);
+  report.extremaBefore = countedExtrema(setup.sketchedCurve(), setup.closed, setup.check);
+  report.extremaAfter = countedExtrema(*curve, setup.closed, setup.check);
   return FairedCurve{std::move(*curve), std::move(report)};
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/base/result.h"
 #include "core/curve/periodic_form.h"
 #include "core/curve/span_curve.h"
@@ -43,14 +44,17 @@ struct FairingSetup {
   /// About where on the sketched curve a place of `basis` lies: there itself, or at the same share of the length.
   SpanPlace sketchedPlace(const SpanPlace& place) const;
   const NurbsCurve& sketchedCurve() const { return sketch ? sketch->original : original; }
+  CancelCheck check;  ///< The run that the curve is faired for.
   int sampleCount() const { return static_cast<int>(start.places.size()); }
   double fraction(int sample) const {
     return static_cast<double>(sample) / (closed ? sampleCount() : sampleCount() - 1);
   }
 };
+/// @param check of the run, which all work with this setup looks at.
 /// @param moving parameters between which alone the curve may move, a closed one over its seam, too; absent: anywhere.
 /// @return BadParameter for rational curves and degrees outside 3..7; Numerical for a curve without length.
 Result<std::shared_ptr<const FairingSetup>> makeSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
+                                                      CancelCheck check = {},
                                                       const std::optional<ProfileSpan>& moving = {});
 
 /// The faired curve over the knots of the sketched one.
@@ -70,7 +74,7 @@ FairedCurve againstSketch(const FairingSetup& setup, FairedCurve faired);
 
 /// Runs `body` on the curve's setup, with the tolerance that its seam leaves. Curves that cannot be faired are returned
 /// they are when the reason lies in their shape.
-Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const FairingParams& params,
+Result<FairedCurve> withSetup(const NurbsCurve& curve, bool closed, const FairingParams& params, const RunContext&,
                               const std::function<Result<FairedCurve>(const std::shared_ptr<const FairingSetup>& setup,
                                                                       const FairingParams& within)>& body);
 

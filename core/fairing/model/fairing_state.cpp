@@ -19,7 +19,7 @@ std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObj
   state.points = std::move(points);
   state.curve = SpanCurve(setup.basis, state.points);
   const int count = setup.sampleCount();
-  auto arc = equalArcPlaces(state.curve, count, setup.closed);
+  auto arc = equalArcPlaces(state.curve, count, setup.closed, setup.check);
   if (!arc) return std::nullopt;
   state.arc = std::move(*arc);
   const auto size = static_cast<std::size_t>(count);
@@ -34,6 +34,7 @@ std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObj
   double misfit = 0.0;  // so far
   const double givesUpAt = kSurelyMore * most;
   for (int i = 0; i < count; ++i) {
+    if (setup.check.isCancelled()) return std::nullopt;
     const auto at = static_cast<std::size_t>(i);
     state.jets[at] = state.curve.at(state.arc.places[at], 4);
     const Jet& jet = state.jets[at];

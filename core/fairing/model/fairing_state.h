@@ -40,7 +40,8 @@ struct FairingState {
   Eigen::VectorXd residual;
   double misfit = 0.0, total = 0.0;  ///< Sum of squared residuals; the same with the corridor.
 };
-/// Absent when the curve collapses (a vanishing derivative), is not finite or leaves the corridor of the barrier.
+/// Absent when the curve collapses (a vanishing derivative), is not finite or leaves the corridor of the barrier, and
+/// when the run is cancelled.
 /// @param most of the total: a curve of more is not evaluated to its end, and absent too.
 std::optional<FairingState> evaluate(const FairingSetup& setup, const FairingObjective& objective,
                                      const FairingCorridor& corridor, std::vector<Vec2> points,

@@ -31,6 +31,7 @@ std::vector<Foot> feetOf(const FairingSetup& setup, const std::vector<Vec2>& poi
   std::vector<Foot> feet;
   int hint = 0;
   for (const Vec2& p : points) {
+    if (setup.check.isCancelled()) return feet;
     if (!p.allFinite()) continue;
     const auto better = [&](int i, int j) { return (samples[i] - p).squaredNorm() < (samples[j] - p).squaredNorm(); };
     // Near where the last point was; anywhere, when that leads to the end of the stretch that was searched.

@@ -112,7 +112,7 @@ std::optional<TargetStep> TargetSteps::solve(double weight, const TargetStep& fr
   step.misfit = run.state.misfit;
   step.why = run.why;
   step.deviationMm = largestDeviation(setup_, run.state.points, true);
-  step.extrema = countedExtrema(*curve, setup_.closed);
+  step.extrema = countedExtrema(*curve, setup_.closed, setup_.check);
   step.points = std::move(run.state.points);
   step.feet = std::move(run.state.feet);
   return step;

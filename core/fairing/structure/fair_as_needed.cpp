@@ -109,7 +109,7 @@ class NeededFairing {
   int extremaOf(const std::vector<Vec2>& points) const {
     const auto curve = toCurve(setup_, points);
     if (!curve || !(setup_.extent > 0.0)) return std::numeric_limits<int>::max();
-    return countedExtrema(*curve, setup_.closed);
+    return countedExtrema(*curve, setup_.closed, context_);
   }
   double shortestWave() const {
     const double span = setup_.start.length / setup_.basis.spanCount();
@@ -175,11 +175,12 @@ class NeededFairing {
   std::optional<Smoothed> withoutDoubtfulExtrema(const Smoothed& start) {
     const auto curve = toCurve(setup_, start.points);
     if (!curve) return std::nullopt;
-    const auto smooth = makeSetup(*curve, setup_.closed, params_);
+    const auto smooth = makeSetup(*curve, setup_.closed, params_, context_);
     if (!smooth || (*smooth)->points.size() != start.points.size()) return std::nullopt;
     const MonotoneSearch search(**smooth, kSearched * std::sqrt(noise_), context_);
     if (search.arcLength().empty()) return std::nullopt;
-    const auto levels = structureLevels(search.arcLength(), search.curvature(), (*smooth)->start.length, setup_.closed);
+    const auto levels =
+        structureLevels(search.arcLength(), search.curvature(), (*smooth)->start.length, setup_.closed, context_);
     const double before = misfitOf(start.points);
     // The estimates scale the problem: a vanishing one would make it stiff.
     const double least = kLeastMove * std::sqrt(noise_);

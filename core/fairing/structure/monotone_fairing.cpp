@@ -160,7 +160,7 @@ class MonotoneFairing {
 
 Result<FairedCurve> fairMonotone(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                  const RunContext& context) {
-  return withSetup(curve, closed, params,
+  return withSetup(curve, closed, params, context,
                    [&](const std::shared_ptr<const FairingSetup>& setup, const FairingParams& within) {
                      return MonotoneFairing(setup, within, context).run();
                    });

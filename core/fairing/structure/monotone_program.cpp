@@ -13,12 +13,12 @@ constexpr double kHopeless = 1e6;
 }  // namespace
 
 MonotoneSearch::Program::Program(const FairingSetup& setup, const std::vector<SpanPlace>& places,
-                                 const std::vector<Jet>& jets)
-    : setup_(setup) {
+                                 const std::vector<Jet>& jets, const RunContext& context)
+    : setup_(setup), context_(context) {
   program_.b = Eigen::VectorXd::Zero(setup.unknowns.count());
   program_.ridge = 1e-12;
   program_.leastPivot = 0.0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (std::size_t i = 0; i < places.size() && !context.isCancelled(); ++i) {
     slopes_.push_back(
         localRow(places[i].span, curvatureSlopeRow(jets[i], setup.basis.row(places[i], 3), setup.basis.degree())));
   }
@@ -66,7 +66,10 @@ std::optional<Eigen::VectorXd> MonotoneSearch::Program::solve(bool mayBeInfeasib
   for (const Square& square : squares_) half = std::max(half, square.row.width());
   for (const SparseRow& row : program_.rows) half = std::max(half, row.width());
   program_.a = BandedMatrix(count, std::min(half, count - 1), false);
-  for (const Square& square : squares_) program_.a.addOuter(square.row, square.weight);
+  for (const Square& square : squares_) {
+    if (context_.isCancelled()) return std::nullopt;
+    program_.a.addOuter(square.row, square.weight);
+  }
   // Rows of all kinds, at places of any speed, in units of about their standard deviation.
   for (std::size_t i = 0; i < program_.rows.size(); ++i) {
     SparseRow& row = program_.rows[i];
@@ -79,7 +82,7 @@ std::optional<Eigen::VectorXd> MonotoneSearch::Program::solve(bool mayBeInfeasib
   }
   InteriorPointLimits limits;
   if (mayBeInfeasible) limits.abortAbove = kHopeless * (constant_ + static_cast<double>(program_.rows.size()));
-  const InteriorPointResult result = solveProgram(program_, limits);
+  const InteriorPointResult result = solveProgram(program_, limits, context_);
   const bool usable = result.why == Termination::Converged || result.why == Termination::Exact ||
                       (result.why == Termination::IterationLimit && !mayBeInfeasible);
   if (!usable || !result.x.allFinite()) return std::nullopt;

@@ -12,7 +12,8 @@ namespace batten {
 /// One quadratic program of the search: squares and bounds over the free coordinates of the control points.
 class MonotoneSearch::Program {
  public:
-  Program(const FairingSetup& setup, const std::vector<SpanPlace>& places, const std::vector<Jet>& jets);
+  Program(const FairingSetup& setup, const std::vector<SpanPlace>& places, const std::vector<Jet>& jets,
+          const RunContext& context);
 
   SparseRow localRow(int span, const LocalRow& local) const;
   /// Change of dkappa/ds at a place, and of its difference between two.
@@ -31,6 +32,7 @@ class MonotoneSearch::Program {
     double weight;
   };
   const FairingSetup& setup_;
+  const RunContext& context_;
   std::vector<SparseRow> slopes_;
   std::vector<Square> squares_;
   BandedProgram<SparseRow> program_;  ///< `a` is made when all squares are known.

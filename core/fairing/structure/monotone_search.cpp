@@ -93,6 +93,7 @@ MonotoneSearch::State MonotoneSearch::evaluate(const std::vector<Vec2>& points,
   const int count = static_cast<int>(places_.size());
   const double meanSpeed = setup_.start.length / (setup_.original.end() - setup_.original.start());
   for (int i = 0; i < count; ++i) {
+    if (context_.isCancelled()) return state;
     const Jet jet = curve.at(places_[at(i)], 4);
     if (!(jet[1].norm() > kCuspShare * meanSpeed) || !jet[0].allFinite()) return state;
     state.jets.push_back(jet);
@@ -161,7 +162,7 @@ void MonotoneSearch::recentre(CurvatureStructure& structure, const std::vector<W
 void MonotoneSearch::addDistance(Program& program, const State& state, const Scales& scales) const {
   const int degree = setup_.basis.degree();
   LocalRow row;
-  for (std::size_t i = 0; i < places_.size(); ++i) {
+  for (std::size_t i = 0; i < places_.size() && !context_.isCancelled(); ++i) {
     const SpanRow basis = setup_.basis.row(places_[i], 0);
     const auto along = [&](const Vec2& direction) {
       row.fill(Vec2::Zero());
@@ -183,7 +184,7 @@ void MonotoneSearch::addBend(Program& program, const State& state, const Scales&
   const double lambda = std::pow(wave_ / (2.0 * std::numbers::pi), 8.0) / (scales.distance * scales.distance);
   const double unit = setup_.start.length / setup_.basis.spanCount();
   const int count = static_cast<int>(places_.size());
-  for (int i = 0; i < (setup_.closed ? count : count - 1); ++i) {
+  for (int i = 0; i < (setup_.closed ? count : count - 1) && !context_.isCancelled(); ++i) {
     const int next = (i + 1) % count;
     const double step = state.step[at(i)];
     if (!(step > 1e-9 * unit)) continue;
@@ -235,10 +236,12 @@ MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, cons
   Scales scales{std::max(0.05 * leastMoveMm_, 0.1 * estimateMm), kMargin * (*high - *low) / setup_.start.length,
                 boundMm};
   for (; outcome.iterations < kIterations && !context_.isCancelled(); ++outcome.iterations) {
-    Program program(setup_, places_, state.jets);
+    Program program(setup_, places_, state.jets, context_);
+    if (context_.isCancelled()) break;
     addDistance(program, state, scales);
     addBend(program, state, scales);
     addSigns(program, state, structure, scales);
+    if (context_.isCancelled()) break;
     const std::vector<Window> used = windows(structure);
     const auto step = program.solve(boundMm > 0.0);
     if (!step) break;
@@ -279,6 +282,7 @@ int MonotoneSearch::denseTurns(const std::vector<Vec2>& points) const {
   const SpanCurve curve(setup_.basis, points);
   std::vector<double> kappa;
   for (const SpanPlace& place : checkPlaces(setup_.basis, kPlacesPerSpan * kDenseFactor)) {
+    if (context_.isCancelled()) return 0;
     kappa.push_back(curvatureJet(curve.at(place, 4)).kappa);
   }
   return countExtrema(kappa, flat_, setup_.closed);

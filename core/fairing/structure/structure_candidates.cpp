@@ -55,7 +55,7 @@ Result<FairedCurve> asFaired(const FairingSetup& sketch, const StructureCandidat
   report.objectiveBefore = before ? before->misfit : 0.0;
   report.objectiveAfter = after ? after->misfit : report.objectiveBefore;
   report.maxDeviationMm = found.deviationMm;
-  report.extremaBefore = countedExtrema(sketch.original, sketch.closed);
+  report.extremaBefore = countedExtrema(sketch.original, sketch.closed, sketch.check);
   report.extremaAfter = found.extrema;
   return FairedCurve{std::move(*curve), std::move(report)};
 }
@@ -73,7 +73,7 @@ StructureCandidates::Basis& StructureCandidates::open(std::size_t at) {
   basis.search = std::make_unique<MonotoneSearch>(*basis.setup, kLeastStep * sketch_->extent, context_);
   if (basis.search->arcLength().empty()) return basis;
   basis.levels = structureLevels(basis.search->arcLength(), basis.search->curvature(), basis.setup->start.length,
-                                 basis.setup->closed);
+                                 basis.setup->closed, context_);
   if (auto start = candidate(basis, basis.setup->points)) {
     basis.start = std::move(*start);
   } else {
@@ -86,7 +86,7 @@ std::optional<StructureCandidate> StructureCandidates::candidate(const Basis& ba
   const auto curve = toCurve(*basis.setup, points);
   if (!curve) return std::nullopt;
   StructureCandidate result{
-      basis.setup, {}, countedExtrema(*curve, sketch_->closed), 0.0, basis.search->denseTurns(points)};
+      basis.setup, {}, countedExtrema(*curve, sketch_->closed, context_), 0.0, basis.search->denseTurns(points)};
   result.points = std::move(points);
   if (basis.setup != sketch_ || result.points != sketch_->points)
     result.deviationMm = largestDeviation(*basis.setup, result.points, true);

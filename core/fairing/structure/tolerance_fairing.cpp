@@ -51,7 +51,7 @@ struct SmoothestCurve {
         isSketch ? keepWithin(setup, toleranceMm, from.points) : largestDeviation(setup, from.points, true);
     const auto curve = toCurve(setup, from.points);
     if (!curve || from.deviationMm > kRoom * toleranceMm * 1.001) return;
-    from.extrema = countedExtrema(*curve, setup.closed);
+    from.extrema = countedExtrema(*curve, setup.closed, setup.check);
     if (from.extrema != best.extrema || !(unevennessOf(from) < unevenness)) return;
     why = run.why;
     if (from.deviationMm > 0.9 * toleranceMm && why != Termination::IterationLimit) why = Termination::ToleranceLimited;
@@ -103,7 +103,8 @@ Result<FairedCurve> fairWithinTolerance(const std::shared_ptr<const FairingSetup
     return finished(*setup, setup->points, params.toleranceMm, std::move(report));
   }
   StructureCandidates candidates(setup, context);
-  const StructureCandidate sketch{setup, setup->points, countedExtrema(setup->original, setup->closed), 0.0};
+  const StructureCandidate sketch{setup, setup->points, countedExtrema(setup->original, setup->closed, setup->check),
+                                  0.0};
   SmoothestCurve smoothest{candidates.isValid() ? candidates.fewest(kRoom * params.toleranceMm) : sketch,
                            params.toleranceMm, context};
   if (smoothest.best.setup != setup || smoothest.best.deviationMm > 0.0) smoothest.offerFrom(smoothest.best);

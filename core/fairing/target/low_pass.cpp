@@ -85,7 +85,7 @@ Result<TargetProfile> lowPassedProfile(const NurbsCurve& curve, bool closed, con
 
 Result<FairedCurve> fairByLowPass(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                   const RunContext& context) {
-  return withSetup(curve, closed, params,
+  return withSetup(curve, closed, params, context,
                    [&](const std::shared_ptr<const FairingSetup>& setup, const FairingParams& within) {
                      return modifyShape(setup, smoothedProfile(*setup, within.lowPassMm), within.toleranceMm, context,
                                         {ExtremaAsked::None});

@@ -47,11 +47,11 @@ constexpr std::array kCalmSpans = {13, 5, 3};
 std::vector<std::shared_ptr<const FairingSetup>> calmSetups(const std::shared_ptr<const FairingSetup>& sketch) {
   std::vector<std::shared_ptr<const FairingSetup>> result;
   if (sketch->isPart) return result;
-  int extrema = countedExtrema(sketch->original, sketch->closed);
+  int extrema = countedExtrema(sketch->original, sketch->closed, sketch->check);
   for (const int spans : kCalmSpans) {
     if (extrema < kTrembles) break;
     auto calm = coarseSetup(sketch, spans);
-    const int left = calm ? countedExtrema(calm->original, calm->closed) : extrema;
+    const int left = calm ? countedExtrema(calm->original, calm->closed, calm->check) : extrema;
     if (2 * left >= extrema) continue;
     result.push_back(std::move(calm));
     extrema = left;
@@ -71,7 +71,7 @@ class ShapeModification {
         onlyIfMet_(effort.onlyIfMet),
         asked_(effort.asked == ExtremaAsked::None ? 0 : extremaAsked(*setup, objective)) {
     if (effort.asked == ExtremaAsked::UpToSketch)
-      asked_ = std::min(asked_, countedExtrema(setup->original, setup->closed));
+      asked_ = std::min(asked_, countedExtrema(setup->original, setup->closed, setup->check));
     if (onlyIfMet_) mostMm_ = kBeyondReach * toleranceMm;
     openAll(setup);
     // One that comes to its target decides together with the others, which are then followed to the end.
@@ -95,7 +95,7 @@ class ShapeModification {
     }
     best_.points = sketch_.points;
     best_.misfit = before->misfit;
-    best_.extrema = countedExtrema(sketch_.original, sketch_.closed);
+    best_.extrema = countedExtrema(sketch_.original, sketch_.closed, sketch_.check);
     report_.objectiveBefore = std::sqrt(best_.misfit);
     double nearest = std::numeric_limits<double>::max();
     for (const Course& course : courses_) {
@@ -240,7 +240,7 @@ class ShapeModification {
     const auto curve = toCurve(sketch_, step.points);
     if (!state || !curve) return;
     step.misfit = state->misfit;
-    step.extrema = countedExtrema(*curve, sketch_.closed);
+    step.extrema = countedExtrema(*curve, sketch_.closed, sketch_.check);
     takeOfSameRank(step, &course);
   }
 
@@ -271,7 +271,7 @@ class ShapeModification {
     auto curve = toCurve(*course_->setup, best_.points);
     if (!curve) return fail(curve.error());
     report_.maxDeviationMm = best_.deviationMm;
-    report_.extremaBefore = countedExtrema(sketch_.original, sketch_.closed);
+    report_.extremaBefore = countedExtrema(sketch_.original, sketch_.closed, sketch_.check);
     report_.extremaAfter = best_.extrema;
     return FairedCurve{std::move(*curve), std::move(report_)};
   }
@@ -302,7 +302,7 @@ Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup
 
 Result<FairedCurve> modifyShape(const NurbsCurve& curve, bool closed, const TargetProfile& profile,
                                 const FairingParams& params, const RunContext& context) {
-  return withSetup(curve, closed, params,
+  return withSetup(curve, closed, params, context,
                    [&](const std::shared_ptr<const FairingSetup>& setup, const FairingParams& within) {
                      return modifyShape(setup, profile, within.toleranceMm, context, {ExtremaAsked::OfProfile});
                    });

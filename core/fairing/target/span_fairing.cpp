@@ -201,13 +201,14 @@ TargetSet fitSpanTargets(const NurbsCurve& curve, bool closed, const TargetParam
 }
 
 Result<std::shared_ptr<const FairingSetup>> makeSpanSetup(const NurbsCurve& curve, bool closed,
-                                                          const FairingParams& params, const ProfileSpan& span) {
+                                                          const FairingParams& params, const ProfileSpan& span,
+                                                          CancelCheck check) {
   if (curve.isEmpty() || curve.isRational() || curve.degree() < 3 || curve.degree() > kMaxDegree)
-    return makeSetup(curve, closed, params);  // which says what is wrong
+    return makeSetup(curve, closed, params, check);  // which says what is wrong
   const ProfileSpan range = parametersOf(curve, span);
   auto finer = refined(curve, range);
   if (!finer) return fail(finer.error());
-  auto setup = makeSetup(*finer, closed, params, range);
+  auto setup = makeSetup(*finer, closed, params, check, range);
   if (setup && (*setup)->seamMm > 0.0) {
     return fail(ErrorCode::Numerical,
                 "A single span of this closed curve cannot be moved because the curve is not periodic. "
@@ -240,7 +241,7 @@ Result<FairedCurve> fairSpans(const NurbsCurve& curve, bool closed, const std::v
     const ProfileSpan now = result.curve == curve ? span : ProfileSpan{shareOf(range.from), shareOf(range.to)};
     const TargetSet targets = fitSpanTargets(result.curve, closed, params.targets, now);
     const TargetProfile& profile = targets.profiles[static_cast<std::size_t>(degree) - 1];
-    auto setup = makeSpanSetup(result.curve, closed, params, now);
+    auto setup = makeSpanSetup(result.curve, closed, params, now, context);
     if (!setup && setup.error().code != ErrorCode::Numerical) return fail(setup.error());
     if (!setup || !profile.valid) {
       FairingReport stayed;

@@ -22,7 +22,7 @@ TargetSet fitSpanTargets(const NurbsCurve&, bool closed, const TargetParams&, co
 /// curve stays as it is to the last digit, and meets the span with all derivatives but the highest.
 /// @return Numerical where nothing of the span could move.
 Result<std::shared_ptr<const FairingSetup>> makeSpanSetup(const NurbsCurve&, bool closed, const FairingParams&,
-                                                          const ProfileSpan&);
+                                                          const ProfileSpan&, CancelCheck check = {});
 
 /// Moves the spans of FairingParams::spanTargets, each towards its own target, between these splits. Spans do not
 /// touch each other, so the order does not matter; of two targets for one span the later one counts.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -114,7 +115,7 @@ cv::Mat1b gainingPieces(const GreyImage& grey, const cv::Mat1b& gains, const cv:
                        std::max(stats(i, cv::CC_STAT_WIDTH), stats(i, cv::CC_STAT_HEIGHT)) >= kLeastSide;
     isTaken[i] = isInk && piece.darkBorder <= kMostDarkBorder * piece.border && piece.gain >= kLeastRise * piece.depth;
   }
-  cv::Mat1b taken(mask.size());
+  cv::Mat1b taken = std::move(dark);  // its memory: a large page holds no mask more than it needs
   for (int y = 0; y < grey.height; ++y) {
     for (int x = 0; x < grey.width; ++x) taken(y, x) = isTaken[labels(y, x)] != 0 ? 255 : 0;
   }
@@ -128,10 +129,9 @@ ColouredInk darkenColouredInk(const GreyImage& grey, const ColourImage& colour, 
   if (colour.isEmpty()) return result;
   const PaperColour paper = measurePaperColour(grey, colour, context);
   if (context.isCancelled()) return result;
-  const cv::Mat1b gains = gainPicture(grey, colour, paper, context);
-  if (context.isCancelled()) return result;
   cv::Mat1b smoothed;
-  cv::blur(gains, smoothed, {3, 3});
+  cv::blur(gainPicture(grey, colour, paper, context), smoothed, {3, 3});
+  if (context.isCancelled()) return result;
   const cv::Mat1b mask = smoothed > gainLimit(grey, smoothed, paper);
   if (context.isCancelled() || cv::countNonZero(mask) == 0) return result;
   cv::Mat1b taken = gainingPieces(grey, smoothed, mask, paper);
