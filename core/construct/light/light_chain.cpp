@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/construct/light/light_search.h"
 #include "core/curve/curvature.h"
+#include "core/curve/curvature_counts.h"
 #include "core/curve/knot_operations.h"
 
 namespace batten {
@@ -149,13 +150,8 @@ std::vector<MadeSection> lightenSection(const Section& section, double diagonal,
   return made;
 }
 
-struct Counts {
-  int extrema = 0, inflections = 0;
-};
-Counts countsOf(const NurbsCurve& curve, double size, bool closed) {
-  const double prominence = kExtremumProminence / size;
-  return {static_cast<int>(curvatureExtrema(curve, prominence, closed).size()),
-          static_cast<int>(inflections(curve, prominence, closed).size())};
+CurvatureCounts countsOf(const NurbsCurve& curve, double size, bool closed) {
+  return curvatureCounts(curve, kExtremumProminence / size, closed);
 }
 
 /// Whether the curvature turns back just where one curve goes over into the next.
@@ -323,11 +319,11 @@ std::optional<LightCurve> lightChain(const NurbsCurve& dense, const LightReferen
   std::vector<MadeSection> made;
   for (auto& some : madeOf) std::move(some.begin(), some.end(), std::back_inserter(made));
   if (context.isCancelled()) return std::nullopt;
-  const Counts most = countsOf(dense, extent(dense), closed);
+  const CurvatureCounts most = countsOf(dense, extent(dense), closed);
   for (int round = 0; round < kChainRounds; ++round) {
     auto chain = assembled(made, dense);
     if (!chain) return std::nullopt;
-    const Counts counts = countsOf(chain->curve, std::max(extent(chain->curve), extent(dense)), closed);
+    const CurvatureCounts counts = countsOf(chain->curve, std::max(extent(chain->curve), extent(dense)), closed);
     if (counts.extrema > most.extrema || counts.inflections > most.inflections) {
       if (!keepDenseAtKinks(made, closed)) return std::nullopt;
       continue;
