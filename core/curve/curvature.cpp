@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "core/curve/arc_length.h"
-#include "core/curve/curvature_counts.h"
 #include "core/curve/turning_points.h"
 
 namespace batten {

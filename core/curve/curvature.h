@@ -32,6 +32,14 @@ int countedExtrema(const NurbsCurve&, bool periodic, CancelCheck check = {});
 /// Parameters of sign changes of the curvature that reach beyond +-`threshold` [1/unit] on both sides.
 std::vector<double> inflections(const NurbsCurve&, double threshold, bool periodic, CancelCheck check = {});
 
+struct CurvatureCounts {
+  int extrema = 0, inflections = 0;
+};
+
+/// How many there are of curvatureExtrema and of inflections, with the prominence as their threshold: from one look at
+/// the curve, and without the places, which cost more than the counts.
+CurvatureCounts curvatureCounts(const NurbsCurve&, double prominence, bool periodic, CancelCheck check = {});
+
 /// Diagonal of the bounding box of the control points; the scale that relative tolerances refer to. > 0 for made curves
 /// that are not a point.
 double extent(const NurbsCurve&);

@@ -11,7 +11,6 @@
 #include "core/base/parallel.h"
 #include "core/construct/light/light_search.h"
 #include "core/curve/curvature.h"
-#include "core/curve/curvature_counts.h"
 #include "core/curve/knot_operations.h"
 
 namespace batten {
@@ -171,18 +170,8 @@ std::vector<MadeSection> lightenSection(const Section& section, double diagonal,
   return made;
 }
 
-<<<<<<< HEAD
-struct Counts {
-  int extrema = 0, inflections = 0;
-};
-Counts countsOf(const NurbsCurve& curve, double size, bool closed, const RunContext& context) {
-  const double prominence = kExtremumProminence / size;
-  return {static_cast<int>(curvatureExtrema(curve, prominence, closed, context).size()),
-          static_cast<int>(inflections(curve, prominence, closed, context).size())};
-=======
-CurvatureCounts countsOf(const NurbsCurve& curve, double size, bool closed) {
-  return curvatureCounts(curve, kExtremumProminence / size, closed);
->>>>>>> page
+CurvatureCounts countsOf(const NurbsCurve& curve, double size, bool closed, const RunContext& context) {
+  return curvatureCounts(curve, kExtremumProminence / size, closed, context);
 }
 
 /// Whether the curvature turns back just where one curve goes over into the next.
@@ -352,20 +341,13 @@ std::optional<LightCurve> lightChain(const NurbsCurve& dense, const LightReferen
   std::vector<MadeSection> made;
   for (auto& some : madeOf) std::move(some.begin(), some.end(), std::back_inserter(made));
   if (context.isCancelled()) return std::nullopt;
-<<<<<<< HEAD
-  const Counts most = countsOf(dense, extent(dense), closed, context);
-=======
-  const CurvatureCounts most = countsOf(dense, extent(dense), closed);
->>>>>>> page
+  const CurvatureCounts most = countsOf(dense, extent(dense), closed, context);
   for (int round = 0; round < kChainRounds; ++round) {
     auto chain = assembled(made, dense, context);
     if (!chain) return std::nullopt;
-<<<<<<< HEAD
-    const Counts counts = countsOf(chain->curve, std::max(extent(chain->curve), extent(dense)), closed, context);
+    const CurvatureCounts counts =
+        countsOf(chain->curve, std::max(extent(chain->curve), extent(dense)), closed, context);
     if (context.isCancelled()) return std::nullopt;
-=======
-    const CurvatureCounts counts = countsOf(chain->curve, std::max(extent(chain->curve), extent(dense)), closed);
->>>>>>> page
     if (counts.extrema > most.extrema || counts.inflections > most.inflections) {
       if (!keepDenseAtKinks(made, closed)) return std::nullopt;
       continue;
