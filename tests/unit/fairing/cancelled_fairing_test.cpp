@@ -7,15 +7,15 @@
 #include <memory>
 #include <vector>
 
-#include "core/fairing/coarse_setups.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/fairing_line.h"
-#include "core/fairing/fairing_model.h"
-#include "core/fairing/fairing_setup.h"
-#include "core/fairing/fairing_state.h"
-#include "core/fairing/line_blocks.h"
-#include "core/fairing/monotone_search.h"
-#include "core/fairing/structure_candidates.h"
+#include "core/fairing/model/coarse_setups.h"
+#include "core/fairing/model/fairing_line.h"
+#include "core/fairing/model/fairing_model.h"
+#include "core/fairing/model/fairing_setup.h"
+#include "core/fairing/model/fairing_state.h"
+#include "core/fairing/model/line_blocks.h"
+#include "core/fairing/structure/monotone_search.h"
+#include "core/fairing/structure/structure_candidates.h"
 
 namespace batten {
 namespace {
