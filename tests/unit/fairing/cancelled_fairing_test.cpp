@@ -98,7 +98,7 @@ TEST_F(CancelledFairing, FairsNothingInAnyMode) {
        {FairingMode::Tolerance, FairingMode::Monotone, FairingMode::LowPass, FairingMode::Target}) {
     FairingParams params;
     params.mode = mode;
-    params.target = 3;
+    params.target = FairingTarget::Degree3;
     const auto faired = fair(curve_, false, params, context_);
     ASSERT_FALSE(faired) << static_cast<int>(mode);
     EXPECT_EQ(faired.error().code, ErrorCode::Cancelled) << static_cast<int>(mode);
