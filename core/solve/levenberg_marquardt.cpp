@@ -51,6 +51,10 @@ LevenbergRun levenbergMarquardt(LevenbergProblem& problem, const LevenbergOption
       run.why = Termination::FixedPoint;
       return run;
     }
+    if (problem.isHopeless()) {
+      run.why = Termination::NoProgress;
+      return run;
+    }
     if (small >= enough || run.cost <= options.negligible) {
       run.why = Termination::Converged;
       return run;

@@ -27,6 +27,8 @@ class LevenbergProblem {
   virtual void accept() = 0;
   /// Whether the state is good enough. Asked after each accepted step.
   virtual bool isReached() const { return false; }
+  /// Whether further steps are not worth their time. Asked after each accepted step that did not reach.
+  virtual bool isHopeless() const { return false; }
 };
 
 struct LevenbergOptions {
@@ -47,7 +49,8 @@ struct LevenbergOptions {
 
 struct LevenbergRun {
   /// Converged: by small steps, a negligible cost, or no step that decreases after a small one. FixedPoint:
-  /// isReached(). NoProgress, IterationLimit (also when cancelled); Degenerate: the first state is impossible.
+  /// isReached(). NoProgress (isHopeless() too), IterationLimit (also when cancelled); Degenerate: the first state is
+  /// impossible.
   Termination why = Termination::IterationLimit;
   int iterations = 0;  ///< Models made, the one without a successful step included.
   double cost = 0.0;

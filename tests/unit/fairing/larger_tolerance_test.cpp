@@ -71,7 +71,7 @@ constexpr std::array kTolerances = {0.03, 0.13, 0.6, 5.0};
 FairingParams paramsOf(FairingMode mode, int choice) {
   FairingParams params;
   params.mode = mode;
-  if (mode == FairingMode::Target) params.target = choice;
+  if (mode == FairingMode::Target) params.target = *targetOfNumber(choice);
   if (mode == FairingMode::Monotone) params.keepExtrema = choice;
   if (mode == FairingMode::Tolerance)
     params.tolerancePolicy = choice > 0 ? TolerancePolicy::All : TolerancePolicy::AsNeeded;
