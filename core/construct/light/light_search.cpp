@@ -19,6 +19,7 @@ constexpr int kMostSpanDegree = 7;
 constexpr double kOrder = 9.0;           // a fit of c points errs by about c to the power of minus this
 constexpr double kMostGrowth = 1.6;      // of the number of points from one try to the next
 constexpr double kWorkPerPoint = 24.0;   // iterations times spans, about 0.01 ms each, per point that may be spared
+constexpr double kLeastWork = 60.0;      // with it a short curve has several tries
 constexpr int kCheckRounds = 4;          // of one fit, while the strict check finds a little missing
 constexpr double kNearly = 1.3;          // tolerances: more than a little
 constexpr double kHopeless = 5.0;        // tolerances after the first phase: no other start will do
@@ -94,7 +95,7 @@ class LightSearch {
     int fewest = reference_.isClosed() ? std::max(kFewestClosedPoints, changes_) : std::max(kFewestOpenPoints, changes);
     if (task_.forms == LightForms::Quintic) fewest = std::max(fewest, kLightQuintic + 1);
     const int most = task_.mostPoints.value_or(result_.report.pointsBefore - 1);
-    mostWork_ = kWorkPerPoint * (most - fewest + 1);
+    if (most >= fewest) mostWork_ = kLeastWork + kWorkPerPoint * (most - fewest + 1);
     int failed = fewest - 1;
     for (int count = fewest; count <= most && mayGoOn(); count = nextCount(count, most)) {
       if (isBeyond(failed)) return false;
