@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "core/curve/arc_length.h"
-#include "core/curve/curvature_counts.h"
 #include "core/curve/turning_points.h"
 
 namespace batten {
@@ -46,10 +45,10 @@ struct Profile {
   };
   std::vector<Point> points;
 
-  explicit Profile(const NurbsCurve& curve) : curve_(curve), domain_(curve.end() - curve.start()) {
+  Profile(const NurbsCurve& curve, CancelCheck check) : curve_(curve), domain_(curve.end() - curve.start()) {
     const std::vector<double> breaks = curve.breaks();
     // Inside a span everything is smooth; the limits from both sides of a knot are taken just beside it.
-    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < breaks.size() && !check.isCancelled(); ++i) {
       const double width = breaks[i + 1] - breaks[i];
       const double from = breaks[i], to = i + 2 == breaks.size() ? breaks[i + 1] : breaks[i + 1] - 1e-9 * width;
       constexpr int kPerSpan = 24;
@@ -162,8 +161,8 @@ std::optional<double> curvatureSlope(const NurbsCurve& curve, double u) {
   return slopeOf(curve.derivatives(u, 3), curve.end() - curve.start());
 }
 
-CurvatureCounts curvatureCounts(const NurbsCurve& curve, double prominence, bool periodic) {
-  const Profile profile(curve);
+CurvatureCounts curvatureCounts(const NurbsCurve& curve, double prominence, bool periodic, CancelCheck check) {
+  const Profile profile(curve, check);
   CurvatureCounts counts;
   if (profile.points.empty()) return counts;
   counts.extrema = static_cast<int>(turningsOf(fromHighest(profile, periodic), prominence, periodic).size());
@@ -178,8 +177,9 @@ CurvatureCounts curvatureCounts(const NurbsCurve& curve, double prominence, bool
   return counts;
 }
 
-std::vector<CurvatureExtremumPoint> curvatureExtrema(const NurbsCurve& curve, double prominence, bool periodic) {
-  const Profile profile(curve);
+std::vector<CurvatureExtremumPoint> curvatureExtrema(const NurbsCurve& curve, double prominence, bool periodic,
+                                                     CancelCheck check) {
+  const Profile profile(curve, check);
   std::vector<CurvatureExtremumPoint> extrema;
   if (profile.points.empty()) return extrema;
   const auto points = fromHighest(profile, periodic);
@@ -195,19 +195,20 @@ std::vector<CurvatureExtremumPoint> curvatureExtrema(const NurbsCurve& curve, do
   return extrema;
 }
 
-int countedExtrema(const NurbsCurve& curve, bool periodic) {
+int countedExtrema(const NurbsCurve& curve, bool periodic, CancelCheck check) {
   const double size = extent(curve);
-  return size > 0.0 ? curvatureCounts(curve, kExtremumProminence / size, periodic).extrema : 0;
+  return size > 0.0 ? curvatureCounts(curve, kExtremumProminence / size, periodic, check).extrema : 0;
 }
 
-std::vector<double> inflections(const NurbsCurve& curve, double threshold, bool periodic) {
-  const Profile profile(curve);
+std::vector<double> inflections(const NurbsCurve& curve, double threshold, bool periodic, CancelCheck check) {
+  const Profile profile(curve, check);
   std::vector<double> result;
   if (profile.points.empty()) return result;
   const auto points = fromMostBent(profile, periodic);
   const double reach = std::max(threshold, std::numeric_limits<double>::min());
   const Profile::Point* last = nullptr;  // The last one beyond the threshold.
   for (const Profile::Point& p : points) {
+    if (check.isCancelled()) return {};
     if (!(std::abs(p.kappa) > reach)) continue;
     if (last != nullptr && (last->kappa > 0.0) != (p.kappa > 0.0)) {
       double low = last->u, high = p.u;

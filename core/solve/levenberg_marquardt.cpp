@@ -20,6 +20,7 @@ bool improve(LevenbergProblem& problem, const LevenbergOptions& options, Levenbe
       return true;
     }
     run.damping *= options.failure;
+    if (problem.promised() < options.leastPromise * run.cost) return false;
   }
   return false;
 }

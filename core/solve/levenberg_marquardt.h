@@ -21,6 +21,8 @@ class LevenbergProblem {
   /// Makes the state to which the step with this damping leads the trial. @return its cost; not finite where there is
   /// no such step.
   virtual double tryStep(double damping) = 0;
+  /// About the most that the last step could lower the cost by, as the model has it.
+  virtual double promised() const { return std::numeric_limits<double>::infinity(); }
   /// The trial becomes the state.
   virtual void accept() = 0;
   /// Whether the state is good enough. Asked after each accepted step.
@@ -36,6 +38,7 @@ struct LevenbergOptions {
   double success = 5.0, failure = 4.0;             ///< The damping is divided by the one, or multiplied by the other.
   double leastDamping = 1e-12;
   double mostDamping = std::numeric_limits<double>::infinity();  ///< No attempt is made at this one or above.
+  double leastPromise = 0.0;    ///< Relative: after a failed step that promised less, no higher damping is tried.
   double smallDecrease = 1e-4;  ///< Relative: a step that lowers the cost by less is a small one.
   int smallSteps = 2;           ///< That many in a row end it …
   int smallStepsDamped = 2;     ///< … or that many while the damping is above `freeDamping`: a heavily damped step is

@@ -33,7 +33,7 @@
 #include "core/curve/curvature.h"
 #include "core/curve/knot_operations.h"
 #include "core/curve/uniform_quintic.h"
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/bench/accuracy_peers.h"
 #include "tests/bench/cubic_chain.h"

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/curve/curvature.h"
-#include "core/curve/curvature_counts.h"
 
 namespace batten {
 namespace {

@@ -65,7 +65,7 @@ bool LightReference::addSpan(const NurbsCurve& curve, double from, double to, in
 }
 
 std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool closed, double step,
-                                                   std::optional<double> diagonal) {
+                                                   std::optional<double> diagonal, CancelCheck check) {
   LightReference made;
   made.closed_ = closed;
   const std::vector<double> breaks = curve.breaks();
@@ -80,6 +80,7 @@ std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool
   std::vector<LightSample>& samples = made.samples_;
   samples.reserve(static_cast<std::size_t>(total / asked) + kFewestSteps * breaks.size() + 1);
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    if (check.isCancelled()) return std::nullopt;
     const int steps = std::max(kFewestSteps, static_cast<int>(std::ceil(lengths[i] / asked)));
     if (!made.addSpan(curve, breaks[i], breaks[i + 1], steps)) return std::nullopt;
   }

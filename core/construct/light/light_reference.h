@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/base/vec2.h"
 #include "core/curve/nurbs_curve.h"
 
@@ -33,9 +34,10 @@ class LightReference {
   /// @param step largest distance of two samples; they lie closer where the curve turns quickly. Absent when the curve
   /// has no length or a derivative that vanishes, or turns by more than 20 degrees at once (a corner): it then has no
   /// normal everywhere.
+  /// Absent, too, when cancelled.
   /// @param diagonal of the whole that the curve is a section of; absent: its own.
   static std::optional<LightReference> make(const NurbsCurve&, bool closed, double step,
-                                            std::optional<double> diagonal = {});
+                                            std::optional<double> diagonal = {}, CancelCheck check = {});
   /// Of a smooth line of points at about even steps, with its direction and curvature by differences; a closed one does
   /// not repeat its first point. Absent when it has no length. @pre at least 5 points.
   static std::optional<LightReference> through(const std::vector<Vec2>& points, bool closed);

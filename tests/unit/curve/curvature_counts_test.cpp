@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/curve/curvature_counts.h"
 
 #include <gtest/gtest.h>
 
@@ -35,14 +34,15 @@ TEST(CurvatureCounts, AreThoseOfThePlacesFound) {
 TEST(CurvatureCounts, GoAroundAClosedCurve) {
   // A circle whose radius swings five times by a quarter: ten extrema and, bent inwards between the lobes, ten
   // inflections. As a periodic cubic through many points of it.
-  constexpr int kPoints = 240;
+  constexpr int kControlPoints = 240;
   std::vector<Vec2> points;
   std::vector<double> knots;
-  for (int i = 0; i < kPoints + 5; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kPoints, radius = 100.0 * (1.0 + 0.25 * std::cos(5.0 * angle));
+  for (int i = 0; i < kControlPoints + 5; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kControlPoints,
+                 radius = 100.0 * (1.0 + 0.25 * std::cos(5.0 * angle));
     points.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
   }
-  for (int i = 0; i < kPoints + 11; ++i) knots.push_back(i);
+  for (int i = 0; i < kControlPoints + 11; ++i) knots.push_back(i);
   const auto curve = NurbsCurve::make(5, knots, points);
   ASSERT_TRUE(curve);
   const CurvatureCounts counts = curvatureCounts(*curve, 1e-4, true);
