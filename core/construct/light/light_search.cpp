@@ -9,6 +9,7 @@
 #include "core/construct/light/exact_shape.h"
 #include "core/construct/light/held_ends.h"
 #include "core/construct/light/light_check.h"
+#include "core/curve/curvature.h"
 
 namespace batten {
 namespace {
@@ -37,7 +38,7 @@ class LightSearch {
       return;
     }
     result_.report.ranked = rankedExtrema(reference, kRankedProminence / reference.diagonal());
-    auto kept = significantExtrema(result_.report.ranked, options.significance * options.tolerance);
+    const auto kept = structure();
     changes_ = static_cast<int>(kept.size());
     const double rise = reference.samples().back().kappa - reference.samples().front().kappa;
     if (!kept.empty()) {
@@ -71,6 +72,31 @@ class LightSearch {
   }
 
  private:
+  double denseProminence() const { return kExtremumProminence / std::max(extent(dense_), reference_.diagonal()); }
+
+  /// The significant extrema. Where they are more than are counted, those go that move the curve least and by less than
+  /// the tolerance: others might be seen in the light curve that are too low to be seen in the dense one.
+  std::vector<RankedExtremum> structure() const {
+    double least = options_.significance * options_.tolerance;
+    auto kept = significantExtrema(result_.report.ranked, least);
+    const std::size_t counted = rankedExtrema(reference_, denseProminence()).size();
+    while (kept.size() > counted) {
+      std::optional<double> next;
+      for (const RankedExtremum& one : kept)
+        if (one.removal && (!next || *one.removal < *next)) next = one.removal;
+      if (!next || *next >= options_.tolerance) break;
+      least = std::nextafter(*next, options_.tolerance);
+      kept = significantExtrema(kept, least);
+    }
+    return kept;
+  }
+
+  /// As few extrema as are asked for, and no more than are counted of the dense curve.
+  int mostExtrema() {
+    if (!counted_) counted_ = curvatureCounts(dense_, denseProminence(), reference_.isClosed(), context_).extrema;
+    return std::min(changes_, *counted_);
+  }
+
   int free(int controlPoints, int degree) const {
     return reference_.isClosed() ? controlPoints - degree : controlPoints;
   }
@@ -201,8 +227,9 @@ class LightSearch {
   /// A curve that lost an extremum is kept for the case that none has them all.
   bool take(const NurbsCurve& curve, const LightVerdict& verdict, LightKind kind, int points) {
     if (!verdict.holds) return false;
+    if (task_.keepStructure && verdict.extrema > 0 && verdict.extrema > mostExtrema()) return false;
     const bool all =
-        !task_.keepStructure || verdict.extrema == changes_ || kind == LightKind::Line || kind == LightKind::Arc;
+        !task_.keepStructure || kind == LightKind::Line || kind == LightKind::Arc || verdict.extrema == mostExtrema();
     if (!all && !spare_.curve.isEmpty()) return false;
     LightCurve& target = all ? result_ : spare_;
     if (!all) target.report = result_.report;
@@ -223,6 +250,7 @@ class LightSearch {
   const LightTask& task_;
   const RunContext& context_;
   int changes_ = 0, firstSign_ = 0, firstKappaSign_ = 0;
+  std::optional<int> counted_;  ///< Extrema of the dense curve, once they are asked for.
   LightBounds bounds_;
   LightCurve result_, spare_;
   int iterations_ = 0, tries_ = 0;
