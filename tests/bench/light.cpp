@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints how few control points light curves need, for shapes whose exact course is known, and for drawings.
 //
-//   bench_light [SAMPLE.png] [--drawings]
+//   bench_light [SAMPLE.png] [--drawings] [--simplified]
 //
 // First table: nine shapes of 800 x 600 px, at tolerances of 1, 0.5, 0.2 and 0.05 px from the truth itself: control
 // points (each once; exact line 2, arc or circle 3), those of a chain of G1 cubics, each as long as it can be, and of
@@ -11,18 +11,27 @@
 // line, which is the roof, and all of it, at 0.2 and 0.05 mm.
 // --drawings: the drawings in BATTEN_SKETCHES (.png, .jpg), the dense curve beside light ones at 0.05, 0.2 and 1 px,
 // and what the detail makes of them.
+// --simplified: the same drawings as whole outlines within 3, 6 and 10 px: control points of the sections between
+// corners, each by its own degree and counted in full, and of the curves that they are joined to; beside them those of
+// the longest cubics between the corners, and of potrace on the same page.
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/construct/light/detail_curve.h"
+#include "core/construct/light/detail_line.h"
 #include "core/construct/light/light_curve.h"
+#include "core/curve/corners_inside.h"
+#include "core/curve/curvature.h"
+#include "core/curve/knot_operations.h"
 #include "core/curve/uniform_quintic.h"
 #include "core/image/file/scan_reader.h"
 #include "core/pipeline/run/pipeline.h"
@@ -125,11 +134,12 @@ void printShapes() {
 }
 
 /// The dense curves of a scan; none where it cannot be read.
-PipelineOutput denseCurvesOf(const std::filesystem::path& path) {
+PipelineOutput denseCurvesOf(const std::filesystem::path& path, bool cornersFound = true) {
   const auto scan = readScan(path, ScanRequest{}, RunContext{});
   if (!scan) return {};
   Recipe recipe;
   recipe.construct.light = false;
+  recipe.corners.automatic = cornersFound;
   StageCache cache;
   PipelineRequest request;
   request.upTo = StageId::Curves;
@@ -180,6 +190,115 @@ void printDrawing(const std::filesystem::path& path) {
   }
 }
 
+/// Control points of a section between corners as it was found, before it was raised to the degree of the others: a
+/// single span has those of its own degree.
+int ownPoints(const NurbsCurve& section) {
+  std::vector<Vec2> differences(section.controlPoints().begin(), section.controlPoints().end());
+  if (static_cast<int>(differences.size()) != section.degree() + 1) return section.controlPointCount();
+  const double least = 1e-9 * extent(section);
+  int degree = section.degree();
+  // The differences of one order more than the degree vanish.
+  std::vector<double> largest;
+  for (int order = 1; order <= section.degree(); ++order) {
+    double most = 0.0;
+    for (std::size_t i = 0; i + 1 < differences.size(); ++i) {
+      differences[i] = differences[i + 1] - differences[i];
+      most = std::max(most, differences[i].norm());
+    }
+    differences.pop_back();
+    largest.push_back(most);
+  }
+  while (degree > 1 && largest[static_cast<std::size_t>(degree) - 1] <= least) --degree;
+  return degree + 1;
+}
+
+/// The same of all sections of a curve.
+int ownPointsOfSections(const NurbsCurve& curve) {
+  int points = 0;
+  NurbsCurve rest = curve;
+  for (const double u : cornersInside(curve)) {
+    const auto halves = split(rest, u);
+    if (!halves) break;
+    points += ownPoints(halves->left);
+    rest = halves->right;
+  }
+  return points + ownPoints(rest);
+}
+
+/// The longest cubics between the corners that the simplified curve has, too.
+int cubicsBetweenCorners(const NurbsCurve& dense, bool closed, double tolerancePx, double mmPerPx) {
+  const EvenLine line = evenLine(dense, closed, 0.5 * mmPerPx);
+  std::vector<Vec2> points;
+  for (const Vec2& p : line.points) points.push_back(p / mmPerPx);
+  const auto corners = cornersAtScale(line, tolerancePx * mmPerPx);
+  if (corners.empty()) return cubicChainPoints({points, {}}, closed, tolerancePx);
+  if (closed) {
+    std::rotate(points.begin(), points.begin() + corners.front().sample, points.end());
+    points.push_back(points.front());
+  }
+  int sum = 0;
+  std::size_t from = 0;
+  for (std::size_t i = closed ? 1 : 0; i <= corners.size(); ++i) {
+    const auto to = i == corners.size()
+                        ? points.size() - 1
+                        : static_cast<std::size_t>(corners[i].sample - (closed ? corners.front().sample : 0));
+    const std::vector<Vec2> part(points.begin() + static_cast<std::ptrdiff_t>(from),
+                                 points.begin() + static_cast<std::ptrdiff_t>(to) + 1);
+    if (part.size() > 1) sum += cubicChainPoints({part, {}}, false, tolerancePx);
+    from = to;
+  }
+  return sum;
+}
+
+/// Ragged outlines within a tolerance in pixels, whole ones, without corners that were marked or found before: what the
+/// control points of a simplified drawing are to be held against.
+void printSimplified(const std::filesystem::path& path) {
+  const auto scan = readScan(path, ScanRequest{}, RunContext{});
+  const PipelineOutput out = denseCurvesOf(path, false);
+  if (!scan || !out.constructed) return;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "batten-bench-light";
+  std::filesystem::create_directories(folder);
+  const Peer potrace = potraceWith(0.2);
+  std::optional<TraceResult> traced;
+  if (potrace.missing.empty() && writePgm(scan->grey, folder / "page.pgm"))
+    traced = potrace.run(folder / "page.pgm", folder);
+  std::filesystem::remove_all(folder);
+  const double mmPerPx = out.frame.mmPerPx;
+  for (const double tolerancePx : {3.0, 6.0, 10.0}) {
+    int own = 0, joined = 0, before = 0, corners = 0, extrema = 0, necks = 0, dense = 0, cubics = 0;
+    double worst = 0.0;
+    const std::clock_t begin = std::clock();
+    for (const TracedCurve& curve : out.constructed->curves) {
+      LightOptions options;
+      options.tolerance = tolerancePx * mmPerPx;
+      options.step = 0.5 * mmPerPx;
+      const auto simple = simplifiedCurve(curve.sketched, curve.closed, options, {});
+      if (!simple || simple->report.kind == LightKind::Dense) {
+        ++dense;
+        own += curve.sketchedFigures.controlPoints;
+        joined += curve.sketchedFigures.controlPoints;
+        continue;
+      }
+      before += simple->report.pointsBefore;
+      own += simple->report.kind == LightKind::Chain ? ownPointsOfSections(simple->curve) : simple->report.points;
+      joined += simple->report.points;
+      corners += simple->report.corners;
+      extrema += simple->report.extrema;
+      necks += simple->report.necks;
+      worst = std::max(worst, simple->report.worst / mmPerPx);
+    }
+    const double ms = 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    for (const TracedCurve& curve : out.constructed->curves)
+      cubics += cubicsBetweenCorners(curve.sketched, curve.closed, tolerancePx, mmPerPx);
+    std::printf(
+        "%-30s within %4.1f px: %zu outlines, %5d -> %4d points by sections, %4d in one curve each, %4d corners, %4d "
+        "extrema, %2d necks, %d stay dense, %5.2f px off, %.0f ms CPU; cubics %d, potrace %s\n",
+        path.filename().string().c_str(), tolerancePx, out.constructed->curves.size(), before, own, joined, corners,
+        extrema, necks, dense, worst, ms, cubics, traced ? std::to_string(traced->controlPoints).c_str() : "-");
+    std::fflush(stdout);
+  }
+}
+
 /// What the detail makes of a drawing.
 void printDetails(const std::filesystem::path& path) {
   const auto scan = readScan(path, ScanRequest{}, RunContext{});
@@ -221,14 +340,16 @@ int main(int argc, char** argv) {
   if (const Peer potrace = potraceWith(0.2); !potrace.missing.empty()) {
     std::printf("\npotrace: %s\n", potrace.missing.c_str());
   }
-  bool wantsDrawings = false;
+  bool wantsDrawings = false, wantsSimplified = false;
   for (const char* argument : std::span(argv, static_cast<std::size_t>(argc)).subspan(1)) {
     if (std::string(argument) == "--drawings")
       wantsDrawings = true;
+    else if (std::string(argument) == "--simplified")
+      wantsSimplified = true;
     else
       printSample(argument);
   }
-  if (!wantsDrawings) return 0;
+  if (!wantsDrawings && !wantsSimplified) return 0;
   const char* folder = std::getenv("BATTEN_SKETCHES");
   if (folder == nullptr) {
     std::printf("\nBATTEN_SKETCHES is not set: no drawings.\n");
@@ -241,6 +362,10 @@ int main(int argc, char** argv) {
   }
   std::sort(drawings.begin(), drawings.end());
   std::printf("\n");
+  if (wantsSimplified) {
+    for (const auto& drawing : drawings) printSimplified(drawing);
+  }
+  if (!wantsDrawings) return 0;
   for (const auto& drawing : drawings) printDrawing(drawing);
   std::printf("\n");
   for (const auto& drawing : drawings) printDetails(drawing);

@@ -9,6 +9,7 @@
 #include "core/construct/light/exact_shape.h"
 #include "core/construct/light/held_ends.h"
 #include "core/construct/light/light_check.h"
+#include "core/curve/curvature.h"
 
 namespace batten {
 namespace {
@@ -18,7 +19,7 @@ constexpr int kFewestOpenPoints = 3, kFewestClosedPoints = 4;
 constexpr int kMostSpanDegree = 7;
 constexpr double kOrder = 9.0;           // a fit of c points errs by about c to the power of minus this
 constexpr double kMostGrowth = 1.6;      // of the number of points from one try to the next
-constexpr double kWorkPerPoint = 24.0;   // iterations times spans, about 0.01 ms each, per point that may be spared
+constexpr double kWorkPerPoint = 60.0;   // iterations times spans, about 0.01 ms each, per point that may be spared
 constexpr int kCheckRounds = 4;          // of one fit, while the strict check finds a little missing
 constexpr double kNearly = 1.3;          // tolerances: more than a little
 constexpr double kHopeless = 5.0;        // tolerances after the first phase: no other start will do
@@ -37,7 +38,7 @@ class LightSearch {
       return;
     }
     result_.report.ranked = rankedExtrema(reference, kRankedProminence / reference.diagonal());
-    auto kept = significantExtrema(result_.report.ranked, options.significance * options.tolerance);
+    const auto kept = structure();
     changes_ = static_cast<int>(kept.size());
     const double rise = reference.samples().back().kappa - reference.samples().front().kappa;
     if (!kept.empty()) {
@@ -71,6 +72,31 @@ class LightSearch {
   }
 
  private:
+  double denseProminence() const { return kExtremumProminence / std::max(extent(dense_), reference_.diagonal()); }
+
+  /// The significant extrema. Where they are more than are counted, those go that move the curve least and by less than
+  /// the tolerance: others might be seen in the light curve that are too low to be seen in the dense one.
+  std::vector<RankedExtremum> structure() const {
+    double least = options_.significance * options_.tolerance;
+    auto kept = significantExtrema(result_.report.ranked, least);
+    const std::size_t counted = rankedExtrema(reference_, denseProminence()).size();
+    while (kept.size() > counted) {
+      std::optional<double> next;
+      for (const RankedExtremum& one : kept)
+        if (one.removal && (!next || *one.removal < *next)) next = one.removal;
+      if (!next || *next >= options_.tolerance) break;
+      least = std::nextafter(*next, options_.tolerance);
+      kept = significantExtrema(kept, least);
+    }
+    return kept;
+  }
+
+  /// As few extrema as are asked for, and no more than are counted of the dense curve.
+  int mostExtrema() {
+    if (!counted_) counted_ = curvatureCounts(dense_, denseProminence(), reference_.isClosed(), context_).extrema;
+    return std::min(changes_, *counted_);
+  }
+
   int free(int controlPoints, int degree) const {
     return reference_.isClosed() ? controlPoints - degree : controlPoints;
   }
@@ -98,30 +124,23 @@ class LightSearch {
     int failed = fewest - 1;
     for (int count = fewest; count <= most && mayGoOn(); count = nextCount(count, most)) {
       if (isBeyond(failed)) return false;
-      if (!withPoints(count, BreakStart::ByShape)) {
-        failed = count;
-        continue;
-      }
-      return goBack(failed, fewest);
+      if (withPoints(count)) return goBack(failed);
+      failed = count;
     }
     return false;
   }
-  /// Fewer points than those of the curve that was found, and more than those that failed; and then with even breaks,
-  /// which seldom do where the others fail, and are tried for nothing else.
-  bool goBack(int failed, int fewest) {
+  /// Fewer points than those of the curve that was found, and more than those that failed.
+  bool goBack(int failed) {
     LightCurve best = std::move(result_);
-    const auto isFound = [&](int count, BreakStart breaks) {
-      result_ = withEffort(LightCurve{{}, best.report});
-      if (!withPoints(count, breaks)) return false;
-      best = std::move(result_);
-      return true;
-    };
     while (best.report.points - failed > 1 && mayGoOn()) {
       if (isBeyond(failed)) return false;
       const int between = (best.report.points + failed) / 2;
-      if (!isFound(between, BreakStart::ByShape)) failed = between;
-    }
-    while (best.report.points > fewest && mayGoOn() && isFound(best.report.points - 1, BreakStart::Even)) {
+      result_ = withEffort(LightCurve{{}, best.report});
+      if (withPoints(between)) {
+        best = std::move(result_);
+      } else {
+        failed = between;
+      }
     }
     result_ = withEffort(std::move(best));
     return true;
@@ -145,20 +164,21 @@ class LightSearch {
     return found;
   }
 
-  bool withPoints(int count, BreakStart breaks) {
+  bool withPoints(int count) {
     const bool closed = reference_.isClosed();
     leastOff_ = std::numeric_limits<double>::infinity();
     const int degree = count - 1;
     const int lowest = task_.forms == LightForms::Quintic ? kLightQuintic : 2;
     const int spline = task_.forms == LightForms::UpToCubic ? kLightCubic : kLightQuintic;
     const int highest = task_.forms == LightForms::All ? kMostSpanDegree : spline;
-    if (!closed && degree >= lowest && degree <= highest && breaks == BreakStart::ByShape) {
+    if (!closed && degree >= lowest && degree <= highest) {
       if (fit(degree, 1, BreakStart::Even, true)) return true;
       if (leastOff_ < kHopeless && fit(degree, 1, BreakStart::Even, false)) return true;
     }
     const int spans = closed ? count : count - spline;
     if (spans < 2) return false;
-    return fit(spline, spans, breaks, true);
+    if (fit(spline, spans, BreakStart::ByShape, true)) return true;
+    return leastOff_ < kHopeless && fit(spline, spans, BreakStart::Even, true);
   }
 
   bool fit(int degree, int spans, BreakStart breaks, bool firstPhase) {
@@ -207,8 +227,9 @@ class LightSearch {
   /// A curve that lost an extremum is kept for the case that none has them all.
   bool take(const NurbsCurve& curve, const LightVerdict& verdict, LightKind kind, int points) {
     if (!verdict.holds) return false;
+    if (task_.keepStructure && verdict.extrema > 0 && verdict.extrema > mostExtrema()) return false;
     const bool all =
-        !task_.keepStructure || verdict.extrema == changes_ || kind == LightKind::Line || kind == LightKind::Arc;
+        !task_.keepStructure || kind == LightKind::Line || kind == LightKind::Arc || verdict.extrema == mostExtrema();
     if (!all && !spare_.curve.isEmpty()) return false;
     LightCurve& target = all ? result_ : spare_;
     if (!all) target.report = result_.report;
@@ -229,6 +250,7 @@ class LightSearch {
   const LightTask& task_;
   const RunContext& context_;
   int changes_ = 0, firstSign_ = 0, firstKappaSign_ = 0;
+  std::optional<int> counted_;  ///< Extrema of the dense curve, once they are asked for.
   LightBounds bounds_;
   LightCurve result_, spare_;
   int iterations_ = 0, tries_ = 0;
