@@ -11,12 +11,12 @@
 #include "ui/canvas/curve_canvas.h"
 #include "ui/main_window_parts.h"
 #include "ui/panels/rail/stage_of_change.h"
-#include "ui/panels/stages/export_panel.h"
+#include "ui/panels/stages/export/export_panel.h"
 #include "ui/panels/targets/shape_window.h"
 #include "ui/plots/curve_plots.h"
-#include "ui/session/direction_edits.h"
-#include "ui/session/piece_choice.h"
-#include "ui/session/region_edits.h"
+#include "ui/session/edits/direction_edits.h"
+#include "ui/session/edits/piece_choice.h"
+#include "ui/session/edits/region_edits.h"
 #include "ui/setting_finder.h"
 #include "ui/status_line.h"
 #include "ui/top_bar.h"
@@ -152,7 +152,7 @@ void MainWindow::connectActions() {
 }
 
 void MainWindow::trigger(ActionId id) {
-  if (const auto degree = targetOf(id)) return chooseTarget(session_, *degree);
+  if (const auto degree = targetOf(id)) return chooseTarget(session_, targetOfDegree(*degree));
   switch (id) {
     case ActionId::NewDrawing:
       return newDrawing();

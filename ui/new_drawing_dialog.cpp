@@ -43,27 +43,34 @@ NewDrawingDialog::NewDrawingDialog(QWidget* parent)
   format_->setNames(QStringLiteral("newDrawing.format"),
                     {QStringLiteral("a4-wide"), QStringLiteral("a4-high"), QStringLiteral("a3-wide")});
   grid->addWidget(format_, 1, 0, 1, 2);
-  const auto row = [&](int at, const QString& label, const QString& name, NumberField* field, double low, double high,
-                       double value, const QString& unit) {
-    field->setRange(low, high);
+  struct Row {
+    NumberField* field;
+    QString label, name;
+    double low, high, value;
+    QString unit;
+  };
+  int at = 2;
+  for (const Row& its :
+       {Row{width_, tr("Width"), QStringLiteral("newDrawing.width"), kSmallestMm, kLargestMm, kFormats[0].width(),
+            tr("mm")},
+        Row{height_, tr("Height"), QStringLiteral("newDrawing.height"), kSmallestMm, kLargestMm, kFormats[0].height(),
+            tr("mm")},
+        Row{dpi_, tr("Resolution"), QStringLiteral("newDrawing.dpi"), kLowestDpi, kHighestDpi, kUsualDpi, tr("dpi")}}) {
+    NumberField* field = its.field;
+    field->setRange(its.low, its.high);
     field->setStep(1);
-    field->setUnit(unit);
+    field->setUnit(its.unit);
     field->setFixedWidth(100);
-    field->edit()->setObjectName(name);
-    field->edit()->setAccessibleName(label);
-    field->setValue(value);
-    grid->addWidget(new QLabel(label, this), at, 0);
-    grid->addWidget(field, at, 1, Qt::AlignRight);
+    field->edit()->setObjectName(its.name);
+    field->edit()->setAccessibleName(its.label);
+    field->setValue(its.value);
+    grid->addWidget(new QLabel(its.label, this), at, 0);
+    grid->addWidget(field, at++, 1, Qt::AlignRight);
     connect(field, &NumberField::committed, this, [this, field](double now) {
       field->setValue(now);
       follow();
     });
-  };
-  row(2, tr("Width"), QStringLiteral("newDrawing.width"), width_, kSmallestMm, kLargestMm, kFormats[0].width(),
-      tr("mm"));
-  row(3, tr("Height"), QStringLiteral("newDrawing.height"), height_, kSmallestMm, kLargestMm, kFormats[0].height(),
-      tr("mm"));
-  row(4, tr("Resolution"), QStringLiteral("newDrawing.dpi"), dpi_, kLowestDpi, kHighestDpi, kUsualDpi, tr("dpi"));
+  }
   auto* buttons = new QHBoxLayout;
   buttons->setSpacing(8);
   auto* cancel = plainButton(tr("Cancel"), QStringLiteral("newDrawing.cancel"), this);

@@ -12,8 +12,8 @@
 #include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
 #include "core/exchange/curve_file.h"
-#include "core/exchange/export_settings.h"
-#include "core/fairing/curve_comparison.h"
+#include "core/exchange/model/export_settings.h"
+#include "core/fairing/profile/curve_comparison.h"
 
 namespace batten::cli {
 namespace {

@@ -43,7 +43,9 @@ std::string kindOf(const std::string& note) { return note.starts_with("Turns sha
 std::string fairingNote(const TracedCurve& curve) {
   const FairingReport& report = curve.fairing;
   if (report.note.empty() && !report.withinTolerance)
-    return "The request could only be met in part within the tolerance.";
+    return curve.fairingUsed.mode == FairingMode::LowPass
+               ? "The tolerance is too small to follow the filtered curvature."
+               : "The tolerance is too small to reach the target.";
   return report.note.empty() ? leftAsDrawnReason(curve) : report.note;
 }
 
@@ -58,8 +60,9 @@ std::string typicalNote(const std::vector<TracedCurve>& curves) {
     }
   }
   if (typical + transitions == 0) return {};
-  return std::to_string(typical) + " typical curves, " + std::to_string(monotone) + " of them monotone, and " +
-         std::to_string(transitions) + " transitions in between.";
+  return std::to_string(typical) + (typical == 1 ? " typical curve, " : " typical curves, ") +
+         std::to_string(monotone) + " of them monotone, and " + std::to_string(transitions) +
+         (transitions == 1 ? " transition." : " transitions.");
 }
 
 }  // namespace
@@ -76,8 +79,10 @@ std::vector<std::string> curveNotes(const PipelineOutput& output) {
   std::vector<std::string> lines;
   for (const Kind& k : constructed) {
     if (k.kind == "Turns sharply") {
-      lines.push_back(named(k.curves) + (k.curves.size() == 1 ? " turns" : " turn") +
-                      " sharply where no corner is marked: add --corner there.");
+      lines.push_back(
+          named(k.curves) + (k.curves.size() == 1 ? " turns" : " turn") +
+          " sharply where no corner is marked: add --corner there (suggest lists the places); where the line "
+          "trembles, raise construct.detail instead.");
     } else {
       lines.push_back(named(k.curves) + ": " + k.note);
     }

@@ -7,6 +7,7 @@
 #include "app/cli/compare_command.h"
 #include "app/cli/exit_codes.h"
 #include "app/cli/options_command.h"
+#include "app/cli/output_arguments.h"
 #include "app/cli/parameters_command.h"
 #include "app/cli/stage_dump.h"
 #include "app/cli/suggest_command.h"
@@ -14,8 +15,8 @@
 #include "app/cli/trace_plan.h"
 #include "app/cli/usage_error.h"
 #include "core/base/platform.h"
-#include "core/exchange/export_settings.h"
 #include "core/exchange/import_file.h"
+#include "core/exchange/model/export_settings.h"
 #include "core/pipeline/recipe/paper_presets.h"
 
 namespace {

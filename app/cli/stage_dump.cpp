@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include "core/curve/arc_length.h"
-#include "core/image/region_values.h"
+#include "core/image/threshold/region_values.h"
 
 namespace batten::cli {
 namespace {

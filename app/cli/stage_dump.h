@@ -9,7 +9,8 @@
 
 namespace batten::cli {
 
-/// Names that --dump takes: "log", "page" (as it is traced, without printed lines) and "paper" (the same, flattened), then the stages.
+/// Names that --dump takes: "log", "page" (as it is traced, without printed lines) and "paper" (the same, flattened),
+/// then the stages.
 std::vector<std::string> dumpNames();
 
 /// A stage's output as a picture of the scan's size: masks as they are, lines and curves over the lightened scan.

@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "app/cli/exit_codes.h"
+#include "app/cli/recipe_arguments.h"
 #include "app/cli/shown_digits.h"
 #include "app/cli/trace_plan.h"
 #include "core/base/angle.h"
 #include "core/base/platform.h"
 #include "core/base/shown_text.h"
 #include "core/contour/corner/corner_certainty.h"
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 #include "core/pipeline/run/corner_places.h"
 #include "core/pipeline/run/merge_advice.h"
 

@@ -22,7 +22,7 @@
 #include "core/document/report.h"
 #include "core/exchange/export_file.h"
 #include "core/exchange/save_atomically.h"
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "core/pipeline/run/curve_targets.h"
 #include "core/pipeline/run/direction_owners.h"
@@ -144,17 +144,7 @@ class Trace {
     if (arguments_.report.empty()) return {};
     ReportExtras extras;
     extras.readMilliseconds = readMilliseconds_;
-    if (out_.faired && arguments_.reportTargets) {
-      const auto& curves = out_.faired->curves;
-      extras.targets.resize(curves.size());
-      extras.targetProblems.resize(curves.size());
-      auto targets = targetsForAll(curves, context_);
-      for (std::size_t i = 0; i < curves.size(); ++i) {
-        if (!curves[i].included) continue;
-        if (!targets[i]) extras.targetProblems[i] = targets[i].error().message;
-        if (targets[i]) extras.targets[i] = std::move(*targets[i]);
-      }
-    }
+    if (out_.faired && arguments_.reportTargets) extras.targets = targetsForAll(out_.faired->curves, context_);
     extras.series = arguments_.reportSeries;
     extras.explanation = explanation_;
     extras.peakMemoryBytes = peakMemoryBytes();
@@ -212,7 +202,7 @@ class Trace {
     for (const std::size_t mark : owners.lostStarts)
       list.push_back("No curve near " + placeText(recipe.starts[mark].positionPx) + " for --start.");
     for (const auto& [contour, mark] : owners.startOfContour) {
-      if (out_.contours->contours[static_cast<std::size_t>(contour)].closed) continue;
+      if (out_.contours->contours[contour].closed) continue;
       list.push_back("The line at " + placeText(recipe.starts[mark].positionPx) +
                      " is open, so --start has no effect.");
     }

@@ -9,7 +9,7 @@
 #include "core/base/result.h"
 #include "core/document/export_builder.h"
 #include "core/document/report_pages/report_file.h"
-#include "core/exchange/export_settings.h"
+#include "core/exchange/model/export_settings.h"
 #include "core/pipeline/recipe/recipe.h"
 
 namespace batten::cli {
@@ -42,15 +42,9 @@ struct TracePlan {
 /// The words with a scan that is a file of curves or points among the imports.
 TraceArguments withCurvesAsImport(TraceArguments);
 
-/// The recipe that the words ask for: recipe file first, then --set in the order given, then corners, regions and
-/// resolution. @return BadParameter with what to do.
-Result<Recipe> recipeOf(const TraceArguments&);
-
 /// A message if the scan is a file of curves of a kind that is not read. @return UnreadableScan with what to do.
 Result<void> checkScanName(const TraceArguments&);
 
-/// The words --preset takes, in one line.
-std::string presetNames();
 /// --threads. @return BadParameter with what to do.
 Result<int> threadsOf(const TraceArguments&);
 

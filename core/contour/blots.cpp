@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/image/bit_disc.h"
-#include "core/image/bit_steps.h"
-#include "core/image/page_margins.h"
-#include "core/image/run_pieces.h"
+#include "core/image/bits/bit_disc.h"
+#include "core/image/bits/bit_steps.h"
+#include "core/image/bits/page_margins.h"
+#include "core/image/bits/run_pieces.h"
 
 namespace batten {
 namespace {

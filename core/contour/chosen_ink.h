@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/contour/edge_choices.h"
-#include "core/image/run_pieces.h"
+#include "core/image/bits/run_pieces.h"
 
 namespace batten {
 

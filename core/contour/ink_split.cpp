@@ -12,7 +12,7 @@
 #include "core/contour/centreline/stroke_paths.h"
 #include "core/contour/chosen_ink.h"
 #include "core/contour/label/ink_labels.h"
-#include "core/image/bit_steps.h"
+#include "core/image/bits/bit_steps.h"
 
 namespace batten {
 namespace {

@@ -7,9 +7,9 @@
 #include "core/base/run_context.h"
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/edge_params.h"
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
+#include "core/image/bits/run_pieces.h"
 #include "core/image/grey_image.h"
-#include "core/image/run_pieces.h"
 
 namespace batten {
 

@@ -7,8 +7,8 @@
 #include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
 #include "core/contour/edge_choices.h"
-#include "core/image/bit_image.h"
-#include "core/image/run_pieces.h"
+#include "core/image/bits/bit_image.h"
+#include "core/image/bits/run_pieces.h"
 
 namespace batten {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/image/run_pieces.h"
+#include "core/image/bits/run_pieces.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {

@@ -19,9 +19,9 @@
 #include "core/contour/outline/soft_edges.h"
 #include "core/contour/outline/subpixel_edges.h"
 #include "core/contour/outline/texture_holes.h"
-#include "core/image/bit_disc.h"
-#include "core/image/bit_steps.h"
-#include "core/image/run_pieces.h"
+#include "core/image/bits/bit_disc.h"
+#include "core/image/bits/bit_steps.h"
+#include "core/image/bits/run_pieces.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {

@@ -5,7 +5,7 @@
 #include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
 #include "core/contour/edge_params.h"
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
 #include "core/image/grey_image.h"
 
 namespace batten {

@@ -113,10 +113,10 @@ double ArcLength::parameter(double s) const {
   return u;
 }
 
-std::vector<CurveSample> sampleByArcLength(const NurbsCurve& curve, int count) {
+std::vector<CurveSample> sampleByArcLength(const NurbsCurve& curve, int count, CancelCheck check) {
   const ArcLength length(curve);
   std::vector<CurveSample> samples(count);
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < count && !check.isCancelled(); ++i) {
     CurveSample& sample = samples[i];
     sample.s = i + 1 == count ? length.total() : length.total() * i / (count - 1);
     sample.u = i + 1 == count ? curve.end() : length.parameter(sample.s);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/base/vec2.h"
 #include "core/curve/nurbs_curve.h"
 #include "core/curve/span_polynomials.h"
@@ -33,6 +34,6 @@ struct CurveSample {
   double speed = 0.0;            ///< |R'(u)|.
 };
 /// `count` samples at equal arc length, both ends included. @pre count >= 2.
-std::vector<CurveSample> sampleByArcLength(const NurbsCurve&, int count);
+std::vector<CurveSample> sampleByArcLength(const NurbsCurve&, int count, CancelCheck check = {});
 
 }  // namespace batten

@@ -48,10 +48,10 @@ ClosestPoint descend(const SpanPolynomials& curve, const Vec2& p, double start, 
 /// curve turns about, so that no hairpin hides between two of them.
 class StartTable {
  public:
-  explicit StartTable(const NurbsCurve& curve) : polynomials(curve) {
+  explicit StartTable(const NurbsCurve& curve, CancelCheck check = {}) : polynomials(curve) {
     const std::vector<double> breaks = curve.breaks();
     const int perSpan = 2 * curve.degree() + 2;
-    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < breaks.size() && !check.isCancelled(); ++i) {
       const double step = (breaks[i + 1] - breaks[i]) / perSpan;
       auto from = polynomials.at(breaks[i]);
       add(breaks[i], from[0], true);
@@ -140,8 +140,8 @@ ClosestPoint closestWith(const StartTable& table, const Vec2& p) {
 /// Follows points along a curve: the closest point of one is the start value of the next.
 class Follower {
  public:
-  explicit Follower(const NurbsCurve& curve)
-      : table_(curve), closed_(meets(curve)), window_((curve.end() - curve.start()) / 4.0) {}
+  Follower(const NurbsCurve& curve, CancelCheck check)
+      : table_(curve, check), closed_(meets(curve)), window_((curve.end() - curve.start()) / 4.0) {}
 
   ClosestPoint next(const Vec2& p) {
     ClosestPoint found;
@@ -214,24 +214,31 @@ Deviation summary(std::span<const Vec2> points, std::vector<double> distances) {
 
 ClosestPoint closestPoint(const NurbsCurve& curve, const Vec2& p) { return closestWith(StartTable(curve), p); }
 
-Deviation deviation(const NurbsCurve& curve, std::span<const Vec2> points, bool ordered) {
+Deviation deviation(const NurbsCurve& curve, std::span<const Vec2> points, bool ordered, CancelCheck check) {
   std::vector<double> distances;
   distances.reserve(points.size());
   if (ordered) {
-    Follower follower(curve);
-    for (const Vec2& p : points) distances.push_back(follower.next(p).distance);
+    Follower follower(curve, check);
+    for (const Vec2& p : points) {
+      if (check.isCancelled()) return {};
+      distances.push_back(follower.next(p).distance);
+    }
   } else {
-    const StartTable table(curve);
-    for (const Vec2& p : points) distances.push_back(closestWith(table, p).distance);
+    const StartTable table(curve, check);
+    for (const Vec2& p : points) {
+      if (check.isCancelled()) return {};
+      distances.push_back(closestWith(table, p).distance);
+    }
   }
   return summary(points, std::move(distances));
 }
 
-Deviation deviation(const NurbsCurve& a, const NurbsCurve& b) {
+Deviation deviation(const NurbsCurve& a, const NurbsCurve& b, CancelCheck check) {
   const int spans = static_cast<int>(std::max(a.breaks().size(), b.breaks().size())) - 1;
   std::vector<Vec2> points;
-  for (const CurveSample& sample : sampleByArcLength(a, std::max(201, 10 * spans + 1))) points.push_back(sample.point);
-  return deviation(b, points, true);
+  for (const CurveSample& sample : sampleByArcLength(a, std::max(201, 10 * spans + 1), check))
+    points.push_back(sample.point);
+  return deviation(b, points, true, check);
 }
 
 }  // namespace batten

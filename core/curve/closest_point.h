@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "core/base/cancel_check.h"
 #include "core/base/vec2.h"
 #include "core/curve/nurbs_curve.h"
 
@@ -23,9 +24,9 @@ struct Deviation {
   Vec2 worstPoint = Vec2::Zero();
 };
 /// @param ordered the points follow the curve from start to end (edge points do): searches locally, much faster.
-Deviation deviation(const NurbsCurve&, std::span<const Vec2> points, bool ordered);
+Deviation deviation(const NurbsCurve&, std::span<const Vec2> points, bool ordered, CancelCheck check = {});
 /// Largest and mean distance between two curves of similar course, sampled at equal arc length of `a` and projected on
 /// `b`.
-Deviation deviation(const NurbsCurve& a, const NurbsCurve& b);
+Deviation deviation(const NurbsCurve& a, const NurbsCurve& b, CancelCheck check = {});
 
 }  // namespace batten

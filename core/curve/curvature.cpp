@@ -45,10 +45,10 @@ struct Profile {
   };
   std::vector<Point> points;
 
-  explicit Profile(const NurbsCurve& curve) : curve_(curve), domain_(curve.end() - curve.start()) {
+  Profile(const NurbsCurve& curve, CancelCheck check) : curve_(curve), domain_(curve.end() - curve.start()) {
     const std::vector<double> breaks = curve.breaks();
     // Inside a span everything is smooth; the limits from both sides of a knot are taken just beside it.
-    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < breaks.size() && !check.isCancelled(); ++i) {
       const double width = breaks[i + 1] - breaks[i];
       const double from = breaks[i], to = i + 2 == breaks.size() ? breaks[i + 1] : breaks[i + 1] - 1e-9 * width;
       constexpr int kPerSpan = 24;
@@ -136,6 +136,21 @@ std::size_t indexOfMax(const std::vector<Profile::Point>& points, const std::fun
   return best;
 }
 
+/// All around from the highest value: the walk then ends as it began and no extremum can hide at the seam.
+std::vector<Profile::Point> fromHighest(const Profile& profile, bool periodic) {
+  return ordered(profile, indexOfMax(profile.points, [](double kappa) { return kappa; }), periodic);
+}
+
+std::vector<Profile::Point> fromMostBent(const Profile& profile, bool periodic) {
+  return ordered(profile, indexOfMax(profile.points, [](double kappa) { return std::abs(kappa); }), periodic);
+}
+
+std::vector<TurningPoint> turningsOf(const std::vector<Profile::Point>& points, double prominence, bool periodic) {
+  std::vector<double> kappas;
+  for (const Profile::Point& p : points) kappas.push_back(p.kappa);
+  return turningPoints(kappas, prominence, periodic ? TurningStart::OnMaximum : TurningStart::AtEnd);
+}
+
 }  // namespace
 
 std::optional<double> curvature(const NurbsCurve& curve, double u) {
@@ -146,16 +161,29 @@ std::optional<double> curvatureSlope(const NurbsCurve& curve, double u) {
   return slopeOf(curve.derivatives(u, 3), curve.end() - curve.start());
 }
 
-std::vector<CurvatureExtremumPoint> curvatureExtrema(const NurbsCurve& curve, double prominence, bool periodic) {
-  const Profile profile(curve);
+CurvatureCounts curvatureCounts(const NurbsCurve& curve, double prominence, bool periodic, CancelCheck check) {
+  const Profile profile(curve, check);
+  CurvatureCounts counts;
+  if (profile.points.empty()) return counts;
+  counts.extrema = static_cast<int>(turningsOf(fromHighest(profile, periodic), prominence, periodic).size());
+  const double reach = std::max(prominence, std::numeric_limits<double>::min());
+  int last = 0;
+  for (const Profile::Point& p : fromMostBent(profile, periodic)) {
+    if (!(std::abs(p.kappa) > reach)) continue;
+    const int sign = p.kappa > 0.0 ? 1 : -1;
+    if (last != 0 && sign != last) ++counts.inflections;
+    last = sign;
+  }
+  return counts;
+}
+
+std::vector<CurvatureExtremumPoint> curvatureExtrema(const NurbsCurve& curve, double prominence, bool periodic,
+                                                     CancelCheck check) {
+  const Profile profile(curve, check);
   std::vector<CurvatureExtremumPoint> extrema;
   if (profile.points.empty()) return extrema;
-  // All around from the highest value: the walk then ends as it began and no extremum can hide at the seam.
-  const auto points = ordered(profile, indexOfMax(profile.points, [](double kappa) { return kappa; }), periodic);
-  std::vector<double> kappas;
-  for (const Profile::Point& p : points) kappas.push_back(p.kappa);
-  const TurningStart start = periodic ? TurningStart::OnMaximum : TurningStart::AtEnd;
-  for (const TurningPoint& turning : turningPoints(kappas, prominence, start)) {
+  const auto points = fromHighest(profile, periodic);
+  for (const TurningPoint& turning : turningsOf(points, prominence, periodic)) {
     const Profile::Point& p = points[turning.index];
     extrema.push_back({p.u, 0.0, p.kappa, turning.maximum});
   }
@@ -167,20 +195,20 @@ std::vector<CurvatureExtremumPoint> curvatureExtrema(const NurbsCurve& curve, do
   return extrema;
 }
 
-int countedExtrema(const NurbsCurve& curve, bool periodic) {
+int countedExtrema(const NurbsCurve& curve, bool periodic, CancelCheck check) {
   const double size = extent(curve);
-  return size > 0.0 ? static_cast<int>(curvatureExtrema(curve, kExtremumProminence / size, periodic).size()) : 0;
+  return size > 0.0 ? curvatureCounts(curve, kExtremumProminence / size, periodic, check).extrema : 0;
 }
 
-std::vector<double> inflections(const NurbsCurve& curve, double threshold, bool periodic) {
-  const Profile profile(curve);
+std::vector<double> inflections(const NurbsCurve& curve, double threshold, bool periodic, CancelCheck check) {
+  const Profile profile(curve, check);
   std::vector<double> result;
   if (profile.points.empty()) return result;
-  const auto points =
-      ordered(profile, indexOfMax(profile.points, [](double kappa) { return std::abs(kappa); }), periodic);
+  const auto points = fromMostBent(profile, periodic);
   const double reach = std::max(threshold, std::numeric_limits<double>::min());
   const Profile::Point* last = nullptr;  // The last one beyond the threshold.
   for (const Profile::Point& p : points) {
+    if (check.isCancelled()) return {};
     if (!(std::abs(p.kappa) > reach)) continue;
     if (last != nullptr && (last->kappa > 0.0) != (p.kappa > 0.0)) {
       double low = last->u, high = p.u;

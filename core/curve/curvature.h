@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/curve/nurbs_curve.h"
 
 namespace batten {
@@ -24,11 +25,20 @@ struct CurvatureExtremumPoint {
 };
 /// Extrema of the signed curvature whose rise above both neighbouring extrema (or ends) exceeds `prominence` [1/unit].
 /// Usual prominence: kExtremumProminence / extent. `periodic`: the end continues at the start.
-std::vector<CurvatureExtremumPoint> curvatureExtrema(const NurbsCurve&, double prominence, bool periodic);
+std::vector<CurvatureExtremumPoint> curvatureExtrema(const NurbsCurve&, double prominence, bool periodic,
+                                                     CancelCheck check = {});
 /// Number of extrema of the usual prominence; 0 for a point.
-int countedExtrema(const NurbsCurve&, bool periodic);
+int countedExtrema(const NurbsCurve&, bool periodic, CancelCheck check = {});
 /// Parameters of sign changes of the curvature that reach beyond +-`threshold` [1/unit] on both sides.
-std::vector<double> inflections(const NurbsCurve&, double threshold, bool periodic);
+std::vector<double> inflections(const NurbsCurve&, double threshold, bool periodic, CancelCheck check = {});
+
+struct CurvatureCounts {
+  int extrema = 0, inflections = 0;
+};
+
+/// How many there are of curvatureExtrema and of inflections, with the prominence as their threshold: from one look at
+/// the curve, and without the places, which cost more than the counts.
+CurvatureCounts curvatureCounts(const NurbsCurve&, double prominence, bool periodic, CancelCheck check = {});
 
 /// Diagonal of the bounding box of the control points; the scale that relative tolerances refer to. > 0 for made curves
 /// that are not a point.

@@ -64,10 +64,10 @@ class Simplifier {
   Simplifier(std::span<const double> s, std::span<const double> kappa, double length, bool closed)
       : s_(s), kappa_(kappa), length_(length), closed_(closed), now_(allExtrema(kappa, closed)) {}
 
-  std::vector<StructureLevel> levels() {
+  std::vector<StructureLevel> levels(CancelCheck check) {
     std::vector<StructureLevel> result{{now_, 0.0}};
     double worst = 0.0;
-    while (!now_.extrema.empty()) {
+    while (!now_.extrema.empty() && !check.isCancelled()) {
       const Removal best = cheapest();
       if (best.count == 0) break;
       remove(best);
@@ -122,8 +122,8 @@ class Simplifier {
 }  // namespace
 
 std::vector<StructureLevel> structureLevels(std::span<const double> s, std::span<const double> kappa, double length,
-                                            bool closed) {
-  return Simplifier(s, kappa, length, closed).levels();
+                                            bool closed, CancelCheck check) {
+  return Simplifier(s, kappa, length, closed).levels(check);
 }
 
 CurvatureStructure structureAt(std::span<const double> kappa, const CurvatureStructure& all,

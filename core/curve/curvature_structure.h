@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "core/base/cancel_check.h"
+
 namespace batten {
 
 /// An extremum of sampled curvature.
@@ -29,7 +31,7 @@ struct StructureLevel {
 /// @param closed the last sample is followed by the first at `length`; pairs only, and never below four (four-vertex
 /// theorem).
 std::vector<StructureLevel> structureLevels(std::span<const double> s, std::span<const double> kappa, double length,
-                                            bool closed);
+                                            bool closed, CancelCheck check = {});
 
 /// The structure that keeps the extrema nearest to given samples, and between two of one kind the extreme that parts
 /// them.

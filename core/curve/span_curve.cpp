@@ -188,12 +188,13 @@ double SpanCurve::bendBound(const SpanCurve& other, int span) const {
   return bound;
 }
 
-std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool closed) {
+std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool closed, CancelCheck check) {
   const int parts = curve.basis().spanCount() * kPartsPerSpan;
   std::vector<PartLength> lengths;
   lengths.reserve(parts);
   std::vector<double> cumulative{0.0};
   for (int k = 0; k < parts; ++k) {
+    if (check.isCancelled()) return std::nullopt;
     lengths.emplace_back(curve, k);
     cumulative.push_back(cumulative.back() + lengths.back().whole());
   }
@@ -203,6 +204,7 @@ std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool c
   result.places.reserve(count);
   std::size_t k = 0;
   for (int i = 0; i < count; ++i) {
+    if (check.isCancelled()) return std::nullopt;
     const double target = result.length * i / (closed ? count : count - 1);
     while (k + 1 < lengths.size() && cumulative[k + 1] <= target) ++k;
     const int part = static_cast<int>(k);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/base/vec2.h"
 #include "core/curve/nurbs_curve.h"
 
@@ -87,7 +88,7 @@ struct EqualArc {
 };
 /// Absent when the curve has no length or is not finite. The speed of each half span is taken as the polynomial through
 /// its values at seven Legendre nodes; the places on its integral are found by safeguarded Newton.
-std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool closed);
+std::optional<EqualArc> equalArcPlaces(const SpanCurve& curve, int count, bool closed, CancelCheck check = {});
 
 /// The foot point of `point` on the curve that Newton's method reaches from `start`; periodic curves run on over the
 /// seam, others stop at their ends.

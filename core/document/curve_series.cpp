@@ -26,7 +26,7 @@ std::vector<Vec2> powersOf(const std::vector<Vec2>& bezier) {
     Vec2 sum = Vec2::Zero();
     double inner = 1.0;  // C(k, i)
     for (int i = 0; i <= k; ++i) {
-      sum += ((k - i) % 2 == 0 ? inner : -inner) * bezier[static_cast<std::size_t>(i)];
+      sum += ((k - i) % 2 == 0 ? inner : -inner) * bezier[i];
       inner *= static_cast<double>(k - i) / (i + 1);
     }
     powers.emplace_back(choose * sum);

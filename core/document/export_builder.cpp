@@ -11,7 +11,7 @@
 
 #include "core/base/statistics.h"
 #include "core/curve/line_names.h"
-#include "core/exchange/export_check.h"
+#include "core/exchange/model/export_check.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/run/direction_owners.h"
 #include "core/pipeline/run/imported_lines.h"
@@ -77,7 +77,7 @@ PieceFigures figuresOf(const TracedCurve& curve, bool sketched) {
   if (sketched || curve.fairingUsed.mode == FairingMode::None) return figures;
   figures.toleranceMm = curve.fairingUsed.toleranceMm;
   figures.movedMm = curve.fairing.maxDeviationMm;
-  if (curve.fairingUsed.mode == FairingMode::Target) figures.target = curve.fairingUsed.target;
+  if (curve.fairingUsed.mode == FairingMode::Target) figures.target = static_cast<int>(curve.fairingUsed.target);
   return figures;
 }
 
@@ -88,14 +88,14 @@ void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched
   std::map<int, ContourPieces> byContour;
   std::map<std::size_t, const TracedCurve*> byPiece;
   for (const TracedCurve& curve : output.faired->curves) {
-    if (curve.included && !shapeOf(curve, sketched).isEmpty()) byPiece[static_cast<std::size_t>(curve.piece)] = &curve;
+    if (curve.included && !shapeOf(curve, sketched).isEmpty()) byPiece[curve.piece] = &curve;
   }
   for (std::size_t i = 0; i < output.pieces->pieces.size(); ++i) {
     const auto found = byPiece.find(i);
     byContour[output.pieces->pieces[i].contour].push_back(found == byPiece.end() ? nullptr : found->second);
   }
   for (const auto& [contour, pieces] : byContour) {
-    const Contour& line = output.contours->contours[static_cast<std::size_t>(contour)];
+    const Contour& line = output.contours->contours[contour];
     for (const auto& run : runs(pieces, line.closed)) {
       ExportCurve& curve = document.curves.emplace_back();
       curve.layer = sketched ? kSketchedLayer : kFairedLayer;
@@ -107,7 +107,7 @@ void addCurves(const PipelineOutput& output, const Recipe& recipe, bool sketched
         ExportPiece& own = curve.pieces.emplace_back(
             ExportPiece{shapeOf(*piece, sketched), nameOfCurve(output, recipe, *piece), number});
         own.figures = figuresOf(*piece, sketched);
-        if (const auto& wanted = owners.ofPiece[static_cast<std::size_t>(piece->piece)])
+        if (const auto& wanted = owners.ofPiece[piece->piece])
           own.direction = PieceDirection{static_cast<int>(wanted->mark), wanted->isTurned};
       }
       if (const ImportedLine* imported = importedLineOf(line, recipe.imports))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/exchange/export_model.h"
+#include "core/exchange/model/export_model.h"
 #include "core/pipeline/run/pipeline.h"
 
 namespace batten {
@@ -10,10 +10,11 @@ namespace batten {
 enum class ExportedCurves { Faired, Sketched, Both };
 
 /// What an export of the present result holds: the faired curves the user has not excluded, grouped by contour into
-/// paths. Pieces that follow each other form one path, "curve-3" if Curve 3 has the lowest number among them; where a piece is missing (excluded or failed) the
-/// line is interrupted and becomes several open paths. Empty curves if the run gave no faired curve.
-/// Sketched curves come before faired ones, on a layer of their own, with ids that end in "-sketched"; a piece that was
-/// not faired is one of both kinds. Pieces are named and numbered as in the window and the report.
+/// paths. Pieces that follow each other form one path, "curve-3" if Curve 3 has the lowest number among them; where a
+/// piece is missing (excluded or failed) the line is interrupted and becomes several open paths. Empty curves if the
+/// run gave no faired curve. Sketched curves come before faired ones, on a layer of their own, with ids that end in
+/// "-sketched"; a piece that was not faired is one of both kinds. Pieces are named and numbered as in the window and
+/// the report.
 ExportDocument exportDocument(const PipelineOutput&, const Recipe&, const Scan&,
                               ExportedCurves which = ExportedCurves::Faired);
 

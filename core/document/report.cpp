@@ -8,9 +8,9 @@
 #include "core/base/angle.h"
 #include "core/construct/pieces.h"
 #include "core/document/curve_series.h"
-#include "core/fairing/curve_comparison.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_report.h"
+#include "core/fairing/profile/curve_comparison.h"
 #include "core/fairing/target_advice.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/polyline/polyline_tools.h"
@@ -112,10 +112,12 @@ Json constructToJson(const ConstructReport& r, const PageFrame& frame) {
 Json logAestheticToJson(const FairingReport& r) {
   Json list = Json::array();
   for (const LogAestheticSpan& one : r.logAesthetic) {
+    // Lambda is relative to the radius at the start; a span that bends both ways or is straight at an end has none.
+    const bool hasLambda = one.startRadiusMm * one.endRadiusMm > 0.0;
     list.push_back({{"from", number(one.from)},
                     {"to", number(one.to)},
                     {"alpha", number(one.alpha)},
-                    {"lambda", number(one.lambda)},
+                    {"lambda", hasLambda ? number(one.lambda) : Json(nullptr)},
                     {"start_radius_mm", number(one.startRadiusMm)},
                     {"end_radius_mm", number(one.endRadiusMm)}});
   }
@@ -220,11 +222,12 @@ Json curveToJson(const PipelineOutput& out, const Recipe& recipe, const ReportEx
     json["sketched_curve"] = curveSeriesToJson(c.sketched);
     if (!(c.faired == c.sketched)) json["faired_curve"] = curveSeriesToJson(c.faired);
   }
-  if (index < extras.targets.size() && extras.targets[index]) {
-    json["recommended_degree"] = advisedDegree(*extras.targets[index], c.fairingUsed.toleranceMm);
-    json["targets"] = targetsToJson(*extras.targets[index], c.fairingUsed.toleranceMm);
-  } else if (index < extras.targetProblems.size() && !extras.targetProblems[index].empty()) {
-    json["targets_problem"] = extras.targetProblems[index];
+  if (!c.included || index >= extras.targets.size()) return json;
+  if (const auto& targets = extras.targets[index]) {
+    json["recommended_degree"] = advisedDegree(*targets, c.fairingUsed.toleranceMm);
+    json["targets"] = targetsToJson(*targets, c.fairingUsed.toleranceMm);
+  } else {
+    json["targets_problem"] = targets.error().message;
   }
   return json;
 }
@@ -330,7 +333,7 @@ void addComparisons(const PipelineOutput& out, Json& curves) {
 Json explanationToJson(const PipelineOutput& out, const Recipe& recipe, const Explanation& e) {
   Json stretches = Json::array();
   for (const InventedStretch& s : e.inventions) {
-    const std::string name = nameOfCurve(out, recipe, out.faired->curves[static_cast<std::size_t>(s.curve)]);
+    const std::string name = nameOfCurve(out, recipe, out.faired->curves[s.curve]);
     stretches.push_back({{"curve", name}, {"from_px", pointToJson(s.fromPx)}, {"length_px", number(s.lengthPx)}});
   }
   return {{"reference_ink_px", e.referencePx}, {"explained", number(e.explained)}, {"missed", number(e.missed)},

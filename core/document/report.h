@@ -14,9 +14,8 @@ namespace batten {
 
 /// What a report holds beside the outputs of the run.
 struct ReportExtras {
-  double readMilliseconds = 0.0;                       ///< Reading the scan.
-  std::vector<std::optional<TargetOutcomes>> targets;  ///< One per faired curve; absent = not computed.
-  std::vector<std::string> targetProblems;             ///< Why, where a curve's targets failed; same size or empty.
+  double readMilliseconds = 0.0;                ///< Reading the scan.
+  std::vector<Result<TargetOutcomes>> targets;  ///< One per faired curve; empty = not asked for.
   bool series = false;  ///< Knots, polynomials and series along every curve (curveSeriesToJson), sketched and faired.
   std::optional<Explanation> explanation;  ///< Absent = not asked for.
   std::uint64_t peakMemoryBytes = 0;       ///< 0 = unknown.

@@ -10,12 +10,12 @@
 #include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
 #include "core/curve/line_names.h"
-#include "core/exchange/curve_json.h"
-#include "core/exchange/dxf_reader.h"
-#include "core/exchange/export_settings.h"
-#include "core/exchange/iges_reader.h"
-#include "core/exchange/step_reader.h"
-#include "core/exchange/svg_reader.h"
+#include "core/exchange/cad/dxf_reader.h"
+#include "core/exchange/cad/iges_reader.h"
+#include "core/exchange/cad/step_reader.h"
+#include "core/exchange/model/export_settings.h"
+#include "core/exchange/svg/svg_reader.h"
+#include "core/exchange/text/curve_json.h"
 
 namespace batten {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/base/result.h"
-#include "core/exchange/export_model.h"
+#include "core/exchange/model/export_model.h"
 
 namespace batten {
 

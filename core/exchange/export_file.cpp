@@ -5,34 +5,33 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 
 #include "core/base/partial_context.h"
+#include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
 #include "core/curve/curvature.h"
 #include "core/curve/line_names.h"
-#include "core/exchange/arrangement.h"
-#include "core/exchange/cad_drawing.h"
-#include "core/exchange/csv_writer.h"
-#include "core/exchange/curve_json.h"
-#include "core/exchange/drawing_figures.h"
-#include "core/exchange/dxf_reader.h"
-#include "core/exchange/dxf_writer.h"
-#include "core/exchange/export_check.h"
+#include "core/exchange/cad/dxf_reader.h"
+#include "core/exchange/cad/dxf_writer.h"
+#include "core/exchange/cad/rhino_reader.h"
+#include "core/exchange/cad/rhino_writer.h"
+#include "core/exchange/model/arrangement.h"
+#include "core/exchange/model/cad_drawing.h"
+#include "core/exchange/model/drawing_figures.h"
+#include "core/exchange/model/export_check.h"
+#include "core/exchange/model/read_back.h"
 #include "core/exchange/occt/iges.h"
 #include "core/exchange/occt/step_reader.h"
 #include "core/exchange/occt/step_writer.h"
 #include "core/exchange/pdf_writer.h"
-#include "core/exchange/polynomial_writer.h"
-#include "core/exchange/read_back.h"
-#include "core/exchange/rhino_reader.h"
-#include "core/exchange/rhino_writer.h"
 #include "core/exchange/save_atomically.h"
-#include "core/exchange/svg_check.h"
-#include "core/exchange/svg_writer.h"
+#include "core/exchange/svg/svg_check.h"
+#include "core/exchange/svg/svg_writer.h"
+#include "core/exchange/text/csv_writer.h"
+#include "core/exchange/text/curve_json.h"
+#include "core/exchange/text/polynomial_writer.h"
 
 namespace batten {
 namespace {
@@ -273,11 +272,10 @@ Result<ExportReport> exportToFile(const ExportDocument& document, const ExportSe
   }
   if (context.isCancelled()) return cancelled();
   if (auto saved = saveAtomically(path, file->bytes); !saved) return fail(saved.error());
-  std::ifstream in(path, std::ios::binary);
-  const std::string back{std::istreambuf_iterator<char>(in), {}};
-  if (back != file->bytes)
+  const auto back = readWhole(path, file->bytes.size());
+  if (!back || *back != file->bytes)
     return fail(ErrorCode::CannotWrite,
-                "The file " + path.string() + " does not contain what was written. Is the disk full?");
+                "The file " + shownName(path) + " does not contain what was written. Is the disk full?");
   file->report.path = path;
   return std::move(file->report);
 }
@@ -341,21 +339,21 @@ ExportDocument onlyCurves(const ExportDocument& document, const std::set<int>& n
   for (std::size_t i = 0; i < document.curves.size(); ++i) {
     const ExportCurve& line = document.curves[i];
     int runs = 0, lowest = 0;
-    bool goesOn = false;
+    bool continues = false;
     for (std::size_t k = 0; k < line.pieces.size(); ++k) {
       const bool isTaken = numbers.contains(known[i][k]);
-      if (isTaken && !goesOn) {
+      if (isTaken && !continues) {
         ExportCurve& part = result.curves.emplace_back(line);
         ++runs;
         part.pieces.clear();
         part.closed = false;
       }
       if (isTaken) {
-        lowest = goesOn ? std::min(lowest, known[i][k]) : known[i][k];
+        lowest = continues ? std::min(lowest, known[i][k]) : known[i][k];
         result.curves.back().id = idOfPart(line, lowest, runs);
         result.curves.back().pieces.push_back(line.pieces[k]);
       }
-      goesOn = isTaken;
+      continues = isTaken;
     }
     if (runs == 1 && result.curves.back().pieces.size() == line.pieces.size()) {
       result.curves.back().closed = line.closed;

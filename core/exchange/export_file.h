@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/base/run_context.h"
-#include "core/exchange/export_model.h"
-#include "core/exchange/export_settings.h"
+#include "core/exchange/model/export_model.h"
+#include "core/exchange/model/export_settings.h"
 
 namespace batten {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/exchange/export_settings.h"
+#include "core/exchange/model/export_settings.h"
 
 namespace batten {
 

@@ -14,15 +14,15 @@
 #include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
 #include "core/curve/knot_operations.h"
-#include "core/exchange/cad_shape.h"
-#include "core/exchange/curve_json.h"
-#include "core/exchange/dxf_reader.h"
-#include "core/exchange/iges_reader.h"
-#include "core/exchange/own_svg.h"
+#include "core/exchange/cad/dxf_reader.h"
+#include "core/exchange/cad/iges_reader.h"
+#include "core/exchange/cad/step_reader.h"
+#include "core/exchange/model/cad_shape.h"
 #include "core/exchange/point_file.h"
-#include "core/exchange/step_reader.h"
-#include "core/exchange/svg_reader.h"
-#include "core/exchange/svg_shapes.h"
+#include "core/exchange/svg/own_svg.h"
+#include "core/exchange/svg/svg_reader.h"
+#include "core/exchange/svg/svg_shapes.h"
+#include "core/exchange/text/curve_json.h"
 
 namespace batten {
 namespace {
@@ -47,15 +47,14 @@ std::vector<int> sharpPoints(const std::vector<Vec2>& points, bool closed) {
   const std::ptrdiff_t n = std::ssize(points);
   std::vector<double> turns(points.size(), 0.0);
   for (std::ptrdiff_t i = closed ? 0 : 1; i < (closed ? n : n - 1); ++i) {
-    const Vec2 in = points[static_cast<std::size_t>(i)] - points[static_cast<std::size_t>((i + n - 1) % n)];
-    const Vec2 out = points[static_cast<std::size_t>((i + 1) % n)] - points[static_cast<std::size_t>(i)];
-    turns[static_cast<std::size_t>(i)] = std::abs(std::atan2(cross(in, out), in.dot(out)));
+    const Vec2 in = points[i] - points[(i + n - 1) % n];
+    const Vec2 out = points[(i + 1) % n] - points[i];
+    turns[i] = std::abs(std::atan2(cross(in, out), in.dot(out)));
   }
   std::vector<int> corners;
   for (std::ptrdiff_t i = 0; i < n; ++i) {
-    const double turn = turns[static_cast<std::size_t>(i)];
-    const double beside =
-        std::max(turns[static_cast<std::size_t>((i + n - 1) % n)], turns[static_cast<std::size_t>((i + 1) % n)]);
+    const double turn = turns[i];
+    const double beside = std::max(turns[(i + n - 1) % n], turns[(i + 1) % n]);
     if (turn >= kSharpTurn && (n <= kFewPoints || turn >= 2.0 * beside)) corners.push_back(static_cast<int>(i));
   }
   return corners;
@@ -89,7 +88,7 @@ class LineBuilder {
     }
     const NurbsCurve shape = held->mapped(linear_, Vec2::Zero());
     const bool mayTurn = std::holds_alternative<CadArc>(entity.shape);  // an arc has no direction of its own
-    if (!goesOn({shape, entity.name}, mayTurn, layerOf(entity))) {
+    if (!continues({shape, entity.name}, mayTurn, layerOf(entity))) {
       endLine();
       line_.name = entity.name;
       line_.layer = layerOf(entity);
@@ -167,7 +166,7 @@ class LineBuilder {
   }
 
   /// Adds the curve to the line if it begins where that one ends.
-  bool goesOn(const ImportedCurve& next, bool mayTurn, const std::string& layer) {
+  bool continues(const ImportedCurve& next, bool mayTurn, const std::string& layer) {
     if (line_.curves.empty() || layer != line_.layer) return false;
     const NurbsCurve &last = line_.curves.back().curve, &curve = next.curve;
     const bool isFirst = line_.curves.size() == 1 && firstMayTurn_;

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "core/base/conventions.h"
-#include "core/exchange/cubic_outline.h"
-#include "core/exchange/export_check.h"
-#include "core/exchange/file_text.h"
-#include "core/exchange/read_back.h"
+#include "core/exchange/model/cubic_outline.h"
+#include "core/exchange/model/export_check.h"
+#include "core/exchange/model/file_text.h"
+#include "core/exchange/model/read_back.h"
 
 namespace batten {
 namespace {

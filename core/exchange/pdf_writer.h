@@ -6,8 +6,8 @@
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
-#include "core/exchange/export_model.h"
-#include "core/exchange/export_settings.h"
+#include "core/exchange/model/export_model.h"
+#include "core/exchange/model/export_settings.h"
 
 namespace batten {
 

@@ -10,8 +10,8 @@
 #include "core/base/json_text.h"
 #include "core/base/number_text.h"
 #include "core/curve/line_names.h"
-#include "core/exchange/csv_writer.h"
-#include "core/exchange/file_text.h"
+#include "core/exchange/model/file_text.h"
+#include "core/exchange/text/csv_writer.h"
 
 namespace batten {
 namespace {

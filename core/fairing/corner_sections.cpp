@@ -12,8 +12,8 @@
 #include "core/curve/arc_length.h"
 #include "core/curve/corners_inside.h"
 #include "core/curve/knot_operations.h"
-#include "core/fairing/curvature_samples.h"
 #include "core/fairing/fairing_report.h"
+#include "core/fairing/profile/curvature_samples.h"
 
 namespace batten {
 namespace {
@@ -55,7 +55,7 @@ FairingParams paramsOf(const FairingParams& whole, const ProfileSpan& span, bool
   if (span.from > 0.0) params.startHold = {};
   if (span.to < 1.0) params.endHold = {};
   if (closed) params.startHold = params.endHold = {};
-  if (whole.target == kDrawnTarget && !whole.profile.empty()) {
+  if (whole.target == FairingTarget::Drawn && !whole.profile.empty()) {
     const TargetProfile drawn = drawnProfile(whole.profile, closed);
     params.profile = {{0.0, drawn.valid ? drawn.curvatureAt(span.from) : 0.0}};
     for (const ProfilePoint& point : whole.profile)

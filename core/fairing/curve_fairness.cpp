@@ -7,10 +7,10 @@
 #include "core/base/conventions.h"
 #include "core/curve/curvature.h"
 #include "core/fairing/corner_sections.h"
-#include "core/fairing/curvature_samples.h"
-#include "core/fairing/log_aesthetic.h"
-#include "core/fairing/natural_spans.h"
-#include "core/fairing/profile_data.h"
+#include "core/fairing/profile/curvature_samples.h"
+#include "core/fairing/profile/profile_data.h"
+#include "core/fairing/target/log_aesthetic.h"
+#include "core/fairing/target/natural_spans.h"
 
 namespace batten {
 namespace {

@@ -12,9 +12,9 @@
 #include "core/fairing/edge_lengths.h"
 #include "core/fairing/fairing.h"
 #include "core/fairing/fairing_report.h"
-#include "core/fairing/log_aesthetic.h"
-#include "core/fairing/low_pass.h"
-#include "core/fairing/shape_modification.h"
+#include "core/fairing/target/log_aesthetic.h"
+#include "core/fairing/target/low_pass.h"
+#include "core/fairing/target/shape_modification.h"
 
 namespace batten {
 namespace {
@@ -48,12 +48,12 @@ std::vector<Quintic> quinticsOf(const NurbsCurve& curve) {
 
 Result<TargetProfile> profileFor(const NurbsCurve& path, bool closed, const FairingParams& params) {
   if (params.mode == FairingMode::LowPass) return lowPassedProfile(path, closed, params);
-  if (params.target == kDrawnTarget) return drawnProfile(params.profile, closed);
-  if (params.target == kLogAestheticTarget)
+  if (params.target == FairingTarget::Drawn) return drawnProfile(params.profile, closed);
+  if (params.target == FairingTarget::LogAesthetic)
     return logAestheticTarget(path, closed, targetSplits(path, closed, params), params.alpha, params.targets.samples)
         .profile;
   const TargetSet targets = fitTargets(path, params.targets, closed);
-  const int degree = params.target > 0 ? params.target : targets.recommendedDegree;
+  const int degree = degreeOf(params.target).value_or(targets.recommendedDegree);
   return targets.profiles[std::max(degree, 1) - 1];
 }
 

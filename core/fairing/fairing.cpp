@@ -6,18 +6,18 @@
 #include <numeric>
 
 #include "core/base/parallel.h"
-#include "core/fairing/fair_as_needed.h"
-#include "core/fairing/fairing_line.h"
 #include "core/fairing/fairing_report.h"
-#include "core/fairing/fairing_setup.h"
-#include "core/fairing/log_aesthetic.h"
-#include "core/fairing/low_pass.h"
-#include "core/fairing/monotone_fairing.h"
-#include "core/fairing/natural_spans.h"
-#include "core/fairing/shape_modification.h"
-#include "core/fairing/span_fairing.h"
+#include "core/fairing/model/fairing_line.h"
+#include "core/fairing/model/fairing_setup.h"
+#include "core/fairing/structure/fair_as_needed.h"
+#include "core/fairing/structure/monotone_fairing.h"
+#include "core/fairing/structure/tolerance_fairing.h"
+#include "core/fairing/target/log_aesthetic.h"
+#include "core/fairing/target/low_pass.h"
+#include "core/fairing/target/natural_spans.h"
+#include "core/fairing/target/shape_modification.h"
+#include "core/fairing/target/span_fairing.h"
 #include "core/fairing/target_levels.h"
-#include "core/fairing/tolerance_fairing.h"
 
 namespace batten {
 namespace {
@@ -37,7 +37,7 @@ TargetsRun refused(Result<TargetOutcomes> why) {
   return run;
 }
 
-TargetsRun prepared(const TargetsJob& job) {
+TargetsRun prepared(const TargetsJob& job, const RunContext& context) {
   TargetsRun run;
   try {
     if (const auto error = validate(job.params)) return refused(fail(*error));
@@ -53,8 +53,8 @@ TargetsRun prepared(const TargetsJob& job) {
     }
     outcomes.targets = run.levels.front().targets;
     outcomes.recommendedDegree = outcomes.targets.recommendedDegree;
-    auto setup = outcomes.span ? makeSpanSetup(job.curve, job.closed, job.params, *outcomes.span)
-                               : makeSetup(job.curve, job.closed, job.params);
+    auto setup = outcomes.span ? makeSpanSetup(job.curve, job.closed, job.params, *outcomes.span, context)
+                               : makeSetup(job.curve, job.closed, job.params, context);
     if (!setup && setup.error().code != ErrorCode::Numerical) return refused(fail(setup.error()));
     if (setup) run.setup = std::move(*setup);
     if (!setup) run.problem = setup.error().message;
@@ -105,7 +105,7 @@ void recommend(TargetsRun& run, TargetChoice choice) {
 
 Result<FairedCurve> fairWithinTolerance(const NurbsCurve& curve, bool closed, const FairingParams& params,
                                         const RunContext& context, const FairingLine& line) {
-  return withSetup(curve, closed, params,
+  return withSetup(curve, closed, params, context,
                    [&](const std::shared_ptr<const FairingSetup>& setup, const FairingParams& within) {
                      return within.tolerancePolicy == TolerancePolicy::All ? fairWithinTolerance(setup, within, context)
                                                                            : fairAsNeeded(setup, within, line, context);
@@ -115,7 +115,7 @@ Result<FairedCurve> fairWithinTolerance(const NurbsCurve& curve, bool closed, co
 std::vector<Result<TargetOutcomes>> fairAllTargets(std::span<const TargetsJob> jobs, const RunContext& context) {
   std::vector<TargetsRun> runs(jobs.size());
   parallelFor(context, static_cast<int>(jobs.size()), 1, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) runs[i] = prepared(jobs[i]);
+    for (int i = begin; i < end; ++i) runs[i] = prepared(jobs[i], context);
   });
   std::vector<std::size_t> order(jobs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -160,16 +160,16 @@ Result<FairedCurve> fair(const NurbsCurve& curve, bool closed, const FairingPara
     case FairingMode::Target:
       break;
   }
-  if (params.target == kDrawnTarget) {
+  if (params.target == FairingTarget::Drawn) {
     const TargetProfile drawn = drawnProfile(params.profile, closed);
     if (!drawn.valid) return unchanged(curve, closed, Termination::NotRun, drawn.problem);
     return modifyShape(curve, closed, drawn, params, context);
   }
-  if (params.target == kLogAestheticTarget) {
+  if (params.target == FairingTarget::LogAesthetic) {
     const auto target =
         logAestheticTarget(curve, closed, targetSplits(curve, closed, params), params.alpha, params.targets.samples);
     if (!target.profile.valid) return unchanged(curve, closed, Termination::NotRun, target.profile.problem);
-    auto faired = withSetup(curve, closed, params, [&](const auto& setup, const FairingParams& within) {
+    auto faired = withSetup(curve, closed, params, context, [&](const auto& setup, const FairingParams& within) {
       return modifyShape(setup, target.profile, within.toleranceMm, context);
     });
     if (faired) faired->report.logAesthetic = target.spans;

@@ -10,10 +10,10 @@
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/curve/nurbs_curve.h"
-#include "core/fairing/fairing_line.h"
 #include "core/fairing/fairing_params.h"
 #include "core/fairing/fairing_report.h"
-#include "core/fairing/radius_target.h"
+#include "core/fairing/model/fairing_line.h"
+#include "core/fairing/profile/radius_target.h"
 
 namespace batten {
 

@@ -7,17 +7,22 @@
 
 namespace batten {
 
+std::optional<int> degreeOf(FairingTarget target) {
+  const bool isDegree = target >= FairingTarget::Degree1 && target <= FairingTarget::Degree6;
+  return isDegree ? std::optional(static_cast<int>(target)) : std::nullopt;
+}
+
+FairingTarget targetOfDegree(int degree) { return static_cast<FairingTarget>(degree); }
+
+std::optional<FairingTarget> targetOfNumber(int number) {
+  const bool isKnown = number >= 0 && number <= static_cast<int>(FairingTarget::LogAesthetic);
+  return isKnown ? std::optional(static_cast<FairingTarget>(number)) : std::nullopt;
+}
+
 std::optional<Error> validate(const FairingParams& params) {
   if (!(params.toleranceMm >= 0.001 && params.toleranceMm <= 20.0)) {
     return Error{ErrorCode::BadParameter,
                  "The fairing tolerance must be between 0.001 and 20 mm, not " + numberToText(params.toleranceMm) + ".",
-                 {}};
-  }
-  if (params.target < 0 || params.target > kLogAestheticTarget) {
-    return Error{ErrorCode::BadParameter,
-                 "The fairing target must be 1 to 6, 0 for the recommended one, 7 for the drawn one or 8 for a "
-                 "log-aesthetic one, not " +
-                     std::to_string(params.target) + ".",
                  {}};
   }
   if (params.alpha && !(*params.alpha >= kLeastAlpha && *params.alpha <= kMostAlpha)) {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/fairing/drawn_profile.h"
-#include "core/fairing/radius_target.h"
+#include "core/fairing/profile/drawn_profile.h"
+#include "core/fairing/profile/radius_target.h"
 
 namespace batten {
 
@@ -33,13 +33,32 @@ enum class FairingMeans {
 /// Which target is recommended.
 enum class TargetChoice {
   Simplest,    ///< The lowest degree that is met within the tolerance without a curvature extremum more (default).
-  Similarity,  ///< The highest similarity S (000, 003), which rises with the degree.
+  Similarity,  ///< The highest similarity S (000, 003), which mostly rises with the degree.
 };
 
-/// FairingParams::target: the profile that the user has drawn.
-inline constexpr int kDrawnTarget = 7;
-/// FairingParams::target: log-aesthetic between the splits, rho^alpha linear in the arc length (log_aesthetic.h).
-inline constexpr int kLogAestheticTarget = 8;
+/// What target mode follows. The values are the numbers that recipes hold.
+enum class FairingTarget {
+  Recommended = 0,  ///< The polynomial that TargetChoice recommends.
+  Degree1 = 1,
+  Degree2,
+  Degree3,
+  Degree4,
+  Degree5,
+  Degree6,
+  Drawn,         ///< The profile that the user has drawn.
+  LogAesthetic,  ///< Between the splits rho^alpha linear in the arc length (log_aesthetic.h).
+};
+/// The degree of the polynomial that was asked for; nothing where it is recommended, or another profile.
+std::optional<int> degreeOf(FairingTarget);
+/// @param degree 1..6.
+FairingTarget targetOfDegree(int degree);
+/// The target of a recipe's number; nothing for a number that stands for none.
+std::optional<FairingTarget> targetOfNumber(int number);
+/// Whether a polynomial is followed: of a degree that was asked for, or the recommended one.
+inline bool isPolynomial(FairingTarget target) {
+  return target == FairingTarget::Recommended || degreeOf(target).has_value();
+}
+
 inline constexpr double kLeastAlpha = -3.0, kMostAlpha = 6.0;
 /// FairingParams::keepExtrema: as few as the tolerance allows.
 inline constexpr int kKeepSignificant = -1;
@@ -60,7 +79,7 @@ struct SpanTarget {
 
 struct FairingParams {
   FairingMode mode = FairingMode::None;
-  int target = 0;  ///< 0..8. Degree of the profile; 0 = the recommended one, 7 = the drawn one, 8 = log-aesthetic.
+  FairingTarget target = FairingTarget::Recommended;
   TargetChoice targetChoice = TargetChoice::Simplest;
   std::optional<double> alpha;  ///< -3..6. Of a log-aesthetic target; absent: what each span comes nearest to.
   double toleranceMm = 0.2;     ///< [mm] 0.001..20. Largest move of the curve from the sketched one; never exceeded.
@@ -72,7 +91,7 @@ struct FairingParams {
       kKeepSignificant;        ///< Monotone: -1..99. Curvature extrema that may stay; -1 = those that must, see above.
   std::vector<double> keptAt;  ///< Monotone: arc length fractions 0..1 of the extrema to keep; not empty: counts alone.
   std::vector<SpanTarget> spanTargets;  ///< Target: not empty: only these spans are moved, the rest stays as it is.
-  std::vector<ProfilePoint> profile;    ///< Target 7: the drawn curvature.
+  std::vector<ProfilePoint> profile;    ///< The drawn curvature.
   EndHold startHold, endHold;
   TargetParams targets;
   bool operator==(const FairingParams&) const = default;

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "core/fairing/corner_sections.h"
-#include "core/fairing/drawn_profile.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/log_aesthetic.h"
-#include "core/fairing/natural_spans.h"
-#include "core/fairing/span_fairing.h"
+#include "core/fairing/profile/drawn_profile.h"
+#include "core/fairing/target/log_aesthetic.h"
+#include "core/fairing/target/natural_spans.h"
+#include "core/fairing/target/span_fairing.h"
 
 namespace batten {
 namespace {
@@ -81,11 +81,11 @@ std::optional<TargetProfile> ofSections(const std::vector<CornerSection>& sectio
 std::optional<TargetProfile> followedTarget(const NurbsCurve& start, bool closed, const FairingParams& params,
                                             const FairingReport& report) {
   if (params.mode != FairingMode::Target || start.isEmpty()) return std::nullopt;
-  if (params.target == kDrawnTarget) {
+  if (params.target == FairingTarget::Drawn) {
     TargetProfile drawn = drawnProfile(params.profile, closed);
     return drawn.valid ? std::optional(std::move(drawn)) : std::nullopt;
   }
-  if (params.target == kLogAestheticTarget) {
+  if (params.target == FairingTarget::LogAesthetic) {
     auto wanted =
         logAestheticTarget(start, closed, targetSplits(start, closed, params), params.alpha, params.targets.samples);
     return wanted.profile.valid ? std::optional(std::move(wanted.profile)) : std::nullopt;
@@ -97,7 +97,7 @@ std::optional<TargetProfile> followedTarget(const NurbsCurve& start, bool closed
   if (report.targetDegree > 0) own.splits = report.targetSplits;
   const TargetSet targets = fitTargets(start, own, closed);
   // Edge lengths follow one polynomial over the whole path.
-  const int asked = params.target > 0 ? params.target : targets.recommendedDegree;
+  const int asked = degreeOf(params.target).value_or(targets.recommendedDegree);
   return ofDegree(targets, report.targetDegree > 0 ? report.targetDegree : asked);
 }
 

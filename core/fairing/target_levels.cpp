@@ -6,9 +6,9 @@
 
 #include "core/fairing/corner_sections.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/natural_spans.h"
-#include "core/fairing/shape_modification.h"
-#include "core/fairing/span_fairing.h"
+#include "core/fairing/target/natural_spans.h"
+#include "core/fairing/target/shape_modification.h"
+#include "core/fairing/target/span_fairing.h"
 
 namespace batten {
 namespace {
@@ -76,45 +76,46 @@ Result<FairedCurve> fairToTarget(const NurbsCurve& curve, bool closed, const Fai
   const TargetSet& first = levels.front().targets;
   if (first.recommendedDegree == 0)
     return unchanged(curve, closed, Termination::Degenerate, first.profiles.front().problem);
-  if (params.target > 0) {
-    const TargetProfile& profile = first.profiles[static_cast<std::size_t>(params.target) - 1];
+  if (const auto asked = degreeOf(params.target)) {
+    const TargetProfile& profile = first.profiles[static_cast<std::size_t>(*asked) - 1];
     if (!profile.valid) return unchanged(curve, closed, Termination::Degenerate, profile.problem);
   }
-  return withSetup(curve, closed, params, [&](const auto& setup, const FairingParams& within) -> Result<FairedCurve> {
-    const auto followed = [&](LevelOutcome&& outcome, int degree) {
-      outcome.faired.report.targetDegree = degree;
-      outcome.faired.report.targetSplits = levels[outcome.level].splits;
-      return std::move(outcome.faired);
-    };
-    const auto toDegree = [&](int degree, std::span<const TargetLevel> over,
-                              bool onlyIfMet = false) -> Result<LevelOutcome> {
-      return fairOverLevels(setup, over, degree, within.toleranceMm, context, onlyIfMet);
-    };
-    int degree = params.target;
-    if (degree == 0 && params.targetChoice == TargetChoice::Similarity) {
-      FairedByDegree all;
-      for (int tried = 1; tried <= 6; ++tried) {
-        const auto at = static_cast<std::size_t>(tried) - 1;
-        if (!first.profiles[at].valid) continue;
-        auto outcome = toDegree(tried, levels);
+  return withSetup(
+      curve, closed, params, context, [&](const auto& setup, const FairingParams& within) -> Result<FairedCurve> {
+        const auto followed = [&](LevelOutcome&& outcome, int degree) {
+          outcome.faired.report.targetDegree = degree;
+          outcome.faired.report.targetSplits = levels[outcome.level].splits;
+          return std::move(outcome.faired);
+        };
+        const auto toDegree = [&](int degree, std::span<const TargetLevel> over,
+                                  bool onlyIfMet = false) -> Result<LevelOutcome> {
+          return fairOverLevels(setup, over, degree, within.toleranceMm, context, onlyIfMet);
+        };
+        int degree = degreeOf(params.target).value_or(0);
+        if (degree == 0 && params.targetChoice == TargetChoice::Similarity) {
+          FairedByDegree all;
+          for (int tried = 1; tried <= 6; ++tried) {
+            const auto at = static_cast<std::size_t>(tried) - 1;
+            if (!first.profiles[at].valid) continue;
+            auto outcome = toDegree(tried, levels);
+            if (!outcome) return fail(outcome.error());
+            all[at] = followed(std::move(*outcome), tried);
+          }
+          if (const auto best = mostSimilar(all)) return std::move(*all[static_cast<std::size_t>(*best) - 1]);
+          const auto any = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.has_value(); });
+          if (any != all.end()) return std::move(**any);
+        }
+        for (int tried = 1; tried <= 6 && degree == 0; ++tried) {
+          if (!first.profiles[static_cast<std::size_t>(tried) - 1].valid) continue;
+          auto outcome = toDegree(tried, std::span(levels).first(1), true);
+          if (!outcome) return fail(outcome.error());
+          if (outcome->isMet()) return followed(std::move(*outcome), tried);
+        }
+        if (degree == 0) degree = first.recommendedDegree;
+        auto outcome = toDegree(degree, levels);
         if (!outcome) return fail(outcome.error());
-        all[at] = followed(std::move(*outcome), tried);
-      }
-      if (const auto best = mostSimilar(all)) return std::move(*all[static_cast<std::size_t>(*best) - 1]);
-      const auto any = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.has_value(); });
-      if (any != all.end()) return std::move(**any);
-    }
-    for (int tried = 1; tried <= 6 && degree == 0; ++tried) {
-      if (!first.profiles[static_cast<std::size_t>(tried) - 1].valid) continue;
-      auto outcome = toDegree(tried, std::span(levels).first(1), true);
-      if (!outcome) return fail(outcome.error());
-      if (outcome->isMet()) return followed(std::move(*outcome), tried);
-    }
-    if (degree == 0) degree = first.recommendedDegree;
-    auto outcome = toDegree(degree, levels);
-    if (!outcome) return fail(outcome.error());
-    return followed(std::move(*outcome), degree);
-  });
+        return followed(std::move(*outcome), degree);
+      });
 }
 
 }  // namespace batten

@@ -9,8 +9,8 @@
 #include "core/base/run_context.h"
 #include "core/fairing/fairing_params.h"
 #include "core/fairing/fairing_report.h"
-#include "core/fairing/fairing_setup.h"
-#include "core/fairing/radius_target.h"
+#include "core/fairing/model/fairing_setup.h"
+#include "core/fairing/profile/radius_target.h"
 
 namespace batten {
 

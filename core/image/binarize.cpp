@@ -5,9 +5,9 @@
 #include <new>
 #include <vector>
 
-#include "core/image/faint_lines.h"
-#include "core/image/level_masks.h"
-#include "core/image/run_pieces.h"
+#include "core/image/bits/faint_lines.h"
+#include "core/image/bits/run_pieces.h"
+#include "core/image/threshold/level_masks.h"
 
 namespace batten {
 namespace {

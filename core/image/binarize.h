@@ -3,9 +3,9 @@
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
 #include "core/image/grey_image.h"
-#include "core/image/region_thresholds.h"
+#include "core/image/threshold/region_thresholds.h"
 
 namespace batten {
 

@@ -9,11 +9,11 @@
 #include <opencv2/core/utility.hpp>
 #include <utility>
 
-#include "core/image/coloured_ink.h"
-#include "core/image/find_rulings.h"
-#include "core/image/region_values.h"
-#include "core/image/remove_rulings.h"
-#include "core/image/run_pieces.h"
+#include "core/image/bits/run_pieces.h"
+#include "core/image/colour/coloured_ink.h"
+#include "core/image/ruling/find_rulings.h"
+#include "core/image/ruling/remove_rulings.h"
+#include "core/image/threshold/region_values.h"
 
 namespace batten {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "core/base/result.h"
 #include "core/base/run_context.h"
-#include "core/image/inks.h"
+#include "core/image/colour/inks.h"
 #include "core/image/paper_sheet.h"
-#include "core/image/rulings.h"
+#include "core/image/ruling/rulings.h"
 #include "core/image/scan.h"
 
 namespace batten {

@@ -186,7 +186,7 @@ cv::Mat1b besideTheSheet(const cv::Mat1b& sheet, const SheetCells& cells) {
   cv::Mat1i labels;
   const cv::Mat1b outside = sheet == 0;
   const int count = cv::connectedComponents(outside, labels, 8, CV_32S);
-  std::vector<BorderPatch> patches(static_cast<std::size_t>(count));
+  std::vector<BorderPatch> patches(count);
   const int right = sheet.cols - 1, bottom = sheet.rows - 1;
   for (int j = 0; j <= bottom; ++j) {
     for (int i = 0; i <= right; ++i) {

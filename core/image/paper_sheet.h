@@ -6,7 +6,7 @@
 
 #include "core/base/run_context.h"
 #include "core/base/vec2.h"
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
 #include "core/image/colour_image.h"
 #include "core/image/grey_image.h"
 

@@ -177,7 +177,7 @@ LocalQuadratic fitLocalQuadratic(std::span<const double> s, std::span<const Vec2
     const Eigen::MatrixXd a = m.a.topLeftCorner(k, k);
     const Eigen::LDLT<Eigen::MatrixXd> ldlt(a);
     // The positions are scaled to -1..1, so that no diagonal entry is small by itself: a pivot this small against the
-    // largest one means that the positions do not determine the order.
+    // largest diagonal entry means that the positions do not determine the order.
     const Eigen::VectorXd pivots = ldlt.vectorD();
     if (ldlt.info() != Eigen::Success || pivots.minCoeff() <= 1e-10 * a.diagonal().maxCoeff()) continue;
     c.topRows(k) = ldlt.solve(m.b.topRows(k));

@@ -31,12 +31,13 @@ struct ProgramView {
 }  // namespace
 
 template <class Row>
-InteriorPointResult solveProgram(const BandedProgram<Row>& program, const InteriorPointLimits& limits) {
+InteriorPointResult solveProgram(const BandedProgram<Row>& program, const InteriorPointLimits& limits,
+                                 CancelCheck check) {
   const ProgramView<Row> view{program};
-  return InteriorPoint(view, limits).solve();
+  return InteriorPoint(view, limits, check).solve();
 }
 
-template InteriorPointResult solveProgram(const BandedProgram<BandRow>&, const InteriorPointLimits&);
-template InteriorPointResult solveProgram(const BandedProgram<SparseRow>&, const InteriorPointLimits&);
+template InteriorPointResult solveProgram(const BandedProgram<BandRow>&, const InteriorPointLimits&, CancelCheck);
+template InteriorPointResult solveProgram(const BandedProgram<SparseRow>&, const InteriorPointLimits&, CancelCheck);
 
 }  // namespace batten

@@ -24,9 +24,12 @@ struct BandedProgram {
 
 /// The interior point method with banded normal equations: linear cost per iteration.
 template <class Row>
-InteriorPointResult solveProgram(const BandedProgram<Row>&, const InteriorPointLimits& limits = {});
+InteriorPointResult solveProgram(const BandedProgram<Row>&, const InteriorPointLimits& limits = {},
+                                 CancelCheck check = {});
 
-extern template InteriorPointResult solveProgram(const BandedProgram<BandRow>&, const InteriorPointLimits&);
-extern template InteriorPointResult solveProgram(const BandedProgram<SparseRow>&, const InteriorPointLimits&);
+extern template InteriorPointResult solveProgram(const BandedProgram<BandRow>&, const InteriorPointLimits&,
+                                                 CancelCheck);
+extern template InteriorPointResult solveProgram(const BandedProgram<SparseRow>&, const InteriorPointLimits&,
+                                                 CancelCheck);
 
 }  // namespace batten

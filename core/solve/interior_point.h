@@ -7,6 +7,7 @@
 #include <concepts>
 #include <limits>
 
+#include "core/base/cancel_check.h"
 #include "core/base/termination.h"
 
 namespace batten {
@@ -36,7 +37,7 @@ struct InteriorPointLimits {
 
 struct InteriorPointResult {
   /// Converged; Exact without rows; ToleranceLimited when `abortAbove` was exceeded; IterationLimit; Degenerate when a
-  /// system was singular.
+  /// system was singular; NotRun when it was cancelled.
   Termination why = Termination::NotRun;
   Eigen::VectorXd x;
   double objective = 0.0;   ///< x'Ax - 2b'x.
@@ -50,7 +51,8 @@ struct InteriorPointResult {
 template <QuadraticProgram Problem>
 class InteriorPoint {
  public:
-  InteriorPoint(const Problem& problem, const InteriorPointLimits& limits) : problem_(problem), limits_(limits) {}
+  InteriorPoint(const Problem& problem, const InteriorPointLimits& limits, CancelCheck check = {})
+      : problem_(problem), limits_(limits), check_(check) {}
 
   InteriorPointResult solve() {
     InteriorPointResult result;
@@ -88,6 +90,7 @@ class InteriorPoint {
       }
       if (result.lowerBound > limits_.abortAbove) return Termination::ToleranceLimited;
       if (result.iterations >= limits_.iterations) return Termination::IterationLimit;
+      if (check_.isCancelled()) return Termination::NotRun;
       if (!iterate()) return Termination::Degenerate;
     }
   }
@@ -163,6 +166,7 @@ class InteriorPoint {
 
   const Problem& problem_;
   InteriorPointLimits limits_;
+  CancelCheck check_;
   typename Problem::Factor plain_;
   double scale_ = 1.0;
   Eigen::VectorXd x_, s_, z_, dual_, primal_;  ///< Unknowns, slacks, multipliers, residuals.

@@ -20,6 +20,7 @@ bool improve(LevenbergProblem& problem, const LevenbergOptions& options, Levenbe
       return true;
     }
     run.damping *= options.failure;
+    if (problem.promised() < options.leastPromise * run.cost) return false;
   }
   return false;
 }
@@ -48,6 +49,10 @@ LevenbergRun levenbergMarquardt(LevenbergProblem& problem, const LevenbergOption
     const int enough = run.damping < options.freeDamping ? options.smallSteps : options.smallStepsDamped;
     if (problem.isReached()) {
       run.why = Termination::FixedPoint;
+      return run;
+    }
+    if (problem.isHopeless()) {
+      run.why = Termination::NoProgress;
       return run;
     }
     if (small >= enough || run.cost <= options.negligible) {

@@ -21,10 +21,14 @@ class LevenbergProblem {
   /// Makes the state to which the step with this damping leads the trial. @return its cost; not finite where there is
   /// no such step.
   virtual double tryStep(double damping) = 0;
+  /// About the most that the last step could lower the cost by, as the model has it.
+  virtual double promised() const { return std::numeric_limits<double>::infinity(); }
   /// The trial becomes the state.
   virtual void accept() = 0;
   /// Whether the state is good enough. Asked after each accepted step.
   virtual bool isReached() const { return false; }
+  /// Whether further steps are not worth their time. Asked after each accepted step that did not reach.
+  virtual bool isHopeless() const { return false; }
 };
 
 struct LevenbergOptions {
@@ -34,6 +38,7 @@ struct LevenbergOptions {
   double success = 5.0, failure = 4.0;             ///< The damping is divided by the one, or multiplied by the other.
   double leastDamping = 1e-12;
   double mostDamping = std::numeric_limits<double>::infinity();  ///< No attempt is made at this one or above.
+  double leastPromise = 0.0;    ///< Relative: after a failed step that promised less, no higher damping is tried.
   double smallDecrease = 1e-4;  ///< Relative: a step that lowers the cost by less is a small one.
   int smallSteps = 2;           ///< That many in a row end it …
   int smallStepsDamped = 2;     ///< … or that many while the damping is above `freeDamping`: a heavily damped step is
@@ -44,7 +49,8 @@ struct LevenbergOptions {
 
 struct LevenbergRun {
   /// Converged: by small steps, a negligible cost, or no step that decreases after a small one. FixedPoint:
-  /// isReached(). NoProgress, IterationLimit (also when cancelled); Degenerate: the first state is impossible.
+  /// isReached(). NoProgress (isHopeless() too), IterationLimit (also when cancelled); Degenerate: the first state is
+  /// impossible.
   Termination why = Termination::IterationLimit;
   int iterations = 0;  ///< Models made, the one without a successful step included.
   double cost = 0.0;

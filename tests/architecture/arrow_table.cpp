@@ -87,6 +87,7 @@ ArrowTable readArrowTable(const std::filesystem::path& markdown) {
     Room& room = table[name];
     for (const std::string& word : wordsOf(cells.at(2)))
       room.rooms.insert(isFullName(word) ? word : libraryRoomOf(name + "/x.h") + "/" + word);
+    room.ownArrows = room.rooms;
     readLibraries(cells.at(3), room);
   }
   complete(table);

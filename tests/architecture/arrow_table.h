@@ -11,6 +11,7 @@ namespace batten::test {
 /// One row of the table of arrows in ARCHITECTURE.md.
 struct Room {
   std::set<std::string> rooms;      ///< Other rooms it may include, full names: "core/contour/outline".
+  std::set<std::string> ownArrows;  ///< Those that its own row names; "core" as it stands there.
   std::set<std::string> libraries;  ///< Third-party families it may include at all.
   std::set<std::string> inHeaders;  ///< Those that may show in headers that other rooms include.
 };

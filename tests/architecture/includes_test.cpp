@@ -11,6 +11,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arrow_table.h"
@@ -196,6 +197,23 @@ TEST(Architecture, RoomsIncludeOnlyWhatTheirArrowsAllow) {
       }
     }
   }
+}
+
+TEST(Architecture, NoArrowIsUnused) {
+  std::set<std::pair<std::string, std::string>> used;  // from a room, and from its library, to a room and its library
+  for (const fs::path& file : sources()) {
+    const std::string relative = pathOf(file);
+    for (const std::string& header : includesOf(slurp(file))) {
+      const std::string target = test::roomOf(rooms(), header), library = test::libraryRoomOf(header);
+      for (const std::string& from : {test::roomOf(rooms(), relative), test::libraryRoomOf(relative)})
+        for (const std::string& to : {target, library}) used.emplace(from, to);
+    }
+  }
+  for (const auto& [name, room] : rooms())
+    for (const std::string& arrow : room.ownArrows)
+      if (arrow != "core") {
+        EXPECT_TRUE(used.contains({name, arrow})) << name << " includes nothing of " << arrow;
+      }
 }
 
 TEST(Architecture, AHeaderIsTheFirstIncludeOfItsSource) {

@@ -15,7 +15,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/contour/label/ink_labels.h"
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/support/label_page.h"
 

@@ -24,7 +24,7 @@
 
 #include "core/construct/light/light_curve.h"
 #include "core/curve/uniform_quintic.h"
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 #include "core/pipeline/run/pipeline.h"
 #include "tests/bench/accuracy_peers.h"
 #include "tests/bench/cubic_chain.h"

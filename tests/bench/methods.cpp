@@ -17,7 +17,7 @@
 #include "core/curve/curvature.h"
 #include "core/curve/curvature_jump.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/fairing_line.h"
+#include "core/fairing/model/fairing_line.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "tests/support/method_truths.h"
 #include "tests/support/truth_shapes.h"

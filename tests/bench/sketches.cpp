@@ -25,7 +25,7 @@
 #include "core/contour/corner/corner_suggestions.h"
 #include "core/curve/arc_length.h"
 #include "core/document/explain/explanation.h"
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/run/corner_places.h"
 #include "core/pipeline/run/pipeline.h"

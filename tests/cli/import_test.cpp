@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
-#include "core/exchange/curve_json.h"
 #include "core/exchange/import_file.h"
+#include "core/exchange/text/curve_json.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "tests/cli/program.h"
 
@@ -40,6 +42,30 @@ TEST_F(CommandLineImport, CurvesOfOthersAreTracedWithoutAScan) {
   ASSERT_EQ(recipe->imports.size(), 1u);
   EXPECT_EQ(recipe->imports[0].source, "in Süße 漢.dxf");
   EXPECT_EQ(recipe->imports[0].unit, "in");
+}
+
+TEST_F(CommandLineImport, OnlySpansThatBendOneWayHaveALambda) {
+  const auto spansOf = [&](const std::function<double(double)>& y) {
+    std::string points = "x_mm,y_mm\n";
+    for (int i = 0; i <= 200; ++i) {
+      const double x = 0.5 * i;
+      points += std::to_string(x) + "," + std::to_string(y(x)) + "\n";
+    }
+    write("line.csv", points);
+    const auto done = run("trace " + file("line.csv") + " -o " + file("o.svg") + " --report " + file("r.json") +
+                          " --set fairing.mode=target --set fairing.target=log-aesthetic --set fairing.spans=whole" +
+                          " --set fairing.tolerance=2");
+    EXPECT_EQ(done.code, 0) << done.err;
+    return json::parse(test::readFile(file("r.json")))["curves"][0]["fairing"]["log_aesthetic"];
+  };
+  // The curvature grows from -0.012 to 0.012.
+  const json both = spansOf([](double x) { return 5e-5 * std::pow(x - 50.0, 3); });
+  ASSERT_EQ(both.size(), 1u) << both;
+  EXPECT_TRUE(both[0]["lambda"].is_null()) << both;
+  EXPECT_EQ(both[0]["alpha"], -1.0);
+  const json one = spansOf([](double x) { return 0.003 * x * x; });
+  ASSERT_EQ(one.size(), 1u) << one;
+  EXPECT_TRUE(one[0]["lambda"].is_number()) << one;
 }
 
 TEST_F(CommandLineImport, LinesLieOverAScan) {

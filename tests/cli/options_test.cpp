@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/exchange/export_settings.h"
 #include "core/exchange/format_options.h"
+#include "core/exchange/model/export_settings.h"
 #include "tests/cli/program.h"
 
 namespace batten {

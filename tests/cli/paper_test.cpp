@@ -2,7 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
 #include "tests/cli/program.h"
 #include "tests/support/colour_page.h"
 

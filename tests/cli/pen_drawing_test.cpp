@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/curve/nurbs_curve.h"
-#include "core/exchange/curve_json.h"
+#include "core/exchange/text/curve_json.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "tests/cli/program.h"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "core/exchange/curve_json.h"
+#include "core/exchange/text/curve_json.h"
 #include "tests/cli/program.h"
 
 namespace batten {

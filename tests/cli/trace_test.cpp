@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/curve/closest_point.h"
-#include "core/exchange/curve_json.h"
-#include "core/exchange/svg_check.h"
+#include "core/exchange/svg/svg_check.h"
+#include "core/exchange/text/curve_json.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/recipe/stage_id.h"
 #include "tests/cli/program.h"
@@ -113,10 +113,13 @@ TEST_F(Trace, NotesNameTheCurvesThatTurnSharplyWithoutAMark) {
     }
     return sharp;
   };
-  EXPECT_EQ(notesOf(start),
-            std::vector<std::string>{"Curve 1 turns sharply where no corner is marked: add --corner there."});
-  EXPECT_EQ(notesOf(start + " --corner 100,60 --corner 360,260"),
-            std::vector<std::string>{"Curves 1 and 2 turn sharply where no corner is marked: add --corner there."});
+  EXPECT_EQ(notesOf(start), std::vector<std::string>{
+                                "Curve 1 turns sharply where no corner is marked: add --corner there (suggest lists "
+                                "the places); where the line trembles, raise construct.detail instead."});
+  EXPECT_EQ(
+      notesOf(start + " --corner 100,60 --corner 360,260"),
+      std::vector<std::string>{"Curves 1 and 2 turn sharply where no corner is marked: add --corner there (suggest "
+                               "lists the places); where the line trembles, raise construct.detail instead."});
   EXPECT_TRUE(notesOf(start + " --corner 100,60 --corner 360,260 --corner 380,80 --corner 80,240").empty());
 }
 

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/exchange/curve_json.h"
-#include "core/exchange/svg_check.h"
-#include "core/exchange/svg_writer.h"
+#include "core/exchange/svg/svg_check.h"
+#include "core/exchange/svg/svg_writer.h"
+#include "core/exchange/text/curve_json.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto document = batten::readCurveJson({reinterpret_cast<const char*>(data), size});

@@ -6,13 +6,13 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/exchange/dxf_reader.h"
-#include "core/exchange/iges_reader.h"
+#include "core/exchange/cad/dxf_reader.h"
+#include "core/exchange/cad/iges_reader.h"
+#include "core/exchange/cad/rhino_reader.h"
+#include "core/exchange/cad/step_reader.h"
 #include "core/exchange/point_file.h"
-#include "core/exchange/rhino_reader.h"
-#include "core/exchange/step_reader.h"
-#include "core/exchange/svg_reader.h"
-#include "core/exchange/svg_shapes.h"
+#include "core/exchange/svg/svg_reader.h"
+#include "core/exchange/svg/svg_shapes.h"
 
 namespace {
 

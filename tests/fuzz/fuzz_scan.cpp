@@ -8,10 +8,10 @@
 #include <string>
 
 #include "core/image/binarize.h"
-#include "core/image/laplacian_edges.h"
-#include "core/image/neighbourhood_filter.h"
-#include "core/image/region_thresholds.h"
-#include "core/image/scan_reader.h"
+#include "core/image/bits/laplacian_edges.h"
+#include "core/image/bits/neighbourhood_filter.h"
+#include "core/image/file/scan_reader.h"
+#include "core/image/threshold/region_thresholds.h"
 
 namespace {
 

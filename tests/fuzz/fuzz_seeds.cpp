@@ -7,9 +7,9 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "core/exchange/curve_json.h"
 #include "core/exchange/export_file.h"
-#include "core/exchange/svg_writer.h"
+#include "core/exchange/svg/svg_writer.h"
+#include "core/exchange/text/curve_json.h"
 #include "core/pipeline/recipe/recipe_file.h"
 
 namespace {
@@ -34,7 +34,7 @@ Recipe fullRecipe() {
   recipe.page = BlankPage{200, 160};
   PieceChoice choice;
   choice.anchorsPx = {Vec2(1, 1), Vec2(50, 60)};
-  choice.target = 3;
+  choice.target = FairingTarget::Degree3;
   choice.toleranceMm = 0.4;
   choice.keepPx = {Vec2(9, 9)};
   recipe.choices = {choice};

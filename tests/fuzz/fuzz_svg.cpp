@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/exchange/svg_check.h"
+#include "core/exchange/svg/svg_check.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "core/curve/arc_length.h"
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 #include "core/pipeline/run/pipeline.h"
 
 /// \file

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/vec2.h"
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
 #include "core/image/grey_image.h"
 
 namespace batten::test {

@@ -12,7 +12,7 @@
 #include <random>
 
 #include "tests/ui/window_fixture.h"
-#include "ui/panels/stages/method_table.h"
+#include "ui/panels/stages/curves/method_table.h"
 #include "ui/plots/curve_plots.h"
 #include "ui/session/extremum_marks.h"
 

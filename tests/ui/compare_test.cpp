@@ -16,8 +16,8 @@
 #include "core/pipeline/recipe/recipe_file.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/panels/controls/panel_parts.h"
-#include "ui/panels/stages/method_table.h"
-#include "ui/panels/stages/pin_panel.h"
+#include "ui/panels/stages/curves/method_table.h"
+#include "ui/panels/stages/curves/pin_panel.h"
 #include "ui/session/curve_names.h"
 
 namespace batten {

@@ -17,11 +17,11 @@
 #include <QUrl>
 #include <QWindow>
 
-#include "core/exchange/dxf_reader.h"
-#include "core/exchange/svg_reader.h"
+#include "core/exchange/cad/dxf_reader.h"
+#include "core/exchange/svg/svg_reader.h"
 #include "tests/ui/rendered_scan.h"
 #include "tests/ui/window_fixture.h"
-#include "ui/panels/stages/export_preview.h"
+#include "ui/panels/stages/export/export_preview.h"
 
 namespace batten {
 namespace {

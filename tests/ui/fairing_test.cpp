@@ -128,12 +128,15 @@ TEST_F(FairingWindow, TheTargetIsDrawnByDraggingItsPoints) {
   window_->findChild<CurvePlots*>()->setTab(PlotTab::Curvature);
   click("fairing.mode.target");
   ASSERT_TRUE(settle());
+  const double needed = session().selected()->fairing.neededMm;
   click("fairing.draw");
   ASSERT_EQ(session().recipe().choices.size(), 1u);
-  EXPECT_EQ(choice().target, kDrawnTarget);
+  EXPECT_EQ(choice().target, FairingTarget::Drawn);
   const std::vector<ProfilePoint> before = choice().profile;
   ASSERT_GE(before.size(), 2u);
   ASSERT_TRUE(settle());
+  EXPECT_LT(session().selected()->fairing.neededMm, 1.1 * needed + 0.5 * used().toleranceMm)
+      << "what is drawn first is the target that was followed";
   ASSERT_TRUE(waitUntil([this] { return placeOf(QStringLiteral("Drag the point"), 120).x() > 0; }));
   auto* plot = find<QWidget>("plot");
   const QPoint handle = placeOf(QStringLiteral("Drag the point"), 120) + QPoint(3, 3);
@@ -147,13 +150,13 @@ TEST_F(FairingWindow, TheTargetIsDrawnByDraggingItsPoints) {
   EXPECT_NE(choice().profile, before);
   EXPECT_EQ(choice().profile.size(), before.size());
   ASSERT_TRUE(settle());
-  EXPECT_EQ(used().target, kDrawnTarget);
+  EXPECT_EQ(used().target, FairingTarget::Drawn);
   EXPECT_EQ(used().profile, choice().profile);
   EXPECT_GT(session().selected()->fairing.neededMm, 0.0);
   session().undoStack()->undo();
   EXPECT_EQ(choice().profile, before);
   click("fairing.forget");
-  EXPECT_NE(session().recipe().choices.front().target, kDrawnTarget);
+  EXPECT_NE(session().recipe().choices.front().target, FairingTarget::Drawn);
   EXPECT_TRUE(session().recipe().choices.front().profile.empty());
 }
 
@@ -233,7 +236,7 @@ TEST_F(FairingWindow, ASpanOfTheCurveHasATargetOfItsOwn) {
   find<QAbstractButton>("target.4")->click();
   ASSERT_TRUE(settle());
   EXPECT_TRUE(used().spanTargets.empty());
-  EXPECT_EQ(used().target, 4);
+  EXPECT_EQ(used().target, FairingTarget::Degree4);
 }
 
 TEST_F(FairingWindow, ShapesAreComparedAndTheTableShowsAllSixProfiles) {

@@ -9,7 +9,7 @@
 
 #include "tests/ui/window_fixture.h"
 #include "ui/new_drawing_dialog.h"
-#include "ui/panels/stages/curve_list.h"
+#include "ui/panels/stages/curves/curve_list.h"
 
 namespace batten {
 namespace {

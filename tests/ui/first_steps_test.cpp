@@ -14,7 +14,7 @@
 #include "ui/canvas/scene/canvas_scene.h"
 #include "ui/canvas/scene/comb_runs.h"
 #include "ui/panels/controls/number_field.h"
-#include "ui/panels/stages/pin_panel.h"
+#include "ui/panels/stages/curves/pin_panel.h"
 #include "ui/session/growing_player.h"
 
 namespace batten {

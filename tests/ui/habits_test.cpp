@@ -105,7 +105,8 @@ TEST_F(Habits, EveryStageKnowsItsChanges) {
   EXPECT_EQ(stageOf([](Recipe& r) { r.construct.method = ConstructMethod::Bezier; }), PanelStage::Curves);
   EXPECT_EQ(stageOf([](Recipe& r) { r.choices = {{.anchorsPx = {Vec2(1, 2)}, .included = false}}; }),
             PanelStage::Curves);
-  EXPECT_EQ(stageOf([](Recipe& r) { r.choices = {{.anchorsPx = {Vec2(1, 2)}, .target = 3}}; }), PanelStage::Fairing);
+  EXPECT_EQ(stageOf([](Recipe& r) { r.choices = {{.anchorsPx = {Vec2(1, 2)}, .target = FairingTarget::Degree3}}; }),
+            PanelStage::Fairing);
   EXPECT_EQ(stageOf([](Recipe& r) { r.fairing.toleranceMm = 1.0; }), PanelStage::Fairing);
 }
 

@@ -18,10 +18,10 @@
 #include "core/curve/curvature.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/plots/curve_plots.h"
+#include "ui/session/edits/fairing_edits.h"
+#include "ui/session/edits/piece_choice.h"
 #include "ui/session/extremum_marks.h"
-#include "ui/session/fairing_edits.h"
 #include "ui/session/judged_view.h"
-#include "ui/session/piece_choice.h"
 
 namespace batten {
 namespace {
@@ -139,6 +139,9 @@ TEST_F(Judging, ACurveThatFairingLeavesIsShownAsAResultAndExplained) {
   ASSERT_NE(list, nullptr);
   const QString spoken = list->item(line)->data(Qt::AccessibleTextRole).toString();
   EXPECT_TRUE(spoken.contains(QStringLiteral("unchanged"))) << spoken.toStdString();
+  const CurveFigures& still = session().curves()[static_cast<std::size_t>(line)].fairedFigures;
+  EXPECT_TRUE(spoken.contains(QStringLiteral("%1 extr. · %2 pts").arg(still.extrema).arg(still.controlPoints)))
+      << "its figures are told all the same: " << spoken.toStdString();
   EXPECT_TRUE(list->item(line)->toolTip().contains(QStringLiteral("exact line")));
   EXPECT_FALSE(list->item(1 - line)->toolTip().contains(QStringLiteral("unchanged by")));
   for (const PanelStage stage : {PanelStage::Fairing, PanelStage::Export}) {

@@ -8,7 +8,7 @@
 
 #include "core/pipeline/run/piece_choices.h"
 #include "tests/ui/window_fixture.h"
-#include "ui/session/piece_choice.h"
+#include "ui/session/edits/piece_choice.h"
 #include "ui/status_line.h"
 
 namespace batten {

@@ -14,7 +14,7 @@
 #include "core/document/unsaved_work.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "tests/ui/window_fixture.h"
-#include "ui/panels/stages/export_panel.h"
+#include "ui/panels/stages/export/export_panel.h"
 #include "ui/session/path_text.h"
 #include "ui/session/recipe_journal.h"
 

@@ -11,15 +11,15 @@
 #include <filesystem>
 
 #include "core/document/export_builder.h"
-#include "core/exchange/curve_json.h"
 #include "core/exchange/save_atomically.h"
-#include "core/exchange/svg_writer.h"
+#include "core/exchange/svg/svg_writer.h"
+#include "core/exchange/text/curve_json.h"
 #include "core/pipeline/recipe/recipe_file.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/new_drawing_dialog.h"
-#include "ui/panels/stages/knot_panel.h"
-#include "ui/panels/stages/knot_strip.h"
-#include "ui/session/pen_edits.h"
+#include "ui/panels/stages/curves/knot_panel.h"
+#include "ui/panels/stages/curves/knot_strip.h"
+#include "ui/session/edits/pen_edits.h"
 
 namespace batten {
 namespace {

@@ -16,10 +16,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/fairing/like_profile.h"
+#include "core/fairing/profile/like_profile.h"
 #include "tests/ui/window_fixture.h"
 #include "ui/new_drawing_dialog.h"
-#include "ui/session/like_edits.h"
+#include "ui/session/edits/like_edits.h"
 #include "ui/session/profile_library.h"
 
 namespace batten {
@@ -68,7 +68,7 @@ class Shelf : public test::WindowFixture {
   /// Drops what the shelf gives for its first entry. @return whether the drawing took it.
   bool drop(const Vec2& px) {
     if (shelf()->count() == 0) return false;
-    QTest::qWait(300);  // the drawing has made room for the panels of the stage
+    QCoreApplication::processEvents();  // the drawing makes room for the panels of the stage
     auto* canvas = find<CurveCanvas>("canvas");
     const std::unique_ptr<QMimeData> data(shelf()->model()->mimeData({shelf()->model()->index(0, 0)}));
     const QPointF at = canvas->toWidget(px);
@@ -101,7 +101,7 @@ TEST_F(Shelf, AProfileDroppedOnALineBecomesItsTarget) {
   EXPECT_EQ(session().selectedCurve(), lower);
   const TracedCurve& line = session().curves()[static_cast<std::size_t>(lower)];
   EXPECT_EQ(line.fairingUsed.mode, FairingMode::Target);
-  EXPECT_EQ(line.fairingUsed.target, kDrawnTarget);
+  EXPECT_EQ(line.fairingUsed.target, FairingTarget::Drawn);
   EXPECT_FALSE(line.fairingUsed.profile.empty());
   EXPECT_EQ(session().curves()[static_cast<std::size_t>(1 - lower)].fairingUsed.mode, FairingMode::None);
   session().undoStack()->undo();

@@ -7,7 +7,7 @@
 
 #include "core/pipeline/recipe/recipe_file.h"
 #include "tests/ui/window_fixture.h"
-#include "ui/panels/stages/curve_list.h"
+#include "ui/panels/stages/curves/curve_list.h"
 #include "ui/plots/plot_series.h"
 
 namespace batten {

@@ -74,7 +74,7 @@ TEST_F(Window, TheSampleOpensWithItsCornersAndFollowsATarget) {
   const Recipe before = session().recipe();
   QTest::keyClick(find<CurveCanvas>("canvas"), Qt::Key_3);
   ASSERT_TRUE(settle());
-  EXPECT_EQ(session().selected()->fairingUsed.target, 3);
+  EXPECT_EQ(session().selected()->fairingUsed.target, FairingTarget::Degree3);
   while (session().undoStack()->canUndo()) session().undoStack()->undo();
   ASSERT_TRUE(settle());
   EXPECT_EQ(session().recipe(), before);
@@ -126,10 +126,10 @@ TEST_F(Window, TheWholeWalkEndsInTheCurvesThatTheRecipeGives) {
   ASSERT_TRUE(tile->isEnabled()) << tile->toolTip().toStdString();
   QTest::mouseClick(tile, Qt::LeftButton);
   ASSERT_EQ(session().recipe().choices.size(), 1u);
-  EXPECT_EQ(session().recipe().choices[0].target, 3);
+  EXPECT_EQ(session().recipe().choices[0].target, FairingTarget::Degree3);
   ASSERT_TRUE(settle());
   EXPECT_EQ(session().curves()[1].fairingUsed.mode, FairingMode::Target);
-  EXPECT_EQ(session().curves()[1].fairingUsed.target, 3);
+  EXPECT_EQ(session().curves()[1].fairingUsed.target, FairingTarget::Degree3);
 
   const Recipe end = session().recipe();
   while (session().undoStack()->canUndo()) window_->action(ActionId::Undo)->trigger();

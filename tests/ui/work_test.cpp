@@ -11,7 +11,7 @@
 
 #include "tests/ui/window_fixture.h"
 #include "ui/error_strip.h"
-#include "ui/panels/stages/method_table.h"
+#include "ui/panels/stages/curves/method_table.h"
 #include "ui/panels/targets/target_strip.h"
 
 namespace batten {

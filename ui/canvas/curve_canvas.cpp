@@ -16,8 +16,8 @@
 #include <cmath>
 
 #include "ui/canvas/canvas_state.h"
+#include "ui/session/edits/like_edits.h"
 #include "ui/session/growing_player.h"
-#include "ui/session/like_edits.h"
 #include "ui/session/suggestion_source.h"
 
 namespace batten {

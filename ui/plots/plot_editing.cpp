@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/session/fairing_edits.h"
+#include "ui/session/edits/fairing_edits.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -134,7 +134,7 @@ bool PlotEditing::press(const QMouseEvent& event) {
     }
     if (index_ < 0) return false;
     const bool isNear = spacing * plot_->axisRect()->width() < 2.0 * kReachPx;
-    if (!isNear && isTargetDrawn(session_)) {
+    if (!isNear) {
       const auto above = std::upper_bound(profile.begin(), profile.end(), f,
                                           [](double x, const ProfilePoint& p) { return x < p.fraction; });
       const double sign = profile[index_].kappa;
@@ -216,10 +216,10 @@ void PlotEditing::openMenu(const QPoint& position) {
       add(tr("Keep extrema by number again"), "plot.keepByNumber", [this] { keepByNumber(session_); });
   }
   menu->addSeparator();
-  std::vector<ProfilePoint> profile = profileToBeginWith(session_);
   if (!isTargetDrawn(session_)) {
-    add(tr("Draw the target"), "plot.draw", [this, profile] { drawTarget(session_, profile, -1); });
+    add(tr("Draw the target"), "plot.draw", [this] { drawTarget(session_, profileToBeginWith(session_), -1); });
   } else {
+    std::vector<ProfilePoint> profile = profileToBeginWith(session_);
     if (handle >= 0 && profile.size() > 2) {
       profile.erase(profile.begin() + handle);
       add(tr("Remove this point"), "plot.removePoint", [this, profile] { drawTarget(session_, profile, -1); });

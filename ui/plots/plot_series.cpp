@@ -13,7 +13,7 @@
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
 #include "core/fairing/fairing.h"
-#include "ui/session/fairing_edits.h"
+#include "ui/session/edits/fairing_edits.h"
 
 namespace batten {
 namespace {
@@ -43,8 +43,8 @@ void add(PlotData& data, PlotRole role, const std::vector<CurveSample>& samples,
 }
 
 int chosenDegree(const TracedCurve& curve, const TargetOutcomes& targets) {
-  if (curve.fairingUsed.mode != FairingMode::Target || curve.fairingUsed.target >= kDrawnTarget) return 0;
-  return curve.fairingUsed.target > 0 ? curve.fairingUsed.target : targets.recommendedDegree;
+  if (curve.fairingUsed.mode != FairingMode::Target || !isPolynomial(curve.fairingUsed.target)) return 0;
+  return degreeOf(curve.fairingUsed.target).value_or(targets.recommendedDegree);
 }
 
 void addTargets(PlotData& data, const EditorSession& session, const TracedCurve& curve, const auto& valueOf) {

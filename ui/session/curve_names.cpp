@@ -35,13 +35,13 @@ QString curveOrigin(const EditorSession& session, int curve) {
   if (curve < 0 || curve >= std::ssize(curves) || !output.contours) return {};
   const int line = curves[curve].contour;
   if (line < 0 || line >= std::ssize(output.contours->contours)) return {};
-  const auto imported = output.contours->contours[static_cast<std::size_t>(line)].imported;
+  const auto imported = output.contours->contours[line].imported;
   if (!imported) return {};
   std::ptrdiff_t index = *imported;
   for (const ImportedFile& file : session.recipe().imports) {
     if (index < std::ssize(file.lines)) {
       const QString source = QString::fromStdString(file.source);
-      const QString layer = QString::fromStdString(file.lines[static_cast<std::size_t>(index)].layer);
+      const QString layer = QString::fromStdString(file.lines[index].layer);
       if (layer.isEmpty()) return source;
       return QCoreApplication::translate("CurveNames", "%1, layer %2").arg(source, layer);
     }

@@ -7,7 +7,7 @@
 
 #include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 #include "core/pipeline/recipe/recipe_file.h"
 
 namespace batten {

@@ -354,7 +354,7 @@ void EditorSession::Runner::computeTargets() {
   // The chosen mode and target do not change the six outcomes.
   FairingParams params = curve->fairingUsed;
   params.mode = FairingMode::None;
-  params.target = 0;
+  params.target = FairingTarget::Recommended;
   params.lowPassMm = FairingParams{}.lowPassMm;
   params.keepExtrema = kKeepSignificant;
   params.keptAt.clear();

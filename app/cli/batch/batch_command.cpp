@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <map>
@@ -16,9 +15,10 @@
 #include "app/cli/batch/contact_sheet.h"
 #include "app/cli/exit_codes.h"
 #include "app/cli/file_names.h"
+#include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
 #include "core/document/report_pages/report_file.h"
-#include "core/exchange/export_settings.h"
+#include "core/exchange/model/export_settings.h"
 #include "core/exchange/save_atomically.h"
 
 namespace batten::cli {
@@ -32,12 +32,11 @@ bool isManifest(const std::string& input) { return input == "-" || input.ends_wi
 
 Result<std::string> textOf(const std::string& input) {
   if (input == "-") return std::string{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
-  std::error_code code;
-  std::ifstream file(input, std::ios::binary);
-  if (!file || !fs::is_regular_file(input, code)) {
-    return wrong("The manifest " + shownText(input) + " cannot be read. Check its name.");
-  }
-  return std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;  // some two million pages
+  auto text = readWhole(input, kMostBytes);
+  if (text) return std::move(*text);
+  return wrong("The manifest " + shownText(input) + " cannot be read: it " + describe(text.error()) +
+               ". Check its name.");
 }
 
 /// What --formats takes: the endings without their dots.

@@ -12,7 +12,7 @@
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
 #include "core/exchange/save_atomically.h"
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 
 namespace batten::cli {
 namespace {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <optional>
 
@@ -15,9 +14,10 @@
 #include "app/cli/batch/page_record.h"
 #include "core/base/parallel.h"
 #include "core/base/platform.h"
+#include "core/base/regular_file.h"
 #include "core/base/shown_text.h"
 #include "core/exchange/save_atomically.h"
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 
 namespace batten::cli {
 namespace {
@@ -109,9 +109,9 @@ QByteArray figuresOf(const PageRecord& record) {
 }
 
 QImage pictureIn(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  return QImage::fromData(QByteArray::fromStdString(bytes));
+  constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20;
+  const auto bytes = readWhole(file, kMostBytes);
+  return bytes ? QImage::fromData(QByteArray::fromStdString(*bytes)) : QImage();
 }
 
 /// @return CannotWrite if the small picture cannot be written.

@@ -5,11 +5,10 @@
 #include <QXmlStreamReader>
 #include <cctype>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 
+#include "core/base/regular_file.h"
 #include "core/curve/arc_length.h"
-#include "core/exchange/curve_json.h"
+#include "core/exchange/text/curve_json.h"
 
 namespace batten::cli {
 namespace {
@@ -102,11 +101,11 @@ DrawnLines linesOfSvg(const std::string& text) {
 }  // namespace
 
 DrawnLines drawnLines(const std::string& output) {
-  std::ifstream file(output, std::ios::binary);
-  if (!file) return {};
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (output.ends_with(".json")) return linesOfJson(text);
-  return output.ends_with(".svg") ? linesOfSvg(text) : DrawnLines{};
+  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
+  const auto text = readWhole(output, kMostBytes);
+  if (!text) return {};
+  if (output.ends_with(".json")) return linesOfJson(*text);
+  return output.ends_with(".svg") ? linesOfSvg(*text) : DrawnLines{};
 }
 
 }  // namespace batten::cli

@@ -14,10 +14,11 @@
 
 #include "app/cli/batch/name_json.h"
 #include "app/cli/file_names.h"
+#include "core/base/json_text.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
 #include "core/base/shown_text.h"
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 
 namespace batten::cli {
 namespace {
@@ -82,15 +83,15 @@ std::optional<std::string> takeEntry(const std::string& key, const Json& value, 
 
 Result<BatchPage> pageOf(std::string_view text, int line, const PageDefaults& defaults) {
   const std::string where = "Line " + std::to_string(line) + " of the manifest: ";
-  const Json json = Json::parse(parsableLine(text), nullptr, false);
-  if (!json.is_object())
+  const auto parsed = parseJson(parsableLine(text));
+  if (!parsed || !parsed->is_object())
     return wrongLine(where + "not a JSON object. Write {\"scan\": \"a.png\", \"outputs\": [\"a.svg\"]}.");
   BatchPage page;
   page.line = line;
   page.recipe = defaults.recipe;
   page.settings = defaults.settings;
   page.dpi = defaults.dpi;
-  for (const auto& [key, value] : json.items()) {
+  for (const auto& [key, value] : parsed->items()) {
     if (const auto problem = takeEntry(key, value, page)) return wrongLine(where + *problem + ".");
   }
   if (page.scan.empty()) return wrongLine(where + "\"scan\" is missing.");
@@ -136,7 +137,7 @@ Result<void> checkFiles(const std::vector<BatchPage>& pages) {
 std::vector<BatchPage> everyPageOf(const BatchPage& page) {
   if (page.page != kAllPages) return {page};
   const QuietStderr quiet;
-  std::vector<BatchPage> pages(static_cast<std::size_t>(countPages(page.scan)), page);
+  std::vector<BatchPage> pages(countPages(page.scan), page);
   for (std::size_t i = 0; i < pages.size(); ++i) {
     pages[i].page = static_cast<int>(i) + 1;
     for (std::string& output : pages[i].outputs) output = withPage(output, pages[i].page);

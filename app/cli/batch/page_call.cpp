@@ -5,13 +5,12 @@
 #include <QFile>
 
 #include "app/cli/exit_codes.h"
+#include "core/base/json_text.h"
 #include "core/base/number_text.h"
 #include "core/base/platform.h"
 
 namespace batten::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The last line of what a call wrote to stderr, without the program's name before it.
 std::string lastLine(const QByteArray& text) {
@@ -94,15 +93,15 @@ PageResult PageCall::result() {
   result.error = lastLine(process_.readAllStandardError());
   if (result.exitCode == kNoCurve) result.status = PageStatus::Empty;
   if (result.exitCode != kDone) return result;
-  Json said = Json::parse(process_.readAllStandardOutput().toStdString(), nullptr, false);
-  if (!said.is_object()) {
+  auto said = parseJson(process_.readAllStandardOutput().toStdString());
+  if (!said || !said->is_object()) {
     result.error = "The output of the subprocess could not be read.";
     return result;
   }
-  for (const char* key : {"scan", "files"}) said.erase(key);  // the line has them from the manifest
+  for (const char* key : {"scan", "files"}) said->erase(key);  // the line has them from the manifest
   result.status = PageStatus::Done;
   result.error.clear();
-  result.figures = std::move(said);
+  result.figures = std::move(*said);
   return result;
 }
 

@@ -9,6 +9,8 @@
 
 #include "app/cli/batch/name_json.h"
 #include "core/base/content_hash.h"
+#include "core/base/json_text.h"
+#include "core/base/regular_file.h"
 #include "core/exchange/save_atomically.h"
 
 namespace batten::cli {
@@ -16,6 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::uint64_t kMostRecordBytes = std::uint64_t{64} << 20;
 constexpr std::size_t kReadAtOnce = std::size_t{1} << 20;  // [bytes]
 
 const char* wordOf(PageStatus status) {
@@ -80,10 +83,10 @@ std::optional<std::string> pageKey(const BatchPage& page, const std::optional<st
 }
 
 std::optional<PageRecord> readRecord(const BatchPage& page) {
-  std::ifstream file(recordName(page), std::ios::binary);
-  if (!file) return std::nullopt;
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const Json json = Json::parse(text, nullptr, false);
+  const auto text = readWhole(recordName(page), kMostRecordBytes);
+  const auto parsed = text ? parseJson(*text) : Result<Json>(fail(ErrorCode::BadParameter, "there is none"));
+  if (!parsed) return std::nullopt;
+  const Json& json = *parsed;
   try {
     if (json.at("format") != "batten-batch-page" || json.at("version") != 1) return std::nullopt;
     PageRecord record;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "core/base/json_text.h"
 #include "core/base/shown_text.h"
 
 namespace batten::cli {
@@ -24,9 +25,9 @@ std::string keyToldBy(std::string_view line) {
     return std::string(rest.substr(0, rest.find('"')));
   }
   if (line.find("\"key\"") == std::string_view::npos) return {};
-  const auto json = nlohmann::json::parse(line, nullptr, false);  // somebody has written it anew, with blanks
-  if (!json.is_object() || !json.contains("key") || !json["key"].is_string()) return {};
-  return json.contains("status") && json["status"] != "failed" ? json["key"].get<std::string>() : std::string();
+  const auto json = parseJson(line);  // somebody has written it anew, with blanks
+  if (!json || !json->is_object() || !json->contains("key") || !(*json)["key"].is_string()) return {};
+  return json->contains("status") && (*json)["status"] != "failed" ? (*json)["key"].get<std::string>() : std::string();
 }
 
 }  // namespace

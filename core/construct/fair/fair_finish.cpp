@@ -95,8 +95,8 @@ class FinishedFit {
   /// True when a result was set.
   bool fair() {
     if (piece_.rough.size() == 0 || !moveFrame(piece_.rough)) return false;
-    auto local =
-        localPosterior(frame_, s0_, uniformPrior(frame_, s0_, cutoffPx_), options_.emRounds, options_.emWidthPx);
+    auto local = localPosterior(frame_, s0_, uniformPrior(frame_, s0_, cutoffPx_), options_.emRounds,
+                                options_.emWidthPx, context_);
     if (!local || context_.isCancelled()) return false;
     if (willBeCut_ && in_.constraints.empty() && leavesItsPoints(local->mean)) return true;
     double circleCost = std::numeric_limits<double>::quiet_NaN();
@@ -110,7 +110,7 @@ class FinishedFit {
     if (!piece_.data.closed && found->structure.extrema.empty() && line(found->objective)) return true;
 
     if (!moveFrame(found->c)) return false;
-    const auto final = localPosterior(frame_, s0_, std::move(local->tau2), 1, options_.emWidthPx);
+    const auto final = localPosterior(frame_, s0_, std::move(local->tau2), 1, options_.emWidthPx, context_);
     if (!final) return false;
     for (FairExtremum& e : found->structure.extrema) e.u = lookUp(oldParameters_, arcLengths_, e.u);
     for (FairExtremum& e : found->dropped) e.u = lookUp(oldParameters_, arcLengths_, e.u);
@@ -119,10 +119,11 @@ class FinishedFit {
 
   /// True, and a result was set, when the smoothing alone leaves the points: no structure brings it back.
   bool leavesItsPoints(const Eigen::VectorXd& mean) {
-    const auto curve = offsetCurve(frame_.base, mean);
+    const auto curve = offsetCurve(frame_.base, mean, context_);
     if (!curve) return false;
     auto nurbs = placed(curve->toNurbs(pixelMm_, pixelMm_, Vec2::Zero(), Vec2::Zero()), piece_, in_, pixelMm_);
-    if (!nurbs || outlierRanges(pointDeviation(*nurbs, in_, pixelMm_), in_, pixelMm_, false).empty()) return false;
+    if (!nurbs || outlierRanges(pointDeviation(*nurbs, in_, pixelMm_, context_), in_, pixelMm_, false).empty())
+      return false;
     report_ = {};
     report_.why = Termination::Degenerate;
     report_.note = kPlainNote;
@@ -140,13 +141,13 @@ class FinishedFit {
       to = base.footPoint(data.points.back(), to, kCornerReachPx);
     }
     if (!(to - from > 0.5 * base.knots().length)) return false;
-    auto moved = reframe(base, d, from, to);
+    auto moved = reframe(base, d, from, to, context_);
     if (!moved) return false;
     for (double& t : data.t) t = lookUp(moved->oldParameters, moved->arcLengths, t);
     oldParameters_ = std::move(moved->oldParameters);
     arcLengths_ = std::move(moved->arcLengths);
-    frame_ = assembleFrame(moved->curve, data, options_, kChecksPerSpan);
-    return !frame_.blocks.empty();
+    frame_ = assembleFrame(moved->curve, data, options_, kChecksPerSpan, context_);
+    return !frame_.blocks.empty() && !context_.isCancelled();
   }
 
   /// The constraints by the parameter of the nearest point.
@@ -260,20 +261,19 @@ class FinishedFit {
   std::optional<UniformQuintic> structuredCurve(FairPosterior posterior, StructureResult& found) {
     const Eigen::VectorXd start = posterior.mean;
     pinEnds(posterior);
-    const double never = std::numeric_limits<double>::infinity();
     found.structure.leastSlope.clear();
-    auto fit = fitStructure(frame_, posterior, found.structure, start, {}, never);
+    auto fit = fitStructure(frame_, posterior, found.structure, start, {}, context_);
     if (!fit) return std::nullopt;
     found.limited = found.limited || !fit->converged;
-    auto curve = offsetCurve(frame_.base, fit->c);
+    auto curve = offsetCurve(frame_.base, fit->c, context_);
     pinned_ = std::move(posterior);
     last_ = std::move(fit);
     return curve;
   }
 
   /// True if the curvature itself (the programs see it to first order) turns more often than the structure has extrema.
-  static bool turnsTooOften(const UniformQuintic& curve, const FairStructure& structure) {
-    const auto stations = checkStations(curve, kFineChecksPerSpan);
+  bool turnsTooOften(const UniformQuintic& curve, const FairStructure& structure) const {
+    const auto stations = checkStations(curve, kFineChecksPerSpan, context_);
     Vec2 low = curve.at(0.0, 0)[0], high = low;
     for (const FrameStation& s : stations) {
       const Vec2 p = curve.at(s.u, 0)[0];
@@ -290,9 +290,10 @@ class FinishedFit {
     auto curve = structuredCurve(posterior, found);
     for (int pass = 0; curve && pass < kRefinements && turnsTooOften(*curve, found.structure); ++pass) {
       // About the curve itself, with its own knots, the linear constraints are exact but for a tiny remainder.
-      frame_ = assembleFrame(*curve, piece_.data, options_, kFineChecksPerSpan);
+      frame_ = assembleFrame(*curve, piece_.data, options_, kFineChecksPerSpan, context_);
+      if (context_.isCancelled()) return false;
       last_.reset();
-      const auto about = localPosterior(frame_, s0_, posterior.tau2, 0, options_.emWidthPx);
+      const auto about = localPosterior(frame_, s0_, posterior.tau2, 0, options_.emWidthPx, context_);
       if (!about || context_.isCancelled()) break;
       auto better = structuredCurve(*about, found);
       if (!better) break;
@@ -301,8 +302,8 @@ class FinishedFit {
     if (!curve || context_.isCancelled()) return false;
     if (last_) {
       FairStructure structure = found.structure;
-      const StructureFit lifted = withoutPlateaus(frame_, pinned_, structure, *last_);
-      auto steady = structure.leastSlope.empty() ? std::nullopt : offsetCurve(frame_.base, lifted.c);
+      const StructureFit lifted = withoutPlateaus(frame_, pinned_, structure, *last_, context_);
+      auto steady = structure.leastSlope.empty() ? std::nullopt : offsetCurve(frame_.base, lifted.c, context_);
       if (steady && !turnsTooOften(*steady, structure)) {
         curve = std::move(steady);
         found.structure = std::move(structure);
@@ -343,7 +344,7 @@ class FinishedFit {
     limits.kappaShare = kKappaShare * options_.knotRemovalTolerance;
     limits.startShift = start;
     limits.endShift = end;
-    const auto fewer = withFewestKnots(curve, limits);
+    const auto fewer = withFewestKnots(curve, limits, context_);
     if (!fewer) return std::nullopt;
     std::vector<double> knots(fewer->curve.knots().begin(), fewer->curve.knots().end());
     std::vector<Vec2> points(fewer->curve.controlPoints().begin(), fewer->curve.controlPoints().end());

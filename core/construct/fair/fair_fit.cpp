@@ -30,7 +30,7 @@ void followNoise(std::vector<FairPiece>& pieces, const CutoffChoice& choice, dou
       FairPiece& piece = pieces[i];
       if (!piece.frame || context.isCancelled()) continue;
       const std::vector<double> prior = uniformPrior(*piece.frame, s0, CutoffTable::cutoffPx(*choice.k[i]));
-      const auto smooth = localPosterior(*piece.frame, s0, prior, 0, options.emWidthPx);
+      const auto smooth = localPosterior(*piece.frame, s0, prior, 0, options.emWidthPx, context);
       if (!smooth) continue;
       piece.rough = smooth->mean;
       traces[i] = noiseTrace(*piece.frame, smooth->mean, s0);
@@ -49,7 +49,7 @@ Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour,
   const double ordinary = ordinarySigma(contour);
   parallelFor(context, count, 1, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
-      pieces[i] = prepareFairPiece(contour.pieces[i], contour.isStroke, contour.pixelMm, ordinary, options);
+      pieces[i] = prepareFairPiece(contour.pieces[i], contour.isStroke, contour.pixelMm, ordinary, options, context);
     }
   });
   if (context.isCancelled()) return cancelled();
@@ -63,6 +63,7 @@ Result<std::vector<ConstructedPiece>> fitPieces(const ConstructContour& contour,
     if (!choice.k[i]) pieces[i].frame.reset();
   }
   followNoise(pieces, choice, density, s0, options, context);
+  if (context.isCancelled()) return cancelled();
   parallelFor(context, count, 1, [&](int begin, int end) {
     for (int i = begin; i < end && !context.isCancelled(); ++i) {
       const FinishScale scale{contour.pixelMm, s0, CutoffTable::cutoffPx(choice.k[i].value_or(0)), willBeCut};
@@ -101,11 +102,13 @@ Result<std::vector<ConstructedPiece>> fitParts(const ConstructContour& contour, 
     auto fits = fitPieces(stretches, round + 1 < kFitRounds, options, context);
     if (!fits) return fits;
     bool again = false;
+    const bool isLast = round + 1 == kFitRounds;
     auto next = std::make_move_iterator(fits->begin());
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const auto end = next + static_cast<std::ptrdiff_t>(counts[i]);
-      again = parts[i].check({next, end}, round + 1 == kFitRounds) || again;
+      again = parts[i].check({next, end}, isLast, context) || again;
       next = end;
+      if (context.isCancelled()) return cancelled();
     }
     if (!again) break;
   }

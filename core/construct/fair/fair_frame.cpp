@@ -131,7 +131,7 @@ UniformKnots fairKnots(double length, double spacingPx, bool closed) {
   return {length, std::max(spans, closed ? kClosedSpansMin : 1), closed};
 }
 
-std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions& options) {
+std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions& options, CancelCheck check) {
   const std::vector<Vec2> smooth = smoothedByOrder(data.points, data.closed);
   const std::size_t n = smooth.size();
   std::vector<double>& t = data.t;
@@ -149,6 +149,7 @@ std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions& opt
     if (!curve) return std::nullopt;
     std::vector<double> used;
     for (std::size_t i = 0; i < n; ++i) {
+      if (check.isCancelled()) return std::nullopt;
       t[i] = curve->footPoint(data.points[i], t[i], spacing);
       const PlaneDerivatives d = curve->at(t[i], 1);
       e[i] = (data.points[i] - d[0]).dot(unitNormal(d[1]));
@@ -161,6 +162,7 @@ std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions& opt
     }
     if (pass == 3) break;
     for (double& u : t) {
+      if (check.isCancelled()) return std::nullopt;
       const double turns = data.closed ? std::floor(u / length) : 0.0;
       u = curve->arcLength(u - turns * length) + turns * curve->length();
     }
@@ -171,12 +173,14 @@ std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions& opt
   return curve;
 }
 
-FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFitOptions& options, int checksPerSpan) {
+FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFitOptions& options, int checksPerSpan,
+                        CancelCheck check) {
   FairFrame frame;
   frame.base = base;
   const UniformKnots& knots = base.knots();
   std::vector<double> e(data.points.size()), used;
   for (std::size_t i = 0; i < data.points.size(); ++i) {
+    if (check.isCancelled()) return frame;
     if (!data.use[i]) continue;
     double u = base.footPoint(data.points[i], data.t[i], 0.0);
     if (data.closed) u -= knots.length * std::floor(u / knots.length);
@@ -193,17 +197,18 @@ FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFi
     addTo(frame.g, block.row, frame.blockLength * block.weight * block.offset);
   }
   frame.cell = knots.spacing() / 3.0;
-  for (int j = 0; j < 3 * knots.spans; ++j) frame.penalty.push_back(makeStation(base, (j + 0.5) * frame.cell, true));
-  if (checksPerSpan > 0) frame.checks = checkStations(base, checksPerSpan);
+  for (int j = 0; j < 3 * knots.spans && !check.isCancelled(); ++j)
+    frame.penalty.push_back(makeStation(base, (j + 0.5) * frame.cell, true));
+  if (checksPerSpan > 0) frame.checks = checkStations(base, checksPerSpan, check);
   return frame;
 }
 
-std::vector<FrameStation> checkStations(const UniformQuintic& base, int perSpan) {
+std::vector<FrameStation> checkStations(const UniformQuintic& base, int perSpan, CancelCheck check) {
   const UniformKnots& knots = base.knots();
   const int count = perSpan * knots.spans + (knots.closed ? 0 : 1);
   std::vector<FrameStation> stations;
   stations.reserve(count);
-  for (int j = 0; j < count; ++j)
+  for (int j = 0; j < count && !check.isCancelled(); ++j)
     stations.push_back(makeStation(base, j * knots.length / (perSpan * knots.spans), false));
   return stations;
 }
@@ -218,7 +223,8 @@ OffsetPoint offsetPoint(const UniformQuintic& base, const Eigen::VectorXd& d, do
   return {p[0] + offset * normal, p[1] * (1.0 - kappa * offset) + rate * normal};
 }
 
-std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorXd& d, double from, double to) {
+std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorXd& d, double from, double to,
+                                CancelCheck check) {
   const UniformKnots& knots = base.knots();
   const int intervals = 8 * knots.spans;
   Reframed out;
@@ -226,6 +232,7 @@ std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorX
   const double step = (to - from) / intervals;
   double length = 0.0;
   for (int j = 0; j <= intervals; ++j) {
+    if (check.isCancelled()) return std::nullopt;
     if (j > 0) {
       // Two nodes: an interval is an eighth of a span.
       for (std::size_t g = 0; g < 2; ++g)
@@ -250,12 +257,13 @@ std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorX
   return out;
 }
 
-std::optional<UniformQuintic> offsetCurve(const UniformQuintic& base, const Eigen::VectorXd& d) {
+std::optional<UniformQuintic> offsetCurve(const UniformQuintic& base, const Eigen::VectorXd& d, CancelCheck check) {
   const UniformKnots& knots = base.knots();
   const int samples = 8 * knots.spans + (knots.closed ? 0 : 1);
   std::vector<double> parameters;
   std::vector<Vec2> points;
   for (int j = 0; j < samples; ++j) {
+    if (check.isCancelled()) return std::nullopt;
     parameters.push_back(j * knots.length / (8.0 * knots.spans));
     points.push_back(offsetPoint(base, d, parameters.back()).point);
   }

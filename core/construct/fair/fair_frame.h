@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/base/vec2.h"
 #include "core/construct/fair/fair_fit.h"
 #include "core/curve/uniform_quintic.h"
@@ -61,23 +62,25 @@ UniformKnots fairKnots(double length, double spacingPx, bool closed);
 
 /// Rough curve through the points by their own order: penalised least squares with Tukey weights, four passes. Sets
 /// data.t.
-std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions&);
+std::optional<UniformQuintic> fitPilot(FairData& data, const FairFitOptions&, CancelCheck);
 
 /// Projects the points on the curve (updates data.t), averages them by their weights over blocks and sets up the rows.
 /// @param checksPerSpan check stations a span; 0 leaves them out.
-FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFitOptions&, int checksPerSpan);
+FairFrame assembleFrame(const UniformQuintic& base, FairData& data, const FairFitOptions&, int checksPerSpan,
+                        CancelCheck);
 
 /// Stations at equal steps, `perSpan` a span; open: and the end.
-std::vector<FrameStation> checkStations(const UniformQuintic& base, int perSpan);
+std::vector<FrameStation> checkStations(const UniformQuintic& base, int perSpan, CancelCheck check = {});
 
 /// The curve base + d N from parameter `from` to `to` as a spline of its own arc length, with as many spans.
 struct Reframed {
   UniformQuintic curve;
   std::vector<double> oldParameters, arcLengths;  ///< Corresponding, ascending.
 };
-std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorXd& d, double from, double to);
+std::optional<Reframed> reframe(const UniformQuintic& base, const Eigen::VectorXd& d, double from, double to,
+                                CancelCheck);
 /// base + d N with the same knots and parameter.
-std::optional<UniformQuintic> offsetCurve(const UniformQuintic& base, const Eigen::VectorXd& d);
+std::optional<UniformQuintic> offsetCurve(const UniformQuintic& base, const Eigen::VectorXd& d, CancelCheck);
 
 /// The position base + d N and its first derivative.
 struct OffsetPoint {

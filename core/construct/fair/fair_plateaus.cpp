@@ -70,6 +70,22 @@ std::vector<double> meanSlopes(const FairFrame& frame, const FairStructure& stru
   return slopes;
 }
 
+/// Whether a place lies so near to an extremum that the curve is flat there anyhow. @param period of a closed curve; 0:
+/// open.
+bool isNearExtremum(const FairStructure& structure, double u, double period) {
+  const auto& e = structure.extrema;
+  const double reach = kNearWindows * kWidestWindowPx;
+  const auto isNear = [&](double place) {
+    const auto before = [](const FairExtremum& x, double from) { return x.u < from; };
+    for (auto it = std::lower_bound(e.begin(), e.end(), place - reach, before); it != e.end(); ++it) {
+      if (it->u > place + reach) break;
+      if (std::abs(place - it->u) < kNearWindows * it->halfWidth) return true;
+    }
+    return false;
+  };
+  return isNear(u) || (period > 0.0 && (isNear(u - period) || isNear(u + period)));
+}
+
 /// No minimum slope is required where there is practically no plateau.
 void spareSteady(const FairFrame& frame, const FairStructure& structure, const Eigen::VectorXd& c,
                  std::vector<double>& slopes) {
@@ -78,13 +94,10 @@ void spareSteady(const FairFrame& frame, const FairStructure& structure, const E
   for (const FrameStation& s : frame.checks) {
     const std::size_t i = stretchAt(structure, closed, s.u);
     if (i >= slopes.size()) continue;
-    const bool nearExtremum = std::any_of(structure.extrema.begin(), structure.extrema.end(), [&](const auto& e) {
-      double away = std::abs(s.u - e.u);
-      if (closed) away = std::min(away, frame.base.knots().length - away);
-      return away < kNearWindows * e.halfWidth;
-    });
     ++all[i];
-    if (!nearExtremum && std::abs(s.slope + dot(s.slopeRow, c)) < kFlatSlope * slopes[i]) ++flat[i];
+    if (!isNearExtremum(structure, s.u, closed ? frame.base.knots().length : 0.0) &&
+        std::abs(s.slope + dot(s.slopeRow, c)) < kFlatSlope * slopes[i])
+      ++flat[i];
   }
   for (std::size_t i = 0; i < slopes.size(); ++i) {
     if (flat[i] <= kFlatShare * all[i]) slopes[i] = 0.0;
@@ -94,19 +107,18 @@ void spareSteady(const FairFrame& frame, const FairStructure& structure, const E
 }  // namespace
 
 StructureFit withoutPlateaus(const FairFrame& frame, const FairPosterior& posterior, FairStructure& structure,
-                             StructureFit fit) {
+                             StructureFit fit, CancelCheck check) {
   std::vector<double> slopes = meanSlopes(frame, structure, fit.c);
   if (slopes.empty()) return fit;
   spareSteady(frame, structure, fit.c, slopes);
   for (double& slope : slopes) slope *= kSlopeShare;
-  const double never = std::numeric_limits<double>::infinity();
   const std::vector<double> before = costByStretch(frame, posterior, structure, fit.c);
   FairStructure wanted = structure;
   for (int round = 0; round < kPlateauRounds; ++round) {
     if (std::none_of(slopes.begin(), slopes.end(), [](double s) { return s > 0.0; })) break;
     wanted = structure;
     wanted.leastSlope = slopes;
-    auto lifted = fitStructure(frame, posterior, wanted, fit.c, {}, never);
+    auto lifted = fitStructure(frame, posterior, wanted, fit.c, {}, check);
     if (!lifted || !lifted->converged) break;
     const std::vector<double> after = costByStretch(frame, posterior, structure, lifted->c);
     bool paid = false;

@@ -98,7 +98,7 @@ void fillBetween(CutoffTable& table) {
 
 double CutoffTable::cutoffPx(int k) { return kShortestCutoffPx * std::pow(kCutoffStep, k); }
 
-CutoffTable cutoffTable(const FairFrame& frame) {
+CutoffTable cutoffTable(const FairFrame& frame, CancelCheck check) {
   CutoffTable table;
   table.blocks = static_cast<int>(frame.blocks.size());
   BandedMatrix q(frame.h.size(), BandRow::kHalfWidth, frame.h.isCyclic());
@@ -108,7 +108,7 @@ CutoffTable cutoffTable(const FairFrame& frame) {
     addTo(toward, station.bendRow, -frame.cell * station.bend);
   }
   BandedCholesky cholesky;
-  for (int k = 0; k < CutoffTable::kCount; k += kMeasuredStep) {
+  for (int k = 0; k < CutoffTable::kCount && !check.isCancelled(); k += kMeasuredStep) {
     const double lambda = cutoffWeight(CutoffTable::cutoffPx(k));
     BandedMatrix m = frame.h;
     m.add(q, lambda);
@@ -162,14 +162,14 @@ std::vector<double> uniformPrior(const FairFrame& frame, double s0, double cutof
 }
 
 std::optional<FairPosterior> localPosterior(const FairFrame& frame, double s0, std::vector<double> tau2, int rounds,
-                                            double widthPx) {
+                                            double widthPx, CancelCheck check) {
   FairPosterior p;
   p.tau2 = std::move(tau2);
   p.s0 = s0;
   BandedCholesky cholesky;
   const double least = s0 / cutoffWeight(kLongestCutoffPx);
   for (int round = 0; round <= rounds; ++round) {
-    if (!assemble(p, cholesky, frame, s0)) return std::nullopt;
+    if (check.isCancelled() || !assemble(p, cholesky, frame, s0)) return std::nullopt;
     if (round == rounds) break;
     std::vector<double> v;
     for (const FrameStation& station : frame.penalty) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/construct/fair/fair_frame.h"
 #include "core/solve/banded_matrix.h"
 
@@ -31,7 +32,7 @@ struct CutoffTable {
   std::array<double, kCount> dof{};  ///< Trace of the hat matrix.
   std::array<bool, kCount> valid{};
 };
-CutoffTable cutoffTable(const FairFrame&);
+CutoffTable cutoffTable(const FairFrame&, CancelCheck);
 
 /// Cut-offs per piece and the pooled variance of a block mean: GCV first, then twice argmin rss / sigma^2 + gamma dof.
 /// The variance counts four blocks of an ordinary scan besides, so that a short contour cannot be quiet by luck.
@@ -43,7 +44,7 @@ CutoffChoice chooseCutoffs(const std::vector<CutoffTable>&, double gamma);
 
 /// Local prior by empirical Bayes, starting from the cut-off or from `tau2` (same number of stations).
 std::optional<FairPosterior> localPosterior(const FairFrame&, double s0, std::vector<double> tau2, int rounds,
-                                            double widthPx);
+                                            double widthPx, CancelCheck);
 std::vector<double> uniformPrior(const FairFrame&, double s0, double cutoffPx);
 
 }  // namespace batten

@@ -169,7 +169,7 @@ void weighByNoise(FairData& data, const LocalNoise& noise, double measured, doub
 }
 
 FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, double pixelMm, double ordinarySigmaPx,
-                           const FairFitOptions& options) {
+                           const FairFitOptions& options, CancelCheck check) {
   FairPiece piece;
   readPoints(piece, in, pixelMm, ordinarySigmaPx);
   FairData& data = piece.data;
@@ -187,11 +187,11 @@ FairPiece prepareFairPiece(const ConstructPiece& in, bool isStroke, double pixel
   }
   guardCorners(piece, std::min(isStroke ? kGuardStrokePx : kGuardOutlinePx, kGuardShare * length));
   if (length < kShortestFairPx) return piece;
-  const auto pilot = fitPilot(data, options);
+  const auto pilot = fitPilot(data, options, check);
   if (!pilot) return piece;
-  FairFrame frame = assembleFrame(*pilot, data, options, 0);
+  FairFrame frame = assembleFrame(*pilot, data, options, 0, check);
   if (frame.blocks.size() < kFewestBlocks) return piece;
-  piece.table = cutoffTable(frame);
+  piece.table = cutoffTable(frame, check);
   piece.frame = std::move(frame);
   return piece;
 }

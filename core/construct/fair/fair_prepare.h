@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/construct/fair/fair_piece.h"
 
 namespace batten {
@@ -12,7 +13,7 @@ double ordinarySigma(const ConstructContour&);
 
 /// Points in px, cleaned and gated; pilot, first frame and the table of cut-offs.
 FairPiece prepareFairPiece(const ConstructPiece&, bool isStroke, double pixelMm, double ordinarySigmaPx,
-                           const FairFitOptions&);
+                           const FairFitOptions&, CancelCheck);
 
 /// [-] What merged strokes leave open about the line that was meant: a noise density of this part of the cube of half
 /// their half-width (a hand wanders over a length proportional to its excursion), …

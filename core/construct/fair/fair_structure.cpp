@@ -12,7 +12,7 @@
 namespace batten {
 namespace {
 
-constexpr double kWindowShare = 0.25, kStretchShare = 0.8, kWindowMinPx = 8.0, kWindowMaxPx = 60.0;
+constexpr double kWindowShare = 0.25, kStretchShare = 0.8, kWindowMinPx = 8.0;
 constexpr double kWindowsApart = 0.45;  // of the distance of neighbouring extrema: half a window is no wider
 constexpr double kRecentre = 0.7;       // of the half width
 constexpr double kLocalReachPx = 640;   // far beyond any correlation that matters
@@ -91,7 +91,8 @@ void addConstraint(BandedProgram<BandRow>& qp, const FrameStation& station, cons
   const FairExtremum* window = nullptr;
   bool rising = structure.rising;
   std::size_t stretch = 0;
-  double away = kWindowMaxPx, gentle = 1.0;  // px beyond the windows on either side, px over which the slope may set in
+  double away = kWidestWindowPx,
+         gentle = 1.0;  // px beyond the windows on either side, px over which the slope may set in
   if (!extrema.empty()) {
     const auto notBefore = [&](const FairExtremum& e, double u) { return e.u + e.halfWidth < u; };
     const auto next = std::lower_bound(extrema.begin(), extrema.end(), station.u, notBefore);
@@ -189,7 +190,7 @@ FairStructure localExtrema(const FairFrame& frame, const Eigen::VectorXd& c) {
       FairExtremum e = crossing(stations, j, c, slope, next);
       const double sign = e.maximum ? -1.0 : 1.0;
       int left = j, right = j + 1;
-      const int reach = static_cast<int>(4.0 * kWindowMaxPx / stations.step);
+      const int reach = static_cast<int>(4.0 * kWidestWindowPx / stations.step);
       while (j - left < reach && stations.has(left) && sign * bendAt(stations[left], c) > 0.0) --left;
       while (right - j < reach && stations.has(right) && sign * bendAt(stations[right], c) > 0.0) ++right;
       e.stretch = 0.5 * (right - left - 1) * stations.step;
@@ -219,30 +220,32 @@ void setWindows(FairStructure& structure, const UniformKnots& knots) {
     double nearest = std::min(before, after);
     const double limit = kWindowsApart * nearest;
     if (!knots.closed) nearest = std::min({nearest, e.u, knots.length - e.u});
-    e.halfWidth = std::clamp(std::min(kWindowShare * nearest, kStretchShare * e.stretch), kWindowMinPx, kWindowMaxPx);
+    e.halfWidth =
+        std::clamp(std::min(kWindowShare * nearest, kStretchShare * e.stretch), kWindowMinPx, kWidestWindowPx);
     e.halfWidth = std::min(e.halfWidth, limit);
   }
 }
 
 std::optional<StructureFit> fitStructure(const FairFrame& frame, const FairPosterior& posterior,
                                          FairStructure& structure, const Eigen::VectorXd& start,
-                                         const std::optional<StructureStretch>& stretch, double abortRise) {
+                                         const StructureScope& scope, CancelCheck check) {
   const UniformKnots& knots = frame.base.knots();
-  const Part part = choosePart(knots, stretch);
+  const Part part = choosePart(knots, scope.stretch);
   BandedProgram<BandRow> qp = makeProgram(frame, posterior, part, start);
   Eigen::VectorXd local(part.count);
   for (int i = 0; i < part.count; ++i) local[i] = start[(part.first + i) % knots.coefficients()];
   const double reference = local.dot(qp.a * local) - 2.0 * qp.b.dot(local);
   StructureFit fit;
   InteriorPointLimits limits;
-  limits.abortAbove = reference + abortRise;
+  limits.abortAbove = reference + scope.abortRise;
   const int rounds = structure.leastSlope.empty() ? kRounds : 1;  // slopes are asked for once all is in place
   for (int round = 0; round < rounds; ++round) {
     setWindows(structure, knots);
     qp.rows.clear();
     qp.bounds.clear();
     for (const FrameStation& s : frame.checks) addConstraint(qp, s, structure, knots, part.first, part.count);
-    const InteriorPointResult result = solveProgram(qp, limits);
+    const InteriorPointResult result = solveProgram(qp, limits, check);
+    if (check.isCancelled()) return std::nullopt;
     fit.rise = result.objective - reference;
     if (result.why == Termination::ToleranceLimited) {
       fit.aborted = true;

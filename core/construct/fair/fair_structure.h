@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/base/run_context.h"
 #include "core/construct/fair/fair_posterior.h"
 
@@ -38,6 +40,9 @@ struct FairStructure {
   std::vector<double> leastSlope = {};
 };
 
+/// [px] The largest half width of a window.
+inline constexpr double kWidestWindowPx = 60.0;
+
 /// Sets the half widths of the windows from the distances between extrema and their stretches.
 void setWindows(FairStructure&, const UniformKnots&);
 
@@ -53,12 +58,16 @@ struct StructureFit {
 struct StructureStretch {
   double from = 0.0, to = 0.0;
 };
+/// How much of a structure is solved for.
+struct StructureScope {
+  /// In long pieces only this and 640 px on either side are solved for; absent: all.
+  std::optional<StructureStretch> stretch = {};
+  /// [chi2] Stops as soon as the rise is proven to exceed this.
+  double abortRise = std::numeric_limits<double>::infinity();
+};
 /// @param start     offsets that the rise refers to and that hold outside the part that is solved for.
-/// @param stretch   in long pieces only this and 640 px on either side are solved for; absent: all.
-/// @param abortRise stops as soon as the rise is proven to exceed this.
 std::optional<StructureFit> fitStructure(const FairFrame&, const FairPosterior&, FairStructure&,
-                                         const Eigen::VectorXd& start, const std::optional<StructureStretch>& stretch,
-                                         double abortRise);
+                                         const Eigen::VectorXd& start, const StructureScope&, CancelCheck);
 
 /// Local extrema of the curvature under offsets c, with their stretches. Sets `rising`.
 FairStructure localExtrema(const FairFrame&, const Eigen::VectorXd& c);

@@ -60,8 +60,8 @@ class Search {
     result_.dropped.clear();
     result_.c.resize(0);
     tested_.clear();
-    simplify();
-    auto fit = fitStructure(frame_, posterior_, result_.structure, posterior_.mean, {}, kNever);
+    if (!simplify()) return false;
+    auto fit = fitStructure(frame_, posterior_, result_.structure, posterior_.mean, {}, context_);
     if (!fit) return false;
     result_.c = fit->c;
     result_.limited = !fit->converged;
@@ -149,7 +149,7 @@ class Search {
     for (const StructureCandidate& c : candidates(result_.c)) {
       if (!touches(c, id) || isHeld(c)) continue;
       FairStructure rest = without(result_.structure, c);
-      auto fit = fitStructure(frame_, posterior_, rest, result_.c, {}, kNever);
+      auto fit = fitStructure(frame_, posterior_, rest, result_.c, {}, context_);
       if (!fit || fit->aborted || (best && best->rise <= fit->rise)) continue;
       best = std::move(fit);
       how = c;
@@ -220,13 +220,14 @@ class Search {
     return rest;
   }
 
-  /// Drops what lies within the noise of the curvature without any program, smallest first.
-  void simplify() {
-    for (;;) {
+  /// Drops what lies within the noise of the curvature without any program, smallest first. False when cancelled.
+  bool simplify() {
+    while (!context_.isCancelled()) {
       const auto next = cheapest(false);
-      if (!next || next->change >= kPersistence * result_.kappaSigma) return;
+      if (!next || next->change >= kPersistence * result_.kappaSigma) return true;
       result_.structure = without(result_.structure, *next);
     }
+    return false;
   }
 
   void noteCost(const StructureCandidate& c, double cost) {
@@ -244,7 +245,8 @@ class Search {
     const double from = e[c.index].u;
     double to = c.kind == StructureCandidate::Kind::Pair ? e[(c.index + 1) % e.size()].u : from;
     if (to < from) to += frame_.base.knots().length;
-    return fitStructure(frame_, posterior_, rest, result_.c, StructureStretch{from, to}, kAbortFactor * keepCost_);
+    return fitStructure(frame_, posterior_, rest, result_.c, {StructureStretch{from, to}, kAbortFactor * keepCost_},
+                        context_);
   }
 
   /// A rise of the objective that the removal costs at least, from one inequality that it asks for: where the curvature

@@ -78,8 +78,8 @@ class KnotPlacing {
 
 class KnotRemoval {
  public:
-  KnotRemoval(const UniformQuintic& full, const KnotRemovalLimits& limits)
-      : full_(full), limits_(limits), placing_(full), closed_(full.knots().closed) {
+  KnotRemoval(const UniformQuintic& full, const KnotRemovalLimits& limits, CancelCheck check)
+      : full_(full), limits_(limits), check_(check), placing_(full), closed_(full.knots().closed) {
     const UniformKnots& knots = full.knots();
     const int count = limits.perSpan * knots.spans + (closed_ ? 0 : 1);
     for (int j = 0; j < count; ++j) {
@@ -114,6 +114,7 @@ class KnotRemoval {
     for (int trial = 0; trial < kTrials && low <= high; ++trial) {
       if (best && high - low < kCloseEnough * high) break;
       const Fit fit = tried(spans);
+      if (check_.isCancelled()) return std::nullopt;
       // The error of the curvature goes with the fourth power of the length of the spans.
       const double wanted = spans * std::pow(std::clamp(fit.excess, 0.05, 20.0), 0.25);
       if (fit.excess <= 1.0) {
@@ -176,6 +177,7 @@ class KnotRemoval {
       addTo(fit.y, row, weight * target.y());
     };
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
+      if (check_.isCancelled()) return fit;
       rows.push_back(basis(5, knots, points, parameters_[i], 2));
       const bool end = !closed_ && (i == 0 || i + 1 == parameters_.size());
       const double place = nearest_ / limits_.distancePx[i];
@@ -211,6 +213,7 @@ class KnotRemoval {
       addTo(qp.b, row, w * target);
     };
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
+      if (check_.isCancelled()) return false;
       const BasisRow basisRow = basis(5, knots, points, parameters_[i], 4);
       std::array<BandRow, 5> rows;
       PlaneDerivatives d;
@@ -233,8 +236,8 @@ class KnotRemoval {
       qp.rows.push_back(row);
       qp.bounds.push_back(-courses_[i] * station.slope);
     }
-    const InteriorPointResult solved = solveProgram(qp);
-    if (solved.why == Termination::Degenerate || !solved.x.allFinite()) return false;
+    const InteriorPointResult solved = solveProgram(qp, {}, check_);
+    if (check_.isCancelled() || solved.why == Termination::Degenerate || !solved.x.allFinite()) return false;
     BandedMatrix normal(unknowns, BandRow::kHalfWidth, closed_);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(unknowns), y = x;
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -315,6 +318,7 @@ class KnotRemoval {
 
   const UniformQuintic& full_;
   const KnotRemovalLimits& limits_;
+  CancelCheck check_;
   KnotPlacing placing_;
   bool closed_;
   std::vector<double> parameters_, kappas_;
@@ -326,10 +330,11 @@ class KnotRemoval {
 
 }  // namespace
 
-std::optional<KnotRemovalResult> withFewestKnots(const UniformQuintic& full, const KnotRemovalLimits& limits) {
+std::optional<KnotRemovalResult> withFewestKnots(const UniformQuintic& full, const KnotRemovalLimits& limits,
+                                                 CancelCheck check) {
   const auto isPositive = [](double d) { return d > 0.0; };
   if (!std::all_of(limits.distancePx.begin(), limits.distancePx.end(), isPositive)) return std::nullopt;
-  return KnotRemoval(full, limits).run();
+  return KnotRemoval(full, limits, check).run();
 }
 
 std::vector<int> turnsOf(std::span<const double> kappa, double least) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/base/vec2.h"
 #include "core/curve/nurbs_curve.h"
 #include "core/curve/uniform_quintic.h"
@@ -28,7 +29,8 @@ struct KnotRemovalResult {
 /// The quintic with the fewest spans that stays within the limits and whose curvature turns back as often as that of
 /// the full curve: least squares on knots that share out the sixth derivative evenly (de Boor, A Practical Guide to
 /// Splines, ch. XII), their number found by trial. Absent when nothing is gained.
-std::optional<KnotRemovalResult> withFewestKnots(const UniformQuintic& full, const KnotRemovalLimits&);
+std::optional<KnotRemovalResult> withFewestKnots(const UniformQuintic& full, const KnotRemovalLimits&,
+                                                 CancelCheck check = {});
 
 /// Where sampled curvature turns back by more than `least`: indices, ascending.
 std::vector<int> turnsOf(std::span<const double> kappa, double least);

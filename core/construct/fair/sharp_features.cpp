@@ -221,7 +221,7 @@ bool PointDeviation::good() const {
   return veryFar == 0 && far <= share && lengthRatio < kLongestRatio;
 }
 
-PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& piece, double pixelMm) {
+PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& piece, double pixelMm, CancelCheck check) {
   PointDeviation result;
   std::vector<Vec2> polygon;
   std::vector<double> parameter;
@@ -249,6 +249,7 @@ PointDeviation pointDeviation(const NurbsCurve& curve, const ConstructPiece& pie
   }
   double along = 0.0;
   for (const Vec2& p : piece.points) {
+    if (check.isCancelled()) return {};
     Passing d = follow(polygon, p / pixelMm, at, 8);
     if (d.distance > kBackPx) {
       if (const Passing further = follow(polygon, p / pixelMm, at, 24); further.distance < d.distance) d = further;

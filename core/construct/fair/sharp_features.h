@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/construct/fair/fair_fit.h"
 #include "core/construct/pieces.h"
 
@@ -35,7 +36,7 @@ struct PointDeviation {
   /// Everywhere near enough, and no longer than the points allow.
   bool good() const;
 };
-PointDeviation pointDeviation(const NurbsCurve&, const ConstructPiece&, double pixelMm);
+PointDeviation pointDeviation(const NurbsCurve&, const ConstructPiece&, double pixelMm, CancelCheck check = {});
 
 /// Where a curve has left the points: the ranges to treat as sharp turns so that the rest can be fitted. Long ones
 /// shrink to their sharpest place unless `whole`.

@@ -71,9 +71,10 @@ Result<ConstructedPiece> stretchOf(const ConstructedPiece& fit, double from, dou
 }
 
 /// Curvature extrema of what follows the points closely, without a judgement of each.
-int extremaOf(const std::vector<NurbsCurve>& turns, double size, bool closed) {
+int extremaOf(const std::vector<NurbsCurve>& turns, double size, bool closed, const RunContext& context) {
   std::size_t count = 0;
-  for (const NurbsCurve& turn : turns) count += curvatureExtrema(turn, kExtremumProminence / size, closed).size();
+  for (const NurbsCurve& turn : turns)
+    count += curvatureExtrema(turn, kExtremumProminence / size, closed, context).size();
   return static_cast<int>(count);
 }
 
@@ -128,7 +129,7 @@ std::vector<ConstructPiece> SmoothSections::stretches() const {
   return pieces;
 }
 
-bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound) {
+bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound, CancelCheck run) {
   fits_ = std::move(fits);
   const auto pieces = stretches();
   std::vector<PointRange> turns = turns_;
@@ -139,7 +140,8 @@ bool SmoothSections::check(std::vector<ConstructedPiece> fits, bool lastRound) {
     const auto& constraints = pieces[i].constraints;
     if (std::any_of(constraints.begin(), constraints.end(), [](const ExtremumConstraint& w) { return !w.keep; }))
       continue;
-    const PointDeviation close = pointDeviation(fits_[i].curve, pieces[i], pixelMm_);
+    const PointDeviation close = pointDeviation(fits_[i].curve, pieces[i], pixelMm_, run);
+    if (run.isCancelled()) return false;
     const int offset = smooth_[i].first;
     const auto strays = outlierRanges(close, pieces[i], pixelMm_, lastRound);
     for (PointRange r : strays) turns.push_back({r.first + offset, r.last + offset});
@@ -189,7 +191,7 @@ void SmoothSections::keepNear(const std::vector<Cut>& cuts, const std::vector<Co
   smooth_ = std::move(ranges);
 }
 
-Result<ConstructedPiece> SmoothSections::withTurns() const {
+Result<ConstructedPiece> SmoothSections::withTurns(const RunContext& context) const {
   const int n = static_cast<int>(piece_.points.size());
   ConstructedPiece whole;
   whole.report.why = Termination::Converged;
@@ -202,25 +204,23 @@ Result<ConstructedPiece> SmoothSections::withTurns() const {
     whole.report.note =
         "The line bends too sharply everywhere for the fair fit; a curve close to the points was "
         "used.";
-    whole.report.extremaInTurns = extremaOf({whole.curve}, extent(whole.curve), piece_.closed);
+    whole.report.extremaInTurns = extremaOf({whole.curve}, extent(whole.curve), piece_.closed, context);
     return whole;
   }
   std::vector<NurbsCurve> parts, turns;
+  double total = 0.0;  // [mm] of the parts so far
   const auto tight = [&](int first, int last, const std::optional<CurveEnd>& a, const std::optional<CurveEnd>& b) {
     auto curve = cornerFill(pointsOf({first, last}), pixelMm_, a, b);
     if (!curve) return curve;
     parts.push_back(*curve);
     turns.push_back(*curve);
+    total += curve->end() - curve->start();
     return curve;
   };
-  const auto total = [&] {
-    double sum = 0.0;
-    for (const NurbsCurve& part : parts) sum += part.end() - part.start();
-    return sum;
-  };
   const auto place = [&](const NurbsCurve& curve, const ConstructReport& report, double from, double to) {
-    append(whole.report, report, from, to, total());
+    append(whole.report, report, from, to, total);
     parts.push_back(curve);
+    total += curve.end() - curve.start();
   };
   const std::size_t count = smooth_.size();
   std::size_t first = 0;
@@ -243,6 +243,7 @@ Result<ConstructedPiece> SmoothSections::withTurns() const {
     place(fits_[0].curve, fits_[0].report, 0.0, fits_[0].curve.end() - fits_[0].curve.start());
   }
   for (std::size_t k = 1; k < count + (piece_.closed ? 1 : 0); ++k) {
+    if (context.isCancelled()) return cancelled();
     const std::size_t from = (first + k - 1) % count, to = (first + k) % count;
     int next = smooth_[to].first;
     while (next <= smooth_[from].last) next += n;
@@ -262,7 +263,7 @@ Result<ConstructedPiece> SmoothSections::withTurns() const {
   if (!curve) return fail(curve.error());
   whole.curve = std::move(*curve);
   whole.report.noisePx = fits_[first].report.noisePx;
-  whole.report.extremaInTurns = extremaOf(turns, extent(whole.curve), false);
+  whole.report.extremaInTurns = extremaOf(turns, extent(whole.curve), false, context);
   whole.report.fullControlPoints = whole.curve.controlPointCount();
   for (const ConstructedPiece& fit : fits_) {
     if (fit.report.fullControlPoints == 0) continue;
@@ -316,19 +317,21 @@ Result<ConstructedPiece> SmoothSections::joined(const RunContext& context) const
 }
 
 Result<ConstructedPiece> SmoothSections::joinedParts(const RunContext& context) const {
-  auto whole = withTurns();
+  auto whole = withTurns(context);
+  if (context.isCancelled()) return cancelled();
   const auto farness = [&](const PointDeviation& c) {
     return c.far + 10 * c.veryFar + (c.lengthRatio > kMostLengthRatio ? 1000 : 0);
   };
   std::optional<int> far;
   if (whole) {
-    const PointDeviation close = pointDeviation(whole->curve, piece_, pixelMm_);
+    const PointDeviation close = pointDeviation(whole->curve, piece_, pixelMm_, context);
+    if (context.isCancelled()) return cancelled();
     if (close.good()) return whole;
     far = farness(close);
   }
   auto other = throughStations(context);
   if (!other) return whole;
-  if (far && farness(pointDeviation(other->curve, piece_, pixelMm_)) >= *far) return whole;
+  if (far && farness(pointDeviation(other->curve, piece_, pixelMm_, context)) >= *far) return whole;
   return other;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/construct/fair/sharp_features.h"
@@ -21,7 +22,7 @@ class SmoothSections {
   /// The smooth stretches as pieces of their own.
   std::vector<ConstructPiece> stretches() const;
   /// Takes the fits of stretches(); where one has left its points further turns are noted. True when there are.
-  bool check(std::vector<ConstructedPiece> fits, bool lastRound);
+  bool check(std::vector<ConstructedPiece> fits, bool lastRound, CancelCheck run = {});
   /// The whole: stretches and tight turns in one curve, with the reports together; what is not near its points is
   /// replaced by a quintic through stations.
   Result<ConstructedPiece> joined(const RunContext&) const;
@@ -36,7 +37,7 @@ class SmoothSections {
   /// Of those fits only what is near the points; tight curves come between.
   void keepNear(const std::vector<Cut>&, const std::vector<ConstructPiece>& pieces);
   Result<ConstructedPiece> joinedParts(const RunContext&) const;
-  Result<ConstructedPiece> withTurns() const;
+  Result<ConstructedPiece> withTurns(const RunContext&) const;
   void noteUnmet(ConstructReport&) const;
   Result<ConstructedPiece> throughStations(const RunContext&) const;
   std::vector<Vec2> pointsOf(const PointRange&) const;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -40,20 +42,37 @@ std::vector<double> joinedKnots(const NurbsCurve& curve) {
 
 /// Parameter of the sample between two arc lengths where the curvature changes fastest.
 double steepest(const LightReference& reference, double from, double to) {
+  const std::vector<LightSample>& samples = reference.samples();
   const LightSample* best = nullptr;
-  for (const LightSample& sample : reference.samples()) {
-    if (!(sample.s > from && sample.s < to)) continue;
-    if (best == nullptr || std::abs(sample.slope) > std::abs(best->slope)) best = &sample;
+  const auto isBefore = [](double s, const LightSample& sample) { return s < sample.s; };
+  for (auto it = std::upper_bound(samples.begin(), samples.end(), from, isBefore); it != samples.end(); ++it) {
+    if (!(it->s < to)) break;
+    if (best == nullptr || std::abs(it->slope) > std::abs(best->slope)) best = &*it;
   }
   return best == nullptr ? reference.at(reference.indexAt(0.5 * (from + to))).u : best->u;
 }
 
-double arcLengthAt(const LightReference& reference, double u) {
-  const LightSample* best = &reference.samples().front();
-  for (const LightSample& sample : reference.samples()) {
-    if (std::abs(sample.u - u) < std::abs(best->u - u)) best = &sample;
+/// Arc lengths of the samples nearest to parameters, of equally near ones the first.
+std::vector<double> arcLengthsAt(const LightReference& reference, const std::vector<double>& parameters) {
+  std::vector<double> found;
+  if (parameters.empty()) return found;
+  const std::vector<LightSample>& samples = reference.samples();
+  std::vector<int> byParameter(samples.size());
+  std::iota(byParameter.begin(), byParameter.end(), 0);
+  std::stable_sort(byParameter.begin(), byParameter.end(), [&](int a, int b) { return samples[a].u < samples[b].u; });
+  for (const double u : parameters) {
+    const auto above = std::lower_bound(byParameter.begin(), byParameter.end(), u,
+                                        [&](int i, double value) { return samples[i].u < value; });
+    std::optional<int> best;
+    const auto offer = [&](int i) {
+      const double off = std::abs(samples[i].u - u), least = best ? std::abs(samples[*best].u - u) : off;
+      if (!best || off < least || (off == least && i < *best)) best = i;
+    };
+    if (above != byParameter.end()) offer(*above);
+    if (above != byParameter.begin()) offer(*std::prev(above));
+    found.push_back(samples[*best].s);
   }
-  return best->s;
+  return found;
 }
 
 /// Without cuts that leave next to nothing between them, or between them and an end.
@@ -108,10 +127,12 @@ int pointsOf(const std::vector<MadeSection>& made) {
 std::vector<MadeSection> lightenSection(const Section&, double diagonal, const LightOptions&, int extremaPerSection,
                                         const RunContext&);
 
-std::optional<std::vector<Section>> cut(const Section& whole, const std::vector<double>& cuts) {
+std::optional<std::vector<Section>> cut(const Section& whole, const std::vector<double>& cuts,
+                                        const RunContext& context) {
   std::vector<Section> parts;
   NurbsCurve rest = whole.dense;
   for (const double u : cuts) {
+    if (context.isCancelled()) return std::nullopt;
     auto halves = split(rest, u);
     if (!halves) return std::nullopt;
     parts.push_back({std::move(halves->left)});
@@ -129,7 +150,7 @@ std::vector<MadeSection> lightenSection(const Section& section, double diagonal,
   same.report.points = same.report.pointsBefore = section.dense.controlPointCount();
   same.report.obstacle = LightObstacle::NoNormal;
   if (context.isCancelled()) return {{same, same}};
-  const auto reference = LightReference::make(section.dense, false, options.step, diagonal);
+  const auto reference = LightReference::make(section.dense, false, options.step, diagonal, context);
   if (!reference) return {{same, same}};
   LightOptions held = options;
   held.start = section.start;
@@ -138,7 +159,7 @@ std::vector<MadeSection> lightenSection(const Section& section, double diagonal,
   const int fewer = extremaPerSection / 2;
   if (one.report.kind != LightKind::Dense || fewer == 0 || same.report.points < kWorthCutting)
     return {{std::move(same), std::move(one)}};
-  const auto parts = cut(section, lightSections(section.dense, *reference, held, fewer).cuts);
+  const auto parts = cut(section, lightSections(section.dense, *reference, held, fewer).cuts, context);
   if (!parts || parts->size() < 2) return {{std::move(same), std::move(one)}};
   std::vector<MadeSection> made;
   for (const Section& part : *parts) {
@@ -149,13 +170,8 @@ std::vector<MadeSection> lightenSection(const Section& section, double diagonal,
   return made;
 }
 
-struct Counts {
-  int extrema = 0, inflections = 0;
-};
-Counts countsOf(const NurbsCurve& curve, double size, bool closed) {
-  const double prominence = kExtremumProminence / size;
-  return {static_cast<int>(curvatureExtrema(curve, prominence, closed).size()),
-          static_cast<int>(inflections(curve, prominence, closed).size())};
+CurvatureCounts countsOf(const NurbsCurve& curve, double size, bool closed, const RunContext& context) {
+  return curvatureCounts(curve, kExtremumProminence / size, closed, context);
 }
 
 /// Whether the curvature turns back just where one curve goes over into the next.
@@ -208,7 +224,8 @@ std::optional<NurbsCurve> partOf(const NurbsCurve& curve, double from, double to
 }
 
 /// Sections side by side that stay dense are not cut.
-std::optional<LightCurve> assembled(const std::vector<MadeSection>& made, const NurbsCurve& dense) {
+std::optional<LightCurve> assembled(const std::vector<MadeSection>& made, const NurbsCurve& dense,
+                                    const RunContext& context) {
   LightCurve chain;
   chain.report.kind = LightKind::Chain;
   chain.report.sections = static_cast<int>(made.size());
@@ -217,6 +234,7 @@ std::optional<LightCurve> assembled(const std::vector<MadeSection>& made, const 
     addTo(chain.report, one.now.report);
   }
   for (std::size_t i = 0; i < made.size(); ++i) {
+    if (context.isCancelled()) return std::nullopt;
     if (!made[i].isDense()) {
       curves.push_back(made[i].now.curve);
       continue;
@@ -243,13 +261,13 @@ LightSections lightSections(const NurbsCurve& dense, const LightReference& refer
                                        options.significance * options.tolerance);
   sections.extrema = static_cast<int>(kept.size());
   const std::vector<double> joined = joinedKnots(dense);
-  std::vector<double> cuts = joined, at;
-  for (const double u : joined) at.push_back(arcLengthAt(reference, u));
+  std::vector<double> cuts = joined, at = arcLengthsAt(reference, joined);
+  std::sort(at.begin(), at.end());
   int since = 0;
   for (std::size_t i = 0; i + 1 < kept.size(); ++i) {
     ++since;
-    const bool joinedBetween =
-        std::any_of(at.begin(), at.end(), [&](double s) { return s > kept[i].s && s <= kept[i + 1].s; });
+    const auto beyond = std::upper_bound(at.begin(), at.end(), kept[i].s);
+    const bool joinedBetween = beyond != at.end() && *beyond <= kept[i + 1].s;
     if (joinedBetween) since = 0;
     if (since < extremaPerSection) continue;
     cuts.push_back(steepest(reference, kept[i].s, kept[i + 1].s));
@@ -312,7 +330,7 @@ std::optional<LightCurve> lightChain(const NurbsCurve& dense, const LightReferen
     whole.start = options.start;
     whole.end = options.end;
   }
-  const auto parts = cut(whole, sections.cuts);
+  const auto parts = cut(whole, sections.cuts, context);
   if (!parts) return std::nullopt;
   std::vector<std::vector<MadeSection>> madeOf(parts->size());
   parallelFor(context, static_cast<int>(madeOf.size()), 1, [&](int begin, int end) {
@@ -323,11 +341,13 @@ std::optional<LightCurve> lightChain(const NurbsCurve& dense, const LightReferen
   std::vector<MadeSection> made;
   for (auto& some : madeOf) std::move(some.begin(), some.end(), std::back_inserter(made));
   if (context.isCancelled()) return std::nullopt;
-  const Counts most = countsOf(dense, extent(dense), closed);
+  const CurvatureCounts most = countsOf(dense, extent(dense), closed, context);
   for (int round = 0; round < kChainRounds; ++round) {
-    auto chain = assembled(made, dense);
+    auto chain = assembled(made, dense, context);
     if (!chain) return std::nullopt;
-    const Counts counts = countsOf(chain->curve, std::max(extent(chain->curve), extent(dense)), closed);
+    const CurvatureCounts counts =
+        countsOf(chain->curve, std::max(extent(chain->curve), extent(dense)), closed, context);
+    if (context.isCancelled()) return std::nullopt;
     if (counts.extrema > most.extrema || counts.inflections > most.inflections) {
       if (!keepDenseAtKinks(made, closed)) return std::nullopt;
       continue;

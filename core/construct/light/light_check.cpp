@@ -99,8 +99,9 @@ LightVerdict checkLight(const NurbsCurve& curve, const LightReference& reference
   verdict.worst = *worst;
   if (*worst > bounds.tolerance) return verdict;
   const double prominence = kExtremumProminence / std::max(extent(curve), reference.diagonal());
-  verdict.extrema = static_cast<int>(curvatureExtrema(curve, prominence, closed).size());
-  verdict.inflections = static_cast<int>(inflections(curve, prominence, closed).size());
+  const CurvatureCounts counts = curvatureCounts(curve, prominence, closed);
+  verdict.extrema = counts.extrema;
+  verdict.inflections = counts.inflections;
   verdict.holds = verdict.extrema <= bounds.extrema && verdict.inflections <= bounds.inflections;
   return verdict;
 }

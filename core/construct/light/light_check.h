@@ -9,7 +9,7 @@ namespace batten {
 /// What a light curve must hold, looked at densely: at least 400 places, and every curvature extremum wherever it lies.
 struct LightBounds {
   double tolerance = 0.0;
-  int extrema = 0;      ///< At the most, of prominence 5e-3 / extent.
+  int extrema = 0;      ///< At the most, of prominence kExtremumProminence / extent.
   int inflections = 0;  ///< At the most.
 };
 struct LightVerdict {

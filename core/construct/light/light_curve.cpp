@@ -28,13 +28,13 @@ std::optional<LightCurve> chainAround(const NurbsCurve& dense, const LightRefere
                                       const LightOptions& options, const RunContext& context) {
   const auto begun = startedAt(dense, reference.at(0).u);
   if (!begun) return std::nullopt;
-  const auto again = LightReference::make(*begun, true, options.step);
+  const auto again = LightReference::make(*begun, true, options.step, {}, context);
   if (!again) return std::nullopt;
   return lightChain(*begun, *again, lightSections(*begun, *again, options), options, context);
 }
 
 LightCurve lightest(const NurbsCurve& dense, bool closed, const LightOptions& options, const RunContext& context) {
-  const auto reference = LightReference::make(dense, closed, options.step);
+  const auto reference = LightReference::make(dense, closed, options.step, {}, context);
   if (!reference) return sameCurve(dense, LightObstacle::NoNormal);
   const LightSections sections = lightSections(dense, *reference, options);
   LightCurve found;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "core/construct/light/light_matrix.h"
 #include "core/construct/light/light_system.h"
@@ -19,6 +21,11 @@ constexpr LevenbergOptions kLightSteps{
 constexpr double kLongestLogStep = 0.5;  // of a span length's logarithm
 constexpr double kMostLogLength = 2.2;
 constexpr double kRowsReached = 0.02;  // of signs and ends
+// A fit of the second phase is given up that would not come to the cost of those that hold what they are asked for
+// with the steps that are left, if each gained several times what the last ones did.
+constexpr double kCostOfReached = 0.03;
+constexpr int kStepsJudged = 4;
+constexpr double kHopedGain = 5.0;  // times the logarithm of the gain of a step
 constexpr double kSignGrowth = 3.0, kMostSignWeight = 30.0;
 constexpr LightWeights kFirst{1.0, 0.0, 0.0, 0.3};
 constexpr LightWeights kSecond{0.15, 12.0, 1.0, 3.0};
@@ -54,20 +61,27 @@ class LightProblem final : public LevenbergProblem {
     return cost_.squares;
   }
   double tryStep(double damping) override {
-    const auto step = matrix_.solveDamped(damping, -gradient_);
+    auto step = matrix_.solveDamped(damping, -gradient_);
     if (!step) return std::numeric_limits<double>::infinity();
-    step_ = *step;
-    trial_ = moved();
+    step_ = std::move(*step);
+    moveTrial();
     trialCost_ = system_.evaluate(trial_, weights_);
     return trialCost_.sound ? trialCost_.squares : std::numeric_limits<double>::infinity();
   }
   void accept() override {
     cost_ = trialCost_;
     fit_.worst = cost_.worst;
-    fit_.shape = std::move(trial_);
+    std::swap(fit_.shape, trial_);
+    costs_.push_back(cost_.squares);
   }
   bool isReached() const override {
     return cost_.worst <= ask_.reach * ask_.tolerance && cost_.wrongSign < kRowsReached && cost_.ends < kRowsReached;
+  }
+  bool isHopeless() const override {
+    const auto steps = std::ssize(costs_) - 1;
+    if (weights_.wall == 0.0 || steps < kStepsJudged || costs_.back() <= kCostOfReached) return false;
+    const double gain = std::log(*(costs_.end() - 1 - kStepsJudged) / costs_.back()) / kStepsJudged;
+    return kHopedGain * gain * static_cast<double>(stepsLeft_ - steps) < std::log(costs_.back() / kCostOfReached);
   }
 
  private:
@@ -84,19 +98,22 @@ class LightProblem final : public LevenbergProblem {
     fit_.reached = isReached();
     if (fit_.reached) return {Ended::Reached, 0};
     LevenbergOptions options = kLightSteps;
-    options.iterations = steps;
+    options.iterations = stepsLeft_ = steps;
+    costs_.assign(1, cost_.squares);
     const LevenbergRun run = levenbergMarquardt(*this, options, context_);
     fit_.iterations += run.iterations;
     fit_.reached = run.why == Termination::FixedPoint;
-    return {fit_.reached ? Ended::Reached : context_.isCancelled() ? Ended::Failed : Ended::Slow, run.iterations};
+    const bool isOver = context_.isCancelled() || isHopeless();
+    return {fit_.reached ? Ended::Reached : isOver ? Ended::Failed : Ended::Slow, run.iterations};
   }
 
-  LightShape moved() const {
-    LightShape trial = fit_.shape;
+  void moveTrial() {
+    LightShape& trial = trial_;
+    trial = fit_.shape;
     for (std::size_t i = 0; i < trial.points.size(); ++i) {
       trial.points[i] += step_.segment<2>(2 * static_cast<Eigen::Index>(i));
     }
-    if (trial.spans() == 1) return trial;
+    if (trial.spans() == 1) return;
     double mean = 0.0;
     for (std::size_t i = 0; i < trial.logLengths.size(); ++i) {
       const double moved = step_[system_.firstLength() + static_cast<Eigen::Index>(i)];
@@ -104,7 +121,6 @@ class LightProblem final : public LevenbergProblem {
       mean += trial.logLengths[i] / trial.spans();
     }
     for (double& q : trial.logLengths) q = std::clamp(q - mean, -kMostLogLength, kMostLogLength);
-    return trial;
   }
 
   const RunContext& context_;
@@ -114,6 +130,8 @@ class LightProblem final : public LevenbergProblem {
   LightSystem::Cost cost_, trialCost_;
   LightFit fit_;
   LightShape trial_;
+  std::vector<double> costs_;  ///< Of this phase, at its begin and after every step.
+  int stepsLeft_ = 0;          ///< At its begin.
   LightMatrix matrix_;
   Eigen::VectorXd gradient_, step_;
 };

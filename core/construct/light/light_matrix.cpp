@@ -48,11 +48,7 @@ void LightMatrix::setZero() {
   if (!place_.empty()) band_ = BandedMatrix(band_.size(), band_.halfWidth(), band_.isCyclic());
 }
 
-void LightMatrix::add(Eigen::Index row, Eigen::Index column, double value) {
-  if (place_.empty()) {
-    dense_(std::max(row, column), std::min(row, column)) += value;
-    return;
-  }
+void LightMatrix::addToBand(Eigen::Index row, Eigen::Index column, double value) {
   const auto [first, last] = std::minmax(place_[row], place_[column]);
   const bool isAround = last - first > band_.halfWidth();
   band_.entry(isAround ? last : first, isAround ? first + band_.size() - last : last - first) += value;

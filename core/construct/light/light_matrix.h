@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -21,12 +22,16 @@ class LightMatrix {
   Eigen::Index unknowns() const { return unknowns_; }
   void setZero();
   /// += value at (row, column) and the place that mirrors it; once where both are the same.
-  void add(Eigen::Index row, Eigen::Index column, double value);
+  void add(Eigen::Index row, Eigen::Index column, double value) {
+    if (!place_.empty()) return addToBand(row, column, value);
+    dense_.coeffRef(std::max(row, column), std::min(row, column)) += value;
+  }
   /// Solves with every diagonal entry raised by its `damping`-th part; nullopt if the matrix is then not positive
   /// definite.
   std::optional<Eigen::VectorXd> solveDamped(double damping, const Eigen::VectorXd& right);
 
  private:
+  void addToBand(Eigen::Index row, Eigen::Index column, double value);
   void orderUnknowns(const LightShape& shape, bool lengths);
 
   Eigen::Index unknowns_;

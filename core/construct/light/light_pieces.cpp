@@ -56,13 +56,13 @@ bool hasKnotsOf(const NurbsCurve& curve, int multiplicity) {
 }
 
 /// Ragged: more extrema than a line that was meant so could have.
-bool isRagged(const NurbsCurve& curve, bool closed, double tolerance) {
-  return countedExtrema(curve, closed) * kRaggedLength * tolerance > ArcLength(curve).total();
+bool isRagged(const NurbsCurve& curve, bool closed, double tolerance, const RunContext& context) {
+  return countedExtrema(curve, closed, context) * kRaggedLength * tolerance > ArcLength(curve).total();
 }
 
 Result<LightCurve> lightOf(const NurbsCurve& dense, bool closed, const LightOptions& options, bool simplified,
                            const RunContext& context) {
-  const bool ragged = simplified && isRagged(dense, closed, options.tolerance);
+  const bool ragged = simplified && isRagged(dense, closed, options.tolerance, context);
   if (ragged) {
     if (auto simple = simplifiedCurve(dense, closed, options, context)) return std::move(*simple);
   }

@@ -65,7 +65,7 @@ bool LightReference::addSpan(const NurbsCurve& curve, double from, double to, in
 }
 
 std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool closed, double step,
-                                                   std::optional<double> diagonal) {
+                                                   std::optional<double> diagonal, CancelCheck check) {
   LightReference made;
   made.closed_ = closed;
   const std::vector<double> breaks = curve.breaks();
@@ -80,6 +80,7 @@ std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool
   std::vector<LightSample>& samples = made.samples_;
   samples.reserve(static_cast<std::size_t>(total / asked) + kFewestSteps * breaks.size() + 1);
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    if (check.isCancelled()) return std::nullopt;
     const int steps = std::max(kFewestSteps, static_cast<int>(std::ceil(lengths[i] / asked)));
     if (!made.addSpan(curve, breaks[i], breaks[i + 1], steps)) return std::nullopt;
   }
@@ -94,8 +95,10 @@ std::optional<LightReference> LightReference::make(const NurbsCurve& curve, bool
 
 bool LightReference::finish(std::optional<double> diagonal) {
   Eigen::AlignedBox2d box;
+  points_.reserve(samples_.size());
   for (const LightSample& sample : samples_) {
     box.extend(sample.point);
+    points_.push_back(sample.point);
     kappaMax_ = std::max(kappaMax_, std::abs(sample.kappa));
   }
   diagonal_ = diagonal.value_or(box.diagonal().norm());
@@ -159,15 +162,17 @@ void LightReference::beginWhereSteepest() {
 
 LightFoot LightReference::foot(const Vec2& place, int hint) const {
   const int n = size();
-  const auto wrapped = [&](int i) { return closed_ ? (i % n + n) % n : i; };
-  const auto inside = [&](int i) { return closed_ || (i >= 0 && i < n); };
   int index = hint;
-  double best = (at(index).point - place).squaredNorm();
+  double best = (points_[index] - place).squaredNorm();
   for (const int way : {1, -1}) {
     int moved = 0;
-    while (moved < n && inside(index + way)) {
-      const int next = wrapped(index + way);
-      const double squared = (at(next).point - place).squaredNorm();
+    while (moved < n) {
+      int next = index + way;
+      if (next < 0 || next >= n) {
+        if (!closed_) break;
+        next = next < 0 ? n - 1 : 0;
+      }
+      const double squared = (points_[next] - place).squaredNorm();
       if (squared >= best) break;
       best = squared;
       index = next;
@@ -176,13 +181,17 @@ LightFoot LightReference::foot(const Vec2& place, int hint) const {
     if (moved > 0) break;
   }
   const LightSample& sample = at(index);
-  const Vec2 away = place - sample.point, normal = leftNormal(sample.tangent);
+  const Vec2 away = place - sample.point;
   LightFoot foot;
   foot.index = index;
   foot.along = away.dot(sample.tangent);
-  foot.offset = away.dot(normal) - 0.5 * sample.kappa * foot.along * foot.along;
-  foot.normal = (normal - sample.kappa * foot.along * sample.tangent).normalized();
+  foot.offset = away.dot(leftNormal(sample.tangent)) - 0.5 * sample.kappa * foot.along * foot.along;
   return foot;
+}
+
+Vec2 LightReference::normalAt(const LightFoot& foot) const {
+  const LightSample& sample = at(foot.index);
+  return (leftNormal(sample.tangent) - sample.kappa * foot.along * sample.tangent).normalized();
 }
 
 int LightReference::indexAt(double s) const {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/cancel_check.h"
 #include "core/base/vec2.h"
 #include "core/curve/nurbs_curve.h"
 
@@ -22,9 +23,8 @@ struct LightSample {
 /// The nearest sample of a place and the place's coordinates there.
 struct LightFoot {
   int index = 0;
-  double offset = 0.0;          ///< Signed distance from the curve, positive on its left (second order in `along`).
-  double along = 0.0;           ///< From the sample along its tangent.
-  Vec2 normal = Vec2::UnitY();  ///< Unit normal of the curve at the foot: the gradient of `offset`.
+  double offset = 0.0;  ///< Signed distance from the curve, positive on its left (second order in `along`).
+  double along = 0.0;   ///< From the sample along its tangent.
 };
 
 /// A dense curve as samples at nearly equal steps: what a light curve is measured against. A closed one begins where
@@ -34,9 +34,10 @@ class LightReference {
   /// @param step largest distance of two samples; they lie closer where the curve turns quickly. Absent when the curve
   /// has no length or a derivative that vanishes, or turns by more than 20 degrees at once (a corner): it then has no
   /// normal everywhere.
+  /// Absent, too, when cancelled.
   /// @param diagonal of the whole that the curve is a section of; absent: its own.
   static std::optional<LightReference> make(const NurbsCurve&, bool closed, double step,
-                                            std::optional<double> diagonal = {});
+                                            std::optional<double> diagonal = {}, CancelCheck check = {});
   /// Of a smooth line of points at about even steps, with its direction and curvature by differences; a closed one does
   /// not repeat its first point. Absent when it has no length. @pre at least 5 points.
   static std::optional<LightReference> through(const std::vector<Vec2>& points, bool closed);
@@ -51,6 +52,8 @@ class LightReference {
 
   /// The foot of a place, looked for from sample `hint` on, downhill only (both ways; around the seam where closed).
   LightFoot foot(const Vec2& place, int hint) const;
+  /// Unit normal of the curve at a foot: the gradient of its `offset`.
+  Vec2 normalAt(const LightFoot&) const;
   /// Sample nearest to arc length s (wrapped where closed, else clamped).
   int indexAt(double s) const;
   /// Linear between the samples; s wrapped where closed, else clamped.
@@ -64,6 +67,7 @@ class LightReference {
   void beginWhereSteepest();
 
   std::vector<LightSample> samples_;
+  std::vector<Vec2> points_;  ///< Of the samples, side by side.
   bool closed_ = false;
   double length_ = 0.0, diagonal_ = 0.0, kappaMax_ = 0.0;
 };

@@ -18,7 +18,7 @@ constexpr int kFewestOpenPoints = 3, kFewestClosedPoints = 4;
 constexpr int kMostSpanDegree = 7;
 constexpr double kOrder = 9.0;           // a fit of c points errs by about c to the power of minus this
 constexpr double kMostGrowth = 1.6;      // of the number of points from one try to the next
-constexpr double kWorkPerPoint = 60.0;   // iterations times spans, about 0.01 ms each, per point that may be spared
+constexpr double kWorkPerPoint = 24.0;   // iterations times spans, about 0.01 ms each, per point that may be spared
 constexpr int kCheckRounds = 4;          // of one fit, while the strict check finds a little missing
 constexpr double kNearly = 1.3;          // tolerances: more than a little
 constexpr double kHopeless = 5.0;        // tolerances after the first phase: no other start will do
@@ -98,25 +98,33 @@ class LightSearch {
     int failed = fewest - 1;
     for (int count = fewest; count <= most && mayGoOn(); count = nextCount(count, most)) {
       if (isBeyond(failed)) return false;
-      if (!withPoints(count)) {
+      if (!withPoints(count, BreakStart::ByShape)) {
         failed = count;
         continue;
       }
-      LightCurve best = std::move(result_);
-      while (best.report.points - failed > 1 && mayGoOn()) {
-        if (isBeyond(failed)) return false;
-        const int between = (best.report.points + failed) / 2;
-        result_ = withEffort(LightCurve{{}, best.report});
-        if (withPoints(between)) {
-          best = std::move(result_);
-        } else {
-          failed = between;
-        }
-      }
-      result_ = withEffort(std::move(best));
-      return true;
+      return goBack(failed, fewest);
     }
     return false;
+  }
+  /// Fewer points than those of the curve that was found, and more than those that failed; and then with even breaks,
+  /// which seldom do where the others fail, and are tried for nothing else.
+  bool goBack(int failed, int fewest) {
+    LightCurve best = std::move(result_);
+    const auto isFound = [&](int count, BreakStart breaks) {
+      result_ = withEffort(LightCurve{{}, best.report});
+      if (!withPoints(count, breaks)) return false;
+      best = std::move(result_);
+      return true;
+    };
+    while (best.report.points - failed > 1 && mayGoOn()) {
+      if (isBeyond(failed)) return false;
+      const int between = (best.report.points + failed) / 2;
+      if (!isFound(between, BreakStart::ByShape)) failed = between;
+    }
+    while (best.report.points > fewest && mayGoOn() && isFound(best.report.points - 1, BreakStart::Even)) {
+    }
+    result_ = withEffort(std::move(best));
+    return true;
   }
   /// Whether no curve of so few control points as are wanted can come any more.
   bool isBeyond(int failed) {
@@ -137,21 +145,20 @@ class LightSearch {
     return found;
   }
 
-  bool withPoints(int count) {
+  bool withPoints(int count, BreakStart breaks) {
     const bool closed = reference_.isClosed();
     leastOff_ = std::numeric_limits<double>::infinity();
     const int degree = count - 1;
     const int lowest = task_.forms == LightForms::Quintic ? kLightQuintic : 2;
     const int spline = task_.forms == LightForms::UpToCubic ? kLightCubic : kLightQuintic;
     const int highest = task_.forms == LightForms::All ? kMostSpanDegree : spline;
-    if (!closed && degree >= lowest && degree <= highest) {
+    if (!closed && degree >= lowest && degree <= highest && breaks == BreakStart::ByShape) {
       if (fit(degree, 1, BreakStart::Even, true)) return true;
       if (leastOff_ < kHopeless && fit(degree, 1, BreakStart::Even, false)) return true;
     }
     const int spans = closed ? count : count - spline;
     if (spans < 2) return false;
-    if (fit(spline, spans, BreakStart::ByShape, true)) return true;
-    return leastOff_ < kHopeless && fit(spline, spans, BreakStart::Even, true);
+    return fit(spline, spans, breaks, true);
   }
 
   bool fit(int degree, int spans, BreakStart breaks, bool firstPhase) {

@@ -172,8 +172,13 @@ Eigen::MatrixXd heldPart(const Normal& normal, bool isLast, const Vec2& at) {
 
 std::vector<double> LightShape::lengths() const {
   std::vector<double> result;
-  for (const double q : logLengths) result.push_back(std::exp(q));
+  lengthsInto(result);
   return result;
+}
+
+void LightShape::lengthsInto(std::vector<double>& result) const {
+  result.clear();
+  for (const double q : logLengths) result.push_back(std::exp(q));
 }
 
 SpanKnots LightShape::knotsOf(int span, const std::vector<double>& lengths) const {

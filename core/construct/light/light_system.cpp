@@ -30,6 +30,7 @@ LightSystem::LightSystem(const LightReference& reference, const LightAsk& ask, c
   places_.resize(spans * perSpan_);
   rising_.resize(places_.size());
   falling_.resize(places_.size());
+  beziers_.resize(static_cast<std::size_t>(spans));
   firstLength_ = 2 * static_cast<Eigen::Index>(start.points.size());
   unknowns_ = firstLength_ + (spans > 1 ? spans : 0);
   // Starts lie where equal shares of the length and the domain meet.
@@ -47,7 +48,7 @@ LightSystem::LightSystem(const LightReference& reference, const LightAsk& ask, c
 }
 
 void LightSystem::placesOf(const LightShape& shape, int span) {
-  std::array<Vec2, kSpanPoints> bezier;
+  std::array<Vec2, kSpanPoints>& bezier = beziers_[static_cast<std::size_t>(span)];
   const auto points = shape.pointsOf(span);
   bezierOfSpan(shape.degree, shape.knotsOf(span, lengths_), points, bezier);
   const double length = lengths_[span];
@@ -178,7 +179,7 @@ double LightSystem::endRows(const LightShape& shape, const LightWeights& weights
 }
 
 LightSystem::Cost LightSystem::evaluate(const LightShape& shape, const LightWeights& weights) {
-  lengths_ = shape.lengths();
+  shape.lengthsInto(lengths_);
   for (int span = 0; span < shape.spans(); ++span) placesOf(shape, span);
   meanSpeed_ = 0.0;
   for (const Place& place : places_) meanSpeed_ += place.state.speed / static_cast<double>(places_.size());
@@ -200,20 +201,20 @@ LightSystem::Cost LightSystem::evaluate(const LightShape& shape, const LightWeig
   return cost;
 }
 
-void LightSystem::addPlace(SpanSystem& local, const Place& place, const LightWeights& weights) const {
+void LightSystem::addPlace(const Place& place, const LightWeights& weights) {
   const double tau = ask_.tolerance, l = place.scale;
   const PlaceTable::Place& table = table_.places[static_cast<std::size_t>((&place - places_.data()) % perSpan_)];
   const double e = place.foot.offset / tau, beyond = std::max(0.0, std::abs(e) - kWallAt * ask_.reach);
   const double wall = beyond > 0.0 ? weights.wall * weights.wall : 0.0, offset = weights.offset * weights.offset;
-  const DerivativeGradients across{place.foot.normal / tau, Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
-  local.add(local.rowOf(table, place.state, across), local.share * (offset + wall),
-            local.share * (offset * e + wall * std::copysign(beyond, e)));
+  const DerivativeGradients across{reference_.normalAt(place.foot) / tau, Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
+  local_.add(table, place.state, across, local_.share * (offset + wall),
+             local_.share * (offset * e + wall * std::copysign(beyond, e)));
   const auto sign = [&](int wanted, double amount, double factor, DerivativeGradients gradients) {
     const SignRow row = signRow(wanted * amount, ask_.signMargin);
     if (row.weight == 0.0) return;
-    const double weight = local.share * row.weight * std::pow(weights.signs * kSignFactor, 2);
+    const double weight = local_.share * row.weight * std::pow(weights.signs * kSignFactor, 2);
     for (Vec2& g : gradients) g *= -wanted * factor;
-    local.add(local.rowOf(table, place.state, gradients), weight, weight * row.residual);
+    local_.add(table, place.state, gradients, weight, weight * row.residual);
   };
   if (weights.signs > 0.0) {
     const double slopeFactor = l * l * l / tau, kappaFactor = l * l / tau;
@@ -226,11 +227,11 @@ void LightSystem::addPlace(SpanSystem& local, const Place& place, const LightWei
   }
   DerivativeGradients speed = speedGradient(place.state);
   speed[1] /= meanSpeed_;
-  const double even = local.share * kEvenWeight * kEvenWeight;
-  local.add(local.rowOf(table, place.state, speed), even, even * (place.state.speed / meanSpeed_ - 1.0));
+  const double even = local_.share * kEvenWeight * kEvenWeight;
+  local_.add(table, place.state, speed, even, even * (place.state.speed / meanSpeed_ - 1.0));
 }
 
-void LightSystem::addEnds(SpanSystem& local, const LightShape& shape, const LightWeights& weights, int span) const {
+void LightSystem::addEnds(const LightShape& shape, const LightWeights& weights, int span) {
   for (const bool atEnd : {false, true}) {
     if (shape.closed || span != (atEnd ? shape.spans() - 1 : 0) || holdAt(atEnd) == LightHold::Position) continue;
     const PlaceState state = endState(shape, atEnd);
@@ -239,7 +240,7 @@ void LightSystem::addEnds(SpanSystem& local, const LightShape& shape, const Ligh
     const double l = (atEnd ? places_.back() : places_.front()).scale, weight = weights.ends * weights.ends;
     const auto row = [&](double residual, double factor, DerivativeGradients gradients) {
       for (Vec2& g : gradients) g *= factor;
-      local.add(local.rowOf(table, state, gradients), weight, weight * residual * factor);
+      local_.add(table, state, gradients, weight, weight * residual * factor);
     };
     const Vec2 across = leftNormal(wanted.tangent);
     row(state.d[1].dot(across) / state.speed, l / ask_.tolerance, tangentGradient(state, across));
@@ -249,44 +250,54 @@ void LightSystem::addEnds(SpanSystem& local, const LightShape& shape, const Ligh
   }
 }
 
-void LightSystem::differentiate(SpanSystem& local, const LightShape& shape, int span) {
+void LightSystem::differentiate(const LightShape& shape, int span) {
+  const int degree = shape.degree;
+  local_.degree = degree;
+  local_.length = lengths_[span];
+  local_.share = 1.0 / static_cast<double>(places_.size());
+  local_.lengthCount = 0;
+  if (shape.spans() > 1) differentiateByLengths(shape, span);
+  local_.begin();
+}
+
+void LightSystem::differentiateByLengths(const LightShape& shape, int span) {
   const int degree = shape.degree, spans = shape.spans();
-  local.degree = degree;
-  local.length = lengths_[span];
-  local.share = 1.0 / static_cast<double>(places_.size());
-  std::array<SpanSystem::PointRow, kSpanPoints> unit;
+  SpanDependence& by = local_.dependence;
+  std::array<Eigen::Array<double, kXLanes, 1>, kSpanPoints> unit, matrix;
   for (std::size_t j = 0; j < kSpanPoints; ++j) {
     unit[j].setZero();
     unit[j][static_cast<Eigen::Index>(j)] = 1.0;
   }
-  bezierOfSpan(degree, shape.knotsOf(span, lengths_), unit, local.matrix);
-  if (spans > 1) {
-    const auto points = shape.pointsOf(span);
-    std::array<Vec2, kSpanPoints> here, there;
-    bezierOfSpan(degree, shape.knotsOf(span, lengths_), points, here);
-    const bool all = shape.closed && spans < kLengthsOfSpan;
-    for (int k = all ? 0 : -kLengthReach; k <= (all ? spans - 1 : kLengthReach); ++k) {
-      const int other = shape.closed ? ((span + k) % spans + spans) % spans : span + k;
-      if (other < 0 || other >= spans) continue;
-      double& length = lengths_[other];
-      const double before = length;
-      length = before * (1.0 + kDifferenceStep);
-      bezierOfSpan(degree, shape.knotsOf(span, lengths_), points, there);
-      length = before;
-      const auto at = static_cast<std::size_t>(local.lengthCount);
-      for (int j = 0; j <= degree; ++j) {
-        local.byLength[at][j] = (there[j] - here[j]) / kDifferenceStep;
-      }
-      if (other == span) local.ownLength = local.lengthCount;
-      local.lengthIndex[at] = other;
-      ++local.lengthCount;
-    }
+  const SpanKnots knots = shape.knotsOf(span, lengths_);
+  bezierOfSpan(degree, knots, unit, matrix);
+  for (int k = 0; k <= degree; ++k) {
+    for (int j = 0; j < kXLanes; ++j) by.byPoint[k][j] = matrix[k][j];
   }
-  local.begin();
+  KnotLanes lanes;
+  for (int k = 0; k < 2 * degree; ++k) lanes[k].fill(knots[k]);
+  const bool all = shape.closed && spans < kLengthsOfSpan;
+  for (int k = all ? 0 : -kLengthReach; k <= (all ? spans - 1 : kLengthReach); ++k) {
+    const int other = shape.closed ? ((span + k) % spans + spans) % spans : span + k;
+    if (other < 0 || other >= spans) continue;
+    double& length = lengths_[other];
+    const double before = length;
+    length = before * (1.0 + kDifferenceStep);
+    const SpanKnots moved = shape.knotsOf(span, lengths_);
+    length = before;
+    const int at = local_.lengthCount++;
+    for (int i = 0; i < 2 * degree; ++i) lanes[i][at] = moved[i];
+    if (other == span) local_.ownLength = at;
+    local_.lengthIndex[at] = other;
+  }
+  const std::array<Vec2, kSpanPoints>& here = beziers_[static_cast<std::size_t>(span)];
+  bezierOfLanes(degree, lanes, shape.pointsOf(span), by.xByLength, by.yByLength);
+  for (int j = 0; j <= degree; ++j) {
+    for (double& x : by.xByLength[j]) x = (x - here[j].x()) / kDifferenceStep;
+    for (double& y : by.yByLength[j]) y = (y - here[j].y()) / kDifferenceStep;
+  }
 }
 
-void LightSystem::scatter(const SpanSystem& local, const LightShape& shape, int span, LightMatrix& matrix,
-                          Eigen::VectorXd& gradient) const {
+void LightSystem::scatter(const LightShape& shape, int span, LightMatrix& matrix, Eigen::VectorXd& gradient) const {
   std::array<Eigen::Index, static_cast<std::size_t>(SpanSystem::kMost)> target{};
   for (int j = 0; j <= shape.degree; ++j) {
     const std::size_t point = shape.pointOf(span, j);
@@ -295,31 +306,34 @@ void LightSystem::scatter(const SpanSystem& local, const LightShape& shape, int 
     target[at] = pinned ? -1 : 2 * static_cast<Eigen::Index>(point);
     target[at + 1] = pinned ? -1 : target[at] + 1;
   }
-  for (int i = 0; i < local.lengthCount; ++i) {
-    target[2 * (shape.degree + 1) + i] = firstLength_ + local.lengthIndex[i];
+  for (int i = 0; i < local_.lengthCount; ++i) {
+    target[2 * (shape.degree + 1) + i] = firstLength_ + local_.lengthIndex[i];
   }
-  for (Eigen::Index c = 0; c < local.used; ++c) {
+  const int used = local_.used();
+  std::array<std::size_t, static_cast<std::size_t>(SpanSystem::kMost)> lane{};
+  for (int i = 0; i < used; ++i) lane[i] = local_.lane(i);
+  const auto& squares = local_.squares();
+  for (int c = 0; c < used; ++c) {
     const Eigen::Index column = target[c];
     if (column < 0) continue;
-    gradient[column] += local.gradient[c];
-    for (Eigen::Index r = c; r < local.used; ++r) {
+    gradient[column] += local_.gradient()[lane[c]];
+    for (int r = c; r < used; ++r) {
       const Eigen::Index row = target[r];
       if (row < 0) continue;
       // A closed curve of few spans comes to some of its points twice.
       const double times = row == column && r != c ? 2.0 : 1.0;
-      matrix.add(row, column, times * local.squares(r, c));
+      matrix.add(row, column, times * squares[lane[r]][lane[c]]);
     }
   }
 }
 
 void LightSystem::addSpan(const LightShape& shape, const LightWeights& weights, int span, LightMatrix& matrix,
                           Eigen::VectorXd& gradient) {
-  SpanSystem local;
-  differentiate(local, shape, span);
-  for (int k = 0; k < perSpan_; ++k) addPlace(local, places_[span * perSpan_ + k], weights);
-  addEnds(local, shape, weights, span);
-  local.finish();
-  scatter(local, shape, span, matrix, gradient);
+  differentiate(shape, span);
+  for (int k = 0; k < perSpan_; ++k) addPlace(places_[span * perSpan_ + k], weights);
+  addEnds(shape, weights, span);
+  local_.finish();
+  scatter(shape, span, matrix, gradient);
 }
 
 void LightSystem::gauss(const LightShape& shape, const LightWeights& weights, LightMatrix& matrix,

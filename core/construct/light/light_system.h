@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "core/construct/light/light_fit.h"
@@ -58,10 +59,11 @@ class LightSystem {
   double rowsOf(const Place&, const LightWeights&, Cost&) const;
   double endRows(const LightShape&, const LightWeights&, Cost&);
   void addSpan(const LightShape&, const LightWeights&, int span, LightMatrix&, Eigen::VectorXd&);
-  void differentiate(SpanSystem&, const LightShape&, int span);
-  void scatter(const SpanSystem&, const LightShape&, int span, LightMatrix&, Eigen::VectorXd&) const;
-  void addPlace(SpanSystem&, const Place&, const LightWeights&) const;
-  void addEnds(SpanSystem&, const LightShape&, const LightWeights&, int span) const;
+  void differentiate(const LightShape&, int span);
+  void differentiateByLengths(const LightShape&, int span);
+  void scatter(const LightShape&, int span, LightMatrix&, Eigen::VectorXd&) const;
+  void addPlace(const Place&, const LightWeights&);
+  void addEnds(const LightShape&, const LightWeights&, int span);
   PlaceState endState(const LightShape&, bool atEnd) const;
   LightHold holdAt(bool atEnd) const { return atEnd ? ask_.end : ask_.start; }
 
@@ -72,6 +74,8 @@ class LightSystem {
   int perSpan_ = 0;
   std::vector<Place> places_;
   std::vector<double> lengths_, rising_, falling_;
+  std::vector<std::array<Vec2, kSpanPoints>> beziers_;  ///< Of every span, at the shape evaluated last.
+  SpanSystem local_;
   double meanSpeed_ = 1.0;
   SwitchPlaces switches_, kappaSwitches_;
   Eigen::Index unknowns_ = 0, firstLength_ = 0;

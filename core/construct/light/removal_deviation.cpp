@@ -5,13 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
+#include <utility>
 
 #include "core/curve/turning_points.h"
 
 namespace batten {
 namespace {
 
-constexpr std::size_t kKeptWhereClosed = 4;  // the four-vertex theorem
+constexpr std::ptrdiff_t kKeptWhereClosed = 4;  // the four-vertex theorem
 
 /// The extrema of the sampled curvature; ends are none.
 std::vector<RankedExtremum> extremaOf(const LightReference& reference, double prominence) {
@@ -37,61 +39,87 @@ double flattened(double riseOfKappa, double length) {
   return std::abs(riseOfKappa) * length * length / (2.0 * std::numbers::pi * std::numbers::pi);
 }
 
-/// The extrema that are still there, and what it would cost to take the next ones.
+/// The extrema that are still there, and what it would cost to take the next ones. Each removal costs the logarithm of
+/// their number: the costs of neighbours are kept in order.
 class Removal {
  public:
-  Removal(const LightReference& reference, std::vector<RankedExtremum>& all) : reference_(reference), all_(all) {
-    for (std::size_t i = 0; i < all.size(); ++i) left_.push_back(i);
+  Removal(const LightReference& reference, std::vector<RankedExtremum>& all)
+      : reference_(reference), all_(all), closed_(reference.isClosed()), count_(std::ssize(all)), left_(count_) {
+    for (std::ptrdiff_t i = 0; i < count_; ++i) {
+      before_.push_back(i - 1);
+      behind_.push_back(i + 1);
+      cost_.push_back(0.0);
+    }
+    if (closed_ && count_ > 0) {
+      before_.front() = count_ - 1;
+      behind_.back() = 0;
+    }
+    for (std::ptrdiff_t i = 0; i + (closed_ ? 0 : 1) < count_; ++i) insertPair(i);
   }
 
-  /// Takes the cheapest pair or end; false when none may go.
+  /// Takes the cheapest pair or end, of equally cheap ones a pair, and the first; false when none may go.
   bool takeCheapest() {
-    const bool closed = reference_.isClosed();
-    if (left_.empty() || (closed && left_.size() <= kKeptWhereClosed)) return false;
+    if (left_ == 0 || (closed_ && left_ <= kKeptWhereClosed)) return false;
     double best = std::numeric_limits<double>::infinity();
-    std::size_t at = 0, count = 0;
-    for (std::size_t i = 0; i + (closed ? 0 : 1) < left_.size(); ++i) {
-      const double cost = pairCost(i, (i + 1) % left_.size());
-      if (cost < best) {
-        best = cost;
-        at = i;
-        count = 2;
-      }
+    std::ptrdiff_t at = -1, second = -1;
+    if (!pairs_.empty() && pairs_.begin()->first < best) {
+      best = pairs_.begin()->first;
+      at = pairs_.begin()->second;
+      second = behind_[at];
     }
-    if (!closed) {
+    if (!closed_) {
       for (const bool last : {false, true}) {
         const double cost = endCost(last);
         if (cost >= best) continue;
         best = cost;
-        at = last ? left_.size() - 1 : 0;
-        count = 1;
+        at = last ? last_ : first_;
+        second = -1;
       }
     }
+    if (at < 0) return false;
     dearest_ = std::max(dearest_, best);
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t which = at < left_.size() ? at : 0;  // the second of a pair across the seam is the first
-      all_[left_[which]].removal = dearest_;
-      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(which));
-    }
+    take(at);
+    if (second >= 0) take(second);
     return true;
   }
 
  private:
-  double pairCost(std::size_t i, std::size_t j) const {
-    const RankedExtremum &a = all_[left_[i]], &b = all_[left_[j]];
+  double pairCost(std::ptrdiff_t i, std::ptrdiff_t j) const {
+    const RankedExtremum &a = all_[i], &b = all_[j];
     double length = b.s - a.s;
     if (length < 0.0) length += reference_.length();
     return flattened(b.kappa - a.kappa, length);
   }
   double endCost(bool last) const {
-    const RankedExtremum& e = all_[last ? left_.back() : left_.front()];
+    const RankedExtremum& e = all_[last ? last_ : first_];
     const LightSample& end = last ? reference_.samples().back() : reference_.samples().front();
     return flattened(end.kappa - e.kappa, end.s - e.s);
+  }
+  void insertPair(std::ptrdiff_t i) {
+    cost_[i] = pairCost(i, behind_[i]);
+    pairs_.emplace(cost_[i], i);
+  }
+  void take(std::ptrdiff_t i) {
+    all_[i].removal = dearest_;
+    --left_;
+    const std::ptrdiff_t before = before_[i], behind = behind_[i];
+    const bool hasBefore = closed_ || i != first_, hasBehind = closed_ || i != last_;
+    if (hasBefore) pairs_.erase({cost_[before], before});
+    if (hasBehind) pairs_.erase({cost_[i], i});
+    if (i == first_) first_ = behind;
+    if (i == last_) last_ = before;
+    if (hasBefore) behind_[before] = behind;
+    if (hasBehind) before_[behind] = before;
+    if (hasBefore && hasBehind && left_ > 0) insertPair(before);
   }
 
   const LightReference& reference_;
   std::vector<RankedExtremum>& all_;
-  std::vector<std::size_t> left_;
+  bool closed_;
+  std::ptrdiff_t count_, left_, first_ = 0, last_ = count_ - 1;
+  std::vector<std::ptrdiff_t> before_, behind_;  ///< Neighbours of those that are left.
+  std::vector<double> cost_;                     ///< Of each with the one behind it.
+  std::set<std::pair<double, std::ptrdiff_t>> pairs_;
   double dearest_ = 0.0;
 };
 

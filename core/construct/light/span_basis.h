@@ -18,6 +18,7 @@ struct PlaceTable {
   struct Place {
     double at = 0.0;
     std::array<std::array<double, kSpanPoints>, 4> rows{};
+    std::array<std::array<double, 2 * kSpanPoints>, 4> pairs{};  ///< Every number of the rows twice: for x and y.
   };
   std::vector<Place> places;
 };
@@ -33,22 +34,35 @@ using SpanKnots = std::array<double, 2 * kMostLightDegree>;
 template <class Value>
 void bezierOfSpan(int degree, const SpanKnots& knots, const std::array<Value, kSpanPoints>& points,
                   std::array<Value, kSpanPoints>& bezier) {
+  constexpr std::size_t kMostShares = kMostLightDegree * (kMostLightDegree + 1) / 2;
   const auto p = static_cast<std::size_t>(degree);
-  const auto step = [&](std::size_t level, double x, const Value* from, Value* to) {
-    for (std::size_t i = 0; i + level <= p; ++i) {
+  std::array<double, kMostShares> atStart, atEnd;  // level by level
+  std::size_t at = 0;
+  for (std::size_t level = 1; level <= p; ++level) {
+    for (std::size_t i = 0; i + level <= p; ++i, ++at) {
       const double low = knots[i + level - 1], high = knots[i + p];
-      const double share = (x - low) / (high - low);
-      to[i] = (1.0 - share) * from[i] + share * from[i + 1];
+      atStart[at] = (knots[p - 1] - low) / (high - low);
+      atEnd[at] = (knots[p] - low) / (high - low);
     }
+  }
+  const auto mix = [](const double* shares, std::size_t count, Value* values) {
+    for (std::size_t i = 0; i < count; ++i) values[i] = (1.0 - shares[i]) * values[i] + shares[i] * values[i + 1];
   };
   // Row m: after m insertions of the start. The Bezier point k goes on from row degree - k with k of the end.
-  std::array<Value, kSpanPoints> atStart = points;
+  std::array<Value, kSpanPoints> row = points;
+  const double* start = atStart.data();
   for (std::size_t m = 0;; ++m) {
-    std::array<Value, kSpanPoints> work = atStart;
-    for (std::size_t level = m + 1; level <= p; ++level) step(level, knots[p], work.data(), work.data());
+    std::array<Value, kSpanPoints> work = row;
+    const double* end = atEnd.data();
+    for (std::size_t level = 1; level <= p; ++level) {
+      const std::size_t count = p - level + 1;
+      if (level > m) mix(end, count, work.data());
+      end += count;
+    }
     bezier[p - m] = work[0];
     if (m == p) break;
-    step(m + 1, knots[p - 1], atStart.data(), atStart.data());
+    mix(start, p - m, row.data());
+    start += p - m;
   }
 }
 

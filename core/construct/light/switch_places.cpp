@@ -11,34 +11,42 @@ const std::vector<signed char>& SwitchPlaces::choose(const std::vector<double>& 
   const std::size_t n = costIfRising.size(), runs = static_cast<std::size_t>(changes) + 1;
   signs_.assign(n, static_cast<signed char>(first));
   if (changes == 0) return signs_;
-  best_.assign(runs, std::numeric_limits<double>::infinity());
-  came_.assign(runs * n, 0);
-  const auto costs = [&](std::size_t run) -> const std::vector<double>& {
-    const bool rises = (run % 2 == 0) == (first > 0);
-    return rises ? costIfFalling : costIfRising;
-  };
   const double infinite = std::numeric_limits<double>::infinity();
+  best_.assign(runs + 1, infinite);
+  next_.assign(runs + 1, infinite);
+  came_.resize(runs * n);
+  const double* costs[2] = {first > 0 ? costIfFalling.data() : costIfRising.data(),
+                            first > 0 ? costIfRising.data() : costIfFalling.data()};
+  // Run r stands at r + 1; before the first sample only those are begun that may be the first one.
   const std::size_t lastStart = kind == Changes::AtMost && !closed ? 1 : 0;
-  for (std::size_t j = 0; j < n; ++j) {
-    // From the last run down: each takes the run before it as it was at the sample before.
-    for (std::size_t run = runs; run-- > 0;) {
-      const double begins = j == 0 ? (run <= lastStart ? 0.0 : infinite) : run == 0 ? infinite : best_[run - 1];
-      const bool fresh = begins < best_[run];
-      best_[run] = (fresh ? begins : best_[run]) + costs(run)[j];
-      came_[run * n + j] = fresh ? 1 : 0;
+  for (std::size_t run = 0; run <= lastStart; ++run) {
+    best_[run + 1] = costs[run % 2][0];
+    came_[run] = 1;
+  }
+  for (std::size_t run = lastStart + 1; run < runs; ++run) came_[run] = 0;
+  for (std::size_t j = 1; j < n; ++j) {
+    const double own[2] = {costs[0][j], costs[1][j]};
+    const double* best = best_.data();
+    double* next = next_.data();
+    std::uint8_t* came = came_.data() + j * runs;
+    for (std::size_t run = 0; run < runs; ++run) {
+      const double begins = best[run], goesOn = best[run + 1];
+      next[run + 1] = (begins < goesOn ? begins : goesOn) + own[run % 2];
+      came[run] = begins < goesOn ? 1 : 0;
     }
+    best_.swap(next_);
   }
   std::size_t run = runs - 1;
   if (kind == Changes::AtMost) {
     const std::size_t step = closed ? 2 : 1;
     for (std::size_t other = run; other >= step;) {
       other -= step;
-      if (best_[other] <= best_[run]) run = other;
+      if (best_[other + 1] <= best_[run + 1]) run = other;
     }
   }
   for (std::size_t j = n; j-- > 0;) {
     signs_[j] = static_cast<signed char>(run % 2 == 0 ? first : -first);
-    if (came_[run * n + j] != 0 && run > 0) --run;
+    if (came_[j * runs + run] != 0 && run > 0) --run;
   }
   return signs_;
 }

@@ -23,8 +23,8 @@ class SwitchPlaces {
 
  private:
   std::vector<signed char> signs_;
-  std::vector<double> best_;
-  std::vector<std::uint8_t> came_;  ///< Per run and sample: 1 = the run began there.
+  std::vector<double> best_, next_;  ///< Per run, after one that costs without end.
+  std::vector<std::uint8_t> came_;   ///< Per sample and run: 1 = the run began there.
 };
 
 }  // namespace batten

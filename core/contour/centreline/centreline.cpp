@@ -19,8 +19,8 @@
 #include "core/contour/intent/intended_lines.h"
 #include "core/contour/merge/stroke_merge.h"
 #include "core/contour/merge/turn_cuts.h"
-#include "core/image/bit_disc.h"
-#include "core/image/bit_steps.h"
+#include "core/image/bits/bit_disc.h"
+#include "core/image/bits/bit_steps.h"
 
 namespace batten {
 namespace {

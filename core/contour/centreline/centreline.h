@@ -9,7 +9,7 @@
 #include "core/contour/centreline/stroke_paths.h"
 #include "core/contour/contour_set.h"
 #include "core/contour/edge_params.h"
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
 #include "core/image/grey_image.h"
 
 namespace batten {

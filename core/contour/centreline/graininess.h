@@ -6,7 +6,7 @@
 #include "core/base/run_context.h"
 #include "core/contour/centreline/stroke_paths.h"
 #include "core/image/grey_image.h"
-#include "core/image/region_surface.h"
+#include "core/image/threshold/region_surface.h"
 
 namespace batten {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/image/bit_disc.h"
+#include "core/image/bits/bit_disc.h"
 
 namespace batten {
 namespace {

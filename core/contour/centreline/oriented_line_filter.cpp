@@ -10,8 +10,8 @@
 
 #include "core/base/hot_loop.h"
 #include "core/base/parallel.h"
-#include "core/image/bit_steps.h"
-#include "core/image/run_pieces.h"
+#include "core/image/bits/bit_steps.h"
+#include "core/image/bits/run_pieces.h"
 
 namespace batten {
 namespace {

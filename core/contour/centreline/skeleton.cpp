@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/image/padded_bits.h"
+#include "core/image/bits/padded_bits.h"
 
 namespace batten {
 namespace {

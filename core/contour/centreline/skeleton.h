@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/run_context.h"
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
 
 namespace batten {
 

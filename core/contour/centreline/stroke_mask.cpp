@@ -11,7 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/contour/centreline/centreline.h"
 #include "core/contour/chosen_ink.h"
-#include "core/image/run_pieces.h"
+#include "core/image/bits/run_pieces.h"
 
 namespace batten {
 namespace {

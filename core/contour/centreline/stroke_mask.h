@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/run_context.h"
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
 
 namespace batten {
 

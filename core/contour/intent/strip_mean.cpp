@@ -190,13 +190,13 @@ class CommonLength {
 struct Member {
   const Strip* strip = nullptr;
   PlacedPiece placed;
-  bool goesOn[2] = {false, false};  // in another member
+  bool continues[2] = {false, false};  // in another member
 };
 
 double shareAt(const Member& m, double k) {
   double toEnd = kEndTaper;
-  if (!m.goesOn[0]) toEnd = std::min(toEnd, k);
-  if (!m.goesOn[1]) toEnd = std::min(toEnd, m.strip->count() - 1 - k);
+  if (!m.continues[0]) toEnd = std::min(toEnd, k);
+  if (!m.continues[1]) toEnd = std::min(toEnd, m.strip->count() - 1 - k);
   return std::max(kLeastTaperShare, toEnd / kEndTaper);
 }
 
@@ -361,8 +361,8 @@ std::vector<PieceMean> PieceMeans::of(const std::vector<int>& group) const {
   }
   for (const Relation& r : common.relations()) {
     if (!r.isTrace || !common.agrees(r)) continue;
-    trees[at[r.a].first][at[r.a].second].goesOn[r.endA] = true;
-    trees[at[r.b].first][at[r.b].second].goesOn[r.endB] = true;
+    trees[at[r.a].first][at[r.a].second].continues[r.endA] = true;
+    trees[at[r.b].first][at[r.b].second].continues[r.endB] = true;
   }
   std::vector<PieceMean> means;
   for (const auto& [name, members] : trees) means.push_back(meanOf(members));

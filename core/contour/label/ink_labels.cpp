@@ -11,8 +11,8 @@
 #include "core/contour/label/label_rules.h"
 #include "core/contour/label/label_vote.h"
 #include "core/contour/label/strand_graph.h"
-#include "core/image/bit_disc.h"
-#include "core/image/bit_steps.h"
+#include "core/image/bits/bit_disc.h"
+#include "core/image/bits/bit_steps.h"
 
 namespace batten {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/base/run_context.h"
 #include "core/contour/label/strand_graph.h"
-#include "core/image/run_pieces.h"
+#include "core/image/bits/run_pieces.h"
 
 namespace batten {
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <unordered_map>
 
+#include "core/base/angle.h"
 #include "core/base/statistics.h"
 
 namespace batten {
@@ -133,7 +133,7 @@ Leg legAt(const StrandChain& chain, int end, const StrandNode& node) {
 
 // Cost of going on from one leg to another; absent: no pen does.
 std::optional<double> costOfPassing(const Leg& a, const Leg& b) {
-  const double bend = std::atan2(std::abs(cross(a.out, b.out)), -a.out.dot(b.out)) * 180.0 / std::numbers::pi;
+  const double bend = std::atan2(std::abs(cross(a.out, b.out)), -a.out.dot(b.out)) * kDegPerRad;
   const double octaves = std::abs(std::log2(a.widthPx / b.widthPx));
   if (bend > kStraightDeg || octaves > std::log2(kWidthRatio) + 1.0 / std::min(a.widthPx, b.widthPx)) return {};
   return bend + kDegPerOctave * octaves;

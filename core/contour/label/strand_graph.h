@@ -8,7 +8,7 @@
 #include "core/base/run_context.h"
 #include "core/base/vec2.h"
 #include "core/contour/centreline/skeleton.h"
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
 
 namespace batten {
 

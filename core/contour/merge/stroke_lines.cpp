@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "core/base/angle.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -52,9 +52,7 @@ void endLineAt(MeanLine& line, int side, const Vec2& place) {
 
 }  // namespace
 
-double turnDeg(const Vec2& a, const Vec2& b) {
-  return std::atan2(std::abs(cross(a, b)), a.dot(b)) * 180.0 / std::numbers::pi;
-}
+double turnDeg(const Vec2& a, const Vec2& b) { return std::atan2(std::abs(cross(a, b)), a.dot(b)) * kDegPerRad; }
 
 void reverseLine(MeanLine& line) {
   std::reverse(line.points.begin(), line.points.end());

@@ -4,7 +4,7 @@
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
 
 namespace batten {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/contour/contour_set.h"
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
 
 namespace batten {
 

@@ -12,10 +12,10 @@
 #include "core/contour/region_of_interest.h"
 #include "core/document/explain/redraw.h"
 #include "core/image/binarize.h"
-#include "core/image/bit_disc.h"
-#include "core/image/bit_steps.h"
-#include "core/image/page_margins.h"
-#include "core/image/region_surface.h"
+#include "core/image/bits/bit_disc.h"
+#include "core/image/bits/bit_steps.h"
+#include "core/image/bits/page_margins.h"
+#include "core/image/threshold/region_surface.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {

@@ -8,7 +8,7 @@
 #include "core/base/result.h"
 #include "core/base/run_context.h"
 #include "core/base/vec2.h"
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
 #include "core/pipeline/run/pipeline.h"
 
 namespace batten {

@@ -7,9 +7,9 @@
 
 #include "core/base/statistics.h"
 #include "core/curve/arc_length.h"
-#include "core/image/bit_disc.h"
-#include "core/image/bit_steps.h"
-#include "core/image/run_pieces.h"
+#include "core/image/bits/bit_disc.h"
+#include "core/image/bits/bit_steps.h"
+#include "core/image/bits/run_pieces.h"
 #include "core/polyline/point_grid.h"
 
 namespace batten {

@@ -5,7 +5,7 @@
 
 #include "core/base/run_context.h"
 #include "core/contour/contour_set.h"
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
 #include "core/pipeline/run/pipeline.h"
 
 namespace batten {

@@ -7,7 +7,7 @@
 
 #include "core/base/number_text.h"
 #include "core/curve/arc_length.h"
-#include "core/exchange/cubic_path.h"
+#include "core/exchange/model/cubic_path.h"
 #include "core/fairing/followed_target.h"
 
 namespace batten {

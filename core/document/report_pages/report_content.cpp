@@ -74,11 +74,11 @@ std::string fairingLine(const TracedCurve& curve, const std::optional<TargetProf
   used.fairing = curve.fairingUsed;
   if (curve.fairingUsed.mode == FairingMode::None) return "Not faired.";
   std::string text = shownValue(*findParameter("fairing.mode"), used);
-  if (target && curve.fairingUsed.target == kDrawnTarget) text += ", drawn by hand";
-  if (target && curve.fairingUsed.target == kLogAestheticTarget) text += ", log-aesthetic";
-  if (target && curve.fairingUsed.target < kDrawnTarget) {
+  if (target && curve.fairingUsed.target == FairingTarget::Drawn) text += ", drawn by hand";
+  if (target && curve.fairingUsed.target == FairingTarget::LogAesthetic) text += ", log-aesthetic";
+  if (target && isPolynomial(curve.fairingUsed.target)) {
     text += ", degree " + std::to_string(target->degree);
-    if (curve.fairingUsed.target == 0) text += " (recommended)";
+    if (curve.fairingUsed.target == FairingTarget::Recommended) text += " (recommended)";
     text += ", similarity " + roundedText(target->similarity, 4);
   }
   text += "; moved by " + mm(curve.fairing.maxDeviationMm) + " of " + mm(curve.fairingUsed.toleranceMm) + " mm";

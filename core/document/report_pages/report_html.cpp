@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/exchange/file_text.h"
+#include "core/exchange/model/file_text.h"
 
 namespace batten {
 namespace {

@@ -44,8 +44,7 @@ gp_XYZ place(const Vec2& p) { return {p.x(), p.y(), 0.0}; }
 Handle(IGESData_IGESEntity) splineEntity(const NurbsCurve& curve) {
   const int degree = curve.degree(), upper = curve.controlPointCount() - 1;
   Handle(TColStd_HArray1OfReal) knots = new TColStd_HArray1OfReal(-degree, upper + 1);
-  for (int i = 0; i < static_cast<int>(curve.knots().size()); ++i)
-    knots->SetValue(i - degree, curve.knots()[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < static_cast<int>(curve.knots().size()); ++i) knots->SetValue(i - degree, curve.knots()[i]);
   Handle(TColStd_HArray1OfReal) weights = new TColStd_HArray1OfReal(0, upper, 1.0);
   Handle(TColgp_HArray1OfXYZ) poles = new TColgp_HArray1OfXYZ(0, upper);
   for (int i = 0; i <= upper; ++i) {
@@ -202,7 +201,7 @@ Result<std::string> writeIges(const CadDrawing& drawing, const std::string& titl
       Handle(IGESBasic_Name) name = new IGESBasic_Name;
       name->Init(1, text(entity.name));
       made->AddProperty(name);
-      made->AddProperty(names[static_cast<std::size_t>(level - layers.begin())]);
+      made->AddProperty(names[level - layers.begin()]);
       if (!writer.AddEntity(made)) return occtFailed("write " + entity.name);
     }
     writer.ComputeModel();

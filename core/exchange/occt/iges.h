@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/base/result.h"
-#include "core/exchange/cad_shape.h"
+#include "core/exchange/model/cad_shape.h"
 
 namespace batten {
 

@@ -136,14 +136,14 @@ Handle(StepGeom_Curve) arcCurve(const CadArc& arc, const Text& name) {
 Handle(StepGeom_Curve) splineCurve(const NurbsCurve& curve, const Text& name) {
   const int count = curve.controlPointCount();
   Handle(StepGeom_HArray1OfCartesianPoint) poles = new StepGeom_HArray1OfCartesianPoint(1, count);
-  for (int i = 0; i < count; ++i) poles->SetValue(i + 1, point(curve.controlPoints()[static_cast<std::size_t>(i)]));
+  for (int i = 0; i < count; ++i) poles->SetValue(i + 1, point(curve.controlPoints()[i]));
   const KnotRuns runs = knotRuns(curve);
   const int distinct = static_cast<int>(runs.knots.size());
   Handle(TColStd_HArray1OfReal) knots = new TColStd_HArray1OfReal(1, distinct);
   Handle(TColStd_HArray1OfInteger) times = new TColStd_HArray1OfInteger(1, distinct);
   for (int i = 0; i < distinct; ++i) {
-    knots->SetValue(i + 1, runs.knots[static_cast<std::size_t>(i)]);
-    times->SetValue(i + 1, runs.multiplicities[static_cast<std::size_t>(i)]);
+    knots->SetValue(i + 1, runs.knots[i]);
+    times->SetValue(i + 1, runs.multiplicities[i]);
   }
   // A loop is not said to be closed: Open CASCADE and others would make a periodic curve of it.
   if (!curve.isRational()) {
@@ -153,7 +153,7 @@ Handle(StepGeom_Curve) splineCurve(const NurbsCurve& curve, const Text& name) {
     return made;
   }
   Handle(TColStd_HArray1OfReal) weights = new TColStd_HArray1OfReal(1, count);
-  for (int i = 0; i < count; ++i) weights->SetValue(i + 1, curve.weights()[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < count; ++i) weights->SetValue(i + 1, curve.weights()[i]);
   Handle(StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve) made =
       new StepGeom_BSplineCurveWithKnotsAndRationalBSplineCurve;
   made->Init(name, curve.degree(), poles, StepGeom_bscfUnspecified, StepData_LFalse, StepData_LFalse, times, knots,

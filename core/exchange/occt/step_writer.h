@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/base/result.h"
-#include "core/exchange/cad_shape.h"
-#include "core/exchange/drawing_figures.h"
+#include "core/exchange/model/cad_shape.h"
+#include "core/exchange/model/drawing_figures.h"
 
 namespace batten {
 

@@ -25,8 +25,9 @@ Settings withPixels(Settings own) {
 std::vector<PaperPreset> makePresets() {
   std::vector<PaperPreset> presets;
   presets.push_back({"000", "Quintic NURBS from a sketch",
-                     "Sturges' rule gives about ten segments for any length, so bends are missed by several "
-                     "pixels; derivatives of a third of the distance produce wiggles; pixel borders are "
+                     "Sturges' rule gives about ten segments for any length, so bends are missed by tens of "
+                     "pixels, and half a segment is cut off at either end; derivatives of a third of the distance "
+                     "produce wiggles; pixel borders are "
                      "accurate to 0.3 px, grey values to 0.01 px.",
                      withPixels({{"construct.method", "nurbs"},
                                  {"construct.start", "line"},

@@ -5,7 +5,9 @@
 
 #include "core/base/edit_distance.h"
 #include "core/pipeline/recipe/parameter_builders.h"
-#include "core/pipeline/recipe/parameters_curves.h"
+#include "core/pipeline/recipe/parameters_construct.h"
+#include "core/pipeline/recipe/parameters_contours.h"
+#include "core/pipeline/recipe/parameters_fairing.h"
 #include "core/pipeline/recipe/parameters_image.h"
 
 namespace batten {
@@ -14,7 +16,9 @@ namespace {
 std::vector<Parameter> buildTable() {
   std::vector<Parameter> table;
   table::appendImageParameters(table);
-  table::appendCurveParameters(table);
+  table::appendContourParameters(table);
+  table::appendConstructParameters(table);
+  table::appendFairingParameters(table);
   return table;
 }
 

@@ -1,26 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pipeline/recipe/placed_marks_file.h"
 
-#include <cmath>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
+
+#include "core/pipeline/recipe/recipe_json.h"
 
 namespace batten {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-tl::unexpected<Error> damaged(const std::string& what) {
-  return fail(ErrorCode::BadParameter, "The recipe is damaged: " + what);
-}
-
-std::optional<Vec2> placeFromJson(const Json& json) {
-  if (!json.is_array() || json.size() != 2 || !json[0].is_number() || !json[1].is_number()) return std::nullopt;
-  const Vec2 p(json[0].get<double>(), json[1].get<double>());
-  return std::isfinite(p.x()) && std::isfinite(p.y()) ? std::optional(p) : std::nullopt;
-}
+using Json = RecipeJson;
 
 Json pairToJson(const Vec2& p) { return {p.x(), p.y()}; }
 
@@ -29,7 +19,7 @@ std::optional<std::vector<Vec2>> placesFromJson(const Json& json, std::initializ
   if (!json.is_object()) return std::nullopt;
   std::vector<Vec2> places;
   for (const char* one : names) {
-    const auto point = json.contains(one) ? placeFromJson(json[one]) : std::nullopt;
+    const auto point = json.contains(one) ? pointFromJson(json[one]) : std::nullopt;
     if (!point) return std::nullopt;
     places.push_back(*point);
   }
@@ -39,27 +29,29 @@ std::optional<std::vector<Vec2>> placesFromJson(const Json& json, std::initializ
 Result<bool> readScaleLine(const Json& json, Recipe& recipe) {
   const auto ends = placesFromJson(json, {"from", "to"});
   if (!ends || json.size() != 3 || !json.contains("mm") || !json["mm"].is_number()) {
-    return damaged("\"scale\" does not hold just two places \"from\" and \"to\" and a length \"mm\".");
+    return refuseRecipe(
+        "The recipe is damaged: \"scale\" does not hold just two places \"from\" and \"to\" and a length \"mm\".");
   }
   recipe.scaleLine = ScaleLine{(*ends)[0], (*ends)[1], json["mm"].get<double>()};
   return true;
 }
 
 Result<bool> readDirections(const Json& json, Recipe& recipe) {
-  if (!json.is_array()) return damaged("\"directions\" is not a list.");
+  if (!json.is_array()) return refuseRecipe("The recipe is damaged: \"directions\" is not a list.");
   for (const Json& entry : json) {
     const auto places = placesFromJson(entry, {"at", "towards"});
-    if (!places || entry.size() != 2) return damaged("an entry of \"directions\" is not a pair of points.");
+    if (!places || entry.size() != 2)
+      return refuseRecipe("The recipe is damaged: an entry of \"directions\" is not a pair of points.");
     recipe.directions.push_back({(*places)[0], (*places)[1]});
   }
   return true;
 }
 
 Result<bool> readStarts(const Json& json, Recipe& recipe) {
-  if (!json.is_array()) return damaged("\"starts\" is not a list of positions.");
+  if (!json.is_array()) return refuseRecipe("The recipe is damaged: \"starts\" is not a list of positions.");
   for (const Json& entry : json) {
-    const auto point = placeFromJson(entry);
-    if (!point) return damaged("the start of a curve is not a pair of numbers [x, y].");
+    const auto point = pointFromJson(entry);
+    if (!point) return refuseRecipe("The recipe is damaged: the start of a curve is not a pair of numbers [x, y].");
     recipe.starts.push_back({*point});
   }
   return true;

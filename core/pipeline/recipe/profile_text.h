@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/fairing/drawn_profile.h"
+#include "core/fairing/profile/drawn_profile.h"
 
 namespace batten {
 

@@ -13,11 +13,11 @@
 #include "core/contour/segment/regression_segments.h"
 #include "core/curve/imported_line.h"
 #include "core/fairing/fairing_params.h"
+#include "core/image/bits/neighbourhood_filter.h"
 #include "core/image/log_transform.h"
-#include "core/image/neighbourhood_filter.h"
 #include "core/image/page_preparation.h"
-#include "core/image/region_thresholds.h"
 #include "core/image/scan.h"
+#include "core/image/threshold/region_thresholds.h"
 #include "core/pipeline/recipe/curve_numbers.h"
 #include "core/pipeline/recipe/direction_marks.h"
 #include "core/pipeline/recipe/scale_line.h"
@@ -37,7 +37,7 @@ struct PieceChoice {
   std::vector<Vec2> anchorsPx{};  ///< Along the line (see anchorsOf). A single one: the piece nearest to it, in 24 px.
   bool included = true;           ///< False: left out of fairing results and export.
   std::optional<FairingMode> mode{};      ///< Own fairing mode; absent = the recipe's.
-  std::optional<int> target{};            ///< Own target degree 0..6.
+  std::optional<FairingTarget> target{};  ///< Own target.
   std::optional<double> toleranceMm{};    ///< Own tolerance.
   std::optional<double> lowPassMm{};      ///< Own wavelength of the low-pass.
   std::optional<int> keepExtrema{};       ///< Own number of extrema to keep.

@@ -1,28 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pipeline/recipe/recipe_file.h"
 
-#include <cmath>
 #include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/base/json_text.h"
 #include "core/base/number_text.h"
+#include "core/pipeline/recipe/choice_json.h"
 #include "core/pipeline/recipe/imports_json.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "core/pipeline/recipe/placed_marks_file.h"
+#include "core/pipeline/recipe/recipe_json.h"
 
 namespace batten {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = RecipeJson;
 
 constexpr std::string_view kFormat = "batten-recipe";
 constexpr int kVersion = 1;
-
-tl::unexpected<Error> refuse(std::string message, std::string detail = {}) {
-  return fail(ErrorCode::BadParameter, std::move(message), std::move(detail));
-}
 
 Json parameterToJson(const Parameter& p, const Recipe& recipe) {
   const std::string text = p.get(recipe);
@@ -40,90 +36,20 @@ Json parameterToJson(const Parameter& p, const Recipe& recipe) {
   return text;
 }
 
-Json choiceToJson(const PieceChoice& choice) {
-  Json json = Json::object();
-  // A single anchor in the form it always had.
-  if (choice.anchorsPx.size() == 1) {
-    json["anchor"] = {choice.anchorsPx[0].x(), choice.anchorsPx[0].y()};
-  } else {
-    for (const Vec2& p : choice.anchorsPx) json["anchors"].push_back({p.x(), p.y()});
-  }
-  json["included"] = choice.included;
-  if (choice.isPart) json["part"] = true;
-  Recipe own;  // the table knows the words of choices
-  own.fairing = choice.fairing(own.fairing);
-  const auto word = [&](bool isOwn, const char* key, const char* parameter) {
-    if (isOwn) json[key] = findParameter(parameter)->get(own);
-  };
-  word(choice.mode.has_value(), "mode", "fairing.mode");
-  word(choice.tolerancePolicy.has_value(), "spend", "fairing.spend");
-  word(choice.spans.has_value(), "spans", "fairing.spans");
-  word(choice.means.has_value(), "moves", "fairing.moves");
-  word(choice.startHold.has_value(), "hold_start", "fairing.hold_start");
-  word(choice.endHold.has_value(), "hold_end", "fairing.hold_end");
-  if (choice.method) {
-    Recipe named;
-    named.construct.method = *choice.method;
-    json["method"] = findParameter("construct.method")->get(named);
-  }
-  if (choice.detail) json["detail"] = *choice.detail;
-  if (choice.target) json["target"] = *choice.target;
-  if (choice.toleranceMm) json["tolerance"] = *choice.toleranceMm;
-  if (choice.lowPassMm) json["low_pass"] = *choice.lowPassMm;
-  if (choice.keepExtrema) json["keep_extrema"] = *choice.keepExtrema;
-  for (const auto& [name, places] : {std::pair("keep", &choice.keepPx), std::pair("splits", &choice.splitsPx)}) {
-    for (const Vec2& p : *places) json[name].push_back({p.x(), p.y()});
-  }
-  for (const SpanChoice& span : choice.spanTargets)
-    json["span_targets"].push_back({span.placePx.x(), span.placePx.y(), span.degree});
-  for (const ProfilePoint& p : choice.profile) json["profile"].push_back({p.fraction, p.kappa});
-  return json;
-}
-
 Json strokeToJson(const PenStroke& stroke) {
   Json points = Json::array();
   for (const Vec2& p : stroke.points) points.push_back({p.x(), p.y()});
   return {{"closed", stroke.closed}, {"points", std::move(points)}};
 }
 
-/// A JSON value as the text that the table's setters take.
-std::optional<std::string> valueText(const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
-  if (value.is_number_integer()) return value.dump();
-  if (value.is_number()) return numberToText(value.get<double>());
-  return std::nullopt;
-}
-
-std::optional<Vec2> pointFromJson(const Json& json) {
-  if (!json.is_array() || json.size() != 2 || !json[0].is_number() || !json[1].is_number()) return std::nullopt;
-  const Vec2 p(json[0].get<double>(), json[1].get<double>());
-  return std::isfinite(p.x()) && std::isfinite(p.y()) ? std::optional(p) : std::nullopt;
-}
-
-/// A whole number that fits; one that does not is none, never what is left of it.
-std::optional<int> integerFromJson(const Json& json) {
-  return json.is_number_integer() ? integerFromText(json.dump()) : std::nullopt;
-}
-
-std::optional<std::vector<Vec2>> pairsFromJson(const Json& json) {
-  if (!json.is_array()) return std::nullopt;
-  std::vector<Vec2> pairs;
-  for (const Json& entry : json) {
-    const auto pair = pointFromJson(entry);
-    if (!pair) return std::nullopt;
-    pairs.push_back(*pair);
-  }
-  return pairs;
-}
-
 Result<void> readParameters(const Json& json, Recipe& recipe) {
-  if (!json.is_object()) return refuse("The recipe is damaged: \"parameters\" is not a list of names and values.");
+  if (!json.is_object())
+    return refuseRecipe("The recipe is damaged: \"parameters\" is not a list of names and values.");
   for (const auto& [name, value] : json.items()) {
     const auto text = valueText(value);
-    if (!text) return refuse("The recipe is damaged: the value of " + name + " is neither a number nor a text.");
+    if (!text) return refuseRecipe("The recipe is damaged: the value of " + name + " is neither a number nor a text.");
     if (auto set = setParameter(recipe, name, *text); !set) {
-      return refuse("The recipe cannot be used. " + set.error().message);
+      return refuseRecipe("The recipe cannot be used. " + set.error().message);
     }
   }
   return {};
@@ -154,43 +80,45 @@ std::optional<CornerMark> cornerFromJson(const Json& json) {
 }
 
 Result<void> readCorners(const Json& json, Recipe& recipe) {
-  if (!json.is_array()) return refuse("The recipe is damaged: \"corners\" is not a list of positions.");
+  if (!json.is_array()) return refuseRecipe("The recipe is damaged: \"corners\" is not a list of positions.");
   for (const Json& entry : json) {
     const auto mark = cornerFromJson(entry);
-    if (!mark) return refuse("The recipe is damaged: a corner is not a pair of numbers [x, y], or a rounded one.");
+    if (!mark)
+      return refuseRecipe("The recipe is damaged: a corner is not a pair of numbers [x, y], or a rounded one.");
     recipe.cornerMarks.push_back(*mark);
   }
   return {};
 }
 
 Result<void> readRefusedCorners(const Json& json, Recipe& recipe) {
-  if (!json.is_array()) return refuse("The recipe is damaged: \"refused_corners\" is not a list of positions.");
+  if (!json.is_array()) return refuseRecipe("The recipe is damaged: \"refused_corners\" is not a list of positions.");
   for (const Json& entry : json) {
     const auto point = pointFromJson(entry);
-    if (!point) return refuse("The recipe is damaged: a refused corner is not a pair of numbers [x, y].");
+    if (!point) return refuseRecipe("The recipe is damaged: a refused corner is not a pair of numbers [x, y].");
     recipe.refusedCornersPx.push_back(*point);
   }
   return {};
 }
 
 Result<void> readStrokes(const Json& json, Recipe& recipe) {
-  if (!json.is_array()) return refuse("The recipe is damaged: \"strokes\" is not a list.");
+  if (!json.is_array()) return refuseRecipe("The recipe is damaged: \"strokes\" is not a list.");
   for (const Json& entry : json) {
     if (!entry.is_object() || !entry.contains("points") || !entry["points"].is_array()) {
-      return refuse("The recipe is damaged: a pen stroke has no list of points.");
+      return refuseRecipe("The recipe is damaged: a pen stroke has no list of points.");
     }
     PenStroke stroke;
     for (const auto& [name, value] : entry.items()) {
       if (name == "points") continue;
       if (name != "closed" || !value.is_boolean()) {
-        return refuse("The recipe holds \"" + name +
-                      "\" in a pen stroke, which this version of Batten does not know or cannot read.");
+        return refuseRecipe("The recipe holds \"" + name +
+                            "\" in a pen stroke, which this version of Batten does not know or cannot read.");
       }
       stroke.closed = value.get<bool>();
     }
     for (const Json& place : entry["points"]) {
       const auto point = pointFromJson(place);
-      if (!point) return refuse("The recipe is damaged: a point of a pen stroke is not a pair of numbers [x, y].");
+      if (!point)
+        return refuseRecipe("The recipe is damaged: a point of a pen stroke is not a pair of numbers [x, y].");
       stroke.points.push_back(*point);
     }
     recipe.penStrokes.push_back(std::move(stroke));
@@ -199,10 +127,10 @@ Result<void> readStrokes(const Json& json, Recipe& recipe) {
 }
 
 Result<void> readSegmentPoints(const Json& json, Recipe& recipe) {
-  if (!json.is_array()) return refuse("The recipe is damaged: \"segment_points\" is not a list of positions.");
+  if (!json.is_array()) return refuseRecipe("The recipe is damaged: \"segment_points\" is not a list of positions.");
   for (const Json& entry : json) {
     const auto point = pointFromJson(entry);
-    if (!point) return refuse("The recipe is damaged: a segment point is not a pair of numbers [x, y].");
+    if (!point) return refuseRecipe("The recipe is damaged: a segment point is not a pair of numbers [x, y].");
     recipe.segmentPoints.push_back({*point});
   }
   return {};
@@ -214,7 +142,8 @@ Result<void> readPage(const Json& json, Recipe& recipe) {
   const bool isPair = isPlaced || (json.is_array() && json.size() == 2);
   const auto width = isPair ? integerFromJson(json[0]) : std::nullopt;
   const auto height = isPair ? integerFromJson(json[1]) : std::nullopt;
-  if (!width || !height) return refuse("The recipe is damaged: the size of the page is not a pair of whole numbers.");
+  if (!width || !height)
+    return refuseRecipe("The recipe is damaged: the size of the page is not a pair of whole numbers.");
   recipe.page = BlankPage{*width, *height};
   if (isPlaced) {
     recipe.page->leftMm = json[2].get<double>();
@@ -224,7 +153,7 @@ Result<void> readPage(const Json& json, Recipe& recipe) {
 }
 
 Result<void> readScanPage(const Json& json, Recipe& recipe) {
-  if (!json.is_object()) return refuse("The recipe is damaged: \"scan_page\" is not an object.");
+  if (!json.is_object()) return refuseRecipe("The recipe is damaged: \"scan_page\" is not an object.");
   for (const auto& [name, value] : json.items()) {
     const auto number = integerFromJson(value);
     if (name == "number" && number) {
@@ -232,8 +161,8 @@ Result<void> readScanPage(const Json& json, Recipe& recipe) {
     } else if (name == "pdf_dpi" && value.is_number()) {
       recipe.scanPage.pdfDpi = value.get<double>();
     } else {
-      return refuse("The recipe holds \"" + name +
-                    "\" in its scan_page, which this version of Batten does not know or cannot read.");
+      return refuseRecipe("The recipe holds \"" + name +
+                          "\" in its scan_page, which this version of Batten does not know or cannot read.");
     }
   }
   return {};
@@ -269,85 +198,8 @@ Json cornerToJson(const CornerMark& mark) {
   return json;
 }
 
-/// A choice's own setting whose words the table knows; false where the name is none of these.
-Result<bool> readWord(const std::string& name, const Json& value, PieceChoice& choice) {
-  static const std::map<std::string, std::string> kParameters = {
-      {"mode", "fairing.mode"},      {"spend", "fairing.spend"},           {"spans", "fairing.spans"},
-      {"moves", "fairing.moves"},    {"hold_start", "fairing.hold_start"}, {"hold_end", "fairing.hold_end"},
-      {"method", "construct.method"}};
-  const auto known = kParameters.find(name);
-  if (known == kParameters.end() || !value.is_string()) return false;
-  Recipe named;
-  if (auto set = setParameter(named, known->second, value.get<std::string>()); !set) return fail(set.error());
-  if (name == "mode") choice.mode = named.fairing.mode;
-  if (name == "spans") choice.spans = named.fairing.targets.spans;
-  if (name == "spend") choice.tolerancePolicy = named.fairing.tolerancePolicy;
-  if (name == "moves") choice.means = named.fairing.means;
-  if (name == "hold_start") choice.startHold = named.fairing.startHold;
-  if (name == "hold_end") choice.endHold = named.fairing.endHold;
-  if (name == "method") choice.method = named.construct.method;
-  return true;
-}
-
-std::optional<std::vector<SpanChoice>> spansFromJson(const Json& json) {
-  if (!json.is_array()) return std::nullopt;
-  std::vector<SpanChoice> spans;
-  for (const Json& entry : json) {
-    if (!entry.is_array() || entry.size() != 3) return std::nullopt;
-    const auto place = pointFromJson(Json{entry[0], entry[1]});
-    const auto degree = integerFromJson(entry[2]);
-    if (!place || !degree) return std::nullopt;
-    spans.push_back({*place, *degree});
-  }
-  return spans;
-}
-
-Result<PieceChoice> readChoice(const Json& json) {
-  PieceChoice choice;
-  if (!json.is_object()) return refuse("The recipe is damaged: an entry of \"choices\" is not an object.");
-  for (const auto& [name, value] : json.items()) {
-    const auto word = readWord(name, value, choice);
-    if (!word) return fail(word.error());
-    if (*word) continue;
-    if (name == "anchor") {
-      const auto point = pointFromJson(value);
-      if (!point) return refuse("The recipe is damaged: the anchor of a choice is not a pair of numbers [x, y].");
-      choice.anchorsPx = {*point};
-    } else if (name == "included" && value.is_boolean()) {
-      choice.included = value.get<bool>();
-    } else if (name == "part" && value.is_boolean()) {
-      choice.isPart = value.get<bool>();
-    } else if (const auto whole = integerFromJson(value); whole && name == "target") {
-      choice.target = *whole;
-    } else if (name == "tolerance" && value.is_number()) {
-      choice.toleranceMm = value.get<double>();
-    } else if (name == "detail" && value.is_number()) {
-      choice.detail = value.get<double>();
-    } else if (name == "low_pass" && value.is_number()) {
-      choice.lowPassMm = value.get<double>();
-    } else if (whole && name == "keep_extrema") {
-      choice.keepExtrema = *whole;
-    } else if (const auto pairs = pairsFromJson(value); pairs && name == "keep") {
-      choice.keepPx = *pairs;
-    } else if (pairs && name == "anchors") {
-      choice.anchorsPx = *pairs;
-    } else if (pairs && name == "splits") {
-      choice.splitsPx = *pairs;
-    } else if (const auto spans = spansFromJson(value); spans && name == "span_targets") {
-      choice.spanTargets = *spans;
-    } else if (pairs && name == "profile") {
-      for (const Vec2& p : *pairs) choice.profile.push_back({p.x(), p.y()});
-    } else {
-      return refuse("The recipe holds \"" + name +
-                    "\" in a choice, which this version of Batten does not know or cannot read.");
-    }
-  }
-  if (choice.anchorsPx.empty()) return refuse("The recipe is damaged: a choice has no anchor.");
-  return choice;
-}
-
 Result<void> readChoices(const Json& json, Recipe& recipe) {
-  if (!json.is_array()) return refuse("The recipe is damaged: \"choices\" is not a list.");
+  if (!json.is_array()) return refuseRecipe("The recipe is damaged: \"choices\" is not a list.");
   for (const Json& entry : json) {
     auto choice = readChoice(entry);
     if (!choice) return fail(choice.error());
@@ -357,28 +209,28 @@ Result<void> readChoices(const Json& json, Recipe& recipe) {
 }
 
 Result<void> readExtrema(const Json& json, Recipe& recipe) {
-  if (!json.is_array()) return refuse("The recipe is damaged: \"extrema\" is not a list.");
+  if (!json.is_array()) return refuseRecipe("The recipe is damaged: \"extrema\" is not a list.");
   for (const Json& entry : json) {
     if (!entry.is_object() || entry.size() != 2 || !entry.contains("at") || !entry.contains("keep")) {
-      return refuse("The recipe is damaged: an entry of \"extrema\" must have \"at\" and \"keep\" only.");
+      return refuseRecipe("The recipe is damaged: an entry of \"extrema\" must have \"at\" and \"keep\" only.");
     }
     const auto point = pointFromJson(entry["at"]);
-    if (!point) return refuse("The recipe is damaged: the place of an extremum is not a pair of numbers [x, y].");
+    if (!point) return refuseRecipe("The recipe is damaged: the place of an extremum is not a pair of numbers [x, y].");
     if (!entry["keep"].is_boolean())
-      return refuse("The recipe is damaged: \"keep\" of an extremum is not true or false.");
+      return refuseRecipe("The recipe is damaged: \"keep\" of an extremum is not true or false.");
     recipe.extremumChoices.push_back({*point, entry["keep"].get<bool>()});
   }
   return {};
 }
 
 Result<void> readRegions(const Json& json, Recipe& recipe) {
-  if (!json.is_array()) return refuse("The recipe is damaged: \"regions\" is not a list.");
+  if (!json.is_array()) return refuseRecipe("The recipe is damaged: \"regions\" is not a list.");
   for (const Json& entry : json) {
     RegionOfInterest region;
-    if (!entry.is_array()) return refuse("The recipe is damaged: a region is not a list of corners.");
+    if (!entry.is_array()) return refuseRecipe("The recipe is damaged: a region is not a list of corners.");
     for (const Json& corner : entry) {
       const auto point = pointFromJson(corner);
-      if (!point) return refuse("The recipe is damaged: a corner of a region is not a pair of numbers [x, y].");
+      if (!point) return refuseRecipe("The recipe is damaged: a corner of a region is not a pair of numbers [x, y].");
       region.cornersPx.push_back(*point);
     }
     recipe.regions.push_back(std::move(region));
@@ -387,13 +239,13 @@ Result<void> readRegions(const Json& json, Recipe& recipe) {
 }
 
 Result<void> readTraceModes(const Json& json, Recipe& recipe) {
-  if (!json.is_array()) return refuse("The recipe is damaged: \"ways\" is not a list.");
+  if (!json.is_array()) return refuseRecipe("The recipe is damaged: \"ways\" is not a list.");
   for (const Json& entry : json) {
     const bool isWhole = entry.is_object() && entry.size() == 2 && entry.contains("at") && entry.contains("mode");
     const auto point = isWhole ? pointFromJson(entry["at"]) : std::nullopt;
     Recipe named;
     if (!point || !entry["mode"].is_string() || !setParameter(named, "edges.mode", entry["mode"].get<std::string>())) {
-      return refuse("The recipe is damaged: an entry of \"ways\" must have \"at\" and \"mode\" only.");
+      return refuseRecipe("The recipe is damaged: an entry of \"ways\" must have \"at\" and \"mode\" only.");
     }
     recipe.edges.choices.push_back({*point, named.edges.mode});
   }
@@ -402,7 +254,7 @@ Result<void> readTraceModes(const Json& json, Recipe& recipe) {
 
 Result<void> readNumbers(const Json& json, Recipe& recipe) {
   const auto damaged = [] {
-    return refuse(
+    return refuseRecipe(
         "The recipe is damaged: \"curves\" does not hold just the \"last\" number and the numbers and places "
         "\"known\". Without \"curves\" it can be used; its curves are numbered anew then.");
   };
@@ -422,17 +274,17 @@ Result<void> readNumbers(const Json& json, Recipe& recipe) {
 
 Result<void> checkHead(const Json& json) {
   if (!json.is_object() || !json.contains("format") || json["format"] != kFormat) {
-    return refuse("This is not a Batten recipe. Choose a file that Batten saved as a recipe.");
+    return refuseRecipe("This is not a Batten recipe. Choose a file that Batten saved as a recipe.");
   }
   if (!json.contains("version") || !json["version"].is_number_integer()) {
-    return refuse("The recipe is damaged: it does not state its version.");
+    return refuseRecipe("The recipe is damaged: it does not state its version.");
   }
   const int version = integerFromJson(json["version"]).value_or(std::numeric_limits<int>::max());
   if (version > kVersion) {
-    return refuse("The recipe is of version " + json["version"].dump() + "; this Batten reads up to version " +
-                  std::to_string(kVersion) + ". Use a newer Batten.");
+    return refuseRecipe("The recipe is of version " + json["version"].dump() + "; this Batten reads up to version " +
+                        std::to_string(kVersion) + ". Use a newer Batten.");
   }
-  if (version < 1) return refuse("The recipe is damaged: it states the version " + std::to_string(version) + ".");
+  if (version < 1) return refuseRecipe("The recipe is damaged: it states the version " + std::to_string(version) + ".");
   return {};
 }
 
@@ -458,10 +310,10 @@ Result<void> readEntry(const std::string& name, const Json& value, Recipe& recip
   if (name == "curves") return readNumbers(value, recipe);
   if (const auto mark = readPlacedMark(name, value, recipe); !mark || *mark) return mark.map([](bool) {});
   if (name != "dpi") {
-    return refuse("The recipe holds \"" + name + "\", which this version of Batten does not know.");
+    return refuseRecipe("The recipe holds \"" + name + "\", which this version of Batten does not know.");
   }
   if (value.is_null()) return {};
-  if (!value.is_number()) return refuse("The recipe is damaged: its resolution is not a number.");
+  if (!value.is_number()) return refuseRecipe("The recipe is damaged: its resolution is not a number.");
   recipe.dpi = value.get<double>();
   return {};
 }
@@ -517,8 +369,9 @@ Result<Recipe> recipeFromJson(std::string_view text, const RunContext& context) 
   const auto json = parseJson(text, context);
   if (!json && json.error().code == ErrorCode::Cancelled) return cancelled();
   if (!json) {
-    return refuse("The recipe is damaged: " + json.error().message + ". Save it again, or start from the defaults.",
-                  json.error().detail);
+    return refuseRecipe(
+        "The recipe is damaged: " + json.error().message + ". Save it again, or start from the defaults.",
+        json.error().detail);
   }
   try {
     if (auto head = checkHead(*json); !head) return fail(head.error());
@@ -529,10 +382,12 @@ Result<Recipe> recipeFromJson(std::string_view text, const RunContext& context) 
     }
     // The line says the resolution, whatever was written beside it.
     if (recipe.scaleLine && resolutionOf(*recipe.scaleLine)) recipe.dpi = resolutionOf(*recipe.scaleLine);
-    if (auto wrong = validate(recipe)) return refuse("The recipe cannot be used. " + wrong->message, wrong->detail);
+    if (auto wrong = validate(recipe))
+      return refuseRecipe("The recipe cannot be used. " + wrong->message, wrong->detail);
     return recipe;
   } catch (const Json::exception& e) {
-    return refuse("The recipe is damaged and cannot be read. Save it again, or start from the defaults.", e.what());
+    return refuseRecipe("The recipe is damaged and cannot be read. Save it again, or start from the defaults.",
+                        e.what());
   }
 }
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/fairing/drawn_profile.h"
+#include "core/fairing/profile/drawn_profile.h"
 
 namespace batten {
 namespace {

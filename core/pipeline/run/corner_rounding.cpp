@@ -222,14 +222,17 @@ void addNote(std::string& notes, const std::string& note) {
 }
 
 /// The figures of the curve as it is exported: where a corner is cut off, the edge points lie beside it.
-void measureAgain(TracedCurve& curve, const NurbsCurve& unrounded, const Piece& piece, const PageFrame& frame) {
-  curve.fairing.roundedMm = std::max(deviation(curve.faired, unrounded).max, deviation(unrounded, curve.faired).max);
-  curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(piece.points, frame));
+void measureAgain(TracedCurve& curve, const NurbsCurve& unrounded, const Piece& piece, const PageFrame& frame,
+                  const RunContext& context) {
+  curve.fairing.roundedMm =
+      std::max(deviation(curve.faired, unrounded, context).max, deviation(unrounded, curve.faired, context).max);
+  curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(piece.points, frame), context);
 }
 
 }  // namespace
 
-void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, const PageFrame& frame) {
+void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, const PageFrame& frame,
+                  const RunContext& context) {
   std::vector<NurbsCurve> unrounded(pieces.pieces.size());
   for (const Corner& corner : pieces.corners) {
     if (!corner.mark) continue;
@@ -244,15 +247,14 @@ void roundCorners(FairedSet& set, const PieceSet& pieces, const Recipe& recipe, 
     }
     const bool done = roundOne(at, recipe.cornerMarks[mark], note);
     if (!done) note = kStaysSharp;
-    if (!note.empty()) addNote(at.before->fairing.note, note);
-    for (TracedCurve* curve : {at.before, at.behind}) {
-      if (!done) addNote(curve->fairing.note, note);
-    }
+    if (note.empty()) continue;
+    for (TracedCurve* curve : {at.before, at.behind}) addNote(curve->fairing.note, note);
   }
   for (TracedCurve& curve : set.curves) {
     const auto piece = static_cast<std::size_t>(curve.piece);
     const NurbsCurve& before = unrounded[piece];
-    if (!before.isEmpty() && !(before == curve.faired)) measureAgain(curve, before, pieces.pieces[piece], frame);
+    if (!before.isEmpty() && !(before == curve.faired))
+      measureAgain(curve, before, pieces.pieces[piece], frame, context);
   }
 }
 

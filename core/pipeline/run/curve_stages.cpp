@@ -252,7 +252,7 @@ class ContourBuilder {
     curve.sketched = made.curve;
     curve.dense = made.dense;
     curve.construct = std::move(made.report);
-    curve.sketchedFigures = figuresOf(made.curve, piece.closed, pointsToModel(piece.points, frame_));
+    curve.sketchedFigures = figuresOf(made.curve, piece.closed, pointsToModel(piece.points, frame_), context_);
   }
 
   const ContourSet& contours_;
@@ -278,15 +278,18 @@ std::vector<Vec2> pointsToModel(const std::vector<Vec2>& points, const PageFrame
   return result;
 }
 
-CurveFigures figuresOf(const NurbsCurve& curve, bool closed, const std::vector<Vec2>& points) {
+CurveFigures figuresOf(const NurbsCurve& curve, bool closed, const std::vector<Vec2>& points,
+                       const RunContext& context) {
   CurveFigures figures;
   figures.lengthMm = ArcLength(curve).total();
   figures.controlPoints = curve.controlPointCount();
-  figures.fromPoints = deviation(curve, points, true);
+  if (context.isCancelled()) return figures;
+  figures.fromPoints = deviation(curve, points, true, context);
   const double size = extent(curve);
   if (size > 0.0) {
-    figures.extrema = static_cast<int>(curvatureExtrema(curve, kExtremumProminence / size, closed).size());
-    figures.inflections = static_cast<int>(inflections(curve, kExtremumProminence / size, closed).size());
+    figures.extrema = static_cast<int>(curvatureExtrema(curve, kExtremumProminence / size, closed, context).size());
+    figures.inflections = static_cast<int>(inflections(curve, kExtremumProminence / size, closed, context).size());
+    if (context.isCancelled()) return figures;
     figures.curvatureJump = largestCurvatureJump(curve, closed);
   }
   return figures;

@@ -11,7 +11,7 @@ namespace batten {
 std::vector<Vec2> pointsToModel(const std::vector<Vec2>&, const PageFrame&);
 
 /// Figures of one curve; `points` are the edge points in model mm, in order.
-CurveFigures figuresOf(const NurbsCurve&, bool closed, const std::vector<Vec2>& points);
+CurveFigures figuresOf(const NurbsCurve&, bool closed, const std::vector<Vec2>& points, const RunContext&);
 
 /// One piece in the model frame, as typical chains take it (they do not ask which points of a stroke were drawn).
 ConstructPiece typicalPieceOf(const PieceSet&, const SegmentSet&, const Recipe&, const PageFrame&, std::size_t piece);

@@ -13,7 +13,7 @@
 #include "core/fairing/corner_sections.h"
 #include "core/fairing/edge_length_fairing.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/fairing_line.h"
+#include "core/fairing/model/fairing_line.h"
 #include "core/pipeline/run/choice_course.h"
 #include "core/pipeline/run/corner_rounding.h"
 #include "core/pipeline/run/curve_stages.h"
@@ -124,7 +124,7 @@ class LineFairing {
 
   /// How far what fairing starts from lies off what the deviation is measured from.
   double startsOff() const {
-    return curve_.isSimplified() ? deviation(curve_.fairingStart(), curve_.sketched).max : 0.0;
+    return curve_.isSimplified() ? deviation(curve_.fairingStart(), curve_.sketched, context_).max : 0.0;
   }
 
   Result<FairedCurve> fairedWithin(const FairingParams& params) const {
@@ -135,7 +135,7 @@ class LineFairing {
   /// Counted against the curve that the user sees, where fairing started from another; what was simplified is also
   /// measured from it.
   FairedCurve measured(FairedCurve faired) const {
-    faired.report.extremaBefore = countedExtrema(curve_.sketched, curve_.closed);
+    faired.report.extremaBefore = countedExtrema(curve_.sketched, curve_.closed, context_);
     const bool isStill = curve_.isSimplified() && faired.curve == curve_.fairingStart();
     const bool addsExtrema = faired.report.extremaAfter > faired.report.extremaBefore;
     if (isStill || addsExtrema) {
@@ -150,7 +150,8 @@ class LineFairing {
     return faired;
   }
   double distanceFromSeen(const NurbsCurve& curve) const {
-    return std::max(deviation(curve, curve_.measuredFrom()).max, deviation(curve_.measuredFrom(), curve).max);
+    return std::max(deviation(curve, curve_.measuredFrom(), context_).max,
+                    deviation(curve_.measuredFrom(), curve, context_).max);
   }
 
   /// The faired curve as a light one that holds the fairing's tolerance; none when there is none.
@@ -158,9 +159,9 @@ class LineFairing {
     auto light = lightBetweenCorners(faired.curve, curve_.closed, light_, context_);
     if (!light) return std::nullopt;
     const double moved =
-        curve_.isSimplified() ? distanceFromSeen(*light) : deviation(*light, curve_.measuredFrom()).max;
+        curve_.isSimplified() ? distanceFromSeen(*light) : deviation(*light, curve_.measuredFrom(), context_).max;
     if (moved > std::max(curve_.fairingUsed.toleranceMm, faired.report.maxDeviationMm)) return std::nullopt;
-    const int extrema = countedExtrema(*light, curve_.closed);
+    const int extrema = countedExtrema(*light, curve_.closed, context_);
     if (extrema > faired.report.extremaAfter) return std::nullopt;
     FairedCurve result{std::move(*light), faired.report};
     const NurbsCurve& start = curve_.fairingStart();
@@ -199,7 +200,7 @@ void fairOne(TracedCurve& curve, const Piece& piece, ContourKind kind, const Rec
   curve.fairing = std::move(result->report);
   // Measured from the dense curve, of which a light sketched curve is a little off: what is as drawn has not moved.
   if (curve.faired == curve.sketched) curve.fairing.maxDeviationMm = 0.0;
-  curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(piece.points, frame));
+  curve.fairedFigures = figuresOf(curve.faired, curve.closed, pointsToModel(piece.points, frame), context);
 }
 
 }  // namespace
@@ -218,7 +219,8 @@ Result<FairedSet> fairAll(const ConstructedSet& constructed, const ContourSet& c
     fairOne(curve, pieces.pieces[piece], kind, recipe, frame, inner);
   });
   if (context.isCancelled()) return cancelled();
-  roundCorners(set, pieces, recipe, frame);
+  roundCorners(set, pieces, recipe, frame, context);
+  if (context.isCancelled()) return cancelled();
   return set;
 }
 

@@ -33,10 +33,12 @@ std::string leftAsDrawnReason(const TracedCurve& curve) {
       return "Unchanged: no move within the tolerance brings the curve closer to the target.";
     case FairingMode::Tolerance:
       return curve.fairingUsed.tolerancePolicy == TolerancePolicy::AsNeeded
-                 ? "Unchanged: every wave of the curvature is supported by the line."
+                 ? "Unchanged: every extremum of the curvature is supported by the line."
                  : "Unchanged: no move within the tolerance reduces the variation of curvature.";
     case FairingMode::Monotone:
-      return "Unchanged: it has no curvature extremum to remove.";
+      return curve.fairingUsed.keepExtrema > 0 || !curve.fairingUsed.keptAt.empty()
+                 ? "Unchanged: it has no more curvature extrema than are to be kept."
+                 : "Unchanged: it has no curvature extremum to remove.";
     case FairingMode::LowPass:
       return "Unchanged: it has no waves below this wavelength.";
     case FairingMode::None:

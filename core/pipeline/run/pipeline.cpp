@@ -5,7 +5,7 @@
 #include <new>
 
 #include "core/contour/trace_contours.h"
-#include "core/image/laplacian_edges.h"
+#include "core/image/bits/laplacian_edges.h"
 #include "core/pipeline/run/corner_places.h"
 #include "core/pipeline/run/curve_stages.h"
 #include "core/pipeline/run/fair_stage.h"
@@ -20,7 +20,7 @@ std::size_t vectorBytes(const std::vector<T>& v) {
   return v.capacity() * sizeof(T);
 }
 
-// Sizes for the cache's budget: large parts exactly, the rest approximately.
+// Sizes for the cache's limit: large parts exactly, the rest approximately.
 std::size_t bytesOf(const PreparedPage& page) { return sizeof(page) + vectorBytes(page.grey.pixels); }
 std::size_t bytesOf(const RegionThresholds& t) {
   std::size_t bytes = sizeof(t) + vectorBytes(t.paper.grey);
@@ -81,14 +81,14 @@ class PipelineRun {
     for (const StageId stage : kStages) {
       if (stage > request_.upTo) break;
       if (stage == StageId::Edges && !request_.needEdges) continue;
-      if (!one(stage)) break;
+      if (!runStage(stage)) break;
       if (request_.stageReady) request_.stageReady(stage, out_);
     }
     return std::move(out_);
   }
 
  private:
-  bool one(StageId stage) {
+  bool runStage(StageId stage) {
     switch (stage) {
       case StageId::Thresholds:
         return thresholds();

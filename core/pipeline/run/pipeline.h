@@ -33,7 +33,7 @@ struct CurveFigures {
   double lengthMm = 0.0;
   int controlPoints = 0;
   Deviation fromPoints;  ///< [mm] edge points from the curve.
-  int extrema = 0;       ///< Curvature extrema of prominence >= 5e-3 / extent.
+  int extrema = 0;       ///< Curvature extrema of prominence >= kExtremumProminence / extent.
   int inflections = 0;
   double curvatureJump =
       0.0;  ///< [-] Largest at a joint, relative to the largest curvature at joints (largestCurvatureJump).

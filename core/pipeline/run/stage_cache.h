@@ -12,8 +12,8 @@
 
 namespace batten {
 
-/// Outputs of stages by key, with a byte budget, least recently used out first. Thread-safe; the only object that runs
-/// share. Errors and cancelled runs are never stored.
+/// Outputs of stages by key, with a limit in bytes, least recently used out first. Thread-safe; the only object that
+/// runs share. Errors and cancelled runs are never stored.
 class StageCache {
  public:
   explicit StageCache(std::size_t budgetBytes = std::size_t{512} << 20) : budget_(budgetBytes) {}
@@ -23,7 +23,7 @@ class StageCache {
   std::shared_ptr<const T> find(const ContentHash& key) {
     return std::static_pointer_cast<const T>(findAny(key));
   }
-  /// Stores an output that takes about `bytes`; one larger than the budget is not kept.
+  /// Stores an output that takes about `bytes`; one larger than the limit is not kept.
   void store(const ContentHash& key, std::shared_ptr<const void> value, std::size_t bytes);
   /// Everything stored so far, which it then no longer holds: to be freed where that may take a while. What is stored
   /// afterwards stays.

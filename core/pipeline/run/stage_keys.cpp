@@ -30,7 +30,7 @@ void add(HashBuilder& h, const PieceChoice& c) {
   h.integer(c.isPart)
       .integer(c.included)
       .integer(c.mode ? static_cast<int>(*c.mode) : -1)
-      .integer(c.target.value_or(-1));
+      .integer(c.target ? static_cast<int>(*c.target) : -1);
   add(h, c.toleranceMm);
   add(h, c.lowPassMm);
   h.integer(c.keepExtrema.value_or(-2));

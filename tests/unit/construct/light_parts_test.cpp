@@ -114,6 +114,74 @@ TEST(RemovalDeviation, OfASineIsItsAmplitudeInSpace) {
   }
 }
 
+/// What is removed in which order when all that is left is looked through for every removal: the oracle.
+std::vector<double> removedOneByOne(const LightReference& reference, const std::vector<RankedExtremum>& all) {
+  std::vector<double> removal(all.size(), -1.0);
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < all.size(); ++i) left.push_back(i);
+  const bool closed = reference.isClosed();
+  const auto move = [&](double kappa, double length) {
+    if (length < 0.0) length += reference.length();
+    return std::abs(kappa) * length * length / (2.0 * std::numbers::pi * std::numbers::pi);
+  };
+  double dearest = 0.0;
+  while (!left.empty() && !(closed && left.size() <= 4)) {
+    double best = std::numeric_limits<double>::infinity();
+    std::vector<std::size_t> gone;
+    for (std::size_t i = 0; i + (closed ? 0 : 1) < left.size(); ++i) {
+      const std::size_t a = left[i], b = left[(i + 1) % left.size()];
+      const double cost = move(all[b].kappa - all[a].kappa, all[b].s - all[a].s);
+      if (cost < best) best = cost, gone = {a, b};
+    }
+    const auto offerEnd = [&](std::size_t which, const LightSample& end) {
+      const double cost = move(end.kappa - all[which].kappa, std::abs(end.s - all[which].s));
+      if (cost < best) best = cost, gone = {which};
+    };
+    if (!closed) offerEnd(left.front(), reference.samples().front());
+    if (!closed) offerEnd(left.back(), reference.samples().back());
+    dearest = std::max(dearest, best);
+    for (const std::size_t which : gone) {
+      removal[which] = dearest;
+      std::erase(left, which);
+    }
+  }
+  return removal;
+}
+
+TEST(RemovalDeviation, IsThatOfASearchThroughAllThatAreLeft) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int round = 0; round < 12; ++round) {
+    std::vector<double> height, phase;
+    for (int k = 0; k < 9; ++k) height.push_back(share(random)), phase.push_back(6.3 * share(random));
+    // Every third line is an even wave: equal costs, of which the first counts.
+    const auto kappa = [&](double s) {
+      if (round % 3 == 0) return 1e-3 + 4e-4 * std::sin(2.0 * std::numbers::pi * s / 50.0);
+      double sum = 1e-3;
+      for (int k = 0; k < 9; ++k) sum += 1e-4 * height[k] * std::sin(0.02 * (k + 1) * s + phase[k]);
+      return sum;
+    };
+    const LightReference open = referenceOf(lineOf(kappa, 900), false);
+    const auto ranked = rankedExtrema(open, 1e-9);
+    EXPECT_GT(ranked.size(), 10u);
+    const auto truth = removedOneByOne(open, ranked);
+    for (std::size_t i = 0; i < ranked.size(); ++i) EXPECT_EQ(ranked[i].removal.value_or(-1.0), truth[i]) << round;
+  }
+  std::vector<Vec2> flower;
+  for (int i = 0; i < 1500; ++i) {
+    const double a = 2.0 * std::numbers::pi * i / 1500.0;
+    const double r = 200.0 + 3.0 * std::sin(7.0 * a) + 1.3 * std::cos(17.0 * a + 1.0) + 0.7 * std::sin(29.0 * a);
+    flower.emplace_back(r * std::cos(a), r * std::sin(a));
+  }
+  const auto around = LightReference::through(flower, true);
+  ASSERT_TRUE(around);
+  const auto ranked = rankedExtrema(*around, 1e-6);
+  EXPECT_GT(ranked.size(), 20u);
+  const auto truth = removedOneByOne(*around, ranked);
+  for (std::size_t i = 0; i < ranked.size(); ++i) EXPECT_EQ(ranked[i].removal.value_or(-1.0), truth[i]);
+  EXPECT_EQ(significantExtrema(ranked, std::numeric_limits<double>::max()).size(), 4u);
+}
+
 TEST(RemovalDeviation, LeavesAnEllipseItsFour) {
   const auto truth = test::truthShape("ellipse", 640, 480);
   const auto ranked = rankedExtrema(referenceOf(truth.pieces[0], true), 1e-6);

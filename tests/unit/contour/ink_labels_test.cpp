@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/image/bit_steps.h"
+#include "core/image/bits/bit_steps.h"
 #include "tests/support/label_page.h"
 
 namespace batten {

@@ -10,7 +10,7 @@
 
 #include "core/contour/centreline/on_ink.h"
 #include "core/contour/trace_contours.h"
-#include "core/image/bit_steps.h"
+#include "core/image/bits/bit_steps.h"
 #include "tests/support/label_page.h"
 
 namespace batten {

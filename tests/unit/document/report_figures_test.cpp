@@ -36,7 +36,7 @@ TracedCurve fairedTo(const NurbsCurve& start, int degree) {
   TracedCurve curve;
   curve.sketched = start;
   curve.fairingUsed.mode = FairingMode::Target;
-  curve.fairingUsed.target = degree;
+  curve.fairingUsed.target = targetOfDegree(degree);
   curve.fairingUsed.toleranceMm = 1.0;
   auto faired = fair(start, false, curve.fairingUsed, {});
   EXPECT_TRUE(faired) << faired.error().message;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/exchange/arrangement.h"
+#include "core/exchange/model/arrangement.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,18 +10,18 @@
 #include <set>
 #include <utility>
 
-#include "core/exchange/cad_drawing.h"
-#include "core/exchange/csv_writer.h"
-#include "core/exchange/dxf_reader.h"
+#include "core/exchange/cad/dxf_reader.h"
+#include "core/exchange/cad/rhino_reader.h"
 #include "core/exchange/export_file.h"
 #include "core/exchange/import_file.h"
+#include "core/exchange/model/cad_drawing.h"
 #include "core/exchange/occt/iges.h"
 #include "core/exchange/occt/open_cascade.h"
 #include "core/exchange/occt/step_reader.h"
 #include "core/exchange/pdf_writer.h"
-#include "core/exchange/polynomial_writer.h"
-#include "core/exchange/rhino_reader.h"
-#include "core/exchange/svg_check.h"
+#include "core/exchange/svg/svg_check.h"
+#include "core/exchange/text/csv_writer.h"
+#include "core/exchange/text/polynomial_writer.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
 namespace batten {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/exchange/cad_shape.h"
+#include "core/exchange/model/cad_shape.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "core/exchange/export_file.h"
-#include "core/exchange/svg_reader.h"
-#include "core/exchange/svg_writer.h"
+#include "core/exchange/svg/svg_reader.h"
+#include "core/exchange/svg/svg_writer.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
 namespace batten {

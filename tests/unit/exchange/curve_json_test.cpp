@@ -4,7 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/exchange/curve_json.h"
+#include "core/exchange/text/curve_json.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
 namespace batten {

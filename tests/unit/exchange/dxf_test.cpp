@@ -4,10 +4,10 @@
 #include <random>
 
 #include "core/curve/closest_point.h"
-#include "core/exchange/cad_drawing.h"
-#include "core/exchange/dxf_reader.h"
-#include "core/exchange/dxf_writer.h"
+#include "core/exchange/cad/dxf_reader.h"
+#include "core/exchange/cad/dxf_writer.h"
 #include "core/exchange/export_file.h"
+#include "core/exchange/model/cad_drawing.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
 namespace batten {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/curve/knot_operations.h"
-#include "core/exchange/cad_shape.h"
-#include "core/exchange/export_model.h"
+#include "core/exchange/model/cad_shape.h"
+#include "core/exchange/model/export_model.h"
 
 namespace batten::test {
 

@@ -12,12 +12,12 @@
 
 #include "core/base/number_text.h"
 #include "core/curve/arc_length.h"
-#include "core/exchange/cad_drawing.h"
-#include "core/exchange/csv_writer.h"
-#include "core/exchange/dxf_reader.h"
-#include "core/exchange/dxf_writer.h"
-#include "core/exchange/file_text.h"
-#include "core/exchange/polynomial_writer.h"
+#include "core/exchange/cad/dxf_reader.h"
+#include "core/exchange/cad/dxf_writer.h"
+#include "core/exchange/model/cad_drawing.h"
+#include "core/exchange/model/file_text.h"
+#include "core/exchange/text/csv_writer.h"
+#include "core/exchange/text/polynomial_writer.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
 namespace batten {

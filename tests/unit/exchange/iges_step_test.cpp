@@ -5,9 +5,9 @@
 #include <regex>
 
 #include "core/curve/closest_point.h"
-#include "core/exchange/cad_drawing.h"
-#include "core/exchange/drawing_figures.h"
 #include "core/exchange/export_file.h"
+#include "core/exchange/model/cad_drawing.h"
+#include "core/exchange/model/drawing_figures.h"
 #include "core/exchange/occt/iges.h"
 #include "core/exchange/occt/open_cascade.h"
 #include "core/exchange/occt/step_reader.h"

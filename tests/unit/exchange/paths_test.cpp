@@ -10,10 +10,10 @@
 #include "core/curve/arc_length.h"
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
-#include "core/exchange/cubic_path.h"
 #include "core/exchange/export_file.h"
+#include "core/exchange/model/cubic_path.h"
 #include "core/exchange/pdf_writer.h"
-#include "core/exchange/svg_writer.h"
+#include "core/exchange/svg/svg_writer.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
 namespace batten {

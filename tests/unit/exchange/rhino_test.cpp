@@ -9,8 +9,8 @@
 #include <set>
 
 #include "core/curve/closest_point.h"
+#include "core/exchange/cad/rhino_reader.h"
 #include "core/exchange/export_file.h"
-#include "core/exchange/rhino_reader.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
 namespace batten {

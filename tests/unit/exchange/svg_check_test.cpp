@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "core/exchange/svg_check.h"
-#include "core/exchange/svg_reader.h"
-#include "core/exchange/svg_writer.h"
+#include "core/exchange/svg/svg_check.h"
+#include "core/exchange/svg/svg_reader.h"
+#include "core/exchange/svg/svg_writer.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
 namespace batten {

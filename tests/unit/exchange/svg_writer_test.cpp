@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "core/curve/closest_point.h"
-#include "core/exchange/curve_json.h"
-#include "core/exchange/svg_check.h"
-#include "core/exchange/svg_writer.h"
+#include "core/exchange/svg/svg_check.h"
+#include "core/exchange/svg/svg_writer.h"
+#include "core/exchange/text/curve_json.h"
 #include "tests/unit/exchange/exchange_shapes.h"
 
 namespace batten {

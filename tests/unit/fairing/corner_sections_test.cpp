@@ -75,7 +75,7 @@ TEST(CornerSections, TilesShowWhatChoosingThemGives) {
   const double at = cornerSections(curve, false)[0].span.to;
   EXPECT_TRUE(std::any_of(all.splits.begin(), all.splits.end(), [&](double f) { return std::abs(f - at) < 1e-9; }));
   for (int degree = 1; degree <= 6; ++degree) {
-    params.target = degree;
+    params.target = targetOfDegree(degree);
     const auto chosen = fairBetweenCorners(curve, false, params, {});
     ASSERT_TRUE(chosen);
     const auto index = static_cast<std::size_t>(degree) - 1;

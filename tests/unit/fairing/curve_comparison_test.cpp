@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/fairing/curve_comparison.h"
+#include "core/fairing/profile/curve_comparison.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/fairing/similarity.h"
+#include "core/fairing/profile/similarity.h"
 #include "tests/unit/fairing/fairing_curves.h"
 
 namespace batten {

@@ -63,7 +63,7 @@ double misfit(const NurbsCurve& curve, double from, double to) {
 TEST(EdgeLengthFairing, FollowsADrawnCurvatureWithOneCurvatureAtEveryJoint) {
   const NurbsCurve path = clothoidPath(1);
   FairingParams params = edges(20.0);
-  params.target = kDrawnTarget;
+  params.target = FairingTarget::Drawn;
   params.profile = {{0.0, 0.001}, {1.0, 0.008}};
   const auto faired = fairByEdgeLengths(path, false, params, {});
   ASSERT_TRUE(faired) << faired.error().message;
@@ -82,7 +82,7 @@ TEST(EdgeLengthFairing, NeverLeavesTheTolerance) {
     for (const FairingMode mode : {FairingMode::Target, FairingMode::LowPass}) {
       FairingParams params = edges(tolerance);
       params.mode = mode;
-      params.target = 1;
+      params.target = FairingTarget::Degree1;
       params.lowPassMm = 200.0;
       const auto faired = fairByEdgeLengths(path, false, params, {});
       ASSERT_TRUE(faired);
@@ -96,7 +96,7 @@ TEST(EdgeLengthFairing, NeverLeavesTheTolerance) {
 TEST(EdgeLengthFairing, KeepsHeldTangents) {
   const NurbsCurve path = clothoidPath(3);
   FairingParams params = edges(5.0);
-  params.target = 1;
+  params.target = FairingTarget::Degree1;
   params.startHold.tangent = params.endHold.tangent = true;
   const auto faired = fairByEdgeLengths(path, false, params, {});
   ASSERT_TRUE(faired);
@@ -109,7 +109,7 @@ TEST(EdgeLengthFairing, MovesControlPointsOfOtherCurvesAndSaysSo) {
                                        {{0, 0}, {10, 3}, {20, 5}, {30, 6}, {40, 5}, {50, 3}, {60, 1}, {70, -5}});
   ASSERT_TRUE(spline);
   FairingParams params = edges(1.0);
-  params.target = 2;
+  params.target = FairingTarget::Degree2;
   const auto faired = fairByEdgeLengths(*spline, false, params, {});
   ASSERT_TRUE(faired);
   EXPECT_FALSE(faired->report.note.empty());
@@ -135,7 +135,7 @@ TEST(EdgeLengthFairing, IsWhatTheTargetsShow) {
     const auto at = static_cast<std::size_t>(degree - 1);
     if (!outcomes->targets.profiles[at].valid) continue;
     FairingParams params = edges(0.5);
-    params.target = degree;
+    params.target = targetOfDegree(degree);
     const auto chosen = fairByEdgeLengths(curve.sketched, false, params, {});
     ASSERT_TRUE(chosen && outcomes->faired[at]);
     EXPECT_EQ(outcomes->faired[at]->report.maxDeviationMm, chosen->report.maxDeviationMm);

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
@@ -40,12 +42,36 @@ NurbsCurve randomLine(std::mt19937& random) {
 /// How many lines: some by default, BATTEN_RANDOM_LINES where it is set.
 int lineCount() { return test::askedCount("BATTEN_RANDOM_LINES", 50); }
 
+/// Times that the curvature turns back by more than rounding, counted the plain way.
+int turnsOf(const NurbsCurve& curve) {
+  constexpr int kPlaces = 4000;
+  std::vector<double> kappa;
+  for (int i = 0; i <= kPlaces; ++i)
+    kappa.push_back(curvature(curve, curve.start() + (curve.end() - curve.start()) * i / kPlaces).value());
+  const auto [low, high] = std::minmax_element(kappa.begin(), kappa.end());
+  const double flat = 1e-8 * std::max(std::abs(*low), std::abs(*high));
+  int turns = 0, direction = 0;
+  double extreme = kappa.front();
+  for (const double value : kappa) {
+    if (direction == 0 && std::abs(value - extreme) <= flat) continue;
+    if (direction == 0) direction = value > extreme ? 1 : -1;
+    if (direction * (value - extreme) >= 0.0) {
+      extreme = value;
+    } else if (direction * (extreme - value) > flat) {
+      ++turns;
+      direction = -direction;
+      extreme = value;
+    }
+  }
+  return turns;
+}
+
 constexpr std::array kTolerances = {0.03, 0.13, 0.6, 5.0};
 
 FairingParams paramsOf(FairingMode mode, int choice) {
   FairingParams params;
   params.mode = mode;
-  if (mode == FairingMode::Target) params.target = choice;
+  if (mode == FairingMode::Target) params.target = *targetOfNumber(choice);
   if (mode == FairingMode::Monotone) params.keepExtrema = choice;
   if (mode == FairingMode::Tolerance)
     params.tolerancePolicy = choice > 0 ? TolerancePolicy::All : TolerancePolicy::AsNeeded;
@@ -95,14 +121,16 @@ TEST(LargerTolerance, WhatATargetOrANumberOfExtremaNeedsDoesNotDependOnIt) {
   std::mt19937 random(515);
   for (int i = 0; i < lineCount(); ++i) {
     const NurbsCurve line = randomLine(random);
-    for (const Asked& asked : {Asked{FairingMode::Target, 1}, Asked{FairingMode::Target, 4}}) {
+    for (const Asked& asked :
+         {Asked{FairingMode::Target, 1}, Asked{FairingMode::Target, 4}, Asked{FairingMode::Monotone, i % 4}}) {
       FairingParams params = paramsOf(asked.mode, asked.choice);
       // One and the same target: natural spans are other ones for another tolerance.
       params.targets.spans = TargetSpans::Whole;
       double needed = -1.0;
       for (const double tolerance : kTolerances) {
         params.toleranceMm = tolerance;
-        SCOPED_TRACE(testing::Message() << "line " << i << ", choice " << asked.choice << ", tolerance " << tolerance);
+        SCOPED_TRACE(testing::Message() << "line " << i << ", mode " << static_cast<int>(asked.mode) << " "
+                                        << asked.choice << ", tolerance " << tolerance);
         const auto faired = fair(line, false, params, {});
         ASSERT_TRUE(faired);
         if (needed < 0.0) needed = faired->report.neededMm;
@@ -110,6 +138,50 @@ TEST(LargerTolerance, WhatATargetOrANumberOfExtremaNeedsDoesNotDependOnIt) {
         EXPECT_EQ(faired->report.withinTolerance, needed <= 0.999 * tolerance);
       }
     }
+  }
+}
+
+/// Of equally many extrema a larger tolerance takes the curve whose curvature turns back less often, of these the
+/// nearer one: what a smaller tolerance has found is still there to be taken.
+TEST(LargerTolerance, KeepsWhatASmallerOneFindsUnlessItFindsBetter) {
+  std::mt19937 random(818);
+  for (int i = 0; i < (lineCount() + 1) / 2; ++i) {
+    const NurbsCurve line = randomLine(random);
+    FairingParams params = paramsOf(FairingMode::Monotone, i % 3 == 0 ? i / 3 % 4 : kKeepSignificant);
+    std::optional<FairedCurve> before;
+    for (double tolerance = 0.02 * std::pow(1.7, i % 4); tolerance < 8.0; tolerance *= 4.9) {
+      params.toleranceMm = tolerance;
+      SCOPED_TRACE(testing::Message() << "line " << i << ", extrema " << params.keepExtrema << ", tolerance "
+                                      << tolerance);
+      const auto faired = fair(line, false, params, {});
+      ASSERT_TRUE(faired) << faired.error().message;
+      const FairingReport& report = faired->report;
+      if (before && !(faired->curve == before->curve)) {
+        EXPECT_LE(report.extremaAfter, before->report.extremaAfter);
+        if (report.extremaAfter == before->report.extremaAfter) {
+          EXPECT_TRUE(turnsOf(faired->curve) < turnsOf(before->curve) ||
+                      report.maxDeviationMm < before->report.maxDeviationMm);
+        }
+      }
+      before = *faired;
+    }
+  }
+}
+
+TEST(LargerTolerance, ANumberOfExtremaNeedsNoMoreThanTheWayThatReachesIt) {
+  std::mt19937 random(919);
+  for (int i = 0; i < (lineCount() + 1) / 2; ++i) {
+    const NurbsCurve line = randomLine(random);
+    FairingParams params = paramsOf(FairingMode::Monotone, kKeepSignificant);
+    params.toleranceMm = 0.05 * std::pow(3.0, i % 4);
+    SCOPED_TRACE(testing::Message() << "line " << i << ", tolerance " << params.toleranceMm);
+    const auto fewest = fair(line, false, params, {});
+    ASSERT_TRUE(fewest);
+    params.keepExtrema = fewest->report.extremaAfter;
+    const auto asked = fair(line, false, params, {});
+    ASSERT_TRUE(asked);
+    EXPECT_LE(asked->report.neededMm, fewest->report.maxDeviationMm * (1.0 + 1e-9));
+    EXPECT_TRUE(asked->report.withinTolerance);
   }
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/fairing/like_profile.h"
+#include "core/fairing/profile/like_profile.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/curve/knot_operations.h"
-#include "core/fairing/curve_comparison.h"
 #include "core/fairing/fairing.h"
+#include "core/fairing/profile/curve_comparison.h"
 #include "tests/unit/fairing/fairing_curves.h"
 
 namespace batten {
@@ -48,7 +48,7 @@ TEST(LikeProfile, MakesACurveLikeAnother) {
   const NurbsCurve model = bend(80.0), sketch = test::noisy(test::arc(100.0, 1.0, 20), 0.05, 5);
   FairingParams params;
   params.mode = FairingMode::Target;
-  params.target = kDrawnTarget;
+  params.target = FairingTarget::Drawn;
   params.toleranceMm = 10.0;
   params.profile = profileLike(shapeOf(model), sketch, false);
   ASSERT_FALSE(validate(params));

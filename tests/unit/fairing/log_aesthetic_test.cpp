@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/fairing/log_aesthetic.h"
+#include "core/fairing/target/log_aesthetic.h"
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ TEST(LogAesthetic, FairsWithinTheToleranceAndReportsItsSpans) {
   const NurbsCurve sketch = test::noisy(spiralCurve(0.5), 0.03, 11);
   FairingParams params;
   params.mode = FairingMode::Target;
-  params.target = kLogAestheticTarget;
+  params.target = FairingTarget::LogAesthetic;
   params.targets.spans = TargetSpans::Whole;
   params.toleranceMm = 0.5;
   const auto faired = fair(sketch, false, params, {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/fairing/natural_spans.h"
+#include "core/fairing/target/natural_spans.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "core/curve/curvature.h"
 #include "core/curve/curvature_structure.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/span_fairing.h"
+#include "core/fairing/target/span_fairing.h"
 #include "tests/unit/fairing/fairing_curves.h"
 
 namespace batten {
@@ -52,7 +52,7 @@ NurbsCurve twoBumps(double trifle) {
 FairingParams toTarget(int degree, double tolerance) {
   FairingParams params;
   params.mode = FairingMode::Target;
-  params.target = degree;
+  params.target = targetOfDegree(degree);
   params.toleranceMm = tolerance;
   return params;
 }

@@ -8,7 +8,7 @@
 #include "core/curve/arc_length.h"
 #include "core/curve/curvature_structure.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/low_pass.h"
+#include "core/fairing/target/low_pass.h"
 #include "tests/unit/fairing/fairing_curves.h"
 
 namespace batten {
@@ -65,7 +65,7 @@ TEST(DrawnProfile, TheCurveFollowsIt) {
   const NurbsCurve start = test::arc(100.0, 1.2, 24);
   FairingParams params;
   params.mode = FairingMode::Target;
-  params.target = kDrawnTarget;
+  params.target = FairingTarget::Drawn;
   params.toleranceMm = 20.0;
   params.profile = {{0.0, 0.006}, {1.0, 0.014}};
   const auto faired = fair(start, false, params, {});
@@ -111,7 +111,7 @@ TEST(SplitProfile, TwoRampsThatOnePolynomialCannotFollow) {
   for (double f = 0.02; f < 1.0; f += 0.02) EXPECT_NEAR(line.curvatureAt(f), tent(f), 2e-4) << f;
   EXPECT_NEAR(line.curvatureAt(0.4 - 1e-9), line.curvatureAt(0.4 + 1e-9), 1e-9) << "parts meet";
   params.mode = FairingMode::Target;
-  params.target = 1;
+  params.target = FairingTarget::Degree1;
   const auto faired = fair(test::noisy(start, 0.001, 3), false, params, {});
   ASSERT_TRUE(faired);
   EXPECT_TRUE(faired->report.withinTolerance) << faired->report.neededMm;

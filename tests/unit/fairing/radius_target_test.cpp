@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/fairing/radius_target.h"
+#include "core/fairing/profile/radius_target.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/fairing/polynomial_fit.h"
-#include "core/fairing/similarity.h"
+#include "core/fairing/profile/polynomial_fit.h"
+#include "core/fairing/profile/similarity.h"
 #include "tests/support/known_answers.h"
 #include "tests/unit/fairing/fairing_curves.h"
 

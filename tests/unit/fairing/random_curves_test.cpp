@@ -84,7 +84,7 @@ TEST(RandomCurves, AreFairedWithinTheToleranceInEveryMode) {
     params.keepExtrema = i / 4 % 5 - 1;
     params.lowPassMm = std::pow(10.0, 2.5 * uniform(random));
     if (i % 3 == 0) params.targets.splits = {0.3 + 0.4 * uniform(random)};
-    params.target = i % 7;
+    params.target = *targetOfNumber(i % 7);
     params.toleranceMm = 0.01 * std::pow(100.0, uniform(random));
     params.targets.monotone = i % 3 != 0;
     params.startHold = {i % 11 == 0, i % 13 == 0};

@@ -5,11 +5,11 @@
 
 #include "core/curve/closest_point.h"
 #include "core/curve/curvature.h"
-#include "core/fairing/curvature_rows.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/fairing_model.h"
-#include "core/fairing/minimise.h"
-#include "core/fairing/shape_modification.h"
+#include "core/fairing/model/curvature_rows.h"
+#include "core/fairing/model/fairing_model.h"
+#include "core/fairing/model/minimise.h"
+#include "core/fairing/target/shape_modification.h"
 #include "tests/support/known_answers.h"
 #include "tests/unit/fairing/fairing_curves.h"
 
@@ -148,7 +148,7 @@ TEST(ModifyShape, NeverLeavesTheToleranceAndSaysWhy) {
   for (const double tolerance : {0.01, 0.05, 0.2, 1.0, 5.0}) {
     FairingParams params;
     params.mode = FairingMode::Target;
-    params.target = 3;
+    params.target = FairingTarget::Degree3;
     params.targets.spans = TargetSpans::Whole;
     params.toleranceMm = tolerance;
     const auto faired = fair(start, false, params, {});
@@ -174,7 +174,7 @@ TEST(ModifyShape, HoldsTangentAndCurvatureOfTheEnds) {
   const NurbsCurve start = test::noisy(test::ellipseQuarter(200, 120, 20), 0.3, 5);
   FairingParams params;
   params.mode = FairingMode::Target;
-  params.target = 2;
+  params.target = FairingTarget::Degree2;
   params.toleranceMm = 2.0;
   params.startHold.tangent = true;
   params.endHold.curvature = true;

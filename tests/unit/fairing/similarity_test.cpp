@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/fairing/similarity.h"
+#include "core/fairing/profile/similarity.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/bit_disc.h"
+#include "core/image/bits/bit_disc.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "core/image/binarize.h"
-#include "core/image/bit_steps.h"
+#include "core/image/bits/bit_steps.h"
 
 namespace batten {
 namespace {

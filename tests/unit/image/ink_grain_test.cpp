@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/ink_grain.h"
+#include "core/image/bits/ink_grain.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/image/binarize.h"
-#include "core/image/region_thresholds.h"
+#include "core/image/threshold/region_thresholds.h"
 
 namespace batten {
 namespace {

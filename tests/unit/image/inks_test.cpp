@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/inks.h"
+#include "core/image/colour/inks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/level_masks.h"
+#include "core/image/threshold/level_masks.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/image/plane.h"
-#include "core/image/region_surface.h"
+#include "core/image/threshold/region_surface.h"
 
 namespace batten {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/neighbourhood_filter.h"
+#include "core/image/bits/neighbourhood_filter.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "core/image/laplacian_edges.h"
+#include "core/image/bits/laplacian_edges.h"
 #include "tests/support/known_answers.h"
 #include "tests/unit/image/random_image.h"
 

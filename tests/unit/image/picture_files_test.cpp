@@ -7,7 +7,7 @@
 #include <cstring>
 #include <random>
 
-#include "core/image/scan_grey.h"
+#include "core/image/file/scan_grey.h"
 
 namespace batten {
 namespace {

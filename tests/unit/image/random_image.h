@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "core/image/bit_image.h"
+#include "core/image/bits/bit_image.h"
 
 namespace batten::test {
 

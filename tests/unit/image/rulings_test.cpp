@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/find_rulings.h"
-#include "core/image/remove_rulings.h"
+#include "core/image/ruling/find_rulings.h"
+#include "core/image/ruling/remove_rulings.h"
 
 #include <gtest/gtest.h>
 

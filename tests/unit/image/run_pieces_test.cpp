@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/run_pieces.h"
+#include "core/image/bits/run_pieces.h"
 
 #include <gtest/gtest.h>
 

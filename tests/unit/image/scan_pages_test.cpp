@@ -7,8 +7,8 @@
 #include <random>
 #include <string>
 
+#include "core/image/file/scan_reader.h"
 #include "core/image/pdf/pdf_page.h"
-#include "core/image/scan_reader.h"
 
 namespace batten {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/image/scan_reader.h"
+#include "core/image/file/scan_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/image/scan_grey.h"
+#include "core/image/file/scan_grey.h"
 
 namespace batten {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/image/binarize.h"
 #include "core/image/push_pull.h"
-#include "core/image/region_values.h"
+#include "core/image/threshold/region_values.h"
 
 namespace batten {
 namespace {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A page filled by one line with hundreds of corners: each of its long stages hears a cancel while it works, and none
-// comes to its end.
+// A page filled by one line with hundreds of corners, or with hundreds of bends and no corner: each of its long stages
+// hears a cancel while it works, and none comes to its end.
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <thread>
@@ -41,6 +43,26 @@ std::vector<Vec2> hilbertCurve(int order) {
   return line;
 }
 
+/// Rows of waves of two heights, one behind the other.
+std::vector<Vec2> rowsOfWaves(int sizePx) {
+  constexpr double kRowPx = 40.0, kWavePx = 60.0;
+  const double left = 1.5 * kRowPx, right = sizePx - left;
+  std::vector<Vec2> line;
+  bool forward = true;
+  for (double y = left; y + kRowPx < right; y += kRowPx, forward = !forward) {
+    for (double x = left; x <= right; x += 1.0) {
+      const double phase = 2.0 * std::numbers::pi * (x - left) / kWavePx;
+      const double height = static_cast<int>(std::floor(phase / std::numbers::pi)) % 3 == 0 ? 8.0 : 5.0;
+      line.emplace_back(forward ? x : left + right - x, y + height * std::sin(phase));
+    }
+    for (double angle = 0.0; angle < std::numbers::pi; angle += 2.0 / kRowPx) {
+      const double out = 0.5 * kRowPx * std::sin(angle);
+      line.emplace_back(forward ? right + out : left - out, y + 0.5 * kRowPx * (1.0 - std::cos(angle)));
+    }
+  }
+  return line;
+}
+
 Recipe asDrawn() {
   Recipe recipe;
   recipe.preparation.rulings = RulingUse::Keep;  // so many straight lines look like squared paper
@@ -55,7 +77,7 @@ class CancellingAPage : public testing::Test {
     scan_ = test::scanOfLines(test::coverageOf({hilbertCurve(kOrder)}, kStrokePx, size, size), size, size, 1);
   }
   /// Cancels a moment after the stage before has been ready. What is in the cache need not be computed again.
-  PipelineOutput cancelledAfter(StageId before) {
+  PipelineOutput cancelledAfter(StageId before, const Recipe& recipe = asDrawn()) {
     using Clock = std::chrono::steady_clock;
     RunContext context;
     std::optional<Clock::time_point> asked;
@@ -70,7 +92,7 @@ class CancellingAPage : public testing::Test {
         context.cancel.cancel();
       });
     };
-    PipelineOutput out = runPipeline(scan_, asDrawn(), cache_, request, context);
+    PipelineOutput out = runPipeline(scan_, recipe, cache_, request, context);
     const auto ended = Clock::now();
     if (other.joinable()) other.join();
     if (asked) {
@@ -103,6 +125,23 @@ TEST_F(CancellingAPage, IsHeardInEveryLongStage) {
   const PipelineOutput fairing = cancelledAfter(StageId::Curves);
   expectCancelled(fairing);
   EXPECT_NE(fairing.constructed, nullptr);
+  EXPECT_EQ(fairing.faired, nullptr);
+}
+
+TEST_F(CancellingAPage, IsHeardInOneLongPiece) {
+  constexpr int kSizePx = 640;
+  scan_ = test::scanOfLines(test::coverageOf({rowsOfWaves(kSizePx)}, kStrokePx, kSizePx, kSizePx), kSizePx, kSizePx, 1);
+  Recipe uncut = asDrawn();
+  uncut.corners.automatic = false;
+  const PipelineOutput constructing = cancelledAfter(StageId::Segments, uncut);
+  expectCancelled(constructing);
+  ASSERT_NE(constructing.pieces, nullptr);
+  EXPECT_EQ(constructing.pieces->pieces.size(), 1u);
+  EXPECT_EQ(constructing.constructed, nullptr);
+  const PipelineOutput fairing = cancelledAfter(StageId::Curves, uncut);
+  expectCancelled(fairing);
+  ASSERT_NE(fairing.constructed, nullptr);
+  EXPECT_GT(fairing.constructed->curves.at(0).sketchedFigures.extrema, 100) << "the piece is to have many bends";
   EXPECT_EQ(fairing.faired, nullptr);
 }
 

@@ -44,7 +44,7 @@ PieceChoice drawnOn(const Piece& piece, const std::vector<ProfilePoint>& profile
   PieceChoice choice;
   choice.anchorsPx = anchorsOf(piece);
   choice.mode = FairingMode::Target;
-  choice.target = kDrawnTarget;
+  choice.target = FairingTarget::Drawn;
   choice.profile = profile;
   choice.startHold = EndHold{true, false};
   choice.endHold = EndHold{true, true};

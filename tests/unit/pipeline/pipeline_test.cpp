@@ -292,7 +292,7 @@ TEST(Report, HoldsStagesCurvesAndTargetsWithoutNaN) {
   extras.peakMemoryBytes = 123;
   auto targets = targetsFor(out.faired->curves[0], {});
   ASSERT_TRUE(targets);
-  extras.targets.push_back(std::move(*targets));
+  extras.targets.push_back(std::move(targets));
   const auto json = nlohmann::json::parse(reportToJson(test::ellipseScan(), recipe, out, extras));
   EXPECT_EQ(json["stages"].size(), kStages.size());
   ASSERT_EQ(json["curves"].size(), 1u);

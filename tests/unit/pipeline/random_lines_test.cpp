@@ -13,8 +13,8 @@
 #include "core/curve/curvature.h"
 #include "core/fairing/edge_length_fairing.h"
 #include "core/fairing/fairing.h"
-#include "core/fairing/fairing_line.h"
 #include "core/fairing/fairing_report.h"
+#include "core/fairing/model/fairing_line.h"
 #include "core/pipeline/recipe/parameter_table.h"
 #include "tests/support/asked_count.h"
 
@@ -171,7 +171,7 @@ TEST_P(RandomLines, GiveSoundCurvesInEveryWay) {
       const NurbsCurve& curve = curves[(static_cast<std::size_t>(trial) + i) % curves.size()];
       SCOPED_TRACE("fairing " + modes[i].name + ", line " + std::to_string(trial));
       Recipe recipe = recipeOf(modes[i]);
-      recipe.fairing.target = trial % 7;
+      recipe.fairing.target = *targetOfNumber(trial % 7);
       recipe.fairing.toleranceMm = 0.02 * std::pow(100.0, uniform(random));
       recipe.fairing.targets.monotone = trial % 3 != 0;
       const FairingLine line{trial % 2 == 0 ? contour.pieces[0].points : std::vector<Vec2>{}, 1.0};

@@ -22,11 +22,11 @@ Recipe fullRecipe() {
   r.fairing.mode = FairingMode::Tolerance;
   r.fairing.endHold = {true, true};
   r.choices = {{{Vec2(10.1, 20.2)}, false, std::nullopt, std::nullopt, std::nullopt},
-               {{Vec2(0.3, 0.7)}, true, FairingMode::Target, 4, 0.123},
+               {{Vec2(0.3, 0.7)}, true, FairingMode::Target, FairingTarget::Degree4, 0.123},
                {{Vec2(3.0, 4.0), Vec2(1.0 / 3.0, 5.0)},
                 true,
                 FairingMode::Monotone,
-                kDrawnTarget,
+                FairingTarget::Drawn,
                 std::nullopt,
                 12.5,
                 3,

@@ -43,7 +43,7 @@ TEST(StageKeys, EveryChoiceForACurveChangesItsFairing) {
     return keysOf(after)[StageId::Faired] != keysOf(recipe)[StageId::Faired];
   };
   EXPECT_TRUE(differs([](PieceChoice& c) { c.mode = FairingMode::None; }));
-  EXPECT_TRUE(differs([](PieceChoice& c) { c.target = 0; }));
+  EXPECT_TRUE(differs([](PieceChoice& c) { c.target = FairingTarget::Recommended; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.toleranceMm = 0.2; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.lowPassMm = 20.0; }));
   EXPECT_TRUE(differs([](PieceChoice& c) { c.keepExtrema = -1; }));

@@ -107,6 +107,15 @@ TEST(InteriorPoint, WithoutRowsItSolvesTheSystem) {
   EXPECT_EQ(found.iterations, 0);
 }
 
+TEST(InteriorPoint, CancelledTakesNoStep) {
+  const RunContext context;
+  context.cancel.cancel();
+  const DenseProgram p = randomProgram(4, 5, 3);
+  const InteriorPointResult found = InteriorPoint(p, kExact, context).solve();
+  EXPECT_EQ(found.why, Termination::NotRun);
+  EXPECT_EQ(found.iterations, 0);
+}
+
 TEST(InteriorPoint, RowsThatHoldAnywayChangeNothing) {
   DenseProgram p = randomProgram(3, 4, 5);
   const Eigen::VectorXd free = p.a.ldlt().solve(p.b);

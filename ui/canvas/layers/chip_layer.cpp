@@ -10,9 +10,9 @@
 
 #include "core/base/conventions.h"
 #include "ui/session/curve_names.h"
+#include "ui/session/edits/piece_choice.h"
 #include "ui/session/judged_view.h"
 #include "ui/session/page_text.h"
-#include "ui/session/piece_choice.h"
 
 namespace batten {
 namespace {
@@ -24,13 +24,13 @@ QString chipText(const char* text) { return QCoreApplication::translate("CurveCa
 
 /// How the selected curve came about: its own method if it has one, or what took its place. Nothing is known of a curve
 /// that an earlier choice left.
-QString methodText(const CanvasScene& scene, const TracedCurve& curve, int degree) {
+QString methodText(const CanvasScene& scene, const TracedCurve& curve) {
   if (scene.session.isStale(StageId::Curves)) return {};
   const PieceChoice* choice = choiceOf(scene.session, scene.session.selectedCurve());
   const bool own = choice != nullptr && choice->method.has_value();
   switch (own ? *choice->method : scene.session.recipe().construct.method) {
     case ConstructMethod::Fair:
-      return degree == 5 ? chipText("fair quintic") : chipText("fair fit");
+      return chipText("true and fair fit");
     case ConstructMethod::Nurbs:
       return chipText("quintic NURBS");
     case ConstructMethod::Bezier:
@@ -98,7 +98,7 @@ QString curveText(const CanvasScene& scene) {
   const NurbsCurve& shown = judgedCurve(*curve, judged);
   const CurveFigures& figures = judgedFigures(*curve, judged);
   QStringList parts{curveName(scene.session, scene.session.selectedCurve())};
-  if (const QString method = methodText(scene, *curve, shown.degree()); !method.isEmpty()) parts << method;
+  if (const QString method = methodText(scene, *curve); !method.isEmpty()) parts << method;
   parts << chipText("%1 control points").arg(shown.controlPointCount())
         << chipText("%1 mm").arg(number(figures.lengthMm, 1));
   if (judged == Judged::Result && isLeftAsDrawn(*curve)) parts << chipText("unchanged by fairing");
@@ -133,8 +133,7 @@ QString cursorText(const CanvasScene& scene) {
     const auto nearest =
         std::min_element(comb->whiskers.begin(), comb->whiskers.end(),
                          [s](const Whisker& a, const Whisker& b) { return std::abs(a.s - *s) < std::abs(b.s - *s); });
-    text += QStringLiteral(" · ") +
-            chipText("max. deviation from sketch %1 mm").arg(number(nearest->mm, nearest->mm < 0.01 ? 4 : 2));
+    text += QStringLiteral(" · ") + chipText("moved %1 mm").arg(number(nearest->mm, nearest->mm < 0.01 ? 4 : 2));
   }
   return text;
 }

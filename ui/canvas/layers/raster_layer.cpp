@@ -31,8 +31,13 @@ Cover coverOf(int device, double zoom, int size) {
   return {first, std::clamp(static_cast<int>(std::floor(to)), first + 1, size)};
 }
 
-void renderBits(const BitImage& bits, double zoom, const QRect& device, QRgb color, double opacity, double thinGain,
-                QImage& out) {
+/// How bits are laid over a page.
+struct BitInk {
+  QRgb color = 0;
+  double opacity = 1.0, thinGain = 1.0;  ///< thinGain: ink of less than a device pixel is darkened by this.
+};
+
+void renderBits(const BitImage& bits, double zoom, const QRect& device, const BitInk& with, QImage& out) {
   std::vector<Cover> columns(device.width());
   for (int i = 0; i < device.width(); ++i) columns[i] = coverOf(device.x() + i, zoom, bits.width);
   std::vector<int> ink(columns.size());
@@ -47,8 +52,8 @@ void renderBits(const BitImage& bits, double zoom, const QRect& device, QRgb col
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (ink[i] == 0) continue;
       const int area = (columns[i].last - columns[i].first) * (rows.last - rows.first);
-      const double share = std::min(1.0, thinGain * ink[i] / area) * opacity;
-      line[i] = mix(line[i], color, static_cast<int>(256.0 * share));
+      const double share = std::min(1.0, with.thinGain * ink[i] / area) * with.opacity;
+      line[i] = mix(line[i], with.color, static_cast<int>(256.0 * share));
     }
   }
 }
@@ -101,9 +106,9 @@ void renderRaster(const RasterContent& content, double zoom, const QRect& device
   renderPage(content, zoom, device, out);
   const bool overPicture = content.showsPicture && content.pyramid;
   if (content.mask)
-    renderBits(*content.mask, zoom * content.maskFactor, device, overPicture ? colors::kMask : qRgb(24, 24, 24),
-               overPicture ? 0.72 : 1.0, 1.0, out);
-  if (content.edges) renderBits(*content.edges, zoom, device, colors::kEdges, 0.9, std::max(1.0, 0.7 / zoom), out);
+    renderBits(*content.mask, zoom * content.maskFactor, device,
+               overPicture ? BitInk{colors::kMask, 0.72} : BitInk{qRgb(24, 24, 24)}, out);
+  if (content.edges) renderBits(*content.edges, zoom, device, {colors::kEdges, 0.9, std::max(1.0, 0.7 / zoom)}, out);
 }
 
 }  // namespace batten

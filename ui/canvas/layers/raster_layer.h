@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
-#include "core/image/bit_image.h"
-#include "core/image/region_thresholds.h"
+#include "core/image/bits/bit_image.h"
+#include "core/image/threshold/region_thresholds.h"
 #include "ui/canvas/scene/tile_pyramid.h"
 
 namespace batten {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/curve/arc_length.h"
-#include "core/fairing/natural_spans.h"
+#include "core/fairing/target/natural_spans.h"
 #include "ui/canvas/scene/canvas_colors.h"
-#include "ui/session/fairing_edits.h"
+#include "ui/session/edits/fairing_edits.h"
 #include "ui/session/judged_view.h"
 
 namespace batten {

@@ -10,7 +10,7 @@
 #include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/curve_names.h"
-#include "ui/session/direction_edits.h"
+#include "ui/session/edits/direction_edits.h"
 
 namespace batten {
 namespace {
@@ -146,7 +146,7 @@ class DirectionTool final : public CanvasTool {
     const auto curves = scene_.session.curves();
     const PageFrame& frame = scene_.session.output().frame;
     if (curve >= std::ssize(curves)) return std::nullopt;
-    const int contour = curves[static_cast<std::size_t>(curve)].contour;
+    const int contour = curves[curve].contour;
     double nearest = std::numeric_limits<double>::infinity();
     std::optional<Vec2> found;
     for (const TracedCurve& one : curves) {

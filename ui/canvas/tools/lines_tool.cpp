@@ -6,7 +6,7 @@
 #include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/curve_names.h"
-#include "ui/session/piece_choice.h"
+#include "ui/session/edits/piece_choice.h"
 
 namespace batten {
 namespace {

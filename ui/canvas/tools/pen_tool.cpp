@@ -6,8 +6,8 @@
 
 #include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
+#include "ui/session/edits/pen_edits.h"
 #include "ui/session/fairness_text.h"
-#include "ui/session/pen_edits.h"
 #include "ui/session/pen_fairness.h"
 
 namespace batten {

@@ -7,7 +7,7 @@
 
 #include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
-#include "ui/session/region_edits.h"
+#include "ui/session/edits/region_edits.h"
 
 namespace batten {
 namespace {

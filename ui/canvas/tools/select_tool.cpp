@@ -5,9 +5,9 @@
 #include "ui/canvas/layers/chip_layer.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/curve_names.h"
-#include "ui/session/fairing_edits.h"
+#include "ui/session/edits/fairing_edits.h"
+#include "ui/session/edits/pen_edits.h"
 #include "ui/session/judged_view.h"
-#include "ui/session/pen_edits.h"
 
 namespace batten {
 namespace {
@@ -71,8 +71,7 @@ class SelectTool final : public CanvasTool {
         QCoreApplication::translate("CurveCanvas", "Click to select %1.").arg(curveName(scene_.session, curve));
     // A line that fairing has not moved is told from one that was forgotten.
     if (judgedIn(scene_.view) != Judged::Result) return text;
-    return (text + QLatin1Char(' ') + whyLeftAsDrawn(scene_.session.curves()[static_cast<std::size_t>(curve)]))
-        .trimmed();
+    return (text + QLatin1Char(' ') + whyLeftAsDrawn(scene_.session.curves()[curve])).trimmed();
   }
 
   bool isOver_ = false;

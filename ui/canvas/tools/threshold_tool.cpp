@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/image/region_values.h"
+#include "core/image/threshold/region_values.h"
 #include "ui/canvas/layers/chip_layer.h"
 #include "ui/canvas/layers/mark_layers.h"
 #include "ui/canvas/scene/canvas_colors.h"

@@ -100,7 +100,7 @@ QString hint(PanelStage stage, bool isOpen) {
     case PanelStage::Curves:
       return tr("Click a curve to show its measurements.");
     case PanelStage::Fairing:
-      return tr("Hover a target to see its curve; click to apply it.");
+      return tr("Choose a mode, or hover a target below the drawing to see its curve.");
     case PanelStage::Export:
       return tr(
           "Choose the receiving program, then export. F shows and reverses directions; L excludes "

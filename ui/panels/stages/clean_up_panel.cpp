@@ -15,7 +15,7 @@
 #include "ui/panels/stages/line_trace_mode.h"
 #include "ui/panels/stages/merge_suggestion.h"
 #include "ui/panels/stages/pen_panel.h"
-#include "ui/session/region_edits.h"
+#include "ui/session/edits/region_edits.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -104,7 +104,7 @@ EdgesPanel::EdgesPanel(EditorSession& session, ViewSettings& view, QWidget* pare
        "edges.merge", "edges.intent", "edges.stroke_width", "edges.spur", "edges.bend", "contours.max_count"},
       this);
   editor->addBelow("edges.merge", new MergeSuggestion(session, editor));
-  tracing_ = {editor, new LineWay(session, this), caption(tr("Lines found"), this), figures_};
+  tracing_ = {editor, new LineTraceMode(session, this), caption(tr("Lines found"), this), figures_};
   layout->addWidget(tracing_[0]);
   layout->addWidget(tracing_[1]);
   buildChoice();

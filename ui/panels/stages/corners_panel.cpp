@@ -269,11 +269,17 @@ void CornersPanel::showFound() {
   const int found = pieces ? unmarkedCornerCount(*pieces) : 0;
   QStringList lines;
   if (session_.recipe().corners.automatic && pieces)
-    lines += found == 0 ? tr("No corner was detected with certainty.")
-                        : counted(found, tr("1 corner was detected automatically (diamond). Click it to exclude it."),
-                                  tr("%1 corners were detected automatically (diamonds). Click one to exclude it."));
-  if (!refused.empty())
-    lines += counted(static_cast<qint64>(refused.size()), tr("1 is excluded."), tr("%1 are excluded."));
+    lines += found == 0 ? tr("No certain corner was found.")
+                        : counted(found, tr("1 certain corner was found (diamond). Click it to exclude it."),
+                                  tr("%1 certain corners were found (diamonds). Click one to exclude it."));
+  // A mark wins over an excluded corner within its reach.
+  const Recipe& recipe = session_.recipe();
+  const auto excluded = std::count_if(refused.begin(), refused.end(), [&](const Vec2& place) {
+    return std::none_of(recipe.cornerMarks.begin(), recipe.cornerMarks.end(), [&](const CornerMark& mark) {
+      return (mark.positionPx - place).norm() <= recipe.corners.snapDistancePx;
+    });
+  });
+  if (excluded > 0) lines += counted(excluded, tr("1 is excluded."), tr("%1 are excluded."));
   found_->setText(lines.join(QLatin1Char(' ')));
   found_->setVisible(!lines.empty());
   restore_->setVisible(!refused.empty());

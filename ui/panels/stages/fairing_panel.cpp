@@ -16,13 +16,13 @@
 #include "ui/panels/controls/parameter_row.h"
 #include "ui/panels/controls/segmented_control.h"
 #include "ui/panels/controls/setting_name.h"
-#include "ui/panels/stages/curve_list.h"
+#include "ui/panels/stages/curves/curve_list.h"
 #include "ui/panels/stages/ends_table.h"
 #include "ui/panels/stages/like_link.h"
 #include "ui/panels/stages/profile_shelf.h"
-#include "ui/session/fairing_edits.h"
+#include "ui/session/edits/fairing_edits.h"
+#include "ui/session/edits/piece_choice.h"
 #include "ui/session/judged_curve.h"
-#include "ui/session/piece_choice.h"
 
 namespace batten {
 namespace {
@@ -59,9 +59,9 @@ int segmentOf(FairingMode mode) {
 }
 
 /// What to take where a target is too far away.
-QString insteadOf(int target) {
-  if (target == kDrawnTarget) return FairingPanel::tr("choose or draw a profile that is nearer to its own");
-  if (target == kLogAestheticTarget) return FairingPanel::tr("choose another alpha or more spans");
+QString insteadOf(FairingTarget target) {
+  if (target == FairingTarget::Drawn) return FairingPanel::tr("choose or draw a profile that is nearer to its own");
+  if (target == FairingTarget::LogAesthetic) return FairingPanel::tr("choose another alpha or more spans");
   return FairingPanel::tr("choose a higher degree or more spans");
 }
 
@@ -75,7 +75,7 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
       tolerance_(new ParameterRow(session, *findParameter("fairing.tolerance"), this)),
       keep_(new ParameterRow(session, *findParameter("fairing.keep_extrema"), this)),
       wavelength_(new ParameterRow(session, *findParameter("fairing.lowpass"), this)),
-      spend_(new ParameterRow(session, *findParameter("fairing.spend"), this)),
+      policy_(new ParameterRow(session, *findParameter("fairing.spend"), this)),
       moves_(new ParameterRow(session, *findParameter("fairing.moves"), this)),
       editor_(new ParameterEditor(session,
                                   {"fairing.spans", "fairing.choose", "fairing.alpha", "fairing.samples",
@@ -104,7 +104,9 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   layout->setSpacing(8);
   layout->addWidget(heading(tr("Fairing"), this));
   scope_->setNames(QStringLiteral("fairing.scope"), {QStringLiteral("all"), QStringLiteral("one")});
-  scope_->setToolTip(tr("Whether the settings below apply to the whole drawing or only to the selected curve."));
+  scope_->setToolTip(tr(
+      "Whether mode, tolerance, the settings of the mode and ends apply to the whole drawing or only to the selected "
+      "curve."));
   layout->addWidget(scope_);
   mode_->setNames(QStringLiteral("fairing.mode"), wordsOf(modeParameter()));
   mode_->setToolTip(
@@ -116,12 +118,12 @@ FairingPanel::FairingPanel(EditorSession& session, QWidget* parent)
   buildTolerance();
   layout->addWidget(keep_);
   layout->addWidget(wavelength_);
-  layout->addWidget(spend_);
+  layout->addWidget(policy_);
   layout->addWidget(moves_);
   bindToScope(keep_, [](PieceChoice& choice, const FairingParams& params) { choice.keepExtrema = params.keepExtrema; });
   bindToScope(wavelength_,
               [](PieceChoice& choice, const FairingParams& params) { choice.lowPassMm = params.lowPassMm; });
-  bindToScope(spend_, [](PieceChoice& choice, const FairingParams& params) {
+  bindToScope(policy_, [](PieceChoice& choice, const FairingParams& params) {
     choice.tolerancePolicy = params.tolerancePolicy;
   });
   bindToScope(moves_, [](PieceChoice& choice, const FairingParams& params) { choice.means = params.means; });
@@ -210,18 +212,18 @@ void FairingPanel::buildLinks() {
   split_->setText(tr("Natural spans"));
   split_->setToolTip(
       tr("A polynomial from each extremum of the curvature to the next. Extrema whose removal would move the curve by "
-         "less than a tenth of the tolerance do not count."));
+         "less than a tenth of the tolerance do not count. Radius profiles and edge lengths have one polynomial."));
   unsplit_->setText(tr("One polynomial for the whole curve"));
   unsplit_->setToolTip(tr("Joins all spans, as in the papers."));
   whole_->setText(tr("Targets for the whole curve"));
   whole_->setToolTip(tr("The targets apply to the span you clicked. Click here to return to the whole curve."));
-  draw_->setToolTip(tr("Converts the target to points that can be dragged in the curvature plot."));
+  draw_->setToolTip(tr("Converts the target to points that can be dragged in the plot of curvature or radius."));
   logAesthetic_->setToolTip(
       tr("In each span, radius to the power alpha is linear in arc length: clothoids, spirals, "
          "involutes. Alpha is under More."));
   connect(logAesthetic_, &QPushButton::clicked, this, [this] {
     session_.pointAtSpan({});
-    chooseTarget(session_, kLogAestheticTarget);
+    chooseTarget(session_, FairingTarget::LogAesthetic);
   });
   auto* compare = linkButton(tr("Compare shapes…"), QStringLiteral("fairing.compare"), this);
   compare->setToolTip(tr("Similarity of two curves and fairness of this one, as a table."));
@@ -237,18 +239,18 @@ void FairingPanel::buildLinks() {
 void FairingPanel::refreshLinks(const FairingParams& params) {
   keep_->setVisible(params.mode == FairingMode::Monotone);
   wavelength_->setVisible(params.mode == FairingMode::LowPass);
-  spend_->setVisible(params.mode == FairingMode::Tolerance);
+  policy_->setVisible(params.mode == FairingMode::Tolerance);
   // Only a Bézier path has edges whose lengths can be moved alone.
   const PieceChoice* choice = choiceOf(session_, session_.selectedCurve());
   const ConstructMethod method = choice && choice->method ? *choice->method : session_.recipe().construct.method;
   const bool followsProfile = params.mode == FairingMode::Target || params.mode == FairingMode::LowPass;
   moves_->setVisible(followsProfile && method == ConstructMethod::Bezier);
-  for (ParameterRow* row : {keep_, wavelength_, spend_, moves_}) row->sync();
+  for (ParameterRow* row : {keep_, wavelength_, policy_, moves_}) row->sync();
   const bool isTarget = params.mode == FairingMode::Target && session_.selected();
   const bool isDrawn = isTargetDrawn(session_);
   draw_->setVisible(isTarget && !isDrawn);
   forget_->setVisible(isDrawn);
-  logAesthetic_->setVisible(isTarget && params.target != kLogAestheticTarget);
+  logAesthetic_->setVisible(isTarget && params.target != FairingTarget::LogAesthetic);
   like_->setVisible(session_.selected() != nullptr && params.mode != FairingMode::None);
   auto* shelf = findChild<ProfileShelf*>();
   shelf->setVisible(shelf->count() > 0 && session_.hasScan());
@@ -344,7 +346,7 @@ void FairingPanel::refreshFigures() {
         faired ? FigureTable::Cell{QString::number(report.roundedMm > 0.0 ? report.extremaAfter : after.extrema)}
                : none},
        tr("Local maxima and minima of the curvature: fewer is fairer. Those of rounded corners are "
-          "not counted.")},
+          "counted in the list and in files, not here.")},
       {tr("Moved at most, mm"),
        {none, faired ? FigureTable::Cell{mm(report.maxDeviationMm), over} : none},
        tr("Largest distance of the faired curve from the sketched one; never above the tolerance.")},
@@ -357,16 +359,17 @@ void FairingPanel::refreshFigures() {
                     tr("Largest move of the curve by corner rounding, not counting fairing.")});
   }
   const auto targets = session_.targets();
-  int degree = curve->fairingUsed.target;
-  if (targets && degree == 0) degree = targets->recommendedDegree;
+  int degree = degreeOf(curve->fairingUsed.target).value_or(0);
+  if (targets && curve->fairingUsed.target == FairingTarget::Recommended) degree = targets->recommendedDegree;
   if (session_.pointedSpan()) degree = chosenSpanTarget(session_);
-  if (targets && faired && curve->fairingUsed.mode == FairingMode::Target && degree >= 1 && degree <= 6) {
+  if (targets && faired && curve->fairingUsed.mode == FairingMode::Target && degree > 0) {
     const TargetProfile& profile = targets->targets.profiles[degree - 1];
     rows.push_back({tr("Similarity S"),
                     {{similarityText(profile.similarity)},
                      report.similarityAfter ? FigureTable::Cell{similarityText(*report.similarityAfter)} : none},
-                    tr("Similarity of the sketched radius profile to the target; 1 is identical. Faired: "
-                       "similarity of the faired to the sketched radius profile.")});
+                    tr("Similarity of the sketched profile to the target; 1 is identical. Faired: similarity "
+                       "of the faired to the sketched profile. Of radii, or where the line has inflections, of "
+                       "curvatures.")});
     rows.push_back({tr("Monotone target"),
                     {none, {profile.isMonotone ? tr("yes") : tr("no")}},
                     tr("A monotone profile adds no curvature extremum.")});
@@ -374,12 +377,15 @@ void FairingPanel::refreshFigures() {
   figures_->setRows(std::move(rows));
   QString text = isLeftAsDrawn(*curve) ? whyLeftAsDrawn(*curve) : QString::fromStdString(report.note);
   if (faired && !report.withinTolerance) {
-    if (text.isEmpty()) text = tr("The tolerance is too small to reach the target.");
+    if (text.isEmpty())
+      text = curve->fairingUsed.mode == FairingMode::LowPass
+                 ? tr("The tolerance is too small to follow the filtered curvature.")
+                 : tr("The tolerance is too small to reach the target.");
     const bool isMore = report.neededMm > curve->fairingUsed.toleranceMm;
     const bool isSensible = report.neededMm <= mostSensibleToleranceMm(curve->sketched);
     raise_->setText(tr("Needs %1: raise the tolerance").arg(millimetres(report.neededMm)));
     raise_->setVisible(isMore && isSensible);
-    if (isMore && !isSensible)
+    if (isMore && !isSensible && curve->fairingUsed.mode == FairingMode::Target)
       text += tr(" Reaching it would move this curve by %1, which changes its shape: %2.")
                   .arg(millimetres(report.neededMm), insteadOf(curve->fairingUsed.target));
   }

@@ -47,7 +47,7 @@ class FairingPanel : public QWidget {
   ParameterRow* tolerance_;
   ParameterRow* keep_;
   ParameterRow* wavelength_;
-  ParameterRow* spend_;
+  ParameterRow* policy_;
   ParameterRow* moves_;
   ParameterEditor* editor_;
   QLabel* note_;

@@ -15,10 +15,10 @@
 #include <iterator>
 #include <utility>
 
-#include "core/fairing/like_profile.h"
+#include "core/fairing/profile/like_profile.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/session/curve_names.h"
-#include "ui/session/like_edits.h"
+#include "ui/session/edits/like_edits.h"
 #include "ui/session/profile_library.h"
 
 namespace batten {
@@ -79,7 +79,7 @@ void showMenu(EditorSession& session, QPushButton* link, const std::function<voi
   menu->setObjectName(QStringLiteral("fairing.likes"));
   const auto curves = session.curves();
   for (int i = 0; i < std::ssize(curves); ++i) {
-    const TracedCurve& other = curves[static_cast<std::size_t>(i)];
+    const TracedCurve& other = curves[i];
     if (i == session.selectedCurve() || other.sketched.isEmpty()) continue;
     const auto shape = shapeOf(resultOf(other));
     const QString name = words("%1 · %2 mm").arg(curveName(session, i)).arg(other.sketchedFigures.lengthMm, 0, 'f', 0);

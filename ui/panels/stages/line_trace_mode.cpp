@@ -7,7 +7,7 @@
 
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/segmented_control.h"
-#include "ui/session/trace_mode_edits.h"
+#include "ui/session/edits/trace_mode_edits.h"
 
 namespace batten {
 namespace {
@@ -16,7 +16,7 @@ constexpr std::array kWays = {EdgeMode::Automatic, EdgeMode::Outline, EdgeMode::
 
 }
 
-LineWay::LineWay(EditorSession& session, QWidget* parent)
+LineTraceMode::LineTraceMode(EditorSession& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
       ways_(new SegmentedControl({tr("Same as page"), tr("Outline"), tr("Centre line")}, this)),
@@ -31,16 +31,16 @@ LineWay::LineWay(EditorSession& session, QWidget* parent)
                   {QStringLiteral("page"), QStringLiteral("outline"), QStringLiteral("centreline")});
   ways_->setToolTip(tr("Trace mode of the selected line, independent of the page setting."));
   connect(ways_, &SegmentedControl::chosen, this, [this](int index) {
-    chooseWay(session_, session_.selectedCurve(), kWays[index]);
+    chooseTraceMode(session_, session_.selectedCurve(), kWays[index]);
     refresh();
   });
   for (const auto signal : {&EditorSession::scanOpened, &EditorSession::recipeChanged, &EditorSession::selectionChanged,
                             &EditorSession::runFinished})
-    connect(&session_, signal, this, &LineWay::refresh);
+    connect(&session_, signal, this, &LineTraceMode::refresh);
   refresh();
 }
 
-void LineWay::refresh() {
+void LineTraceMode::refresh() {
   // Between new lines and their curves all stays as it is.
   if (session_.isStale(StageId::Contours) != session_.isStale(StageId::Faired)) return;
   const int curve = session_.selectedCurve();

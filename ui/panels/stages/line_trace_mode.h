@@ -12,10 +12,10 @@ namespace batten {
 class SegmentedControl;
 
 /// How the selected line is followed: as the page, along its outline or its middle.
-class LineWay : public QWidget {
+class LineTraceMode : public QWidget {
   Q_OBJECT
  public:
-  explicit LineWay(EditorSession& session, QWidget* parent = nullptr);
+  explicit LineTraceMode(EditorSession& session, QWidget* parent = nullptr);
 
  private:
   void refresh();

@@ -10,7 +10,7 @@
 #include <algorithm>
 
 #include "ui/panels/controls/panel_parts.h"
-#include "ui/session/pen_edits.h"
+#include "ui/session/edits/pen_edits.h"
 #include "ui/theme/theme.h"
 
 namespace batten {

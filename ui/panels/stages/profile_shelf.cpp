@@ -7,7 +7,7 @@
 #include <QMimeData>
 #include <algorithm>
 
-#include "ui/session/like_edits.h"
+#include "ui/session/edits/like_edits.h"
 #include "ui/session/profile_library.h"
 #include "ui/theme/theme.h"
 

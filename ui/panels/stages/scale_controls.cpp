@@ -181,7 +181,7 @@ void ScaleControls::setLength(double length) {
 
 void ScaleControls::choosePaper(int index) {
   if (index < 1 || index > std::ssize(kPapers) || !session_.hasScan()) return;
-  const Paper& paper = kPapers[static_cast<std::size_t>(index - 1)];
+  const Paper& paper = kPapers[index - 1];
   const PageFrame frame = frameFor(*session_.scan(), session_.recipe());
   const double longPx = std::max(frame.widthPx, frame.heightPx);
   Recipe after = session_.recipe();

@@ -3,7 +3,7 @@
 
 #include <QWidget>
 
-#include "core/image/inks.h"
+#include "core/image/colour/inks.h"
 #include "core/image/log_transform.h"
 #include "ui/session/editor_session.h"
 

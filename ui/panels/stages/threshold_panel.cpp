@@ -14,8 +14,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/image/region_thresholds.h"
-#include "core/image/region_values.h"
+#include "core/image/threshold/region_thresholds.h"
+#include "core/image/threshold/region_values.h"
 #include "ui/panels/controls/number_field.h"
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/parameter_editor.h"
@@ -230,7 +230,7 @@ void ThresholdPanel::refreshRegion() {
   }
   std::array<std::uint32_t, 256> shown{};
   for (std::size_t grey = 0; grey < counts_.size(); ++grey)
-    shown[static_cast<std::size_t>(std::lround(scale_.shown(static_cast<double>(grey))))] += counts_[grey];
+    shown[std::lround(scale_.shown(static_cast<double>(grey)))] += counts_[grey];
   histogram_->show(shown, scale_.shown(levelOf(region)));
 }
 

@@ -18,7 +18,7 @@
 #include "ui/panels/controls/panel_parts.h"
 #include "ui/panels/controls/segmented_control.h"
 #include "ui/session/curve_names.h"
-#include "ui/session/fairing_edits.h"
+#include "ui/session/edits/fairing_edits.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -71,7 +71,7 @@ ShapeWindow::ShapeWindow(EditorSession& session, QWidget* parent)
   layout->addWidget(table_);
   layout->addWidget(recommendation_);
   figures_->setHeader({}, {tr("radius"), tr("curvature")});
-  table_->setHeader(tr("profile"), {tr("S"), tr("r"), tr("off, %"), tr("needs, mm"), tr("extrema"), tr("AICc")});
+  table_->setHeader(tr("profile"), {tr("S"), tr("r"), tr("rms, %"), tr("needs, mm"), tr("extrema"), tr("AICc")});
   connect(first_, &QComboBox::currentIndexChanged, this, &ShapeWindow::compare);
   connect(second_, &QComboBox::currentIndexChanged, this, &ShapeWindow::compare);
   connect(quantity_, &SegmentedControl::chosen, this, [this](int index) {
@@ -168,8 +168,8 @@ void ShapeWindow::compare() {
   view_->show(found, quantity_->current() != 1);
   QStringList ways;
   if (found.mirrored) ways << tr("mirrored");
-  if (found.reversed) ways << tr("run backwards");
-  if (found.shift > 0) ways << tr("begun elsewhere");
+  if (found.reversed) ways << tr("reversed");
+  if (found.shift > 0) ways << tr("with another start point");
   figures_->setRows({{tr("Similarity S"),
                       {{number(found.similarity, 4)}, {number(found.curvatureSimilarity, 4)}},
                       tr("1 is the same shape, independent of size, position and rotation. Any two curves that "
@@ -210,7 +210,7 @@ void ShapeWindow::refreshTable() {
   table_->setRows(std::move(rows));
   recommendation_->setText(
       isAdvised ? tr("✓ recommended: the lowest degree that is met within the tolerance without an extremum more. "
-                     "S alone cannot choose, as it rises with the degree.")
+                     "S alone cannot choose, as it mostly rises with the degree.")
       : nearest > 0 ? tr("Closest profile: %1 (smallest AICc). It is not recommended because it exceeds the "
                          "tolerance, adds extrema, moves nothing or is too dissimilar.")
                           .arg(degreeName(nearest))

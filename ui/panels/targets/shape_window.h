@@ -4,7 +4,7 @@
 #include <QDialog>
 #include <vector>
 
-#include "core/fairing/curve_comparison.h"
+#include "core/fairing/profile/curve_comparison.h"
 #include "ui/session/editor_session.h"
 
 class QComboBox;

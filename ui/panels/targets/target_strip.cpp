@@ -13,8 +13,8 @@
 #include "core/fairing/fairing_report.h"
 #include "core/fairing/target_advice.h"
 #include "ui/panels/controls/panel_parts.h"
-#include "ui/session/fairing_edits.h"
-#include "ui/session/piece_choice.h"
+#include "ui/session/edits/fairing_edits.h"
+#include "ui/session/edits/piece_choice.h"
 #include "ui/theme/theme.h"
 
 namespace batten {
@@ -314,7 +314,7 @@ TargetStrip::TargetStrip(EditorSession& session, QWidget* parent) : QWidget(pare
     auto* tile = new TargetTile(degree, this);
     tiles_[degree - 1] = tile;
     layout->addWidget(tile, 1);
-    connect(tile, &QAbstractButton::clicked, this, [this, degree] { chooseTarget(session_, degree); });
+    connect(tile, &QAbstractButton::clicked, this, [this, degree] { chooseTarget(session_, targetOfDegree(degree)); });
     connect(tile, &TargetTile::entered, this, [this](int hovered) {
       session_.hoverTarget(hovered);
       emit hint(tr("Hover a target to see its curve; click to apply it."));
@@ -349,8 +349,8 @@ void TargetStrip::refresh() {
     tolerance = used.toleranceMm;
     if (session_.pointedSpan())
       chosen = chosenSpanTarget(session_);
-    else if (used.mode == FairingMode::Target && used.target < kDrawnTarget && curve->fairingUsed.spanTargets.empty())
-      chosen = used.target > 0 ? used.target : targets ? targets->recommendedDegree : 0;
+    else if (used.mode == FairingMode::Target && isPolynomial(used.target) && curve->fairingUsed.spanTargets.empty())
+      chosen = degreeOf(used.target).value_or(targets ? targets->recommendedDegree : 0);
   }
   const QString waiting = !curve                   ? QString()
                           : session_.isTargeting() ? tr("computing…")

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/model/arrangement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "core/curve/arc_length.h"
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
+#include "core/curve/curve_start.h"
+#include "core/curve/knot_operations.h"
+#include "core/exchange/model/cad_drawing.h"
+#include "core/exchange/model/export_check.h"
+#include "core/exchange/model/line_joining.h"
+
+namespace batten {
+namespace {
+
+constexpr double kOnTop = 1e-7;  ///< Of the size of a curve: how near it lies to one that it lies on top of.
+constexpr int kTopSamples = 17;
+constexpr double kSteps = 1e6;  ///< Lengths that differ by less than a millionth are alike.
+
+/// One curve of the document, to be compared with the others.
+struct Candidate {
+  std::size_t line = 0, piece = 0;
+  const NurbsCurve* curve = nullptr;
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+  long size = 0;  ///< Logarithm of the length, rounded, so that the last digits put no curve before its like.
+};
+
+Candidate candidateOf(const NurbsCurve& curve, std::size_t line, std::size_t piece) {
+  Candidate candidate{line,
+                      piece,
+                      &curve,
+                      curve.controlPoints()[0],
+                      curve.controlPoints()[0],
+                      std::lround(kSteps * std::log(std::max(ArcLength(curve).total(), kOnTop)))};
+  for (const Vec2& p : curve.controlPoints()) {
+    candidate.low = candidate.low.cwiseMin(p);
+    candidate.high = candidate.high.cwiseMax(p);
+  }
+  return candidate;
+}
+
+bool liesOn(const std::vector<CurveSample>& samples, const NurbsCurve& other, double near) {
+  return std::all_of(samples.begin(), samples.end(),
+                     [&](const CurveSample& sample) { return closestPoint(other, sample.point).distance <= near; });
+}
+
+/// Asked first, as it is cheap: no curve leaves the box of its control points.
+bool canLieOn(const std::vector<CurveSample>& samples, const Candidate& longer, double near) {
+  return std::all_of(samples.begin(), samples.end(), [&](const CurveSample& sample) {
+    return (sample.point - longer.low).minCoeff() >= -near && (longer.high - sample.point).minCoeff() >= -near;
+  });
+}
+
+/// Line and piece of the curves that lie on top of another one.
+Result<std::set<std::pair<std::size_t, std::size_t>>> curvesOnTop(const ExportDocument& document,
+                                                                  const RunContext& context) {
+  std::vector<Candidate> all;
+  for (std::size_t i = 0; i < document.curves.size(); ++i)
+    for (std::size_t k = 0; k < document.curves[i].pieces.size(); ++k)
+      all.push_back(candidateOf(document.curves[i].pieces[k].curve, i, k));
+  // Of two alike the earlier one stays, so it comes first; a longer one comes before what lies on it.
+  std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.size > b.size; });
+  std::set<std::pair<std::size_t, std::size_t>> found;
+  std::vector<const Candidate*> kept;
+  for (const Candidate& one : all) {
+    if (context.isCancelled()) return cancelled();
+    const double near = kOnTop * extent(*one.curve);
+    const auto samples = sampleByArcLength(*one.curve, kTopSamples);
+    const bool isOnTop = std::any_of(kept.begin(), kept.end(), [&](const Candidate* other) {
+      return document.curves[other->line].layer == document.curves[one.line].layer && canLieOn(samples, *other, near) &&
+             liesOn(samples, *other->curve, near);
+    });
+    if (isOnTop)
+      found.insert({one.line, one.piece});
+    else
+      kept.push_back(&one);
+  }
+  return found;
+}
+
+/// A closed line begun where the user wants it.
+Result<void> begin(ExportCurve& line) {
+  if (!line.closed || !line.startMm) return {};
+  const Vec2 wanted = *std::exchange(line.startMm, std::nullopt);
+  for (ExportPiece& piece : line.pieces) piece.keepsDirection = true;
+  if (line.pieces.size() == 1) {
+    NurbsCurve& curve = line.pieces[0].curve;
+    auto turned = startedAt(curve, closestPoint(curve, wanted).u);
+    if (!turned) return fail(turned.error());
+    curve = std::move(*turned);
+    return {};
+  }
+  const auto first = std::min_element(line.pieces.begin(), line.pieces.end(), [&](const auto& a, const auto& b) {
+    return (a.curve.point(a.curve.start()) - wanted).norm() < (b.curve.point(b.curve.start()) - wanted).norm();
+  });
+  std::rotate(line.pieces.begin(), first, line.pieces.end());
+  return {};
+}
+
+void turn(ExportPiece& piece) {
+  if (piece.direction && piece.direction->isTurned) piece.curve = reversed(piece.curve);
+  piece.keepsDirection = piece.keepsDirection || piece.direction.has_value();
+  piece.direction.reset();
+}
+
+/// The whole line runs as the latest mark on it says.
+void turnLine(ExportCurve& line) {
+  std::optional<PieceDirection> latest;
+  for (const ExportPiece& piece : line.pieces)
+    if (piece.direction && (!latest || piece.direction->mark > latest->mark)) latest = piece.direction;
+  if (latest && latest->isTurned) std::reverse(line.pieces.begin(), line.pieces.end());
+  for (ExportPiece& piece : line.pieces) {
+    piece.direction = latest;
+    turn(piece);
+  }
+}
+
+/// Every piece as a line of its own.
+void takeApart(const ExportCurve& line, std::vector<ExportCurve>& lines) {
+  for (std::size_t k = 0; k < line.pieces.size(); ++k) {
+    ExportCurve& own = lines.emplace_back(line);
+    own.pieces = {line.pieces[k]};
+    if (line.pieces.size() > 1) {
+      own.id.append(".").append(std::to_string(k + 1));
+      own.pieces[0].name = entityName(line, k);
+      own.name.clear();
+    }
+    turn(own.pieces[0]);
+    own.closed = isLoop(own.pieces);
+  }
+}
+
+/// The line without its doubles: in as many parts as are left between them.
+std::vector<ExportCurve> without(const ExportCurve& line, const std::set<std::pair<std::size_t, std::size_t>>& onTop,
+                                 std::size_t number) {
+  std::vector<ExportCurve> parts;
+  bool continues = false;
+  for (std::size_t k = 0; k < line.pieces.size(); ++k) {
+    const bool stays = !onTop.contains({number, k});
+    if (stays && !continues) {
+      ExportCurve& part = parts.emplace_back(line);
+      if (parts.size() > 1) part.id.append("-").append(std::to_string(parts.size()));
+      part.pieces.clear();
+    }
+    if (stays) parts.back().pieces.push_back(line.pieces[k]);
+    continues = stays;
+  }
+  for (ExportCurve& part : parts) part.closed = line.closed && part.pieces.size() == line.pieces.size();
+  return parts;
+}
+
+}  // namespace
+
+Result<Arrangement> arranged(const ExportDocument& document, bool joined, const RunContext& context) {
+  const auto onTop = curvesOnTop(document, context);
+  if (!onTop) return fail(onTop.error());
+  Arrangement result{document, 0, static_cast<int>(onTop->size())};
+  result.document.curves.clear();
+  for (std::size_t i = 0; i < document.curves.size(); ++i) {
+    std::vector<ExportCurve> parts = without(document.curves[i], *onTop, i);
+    result.lines += parts.empty() ? 0 : 1;
+    for (ExportCurve& line : parts) {
+      if (auto begun = begin(line); !begun) return fail(begun.error());
+      if (joined) {
+        turnLine(line);
+        result.document.curves.push_back(std::move(line));
+      } else {
+        takeApart(line, result.document.curves);
+      }
+    }
+  }
+  if (joined) result.document.curves = joinedLines(std::move(result.document.curves));
+  return result;
+}
+
+}  // namespace batten

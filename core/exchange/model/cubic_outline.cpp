@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/exchange/model/cubic_outline.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+#include "core/curve/closest_point.h"
+#include "core/curve/curvature.h"
+#include "core/exchange/model/export_check.h"
+
+namespace batten {
+namespace {
+
+constexpr int kSamplesPerCubic = 8;
+
+/// The end and the start of a loop are one point: written alike, so that closing adds no line. The shift counts.
+void closeLoop(CubicOutline& outline) {
+  CubicRun& loop = outline.runs.front();
+  outline.largestError = std::max(outline.largestError, (loop.end() - loop.start).norm());
+  loop.cubics.back()[2] = loop.start;
+  outline.closed = true;
+}
+
+}  // namespace
+
+Result<CubicOutline> cubicOutline(const ExportCurve& line, const Eigen::Matrix2d& linear, const Vec2& offset,
+                                  double tolerance, double grid) {
+  CubicOutline outline;
+  for (std::size_t i = 0; i < line.pieces.size(); ++i) {
+    auto path = cubicPath(line.pieces[i].curve.mapped(linear, offset), tolerance, grid);
+    if (!path) return fail(path.error());
+    for (std::size_t k = 0; k < path->runs.size(); ++k) {
+      CubicRun& run = path->runs[k];
+      outline.cubics += static_cast<int>(run.cubics.size());
+      if (k == 0 && i > 0 && doMeet(line.pieces[i - 1].curve, line.pieces[i].curve)) {
+        outline.largestError = std::max(outline.largestError, (outline.runs.back().end() - run.start).norm());
+        std::move(run.cubics.begin(), run.cubics.end(), std::back_inserter(outline.runs.back().cubics));
+      } else {
+        outline.runs.push_back(std::move(run));
+      }
+    }
+    outline.largestError = std::max(outline.largestError, path->largestError);
+    outline.largestJump = std::max(outline.largestJump, path->largestJump);
+  }
+  if (line.closed && outline.runs.size() == 1 && !outline.runs.front().cubics.empty()) closeLoop(outline);
+  return outline;
+}
+
+double distanceFromLine(const std::vector<std::array<Vec2, 4>>& cubics, const ExportCurve& line) {
+  double worst = 0.0;
+  std::size_t first = 0;
+  for (std::size_t piece = 0; piece < line.pieces.size() && first < cubics.size(); ++piece) {
+    const NurbsCurve& exact = line.pieces[piece].curve;
+    const Vec2 start = exact.point(exact.start()), end = exact.point(exact.end());
+    std::size_t last = cubics.size() - 1;
+    for (std::size_t i = first; i < last && piece + 1 < line.pieces.size(); ++i) {
+      if ((cubics[i].back() - end).norm() <= 1e-3 * extent(exact)) last = i;
+    }
+    std::vector<Vec2> part;
+    for (std::size_t i = first; i <= last; ++i) {
+      const auto& c = cubics[i];
+      for (int k = 0; k <= kSamplesPerCubic; ++k) {
+        const double t = static_cast<double>(k) / kSamplesPerCubic, r = 1.0 - t;
+        part.push_back(r * r * r * c[0] + 3 * r * r * t * c[1] + 3 * r * t * t * c[2] + t * t * t * c[3]);
+      }
+    }
+    worst =
+        std::max({worst, deviation(exact, part, true).max, (part.front() - start).norm(), (part.back() - end).norm()});
+    first = last + 1;
+  }
+  return first == cubics.size() ? worst : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace batten

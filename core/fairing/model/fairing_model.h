@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "core/fairing/model/fairing_state.h"
+#include "core/solve/banded_matrix.h"
+
+namespace batten {
+
+/// The Gauss-Newton model at a state: sparse rows plus the coupling of all samples through the arc length.
+class FairingModel {
+ public:
+  FairingModel(const FairingSetup& setup, const FairingObjective& objective, const FairingCorridor& corridor,
+               const FairingState& state);
+  /// J v and J' y of the curvature residuals, with samples that are re-located at equal arc fractions.
+  Eigen::VectorXd apply(const Eigen::VectorXd& v) const;
+  Eigen::VectorXd applyTransposed(const Eigen::VectorXd& y) const;
+  const Eigen::VectorXd& gradient() const { return gradient_; }
+  /// Change of the signed distances.
+  Eigen::VectorXd distances(const Eigen::VectorXd& v) const;
+  /// Solves (J'J + corridor + damping) x = -gradient by conjugate gradients with the banded part as preconditioner.
+  /// Absent when the banded part cannot be factorised, and when the run is cancelled.
+  std::optional<Eigen::VectorXd> step(double damping) const;
+
+ private:
+  double dot(const Eigen::MatrixXd& rows, int sample, const Eigen::VectorXd& v) const;
+  void accumulate(const Eigen::MatrixXd& rows, int sample, double factor, Eigen::VectorXd& out) const;
+  void assemble();
+  /// What J v is made of, per sample, and what J' y adds to the rows.
+  Eigen::VectorXd applyTo(const Eigen::VectorXd& local, const Eigen::VectorXd& normal, double shift) const;
+  void transposeTo(const Eigen::VectorXd& y, Eigen::VectorXd& local, Eigen::VectorXd& normal, double& shift) const;
+  Eigen::VectorXd applyNormal(const Eigen::VectorXd& v, double damping) const;
+  template <int Stride>
+  Eigen::VectorXd applyNormalOf(const Eigen::VectorXd& v, double damping) const;
+  Eigen::VectorXd cumulative(const Eigen::VectorXd& values, double& total) const;
+  Eigen::VectorXd cumulativeTransposed(const Eigen::VectorXd& values, double total) const;
+
+  const FairingSetup* setup_;
+  const FairingState* state_;
+  Eigen::MatrixXd local_, normal_, tangent_;  ///< One column a sample, over indices(span).
+  Eigen::VectorXd across_;  ///< Cosine between the curve's normal and the sketch's: signed distances change by it.
+  Eigen::VectorXd weight_, nonlocal_, lengthTerm_, corridorCurvature_, gradient_;
+  double stepLength_ = 0.0, tangentFloor_ = 0.0, dampingUnit_ = 0.0;
+  BandedMatrix stiffness_, mass_;
+};
+
+}  // namespace batten

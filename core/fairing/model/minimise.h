@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/run_context.h"
+#include "core/base/termination.h"
+#include "core/fairing/model/fairing_state.h"
+
+namespace batten {
+
+/// Why and how a minimisation ended.
+struct FairingRun {
+  FairingState state;
+  Termination why = Termination::IterationLimit;
+  int iterations = 0;
+  double damping = 1e-3;
+};
+struct FairingLimits {
+  int iterations = 40;
+  double relativeDecrease = 1e-4;
+};
+/// Levenberg-Marquardt from a state. The model's damping is in units of the stiffness of the longest wave.
+FairingRun minimise(const FairingSetup& setup, const FairingObjective& objective, const FairingCorridor& corridor,
+                    FairingState start, double damping, const FairingLimits& limits, const RunContext& context);
+
+}  // namespace batten

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fairing/model/target_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/curve/curvature.h"
+#include "core/curve/curvature_structure.h"
+
+namespace batten {
+namespace {
+
+/// Weight of the distance, in 1/extent: at last hardly any.
+constexpr double kSmallestWeight = 0.5, kWeightStep = 8.0, kRoughWeightStep = 16.0;
+/// [extents] At first the curve leaves the sketch by about this.
+constexpr double kHardlyMoved = 1e-4;
+constexpr int kMostSteps = 10;
+/// A reference curvature below this (times extent) would weigh a straight line's rounding as shape.
+constexpr double kSmallestReference = 1e-3;
+constexpr FairingLimits kFull{40, 1e-4}, kWarm{6, 1e-3}, kPolish{12, 1e-5};
+/// A long wavy curve whose target is plainly out of reach is not worth the last per cent: from so many samples on, a
+/// target farther off than this share of the extent after the first iterations is followed with less effort.
+constexpr int kLongCurve = 600;
+constexpr double kOutOfReach = 0.02;
+constexpr FairingLimits kProbe{12, 1e-3}, kRest{28, 1e-4}, kRough{4, 1e-2};
+
+}  // namespace
+
+Result<FairingObjective> targetObjective(const FairingSetup& setup, const TargetProfile& profile) {
+  if (!profile.valid) return fail(ErrorCode::BadParameter, profile.problem.empty() ? "No target." : profile.problem);
+  FairingObjective objective;
+  double sum = 0.0;
+  bool positive = false, negative = false;
+  for (int i = 0; i < setup.sampleCount(); ++i) {
+    const double value = profile.value(setup.fraction(i)), kappa = profile.curvatureAt(setup.fraction(i));
+    positive = positive || value > 0.0;
+    negative = negative || !(value > 0.0);
+    if (!std::isfinite(kappa)) return fail(ErrorCode::Numerical, "The target is not finite.");
+    objective.wanted.push_back(kappa);
+    sum += kappa * kappa;
+  }
+  if (profile.quantity == TargetQuantity::Radius && positive && negative) {
+    return fail(ErrorCode::Numerical, "The radius profile passes through zero: no curve can follow it.");
+  }
+  objective.reference = std::max(std::sqrt(sum / setup.sampleCount()), kSmallestReference / setup.extent);
+  return objective;
+}
+
+int extremaAsked(const FairingSetup& setup, const FairingObjective& objective) {
+  return countExtrema(objective.wanted, kExtremumProminence / setup.extent, setup.closed);
+}
+
+TargetSteps::TargetSteps(const FairingSetup& setup, const FairingObjective& objective, const RunContext& context,
+                         double mostMm)
+    : setup_(setup), objective_(objective), context_(context), long_(setup.sampleCount() > kLongCurve) {
+  const auto start = evaluate(setup, objective, {}, setup.points, setup.start.places);
+  if (!start) return;
+  smallest_ = kSmallestWeight / setup.extent;
+  largest_ = std::max(smallest_, std::sqrt(start->misfit) / (kHardlyMoved * setup.extent));
+  const double wanted = std::log(largest_ / smallest_) / std::log(long_ ? kRoughWeightStep : kWeightStep);
+  count_ = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMostSteps);
+  next_ = count_;
+  follow(mostMm);
+}
+
+void TargetSteps::goOn() {
+  if (early_) follow(std::numeric_limits<double>::infinity());
+}
+
+double TargetSteps::weightOf(int step) const {
+  return smallest_ * std::pow(largest_ / smallest_, static_cast<double>(step) / count_);
+}
+
+/// From the sketch to the target: each step starts from the one before, which lies near.
+void TargetSteps::follow(double mostMm) {
+  TargetStep from{0.0, setup_.points, setup_.start.places, 1e-3, 0.0, 0.0, 0, Termination::NotRun};
+  if (!steps_.empty()) from = steps_.front();
+  early_ = false;
+  std::reverse(steps_.begin(), steps_.end());
+  while (next_ >= 0 && !context_.isCancelled()) {
+    const int i = next_--;
+    const FairingLimits limits = i > 0 ? (long_ ? kRough : kWarm) : long_ ? kProbe : kFull;
+    auto step = solve(weightOf(i), from, limits);
+    if (!step) break;
+    from = *step;
+    steps_.push_back(std::move(*step));
+    early_ = i > 0 && from.deviationMm > mostMm;
+    if (early_) break;
+  }
+  std::reverse(steps_.begin(), steps_.end());
+  if (context_.isCancelled()) steps_.clear();
+  if (early_) return;
+  next_ = -1;
+  rough_ = long_ && !steps_.empty() && steps_.front().deviationMm > kOutOfReach * setup_.extent;
+  if (!long_ || rough_ || steps_.empty() || steps_.front().why != Termination::IterationLimit) return;
+  if (auto step = solve(smallest_, steps_.front(), kRest)) steps_.front() = std::move(*step);
+}
+
+std::optional<TargetStep> TargetSteps::solve(double weight, const TargetStep& from, const FairingLimits& limits) const {
+  const FairingCorridor corridor{weight, 0.0, 0.0};
+  auto state = evaluate(setup_, objective_, corridor, from.points, from.feet);
+  if (!state) return std::nullopt;
+  FairingRun run =
+      minimise(setup_, objective_, corridor, std::move(*state), std::min(1e-3, from.damping), limits, context_);
+  iterations_ += run.iterations;
+  const auto curve = toCurve(setup_, run.state.points);
+  if (!curve || context_.isCancelled()) return std::nullopt;
+  TargetStep step;
+  step.weight = weight;
+  step.damping = run.damping;
+  step.misfit = run.state.misfit;
+  step.why = run.why;
+  step.deviationMm = largestDeviation(setup_, run.state.points, true);
+  step.extrema = countedExtrema(*curve, setup_.closed, setup_.check);
+  step.points = std::move(run.state.points);
+  step.feet = std::move(run.state.feet);
+  return step;
+}
+
+std::optional<TargetStep> TargetSteps::between(const TargetStep& from, double weight) const {
+  return solve(weight, from, rough_ ? kRough : kWarm);
+}
+
+std::optional<TargetStep> TargetSteps::polished(const TargetStep& from) const {
+  return rough_ ? std::nullopt : solve(from.weight, from, kPolish);
+}
+
+}  // namespace batten

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/run_context.h"
+#include "core/base/termination.h"
+#include "core/fairing/model/fairing_setup.h"
+#include "core/fairing/model/fairing_state.h"
+#include "core/fairing/model/minimise.h"
+#include "core/fairing/profile/radius_target.h"
+
+namespace batten {
+
+/// The objective that a target profile stands for. @return why there is none.
+Result<FairingObjective> targetObjective(const FairingSetup& setup, const TargetProfile& profile);
+
+/// Times that the profile turns back by more than an extremum rises: what a curve that follows it must have.
+int extremaAsked(const FairingSetup& setup, const FairingObjective& objective);
+
+/// A curve on the way from a target to the sketch.
+struct TargetStep {
+  double weight = 0.0;  ///< [1/mm] Of the distance from the sketch.
+  std::vector<Vec2> points;
+  std::vector<SpanPlace> feet;
+  double damping = 1e-3;
+  double misfit = 0.0;       ///< Of the profile, squared.
+  double deviationMm = 0.0;  ///< From the sketch, both ways.
+  int extrema = 0;           ///< Of the usual prominence.
+  Termination why = Termination::IterationLimit;
+};
+
+/// Follows a target: the curve that meets it fully, and curves that hold nearer and nearer to the sketch. They depend
+/// on sketch and target alone, so what is found within a tolerance is found within a larger one too.
+class TargetSteps {
+ public:
+  /// @param mostMm the steps end, and none meets the target, where the curve has left the sketch by more than this.
+  TargetSteps(const FairingSetup& setup, const FairingObjective& objective, const RunContext& context,
+              double mostMm = std::numeric_limits<double>::infinity());
+
+  /// Where they ended early: goes on, as if they had not.
+  void goOn();
+  /// The first meets the target fully, but where they ended before (endsEarly). Empty when the sketch has a cusp, or
+  /// when cancelled.
+  const std::vector<TargetStep>& all() const { return steps_; }
+  bool endsEarly() const { return early_; }
+  /// Less effort was made: a long curve, and a target far out of its reach.
+  bool isRough() const { return rough_; }
+  /// A step of another weight, from one that is near.
+  std::optional<TargetStep> between(const TargetStep& from, double weight) const;
+  std::optional<TargetStep> polished(const TargetStep& from) const;
+  int iterations() const { return iterations_; }
+
+ private:
+  void follow(double mostMm);
+  double weightOf(int step) const;
+  std::optional<TargetStep> solve(double weight, const TargetStep& from, const FairingLimits& limits) const;
+
+  const FairingSetup& setup_;
+  const FairingObjective& objective_;
+  const RunContext& context_;
+  std::vector<TargetStep> steps_;
+  double smallest_ = 0.0, largest_ = 0.0;  ///< Weights of the steps at the target and at the sketch.
+  int count_ = 0, next_ = -1;              ///< Steps beside the first; the one to be made next, -1: none.
+  bool long_ = false, rough_ = false, early_ = false;
+  mutable int iterations_ = 0;
+};
+
+}  // namespace batten

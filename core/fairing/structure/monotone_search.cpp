@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fairing/structure/monotone_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/fairing/model/fairing_state.h"
+#include "core/fairing/structure/monotone_program.h"
+
+namespace batten {
+namespace {
+
+/// Constraints act at so many places a span; the result is checked at four times as many.
+constexpr int kPlacesPerSpan = 8, kDenseFactor = 4;
+/// Cut-off wave in mean spans of the term against staircases.
+constexpr double kWaveSpans = 2.0;
+/// Share of a sliding along the curve in the distance: it changes no shape, but far slides make the linear model wrong.
+constexpr double kSlideShare = 0.01;
+constexpr int kIterations = 20;
+/// After so many iterations windows stay, and steps are shortened: what has not settled by then swings.
+constexpr int kFreeIterations = 6;
+constexpr double kLateShare = 0.6;
+/// The least slope that is asked for, in units of the range of the curvature over the length, and its growth where the
+/// curvature still turned between the places.
+constexpr double kMargin = 1e-3, kMarginGrowth = 2.5;
+/// Share of the least move that the last step may move the curve.
+constexpr double kSettled = 5e-3;
+/// No step moves a control point by more than this, in the larger of the least and the estimated move.
+constexpr double kLongestStep = 1.0;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+std::vector<SpanPlace> checkPlaces(const SpanBasis& basis, int perSpan) {
+  // Below degree 5 the slope of the curvature jumps at knots: both sides count.
+  const bool smooth = basis.degree() >= 5;
+  std::vector<SpanPlace> places;
+  for (int span = 0; span < basis.spanCount(); ++span) {
+    for (int k = 0; k < perSpan; ++k)
+      places.push_back({span, static_cast<double>(k) / (smooth ? perSpan : perSpan - 1)});
+  }
+  if (smooth && !basis.isPeriodic()) places.push_back({basis.spanCount() - 1, 1.0});
+  return places;
+}
+
+}  // namespace
+
+/// The curve on its way, at the places.
+struct MonotoneSearch::State {
+  std::vector<Vec2> points;
+  std::vector<CurvatureJet> curvature;
+  std::vector<double> weight;  ///< Arc length that a place stands for, in mean spans.
+  std::vector<double> step;    ///< Arc length to the next place [mm].
+  std::vector<SpanPlace> feet;
+  std::vector<double> distance, slide;
+  std::vector<Vec2> normal, tangent;  ///< Of the sketch at the feet.
+  std::vector<Jet> jets;
+  bool valid = false;
+};
+
+MonotoneSearch::MonotoneSearch(const FairingSetup& setup, double leastMoveMm, const RunContext& context)
+    : setup_(setup),
+      leastMoveMm_(leastMoveMm),
+      context_(context),
+      places_(checkPlaces(setup.basis, kPlacesPerSpan)),
+      start_(setup.basis, setup.points) {
+  for (const SpanPlace& place : places_) sketched_.push_back(setup.sketchedPlace(place));
+  wave_ = kWaveSpans * setup.start.length / setup.basis.spanCount();
+  const State state = evaluate(setup.points, sketched_);
+  if (!state.valid) return;
+  double s = 0.0, low = 0.0, high = 0.0;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    s_.push_back(s);
+    kappa_.push_back(state.curvature[i].kappa);
+    s += state.step[i];
+    low = i == 0 ? kappa_[i] : std::min(low, kappa_[i]);
+    high = i == 0 ? kappa_[i] : std::max(high, kappa_[i]);
+  }
+  flat_ = 1e-9 * std::max(std::abs(low), std::abs(high));
+}
+
+int MonotoneSearch::wrapped(int sample) const {
+  const int count = static_cast<int>(places_.size());
+  return setup_.closed ? (sample % count + count) % count : std::clamp(sample, 0, count - 1);
+}
+
+MonotoneSearch::State MonotoneSearch::evaluate(const std::vector<Vec2>& points,
+                                               const std::vector<SpanPlace>& feet) const {
+  State state;
+  state.points = points;
+  const SpanCurve curve(setup_.basis, points);
+  const int count = static_cast<int>(places_.size());
+  const double meanSpeed = setup_.start.length / (setup_.original.end() - setup_.original.start());
+  for (int i = 0; i < count; ++i) {
+    if (context_.isCancelled()) return state;
+    const Jet jet = curve.at(places_[at(i)], 4);
+    if (!(jet[1].norm() > kCuspShare * meanSpeed) || !jet[0].allFinite()) return state;
+    state.jets.push_back(jet);
+    state.curvature.push_back(curvatureJet(jet));
+    const SpanPlace foot = footPoint(setup_.reference, jet[0], feet[at(i)]);
+    const Jet base = setup_.reference.at(foot, 1), same = start_.at(places_[at(i)], 0);
+    const Vec2 tangent = base[1].norm() > 0.0 ? Vec2(base[1].normalized()) : Vec2(Vec2::UnitX());
+    state.feet.push_back(foot);
+    state.tangent.push_back(tangent);
+    state.normal.push_back(leftNormal(tangent));
+    state.distance.push_back((jet[0] - base[0]).dot(state.normal.back()));
+    state.slide.push_back((jet[0] - same[0]).dot(tangent));
+  }
+  const double unit = setup_.start.length / setup_.basis.spanCount();
+  state.step.assign(at(count), 0.0);
+  state.weight.assign(at(count), 0.0);
+  for (int i = 0; i < (setup_.closed ? count : count - 1); ++i) {
+    const int next = (i + 1) % count;
+    // Corrected trapezoid of the speed; the last place of a span belongs to the next one's begin where they coincide.
+    const SpanPlace &a = places_[at(i)], &b = places_[at(next)];
+    const double width = (b.span == a.span ? b.tau - a.tau : 1.0 - a.tau + b.tau) * setup_.basis.width(a.span);
+    state.step[at(i)] = 0.5 * width * (state.curvature[at(i)].speed + state.curvature[at(next)].speed);
+    state.weight[at(i)] += 0.5 * state.step[at(i)] / unit;
+    state.weight[at(next)] += 0.5 * state.step[at(i)] / unit;
+  }
+  state.valid = true;
+  return state;
+}
+
+std::vector<MonotoneSearch::Window> MonotoneSearch::windows(const CurvatureStructure& structure) const {
+  std::vector<Window> result;
+  const int count = static_cast<int>(places_.size()), extrema = static_cast<int>(structure.extrema.size());
+  for (int j = 0; j < extrema; ++j) {
+    const int here = structure.extrema[at(j)].sample;
+    int before = j > 0 ? structure.extrema[at(j - 1)].sample : -1,
+        after = j + 1 < extrema ? structure.extrema[at(j + 1)].sample : count;
+    if (setup_.closed && j == 0) before = structure.extrema.back().sample - count;
+    if (setup_.closed && j + 1 == extrema) after = structure.extrema.front().sample + count;
+    const int left = std::max((here - before) / 4, here - before > 3 ? 1 : 0);
+    const int right = std::max((after - here) / 4, after - here > 3 ? 1 : 0);
+    const int half = std::min(left, right);
+    Window window{here - half, here + half, structure.extrema[at(j)].maximum};
+    if (!setup_.closed) {
+      window.low = std::max(window.low, 0);
+      window.high = std::min(window.high, count - 1);
+    }
+    result.push_back(window);
+  }
+  return result;
+}
+
+void MonotoneSearch::recentre(CurvatureStructure& structure, const std::vector<Window>& windows,
+                              const State& state) const {
+  for (std::size_t j = 0; j < windows.size(); ++j) {
+    const double sign = windows[j].maximum ? 1.0 : -1.0;
+    int best = windows[j].low;
+    for (int i = windows[j].low; i <= windows[j].high; ++i) {
+      if (sign * state.curvature[at(wrapped(i))].kappa > sign * state.curvature[at(wrapped(best))].kappa) best = i;
+    }
+    // An extremum in the middle of its window is left there, or two of them would swing to and fro.
+    const int centre = (windows[j].low + windows[j].high) / 2, half = (windows[j].high - windows[j].low) / 2;
+    if (10 * std::abs(best - centre) > 7 * half) structure.extrema[j].sample = wrapped(best);
+  }
+}
+
+void MonotoneSearch::addDistance(Program& program, const State& state, const Scales& scales) const {
+  const int degree = setup_.basis.degree();
+  LocalRow row;
+  for (std::size_t i = 0; i < places_.size() && !context_.isCancelled(); ++i) {
+    const SpanRow basis = setup_.basis.row(places_[i], 0);
+    const auto along = [&](const Vec2& direction) {
+      row.fill(Vec2::Zero());
+      for (int j = 0; j <= degree; ++j) row[at(j)] = basis.d[0][at(j)] * direction;
+      return program.localRow(places_[i].span, row);
+    };
+    const double w = state.weight[i] / (scales.distance * scales.distance);
+    const SparseRow normal = along(state.normal[i]);
+    program.addSquare(normal, state.distance[i], w);
+    program.addSquare(along(state.tangent[i]), state.slide[i], kSlideShare * w);
+    // Places far inside the bound cannot reach it in one step, and every second one is dense enough.
+    if (!(scales.bound > 0.0) || i % 2 != 0 || std::abs(state.distance[i]) < 0.25 * scales.bound) continue;
+    program.addBound(normal, -1.0, state.distance[i] - scales.bound);
+    program.addBound(normal, 1.0, -scales.bound - state.distance[i]);
+  }
+}
+
+void MonotoneSearch::addBend(Program& program, const State& state, const Scales& scales) const {
+  const double lambda = std::pow(wave_ / (2.0 * std::numbers::pi), 8.0) / (scales.distance * scales.distance);
+  const double unit = setup_.start.length / setup_.basis.spanCount();
+  const int count = static_cast<int>(places_.size());
+  for (int i = 0; i < (setup_.closed ? count : count - 1) && !context_.isCancelled(); ++i) {
+    const int next = (i + 1) % count;
+    const double step = state.step[at(i)];
+    if (!(step > 1e-9 * unit)) continue;
+    const SparseRow row = program.difference(i, next);
+    const double change = state.curvature[at(next)].slope - state.curvature[at(i)].slope;
+    program.addSquare(row, change, lambda / (step * unit));
+  }
+}
+
+void MonotoneSearch::addSigns(Program& program, const State& state, const CurvatureStructure& structure,
+                              const Scales& scales) const {
+  const std::vector<Window> all = windows(structure);
+  const int count = static_cast<int>(places_.size());
+  const auto slope = [&](int i) { return state.curvature[at(wrapped(i))].slope; };
+  const auto rising = [&](int i, double sign, double margin) {
+    program.addBound(program.slope(wrapped(i)), sign, margin - sign * slope(i));
+  };
+  const auto stretch = [&](int from, int to, double sign) {  // between windows, their borders not included
+    for (int i = from; i < to; ++i) rising(i, sign, scales.margin);
+  };
+  if (all.empty()) return stretch(0, count, structure.rising ? 1.0 : -1.0);
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    const Window& w = all[j];
+    const double sign = w.maximum ? 1.0 : -1.0;
+    if (!setup_.closed && j == 0) stretch(0, w.low, sign);
+    // A window of one place: the extremum lies about there, and its neighbours fix the rest.
+    if (w.low < w.high) {
+      rising(w.low, sign, 0.0);
+      rising(w.high, -sign, 0.0);
+    }
+    for (int i = w.low; i < w.high; ++i) {
+      const SparseRow row = program.difference(wrapped(i), wrapped(i + 1));
+      const double change = slope(i + 1) - slope(i);
+      program.addBound(row, -sign, sign * change);
+    }
+    const bool last = j + 1 == all.size();
+    const int end = !last ? all[j + 1].low : setup_.closed ? all.front().low + count : count;
+    stretch(w.high + 1, end, -sign);
+  }
+}
+
+MonotoneSearch::Outcome MonotoneSearch::solve(CurvatureStructure structure, const std::vector<Vec2>& start,
+                                              double estimateMm, double boundMm, double giveUpMm) const {
+  Outcome outcome;
+  outcome.points = start;
+  State state = evaluate(start, sketched_);
+  if (!state.valid) return outcome;
+  const auto [low, high] = std::minmax_element(kappa_.begin(), kappa_.end());
+  Scales scales{std::max(0.05 * leastMoveMm_, 0.1 * estimateMm), kMargin * (*high - *low) / setup_.start.length,
+                boundMm};
+  for (; outcome.iterations < kIterations && !context_.isCancelled(); ++outcome.iterations) {
+    Program program(setup_, places_, state.jets, context_);
+    if (context_.isCancelled()) break;
+    addDistance(program, state, scales);
+    addBend(program, state, scales);
+    addSigns(program, state, structure, scales);
+    if (context_.isCancelled()) break;
+    const std::vector<Window> used = windows(structure);
+    const auto step = program.solve(boundMm > 0.0);
+    if (!step) break;
+    double moved = 0.0;
+    std::vector<Vec2> points = state.points;
+    setup_.unknowns.move(*step, points);
+    for (std::size_t i = 0; i < points.size(); ++i) moved = std::max(moved, (points[i] - state.points[i]).norm());
+    // The linear model of the curvature holds for small moves only.
+    const double longest = kLongestStep * std::max(leastMoveMm_, estimateMm);
+    if (const double share = std::min(longest / moved, outcome.iterations < kFreeIterations ? 1.0 : kLateShare);
+        share < 1.0) {
+      for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = state.points[i] + share * (points[i] - state.points[i]);
+    }
+    State next = evaluate(points, state.feet);
+    if (!next.valid) break;
+    state = std::move(next);
+    if (outcome.iterations < kFreeIterations) recentre(structure, used, state);
+    const auto isFar = [giveUpMm](double distance) { return std::abs(distance) > giveUpMm; };
+    if (giveUpMm > 0.0 && std::any_of(state.distance.begin(), state.distance.end(), isFar)) {
+      outcome.found = false;
+      break;
+    }
+    const bool settled = moved < kSettled * std::max(leastMoveMm_, estimateMm);
+    if (denseTurns(state.points) == static_cast<int>(structure.extrema.size())) {
+      outcome.found = true;
+      outcome.points = state.points;
+      if (settled) break;
+    } else if (settled || outcome.iterations >= kFreeIterations) {
+      scales.margin *= kMarginGrowth;
+    }
+  }
+  if (outcome.found) outcome.deviationMm = largestDeviation(setup_, outcome.points, true);
+  return outcome;
+}
+
+int MonotoneSearch::denseTurns(const std::vector<Vec2>& points) const {
+  const SpanCurve curve(setup_.basis, points);
+  std::vector<double> kappa;
+  for (const SpanPlace& place : checkPlaces(setup_.basis, kPlacesPerSpan * kDenseFactor)) {
+    if (context_.isCancelled()) return 0;
+    kappa.push_back(curvatureJet(curve.at(place, 4)).kappa);
+  }
+  return countExtrema(kappa, flat_, setup_.closed);
+}
+
+}  // namespace batten

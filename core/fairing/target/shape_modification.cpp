@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fairing/target/shape_modification.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/curve/curvature.h"
+#include "core/fairing/fairing_report.h"
+#include "core/fairing/model/coarse_setups.h"
+#include "core/fairing/model/fairing_state.h"
+#include "core/fairing/model/target_steps.h"
+#include "core/fairing/profile/profile_data.h"
+#include "core/fairing/structure/tolerance_fairing.h"
+
+namespace batten {
+namespace {
+
+/// Steps between two of TargetSteps, to use as much of the tolerance as this.
+constexpr int kSearchSteps = 4, kRoundSteps = 4, kRoughSteps = 2;
+constexpr double kTargetUsedShare = 0.95;
+/// [mm] Tolerances that are used up whatever the tolerance is, if it is no smaller.
+constexpr std::array kRoundTolerances = {20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01};
+/// A search that leaves more of it unused got stuck in the noise of a rough start; the barrier then takes over.
+constexpr double kStuckShare = 0.8;
+/// Room for what lies between the places where the deviation is measured.
+constexpr double kTargetRoom = 0.999;
+/// Tolerances: a curve that has left the sketch by this, on its way to the target, will not come back.
+constexpr double kBeyondReach = 2.0;
+
+constexpr const char* kNothingNearer =
+    "Unchanged: no curve within the tolerance is closer to this target without added "
+    "curvature extrema. Raise the tolerance, split the profile, or use Smooth.";
+constexpr const char* kTargetAddsExtrema =
+    "Unchanged: reaching this target adds curvature extrema. Choose another degree, split "
+    "the profile, or use Smooth.";
+
+/// A sketch of so many extrema trembles, when over these spans it has less than half of them. Fewer and fewer of them
+/// are tried, until a few extrema are left.
+constexpr int kTrembles = 6;
+constexpr std::array kCalmSpans = {13, 5, 3};
+
+std::vector<std::shared_ptr<const FairingSetup>> calmSetups(const std::shared_ptr<const FairingSetup>& sketch) {
+  std::vector<std::shared_ptr<const FairingSetup>> result;
+  if (sketch->isPart) return result;
+  int extrema = countedExtrema(sketch->original, sketch->closed, sketch->check);
+  for (const int spans : kCalmSpans) {
+    if (extrema < kTrembles) break;
+    auto calm = coarseSetup(sketch, spans);
+    const int left = calm ? countedExtrema(calm->original, calm->closed, calm->check) : extrema;
+    if (2 * left >= extrema) continue;
+    result.push_back(std::move(calm));
+    extrema = left;
+  }
+  return result;
+}
+
+/// Of all curves within the tolerance the one with the fewest extrema, of these the one nearest to the target.
+class ShapeModification {
+ public:
+  ShapeModification(const std::shared_ptr<const FairingSetup>& setup, const FairingObjective& objective,
+                    double toleranceMm, const RunContext& context, ModificationEffort effort)
+      : sketch_(*setup),
+        objective_(objective),
+        toleranceMm_(toleranceMm),
+        context_(context),
+        onlyIfMet_(effort.onlyIfMet),
+        asked_(effort.asked == ExtremaAsked::None ? 0 : extremaAsked(*setup, objective)) {
+    if (effort.asked == ExtremaAsked::UpToSketch)
+      asked_ = std::min(asked_, countedExtrema(setup->original, setup->closed, setup->check));
+    if (onlyIfMet_) mostMm_ = kBeyondReach * toleranceMm;
+    openAll(setup);
+    // One that comes to its target decides together with the others, which are then followed to the end.
+    const auto endsEarly = [](const Course& course) { return course.steps.endsEarly(); };
+    const bool allEndEarly = std::all_of(courses_.begin(), courses_.end(), endsEarly);
+    if (allEndEarly || std::none_of(courses_.begin(), courses_.end(), endsEarly)) return;
+    mostMm_ = std::numeric_limits<double>::infinity();
+    courses_.front().steps.goOn();
+    if (isCalm()) {
+      while (courses_.size() > 1) courses_.pop_back();
+      calm_.clear();
+    }
+    for (Course& course : courses_) course.steps.goOn();
+  }
+  Result<FairedCurve> run() {
+    if (context_.isCancelled()) return cancelled();
+    const auto before = evaluate(sketch_, objective_, {}, sketch_.points, sketch_.start.places);
+    if (courses_.empty() || !before) {
+      return unchanged(sketch_.original, sketch_.closed, Termination::Degenerate,
+                       "The curve has a cusp and was not changed.");
+    }
+    best_.points = sketch_.points;
+    best_.misfit = before->misfit;
+    best_.extrema = countedExtrema(sketch_.original, sketch_.closed, sketch_.check);
+    report_.objectiveBefore = std::sqrt(best_.misfit);
+    double nearest = std::numeric_limits<double>::max();
+    for (const Course& course : courses_) {
+      const TargetStep& full = course.steps.all().front();
+      if (full.misfit < nearest) report_.neededMm = full.deviationMm;
+      nearest = std::min(nearest, full.misfit);
+      for (const TargetStep& step : course.steps.all()) {
+        if (isWithin(step)) take(step, &course);
+      }
+    }
+    report_.withinTolerance = !courses_.front().steps.endsEarly() && report_.neededMm <= kTargetRoom * toleranceMm_;
+    if (onlyIfMet_ && !report_.withinTolerance) return done();
+    for (const double tolerance : kRoundTolerances) {
+      if (tolerance <= toleranceMm_) useRound(tolerance);
+    }
+    for (const Course& course : courses_) {
+      if (!course_ || (course_ == &course && best_.weight > course.steps.all().front().weight)) useTolerance(course);
+    }
+    if (context_.isCancelled()) return cancelled();
+    return done();
+  }
+
+ private:
+  /// The steps over one knot vector.
+  struct Course {
+    const FairingSetup* setup;
+    TargetSteps steps;
+    std::vector<TargetStep> toTolerance{};  ///< Steps that use up the tolerance, where a round one has found them.
+  };
+
+  void openAll(const std::shared_ptr<const FairingSetup>& setup) {
+    open(setup.get());
+    if (isCalm()) return;
+    calm_ = calmSetups(setup);
+    for (const auto& calm : calm_) open(calm.get());
+  }
+  /// Where the target is met without tremor, there is none to be passed over.
+  bool isCalm() const {
+    if (courses_.empty() || courses_.front().steps.endsEarly()) return false;
+    const std::vector<TargetStep>& steps = courses_.front().steps.all();
+    return !steps.empty() && steps.front().extrema <= asked_;
+  }
+  void open(const FairingSetup* over) {
+    Course course{over, TargetSteps(*over, objective_, context_, mostMm_)};
+    if (!course.steps.all().empty()) courses_.push_back(std::move(course));
+  }
+  bool isWithin(const TargetStep& step) const { return step.deviationMm <= kTargetRoom * toleranceMm_; }
+  /// Extrema that the target itself has are no fault.
+  int rank(const TargetStep& step) const { return std::max(step.extrema, asked_); }
+
+  void take(const TargetStep& step, const Course* course) {
+    const bool better = rank(step) < rank(best_) || (rank(step) == rank(best_) && step.misfit < best_.misfit);
+    if (!better) return;
+    best_ = step;
+    course_ = course;
+  }
+
+  /// What only this tolerance has found must not win extrema that a larger one would not find again.
+  void takeOfSameRank(const TargetStep& step, const Course* course) {
+    if (rank(step) == rank(best_)) take(step, course);
+  }
+
+  /// The steps on both sides of a tolerance: the last that leaves it, and the first that keeps it.
+  struct Sides {
+    const TargetStep *outside = nullptr, *inside = nullptr;
+  };
+  Sides sidesOf(const Course& course, double toleranceMm) const {
+    Sides sides;
+    for (const TargetStep& step : course.steps.all()) {
+      if (step.deviationMm <= kTargetRoom * toleranceMm) {
+        sides.inside = &step;
+        break;
+      }
+      sides.outside = &step;
+    }
+    return sides;
+  }
+
+  /// A curve that uses up a round tolerance: what it wins, larger tolerances find too.
+  void useRound(double toleranceMm) {
+    for (Course& course : courses_) {
+      if (rank(best_) <= asked_ || context_.isCancelled()) return;
+      const Sides sides = sidesOf(course, toleranceMm);
+      if (!sides.outside) continue;
+      std::vector<TargetStep> found = between(course, sides, toleranceMm, kRoundSteps);
+      for (const TargetStep& step : found) take(step, &course);
+      if (!(toleranceMm < toleranceMm_)) course.toTolerance = std::move(found);
+    }
+  }
+
+  /// Steps that use more and more of a tolerance.
+  std::vector<TargetStep> between(const Course& course, const Sides& sides, double toleranceMm, int most) const {
+    std::vector<TargetStep> found;
+    TargetStep wide = *sides.outside;
+    std::optional<TargetStep> near;
+    if (sides.inside) near = *sides.inside;
+    for (int i = 0; i < most && !context_.isCancelled(); ++i) {
+      if (near && (near->deviationMm >= kTargetUsedShare * toleranceMm || near->weight < 1.02 * wide.weight)) break;
+      const double weight = near ? weightBetween(wide, *near, toleranceMm) : 4.0 * wide.weight;
+      auto step = course.steps.between(near ? *near : wide, weight);
+      if (!step) break;
+      if (step->deviationMm <= kTargetRoom * toleranceMm) {
+        found.push_back(*step);
+        near = std::move(step);
+      } else {
+        wide = std::move(*step);
+      }
+    }
+    return found;
+  }
+
+  void useTolerance(const Course& course) {
+    const Sides sides = sidesOf(course, toleranceMm_);
+    if (!sides.outside) return;
+    if (course.toTolerance.empty()) {
+      const int most = course.steps.isRough() ? kRoughSteps : kSearchSteps;
+      for (const TargetStep& step : between(course, sides, toleranceMm_, most)) takeOfSameRank(step, &course);
+    }
+    if (course_ != &course || context_.isCancelled()) return;
+    const auto polished = course.steps.polished(best_);
+    if (polished && isWithin(*polished)) takeOfSameRank(*polished, &course);
+    if (course.setup == &sketch_ && !course.steps.isRough() && best_.deviationMm < kStuckShare * toleranceMm_)
+      useBarrier(course);
+  }
+
+  static double weightBetween(const TargetStep& wide, const TargetStep& near, double toleranceMm) {
+    const double a = std::log(wide.weight), b = std::log(near.weight);
+    const double da = std::log(wide.deviationMm / toleranceMm);
+    const double db =
+        std::log(std::max(near.deviationMm / toleranceMm, 1e-9)) - std::log(0.5 * (1.0 + kTargetUsedShare));
+    return std::exp(a + std::clamp(da / std::max(da - db, 1e-12), 0.1, 0.9) * (b - a));
+  }
+
+  void useBarrier(const Course& course) {
+    BoundedRun bounded = minimiseWithin(sketch_, objective_, toleranceMm_, best_.points, context_);
+    if (context_.isCancelled()) return;
+    report_.iterations += bounded.iterations;
+    TargetStep step = best_;
+    step.points = std::move(bounded.points);
+    step.deviationMm = keepWithin(sketch_, toleranceMm_, step.points);
+    const auto state = evaluate(sketch_, objective_, {}, step.points, sketch_.start.places);
+    const auto curve = toCurve(sketch_, step.points);
+    if (!state || !curve) return;
+    step.misfit = state->misfit;
+    step.extrema = countedExtrema(*curve, sketch_.closed, sketch_.check);
+    takeOfSameRank(step, &course);
+  }
+
+  void explain() {
+    const auto adds = [this](const TargetStep& step) { return isWithin(step) && rank(step) > rank(best_); };
+    const auto& own = courses_.front().steps;
+    report_.why = course_ ? best_.why : Termination::FixedPoint;
+    if (!course_ && (!report_.withinTolerance || std::any_of(own.all().begin(), own.all().end(), adds))) {
+      report_.why = Termination::ToleranceLimited;
+      report_.note = report_.withinTolerance ? kTargetAddsExtrema : kNothingNearer;
+      report_.withinTolerance = false;
+    } else if (!report_.withinTolerance) {
+      report_.why = Termination::ToleranceLimited;
+      report_.note = "The profile was followed as far as the tolerance allows.";
+      if (best_.deviationMm >= kStuckShare * toleranceMm_) return;
+      // The corridor had room left: it was not what stopped the curve.
+      report_.note = own.isRough() ? "The profile is far out of reach for this curve. Split it, or mark the corners."
+                                   : "The profile was followed as far as possible without adding a curvature extremum.";
+    }
+  }
+
+  Result<FairedCurve> done() {
+    for (const Course& course : courses_) report_.iterations += course.steps.iterations();
+    report_.objectiveAfter = std::sqrt(best_.misfit);
+    explain();
+    if (!course_ || course_->setup == &sketch_)
+      return finished(sketch_, std::move(best_.points), toleranceMm_, std::move(report_));
+    auto curve = toCurve(*course_->setup, best_.points);
+    if (!curve) return fail(curve.error());
+    report_.maxDeviationMm = best_.deviationMm;
+    report_.extremaBefore = countedExtrema(sketch_.original, sketch_.closed, sketch_.check);
+    report_.extremaAfter = best_.extrema;
+    return FairedCurve{std::move(*curve), std::move(report_)};
+  }
+
+  const FairingSetup& sketch_;
+  const FairingObjective& objective_;
+  double toleranceMm_, mostMm_ = std::numeric_limits<double>::infinity();
+  const RunContext& context_;
+  std::vector<std::shared_ptr<const FairingSetup>> calm_;
+  std::vector<Course> courses_;
+  bool onlyIfMet_;
+  int asked_;
+  TargetStep best_;
+  const Course* course_ = nullptr;  ///< To which the best one belongs; null: the sketch is the best.
+  FairingReport report_;
+};
+
+}  // namespace
+
+Result<FairedCurve> modifyShape(const std::shared_ptr<const FairingSetup>& setup, const TargetProfile& profile,
+                                double toleranceMm, const RunContext& context, ModificationEffort effort) {
+  const auto objective = targetObjective(*setup, profile);
+  if (!objective) return fail(objective.error());
+  auto faired = ShapeModification(setup, *objective, toleranceMm, context, effort).run();
+  if (faired) faired->report.similarityAfter = similarityToSketch(faired->curve, setup->sketchedCurve());
+  return faired;
+}
+
+Result<FairedCurve> modifyShape(const NurbsCurve& curve, bool closed, const TargetProfile& profile,
+                                const FairingParams& params, const RunContext& context) {
+  return withSetup(curve, closed, params, context,
+                   [&](const std::shared_ptr<const FairingSetup>& setup, const FairingParams& within) {
+                     return modifyShape(setup, profile, within.toleranceMm, context, {ExtremaAsked::OfProfile});
+                   });
+}
+
+}  // namespace batten

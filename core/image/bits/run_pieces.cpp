@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/bits/run_pieces.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/base/parallel.h"
+
+namespace batten {
+namespace {
+
+constexpr int kRowsPerStrip = 256;
+
+void appendRuns(const BitImage& image, int y, std::vector<Run>& runs) {
+  const std::uint64_t* row = image.row(y);
+  std::uint64_t carry = 0;
+  bool open = false;
+  for (int i = 0; i < image.wordsPerRow; ++i) {
+    std::uint64_t changes = row[i] ^ ((row[i] << 1) | carry);
+    carry = row[i] >> 63;
+    for (; changes != 0; changes &= changes - 1) {
+      const int x = i * 64 + std::countr_zero(changes);
+      if (open) {
+        runs.back().x1 = x;
+      } else {
+        runs.push_back({y, x, image.width});
+      }
+      open = !open;
+    }
+  }
+}
+
+int findRoot(std::vector<int>& parent, int i) {
+  const auto at = [&](int k) -> int& { return parent[k]; };
+  while (at(i) != i) {
+    at(i) = at(at(i));
+    i = at(i);
+  }
+  return i;
+}
+
+/// The runs of a row, by index: from first to before last.
+struct RowRuns {
+  int first = 0, last = 0;
+};
+
+/// Joins the runs of two neighbouring rows where they touch. @param slack [px] 1: corners touch, too; else 0.
+void joinRows(const std::vector<Run>& runs, RowRuns upper, RowRuns lower, int slack, std::vector<int>& parent) {
+  int a = upper.first, b = lower.first;
+  while (a < upper.last && b < lower.last) {
+    const Run& above = runs[a];
+    const Run& below = runs[b];
+    if (above.x0 < below.x1 + slack && below.x0 < above.x1 + slack) {
+      const int rootA = findRoot(parent, a), rootB = findRoot(parent, b);
+      parent[std::max(rootA, rootB)] = std::min(rootA, rootB);
+    }
+    if (above.x1 < below.x1) {
+      ++a;
+    } else {
+      ++b;
+    }
+  }
+}
+
+/// Calls `work` with the index of every word that pixels [x0, x1) of a row lie in, and their bits of it.
+template <class Work>
+void forWords(int x0, int x1, const Work& work) {
+  const int first = x0 >> 6, last = (x1 - 1) >> 6;
+  for (int i = first; i <= last; ++i) {
+    std::uint64_t bits = ~std::uint64_t{0};
+    if (i == first) bits &= ~std::uint64_t{0} << (x0 & 63);
+    if (i == last) bits &= ~std::uint64_t{0} >> (63 - ((x1 - 1) & 63));
+    work(i, bits);
+  }
+}
+
+bool anyBit(const std::uint64_t* row, int x0, int x1) {
+  bool any = false;
+  forWords(x0, x1, [&](int i, std::uint64_t bits) { any = any || (row[i] & bits) != 0; });
+  return any;
+}
+
+void setBits(std::uint64_t* row, int x0, int x1) {
+  forWords(x0, x1, [&](int i, std::uint64_t bits) { row[i] |= bits; });
+}
+
+struct Strips {
+  std::vector<int> rowStart;  ///< Index of the first run of every row, and the total at the end.
+  std::vector<Run> runs;
+};
+
+Strips gatherRuns(const BitImage& image, const RunContext& context) {
+  const int strips = (image.height + kRowsPerStrip - 1) / kRowsPerStrip;
+  std::vector<std::vector<Run>> parts(strips);
+  Strips all;
+  all.rowStart.assign(static_cast<std::size_t>(image.height) + 1, 0);
+  parallelFor(context, image.height, kRowsPerStrip, [&](int begin, int end) {
+    std::vector<Run>& part = parts[begin / kRowsPerStrip];
+    for (int y = begin; y < end; ++y) {
+      const std::size_t before = part.size();
+      appendRuns(image, y, part);
+      all.rowStart[y + 1] = static_cast<int>(part.size() - before);
+    }
+  });
+  for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y) all.rowStart[y + 1] += all.rowStart[y];
+  all.runs.reserve(all.rowStart.back());
+  for (const auto& part : parts) all.runs.insert(all.runs.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace
+
+RunPieces findPieces(const BitImage& image, Connectivity connectivity, const RunContext& context) {
+  RunPieces result;
+  if (image.height <= 0 || image.width <= 0) return result;
+  Strips all = gatherRuns(image, context);
+  if (context.isCancelled()) return result;
+  const int slack = connectivity == Connectivity::Eight ? 1 : 0;
+  std::vector<int> parent(all.runs.size());
+  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = static_cast<int>(i);
+  const auto join = [&](int y) {
+    const auto row = static_cast<std::size_t>(y);
+    joinRows(all.runs, {all.rowStart[row - 1], all.rowStart[row]}, {all.rowStart[row], all.rowStart[row + 1]}, slack,
+             parent);
+  };
+  // Within a strip only its own runs are joined, so strips do not disturb each other; the seams come afterwards.
+  parallelFor(context, image.height, kRowsPerStrip, [&](int begin, int end) {
+    for (int y = begin + 1; y < end; ++y) join(y);
+  });
+  for (int y = kRowsPerStrip; y < image.height; y += kRowsPerStrip) join(y);
+  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = parent[parent[i]];
+  result.runs = std::move(all.runs);
+  result.piece = std::move(parent);
+  return result;
+}
+
+void setBits(BitImage& image, const Run& run) { setBits(image.row(run.y), run.x0, run.x1); }
+
+std::optional<int> pieceAt(const RunPieces& pieces, int x, int y) {
+  const auto before = [](const Run& run, const std::pair<int, int>& yx) {
+    return run.y != yx.first ? run.y < yx.first : run.x1 <= yx.second;
+  };
+  const auto run = std::lower_bound(pieces.runs.begin(), pieces.runs.end(), std::pair(y, x), before);
+  if (run == pieces.runs.end() || run->y != y || run->x0 > x) return {};
+  return pieces.piece[run - pieces.runs.begin()];
+}
+
+void clearBits(BitImage& image, const Run& run) {
+  std::uint64_t* row = image.row(run.y);
+  forWords(run.x0, run.x1, [&](int i, std::uint64_t bits) { row[i] &= ~bits; });
+}
+
+void copyBits(const BitImage& from, const Run& run, BitImage& to) {
+  const std::uint64_t* source = from.row(run.y);
+  std::uint64_t* row = to.row(run.y);
+  forWords(run.x0, run.x1, [&](int i, std::uint64_t bits) { row[i] |= source[i] & bits; });
+}
+
+int countBits(const BitImage& image, const Run& run) {
+  const std::uint64_t* row = image.row(run.y);
+  int count = 0;
+  forWords(run.x0, run.x1, [&](int i, std::uint64_t bits) { count += std::popcount(row[i] & bits); });
+  return count;
+}
+
+BitImage keepPieces(const BitImage& image, const PieceRule& rule, const RunContext& context) {
+  struct Piece {
+    std::int64_t area = 0;
+    int x0 = std::numeric_limits<int>::max(), x1 = 0, y0 = std::numeric_limits<int>::max(), y1 = 0;
+    bool seeded = false;
+  };
+  const RunPieces found = findPieces(image, Connectivity::Eight, context);
+  std::vector<Piece> pieces(found.runs.size());
+  for (std::size_t i = 0; i < found.runs.size(); ++i) {
+    const Run& run = found.runs[i];
+    Piece& piece = pieces[found.piece[i]];
+    piece.area += run.x1 - run.x0;
+    piece.x0 = std::min(piece.x0, run.x0);
+    piece.x1 = std::max(piece.x1, run.x1);
+    piece.y0 = std::min(piece.y0, run.y);
+    piece.y1 = std::max(piece.y1, run.y + 1);
+    piece.seeded = piece.seeded || rule.seeds == nullptr || anyBit(rule.seeds->row(run.y), run.x0, run.x1);
+  }
+  BitImage kept(image.width, image.height);
+  for (std::size_t i = 0; i < found.runs.size(); ++i) {
+    const Piece& piece = pieces[found.piece[i]];
+    const bool large = std::hypot(piece.x1 - piece.x0, piece.y1 - piece.y0) >= rule.minDiagonal;
+    if (!piece.seeded || piece.area < rule.minArea || !large) continue;
+    setBits(kept.row(found.runs[i].y), found.runs[i].x0, found.runs[i].x1);
+  }
+  return kept;
+}
+
+void fillHoles(BitImage& image, int area, const RunContext& context) {
+  if (area <= 1 || image.width <= 0) return;
+  // A hole of fewer than `area` pixels has only shorter gaps: everything else of the paper need not be looked at.
+  BitImage gaps(image.width, image.height);
+  parallelFor(context, image.height, kRowsPerStrip, [&](int begin, int end) {
+    std::vector<Run> runs;
+    for (int y = begin; y < end; ++y) {
+      runs.clear();
+      appendRuns(image, y, runs);
+      for (std::size_t i = 1; i < runs.size(); ++i) {
+        if (runs[i].x0 - runs[i - 1].x1 < area) setBits(gaps.row(y), runs[i - 1].x1, runs[i].x0);
+      }
+    }
+  });
+  const RunPieces found = findPieces(gaps, Connectivity::Four, context);
+  if (context.isCancelled()) return;
+  std::vector<std::int64_t> size(found.runs.size(), 0);
+  const auto openTowards = [&](const Run& run, int y) {
+    if (y < 0 || y >= image.height) return true;
+    bool isOpen = false;
+    forWords(run.x0, run.x1,
+             [&](int i, std::uint64_t bits) { isOpen = isOpen || (~(image.row(y)[i] | gaps.row(y)[i]) & bits) != 0; });
+    return isOpen;
+  };
+  for (std::size_t i = 0; i < found.runs.size(); ++i) {
+    const Run& run = found.runs[i];
+    const bool open = openTowards(run, run.y - 1) || openTowards(run, run.y + 1);
+    size[found.piece[i]] += open ? area : run.x1 - run.x0;
+  }
+  for (std::size_t i = 0; i < found.runs.size(); ++i) {
+    if (size[found.piece[i]] >= area) continue;
+    setBits(image.row(found.runs[i].y), found.runs[i].x0, found.runs[i].x1);
+  }
+}
+
+}  // namespace batten

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/image/bits/bit_image.h"
+
+namespace batten {
+
+/// A horizontal run of ink: pixels [x0, x1) of row y.
+struct Run {
+  int y, x0, x1;
+};
+
+/// The connected pieces of a bit image, found on runs and not on pixels.
+struct RunPieces {
+  std::vector<Run> runs;   ///< In reading order.
+  std::vector<int> piece;  ///< For every run, the index of the first run of its piece.
+};
+
+enum class Connectivity { Four, Eight };
+/// The piece that a pixel lies in; absent on paper.
+std::optional<int> pieceAt(const RunPieces& pieces, int x, int y);
+RunPieces findPieces(const BitImage& image, Connectivity connectivity, const RunContext& context);
+
+/// Sets the pixels of a run.
+void setBits(BitImage& image, const Run& run);
+/// Clears the pixels of a run.
+void clearBits(BitImage& image, const Run& run);
+/// Sets in `to` the pixels of the run that are set in `from`, which is as large.
+void copyBits(const BitImage& from, const Run& run, BitImage& to);
+/// How many pixels of the run are set.
+int countBits(const BitImage& image, const Run& run);
+
+/// What a piece of ink must have to stay.
+struct PieceRule {
+  std::int64_t minArea = 0;         ///< [px]
+  double minDiagonal = 0.0;         ///< [px] of its box, counted over pixels.
+  const BitImage* seeds = nullptr;  ///< It must hold one of these pixels; absent: no such rule.
+};
+/// `image` without the 8-connected pieces that break the rule.
+BitImage keepPieces(const BitImage& image, const PieceRule& rule, const RunContext& context);
+
+/// Fills the 4-connected holes in the ink with fewer than `area` pixels.
+void fillHoles(BitImage& image, int area, const RunContext& context);
+
+}  // namespace batten

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/colour/coloured_ink.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/base/statistics.h"
+#include "core/image/colour/paper_colour.h"
+
+namespace batten {
+namespace {
+
+constexpr double kLeastGain = 0.06;       // of the paper's grey
+constexpr double kGainPerNoise = 5.0;     // standard deviations of the paper's own gain
+constexpr float kPaperBrightness = 0.8f;  // of the paper around: what the noise is measured on
+constexpr float kDarkInk = 0.7f;          // of the paper around: darker is ink that the grey sees
+constexpr int kGainSamples = 20000;
+constexpr int kLeastArea = 12, kLeastSide = 8;  // [px] smaller pieces of colour are dust or noise
+constexpr double kMostDarkBorder = 0.25;
+constexpr double kLeastRise = 0.25;  // of the contrast in grey
+constexpr int kRimPx = 2;            // of the ink's edge, where the gain falls below the limit
+
+/// Grey less the darkest channel, each divided by its paper, per pixel of a row. [grey, may be negative]
+void gainsOfRow(const GreyImage& grey, const ColourImage& colour, const PaperColour& paper, int y,
+                std::array<std::vector<float>, 3>& ratios, std::vector<float>& out) {
+  paper.ratiosOfRow(y, grey.width, grey.height, ratios);
+  out.resize(grey.width);
+  const Rgb8* in = colour.row(y);
+  const std::uint16_t* levels = grey.row(y);
+  constexpr float kStep = 1.0f / static_cast<float>(GreyImage::kGreyUnit);
+  for (int x = 0; x < grey.width; ++x) {
+    const float red = static_cast<float>(in[x].red) / ratios[0][x],
+                green = static_cast<float>(in[x].green) / ratios[1][x],
+                blue = static_cast<float>(in[x].blue) / ratios[2][x];
+    out[x] = static_cast<float>(levels[x]) * kStep - std::min(red, std::min(green, blue));
+  }
+}
+
+cv::Mat1b gainPicture(const GreyImage& grey, const ColourImage& colour, const PaperColour& paper,
+                      const RunContext& context) {
+  cv::Mat1b gains(grey.height, grey.width);
+  parallelFor(context, grey.height, kRowsPerBlock, [&](int begin, int end) {
+    std::array<std::vector<float>, 3> ratios;
+    std::vector<float> row;
+    for (int y = begin; y < end; ++y) {
+      gainsOfRow(grey, colour, paper, y, ratios, row);
+      std::uint8_t* out = gains.ptr(y);
+      for (int x = 0; x < grey.width; ++x) out[x] = static_cast<std::uint8_t>(std::clamp(row[x] + 0.5f, 0.0f, 255.0f));
+    }
+  });
+  return gains;
+}
+
+/// What coloured ink must gain to stand out of the noise of the colours, on the picture of smoothed gains.
+double gainLimit(const GreyImage& grey, const cv::Mat1b& gains, const PaperColour& paper) {
+  const std::int64_t count = static_cast<std::int64_t>(grey.width) * grey.height;
+  const std::int64_t stride = std::max<std::int64_t>(1, count / kGainSamples) | 1;  // in step with no even pattern
+  std::vector<float> samples;
+  for (std::int64_t i = 0; i < count; i += stride) {
+    const int x = static_cast<int>(i % grey.width), y = static_cast<int>(i / grey.width);
+    if (static_cast<float>(grey.level(x, y)) >= kPaperBrightness * paper.paperAt(x, y))
+      samples.push_back(static_cast<float>(gains(y, x)));
+  }
+  const double least = kLeastGain * paper.paperLevel;
+  if (samples.empty()) return least;
+  const float middle = upperMedian(samples);
+  for (float& sample : samples) sample -= middle;
+  return std::max(least, static_cast<double>(middle) + kGainPerNoise * robustSigma(samples));
+}
+
+struct ColouredPiece {
+  int border = 0, darkBorder = 0;  ///< [px]
+  double gain = 0.0, depth = 0.0;  ///< [grey] sums: what is gained, and what the grey has already.
+};
+
+/// Which pieces of `mask` are ink that gains, as a mask.
+cv::Mat1b gainingPieces(const GreyImage& grey, const cv::Mat1b& gains, const cv::Mat1b& mask,
+                        const PaperColour& paper) {
+  cv::Mat1b dark(mask.size());
+  for (int y = 0; y < grey.height; ++y) {
+    for (int x = 0; x < grey.width; ++x) {
+      const bool isDark = mask(y, x) == 0 && static_cast<float>(grey.level(x, y)) < kDarkInk * paper.paperAt(x, y);
+      dark(y, x) = isDark ? 255 : 0;
+    }
+  }
+  cv::dilate(dark, dark, cv::Mat(), {-1, -1}, kRimPx);
+  cv::Mat1i labels, stats;
+  cv::Mat1d centres;
+  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centres, 8, CV_32S);
+  std::vector<ColouredPiece> pieces(count);
+  for (int y = 0; y < grey.height; ++y) {
+    for (int x = 0; x < grey.width; ++x) {
+      const int label = labels(y, x);
+      if (label == 0) continue;
+      ColouredPiece& piece = pieces[label];
+      piece.gain += gains(y, x);
+      piece.depth += std::max(0.0, static_cast<double>(paper.paperAt(x, y)) - grey.level(x, y));
+      const bool isBorder = (x > 0 && mask(y, x - 1) == 0) || (x + 1 < grey.width && mask(y, x + 1) == 0) ||
+                            (y > 0 && mask(y - 1, x) == 0) || (y + 1 < grey.height && mask(y + 1, x) == 0);
+      if (!isBorder) continue;
+      ++piece.border;
+      if (dark(y, x) != 0) ++piece.darkBorder;
+    }
+  }
+  std::vector<std::uint8_t> isTaken(pieces.size(), 0);
+  for (int i = 1; i < count; ++i) {
+    const ColouredPiece& piece = pieces[i];
+    const bool isInk = stats(i, cv::CC_STAT_AREA) >= kLeastArea &&
+                       std::max(stats(i, cv::CC_STAT_WIDTH), stats(i, cv::CC_STAT_HEIGHT)) >= kLeastSide;
+    isTaken[i] = isInk && piece.darkBorder <= kMostDarkBorder * piece.border && piece.gain >= kLeastRise * piece.depth;
+  }
+  cv::Mat1b taken = std::move(dark);  // its memory: a large page holds no mask more than it needs
+  for (int y = 0; y < grey.height; ++y) {
+    for (int x = 0; x < grey.width; ++x) taken(y, x) = isTaken[labels(y, x)] != 0 ? 255 : 0;
+  }
+  return taken;
+}
+
+}  // namespace
+
+ColouredInk darkenColouredInk(const GreyImage& grey, const ColourImage& colour, const RunContext& context) {
+  ColouredInk result;
+  if (colour.isEmpty()) return result;
+  const PaperColour paper = measurePaperColour(grey, colour, context);
+  if (context.isCancelled()) return result;
+  cv::Mat1b smoothed;
+  cv::blur(gainPicture(grey, colour, paper, context), smoothed, {3, 3});
+  if (context.isCancelled()) return result;
+  const cv::Mat1b mask = smoothed > gainLimit(grey, smoothed, paper);
+  if (context.isCancelled() || cv::countNonZero(mask) == 0) return result;
+  cv::Mat1b taken = gainingPieces(grey, smoothed, mask, paper);
+  if (context.isCancelled() || cv::countNonZero(taken) == 0) return result;
+  cv::dilate(taken, taken, cv::Mat(), {-1, -1}, kRimPx);
+  result.pixels = cv::countNonZero(taken);
+  result.grey = grey;
+  parallelFor(context, grey.height, kRowsPerBlock, [&](int begin, int end) {
+    std::array<std::vector<float>, 3> ratios;
+    std::vector<float> row;
+    for (int y = begin; y < end; ++y) {
+      const std::uint8_t* take = taken.ptr(y);
+      if (std::none_of(take, take + grey.width, [](std::uint8_t t) { return t != 0; })) continue;
+      gainsOfRow(grey, colour, paper, y, ratios, row);
+      std::uint16_t* out = result.grey.row(y);
+      for (int x = 0; x < grey.width; ++x) {
+        if (take[x] == 0 || row[x] <= 0.0f) continue;
+        const float level = static_cast<float>(out[x]) - row[x] * static_cast<float>(GreyImage::kGreyUnit);
+        out[x] = static_cast<std::uint16_t>(std::max(0.0f, std::round(level)));
+      }
+    }
+  });
+  return result;
+}
+
+}  // namespace batten

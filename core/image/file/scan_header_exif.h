@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/image/file/scan_header.h"
+
+namespace batten {
+
+/// Headers of JPEG and TIFF, which share the tags of EXIF; each expects that the first bytes are those of its format.
+ScanHeader readJpegHeader(const ByteReader& file);
+/// @param page from 1; a header without a size if the file has no such page, `pages` says how many it has.
+ScanHeader readTiffHeader(const ByteReader& file, int page);
+
+/// Resolution and orientation of a TIFF structure (also that inside EXIF): of its first directory, or of another one.
+void readTiffTags(const ByteReader& tiff, ScanHeader& header);
+void readTiffTags(const ByteReader& tiff, std::uint64_t directory, ScanHeader& header);
+
+}  // namespace batten

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/ruling/find_rulings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/base/parallel.h"
+#include "core/base/statistics.h"
+#include "core/image/plane.h"
+#include "core/image/ruling/ruling_lattice.h"
+
+namespace batten {
+namespace {
+
+constexpr std::int64_t kLargestLatticePx = 4'000'000;
+constexpr int kStationPx = 16;                             // [px] between the points of a course
+constexpr double kMostMisfit = 0.75;                       // [grid] drawn lines are less even
+constexpr double kLeastSeen = 0.8, kLeastSeenAlone = 0.7;  // of the lines; the latter where hardly any others are
+constexpr double kLeastCoverage = 0.7;                     // of the stretches of the lines that are seen
+constexpr double kAlone = 0.4, kLeastSelective = 0.25;     // of the thin lines over the ruling that belong to it
+constexpr double kMostWidth = 0.3;                         // of the spacing
+constexpr double kDarkCoverage = 0.85;                     // asked of dark lines that make no grid
+constexpr int kDarkLines = 12;                             // likewise
+constexpr double kLeastRulingDepth = 0.015;
+
+/// Square by square, so that the columns written to stay in the cache.
+Plane transposed(const Plane& in, const RunContext& context) {
+  constexpr int kSquare = 32;
+  Plane out(in.height, in.width);
+  parallelFor(context, in.height, kSquare, [&](int begin, int end) {
+    for (int x0 = 0; x0 < in.width; x0 += kSquare) {
+      for (int x = x0; x < std::min(x0 + kSquare, in.width); ++x) {
+        float* to = out.row(x);
+        for (int y = begin; y < end; ++y) to[y] = in.row(y)[x];
+      }
+    }
+  });
+  return out;
+}
+
+struct LineLook {
+  double width = 0.0, depth = 0.0;  ///< [grid], and share of the paper's light.
+};
+
+/// Width at half depth and depth of a lattice's lines, each the median over places on lines that are seen.
+LineLook lookOf(const Plane& grey, const RulingLattice& lattice) {
+  constexpr int kPlaces = 41;
+  const int reach = std::max(2, static_cast<int>(0.5 * lattice.spacing));
+  std::vector<double> widths, depths;
+  for (std::size_t i = 0; i < lattice.isSeen.size(); ++i) {
+    if (!lattice.isSeen[i]) continue;
+    for (int p = 0; p < kPlaces; ++p) {
+      const double x = (p + 0.5) / kPlaces * grey.width;
+      const int column = static_cast<int>(x),
+                row = static_cast<int>(lattice.at(lattice.first + static_cast<double>(i), x));
+      if (row < reach || row + reach >= grey.height) continue;
+      float paper = 0.0f;
+      int darkest = row;
+      for (int y = row - reach; y <= row + reach; ++y) paper = std::max(paper, grey.row(y)[column]);
+      for (int y = row - 1; y <= row + 1; ++y) {
+        if (grey.row(y)[column] < grey.row(darkest)[column]) darkest = y;
+      }
+      const float depth = paper - grey.row(darkest)[column], half = paper - 0.5f * depth;
+      int from = darkest, to = darkest;
+      while (from > row - reach && grey.row(from - 1)[column] < half) --from;
+      while (to < row + reach && grey.row(to + 1)[column] < half) ++to;
+      widths.push_back(to - from + 1);
+      depths.push_back(static_cast<double>(depth / std::max(1.0f, paper)));
+    }
+  }
+  if (widths.empty()) return {};
+  return {static_cast<double>(upperMedian(widths)), static_cast<double>(upperMedian(depths))};
+}
+
+struct FoundLattice {
+  RulingLattice lattice;
+  LineLook look;
+};
+
+std::optional<FoundLattice> lookFor(const Plane& grey, const RunContext& context) {
+  auto lattice = findRulingLattice(grey, context);
+  if (!lattice) return std::nullopt;
+  FoundLattice found{std::move(*lattice), {}};
+  const RulingLattice& l = found.lattice;
+  found.look = lookOf(grey, l);
+  const bool isEven = l.misfit <= kMostMisfit;
+  const bool isThin = found.look.width <= std::max(2.0, kMostWidth * l.spacing);
+  if (!isEven || !isThin || found.look.depth < kLeastRulingDepth) return std::nullopt;
+  if (l.seen < (l.selective >= kAlone ? kLeastSeenAlone : kLeastSeen) || l.coverage < kLeastCoverage ||
+      l.selective < kLeastSelective)
+    return std::nullopt;
+  return found;
+}
+
+/// Dark lines are a drawing unless they make a grid or fill the page without a gap.
+bool isPrinted(const FoundLattice& found, const std::optional<FoundLattice>& across) {
+  if (found.look.depth <= kDarkRuling || across) return true;
+  return found.lattice.coverage >= kDarkCoverage && std::ssize(found.lattice.isSeen) >= kDarkLines;
+}
+
+RulingFamily familyOf(const FoundLattice& found, const Plane& grey, bool runsDown, int shrink) {
+  const RulingLattice& lattice = found.lattice;
+  RulingFamily family;
+  family.runsDown = runsDown;
+  family.spacingPx = lattice.spacing * shrink;
+  family.widthPx = found.look.width * shrink;
+  family.depth = found.look.depth;
+  // Lines go on to the borders of the page, where they may be hidden.
+  const double least = -1.0, most = grey.height + 1.0;
+  const auto isOnPage = [&](int k) {
+    for (int i = 0; i <= 8; ++i) {
+      const double y = lattice.at(k, i * grey.width / 8.0);
+      if (y > least && y < most) return true;
+    }
+    return false;
+  };
+  int first = lattice.first, last = lattice.last;
+  while (lattice.first - first < 3 && isOnPage(first - 1)) --first;
+  while (last - lattice.last < 3 && isOnPage(last + 1)) ++last;
+  const double length = static_cast<double>(grey.width) * shrink;
+  const int stations = static_cast<int>(std::ceil(length / kStationPx)) + 1;
+  for (int k = first; k <= last; ++k) {
+    RulingLine line;
+    for (int i = 0; i < stations; ++i) {
+      const double x = std::min(length, static_cast<double>(i) * kStationPx);
+      const double y = lattice.at(k, x / shrink) * shrink;
+      line.coursePx.push_back(runsDown ? Vec2(y, x) : Vec2(x, y));
+    }
+    family.lines.push_back(std::move(line));
+  }
+  return family;
+}
+
+}  // namespace
+
+std::vector<RulingFamily> findRulings(const GreyImage& image, const RunContext& context) {
+  int shrink = 1;
+  while (static_cast<std::int64_t>(image.width / shrink) * (image.height / shrink) > kLargestLatticePx) ++shrink;
+  const Plane across = shrinkGrey(image, shrink, context);
+  if (context.isCancelled()) return {};
+  const auto rows = lookFor(across, context);
+  if (context.isCancelled()) return {};
+  const Plane down = transposed(across, context);
+  const auto columns = lookFor(down, context);
+  std::vector<RulingFamily> families;
+  if (context.isCancelled()) return families;
+  if (rows && isPrinted(*rows, columns)) families.push_back(familyOf(*rows, across, false, shrink));
+  if (columns && isPrinted(*columns, rows)) families.push_back(familyOf(*columns, down, true, shrink));
+  return families;
+}
+
+}  // namespace batten

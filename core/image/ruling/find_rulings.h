@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "core/base/run_context.h"
+#include "core/image/grey_image.h"
+#include "core/image/ruling/rulings.h"
+
+namespace batten {
+
+/// Of the paper's light: what printed rulings take is less.
+inline constexpr double kDarkRuling = 0.55;
+
+/// Finds the ruled lines or the grid of the paper, also on a page that is turned by up to 11 degrees, slightly curved
+/// or seen in perspective. Lines count as ruling only if they are thin, at least five, equally spaced over at least
+/// half of the page and each seen along most of it; dark ones must make a grid or fill the page. At most one family
+/// across and one down. Hatching, railings and grilles of a drawing are shorter or less even. Empty when cancelled.
+std::vector<RulingFamily> findRulings(const GreyImage&, const RunContext&);
+
+}  // namespace batten

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/ruling/remove_rulings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/base/statistics.h"
+
+namespace batten {
+namespace {
+
+constexpr int kBlockPx = 32;       // [px] along a line: one paper level, one place and one profile
+constexpr int kProfileBlocks = 2;  // to either side, for the profile of a line
+constexpr int kBinsPerPx = 2;
+constexpr double kLeastOfColumns = 0.15;  // that must meet a place of a profile
+constexpr int kMostReachPx = 24;          // [px] across a line
+constexpr double kRimShare = 0.25;        // of the spacing: beyond lies paper
+constexpr double kPaperRank = 0.7;        // of the pixels beside a line: ink is darker
+constexpr double kFoot = 0.1;             // of the depth: where a line ends across
+constexpr double kMostSupport = 0.4;      // of the spacing: wider is no ruled line
+constexpr double kLeastDepthSeen = 0.01;
+constexpr double kPresence = 0.35;    // of the line's depth: fainter stretches are gaps
+constexpr double kSolidLight = 0.35;  // less light comes through a dark line: what is over it cannot be told
+constexpr double kSnapShare = 0.35;   // of the depth: what is left of a line after it is divided out
+constexpr double kSnapPerNoise = 2.5;
+constexpr double kLeastStroke = 0.12;    // of the paper's light: what a stroke across takes at least
+constexpr double kSteepestStroke = 2.0;  // [px along / px across]
+constexpr int kStrokeSteps = 8;          // to either side
+
+GreyImage transposedGrey(const GreyImage& in, const RunContext& context) {
+  GreyImage out(in.height, in.width);
+  parallelFor(context, out.height, kRowsPerBlock, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      for (int x = 0; x < out.width; ++x) out.row(y)[x] = in.row(x)[y];
+    }
+  });
+  return out;
+}
+
+/// One line that runs along x, taken out of the picture.
+class RulingEraser {
+ public:
+  RulingEraser(GreyImage& image, const RulingFamily& family, const RulingLine& line) : image_(image), family_(family) {
+    const double limit = std::min<double>(kMostReachPx, 0.5 * family.spacingPx - 0.5);
+    reach_ = std::max(2, static_cast<int>(limit));
+    rim_ =
+        std::min(static_cast<double>(reach_) - 1.0, std::max(0.5 * family.widthPx + 1.5, kRimShare * family.spacingPx));
+    course_.resize(image.width);
+    std::size_t at = 0;
+    for (int x = 0; x < image.width; ++x) {
+      const auto place = [&](std::size_t i) {
+        const Vec2& p = line.coursePx[i];
+        return family.runsDown ? Vec2(p.y(), p.x()) : p;
+      };
+      while (at + 2 < line.coursePx.size() && place(at + 1).x() < x + 0.5) ++at;
+      const Vec2 a = place(at), b = place(std::min(at + 1, line.coursePx.size() - 1));
+      const double share = b.x() > a.x() ? (x + 0.5 - a.x()) / (b.x() - a.x()) : 0.0;
+      course_[x] = a.y() + share * (b.y() - a.y());
+    }
+    blocks_ = std::max(1, image.width / kBlockPx);
+  }
+
+  void erase() {
+    straightenCourse();
+    measurePaper();
+    whole_ = profileOf(0, blocks_);
+    const auto [nearFrom, nearTo] = middleOf(whole_);
+    depth_ = 1.0 - *std::min_element(nearFrom, nearTo);
+    if (depth_ < kLeastDepthSeen || !findSupport()) return;
+    measureRims();
+    isSolid_ = 1.0 - depth_ < kSolidLight;
+    std::vector<std::vector<double>> profiles;  // all before the first pixel changes
+    for (int b = 0; b < blocks_; ++b)
+      profiles.push_back(profileOf(std::max(0, b - kProfileBlocks), std::min(blocks_, b + kProfileBlocks + 1)));
+    for (int b = 0; b < blocks_; ++b) eraseBlock(b, profiles[b]);
+  }
+
+ private:
+  int begin(int block) const { return block * kBlockPx; }
+  int end(int block) const { return block + 1 == blocks_ ? image_.width : (block + 1) * kBlockPx; }
+  int bins() const { return 2 * kBinsPerPx * reach_ + 1; }
+
+  /// Calls f(x, y, offset of the pixel's centre from the line) for the pixels of a band.
+  template <class F>
+  void forBand(int fromX, int toX, double low, double high, F&& f) const {
+    for (int x = fromX; x < toX; ++x) {
+      const int y0 = std::max(0, static_cast<int>(std::ceil(course_[x] + low - 0.5)));
+      const int y1 = std::min(image_.height - 1, static_cast<int>(std::floor(course_[x] + high - 0.5)));
+      for (int y = y0; y <= y1; ++y) f(x, y, y + 0.5 - course_[x]);
+    }
+  }
+
+  /// Grey at a place across the line, between pixel centres; absent beyond the picture.
+  std::optional<float> greyAt(int x, double offset) const {
+    const double place = course_[x] + offset - 0.5;
+    const int y = static_cast<int>(std::floor(place));
+    if (y < 0 || y + 1 >= image_.height) return std::nullopt;
+    const auto share = static_cast<float>(place - y);
+    return (1.0f - share) * static_cast<float>(image_.row(y)[x]) + share * static_cast<float>(image_.row(y + 1)[x]);
+  }
+
+  /// Where the line lies off its course in one block: the middle of what is at least half as dark as its darkest place.
+  double shiftOf(int block) const {
+    const int steps = std::max(2, static_cast<int>(2.0 * std::min(0.25 * family_.spacingPx, 3.0 + family_.widthPx)));
+    std::vector<float> levels, column;
+    for (int o = -steps; o <= steps; ++o) {
+      column.clear();
+      for (int x = begin(block); x < end(block); ++x) {
+        if (const auto level = greyAt(x, 0.5 * o)) column.push_back(*level);
+      }
+      levels.push_back(column.empty() ? 65535.0f : upperMedian(column));
+    }
+    const auto darkest = std::min_element(levels.begin(), levels.end());
+    const float paper = *std::max_element(levels.begin(), levels.end()), half = 0.5f * (paper + *darkest);
+    if (paper <= *darkest) return 0.0;
+    auto from = darkest, to = darkest;
+    while (from != levels.begin() && *(from - 1) < half) --from;
+    while (to + 1 != levels.end() && *(to + 1) < half) ++to;
+    double sum = 0.0, weight = 0.0;
+    for (auto it = from; it <= to; ++it) {
+      const double darker = static_cast<double>(half - *it) + 1.0;
+      sum += darker * static_cast<double>(it - levels.begin());
+      weight += darker;
+    }
+    return 0.5 * (sum / weight - steps);
+  }
+
+  /// Moves the course to where the line is darkest, block by block, smoothly.
+  void straightenCourse() {
+    std::vector<double> shifts, calm;
+    for (int b = 0; b < blocks_; ++b) shifts.push_back(shiftOf(b));
+    for (std::ptrdiff_t i = 0; i < std::ssize(shifts); ++i) {
+      const auto from = shifts.begin() + std::max<std::ptrdiff_t>(0, i - 3);
+      const auto to = shifts.begin() + std::min(std::ssize(shifts), i + 4);
+      calm.push_back(upperMedian(std::vector<double>(from, to)));
+    }
+    for (int x = 0; x < image_.width; ++x) course_[x] += atBlocks(calm, x);
+  }
+
+  /// Values at the blocks' middles, linear between them.
+  double atBlocks(const std::vector<double>& values, int x) const {
+    const double place = (x + 0.5) / kBlockPx - 0.5;
+    const double low = std::clamp(std::floor(place), 0.0, static_cast<double>(values.size() - 1));
+    const auto i = static_cast<std::size_t>(low);
+    const std::size_t j = std::min(i + 1, values.size() - 1);
+    return values[i] + std::clamp(place - low, 0.0, 1.0) * (values[j] - values[i]);
+  }
+
+  void measurePaper() {
+    std::vector<float> levels;
+    for (int b = 0; b < blocks_; ++b) {
+      levels.clear();
+      forBand(begin(b), end(b), -reach_, reach_, [&](int x, int y, double offset) {
+        if (std::fabs(offset) >= rim_) levels.push_back(static_cast<float>(image_.row(y)[x]));
+      });
+      const double level = levels.empty() ? 0.0 : static_cast<double>(lowerQuantile(levels, kPaperRank));
+      paper_.push_back(level > 1.0 ? level : paper_.empty() ? 65535.0 : paper_.back());
+    }
+    for (int b = 0; b < blocks_; b += 3) {
+      forBand(begin(b), end(b), -reach_, reach_, [&](int x, int y, double offset) {
+        if (std::fabs(offset) >= rim_) noise_.push_back(lightAt(x, y) - 1.0);
+      });
+    }
+    noiseLevel_ = robustSigma(noise_);
+  }
+
+  double lightAt(int x, int y) const { return image_.row(y)[x] / atBlocks(paper_, x); }
+
+  /// Light that comes through the line, per half pixel across: a high rank over blocks, so that strokes across do not
+  /// count.
+  std::vector<double> profileOf(int fromBlock, int toBlock) const {
+    std::vector<std::vector<float>> light(bins());
+    forBand(begin(fromBlock), end(toBlock - 1), -reach_, reach_, [&](int x, int y, double offset) {
+      const auto bin = std::lround((offset + reach_) * kBinsPerPx);
+      light[std::clamp<long>(bin, 0, bins() - 1)].push_back(static_cast<float>(lightAt(x, y)));
+    });
+    std::vector<double> profile;
+    // A line without slope meets every second place only, but for a few pixels, which say nothing of the whole.
+    const auto least = static_cast<std::size_t>(kLeastOfColumns * (end(toBlock - 1) - begin(fromBlock)));
+    for (auto& values : light)
+      profile.push_back(values.size() <= least ? -1.0
+                                               : std::min(1.0, static_cast<double>(lowerQuantile(values, kPaperRank))));
+    fillGaps(profile);
+    // Beside the line there is paper, whatever the noise and the slope of its grey.
+    std::vector<double> beside;
+    for (int i = 0; i < bins(); ++i) {
+      if (std::fabs(static_cast<double>(i) / kBinsPerPx - reach_) >= rim_) beside.push_back(profile[i]);
+    }
+    // Ink only darkens: the brighter pixels show the line alone.
+    const double paper = beside.empty() ? 1.0 : std::max(0.5, upperMedian(beside));
+    for (double& value : profile) value = std::min(1.0, value / paper);
+    return profile;
+  }
+
+  /// Places of the profile that are not known lie between their neighbours.
+  static void fillGaps(std::vector<double>& profile) {
+    const auto isKnown = [&](std::ptrdiff_t i) { return profile[i] >= 0.0; };
+    std::ptrdiff_t before = -1;
+    for (std::ptrdiff_t i = 0; i < std::ssize(profile); ++i) {
+      if (!isKnown(i)) continue;
+      for (std::ptrdiff_t k = before + 1; k < i; ++k) {
+        const double share = static_cast<double>(k - before) / static_cast<double>(i - before);
+        profile[k] = before < 0 ? profile[i] : profile[before] + share * (profile[i] - profile[before]);
+      }
+      before = i;
+    }
+    for (std::ptrdiff_t k = before + 1; k < std::ssize(profile); ++k) profile[k] = before < 0 ? 1.0 : profile[before];
+  }
+
+  double at(const std::vector<double>& profile, double offset) const {
+    const double place = std::clamp((offset + reach_) * kBinsPerPx, 0.0, bins() - 1.0);
+    const auto i = static_cast<std::size_t>(place);
+    const std::size_t j = std::min(i + 1, profile.size() - 1);
+    return profile[i] + (place - static_cast<double>(i)) * (profile[j] - profile[i]);
+  }
+
+  using Place = std::vector<double>::const_iterator;
+  /// The part of a profile in which the line lies.
+  std::pair<Place, Place> middleOf(const std::vector<double>& profile) const {
+    const auto half = static_cast<std::ptrdiff_t>(rim_ * kBinsPerPx), middle = static_cast<std::ptrdiff_t>(bins() / 2);
+    return {profile.begin() + std::max<std::ptrdiff_t>(0, middle - half),
+            profile.begin() + std::min<std::ptrdiff_t>(bins(), middle + half + 1)};
+  }
+
+  /// How far the line reaches to either side of its middle; false if that is no line.
+  bool findSupport() {
+    const auto [nearFrom, nearTo] = middleOf(whole_);
+    const auto darkest = std::min_element(nearFrom, nearTo) - whole_.begin();
+    auto from = darkest, to = darkest;
+    const double foot = 1.0 - kFoot * depth_;
+    while (from > 0 && whole_[from - 1] < foot) --from;
+    while (to + 1 < std::ssize(whole_) && whole_[to + 1] < foot) ++to;
+    low_ = static_cast<double>(from) / kBinsPerPx - reach_ - 1.0;
+    high_ = static_cast<double>(to) / kBinsPerPx - reach_ + 1.0;
+    return high_ - low_ - 1.0 <= std::max(3.0, kMostSupport * family_.spacingPx) && from > 0 &&
+           to + 1 < std::ssize(whole_);
+  }
+
+  /// What strokes take of the light just above and just below the line.
+  void measureRims() {
+    const auto darkness = [&](int x, double offset) {
+      const auto level = greyAt(x, offset);
+      return level ? std::clamp(1.0 - static_cast<double>(*level) / atBlocks(paper_, x), 0.0, 1.0) : 0.0;
+    };
+    for (int x = 0; x < image_.width; ++x) {
+      above_.push_back(darkness(x, low_ - 0.5));
+      below_.push_back(darkness(x, high_ + 0.5));
+    }
+  }
+
+  /// What a straight stroke through a pixel of the line takes of the light: seen on both sides of the line, at any
+  /// slope.
+  double strokeAt(int x, double offset) const {
+    const double up = offset - low_ + 0.5, down = high_ + 0.5 - offset;
+    double most = 0.0;
+    for (int i = -kStrokeSteps; i <= kStrokeSteps; ++i) {
+      const double slope = kSteepestStroke * i / kStrokeSteps;
+      const auto a = x - std::lround(slope * up), b = x + std::lround(slope * down);
+      if (a < 0 || b < 0 || a >= image_.width || b >= image_.width) continue;
+      most = std::max(most, std::min(above_[a], below_[b]));
+    }
+    return most;
+  }
+
+  void eraseBlock(int block, std::vector<double>& profile) {
+    const auto [nearFrom, nearTo] = middleOf(profile);
+    const double depthHere = 1.0 - *std::min_element(nearFrom, nearTo);
+    if (!isSolid_ && depthHere < kPresence * depth_) return;
+    // A stroke that runs along the line is no part of it.
+    for (std::size_t i = 0; i < profile.size(); ++i)
+      profile[i] = std::max({profile[i], 1.0 - 1.35 * (1.0 - whole_[i]) - 0.02, 0.0});
+    const double leastStroke = std::max(kLeastStroke, 3.0 * noiseLevel_);
+    const double snap = std::max(kSnapPerNoise * noiseLevel_, kSnapShare * depth_);
+    forBand(begin(block), end(block), low_, high_, [&](int x, int y, double offset) {
+      const double paper = atBlocks(paper_, x), light = image_.row(y)[x] / paper;
+      const double stroke = strokeAt(x, offset);
+      double left = 1.0;
+      if (isSolid_) {
+        if (stroke > leastStroke) left = std::max(light, 1.0 - stroke);
+      } else {
+        left = std::min(1.0, light / std::max(kSolidLight, at(profile, offset)));
+        if (1.0 - left <= snap && stroke <= leastStroke) left = 1.0;
+      }
+      if (left > light) image_.row(y)[x] = static_cast<std::uint16_t>(std::clamp(left * paper, 0.0, 65535.0));
+    });
+  }
+
+  GreyImage& image_;
+  const RulingFamily& family_;
+  int reach_ = 2, blocks_ = 1;
+  double rim_ = 1.0;
+  std::vector<double> course_;  ///< [px] The line's middle at every column.
+  std::vector<double> paper_;   ///< [0..65535] per block.
+  std::vector<double> noise_, whole_, above_, below_;
+  double noiseLevel_ = 0.0, depth_ = 0.0;
+  double low_ = 0.0, high_ = 0.0;  ///< [px] What the line covers, from its middle.
+  bool isSolid_ = false;
+};
+
+}  // namespace
+
+GreyImage withoutRulings(const GreyImage& image, const std::vector<RulingFamily>& families, const RunContext& context) {
+  GreyImage out = image;
+  for (const RulingFamily& family : families) {
+    if (family.runsDown) out = transposedGrey(out, context);
+    // Every second line, then the others: neighbours may read what the other one writes.
+    const int count = static_cast<int>(family.lines.size());
+    for (int parity = 0; parity < 2; ++parity) {
+      parallelFor(context, (count + 1 - parity) / 2, 1, [&](int begin, int end) {
+        for (int i = begin; i < end && !context.isCancelled(); ++i)
+          RulingEraser(out, family, family.lines[2 * i + parity]).erase();
+      });
+    }
+    if (family.runsDown) out = transposedGrey(out, context);
+    if (context.isCancelled()) return {};
+  }
+  return out;
+}
+
+}  // namespace batten

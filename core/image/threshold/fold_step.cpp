@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/threshold/fold_step.h"
+
+#include <cmath>
+
+#include "core/base/statistics.h"
+
+namespace batten {
+namespace {
+
+constexpr double kLeastPart = 0.6;     // of the course must show the step
+constexpr double kLeastAtEnds = 0.3;   // of the first and the last tenth
+constexpr double kAlike = 0.35;        // relative: steps that belong to one fold
+constexpr double kLooselyAlike = 0.8;  // the same on noisy pages: no step is never a step
+
+float foldGreyAt(const GreyImage& image, const Vec2& p) {
+  const double x = std::clamp(p.x() - 0.5, 0.0, image.width - 1.0),
+               y = std::clamp(p.y() - 0.5, 0.0, image.height - 1.0);
+  const int x0 = std::min(static_cast<int>(x), std::max(0, image.width - 2));
+  const int y0 = std::min(static_cast<int>(y), std::max(0, image.height - 2));
+  const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
+  const double u = x - x0, v = y - y0;
+  const double above = image.row(y0)[x0] + u * (image.row(y0)[x1] - image.row(y0)[x0]);
+  const double below = image.row(y1)[x0] + u * (image.row(y1)[x1] - image.row(y1)[x0]);
+  return static_cast<float>((above + v * (below - above)) / GreyImage::kGreyUnit);
+}
+
+double noiseOf(const std::vector<double>& steps) {
+  std::vector<double> jumps;
+  for (std::size_t i = 1; i < steps.size(); ++i) jumps.push_back(std::fabs(steps[i] - steps[i - 1]));
+  return jumps.empty() ? 0.0 : 1.05 * lowerQuantile(jumps, 0.5);
+}
+
+/// Median over rows [begin, end) that show the step of the grey at d less the brighter paper, in `out` (2 reach + 1).
+bool medianProfile(const FoldStrip& strip, const FoldStepFit& fit, int begin, int end, int reach,
+                   std::vector<float>& out) {
+  std::vector<int> rows;
+  for (int i = std::max(0, begin); i < std::min(end, strip.rows); ++i)
+    if (fit.shows[i] != 0) rows.push_back(i);
+  if (static_cast<int>(rows.size()) * 3 < end - begin || rows.empty()) return false;
+  const int outer = std::min(strip.half, reach + kFoldBandPx);
+  std::vector<float> bright, column;
+  for (const int i : rows) bright.push_back(static_cast<float>(strip.mean(i, reach, outer)));
+  out.clear();
+  for (int d = -reach; d <= reach; ++d) {
+    column.clear();
+    for (std::size_t k = 0; k < rows.size(); ++k) column.push_back(strip.row(rows[k])[d + strip.half] - bright[k]);
+    out.push_back(lowerQuantile(column, 0.5));
+  }
+  return true;
+}
+
+}  // namespace
+
+FoldStrip foldStripAlong(const GreyImage& image, const FoldCourse& course, int half, double stepPx) {
+  FoldStrip strip;
+  strip.half = half;
+  strip.stepPx = stepPx;
+  strip.rows = std::max(0, static_cast<int>((course.to - course.from) / stepPx));
+  strip.grey.resize(std::ptrdiff_t{strip.rows} * (2 * half + 1));
+  auto out = strip.grey.begin();
+  for (int i = 0; i < strip.rows; ++i) {
+    const double t = course.from + (i + 0.5) * stepPx;
+    for (int d = -half; d <= half; ++d) *out++ = foldGreyAt(image, course.at(t, d));
+  }
+  return strip;
+}
+
+// Medians over a twentieth of the course either way.
+std::vector<double> foldSlopesAcross(const FoldStrip& strip) {
+  const int outer = strip.half, inner = strip.half / 2, width = kFoldBandPx;
+  const double apart = outer - inner;
+  std::vector<double> each, slopes;
+  for (int i = 0; i < strip.rows; ++i) {
+    const double bright = strip.mean(i, outer - width, outer) - strip.mean(i, inner - width, inner);
+    const double dark = strip.mean(i, -inner, width - inner) - strip.mean(i, -outer, width - outer);
+    each.push_back(0.5 * (bright + dark) / apart);
+  }
+  const int reach = std::max(5, strip.rows / 20);
+  for (int i = 0; i < strip.rows; ++i) {
+    std::vector<double> window(each.begin() + std::max(0, i - reach),
+                               each.begin() + std::min(strip.rows, i + reach + 1));
+    slopes.push_back(lowerQuantile(window, 0.5));
+  }
+  return slopes;
+}
+
+std::vector<double> foldStepsOf(const FoldStrip& strip, int reach, const std::vector<double>& slopes) {
+  std::vector<double> steps(strip.rows);
+  const int outer = std::min(strip.half, reach + kFoldBandPx);
+  for (int i = 0; i < strip.rows; ++i) {
+    const auto at = static_cast<std::size_t>((static_cast<std::int64_t>(i) * static_cast<std::int64_t>(slopes.size())) /
+                                             strip.rows);
+    steps[i] = strip.mean(i, reach, outer) - strip.mean(i, -outer, -reach) - slopes[at] * (reach + outer);
+  }
+  return steps;
+}
+
+// From the medians of ten parts taken in pairs.
+std::optional<FoldStepFit> fitFoldStep(const std::vector<double>& steps) {
+  constexpr int kParts = 10;
+  const int rows = static_cast<int>(steps.size());
+  if (rows < 5 * kParts) return std::nullopt;
+  const double noise = noiseOf(steps);
+  std::vector<double> medians;
+  for (int part = 0; part < kParts; ++part) {
+    std::vector<double> piece(steps.begin() + part * rows / kParts, steps.begin() + (part + 1) * rows / kParts);
+    medians.push_back(lowerQuantile(piece, 0.5));
+  }
+  const auto isNear = [&](const FoldStepFit& fit, int i) {
+    const double level = fit.at(i, rows);
+    return level > 0.0 && std::fabs(steps[i] - level) < std::clamp(3.0 * noise, kAlike * level, kLooselyAlike * level);
+  };
+  FoldStepFit best;
+  int most = 0;
+  for (int a = 0; a < kParts; ++a) {
+    for (int b = a + 3; b < kParts; ++b) {
+      FoldStepFit fit;
+      const double width = static_cast<double>(rows) / kParts;
+      fit.slope = (medians[b] - medians[a]) / ((b - a) * width);
+      fit.middle = medians[a] + fit.slope * (0.5 * rows - (a + 0.5) * width);
+      if (std::min(fit.at(0, rows), fit.at(rows, rows)) < 0.3 * fit.middle) continue;
+      int count = 0;
+      for (int i = 0; i < rows; ++i) count += isNear(fit, i) ? 1 : 0;
+      if (count > most) {
+        most = count;
+        best = fit;
+      }
+    }
+  }
+  if (most < kLeastPart * rows || best.middle < std::max(kLeastFoldStep, noise)) return std::nullopt;
+  int ends[2] = {0, 0};
+  for (int i = 0; i < rows; ++i) {
+    best.shows.push_back(isNear(best, i) ? 1 : 0);
+    if (i < rows / kParts) ends[0] += best.shows.back();
+    if (i >= rows - rows / kParts) ends[1] += best.shows.back();
+  }
+  if (std::min(ends[0], ends[1]) < kLeastAtEnds * (rows / kParts)) return std::nullopt;
+  return best;
+}
+
+// To where less than a fiftieth of the step is left, a crease included.
+std::optional<int> foldReachOf(const FoldStrip& strip, const FoldStepFit& fit) {
+  std::vector<float> profile;
+  const int reach = strip.half - kFoldBandPx;
+  if (!medianProfile(strip, fit, 0, strip.rows, reach, profile)) return std::nullopt;
+  // The paper's own slope across: equal on both sides of the step.
+  const auto at = [&](int d) { return static_cast<double>(profile[d + reach]); };
+  const double slope = 0.5 * ((at(reach) - at(reach / 2)) + (at(-reach / 2) - at(-reach))) / (reach - reach / 2);
+  const double dark = at(-reach) + slope * reach, bright = at(reach) - slope * reach, step = bright - dark;
+  if (step <= 0.0) return std::nullopt;
+  // What is left of the step beyond the noise of the medians, a little smoothed.
+  const auto left = [&](int d) {
+    double sum = 0.0;
+    for (int k = -1; k <= 1; ++k) sum += std::fabs(at(d + k) - slope * (d + k) - (d > 0 ? bright : dark)) / 3.0;
+    return sum;
+  };
+  std::vector<double> outside;
+  for (int d = reach / 2; d < reach; ++d) {
+    outside.push_back(left(d));
+    outside.push_back(left(-d));
+  }
+  const double tolerance = std::max({0.03 * step, 0.5, 6.0 * lowerQuantile(outside, 0.5)});
+  int last = 3;
+  for (int d = 2; d < reach; ++d) {
+    if (left(d) > tolerance || left(-d) > tolerance) last = std::max(last, d);
+  }
+  if (4 * last > 3 * reach) return std::nullopt;  // no step, but a slope
+  return last + 3;
+}
+
+}  // namespace batten

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/run_context.h"
+#include "core/image/bits/bit_image.h"
+#include "core/image/grey_image.h"
+#include "core/image/threshold/region_thresholds.h"
+
+namespace batten {
+
+/// The smoothed page compared with three levels: paper plus the contrast of the regions, made deeper or weaker.
+struct LevelMasks {
+  BitImage ink;      ///< Darker than the level of its region.
+  BitImage certain;  ///< Darker than the deeper level; empty if not requested.
+  BitImage faint;    ///< Darker than the weaker level; empty if not requested.
+};
+
+/// Smooths the page by the thresholds' Gaussian and compares it with its levels, in float. A place whose darkest
+/// neighbour is brighter than the level is not looked at: a mean with positive weights is never darker than its darkest
+/// pixel, so this changes no bit.
+LevelMasks compareWithLevels(const GreyImage&, const RegionThresholds&, const ThresholdParams&, const RunContext&);
+
+}  // namespace batten

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/threshold/page_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/hot_loop.h"
+#include "core/base/parallel.h"
+#include "core/base/statistics.h"
+#include "core/image/bits/run_pieces.h"
+#include "core/image/threshold/region_surface.h"
+#include "core/image/threshold/region_thresholds.h"
+#include "core/image/threshold/region_values.h"
+
+namespace batten {
+namespace {
+
+constexpr int kSampleStep = 3;  // the smoothed picture has no more to say than every third pixel
+constexpr float kWeak = 3.0f;
+constexpr float kCertain = 6.0f;
+constexpr int kStrengthBins = 2048;
+constexpr float kBinsPerGrey = 8.0f;
+
+struct RegionNoise {
+  RegionValues slopeX{}, slopeY{}, spread{};
+};
+
+float spreadAround(std::vector<float>& values, float centre) {
+  for (float& value : values) value = std::fabs(value - centre);
+  return static_cast<float>(kSigmaPerMad) * upperMedian(values);
+}
+
+RegionNoise measureNoise(const Plane& u, const RunContext& context) {
+  RegionNoise noise;
+  parallelFor(context, kRegions, 1, [&](int region, int) {
+    const RegionBounds b = regionBounds(u.width, u.height, region);
+    std::vector<float> gx, gy;
+    for (int y = std::max(b.y0, 1); y < std::min(b.y1, u.height - 1); y += kSampleStep) {
+      for (int x = std::max(b.x0, 1); x < std::min(b.x1, u.width - 1); x += kSampleStep) {
+        gx.push_back(0.5f * (u.row(y)[x + 1] - u.row(y)[x - 1]));
+        gy.push_back(0.5f * (u.row(y + 1)[x] - u.row(y - 1)[x]));
+      }
+    }
+    if (gx.empty()) return;
+    const float mx = upperMedian(gx), my = upperMedian(gy);
+    noise.slopeX[region] = mx;
+    noise.slopeY[region] = my;
+    noise.spread[region] = 0.5 * (spreadAround(gx, mx) + spreadAround(gy, my));
+  });
+  const double median = upperMedian(RegionValues(noise.spread));
+  const double slopeLimit = std::max(0.5, 3.0 * median + 0.02);
+  for (std::size_t r = 0; r < kRegions; ++r) {
+    noise.spread[r] = std::max(0.15, std::clamp(noise.spread[r], 0.5 * median, 1.5 * median));
+    noise.slopeX[r] = std::clamp(noise.slopeX[r], -slopeLimit, slopeLimit);
+    noise.slopeY[r] = std::clamp(noise.slopeY[r], -slopeLimit, slopeLimit);
+  }
+  return noise;
+}
+
+BATTEN_HOT_LOOP void gradientRow(const float* up, const float* here, const float* down, const float* mx,
+                                 const float* my, float* __restrict out, int begin, int end) {
+  for (int i = begin; i < end; ++i) {
+    const float gx = 0.5f * (here[i + 1] - here[i - 1]) - mx[i];
+    const float gy = 0.5f * (down[i] - up[i]) - my[i];
+    out[i] = gx * gx + gy * gy;
+  }
+}
+
+BATTEN_HOT_LOOP void flagAbove(const float* squares, const float* spread, float floor, float factor,
+                               std::uint8_t* __restrict flags, int count) {
+  for (int i = 0; i < count; ++i) {
+    const float limit = factor * (spread[i] > floor ? spread[i] : floor);
+    flags[i] = squares[i] > limit * limit ? 1 : 0;
+  }
+}
+
+void packFlags(const std::uint8_t* flags, int count, std::uint64_t* out) {
+  for (int x = 0; x < count; ++x) out[x >> 6] |= static_cast<std::uint64_t>(flags[x]) << (x & 63);
+}
+
+/// Squared gradient lengths beyond the regions' own slope. The outermost rows and columns count as flat.
+Plane gradientSquares(const Plane& u, const RegionNoise& noise, const RunContext& context) {
+  Plane squares(u.width, u.height);
+  const RegionSurface slopeX(noise.slopeX, u.width, u.height, true), slopeY(noise.slopeY, u.width, u.height, true);
+  parallelFor(context, u.height, kRowsPerBlock, [&](int begin, int end) {
+    std::vector<float> mx(u.width), my(mx.size());
+    for (int y = begin; y < end; ++y) {
+      float* row = squares.row(y);
+      if (y == 0 || y == u.height - 1) {
+        std::fill_n(row, u.width, 0.0f);
+        continue;
+      }
+      slopeX.fillRow(y, mx.data());
+      slopeY.fillRow(y, my.data());
+      gradientRow(u.row(y - 1), u.row(y), u.row(y + 1), mx.data(), my.data(), row, 1, u.width - 1);
+      row[0] = row[u.width - 1] = 0.0f;
+    }
+  });
+  return squares;
+}
+
+/// 98 % of the certain gradients are smaller than this; 0 without any.
+float strongGradient(const Plane& squares, const RegionSurface& spread, const RunContext& context) {
+  const int blocks = (squares.height + kRowsPerBlock - 1) / kRowsPerBlock;
+  std::vector<std::array<int, kStrengthBins>> counts(blocks);
+  parallelFor(context, squares.height, kRowsPerBlock, [&](int begin, int end) {
+    auto& mine = counts[begin / kRowsPerBlock];
+    mine.fill(0);
+    std::vector<float> s(squares.width);
+    std::vector<std::uint8_t> flags(s.size());
+    for (int y = begin; y < end; ++y) {
+      spread.fillRow(y, s.data());
+      flagAbove(squares.row(y), s.data(), 0.0f, kCertain, flags.data(), squares.width);
+      for (int x = 0; x < squares.width; ++x) {
+        if (flags[x] == 0) continue;
+        const int bin = static_cast<int>(std::sqrt(squares.row(y)[x]) * kBinsPerGrey);
+        ++mine[std::min(bin, kStrengthBins - 1)];
+      }
+    }
+  });
+  std::int64_t total = 0, seen = 0;
+  for (const auto& block : counts) {
+    for (const int n : block) total += n;
+  }
+  for (std::size_t bin = 0; bin < kStrengthBins && total > 0; ++bin) {
+    for (const auto& block : counts) seen += block[bin];
+    if (seen * 50 >= total * 49) return (static_cast<float>(bin) + 0.5f) / kBinsPerGrey;
+  }
+  return 0.0f;
+}
+
+/// Whether the gradient at (x, y) is at least as long as at both neighbours along its direction (4 directions).
+bool isCrest(const Plane& u, const Plane& squares, int x, int y) {
+  const float gx = u.row(y)[x + 1] - u.row(y)[x - 1], gy = u.row(y + 1)[x] - u.row(y - 1)[x];
+  const float ax = std::fabs(gx), ay = std::fabs(gy);
+  int dx = 1, dy = 0;
+  if (ay > 2.4142f * ax) {
+    dx = 0;
+    dy = 1;
+  } else if (ay > 0.4142f * ax) {
+    dy = (gx > 0) == (gy > 0) ? 1 : -1;
+  }
+  const float here = squares.row(y)[x];
+  return here >= squares.row(y + dy)[x + dx] && here > squares.row(y - dy)[x - dx];
+}
+
+std::vector<EdgePoint> findCrests(const Plane& u, const Plane& squares, const BitImage& area,
+                                  const RunContext& context) {
+  const int blocks = (u.height + kRowsPerBlock - 1) / kRowsPerBlock;
+  std::vector<std::vector<EdgePoint>> parts(blocks);
+  parallelFor(context, u.height, kRowsPerBlock, [&](int begin, int end) {
+    auto& part = parts[begin / kRowsPerBlock];
+    for (int y = std::max(begin, 1); y < std::min(end, u.height - 1); ++y) {
+      for (int i = 0; i < area.wordsPerRow; ++i) {
+        for (std::uint64_t bits = area.row(y)[i]; bits != 0; bits &= bits - 1) {
+          const int x = i * 64 + __builtin_ctzll(bits);
+          if (x < 1 || x >= u.width - 1 || !isCrest(u, squares, x, y)) continue;
+          part.push_back({x, y, std::sqrt(squares.row(y)[x])});
+        }
+      }
+    }
+  });
+  std::vector<EdgePoint> crests;
+  for (const auto& part : parts) crests.insert(crests.end(), part.begin(), part.end());
+  return crests;
+}
+
+}  // namespace
+
+PageEdges findPageEdges(const Plane& u, const RunContext& context) {
+  PageEdges edges;
+  edges.area = BitImage(u.width, u.height);
+  if (u.width < 3 || u.height < 3) return edges;
+  const RegionNoise noise = measureNoise(u, context);
+  const Plane squares = gradientSquares(u, noise, context);
+  const RegionSurface spread(noise.spread, u.width, u.height, true);
+  // On white-balanced scans the paper is clipped and has no noise: then the drawing's own edges set the scale.
+  const float floor = 0.06f * strongGradient(squares, spread, context) / kCertain;
+  if (context.isCancelled()) return edges;
+  BitImage weak(u.width, u.height), certain(u.width, u.height);
+  parallelFor(context, u.height, kRowsPerBlock, [&](int begin, int end) {
+    std::vector<float> s(u.width);
+    std::vector<std::uint8_t> flags(s.size());
+    for (int y = begin; y < end; ++y) {
+      spread.fillRow(y, s.data());
+      flagAbove(squares.row(y), s.data(), floor, kWeak, flags.data(), u.width);
+      packFlags(flags.data(), u.width, weak.row(y));
+      flagAbove(squares.row(y), s.data(), floor, kCertain, flags.data(), u.width);
+      packFlags(flags.data(), u.width, certain.row(y));
+    }
+  });
+  edges.area = keepPieces(weak, {.minArea = 0, .minDiagonal = 0.0, .seeds = &certain}, context);
+  edges.crests = findCrests(u, squares, edges.area, context);
+  return edges;
+}
+
+}  // namespace batten

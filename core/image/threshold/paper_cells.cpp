@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/threshold/paper_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <opencv2/core.hpp>
+
+#include "core/base/parallel.h"
+#include "core/base/statistics.h"
+#include "core/image/bits/neighbourhood_filter.h"
+#include "core/image/push_pull.h"
+#include "core/image/threshold/region_surface.h"
+
+namespace batten {
+namespace {
+
+constexpr int kRounds = 2;
+
+struct Cells {
+  int columns = 0, rows = 0;
+  std::vector<float> mean;
+  std::vector<std::uint8_t> isFree;
+  std::size_t at(int x, int y) const { return std::ptrdiff_t{y} * columns + x; }
+};
+
+/// @param size side of a cell on the plane; divides 64.
+Cells measureCells(const Plane& grey, const BitImage& edges, int size, const RunContext& context) {
+  Cells cells;
+  cells.columns = (grey.width + size - 1) / size;
+  cells.rows = (grey.height + size - 1) / size;
+  const std::size_t count = std::ptrdiff_t{cells.columns} * cells.rows;
+  cells.mean.assign(count, 0.0f);
+  cells.isFree.assign(count, 1);
+  const std::uint64_t mask = (std::uint64_t{1} << size) - 1;
+  parallelFor(context, cells.rows, 8, [&](int begin, int end) {
+    for (int j = begin; j < end; ++j) {
+      const int y1 = std::min((j + 1) * size, grey.height);
+      for (int i = 0; i < cells.columns; ++i) {
+        const int x0 = i * size, x1 = std::min(x0 + size, grey.width);
+        float sum = 0.0f;
+        std::uint64_t touched = 0;
+        for (int y = j * size; y < y1; ++y) {
+          for (int x = x0; x < x1; ++x) sum += grey.row(y)[x];
+          touched |= (edges.row(y)[x0 >> 6] >> (x0 & 63)) & mask;
+        }
+        cells.mean[cells.at(i, j)] = sum / static_cast<float>((x1 - x0) * (y1 - j * size));
+        cells.isFree[cells.at(i, j)] = touched == 0 ? 1 : 0;
+      }
+    }
+  });
+  return cells;
+}
+
+/// Differences between neighbouring cells, right and down; those at edges are filled from around.
+std::vector<float> cellSteps(const Cells& cells, bool down) {
+  std::vector<float> value(cells.mean.size(), 0.0f), weight(cells.mean.size(), 0.0f);
+  for (int y = 0; y + (down ? 1 : 0) < cells.rows; ++y) {
+    for (int x = 0; x + (down ? 0 : 1) < cells.columns; ++x) {
+      const std::size_t a = cells.at(x, y), b = down ? cells.at(x, y + 1) : cells.at(x + 1, y);
+      if (cells.isFree[a] == 0 || cells.isFree[b] == 0) continue;
+      value[a] = cells.mean[b] - cells.mean[a];
+      weight[a] = 1.0f;
+    }
+  }
+  return pushPull(value, weight, cells.columns, cells.rows);
+}
+
+/// The surface whose steps come nearest to the given ones in the least-squares sense (Neumann Poisson equation), by the
+/// cosine transform. Uniform weights on purpose: a missed edge then pulls by its share only.
+std::vector<float> integrateSteps(const Cells& cells, const std::vector<float>& right, const std::vector<float>& down) {
+  const int width = 2 * cv::getOptimalDFTSize((cells.columns + 1) / 2);
+  const int height = 2 * cv::getOptimalDFTSize((cells.rows + 1) / 2);
+  cv::Mat_<double> divergence(height, width, 0.0);
+  // Page border the surface is continued flat across its border, which pulls at nothing inside.
+  for (int y = 0; y < height; ++y) {
+    const int cy = std::min(y, cells.rows - 1);
+    for (int x = 0; x < width; ++x) {
+      const int cx = std::min(x, cells.columns - 1);
+      const double toRight = x + 1 < cells.columns ? right[cells.at(x, cy)] : 0.0;
+      const double toBelow = y + 1 < cells.rows ? down[cells.at(cx, y)] : 0.0;
+      divergence(y, x) -= toRight;
+      divergence(y, std::min(x + 1, width - 1)) += toRight;
+      divergence(y, x) -= toBelow;
+      divergence(std::min(y + 1, height - 1), x) += toBelow;
+    }
+  }
+  cv::dct(divergence, divergence);
+  std::vector<double> cosX(width);
+  for (int x = 0; x < width; ++x) cosX[x] = 2.0 - 2.0 * std::cos(std::numbers::pi * x / width);
+  for (int y = 0; y < height; ++y) {
+    const double cosY = 2.0 - 2.0 * std::cos(std::numbers::pi * y / height);
+    for (int x = 0; x < width; ++x) {
+      const double eigenvalue = cosX[x] + cosY;
+      divergence(y, x) = eigenvalue > 0.0 ? divergence(y, x) / eigenvalue : 0.0;
+    }
+  }
+  cv::idct(divergence, divergence);
+  std::vector<float> surface(cells.mean.size());
+  for (int y = 0; y < cells.rows; ++y) {
+    for (int x = 0; x < cells.columns; ++x) surface[cells.at(x, y)] = static_cast<float>(divergence(y, x));
+  }
+  return surface;
+}
+
+/// Per region, the half level at its edges: mean of grey less paper over the crests, weighted by their strength.
+std::vector<float> halfLevels(const Plane& grey, const PageEdges& edges, const PaperBackground& paper, int shrink) {
+  std::array<double, kRegions> sum{}, weight{};
+  std::array<int, kRegions> votes{};
+  for (const EdgePoint& p : edges.crests) {
+    const auto r = static_cast<std::size_t>(regionOf(p.x, p.y, grey.width, grey.height));
+    const double depth = static_cast<double>(grey.row(p.y)[p.x]) - paper.at((p.x + 0.5) * shrink, (p.y + 0.5) * shrink);
+    sum[r] += static_cast<double>(p.strength) * depth;
+    weight[r] += static_cast<double>(p.strength);
+    ++votes[r];
+  }
+  std::vector<float> value(kRegions, 0.0f), confidence(kRegions, 0.0f);
+  for (std::size_t r = 0; r < kRegions; ++r) {
+    if (votes[r] < kMinVotes || weight[r] <= 0.0) continue;
+    value[r] = static_cast<float>(sum[r] / weight[r]);
+    confidence[r] = static_cast<float>(votes[r]) / (static_cast<float>(votes[r]) + kVotesOfConfidence);
+  }
+  return pushPull(value, confidence, kRegionsPerSide, kRegionsPerSide);
+}
+
+}  // namespace
+
+PaperEstimate estimatePaper(const Plane& grey, const PageEdges& edges, int shrink, int cellPx,
+                            const RunContext& context) {
+  const BitImage touched = dilate(edges.area, 0, FilterBorder::Paper, context);
+  const Cells cells = measureCells(grey, touched, cellPx / shrink, context);
+  PaperEstimate estimate;
+  PaperBackground& paper = estimate.paper;
+  paper.cellPx = cellPx;
+  paper.columns = cells.columns;
+  paper.rows = cells.rows;
+  estimate.isPaper = cells.isFree;
+  paper.grey = integrateSteps(cells, cellSteps(cells, false), cellSteps(cells, true));
+  // The integration leaves the height open: a high quantile of the free cells (large silhouettes are free too), later
+  // the paper cells, settle it.
+  std::vector<float> gaps;
+  for (std::size_t i = 0; i < cells.mean.size(); ++i) {
+    if (cells.isFree[i] != 0) gaps.push_back(cells.mean[i] - paper.grey[i]);
+  }
+  float height = cells.mean.empty() ? 255.0f : *std::max_element(cells.mean.begin(), cells.mean.end());
+  if (!gaps.empty()) {
+    height = elementOfRank(gaps, static_cast<std::ptrdiff_t>(gaps.size() * 7 / 10));
+  }
+  for (float& value : paper.grey) value += height;
+
+  std::vector<float> offset(cells.mean.size()), weight(cells.mean.size());
+  std::vector<float> limits(cells.columns);
+  for (int round = 0; round < kRounds && !context.isCancelled(); ++round) {
+    const std::vector<float> half = halfLevels(grey, edges, paper, shrink);
+    RegionValues values{};
+    std::copy(half.begin(), half.end(), values.begin());
+    const bool noEdges = std::all_of(half.begin(), half.end(), [](float v) { return v == 0.0f; });
+    const RegionSurface surface(values, cells.columns, cells.rows, true);
+    for (int y = 0; y < cells.rows; ++y) {
+      surface.fillRow(y, limits.data());
+      for (int x = 0; x < cells.columns; ++x) {
+        const std::size_t i = cells.at(x, y);
+        offset[i] = cells.mean[i] - paper.grey[i];
+        const bool bright = noEdges || offset[i] > limits[x];
+        estimate.isPaper[i] = cells.isFree[i] != 0 && bright ? 1 : 0;
+        weight[i] = estimate.isPaper[i] != 0 ? 1.0f : 0.0f;
+      }
+    }
+    const std::vector<float> correction = pushPull(offset, weight, cells.columns, cells.rows);
+    for (std::size_t i = 0; i < correction.size(); ++i) paper.grey[i] += correction[i];
+  }
+  return estimate;
+}
+
+}  // namespace batten

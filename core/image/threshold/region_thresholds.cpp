@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image/threshold/region_thresholds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <opencv2/core.hpp>
+#include <utility>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/base/statistics.h"
+#include "core/image/bits/ink_grain.h"
+#include "core/image/plane.h"
+#include "core/image/push_pull.h"
+#include "core/image/threshold/find_folds.h"
+#include "core/image/threshold/otsu_thresholds.h"
+#include "core/image/threshold/page_edges.h"
+#include "core/image/threshold/paper_cells.h"
+#include "core/image/threshold/region_surface.h"
+
+namespace batten {
+namespace {
+
+constexpr std::int64_t kLargestStatisticsPx = 2'500'000;
+constexpr int kLargestShrink = 4;
+constexpr int kCellPx = 8;
+constexpr double kEdgeVariance = 1.5 * 1.5;                     // [px^2] of the Gaussian under the gradients
+constexpr std::array<double, 3> kSmoothings = {1.0, 1.4, 2.0};  // [px]
+constexpr double kContrastPerNoise = 5.5;
+constexpr double kLeastContrastPerNoise = 4.0;
+constexpr double kLeastContrast = 1.5;  // [grey]
+constexpr double kDustShare = 0.25;     // of the page's contrast: regions of dust alone do not get below
+constexpr double kCertainShare = 1.25;
+// Of ink in [specks and holes per stroke width]: a pen leaves up to .06, a dry brush, pencil or charcoal .12 to .35.
+constexpr double kTorn = 0.1;
+constexpr double kSmoothingPerWidth = 0.45;  // [widths of torn ink, half that of its strokes] more rounds them off
+constexpr double kTornShare = 0.75;          // of the half level: grains are darker than the stroke that they make up
+constexpr double kNever = -1000.0;           // [grey] darker than anything
+constexpr const char* kBrighterLines = "The lines are brighter than the paper; invert the scan.";
+constexpr std::size_t kNoiseSamples = 20000;
+constexpr int kDepthsPerBlock = 1024;
+
+int shrinkFor(const GreyImage& image) {
+  int shrink = 1;
+  while (shrink<kLargestShrink&& static_cast<std::int64_t>(image.width) * image.height / (shrink * shrink)>
+             kLargestStatisticsPx) {
+    shrink *= 2;
+  }
+  return shrink;
+}
+
+/// Variance on the shrunk grid that makes a smoothing of `variancePx` together with the means over the blocks.
+double remainingVariance(double variancePx, int shrink) {
+  const double block = (shrink * shrink - 1.0) / 12.0;
+  return std::max(0.1, (variancePx - block) / (shrink * shrink));
+}
+
+/// The plane smoothed at one place only.
+float smoothedAt(const Plane& plane, int x, int y, const std::vector<float>& kernel) {
+  const auto radius = static_cast<int>(kernel.size()) - 1;
+  float sum = 0.0f;
+  for (int j = -radius; j <= radius; ++j) {
+    const float* row = plane.row(std::clamp(y + j, 0, plane.height - 1));
+    float line = 0.0f;
+    for (int i = -radius; i <= radius; ++i) {
+      line += kernel[std::abs(i)] * row[std::clamp(x + i, 0, plane.width - 1)];
+    }
+    sum += kernel[std::abs(j)] * line;
+  }
+  return sum;
+}
+
+struct Depths {
+  std::vector<float> atCrests;  ///< Smoothed grey less paper at every crest.
+  double noise = 0.0;           ///< Of the smoothed paper.
+  double mean = 0.0;            ///< Over the crests, weighted by their strength.
+};
+
+Depths measureDepths(const Plane& grey, const PageEdges& edges, const PaperEstimate& estimate, int shrink,
+                     const std::vector<float>& kernel, const RunContext& context) {
+  Depths depths;
+  const PaperBackground& paper = estimate.paper;
+  const auto measure = [&](int count, std::vector<float>& out, const auto& placeOf) {
+    out.assign(count, 0.0f);
+    parallelFor(context, count, kDepthsPerBlock, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) {
+        const auto [x, y] = placeOf(static_cast<std::size_t>(i));
+        out[i] = smoothedAt(grey, x, y, kernel) - static_cast<float>(paper.at((x + 0.5) * shrink, (y + 0.5) * shrink));
+      }
+    });
+  };
+  measure(static_cast<int>(edges.crests.size()), depths.atCrests,
+          [&](std::size_t i) { return std::pair(edges.crests[i].x, edges.crests[i].y); });
+  double sum = 0.0, weight = 0.0;
+  for (std::size_t i = 0; i < edges.crests.size(); ++i) {
+    sum += static_cast<double>(edges.crests[i].strength * depths.atCrests[i]);
+    weight += static_cast<double>(edges.crests[i].strength);
+  }
+  depths.mean = weight > 0.0 ? sum / weight : 0.0;
+  const int cell = paper.cellPx / shrink;
+  const std::size_t stride = estimate.isPaper.size() / kNoiseSamples + 1;
+  std::vector<std::pair<int, int>> places;
+  for (std::size_t i = 0; i < estimate.isPaper.size(); i += stride) {
+    if (estimate.isPaper[i] == 0) continue;
+    const auto column = static_cast<int>(i % static_cast<std::size_t>(paper.columns));
+    const auto row = static_cast<int>(i / static_cast<std::size_t>(paper.columns));
+    // A pixel of the cell that changes from cell to cell, so that no grid of the scanner is met in step.
+    const int x = column * cell + static_cast<int>((i * 5) % static_cast<std::size_t>(cell));
+    const int y = row * cell + static_cast<int>((i * 3) % static_cast<std::size_t>(cell));
+    if (x < grey.width && y < grey.height) places.emplace_back(x, y);
+  }
+  std::vector<float> samples;
+  measure(static_cast<int>(places.size()), samples, [&](std::size_t i) { return places[i]; });
+  if (!samples.empty()) depths.noise = robustSigma(samples);
+  return depths;
+}
+
+/// Half level of every region from its own crests; regions without are filled from those that have some.
+void fillContrast(const Plane& grey, const PageEdges& edges, const Depths& depths, double strength,
+                  RegionThresholds& out) {
+  std::array<double, kRegions> sum{}, weight{};
+  std::array<int, kRegions> votes{};
+  for (std::size_t i = 0; i < edges.crests.size(); ++i) {
+    const EdgePoint& p = edges.crests[i];
+    const auto r = static_cast<std::size_t>(regionOf(p.x, p.y, grey.width, grey.height));
+    sum[r] += static_cast<double>(p.strength * depths.atCrests[i]);
+    weight[r] += static_cast<double>(p.strength);
+    ++votes[r];
+  }
+  std::vector<float> value(kRegions, 0.0f), confidence(kRegions, 0.0f);
+  for (std::size_t r = 0; r < kRegions; ++r) {
+    out.measured[r] = votes[r] >= kMinVotes && weight[r] > 0.0;
+    if (!out.measured[r]) continue;
+    value[r] = static_cast<float>(sum[r] / weight[r]);
+    confidence[r] = static_cast<float>(votes[r]) / (static_cast<float>(votes[r]) + kVotesOfConfidence);
+  }
+  const std::vector<float> filled = pushPull(value, confidence, kRegionsPerSide, kRegionsPerSide);
+  const double least = std::min(-kLeastContrastPerNoise * depths.noise, -kLeastContrast);
+  for (std::size_t r = 0; r < kRegions; ++r) {
+    const double level = std::min(static_cast<double>(filled[r]), kDustShare * depths.mean) * strength;
+    out.contrast[r] = std::min(level, least);
+  }
+}
+
+/// The ink of a shrunken page.
+BitImage inkOf(const Plane& grey, const PaperBackground& paper, const RegionValues& contrasts, int shrink,
+               const std::vector<float>& kernel, const RunContext& context) {
+  BitImage ink(grey.width, grey.height);
+  const Plane smoothed = smooth(grey, kernel, context);
+  if (context.isCancelled()) return ink;
+  const RegionSurface contrast(contrasts, grey.width, grey.height, true);
+  parallelFor(context, grey.height, kRowsPerBlock, [&](int begin, int end) {
+    std::vector<float> level(grey.width);
+    for (int y = begin; y < end; ++y) {
+      contrast.fillRow(y, level.data());
+      const float* row = smoothed.row(y);
+      for (int x = 0; x < grey.width; ++x) {
+        const auto here = static_cast<float>(paper.at((x + 0.5) * shrink, (y + 0.5) * shrink));
+        if (row[x] < here + level[x]) ink.set(x, y, true);
+      }
+    }
+  });
+  return ink;
+}
+
+void flattenedThresholds(const Plane& grey, const PageEdges& edges, int shrink, double strength, RegionThresholds& out,
+                         const RunContext& context) {
+  const int cellPx = kCellPx * std::max(1, shrink / 2);
+  PaperEstimate estimate = estimatePaper(grey, edges, shrink, cellPx, context);
+  Depths depths;
+  double roomPx = kSmoothings.back();
+  bool isFirst = true;
+  for (const double q : kSmoothings) {
+    if (q > roomPx || context.isCancelled()) break;
+    const std::vector<float> kernel = gaussianKernel(remainingVariance(q * q, shrink));
+    depths = measureDepths(grey, edges, estimate, shrink, kernel, context);
+    out.smoothingPx = q;
+    if (std::fabs(depths.mean) < kContrastPerNoise * depths.noise) continue;
+    fillContrast(grey, edges, depths, 1.0, out);
+    const InkGrain grain = measureGrain(inkOf(grey, estimate.paper, out.contrast, shrink, kernel, context), context);
+    if (grain.perWidth <= kTorn) break;
+    if (std::exchange(isFirst, false)) out.halfLevelShare = kTornShare;
+    roomPx = std::min(roomPx, kSmoothingPerWidth * grain.widthPx * shrink);
+  }
+  out.paperNoise = depths.noise;
+  out.faintLimit = std::min(-kLeastContrastPerNoise * depths.noise, -kLeastContrast);
+  out.paper = std::move(estimate.paper);
+  const bool enough = edges.crests.size() >= kMinVotes;
+  out.foundLine = enough && depths.mean <= -std::max(kLeastContrast, 2.5 * depths.noise);
+  if (out.foundLine) {
+    fillContrast(grey, edges, depths, strength * out.halfLevelShare, out);
+  } else {
+    out.note = enough && depths.mean > kLeastContrast ? kBrighterLines : "No ink contrast was found.";
+    out.contrast.fill(kNever);
+  }
+}
+
+/// Where lines stand so close all over the page that hardly any paper shows between them, neither the paper nor its
+/// noise can be measured: then the two greys of every region tell ink from paper, as without flattening, if most
+/// regions have two clearly different ones. Noise has one, and a shadow or a margin parts few regions. Bright lines on
+/// dark paper are told by the greys, too: most of such a page is dark.
+void thresholdsWithoutPaper(const GreyImage& image, const Plane& smoothed, double strength, RegionThresholds& out,
+                            const RunContext& context) {
+  const auto isHatched = [&](const OtsuRegions& regions) {
+    return 2 * regions.split >= kRegions && (out.note != kBrighterLines || 2 * regions.mostlyDark < regions.split);
+  };
+  RegionThresholds split;
+  split.smoothingPx = kSmoothings.front();
+  if (!isHatched(otsuThresholds(smoothed, strength, split, context)) &&
+      !isHatched(fineOtsuThresholds(image, strength, split, context)))
+    return;
+  split.note =
+      "The lines are too close together to measure the paper between them; each region was "
+      "thresholded between its two grey levels.";
+  out = std::move(split);
+}
+
+Plane statisticsPlane(const Plane& grey, int shrink, const RunContext& context) {
+  return smooth(grey, gaussianKernel(std::max(0.25, remainingVariance(kEdgeVariance, shrink))), context);
+}
+
+/// The folds are taken out of the picture, and the thresholds found on what is left.
+void thresholdsBesideFolds(const GreyImage& image, std::vector<PaperFold> folds, int shrink, double strength,
+                           RegionThresholds& out, const RunContext& context) {
+  const Plane grey = shrinkGrey(withoutFolds(image, folds, context), shrink, context);
+  if (context.isCancelled()) return;
+  const PageEdges edges = findPageEdges(statisticsPlane(grey, shrink, context), context);
+  if (context.isCancelled()) return;
+  flattenedThresholds(grey, edges, shrink, strength, out, context);
+  if (out.note.empty())
+    out.note = folds.size() == 1 ? "A fold or shadow edge across the page was removed."
+                                 : "Folds or shadow edges across the page were removed.";
+  out.paper.folds = std::move(folds);
+}
+
+/// Puts the user's own values where set, and the acting contrast everywhere.
+void applyUser(const GreyImage& image, const ThresholdParams& params, RegionThresholds& out) {
+  for (int region = 0; region < kRegions; ++region) {
+    const double x = (region % kRegionsPerSide + 0.5) * image.width / kRegionsPerSide;
+    const double y = (region / kRegionsPerSide + 0.5) * image.height / kRegionsPerSide;
+    const double paper = out.paper.at(x, y);
+    if (!out.paper.isEmpty()) out.automatic[region] = std::clamp(paper + out.contrast[region], 0.0, 255.0);
+    out.level[region] = out.automatic[region];
+    std::optional<double> own = params.grid[region];
+    if (!own && params.mode == ThresholdMode::Manual) own = params.manualLevel;
+    if (own) {
+      out.level[region] = *own;
+      out.contrast[region] = *own - paper;
+      out.certain[region] = out.contrast[region];
+    } else if (out.paper.isEmpty()) {
+      out.contrast[region] = out.foundLine ? out.automatic[region] - paper : kNever;
+      out.certain[region] = out.contrast[region];
+    } else {
+      out.certain[region] = kCertainShare * out.contrast[region];
+    }
+  }
+}
+
+std::optional<Error> outOfRange(const char* message) { return Error{ErrorCode::BadParameter, message, {}}; }
+bool within(double value, double low, double high) { return value >= low && value <= high; }
+
+}  // namespace
+
+std::optional<Error> validate(const ThresholdParams& params) {
+  if (!within(params.manualLevel, 0.0, 255.0)) return outOfRange("The threshold must lie between 0 and 255.");
+  if (!within(params.strength, 0.2, 3.0)) return outOfRange("The threshold strength must lie between 0.2 and 3.");
+  if (!within(params.reach, 0.0, 1.0)) return outOfRange("The threshold reach must lie between 0 and 1.");
+  if (params.speckArea < 0) return outOfRange("The speck area must not be negative.");
+  if (params.holeArea < 0) return outOfRange("The hole area must not be negative.");
+  for (const auto& level : params.grid) {
+    if (level && !within(*level, 0.0, 255.0)) return outOfRange("A region's threshold must lie between 0 and 255.");
+  }
+  return std::nullopt;
+}
+
+double PaperBackground::at(double xPx, double yPx) const {
+  if (isEmpty()) return 255.0;
+  const double u = std::clamp(xPx / cellPx - 0.5, 0.0, columns - 1.0);
+  const double v = std::clamp(yPx / cellPx - 0.5, 0.0, rows - 1.0);
+  const int x0 = static_cast<int>(u), y0 = static_cast<int>(v);
+  const int x1 = std::min(x0 + 1, columns - 1), y1 = std::min(y0 + 1, rows - 1);
+  const auto cell = [&](int x, int y) { return static_cast<double>(grey[std::ptrdiff_t{y} * columns + x]); };
+  const double above = cell(x0, y0) + (u - x0) * (cell(x1, y0) - cell(x0, y0));
+  const double below = cell(x0, y1) + (u - x0) * (cell(x1, y1) - cell(x0, y1));
+  double level = above + (v - y0) * (below - above);
+  for (const PaperFold& fold : folds) level += fold.at(xPx, yPx);
+  return level;
+}
+
+Result<RegionThresholds> findThresholds(const GreyImage& image, const PaperParams& paper, const ThresholdParams& params,
+                                        const RunContext& context) {
+  if (const auto error = validate(params)) return fail(*error);
+  if (image.width <= 0 || image.height <= 0) return fail(ErrorCode::BadParameter, "The picture is empty.");
+  try {
+    RegionThresholds out;
+    const int shrink = shrinkFor(image);
+    const Plane grey = shrinkGrey(image, shrink, context);
+    if (context.isCancelled()) return cancelled();
+    const Plane smoothed = statisticsPlane(grey, shrink, context);
+    if (context.isCancelled()) return cancelled();
+    if (paper.flatten) {
+      const PageEdges edges = findPageEdges(smoothed, context);
+      if (context.isCancelled()) return cancelled();
+      std::vector<PaperFold> folds;
+      if (paper.folds) folds = findFolds(image, smoothed, edges, shrink, context);
+      if (context.isCancelled()) return cancelled();
+      if (folds.empty()) {
+        flattenedThresholds(grey, edges, shrink, params.strength, out, context);
+      } else {
+        thresholdsBesideFolds(image, std::move(folds), shrink, params.strength, out, context);
+      }
+      if (!out.foundLine) thresholdsWithoutPaper(image, smoothed, params.strength, out, context);
+    } else {
+      out.smoothingPx = kSmoothings.front();
+      otsuThresholds(smoothed, params.strength, out, context);
+      if (!out.foundLine) out.note = "No region holds two clearly different greys.";
+    }
+    if (context.isCancelled()) return cancelled();
+    applyUser(image, params, out);
+    return out;
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::OutOfMemory, "Not enough memory for the thresholds; scan at a lower resolution or crop.");
+  } catch (const cv::Exception& exception) {
+    return fail(ErrorCode::Numerical, "The paper could not be measured; turn off Flatten paper.", exception.what());
+  }
+}
+
+}  // namespace batten

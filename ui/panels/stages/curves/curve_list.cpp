@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/stages/curves/curve_list.h"
+
+#include <QElapsedTimer>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QPointer>
+#include <QStyledItemDelegate>
+#include <algorithm>
+
+#include "ui/panels/controls/panel_parts.h"
+#include "ui/session/background_worker.h"
+#include "ui/session/curve_names.h"
+#include "ui/session/edits/piece_choice.h"
+#include "ui/session/fairness_text.h"
+#include "ui/session/guarded.h"
+#include "ui/theme/theme.h"
+
+namespace batten {
+namespace {
+
+constexpr int kCurveRow = 26;
+constexpr int kEyeWidth = 26;
+constexpr int kIconSize = 14;
+constexpr int kApart = 8;  ///< Between a name, which may be cut, and its figures.
+constexpr int kTellEveryMs = 200;
+constexpr int kBadgeWidth = 44, kBadgeHeight = 18, kBadgeGap = 6;
+enum Role {
+  IncludedRole = Qt::UserRole,
+  FiguresRole,
+  WarnsRole,
+  BadgeRole = CurveList::kBadgeRole,
+  SimilarityRole,
+  OwnTipRole,
+  OwnTextRole
+};
+
+/// Of S: fair, nearly so, or far from it.
+QColor fairnessColour(double similarity, const Theme& theme) {
+  constexpr double kFairSimilarity = 0.99, kNearlyFair = 0.95;
+  return similarity >= kFairSimilarity ? theme.good : similarity >= kNearlyFair ? theme.mute : theme.amber;
+}
+
+class CurveDelegate : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+  QSize sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const override { return {120, kCurveRow}; }
+  void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    const Theme& theme = themeOf(option.palette);
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing);
+    const QRectF box = QRectF(option.rect).adjusted(0, 1, 0, -1);
+    if (option.state & (QStyle::State_Selected | QStyle::State_MouseOver)) {
+      painter->setPen(Qt::NoPen);
+      painter->setBrush(option.state & QStyle::State_Selected ? theme.selection : theme.hover);
+      painter->drawRoundedRect(box, 5, 5);
+    }
+    if (option.state & QStyle::State_HasFocus) drawFocusRing(*painter, box, 5, theme);
+    const bool included = index.data(IncludedRole).toBool();
+    const QIcon eye = themedIcon(included ? QStringLiteral("eye") : QStringLiteral("eye-off"), option.palette);
+    eye.paint(painter, iconBox(option, 6));
+    painter->setFont(uiFont(12));
+    painter->setPen(included ? theme.text : theme.mute);
+    const QString figures = index.data(FiguresRole).toString();
+    const QString badge = index.data(BadgeRole).toString();
+    const int sign =
+        (index.data(WarnsRole).toBool() ? kIconSize + 6 : 0) + (badge.isEmpty() ? 0 : kBadgeWidth + kBadgeGap);
+    const int room = static_cast<int>(box.width()) - kEyeWidth - sign - kApart - 6 -
+                     painter->fontMetrics().horizontalAdvance(figures);
+    const QString name = painter->fontMetrics().elidedText(index.data().toString(), Qt::ElideRight, room);
+    painter->drawText(box.adjusted(kEyeWidth, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, name);
+    if (index.data(WarnsRole).toBool()) {
+      const int after = kEyeWidth + painter->fontMetrics().horizontalAdvance(name) + 6;
+      themedIcon(QStringLiteral("warning"), option.palette).paint(painter, iconBox(option, after));
+    }
+    painter->setPen(theme.mute);
+    painter->drawText(box.adjusted(0, 0, -6, 0), Qt::AlignVCenter | Qt::AlignRight, figures);
+    if (!badge.isEmpty()) {
+      const double right = box.right() - 6 - painter->fontMetrics().horizontalAdvance(figures) - kBadgeGap;
+      paintBadge(*painter, {right - kBadgeWidth, box.center().y() - kBadgeHeight / 2.0, kBadgeWidth, kBadgeHeight},
+                 badge, fairnessColour(index.data(SimilarityRole).toDouble(), theme));
+    }
+    painter->restore();
+  }
+
+ private:
+  static void paintBadge(QPainter& painter, const QRectF& box, const QString& text, const QColor& colour) {
+    painter.setPen(QPen(colour, 1.2));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRoundedRect(box, kBadgeHeight / 2.0, kBadgeHeight / 2.0);
+    painter.setFont(uiFont(11));
+    painter.drawText(box, Qt::AlignCenter, text);
+  }
+  static QRect iconBox(const QStyleOptionViewItem& option, int x) {
+    return {option.rect.left() + x, option.rect.top() + (kCurveRow - kIconSize) / 2, kIconSize, kIconSize};
+  }
+};
+
+}  // namespace
+
+CurveList::CurveList(EditorSession& session, Judged judged, QWidget* parent)
+    : QListWidget(parent), session_(session), judged_(judged), worker_(std::make_unique<BackgroundWorker>()) {
+  setObjectName(QStringLiteral("curves.list"));
+  setAccessibleName(tr("Curves"));
+  setItemDelegate(new CurveDelegate(this));
+  setMouseTracking(true);
+  setUniformItemSizes(true);
+  setFrameShape(QFrame::NoFrame);
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  setToolTip(
+      tr("Click a curve to select it; click its eye, or press Space, to exclude it from fairing "
+         "and export."));
+  for (const auto signal : {&EditorSession::scanOpened, &EditorSession::runFinished, &EditorSession::selectionChanged})
+    connect(&session_, signal, this, &CurveList::refresh);
+  connect(&session_, &EditorSession::stageReady, this, [this](StageId stage) {
+    if (stage == StageId::Curves || stage == StageId::Faired) refresh();
+  });
+  connect(this, &QListWidget::currentRowChanged, this, [this](int row) {
+    if (!filling_ && row >= 0) session_.selectCurve(row);
+  });
+  refresh();
+}
+
+CurveList::~CurveList() = default;
+
+void CurveList::showEvent(QShowEvent* event) {
+  QListWidget::showEvent(event);
+  judge();
+}
+
+QSize CurveList::sizeHint() const { return {240, kCurveRow * std::clamp(count(), 1, 10) + 2}; }
+
+void CurveList::refresh() {
+  filling_ = true;
+  const auto curves = session_.curves();
+  while (count() > static_cast<int>(curves.size())) delete takeItem(count() - 1);
+  while (count() < static_cast<int>(curves.size())) addItem(QString());
+  for (int i = 0; i < count(); ++i) {
+    const TracedCurve& curve = curves[i];
+    const CurveFigures& figures = judgedFigures(curve, curve.included ? judged_ : Judged::Sketched);
+    const QString whyStill = judged_ == Judged::Result ? whyLeftAsDrawn(curve) : QString();
+    const QString shape = curve.construct.isCircle ? tr(", circle")
+                          : curve.construct.isLine ? tr(", line")
+                          : curve.closed           ? tr(", closed")
+                                                   : QString();
+    const QString name = curveName(session_, i) + shape;
+    const QString counts = tr("%1 extr. · %2 pts").arg(figures.extrema).arg(figures.controlPoints);
+    const QString right = !curve.included ? tr("excluded") : !whyStill.isEmpty() ? tr("= %1").arg(counts) : counts;
+    // The row has no room for the word; it is the first of the tool tip.
+    const QString spoken = whyStill.isEmpty() || !curve.included ? right : tr("unchanged, %1").arg(counts);
+    const QString length = tr("Length %1").arg(millimetres(figures.lengthMm));
+    item(i)->setText(name);
+    item(i)->setData(IncludedRole, curve.included);
+    item(i)->setData(FiguresRole, right);
+    const QString warning = curve.included ? QString::fromStdString(curve.construct.note) : QString();
+    item(i)->setData(WarnsRole, !warning.isEmpty());
+    QStringList said;
+    const QString origin = curveOrigin(session_, i);
+    const QString whence = origin.isEmpty() ? QString() : name + QStringLiteral(", ") + origin;
+    const QString faired = judged_ == Judged::Result ? QString::fromStdString(curve.fairing.note) : QString();
+    const QString fairingSays = curve.included && faired != whyStill ? faired : QString();
+    for (const QString& one : {whence, whyStill, fairingSays, warning, length})
+      if (!one.isEmpty()) said << one;
+    item(i)->setData(OwnTipRole, said.join(QLatin1Char('\n')));
+    item(i)->setData(OwnTextRole,
+                     (QStringList{name + QStringLiteral(", ") + spoken} + said).join(QStringLiteral(". ")));
+  }
+  setCurrentRow(session_.selectedCurve());
+  showFairness();
+  filling_ = false;
+  judge();
+  setFixedHeight(sizeHint().height());
+}
+
+void CurveList::showFairness() {
+  const auto curves = session_.curves();
+  for (int i = 0; i < std::min(count(), static_cast<int>(curves.size())); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const TracedCurve& curve = curves[at];
+    const bool isKnown = known_ && at < known_->size() && curve.included &&
+                         (*known_)[at].curve == judgedCurve(curve, judged_) && (*known_)[at].fairness;
+    item(i)->setData(BadgeRole, isKnown ? fairnessBadge(*(*known_)[at].fairness) : QString());
+    item(i)->setData(SimilarityRole, isKnown ? (*known_)[at].fairness->similarity : 0.0);
+    const QString why = isKnown ? fairnessSentence(*(*known_)[at].fairness) : QString();
+    QStringList said;
+    const QString own = item(i)->data(OwnTipRole).toString();
+    for (const QString& one : {own, why})
+      if (!one.isEmpty()) said << one;
+    item(i)->setData(Qt::ToolTipRole, said.isEmpty() ? QVariant() : said.join(QLatin1Char('\n')));
+    QString spoken = item(i)->data(OwnTextRole).toString();
+    if (isKnown) spoken += QStringLiteral(". ") + why;
+    item(i)->setData(Qt::AccessibleTextRole, spoken);
+  }
+}
+
+void CurveList::judge() {
+  if (!isVisible()) return;
+  auto wanted = std::make_shared<Judgements>();
+  bool isAllKnown = true, isAsked = asked_ != nullptr;
+  const auto curves = session_.curves();
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    Judgement one{judgedCurve(curves[i], judged_), curves[i].closed, std::nullopt, false};
+    const bool isSame = known_ && i < known_->size() && (*known_)[i].curve == one.curve &&
+                        (*known_)[i].closed == one.closed && (*known_)[i].isJudged;
+    if (isSame) one = (*known_)[i];
+    isAllKnown = isAllKnown && isSame;
+    isAsked = isAsked && i < asked_->size() && (*asked_)[i].curve == one.curve && (*asked_)[i].closed == one.closed;
+    wanted->push_back(std::move(one));
+  }
+  if (isAllKnown || isAsked) return;
+  asked_ = wanted;
+  worker_->start([wanted, before = known_, first = session_.selectedCurve(),
+                  list = QPointer<CurveList>(this)](const CancelToken& token) {
+    const auto tell = [&](const Judgements& found, bool isAll) {
+      if (token.isCancelled() || !list) return;
+      auto made = std::make_shared<const Judgements>(found);
+      QMetaObject::invokeMethod(
+          list.data(),
+          [list, made, wanted, isAll] {
+            if (list && list->asked_ == wanted) list->take(made, isAll);
+          },
+          Qt::QueuedConnection);
+    };
+    const auto found = guarded<Judgements>([&]() -> Result<Judgements> {
+      Judgements all = *wanted;
+      QElapsedTimer sinceTold;
+      sinceTold.start();
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        if (token.isCancelled()) return cancelled();
+        Judgement& one = all[(k + static_cast<std::size_t>(std::max(0, first))) % all.size()];
+        if (one.isJudged) continue;
+        one.isJudged = true;
+        if (before) {
+          const auto same = [&](const Judgement& b) {
+            return b.isJudged && b.closed == one.closed && b.curve == one.curve;
+          };
+          const auto earlier = std::find_if(before->begin(), before->end(), same);
+          if (earlier != before->end()) one.fairness = earlier->fairness;
+        }
+        if (!one.fairness) {
+          // A curve that cannot be judged leaves the others theirs.
+          const auto judged = guarded<std::optional<CurveFairness>>(
+              [&]() -> Result<std::optional<CurveFairness>> { return curveFairness(one.curve, one.closed); });
+          if (judged) one.fairness = *judged;
+        }
+        if (k > 0 && sinceTold.elapsed() < kTellEveryMs) continue;
+        tell(all, false);
+        sinceTold.restart();
+      }
+      return all;
+    });
+    if (found) return tell(*found, true);
+    if (token.isCancelled() || !list) return;
+    // What could not be found may be asked for again.
+    QMetaObject::invokeMethod(
+        list.data(),
+        [list, wanted] {
+          if (list && list->asked_ == wanted) list->asked_.reset();
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void CurveList::take(const std::shared_ptr<const Judgements>& found, bool isAll) {
+  known_ = found;
+  if (isAll) asked_.reset();
+  filling_ = true;
+  showFairness();
+  filling_ = false;
+  if (isAll) judge();
+}
+
+void CurveList::keyPressEvent(QKeyEvent* event) {
+  const auto curves = session_.curves();
+  if (event->key() == Qt::Key_Space && currentRow() >= 0 && currentRow() < static_cast<int>(curves.size()))
+    return setIncluded(session_, currentRow(), !curves[currentRow()].included);
+  QListWidget::keyPressEvent(event);
+}
+
+void CurveList::mousePressEvent(QMouseEvent* event) {
+  const int row = indexAt(event->pos()).row();
+  const auto curves = session_.curves();
+  if (row >= 0 && row < static_cast<int>(curves.size()) && event->pos().x() < kEyeWidth)
+    return setIncluded(session_, row, !curves[row].included);
+  QListWidget::mousePressEvent(event);
+}
+
+}  // namespace batten

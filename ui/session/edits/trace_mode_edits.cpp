@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/session/edits/trace_mode_edits.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+
+namespace batten {
+
+namespace {
+
+/// Where the choice about a line's ink is attached, or would be.
+Vec2 placeOf(const Contour& line) { return line.traceMode ? line.traceMode->positionPx : placeOnInk(line); }
+
+}  // namespace
+
+const Contour* tracedLineOf(const EditorSession& session, int curve) {
+  const auto curves = session.curves();
+  const auto& set = session.output().contours;
+  // New lines come before their curves.
+  if (!set || session.isStale(StageId::Contours) != session.isStale(StageId::Faired)) return nullptr;
+  if (curve < 0 || static_cast<std::size_t>(curve) >= curves.size()) return nullptr;
+  const int contour = curves[curve].contour;
+  if (contour < 0 || static_cast<std::size_t>(contour) >= set->contours.size()) return nullptr;
+  const Contour& line = set->contours[contour];
+  return isDrawn(line.kind) || line.points.empty() ? nullptr : &line;
+}
+
+EdgeMode traceModeOf(const EditorSession& session, int curve) {
+  const Contour* line = tracedLineOf(session, curve);
+  if (!line) return EdgeMode::Automatic;
+  // The recipe's, which the shown line may not follow yet.
+  const auto& choices = session.recipe().edges.choices;
+  const auto last = std::find_if(choices.rbegin(), choices.rend(),
+                                 [place = placeOf(*line)](const EdgeChoice& c) { return c.positionPx == place; });
+  return last == choices.rend() ? EdgeMode::Automatic : last->mode;
+}
+
+void chooseTraceMode(EditorSession& session, int curve, EdgeMode mode) {
+  const Contour* line = tracedLineOf(session, curve);
+  if (!line || traceModeOf(session, curve) == mode) return;
+  Recipe after = session.recipe();
+  const Vec2 place = placeOf(*line);
+  std::erase_if(after.edges.choices, [&](const EdgeChoice& c) { return c.positionPx == place; });
+  if (mode != EdgeMode::Automatic) after.edges.choices.push_back({place, mode});
+  session.selectNear(place);
+  session.change(mode == EdgeMode::Automatic ? QCoreApplication::translate("WayEdits", "Trace line as the page")
+                 : mode == EdgeMode::Outline ? QCoreApplication::translate("WayEdits", "Trace outline of line")
+                                             : QCoreApplication::translate("WayEdits", "Trace centre of line"),
+                 std::move(after));
+}
+
+}  // namespace batten
