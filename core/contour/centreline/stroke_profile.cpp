@@ -142,6 +142,9 @@ InkAcross inkAcross(std::span<const float> profile, double widthPx, double inkLe
     moment += dark * (k - half) * kStrokeStepPx * kStrokeStepPx;
   }
   if (ink.darkness > 0.0) ink.centre = moment / ink.darkness;
+  const int near = std::min(half, static_cast<int>(1.0 / kStrokeStepPx));
+  for (int k = half - near; k <= half + near; ++k)
+    ink.middle += (paper.at(k) - static_cast<double>(profile[k])) / (2 * near + 1);
   return ink;
 }
 

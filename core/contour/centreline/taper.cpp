@@ -17,11 +17,15 @@ constexpr double kFarthestTipPx = 30.0;                     // [px] beyond it, b
 constexpr double kTaperHookWidths = 0.5;  // [stroke widths] the end of a skeleton turns to a corner of the ink there
 constexpr int kLeastTaperBack = 4;        // points over which the direction is taken
 constexpr double kWide = 0.75, kThin = 0.25;  // shares of the whole width between which a taper is told,
-constexpr double kTaperSpanWidths = 0.75, kTaperSpanPx = 2.5;  // and how far apart they lie: less is a cut or a cap
-constexpr double kFitFrom = 0.6, kFitTo = 0.08;                // shares over which the tip is extrapolated
-constexpr double kUnseenTipPx = 1.5;          // [px] of the last that is seen, blur and noise hide so much more
-constexpr double kGone = 0.05;                // share below which nothing is seen
-constexpr double kSteersFrom = 0.2;           // share from which on the middle of the ink is known
+constexpr double kTaperSpanWidths = 1.5, kTaperSpanPx = 2.5;  // and how far apart they lie: less is a cut or a cap
+constexpr double kNarrow = 0.35,
+                 kFine = 0.1;  // shares of which the first is left as evenly as the whole: a stroke that
+constexpr double kLeastEven = 0.2, kLeastFinePx = 3.0;  // of two runs of the pen loses one, then is cut off
+constexpr double kFitFrom = 0.6, kFitTo = 0.08;         // shares over which the tip is extrapolated
+constexpr double kUnseenTipPx = 1.5;  // [px] of the last that is seen, blur and noise hide so much more
+constexpr double kUnseenWidthPx = 0.45, kFarthestUnseenPx = 3.5;  // the line itself: ink so thin is as pale as paper
+constexpr double kGone = 0.05;                                    // share below which nothing is seen
+constexpr double kSteersFrom = 0.2;                               // share from which on the middle of the ink is known
 constexpr double kWider = 1.5;                // times the width so far: no ink is looked for beside it
 constexpr double kLargestTaperStepPx = 0.75;  // [px] aside, from one pixel to the next
 constexpr double kTipJoinPx = 0.3;            // [px] nearer to the tip no point of its own is made
@@ -30,6 +34,7 @@ constexpr double kGrowsAgain = 0.2;           // share by which ink that widens 
 struct TaperStation {
   Vec2 at = Vec2::Zero();
   double share = 0.0;  // of the darkness of the whole stroke
+  double dark = 0.0;   // of its contrast, on the course itself
 };
 
 struct TaperTrack {
@@ -78,18 +83,27 @@ std::optional<TaperTrack> trackTaper(const StrokeCourse& c, const GreyImage& gre
   const double inkLevel = sampleGrey(grey, inner.base.x(), inner.base.y());
   for (int i = track.first; i < n - hook; ++i) {
     const CoursePoint& p = c.points[i];
-    track.stations.push_back({p.base, acrossAt(c, p.base, p.tangent, inkLevel, w, grey).darkness});
+    const InkAcross ink = acrossAt(c, p.base, p.tangent, inkLevel, w, grey);
+    track.stations.push_back({p.base, ink.darkness, ink.middle});
   }
   track.known = static_cast<int>(track.stations.size());
   const double whole = wholeDarkness(track.stations);
   if (!(whole > 0.0)) return std::nullopt;
-  for (TaperStation& s : track.stations) s.share /= whole;
+  const double contrast = track.stations.front().dark;
+  if (!(contrast > 0.0)) return std::nullopt;
+  for (TaperStation& s : track.stations) {
+    s.share /= whole;
+    s.dark /= contrast;
+  }
   // Where it thins, the mask that the skeleton is of is a pixel or two wide.
   for (int i = track.known - 1; i >= back && track.stations[i].share < kFitFrom; --i) {
     const CoursePoint& p = c.points[track.first + i];
     const double local = std::min(1.0, kWider * std::max(kThin, track.stations[i].share)) * w;
     const InkAcross ink = acrossAt(c, p.base, p.tangent, inkLevel, local, grey);
-    if (std::abs(ink.centre) < kLargestTaperStepPx) track.stations[i].at += ink.centre * leftNormal(p.tangent);
+    if (std::abs(ink.centre) >= kLargestTaperStepPx) continue;
+    track.stations[i].at += ink.centre * leftNormal(p.tangent);
+    const InkAcross centred = acrossAt(c, track.stations[i].at, p.tangent, inkLevel, local, grey);
+    track.stations[i].dark = std::max(track.stations[i].dark, centred.middle / contrast);
   }
   const double farthest = hook + kFarthestTipPx + 2.0 * w;
   double least = track.stations.back().share;
@@ -102,7 +116,7 @@ std::optional<TaperTrack> trackTaper(const StrokeCourse& c, const GreyImage& gre
     const bool steers = share > kSteersFrom;
     if (steers && std::abs(ink.centre) > kLargestTaperStepPx) break;
     const Vec2 at = last + d + (steers ? 0.5 * ink.centre : 0.0) * leftNormal(d);
-    track.stations.push_back({at, share});
+    track.stations.push_back({at, share, ink.middle / contrast});
     least = std::min(least, share);
     if (share < kGone) break;
   }
@@ -117,6 +131,15 @@ std::optional<int> lastAbove(const std::vector<TaperStation>& stations, double s
   return std::nullopt;
 }
 
+// The last station at which ink is seen on the course itself.
+std::optional<int> lastDark(const std::vector<TaperStation>& stations) {
+  constexpr double kSeen = 0.12;
+  for (int i = static_cast<int>(stations.size()) - 1; i >= 0; --i) {
+    if (stations[i].dark >= kSeen) return i;
+  }
+  return std::nullopt;
+}
+
 // The station, in fractions, at which the stroke has thinned to nothing.
 std::optional<double> tipOf(const TaperTrack& track, double widthPx) {
   const std::vector<TaperStation>& stations = track.stations;
@@ -124,7 +147,12 @@ std::optional<double> tipOf(const TaperTrack& track, double widthPx) {
   const std::optional<int> wide = lastAbove(stations, kWide), thin = lastAbove(stations, kThin),
                            from = lastAbove(stations, kFitFrom), to = lastAbove(stations, kFitTo);
   if (!wide || !thin || !from || !to) return std::nullopt;
-  if (*thin - *wide <= kTaperSpanWidths * widthPx + kTaperSpanPx || *to - *from < 3) return std::nullopt;
+  const int span = *thin - *wide;
+  if (span <= kTaperSpanWidths * widthPx + kTaperSpanPx || *to - *from < 3) return std::nullopt;
+  const std::optional<int> narrow = lastAbove(stations, kNarrow), fine = lastAbove(stations, kFine);
+  if (!narrow || !fine || *fine - *narrow < std::max(kLeastFinePx, kLeastEven * span)) return std::nullopt;
+  const std::optional<int> dark = lastDark(stations);
+  if (!dark) return std::nullopt;
   // A line through the shares; the tip is taken half a standard deviation short: rather on ink than beyond.
   double sum = 0.0, sumI = 0.0, sumII = 0.0, sumS = 0.0, sumIS = 0.0, sumSS = 0.0;
   for (int i = *from; i <= *to; ++i) {
@@ -145,7 +173,8 @@ std::optional<double> tipOf(const TaperTrack& track, double widthPx) {
   const double deviation = std::sqrt(variance * (1.0 / sum + (tip - meanI) * (tip - meanI) / spread)) / -slope;
   // No farther beyond what was seen than an even taper would go.
   const double even = (*to - *from) * kFitTo / (kFitFrom - kFitTo);
-  return std::max(track.known - 1.0, std::min(tip - 0.5 * deviation, *to + even + kUnseenTipPx));
+  const double unseen = std::min(kFarthestUnseenPx, kUnseenWidthPx / (-slope * widthPx));
+  return std::max(track.known - 1.0, std::min({tip - 0.5 * deviation, *to + even + kUnseenTipPx, *dark + unseen}));
 }
 
 }  // namespace
