@@ -108,14 +108,15 @@ BitImage bodiesOf(const BitImage& strokes, const GreyImage& grey, const std::vec
 }
 
 // Every stroke path is placed by the rule that suits it.
-std::vector<Contour> placeStrokePaths(const std::vector<StrokePath>& paths, const GraininessMap* grain,
-                                      const GreyImage& grey, bool subpixel, const RunContext& context) {
+RefinedStrokes placeStrokePaths(const std::vector<StrokePath>& paths, const GraininessMap* grain, const GreyImage& grey,
+                                bool subpixel, const RunContext& context) {
   RefineSettings pen, pencil;
   pencil.rule = CentreRule::Centroid;
   pencil.smoothShiftPx = kPencilSmoothingPx;
   if (!subpixel) pen.rule = CentreRule::None;
   if (!subpixel || grain == nullptr) return refineStrokePaths(paths, grey, pen, context);
-  std::vector<Contour> contours(paths.size());
+  RefinedStrokes all;
+  all.contours.resize(paths.size());
   for (const bool isPencil : {false, true}) {
     std::vector<StrokePath> some;
     std::vector<int> number;
@@ -125,14 +126,16 @@ std::vector<Contour> placeStrokePaths(const std::vector<StrokePath>& paths, cons
       number.push_back(i);
     }
     if (some.empty()) continue;
-    std::vector<Contour> placed = refineStrokePaths(some, grey, isPencil ? pencil : pen, context);
-    for (int k = 0; k < std::ssize(placed); ++k) contours[number[k]] = std::move(placed[k]);
+    RefinedStrokes placed = refineStrokePaths(some, grey, isPencil ? pencil : pen, context);
+    for (int k = 0; k < std::ssize(number); ++k) all.contours[number[k]] = std::move(placed.contours[k]);
+    all.faint.insert(all.faint.end(), placed.faint.begin(), placed.faint.end());
   }
-  return contours;
+  return all;
 }
 
-// [grey] by which a stroke is darker than the paper on both its sides.
-double depthOf(const StrokePath& s, const GreyImage& grey) {
+// [grey] by which a stroke is darker than the paper on both its sides. A stroke of which the grain was closed, and a
+// small loop that was closed with it, has paper within: only its `ink` counts.
+double depthOf(const StrokePath& s, const GreyImage& grey, const BitImage& ink) {
   constexpr double kBesideWidths = 1.25, kTakenBesidePx = 1.5;
   const auto level = [&](const Vec2& at) {
     return static_cast<double>(grey.level(std::clamp(static_cast<int>(at.x()), 0, grey.width - 1),
@@ -144,8 +147,17 @@ double depthOf(const StrokePath& s, const GreyImage& grey) {
     const Vec2 along = s.points[i + 1].at - s.points[i - 1].at;
     if (!(along.norm() > 0.0)) continue;
     const double beside = kBesideWidths * 2.0 * static_cast<double>(s.points[i].radius) + kTakenBesidePx;
-    const Vec2 away = beside * leftNormal(along.normalized()), &at = s.points[i].at;
-    sum += 0.5 * (level(at + away) + level(at - away)) - level(at);
+    const Vec2 across = leftNormal(along.normalized()), away = beside * across, &at = s.points[i].at;
+    double inked = 0.0;
+    int on = 0;
+    const int reach = static_cast<int>(s.points[i].radius);
+    for (int u = -reach; u <= reach; ++u) {
+      const Vec2 place = at + u * across;
+      if (!ink.at(static_cast<int>(place.x()), static_cast<int>(place.y()))) continue;
+      inked += level(place);
+      ++on;
+    }
+    sum += 0.5 * (level(at + away) + level(at - away)) - (on > 0 ? std::min(inked / on, level(at)) : level(at));
     ++count;
   }
   return count > 0 ? sum / count : 0.0;
@@ -153,8 +165,8 @@ double depthOf(const StrokePath& s, const GreyImage& grey) {
 
 // Strokes shorter than `minWidths` of their widths are blots. Grain breaks the strokes of a pencil and makes short ones
 // of its own: such are kept only where they are as dark as the strokes around.
-void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, double minWidths, bool anyPencil,
-               const RunContext& context) {
+void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, const BitImage& strokes, double minWidths,
+               bool anyPencil, const RunContext& context) {
   constexpr double kGrainWidths = 2.5;  // times the shortest: longer ones are no grain
   constexpr double kAsDark = 0.8;
   // A free end of a skeleton lies half a width before that of its ink.
@@ -171,7 +183,7 @@ void dropShort(std::vector<StrokePath>& paths, const GreyImage& grey, double min
     const double widths = widthsOf(s);
     bool drop = s.points.size() < 3 || widths < minWidths;
     if (!drop && grain && grain->isPencil(i) && widths < kGrainWidths * minWidths)
-      drop = depthOf(s, grey) < kAsDark * grain->depthAt(s.points[s.points.size() / 2].at);
+      drop = depthOf(s, grey, strokes) < kAsDark * grain->depthAt(s.points[s.points.size() / 2].at);
     isDropped.push_back(drop);
   }
   std::vector<StrokePath> kept;
@@ -226,20 +238,24 @@ Result<ContourSet> traceStrokes(const BitImage& strokes, const GreyImage& grey, 
   if (context.isCancelled()) return cancelled();
   ContourSet set;
   set.report.found = static_cast<int>(paths.size());
-  dropShort(paths, grey, options.minWidths, anyPencil, context);
+  dropShort(paths, grey, strokes, options.minWidths, anyPencil, context);
   if (context.isCancelled()) return cancelled();
   set.report.droppedShort = set.report.found - static_cast<int>(paths.size());
+  RefinedStrokes placedStrokes;
   if (anyPencil) {
     const GraininessMap found(paths, grey, context);
-    set.contours = placeStrokePaths(paths, &found, grey, params.subpixel, context);
+    placedStrokes = placeStrokePaths(paths, &found, grey, params.subpixel, context);
   } else {
-    set.contours = placeStrokePaths(paths, nullptr, grey, params.subpixel, context);
+    placedStrokes = placeStrokePaths(paths, nullptr, grey, params.subpixel, context);
   }
+  set.contours = std::move(placedStrokes.contours);
   if (context.isCancelled()) return cancelled();
   const std::size_t placed = set.contours.size();
   std::erase_if(set.contours, [&](const Contour& c) { return c.points.size() < 3 || (params.subpixel && !isSeen(c)); });
   set.report.droppedShort += static_cast<int>(placed - set.contours.size());
-  set.contours = keepOnInk(std::move(set.contours), shapes != nullptr ? either(*ink, *shapes) : *ink);
+  BitImage seen = shapes != nullptr ? either(*ink, *shapes) : *ink;
+  for (const Vec2& at : placedStrokes.faint) setDisc(seen, at, 1.0);
+  set.contours = keepOnInk(std::move(set.contours), seen);
   if (!set.contours.empty()) set.report.widthPx = width;
   if (params.intent) {
     groupByIntent(set, params, width, options.minWidths, context);

@@ -110,8 +110,8 @@ void forCourses(std::vector<StrokeCourse>& courses, const RunContext& context, c
 
 }  // namespace
 
-std::vector<Contour> refineStrokePaths(const std::vector<StrokePath>& paths, const GreyImage& grey,
-                                       const RefineSettings& settings, const RunContext& context) {
+RefinedStrokes refineStrokePaths(const std::vector<StrokePath>& paths, const GreyImage& grey,
+                                 const RefineSettings& settings, const RunContext& context) {
   constexpr int kRounds = 2;
   std::vector<StrokeCourse> courses(paths.size());
   forCourses(courses, context, [&](int i) { courses[i] = resample(paths[i]); });
@@ -129,13 +129,20 @@ std::vector<Contour> refineStrokePaths(const std::vector<StrokePath>& paths, con
     }
   }
   if (settings.rule == CentreRule::HalfLevel) placeOnPixels(courses, grey, context);
-  std::vector<Contour> contours(paths.size());
+  RefinedStrokes refined;
+  refined.contours.resize(paths.size());
+  std::vector<FreeEnds> ends(paths.size());
   forCourses(courses, context, [&](int i) {
     layThroughJunctions(courses[i]);
-    if (settings.rule != CentreRule::None) placeEnds(courses[i], grey);
-    contours[i] = contourOf(courses[i]);
+    if (settings.rule != CentreRule::None) ends[i] = findEnds(courses[i], grey, settings.rule == CentreRule::Centroid);
   });
-  return contours;
+  const double cutOdds = cutOddsOf(ends);
+  forCourses(courses, context, [&](int i) {
+    placeEnds(courses[i], ends[i], cutOdds);
+    refined.contours[i] = contourOf(courses[i]);
+  });
+  for (const StrokeCourse& c : courses) refined.faint.insert(refined.faint.end(), c.faint.begin(), c.faint.end());
+  return refined;
 }
 
 }  // namespace batten

@@ -22,10 +22,15 @@ struct RefineSettings {
   double smoothShiftPx = 0.0;  ///< [px] Gaussian over the shifts along the stroke path (Centroid).
 };
 
+struct RefinedStrokes {
+  std::vector<Contour> contours;
+  std::vector<Vec2> faint;  ///< [px] places where ends go on over ink that only the grey values show, not the mask.
+};
+
 /// Turns stroke paths into contours: points about 1 px apart, moved to the middle of the stroke on the grey values,
-/// interpolated through junctions, and ended half a stroke width before the end of the ink. One contour per stroke
-/// path, same order. Not complete when the context is cancelled.
-std::vector<Contour> refineStrokePaths(const std::vector<StrokePath>& paths, const GreyImage& grey,
-                                       const RefineSettings& settings, const RunContext& context);
+/// interpolated through junctions, and ended where the pen was lifted (placeEnds). One contour per stroke path, same
+/// order. Not complete when the context is cancelled.
+RefinedStrokes refineStrokePaths(const std::vector<StrokePath>& paths, const GreyImage& grey,
+                                 const RefineSettings& settings, const RunContext& context);
 
 }  // namespace batten

@@ -195,4 +195,18 @@ void layThroughJunctions(StrokeCourse& c) {
   }
 }
 
+void replaceTail(StrokeCourse& c, int keep, const std::vector<Vec2>& tail) {
+  const std::vector<Vec2> chain = valuesOf(c, &CoursePoint::chain);
+  c.points.resize(keep);
+  CoursePoint added = c.points.back();
+  added.measured = true;
+  added.information.reset();
+  for (const Vec2& at : tail) {
+    const int i = c.count();
+    added.base = at;
+    added.chain = i < std::ssize(chain) ? chain[i] : at;
+    c.points.push_back(added);
+  }
+}
+
 }  // namespace batten

@@ -41,6 +41,7 @@ struct StrokeCourse {
   double widthPx = 1.0;                      ///< Median.
   int profileHalf = 0;                       ///< [samples]
   bool wasPlacedOnPixels = false;            ///< placeOnPixels() has run.
+  std::vector<Vec2> faint = {};              ///< [px] places where only the grey values show that it goes on.
   int count() const { return static_cast<int>(points.size()); }
 };
 /// One value of every point, for the functions of core/polyline, and back.
@@ -72,5 +73,8 @@ void rejectImplausibleShifts(StrokeCourse& course, bool checkWidth);
 void moveCourse(StrokeCourse& course, bool again);
 /// Replaces the points within junctions by a cubic that continues both sides.
 void layThroughJunctions(StrokeCourse& course);
+/// Keeps the first `keep` points and appends `tail`; what is not known of the new points is as at the last one kept.
+/// @pre 0 < keep <= count().
+void replaceTail(StrokeCourse& course, int keep, const std::vector<Vec2>& tail);
 
 }  // namespace batten

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/base/statistics.h"
+#include "core/contour/centreline/end_shape.h"
 #include "core/contour/centreline/stroke_course.h"
 #include "core/contour/centreline/stroke_profile.h"
+#include "core/contour/centreline/taper.h"
 #include "core/polyline/polyline_tools.h"
 
 namespace batten {
@@ -15,6 +18,7 @@ namespace {
 
 constexpr int kFewestEndPoints = 8;        // of a stroke whose ends can be told from its middle
 constexpr double kFarthestEatenPx = 30.0;  // what the mask may have lost of a thin stroke, besides two widths
+constexpr double kCertain = 50.0;          // [nats]
 constexpr int kLeastBackPoints = 4;        // over which the direction of an end is taken
 constexpr double kHookWidths = 0.5;        // [stroke widths] the end of a skeleton turns to a corner of the ink there
 constexpr double kSameContrast = 0.6;      // of the stroke's contrast: less is another stroke, or paper
@@ -23,58 +27,13 @@ constexpr double kLargestSidestepPx = 0.75;              // from one pixel to th
 constexpr double kLargestTurnRad = 0.5;                  // 30 degrees
 constexpr double kRoundEndWidths = 0.06;    // [stroke widths] the half level over the middle half of a round end lies
                                             // so much before its tip
+constexpr double kAnchorWidths = 1.5;       // [stroke widths]
+constexpr double kCornerWidths = 0.3;       // [stroke widths] a course into a corner is longer than the stroke
+constexpr double kOffCourseWidths = 0.15;   // [stroke widths] between a course and its parabola
+constexpr double kTurnsAsideWidths = 0.75;  // [stroke widths] before the end of the ink a course may turn to a corner
 constexpr double kSkeletonOffWidths = 0.6;  // [stroke widths]
-constexpr float kEndContrast = 4.0f;        // [grey]
 constexpr double kLeastStepPx = 0.35;       // between neighbours on a contour, of about 1 px
 constexpr float kLeastWidthPx = 0.1f;
-
-// The course near its end, going on beyond it as a parabola; s = 0 at the anchor, growing outwards.
-struct EndCourse {
-  Vec2 at = Vec2::Zero(), out = Vec2::Zero(), bend = Vec2::Zero();
-  Vec2 position(double s) const { return at + s * out + 0.5 * s * s * bend; }
-};
-
-// [px] beyond the anchor where the ink ends: the half level of the mean over the middle half of the stroke.
-std::optional<double> inkEnd(const EndCourse& end, double widthPx, double inside, const GreyImage& grey) {
-  const double farthest = inside + 2.0 * widthPx + 3.0;
-  const int samples = static_cast<int>(farthest / kStrokeStepPx) + 1;
-  const int lanes = std::max(1, static_cast<int>(std::lround(0.5 * widthPx)));
-  std::vector<float> level(samples, 0.0f);
-  for (int k = 0; k < samples; ++k) {
-    const double s = k * kStrokeStepPx;
-    const Vec2 normal = leftNormal(end.out + s * end.bend).normalized();
-    for (int j = -lanes; j <= lanes; ++j) {
-      const Vec2 at = end.position(s) + (0.25 * widthPx * j / lanes) * normal;
-      level[k] += sampleGrey(grey, at.x(), at.y()) / static_cast<float>(2 * lanes + 1);
-    }
-  }
-  std::vector<float> inner(level.begin(),
-                           level.begin() + std::clamp(static_cast<int>(0.5 * inside / kStrokeStepPx), 1, samples));
-  const float ink = upperMedian(inner);
-  const float paper = *std::max_element(level.begin(), level.end());
-  const float middle = 0.5f * (ink + paper);
-  if (!(paper - ink > kEndContrast)) return std::nullopt;
-  for (int k = 0; k + 1 < samples; ++k) {
-    const float a = level[k], b = level[k + 1];
-    if (a < middle && b >= middle) return (k + (middle - a) / (b - a)) * kStrokeStepPx;
-  }
-  return std::nullopt;
-}
-
-// Keeps `keep` points and appends `tail`; what is not known of the new points is as at the last one kept.
-void replaceTail(StrokeCourse& c, int keep, const std::vector<Vec2>& tail) {
-  const std::vector<Vec2> chain = valuesOf(c, &CoursePoint::chain);
-  c.points.resize(keep);
-  CoursePoint added = c.points.back();
-  added.measured = true;
-  added.information.reset();
-  for (const Vec2& at : tail) {
-    const int i = c.count();
-    added.base = at;
-    added.chain = i < std::ssize(chain) ? chain[i] : at;
-    c.points.push_back(added);
-  }
-}
 
 // Profile at a place, averaged over 3 px along the direction.
 std::optional<StrokeCentre> centreAt(const StrokeCourse& c, const Vec2& at, const Vec2& direction,
@@ -125,31 +84,75 @@ void turnRound(StrokeCourse& c) {
   std::swap(c.tip[0], c.tip[1]);
 }
 
-// Ends the course half a pen's width before the end of the ink.
-void placeLastPoint(StrokeCourse& c, const GreyImage& grey) {
-  const int n = c.count();
-  const double w = c.widthPx;
-  // From a place about a width inside, where the direction is still that of the stroke.
-  const int inside = std::min(n / 2, static_cast<int>(std::lround(w + 3.0)));
-  const int anchor = n - 1 - inside;
-  const auto a = approachAt(c, anchor, -1, std::max(8.0, 4.0 * w));
-  if (!a) return;
-  EndCourse end{a->at, a->direction, a->bend};
+// [px] The width of the stroke where its half levels tell, else that of the mask, which is up to a pixel off.
+double endWidth(const StrokeCourse& c) {
+  std::vector<float> widths;
+  for (const CoursePoint& p : c.points) {
+    if (p.measured && p.part == StrokePart::Ink) widths.push_back(p.measuredWidth);
+  }
+  return widths.empty() ? c.widthPx : static_cast<double>(upperMedian(widths));
+}
+
+// Whether a course runs as the parabola says, as far as the end of the ink that was seen along it. A skeleton ends
+// within a pixel or two of the pen's last place or in a corner of the end; a stroke that turns is left sideways.
+bool runsAlong(const StrokeCourse& c, const FreeEnd& found) {
+  const double w = found.widthPx, off = kSkeletonOffWidths * w + 2.0;
+  const double reached = (c.points.back().base - found.course.at).dot(found.course.out);
+  if (std::abs(found.tipPx - 0.5 * w - reached) > off) return false;
+  if (found.inside < found.tipPx - 0.5 * w - off || found.inside > found.tipPx + kCornerWidths * w + 2.0) return false;
+  const int anchor = c.count() - 1 - found.inside;
+  const int straight = std::min(found.inside, static_cast<int>(found.tipPx - kTurnsAsideWidths * w - 1.0));
+  const double most = std::max(1.0, kOffCourseWidths * w);
+  for (int k = 0; k <= straight; ++k) {
+    if ((c.points[anchor + k].base - found.course.position(k)).norm() > most) return false;
+  }
+  return true;
+}
+
+// The last end of a course as seen from so many points inside; nothing where none is seen.
+std::optional<FreeEnd> endSeenFrom(const StrokeCourse& c, int inside, double w, const GreyImage& grey) {
+  FreeEnd found;
+  found.inside = inside;
+  found.widthPx = w;
+  const auto a = approachAt(c, c.count() - 1 - inside, -1, std::max(8.0, 4.0 * w));
+  if (!a) return std::nullopt;
+  found.course = {a->at, a->direction, a->bend};
   // No turn of more than about 30 degrees is read from a parabola beyond its points.
   const double most = kLargestTurnRad / (inside + w);
-  if (end.bend.norm() > most) end.bend *= most / end.bend.norm();
-  const std::optional<double> tip = inkEnd(end, w, inside, grey);
-  if (!tip) return;
-  const double stop = std::max(0.0, *tip + kRoundEndWidths * w - 0.5 * w);
-  // A skeleton ends within a pixel or two of the pen's last place; farther off, the parabola has left the stroke.
-  if (std::abs(stop - inside) > kSkeletonOffWidths * w + 2.0) return;
+  if (found.course.bend.norm() > most) found.course.bend *= most / found.course.bend.norm();
+  const std::optional<double> tip = inkEnd(found.course, w, inside, grey);
+  if (!tip) return std::nullopt;
+  found.tipPx = *tip;
+  return runsAlong(c, found) ? std::optional(found) : std::nullopt;
+}
+
+// The last end of a course, looked at. From so far inside that the direction is still that of the stroke: before a wide
+// end is cut off the skeleton leaves its middle for a corner, and the smoothing spreads that. From nearer where the
+// stroke turns.
+std::optional<FreeEnd> lastEnd(const StrokeCourse& c, const GreyImage& grey) {
+  const double w = endWidth(c);
+  for (const double widths : {kAnchorWidths, 1.0}) {
+    const int inside = std::min(c.count() / 2, static_cast<int>(std::lround(widths * w + 3.0)));
+    std::optional<FreeEnd> found = endSeenFrom(c, inside, w, grey);
+    if (!found) continue;
+    found->stop = penStop(found->course, w, found->tipPx, grey);
+    return found;
+  }
+  return std::nullopt;
+}
+
+// Ends the course where the pen stopped.
+void placeLast(StrokeCourse& c, const FreeEnd& found, double cutOdds) {
+  const double w = found.widthPx;
+  const double stop = std::max(0.0, found.stop ? found.stop->at(cutOdds) : found.tipPx + kRoundEndWidths * w - 0.5 * w);
+  const int anchor = std::max(0, c.count() - 1 - found.inside), inside = c.count() - 1 - anchor;
   // The last half width of a skeleton turns to one corner of the pen's end.
-  const int kept = std::clamp(
-      std::min(static_cast<int>(stop - 0.5), inside - static_cast<int>(std::ceil(kHookWidths * w))), 0, inside);
-  const Vec2 offset = c.points[anchor + kept].base - end.position(kept);
+  const double straight = std::min(inside - std::ceil(kHookWidths * w), found.tipPx - kTurnsAsideWidths * w - 1.0);
+  const int kept = std::clamp(static_cast<int>(std::min(stop - 0.5, straight)), 0, inside);
+  const Vec2 offset = c.points[anchor + kept].base - found.course.position(kept);
   const int count = std::max(0, static_cast<int>(std::lround(stop - kept)));
   std::vector<Vec2> tail;
-  for (int k = 1; k <= count; ++k) tail.push_back(end.position(kept + (stop - kept) * k / count) + offset);
+  for (int k = 1; k <= count; ++k) tail.push_back(found.course.position(kept + (stop - kept) * k / count) + offset);
   replaceTail(c, anchor + kept + 1, tail);
 }
 
@@ -175,16 +178,48 @@ void addSigmas(Contour& contour, std::vector<std::optional<PointInformation>> in
 
 }  // namespace
 
-void placeEnds(StrokeCourse& c, const GreyImage& grey) {
-  if (c.closed || c.count() < kFewestEndPoints) return;
-  const auto place = [&] {
+FreeEnds findEnds(StrokeCourse& c, const GreyImage& grey, bool isPencil) {
+  FreeEnds ends;
+  if (c.closed || c.count() < kFewestEndPoints) return ends;
+  const auto find = [&](int side) {
     followInk(c, grey);
-    placeLastPoint(c, grey);
+    if (isPencil || !reachTaperTip(c, grey)) ends[side] = lastEnd(c, grey);
   };
-  if (c.tip[1]) place();
-  if (!c.tip[0]) return;
+  if (c.tip[1]) find(1);
+  if (!c.tip[0]) return ends;
   turnRound(c);
-  place();
+  find(0);
+  turnRound(c);
+  return ends;
+}
+
+double cutOddsOf(const std::vector<FreeEnds>& ends) {
+  std::vector<double> evidence;
+  for (const FreeEnds& both : ends) {
+    for (const std::optional<FreeEnd>& end : both) {
+      if (end && end->stop) evidence.push_back(end->stop->forCut);
+    }
+  }
+  // The share of cut ends that makes what was seen most likely.
+  constexpr int kShares = 100;
+  double best = 0.0, most = -std::numeric_limits<double>::infinity();
+  for (int k = 1; k < kShares; ++k) {
+    const double share = static_cast<double>(k) / kShares;
+    double likely = std::log(share * (1.0 - share));  // none and all are less likely before anything is seen
+    for (const double e : evidence) likely += std::log(share * std::exp(std::min(e, kCertain)) + 1.0 - share);
+    if (likely > most) {
+      most = likely;
+      best = std::log(share / (1.0 - share));
+    }
+  }
+  return best;
+}
+
+void placeEnds(StrokeCourse& c, const FreeEnds& ends, double cutOdds) {
+  if (ends[1]) placeLast(c, *ends[1], cutOdds);
+  if (!ends[0]) return;
+  turnRound(c);
+  placeLast(c, *ends[0], cutOdds);
   turnRound(c);
 }
 

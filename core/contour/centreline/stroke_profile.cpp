@@ -6,6 +6,7 @@ namespace {
 
 constexpr double kLeastStrokeContrast = 2.0;  // [grey] less is noise of the scan
 constexpr int kPaperSamples = 5;              // over which the paper beside a stroke is averaged, 1.25 px
+constexpr int kSpreadSamples = 8;             // to which the ink of a stroke spreads beyond its border, 2 px
 constexpr double kCrowdedShare = 0.25;        // of the contrast: if the outer end is so much darker, ink lies there
 constexpr double kCoreShare = 0.2;            // of the width to either side of the middle, where the ink is full
 constexpr double kPaperShare = 0.15;          // of the darkest: what is fainter counts as paper
@@ -126,6 +127,25 @@ std::optional<StrokeCentre> centroidCentre(std::span<const float> profile, doubl
   result.width = std::sqrt(std::max(0.0, 12.0 * (square / sum - centre * centre)));
   result.contrast = most;
   return result;
+}
+
+InkAcross inkAcross(std::span<const float> profile, double widthPx, double inkLevel) {
+  const int half = static_cast<int>(profile.size()) / 2;
+  const int edge = std::min(half - 1, static_cast<int>(std::lround(0.5 * widthPx / kStrokeStepPx)));
+  const PaperLine paper = paperBeside(profile, edge, inkLevel);
+  const int reach = std::min(static_cast<int>(paper.reach), edge + kSpreadSamples);
+  InkAcross ink;
+  double moment = 0.0;
+  for (int k = half - reach; k <= half + reach; ++k) {
+    const double dark = paper.at(k) - static_cast<double>(profile[k]);
+    ink.darkness += dark * kStrokeStepPx;
+    moment += dark * (k - half) * kStrokeStepPx * kStrokeStepPx;
+  }
+  if (ink.darkness > 0.0) ink.centre = moment / ink.darkness;
+  const int near = std::min(half, static_cast<int>(1.0 / kStrokeStepPx));
+  for (int k = half - near; k <= half + near; ++k)
+    ink.middle += (paper.at(k) - static_cast<double>(profile[k])) / (2 * near + 1);
+  return ink;
 }
 
 }  // namespace batten

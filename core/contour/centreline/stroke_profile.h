@@ -45,4 +45,14 @@ std::optional<StrokeCentre> halfLevelCentre(std::span<const float> profile, doub
 /// where all is paper.
 std::optional<StrokeCentre> centroidCentre(std::span<const float> profile, double reachPx);
 
+/// The ink in a profile of 2 * half + 1 samples, all of its darkness summed up.
+struct InkAcross {
+  double darkness = 0.0;  ///< [grey px] below the paper; with noise also negative where there is no ink.
+  double centre = 0.0;    ///< [px] centroid along the profile, 0 = its middle; 0 where there is no ink.
+  double middle = 0.0;    ///< [grey] below the paper within a pixel of its middle, mean.
+};
+/// `widthPx`: no ink of the stroke lies farther than half of it, and blur, from the middle. `inkLevel` [grey]: of the
+/// stroke where it is whole; what lies beside it and is not far lighter is another one's.
+InkAcross inkAcross(std::span<const float> profile, double widthPx, double inkLevel);
+
 }  // namespace batten

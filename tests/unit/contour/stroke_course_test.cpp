@@ -20,7 +20,8 @@ TEST(StrokeCourse, EndsAreMovedWithoutMovingTones) {
   StrokeCourse course = resample(path);
   const int before = course.count();
   for (CoursePoint& p : course.points) p.tone = {.contrast = static_cast<float>(p.base.x())};
-  placeEnds(course, scan.grey);
+  const FreeEnds ends = findEnds(course, scan.grey, false);
+  placeEnds(course, ends, cutOddsOf({ends}));
   ASSERT_GT(course.count(), before + 10) << "both ends were to move";
   for (const CoursePoint& p : course.points) {
     if (p.base.x() < 55.0 || p.base.x() > 140.0) continue;

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/contour/centreline/end_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/base/statistics.h"
+#include "core/contour/centreline/stroke_profile.h"
+
+namespace batten {
+namespace {
+
+constexpr float kEndContrast = 4.0f;                          // [grey]
+constexpr double kBesideEndPx = 2.5;                          // [px] of paper looked at round an end
+constexpr double kEndStepPx = 0.5;                            // [px] between the places at which an end is compared
+constexpr double kTipStepPx = 0.25;                           // [px] between the places at which its tip may lie,
+constexpr int kTipSteps = 5;                                  // and how many of them to either side
+constexpr double kSamplesPerPx = 4.0;                         // at half a pixel's step each pixel is seen so often
+constexpr double kCutSlopes[] = {-1.0, -0.5, 0.0, 0.5, 1.0};  // [-] of a cut: as far as 45 degrees from square
+constexpr double kLeastEndBlurPx = 0.4, kMostEndBlurPx = 2.4, kBlurStepPx = 0.1;  // standard deviations
+constexpr double kThinnerPx = 0.75, kThickerPx = 0.25, kRadiusStepPx = 0.1;       // than half the width at half level
+
+constexpr double kLeastRadiusPx = 0.3;
+constexpr double kRuledOut = 6.0;           // [nats] less likely than the best: not tried
+constexpr double kLeastEndVariance = 0.25;  // [grey^2] of the rounding to whole levels and of the model
+
+// Share of a blurred edge's darkness, x standard deviations inside it.
+double edgeShare(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
+
+// A stroke as a strip of even darkness, blurred.
+struct PenModel {
+  double radius = 1.0, blur = 1.0;                          // [px]
+  double dark = 0.0, paper = 0.0;                           // [grey]
+  double misfit = std::numeric_limits<double>::infinity();  // [grey^2] sum over the pixels across the stroke
+  double across(double u) const { return edgeShare((u + radius) / blur) - edgeShare((u - radius) / blur); }
+};
+
+// The levels across a stroke, the mean of both its sides, by the distance from its middle, every kEndStepPx.
+struct Flank {
+  std::vector<double> level;  // [grey]
+  int columns = 0;            // of which it is the mean
+};
+
+Flank flankOf(const EndCourse& end, double toPx, double halfPx, const GreyImage& grey) {
+  Flank flank;
+  const int count = static_cast<int>(std::lround(halfPx / kEndStepPx)) + 1;
+  flank.level.assign(count, 0.0);
+  for (double s = 0.0; s <= toPx; s += kEndStepPx, ++flank.columns) {
+    const Vec2 at = end.position(s), normal = end.normal(s);
+    for (int k = 0; k < count; ++k) {
+      const Vec2 beside = k * kEndStepPx * normal, left = at + beside, right = at - beside;
+      flank.level[k] +=
+          0.5 * static_cast<double>(sampleGrey(grey, left.x(), left.y()) + sampleGrey(grey, right.x(), right.y()));
+    }
+  }
+  for (double& level : flank.level) level /= flank.columns;
+  return flank;
+}
+
+// The strips that may have left a flank, one for every blur, least misfit first.
+std::vector<PenModel> pensFor(const Flank& flank, double widthPx) {
+  std::vector<PenModel> pens;
+  const double from = std::max(kLeastRadiusPx, 0.5 * widthPx - kThinnerPx), to = 0.5 * widthPx + kThickerPx;
+  const auto count = static_cast<double>(flank.level.size());
+  for (double blur = kLeastEndBlurPx; blur <= kMostEndBlurPx; blur += kBlurStepPx) {
+    PenModel best;
+    for (double radius = from; radius <= to; radius += kRadiusStepPx) {
+      PenModel pen{.radius = radius, .blur = blur};
+      // Level = paper - dark * share, by least squares.
+      double share = 0.0, level = 0.0, shareShare = 0.0, shareLevel = 0.0, levelLevel = 0.0;
+      for (int k = 0; k < std::ssize(flank.level); ++k) {
+        const double a = pen.across(k * kEndStepPx), b = flank.level[k];
+        share += a;
+        level += b;
+        shareShare += a * a;
+        shareLevel += a * b;
+        levelLevel += b * b;
+      }
+      const double spread = shareShare - share * share / count, both = shareLevel - share * level / count;
+      if (!(spread > 0.0)) continue;
+      pen.dark = -both / spread;
+      pen.paper = (level + pen.dark * share) / count;
+      pen.misfit = 2.0 * flank.columns * std::max(0.0, levelLevel - level * level / count - both * both / spread);
+      if (pen.misfit < best.misfit) best = pen;
+    }
+    if (best.dark > static_cast<double>(kEndContrast)) pens.push_back(best);
+  }
+  std::sort(pens.begin(), pens.end(), [](const PenModel& x, const PenModel& y) { return x.misfit < y.misfit; });
+  return pens;
+}
+
+// The pixels round an end, row by row along the stroke: `columns` of them across, from the middle of the outermost on.
+struct EndPatch {
+  int rows = 0, columns = 0;
+  double firstPx = 0.0;       // along the stroke, from the tip that was first thought
+  std::vector<double> level;  // [grey]
+  double across(int k) const { return (k - columns / 2) * kEndStepPx; }
+};
+
+EndPatch patchAt(const EndCourse& end, double tipPx, double radius, const GreyImage& grey) {
+  EndPatch patch;
+  const int before = static_cast<int>(std::ceil((radius + 1.0) / kEndStepPx));
+  patch.rows = before + static_cast<int>(kBesideEndPx / kEndStepPx) + 1;
+  patch.columns = 2 * static_cast<int>(std::lround((radius + kBesideEndPx) / kEndStepPx)) + 1;
+  patch.firstPx = -before * kEndStepPx;
+  for (int i = 0; i < patch.rows; ++i) {
+    const double s = tipPx + patch.firstPx + i * kEndStepPx;
+    const Vec2 middle = end.position(s), normal = end.normal(s);
+    for (int k = 0; k < patch.columns; ++k) {
+      const Vec2 at = middle + patch.across(k) * normal;
+      patch.level.push_back(static_cast<double>(sampleGrey(grey, at.x(), at.y())));
+    }
+  }
+  return patch;
+}
+
+// The darkness of an end at (along the stroke from its tip, across it). [grey]
+double darkOfCut(const PenModel& pen, double slope, double along, double across) {
+  const double inside = (slope * across - along) / std::hypot(1.0, slope);
+  return pen.dark * pen.across(across) * edgeShare(inside / pen.blur);
+}
+
+double darkOfRound(const PenModel& pen, double along, double across) {
+  constexpr double kFar = 3.5;  // standard deviations: nothing is seen of lanes farther off
+  const int lanes = std::max(8, static_cast<int>(std::ceil(4.0 * pen.radius / pen.blur)));
+  const double lane = 2.0 * pen.radius / lanes;
+  double sum = 0.0;
+  for (int j = 0; j < lanes; ++j) {
+    const double v = (j + 0.5) * lane - pen.radius, off = (across - v) / pen.blur;
+    if (std::abs(off) > kFar) continue;
+    const double tip = std::sqrt(std::max(0.0, pen.radius * pen.radius - v * v)) - pen.radius;
+    sum += std::exp(-0.5 * off * off) * edgeShare((tip - along) / pen.blur);
+  }
+  return pen.dark * sum * lane / (pen.blur * std::sqrt(2.0 * std::numbers::pi));
+}
+
+struct FittedEnd {
+  double stopPx = 0.0;  // where the pen stopped, from the tip that was first thought
+  double misfit = std::numeric_limits<double>::infinity();
+};
+
+// Where an end of this shape fits best.
+template <class Model>
+FittedEnd fittedEnd(const EndPatch& patch, const PenModel& pen, const Model& darkAt) {
+  // At every place that any of the tips asks for.
+  const int steps = static_cast<int>(std::lround(kEndStepPx / kTipStepPx));
+  const int rows = (patch.rows - 1) * steps + 2 * kTipSteps + 1;
+  std::vector<double> model;
+  for (int i = 0; i < rows; ++i) {
+    for (int k = 0; k < patch.columns; ++k)
+      model.push_back(pen.paper - darkAt(patch.firstPx + (i - kTipSteps) * kTipStepPx, patch.across(k)));
+  }
+  std::array<double, 2 * kTipSteps + 1> misfit{};
+  int best = 0;
+  for (int tip = 0; tip <= 2 * kTipSteps; ++tip) {
+    for (int i = 0; i < patch.rows; ++i) {
+      const double* at = model.data() + static_cast<std::ptrdiff_t>(i * steps + 2 * kTipSteps - tip) * patch.columns;
+      for (int k = 0; k < patch.columns; ++k) {
+        const double off = patch.level[i * patch.columns + k] - at[k];
+        misfit[tip] += off * off;
+      }
+    }
+    if (misfit[tip] < misfit[best]) best = tip;
+  }
+  FittedEnd end{(best - kTipSteps) * kTipStepPx, misfit[best] + pen.misfit};
+  if (best == 0 || best == 2 * kTipSteps) return end;
+  // The lowest point of the parabola through the best and its neighbours.
+  const double fall = misfit[best - 1] - misfit[best], rise = misfit[best + 1] - misfit[best];
+  end.stopPx += 0.5 * kTipStepPx * (fall - rise) / (fall + rise);
+  end.misfit -= 0.125 * (fall - rise) * (fall - rise) / (fall + rise);
+  return end;
+}
+
+}  // namespace
+
+std::optional<double> inkEnd(const EndCourse& end, double widthPx, double inside, const GreyImage& grey) {
+  const double farthest = inside + 2.0 * widthPx + 3.0;
+  const int samples = static_cast<int>(farthest / kStrokeStepPx) + 1;
+  const int lanes = std::max(1, static_cast<int>(std::lround(0.5 * widthPx)));
+  std::vector<float> level(samples, 0.0f);
+  for (int k = 0; k < samples; ++k) {
+    const double s = k * kStrokeStepPx;
+    const Vec2 normal = end.normal(s);
+    for (int j = -lanes; j <= lanes; ++j) {
+      const Vec2 at = end.position(s) + (0.25 * widthPx * j / lanes) * normal;
+      level[k] += sampleGrey(grey, at.x(), at.y()) / static_cast<float>(2 * lanes + 1);
+    }
+  }
+  std::vector<float> inner(level.begin(),
+                           level.begin() + std::clamp(static_cast<int>(0.5 * inside / kStrokeStepPx), 1, samples));
+  const float ink = upperMedian(inner);
+  const float paper = *std::max_element(level.begin(), level.end());
+  const float middle = 0.5f * (ink + paper);
+  if (!(paper - ink > kEndContrast)) return std::nullopt;
+  for (int k = 0; k + 1 < samples; ++k) {
+    const float a = level[k], b = level[k + 1];
+    if (a < middle && b >= middle) return (k + (middle - a) / (b - a)) * kStrokeStepPx;
+  }
+  return std::nullopt;
+}
+
+std::optional<PenStop> penStop(const EndCourse& end, double widthPx, double tipPx, const GreyImage& grey) {
+  const double evenTo = tipPx - 0.5 * widthPx - 1.0;  // so far inside hardly an end shows
+  if (evenTo < 2.0 * kEndStepPx) return std::nullopt;
+  const Flank flank = flankOf(end, evenTo, 0.5 * widthPx + kBesideEndPx, grey);
+  const EndPatch patch = patchAt(end, tipPx, 0.5 * widthPx, grey);
+  const double independent =
+      static_cast<double>(patch.level.size() + 2 * flank.level.size() * flank.columns) / kSamplesPerPx;
+  FittedEnd round, cut;
+  std::array<FittedEnd, std::size(kCutSlopes)> cuts;
+  double leastFlank = 0.0, variance = 0.0;
+  for (const PenModel& pen : pensFor(flank, widthPx)) {
+    // Thin strokes do not tell their width from their blur; what the flank itself rules out is not tried.
+    if (variance == 0.0) leastFlank = pen.misfit;
+    if (variance > 0.0 && pen.misfit - leastFlank > 2.0 * kRuledOut * variance) break;
+    FittedEnd one = fittedEnd(patch, pen, [&](double s, double u) { return darkOfRound(pen, s, u); });
+    one.stopPx -= pen.radius;
+    if (one.misfit < round.misfit) round = one;
+    for (int k = 0; k < std::ssize(kCutSlopes); ++k) {
+      const FittedEnd other =
+          fittedEnd(patch, pen, [&](double s, double u) { return darkOfCut(pen, kCutSlopes[k], s, u); });
+      if (other.misfit < cuts[k].misfit) cuts[k] = other;
+      if (other.misfit < cut.misfit) cut = other;
+    }
+    variance = std::max(kLeastEndVariance, std::min(round.misfit, cut.misfit) / independent);
+  }
+  if (variance == 0.0) return std::nullopt;
+  // A cut may be skewed as it likes: the mean over its slopes, or the freedom to choose would speak for it.
+  double likely = 0.0;
+  for (const FittedEnd& one : cuts) likely += std::exp(0.5 * (cut.misfit - one.misfit) / variance) / std::ssize(cuts);
+  const double forCut = 0.5 * (round.misfit - cut.misfit) / variance + std::log(likely);
+  return PenStop{tipPx + round.stopPx, tipPx + cut.stopPx, forCut};
+}
+
+double PenStop::at(double cutOdds) const {
+  constexpr double kCertainly = 50.0;  // [nats]
+  const double isCut = 1.0 / (1.0 + std::exp(-std::clamp(forCut + cutOdds, -kCertainly, kCertainly)));
+  return std::lerp(roundPx, cutPx, isCut);
+}
+
+}  // namespace batten
