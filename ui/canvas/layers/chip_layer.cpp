@@ -2,13 +2,12 @@
 #include "ui/canvas/layers/chip_layer.h"
 
 #include <QCoreApplication>
-#include <QFontMetricsF>
-#include <QPen>
 #include <QStringList>
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/conventions.h"
+#include "ui/canvas/layers/text_box.h"
 #include "ui/session/curve_names.h"
 #include "ui/session/edits/piece_choice.h"
 #include "ui/session/judged_view.h"
@@ -16,9 +15,6 @@
 
 namespace batten {
 namespace {
-
-constexpr double kMargin = 12.0;
-constexpr double kPadX = 10.0, kPadY = 6.0;
 
 QString chipText(const char* text) { return QCoreApplication::translate("CurveCanvas", text); }
 
@@ -44,51 +40,9 @@ QString methodText(const CanvasScene& scene, const TracedCurve& curve) {
   return {};
 }
 
-void paintBox(QPainter& painter, const CanvasScene& scene, const QString& text, const QRectF& box, double opacity) {
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setFont(scene.font);
-  QColor fill = scene.palette.color(QPalette::Base);
-  fill.setAlphaF(static_cast<float>(opacity));
-  painter.setBrush(fill);
-  QColor line = scene.palette.color(QPalette::Text);
-  line.setAlpha(40);
-  painter.setPen(QPen(line, 1.0));
-  painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 5.0, 5.0);
-  painter.setPen(scene.palette.color(QPalette::Text));
-  painter.drawText(box, Qt::AlignCenter, text);
-  painter.restore();
-}
-
-QSizeF boxSize(const CanvasScene& scene, const QString& text, double padX, double padY) {
-  const QFontMetricsF metrics(scene.font);
-  return {std::ceil(metrics.horizontalAdvance(text) + 2.0 * padX), std::ceil(metrics.height() + 2.0 * padY)};
-}
-
 QString number(double value, int digits) { return QString::number(value, 'f', digits); }
 
 }  // namespace
-
-void paintChip(QPainter& painter, const CanvasScene& scene, const QString& text, ChipPlace place) {
-  if (text.isEmpty()) return;
-  const QSizeF size = boxSize(scene, text, kPadX, kPadY);
-  const QSizeF view = QSizeF(scene.transform.viewSize()) / scene.transform.ratio();
-  const bool right = place == ChipPlace::TopRight || place == ChipPlace::BottomRight;
-  const bool bottom = place == ChipPlace::BottomLeft || place == ChipPlace::BottomRight;
-  const QPointF corner(right ? view.width() - kMargin - size.width() : kMargin,
-                       bottom ? view.height() - kMargin - size.height() : kMargin);
-  paintBox(painter, scene, text, QRectF(corner, size), 0.93);
-}
-
-void paintLabel(QPainter& painter, const CanvasScene& scene, const QString& text, QPointF beside) {
-  if (text.isEmpty()) return;
-  const QSizeF size = boxSize(scene, text, 6.0, 2.0);
-  const QSizeF view = QSizeF(scene.transform.viewSize()) / scene.transform.ratio();
-  QRectF box(beside + QPointF(14.0, -size.height() - 8.0), size);
-  if (box.right() > view.width()) box.moveRight(beside.x() - 14.0);
-  if (box.top() < 0.0) box.moveTop(beside.y() + 10.0);
-  paintBox(painter, scene, text, box, 0.95);
-}
 
 QString curveText(const CanvasScene& scene) {
   const TracedCurve* curve = scene.session.selected();
@@ -157,24 +111,6 @@ void paintChips(QPainter& painter, const CanvasScene& scene) {
   paintChip(painter, scene, workText(scene), ChipPlace::TopRight);
   if (scene.view.tool() != Tool::Thresholds) paintChip(painter, scene, pageText(scene), ChipPlace::BottomLeft);
   paintChip(painter, scene, cursorText(scene), ChipPlace::BottomRight);
-}
-
-void paintDropHint(QPainter& painter, const CanvasScene& scene) {
-  const QSizeF view = QSizeF(scene.transform.viewSize()) / scene.transform.ratio();
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing);
-  const QRectF area(view.width() / 2.0 - 190.0, view.height() / 2.0 - 70.0, 380.0, 140.0);
-  painter.setPen(QPen(QColor(0, 0, 0, 70), 1.5, Qt::DashLine));
-  painter.setBrush(QColor(255, 255, 255, 90));
-  painter.drawRoundedRect(area, 10.0, 10.0);
-  QFont font = scene.font;
-  font.setPixelSize(15);
-  painter.setFont(font);
-  painter.setPen(QColor(60, 60, 60));
-  const QString text =
-      scene.session.isBusy() ? chipText("Opening the scan…") : chipText("Drop a scan here, or open one with Ctrl+O");
-  painter.drawText(area, Qt::AlignCenter | Qt::TextWordWrap, text);
-  painter.restore();
 }
 
 }  // namespace batten

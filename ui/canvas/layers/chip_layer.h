@@ -9,13 +9,8 @@
 /// Painters take a painter in widget coordinates and leave its state as it was.
 namespace batten {
 
-enum class ChipPlace { TopLeft, TopRight, BottomLeft, BottomRight };
-void paintChip(QPainter&, const CanvasScene&, const QString& text, ChipPlace);
-/// A small label beside a place.
-void paintLabel(QPainter&, const CanvasScene&, const QString& text, QPointF beside);
 /// The facts in the corners of the view.
 void paintChips(QPainter&, const CanvasScene&);
-void paintDropHint(QPainter&, const CanvasScene&);
 /// The texts of the chips; empty = nothing to say.
 QString curveText(const CanvasScene&);
 QString pageText(const CanvasScene&);

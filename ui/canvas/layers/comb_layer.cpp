@@ -13,31 +13,6 @@
 namespace batten {
 namespace {
 
-/// One scale for all curves, so that combs can be compared.
-CombScale combScale(const CanvasScene& scene) {
-  const CurveComb* reference = scene.selectedComb();
-  if (reference == nullptr)
-    for (const CurveComb& comb : scene.combs->combs)
-      if (reference == nullptr || comb.extentPx > reference->extentPx) reference = &comb;
-  if (reference == nullptr) return {};
-  const double extentMm = scene.combs->source.frame.lengthToModel(reference->extentPx);
-  if (!(reference->robustKappa * extentMm > kStraightCurvature)) return {};
-  const QSizeF view = QSizeF(scene.transform.viewSize()) / scene.transform.ratio();
-  // By the sketched curve, so that fairing does not change the scale under the eye.
-  const auto curves = scene.session.curves();
-  const auto at = static_cast<std::size_t>(reference->index);
-  const int extrema = reference->index >= 0 && at < curves.size() ? curves[at].sketchedFigures.extrema : 0;
-  const double lengthPx = reference->lengthMm / scene.combs->source.frame.lengthToModel(1.0);
-  const CombedCurve curve{reference->robustKappa, reference->extentPx, lengthPx, extrema};
-  const double viewPx = std::min(view.width(), view.height()) * scene.transform.imagePerWidget();
-  return scene.view.combShowsRadius() ? radiusScaleFor(curve, reference->points, scene.view.combScale(), viewPx)
-                                      : combScaleFor(curve, scene.view.combScale(), viewPx);
-}
-
-QPointF tipOf(const CombPoint& point, const CombScale& scale, const ViewTransform& transform) {
-  return transform.toWidget(point.px + scale.heightOf(point.kappa) * point.outPx);
-}
-
 /// The line through the tips; it breaks off where quills are cut, and runs on dotted over a long stretch of them.
 void paintEnvelope(QPainter& painter, const std::vector<CombPoint>& points, const std::vector<CombRun>& runs,
                    const CombScale& scale, const ViewTransform& transform) {
@@ -47,10 +22,10 @@ void paintEnvelope(QPainter& painter, const std::vector<CombPoint>& points, cons
     QPolygonF line;
     line.reserve(static_cast<qsizetype>(run.last - run.first + 3));
     if (!run.isCut && r > 0 && runs[r - 1].isCut)
-      line.append(tipOf(combCrossing(points[run.first], points[run.first - 1], scale), scale, transform));
-    for (std::size_t i = run.first; i <= run.last; ++i) line.append(tipOf(points[i], scale, transform));
+      line.append(combTip(combCrossing(points[run.first], points[run.first - 1], scale), scale, transform));
+    for (std::size_t i = run.first; i <= run.last; ++i) line.append(combTip(points[i], scale, transform));
     if (!run.isCut && r + 1 < runs.size() && runs[r + 1].isCut)
-      line.append(tipOf(combCrossing(points[run.last], points[run.last + 1], scale), scale, transform));
+      line.append(combTip(combCrossing(points[run.last], points[run.last + 1], scale), scale, transform));
     QPen pen = painter.pen();
     pen.setStyle(run.isCut ? Qt::DotLine : Qt::SolidLine);
     painter.setPen(pen);
@@ -86,7 +61,7 @@ void paintBand(QPainter& painter, const CanvasScene& scene, const std::vector<Co
     band.reserve(2 * static_cast<qsizetype>(run.last - run.first + 1));
     const auto edge = [&](CombPoint point, double side) {
       point.kappa += side * 2.0 * point.sigma;
-      band.append(tipOf(point, scale, scene.transform));
+      band.append(combTip(point, scale, scene.transform));
     };
     for (std::size_t i = run.first; i <= run.last; ++i) edge(points[i], 1.0);
     for (std::size_t i = run.last + 1; i-- > run.first;) edge(points[i], -1.0);
@@ -117,7 +92,7 @@ void paintComb(QPainter& painter, const CanvasScene& scene, const CurveComb& com
     const auto at = static_cast<std::size_t>(std::lround(last * i / (quills - 1)));
     while (run->last < at) ++run;
     if (run->isSpike) continue;
-    lines.append(QLineF(transform.toWidget(comb.points[at].px), tipOf(comb.points[at], scale, transform)));
+    lines.append(QLineF(transform.toWidget(comb.points[at].px), combTip(comb.points[at], scale, transform)));
   }
   painter.drawLines(lines);
   color.setAlpha(isSelected ? 255 : 130);
@@ -127,7 +102,7 @@ void paintComb(QPainter& painter, const CanvasScene& scene, const CurveComb& com
   for (const CombRun& cut : runs) {
     if (!cut.isCut) continue;
     const CombPoint& peak = comb.points[cut.peak];
-    const QPointF foot = transform.toWidget(peak.px), tip = tipOf(peak, scale, transform);
+    const QPointF foot = transform.toWidget(peak.px), tip = combTip(peak, scale, transform);
     if (cut.isSpike) painter.drawLine(foot, tip);
     paintCut(painter, foot, tip);
   }
@@ -149,7 +124,7 @@ void paintMarks(QPainter& painter, const CanvasScene& scene, const CurveComb& co
     if (scale.cuts(mark.kappa)) continue;
     CombPoint point;
     point.px = mark.px, point.outPx = mark.outPx, point.kappa = mark.kappa;
-    const QPointF tip = tipOf(point, scale, transform);
+    const QPointF tip = combTip(point, scale, transform);
     const QPointF across(-mark.outPx.y() * 6.0, mark.outPx.x() * 6.0);
     painter.setPen(QPen(colors::accent(), 1.0));
     painter.drawLine(foot, tip);
@@ -159,6 +134,30 @@ void paintMarks(QPainter& painter, const CanvasScene& scene, const CurveComb& co
 }
 
 }  // namespace
+
+CombScale combScale(const CanvasScene& scene) {
+  const CurveComb* reference = scene.selectedComb();
+  if (reference == nullptr)
+    for (const CurveComb& comb : scene.combs->combs)
+      if (reference == nullptr || comb.extentPx > reference->extentPx) reference = &comb;
+  if (reference == nullptr) return {};
+  const double extentMm = scene.combs->source.frame.lengthToModel(reference->extentPx);
+  if (!(reference->robustKappa * extentMm > kStraightCurvature)) return {};
+  const QSizeF view = QSizeF(scene.transform.viewSize()) / scene.transform.ratio();
+  // By the sketched curve, so that fairing does not change the scale under the eye.
+  const auto curves = scene.session.curves();
+  const auto at = static_cast<std::size_t>(reference->index);
+  const int extrema = reference->index >= 0 && at < curves.size() ? curves[at].sketchedFigures.extrema : 0;
+  const double lengthPx = reference->lengthMm / scene.combs->source.frame.lengthToModel(1.0);
+  const CombedCurve curve{reference->robustKappa, reference->extentPx, lengthPx, extrema};
+  const double viewPx = std::min(view.width(), view.height()) * scene.transform.imagePerWidget();
+  return scene.view.combShowsRadius() ? radiusScaleFor(curve, reference->points, scene.view.combScale(), viewPx)
+                                      : combScaleFor(curve, scene.view.combScale(), viewPx);
+}
+
+QPointF combTip(const CombPoint& point, const CombScale& scale, const ViewTransform& transform) {
+  return transform.toWidget(point.px + scale.heightOf(point.kappa) * point.outPx);
+}
 
 void paintCombs(QPainter& painter, const CanvasScene& scene) {
   if (!scene.combs || scene.combs->combs.empty()) return;
@@ -173,75 +172,6 @@ void paintCombs(QPainter& painter, const CanvasScene& scene) {
     paintComb(painter, scene, *selected, scale, true);
     paintMarks(painter, scene, *selected, scale);
   }
-  painter.restore();
-}
-
-void paintDeviation(QPainter& painter, const CanvasScene& scene) {
-  const CurveComb* comb = scene.selectedComb();
-  const TracedCurve* traced = scene.session.selected();
-  if (comb == nullptr || traced == nullptr || comb->whiskers.empty()) return;
-  double largest = 0.0;
-  for (const Whisker& whisker : comb->whiskers) largest = std::max(largest, whisker.mm);
-  const double tolerance = traced->fairingUsed.toleranceMm;
-  if (!(largest > 0.0) || !(tolerance > 0.0)) return;
-  // Drawn larger than life, so that the tolerance is 28 px wide at any zoom but never smaller than it is.
-  const double pxPerMm =
-      std::max(28.0 / tolerance, 1.0 / scene.transform.imagePerWidget() / scene.combs->source.frame.mmPerPx);
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing);
-  QPolygonF tips;
-  for (const Whisker& whisker : comb->whiskers) {
-    const QPointF foot = scene.transform.toWidget(whisker.toPx);
-    const Vec2 way = whisker.fromPx - whisker.toPx;
-    const Vec2 unit = way.norm() > 0.0 ? Vec2(way / way.norm()) : Vec2(0.0, 0.0);
-    const QPointF tip = foot + QPointF(unit.x(), unit.y()) * (whisker.mm * pxPerMm);
-    const double share = std::clamp(whisker.mm / tolerance, 0.0, 1.0);
-    painter.setPen(QPen(QColor::fromHsvF(static_cast<float>(0.38 * (1.0 - share)), 0.85F, 0.72F), 1.4));
-    painter.drawLine(foot, tip);
-    tips.append(tip);
-  }
-  painter.setPen(QPen(QColor(60, 60, 60, 140), 1.0));
-  painter.drawPolyline(tips);
-  painter.restore();
-}
-
-void paintDirection(QPainter& painter, const CanvasScene& scene) {
-  const CurveComb* comb = scene.selectedComb();
-  if (comb == nullptr || comb->points.size() < 2) return;
-  constexpr double kBack = 6.0, kLong = 13.0, kHalf = 5.0, kClear = 10.0;  // [widget px]
-  // Behind the mark of a corner, along the curve and not along its first pixel.
-  const double pxPerMm = 1.0 / scene.combs->source.frame.lengthToModel(scene.transform.imagePerWidget());
-  if (!(comb->lengthMm * pxPerMm > 3.0 * (kClear + kLong))) return;
-  const QPointF from = scene.transform.toWidget(comb->at(kClear / pxPerMm).px);
-  const QPointF to = scene.transform.toWidget(comb->at((kClear + kLong) / pxPerMm).px);
-  const double length = std::hypot(to.x() - from.x(), to.y() - from.y());
-  if (!(length > 0.0)) return;
-  const QPointF along = (to - from) / length, across(-along.y(), along.x());
-  const QPointF tip = from + kLong * along, heel = from + (kLong - kBack - kHalf) * along;
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(Qt::white, 1.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  painter.setBrush(colors::accent());
-  painter.drawPolygon(QPolygonF({tip, heel + kHalf * across, heel + 0.35 * kBack * along, heel - kHalf * across}));
-  painter.restore();
-}
-
-void paintCursor(QPainter& painter, const CanvasScene& scene) {
-  const auto s = scene.session.cursor();
-  const CurveComb* comb = scene.selectedComb();
-  if (!s || comb == nullptr) return;
-  const CombPoint place = comb->at(*s);
-  const QPointF foot = scene.transform.toWidget(place.px);
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing);
-  const CombScale scale = scene.areCombsShown() ? combScale(scene) : CombScale{};
-  if (!scale.isEmpty()) {
-    painter.setPen(QPen(colors::accent(), 1.2));
-    painter.drawLine(foot, tipOf(place, scale, scene.transform));
-  }
-  painter.setPen(QPen(colors::accent(), 2.0));
-  painter.setBrush(Qt::white);
-  painter.drawEllipse(foot, 4.0, 4.0);
   painter.restore();
 }
 

@@ -39,6 +39,8 @@ bool CanvasScene::areExtremaShown() const {
   return view.isVisible(Layer::Extrema) && isCurveShown && !view.isScanOnly() && !session.growing().isOpen();
 }
 
+bool CanvasScene::isResultShown() const { return judgedIn(view) == Judged::Result && shapes && shapes->source.faired; }
+
 bool CanvasScene::areCombsShown() const { return view.isVisible(Layer::Comb) && !session.growing().isOpen(); }
 
 const ExtremumMark* CanvasScene::extremumNear(const Vec2& px) const {

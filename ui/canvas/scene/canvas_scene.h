@@ -48,6 +48,8 @@ struct CanvasScene {
   const CurveComb* selectedComb() const;
   /// Marks of extrema lie on the sketched curve: without it they would hang in the air.
   bool areExtremaShown() const;
+  /// Blue is what the drawing comes to: the results where they are shown, the found lines where they are not.
+  bool isResultShown() const;
   /// A chain that grows is watched alone, without combs and marks.
   bool areCombsShown() const;
   /// The shown curve nearest to a place within reach, or none.

@@ -68,4 +68,9 @@ QRectF ViewTransform::visibleImage() const {
   return {from.x(), from.y(), view_.width() / zoom_, view_.height() / zoom_};
 }
 
+bool isWithin(const QRectF& box, const Vec2& place, double margin) {
+  return place.x() >= box.left() - margin && place.x() <= box.right() + margin && place.y() >= box.top() - margin &&
+         place.y() <= box.bottom() + margin;
+}
+
 }  // namespace batten

@@ -51,4 +51,7 @@ class ViewTransform {
   QPointF remainder_{0, 0};  ///< Of pans smaller than a device pixel.
 };
 
+/// Whether a place lies in a box, or beside it by no more than the margin, all in one unit.
+bool isWithin(const QRectF& box, const Vec2& place, double margin);
+
 }  // namespace batten

@@ -5,8 +5,8 @@
 
 #include "core/base/angle.h"
 #include "core/contour/corner/corner_suggestions.h"
-#include "ui/canvas/layers/chip_layer.h"
-#include "ui/canvas/layers/mark_layers.h"
+#include "ui/canvas/layers/corner_layer.h"
+#include "ui/canvas/layers/text_box.h"
 #include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/point_tool.h"
 #include "ui/session/suggestion_source.h"

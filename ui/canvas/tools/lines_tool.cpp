@@ -2,7 +2,8 @@
 #include <QCoreApplication>
 #include <QPen>
 
-#include "ui/canvas/layers/curve_layer.h"
+#include "ui/canvas/layers/choice_layer.h"
+#include "ui/canvas/layers/left_out_layer.h"
 #include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/curve_names.h"

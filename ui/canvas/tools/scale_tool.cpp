@@ -7,7 +7,7 @@
 
 #include "core/base/angle.h"
 #include "core/pipeline/run/pipeline.h"
-#include "ui/canvas/layers/chip_layer.h"
+#include "ui/canvas/layers/text_box.h"
 #include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
 

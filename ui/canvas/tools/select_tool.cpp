@@ -2,7 +2,7 @@
 #include <QCoreApplication>
 #include <QKeyEvent>
 
-#include "ui/canvas/layers/chip_layer.h"
+#include "ui/canvas/layers/text_box.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/curve_names.h"
 #include "ui/session/edits/fairing_edits.h"

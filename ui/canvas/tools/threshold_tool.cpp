@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/image/threshold/region_values.h"
-#include "ui/canvas/layers/chip_layer.h"
-#include "ui/canvas/layers/mark_layers.h"
+#include "ui/canvas/layers/region_grid_layer.h"
+#include "ui/canvas/layers/text_box.h"
 #include "ui/canvas/scene/canvas_colors.h"
 #include "ui/canvas/tools/canvas_tool.h"
 #include "ui/session/grey_scale.h"

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/canvas/layers/mark_layers.h"
+#include "ui/canvas/layers/corner_layer.h"
 
 #include <QPen>
 #include <QPolygonF>
-#include <cmath>
 
-#include "core/base/conventions.h"
 #include "ui/canvas/scene/canvas_colors.h"
 
 namespace batten {
@@ -54,36 +52,6 @@ void paintCorners(QPainter& painter, const CanvasScene& scene) {
   } else {
     for (const CornerMark& mark : marks)
       paintCornerSquare(painter, scene.transform.toWidget(mark.positionPx), 5.0, colors::corner(), false);
-  }
-  painter.restore();
-}
-
-void paintRegionGrid(QPainter& painter, const CanvasScene& scene) {
-  const QSize size = scene.transform.imageSize();
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing, false);
-  painter.setPen(QPen(colors::grid(), 0));
-  for (int k = 0; k <= kRegionsPerSide; ++k) {
-    const double x = std::floor(static_cast<double>(size.width()) * k / kRegionsPerSide);
-    const double y = std::floor(static_cast<double>(size.height()) * k / kRegionsPerSide);
-    painter.drawLine(scene.transform.toWidget({x, 0.0}),
-                     scene.transform.toWidget({x, static_cast<double>(size.height())}));
-    painter.drawLine(scene.transform.toWidget({0.0, y}),
-                     scene.transform.toWidget({static_cast<double>(size.width()), y}));
-  }
-  painter.restore();
-}
-
-void paintSegmentPoints(QPainter& painter, const CanvasScene& scene) {
-  const auto& recipe = scene.session.recipe();
-  if (recipe.construct.method != ConstructMethod::Typical && scene.view.tool() != Tool::Segments) return;
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing);
-  for (const SegmentPoint& point : recipe.segmentPoints) {
-    const QPointF at = scene.transform.toWidget(point.positionPx);
-    painter.setPen(QPen(Qt::white, 1.6));
-    painter.setBrush(colors::segment());
-    painter.drawEllipse(at, 4.5, 4.5);
   }
   painter.restore();
 }

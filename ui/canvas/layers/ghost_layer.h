@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QPainter>
+#include <QPainterPath>
+
+#include "ui/canvas/scene/canvas_scene.h"
+
+/// Painters take a painter in widget coordinates and leave its state as it was.
+namespace batten {
+
+/// The hovered target, dashed.
+void paintGhost(QPainter&, const CanvasScene&, const QPainterPath& ghost);
+
+}  // namespace batten

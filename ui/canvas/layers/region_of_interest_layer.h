@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QPainter>
+
+#include "ui/canvas/scene/canvas_scene.h"
+
+/// Painters take a painter in widget coordinates and leave its state as it was.
+namespace batten {
+
+/// The regions of interest; what lies outside is veiled.
+void paintRegions(QPainter&, const CanvasScene&);
+
+}  // namespace batten

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/canvas/layers/text_box.h"
+
+#include <QFontMetricsF>
+#include <QPen>
+#include <cmath>
+
+namespace batten {
+namespace {
+
+constexpr double kMargin = 12.0;
+constexpr double kPadX = 10.0, kPadY = 6.0;
+
+void paintBox(QPainter& painter, const CanvasScene& scene, const QString& text, const QRectF& box, double opacity) {
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setFont(scene.font);
+  QColor fill = scene.palette.color(QPalette::Base);
+  fill.setAlphaF(static_cast<float>(opacity));
+  painter.setBrush(fill);
+  QColor line = scene.palette.color(QPalette::Text);
+  line.setAlpha(40);
+  painter.setPen(QPen(line, 1.0));
+  painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 5.0, 5.0);
+  painter.setPen(scene.palette.color(QPalette::Text));
+  painter.drawText(box, Qt::AlignCenter, text);
+  painter.restore();
+}
+
+QSizeF boxSize(const CanvasScene& scene, const QString& text, double padX, double padY) {
+  const QFontMetricsF metrics(scene.font);
+  return {std::ceil(metrics.horizontalAdvance(text) + 2.0 * padX), std::ceil(metrics.height() + 2.0 * padY)};
+}
+
+}  // namespace
+
+void paintChip(QPainter& painter, const CanvasScene& scene, const QString& text, ChipPlace place) {
+  if (text.isEmpty()) return;
+  const QSizeF size = boxSize(scene, text, kPadX, kPadY);
+  const QSizeF view = QSizeF(scene.transform.viewSize()) / scene.transform.ratio();
+  const bool right = place == ChipPlace::TopRight || place == ChipPlace::BottomRight;
+  const bool bottom = place == ChipPlace::BottomLeft || place == ChipPlace::BottomRight;
+  const QPointF corner(right ? view.width() - kMargin - size.width() : kMargin,
+                       bottom ? view.height() - kMargin - size.height() : kMargin);
+  paintBox(painter, scene, text, QRectF(corner, size), 0.93);
+}
+
+void paintLabel(QPainter& painter, const CanvasScene& scene, const QString& text, QPointF beside) {
+  if (text.isEmpty()) return;
+  const QSizeF size = boxSize(scene, text, 6.0, 2.0);
+  const QSizeF view = QSizeF(scene.transform.viewSize()) / scene.transform.ratio();
+  QRectF box(beside + QPointF(14.0, -size.height() - 8.0), size);
+  if (box.right() > view.width()) box.moveRight(beside.x() - 14.0);
+  if (box.top() < 0.0) box.moveTop(beside.y() + 10.0);
+  paintBox(painter, scene, text, box, 0.95);
+}
+
+}  // namespace batten
